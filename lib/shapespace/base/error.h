@@ -1,0 +1,55 @@
+#ifndef SHAPESPACE_BASE_ERROR_H_
+#define SHAPESPACE_BASE_ERROR_H_
+
+#include <stdexcept>
+#include <string>
+
+namespace shapespace {
+
+/// Base of everything that shapespace throws. `what()` is a sentence for a person: it names the
+/// file, the element and the remedy where there are such.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file cannot be opened, read to its end, understood or written.
+class FileError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A mesh was read but cannot serve: index out of range, non-manifold edge, nothing in it.
+class MeshError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Meshes that should be poses of one connectivity are not.
+class CorrespondenceError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// An options struct holds a value outside its range; the message begins with the field's name.
+class InvalidOptions : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A solver cannot start or go on: a singular matrix, an estimate above the memory limit.
+/// (A solver that merely did not converge says so in its summary and throws nothing.)
+class SolverError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A `Progress` asked a long call to stop; nothing was left behind.
+class Cancelled : public Error {
+ public:
+  Cancelled() : Error("cancelled") {}
+};
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_BASE_ERROR_H_

@@ -1,0 +1,131 @@
+#include <shapespace/mesh/connectivity.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <string>
+
+#include <shapespace/base/error.h>
+
+namespace shapespace {
+namespace {
+
+using Edge = std::pair<int, int>;
+
+Edge Sorted(int a, int b) { return a < b ? Edge(a, b) : Edge(b, a); }
+
+struct Side {
+  Edge edge;       // smaller vertex first
+  int opposite;    // third vertex of the triangle
+  bool ascending;  // the triangle runs from the smaller vertex to the larger
+};
+
+void CheckJoins(const std::vector<Edge>& joins, int num_vertices, const char* what) {
+  for (const auto& [a, b] : joins) {
+    if (a < 0 || b < 0 || a >= num_vertices || b >= num_vertices) {
+      throw MeshError(std::string(what) + " " + std::to_string(a) + " " + std::to_string(b) +
+                      ": vertex index outside 0 .. " + std::to_string(num_vertices - 1));
+    }
+    if (a == b) {
+      throw MeshError(std::string(what) + " joins vertex " + std::to_string(a) + " to itself");
+    }
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
+                                                       std::vector<int> polygon_begin,
+                                                       std::vector<int> corners,
+                                                       const std::vector<Edge>& segments,
+                                                       const std::vector<Edge>& stiffeners) {
+  if (num_vertices <= 0) throw MeshError("a mesh needs at least one vertex");
+  if (polygon_begin.empty() || polygon_begin.front() != 0 ||
+      polygon_begin.back() != static_cast<int>(corners.size()) ||
+      !std::is_sorted(polygon_begin.begin(), polygon_begin.end())) {
+    throw MeshError("polygon_begin must rise from 0 to the number of corners");
+  }
+  for (int v : corners) {
+    if (v < 0 || v >= num_vertices) {
+      throw MeshError("vertex index " + std::to_string(v) + " outside 0 .. " +
+                      std::to_string(num_vertices - 1));
+    }
+  }
+  CheckJoins(segments, num_vertices, "segment");
+  CheckJoins(stiffeners, num_vertices, "stiffener");
+
+  std::shared_ptr<Connectivity> result(new Connectivity);
+  result->num_vertices_ = num_vertices;
+
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<Edge> extra;
+  for (size_t p = 0; p + 1 < polygon_begin.size(); ++p) {
+    const int* corner = corners.data() + polygon_begin[p];
+    const int size = polygon_begin[p + 1] - polygon_begin[p];
+    for (int k = 2; k < size; ++k) triangles.push_back({corner[0], corner[k - 1], corner[k]});
+    if (size == 4 && corner[1] != corner[3]) extra.push_back(Sorted(corner[1], corner[3]));
+  }
+  for (const auto& [a, b] : segments) extra.push_back(Sorted(a, b));
+  for (const auto& [a, b] : stiffeners) extra.push_back(Sorted(a, b));
+
+  result->triangles_.resize(3, triangles.size());
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles.size());
+  for (size_t f = 0; f < triangles.size(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      result->triangles_(k, f) = triangles[f][k];
+      const int a = triangles[f][k], b = triangles[f][(k + 1) % 3];
+      // A side of no length in a degenerate triangle is no edge.
+      if (a != b) sides.push_back({Sorted(a, b), triangles[f][(k + 2) % 3], a < b});
+    }
+  }
+  std::stable_sort(sides.begin(), sides.end(),
+                   [](const Side& s, const Side& t) { return s.edge < t.edge; });
+
+  std::vector<Edge> edges;
+  std::vector<std::array<int, 4>> hinges;
+  for (size_t i = 0, j = 0; i < sides.size(); i = j) {
+    for (j = i; j < sides.size() && sides[j].edge == sides[i].edge; ++j) {
+    }
+    edges.push_back(sides[i].edge);
+    if (j - i == 2 && sides[i].ascending != sides[i + 1].ascending) {
+      const Side& up = sides[i].ascending ? sides[i] : sides[i + 1];
+      const Side& down = sides[i].ascending ? sides[i + 1] : sides[i];
+      const auto [a, b] = up.edge;
+      const bool distinct = up.opposite != down.opposite && up.opposite != a && up.opposite != b &&
+                            down.opposite != a && down.opposite != b;
+      if (distinct) hinges.push_back({a, b, up.opposite, down.opposite});
+    }
+  }
+  result->num_triangle_edges_ = static_cast<int>(edges.size());
+
+  std::sort(extra.begin(), extra.end());
+  extra.erase(std::unique(extra.begin(), extra.end()), extra.end());
+  const auto triangle_edges_end = edges.size();
+  for (const Edge& e : extra) {
+    if (!std::binary_search(edges.begin(), edges.begin() + triangle_edges_end, e)) {
+      edges.push_back(e);
+    }
+  }
+  result->edges_.resize(2, edges.size());
+  for (size_t e = 0; e < edges.size(); ++e) {
+    result->edges_.col(e) << edges[e].first, edges[e].second;
+  }
+  result->hinges_.resize(4, hinges.size());
+  for (size_t h = 0; h < hinges.size(); ++h) {
+    result->hinges_.col(h) = Eigen::Map<const Eigen::Vector4i>(hinges[h].data());
+  }
+  result->polygon_begin_ = std::move(polygon_begin);
+  result->corners_ = std::move(corners);
+  return result;
+}
+
+std::shared_ptr<const Connectivity> Connectivity::FromTriangles(int num_vertices,
+                                                                const Eigen::Matrix3Xi& triangles) {
+  std::vector<int> begin(triangles.cols() + 1);
+  for (size_t i = 0; i < begin.size(); ++i) begin[i] = static_cast<int>(3 * i);
+  return Make(num_vertices, std::move(begin),
+              std::vector<int>(triangles.data(), triangles.data() + triangles.size()));
+}
+
+}  // namespace shapespace

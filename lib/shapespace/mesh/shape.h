@@ -1,0 +1,16 @@
+#ifndef SHAPESPACE_MESH_SHAPE_H_
+#define SHAPESPACE_MESH_SHAPE_H_
+
+#include <Eigen/Core>
+
+namespace shapespace {
+
+/// A point of shape space: the positions of all m vertices, 3 x m, one vertex a column.
+using Shape = Eigen::Matrix3Xd;
+
+/// A tangent vector of shape space: one velocity a vertex. Same storage as a `Shape`.
+using Tangent = Eigen::Matrix3Xd;
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_MESH_SHAPE_H_
