@@ -1,1 +1,84 @@
-// Placeholder.
+#include <shapespace/bodies/body.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/bend.h>
+#include <shapespace/bodies/bricard.h>
+#include <shapespace/bodies/catenoid.h>
+#include <shapespace/bodies/checks.h>
+#include <shapespace/bodies/grid.h>
+#include <shapespace/bodies/sheet.h>
+#include <shapespace/bodies/tube.h>
+
+namespace shapespace {
+namespace {
+
+// Each of these cuts its body into cells as square as the number of triangles allows.
+
+Body Bar(int triangles) {
+  const double length = 5, width = 1, height = 1;
+  const double area = 2 * (length * width + width * height + height * length);
+  const double cell = std::sqrt(2 * area / triangles);
+  return MakeBar(length, width, height, CellsAlong(length, cell), CellsAlong(width, cell),
+                 CellsAlong(height, cell));
+}
+
+Body Sheet(int triangles) {
+  const double length = 3, width = 2;
+  const double cell = std::sqrt(2 * length * width / triangles);
+  return MakeSheet(length, width, CellsAlong(length, cell), CellsAlong(width, cell));
+}
+
+Body Strip(int triangles) { return MakeStrip(1, 1.5, std::max(2, triangles)); }
+
+Body Bricard(int) { return MakeBricard(); }
+
+Body Catenoid(int triangles) {
+  const double half_height = 1;
+  const double cell = std::sqrt(2 * 2 * kPi * 2 * half_height / triangles);
+  return MakeCatenoid(half_height, std::max(3, CellsAlong(2 * kPi, cell)),
+                      CellsAlong(2 * half_height, cell));
+}
+
+Body Tube(int triangles) { return MakeTube(triangles); }
+
+struct Entry {
+  BodyInfo info;
+  Body (*make)(int triangles);
+};
+
+const std::vector<Entry>& Registry() {
+  static const auto* const registry = new std::vector<Entry>{
+      {{"tube", "a finger: a closed tube, bending at two joints", 5000}, Tube},
+      {{"bar", "a closed box, bent to an arc; keeps its volume", 2200}, Bar},
+      {{"sheet", "a rectangle, rolled up; isometric as a smooth surface", 2000}, Sheet},
+      {{"strip", "a strip of triangles, folded to a ring; exactly isometric", 24}, Strip},
+      {{"catenoid", "catenoid to helicoid; isometric as a smooth surface", 2000}, Catenoid},
+      {{"bricard", "Bricard's flexible octahedron, 8 triangles; exactly isometric", 8}, Bricard}};
+  return *registry;
+}
+
+}  // namespace
+
+std::vector<BodyInfo> ListBodies() {
+  std::vector<BodyInfo> infos;
+  for (const Entry& entry : Registry()) infos.push_back(entry.info);
+  return infos;
+}
+
+Body MakeBody(const std::string& name, int triangles) {
+  std::string known;
+  for (const Entry& entry : Registry()) {
+    if (entry.info.name == name) {
+      // Half the limit, as rounding to whole cells may add some.
+      CheckTriangles(triangles, kMaxBodyTriangles / 2);
+      return entry.make(triangles == 0 ? entry.info.default_triangles : triangles);
+    }
+    known += (known.empty() ? "" : ", ") + entry.info.name;
+  }
+  throw InvalidOptions("name: no body is called '" + name + "'; known are " + known);
+}
+
+}  // namespace shapespace

@@ -1,1 +1,92 @@
-// Placeholder.
+#include <shapespace/bodies/sheet.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <shapespace/bodies/bend.h>
+#include <shapespace/bodies/checks.h>
+#include <shapespace/bodies/grid.h>
+
+namespace shapespace {
+
+Body MakeSheet(double length, double width, int nx, int ny) {
+  CheckLength("length", length);
+  CheckLength("width", width);
+  CheckCount("nx", nx, 1);
+  CheckCount("ny", ny, 1);
+  CheckTriangles(2 * std::int64_t{nx} * ny);
+
+  const auto node = [ny](int i, int j) { return i * (ny + 1) + j; };
+  TriangleList triangles;
+  AddGrid(nx, ny, node, &triangles);
+  Shape rest(3, node(nx, ny) + 1);
+  for (int i = 0; i <= nx; ++i) {
+    for (int j = 0; j <= ny; ++j) {
+      rest.col(node(i, j)) << length * (double(i) / nx - 0.5), width * (double(j) / ny - 0.5), 0;
+    }
+  }
+
+  Body body;
+  body.name = "sheet";
+  body.connectivity = ConnectivityOf(static_cast<int>(rest.cols()), triangles);
+  body.parameter = "roll angle, degrees";
+  body.end = std::min(360.0, 90.0 * nx);
+  body.pose = [rest = std::move(rest), length](double angle) {
+    Shape shape(3, rest.cols());
+    const double curvature = angle * kRadians / length;
+    for (int v = 0; v < rest.cols(); ++v) shape.col(v) = Bend(rest.col(v), curvature);
+    return shape;
+  };
+  return WithCheckedRange(std::move(body));
+}
+
+// Let the vertices be numbered along the zigzag. Folded evenly, each comes from the one before by a
+// turn by `step` about one axis, parallel to y, and a change of sides. A triangle's base, two steps
+// long, subtends 2 step at that axis; its height leans inwards by (side / 2) tan(step / 2). With
+// t = tan(step / 2) and k = (side / (2 width))^2 the normals of neighbours give
+//   cos(hinge) = (1 - (1 + 2 k) t^2) / (1 + t^2),
+// of which both directions are used below.
+Body MakeStrip(double side, double width, int triangles) {
+  CheckLength("side", side);
+  CheckLength("width", width);
+  CheckCount("triangles", triangles, 2);
+  CheckTriangles(triangles);
+
+  TriangleList list;
+  for (int f = 0; f < triangles; ++f) {
+    list.push_back(f % 2 == 0 ? Eigen::Vector3i(f, f + 1, f + 2)
+                              : Eigen::Vector3i(f + 1, f, f + 2));
+  }
+  const int num_vertices = triangles + 2;
+  const double k = std::pow(side / (2 * width), 2);
+
+  // Two or three triangles make no ring; they stop where four would. Narrow strips, whose hinges
+  // are nearly along x, stop before a hinge is shut, which is at k t^2 = 1.
+  const double t_end = std::min(std::tan(kPi / std::max(4, triangles)), std::sqrt(0.9 / k));
+  const double cos_end = (1 - (1 + 2 * k) * t_end * t_end) / (1 + t_end * t_end);
+
+  Body body;
+  body.name = "strip";
+  body.connectivity = ConnectivityOf(num_vertices, list);
+  body.parameter = "hinge angle, degrees";
+  body.isometric = true;
+  body.end = std::acos(cos_end) / kRadians;
+  body.pose = [=](double angle) {
+    const double hinge = angle * kRadians;
+    const double t = std::sqrt(2.0) * std::sin(hinge / 2) / std::sqrt(1 + 2 * k + std::cos(hinge));
+    const double step = 2 * std::atan(t);
+    const double curvature = 2 * std::sin(step) / side;
+    const double spacing = side / (2 * Sinc(step));  // of the vertices, along the arc
+    const double height = width * std::sqrt(1 - k * t * t);
+    Shape shape(3, num_vertices);
+    for (int v = 0; v < num_vertices; ++v) {
+      const double along = (v - (num_vertices - 1) / 2.0) * spacing;
+      shape.col(v) = Bend({along, v % 2 == 0 ? height / 2 : -height / 2, 0}, curvature);
+    }
+    return shape;
+  };
+  return WithCheckedRange(std::move(body));
+}
+
+}  // namespace shapespace

@@ -1,1 +1,240 @@
-// Placeholder.
+#include <shapespace/output/picture.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <memory>
+
+#include <Eigen/Geometry>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/output/frame.h>
+#include <shapespace/output/legend.h>
+#include <shapespace/output/scene.h>
+#include <shapespace/output/view.h>
+
+namespace shapespace {
+namespace {
+
+// A strip wider than this many frame widths wraps into rows.
+constexpr int kWidestStrip = 6;
+constexpr size_t kLongestLegend = 120;
+
+// Tubes of graphs, in radii of the largest shape, unless the edges are too short for that.
+constexpr double kTubeRadius = 0.012;
+constexpr double kTubePerEdge = 0.2;
+
+// Values are cut off here, in units of the colour scale: far beyond it, and safe as floats.
+constexpr double kLargestValue = 1e6;
+
+// Directions this close (sine of the angle) leave no picture plane.
+constexpr double kParallel = 1e-6;
+
+void CheckRange(const char* field, int value, int least, int most) {
+  if (value < least || value > most) {
+    throw InvalidOptions(std::string(field) + ": " + std::to_string(value) + " is not in " +
+                         std::to_string(least) + " .. " + std::to_string(most));
+  }
+}
+
+bool Parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.stableNormalized().cross(b.stableNormalized()).norm() < kParallel;
+}
+
+void CheckInput(const Connectivity& connectivity, const std::vector<Shape>& shapes,
+                const FilmStripOptions& options) {
+  options.Validate();
+  if (shapes.empty()) throw MeshError("picture: there is no shape to draw");
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    const std::string name = "picture: shape " + std::to_string(i);
+    if (shapes[i].cols() != connectivity.NumVertices()) {
+      throw MeshError(name + " has " + std::to_string(shapes[i].cols()) +
+                      " vertices, its connectivity " + std::to_string(connectivity.NumVertices()));
+    }
+    for (Eigen::Index v = 0; v < shapes[i].cols(); ++v) {
+      if (!shapes[i].col(v).allFinite()) {
+        throw MeshError(name + ": vertex " + std::to_string(v) + " is not finite");
+      }
+    }
+    if (!(shapes[i].rowwise().maxCoeff() - shapes[i].rowwise().minCoeff()).allFinite()) {
+      throw MeshError(name + " is too large for numbers of double precision; scale it down");
+    }
+  }
+  if (options.values.empty()) return;
+  if (options.values.size() != shapes.size()) {
+    throw InvalidOptions("values: given for " + std::to_string(options.values.size()) +
+                         " shapes, but there are " + std::to_string(shapes.size()));
+  }
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    const Eigen::VectorXd& values = options.values[i];
+    if (values.size() != connectivity.NumVertices()) {
+      throw InvalidOptions("values: " + std::to_string(values.size()) + " for shape " +
+                           std::to_string(i) + ", which has " +
+                           std::to_string(connectivity.NumVertices()) + " vertices");
+    }
+    for (Eigen::Index v = 0; v < values.size(); ++v) {
+      if (!std::isfinite(values[v])) {
+        throw InvalidOptions("values: not finite for shape " + std::to_string(i) + ", vertex " +
+                             std::to_string(v));
+      }
+    }
+  }
+}
+
+// Indices of at most `most` of `count` shapes, evenly spread, with both ends.
+std::vector<int> Subsample(int count, int most) {
+  std::vector<int> chosen(std::min(count, most));
+  for (int i = 0; i < static_cast<int>(chosen.size()); ++i) {
+    chosen[i] =
+        i == 0 ? 0 : static_cast<int>(std::lround(double(i) * (count - 1) / (chosen.size() - 1)));
+  }
+  return chosen;
+}
+
+// The chosen shapes, each about the centre of its bounding box, scaled together into the unit ball.
+std::vector<Shape> Normalised(const std::vector<Shape>& shapes, const std::vector<int>& chosen) {
+  std::vector<Shape> result;
+  double radius = 0;
+  for (const int i : chosen) {
+    const Eigen::Vector3d low = shapes[i].rowwise().minCoeff();
+    const Eigen::Vector3d half = (shapes[i].rowwise().maxCoeff() - low) / 2;
+    result.push_back(shapes[i].colwise() - (low + half));
+    radius = std::max(radius, half.stableNorm());
+  }
+  if (radius > 0) {
+    for (Shape& shape : result) shape /= radius;
+  }
+  return result;
+}
+
+double TubeRadius(const Connectivity& connectivity, const Shape& shape) {
+  const Eigen::Matrix2Xi& edges = connectivity.Edges();
+  if (edges.cols() == 0) return kTubeRadius;
+  double sum = 0;
+  for (Eigen::Index e = 0; e < edges.cols(); ++e) {
+    sum += (shape.col(edges(1, e)) - shape.col(edges(0, e))).norm();
+  }
+  const double mean = sum / edges.cols();
+  return mean > 0 ? std::min(kTubeRadius, kTubePerEdge * mean) : kTubeRadius;
+}
+
+Axes CameraAxes(const Connectivity& connectivity, const std::vector<Shape>& shapes,
+                const RayTracer& tracer, const FilmStripOptions& options) {
+  Eigen::Vector3d up = options.up.isZero(0) ? ChooseUp(connectivity, shapes) : options.up;
+  if (!options.view.isZero(0)) {
+    // Looked at from above or below, the other of the two axes is up.
+    if (Parallel(up, options.view)) up = Eigen::Vector3d(0, up.z(), up.y());
+    return LookFrom(options.view, up);
+  }
+  std::vector<std::unique_ptr<Scene>> ends(shapes.size() == 1 ? 1 : 2);
+  ParallelFor(static_cast<int>(ends.size()), [&](int i) {
+    ends[i] =
+        std::make_unique<Scene>(tracer, i == 0 ? shapes.front() : shapes.back(), Eigen::VectorXf());
+  });
+  std::vector<Scene> scenes;
+  for (auto& end : ends) scenes.push_back(std::move(*end));
+  return ChooseView(scenes, up);
+}
+
+// A frame just large enough for every shape, its longer side as wide as asked.
+Camera FitCamera(const Axes& axes, const std::vector<Shape>& shapes, double border,
+                 const FilmStripOptions& options) {
+  Eigen::AlignedBox2d window;
+  for (const Shape& shape : shapes) {
+    const Eigen::Matrix2Xd flat = axes.leftCols<2>().transpose() * shape;
+    window.extend(Eigen::Vector2d(flat.rowwise().minCoeff()));
+    window.extend(Eigen::Vector2d(flat.rowwise().maxCoeff()));
+  }
+  const Eigen::Vector2d size = window.sizes().array() + 2 * border;
+  const int margin = std::max(2, options.frame_width / 32);
+  const int inner = options.frame_width - 2 * margin;
+  Camera camera;
+  camera.axes = axes;
+  camera.centre = window.center();
+  camera.samples = options.samples;
+  camera.pixels_per_unit = inner / (size.maxCoeff() > 0 ? size.maxCoeff() : 1);
+  // Rounding noise must not add a pixel to the longer side.
+  const auto pixels = [&](double length) {
+    return 2 * margin +
+           std::max(1, static_cast<int>(std::ceil(length * camera.pixels_per_unit - 1e-6)));
+  };
+  camera.width = pixels(size.x());
+  camera.height = pixels(size.y());
+  return camera;
+}
+
+void Paste(const Image& part, int left, int top, Image* image) {
+  for (int row = 0; row < part.height; ++row) {
+    std::copy_n(&part.pixels[3 * static_cast<size_t>(row) * part.width], 3 * part.width,
+                &image->pixels[3 * (static_cast<size_t>(top + row) * image->width + left)]);
+  }
+}
+
+Image Blank(int width, int height) {
+  Image image{width, height, std::vector<unsigned char>(3 * static_cast<size_t>(width) * height)};
+  const Colour colour = Background();
+  for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = ToByte(colour[i % 3]);
+  return image;
+}
+
+}  // namespace
+
+void FilmStripOptions::Validate() const {
+  CheckRange("frame_width", frame_width, 16, 4096);
+  CheckRange("max_frames", max_frames, 2, 10000);
+  CheckRange("samples", samples, 1, 16);
+  if (!view.allFinite()) throw InvalidOptions("view: not finite");
+  if (!up.allFinite()) throw InvalidOptions("up: not finite");
+  if (!view.isZero(0) && !up.isZero(0) && Parallel(view, up)) {
+    throw InvalidOptions("up: parallel to view; give another, or none");
+  }
+  if (legend.size() > kLongestLegend) {
+    throw InvalidOptions("legend: longer than " + std::to_string(kLongestLegend) + " characters");
+  }
+  if (std::any_of(legend.begin(), legend.end(), [](char c) { return c < ' ' || c > '~'; })) {
+    throw InvalidOptions("legend: only printable ASCII characters can be drawn");
+  }
+}
+
+Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
+                      const FilmStripOptions& options) {
+  CheckInput(connectivity, shapes, options);
+  const std::vector<int> chosen = Subsample(static_cast<int>(shapes.size()), options.max_frames);
+  const int frames = static_cast<int>(chosen.size());
+  const std::vector<Shape> drawn = Normalised(shapes, chosen);
+  const double tube_radius = connectivity.IsGraph() ? TubeRadius(connectivity, drawn.front()) : 0;
+  const RayTracer tracer(connectivity, static_cast<float>(tube_radius));
+  const Camera camera =
+      FitCamera(CameraAxes(connectivity, drawn, tracer, options), drawn, tube_radius, options);
+
+  std::vector<Eigen::VectorXd> values;
+  Image legend;
+  if (!options.values.empty()) {
+    double largest = 0;
+    for (const int i : chosen) {
+      values.push_back(options.values[i]);
+      largest = std::max(largest, values.back().maxCoeff());
+    }
+    const double end_of_scale = EndOfScale(values);
+    for (Eigen::VectorXd& v : values) v = (v / end_of_scale).cwiseMin(kLargestValue);
+    legend = DrawLegend(end_of_scale, largest, options.legend);
+  }
+
+  const int widest = kWidestStrip * options.frame_width;
+  const int rows = (frames * camera.width + widest - 1) / widest;
+  const int columns = (frames + rows - 1) / rows;
+  const int strip_height = ((frames + columns - 1) / columns) * camera.height;
+  Image image = Blank(std::max(columns * camera.width, legend.width), strip_height + legend.height);
+  ParallelFor(frames, [&](int i) {
+    const Scene scene(
+        tracer, drawn[i],
+        values.empty() ? Eigen::VectorXf() : Eigen::VectorXf(values[i].cast<float>()));
+    DrawFrame(scene, camera, !values.empty(), i % columns * camera.width,
+              i / columns * camera.height, &image);
+  });
+  Paste(legend, 0, strip_height, &image);
+  return image;
+}
+
+}  // namespace shapespace

@@ -13,23 +13,28 @@ namespace shapespace {
 
 /// A film strip: shapes side by side from one camera, drawn with Embree.
 struct FilmStripOptions {
-  int frame_width = 320;  ///< pixels a shape, at most; the strip wraps into rows when it is long
-  int max_frames = 9;     ///< longer paths are subsampled evenly, both ends kept
-  int samples = 3;        ///< per pixel and axis
-  /// Direction from which to look, towards the body; zero: a three-quarter view chosen from the
-  /// shapes.
-  Eigen::Vector3d view = Eigen::Vector3d::Zero();
-  Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< zero: chosen with the view
+  /// Longer side of the largest shape's cell, in pixels, 16 .. 4096. Cells are as narrow or as low
+  /// as the shapes allow, and wrap into rows when a strip would be wider than six times this.
+  int frame_width = 320;
+  int max_frames = 9;  ///< at least 2; longer paths are subsampled evenly, both ends kept
+  int samples = 3;     ///< per pixel and axis, 1 .. 16
 
-  /// Optional value per shape and vertex, shown as colour with a legend in per cent; empty: plain.
+  /// Where the eye is, seen from the body: (0, 0, 1) looks at it from +z. Zero: a three-quarter
+  /// view chosen from the shapes.
+  Eigen::Vector3d view = Eigen::Vector3d::Zero();
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< zero: +y or +z, whichever the shapes stand on
+
+  /// Optional values per shape and vertex (.01 is one per cent; below 0 counts as 0), shown as
+  /// colour with a legend in per cent; empty: plain. The scale ends at the 99th percentile of the
+  /// values drawn, rounded up. With values, back faces are the same colour, darker.
   std::vector<Eigen::VectorXd> values;
-  std::string legend;  ///< what `values` are, e.g. "edge deviation"
+  std::string legend;  ///< what `values` are, e.g. "edge deviation"; ASCII, at most 120 characters
 
   /// \throw InvalidOptions naming the field.
   void Validate() const;
 };
 
-/// 8-bit RGB, row after row from the top.
+/// 8-bit sRGB, row after row from the top, three bytes a pixel.
 struct Image {
   int width = 0, height = 0;
   std::vector<unsigned char> pixels;
@@ -37,14 +42,16 @@ struct Image {
 
 /// Draws `shapes` (all of `connectivity`, any units) smoothly shaded on a light background. Back
 /// faces have another colour, so that inversions show. Graphs are drawn as tubes along their edges.
-/// The same view, scale and light for every shape; frames keep the shapes' motion relative to each
-/// other only in orientation: each is centred in its frame.
-/// \throw InvalidOptions, MeshError if a shape has another number of vertices or is not finite.
+/// The same view, scale and light for every shape; each is centred in its frame by its bounding
+/// box, so that frames keep the shapes' motion only in orientation and form.
+/// The picture does not depend on the number of threads.
+/// \throw InvalidOptions; MeshError if there is no shape, or one has another number of vertices or
+///        is not finite.
 Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
                       const FilmStripOptions& options = {});
 
 /// Writes a PNG; the file appears whole or not at all.
-/// \throw FileError.
+/// \throw FileError; InvalidOptions if `image` is empty or its size is not that of its pixels.
 void WritePng(const std::string& file, const Image& image);
 
 }  // namespace shapespace

@@ -1,0 +1,49 @@
+#ifndef SHAPESPACE_BODIES_BODY_H_
+#define SHAPESPACE_BODIES_BODY_H_
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <shapespace/mesh/connectivity.h>
+#include <shapespace/mesh/shape.h>
+
+namespace shapespace {
+
+/// A one-parameter family of shapes of one connectivity, given by formulas: what tests, benchmarks
+/// and demonstrations measure against. Lengths have the unit of the arguments that made the body.
+struct Body {
+  std::string name;
+  std::shared_ptr<const Connectivity> connectivity;
+
+  /// The shape at a parameter value; may be called from several threads at once.
+  /// \throw InvalidOptions if the value is not in [begin, end].
+  std::function<Shape(double)> pose;
+
+  double begin = 0;  ///< the rest shape
+  double end = 0;
+  std::string parameter;   ///< what the parameter is, with its unit, e.g. "bend angle, degrees"
+  bool isometric = false;  ///< every edge keeps its length along the family
+};
+
+/// What `MakeBody` can make.
+struct BodyInfo {
+  std::string name;
+  std::string description;    ///< one line
+  int default_triangles = 0;  ///< what `MakeBody` makes when no number is given
+};
+
+/// All bodies by name, in the order in which a list should show them.
+std::vector<BodyInfo> ListBodies();
+
+/// The body `name` in the proportions that suit it best, with about `triangles` triangles; 0 stands
+/// for its default number. A number below the smallest mesh of a body gives that mesh; `bricard`
+/// always has 8. The functions of the other headers of this folder make bodies of any proportions.
+/// \throw InvalidOptions if the name is not known (the message lists those that are), or the number
+///        is negative or above 10 million.
+Body MakeBody(const std::string& name, int triangles = 0);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_BODIES_BODY_H_

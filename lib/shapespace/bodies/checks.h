@@ -1,0 +1,60 @@
+#ifndef SHAPESPACE_BODIES_CHECKS_H_
+#define SHAPESPACE_BODIES_CHECKS_H_
+
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include <shapespace/base/error.h>
+#include <shapespace/bodies/body.h>
+
+namespace shapespace {
+
+/// Some 2 GB of connectivity: what is larger is rather a slip of the keyboard than a wish.
+constexpr std::int64_t kMaxBodyTriangles = 20'000'000;
+
+/// \throw InvalidOptions unless `value` is a length whose cube, and whose inverse's, is a double.
+inline void CheckLength(const char* field, double value) {
+  if (value >= 1e-100 && value <= 1e100) return;
+  std::ostringstream message;
+  message << field << ": " << value << " is no length; it must be positive and finite";
+  throw InvalidOptions(message.str());
+}
+
+/// \throw InvalidOptions if `value` is below `least`.
+inline void CheckCount(const char* field, int value, int least) {
+  if (value >= least) return;
+  std::ostringstream message;
+  message << field << ": " << value << " is too few; at least " << least << " are needed";
+  throw InvalidOptions(message.str());
+}
+
+/// \throw InvalidOptions if a mesh of so many triangles should not be made.
+inline void CheckTriangles(std::int64_t triangles, std::int64_t most = kMaxBodyTriangles) {
+  if (triangles >= 0 && triangles <= most) return;
+  std::ostringstream message;
+  message << "triangles: " << triangles << " is outside 0 .. " << most;
+  throw InvalidOptions(message.str());
+}
+
+/// `body` with a `pose` that refuses values outside of [begin, end]. Values that miss the range by
+/// rounding, as steps computed from its ends do, count as its ends.
+inline Body WithCheckedRange(Body body) {
+  body.pose = [pose = std::move(body.pose), begin = body.begin, end = body.end, name = body.name,
+               parameter = body.parameter](double value) {
+    const double rounding = 1e-12 * (end - begin);
+    if (!(value >= begin - rounding && value <= end + rounding)) {
+      std::ostringstream message;
+      message << "parameter: " << value << " is outside " << begin << " .. " << end << ", the "
+              << parameter << ", of body '" << name << "'";
+      throw InvalidOptions(message.str());
+    }
+    return pose(value < begin ? begin : value > end ? end : value);
+  };
+  return body;
+}
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_BODIES_CHECKS_H_

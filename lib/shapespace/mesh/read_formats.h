@@ -1,0 +1,22 @@
+#ifndef SHAPESPACE_MESH_READ_FORMATS_H_
+#define SHAPESPACE_MESH_READ_FORMATS_H_
+
+#include <string>
+
+#include <shapespace/mesh/soup.h>
+
+// Private: one reader a format. `text` is the content of `file`, which is named in messages.
+// Each throws FileError as `ReadSoup` does.
+
+namespace shapespace::internal {
+
+Soup ReadObj(const std::string& file, std::string text);
+Soup ReadPly(const std::string& file, const std::string& text);
+Soup ReadOff(const std::string& file, const std::string& text);
+
+/// What to do about a damaged file; ends most messages.
+inline constexpr char kReexport[] = "; is the file damaged? Export the mesh again";
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_MESH_READ_FORMATS_H_

@@ -1,0 +1,118 @@
+#ifndef SHAPESPACE_MESH_TEXT_H_
+#define SHAPESPACE_MESH_TEXT_H_
+
+#include <charconv>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <shapespace/base/error.h>
+
+// Private: lines, words and numbers of a text file, read strictly.
+
+namespace shapespace::internal {
+
+/// Throws a FileError "file:line: what"; without the line if it is 0.
+[[noreturn]] inline void FailAt(const std::string& file, int line, const std::string& what) {
+  throw FileError(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what);
+}
+
+/// A word as it can be shown in a message: short, and without bytes that a terminal cannot show.
+inline std::string Quoted(std::string_view word) {
+  constexpr size_t kLongest = 40;
+  std::string result = "'";
+  for (char c : word.substr(0, kLongest)) result += c >= ' ' && c <= '~' ? c : '?';
+  return result + (word.size() > kLongest ? "...'" : "'");
+}
+
+/// Hands out the lines of a text, ended by LF, CR LF or CR, and counts them from 1.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : text_(text) {}
+
+  /// False at the end of the text.
+  bool Next(std::string_view* line) {
+    if (position_ >= text_.size()) return false;
+    const size_t end = std::min(text_.find_first_of("\r\n", position_), text_.size());
+    *line = text_.substr(position_, end - position_);
+    const bool two = text_.substr(end, 2) == "\r\n";
+    position_ = end + (two ? 2 : 1);
+    ++number_;
+    return true;
+  }
+
+  int Number() const { return number_; }
+
+  /// Bytes of the text that no line was made of yet.
+  size_t BytesLeft() const { return text_.size() - std::min(position_, text_.size()); }
+
+ private:
+  std::string_view text_;
+  size_t position_ = 0;
+  int number_ = 0;
+};
+
+/// Hands out the words of a line, separated by blanks and tabs.
+class Words {
+ public:
+  explicit Words(std::string_view line) : rest_(line) { SkipBlanks(); }
+
+  bool Done() const { return rest_.empty(); }
+
+  /// The next word; empty at the end of the line.
+  std::string_view Next() {
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t"));
+    rest_.remove_prefix(word.size());
+    SkipBlanks();
+    return word;
+  }
+
+  /// All that follows, without blanks at its end.
+  std::string_view Rest() const { return rest_.substr(0, rest_.find_last_not_of(" \t") + 1); }
+
+ private:
+  void SkipBlanks() {
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size()));
+  }
+
+  std::string_view rest_;
+};
+
+inline std::string_view WithoutComment(std::string_view line) {
+  return line.substr(0, line.find('#'));
+}
+
+inline std::string_view WithoutPlus(std::string_view word) {
+  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+';
+  return plus ? word.substr(1) : word;
+}
+
+/// The whole word as a number, which may be infinite or none; empty if it is no number.
+inline std::optional<double> ParseDouble(std::string_view word) {
+  word = WithoutPlus(word);
+  double value = 0.0;
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  if (stop != end || error == std::errc::invalid_argument) return std::nullopt;
+  // Too large or too small for a double: strtod tells which (infinity, or zero).
+  if (error == std::errc::result_out_of_range) {
+    value = std::strtod(std::string(word).c_str(), nullptr);
+  }
+  return value;
+}
+
+/// The whole word as an integer; empty if it is none.
+inline std::optional<std::int64_t> ParseInteger(std::string_view word) {
+  word = WithoutPlus(word);
+  std::int64_t value = 0;
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  if (stop != end || error != std::errc()) return std::nullopt;
+  return value;
+}
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_MESH_TEXT_H_

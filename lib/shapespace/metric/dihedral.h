@@ -1,0 +1,77 @@
+#ifndef SHAPESPACE_METRIC_DIHEDRAL_H_
+#define SHAPESPACE_METRIC_DIHEDRAL_H_
+
+#include <cmath>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace shapespace {
+
+/// The angle difference b - a as a number in [-pi, pi].
+inline double WrapAngle(double angle) { return std::remainder(angle, 2 * M_PI); }
+
+/// (cos theta, sin theta) of a hinge (Connectivity::Hinges): the bending of a thin shell. theta is
+/// the angle between the two normals, 0 when flat, positive when convex. The chord between two such
+/// points needs no wrapping, is bounded, and gives the same Riemannian metric as theta itself.
+/// What a feature is: edge_length.h.
+struct Dihedral {
+  static constexpr int kVertices = 4, kValues = 2;
+  static constexpr bool kRigidInvariant = true, kSum = false, kTrapezoid = false;
+  static constexpr const char* kName = "dihedral";
+
+  Eigen::Matrix4Xi stencils;
+  Eigen::VectorXd weights;
+  /// Squares of lengths far below those of the mesh, which keep the directions of a collapsed
+  /// triangle's normal and of a collapsed edge finite.
+  double normal_epsilon_squared = 0, edge_epsilon_squared = 0;
+
+  template <typename T>
+  void operator()(const T* x, T* value) const {
+    using std::sqrt;
+    using Vector = Eigen::Matrix<T, 3, 1>;
+    const Eigen::Map<const Vector> a(x), b(x + 3), c(x + 6), d(x + 9);
+    const Vector e = b - a;
+    const Vector n1 = e.cross(c - a);
+    const Vector n2 = (d - a).cross(e);
+    const Vector m1 = n1 / sqrt(n1.squaredNorm() + normal_epsilon_squared);
+    const Vector m2 = n2 / sqrt(n2.squaredNorm() + normal_epsilon_squared);
+    value[0] = m1.dot(m2);
+    value[1] = m1.cross(m2).dot(e) / sqrt(e.squaredNorm() + edge_epsilon_squared);
+  }
+
+  /// theta in (-pi, pi] of a hinge's four vertices.
+  double Angle(const double* x) const {
+    double value[2];
+    (*this)(x, value);
+    return std::atan2(value[1], value[0]);
+  }
+
+  /// On the circle the shortest way in `segments` chords takes equal angles.
+  double LeastChange(const double* a, const double* b, int segments) const {
+    const double angle = WrapAngle(std::atan2(b[1], b[0]) - std::atan2(a[1], a[0]));
+    const double chord = 2 * std::sin(std::abs(angle) / (2 * segments));
+    return segments * chord * chord;
+  }
+
+  /// The derivative of theta along the normal, by vertex, of a nearly flat hinge: 1 / height for
+  /// the two tips, shared between the edge's ends with opposite sign.
+  void Stencil(const Eigen::Vector3d* x, double* k) const {
+    const Eigen::Vector3d e = x[1] - x[0];
+    const double squared_length = e.squaredNorm() + edge_epsilon_squared;
+    k[0] = k[1] = 0;
+    for (int tip = 2; tip < 4; ++tip) {
+      const Eigen::Vector3d side = x[tip] - x[0];
+      const double along = side.dot(e) / squared_length;
+      const double height =
+          std::sqrt((e.cross(side).squaredNorm() + normal_epsilon_squared) / squared_length);
+      k[tip] = 1 / height;
+      k[0] -= (1 - along) / height;
+      k[1] -= along / height;
+    }
+  }
+};
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_METRIC_DIHEDRAL_H_

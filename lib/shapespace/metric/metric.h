@@ -1,0 +1,98 @@
+#ifndef SHAPESPACE_METRIC_METRIC_H_
+#define SHAPESPACE_METRIC_METRIC_H_
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <shapespace/mesh/connectivity.h>
+#include <shapespace/mesh/shape.h>
+#include <shapespace/metric/dihedral.h>
+#include <shapespace/metric/edge_length.h>
+#include <shapespace/metric/position.h>
+#include <shapespace/metric/rigid.h>
+#include <shapespace/metric/volume.h>
+
+namespace shapespace {
+
+/// Weights of edges in the isometric and log-length features, and of vertices in the rigid metric.
+enum class Weights {
+  kArea,     ///< by the surface around: unchanged by scale, nearly so by tessellation
+  kUniform,  ///< 1: the paper's, which means something else at every mesh resolution
+};
+
+/// How the metric is integrated along a segment of a path.
+enum class Discretization {
+  kMidpoint,   ///< differences of Phi: second order, certified by a lower bound
+  kTrapezoid,  ///< the paper's (6) for edge lengths and positions; penalises rotation of edges
+};
+
+/// Which motions cost how much: non-negative coefficients of a blend. Pure numbers: everything is
+/// measured in units in which the surface has area 1.
+struct MetricOptions {
+  double isometric = 1;   ///< change of edge lengths, the paper's (4)
+  double log_length = 0;  ///< change of log edge lengths: strains
+  double rigid = 0;       ///< deviation from rigid motion of the whole, the paper's (3)
+  double lambda = 1e-4;   ///< motion of vertices, the paper's (5); harmless up to 1e-3
+  double bending = 1e-5;  ///< change of dihedral angles: t^2 / 12 for a shell of thickness t
+  double volume = 0;      ///< change of enclosed volume, closed meshes only; start from 0.3
+  Weights weights = Weights::kArea;
+  Discretization discretization = Discretization::kMidpoint;
+
+  static MetricOptions Isometric() { return {}; }
+  /// As rigid as possible: (3) + lambda (5).
+  static MetricOptions Rigid();
+  /// The paper's own setting: (4) + 0.001 (5) with w_e = 1, energy (6), no bending.
+  static MetricOptions Paper();
+
+  /// \throw InvalidOptions naming the field.
+  void Validate() const;
+};
+
+/// A feature of the metric; lib and solvers visit it once per feature, never per element.
+using AnyFeature = std::variant<EdgeLength, LogLength, Position, Dihedral, Volume>;
+
+/// A blend frozen on a connectivity and the poses that take part: all weights are numbers, so that
+/// every solver, and every path between these poses, means the same by a length. Works on shapes in
+/// its own unit: divide the user's coordinates by `unit`.
+struct Metric {
+  MetricOptions options;
+  std::shared_ptr<const Connectivity> connectivity;
+  double unit = 1;              ///< length, in the user's units, that has length 1 here
+  Eigen::VectorXd vertex_area;  ///< A_p, of sum 1 (all positive, also where the mesh degenerates)
+  Eigen::VectorXd edge_area;    ///< A_e, a third of the triangles at the edge
+  Eigen::VectorXd hinge_area;   ///< A_f, a third of the hinge's two triangles
+  std::vector<AnyFeature> features;
+  RigidForm rigid;
+
+  /// True if rigid motion of a shape costs nothing but position: then solvers take it out exactly.
+  bool RigidInvariantButForPosition() const;
+};
+
+/// Freezes `options` on all `poses` (user's units; each 3 x m): squared edge lengths and areas are
+/// the poses' means, the damping of hinges looks at all consecutive pairs. Graphs without faces
+/// have total edge length 1 instead of area 1. \throw InvalidOptions if the options are invalid, or
+/// ask for bending or volume where the mesh
+///        cannot have it (volume needs a closed mesh); MeshError if a shape has another number of
+///        vertices, is not finite or has no extent.
+Metric FreezeMetric(const MetricOptions& options,
+                    const std::shared_ptr<const Connectivity>& connectivity,
+                    const std::vector<Shape>& poses);
+
+/// The same blend, by name, for reports: e.g. "isometric 1, lambda 0.0001, bending 1e-05".
+std::string Describe(const MetricOptions& options);
+
+/// Reads the coordinates of `element`'s vertices out of a shape, vertex after vertex.
+template <typename Feature>
+void Gather(const Feature& feature, int element, const Shape& shape, double* x) {
+  for (int k = 0; k < Feature::kVertices; ++k) {
+    Eigen::Map<Eigen::Vector3d>(x + 3 * k) = shape.col(feature.stencils(k, element));
+  }
+}
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_METRIC_METRIC_H_

@@ -1,0 +1,24 @@
+#ifndef SHAPESPACE_OUTPUT_COLOUR_H_
+#define SHAPESPACE_OUTPUT_COLOUR_H_
+
+#include <Eigen/Core>
+
+namespace shapespace {
+
+/// Linear light, red, green and blue in 0 .. 1. All sums over light and samples are taken in this;
+/// sRGB appears only at the two ends.
+using Colour = Eigen::Vector3f;
+
+/// From `0xrrggbb` in sRGB.
+Colour FromHex(unsigned hex);
+
+/// One channel of linear light (clamped to 0 .. 1) as an sRGB byte.
+unsigned char ToByte(float linear);
+
+/// Colour of a value in 0 .. 1 (clamped): from light grey-blue through sand and orange to a deep
+/// red, of steadily falling lightness, so that it still reads in grey.
+Colour ValueColour(float value);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_OUTPUT_COLOUR_H_

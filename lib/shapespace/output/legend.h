@@ -1,0 +1,24 @@
+#ifndef SHAPESPACE_OUTPUT_LEGEND_H_
+#define SHAPESPACE_OUTPUT_LEGEND_H_
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <shapespace/output/picture.h>
+
+namespace shapespace {
+
+/// The value that gets the last colour: the 99th percentile of `values`, rounded up to 1, 2 or 5
+/// times a power of ten; their maximum where that percentile is 0, and 1 %
+/// where all are.
+double EndOfScale(const std::vector<Eigen::VectorXd>& values);
+
+/// A bar of the value colours with numbers in per cent, and `title` beside it, as a picture of its
+/// own on the strip's background. `largest` is named where it is beyond the scale.
+Image DrawLegend(double end_of_scale, double largest, const std::string& title);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_OUTPUT_LEGEND_H_

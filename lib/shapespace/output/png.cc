@@ -1,0 +1,32 @@
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#include <stb_image_write.h>
+
+#include <ostream>
+
+#include <shapespace/base/atomic_file.h>
+#include <shapespace/base/error.h>
+#include <shapespace/output/picture.h>
+
+namespace shapespace {
+
+void WritePng(const std::string& file, const Image& image) {
+  if (image.width <= 0 || image.height <= 0 ||
+      image.pixels.size() != 3 * static_cast<size_t>(image.width) * image.height) {
+    throw InvalidOptions("image: " + std::to_string(image.pixels.size()) + " bytes are not " +
+                         std::to_string(image.width) + " x " + std::to_string(image.height) +
+                         " pixels of three");
+  }
+  WriteFileAtomically(file, [&](std::ostream& stream) {
+    const auto write = [](void* out, void* data, int size) {
+      static_cast<std::ostream*>(out)->write(static_cast<const char*>(data), size);
+    };
+    if (stbi_write_png_to_func(write, &stream, image.width, image.height, 3, image.pixels.data(),
+                               3 * image.width) == 0) {
+      throw FileError(file + ": the picture could not be encoded (out of memory?)");
+    }
+  });
+}
+
+}  // namespace shapespace

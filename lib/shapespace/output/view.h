@@ -1,0 +1,30 @@
+#ifndef SHAPESPACE_OUTPUT_VIEW_H_
+#define SHAPESPACE_OUTPUT_VIEW_H_
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <shapespace/mesh/connectivity.h>
+#include <shapespace/mesh/shape.h>
+#include <shapespace/output/scene.h>
+
+namespace shapespace {
+
+/// An orthographic camera's axes as columns: right and up in the picture, and towards the eye.
+using Axes = Eigen::Matrix3d;
+
+/// +z if more of the shapes can stand on it than on +y, else +y: the two habits of mesh files.
+Eigen::Vector3d ChooseUp(const Connectivity& connectivity, const std::vector<Shape>& shapes);
+
+/// Looks from `eye` (any length). `up` must not be parallel to it.
+Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up);
+
+/// A three-quarter view: of a few directions around and above the shapes, the one that shows most
+/// of them and preferably their front sides, so that plates are not seen from the edge. Among
+/// equals it looks from the front and the left.
+Axes ChooseView(const std::vector<Scene>& scenes, const Eigen::Vector3d& up);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_OUTPUT_VIEW_H_

@@ -1,0 +1,429 @@
+#include <shapespace/path/energy.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <type_traits>
+
+#include <ceres/jet.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/path/energy_kernels.h>
+
+namespace shapespace {
+namespace {
+
+// Rows are padded to whole SIMD registers, but not where that would multiply the work.
+int PaddedLength(int inner) {
+  if (inner <= 2) return inner;
+  return inner <= 4 ? 4 : (inner + 7) / 8 * 8;
+}
+
+// Breadth first from vertices of low degree: neighbours get rows close together, so that the path
+// streams through the cache and elements touch few blocks.
+std::vector<int> BreadthFirstOrder(const Connectivity& connectivity) {
+  const int num_vertices = connectivity.NumVertices();
+  std::vector<int> begin(num_vertices + 1, 0);
+  for (int v : connectivity.Edges().reshaped()) ++begin[v + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<int> neighbours(begin.back()), fill(begin.begin(), begin.end() - 1);
+  for (int e = 0; e < connectivity.NumEdges(); ++e) {
+    const int a = connectivity.Edges()(0, e), b = connectivity.Edges()(1, e);
+    neighbours[fill[a]++] = b;
+    neighbours[fill[b]++] = a;
+  }
+  std::vector<char> seen(num_vertices, 0);
+  std::vector<int> order;
+  order.reserve(num_vertices);
+  const auto visit_from = [&](int root, std::vector<int>* visited, std::vector<char>* mark) {
+    size_t next = visited->size();
+    visited->push_back(root);
+    (*mark)[root] = 1;
+    for (; next < visited->size(); ++next) {
+      const int v = (*visited)[next];
+      for (int k = begin[v]; k < begin[v + 1]; ++k) {
+        if (!(*mark)[neighbours[k]]) {
+          (*mark)[neighbours[k]] = 1;
+          visited->push_back(neighbours[k]);
+        }
+      }
+    }
+  };
+  for (int v = 0; v < num_vertices; ++v) {
+    if (seen[v]) continue;
+    // The vertex found last from anywhere is at an end of the component: fewer are on each front.
+    std::vector<int> component;
+    visit_from(v, &component, &seen);
+    for (int u : component) seen[u] = 0;
+    visit_from(component.back(), &order, &seen);
+  }
+  return order;
+}
+
+}  // namespace
+
+PathEnergy::PathEnergy(const Metric& metric, int inner)
+    : metric_(metric), inner_(inner), stride_(PaddedLength(inner)) {
+  if (inner < 1) throw InvalidOptions("inner: a path energy needs at least one inner shape");
+  vertex_of_row_ = BreadthFirstOrder(*metric.connectivity);
+  const int num_vertices = static_cast<int>(vertex_of_row_.size());
+  row_of_vertex_.resize(num_vertices);
+  for (int r = 0; r < num_vertices; ++r) row_of_vertex_[vertex_of_row_[r]] = r;
+  blocks_ = std::clamp(num_vertices / 256, 1, 64);
+  first_.resize(3 * num_vertices);
+  last_.resize(3 * num_vertices);
+  for (size_t i = 0; i < metric.features.size(); ++i) {
+    std::visit([&](const auto& feature) { Build(feature, i); }, metric.features[i]);
+  }
+  if (metric.rigid.Active()) {
+    for (int v : vertex_of_row_) rigid_weights_.push_back(metric.rigid.weights(v));
+  }
+  scratch_.assign(blocks_, std::vector<double>(internal::KernelScratch(stride_)));
+}
+
+template <typename Feature>
+void PathEnergy::Build(const Feature& feature, size_t index) {
+  Term term;
+  term.feature = index;
+  const int sizes[kPhases] = {blocks_, (blocks_ + 1) / 2, blocks_ / 2, 1};
+  for (int phase = 0; phase < kPhases; ++phase) term.groups[phase].resize(sizes[phase]);
+  const int num_elements = static_cast<int>(feature.stencils.cols());
+  const auto block_of = [&](int row) {
+    return static_cast<int>(static_cast<int64_t>(row) * blocks_ / vertex_of_row_.size());
+  };
+  // In the order of their rows, so that the sweep streams.
+  std::vector<std::pair<int, int>> order(num_elements);
+  for (int e = 0; e < num_elements; ++e) {
+    int low = std::numeric_limits<int>::max();
+    for (int k = 0; k < Feature::kVertices; ++k) {
+      low = std::min(low, row_of_vertex_[feature.stencils(k, e)]);
+    }
+    order[e] = {low, e};
+  }
+  std::sort(order.begin(), order.end());
+  for (const auto& [low_row, e] : order) {
+    int high_row = low_row;
+    for (int k = 0; k < Feature::kVertices; ++k) {
+      high_row = std::max(high_row, row_of_vertex_[feature.stencils(k, e)]);
+    }
+    const int low = block_of(low_row), high = block_of(high_row);
+    const int phase = low == high ? 0 : high > low + 1 ? 3 : 1 + low % 2;
+    Group& group = term.groups[phase][phase == 0 ? low : phase == 3 ? 0 : low / 2];
+    for (int k = 0; k < Feature::kVertices; ++k) {
+      group.stencils.push_back(row_of_vertex_[feature.stencils(k, e)]);
+    }
+    group.weights.push_back(feature.weights(Feature::kSum ? 0 : e));
+  }
+  terms_.push_back(std::move(term));
+}
+
+void PathEnergy::Load(const std::vector<Shape>& shapes, double* unknowns) {
+  const int num_vertices = static_cast<int>(vertex_of_row_.size());
+  if (static_cast<int>(shapes.size()) != inner_ + 2) {
+    throw MeshError("a path of " + std::to_string(inner_) + " inner shapes needs two more as ends");
+  }
+  for (const Shape& shape : shapes) {
+    if (shape.cols() != num_vertices) throw MeshError("a shape has the wrong number of vertices");
+  }
+  ParallelFor(blocks_, [&](int block) {
+    const int begin = static_cast<int64_t>(num_vertices) * block / blocks_;
+    const int end = static_cast<int64_t>(num_vertices) * (block + 1) / blocks_;
+    for (int r = begin; r < end; ++r) {
+      const int v = vertex_of_row_[r];
+      for (int axis = 0; axis < 3; ++axis) {
+        const size_t row = 3 * static_cast<size_t>(r) + axis;
+        first_[row] = shapes.front()(axis, v);
+        last_[row] = shapes.back()(axis, v);
+        double* const out = unknowns + row * stride_;
+        for (int t = 0; t < inner_; ++t) out[t] = shapes[t + 1](axis, v);
+        std::fill(out + inner_, out + stride_, 0.0);
+      }
+    }
+  });
+}
+
+void PathEnergy::Store(const double* unknowns, std::vector<Shape>* shapes) const {
+  if (static_cast<int>(shapes->size()) != inner_ + 2) {
+    throw MeshError("a path of " + std::to_string(inner_) + " inner shapes needs two more as ends");
+  }
+  ParallelFor(inner_, [&](int t) {
+    Shape& shape = (*shapes)[t + 1];
+    shape.resize(3, row_of_vertex_.size());
+    for (size_t r = 0; r < vertex_of_row_.size(); ++r) {
+      for (int axis = 0; axis < 3; ++axis) {
+        shape(axis, vertex_of_row_[r]) = unknowns[(3 * r + axis) * stride_ + t];
+      }
+    }
+  });
+}
+
+double* PathEnergy::Sink(double* gradient) {
+  if (gradient != nullptr) return gradient;
+  sink_.resize(Size());
+  return sink_.data();
+}
+
+double PathEnergy::Evaluate(const double* unknowns, double* gradient) {
+  gradient = Sink(gradient);
+  const size_t share = Size() / blocks_ + 1;
+  ParallelFor(blocks_, [&](int block) {
+    const size_t begin = std::min(Size(), share * block);
+    std::fill(gradient + begin, gradient + std::min(Size(), begin + share), 0.0);
+  });
+  double energy = 0;
+  for (const Term& term : terms_) energy += EvaluateTerm(term, unknowns, gradient);
+  if (metric_.rigid.Active()) energy += EvaluateRigid(unknowns, gradient);
+  return energy;
+}
+
+std::vector<double> PathEnergy::Parts(const double* unknowns) {
+  std::vector<double> parts;
+  std::vector<double> gradient(Size(), 0.0);
+  for (const Term& term : terms_) parts.push_back(EvaluateTerm(term, unknowns, gradient.data()));
+  if (metric_.rigid.Active()) parts.push_back(EvaluateRigid(unknowns, gradient.data()));
+  return parts;
+}
+
+double PathEnergy::EvaluateTerm(const Term& term, const double* unknowns, double* gradient) {
+  return std::visit(
+      [&](const auto& feature) {
+        using Feature = std::decay_t<decltype(feature)>;
+        if constexpr (Feature::kSum) {
+          return EvaluateSum(feature, term, unknowns, gradient);
+        } else {
+          double energy = 0;
+          for (const std::vector<Group>& groups : term.groups) {
+            std::vector<double> partial(groups.size());
+            ParallelFor(static_cast<int>(groups.size()), [&](int g) {
+              partial[g] =
+                  EvaluateGroup(feature, groups[g], unknowns, gradient, scratch_[g].data());
+            });
+            energy = std::accumulate(partial.begin(), partial.end(), energy);
+          }
+          return energy;
+        }
+      },
+      metric_.features[term.feature]);
+}
+
+void PathEnergy::ReadRow(const double* unknowns, size_t row, double* times) const {
+  times[0] = first_[row];
+  std::copy_n(unknowns + row * stride_, inner_, times + 1);
+  times[inner_ + 1] = last_[row];
+}
+
+template <typename Feature>
+double PathEnergy::EvaluateGroup(const Feature& feature, const Group& group, const double* unknowns,
+                                 double* gradient, double* scratch) const {
+  const internal::PathRows rows = {unknowns,     gradient, first_.data(),
+                                   last_.data(), inner_,   stride_};
+  const int count = static_cast<int>(group.weights.size());
+  const int* const stencils = group.stencils.data();
+  const double* const weights = group.weights.data();
+  if constexpr (std::is_same_v<Feature, EdgeLength>) {
+    const bool trapezoid = metric_.options.discretization == Discretization::kTrapezoid;
+    return internal::EdgeLengthKernel(rows, stencils, weights, count,
+                                      trapezoid ? quartic_weight_ : 0, scratch);
+  } else if constexpr (std::is_same_v<Feature, Position>) {
+    return internal::PositionKernel(rows, stencils, weights, count, scratch);
+  } else if constexpr (std::is_same_v<Feature, Dihedral>) {
+    return internal::DihedralKernel(rows, stencils, weights, count, feature.normal_epsilon_squared,
+                                    feature.edge_epsilon_squared, scratch);
+  } else {
+    // Any other feature: its functor on jets, one shape after the other.
+    constexpr int kSize = 3 * Feature::kVertices, kValues = Feature::kValues;
+    using Jet = ceres::Jet<double, kSize>;
+    std::vector<std::array<double, kSize>> x(inner_ + 2);
+    std::vector<std::array<Jet, kValues>> value(inner_ + 2);
+    std::vector<double> times(inner_ + 2);
+    double energy = 0;
+    for (int element = 0; element < count; ++element) {
+      const int* const stencil = stencils + Feature::kVertices * element;
+      for (int k = 0; k < kSize; ++k) {
+        ReadRow(unknowns, 3 * static_cast<size_t>(stencil[k / 3]) + k % 3, times.data());
+        for (int t = 0; t < inner_ + 2; ++t) x[t][k] = times[t];
+      }
+      for (int t = 0; t < inner_ + 2; ++t) {
+        Jet jet[kSize];
+        for (int k = 0; k < kSize; ++k) jet[k] = Jet(x[t][k], k);
+        feature(jet, value[t].data());
+      }
+      const double w = weights[element];
+      for (int t = 0; t <= inner_; ++t) {
+        for (int c = 0; c < kValues; ++c) {
+          energy += 2 * w * std::pow(value[t + 1][c].a - value[t][c].a, 2);
+        }
+      }
+      for (int t = 1; t <= inner_; ++t) {
+        for (int c = 0; c < kValues; ++c) {
+          const double g = 4 * w * (2 * value[t][c].a - value[t - 1][c].a - value[t + 1][c].a);
+          for (int k = 0; k < kSize; ++k) {
+            const size_t row = 3 * static_cast<size_t>(stencil[k / 3]) + k % 3;
+            gradient[row * stride_ + t - 1] += g * value[t][c].v(k);
+          }
+        }
+      }
+    }
+    return energy;
+  }
+}
+
+template <typename Feature>
+double PathEnergy::EvaluateSum(const Feature& feature, const Term& term, const double* unknowns,
+                               double* gradient) {
+  static_assert(Feature::kValues == 1);
+  constexpr int kSize = 3 * Feature::kVertices;
+  const auto gather = [&](const int* stencil, int t, double* x) {
+    for (int k = 0; k < kSize; ++k) {
+      const size_t row = 3 * static_cast<size_t>(stencil[k / 3]) + k % 3;
+      x[k] = t == 0 ? first_[row] : t > inner_ ? last_[row] : unknowns[row * stride_ + t - 1];
+    }
+  };
+  std::vector<double> total(inner_ + 2, 0.0);
+  for (const std::vector<Group>& groups : term.groups) {
+    std::vector<std::vector<double>> partial(groups.size());
+    ParallelFor(static_cast<int>(groups.size()), [&](int g) {
+      partial[g].assign(inner_ + 2, 0.0);
+      double x[kSize], value;
+      for (size_t e = 0; e < groups[g].weights.size(); ++e) {
+        for (int t = 0; t < inner_ + 2; ++t) {
+          gather(groups[g].stencils.data() + Feature::kVertices * e, t, x);
+          feature(x, &value);
+          partial[g][t] += value;
+        }
+      }
+    });
+    for (const std::vector<double>& p : partial) {
+      for (int t = 0; t < inner_ + 2; ++t) total[t] += p[t];
+    }
+  }
+  const double w = feature.weights(0);
+  double energy = 0;
+  for (int t = 0; t <= inner_; ++t) energy += 2 * w * std::pow(total[t + 1] - total[t], 2);
+  for (const std::vector<Group>& groups : term.groups) {
+    ParallelFor(static_cast<int>(groups.size()), [&](int g) {
+      using Jet = ceres::Jet<double, kSize>;
+      double x[kSize];
+      Jet jet[kSize], value;
+      for (size_t e = 0; e < groups[g].weights.size(); ++e) {
+        const int* const stencil = groups[g].stencils.data() + Feature::kVertices * e;
+        for (int t = 1; t <= inner_; ++t) {
+          const double slope = 4 * w * (2 * total[t] - total[t - 1] - total[t + 1]);
+          gather(stencil, t, x);
+          for (int k = 0; k < kSize; ++k) jet[k] = Jet(x[k], k);
+          feature(jet, &value);
+          for (int k = 0; k < kSize; ++k) {
+            const size_t row = 3 * static_cast<size_t>(stencil[k / 3]) + k % 3;
+            gradient[row * stride_ + t - 1] += slope * value.v(k);
+          }
+        }
+      }
+    });
+  }
+  return energy;
+}
+
+double PathEnergy::EvaluateRigid(const double* unknowns, double* gradient) {
+  const int num_vertices = static_cast<int>(vertex_of_row_.size());
+  const double total_weight = std::accumulate(rigid_weights_.begin(), rigid_weights_.end(), 0.0);
+  const auto vertex = [&](int r, int t) {
+    Eigen::Vector3d p;
+    for (int axis = 0; axis < 3; ++axis) {
+      const size_t row = 3 * static_cast<size_t>(r) + axis;
+      p(axis) = t == 0 ? first_[row] : t > inner_ ? last_[row] : unknowns[row * stride_ + t - 1];
+    }
+    return p;
+  };
+  // Segments are independent; a shape receives gradient from the two at it, so those are kept apart
+  // and added in the order of time.
+  std::vector<double> energy(inner_ + 1);
+  std::vector<Shape> from(inner_ + 1), to(inner_ + 1);
+  ParallelFor(inner_ + 1, [&](int t) {
+    Eigen::Vector3d mean_motion = Eigen::Vector3d::Zero(), mean_middle = Eigen::Vector3d::Zero();
+    for (int r = 0; r < num_vertices; ++r) {
+      const Eigen::Vector3d p = vertex(r, t), q = vertex(r, t + 1);
+      mean_motion += rigid_weights_[r] / total_weight * (q - p);
+      mean_middle += rigid_weights_[r] / total_weight * 0.5 * (p + q);
+    }
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    for (int r = 0; r < num_vertices; ++r) {
+      const Eigen::Vector3d p = vertex(r, t), q = vertex(r, t + 1);
+      const Eigen::Vector3d m = 0.5 * (p + q) - mean_middle;
+      moment += rigid_weights_[r] * m.cross(q - p - mean_motion);
+      inertia +=
+          rigid_weights_[r] * (m.squaredNorm() * Eigen::Matrix3d::Identity() - m * m.transpose());
+    }
+    const Eigen::Vector3d c = AngularVelocity(inertia, moment);
+    const Eigen::Vector3d c_bar = mean_motion - c.cross(mean_middle);
+    from[t].resize(3, num_vertices);
+    to[t].resize(3, num_vertices);
+    energy[t] = 0;
+    for (int r = 0; r < num_vertices; ++r) {
+      const Eigen::Vector3d p = vertex(r, t), q = vertex(r, t + 1);
+      Eigen::Vector3d residual;
+      RigidForm::Residual(p.data(), q.data(), c.data(), c_bar.data(), residual.data());
+      energy[t] += 2 * rigid_weights_[r] * residual.squaredNorm();
+      // (c, c_bar) is optimal, so that the derivative sees it as constant (envelope theorem).
+      const Eigen::Vector3d push = 4 * rigid_weights_[r] * residual;
+      const Eigen::Vector3d turn = 0.5 * c.cross(push);
+      to[t].col(r) = push + turn;
+      from[t].col(r) = turn - push;
+    }
+  });
+  ParallelFor(blocks_, [&](int block) {
+    const int begin = static_cast<int64_t>(num_vertices) * block / blocks_;
+    const int end = static_cast<int64_t>(num_vertices) * (block + 1) / blocks_;
+    for (int r = begin; r < end; ++r) {
+      for (int axis = 0; axis < 3; ++axis) {
+        double* const g = gradient + (3 * static_cast<size_t>(r) + axis) * stride_ - 1;
+        for (int t = 1; t <= inner_; ++t) g[t] += to[t - 1](axis, r) + from[t](axis, r);
+      }
+    }
+  });
+  return std::accumulate(energy.begin(), energy.end(), 0.0);
+}
+
+double PathEnergy::EstimateBytes(const Metric& metric, int inner) {
+  const Connectivity& connectivity = *metric.connectivity;
+  const double elements = 40.0 * connectivity.NumEdges() + 60.0 * connectivity.NumHinges();
+  const double rigid = metric.rigid.Active() ? 48.0 * (inner + 1) * connectivity.NumVertices() : 0;
+  return elements + rigid + 60.0 * connectivity.NumVertices();
+}
+
+double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& last, int segments) {
+  if (metric.rigid.Active()) return std::numeric_limits<double>::quiet_NaN();
+  double bound = 0;
+  for (const AnyFeature& any : metric.features) {
+    std::visit(
+        [&](const auto& feature) {
+          using Feature = std::decay_t<decltype(feature)>;
+          double x[3 * Feature::kVertices];
+          double a[Feature::kValues], b[Feature::kValues];
+          double sum_a = 0, sum_b = 0;
+          for (int e = 0; e < feature.stencils.cols(); ++e) {
+            Gather(feature, e, first, x);
+            feature(x, a);
+            Gather(feature, e, last, x);
+            feature(x, b);
+            if constexpr (Feature::kSum) {
+              sum_a += a[0];
+              sum_b += b[0];
+            } else {
+              bound += 2 * feature.weights(e) * feature.LeastChange(a, b, segments);
+            }
+          }
+          if constexpr (Feature::kSum) {
+            bound += 2 * feature.weights(0) * feature.LeastChange(&sum_a, &sum_b, segments);
+          }
+        },
+        any);
+  }
+  return bound;
+}
+
+}  // namespace shapespace

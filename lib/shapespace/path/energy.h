@@ -1,0 +1,103 @@
+#ifndef SHAPESPACE_PATH_ENERGY_H_
+#define SHAPESPACE_PATH_ENERGY_H_
+
+#include <vector>
+
+#include <shapespace/mesh/shape.h>
+#include <shapespace/metric/metric.h>
+
+namespace shapespace {
+
+/// The energy of a path of shapes and its gradient, on flat arrays: the plain-array height of the
+/// API, for people who bring their own optimiser.
+///
+/// For features Phi it is E = 2 sum_i |Phi(P_{i+1}) - Phi(P_i)|^2, the midpoint form of the paper's
+/// (6) (docs/mathematics.md); the trapezoid and rigid metrics add their own forms. The end shapes
+/// are fixed. Unknowns are one array of `Size()` doubles: row 3 r + axis, `Stride()` numbers, holds
+/// one coordinate of one vertex in all inner shapes, time innermost; r = Row(vertex) is an order of
+/// the vertices that keeps neighbours close. Numbers past `Inner()` in a row are padding.
+///
+/// One object serves one solve at a time; `Evaluate` itself uses all threads, and its result is
+/// bitwise the same for any number of them.
+class PathEnergy {
+ public:
+  /// `metric` is kept by reference and must outlive the object.
+  /// \throw InvalidOptions if `inner` < 1.
+  PathEnergy(const Metric& metric, int inner);
+
+  int Inner() const { return inner_; }
+  int Stride() const { return stride_; }
+  size_t Size() const { return 3 * row_of_vertex_.size() * static_cast<size_t>(stride_); }
+  int Row(int vertex) const { return row_of_vertex_[vertex]; }
+
+  /// Weight of the quartic part that distinguishes the trapezoid from the midpoint; 1 is (6).
+  /// A level with fewer shapes than the one it prepares needs less, or its answer is biased.
+  void SetQuarticWeight(double weight) { quartic_weight_ = weight; }
+
+  /// Copies `shapes` (Inner() + 2 of them, in the metric's unit) into `unknowns` (Size() doubles,
+  /// padding set to zero) and takes the two ends. \throw MeshError on wrong sizes.
+  void Load(const std::vector<Shape>& shapes, double* unknowns);
+
+  /// Copies the unknowns into the inner ones of `shapes`.
+  void Store(const double* unknowns, std::vector<Shape>* shapes) const;
+
+  /// Returns the energy and, unless null, fills `gradient` (Size() doubles, zero in the padding).
+  double Evaluate(const double* unknowns, double* gradient);
+
+  /// The part of the energy that each feature has, in the metric's order, then the rigid part if
+  /// there is one; evaluates anew.
+  std::vector<double> Parts(const double* unknowns);
+
+  /// Bytes that an object for this many vertices, edges, hinges and inner shapes takes.
+  static double EstimateBytes(const Metric& metric, int inner);
+
+ private:
+  // Elements are grouped by the blocks of rows that they touch: inside one block, across one border
+  // to the next block (even and odd borders apart), or elsewhere. Groups of one phase share no row.
+  static constexpr int kPhases = 4;
+  struct Group {
+    std::vector<int> stencils;
+    std::vector<double> weights;
+  };
+  struct Term {
+    size_t feature;  // index into metric.features
+    std::vector<Group> groups[kPhases];
+  };
+
+  template <typename Feature>
+  void Build(const Feature& feature, size_t index);
+  double EvaluateTerm(const Term& term, const double* unknowns, double* gradient);
+  template <typename Feature>
+  double EvaluateGroup(const Feature& feature, const Group& group, const double* unknowns,
+                       double* gradient, double* scratch) const;
+  template <typename Feature>
+  double EvaluateSum(const Feature& feature, const Term& term, const double* unknowns,
+                     double* gradient);
+  double EvaluateRigid(const double* unknowns, double* gradient);
+  double* Sink(double* gradient);
+  /// The times 0 .. inner + 1 of one row.
+  void ReadRow(const double* unknowns, size_t row, double* times) const;
+
+  const Metric& metric_;
+  int inner_, stride_, blocks_;
+  double quartic_weight_ = 1;
+  std::vector<int> row_of_vertex_, vertex_of_row_;
+  std::vector<double> first_, last_;  // the ends, by row
+  std::vector<Term> terms_;
+  std::vector<double> rigid_weights_;         // by row
+  std::vector<double> sink_;                  // gradient where the caller wants none
+  std::vector<std::vector<double>> scratch_;  // one a block
+};
+
+/// Lower bound of the energy over all paths of `segments` segments from `first` to `last` (metric
+/// units), feature by feature; not a number if the metric has a rigid part, for which none is
+/// known. The bound holds for the trapezoid too, which is never smaller than the midpoint form.
+double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& last, int segments);
+
+/// An energy E of n segments is reported as E n / 2, which converges as shapes are inserted: to the
+/// integral of the squared speed over the unit interval.
+inline double ScaledEnergy(double energy, int segments) { return 0.5 * segments * energy; }
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_PATH_ENERGY_H_

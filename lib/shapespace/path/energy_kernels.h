@@ -1,0 +1,49 @@
+#ifndef SHAPESPACE_PATH_ENERGY_KERNELS_H_
+#define SHAPESPACE_PATH_ENERGY_KERNELS_H_
+
+#include <cstddef>
+
+namespace shapespace::internal {
+
+// Compiled for several instruction sets, chosen when the program starts: a portable build would
+// otherwise lose a factor of two and more. Sanitizers cannot instrument the choice.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
+#define SHAPESPACE_CLONES \
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define SHAPESPACE_CLONES
+#endif
+
+/// A path as the kernels see it: row 3 v + axis holds that coordinate of vertex v in all inner
+/// shapes, time innermost, `stride` >= `inner` numbers a row, of which the rest is padding.
+struct PathRows {
+  const double* shapes;
+  double* gradient;     ///< same layout, added to; the padding receives zeros
+  const double* first;  ///< one number a row: the end shapes, which do not move
+  const double* last;
+  int inner;
+  int stride;
+};
+
+/// Doubles of scratch memory that a kernel needs.
+inline size_t KernelScratch(int stride) { return 32 * (static_cast<size_t>(stride) + 16); }
+
+// Each kernel treats elements [0, count): adds the gradient of 2 sum w |Phi_{i+1} - Phi_i|^2 and
+// returns its value. `stencils` holds kVertices vertices an element. They repeat, in closed form,
+// what the functors in metric/ define; tests hold both equal.
+
+/// EdgeLength. With `quartic` > 0 adds quartic * w |e_{i+1} - e_i|^4 / 2, which makes the midpoint
+/// form the paper's trapezoid (6).
+double EdgeLengthKernel(const PathRows& rows, const int* stencils, const double* weights, int count,
+                        double quartic, double* scratch);
+
+double PositionKernel(const PathRows& rows, const int* stencils, const double* weights, int count,
+                      double* scratch);
+
+double DihedralKernel(const PathRows& rows, const int* stencils, const double* weights, int count,
+                      double normal_epsilon_squared, double edge_epsilon_squared, double* scratch);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_PATH_ENERGY_KERNELS_H_

@@ -1,0 +1,40 @@
+#ifndef SHAPESPACE_PATH_PATH_H_
+#define SHAPESPACE_PATH_PATH_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <shapespace/mesh/shape.h>
+#include <shapespace/metric/metric.h>
+#include <shapespace/path/rigid_motion.h>
+
+namespace shapespace {
+
+/// A polyline in shape space: what a solver returns and every output is made from.
+struct Path {
+  std::shared_ptr<const Metric> metric;  ///< the one that made the path; has the connectivity
+
+  /// The shapes, aligned rigidly, centred, in the metric's unit: on these the geodesic equation
+  /// holds. Use `Placed` for shapes where, and as large as, the user's are.
+  std::vector<Shape> shapes;
+  std::vector<double> parameters;    ///< t of every shape, rising from 0 to 1
+  std::vector<RigidMotion> motions;  ///< of every shape, to its place, in the user's unit
+  std::vector<int> poses;            ///< indices of the shapes that were given
+  std::string provenance;            ///< who made the path, from what
+
+  int NumShapes() const { return static_cast<int>(shapes.size()); }
+
+  /// Shape i in the user's frame and unit.
+  Shape Placed(int i) const { return motions[i](metric->unit * shapes[i]); }
+  std::vector<Shape> Placed() const;
+};
+
+/// The path's shapes at `times` rising parameter values, by cubic interpolation in time through the
+/// four nearest shapes; a value that is a shape's own gives that shape.
+std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<double>& parameters,
+                            const std::vector<double>& times);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_PATH_PATH_H_

@@ -1,0 +1,137 @@
+#include <shapespace/path/quality.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <shapespace/base/parallel.h>
+
+namespace shapespace {
+namespace {
+
+constexpr double kDegrees = 180 / M_PI;
+constexpr double kShortestEdge = 1e-3;
+
+double SquaredLength(const Eigen::Matrix2Xi& edges, int e, const Shape& shape) {
+  return (shape.col(edges(1, e)) - shape.col(edges(0, e))).squaredNorm();
+}
+
+// Deviations of one shape's edges, to be pooled with those of others.
+struct Deviations {
+  double weighted_squares = 0, weight = 0;
+  std::vector<float> magnitudes;
+
+  void Add(double ratio, double area) {
+    weighted_squares += area * (ratio - 1) * (ratio - 1);
+    weight += area;
+    magnitudes.push_back(static_cast<float>(std::abs(ratio - 1)));
+  }
+};
+
+void Pool(const std::vector<Deviations>& shapes, double* rms, double* p99, double* max) {
+  Deviations all;
+  for (const Deviations& d : shapes) {
+    all.weighted_squares += d.weighted_squares;
+    all.weight += d.weight;
+    all.magnitudes.insert(all.magnitudes.end(), d.magnitudes.begin(), d.magnitudes.end());
+  }
+  if (all.magnitudes.empty()) return;
+  *rms = std::sqrt(all.weighted_squares / all.weight);
+  const auto rank = all.magnitudes.begin() + (all.magnitudes.size() - 1) * 99 / 100;
+  std::nth_element(all.magnitudes.begin(), rank, all.magnitudes.end());
+  *p99 = *rank;
+  *max = *std::max_element(rank, all.magnitudes.end());
+}
+
+}  // namespace
+
+PathQuality MeasureQuality(const Path& path) {
+  const Metric& metric = *path.metric;
+  const Connectivity& connectivity = *metric.connectivity;
+  const int num_shapes = path.NumShapes();
+  const Eigen::Matrix2Xi& edges = connectivity.Edges();
+  double mean_squared_length = 0;
+  for (int e = 0; e < edges.cols(); ++e) {
+    mean_squared_length += SquaredLength(edges, e, path.shapes[0]) / edges.cols();
+  }
+  const double shortest = kShortestEdge * kShortestEdge * mean_squared_length;
+
+  Dihedral dihedral;
+  dihedral.stencils = connectivity.Hinges();
+  dihedral.normal_epsilon_squared = dihedral.edge_epsilon_squared = 1e-30;
+
+  std::vector<Deviations> between(num_shapes), against_first(num_shapes);
+  std::vector<double> roughness(num_shapes, 0), folds(num_shapes, 0);
+  ParallelFor(num_shapes, [&](int i) {
+    const Shape& shape = path.shapes[i];
+    for (int e = 0; e < edges.cols(); ++e) {
+      const double first = SquaredLength(edges, e, path.shapes[0]);
+      if (i > 0 && first > shortest) {
+        against_first[i].Add(std::sqrt(SquaredLength(edges, e, shape) / first),
+                             metric.edge_area(e));
+      }
+    }
+    const auto next = std::lower_bound(path.poses.begin(), path.poses.end(), i);
+    if (next == path.poses.end() || *next == i) return;  // no inner shape
+    const Shape& m = path.shapes[*(next - 1)];
+    const Shape& n = path.shapes[*next];
+    const double begin = path.parameters[*(next - 1)], end = path.parameters[*next];
+    const double t = (path.parameters[i] - begin) / (end - begin);
+    for (int e = 0; e < edges.cols(); ++e) {
+      const double blend = (1 - t) * SquaredLength(edges, e, m) + t * SquaredLength(edges, e, n);
+      if (blend > shortest) {
+        between[i].Add(std::sqrt(SquaredLength(edges, e, shape) / blend), metric.edge_area(e));
+      }
+    }
+    double squares = 0;
+    for (int h = 0; h < connectivity.NumHinges(); ++h) {
+      double x[12];
+      Gather(dihedral, h, m, x);
+      const double angle_m = dihedral.Angle(x);
+      Gather(dihedral, h, n, x);
+      const double angle_n = dihedral.Angle(x);
+      Gather(dihedral, h, shape, x);
+      const double angle = dihedral.Angle(x);
+      const double off = WrapAngle(angle - (angle_m + t * WrapAngle(angle_n - angle_m)));
+      squares += metric.hinge_area(h) * off * off;
+      const double beyond = std::abs(angle) - std::max(std::abs(angle_m), std::abs(angle_n));
+      if (std::abs(angle) * kDegrees > 120 && beyond * kDegrees > 40) ++folds[i];
+    }
+    roughness[i] = squares;
+  });
+
+  PathQuality quality;
+  Pool(between, &quality.edge_rms, &quality.edge_p99, &quality.edge_max);
+  Pool(against_first, &quality.first_rms, &quality.first_p99, &quality.first_max);
+  const int inner = num_shapes - static_cast<int>(path.poses.size());
+  const double hinge_area = metric.hinge_area.sum();
+  for (int i = 0; i < num_shapes; ++i) {
+    quality.roughness += roughness[i];
+    quality.folds += folds[i];
+  }
+  if (inner > 0) quality.folds /= inner;
+  quality.roughness = inner > 0 && hinge_area > 0
+                          ? kDegrees * std::sqrt(quality.roughness / (hinge_area * inner))
+                          : 0;
+  return quality;
+}
+
+Eigen::VectorXd EdgeDeviation(const Path& path, int i) {
+  const Metric& metric = *path.metric;
+  const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
+  const int num_vertices = metric.connectivity->NumVertices();
+  Eigen::VectorXd deviation = Eigen::VectorXd::Zero(num_vertices);
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(num_vertices);
+  for (int e = 0; e < edges.cols(); ++e) {
+    const double first = SquaredLength(edges, e, path.shapes[0]);
+    if (first == 0) continue;
+    const double value = std::abs(std::sqrt(SquaredLength(edges, e, path.shapes[i]) / first) - 1);
+    for (int k = 0; k < 2; ++k) {
+      deviation(edges(k, e)) += metric.edge_area(e) * value;
+      weight(edges(k, e)) += metric.edge_area(e);
+    }
+  }
+  return (weight.array() > 0).select(deviation.cwiseQuotient(weight), 0);
+}
+
+}  // namespace shapespace

@@ -1,0 +1,34 @@
+#ifndef SHAPESPACE_PATH_QUALITY_H_
+#define SHAPESPACE_PATH_QUALITY_H_
+
+#include <Eigen/Core>
+
+#include <shapespace/path/path.h>
+
+namespace shapespace {
+
+/// Figures that see what an energy cannot: how far edges are from the lengths that they should have
+/// on the way, and whether the surface wrinkles or folds where the poses do not.
+struct PathQuality {
+  /// |e| / sqrt((1-t) |e_M|^2 + t |e_N|^2) - 1, between the two poses M and N around a shape, over
+  /// all edges and inner shapes: root mean square weighted by A_e; 99th percentile and maximum of
+  /// the magnitude, unweighted. Edges shorter than a thousandth of the mesh's are left out.
+  double edge_rms = 0, edge_p99 = 0, edge_max = 0;
+  /// The same of | |e| / |e_first| - 1 | against the first pose, over all shapes.
+  double first_rms = 0, first_p99 = 0, first_max = 0;
+  /// Area-weighted root mean square, in degrees, of the dihedral angle's distance from the straight
+  /// way between the poses' angles.
+  double roughness = 0;
+  /// Hinges folded beyond 120 degrees, and 40 degrees beyond both poses: mean per inner shape.
+  double folds = 0;
+};
+
+PathQuality MeasureQuality(const Path& path);
+
+/// Per vertex of shape `i`, the A_e-weighted mean over its edges of | |e| / |e_first| - 1 |: the
+/// deviation that the paper's Figure 5 colours by.
+Eigen::VectorXd EdgeDeviation(const Path& path, int i);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_PATH_QUALITY_H_

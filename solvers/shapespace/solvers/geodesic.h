@@ -1,0 +1,109 @@
+#ifndef SHAPESPACE_SOLVERS_GEODESIC_H_
+#define SHAPESPACE_SOLVERS_GEODESIC_H_
+
+#include <string>
+#include <vector>
+
+#include <shapespace/base/progress.h>
+#include <shapespace/mesh/read.h>
+#include <shapespace/metric/metric.h>
+#include <shapespace/path/path.h>
+#include <shapespace/path/quality.h>
+
+namespace shapespace {
+
+/// The optimiser of each level.
+enum class Solver {
+  kAutomatic,    ///< sparse trust region for the smallest problems, L-BFGS otherwise
+  kLbfgs,        ///< Ceres' L-BFGS, preconditioned, on hand-written kernels
+  kTrustRegion,  ///< Ceres' Levenberg-Marquardt on automatically differentiated residual blocks
+};
+
+/// How to find a geodesic between given poses.
+struct GeodesicOptions {
+  MetricOptions metric;
+
+  /// Shapes inserted between neighbouring poses, at least 1.
+  int shapes = 15;
+
+  /// A level is finished when an iteration lowers the energy by less than this share of it. Between
+  /// real poses 1e-4 leaves the energy within about a percent, and shapes that look the same; an
+  /// accurate exponential map needs 1e-10.
+  double tolerance = 1e-4;
+
+  /// Per level. Reaching it is reported as not converged.
+  int max_iterations = 500;
+
+  Solver solver = Solver::kAutomatic;
+
+  /// Bytes that the solve may take; an estimate above it is refused before anything is allocated.
+  double memory_limit = 8e9;
+
+  /// \throw InvalidOptions naming the field.
+  void Validate() const;
+};
+
+enum class Termination {
+  kConverged,      ///< every level reached the tolerance
+  kMaxIterations,  ///< some level ran out of iterations; the path is the best so far
+  kStalled,        ///< some line search found no better point; the path is the best so far
+};
+
+/// What happened, and how good the answer is.
+struct GeodesicSummary {
+  /// One row of the solve: one number of inner shapes between one pair of poses.
+  struct Level {
+    int piece = 0;       ///< between pose `piece` and the next
+    int shapes = 0;      ///< inner shapes
+    std::string start;   ///< where it started: "blend", "first", "last" or "refined"
+    std::string solver;  ///< "L-BFGS" or "trust region"
+    Termination termination = Termination::kConverged;
+    int iterations = 0, evaluations = 0;
+    double initial_energy = 0, energy = 0;  ///< scaled: E n / 2 for n segments
+    double remaining = 0;  ///< first-order estimate of what a further step gains, share of energy
+    bool kept = true;      ///< false for a start that lost against another
+    double seconds = 0;
+  };
+
+  Termination termination = Termination::kConverged;
+  int vertices = 0, triangles = 0, edges = 0, hinges = 0, poses = 0, shapes = 0;
+  std::string metric;
+  double unit = 1;         ///< user's length that counts as 1
+  double energy = 0;       ///< scaled and summed over the pieces; a pure number
+  double lower_bound = 0;  ///< of the same; not a number if none is known (rigid metric)
+  std::vector<std::pair<std::string, double>> parts;  ///< the energy by feature
+  PathQuality quality;
+  std::vector<Level> levels;
+  std::vector<std::string> warnings;  ///< what a person should look at
+  double estimated_bytes = 0;
+  double freeze_seconds = 0, factor_seconds = 0, start_seconds = 0, refine_seconds = 0,
+         total_seconds = 0;
+  size_t factor_nonzeros = 0;
+  int threads = 1;
+
+  /// energy / lower_bound: 1 is as good as can be; about 1.05 where poses hold folded hinges.
+  double Ratio() const { return energy / lower_bound; }
+  std::string BriefReport() const;  ///< one line
+  std::string FullReport() const;   ///< a page
+  std::string ToJson() const;
+};
+
+struct GeodesicResult {
+  Path path;
+  GeodesicSummary summary;
+};
+
+/// The geodesic through given poses (boundary value problem; Kilian et al. 2007, section 3): piece
+/// after piece between neighbours, at t = i / (poses - 1). Poses are aligned rigidly first, since
+/// rigid motion is not what a metric of shapes is about; the path carries it separately.
+/// \throw InvalidOptions, MeshError (fewer than two poses; see FreezeMetric), SolverError (memory
+///        limit, two neighbours that turn too far for the rigid metric), Cancelled.
+GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivity,
+                           const std::vector<Shape>& poses, const GeodesicOptions& options = {},
+                           Progress* progress = nullptr);
+GeodesicResult Interpolate(const Poses& poses, const GeodesicOptions& options = {},
+                           Progress* progress = nullptr);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_SOLVERS_GEODESIC_H_

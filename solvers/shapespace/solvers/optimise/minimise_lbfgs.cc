@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <ceres/first_order_function.h>
+#include <ceres/gradient_problem.h>
+#include <ceres/gradient_problem_solver.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/solvers/optimise/keep_going.h>
+#include <shapespace/solvers/optimise/minimise.h>
+
+namespace shapespace::internal {
+namespace {
+
+// The energy as a function of y, in units of its value at the start; y itself is scaled so that the
+// Hessian still resembles the identity. Ceres' absolute tolerances then mean the same for any
+// input.
+class PreconditionedEnergy final : public ceres::FirstOrderFunction {
+ public:
+  PreconditionedEnergy(PathEnergy* energy, ChangeOfVariables* variables,
+                       const std::vector<double>& origin, double unit, int* evaluations)
+      : energy_(*energy),
+        variables_(*variables),
+        origin_(origin),
+        unit_(unit),
+        evaluations_(*evaluations),
+        unknowns_(origin.size()),
+        gradient_(origin.size()) {}
+
+  bool Evaluate(const double* y, double* cost, double* gradient) const override {
+    ++evaluations_;
+    variables_.Apply(y, origin_.data(), std::sqrt(unit_), unknowns_.data());
+    *cost = energy_.Evaluate(unknowns_.data(), gradient_.data()) / unit_;
+    if (gradient != nullptr) {
+      variables_.ApplyTranspose(gradient_.data(), 1 / std::sqrt(unit_), gradient);
+    }
+    return std::isfinite(*cost);
+  }
+  int NumParameters() const override { return variables_.Size(); }
+
+ private:
+  PathEnergy& energy_;
+  ChangeOfVariables& variables_;
+  const std::vector<double>& origin_;
+  const double unit_;
+  int& evaluations_;
+  mutable std::vector<double> unknowns_, gradient_;
+};
+
+}  // namespace
+
+double RemainingDecrease(PathEnergy* energy, ChangeOfVariables* variables,
+                         const std::vector<double>& unknowns) {
+  std::vector<double> gradient(unknowns.size());
+  const double value = energy->Evaluate(unknowns.data(), gradient.data());
+  if (value == 0) return 0;
+  std::vector<double> y(variables->Size());
+  variables->ApplyTranspose(gradient.data(), 1, y.data());
+  return 0.5 * std::inner_product(y.begin(), y.end(), y.begin(), 0.0) / value;
+}
+
+MinimiseResult MinimiseLbfgs(PathEnergy* energy, ChangeOfVariables* variables,
+                             const MinimiseOptions& options, std::vector<double>* unknowns) {
+  MinimiseResult result;
+  const double unit = energy->Evaluate(unknowns->data(), nullptr);
+  if (!std::isfinite(unit)) throw SolverError("the energy of the path to start from is not finite");
+  result.initial_energy = result.energy = unit;
+  if (unit == 0) {
+    result.stop = Stop::kConverged;
+    return result;
+  }
+
+  auto* const function =
+      new PreconditionedEnergy(energy, variables, *unknowns, unit, &result.evaluations);
+  const ceres::GradientProblem problem(function);  // owns it
+  std::vector<double> y(variables->Size(), 0.0);
+
+  ceres::GradientProblemSolver::Options ceres_options;
+  ceres_options.line_search_direction_type = ceres::LBFGS;
+  ceres_options.line_search_type = ceres::WOLFE;
+  ceres_options.max_lbfgs_rank = options.rank;
+  ceres_options.max_num_iterations = options.max_iterations;
+  ceres_options.function_tolerance = options.tolerance;
+  ceres_options.gradient_tolerance = 1e-14;
+  ceres_options.parameter_tolerance = 0;
+  ceres_options.logging_type = ceres::SILENT;
+  KeepGoing keep_going(options.keep_going);
+  ceres_options.callbacks.push_back(&keep_going);
+  ceres::GradientProblemSolver::Summary summary;
+  ceres::Solve(ceres_options, problem, y.data(), &summary);
+  if (summary.termination_type == ceres::USER_FAILURE) throw Cancelled();
+
+  const std::vector<double> origin = *unknowns;
+  variables->Apply(y.data(), origin.data(), std::sqrt(unit), unknowns->data());
+  result.energy = summary.final_cost * unit;
+  result.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  result.remaining = RemainingDecrease(energy, variables, *unknowns);
+  // A line search that finds no descent at a point where there is nothing to gain has converged to
+  // rounding; anywhere else it has stalled.
+  if (summary.termination_type == ceres::CONVERGENCE ||
+      result.remaining < options.tolerance * 1e-3) {
+    result.stop = Stop::kConverged;
+  } else if (summary.termination_type == ceres::NO_CONVERGENCE) {
+    result.stop = Stop::kMaxIterations;
+  }
+  return result;
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,48 @@
+#ifndef SHAPESPACE_SOLVERS_OPTIMISE_PRECONDITIONER_H_
+#define SHAPESPACE_SOLVERS_OPTIMISE_PRECONDITIONER_H_
+
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include <shapespace/metric/metric.h>
+#include <shapespace/path/energy.h>
+#include <shapespace/solvers/optimise/cholesky.h>
+
+namespace shapespace::internal {
+
+/// The scalar m x m matrix that resembles the metric's, axis by axis: sum of 4 w k k^T over the
+/// elements with their features' stencils k, averaged over `poses`. `quartic_segments` > 0 adds
+/// what the trapezoid's quartic part weighs in that many segments between the first and the last
+/// pose.
+Eigen::SparseMatrix<double> ScalarMetric(const Metric& metric, const std::vector<Shape>& poses,
+                                         int quartic_segments);
+
+/// The change of variables that makes a path energy's Hessian resemble the identity, since Ceres
+/// has no other place for a preconditioner:
+///   P = P_0 + s (C_T^{-T} x Q^T C^{-T}) y,
+/// T = C_T C_T^T the second difference in time and Q S Q^T = C C^T the scalar metric.
+class ChangeOfVariables {
+ public:
+  /// `factor` is of the scalar metric, by vertex; both are kept by reference.
+  ChangeOfVariables(const Cholesky& factor, const PathEnergy& energy);
+
+  /// Numbers in y: 3 m Inner(), no padding.
+  int Size() const { return size_; }
+
+  /// unknowns = origin + scale * (the linear map) y. Arrays of PathEnergy::Size(); y of Size().
+  void Apply(const double* y, const double* origin, double scale, double* unknowns);
+  /// y = scale * (the transposed map) gradient.
+  void ApplyTranspose(const double* gradient, double scale, double* y);
+
+ private:
+  const Cholesky& factor_;
+  int inner_, stride_, size_;
+  std::vector<int> row_;                  // of PathEnergy, for each row of the factor
+  std::vector<double> diagonal_, below_;  // of C_T: reciprocals of the diagonal, subdiagonal
+  std::vector<double> work_;
+};
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_SOLVERS_OPTIMISE_PRECONDITIONER_H_

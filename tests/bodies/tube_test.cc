@@ -1,0 +1,111 @@
+#include <shapespace/bodies/tube.h>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/bodies/body.h>
+
+#include "bodies/measure.h"
+
+namespace shapespace {
+namespace {
+
+TEST(TubeTest, IsAClosedSphereOfAboutTheTrianglesAskedFor) {
+  for (int triangles : {50, 200, 201, 500, 1000, 5000, 20000, 200000}) {
+    const Body tube = MakeTube(triangles);
+    EXPECT_NEAR(tube.connectivity->NumTriangles(), triangles, std::max(5.0, 0.04 * triangles));
+    EXPECT_EQ(UnmatchedSides(*tube.connectivity), 0);
+    EXPECT_EQ(EulerCharacteristic(*tube.connectivity), 2);
+    EXPECT_EQ(tube.connectivity->NumHinges(), tube.connectivity->NumEdges());
+  }
+}
+
+TEST(TubeTest, HasRoundishTrianglesAtRest) {
+  for (int triangles : {200, 1000, 5000, 20000, 200000}) {
+    const Body tube = MakeTube(triangles);
+    EXPECT_GT(SmallestAngle(*tube.connectivity, tube.pose(0)), 38) << triangles;
+  }
+}
+
+TEST(TubeTest, VolumeOfAPlainOneApproachesACapsules) {
+  const TubeForm capsule = {3, 0.5, 0.5, 0};
+  const double pi = 180 / kDegrees;
+  const double exact = pi * 0.25 * 3 + 4.0 / 3 * pi * 0.125;
+  double previous = 0;
+  for (int triangles : {1000, 4000, 16000}) {
+    const Body tube = MakeTube(triangles, capsule);
+    const double lost = exact - Volume(*tube.connectivity, tube.pose(0));
+    EXPECT_GT(lost, 0);
+    if (previous > 0) {
+      EXPECT_NEAR(previous / lost, 4, 0.5);
+    }
+    previous = lost;
+  }
+  EXPECT_LT(previous / exact, 2e-3);
+}
+
+TEST(TubeTest, KeepsItsVolumeToSecondOrder) {
+  double previous = 0;
+  for (int triangles : {1000, 4000, 16000}) {
+    const Body tube = MakeTube(triangles);
+    const double rest = Volume(*tube.connectivity, tube.pose(tube.begin));
+    const double lost = 1 - Volume(*tube.connectivity, tube.pose(tube.end)) / rest;
+    if (previous > 0) {
+      EXPECT_NEAR(previous / lost, 4, 0.8);
+    }
+    previous = lost;
+  }
+  EXPECT_LT(std::abs(previous), 5e-4);
+}
+
+TEST(TubeTest, BaseStaysAndTipTurnsByTheAngle) {
+  const TubeForm form;
+  const Body tube = MakeTube(5000, form);
+  const int last = tube.connectivity->NumVertices() - 1;
+  for (double angle : {0.0, 1e-3, 60.0, 150.0}) {
+    const Shape bent = tube.pose(angle);
+    EXPECT_TRUE(bent.col(0).isApprox(Eigen::Vector3d(-form.base_radius, 0, 0)));
+    // The ring of five next to each pole: its middle and the pole are on the axis of the cap.
+    const Eigen::Vector3d axis = bent.col(last) - bent.block<3, 5>(0, last - 5).rowwise().mean();
+    EXPECT_NEAR(std::atan2(axis.z(), axis.x()) * kDegrees, angle, 1e-9);
+    EXPECT_LT(bent.row(1).sum(), 1e-9);
+  }
+}
+
+TEST(TubeTest, CentreLineDoesNotDependOnResolution) {
+  // The tip pole is a vertex of every mesh.
+  const Shape coarse = MakeTube(200).pose(150), fine = MakeTube(100000).pose(150);
+  EXPECT_LT((coarse.rightCols(1) - fine.rightCols(1)).norm(), 1e-9);
+}
+
+TEST(TubeTest, BentToTheEndHasNoFolds) {
+  for (const TubeForm& form : {TubeForm(), TubeForm{2, 0.8, 0.8, 0.1}, TubeForm{3, 0.3, 0.9, 0}}) {
+    const Body tube = MakeTube(20000, form);
+    const Eigen::ArrayXd angles = HingeAngles(*tube.connectivity, tube.pose(tube.end));
+    EXPECT_LT(angles.abs().maxCoeff(), 30);
+  }
+  EXPECT_EQ(MakeTube(5000).end, 150);
+}
+
+TEST(TubeTest, RefusesBadArguments) {
+  EXPECT_EQ(Refusal([] { MakeTube(-1); }), "triangles: -1 is outside 0 .. 20000000");
+  EXPECT_EQ(Refusal([] {
+              MakeTube(1000, {6, 0.5, 0, 0});
+            }),
+            "tip_radius: 0 is no length; it must be positive and finite");
+  EXPECT_EQ(Refusal([] {
+              MakeTube(1000, {6, 0.5, 0.5, -0.1});
+            }),
+            "knuckle: -0.1 is no length; it must be positive and finite");
+}
+
+TEST(TubeTest, ExtremeFormsGiveFiniteShapes) {
+  for (const TubeForm& form : {TubeForm{1e80, 1e-80, 1e-80, 0}, TubeForm{1e-80, 1e80, 1e80, 1},
+                               TubeForm{1, 1e-6, 1e6, 0}}) {
+    const Body tube = MakeTube(1000, form);
+    EXPECT_TRUE(tube.pose(tube.end).allFinite());
+    EXPECT_EQ(UnmatchedSides(*tube.connectivity), 0);
+  }
+}
+
+}  // namespace
+}  // namespace shapespace
