@@ -62,7 +62,7 @@ TEST(StripTest, RestsFlatFacingUp) {
 TEST(StripTest, FoldsEveryHingeByTheAngleAndKeepsEveryEdge) {
   for (const auto& [side, width, triangles] :
        {std::tuple(1.0, 0.8, 40), std::tuple(2.0, 0.1, 40), std::tuple(0.1, 5.0, 7),
-        std::tuple(1.0, 1.0, 2), std::tuple(20.0, 1.0, 3)}) {
+        std::tuple(1e4, 1.0, 5), std::tuple(1.0, 1.0, 2), std::tuple(20.0, 1.0, 3)}) {
     const Body strip = MakeStrip(side, width, triangles);
     ASSERT_TRUE(strip.isometric);
     for (double part : {1e-9, 0.01, 0.5, 1.0}) {
@@ -80,6 +80,10 @@ TEST(StripTest, ClosesToAnAntiprism) {
   const Shape ring = strip.pose(strip.end);
   EXPECT_LT((ring.leftCols(2) - ring.rightCols(2)).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_GT(SmallestDistance(ring.leftCols(12)), 0.5);
+
+  const Body long_strip = MakeStrip(1, 1.5, 100000);
+  const Shape long_ring = long_strip.pose(long_strip.end);
+  EXPECT_LT((long_ring.leftCols(2) - long_ring.rightCols(2)).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST(StripTest, RefusesBadArguments) {
@@ -88,6 +92,7 @@ TEST(StripTest, RefusesBadArguments) {
             "triangles: 20000001 is outside 0 .. 20000000");
   EXPECT_EQ(Refusal([] { MakeStrip(1e300, 1, 4); }),
             "side: 1e+300 is no length; it must be positive and finite");
+  EXPECT_EQ(Refusal([] { MakeStrip(1e6, 1, 4); }), "side: must be at most 10000 times the width");
 }
 
 }  // namespace

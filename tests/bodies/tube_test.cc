@@ -81,7 +81,7 @@ TEST(TubeTest, BentToTheEndHasNoFolds) {
   for (const TubeForm& form : {TubeForm(), TubeForm{2, 0.8, 0.8, 0.1}, TubeForm{3, 0.3, 0.9, 0}}) {
     const Body tube = MakeTube(20000, form);
     const Eigen::ArrayXd angles = HingeAngles(*tube.connectivity, tube.pose(tube.end));
-    EXPECT_LT(angles.abs().maxCoeff(), 30);
+    EXPECT_LT(angles.abs().maxCoeff(), 60) << "a fold has nearly 180";
   }
   EXPECT_EQ(MakeTube(5000).end, 150);
 }
@@ -95,15 +95,20 @@ TEST(TubeTest, RefusesBadArguments) {
   EXPECT_EQ(Refusal([] {
               MakeTube(1000, {6, 0.5, 0.5, -0.1});
             }),
-            "knuckle: -0.1 is no length; it must be positive and finite");
+            "knuckle: must be in [0, the largest of length and radii]");
+  EXPECT_EQ(Refusal([] {
+              MakeTube(1000, {1, 1e-3, 100, 0});
+            }),
+            "length: the length and the radii may differ by a factor of 10000");
 }
 
 TEST(TubeTest, ExtremeFormsGiveFiniteShapes) {
-  for (const TubeForm& form : {TubeForm{1e80, 1e-80, 1e-80, 0}, TubeForm{1e-80, 1e80, 1e80, 1},
-                               TubeForm{1, 1e-6, 1e6, 0}}) {
+  for (const TubeForm& form : {TubeForm{1e84, 1e80, 1e80, 0}, TubeForm{1e-80, 1e-76, 1e-76, 1e-80},
+                               TubeForm{1, 1e-2, 1e2, 1}, TubeForm{100, 0.01, 100, 0}}) {
     const Body tube = MakeTube(1000, form);
-    EXPECT_TRUE(tube.pose(tube.end).allFinite());
-    EXPECT_EQ(UnmatchedSides(*tube.connectivity), 0);
+    const Shape bent = tube.pose(tube.end);
+    EXPECT_TRUE(bent.allFinite());
+    EXPECT_GT(SmallestAngle(*tube.connectivity, bent), 0);
   }
 }
 

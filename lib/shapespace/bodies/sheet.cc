@@ -45,11 +45,12 @@ Body MakeSheet(double length, double width, int nx, int ny) {
 // turn by `step` about one axis, parallel to y, and a change of sides. A triangle's base, two steps
 // long, subtends 2 step at that axis; its height leans inwards by (side / 2) tan(step / 2). With
 // t = tan(step / 2) and k = (side / (2 width))^2 the normals of neighbours give
-//   cos(hinge) = (1 - (1 + 2 k) t^2) / (1 + t^2),
+//   cos(hinge) = (1 - (1 + 2 k) t^2) / (1 + t^2),  so  sin(hinge / 2)^2 = (1 + k) t^2 / (1 + t^2),
 // of which both directions are used below.
 Body MakeStrip(double side, double width, int triangles) {
   CheckLength("side", side);
   CheckLength("width", width);
+  if (side > 1e4 * width) throw InvalidOptions("side: must be at most 10000 times the width");
   CheckCount("triangles", triangles, 2);
   CheckTriangles(triangles);
 
@@ -64,17 +65,18 @@ Body MakeStrip(double side, double width, int triangles) {
   // Two or three triangles make no ring; they stop where four would. Narrow strips, whose hinges
   // are nearly along x, stop before a hinge is shut, which is at k t^2 = 1.
   const double t_end = std::min(std::tan(kPi / std::max(4, triangles)), std::sqrt(0.9 / k));
-  const double cos_end = (1 - (1 + 2 * k) * t_end * t_end) / (1 + t_end * t_end);
+  const double sin_half_end = std::sqrt((1 + k) / (1 + t_end * t_end)) * t_end;
 
   Body body;
   body.name = "strip";
   body.connectivity = ConnectivityOf(num_vertices, list);
   body.parameter = "hinge angle, degrees";
   body.isometric = true;
-  body.end = std::acos(cos_end) / kRadians;
+  body.end = 2 * std::asin(sin_half_end) / kRadians;
   body.pose = [=](double angle) {
     const double hinge = angle * kRadians;
-    const double t = std::sqrt(2.0) * std::sin(hinge / 2) / std::sqrt(1 + 2 * k + std::cos(hinge));
+    const double sin_half = std::sin(hinge / 2);
+    const double t = sin_half / std::sqrt(1 + k - sin_half * sin_half);
     const double step = 2 * std::atan(t);
     const double curvature = 2 * std::sin(step) / side;
     const double spacing = side / (2 * Sinc(step));  // of the vertices, along the arc

@@ -12,8 +12,8 @@
 namespace shapespace {
 namespace {
 
-/// A joint, in parts of the tube's length: it bends within `reach` of its middle, by a share of the
-/// total angle.
+/// A joint, in parts of the tube's length: it bends within `kReach` of its middle, by a share of
+/// the total angle.
 struct Joint {
   double middle, share;
 };
@@ -198,7 +198,14 @@ void TubeForm::Validate() const {
   CheckLength("length", length);
   CheckLength("base_radius", base_radius);
   CheckLength("tip_radius", tip_radius);
-  if (knuckle != 0) CheckLength("knuckle", knuckle);
+  const auto [least, most] = std::minmax({length, base_radius, tip_radius});
+  // Far beyond any use, and far from where summing up relative lengths would lose small ones.
+  if (most > 1e4 * least) {
+    throw InvalidOptions("length: the length and the radii may differ by a factor of 10000");
+  }
+  if (!(knuckle >= 0 && knuckle <= most)) {
+    throw InvalidOptions("knuckle: must be in [0, the largest of length and radii]");
+  }
 }
 
 Body MakeTube(int triangles, const TubeForm& form) {

@@ -13,8 +13,8 @@ struct TubeForm {
   double tip_radius = 0.48;   ///< of the cap that moves
   double knuckle = 0.06;      ///< what the joints' middles add to the radius; 0: a plain cone
 
-  /// \throw InvalidOptions naming the field: the knuckle negative or not finite, another length not
-  ///        positive and finite.
+  /// \throw InvalidOptions naming the field: length or radii not positive and finite, or differing
+  ///        by more than a factor of 10000; the knuckle negative or larger than all of these.
   void Validate() const;
 };
 

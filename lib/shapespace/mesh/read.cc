@@ -1,1 +1,155 @@
-// Placeholder.
+#include <shapespace/mesh/read.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/check.h>
+#include <shapespace/mesh/check_positions.h>
+#include <shapespace/mesh/read_formats.h>
+#include <shapespace/mesh/text.h>
+
+namespace shapespace {
+namespace {
+
+std::string Content(const std::string& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    throw FileError(file + ": is a folder, not a mesh file");
+  }
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  if (!stream) throw FileError(file + ": cannot be opened: " + std::strerror(errno));
+  const std::streamoff size = stream.tellg();
+  if (size == 0) throw FileError(file + ": is empty");
+  // So that no index and no count that a file can hold outgrows an int.
+  if (size < 0 || size > std::numeric_limits<int>::max()) {
+    throw FileError(file + ": is larger than 2 GB, or no ordinary file");
+  }
+  std::string content(static_cast<size_t>(size), '\0');
+  stream.seekg(0);
+  stream.read(content.data(), size);
+  if (stream.gcount() != size) throw FileError(file + ": cannot be read to its end");
+  return content;
+}
+
+std::string Extension(const std::string& file) {
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+bool SamePolygons(const Soup& a, const Soup& b) {
+  return a.NumVertices() == b.NumVertices() && a.polygon_begin == b.polygon_begin &&
+         a.corners == b.corners && a.segments == b.segments;
+}
+
+/// Sorts findings into warnings and refusals. Where several are fatal the first three are told:
+/// the others mostly follow from them.
+class Judge {
+ public:
+  Judge(const ReadOptions& options, std::vector<std::string>* warnings)
+      : options_(options), warnings_(warnings) {}
+
+  /// \throw E if a finding is fatal.
+  template <typename E>
+  void Hear(const std::vector<Finding>& findings) {
+    constexpr int kMostTold = 3;
+    std::string refusal;
+    int told = 0;
+    for (const Finding& finding : findings) {
+      const bool fatal =
+          finding.severity == Severity::kFatal ||
+          (finding.severity == Severity::kNonManifold && !options_.allow_nonmanifold);
+      if (fatal && told++ < kMostTold) {
+        refusal += (refusal.empty() ? "" : "\n") + finding.message;
+      } else if (!fatal && finding.severity != Severity::kNote) {
+        warnings_->push_back(finding.message);
+      }
+    }
+    if (!refusal.empty()) throw E(refusal);
+  }
+
+ private:
+  const ReadOptions& options_;
+  std::vector<std::string>* warnings_;
+};
+
+}  // namespace
+
+Soup ReadSoup(const std::string& file) {
+  const std::string extension = Extension(file);
+  if (extension == ".obj") return internal::ReadObj(file, Content(file));
+  if (extension == ".ply") return internal::ReadPly(file, Content(file));
+  if (extension == ".off") return internal::ReadOff(file, Content(file));
+  throw FileError(file + ": the extension " + internal::Quoted(extension) +
+                  " is none of .obj, .ply, .off; convert the mesh to one of these");
+}
+
+std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num_vertices) {
+  const std::string content = Content(file);
+  std::vector<std::pair<int, int>> pairs;
+  internal::Lines lines(content);
+  std::string_view line;
+  while (lines.Next(&line)) {
+    internal::Words words(internal::WithoutComment(line));
+    if (words.Done()) continue;
+    const std::string element = "stiffener " + std::to_string(pairs.size() + 1) + ": ";
+    int ends[2];
+    for (int& end : ends) {
+      const std::string_view word = words.Next();
+      const std::optional<std::int64_t> number = internal::ParseInteger(word);
+      if (!number || *number < 1 || *number > num_vertices) {
+        internal::FailAt(file, lines.Number(),
+                         element + internal::Quoted(word) + " is not a vertex number from 1 to " +
+                             std::to_string(num_vertices) + "; a line holds two of them");
+      }
+      end = static_cast<int>(*number) - 1;
+    }
+    if (!words.Done()) {
+      internal::FailAt(file, lines.Number(),
+                       element + internal::Quoted(words.Next()) +
+                           " is too much; a line holds two vertex numbers");
+    }
+    if (ends[0] == ends[1]) {
+      internal::FailAt(file, lines.Number(),
+                       element + "joins vertex " + std::to_string(ends[0] + 1) +
+                           " to itself; name two different vertices");
+    }
+    pairs.emplace_back(ends[0], ends[1]);
+  }
+  return pairs;
+}
+
+Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& options) {
+  if (files.empty()) throw FileError("no mesh file is named; at least one is needed");
+  Poses poses;
+  Judge judge(options, &poses.warnings);
+  poses.names = files;
+  poses.appearance = ReadSoup(files[0]);
+  const Soup& first = poses.appearance;
+  judge.Hear<MeshError>(CheckSoup(first));
+  poses.shapes.push_back(first.vertices);
+  for (size_t i = 1; i < files.size(); ++i) {
+    const Soup pose = ReadSoup(files[i]);
+    // What is wrong with the first file's polygons need not be said again for the same polygons.
+    judge.Hear<MeshError>(SamePolygons(first, pose) ? internal::CheckPositions(pose)
+                                                    : CheckSoup(pose));
+    judge.Hear<CorrespondenceError>(CheckCorrespondence(first, pose));
+    poses.shapes.push_back(pose.vertices);
+  }
+  std::vector<std::pair<int, int>> stiffeners;
+  if (!options.stiffeners.empty()) {
+    stiffeners = ReadStiffeners(options.stiffeners, first.NumVertices());
+  }
+  poses.connectivity = Connectivity::Make(first.NumVertices(), first.polygon_begin, first.corners,
+                                          first.segments, stiffeners);
+  return poses;
+}
+
+}  // namespace shapespace

@@ -14,9 +14,6 @@ Soup ReadObj(const std::string& file, std::string text);
 Soup ReadPly(const std::string& file, const std::string& text);
 Soup ReadOff(const std::string& file, const std::string& text);
 
-/// What to do about a damaged file; ends most messages.
-inline constexpr char kReexport[] = "; is the file damaged? Export the mesh again";
-
 }  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_MESH_READ_FORMATS_H_

@@ -1,9 +1,11 @@
 #ifndef SHAPESPACE_MESH_TEXT_H_
 #define SHAPESPACE_MESH_TEXT_H_
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
-#include <cstdlib>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +15,9 @@
 // Private: lines, words and numbers of a text file, read strictly.
 
 namespace shapespace::internal {
+
+/// What to do about a damaged file; ends most messages.
+inline constexpr char kReexport[] = "; is the file damaged? Export the mesh again";
 
 /// Throws a FileError "file:line: what"; without the line if it is 0.
 [[noreturn]] inline void FailAt(const std::string& file, int line, const std::string& what) {
@@ -73,9 +78,7 @@ class Words {
   std::string_view Rest() const { return rest_.substr(0, rest_.find_last_not_of(" \t") + 1); }
 
  private:
-  void SkipBlanks() {
-    rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size()));
-  }
+  void SkipBlanks() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size())); }
 
   std::string_view rest_;
 };
@@ -96,9 +99,13 @@ inline std::optional<double> ParseDouble(std::string_view word) {
   const char* end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   if (stop != end || error == std::errc::invalid_argument) return std::nullopt;
-  // Too large or too small for a double: strtod tells which (infinity, or zero).
   if (error == std::errc::result_out_of_range) {
-    value = std::strtod(std::string(word).c_str(), nullptr);
+    // from_chars does not say on which side of a double's range: too small is told by the sign of
+    // the exponent, or, without one, by a leading zero (0.000...).
+    const size_t exponent = word.find_first_of("eE");
+    const bool tiny = exponent == std::string_view::npos ? word[word[0] == '-'] == '0'
+                                                         : word[exponent + 1] == '-';
+    return tiny ? 0.0 : std::numeric_limits<double>::infinity();
   }
   return value;
 }
@@ -111,6 +118,22 @@ inline std::optional<std::int64_t> ParseInteger(std::string_view word) {
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   if (stop != end || error != std::errc()) return std::nullopt;
   return value;
+}
+
+/// The whole word as a finite number.
+/// \throw FileError "file:line: element: what 'word' is not ..." otherwise.
+inline double FiniteNumber(std::string_view word, const char* what, const std::string& file,
+                           int line, const std::string& element) {
+  if (word.empty()) FailAt(file, line, element + ": " + what + " is missing" + kReexport);
+  const std::optional<double> value = ParseDouble(word);
+  if (!value) {
+    FailAt(file, line, element + ": " + what + " " + Quoted(word) + " is not a number" + kReexport);
+  }
+  if (!std::isfinite(*value)) {
+    FailAt(file, line,
+           element + ": " + what + " " + Quoted(word) + " is not a finite number" + kReexport);
+  }
+  return *value;
 }
 
 }  // namespace shapespace::internal

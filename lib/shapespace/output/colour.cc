@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+
+#include <Eigen/LU>
 
 namespace shapespace {
 namespace {
 
-constexpr unsigned kValueStops[] = {0xc3d3e3, 0xe6cfa6, 0xee9a4d, 0xd2452b, 0x8c1626};
+constexpr unsigned kValueStops[] = {0xb9cadc, 0xdfc18f, 0xe8923f, 0xcf3f2b, 0x861426};
 constexpr int kSteps = 256;
 
 float ToLinear(float s) {

@@ -15,17 +15,19 @@ constexpr unsigned kBackgroundHex = 0xfafafa;
 constexpr unsigned kFrontHex = 0x4a86c8;
 constexpr unsigned kBackHex = 0xf08030;
 
-// Back faces under values: dark enough to be told from the front, light enough to read the value.
-constexpr float kBackUnderValues = 0.45f;
+// Values are drawn a little darker than in the legend, because the lights add up to more than 1;
+// back faces so dark that they can be told from the front, so light that the value can be read.
+constexpr float kFrontUnderValues = 0.8f, kBackUnderValues = 0.4f;
 
 // Lights, in the camera's axes (right, up, towards the eye). A key from the upper left, a fill from
-// the right, a sky that is brighter above; together about 1 where the key falls square.
-const Eigen::Vector3f kKey = Eigen::Vector3f(-0.45f, 0.65f, 0.75f).normalized();
+// the right, a sky that is brighter above; together somewhat more than 1 where the key falls
+// square, so that bodies look lit.
+const Eigen::Vector3f kKey = Eigen::Vector3f(-0.5f, 0.65f, 0.62f).normalized();
 const Eigen::Vector3f kFill = Eigen::Vector3f(0.85f, 0.05f, 0.5f).normalized();
-constexpr float kKeyLight = 0.78f;
-constexpr float kFillLight = 0.16f;
-constexpr float kSkyLight = 0.42f, kGroundLight = 0.2f;
-constexpr float kGloss = 0.07f, kGlossExponent = 28;
+constexpr float kKeyLight = 0.95f;
+constexpr float kFillLight = 0.17f;
+constexpr float kSkyLight = 0.42f, kGroundLight = 0.1f;
+constexpr float kGloss = 0.1f, kGlossExponent = 20;
 
 // Half-width of the key as seen from the body, for soft shadows.
 constexpr float kKeySpread = 0.12f;
@@ -116,8 +118,11 @@ void FramePainter::TracePixel(int row, int column) {
   Eigen::Vector3f first_point;
   int hits = 0;
   for (int s = 0; s < n * n; ++s) {
-    const double x = column + (s % n + 0.5) / n - 0.5 * camera_.width;
-    const double y = 0.5 * camera_.height - row - (s / n + 0.5) / n;
+    // A grid sheared both ways: no two samples share a column or a row, so that nearly upright and
+    // nearly level outlines get n * n shades, not n.
+    const int i = s % n, j = s / n;
+    const double x = column + (i + (j + 0.5) / n) / n - 0.5 * camera_.width;
+    const double y = 0.5 * camera_.height - row - (j + (i + 0.5) / n) / n;
     const Eigen::Vector3f origin =
         (camera_.axes * Eigen::Vector3d(camera_.centre.x() + x / camera_.pixels_per_unit,
                                         camera_.centre.y() + y / camera_.pixels_per_unit, 2))
@@ -144,8 +149,7 @@ void FramePainter::Shade(const Scene::Hit& hit, Pixel* pixel) const {
   static const Colour front = FromHex(kFrontHex), back = FromHex(kBackHex);
   Colour colour = hit.back ? back : front;
   if (show_values_) {
-    colour = ValueColour(hit.value);
-    if (hit.back) colour *= kBackUnderValues;
+    colour = (hit.back ? kBackUnderValues : kFrontUnderValues) * ValueColour(hit.value);
   }
   const Eigen::Vector3f normal = axes_.transpose() * hit.normal;
   const float sky = 0.5f + 0.5f * normal.y();

@@ -14,6 +14,9 @@ namespace shapespace {
 namespace {
 
 constexpr int kTextScale = 2;
+constexpr int kFontRows = 12;  // with descenders
+constexpr int kTextSamples = 4;
+constexpr float kBlur = 0.5f, kCut = 0.42f;  // in cells of the font; share of ink
 constexpr int kLineHeight = 10 * kTextScale;
 constexpr int kBarWidth = 240, kBarHeight = 14, kGap = 16;
 constexpr int kMargin = 12;
@@ -34,27 +37,67 @@ void Fill(Image* image, int x0, int y0, int x1, int y1, const Colour& colour) {
   }
 }
 
-// The font is made of boxes on a grid, so that at a whole scale their edges fall on pixels.
-void DrawText(Image* image, int left, int top, std::string text) {
+// One byte a cell of the font's grid, `width` cells a row and kFontRows rows: 1 where there is ink.
+std::vector<unsigned char> Ink(std::string text, int width) {
   struct Corner {
     float x, y, z;
     unsigned char colour[4];
   };
-  constexpr int kCornersPerCharacter = 100;  // the font's own advice: about 270 bytes a character
+  constexpr int kCornersPerCharacter = 100;  // the font's own advice is 270 bytes a character
   std::vector<Corner> corners(kCornersPerCharacter * (text.size() + 1));
   const int boxes = stb_easy_font_print(0, 0, text.data(), nullptr, corners.data(),
                                         static_cast<int>(corners.size() * sizeof(Corner)));
+  std::vector<unsigned char> ink(width * kFontRows, 0);
   for (int i = 0; i < boxes; ++i) {
     const Corner &low = corners[4 * i], &high = corners[4 * i + 2];
-    const auto pixel = [](float x) { return static_cast<int>(std::lround(kTextScale * x)); };
-    Fill(image, left + pixel(low.x), top + pixel(low.y), left + pixel(high.x), top + pixel(high.y),
-         FromHex(kTextHex));
+    // The corners are whole numbers.
+    const Eigen::Vector2i from(std::max(0.0f, low.x), std::max(0.0f, low.y));
+    const Eigen::Vector2i to(std::min<float>(width, high.x), std::min<float>(kFontRows, high.y));
+    for (int y = from.y(); y < to.y(); ++y) {
+      for (int x = from.x(); x < to.x(); ++x) ink[y * width + x] = 1;
+    }
+  }
+  return ink;
+}
+
+// The font's boxes, blurred and cut off again where the blur is half: that rounds its corners and
+// joins its diagonals.
+void DrawText(Image* image, int left, int top, const std::string& text) {
+  const int width = TextWidth(text) / kTextScale;
+  const std::vector<unsigned char> ink = Ink(text, width);
+  const auto blurred = [&](float x, float y) {
+    float sum = 0, total = 0;
+    const int column = static_cast<int>(x), row = static_cast<int>(y);
+    for (int j = row - 2; j <= row + 2; ++j) {
+      for (int i = column - 2; i <= column + 2; ++i) {
+        const float dx = i + 0.5f - x, dy = j + 0.5f - y;
+        const float weight = std::exp(-(dx * dx + dy * dy) / (2 * kBlur * kBlur));
+        total += weight;
+        if (i >= 0 && j >= 0 && i < width && j < kFontRows) sum += weight * ink[j * width + i];
+      }
+    }
+    return sum / total;
+  };
+  const Colour colour = FromHex(kTextHex);
+  for (int y = 0; y < kFontRows * kTextScale; ++y) {
+    for (int x = 0; x < width * kTextScale; ++x) {
+      int inside = 0;
+      for (int s = 0; s < kTextSamples * kTextSamples; ++s) {
+        inside += blurred((x + (s % kTextSamples + 0.5f) / kTextSamples) / kTextScale,
+                          (y + (s / kTextSamples + 0.5f) / kTextSamples) / kTextScale) > kCut;
+      }
+      const float share = static_cast<float>(inside) / (kTextSamples * kTextSamples);
+      if (share > 0) {
+        Fill(image, left + x, top + y, left + x + 1, top + y + 1,
+             share * colour + (1 - share) * Background());
+      }
+    }
   }
 }
 
 std::string PerCent(double value) {
   char text[32];
-  std::snprintf(text, sizeof(text), "%.3g %%", 100 * value);
+  std::snprintf(text, sizeof(text), "%.3g%%", 100 * value);
   return text;
 }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <memory>
 
 #include <Eigen/Geometry>
 
@@ -21,9 +19,12 @@ namespace {
 constexpr int kWidestStrip = 6;
 constexpr size_t kLongestLegend = 120;
 
+// More is no picture that anybody opens, and past what the PNG writer counts in.
+constexpr double kMostPixels = 1e8;
+
 // Tubes of graphs, in radii of the largest shape, unless the edges are too short for that.
-constexpr double kTubeRadius = 0.012;
-constexpr double kTubePerEdge = 0.2;
+constexpr double kTubeRadius = 0.01;
+constexpr double kTubePerEdge = 0.15;
 
 // Values are cut off here, in units of the colour scale: far beyond it, and safe as floats.
 constexpr double kLargestValue = 1e6;
@@ -127,14 +128,10 @@ Axes CameraAxes(const Connectivity& connectivity, const std::vector<Shape>& shap
     if (Parallel(up, options.view)) up = Eigen::Vector3d(0, up.z(), up.y());
     return LookFrom(options.view, up);
   }
-  std::vector<std::unique_ptr<Scene>> ends(shapes.size() == 1 ? 1 : 2);
-  ParallelFor(static_cast<int>(ends.size()), [&](int i) {
-    ends[i] =
-        std::make_unique<Scene>(tracer, i == 0 ? shapes.front() : shapes.back(), Eigen::VectorXf());
-  });
+  const std::vector<Shape> ends = {shapes.front(), shapes.back()};
   std::vector<Scene> scenes;
-  for (auto& end : ends) scenes.push_back(std::move(*end));
-  return ChooseView(scenes, up);
+  for (const Shape& end : ends) scenes.emplace_back(tracer, end, Eigen::VectorXf());
+  return ChooseView(ends, scenes, up);
 }
 
 // A frame just large enough for every shape, its longer side as wide as asked.
@@ -181,8 +178,8 @@ Image Blank(int width, int height) {
 }  // namespace
 
 void FilmStripOptions::Validate() const {
-  CheckRange("frame_width", frame_width, 16, 4096);
-  CheckRange("max_frames", max_frames, 2, 10000);
+  CheckRange("frame_width", frame_width, 16, 2048);
+  CheckRange("max_frames", max_frames, 2, 1000);
   CheckRange("samples", samples, 1, 16);
   if (!view.allFinite()) throw InvalidOptions("view: not finite");
   if (!up.allFinite()) throw InvalidOptions("up: not finite");
@@ -225,7 +222,15 @@ Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>
   const int rows = (frames * camera.width + widest - 1) / widest;
   const int columns = (frames + rows - 1) / rows;
   const int strip_height = ((frames + columns - 1) / columns) * camera.height;
-  Image image = Blank(std::max(columns * camera.width, legend.width), strip_height + legend.height);
+  const int width = std::max(columns * camera.width, legend.width);
+  const int height = strip_height + legend.height;
+  if (static_cast<double>(width) * height > kMostPixels) {
+    throw InvalidOptions("frame_width: " + std::to_string(frames) + " frames of " +
+                         std::to_string(options.frame_width) +
+                         " pixels make a picture of more than 100 million pixels; lower it or "
+                         "max_frames");
+  }
+  Image image = Blank(width, height);
   ParallelFor(frames, [&](int i) {
     const Scene scene(
         tracer, drawn[i],

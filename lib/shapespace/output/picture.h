@@ -13,10 +13,10 @@ namespace shapespace {
 
 /// A film strip: shapes side by side from one camera, drawn with Embree.
 struct FilmStripOptions {
-  /// Longer side of the largest shape's cell, in pixels, 16 .. 4096. Cells are as narrow or as low
+  /// Longer side of the largest shape's cell, in pixels, 16 .. 2048. Cells are as narrow or as low
   /// as the shapes allow, and wrap into rows when a strip would be wider than six times this.
   int frame_width = 320;
-  int max_frames = 9;  ///< at least 2; longer paths are subsampled evenly, both ends kept
+  int max_frames = 9;  ///< 2 .. 1000; longer paths are subsampled evenly, both ends kept
   int samples = 3;     ///< per pixel and axis, 1 .. 16
 
   /// Where the eye is, seen from the body: (0, 0, 1) looks at it from +z. Zero: a three-quarter
@@ -45,8 +45,8 @@ struct Image {
 /// The same view, scale and light for every shape; each is centred in its frame by its bounding
 /// box, so that frames keep the shapes' motion only in orientation and form.
 /// The picture does not depend on the number of threads.
-/// \throw InvalidOptions; MeshError if there is no shape, or one has another number of vertices or
-///        is not finite.
+/// \throw InvalidOptions, also if the picture would have more than 100 million pixels; MeshError if
+///        there is no shape, or one has another number of vertices or is not finite.
 Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
                       const FilmStripOptions& options = {});
 

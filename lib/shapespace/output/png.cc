@@ -3,6 +3,7 @@
 #define STBI_WRITE_NO_STDIO
 #include <stb_image_write.h>
 
+#include <limits>
 #include <ostream>
 
 #include <shapespace/base/atomic_file.h>
@@ -12,6 +13,10 @@
 namespace shapespace {
 
 void WritePng(const std::string& file, const Image& image) {
+  // The encoder counts bytes in an int.
+  if (image.pixels.size() >= static_cast<size_t>(std::numeric_limits<int>::max())) {
+    throw InvalidOptions("image: too large for a PNG");
+  }
   if (image.width <= 0 || image.height <= 0 ||
       image.pixels.size() != 3 * static_cast<size_t>(image.width) * image.height) {
     throw InvalidOptions("image: " + std::to_string(image.pixels.size()) + " bytes are not " +

@@ -68,6 +68,8 @@ void SetRay(RTCRay* ray, const Eigen::Vector3f& origin, const Eigen::Vector3f& d
 
 }  // namespace
 
+// The device keeps Embree's own number of threads, which it uses to build scenes only: asking for
+// one would limit every user of TBB in the process to one.
 RayTracer::RayTracer(const Connectivity& connectivity, float tube_radius)
     : connectivity_(connectivity),
       tube_radius_(tube_radius),

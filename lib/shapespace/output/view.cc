@@ -1,5 +1,6 @@
 #include <shapespace/output/view.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -29,8 +30,8 @@ std::vector<Candidate> Candidates() {
   // From the left and the front, what faces the front also faces right, the way a strip is read.
   constexpr struct {
     double degrees, weight;
-  } kAzimuths[] = {{-30, 1},    {-60, 1},    {30, 0.96},  {60, 0.96},
-                   {-120, 0.8}, {-150, 0.8}, {120, 0.77}, {150, 0.77}};
+  } kAzimuths[] = {{-30, 1},    {-60, 1},    {30, 0.88}, {60, 0.88},
+                   {-120, 0.8}, {-150, 0.8}, {120, 0.7}, {150, 0.7}};
   std::vector<Candidate> candidates;
   for (const auto& elevation : kElevations) {
     for (const auto& azimuth : kAzimuths) {
@@ -79,11 +80,19 @@ double VisibleArea(const Scene& scene, const Axes& axes) {
   return area;
 }
 
+// Area of the ellipse, up to a constant, that the vertices fill in the picture.
+double Spread(const Eigen::Matrix3d& covariance, const Axes& axes) {
+  const Eigen::Matrix2d flat = axes.leftCols<2>().transpose() * covariance * axes.leftCols<2>();
+  // A straight line fills none; it is still to be judged by what is visible.
+  constexpr double kLine = 1e-6;
+  return kLine + std::sqrt(std::max(0.0, flat.determinant()));
+}
+
 // The horizontal direction that faces the viewer of a front view: +z where y is up (as in glTF),
 // -y where z is.
 Eigen::Vector3d Front(const Eigen::Vector3d& up) {
-  const Eigen::Vector3d front =
-      std::abs(up.z()) > std::abs(up.y()) ? -Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
+  const bool z_up = std::abs(up.z()) > std::abs(up.y());
+  const Eigen::Vector3d front(0, z_up ? -1 : 0, z_up ? 0 : 1);
   return (front - front.dot(up) * up).normalized();
 }
 
@@ -105,12 +114,18 @@ Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up) {
   return axes;
 }
 
-Axes ChooseView(const std::vector<Scene>& scenes, const Eigen::Vector3d& up) {
+Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<Scene>& scenes,
+                const Eigen::Vector3d& up) {
   const Eigen::Vector3d pole = up.stableNormalized();
   const Axes front = LookFrom(Front(pole), pole);
   const std::vector<Candidate> candidates = Candidates();
   std::vector<Axes> views(candidates.size());
   std::vector<double> scores(candidates.size(), 0);
+  std::vector<Eigen::Matrix3d> covariances;
+  for (const Shape& shape : shapes) {
+    const Shape centred = shape.colwise() - shape.rowwise().mean();
+    covariances.push_back(centred * centred.transpose() / shape.cols());
+  }
   ParallelFor(static_cast<int>(candidates.size()), [&](int i) {
     const double azimuth = candidates[i].azimuth * EIGEN_PI / 180;
     const double elevation = candidates[i].elevation * EIGEN_PI / 180;
@@ -118,8 +133,9 @@ Axes ChooseView(const std::vector<Scene>& scenes, const Eigen::Vector3d& up) {
         front * Eigen::Vector3d(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
                                 std::cos(elevation) * std::cos(azimuth)),
         pole);
-    for (const Scene& scene : scenes) {
-      scores[i] += candidates[i].weight * VisibleArea(scene, views[i]);
+    for (size_t k = 0; k < scenes.size(); ++k) {
+      scores[i] += candidates[i].weight * VisibleArea(scenes[k], views[i]) *
+                   Spread(covariances[k], views[i]);
     }
   });
   size_t best = 0;

@@ -20,10 +20,12 @@ Eigen::Vector3d ChooseUp(const Connectivity& connectivity, const std::vector<Sha
 /// Looks from `eye` (any length). `up` must not be parallel to it.
 Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up);
 
-/// A three-quarter view: of a few directions around and above the shapes, the one that shows most
-/// of them and preferably their front sides, so that plates are not seen from the edge. Among
-/// equals it looks from the front and the left.
-Axes ChooseView(const std::vector<Scene>& scenes, const Eigen::Vector3d& up);
+/// A three-quarter view: of a few directions around and above the shapes, the one in which they
+/// show most surface, preferably its front side, and spread out widest, so that plates are not seen
+/// from the edge and a finger not in the plane in which it bends. Among equals it looks from the
+/// front and the left. `scenes[i]` holds `shapes[i]`.
+Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<Scene>& scenes,
+                const Eigen::Vector3d& up);
 
 }  // namespace shapespace
 

@@ -144,6 +144,30 @@ void PathEnergy::Load(const std::vector<Shape>& shapes, double* unknowns) {
       }
     }
   });
+  for (Term& term : terms_) {
+    if (const auto* dihedral = std::get_if<Dihedral>(&metric_.features[term.feature])) {
+      EvaluateEnds(*dihedral, &term);
+    }
+  }
+}
+
+void PathEnergy::EvaluateEnds(const Dihedral& feature, Term* term) const {
+  for (std::vector<Group>& groups : term->groups) {
+    ParallelFor(static_cast<int>(groups.size()), [&](int g) {
+      Group& group = groups[g];
+      group.ends.resize(4 * group.weights.size());
+      double x[12];
+      for (size_t e = 0; e < group.weights.size(); ++e) {
+        for (const bool last : {false, true}) {
+          const std::vector<double>& end = last ? last_ : first_;
+          for (int k = 0; k < 4; ++k) {
+            std::copy_n(&end[3 * static_cast<size_t>(group.stencils[4 * e + k])], 3, x + 3 * k);
+          }
+          feature(x, &group.ends[4 * e + 2 * last]);
+        }
+      }
+    });
+  }
 }
 
 void PathEnergy::Store(const double* unknowns, std::vector<Shape>* shapes) const {
@@ -231,8 +255,9 @@ double PathEnergy::EvaluateGroup(const Feature& feature, const Group& group, con
   } else if constexpr (std::is_same_v<Feature, Position>) {
     return internal::PositionKernel(rows, stencils, weights, count, scratch);
   } else if constexpr (std::is_same_v<Feature, Dihedral>) {
-    return internal::DihedralKernel(rows, stencils, weights, count, feature.normal_epsilon_squared,
-                                    feature.edge_epsilon_squared, scratch);
+    return internal::DihedralKernel(rows, stencils, weights, group.ends.data(), count,
+                                    feature.normal_epsilon_squared, feature.edge_epsilon_squared,
+                                    scratch);
   } else {
     // Any other feature: its functor on jets, one shape after the other.
     constexpr int kSize = 3 * Feature::kVertices, kValues = Feature::kValues;

@@ -15,7 +15,8 @@ namespace shapespace {
 /// (6) (docs/mathematics.md); the trapezoid and rigid metrics add their own forms. The end shapes
 /// are fixed. Unknowns are one array of `Size()` doubles: row 3 r + axis, `Stride()` numbers, holds
 /// one coordinate of one vertex in all inner shapes, time innermost; r = Row(vertex) is an order of
-/// the vertices that keeps neighbours close. Numbers past `Inner()` in a row are padding.
+/// the vertices that keeps neighbours close. Numbers past `Inner()` in a row are padding: finite
+/// in the unknowns (`Load` sets zeros), without meaning in a gradient.
 ///
 /// One object serves one solve at a time; `Evaluate` itself uses all threads, and its result is
 /// bitwise the same for any number of them.
@@ -41,7 +42,7 @@ class PathEnergy {
   /// Copies the unknowns into the inner ones of `shapes`.
   void Store(const double* unknowns, std::vector<Shape>* shapes) const;
 
-  /// Returns the energy and, unless null, fills `gradient` (Size() doubles, zero in the padding).
+  /// Returns the energy and, unless null, fills `gradient` (Size() doubles).
   double Evaluate(const double* unknowns, double* gradient);
 
   /// The part of the energy that each feature has, in the metric's order, then the rigid part if
@@ -58,6 +59,7 @@ class PathEnergy {
   struct Group {
     std::vector<int> stencils;
     std::vector<double> weights;
+    std::vector<double> ends;  // the dihedral's values at the first and the last shape
   };
   struct Term {
     size_t feature;  // index into metric.features
@@ -66,6 +68,7 @@ class PathEnergy {
 
   template <typename Feature>
   void Build(const Feature& feature, size_t index);
+  void EvaluateEnds(const Dihedral& feature, Term* term) const;
   double EvaluateTerm(const Term& term, const double* unknowns, double* gradient);
   template <typename Feature>
   double EvaluateGroup(const Feature& feature, const Group& group, const double* unknowns,

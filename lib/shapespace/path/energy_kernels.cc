@@ -1,12 +1,14 @@
 #include <shapespace/path/energy_kernels.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace shapespace::internal {
 namespace {
 
 // Scratch rows hold a quantity at all times: index 0 is the first shape, 1 .. inner the inner ones,
-// inner + 1 the last, repeated through the padding so that differences vanish there.
+// inner + 1 the last. What stands further on, up to stride + 1, is finite and means nothing.
 struct Scratch {
   double* memory;
   int width;
@@ -17,7 +19,8 @@ Scratch MakeScratch(double* memory, int stride) { return {memory, stride + 16}; 
 
 }  // namespace
 
-// The bodies below are plain loops over time that the compiler vectorises.
+// The bodies below are plain loops over time that the compiler vectorises: no two rows overlap, and
+// energies are summed by time first, so that no sum has to be reordered.
 
 SHAPESPACE_CLONES
 double EdgeLengthKernel(const PathRows& rows, const int* stencils, const double* weights, int count,
@@ -25,10 +28,12 @@ double EdgeLengthKernel(const PathRows& rows, const int* stencils, const double*
   const int n = rows.inner, stride = rows.stride;
   const Scratch scratch = MakeScratch(memory, stride);
   double* const e[3] = {scratch.Row(0) + 7, scratch.Row(1) + 7, scratch.Row(2) + 7};
+  const double *const ex = e[0], *const ey = e[1], *const ez = e[2];
   double* const value = scratch.Row(3) + 7;
   double* const flow = scratch.Row(4) + 7;    // 4 w times the change of value on the segment before
   double* const spread = scratch.Row(5) + 7;  // likewise of the quartic part
-  double energy = 0;
+  double* const sums = scratch.Row(6) + 7;
+  std::fill(sums, sums + n + 2, 0.0);
   for (int element = 0; element < count; ++element) {
     const size_t p = 3 * static_cast<size_t>(stencils[2 * element]);
     const size_t q = 3 * static_cast<size_t>(stencils[2 * element + 1]);
@@ -37,49 +42,46 @@ double EdgeLengthKernel(const PathRows& rows, const int* stencils, const double*
       const double* const from = rows.shapes + (p + axis) * stride - 1;
       const double* const to = rows.shapes + (q + axis) * stride - 1;
       double* const d = e[axis];
-      d[0] = rows.first[q + axis] - rows.first[p + axis];
-      const double last = rows.last[q + axis] - rows.last[p + axis];
+#pragma GCC ivdep
       for (int t = 1; t <= stride; ++t) d[t] = to[t] - from[t];
-      for (int t = n + 1; t <= stride + 1; ++t) d[t] = last;
+      d[0] = rows.first[q + axis] - rows.first[p + axis];
+      d[n + 1] = rows.last[q + axis] - rows.last[p + axis];
     }
-    const double* const ex = e[0];
-    const double* const ey = e[1];
-    const double* const ez = e[2];
-    for (int t = 0; t <= stride + 1; ++t) {
+#pragma GCC ivdep
+    for (int t = 1; t <= stride; ++t) {
       value[t] = 0.5 * (ex[t] * ex[t] + ey[t] * ey[t] + ez[t] * ez[t]);
     }
-    double sum = 0;
+    for (int t : {0, n + 1}) value[t] = 0.5 * (ex[t] * ex[t] + ey[t] * ey[t] + ez[t] * ez[t]);
+#pragma GCC ivdep
     for (int t = 1; t <= n + 1; ++t) {
       const double change = value[t] - value[t - 1];
       flow[t] = 4 * w * change;
-      sum += change * change;
+      sums[t] += 2 * w * change * change;
     }
-    energy += 2 * w * sum;
-    for (int t = n + 1; t <= stride; ++t) flow[t + 1] = flow[t];
     if (quartic > 0) {
-      double sum4 = 0;
+#pragma GCC ivdep
       for (int t = 1; t <= n + 1; ++t) {
         const double dx = ex[t] - ex[t - 1], dy = ey[t] - ey[t - 1], dz = ez[t] - ez[t - 1];
         const double squared = dx * dx + dy * dy + dz * dz;
         spread[t] = 2 * quartic * w * squared;
-        sum4 += squared * squared;
+        sums[t] += 0.5 * quartic * w * squared * squared;
       }
-      energy += 0.5 * quartic * w * sum4;
-      for (int t = n + 1; t <= stride; ++t) spread[t + 1] = spread[t];
     }
     for (int axis = 0; axis < 3; ++axis) {
       double* const gp = rows.gradient + (p + axis) * stride - 1;
       double* const gq = rows.gradient + (q + axis) * stride - 1;
       const double* const d = e[axis];
       if (quartic > 0) {
-        for (int t = 1; t <= n; ++t) {
+#pragma GCC ivdep
+        for (int t = 1; t <= stride; ++t) {
           const double g = (flow[t] - flow[t + 1]) * d[t] + spread[t] * (d[t] - d[t - 1]) +
                            spread[t + 1] * (d[t] - d[t + 1]);
           gp[t] -= g;
           gq[t] += g;
         }
       } else {
-        for (int t = 1; t <= n; ++t) {
+#pragma GCC ivdep
+        for (int t = 1; t <= stride; ++t) {
           const double g = (flow[t] - flow[t + 1]) * d[t];
           gp[t] -= g;
           gq[t] += g;
@@ -87,7 +89,7 @@ double EdgeLengthKernel(const PathRows& rows, const int* stencils, const double*
       }
     }
   }
-  return energy;
+  return std::accumulate(sums + 1, sums + n + 2, 0.0);
 }
 
 SHAPESPACE_CLONES
@@ -96,7 +98,8 @@ double PositionKernel(const PathRows& rows, const int* stencils, const double* w
   const int n = rows.inner, stride = rows.stride;
   const Scratch scratch = MakeScratch(memory, stride);
   double* const p = scratch.Row(0) + 7;
-  double energy = 0;
+  double* const sums = scratch.Row(1) + 7;
+  std::fill(sums, sums + n + 2, 0.0);
   for (int element = 0; element < count; ++element) {
     const double w = weights[element];
     for (int axis = 0; axis < 3; ++axis) {
@@ -104,36 +107,44 @@ double PositionKernel(const PathRows& rows, const int* stencils, const double* w
       const double* const shapes = rows.shapes + row * stride - 1;
       double* const g = rows.gradient + row * stride - 1;
       p[0] = rows.first[row];
-      for (int t = 1; t <= n; ++t) p[t] = shapes[t];
+#pragma GCC ivdep
+      for (int t = 1; t <= stride; ++t) p[t] = shapes[t];
       p[n + 1] = rows.last[row];
-      double sum = 0;
-      for (int t = 1; t <= n + 1; ++t) sum += (p[t] - p[t - 1]) * (p[t] - p[t - 1]);
-      energy += 2 * w * sum;
-      for (int t = 1; t <= n; ++t) g[t] += 4 * w * (2 * p[t] - p[t - 1] - p[t + 1]);
+#pragma GCC ivdep
+      for (int t = 1; t <= n + 1; ++t) sums[t] += 2 * w * (p[t] - p[t - 1]) * (p[t] - p[t - 1]);
+#pragma GCC ivdep
+      for (int t = 1; t <= stride; ++t) g[t] += 4 * w * (2 * p[t] - p[t - 1] - p[t + 1]);
     }
   }
-  return energy;
+  return std::accumulate(sums + 1, sums + n + 2, 0.0);
 }
 
+// With normals n1 = e x u, n2 = v x e of the two triangles (e = b - a, u = c - a, v = d - a) the
+// functor's values are, since n1 x n2 = -(n1 . v) e,
+//   cos = R n1 . n2,  sin = -R H n1 . v,  R = 1 / (|n1| |n2|),  H = |e|^2 / |e|,
+// all lengths regularised: two roots and two divisions a hinge instead of three each.
 SHAPESPACE_CLONES
-double DihedralKernel(const PathRows& rows, const int* stencils, const double* weights, int count,
-                      double normal_epsilon_squared, double edge_epsilon_squared, double* memory) {
+double DihedralKernel(const PathRows& rows, const int* stencils, const double* weights,
+                      const double* ends, int count, double normal_epsilon_squared,
+                      double edge_epsilon_squared, double* memory) {
   const int n = rows.inner, stride = rows.stride;
   const Scratch scratch = MakeScratch(memory, stride);
-  // By vertex a, b, c, d of the hinge: edge e = b - a, sides u = c - a and v = d - a, unit normals
-  // m1 and m2 with 1 / (regularised length), the same of the edge, and the two values.
-  double* row[20];
-  for (int i = 0; i < 20; ++i) row[i] = scratch.Row(i) + 7;
+  double* row[25];
+  for (int i = 0; i < 25; ++i) row[i] = scratch.Row(i) + 7;
   double *const ex = row[0], *const ey = row[1], *const ez = row[2];
   double *const ux = row[3], *const uy = row[4], *const uz = row[5];
   double *const vx = row[6], *const vy = row[7], *const vz = row[8];
-  double *const ax = row[9], *const ay = row[10], *const az = row[11];
-  double *const bx = row[12], *const by = row[13], *const bz = row[14];
-  double *const ra = row[15], *const rb = row[16], *const re = row[17];
-  double *const cosine = row[18], *const sine = row[19];
-  double energy = 0;
+  double *const ax = row[9], *const ay = row[10], *const az = row[11];   // n1
+  double *const bx = row[12], *const by = row[13], *const bz = row[14];  // n2
+  double *const q1 = row[15], *const q2 = row[16];                       // |n1|^2, |n2|^2
+  double *const inverse = row[17], *const height = row[18];              // R, H
+  double *const edge = row[19], *const triple = row[20];                 // 1 / |e|, n1 . v
+  double *const cosine = row[21], *const sine = row[22];
+  double* const sums = row[23];
+  std::fill(sums, sums + n + 2, 0.0);
   for (int element = 0; element < count; ++element) {
     const int* const stencil = stencils + 4 * element;
+    const double* const end = ends + 4 * element;
     const size_t a = 3 * static_cast<size_t>(stencil[0]);
     const double w = weights[element];
     for (int k = 1; k < 4; ++k) {
@@ -142,80 +153,69 @@ double DihedralKernel(const PathRows& rows, const int* stencils, const double* w
         const double* const from = rows.shapes + (a + axis) * stride - 1;
         const double* const to = rows.shapes + (b + axis) * stride - 1;
         double* const d = row[3 * (k - 1) + axis];
-        d[0] = rows.first[b + axis] - rows.first[a + axis];
-        for (int t = 1; t <= n; ++t) d[t] = to[t] - from[t];
-        d[n + 1] = rows.last[b + axis] - rows.last[a + axis];
+#pragma GCC ivdep
+        for (int t = 1; t <= stride; ++t) d[t] = to[t] - from[t];
       }
     }
-    for (int t = 0; t <= n + 1; ++t) {
+#pragma GCC ivdep
+    for (int t = 1; t <= stride; ++t) {
       const double nx = ey[t] * uz[t] - ez[t] * uy[t];
       const double ny = ez[t] * ux[t] - ex[t] * uz[t];
       const double nz = ex[t] * uy[t] - ey[t] * ux[t];
-      const double kx = vy[t] * ez[t] - vz[t] * ey[t];
-      const double ky = vz[t] * ex[t] - vx[t] * ez[t];
-      const double kz = vx[t] * ey[t] - vy[t] * ex[t];
-      const double r1 = 1 / std::sqrt(nx * nx + ny * ny + nz * nz + normal_epsilon_squared);
-      const double r2 = 1 / std::sqrt(kx * kx + ky * ky + kz * kz + normal_epsilon_squared);
-      const double r0 =
-          1 / std::sqrt(ex[t] * ex[t] + ey[t] * ey[t] + ez[t] * ez[t] + edge_epsilon_squared);
-      ax[t] = nx * r1, ay[t] = ny * r1, az[t] = nz * r1;
-      bx[t] = kx * r2, by[t] = ky * r2, bz[t] = kz * r2;
-      ra[t] = r1, rb[t] = r2, re[t] = r0;
-      cosine[t] = ax[t] * bx[t] + ay[t] * by[t] + az[t] * bz[t];
-      const double cx = ay[t] * bz[t] - az[t] * by[t];
-      const double cy = az[t] * bx[t] - ax[t] * bz[t];
-      const double cz = ax[t] * by[t] - ay[t] * bx[t];
-      sine[t] = r0 * (cx * ex[t] + cy * ey[t] + cz * ez[t]);
+      const double mx = vy[t] * ez[t] - vz[t] * ey[t];
+      const double my = vz[t] * ex[t] - vx[t] * ez[t];
+      const double mz = vx[t] * ey[t] - vy[t] * ex[t];
+      const double length = ex[t] * ex[t] + ey[t] * ey[t] + ez[t] * ez[t];
+      const double n1 = nx * nx + ny * ny + nz * nz + normal_epsilon_squared;
+      const double n2 = mx * mx + my * my + mz * mz + normal_epsilon_squared;
+      const double r = 1 / std::sqrt(n1 * n2);
+      const double l = 1 / std::sqrt(length + edge_epsilon_squared);
+      const double volume = nx * vx[t] + ny * vy[t] + nz * vz[t];
+      ax[t] = nx, ay[t] = ny, az[t] = nz;
+      bx[t] = mx, by[t] = my, bz[t] = mz;
+      q1[t] = n1, q2[t] = n2;
+      inverse[t] = r, edge[t] = l, height[t] = length * l, triple[t] = volume;
+      cosine[t] = r * (nx * mx + ny * my + nz * mz);
+      sine[t] = -r * length * l * volume;
     }
-    double sum = 0;
+    cosine[0] = end[0], sine[0] = end[1];
+    cosine[n + 1] = end[2], sine[n + 1] = end[3];
+#pragma GCC ivdep
     for (int t = 1; t <= n + 1; ++t) {
       const double dc = cosine[t] - cosine[t - 1], ds = sine[t] - sine[t - 1];
-      sum += dc * dc + ds * ds;
+      sums[t] += 2 * w * (dc * dc + ds * ds);
     }
-    energy += 2 * w * sum;
 
     double* const ga = rows.gradient + a * stride - 1;
     double* const gb = rows.gradient + 3 * static_cast<size_t>(stencil[1]) * stride - 1;
     double* const gc = rows.gradient + 3 * static_cast<size_t>(stencil[2]) * stride - 1;
     double* const gd = rows.gradient + 3 * static_cast<size_t>(stencil[3]) * stride - 1;
 #pragma GCC ivdep
-    for (int t = 1; t <= n; ++t) {
+    for (int t = 1; t <= stride; ++t) {
       const double fc = 4 * w * (2 * cosine[t] - cosine[t - 1] - cosine[t + 1]);
       const double fs = 4 * w * (2 * sine[t] - sine[t - 1] - sine[t + 1]);
-      // Back through the values to the unit vectors, i = e / |e| ...
-      const double ix = ex[t] * re[t], iy = ey[t] * re[t], iz = ez[t] * re[t];
-      double px = fc * bx[t] + fs * (by[t] * iz - bz[t] * iy);
-      double py = fc * by[t] + fs * (bz[t] * ix - bx[t] * iz);
-      double pz = fc * bz[t] + fs * (bx[t] * iy - by[t] * ix);
-      double qx = fc * ax[t] + fs * (iy * az[t] - iz * ay[t]);
-      double qy = fc * ay[t] + fs * (iz * ax[t] - ix * az[t]);
-      double qz = fc * az[t] + fs * (ix * ay[t] - iy * ax[t]);
-      double sx = fs * (ay[t] * bz[t] - az[t] * by[t]);
-      double sy = fs * (az[t] * bx[t] - ax[t] * bz[t]);
-      double sz = fs * (ax[t] * by[t] - ay[t] * bx[t]);
-      // ... through the normalisations to the two normals and the edge ...
-      const double along1 = ax[t] * px + ay[t] * py + az[t] * pz;
-      px = ra[t] * (px - along1 * ax[t]);
-      py = ra[t] * (py - along1 * ay[t]);
-      pz = ra[t] * (pz - along1 * az[t]);
-      const double along2 = bx[t] * qx + by[t] * qy + bz[t] * qz;
-      qx = rb[t] * (qx - along2 * bx[t]);
-      qy = rb[t] * (qy - along2 * by[t]);
-      qz = rb[t] * (qz - along2 * bz[t]);
-      const double along0 = ix * sx + iy * sy + iz * sz;
-      sx = re[t] * (sx - along0 * ix);
-      sy = re[t] * (sy - along0 * iy);
-      sz = re[t] * (sz - along0 * iz);
-      // ... and through the cross products e x u and v x e to the sides.
+      const double r = inverse[t];
+      const double along = (fc * cosine[t] + fs * sine[t]) * r * r;
+      const double along1 = along * q2[t], along2 = along * q1[t];
+      const double c = fc * r, s = fs * r * height[t];
+      // Derivatives with respect to n1 and n2 ...
+      const double px = c * bx[t] - s * vx[t] - along1 * ax[t];
+      const double py = c * by[t] - s * vy[t] - along1 * ay[t];
+      const double pz = c * bz[t] - s * vz[t] - along1 * az[t];
+      const double qx = c * ax[t] - along2 * bx[t];
+      const double qy = c * ay[t] - along2 * by[t];
+      const double qz = c * az[t] - along2 * bz[t];
+      // ... and through the cross products with respect to u, v and e.
       const double gux = py * ez[t] - pz * ey[t];
       const double guy = pz * ex[t] - px * ez[t];
       const double guz = px * ey[t] - py * ex[t];
-      const double gvx = ey[t] * qz - ez[t] * qy;
-      const double gvy = ez[t] * qx - ex[t] * qz;
-      const double gvz = ex[t] * qy - ey[t] * qx;
-      const double gex = sx + uy[t] * pz - uz[t] * py + qy * vz[t] - qz * vy[t];
-      const double gey = sy + uz[t] * px - ux[t] * pz + qz * vx[t] - qx * vz[t];
-      const double gez = sz + ux[t] * py - uy[t] * px + qx * vy[t] - qy * vx[t];
+      const double gvx = ey[t] * qz - ez[t] * qy - s * ax[t];
+      const double gvy = ez[t] * qx - ex[t] * qz - s * ay[t];
+      const double gvz = ex[t] * qy - ey[t] * qx - s * az[t];
+      const double h = -fs * triple[t] * r * edge[t] * (2 - height[t] * edge[t]);
+      const double gex = h * ex[t] + uy[t] * pz - uz[t] * py + qy * vz[t] - qz * vy[t];
+      const double gey = h * ey[t] + uz[t] * px - ux[t] * pz + qz * vx[t] - qx * vz[t];
+      const double gez = h * ez[t] + ux[t] * py - uy[t] * px + qx * vy[t] - qy * vx[t];
       ga[t] -= gex + gux + gvx;
       ga[t + stride] -= gey + guy + gvy;
       ga[t + 2 * stride] -= gez + guz + gvz;
@@ -230,7 +230,7 @@ double DihedralKernel(const PathRows& rows, const int* stencils, const double* w
       gd[t + 2 * stride] += gvz;
     }
   }
-  return energy;
+  return std::accumulate(sums + 1, sums + n + 2, 0.0);
 }
 
 }  // namespace shapespace::internal

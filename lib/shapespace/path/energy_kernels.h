@@ -19,7 +19,7 @@ namespace shapespace::internal {
 /// shapes, time innermost, `stride` >= `inner` numbers a row, of which the rest is padding.
 struct PathRows {
   const double* shapes;
-  double* gradient;     ///< same layout, added to; the padding receives zeros
+  double* gradient;     ///< same layout, added to; what the padding receives means nothing
   const double* first;  ///< one number a row: the end shapes, which do not move
   const double* last;
   int inner;
@@ -41,8 +41,10 @@ double EdgeLengthKernel(const PathRows& rows, const int* stencils, const double*
 double PositionKernel(const PathRows& rows, const int* stencils, const double* weights, int count,
                       double* scratch);
 
-double DihedralKernel(const PathRows& rows, const int* stencils, const double* weights, int count,
-                      double normal_epsilon_squared, double edge_epsilon_squared, double* scratch);
+/// `ends` holds the functor's two values at the first and at the last shape, 4 numbers an element.
+double DihedralKernel(const PathRows& rows, const int* stencils, const double* weights,
+                      const double* ends, int count, double normal_epsilon_squared,
+                      double edge_epsilon_squared, double* scratch);
 
 }  // namespace shapespace::internal
 

@@ -1,1 +1,324 @@
-// Placeholder.
+#include <shapespace/path/path_file.h>
+
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <type_traits>
+
+#include <zlib.h>
+#include <nlohmann/json.hpp>
+
+#include <shapespace/base/atomic_file.h>
+#include <shapespace/base/error.h>
+
+namespace shapespace {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr char kMagic[8] = {'S', 'H', 'A', 'P', 'P', 'A', 'T', 'H'};
+constexpr uint32_t kVersion = 1;
+// Magic, version, checksum, length of the header.
+constexpr size_t kPreamble = sizeof kMagic + 2 * sizeof(uint32_t) + sizeof(uint64_t);
+
+uint32_t Checksum(const std::string& bytes, size_t from) {
+  uLong sum = crc32(0, nullptr, 0);
+  while (from < bytes.size()) {
+    const size_t count = std::min<size_t>(bytes.size() - from, 1 << 30);
+    sum = crc32(sum, reinterpret_cast<const Bytef*>(bytes.data() + from), static_cast<uInt>(count));
+    from += count;
+  }
+  return static_cast<uint32_t>(sum);
+}
+
+// The arrays behind the header, in its order.
+class ArrayWriter {
+ public:
+  template <typename Scalar>
+  void Add(const std::string& name, const Scalar* data, size_t rows, size_t columns) {
+    static_assert(std::is_same_v<Scalar, double> || std::is_same_v<Scalar, int>);
+    const char* const type = std::is_same_v<Scalar, double> ? "f8" : "i4";
+    table_.push_back({{"name", name}, {"type", type}, {"rows", rows}, {"columns", columns}});
+    bytes_.append(reinterpret_cast<const char*>(data), rows * columns * sizeof(Scalar));
+  }
+  template <typename Matrix>
+  void Add(const std::string& name, const Matrix& matrix) {
+    Add(name, matrix.data(), matrix.rows(), matrix.cols());
+  }
+  const Json& Table() const { return table_; }
+  const std::string& Bytes() const { return bytes_; }
+
+ private:
+  Json table_ = Json::array();
+  std::string bytes_;
+};
+
+class ArrayReader {
+ public:
+  ArrayReader(const Json& table, const std::string& bytes, size_t begin) : bytes_(bytes) {
+    for (const Json& entry : table) {
+      Array array;
+      array.type = entry.at("type").get<std::string>();
+      array.rows = entry.at("rows").get<size_t>();
+      array.columns = entry.at("columns").get<size_t>();
+      array.begin = begin;
+      const size_t size = array.type == "f8" ? 8 : 4;
+      if (array.columns != 0 && array.rows > (bytes.size() - begin) / size / array.columns) {
+        throw FileError("its arrays are longer than the file");
+      }
+      begin += array.rows * array.columns * size;
+      arrays_[entry.at("name").get<std::string>()] = array;
+    }
+    if (begin != bytes.size()) throw FileError("it is longer than its arrays");
+  }
+
+  // A matrix of `rows` x `columns`; either may be Eigen::Dynamic for any.
+  template <typename Matrix>
+  Matrix Get(const std::string& name, Eigen::Index rows, Eigen::Index columns) const {
+    using Scalar = typename Matrix::Scalar;
+    const auto found = arrays_.find(name);
+    if (found == arrays_.end()) throw FileError("it lacks the array " + name);
+    const Array& array = found->second;
+    const bool fits = array.type == (std::is_same_v<Scalar, double> ? "f8" : "i4") &&
+                      (rows == Eigen::Dynamic || static_cast<size_t>(rows) == array.rows) &&
+                      (columns == Eigen::Dynamic || static_cast<size_t>(columns) == array.columns);
+    if (!fits) throw FileError("its array " + name + " has the wrong type or size");
+    Matrix matrix(array.rows, array.columns);
+    std::memcpy(matrix.data(), bytes_.data() + array.begin,
+                array.rows * array.columns * sizeof(Scalar));
+    if constexpr (std::is_same_v<Scalar, double>) {
+      if (!matrix.allFinite()) throw FileError("its array " + name + " holds a non-finite number");
+    }
+    return matrix;
+  }
+
+ private:
+  struct Array {
+    std::string type;
+    size_t rows, columns, begin;
+  };
+  const std::string& bytes_;
+  std::map<std::string, Array> arrays_;
+};
+
+Json OptionsToJson(const MetricOptions& options) {
+  return {{"isometric", options.isometric},
+          {"log_length", options.log_length},
+          {"rigid", options.rigid},
+          {"lambda", options.lambda},
+          {"bending", options.bending},
+          {"volume", options.volume},
+          {"weights", options.weights == Weights::kUniform ? "uniform" : "area"},
+          {"discretization",
+           options.discretization == Discretization::kTrapezoid ? "trapezoid" : "midpoint"}};
+}
+
+MetricOptions OptionsFromJson(const Json& json) {
+  MetricOptions options;
+  json.at("isometric").get_to(options.isometric);
+  json.at("log_length").get_to(options.log_length);
+  json.at("rigid").get_to(options.rigid);
+  json.at("lambda").get_to(options.lambda);
+  json.at("bending").get_to(options.bending);
+  json.at("volume").get_to(options.volume);
+  options.weights = json.at("weights") == "uniform" ? Weights::kUniform : Weights::kArea;
+  options.discretization = json.at("discretization") == "trapezoid" ? Discretization::kTrapezoid
+                                                                    : Discretization::kMidpoint;
+  options.Validate();
+  return options;
+}
+
+// What a feature holds besides stencils and weights. An overload each; most hold nothing.
+template <typename Feature>
+Json Constants(const Feature&) {
+  return Json::object();
+}
+Json Constants(const LogLength& f) { return {{"epsilon_squared", f.epsilon_squared}}; }
+Json Constants(const Dihedral& f) {
+  return {{"normal_epsilon_squared", f.normal_epsilon_squared},
+          {"edge_epsilon_squared", f.edge_epsilon_squared}};
+}
+Json Constants(const Volume& f) { return {{"reference", f.reference}}; }
+
+template <typename Feature>
+void SetConstants(const Json&, Feature*) {}
+void SetConstants(const Json& json, LogLength* f) {
+  json.at("epsilon_squared").get_to(f->epsilon_squared);
+}
+void SetConstants(const Json& json, Dihedral* f) {
+  json.at("normal_epsilon_squared").get_to(f->normal_epsilon_squared);
+  json.at("edge_epsilon_squared").get_to(f->edge_epsilon_squared);
+}
+void SetConstants(const Json& json, Volume* f) { json.at("reference").get_to(f->reference); }
+
+// Adds the feature called `name` to the metric if it is this one.
+template <typename Feature>
+bool ReadFeature(const std::string& name, const Json& constants, const std::string& prefix,
+                 const ArrayReader& arrays, Metric* metric) {
+  if (name != Feature::kName) return false;
+  Feature feature;
+  feature.stencils = arrays.Get<decltype(feature.stencils)>(prefix + "stencils", Feature::kVertices,
+                                                            Eigen::Dynamic);
+  const bool inside = feature.stencils.size() == 0 ||
+                      (feature.stencils.minCoeff() >= 0 &&
+                       feature.stencils.maxCoeff() < metric->connectivity->NumVertices());
+  if (!inside) throw FileError("a stencil of the feature " + name + " has an index out of range");
+  feature.weights = arrays.Get<Eigen::VectorXd>(prefix + "weights",
+                                                Feature::kSum ? 1 : feature.stencils.cols(), 1);
+  SetConstants(constants, &feature);
+  metric->features.emplace_back(std::move(feature));
+  return true;
+}
+
+Path Parse(const std::string& bytes) {
+  if (bytes.size() < kPreamble || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0) {
+    throw FileError("this is no .path file");
+  }
+  uint32_t version, checksum;
+  uint64_t header_size;
+  std::memcpy(&version, bytes.data() + 8, sizeof version);
+  std::memcpy(&checksum, bytes.data() + 12, sizeof checksum);
+  std::memcpy(&header_size, bytes.data() + 16, sizeof header_size);
+  if (version != kVersion) {
+    throw FileError("version " + std::to_string(version) + " of the format is not known; this is " +
+                    std::to_string(kVersion) + ", use the shapespace that wrote it");
+  }
+  if (Checksum(bytes, 16) != checksum || header_size > bytes.size() - kPreamble) {
+    throw FileError("it is damaged or was cut off (its checksum does not fit); make it again");
+  }
+  const Json header = Json::parse(bytes.substr(kPreamble, header_size));
+  const ArrayReader arrays(header.at("arrays"), bytes, kPreamble + header_size);
+
+  const int num_vertices = header.at("vertices").get<int>();
+  const auto begin = arrays.Get<Eigen::VectorXi>("polygon_begin", Eigen::Dynamic, 1);
+  const auto corners = arrays.Get<Eigen::VectorXi>("corners", Eigen::Dynamic, 1);
+  const auto extra = arrays.Get<Eigen::Matrix2Xi>("extra_edges", 2, Eigen::Dynamic);
+  std::vector<std::pair<int, int>> segments;
+  for (int e = 0; e < extra.cols(); ++e) segments.emplace_back(extra(0, e), extra(1, e));
+  const auto metric = std::make_shared<Metric>();
+  metric->connectivity = Connectivity::Make(num_vertices, {begin.begin(), begin.end()},
+                                            {corners.begin(), corners.end()}, segments);
+  const Connectivity& connectivity = *metric->connectivity;
+  metric->options = OptionsFromJson(header.at("metric"));
+  metric->unit = header.at("unit").get<double>();
+  metric->vertex_area = arrays.Get<Eigen::VectorXd>("vertex_area", num_vertices, 1);
+  metric->edge_area = arrays.Get<Eigen::VectorXd>("edge_area", connectivity.NumEdges(), 1);
+  metric->hinge_area = arrays.Get<Eigen::VectorXd>("hinge_area", connectivity.NumHinges(), 1);
+  int index = 0;
+  for (const Json& entry : header.at("features")) {
+    const std::string name = entry.at("name").get<std::string>();
+    const Json& constants = entry.at("constants");
+    const std::string prefix = "feature" + std::to_string(index++) + "_";
+    if (!ReadFeature<EdgeLength>(name, constants, prefix, arrays, metric.get()) &&
+        !ReadFeature<LogLength>(name, constants, prefix, arrays, metric.get()) &&
+        !ReadFeature<Position>(name, constants, prefix, arrays, metric.get()) &&
+        !ReadFeature<Dihedral>(name, constants, prefix, arrays, metric.get()) &&
+        !ReadFeature<Volume>(name, constants, prefix, arrays, metric.get())) {
+      throw FileError("its metric has an unknown feature, " + name);
+    }
+  }
+  metric->rigid.weights = arrays.Get<Eigen::VectorXd>("rigid_weights", Eigen::Dynamic, 1);
+  if (metric->rigid.Active() && metric->rigid.weights.size() != num_vertices) {
+    throw FileError("its array rigid_weights has the wrong size");
+  }
+
+  Path path;
+  path.metric = metric;
+  const int num_shapes = header.at("shapes").get<int>();
+  if (num_shapes < 1) throw FileError("it holds no shape");
+  const auto parameters = arrays.Get<Eigen::VectorXd>("parameters", num_shapes, 1);
+  path.parameters.assign(parameters.begin(), parameters.end());
+  const auto poses = arrays.Get<Eigen::VectorXi>("poses", Eigen::Dynamic, 1);
+  for (int pose : poses) {
+    if (pose < 0 || pose >= num_shapes) throw FileError("a pose's index is out of range");
+    path.poses.push_back(pose);
+  }
+  const auto rotations = arrays.Get<Eigen::Matrix3Xd>("rotations", 3, 3 * num_shapes);
+  const auto translations = arrays.Get<Eigen::Matrix3Xd>("translations", 3, num_shapes);
+  for (int i = 0; i < num_shapes; ++i) {
+    path.motions.push_back({rotations.middleCols<3>(3 * i), translations.col(i)});
+    path.shapes.push_back(arrays.Get<Shape>("shape" + std::to_string(i), 3, num_vertices));
+  }
+  path.provenance = header.at("provenance").get<std::string>();
+  return path;
+}
+
+}  // namespace
+
+void WritePath(const std::string& file, const Path& path) {
+  const Metric& metric = *path.metric;
+  const Connectivity& connectivity = *metric.connectivity;
+  ArrayWriter arrays;
+  arrays.Add("polygon_begin", connectivity.PolygonBegin().data(),
+             connectivity.PolygonBegin().size(), 1);
+  arrays.Add("corners", connectivity.Corners().data(), connectivity.Corners().size(), 1);
+  arrays.Add("extra_edges", Eigen::Matrix2Xi(connectivity.Edges().rightCols(
+                                connectivity.NumEdges() - connectivity.NumTriangleEdges())));
+  arrays.Add("vertex_area", metric.vertex_area);
+  arrays.Add("edge_area", metric.edge_area);
+  arrays.Add("hinge_area", metric.hinge_area);
+  Json features = Json::array();
+  for (const AnyFeature& any : metric.features) {
+    std::visit(
+        [&](const auto& feature) {
+          const std::string prefix = "feature" + std::to_string(features.size()) + "_";
+          features.push_back({{"name", feature.kName}, {"constants", Constants(feature)}});
+          arrays.Add(prefix + "stencils", feature.stencils);
+          arrays.Add(prefix + "weights", feature.weights);
+        },
+        any);
+  }
+  arrays.Add("rigid_weights", metric.rigid.weights);
+  arrays.Add("parameters", path.parameters.data(), path.parameters.size(), 1);
+  arrays.Add("poses", path.poses.data(), path.poses.size(), 1);
+  Eigen::Matrix3Xd rotations(3, 3 * path.NumShapes()), translations(3, path.NumShapes());
+  for (int i = 0; i < path.NumShapes(); ++i) {
+    rotations.middleCols<3>(3 * i) = path.motions[i].rotation;
+    translations.col(i) = path.motions[i].translation;
+  }
+  arrays.Add("rotations", rotations);
+  arrays.Add("translations", translations);
+  for (int i = 0; i < path.NumShapes(); ++i) {
+    arrays.Add("shape" + std::to_string(i), path.shapes[i]);
+  }
+
+  const Json header = {{"vertices", connectivity.NumVertices()},
+                       {"shapes", path.NumShapes()},
+                       {"unit", metric.unit},
+                       {"metric", OptionsToJson(metric.options)},
+                       {"features", features},
+                       {"provenance", path.provenance},
+                       {"arrays", arrays.Table()}};
+  std::string header_text = header.dump();
+  header_text.resize((header_text.size() + 7) / 8 * 8, ' ');  // arrays begin on whole words
+
+  const uint64_t header_size = header_text.size();
+  std::string checked(reinterpret_cast<const char*>(&header_size), sizeof header_size);
+  checked += header_text;
+  checked += arrays.Bytes();
+  const uint32_t checksum = Checksum(checked, 0);
+  WriteFileAtomically(file, [&](std::ostream& out) {
+    out.write(kMagic, sizeof kMagic);
+    out.write(reinterpret_cast<const char*>(&kVersion), sizeof kVersion);
+    out.write(reinterpret_cast<const char*>(&checksum), sizeof checksum);
+    out.write(checked.data(), static_cast<std::streamsize>(checked.size()));
+  });
+}
+
+Path ReadPath(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  if (!stream) throw FileError(file + ": cannot be opened");
+  std::string bytes(static_cast<size_t>(std::max<std::streamoff>(0, stream.tellg())), '\0');
+  stream.seekg(0);
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!stream) throw FileError(file + ": cannot be read to its end");
+  try {
+    return Parse(bytes);
+  } catch (const std::exception& error) {
+    throw FileError(file + ": " + error.what());
+  }
+}
+
+}  // namespace shapespace

@@ -1,0 +1,18 @@
+#ifndef SHAPESPACE_MESH_CHECK_POSITIONS_H_
+#define SHAPESPACE_MESH_CHECK_POSITIONS_H_
+
+#include <vector>
+
+#include <shapespace/mesh/check.h>
+
+// Private.
+
+namespace shapespace::internal {
+
+/// The findings of `CheckSoup` that depend on where the vertices are: coordinates that are not
+/// finite, edges of no length, polygons of no area. The soup's indices must be in range.
+std::vector<Finding> CheckPositions(const Soup& soup);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_MESH_CHECK_POSITIONS_H_

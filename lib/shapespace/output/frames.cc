@@ -1,0 +1,45 @@
+#include <shapespace/output/frames.h>
+
+#include <regex>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/mesh/write.h>
+
+namespace shapespace {
+
+std::string FrameName(const std::string& pattern, int number) {
+  static const std::regex place("^([^%]*)%(0?)([1-9]?)d([^%]*)$");
+  std::smatch match;
+  if (!std::regex_match(pattern, match, place)) {
+    throw FileError(pattern + ": a name for frames needs one number, as in frames/%03d.obj");
+  }
+  std::string digits = std::to_string(number);
+  const size_t width = match[3].length() > 0 ? std::stoul(match[3]) : 0;
+  if (digits.size() < width) {
+    digits.insert(0, width - digits.size(), match[2].length() > 0 ? '0' : ' ');
+  }
+  return match[1].str() + digits + match[4].str();
+}
+
+void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes,
+                 const Soup& appearance) {
+  FrameName(pattern, 0);  // says what is wrong before anything is written
+  ParallelFor(static_cast<int>(shapes.size()),
+              [&](int i) { WriteMesh(FrameName(pattern, i), shapes[i], appearance); });
+}
+
+Soup PlainAppearance(const Connectivity& connectivity) {
+  Soup soup;
+  soup.vertices.resize(3, connectivity.NumVertices());
+  soup.polygon_begin = connectivity.PolygonBegin();
+  soup.corners = connectivity.Corners();
+  if (connectivity.IsGraph()) {
+    for (int e = 0; e < connectivity.NumEdges(); ++e) {
+      soup.segments.emplace_back(connectivity.Edges()(0, e), connectivity.Edges()(1, e));
+    }
+  }
+  return soup;
+}
+
+}  // namespace shapespace

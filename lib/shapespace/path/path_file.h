@@ -1,0 +1,22 @@
+#ifndef SHAPESPACE_PATH_PATH_FILE_H_
+#define SHAPESPACE_PATH_PATH_FILE_H_
+
+#include <string>
+
+#include <shapespace/path/path.h>
+
+namespace shapespace {
+
+/// Writes everything a path is (connectivity, metric with its frozen weights, aligned shapes, rigid
+/// motions, unit, provenance) to a `.path` file: docs/file-formats.md. Doubles keep all their bits.
+/// The file appears whole or not at all. \throw FileError.
+void WritePath(const std::string& file, const Path& path);
+
+/// Reads it back.
+/// \throw FileError naming the file: not a path, written by a later version, truncated or damaged
+///        (its checksum does not fit), or inconsistent.
+Path ReadPath(const std::string& file);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_PATH_PATH_FILE_H_

@@ -1,0 +1,151 @@
+// What is in mesh and path files, and whether meshes correspond.
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include <gflags/gflags.h>
+#include <Eigen/Geometry>
+
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/check.h>
+#include <shapespace/metric/metric.h>
+#include <shapespace/path/energy.h>
+#include <shapespace/path/path_file.h>
+#include <shapespace/path/quality.h>
+
+#include "support/metric_flags.h"
+#include "support/poses.h"
+#include "support/tool.h"
+
+namespace shapespace::tools {
+namespace {
+
+const char* Name(Severity severity) {
+  switch (severity) {
+    case Severity::kNote:
+      return "note";
+    case Severity::kWarning:
+      return "warning";
+    case Severity::kNonManifold:
+      return "non-manifold";
+    case Severity::kFatal:
+      break;
+  }
+  return "fatal";
+}
+
+// True if nothing worse than a warning was found.
+bool Print(const std::vector<Finding>& findings) {
+  bool good = true;
+  for (const Finding& finding : findings) {
+    std::printf("  %-12s %-24s %s\n", Name(finding.severity), finding.kind.c_str(),
+                finding.message.c_str());
+    good = good && finding.severity <= Severity::kWarning;
+  }
+  return good;
+}
+
+void PrintSize(const Soup& soup) {
+  std::printf("%s\n  %d vertices, %d polygons, %zu segments", soup.file.c_str(), soup.NumVertices(),
+              soup.NumPolygons(), soup.segments.size());
+  if (soup.NumVertices() > 0) {
+    const Eigen::Vector3d size =
+        soup.vertices.rowwise().maxCoeff() - soup.vertices.rowwise().minCoeff();
+    std::printf(", extent %.6g x %.6g x %.6g", size.x(), size.y(), size.z());
+  }
+  std::printf("\n");
+}
+
+// How far a pose is from the first, rigid motion apart.
+void PrintDistance(const Poses& poses, int i) {
+  const std::vector<Shape> pair = {poses.shapes[0], poses.shapes[i]};
+  const Metric metric = FreezeMetric(MetricFromFlags(), poses.connectivity, pair);
+  const Shape first = (pair[0].colwise() - Centroid(pair[0], metric.vertex_area)) / metric.unit;
+  Shape other = (pair[1].colwise() - Centroid(pair[1], metric.vertex_area)) / metric.unit;
+  const RigidMotion turn = FitRigidMotion(other, first, metric.vertex_area);
+  other = turn.rotation * other;
+  const Eigen::RowVectorXd squared = (other - first).colwise().squaredNorm();
+  std::vector<double> stretch;
+  for (int e = 0; e < poses.connectivity->NumEdges(); ++e) {
+    const Eigen::Vector2i v = poses.connectivity->Edges().col(e);
+    const double length = (first.col(v(1)) - first.col(v(0))).norm();
+    if (length > 0) {
+      stretch.push_back(std::abs((other.col(v(1)) - other.col(v(0))).norm() / length - 1));
+    }
+  }
+  if (stretch.empty()) return;
+  std::sort(stretch.begin(), stretch.end());
+  std::printf("%s against %s\n", poses.names[i].c_str(), poses.names[0].c_str());
+  std::printf("  turned by            %.4g degrees\n",
+              Eigen::AngleAxisd(turn.rotation).angle() * 180 / M_PI);
+  std::printf("  vertices apart       rms %.4g, max %.4g (user's units, once aligned)\n",
+              metric.unit * std::sqrt(squared.dot(metric.vertex_area) / metric.vertex_area.sum()),
+              metric.unit * std::sqrt(squared.maxCoeff()));
+  std::printf("  edges stretched by   median %.3g%%, 99th percentile %.3g%%, max %.3g%%\n",
+              100 * stretch[stretch.size() / 2], 100 * stretch[(stretch.size() - 1) * 99 / 100],
+              100 * stretch.back());
+  const double bound = ScaledEnergy(EnergyLowerBound(metric, first, other, 1000), 1000);
+  if (std::isfinite(bound)) {
+    std::printf("  distance             at least %.6g (%s)\n", std::sqrt(bound),
+                Describe(metric.options).c_str());
+  }
+}
+
+void PrintPath(const std::string& file) {
+  const Path path = ReadPath(file);
+  const Connectivity& connectivity = *path.metric->connectivity;
+  const PathQuality quality = MeasureQuality(path);
+  std::printf("%s\n  %d shapes, %zu of them given; %d vertices, %d triangles\n", file.c_str(),
+              path.NumShapes(), path.poses.size(), connectivity.NumVertices(),
+              connectivity.NumTriangles());
+  std::printf("  made by      %s\n", path.provenance.c_str());
+  std::printf("  metric       %s; unit of length %.6g\n", Describe(path.metric->options).c_str(),
+              path.metric->unit);
+  std::printf(
+      "  edges        rms %.4g%%, 99th percentile %.4g%%, max %.4g%% off the lengths to be "
+      "expected\n",
+      100 * quality.edge_rms, 100 * quality.edge_p99, 100 * quality.edge_max);
+  std::printf("  roughness    %.4g degrees; folds %.4g per inner shape\n", quality.roughness,
+              quality.folds);
+}
+
+void Run(const std::vector<std::string>& files) {
+  if (files.empty()) throw UsageError("name one or more mesh or path files");
+  std::vector<std::string> meshes;
+  for (const std::string& file : files) {
+    if (std::filesystem::path(file).extension() == ".path") {
+      PrintPath(file);
+    } else {
+      meshes.push_back(file);
+    }
+  }
+  if (meshes.empty()) return;
+  bool good = true;
+  const Soup first = ReadSoup(meshes[0]);
+  for (const std::string& file : meshes) {
+    const Soup soup = file == meshes[0] ? first : ReadSoup(file);
+    PrintSize(soup);
+    good = Print(CheckSoup(soup)) && good;
+    if (file != meshes[0]) good = Print(CheckCorrespondence(first, soup)) && good;
+  }
+  if (good && meshes.size() > 1) {
+    const Poses poses = ReadPoses(meshes);
+    for (size_t i = 1; i < meshes.size(); ++i) PrintDistance(poses, static_cast<int>(i));
+  }
+  if (!good) throw MeshError("not usable as it is: see what was found");
+}
+
+}  // namespace
+}  // namespace shapespace::tools
+
+int main(int argc, char** argv) {
+  using namespace shapespace::tools;
+  return RunTool(argc, argv,
+                 {"shape-inspect",
+                  "what is in these files, whether they correspond, how far apart they are",
+                  "  shape-inspect a.obj b.obj walk.path\n\n"
+                  "Exit code 1 if a mesh cannot be used as it is, or meshes do not correspond.",
+                  {"support/metric_flags.cc"}},
+                 Run);
+}

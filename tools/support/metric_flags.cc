@@ -1,0 +1,61 @@
+#include "support/metric_flags.h"
+
+#include <string>
+
+#include <gflags/gflags.h>
+
+#include "support/tool.h"
+
+DEFINE_string(metric, "isometric",
+              "preset that sets the defaults of the flags below: isometric, rigid, or paper");
+DEFINE_double(isometric, 1, "cost of stretching edges (a pure number, as are those below)");
+DEFINE_double(log_length, 0, "cost of strains: log edge lengths");
+DEFINE_double(rigid, 0, "cost of deviation from rigid motion of the whole body");
+DEFINE_double(lambda, 1e-4, "cost of moving vertices; harmless up to 1e-3");
+DEFINE_double(bending, 1e-5, "cost of bending: t^2 / 12 for a shell of thickness t, area being 1");
+DEFINE_double(volume, 0, "cost of changing the enclosed volume; start from 0.3");
+DEFINE_string(weights, "area", "weights of edges: area, or uniform as in the paper");
+DEFINE_string(discretization, "midpoint",
+              "along a segment: midpoint, or trapezoid as in the paper");
+
+namespace shapespace::tools {
+namespace {
+
+bool IsGiven(const char* flag) { return !gflags::GetCommandLineFlagInfoOrDie(flag).is_default; }
+
+}  // namespace
+
+MetricOptions MetricFromFlags() {
+  MetricOptions options;
+  if (FLAGS_metric == "rigid") {
+    options = MetricOptions::Rigid();
+  } else if (FLAGS_metric == "paper") {
+    options = MetricOptions::Paper();
+  } else if (FLAGS_metric != "isometric") {
+    throw UsageError("--metric " + FLAGS_metric + ": must be isometric, rigid or paper");
+  }
+  if (IsGiven("isometric")) options.isometric = FLAGS_isometric;
+  if (IsGiven("log_length")) options.log_length = FLAGS_log_length;
+  if (IsGiven("rigid")) options.rigid = FLAGS_rigid;
+  if (IsGiven("lambda")) options.lambda = FLAGS_lambda;
+  if (IsGiven("bending")) options.bending = FLAGS_bending;
+  if (IsGiven("volume")) options.volume = FLAGS_volume;
+  if (IsGiven("weights")) {
+    if (FLAGS_weights != "area" && FLAGS_weights != "uniform") {
+      throw UsageError("--weights " + FLAGS_weights + ": must be area or uniform");
+    }
+    options.weights = FLAGS_weights == "area" ? Weights::kArea : Weights::kUniform;
+  }
+  if (IsGiven("discretization")) {
+    if (FLAGS_discretization != "midpoint" && FLAGS_discretization != "trapezoid") {
+      throw UsageError("--discretization " + FLAGS_discretization +
+                       ": must be midpoint or trapezoid");
+    }
+    options.discretization =
+        FLAGS_discretization == "midpoint" ? Discretization::kMidpoint : Discretization::kTrapezoid;
+  }
+  options.Validate();
+  return options;
+}
+
+}  // namespace shapespace::tools

@@ -1,0 +1,14 @@
+#ifndef SHAPESPACE_TOOLS_SUPPORT_METRIC_FLAGS_H_
+#define SHAPESPACE_TOOLS_SUPPORT_METRIC_FLAGS_H_
+
+#include <shapespace/metric/metric.h>
+
+namespace shapespace::tools {
+
+/// The metric that the flags ask for: --metric names a preset, which sets the defaults of the other
+/// flags; a flag that was given wins. \throw UsageError.
+MetricOptions MetricFromFlags();
+
+}  // namespace shapespace::tools
+
+#endif  // SHAPESPACE_TOOLS_SUPPORT_METRIC_FLAGS_H_

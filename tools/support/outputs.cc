@@ -1,0 +1,94 @@
+#include "support/outputs.h"
+
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+
+#include <gflags/gflags.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/output/frames.h>
+#include <shapespace/output/picture.h>
+#include <shapespace/path/path_file.h>
+#include <shapespace/path/quality.h>
+
+#include "support/tool.h"
+
+DEFINE_string(output, "path.png",
+              "files to write, separated by commas: .path (everything, to go on from), .png (film "
+              "strip), frames/%03d.obj or .ply (one mesh a shape)");
+DEFINE_string(color, "plain",
+              "film strip: plain, or deviation (of edge lengths from the first pose)");
+
+namespace shapespace::tools {
+namespace {
+
+enum class Kind { kPath, kPicture, kFrames };
+
+Kind KindOf(const std::string& output) {
+  const std::string extension = std::filesystem::path(output).extension().string();
+  if (extension == ".path") return Kind::kPath;
+  if (extension == ".png") return Kind::kPicture;
+  if (extension == ".obj" || extension == ".ply") {
+    try {
+      FrameName(output, 0);
+    } catch (const FileError& error) {
+      throw UsageError("--output " + std::string(error.what()));
+    }
+    return Kind::kFrames;
+  }
+  throw UsageError("--output " + output + ": must end in .path, .png, .obj or .ply");
+}
+
+}  // namespace
+
+std::vector<std::string> OutputsFromFlags() {
+  if (FLAGS_color != "plain" && FLAGS_color != "deviation") {
+    throw UsageError("--color " + FLAGS_color + ": must be plain or deviation");
+  }
+  std::vector<std::string> outputs;
+  std::stringstream list(FLAGS_output);
+  for (std::string output; std::getline(list, output, ',');) {
+    if (output.empty()) continue;
+    KindOf(output);
+    outputs.push_back(output);
+  }
+  if (outputs.empty()) throw UsageError("--output: names no file");
+  return outputs;
+}
+
+void WriteOutputs(const std::vector<std::string>& outputs, const Path& path,
+                  const Soup& appearance) {
+  const std::vector<Shape> placed = path.Placed();
+  int done = 0;
+  for (const std::string& output : outputs) {
+    ReportProgress(TerminalProgress(), "writing " + output, ++done,
+                   static_cast<int>(outputs.size()));
+    switch (KindOf(output)) {
+      case Kind::kPath:
+        WritePath(output, path);
+        break;
+      case Kind::kPicture: {
+        FilmStripOptions options;
+        if (FLAGS_color == "deviation") {
+          for (int i = 0; i < path.NumShapes(); ++i) {
+            options.values.push_back(EdgeDeviation(path, i));
+          }
+          options.legend = "edge length, deviation from the first pose";
+        }
+        WritePng(output, RenderFilmStrip(*path.metric->connectivity, placed, options));
+        break;
+      }
+      case Kind::kFrames:
+        if (std::filesystem::path(output).extension() == ".ply" &&
+            (appearance.texture_coordinates.cols() > 0 || !appearance.polygon_material.empty())) {
+          std::cerr << "note: " << output
+                    << ": texture coordinates and materials are dropped; OBJ frames keep them\n";
+        }
+        WriteFrames(output, placed, appearance);
+        break;
+    }
+  }
+}
+
+}  // namespace shapespace::tools

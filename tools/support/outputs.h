@@ -1,0 +1,25 @@
+#ifndef SHAPESPACE_TOOLS_SUPPORT_OUTPUTS_H_
+#define SHAPESPACE_TOOLS_SUPPORT_OUTPUTS_H_
+
+#include <string>
+#include <vector>
+
+#include <shapespace/mesh/soup.h>
+#include <shapespace/path/path.h>
+
+namespace shapespace::tools {
+
+/// The files that --output names, separated by commas.
+/// \throw UsageError if one is of no kind that can be written, so that nobody waits for a solve
+///        whose result has nowhere to go.
+std::vector<std::string> OutputsFromFlags();
+
+/// Writes each: `.path`, `.png` film strip, or frames (`frames/%03d.obj`, `.ply`).
+/// Texture coordinates and materials of `appearance` go into OBJ frames; where they are dropped,
+/// stderr is told.
+void WriteOutputs(const std::vector<std::string>& outputs, const Path& path,
+                  const Soup& appearance);
+
+}  // namespace shapespace::tools
+
+#endif  // SHAPESPACE_TOOLS_SUPPORT_OUTPUTS_H_

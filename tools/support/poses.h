@@ -1,0 +1,17 @@
+#ifndef SHAPESPACE_TOOLS_SUPPORT_POSES_H_
+#define SHAPESPACE_TOOLS_SUPPORT_POSES_H_
+
+#include <string>
+#include <vector>
+
+#include <shapespace/mesh/read.h>
+
+namespace shapespace::tools {
+
+/// Reads pose files as the flags --stiffeners and --allow_nonmanifold say; tells stderr the
+/// warnings, and what the files hold that no output will.
+Poses ReadPosesFromFlags(const std::vector<std::string>& files);
+
+}  // namespace shapespace::tools
+
+#endif  // SHAPESPACE_TOOLS_SUPPORT_POSES_H_

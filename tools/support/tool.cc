@@ -1,0 +1,142 @@
+#include "support/tool.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+
+#include <gflags/gflags.h>
+#include <glog/logging.h>
+
+#include <shapespace/base/atomic_file.h>
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+
+DEFINE_int32(threads, 0, "threads to use; 0 takes all cores (results do not depend on it)");
+
+// gflags ends the process itself when it cannot read a flag, with a code of its own.
+namespace GFLAGS_NAMESPACE {
+extern void (*gflags_exitfunc)(int);
+}
+
+namespace shapespace::tools {
+namespace {
+
+std::atomic<bool> interrupted{false};
+
+class Terminal final : public Progress {
+ public:
+  ~Terminal() override { Clear(); }
+  bool Report(const std::string& stage, int done, int total) override {
+    if (shown_) {
+      std::string line = stage;
+      if (total > 0) {
+        line += ": " + std::to_string(done) + " of " + std::to_string(total);
+      } else if (done > 0) {
+        line += ": iteration " + std::to_string(done);
+      }
+      std::cerr << "\r\033[K" << line << std::flush;
+      dirty_ = true;
+    }
+    return !interrupted;
+  }
+  void Clear() {
+    if (dirty_) std::cerr << "\r\033[K" << std::flush;
+    dirty_ = false;
+  }
+
+ private:
+  const bool shown_ = isatty(STDERR_FILENO) != 0;
+  bool dirty_ = false;
+};
+
+Terminal& TheTerminal() {
+  static Terminal terminal;
+  return terminal;
+}
+
+void PrintHelp(const Program& program) {
+  std::cout << program.name << ": " << program.summary << "\n\n" << program.usage << "\n\nFlags:\n";
+  std::vector<gflags::CommandLineFlagInfo> flags;
+  gflags::GetAllFlags(&flags);
+  std::vector<std::string> sources = program.flag_sources;
+  sources.push_back("support/tool.cc");
+  for (const std::string& source : sources) {
+    for (const gflags::CommandLineFlagInfo& flag : flags) {
+      if (flag.filename.find(source) == std::string::npos) continue;
+      std::string left = "  --" + flag.name;
+      if (flag.type != "bool")
+        left += " " + (flag.default_value.empty() ? "..." : flag.default_value);
+      left.resize(std::max<size_t>(left.size() + 1, 30), ' ');
+      std::cout << left << flag.description << '\n';
+    }
+  }
+  std::cout << "  --help                      this text\n"
+               "  --version                   version of shapespace\n";
+}
+
+bool IsGiven(const char* flag) { return !gflags::GetCommandLineFlagInfoOrDie(flag).is_default; }
+
+}  // namespace
+
+Progress* TerminalProgress() { return &TheTerminal(); }
+
+void WriteReport(const std::string& file, const std::string& text) {
+  if (file == "-") {
+    std::cout << text << std::flush;
+  } else {
+    WriteFileAtomically(file, [&](std::ostream& out) { out << text; });
+  }
+}
+
+int RunTool(int argc, char** argv, const Program& program,
+            const std::function<void(const std::vector<std::string>& arguments)>& body) {
+  google::InitGoogleLogging(argv[0]);
+  FLAGS_logtostderr = true;
+  FLAGS_minloglevel = google::GLOG_ERROR;
+  GFLAGS_NAMESPACE::gflags_exitfunc = [](int) { std::_Exit(2); };
+  gflags::SetVersionString(SHAPESPACE_VERSION);
+  gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
+  if (IsGiven("help")) {
+    PrintHelp(program);
+    return 0;
+  }
+  if (IsGiven("version")) {
+    std::cout << program.name << " of shapespace " << SHAPESPACE_VERSION << '\n';
+    return 0;
+  }
+  // The first Ctrl-C asks the solver to stop, which leaves nothing behind; the second kills.
+  std::signal(SIGINT, [](int) {
+    interrupted = true;
+    std::signal(SIGINT, SIG_DFL);
+  });
+  const auto complain = [&](const std::string& message) {
+    TheTerminal().Clear();
+    std::cerr << program.name << ": " << message << '\n';
+  };
+  try {
+    if (FLAGS_threads < 0) throw UsageError("--threads must be 0 or more");
+    SetThreads(FLAGS_threads);
+    body({argv + 1, argv + argc});
+    TheTerminal().Clear();
+    return 0;
+  } catch (const UsageError& error) {
+    complain(error.what());
+  } catch (const InvalidOptions& error) {
+    complain("--" + std::string(error.what()));
+  } catch (const std::bad_alloc&) {
+    complain("out of memory");
+    return 1;
+  } catch (const std::exception& error) {
+    complain(error.what());
+    return 1;
+  }
+  std::cerr << "Try " << program.name << " --help\n";
+  return 2;
+}
+
+}  // namespace shapespace::tools
