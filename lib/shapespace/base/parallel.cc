@@ -1,9 +1,12 @@
 #include <shapespace/base/parallel.h>
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 
 #include <tbb/blocked_range.h>
+#include <tbb/info.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -25,8 +28,9 @@ std::shared_ptr<tbb::task_arena> Arena() {
 
 void SetThreads(int threads) {
   if (threads < 0) throw InvalidOptions("threads: must be 0 (all cores) or more");
-  auto replacement = threads == 0 ? std::make_shared<tbb::task_arena>()
-                                  : std::make_shared<tbb::task_arena>(threads);
+  const int cores = tbb::info::default_concurrency();
+  auto replacement =
+      std::make_shared<tbb::task_arena>(threads == 0 ? cores : std::min(threads, cores));
   std::lock_guard<std::mutex> lock(arena_mutex);
   arena = std::move(replacement);
 }

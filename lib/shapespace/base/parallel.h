@@ -5,7 +5,8 @@
 
 namespace shapespace {
 
-/// Threads that `ParallelFor` may use from now on; 0 (at the start) means all cores.
+/// Threads that `ParallelFor` may use from now on; 0 (at the start) means all cores, and
+/// more than there are cores means as many.
 /// \throw InvalidOptions if negative.
 void SetThreads(int threads);
 

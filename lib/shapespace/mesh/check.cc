@@ -457,8 +457,8 @@ class Comparison {
   }
 
   /// Connected vertices at each of which most edges are stretched, or shrunk, by far.
-  /// Measured on 40 healthy pairs of poses: slivers make 2 such neighbours at most. A hundred
-  /// vertices in a wrong order make a group of 67.
+  /// Measured: in 39 healthy pairs of poses slivers make 2 such neighbours at most; about 140
+  /// vertices in a wrong order make 176 in three groups, the largest of 67.
   void CheckGroups(const std::vector<std::pair<int, int>>& edges,
                    const std::vector<double>& stretch, const std::vector<int>& vertices) {
     constexpr double kFar = 5.0;

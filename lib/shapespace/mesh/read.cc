@@ -44,11 +44,6 @@ std::string Extension(const std::string& file) {
   return extension;
 }
 
-bool SamePolygons(const Soup& a, const Soup& b) {
-  return a.NumVertices() == b.NumVertices() && a.polygon_begin == b.polygon_begin &&
-         a.corners == b.corners && a.segments == b.segments;
-}
-
 /// Sorts findings into warnings and refusals. Where several are fatal the first three are told:
 /// the others mostly follow from them.
 class Judge {
@@ -137,10 +132,9 @@ Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& option
   poses.shapes.push_back(first.vertices);
   for (size_t i = 1; i < files.size(); ++i) {
     const Soup pose = ReadSoup(files[i]);
-    // What is wrong with the first file's polygons need not be said again for the same polygons.
-    judge.Hear<MeshError>(SamePolygons(first, pose) ? internal::CheckPositions(pose)
-                                                    : CheckSoup(pose));
     judge.Hear<CorrespondenceError>(CheckCorrespondence(first, pose));
+    // Only its positions are used from here on; the polygons are the first file's.
+    judge.Hear<MeshError>(internal::CheckPositions(pose));
     poses.shapes.push_back(pose.vertices);
   }
   std::vector<std::pair<int, int>> stiffeners;

@@ -234,8 +234,8 @@ struct Taken {
     for (int k = 0; k < count; ++k) {
       const int v = corners[k].vertex_index, t = corners[k].texcoord_index;
       soup.corners.push_back(v > 0 ? v - 1 : vertices + v);
-      // Index 0 is none; a relative one before the first becomes -2, to be told from none.
-      soup.corner_texture.push_back(t >= 0 ? t - 1 : std::max(texture + t, -2));
+      // 0 stands for none, which becomes -1; a relative index before the first becomes -2.
+      soup.corner_texture.push_back(t >= 0 ? t - 1 : texture + t >= 0 ? texture + t : -2);
       taken.any_texture = taken.any_texture || t != 0;
     }
     soup.polygon_begin.push_back(static_cast<int>(soup.corners.size()));
@@ -263,7 +263,6 @@ void CheckIndices(const Soup& soup) {
   const int vertices = soup.NumVertices();
   const int texture = static_cast<int>(soup.texture_coordinates.cols());
   for (int p = 0; p < soup.NumPolygons(); ++p) {
-    const std::string_view none;
     for (int k = soup.polygon_begin[p]; k < soup.polygon_begin[p + 1]; ++k) {
       const int v = soup.corners[k];
       if (v < 0 || v >= vertices) {

@@ -27,7 +27,7 @@ struct Soup {
   std::vector<int> vertex_line, polygon_line, segment_line;
 
   /// Appearance, kept only to be written again with frames. Per corner indices into
-  /// `texture_coordinates` (2 x k); empty if the file has none.
+  /// `texture_coordinates` (2 x k), -1 where a corner has none; empty if no corner has one.
   Eigen::Matrix2Xd texture_coordinates;
   std::vector<int> corner_texture;
   std::vector<std::string> material_libraries;  ///< OBJ `mtllib`

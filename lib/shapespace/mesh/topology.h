@@ -17,7 +17,8 @@ struct Topology {
   int genus = 0;                                 ///< summed over the components; 0 if not manifold
 };
 
-/// Built through OpenMesh where the mesh is a manifold.
+/// Built through OpenMesh where the mesh is a manifold. Segments and stiffeners join components but
+/// are no part of the surface; a graph is no manifold.
 Topology ComputeTopology(const Connectivity& connectivity);
 
 }  // namespace shapespace

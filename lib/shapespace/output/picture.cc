@@ -93,14 +93,30 @@ std::vector<int> Subsample(int count, int most) {
   return chosen;
 }
 
+// Vertices that show: of a mesh those of its triangles, of a graph all.
+std::vector<int> Visible(const Connectivity& connectivity) {
+  std::vector<bool> shows(connectivity.NumVertices(), connectivity.IsGraph());
+  for (const int v : connectivity.Triangles().reshaped()) shows[v] = true;
+  std::vector<int> visible;
+  for (int v = 0; v < connectivity.NumVertices(); ++v) {
+    if (shows[v]) visible.push_back(v);
+  }
+  return visible;
+}
+
 // The chosen shapes, each about the centre of its bounding box, scaled together into the unit ball.
-std::vector<Shape> Normalised(const std::vector<Shape>& shapes, const std::vector<int>& chosen) {
+// Vertices that do not show go to the centre, so that a stray one does not shrink the picture.
+std::vector<Shape> Normalised(const Connectivity& connectivity, const std::vector<Shape>& shapes,
+                              const std::vector<int>& chosen) {
+  const std::vector<int> visible = Visible(connectivity);
   std::vector<Shape> result;
   double radius = 0;
   for (const int i : chosen) {
-    const Eigen::Vector3d low = shapes[i].rowwise().minCoeff();
-    const Eigen::Vector3d half = (shapes[i].rowwise().maxCoeff() - low) / 2;
-    result.push_back(shapes[i].colwise() - (low + half));
+    const Shape shown = shapes[i](Eigen::all, visible);
+    const Eigen::Vector3d low = shown.rowwise().minCoeff();
+    const Eigen::Vector3d half = (shown.rowwise().maxCoeff() - low) / 2;
+    result.push_back(Shape::Zero(3, shapes[i].cols()));
+    result.back()(Eigen::all, visible) = shown.colwise() - (low + half);
     radius = std::max(radius, half.stableNorm());
   }
   if (radius > 0) {
@@ -199,7 +215,7 @@ Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>
   CheckInput(connectivity, shapes, options);
   const std::vector<int> chosen = Subsample(static_cast<int>(shapes.size()), options.max_frames);
   const int frames = static_cast<int>(chosen.size());
-  const std::vector<Shape> drawn = Normalised(shapes, chosen);
+  const std::vector<Shape> drawn = Normalised(connectivity, shapes, chosen);
   const double tube_radius = connectivity.IsGraph() ? TubeRadius(connectivity, drawn.front()) : 0;
   const RayTracer tracer(connectivity, static_cast<float>(tube_radius));
   const Camera camera =

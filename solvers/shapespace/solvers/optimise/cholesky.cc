@@ -54,7 +54,8 @@ Cholesky::Cholesky(const Eigen::SparseMatrix<double>& matrix) {
   view.xtype = CHOLMOD_REAL;
   view.dtype = CHOLMOD_DOUBLE;
   view.sorted = 1;
-  view.packed = 1;
+  view.packed = matrix.isCompressed() ? 1 : 0;
+  view.nz = const_cast<int*>(matrix.innerNonZeroPtr());
   const auto free_factor = [&](cholmod_factor* factor) { cholmod_free_factor(&factor, &common); };
   const std::unique_ptr<cholmod_factor, decltype(free_factor)> factor(
       cholmod_analyze(&view, &common), free_factor);

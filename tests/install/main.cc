@@ -1,0 +1,13 @@
+#include <iostream>
+
+#include <shapespace/bodies/body.h>
+#include <shapespace/output/picture.h>
+#include <shapespace/solvers/geodesic.h>
+
+int main() {
+  const shapespace::Body tube = shapespace::MakeBody("tube");
+  const auto [path, summary] =
+      shapespace::Interpolate(tube.connectivity, {tube.pose(0), tube.pose(110)});
+  std::cout << summary.FullReport();
+  shapespace::WritePng("tube.png", shapespace::RenderFilmStrip(*tube.connectivity, path.Placed()));
+}

@@ -1,0 +1,123 @@
+#include <set>
+
+#include <Eigen/Geometry>
+
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/connectivity.h>
+
+#include "mesh/bodies.h"
+#include "mesh/files.h"
+
+namespace shapespace {
+namespace {
+
+using testing::Cube;
+using testing::ExpectError;
+using testing::Grid;
+
+std::shared_ptr<const Connectivity> Make(const Soup& soup) {
+  return Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments);
+}
+
+TEST(ConnectivityTest, CubeOfQuadrilaterals) {
+  const Soup cube = Cube();
+  const auto c = Make(cube);
+  EXPECT_EQ(c->NumVertices(), 8);
+  EXPECT_EQ(c->NumPolygons(), 6);
+  EXPECT_EQ(c->NumTriangles(), 12);
+  EXPECT_EQ(c->NumTriangleEdges(), 18);  // 12 sides and 6 diagonals
+  EXPECT_EQ(c->NumEdges(), 24);          // and 6 other diagonals
+  EXPECT_EQ(c->NumHinges(), 18);
+  EXPECT_EQ(c->Corners(), cube.corners);
+  EXPECT_EQ(c->PolygonBegin(), cube.polygon_begin);
+  EXPECT_FALSE(c->IsGraph());
+
+  // With both diagonals every pair of vertices of a face is an edge, each once.
+  std::set<std::pair<int, int>> edges;
+  for (int e = 0; e < c->NumEdges(); ++e) {
+    const int a = c->Edges()(0, e), b = c->Edges()(1, e);
+    EXPECT_LT(a, b);
+    EXPECT_TRUE(edges.emplace(a, b).second);
+    EXPECT_LE((cube.vertices.col(a) - cube.vertices.col(b)).squaredNorm(), 2.0);
+  }
+  double volume = 0.0;
+  for (int f = 0; f < c->NumTriangles(); ++f) {
+    const auto t = c->Triangles().col(f);
+    Eigen::Matrix3d corners;
+    corners << cube.vertices.col(t[0]), cube.vertices.col(t[1]), cube.vertices.col(t[2]);
+    volume += corners.determinant() / 6.0;
+  }
+  EXPECT_NEAR(volume, 1.0, 1e-15);
+}
+
+TEST(ConnectivityTest, HingesKeepTheWindingOfBothTriangles) {
+  const auto c = Make(Grid(3, 3));
+  std::set<std::array<int, 3>> triangles;
+  auto smallest_first = [](std::array<int, 3> t) {
+    while (t[0] > t[1] || t[0] > t[2]) t = {t[1], t[2], t[0]};
+    return t;
+  };
+  for (int f = 0; f < c->NumTriangles(); ++f) {
+    const auto t = c->Triangles().col(f);
+    triangles.insert(smallest_first({t[0], t[1], t[2]}));
+  }
+  ASSERT_EQ(c->NumHinges(), 33 - 12);  // edges of the grid without those of its boundary
+  for (int h = 0; h < c->NumHinges(); ++h) {
+    const auto q = c->Hinges().col(h);
+    EXPECT_TRUE(triangles.count(smallest_first({q[0], q[1], q[2]})));
+    EXPECT_TRUE(triangles.count(smallest_first({q[1], q[0], q[3]})));
+    EXPECT_NE(q[2], q[3]);
+  }
+}
+
+TEST(ConnectivityTest, TriangleEdgesComeFirstAndInOrder) {
+  Soup grid = Grid(4, 2);
+  grid.segments = {{14, 0}, {0, 14}, {1, 0}};  // twice the same, and one that is a side
+  const auto c = Connectivity::Make(grid.NumVertices(), grid.polygon_begin, grid.corners,
+                                    grid.segments, {{3, 14}});
+  ASSERT_EQ(c->NumEdges(), c->NumTriangleEdges() + 2);
+  for (int e = 1; e < c->NumTriangleEdges(); ++e) {
+    const auto a = c->Edges().col(e - 1), b = c->Edges().col(e);
+    EXPECT_LT(std::make_pair(a[0], a[1]), std::make_pair(b[0], b[1]));
+  }
+  EXPECT_EQ(c->Edges().col(c->NumEdges() - 2), Eigen::Vector2i(0, 14));
+  EXPECT_EQ(c->Edges().col(c->NumEdges() - 1), Eigen::Vector2i(3, 14));
+}
+
+TEST(ConnectivityTest, GraphsAndNonManifolds) {
+  const auto graph = Connectivity::Make(3, {0}, {}, {{2, 1}, {0, 1}});
+  EXPECT_TRUE(graph->IsGraph());
+  EXPECT_EQ(graph->NumEdges(), 2);
+  EXPECT_EQ(graph->NumTriangleEdges(), 0);
+
+  Eigen::Matrix3Xi three(3, 3);  // three triangles at edge 0 1: no hinge there
+  three << 0, 1, 0, 1, 0, 1, 2, 3, 4;
+  EXPECT_EQ(Connectivity::FromTriangles(5, three)->NumHinges(), 0);
+  Eigen::Matrix3Xi against(3, 2);
+  against << 0, 0, 1, 1, 2, 3;
+  EXPECT_EQ(Connectivity::FromTriangles(4, against)->NumHinges(), 0);
+  Eigen::Matrix3Xi degenerate(3, 1);
+  degenerate << 0, 1, 1;
+  EXPECT_EQ(Connectivity::FromTriangles(2, degenerate)->NumEdges(), 1);
+}
+
+TEST(ConnectivityTest, RefusesBadIndices) {
+  ExpectError<MeshError>([] { Connectivity::Make(0, {0}, {}); }, {"at least one vertex"});
+  ExpectError<MeshError>([] { Connectivity::Make(3, {0, 3}, {0, 1, 3}); }, {"3", "0 .. 2"});
+  ExpectError<MeshError>([] { Connectivity::Make(3, {0, 3}, {0, 1, -1}); }, {"-1", "0 .. 2"});
+  ExpectError<MeshError>([] { Connectivity::Make(3, {0, 2}, {0, 1, 2}); }, {"polygon_begin"});
+  ExpectError<MeshError>([] { Connectivity::Make(3, {0}, {}, {{0, 3}}); }, {"segment 0 3"});
+  ExpectError<MeshError>(
+      [] {
+        Connectivity::Make(3, {0}, {}, {{1, 1}});
+      },
+      {"segment joins vertex 1 to itself"});
+  ExpectError<MeshError>(
+      [] {
+        Connectivity::Make(3, {0}, {}, {{0, 1}}, {{2, 2}});
+      },
+      {"stiffener joins vertex 2"});
+}
+
+}  // namespace
+}  // namespace shapespace

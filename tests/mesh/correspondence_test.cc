@@ -1,0 +1,182 @@
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <shapespace/mesh/check.h>
+
+#include "mesh/bodies.h"
+
+namespace shapespace {
+namespace {
+
+using testing::Grid;
+using testing::Torus;
+
+Soup Named(Soup soup, const std::string& file, int first_line) {
+  soup.file = file;
+  for (int p = 0; p < soup.NumPolygons(); ++p) soup.polygon_line.push_back(first_line + p);
+  return soup;
+}
+
+/// A finding is expected alone, with these words in it.
+void ExpectOnly(const Soup& reference, const Soup& pose, const std::string& kind, Severity severity,
+                const std::vector<std::string>& parts) {
+  const std::vector<Finding> findings = CheckCorrespondence(reference, pose);
+  ASSERT_EQ(findings.size(), 1u) << kind;
+  EXPECT_EQ(findings[0].kind, kind);
+  EXPECT_EQ(findings[0].severity, severity);
+  for (const std::string& part : parts) {
+    EXPECT_NE(findings[0].message.find(part), std::string::npos)
+        << "no '" << part << "' in: " << findings[0].message;
+  }
+}
+
+std::vector<int> Shuffled(int n, int first, int last) {
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin() + first, order.begin() + last, std::mt19937(3));
+  return order;
+}
+
+/// The same mesh with vertex v renamed to[v].
+Soup Renumbered(const Soup& soup, const std::vector<int>& to) {
+  Soup result = soup;
+  for (int v = 0; v < soup.NumVertices(); ++v) result.vertices.col(to[v]) = soup.vertices.col(v);
+  for (int& v : result.corners) v = to[v];
+  return result;
+}
+
+TEST(CorrespondenceTest, MotionsAndBendsAreFine) {
+  const Soup grid = Grid(20, 20);
+  Soup pose = grid;
+  const Eigen::Matrix3d turn(Eigen::AngleAxisd(1.0, Eigen::Vector3d(1, 2, 3).normalized()));
+  pose.vertices = turn * grid.vertices;
+  EXPECT_TRUE(CheckCorrespondence(grid, pose).empty());
+  for (int v = 0; v < grid.NumVertices(); ++v) {  // rolled up three times
+    const double angle = 0.9 * grid.vertices(0, v);
+    pose.vertices.col(v) << std::sin(angle) / 0.9, grid.vertices(1, v), std::cos(angle) / 0.9;
+  }
+  EXPECT_TRUE(CheckCorrespondence(grid, pose).empty());
+}
+
+TEST(CorrespondenceTest, CountsThatDiffer) {
+  const std::vector<Finding> findings =
+      CheckCorrespondence(Named(Grid(2, 2), "a.obj", 1), Named(Grid(3, 2), "b.obj", 1));
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[0].kind, "vertex-count");
+  EXPECT_EQ(findings[0].severity, Severity::kFatal);
+  EXPECT_NE(findings[0].message.find("b.obj against a.obj: 12 vertices instead of 9"),
+            std::string::npos);
+  EXPECT_NE(findings[0].message.find("keep vertex order"), std::string::npos);
+  EXPECT_EQ(findings[1].kind, "polygon-count");
+}
+
+TEST(CorrespondenceTest, TheFirstPolygonThatDiffersIsNamedInBothFiles) {
+  const Soup a = Named(Grid(2, 2), "a.obj", 10);
+  Soup b = Named(Grid(2, 2), "b.obj", 50);
+  // The first square's diagonal flipped.
+  std::copy_n(std::vector<int>{0, 3, 1, 1, 3, 4}.begin(), 6, b.corners.begin());
+  ExpectOnly(a, b, "polygons-differ", Severity::kFatal,
+             {"b.obj against a.obj", "polygon 1 (line 50) with vertices 1 4 2",
+              "polygon 1 (line 10) with 1 4 5", "different meshes"});
+}
+
+TEST(CorrespondenceTest, RenumberedVerticesAreRecognised) {
+  const Soup torus = Named(Torus(9, 7), "a.obj", 10);
+  const Soup renumbered = Renumbered(torus, Shuffled(63, 0, 63));
+  ExpectOnly(torus, renumbered, "polygons-differ", Severity::kFatal,
+             {"only the vertices in another", "keep vertex order"});
+  Soup both = renumbered;
+  std::reverse(both.corners.begin(), both.corners.end());
+  ExpectOnly(torus, both, "polygons-differ", Severity::kFatal,
+             {"looks like the same mesh with its vertices in another order"});
+}
+
+TEST(CorrespondenceTest, OrderAndFirstCornerOfPolygonsDoNotMatter) {
+  const Soup torus = Torus(9, 7);
+  Soup pose = torus;
+  std::rotate(pose.corners.begin(), pose.corners.begin() + 4, pose.corners.end());
+  ExpectOnly(torus, pose, "polygon-order", Severity::kWarning, {"another order"});
+  pose = torus;
+  std::rotate(pose.corners.begin(), pose.corners.begin() + 1, pose.corners.begin() + 4);
+  ExpectOnly(torus, pose, "polygon-order", Severity::kWarning, {"begin at other corners"});
+}
+
+TEST(CorrespondenceTest, MirroredWindingIsAWarning) {
+  const Soup torus = Torus(9, 7);
+  Soup pose = torus;
+  std::reverse(pose.corners.begin(), pose.corners.end());
+  ExpectOnly(torus, pose, "polygon-winding", Severity::kWarning, {"(63)", "mirror"});
+}
+
+TEST(CorrespondenceTest, Segments) {
+  Soup a;
+  a.vertices = Shape::Random(3, 4);
+  a.segments = {{0, 1}, {1, 2}, {2, 3}};
+  Soup b = a;
+  b.segments = {{2, 1}, {0, 1}, {3, 2}};
+  EXPECT_TRUE(CheckCorrespondence(a, b).empty());
+  b.segments[1] = {0, 2};
+  ExpectOnly(a, b, "segments-differ", Severity::kFatal, {"segment 1"});
+  b.segments.pop_back();
+  ExpectOnly(a, b, "segment-count", Severity::kFatal, {"2 segments instead of 3"});
+}
+
+TEST(CorrespondenceTest, OtherUnits) {
+  const Soup torus = Torus(9, 7);
+  Soup pose = torus;
+  pose.vertices *= 1000.0;
+  ExpectOnly(torus, pose, "other-units", Severity::kWarning, {"1e+03 times"});
+  ExpectOnly(pose, torus, "other-units", Severity::kWarning, {"0.001 times"});
+}
+
+TEST(CorrespondenceTest, PositionsInAnotherOrderAreFoundInAnyUnits) {
+  const Soup grid = Grid(60, 60);
+  for (const double scale : {1.0, 25.4}) {
+    Soup pose = grid;
+    pose.vertices *= scale;
+    const std::vector<int> order = Shuffled(61 * 61, 1000, 1400);
+    for (int v = 0; v < grid.NumVertices(); ++v) {
+      pose.vertices.col(order[v]) = scale * grid.vertices.col(v);
+    }
+    const std::vector<Finding> findings = CheckCorrespondence(grid, pose);
+    ASSERT_EQ(findings.size(), scale == 1.0 ? 1u : 2u);
+    EXPECT_EQ(findings.back().kind, "vertex-order");
+    EXPECT_EQ(findings.back().severity, Severity::kWarning);
+    EXPECT_NE(findings.back().message.find("in groups: 1)"), std::string::npos)
+        << findings.back().message;
+    EXPECT_NE(findings.back().message.find("vertex 1001"), std::string::npos)
+        << findings.back().message;
+  }
+}
+
+TEST(CorrespondenceTest, AllPositionsInAnotherOrderAreFound) {
+  const Soup torus = Torus(40, 30);
+  Soup pose = torus;
+  const std::vector<int> order = Shuffled(1200, 0, 1200);
+  for (int v = 0; v < 1200; ++v) pose.vertices.col(order[v]) = 0.01 * torus.vertices.col(v);
+  ExpectOnly(torus, pose, "vertex-order", Severity::kWarning, {"most vertices"});
+}
+
+TEST(CorrespondenceTest, SingleSliversAreNoGroup) {
+  const Soup grid = Grid(30, 30);
+  Soup pose = grid;
+  pose.vertices.col(400) += Eigen::Vector3d(0, 0, 20);  // six edges 20 times as long
+  pose.vertices.col(600) = pose.vertices.col(601);
+  EXPECT_TRUE(CheckCorrespondence(grid, pose).empty());
+}
+
+TEST(CorrespondenceTest, BrokenSoupsAreReportedNotRead) {
+  Soup broken = Grid(2, 2);
+  broken.corners[0] = 99;
+  ExpectOnly(Grid(2, 2), broken, "index-out-of-range", Severity::kFatal, {"polygon 1"});
+  Soup flat = Grid(2, 2);
+  flat.vertices.setZero();
+  EXPECT_TRUE(CheckCorrespondence(Grid(2, 2), flat).empty());
+}
+
+}  // namespace
+}  // namespace shapespace

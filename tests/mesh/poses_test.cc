@@ -1,0 +1,93 @@
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/read.h>
+
+#include "mesh/files.h"
+
+namespace shapespace {
+namespace {
+
+using testing::ExpectError;
+
+class PosesTest : public testing::FilesTest {
+ protected:
+  const std::string square_ = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+  const std::string bent_ = "v 0 0 0\nv 1 0 .1\nv 1 1 0\nv 0 1 .1\nf 1 2 3 4\n";
+  const std::string book_ =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n";
+};
+
+TEST_F(PosesTest, ReadsPosesWithSegmentsAndStiffeners) {
+  ReadOptions options;
+  options.stiffeners = File("stiff.txt", "# across\n1 3\n\n4 2 # and back\n5 1\n");
+  const std::vector<std::string> files = {File("a.obj", square_ + "v 5 5 5\nl 4 5\n"),
+                                          File("b.obj", bent_ + "v 5 5 6\nl 4 5\n")};
+  const Poses poses = ReadPoses(files, options);
+  EXPECT_EQ(poses.names, files);
+  ASSERT_EQ(poses.shapes.size(), 2u);
+  EXPECT_EQ(poses.shapes[0](2, 4), 5.0);
+  EXPECT_EQ(poses.shapes[1](2, 4), 6.0);
+  EXPECT_EQ(poses.appearance.vertices, poses.shapes[0]);
+  EXPECT_EQ(poses.connectivity->NumPolygons(), 1);
+  // Four sides and two diagonals of the square, the segment, one stiffener that is neither.
+  EXPECT_EQ(poses.connectivity->NumEdges(), 8);
+  EXPECT_TRUE(poses.warnings.empty());
+}
+
+TEST_F(PosesTest, OneFileIsEnoughAndNoneIsNot) {
+  EXPECT_EQ(ReadPoses({File("a.obj", square_)}).shapes.size(), 1u);
+  ExpectError<FileError>([] { ReadPoses({}); }, {"no mesh file"});
+}
+
+TEST_F(PosesTest, NonManifoldMeshesNeedPermission) {
+  const std::vector<std::string> files = {File("book.obj", book_), File("again.obj", book_)};
+  ExpectError<MeshError>([&] { ReadPoses(files); },
+                         {"book.obj", "edge 1-2", "line 6", "--allow_nonmanifold"});
+  ReadOptions options;
+  options.allow_nonmanifold = true;
+  const Poses poses = ReadPoses(files, options);
+  EXPECT_EQ(poses.connectivity->NumTriangles(), 3);
+  ASSERT_EQ(poses.warnings.size(), 1u);  // said once, not for every pose
+  EXPECT_NE(poses.warnings[0].find("book.obj: edges with more than two polygons"),
+            std::string::npos);
+}
+
+TEST_F(PosesTest, WarningsAboutPositionsNameTheirPose) {
+  const std::string folded = "v 0 0 0\nv 1 0 0\nv 1 0 0\nv 0 0 0\nf 1 2 3 4\n";
+  const Poses poses = ReadPoses({File("a.obj", square_), File("flat.obj", folded)});
+  ASSERT_EQ(poses.warnings.size(), 2u);
+  EXPECT_NE(poses.warnings[0].find("flat.obj: edges whose two ends"), std::string::npos);
+  EXPECT_NE(poses.warnings[1].find("flat.obj: polygons without area (1)"), std::string::npos);
+}
+
+TEST_F(PosesTest, OtherMeshesAreRefused) {
+  ExpectError<CorrespondenceError>(
+      [&] {
+        ReadPoses({File("a.obj", square_), File("b.obj", book_)});
+      },
+      {"b.obj", "against", "a.obj", "5 vertices instead of 4"});
+  std::string other = square_;
+  other.replace(other.find("1 2 3 4"), 7, "1 3 2 4");
+  ExpectError<CorrespondenceError>(
+      [&] {
+        ReadPoses({File("a.obj", square_), File("c.obj", other)});
+      },
+      {"c.obj", "polygon 1 (line 5) with vertices 1 3 2 4", "polygon 1 (line 5) with 1 2 3 4"});
+}
+
+TEST_F(PosesTest, StiffenersAreReadStrictly) {
+  auto refused = [&](const std::string& content, const std::vector<std::string>& parts) {
+    ExpectError<FileError>([&] { ReadStiffeners(File("stiff.txt", content), 10); }, parts);
+  };
+  refused("1 2\n3\n", {"stiff.txt:2: stiffener 2", "a line holds two"});
+  refused("1 2 3\n", {"stiff.txt:1: stiffener 1: '3' is too much"});
+  refused("0 2\n", {"stiff.txt:1: stiffener 1: '0' is not a vertex number from 1 to 10"});
+  refused("1 11\n", {"stiff.txt:1: stiffener 1: '11'"});
+  refused("1 2.5\n", {"stiff.txt:1: stiffener 1: '2.5'"});
+  refused("4 4\n", {"stiff.txt:1: stiffener 1: joins vertex 4 to itself"});
+  ExpectError<FileError>([&] { ReadStiffeners(Path("none.txt"), 10); }, {"none.txt"});
+  EXPECT_EQ(ReadStiffeners(File("good.txt", "10 1\r\n2 3"), 10),
+            (std::vector<std::pair<int, int>>{{9, 0}, {1, 2}}));
+}
+
+}  // namespace
+}  // namespace shapespace

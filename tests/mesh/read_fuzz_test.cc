@@ -1,0 +1,94 @@
+#include <random>
+
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/check.h>
+#include <shapespace/mesh/read.h>
+#include <shapespace/mesh/write.h>
+
+#include "mesh/bodies.h"
+#include "mesh/files.h"
+
+namespace shapespace {
+namespace {
+
+class ReadFuzzTest : public testing::FilesTest {
+ protected:
+  /// Damaged copies of a file must be refused by an Error, or give a soup that can be checked.
+  void Damage(const std::string& extension, const std::string& content, int count) {
+    std::mt19937 random(12345);
+    auto below = [&random](size_t n) { return static_cast<size_t>(random() % n); };
+    // Bytes that mean something to one of the readers turn up more often than by chance.
+    const std::string telling = "0123456789 \n\r\t-+.e/#\\vflOFply\xff";
+    int accepted = 0, refused = 0;
+    for (int i = 0; i < count; ++i) {
+      std::string damaged = content;
+      for (size_t change = 0, changes = 1 + below(4); change < changes; ++change) {
+        const size_t at = below(damaged.size());
+        switch (below(5)) {
+          case 0:
+            damaged[at] = static_cast<char>(random());
+            break;
+          case 1:
+            damaged[at] = telling[below(telling.size())];
+            break;
+          case 2:
+            damaged.resize(at + 1);
+            break;
+          case 3:
+            damaged.erase(at, std::min<size_t>(1 + below(8), damaged.size() - 1));
+            break;
+          default:
+            damaged.insert(at, damaged.substr(below(damaged.size()), 1 + below(12)));
+        }
+        if (damaged.empty()) damaged = " ";
+      }
+      const std::string file = File("damaged" + extension, damaged);
+      try {
+        const Soup soup = ReadSoup(file);
+        ASSERT_TRUE(soup.vertices.allFinite());
+        for (const Finding& finding : CheckSoup(soup)) ASSERT_FALSE(finding.message.empty());
+        CheckCorrespondence(soup, soup);
+        ++accepted;
+      } catch (const Error& error) {
+        ASSERT_NE(std::string(error.what()).find("damaged" + extension), std::string::npos);
+        ++refused;
+      }
+    }
+    // Otherwise the damage was too small, or too great, to try anything.
+    EXPECT_GT(accepted, count / 100);
+    EXPECT_GT(refused, count / 5);
+  }
+};
+
+TEST_F(ReadFuzzTest, Obj) {
+  Damage(".obj",
+         "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nv 2 2 2\nvt 0 0\nvt 1 1\nvn 0 0 1\n"
+         "usemtl red\nf 1/1 2/2 3/1 4/2\nf -1//1 3/1/1 2\nl 1 2 \\\n 5\ng part\n",
+         3000);
+}
+
+TEST_F(ReadFuzzTest, Off) {
+  Damage(".off",
+         "OFF\n5 3 0\n0 0 0\n1 0 0\n1 1 0.5\n0 1 0\n2 2 2\n4 0 1 2 3\n3 1 4 2\n3 3 2 4 255 0 0\n",
+         3000);
+}
+
+TEST_F(ReadFuzzTest, TextPly) {
+  Damage(".ply",
+         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+         "property float z\nproperty uchar red\nelement face 2\n"
+         "property list uchar int vertex_indices\nelement edge 1\nproperty int vertex1\n"
+         "property int vertex2\nend_header\n0 0 0 1\n1 0 0 1\n1 1 0.5 1\n0 1 0 1\n3 0 1 2\n"
+         "3 0 2 3\n1 3\n",
+         3000);
+}
+
+TEST_F(ReadFuzzTest, BinaryPly) {
+  Soup soup = testing::Cube();
+  soup.segments = {{0, 7}};
+  WriteMesh(Path("cube.ply"), soup.vertices, soup);
+  Damage(".ply", testing::Content(Path("cube.ply")), 3000);
+}
+
+}  // namespace
+}  // namespace shapespace

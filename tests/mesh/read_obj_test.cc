@@ -1,0 +1,153 @@
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/read.h>
+
+#include "mesh/files.h"
+
+namespace shapespace {
+namespace {
+
+using testing::ExpectError;
+using Ints = std::vector<int>;
+
+class ReadObjTest : public testing::FilesTest {
+ protected:
+  Soup Read(const std::string& content) { return ReadSoup(File("pose.obj", content)); }
+
+  void ExpectRefused(const std::string& content, const std::vector<std::string>& parts) {
+    ExpectError<FileError>([&] { Read(content); }, parts);
+  }
+};
+
+constexpr char kThree[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+TEST_F(ReadObjTest, KeepsOrderPolygonsAndLines) {
+  const Soup soup = Read(
+      "# a comment\n"
+      "v 1.5 -2e-3 +.25\n\n"
+      "v 1 0 0\nv 1 1 0\nv 0 1 0 # behind an element\nv 2 2 2\n"
+      "f 1 2 3 4 5\n"
+      "f 3 2 1\n"
+      "l 1 2 5\n");
+  EXPECT_EQ(soup.file, Path("pose.obj"));
+  ASSERT_EQ(soup.NumVertices(), 5);
+  EXPECT_NEAR((soup.vertices.col(0) - Eigen::Vector3d(1.5, -2e-3, .25)).norm(), 0.0, 1e-15);
+  EXPECT_EQ(soup.vertices.col(4), Eigen::Vector3d(2, 2, 2));
+  EXPECT_EQ(soup.polygon_begin, (Ints{0, 5, 8}));
+  EXPECT_EQ(soup.corners, (Ints{0, 1, 2, 3, 4, 2, 1, 0}));
+  EXPECT_EQ(soup.segments, (std::vector<std::pair<int, int>>{{0, 1}, {1, 4}}));
+  EXPECT_EQ(soup.vertex_line, (Ints{2, 4, 5, 6, 7}));
+  EXPECT_EQ(soup.polygon_line, (Ints{8, 9}));
+  EXPECT_EQ(soup.segment_line, (Ints{10, 10}));
+  EXPECT_TRUE(soup.corner_texture.empty());
+  EXPECT_TRUE(soup.polygon_material.empty());
+  EXPECT_TRUE(soup.dropped.empty());
+}
+
+TEST_F(ReadObjTest, NegativeIndicesCountFromTheLastVertexSoFar) {
+  const Soup soup = Read(std::string(kThree) + "f -3 -2 -1\nv 5 5 5\nf -1 -2 1\nl -1 -4\n");
+  EXPECT_EQ(soup.corners, (Ints{0, 1, 2, 3, 2, 0}));
+  EXPECT_EQ(soup.segments, (std::vector<std::pair<int, int>>{{3, 0}}));
+}
+
+TEST_F(ReadObjTest, ContinuedLinesAndOtherLineEnds) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string content = "\xEF\xBB\xBFv 0 0 0@v 1 0 0@v 1 1 0@v 0 1 0@f 1 2 \\@ 3 4@f 1 2 3";
+    for (size_t at; (at = content.find('@')) != std::string::npos;) content.replace(at, 1, end);
+    const Soup soup = Read(content);
+    EXPECT_EQ(soup.corners, (Ints{0, 1, 2, 3, 0, 1, 2}));
+    EXPECT_EQ(soup.polygon_line, (Ints{5, 7}));
+  }
+}
+
+TEST_F(ReadObjTest, PolygonsOfAnySize) {
+  std::string content, polygon = "f";
+  for (int i = 0; i < 300; ++i) {
+    content += "v " + std::to_string(i) + " 0 0\n";
+    polygon += " " + std::to_string(i + 1);
+  }
+  EXPECT_EQ(Read(content + polygon + "\n").polygon_begin, (Ints{0, 300}));
+}
+
+TEST_F(ReadObjTest, AppearanceIsKept) {
+  const Soup soup = Read("mtllib my things.mtl\n" + std::string(kThree) +
+                         "vt 0 0\nvt 1 .5\nvt 0 1 0\nvn 0 0 1\nf 1 2 3\n"
+                         "usemtl red paint \nf 1/1 2/2 3/3\nf 1/-1/1 2//1 3/1/1\n");
+  EXPECT_EQ(soup.material_libraries, std::vector<std::string>{"my things.mtl"});
+  EXPECT_EQ(soup.polygon_material, (std::vector<std::string>{"", "red paint", "red paint"}));
+  ASSERT_EQ(soup.texture_coordinates.cols(), 3);
+  EXPECT_EQ(soup.texture_coordinates.col(1), Eigen::Vector2d(1, .5));
+  EXPECT_EQ(soup.corner_texture, (Ints{-1, -1, -1, 0, 1, 2, 2, -1, 0}));
+  ASSERT_EQ(soup.dropped.size(), 1u);
+  EXPECT_EQ(soup.dropped[0], "1 normals (vn) not kept");
+}
+
+TEST_F(ReadObjTest, SaysWhatItDrops) {
+  const Soup soup = Read(
+      "o body\nv 0 0 0 1 0 0\nv 1 0 0 .5 .5 .5\nv 0 1 0 2\ng part\ns off\nf 1 2 3\np 1\n"
+      "wobble 3\nwobble 4\n");
+  std::string all;
+  for (const std::string& sentence : soup.dropped) all += sentence + "\n";
+  EXPECT_EQ(all,
+            "2 vertex colours not kept\n1 vertex weights other than 1 not kept\n"
+            "1 group names (g) not kept\n1 object names (o) not kept\n1 points (p) not kept\n"
+            "1 smoothing groups (s) not kept\n"
+            "2 statements 'wobble' (the first on line 9) not kept\n");
+}
+
+TEST_F(ReadObjTest, RefusesBadVertices) {
+  ExpectRefused("v 0 0 0\nv 1 nan 2\n", {"pose.obj:2: vertex 2: coordinate y 'nan' is not a finite",
+                                         "Export the mesh again"});
+  ExpectRefused("v 0 0 0\nv inf 0 2\n", {"pose.obj:2: vertex 2", "'inf'"});
+  ExpectRefused("v 1e999 0 2\n", {"pose.obj:1: vertex 1", "'1e999' is not a finite number"});
+  ExpectRefused("v 0 0 0\nv 1 2\n", {"pose.obj:2: vertex 2: coordinate z is missing"});
+  ExpectRefused("v 0 0 0\n\nv 1 2 3 abc\n", {"pose.obj:3: vertex 2", "'abc' is not a number"});
+  ExpectRefused("v 0 1.5x 0\n", {"pose.obj:1: vertex 1: coordinate y '1.5x' is not a number"});
+  ExpectRefused("v 1 2 3 4 5\n", {"pose.obj:1: vertex 1: five numbers"});
+  ExpectRefused("v 1 2 3 4 5 6 7 8\n", {"pose.obj:1: vertex 1: more than seven"});
+  ExpectRefused("v\n", {"pose.obj:1: vertex 1: coordinate x is missing"});
+  ExpectRefused("v 0 0 0\nvt 0 x\n", {"pose.obj:2: texture coordinate 1", "'x'"});
+}
+
+TEST_F(ReadObjTest, TinyNumbersAreZeroNotErrors) {
+  EXPECT_EQ(Read(std::string(kThree) + "v 1e-400 -0.0 1e-310\nf 1 2 4\n").vertices(0, 3), 0.0);
+}
+
+TEST_F(ReadObjTest, RefusesBadPolygons) {
+  const std::string three = kThree;
+  ExpectRefused(three + "f 1 2\n", {"pose.obj:4: polygon 1: 2 corners"});
+  ExpectRefused(three + "f\n", {"pose.obj:4: polygon 1: 0 corners"});
+  ExpectRefused(three + "f 1 2 3\nf 1 2 99\n",
+                {"pose.obj:5: polygon 2: vertex 99 does not exist, the file has 3"});
+  ExpectRefused(three + "f 1 2 x\n", {"pose.obj:4: polygon 1: corner 'x'"});
+  ExpectRefused(three + "f 1 2 0\n", {"pose.obj:4: polygon 1: corner '0'"});
+  ExpectRefused(three + "f 1 2 3.5\n", {"pose.obj:4: polygon 1: corner '3.5'"});
+  ExpectRefused(three + "f 1 2 99999999999\n", {"pose.obj:4: polygon 1", "99999999999"});
+  ExpectRefused(three + "f 1 2 -4\n", {"pose.obj:4: polygon 1: a relative index reaches before"});
+  ExpectRefused(three + "f 1 2 3/1/1/1\n", {"pose.obj:4: polygon 1", "more than three parts"});
+  ExpectRefused(three + "vt 0 0\nf 1/1 2/1 3/2\n",
+                {"pose.obj:5: polygon 1: texture coordinate 2 does not exist"});
+  ExpectRefused(three + "vt 0 0\nf 1/1 2/1 3/-2\n", {"pose.obj:5: polygon 1: a relative index"});
+  ExpectRefused(three + "f 1 2 3 trailing\n", {"pose.obj:4: polygon 1: corner 'trailing'"});
+  ExpectRefused(three + "f 1 2", {"pose.obj:4: polygon 1: 2 corners"});  // a cut last line
+}
+
+TEST_F(ReadObjTest, RefusesBadPolylines) {
+  ExpectRefused("v 0 0 0\nv 1 0 0\nl 1\n", {"pose.obj:3: polyline", "two vertices"});
+  ExpectRefused("v 0 0 0\nv 1 0 0\nl 1 2\nl 2 7\n",
+                {"pose.obj:4: segment 2: vertex 7 does not exist"});
+}
+
+TEST_F(ReadObjTest, RefusesWhatIsNoMesh) {
+  ExpectRefused("", {"pose.obj: is empty"});
+  ExpectRefused("# nothing but a comment\n", {"pose.obj: no vertex"});
+  ExpectRefused(std::string("v 0 0 0\n\0\0", 10), {"pose.obj:2: a zero byte"});
+  ExpectError<FileError>([&] { ReadSoup(Path("none.obj")); },
+                         {"none.obj: cannot be opened: No such file"});
+  std::filesystem::create_directory(Path("folder.obj"));
+  ExpectError<FileError>([&] { ReadSoup(Path("folder.obj")); }, {"folder.obj: is a folder"});
+  ExpectError<FileError>([&] { ReadSoup(File("a.stl", "solid")); },
+                         {"a.stl", "'.stl' is none of .obj, .ply, .off"});
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,198 @@
+#include <cmath>
+#include <cstring>
+
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/read.h>
+
+#include "mesh/files.h"
+
+namespace shapespace {
+namespace {
+
+using testing::ExpectError;
+using Ints = std::vector<int>;
+
+/// The bytes of numbers of mixed types, in the byte order asked for.
+class Bytes {
+ public:
+  explicit Bytes(bool big_endian) : big_endian_(big_endian) {}
+
+  template <typename T>
+  Bytes& Add(T value) {
+    const unsigned one = 1;
+    char first, bytes[sizeof(T)];
+    std::memcpy(&first, &one, 1);
+    std::memcpy(bytes, &value, sizeof(T));
+    const bool machine_is_big = first == 0;
+    for (size_t i = 0; i < sizeof(T); ++i) {
+      content += bytes[big_endian_ == machine_is_big ? i : sizeof(T) - 1 - i];
+    }
+    return *this;
+  }
+
+  std::string content;
+
+ private:
+  bool big_endian_;
+};
+
+class ReadPlyTest : public testing::FilesTest {
+ protected:
+  Soup Read(const std::string& content) { return ReadSoup(File("pose.ply", content)); }
+
+  void ExpectRefused(const std::string& content, const std::vector<std::string>& parts) {
+    ExpectError<FileError>([&] { Read(content); }, parts);
+  }
+};
+
+// 9 lines.
+constexpr char kHeader[] =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+constexpr char kVertices[] = "0 0 0\n1 0 0\n0 1 0\n";
+
+TEST_F(ReadPlyTest, ReadsTextAndSkipsWhatItDoesNotKnow) {
+  const Soup soup = Read(
+      "ply\r\nformat ascii 1.0\r\ncomment made by hand\r\nobj_info nothing\r\n"
+      "element camera 1\r\nproperty float f\r\nproperty list uchar short tags\r\n"
+      "element vertex 4\r\nproperty uchar red\r\nproperty double z\r\nproperty float y\r\n"
+      "property list int float weights\r\nproperty int x\r\n"
+      "element face 2\r\nproperty list uchar uint vertex_index\r\nproperty int flags\r\n"
+      "element edge 1\r\nproperty short vertex2\r\nproperty uchar red\r\nproperty int vertex1\r\n"
+      "end_header\r\n"
+      "0.5 2 7 8\r\n"
+      "255 0 0 0 0\r\n255 .1 0 1 .5 1\r\n\r\n255 0 1 2 .1 .2 1\r\n0 0 1 0 0\r\n"
+      "4 0 1 2 3 17\r\n3 2 1 0 17\r\n3 0 1\r\n");
+  EXPECT_EQ(soup.vertices.col(1), Eigen::Vector3d(1, 0, .1));
+  EXPECT_EQ(soup.vertices.col(3), Eigen::Vector3d(0, 1, 0));
+  EXPECT_EQ(soup.polygon_begin, (Ints{0, 4, 7}));
+  EXPECT_EQ(soup.corners, (Ints{0, 1, 2, 3, 2, 1, 0}));
+  EXPECT_EQ(soup.segments, (std::vector<std::pair<int, int>>{{1, 3}}));
+  EXPECT_EQ(soup.vertex_line, (Ints{23, 24, 26, 27}));
+  EXPECT_EQ(soup.polygon_line, (Ints{28, 29}));
+  EXPECT_EQ(soup.segment_line, (Ints{30}));
+  std::string all;
+  for (const std::string& sentence : soup.dropped) all += sentence + "\n";
+  EXPECT_EQ(all,
+            "1 of element 'camera' not kept\n"
+            "properties of element 'vertex' not kept: red, weights\n"
+            "properties of element 'face' not kept: flags\n"
+            "properties of element 'edge' not kept: red\n");
+}
+
+TEST_F(ReadPlyTest, ReadsEveryScalarTypeInBothByteOrders) {
+  for (const bool big : {false, true}) {
+    Bytes bytes(big);
+    // An unknown element with one property of each type, and a list of shorts.
+    bytes.Add<std::int8_t>(-1).Add<std::uint8_t>(1).Add<std::int16_t>(-2).Add<std::uint16_t>(2);
+    bytes.Add<std::int32_t>(-3).Add<std::uint32_t>(3).Add(1.5f).Add(2.5);
+    bytes.Add<std::uint16_t>(2).Add<std::int16_t>(7).Add<std::int16_t>(8);
+    // Vertices: short, float, double.
+    bytes.Add<std::int16_t>(-300).Add(0.5f).Add(0.1);
+    bytes.Add<std::int16_t>(2).Add(-0.25f).Add(1e-300);
+    bytes.Add<std::int16_t>(0).Add(0.0f).Add(-1e300);
+    // One triangle, its length as an int, its indices as bytes; one edge.
+    bytes.Add<std::int32_t>(3).Add<std::uint8_t>(2).Add<std::uint8_t>(0).Add<std::uint8_t>(1);
+    bytes.Add<std::uint32_t>(1).Add<std::uint32_t>(2);
+    const Soup soup =
+        Read(std::string("ply\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
+             " 1.0\nelement odd 1\nproperty char a\nproperty uint8 b\nproperty int16 c\n"
+             "property ushort d\nproperty int e\nproperty uint32 f\nproperty float32 g\n"
+             "property double h\nproperty list ushort short i\n"
+             "element vertex 3\nproperty short x\nproperty float y\nproperty float64 z\n"
+             "element face 1\nproperty list int uchar vertex_indices\n"
+             "element edge 1\nproperty uint vertex1\nproperty uint vertex2\nend_header\n" +
+             bytes.content);
+    Shape expected(3, 3);
+    expected << -300, 2, 0, 0.5, -0.25, 0, 0.1, 1e-300, -1e300;
+    EXPECT_EQ(soup.vertices, expected) << big;
+    EXPECT_EQ(soup.corners, (Ints{2, 0, 1}));
+    EXPECT_EQ(soup.segments, (std::vector<std::pair<int, int>>{{1, 2}}));
+    EXPECT_TRUE(soup.vertex_line.empty() && soup.polygon_line.empty() && soup.segment_line.empty());
+  }
+}
+
+TEST_F(ReadPlyTest, RefusesBadText) {
+  const std::string header = kHeader, vertices = kVertices;
+  ExpectRefused("", {"pose.ply: is empty"});
+  ExpectRefused("plop\n", {"pose.ply:1: does not begin with 'ply'"});
+  ExpectRefused(header + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n",
+                {"pose.ply:11: vertex 2: coordinate y is not a finite number"});
+  ExpectRefused(header + "0 0 0\n1 0\n0 1 0\n3 0 1 2\n", {"pose.ply:11: vertex 2: z is missing"});
+  ExpectRefused(header + "0 0 0\n1 x 0\n0 1 0\n3 0 1 2\n",
+                {"pose.ply:11: vertex 2: y 'x' is not a number"});
+  ExpectRefused(header + "0 0 0\n1 0 0 4\n0 1 0\n3 0 1 2\n",
+                {"pose.ply:11: vertex 2: '4' at the end"});
+  ExpectRefused(header + vertices + "3 0 1 3\n",
+                {"pose.ply:13: polygon 1: vertex index 3 is not one of 0 to 2"});
+  ExpectRefused(header + vertices + "3 0 1 -1\n", {"pose.ply:13: polygon 1: a vertex index"});
+  ExpectRefused(header + vertices + "3 0 1\n", {"pose.ply:13: polygon 1: vertex index is missing"});
+  ExpectRefused(header + vertices + "2 0 1\n", {"pose.ply:13: polygon 1: 2 corners"});
+  ExpectRefused(header + vertices + "-3 0 1\n", {"pose.ply:13: polygon 1: the length of"});
+  ExpectRefused(header + vertices, {"pose.ply:12: ", "promises 1 of element 'face'"});
+  ExpectRefused(header + "0 0 0\n1 0 0\n        \n\n\n", {"the file ends before vertex 3"});
+  ExpectRefused(header + vertices + "3 0 1 2\n3 0 1 2\n", {"pose.ply:14: something follows"});
+}
+
+TEST_F(ReadPlyTest, RefusesBadHeaders) {
+  auto refused = [this](const std::string& statements, const std::vector<std::string>& parts) {
+    ExpectRefused("ply\nformat ascii 1.0\n" + statements, parts);
+  };
+  ExpectRefused("ply\nformat ascii 1.0\nelement vertex 1\n", {"pose.ply:3: ", "inside its header"});
+  ExpectRefused("ply\nformat utf8 1.0\n", {"pose.ply:2: format 'utf8'"});
+  ExpectRefused("ply\nelement vertex 1\nproperty float x\nend_header\n0\n", {"no 'format'"});
+  refused("element vertex many\n", {"pose.ply:3: element 'vertex': 'many' is no count"});
+  refused("element vertex -1\n", {"pose.ply:3: element 'vertex': '-1' is no count"});
+  refused("property float x\n", {"pose.ply:3: a property stands before"});
+  refused("element vertex 1\nproperty quad x\n", {"pose.ply:4: 'quad' is no type"});
+  refused("element face 1\nproperty list float int i\n", {"pose.ply:4: 'float' is no type that"});
+  refused("element vertex 1\nelement vertex 1\n", {"pose.ply:4: element 'vertex' stands twice"});
+  refused("element vertex 1\nproperty int x\nproperty int x\n", {"pose.ply:5: property 'x'"});
+  refused("wobble\n", {"pose.ply:3: the header holds 'wobble'"});
+  refused("element face 1\nproperty list int int vertex_indices\nend_header\n3 0 0 0\n",
+          {"no vertices"});
+  refused("element vertex 1\nproperty float x\nproperty float z\nend_header\n0 0\n",
+          {"element vertex has no property y"});
+  refused("element tristrips 1\nproperty list int int vertex_indices\nend_header\n",
+          {"triangle strips are not read; export polygons"});
+  refused(
+      "element vertex 1\nproperty int x\nproperty int y\nproperty int z\nelement face 1\n"
+      "property int colour\nend_header\n0 0 0\n7\n",
+      {"element face needs one list vertex_indices, it has 0"});
+}
+
+TEST_F(ReadPlyTest, RefusesTruncatedAndLyingBinary) {
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
+      "property float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  Bytes vertices(false);
+  for (int i = 0; i < 9; ++i) vertices.Add(static_cast<float>(i * i));
+  Bytes polygon(false);
+  polygon.Add<std::uint8_t>(3).Add(0).Add(1).Add(2);
+  EXPECT_EQ(Read(header + vertices.content + polygon.content).corners, (Ints{0, 1, 2}));
+
+  const std::string cut = polygon.content.substr(0, 7);
+  ExpectRefused(header + vertices.content + cut, {"pose.ply: the file ends inside polygon 1"});
+  ExpectRefused(header + vertices.content.substr(0, 20), {"3 of element 'vertex'", "at most 1"});
+  ExpectRefused(header + vertices.content + "\xff" + polygon.content,
+                {"pose.ply: the file ends inside polygon 1"});
+  Bytes outside(false);
+  outside.Add<std::uint8_t>(3).Add(0).Add(1).Add(3);
+  ExpectRefused(header + vertices.content + outside.content,
+                {"pose.ply: polygon 1: vertex index 3 is not one of 0 to 2"});
+  Bytes negative(false);
+  negative.Add<std::uint8_t>(3).Add(0).Add(1).Add(-1);
+  ExpectRefused(header + vertices.content + negative.content,
+                {"pose.ply: polygon 1: a vertex index is not a number counted from 0"});
+  Bytes infinite(false);
+  for (int i = 0; i < 9; ++i) infinite.Add(i == 4 ? INFINITY : 0.0f);
+  ExpectRefused(header + infinite.content + polygon.content,
+                {"pose.ply: vertex 2: coordinate y is not a finite number"});
+  std::string lie = header + vertices.content + polygon.content;
+  lie.replace(lie.find("vertex 3"), 8, "vertex 1000000000");
+  ExpectRefused(lie, {"promises 1000000000 of element 'vertex'", "room for at most 4"});
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,202 @@
+#include <shapespace/metric/metric.h>
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <shapespace/base/error.h>
+#include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/sheet.h>
+#include <shapespace/path/energy.h>
+
+#include "support/paths.h"
+
+namespace shapespace {
+namespace {
+
+const double kPi = M_PI;
+
+template <typename Feature>
+const Feature& Get(const Metric& metric) {
+  for (const AnyFeature& any : metric.features) {
+    if (const auto* feature = std::get_if<Feature>(&any)) return *feature;
+  }
+  throw std::runtime_error("the metric lacks the feature");
+}
+
+// Two triangles over the edge from (0,0,0) to (1,0,0), bent along it by `angle`.
+Eigen::Matrix<double, 3, 4> Hinge(double angle) {
+  Eigen::Matrix<double, 3, 4> x;
+  x.col(0) = Eigen::Vector3d(0, 0, 0);
+  x.col(1) = Eigen::Vector3d(1, 0, 0);
+  x.col(2) = Eigen::Vector3d(0.4, 1, 0);
+  x.col(3) = Eigen::Vector3d(0.7, -2 * std::cos(angle), -2 * std::sin(angle));
+  return x;
+}
+
+TEST(Dihedral, AngleIsThatOfTheNormalsPositiveWhenConvex) {
+  Dihedral dihedral;
+  dihedral.normal_epsilon_squared = dihedral.edge_epsilon_squared = 1e-30;
+  for (double angle : {0.0, 0.3, 1.5, 3.0, -0.3, -1.5, -3.0}) {
+    EXPECT_NEAR(dihedral.Angle(Hinge(angle).data()), angle, 1e-14);
+  }
+}
+
+TEST(Dihedral, CollapsedHingesHaveFiniteValues) {
+  Dihedral dihedral;
+  dihedral.normal_epsilon_squared = dihedral.edge_epsilon_squared = 1e-20;
+  const Eigen::Matrix<double, 3, 4> point = Eigen::Matrix<double, 3, 4>::Zero();
+  double value[2];
+  dihedral(point.data(), value);
+  EXPECT_TRUE(std::isfinite(value[0]) && std::isfinite(value[1]));
+  double k[4];
+  const Eigen::Vector3d points[4] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  dihedral.Stencil(points, k);
+  for (double entry : k) EXPECT_TRUE(std::isfinite(entry));
+}
+
+TEST(Dihedral, LeastChangeIsThatOfEqualAnglesAcrossTheWrap) {
+  Dihedral dihedral;
+  const auto at = [](double angle) { return Eigen::Vector2d(std::cos(angle), std::sin(angle)); };
+  const Eigen::Vector2d a = at(3.0), b = at(-2.8);
+  const double way = 2 * kPi - 5.8;  // the short way leads over pi
+  double walked = 0;
+  for (int i = 0; i < 5; ++i) {
+    walked += (at(3.0 + way * (i + 1) / 5) - at(3.0 + way * i / 5)).squaredNorm();
+  }
+  EXPECT_NEAR(dihedral.LeastChange(a.data(), b.data(), 5), walked, 1e-14);
+}
+
+TEST(FreezeMetric, WeightsDoNotDependOnTheUnitOfLength) {
+  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const std::vector<Shape> poses = {bar.pose(0), bar.pose(60)};
+  MetricOptions options;
+  options.volume = 0.3;
+  options.log_length = 0.1;
+  const Metric metric = FreezeMetric(options, bar.connectivity, poses);
+  for (double scale : {1e-4, 1e4}) {
+    const Metric scaled =
+        FreezeMetric(options, bar.connectivity, {scale * poses[0], scale * poses[1]});
+    EXPECT_NEAR(scaled.unit, scale * metric.unit, 1e-12 * scale);
+    ASSERT_EQ(scaled.features.size(), metric.features.size());
+    EXPECT_TRUE(Get<EdgeLength>(scaled).weights.isApprox(Get<EdgeLength>(metric).weights, 1e-12));
+    EXPECT_TRUE(Get<LogLength>(scaled).weights.isApprox(Get<LogLength>(metric).weights, 1e-12));
+    EXPECT_TRUE(Get<Position>(scaled).weights.isApprox(Get<Position>(metric).weights, 1e-12));
+    EXPECT_TRUE(Get<Dihedral>(scaled).weights.isApprox(Get<Dihedral>(metric).weights, 1e-12));
+    EXPECT_NEAR(Get<Volume>(scaled).reference, Get<Volume>(metric).reference, 1e-12);
+  }
+}
+
+TEST(FreezeMetric, AreasAddUpToOne) {
+  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const Metric metric = FreezeMetric({}, bar.connectivity, {bar.pose(0)});
+  EXPECT_NEAR(metric.vertex_area.sum(), 1, 1e-12);
+  EXPECT_NEAR(metric.edge_area.sum(), 1, 1e-12);   // three edges a triangle, a third each
+  EXPECT_NEAR(metric.hinge_area.sum(), 1, 1e-12);  // closed: every edge is a hinge
+}
+
+TEST(FreezeMetric, GraphsHaveTotalLengthOne) {
+  const auto path = Connectivity::Make(3, {0}, {}, {{0, 1}, {1, 2}});
+  Shape shape(3, 3);
+  shape << 0, 1, 4, 0, 0, 0, 0, 0, 0;
+  const Metric metric = FreezeMetric({}, path, {shape});
+  EXPECT_NEAR(metric.unit, 4, 1e-14);
+  EXPECT_NEAR(metric.edge_area(0), 0.25, 1e-14);
+  EXPECT_NEAR(metric.edge_area(1), 0.75, 1e-14);
+  EXPECT_NEAR(metric.vertex_area(1), 0.5, 1e-14);
+}
+
+// The paper's w_e = 1 makes lambda mean something else at every resolution; area weights do not.
+TEST(FreezeMetric, RatioOfPartsSurvivesRefinementWithAreaWeightsOnly) {
+  const auto ratio = [](int n, const MetricOptions& options) {
+    const Body bar = MakeBar(6, 1, 1, 6 * n, n, n);
+    const Metric metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(90)});
+    std::vector<Shape> shapes;
+    for (int i = 0; i <= 8; ++i) shapes.push_back(bar.pose(90 * i / 8.0) / metric.unit);
+    PathEnergy energy(metric, 7);
+    std::vector<double> unknowns(energy.Size());
+    energy.Load(shapes, unknowns.data());
+    const std::vector<double> parts = energy.Parts(unknowns.data());
+    return parts[0] / parts[1];
+  };
+  MetricOptions area;
+  area.bending = 0;
+  MetricOptions uniform = area;
+  uniform.weights = Weights::kUniform;
+  EXPECT_NEAR(ratio(4, area) / ratio(2, area), 1, 0.15);
+  EXPECT_NEAR(ratio(8, area) / ratio(4, area), 1, 0.1);
+  EXPECT_GT(ratio(2, uniform) / ratio(4, uniform), 3);
+}
+
+TEST(FreezeMetric, HingesFoldedOrJumpingInThePosesAreLetGo) {
+  const auto hinge = Connectivity::Make(4, {0, 3, 6}, {0, 1, 2, 1, 0, 3});
+  const auto weight = [&](double first, double last) {
+    const Metric metric = FreezeMetric({}, hinge, {Hinge(first), Hinge(last)});
+    return Get<Dihedral>(metric).weights(0);
+  };
+  const double calm = weight(0, 0.01);
+  EXPECT_NEAR(weight(0, kPi / 3) / calm, 0.5, 1e-3);           // u = 1
+  EXPECT_NEAR(weight(0, 2 * kPi / 3) / calm, 1 / 17.0, 1e-3);  // u = 2
+  EXPECT_LT(weight(2.6, 2.6) / calm, 0.03);                    // folded in both, no jump
+  EXPECT_NEAR(weight(2, 2) / calm, 1, 1e-3);                   // 115 degrees is no fold yet
+  EXPECT_NEAR(weight(3, -3) / weight(3, 3), 1, 1e-9);          // the jump is 16 degrees, not 344
+}
+
+TEST(FreezeMetric, RefusesWhatItCannotFreeze) {
+  const Body sheet = MakeSheet(1, 1, 3, 3);
+  const Shape flat = sheet.pose(0);
+  EXPECT_THROW(FreezeMetric({}, sheet.connectivity, {}), MeshError);
+  EXPECT_THROW(FreezeMetric({}, sheet.connectivity, {flat.leftCols(4)}), MeshError);
+  EXPECT_THROW(FreezeMetric({}, sheet.connectivity, {0 * flat}), MeshError);
+  Shape broken = flat;
+  broken(1, 2) = std::nan("");
+  EXPECT_THROW(FreezeMetric({}, sheet.connectivity, {broken}), MeshError);
+  MetricOptions options;
+  options.volume = 1;  // a sheet encloses none
+  EXPECT_THROW(FreezeMetric(options, sheet.connectivity, {flat}), InvalidOptions);
+}
+
+TEST(MetricOptions, ValidateNamesTheField) {
+  const auto message = [](const MetricOptions& options) -> std::string {
+    try {
+      options.Validate();
+    } catch (const InvalidOptions& error) {
+      return error.what();
+    }
+    return "valid";
+  };
+  EXPECT_EQ(message({}), "valid");
+  EXPECT_EQ(message(MetricOptions::Rigid()), "valid");
+  EXPECT_EQ(message(MetricOptions::Paper()), "valid");
+  MetricOptions options;
+  options.bending = -1;
+  EXPECT_EQ(message(options).rfind("bending:", 0), 0u) << message(options);
+  options = {};
+  options.lambda = std::nan("");
+  EXPECT_EQ(message(options).rfind("lambda:", 0), 0u) << message(options);
+  options = {};
+  options.isometric = options.lambda = 0;
+  EXPECT_EQ(message(options).rfind("isometric", 0), 0u) << message(options);
+}
+
+TEST(AngularVelocity, SolvesTheNormalEquationsAndLeavesOutTheAxisOfALine) {
+  const Shape points = testing::Noise(7, 1, 1);
+  const Eigen::Vector3d spin(0.3, -0.2, 0.5);
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (const auto& p : points.colwise()) {
+    inertia += p.squaredNorm() * Eigen::Matrix3d::Identity() - p * p.transpose();
+    moment += p.cross(spin.cross(p));
+  }
+  EXPECT_TRUE(AngularVelocity(inertia, moment).isApprox(spin, 1e-12));
+
+  const Eigen::Vector3d line = Eigen::Vector3d(1, 2, 2) / 3;
+  const Eigen::Matrix3d degenerate = Eigen::Matrix3d::Identity() - line * line.transpose();
+  const Eigen::Vector3d c = AngularVelocity(degenerate, degenerate * spin);
+  EXPECT_NEAR(c.dot(line), 0, 1e-12);
+  EXPECT_TRUE((degenerate * c).isApprox(degenerate * spin, 1e-12));
+}
+
+}  // namespace
+}  // namespace shapespace

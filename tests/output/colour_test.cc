@@ -1,0 +1,40 @@
+#include <shapespace/output/colour.h>
+
+#include <gtest/gtest.h>
+
+namespace shapespace {
+namespace {
+
+TEST(ColourTest, BytesSurviveLinearLight) {
+  for (unsigned byte = 0; byte < 256; ++byte) {
+    const Colour colour = FromHex(byte << 16 | byte << 8 | byte);
+    EXPECT_EQ(ToByte(colour[0]), byte);
+    EXPECT_EQ(ToByte(colour[2]), byte);
+  }
+  const Colour mixed = FromHex(0x804020);
+  EXPECT_EQ(ToByte(mixed[0]), 0x80);
+  EXPECT_EQ(ToByte(mixed[1]), 0x40);
+  EXPECT_EQ(ToByte(mixed[2]), 0x20);
+}
+
+TEST(ColourTest, HalfTheLightIsByte188) { EXPECT_EQ(ToByte(0.5f), 188); }
+
+TEST(ColourTest, ValuesRunFromCoolToWarmAndGetDarker) {
+  const Colour cool = ValueColour(0), warm = ValueColour(1);
+  EXPECT_GT(cool.z(), cool.x());
+  EXPECT_GT(warm.x(), 3 * warm.z());
+  float previous = 1;
+  for (int i = 0; i <= 20; ++i) {
+    const float luminance = ValueColour(i / 20.0f).dot(Colour(0.2126f, 0.7152f, 0.0722f));
+    EXPECT_LT(luminance, previous) << i;
+    previous = luminance;
+  }
+}
+
+TEST(ColourTest, ValuesOutsideTheScaleGetItsEnds) {
+  EXPECT_EQ(ValueColour(-3), ValueColour(0));
+  EXPECT_EQ(ValueColour(1e6f), ValueColour(1));
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,60 @@
+#include <shapespace/output/legend.h>
+
+#include <gtest/gtest.h>
+
+namespace shapespace {
+namespace {
+
+TEST(EndOfScaleTest, IsTheNextRoundNumberAboveThePercentile) {
+  for (const auto& [value, end] :
+       {std::pair{0.03, 0.05}, std::pair{0.05, 0.05}, std::pair{0.051, 0.1}, std::pair{1.2, 2.0},
+        std::pair{7e-5, 1e-4}}) {
+    EXPECT_DOUBLE_EQ(EndOfScale({Eigen::VectorXd::Constant(10, value)}), end);
+  }
+}
+
+TEST(EndOfScaleTest, IgnoresOneOutlierInAThousandOfAllShapesTogether) {
+  std::vector<Eigen::VectorXd> values(2, Eigen::VectorXd::Constant(500, 0.04));
+  values[1][7] = 30;
+  EXPECT_DOUBLE_EQ(EndOfScale(values), 0.05);
+}
+
+TEST(EndOfScaleTest, ShowsTheOutlierWhereThereIsNothingElse) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(1000);
+  values[3] = 0.15;
+  EXPECT_DOUBLE_EQ(EndOfScale({values}), 0.2);
+}
+
+TEST(EndOfScaleTest, IsOnePerCentWhereAllIsZeroOrRounding) {
+  EXPECT_DOUBLE_EQ(EndOfScale({Eigen::VectorXd::Zero(5)}), 0.01);
+  EXPECT_DOUBLE_EQ(EndOfScale({Eigen::VectorXd::Constant(5, 1e-15)}), 0.01);
+}
+
+TEST(DrawLegendTest, GrowsWithItsTitle) {
+  const Image shorter = DrawLegend(0.05, 0.05, "edge deviation");
+  const Image longer = DrawLegend(0.05, 0.05, "edge deviation of the second pose");
+  EXPECT_GT(longer.width, shorter.width);
+  EXPECT_EQ(longer.height, shorter.height);
+}
+
+TEST(DrawLegendTest, NamesTheLargestValueOnlyBeyondTheScale) {
+  const Image within = DrawLegend(0.05, 0.05, "edge deviation");
+  const Image beyond = DrawLegend(0.05, 0.31, "edge deviation");
+  EXPECT_GT(beyond.width, within.width);
+}
+
+TEST(DrawLegendTest, DrawsDarkTextOnALightGround) {
+  const Image blank = DrawLegend(0.05, 0.05, ""), titled = DrawLegend(0.05, 0.05, "lilies");
+  int ink = 0;
+  for (int y = 0; y < titled.height; ++y) {
+    for (int x = blank.width; x < titled.width; ++x) {
+      ink += titled.pixels[3 * (y * titled.width + x)] < 180;
+    }
+  }
+  // Six letters, each with at least a stem two pixels wide and ten high.
+  EXPECT_GT(ink, 6 * 20);
+  EXPECT_GT(titled.pixels[0], 240);
+}
+
+}  // namespace
+}  // namespace shapespace

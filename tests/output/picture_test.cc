@@ -1,0 +1,331 @@
+#include <shapespace/output/picture.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+
+#include "output/bodies.h"
+
+namespace shapespace {
+namespace {
+
+struct Counts {
+  int drawn = 0, blue = 0, orange = 0;
+};
+
+bool IsBackground(const unsigned char* p) { return p[0] == 250 && p[1] == 250 && p[2] == 250; }
+
+// Counts pixels of the rows [top, bottom) and columns [left, right).
+Counts Count(const Image& image, int left, int right, int top, int bottom) {
+  Counts counts;
+  for (int y = top; y < bottom; ++y) {
+    for (int x = left; x < right; ++x) {
+      const unsigned char* p = &image.pixels[3 * (y * image.width + x)];
+      counts.drawn += !IsBackground(p);
+      counts.blue += p[2] > p[0] + 40;
+      counts.orange += p[0] > p[2] + 40;
+    }
+  }
+  return counts;
+}
+
+Counts Count(const Image& image) { return Count(image, 0, image.width, 0, image.height); }
+
+// Share of pixels in which some channel differs by more than `by`.
+double Difference(const Image& a, const Image& b, int by) {
+  if (a.width != b.width || a.height != b.height) return 1;
+  int different = 0;
+  for (size_t i = 0; i < a.pixels.size(); i += 3) {
+    bool differs = false;
+    for (int k = 0; k < 3; ++k) differs |= std::abs(a.pixels[i + k] - b.pixels[i + k]) > by;
+    different += differs;
+  }
+  return different / (a.pixels.size() / 3.0);
+}
+
+FilmStripOptions Small() {
+  FilmStripOptions options;
+  options.frame_width = 96;
+  return options;
+}
+
+template <class ErrorType>
+std::string MessageOf(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const ErrorType& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST(RenderFilmStripTest, ASphereFillsItsCellInTheFrontColour) {
+  const SimpleBody sphere = Sphere(1);
+  FilmStripOptions options;
+  options.frame_width = 160;
+  const Image image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  EXPECT_NEAR(image.width, 160, 1);
+  EXPECT_NEAR(image.height, 160, 1);
+  // Margins are 160 / 32 on each side.
+  const double disk = EIGEN_PI * 75 * 75;
+  const Counts counts = Count(image);
+  // A pixel that the outline only touches is drawn, too: half a pixel all around.
+  EXPECT_NEAR(counts.drawn, EIGEN_PI * 75.5 * 75.5, 0.02 * disk);
+  EXPECT_GT(counts.blue, 0.96 * disk);
+  EXPECT_EQ(counts.orange, 0);
+}
+
+TEST(RenderFilmStripTest, ReversedFacesHaveTheBackColour) {
+  const SimpleBody sphere = Sphere(1);
+  const auto inside_out = Reversed(*sphere.connectivity);
+  const Counts counts = Count(RenderFilmStrip(*inside_out, {sphere.shape}, Small()));
+  EXPECT_GT(counts.orange, 0.95 * EIGEN_PI * 45 * 45);
+  EXPECT_EQ(counts.blue, 0);
+}
+
+TEST(RenderFilmStripTest, OneReversedTriangleShows) {
+  const SimpleBody sphere = Sphere(1, 12, 24);
+  Eigen::Matrix3Xi triangles = sphere.connectivity->Triangles();
+  // The triangle that is nearest to the eye, at +z.
+  const auto height = [&](int f) {
+    return sphere.shape(2, triangles(0, f)) + sphere.shape(2, triangles(1, f)) +
+           sphere.shape(2, triangles(2, f));
+  };
+  int reversed = 0;
+  for (int f = 1; f < triangles.cols(); ++f) {
+    if (height(f) > height(reversed)) reversed = f;
+  }
+  std::swap(triangles(1, reversed), triangles(2, reversed));
+  FilmStripOptions options = Small();
+  options.view = Eigen::Vector3d::UnitZ();
+  const auto dented = Connectivity::FromTriangles(sphere.connectivity->NumVertices(), triangles);
+  EXPECT_GT(Count(RenderFilmStrip(*dented, {sphere.shape}, options)).orange, 20);
+}
+
+TEST(RenderFilmStripTest, PlaceAndUnitsDoNotMatter) {
+  const SimpleBody box = Box(1, 2, 0.7);
+  Shape bent = box.shape;
+  bent.row(0) += 0.4 * bent.row(1).cwiseAbs2();
+  const Image image = RenderFilmStrip(*box.connectivity, {box.shape, bent}, Small());
+  const Shape moved = box.shape.colwise() + Eigen::Vector3d(30, -7, 11);
+  EXPECT_LT(Difference(image, RenderFilmStrip(*box.connectivity, {moved, bent}, Small()), 2),
+            0.002);
+  const Image scaled = RenderFilmStrip(*box.connectivity, {1e-6 * box.shape, 1e-6 * bent}, Small());
+  EXPECT_LT(Difference(image, scaled, 2), 0.002);
+}
+
+TEST(RenderFilmStripTest, ScaleIsTheSameForAllShapes) {
+  const SimpleBody sphere = Sphere(1);
+  const Image image =
+      RenderFilmStrip(*sphere.connectivity, {sphere.shape, 0.5 * sphere.shape}, Small());
+  const Counts large = Count(image, 0, image.width / 2, 0, image.height);
+  const Counts small = Count(image, image.width / 2, image.width, 0, image.height);
+  EXPECT_NEAR(static_cast<double>(large.drawn) / small.drawn, 4, 0.2);
+}
+
+TEST(RenderFilmStripTest, DoesNotDependOnThreads) {
+  const SimpleBody sphere = Sphere(1);
+  FilmStripOptions options = Small();
+  options.values.assign(3, sphere.shape.row(0).transpose().cwiseAbs());
+  Shape squashed = sphere.shape;
+  squashed.row(1) *= 0.4;
+  const std::vector<Shape> shapes = {sphere.shape, squashed, sphere.shape};
+  SetThreads(1);
+  const Image one = RenderFilmStrip(*sphere.connectivity, shapes, options);
+  SetThreads(2);
+  const Image two = RenderFilmStrip(*sphere.connectivity, shapes, options);
+  SetThreads(0);
+  EXPECT_EQ(one.pixels, two.pixels);
+}
+
+TEST(RenderFilmStripTest, CellsFollowTheShapes) {
+  const SimpleBody tall = Box(0.5, 3, 0.5), level = Box(3, 0.5, 0.5);
+  const Image narrow = RenderFilmStrip(*tall.connectivity, {tall.shape}, Small());
+  EXPECT_NEAR(narrow.height, 96, 1);
+  EXPECT_LT(narrow.width, 40);
+  FilmStripOptions options = Small();
+  options.view = Eigen::Vector3d::UnitZ();
+  const Image low = RenderFilmStrip(*level.connectivity, {level.shape}, options);
+  EXPECT_NEAR(low.width, 96, 1);
+  EXPECT_LT(low.height, 40);
+}
+
+TEST(RenderFilmStripTest, WrapsIntoFullRows) {
+  const SimpleBody sphere = Sphere(1, 10, 20);
+  const std::vector<Shape> shapes(9, sphere.shape);
+  const Image image = RenderFilmStrip(*sphere.connectivity, shapes, Small());
+  const Image single = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, Small());
+  EXPECT_EQ(image.width, 5 * single.width);
+  EXPECT_EQ(image.height, 2 * single.height);
+  EXPECT_GT(Count(image, 3 * single.width, 4 * single.width, single.height, image.height).drawn,
+            1000);
+  EXPECT_EQ(Count(image, 4 * single.width, image.width, single.height, image.height).drawn, 0);
+}
+
+TEST(RenderFilmStripTest, SubsamplingKeepsBothEnds) {
+  const SimpleBody sphere = Sphere(1, 10, 20);
+  std::vector<Shape> shapes(20, sphere.shape);
+  // Only the ends are flat, so that frames show which shapes were taken.
+  shapes.front().row(1) *= 0.25;
+  shapes.back().row(1) *= 0.25;
+  FilmStripOptions options = Small();
+  options.max_frames = 4;
+  options.view = Eigen::Vector3d::UnitZ();
+  const Image image = RenderFilmStrip(*sphere.connectivity, shapes, options);
+  const int width = image.width / 4;
+  EXPECT_NEAR(width, 96, 1);
+  std::vector<int> drawn;
+  for (int i = 0; i < 4; ++i) {
+    drawn.push_back(Count(image, i * width, (i + 1) * width, 0, image.height).drawn);
+  }
+  EXPECT_EQ(drawn[0], drawn[3]);
+  EXPECT_EQ(drawn[1], drawn[2]);
+  EXPECT_NEAR(drawn[1], 4 * drawn[0], 0.3 * drawn[1]);
+}
+
+TEST(RenderFilmStripTest, FollowsTheGivenViewAndUp) {
+  const SimpleBody box = Box(1, 2, 4);
+  FilmStripOptions options = Small();
+  const auto aspect = [&](const Eigen::Vector3d& view, const Eigen::Vector3d& up) {
+    options.view = view;
+    options.up = up;
+    const Image image = RenderFilmStrip(*box.connectivity, {box.shape}, options);
+    // Without the margins of three pixels.
+    return (image.width - 6.0) / (image.height - 6.0);
+  };
+  EXPECT_NEAR(aspect({0, 0, 1}, {0, 1, 0}), 0.5, 0.02);
+  EXPECT_NEAR(aspect({0, 0, 1}, {1, 0, 0}), 2, 0.05);
+  EXPECT_NEAR(aspect({1, 0, 0}, {0, 0, 1}), 0.5, 0.02);
+  // From above, with no up given, the other of y and z is up.
+  EXPECT_NEAR(aspect({0, 1, 0}, {0, 0, 0}), 0.25, 0.02);
+}
+
+TEST(RenderFilmStripTest, ValuesAreShownAsColourWithALegend) {
+  const SimpleBody sphere = Sphere(1);
+  FilmStripOptions options;
+  options.frame_width = 160;
+  options.view = Eigen::Vector3d::UnitZ();
+  const Image plain = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  // Hot on the right, cold on the left.
+  options.values = {(sphere.shape.row(0).array() > 0)
+                        .select(Eigen::ArrayXXd::Constant(1, 3200, 0.1), 0.0)
+                        .matrix()
+                        .transpose()};
+  options.legend = "edge deviation";
+  const Image image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  EXPECT_GT(image.height, plain.height + 20);
+  EXPECT_GT(image.width, plain.width);
+  const Counts cold = Count(image, 0, plain.width / 2 - 4, 0, plain.height);
+  const Counts hot = Count(image, plain.width / 2 + 4, plain.width, 0, plain.height);
+  EXPECT_EQ(cold.orange, 0);
+  EXPECT_GT(hot.orange, 0.9 * hot.drawn);
+  EXPECT_GT(Count(image, 0, image.width, plain.height, image.height).orange, 500);
+}
+
+TEST(RenderFilmStripTest, DrawsAGraph) {
+  const SimpleBody box = Box(1, 1, 1);
+  std::vector<std::pair<int, int>> frame;
+  for (int v = 0; v < 8; ++v) {
+    for (int bit : {1, 2, 4}) {
+      if (!(v & bit)) frame.emplace_back(v, v | bit);
+    }
+  }
+  const auto graph = Connectivity::Make(8, {0}, {}, frame);
+  FilmStripOptions options;
+  options.frame_width = 160;
+  const Image solid = RenderFilmStrip(*box.connectivity, {box.shape}, options);
+  const Image image = RenderFilmStrip(*graph, {box.shape}, options);
+  const Counts counts = Count(image);
+  // Twelve tubes, at least about 30 x 2 pixels each, and much to see through.
+  EXPECT_GT(counts.blue, 12 * 60);
+  EXPECT_LT(counts.drawn, 0.4 * Count(solid).drawn);
+  EXPECT_EQ(counts.orange, 0);
+}
+
+TEST(RenderFilmStripTest, AStrayVertexDoesNotShrinkTheMesh) {
+  const SimpleBody box = Box(1, 1, 1);
+  const auto with_stray = Connectivity::FromTriangles(9, box.connectivity->Triangles());
+  Shape shape(3, 9);
+  shape << box.shape, Eigen::Vector3d(1000, 0, 0);
+  const Image expected = RenderFilmStrip(
+      *Connectivity::FromTriangles(8, box.connectivity->Triangles()), {box.shape}, Small());
+  EXPECT_LT(Difference(RenderFilmStrip(*with_stray, {shape}, Small()), expected, 2), 0.002);
+}
+
+TEST(RenderFilmStripTest, DrawsWhatIsDegenerate) {
+  const SimpleBody sphere = Sphere(1, 10, 20);
+  const Image nothing =
+      RenderFilmStrip(*sphere.connectivity, {0 * sphere.shape, 0 * sphere.shape}, Small());
+  EXPECT_EQ(Count(nothing).drawn, 0);
+  Shape line = sphere.shape;
+  line.topRows(2).setZero();
+  EXPECT_GT(RenderFilmStrip(*sphere.connectivity, {line}, Small()).width, 0);
+  const Shape huge = 1e300 * sphere.shape, tiny = 1e-300 * sphere.shape;
+  EXPECT_GT(Count(RenderFilmStrip(*sphere.connectivity, {huge}, Small())).blue, 3000);
+  EXPECT_GT(Count(RenderFilmStrip(*sphere.connectivity, {tiny}, Small())).blue, 3000);
+  const auto vertex = Connectivity::Make(1, {0}, {});
+  EXPECT_GT(Count(RenderFilmStrip(*vertex, {Shape::Ones(3, 1)}, Small())).blue, 100);
+}
+
+TEST(RenderFilmStripTest, NamesShapesThatCannotBeDrawn) {
+  const SimpleBody box = Box(1, 1, 1);
+  const auto draw = [&](const std::vector<Shape>& shapes) {
+    return MessageOf<MeshError>([&] { RenderFilmStrip(*box.connectivity, shapes); });
+  };
+  EXPECT_EQ(draw({}), "picture: there is no shape to draw");
+  EXPECT_EQ(draw({box.shape, Shape::Zero(3, 7)}),
+            "picture: shape 1 has 7 vertices, its connectivity 8");
+  Shape broken = box.shape;
+  broken(2, 5) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(draw({box.shape, broken}), "picture: shape 1: vertex 5 is not finite");
+  EXPECT_NE(draw({1.7e308 * box.shape.cwiseSign()}).find("shape 0 is too large"),
+            std::string::npos);
+}
+
+TEST(RenderFilmStripTest, NamesTheOptionThatIsWrong) {
+  const SimpleBody box = Box(1, 1, 1);
+  const auto field = [&](const std::function<void(FilmStripOptions*)>& change) {
+    FilmStripOptions options;
+    change(&options);
+    const std::string message = MessageOf<InvalidOptions>(
+        [&] { RenderFilmStrip(*box.connectivity, {box.shape}, options); });
+    return message.substr(0, message.find(':'));
+  };
+  using O = FilmStripOptions;
+  EXPECT_EQ(field([](O* o) { o->frame_width = 15; }), "frame_width");
+  EXPECT_EQ(field([](O* o) { o->max_frames = 1; }), "max_frames");
+  EXPECT_EQ(field([](O* o) { o->samples = 0; }), "samples");
+  EXPECT_EQ(field([](O* o) { o->view.x() = std::nan(""); }), "view");
+  EXPECT_EQ(field([](O* o) { o->up.x() = std::nan(""); }), "up");
+  EXPECT_EQ(field([](O* o) { o->up = -2 * (o->view = {1, 2, 3}); }), "up");
+  EXPECT_EQ(field([](O* o) {
+              o->legend =
+                  "gr\xc3\xb6\xc3\x9f"
+                  "er";
+            }),
+            "legend");
+  EXPECT_EQ(field([](O* o) { o->legend.assign(121, 'x'); }), "legend");
+  EXPECT_EQ(field([](O* o) { o->values.assign(2, Eigen::VectorXd::Zero(8)); }), "values");
+  EXPECT_EQ(field([](O* o) { o->values = {Eigen::VectorXd::Zero(7)}; }), "values");
+  EXPECT_EQ(field([](O* o) { o->values = {Eigen::VectorXd::Constant(8, INFINITY)}; }), "values");
+}
+
+TEST(RenderFilmStripTest, RefusesAPictureTooLargeToOpen) {
+  const SimpleBody box = Box(1, 1, 1);
+  FilmStripOptions options;
+  options.frame_width = 2048;
+  options.max_frames = 1000;
+  const std::vector<Shape> shapes(200, box.shape);
+  const std::string message =
+      MessageOf<InvalidOptions>([&] { RenderFilmStrip(*box.connectivity, shapes, options); });
+  EXPECT_EQ(message.find("frame_width: 200 frames of 2048 pixels"), 0u) << message;
+}
+
+}  // namespace
+}  // namespace shapespace

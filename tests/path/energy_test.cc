@@ -1,0 +1,348 @@
+#include <shapespace/path/energy.h>
+
+#include <cmath>
+#include <numeric>
+
+#include <ceres/jet.h>
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/sheet.h>
+#include <shapespace/metric/trapezoid.h>
+
+#include "support/paths.h"
+
+namespace shapespace {
+namespace {
+
+using testing::NoisyBlend;
+
+struct Evaluated {
+  double energy;
+  std::vector<Shape> gradient;  // of the inner shapes
+};
+
+// The energy as its definition says it, from the functors and their automatic derivatives: no
+// kernel, no reordering, one element and segment after the other.
+Evaluated FromDefinition(const Metric& metric, const std::vector<Shape>& shapes, double quartic) {
+  Evaluated result{0, std::vector<Shape>(shapes.size(), Shape::Zero(3, shapes[0].cols()))};
+  const bool trapezoid = metric.options.discretization == Discretization::kTrapezoid;
+  for (const AnyFeature& any : metric.features) {
+    std::visit(
+        [&](const auto& feature) {
+          using Feature = std::decay_t<decltype(feature)>;
+          constexpr int kSize = 3 * Feature::kVertices, kValues = Feature::kValues;
+          using Jet = ceres::Jet<double, 2 * kSize>;
+          for (size_t i = 0; i + 1 < shapes.size(); ++i) {
+            const auto spread = [&](int e, const Jet& value) {
+              result.energy += value.a;
+              for (int k = 0; k < 2 * kSize; ++k) {
+                const int v = feature.stencils(k % kSize / 3, e);
+                result.gradient[i + k / kSize](k % 3, v) += value.v(k);
+              }
+            };
+            const auto evaluate = [&](int e, Jet* change, Jet* from, Jet* to) {
+              double x[2 * kSize];
+              Gather(feature, e, shapes[i], x);
+              Gather(feature, e, shapes[i + 1], x + kSize);
+              for (int k = 0; k < kSize; ++k) {
+                from[k] = Jet(x[k], k);
+                to[k] = Jet(x[kSize + k], kSize + k);
+              }
+              Jet a[kValues], b[kValues];
+              feature(from, a);
+              feature(to, b);
+              for (int k = 0; k < kValues; ++k) change[k] = b[k] - a[k];
+            };
+            Jet change[kValues], from[kSize], to[kSize];
+            if constexpr (Feature::kSum) {
+              double total = 0;
+              for (int e = 0; e < feature.stencils.cols(); ++e) {
+                evaluate(e, change, from, to);
+                total += change[0].a;
+              }
+              const double w = feature.weights(0);
+              result.energy += 2 * w * total * total;
+              for (int e = 0; e < feature.stencils.cols(); ++e) {
+                evaluate(e, change, from, to);
+                spread(e, 4 * w * total * (change[0] - Jet(change[0].a)));
+              }
+            } else {
+              for (int e = 0; e < feature.stencils.cols(); ++e) {
+                evaluate(e, change, from, to);
+                const double w = feature.weights(e);
+                Jet sum = Jet(0.0);
+                if (Feature::kTrapezoid && trapezoid) {
+                  Jet ends[2];
+                  if constexpr (Feature::kTrapezoid) TrapezoidResiduals(from, to, ends);
+                  const Jet a = 0.5 * (ends[0] + ends[1]), b = 0.5 * (ends[1] - ends[0]);
+                  sum = 2.0 * (a * a + quartic * b * b);
+                } else {
+                  for (const Jet& c : change) sum += 2.0 * c * c;
+                }
+                spread(e, w * sum);
+              }
+            }
+          }
+        },
+        any);
+  }
+  result.gradient.erase(result.gradient.begin());
+  result.gradient.pop_back();
+  return result;
+}
+
+// The same through PathEnergy.
+Evaluated FromPathEnergy(const Metric& metric, const std::vector<Shape>& shapes, double quartic) {
+  const int inner = static_cast<int>(shapes.size()) - 2;
+  PathEnergy energy(metric, inner);
+  energy.SetQuarticWeight(quartic);
+  std::vector<double> unknowns(energy.Size()), gradient(energy.Size());
+  energy.Load(shapes, unknowns.data());
+  Evaluated result;
+  result.energy = energy.Evaluate(unknowns.data(), gradient.data());
+  std::vector<Shape> stored = shapes;
+  energy.Store(gradient.data(), &stored);
+  result.gradient.assign(stored.begin() + 1, stored.end() - 1);
+  return result;
+}
+
+void ExpectSame(const Evaluated& a, const Evaluated& b, double tolerance) {
+  EXPECT_NEAR(a.energy, b.energy, tolerance * std::abs(b.energy));
+  ASSERT_EQ(a.gradient.size(), b.gradient.size());
+  double largest = 0, difference = 0;
+  for (size_t i = 0; i < b.gradient.size(); ++i) {
+    largest = std::max(largest, b.gradient[i].cwiseAbs().maxCoeff());
+    difference = std::max(difference, (a.gradient[i] - b.gradient[i]).cwiseAbs().maxCoeff());
+  }
+  EXPECT_LT(difference, tolerance * largest);
+}
+
+struct Case {
+  const char* name;
+  MetricOptions options;
+};
+
+std::vector<Case> AllBlends() {
+  MetricOptions membrane, everything, strains, paper_with_bending = MetricOptions::Paper();
+  membrane.bending = 0;
+  everything.log_length = 0.2;
+  everything.volume = 0.3;
+  strains.isometric = 0;
+  strains.log_length = 1;
+  paper_with_bending.bending = 1e-3;
+  return {{"default", {}},
+          {"membrane", membrane},
+          {"strains", strains},
+          {"everything", everything},
+          {"paper", MetricOptions::Paper()},
+          {"paper with bending", paper_with_bending}};
+}
+
+// 8e-3 of noise on edges of length .1: creases of tens of degrees.
+TEST(PathEnergy, KernelsEqualTheAutomaticDerivativesOfTheFunctors) {
+  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  for (const Case& test : AllBlends()) {
+    const Metric metric = FreezeMetric(test.options, bar.connectivity, {bar.pose(0), bar.pose(80)});
+    for (int inner : {1, 2, 3, 5, 7, 8, 17}) {
+      SCOPED_TRACE(std::string(test.name) + ", inner shapes: " + std::to_string(inner));
+      const std::vector<Shape> shapes =
+          NoisyBlend(bar.pose(0) / metric.unit, bar.pose(80) / metric.unit, inner, 8e-3);
+      ExpectSame(FromPathEnergy(metric, shapes, 0.7), FromDefinition(metric, shapes, 0.7), 1e-12);
+    }
+  }
+}
+
+TEST(PathEnergy, KernelsEqualTheFunctorsOnManyBlocksOfRows) {
+  const Body sheet = MakeSheet(2, 1, 60, 40);  // 2501 vertices: nine blocks
+  const Metric metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0), sheet.pose(90)});
+  const std::vector<Shape> shapes =
+      NoisyBlend(sheet.pose(0) / metric.unit, sheet.pose(90) / metric.unit, 4, 2e-3);
+  ExpectSame(FromPathEnergy(metric, shapes, 1), FromDefinition(metric, shapes, 1), 1e-12);
+}
+
+TEST(PathEnergy, CollapsedTrianglesMakeNoNan) {
+  const Body sheet = MakeSheet(1, 1, 4, 4);
+  const Metric metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});
+  const Shape flat = sheet.pose(0) / metric.unit;
+  const Evaluated result = FromPathEnergy(metric, {flat, 0 * flat, flat}, 1);
+  EXPECT_TRUE(std::isfinite(result.energy));
+  EXPECT_TRUE(result.gradient[0].allFinite());
+}
+
+TEST(PathEnergy, PaperEnergyIsTheMidpointFormAndAQuarticPart) {
+  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  MetricOptions options = MetricOptions::Paper();
+  const Metric paper = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(90)});
+  options.discretization = Discretization::kMidpoint;
+  const Metric midpoint = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(90)});
+  const std::vector<Shape> shapes =
+      NoisyBlend(bar.pose(0) / paper.unit, bar.pose(90) / paper.unit, 5, 1e-2);
+  double quartic = 0;
+  for (size_t i = 0; i + 1 < shapes.size(); ++i) {
+    for (int e = 0; e < bar.connectivity->NumEdges(); ++e) {
+      const Eigen::Vector2i v = bar.connectivity->Edges().col(e);
+      const Eigen::Vector3d turn = shapes[i + 1].col(v(1)) - shapes[i + 1].col(v(0)) -
+                                   shapes[i].col(v(1)) + shapes[i].col(v(0));
+      quartic += 0.5 * turn.squaredNorm() * turn.squaredNorm();
+    }
+  }
+  const double expected = FromPathEnergy(midpoint, shapes, 1).energy + quartic;
+  EXPECT_NEAR(FromPathEnergy(paper, shapes, 1).energy, expected, 1e-12 * expected);
+}
+
+TEST(PathEnergy, RigidMetricVanishesOnFiniteRigidMotions) {
+  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  MetricOptions options = MetricOptions::Rigid();
+  options.lambda = 0;
+  const Metric metric = FreezeMetric(options, bar.connectivity, {bar.pose(40)});
+  const Shape shape = bar.pose(40) / metric.unit;
+  std::vector<Shape> shapes;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(1.2 * i, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+    shapes.push_back((turn * shape).colwise() + i * Eigen::Vector3d(0.3, 0, -2));
+  }
+  const Evaluated result = FromPathEnergy(metric, shapes, 1);
+  EXPECT_LT(result.energy, 1e-24);
+}
+
+TEST(PathEnergy, RigidMetricHasTheGradientOfCentralDifferences) {
+  const Body bar = MakeBar(4, 1, 1, 3, 1, 1);
+  for (Weights weights : {Weights::kArea, Weights::kUniform}) {
+    MetricOptions options = MetricOptions::Rigid();
+    options.weights = weights;
+    const Metric metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(90)});
+    std::vector<Shape> shapes =
+        NoisyBlend(bar.pose(0) / metric.unit, bar.pose(90) / metric.unit, 3, 2e-2);
+    const Evaluated result = FromPathEnergy(metric, shapes, 1);
+    for (int i = 1; i <= 3; ++i) {
+      for (int v : {0, 5}) {
+        for (int axis = 0; axis < 3; ++axis) {
+          constexpr double kStep = 1e-5;
+          double& x = shapes[i](axis, v);
+          const double middle = x;
+          x = middle + kStep;
+          const double more = FromPathEnergy(metric, shapes, 1).energy;
+          x = middle - kStep;
+          const double less = FromPathEnergy(metric, shapes, 1).energy;
+          x = middle;
+          EXPECT_NEAR(result.gradient[i - 1](axis, v), (more - less) / (2 * kStep),
+                      1e-7 * result.gradient[i - 1].norm());
+        }
+      }
+    }
+  }
+}
+
+TEST(PathEnergy, IsTheSameForAnyNumberOfThreads) {
+  const Body bar = MakeBar(6, 1, 1, 120, 20, 20);
+  MetricOptions options;
+  options.volume = 0.3;
+  options.log_length = 0.1;
+  const Metric metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(60)});
+  const std::vector<Shape> shapes =
+      NoisyBlend(bar.pose(0) / metric.unit, bar.pose(60) / metric.unit, 3, 1e-3);
+  SetThreads(1);
+  const Evaluated one = FromPathEnergy(metric, shapes, 1);
+  for (int threads : {2, 3, 8}) {
+    SetThreads(threads);
+    const Evaluated many = FromPathEnergy(metric, shapes, 1);
+    EXPECT_EQ(one.energy, many.energy);
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(one.gradient[i] == many.gradient[i]);
+  }
+  SetThreads(0);
+}
+
+TEST(PathEnergy, DoesNotDependOnFrameOrNumberingOfVertices) {
+  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const int num_vertices = bar.connectivity->NumVertices();
+  std::vector<int> number(num_vertices);
+  std::iota(number.begin(), number.end(), 0);
+  std::shuffle(number.begin(), number.end(), std::mt19937(3));
+  Eigen::Matrix3Xi triangles = bar.connectivity->Triangles();
+  for (int& v : triangles.reshaped()) v = number[v];
+  const auto renumbered = Connectivity::FromTriangles(num_vertices, triangles);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(2, Eigen::Vector3d(1, 1, 3).normalized()).toRotationMatrix();
+
+  const auto energy = [](const std::shared_ptr<const Connectivity>& connectivity,
+                         const std::vector<Shape>& shapes) {
+    MetricOptions options;
+    options.volume = 0.3;
+    const Metric metric = FreezeMetric(options, connectivity, {shapes.front(), shapes.back()});
+    std::vector<Shape> scaled;
+    for (const Shape& shape : shapes) scaled.push_back(shape / metric.unit);
+    return FromPathEnergy(metric, scaled, 1).energy;
+  };
+  const std::vector<Shape> shapes = NoisyBlend(bar.pose(0), bar.pose(60), 3, 2e-2);
+  std::vector<Shape> turned, shuffled;
+  for (const Shape& shape : shapes) {
+    turned.push_back((turn * shape).colwise() + Eigen::Vector3d(5, -3, 1));
+    shuffled.emplace_back(3, num_vertices);
+    for (int v = 0; v < num_vertices; ++v) shuffled.back().col(number[v]) = shape.col(v);
+  }
+  const double expected = energy(bar.connectivity, shapes);
+  EXPECT_NEAR(energy(bar.connectivity, turned), expected, 1e-11 * expected);
+  EXPECT_NEAR(energy(renumbered, shuffled), expected, 1e-11 * expected);
+}
+
+TEST(EnergyLowerBound, IsBelowAnyPathAndReachedWhereFeaturesMoveEvenly) {
+  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  for (const Case& test : AllBlends()) {
+    SCOPED_TRACE(test.name);
+    const Metric metric = FreezeMetric(test.options, bar.connectivity, {bar.pose(0), bar.pose(80)});
+    const std::vector<Shape> shapes =
+        NoisyBlend(bar.pose(0) / metric.unit, bar.pose(80) / metric.unit, 5, 1e-3);
+    const double bound = EnergyLowerBound(metric, shapes.front(), shapes.back(), 6);
+    EXPECT_GT(bound, 0);
+    EXPECT_LT(bound, FromPathEnergy(metric, shapes, 1).energy);
+  }
+  // One edge whose squared length grows evenly.
+  MetricOptions membrane;
+  membrane.bending = membrane.lambda = 0;
+  std::vector<Shape> shapes;
+  for (int i = 0; i <= 4; ++i) {
+    shapes.emplace_back(Shape::Zero(3, 2));
+    shapes.back()(0, 1) = std::sqrt(1 + 0.75 * i);
+  }
+  const Metric metric =
+      FreezeMetric(membrane, testing::SingleEdge(), {shapes.front(), shapes.back()});
+  const double energy = FromPathEnergy(metric, shapes, 1).energy;
+  EXPECT_NEAR(EnergyLowerBound(metric, shapes.front(), shapes.back(), 4), energy, 1e-14 * energy);
+}
+
+TEST(EnergyLowerBound, IsNotKnownForTheRigidMetric) {
+  const Body bar = MakeBar(4, 1, 1, 3, 1, 1);
+  const Metric metric = FreezeMetric(MetricOptions::Rigid(), bar.connectivity, {bar.pose(0)});
+  EXPECT_TRUE(std::isnan(EnergyLowerBound(metric, bar.pose(0), bar.pose(10), 3)));
+}
+
+TEST(PathEnergy, StoreGivesBackWhatLoadTook) {
+  const Body sheet = MakeSheet(1, 1, 5, 3);
+  const Metric metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});
+  const std::vector<Shape> shapes = NoisyBlend(sheet.pose(0), sheet.pose(90), 3, 0.1);
+  PathEnergy energy(metric, 3);
+  std::vector<double> unknowns(energy.Size());
+  energy.Load(shapes, unknowns.data());
+  std::vector<Shape> stored(5);
+  energy.Store(unknowns.data(), &stored);
+  for (int i = 1; i <= 3; ++i) EXPECT_TRUE(stored[i] == shapes[i]);
+}
+
+TEST(PathEnergy, RefusesWrongSizes) {
+  const Body sheet = MakeSheet(1, 1, 2, 2);
+  const Metric metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});
+  EXPECT_THROW(PathEnergy(metric, 0), InvalidOptions);
+  PathEnergy energy(metric, 2);
+  std::vector<double> unknowns(energy.Size());
+  const Shape shape = sheet.pose(0);
+  EXPECT_THROW(energy.Load({shape, shape, shape}, unknowns.data()), MeshError);
+  EXPECT_THROW(energy.Load({shape, shape, shape.leftCols(3), shape}, unknowns.data()), MeshError);
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,76 @@
+#include <shapespace/path/quality.h>
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/bodies/sheet.h>
+
+namespace shapespace {
+namespace {
+
+Path MakePath(const Body& body, const std::vector<Shape>& shapes) {
+  Path path;
+  path.metric = std::make_shared<const Metric>(
+      FreezeMetric({}, body.connectivity, {shapes.front(), shapes.back()}));
+  path.shapes = shapes;
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    path.parameters.push_back(static_cast<double>(i) / (shapes.size() - 1));
+  }
+  path.motions.resize(shapes.size());
+  path.poses = {0, static_cast<int>(shapes.size()) - 1};
+  return path;
+}
+
+TEST(MeasureQuality, IsZeroOnAnExactIsometricFlex) {
+  const Body strip = MakeStrip(1, 1, 20);
+  std::vector<Shape> shapes;
+  for (int i = 0; i <= 4; ++i) shapes.push_back(strip.pose(strip.end * i / 4));
+  const PathQuality quality = MeasureQuality(MakePath(strip, shapes));
+  EXPECT_LT(quality.edge_max, 1e-12);
+  EXPECT_LT(quality.first_max, 1e-12);
+  EXPECT_LT(quality.roughness, 1e-6);  // the hinges' angles are the parameter itself
+  EXPECT_EQ(quality.folds, 0);
+}
+
+TEST(MeasureQuality, SeesAScaledShapeAsThatMuchDeviation) {
+  const Body sheet = MakeSheet(1, 1, 6, 6);
+  const Shape flat = sheet.pose(0);
+  const PathQuality quality = MeasureQuality(MakePath(sheet, {flat, 1.1 * flat, 2 * flat}));
+  const double expected = std::sqrt(0.5 * 1 + 0.5 * 4);  // between |e|^2 and 4 |e|^2, half way
+  EXPECT_NEAR(quality.edge_max, std::abs(1.1 / expected - 1), 1e-6);
+  EXPECT_NEAR(quality.edge_rms, std::abs(1.1 / expected - 1), 1e-6);
+  EXPECT_NEAR(quality.first_max, 1, 1e-6);                          // of the last shape
+  EXPECT_NEAR(quality.first_rms, std::sqrt((1 + 0.01) / 2), 1e-6);  // of both
+}
+
+TEST(MeasureQuality, CountsFoldsThatThePosesDoNotHave) {
+  const Body sheet = MakeSheet(1, 1, 1, 1);  // two triangles, one hinge
+  ASSERT_EQ(sheet.connectivity->NumHinges(), 1);
+  const Shape flat = sheet.pose(0);
+  const Eigen::Vector4i hinge = sheet.connectivity->Hinges().col(0);
+  Shape folded = flat;  // one triangle onto the other
+  folded.col(hinge(3)) = folded.col(hinge(2)) + Eigen::Vector3d(0, 0, 0.01);
+  const PathQuality quality = MeasureQuality(MakePath(sheet, {flat, folded, flat}));
+  EXPECT_EQ(quality.folds, 1);
+  EXPECT_GT(quality.roughness, 170);
+  // A fold that both ends hold is none.
+  EXPECT_EQ(MeasureQuality(MakePath(sheet, {folded, folded, folded})).folds, 0);
+}
+
+TEST(EdgeDeviation, IsLocal) {
+  const Body sheet = MakeSheet(1, 1, 10, 10);
+  const Shape flat = sheet.pose(0);
+  Shape bumped = flat;
+  bumped.col(0) += Eigen::Vector3d(0, 0, 0.1);
+  const Path path = MakePath(sheet, {flat, bumped, flat});
+  const Eigen::VectorXd deviation = EdgeDeviation(path, 1);
+  EXPECT_GT(deviation(0), 0.1);
+  int touched = 0;
+  for (double d : deviation) touched += d > 1e-9;
+  EXPECT_LT(touched, 8);  // the vertex and its neighbours
+  EXPECT_EQ(EdgeDeviation(path, 2).maxCoeff(), 0);
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,386 @@
+#include <shapespace/solvers/geodesic.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/bricard.h>
+#include <shapespace/bodies/catenoid.h>
+#include <shapespace/bodies/sheet.h>
+#include <shapespace/path/energy.h>
+
+#include "support/paths.h"
+
+namespace shapespace {
+namespace {
+
+GeodesicOptions Options(int shapes, double tolerance) {
+  GeodesicOptions options;
+  options.shapes = shapes;
+  options.tolerance = tolerance;
+  options.max_iterations = 3000;
+  return options;
+}
+
+double Diameter(const Shape& shape) {
+  return (shape.rowwise().maxCoeff() - shape.rowwise().minCoeff()).norm();
+}
+
+// Largest distance between corresponding vertices of two paths, as placed.
+double Difference(const Path& a, const Path& b) {
+  double largest = 0;
+  for (int i = 0; i < a.NumShapes(); ++i) {
+    largest = std::max(largest, (a.Placed(i) - b.Placed(i)).colwise().norm().maxCoeff());
+  }
+  return largest;
+}
+
+Eigen::Matrix3d Rotation(double angle, const Eigen::Vector3d& axis) {
+  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
+
+TEST(Interpolate, TranslatesAlongAStraightLine) {
+  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const Shape first = bar.pose(50);
+  const Eigen::Vector3d way(3, -40, 7);
+  for (const MetricOptions& metric :
+       {MetricOptions::Isometric(), MetricOptions::Rigid(), MetricOptions::Paper()}) {
+    GeodesicOptions options = Options(3, 1e-8);
+    options.metric = metric;
+    const auto [path, summary] =
+        Interpolate(bar.connectivity, {first, first.colwise() + way}, options);
+    EXPECT_EQ(summary.termination, Termination::kConverged);
+    for (int i = 0; i <= 4; ++i) {
+      const Shape expected = first.colwise() + i / 4.0 * way;
+      EXPECT_LT((path.Placed(i) - expected).cwiseAbs().maxCoeff(), 1e-11);
+    }
+  }
+}
+
+// Also by 179 degrees, where the linear blend of the poses as they are collapses.
+TEST(Interpolate, TurnsARigidCopyAtConstantSpeedAndKeepsItsShape) {
+  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const Shape first = bar.pose(50);
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 1, 0.2).normalized();
+  for (double degrees : {60.0, 179.0}) {
+    const double angle = degrees * M_PI / 180;
+    GeodesicOptions options = Options(5, 1e-8);
+    options.metric.lambda = 0;
+    const auto [path, summary] =
+        Interpolate(bar.connectivity, {first, Rotation(angle, axis) * first}, options);
+    EXPECT_LT(summary.energy, 1e-20);
+    EXPECT_LT(summary.quality.first_max, 1e-10);
+    const Eigen::Vector3d centre = Centroid(first, path.metric->vertex_area);
+    for (int i = 0; i <= 6; ++i) {
+      const Shape expected = Rotation(i / 6.0 * angle, axis) * (first.colwise() - centre);
+      const Shape placed = path.Placed(i);
+      const Shape centred = placed.colwise() - Centroid(placed, path.metric->vertex_area);
+      EXPECT_LT((centred - expected).cwiseAbs().maxCoeff(), 1e-9);
+    }
+  }
+}
+
+TEST(Interpolate, IsTheLinearBlendOfAlignedPosesInAFlatMetric) {
+  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  GeodesicOptions options = Options(7, 1e-12);
+  options.metric.isometric = options.metric.bending = 0;
+  options.metric.lambda = 1;
+  const auto [path, summary] = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(90)}, options);
+  for (int i = 0; i <= 8; ++i) {
+    const double t = i / 8.0;
+    const Shape blend = (1 - t) * path.shapes.front() + t * path.shapes.back();
+    EXPECT_LT((path.shapes[i] - blend).cwiseAbs().maxCoeff(), 1e-9);
+  }
+  EXPECT_NEAR(summary.Ratio(), 1, 1e-9);
+}
+
+// An edge that only grows: ds^2 = (w r^2 + lambda / 8) dr^2 with A_p = 1/2, so that t is the share
+// of an arc length in closed form; the discretisation is of second order.
+TEST(Interpolate, StretchesASingleEdgeAsTheClosedFormSays) {
+  Shape first = Shape::Zero(3, 2), last = Shape::Zero(3, 2);
+  first(0, 1) = 1;
+  last(0, 1) = 4;
+  double previous = 0;
+  for (int shapes : {7, 15, 31}) {
+    GeodesicOptions options = Options(shapes, 1e-15);
+    options.metric.lambda = 3;  // of the size of the other part, or the path is nearly known
+    const auto [path, summary] = Interpolate(testing::SingleEdge(), {first, last}, options);
+    const double unit = path.metric->unit;
+    const double w = std::get<EdgeLength>(path.metric->features[0]).weights(0);
+    const double c = 3 / 4.0 / w;  // lambda (A_p / 4 + A_q / 4) / w
+    const auto arc = [&](double r) {
+      return 0.5 * (r * std::sqrt(r * r + c) + c * std::asinh(r / std::sqrt(c)));
+    };
+    double error = 0;
+    for (int i = 0; i < path.NumShapes(); ++i) {
+      const double r = (path.shapes[i].col(1) - path.shapes[i].col(0)).norm();
+      const double begin = arc(1 / unit), end = arc(4 / unit);
+      error = std::max(error, std::abs((arc(r) - begin) / (end - begin) - path.parameters[i]));
+    }
+    EXPECT_LT(error, 1e-3);
+    if (previous > 0) {
+      EXPECT_NEAR(previous / error, 4, 0.4) << shapes;
+    }
+    previous = error;
+  }
+}
+
+TEST(Interpolate, FollowsExactIsometricFlexes) {
+  for (const Body& body : {MakeStrip(1, 1, 16), MakeBricard()}) {
+    SCOPED_TRACE(body.name);
+    GeodesicOptions options = Options(15, 1e-10);
+    options.metric.bending = 0;
+    double deviation[2];
+    for (int i = 0; i < 2; ++i) {
+      options.metric.lambda = i == 0 ? 1e-3 : 1e-4;
+      const auto [path, summary] =
+          Interpolate(body.connectivity, {body.pose(0), body.pose(0.7 * body.end)}, options);
+      EXPECT_EQ(summary.termination, Termination::kConverged);
+      deviation[i] = summary.quality.edge_max;
+    }
+    EXPECT_LT(deviation[0], 1e-2);
+    EXPECT_NEAR(deviation[0] / deviation[1], 10, 4);  // proportional to lambda
+  }
+}
+
+// The associate family of the catenoid is isometric, and its way is short: the geodesic stays near.
+TEST(Interpolate, BendsTheCatenoidToTheHelicoidWithoutStretchingIt) {
+  const Body catenoid = MakeCatenoid(1, 32, 12);
+  const auto [path, summary] =
+      Interpolate(catenoid.connectivity, {catenoid.pose(0), catenoid.pose(90)}, Options(7, 1e-7));
+  EXPECT_EQ(summary.termination, Termination::kConverged);
+  EXPECT_LT(summary.quality.edge_rms, 5e-3);
+  EXPECT_EQ(summary.quality.folds, 0);
+}
+
+TEST(Interpolate, BendsABarEvenly) {
+  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const auto [path, summary] =
+      Interpolate(bar.connectivity, {bar.pose(0), bar.pose(90)}, Options(3, 1e-9));
+  const Shape half = bar.pose(45) / path.metric->unit;
+  const RigidMotion fit = FitRigidMotion(path.shapes[2], half, path.metric->vertex_area);
+  EXPECT_LT((fit(path.shapes[2]) - half).colwise().norm().maxCoeff(), 0.01 * Diameter(half));
+}
+
+TEST(Interpolate, ScaledEnergyConvergesWithTheSquareOfTheTimeStep) {
+  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  double energy[4];
+  for (int i = 0; i < 4; ++i) {
+    const auto [path, summary] =
+        Interpolate(bar.connectivity, {bar.pose(0), bar.pose(90)}, Options((4 << i) - 1, 1e-11));
+    energy[i] = summary.energy;
+  }
+  EXPECT_LT(energy[0], energy[1]);
+  EXPECT_NEAR((energy[1] - energy[0]) / (energy[2] - energy[1]), 4, 0.5);
+  EXPECT_NEAR((energy[2] - energy[1]) / (energy[3] - energy[2]), 4, 0.5);
+}
+
+TEST(Interpolate, BothSolversFindTheSameMinimum) {
+  const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
+  MetricOptions volume, strains;
+  volume.volume = 0.3;
+  strains.isometric = 0;
+  strains.log_length = 1;
+  strains.bending = 1e-3;
+  MetricOptions rigid = MetricOptions::Rigid();
+  rigid.lambda = 1e-2;
+  MetricOptions paper = MetricOptions::Paper();
+  paper.bending = 1e-4;
+  for (const MetricOptions& metric : {MetricOptions(), volume, strains, rigid, paper}) {
+    SCOPED_TRACE(Describe(metric));
+    GeodesicOptions options = Options(4, 1e-13);
+    options.metric = metric;
+    options.solver = Solver::kLbfgs;
+    const auto lbfgs = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(70)}, options);
+    options.solver = Solver::kTrustRegion;
+    const auto region = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(70)}, options);
+    EXPECT_NEAR(lbfgs.summary.energy, region.summary.energy, 1e-7 * region.summary.energy);
+    EXPECT_LT(Difference(lbfgs.path, region.path), 2e-3);
+  }
+}
+
+TEST(Interpolate, CommutesWithScaling) {
+  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const auto reference =
+      Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, Options(7, 1e-9));
+  for (double scale : {1e-4, 1e4}) {
+    const auto scaled = Interpolate(bar.connectivity, {scale * bar.pose(0), scale * bar.pose(80)},
+                                    Options(7, 1e-9));
+    EXPECT_NEAR(scaled.summary.energy, reference.summary.energy, 1e-8 * reference.summary.energy);
+    for (int i = 0; i < 9; ++i) {
+      EXPECT_LT((scaled.path.Placed(i) / scale - reference.path.Placed(i)).cwiseAbs().maxCoeff(),
+                1e-5);
+    }
+  }
+}
+
+TEST(Interpolate, CommutesWithRigidMotionAndRenumbering) {
+  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const auto reference =
+      Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, Options(7, 1e-9));
+  const Eigen::Matrix3d turn = Rotation(2.5, {3, 1, 2});
+  const auto move = [&](const Shape& shape) {
+    return Shape((turn * shape).colwise() + Eigen::Vector3d(1, 2, 3));
+  };
+  const auto moved =
+      Interpolate(bar.connectivity, {move(bar.pose(0)), move(bar.pose(80))}, Options(7, 1e-9));
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_LT((moved.path.Placed(i) - move(reference.path.Placed(i))).cwiseAbs().maxCoeff(), 1e-5);
+  }
+
+  const int num_vertices = bar.connectivity->NumVertices();
+  std::vector<int> number(num_vertices);
+  std::iota(number.begin(), number.end(), 0);
+  std::shuffle(number.begin(), number.end(), std::mt19937(3));
+  Eigen::Matrix3Xi triangles = bar.connectivity->Triangles();
+  for (int& v : triangles.reshaped()) v = number[v];
+  const auto shuffle = [&](const Shape& shape) {
+    Shape result(3, num_vertices);
+    for (int v = 0; v < num_vertices; ++v) result.col(number[v]) = shape.col(v);
+    return result;
+  };
+  const auto renumbered =
+      Interpolate(Connectivity::FromTriangles(num_vertices, triangles),
+                  {shuffle(bar.pose(0)), shuffle(bar.pose(80))}, Options(7, 1e-9));
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_LT((renumbered.path.Placed(i) - shuffle(reference.path.Placed(i))).cwiseAbs().maxCoeff(),
+              1e-5);
+  }
+}
+
+TEST(Interpolate, IsTheSameBackwards) {
+  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const auto there = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, Options(7, 1e-10));
+  const auto back = Interpolate(bar.connectivity, {bar.pose(80), bar.pose(0)}, Options(7, 1e-10));
+  EXPECT_NEAR(there.summary.energy, back.summary.energy, 1e-8 * back.summary.energy);
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_LT((there.path.Placed(i) - back.path.Placed(8 - i)).cwiseAbs().maxCoeff(), 1e-4);
+  }
+}
+
+TEST(Interpolate, IsTheSameForAnyNumberOfThreads) {
+  const Body bar = MakeBar(6, 1, 1, 60, 10, 10);
+  SetThreads(1);
+  const auto one = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, Options(7, 1e-4));
+  SetThreads(3);
+  const auto three = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, Options(7, 1e-4));
+  SetThreads(0);
+  for (int i = 0; i < 9; ++i) EXPECT_TRUE(one.path.shapes[i] == three.path.shapes[i]);
+}
+
+TEST(Interpolate, PassesThroughAllPosesAtEvenTimes) {
+  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const std::vector<Shape> poses = {bar.pose(0), bar.pose(70), bar.pose(20)};
+  const auto [path, summary] = Interpolate(bar.connectivity, poses, Options(4, 1e-6));
+  ASSERT_EQ(path.NumShapes(), 11);
+  EXPECT_EQ(path.poses, (std::vector<int>{0, 5, 10}));
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_LT((path.Placed(path.poses[k]) - poses[k]).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_NEAR(path.parameters[path.poses[k]], k / 2.0, 1e-15);
+  }
+  EXPECT_TRUE(std::is_sorted(path.parameters.begin(), path.parameters.end()));
+  EXPECT_LT(summary.quality.edge_rms, 0.02);
+}
+
+TEST(Interpolate, VolumeTermKeepsTheVolumeOnTheWay) {
+  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const auto least_volume = [&](double volume) {
+    GeodesicOptions options = Options(7, 1e-8);
+    options.metric.bending = 0;
+    options.metric.volume = volume;
+    const auto [path, summary] =
+        Interpolate(bar.connectivity, {bar.pose(0), bar.pose(150)}, options);
+    double least = 1e30;
+    const Eigen::Matrix3Xi& triangles = bar.connectivity->Triangles();
+    double first = 0;
+    for (int i = 0; i < path.NumShapes(); ++i) {
+      double v = 0;
+      for (const auto& t : triangles.colwise()) {
+        const Shape& p = path.shapes[i];
+        v += p.col(t(0)).dot(p.col(t(1)).cross(p.col(t(2))));
+      }
+      if (i == 0) first = v;
+      least = std::min(least, v / first);
+    }
+    return least;
+  };
+  EXPECT_LT(least_volume(0), 0.97);
+  EXPECT_GT(least_volume(0.3), 0.98);
+}
+
+TEST(Interpolate, ReportsThatItDidNotConverge) {
+  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  GeodesicOptions options = Options(7, 1e-12);
+  options.max_iterations = 2;
+  const auto [path, summary] = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(90)}, options);
+  EXPECT_EQ(summary.termination, Termination::kMaxIterations);
+  EXPECT_FALSE(summary.warnings.empty());
+  EXPECT_NE(summary.BriefReport().find("NOT CONVERGED"), std::string::npos);
+  EXPECT_FALSE(nlohmann::json::parse(summary.ToJson())["converged"].get<bool>());
+}
+
+TEST(Interpolate, SummaryAddsUp) {
+  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const auto [path, summary] =
+      Interpolate(bar.connectivity, {bar.pose(0), bar.pose(90)}, Options(6, 1e-6));
+  double parts = 0;
+  for (const auto& [name, value] : summary.parts) parts += value;
+  EXPECT_NEAR(parts, summary.energy, 1e-12);
+  EXPECT_NEAR(summary.energy, summary.levels.back().energy, 1e-12);
+  EXPECT_EQ(summary.levels.back().shapes, 6);
+  EXPECT_GE(summary.Ratio(), 1);
+  EXPECT_LT(summary.Ratio(), 1.05);
+  EXPECT_LT(summary.levels.back().remaining, 1e-4);
+  for (const auto& level : summary.levels)
+    EXPECT_LE(level.energy, level.initial_energy * (1 + 1e-12));
+  const auto json = nlohmann::json::parse(summary.ToJson());
+  EXPECT_EQ(json["levels"].size(), summary.levels.size());
+  EXPECT_DOUBLE_EQ(json["energy"].get<double>(), summary.energy);
+}
+
+TEST(Interpolate, RefusesWhatCannotWork) {
+  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  EXPECT_THROW(Interpolate(bar.connectivity, {bar.pose(0)}), MeshError);
+  GeodesicOptions options;
+  options.shapes = 0;
+  EXPECT_THROW(Interpolate(bar.connectivity, {bar.pose(0), bar.pose(9)}, options), InvalidOptions);
+  options = {};
+  options.memory_limit = 1e4;
+  EXPECT_THROW(Interpolate(bar.connectivity, {bar.pose(0), bar.pose(9)}, options), SolverError);
+  const Body large = MakeBar(6, 1, 1, 60, 20, 20);
+  options = {};
+  options.metric.volume = 0.3;
+  options.solver = Solver::kTrustRegion;  // its rows would be dense
+  EXPECT_THROW(Interpolate(large.connectivity, {large.pose(0), large.pose(9)}, options),
+               InvalidOptions);
+}
+
+class StopsAfter final : public Progress {
+ public:
+  explicit StopsAfter(int reports) : left_(reports) {}
+  bool Report(const std::string&, int, int) override { return --left_ > 0; }
+
+ private:
+  int left_;
+};
+
+TEST(Interpolate, CanBeCancelledAtAnyTime) {
+  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  for (int reports : {1, 3, 8}) {
+    StopsAfter progress(reports);
+    EXPECT_THROW(
+        Interpolate(bar.connectivity, {bar.pose(0), bar.pose(90)}, Options(15, 1e-9), &progress),
+        Cancelled);
+  }
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,101 @@
+#include <shapespace/solvers/optimise/preconditioner.h>
+
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/sheet.h>
+
+#include "support/paths.h"
+
+namespace shapespace::internal {
+namespace {
+
+Eigen::SparseMatrix<double> Matrix(const Body& body) {
+  const std::vector<Shape> poses = {body.pose(0), body.pose(40)};
+  const Metric metric = FreezeMetric({}, body.connectivity, poses);
+  return ScalarMetric(metric, {poses[0] / metric.unit, poses[1] / metric.unit}, 0);
+}
+
+TEST(Cholesky, SolvesAsItsMatrixSays) {
+  const Eigen::SparseMatrix<double> matrix = Matrix(MakeBar(6, 1, 1, 24, 4, 4));
+  const Cholesky factor(matrix);
+  const int size = factor.Size();
+  for (int width : {1, 3, 15, 48, 97}) {
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const RowMajor right = RowMajor::Random(size, width);
+    RowMajor x(size, width), solution(size, width);
+    for (int i = 0; i < size; ++i) x.row(i) = right.row(factor.Permutation()[i]);
+    factor.SolveLower(x.data(), width);
+    factor.SolveUpper(x.data(), width);
+    for (int i = 0; i < size; ++i) solution.row(factor.Permutation()[i]) = x.row(i);
+    const RowMajor back = matrix.selfadjointView<Eigen::Lower>() * solution;
+    EXPECT_LT((back - right).cwiseAbs().maxCoeff(), 1e-8);
+  }
+}
+
+TEST(Cholesky, RefusesAnIndefiniteMatrix) {
+  Eigen::SparseMatrix<double> matrix(3, 3);
+  matrix.insert(0, 0) = 1;
+  matrix.insert(1, 1) = -1;
+  matrix.insert(2, 2) = 1;
+  EXPECT_THROW(Cholesky factor(matrix), SolverError);
+}
+
+TEST(ScalarMetric, CostsNothingForTranslationsButForThePositionTerm) {
+  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const Metric metric = FreezeMetric({}, bar.connectivity, {bar.pose(0)});
+  const Eigen::SparseMatrix<double> matrix = ScalarMetric(metric, {bar.pose(0) / metric.unit}, 0);
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(matrix.rows());
+  const double cost = ones.dot(matrix.selfadjointView<Eigen::Lower>() * ones);
+  EXPECT_NEAR(cost, 4 * 1e-4 * 1.01, 1e-10);  // 4 lambda, areas adding up to 1, and its safeguard
+}
+
+TEST(ChangeOfVariables, TransposeIsTheTranspose) {
+  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const Metric metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(40)});
+  const Cholesky factor(ScalarMetric(metric, {bar.pose(0) / metric.unit}, 0));
+  for (int inner : {1, 4, 15}) {
+    PathEnergy energy(metric, inner);
+    ChangeOfVariables variables(factor, energy);
+    const Eigen::VectorXd y = Eigen::VectorXd::Random(variables.Size());
+    const std::vector<double> origin(energy.Size(), 0.0);
+    std::vector<double> x(energy.Size()), g(energy.Size());
+    variables.Apply(y.data(), origin.data(), 0.7, x.data());
+    // A gradient that is zero in the padding.
+    std::vector<Shape> random(inner + 2, Shape::Zero(3, factor.Size()));
+    for (int i = 1; i <= inner; ++i) random[i] = testing::Noise(factor.Size(), 1, i);
+    energy.Load(random, g.data());
+    Eigen::VectorXd back(variables.Size());
+    variables.ApplyTranspose(g.data(), 0.7, back.data());
+    const double forward = std::inner_product(x.begin(), x.end(), g.begin(), 0.0);
+    EXPECT_NEAR(forward, y.dot(back), 1e-10 * y.norm() * back.norm());
+  }
+}
+
+// In a flat metric the Hessian is the very matrix: one step from anywhere reaches the minimum.
+TEST(ChangeOfVariables, MakesTheHessianOfAFlatMetricTheIdentity) {
+  const Body sheet = MakeSheet(1, 1, 6, 6);
+  MetricOptions options;
+  options.isometric = options.bending = 0;
+  options.lambda = 1;
+  const Metric metric = FreezeMetric(options, sheet.connectivity, {sheet.pose(0)});
+  const Cholesky factor(ScalarMetric(metric, {sheet.pose(0) / metric.unit}, 0));
+  PathEnergy energy(metric, 5);
+  ChangeOfVariables variables(factor, energy);
+  const std::vector<Shape> shapes =
+      testing::NoisyBlend(sheet.pose(0) / metric.unit, sheet.pose(0) / metric.unit, 5, 0.1);
+  std::vector<double> x(energy.Size()), gradient(energy.Size()), y(variables.Size());
+  energy.Load(shapes, x.data());
+  const double before = energy.Evaluate(x.data(), gradient.data());
+  variables.ApplyTranspose(gradient.data(), 1, y.data());
+  std::vector<double> stepped(energy.Size());
+  variables.Apply(y.data(), x.data(), -1, stepped.data());
+  EXPECT_LT(energy.Evaluate(stepped.data(), nullptr), 1e-9 * before);
+}
+
+}  // namespace
+}  // namespace shapespace::internal

@@ -1,0 +1,52 @@
+// The main job on real meshes: skipped where there are none.
+
+#include <filesystem>
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/mesh/read.h>
+#include <shapespace/solvers/geodesic.h>
+
+namespace shapespace {
+namespace {
+
+struct RealPair {
+  const char *first, *last;
+  double rms, roughness, folds, ratio;  // what the path may have at most
+};
+
+void PrintTo(const RealPair& pair, std::ostream* out) { *out << pair.first << ' ' << pair.last; }
+
+class RealPoses : public ::testing::TestWithParam<RealPair> {};
+
+// Bounds are a fifth above what was measured at the default options, 15 shapes.
+TEST_P(RealPoses, PathIsAsGoodAsMeasured) {
+  const std::filesystem::path folder = SHAPESPACE_DATA_DIR;
+  const RealPair& pair = GetParam();
+  const std::string first = (folder / pair.first).string(), last = (folder / pair.last).string();
+  if (folder.empty() || !std::filesystem::exists(first)) {
+    GTEST_SKIP() << "no real meshes: set the CMake cache path SHAPESPACE_DATA_DIR";
+  }
+  const auto [path, summary] = Interpolate(ReadPoses({first, last}));
+  EXPECT_EQ(summary.termination, Termination::kConverged) << summary.FullReport();
+  EXPECT_LT(summary.quality.edge_rms, pair.rms) << summary.FullReport();
+  EXPECT_LT(summary.quality.roughness, pair.roughness);
+  EXPECT_LE(summary.quality.folds, pair.folds);
+  EXPECT_LT(summary.Ratio(), pair.ratio);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , RealPoses,
+    ::testing::Values(RealPair{"finger/0.obj", "finger/1.obj", 0.0012, 0.11, 0, 1.01},
+                      RealPair{"plate/rolledA.obj", "plate/rolledB.obj", 0.0028, 1.7, 0, 1.5},
+                      RealPair{"leaf/original.obj", "leaf/bend0.obj", 1e-6, 1e-4, 0, 1.001},
+                      RealPair{"hand/rest.obj", "hand/curl65.obj", 0.0033, 0.41, 0, 1.01},
+                      RealPair{"human/000.obj", "human/007.obj", 0.0115, 2.4, 3, 1.08},
+                      RealPair{"horse/reference.obj", "horse/01.obj", 0.0095, 2.2, 3, 1.06}),
+    [](const auto& info) {
+      return std::filesystem::path(info.param.first).parent_path().string();
+    });
+
+}  // namespace
+}  // namespace shapespace
