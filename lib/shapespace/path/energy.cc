@@ -76,8 +76,8 @@ PathEnergy::PathEnergy(const Metric& metric, int inner)
   blocks_ = std::clamp(num_vertices / 256, 1, 64);
   first_.resize(3 * num_vertices);
   last_.resize(3 * num_vertices);
-  for (size_t i = 0; i < metric.features.size(); ++i) {
-    std::visit([&](const auto& feature) { Build(feature, i); }, metric.features[i]);
+  for (const AnyFeature& any : metric.features) {
+    std::visit([&](const auto& feature) { Build(feature); }, any);
   }
   if (metric.rigid.Active()) {
     for (int v : vertex_of_row_) rigid_weights_.push_back(metric.rigid.weights(v));
@@ -85,16 +85,24 @@ PathEnergy::PathEnergy(const Metric& metric, int inner)
   scratch_.assign(blocks_, std::vector<double>(internal::KernelScratch(stride_)));
 }
 
+int PathEnergy::NumGroups(int phase) const {
+  const int groups[kPhases] = {blocks_, (blocks_ + 1) / 2, blocks_ / 2, 1};
+  return groups[phase];
+}
+
+int PathEnergy::FirstRow(int block) const {
+  return static_cast<int>(static_cast<int64_t>(vertex_of_row_.size()) * block / blocks_);
+}
+
 template <typename Feature>
-void PathEnergy::Build(const Feature& feature, size_t index) {
+void PathEnergy::Build(const Feature& feature) {
   Term term;
-  term.feature = index;
-  const int sizes[kPhases] = {blocks_, (blocks_ + 1) / 2, blocks_ / 2, 1};
-  for (int phase = 0; phase < kPhases; ++phase) term.groups[phase].resize(sizes[phase]);
+  for (int phase = 0; phase < kPhases; ++phase) term.groups[phase].resize(NumGroups(phase));
   const int num_elements = static_cast<int>(feature.stencils.cols());
-  const auto block_of = [&](int row) {
-    return static_cast<int>(static_cast<int64_t>(row) * blocks_ / vertex_of_row_.size());
-  };
+  std::vector<int> block_of(vertex_of_row_.size());
+  for (int block = 0; block < blocks_; ++block) {
+    std::fill(block_of.begin() + FirstRow(block), block_of.begin() + FirstRow(block + 1), block);
+  }
   // In the order of their rows, so that the sweep streams.
   std::vector<std::pair<int, int>> order(num_elements);
   for (int e = 0; e < num_elements; ++e) {
@@ -110,7 +118,7 @@ void PathEnergy::Build(const Feature& feature, size_t index) {
     for (int k = 0; k < Feature::kVertices; ++k) {
       high_row = std::max(high_row, row_of_vertex_[feature.stencils(k, e)]);
     }
-    const int low = block_of(low_row), high = block_of(high_row);
+    const int low = block_of[low_row], high = block_of[high_row];
     const int phase = low == high ? 0 : high > low + 1 ? 3 : 1 + low % 2;
     Group& group = term.groups[phase][phase == 0 ? low : phase == 3 ? 0 : low / 2];
     for (int k = 0; k < Feature::kVertices; ++k) {
@@ -130,9 +138,7 @@ void PathEnergy::Load(const std::vector<Shape>& shapes, double* unknowns) {
     if (shape.cols() != num_vertices) throw MeshError("a shape has the wrong number of vertices");
   }
   ParallelFor(blocks_, [&](int block) {
-    const int begin = static_cast<int64_t>(num_vertices) * block / blocks_;
-    const int end = static_cast<int64_t>(num_vertices) * (block + 1) / blocks_;
-    for (int r = begin; r < end; ++r) {
+    for (int r = FirstRow(block); r < FirstRow(block + 1); ++r) {
       const int v = vertex_of_row_[r];
       for (int axis = 0; axis < 3; ++axis) {
         const size_t row = 3 * static_cast<size_t>(r) + axis;
@@ -144,9 +150,9 @@ void PathEnergy::Load(const std::vector<Shape>& shapes, double* unknowns) {
       }
     }
   });
-  for (Term& term : terms_) {
-    if (const auto* dihedral = std::get_if<Dihedral>(&metric_.features[term.feature])) {
-      EvaluateEnds(*dihedral, &term);
+  for (size_t i = 0; i < terms_.size(); ++i) {
+    if (const auto* dihedral = std::get_if<Dihedral>(&metric_.features[i])) {
+      EvaluateEnds(*dihedral, &terms_[i]);
     }
   }
 }
@@ -192,46 +198,52 @@ double* PathEnergy::Sink(double* gradient) {
 }
 
 double PathEnergy::Evaluate(const double* unknowns, double* gradient) {
-  gradient = Sink(gradient);
-  const size_t share = Size() / blocks_ + 1;
-  ParallelFor(blocks_, [&](int block) {
-    const size_t begin = std::min(Size(), share * block);
-    std::fill(gradient + begin, gradient + std::min(Size(), begin + share), 0.0);
-  });
-  double energy = 0;
-  for (const Term& term : terms_) energy += EvaluateTerm(term, unknowns, gradient);
-  if (metric_.rigid.Active()) energy += EvaluateRigid(unknowns, gradient);
-  return energy;
+  const std::vector<double> parts = EvaluateParts(unknowns, Sink(gradient));
+  return std::accumulate(parts.begin(), parts.end(), 0.0);
 }
 
 std::vector<double> PathEnergy::Parts(const double* unknowns) {
-  std::vector<double> parts;
-  std::vector<double> gradient(Size(), 0.0);
-  for (const Term& term : terms_) parts.push_back(EvaluateTerm(term, unknowns, gradient.data()));
-  if (metric_.rigid.Active()) parts.push_back(EvaluateRigid(unknowns, gradient.data()));
-  return parts;
+  return EvaluateParts(unknowns, Sink(nullptr));
 }
 
-double PathEnergy::EvaluateTerm(const Term& term, const double* unknowns, double* gradient) {
-  return std::visit(
-      [&](const auto& feature) {
-        using Feature = std::decay_t<decltype(feature)>;
-        if constexpr (Feature::kSum) {
-          return EvaluateSum(feature, term, unknowns, gradient);
-        } else {
-          double energy = 0;
-          for (const std::vector<Group>& groups : term.groups) {
-            std::vector<double> partial(groups.size());
-            ParallelFor(static_cast<int>(groups.size()), [&](int g) {
-              partial[g] =
-                  EvaluateGroup(feature, groups[g], unknowns, gradient, scratch_[g].data());
-            });
-            energy = std::accumulate(partial.begin(), partial.end(), energy);
+std::vector<double> PathEnergy::EvaluateParts(const double* unknowns, double* gradient) {
+  const size_t num_terms = terms_.size();
+  std::vector<double> parts(num_terms, 0.0);
+  for (int phase = 0; phase < kPhases; ++phase) {
+    const int num_groups = NumGroups(phase);
+    // All terms of a group one after the other, while its rows are in the cache.
+    std::vector<double> partial(num_groups * num_terms, 0.0);
+    ParallelFor(num_groups, [&](int g) {
+      if (phase == 0) {
+        std::fill(gradient + 3 * static_cast<size_t>(FirstRow(g)) * stride_,
+                  gradient + 3 * static_cast<size_t>(FirstRow(g + 1)) * stride_, 0.0);
+      }
+      for (size_t i = 0; i < num_terms; ++i) {
+        std::visit(
+            [&](const auto& feature) {
+              if constexpr (!std::decay_t<decltype(feature)>::kSum) {
+                partial[g * num_terms + i] = EvaluateGroup(feature, terms_[i].groups[phase][g],
+                                                           unknowns, gradient, scratch_[g].data());
+              }
+            },
+            metric_.features[i]);
+      }
+    });
+    for (int g = 0; g < num_groups; ++g) {
+      for (size_t i = 0; i < num_terms; ++i) parts[i] += partial[g * num_terms + i];
+    }
+  }
+  for (size_t i = 0; i < num_terms; ++i) {
+    std::visit(
+        [&](const auto& feature) {
+          if constexpr (std::decay_t<decltype(feature)>::kSum) {
+            parts[i] = EvaluateSum(feature, terms_[i], unknowns, gradient);
           }
-          return energy;
-        }
-      },
-      metric_.features[term.feature]);
+        },
+        metric_.features[i]);
+  }
+  if (metric_.rigid.Active()) parts.push_back(EvaluateRigid(unknowns, gradient));
+  return parts;
 }
 
 void PathEnergy::ReadRow(const double* unknowns, size_t row, double* times) const {
@@ -401,9 +413,7 @@ double PathEnergy::EvaluateRigid(const double* unknowns, double* gradient) {
     }
   });
   ParallelFor(blocks_, [&](int block) {
-    const int begin = static_cast<int64_t>(num_vertices) * block / blocks_;
-    const int end = static_cast<int64_t>(num_vertices) * (block + 1) / blocks_;
-    for (int r = begin; r < end; ++r) {
+    for (int r = FirstRow(block); r < FirstRow(block + 1); ++r) {
       for (int axis = 0; axis < 3; ++axis) {
         double* const g = gradient + (3 * static_cast<size_t>(r) + axis) * stride_ - 1;
         for (int t = 1; t <= inner_; ++t) g[t] += to[t - 1](axis, r) + from[t](axis, r);

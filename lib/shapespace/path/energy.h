@@ -61,15 +61,16 @@ class PathEnergy {
     std::vector<double> weights;
     std::vector<double> ends;  // the dihedral's values at the first and the last shape
   };
-  struct Term {
-    size_t feature;  // index into metric.features
+  struct Term {  // of the feature with the same index
     std::vector<Group> groups[kPhases];
   };
 
+  int NumGroups(int phase) const;
+  int FirstRow(int block) const;
   template <typename Feature>
-  void Build(const Feature& feature, size_t index);
+  void Build(const Feature& feature);
   void EvaluateEnds(const Dihedral& feature, Term* term) const;
-  double EvaluateTerm(const Term& term, const double* unknowns, double* gradient);
+  std::vector<double> EvaluateParts(const double* unknowns, double* gradient);
   template <typename Feature>
   double EvaluateGroup(const Feature& feature, const Group& group, const double* unknowns,
                        double* gradient, double* scratch) const;
