@@ -2,6 +2,7 @@
 #define SHAPESPACE_MESH_CHECK_WORDS_H_
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,14 @@ inline std::string PolygonName(const Soup& soup, int p) {
 }
 inline std::string SegmentName(const Soup& soup, int s) {
   return Name("segment", s, soup.segment_line);
+}
+
+/// Three significant digits.
+inline std::string Number(double value) {
+  std::ostringstream stream;
+  stream.precision(3);
+  stream << value;
+  return stream.str();
 }
 
 /// Counts elements and keeps the names of the first three.

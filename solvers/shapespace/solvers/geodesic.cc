@@ -32,7 +32,7 @@ constexpr double kCertified = 1.05;
 constexpr double kDraft = 10;
 // History of L-BFGS: long where a level is small, short where the history would be the memory.
 constexpr int kLongRank = 20, kShortRank = 5;
-constexpr double kLongRankUnknowns = 2e6;
+constexpr double kLongRankUnknowns = 3e5;
 // Segments of the rigid metric turning by more than this are not resolved by a Cayley map.
 constexpr double kMaxRigidTurn = 2 * M_PI / 3;
 

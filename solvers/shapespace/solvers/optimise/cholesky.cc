@@ -12,22 +12,136 @@
 namespace shapespace::internal {
 namespace {
 
-// A chunk of columns goes through the whole factor at once; wide enough to fill registers, narrow
-// enough to keep the rows of a supernode in the nearest cache.
+// A chunk of columns goes through the whole factor at once: wide enough to be worth reading it, and
+// narrow enough to keep the rows of a supernode in the nearest cache.
 constexpr int kChunk = 48;
 
-// target -= sum of four rows, each times a number.
-SHAPESPACE_CLONES
-void Subtract4(double* __restrict target, const double* a, const double* b, const double* c,
-               const double* d, double wa, double wb, double wc, double wd, int width) {
-  for (int i = 0; i < width; ++i) {
-    target[i] -= wa * a[i] + wb * b[i] + wc * c[i] + wd * d[i];
+// Vectors of 4 and 8 numbers at any address that holds a double.
+using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
+using Eight = double __attribute__((vector_size(64), aligned(8), may_alias));
+
+#define SHAPESPACE_INLINE inline __attribute__((always_inline))
+
+// The solves below keep a tile of kRows x kVectors vectors in registers while they sweep over the
+// factor's entries for it. `x` points at the tile's first column, rows `stride` apart.
+
+// tile[r] -= sum over k < count of factor(r, k) * source(k).
+template <typename Vector, int kRows, int kVectors, typename Factor, typename Source>
+SHAPESPACE_INLINE void Accumulate(Vector (&tile)[kRows][kVectors], int count, const Factor& factor,
+                                  const Source& source) {
+  for (int k = 0; k < count; ++k) {
+    const Vector* const from = reinterpret_cast<const Vector*>(source(k));
+    for (int r = 0; r < kRows; ++r) {
+      const double f = factor(r, k);
+      for (int c = 0; c < kVectors; ++c) tile[r][c] -= f * from[c];
+    }
   }
 }
 
+template <typename Vector, int kRows, int kVectors, typename Target>
+SHAPESPACE_INLINE void Load(Vector (&tile)[kRows][kVectors], const Target& target) {
+  for (int r = 0; r < kRows; ++r) {
+    for (int c = 0; c < kVectors; ++c) tile[r][c] = reinterpret_cast<const Vector*>(target(r))[c];
+  }
+}
+
+template <typename Vector, int kRows, int kVectors, typename Target>
+SHAPESPACE_INLINE void Store(const Vector (&tile)[kRows][kVectors], const Target& target) {
+  for (int r = 0; r < kRows; ++r) {
+    for (int c = 0; c < kVectors; ++c) reinterpret_cast<Vector*>(target(r))[c] = tile[r][c];
+  }
+}
+
+template <typename Vector, int kVectors>
+SHAPESPACE_INLINE void ForwardTile(const Supernode& node, const double* block, const int* rows,
+                                   double* x, size_t stride) {
+  double* const own = x + node.begin * stride;
+  const auto source = [&](int k) { return own + k * stride; };
+  for (int i = 0; i < node.width; ++i) {
+    Vector tile[1][kVectors];
+    const auto target = [&](int) { return own + i * stride; };
+    Load(tile, target);
+    Accumulate(
+        tile, i, [&](int, int k) { return block[i + static_cast<size_t>(k) * node.height]; },
+        source);
+    const double inverse = 1 / block[i + static_cast<size_t>(i) * node.height];
+    for (int c = 0; c < kVectors; ++c) tile[0][c] *= inverse;
+    Store(tile, target);
+  }
+  const auto panel = [&](auto& tile, int i) {
+    const auto target = [&](int r) { return x + rows[i + r] * stride; };
+    Load(tile, target);
+    Accumulate(
+        tile, node.width,
+        [&](int r, int k) { return block[i + r + static_cast<size_t>(k) * node.height]; }, source);
+    Store(tile, target);
+  };
+  int i = node.width;
+  for (; i + 4 <= node.height; i += 4) {
+    Vector tile[4][kVectors];
+    panel(tile, i);
+  }
+  for (; i < node.height; ++i) {
+    Vector tile[1][kVectors];
+    panel(tile, i);
+  }
+}
+
+template <typename Vector, int kVectors>
+SHAPESPACE_INLINE void BackwardTile(const Supernode& node, const double* block, const int* rows,
+                                    double* x, size_t stride) {
+  double* const own = x + node.begin * stride;
+  const auto panel = [&](auto& tile, int j) {
+    const auto target = [&](int r) { return own + (j + r) * stride; };
+    Load(tile, target);
+    Accumulate(
+        tile, node.height - node.width,
+        [&](int r, int k) {
+          return block[node.width + k + static_cast<size_t>(j + r) * node.height];
+        },
+        [&](int k) { return x + rows[node.width + k] * stride; });
+    Store(tile, target);
+  };
+  int j = 0;
+  for (; j + 4 <= node.width; j += 4) {
+    Vector tile[4][kVectors];
+    panel(tile, j);
+  }
+  for (; j < node.width; ++j) {
+    Vector tile[1][kVectors];
+    panel(tile, j);
+  }
+  for (int i = node.width - 1; i >= 0; --i) {
+    const double* const column = block + static_cast<size_t>(i) * node.height;
+    Vector tile[1][kVectors];
+    const auto target = [&](int) { return own + i * stride; };
+    Load(tile, target);
+    Accumulate(
+        tile, node.width - 1 - i, [&](int, int k) { return column[i + 1 + k]; },
+        [&](int k) { return own + (i + 1 + k) * stride; });
+    const double inverse = 1 / column[i];
+    for (int c = 0; c < kVectors; ++c) tile[0][c] *= inverse;
+    Store(tile, target);
+  }
+}
+
+// `count` columns, a multiple of 4, through one supernode.
 SHAPESPACE_CLONES
-void Subtract1(double* __restrict target, const double* a, double wa, int width) {
-  for (int i = 0; i < width; ++i) target[i] -= wa * a[i];
+void ForwardNode(const Supernode& node, const double* block, const int* rows, double* x,
+                 size_t stride, int count) {
+  int c = 0;
+  for (; c + 16 <= count; c += 16) ForwardTile<Eight, 2>(node, block, rows, x + c, stride);
+  if (c + 8 <= count) ForwardTile<Eight, 1>(node, block, rows, x + c, stride), c += 8;
+  if (c < count) ForwardTile<Four, 1>(node, block, rows, x + c, stride);
+}
+
+SHAPESPACE_CLONES
+void BackwardNode(const Supernode& node, const double* block, const int* rows, double* x,
+                  size_t stride, int count) {
+  int c = 0;
+  for (; c + 16 <= count; c += 16) BackwardTile<Eight, 2>(node, block, rows, x + c, stride);
+  if (c + 8 <= count) BackwardTile<Eight, 1>(node, block, rows, x + c, stride), c += 8;
+  if (c < count) BackwardTile<Four, 1>(node, block, rows, x + c, stride);
 }
 
 }  // namespace
@@ -78,61 +192,29 @@ Cholesky::Cholesky(const Eigen::SparseMatrix<double>& matrix) {
   }
 }
 
-void Cholesky::SolveLower(double* x, int width) const {
-  const int chunks = std::max({1, std::min(2, width / 8), (width + kChunk - 1) / kChunk});
+template <typename SolveNodes>
+void Cholesky::ForChunks(int width, const SolveNodes& solve) const {
+  // At least two chunks, where there are columns for two, so that two threads have work.
+  const int groups = width / kColumns;
+  const int chunks = std::max(std::min(2, groups), (width + kChunk - 1) / kChunk);
   ParallelFor(chunks, [&](int chunk) {
-    const int begin = width * chunk / chunks, count = width * (chunk + 1) / chunks - begin;
-    const auto row = [&](int r) { return x + static_cast<size_t>(r) * width + begin; };
+    const int begin = groups * chunk / chunks * kColumns;
+    solve(begin, groups * (chunk + 1) / chunks * kColumns - begin);
+  });
+}
+
+void Cholesky::SolveLower(double* x, int width) const {
+  ForChunks(width, [&](int begin, int count) {
     for (const Supernode& node : supernodes_) {
-      const double* const block = values_.data() + node.values;
-      const int* const rows = rows_.data() + node.rows;
-      for (int j = 0; j < node.width; ++j) {
-        const double* const column = block + static_cast<size_t>(j) * node.height;
-        double* const source = row(node.begin + j);
-        const double inverse = 1 / column[j];
-        for (int i = 0; i < count; ++i) source[i] *= inverse;
-        for (int i = j + 1; i < node.width; ++i)
-          Subtract1(row(node.begin + i), source, column[i], count);
-      }
-      for (int i = node.width; i < node.height; ++i) {
-        double* const target = row(rows[i]);
-        int j = 0;
-        for (; j + 4 <= node.width; j += 4) {
-          const double* const w = block + static_cast<size_t>(j) * node.height + i;
-          Subtract4(target, row(node.begin + j), row(node.begin + j + 1), row(node.begin + j + 2),
-                    row(node.begin + j + 3), w[0], w[node.height], w[2 * node.height],
-                    w[3 * node.height], count);
-        }
-        for (; j < node.width; ++j) {
-          Subtract1(target, row(node.begin + j), block[static_cast<size_t>(j) * node.height + i],
-                    count);
-        }
-      }
+      ForwardNode(node, &values_[node.values], &rows_[node.rows], x + begin, width, count);
     }
   });
 }
 
 void Cholesky::SolveUpper(double* x, int width) const {
-  const int chunks = std::max({1, std::min(2, width / 8), (width + kChunk - 1) / kChunk});
-  ParallelFor(chunks, [&](int chunk) {
-    const int begin = width * chunk / chunks, count = width * (chunk + 1) / chunks - begin;
-    const auto row = [&](int r) { return x + static_cast<size_t>(r) * width + begin; };
+  ForChunks(width, [&](int begin, int count) {
     for (auto node = supernodes_.rbegin(); node != supernodes_.rend(); ++node) {
-      const double* const block = values_.data() + node->values;
-      const int* const rows = rows_.data() + node->rows;
-      for (int j = node->width - 1; j >= 0; --j) {
-        const double* const column = block + static_cast<size_t>(j) * node->height;
-        double* const target = row(node->begin + j);
-        const auto source = [&](int i) { return row(i < node->width ? node->begin + i : rows[i]); };
-        int i = j + 1;
-        for (; i + 4 <= node->height; i += 4) {
-          Subtract4(target, source(i), source(i + 1), source(i + 2), source(i + 3), column[i],
-                    column[i + 1], column[i + 2], column[i + 3], count);
-        }
-        for (; i < node->height; ++i) Subtract1(target, source(i), column[i], count);
-        const double inverse = 1 / column[j];
-        for (int k = 0; k < count; ++k) target[k] *= inverse;
-      }
+      BackwardNode(*node, &values_[node->values], &rows_[node->rows], x + begin, width, count);
     }
   });
 }

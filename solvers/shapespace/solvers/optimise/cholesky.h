@@ -7,6 +7,14 @@
 
 namespace shapespace::internal {
 
+/// Columns begin .. begin + width of a factor that share one pattern: a dense trapezoid, column
+/// after column, `height` apart, whose first `width` rows are the columns themselves.
+struct Supernode {
+  int begin, width, height;
+  size_t rows;    // of its first row's index
+  size_t values;  // of its first number
+};
+
 /// Sparse Cholesky factor C C^T = Q S Q^T (Q a fill-reducing permutation), computed by CHOLMOD and
 /// applied by kernels of ours, to many right-hand sides at once that lie side by side in memory.
 class Cholesky {
@@ -21,19 +29,15 @@ class Cholesky {
   /// Numbers stored, those of dense blocks included.
   size_t NumNonzeros() const { return values_.size(); }
 
-  /// x <- C^{-1} x and x <- C^{-T} x; `x` is Size() x `width`, row by row, rows `width` apart.
-  /// Uses all threads; every column's result is independent of the others.
+  /// x <- C^{-1} x and x <- C^{-T} x; `x` is Size() x `width`, row by row, rows `width` apart, a
+  /// multiple of `kColumns`. Uses all threads; every column's result is independent of the others.
   void SolveLower(double* x, int width) const;
   void SolveUpper(double* x, int width) const;
+  static constexpr int kColumns = 4;
 
  private:
-  // Columns begin .. begin + width of the factor that share one pattern: a dense trapezoid, column
-  // after column, `height` apart, whose first `width` rows are the columns themselves.
-  struct Supernode {
-    int begin, width, height;
-    size_t rows;    // into rows_
-    size_t values;  // into values_
-  };
+  template <typename SolveNodes>
+  void ForChunks(int width, const SolveNodes& solve) const;
 
   std::vector<int> permutation_;
   std::vector<Supernode> supernodes_;

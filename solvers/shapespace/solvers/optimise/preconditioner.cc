@@ -74,7 +74,9 @@ ChangeOfVariables::ChangeOfVariables(const Cholesky& factor, const PathEnergy& e
       inner_(energy.Inner()),
       stride_(energy.Stride()),
       size_(3 * factor.Size() * energy.Inner()),
-      work_(size_) {
+      width_((3 * energy.Inner() + Cholesky::kColumns - 1) / Cholesky::kColumns *
+             Cholesky::kColumns),
+      work_(static_cast<size_t>(factor.Size()) * width_) {
   for (int vertex : factor.Permutation()) row_.push_back(energy.Row(vertex));
   // Cholesky factor of the second difference (2 on the diagonal, -1 beside it).
   double diagonal = std::sqrt(2.0);
@@ -85,50 +87,57 @@ ChangeOfVariables::ChangeOfVariables(const Cholesky& factor, const PathEnergy& e
   }
 }
 
-void ChangeOfVariables::Apply(const double* y, const double* origin, double scale,
-                              double* unknowns) {
-  const int width = 3 * inner_;
-  std::copy_n(y, size_, work_.data());
-  factor_.SolveUpper(work_.data(), width);
+template <typename Body>
+void ChangeOfVariables::ForRows(const Body& body) const {
   constexpr int kRowsPerTask = 512;
   const int num_rows = factor_.Size();
   ParallelFor((num_rows + kRowsPerTask - 1) / kRowsPerTask, [&](int task) {
     const int end = std::min(num_rows, (task + 1) * kRowsPerTask);
-    for (int i = task * kRowsPerTask; i < end; ++i) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const double* const z = work_.data() + static_cast<size_t>(i) * width + axis * inner_;
-        const size_t offset = (3 * static_cast<size_t>(row_[i]) + axis) * stride_;
-        double later = 0;
-        for (int t = inner_ - 1; t >= 0; --t) {
-          later = (z[t] - below_[t] * later) * diagonal_[t];
-          unknowns[offset + t] = origin[offset + t] + scale * later;
-        }
-        std::fill(unknowns + offset + inner_, unknowns + offset + stride_, 0.0);
+    for (int i = task * kRowsPerTask; i < end; ++i) body(i);
+  });
+}
+
+void ChangeOfVariables::Apply(const double* y, const double* origin, double scale,
+                              double* unknowns) {
+  const int count = 3 * inner_;
+  ForRows([&](int i) {
+    double* const z = &work_[static_cast<size_t>(i) * width_];
+    std::copy_n(y + static_cast<size_t>(i) * count, count, z);
+    std::fill(z + count, z + width_, 0.0);
+  });
+  factor_.SolveUpper(work_.data(), width_);
+  ForRows([&](int i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double* const z = &work_[static_cast<size_t>(i) * width_ + axis * inner_];
+      const size_t offset = (3 * static_cast<size_t>(row_[i]) + axis) * stride_;
+      double later = 0;
+      for (int t = inner_ - 1; t >= 0; --t) {
+        later = (z[t] - below_[t] * later) * diagonal_[t];
+        unknowns[offset + t] = origin[offset + t] + scale * later;
       }
+      std::fill(unknowns + offset + inner_, unknowns + offset + stride_, 0.0);
     }
   });
 }
 
 void ChangeOfVariables::ApplyTranspose(const double* gradient, double scale, double* y) {
-  const int width = 3 * inner_;
-  constexpr int kRowsPerTask = 512;
-  const int num_rows = factor_.Size();
-  ParallelFor((num_rows + kRowsPerTask - 1) / kRowsPerTask, [&](int task) {
-    const int end = std::min(num_rows, (task + 1) * kRowsPerTask);
-    for (int i = task * kRowsPerTask; i < end; ++i) {
-      for (int axis = 0; axis < 3; ++axis) {
-        double* const z = y + static_cast<size_t>(i) * width + axis * inner_;
-        const double* const g = gradient + (3 * static_cast<size_t>(row_[i]) + axis) * stride_;
-        double flow = 0;  // subdiagonal times the result one time earlier
-        for (int t = 0; t < inner_; ++t) {
-          const double value = (scale * g[t] - flow) * diagonal_[t];
-          z[t] = value;
-          flow = below_[t] * value;
-        }
+  const int count = 3 * inner_;
+  ForRows([&](int i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      double* const z = &work_[static_cast<size_t>(i) * width_ + axis * inner_];
+      const double* const g = gradient + (3 * static_cast<size_t>(row_[i]) + axis) * stride_;
+      double flow = 0;  // subdiagonal times the result one time earlier
+      for (int t = 0; t < inner_; ++t) {
+        z[t] = (scale * g[t] - flow) * diagonal_[t];
+        flow = below_[t] * z[t];
       }
     }
+    std::fill_n(&work_[static_cast<size_t>(i) * width_ + count], width_ - count, 0.0);
   });
-  factor_.SolveLower(y, width);
+  factor_.SolveLower(work_.data(), width_);
+  ForRows([&](int i) {
+    std::copy_n(&work_[static_cast<size_t>(i) * width_], count, y + static_cast<size_t>(i) * count);
+  });
 }
 
 }  // namespace shapespace::internal

@@ -36,8 +36,12 @@ class ChangeOfVariables {
   void ApplyTranspose(const double* gradient, double scale, double* y);
 
  private:
+  template <typename Body>
+  void ForRows(const Body& body) const;
+
   const Cholesky& factor_;
   int inner_, stride_, size_;
+  int width_;                             // 3 inner_, padded as the factor's kernels like it
   std::vector<int> row_;                  // of PathEnergy, for each row of the factor
   std::vector<double> diagonal_, below_;  // of C_T: reciprocals of the diagonal, subdiagonal
   std::vector<double> work_;

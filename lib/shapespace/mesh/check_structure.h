@@ -1,0 +1,18 @@
+#ifndef SHAPESPACE_MESH_CHECK_STRUCTURE_H_
+#define SHAPESPACE_MESH_CHECK_STRUCTURE_H_
+
+#include <vector>
+
+#include <shapespace/mesh/check.h>
+
+// Private.
+
+namespace shapespace::internal {
+
+/// What must hold before anything of a soup can be indexed: there are vertices and elements, and
+/// all indices are in range. All findings are fatal.
+std::vector<Finding> CheckStructure(const Soup& soup);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_MESH_CHECK_STRUCTURE_H_
