@@ -1,5 +1,6 @@
 // Poses of bodies made in code.
 
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -33,6 +34,18 @@ std::vector<double> ValuesFromFlags(const Body& body) {
   return values;
 }
 
+void CheckOutput() {
+  const std::string extension = std::filesystem::path(FLAGS_output).extension().string();
+  if (extension != ".obj" && extension != ".ply") {
+    throw UsageError("--output " + FLAGS_output + ": must end in .obj or .ply");
+  }
+  try {
+    FrameName(FLAGS_output, 0);
+  } catch (const FileError& error) {
+    throw UsageError("--output " + std::string(error.what()));
+  }
+}
+
 void Run(const std::vector<std::string>& arguments) {
   if (arguments.empty()) {
     for (const BodyInfo& info : ListBodies()) {
@@ -41,6 +54,7 @@ void Run(const std::vector<std::string>& arguments) {
     return;
   }
   if (arguments.size() > 1) throw UsageError("name one body");
+  CheckOutput();
   Body body;
   std::vector<Shape> shapes;
   try {

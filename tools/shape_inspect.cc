@@ -1,6 +1,7 @@
 // What is in mesh and path files, and whether meshes correspond.
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 
@@ -46,7 +47,7 @@ bool Print(const std::vector<Finding>& findings) {
   return good;
 }
 
-void PrintSize(const Soup& soup) {
+void PrintContent(const Soup& soup) {
   std::printf("%s\n  %d vertices, %d polygons, %zu segments", soup.file.c_str(), soup.NumVertices(),
               soup.NumPolygons(), soup.segments.size());
   if (soup.NumVertices() > 0) {
@@ -55,6 +56,9 @@ void PrintSize(const Soup& soup) {
     std::printf(", extent %.6g x %.6g x %.6g", size.x(), size.y(), size.z());
   }
   std::printf("\n");
+  for (const std::string& what : soup.dropped) {
+    std::printf("  %-12s %-24s %s\n", Name(Severity::kNote), "not-kept", what.c_str());
+  }
 }
 
 // How far a pose is from the first, rigid motion apart.
@@ -112,6 +116,7 @@ void PrintPath(const std::string& file) {
 
 void Run(const std::vector<std::string>& files) {
   if (files.empty()) throw UsageError("name one or more mesh or path files");
+  std::signal(SIGINT, SIG_DFL);  // nothing is written here, so that Ctrl-C may end it at once
   std::vector<std::string> meshes;
   for (const std::string& file : files) {
     if (std::filesystem::path(file).extension() == ".path") {
@@ -125,7 +130,7 @@ void Run(const std::vector<std::string>& files) {
   const Soup first = ReadSoup(meshes[0]);
   for (const std::string& file : meshes) {
     const Soup soup = file == meshes[0] ? first : ReadSoup(file);
-    PrintSize(soup);
+    PrintContent(soup);
     good = Print(CheckSoup(soup)) && good;
     if (file != meshes[0]) good = Print(CheckCorrespondence(first, soup)) && good;
   }

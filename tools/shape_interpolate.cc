@@ -1,5 +1,6 @@
 // A geodesic between poses of a mesh.
 
+#include <filesystem>
 #include <iostream>
 
 #include <gflags/gflags.h>
@@ -44,6 +45,13 @@ void Run(const std::vector<std::string>& files) {
   if (files.size() < 2) throw UsageError("name at least two poses of one mesh");
   const GeodesicOptions options = OptionsFromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
+  const std::string report_kind = std::filesystem::path(FLAGS_report).extension().string();
+  if (!FLAGS_report.empty() && FLAGS_report != "-") {
+    if (report_kind != ".json" && report_kind != ".txt") {
+      throw UsageError("--report " + FLAGS_report + ": must end in .json or .txt, or be -");
+    }
+    CheckCanBeWritten(FLAGS_report);
+  }
 
   const Poses poses = ReadPosesFromFlags(files);
   GeodesicResult result = Interpolate(poses, options, TerminalProgress());
@@ -51,10 +59,9 @@ void Run(const std::vector<std::string>& files) {
   for (const std::string& file : files) result.path.provenance += " " + file;
   WriteOutputs(outputs, result.path, poses.appearance);
 
-  const bool text =
-      FLAGS_report.size() > 4 && FLAGS_report.substr(FLAGS_report.size() - 4) == ".txt";
   if (!FLAGS_report.empty()) {
-    WriteReport(FLAGS_report, text ? result.summary.FullReport() : result.summary.ToJson());
+    WriteReport(FLAGS_report,
+                report_kind == ".txt" ? result.summary.FullReport() : result.summary.ToJson());
   }
   for (const std::string& warning : result.summary.warnings) {
     std::cerr << "warning: " << warning << '\n';

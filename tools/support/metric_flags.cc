@@ -7,12 +7,15 @@
 #include "support/tool.h"
 
 DEFINE_string(metric, "isometric",
-              "preset that sets the defaults of the flags below: isometric, rigid, or paper");
-DEFINE_double(isometric, 1, "cost of stretching edges (a pure number, as are those below)");
+              "preset that sets the defaults of the other flags of the metric: isometric (as shown "
+              "here), rigid (isometric 0, rigid 1, bending 0), or paper (bending 0, lambda 0.001, "
+              "weights uniform, discretization trapezoid)");
+DEFINE_double(isometric, 1,
+              "cost of stretching edges; all costs are pure numbers, the area being 1");
 DEFINE_double(log_length, 0, "cost of strains: log edge lengths");
 DEFINE_double(rigid, 0, "cost of deviation from rigid motion of the whole body");
 DEFINE_double(lambda, 1e-4, "cost of moving vertices; harmless up to 1e-3");
-DEFINE_double(bending, 1e-5, "cost of bending: t^2 / 12 for a shell of thickness t, area being 1");
+DEFINE_double(bending, 1e-5, "cost of bending: t^2 / 12 for a shell of thickness t");
 DEFINE_double(volume, 0, "cost of changing the enclosed volume; start from 0.3");
 DEFINE_string(weights, "area", "weights of edges: area, or uniform as in the paper");
 DEFINE_string(discretization, "midpoint",

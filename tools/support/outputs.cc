@@ -1,5 +1,9 @@
 #include "support/outputs.h"
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -51,10 +55,25 @@ std::vector<std::string> OutputsFromFlags() {
   for (std::string output; std::getline(list, output, ',');) {
     if (output.empty()) continue;
     KindOf(output);
+    CheckCanBeWritten(output);
     outputs.push_back(output);
   }
   if (outputs.empty()) throw UsageError("--output: names no file");
   return outputs;
+}
+
+void CheckCanBeWritten(const std::string& file) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::is_directory(file, error)) throw FileError(file + ": cannot be written: it is a folder");
+  fs::path folder = fs::absolute(file).parent_path();
+  while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+  if (!fs::is_directory(folder, error)) {
+    throw FileError(file + ": cannot be written: " + folder.string() + " is no folder");
+  }
+  if (access(folder.c_str(), W_OK) != 0) {
+    throw FileError(file + ": cannot be written: " + folder.string() + ": " + std::strerror(errno));
+  }
 }
 
 void WriteOutputs(const std::vector<std::string>& outputs, const Path& path,

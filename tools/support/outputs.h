@@ -10,9 +10,13 @@
 namespace shapespace::tools {
 
 /// The files that --output names, separated by commas.
-/// \throw UsageError if one is of no kind that can be written, so that nobody waits for a solve
-///        whose result has nowhere to go.
+/// \throw UsageError if one is of no kind that can be written, FileError as `CheckCanBeWritten`.
 std::vector<std::string> OutputsFromFlags();
+
+/// So that nobody waits for a solve whose result has nowhere to go, and nothing is written if
+/// something cannot be: `file`'s folder exists, or can probably be made, and can be written to.
+/// \throw FileError.
+void CheckCanBeWritten(const std::string& file);
 
 /// Writes each: `.path`, `.png` film strip, or frames (`frames/%03d.obj`, `.ply`).
 /// Texture coordinates and materials of `appearance` go into OBJ frames; where they are dropped,

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <sstream>
 
 #include <gflags/gflags.h>
 #include <glog/logging.h>
@@ -59,6 +61,29 @@ Terminal& TheTerminal() {
   return terminal;
 }
 
+// The shortest form that reads back as the same number: gflags writes out 1.0000000000000001e-05.
+std::string DefaultValue(const gflags::CommandLineFlagInfo& flag) {
+  if (flag.type != "double") return flag.default_value;
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, std::stod(flag.default_value)).ptr};
+}
+
+// One flag of --help: its name and default on the left, the description beside it in lines.
+void PrintFlag(std::string left, const std::string& description) {
+  constexpr size_t kLeft = 30, kLine = 100;
+  left.resize(std::max(left.size() + 1, kLeft), ' ');
+  std::string line = left;
+  std::istringstream words(description);
+  for (std::string word; words >> word;) {
+    if (line.size() + word.size() > kLine) {
+      std::cout << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
+      line = std::string(kLeft, ' ');
+    }
+    line += word + ' ';
+  }
+  std::cout << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
+}
+
 void PrintHelp(const Program& program) {
   std::cout << program.name << ": " << program.summary << "\n\n" << program.usage << "\n\nFlags:\n";
   std::vector<gflags::CommandLineFlagInfo> flags;
@@ -69,14 +94,14 @@ void PrintHelp(const Program& program) {
     for (const gflags::CommandLineFlagInfo& flag : flags) {
       if (flag.filename.find(source) == std::string::npos) continue;
       std::string left = "  --" + flag.name;
-      if (flag.type != "bool")
-        left += " " + (flag.default_value.empty() ? "..." : flag.default_value);
-      left.resize(std::max<size_t>(left.size() + 1, 30), ' ');
-      std::cout << left << flag.description << '\n';
+      if (flag.type != "bool") {
+        left += " " + (flag.default_value.empty() ? "..." : DefaultValue(flag));
+      }
+      PrintFlag(left, flag.description);
     }
   }
-  std::cout << "  --help                      this text\n"
-               "  --version                   version of shapespace\n";
+  PrintFlag("  --help", "this text");
+  PrintFlag("  --version", "version of shapespace");
 }
 
 bool IsGiven(const char* flag) { return !gflags::GetCommandLineFlagInfoOrDie(flag).is_default; }
@@ -98,7 +123,10 @@ int RunTool(int argc, char** argv, const Program& program,
   google::InitGoogleLogging(argv[0]);
   FLAGS_logtostderr = true;
   FLAGS_minloglevel = google::GLOG_ERROR;
-  GFLAGS_NAMESPACE::gflags_exitfunc = [](int) { std::_Exit(2); };
+  GFLAGS_NAMESPACE::gflags_exitfunc = [](int) {
+    std::cerr << "Try --help\n";
+    std::_Exit(2);
+  };
   gflags::SetVersionString(SHAPESPACE_VERSION);
   gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
   if (IsGiven("help")) {
@@ -122,6 +150,9 @@ int RunTool(int argc, char** argv, const Program& program,
     if (FLAGS_threads < 0) throw UsageError("--threads must be 0 or more");
     SetThreads(FLAGS_threads);
     body({argv + 1, argv + argc});
+    if (!std::cout.flush() || std::fflush(stdout) != 0) {
+      throw FileError("stdout: writing failed (is the disk full?)");
+    }
     TheTerminal().Clear();
     return 0;
   } catch (const UsageError& error) {

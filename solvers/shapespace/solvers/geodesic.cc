@@ -276,7 +276,7 @@ void Assess(const Path& path, GeodesicSummary* summary) {
 }
 
 // Figures that are possible but hardly what a person wants to see.
-void Warn(const Path& path, GeodesicSummary* summary) {
+void Warn(GeodesicSummary* summary) {
   for (const GeodesicSummary::Level& level : summary->levels) {
     if (level.kept && level.termination != Termination::kConverged) {
       summary->warnings.push_back(
@@ -288,7 +288,7 @@ void Warn(const Path& path, GeodesicSummary* summary) {
     }
   }
   constexpr double kPoorRatio = 1.5, kManyFolds = 1e-3;
-  if (summary->Ratio() > kPoorRatio && summary->energy > 1e-12) {
+  if (summary->Ratio() > kPoorRatio) {
     summary->warnings.push_back("the energy is " + std::to_string(summary->Ratio()) +
                                 " times its lower bound: the path may lie in a poor valley");
   }
@@ -297,7 +297,6 @@ void Warn(const Path& path, GeodesicSummary* summary) {
                                 std::to_string(std::lround(summary->quality.folds)) +
                                 " folds that the poses do not have: look at the pictures");
   }
-  static_cast<void>(path);
 }
 
 }  // namespace
@@ -372,7 +371,7 @@ GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivi
     if (level.kept) summary.termination = std::max(summary.termination, level.termination);
   }
   Assess(path, &summary);
-  Warn(path, &summary);
+  Warn(&summary);
   summary.total_seconds = total.Seconds();
   return result;
 }

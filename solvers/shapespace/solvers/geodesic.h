@@ -81,8 +81,10 @@ struct GeodesicSummary {
   size_t factor_nonzeros = 0;
   int threads = 1;
 
-  /// energy / lower_bound: 1 is as good as can be; about 1.05 where poses hold folded hinges.
-  double Ratio() const { return energy / lower_bound; }
+  /// energy / lower_bound: 1 is as good as can be (and said of poses that are rigid copies, where
+  /// both are zero but for rounding); about 1.05 where poses hold folded hinges.
+  double Ratio() const { return energy < kZeroEnergy ? 1 : energy / lower_bound; }
+  static constexpr double kZeroEnergy = 1e-18;
   std::string BriefReport() const;  ///< one line
   std::string FullReport() const;   ///< a page
   std::string ToJson() const;

@@ -1,0 +1,63 @@
+#include <shapespace/bodies/body.h>
+#include <shapespace/mesh/read.h>
+
+#include "tools/run.h"
+
+namespace shapespace {
+namespace {
+
+using testing::ExpectContains;
+using testing::Outcome;
+using testing::ToolsTest;
+
+class BodyToolTest : public ToolsTest {};
+
+TEST_F(BodyToolTest, ListsEveryBody) {
+  const Outcome outcome = Run("shape-body", {});
+  EXPECT_EQ(outcome.code, 0);
+  for (const BodyInfo& info : ListBodies()) {
+    ExpectContains(outcome.out, info.name + ": " + info.description);
+  }
+}
+
+TEST_F(BodyToolTest, WritesBothEndsByDefault) {
+  ASSERT_EQ(Run("shape-body", {"bricard"}).code, 0);
+  EXPECT_EQ(Files(), (std::vector<std::string>{"body0.obj", "body1.obj"}));
+  const Body body = MakeBody("bricard");
+  EXPECT_LE((ReadSoup(Path("body0.obj")).vertices - body.pose(body.begin)).cwiseAbs().maxCoeff(),
+            1e-8);
+  EXPECT_LE((ReadSoup(Path("body1.obj")).vertices - body.pose(body.end)).cwiseAbs().maxCoeff(),
+            1e-8);
+}
+
+TEST_F(BodyToolTest, WritesOneFileAValue) {
+  ASSERT_EQ(Run("shape-body", {"sheet", "--at", "0.1,0.2,0.3", "--output", "a/b/%02d.ply"}).code,
+            0);
+  EXPECT_EQ(Files(),
+            (std::vector<std::string>{"a", "a/b", "a/b/00.ply", "a/b/01.ply", "a/b/02.ply"}));
+}
+
+TEST_F(BodyToolTest, RefusesWhatItCannotMake) {
+  const struct {
+    std::vector<std::string> arguments;
+    const char* message;
+  } cases[] = {
+      {{"spoon"}, "no body is called 'spoon'; known are tube"},
+      {{"tube", "bar"}, "name one body"},
+      {{"tube", "--at", "0,x"}, "--at x: not a number"},
+      {{"tube", "--at", "200"}, "200 is outside 0 .. 150"},
+      {{"tube", "--triangles=-5"}, "-5 is outside"},
+      {{"tube", "--output", "tube.obj"}, "needs one number"},
+      {{"tube", "--output", "tube%d.stl"}, "must end in .obj or .ply"},
+  };
+  for (const auto& [arguments, message] : cases) {
+    const Outcome outcome = Run("shape-body", arguments);
+    EXPECT_EQ(outcome.code, 2) << message;
+    ExpectContains(outcome.err, message);
+    ExpectContains(outcome.err, "Try shape-body --help");
+  }
+  EXPECT_TRUE(Files().empty());
+}
+
+}  // namespace
+}  // namespace shapespace

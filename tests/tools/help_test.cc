@@ -1,0 +1,79 @@
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "tools/run.h"
+
+namespace shapespace {
+namespace {
+
+using testing::ExpectContains;
+using testing::ExpectLacks;
+using testing::Outcome;
+using testing::ToolsTest;
+
+class HelpTest : public ToolsTest {
+ protected:
+  /// The flags that --help lists.
+  std::set<std::string> Listed(const std::string& tool) const {
+    std::set<std::string> flags;
+    std::istringstream text(Run(tool, {"--help"}).out);
+    for (std::string line; std::getline(text, line);) {
+      std::smatch match;
+      static const std::regex flag("^  --([a-z_]+).*");
+      if (std::regex_match(line, match, flag)) flags.insert(match[1]);
+    }
+    return flags;
+  }
+};
+
+TEST_F(HelpTest, FitsTheTerminalAndSucceeds) {
+  for (const char* tool : {"shape-body", "shape-inspect", "shape-interpolate"}) {
+    const Outcome outcome = Run(tool, {"--help"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err, "");
+    ExpectContains(outcome.out, std::string(tool) + ": ");
+    std::istringstream text(outcome.out);
+    for (std::string line; std::getline(text, line);) {
+      EXPECT_LE(line.size(), 100u) << tool << ": " << line;
+      EXPECT_TRUE(line.empty() || line.back() != ' ') << tool << ": " << line;
+    }
+  }
+}
+
+TEST_F(HelpTest, ListsOurFlagsOnly) {
+  EXPECT_EQ(Listed("shape-body"), (std::set<std::string>{"at", "help", "output", "threads",
+                                                         "triangles", "version"}));
+  const std::set<std::string> metric = {"bending", "discretization", "isometric",
+                                        "lambda",  "log_length",     "metric",
+                                        "rigid",   "volume",         "weights"};
+  std::set<std::string> wanted = metric;
+  wanted.insert({"help", "threads", "version"});
+  EXPECT_EQ(Listed("shape-inspect"), wanted);
+  wanted.insert({"allow_nonmanifold", "color", "max_iterations", "memory_limit", "output", "report",
+                 "shapes", "solver", "stiffeners", "tolerance"});
+  const std::set<std::string> listed = Listed("shape-interpolate");
+  for (const std::string& flag : wanted) EXPECT_EQ(listed.count(flag), 1u) << flag;
+  for (const char* foreign : {"flagfile", "undefok", "logtostderr", "minloglevel", "v"}) {
+    EXPECT_EQ(listed.count(foreign), 0u) << foreign;
+  }
+}
+
+TEST_F(HelpTest, DefaultsReadAsTheyWouldBeTyped) {
+  const std::string help = Run("shape-interpolate", {"--help"}).out;
+  ExpectContains(help, "--bending 1e-05 ");
+  ExpectContains(help, "--shapes 15 ");
+  ExpectLacks(help, "00000");
+}
+
+TEST_F(HelpTest, VersionIsOneLine) {
+  for (const char* tool : {"shape-body", "shape-inspect", "shape-interpolate"}) {
+    const Outcome outcome = Run(tool, {"--version"});
+    EXPECT_EQ(outcome.code, 0);
+    const std::regex line(std::string(tool) + " of shapespace [0-9]+\\.[0-9]+\\.[0-9]+\n");
+    EXPECT_TRUE(std::regex_match(outcome.out, line)) << outcome.out;
+  }
+}
+
+}  // namespace
+}  // namespace shapespace

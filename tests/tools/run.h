@@ -1,0 +1,51 @@
+#ifndef SHAPESPACE_TESTS_TOOLS_RUN_H_
+#define SHAPESPACE_TESTS_TOOLS_RUN_H_
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "mesh/files.h"
+
+namespace shapespace::testing {
+
+/// What a program left behind.
+struct Outcome {
+  int code = 0;  ///< exit code; 1000 + the signal if one ended it
+  std::string out, err;
+};
+
+/// A test that runs the tools as a user does, in a folder of its own.
+class ToolsTest : public FilesTest {
+ protected:
+  /// Runs a tool in the test's folder, and waits for it.
+  Outcome Run(const std::string& tool, const std::vector<std::string>& arguments) const;
+
+  /// The same for a tool whose run matters to the test only if it fails.
+  void Succeed(const std::string& tool, const std::vector<std::string>& arguments) const;
+
+  /// tube0.obj and tube1.obj: a straight tube of `triangles`, and one bent by 60 degrees.
+  void MakeTubes(int triangles = 300) const;
+
+  /// All files below the test's folder, sorted, without those of `Run` itself.
+  std::vector<std::string> Files() const;
+
+  /// Starts a tool in the test's folder; its stderr goes to `error`, a file descriptor.
+  pid_t Start(const std::string& tool, const std::vector<std::string>& arguments, int error) const;
+  static int Wait(pid_t process);
+};
+
+inline void ExpectContains(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in: " << text;
+}
+
+inline void ExpectLacks(const std::string& text, const std::string& part) {
+  EXPECT_EQ(text.find(part), std::string::npos) << "'" << part << "' in: " << text;
+}
+
+}  // namespace shapespace::testing
+
+#endif  // SHAPESPACE_TESTS_TOOLS_RUN_H_
