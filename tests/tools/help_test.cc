@@ -42,8 +42,8 @@ TEST_F(HelpTest, FitsTheTerminalAndSucceeds) {
 }
 
 TEST_F(HelpTest, ListsOurFlagsOnly) {
-  EXPECT_EQ(Listed("shape-body"), (std::set<std::string>{"at", "help", "output", "threads",
-                                                         "triangles", "version"}));
+  EXPECT_EQ(Listed("shape-body"),
+            (std::set<std::string>{"at", "help", "output", "threads", "triangles", "version"}));
   const std::set<std::string> metric = {"bending", "discretization", "isometric",
                                         "lambda",  "log_length",     "metric",
                                         "rigid",   "volume",         "weights"};

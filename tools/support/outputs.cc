@@ -2,9 +2,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
 #include <sstream>
 
@@ -23,6 +25,8 @@ DEFINE_string(output, "path.png",
               "strip), frames/%03d.obj or .ply (one mesh a shape)");
 DEFINE_string(color, "plain",
               "film strip: plain, or deviation (of edge lengths from the first pose)");
+
+DEFINE_string(title, "", "film strip: a line above it");
 
 namespace shapespace::tools {
 namespace {
@@ -89,6 +93,14 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path,
         break;
       case Kind::kPicture: {
         FilmStripOptions options;
+        options.title = FLAGS_title;
+        for (int i = 0; i < path.NumShapes(); ++i) {
+          const bool pose = std::binary_search(path.poses.begin(), path.poses.end(), i);
+          options.roles.push_back(pose ? ShapeRole::kPose : ShapeRole::kInserted);
+          std::ostringstream label;
+          label << "t = " << std::setprecision(3) << path.parameters[i];
+          options.labels.push_back(label.str());
+        }
         if (FLAGS_color == "deviation") {
           for (int i = 0; i < path.NumShapes(); ++i) {
             options.values.push_back(EdgeDeviation(path, i));

@@ -12,7 +12,7 @@ namespace shapespace {
 namespace {
 
 constexpr unsigned kBackgroundHex = 0xfafafa;
-constexpr unsigned kFrontHex = 0x4a86c8;
+constexpr unsigned kFrontHex[] = {0x4a86c8, 0x58a56b, 0x8b68bf};  // by ShapeRole
 constexpr unsigned kBackHex = 0xf08030;
 
 // Values are drawn a little darker than in the legend, because the lights add up to more than 1;
@@ -84,11 +84,12 @@ Eigen::Matrix3f FrameAround(const Eigen::Vector3f& normal) {
 
 class FramePainter {
  public:
-  FramePainter(const Scene& scene, const Camera& camera, bool show_values)
+  FramePainter(const Scene& scene, const Camera& camera, ShapeRole role, bool show_values)
       : scene_(scene),
         camera_(camera),
         axes_(camera.axes.cast<float>()),
         key_frame_(FrameAround(axes_ * kKey)),
+        front_(FromHex(kFrontHex[static_cast<int>(role)])),
         show_values_(show_values),
         pixels_(static_cast<size_t>(camera.width) * camera.height) {}
 
@@ -107,6 +108,7 @@ class FramePainter {
   const Scene& scene_;
   const Camera& camera_;
   const Eigen::Matrix3f axes_, key_frame_;
+  const Colour front_;
   const bool show_values_;
   std::vector<Pixel> pixels_;
 };
@@ -146,8 +148,8 @@ void FramePainter::TracePixel(int row, int column) {
 }
 
 void FramePainter::Shade(const Scene::Hit& hit, Pixel* pixel) const {
-  static const Colour front = FromHex(kFrontHex), back = FromHex(kBackHex);
-  Colour colour = hit.back ? back : front;
+  static const Colour back = FromHex(kBackHex);
+  Colour colour = hit.back ? back : front_;
   if (show_values_) {
     colour = (hit.back ? kBackUnderValues : kFrontUnderValues) * ValueColour(hit.value);
   }
@@ -218,9 +220,9 @@ Colour Background() {
   return background;
 }
 
-void DrawFrame(const Scene& scene, const Camera& camera, bool show_values, int left, int top,
-               Image* image) {
-  FramePainter painter(scene, camera, show_values);
+void DrawFrame(const Scene& scene, const Camera& camera, ShapeRole role, bool show_values, int left,
+               int top, Image* image) {
+  FramePainter painter(scene, camera, role, show_values);
   ParallelFor(camera.height, [&](int row) { painter.Trace(row); });
   ParallelFor(camera.height, [&](int row) {
     unsigned char* out = &image->pixels[3 * (static_cast<size_t>(top + row) * image->width + left)];

@@ -22,10 +22,11 @@ struct Camera {
   int samples = 1;            ///< per pixel and axis
 };
 
-/// Draws `scene` into the rectangle of `image` whose upper left pixel is (left, top).
-/// `show_values`: colours by the scene's values, whose scale ends at 1.
-void DrawFrame(const Scene& scene, const Camera& camera, bool show_values, int left, int top,
-               Image* image);
+/// Draws `scene` into the rectangle of `image` whose upper left pixel is (left, top), its front
+/// faces in the colour of `role`. `show_values`: coloured by the scene's values instead, whose
+/// scale ends at 1.
+void DrawFrame(const Scene& scene, const Camera& camera, ShapeRole role, bool show_values, int left,
+               int top, Image* image);
 
 }  // namespace shapespace
 

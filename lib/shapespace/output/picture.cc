@@ -10,6 +10,7 @@
 #include <shapespace/output/frame.h>
 #include <shapespace/output/legend.h>
 #include <shapespace/output/scene.h>
+#include <shapespace/output/text.h>
 #include <shapespace/output/view.h>
 
 namespace shapespace {
@@ -17,7 +18,7 @@ namespace {
 
 // A strip wider than this many frame widths wraps into rows.
 constexpr int kWidestStrip = 6;
-constexpr size_t kLongestLegend = 120;
+constexpr int kTextMargin = 8;
 
 // More is no picture that anybody opens, and past what the PNG writer counts in.
 constexpr double kMostPixels = 1e8;
@@ -62,11 +63,16 @@ void CheckInput(const Connectivity& connectivity, const std::vector<Shape>& shap
       throw MeshError(name + " is too large for numbers of double precision; scale it down");
     }
   }
+  const auto check_count = [&](const char* field, size_t count) {
+    if (count != 0 && count != shapes.size()) {
+      throw InvalidOptions(std::string(field) + ": given for " + std::to_string(count) +
+                           " shapes, but there are " + std::to_string(shapes.size()));
+    }
+  };
+  check_count("roles", options.roles.size());
+  check_count("labels", options.labels.size());
+  check_count("values", options.values.size());
   if (options.values.empty()) return;
-  if (options.values.size() != shapes.size()) {
-    throw InvalidOptions("values: given for " + std::to_string(options.values.size()) +
-                         " shapes, but there are " + std::to_string(shapes.size()));
-  }
   for (size_t i = 0; i < shapes.size(); ++i) {
     const Eigen::VectorXd& values = options.values[i];
     if (values.size() != connectivity.NumVertices()) {
@@ -202,12 +208,9 @@ void FilmStripOptions::Validate() const {
   if (!view.isZero(0) && !up.isZero(0) && Parallel(view, up)) {
     throw InvalidOptions("up: parallel to view; give another, or none");
   }
-  if (legend.size() > kLongestLegend) {
-    throw InvalidOptions("legend: longer than " + std::to_string(kLongestLegend) + " characters");
-  }
-  if (std::any_of(legend.begin(), legend.end(), [](char c) { return c < ' ' || c > '~'; })) {
-    throw InvalidOptions("legend: only printable ASCII characters can be drawn");
-  }
+  CheckText("legend", legend);
+  CheckText("title", title);
+  for (const std::string& label : labels) CheckText("labels", label);
 }
 
 Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
@@ -237,8 +240,11 @@ Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>
   const int widest = kWidestStrip * options.frame_width;
   const int rows = (frames * camera.width + widest - 1) / widest;
   const int columns = (frames + rows - 1) / rows;
-  const int strip_height = ((frames + columns - 1) / columns) * camera.height;
-  const int width = std::max(columns * camera.width, legend.width);
+  const int title_height = options.title.empty() ? 0 : kTextHeight + 2 * kTextMargin;
+  const int cell_height = camera.height + (options.labels.empty() ? 0 : kTextHeight + kTextMargin);
+  const int strip_height = title_height + (frames + columns - 1) / columns * cell_height;
+  const int title_width = TextWidth(options.title) + 2 * kTextMargin;
+  const int width = std::max({columns * camera.width, legend.width, title_width});
   const int height = strip_height + legend.height;
   if (static_cast<double>(width) * height > kMostPixels) {
     throw InvalidOptions("frame_width: " + std::to_string(frames) + " frames of " +
@@ -247,12 +253,18 @@ Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>
                          "max_frames");
   }
   Image image = Blank(width, height);
+  DrawText(&image, kTextMargin, kTextMargin, options.title);
   ParallelFor(frames, [&](int i) {
     const Scene scene(
         tracer, drawn[i],
         values.empty() ? Eigen::VectorXf() : Eigen::VectorXf(values[i].cast<float>()));
-    DrawFrame(scene, camera, !values.empty(), i % columns * camera.width,
-              i / columns * camera.height, &image);
+    const int left = i % columns * camera.width, top = title_height + i / columns * cell_height;
+    const ShapeRole role = options.roles.empty() ? ShapeRole::kPose : options.roles[chosen[i]];
+    DrawFrame(scene, camera, role, !values.empty(), left, top, &image);
+    if (!options.labels.empty()) {
+      const std::string& label = options.labels[chosen[i]];
+      DrawText(&image, left + (camera.width - TextWidth(label)) / 2, top + camera.height, label);
+    }
   });
   Paste(legend, 0, strip_height, &image);
   return image;

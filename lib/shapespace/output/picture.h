@@ -11,6 +11,13 @@
 
 namespace shapespace {
 
+/// What a shape is to its path; decides its colour.
+enum class ShapeRole {
+  kPose,          ///< given: blue
+  kInserted,      ///< between poses: green
+  kExtrapolated,  ///< beyond them: purple
+};
+
 /// A film strip: shapes side by side from one camera, drawn with Embree.
 struct FilmStripOptions {
   /// Longer side of the largest shape's cell, in pixels, 16 .. 2048. Cells are as narrow or as low
@@ -29,6 +36,11 @@ struct FilmStripOptions {
   /// values drawn, rounded up. With values, back faces are the same colour, darker.
   std::vector<Eigen::VectorXd> values;
   std::string legend;  ///< what `values` are, e.g. "edge deviation"; ASCII, at most 120 characters
+
+  /// Per shape; empty: all are poses. Not seen where there are values.
+  std::vector<ShapeRole> roles;
+  std::vector<std::string> labels;  ///< written under each shape, as `legend`; empty: none
+  std::string title;                ///< a line above all, as `legend`; empty: none
 
   /// \throw InvalidOptions naming the field.
   void Validate() const;

@@ -1,7 +1,9 @@
 #include <shapespace/path/path.h>
 
 #include <algorithm>
+#include <functional>
 
+#include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 
 namespace shapespace {
@@ -35,6 +37,49 @@ std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<
       result[k] += weight * shapes[i];
     }
   });
+  return result;
+}
+
+Path Resample(const Path& path, const std::vector<double>& times) {
+  if (times.empty() || !(times.front() >= path.parameters.front()) ||
+      !(times.back() <= path.parameters.back()) ||
+      std::adjacent_find(times.begin(), times.end(), std::greater_equal<double>()) != times.end()) {
+    throw InvalidOptions("times: must rise, between the first and the last of the path");
+  }
+  Path result;
+  result.metric = path.metric;
+  result.parameters = times;
+  result.provenance = path.provenance + "; resampled";
+  // Pieces end at poses and, of a path that goes on past them, at its ends.
+  std::vector<int> corners = path.poses;
+  corners.insert(corners.begin(), 0);
+  corners.push_back(path.NumShapes() - 1);
+  auto next = times.begin();
+  for (size_t piece = 0; piece + 1 < corners.size(); ++piece) {
+    const int begin = corners[piece], end = corners[piece + 1] + 1;
+    const auto last = std::upper_bound(next, times.end(), path.parameters[end - 1]);
+    const std::vector<double> local(next, last);
+    next = last;
+    const std::vector<Shape> shapes(path.shapes.begin() + begin, path.shapes.begin() + end);
+    const std::vector<double> parameters(path.parameters.begin() + begin,
+                                         path.parameters.begin() + end);
+    for (Shape& shape : Resample(shapes, parameters, local)) {
+      result.shapes.push_back(std::move(shape));
+    }
+  }
+  for (size_t k = 0; k < times.size(); ++k) {
+    const auto after = std::lower_bound(path.parameters.begin(), path.parameters.end(), times[k]);
+    const int i = static_cast<int>(after - path.parameters.begin());
+    if (*after == times[k]) {
+      result.motions.push_back(path.motions[i]);
+      if (std::binary_search(path.poses.begin(), path.poses.end(), i)) {
+        result.poses.push_back(static_cast<int>(k));
+      }
+    } else {
+      const double t = (times[k] - *(after - 1)) / (*after - *(after - 1));
+      result.motions.push_back(InterpolateMotion(path.motions[i - 1], path.motions[i], t));
+    }
+  }
   return result;
 }
 

@@ -30,10 +30,15 @@ struct Path {
   std::vector<Shape> Placed() const;
 };
 
-/// The path's shapes at `times` rising parameter values, by cubic interpolation in time through the
+/// `shapes` at `times` rising parameter values, by cubic interpolation in time through the
 /// four nearest shapes; a value that is a shape's own gives that shape.
 std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<double>& parameters,
                             const std::vector<double>& times);
+
+/// The path seen at other times, rising within [0, 1]: shapes as above, but never across a pose,
+/// where a path may have a corner; `poses` are those that a time hits exactly.
+/// \throw InvalidOptions if the times do not rise or leave the path.
+Path Resample(const Path& path, const std::vector<double>& times);
 
 }  // namespace shapespace
 

@@ -116,16 +116,15 @@ PathQuality MeasureQuality(const Path& path) {
   return quality;
 }
 
-Eigen::VectorXd EdgeDeviation(const Path& path, int i) {
-  const Metric& metric = *path.metric;
+Eigen::VectorXd EdgeDeviation(const Metric& metric, const Shape& reference, const Shape& shape) {
   const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
   const int num_vertices = metric.connectivity->NumVertices();
   Eigen::VectorXd deviation = Eigen::VectorXd::Zero(num_vertices);
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(num_vertices);
   for (int e = 0; e < edges.cols(); ++e) {
-    const double first = SquaredLength(edges, e, path.shapes[0]);
+    const double first = SquaredLength(edges, e, reference);
     if (first == 0) continue;
-    const double value = std::abs(std::sqrt(SquaredLength(edges, e, path.shapes[i]) / first) - 1);
+    const double value = std::abs(std::sqrt(SquaredLength(edges, e, shape) / first) - 1);
     for (int k = 0; k < 2; ++k) {
       deviation(edges(k, e)) += metric.edge_area(e) * value;
       weight(edges(k, e)) += metric.edge_area(e);

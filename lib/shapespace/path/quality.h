@@ -25,9 +25,14 @@ struct PathQuality {
 
 PathQuality MeasureQuality(const Path& path);
 
-/// Per vertex of shape `i`, the A_e-weighted mean over its edges of | |e| / |e_first| - 1 |: the
+/// Per vertex of `shape`, the A_e-weighted mean over its edges of | |e| / |e_reference| - 1 |: the
 /// deviation that the paper's Figure 5 colours by.
-Eigen::VectorXd EdgeDeviation(const Path& path, int i);
+Eigen::VectorXd EdgeDeviation(const Metric& metric, const Shape& reference, const Shape& shape);
+
+/// Of shape `i` of the path against its first.
+inline Eigen::VectorXd EdgeDeviation(const Path& path, int i) {
+  return EdgeDeviation(*path.metric, path.shapes.front(), path.shapes[i]);
+}
 
 }  // namespace shapespace
 

@@ -1,0 +1,111 @@
+#include <Eigen/Geometry>
+
+#include <shapespace/mesh/read.h>
+#include <shapespace/mesh/write.h>
+
+#include "mesh/bodies.h"
+#include "tools/run.h"
+
+namespace shapespace {
+namespace {
+
+using testing::ExpectContains;
+using testing::ExpectLacks;
+using testing::Outcome;
+using testing::ToolsTest;
+
+class InspectTest : public ToolsTest {};
+
+TEST_F(InspectTest, TellsWhatIsInAMesh) {
+  File("square.obj",
+       "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nvn 0 0 1\n"
+       "f 1//1 2//1 3//1 4//1\n");
+  const Outcome outcome = Run("shape-inspect", {"square.obj"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.out, "4 vertices, 1 polygons, 0 segments, extent 2 x 1 x 0");
+  ExpectContains(outcome.out, "boundary loops (1): 4 edges of length 6");
+  ExpectContains(outcome.out, "genus 0");
+  ExpectContains(outcome.out, "1 normals (vn) not kept");
+}
+
+TEST_F(InspectTest, SeesThroughRigidMotion) {
+  const Soup torus = testing::Torus(12, 8);
+  const Eigen::Matrix3d turn(Eigen::AngleAxisd(M_PI / 6, Eigen::Vector3d(1, 2, 3).normalized()));
+  const Shape moved = (turn * torus.vertices).colwise() + Eigen::Vector3d(5, -7, 9);
+  WriteMesh(Path("a.ply"), torus.vertices, torus);
+  WriteMesh(Path("b.ply"), moved, torus);
+  const Outcome outcome = Run("shape-inspect", {"a.ply", "b.ply"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.out, "b.ply against a.ply");
+  ExpectContains(outcome.out, "30 degrees");
+  double apart = 1;
+  const char* const key = "vertices apart       rms ";
+  ASSERT_NE(outcome.out.find(key), std::string::npos) << outcome.out;
+  sscanf(outcome.out.c_str() + outcome.out.find(key), "vertices apart rms %lf", &apart);
+  EXPECT_LE(apart, 1e-9);
+}
+
+TEST_F(InspectTest, BadMeshesFailAndAreNamed) {
+  File("fan.obj",
+       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\n"
+       "f 1 2 3\nf 1 2 4\nf 2 1 5\n");
+  const Outcome outcome = Run("shape-inspect", {"fan.obj"});
+  EXPECT_EQ(outcome.code, 1);
+  ExpectContains(outcome.out, "non-manifold-edge");
+  ExpectContains(outcome.out, "edge 1-2 of polygon 1 (line 6), polygon 2 (line 7) and polygon 3");
+  ExpectContains(outcome.err, "not usable as it is");
+}
+
+TEST_F(InspectTest, PosesThatDoNotCorrespondFail) {
+  MakeTubes(300);
+  Succeed("shape-body", {"tube", "--triangles", "400", "--output", "other%d.obj"});
+  const Outcome outcome = Run("shape-inspect", {"tube0.obj", "other1.obj"});
+  EXPECT_EQ(outcome.code, 1);
+  ExpectContains(outcome.out, "vertex-count");
+  ExpectContains(outcome.out, "other1.obj against tube0.obj");
+}
+
+TEST_F(InspectTest, TellsWhatIsInAPath) {
+  MakeTubes();
+  Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "7", "--output", "w.path"});
+  const Outcome outcome = Run("shape-inspect", {"w.path"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.out, "9 shapes, 2 of them given; 152 vertices, 300 triangles");
+  ExpectContains(outcome.out, "tube0.obj tube1.obj");
+  ExpectContains(outcome.out, "isometric 1, lambda 0.0001, bending 1e-05");
+}
+
+TEST_F(InspectTest, DamagedPathsFail) {
+  MakeTubes();
+  Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "1", "--output", "w.path"});
+  const std::string whole = testing::Content(Path("w.path"));
+  File("cut.path", whole.substr(0, whole.size() / 2));
+  std::string flipped = whole;
+  flipped[whole.size() / 2] ^= 1;
+  File("flipped.path", flipped);
+  File("none.path", "a walk in the park\n");
+  const struct {
+    const char *file, *message;
+  } cases[] = {
+      {"cut.path", "damaged or was cut off"},
+      {"flipped.path", "damaged or was cut off"},
+      {"none.path", "this is no .path file"},
+      {"missing.path", "cannot be opened"},
+  };
+  for (const auto& [file, message] : cases) {
+    const Outcome outcome = Run("shape-inspect", {file});
+    EXPECT_EQ(outcome.code, 1) << file;
+    ExpectContains(outcome.err, std::string(file) + ": ");
+    ExpectContains(outcome.err, message);
+    ExpectLacks(outcome.out, "shapes");
+  }
+}
+
+TEST_F(InspectTest, NeedsAFile) {
+  const Outcome outcome = Run("shape-inspect", {});
+  EXPECT_EQ(outcome.code, 2);
+  ExpectContains(outcome.err, "name one or more mesh or path files");
+}
+
+}  // namespace
+}  // namespace shapespace

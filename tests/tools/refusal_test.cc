@@ -1,0 +1,228 @@
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include <shapespace/mesh/read.h>
+#include <shapespace/mesh/write.h>
+
+#include "mesh/bodies.h"
+#include "tools/run.h"
+
+namespace shapespace {
+namespace {
+
+using testing::ExpectContains;
+using testing::Outcome;
+using testing::ToolsTest;
+
+using Strings = std::vector<std::string>;
+
+constexpr char kTetrahedron[] =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+    "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+
+class RefusalTest : public ToolsTest {
+ protected:
+  /// The run fails with `code` and these words, and leaves no file behind.
+  void ExpectRefusal(int code, Strings arguments, const Strings& parts) const {
+    const Strings before = Files();
+    const Outcome outcome = Run("shape-interpolate", arguments);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    for (const std::string& part : parts) ExpectContains(outcome.err, part);
+    if (code == 2) ExpectContains(outcome.err, "--help");
+    EXPECT_EQ(Files(), before) << outcome.err;
+  }
+
+  /// The mesh `content` in a file `name` is refused as second pose, or alone.
+  void ExpectBadFile(const std::string& name, const std::string& content,
+                     const Strings& parts) const {
+    SCOPED_TRACE(name);
+    File(name, content);
+    ExpectRefusal(1, {name, name, "--output", "w.path,w.png,f/%d.obj"}, parts);
+  }
+};
+
+TEST_F(RefusalTest, WrongCommandLines) {
+  MakeTubes();
+  const struct {
+    Strings arguments;
+    const char* message;
+  } cases[] = {
+      {{"--spoon"}, "unknown command line flag 'spoon'"},
+      {{"--shapes", "many"}, "illegal value 'many'"},
+      {{"--shapes", "0"}, "--shapes: must be 1 or more"},
+      {{"--shapes"}, "--shapes' is missing its argument"},
+      {{"--tolerance", "2"}, "--tolerance: must be between 0 and 1"},
+      {{"--lambda=-1"}, "--lambda: must be a number, zero or more"},
+      {{"--lambda", "nan"}, "--lambda: must be a number, zero or more"},
+      {{"--metric", "taxicab"}, "--metric taxicab: must be isometric, rigid or paper"},
+      {{"--weights", "heavy"}, "--weights heavy: must be area or uniform"},
+      {{"--discretization", "fine"}, "--discretization fine: must be midpoint or trapezoid"},
+      {{"--solver", "magic"}, "--solver magic: must be automatic, lbfgs or trust_region"},
+      {{"--color", "pink"}, "--color pink: must be plain or deviation"},
+      {{"--threads=-1"}, "--threads must be 0 or more"},
+      {{"--memory_limit", "0"}, "--memory_limit: must be positive"},
+      {{"--isometric", "0", "--lambda", "0"}, "motion costs nothing"},
+      {{"--output", "walk.gif"}, "walk.gif: must end in .path, .png, .obj or .ply"},
+      {{"--output", ","}, "--output: names no file"},
+      {{"--output", "frame.obj"}, "frame.obj: a name for frames needs one number"},
+      {{"--output", "%d%d.obj"}, "needs one number"},
+      {{"--output", "w.path,%s.ply"}, "%s.ply: a name for frames needs one number"},
+      {{"--report", "r.html"}, "--report r.html: must end in .json or .txt, or be -"},
+  };
+  for (const auto& [flags, message] : cases) {
+    SCOPED_TRACE(message);
+    Strings arguments = {"tube0.obj", "tube1.obj"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    ExpectRefusal(2, arguments, {message});
+  }
+  ExpectRefusal(2, {"tube0.obj"}, {"name at least two poses"});
+  ExpectRefusal(2, {}, {"name at least two poses"});
+}
+
+TEST_F(RefusalTest, FilesThatCannotBeRead) {
+  ExpectRefusal(1, {"none.obj", "none.obj"}, {"none.obj: cannot be opened"});
+  ExpectRefusal(1, {".", "."}, {"none of .obj, .ply, .off"});
+  ExpectBadFile("empty.obj", "", {"empty.obj: is empty"});
+  ExpectBadFile("mesh.stl", "solid\n", {"mesh.stl: the extension '.stl' is none of .obj"});
+  ExpectBadFile("cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1\n",
+                {"cut.obj:3: vertex 3: coordinate z is missing"});
+  ExpectBadFile("cut.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", {"cut.off:4: the file ends before"});
+  ExpectBadFile("cut.ply",
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n",
+                {"cut.ply:13: polygon 1", "missing"});
+  const Soup cube = testing::Cube();
+  WriteMesh(Path("whole.ply"), cube.vertices, cube);
+  const std::string whole = testing::Content(Path("whole.ply"));
+  ExpectBadFile("half.ply", whole.substr(0, whole.size() / 2), {"half.ply: ", "vertex"});
+  ExpectBadFile("nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n",
+                {"nan.obj:2: vertex 2: coordinate y 'nan' is not a finite number"});
+  ExpectBadFile("letters.obj", "v 0 0 0\nv 1 0 0\nv 0 1 zero\nf 1 2 3\n",
+                {"letters.obj:3: vertex 3: coordinate z 'zero' is not a number"});
+  ExpectBadFile("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n",
+                {"index.obj:5: polygon 2: vertex 9 does not exist, the file has 3"});
+  ExpectBadFile("index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
+                {"index.off:6: polygon 1: "});
+}
+
+TEST_F(RefusalTest, MeshesThatCannotServe) {
+  ExpectBadFile("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n",
+                {"points.obj: holds no polygons and no segments"});
+  ExpectBadFile("loop.obj", "v 0 0 0\nv 1 0 0\nl 1 2\nl 2 2\n",
+                {"loop.obj: segments that join a vertex to itself (1): segment 2 (line 4)"});
+  ExpectBadFile("flat.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", {"the mesh has no extent"});
+  const struct {
+    const char *name, *more, *message;
+  } non_manifold[] = {
+      {"repeated.obj", "f 2 1 3\n", "polygon 5 (line 9) repeats polygon 1 (line 5)"},
+      {"degenerate.obj", "f 1 1 2\n", "polygon 5 (line 9)"},
+      {"fan.obj", "v 2 2 2\nf 1 2 5\n", "edge 1-2 of polygon 1 (line 5), polygon 2 (line 6) and"},
+      {"touching.obj", "v 5 5 5\nv 6 5 5\nf 1 5 6\n", "vertex 1 (line 1)"},
+  };
+  for (const auto& [name, more, message] : non_manifold) {
+    ExpectBadFile(name, std::string(kTetrahedron) + more,
+                  {std::string(name) + ": ", message, "--allow_nonmanifold"});
+  }
+  ExpectBadFile("wound.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n",
+                {"wound.obj: ", "edge 2-3 of polygon 1 (line 5) and polygon 2 (line 6)",
+                 "--allow_nonmanifold"});
+}
+
+TEST_F(RefusalTest, NonManifoldMeshesServeIfAllowed) {
+  File("a.obj", std::string(kTetrahedron) + "v 2 2 2\nf 1 2 5\n");
+  std::string other = testing::Content(Path("a.obj"));
+  other.replace(other.find("v 2 2 2"), 7, "v 2 2 3");
+  File("b.obj", other);
+  const Outcome outcome = Run("shape-interpolate", {"a.obj", "b.obj", "--allow_nonmanifold",
+                                                    "--shapes", "3", "--output", "w.path,%d.obj"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.err, "warning: a.obj: edges with more than two polygons");
+  EXPECT_EQ(ReadSoup(Path("4.obj")).corners, ReadSoup(Path("a.obj")).corners);
+}
+
+TEST_F(RefusalTest, PosesOfDifferentMeshes) {
+  File("a.obj", kTetrahedron);
+  const struct {
+    const char* content;
+    Strings parts;
+  } cases[] = {
+      {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 2\n",
+       {"b.obj against a.obj: 3 vertices instead of 4", "1 polygons instead of 4"}},
+      {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 2 3 4\n",
+       {"polygon 4 (line 8) with vertices 2 3 4", "the reference has polygon 4 (line 8) with 3 1 4",
+        "different meshes"}},
+  };
+  for (const auto& [content, parts] : cases) {
+    File("b.obj", content);
+    ExpectRefusal(1, {"a.obj", "b.obj", "--output", "w.path"}, parts);
+  }
+}
+
+TEST_F(RefusalTest, PosesWhoseVerticesWereReordered) {
+  // A strip of three triangles, and the same with its first two vertices in the other order.
+  File("a.obj", "v 0 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 2 0 0\nf 1 3 2\nf 2 3 4\nf 3 5 4\n");
+  File("b.obj", "v 0 1 0\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 2 0 0\nf 2 3 1\nf 1 3 4\nf 3 5 4\n");
+  ExpectRefusal(1, {"a.obj", "b.obj", "--output", "w.path"},
+                {"only the vertices in another (the reference's vertex 1 is number 2 here)",
+                 "'keep vertex order'"});
+}
+
+TEST_F(RefusalTest, SuspiciousPosesAreUsedWithAWarning) {
+  // Vertices of one end in a wrong order: all counts and faces agree.
+  MakeTubes(4000);
+  const Soup soup = ReadSoup(Path("tube1.obj"));
+  std::vector<int> order(soup.NumVertices());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.begin() + 500, std::mt19937(1));
+  Shape shuffled = soup.vertices;
+  for (int v = 0; v < soup.NumVertices(); ++v) shuffled.col(v) = soup.vertices.col(order[v]);
+  WriteMesh(Path("shuffled.obj"), shuffled, soup);
+  const Outcome outcome = Run("shape-interpolate",
+                              {"tube0.obj", "shuffled.obj", "--shapes", "1", "--output", "w.path"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.err, "warning: shuffled.obj against tube0.obj: vertices whose edges");
+}
+
+TEST_F(RefusalTest, StiffenerFiles) {
+  MakeTubes();
+  const struct {
+    const char *content, *message;
+  } cases[] = {
+      {"1 2\n1 999\n", "stiff.txt:2: stiffener 2: '999' is not a vertex number from 1 to 152"},
+      {"1 2 3\n", "stiff.txt:1: stiffener 1: '3' is too much"},
+      {"7 7\n", "stiff.txt:1: stiffener 1: joins vertex 7 to itself"},
+  };
+  for (const auto& [content, message] : cases) {
+    File("stiff.txt", content);
+    ExpectRefusal(1, {"tube0.obj", "tube1.obj", "--stiffeners", "stiff.txt", "--output", "w.path"},
+                  {message});
+  }
+  ExpectRefusal(1, {"tube0.obj", "tube1.obj", "--stiffeners", "none.txt", "--output", "w.path"},
+                {"none.txt: cannot be opened"});
+}
+
+TEST_F(RefusalTest, MetricsThatTheMeshCannotHave) {
+  Succeed("shape-body", {"sheet", "--triangles", "100", "--output", "sheet%d.obj"});
+  ExpectRefusal(2, {"sheet0.obj", "sheet1.obj", "--volume", "1", "--output", "w.path"},
+                {"--volume: the mesh is not closed"});
+}
+
+TEST_F(RefusalTest, SolvesBeyondTheMemoryLimit) {
+  MakeTubes();
+  ExpectRefusal(1, {"tube0.obj", "tube1.obj", "--memory_limit", "0.001", "--output", "w.path"},
+                {"MB, more than the memory limit", "fewer shapes"});
+}
+
+TEST_F(RefusalTest, OutputsThatCannotBeWrittenAreFoundBeforeAnythingIs) {
+  MakeTubes();
+  ExpectRefusal(1, {"tube0.obj", "tube1.obj", "--output", "w.path,tube0.obj/frames/%d.obj"},
+                {"tube0.obj/frames/%d.obj: cannot be written: ", "tube0.obj is no folder"});
+  ExpectRefusal(1, {"tube0.obj", "tube1.obj", "--output", "w.path", "--report", "tube0.obj/r.txt"},
+                {"tube0.obj/r.txt: cannot be written"});
+}
+
+}  // namespace
+}  // namespace shapespace
