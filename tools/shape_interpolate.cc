@@ -57,7 +57,7 @@ void Run(const std::vector<std::string>& files) {
   GeodesicResult result = Interpolate(poses, options, TerminalProgress());
   result.path.provenance = "shape-interpolate " SHAPESPACE_VERSION ":";
   for (const std::string& file : files) result.path.provenance += " " + file;
-  WriteOutputs(outputs, result.path, poses.appearance);
+  WriteOutputs(outputs, result.path, poses.appearance, result.path.shapes.front());
 
   if (!FLAGS_report.empty()) {
     WriteReport(FLAGS_report,

@@ -228,6 +228,47 @@ TEST(RenderFilmStripTest, ValuesAreShownAsColourWithALegend) {
   EXPECT_GT(Count(image, 0, image.width, plain.height, image.height).orange, 500);
 }
 
+TEST(RenderFilmStripTest, RolesDecideTheColour) {
+  const SimpleBody sphere = Sphere(1);
+  FilmStripOptions options = Small();
+  options.roles = {ShapeRole::kPose, ShapeRole::kInserted, ShapeRole::kExtrapolated};
+  const Image image =
+      RenderFilmStrip(*sphere.connectivity, {sphere.shape, sphere.shape, sphere.shape}, options);
+  const int cell = image.width / 3;
+  const auto centre = [&](int i) {
+    return &image.pixels[3 * (image.height / 2 * image.width + i * cell + cell / 2)];
+  };
+  const unsigned char *pose = centre(0), *inserted = centre(1), *extrapolated = centre(2);
+  EXPECT_GT(pose[2], pose[1] + 20);  // blue
+  EXPECT_GT(inserted[1], inserted[0] + 20);
+  EXPECT_GT(inserted[1], inserted[2] + 20);  // green
+  EXPECT_GT(extrapolated[0], extrapolated[1] + 20);
+  EXPECT_GT(extrapolated[2], extrapolated[1] + 20);  // purple
+}
+
+TEST(RenderFilmStripTest, LabelsStandUnderTheShapesAndTheTitleAboveAll) {
+  const SimpleBody sphere = Sphere(1);
+  const std::vector<Shape> shapes = {sphere.shape, sphere.shape};
+  FilmStripOptions options = Small();
+  const Image plain = RenderFilmStrip(*sphere.connectivity, shapes, options);
+  options.labels = {"", "t = 1"};
+  const Image labelled = RenderFilmStrip(*sphere.connectivity, shapes, options);
+  ASSERT_GT(labelled.height, plain.height);
+  EXPECT_EQ(labelled.width, plain.width);
+  const int half = plain.width / 2;
+  EXPECT_EQ(Count(labelled, 0, half, plain.height, labelled.height).drawn, 0);
+  EXPECT_GT(Count(labelled, half, plain.width, plain.height, labelled.height).drawn, 20);
+  options.title = "title";
+  const Image titled = RenderFilmStrip(*sphere.connectivity, shapes, options);
+  const int line = titled.height - labelled.height;
+  EXPECT_GT(Count(titled, 0, titled.width, 0, line).drawn, 20);
+  // Below the title stands the picture as it was.
+  const Image below = {labelled.width,
+                       labelled.height,
+                       {titled.pixels.begin() + 3 * line * titled.width, titled.pixels.end()}};
+  EXPECT_EQ(Difference(below, labelled, 0), 0);
+}
+
 TEST(RenderFilmStripTest, DrawsAGraph) {
   const SimpleBody box = Box(1, 1, 1);
   std::vector<std::pair<int, int>> frame;

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/bodies/bar.h>
-#include <shapespace/path/path.h>
 
 #include "support/paths.h"
 
@@ -82,18 +81,6 @@ TEST(InterpolateMotion, TurnsAtConstantSpeedAndTranslatesEvenly) {
   EXPECT_TRUE(quarter.rotation.isApprox(Eigen::AngleAxisd(0.5, axis).toRotationMatrix(), 1e-12));
   EXPECT_TRUE(quarter.translation.isApprox(Eigen::Vector3d(1, 0, -0.5), 1e-12));
   EXPECT_TRUE(InterpolateMotion(first, last, 1).rotation.isApprox(last.rotation, 1e-12));
-}
-
-TEST(Resample, IsExactOnCubicsInTimeAndGivesShapesBackAtTheirOwnTimes) {
-  const Shape a = testing::Noise(5, 1, 1), b = testing::Noise(5, 1, 2), c = testing::Noise(5, 1, 3);
-  const auto at = [&](double t) { return Shape(a + t * b + t * t * t * c); };
-  const std::vector<double> times = {0, 0.1, 0.4, 0.5, 0.9, 1};
-  std::vector<Shape> shapes;
-  for (double t : times) shapes.push_back(at(t));
-  const std::vector<double> wanted = {0, 0.03, 0.4, 0.45, 0.77, 0.99, 1};
-  const std::vector<Shape> result = Resample(shapes, times, wanted);
-  for (size_t i = 0; i < wanted.size(); ++i) EXPECT_TRUE(result[i].isApprox(at(wanted[i]), 1e-12));
-  EXPECT_TRUE(result[2] == shapes[2]);
 }
 
 }  // namespace

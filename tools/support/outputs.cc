@@ -80,8 +80,8 @@ void CheckCanBeWritten(const std::string& file) {
   }
 }
 
-void WriteOutputs(const std::vector<std::string>& outputs, const Path& path,
-                  const Soup& appearance) {
+void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Soup& appearance,
+                  const Shape& reference) {
   const std::vector<Shape> placed = path.Placed();
   int done = 0;
   for (const std::string& output : outputs) {
@@ -103,7 +103,7 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path,
         }
         if (FLAGS_color == "deviation") {
           for (int i = 0; i < path.NumShapes(); ++i) {
-            options.values.push_back(EdgeDeviation(path, i));
+            options.values.push_back(EdgeDeviation(*path.metric, reference, path.shapes[i]));
           }
           options.legend = "edge length, deviation from the first pose";
         }

@@ -20,9 +20,9 @@ void CheckCanBeWritten(const std::string& file);
 
 /// Writes each: `.path`, `.png` film strip, or frames (`frames/%03d.obj`, `.ply`).
 /// Texture coordinates and materials of `appearance` go into OBJ frames; where they are dropped,
-/// stderr is told.
-void WriteOutputs(const std::vector<std::string>& outputs, const Path& path,
-                  const Soup& appearance);
+/// stderr is told. `reference` (the metric's unit) is what colours of deviation compare with.
+void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Soup& appearance,
+                  const Shape& reference);
 
 }  // namespace shapespace::tools
 

@@ -1,0 +1,15 @@
+#ifndef SHAPESPACE_TOOLS_SUPPORT_NUMBERS_H_
+#define SHAPESPACE_TOOLS_SUPPORT_NUMBERS_H_
+
+#include <string>
+#include <vector>
+
+namespace shapespace::tools {
+
+/// The numbers that `text`, the value of `flag`, lists with commas between them.
+/// \throw UsageError naming the flag and what is no number.
+std::vector<double> NumbersFromFlag(const std::string& flag, const std::string& text);
+
+}  // namespace shapespace::tools
+
+#endif  // SHAPESPACE_TOOLS_SUPPORT_NUMBERS_H_
