@@ -70,7 +70,7 @@ TEST_F(CancelTest, CtrlCLeavesNothingBehind) {
 TEST_F(CancelTest, ProgressIsForTerminalsOnly) {
   MakeTubes();
   const testing::Outcome outcome =
-      Run("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "3"});
+      Run("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "3", "--output", "w.path"});
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.err, "");
 }

@@ -40,7 +40,8 @@ class InterpolateTest : public ToolsTest {
 
   /// The report of a run on the tubes with these further flags.
   nlohmann::json Report(Strings flags) const {
-    flags.insert(flags.begin(), {"tube0.obj", "tube1.obj", "--shapes", "3", "--report", "-"});
+    flags.insert(flags.begin(), {"tube0.obj", "tube1.obj", "--shapes", "3", "--output", "w.path",
+                                 "--report", "-"});
     const Outcome outcome = Run("shape-interpolate", flags);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return nlohmann::json::parse(outcome.out, nullptr, false);

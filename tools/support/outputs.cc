@@ -54,6 +54,9 @@ std::vector<std::string> OutputsFromFlags() {
   if (FLAGS_color != "plain" && FLAGS_color != "deviation") {
     throw UsageError("--color " + FLAGS_color + ": must be plain or deviation");
   }
+  FilmStripOptions strip;
+  strip.title = FLAGS_title;
+  strip.Validate();  // a title that cannot be drawn is told now, not after the solve
   std::vector<std::string> outputs;
   std::stringstream list(FLAGS_output);
   for (std::string output; std::getline(list, output, ',');) {

@@ -86,8 +86,10 @@ class ArrayReader {
                       (columns == Eigen::Dynamic || static_cast<size_t>(columns) == array.columns);
     if (!fits) throw FileError("its array " + name + " has the wrong type or size");
     Matrix matrix(array.rows, array.columns);
-    std::memcpy(matrix.data(), bytes_.data() + array.begin,
-                array.rows * array.columns * sizeof(Scalar));
+    // An empty matrix may have no address, which memcpy must not be given.
+    if (matrix.size() > 0) {
+      std::memcpy(matrix.data(), bytes_.data() + array.begin, matrix.size() * sizeof(Scalar));
+    }
     if constexpr (std::is_same_v<Scalar, double>) {
       if (!matrix.allFinite()) throw FileError("its array " + name + " holds a non-finite number");
     }

@@ -27,7 +27,7 @@ struct GeodesicOptions {
   int shapes = 15;
 
   /// A level is finished when an iteration lowers the energy by less than this share of it. Between
-  /// real poses 1e-4 leaves the energy within about a percent, and shapes that look the same; an
+  /// real poses 1e-4 leaves the energy within half a percent, and shapes that look the same; an
   /// accurate exponential map needs 1e-10.
   double tolerance = 1e-4;
 
