@@ -64,7 +64,7 @@ TEST_F(RefusalTest, WrongCommandLines) {
       {{"--threads=-1"}, "--threads must be 0 or more"},
       {{"--memory_limit", "0"}, "--memory_limit: must be positive"},
       {{"--isometric", "0", "--lambda", "0"}, "motion costs nothing"},
-      {{"--output", "walk.gif"}, "walk.gif: must end in .path, .png, .obj or .ply"},
+      {{"--output", "walk.gif"}, "walk.gif: must end in .path, .png, .glb, .obj or .ply"},
       {{"--output", ","}, "--output: names no file"},
       {{"--output", "frame.obj"}, "frame.obj: a name for frames needs one number"},
       {{"--output", "%d%d.obj"}, "needs one number"},

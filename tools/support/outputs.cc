@@ -14,29 +14,36 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/output/frames.h>
+#include <shapespace/output/gltf.h>
 #include <shapespace/output/picture.h>
 #include <shapespace/path/path_file.h>
 #include <shapespace/path/quality.h>
 
 #include "support/tool.h"
 
-DEFINE_string(output, "path.png",
-              "files to write, separated by commas: .path (everything, to go on from), .png (film "
-              "strip), frames/%03d.obj or .ply (one mesh a shape)");
+DEFINE_string(
+    output, "path.png",
+    "files to write, separated by commas: .path (everything, to go on from), .png (film "
+    "strip), .glb (animated, for browsers and Blender), frames/%03d.obj or .ply (one mesh "
+    "a shape)");
 DEFINE_string(color, "plain",
-              "film strip: plain, or deviation (of edge lengths from the first pose)");
+              "film strip and glb: plain, or deviation (of edge lengths from the first pose)");
 
+DEFINE_string(up, "y", "glb: the axis of the poses that points up, y or z");
+DEFINE_double(unit, 1, "glb: metres in one unit of the poses; 0.001 for millimetres");
+DEFINE_double(seconds, 4, "glb: duration, there and back");
 DEFINE_string(title, "", "film strip: a line above it");
 
 namespace shapespace::tools {
 namespace {
 
-enum class Kind { kPath, kPicture, kFrames };
+enum class Kind { kPath, kPicture, kGltf, kFrames };
 
 Kind KindOf(const std::string& output) {
   const std::string extension = std::filesystem::path(output).extension().string();
   if (extension == ".path") return Kind::kPath;
   if (extension == ".png") return Kind::kPicture;
+  if (extension == ".glb") return Kind::kGltf;
   if (extension == ".obj" || extension == ".ply") {
     try {
       FrameName(output, 0);
@@ -45,7 +52,29 @@ Kind KindOf(const std::string& output) {
     }
     return Kind::kFrames;
   }
-  throw UsageError("--output " + output + ": must end in .path, .png, .obj or .ply");
+  throw UsageError("--output " + output + ": must end in .path, .png, .glb, .obj or .ply");
+}
+
+GltfOptions GltfOptionsFromFlags() {
+  if (FLAGS_up != "y" && FLAGS_up != "z") throw UsageError("--up " + FLAGS_up + ": must be y or z");
+  GltfOptions options;
+  options.duration = FLAGS_seconds;
+  options.up = FLAGS_up[0];
+  options.unit = FLAGS_unit;
+  options.colour_by_deviation = FLAGS_color == "deviation";
+  return options;
+}
+
+void WriteGltfAndTell(const std::string& output, const Path& path) {
+  const GltfSummary summary = WriteGltf(output, path, GltfOptionsFromFlags());
+  if (summary.subsampled) {
+    std::cerr << "note: " << output << ": " << summary.keys << " of the " << path.NumShapes()
+              << " shapes, evenly, as many as players can be expected to take\n";
+  }
+  if (FLAGS_color == "deviation") {
+    std::cerr << "note: " << output << ": the last colour stands for a deviation of "
+              << 100 * summary.colour_end << "%\n";
+  }
 }
 
 }  // namespace
@@ -57,6 +86,7 @@ std::vector<std::string> OutputsFromFlags() {
   FilmStripOptions strip;
   strip.title = FLAGS_title;
   strip.Validate();  // a title that cannot be drawn is told now, not after the solve
+  GltfOptionsFromFlags().Validate();
   std::vector<std::string> outputs;
   std::stringstream list(FLAGS_output);
   for (std::string output; std::getline(list, output, ',');) {
@@ -113,6 +143,9 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
         WritePng(output, RenderFilmStrip(*path.metric->connectivity, placed, options));
         break;
       }
+      case Kind::kGltf:
+        WriteGltfAndTell(output, path);
+        break;
       case Kind::kFrames:
         if (std::filesystem::path(output).extension() == ".ply" &&
             (appearance.texture_coordinates.cols() > 0 || !appearance.polygon_material.empty())) {

@@ -293,7 +293,8 @@ void WritePath(const std::string& file, const Path& path) {
                        {"features", features},
                        {"provenance", path.provenance},
                        {"arrays", arrays.Table()}};
-  std::string header_text = header.dump();
+  // A provenance may name files in bytes that are no UTF-8: those are replaced.
+  std::string header_text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
   header_text.resize((header_text.size() + 7) / 8 * 8, ' ');  // arrays begin on whole words
 
   const uint64_t header_size = header_text.size();

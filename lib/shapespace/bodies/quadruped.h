@@ -1,0 +1,44 @@
+#ifndef SHAPESPACE_BODIES_QUADRUPED_H_
+#define SHAPESPACE_BODIES_QUADRUPED_H_
+
+#include <string>
+#include <vector>
+
+#include <shapespace/bodies/skinned.h>
+
+namespace shapespace {
+
+/// Lengths and girths of a quadruped in parts of the usual ones, each in [0.3, 3].
+struct QuadrupedForm {
+  double body_length = 1, body_girth = 1;
+  double neck_length = 1, neck_girth = 1;
+  double head_size = 1;
+  double ear_length = 1;
+  double leg_length = 1, leg_girth = 1;
+  double tail_length = 1;
+
+  /// \throw InvalidOptions naming the field.
+  void Validate() const;
+};
+
+/// The names that `NamedQuadrupedForm` knows: normal, long (think of a giraffe), short (a
+/// dachshund), heavy (a bear).
+std::vector<std::string> QuadrupedProportions();
+
+/// \throw InvalidOptions if the name is not known; the message lists those that are.
+QuadrupedForm NamedQuadrupedForm(const std::string& name);
+
+/// The names of its poses.
+std::vector<std::string> QuadrupedPoses();
+
+/// A friendly animal that faces +x and stands on the plane z = 0, about as high as 1.5: body, neck,
+/// head with ears, four legs and a tail. Closed, of genus 0, with about `triangles` nearly
+/// equilateral triangles, which are smaller where it is thinner. Mesh and vertex order depend on
+/// `triangles` alone: other forms move its vertices, and are somewhat less regular.
+/// \throw InvalidOptions if the form is not valid, or `triangles` is negative or above a million.
+///        Fewer than 500 are taken as 500.
+SkinnedBody MakeQuadruped(int triangles, const QuadrupedForm& form = {});
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_BODIES_QUADRUPED_H_

@@ -1,0 +1,3 @@
+// The glTF library's own code, in a file of its own because it takes long to compile.
+#define TINYGLTF_IMPLEMENTATION
+#include <shapespace/output/tinygltf.h>

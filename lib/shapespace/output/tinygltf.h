@@ -1,0 +1,13 @@
+#ifndef SHAPESPACE_OUTPUT_TINYGLTF_H_
+#define SHAPESPACE_OUTPUT_TINYGLTF_H_
+
+// The glTF library, without images: what is defined here changes its classes, so that it
+// is included nowhere else.
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_INCLUDE_JSON
+#include <nlohmann/json.hpp>
+
+#include <tiny_gltf.h>
+
+#endif  // SHAPESPACE_OUTPUT_TINYGLTF_H_
