@@ -29,7 +29,9 @@ DEFINE_string(
 DEFINE_string(color, "plain",
               "film strip and glb: plain, or deviation (of edge lengths from the first pose)");
 
-DEFINE_string(up, "y", "glb: the axis of the poses that points up, y or z");
+DEFINE_string(up, "",
+              "the axis of the poses that points up, y or z; without, film strips choose, and glb "
+              "takes y");
 DEFINE_double(unit, 1, "glb: metres in one unit of the poses; 0.001 for millimetres");
 DEFINE_double(seconds, 4, "glb: duration, there and back");
 DEFINE_string(title, "", "film strip: a line above it");
@@ -56,10 +58,12 @@ Kind KindOf(const std::string& output) {
 }
 
 GltfOptions GltfOptionsFromFlags() {
-  if (FLAGS_up != "y" && FLAGS_up != "z") throw UsageError("--up " + FLAGS_up + ": must be y or z");
+  if (!FLAGS_up.empty() && FLAGS_up != "y" && FLAGS_up != "z") {
+    throw UsageError("--up " + FLAGS_up + ": must be y or z");
+  }
   GltfOptions options;
   options.duration = FLAGS_seconds;
-  options.up = FLAGS_up[0];
+  options.up = FLAGS_up == "z" ? 'z' : 'y';
   options.unit = FLAGS_unit;
   options.colour_by_deviation = FLAGS_color == "deviation";
   return options;
@@ -127,6 +131,8 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
       case Kind::kPicture: {
         FilmStripOptions options;
         options.title = FLAGS_title;
+        if (FLAGS_up == "y") options.up = Eigen::Vector3d::UnitY();
+        if (FLAGS_up == "z") options.up = Eigen::Vector3d::UnitZ();
         for (int i = 0; i < path.NumShapes(); ++i) {
           const bool pose = std::binary_search(path.poses.begin(), path.poses.end(), i);
           options.roles.push_back(pose ? ShapeRole::kPose : ShapeRole::kInserted);

@@ -18,9 +18,10 @@ std::vector<std::string> OutputsFromFlags();
 /// \throw FileError.
 void CheckCanBeWritten(const std::string& file);
 
-/// Writes each: `.path`, `.png` film strip, `.glb` animation, or frames (`frames/%03d.obj`, `.ply`).
-/// Texture coordinates and materials of `appearance` go into OBJ frames; where they are dropped,
-/// stderr is told. `reference` (the metric's unit) is what colours of deviation compare with.
+/// Writes each: `.path`, `.png` film strip, `.glb` animation, or frames (`frames/%03d.obj`,
+/// `.ply`). Texture coordinates and materials of `appearance` go into OBJ frames; where they are
+/// dropped, stderr is told. `reference` (the metric's unit) is what colours of deviation compare
+/// with.
 void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Soup& appearance,
                   const Shape& reference);
 

@@ -6,7 +6,6 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 

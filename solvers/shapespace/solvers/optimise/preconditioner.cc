@@ -132,7 +132,8 @@ void ChangeOfVariables::ApplyTranspose(const double* gradient, double scale, dou
         flow = below_[t] * z[t];
       }
     }
-    std::fill_n(&work_[static_cast<size_t>(i) * width_ + count], width_ - count, 0.0);
+    double* const row = &work_[static_cast<size_t>(i) * width_];
+    std::fill(row + count, row + width_, 0.0);
   });
   factor_.SolveLower(work_.data(), width_);
   ForRows([&](int i) {
