@@ -8,22 +8,38 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/body.h>
+#include <shapespace/bodies/skinned.h>
 #include <shapespace/output/frames.h>
 
 #include "support/tool.h"
 
 DEFINE_int32(triangles, 0, "about how many triangles; 0 takes the body's own number");
 DEFINE_string(at, "", "parameter values, separated by commas; without: both ends of the range");
+DEFINE_string(pose, "",
+              "names of poses, separated by commas, of a body with bones; instead of --at");
+DEFINE_string(proportions, "", "name of the proportions of a body with bones, for --pose");
 DEFINE_string(output, "body%d.obj", "one file a value, numbered from 0: .obj or .ply");
 
 namespace shapespace::tools {
 namespace {
 
+std::vector<std::string> Split(const std::string& list) {
+  std::vector<std::string> parts;
+  std::stringstream text(list);
+  for (std::string part; std::getline(text, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+std::string Join(const std::vector<std::string>& parts) {
+  std::string list;
+  for (const std::string& part : parts) list += (list.empty() ? "" : ", ") + part;
+  return list;
+}
+
 std::vector<double> ValuesFromFlags(const Body& body) {
   if (FLAGS_at.empty()) return {body.begin, body.end};
   std::vector<double> values;
-  std::stringstream list(FLAGS_at);
-  for (std::string text; std::getline(list, text, ',');) {
+  for (const std::string& text : Split(FLAGS_at)) {
     size_t used = 0;
     try {
       values.push_back(std::stod(text, &used));
@@ -46,27 +62,51 @@ void CheckOutput() {
   }
 }
 
-void Run(const std::vector<std::string>& arguments) {
-  if (arguments.empty()) {
-    for (const BodyInfo& info : ListBodies()) {
-      std::cout << info.name << ": " << info.description << '\n';
-    }
-    return;
+void List() {
+  for (const BodyInfo& info : ListBodies()) {
+    std::cout << info.name << ": " << info.description << '\n';
   }
-  if (arguments.size() > 1) throw UsageError("name one body");
-  CheckOutput();
-  Body body;
+  for (const SkinnedBodyInfo& info : ListSkinnedBodies()) {
+    std::cout << "poses of " << info.name << ": " << Join(info.poses) << "\nproportions of "
+              << info.name << ": " << Join(info.proportions) << '\n';
+  }
+}
+
+void WritePoses(const std::string& name) {
+  if (FLAGS_pose.empty()) throw UsageError("--proportions needs --pose");
+  if (!FLAGS_at.empty()) throw UsageError("--at and --pose exclude each other");
+  const SkinnedBody body = MakeSkinnedBody(name, FLAGS_triangles, FLAGS_proportions);
   std::vector<Shape> shapes;
-  try {
-    body = MakeBody(arguments[0], FLAGS_triangles);
-    for (double value : ValuesFromFlags(body)) shapes.push_back(body.pose(value));
-  } catch (const InvalidOptions& error) {  // its fields are not named as our flags are
-    throw UsageError(error.what());
-  }
+  for (const std::string& pose : Split(FLAGS_pose)) shapes.push_back(body.pose(pose));
+  WriteFrames(FLAGS_output, shapes, PlainAppearance(*body.connectivity));
+  std::cout << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
+            << body.connectivity->NumTriangles() << " triangles; poses are "
+            << Join(body.pose_names) << '\n';
+}
+
+void WriteValues(const std::string& name) {
+  const Body body = MakeBody(name, FLAGS_triangles);
+  std::vector<Shape> shapes;
+  for (double value : ValuesFromFlags(body)) shapes.push_back(body.pose(value));
   WriteFrames(FLAGS_output, shapes, PlainAppearance(*body.connectivity));
   std::cout << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
             << body.connectivity->NumTriangles() << " triangles; " << body.parameter << " from "
             << body.begin << " to " << body.end << '\n';
+}
+
+void Run(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return List();
+  if (arguments.size() > 1) throw UsageError("name one body");
+  CheckOutput();
+  try {
+    if (FLAGS_pose.empty() && FLAGS_proportions.empty()) {
+      WriteValues(arguments[0]);
+    } else {
+      WritePoses(arguments[0]);
+    }
+  } catch (const InvalidOptions& error) {  // its fields are not named as our flags are
+    throw UsageError(error.what());
+  }
 }
 
 }  // namespace
@@ -79,7 +119,8 @@ int main(int argc, char** argv) {
       {"shape-body",
        "poses of bodies made in code, to try things on",
        "  shape-body                                      lists the bodies\n"
-       "  shape-body tube --at 0,90 --output tube%d.obj   writes tube0.obj and tube1.obj",
+       "  shape-body tube --at 0,90 --output tube%d.obj   writes tube0.obj and tube1.obj\n"
+       "  shape-body quadruped --pose stand,sit --proportions long --output animal%d.obj",
        {"shape_body.cc"}},
       Run);
 }

@@ -14,7 +14,9 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/bricard.h>
 #include <shapespace/bodies/catenoid.h>
+#include <shapespace/bodies/miura.h>
 #include <shapespace/bodies/sheet.h>
+#include <shapespace/bodies/steffen.h>
 #include <shapespace/path/energy.h>
 
 #include "support/paths.h"
@@ -134,7 +136,7 @@ TEST(Interpolate, StretchesASingleEdgeAsTheClosedFormSays) {
 }
 
 TEST(Interpolate, FollowsExactIsometricFlexes) {
-  for (const Body& body : {MakeStrip(1, 1, 16), MakeBricard()}) {
+  for (const Body& body : {MakeStrip(1, 1, 16), MakeBricard(), MakeSteffen()}) {
     SCOPED_TRACE(body.name);
     GeodesicOptions options = Options(15, 1e-10);
     options.metric.bending = 0;
@@ -149,6 +151,25 @@ TEST(Interpolate, FollowsExactIsometricFlexes) {
     EXPECT_LT(deviation[0], 1e-2);
     EXPECT_NEAR(deviation[0] / deviation[1], 10, 4);  // proportional to lambda
   }
+}
+
+// A flat parallelogram whose sides and diagonals hold it can still twist by any small angle x while
+// lengths change by x^2 only: for a gain proportional to lambda x, paid with x^4. So the deviation,
+// x^2, is proportional to lambda^(2/3).
+TEST(Interpolate, FoldsAMiuraSheetWithItsParallelogramsNearlyFlat) {
+  const Body body = MakeMiura(1, 1, 60, 3, 3);
+  GeodesicOptions options = Options(15, 1e-10);
+  options.metric.bending = 0;
+  double deviation[2];
+  for (int i = 0; i < 2; ++i) {
+    options.metric.lambda = i == 0 ? 1e-6 : 1e-7;
+    const auto [path, summary] =
+        Interpolate(body.connectivity, {body.pose(20), body.pose(60)}, options);
+    EXPECT_EQ(summary.termination, Termination::kConverged);
+    deviation[i] = summary.quality.edge_max;
+  }
+  EXPECT_LT(deviation[0], 1e-5);
+  EXPECT_NEAR(deviation[0] / deviation[1], std::pow(10, 2.0 / 3), 0.5);
 }
 
 // The associate family of the catenoid is isometric, and its way is short: the geodesic stays near.

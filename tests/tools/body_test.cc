@@ -1,4 +1,5 @@
 #include <shapespace/bodies/body.h>
+#include <shapespace/bodies/skinned.h>
 #include <shapespace/mesh/read.h>
 
 #include "tools/run.h"
@@ -37,6 +38,23 @@ TEST_F(BodyToolTest, WritesOneFileAValue) {
             (std::vector<std::string>{"a", "a/b", "a/b/00.ply", "a/b/01.ply", "a/b/02.ply"}));
 }
 
+TEST_F(BodyToolTest, ListsPosesAndProportions) {
+  const Outcome outcome = Run("shape-body", {});
+  ExpectContains(outcome.out, "poses of quadruped: stand, stride, sit, stretch, rear\n");
+  ExpectContains(outcome.out, "proportions of quadruped: normal, long, short, heavy\n");
+}
+
+TEST_F(BodyToolTest, WritesNamedPosesInNamedProportions) {
+  Succeed("shape-body", {"quadruped", "--triangles", "500", "--pose", "sit,stand", "--proportions",
+                         "long", "--output", "animal%d.obj"});
+  EXPECT_EQ(Files(), (std::vector<std::string>{"animal0.obj", "animal1.obj"}));
+  const SkinnedBody body = MakeSkinnedBody("quadruped", 500, "long");
+  EXPECT_LE((ReadSoup(Path("animal0.obj")).vertices - body.pose("sit")).cwiseAbs().maxCoeff(),
+            1e-8);
+  EXPECT_LE((ReadSoup(Path("animal1.obj")).vertices - body.pose("stand")).cwiseAbs().maxCoeff(),
+            1e-8);
+}
+
 TEST_F(BodyToolTest, RefusesWhatItCannotMake) {
   const struct {
     std::vector<std::string> arguments;
@@ -44,6 +62,12 @@ TEST_F(BodyToolTest, RefusesWhatItCannotMake) {
   } cases[] = {
       {{"spoon"}, "no body is called 'spoon'; known are tube"},
       {{"tube", "bar"}, "name one body"},
+      {{"quadruped", "--pose", "fly"}, "'fly'; known are stand, stride, sit, stretch, rear"},
+      {{"quadruped", "--pose", "sit", "--proportions", "huge"},
+       "'huge'; known are normal, long, short, heavy"},
+      {{"quadruped", "--proportions", "long"}, "--proportions needs --pose"},
+      {{"quadruped", "--pose", "sit", "--at", "1"}, "--at and --pose exclude each other"},
+      {{"tube", "--pose", "sit"}, "no body with bones is called 'tube'; known are quadruped"},
       {{"tube", "--at", "0,x"}, "--at x: not a number"},
       {{"tube", "--at", "200"}, "200 is outside 0 .. 150"},
       {{"tube", "--triangles=-5"}, "-5 is outside"},

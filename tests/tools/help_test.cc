@@ -43,7 +43,8 @@ TEST_F(HelpTest, FitsTheTerminalAndSucceeds) {
 
 TEST_F(HelpTest, ListsOurFlagsOnly) {
   EXPECT_EQ(Listed("shape-body"),
-            (std::set<std::string>{"at", "help", "output", "threads", "triangles", "version"}));
+            (std::set<std::string>{"at", "help", "output", "pose", "proportions", "threads",
+                                   "triangles", "version"}));
   const std::set<std::string> metric = {"bending", "discretization", "isometric",
                                         "lambda",  "log_length",     "metric",
                                         "rigid",   "volume",         "weights"};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/bend.h>
@@ -9,7 +10,10 @@
 #include <shapespace/bodies/catenoid.h>
 #include <shapespace/bodies/checks.h>
 #include <shapespace/bodies/grid.h>
+#include <shapespace/bodies/miura.h>
+#include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/sheet.h>
+#include <shapespace/bodies/steffen.h>
 #include <shapespace/bodies/tube.h>
 
 namespace shapespace {
@@ -44,6 +48,27 @@ Body Catenoid(int triangles) {
 
 Body Tube(int triangles) { return MakeTube(triangles); }
 
+Body Steffen(int) { return MakeSteffen(); }
+
+Body Miura(int triangles) {
+  const int nx = std::max<int>(1, std::lround(std::sqrt(triangles / 2.0)));
+  return MakeMiura(1, 1, 60, nx, std::max<int>(1, std::lround(triangles / 2.0 / nx)));
+}
+
+// From its rest pose to the one that is farthest from it.
+Body Quadruped(int triangles) {
+  SkinnedBody animal = MakeQuadruped(std::min(triangles, 1'000'000));
+  Body body;
+  body.name = animal.name;
+  body.connectivity = animal.connectivity;
+  body.parameter = "part of the way from standing to stretching";
+  body.end = 1;
+  body.pose = [between = std::move(animal.between)](double part) {
+    return between("stand", "stretch", part);
+  };
+  return WithCheckedRange(std::move(body));
+}
+
 struct Entry {
   BodyInfo info;
   Body (*make)(int triangles);
@@ -56,7 +81,10 @@ const std::vector<Entry>& Registry() {
       {{"sheet", "a rectangle, rolled up; isometric as a smooth surface", 2000}, Sheet},
       {{"strip", "a strip of triangles, folded to a ring; exactly isometric", 24}, Strip},
       {{"catenoid", "catenoid to helicoid; isometric as a smooth surface", 2000}, Catenoid},
-      {{"bricard", "Bricard's flexible octahedron, 8 triangles; exactly isometric", 8}, Bricard}};
+      {{"bricard", "Bricard's flexible octahedron, 8 triangles; exactly isometric", 8}, Bricard},
+      {{"steffen", "Steffen's flexible polyhedron, 14 triangles; exactly isometric", 14}, Steffen},
+      {{"miura", "a Miura fold of flat parallelograms; exactly isometric", 512}, Miura},
+      {{"quadruped", "a friendly animal with bones, standing to stretching", 20000}, Quadruped}};
   return *registry;
 }
 

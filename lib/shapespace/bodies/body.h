@@ -39,8 +39,9 @@ std::vector<BodyInfo> ListBodies();
 
 /// The body `name` in the proportions that suit it best, with about `triangles` triangles; 0 stands
 /// for its default number. A number below the smallest mesh of a body gives that mesh; `bricard`
-/// always has 8. The functions of the other headers of this folder make bodies of any proportions.
-/// \throw InvalidOptions if the name is not known (the message lists those that are), or the number
+/// always has 8, `steffen` 14, and `quadruped` at most a million. The functions of the other
+/// headers of this folder make bodies of any proportions. \throw InvalidOptions if the name is not
+/// known (the message lists those that are), or the number
 ///        is negative or above 10 million.
 Body MakeBody(const std::string& name, int triangles = 0);
 

@@ -22,7 +22,7 @@ ImplicitValue Evaluate(const RoundCone& cone, const Eigen::Vector3d& point) {
   const Eigen::Vector3d from_centre = from_begin - at / length * axis;
   const double distance = std::max(from_centre.norm(), 1e-12);
   const double radius = cone.begin_radius + slope * at;
-  return {distance - radius, stretched(from_centre / distance), radius};
+  return {distance - radius, stretched(from_centre / distance), radius * cone.flatness};
 }
 
 ImplicitValue Evaluate(const std::vector<RoundCone>& cones, const Eigen::Vector3d& point) {

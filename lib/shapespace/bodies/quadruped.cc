@@ -1,7 +1,7 @@
 #include <shapespace/bodies/quadruped.h>
 
 #include <algorithm>
-#include <map>
+#include <iterator>
 #include <memory>
 #include <sstream>
 #include <utility>
@@ -10,6 +10,7 @@
 #include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/checks.h>
 #include <shapespace/bodies/polygonise.h>
+#include <shapespace/bodies/quadruped_poses.h>
 #include <shapespace/bodies/skeleton.h>
 
 namespace shapespace {
@@ -64,12 +65,12 @@ class Builder {
     const Scale body = {form_.body_length, form_.body_girth};
     const Scale neck = {form_.neck_length, form_.neck_girth};
     const Scale head = {form_.head_size, form_.head_size};
-    Add("pelvis", "", {-0.5, 0, 0.9}, {-0.2, 0, 0.89}, 0, -1, body);
-    Grow({-0.44, 0, 0.9}, 0.21, {-0.2, 0, 0.89}, 0.205, 0.1, side, 0.88);
-    Add("loin", "pelvis", {-0.2, 0, 0.89}, {0.08, 0, 0.87}, 0.17, -1, body);
-    Grow({-0.2, 0, 0.89}, 0.205, {0.08, 0, 0.87}, 0.22, 0.1, side, 0.9);
-    Add("chest", "loin", {0.08, 0, 0.87}, {0.42, 0, 0.95}, 0.17, -1, body);
-    Grow({0.08, 0, 0.87}, 0.22, {0.32, 0, 0.88}, 0.235, 0.1, side, 0.88);
+    Add("pelvis", "", {-0.5, 0, 0.89}, {-0.2, 0, 0.89}, 0, -1, body);
+    Grow({-0.44, 0, 0.9}, 0.21, {-0.2, 0, 0.89}, 0.205, 0.04, side, 0.88);
+    Add("loin", "pelvis", {-0.2, 0, 0.89}, {0.08, 0, 0.88}, 0.17, -1, body);
+    Grow({-0.2, 0, 0.89}, 0.205, {0.08, 0, 0.87}, 0.22, 0.04, side, 0.88);
+    Add("chest", "loin", {0.08, 0, 0.88}, {0.42, 0, 0.88}, 0.17, -1, body);
+    Grow({0.08, 0, 0.87}, 0.22, {0.32, 0, 0.88}, 0.235, 0.04, side, 0.88);
     Add("neck", "chest", {0.42, 0, 0.95}, {0.56, 0, 1.18}, 0.15, -1, neck);
     Grow({0.4, 0, 0.95}, 0.175, {0.56, 0, 1.18}, 0.125, 0.16, side, 0.92);
     Add("nape", "neck", {0.56, 0, 1.18}, {0.66, 0, 1.38}, 0.12, -1, neck);
@@ -88,8 +89,8 @@ class Builder {
     const Eigen::Vector3d flat = at(1, -0.25, 0.15);
     Add(name, "head", at(0.665, 0.1, 1.525), tip, 0.07, limb,
         {form_.head_size * form_.ear_length, form_.head_size});
-    Grow(root, 0.06, middle, 0.095, 0.05, flat, 0.42);
-    Grow(middle, 0.095, tip, 0.05, 0.03, flat, 0.42);
+    Grow(root, 0.065, middle, 0.092, 0.05, flat, 0.58);
+    Grow(middle, 0.092, tip, 0.06, 0.03, flat, 0.58);
   }
 
   void Tail() {
@@ -97,12 +98,12 @@ class Builder {
     const Scale scale = {form_.tail_length, 1};
     const Eigen::Vector3d at[] = {
         {-0.6, 0, 0.98}, {-0.76, 0, 0.95}, {-0.87, 0, 0.81}, {-0.92, 0, 0.65}};
-    Add("tail root", "pelvis", at[0], at[1], 0.07, limb, scale);
+    Add("tail root", "pelvis", at[0], at[1], 0.1, limb, scale);
     Grow(at[0], 0.07, at[1], 0.056, 0.1);
     Add("tail", "tail root", at[1], at[2], 0.07, limb, scale);
-    Grow(at[1], 0.056, at[2], 0.054, 0.04);
+    Grow(at[1], 0.056, at[2], 0.054, 0.02);
     Add("tail tip", "tail", at[2], at[3], 0.07, limb, scale);
-    Grow(at[2], 0.054, at[3], 0.062, 0.04);
+    Grow(at[2], 0.054, at[3], 0.062, 0.02);
   }
 
   /// The middles of a leg's joints and of its toes, and the radii there.
@@ -118,10 +119,10 @@ class Builder {
     const Eigen::Vector3d hip = leg.top + 0.3 * (leg.knee - leg.top);
     Add(name + "upper", parent, hip, leg.knee, 0.18, limb, scale);
     Grow(leg.top, leg.top_radius, leg.knee, leg.knee_radius, 0.1);
-    Add(name + "lower", name + "upper", leg.knee, leg.ankle, 0.14, limb, scale);
-    Grow(leg.knee, leg.knee_radius, leg.ankle, leg.ankle_radius, 0.05);
-    Add(name + "cannon", name + "lower", leg.ankle, leg.fetlock, 0.1, limb, scale);
-    Grow(leg.ankle, leg.ankle_radius, leg.fetlock, 0.06, 0.04);
+    Add(name + "lower", name + "upper", leg.knee, leg.ankle, 0.18, limb, scale);
+    Grow(leg.knee, leg.knee_radius, leg.ankle, leg.ankle_radius, 0.03);
+    Add(name + "cannon", name + "lower", leg.ankle, leg.fetlock, 0.12, limb, scale);
+    Grow(leg.ankle, leg.ankle_radius, leg.fetlock, 0.06, 0.03);
     // A paw grows with the girth of its leg.
     Add(name + "paw", name + "cannon", leg.fetlock, leg.foot + Eigen::Vector3d(0.08, 0, 0), 0.09,
         limb, {form_.leg_girth, form_.leg_girth});
@@ -133,120 +134,35 @@ class Builder {
     const std::string name = side > 0 ? "left " : "right ";
     Leg("front " + name, "chest", side,
         {at(0.34, 0.12, 0.8), at(0.31, 0.145, 0.54), at(0.33, 0.145, 0.31), at(0.32, 0.145, 0.12),
-         at(0.33, 0.145, 0.078), 0.13, 0.085, 0.068});
+         at(0.33, 0.145, 0.078), 0.13, 0.082, 0.066});
     Leg("hind " + name, "pelvis", side,
         {at(-0.43, 0.115, 0.84), at(-0.35, 0.145, 0.55), at(-0.5, 0.145, 0.33),
-         at(-0.475, 0.145, 0.12), at(-0.465, 0.145, 0.078), 0.16, 0.1, 0.068});
+         at(-0.475, 0.145, 0.12), at(-0.465, 0.145, 0.078), 0.16, 0.092, 0.066});
   }
 
   const QuadrupedForm form_;
   Skeleton skeleton_;
 };
 
-/// A joint's rotation in degrees: `pitch` about +y (a leg goes back, a head down), `yaw` about +z
-/// (to the left), `roll` about +x (the left side up).
-struct Turn {
-  const char* bone;
-  double pitch, yaw = 0, roll = 0;
-};
+using Turns = std::vector<Turn>;
 
-/// Bones of poses. A paw that is not named stays level.
-const std::vector<std::pair<std::string, std::vector<Turn>>>& Poses() {
+const std::vector<std::pair<std::string, Turns>>& Poses() {
+  const auto all = [](const auto& turns) { return Turns(std::begin(turns), std::end(turns)); };
   static const auto* const poses =
-      new std::vector<std::pair<std::string, std::vector<Turn>>>{{"stand", {}},
-                                                                 {"stride",
-                                                                  {{"neck", 6},
-                                                                   {"nape", 6, 6},
-                                                                   {"head", -8, 8},
-                                                                   {"loin", 0, 4},
-                                                                   {"chest", 0, 4},
-                                                                   {"tail root", 26, 10},
-                                                                   {"tail", 10, 10},
-                                                                   {"tail tip", 16, 10},
-                                                                   {"front left upper", -34},
-                                                                   {"front left lower", 0},
-                                                                   {"front left cannon", 10},
-                                                                   {"front right upper", 26},
-                                                                   {"front right lower", 10},
-                                                                   {"front right cannon", 18},
-                                                                   {"front right paw", -14},
-                                                                   {"hind left upper", 28},
-                                                                   {"hind left lower", 2},
-                                                                   {"hind left cannon", 8},
-                                                                   {"hind left paw", -10},
-                                                                   {"hind right upper", -36},
-                                                                   {"hind right lower", 22},
-                                                                   {"hind right cannon", -10}}},
-                                                                 {"sit",
-                                                                  {{"pelvis", -46},
-                                                                   {"loin", 4},
-                                                                   {"chest", 4},
-                                                                   {"neck", 14},
-                                                                   {"nape", 14},
-                                                                   {"head", 10},
-                                                                   {"tail root", 16},
-                                                                   {"tail", -24},
-                                                                   {"tail tip", -24},
-                                                                   {"front left upper", 42},
-                                                                   {"front left lower", -6},
-                                                                   {"front left cannon", 2},
-                                                                   {"front right upper", 42},
-                                                                   {"front right lower", -6},
-                                                                   {"front right cannon", 2},
-                                                                   {"hind left upper", -45, 12},
-                                                                   {"hind left lower", 88},
-                                                                   {"hind left cannon", -62},
-                                                                   {"hind left paw", 52},
-                                                                   {"hind right upper", -45, -12},
-                                                                   {"hind right lower", 88},
-                                                                   {"hind right cannon", -62},
-                                                                   {"hind right paw", 52}}},
-                                                                 {"stretch",
-                                                                  {{"pelvis", 25},
-                                                                   {"loin", 6},
-                                                                   {"chest", -4},
-                                                                   {"neck", -14},
-                                                                   {"nape", -16},
-                                                                   {"head", -10},
-                                                                   {"tail root", 60},
-                                                                   {"tail", 30},
-                                                                   {"tail tip", 24},
-                                                                   {"front left upper", -74},
-                                                                   {"front left lower", -14},
-                                                                   {"front left paw", 50},
-                                                                   {"front right upper", -74},
-                                                                   {"front right lower", -14},
-                                                                   {"front right paw", 50},
-                                                                   {"hind left upper", -4},
-                                                                   {"hind left lower", -20},
-                                                                   {"hind right upper", -4},
-                                                                   {"hind right lower", -20}}},
-                                                                 {"rear",
-                                                                  {{"pelvis", -52},
-                                                                   {"loin", -6},
-                                                                   {"chest", -4},
-                                                                   {"neck", 14},
-                                                                   {"nape", 18},
-                                                                   {"head", 16},
-                                                                   {"tail root", 20},
-                                                                   {"front left upper", -30},
-                                                                   {"front left lower", 70},
-                                                                   {"front left cannon", 30},
-                                                                   {"front left paw", 20},
-                                                                   {"front right upper", -5},
-                                                                   {"front right lower", 60},
-                                                                   {"front right cannon", 30},
-                                                                   {"front right paw", 20},
-                                                                   {"hind left upper", 30},
-                                                                   {"hind left lower", 34},
-                                                                   {"hind left cannon", -20},
-                                                                   {"hind right upper", 20},
-                                                                   {"hind right lower", 38},
-                                                                   {"hind right cannon", -18}}}};
+      new std::vector<std::pair<std::string, Turns>>{{"stand", {}},
+                                                     {"stride", all(kStride)},
+                                                     {"sit", all(kSit)},
+                                                     {"stretch", all(kStretch)},
+                                                     {"rear", all(kRear)}};
   return *poses;
 }
 
-Rotations RotationsOf(const Skeleton& skeleton, const std::vector<Turn>& turns) {
+bool IsPaw(const Bone& bone) {
+  return bone.name.size() > 3 && bone.name.compare(bone.name.size() - 3, 3, "paw") == 0;
+}
+
+/// A paw that a pose does not name stays level.
+Rotations RotationsOf(const Skeleton& skeleton, const Turns& turns) {
   Rotations rotations(skeleton.bones.size(), Eigen::Vector3d::Zero());
   std::vector<bool> named(rotations.size(), false);
   for (const Turn& turn : turns) {
@@ -255,8 +171,7 @@ Rotations RotationsOf(const Skeleton& skeleton, const std::vector<Turn>& turns) 
     named[j] = true;
   }
   for (size_t j = 0; j < rotations.size(); ++j) {
-    const std::string& name = skeleton.bones[j].name;
-    if (named[j] || name.size() < 3 || name.substr(name.size() - 3) != "paw") continue;
+    if (named[j] || !IsPaw(skeleton.bones[j])) continue;
     for (int up = skeleton.bones[j].parent; up >= 0; up = skeleton.bones[up].parent) {
       rotations[j].y() -= rotations[up].y();
     }
@@ -264,32 +179,32 @@ Rotations RotationsOf(const Skeleton& skeleton, const std::vector<Turn>& turns) 
   return rotations;
 }
 
-/// "name: no ... is called 'x'; known are a, b".
-std::string Unknown(const char* what, const std::string& name,
-                    const std::vector<std::string>& known) {
-  std::string list;
-  for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
-  return std::string(what) + ": none is called '" + name + "'; known are " + list;
+/// From the bones' axes (x ahead, y to the left, z up) to those of glTF: z ahead, x to the left, y
+/// up.
+Shape Placed(const Shape& shape) {
+  Shape placed(3, shape.cols());
+  placed << shape.row(1), shape.row(2), shape.row(0);
+  return placed;
 }
 
 const std::vector<std::pair<std::string, QuadrupedForm>>& Forms() {
   static const auto* const forms = [] {
     QuadrupedForm normal, slender, low, heavy;
-    slender.leg_length = 1.5;
+    slender.leg_length = 1.4;
     slender.leg_girth = 0.9;
-    slender.neck_length = 2.1;
+    slender.neck_length = 2;
     slender.neck_girth = 0.9;
-    slender.body_length = 0.9;
+    slender.body_length = 1.15;
     slender.head_size = 0.95;
-    low.leg_length = 0.5;
-    low.leg_girth = 0.95;
-    low.body_length = 1.4;
+    low.leg_length = 0.6;
+    low.leg_girth = 0.85;
+    low.body_length = 1.35;
     low.body_girth = 0.85;
     low.neck_length = 0.75;
-    low.ear_length = 1.4;
+    low.ear_length = 1.3;
     heavy.body_girth = 1.35;
-    heavy.leg_girth = 1.35;
-    heavy.leg_length = 0.85;
+    heavy.leg_girth = 1.25;
+    heavy.leg_length = 0.9;
     heavy.neck_girth = 1.35;
     heavy.neck_length = 0.75;
     heavy.head_size = 1.15;
@@ -311,10 +226,12 @@ std::vector<std::string> Names(const std::vector<std::pair<std::string, Value>>&
 template <typename Value>
 const Value& Lookup(const char* what, const std::vector<std::pair<std::string, Value>>& table,
                     const std::string& name) {
-  for (const auto& entry : table) {
-    if (entry.first == name) return entry.second;
+  std::string known;
+  for (const auto& [each, value] : table) {
+    if (each == name) return value;
+    known += (known.empty() ? "" : ", ") + each;
   }
-  throw InvalidOptions(Unknown(what, name, Names(table)));
+  throw InvalidOptions(std::string(what) + ": none is called '" + name + "'; known are " + known);
 }
 
 }  // namespace
@@ -359,13 +276,13 @@ SkinnedBody MakeQuadruped(int triangles, const QuadrupedForm& form) {
   body.name = "quadruped";
   body.connectivity = ConnectivityOf(num_vertices, mesh.triangles);
   body.pose_names = QuadrupedPoses();
-  body.pose = [=](const std::string& name) { return skin->Pose(rotations(name)); };
+  body.pose = [=](const std::string& name) { return Placed(skin->Pose(rotations(name))); };
   body.between = [=](const std::string& from, const std::string& to, double part) {
     if (!(part >= 0 && part <= 1)) throw InvalidOptions("part: must be in [0, 1]");
     Rotations turned = rotations(from);
     const Rotations goal = rotations(to);
     for (size_t j = 0; j < turned.size(); ++j) turned[j] += part * (goal[j] - turned[j]);
-    return skin->Pose(turned);
+    return Placed(skin->Pose(turned));
   };
   return body;
 }

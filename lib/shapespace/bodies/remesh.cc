@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <Eigen/Geometry>
 #include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 
 #include <shapespace/base/parallel.h>
-#include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/polygonise.h>
 
 namespace shapespace {
@@ -19,25 +19,21 @@ using OpenMesh::VertexHandle;
 /// Sides are in proportion to the local radius to this power: in proportion to the radius itself,
 /// the thick parts of a coarse mesh would be lumps; all alike, its thin parts would be.
 constexpr double kSizePower = 0.65;
-/// Even so, this many of the local radius are the most: with fewer than five sides around it, a
-/// limb would wither from its tip.
-constexpr double kMostPerRadius = 2.5;
+/// Even so, this many of the local radius are the most, which leaves three sides around a limb.
+constexpr double kMostPerRadius = 2;
 /// A side may be longer than its neighbour by this share of the distance.
 constexpr double kGradation = 0.35;
 /// Botsch and Kobbelt's limits, in parts of the wanted length.
 constexpr double kLongest = 4.0 / 3, kShortest = 4.0 / 5;
 /// So many of the local radius a triangle's middle may be inside of the surface: a tip or a limb
 /// that a triangle cuts off would be gone for good.
-constexpr double kDeepest = 0.33;
+constexpr double kDeepest = 0.25;
 /// Triangles may lean away from the surface's normals by as much as this cosine says; more would
 /// be a fold.
 constexpr double kLeastCosine = 0.3;
 /// Rounds until the number of triangles is near the one asked for, and those that trim it and see
 /// to the angles.
 constexpr int kRounds = 4, kLastRounds = 3;
-/// Vertices of triangles with an angle below this (30 degrees) are moved again, in so many sweeps.
-constexpr double kGoodCosine = 0.866;
-constexpr int kRepairs = 5;
 
 class Remesher {
  public:
@@ -67,7 +63,6 @@ class Remesher {
       for (int i = 0; i < 2; ++i) Relax();
     }
     FlipEdges(true);
-    for (int i = 0; i < kRepairs; ++i) RepairAngles();
     return Result();
   }
 
@@ -258,45 +253,6 @@ class Remesher {
     });
     points_.swap(moved);
     ProjectAll();
-  }
-
-  /// The cosine of the smallest angle of all triangles around a vertex.
-  double LargestCosine(VertexHandle v) const {
-    double largest = -1;
-    for (HalfedgeHandle h : mesh_.voh_range(v)) {
-      largest = std::max(largest, LargestCosine(v, To(h), Apex(h)));
-    }
-    return largest;
-  }
-
-  /// Moves vertices of bad triangles wherever, of some places near, their smallest angle is largest.
-  void RepairAngles() {
-    for (VertexHandle v : mesh_.all_vertices()) {
-      if (!Exists(v)) continue;
-      double largest = LargestCosine(v);
-      for (double step = 0.3; largest > kGoodCosine && step > 0.02; step /= 2) {
-        const Eigen::Vector3d normal = normals_[v.idx()];
-        const Eigen::Vector3d side = normal.unitOrthogonal();
-        for (int direction = 0; direction < 8; ++direction) {
-          const Eigen::Vector3d before = Point(v);
-          points_[v.idx()] += step * sizes_[v.idx()] *
-                              (Eigen::AngleAxisd(direction * kPi / 4, normal) * side);
-          normals_[v.idx()] = Project(cones_, &points_[v.idx()]).gradient.normalized();
-          const double cosine = LargestCosine(v);
-          if (cosine < largest && AllFace(v)) {
-            largest = cosine;
-          } else {
-            points_[v.idx()] = before;
-          }
-        }
-      }
-    }
-  }
-  bool AllFace(VertexHandle v) const {
-    for (HalfedgeHandle h : mesh_.voh_range(v)) {
-      if (!Faces(v, To(h), Apex(h))) return false;
-    }
-    return true;
   }
 
   TriangleMesh Result() const {

@@ -115,7 +115,7 @@ Skin::Skin(Skeleton skeleton, const Eigen::Matrix3Xd& points) : skeleton_(std::m
     masks_.col(v) = Masks(skeleton_, limbs, points.col(v));
     const Eigen::VectorXd shares = Shares(skeleton_, masks_.col(v));
     rest_.col(v).setZero();
-    for (size_t j = 0; j < bones.size(); ++j) {
+    for (int j = 0; j < shares.size(); ++j) {
       if (shares(j) > 0) rest_.col(v) += shares(j) * scaled_with(j, points.col(v));
     }
   });

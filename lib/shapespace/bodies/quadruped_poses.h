@@ -1,0 +1,104 @@
+#ifndef SHAPESPACE_BODIES_QUADRUPED_POSES_H_
+#define SHAPESPACE_BODIES_QUADRUPED_POSES_H_
+
+namespace shapespace {
+
+/// A joint's rotation in degrees: `pitch` about +y (a leg goes back, a head down), `yaw` about +z
+/// (to the left), `roll` about +x (the left side up).
+struct Turn {
+  const char* bone;
+  double pitch, yaw = 0, roll = 0;
+};
+
+constexpr Turn kStride[] = {{"neck", 6},
+                            {"nape", 6, 6},
+                            {"head", -8, 8},
+                            {"loin", 0, 4},
+                            {"chest", 0, 4},
+                            {"tail root", 26, 10},
+                            {"tail", 10, 10},
+                            {"tail tip", 16, 10},
+                            {"front left upper", -34},
+                            {"front left lower", 0},
+                            {"front left cannon", 10},
+                            {"front right upper", 16},
+                            {"front right lower", 10},
+                            {"front right cannon", 18},
+                            {"front right paw", -14},
+                            {"hind left upper", 28},
+                            {"hind left lower", 2},
+                            {"hind left cannon", 8},
+                            {"hind left paw", -10},
+                            {"hind right upper", -25},
+                            {"hind right lower", 14},
+                            {"hind right cannon", -10}};
+
+constexpr Turn kSit[] = {{"pelvis", -46},
+                         {"loin", 4},
+                         {"chest", 4},
+                         {"neck", 14},
+                         {"nape", 14},
+                         {"head", 10},
+                         {"tail root", 16},
+                         {"tail", -24},
+                         {"tail tip", -24},
+                         {"front left upper", 42},
+                         {"front left lower", -6},
+                         {"front left cannon", 2},
+                         {"front right upper", 42},
+                         {"front right lower", -6},
+                         {"front right cannon", 2},
+                         {"hind left upper", -42, 16},
+                         {"hind left lower", 80},
+                         {"hind left cannon", -58},
+                         {"hind left paw", 54},
+                         {"hind right upper", -42, -16},
+                         {"hind right lower", 80},
+                         {"hind right cannon", -58},
+                         {"hind right paw", 54}};
+
+constexpr Turn kStretch[] = {{"pelvis", 25},
+                             {"loin", 6},
+                             {"chest", -4},
+                             {"neck", -14},
+                             {"nape", -16},
+                             {"head", -10},
+                             {"tail root", 50},
+                             {"tail", 34},
+                             {"tail tip", 24},
+                             {"front left upper", -74},
+                             {"front left lower", -14},
+                             {"front left paw", 50},
+                             {"front right upper", -74},
+                             {"front right lower", -14},
+                             {"front right paw", 50},
+                             {"hind left upper", -4},
+                             {"hind left lower", -20},
+                             {"hind right upper", -4},
+                             {"hind right lower", -20}};
+
+constexpr Turn kRear[] = {{"pelvis", -52},
+                          {"loin", -6},
+                          {"chest", -4},
+                          {"neck", 14},
+                          {"nape", 18},
+                          {"head", 16},
+                          {"tail root", 20},
+                          {"front left upper", -30},
+                          {"front left lower", 70},
+                          {"front left cannon", 30},
+                          {"front left paw", 20},
+                          {"front right upper", -5},
+                          {"front right lower", 60},
+                          {"front right cannon", 30},
+                          {"front right paw", 20},
+                          {"hind left upper", 30},
+                          {"hind left lower", 34},
+                          {"hind left cannon", -20},
+                          {"hind right upper", 20},
+                          {"hind right lower", 38},
+                          {"hind right cannon", -18}};
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_BODIES_QUADRUPED_POSES_H_

@@ -1,0 +1,161 @@
+#include <shapespace/bodies/quadruped.h>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/base/parallel.h>
+#include <shapespace/bodies/body.h>
+#include <shapespace/mesh/topology.h>
+
+#include "bodies/measure.h"
+
+namespace shapespace {
+namespace {
+
+// Hinges folded over: beyond what even the tip of a coarse ear has.
+int Folds(const SkinnedBody& body, const std::string& pose) {
+  return (HingeAngles(*body.connectivity, body.pose(pose)).array().abs() > 120).count();
+}
+
+TEST(QuadrupedTest, IsOneClosedSurfaceWithoutHandlesAtEverySize) {
+  for (int triangles : {500, 600, 800, 2000, 20000}) {
+    SCOPED_TRACE(triangles);
+    const SkinnedBody body = MakeQuadruped(triangles);
+    EXPECT_NEAR(body.connectivity->NumTriangles(), triangles, 0.1 * triangles);
+    const Topology topology = ComputeTopology(*body.connectivity);
+    EXPECT_TRUE(topology.manifold);
+    EXPECT_EQ(topology.components, 1);
+    EXPECT_TRUE(topology.boundary_loops.empty());
+    EXPECT_EQ(topology.genus, 0);
+    EXPECT_GT(Volume(*body.connectivity, body.pose("stand")), 0.2);
+  }
+}
+
+TEST(QuadrupedTest, HasNoSlivers) {
+  for (int triangles : {500, 2000, 20000}) {
+    const SkinnedBody body = MakeQuadruped(triangles);
+    EXPECT_GT(SmallestAngle(*body.connectivity, body.pose("stand")), 20) << triangles;
+  }
+}
+
+TEST(QuadrupedTest, KeepsItsExtremitiesWhenCoarse) {
+  const auto size = [](int triangles) -> Eigen::Vector3d {
+    const Shape shape = MakeQuadruped(triangles).pose("stand");
+    return shape.rowwise().maxCoeff() - shape.rowwise().minCoeff();
+  };
+  const Eigen::Vector3d fine = size(20000);
+  EXPECT_LT((size(500) - fine).cwiseAbs().maxCoeff(), 0.15);
+  EXPECT_LT((size(2000) - fine).cwiseAbs().maxCoeff(), 0.04);
+}
+
+TEST(QuadrupedTest, StandsUprightOnTheFloorInEveryPose) {
+  const SkinnedBody body = MakeQuadruped(2000);
+  EXPECT_EQ(body.pose_names,
+            (std::vector<std::string>{"stand", "stride", "sit", "stretch", "rear"}));
+  for (const std::string& name : body.pose_names) {
+    EXPECT_EQ(body.pose(name).row(1).minCoeff(), 0) << name;
+  }
+  // Left and right are alike at rest, the head is in front.
+  const Shape rest = body.pose("stand");
+  EXPECT_NEAR(rest.row(0).maxCoeff(), -rest.row(0).minCoeff(), 0.02);
+  Eigen::Index highest;
+  rest.row(1).maxCoeff(&highest);
+  EXPECT_GT(rest(2, highest), 0.4);
+}
+
+// What the pictures show: all other folds are the skin's behind the knees of an animal that sits.
+TEST(QuadrupedTest, FoldsNowhereButBehindTheKnees) {
+  const SkinnedBody body = MakeQuadruped(20000);
+  for (const std::string& name : body.pose_names) EXPECT_EQ(Folds(body, name), 0) << name;
+  for (const char* form : {"long", "short", "heavy"}) {
+    const SkinnedBody other = MakeQuadruped(20000, NamedQuadrupedForm(form));
+    for (const std::string& name : body.pose_names) {
+      EXPECT_LE(Folds(other, name), name == "sit" ? 30 : 2) << form << " " << name;
+    }
+  }
+}
+
+TEST(QuadrupedTest, PosesKeepTheVolumeAndMostEdges) {
+  const SkinnedBody body = MakeQuadruped(5000);
+  const Shape rest = body.pose("stand");
+  const Eigen::ArrayXd before = EdgeLengths(*body.connectivity, rest);
+  for (const std::string& name : body.pose_names) {
+    const Shape shape = body.pose(name);
+    EXPECT_NEAR(Volume(*body.connectivity, shape), Volume(*body.connectivity, rest), 0.02) << name;
+    const Eigen::ArrayXd strain = EdgeLengths(*body.connectivity, shape).array() / before - 1;
+    EXPECT_LT((strain.abs() > 0.2).count(), 0.15 * strain.size()) << name;
+    if (name != "stand") {
+      EXPECT_GT((shape - rest).colwise().norm().maxCoeff(), 0.3) << name;
+    }
+  }
+}
+
+TEST(QuadrupedTest, OneLegDoesNotMoveAnother) {
+  const SkinnedBody body = MakeQuadruped(5000);
+  // In "stride" the bones of all four lower legs are rigid: their edges keep their lengths, as
+  // they would not if another leg's joint reached them.
+  const Shape rest = body.pose("stand"), stride = body.pose("stride");
+  int checked = 0;
+  for (const auto& edge : body.connectivity->Edges().colwise()) {
+    if (rest(1, edge(0)) > 0.02 || rest(1, edge(1)) > 0.02) continue;  // soles
+    const double before = (rest.col(edge(0)) - rest.col(edge(1))).norm();
+    const double after = (stride.col(edge(0)) - stride.col(edge(1))).norm();
+    EXPECT_NEAR(after, before, 0.03 * before);
+    ++checked;
+  }
+  EXPECT_GT(checked, 40);
+}
+
+TEST(QuadrupedTest, ProportionsKeepTheConnectivityAndTheAnglesFair) {
+  const SkinnedBody normal = MakeQuadruped(2000);
+  std::map<std::string, Eigen::Vector3d> sizes;
+  for (const std::string& form : QuadrupedProportions()) {
+    const SkinnedBody body = MakeQuadruped(2000, NamedQuadrupedForm(form));
+    ASSERT_EQ(body.connectivity->Triangles(), normal.connectivity->Triangles());
+    const Shape shape = body.pose("stand");
+    EXPECT_GT(SmallestAngle(*body.connectivity, shape), 15) << form;
+    sizes[form] = shape.rowwise().maxCoeff() - shape.rowwise().minCoeff();
+    sizes[form].x() = Volume(*body.connectivity, shape);
+  }
+  EXPECT_GT(sizes["long"].y(), 1.25 * sizes["normal"].y());
+  EXPECT_LT(sizes["short"].y(), 0.85 * sizes["normal"].y());
+  EXPECT_GT(sizes["short"].z(), 1.05 * sizes["normal"].z());
+  EXPECT_GT(sizes["heavy"].x(), 1.4 * sizes["normal"].x());
+}
+
+TEST(QuadrupedTest, IsTheSameForAnyNumberOfThreads) {
+  SetThreads(1);
+  const SkinnedBody one = MakeQuadruped(3000);
+  const Shape one_sits = one.pose("sit");
+  SetThreads(2);
+  const SkinnedBody two = MakeQuadruped(3000);
+  EXPECT_TRUE(two.connectivity->Triangles() == one.connectivity->Triangles());
+  EXPECT_TRUE(two.pose("sit") == one_sits);
+  SetThreads(0);
+}
+
+TEST(QuadrupedTest, GoesFromPoseToPose) {
+  const SkinnedBody body = MakeQuadruped(1000);
+  EXPECT_EQ(body.between("stand", "sit", 0), body.pose("stand"));
+  EXPECT_LT((body.between("rear", "sit", 1) - body.pose("sit")).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_EQ(MakeBody("quadruped", 1000).pose(1), body.pose("stretch"));
+  // Joints turn by parts: half of the way from a pose to itself is that pose.
+  EXPECT_LT((body.between("sit", "sit", 0.5) - body.pose("sit")).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(QuadrupedTest, RefusesWhatItDoesNotKnow) {
+  const SkinnedBody body = MakeQuadruped(500);
+  EXPECT_EQ(Refusal([&] { body.pose("fly"); }),
+            "pose: none is called 'fly'; known are stand, stride, sit, stretch, rear");
+  EXPECT_EQ(Refusal([&] { body.between("stand", "sit", 1.5); }), "part: must be in [0, 1]");
+  EXPECT_EQ(Refusal([] { NamedQuadrupedForm("huge"); }),
+            "proportions: none is called 'huge'; known are normal, long, short, heavy");
+  EXPECT_EQ(Refusal([] { MakeSkinnedBody("tube"); }),
+            "name: no body with bones is called 'tube'; known are quadruped");
+  QuadrupedForm form;
+  form.leg_length = 10;
+  EXPECT_EQ(Refusal([&] { MakeQuadruped(500, form); }), "leg_length: 10 is outside 0.3 .. 3");
+  EXPECT_EQ(Refusal([] { MakeQuadruped(-1); }), "triangles: -1 is outside 0 .. 1000000");
+}
+
+}  // namespace
+}  // namespace shapespace
