@@ -1,5 +1,5 @@
 #!/bin/sh
-# Draws every picture of the documentation again: docs/pictures.sh, after ./dev build.
+# Draws every picture of the documentation again. Run it after ./dev build.
 set -eu
 cd "$(dirname "$0")/.."
 bin=$PWD/build/release/bin
@@ -8,5 +8,27 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
+# README, guide/first-path.md
+"$bin/shape-body" quadruped --pose sit,stretch --output 'animal%d.obj'
+"$bin/shape-interpolate" animal0.obj animal1.obj --shapes 15 \
+  --output "walk.path,$pictures/first-path.png"
+
+# guide/metrics.md: Figure 2 of the paper with a body of ours
+for metric in isometric rigid paper; do
+  "$bin/shape-interpolate" animal0.obj animal1.obj --metric $metric --shapes 15 \
+    --title "--metric $metric" --output $metric.path
+  "$bin/shape-export" $metric.path --frames 7 --title "--metric $metric" \
+    --output "$pictures/metric-$metric.png"
+done
+
+# guide/report.md
+"$bin/shape-export" walk.path --frames 7 --color deviation --output "$pictures/deviation.png"
+
+# file-formats.md
+"$bin/shape-body" miura --output 'fold%d.obj'
+"$bin/shape-interpolate" fold0.obj fold1.obj --bending 0 --shapes 7 --output fold.path
+"$bin/shape-export" fold.path --frames 6 --output "$pictures/frames.png"
+
+# guide/library.md: what the program there draws
 "$bin/shape-body" tube --at 0,110 --output 'tube%d.obj'
-"$bin/shape-interpolate" tube0.obj tube1.obj --output "$pictures/tube.png"
+"$bin/shape-interpolate" tube0.obj tube1.obj --output "$pictures/library.png"

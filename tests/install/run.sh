@@ -14,16 +14,19 @@ fail() {
   exit 1
 }
 
-# The README shows this program; what it shows must be what compiles.
-diff "$here/main.cc" <(sed -n '/^```cpp$/,/^```$/p' "$root/README.md" | sed '/^```/d') ||
+# What the documents show must be what compiles.
+program_in() { sed -n '/^```cpp$/,/^```$/p' "$1" | sed '/^```/d'; }
+diff "$here/main.cc" <(program_in "$root/README.md") ||
   fail "the README's program is not tests/install/main.cc"
+program_in "$root/docs/guide/library.md" >"$work/guide.cc"
 
 cmake --install "$build" --prefix "$work/prefix" >"$work/install.log"
 headers=$(cd "$work/prefix/include" && find shapespace -name '*.h' | sort | paste -sd ';')
 [[ $headers == *shapespace/solvers/geodesic.h* ]] || fail "headers are missing: $headers"
 
 cmake -S "$here" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_PREFIX_PATH="$work/prefix" -DHEADERS="$headers" >"$work/configure.log" ||
+  -DCMAKE_PREFIX_PATH="$work/prefix" -DHEADERS="$headers" \
+  -DGUIDE="$work/guide.cc" >"$work/configure.log" ||
   fail "the package is not found"
 cmake --build "$work/build"
 
@@ -33,6 +36,10 @@ grep -qx 'Termination  *converged' report.txt || fail "the solver did not conver
 [[ $(head -c 8 tube.png | od -An -tx1 | tr -d ' \n') == 89504e470d0a1a0a ]] ||
   fail "tube.png is no PNG"
 "$work/prefix/bin/shape-interpolate" --version
+"$work/prefix/bin/shape-body" tube --triangles 500 --at 0,90 --output 'pose%d.obj'
+"$work/build/guide" pose0.obj pose1.obj | grep -qx 'Termination  *converged' ||
+  fail "the guide's program did not converge"
+[[ $(head -c 4 walk.glb) == glTF ]] || fail "walk.glb is no glTF"
 if grep -rlF -e "$root" "$work/prefix/include" "$work/prefix/lib" --include='*.cmake' \
   --include='*.h'; then
   fail "the files above name the folder that they were built in"
