@@ -1,11 +1,12 @@
-// Whole solves between two poses of a bent tube. Read `evaluations`: the solve's time over that of
-// one energy and gradient at the final size, measured in the same run; it holds on any machine.
+// Whole solves between two poses of the quadruped, which sits and stretches. Read `evaluations`:
+// the solve's time over that of one energy and gradient at the final size, measured in the same
+// run; it holds on any machine.
 
 #include <chrono>
 
 #include <benchmark/benchmark.h>
 
-#include <shapespace/bodies/body.h>
+#include <shapespace/bodies/quadruped.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/solvers/geodesic.h>
 
@@ -19,14 +20,15 @@ double Seconds(Clock::time_point begin) {
 }
 
 void Solve(benchmark::State& state, double bending) {
-  const Body tube = MakeBody("tube", static_cast<int>(state.range(0)));
+  const SkinnedBody quadruped = MakeQuadruped(static_cast<int>(state.range(0)));
+  const std::vector<Shape> poses = {quadruped.pose("sit"), quadruped.pose("stretch")};
   GeodesicOptions options;
   options.shapes = static_cast<int>(state.range(1));
   options.metric.bending = bending;
   GeodesicResult result;
   const auto begin = Clock::now();
   for (auto _ : state) {
-    result = Interpolate(tube.connectivity, {tube.pose(0), tube.pose(120)}, options);
+    result = Interpolate(quadruped.connectivity, poses, options);
   }
   const double seconds = Seconds(begin) / static_cast<double>(state.iterations());
 
