@@ -11,6 +11,7 @@
 #include <shapespace/bodies/skinned.h>
 #include <shapespace/output/frames.h>
 
+#include "support/numbers.h"
 #include "support/tool.h"
 
 DEFINE_int32(triangles, 0, "about how many triangles; 0 takes the body's own number");
@@ -34,20 +35,6 @@ std::string Join(const std::vector<std::string>& parts) {
   std::string list;
   for (const std::string& part : parts) list += (list.empty() ? "" : ", ") + part;
   return list;
-}
-
-std::vector<double> ValuesFromFlags(const Body& body) {
-  if (FLAGS_at.empty()) return {body.begin, body.end};
-  std::vector<double> values;
-  for (const std::string& text : Split(FLAGS_at)) {
-    size_t used = 0;
-    try {
-      values.push_back(std::stod(text, &used));
-    } catch (const std::exception&) {
-    }
-    if (used == 0 || used != text.size()) throw UsageError("--at " + text + ": not a number");
-  }
-  return values;
 }
 
 void CheckOutput() {
@@ -87,7 +74,9 @@ void WritePoses(const std::string& name) {
 void WriteValues(const std::string& name) {
   const Body body = MakeBody(name, FLAGS_triangles);
   std::vector<Shape> shapes;
-  for (double value : ValuesFromFlags(body)) shapes.push_back(body.pose(value));
+  std::vector<double> values = {body.begin, body.end};
+  if (!FLAGS_at.empty()) values = NumbersFromFlag("at", FLAGS_at);
+  for (double value : values) shapes.push_back(body.pose(value));
   WriteFrames(FLAGS_output, shapes, PlainAppearance(*body.connectivity));
   std::cout << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
             << body.connectivity->NumTriangles() << " triangles; " << body.parameter << " from "

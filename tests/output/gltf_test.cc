@@ -17,9 +17,12 @@
 
 #include "output/bodies.h"
 #include "output/read_glb.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
+
+using testing::MessageOf;
 
 // Rounding errors of single precision, in sizes of the body: of two numbers and their sum.
 constexpr double kPrecision = 4e-7;
@@ -27,7 +30,7 @@ constexpr double kPrecision = 4e-7;
 // In a folder that is kept where somebody wants to look at the files: tests/gltf/run.sh.
 std::string File(const std::string& name) {
   const char* const folder = std::getenv("SHAPESPACE_GLB_DIR");
-  return (folder != nullptr ? folder + std::string("/") : testing::TempDir() + "gltf_test_") +
+  return (folder != nullptr ? folder + std::string("/") : ::testing::TempDir() + "gltf_test_") +
          name + ".glb";
 }
 
@@ -384,16 +387,6 @@ TEST(WriteGltfTest, SaysWhatItIsAndWhereItIsFrom) {
   EXPECT_EQ(extras["provenance"], "from \"a\xef\xbf\xbd.obj\" and \xc3\xa9.obj");
 }
 
-template <class ErrorType>
-std::string MessageOf(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const ErrorType& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
 TEST(WriteGltfTest, NamesTheOptionThatIsWrong) {
   const Path path = SpherePath(2);
   const auto message = [&](const std::function<void(GltfOptions*)>& change) {
@@ -441,7 +434,7 @@ TEST(WriteGltfTest, NamesWhatIsWrongWithThePath) {
 }
 
 TEST(WriteGltfTest, AFileThatCannotBeWrittenIsNamed) {
-  const std::string file = testing::TempDir() + "no_folder";
+  const std::string file = ::testing::TempDir() + "no_folder";
   std::ofstream(file) << "a file";
   const std::string message =
       MessageOf<FileError>([&] { WriteGltf(file + "/a.glb", SpherePath(2)); });

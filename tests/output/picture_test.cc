@@ -11,9 +11,12 @@
 #include <shapespace/base/parallel.h>
 
 #include "output/bodies.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
+
+using testing::MessageOf;
 
 struct Counts {
   int drawn = 0, blue = 0, orange = 0;
@@ -53,16 +56,6 @@ FilmStripOptions Small() {
   FilmStripOptions options;
   options.frame_width = 96;
   return options;
-}
-
-template <class ErrorType>
-std::string MessageOf(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const ErrorType& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 TEST(RenderFilmStripTest, ASphereFillsItsCellInTheFrontColour) {

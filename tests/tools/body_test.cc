@@ -68,7 +68,7 @@ TEST_F(BodyToolTest, RefusesWhatItCannotMake) {
       {{"quadruped", "--proportions", "long"}, "--proportions needs --pose"},
       {{"quadruped", "--pose", "sit", "--at", "1"}, "--at and --pose exclude each other"},
       {{"tube", "--pose", "sit"}, "no body with bones is called 'tube'; known are quadruped"},
-      {{"tube", "--at", "0,x"}, "--at x: not a number"},
+      {{"tube", "--at", "0,x"}, "--at 0,x: 'x' is not a number"},
       {{"tube", "--at", "200"}, "200 is outside 0 .. 150"},
       {{"tube", "--triangles=-5"}, "-5 is outside"},
       {{"tube", "--output", "tube.obj"}, "needs one number"},
