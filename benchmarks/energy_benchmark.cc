@@ -22,14 +22,15 @@ struct Problem {
   std::vector<Shape> shapes;
 
   Problem(int triangles, int inner, double bending, Discretization discretization) {
-    const Body tube = MakeBody("tube", triangles);
-    const std::vector<Shape> poses = {tube.pose(0), tube.pose(90)};
+    const Body body = MakeBody("quadruped", triangles);
+    const std::vector<Shape> poses = {body.pose(body.begin), body.pose(body.end)};
     MetricOptions options;
     options.bending = bending;
     options.discretization = discretization;
-    metric = FreezeMetric(options, tube.connectivity, poses);
+    metric = FreezeMetric(options, body.connectivity, poses);
     for (int i = 0; i < inner + 2; ++i) {
-      shapes.push_back(tube.pose(90.0 * i / (inner + 1)) / metric.unit);
+      const double t = static_cast<double>(i) / (inner + 1);
+      shapes.push_back(body.pose((1 - t) * body.begin + t * body.end) / metric.unit);
     }
   }
 };
