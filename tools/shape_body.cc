@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <iostream>
-#include <sstream>
 
 #include <gflags/gflags.h>
 
@@ -11,7 +10,7 @@
 #include <shapespace/bodies/skinned.h>
 #include <shapespace/output/frames.h>
 
-#include "support/numbers.h"
+#include "support/lists.h"
 #include "support/tool.h"
 
 DEFINE_int32(triangles, 0, "about how many triangles; 0 takes the body's own number");
@@ -23,13 +22,6 @@ DEFINE_string(output, "body%d.obj", "one file a value, numbered from 0: .obj or 
 
 namespace shapespace::tools {
 namespace {
-
-std::vector<std::string> Split(const std::string& list) {
-  std::vector<std::string> parts;
-  std::stringstream text(list);
-  for (std::string part; std::getline(text, part, ',');) parts.push_back(part);
-  return parts;
-}
 
 std::string Join(const std::vector<std::string>& parts) {
   std::string list;

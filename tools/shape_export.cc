@@ -10,7 +10,7 @@
 #include <shapespace/output/frames.h>
 #include <shapespace/path/path_file.h>
 
-#include "support/numbers.h"
+#include "support/lists.h"
 #include "support/outputs.h"
 #include "support/tool.h"
 

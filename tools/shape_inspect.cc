@@ -10,13 +10,14 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/mesh/check.h>
+#include <shapespace/mesh/read.h>
 #include <shapespace/metric/metric.h>
+#include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/path_file.h>
 #include <shapespace/path/quality.h>
 
 #include "support/metric_flags.h"
-#include "support/poses.h"
 #include "support/tool.h"
 
 namespace shapespace::tools {
@@ -62,17 +63,17 @@ void PrintContent(const Soup& soup) {
 }
 
 // How far a pose is from the first, rigid motion apart.
-void PrintDistance(const Poses& poses, int i) {
-  const std::vector<Shape> pair = {poses.shapes[0], poses.shapes[i]};
-  const Metric metric = FreezeMetric(MetricFromFlags(), poses.connectivity, pair);
-  const Shape first = (pair[0].colwise() - Centroid(pair[0], metric.vertex_area)) / metric.unit;
-  Shape other = (pair[1].colwise() - Centroid(pair[1], metric.vertex_area)) / metric.unit;
-  const RigidMotion turn = FitRigidMotion(other, first, metric.vertex_area);
-  other = turn.rotation * other;
+void PrintDistance(const Soup& reference, const Soup& pose) {
+  const auto connectivity = Connectivity::Make(reference.NumVertices(), reference.polygon_begin,
+                                               reference.corners, reference.segments);
+  const std::vector<Shape> pair = {reference.vertices, pose.vertices};
+  const Metric metric = FreezeMetric(MetricFromFlags(), connectivity, pair);
+  const AlignedPoses aligned = AlignPoses(metric, pair);
+  const Shape &first = aligned.shapes[0], &other = aligned.shapes[1];
   const Eigen::RowVectorXd squared = (other - first).colwise().squaredNorm();
   std::vector<double> stretch;
-  for (int e = 0; e < poses.connectivity->NumEdges(); ++e) {
-    const Eigen::Vector2i v = poses.connectivity->Edges().col(e);
+  for (int e = 0; e < connectivity->NumEdges(); ++e) {
+    const Eigen::Vector2i v = connectivity->Edges().col(e);
     const double length = (first.col(v(1)) - first.col(v(0))).norm();
     if (length > 0) {
       stretch.push_back(std::abs((other.col(v(1)) - other.col(v(0))).norm() / length - 1));
@@ -80,9 +81,9 @@ void PrintDistance(const Poses& poses, int i) {
   }
   if (stretch.empty()) return;
   std::sort(stretch.begin(), stretch.end());
-  std::printf("%s against %s\n", poses.names[i].c_str(), poses.names[0].c_str());
+  std::printf("%s against %s\n", pose.file.c_str(), reference.file.c_str());
   std::printf("  turned by            %.4g degrees\n",
-              Eigen::AngleAxisd(turn.rotation).angle() * 180 / M_PI);
+              Eigen::AngleAxisd(aligned.motions[1].rotation).angle() * 180 / M_PI);
   std::printf("  vertices apart       rms %.4g, max %.4g (user's units, once aligned)\n",
               metric.unit * std::sqrt(squared.dot(metric.vertex_area) / metric.vertex_area.sum()),
               metric.unit * std::sqrt(squared.maxCoeff()));
@@ -127,16 +128,15 @@ void Run(const std::vector<std::string>& files) {
   }
   if (meshes.empty()) return;
   bool good = true;
-  const Soup first = ReadSoup(meshes[0]);
+  std::vector<Soup> soups;
   for (const std::string& file : meshes) {
-    const Soup soup = file == meshes[0] ? first : ReadSoup(file);
-    PrintContent(soup);
-    good = Print(CheckSoup(soup)) && good;
-    if (file != meshes[0]) good = Print(CheckCorrespondence(first, soup)) && good;
+    soups.push_back(ReadSoup(file));
+    PrintContent(soups.back());
+    good = Print(CheckSoup(soups.back())) && good;
+    if (soups.size() > 1) good = Print(CheckCorrespondence(soups[0], soups.back())) && good;
   }
-  if (good && meshes.size() > 1) {
-    const Poses poses = ReadPoses(meshes);
-    for (size_t i = 1; i < meshes.size(); ++i) PrintDistance(poses, static_cast<int>(i));
+  if (good) {
+    for (size_t i = 1; i < soups.size(); ++i) PrintDistance(soups[0], soups[i]);
   }
   if (!good) throw MeshError("not usable as it is: see what was found");
 }

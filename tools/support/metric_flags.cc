@@ -22,12 +22,6 @@ DEFINE_string(discretization, "midpoint",
               "along a segment: midpoint, or trapezoid as in the paper");
 
 namespace shapespace::tools {
-namespace {
-
-bool IsGiven(const char* flag) { return !gflags::GetCommandLineFlagInfoOrDie(flag).is_default; }
-
-}  // namespace
-
 MetricOptions MetricFromFlags() {
   MetricOptions options;
   if (FLAGS_metric == "rigid") {

@@ -19,6 +19,7 @@
 #include <shapespace/path/path_file.h>
 #include <shapespace/path/quality.h>
 
+#include "support/lists.h"
 #include "support/tool.h"
 
 DEFINE_string(
@@ -92,8 +93,7 @@ std::vector<std::string> OutputsFromFlags() {
   strip.Validate();  // a title that cannot be drawn is told now, not after the solve
   GltfOptionsFromFlags().Validate();
   std::vector<std::string> outputs;
-  std::stringstream list(FLAGS_output);
-  for (std::string output; std::getline(list, output, ',');) {
+  for (const std::string& output : Split(FLAGS_output)) {
     if (output.empty()) continue;
     KindOf(output);
     CheckCanBeWritten(output);

@@ -104,9 +104,9 @@ void PrintHelp(const Program& program) {
   PrintFlag("  --version", "version of shapespace");
 }
 
-bool IsGiven(const char* flag) { return !gflags::GetCommandLineFlagInfoOrDie(flag).is_default; }
-
 }  // namespace
+
+bool IsGiven(const char* flag) { return !gflags::GetCommandLineFlagInfoOrDie(flag).is_default; }
 
 Progress* TerminalProgress() { return &TheTerminal(); }
 

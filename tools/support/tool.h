@@ -30,6 +30,9 @@ struct Program {
 int RunTool(int argc, char** argv, const Program& program,
             const std::function<void(const std::vector<std::string>& arguments)>& body);
 
+/// Whether the command line gave this flag.
+bool IsGiven(const char* flag);
+
 /// Shows a line of progress on stderr where that is a terminal, and cancels on Ctrl-C.
 Progress* TerminalProgress();
 

@@ -9,6 +9,9 @@ namespace shapespace {
 /// sRGB appears only at the two ends.
 using Colour = Eigen::Vector3f;
 
+/// The poses' blue, in sRGB.
+inline constexpr unsigned kPoseHex = 0x4a86c8;
+
 /// From `0xrrggbb` in sRGB.
 Colour FromHex(unsigned hex);
 

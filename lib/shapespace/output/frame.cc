@@ -12,7 +12,7 @@ namespace shapespace {
 namespace {
 
 constexpr unsigned kBackgroundHex = 0xfafafa;
-constexpr unsigned kFrontHex[] = {0x4a86c8, 0x58a56b, 0x8b68bf};  // by ShapeRole
+constexpr unsigned kFrontHex[] = {kPoseHex, 0x58a56b, 0x8b68bf};  // by ShapeRole
 constexpr unsigned kBackHex = 0xf08030;
 
 // Values are drawn a little darker than in the legend, because the lights add up to more than 1;

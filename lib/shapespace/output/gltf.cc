@@ -32,7 +32,6 @@ constexpr int kMostKeys = 32;
 // The share of the duration for which the shapes rest, at either end, so that the poses are seen.
 constexpr double kRest = 0.1;
 
-constexpr unsigned kColourHex = 0x4a86c8;  // the film strip's poses
 constexpr double kRoughness = 0.7;
 
 // Cosines of 1 and 46 degrees. Of polyhedra and folded paper most edges are either flat or sharper
@@ -356,7 +355,7 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
     primitive.attributes["COLOR_0"] = Add(colours, TINYGLTF_TARGET_ARRAY_BUFFER, &model);
   }
   model.materials = {
-      PlainMaterial(options.colour_by_deviation ? Colour::Ones().eval() : FromHex(kColourHex))};
+      PlainMaterial(options.colour_by_deviation ? Colour::Ones().eval() : FromHex(kPoseHex))};
   tinygltf::Mesh mesh;
   mesh.name = "shape";
   mesh.primitives = {primitive};

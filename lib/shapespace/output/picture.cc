@@ -8,6 +8,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/output/frame.h>
+#include <shapespace/output/key_shapes.h>
 #include <shapespace/output/legend.h>
 #include <shapespace/output/scene.h>
 #include <shapespace/output/text.h>
@@ -87,16 +88,6 @@ void CheckInput(const Connectivity& connectivity, const std::vector<Shape>& shap
       }
     }
   }
-}
-
-// Indices of at most `most` of `count` shapes, evenly spread, with both ends.
-std::vector<int> Subsample(int count, int most) {
-  std::vector<int> chosen(std::min(count, most));
-  for (int i = 0; i < static_cast<int>(chosen.size()); ++i) {
-    chosen[i] =
-        i == 0 ? 0 : static_cast<int>(std::lround(double(i) * (count - 1) / (chosen.size() - 1)));
-  }
-  return chosen;
 }
 
 // Vertices that show: of a mesh those of its triangles, of a graph all.
@@ -216,7 +207,8 @@ void FilmStripOptions::Validate() const {
 Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
                       const FilmStripOptions& options) {
   CheckInput(connectivity, shapes, options);
-  const std::vector<int> chosen = Subsample(static_cast<int>(shapes.size()), options.max_frames);
+  const std::vector<int> chosen =
+      KeyShapes(static_cast<int>(shapes.size()), {}, options.max_frames);
   const int frames = static_cast<int>(chosen.size());
   const std::vector<Shape> drawn = Normalised(connectivity, shapes, chosen);
   const double tube_radius = connectivity.IsGraph() ? TubeRadius(connectivity, drawn.front()) : 0;

@@ -317,7 +317,7 @@ double PathEnergy::EvaluateSum(const Feature& feature, const Term& term, const d
   const auto gather = [&](const int* stencil, int t, double* x) {
     for (int k = 0; k < kSize; ++k) {
       const size_t row = 3 * static_cast<size_t>(stencil[k / 3]) + k % 3;
-      x[k] = t == 0 ? first_[row] : t > inner_ ? last_[row] : unknowns[row * stride_ + t - 1];
+      x[k] = At(unknowns, row, t);
     }
   };
   std::vector<double> total(inner_ + 2, 0.0);
@@ -370,8 +370,7 @@ double PathEnergy::EvaluateRigid(const double* unknowns, double* gradient) {
   const auto vertex = [&](int r, int t) {
     Eigen::Vector3d p;
     for (int axis = 0; axis < 3; ++axis) {
-      const size_t row = 3 * static_cast<size_t>(r) + axis;
-      p(axis) = t == 0 ? first_[row] : t > inner_ ? last_[row] : unknowns[row * stride_ + t - 1];
+      p(axis) = At(unknowns, 3 * static_cast<size_t>(r) + axis, t);
     }
     return p;
   };

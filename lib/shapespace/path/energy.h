@@ -79,7 +79,11 @@ class PathEnergy {
                      double* gradient);
   double EvaluateRigid(const double* unknowns, double* gradient);
   double* Sink(double* gradient);
-  /// The times 0 .. inner + 1 of one row.
+  /// One row at time t of 0 .. inner + 1, the ends included.
+  double At(const double* unknowns, size_t row, int t) const {
+    return t == 0 ? first_[row] : t > inner_ ? last_[row] : unknowns[row * stride_ + t - 1];
+  }
+  /// The same at all times.
   void ReadRow(const double* unknowns, size_t row, double* times) const;
 
   const Metric& metric_;

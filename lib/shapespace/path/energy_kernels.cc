@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <shapespace/base/clones.h>
+
 namespace shapespace::internal {
 namespace {
 

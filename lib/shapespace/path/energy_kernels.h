@@ -5,16 +5,6 @@
 
 namespace shapespace::internal {
 
-// Compiled for several instruction sets, chosen when the program starts: a portable build would
-// otherwise lose a factor of two and more. Sanitizers cannot instrument the choice.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define SHAPESPACE_CLONES \
-  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define SHAPESPACE_CLONES
-#endif
-
 /// A path as the kernels see it: row 3 v + axis holds that coordinate of vertex v in all inner
 /// shapes, time innermost, `stride` >= `inner` numbers a row, of which the rest is padding.
 struct PathRows {

@@ -10,6 +10,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/solvers/optimise/minimise.h>
 #include <shapespace/solvers/optimise/preconditioner.h>
@@ -72,24 +73,6 @@ Termination Translate(internal::Stop stop) {
       break;
   }
   return Termination::kStalled;
-}
-
-// Poses in the metric's unit, centred, each turned onto the one before; and the motions back.
-void AlignPoses(const Metric& metric, const std::vector<Shape>& poses, std::vector<Shape>* aligned,
-                std::vector<RigidMotion>* motions) {
-  for (const Shape& pose : poses) {
-    const Eigen::Vector3d centre = Centroid(pose, metric.vertex_area);
-    Shape shape = (pose.colwise() - centre) / metric.unit;
-    RigidMotion motion;
-    motion.translation = centre;
-    if (!aligned->empty()) {
-      const RigidMotion turn = FitRigidMotion(shape, aligned->back(), metric.vertex_area);
-      shape = turn.rotation * shape;
-      motion.rotation = turn.rotation.transpose();
-    }
-    aligned->push_back(std::move(shape));
-    motions->push_back(motion);
-  }
 }
 
 // The solve between two neighbouring poses.
@@ -332,9 +315,7 @@ GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivi
   }
 
   path.metric = metric;
-  std::vector<Shape> aligned;
-  std::vector<RigidMotion> motions;
-  AlignPoses(*metric, poses, &aligned, &motions);
+  const auto [aligned, motions] = AlignPoses(*metric, poses);
   const int pieces = static_cast<int>(poses.size()) - 1;
   path.poses = {0};
   path.shapes = {aligned[0]};

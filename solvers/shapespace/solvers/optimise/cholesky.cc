@@ -5,9 +5,9 @@
 
 #include <cholmod.h>
 
+#include <shapespace/base/clones.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/path/energy_kernels.h>
 
 namespace shapespace::internal {
 namespace {
@@ -52,6 +52,20 @@ SHAPESPACE_INLINE void Store(const Vector (&tile)[kRows][kVectors], const Target
   }
 }
 
+// panel(tile, i) for the rows [begin, end): four to a tile, then one by one.
+template <typename Vector, int kVectors, typename Panel>
+SHAPESPACE_INLINE void ForTiles(int begin, int end, const Panel& panel) {
+  int i = begin;
+  for (; i + 4 <= end; i += 4) {
+    Vector tile[4][kVectors];
+    panel(tile, i);
+  }
+  for (; i < end; ++i) {
+    Vector tile[1][kVectors];
+    panel(tile, i);
+  }
+}
+
 template <typename Vector, int kVectors>
 SHAPESPACE_INLINE void ForwardTile(const Supernode& node, const double* block, const int* rows,
                                    double* x, size_t stride) {
@@ -76,15 +90,7 @@ SHAPESPACE_INLINE void ForwardTile(const Supernode& node, const double* block, c
         [&](int r, int k) { return block[i + r + static_cast<size_t>(k) * node.height]; }, source);
     Store(tile, target);
   };
-  int i = node.width;
-  for (; i + 4 <= node.height; i += 4) {
-    Vector tile[4][kVectors];
-    panel(tile, i);
-  }
-  for (; i < node.height; ++i) {
-    Vector tile[1][kVectors];
-    panel(tile, i);
-  }
+  ForTiles<Vector, kVectors>(node.width, node.height, panel);
 }
 
 template <typename Vector, int kVectors>
@@ -102,15 +108,7 @@ SHAPESPACE_INLINE void BackwardTile(const Supernode& node, const double* block, 
         [&](int k) { return x + rows[node.width + k] * stride; });
     Store(tile, target);
   };
-  int j = 0;
-  for (; j + 4 <= node.width; j += 4) {
-    Vector tile[4][kVectors];
-    panel(tile, j);
-  }
-  for (; j < node.width; ++j) {
-    Vector tile[1][kVectors];
-    panel(tile, j);
-  }
+  ForTiles<Vector, kVectors>(0, node.width, panel);
   for (int i = node.width - 1; i >= 0; --i) {
     const double* const column = block + static_cast<size_t>(i) * node.height;
     Vector tile[1][kVectors];

@@ -1,4 +1,4 @@
-#include "support/numbers.h"
+#include "support/lists.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -8,10 +8,16 @@
 
 namespace shapespace::tools {
 
+std::vector<std::string> Split(const std::string& list) {
+  std::vector<std::string> parts;
+  std::stringstream text(list);
+  for (std::string part; std::getline(text, part, ',');) parts.push_back(part);
+  return parts;
+}
+
 std::vector<double> NumbersFromFlag(const std::string& flag, const std::string& text) {
   std::vector<double> numbers;
-  std::stringstream list(text);
-  for (std::string item; std::getline(list, item, ',');) {
+  for (const std::string& item : Split(text)) {
     char* end = nullptr;
     const double number = std::strtod(item.c_str(), &end);
     if (item.empty() || *end != '\0' || !std::isfinite(number)) {

@@ -1,0 +1,23 @@
+#ifndef SHAPESPACE_PATH_ALIGN_H_
+#define SHAPESPACE_PATH_ALIGN_H_
+
+#include <vector>
+
+#include <shapespace/metric/metric.h>
+#include <shapespace/path/rigid_motion.h>
+
+namespace shapespace {
+
+/// Poses without their place and orientation, and the motions that give these back.
+struct AlignedPoses {
+  std::vector<Shape> shapes;         ///< centred, in the metric's unit
+  std::vector<RigidMotion> motions;  ///< of unit * shape to the pose, in the user's unit
+};
+
+/// Centres each of `poses` (user's unit) and turns it onto the one before, by the rotation that is
+/// best in the A_p-weighted L2 sense (Procrustes).
+AlignedPoses AlignPoses(const Metric& metric, const std::vector<Shape>& poses);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_PATH_ALIGN_H_
