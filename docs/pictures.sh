@@ -23,6 +23,7 @@ done
 
 # guide/report.md
 "$bin/shape-export" walk.path --frames 7 --color deviation --output "$pictures/deviation.png"
+"$bin/shape-export" walk.path --frames 4 --color parts --output "$pictures/parts.png"
 
 # file-formats.md
 "$bin/shape-body" miura --output 'fold%d.obj'

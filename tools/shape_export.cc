@@ -56,7 +56,7 @@ void Run(const std::vector<std::string>& files) {
   }
   const Path path = ReadPath(files[0]);
   const Path shown = ResampledByFlags(path);
-  WriteOutputs(outputs, shown, PlainAppearance(*path.metric->connectivity), path.shapes.front());
+  WriteOutputs(outputs, shown, PlainAppearance(*path.metric->connectivity), path);
   std::cout << shown.NumShapes() << " shapes of " << files[0] << '\n';
 }
 

@@ -1,6 +1,7 @@
 // What is in mesh and path files, and whether meshes correspond.
 
 #include <algorithm>
+#include <cinttypes>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -10,18 +11,25 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/mesh/check.h>
+#include <shapespace/mesh/intersections.h>
 #include <shapespace/mesh/read.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
+#include <shapespace/path/intersections.h>
 #include <shapespace/path/path_file.h>
 #include <shapespace/path/quality.h>
+#include <shapespace/path/rigid_parts.h>
 
 #include "support/metric_flags.h"
 #include "support/tool.h"
 
 namespace shapespace::tools {
 namespace {
+
+// Lines and numbers of lists that say no more to a person when longer.
+constexpr size_t kMostSites = 8, kMostParts = 4;
+constexpr double kLeastSite = 0.001;  // as a share of all deviation
 
 const char* Name(Severity severity) {
   switch (severity) {
@@ -62,6 +70,16 @@ void PrintContent(const Soup& soup) {
   }
 }
 
+// Where the surface passes through itself; of a mesh that can be used.
+void PrintIntersections(const Soup& soup) {
+  const auto connectivity =
+      Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments);
+  const std::int64_t pairs = CountIntersections(*connectivity, soup.vertices);
+  const std::string message = std::to_string(pairs) + " pairs of triangles cross";
+  std::printf("  %-12s %-24s %s\n", Name(Severity::kNote), "self-intersections",
+              pairs == 0 ? "none" : message.c_str());
+}
+
 // How far a pose is from the first, rigid motion apart.
 void PrintDistance(const Soup& reference, const Soup& pose) {
   const auto connectivity = Connectivity::Make(reference.NumVertices(), reference.polygon_begin,
@@ -97,6 +115,45 @@ void PrintDistance(const Soup& reference, const Soup& pose) {
   }
 }
 
+void PrintParts(const RigidParts& parts) {
+  std::printf("  parts        %zu move nearly rigidly; %.3g%% of the surface is joint\n",
+              parts.parts.size(), 100 * parts.joint_share);
+  if (parts.parts.empty()) return;
+  std::printf(
+      "    part  vertices    area  off a rigid motion, rms   edges, rms  turns against 1\n");
+  for (size_t i = 0; i < parts.parts.size(); ++i) {
+    const RigidPart& part = parts.parts[i];
+    std::printf("    %4zu  %8d  %5.3g%%  %-8.3g (%.3g%% of size)", i + 1, part.num_vertices,
+                100 * part.area_share, part.residual, 100 * part.relative_residual);
+    std::printf("  %9.3g%%  %.1f degrees\n", 100 * part.edge_deviation, part.turn);
+  }
+}
+
+// Where the edges' deviation from the first pose sits.
+void PrintDeviation(const Path& path, const RigidParts& parts) {
+  const std::vector<DeviationSite> sites = FindDeviationSites(path, parts);
+  if (sites.empty()) {
+    std::printf("  deviation    none: all edges keep the lengths of the first pose\n");
+    return;
+  }
+  std::printf("  deviation    of edge lengths from the first pose: where most of its square is\n");
+  std::printf("    share  of area   up to    vertex  at                              parts\n");
+  for (size_t i = 0; i < std::min(sites.size(), kMostSites); ++i) {
+    const DeviationSite& site = sites[i];
+    if (site.share < kLeastSite) break;
+    char position[80];
+    std::snprintf(position, sizeof(position), "%.4g, %.4g, %.4g", site.position.x(),
+                  site.position.y(), site.position.z());
+    std::string touched;
+    for (size_t k = 0; k < std::min(site.parts.size(), kMostParts); ++k) {
+      touched += (k == 0 ? "" : ", ") + std::to_string(site.parts[k] + 1);
+    }
+    std::printf("    %4.1f%%   %5.2f%%  %5.1f%%  %8d  %-30s  %s\n", 100 * site.share,
+                100 * site.area_share, 100 * site.largest, site.vertex + 1, position,
+                touched.empty() ? "-" : touched.c_str());
+  }
+}
+
 void PrintPath(const std::string& file) {
   const Path path = ReadPath(file);
   const Connectivity& connectivity = *path.metric->connectivity;
@@ -113,6 +170,14 @@ void PrintPath(const std::string& file) {
       100 * quality.edge_rms, 100 * quality.edge_p99, 100 * quality.edge_max);
   std::printf("  roughness    %.4g degrees; folds %.4g per inner shape\n", quality.roughness,
               quality.folds);
+  const PathIntersections crossings = MeasureIntersections(path);
+  std::printf("  crossings    pairs of triangles: poses up to %" PRId64
+              "; inner shapes %.4g, up to %" PRId64 "; %.4g beyond the poses\n",
+              crossings.poses_max, crossings.inner_mean, crossings.inner_max,
+              crossings.beyond_poses);
+  const RigidParts parts = FindRigidParts(path);
+  PrintDeviation(path, parts);
+  PrintParts(parts);
 }
 
 void Run(const std::vector<std::string>& files) {
@@ -132,7 +197,9 @@ void Run(const std::vector<std::string>& files) {
   for (const std::string& file : meshes) {
     soups.push_back(ReadSoup(file));
     PrintContent(soups.back());
-    good = Print(CheckSoup(soups.back())) && good;
+    const bool usable = Print(CheckSoup(soups.back()));
+    if (usable) PrintIntersections(soups.back());
+    good = usable && good;
     if (soups.size() > 1) good = Print(CheckCorrespondence(soups[0], soups.back())) && good;
   }
   if (good) {

@@ -17,11 +17,30 @@ DEFINE_double(tolerance, 1e-4,
               "a level is finished when an iteration lowers the energy by less than this share");
 DEFINE_int32(max_iterations, 500, "iterations a level may take");
 DEFINE_string(solver, "automatic", "automatic, lbfgs or trust_region");
+DEFINE_string(schedule, "automatic",
+              "order of resolutions: automatic, start (in space for the first shape only), paper "
+              "(space and time in turn) or flat (no hierarchy)");
+DEFINE_string(start, "best",
+              "where the first solve starts: blend, first, last, rigid, or the best of the first "
+              "three");
+DEFINE_int32(coarsest, 200, "triangles of the coarsest level of the hierarchy");
 DEFINE_double(memory_limit, 8, "gigabytes that the solve may take; more is refused beforehand");
 DEFINE_string(report, "", "write a report: .json, or .txt for reading; - prints JSON on stdout");
 
 namespace shapespace::tools {
 namespace {
+
+// The value that `name` stands for. \throw UsageError listing the names.
+template <typename Value>
+Value Choose(const char* flag, const std::string& name,
+             const std::vector<std::pair<std::string, Value>>& choices) {
+  std::string names;
+  for (const auto& [choice, value] : choices) {
+    if (choice == name) return value;
+    names += (names.empty() ? "" : ", ") + choice;
+  }
+  throw UsageError("--" + std::string(flag) + " " + name + ": must be one of " + names);
+}
 
 GeodesicOptions OptionsFromFlags() {
   GeodesicOptions options;
@@ -30,13 +49,22 @@ GeodesicOptions OptionsFromFlags() {
   options.tolerance = FLAGS_tolerance;
   options.max_iterations = FLAGS_max_iterations;
   options.memory_limit = 1e9 * FLAGS_memory_limit;
-  if (FLAGS_solver == "lbfgs") {
-    options.solver = Solver::kLbfgs;
-  } else if (FLAGS_solver == "trust_region") {
-    options.solver = Solver::kTrustRegion;
-  } else if (FLAGS_solver != "automatic") {
-    throw UsageError("--solver " + FLAGS_solver + ": must be automatic, lbfgs or trust_region");
-  }
+  options.coarsest = FLAGS_coarsest;
+  options.solver = Choose<Solver>("solver", FLAGS_solver,
+                                  {{"automatic", Solver::kAutomatic},
+                                   {"lbfgs", Solver::kLbfgs},
+                                   {"trust_region", Solver::kTrustRegion}});
+  options.schedule = Choose<Schedule>("schedule", FLAGS_schedule,
+                                      {{"automatic", Schedule::kAutomatic},
+                                       {"start", Schedule::kStart},
+                                       {"paper", Schedule::kPaper},
+                                       {"flat", Schedule::kFlat}});
+  options.start = Choose<Start>("start", FLAGS_start,
+                                {{"best", Start::kBest},
+                                 {"blend", Start::kBlend},
+                                 {"first", Start::kFirst},
+                                 {"last", Start::kLast},
+                                 {"rigid", Start::kRigid}});
   options.Validate();
   return options;
 }
@@ -57,7 +85,7 @@ void Run(const std::vector<std::string>& files) {
   GeodesicResult result = Interpolate(poses, options, TerminalProgress());
   result.path.provenance = "shape-interpolate " SHAPESPACE_VERSION ":";
   for (const std::string& file : files) result.path.provenance += " " + file;
-  WriteOutputs(outputs, result.path, poses.appearance, result.path.shapes.front());
+  WriteOutputs(outputs, result.path, poses.appearance, result.path);
 
   if (!FLAGS_report.empty()) {
     WriteReport(FLAGS_report,

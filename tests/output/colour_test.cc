@@ -31,6 +31,18 @@ TEST(ColourTest, ValuesRunFromCoolToWarmAndGetDarker) {
   }
 }
 
+TEST(ColourTest, GroupsCanBeToldApart) {
+  const Colour none = GroupColour(-1);
+  EXPECT_LT(none.maxCoeff() - none.minCoeff(), 0.05);
+  for (int i = 0; i < 40; ++i) {
+    const Colour colour = GroupColour(i);
+    EXPECT_GE(colour.minCoeff(), 0);
+    EXPECT_LE(colour.maxCoeff(), 1);
+    EXPECT_GT((colour - none).norm(), 0.1) << i;
+    for (int j = 0; j < i; ++j) EXPECT_GT((colour - GroupColour(j)).norm(), 0.03) << i << ' ' << j;
+  }
+}
+
 TEST(ColourTest, ValuesOutsideTheScaleGetItsEnds) {
   EXPECT_EQ(ValueColour(-3), ValueColour(0));
   EXPECT_EQ(ValueColour(1e6f), ValueColour(1));

@@ -374,6 +374,30 @@ TEST(WriteGltfTest, ColoursShowTheLargestDeviationOnTheWay) {
       << "vertex colours are multiplied by it";
 }
 
+TEST(WriteGltfTest, DeviationMayBeFromAShapeThatIsNotShown) {
+  const SimpleBody sphere = Sphere(1);
+  const Path path = MakePath(sphere.connectivity, {sphere.shape, sphere.shape});
+  GltfOptions options;
+  options.colour_by_deviation = true;
+  options.reference = 0.5 * path.shapes[0];
+  EXPECT_DOUBLE_EQ(WriteGltf(File("reference"), path, options).colour_end, 1);
+}
+
+TEST(WriteGltfTest, ColoursShowGroups) {
+  const SimpleBody sphere = Sphere(1);
+  const Path path = MakePath(sphere.connectivity, {sphere.shape, 2 * sphere.shape});
+  GltfOptions options;
+  options.groups = Eigen::VectorXi::LinSpaced(sphere.shape.cols(), -1, 12);
+  WriteGltf(File("groups"), path, options);
+  const Glb glb(File("groups"));
+  const Eigen::MatrixXd colours = glb.Read(glb.Primitive()["attributes"]["COLOR_0"]);
+  for (int v = 0; v < sphere.shape.cols(); ++v) {
+    const Colour expected = GroupColour(options.groups(v));
+    EXPECT_LT((colours.col(v) - expected.cast<double>()).norm(), 0.02) << v;
+  }
+  EXPECT_FALSE(glb.json["materials"][0]["pbrMetallicRoughness"].contains("baseColorFactor"));
+}
+
 TEST(WriteGltfTest, SaysWhatItIsAndWhereItIsFrom) {
   Path path = SpherePath(2);
   path.provenance = "from \"a\xff.obj\" and \xc3\xa9.obj";
@@ -400,6 +424,17 @@ TEST(WriteGltfTest, NamesTheOptionThatIsWrong) {
   EXPECT_EQ(message([](O* o) { o->unit = -1; }).find("unit: -1.0 is not in"), 0u);
   EXPECT_EQ(message([](O* o) { o->unit = std::nan(""); }).find("unit:"), 0u);
   EXPECT_EQ(message([](O* o) { o->duration = 0; }).find("duration: 0.0 is not in 0.1 .. 3600"), 0u);
+  EXPECT_EQ(message([](O* o) { o->groups.setZero(3); }).find("groups: given for 3"), 0u);
+  EXPECT_EQ(message([](O* o) {
+              o->colour_by_deviation = true;
+              o->reference.setZero(3, 3);
+            }).find("reference: given for 3"),
+            0u);
+  EXPECT_EQ(message([&](O* o) {
+              o->colour_by_deviation = true;
+              o->groups.setZero(path.shapes[0].cols());
+            }).find("groups: not together"),
+            0u);
   EXPECT_FALSE(std::filesystem::exists("never.glb"));
 }
 

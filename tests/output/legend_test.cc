@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <shapespace/output/colour.h>
+
 namespace shapespace {
 namespace {
 
@@ -41,6 +43,22 @@ TEST(DrawLegendTest, NamesTheLargestValueOnlyBeyondTheScale) {
   const Image within = DrawLegend(0.05, 0.05, "edge deviation");
   const Image beyond = DrawLegend(0.05, 0.31, "edge deviation");
   EXPECT_GT(beyond.width, within.width);
+}
+
+TEST(DrawGroupLegendTest, HasAColourForEachGroupUpTo24) {
+  const Image two = DrawGroupLegend(2, "parts"), five = DrawGroupLegend(5, "parts");
+  EXPECT_GT(five.width, two.width);
+  EXPECT_EQ(DrawGroupLegend(24, "parts").width, DrawGroupLegend(5000, "parts").width);
+  for (int group = 0; group < 5; ++group) {
+    const Colour colour = GroupColour(group);
+    int found = 0;
+    for (size_t i = 0; i < five.pixels.size(); i += 3) {
+      bool same = true;
+      for (int k = 0; k < 3; ++k) same = same && five.pixels[i + k] == ToByte(colour[k]);
+      found += same;
+    }
+    EXPECT_GT(found, 100) << group;
+  }
 }
 
 TEST(DrawLegendTest, DrawsDarkTextOnALightGround) {

@@ -221,6 +221,28 @@ TEST(RenderFilmStripTest, ValuesAreShownAsColourWithALegend) {
   EXPECT_GT(Count(image, 0, image.width, plain.height, image.height).orange, 500);
 }
 
+TEST(RenderFilmStripTest, GroupsAreShownAsColoursWithALegend) {
+  const SimpleBody sphere = Sphere(1);
+  FilmStripOptions options;
+  options.frame_width = 160;
+  options.view = Eigen::Vector3d::UnitZ();
+  const Image plain = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  // The first group, which is blue, on the right, and none, which is grey, on the left.
+  options.groups = (sphere.shape.row(0).array() > 0)
+                       .select(Eigen::ArrayXXi::Zero(1, 3200), -1)
+                       .matrix()
+                       .transpose();
+  options.legend = "parts";
+  const Image image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  EXPECT_GT(image.height, plain.height + 20);
+  const Counts none = Count(image, 0, plain.width / 2 - 4, 0, plain.height);
+  const Counts first = Count(image, plain.width / 2 + 4, plain.width, 0, plain.height);
+  EXPECT_GT(none.drawn, 1000);
+  EXPECT_EQ(none.blue, 0);
+  EXPECT_GT(first.blue, 0.9 * first.drawn);
+  EXPECT_GT(Count(image, 0, image.width, plain.height, image.height).blue, 200);
+}
+
 TEST(RenderFilmStripTest, RolesDecideTheColour) {
   const SimpleBody sphere = Sphere(1);
   FilmStripOptions options = Small();
@@ -348,6 +370,12 @@ TEST(RenderFilmStripTest, NamesTheOptionThatIsWrong) {
   EXPECT_EQ(field([](O* o) { o->values.assign(2, Eigen::VectorXd::Zero(8)); }), "values");
   EXPECT_EQ(field([](O* o) { o->values = {Eigen::VectorXd::Zero(7)}; }), "values");
   EXPECT_EQ(field([](O* o) { o->values = {Eigen::VectorXd::Constant(8, INFINITY)}; }), "values");
+  EXPECT_EQ(field([](O* o) { o->groups = Eigen::VectorXi::Zero(7); }), "groups");
+  EXPECT_EQ(field([](O* o) {
+              o->groups = Eigen::VectorXi::Zero(8);
+              o->values = {Eigen::VectorXd::Zero(8)};
+            }),
+            "groups");
 }
 
 TEST(RenderFilmStripTest, RefusesAPictureTooLargeToOpen) {

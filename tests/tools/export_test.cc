@@ -62,6 +62,16 @@ TEST_F(ExportTest, WritesPicturesAndAnimations) {
   EXPECT_EQ(Content(Path("a.png")).substr(1, 3), "PNG");
 }
 
+TEST_F(ExportTest, ColoursNearRigidParts) {
+  MakePath();
+  Succeed("shape-export", {"walk.path", "--output", "parts.glb,parts.png", "--color", "parts"});
+  Succeed("shape-export", {"walk.path", "--output", "plain.glb,plain.png"});
+  EXPECT_EQ(Content(Path("parts.glb")).substr(0, 4), "glTF");
+  ExpectContains(Content(Path("parts.glb")), "COLOR_0");
+  EXPECT_EQ(Content(Path("parts.png")).substr(1, 3), "PNG");
+  EXPECT_NE(Content(Path("parts.png")), Content(Path("plain.png")));
+}
+
 TEST_F(ExportTest, RefusesWhatMakesNoSense) {
   MakePath();
   const std::vector<std::vector<std::string>> wrong = {
@@ -73,6 +83,7 @@ TEST_F(ExportTest, RefusesWhatMakesNoSense) {
       {"walk.path", "--ease"},
       {"walk.path", "--at", "0", "--frames", "3"},
       {"walk.path", "--up", "x"},
+      {"walk.path", "--color", "blue"},
       {"walk.path", "--unit", "0"},
       {},
   };

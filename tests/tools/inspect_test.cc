@@ -1,3 +1,6 @@
+#include <filesystem>
+#include <regex>
+
 #include <Eigen/Geometry>
 
 #include <shapespace/mesh/read.h>
@@ -73,6 +76,48 @@ TEST_F(InspectTest, TellsWhatIsInAPath) {
   ExpectContains(outcome.out, "9 shapes, 2 of them given; 152 vertices, 300 triangles");
   ExpectContains(outcome.out, "tube0.obj tube1.obj");
   ExpectContains(outcome.out, "isometric 1, lambda 0.0001, bending 1e-05");
+}
+
+TEST_F(InspectTest, TellsPartsJointsAndCrossings) {
+  Succeed("shape-body", {"tube", "--triangles", "1500", "--at", "0,110", "--output", "tube%d.obj"});
+  Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "3", "--output", "w.path"});
+  const Outcome outcome = Run("shape-inspect", {"w.path"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(
+      outcome.out,
+      "crossings    pairs of triangles: poses up to 0; inner shapes 0, up to 0; 0 beyond");
+  ExpectContains(outcome.out, "deviation    of edge lengths from the first pose");
+  ExpectContains(outcome.out, "parts        3 move nearly rigidly");
+}
+
+TEST_F(InspectTest, TellsWhereAMeshPassesThroughItself) {
+  // A pyramid's point through a square below it.
+  File("through.obj",
+       "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\n"
+       "v 1 2 1\nv 3 2 1\nv 2 3.5 1\nv 2.1 2.4 -1\n"
+       "f 1 2 3\nf 1 3 4\nf 5 6 8\nf 6 7 8\nf 7 5 8\n");
+  const Outcome through = Run("shape-inspect", {"through.obj"});
+  EXPECT_EQ(through.code, 0) << through.err;
+  std::smatch match;
+  ASSERT_TRUE(
+      std::regex_search(through.out, match, std::regex("([0-9]+) pairs of triangles cross")));
+  EXPECT_GE(std::stoi(match[1]), 3);
+  MakeTubes();
+  const Outcome tube = Run("shape-inspect", {"tube0.obj"});
+  EXPECT_TRUE(std::regex_search(tube.out, std::regex("self-intersections +none"))) << tube.out;
+}
+
+TEST_F(InspectTest, SeesForearmsThatPassThroughABody) {
+  const std::string folder = std::string(SHAPESPACE_DATA_DIR) + "/scape/";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no real meshes";
+  Succeed("shape-interpolate",
+          {folder + "5.obj", folder + "6.obj", "--shapes", "7", "--output", "w.path"});
+  const Outcome outcome = Run("shape-inspect", {"w.path"});
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(outcome.out, match,
+                                std::regex("poses up to 0; .* ([0-9.]+) beyond the poses")))
+      << outcome.out;
+  EXPECT_GT(std::stod(match[1]), 10);
 }
 
 TEST_F(InspectTest, DamagedPathsFail) {

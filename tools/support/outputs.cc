@@ -18,6 +18,7 @@
 #include <shapespace/output/picture.h>
 #include <shapespace/path/path_file.h>
 #include <shapespace/path/quality.h>
+#include <shapespace/path/rigid_parts.h>
 
 #include "support/lists.h"
 #include "support/tool.h"
@@ -28,7 +29,8 @@ DEFINE_string(
     "strip), .glb (animated, for browsers and Blender), frames/%03d.obj or .ply (one mesh "
     "a shape)");
 DEFINE_string(color, "plain",
-              "film strip and glb: plain, or deviation (of edge lengths from the first pose)");
+              "film strip and glb: plain, deviation (of edge lengths from the first pose), or "
+              "parts (that move nearly rigidly)");
 
 DEFINE_string(up, "",
               "the axis of the poses that points up, y or z; without, film strips choose, and glb "
@@ -70,8 +72,12 @@ GltfOptions GltfOptionsFromFlags() {
   return options;
 }
 
-void WriteGltfAndTell(const std::string& output, const Path& path) {
-  const GltfSummary summary = WriteGltf(output, path, GltfOptionsFromFlags());
+void WriteGltfAndTell(const std::string& output, const Path& path, const Shape& reference,
+                      const Eigen::VectorXi& parts) {
+  GltfOptions options = GltfOptionsFromFlags();
+  options.reference = reference;
+  options.groups = parts;
+  const GltfSummary summary = WriteGltf(output, path, options);
   if (summary.subsampled) {
     std::cerr << "note: " << output << ": " << summary.keys << " of the " << path.NumShapes()
               << " shapes, evenly, as many as players can be expected to take\n";
@@ -85,8 +91,8 @@ void WriteGltfAndTell(const std::string& output, const Path& path) {
 }  // namespace
 
 std::vector<std::string> OutputsFromFlags() {
-  if (FLAGS_color != "plain" && FLAGS_color != "deviation") {
-    throw UsageError("--color " + FLAGS_color + ": must be plain or deviation");
+  if (FLAGS_color != "plain" && FLAGS_color != "deviation" && FLAGS_color != "parts") {
+    throw UsageError("--color " + FLAGS_color + ": must be plain, deviation or parts");
   }
   FilmStripOptions strip;
   strip.title = FLAGS_title;
@@ -118,8 +124,10 @@ void CheckCanBeWritten(const std::string& file) {
 }
 
 void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Soup& appearance,
-                  const Shape& reference) {
+                  const Path& whole) {
   const std::vector<Shape> placed = path.Placed();
+  Eigen::VectorXi parts;
+  if (FLAGS_color == "parts") parts = FindRigidParts(whole).of_vertex;
   int done = 0;
   for (const std::string& output : outputs) {
     ReportProgress(TerminalProgress(), "writing " + output, ++done,
@@ -142,15 +150,18 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
         }
         if (FLAGS_color == "deviation") {
           for (int i = 0; i < path.NumShapes(); ++i) {
-            options.values.push_back(EdgeDeviation(*path.metric, reference, path.shapes[i]));
+            options.values.push_back(EdgeDeviation(*path.metric, whole.shapes[0], path.shapes[i]));
           }
           options.legend = "edge length, deviation from the first pose";
+        } else if (FLAGS_color == "parts") {
+          options.groups = parts;
+          options.legend = "near-rigid parts, by size";
         }
         WritePng(output, RenderFilmStrip(*path.metric->connectivity, placed, options));
         break;
       }
       case Kind::kGltf:
-        WriteGltfAndTell(output, path);
+        WriteGltfAndTell(output, path, whole.shapes[0], parts);
         break;
       case Kind::kFrames:
         if (std::filesystem::path(output).extension() == ".ply" &&

@@ -20,10 +20,10 @@ void CheckCanBeWritten(const std::string& file);
 
 /// Writes each: `.path`, `.png` film strip, `.glb` animation, or frames (`frames/%03d.obj`,
 /// `.ply`). Texture coordinates and materials of `appearance` go into OBJ frames; where they are
-/// dropped, stderr is told. `reference` (the metric's unit) is what colours of deviation compare
-/// with.
+/// dropped, stderr is told. `whole` is the path that `path` shows, perhaps at other times: colours
+/// of deviation compare with its first shape, those of parts are of its near-rigid parts.
 void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Soup& appearance,
-                  const Shape& reference);
+                  const Path& whole);
 
 }  // namespace shapespace::tools
 

@@ -200,7 +200,7 @@ bool Metric::RigidInvariantButForPosition() const {
 
 Metric FreezeMetric(const MetricOptions& options,
                     const std::shared_ptr<const Connectivity>& connectivity,
-                    const std::vector<Shape>& poses) {
+                    const std::vector<Shape>& poses, double unit) {
   options.Validate();
   if (poses.empty()) throw MeshError("a metric needs at least one pose to be frozen on");
   for (const Shape& pose : poses) {
@@ -217,8 +217,9 @@ Metric FreezeMetric(const MetricOptions& options,
   Metric metric;
   metric.options = options;
   metric.connectivity = connectivity;
-  metric.unit = connectivity->IsGraph() ? measures.squared_length.cwiseSqrt().sum()
-                                        : std::sqrt(measures.triangle_area.sum());
+  metric.unit = unit > 0                  ? unit
+                : connectivity->IsGraph() ? measures.squared_length.cwiseSqrt().sum()
+                                          : std::sqrt(measures.triangle_area.sum());
   if (!(metric.unit > 0) || !std::isfinite(metric.unit)) {
     throw MeshError("the mesh has no extent: all of its triangles or edges are of size zero");
   }

@@ -13,6 +13,15 @@ namespace {
 constexpr unsigned kValueStops[] = {0xb9cadc, 0xdfc18f, 0xe8923f, 0xcf3f2b, 0x861426};
 constexpr int kSteps = 256;
 
+// Groups, in Oklab: hues a golden angle apart, so that any few in a row are far from each other,
+// in turn somewhat lighter and darker. After 21 hues come close to where they began: every other 21
+// are duller.
+constexpr float kGroupChroma = 0.13f, kFirstHue = 4.4f, kGoldenAngle = 2.39996323f;
+constexpr float kDullChroma = 0.06f;
+constexpr int kGroupsToRepeat = 21;
+constexpr float kGroupLightness[] = {0.62f, 0.78f, 0.50f};
+constexpr unsigned kNoGroupHex = 0xd8d8d4;
+
 float ToLinear(float s) {
   return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
 }
@@ -27,6 +36,11 @@ const Eigen::Matrix3f& RgbToLms() {
   return matrix;
 }
 
+const Eigen::Matrix3f& LmsToRgb() {
+  static const Eigen::Matrix3f matrix = RgbToLms().inverse();
+  return matrix;
+}
+
 // Oklab is linear in the cube roots of LMS, so mixing those is mixing in Oklab.
 Eigen::Vector3f CubeRoots(const Colour& colour) {
   return (RgbToLms() * colour).unaryExpr([](float x) { return std::cbrt(x); });
@@ -34,7 +48,6 @@ Eigen::Vector3f CubeRoots(const Colour& colour) {
 
 std::array<Colour, kSteps> MakeValueColours() {
   constexpr int kSpans = static_cast<int>(std::size(kValueStops)) - 1;
-  const Eigen::Matrix3f lms_to_rgb = RgbToLms().inverse();
   std::array<Colour, kSteps> colours;
   for (int i = 0; i < kSteps; ++i) {
     const float position = kSpans * static_cast<float>(i) / (kSteps - 1);
@@ -42,7 +55,7 @@ std::array<Colour, kSteps> MakeValueColours() {
     const float t = position - span;
     const Eigen::Vector3f roots = (1 - t) * CubeRoots(FromHex(kValueStops[span])) +
                                   t * CubeRoots(FromHex(kValueStops[span + 1]));
-    colours[i] = (lms_to_rgb * roots.array().cube().matrix()).cwiseMax(0).cwiseMin(1);
+    colours[i] = (LmsToRgb() * roots.array().cube().matrix()).cwiseMax(0).cwiseMin(1);
   }
   return colours;
 }
@@ -63,6 +76,18 @@ unsigned char ToByte(float linear) {
 Colour ValueColour(float value) {
   static const std::array<Colour, kSteps> colours = MakeValueColours();
   return colours[std::lround(std::clamp(value, 0.0f, 1.0f) * (kSteps - 1))];
+}
+
+Colour GroupColour(int group) {
+  if (group < 0) return FromHex(kNoGroupHex);
+  const float hue = kFirstHue + kGoldenAngle * static_cast<float>(group % 1000);
+  const float chroma = group / kGroupsToRepeat % 2 == 0 ? kGroupChroma : kDullChroma;
+  const float a = chroma * std::cos(hue), b = chroma * std::sin(hue);
+  const float lightness = kGroupLightness[group % std::size(kGroupLightness)];
+  const Eigen::Vector3f roots(lightness + 0.3963377774f * a + 0.2158037573f * b,
+                              lightness - 0.1055613458f * a - 0.0638541728f * b,
+                              lightness - 0.0894841775f * a - 1.2914855480f * b);
+  return (LmsToRgb() * roots.array().cube().matrix()).cwiseMax(0).cwiseMin(1);
 }
 
 }  // namespace shapespace

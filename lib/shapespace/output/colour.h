@@ -22,6 +22,10 @@ unsigned char ToByte(float linear);
 /// red, of steadily falling lightness, so that it still reads in grey.
 Colour ValueColour(float value);
 
+/// Colour of group 0, 1, ...: as different as so many can be, the first few most; light grey for
+/// negative numbers, which stand for no group.
+Colour GroupColour(int group);
+
 }  // namespace shapespace
 
 #endif  // SHAPESPACE_OUTPUT_COLOUR_H_

@@ -84,13 +84,13 @@ Eigen::Matrix3f FrameAround(const Eigen::Vector3f& normal) {
 
 class FramePainter {
  public:
-  FramePainter(const Scene& scene, const Camera& camera, ShapeRole role, bool show_values)
+  FramePainter(const Scene& scene, const Camera& camera, const Paint& paint)
       : scene_(scene),
         camera_(camera),
         axes_(camera.axes.cast<float>()),
         key_frame_(FrameAround(axes_ * kKey)),
-        front_(FromHex(kFrontHex[static_cast<int>(role)])),
-        show_values_(show_values),
+        front_(FromHex(kFrontHex[static_cast<int>(paint.role)])),
+        paint_(paint),
         pixels_(static_cast<size_t>(camera.width) * camera.height) {}
 
   void Trace(int row) {
@@ -109,7 +109,7 @@ class FramePainter {
   const Camera& camera_;
   const Eigen::Matrix3f axes_, key_frame_;
   const Colour front_;
-  const bool show_values_;
+  const Paint& paint_;
   std::vector<Pixel> pixels_;
 };
 
@@ -150,8 +150,9 @@ void FramePainter::TracePixel(int row, int column) {
 void FramePainter::Shade(const Scene::Hit& hit, Pixel* pixel) const {
   static const Colour back = FromHex(kBackHex);
   Colour colour = hit.back ? back : front_;
-  if (show_values_) {
-    colour = (hit.back ? kBackUnderValues : kFrontUnderValues) * ValueColour(hit.value);
+  if (paint_.show_values || paint_.groups.size() > 0) {
+    colour = (hit.back ? kBackUnderValues : kFrontUnderValues) *
+             (paint_.show_values ? ValueColour(hit.value) : GroupColour(paint_.groups(hit.vertex)));
   }
   const Eigen::Vector3f normal = axes_.transpose() * hit.normal;
   const float sky = 0.5f + 0.5f * normal.y();
@@ -220,9 +221,9 @@ Colour Background() {
   return background;
 }
 
-void DrawFrame(const Scene& scene, const Camera& camera, ShapeRole role, bool show_values, int left,
-               int top, Image* image) {
-  FramePainter painter(scene, camera, role, show_values);
+void DrawFrame(const Scene& scene, const Camera& camera, const Paint& paint, int left, int top,
+               Image* image) {
+  FramePainter painter(scene, camera, paint);
   ParallelFor(camera.height, [&](int row) { painter.Trace(row); });
   ParallelFor(camera.height, [&](int row) {
     unsigned char* out = &image->pixels[3 * (static_cast<size_t>(top + row) * image->width + left)];

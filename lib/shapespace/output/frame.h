@@ -22,11 +22,16 @@ struct Camera {
   int samples = 1;            ///< per pixel and axis
 };
 
-/// Draws `scene` into the rectangle of `image` whose upper left pixel is (left, top), its front
-/// faces in the colour of `role`. `show_values`: coloured by the scene's values instead, whose
-/// scale ends at 1.
-void DrawFrame(const Scene& scene, const Camera& camera, ShapeRole role, bool show_values, int left,
-               int top, Image* image);
+/// What decides a shape's colour.
+struct Paint {
+  ShapeRole role = ShapeRole::kPose;  ///< the front faces' colour, unless
+  bool show_values = false;           ///< the scene's values are shown, whose scale ends at 1, or
+  Eigen::VectorXi groups;             ///< those of the vertices are; empty: none
+};
+
+/// Draws `scene` into the rectangle of `image` whose upper left pixel is (left, top).
+void DrawFrame(const Scene& scene, const Camera& camera, const Paint& paint, int left, int top,
+               Image* image);
 
 }  // namespace shapespace
 

@@ -148,16 +148,22 @@ Eigen::Matrix3Xd SmoothNormals(const Connectivity& connectivity, const Shape& sh
   return normals;
 }
 
-Eigen::Matrix3Xf DeviationColours(const Path& path, double* scale_end) {
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(path.shapes[0].cols());
-  for (int i = 1; i < path.NumShapes(); ++i) {
-    largest = largest.cwiseMax(EdgeDeviation(path, i));
+Eigen::Matrix3Xf DeviationColours(const Path& path, const Shape& reference, double* scale_end) {
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(reference.cols());
+  for (const Shape& shape : path.shapes) {
+    largest = largest.cwiseMax(EdgeDeviation(*path.metric, reference, shape));
   }
   *scale_end = EndOfScale({largest});
   Eigen::Matrix3Xf colours(3, largest.size());
   for (Eigen::Index v = 0; v < largest.size(); ++v) {
     colours.col(v) = ValueColour(static_cast<float>(std::min(1.0, largest[v] / *scale_end)));
   }
+  return colours;
+}
+
+Eigen::Matrix3Xf GroupColours(const Eigen::VectorXi& groups) {
+  Eigen::Matrix3Xf colours(3, groups.size());
+  for (Eigen::Index v = 0; v < groups.size(); ++v) colours.col(v) = GroupColour(groups(v));
   return colours;
 }
 
@@ -323,6 +329,9 @@ void GltfOptions::Validate() const {
     throw InvalidOptions(std::string("up: '") + up + "' is neither 'y' nor 'z'");
   }
   CheckRange("unit", unit, 1e-12, 1e12);
+  if (colour_by_deviation && groups.size() != 0) {
+    throw InvalidOptions("groups: not together with colour_by_deviation");
+  }
 }
 
 GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptions& options) {
@@ -337,6 +346,16 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
                     " shapes of so many vertices need more than the 4 GB that the format can "
                     "hold; resample the path to fewer");
   }
+  const bool by_group = options.groups.size() != 0;
+  const auto check_count = [&](const char* field, Eigen::Index count) {
+    if (count != 0 && count != connectivity.NumVertices()) {
+      throw InvalidOptions(std::string(field) + ": given for " + std::to_string(count) +
+                           " vertices, but there are " +
+                           std::to_string(connectivity.NumVertices()));
+    }
+  };
+  check_count("reference", options.reference.cols());
+  check_count("groups", options.groups.size());
   const std::vector<Shape> shapes = PlacedKeys(file, path, keys);
   const Eigen::Vector3d origin =
       (shapes[0].rowwise().minCoeff() + shapes[0].rowwise().maxCoeff()) / 2;
@@ -351,11 +370,15 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   tinygltf::Primitive primitive = AddPrimitive(connectivity, shapes, origin, &model);
   primitive.material = 0;
   if (options.colour_by_deviation) {
-    const Eigen::Matrix3Xf colours = DeviationColours(path, &summary.colour_end);
+    const Shape& reference = options.reference.cols() > 0 ? options.reference : path.shapes[0];
+    const Eigen::Matrix3Xf colours = DeviationColours(path, reference, &summary.colour_end);
     primitive.attributes["COLOR_0"] = Add(colours, TINYGLTF_TARGET_ARRAY_BUFFER, &model);
+  } else if (by_group) {
+    primitive.attributes["COLOR_0"] =
+        Add(GroupColours(options.groups), TINYGLTF_TARGET_ARRAY_BUFFER, &model);
   }
-  model.materials = {
-      PlainMaterial(options.colour_by_deviation ? Colour::Ones().eval() : FromHex(kPoseHex))};
+  model.materials = {PlainMaterial(options.colour_by_deviation || by_group ? Colour::Ones().eval()
+                                                                           : FromHex(kPoseHex))};
   tinygltf::Mesh mesh;
   mesh.name = "shape";
   mesh.primitives = {primitive};

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <string>
 
+#include <Eigen/Core>
+
 #include <shapespace/path/path.h>
 
 namespace shapespace {
@@ -15,9 +17,14 @@ struct GltfOptions {
   char up = 'y';
   double unit = 1;  ///< metres in one of the user's units (.001: millimetres), 1e-12 .. 1e12
 
-  /// Colours every vertex by the largest deviation (`EdgeDeviation`, from the first shape) that it
-  /// has anywhere on the path. One colour for the whole time: few viewers can animate colours.
+  /// Colours every vertex by the largest deviation (`EdgeDeviation`) that it has anywhere on the
+  /// path. One colour for the whole time: few viewers can animate colours.
   bool colour_by_deviation = false;
+  Shape reference;  ///< that it deviates from, in the metric's unit; empty: the first shape
+
+  /// Group of each vertex, such as its rigid part: a colour each, grey where negative. Empty: none.
+  /// Not together with the deviation.
+  Eigen::VectorXi groups;
 
   /// \throw InvalidOptions naming the field.
   void Validate() const;

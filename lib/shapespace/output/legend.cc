@@ -13,6 +13,8 @@ namespace {
 
 constexpr int kBarWidth = 240, kBarHeight = 14, kGap = 16;
 constexpr int kMargin = 12;
+constexpr int kNumbersTop = kMargin + kBarHeight + 6;
+constexpr int kSwatchWidth = 34, kMostSwatches = 24;
 
 // Relative values below this are rounding errors, and shown as 0.
 constexpr double kNoise = 1e-12;
@@ -21,6 +23,15 @@ std::string PerCent(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.3g%%", 100 * value);
   return text;
+}
+
+Image BlankLegend(int width) {
+  Image image;
+  image.width = width;
+  image.height = 2 * kMargin + kBarHeight + kTextHeight;
+  image.pixels.resize(3 * static_cast<size_t>(image.width) * image.height);
+  Fill(&image, 0, 0, image.width, image.height, Background());
+  return image;
 }
 
 double RoundUp(double value) {
@@ -51,24 +62,33 @@ Image DrawLegend(double end_of_scale, double largest, const std::string& title) 
   const int bar_left = kMargin + TextWidth(first) / 2;
   const int after_bar = bar_left + kBarWidth + TextWidth(last) / 2;
 
-  Image image;
-  image.width = after_bar + kGap + TextWidth(text) + kMargin;
-  image.height = 2 * kMargin + kBarHeight + kTextHeight;
-  image.pixels.resize(3 * static_cast<size_t>(image.width) * image.height);
-  Fill(&image, 0, 0, image.width, image.height, Background());
+  Image image = BlankLegend(after_bar + kGap + TextWidth(text) + kMargin);
   for (int x = 0; x < kBarWidth; ++x) {
     Fill(&image, bar_left + x, kMargin, bar_left + x + 1, kMargin + kBarHeight,
          ValueColour((x + 0.5f) / kBarWidth));
   }
-  const int numbers_top = kMargin + kBarHeight + 6;
   const auto number = [&](int x, const std::string& n) {
     Fill(&image, x - 1, kMargin + kBarHeight, x + 1, kMargin + kBarHeight + 4, TextColour());
-    DrawText(&image, x - TextWidth(n) / 2, numbers_top, n);
+    DrawText(&image, x - TextWidth(n) / 2, kNumbersTop, n);
   };
   number(bar_left + 1, first);
   number(bar_left + kBarWidth / 2, middle);
   number(bar_left + kBarWidth - 1, last);
   DrawText(&image, after_bar + kGap, kMargin, text);
+  return image;
+}
+
+Image DrawGroupLegend(int groups, const std::string& title) {
+  const int swatches = std::min(groups, kMostSwatches);
+  const int after_swatches = kMargin + swatches * kSwatchWidth;
+  Image image = BlankLegend(after_swatches + kGap + TextWidth(title) + kMargin);
+  for (int group = 0; group < swatches; ++group) {
+    const int left = kMargin + group * kSwatchWidth;
+    Fill(&image, left, kMargin, left + kSwatchWidth - 4, kMargin + kBarHeight, GroupColour(group));
+    const std::string number = std::to_string(group + 1);
+    DrawText(&image, left + (kSwatchWidth - 4 - TextWidth(number)) / 2, kNumbersTop, number);
+  }
+  DrawText(&image, after_swatches + kGap, kMargin, title);
   return image;
 }
 

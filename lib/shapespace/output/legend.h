@@ -19,6 +19,9 @@ double EndOfScale(const std::vector<Eigen::VectorXd>& values);
 /// own on the strip's background. `largest` is named where it is beyond the scale.
 Image DrawLegend(double end_of_scale, double largest, const std::string& title);
 
+/// The same for groups: the colours of the first `groups`, at most 24, with numbers from 1.
+Image DrawGroupLegend(int groups, const std::string& title);
+
 }  // namespace shapespace
 
 #endif  // SHAPESPACE_OUTPUT_LEGEND_H_

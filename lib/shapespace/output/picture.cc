@@ -73,6 +73,14 @@ void CheckInput(const Connectivity& connectivity, const std::vector<Shape>& shap
   check_count("roles", options.roles.size());
   check_count("labels", options.labels.size());
   check_count("values", options.values.size());
+  if (options.groups.size() != 0) {
+    if (!options.values.empty()) throw InvalidOptions("groups: not together with values");
+    if (options.groups.size() != connectivity.NumVertices()) {
+      throw InvalidOptions("groups: given for " + std::to_string(options.groups.size()) +
+                           " vertices, but there are " +
+                           std::to_string(connectivity.NumVertices()));
+    }
+  }
   if (options.values.empty()) return;
   for (size_t i = 0; i < shapes.size(); ++i) {
     const Eigen::VectorXd& values = options.values[i];
@@ -227,6 +235,8 @@ Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>
     const double end_of_scale = EndOfScale(values);
     for (Eigen::VectorXd& v : values) v = (v / end_of_scale).cwiseMin(kLargestValue);
     legend = DrawLegend(end_of_scale, largest, options.legend);
+  } else if (options.groups.size() != 0) {
+    legend = DrawGroupLegend(options.groups.maxCoeff() + 1, options.legend);
   }
 
   const int widest = kWidestStrip * options.frame_width;
@@ -252,7 +262,7 @@ Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>
         values.empty() ? Eigen::VectorXf() : Eigen::VectorXf(values[i].cast<float>()));
     const int left = i % columns * camera.width, top = title_height + i / columns * cell_height;
     const ShapeRole role = options.roles.empty() ? ShapeRole::kPose : options.roles[chosen[i]];
-    DrawFrame(scene, camera, role, !values.empty(), left, top, &image);
+    DrawFrame(scene, camera, {role, !values.empty(), options.groups}, left, top, &image);
     if (!options.labels.empty()) {
       const std::string& label = options.labels[chosen[i]];
       DrawText(&image, left + (camera.width - TextWidth(label)) / 2, top + camera.height, label);

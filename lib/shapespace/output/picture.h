@@ -35,9 +35,14 @@ struct FilmStripOptions {
   /// colour with a legend in per cent; empty: plain. The scale ends at the 99th percentile of the
   /// values drawn, rounded up. With values, back faces are the same colour, darker.
   std::vector<Eigen::VectorXd> values;
-  std::string legend;  ///< what `values` are, e.g. "edge deviation"; ASCII, at most 120 characters
+  std::string legend;  ///< what `values` or `groups` are, e.g. "edge deviation"; ASCII, at most 120
+                       ///< characters
 
-  /// Per shape; empty: all are poses. Not seen where there are values.
+  /// Optional group of each vertex, such as its rigid part, shown as a colour each with a legend
+  /// that counts from 1; negative: none, grey. Empty: plain. Not together with `values`.
+  Eigen::VectorXi groups;
+
+  /// Per shape; empty: all are poses. Not seen where there are values or groups.
   std::vector<ShapeRole> roles;
   std::vector<std::string> labels;  ///< written under each shape, as `legend`; empty: none
   std::string title;                ///< a line above all, as `legend`; empty: none

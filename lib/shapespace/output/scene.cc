@@ -178,11 +178,16 @@ bool Scene::Trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& directio
     if (away > 0) hit->normal = (hit->normal - away * direction).stableNormalized();
     const auto corners = tracer_.connectivity_.Triangles().col(element);
     for (int k = 0; k < 3; ++k) hit->value += weights[k] * value(corners[k]);
+    int nearest;
+    weights.maxCoeff(&nearest);
+    hit->vertex = corners[nearest];
   } else if (ray.hit.geomID == kTubes) {
     const auto ends = tracer_.connectivity_.Edges().col(element);
     hit->value = (1 - u) * value(ends[0]) + u * value(ends[1]);
+    hit->vertex = ends[u < 0.5f ? 0 : 1];
   } else {
-    hit->value = value(loose_vertices_[element]);
+    hit->vertex = loose_vertices_[element];
+    hit->value = value(hit->vertex);
   }
   return true;
 }

@@ -38,6 +38,7 @@ class Scene {
     Eigen::Vector3f normal;       ///< unit, for shading, towards the ray's origin
     bool back;                    ///< the triangle was hit from behind
     float value;                  ///< interpolated from the vertices; 0 without values
+    int vertex;                   ///< nearest of the triangle's or edge's
   };
 
   /// `shape` is finite and lies in the unit ball; `values` has one number a vertex or is empty.

@@ -5,12 +5,15 @@
 #include <vector>
 
 #include <shapespace/base/parallel.h>
+#include <shapespace/path/energy.h>
 
 namespace shapespace {
 namespace {
 
 constexpr double kDegrees = 180 / M_PI;
 constexpr double kShortestEdge = 1e-3;
+// Pieces slower than this, in the metric's pure numbers, stand still but for rounding.
+constexpr double kNoSpeed = 1e-9;
 
 double SquaredLength(const Eigen::Matrix2Xi& edges, int e, const Shape& shape) {
   return (shape.col(edges(1, e)) - shape.col(edges(0, e))).squaredNorm();
@@ -41,6 +44,28 @@ void Pool(const std::vector<Deviations>& shapes, double* rms, double* p99, doubl
   std::nth_element(all.magnitudes.begin(), rank, all.magnitudes.end());
   *p99 = *rank;
   *max = *std::max_element(rank, all.magnitudes.end());
+}
+
+double GreatestSpeed(const Path& path) {
+  const int segments = path.NumShapes() - 1;
+  std::vector<double> speed(segments);
+  ParallelFor(segments, [&](int i) {
+    const double time = path.parameters[i + 1] - path.parameters[i];
+    speed[i] =
+        std::sqrt(EnergyLowerBound(*path.metric, path.shapes[i], path.shapes[i + 1], 1)) / time;
+  });
+  double greatest = segments > 0 && std::isnan(speed[0]) ? speed[0] : 1;
+  for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
+    const int begin = path.poses[piece], end = path.poses[piece + 1];
+    double length = 0;
+    for (int i = begin; i < end; ++i) {
+      length += speed[i] * (path.parameters[i + 1] - path.parameters[i]);
+    }
+    const double mean = length / (path.parameters[end] - path.parameters[begin]);
+    if (!(mean > kNoSpeed)) continue;  // a rigid copy
+    for (int i = begin; i < end; ++i) greatest = std::max(greatest, speed[i] / mean);
+  }
+  return greatest;
 }
 
 }  // namespace
@@ -101,6 +126,7 @@ PathQuality MeasureQuality(const Path& path) {
   });
 
   PathQuality quality;
+  quality.speed_max = GreatestSpeed(path);
   Pool(between, &quality.edge_rms, &quality.edge_p99, &quality.edge_max);
   Pool(against_first, &quality.first_rms, &quality.first_p99, &quality.first_max);
   const int inner = num_shapes - static_cast<int>(path.poses.size());

@@ -21,6 +21,10 @@ struct PathQuality {
   double roughness = 0;
   /// Hinges folded beyond 120 degrees, and 40 degrees beyond both poses: mean per inner shape.
   double folds = 0;
+  /// The greatest speed of a segment (square root of its energy over its length in t), over the
+  /// mean of its piece: 1 on a geodesic, more where a part waits and then snaps over. Not a number
+  /// for the rigid metric.
+  double speed_max = 1;
 };
 
 PathQuality MeasureQuality(const Path& path);

@@ -19,6 +19,25 @@ enum class Solver {
   kTrustRegion,  ///< Ceres' Levenberg-Marquardt on automatically differentiated residual blocks
 };
 
+/// In which order resolutions in space (levels of a `Hierarchy`, coarse c to fine f) and time
+/// (numbers of inner shapes 1, 3, 7, ... n) are solved, each from the ones before.
+enum class Schedule {
+  kAutomatic,  ///< all levels in turn for each number of shapes: (c,1) ... (f,1), (c,3) ... (f,3),
+               ///< ...
+  kStart,      ///< all levels for one inner shape only: (c,1) ... (f,1), (f,3), (f,7) ...
+  kPaper,  ///< time and space in turn (Kilian et al. 2007, Figure 3): (c,1), (c,3), (c+1,3), ...
+  kFlat,   ///< the finest level only: (f,1), (f,3), (f,7) ...
+};
+
+/// Where the one inner shape of the first solve starts.
+enum class Start {
+  kBest,   ///< from the blend and from both poses; the one that ends lowest goes on
+  kBlend,  ///< half way on straight lines
+  kFirst,  ///< at the first pose
+  kLast,   ///< at the last pose
+  kRigid,  ///< at the solution of the rigid metric (3): the paper's advice where blends degenerate
+};
+
 /// How to find a geodesic between given poses.
 struct GeodesicOptions {
   MetricOptions metric;
@@ -35,6 +54,11 @@ struct GeodesicOptions {
   int max_iterations = 500;
 
   Solver solver = Solver::kAutomatic;
+  Schedule schedule = Schedule::kAutomatic;
+  Start start = Start::kBest;
+
+  /// Triangles of the coarsest level (HierarchyOptions::coarsest).
+  int coarsest = 200;
 
   /// Bytes that the solve may take; an estimate above it is refused before anything is allocated.
   double memory_limit = 8e9;
@@ -51,11 +75,13 @@ enum class Termination {
 
 /// What happened, and how good the answer is.
 struct GeodesicSummary {
-  /// One row of the solve: one number of inner shapes between one pair of poses.
+  /// One row of the solve: one level and one number of inner shapes between one pair of poses.
   struct Level {
     int piece = 0;       ///< between pose `piece` and the next
+    int vertices = 0;    ///< of the level of the hierarchy
     int shapes = 0;      ///< inner shapes
-    std::string start;   ///< where it started: "blend", "first", "last" or "refined"
+    std::string start;   ///< where it started: "blend", "first", "last", "rigid"; "refined" (in
+                         ///< time) or "lifted" (in space) from an earlier row
     std::string solver;  ///< "L-BFGS" or "trust region"
     Termination termination = Termination::kConverged;
     int iterations = 0, evaluations = 0;
@@ -76,7 +102,7 @@ struct GeodesicSummary {
   std::vector<Level> levels;
   std::vector<std::string> warnings;  ///< what a person should look at
   double estimated_bytes = 0;
-  double freeze_seconds = 0, factor_seconds = 0, start_seconds = 0, refine_seconds = 0,
+  double freeze_seconds = 0, hierarchy_seconds = 0, factor_seconds = 0, solve_seconds = 0,
          total_seconds = 0;
   size_t factor_nonzeros = 0;
   int threads = 1;

@@ -65,20 +65,25 @@ std::string GeodesicSummary::FullReport() const {
                 100 * quality.first_rms, 100 * quality.first_p99, 100 * quality.first_max)
       << Format("Roughness         %.4g degrees; folds %.4g per inner shape\n", quality.roughness,
                 quality.folds)
-      << "\npiece shapes start    solver        iterations  evaluations  energy before  energy "
+      << "Speed             "
+      << (std::isfinite(quality.speed_max)
+              ? Format("at most %.4g times the mean of the piece\n", quality.speed_max)
+              : "n/a (the rigid metric)\n")
+      << "\npiece vertices shapes start    solver        iterations  evaluations  energy before  "
+         "energy "
          "after"
          "   remaining  seconds\n";
   for (const Level& level : levels) {
-    out << Format("%5d %6d %-8s %-13s %10d %12d %14.6g %13.6g %11.2g %8.3f%s%s\n", level.piece,
-                  level.shapes, level.start.c_str(), level.solver.c_str(), level.iterations,
-                  level.evaluations, level.initial_energy, level.energy, level.remaining,
-                  level.seconds, level.kept ? "" : "  (not kept)",
+    out << Format("%5d %8d %6d %-8s %-13s %10d %12d %14.6g %13.6g %11.2g %8.3f%s%s\n", level.piece,
+                  level.vertices, level.shapes, level.start.c_str(), level.solver.c_str(),
+                  level.iterations, level.evaluations, level.initial_energy, level.energy,
+                  level.remaining, level.seconds, level.kept ? "" : "  (not kept)",
                   level.termination == Termination::kConverged ? "" : "  (not converged)");
   }
   out << Format(
-             "\nTime              %.3f s: metric %.3f, start %.3f, refinement %.3f; of which "
+             "\nTime              %.3f s: metric %.3f, hierarchy %.3f, solves %.3f; of which "
              "factorisation %.3f (%zu numbers); %d thread%s\n",
-             total_seconds, freeze_seconds, start_seconds, refine_seconds, factor_seconds,
+             total_seconds, freeze_seconds, hierarchy_seconds, solve_seconds, factor_seconds,
              factor_nonzeros, threads, threads == 1 ? "" : "s")
       << Format("Memory            about %.0f MB estimated\n", estimated_bytes / 1e6);
   for (const std::string& warning : warnings) out << "Warning: " << warning << '\n';
@@ -107,9 +112,11 @@ std::string GeodesicSummary::ToJson() const {
       {"rms", quality.first_rms}, {"p99", quality.first_p99}, {"max", quality.first_max}};
   json["roughness_degrees"] = quality.roughness;
   json["folds_per_shape"] = quality.folds;
+  json["greatest_speed"] = Number(quality.speed_max);
   json["levels"] = nlohmann::ordered_json::array();
   for (const Level& level : levels) {
     json["levels"].push_back({{"piece", level.piece},
+                              {"vertices", level.vertices},
                               {"shapes", level.shapes},
                               {"start", level.start},
                               {"solver", level.solver},
@@ -124,8 +131,8 @@ std::string GeodesicSummary::ToJson() const {
   }
   json["seconds"] = {{"total", total_seconds},
                      {"metric", freeze_seconds},
-                     {"start", start_seconds},
-                     {"refinement", refine_seconds},
+                     {"hierarchy", hierarchy_seconds},
+                     {"solves", solve_seconds},
                      {"factorisation", factor_seconds}};
   json["factor_nonzeros"] = factor_nonzeros;
   json["estimated_bytes"] = estimated_bytes;

@@ -1,0 +1,32 @@
+#ifndef SHAPESPACE_HIERARCHY_DECIMATE_H_
+#define SHAPESPACE_HIERARCHY_DECIMATE_H_
+
+#include <vector>
+
+#include <shapespace/mesh/connectivity.h>
+#include <shapespace/mesh/shape.h>
+
+namespace shapespace {
+
+/// Vertex `from` moves onto its neighbour `to` and disappears, with the triangles at their edge.
+struct Collapse {
+  int from, to;
+  int triangles;  ///< left after it
+};
+
+/// Which collapses, in which order, take a mesh to few triangles, the same for all `poses` (3 x m
+/// each, in any unit): paired progressive meshes (Hoppe, "Progressive Meshes", SIGGRAPH 1996;
+/// Kilian et al. 2007, section 3). The vertex whose removal costs least goes first; the cost is the
+/// quadric error summed over the poses, each scaled to area 1, boundaries held by planes of their
+/// own. No collapse changes the topology, flips a triangle or makes a sliver in any pose; vertices
+/// of `pinned`, of non-manifold spots and of no triangle stay. Ends when `triangles` are left, or
+/// earlier if no collapse is legal. O(m log m).
+/// \throw MeshError if a pose has the wrong number of vertices; InvalidOptions if `pinned` holds a
+///        number that is no vertex.
+std::vector<Collapse> PlanCollapses(const Connectivity& connectivity,
+                                    const std::vector<Shape>& poses, int triangles,
+                                    const std::vector<int>& pinned = {});
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_HIERARCHY_DECIMATE_H_

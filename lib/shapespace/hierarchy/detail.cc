@@ -1,0 +1,171 @@
+#include <shapespace/hierarchy/detail.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+
+#include <shapespace/base/parallel.h>
+
+namespace shapespace::internal {
+namespace {
+
+constexpr int kVerticesPerTask = 256;
+// Pull of a rotation to the identity, relative to what determines it.
+constexpr double kTurnNothing = 1e-9;
+
+// Barycentric coordinates of the point of triangle (a, b, c) that is closest to p.
+Eigen::Vector3d ClosestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                             const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  // Inside, by the normal equations; else on the nearest side.
+  const Eigen::Vector3d e = b - a, f = c - a, d = p - a;
+  const double ee = e.squaredNorm(), ef = e.dot(f), ff = f.squaredNorm();
+  const double determinant = ee * ff - ef * ef;
+  if (determinant > 1e-12 * ee * ff) {
+    const double s = (ff * e.dot(d) - ef * f.dot(d)) / determinant;
+    const double t = (ee * f.dot(d) - ef * e.dot(d)) / determinant;
+    if (s >= 0 && t >= 0 && s + t <= 1) return {1 - s - t, s, t};
+  }
+  const Eigen::Vector3d* const corners[] = {&a, &b, &c};
+  double best = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d result(1, 0, 0);
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d& from = *corners[k];
+    const Eigen::Vector3d side = *corners[(k + 1) % 3] - from;
+    const double squared_length = side.squaredNorm();
+    const double s =
+        squared_length > 0 ? std::clamp((p - from).dot(side) / squared_length, 0.0, 1.0) : 0;
+    const double distance = (from + s * side - p).squaredNorm();
+    if (distance < best) {
+      best = distance;
+      result.setZero();
+      result(k) = 1 - s;
+      result((k + 1) % 3) = s;
+    }
+  }
+  return result;
+}
+
+// Index lists of a row each, end to end.
+struct Lists {
+  std::vector<int> begin, items;
+};
+
+Lists TrianglesOfVertices(const Connectivity& connectivity) {
+  Lists lists;
+  lists.begin.assign(connectivity.NumVertices() + 1, 0);
+  for (int v : connectivity.Triangles().reshaped()) ++lists.begin[v + 1];
+  std::partial_sum(lists.begin.begin(), lists.begin.end(), lists.begin.begin());
+  lists.items.resize(lists.begin.back());
+  std::vector<int> fill(lists.begin.begin(), lists.begin.end() - 1);
+  for (int f = 0; f < connectivity.NumTriangles(); ++f) {
+    for (int v : connectivity.Triangles().col(f)) lists.items[fill[v]++] = f;
+  }
+  return lists;
+}
+
+}  // namespace
+
+Carriers FindCarriers(const Connectivity& coarse, const std::vector<int>& kept,
+                      const std::vector<int>& near, const std::vector<Shape>& poses) {
+  const int num_fine = static_cast<int>(near.size());
+  const Lists fans = TrianglesOfVertices(coarse);
+  Carriers result;
+  result.vertices.resize(3, num_fine);
+  result.weights.resize(3, num_fine);
+  std::vector<int> coarse_of(num_fine, -1);
+  for (size_t c = 0; c < kept.size(); ++c) coarse_of[kept[c]] = static_cast<int>(c);
+
+  const auto find = [&](int v) {
+    result.weights.col(v) = Eigen::Vector3d::UnitX();
+    if (coarse_of[v] >= 0) {
+      result.vertices.col(v).setConstant(coarse_of[v]);
+      return;
+    }
+    result.vertices.col(v).setConstant(near[v]);
+    // The nearest triangle at `near`; then, as long as that helps, at the corners of the one found.
+    double best = std::numeric_limits<double>::infinity();
+    Eigen::Vector3i from = Eigen::Vector3i::Constant(near[v]);
+    for (bool better = true; better;) {
+      better = false;
+      for (int corner : from) {
+        for (int i = fans.begin[corner]; i < fans.begin[corner + 1]; ++i) {
+          const Eigen::Vector3i triangle = coarse.Triangles().col(fans.items[i]);
+          double distance = 0;
+          Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+          for (const Shape& pose : poses) {
+            Eigen::Matrix3d corners;
+            for (int k = 0; k < 3; ++k) corners.col(k) = pose.col(kept[triangle(k)]);
+            const Eigen::Vector3d weights =
+                ClosestPoint(pose.col(v), corners.col(0), corners.col(1), corners.col(2));
+            distance += (corners * weights - pose.col(v)).squaredNorm();
+            mean += weights / poses.size();
+          }
+          if (distance < best) {
+            best = distance;
+            result.vertices.col(v) = triangle;
+            result.weights.col(v) = mean;
+            better = true;
+          }
+        }
+      }
+      from = result.vertices.col(v);
+    }
+  };
+  ParallelFor((num_fine + kVerticesPerTask - 1) / kVerticesPerTask, [&](int task) {
+    const int end = std::min(num_fine, (task + 1) * kVerticesPerTask);
+    for (int v = task * kVerticesPerTask; v < end; ++v) find(v);
+  });
+  return result;
+}
+
+std::vector<Eigen::Matrix3d> VertexRotations(const Connectivity& coarse, const Shape& rest,
+                                             const Shape& moved) {
+  const int num_vertices = coarse.NumVertices();
+  std::vector<Eigen::Matrix3d> rotations(num_vertices, Eigen::Matrix3d::Zero());
+  Eigen::Matrix3Xd rest_normal = Eigen::Matrix3Xd::Zero(3, num_vertices);
+  Eigen::Matrix3Xd moved_normal = rest_normal;
+  for (int e = 0; e < coarse.NumEdges(); ++e) {
+    const int a = coarse.Edges()(0, e), b = coarse.Edges()(1, e);
+    const Eigen::Matrix3d product =
+        (moved.col(b) - moved.col(a)) * (rest.col(b) - rest.col(a)).transpose();
+    rotations[a] += product;
+    rotations[b] += product;
+  }
+  for (int f = 0; f < coarse.NumTriangles(); ++f) {
+    const Eigen::Vector3i t = coarse.Triangles().col(f);
+    const auto normal = [&](const Shape& shape) -> Eigen::Vector3d {
+      const Eigen::Vector3d a = shape.col(t(0));
+      return (shape.col(t(1)) - a).cross(shape.col(t(2)) - a);
+    };
+    const Eigen::Vector3d n = normal(rest), m = normal(moved);
+    for (int v : t) {
+      rest_normal.col(v) += n;
+      moved_normal.col(v) += m;
+    }
+  }
+  ParallelFor((num_vertices + kVerticesPerTask - 1) / kVerticesPerTask, [&](int task) {
+    const int end = std::min(num_vertices, (task + 1) * kVerticesPerTask);
+    for (int v = task * kVerticesPerTask; v < end; ++v) {
+      Eigen::Matrix3d& rotation = rotations[v];
+      // Edges of a flat fan say nothing about reflections; the normal does. Its length is twice an
+      // area, so that both terms are squared lengths.
+      const double norms = std::sqrt(rest_normal.col(v).norm() * moved_normal.col(v).norm());
+      if (norms > 0) {
+        rotation += moved_normal.col(v) * rest_normal.col(v).transpose() / norms;
+      }
+      // Where neither says anything (edges of a graph on one line) nothing turns.
+      rotation.diagonal().array() += kTurnNothing * rotation.norm();
+      const Eigen::JacobiSVD<Eigen::Matrix3d> svd(rotation,
+                                                  Eigen::ComputeFullU | Eigen::ComputeFullV);
+      Eigen::Vector3d sign(1, 1, 1);
+      if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign(2) = -1;
+      rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+    }
+  });
+  return rotations;
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,148 @@
+#include <shapespace/hierarchy/hierarchy.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include <shapespace/base/error.h>
+#include <shapespace/hierarchy/decimate.h>
+#include <shapespace/hierarchy/detail.h>
+
+namespace shapespace {
+namespace {
+
+// A level has this many times the triangles of the next coarser one.
+constexpr int kRatio = 4;
+
+// Numbers of triangles below the mesh's own, falling to about `coarsest`.
+std::vector<int> Targets(int triangles, int coarsest) {
+  std::vector<int> targets;
+  while (triangles >= 2 * coarsest) {
+    triangles = triangles / kRatio >= 2 * coarsest ? triangles / kRatio : coarsest;
+    targets.push_back(triangles);
+  }
+  return targets;
+}
+
+// The mesh after collapses that took vertex v to `place[v]`; `number` gives vertices that are left
+// their index.
+std::shared_ptr<const Connectivity> Collapsed(const Connectivity& mesh,
+                                              const std::vector<int>& place,
+                                              const std::vector<int>& number, int num_vertices) {
+  std::vector<int> corners;
+  for (int f = 0; f < mesh.NumTriangles(); ++f) {
+    const Eigen::Vector3i t = mesh.Triangles().col(f);
+    const int a = place[t(0)], b = place[t(1)], c = place[t(2)];
+    if (a != b && b != c && c != a)
+      corners.insert(corners.end(), {number[a], number[b], number[c]});
+  }
+  std::vector<int> begin(corners.size() / 3 + 1);
+  for (size_t f = 0; f < begin.size(); ++f) begin[f] = static_cast<int>(3 * f);
+  std::vector<std::pair<int, int>> extra;
+  for (int e = mesh.NumTriangleEdges(); e < mesh.NumEdges(); ++e) {
+    const int a = place[mesh.Edges()(0, e)], b = place[mesh.Edges()(1, e)];
+    if (a != b) extra.emplace_back(number[a], number[b]);
+  }
+  return Connectivity::Make(num_vertices, std::move(begin), std::move(corners), {}, extra);
+}
+
+}  // namespace
+
+void HierarchyOptions::Validate() const {
+  if (coarsest < 4) throw InvalidOptions("coarsest: must be 4 triangles or more");
+}
+
+Hierarchy::Hierarchy(std::shared_ptr<const Connectivity> connectivity,
+                     const std::vector<Shape>& poses, const HierarchyOptions& options) {
+  options.Validate();
+  if (poses.empty()) throw MeshError("a hierarchy needs at least one pose");
+  const int num_vertices = connectivity->NumVertices();
+  Level finest;
+  finest.connectivity = connectivity;
+  finest.vertices.resize(num_vertices);
+  std::iota(finest.vertices.begin(), finest.vertices.end(), 0);
+  levels_.push_back(std::move(finest));
+
+  const std::vector<int> targets = Targets(connectivity->NumTriangles(), options.coarsest);
+  if (targets.empty()) return;
+  const std::vector<Collapse> collapses =
+      PlanCollapses(*connectivity, poses, targets.back(), options.pinned);
+  const int left = collapses.empty() ? connectivity->NumTriangles() : collapses.back().triangles;
+  // A collapse takes two triangles, so the plan may end one past the target.
+  stopped_early_ = left > targets.back();
+
+  std::vector<int> place = levels_[0].vertices;  // where every vertex of the mesh went
+  size_t next = 0;
+  for (int target : targets) {
+    const size_t first = next;
+    while (next < collapses.size() &&
+           (next == 0 ? connectivity->NumTriangles() : collapses[next - 1].triangles) > target) {
+      place[collapses[next].from] = collapses[next].to;
+      ++next;
+    }
+    if (next == first) break;
+    // Chains of collapses end at a vertex that is left. A later level's chains go through earlier
+    // ones, so that each vertex is followed to the end.
+    for (int v = 0; v < num_vertices; ++v) {
+      int end = v;
+      while (place[end] != end) end = place[end];
+      for (int at = v; at != end;) at = std::exchange(place[at], end);
+    }
+
+    const Level& finer = levels_.back();
+    Level level;
+    std::vector<int> number(num_vertices, -1);
+    for (size_t i = 0; i < finer.vertices.size(); ++i) {
+      const int v = finer.vertices[i];
+      if (place[v] != v) continue;
+      number[v] = static_cast<int>(level.vertices.size());
+      level.vertices.push_back(v);
+      level.kept.push_back(static_cast<int>(i));
+    }
+    level.connectivity =
+        Collapsed(*connectivity, place, number, static_cast<int>(level.vertices.size()));
+    std::vector<int> near;
+    for (int v : finer.vertices) near.push_back(number[place[v]]);
+    std::vector<Shape> finer_poses;
+    for (const Shape& pose : poses) finer_poses.push_back(pose(Eigen::all, finer.vertices));
+    internal::Carriers carriers =
+        internal::FindCarriers(*level.connectivity, level.kept, near, finer_poses);
+    level.carrier = std::move(carriers.vertices);
+    level.place = std::move(carriers.weights);
+    levels_.push_back(std::move(level));
+  }
+  std::reverse(levels_.begin(), levels_.end());
+}
+
+Shape Hierarchy::Restrict(const Shape& shape, int level) const {
+  return shape(Eigen::all, levels_[level].vertices);
+}
+
+Shape Hierarchy::RestrictOnce(const Shape& shape, int level) const {
+  return shape(Eigen::all, levels_[level - 1].kept);
+}
+
+Shape Hierarchy::Lift(const Shape& coarse, int level, const Shape& from_base, const Shape& from,
+                      const Shape& to_base, const Shape& to, double t) const {
+  const Level& here = levels_[level];
+  Shape result = Shape::Zero(3, here.carrier.cols());
+  const auto add = [&](const Shape& base, const Shape& known, double share) {
+    if (share == 0) return;
+    const std::vector<Eigen::Matrix3d> rotations =
+        internal::VertexRotations(*here.connectivity, base, coarse);
+    for (int v = 0; v < result.cols(); ++v) {
+      for (int k = 0; k < 3; ++k) {
+        const double weight = here.place(k, v);
+        if (weight == 0) continue;
+        const int c = here.carrier(k, v);
+        result.col(v) +=
+            share * weight * (coarse.col(c) + rotations[c] * (known.col(v) - base.col(c)));
+      }
+    }
+  };
+  add(from_base, from, 1 - t);
+  add(to_base, to, t);
+  return result;
+}
+
+}  // namespace shapespace

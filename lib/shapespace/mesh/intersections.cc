@@ -1,0 +1,186 @@
+#include <shapespace/mesh/intersections.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <embree3/rtcore.h>
+#include <Eigen/Geometry>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+
+namespace shapespace {
+namespace {
+
+// Lengths below this, as a share of the shape's extent, are rounding: coordinates as far from the
+// origin as a million times that extent are still good to it.
+constexpr double kTouching = 1e-9;
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+// Where a triangle meets the line common to its plane and another's.
+struct Span {
+  double begin, end;
+};
+
+// The heights of `triangle`'s corners above the plane of `other`; false unless it reaches beyond
+// that on both sides.
+bool Heights(const Corners& triangle, const Corners& other, const Eigen::Vector3d& unit_normal,
+             double touching, std::array<double, 3>* heights) {
+  for (int k = 0; k < 3; ++k) (*heights)[k] = unit_normal.dot(triangle[k] - other[0]);
+  const auto [low, high] = std::minmax_element(heights->begin(), heights->end());
+  return *low<-touching&& * high> touching;
+}
+
+// Of a triangle with corners on both sides of a plane, the part of the plane that it covers, along
+// `direction` from `origin`.
+Span Cut(const Corners& triangle, const std::array<double, 3>& heights,
+         const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+  Span span = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    if ((heights[k] < 0) == (heights[next] < 0)) continue;
+    const double part = heights[k] / (heights[k] - heights[next]);
+    const Eigen::Vector3d point = triangle[k] + part * (triangle[next] - triangle[k]);
+    const double at = direction.dot(point - origin);
+    span.begin = std::min(span.begin, at);
+    span.end = std::max(span.end, at);
+  }
+  return span;
+}
+
+// T. Moeller, "A fast triangle-triangle intersection test", Journal of Graphics Tools 1997: both
+// triangles cut the line common to their planes, and the cuts overlap.
+bool Cross(const Corners& a, const Corners& b, double touching) {
+  const Eigen::Vector3d normal_a = (a[1] - a[0]).cross(a[2] - a[0]).stableNormalized();
+  const Eigen::Vector3d normal_b = (b[1] - b[0]).cross(b[2] - b[0]).stableNormalized();
+  std::array<double, 3> heights_a, heights_b;
+  if (!Heights(a, b, normal_b, touching, &heights_a) ||
+      !Heights(b, a, normal_a, touching, &heights_b)) {
+    return false;
+  }
+  const Eigen::Vector3d direction = normal_a.cross(normal_b).stableNormalized();
+  const Span span_a = Cut(a, heights_a, a[0], direction);
+  const Span span_b = Cut(b, heights_b, a[0], direction);
+  return std::min(span_a.end, span_b.end) - std::max(span_a.begin, span_b.begin) > touching;
+}
+
+// One shape as Embree's callbacks see it.
+struct Triangles {
+  const Eigen::Matrix3Xi* indices;
+  Shape vertices;  // within the unit cube about the origin, where floats are good for boxes
+  std::atomic<std::int64_t> count{0};
+
+  Corners At(unsigned f) const {
+    const auto corner = indices->col(f);
+    return {vertices.col(corner(0)), vertices.col(corner(1)), vertices.col(corner(2))};
+  }
+};
+
+bool BoxesApart(const Corners& a, const Corners& b) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low_a, high_a] = std::minmax({a[0](axis), a[1](axis), a[2](axis)});
+    const auto [low_b, high_b] = std::minmax({b[0](axis), b[1](axis), b[2](axis)});
+    if (high_a < low_b || high_b < low_a) return true;
+  }
+  return false;
+}
+
+void Bounds(const RTCBoundsFunctionArguments* arguments) {
+  const Corners corners =
+      static_cast<const Triangles*>(arguments->geometryUserPtr)->At(arguments->primID);
+  const Eigen::Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+  const Eigen::Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+  // Outwards by more than rounding to float can move a coordinate within the unit cube.
+  constexpr float kRounding = std::numeric_limits<float>::epsilon();
+  RTCBounds* bounds = arguments->bounds_o;
+  bounds->lower_x = static_cast<float>(low.x()) - kRounding;
+  bounds->lower_y = static_cast<float>(low.y()) - kRounding;
+  bounds->lower_z = static_cast<float>(low.z()) - kRounding;
+  bounds->upper_x = static_cast<float>(high.x()) + kRounding;
+  bounds->upper_y = static_cast<float>(high.y()) + kRounding;
+  bounds->upper_z = static_cast<float>(high.z()) + kRounding;
+}
+
+// Called on several threads at once. Of a scene with itself Embree finds every pair both ways.
+void OnPairs(void* user, RTCCollision* pairs, unsigned num_pairs) {
+  auto* triangles = static_cast<Triangles*>(user);
+  std::int64_t found = 0;
+  for (unsigned i = 0; i < num_pairs; ++i) {
+    const unsigned first = pairs[i].primID0, second = pairs[i].primID1;
+    if (first >= second) continue;
+    const auto u = triangles->indices->col(first), v = triangles->indices->col(second);
+    if (u(0) == v(0) || u(0) == v(1) || u(0) == v(2) || u(1) == v(0) || u(1) == v(1) ||
+        u(1) == v(2) || u(2) == v(0) || u(2) == v(1) || u(2) == v(2)) {
+      continue;
+    }
+    const Corners a = triangles->At(first), b = triangles->At(second);
+    if (!BoxesApart(a, b) && Cross(a, b, kTouching)) ++found;
+  }
+  triangles->count += found;
+}
+
+void Check(RTCDevice device) {
+  switch (rtcGetDeviceError(device)) {
+    case RTC_ERROR_NONE:
+      return;
+    case RTC_ERROR_OUT_OF_MEMORY:
+      throw Error("intersections: not enough memory for Embree");
+    default:
+      throw Error("intersections: Embree failed");
+  }
+}
+
+std::int64_t CountOnDevice(RTCDevice device, const Connectivity& connectivity, const Shape& shape) {
+  if (shape.cols() != connectivity.NumVertices()) {
+    throw MeshError("intersections: the shape has " + std::to_string(shape.cols()) +
+                    " vertices, its connectivity " + std::to_string(connectivity.NumVertices()));
+  }
+  if (!shape.allFinite()) throw MeshError("intersections: the shape is not finite");
+  if (connectivity.NumTriangles() == 0) return 0;
+  const Eigen::Vector3d low = shape.rowwise().minCoeff(), high = shape.rowwise().maxCoeff();
+  const double extent = (high - low).maxCoeff();
+  if (!(extent > 0)) return 0;
+  Triangles triangles;
+  triangles.indices = &connectivity.Triangles();
+  triangles.vertices = (shape.colwise() - (low + high) / 2) / extent;
+
+  const std::unique_ptr<RTCSceneTy, void (*)(RTCScene)> scene(rtcNewScene(device), rtcReleaseScene);
+  const std::unique_ptr<RTCGeometryTy, void (*)(RTCGeometry)> geometry(
+      rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER), rtcReleaseGeometry);
+  Check(device);
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), connectivity.NumTriangles());
+  rtcSetGeometryUserData(geometry.get(), &triangles);
+  rtcSetGeometryBoundsFunction(geometry.get(), Bounds, nullptr);
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometry(scene.get(), geometry.get());
+  rtcCommitScene(scene.get());
+  rtcCollide(scene.get(), scene.get(), OnPairs, &triangles);
+  Check(device);
+  return triangles.count;
+}
+
+}  // namespace
+
+std::int64_t CountIntersections(const Connectivity& connectivity, const Shape& shape) {
+  return CountIntersections(connectivity, std::vector<Shape>{shape}).front();
+}
+
+std::vector<std::int64_t> CountIntersections(const Connectivity& connectivity,
+                                             const std::vector<Shape>& shapes) {
+  const std::unique_ptr<RTCDeviceTy, void (*)(RTCDevice)> device(rtcNewDevice(nullptr),
+                                                                 rtcReleaseDevice);
+  if (!device) throw Error("intersections: Embree cannot start on this machine");
+  std::vector<std::int64_t> counts(shapes.size());
+  ParallelFor(static_cast<int>(shapes.size()),
+              [&](int i) { counts[i] = CountOnDevice(device.get(), connectivity, shapes[i]); });
+  return counts;
+}
+
+}  // namespace shapespace

@@ -1,0 +1,56 @@
+#ifndef SHAPESPACE_SOLVERS_OPTIMISE_PIECE_H_
+#define SHAPESPACE_SOLVERS_OPTIMISE_PIECE_H_
+
+#include <vector>
+
+#include <shapespace/hierarchy/hierarchy.h>
+#include <shapespace/solvers/geodesic.h>
+#include <shapespace/solvers/optimise/resolution.h>
+#include <shapespace/solvers/optimise/schedule.h>
+
+namespace shapespace::internal {
+
+/// The solve between two neighbouring poses, coarse to fine in space and time.
+class Piece {
+ public:
+  /// Between pose `index` and the next. `resolutions` has one entry for each level of `hierarchy`.
+  Piece(int index, const Hierarchy& hierarchy, std::vector<Resolution>* resolutions,
+        const GeodesicOptions& options, Progress* progress, GeodesicSummary* summary);
+
+  /// Takes all steps. The first ones, with one inner shape on few vertices, decide which valley the
+  /// path lies in: they are taken from every start, and the best goes on.
+  void Run(const std::vector<ScheduleStep>& schedule);
+  /// The path found on the finest level.
+  std::vector<Shape> Result() && { return std::move(known_.back().shapes); }
+
+ private:
+  // What was found last on a level: the ends and the inner shapes.
+  struct Known {
+    std::vector<Shape> shapes;
+    // The shapes of the next coarser level on which they sit, found for the same times.
+    std::vector<Shape> base;
+    // Where they were after refinement in time, if they come from fewer on the same level.
+    std::vector<Shape> refined;
+  };
+
+  void Take(const ScheduleStep& step, Start start);
+  std::vector<Shape> OneInnerShape(Start start, int level);
+  // The coarser level's shapes with the detail that this level's shapes had, at the times around
+  // each, on the coarser level's then: right also where parts turn far between those times.
+  std::vector<Shape> Lift(const ScheduleStep& step) const;
+  // This level's shapes refined in time, moved as solving moved the coarser level's: keeps what is
+  // local, and takes what is global from below.
+  std::vector<Shape> Correct(const ScheduleStep& step, std::vector<Shape> refined) const;
+
+  const int index_;
+  const Hierarchy& hierarchy_;
+  std::vector<Resolution>& resolutions_;
+  const GeodesicOptions& options_;
+  Progress* const progress_;
+  GeodesicSummary& summary_;
+  std::vector<Known> known_;  // by level
+};
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_SOLVERS_OPTIMISE_PIECE_H_

@@ -1,0 +1,128 @@
+#include <shapespace/solvers/optimise/resolution.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <shapespace/base/stopwatch.h>
+#include <shapespace/path/rigid_motion.h>
+#include <shapespace/solvers/optimise/minimise.h>
+#include <shapespace/solvers/optimise/preconditioner.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Unknowns up to which the residual-block trust region takes milliseconds, and a few iterations
+// where L-BFGS needs tens; beyond, it loses by factors.
+constexpr int kTrustRegionUnknowns = 400;
+// History of L-BFGS: long where a level is small, short where the history would be the memory.
+constexpr int kLongRank = 20, kShortRank = 5;
+constexpr double kLongRankUnknowns = 3e5;
+
+Termination Translate(Stop stop) {
+  switch (stop) {
+    case Stop::kConverged:
+      return Termination::kConverged;
+    case Stop::kMaxIterations:
+      return Termination::kMaxIterations;
+    case Stop::kStalled:
+      break;
+  }
+  return Termination::kStalled;
+}
+
+// A coarse level of the trapezoid that prepares a fine one would be biased by its quartic part,
+// which falls with the square of the number of segments.
+double QuarticWeight(int inner, const GeodesicOptions& options) {
+  return std::pow((inner + 1.0) / (options.shapes + 1.0), 2);
+}
+
+}  // namespace
+
+int HistoryRank(double unknowns) { return unknowns <= kLongRankUnknowns ? kLongRank : kShortRank; }
+
+GeodesicSummary::Level Resolution::Relax(int piece, double tolerance, double enough,
+                                         const GeodesicOptions& options, Progress* progress,
+                                         std::vector<Shape>* shapes) {
+  const Stopwatch stopwatch;
+  const int inner = static_cast<int>(shapes->size()) - 2;
+  GeodesicSummary::Level row;
+  row.piece = piece;
+  row.vertices = metric_->connectivity->NumVertices();
+  row.shapes = inner;
+  if (metric_->RigidInvariantButForPosition()) RemoveRigidDrift(shapes, metric_->vertex_area);
+
+  const std::string stage = std::to_string(row.vertices) + " vertices, " + std::to_string(inner) +
+                            (inner == 1 ? " inner shape" : " inner shapes");
+  MinimiseOptions minimise;
+  minimise.tolerance = tolerance;
+  (void)enough;
+  minimise.max_iterations = options.max_iterations;
+  minimise.keep_going = [&](int iteration) {
+    return progress == nullptr || progress->Report(stage, iteration, 0);
+  };
+  PathEnergy& energy = EnergyOf(inner, options);
+  ChangeOfVariables variables(Factor(piece, inner), energy);
+  std::vector<double> unknowns(energy.Size());
+  const bool small = variables.Size() <= kTrustRegionUnknowns;
+  MinimiseResult result;
+  if (options.solver == Solver::kTrustRegion || (options.solver == Solver::kAutomatic && small)) {
+    row.solver = "trust region";
+    result = MinimiseTrustRegion(*metric_, QuarticWeight(inner, options), minimise, shapes);
+    energy.Load(*shapes, unknowns.data());
+    result.remaining = RemainingDecrease(&energy, &variables, unknowns);
+  } else {
+    row.solver = "L-BFGS";
+    minimise.rank = HistoryRank(variables.Size());
+    energy.Load(*shapes, unknowns.data());
+    result = MinimiseLbfgs(&energy, &variables, minimise, &unknowns);
+    energy.Store(unknowns.data(), shapes);
+  }
+  if (metric_->RigidInvariantButForPosition()) {
+    RemoveRigidDrift(shapes, metric_->vertex_area);
+    energy.Load(*shapes, unknowns.data());
+    result.energy = energy.Evaluate(unknowns.data(), nullptr);
+  }
+  row.termination = Translate(result.stop);
+  row.iterations = result.iterations;
+  row.evaluations = result.evaluations;
+  row.initial_energy = ScaledEnergy(result.initial_energy, inner + 1);
+  row.energy = ScaledEnergy(result.energy, inner + 1);
+  row.remaining = result.remaining;
+  row.seconds = stopwatch.Seconds();
+  return row;
+}
+
+double Resolution::Energy(const std::vector<Shape>& shapes, const GeodesicOptions& options) {
+  PathEnergy& energy = EnergyOf(static_cast<int>(shapes.size()) - 2, options);
+  std::vector<double> unknowns(energy.Size());
+  energy.Load(shapes, unknowns.data());
+  return energy.Evaluate(unknowns.data(), nullptr);
+}
+
+PathEnergy& Resolution::EnergyOf(int inner, const GeodesicOptions& options) {
+  if (!energy_ || energy_->Inner() != inner) {
+    energy_.emplace(*metric_, inner);
+    energy_->SetQuarticWeight(QuarticWeight(inner, options));
+  }
+  return *energy_;
+}
+
+// One factor serves all numbers of shapes and all pieces, but for the trapezoid's quartic part.
+const Cholesky& Resolution::Factor(int piece, int inner) {
+  const bool trapezoid = metric_->options.discretization == Discretization::kTrapezoid;
+  const std::pair<int, int> key = trapezoid ? std::make_pair(piece, inner) : std::make_pair(0, 0);
+  if (!factor_ || factor_key_ != key) {
+    const Stopwatch stopwatch;
+    if (trapezoid) {
+      factor_.emplace(ScalarMetric(*metric_, {poses_[piece], poses_[piece + 1]}, inner + 1));
+    } else {
+      factor_.emplace(ScalarMetric(*metric_, poses_, 0));
+    }
+    factor_key_ = key;
+    factor_seconds_ += stopwatch.Seconds();
+  }
+  return *factor_;
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,56 @@
+#ifndef SHAPESPACE_SOLVERS_OPTIMISE_RESOLUTION_H_
+#define SHAPESPACE_SOLVERS_OPTIMISE_RESOLUTION_H_
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <shapespace/metric/metric.h>
+#include <shapespace/path/energy.h>
+#include <shapespace/solvers/geodesic.h>
+#include <shapespace/solvers/optimise/cholesky.h>
+
+namespace shapespace::internal {
+
+/// Rank of the L-BFGS approximation for so many unknowns.
+int HistoryRank(double unknowns);
+
+/// One level of a hierarchy, ready to be solved on: the metric and the poses there, and the factor
+/// of its preconditioner.
+class Resolution {
+ public:
+  /// `poses` are aligned, in the metric's unit.
+  Resolution(std::shared_ptr<const Metric> metric, std::vector<Shape> poses)
+      : metric_(std::move(metric)), poses_(std::move(poses)) {}
+
+  const Metric& GetMetric() const { return *metric_; }
+  const Shape& Pose(int i) const { return poses_[i]; }
+
+  /// Relaxes the inner ones of `shapes`, a path from pose `piece` to the next, and says how it
+  /// went.
+  GeodesicSummary::Level Relax(int piece, double tolerance, double enough,
+                               const GeodesicOptions& options, Progress* progress,
+                               std::vector<Shape>* shapes);
+
+  /// The energy of a path of any number of shapes, unscaled.
+  double Energy(const std::vector<Shape>& shapes, const GeodesicOptions& options);
+
+  double FactorSeconds() const { return factor_seconds_; }
+  size_t FactorNonzeros() const { return factor_ ? factor_->NumNonzeros() : 0; }
+
+ private:
+  const Cholesky& Factor(int piece, int inner);
+  PathEnergy& EnergyOf(int inner, const GeodesicOptions& options);
+
+  std::shared_ptr<const Metric> metric_;
+  std::vector<Shape> poses_;
+  std::optional<PathEnergy> energy_;  // of the number of inner shapes used last
+  std::optional<Cholesky> factor_;
+  std::pair<int, int> factor_key_ = {-1, -1};
+  double factor_seconds_ = 0;
+};
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_SOLVERS_OPTIMISE_RESOLUTION_H_

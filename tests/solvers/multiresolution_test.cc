@@ -1,0 +1,172 @@
+// Coarse to fine in space: schedules, starts, and pairs of poses that need them.
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <shapespace/bodies/quadruped.h>
+#include <shapespace/bodies/sheet.h>
+#include <shapespace/bodies/tube.h>
+#include <shapespace/hierarchy/hierarchy.h>
+#include <shapespace/solvers/geodesic.h>
+#include <shapespace/solvers/optimise/schedule.h>
+
+namespace shapespace {
+namespace {
+
+using internal::MakeSchedule;
+using internal::ScheduleStep;
+
+constexpr Schedule kSchedules[] = {Schedule::kAutomatic, Schedule::kStart, Schedule::kPaper,
+                                   Schedule::kFlat};
+
+// Whatever a step starts from must be known by then: either the next coarser level at the same
+// number of shapes, or its own level at fewer.
+TEST(Schedule, StepsFollowFromEarlierOnesAndEndWithEverything) {
+  for (Schedule schedule : kSchedules) {
+    for (int levels : {1, 2, 5}) {
+      for (int shapes : {1, 2, 7, 15, 40}) {
+        const std::vector<ScheduleStep> steps = MakeSchedule(schedule, levels, shapes);
+        EXPECT_EQ(steps.front().shapes, 1);
+        EXPECT_EQ(steps.back().level, levels - 1);
+        EXPECT_EQ(steps.back().shapes, shapes);
+        std::set<std::pair<int, int>> done = {{steps[0].level, steps[0].shapes}};
+        for (size_t i = 1; i < steps.size(); ++i) {
+          const auto [level, inner] = steps[i];
+          const bool below = done.count({level - 1, inner}) > 0;
+          const bool earlier = std::any_of(done.begin(), done.end(), [&](const auto& step) {
+            return step.first == level && step.second < inner;
+          });
+          EXPECT_TRUE(below || earlier) << "level " << level << ", " << inner << " shapes";
+          EXPECT_TRUE(done.insert({level, inner}).second) << "twice";
+        }
+      }
+    }
+  }
+}
+
+// A torus of rings x 12 vertices; `squash` flattens it, so that it changes shape.
+std::shared_ptr<const Connectivity> TorusConnectivity(int rings) {
+  constexpr int kRound = 12;
+  Eigen::Matrix3Xi triangles(3, 2 * rings * kRound);
+  for (int i = 0; i < rings; ++i) {
+    for (int j = 0; j < kRound; ++j) {
+      const int a = i * kRound + j, b = (i + 1) % rings * kRound + j;
+      const int c = (i + 1) % rings * kRound + (j + 1) % kRound, d = i * kRound + (j + 1) % kRound;
+      triangles.col(2 * a) << a, b, c;
+      triangles.col(2 * a + 1) << a, c, d;
+    }
+  }
+  return Connectivity::FromTriangles(rings * kRound, triangles);
+}
+
+Shape Torus(int rings, double twist) {
+  constexpr int kRound = 12;
+  Shape shape(3, rings * kRound);
+  for (int i = 0; i < rings; ++i) {
+    const double u = 2 * M_PI * i / rings;
+    for (int j = 0; j < kRound; ++j) {
+      const double v = 2 * M_PI * j / kRound;
+      const double r = 3 + std::cos(v);
+      // Bent out of its plane like a saddle.
+      shape.col(i * kRound + j) << r * std::cos(u), r * std::sin(u),
+          std::sin(v) + twist * std::cos(2 * u);
+    }
+  }
+  return shape;
+}
+
+struct Pair {
+  const char* name;
+  std::shared_ptr<const Connectivity> connectivity;
+  Shape first, last;
+};
+
+// Two bodies in one mesh, `offset` apart.
+Pair Twice(const Pair& pair, const Eigen::Vector3d& offset) {
+  const int m = pair.connectivity->NumVertices(), f = pair.connectivity->NumTriangles();
+  Eigen::Matrix3Xi triangles(3, 2 * f);
+  triangles << pair.connectivity->Triangles(),
+      (pair.connectivity->Triangles().array() + m).matrix();
+  const auto twice = [&](const Shape& one, const Shape& other) {
+    Shape both(3, 2 * m);
+    both << one, other.colwise() + offset;
+    return both;
+  };
+  return {"two tubes", Connectivity::FromTriangles(2 * m, triangles), twice(pair.first, pair.last),
+          twice(pair.last, pair.first)};
+}
+
+std::vector<Pair> Pairs() {
+  const Body tube = MakeTube(1600);
+  const Body sheet = MakeSheet(4, 1, 40, 10);
+  std::vector<Pair> pairs = {
+      {"tube", tube.connectivity, tube.pose(0), tube.pose(120)},
+      {"sheet", sheet.connectivity, sheet.pose(0), sheet.pose(150)},
+      {"torus", TorusConnectivity(60), Torus(60, 0), Torus(60, 1)},
+  };
+  pairs.push_back(Twice(pairs[0], {0, 5, 0}));
+  return pairs;
+}
+
+TEST(Interpolate, AllSchedulesEndInTheSameValley) {
+  for (const Pair& pair : Pairs()) {
+    GeodesicOptions options;
+    options.shapes = 7;
+    options.tolerance = 1e-6;
+    double least = 0, greatest = 0;
+    for (Schedule schedule : kSchedules) {
+      options.schedule = schedule;
+      const auto [path, summary] = Interpolate(pair.connectivity, {pair.first, pair.last}, options);
+      EXPECT_EQ(summary.termination, Termination::kConverged) << pair.name;
+      least = least == 0 ? summary.energy : std::min(least, summary.energy);
+      greatest = std::max(greatest, summary.energy);
+    }
+    EXPECT_LT(greatest, 1.003 * least) << pair.name;
+  }
+}
+
+TEST(Interpolate, AllStartsEndInTheSameValley) {
+  for (const Pair& pair : Pairs()) {
+    GeodesicOptions options;
+    options.shapes = 7;
+    options.tolerance = 1e-6;
+    double least = 0, greatest = 0;
+    for (Start start : {Start::kBest, Start::kBlend, Start::kFirst, Start::kLast, Start::kRigid}) {
+      options.start = start;
+      const auto [path, summary] = Interpolate(pair.connectivity, {pair.first, pair.last}, options);
+      least = least == 0 ? summary.energy : std::min(least, summary.energy);
+      greatest = std::max(greatest, summary.energy);
+    }
+    EXPECT_LT(greatest, 1.003 * least) << pair.name;
+  }
+}
+
+// On a good path a body moves at constant speed: no part waits to snap over at the end.
+TEST(Interpolate, MovesAtConstantSpeed) {
+  for (const Pair& pair : Pairs()) {
+    const auto [path, summary] = Interpolate(pair.connectivity, {pair.first, pair.last});
+    EXPECT_LT(summary.quality.speed_max, 1.1) << pair.name;
+  }
+}
+
+TEST(Interpolate, SolvesOnFewVerticesFirst) {
+  const SkinnedBody body = MakeQuadruped(4000);
+  GeodesicOptions options;
+  options.shapes = 3;
+  const auto [path, summary] =
+      Interpolate(body.connectivity, {body.pose("stand"), body.pose("sit")}, options);
+  const auto& levels = summary.levels;
+  ASSERT_GE(levels.size(), 4u);
+  EXPECT_LT(levels.front().vertices, 200);
+  EXPECT_EQ(levels.back().vertices, summary.vertices);
+  EXPECT_EQ(levels.back().shapes, 3);
+  for (const auto& level : levels) EXPECT_LE(level.energy, level.initial_energy * (1 + 1e-12));
+}
+
+}  // namespace
+}  // namespace shapespace
