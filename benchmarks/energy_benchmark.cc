@@ -1,56 +1,65 @@
-// What one energy with its gradient costs, beside what the machine's memory can do. Times of one
-// run compare with each other only: read ns_per_edge_segment against those of other rows, and
-// share_of_triad, the bytes a sweep must move at least at the speed of a plain a[i] = b[i] + 3
-// c[i].
+// What one energy with its gradient costs, beside what the machine's memory can do, and what its
+// preconditioner costs. Times of one run compare with each other only: read ns_per_edge_segment
+// against those of other rows and against limit_ns, the same if the sweep only moved the bytes that
+// it has to, at the speed of a plain a[i] = b[i] + 3 c[i] on as many threads. Small problems, which
+// stay in the caches, may be below it.
 
-#include <chrono>
-#include <cmath>
+#include <algorithm>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include <shapespace/base/parallel.h>
-#include <shapespace/bodies/body.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/solvers/optimise/preconditioner.h>
 
+#include "measure.h"
+#include "quadruped.h"
+
 namespace shapespace {
 namespace {
+
+constexpr double kDefaultBending = 1e-5;
 
 struct Problem {
   Metric metric;
   std::vector<Shape> shapes;
 
   Problem(int triangles, int inner, double bending, Discretization discretization) {
-    const Body body = MakeBody("quadruped", triangles);
-    const std::vector<Shape> poses = {body.pose(body.begin), body.pose(body.end)};
+    const SkinnedBody& body = Quadruped(triangles);
+    const std::vector<Shape> poses = {body.pose("sit"), body.pose("stretch")};
     MetricOptions options;
     options.bending = bending;
     options.discretization = discretization;
     metric = FreezeMetric(options, body.connectivity, poses);
     for (int i = 0; i < inner + 2; ++i) {
       const double t = static_cast<double>(i) / (inner + 1);
-      shapes.push_back(body.pose((1 - t) * body.begin + t * body.end) / metric.unit);
+      shapes.push_back(body.between("sit", "stretch", t) / metric.unit);
     }
+  }
+
+  double EdgeSegments() const {
+    return static_cast<double>(metric.connectivity->NumEdges()) *
+           static_cast<double>(shapes.size() - 1);
+  }
+  Eigen::SparseMatrix<double> Scalar() const {
+    return internal::ScalarMetric(metric, {shapes.front(), shapes.back()}, 0);
   }
 };
 
-// Bytes a second of one thread, measured once.
+// Bytes a second, as the STREAM benchmark counts them: two arrays read, one written.
 double Triad() {
-  static const double speed = [] {
-    constexpr size_t kSize = 1 << 24;
-    std::vector<double> a(kSize, 1), b(kSize, 2), c(kSize, 3);
-    double best = 0;
-    for (int round = 0; round < 5; ++round) {
-      const auto begin = std::chrono::steady_clock::now();
-      for (size_t i = 0; i < kSize; ++i) a[i] = b[i] + 3 * c[i];
-      benchmark::DoNotOptimize(a.data());
-      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-      best = std::max(best, 3 * sizeof(double) * kSize / time.count());
-    }
-    return best;
-  }();
-  return speed;
+  constexpr int kChunks = 64, kChunk = 1 << 18;
+  std::vector<double> a(kChunks * kChunk, 1), b(a.size(), 2), c(a.size(), 3);
+  const double seconds = MedianSeconds([&] {
+    ParallelFor(kChunks, [&](int chunk) {
+      const size_t begin = static_cast<size_t>(chunk) * kChunk;
+      for (size_t i = begin; i < begin + kChunk; ++i) a[i] = b[i] + 3 * c[i];
+    });
+    benchmark::DoNotOptimize(a.data());
+    benchmark::ClobberMemory();
+  });
+  return 3 * sizeof(double) * static_cast<double>(a.size()) / seconds;
 }
 
 void Evaluate(benchmark::State& state, double bending, Discretization discretization) {
@@ -60,65 +69,116 @@ void Evaluate(benchmark::State& state, double bending, Discretization discretiza
   PathEnergy energy(problem.metric, inner);
   std::vector<double> unknowns(energy.Size()), gradient(energy.Size());
   energy.Load(problem.shapes, unknowns.data());
-  const auto begin = std::chrono::steady_clock::now();
+  double seconds = 0;
   for (auto _ : state) {
+    const Stopwatch stopwatch;
     benchmark::DoNotOptimize(energy.Evaluate(unknowns.data(), gradient.data()));
+    seconds += stopwatch.Seconds() / static_cast<double>(state.max_iterations);
   }
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-  const double seconds = time.count() / static_cast<double>(state.iterations());
-  const double edge_segments =
-      static_cast<double>(problem.metric.connectivity->NumEdges()) * (inner + 1);
-  state.counters["ns_per_edge_segment"] = 1e9 * seconds / edge_segments;
+  const double triad = Triad();
   // The unknowns read once, the gradient written once.
-  state.counters["share_of_triad"] = 2 * sizeof(double) * energy.Size() / seconds / Triad();
+  const double least = 2 * sizeof(double) * static_cast<double>(energy.Size()) / triad;
+  state.counters["ns_per_edge_segment"] = 1e9 * seconds / problem.EdgeSegments();
+  state.counters["limit_ns"] = 1e9 * least / problem.EdgeSegments();
+  state.counters["share_of_triad"] = least / seconds;
+  state.counters["triad_gb_per_s"] = 1e-9 * triad;
 }
 
 void Membrane(benchmark::State& state) { Evaluate(state, 0, Discretization::kMidpoint); }
 void Paper(benchmark::State& state) { Evaluate(state, 0, Discretization::kTrapezoid); }
-void Default(benchmark::State& state) { Evaluate(state, 1e-5, Discretization::kMidpoint); }
-
-void Preconditioner(benchmark::State& state) {
-  const int inner = static_cast<int>(state.range(1));
-  SetThreads(static_cast<int>(state.range(2)));
-  const Problem problem(static_cast<int>(state.range(0)), inner, 1e-5, Discretization::kMidpoint);
-  const internal::Cholesky factor(
-      internal::ScalarMetric(problem.metric, {problem.shapes.front(), problem.shapes.back()}, 0));
-  PathEnergy energy(problem.metric, inner);
-  internal::ChangeOfVariables variables(factor, energy);
-  std::vector<double> gradient(energy.Size()), y(variables.Size());
-  energy.Load(problem.shapes, gradient.data());
-  for (auto _ : state) {
-    variables.ApplyTranspose(gradient.data(), 1, y.data());
-    variables.Apply(y.data(), gradient.data(), 0, gradient.data());
-  }
-  state.counters["factor_nonzeros"] = static_cast<double>(factor.NumNonzeros());
+void Default(benchmark::State& state) {
+  Evaluate(state, kDefaultBending, Discretization::kMidpoint);
 }
 
-const std::vector<std::vector<int64_t>> kSizes = {{4000, 26000, 85000}, {15, 31, 127}, {1, 2}};
+// Once for a mesh, whatever the number of shapes.
+void Factorise(benchmark::State& state, double bending) {
+  const Problem problem(static_cast<int>(state.range(0)), 1, bending, Discretization::kMidpoint);
+  size_t nonzeros = 0;
+  for (auto _ : state) {
+    nonzeros = internal::Cholesky(problem.Scalar()).NumNonzeros();
+  }
+  state.counters["factor_nonzeros"] = static_cast<double>(nonzeros);
+}
 
-BENCHMARK(Membrane)
-    ->ArgNames({"triangles", "shapes", "threads"})
-    ->ArgsProduct(kSizes)
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(Paper)
-    ->ArgNames({"triangles", "shapes", "threads"})
-    ->Args({26000, 127, 1})
-    ->Args({26000, 127, 2})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(Default)
-    ->ArgNames({"triangles", "shapes", "threads"})
-    ->ArgsProduct(kSizes)
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(Preconditioner)
-    ->ArgNames({"triangles", "shapes", "threads"})
-    ->Args({26000, 127, 2})
-    ->Args({85000, 15, 2})
-    ->Args({85000, 31, 2})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
+void FactoriseMembrane(benchmark::State& state) { Factorise(state, 0); }
+void FactoriseDefault(benchmark::State& state) { Factorise(state, kDefaultBending); }
+
+// What the preconditioner adds to an iteration, beside one evaluation of the energy.
+template <typename Apply>
+void CompareWithEnergy(const Apply& apply, PathEnergy* energy, std::vector<double>* unknowns,
+                       benchmark::State* state) {
+  std::vector<double> gradient(energy->Size());
+  const double evaluation =
+      MedianSeconds([&] { energy->Evaluate(unknowns->data(), gradient.data()); });
+  double seconds = 0;
+  for (auto _ : *state) {
+    const Stopwatch stopwatch;
+    apply(gradient.data());
+    seconds += stopwatch.Seconds() / static_cast<double>(state->max_iterations);
+  }
+  state->counters["evaluations"] = seconds / evaluation;
+}
+
+// As Ceres takes it: there and back, in double precision.
+void ChangeVariables(benchmark::State& state) {
+  const int inner = static_cast<int>(state.range(1));
+  SetThreads(static_cast<int>(state.range(2)));
+  const Problem problem(static_cast<int>(state.range(0)), inner, kDefaultBending,
+                        Discretization::kMidpoint);
+  const internal::Cholesky factor(problem.Scalar());
+  PathEnergy energy(problem.metric, inner);
+  internal::ChangeOfVariables variables(factor, energy);
+  std::vector<double> unknowns(energy.Size()), step(energy.Size()), y(variables.Size());
+  energy.Load(problem.shapes, unknowns.data());
+  const auto apply = [&](const double* gradient) {
+    variables.ApplyTranspose(gradient, 1, y.data());
+    variables.Apply(y.data(), unknowns.data(), 1, step.data());
+  };
+  CompareWithEnergy(apply, &energy, &unknowns, &state);
+}
+
+// As an optimiser of ours takes it: from a gradient to a step, in single precision.
+void Precondition(benchmark::State& state) {
+  const int inner = static_cast<int>(state.range(1));
+  SetThreads(static_cast<int>(state.range(2)));
+  const Problem problem(static_cast<int>(state.range(0)), inner, kDefaultBending,
+                        Discretization::kMidpoint);
+  const internal::CholeskyFactor<float> factor(problem.Scalar());
+  PathEnergy energy(problem.metric, inner);
+  internal::Preconditioner preconditioner(factor, energy);
+  std::vector<double> unknowns(energy.Size()), step(energy.Size());
+  energy.Load(problem.shapes, unknowns.data());
+  const auto apply = [&](const double* gradient) {
+    preconditioner.Apply(gradient, 1, step.data());
+  };
+  CompareWithEnergy(apply, &energy, &unknowns, &state);
+}
+
+void Sizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"triangles", "shapes", "threads"})
+      ->ArgsProduct({{4000, 26000, 85000}, {15, 31, 127}, {1, 2}})
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
+}
+void FewSizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"triangles", "shapes", "threads"})
+      ->ArgsProduct({{26000}, {127}, {1, 2}})
+      ->ArgsProduct({{85000}, {31}, {1, 2}})
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
+}
+void Meshes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgName("triangles")->UseRealTime()->Unit(benchmark::kMillisecond);
+  for (const int triangles : {1000, 4000, 16000, 64000, 200000}) benchmark->Arg(triangles);
+}
+
+BENCHMARK(Membrane)->Apply(Sizes);
+BENCHMARK(Default)->Apply(Sizes);
+BENCHMARK(Paper)->Apply(FewSizes);
+BENCHMARK(FactoriseMembrane)->Apply(Meshes);
+BENCHMARK(FactoriseDefault)->Apply(Meshes);
+BENCHMARK(ChangeVariables)->Apply(FewSizes);
+BENCHMARK(Precondition)->Apply(FewSizes);
 
 }  // namespace
 }  // namespace shapespace

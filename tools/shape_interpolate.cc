@@ -53,6 +53,7 @@ GeodesicOptions OptionsFromFlags() {
   options.solver = Choose<Solver>("solver", FLAGS_solver,
                                   {{"automatic", Solver::kAutomatic},
                                    {"lbfgs", Solver::kLbfgs},
+                                   {"threaded_lbfgs", Solver::kThreadedLbfgs},
                                    {"trust_region", Solver::kTrustRegion}});
   options.schedule = Choose<Schedule>("schedule", FLAGS_schedule,
                                       {{"automatic", Schedule::kAutomatic},

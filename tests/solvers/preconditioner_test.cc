@@ -1,5 +1,6 @@
 #include <shapespace/solvers/optimise/preconditioner.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -34,6 +35,24 @@ TEST(Cholesky, SolvesAsItsMatrixSays) {
     for (int i = 0; i < size; ++i) solution.row(factor.Permutation()[i]) = x.row(i);
     const RowMajor back = matrix.selfadjointView<Eigen::Lower>() * solution;
     EXPECT_LT((back - right).cwiseAbs().maxCoeff(), 1e-8);
+  }
+}
+
+TEST(Cholesky, SolvesInSinglePrecisionToItsRounding) {
+  const Cholesky factor(Matrix(MakeBar(6, 1, 1, 24, 4, 4)));
+  const CholeskyFactor<float> single(factor);
+  const int size = factor.Size();
+  for (int width : {8, 16, 24, 40, 48, 96, 104}) {
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    using RowMajorSingle = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    RowMajor x = RowMajor::Random(size, width);
+    RowMajorSingle y = x.cast<float>();
+    factor.SolveLower(x.data(), width);
+    single.SolveLower(y.data(), width);
+    EXPECT_LT((x - y.cast<double>()).cwiseAbs().maxCoeff(), 1e-4 * x.cwiseAbs().maxCoeff());
+    factor.SolveUpper(x.data(), width);
+    single.SolveUpper(y.data(), width);
+    EXPECT_LT((x - y.cast<double>()).cwiseAbs().maxCoeff(), 1e-3 * x.cwiseAbs().maxCoeff());
   }
 }
 
@@ -73,6 +92,38 @@ TEST(ChangeOfVariables, TransposeIsTheTranspose) {
     variables.ApplyTranspose(g.data(), 0.7, back.data());
     const double forward = std::inner_product(x.begin(), x.end(), g.begin(), 0.0);
     EXPECT_NEAR(forward, y.dot(back), 1e-10 * y.norm() * back.norm());
+  }
+}
+
+TEST(Preconditioner, IsBothHalvesOfTheChangeOfVariables) {
+  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const Metric metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(40)});
+  const Cholesky factor(ScalarMetric(metric, {bar.pose(0) / metric.unit}, 0));
+  const CholeskyFactor<float> single(factor);
+  for (int inner : {1, 4, 15}) {
+    PathEnergy energy(metric, inner);
+    ChangeOfVariables variables(factor, energy);
+    Preconditioner preconditioner(single, energy);
+    std::vector<Shape> random(inner + 2, Shape::Zero(3, factor.Size()));
+    for (int i = 1; i <= inner; ++i) random[i] = testing::Noise(factor.Size(), 1, i);
+    std::vector<double> g(energy.Size()), x(energy.Size()), y(variables.Size());
+    const std::vector<double> origin(energy.Size(), 0.0);
+    energy.Load(random, g.data());
+    variables.ApplyTranspose(g.data(), 1, y.data());
+    variables.Apply(y.data(), origin.data(), 1, x.data());
+    double largest = 0;
+    for (double value : x) largest = std::max(largest, std::abs(value));
+    // Gradients far outside of the range of a float, too; in place; padding stays zero.
+    for (double scale : {1.0, 1e-60}) {
+      std::vector<double> z = g;
+      for (double& value : z) value *= scale;
+      if (inner != energy.Stride()) z[inner] = 7;
+      preconditioner.Apply(z.data(), scale, z.data());
+      if (inner != energy.Stride()) {
+        EXPECT_EQ(z[inner], 0);
+      }
+      for (size_t i = 0; i < z.size(); ++i) EXPECT_NEAR(z[i] / scale, x[i], 1e-3 * largest);
+    }
   }
 }
 

@@ -27,6 +27,11 @@ constexpr double kLeastCosine = 0.5;
 // Shape of a triangle, 4 sqrt(3) area / sum of squared sides, is 1 if equilateral. No triangle may
 // get worse than this, or than the worst that it replaces.
 constexpr double kLeastQuality = 0.2;
+// Vertices of more triangles, such as the poles of a globe, stay until their neighbours' collapses
+// have left them fewer, and nothing collapses onto them: trying their neighbours, each against all
+// triangles, again after every collapse nearby would take time cubic in their number. A flat fan of
+// triangles that are no slivers has up to 54.
+constexpr int kLargestFan = 54;
 
 class Decimator {
  public:
@@ -38,6 +43,7 @@ class Decimator {
         num_poses_(static_cast<int>(poses.size())),
         head_(connectivity.NumVertices(), -1),
         next_(triangles_.size(), -1),
+        fan_size_(connectivity.NumVertices(), 0),
         mark_(connectivity.NumVertices(), 0),
         fixed_(connectivity.NumVertices(), 0),
         boundary_(connectivity.NumVertices(), 0),
@@ -47,6 +53,7 @@ class Decimator {
       const int v = triangles_(corner % 3, corner / 3);
       next_[corner] = head_[v];
       head_[v] = corner;
+      ++fan_size_[v];
     }
     PlacePoses(poses);
     for (int v : pinned) fixed_[v] = 1;
@@ -116,16 +123,19 @@ class Decimator {
   // before, another the one after.
   void ExamineFan(int v) {
     fan_.clear();
-    ForFan(v, [&](int a, int b) { fan_.emplace_back(a, b); });
+    ring_.clear();
+    ForFan(v, [&](int a, int b) {
+      fan_.emplace_back(a, b);
+      ring_.push_back(b);
+    });
     std::sort(fan_.begin(), fan_.end());
+    std::sort(ring_.begin(), ring_.end());
     int begins = 0, start = fan_.empty() ? -1 : fan_[0].first;
     bool manifold = !fan_.empty();
     for (size_t i = 0; i < fan_.size(); ++i) {
       const auto [a, b] = fan_[i];
       if (a == b || a == v || b == v || (i > 0 && fan_[i - 1].first == a)) manifold = false;
-      const int vertex = a;
-      if (std::none_of(fan_.begin(), fan_.end(),
-                       [&](const std::pair<int, int>& t) { return t.second == vertex; })) {
+      if (!std::binary_search(ring_.begin(), ring_.end(), a)) {
         ++begins;
         start = a;
       }
@@ -175,6 +185,7 @@ class Decimator {
   internal::Quadric& Quadric(int v, int pose) { return quadrics_[v * num_poses_ + pose]; }
 
   int SharedTriangles(int a, int b) {
+    if (fan_size_[a] > fan_size_[b]) std::swap(a, b);
     int count = 0;
     ForFan(a, [&](int x, int y) { count += x == b || y == b; });
     return count;
@@ -200,14 +211,14 @@ class Decimator {
 
   bool Legal(int from, int to) { return KeepsTopology(from, to) && KeepsGeometry(from, to); }
 
-  // The link condition (Dey et al. 1999), and no component that vanishes.
+  // The link condition (Dey, Edelsbrunner, Guha and Nekhayev, "Topology Preserving Edge
+  // Contraction", 1999).
   bool KeepsTopology(int from, int to) {
-    if (head_[to] < 0) return false;
+    if (fan_size_[to] > kLargestFan) return false;
     const int stamp = ++stamp_;
-    int opposite[2], shared = 0, triangles_to = 0;
+    int opposite[2], shared = 0;
     ForFan(to, [&](int a, int b) {
       mark_[a] = mark_[b] = stamp;
-      ++triangles_to;
       if (a == from || b == from) {
         if (shared < 2) opposite[shared] = a == from ? b : a;
         ++shared;
@@ -216,10 +227,9 @@ class Decimator {
     if (shared < 1 || shared > 2) return false;
     // A boundary vertex may only move along its boundary.
     if (boundary_[from] && (shared != 1 || !boundary_[to])) return false;
-    int common = 0, triangles_from = 0;
+    int common = 0;
     bool closes = false;
     ForFan(from, [&](int a, int b) {
-      ++triangles_from;
       for (int x : {a, b}) {
         if (x != to && mark_[x] == stamp) {
           mark_[x] = 0;
@@ -235,13 +245,15 @@ class Decimator {
       }
     });
     if (common != shared || closes) return false;
-    if (triangles_from + triangles_to - 2 * shared < 1) return false;
-    for (int k = 0; k < shared; ++k) {
-      int count = 0;
-      ForFan(opposite[k], [&](int, int) { ++count; });
-      if (count < 2) return false;
-    }
-    return true;
+    if (fan_size_[from] > 1) return true;
+    // The last triangle of `from` may only go if its third side is inside a surface: else a
+    // component, a bridge between two or a fin would vanish.
+    int first = 0, second = 0;
+    ForFan(to, [&](int a, int b) {
+      first += a == opposite[0];
+      second += b == opposite[0];
+    });
+    return first == 1 && second == 1;
   }
 
   bool KeepsGeometry(int from, int to) {
@@ -267,7 +279,7 @@ class Decimator {
   // Queues the cheapest legal collapse of `from`, if there is one.
   void Push(int from) {
     ++version_[from];
-    if (fixed_[from]) return;
+    if (fixed_[from] || fan_size_[from] > kLargestFan) return;
     ring_.clear();
     const int stamp = ++stamp_;
     ForFan(from, [&](int a, int b) {
@@ -299,8 +311,10 @@ class Decimator {
       if ((triangles_.col(f).array() == to).any()) {
         alive_[f] = 0;
         --num_alive_;
+        for (int v : triangles_.col(f)) --fan_size_[v];
       } else {
         triangles_(corner % 3, f) = to;
+        ++fan_size_[to];
       }
     }
     if (last >= 0) {
@@ -328,6 +342,7 @@ class Decimator {
   std::vector<char> alive_;
   int num_alive_, num_poses_;
   std::vector<int> head_, next_;  // of every vertex, its corners as a linked list
+  std::vector<int> fan_size_;     // of every vertex, its triangles
   Eigen::Matrix3Xd position_;
   std::vector<internal::Quadric> quadrics_;  // like position_
   std::vector<int> mark_;
@@ -355,6 +370,7 @@ std::vector<Collapse> PlanCollapses(const Connectivity& connectivity,
       throw InvalidOptions("pinned: " + std::to_string(v) + " is no vertex of the mesh");
     }
   }
+  if (triangles >= connectivity.NumTriangles()) return {};
   return Decimator(connectivity, poses, pinned).Run(triangles);
 }
 

@@ -19,8 +19,9 @@ struct Collapse {
 /// Kilian et al. 2007, section 3). The vertex whose removal costs least goes first; the cost is the
 /// quadric error summed over the poses, each scaled to area 1, boundaries held by planes of their
 /// own. No collapse changes the topology, flips a triangle or makes a sliver in any pose; vertices
-/// of `pinned`, of non-manifold spots and of no triangle stay. Ends when `triangles` are left, or
-/// earlier if no collapse is legal. O(m log m).
+/// of `pinned`, of non-manifold spots and of no triangle stay, and so does one of more than 54
+/// triangles for as long as it has these. Ends when `triangles` are left, or earlier if no collapse
+/// is legal. O(m log m).
 /// \throw MeshError if a pose has the wrong number of vertices; InvalidOptions if `pinned` holds a
 ///        number that is no vertex.
 std::vector<Collapse> PlanCollapses(const Connectivity& connectivity,

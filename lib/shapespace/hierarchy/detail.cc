@@ -1,6 +1,7 @@
 #include <shapespace/hierarchy/detail.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -46,6 +47,32 @@ Eigen::Vector3d ClosestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
     }
   }
   return result;
+}
+
+// The rotation nearest to `matrix`: the orthogonal factor of its polar decomposition, by Newton's
+// iteration (Higham 1986), which takes a tenth of the time of singular values; those serve where
+// the matrix is close to singular, or the factor a reflection.
+Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
+  constexpr double kWellConditioned = 1e-4, kConverged = 1e-14;
+  constexpr int kIterations = 12;
+  Eigen::Matrix3d x = matrix / matrix.norm();
+  if (x.determinant() > kWellConditioned) {
+    for (int i = 0; i < kIterations; ++i) {
+      Eigen::Matrix3d inverse_transpose;
+      inverse_transpose << x.col(1).cross(x.col(2)), x.col(2).cross(x.col(0)),
+          x.col(0).cross(x.col(1));
+      inverse_transpose /= x.col(0).dot(inverse_transpose.col(0));
+      const double scale = std::sqrt(inverse_transpose.norm() / x.norm());
+      const Eigen::Matrix3d next = 0.5 * (scale * x + inverse_transpose / scale);
+      const double change = (next - x).squaredNorm();
+      x = next;
+      if (change < kConverged) return x;
+    }
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d sign(1, 1, 1);
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign(2) = -1;
+  return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
 }
 
 // Index lists of a row each, end to end.
@@ -158,11 +185,7 @@ std::vector<Eigen::Matrix3d> VertexRotations(const Connectivity& coarse, const S
       }
       // Where neither says anything (edges of a graph on one line) nothing turns.
       rotation.diagonal().array() += kTurnNothing * rotation.norm();
-      const Eigen::JacobiSVD<Eigen::Matrix3d> svd(rotation,
-                                                  Eigen::ComputeFullU | Eigen::ComputeFullV);
-      Eigen::Vector3d sign(1, 1, 1);
-      if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign(2) = -1;
-      rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+      rotation = NearestRotation(rotation);
     }
   });
   return rotations;

@@ -13,12 +13,15 @@ namespace {
 
 // A level has this many times the triangles of the next coarser one.
 constexpr int kRatio = 4;
+// Where decimation stopped early, a last level with more than this share of the next finer one's
+// triangles is left out: it would cost nearly as much as that one.
+constexpr double kLargestShare = 0.75;
 
 // Numbers of triangles below the mesh's own, falling to about `coarsest`.
 std::vector<int> Targets(int triangles, int coarsest) {
   std::vector<int> targets;
-  while (triangles >= 2 * coarsest) {
-    triangles = triangles / kRatio >= 2 * coarsest ? triangles / kRatio : coarsest;
+  while (triangles / 2 >= coarsest) {
+    triangles = triangles / kRatio / 2 >= coarsest ? triangles / kRatio : coarsest;
     targets.push_back(triangles);
   }
   return targets;
@@ -63,24 +66,23 @@ Hierarchy::Hierarchy(std::shared_ptr<const Connectivity> connectivity,
   std::iota(finest.vertices.begin(), finest.vertices.end(), 0);
   levels_.push_back(std::move(finest));
 
-  const std::vector<int> targets = Targets(connectivity->NumTriangles(), options.coarsest);
-  if (targets.empty()) return;
+  const int num_triangles = connectivity->NumTriangles();
+  const std::vector<int> targets = Targets(num_triangles, options.coarsest);
+  const int fewest = targets.empty() ? num_triangles : targets.back();
   const std::vector<Collapse> collapses =
-      PlanCollapses(*connectivity, poses, targets.back(), options.pinned);
-  const int left = collapses.empty() ? connectivity->NumTriangles() : collapses.back().triangles;
-  // A collapse takes two triangles, so the plan may end one past the target.
-  stopped_early_ = left > targets.back();
+      PlanCollapses(*connectivity, poses, fewest, options.pinned);
+  stopped_early_ = !targets.empty() && (collapses.empty() || collapses.back().triangles > fewest);
 
   std::vector<int> place = levels_[0].vertices;  // where every vertex of the mesh went
   size_t next = 0;
+  int left = num_triangles;
   for (int target : targets) {
-    const size_t first = next;
-    while (next < collapses.size() &&
-           (next == 0 ? connectivity->NumTriangles() : collapses[next - 1].triangles) > target) {
+    const int before = left;
+    for (; next < collapses.size() && left > target; ++next) {
       place[collapses[next].from] = collapses[next].to;
-      ++next;
+      left = collapses[next].triangles;
     }
-    if (next == first) break;
+    if (left > kLargestShare * before) break;
     // Chains of collapses end at a vertex that is left. A later level's chains go through earlier
     // ones, so that each vertex is followed to the end.
     for (int v = 0; v < num_vertices; ++v) {

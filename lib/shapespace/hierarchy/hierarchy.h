@@ -47,10 +47,10 @@ class Hierarchy {
   /// A shape of `level` as the next coarser level sees it.
   Shape RestrictOnce(const Shape& shape, int level) const;
 
-  /// A shape of `level` + 1 that sits on `coarse`, a shape of `level`, as `from` sits on `from_base`
-  /// and `to` on `to_base`, blended by (1 - t, t): each neighbourhood moves with the rotation of the
-  /// vertices that carry it. Exact where `coarse` is `from_base` and t is 0, or `to_base` and t is
-  /// 1.
+  /// A shape of `level` + 1 that sits on `coarse`, a shape of `level`, as `from` sits on
+  /// `from_base` and `to` on `to_base`, blended by (1 - t, t): each neighbourhood moves with the
+  /// rotation of the vertices that carry it. Exact where `coarse` is `from_base` and t is 0, or
+  /// `to_base` and t is 1.
   Shape Lift(const Shape& coarse, int level, const Shape& from_base, const Shape& from,
              const Shape& to_base, const Shape& to, double t) const;
   /// The same for `from` and `to` that sit on their own restrictions: vertices that `level` has are

@@ -46,28 +46,6 @@ void Pool(const std::vector<Deviations>& shapes, double* rms, double* p99, doubl
   *max = *std::max_element(rank, all.magnitudes.end());
 }
 
-double GreatestSpeed(const Path& path) {
-  const int segments = path.NumShapes() - 1;
-  std::vector<double> speed(segments);
-  ParallelFor(segments, [&](int i) {
-    const double time = path.parameters[i + 1] - path.parameters[i];
-    speed[i] =
-        std::sqrt(EnergyLowerBound(*path.metric, path.shapes[i], path.shapes[i + 1], 1)) / time;
-  });
-  double greatest = segments > 0 && std::isnan(speed[0]) ? speed[0] : 1;
-  for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
-    const int begin = path.poses[piece], end = path.poses[piece + 1];
-    double length = 0;
-    for (int i = begin; i < end; ++i) {
-      length += speed[i] * (path.parameters[i + 1] - path.parameters[i]);
-    }
-    const double mean = length / (path.parameters[end] - path.parameters[begin]);
-    if (!(mean > kNoSpeed)) continue;  // a rigid copy
-    for (int i = begin; i < end; ++i) greatest = std::max(greatest, speed[i] / mean);
-  }
-  return greatest;
-}
-
 }  // namespace
 
 PathQuality MeasureQuality(const Path& path) {
@@ -126,7 +104,13 @@ PathQuality MeasureQuality(const Path& path) {
   });
 
   PathQuality quality;
-  quality.speed_max = GreatestSpeed(path);
+  for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
+    const int begin = path.poses[piece], end = path.poses[piece + 1] + 1;
+    const double speed =
+        GreatestSpeed(metric, {path.shapes.begin() + begin, path.shapes.begin() + end},
+                      {path.parameters.begin() + begin, path.parameters.begin() + end});
+    if (!(speed <= quality.speed_max)) quality.speed_max = speed;
+  }
   Pool(between, &quality.edge_rms, &quality.edge_p99, &quality.edge_max);
   Pool(against_first, &quality.first_rms, &quality.first_p99, &quality.first_max);
   const int inner = num_shapes - static_cast<int>(path.poses.size());
@@ -140,6 +124,23 @@ PathQuality MeasureQuality(const Path& path) {
                           ? kDegrees * std::sqrt(quality.roughness / (hinge_area * inner))
                           : 0;
   return quality;
+}
+
+double GreatestSpeed(const Metric& metric, const std::vector<Shape>& shapes,
+                     const std::vector<double>& times) {
+  const int segments = static_cast<int>(shapes.size()) - 1;
+  std::vector<double> length(segments);
+  ParallelFor(segments, [&](int i) {
+    length[i] = std::sqrt(EnergyLowerBound(metric, shapes[i], shapes[i + 1], 1));
+  });
+  double sum = 0, greatest = 0;
+  for (int i = 0; i < segments; ++i) {
+    sum += length[i];
+    greatest = std::max(greatest, length[i] / (times[i + 1] - times[i]));
+  }
+  if (std::isnan(sum)) return sum;
+  const double mean = sum / (times.back() - times.front());
+  return mean > kNoSpeed ? greatest / mean : 1;  // a rigid copy stands still
 }
 
 Eigen::VectorXd EdgeDeviation(const Metric& metric, const Shape& reference, const Shape& shape) {

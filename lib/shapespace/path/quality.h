@@ -1,6 +1,8 @@
 #ifndef SHAPESPACE_PATH_QUALITY_H_
 #define SHAPESPACE_PATH_QUALITY_H_
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include <shapespace/path/path.h>
@@ -28,6 +30,11 @@ struct PathQuality {
 };
 
 PathQuality MeasureQuality(const Path& path);
+
+/// The greatest speed over the mean, as above, of `shapes` (in the metric's unit) at rising
+/// `times`.
+double GreatestSpeed(const Metric& metric, const std::vector<Shape>& shapes,
+                     const std::vector<double>& times);
 
 /// Per vertex of `shape`, the A_e-weighted mean over its edges of | |e| / |e_reference| - 1 |: the
 /// deviation that the paper's Figure 5 colours by.

@@ -11,6 +11,7 @@
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
+#include <shapespace/path/intersections.h>
 #include <shapespace/solvers/optimise/piece.h>
 
 namespace shapespace {
@@ -29,6 +30,24 @@ double EstimateBytes(const Metric& metric, int poses, int shapes) {
   const double all_shapes = 3 * vertices * (poses + (poses - 1.0) * shapes);
   return 8 * (vectors * unknowns + factor * vertices + 2 * all_shapes) +
          PathEnergy::EstimateBytes(metric, shapes);
+}
+
+// A metric of each level's own, in the mesh's unit.
+std::vector<internal::Resolution> Resolve(const Hierarchy& hierarchy,
+                                          const std::shared_ptr<const Metric>& metric,
+                                          const std::vector<Shape>& aligned) {
+  std::vector<internal::Resolution> resolutions;
+  for (int level = 0; level < hierarchy.NumLevels(); ++level) {
+    std::vector<Shape> poses;
+    for (const Shape& pose : aligned) poses.push_back(hierarchy.Restrict(pose, level));
+    auto own = metric;
+    if (level + 1 < hierarchy.NumLevels()) {
+      own = std::make_shared<const Metric>(
+          FreezeMetric(metric->options, hierarchy.LevelConnectivity(level), poses, 1));
+    }
+    resolutions.emplace_back(std::move(own), std::move(poses));
+  }
+  return resolutions;
 }
 
 void CheckRigidTurns(const Path& path) {
@@ -67,6 +86,16 @@ void Assess(const Path& path, GeodesicSummary* summary) {
   }
   for (const auto& part : summary->parts) summary->energy += part.second;
   summary->quality = MeasureQuality(path);
+
+  // A few shapes tell whether the body passes through itself.
+  std::vector<double> times = {0};
+  for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
+    const double begin = path.parameters[path.poses[piece]];
+    const double end = path.parameters[path.poses[piece + 1]];
+    for (double t : {.25, .5, .75}) times.push_back(begin + t * (end - begin));
+    times.push_back(end);
+  }
+  summary->intersections = MeasureIntersections(Resample(path, times)).beyond_poses;
 }
 
 // Figures that are possible but hardly what a person wants to see.
@@ -81,12 +110,19 @@ void Warn(GeodesicSummary* summary) {
                : " stalled: its line search found no better point"));
     }
   }
+  constexpr double kManyIntersections = 5;
+  if (summary->intersections > kManyIntersections) {
+    summary->warnings.push_back("the body passes through itself: inner shapes have " +
+                                std::to_string(std::lround(summary->intersections)) +
+                                " intersecting pairs of triangles more than the poses, which no "
+                                "metric sees; a pose in between may help");
+  }
   constexpr double kPoorRatio = 1.5, kManyFolds = 1e-3;
   if (summary->Ratio() > kPoorRatio) {
     summary->warnings.push_back("the energy is " + std::to_string(summary->Ratio()) +
                                 " times its lower bound: the path may lie in a poor valley");
   }
-  constexpr double kSnaps = 1.2;
+  constexpr double kSnaps = 1.15;  // see optimise/piece.cc
   if (summary->quality.speed_max > kSnaps) {
     summary->warnings.push_back(
         "some segment is " + std::to_string(summary->quality.speed_max) +
@@ -135,28 +171,26 @@ GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivi
   const auto [aligned, motions] = AlignPoses(*metric, poses);
   const int pieces = static_cast<int>(poses.size()) - 1;
 
-  // The mesh at several resolutions, decimated for all poses in step.
   const Stopwatch building;
+  ReportProgress(progress, "decimating", 0, 0);
+  Schedule kind = options.schedule;
+  if (kind == Schedule::kAutomatic && options.metric.bending == 0) kind = Schedule::kFlat;
   HierarchyOptions hierarchy_options;
-  hierarchy_options.coarsest = options.coarsest;
+  hierarchy_options.coarsest = kind == Schedule::kFlat
+                                   ? std::max(options.coarsest, connectivity->NumTriangles())
+                                   : options.coarsest;
   const Hierarchy hierarchy(connectivity, aligned, hierarchy_options);
-  std::vector<internal::Resolution> resolutions;
-  for (int level = 0; level < hierarchy.NumLevels(); ++level) {
-    std::vector<Shape> level_poses;
-    for (const Shape& pose : aligned) level_poses.push_back(hierarchy.Restrict(pose, level));
-    const bool finest = level + 1 == hierarchy.NumLevels();
-    auto level_metric =
-        finest ? metric
-               : std::make_shared<const Metric>(FreezeMetric(
-                     options.metric, hierarchy.LevelConnectivity(level), level_poses, 1));
-    resolutions.emplace_back(std::move(level_metric), std::move(level_poses));
-  }
+  std::vector<internal::Resolution> resolutions = Resolve(hierarchy, metric, aligned);
   summary.hierarchy_seconds = building.Seconds();
+  for (const internal::Resolution& resolution : resolutions) {
+    summary.hierarchy.push_back(resolution.GetMetric().connectivity->NumVertices());
+  }
+  summary.hierarchy_stopped_early = hierarchy.StoppedEarly();
 
   // Piece after piece, coarse to fine.
   const Stopwatch solving;
   const std::vector<internal::ScheduleStep> schedule =
-      internal::MakeSchedule(options.schedule, hierarchy.NumLevels(), options.shapes);
+      internal::MakeSchedule(kind, hierarchy.NumLevels(), options.shapes);
   path.poses = {0};
   path.shapes = {aligned[0]};
   path.parameters = {0};

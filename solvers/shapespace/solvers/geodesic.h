@@ -14,16 +14,18 @@ namespace shapespace {
 
 /// The optimiser of each level.
 enum class Solver {
-  kAutomatic,    ///< sparse trust region for the smallest problems, L-BFGS otherwise
-  kLbfgs,        ///< Ceres' L-BFGS, preconditioned, on hand-written kernels
-  kTrustRegion,  ///< Ceres' Levenberg-Marquardt on automatically differentiated residual blocks
+  kAutomatic,      ///< sparse trust region for the smallest problems, L-BFGS otherwise
+  kLbfgs,          ///< Ceres' L-BFGS, preconditioned, on hand-written kernels
+  kThreadedLbfgs,  ///< L-BFGS of ours on the same kernels, on all threads
+  kTrustRegion,    ///< Ceres' Levenberg-Marquardt on automatically differentiated residual blocks
 };
 
 /// In which order resolutions in space (levels of a `Hierarchy`, coarse c to fine f) and time
 /// (numbers of inner shapes 1, 3, 7, ... n) are solved, each from the ones before.
 enum class Schedule {
-  kAutomatic,  ///< all levels in turn for each number of shapes: (c,1) ... (f,1), (c,3) ... (f,3),
-               ///< ...
+  kAutomatic,  ///< all levels in turn for one and for three inner shapes, then the finest only:
+               ///< (c,1) ... (f,1), (c,3) ... (f,3), (f,7) ... (f,n). Without a cost of bending
+               ///< kFlat: coarse surfaces would crumple, and fine ones keep the folds
   kStart,      ///< all levels for one inner shape only: (c,1) ... (f,1), (f,3), (f,7) ...
   kPaper,  ///< time and space in turn (Kilian et al. 2007, Figure 3): (c,1), (c,3), (c+1,3), ...
   kFlat,   ///< the finest level only: (f,1), (f,3), (f,7) ...
@@ -31,7 +33,8 @@ enum class Schedule {
 
 /// Where the one inner shape of the first solve starts.
 enum class Start {
-  kBest,   ///< from the blend and from both poses; the one that ends lowest goes on
+  kBest,   ///< from the blend and from both poses; the one that ends lowest goes on. If a part of
+           ///< the finished path snaps over, all of them are taken to the end
   kBlend,  ///< half way on straight lines
   kFirst,  ///< at the first pose
   kLast,   ///< at the last pose
@@ -99,6 +102,11 @@ struct GeodesicSummary {
   double lower_bound = 0;  ///< of the same; not a number if none is known (rigid metric)
   std::vector<std::pair<std::string, double>> parts;  ///< the energy by feature
   PathQuality quality;
+  /// Pairs of triangles that pass through each other (PathIntersections::beyond_poses), as a mean
+  /// over three shapes between neighbouring poses.
+  double intersections = 0;
+  std::vector<int> hierarchy;            ///< vertices of its levels, the coarsest first
+  bool hierarchy_stopped_early = false;  ///< no legal collapse led further down
   std::vector<Level> levels;
   std::vector<std::string> warnings;  ///< what a person should look at
   double estimated_bytes = 0;

@@ -69,6 +69,11 @@ std::string GeodesicSummary::FullReport() const {
       << (std::isfinite(quality.speed_max)
               ? Format("at most %.4g times the mean of the piece\n", quality.speed_max)
               : "n/a (the rigid metric)\n")
+      << Format("Intersections     %.3g pairs of triangles more than in the poses\n", intersections)
+      << "Hierarchy        ";
+  for (size_t i = 0; i < hierarchy.size(); ++i) out << (i > 0 ? ", " : " ") << hierarchy[i];
+  out << " vertices"
+      << (hierarchy_stopped_early ? " (no legal collapse leads further down)\n" : "\n")
       << "\npiece vertices shapes start    solver        iterations  evaluations  energy before  "
          "energy "
          "after"
@@ -113,6 +118,9 @@ std::string GeodesicSummary::ToJson() const {
   json["roughness_degrees"] = quality.roughness;
   json["folds_per_shape"] = quality.folds;
   json["greatest_speed"] = Number(quality.speed_max);
+  json["intersections_per_shape"] = intersections;
+  json["hierarchy_vertices"] = hierarchy;
+  json["hierarchy_stopped_early"] = hierarchy_stopped_early;
   json["levels"] = nlohmann::ordered_json::array();
   for (const Level& level : levels) {
     json["levels"].push_back({{"piece", level.piece},

@@ -16,9 +16,19 @@ namespace {
 // narrow enough to keep the rows of a supernode in the nearest cache.
 constexpr int kChunk = 48;
 
-// Vectors of 4 and 8 numbers at any address that holds a double.
-using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
-using Eight = double __attribute__((vector_size(64), aligned(8), may_alias));
+// Vectors of 32 and 64 bytes at any address that holds a number.
+template <typename Scalar>
+struct Vectors;
+template <>
+struct Vectors<double> {
+  using Half = double __attribute__((vector_size(32), aligned(8), may_alias));
+  using Full = double __attribute__((vector_size(64), aligned(8), may_alias));
+};
+template <>
+struct Vectors<float> {
+  using Half = float __attribute__((vector_size(32), aligned(4), may_alias));
+  using Full = float __attribute__((vector_size(64), aligned(4), may_alias));
+};
 
 #define SHAPESPACE_INLINE inline __attribute__((always_inline))
 
@@ -32,7 +42,7 @@ SHAPESPACE_INLINE void Accumulate(Vector (&tile)[kRows][kVectors], int count, co
   for (int k = 0; k < count; ++k) {
     const Vector* const from = reinterpret_cast<const Vector*>(source(k));
     for (int r = 0; r < kRows; ++r) {
-      const double f = factor(r, k);
+      const auto f = factor(r, k);
       for (int c = 0; c < kVectors; ++c) tile[r][c] -= f * from[c];
     }
   }
@@ -66,10 +76,10 @@ SHAPESPACE_INLINE void ForTiles(int begin, int end, const Panel& panel) {
   }
 }
 
-template <typename Vector, int kVectors>
-SHAPESPACE_INLINE void ForwardTile(const Supernode& node, const double* block, const int* rows,
-                                   double* x, size_t stride) {
-  double* const own = x + node.begin * stride;
+template <typename Vector, int kVectors, typename Scalar>
+SHAPESPACE_INLINE void ForwardTile(const Supernode& node, const Scalar* block, const int* rows,
+                                   Scalar* x, size_t stride) {
+  Scalar* const own = x + node.begin * stride;
   const auto source = [&](int k) { return own + k * stride; };
   for (int i = 0; i < node.width; ++i) {
     Vector tile[1][kVectors];
@@ -78,7 +88,7 @@ SHAPESPACE_INLINE void ForwardTile(const Supernode& node, const double* block, c
     Accumulate(
         tile, i, [&](int, int k) { return block[i + static_cast<size_t>(k) * node.height]; },
         source);
-    const double inverse = 1 / block[i + static_cast<size_t>(i) * node.height];
+    const Scalar inverse = 1 / block[i + static_cast<size_t>(i) * node.height];
     for (int c = 0; c < kVectors; ++c) tile[0][c] *= inverse;
     Store(tile, target);
   }
@@ -93,10 +103,10 @@ SHAPESPACE_INLINE void ForwardTile(const Supernode& node, const double* block, c
   ForTiles<Vector, kVectors>(node.width, node.height, panel);
 }
 
-template <typename Vector, int kVectors>
-SHAPESPACE_INLINE void BackwardTile(const Supernode& node, const double* block, const int* rows,
-                                    double* x, size_t stride) {
-  double* const own = x + node.begin * stride;
+template <typename Vector, int kVectors, typename Scalar>
+SHAPESPACE_INLINE void BackwardTile(const Supernode& node, const Scalar* block, const int* rows,
+                                    Scalar* x, size_t stride) {
+  Scalar* const own = x + node.begin * stride;
   const auto panel = [&](auto& tile, int j) {
     const auto target = [&](int r) { return own + (j + r) * stride; };
     Load(tile, target);
@@ -110,41 +120,77 @@ SHAPESPACE_INLINE void BackwardTile(const Supernode& node, const double* block, 
   };
   ForTiles<Vector, kVectors>(0, node.width, panel);
   for (int i = node.width - 1; i >= 0; --i) {
-    const double* const column = block + static_cast<size_t>(i) * node.height;
+    const Scalar* const column = block + static_cast<size_t>(i) * node.height;
     Vector tile[1][kVectors];
     const auto target = [&](int) { return own + i * stride; };
     Load(tile, target);
     Accumulate(
         tile, node.width - 1 - i, [&](int, int k) { return column[i + 1 + k]; },
         [&](int k) { return own + (i + 1 + k) * stride; });
-    const double inverse = 1 / column[i];
+    const Scalar inverse = 1 / column[i];
     for (int c = 0; c < kVectors; ++c) tile[0][c] *= inverse;
     Store(tile, target);
   }
 }
 
-// `count` columns, a multiple of 4, through one supernode.
+// `count` columns, a multiple of kColumns, through one supernode.
+template <typename Scalar>
+SHAPESPACE_INLINE void ForwardColumns(const Supernode& node, const Scalar* block, const int* rows,
+                                      Scalar* x, size_t stride, int count) {
+  using Half = typename Vectors<Scalar>::Half;
+  using Full = typename Vectors<Scalar>::Full;
+  constexpr int kFull = 64 / sizeof(Scalar);
+  int c = 0;
+  for (; c + 2 * kFull <= count; c += 2 * kFull) {
+    ForwardTile<Full, 2>(node, block, rows, x + c, stride);
+  }
+  if (c + kFull <= count) ForwardTile<Full, 1>(node, block, rows, x + c, stride), c += kFull;
+  if (c < count) ForwardTile<Half, 1>(node, block, rows, x + c, stride);
+}
+
+template <typename Scalar>
+SHAPESPACE_INLINE void BackwardColumns(const Supernode& node, const Scalar* block, const int* rows,
+                                       Scalar* x, size_t stride, int count) {
+  using Half = typename Vectors<Scalar>::Half;
+  using Full = typename Vectors<Scalar>::Full;
+  constexpr int kFull = 64 / sizeof(Scalar);
+  int c = 0;
+  for (; c + 2 * kFull <= count; c += 2 * kFull) {
+    BackwardTile<Full, 2>(node, block, rows, x + c, stride);
+  }
+  if (c + kFull <= count) BackwardTile<Full, 1>(node, block, rows, x + c, stride), c += kFull;
+  if (c < count) BackwardTile<Half, 1>(node, block, rows, x + c, stride);
+}
+
+// Clones must not be templates.
 SHAPESPACE_CLONES
 void ForwardNode(const Supernode& node, const double* block, const int* rows, double* x,
                  size_t stride, int count) {
-  int c = 0;
-  for (; c + 16 <= count; c += 16) ForwardTile<Eight, 2>(node, block, rows, x + c, stride);
-  if (c + 8 <= count) ForwardTile<Eight, 1>(node, block, rows, x + c, stride), c += 8;
-  if (c < count) ForwardTile<Four, 1>(node, block, rows, x + c, stride);
+  ForwardColumns(node, block, rows, x, stride, count);
+}
+
+SHAPESPACE_CLONES
+void ForwardNode(const Supernode& node, const float* block, const int* rows, float* x,
+                 size_t stride, int count) {
+  ForwardColumns(node, block, rows, x, stride, count);
 }
 
 SHAPESPACE_CLONES
 void BackwardNode(const Supernode& node, const double* block, const int* rows, double* x,
                   size_t stride, int count) {
-  int c = 0;
-  for (; c + 16 <= count; c += 16) BackwardTile<Eight, 2>(node, block, rows, x + c, stride);
-  if (c + 8 <= count) BackwardTile<Eight, 1>(node, block, rows, x + c, stride), c += 8;
-  if (c < count) BackwardTile<Four, 1>(node, block, rows, x + c, stride);
+  BackwardColumns(node, block, rows, x, stride, count);
+}
+
+SHAPESPACE_CLONES
+void BackwardNode(const Supernode& node, const float* block, const int* rows, float* x,
+                  size_t stride, int count) {
+  BackwardColumns(node, block, rows, x, stride, count);
 }
 
 }  // namespace
 
-Cholesky::Cholesky(const Eigen::SparseMatrix<double>& matrix) {
+template <typename Scalar>
+CholeskyFactor<Scalar>::CholeskyFactor(const Eigen::SparseMatrix<double>& matrix) {
   struct Common : cholmod_common {
     Common() { cholmod_start(this); }
     ~Common() { cholmod_finish(this); }
@@ -190,8 +236,9 @@ Cholesky::Cholesky(const Eigen::SparseMatrix<double>& matrix) {
   }
 }
 
+template <typename Scalar>
 template <typename SolveNodes>
-void Cholesky::ForChunks(int width, const SolveNodes& solve) const {
+void CholeskyFactor<Scalar>::ForChunks(int width, const SolveNodes& solve) const {
   // At least two chunks, where there are columns for two, so that two threads have work.
   const int groups = width / kColumns;
   const int chunks = std::max(std::min(2, groups), (width + kChunk - 1) / kChunk);
@@ -201,7 +248,8 @@ void Cholesky::ForChunks(int width, const SolveNodes& solve) const {
   });
 }
 
-void Cholesky::SolveLower(double* x, int width) const {
+template <typename Scalar>
+void CholeskyFactor<Scalar>::SolveLower(Scalar* x, int width) const {
   ForChunks(width, [&](int begin, int count) {
     for (const Supernode& node : supernodes_) {
       ForwardNode(node, &values_[node.values], &rows_[node.rows], x + begin, width, count);
@@ -209,12 +257,16 @@ void Cholesky::SolveLower(double* x, int width) const {
   });
 }
 
-void Cholesky::SolveUpper(double* x, int width) const {
+template <typename Scalar>
+void CholeskyFactor<Scalar>::SolveUpper(Scalar* x, int width) const {
   ForChunks(width, [&](int begin, int count) {
     for (auto node = supernodes_.rbegin(); node != supernodes_.rend(); ++node) {
       BackwardNode(*node, &values_[node->values], &rows_[node->rows], x + begin, width, count);
     }
   });
 }
+
+template class CholeskyFactor<double>;
+template class CholeskyFactor<float>;
 
 }  // namespace shapespace::internal

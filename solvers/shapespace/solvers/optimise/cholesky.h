@@ -17,11 +17,21 @@ struct Supernode {
 
 /// Sparse Cholesky factor C C^T = Q S Q^T (Q a fill-reducing permutation), computed by CHOLMOD and
 /// applied by kernels of ours, to many right-hand sides at once that lie side by side in memory.
-class Cholesky {
+/// Computed in double precision, kept and applied in `Scalar`: double or float.
+template <typename Scalar>
+class CholeskyFactor {
  public:
   /// `matrix` is symmetric positive definite; only its lower triangle is read.
   /// \throw SolverError if it is not positive definite.
-  explicit Cholesky(const Eigen::SparseMatrix<double>& matrix);
+  explicit CholeskyFactor(const Eigen::SparseMatrix<double>& matrix);
+
+  /// The same factor, rounded.
+  template <typename Other>
+  explicit CholeskyFactor(const CholeskyFactor<Other>& other)
+      : permutation_(other.permutation_),
+        supernodes_(other.supernodes_),
+        rows_(other.rows_),
+        values_(other.values_.begin(), other.values_.end()) {}
 
   int Size() const { return static_cast<int>(permutation_.size()); }
   /// Row i of the factor belongs to unknown Permutation()[i] of the matrix.
@@ -31,19 +41,23 @@ class Cholesky {
 
   /// x <- C^{-1} x and x <- C^{-T} x; `x` is Size() x `width`, row by row, rows `width` apart, a
   /// multiple of `kColumns`. Uses all threads; every column's result is independent of the others.
-  void SolveLower(double* x, int width) const;
-  void SolveUpper(double* x, int width) const;
-  static constexpr int kColumns = 4;
+  void SolveLower(Scalar* x, int width) const;
+  void SolveUpper(Scalar* x, int width) const;
+  static constexpr int kColumns = 32 / sizeof(Scalar);
 
  private:
+  template <typename Other>
+  friend class CholeskyFactor;
   template <typename SolveNodes>
   void ForChunks(int width, const SolveNodes& solve) const;
 
   std::vector<int> permutation_;
   std::vector<Supernode> supernodes_;
   std::vector<int> rows_;
-  std::vector<double> values_;
+  std::vector<Scalar> values_;
 };
+
+using Cholesky = CholeskyFactor<double>;
 
 }  // namespace shapespace::internal
 

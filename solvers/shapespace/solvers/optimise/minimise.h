@@ -12,9 +12,17 @@
 namespace shapespace::internal {
 
 struct MinimiseOptions {
-  double tolerance = 1e-4;  ///< stop when an iteration lowers the energy by less than this share
+  /// Stop when an iteration (of MinimiseThreadedLbfgs: two in a row) lowers the energy by less than
+  /// this share of it.
+  double tolerance = 1e-4;
   int max_iterations = 500;
-  int rank = 20;                                  ///< of the L-BFGS approximation
+  int rank = 20;  ///< of the L-BFGS approximation
+  /// Stop as soon as the estimate of what a further step gains is at most this share of what the
+  /// solve has gained; 0 never does. Ceres' L-BFGS estimates by the preconditioned gradient, as
+  /// RemainingDecrease does, and MinimiseThreadedLbfgs by its approximation of the Hessian, which
+  /// is at hand and stays moderate where sharp creases make the former enormous. The trust region
+  /// ignores it.
+  double enough = 0;
   std::function<bool(int iteration)> keep_going;  ///< false cancels; may be empty
 };
 
@@ -32,11 +40,22 @@ struct MinimiseResult {
 double RemainingDecrease(PathEnergy* energy, ChangeOfVariables* variables,
                          const std::vector<double>& unknowns);
 
+/// The same by the other preconditioner.
+double RemainingDecrease(PathEnergy* energy, Preconditioner* preconditioner,
+                         const std::vector<double>& unknowns);
+
 /// Ceres' L-BFGS in the preconditioned variables. `unknowns` (PathEnergy::Size()) is where it
 /// starts and where the result goes.
 /// \throw Cancelled, SolverError if the energy is not finite at the start.
 MinimiseResult MinimiseLbfgs(PathEnergy* energy, ChangeOfVariables* variables,
                              const MinimiseOptions& options, std::vector<double>* unknowns);
+
+/// L-BFGS of ours (Nocedal and Wright, Numerical Optimization, algorithm 7.4), for large problems:
+/// as many vectors as twice the rank and three, every pass over them on all threads, the
+/// preconditioner applied once an iteration. Bitwise the same for any number of threads.
+/// \throw Cancelled, SolverError if the energy is not finite at the start.
+MinimiseResult MinimiseThreadedLbfgs(PathEnergy* energy, Preconditioner* preconditioner,
+                                     const MinimiseOptions& options, std::vector<double>* unknowns);
 
 /// Ceres' Levenberg-Marquardt with sparse Cholesky on residual blocks, differentiated
 /// automatically: for small problems, and the oracle of the other. `shapes` in the metric's unit,

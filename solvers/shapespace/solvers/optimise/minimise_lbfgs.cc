@@ -48,6 +48,20 @@ class PreconditionedEnergy final : public ceres::FirstOrderFunction {
   mutable std::vector<double> unknowns_, gradient_;
 };
 
+// Ends the solve once what is left to gain is little beside what has been gained (MinimiseOptions).
+class EnoughGained final : public ceres::IterationCallback {
+ public:
+  explicit EnoughGained(double enough) : enough_(enough) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    const double left = 0.5 * summary.gradient_norm * summary.gradient_norm;
+    const double gained = 1 - summary.cost;  // of the energy at the start, which is one
+    return left <= enough_ * gained ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const double enough_;
+};
+
 }  // namespace
 
 double RemainingDecrease(PathEnergy* energy, ChangeOfVariables* variables,
@@ -87,6 +101,8 @@ MinimiseResult MinimiseLbfgs(PathEnergy* energy, ChangeOfVariables* variables,
   ceres_options.logging_type = ceres::SILENT;
   KeepGoing keep_going(options.keep_going);
   ceres_options.callbacks.push_back(&keep_going);
+  EnoughGained enough_gained(options.enough);
+  if (options.enough > 0) ceres_options.callbacks.push_back(&enough_gained);
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(ceres_options, problem, y.data(), &summary);
   if (summary.termination_type == ceres::USER_FAILURE) throw Cancelled();
@@ -99,6 +115,7 @@ MinimiseResult MinimiseLbfgs(PathEnergy* energy, ChangeOfVariables* variables,
   // A line search that finds no descent at a point where there is nothing to gain has converged to
   // rounding; anywhere else it has stalled.
   if (summary.termination_type == ceres::CONVERGENCE ||
+      summary.termination_type == ceres::USER_SUCCESS ||
       result.remaining < options.tolerance * 1e-3) {
     result.stop = Stop::kConverged;
   } else if (summary.termination_type == ceres::NO_CONVERGENCE) {

@@ -5,6 +5,7 @@
 
 #include <shapespace/base/parallel.h>
 #include <shapespace/path/energy.h>
+#include <shapespace/path/quality.h>
 
 namespace shapespace::internal {
 namespace {
@@ -15,6 +16,15 @@ constexpr int kTrialVertices = 1000;
 // A path with one inner shape whose energy is this close to the lower bound needs no other start:
 // poor valleys on real poses were found at 1.8 times the bound and more.
 constexpr double kCertified = 1.05;
+
+// A path with a segment this much faster than the mean holds a part that waits and then snaps over;
+// good paths between real poses stay below 1.05, snapping ones were found at 1.27 and more.
+constexpr double kSnaps = 1.15;
+// Where another level follows, a solve may stop when a further step is expected to gain less than
+// this share of what it has gained. Refinement in time by cubics has an error of fourth order; the
+// energy in excess goes with its square, and so falls by 256 from one level to the next. What the
+// next one will add is thus at least a 256th of what this one added; this is a quarter of that.
+constexpr double kEnough = 1.0 / 1024;
 
 const char* Name(Start start) {
   switch (start) {
@@ -50,52 +60,65 @@ Piece::Piece(int index, const Hierarchy& hierarchy, std::vector<Resolution>* res
       summary_(*summary) {}
 
 void Piece::Run(const std::vector<ScheduleStep>& schedule) {
-  known_.resize(resolutions_.size());
-  for (size_t level = 0; level < known_.size(); ++level) {
-    known_[level].shapes = {resolutions_[level].Pose(index_), resolutions_[level].Pose(index_ + 1)};
-    if (level > 0) known_[level].base = known_[level - 1].shapes;
+  std::vector<Known> ends(resolutions_.size());
+  for (size_t level = 0; level < ends.size(); ++level) {
+    ends[level].shapes = {resolutions_[level].Pose(index_), resolutions_[level].Pose(index_ + 1)};
+    if (level > 0) ends[level].base = ends[level - 1].shapes;
   }
+  // How far it takes milliseconds to tell starts apart.
   size_t trial = 1;
   while (trial < schedule.size() && schedule[trial].shapes == 1 &&
          resolutions_[schedule[trial].level].GetMetric().connectivity->NumVertices() <=
              kTrialVertices) {
     ++trial;
   }
-  std::vector<Start> starts = {options_.start};
-  if (options_.start == Start::kBest) starts = {Start::kBlend, Start::kFirst, Start::kLast};
   const Resolution& judge = resolutions_[schedule[trial - 1].level];
   const double bound = ScaledEnergy(
       EnergyLowerBound(judge.GetMetric(), judge.Pose(index_), judge.Pose(index_ + 1), 2), 2);
-  const std::vector<Known> ends = known_;
-  std::vector<Known> best;
-  double best_energy = 0;
-  size_t best_begin = 0, best_end = 0;  // rows of the summary
-  const auto reject = [&](size_t begin, size_t end) {
-    for (size_t row = begin; row < end; ++row) summary_.levels[row].kept = false;
-  };
+
+  std::vector<Start> starts = {options_.start};
+  if (options_.start == Start::kBest) starts = {Start::kBlend, Start::kFirst, Start::kLast};
+  Attempt best;
   for (Start start : starts) {
-    known_ = ends;
-    const size_t begin = summary_.levels.size();
-    for (size_t i = 0; i < trial; ++i) Take(schedule[i], start);
-    const double energy = summary_.levels.back().energy;
-    if (best.empty() || energy < best_energy) {
-      reject(best_begin, best_end);
-      best = std::move(known_);
-      best_energy = energy;
-      best_begin = begin;
-      best_end = summary_.levels.size();
-    } else {
-      reject(begin, summary_.levels.size());
+    Keep(Take(schedule, 0, trial, {start, ends}), &best);
+    if (best.energy <= kCertified * bound) break;
+  }
+  best = Take(schedule, trial, schedule.size(), std::move(best));
+  const Start first = best.start;
+  for (Start start : starts) {
+    if (start != first && Snaps(best)) {
+      Keep(Take(schedule, 0, schedule.size(), {start, ends}), &best);
     }
-    if (best_energy <= kCertified * bound) break;
   }
-  known_ = std::move(best);
-  for (size_t i = trial; i < schedule.size(); ++i) {
-    Take(schedule[i], options_.start);
-  }
+  known_ = std::move(best.known);
 }
 
-void Piece::Take(const ScheduleStep& step, Start start) {
+bool Piece::Snaps(const Attempt& attempt) const {
+  const std::vector<Shape>& shapes = attempt.known.back().shapes;
+  return GreatestSpeed(resolutions_.back().GetMetric(), shapes,
+                       UniformTimes(static_cast<int>(shapes.size()) - 2)) > kSnaps;
+}
+
+void Piece::Keep(Attempt attempt, Attempt* best) {
+  const bool better = best->known.empty() || attempt.energy < best->energy;
+  for (size_t row : (better ? *best : attempt).rows) summary_.levels[row].kept = false;
+  if (better) *best = std::move(attempt);
+}
+
+Piece::Attempt Piece::Take(const std::vector<ScheduleStep>& schedule, size_t begin, size_t end,
+                           Attempt attempt) {
+  known_ = std::move(attempt.known);
+  for (size_t i = begin; i < end; ++i) {
+    const size_t row = summary_.levels.size();
+    Take(schedule[i], attempt.start, i + 1 == schedule.size());
+    for (size_t k = row; k < summary_.levels.size(); ++k) attempt.rows.push_back(k);
+  }
+  attempt.energy = summary_.levels.back().energy;
+  attempt.known = std::move(known_);
+  return attempt;
+}
+
+void Piece::Take(const ScheduleStep& step, Start start, bool last) {
   Known& known = known_[step.level];
   const Known* const coarser = step.level > 0 ? &known_[step.level - 1] : nullptr;
   const int before = static_cast<int>(known.shapes.size()) - 2;
@@ -127,8 +150,8 @@ void Piece::Take(const ScheduleStep& step, Start start) {
   }
   known.refined = std::move(refined);
 
-  GeodesicSummary::Level row =
-      resolution.Relax(index_, options_.tolerance, 0, options_, progress_, &shapes);
+  GeodesicSummary::Level row = resolution.Relax(index_, options_.tolerance, last ? 0 : kEnough,
+                                                options_, progress_, &shapes);
   row.start = name;
   summary_.levels.push_back(row);
   known.shapes = std::move(shapes);

@@ -33,7 +33,20 @@ class Piece {
     std::vector<Shape> refined;
   };
 
-  void Take(const ScheduleStep& step, Start start);
+  // All levels after some steps of the schedule, from one start.
+  struct Attempt {
+    Start start = Start::kBlend;
+    std::vector<Known> known = {};
+    double energy = 0;              // scaled, of the last step
+    std::vector<size_t> rows = {};  // of the summary's table
+  };
+
+  // Keeps the one of lower energy, and marks the other's rows as not kept.
+  void Keep(Attempt attempt, Attempt* best);
+  bool Snaps(const Attempt& attempt) const;
+  Attempt Take(const std::vector<ScheduleStep>& schedule, size_t begin, size_t end,
+               Attempt attempt);
+  void Take(const ScheduleStep& step, Start start, bool last);
   std::vector<Shape> OneInnerShape(Start start, int level);
   // The coarser level's shapes with the detail that this level's shapes had, at the times around
   // each, on the coarser level's then: right also where parts turn far between those times.

@@ -9,6 +9,24 @@
 namespace shapespace::internal {
 namespace {
 
+// Rows that one task of a thread takes.
+constexpr int kRowsPerTask = 512;
+
+// Numbers in `count` columns' rows, padded as the kernels of a factor like them.
+template <typename Scalar>
+int PaddedWidth(int count) {
+  constexpr int kColumns = CholeskyFactor<Scalar>::kColumns;
+  return (count + kColumns - 1) / kColumns * kColumns;
+}
+
+template <typename Body>
+void ForRows(int num_rows, const Body& body) {
+  ParallelFor((num_rows + kRowsPerTask - 1) / kRowsPerTask, [&](int task) {
+    const int end = std::min(num_rows, (task + 1) * kRowsPerTask);
+    for (int i = task * kRowsPerTask; i < end; ++i) body(i);
+  });
+}
+
 // Without a position term translations cost nothing; this share of it keeps the matrix definite.
 constexpr double kLeastLambda = 1e-6;
 
@@ -74,8 +92,7 @@ ChangeOfVariables::ChangeOfVariables(const Cholesky& factor, const PathEnergy& e
       inner_(energy.Inner()),
       stride_(energy.Stride()),
       size_(3 * factor.Size() * energy.Inner()),
-      width_((3 * energy.Inner() + Cholesky::kColumns - 1) / Cholesky::kColumns *
-             Cholesky::kColumns),
+      width_(PaddedWidth<double>(3 * energy.Inner())),
       work_(static_cast<size_t>(factor.Size()) * width_) {
   for (int vertex : factor.Permutation()) row_.push_back(energy.Row(vertex));
   // Cholesky factor of the second difference (2 on the diagonal, -1 beside it).
@@ -87,26 +104,16 @@ ChangeOfVariables::ChangeOfVariables(const Cholesky& factor, const PathEnergy& e
   }
 }
 
-template <typename Body>
-void ChangeOfVariables::ForRows(const Body& body) const {
-  constexpr int kRowsPerTask = 512;
-  const int num_rows = factor_.Size();
-  ParallelFor((num_rows + kRowsPerTask - 1) / kRowsPerTask, [&](int task) {
-    const int end = std::min(num_rows, (task + 1) * kRowsPerTask);
-    for (int i = task * kRowsPerTask; i < end; ++i) body(i);
-  });
-}
-
 void ChangeOfVariables::Apply(const double* y, const double* origin, double scale,
                               double* unknowns) {
   const int count = 3 * inner_;
-  ForRows([&](int i) {
+  ForRows(factor_.Size(), [&](int i) {
     double* const z = &work_[static_cast<size_t>(i) * width_];
     std::copy_n(y + static_cast<size_t>(i) * count, count, z);
     std::fill(z + count, z + width_, 0.0);
   });
   factor_.SolveUpper(work_.data(), width_);
-  ForRows([&](int i) {
+  ForRows(factor_.Size(), [&](int i) {
     for (int axis = 0; axis < 3; ++axis) {
       const double* const z = &work_[static_cast<size_t>(i) * width_ + axis * inner_];
       const size_t offset = (3 * static_cast<size_t>(row_[i]) + axis) * stride_;
@@ -122,7 +129,7 @@ void ChangeOfVariables::Apply(const double* y, const double* origin, double scal
 
 void ChangeOfVariables::ApplyTranspose(const double* gradient, double scale, double* y) {
   const int count = 3 * inner_;
-  ForRows([&](int i) {
+  ForRows(factor_.Size(), [&](int i) {
     for (int axis = 0; axis < 3; ++axis) {
       double* const z = &work_[static_cast<size_t>(i) * width_ + axis * inner_];
       const double* const g = gradient + (3 * static_cast<size_t>(row_[i]) + axis) * stride_;
@@ -136,8 +143,54 @@ void ChangeOfVariables::ApplyTranspose(const double* gradient, double scale, dou
     std::fill(row + count, row + width_, 0.0);
   });
   factor_.SolveLower(work_.data(), width_);
-  ForRows([&](int i) {
+  ForRows(factor_.Size(), [&](int i) {
     std::copy_n(&work_[static_cast<size_t>(i) * width_], count, y + static_cast<size_t>(i) * count);
+  });
+}
+
+Preconditioner::Preconditioner(const CholeskyFactor<float>& factor, const PathEnergy& energy)
+    : factor_(factor),
+      inner_(energy.Inner()),
+      stride_(energy.Stride()),
+      width_(PaddedWidth<float>(3 * energy.Inner())),
+      work_(static_cast<size_t>(factor.Size()) * width_) {
+  for (int vertex : factor.Permutation()) row_.push_back(energy.Row(vertex));
+  // Pivots of the second difference (2 on the diagonal, -1 beside it): (t + 2) / (t + 1).
+  for (int t = 0; t < inner_; ++t) diagonal_.push_back((t + 1.0) / (t + 2.0));
+}
+
+void Preconditioner::Apply(const double* gradient, double unit, double* result) {
+  const double scale = 1 / unit;
+  // Both factors of T at once, since those of S act on other indices.
+  ForRows(factor_.Size(), [&](int i) {
+    const double* const g = gradient + 3 * static_cast<size_t>(row_[i]) * stride_;
+    float* const z = &work_[static_cast<size_t>(i) * width_];
+    double forward[3] = {0, 0, 0};
+    for (int t = 0; t < inner_; ++t) {
+      for (int axis = 0; axis < 3; ++axis) {
+        forward[axis] = (scale * g[axis * stride_ + t] + forward[axis]) * diagonal_[t];
+        z[axis * inner_ + t] = static_cast<float>(forward[axis]);
+      }
+    }
+    double later[3] = {0, 0, 0};
+    for (int t = inner_ - 1; t >= 0; --t) {
+      for (int axis = 0; axis < 3; ++axis) {
+        later[axis] = z[axis * inner_ + t] + later[axis] * diagonal_[t];
+        z[axis * inner_ + t] = static_cast<float>(later[axis]);
+      }
+    }
+    std::fill(z + 3 * inner_, z + width_, 0.0f);
+  });
+  factor_.SolveLower(work_.data(), width_);
+  factor_.SolveUpper(work_.data(), width_);
+  ForRows(factor_.Size(), [&](int i) {
+    const float* const z = &work_[static_cast<size_t>(i) * width_];
+    double* const out = result + 3 * static_cast<size_t>(row_[i]) * stride_;
+    for (int axis = 0; axis < 3; ++axis) {
+      double* const row = out + axis * stride_;
+      for (int t = 0; t < inner_; ++t) row[t] = unit * z[axis * inner_ + t];
+      std::fill(row + inner_, row + stride_, 0.0);
+    }
   });
 }
 

@@ -36,15 +36,34 @@ class ChangeOfVariables {
   void ApplyTranspose(const double* gradient, double scale, double* y);
 
  private:
-  template <typename Body>
-  void ForRows(const Body& body) const;
-
   const Cholesky& factor_;
   int inner_, stride_, size_;
   int width_;                             // 3 inner_, padded as the factor's kernels like it
   std::vector<int> row_;                  // of PathEnergy, for each row of the factor
   std::vector<double> diagonal_, below_;  // of C_T: reciprocals of the diagonal, subdiagonal
   std::vector<double> work_;
+};
+
+/// What makes a gradient a step: the inverse of S x T, with S, T as in ChangeOfVariables, on the
+/// path energy's own rows. An optimiser that takes it needs no change of variables, and applies it
+/// once a step instead of twice an evaluation. Single precision is enough to choose a direction.
+class Preconditioner {
+ public:
+  /// `factor` is of the scalar metric, by vertex; both are kept by reference.
+  Preconditioner(const CholeskyFactor<float>& factor, const PathEnergy& energy);
+
+  /// result = (S x T)^{-1} gradient; arrays of PathEnergy::Size(), which may be the same, the
+  /// result's padding zero. `unit` is about the size of an energy's root: it keeps the numbers
+  /// between within the range of a float.
+  void Apply(const double* gradient, double unit, double* result);
+
+ private:
+  const CholeskyFactor<float>& factor_;
+  int inner_, stride_;
+  int width_;                     // 3 inner_, padded as the factor's kernels like it
+  std::vector<int> row_;          // of PathEnergy, for each row of the factor
+  std::vector<double> diagonal_;  // reciprocals of the pivots of T
+  std::vector<float> work_;
 };
 
 }  // namespace shapespace::internal

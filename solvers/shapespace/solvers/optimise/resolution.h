@@ -37,16 +37,22 @@ class Resolution {
   double Energy(const std::vector<Shape>& shapes, const GeodesicOptions& options);
 
   double FactorSeconds() const { return factor_seconds_; }
-  size_t FactorNonzeros() const { return factor_ ? factor_->NumNonzeros() : 0; }
+  size_t FactorNonzeros() const {
+    return factor_ ? factor_->NumNonzeros() : single_factor_ ? single_factor_->NumNonzeros() : 0;
+  }
 
  private:
-  const Cholesky& Factor(int piece, int inner);
+  template <typename Scalar>
+  const CholeskyFactor<Scalar>& Factor(std::optional<CholeskyFactor<Scalar>>* factor, int piece,
+                                       int inner);
   PathEnergy& EnergyOf(int inner, const GeodesicOptions& options);
 
   std::shared_ptr<const Metric> metric_;
   std::vector<Shape> poses_;
   std::optional<PathEnergy> energy_;  // of the number of inner shapes used last
-  std::optional<Cholesky> factor_;
+  // Of the scalar metric, in the precision that the optimiser takes.
+  std::optional<CholeskyFactor<double>> factor_;
+  std::optional<CholeskyFactor<float>> single_factor_;
   std::pair<int, int> factor_key_ = {-1, -1};
   double factor_seconds_ = 0;
 };

@@ -31,7 +31,7 @@ std::vector<ScheduleStep> MakeSchedule(Schedule schedule, int levels, int shapes
   }
   const int coarsest = schedule == Schedule::kFlat ? finest : 0;
   for (size_t time = 0; time < times.size(); ++time) {
-    const bool all_levels = time == 0 || schedule == Schedule::kAutomatic;
+    const bool all_levels = time == 0 || (time == 1 && schedule == Schedule::kAutomatic);
     for (int level = all_levels ? coarsest : finest; level <= finest; ++level) {
       steps.push_back({level, times[time]});
     }

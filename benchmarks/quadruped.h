@@ -1,0 +1,21 @@
+#ifndef SHAPESPACE_BENCHMARKS_QUADRUPED_H_
+#define SHAPESPACE_BENCHMARKS_QUADRUPED_H_
+
+#include <map>
+
+#include <shapespace/bodies/quadruped.h>
+
+namespace shapespace {
+
+/// MakeQuadruped, once for each number of triangles: google-benchmark calls a function several
+/// times, and a body may take longer to make than what is measured.
+inline const SkinnedBody& Quadruped(int triangles) {
+  static std::map<int, SkinnedBody> bodies;
+  const auto found = bodies.find(triangles);
+  if (found != bodies.end()) return found->second;
+  return bodies.emplace(triangles, MakeQuadruped(triangles)).first->second;
+}
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_BENCHMARKS_QUADRUPED_H_

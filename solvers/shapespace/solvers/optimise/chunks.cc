@@ -1,0 +1,34 @@
+#include <shapespace/solvers/optimise/chunks.h>
+
+#include <shapespace/base/clones.h>
+
+namespace shapespace::internal {
+
+SHAPESPACE_CLONES
+double Dot(const double* a, const double* b, size_t count) {
+  // Four registers of eight sums each, so that the compiler has nothing to reorder.
+  constexpr size_t kLanes = 32;
+  double sums[kLanes] = {};
+  size_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    for (size_t k = 0; k < kLanes; ++k) sums[k] += a[i + k] * b[i + k];
+  }
+  for (; i < count; ++i) sums[i % kLanes] += a[i] * b[i];
+  double sum = 0;
+  for (double s : sums) sum += s;
+  return sum;
+}
+
+SHAPESPACE_CLONES
+void Add(double factor, const double* from, double* to, size_t count) {
+#pragma GCC ivdep
+  for (size_t i = 0; i < count; ++i) to[i] += factor * from[i];
+}
+
+SHAPESPACE_CLONES
+void Combine(const double* a, double factor, const double* b, double* result, size_t count) {
+#pragma GCC ivdep
+  for (size_t i = 0; i < count; ++i) result[i] = a[i] + factor * b[i];
+}
+
+}  // namespace shapespace::internal

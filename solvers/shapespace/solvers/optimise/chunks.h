@@ -1,0 +1,45 @@
+#ifndef SHAPESPACE_SOLVERS_OPTIMISE_CHUNKS_H_
+#define SHAPESPACE_SOLVERS_OPTIMISE_CHUNKS_H_
+
+#include <algorithm>
+#include <vector>
+
+#include <shapespace/base/parallel.h>
+
+namespace shapespace::internal {
+
+// Work on long vectors, piece by piece: several vectors are read at once while a piece of them is
+// in the nearest cache, on all threads, with sums that do not depend on how many there are.
+
+/// Numbers in a piece: three of them fit into the nearest cache.
+inline constexpr size_t kChunkSize = 2048;
+
+/// Calls body(begin, count, sums) for every piece of [0, size), `sums` being `num_sums` zeros of
+/// its own to add to. \return those of all pieces, added in their order.
+template <typename Body>
+std::vector<double> ForChunks(size_t size, int num_sums, const Body& body) {
+  const int chunks = static_cast<int>((size + kChunkSize - 1) / kChunkSize);
+  std::vector<double> partial(static_cast<size_t>(chunks) * num_sums, 0.0);
+  ParallelFor(chunks, [&](int chunk) {
+    const size_t begin = chunk * kChunkSize;
+    body(begin, std::min(kChunkSize, size - begin),
+         partial.data() + static_cast<size_t>(chunk) * num_sums);
+  });
+  std::vector<double> sums(num_sums, 0.0);
+  for (int chunk = 0; chunk < chunks; ++chunk) {
+    for (int i = 0; i < num_sums; ++i)
+      sums[i] += partial[static_cast<size_t>(chunk) * num_sums + i];
+  }
+  return sums;
+}
+
+/// a . b
+double Dot(const double* a, const double* b, size_t count);
+/// to += factor * from
+void Add(double factor, const double* from, double* to, size_t count);
+/// result = a + factor * b, where `result` may be one of the two
+void Combine(const double* a, double factor, const double* b, double* result, size_t count);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_SOLVERS_OPTIMISE_CHUNKS_H_

@@ -1,0 +1,78 @@
+#include <shapespace/solvers/optimise/line_search.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace shapespace::internal {
+namespace {
+
+// The usual constants of quasi-Newton methods: nearly any decrease will do, and the slope need only
+// be a little flatter than at the start.
+constexpr double kDecrease = 1e-4, kFlatness = 0.9;
+// Relative differences of sums of millions of terms that mean nothing.
+constexpr double kRounding = 1e-14;
+constexpr int kMaxTrials = 20;
+// A new trial keeps this share of the bracket away from its ends; without a bracket it goes at most
+// kFurthest times as far, and where nothing is finite to this share of the way.
+constexpr double kMargin = 0.1, kFurthest = 10, kRetreat = 0.3;
+
+// The minimum of the cubic through both values and slopes, kept within the bracket.
+double Between(const LinePoint& low, const LinePoint& high) {
+  const double width = high.step - low.step;
+  double share = kRetreat;
+  if (std::isfinite(high.value) && std::isfinite(high.slope)) {
+    const double sum = low.slope + high.slope - 3 * (high.value - low.value) / width;
+    const double square = sum * sum - low.slope * high.slope;
+    if (square >= 0) {
+      const double root = std::sqrt(square);
+      share = 1 - (high.slope + root - sum) / (high.slope - low.slope + 2 * root);
+    } else {
+      share = 0.5;
+    }
+    if (!std::isfinite(share)) share = 0.5;
+  }
+  return low.step + width * std::clamp(share, kMargin, 1 - kMargin);
+}
+
+// Where the slope would vanish if it went on as from `before` to `low`.
+double Beyond(const LinePoint& before, const LinePoint& low) {
+  const double flatter = low.slope - before.slope;
+  const double further =
+      flatter > 0 ? -low.slope / flatter * (low.step - before.step) : kFurthest * low.step;
+  return low.step + std::clamp(further, low.step, (kFurthest - 1) * low.step);
+}
+
+}  // namespace
+
+LinePoint SearchLine(const LinePoint& start,
+                     const std::function<LinePoint(double step)>& evaluate) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  LinePoint low = start, high = {kInfinity, kInfinity, kInfinity};
+  double step = 1;
+  for (int trial = 0; trial < kMaxTrials; ++trial) {
+    const LinePoint point = evaluate(step);
+    const bool decreases = point.value <= start.value + kDecrease * step * start.slope;
+    const bool equal = std::abs(point.value - start.value) <= kRounding * std::abs(start.value) &&
+                       point.slope <= (2 * kDecrease - 1) * start.slope;
+    if ((decreases || equal) && std::isfinite(point.slope)) {
+      if (std::abs(point.slope) <= -kFlatness * start.slope) return point;
+      if (point.slope > 0) {
+        high = point;
+        step = Between(low, high);
+      } else {
+        const LinePoint before = low;
+        low = point;
+        step = high.step < kInfinity ? Between(low, high) : Beyond(before, low);
+      }
+    } else {
+      high = point;
+      step = Between(low, high);
+    }
+  }
+  if (low.step > 0) return evaluate(low.step);
+  if (high.value < start.value) return evaluate(high.step);
+  return start;
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <shapespace/base/error.h>
+#include <shapespace/solvers/optimise/chunks.h>
+#include <shapespace/solvers/optimise/line_search.h>
+#include <shapespace/solvers/optimise/minimise.h>
+
+namespace shapespace::internal {
+namespace {
+
+// A pair of step and change of gradient enters the history where the slope along the step rises by
+// at least this share of what it was.
+constexpr double kLeastCurvature = 1e-3;
+
+// Where nothing is left to gain but this share of the tolerance, a start is a minimum, and a line
+// search that finds no descent has converged to rounding.
+constexpr double kNothingLeft = 1e-3;
+
+// The algorithm in its usual form walks through the history twice, forth and back, every dot
+// product waiting for the one before. Here the vectors' products with each other are kept, so that
+// all sums of a walk are one pass over memory, and all dot products of it another.
+class ThreadedLbfgs {
+ public:
+  ThreadedLbfgs(PathEnergy* energy, Preconditioner* preconditioner, const MinimiseOptions& options,
+                std::vector<double>* unknowns)
+      : energy_(*energy),
+        preconditioner_(*preconditioner),
+        options_(options),
+        x_(*unknowns),
+        size_(unknowns->size()),
+        work_(size_),
+        gradient_(size_),
+        trial_gradient_(size_) {}
+
+  MinimiseResult Run() {
+    value_ = Evaluate(x_, &gradient_);
+    if (!std::isfinite(value_)) {
+      throw SolverError("the energy of the path to start from is not finite");
+    }
+    result_.initial_energy = value_;
+    unit_ = std::sqrt(value_);
+    result_.stop = value_ == 0 ? Stop::kConverged : Iterate();
+    result_.energy = value_;
+    if (value_ > 0) result_.remaining = SteepestDecrease() / value_;
+    if (result_.stop == Stop::kStalled && result_.remaining < kNothingLeft * options_.tolerance) {
+      result_.stop = Stop::kConverged;
+    }
+    return result_;
+  }
+
+ private:
+  struct Pair {
+    std::vector<double> direction, change;  // of the unknowns, without its length; of the gradient
+    double length = 0;                      // the step is `length` times `direction`
+    double curvature = 0;                   // step . change
+    double step_gradient = 0;               // step . gradient at the current point
+    std::vector<double> step_change;        // step . change of this pair and of each later one
+  };
+
+  double Evaluate(const std::vector<double>& unknowns, std::vector<double>* gradient) {
+    ++result_.evaluations;
+    return energy_.Evaluate(unknowns.data(), gradient->data());
+  }
+
+  // Half the product of the gradient and the preconditioned gradient.
+  double SteepestDecrease() {
+    preconditioner_.Apply(gradient_.data(), unit_, work_.data());
+    return 0.5 * ForChunks(size_, 1, [&](size_t begin, size_t count, double* sums) {
+             sums[0] += Dot(&gradient_[begin], &work_[begin], count);
+           })[0];
+  }
+
+  Stop Iterate() {
+    // One short step of the line search says little; two small decreases in a row end the solve.
+    int small = 0;
+    for (;; ++result_.iterations) {
+      if (options_.keep_going && !options_.keep_going(result_.iterations)) throw Cancelled();
+      if (small >= 2) return Stop::kConverged;
+      if (result_.iterations >= options_.max_iterations) return Stop::kMaxIterations;
+      const double before = value_;
+      double slope = FindDirection();
+      const double promise = -0.5 * slope;  // what the quasi-Newton model says a step will gain
+      // A direction that leads upwards, by rounding, promises nothing and proves nothing.
+      if (promise >= 0 &&
+          promise <= std::max(kNothingLeft * options_.tolerance * value_,
+                              options_.enough * (result_.initial_energy - value_))) {
+        return Stop::kConverged;
+      }
+      if (!Search(slope)) {
+        if (fresh_) return Stop::kStalled;
+        history_.clear();
+        slope = FindDirection();
+        if (!Search(slope)) return Stop::kStalled;
+      }
+      small = before - value_ < options_.tolerance * value_ ? small + 1 : 0;
+    }
+  }
+
+  // Appends a pair whose direction is minus the quasi-Newton approximation times the gradient, and
+  // leaves in `work_` where a whole step leads. Returns the slope.
+  double FindDirection() {
+    const int pairs = static_cast<int>(history_.size());
+    fresh_ = pairs == 0;
+    std::vector<double> first(pairs), products, second(pairs);
+    for (int i = pairs - 1; i >= 0; --i) {
+      const Pair& pair = history_[i];
+      double sum = pair.step_gradient;
+      for (int j = i + 1; j < pairs; ++j) sum -= first[j] * pair.step_change[j - i];
+      first[i] = sum / pair.curvature;
+    }
+    ForChunks(size_, 0, [&](size_t begin, size_t count, double*) {
+      double* const q = &work_[begin];
+      std::copy_n(&gradient_[begin], count, q);
+      for (int i = 0; i < pairs; ++i) Add(-first[i], &history_[i].change[begin], q, count);
+    });
+    preconditioner_.Apply(work_.data(), unit_, work_.data());
+    products = ForChunks(size_, pairs, [&](size_t begin, size_t count, double* sums) {
+      for (int i = 0; i < pairs; ++i) {
+        sums[i] += Dot(&history_[i].change[begin], &work_[begin], count);
+      }
+    });
+    for (int i = 0; i < pairs; ++i) {
+      double sum = products[i];
+      for (int j = 0; j < i; ++j) sum += second[j] * history_[j].step_change[i - j];
+      second[i] = first[i] - sum / history_[i].curvature;
+    }
+    Pair next;
+    const bool full = pairs == options_.rank;
+    if (full) {
+      next.direction.swap(history_.front().direction);
+    } else {
+      next.direction.resize(size_);
+    }
+    const double slope = ForChunks(size_, 1, [&](size_t begin, size_t count, double* sums) {
+      double* const z = &work_[begin];
+      for (int i = 0; i < pairs; ++i) {
+        const std::vector<double>& direction =
+            i == 0 && full ? next.direction : history_[i].direction;
+        Add(second[i] * history_[i].length, &direction[begin], z, count);
+      }
+      double* const d = &next.direction[begin];
+      for (size_t k = 0; k < count; ++k) d[k] = -z[k];
+      sums[0] += Dot(d, &gradient_[begin], count);
+      Combine(&x_[begin], 1, d, z, count);
+    })[0];
+    if (full) {
+      next.change.swap(history_.front().change);
+      history_.erase(history_.begin());
+    } else {
+      next.change.resize(size_);
+    }
+    history_.push_back(std::move(next));
+    return slope;
+  }
+
+  // Goes along the last pair's direction and completes the pair, or drops it. False if no lower
+  // point was found.
+  bool Search(double slope) {
+    Pair& last = history_.back();
+    const std::vector<double>& direction = last.direction;
+    bool whole = true;  // `work_` is where a whole step leads
+    const LinePoint start = {0, value_, slope};
+    const LinePoint end = !(slope < 0) ? start : SearchLine(start, [&](double step) {
+      if (!whole || step != 1) {
+        ForChunks(size_, 0, [&](size_t begin, size_t count, double*) {
+          Combine(&x_[begin], step, &direction[begin], &work_[begin], count);
+        });
+        whole = step == 1;
+      }
+      const double value = Evaluate(work_, &trial_gradient_);
+      const double trial_slope = ForChunks(size_, 1, [&](size_t begin, size_t count, double* sums) {
+        sums[0] += Dot(&direction[begin], &trial_gradient_[begin], count);
+      })[0];
+      return LinePoint{step, value, trial_slope};
+    });
+    if (end.step == 0) {
+      history_.pop_back();
+      return false;
+    }
+    x_.swap(work_);
+    value_ = end.value;
+    const int pairs = static_cast<int>(history_.size());
+    last.length = end.step;
+    last.curvature = end.step * (end.slope - slope);
+    // The change takes the place of the old gradient, which is then handed to the pair.
+    const std::vector<double> products =
+        ForChunks(size_, pairs, [&](size_t begin, size_t count, double* sums) {
+          Combine(&trial_gradient_[begin], -1, &gradient_[begin], &gradient_[begin], count);
+          for (int i = 0; i + 1 < pairs; ++i) {
+            sums[i] += Dot(&history_[i].direction[begin], &trial_gradient_[begin], count);
+          }
+        });
+    last.change.swap(gradient_);
+    gradient_.swap(trial_gradient_);
+    for (int i = 0; i + 1 < pairs; ++i) {
+      Pair& pair = history_[i];
+      const double product = pair.length * products[i];
+      pair.step_change.push_back(product - pair.step_gradient);
+      pair.step_gradient = product;
+    }
+    last.step_gradient = end.step * end.slope;
+    last.step_change = {last.curvature};
+    if (end.slope - slope < -kLeastCurvature * slope) {
+      history_.pop_back();
+      for (Pair& pair : history_) pair.step_change.pop_back();
+    }
+    return true;
+  }
+
+  PathEnergy& energy_;
+  Preconditioner& preconditioner_;
+  const MinimiseOptions& options_;
+  std::vector<double>& x_;
+  const size_t size_;
+  std::vector<double> work_, gradient_, trial_gradient_;
+  double value_ = 0, unit_ = 1;
+  bool fresh_ = true;
+  std::vector<Pair> history_;  // oldest first
+  MinimiseResult result_;
+};
+
+}  // namespace
+
+double RemainingDecrease(PathEnergy* energy, Preconditioner* preconditioner,
+                         const std::vector<double>& unknowns) {
+  std::vector<double> gradient(unknowns.size()), step(unknowns.size());
+  const double value = energy->Evaluate(unknowns.data(), gradient.data());
+  if (value == 0) return 0;
+  preconditioner->Apply(gradient.data(), std::sqrt(value), step.data());
+  return 0.5 * Dot(gradient.data(), step.data(), step.size()) / value;
+}
+
+MinimiseResult MinimiseThreadedLbfgs(PathEnergy* energy, Preconditioner* preconditioner,
+                                     const MinimiseOptions& options,
+                                     std::vector<double>* unknowns) {
+  return ThreadedLbfgs(energy, preconditioner, options, unknowns).Run();
+}
+
+}  // namespace shapespace::internal

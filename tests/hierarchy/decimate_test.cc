@@ -1,0 +1,301 @@
+#include <shapespace/hierarchy/decimate.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/topology.h>
+
+#include "bodies/measure.h"
+#include "hierarchy/meshes.h"
+#include "support/message_of.h"
+
+namespace shapespace {
+namespace {
+
+using testing::After;
+using testing::PosedMesh;
+using testing::TrianglesOf;
+
+std::vector<Collapse> ToTheEnd(const PosedMesh& mesh, const std::vector<int>& pinned = {}) {
+  return PlanCollapses(*mesh.connectivity, mesh.poses, 0, pinned);
+}
+
+void ExpectSameTopology(const Connectivity& first, const Connectivity& second) {
+  const Topology a = ComputeTopology(first), b = ComputeTopology(second);
+  EXPECT_EQ(a.components, b.components);
+  EXPECT_EQ(a.manifold, b.manifold);
+  EXPECT_EQ(a.boundary_loops.size(), b.boundary_loops.size());
+  EXPECT_EQ(a.genus, b.genus);
+}
+
+void ExpectSameCollapses(const std::vector<Collapse>& first, const std::vector<Collapse>& second) {
+  ASSERT_EQ(first.size(), second.size());
+  for (size_t i = 0; i < first.size(); ++i) {
+    ASSERT_EQ(first[i].from, second[i].from) << i;
+    ASSERT_EQ(first[i].to, second[i].to) << i;
+  }
+}
+
+class PlanCollapsesOfSurfaces : public ::testing::TestWithParam<PosedMesh> {};
+
+TEST_P(PlanCollapsesOfSurfaces, KeepTheTopology) {
+  const PosedMesh& mesh = GetParam();
+  const std::vector<Collapse> collapses = ToTheEnd(mesh);
+  ASSERT_LT(collapses.back().triangles, mesh.connectivity->NumTriangles() / 5);
+  for (int part = 1; part <= 8; ++part) {
+    SCOPED_TRACE(part);
+    const std::vector<Collapse> first(collapses.begin(),
+                                      collapses.begin() + part * collapses.size() / 8);
+    const std::shared_ptr<const Connectivity> left = After(*mesh.connectivity, first);
+    EXPECT_EQ(left->NumTriangles(), first.back().triangles);
+    ExpectSameTopology(*mesh.connectivity, *left);
+  }
+}
+
+// All triangles of a mesh that is regular in every pose; 6.6 degrees is the smallest angle at the
+// quality that the decimater accepts.
+TEST_P(PlanCollapsesOfSurfaces, MakeNoSliverInAnyPose) {
+  const PosedMesh& mesh = GetParam();
+  const std::shared_ptr<const Connectivity> left = After(*mesh.connectivity, ToTheEnd(mesh));
+  for (const Shape& pose : mesh.poses) {
+    ASSERT_GT(SmallestAngle(*mesh.connectivity, pose), 6.5);
+    EXPECT_GT(SmallestAngle(*left, pose), 6.5);
+  }
+}
+
+TEST_P(PlanCollapsesOfSurfaces, TurnNoTriangleFarInAnyPose) {
+  const PosedMesh& mesh = GetParam();
+  Eigen::Matrix3Xi triangles = mesh.connectivity->Triangles();
+  for (const Collapse& collapse : ToTheEnd(mesh)) {
+    for (auto t : triangles.colwise()) {
+      if ((t.array() != collapse.from).all()) continue;
+      const Eigen::Vector3i before = t;
+      t = (t.array() == collapse.from).select(collapse.to, t);
+      if (t(0) == t(1) || t(1) == t(2) || t(2) == t(0)) {
+        t.setConstant(collapse.to);
+        continue;
+      }
+      for (const Shape& pose : mesh.poses) {
+        const auto normal = [&](const Eigen::Vector3i& f) {
+          const Eigen::Vector3d u = pose.col(f(1)) - pose.col(f(0));
+          const Eigen::Vector3d v = pose.col(f(2)) - pose.col(f(0));
+          return u.cross(v).normalized();
+        };
+        ASSERT_GT(normal(before).dot(normal(t)), 0.49);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, PlanCollapsesOfSurfaces, ::testing::ValuesIn(testing::Surfaces()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(PlanCollapses, DependsNeitherOnUnitNorOnPlace) {
+  PosedMesh mesh = testing::Animal(2000, {"stand", "sit"});
+  for (int p = 0; p < 2; ++p) {
+    // Without symmetry, and so without equal costs that rounding would order.
+    mesh.poses[p] += testing::Noise(mesh.connectivity->NumVertices(), 1e-3, p);
+  }
+  const std::vector<Collapse> collapses = ToTheEnd(mesh);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  for (double scale : {1e-4, 1.0, 1e4}) {
+    SCOPED_TRACE(scale);
+    PosedMesh moved = mesh;
+    moved.poses[0] = scale * ((turn * mesh.poses[0]).colwise() + Eigen::Vector3d(4, -5, 6));
+    moved.poses[1] *= 3 * scale;
+    ExpectSameCollapses(collapses, ToTheEnd(moved));
+  }
+}
+
+TEST(PlanCollapses, GoesOnWhereAShorterPlanEnds) {
+  const PosedMesh mesh = testing::BentTube(2000);
+  std::vector<Collapse> whole = ToTheEnd(mesh);
+  const std::vector<Collapse> part = PlanCollapses(*mesh.connectivity, mesh.poses, 700);
+  EXPECT_LE(part.back().triangles, 700);
+  EXPECT_GT(part[part.size() - 2].triangles, 700);
+  whole.resize(part.size());
+  ExpectSameCollapses(part, whole);
+}
+
+// Flat faces need no vertices but their corners, which the quadrics and the boundary planes hold.
+TEST(PlanCollapses, KeepsWhatIsFlat) {
+  const Soup grid = testing::Grid(12, 9);
+  const PosedMesh flat = {"grid", testing::ConnectivityOf(grid), {grid.vertices}};
+  const std::vector<Collapse> collapses = PlanCollapses(*flat.connectivity, flat.poses, 12);
+  EXPECT_LE(collapses.back().triangles, 12);
+  EXPECT_NEAR(Area(*After(*flat.connectivity, collapses), grid.vertices), 108, 1e-10);
+
+  const Body bar = MakeBar(3, 2, 1, 18, 12, 6);
+  const Shape box = bar.pose(0);
+  const std::vector<Collapse> plan = PlanCollapses(*bar.connectivity, {box}, 60);
+  EXPECT_LE(plan.back().triangles, 60);
+  EXPECT_NEAR(Volume(*After(*bar.connectivity, plan), box), 6, 1e-10);
+}
+
+TEST(PlanCollapses, KeepsACreaseThatOnlyOnePoseHas) {
+  const Soup grid = testing::Grid(12, 12);
+  Shape creased = grid.vertices;
+  creased.row(2) = (creased.row(0).array() - 6).abs();
+  const auto connectivity = testing::ConnectivityOf(grid);
+  const std::vector<Collapse> plan = PlanCollapses(*connectivity, {grid.vertices, creased}, 40);
+  EXPECT_LE(plan.back().triangles, 40);
+  const auto left = After(*connectivity, plan);
+  EXPECT_NEAR(Area(*left, creased), 144 * std::sqrt(2.0), 1e-9);
+}
+
+TEST(PlanCollapses, KeepsPinnedVertices) {
+  const PosedMesh mesh = testing::BentTube(2000);
+  std::vector<int> pinned;
+  for (int v = 3; v < mesh.connectivity->NumVertices(); v += 17) pinned.push_back(v);
+  const std::vector<Collapse> collapses = ToTheEnd(mesh, pinned);
+  EXPECT_LT(collapses.back().triangles, 500);
+  for (const Collapse& collapse : collapses) EXPECT_NE(collapse.from % 17, 3);
+
+  std::vector<int> all(mesh.connectivity->NumVertices());
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_TRUE(ToTheEnd(mesh, all).empty());
+}
+
+TEST(PlanCollapses, LeavesTheLeastSurfaces) {
+  Shape corners(3, 4);
+  corners << 0, 1, 0, 0,  //
+      0, 0, 1, 0,         //
+      0, 0, 0, 1;
+  const PosedMesh triangle = {"triangle", TrianglesOf(3, {{0, 1, 2}}), {corners.leftCols(3)}};
+  EXPECT_TRUE(ToTheEnd(triangle).empty());
+  const PosedMesh tetrahedron = {
+      "tetrahedron", TrianglesOf(4, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}), {corners}};
+  EXPECT_TRUE(ToTheEnd(tetrahedron).empty());
+  EXPECT_TRUE(ToTheEnd(testing::Pair(tetrahedron, tetrahedron)).empty());
+  const PosedMesh pillow = {"pillow", TrianglesOf(3, {{0, 1, 2}, {0, 2, 1}}), {triangle.poses}};
+  EXPECT_TRUE(ToTheEnd(pillow).empty());
+  // Two triangles side by side are a disc, as one is.
+  const PosedMesh square = {"square", TrianglesOf(4, {{0, 1, 2}, {2, 1, 3}}), {corners}};
+  const std::vector<Collapse> one = ToTheEnd(square);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].triangles, 1);
+}
+
+TEST(PlanCollapses, TakesABallToATetrahedron) {
+  const Body cube = MakeBar(1, 1, 1, 8, 8, 8);
+  Shape ball = cube.pose(0);
+  ball.colwise().normalize();
+  const std::vector<Collapse> collapses = PlanCollapses(*cube.connectivity, {ball}, 0);
+  EXPECT_EQ(collapses.back().triangles, 4);
+}
+
+// Three pages of a book, each a grid, at one spine.
+TEST(PlanCollapses, KeepsTheSpineOfABook) {
+  constexpr int kHigh = 6, kWide = 5;
+  const Soup page = testing::Grid(kWide, kHigh);  // vertices 0 .. kHigh are the spine
+  const int apart = kWide * (kHigh + 1);
+  std::vector<Eigen::Vector3i> triangles;
+  Shape vertices(3, kHigh + 1 + 3 * apart);
+  for (int p = 0; p < 3; ++p) {
+    const auto number = [&](int v) { return v <= kHigh ? v : v + p * apart; };
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(2.0 * p, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    for (int v = 0; v < page.NumVertices(); ++v) {
+      vertices.col(number(v)) = turn * page.vertices.col(v);
+    }
+    for (size_t c = 0; c < page.corners.size(); c += 3) {
+      triangles.emplace_back(number(page.corners[c]), number(page.corners[c + 1]),
+                             number(page.corners[c + 2]));
+    }
+  }
+  const PosedMesh book = {
+      "book", TrianglesOf(static_cast<int>(vertices.cols()), triangles), {vertices}};
+  const std::vector<Collapse> collapses = ToTheEnd(book);
+  for (const Collapse& collapse : collapses) EXPECT_GT(collapse.from, kHigh);
+  const auto left = After(*book.connectivity, collapses);
+  EXPECT_LT(left->NumTriangles(), book.connectivity->NumTriangles() / 2);
+  EXPECT_NEAR(Area(*left, vertices), Area(*book.connectivity, vertices), 1e-10);
+  for (int v = 0; v < kHigh; ++v) {
+    int pages = 0;
+    for (const auto& t : left->Triangles().colwise()) {
+      pages += (t.array() == v).any() && (t.array() == v + 1).any();
+    }
+    EXPECT_EQ(pages, 3) << v;
+  }
+}
+
+// A triangle that hangs between two corners of sheets joins them; one that stands on an edge inside
+// a sheet is a fin. Their free corners could go without a flip, and must not.
+TEST(PlanCollapses, KeepsBridgesAndFins) {
+  const Soup grid = testing::Grid(6, 6);
+  const int n = grid.NumVertices();
+  std::vector<Eigen::Vector3i> triangles;
+  for (size_t c = 0; c < grid.corners.size(); c += 3) {
+    const Eigen::Vector3i t(grid.corners[c], grid.corners[c + 1], grid.corners[c + 2]);
+    triangles.push_back(t);
+    triangles.push_back(t.array() + n);
+  }
+  triangles.emplace_back(n - 1, n, 2 * n);  // far corner of the first, near corner of the second
+  const int middle = 3 * 7 + 3;
+  triangles.emplace_back(middle, middle + 1, 2 * n + 1);
+  Shape vertices(3, 2 * n + 2);
+  vertices << grid.vertices, grid.vertices.colwise() + Eigen::Vector3d(7, 7, 0),
+      Eigen::Vector3d(6.1, 6.9, 0), Eigen::Vector3d(3, 3.5, 1);
+  const PosedMesh mesh = {"sheets", TrianglesOf(2 * n + 2, triangles), {vertices}};
+  const std::vector<Collapse> collapses = ToTheEnd(mesh);
+  EXPECT_LT(collapses.back().triangles, 60);
+  std::set<int> gone;
+  for (const Collapse& collapse : collapses) gone.insert(collapse.from);
+  for (int v : {n - 1, n, 2 * n, middle, middle + 1, 2 * n + 1}) EXPECT_EQ(gone.count(v), 0u) << v;
+  EXPECT_EQ(ComputeTopology(*After(*mesh.connectivity, collapses)).components, 1);
+}
+
+// Time would be cubic in the size of a fan if its vertex, and its neighbours, were tried at every
+// collapse: this would run for days.
+TEST(PlanCollapses, CopesWithVerticesOfManyTriangles) {
+  constexpr int kAround = 30000;
+  std::vector<Eigen::Vector3i> triangles;
+  Shape vertices(3, kAround + 2);
+  for (int i = 0; i < kAround; ++i) {
+    const double angle = 2 * M_PI * i / kAround;
+    vertices.col(i) << std::cos(angle), std::sin(angle), 0;
+    const int next = (i + 1) % kAround;
+    triangles.emplace_back(i, next, kAround);
+    triangles.emplace_back(next, i, kAround + 1);
+  }
+  vertices.col(kAround) << 0, 0, 1;
+  vertices.col(kAround + 1) << 0, 0, -1;
+  const auto connectivity = TrianglesOf(kAround + 2, triangles);
+  const std::vector<Collapse> collapses = PlanCollapses(*connectivity, {vertices}, 40);
+  EXPECT_EQ(collapses.back().triangles, 40);
+  EXPECT_NEAR(Volume(*After(*connectivity, collapses), vertices), 2 * M_PI / 3, 0.2);
+}
+
+TEST(PlanCollapses, TakesAnyTriangles) {
+  for (int seed = 0; seed < 500; ++seed) {
+    SCOPED_TRACE(seed);
+    const PosedMesh mesh = testing::AnyMesh(seed);
+    const std::vector<Collapse> collapses = ToTheEnd(mesh);
+    std::set<int> gone;
+    for (const Collapse& collapse : collapses) {
+      EXPECT_TRUE(gone.insert(collapse.from).second);
+      EXPECT_EQ(gone.count(collapse.to), 0u);
+    }
+    ExpectSameTopology(*After(*mesh.connectivity, {}), *After(*mesh.connectivity, collapses));
+  }
+}
+
+TEST(PlanCollapses, RefusesWhatDoesNotFit) {
+  const PosedMesh mesh = testing::BentTube(100);
+  const Shape more = Shape::Zero(3, mesh.connectivity->NumVertices() + 1);
+  EXPECT_THROW(PlanCollapses(*mesh.connectivity, {mesh.poses[0], more}, 10), MeshError);
+  for (int v : {-1, mesh.connectivity->NumVertices()}) {
+    EXPECT_EQ(testing::MessageOf<InvalidOptions>(
+                  [&] { PlanCollapses(*mesh.connectivity, mesh.poses, 10, {v}); }),
+              "pinned: " + std::to_string(v) + " is no vertex of the mesh");
+  }
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,223 @@
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/bodies/bar.h>
+#include <shapespace/solvers/optimise/line_search.h>
+#include <shapespace/solvers/optimise/minimise.h>
+
+#include "support/paths.h"
+
+namespace shapespace::internal {
+namespace {
+
+// A bent bar between two poses, and what an optimiser needs to relax the way between them.
+struct Problem {
+  Problem(const Body& body, int inner, const MetricOptions& options = {})
+      : metric(FreezeMetric(options, body.connectivity, {body.pose(0), body.pose(70)})),
+        shapes(testing::NoisyBlend(body.pose(0) / metric.unit, body.pose(70) / metric.unit, inner,
+                                   2e-3)),
+        energy(metric, inner),
+        factor(ScalarMetric(metric, {shapes.front(), shapes.back()}, 0)),
+        single(factor),
+        variables(factor, energy),
+        preconditioner(single, energy),
+        start(energy.Size()) {
+    energy.Load(shapes, start.data());
+  }
+
+  MinimiseResult Ours(const MinimiseOptions& options, std::vector<double>* unknowns) {
+    return MinimiseThreadedLbfgs(&energy, &preconditioner, options, unknowns);
+  }
+
+  Metric metric;
+  std::vector<Shape> shapes;
+  PathEnergy energy;
+  Cholesky factor;
+  CholeskyFactor<float> single;
+  ChangeOfVariables variables;
+  Preconditioner preconditioner;
+  std::vector<double> start;
+};
+
+MinimiseOptions Tolerance(double tolerance) {
+  MinimiseOptions options;
+  options.tolerance = tolerance;
+  return options;
+}
+
+TEST(Minimise, AllThreeReachTheSameMinimum) {
+  MetricOptions with_volume, strains, paper = MetricOptions::Paper();
+  with_volume.volume = 0.3;
+  strains.isometric = 0;
+  strains.log_length = 1;
+  strains.bending = 1e-3;
+  paper.bending = 1e-4;
+  for (const MetricOptions& metric : {MetricOptions(), with_volume, strains, paper}) {
+    SCOPED_TRACE(Describe(metric));
+    Problem problem(MakeBar(4, 1, 1, 6, 1, 1), 3, metric);
+    const MinimiseOptions options = Tolerance(1e-13);
+    std::vector<double> ours = problem.start, ceres = problem.start;
+    const MinimiseResult a = problem.Ours(options, &ours);
+    const MinimiseResult b = MinimiseLbfgs(&problem.energy, &problem.variables, options, &ceres);
+    const MinimiseResult c = MinimiseTrustRegion(problem.metric, 1, options, &problem.shapes);
+    EXPECT_EQ(a.stop, Stop::kConverged);
+    EXPECT_NEAR(a.energy, b.energy, 1e-8 * b.energy);
+    EXPECT_NEAR(a.energy, c.energy, 1e-8 * c.energy);
+    EXPECT_EQ(a.initial_energy, b.initial_energy);
+    EXPECT_EQ(a.energy, problem.energy.Evaluate(ours.data(), nullptr));
+  }
+}
+
+TEST(ThreadedLbfgs, ReachesTinyTolerancesWithAShortHistoryToo) {
+  for (int rank : {1, 5, 20}) {
+    Problem problem(MakeBar(6, 1, 1, 24, 4, 4), 7);
+    MinimiseOptions options = Tolerance(1e-10);
+    options.rank = rank;
+    std::vector<double> unknowns = problem.start;
+    const MinimiseResult result = problem.Ours(options, &unknowns);
+    EXPECT_EQ(result.stop, Stop::kConverged);
+    EXPECT_LT(result.remaining, 1e-8);
+    EXPECT_NEAR(result.remaining, RemainingDecrease(&problem.energy, &problem.variables, unknowns),
+                1e-3 * result.remaining);
+    // A new start there gains next to nothing.
+    const MinimiseResult again = problem.Ours(options, &unknowns);
+    EXPECT_LE(again.energy, result.energy);
+    EXPECT_NEAR(again.energy, result.energy, 1e-6 * result.energy);
+  }
+}
+
+TEST(ThreadedLbfgs, IsTheSameForAnyNumberOfThreads) {
+  Problem problem(MakeBar(6, 1, 1, 60, 10, 10), 5);
+  MinimiseOptions options = Tolerance(1e-6);
+  options.rank = 4;
+  std::vector<double> results[2];
+  for (int i = 0; i < 2; ++i) {
+    SetThreads(1 + i);
+    results[i] = problem.start;
+    problem.Ours(options, &results[i]);
+  }
+  SetThreads(0);
+  EXPECT_TRUE(results[0] == results[1]);
+}
+
+TEST(ThreadedLbfgs, DoesNothingAtAMinimum) {
+  Problem problem(MakeBar(4, 1, 1, 6, 1, 1), 3);
+  std::vector<double> unknowns = problem.start;
+  const MinimiseResult result = problem.Ours(Tolerance(1e-13), &unknowns);
+  const std::vector<double> minimum = unknowns;
+  const MinimiseResult again = problem.Ours(Tolerance(1e-4), &unknowns);
+  EXPECT_EQ(again.stop, Stop::kConverged);
+  EXPECT_EQ(again.iterations, 0);
+  EXPECT_EQ(again.evaluations, 1);
+  EXPECT_EQ(again.energy, result.energy);
+  EXPECT_TRUE(unknowns == minimum);
+}
+
+TEST(ThreadedLbfgs, AcceptsAnEnergyOfRounding) {
+  const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
+  Problem problem(bar, 3);
+  const Shape shape = bar.pose(0) / problem.metric.unit;
+  problem.energy.Load(std::vector<Shape>(5, shape), problem.start.data());
+  std::vector<double> unknowns = problem.start;
+  const MinimiseResult result = problem.Ours({}, &unknowns);
+  EXPECT_EQ(result.stop, Stop::kConverged);
+  EXPECT_LT(result.energy, 1e-30);
+  EXPECT_TRUE(unknowns == problem.start);
+}
+
+TEST(Minimise, EnoughEndsASolveThatHasGainedMostOfWhatThereIs) {
+  for (const bool ours : {true, false}) {
+    SCOPED_TRACE(ours ? "ours" : "Ceres");
+    Problem problem(MakeBar(6, 1, 1, 24, 4, 4), 7);
+    const auto solve = [&](double enough, std::vector<double>* unknowns) {
+      MinimiseOptions options = Tolerance(1e-10);
+      options.enough = enough;
+      *unknowns = problem.start;
+      return ours ? problem.Ours(options, unknowns)
+                  : MinimiseLbfgs(&problem.energy, &problem.variables, options, unknowns);
+    };
+    std::vector<double> unknowns;
+    const MinimiseResult full = solve(0, &unknowns);
+    const MinimiseResult some = solve(1e-2, &unknowns);
+    EXPECT_EQ(some.stop, Stop::kConverged);
+    EXPECT_LT(some.iterations, full.iterations);
+    EXPECT_LT(some.initial_energy - full.energy, 1.1 * (some.initial_energy - some.energy));
+    EXPECT_EQ(some.energy, problem.energy.Evaluate(unknowns.data(), nullptr));
+    EXPECT_NEAR(some.remaining, RemainingDecrease(&problem.energy, &problem.variables, unknowns),
+                1e-4 * some.remaining);
+    EXPECT_GT(some.remaining, full.remaining);
+  }
+}
+
+TEST(ThreadedLbfgs, KeepsItsLimitsAndCanBeCancelled) {
+  Problem problem(MakeBar(4, 1, 1, 6, 1, 1), 3);
+  MinimiseOptions options = Tolerance(1e-12);
+  options.max_iterations = 4;
+  std::vector<double> unknowns = problem.start;
+  const MinimiseResult result = problem.Ours(options, &unknowns);
+  EXPECT_EQ(result.stop, Stop::kMaxIterations);
+  EXPECT_EQ(result.iterations, 4);
+  for (int last : {0, 2}) {
+    options.keep_going = [&](int iteration) { return iteration < last; };
+    unknowns = problem.start;
+    EXPECT_THROW(problem.Ours(options, &unknowns), Cancelled);
+  }
+}
+
+TEST(ThreadedLbfgs, RefusesAStartThatIsNotFinite) {
+  Problem problem(MakeBar(4, 1, 1, 6, 1, 1), 3);
+  problem.start[5] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(problem.Ours({}, &problem.start), SolverError);
+}
+
+struct Curve {
+  const char* name;
+  double (*value)(double);
+  double (*slope)(double);
+};
+
+TEST(SearchLine, FindsAStepThatSatisfiesTheWolfeConditions) {
+  const Curve curves[] = {
+      {"parabola, far", [](double t) { return std::pow(t / 500 - 1, 2); },
+       [](double t) { return 2 * (t / 500 - 1) / 500; }},
+      {"parabola, near", [](double t) { return std::pow(500 * t - 1, 2); },
+       [](double t) { return 1000 * (500 * t - 1); }},
+      {"quartic wall", [](double t) { return -t + std::pow(t, 4) * 1e6; },
+       [](double t) { return -1 + 4e6 * std::pow(t, 3); }},
+      {"defined below 1/2 only", [](double t) { return -t - 0.1 * std::log(0.5 - t); },
+       [](double t) { return -1 + 0.1 / (0.5 - t); }},
+      {"waves", [](double t) { return std::cos(9 * t + 0.1) + 0.1 * t; },
+       [](double t) { return -9 * std::sin(9 * t + 0.1) + 0.1; }},
+  };
+  for (const Curve& curve : curves) {
+    SCOPED_TRACE(curve.name);
+    int evaluations = 0;
+    double last = 0;
+    const auto evaluate = [&](double step) {
+      ++evaluations;
+      last = step;
+      return LinePoint{step, curve.value(step), curve.slope(step)};
+    };
+    const LinePoint start = {0, curve.value(0), curve.slope(0)};
+    const LinePoint end = SearchLine(start, evaluate);
+    EXPECT_EQ(end.step, last);
+    EXPECT_GT(end.step, 0);
+    EXPECT_LE(end.value, start.value + 1e-4 * end.step * start.slope);
+    EXPECT_LE(std::abs(end.slope), 0.9 * std::abs(start.slope));
+    EXPECT_LE(evaluations, 10);
+  }
+}
+
+TEST(SearchLine, StaysWhereNothingIsLower) {
+  const LinePoint start = {0, 1, -1};  // a slope that lies
+  const LinePoint end = SearchLine(start, [](double step) { return LinePoint{step, 1 + step, 1}; });
+  EXPECT_EQ(end.step, 0);
+  EXPECT_EQ(end.value, 1);
+}
+
+}  // namespace
+}  // namespace shapespace::internal
