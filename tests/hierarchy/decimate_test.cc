@@ -41,10 +41,10 @@ void ExpectSameCollapses(const std::vector<Collapse>& first, const std::vector<C
   }
 }
 
-class PlanCollapsesOfSurfaces : public ::testing::TestWithParam<PosedMesh> {};
+class PlanCollapsesOfSurfaces : public ::testing::TestWithParam<testing::Surface> {};
 
 TEST_P(PlanCollapsesOfSurfaces, KeepTheTopology) {
-  const PosedMesh& mesh = GetParam();
+  const PosedMesh mesh = GetParam().make();
   const std::vector<Collapse> collapses = ToTheEnd(mesh);
   ASSERT_LT(collapses.back().triangles, mesh.connectivity->NumTriangles() / 5);
   for (int part = 1; part <= 8; ++part) {
@@ -60,7 +60,7 @@ TEST_P(PlanCollapsesOfSurfaces, KeepTheTopology) {
 // All triangles of a mesh that is regular in every pose; 6.6 degrees is the smallest angle at the
 // quality that the decimater accepts.
 TEST_P(PlanCollapsesOfSurfaces, MakeNoSliverInAnyPose) {
-  const PosedMesh& mesh = GetParam();
+  const PosedMesh mesh = GetParam().make();
   const std::shared_ptr<const Connectivity> left = After(*mesh.connectivity, ToTheEnd(mesh));
   for (const Shape& pose : mesh.poses) {
     ASSERT_GT(SmallestAngle(*mesh.connectivity, pose), 6.5);
@@ -69,7 +69,7 @@ TEST_P(PlanCollapsesOfSurfaces, MakeNoSliverInAnyPose) {
 }
 
 TEST_P(PlanCollapsesOfSurfaces, TurnNoTriangleFarInAnyPose) {
-  const PosedMesh& mesh = GetParam();
+  const PosedMesh mesh = GetParam().make();
   Eigen::Matrix3Xi triangles = mesh.connectivity->Triangles();
   for (const Collapse& collapse : ToTheEnd(mesh)) {
     for (auto t : triangles.colwise()) {
@@ -92,7 +92,7 @@ TEST_P(PlanCollapsesOfSurfaces, TurnNoTriangleFarInAnyPose) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, PlanCollapsesOfSurfaces, ::testing::ValuesIn(testing::Surfaces()),
+INSTANTIATE_TEST_SUITE_P(, PlanCollapsesOfSurfaces, ::testing::ValuesIn(testing::kSurfaces),
                          [](const auto& info) { return info.param.name; });
 
 TEST(PlanCollapses, DependsNeitherOnUnitNorOnPlace) {

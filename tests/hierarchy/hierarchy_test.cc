@@ -68,10 +68,10 @@ void ExpectSoundLevels(const PosedMesh& mesh, const Hierarchy& hierarchy, double
   }
 }
 
-class HierarchyOfSurfaces : public ::testing::TestWithParam<PosedMesh> {};
+class HierarchyOfSurfaces : public ::testing::TestWithParam<testing::Surface> {};
 
 TEST_P(HierarchyOfSurfaces, HasSoundLevels) {
-  const PosedMesh& mesh = GetParam();
+  const PosedMesh mesh = GetParam().make();
   const Hierarchy hierarchy(mesh.connectivity, mesh.poses, Coarsest(150));
   EXPECT_FALSE(hierarchy.StoppedEarly());
   ASSERT_GE(hierarchy.NumLevels(), 3);
@@ -88,7 +88,7 @@ TEST_P(HierarchyOfSurfaces, HasSoundLevels) {
 }
 
 TEST_P(HierarchyOfSurfaces, KeepsAreaInEveryPose) {
-  const PosedMesh& mesh = GetParam();
+  const PosedMesh mesh = GetParam().make();
   const Hierarchy hierarchy(mesh.connectivity, mesh.poses, Coarsest(400));
   for (const Shape& pose : mesh.poses) {
     const double area = Area(*mesh.connectivity, pose);
@@ -98,7 +98,7 @@ TEST_P(HierarchyOfSurfaces, KeepsAreaInEveryPose) {
 }
 
 TEST_P(HierarchyOfSurfaces, LiftsRigidMotionsRigidly) {
-  const PosedMesh& mesh = GetParam();
+  const PosedMesh mesh = GetParam().make();
   const Hierarchy hierarchy(mesh.connectivity, mesh.poses, Coarsest(150));
   const Eigen::Vector3d shift(3, -1, 2);
   for (double angle : {0.5, M_PI}) {
@@ -121,7 +121,7 @@ TEST_P(HierarchyOfSurfaces, LiftsRigidMotionsRigidly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, HierarchyOfSurfaces, ::testing::ValuesIn(testing::Surfaces()),
+INSTANTIATE_TEST_SUITE_P(, HierarchyOfSurfaces, ::testing::ValuesIn(testing::kSurfaces),
                          [](const auto& info) { return info.param.name; });
 
 TEST(Hierarchy, KeepsTheVolumeInEveryPose) {

@@ -26,8 +26,6 @@ struct PosedMesh {
   std::vector<Shape> poses;
 };
 
-inline void PrintTo(const PosedMesh& mesh, std::ostream* out) { *out << mesh.name; }
-
 inline std::shared_ptr<const Connectivity> ConnectivityOf(const Soup& soup) {
   return Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners);
 }
@@ -107,16 +105,23 @@ inline PosedMesh RolledSheet() {
   return {"sheet", sheet.connectivity, {sheet.pose(0), sheet.pose(100), sheet.pose(200)}};
 }
 
+/// A mesh to be made when a test wants it.
+struct Surface {
+  const char* name;
+  PosedMesh (*make)();
+};
+
+inline void PrintTo(const Surface& surface, std::ostream* out) { *out << surface.name; }
+
 /// Surfaces of every kind: with and without boundary, handles, several pieces, quadrilaterals.
-inline std::vector<PosedMesh> Surfaces() {
-  return {BentTube(2000),
-          RolledSheet(),
-          Animal(2500),
-          WithBent("torus", Torus(40, 20)),
-          WithBent("ring", Ring(60, 10)),
-          Pair(BentTube(1200), WithBent("torus", Torus(30, 15))),
-          Pair(WithBent("ring", Ring(40, 8)), BentTube(800))};
-}
+inline constexpr Surface kSurfaces[] = {
+    {"tube", [] { return BentTube(2000); }},
+    {"sheet", RolledSheet},
+    {"animal", [] { return Animal(2500); }},
+    {"torus", [] { return WithBent("torus", Torus(40, 20)); }},
+    {"ring", [] { return WithBent("ring", Ring(60, 10)); }},
+    {"tubeAndTorus", [] { return Pair(BentTube(1200), WithBent("torus", Torus(30, 15))); }},
+    {"ringAndTube", [] { return Pair(WithBent("ring", Ring(40, 8)), BentTube(800)); }}};
 
 /// The mesh after collapses, with all its vertices.
 inline std::shared_ptr<const Connectivity> After(const Connectivity& mesh,
