@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/topology.h>
 
 #include "bodies/measure.h"
 #include "hierarchy/meshes.h"
@@ -18,19 +17,12 @@ namespace shapespace {
 namespace {
 
 using testing::After;
+using testing::ExpectSameTopology;
 using testing::PosedMesh;
 using testing::TrianglesOf;
 
 std::vector<Collapse> ToTheEnd(const PosedMesh& mesh, const std::vector<int>& pinned = {}) {
   return PlanCollapses(*mesh.connectivity, mesh.poses, 0, pinned);
-}
-
-void ExpectSameTopology(const Connectivity& first, const Connectivity& second) {
-  const Topology a = ComputeTopology(first), b = ComputeTopology(second);
-  EXPECT_EQ(a.components, b.components);
-  EXPECT_EQ(a.manifold, b.manifold);
-  EXPECT_EQ(a.boundary_loops.size(), b.boundary_loops.size());
-  EXPECT_EQ(a.genus, b.genus);
 }
 
 void ExpectSameCollapses(const std::vector<Collapse>& first, const std::vector<Collapse>& second) {

@@ -10,7 +10,6 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/mesh/read.h>
-#include <shapespace/mesh/topology.h>
 
 #include "bodies/measure.h"
 #include "hierarchy/meshes.h"
@@ -19,20 +18,13 @@
 namespace shapespace {
 namespace {
 
+using testing::ExpectSameTopology;
 using testing::PosedMesh;
 
 HierarchyOptions Coarsest(int triangles) {
   HierarchyOptions options;
   options.coarsest = triangles;
   return options;
-}
-
-void ExpectSameTopology(const Connectivity& first, const Connectivity& second) {
-  const Topology a = ComputeTopology(first), b = ComputeTopology(second);
-  EXPECT_EQ(a.components, b.components);
-  EXPECT_EQ(a.manifold, b.manifold);
-  EXPECT_EQ(a.boundary_loops.size(), b.boundary_loops.size());
-  EXPECT_EQ(a.genus, b.genus);
 }
 
 // The largest distance between vertices of two shapes, in parts of the first one's extent.

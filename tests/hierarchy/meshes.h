@@ -9,11 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
 #include <shapespace/hierarchy/decimate.h>
+#include <shapespace/mesh/topology.h>
 
 #include "mesh/bodies.h"
 #include "support/paths.h"
@@ -122,6 +125,14 @@ inline constexpr Surface kSurfaces[] = {
     {"ring", [] { return WithBent("ring", Ring(60, 10)); }},
     {"tubeAndTorus", [] { return Pair(BentTube(1200), WithBent("torus", Torus(30, 15))); }},
     {"ringAndTube", [] { return Pair(WithBent("ring", Ring(40, 8)), BentTube(800)); }}};
+
+inline void ExpectSameTopology(const Connectivity& first, const Connectivity& second) {
+  const Topology a = ComputeTopology(first), b = ComputeTopology(second);
+  EXPECT_EQ(a.components, b.components);
+  EXPECT_EQ(a.manifold, b.manifold);
+  EXPECT_EQ(a.boundary_loops.size(), b.boundary_loops.size());
+  EXPECT_EQ(a.genus, b.genus);
+}
 
 /// The mesh after collapses, with all its vertices.
 inline std::shared_ptr<const Connectivity> After(const Connectivity& mesh,

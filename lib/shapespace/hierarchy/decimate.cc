@@ -276,20 +276,25 @@ class Decimator {
     return true;
   }
 
+  // The neighbours of v.
+  void FindRing(int v, std::vector<int>* ring) {
+    ring->clear();
+    const int stamp = ++stamp_;
+    ForFan(v, [&](int a, int b) {
+      for (int x : {a, b}) {
+        if (mark_[x] != stamp) {
+          mark_[x] = stamp;
+          ring->push_back(x);
+        }
+      }
+    });
+  }
+
   // Queues the cheapest legal collapse of `from`, if there is one.
   void Push(int from) {
     ++version_[from];
     if (fixed_[from] || fan_size_[from] > kLargestFan) return;
-    ring_.clear();
-    const int stamp = ++stamp_;
-    ForFan(from, [&](int a, int b) {
-      for (int x : {a, b}) {
-        if (mark_[x] != stamp) {
-          mark_[x] = stamp;
-          ring_.push_back(x);
-        }
-      }
-    });
+    FindRing(from, &ring_);
     candidates_.clear();
     for (int to : ring_) candidates_.emplace_back(Cost(from, to), to);
     std::sort(candidates_.begin(), candidates_.end());
@@ -325,16 +330,8 @@ class Decimator {
     ++version_[from];
     for (int p = 0; p < num_poses_; ++p) Quadric(to, p) += Quadric(from, p);
 
-    touched_.assign(1, to);
-    const int stamp = ++stamp_;
-    ForFan(to, [&](int a, int b) {
-      for (int x : {a, b}) {
-        if (mark_[x] != stamp) {
-          mark_[x] = stamp;
-          touched_.push_back(x);
-        }
-      }
-    });
+    FindRing(to, &touched_);
+    Push(to);
     for (int v : touched_) Push(v);
   }
 

@@ -49,6 +49,7 @@ struct Dihedral {
 
   /// On the circle the shortest way in `segments` chords takes equal angles.
   double LeastChange(const double* a, const double* b, int segments) const {
+    if (segments == 1) return (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]);
     const double angle = WrapAngle(std::atan2(b[1], b[0]) - std::atan2(a[1], a[0]));
     const double chord = 2 * std::sin(std::abs(angle) / (2 * segments));
     return segments * chord * chord;

@@ -63,6 +63,19 @@ PathQuality MeasureQuality(const Path& path) {
   dihedral.stencils = connectivity.Hinges();
   dihedral.normal_epsilon_squared = dihedral.edge_epsilon_squared = 1e-30;
 
+  const auto angle_in = [&](const Shape& shape, int h) {
+    double x[12];
+    Gather(dihedral, h, shape, x);
+    return dihedral.Angle(x);
+  };
+  std::vector<Eigen::VectorXd> pose_angles(path.poses.size());
+  ParallelFor(static_cast<int>(path.poses.size()), [&](int i) {
+    pose_angles[i].resize(connectivity.NumHinges());
+    for (int h = 0; h < connectivity.NumHinges(); ++h) {
+      pose_angles[i](h) = angle_in(path.shapes[path.poses[i]], h);
+    }
+  });
+
   std::vector<Deviations> between(num_shapes), against_first(num_shapes);
   std::vector<double> roughness(num_shapes, 0), folds(num_shapes, 0);
   ParallelFor(num_shapes, [&](int i) {
@@ -87,14 +100,11 @@ PathQuality MeasureQuality(const Path& path) {
       }
     }
     double squares = 0;
+    const Eigen::VectorXd& angles_m = pose_angles[next - 1 - path.poses.begin()];
+    const Eigen::VectorXd& angles_n = pose_angles[next - path.poses.begin()];
     for (int h = 0; h < connectivity.NumHinges(); ++h) {
-      double x[12];
-      Gather(dihedral, h, m, x);
-      const double angle_m = dihedral.Angle(x);
-      Gather(dihedral, h, n, x);
-      const double angle_n = dihedral.Angle(x);
-      Gather(dihedral, h, shape, x);
-      const double angle = dihedral.Angle(x);
+      const double angle_m = angles_m(h), angle_n = angles_n(h);
+      const double angle = angle_in(shape, h);
       const double off = WrapAngle(angle - (angle_m + t * WrapAngle(angle_n - angle_m)));
       squares += metric.hinge_area(h) * off * off;
       const double beyond = std::abs(angle) - std::max(std::abs(angle_m), std::abs(angle_n));

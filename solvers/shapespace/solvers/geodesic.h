@@ -83,9 +83,9 @@ struct GeodesicSummary {
     int piece = 0;       ///< between pose `piece` and the next
     int vertices = 0;    ///< of the level of the hierarchy
     int shapes = 0;      ///< inner shapes
-    std::string start;   ///< where it started: "blend", "first", "last", "rigid"; "refined" (in
-                         ///< time) or "lifted" (in space) from an earlier row
-    std::string solver;  ///< "L-BFGS" or "trust region"
+    std::string start;   ///< where it started: "blend", "first", "last", "rigid"; or from earlier
+                         ///< rows: "refined" in time, "lifted" in space, "corrected": both
+    std::string solver;  ///< "L-BFGS", "own L-BFGS" or "trust region"
     Termination termination = Termination::kConverged;
     int iterations = 0, evaluations = 0;
     double initial_energy = 0, energy = 0;  ///< scaled: E n / 2 for n segments

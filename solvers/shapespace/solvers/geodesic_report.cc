@@ -74,12 +74,12 @@ std::string GeodesicSummary::FullReport() const {
   for (size_t i = 0; i < hierarchy.size(); ++i) out << (i > 0 ? ", " : " ") << hierarchy[i];
   out << " vertices"
       << (hierarchy_stopped_early ? " (no legal collapse leads further down)\n" : "\n")
-      << "\npiece vertices shapes start    solver        iterations  evaluations  energy before  "
+      << "\npiece vertices shapes start     solver        iterations  evaluations  energy before  "
          "energy "
          "after"
          "   remaining  seconds\n";
   for (const Level& level : levels) {
-    out << Format("%5d %8d %6d %-8s %-13s %10d %12d %14.6g %13.6g %11.2g %8.3f%s%s\n", level.piece,
+    out << Format("%5d %8d %6d %-9s %-13s %10d %12d %14.6g %13.6g %11.2g %8.3f%s%s\n", level.piece,
                   level.vertices, level.shapes, level.start.c_str(), level.solver.c_str(),
                   level.iterations, level.evaluations, level.initial_energy, level.energy,
                   level.remaining, level.seconds, level.kept ? "" : "  (not kept)",

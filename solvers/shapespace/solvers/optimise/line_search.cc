@@ -56,7 +56,9 @@ LinePoint SearchLine(const LinePoint& start,
     const bool equal = std::abs(point.value - start.value) <= kRounding * std::abs(start.value) &&
                        point.slope <= (2 * kDecrease - 1) * start.slope;
     if ((decreases || equal) && std::isfinite(point.slope)) {
-      if (std::abs(point.slope) <= -kFlatness * start.slope) return point;
+      // Past the minimum is as good, and saves trials, unless only rounding calls it a decrease.
+      const bool lower = point.value < start.value && point.slope >= kFlatness * start.slope;
+      if (lower || std::abs(point.slope) <= -kFlatness * start.slope) return point;
       if (point.slope > 0) {
         high = point;
         step = Between(low, high);

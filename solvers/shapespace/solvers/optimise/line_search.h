@@ -10,8 +10,8 @@ struct LinePoint {
   double step, value, slope;
 };
 
-/// A step that satisfies the strong Wolfe conditions (Nocedal and Wright, Numerical Optimization,
-/// section 3.5): 1 if it does, else found by bracketing and cubic interpolation. `start` is at step
+/// A step that satisfies the Wolfe conditions (Nocedal and Wright, Numerical Optimization, section
+/// 3.1): 1 if it does, else found by bracketing and cubic interpolation. `start` is at step
 /// 0 and goes down. Values that are not finite count as too large. Near the minimum, where values
 /// differ by rounding only, slopes decide (Hager and Zhang 2005, approximate Wolfe conditions).
 /// \return the last point that `evaluate` was called for; if none was found that satisfies both

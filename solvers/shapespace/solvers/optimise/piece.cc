@@ -175,7 +175,8 @@ std::vector<Shape> Piece::OneInnerShape(Start start, int level) {
       GeodesicSummary::Level row =
           rigid.Relax(0, options_.tolerance, 0, options_, progress_, &shapes);
       row.piece = index_;
-      row.start = "blend, rigid metric";
+      row.start = "blend";
+      row.solver += ", rigid metric";
       summary_.levels.push_back(row);
       return shapes;
     }

@@ -17,7 +17,7 @@ namespace {
 constexpr int kTrustRegionUnknowns = 400;
 // Unknowns from which on our own L-BFGS is at least 1.5 times faster than Ceres', whose vector work
 // is serial.
-constexpr double kThreadedUnknowns = 1.5e5;
+constexpr double kThreadedUnknowns = 1.2e5;
 // History of L-BFGS: long where a level is small, short where the history would be the memory.
 constexpr int kLongRank = 20, kShortRank = 5;
 constexpr double kLongRankUnknowns = 3e5;
@@ -126,7 +126,8 @@ PathEnergy& Resolution::EnergyOf(int inner, const GeodesicOptions& options) {
 template <typename Scalar>
 const CholeskyFactor<Scalar>& Resolution::Factor(std::optional<CholeskyFactor<Scalar>>* factor,
                                                  int piece, int inner) {
-  // One factor serves all numbers of shapes and all pieces, but for the trapezoid's quartic part.
+  // One factor serves all numbers of shapes and all pieces, but for the trapezoid's quartic part;
+  // rounded, it is as good a change of variables.
   const bool trapezoid = metric_->options.discretization == Discretization::kTrapezoid;
   const std::pair<int, int> key = trapezoid ? std::make_pair(piece, inner) : std::make_pair(0, 0);
   if (factor_key_ != key) {
@@ -136,9 +137,15 @@ const CholeskyFactor<Scalar>& Resolution::Factor(std::optional<CholeskyFactor<Sc
   }
   if (!*factor) {
     const Stopwatch stopwatch;
-    factor->emplace(trapezoid
-                        ? ScalarMetric(*metric_, {poses_[piece], poses_[piece + 1]}, inner + 1)
-                        : ScalarMetric(*metric_, poses_, 0));
+    if (factor_) {
+      factor->emplace(*factor_);
+    } else if (single_factor_) {
+      factor->emplace(*single_factor_);
+    } else {
+      factor->emplace(trapezoid
+                          ? ScalarMetric(*metric_, {poses_[piece], poses_[piece + 1]}, inner + 1)
+                          : ScalarMetric(*metric_, poses_, 0));
+    }
     factor_seconds_ += stopwatch.Seconds();
   }
   return **factor;
