@@ -75,10 +75,10 @@ struct Metric {
 /// Freezes `options` on all `poses` (user's units; each 3 x m): squared edge lengths and areas are
 /// the poses' means, the damping of hinges looks at all consecutive pairs. Graphs without faces
 /// have total edge length 1 instead of area 1. `unit` > 0 is the unit to take instead: coarse
-/// levels of a mesh take the finest one's. \throw InvalidOptions if the options are invalid, or ask
-/// for bending or volume where the mesh
-///        cannot have it (volume needs a closed mesh); MeshError if a shape has another number of
-///        vertices, is not finite or has no extent.
+/// levels of a mesh take the finest one's.
+/// \throw InvalidOptions if the options are invalid, or ask for bending or volume where the mesh
+/// cannot have it (volume needs a closed mesh); MeshError if a shape has another number of
+/// vertices, is not finite or has no extent.
 Metric FreezeMetric(const MetricOptions& options,
                     const std::shared_ptr<const Connectivity>& connectivity,
                     const std::vector<Shape>& poses, double unit = 0);
