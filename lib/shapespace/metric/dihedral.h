@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_METRIC_DIHEDRAL_H_
 #define SHAPESPACE_METRIC_DIHEDRAL_H_
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -56,16 +57,19 @@ struct Dihedral {
   }
 
   /// The derivative of theta along the normal, by vertex, of a nearly flat hinge: 1 / height for
-  /// the two tips, shared between the edge's ends with opposite sign.
+  /// the two tips, shared between the edge's ends with opposite sign. Heights count as a
+  /// ten-thousandth of the mesh's edges at least: with collapsed triangles the matrix would not be
+  /// definite but for rounding.
   void Stencil(const Eigen::Vector3d* x, double* k) const {
     const Eigen::Vector3d e = x[1] - x[0];
     const double squared_length = e.squaredNorm() + edge_epsilon_squared;
+    const double least = 1e8 * edge_epsilon_squared;  // epsilon is 1e-8 of an edge
     k[0] = k[1] = 0;
     for (int tip = 2; tip < 4; ++tip) {
       const Eigen::Vector3d side = x[tip] - x[0];
       const double along = side.dot(e) / squared_length;
       const double height =
-          std::sqrt((e.cross(side).squaredNorm() + normal_epsilon_squared) / squared_length);
+          std::sqrt(std::max(e.cross(side).squaredNorm() / squared_length, least));
       k[tip] = 1 / height;
       k[0] -= (1 - along) / height;
       k[1] -= along / height;

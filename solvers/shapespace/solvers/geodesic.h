@@ -34,7 +34,8 @@ enum class Schedule {
 /// Where the one inner shape of the first solve starts.
 enum class Start {
   kBest,   ///< from the blend and from both poses; the one that ends lowest goes on. If a part of
-           ///< the finished path snaps over, all of them are taken to the end
+           ///< the finished path snaps over, all of them are taken to the end, with coarse
+           ///< levels and without, until one does not
   kBlend,  ///< half way on straight lines
   kFirst,  ///< at the first pose
   kLast,   ///< at the last pose

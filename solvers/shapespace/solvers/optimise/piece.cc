@@ -84,10 +84,18 @@ void Piece::Run(const std::vector<ScheduleStep>& schedule) {
     if (best.energy <= kCertified * bound) break;
   }
   best = Take(schedule, trial, schedule.size(), std::move(best));
+  // Second chances: the other starts, then all of them without coarse levels.
   const Start first = best.start;
   for (Start start : starts) {
     if (start != first && Snaps(best)) {
       Keep(Take(schedule, 0, schedule.size(), {start, ends}), &best);
+    }
+  }
+  const std::vector<ScheduleStep> flat =
+      MakeSchedule(Schedule::kFlat, static_cast<int>(ends.size()), options_.shapes);
+  for (Start start : starts) {
+    if (flat.size() < schedule.size() && starts.size() > 1 && Snaps(best)) {
+      Keep(Take(flat, 0, flat.size(), {start, ends}), &best);
     }
   }
   known_ = std::move(best.known);
