@@ -44,6 +44,22 @@ TEST(MeasureQuality, SeesAScaledShapeAsThatMuchDeviation) {
   EXPECT_NEAR(quality.first_rms, std::sqrt((1 + 0.01) / 2), 1e-6);  // of both
 }
 
+// In a metric of positions alone a body that is carried along moves as fast as it is carried.
+TEST(GreatestSpeed, IsTheFastestSegmentOverTheMean) {
+  const Body sheet = MakeSheet(1, 1, 6, 6);
+  const Shape flat = sheet.pose(0);
+  MetricOptions options;
+  options.isometric = options.bending = 0;
+  const Metric metric = FreezeMetric(options, sheet.connectivity, {flat});
+  const auto at = [&](double x) -> Shape { return flat.colwise() + Eigen::Vector3d(x, 0, 0); };
+  const std::vector<Shape> waits = {at(0), at(1), at(2), at(4)};
+  EXPECT_NEAR(GreatestSpeed(metric, waits, {0, 1, 2, 3}), 1.5, 1e-12);
+  EXPECT_NEAR(GreatestSpeed(metric, waits, {0, 1, 2, 4}), 1, 1e-12);
+  EXPECT_EQ(GreatestSpeed(metric, {flat, flat, flat}, {0, 0.5, 1}), 1);
+  const Metric rigid = FreezeMetric(MetricOptions::Rigid(), sheet.connectivity, {flat});
+  EXPECT_TRUE(std::isnan(GreatestSpeed(rigid, waits, {0, 1, 2, 3})));
+}
+
 TEST(MeasureQuality, CountsFoldsThatThePosesDoNotHave) {
   const Body sheet = MakeSheet(1, 1, 1, 1);  // two triangles, one hinge
   ASSERT_EQ(sheet.connectivity->NumHinges(), 1);

@@ -34,6 +34,7 @@ TEST_P(RealPoses, PathIsAsGoodAsMeasured) {
   EXPECT_LT(summary.quality.roughness, pair.roughness);
   EXPECT_LE(summary.quality.folds, pair.folds);
   EXPECT_LT(summary.Ratio(), pair.ratio);
+  EXPECT_LT(summary.quality.speed_max, 1.15);  // nothing waits to snap over
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -43,10 +44,24 @@ INSTANTIATE_TEST_SUITE_P(
                       RealPair{"leaf/original.obj", "leaf/bend0.obj", 1e-6, 1e-4, 0, 1.001},
                       RealPair{"hand/rest.obj", "hand/curl65.obj", 0.0033, 0.41, 0, 1.01},
                       RealPair{"human/000.obj", "human/007.obj", 0.0115, 2.4, 3, 1.08},
-                      RealPair{"horse/reference.obj", "horse/01.obj", 0.0095, 2.2, 3, 1.06}),
+                      RealPair{"horse/reference.obj", "horse/01.obj", 0.0095, 2.2, 3, 1.06},
+                      RealPair{"cat/reference.obj", "cat/04.obj", 0.03, 8.5, 12, 1.25}),
     [](const auto& info) {
       return std::filesystem::path(info.param.first).parent_path().string();
     });
+
+// The forearms go through the body, from behind to the front.
+TEST(RealPosesThatCross, AreWarnedOf) {
+  const std::filesystem::path folder = SHAPESPACE_DATA_DIR;
+  const std::string first = (folder / "scape/5.obj").string();
+  if (folder.empty() || !std::filesystem::exists(first)) {
+    GTEST_SKIP() << "no real meshes: set the CMake cache path SHAPESPACE_DATA_DIR";
+  }
+  const auto [path, summary] = Interpolate(ReadPoses({first, (folder / "scape/6.obj").string()}));
+  EXPECT_GT(summary.intersections, 20);
+  const std::string report = summary.FullReport();
+  EXPECT_NE(report.find("Warning: the body passes through itself"), std::string::npos) << report;
+}
 
 }  // namespace
 }  // namespace shapespace

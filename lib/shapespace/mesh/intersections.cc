@@ -35,7 +35,7 @@ bool Heights(const Corners& triangle, const Corners& other, const Eigen::Vector3
              double touching, std::array<double, 3>* heights) {
   for (int k = 0; k < 3; ++k) (*heights)[k] = unit_normal.dot(triangle[k] - other[0]);
   const auto [low, high] = std::minmax_element(heights->begin(), heights->end());
-  return *low<-touching&& * high> touching;
+  return -*low > touching && *high > touching;
 }
 
 // Of a triangle with corners on both sides of a plane, the part of the plane that it covers, along

@@ -95,7 +95,11 @@ void Assess(const Path& path, GeodesicSummary* summary) {
     for (double t : {.25, .5, .75}) times.push_back(begin + t * (end - begin));
     times.push_back(end);
   }
-  summary->intersections = MeasureIntersections(Resample(path, times)).beyond_poses;
+  try {
+    summary->intersections = MeasureIntersections(Resample(path, times)).beyond_poses;
+  } catch (const Error& error) {  // not worth losing the path for
+    summary->warnings.push_back(std::string("not counted: ") + error.what());
+  }
 }
 
 // Figures that are possible but hardly what a person wants to see.
