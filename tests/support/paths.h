@@ -12,9 +12,9 @@ namespace shapespace::testing {
 /// Normal noise of the given standard deviation, the same for the same seed.
 inline Shape Noise(int vertices, double deviation, int seed) {
   std::mt19937 generator(seed);
-  std::normal_distribution<double> normal(0, deviation);
+  std::normal_distribution<double> normal;
   Shape noise(3, vertices);
-  for (double& x : noise.reshaped()) x = normal(generator);
+  for (double& x : noise.reshaped()) x = deviation * normal(generator);
   return noise;
 }
 
