@@ -16,7 +16,8 @@ DEFINE_int32(shapes, 15, "shapes to insert between neighbouring poses");
 DEFINE_double(tolerance, 1e-4,
               "a level is finished when an iteration lowers the energy by less than this share");
 DEFINE_int32(max_iterations, 500, "iterations a level may take");
-DEFINE_string(solver, "automatic", "automatic, lbfgs or trust_region");
+DEFINE_string(solver, "automatic",
+              "automatic, lbfgs (of Ceres), threaded_lbfgs (ours) or trust_region (of Ceres)");
 DEFINE_string(schedule, "automatic",
               "order of resolutions: automatic, start (in space for the first shape only), paper "
               "(space and time in turn) or flat (no hierarchy)");
