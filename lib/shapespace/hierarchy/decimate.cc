@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <queue>
+#include <string>
 #include <tuple>
 
 #include <Eigen/Geometry>

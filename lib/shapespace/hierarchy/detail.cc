@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
 #include <shapespace/base/parallel.h>
+#include <shapespace/path/rigid_motion.h>
 
 namespace shapespace::internal {
 namespace {
@@ -50,8 +50,8 @@ Eigen::Vector3d ClosestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
 }
 
 // The rotation nearest to `matrix`: the orthogonal factor of its polar decomposition, by Newton's
-// iteration (Higham 1986), which takes a tenth of the time of singular values; those serve where
-// the matrix is close to singular, or the factor a reflection.
+// iteration (Higham 1986), which takes a tenth of the time of singular values; ProcrustesRotation,
+// which computes those, serves where the matrix is close to singular, or the factor a reflection.
 Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
   constexpr double kWellConditioned = 1e-4, kConverged = 1e-14;
   constexpr int kIterations = 12;
@@ -69,10 +69,7 @@ Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
       if (change < kConverged) return x;
     }
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d sign(1, 1, 1);
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign(2) = -1;
-  return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  return ProcrustesRotation(matrix.transpose());
 }
 
 // Index lists of a row each, end to end.

@@ -126,8 +126,7 @@ void Warn(GeodesicSummary* summary) {
     summary->warnings.push_back("the energy is " + std::to_string(summary->Ratio()) +
                                 " times its lower bound: the path may lie in a poor valley");
   }
-  constexpr double kSnaps = 1.15;  // see optimise/piece.cc
-  if (summary->quality.speed_max > kSnaps) {
+  if (summary->quality.speed_max > internal::kSnaps) {
     summary->warnings.push_back(
         "some segment is " + std::to_string(summary->quality.speed_max) +
         " times as fast as the mean: a part may wait and then snap over; look at the pictures");

@@ -17,9 +17,6 @@ constexpr int kTrialVertices = 1000;
 // poor valleys on real poses were found at 1.8 times the bound and more.
 constexpr double kCertified = 1.05;
 
-// A path with a segment this much faster than the mean holds a part that waits and then snaps over;
-// good paths between real poses stay below 1.05, snapping ones were found at 1.27 and more.
-constexpr double kSnaps = 1.15;
 // Where another level follows, a solve may stop when a further step is expected to gain less than
 // this share of what it has gained. Refinement in time by cubics has an error of fourth order; the
 // energy in excess goes with its square, and so falls by 256 from one level to the next. What the
@@ -158,8 +155,8 @@ void Piece::Take(const ScheduleStep& step, Start start, bool last) {
   }
   known.refined = std::move(refined);
 
-  GeodesicSummary::Level row = resolution.Relax(index_, options_.tolerance, last ? 0 : kEnough,
-                                                options_, progress_, &shapes);
+  GeodesicSummary::Level row =
+      resolution.Relax(index_, last ? 0 : kEnough, options_, progress_, &shapes);
   row.start = name;
   summary_.levels.push_back(row);
   known.shapes = std::move(shapes);
@@ -180,8 +177,7 @@ std::vector<Shape> Piece::OneInnerShape(Start start, int level) {
               MetricOptions::Rigid(), resolutions_[level].GetMetric().connectivity, ends, 1)),
           ends);
       std::vector<Shape> shapes = {ends[0], blend, ends[1]};
-      GeodesicSummary::Level row =
-          rigid.Relax(0, options_.tolerance, 0, options_, progress_, &shapes);
+      GeodesicSummary::Level row = rigid.Relax(0, 0, options_, progress_, &shapes);
       row.piece = index_;
       row.start = "blend";
       row.solver += ", rigid metric";

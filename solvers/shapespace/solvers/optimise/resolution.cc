@@ -44,9 +44,8 @@ double QuarticWeight(int inner, const GeodesicOptions& options) {
 
 int HistoryRank(double unknowns) { return unknowns <= kLongRankUnknowns ? kLongRank : kShortRank; }
 
-GeodesicSummary::Level Resolution::Relax(int piece, double tolerance, double enough,
-                                         const GeodesicOptions& options, Progress* progress,
-                                         std::vector<Shape>* shapes) {
+GeodesicSummary::Level Resolution::Relax(int piece, double enough, const GeodesicOptions& options,
+                                         Progress* progress, std::vector<Shape>* shapes) {
   const Stopwatch stopwatch;
   const int inner = static_cast<int>(shapes->size()) - 2;
   GeodesicSummary::Level row;
@@ -58,7 +57,7 @@ GeodesicSummary::Level Resolution::Relax(int piece, double tolerance, double eno
   const std::string stage = std::to_string(row.vertices) + " vertices, " + std::to_string(inner) +
                             (inner == 1 ? " inner shape" : " inner shapes");
   MinimiseOptions minimise;
-  minimise.tolerance = tolerance;
+  minimise.tolerance = options.tolerance;
   minimise.enough = enough;
   minimise.max_iterations = options.max_iterations;
   minimise.keep_going = [&](int iteration) {

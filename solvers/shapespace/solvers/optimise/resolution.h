@@ -29,9 +29,8 @@ class Resolution {
 
   /// Relaxes the inner ones of `shapes`, a path from pose `piece` to the next, and says how it
   /// went.
-  GeodesicSummary::Level Relax(int piece, double tolerance, double enough,
-                               const GeodesicOptions& options, Progress* progress,
-                               std::vector<Shape>* shapes);
+  GeodesicSummary::Level Relax(int piece, double enough, const GeodesicOptions& options,
+                               Progress* progress, std::vector<Shape>* shapes);
 
   /// The energy of a path of any number of shapes, unscaled.
   double Energy(const std::vector<Shape>& shapes, const GeodesicOptions& options);
