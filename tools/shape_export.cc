@@ -14,7 +14,9 @@
 #include "support/outputs.h"
 #include "support/tool.h"
 
-DEFINE_string(at, "", "times to show, rising within 0 .. 1 and separated by commas, e.g. .25,.5");
+DEFINE_string(at, "",
+              "times to show, rising and separated by commas, e.g. .25,.5: 0 is the first shape, 1 "
+              "the last pose, and what was extrapolated goes on beyond 1");
 DEFINE_int32(frames, 0, "so many shapes at even times instead of the path's own; 2 or more");
 DEFINE_bool(ease, false, "with --frames: slow at both ends, as an animator would have it");
 
@@ -32,7 +34,7 @@ Path ResampledByFlags(Path path) {
     if (FLAGS_frames < 2) throw UsageError("--frames must be 2 or more");
     for (int i = 0; i < FLAGS_frames; ++i) {
       const double t = static_cast<double>(i) / (FLAGS_frames - 1);
-      times.push_back(FLAGS_ease ? 0.5 * (1 - std::cos(M_PI * t)) : t);
+      times.push_back(path.parameters.back() * (FLAGS_ease ? 0.5 * (1 - std::cos(M_PI * t)) : t));
     }
   } else {
     return path;

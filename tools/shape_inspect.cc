@@ -158,23 +158,33 @@ void PrintPath(const std::string& file) {
   const Path path = ReadPath(file);
   const Connectivity& connectivity = *path.metric->connectivity;
   const PathQuality quality = MeasureQuality(path);
-  std::printf("%s\n  %d shapes, %zu of them given; %d vertices, %d triangles\n", file.c_str(),
-              path.NumShapes(), path.poses.size(), connectivity.NumVertices(),
+  const std::string beyond =
+      path.extrapolated > 0 ? ", " + std::to_string(path.extrapolated) + " extrapolated" : "";
+  std::printf("%s\n  %d shapes, %zu of them given%s; %d vertices, %d triangles\n", file.c_str(),
+              path.NumShapes(), path.poses.size(), beyond.c_str(), connectivity.NumVertices(),
               connectivity.NumTriangles());
   std::printf("  made by      %s\n", path.provenance.c_str());
   std::printf("  metric       %s; unit of length %.6g\n", Describe(path.metric->options).c_str(),
               path.metric->unit);
-  std::printf(
-      "  edges        rms %.4g%%, 99th percentile %.4g%%, max %.4g%% off the lengths to be "
-      "expected\n",
-      100 * quality.edge_rms, 100 * quality.edge_p99, 100 * quality.edge_max);
-  std::printf("  roughness    %.4g degrees; folds %.4g per inner shape\n", quality.roughness,
-              quality.folds);
+  if (quality.inner_shapes > 0) {
+    std::printf(
+        "  edges        rms %.4g%%, 99th percentile %.4g%%, max %.4g%% off the lengths to be "
+        "expected\n",
+        100 * quality.edge_rms, 100 * quality.edge_p99, 100 * quality.edge_max);
+    std::printf("  roughness    %.4g degrees; folds %.4g per inner shape\n", quality.roughness,
+                quality.folds);
+  }
+  if (path.extrapolated > 0) {
+    std::printf(
+        "  edges        rms %.4g%%, 99th percentile %.4g%%, max %.4g%% off the lengths in the "
+        "first shape\n",
+        100 * quality.first_rms, 100 * quality.first_p99, 100 * quality.first_max);
+  }
   const PathIntersections crossings = MeasureIntersections(path);
   std::printf("  crossings    pairs of triangles: poses up to %" PRId64
-              "; inner shapes %.4g, up to %" PRId64 "; %.4g beyond the poses\n",
-              crossings.poses_max, crossings.inner_mean, crossings.inner_max,
-              crossings.beyond_poses);
+              "; %s shapes %.4g, up to %" PRId64 "; %.4g beyond the poses\n",
+              crossings.poses_max, path.extrapolated > 0 ? "other" : "inner", crossings.inner_mean,
+              crossings.inner_max, crossings.beyond_poses);
   const RigidParts parts = FindRigidParts(path);
   PrintDeviation(path, parts);
   PrintParts(parts);

@@ -182,6 +182,27 @@ TEST(RenderFilmStripTest, SubsamplingKeepsBothEnds) {
   EXPECT_NEAR(drawn[1], 4 * drawn[0], 0.3 * drawn[1]);
 }
 
+TEST(RenderFilmStripTest, SubsamplingKeepsPoses) {
+  const SimpleBody sphere = Sphere(1, 10, 20);
+  std::vector<Shape> shapes(20, sphere.shape);
+  FilmStripOptions options = Small();
+  options.max_frames = 4;
+  options.roles.assign(20, ShapeRole::kInserted);
+  options.roles[0] = options.roles[16] = ShapeRole::kPose;
+  std::fill(options.roles.begin() + 17, options.roles.end(), ShapeRole::kExtrapolated);
+  const Image image = RenderFilmStrip(*sphere.connectivity, shapes, options);
+  const int cell = image.width / 4;
+  const auto blue = [&](int i) {
+    const unsigned char* p =
+        &image.pixels[3 * (image.height / 2 * image.width + i * cell + cell / 2)];
+    return p[2] > p[1] + 20 && p[1] > p[0];
+  };
+  EXPECT_TRUE(blue(0));
+  EXPECT_FALSE(blue(1));
+  EXPECT_TRUE(blue(2));  // shape 16, which even steps of 19 / 3 would miss
+  EXPECT_FALSE(blue(3));
+}
+
 TEST(RenderFilmStripTest, FollowsTheGivenViewAndUp) {
   const SimpleBody box = Box(1, 2, 4);
   FilmStripOptions options = Small();

@@ -1,8 +1,11 @@
 #include <shapespace/path/path_file.h>
 
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <random>
 
@@ -12,6 +15,7 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/path/energy.h>
 
+#include "support/message_of.h"
 #include "support/paths.h"
 
 namespace shapespace {
@@ -48,9 +52,20 @@ Path MakePath() {
   path.motions.resize(5);
   path.motions[2].translation = {1, 2, 3};
   path.motions[4].rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-  path.poses = {0, 4};
+  path.poses = {0, 2};
+  path.extrapolated = 2;
   path.provenance = "a test, with \"quotes\" and \xC3\xA9";
   return path;
+}
+
+// CRC-32 as PNG's specification gives it, bit by bit.
+uint32_t Checksum(const std::string& bytes) {
+  uint32_t sum = 0xffffffff;
+  for (const char byte : bytes) {
+    sum ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) sum = (sum >> 1) ^ (sum & 1 ? 0xedb88320 : 0);
+  }
+  return ~sum;
 }
 
 double Energy(const Path& path) {
@@ -72,6 +87,7 @@ TEST(PathFile, RoundTripKeepsEveryBit) {
   }
   EXPECT_EQ(read.parameters, path.parameters);
   EXPECT_EQ(read.poses, path.poses);
+  EXPECT_EQ(read.extrapolated, 2);
   EXPECT_EQ(read.provenance, path.provenance);
   EXPECT_EQ(read.metric->connectivity->Corners(), path.metric->connectivity->Corners());
   EXPECT_TRUE(read.metric->connectivity->Edges() == path.metric->connectivity->Edges());
@@ -122,6 +138,43 @@ TEST(PathFile, ErrorsNameTheFileAndTheReason) {
   later[8] = 9;
   Spill(file, later);
   EXPECT_NE(message(file).find("version 9"), std::string::npos) << message(file);
+}
+
+TEST(PathFile, FilesFromBeforeExtrapolationHaveNone) {
+  const std::string file = TemporaryFile("early.path");
+  WritePath(file, MakePath());
+  std::string bytes = Slurp(file);
+  const std::string entry = "\"extrapolated\":2,";
+  ASSERT_NE(bytes.find(entry), std::string::npos);
+  bytes.replace(bytes.find(entry), entry.size(), std::string(entry.size(), ' '));
+  const uint32_t checksum = Checksum(bytes.substr(16));
+  std::memcpy(&bytes[12], &checksum, sizeof checksum);
+  Spill(file, bytes);
+  EXPECT_EQ(ReadPath(file).extrapolated, 0);
+  EXPECT_EQ(ReadPath(file).NumShapes(), 5);
+}
+
+TEST(PathFile, PathsAtOddsWithThemselvesAreRefused) {
+  const std::string file = TemporaryFile("odd.path");
+  const auto message = [&](const std::function<void(Path*)>& change) {
+    Path path = MakePath();
+    change(&path);
+    WritePath(file, path);
+    return testing::MessageOf<FileError>([&] { ReadPath(file); });
+  };
+  const std::string extrapolated = file + ": its number of extrapolated shapes is out of range";
+  EXPECT_EQ(message([](Path* path) { path->extrapolated = 5; }), extrapolated);
+  EXPECT_EQ(message([](Path* path) { path->extrapolated = -1; }), extrapolated);
+  const std::string pose = file + ": a pose's index is out of range";
+  EXPECT_EQ(message([](Path* path) { path->extrapolated = 3; }), pose);  // a pose among them
+  EXPECT_EQ(message([](Path* path) { path->poses = {0, 5}; }), pose);
+  EXPECT_EQ(message([](Path* path) { path->poses = {-1, 2}; }), pose);
+  EXPECT_EQ(message([](Path* path) {
+              path->poses = {2, 0};
+            }),
+            file + ": its poses' indices do not rise");
+  EXPECT_EQ(message([](Path* path) { path->parameters[3] = 0.5; }),
+            file + ": its parameters do not rise");
 }
 
 TEST(PathFile, NothingIsLeftBehindWhereItCannotBeWritten) {

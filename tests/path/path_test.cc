@@ -1,5 +1,8 @@
 #include <shapespace/path/path.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
@@ -49,6 +52,57 @@ TEST(ResamplePath, DoesNotRoundTheCornersAtPoses) {
     EXPECT_LT((result.motions[i].rotation - turn).norm(), 1e-12);
   }
   EXPECT_EQ(result.poses, (std::vector<int>{0, 3, 6}));
+}
+
+// The same, gone on from the last pose by four shapes: on the line back, so that there is a corner.
+Path ContinuedPath() {
+  Path path = CorneredPath();
+  const Shape end = path.shapes.back();
+  for (int i = 1; i <= 4; ++i) {
+    path.parameters.push_back(1 + i / 8.0);
+    path.shapes.push_back((1 - 2 * i / 8.0) * end);
+    path.motions.push_back({Eigen::Matrix3d::Identity(), {path.parameters.back(), 0, 0}});
+  }
+  path.extrapolated = 4;
+  return path;
+}
+
+TEST(ResamplePath, GoesOnBeyondTheLastPose) {
+  const Path path = ContinuedPath();
+  const Path result = Resample(path, {0, 0.9, 0.97, 1, 1.03, 1.2, 1.5});
+  const Shape end = path.shapes[8];
+  for (int i = 0; i < result.NumShapes(); ++i) {
+    const double t = result.parameters[i];
+    const double height = t <= 1 ? 2 * std::abs(t - 0.5) : 3 - 2 * t;
+    EXPECT_LT((result.shapes[i] - height * end).norm(), 1e-12) << t;
+    EXPECT_NEAR(result.motions[i].translation.x(), t, 1e-12);
+  }
+  EXPECT_EQ(result.poses, (std::vector<int>{0, 3}));
+  EXPECT_EQ(result.extrapolated, 3);
+  EXPECT_EQ(Resample(path, {0, 0.5, 1}).extrapolated, 0);
+  EXPECT_EQ(Resample(path, path.parameters).extrapolated, 4);
+  EXPECT_THROW(Resample(path, {0, 1.6}), InvalidOptions);
+}
+
+TEST(FirstShapes, KeepsThePosesAndExtrapolatedShapesThatAreAmongThem) {
+  const Path path = ContinuedPath();
+  const auto expect = [&](int count, const std::vector<int>& poses, int extrapolated) {
+    const Path first = FirstShapes(path, count);
+    ASSERT_EQ(first.NumShapes(), count);
+    for (int i = 0; i < count; ++i) EXPECT_TRUE(first.shapes[i] == path.shapes[i]);
+    EXPECT_TRUE(std::equal(first.parameters.begin(), first.parameters.end(),
+                           path.parameters.begin(), path.parameters.begin() + count));
+    EXPECT_EQ(first.motions.size(), static_cast<size_t>(count));
+    EXPECT_EQ(first.poses, poses) << count;
+    EXPECT_EQ(first.extrapolated, extrapolated) << count;
+  };
+  expect(2, {0}, 0);
+  expect(5, {0, 4}, 0);
+  expect(9, {0, 4, 8}, 0);
+  expect(10, {0, 4, 8}, 1);
+  expect(13, {0, 4, 8}, 4);
+  EXPECT_THROW(FirstShapes(path, 0), InvalidOptions);
+  EXPECT_THROW(FirstShapes(path, 14), InvalidOptions);
 }
 
 TEST(ResamplePath, RefusesTimesThatFallOrLeaveThePath) {

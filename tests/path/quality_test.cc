@@ -44,6 +44,38 @@ TEST(MeasureQuality, SeesAScaledShapeAsThatMuchDeviation) {
   EXPECT_NEAR(quality.first_rms, std::sqrt((1 + 0.01) / 2), 1e-6);  // of both
 }
 
+TEST(MeasureQuality, FiguresOfInnerShapesAreOfThoseBetweenPosesOnly) {
+  const Body sheet = MakeSheet(1, 1, 6, 6);
+  const Shape flat = sheet.pose(0), rolled = sheet.pose(20);
+  const Path between = MakePath(sheet, {flat, 1.1 * rolled, 2 * flat});
+  const PathQuality inner = MeasureQuality(between);
+  EXPECT_EQ(inner.inner_shapes, 1);
+  EXPECT_GT(inner.edge_rms, 0.1);
+  EXPECT_GT(inner.roughness, 0.1);
+  Path beyond = between;
+  for (const double scale : {3, 5}) {
+    beyond.shapes.push_back(scale * flat);
+    beyond.parameters.push_back(beyond.parameters.back() + 0.5);
+    beyond.motions.emplace_back();
+  }
+  beyond.extrapolated = 2;
+  const PathQuality all = MeasureQuality(beyond);
+  EXPECT_EQ(all.inner_shapes, 1);
+  EXPECT_EQ(all.edge_rms, inner.edge_rms);
+  EXPECT_EQ(all.edge_max, inner.edge_max);
+  EXPECT_EQ(all.roughness, inner.roughness);
+  EXPECT_EQ(all.folds, inner.folds);
+  EXPECT_EQ(all.speed_max, inner.speed_max);
+  EXPECT_NEAR(all.first_max, 4, 1e-6);  // 5 times as long, against the first
+  // Shapes with a pose on one side only, or on none, are no inner shapes.
+  beyond.poses = {1};
+  beyond.extrapolated = 3;
+  EXPECT_EQ(MeasureQuality(beyond).inner_shapes, 0);
+  EXPECT_EQ(MeasureQuality(beyond).edge_max, 0);
+  beyond.poses.clear();
+  EXPECT_EQ(MeasureQuality(beyond).roughness, 0);
+}
+
 // In a metric of positions alone a body that is carried along moves as fast as it is carried.
 TEST(GreatestSpeed, IsTheFastestSegmentOverTheMean) {
   const Body sheet = MakeSheet(1, 1, 6, 6);

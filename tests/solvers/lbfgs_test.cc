@@ -62,7 +62,8 @@ TEST(Minimise, AllThreeReachTheSameMinimum) {
     const MinimiseOptions options = Tolerance(1e-13);
     std::vector<double> ours = problem.start, ceres = problem.start;
     const MinimiseResult a = problem.Ours(options, &ours);
-    const MinimiseResult b = MinimiseLbfgs(&problem.energy, &problem.variables, options, &ceres);
+    const MinimiseResult b =
+        MinimiseLbfgs(ObjectiveOf(&problem.energy), &problem.variables, options, &ceres);
     const MinimiseResult c = MinimiseTrustRegion(problem.metric, 1, options, &problem.shapes);
     EXPECT_EQ(a.stop, Stop::kConverged);
     EXPECT_NEAR(a.energy, b.energy, 1e-8 * b.energy);
@@ -81,7 +82,8 @@ TEST(ThreadedLbfgs, ReachesTinyTolerancesWithAShortHistoryToo) {
     const MinimiseResult result = problem.Ours(options, &unknowns);
     EXPECT_EQ(result.stop, Stop::kConverged);
     EXPECT_LT(result.remaining, 1e-8);
-    EXPECT_NEAR(result.remaining, RemainingDecrease(&problem.energy, &problem.variables, unknowns),
+    EXPECT_NEAR(result.remaining,
+                RemainingDecrease(ObjectiveOf(&problem.energy), &problem.variables, unknowns),
                 1e-3 * result.remaining);
     // A new start there gains next to nothing.
     const MinimiseResult again = problem.Ours(options, &unknowns);
@@ -138,7 +140,8 @@ TEST(Minimise, EnoughEndsASolveThatHasGainedMostOfWhatThereIs) {
       options.enough = enough;
       *unknowns = problem.start;
       return ours ? problem.Ours(options, unknowns)
-                  : MinimiseLbfgs(&problem.energy, &problem.variables, options, unknowns);
+                  : MinimiseLbfgs(ObjectiveOf(&problem.energy), &problem.variables, options,
+                                  unknowns);
     };
     std::vector<double> unknowns;
     const MinimiseResult full = solve(0, &unknowns);
@@ -147,7 +150,8 @@ TEST(Minimise, EnoughEndsASolveThatHasGainedMostOfWhatThereIs) {
     EXPECT_LT(some.iterations, full.iterations);
     EXPECT_LT(some.initial_energy - full.energy, 1.1 * (some.initial_energy - some.energy));
     EXPECT_EQ(some.energy, problem.energy.Evaluate(unknowns.data(), nullptr));
-    EXPECT_NEAR(some.remaining, RemainingDecrease(&problem.energy, &problem.variables, unknowns),
+    EXPECT_NEAR(some.remaining,
+                RemainingDecrease(ObjectiveOf(&problem.energy), &problem.variables, unknowns),
                 1e-4 * some.remaining);
     EXPECT_GT(some.remaining, full.remaining);
   }

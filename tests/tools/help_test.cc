@@ -12,6 +12,9 @@ using testing::ExpectLacks;
 using testing::Outcome;
 using testing::ToolsTest;
 
+constexpr const char* kTools[] = {"shape-body", "shape-export", "shape-extrapolate",
+                                  "shape-inspect", "shape-interpolate"};
+
 class HelpTest : public ToolsTest {
  protected:
   /// The flags that --help lists.
@@ -28,7 +31,7 @@ class HelpTest : public ToolsTest {
 };
 
 TEST_F(HelpTest, FitsTheTerminalAndSucceeds) {
-  for (const char* tool : {"shape-body", "shape-inspect", "shape-interpolate"}) {
+  for (const char* tool : kTools) {
     const Outcome outcome = Run(tool, {"--help"});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.err, "");
@@ -55,6 +58,11 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                  "shapes", "solver", "stiffeners", "tolerance"});
   const std::set<std::string> listed = Listed("shape-interpolate");
   for (const std::string& flag : wanted) EXPECT_EQ(listed.count(flag), 1u) << flag;
+  // What interpolates poses before it goes on takes the same flags, and its own.
+  std::set<std::string> extrapolate = Listed("shape-interpolate");
+  extrapolate.insert({"correct", "integrator", "keep", "step_iterations", "step_solver",
+                      "step_tolerance", "steps"});
+  EXPECT_EQ(Listed("shape-extrapolate"), extrapolate);
   for (const char* foreign : {"flagfile", "undefok", "logtostderr", "minloglevel", "v"}) {
     EXPECT_EQ(listed.count(foreign), 0u) << foreign;
   }
@@ -64,11 +72,13 @@ TEST_F(HelpTest, DefaultsReadAsTheyWouldBeTyped) {
   const std::string help = Run("shape-interpolate", {"--help"}).out;
   ExpectContains(help, "--bending 1e-05 ");
   ExpectContains(help, "--shapes 15 ");
+  ExpectContains(help, "--tolerance 1e-04 ");
+  ExpectContains(Run("shape-extrapolate", {"--help"}).out, "--tolerance 1e-06 ");
   ExpectLacks(help, "00000");
 }
 
 TEST_F(HelpTest, VersionIsOneLine) {
-  for (const char* tool : {"shape-body", "shape-inspect", "shape-interpolate"}) {
+  for (const char* tool : kTools) {
     const Outcome outcome = Run(tool, {"--version"});
     EXPECT_EQ(outcome.code, 0);
     const std::regex line(std::string(tool) + " of shapespace [0-9]+\\.[0-9]+\\.[0-9]+\n");

@@ -72,6 +72,11 @@ GltfOptions GltfOptionsFromFlags() {
   return options;
 }
 
+ShapeRole RoleOf(const Path& path, int i) {
+  if (std::binary_search(path.poses.begin(), path.poses.end(), i)) return ShapeRole::kPose;
+  return i < path.NumShapes() - path.extrapolated ? ShapeRole::kInserted : ShapeRole::kExtrapolated;
+}
+
 void WriteGltfAndTell(const std::string& output, const Path& path, const Shape& reference,
                       const Eigen::VectorXi& parts) {
   GltfOptions options = GltfOptionsFromFlags();
@@ -123,6 +128,12 @@ void CheckCanBeWritten(const std::string& file) {
   }
 }
 
+std::string Provenance(const char* program, const std::vector<std::string>& files) {
+  std::string provenance = std::string(program) + " " SHAPESPACE_VERSION ":";
+  for (const std::string& file : files) provenance += " " + file;
+  return provenance;
+}
+
 void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Soup& appearance,
                   const Path& whole) {
   const std::vector<Shape> placed = path.Placed();
@@ -142,8 +153,7 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
         if (FLAGS_up == "y") options.up = Eigen::Vector3d::UnitY();
         if (FLAGS_up == "z") options.up = Eigen::Vector3d::UnitZ();
         for (int i = 0; i < path.NumShapes(); ++i) {
-          const bool pose = std::binary_search(path.poses.begin(), path.poses.end(), i);
-          options.roles.push_back(pose ? ShapeRole::kPose : ShapeRole::kInserted);
+          options.roles.push_back(RoleOf(path, i));
           std::ostringstream label;
           label << "t = " << std::setprecision(3) << path.parameters[i];
           options.labels.push_back(label.str());

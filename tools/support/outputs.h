@@ -18,6 +18,9 @@ std::vector<std::string> OutputsFromFlags();
 /// \throw FileError.
 void CheckCanBeWritten(const std::string& file);
 
+/// Who made a path from which files, with the version: for `Path::provenance`.
+std::string Provenance(const char* program, const std::vector<std::string>& files);
+
 /// Writes each: `.path`, `.png` film strip, `.glb` animation, or frames (`frames/%03d.obj`,
 /// `.ply`). Texture coordinates and materials of `appearance` go into OBJ frames; where they are
 /// dropped, stderr is told. `whole` is the path that `path` shows, perhaps at other times: colours

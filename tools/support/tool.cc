@@ -14,7 +14,6 @@
 #include <gflags/gflags.h>
 #include <glog/logging.h>
 
-#include <shapespace/base/atomic_file.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 
@@ -61,6 +60,15 @@ Terminal& TheTerminal() {
   return terminal;
 }
 
+std::vector<gflags::CommandLineFlagInfo> FlagsOf(const std::string& source) {
+  std::vector<gflags::CommandLineFlagInfo> all, flags;
+  gflags::GetAllFlags(&all);
+  for (const gflags::CommandLineFlagInfo& flag : all) {
+    if (flag.filename.find(source) != std::string::npos) flags.push_back(flag);
+  }
+  return flags;
+}
+
 // The shortest form that reads back as the same number: gflags writes out 1.0000000000000001e-05.
 std::string DefaultValue(const gflags::CommandLineFlagInfo& flag) {
   if (flag.type != "double") return flag.default_value;
@@ -86,13 +94,10 @@ void PrintFlag(std::string left, const std::string& description) {
 
 void PrintHelp(const Program& program) {
   std::cout << program.name << ": " << program.summary << "\n\n" << program.usage << "\n\nFlags:\n";
-  std::vector<gflags::CommandLineFlagInfo> flags;
-  gflags::GetAllFlags(&flags);
   std::vector<std::string> sources = program.flag_sources;
   sources.push_back("support/tool.cc");
   for (const std::string& source : sources) {
-    for (const gflags::CommandLineFlagInfo& flag : flags) {
-      if (flag.filename.find(source) == std::string::npos) continue;
+    for (const gflags::CommandLineFlagInfo& flag : FlagsOf(source)) {
       std::string left = "  --" + flag.name;
       if (flag.type != "bool") {
         left += " " + (flag.default_value.empty() ? "..." : DefaultValue(flag));
@@ -108,15 +113,15 @@ void PrintHelp(const Program& program) {
 
 bool IsGiven(const char* flag) { return !gflags::GetCommandLineFlagInfoOrDie(flag).is_default; }
 
-Progress* TerminalProgress() { return &TheTerminal(); }
-
-void WriteReport(const std::string& file, const std::string& text) {
-  if (file == "-") {
-    std::cout << text << std::flush;
-  } else {
-    WriteFileAtomically(file, [&](std::ostream& out) { out << text; });
+std::vector<std::string> GivenFlags(const std::string& source) {
+  std::vector<std::string> names;
+  for (const gflags::CommandLineFlagInfo& flag : FlagsOf(source)) {
+    if (!flag.is_default) names.push_back(flag.name);
   }
+  return names;
 }
+
+Progress* TerminalProgress() { return &TheTerminal(); }
 
 int RunTool(int argc, char** argv, const Program& program,
             const std::function<void(const std::vector<std::string>& arguments)>& body) {

@@ -33,11 +33,11 @@ int RunTool(int argc, char** argv, const Program& program,
 /// Whether the command line gave this flag.
 bool IsGiven(const char* flag);
 
+/// Those flags of one of `flag_sources` that the command line gave, by name.
+std::vector<std::string> GivenFlags(const std::string& source);
+
 /// Shows a line of progress on stderr where that is a terminal, and cancels on Ctrl-C.
 Progress* TerminalProgress();
-
-/// Writes a report: to stdout if `file` is "-".
-void WriteReport(const std::string& file, const std::string& text);
 
 }  // namespace shapespace::tools
 

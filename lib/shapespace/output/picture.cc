@@ -215,8 +215,12 @@ void FilmStripOptions::Validate() const {
 Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
                       const FilmStripOptions& options) {
   CheckInput(connectivity, shapes, options);
+  std::vector<int> poses;
+  for (size_t i = 0; i < options.roles.size(); ++i) {
+    if (options.roles[i] == ShapeRole::kPose) poses.push_back(static_cast<int>(i));
+  }
   const std::vector<int> chosen =
-      KeyShapes(static_cast<int>(shapes.size()), {}, options.max_frames);
+      KeyShapes(static_cast<int>(shapes.size()), poses, options.max_frames);
   const int frames = static_cast<int>(chosen.size());
   const std::vector<Shape> drawn = Normalised(connectivity, shapes, chosen);
   const double tube_radius = connectivity.IsGraph() ? TubeRadius(connectivity, drawn.front()) : 0;

@@ -23,8 +23,10 @@ struct FilmStripOptions {
   /// Longer side of the largest shape's cell, in pixels, 16 .. 2048. Cells are as narrow or as low
   /// as the shapes allow, and wrap into rows when a strip would be wider than six times this.
   int frame_width = 320;
-  int max_frames = 9;  ///< 2 .. 1000; longer paths are subsampled evenly, both ends kept
-  int samples = 3;     ///< per pixel and axis, 1 .. 16
+  /// 2 .. 1000; longer paths are subsampled, as evenly as both ends and the shapes of role kPose,
+  /// which are kept, allow.
+  int max_frames = 9;
+  int samples = 3;  ///< per pixel and axis, 1 .. 16
 
   /// Where the eye is, seen from the body: (0, 0, 1) looks at it from +z. Zero: a three-quarter
   /// view chosen from the shapes.

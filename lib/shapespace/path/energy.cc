@@ -66,9 +66,12 @@ std::vector<int> BreadthFirstOrder(const Connectivity& connectivity) {
 
 }  // namespace
 
-PathEnergy::PathEnergy(const Metric& metric, int inner)
-    : metric_(metric), inner_(inner), stride_(PaddedLength(inner)) {
+PathEnergy::PathEnergy(const Metric& metric, int inner, End end)
+    : metric_(metric), end_(end), inner_(inner), stride_(PaddedLength(inner)) {
   if (inner < 1) throw InvalidOptions("inner: a path energy needs at least one inner shape");
+  if (end == End::kFree && metric.options.bending > 0) {
+    throw InvalidOptions("bending: a path energy with a free end takes none; set it to 0");
+  }
   vertex_of_row_ = BreadthFirstOrder(*metric.connectivity);
   const int num_vertices = static_cast<int>(vertex_of_row_.size());
   row_of_vertex_.resize(num_vertices);
@@ -129,11 +132,16 @@ void PathEnergy::Build(const Feature& feature) {
   terms_.push_back(std::move(term));
 }
 
+void PathEnergy::CheckNumber(const std::vector<Shape>& shapes) const {
+  if (static_cast<int>(shapes.size()) != NumShapes()) {
+    throw MeshError("a path of " + std::to_string(inner_) + " inner shapes needs " +
+                    (end_ == End::kFree ? "one more as its beginning" : "two more as ends"));
+  }
+}
+
 void PathEnergy::Load(const std::vector<Shape>& shapes, double* unknowns) {
   const int num_vertices = static_cast<int>(vertex_of_row_.size());
-  if (static_cast<int>(shapes.size()) != inner_ + 2) {
-    throw MeshError("a path of " + std::to_string(inner_) + " inner shapes needs two more as ends");
-  }
+  CheckNumber(shapes);
   for (const Shape& shape : shapes) {
     if (shape.cols() != num_vertices) throw MeshError("a shape has the wrong number of vertices");
   }
@@ -177,9 +185,7 @@ void PathEnergy::EvaluateEnds(const Dihedral& feature, Term* term) const {
 }
 
 void PathEnergy::Store(const double* unknowns, std::vector<Shape>* shapes) const {
-  if (static_cast<int>(shapes->size()) != inner_ + 2) {
-    throw MeshError("a path of " + std::to_string(inner_) + " inner shapes needs two more as ends");
-  }
+  CheckNumber(*shapes);
   ParallelFor(inner_, [&](int t) {
     Shape& shape = (*shapes)[t + 1];
     shape.resize(3, row_of_vertex_.size());
@@ -215,6 +221,11 @@ std::vector<double> PathEnergy::EvaluateParts(const double* unknowns, double* gr
     std::vector<double> partial(num_groups * num_terms, 0.0);
     ParallelFor(num_groups, [&](int g) {
       if (phase == 0) {
+        if (end_ == End::kFree) {
+          for (int row = 3 * FirstRow(g); row < 3 * FirstRow(g + 1); ++row) {
+            last_[row] = unknowns[static_cast<size_t>(row) * stride_ + inner_ - 1];
+          }
+        }
         std::fill(gradient + 3 * static_cast<size_t>(FirstRow(g)) * stride_,
                   gradient + 3 * static_cast<size_t>(FirstRow(g + 1)) * stride_, 0.0);
       }

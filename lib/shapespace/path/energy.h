@@ -12,21 +12,30 @@ namespace shapespace {
 /// API, for people who bring their own optimiser.
 ///
 /// For features Phi it is E = 2 sum_i |Phi(P_{i+1}) - Phi(P_i)|^2, the midpoint form of the paper's
-/// (6) (docs/mathematics.md); the trapezoid and rigid metrics add their own forms. The end shapes
-/// are fixed. Unknowns are one array of `Size()` doubles: row 3 r + axis, `Stride()` numbers, holds
-/// one coordinate of one vertex in all inner shapes, time innermost; r = Row(vertex) is an order of
-/// the vertices that keeps neighbours close. Numbers past `Inner()` in a row are padding: finite
+/// (6) (docs/mathematics.md); the trapezoid and rigid metrics add their own forms. The first shape
+/// is fixed, and so is the last, unless its end is free. Unknowns are one array of `Size()`
+/// doubles: row 3 r + axis, `Stride()` numbers, holds one coordinate of one vertex in all inner
+/// shapes, time innermost (a free last shape counts as an inner one); r = Row(vertex) is an order
+/// of the vertices that keeps neighbours close. Numbers past `Inner()` in a row are padding: finite
 /// in the unknowns (`Load` sets zeros), without meaning in a gradient.
 ///
 /// One object serves one solve at a time; `Evaluate` itself uses all threads, and its result is
 /// bitwise the same for any number of them.
 class PathEnergy {
  public:
+  enum class End {
+    kFixed,  ///< the last shape stays where `Load` finds it
+    kFree,   ///< the last shape is an unknown too
+  };
+
   /// `metric` is kept by reference and must outlive the object.
-  /// \throw InvalidOptions if `inner` < 1.
-  PathEnergy(const Metric& metric, int inner);
+  /// \throw InvalidOptions if `inner` < 1, or if the end is free and the metric has bending, whose
+  ///        values at the ends are computed once.
+  PathEnergy(const Metric& metric, int inner, End end = End::kFixed);
 
   int Inner() const { return inner_; }
+  /// Shapes of the whole path: Inner() and those that are fixed.
+  int NumShapes() const { return inner_ + (end_ == End::kFree ? 1 : 2); }
   int Stride() const { return stride_; }
   size_t Size() const { return 3 * row_of_vertex_.size() * static_cast<size_t>(stride_); }
   int Row(int vertex) const { return row_of_vertex_[vertex]; }
@@ -35,8 +44,8 @@ class PathEnergy {
   /// A level with fewer shapes than the one it prepares needs less, or its answer is biased.
   void SetQuarticWeight(double weight) { quartic_weight_ = weight; }
 
-  /// Copies `shapes` (Inner() + 2 of them, in the metric's unit) into `unknowns` (Size() doubles,
-  /// padding set to zero) and takes the two ends. \throw MeshError on wrong sizes.
+  /// Copies `shapes` (NumShapes() of them, in the metric's unit) into `unknowns` (Size() doubles,
+  /// padding set to zero) and takes those that are fixed. \throw MeshError on wrong sizes.
   void Load(const std::vector<Shape>& shapes, double* unknowns);
 
   /// Copies the unknowns into the inner ones of `shapes`.
@@ -65,6 +74,7 @@ class PathEnergy {
     std::vector<Group> groups[kPhases];
   };
 
+  void CheckNumber(const std::vector<Shape>& shapes) const;
   int NumGroups(int phase) const;
   int FirstRow(int block) const;
   template <typename Feature>
@@ -87,10 +97,13 @@ class PathEnergy {
   void ReadRow(const double* unknowns, size_t row, double* times) const;
 
   const Metric& metric_;
+  const End end_;
   int inner_, stride_, blocks_;
   double quartic_weight_ = 1;
   std::vector<int> row_of_vertex_, vertex_of_row_;
-  std::vector<double> first_, last_;  // the ends, by row
+  // The ends, by row. Behind a free end the last shape stands once more: nothing moves from the one
+  // to the other, so that this segment costs nothing and pulls at nothing.
+  std::vector<double> first_, last_;
   std::vector<Term> terms_;
   std::vector<double> rigid_weights_;         // by row
   std::vector<double> sink_;                  // gradient where the caller wants none

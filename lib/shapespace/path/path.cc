@@ -80,6 +80,24 @@ Path Resample(const Path& path, const std::vector<double>& times) {
       result.motions.push_back(InterpolateMotion(path.motions[i - 1], path.motions[i], t));
     }
   }
+  const double end = path.parameters[path.NumShapes() - 1 - path.extrapolated];
+  result.extrapolated =
+      static_cast<int>(times.end() - std::upper_bound(times.begin(), times.end(), end));
+  return result;
+}
+
+Path FirstShapes(const Path& path, int count) {
+  if (count < 1 || count > path.NumShapes()) {
+    throw InvalidOptions("count: must be 1 to " + std::to_string(path.NumShapes()) +
+                         ", the number of shapes");
+  }
+  Path result = path;
+  result.shapes.resize(count);
+  result.parameters.resize(count);
+  result.motions.resize(count);
+  result.poses.erase(std::lower_bound(result.poses.begin(), result.poses.end(), count),
+                     result.poses.end());
+  result.extrapolated = std::max(0, path.extrapolated - (path.NumShapes() - count));
   return result;
 }
 

@@ -18,9 +18,13 @@ struct Path {
   /// The shapes, aligned rigidly, centred, in the metric's unit: on these the geodesic equation
   /// holds. Use `Placed` for shapes where, and as large as, the user's are.
   std::vector<Shape> shapes;
-  std::vector<double> parameters;    ///< t of every shape, rising from 0 to 1
+
+  /// t of every shape, rising from 0. The poses of an interpolation end at 1: what was extrapolated
+  /// from the last goes on beyond.
+  std::vector<double> parameters;
   std::vector<RigidMotion> motions;  ///< of every shape, to its place, in the user's unit
-  std::vector<int> poses;            ///< indices of the shapes that were given
+  std::vector<int> poses;            ///< indices of the shapes that were given, rising
+  int extrapolated = 0;              ///< how many of the last shapes were extrapolated
   std::string provenance;            ///< who made the path, from what
 
   int NumShapes() const { return static_cast<int>(shapes.size()); }
@@ -35,10 +39,15 @@ struct Path {
 std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<double>& parameters,
                             const std::vector<double>& times);
 
-/// The path seen at other times, rising within [0, 1]: shapes as above, but never across a pose,
-/// where a path may have a corner; `poses` are those that a time hits exactly.
+/// The path seen at other times, rising between its first and its last: shapes as above, but never
+/// across a pose, where a path may have a corner. `poses` are those that a time hits exactly,
+/// `extrapolated` counts the times after the last shape that was not.
 /// \throw InvalidOptions if the times do not rise or leave the path.
 Path Resample(const Path& path, const std::vector<double>& times);
+
+/// The first `count` shapes of a path, to go on from: the same metric and times, and the poses that
+/// are among them. \throw InvalidOptions if `count` is not in 1 .. `path.NumShapes()`.
+Path FirstShapes(const Path& path, int count);
 
 }  // namespace shapespace
 

@@ -1,8 +1,10 @@
 #include <shapespace/path/path_file.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <map>
 #include <type_traits>
@@ -233,9 +235,22 @@ Path Parse(const std::string& bytes) {
   const auto parameters = arrays.Get<Eigen::VectorXd>("parameters", num_shapes, 1);
   path.parameters.assign(parameters.begin(), parameters.end());
   const auto poses = arrays.Get<Eigen::VectorXi>("poses", Eigen::Dynamic, 1);
-  for (int pose : poses) {
-    if (pose < 0 || pose >= num_shapes) throw FileError("a pose's index is out of range");
-    path.poses.push_back(pose);
+  if (std::adjacent_find(parameters.begin(), parameters.end(), std::greater_equal<>()) !=
+      parameters.end()) {
+    throw FileError("its parameters do not rise");
+  }
+  path.poses.assign(poses.begin(), poses.end());
+  if (std::adjacent_find(poses.begin(), poses.end(), std::greater_equal<>()) != poses.end()) {
+    throw FileError("its poses' indices do not rise");
+  }
+  // Files that were written before paths could go on beyond their poses do not have the entry.
+  path.extrapolated = header.value("extrapolated", 0);
+  if (path.extrapolated < 0 || path.extrapolated >= num_shapes) {
+    throw FileError("its number of extrapolated shapes is out of range");
+  }
+  if (!path.poses.empty() &&
+      (path.poses.front() < 0 || path.poses.back() >= num_shapes - path.extrapolated)) {
+    throw FileError("a pose's index is out of range");
   }
   const auto rotations = arrays.Get<Eigen::Matrix3Xd>("rotations", 3, 3 * num_shapes);
   const auto translations = arrays.Get<Eigen::Matrix3Xd>("translations", 3, num_shapes);
@@ -286,8 +301,9 @@ void WritePath(const std::string& file, const Path& path) {
     arrays.Add("shape" + std::to_string(i), path.shapes[i]);
   }
 
-  const Json header = {{"vertices", connectivity.NumVertices()},
+  const Json header = {{"vertices", connectivity.NumVertices()},  //
                        {"shapes", path.NumShapes()},
+                       {"extrapolated", path.extrapolated},
                        {"unit", metric.unit},
                        {"metric", OptionsToJson(metric.options)},
                        {"features", features},

@@ -88,7 +88,8 @@ PathQuality MeasureQuality(const Path& path) {
       }
     }
     const auto next = std::lower_bound(path.poses.begin(), path.poses.end(), i);
-    if (next == path.poses.end() || *next == i) return;  // no inner shape
+    // Only shapes between two poses: not a pose itself, none before the first or after the last.
+    if (next == path.poses.begin() || next == path.poses.end() || *next == i) return;
     const Shape& m = path.shapes[*(next - 1)];
     const Shape& n = path.shapes[*next];
     const double begin = path.parameters[*(next - 1)], end = path.parameters[*next];
@@ -116,6 +117,7 @@ PathQuality MeasureQuality(const Path& path) {
   PathQuality quality;
   for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
     const int begin = path.poses[piece], end = path.poses[piece + 1] + 1;
+    quality.inner_shapes += end - begin - 2;
     const double speed =
         GreatestSpeed(metric, {path.shapes.begin() + begin, path.shapes.begin() + end},
                       {path.parameters.begin() + begin, path.parameters.begin() + end});
@@ -123,12 +125,12 @@ PathQuality MeasureQuality(const Path& path) {
   }
   Pool(between, &quality.edge_rms, &quality.edge_p99, &quality.edge_max);
   Pool(against_first, &quality.first_rms, &quality.first_p99, &quality.first_max);
-  const int inner = num_shapes - static_cast<int>(path.poses.size());
   const double hinge_area = metric.hinge_area.sum();
   for (int i = 0; i < num_shapes; ++i) {
     quality.roughness += roughness[i];
     quality.folds += folds[i];
   }
+  const int inner = quality.inner_shapes;
   if (inner > 0) quality.folds /= inner;
   quality.roughness = inner > 0 && hinge_area > 0
                           ? kDegrees * std::sqrt(quality.roughness / (hinge_area * inner))

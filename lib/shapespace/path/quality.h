@@ -12,14 +12,17 @@ namespace shapespace {
 /// Figures that see what an energy cannot: how far edges are from the lengths that they should have
 /// on the way, and whether the surface wrinkles or folds where the poses do not.
 struct PathQuality {
+  /// Shapes between two poses. Without any, the figures of inner shapes are 0.
+  int inner_shapes = 0;
   /// |e| / sqrt((1-t) |e_M|^2 + t |e_N|^2) - 1, between the two poses M and N around a shape, over
   /// all edges and inner shapes: root mean square weighted by A_e; 99th percentile and maximum of
   /// the magnitude, unweighted. Edges shorter than a thousandth of the mesh's are left out.
   double edge_rms = 0, edge_p99 = 0, edge_max = 0;
-  /// The same of | |e| / |e_first| - 1 | against the first pose, over all shapes.
+  /// The same of | |e| / |e_first| - 1 | against the first pose, over all shapes, extrapolated ones
+  /// too.
   double first_rms = 0, first_p99 = 0, first_max = 0;
   /// Area-weighted root mean square, in degrees, of the dihedral angle's distance from the straight
-  /// way between the poses' angles.
+  /// way between the poses' angles, over all inner shapes.
   double roughness = 0;
   /// Hinges folded beyond 120 degrees, and 40 degrees beyond both poses: mean per inner shape.
   double folds = 0;

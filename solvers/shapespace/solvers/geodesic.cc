@@ -154,15 +154,33 @@ GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivi
                            Progress* progress) {
   options.Validate();
   if (poses.size() < 2) throw MeshError("a geodesic needs at least two poses");
+  const Stopwatch freezing;
+  ReportProgress(progress, "freezing the metric", 0, 0);
+  const auto metric =
+      std::make_shared<const Metric>(FreezeMetric(options.metric, connectivity, poses));
+  const double freeze_seconds = freezing.Seconds();
+  GeodesicResult result = Interpolate(metric, poses, options, progress);
+  result.summary.freeze_seconds = freeze_seconds;
+  result.summary.total_seconds += freeze_seconds;
+  return result;
+}
+
+GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
+                           const std::vector<Shape>& poses, const GeodesicOptions& options,
+                           Progress* progress) {
+  options.Validate();
+  if (poses.size() < 2) throw MeshError("a geodesic needs at least two poses");
+  for (const Shape& pose : poses) {
+    if (pose.cols() != metric->connectivity->NumVertices() || !pose.allFinite()) {
+      throw MeshError("a pose is not finite, or has another number of vertices than the metric");
+    }
+  }
   const Stopwatch total;
+  const std::shared_ptr<const Connectivity>& connectivity = metric->connectivity;
   GeodesicResult result;
   Path& path = result.path;
   GeodesicSummary& summary = result.summary;
 
-  ReportProgress(progress, "freezing the metric", 0, 0);
-  const auto metric =
-      std::make_shared<const Metric>(FreezeMetric(options.metric, connectivity, poses));
-  summary.freeze_seconds = total.Seconds();
   summary.estimated_bytes = EstimateBytes(*metric, static_cast<int>(poses.size()), options.shapes);
   if (summary.estimated_bytes > options.memory_limit) {
     throw SolverError("this solve needs about " +
@@ -177,7 +195,7 @@ GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivi
   const Stopwatch building;
   ReportProgress(progress, "decimating", 0, 0);
   Schedule kind = options.schedule;
-  if (kind == Schedule::kAutomatic && options.metric.bending == 0) kind = Schedule::kFlat;
+  if (kind == Schedule::kAutomatic && metric->options.bending == 0) kind = Schedule::kFlat;
   HierarchyOptions hierarchy_options;
   hierarchy_options.coarsest = kind == Schedule::kFlat
                                    ? std::max(options.coarsest, connectivity->NumTriangles())
@@ -217,7 +235,7 @@ GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivi
   }
   if (metric->rigid.Active()) CheckRigidTurns(path);
 
-  summary.metric = Describe(options.metric);
+  summary.metric = Describe(metric->options);
   summary.vertices = connectivity->NumVertices();
   summary.triangles = connectivity->NumTriangles();
   summary.edges = connectivity->NumEdges();

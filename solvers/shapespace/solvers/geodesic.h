@@ -141,6 +141,12 @@ GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivi
 GeodesicResult Interpolate(const Poses& poses, const GeodesicOptions& options = {},
                            Progress* progress = nullptr);
 
+/// The same under a metric that is frozen already, so that several paths are comparable;
+/// options.metric is not read.
+GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
+                           const std::vector<Shape>& poses, const GeodesicOptions& options = {},
+                           Progress* progress = nullptr);
+
 }  // namespace shapespace
 
 #endif  // SHAPESPACE_SOLVERS_GEODESIC_H_

@@ -1,20 +1,16 @@
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include <shapespace/solvers/geodesic.h>
+#include <shapespace/solvers/report.h>
 
 namespace shapespace {
 namespace {
 
-template <typename... Arguments>
-std::string Format(const char* format, Arguments... arguments) {
-  char text[512];
-  std::snprintf(text, sizeof text, format, arguments...);
-  return text;
-}
+using internal::Format;
+using internal::Number;
 
 const char* Name(Termination termination) {
   switch (termination) {
@@ -26,11 +22,6 @@ const char* Name(Termination termination) {
       break;
   }
   return "NOT CONVERGED: stalled";
-}
-
-// JSON knows no NaN: a figure that does not exist is null.
-nlohmann::ordered_json Number(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
 }  // namespace

@@ -187,19 +187,7 @@ void BackwardNode(const Supernode& node, const float* block, const int* rows, fl
   BackwardColumns(node, block, rows, x, stride, count);
 }
 
-}  // namespace
-
-template <typename Scalar>
-CholeskyFactor<Scalar>::CholeskyFactor(const Eigen::SparseMatrix<double>& matrix) {
-  struct Common : cholmod_common {
-    Common() { cholmod_start(this); }
-    ~Common() { cholmod_finish(this); }
-  } common;
-  common.supernodal = CHOLMOD_SUPERNODAL;
-  common.final_ll = 1;
-  common.print = 0;
-  common.error_handler = nullptr;
-
+cholmod_sparse View(const Eigen::SparseMatrix<double>& matrix) {
   cholmod_sparse view = {};
   view.nrow = matrix.rows();
   view.ncol = matrix.cols();
@@ -214,9 +202,47 @@ CholeskyFactor<Scalar>::CholeskyFactor(const Eigen::SparseMatrix<double>& matrix
   view.sorted = 1;
   view.packed = matrix.isCompressed() ? 1 : 0;
   view.nz = const_cast<int*>(matrix.innerNonZeroPtr());
+  return view;
+}
+
+}  // namespace
+
+struct CholeskyAnalysis::Implementation {
+  cholmod_common common;
+  cholmod_factor* factor = nullptr;
+
+  Implementation() {
+    cholmod_start(&common);
+    common.supernodal = CHOLMOD_SUPERNODAL;
+    common.final_ll = 1;
+    common.print = 0;
+    common.error_handler = nullptr;
+  }
+  ~Implementation() {
+    cholmod_free_factor(&factor, &common);
+    cholmod_finish(&common);
+  }
+};
+
+CholeskyAnalysis::CholeskyAnalysis(const Eigen::SparseMatrix<double>& matrix)
+    : implementation_(std::make_unique<Implementation>()) {
+  cholmod_sparse view = View(matrix);
+  implementation_->factor = cholmod_analyze(&view, &implementation_->common);
+  if (implementation_->factor == nullptr) {
+    throw SolverError("the preconditioner's matrix cannot be analysed: is there memory left?");
+  }
+}
+
+CholeskyAnalysis::~CholeskyAnalysis() = default;
+
+template <typename Scalar>
+CholeskyFactor<Scalar>::CholeskyFactor(const Eigen::SparseMatrix<double>& matrix,
+                                       const CholeskyAnalysis& analysis) {
+  cholmod_common& common = analysis.implementation_->common;
   const auto free_factor = [&](cholmod_factor* factor) { cholmod_free_factor(&factor, &common); };
   const std::unique_ptr<cholmod_factor, decltype(free_factor)> factor(
-      cholmod_analyze(&view, &common), free_factor);
+      cholmod_copy_factor(analysis.implementation_->factor, &common), free_factor);
+  cholmod_sparse view = View(matrix);
   if (factor == nullptr || cholmod_factorize(&view, factor.get(), &common) == 0 ||
       common.status != CHOLMOD_OK) {
     throw SolverError(

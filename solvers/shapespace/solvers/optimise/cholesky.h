@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_SOLVERS_OPTIMISE_CHOLESKY_H_
 #define SHAPESPACE_SOLVERS_OPTIMISE_CHOLESKY_H_
 
+#include <memory>
 #include <vector>
 
 #include <Eigen/SparseCore>
@@ -15,6 +16,21 @@ struct Supernode {
   size_t values;  // of its first number
 };
 
+/// The order of elimination for one pattern of nonzeros: what factors of matrices that differ in
+/// their numbers alone have in common.
+class CholeskyAnalysis {
+ public:
+  /// Of the lower triangle of `matrix`. \throw SolverError if memory runs out.
+  explicit CholeskyAnalysis(const Eigen::SparseMatrix<double>& matrix);
+  ~CholeskyAnalysis();
+
+ private:
+  template <typename Scalar>
+  friend class CholeskyFactor;
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
 /// Sparse Cholesky factor C C^T = Q S Q^T (Q a fill-reducing permutation), computed by CHOLMOD and
 /// applied by kernels of ours, to many right-hand sides at once that lie side by side in memory.
 /// Computed in double precision, kept and applied in `Scalar`: double or float.
@@ -23,7 +39,10 @@ class CholeskyFactor {
  public:
   /// `matrix` is symmetric positive definite; only its lower triangle is read.
   /// \throw SolverError if it is not positive definite.
-  explicit CholeskyFactor(const Eigen::SparseMatrix<double>& matrix);
+  explicit CholeskyFactor(const Eigen::SparseMatrix<double>& matrix)
+      : CholeskyFactor(matrix, CholeskyAnalysis(matrix)) {}
+  /// The same where the analysis of the pattern is known.
+  CholeskyFactor(const Eigen::SparseMatrix<double>& matrix, const CholeskyAnalysis& analysis);
 
   /// The same factor, rounded.
   template <typename Other>

@@ -35,19 +35,30 @@ struct MinimiseResult {
   double remaining = 0;  ///< RemainingDecrease at the end
 };
 
+/// What is minimised: returns its value at `unknowns` and, unless null, fills `gradient`, both on
+/// a PathEnergy's arrays.
+using Objective = std::function<double(const double* unknowns, double* gradient)>;
+
+/// The path energy itself, which must outlive the result.
+inline Objective ObjectiveOf(PathEnergy* energy) {
+  return [energy](const double* unknowns, double* gradient) {
+    return energy->Evaluate(unknowns, gradient);
+  };
+}
+
 /// What one more step of the preconditioned method would gain at first order, as a share of the
 /// energy: half the squared gradient in the variables in which the Hessian resembles the identity.
-double RemainingDecrease(PathEnergy* energy, ChangeOfVariables* variables,
+double RemainingDecrease(const Objective& energy, ChangeOfVariables* variables,
                          const std::vector<double>& unknowns);
 
-/// The same by the other preconditioner.
+/// The same of a path energy, by the other preconditioner.
 double RemainingDecrease(PathEnergy* energy, Preconditioner* preconditioner,
                          const std::vector<double>& unknowns);
 
 /// Ceres' L-BFGS in the preconditioned variables. `unknowns` (PathEnergy::Size()) is where it
 /// starts and where the result goes.
 /// \throw Cancelled, SolverError if the energy is not finite at the start.
-MinimiseResult MinimiseLbfgs(PathEnergy* energy, ChangeOfVariables* variables,
+MinimiseResult MinimiseLbfgs(const Objective& energy, ChangeOfVariables* variables,
                              const MinimiseOptions& options, std::vector<double>* unknowns);
 
 /// L-BFGS of ours (Nocedal and Wright, Numerical Optimization, algorithm 7.4), for large problems:

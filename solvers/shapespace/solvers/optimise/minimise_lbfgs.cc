@@ -18,9 +18,9 @@ namespace {
 // input.
 class PreconditionedEnergy final : public ceres::FirstOrderFunction {
  public:
-  PreconditionedEnergy(PathEnergy* energy, ChangeOfVariables* variables,
+  PreconditionedEnergy(const Objective& energy, ChangeOfVariables* variables,
                        const std::vector<double>& origin, double unit, int* evaluations)
-      : energy_(*energy),
+      : energy_(energy),
         variables_(*variables),
         origin_(origin),
         unit_(unit),
@@ -31,7 +31,7 @@ class PreconditionedEnergy final : public ceres::FirstOrderFunction {
   bool Evaluate(const double* y, double* cost, double* gradient) const override {
     ++evaluations_;
     variables_.Apply(y, origin_.data(), std::sqrt(unit_), unknowns_.data());
-    *cost = energy_.Evaluate(unknowns_.data(), gradient_.data()) / unit_;
+    *cost = energy_(unknowns_.data(), gradient_.data()) / unit_;
     if (gradient != nullptr) {
       variables_.ApplyTranspose(gradient_.data(), 1 / std::sqrt(unit_), gradient);
     }
@@ -40,7 +40,7 @@ class PreconditionedEnergy final : public ceres::FirstOrderFunction {
   int NumParameters() const override { return variables_.Size(); }
 
  private:
-  PathEnergy& energy_;
+  const Objective& energy_;
   ChangeOfVariables& variables_;
   const std::vector<double>& origin_;
   const double unit_;
@@ -64,20 +64,20 @@ class EnoughGained final : public ceres::IterationCallback {
 
 }  // namespace
 
-double RemainingDecrease(PathEnergy* energy, ChangeOfVariables* variables,
+double RemainingDecrease(const Objective& energy, ChangeOfVariables* variables,
                          const std::vector<double>& unknowns) {
   std::vector<double> gradient(unknowns.size());
-  const double value = energy->Evaluate(unknowns.data(), gradient.data());
+  const double value = energy(unknowns.data(), gradient.data());
   if (value == 0) return 0;
   std::vector<double> y(variables->Size());
   variables->ApplyTranspose(gradient.data(), 1, y.data());
   return 0.5 * std::inner_product(y.begin(), y.end(), y.begin(), 0.0) / value;
 }
 
-MinimiseResult MinimiseLbfgs(PathEnergy* energy, ChangeOfVariables* variables,
+MinimiseResult MinimiseLbfgs(const Objective& energy, ChangeOfVariables* variables,
                              const MinimiseOptions& options, std::vector<double>* unknowns) {
   MinimiseResult result;
-  const double unit = energy->Evaluate(unknowns->data(), nullptr);
+  const double unit = energy(unknowns->data(), nullptr);
   if (!std::isfinite(unit)) throw SolverError("the energy of the path to start from is not finite");
   result.initial_energy = result.energy = unit;
   if (unit == 0) {

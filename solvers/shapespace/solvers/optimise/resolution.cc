@@ -78,7 +78,7 @@ GeodesicSummary::Level Resolution::Relax(int piece, double enough, const Geodesi
   if (solver == Solver::kLbfgs) {
     row.solver = "L-BFGS";
     ChangeOfVariables variables(Factor(&factor_, piece, inner), energy);
-    result = MinimiseLbfgs(&energy, &variables, minimise, &unknowns);
+    result = MinimiseLbfgs(ObjectiveOf(&energy), &variables, minimise, &unknowns);
   } else {
     Preconditioner preconditioner(Factor(&single_factor_, piece, inner), energy);
     if (solver == Solver::kThreadedLbfgs) {

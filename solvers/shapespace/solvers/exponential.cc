@@ -1,0 +1,394 @@
+#include <shapespace/solvers/exponential.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/stopwatch.h>
+#include <shapespace/hierarchy/detail.h>
+#include <shapespace/metric/feature_map.h>
+#include <shapespace/solvers/optimise/shooter.h>
+#include <shapespace/solvers/optimise/step_ceres.h>
+
+namespace shapespace {
+namespace {
+
+using internal::Departure;
+using internal::MetricSolver;
+
+// Makes the next shape, and fills what a row of the summary says of solving for it.
+using NextShape = std::function<Shape(ExponentialSummary::Step*)>;
+
+// A surface of which more than this share turns over in one step is no surface any more, nor is one
+// with an edge that has shrunk to so little of its length at the start.
+constexpr double kInvertedShare = 1e-2, kVanishedEdge = 1e-5;
+
+// Of the geodesic equation G(P) P'' = -J^T Phi''(P', P'), a step being the unit of time.
+class RungeKutta4 {
+ public:
+  RungeKutta4(const Metric& metric, Shape shape, Tangent velocity)
+      : map_(metric), shape_(std::move(shape)), velocity_(std::move(velocity)) {}
+
+  Shape Next(ExponentialSummary::Step* row) {
+    const Tangent v1 = velocity_, a1 = Acceleration(shape_, v1);
+    const Tangent v2 = velocity_ + 0.5 * a1, a2 = Acceleration(shape_ + 0.5 * v1, v2);
+    const Tangent v3 = velocity_ + 0.5 * a2, a3 = Acceleration(shape_ + 0.5 * v2, v3);
+    const Tangent v4 = velocity_ + a3, a4 = Acceleration(shape_ + v3, v4);
+    shape_ += (v1 + 2 * v2 + 2 * v3 + v4) / 6;
+    velocity_ += (a1 + 2 * a2 + 2 * a3 + a4) / 6;
+    row->converged = shape_.allFinite();
+    row->vertices = static_cast<int>(shape_.cols());
+    return shape_;
+  }
+
+ private:
+  Tangent Acceleration(const Shape& shape, const Tangent& velocity) {
+    const FeatureDerivative derivative = map_.Derivative(shape);
+    solver_.Factor(derivative);
+    return -SolveMetric(solver_, derivative,
+                        derivative.TransposeTimes(map_.SecondDerivative(shape, velocity)));
+  }
+
+  FeatureMap map_;
+  MetricSolver solver_;
+  Shape shape_;
+  Tangent velocity_;
+};
+
+// The paper's scheme: Euler steps, and after each the velocity that (7) asks for at the new shape.
+class FirstIntegral {
+ public:
+  FirstIntegral(const Metric& metric, const Shape& start, const Tangent& velocity,
+                const ExponentialOptions& options)
+      : map_(metric), options_(options), shape_(start), velocity_(velocity) {
+    const FeatureDerivative derivative = map_.Derivative(start);
+    constants_ = velocity.cwiseProduct(derivative.TransposeTimes(derivative.Times(velocity)));
+  }
+
+  Shape Next(ExponentialSummary::Step* row) {
+    shape_ += velocity_;
+    const internal::StepResult result = internal::SolveFirstIntegral(
+        map_, shape_, constants_, options_.tolerance, options_.max_iterations, &velocity_);
+    row->converged = result.converged;
+    row->iterations = result.iterations;
+    row->residual = result.residual;
+    row->vertices = static_cast<int>(shape_.cols());
+    return shape_;
+  }
+
+ private:
+  FeatureMap map_;
+  const ExponentialOptions options_;
+  Shape shape_;
+  Tangent velocity_, constants_;
+};
+
+struct Momenta {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
+  double linear_scale = 0, angular_scale = 0;
+};
+
+// The discrete momenta of a segment, of which translations and rotations keep the two sums.
+Momenta MeasureMomenta(const FeatureMap& map, const Shape& from, const Shape& to) {
+  const Tangent momentum = map.Derivative(from).TransposeTimes(map.Values(to) - map.Values(from));
+  Momenta result;
+  result.linear = momentum.rowwise().sum();
+  for (int v = 0; v < from.cols(); ++v) {
+    const Eigen::Vector3d p = from.col(v), q = momentum.col(v);
+    result.angular += p.cross(q);
+    result.linear_scale += q.norm();
+    result.angular_scale += p.norm() * q.norm();
+  }
+  return result;
+}
+
+double Drift(const Momenta& a, const Momenta& b) {
+  const auto share = [](const Eigen::Vector3d& difference, double scale) {
+    return scale > 0 ? difference.norm() / scale : 0;
+  };
+  return std::max(share(b.linear - a.linear, a.linear_scale),
+                  share(b.angular - a.angular, a.angular_scale));
+}
+
+// What has become of the edges since the path began.
+void MeasureEdges(const Metric& metric, const Shape& first, const Shape& shape,
+                  ExponentialSummary::Step* row) {
+  const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
+  double squares = 0, area = 0;
+  for (int e = 0; e < edges.cols(); ++e) {
+    const double before = (first.col(edges(1, e)) - first.col(edges(0, e))).norm();
+    if (before == 0) continue;
+    const double change =
+        std::abs((shape.col(edges(1, e)) - shape.col(edges(0, e))).norm() / before - 1);
+    squares += metric.edge_area(e) * change * change;
+    area += metric.edge_area(e);
+    row->edge_max = std::max(row->edge_max, change);
+  }
+  row->edge_rms = area > 0 ? std::sqrt(squares / area) : 0;
+}
+
+// The share of the surface whose triangles turn, in this step, by more than a right angle against
+// the rotation of what is around them.
+double InvertedShare(const Metric& metric, const Shape& before, const Shape& after) {
+  const Connectivity& connectivity = *metric.connectivity;
+  if (connectivity.NumTriangles() == 0) return 0;
+  const std::vector<Eigen::Matrix3d> turns = internal::VertexRotations(connectivity, before, after);
+  const auto normal = [&](const Shape& shape, const Eigen::Vector3i& t) -> Eigen::Vector3d {
+    const Eigen::Vector3d a = shape.col(t(0)), b = shape.col(t(1)), c = shape.col(t(2));
+    return (b - a).cross(c - a);
+  };
+  double inverted = 0, all = 0;
+  for (int f = 0; f < connectivity.NumTriangles(); ++f) {
+    const Eigen::Vector3i t = connectivity.Triangles().col(f);
+    const Eigen::Vector3d n = normal(before, t);
+    const Eigen::Vector3d expected = (turns[t(0)] + turns[t(1)] + turns[t(2)]) * n;
+    all += n.norm();
+    if (expected.dot(normal(after, t)) < 0) inverted += n.norm();
+  }
+  return all > 0 ? inverted / all : 0;
+}
+
+// Why a path must end before `shape`; empty if it need not.
+std::string WhyDegenerate(const Metric& metric, const Shape& start, const Shape& shape,
+                          const ExponentialSummary::Step& row) {
+  if (!shape.allFinite()) {
+    return "a coordinate is not finite any more: the steps are too large for this integrator";
+  }
+  if (row.inverted > kInvertedShare) {
+    return std::to_string(std::lround(100 * row.inverted)) +
+           "% of the surface turn inside out; the motion cannot go on like this";
+  }
+  const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
+  for (int e = 0; e < edges.cols(); ++e) {
+    const double before = (start.col(edges(1, e)) - start.col(edges(0, e))).norm();
+    const double now = (shape.col(edges(1, e)) - shape.col(edges(0, e))).norm();
+    if (now < kVanishedEdge * before) {
+      return "the edge between vertices " + std::to_string(edges(0, e) + 1) + " and " +
+             std::to_string(edges(1, e) + 1) + " vanishes; the motion cannot go on like this";
+    }
+  }
+  return {};
+}
+
+// Appends `steps` shapes to the result's path, `step` apart in time, after the last one.
+void March(const NextShape& next, int steps, double step, Progress* progress,
+           ExponentialResult* result) {
+  Path& path = result->path;
+  ExponentialSummary& summary = result->summary;
+  const Metric& metric = *path.metric;
+  const FeatureMap map(metric);
+  const Shape start = path.shapes.back();
+  Momenta first;
+  for (int i = 0; i < steps; ++i) {
+    ReportProgress(progress, "shooting", i, steps);
+    const Stopwatch stopwatch;
+    ExponentialSummary::Step row;
+    const Shape& current = path.shapes.back();
+    row.t = path.parameters.back() + step;
+    Shape shape;
+    try {
+      shape = next(&row);
+    } catch (const SolverError& error) {
+      summary.stopped = error.what();
+    }
+    if (summary.stopped.empty()) {
+      if (shape.allFinite()) row.inverted = InvertedShare(metric, current, shape);
+      summary.stopped = WhyDegenerate(metric, start, shape, row);
+    }
+    if (!summary.stopped.empty()) {
+      summary.ending = ExponentialSummary::Ending::kDegenerate;
+      summary.stopped = "step " + std::to_string(i + 1) + ": " + summary.stopped;
+      return;
+    }
+    row.energy = (map.Values(shape) - map.Values(current)).squaredNorm() / (step * step);
+    const Momenta momenta = MeasureMomenta(map, current, shape);
+    if (i == 0) first = momenta;
+    row.momentum_drift = Drift(first, momenta);
+    MeasureEdges(metric, path.shapes.front(), shape, &row);
+    row.seconds = stopwatch.Seconds();
+    summary.steps.push_back(row);
+
+    const RigidMotion motion =
+        path.NumShapes() > 1
+            ? InterpolateMotion(path.motions[path.NumShapes() - 2], path.motions.back(), 2)
+            : path.motions.back();
+    path.motions.push_back(motion);
+    path.parameters.push_back(row.t);
+    path.shapes.push_back(std::move(shape));
+  }
+}
+
+void CheckSteps(int steps) {
+  if (steps < 1) throw InvalidOptions("steps: must be 1 or more");
+}
+
+// What a person should look at.
+void Warn(ExponentialSummary* summary) {
+  int coarse = 0, open = 0;
+  double inverted = 0;
+  for (const ExponentialSummary::Step& step : summary->steps) {
+    if (step.vertices < summary->vertices) ++coarse;
+    if (step.vertices == summary->vertices && !step.converged) ++open;
+    inverted = std::max(inverted, step.inverted);
+  }
+  const std::string of = " of " + std::to_string(summary->steps.size()) + " steps ";
+  if (coarse > 0) {
+    summary->warnings.push_back(std::to_string(coarse) + of +
+                                "have no answer on the mesh itself, some of whose triangles cannot "
+                                "go on as they moved: they were made on a coarser one, and detail "
+                                "carried along");
+  }
+  if (open > 0) summary->warnings.push_back(std::to_string(open) + of + "did not converge");
+  if (inverted > 0) {
+    summary->warnings.push_back("up to " + std::to_string(100 * inverted) +
+                                "% of the surface turned over in a step: look at the pictures");
+  }
+  if (summary->ending == ExponentialSummary::Ending::kDegenerate) {
+    summary->warnings.push_back("stopped early, at " + summary->stopped);
+  }
+}
+
+// G(P_1) V = J(P_1)^T [Phi(P_1) - Phi(P_0)]: the velocity per step with which a segment arrives;
+// the other way round, that with which it sets out.
+Tangent SegmentVelocity(const Metric& metric, const Shape& other, const Shape& at, double sign) {
+  const FeatureMap map(metric);
+  const FeatureDerivative derivative = map.Derivative(at);
+  MetricSolver solver;
+  solver.Factor(derivative);
+  return SolveMetric(solver, derivative,
+                     derivative.TransposeTimes(sign * (map.Values(at) - map.Values(other))));
+}
+
+// Continues the result's path, whose last shape is that of `departure`.
+void Shoot(Departure departure, int steps, double step, const ExponentialOptions& options,
+           Progress* progress, ExponentialResult* result) {
+  const Stopwatch total;
+  Path& path = result->path;
+  ExponentialSummary& summary = result->summary;
+  const Metric& metric = *path.metric;
+  summary.integrator = options.integrator;
+  summary.vertices = metric.connectivity->NumVertices();
+  summary.requested_steps = steps;
+  summary.metric = Describe(metric.options);
+  if (metric.options.discretization == Discretization::kTrapezoid) {
+    summary.warnings.push_back(
+        "the path was made in trapezoid form, in which geodesics cannot be shot: it goes on in "
+        "midpoint form");
+  }
+
+  const bool discrete = departure.previous.size() > 0;
+  switch (options.integrator) {
+    case Integrator::kVariational: {
+      internal::Shooter shooter(path.metric, {path.shapes.front(), departure.shape}, options);
+      const auto next = [&](ExponentialSummary::Step* row) {
+        Shape shape = shooter.Next(departure, row);
+        departure.velocity.resize(3, 0);
+        departure.previous = std::exchange(departure.shape, shape);
+        return shape;
+      };
+      March(next, steps, step, progress, result);
+      summary.factorisations = shooter.NumFactorisations();
+      summary.factor_seconds = shooter.FactorSeconds();
+      break;
+    }
+    case Integrator::kRungeKutta4: {
+      RungeKutta4 scheme(metric, departure.shape,
+                         discrete ? SegmentVelocity(metric, departure.previous, departure.shape, 1)
+                                  : departure.velocity);
+      March([&](ExponentialSummary::Step* row) { return scheme.Next(row); }, steps, step, progress,
+            result);
+      break;
+    }
+    case Integrator::kFirstIntegral: {
+      FirstIntegral scheme(metric, discrete ? departure.previous : departure.shape,
+                           discrete ? departure.shape - departure.previous : departure.velocity,
+                           options);
+      ExponentialSummary::Step unused;
+      if (discrete) scheme.Next(&unused);  // its first step is the path's last
+      March([&](ExponentialSummary::Step* row) { return scheme.Next(row); }, steps, step, progress,
+            result);
+      break;
+    }
+  }
+  path.extrapolated += static_cast<int>(summary.steps.size());
+  Warn(&summary);
+  summary.total_seconds = total.Seconds();
+}
+
+}  // namespace
+
+void ExponentialOptions::Validate() const {
+  if (!(tolerance > 0) || !(tolerance < 1)) {
+    throw InvalidOptions("tolerance: must be between 0 and 1");
+  }
+  if (max_iterations < 1) throw InvalidOptions("max_iterations: must be 1 or more");
+}
+
+ExponentialResult Extrapolate(const Path& path, int steps, const ExponentialOptions& options,
+                              Progress* progress) {
+  options.Validate();
+  CheckSteps(steps);
+  if (path.NumShapes() < 2) throw MeshError("a path of less than two shapes has no direction");
+  ExponentialResult result;
+  result.path = path;
+  result.path.provenance += "; extrapolated";
+  const int last = path.NumShapes() - 1;
+  Shoot({path.shapes[last], path.shapes[last - 1], {}}, steps,
+        path.parameters[last] - path.parameters[last - 1], options, progress, &result);
+  return result;
+}
+
+ExponentialResult Extrapolate(const std::shared_ptr<const Metric>& metric, const Shape& shape,
+                              const Tangent& velocity, int steps, const ExponentialOptions& options,
+                              Progress* progress) {
+  options.Validate();
+  CheckSteps(steps);
+  for (const auto& [matrix, name] : {std::make_pair(&shape, "shape"), {&velocity, "velocity"}}) {
+    if (matrix->cols() != metric->connectivity->NumVertices() || !matrix->allFinite()) {
+      throw MeshError(std::string("the ") + name +
+                      " is not finite, or has another number of vertices than the metric");
+    }
+  }
+  ExponentialResult result;
+  Path& path = result.path;
+  path.metric = metric;
+  RigidMotion place;
+  place.translation = Centroid(shape, metric->vertex_area);
+  path.motions = {place};
+  path.shapes = {(shape.colwise() - place.translation) / metric->unit};
+  path.parameters = {0};
+  path.poses = {0};
+  path.provenance = "shot from a shape";
+  Shoot({path.shapes[0], {}, velocity / (metric->unit * steps)}, steps, 1.0 / steps, options,
+        progress, &result);
+  return result;
+}
+
+Shape Exponential(const std::shared_ptr<const Metric>& metric, const Shape& shape,
+                  const Tangent& velocity, int steps, const ExponentialOptions& options) {
+  const ExponentialResult result = Extrapolate(metric, shape, velocity, steps, options);
+  if (result.summary.ending != ExponentialSummary::Ending::kComplete) {
+    throw SolverError("the exponential map stopped early, at " + result.summary.stopped);
+  }
+  return result.path.Placed(result.path.NumShapes() - 1);
+}
+
+Tangent Logarithm(const std::shared_ptr<const Metric>& metric, const Shape& from, const Shape& to,
+                  const GeodesicOptions& options, Progress* progress) {
+  const FeatureMap refuses_rigid_metrics(*metric);  // before the solve, not after
+  return InitialVelocity(Interpolate(metric, {from, to}, options, progress).path);
+}
+
+Tangent InitialVelocity(const Path& path) {
+  if (path.NumShapes() < 2) throw MeshError("a path of less than two shapes has no direction");
+  const Metric& metric = *path.metric;
+  const double scale = metric.unit / (path.parameters[1] - path.parameters[0]);
+  return scale *
+         (path.motions[0].rotation * SegmentVelocity(metric, path.shapes[1], path.shapes[0], -1));
+}
+
+}  // namespace shapespace

@@ -1,0 +1,131 @@
+#ifndef SHAPESPACE_SOLVERS_EXPONENTIAL_H_
+#define SHAPESPACE_SOLVERS_EXPONENTIAL_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <shapespace/base/progress.h>
+#include <shapespace/mesh/shape.h>
+#include <shapespace/metric/metric.h>
+#include <shapespace/path/path.h>
+#include <shapespace/solvers/geodesic.h>
+
+namespace shapespace {
+
+/// How a geodesic is continued (docs/mathematics.md, section 8).
+enum class Integrator {
+  kVariational,    ///< discrete Euler-Lagrange equation: order 2, momenta kept to rounding
+  kRungeKutta4,    ///< of the geodesic equation: order 4, no safeguard against large steps
+  kFirstIntegral,  ///< the paper's (7), which does not converge: for comparison only
+};
+
+/// What solves a step of the variational integrator.
+enum class StepSolver {
+  kAutomatic,     ///< Newton-Krylov
+  kNewtonKrylov,  ///< matrix-free, preconditioned by a sparse factor of the metric
+  kCeres,         ///< Ceres' trust region on automatically differentiated rows, small meshes only
+};
+
+/// How to shoot.
+struct ExponentialOptions {
+  Integrator integrator = Integrator::kVariational;
+  StepSolver solver = StepSolver::kAutomatic;
+
+  /// A step is solved when its residual, measured in the metric, is this share of the step itself.
+  double tolerance = 1e-9;
+
+  /// Of Newton's method in a step, or of Ceres' trust region. A step that runs out of them is taken
+  /// over from a coarser resolution, and says so.
+  int max_iterations = 20;
+
+  /// \throw InvalidOptions naming the field.
+  void Validate() const;
+};
+
+/// What happened on the way, and how far it can be trusted.
+struct ExponentialSummary {
+  enum class Ending {
+    kComplete,    ///< all steps were made
+    kDegenerate,  ///< the shape degenerated: the path ends before (`stopped` says where and why)
+  };
+
+  struct Step {
+    double t = 0;            ///< parameter of the shape that the step reached
+    bool converged = false;  ///< reached the tolerance on the mesh itself
+    /// Of the resolution on which a root was found: the mesh's own, or a coarser one's, whose step
+    /// was taken over with all detail; 0 if on none, and the nearest shape in feature space to what
+    /// the coarsest step asked for was taken.
+    int vertices = 0;
+    int iterations = 0;  ///< of Newton's method, or of Ceres, on the mesh itself
+    int krylov_iterations = 0;
+    double residual = 0;  ///< at the end, on the mesh itself, share of the step
+    double energy = 0;    ///< of the segment, scaled as a whole path's: constant on a geodesic
+    double momentum_drift = 0;  ///< change of linear and angular momentum since the start, share
+    double edge_rms = 0, edge_max = 0;  ///< | |e| / |e_first| - 1 |, weighted by A_e and not
+    double inverted =
+        0;  ///< share of the area whose triangles turned over against their surroundings
+    double seconds = 0;
+  };
+
+  Ending ending = Ending::kComplete;
+  std::string stopped;  ///< a sentence, if it ended early
+  Integrator integrator = Integrator::kVariational;
+  int vertices = 0;
+  int requested_steps = 0;
+  std::string metric;
+  std::vector<Step> steps;  ///< those that were made
+  std::vector<std::string> warnings;
+  double total_seconds = 0, factor_seconds = 0;
+  int factorisations = 0;
+
+  /// All steps were made, and all converged on the mesh itself.
+  bool Converged() const;
+  std::string BriefReport() const;  ///< one line
+  std::string FullReport() const;   ///< a page
+  std::string ToJson() const;
+};
+
+struct ExponentialResult {
+  Path path;
+  ExponentialSummary summary;
+};
+
+/// Continues a path (Kilian et al. 2007, section 4) by `steps` shapes: the geodesic through its
+/// last two shapes, at their distance in time. The rigid motion that the path carries goes on as a
+/// screw. The path's own metric decides; one made in trapezoid form is continued by the midpoint's,
+/// and a warning says so.
+/// \throw InvalidOptions (also if the metric is rigid, or steps < 1), MeshError (fewer than two
+///        shapes), SolverError, Cancelled.
+ExponentialResult Extrapolate(const Path& path, int steps, const ExponentialOptions& options = {},
+                              Progress* progress = nullptr);
+
+/// The geodesic from `shape` (3 x m, user's unit) with initial `velocity` (user's unit per unit of
+/// time) over unit time in `steps` steps: parameters 0 ... 1.
+/// \throw as above; MeshError if shape or velocity has the wrong size or is not finite.
+ExponentialResult Extrapolate(const std::shared_ptr<const Metric>& metric, const Shape& shape,
+                              const Tangent& velocity, int steps,
+                              const ExponentialOptions& options = {}, Progress* progress = nullptr);
+
+/// exp: the end of that geodesic, user's unit and place. \throw as above; SolverError if it
+/// degenerates before the end.
+Shape Exponential(const std::shared_ptr<const Metric>& metric, const Shape& shape,
+                  const Tangent& velocity, int steps = 16, const ExponentialOptions& options = {});
+
+/// log: the initial velocity of the geodesic from `from` to `to` (user's unit), which is first
+/// moved rigidly onto it. Computed from a path of options.shapes inner shapes under `metric`
+/// (options.metric is not read), so that Exponential with options.shapes + 1 steps leads to `to`,
+/// as closely as options.tolerance lets it. \throw as Interpolate; InvalidOptions if the metric is
+/// rigid.
+Tangent Logarithm(const std::shared_ptr<const Metric>& metric, const Shape& from, const Shape& to,
+                  const GeodesicOptions& options = {}, Progress* progress = nullptr);
+
+/// The velocity with which a path sets out, from its first two shapes: user's unit and place, per
+/// unit of its parameter. Extrapolate from the first shape with it, in steps as long as the first
+/// segment, gives the second. \throw InvalidOptions if the metric is rigid; MeshError (fewer than
+/// two shapes), SolverError.
+Tangent InitialVelocity(const Path& path);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_SOLVERS_EXPONENTIAL_H_

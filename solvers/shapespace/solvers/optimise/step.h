@@ -1,0 +1,65 @@
+#ifndef SHAPESPACE_SOLVERS_OPTIMISE_STEP_H_
+#define SHAPESPACE_SOLVERS_OPTIMISE_STEP_H_
+
+#include <memory>
+
+#include <Eigen/Core>
+
+#include <shapespace/metric/feature_map.h>
+#include <shapespace/solvers/exponential.h>
+#include <shapespace/solvers/optimise/metric_solver.h>
+
+namespace shapespace::internal {
+
+/// Where a step starts from: a shape, and either the shape before it, one step earlier, or, at the
+/// start of a geodesic, its velocity per step.
+struct Departure {
+  Shape shape;
+  Shape previous;    ///< empty: there is a velocity
+  Tangent velocity;  ///< empty: there is a previous shape
+};
+
+/// One step of the variational integrator on one mesh: finds P with
+///   J(P_i)^T [Phi(P) - Phi(P_i) - change] = 0,
+/// where `change` is Phi(P_i) - Phi(P_{i-1}), or J(P_i) X for a start with velocity X: the discrete
+/// Legendre transform, whose inverse the logarithm is.
+class Step {
+ public:
+  /// `map` and `solver` are kept by reference; the solver factors the metric at the departure.
+  /// \throw SolverError if the metric is not definite there.
+  Step(const FeatureMap& map, MetricSolver* solver, const Departure& departure);
+
+  /// The departure continued by its velocity and the geodesic equation's acceleration: a start
+  /// whose error is of third order in the step.
+  Shape Predict() const;
+
+  /// Newton's method from `*shape`, which becomes the root if one is found, and else is left where
+  /// it was; row->converged tells whether the tolerance was reached. A root that is much farther or
+  /// nearer in the metric than the step before is another geodesic's, and does not count.
+  bool Solve(const ExponentialOptions& options, ExponentialSummary::Step* row, Shape* shape) const;
+
+  /// The shape nearest in feature space to what the step asks for: argmin |Phi(P) - Phi(P_i) -
+  /// change|^2, by Gauss-Newton from `start`. Always exists; of first order only.
+  Shape Nearest(const Shape& start, ExponentialSummary::Step* row) const;
+
+ private:
+  bool SolveWithNewton(const ExponentialOptions& options, ExponentialSummary::Step* row,
+                       Shape* shape) const;
+
+  const FeatureMap& map_;
+  MetricSolver& solver_;
+  const Departure& departure_;
+  Eigen::VectorXd target_;   // Phi(P_i) + change
+  Eigen::VectorXd current_;  // Phi(P_i)
+  double speed_ = 0;         // |change|
+  FeatureDerivative derivative_;
+};
+
+/// Solves G(P) x = b as exactly as rounding allows, the solver's factor being of G at P.
+/// \throw SolverError if it does not get there.
+Tangent SolveMetric(const MetricSolver& solver, const FeatureDerivative& derivative,
+                    const Tangent& b);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_SOLVERS_OPTIMISE_STEP_H_

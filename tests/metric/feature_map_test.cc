@@ -1,0 +1,282 @@
+#include <shapespace/metric/feature_map.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+#include <Eigen/SparseCore>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/sheet.h>
+#include <shapespace/path/energy.h>
+
+#include "support/message_of.h"
+#include "support/paths.h"
+
+namespace shapespace {
+namespace {
+
+using testing::Noise;
+
+struct Case {
+  std::string name;
+  std::shared_ptr<const Connectivity> connectivity;
+  Metric metric;
+  Shape shape;  // in the metric's unit, with some noise, so that nothing is symmetric
+};
+
+Case Bent(const std::string& name, const Body& body, const MetricOptions& options) {
+  const Metric metric = FreezeMetric(options, body.connectivity, {body.pose(0), body.pose(60)});
+  const Shape pose = body.pose(30) / metric.unit;
+  return {name, body.connectivity, metric, pose + Noise(static_cast<int>(pose.cols()), 0.01, 1)};
+}
+
+// Every feature that there is, on a closed bar.
+Case AllFeatures() {
+  MetricOptions options;
+  options.log_length = 0.1;
+  options.volume = 0.3;
+  return Bent("all features", MakeBar(6, 1, 1, 6, 2, 2), options);
+}
+
+std::vector<Case> Cases() {
+  MetricOptions paper = MetricOptions::Paper();
+  paper.discretization = Discretization::kMidpoint;
+  return {AllFeatures(), Bent("default, open sheet", MakeSheet(2, 1, 8, 5), {}),
+          Bent("paper, open sheet", MakeSheet(2, 1, 8, 5), paper)};
+}
+
+// The part of `values` (of Phi, of a derivative) that belongs to each feature, by the feature's
+// name.
+std::vector<std::pair<std::string, Eigen::VectorXd>> ByFeature(const Metric& metric,
+                                                               const Eigen::VectorXd& values) {
+  std::vector<std::pair<std::string, Eigen::VectorXd>> parts;
+  int begin = 0;
+  for (const AnyFeature& any : metric.features) {
+    std::visit(
+        [&](const auto& feature) {
+          const int size =
+              feature.kSum ? 1 : feature.kValues * static_cast<int>(feature.stencils.cols());
+          parts.emplace_back(feature.kName, values.segment(begin, size));
+          begin += size;
+        },
+        any);
+  }
+  EXPECT_EQ(begin, values.size());
+  return parts;
+}
+
+// Every part of `got` is that of `expected` to `tolerance` of the latter's norm.
+void ExpectNearByFeature(const Metric& metric, const Eigen::VectorXd& got,
+                         const Eigen::VectorXd& expected, double tolerance) {
+  const auto got_parts = ByFeature(metric, got), expected_parts = ByFeature(metric, expected);
+  for (size_t i = 0; i < got_parts.size(); ++i) {
+    SCOPED_TRACE(got_parts[i].first);
+    const double norm = expected_parts[i].second.norm();
+    EXPECT_GT(norm, 0);
+    EXPECT_LE((got_parts[i].second - expected_parts[i].second).norm(), tolerance * norm);
+  }
+}
+
+TEST(FeatureMap, ValuesAreThoseOfTheGeometryTimesTheRootOfTheWeight) {
+  const Case test = AllFeatures();
+  const Connectivity& mesh = *test.connectivity;
+  const auto parts = ByFeature(test.metric, FeatureMap(test.metric).Values(test.shape));
+  ASSERT_EQ(parts.size(), 5u);
+  for (const auto& [name, values] : parts) {
+    SCOPED_TRACE(name);
+    if (name == "edge length" || name == "log length") {
+      for (int e = 0; e < mesh.NumEdges(); ++e) {
+        const Eigen::Vector2i edge = mesh.Edges().col(e);
+        const double length = (test.shape.col(edge(1)) - test.shape.col(edge(0))).norm();
+        const auto& feature = std::get<EdgeLength>(test.metric.features[0]);
+        const double expected = name == "edge length"
+                                    ? std::sqrt(feature.weights(e)) * length * length / 2
+                                    : std::sqrt(0.1 * test.metric.edge_area(e)) * std::log(length);
+        EXPECT_NEAR(values(e), expected, 1e-13);
+      }
+    } else if (name == "position") {
+      for (int v = 0; v < mesh.NumVertices(); ++v) {
+        const Eigen::Vector3d expected =
+            std::sqrt(1e-4 * test.metric.vertex_area(v)) * test.shape.col(v);
+        EXPECT_LT((values.segment<3>(3 * v) - expected).norm(), 1e-15);
+      }
+    } else if (name == "dihedral") {
+      const auto& feature = std::get<Dihedral>(test.metric.features[3]);
+      for (int h = 0; h < mesh.NumHinges(); ++h) {
+        const Eigen::Vector4i v = mesh.Hinges().col(h);
+        const Eigen::Vector3d a = test.shape.col(v(0)), b = test.shape.col(v(1));
+        const Eigen::Vector3d m = (b - a).cross(test.shape.col(v(2)) - a).normalized();
+        const Eigen::Vector3d n = (test.shape.col(v(3)) - a).cross(b - a).normalized();
+        const double root = std::sqrt(feature.weights(h));
+        EXPECT_NEAR(values(2 * h), root * m.dot(n), 1e-13);
+        EXPECT_NEAR(values(2 * h + 1), root * m.cross(n).dot((b - a).normalized()), 1e-13);
+      }
+    } else {
+      double volume = 0, reference = 0;
+      const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+      for (int f = 0; f < mesh.NumTriangles(); ++f) {
+        const Eigen::Vector3i t = mesh.Triangles().col(f);
+        const auto of = [&](const Shape& p) {
+          return p.col(t(0)).cross(p.col(t(1))).dot(p.col(t(2))) / 6;
+        };
+        volume += of(test.shape);
+        reference += 0.5 * (of(bar.pose(0)) + of(bar.pose(60))) / std::pow(test.metric.unit, 3);
+      }
+      EXPECT_NEAR(values(0), std::sqrt(0.3) * volume / reference, 1e-13);
+    }
+  }
+}
+
+TEST(FeatureMap, DerivativeIsThatOfCentralDifferences) {
+  for (const Case& test : Cases()) {
+    SCOPED_TRACE(test.name);
+    const FeatureMap map(test.metric);
+    const Tangent x = Noise(static_cast<int>(test.shape.cols()), 1, 2);
+    const double h = 1e-5;  // third derivatives leave 1e-10 / |e|^2, rounding 1e-16 / 1e-5
+    const Eigen::VectorXd differences =
+        (map.Values(test.shape + h * x) - map.Values(test.shape - h * x)) / (2 * h);
+    ExpectNearByFeature(test.metric, map.Derivative(test.shape).Times(x), differences, 1e-6);
+  }
+}
+
+TEST(FeatureMap, SecondDerivativeIsThatOfDifferencesOfTheFirst) {
+  for (const Case& test : Cases()) {
+    SCOPED_TRACE(test.name);
+    const FeatureMap map(test.metric);
+    const Tangent x = Noise(static_cast<int>(test.shape.cols()), 1, 3);
+    const double h = 1e-5;
+    const Eigen::VectorXd differences = (map.Derivative(test.shape + h * x).Times(x) -
+                                         map.Derivative(test.shape - h * x).Times(x)) /
+                                        (2 * h);
+    const auto got = ByFeature(test.metric, map.SecondDerivative(test.shape, x));
+    const auto expected = ByFeature(test.metric, differences);
+    for (size_t i = 0; i < got.size(); ++i) {
+      SCOPED_TRACE(got[i].first);
+      // Positions are linear: their differences are rounding divided by h.
+      const double rounding = 1e-14 / h;
+      EXPECT_LE((got[i].second - expected[i].second).norm(),
+                1e-6 * expected[i].second.norm() + rounding);
+      EXPECT_EQ(got[i].second.norm() == 0, got[i].first == "position");
+    }
+  }
+}
+
+TEST(FeatureMap, TransposeTimesIsTheAdjointOfTimes) {
+  for (const Case& test : Cases()) {
+    SCOPED_TRACE(test.name);
+    const FeatureDerivative derivative = FeatureMap(test.metric).Derivative(test.shape);
+    const Tangent x = Noise(static_cast<int>(test.shape.cols()), 1, 4);
+    const Eigen::VectorXd jx = derivative.Times(x);
+    const Eigen::VectorXd y = Eigen::VectorXd::Random(jx.size());
+    const Tangent jty = derivative.TransposeTimes(y);
+    EXPECT_NEAR(jx.dot(y), x.cwiseProduct(jty).sum(), 1e-13 * jx.norm() * y.norm());
+    // One feature at a time: none hides behind another's size.
+    int begin = 0;
+    for (const auto& [name, part] : ByFeature(test.metric, jx)) {
+      SCOPED_TRACE(name);
+      Eigen::VectorXd only = Eigen::VectorXd::Zero(jx.size());
+      only.segment(begin, part.size()) = y.segment(begin, part.size());
+      begin += static_cast<int>(part.size());
+      EXPECT_NEAR(jx.dot(only), x.cwiseProduct(derivative.TransposeTimes(only)).sum(),
+                  1e-12 * part.norm() * only.norm());
+    }
+  }
+}
+
+TEST(FeatureMap, SegmentsHaveTheEnergyOfAPath) {
+  for (const Case& test : Cases()) {
+    SCOPED_TRACE(test.name);
+    const FeatureMap map(test.metric);
+    const int num_vertices = static_cast<int>(test.shape.cols());
+    const std::vector<Shape> shapes = {test.shape, test.shape + Noise(num_vertices, 0.02, 5),
+                                       test.shape + Noise(num_vertices, 0.03, 6)};
+    PathEnergy energy(test.metric, 1);
+    std::vector<double> unknowns(energy.Size());
+    energy.Load(shapes, unknowns.data());
+    const double expected = energy.Evaluate(unknowns.data(), nullptr);
+    const double segments = 2 * (map.Values(shapes[1]) - map.Values(shapes[0])).squaredNorm() +
+                            2 * (map.Values(shapes[2]) - map.Values(shapes[1])).squaredNorm();
+    EXPECT_NEAR(segments, expected, 1e-12 * expected);
+  }
+}
+
+TEST(FeatureDerivative, MetricMatrixIsTheProductButForSums) {
+  for (const Case& test : Cases()) {
+    SCOPED_TRACE(test.name);
+    const FeatureDerivative derivative = FeatureMap(test.metric).Derivative(test.shape);
+    const Eigen::SparseMatrix<double> matrix = derivative.MetricMatrix();
+    ASSERT_EQ(matrix.rows(), test.shape.size());
+    EXPECT_EQ(Eigen::SparseMatrix<double>(matrix.triangularView<Eigen::StrictlyUpper>()).norm(), 0);
+    const Tangent x = Noise(static_cast<int>(test.shape.cols()), 1, 7);
+    Eigen::VectorXd jx = derivative.Times(x);
+    if (test.metric.options.volume > 0) jx(jx.size() - 1) = 0;  // the last one, of rank one
+    const Tangent expected = derivative.TransposeTimes(jx);
+    const Eigen::VectorXd got = matrix.selfadjointView<Eigen::Lower>() * x.reshaped();
+    EXPECT_LT((got - expected.reshaped()).norm(), 1e-13 * expected.norm());
+  }
+}
+
+TEST(FeatureDerivative, BlendIsTheStraightLineBetweenDerivatives) {
+  for (const Case& test : Cases()) {
+    SCOPED_TRACE(test.name);
+    const FeatureMap map(test.metric);
+    const int num_vertices = static_cast<int>(test.shape.cols());
+    const FeatureDerivative a = map.Derivative(test.shape);
+    const FeatureDerivative b = map.Derivative(test.shape + Noise(num_vertices, 0.02, 8));
+    const Tangent x = Noise(num_vertices, 1, 9);
+    const Eigen::VectorXd ax = a.Times(x), bx = b.Times(x);
+    EXPECT_GT((ax - bx).norm(), 0.01 * ax.norm());
+    for (double t : {0.0, 0.3, 1.0}) {
+      const Eigen::VectorXd expected = (1 - t) * ax + t * bx;
+      EXPECT_LT((FeatureDerivative::Blend(a, b, t).Times(x) - expected).norm(),
+                1e-14 * (ax.norm() + bx.norm()));
+    }
+    EXPECT_TRUE(FeatureDerivative::Blend(a, b, 0).Times(x) == ax);
+  }
+}
+
+TEST(FeatureMap, IsBitwiseTheSameForAnyNumberOfThreads) {
+  MetricOptions options;
+  options.volume = 0.3;
+  const Case test = Bent("large", MakeBar(6, 1, 1, 60, 4, 4), options);  // several tasks a feature
+  const FeatureMap map(test.metric);
+  const int num_vertices = static_cast<int>(test.shape.cols());
+  const Tangent x = Noise(num_vertices, 1, 10);
+  struct Results {
+    Eigen::VectorXd values, jx, second, gx;
+    Tangent jty;
+  };
+  const auto compute = [&](int threads) {
+    SetThreads(threads);
+    const FeatureDerivative derivative = map.Derivative(test.shape);
+    Results results;
+    results.values = map.Values(test.shape);
+    results.jx = derivative.Times(x);
+    results.second = map.SecondDerivative(test.shape, x);
+    results.jty = derivative.TransposeTimes(results.jx);
+    results.gx = derivative.MetricMatrix().selfadjointView<Eigen::Lower>() * x.reshaped();
+    SetThreads(0);
+    return results;
+  };
+  const Results one = compute(1), two = compute(2);
+  EXPECT_TRUE(one.values == two.values);
+  EXPECT_TRUE(one.jx == two.jx);
+  EXPECT_TRUE(one.second == two.second);
+  EXPECT_TRUE(one.jty == two.jty);
+  EXPECT_TRUE(one.gx == two.gx);
+}
+
+TEST(FeatureMap, RefusesTheRigidMetric) {
+  const Body bar = MakeBar(4, 1, 1, 3, 1, 1);
+  const Metric metric = FreezeMetric(MetricOptions::Rigid(), bar.connectivity, {bar.pose(0)});
+  const std::string message = testing::MessageOf<InvalidOptions>([&] { FeatureMap map(metric); });
+  EXPECT_EQ(message.rfind("rigid:", 0), 0u) << message;
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,175 @@
+// A path that goes on beyond its poses: a geodesic shot from its last shapes.
+
+#include <algorithm>
+#include <filesystem>
+
+#include <gflags/gflags.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/output/frames.h>
+#include <shapespace/path/path_file.h>
+#include <shapespace/solvers/correction.h>
+#include <shapespace/solvers/exponential.h>
+#include <shapespace/solvers/geodesic.h>
+
+#include "support/choose.h"
+#include "support/geodesic_flags.h"
+#include "support/outputs.h"
+#include "support/poses.h"
+#include "support/report.h"
+#include "support/tool.h"
+
+DEFINE_int32(steps, 8, "shapes to add, as far apart in time as the last two that are kept");
+DEFINE_int32(keep, 0, "shoot from the first so many shapes of the path; 2 or more, or 0 for all");
+DEFINE_string(integrator, "variational",
+              "variational, runge_kutta4 (of the geodesic equation) or first_integral (the paper's "
+              "(7), which does not converge; to compare with)");
+DEFINE_string(step_solver, "automatic",
+              "of a variational step: automatic, newton_krylov or ceres (for small meshes)");
+DEFINE_double(step_tolerance, 1e-9,
+              "a variational step is solved when its residual is this share of the step");
+DEFINE_int32(step_iterations, 20, "iterations that a variational step may take");
+DEFINE_double(correct, 0,
+              "afterwards move all shapes but the first so that edges keep its lengths: the weight "
+              "of staying where they are, 1 to start from and less for truer lengths; 0 for off");
+
+namespace shapespace::tools {
+namespace {
+
+// Poses are interpolated more accurately than to look at them: errors of the two shapes that a
+// geodesic is shot from grow with every step.
+constexpr char kTolerance[] = "1e-6";
+
+// What is shot from, and how frames of it look.
+struct Origin {
+  Path path;
+  Soup appearance;
+};
+
+bool IsPath(const std::string& file) { return std::filesystem::path(file).extension() == ".path"; }
+
+// Checks options of which a flag sets one field. Messages name the field, which may be the name of
+// another flag here.
+template <typename Options>
+void Check(const Options& options, const std::string& flag) {
+  try {
+    options.Validate();
+  } catch (const InvalidOptions& error) {
+    const std::string message = error.what();
+    throw UsageError("--" + flag + message.substr(message.find(':')));
+  }
+}
+
+ExponentialOptions ExponentialFromFlags() {
+  ExponentialOptions options;
+  options.integrator = Choose<Integrator>("integrator", FLAGS_integrator,
+                                          {{"variational", Integrator::kVariational},
+                                           {"runge_kutta4", Integrator::kRungeKutta4},
+                                           {"first_integral", Integrator::kFirstIntegral}});
+  options.solver = Choose<StepSolver>("step_solver", FLAGS_step_solver,
+                                      {{"automatic", StepSolver::kAutomatic},
+                                       {"newton_krylov", StepSolver::kNewtonKrylov},
+                                       {"ceres", StepSolver::kCeres}});
+  options.tolerance = FLAGS_step_tolerance;
+  Check(options, "step_tolerance");
+  options.max_iterations = FLAGS_step_iterations;
+  Check(options, "step_iterations");
+  return options;
+}
+
+CorrectionOptions CorrectionFromFlags() {
+  CorrectionOptions options;
+  options.mu = FLAGS_correct;
+  Check(options, "correct");
+  return options;
+}
+
+// So that nobody who gives a flag of the interpolation believes that it did anything.
+void RefuseFlagsOfPoses(const std::string& file) {
+  for (const char* source :
+       {"support/geodesic_flags.cc", "support/metric_flags.cc", "support/poses.cc"}) {
+    for (const std::string& flag : GivenFlags(source)) {
+      throw UsageError("--" + flag + ": goes with poses; " + file +
+                       " is solved, with the metric that it carries");
+    }
+  }
+}
+
+void CheckKeep(int shapes) {
+  if (FLAGS_keep > shapes) {
+    throw UsageError("--keep " + std::to_string(FLAGS_keep) + ": the path has " +
+                     std::to_string(shapes) + " shapes");
+  }
+}
+
+Origin OriginFromPath(const std::string& file) {
+  Origin origin;
+  origin.path = ReadPath(file);
+  origin.appearance = PlainAppearance(*origin.path.metric->connectivity);
+  CheckKeep(origin.path.NumShapes());
+  return origin;
+}
+
+Origin OriginFromPoses(const std::vector<std::string>& files, const GeodesicOptions& options) {
+  CheckKeep((static_cast<int>(files.size()) - 1) * (options.shapes + 1) + 1);
+  Poses poses = ReadPosesFromFlags(files);
+  GeodesicResult result = Interpolate(poses, options, TerminalProgress());
+  PrintSummary(result.summary.BriefReport(), result.summary.warnings);
+  return {std::move(result.path), std::move(poses.appearance)};
+}
+
+void Run(const std::vector<std::string>& files) {
+  const bool from_path = std::any_of(files.begin(), files.end(), IsPath);
+  if (from_path ? files.size() != 1 : files.size() < 2) {
+    throw UsageError("name at least two poses of one mesh, or one .path file alone");
+  }
+  if (from_path) RefuseFlagsOfPoses(files[0]);
+  if (FLAGS_steps < 1) throw UsageError("--steps must be 1 or more");
+  if (FLAGS_keep != 0 && FLAGS_keep < 2) throw UsageError("--keep must be 2 or more, or 0 for all");
+  const GeodesicOptions geodesic = GeodesicFromFlags();
+  const ExponentialOptions exponential = ExponentialFromFlags();
+  const CorrectionOptions correction = CorrectionFromFlags();
+  const std::vector<std::string> outputs = OutputsFromFlags();
+  CheckReportFlag();
+
+  Origin origin = from_path ? OriginFromPath(files[0]) : OriginFromPoses(files, geodesic);
+  if (FLAGS_keep != 0) origin.path = FirstShapes(origin.path, FLAGS_keep);
+  ExponentialResult result = Extrapolate(origin.path, FLAGS_steps, exponential, TerminalProgress());
+  const ExponentialSummary& summary = result.summary;
+  PrintSummary(summary.BriefReport(), summary.warnings);
+  result.path.provenance =
+      (from_path ? origin.path.provenance + "; " : "") + Provenance("shape-extrapolate", files);
+  if (FLAGS_correct != 0 && !summary.steps.empty()) {
+    CorrectionResult corrected = CorrectPath(result.path, correction, TerminalProgress());
+    PrintSummary(corrected.summary.BriefReport(), corrected.summary.warnings);
+    result.path = std::move(corrected.path);
+  }
+  WriteOutputs(outputs, result.path, origin.appearance, result.path);
+  WriteReport(summary.FullReport(), summary.ToJson());
+  if (summary.steps.empty()) throw SolverError("no shape could be added");
+}
+
+}  // namespace
+}  // namespace shapespace::tools
+
+int main(int argc, char** argv) {
+  using namespace shapespace::tools;
+  gflags::SetCommandLineOptionWithMode("tolerance", kTolerance, gflags::SET_FLAGS_DEFAULT);
+  return RunTool(
+      argc, argv,
+      {"shape-extrapolate",
+       "a path that goes on beyond its poses",
+       "  shape-extrapolate a.obj b.obj [c.obj ...] --shapes 15 --steps 8 --output on.glb\n"
+       "  shape-extrapolate walk.path --keep 2 --steps 7 --output on/%03d.obj\n\n"
+       "Poses are interpolated first, as by shape-interpolate but more accurately (--tolerance), "
+       "for errors\ngrow on the way. A .path may stand instead of them: it carries the metric that "
+       "it was made with.\nOutputs hold the shapes kept and the new ones; in a film strip poses "
+       "are "
+       "blue, shapes between them\ngreen, extrapolated ones purple.\n\n"
+       "If the shape degenerates on the way, the outputs hold what was made before, and stderr "
+       "says "
+       "so: exit\ncode 0 with some new shapes, 1 with none.",
+       {"shape_extrapolate.cc", "support/geodesic_flags.cc", "support/report.cc",
+        "support/outputs.cc", "support/metric_flags.cc", "support/poses.cc"}},
+      Run);
+}

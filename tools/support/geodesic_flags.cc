@@ -1,0 +1,53 @@
+#include "support/geodesic_flags.h"
+
+#include <gflags/gflags.h>
+
+#include "support/choose.h"
+#include "support/metric_flags.h"
+
+DEFINE_int32(shapes, 15, "shapes to insert between neighbouring poses");
+DEFINE_double(tolerance, 1e-4,
+              "a level is finished when an iteration lowers the energy by less than this share");
+DEFINE_int32(max_iterations, 500, "iterations a level may take");
+DEFINE_string(solver, "automatic",
+              "automatic, lbfgs (of Ceres), threaded_lbfgs (ours) or trust_region (of Ceres)");
+DEFINE_string(schedule, "automatic",
+              "order of resolutions: automatic, start (in space for the first shape only), paper "
+              "(space and time in turn) or flat (no hierarchy)");
+DEFINE_string(start, "best",
+              "where the first solve starts: blend, first, last, rigid, or the best of the first "
+              "three");
+DEFINE_int32(coarsest, 200, "triangles of the coarsest level of the hierarchy");
+DEFINE_double(memory_limit, 8, "gigabytes that the solve may take; more is refused beforehand");
+
+namespace shapespace::tools {
+
+GeodesicOptions GeodesicFromFlags() {
+  GeodesicOptions options;
+  options.metric = MetricFromFlags();
+  options.shapes = FLAGS_shapes;
+  options.tolerance = FLAGS_tolerance;
+  options.max_iterations = FLAGS_max_iterations;
+  options.memory_limit = 1e9 * FLAGS_memory_limit;
+  options.coarsest = FLAGS_coarsest;
+  options.solver = Choose<Solver>("solver", FLAGS_solver,
+                                  {{"automatic", Solver::kAutomatic},
+                                   {"lbfgs", Solver::kLbfgs},
+                                   {"threaded_lbfgs", Solver::kThreadedLbfgs},
+                                   {"trust_region", Solver::kTrustRegion}});
+  options.schedule = Choose<Schedule>("schedule", FLAGS_schedule,
+                                      {{"automatic", Schedule::kAutomatic},
+                                       {"start", Schedule::kStart},
+                                       {"paper", Schedule::kPaper},
+                                       {"flat", Schedule::kFlat}});
+  options.start = Choose<Start>("start", FLAGS_start,
+                                {{"best", Start::kBest},
+                                 {"blend", Start::kBlend},
+                                 {"first", Start::kFirst},
+                                 {"last", Start::kLast},
+                                 {"rigid", Start::kRigid}});
+  options.Validate();
+  return options;
+}
+
+}  // namespace shapespace::tools
