@@ -17,7 +17,8 @@ namespace {
 // Root mean square distance of the surface from its centroid.
 double Radius(const Shape& shape, const Eigen::VectorXd& weights) {
   const Eigen::Vector3d centre = Centroid(shape, weights);
-  return std::sqrt((shape.colwise() - centre).colwise().squaredNorm() * weights / weights.sum());
+  const Eigen::VectorXd squares = (shape.colwise() - centre).colwise().squaredNorm().transpose();
+  return std::sqrt(squares.dot(weights) / weights.sum());
 }
 
 Path TwoShapes(const std::shared_ptr<const Metric>& metric, const Shape& from, const Shape& to) {
