@@ -20,7 +20,7 @@ namespace shapespace {
 namespace {
 
 // Less than this share of the deformation left is a collapse. At mu = 1 half and more was left of
-// all paths tried; the paper's energy left less than 0.15 at any tolerance up to 1e-3.
+// all paths tried; the paper's energy left 0.06 at most at a tolerance of 1e-3.
 constexpr double kCollapsed = 1.0 / 3;
 
 // Rows that one task of a thread takes.

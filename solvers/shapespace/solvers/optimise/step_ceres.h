@@ -41,8 +41,8 @@ StepResult SolveFirstIntegral(const FeatureMap& map, const Shape& at, const Tang
 /// The paper's transport (section 5): the Y nearest to `x` in the Euclidean sense with
 /// <Y, normal> = constant; Ceres has no constraints, so it is a residual of great weight, and the
 /// constraint is missed by 1e-8 of the way to it.
-/// \throw SolverError if `normal` vanishes: is zero, or so small beside `constant` that the rounding
-///        of Y would swallow `x`.
+/// \throw SolverError if `normal` vanishes: is zero, or so small beside `constant` that the
+///        rounding of Y would swallow `x`.
 Tangent ProjectOntoConstraint(const Tangent& x, const Tangent& normal, double constant);
 
 }  // namespace shapespace::internal

@@ -1,0 +1,76 @@
+#ifndef SHAPESPACE_TESTS_SUPPORT_MOTIONS_H_
+#define SHAPESPACE_TESTS_SUPPORT_MOTIONS_H_
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include <shapespace/bodies/body.h>
+#include <shapespace/metric/metric.h>
+#include <shapespace/path/rigid_motion.h>
+
+namespace shapespace::testing {
+
+inline Eigen::Matrix3d Rotation(double degrees, const Eigen::Vector3d& axis) {
+  return Eigen::AngleAxisd(degrees * M_PI / 180, axis.normalized()).toRotationMatrix();
+}
+
+inline double Diameter(const Shape& shape) {
+  return (shape.rowwise().maxCoeff() - shape.rowwise().minCoeff()).norm();
+}
+
+/// Largest distance between corresponding vertices.
+inline double Distance(const Shape& a, const Shape& b) {
+  return (a - b).colwise().norm().maxCoeff();
+}
+
+/// A shape that starts to move: what a geodesic is shot from. User's unit, per unit of time.
+struct Motion {
+  std::string name;
+  std::shared_ptr<const Metric> metric;  ///< frozen on the shape
+  Shape shape;
+  Tangent velocity;
+
+  /// The same motion at another speed.
+  Motion Times(double factor) const { return {name, metric, shape, factor * velocity}; }
+};
+
+/// The velocity of a body that turns about its centroid, by so many degrees in the unit of time.
+inline Tangent Spin(const Metric& metric, const Shape& shape, double degrees,
+                    const Eigen::Vector3d& axis) {
+  const Eigen::Vector3d omega = degrees * M_PI / 180 * axis.normalized();
+  const Shape arm = shape.colwise() - Centroid(shape, metric.vertex_area);
+  Tangent velocity(3, shape.cols());
+  for (int v = 0; v < shape.cols(); ++v) {
+    const Eigen::Vector3d radius = arm.col(v);
+    velocity.col(v) = omega.cross(radius);
+  }
+  return velocity;
+}
+
+/// A body turning, its shape that at parameter `at`.
+inline Motion Turning(const Body& body, double at, double degrees, const MetricOptions& options) {
+  const Shape shape = body.pose(at);
+  const auto metric =
+      std::make_shared<const Metric>(FreezeMetric(options, body.connectivity, {shape}));
+  return {body.name + ", turning", metric, shape, Spin(*metric, shape, degrees, {0.3, 1, 0.5})};
+}
+
+/// A body deforming as its own family does at parameter `at`, `rate` parameter values in the unit
+/// of time.
+inline Motion Deforming(const Body& body, double at, double rate, const MetricOptions& options) {
+  // Central differences: of an isometric family, whose lengths they keep to the square of the
+  // difference, and to rounding where they do not.
+  const double h = 1e-5 * (body.end - body.begin);
+  const Shape shape = body.pose(at);
+  const Tangent velocity = rate / (2 * h) * (body.pose(at + h) - body.pose(at - h));
+  return {body.name + ", deforming",
+          std::make_shared<const Metric>(FreezeMetric(options, body.connectivity, {shape})), shape,
+          velocity};
+}
+
+}  // namespace shapespace::testing
+
+#endif  // SHAPESPACE_TESTS_SUPPORT_MOTIONS_H_
