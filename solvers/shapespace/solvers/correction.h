@@ -28,7 +28,7 @@ struct CorrectionOptions {
   double mu = 1;
 
   /// Done when an iteration lowers what is minimised by less than this share of it. On real meshes
-  /// 1e-3 leaves errors of length within a quarter of the least; an exact minimum takes thousands
+  /// 1e-3 leaves errors of length within a quarter of the least; an exact minimum takes hundreds
   /// of iterations, as what costs only distance is soft beside what costs length.
   double tolerance = 1e-3;
 
