@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include <shapespace/solvers/optimise/minimise.h>
 #include <shapespace/solvers/optimise/preconditioner.h>
 #include <shapespace/solvers/optimise/resolution.h>
+#include <shapespace/solvers/report.h>
 
 namespace shapespace {
 namespace {
@@ -120,13 +120,11 @@ void Warn(internal::Stop stop, CorrectionSummary* summary) {
     summary->warnings.push_back("stalled: the line search found no better point");
   }
   if (summary->deformation_left < kCollapsed) {
-    char text[128];
-    std::snprintf(text, sizeof text,
-                  "the path collapses onto its first shape: %.2g%% of the deformation is left; ",
-                  100 * summary->deformation_left);
-    summary->warnings.push_back(text + std::string(summary->mode == CorrectionMode::kPaper
-                                                       ? "use the mode kProximal"
-                                                       : "raise mu"));
+    const std::string text = internal::Format(
+        "the path collapses onto its first shape: %.2g%% of the deformation is left; ",
+        100 * summary->deformation_left);
+    summary->warnings.push_back(
+        text + (summary->mode == CorrectionMode::kPaper ? "use the mode kProximal" : "raise mu"));
   }
 }
 
@@ -148,14 +146,12 @@ void CorrectionOptions::Validate() const {
 }
 
 std::string CorrectionSummary::BriefReport() const {
-  char text[512];
-  std::snprintf(text, sizeof text,
-                "%s (%s): %d vertices, %d shapes corrected; lengths off by %.3g%% rms, before "
-                "%.3g%%; %.3g%% of the deformation left; %d iterations, %.2f s",
-                converged ? "converged" : "NOT CONVERGED", Name(mode), vertices, shapes,
-                100 * quality.first_rms, 100 * initial_quality.first_rms, 100 * deformation_left,
-                iterations, total_seconds);
-  return text;
+  return internal::Format(
+      "%s (%s): %d vertices, %d shapes corrected; lengths off by %.3g%% rms, before %.3g%%; %.3g%% "
+      "of the deformation left; %d iterations, %.2f s",
+      converged ? "converged" : "NOT CONVERGED", Name(mode), vertices, shapes,
+      100 * quality.first_rms, 100 * initial_quality.first_rms, 100 * deformation_left, iterations,
+      total_seconds);
 }
 
 std::string CorrectionSummary::ToJson() const {

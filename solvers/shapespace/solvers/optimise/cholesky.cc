@@ -15,6 +15,9 @@ namespace {
 // A chunk of columns goes through the whole factor at once: wide enough to be worth reading it, and
 // narrow enough to keep the rows of a supernode in the nearest cache.
 constexpr int kChunk = 48;
+// A branch of the elimination tree has at most this share of all work, and a factor has branches
+// only if it has so many numbers that handing them out to threads is worth it.
+constexpr double kBranchShare = 1.0 / 16, kWorthBranches = 1e5;
 
 // Vectors of 32 and 64 bytes at any address that holds a number.
 template <typename Scalar>
@@ -260,36 +263,141 @@ CholeskyFactor<Scalar>::CholeskyFactor(const Eigen::SparseMatrix<double>& matrix
     supernodes_.push_back({super[s], super[s + 1] - super[s], row_begin[s + 1] - row_begin[s],
                            static_cast<size_t>(row_begin[s]), static_cast<size_t>(value_begin[s])});
   }
+  GrowBranches();
+}
+
+template <typename Scalar>
+void CholeskyFactor<Scalar>::GrowBranches() {
+  const int num_nodes = static_cast<int>(supernodes_.size());
+  std::vector<int> node_of_row(permutation_.size());
+  for (int s = 0; s < num_nodes; ++s) {
+    std::fill_n(node_of_row.begin() + supernodes_[s].begin, supernodes_[s].width, s);
+  }
+  // A supernode's parent has the first row below it, and comes later.
+  std::vector<int> parent(num_nodes, -1);
+  std::vector<std::vector<int>> children(num_nodes);
+  std::vector<double> work(num_nodes, 0);  // of the subtree
+  std::vector<int> roots;
+  double total = 0;
+  for (int s = 0; s < num_nodes; ++s) {
+    const Supernode& node = supernodes_[s];
+    const double own = static_cast<double>(node.width) * node.height;
+    work[s] += own;
+    total += own;
+    if (node.height == node.width) {
+      roots.push_back(s);
+      continue;
+    }
+    parent[s] = node_of_row[rows_[node.rows + node.width]];
+    children[parent[s]].push_back(s);
+    work[parent[s]] += work[s];
+  }
+  // Subtrees are split until none is so large that others would wait for it.
+  std::vector<int> branch_of(num_nodes, -1), open = roots;
+  while (!open.empty()) {
+    const int s = open.back();
+    open.pop_back();
+    if (work[s] > kBranchShare * total && total > kWorthBranches) {
+      open.insert(open.end(), children[s].begin(), children[s].end());
+    } else if (total > kWorthBranches) {
+      branch_of[s] = static_cast<int>(branches_.size());
+      branches_.emplace_back();
+    }
+  }
+  for (int s = num_nodes - 1; s >= 0; --s) {
+    if (branch_of[s] < 0 && parent[s] >= 0) branch_of[s] = branch_of[parent[s]];
+  }
+  for (int s = 0; s < num_nodes; ++s) {
+    (branch_of[s] < 0 ? trunk_ : branches_[branch_of[s]].nodes).push_back(s);
+  }
+  work_rows_ = Size();
+  branch_rows_ = rows_;
+  for (size_t b = 0; b < branches_.size(); ++b) {
+    Branch& branch = branches_[b];
+    for (int s : branch.nodes) {
+      const Supernode& node = supernodes_[s];
+      for (int k = node.width; k < node.height; ++k) {
+        const int row = rows_[node.rows + k];
+        if (branch_of[node_of_row[row]] != static_cast<int>(b)) branch.outside.push_back(row);
+      }
+    }
+    std::sort(branch.outside.begin(), branch.outside.end());
+    branch.outside.erase(std::unique(branch.outside.begin(), branch.outside.end()),
+                         branch.outside.end());
+    branch.gathered = work_rows_;
+    work_rows_ += static_cast<int>(branch.outside.size());
+    for (int s : branch.nodes) {
+      const Supernode& node = supernodes_[s];
+      for (int k = node.width; k < node.height; ++k) {
+        int& row = branch_rows_[node.rows + k];
+        const auto found = std::lower_bound(branch.outside.begin(), branch.outside.end(), row);
+        if (found != branch.outside.end() && *found == row) {
+          row = branch.gathered + static_cast<int>(found - branch.outside.begin());
+        }
+      }
+    }
+  }
 }
 
 template <typename Scalar>
 template <typename SolveNodes>
-void CholeskyFactor<Scalar>::ForChunks(int width, const SolveNodes& solve) const {
+bool CholeskyFactor<Scalar>::ForChunks(int width, const SolveNodes& solve) const {
   // At least two chunks, where there are columns for two, so that two threads have work.
   const int groups = width / kColumns;
   const int chunks = std::max(std::min(2, groups), (width + kChunk - 1) / kChunk);
+  if (chunks == 1) return false;
   ParallelFor(chunks, [&](int chunk) {
     const int begin = groups * chunk / chunks * kColumns;
     solve(begin, groups * (chunk + 1) / chunks * kColumns - begin);
   });
+  return true;
 }
 
 template <typename Scalar>
 void CholeskyFactor<Scalar>::SolveLower(Scalar* x, int width) const {
-  ForChunks(width, [&](int begin, int count) {
+  const bool done = ForChunks(width, [&](int begin, int count) {
     for (const Supernode& node : supernodes_) {
       ForwardNode(node, &values_[node.values], &rows_[node.rows], x + begin, width, count);
     }
   });
+  if (done) return;
+  ParallelFor(static_cast<int>(branches_.size()), [&](int b) {
+    const Branch& branch = branches_[b];
+    std::fill_n(x + static_cast<size_t>(branch.gathered) * width, branch.outside.size() * width,
+                Scalar(0));
+    for (int s : branch.nodes) {
+      const Supernode& node = supernodes_[s];
+      ForwardNode(node, &values_[node.values], &branch_rows_[node.rows], x, width, width);
+    }
+  });
+  for (const Branch& branch : branches_) {
+    const Scalar* from = x + static_cast<size_t>(branch.gathered) * width;
+    for (int row : branch.outside) {
+      for (int c = 0; c < width; ++c) x[static_cast<size_t>(row) * width + c] += *from++;
+    }
+  }
+  for (int s : trunk_) {
+    const Supernode& node = supernodes_[s];
+    ForwardNode(node, &values_[node.values], &rows_[node.rows], x, width, width);
+  }
 }
 
 template <typename Scalar>
 void CholeskyFactor<Scalar>::SolveUpper(Scalar* x, int width) const {
-  ForChunks(width, [&](int begin, int count) {
+  const auto solve = [&](const std::vector<int>& nodes) {
+    for (auto s = nodes.rbegin(); s != nodes.rend(); ++s) {
+      const Supernode& node = supernodes_[*s];
+      BackwardNode(node, &values_[node.values], &rows_[node.rows], x, width, width);
+    }
+  };
+  const bool done = ForChunks(width, [&](int begin, int count) {
     for (auto node = supernodes_.rbegin(); node != supernodes_.rend(); ++node) {
       BackwardNode(*node, &values_[node->values], &rows_[node->rows], x + begin, width, count);
     }
   });
+  if (done) return;
+  solve(trunk_);
+  ParallelFor(static_cast<int>(branches_.size()), [&](int b) { solve(branches_[b].nodes); });
 }
 
 template class CholeskyFactor<double>;

@@ -16,6 +16,14 @@ struct Supernode {
   size_t values;  // of its first number
 };
 
+/// A subtree of the elimination tree. Its columns take nothing from other branches; what they give
+/// to rows outside, in the trunk, is gathered in rows of its own, to be added later.
+struct Branch {
+  std::vector<int> nodes;    ///< supernodes, in order
+  std::vector<int> outside;  ///< rows
+  int gathered = 0;          ///< where the rows of its own begin
+};
+
 /// The order of elimination for one pattern of nonzeros: what factors of matrices that differ in
 /// their numbers alone have in common.
 class CholeskyAnalysis {
@@ -50,7 +58,11 @@ class CholeskyFactor {
       : permutation_(other.permutation_),
         supernodes_(other.supernodes_),
         rows_(other.rows_),
-        values_(other.values_.begin(), other.values_.end()) {}
+        values_(other.values_.begin(), other.values_.end()),
+        branches_(other.branches_),
+        trunk_(other.trunk_),
+        branch_rows_(other.branch_rows_),
+        work_rows_(other.work_rows_) {}
 
   int Size() const { return static_cast<int>(permutation_.size()); }
   /// Row i of the factor belongs to unknown Permutation()[i] of the matrix.
@@ -58,8 +70,10 @@ class CholeskyFactor {
   /// Numbers stored, those of dense blocks included.
   size_t NumNonzeros() const { return values_.size(); }
 
-  /// x <- C^{-1} x and x <- C^{-T} x; `x` is Size() x `width`, row by row, rows `width` apart, a
-  /// multiple of `kColumns`. Uses all threads; every column's result is independent of the others.
+  /// x <- C^{-1} x and x <- C^{-T} x; `x` is WorkRows() x `width`, row by row, rows `width` apart,
+  /// a multiple of `kColumns`; rows from Size() on are scratch. Uses all threads: several columns
+  /// go side by side, and for as few as kColumns the branches of the elimination tree.
+  int WorkRows() const { return work_rows_; }
   void SolveLower(Scalar* x, int width) const;
   void SolveUpper(Scalar* x, int width) const;
   static constexpr int kColumns = 32 / sizeof(Scalar);
@@ -67,13 +81,20 @@ class CholeskyFactor {
  private:
   template <typename Other>
   friend class CholeskyFactor;
+  void GrowBranches();
+  // Calls solve(begin, count) for chunks of the columns. \return false, having done nothing, if
+  // there are too few of them for two threads.
   template <typename SolveNodes>
-  void ForChunks(int width, const SolveNodes& solve) const;
+  bool ForChunks(int width, const SolveNodes& solve) const;
 
   std::vector<int> permutation_;
   std::vector<Supernode> supernodes_;
   std::vector<int> rows_;
   std::vector<Scalar> values_;
+  std::vector<Branch> branches_;
+  std::vector<int> trunk_;        // supernodes in no branch
+  std::vector<int> branch_rows_;  // rows_, those outside of a branch replaced by its own
+  int work_rows_ = 0;
 };
 
 using Cholesky = CholeskyFactor<double>;

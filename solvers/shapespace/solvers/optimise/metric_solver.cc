@@ -26,7 +26,7 @@ void MetricSolver::Factor(const FeatureDerivative& at) {
 void MetricSolver::HalfSolve(bool transposed, Eigen::VectorXd* x) const {
   // The factor's kernels take rows of several right-hand sides.
   constexpr int kWidth = Cholesky::kColumns;
-  std::vector<double> rows(kWidth * x->size(), 0.0);
+  std::vector<double> rows(static_cast<size_t>(kWidth) * factor_->WorkRows(), 0.0);
   for (int i = 0; i < x->size(); ++i) rows[kWidth * static_cast<size_t>(i)] = (*x)(i);
   if (transposed) {
     factor_->SolveUpper(rows.data(), kWidth);

@@ -93,7 +93,7 @@ ChangeOfVariables::ChangeOfVariables(const Cholesky& factor, const PathEnergy& e
       stride_(energy.Stride()),
       size_(3 * factor.Size() * energy.Inner()),
       width_(PaddedWidth<double>(3 * energy.Inner())),
-      work_(static_cast<size_t>(factor.Size()) * width_) {
+      work_(static_cast<size_t>(factor.WorkRows()) * width_) {
   for (int vertex : factor.Permutation()) row_.push_back(energy.Row(vertex));
   // Cholesky factor of the second difference (2 on the diagonal, -1 beside it).
   double diagonal = std::sqrt(2.0);
@@ -153,7 +153,7 @@ Preconditioner::Preconditioner(const CholeskyFactor<float>& factor, const PathEn
       inner_(energy.Inner()),
       stride_(energy.Stride()),
       width_(PaddedWidth<float>(3 * energy.Inner())),
-      work_(static_cast<size_t>(factor.Size()) * width_) {
+      work_(static_cast<size_t>(factor.WorkRows()) * width_) {
   for (int vertex : factor.Permutation()) row_.push_back(energy.Row(vertex));
   // Pivots of the second difference (2 on the diagonal, -1 beside it): (t + 2) / (t + 1).
   for (int t = 0; t < inner_; ++t) diagonal_.push_back((t + 1.0) / (t + 2.0));
