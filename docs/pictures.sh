@@ -25,6 +25,10 @@ done
 "$bin/shape-export" walk.path --frames 7 --color deviation --output "$pictures/deviation.png"
 "$bin/shape-export" walk.path --frames 4 --color parts --output "$pictures/parts.png"
 
+# guide/going-on.md
+"$bin/shape-body" quadruped --pose stand,rear --output 'rise%d.obj'
+"$bin/shape-extrapolate" rise0.obj rise1.obj --shapes 7 --steps 8 --output "$pictures/going-on.png"
+
 # file-formats.md
 "$bin/shape-body" miura --output 'fold%d.obj'
 "$bin/shape-interpolate" fold0.obj fold1.obj --bending 0 --shapes 7 --output fold.path
