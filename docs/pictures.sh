@@ -29,6 +29,12 @@ done
 "$bin/shape-body" quadruped --pose stand,rear --output 'rise%d.obj'
 "$bin/shape-extrapolate" rise0.obj rise1.obj --shapes 7 --steps 8 --output "$pictures/going-on.png"
 
+# guide/transfer.md
+"$bin/shape-body" quadruped --pose stand,rear,stride --output 'pose%d.obj'
+"$bin/shape-body" quadruped --pose stand --proportions long --output other.obj
+"$bin/shape-transfer" pose0.obj pose1.obj pose2.obj --target other.obj \
+  --output "$pictures/transfer.png" --hybrids "$pictures/hybrids.png"
+
 # file-formats.md
 "$bin/shape-body" miura --output 'fold%d.obj'
 "$bin/shape-interpolate" fold0.obj fold1.obj --bending 0 --shapes 7 --output fold.path
