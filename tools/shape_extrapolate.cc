@@ -24,8 +24,8 @@ DEFINE_int32(keep, 0, "shoot from the first so many shapes of the path; 2 or mor
 DEFINE_string(integrator, "variational",
               "variational, runge_kutta4 (of the geodesic equation) or first_integral (the paper's "
               "(7), which does not converge; to compare with)");
-DEFINE_string(step_solver, "automatic",
-              "of a variational step: automatic, newton_krylov or ceres (for small meshes)");
+DEFINE_string(step_solver, "newton_krylov",
+              "of a variational step: newton_krylov, or ceres (for small meshes)");
 DEFINE_double(step_tolerance, 1e-9,
               "a variational step is solved when its residual is this share of the step");
 DEFINE_int32(step_iterations, 20, "iterations that a variational step may take");
@@ -67,8 +67,7 @@ ExponentialOptions ExponentialFromFlags() {
                                            {"runge_kutta4", Integrator::kRungeKutta4},
                                            {"first_integral", Integrator::kFirstIntegral}});
   options.solver = Choose<StepSolver>("step_solver", FLAGS_step_solver,
-                                      {{"automatic", StepSolver::kAutomatic},
-                                       {"newton_krylov", StepSolver::kNewtonKrylov},
+                                      {{"newton_krylov", StepSolver::kNewtonKrylov},
                                        {"ceres", StepSolver::kCeres}});
   options.tolerance = FLAGS_step_tolerance;
   Check(options, "step_tolerance");

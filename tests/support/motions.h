@@ -61,8 +61,7 @@ inline Motion Turning(const Body& body, double at, double degrees, const MetricO
 /// A body deforming as its own family does at parameter `at`, `rate` parameter values in the unit
 /// of time.
 inline Motion Deforming(const Body& body, double at, double rate, const MetricOptions& options) {
-  // Central differences: of an isometric family, whose lengths they keep to the square of the
-  // difference, and to rounding where they do not.
+  // By central differences, under which edges of an isometric family grow by less than h^2.
   const double h = 1e-5 * (body.end - body.begin);
   const Shape shape = body.pose(at);
   const Tangent velocity = rate / (2 * h) * (body.pose(at + h) - body.pose(at - h));

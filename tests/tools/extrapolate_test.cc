@@ -247,7 +247,7 @@ TEST_F(ExtrapolateTest, WrongCommandLines) {
       {{"walk.path", "--integrator", "euler"},
        "--integrator euler: must be one of variational, runge_kutta4, first_integral"},
       {{"walk.path", "--step_solver", "lbfgs"},
-       "--step_solver lbfgs: must be one of automatic, newton_krylov, ceres"},
+       "--step_solver lbfgs: must be one of newton_krylov, ceres"},
       {{"walk.path", "--step_tolerance", "0"}, "--step_tolerance: must be"},
       {{"walk.path", "--step_iterations", "0"}, "--step_iterations: must be"},
       {{"walk.path", "--correct=-1"}, "--correct: must be"},

@@ -12,8 +12,8 @@ using testing::ExpectLacks;
 using testing::Outcome;
 using testing::ToolsTest;
 
-constexpr const char* kTools[] = {"shape-body", "shape-export", "shape-extrapolate",
-                                  "shape-inspect", "shape-interpolate"};
+constexpr const char* kTools[] = {"shape-body",    "shape-export",      "shape-extrapolate",
+                                  "shape-inspect", "shape-interpolate", "shape-transfer"};
 
 class HelpTest : public ToolsTest {
  protected:
@@ -63,6 +63,10 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
   extrapolate.insert({"correct", "integrator", "keep", "step_iterations", "step_solver",
                       "step_tolerance", "steps"});
   EXPECT_EQ(Listed("shape-extrapolate"), extrapolate);
+  std::set<std::string> transfer = Listed("shape-interpolate");
+  transfer.insert(
+      {"align", "connection", "hybrids", "rung_shapes", "scale", "target", "transfer_bending"});
+  EXPECT_EQ(Listed("shape-transfer"), transfer);
   for (const char* foreign : {"flagfile", "undefok", "logtostderr", "minloglevel", "v"}) {
     EXPECT_EQ(listed.count(foreign), 0u) << foreign;
   }
@@ -74,6 +78,8 @@ TEST_F(HelpTest, DefaultsReadAsTheyWouldBeTyped) {
   ExpectContains(help, "--shapes 15 ");
   ExpectContains(help, "--tolerance 1e-04 ");
   ExpectContains(Run("shape-extrapolate", {"--help"}).out, "--tolerance 1e-06 ");
+  ExpectContains(Run("shape-transfer", {"--help"}).out, "--shapes 7 ");
+  ExpectContains(Run("shape-transfer", {"--help"}).out, "--transfer_bending 0.02 ");
   ExpectLacks(help, "00000");
 }
 

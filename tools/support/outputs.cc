@@ -44,7 +44,7 @@ namespace {
 
 enum class Kind { kPath, kPicture, kGltf, kFrames };
 
-Kind KindOf(const std::string& output) {
+Kind KindOf(const std::string& output, const std::string& flag = "output") {
   const std::string extension = std::filesystem::path(output).extension().string();
   if (extension == ".path") return Kind::kPath;
   if (extension == ".png") return Kind::kPicture;
@@ -53,11 +53,11 @@ Kind KindOf(const std::string& output) {
     try {
       FrameName(output, 0);
     } catch (const FileError& error) {
-      throw UsageError("--output " + std::string(error.what()));
+      throw UsageError("--" + flag + " " + error.what());
     }
     return Kind::kFrames;
   }
-  throw UsageError("--output " + output + ": must end in .path, .png, .glb, .obj or .ply");
+  throw UsageError("--" + flag + " " + output + ": must end in .path, .png, .glb, .obj or .ply");
 }
 
 GltfOptions GltfOptionsFromFlags() {
@@ -103,14 +103,18 @@ std::vector<std::string> OutputsFromFlags() {
   strip.title = FLAGS_title;
   strip.Validate();  // a title that cannot be drawn is told now, not after the solve
   GltfOptionsFromFlags().Validate();
+  return OutputsFromFlag("output", FLAGS_output);
+}
+
+std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::string& list) {
   std::vector<std::string> outputs;
-  for (const std::string& output : Split(FLAGS_output)) {
+  for (const std::string& output : Split(list)) {
     if (output.empty()) continue;
-    KindOf(output);
+    KindOf(output, flag);
     CheckCanBeWritten(output);
     outputs.push_back(output);
   }
-  if (outputs.empty()) throw UsageError("--output: names no file");
+  if (outputs.empty()) throw UsageError("--" + flag + ": names no file");
   return outputs;
 }
 

@@ -13,6 +13,9 @@ namespace shapespace::tools {
 /// \throw UsageError if one is of no kind that can be written, FileError as `CheckCanBeWritten`.
 std::vector<std::string> OutputsFromFlags();
 
+/// The same of another flag, whose value is `list`.
+std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::string& list);
+
 /// So that nobody waits for a solve whose result has nowhere to go, and nothing is written if
 /// something cannot be: `file`'s folder exists, or can probably be made, and can be written to.
 /// \throw FileError.

@@ -26,12 +26,15 @@ using NextShape = std::function<Shape(ExponentialSummary::Step*)>;
 // A surface of which more than this share turns over in one step is no surface any more, nor is one
 // with an edge that has shrunk to so little of its length at the start.
 constexpr double kInvertedShare = 1e-2, kVanishedEdge = 1e-5;
+// Along a geodesic the speed is constant; an integrator that changes it by more than this share has
+// lost the geodesic.
+constexpr double kSpeedChange = 0.1;
 
 // Of the geodesic equation G(P) P'' = -J^T Phi''(P', P'), a step being the unit of time.
 class RungeKutta4 {
  public:
   RungeKutta4(const Metric& metric, Shape shape, Tangent velocity)
-      : map_(metric), shape_(std::move(shape)), velocity_(std::move(velocity)) {}
+      : map_(metric), shape_(std::move(shape)), velocity_(std::move(velocity)), speed_(Speed()) {}
 
   Shape Next(ExponentialSummary::Step* row) {
     const Tangent v1 = velocity_, a1 = Acceleration(shape_, v1);
@@ -40,7 +43,7 @@ class RungeKutta4 {
     const Tangent v4 = velocity_ + a3, a4 = Acceleration(shape_ + v3, v4);
     shape_ += (v1 + 2 * v2 + 2 * v3 + v4) / 6;
     velocity_ += (a1 + 2 * a2 + 2 * a3 + a4) / 6;
-    row->converged = shape_.allFinite();
+    row->converged = std::abs(Speed() - speed_) <= kSpeedChange * speed_;
     row->vertices = static_cast<int>(shape_.cols());
     return shape_;
   }
@@ -53,10 +56,13 @@ class RungeKutta4 {
                         derivative.TransposeTimes(map_.SecondDerivative(shape, velocity)));
   }
 
+  double Speed() const { return map_.Derivative(shape_).Times(velocity_).norm(); }
+
   FeatureMap map_;
   MetricSolver solver_;
   Shape shape_;
   Tangent velocity_;
+  const double speed_;
 };
 
 // The paper's scheme: Euler steps, and after each the velocity that (7) asks for at the new shape.

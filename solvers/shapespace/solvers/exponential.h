@@ -22,7 +22,6 @@ enum class Integrator {
 
 /// What solves a step of the variational integrator.
 enum class StepSolver {
-  kAutomatic,     ///< Newton-Krylov
   kNewtonKrylov,  ///< matrix-free, preconditioned by a sparse factor of the metric
   kCeres,         ///< Ceres' trust region on automatically differentiated rows, small meshes only
 };
@@ -30,7 +29,7 @@ enum class StepSolver {
 /// How to shoot.
 struct ExponentialOptions {
   Integrator integrator = Integrator::kVariational;
-  StepSolver solver = StepSolver::kAutomatic;
+  StepSolver solver = StepSolver::kNewtonKrylov;
 
   /// A step is solved when its residual, measured in the metric, is this share of the step itself.
   double tolerance = 1e-9;

@@ -4,15 +4,20 @@
 #include <cmath>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include <shapespace/base/error.h>
 #include <shapespace/base/stopwatch.h>
+#include <shapespace/hierarchy/detail.h>
+#include <shapespace/metric/feature_map.h>
+#include <shapespace/path/align.h>
 #include <shapespace/path/rigid_motion.h>
-#include <shapespace/solvers/report.h>
+#include <shapespace/solvers/optimise/metric_solver.h>
+#include <shapespace/solvers/optimise/step.h>
 
 namespace shapespace {
 namespace {
+
+// So that a copy of the source comes out as its motion to ten digits.
+constexpr double kStepTolerance = 1e-12;
 
 // Root mean square distance of the surface from its centroid.
 double Radius(const Shape& shape, const Eigen::VectorXd& weights) {
@@ -31,40 +36,206 @@ Path TwoShapes(const std::shared_ptr<const Metric>& metric, const Shape& from, c
   return path;
 }
 
-// A path of the target, or half way to it: shapes in the source's aligned frame and the target's
-// size, which `motions` put into place.
-Path MakePath(const Path& source, const std::shared_ptr<const Metric>& metric,
-              std::vector<Shape> shapes, const std::vector<RigidMotion>& motions,
-              const char* what) {
+// What a path carries as motions becomes part of its shapes.
+void TurnShapes(Path* path) {
+  for (int i = 0; i < path->NumShapes(); ++i) {
+    path->shapes[i] = path->motions[i].rotation * path->shapes[i];
+    path->motions[i].rotation.setIdentity();
+  }
+}
+
+Path PathOfPlaced(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& placed,
+                  std::vector<double> parameters, std::string provenance) {
   Path path;
   path.metric = metric;
-  for (Shape& shape : shapes) path.shapes.push_back(shape / metric->unit);
-  path.parameters = source.parameters;
-  path.motions = motions;
-  path.poses = source.poses;
-  path.extrapolated = source.extrapolated;
-  path.provenance = source.provenance + what;
+  AlignedPoses aligned = AlignPoses(*metric, placed);
+  path.shapes = std::move(aligned.shapes);
+  path.motions = std::move(aligned.motions);
+  path.parameters = std::move(parameters);
+  path.provenance = std::move(provenance);
   return path;
 }
 
-void MeasureStrains(const Metric& metric, const Path& source, const Path& target,
-                    TransferSummary* summary) {
+// The target's path: the target itself, and what was shot from there.
+Path PathOfTarget(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& placed,
+                  std::vector<double> parameters, std::string provenance) {
+  Path path = PathOfPlaced(metric, placed, std::move(parameters), std::move(provenance));
+  path.poses = {0};
+  path.extrapolated = path.NumShapes() - 1;
+  return path;
+}
+
+double NormChange(double before, double after) { return before > 0 ? after / before - 1 : 0; }
+
+// Carrier::kNearest.
+Tangent CarryToNearest(const Path& path, Tangent velocity, bool align, TransferSummary::Rung* row,
+                       Progress* progress) {
+  const Metric& metric = *path.metric;
+  const FeatureMap map(metric);
+  internal::MetricSolver solver;
+  velocity = path.motions.front().rotation.transpose() * velocity / metric.unit;
+  FeatureDerivative derivative = map.Derivative(path.shapes[0]);
+  const double norm = derivative.Times(velocity).norm();
+  for (int i = 1; i < path.NumShapes(); ++i) {
+    ReportProgress(progress, "carrying", i - 1, path.NumShapes() - 1);
+    RigidMotion turn;
+    if (align) turn = FitRigidMotion(path.shapes[i - 1], path.shapes[i], metric.vertex_area);
+    const Eigen::VectorXd change =
+        map.Derivative(turn(path.shapes[i - 1])).Times(turn.rotation * velocity);
+    derivative = map.Derivative(path.shapes[i]);
+    solver.Factor(derivative);
+    velocity = internal::SolveMetric(solver, derivative, derivative.TransposeTimes(change));
+  }
+  row->norm_change = NormChange(norm, derivative.Times(velocity).norm());
+  return metric.unit * path.motions.back().rotation * velocity;
+}
+
+// What goes on within a rung is heard as that rung's.
+class WithinRung final : public Progress {
+ public:
+  WithinRung(Progress* all, int done, int total) : all_(all), done_(done), total_(total) {}
+  bool Report(const std::string&, int, int) override {
+    return all_ == nullptr || all_->Report("transferring", done_, total_);
+  }
+
+ private:
+  Progress* const all_;
+  const int done_, total_;
+};
+
+// The rotation that gives the target's surface, in the mean over it, the orientation that the
+// source's has. Bodies of other proportions have their mass elsewhere, so that shapes which lie
+// well on each other as a whole do not stand alike.
+Eigen::Matrix3d Uprighting(const Metric& metric, const Shape& first_source, const Shape& source,
+                           const Shape& first_target, const Shape& target) {
+  const Connectivity& connectivity = *metric.connectivity;
+  const auto is = internal::VertexRotations(connectivity, first_target, target);
+  const auto wanted = internal::VertexRotations(connectivity, first_source, source);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (size_t v = 0; v < is.size(); ++v) {
+    sum += metric.vertex_area(v) * is[v] * wanted[v].transpose();
+  }
+  return ProcrustesRotation(sum);
+}
+
+class Ladder {
+ public:
+  Ladder(std::shared_ptr<const Metric> metric, const TransferOptions& options)
+      : metric_(std::move(metric)), options_(options) {
+    geodesic_.shapes = options.rung_shapes;
+    geodesic_.tolerance = options.tolerance;
+    transport_.connection = options.carrier == Carrier::kLeviCivita
+                                ? Connection::kLeviCivita
+                                : Connection::kConstrainedProjection;
+    transport_.align = options.align;
+    step_.tolerance = kStepTolerance;
+  }
+
+  struct Rung {
+    GeodesicResult geodesic;
+    Shape from, next;  // of the source, as they are compared with the target
+  };
+
+  // From a shape of the source to the target's; `next` is the source's after that.
+  Rung Lay(const Shape& source, const Shape& next, const Shape& target, Progress* progress) const {
+    const Eigen::VectorXd& weights = metric_->vertex_area;
+    const double scale = options_.scale ? Radius(target, weights) / Radius(source, weights) : 1;
+    RigidMotion onto;
+    if (options_.align) onto = FitRigidMotion(scale * source, target, weights);
+    Rung rung;
+    rung.from = onto(scale * source);
+    rung.next = onto(scale * next);
+    rung.geodesic = Interpolate(metric_, {rung.from, target}, geodesic_, progress);
+    if (!options_.align) TurnShapes(&rung.geodesic.path);
+    return rung;
+  }
+
+  // What `target` becomes as the source becomes its next shape. \throw SolverError.
+  Shape Climb(const Rung& rung, const Shape& target, TransferSummary::Rung* row,
+              Progress* progress) const {
+    Tangent velocity = InitialVelocity(TwoShapes(metric_, rung.from, rung.next));
+    // Along a rung without length nothing changes, and the paper's transport knows no direction.
+    const bool stands_still = rung.geodesic.summary.energy < GeodesicSummary::kZeroEnergy;
+    if (!stands_still || !options_.align) {
+      velocity = Carry(rung.geodesic.path, velocity, row, progress);
+    }
+    const ExponentialResult step = Extrapolate(metric_, target, velocity, 1, step_, progress);
+    if (step.summary.ending != ExponentialSummary::Ending::kComplete) {
+      throw SolverError(step.summary.stopped);
+    }
+    row->on_mesh = step.summary.steps[0].vertices == step.summary.vertices;
+    return step.path.Placed(1);
+  }
+
+ private:
+  Tangent Carry(const Path& path, const Tangent& velocity, TransferSummary::Rung* row,
+                Progress* progress) const {
+    if (options_.carrier == Carrier::kNearest) {
+      return CarryToNearest(path, velocity, options_.align, row, progress);
+    }
+    const TransportResult carried = Transport(path, {velocity}, transport_, progress);
+    row->norm_change = NormChange(carried.summary.first_norm[0], carried.summary.last_norm[0]);
+    row->converged = row->converged && carried.summary.converged;
+    return carried.tangents[0];
+  }
+
+  const std::shared_ptr<const Metric> metric_;
+  const TransferOptions options_;
+  GeodesicOptions geodesic_;
+  TransportOptions transport_;
+  ExponentialOptions step_;
+};
+
+// Compares what target and source have done since their first shapes.
+void MeasureWhatIsOff(const Metric& metric, const Path& source, const Path& target,
+                      TransferSummary* summary) {
+  const auto change = [](const Path& path, const auto& value) {
+    return value(path.shapes.back()) - value(path.shapes.front());
+  };
   const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
   double squares = 0, area = 0;
   for (int e = 0; e < edges.cols(); ++e) {
-    const auto strain = [&](const Path& path) {
-      const auto length = [&](const Shape& shape) {
-        return (shape.col(edges(1, e)) - shape.col(edges(0, e))).norm();
-      };
-      return std::log(length(path.shapes.back()) / length(path.shapes.front()));
+    const auto log_length = [&](const Shape& shape) {
+      return std::log((shape.col(edges(1, e)) - shape.col(edges(0, e))).norm());
     };
-    const double off = std::abs(strain(target) - strain(source));
+    const double off = std::abs(change(target, log_length) - change(source, log_length));
     if (!std::isfinite(off)) continue;  // an edge without length
     squares += metric.edge_area(e) * off * off;
     area += metric.edge_area(e);
     summary->strain_max = std::max(summary->strain_max, off);
   }
   if (area > 0) summary->strain_rms = std::sqrt(squares / area);
+
+  Dihedral hinges;
+  hinges.stencils = metric.connectivity->Hinges();
+  hinges.normal_epsilon_squared = hinges.edge_epsilon_squared = 1e-30;  // below all rounding
+  squares = 0;
+  for (int h = 0; h < hinges.stencils.cols(); ++h) {
+    const auto angle = [&](const Shape& shape) {
+      double x[3 * Dihedral::kVertices];
+      Gather(hinges, h, shape, x);
+      return hinges.Angle(x);
+    };
+    const double off = WrapAngle(change(target, angle) - change(source, angle));
+    squares += metric.hinge_area(h) * off * off;
+  }
+  area = metric.hinge_area.sum();
+  if (area > 0) summary->angle_rms = std::sqrt(squares / area) * 180 / M_PI;
+}
+
+void Warn(TransferSummary* summary) {
+  const auto count = [&](const auto& is_so) {
+    return std::count_if(summary->rungs.begin(), summary->rungs.end(), is_so);
+  };
+  const std::string of = " of " + std::to_string(summary->rungs.size()) + " rungs ";
+  if (const auto coarse = count([](const TransferSummary::Rung& rung) { return !rung.on_mesh; })) {
+    summary->warnings.push_back(std::to_string(coarse) + of +
+                                "made their step on a coarser mesh, and carried detail along");
+  }
+  if (const auto open = count([](const TransferSummary::Rung& rung) { return !rung.converged; })) {
+    summary->warnings.push_back(std::to_string(open) + of +
+                                "did not converge: look at the pictures, or raise the tolerance");
+  }
 }
 
 }  // namespace
@@ -73,7 +244,7 @@ MetricOptions TransferOptions::Strains() {
   MetricOptions metric;
   metric.isometric = 0;
   metric.log_length = 1;
-  metric.bending = 0.03;
+  metric.bending = 0.02;
   return metric;
 }
 
@@ -81,6 +252,10 @@ void TransferOptions::Validate() const {
   metric.Validate();
   if (metric.rigid > 0) {
     throw InvalidOptions("metric.rigid: the rigid metric knows no parallel transport; use 0");
+  }
+  if (metric.discretization != Discretization::kMidpoint) {
+    throw InvalidOptions(
+        "metric.discretization: in trapezoid form geodesics cannot be shot; use kMidpoint");
   }
   if (rung_shapes < 1 || rung_shapes % 2 == 0) {
     throw InvalidOptions("rung_shapes: must be odd, 1 or more");
@@ -90,139 +265,120 @@ void TransferOptions::Validate() const {
   }
 }
 
-bool TransferSummary::Converged() const {
-  return std::all_of(rungs.begin(), rungs.end(), [](const Rung& rung) { return rung.converged; });
-}
-
-std::string TransferSummary::BriefReport() const {
-  return internal::Format(
-      "%s: %d vertices, %zu rungs; target %.4g times as large; strains off by %.3g rms; %.2f s",
-      Converged() ? "converged" : "NOT CONVERGED", vertices, rungs.size(), scale, strain_rms,
-      total_seconds);
-}
-
-std::string TransferSummary::ToJson() const {
-  nlohmann::ordered_json json;
-  json["converged"] = Converged();
-  json["vertices"] = vertices;
-  json["metric"] = metric;
-  json["scale"] = scale;
-  json["rungs"] = nlohmann::ordered_json::array();
-  for (const Rung& rung : rungs) {
-    json["rungs"].push_back({{"converged", rung.converged},
-                             {"on_mesh", rung.on_mesh},
-                             {"energy_over_bound", internal::Number(rung.ratio)},
-                             {"norm_change", internal::Number(rung.norm_change)},
-                             {"seconds", rung.seconds}});
-  }
-  json["strain"] = {{"rms", strain_rms}, {"max", strain_max}};
-  json["seconds"] = total_seconds;
-  json["warnings"] = warnings;
-  return json.dump(2) + "\n";
-}
-
 TransferResult Transfer(const Path& source, const Shape& target, const TransferOptions& options,
                         Progress* progress) {
   options.Validate();
   const Stopwatch total;
-  const auto& connectivity = source.metric->connectivity;
-  if (target.cols() != connectivity->NumVertices() || !target.allFinite()) {
-    throw MeshError("the target is not finite, or has another number of vertices than the source");
-  }
+  const std::shared_ptr<const Connectivity>& connectivity = source.metric->connectivity;
   const int count = source.NumShapes();
   if (count < 2) throw MeshError("a source of one shape has no motion to transfer");
+  if (target.cols() != connectivity->NumVertices()) {
+    throw MeshError("the target has " + std::to_string(target.cols()) +
+                    " vertices, the source has " + std::to_string(connectivity->NumVertices()));
+  }
+  if (!target.allFinite()) throw MeshError("a coordinate of the target is not finite");
   const Eigen::VectorXd& weights = source.metric->vertex_area;
   TransferResult result;
   TransferSummary& summary = result.summary;
-
-  // All happens in the source's aligned frame and the target's size: there the target is `first`,
-  // and `motions` lead back to where the source's motion would take it.
-  std::vector<Shape> shapes;
-  for (const Shape& shape : source.shapes) shapes.push_back(source.metric->unit * shape);
-  summary.scale = Radius(target, weights) / Radius(shapes[0], weights);
+  summary.vertices = connectivity->NumVertices();
+  summary.metric = Describe(options.metric);
+  summary.scale =
+      Radius(target, weights) / (source.metric->unit * Radius(source.shapes[0], weights));
   if (!(summary.scale > 0) || !std::isfinite(summary.scale)) {
     throw MeshError("the target or the source's first shape has no extent");
   }
+
+  // All happens in the source's aligned frame, and in the target's size: there the target's first
+  // shape is `targets[0]`, and `turn` leads from the source's place to the target's.
   const double size = options.scale ? summary.scale : 1;
-  for (Shape& shape : shapes) shape *= size;
+  std::vector<Shape> shapes;
+  for (const Shape& shape : source.shapes) shapes.push_back(size * source.metric->unit * shape);
   RigidMotion place = FitRigidMotion(shapes[0], target, weights);
   if (!options.align) {
-    place.translation += place.rotation * Centroid(shapes[0], weights);
-    place.rotation.setIdentity();
+    place.rotation = source.motions[0].rotation;
+    place.translation = Centroid(target, weights) - place.rotation * Centroid(shapes[0], weights);
   }
-  const Shape first = place.rotation.transpose() * (target.colwise() - place.translation);
-  std::vector<RigidMotion> motions(count);
   const Eigen::Matrix3d turn = place.rotation * source.motions[0].rotation.transpose();
-  for (int i = 0; i < count; ++i) {
-    motions[i].rotation = turn * source.motions[i].rotation;
-    motions[i].translation =
-        place.translation +
-        size * turn * (source.motions[i].translation - source.motions[0].translation);
-  }
-
+  std::vector<Shape> targets = {place.rotation.transpose() *
+                                (target.colwise() - place.translation)};
   std::vector<Shape> poses = shapes;
-  poses.insert(poses.begin(), first);
+  poses.insert(poses.begin(), targets[0]);
   const auto metric =
       std::make_shared<const Metric>(FreezeMetric(options.metric, connectivity, poses));
-  summary.vertices = connectivity->NumVertices();
-  summary.metric = Describe(options.metric);
 
-  GeodesicOptions geodesic;
-  geodesic.shapes = options.rung_shapes;
-  geodesic.tolerance = options.tolerance;
-  TransportOptions transport;
-  transport.connection = options.connection;
-  transport.align = options.align;
-  ExponentialOptions exponential;
-  exponential.tolerance = 1e-12;  // copies come out to ten digits
-
-  std::vector<Shape> targets = {first}, hybrids;
+  const Ladder ladder(metric, options);
+  std::vector<Shape> placed, hybrids;
   for (int i = 0; i < count; ++i) {
     ReportProgress(progress, "transferring", i, count);
     const Stopwatch stopwatch;
+    WithinRung within(progress, i, count);
+    const bool last = i + 1 == count;
+    const Ladder::Rung rung = ladder.Lay(shapes[i], shapes[last ? i : i + 1], targets[i], &within);
     TransferSummary::Rung row;
-    const Shape& current = targets[i];
-    // The shape of the source, and the next, scaled and turned onto the target's.
-    const double local = options.scale ? Radius(current, weights) / Radius(shapes[i], weights) : 1;
-    RigidMotion onto = FitRigidMotion(local * shapes[i], current, weights);
-    if (!options.align) onto = {};
-    const Shape from = onto(local * shapes[i]);
-    const GeodesicResult rung = Interpolate(metric, {from, current}, geodesic);
-    row.ratio = rung.summary.Ratio();
-    row.converged = rung.summary.termination == Termination::kConverged;
-    hybrids.push_back(rung.path.Placed((options.rung_shapes + 1) / 2));
-    if (i + 1 < count) {
-      const Tangent velocity =
-          InitialVelocity(TwoShapes(metric, from, onto(local * shapes[i + 1])));
-      const TransportResult carried = Transport(rung.path, {velocity}, transport);
-      const ExponentialResult next =
-          Extrapolate(metric, current, carried.tangents[0], 1, exponential);
-      if (next.summary.ending != ExponentialSummary::Ending::kComplete) {
-        throw SolverError("rung " + std::to_string(i) + ": " + next.summary.stopped);
+    row.ratio = rung.geodesic.summary.Ratio();
+    row.converged = rung.geodesic.summary.termination == Termination::kConverged;
+    if (!last) {
+      try {
+        targets.push_back(ladder.Climb(rung, targets[i], &row, &within));
+      } catch (const SolverError& error) {
+        throw SolverError("transfer of shape " + std::to_string(i + 2) + ": " + error.what() +
+                          "; a source with more shapes on the same way makes smaller steps");
       }
-      const double norm = carried.summary.first_norm[0];
-      if (norm > 0) row.norm_change = carried.summary.last_norm[0] / norm - 1;
-      row.converged = row.converged && carried.summary.converged;
-      row.on_mesh = next.summary.steps[0].vertices == summary.vertices;
-      targets.push_back(next.path.Placed(1));
     }
     row.seconds = stopwatch.Seconds();
     summary.rungs.push_back(row);
+
+    RigidMotion motion;
+    motion.rotation = turn * source.motions[i].rotation;
+    if (options.align) {
+      motion.rotation *= Uprighting(*metric, shapes[0], shapes[i], targets[0], targets[i]);
+    }
+    motion.translation =
+        place.translation +
+        size * turn * (source.motions[i].translation - source.motions[0].translation);
+    placed.push_back(motion(targets[i]));
+    hybrids.push_back(motion(rung.geodesic.path.Placed((options.rung_shapes + 1) / 2)));
   }
-  result.path = MakePath(source, metric, std::move(targets), motions, "; transferred");
-  result.hybrids = MakePath(source, metric, std::move(hybrids), motions, "; hybrids");
-  MeasureStrains(*metric, source, result.path, &summary);
-  const auto coarse =
-      std::count_if(summary.rungs.begin(), summary.rungs.end(),
-                    [](const TransferSummary::Rung& rung) { return !rung.on_mesh; });
-  if (coarse > 0) {
-    summary.warnings.push_back(std::to_string(coarse) + " of " + std::to_string(count - 1) +
-                               " steps were made on a coarser mesh, and detail carried along");
-  }
-  if (!summary.Converged()) {
-    summary.warnings.push_back("some rungs did not converge; raise the tolerance");
-  }
+  placed[0] = target;
+  const std::string provenance = source.provenance.empty() ? "" : source.provenance + "; ";
+  result.path = PathOfTarget(metric, placed, source.parameters, provenance + "transferred");
+  result.hybrids = PathOfPlaced(metric, hybrids, source.parameters, provenance + "hybrids");
+  MeasureWhatIsOff(*metric, source, result.path, &summary);
+  Warn(&summary);
   summary.total_seconds = total.Seconds();
+  return result;
+}
+
+PoseTransferResult TransferPoses(const std::shared_ptr<const Connectivity>& connectivity,
+                                 const std::vector<Shape>& poses, const Shape& target,
+                                 const GeodesicOptions& geodesic, const TransferOptions& options,
+                                 Progress* progress) {
+  options.Validate();
+  const int count = static_cast<int>(poses.size());
+  if (count < 2) throw MeshError("one pose has no motion to transfer");
+  PoseTransferResult result;
+  std::vector<Shape> placed = {target}, hybrids;
+  std::vector<double> parameters = {0};
+  for (int i = 1; i < count; ++i) {
+    GeodesicResult source = Interpolate(connectivity, {poses[0], poses[i]}, geodesic, progress);
+    TransferResult transfer;
+    try {
+      transfer = Transfer(source.path, target, options, progress);
+    } catch (const SolverError& error) {
+      throw SolverError("pose " + std::to_string(i + 1) + ": " + error.what());
+    }
+    const int last = transfer.path.NumShapes() - 1;
+    placed.push_back(transfer.path.Placed(last));
+    if (hybrids.empty()) hybrids.push_back(transfer.hybrids.Placed(0));
+    hybrids.push_back(transfer.hybrids.Placed(last));
+    parameters.push_back(static_cast<double>(i) / (count - 1));
+    result.summary.geodesics.push_back(std::move(source.summary));
+    result.summary.transfers.push_back(std::move(transfer.summary));
+  }
+  const auto metric =
+      std::make_shared<const Metric>(FreezeMetric(options.metric, connectivity, placed));
+  result.path = PathOfTarget(metric, placed, parameters, "transferred");
+  result.hybrids = PathOfPlaced(metric, hybrids, parameters, "hybrids");
   return result;
 }
 

@@ -21,7 +21,8 @@ struct TransportOptions {
   Connection connection = Connection::kLeviCivita;
 
   /// Before each step of the Levi-Civita scheme, turn the shape onto the next one, and the tangent
-  /// with it: exact where the shapes move rigidly, of the same order everywhere else.
+  /// with it: what is carried turns with the body, exactly where that moves rigidly. Without, the
+  /// bare connection leaves the rigid part of a tangent behind when the body turns.
   bool align = true;
 
   /// Residual of a step's linear system, as a share of its right-hand side.

@@ -1,6 +1,8 @@
 #include <shapespace/solvers/optimise/step.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <shapespace/base/error.h>
 #include <shapespace/solvers/optimise/step_ceres.h>
@@ -19,11 +21,21 @@ constexpr double kRoot = 1e-6;
 // that takes up to eight iterations.
 constexpr double kForcing = 1e-2;
 constexpr int kMaxKrylov = 20;
+// Of a path that rests, or moves rigidly, aligned shapes differ by a few roundings.
+constexpr double kRest = 10;
 // Along a geodesic the speed is constant but for the discretisation's second order.
 constexpr double kSpeedChange = 0.1;
 
 constexpr int kMaxGaussNewton = 20, kGaussNewtonHalvings = 8;
 constexpr double kGaussNewtonProgress = 1e-4;
+
+// How far in feature space rounding of a shape's coordinates leads, with signs that have nothing to
+// do with each other.
+double RoundingOf(const Shape& shape, const FeatureDerivative& derivative) {
+  Tangent rounding = std::numeric_limits<double>::epsilon() * shape.cwiseAbs();
+  for (int i = 1; i < rounding.size(); i += 2) rounding.data()[i] *= -1;
+  return derivative.Times(rounding).norm();
+}
 
 }  // namespace
 
@@ -50,6 +62,7 @@ Step::Step(const FeatureMap& map, MetricSolver* solver, const Departure& departu
                                      : derivative_.Times(departure.velocity);
   target_ = current_ + change;
   speed_ = change.norm();
+  rounding_ = RoundingOf(departure.shape, derivative_);
   solver_.Factor(derivative_);
 }
 
@@ -65,11 +78,12 @@ Shape Step::Predict() const {
 
 bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* row,
                  Shape* shape) const {
-  if (speed_ == 0) {
+  if (speed_ <= kRest * rounding_) {
     *shape = departure_.shape;
     row->converged = true;
     return true;
   }
+  const double tolerance = std::max(options.tolerance, rounding_ / speed_);
   Shape root = *shape;
   bool found = false;
   if (options.solver == StepSolver::kCeres) {
@@ -79,16 +93,16 @@ bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* ro
     row->residual = result.residual;
     found = result.converged;
   } else {
-    found = SolveWithNewton(options, row, &root);
+    found = SolveWithNewton(tolerance, options.max_iterations, row, &root);
   }
   const double speed = (map_.Values(root) - current_).norm();
   if (!found || !(std::abs(speed / speed_ - 1) < kSpeedChange)) return false;
-  row->converged = row->residual <= options.tolerance;
+  row->converged = row->residual <= tolerance;
   *shape = root;
   return true;
 }
 
-bool Step::SolveWithNewton(const ExponentialOptions& options, ExponentialSummary::Step* row,
+bool Step::SolveWithNewton(double tolerance, int max_iterations, ExponentialSummary::Step* row,
                            Shape* shape) const {
   const auto residual_at = [&](const Shape& p) {
     return derivative_.TransposeTimes(map_.Values(p) - target_);
@@ -97,8 +111,8 @@ bool Step::SolveWithNewton(const ExponentialOptions& options, ExponentialSummary
   double size = solver_.DualNorm(residual) / speed_;
   row->residual = size;
   if (!(size < kFarthestStart)) return false;
-  for (int iteration = 0; size > options.tolerance; ++iteration) {
-    if (iteration == options.max_iterations) return size <= kRoot;
+  for (int iteration = 0; size > tolerance; ++iteration) {
+    if (iteration == max_iterations) return size <= kRoot;
     ++row->iterations;
     Tangent step;
     const MetricSolver::Result linear =
@@ -111,7 +125,7 @@ bool Step::SolveWithNewton(const ExponentialOptions& options, ExponentialSummary
       const Shape trial = *shape - factor * step;
       const Tangent left = residual_at(trial);
       const double left_size = solver_.DualNorm(left) / speed_;
-      if (left_size < kLeastProgress * size || left_size <= options.tolerance) {
+      if (left_size < kLeastProgress * size || left_size <= tolerance) {
         *shape = trial;
         residual = left;
         size = left_size;
@@ -149,6 +163,9 @@ Shape Step::Nearest(const Shape& start, ExponentialSummary::Step* row) const {
         progress = true;
       }
     }
+  }
+  if (shape == departure_.shape) {
+    throw SolverError("no shape near is any closer to where the motion leads: it comes to a halt");
   }
   return shape;
 }

@@ -34,16 +34,18 @@ class Step {
   Shape Predict() const;
 
   /// Newton's method from `*shape`, which becomes the root if one is found, and else is left where
-  /// it was; row->converged tells whether the tolerance was reached. A root that is much farther or
-  /// nearer in the metric than the step before is another geodesic's, and does not count.
+  /// it was; row->converged tells whether the tolerance was reached, or what rounding leaves of it.
+  /// A root that is much farther or nearer in the metric than the step before is another
+  /// geodesic's, and does not count.
   bool Solve(const ExponentialOptions& options, ExponentialSummary::Step* row, Shape* shape) const;
 
   /// The shape nearest in feature space to what the step asks for: argmin |Phi(P) - Phi(P_i) -
-  /// change|^2, by Gauss-Newton from `start`. Always exists; of first order only.
+  /// change|^2, by Gauss-Newton from `start`. Of first order only.
+  /// \throw SolverError if that is the departure's own: the motion would stand still from here on.
   Shape Nearest(const Shape& start, ExponentialSummary::Step* row) const;
 
  private:
-  bool SolveWithNewton(const ExponentialOptions& options, ExponentialSummary::Step* row,
+  bool SolveWithNewton(double tolerance, int max_iterations, ExponentialSummary::Step* row,
                        Shape* shape) const;
 
   const FeatureMap& map_;
@@ -52,6 +54,7 @@ class Step {
   Eigen::VectorXd target_;   // Phi(P_i) + change
   Eigen::VectorXd current_;  // Phi(P_i)
   double speed_ = 0;         // |change|
+  double rounding_ = 0;      // of Phi(P_i), for want of digits in P_i
   FeatureDerivative derivative_;
 };
 

@@ -1,0 +1,133 @@
+// The paper's recipes for the exponential map and for parallel transport beside ours: how their
+// errors fall with the step, as tables in Markdown. No times.
+
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/bricard.h>
+#include <shapespace/bodies/sheet.h>
+#include <shapespace/path/align.h>
+#include <shapespace/solvers/exponential.h>
+#include <shapespace/solvers/transport.h>
+
+namespace shapespace {
+namespace {
+
+struct Motion {
+  const char* name;
+  std::shared_ptr<const Metric> metric;
+  Shape shape;
+  Tangent velocity;  // per unit of time
+};
+
+Eigen::Matrix3d Rotation(double degrees) {
+  return Eigen::AngleAxisd(degrees * M_PI / 180, Eigen::Vector3d(0.3, 1, 0.5).normalized())
+      .toRotationMatrix();
+}
+
+Motion Make(const char* name, const Body& body, double at, const Shape& before, const Shape& after,
+            double time, const MetricOptions& options) {
+  const Shape shape = body.pose(at);
+  return {name, std::make_shared<const Metric>(FreezeMetric(options, body.connectivity, {shape})),
+          shape, (after - before) / time};
+}
+
+std::vector<Motion> Motions() {
+  MetricOptions membrane;
+  membrane.bending = 0;
+  membrane.lambda = 1e-3;
+  constexpr double kTime = 2e-4;  // of the differences that make velocities
+  const Body bar = MakeBar(6, 1, 1, 6, 1, 1), strip = MakeStrip(1, 0.9, 16),
+             bricard = MakeBricard();
+  const auto deforming = [&](const char* name, const Body& body, double at, double rate) {
+    return Make(name, body, at, body.pose(at - rate * kTime / 2), body.pose(at + rate * kTime / 2),
+                kTime, membrane);
+  };
+  return {Make("bar, turning by 90 degrees", bar, 30, Rotation(-45 * kTime) * bar.pose(30),
+               Rotation(45 * kTime) * bar.pose(30), kTime, membrane),
+          deforming("bar, bending from 30 to 90 degrees", bar, 30, 60),
+          deforming("strip, rolling", strip, 5, 10), deforming("Bricard, flexing", bricard, 0, 25)};
+}
+
+void PrintExponentials() {
+  std::printf(
+      "| error at t = 1, share of the way | steps | variational | Runge-Kutta 4 | (7) |\n"
+      "|---|---:|---:|---:|---:|\n");
+  for (const Motion& motion : Motions()) {
+    const auto end = [&](int steps, Integrator integrator) {
+      ExponentialOptions options;
+      options.integrator = integrator;
+      const Path path =
+          Extrapolate(motion.metric, motion.shape, motion.velocity, steps, options).path;
+      return path.Placed(path.NumShapes() - 1);
+    };
+    const Shape exact = end(512, Integrator::kRungeKutta4);
+    for (int steps : {8, 16, 32, 64}) {
+      std::printf("| %s | %d |", motion.name, steps);
+      for (Integrator integrator :
+           {Integrator::kVariational, Integrator::kRungeKutta4, Integrator::kFirstIntegral}) {
+        std::printf(" %.1e |",
+                    (end(steps, integrator) - exact).norm() / (exact - motion.shape).norm());
+      }
+      std::printf("\n");
+    }
+  }
+}
+
+void PrintTransports() {
+  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const Shape shape = bar.pose(5);
+  const auto metric = std::make_shared<const Metric>(FreezeMetric({}, bar.connectivity, {shape}));
+  const Tangent bend = 100 * (bar.pose(5.01) - shape);
+  const Tangent stretch = 0.1 * Eigen::Vector3d(1, 0, 0).asDiagonal() * shape;
+  const auto turning = [&](int segments) {
+    Path path;
+    path.metric = metric;
+    const Shape centred = shape.colwise() - Centroid(shape, metric->vertex_area);
+    for (int i = 0; i <= segments; ++i) {
+      path.shapes.push_back(Rotation(90.0 * i / segments) * centred / metric->unit);
+      path.parameters.push_back(static_cast<double>(i) / segments);
+    }
+    path.motions.resize(segments + 1);
+    path.poses = {0, segments};
+    return path;
+  };
+  const auto carry = [&](const Tangent& x, int segments, Connection connection, bool align) {
+    TransportOptions options;
+    options.connection = connection;
+    options.align = align;
+    return Transport(turning(segments), {x}, options);
+  };
+  std::printf(
+      "\n| along a bar that turns by 90 degrees: norm, error | segments | ours, aligned | ours, "
+      "not aligned | the paper's |\n|---|---:|---:|---:|---:|\n");
+  for (const auto& [name, x] : {std::make_pair("its bending", bend), {"its stretching", stretch}}) {
+    // Two answers: what turns with the body, and the limit of many segments without alignment.
+    const Tangent turned = Rotation(90) * x;
+    const Tangent limit = carry(x, 512, Connection::kLeviCivita, false).tangents[0];
+    for (int segments : {4, 16, 64}) {
+      std::printf("| %s | %d |", name, segments);
+      const auto print = [&](Connection connection, bool align, const Tangent& exact) {
+        const TransportResult result = carry(x, segments, connection, align);
+        std::printf(" %.4f, %.1e |", result.summary.last_norm[0] / result.summary.first_norm[0],
+                    (result.tangents[0] - exact).norm() / x.norm());
+      };
+      print(Connection::kLeviCivita, true, turned);
+      print(Connection::kLeviCivita, false, limit);
+      print(Connection::kConstrainedProjection, false, limit);
+      std::printf("\n");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace shapespace
+
+int main() {
+  shapespace::PrintExponentials();
+  shapespace::PrintTransports();
+}

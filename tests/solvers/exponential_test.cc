@@ -1,0 +1,703 @@
+#include <shapespace/solvers/exponential.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/bricard.h>
+#include <shapespace/bodies/catenoid.h>
+#include <shapespace/bodies/miura.h>
+#include <shapespace/bodies/sheet.h>
+#include <shapespace/bodies/steffen.h>
+#include <shapespace/bodies/tube.h>
+#include <shapespace/metric/feature_map.h>
+
+#include "support/message_of.h"
+#include "support/motions.h"
+#include "support/paths.h"
+
+namespace shapespace {
+namespace {
+
+using testing::Deforming;
+using testing::Diameter;
+using testing::Distance;
+using testing::MessageOf;
+using testing::Motion;
+using testing::Rotation;
+using testing::Turning;
+using Ending = ExponentialSummary::Ending;
+
+constexpr Integrator kAllIntegrators[] = {Integrator::kVariational, Integrator::kRungeKutta4,
+                                          Integrator::kFirstIntegral};
+
+ExponentialOptions Options(Integrator integrator, double tolerance = 1e-9) {
+  ExponentialOptions options;
+  options.integrator = integrator;
+  options.tolerance = tolerance;
+  return options;
+}
+
+ExponentialResult Shoot(const Motion& motion, int steps,
+                        const ExponentialOptions& options = Options(Integrator::kVariational)) {
+  return Extrapolate(motion.metric, motion.shape, motion.velocity, steps, options);
+}
+
+Shape End(const Motion& motion, int steps, Integrator integrator = Integrator::kVariational) {
+  return Exponential(motion.metric, motion.shape, motion.velocity, steps, Options(integrator));
+}
+
+MetricOptions Membrane(double lambda) {
+  MetricOptions options;
+  options.bending = 0;
+  options.lambda = lambda;
+  return options;
+}
+
+// Motions of which each goes far: vertices by a tenth to all of the body's size.
+std::vector<Motion> TurningBodies() {
+  return {Turning(MakeBar(6, 1, 1, 6, 1, 1), 30, 90, {}),
+          Turning(MakeSheet(2, 1, 8, 4), 90, 90, {}), Turning(MakeBricard(), 0, 90, {})};
+}
+
+std::vector<Motion> DeformingBodies() {
+  return {Deforming(MakeStrip(1, 0.9, 16), 5, 10, {}), Deforming(MakeBricard(), 0, 25, {}),
+          Deforming(MakeSteffen(), 0, 10, {}), Deforming(MakeMiura(1, 1, 60, 3, 3), 40, 20, {}),
+          Deforming(MakeCatenoid(0.8, 12, 4), 20, 40, {})};
+}
+
+std::vector<Motion> AllMotions() {
+  std::vector<Motion> motions = TurningBodies();
+  for (Motion& motion : DeformingBodies()) motions.push_back(motion);
+  return motions;
+}
+
+TEST(Exponential, TranslatesExactly) {
+  MetricOptions volume;
+  volume.volume = 0.3;
+  std::vector<Motion> motions = {Turning(MakeBar(6, 1, 1, 6, 1, 1), 30, 0, {}),
+                                 Turning(MakeBar(6, 1, 1, 6, 1, 1), 30, 0, volume),
+                                 Turning(MakeSheet(2, 1, 8, 4), 90, 0, {}),
+                                 Turning(MakeSteffen(), 5, 0, {})};
+  Shape edge = Shape::Zero(3, 2);
+  edge.col(1) << 1, 2, 3;
+  motions.push_back(
+      {"edge",
+       std::make_shared<const Metric>(FreezeMetric(Membrane(1e-4), testing::SingleEdge(), {edge})),
+       edge, Tangent::Zero(3, 2)});
+  for (Motion& motion : motions) {
+    SCOPED_TRACE(motion.name);
+    const Eigen::Vector3d way(3, -4, 0.5);
+    motion.velocity.colwise() += way;
+    for (const Integrator integrator : kAllIntegrators) {
+      if (integrator == Integrator::kFirstIntegral && motion.metric->options.volume > 0) continue;
+      const auto [path, summary] = Shoot(motion, 4, Options(integrator));
+      EXPECT_TRUE(summary.Converged()) << summary.FullReport();
+      for (int i = 0; i <= 4; ++i) {
+        EXPECT_EQ(path.parameters[i], i / 4.0);
+        EXPECT_LT(Distance(path.Placed(i), motion.shape.colwise() + i / 4.0 * way),
+                  1e-12 * Diameter(motion.shape));
+      }
+    }
+  }
+}
+
+TEST(Exponential, IsAStraightLineInAFlatMetric) {
+  MetricOptions flat;
+  flat.isometric = flat.bending = 0;
+  flat.lambda = 1;
+  for (const Body& body : {MakeBar(6, 1, 1, 6, 1, 1), MakeSheet(2, 1, 8, 4), MakeSteffen()}) {
+    SCOPED_TRACE(body.name);
+    Motion motion = Turning(body, body.begin, 0, flat);
+    // A little way only, so that no edge vanishes.
+    const double size = Diameter(motion.shape);
+    motion.velocity = testing::Noise(static_cast<int>(motion.shape.cols()), 0.01 * size, 1);
+    for (const Integrator integrator : kAllIntegrators) {
+      const auto [path, summary] = Shoot(motion, 5, Options(integrator));
+      EXPECT_TRUE(summary.Converged()) << summary.FullReport();
+      for (int i = 0; i <= 5; ++i) {
+        EXPECT_LT(Distance(path.Placed(i), motion.shape + i / 5.0 * motion.velocity), 1e-12 * size);
+      }
+    }
+  }
+}
+
+TEST(Exponential, StaysWhereThereIsNoVelocity) {
+  for (const Integrator integrator : kAllIntegrators) {
+    const Motion motion = Turning(MakeBricard(), 10, 0, {});
+    const auto [path, summary] = Shoot(motion, 3, Options(integrator));
+    EXPECT_TRUE(summary.Converged());
+    for (const Shape& shape : path.shapes) EXPECT_TRUE(shape == path.shapes[0]);
+  }
+}
+
+// The two integrators are derived from different equations, the one from the discrete energy, the
+// other from the geodesic equation with the features' second derivatives: they agree in the limit,
+// each with its own order.
+TEST(Exponential, IntegratorsConvergeWithTheirOrdersToOneGeodesic) {
+  for (const Motion& motion : AllMotions()) {
+    SCOPED_TRACE(motion.name);
+    const Shape exact = End(motion, 128, Integrator::kRungeKutta4);
+    const double way = Distance(exact, motion.shape);
+    const auto error = [&](int steps, Integrator integrator) {
+      return Distance(End(motion, steps, integrator), exact) / way;
+    };
+    const double coarse = error(8, Integrator::kVariational);
+    EXPECT_LT(coarse, 1e-2);
+    const double middle = error(16, Integrator::kVariational);
+    const double fine = error(32, Integrator::kVariational);
+    EXPECT_NEAR(std::log2(coarse / middle), 2, 0.1);
+    EXPECT_NEAR(std::log2(middle / fine), 2, 0.1);
+
+    const double coarse_4 = error(8, Integrator::kRungeKutta4);
+    const double fine_4 = error(16, Integrator::kRungeKutta4);
+    EXPECT_LT(coarse_4, 0.1 * coarse);
+    EXPECT_NEAR(std::log2(coarse_4 / fine_4), 4, 0.3);
+  }
+}
+
+// Started with M + dt X, as Euler would, the first step alone would be wrong by a second order.
+TEST(Exponential, SetsOutWithAnErrorOfThirdOrder) {
+  for (const Motion& motion : AllMotions()) {
+    SCOPED_TRACE(motion.name);
+    double previous = 0;
+    for (double time : {1 / 8.0, 1 / 16.0, 1 / 32.0}) {
+      const Motion short_one = motion.Times(time);
+      const double error =
+          Distance(End(short_one, 1), End(short_one, 16, Integrator::kRungeKutta4));
+      if (previous > 0) {
+        EXPECT_NEAR(std::log2(previous / error), 3, 0.25);
+      }
+      previous = error;
+    }
+  }
+}
+
+// A geodesic of an edge whose centroid rests, as a curve r(t), phi(t) in a plane: with h =
+// r^2 phi' and the energy F = (w r^2 + c) r'^2 + c h^2 / r^2 constant (Clairaut), time and angle
+// at a length r are integrals over it. By Simpson's rule.
+struct Clairaut {
+  double w, c, h, energy, start;
+
+  template <typename Integrand>
+  double Integrate(const Integrand& integrand, double end) const {
+    constexpr int kIntervals = 2000;
+    const double step = (end - start) / kIntervals;
+    double sum = 0;
+    for (int i = 0; i <= kIntervals; ++i) {
+      sum += (i == 0 || i == kIntervals ? 1 : i % 2 == 1 ? 4 : 2) * integrand(start + i * step);
+    }
+    return sum * step / 3;
+  }
+  double Slowness(double r) const {  // dt / dr
+    return std::sqrt((w * r * r + c) / (energy - c * h * h / (r * r)));
+  }
+  double Time(double end) const {
+    return Integrate([&](double r) { return Slowness(r); }, end);
+  }
+  double Angle(double end) const {
+    return Integrate([&](double r) { return h / (r * r) * Slowness(r); }, end);
+  }
+};
+
+TEST(Exponential, MovesASingleEdgeAsClairautSays) {
+  const double kLength = 1.5, kOutwards = 0.9, kSideways = 1.2, kLambda = 0.7;
+  const Eigen::Vector3d along = Eigen::Vector3d(1, 2, -2).normalized();
+  const Eigen::Vector3d across = along.cross(Eigen::Vector3d::UnitX()).normalized();
+  Motion motion{"edge", nullptr, Shape(3, 2), Tangent(3, 2)};
+  for (int k : {0, 1}) {
+    const double sign = k == 0 ? -0.5 : 0.5;
+    motion.shape.col(k) = sign * kLength * along;
+    motion.velocity.col(k) = sign * (kOutwards * along + kSideways * across);
+  }
+  motion.metric = std::make_shared<const Metric>(
+      FreezeMetric(Membrane(kLambda), testing::SingleEdge(), {motion.shape}));
+  const double unit = motion.metric->unit;
+  Clairaut exact{};
+  exact.w = std::get<EdgeLength>(motion.metric->features[0]).weights(0);
+  // Each vertex moves half as fast as the edge's vector.
+  exact.c = kLambda * motion.metric->vertex_area.sum() / 4;
+  exact.start = kLength / unit;
+  exact.h = exact.start * kSideways / unit;
+  exact.energy = (exact.w * exact.start * exact.start + exact.c) * std::pow(kOutwards / unit, 2) +
+                 exact.c * std::pow(kSideways / unit, 2);
+
+  double previous[2] = {0, 0};
+  for (int steps : {8, 16, 32}) {
+    const auto [path, summary] = Shoot(motion, steps);
+    const Eigen::Vector3d edge = path.shapes.back().col(1) - path.shapes.back().col(0);
+    EXPECT_LT(std::abs(edge.dot(along.cross(across))), 1e-12);
+    const double r = edge.norm(), angle = std::atan2(edge.dot(across), edge.dot(along));
+    EXPECT_GT(r, 1.2 * exact.start);
+    EXPECT_GT(angle, 0.3);
+    const double errors[2] = {std::abs(exact.Time(r) - 1), std::abs(exact.Angle(r) - angle)};
+    for (int k : {0, 1}) {
+      EXPECT_LT(errors[k], 1e-2);
+      if (previous[k] > 0) {
+        EXPECT_NEAR(previous[k] / errors[k], 4, 0.3) << k;
+      }
+      previous[k] = errors[k];
+    }
+  }
+  const Shape last = Shoot(motion, 64, Options(Integrator::kRungeKutta4)).path.shapes.back();
+  EXPECT_NEAR(exact.Time((last.col(1) - last.col(0)).norm()), 1, 1e-7);
+}
+
+// All features but positions are unchanged by rigid motion, so by Noether's theorem the discrete
+// momenta are those of free points of masses A_p.
+TEST(Exponential, KeepsTheMomentaOfFreePoints) {
+  for (Motion motion : AllMotions()) {
+    SCOPED_TRACE(motion.name);
+    motion.velocity.colwise() += 0.3 * Diameter(motion.shape) * Eigen::Vector3d(1, 2, -2) / 3;
+    motion.velocity += testing::Spin(*motion.metric, motion.shape, 40, {1, 0.3, 0});
+    const Eigen::VectorXd& mass = motion.metric->vertex_area;
+    const auto [path, summary] = Shoot(motion, 50);
+    EXPECT_TRUE(summary.Converged()) << summary.FullReport();
+    Eigen::Vector3d linear[2], angular[2];
+    for (int i = 0; i < 50; ++i) {
+      const Shape &p = path.shapes[i], &q = path.shapes[i + 1];
+      const int k = i == 0 ? 0 : 1;
+      linear[k] = (q - p) * mass;
+      angular[k].setZero();
+      for (int v = 0; v < p.cols(); ++v) {
+        const Eigen::Vector3d a = p.col(v), b = q.col(v);
+        angular[k] += mass(v) * a.cross(b);
+      }
+      if (i == 0) continue;
+      EXPECT_LT((linear[1] - linear[0]).norm(), 1e-11 * linear[0].norm());
+      EXPECT_LT((angular[1] - angular[0]).norm(), 1e-11 * angular[0].norm());
+      EXPECT_LT(summary.steps[i].momentum_drift, 1e-11);
+    }
+  }
+}
+
+// A path between two poses of a body. Its tolerance is a relative decrease of the energy, with
+// whose square root the path's error goes, and that error grows again when shooting: 1e-15 is what
+// it takes. With loose tolerances, shooting fails for want of a geodesic, not of an integrator.
+GeodesicOptions Exactly(int shapes) {
+  GeodesicOptions options;
+  options.shapes = shapes;
+  options.tolerance = 1e-15;
+  options.max_iterations = 5000;
+  return options;
+}
+
+struct Pair {
+  Body body;
+  double first, last;
+};
+
+std::vector<Pair> Pairs() {
+  return {{MakeBar(6, 1, 1, 6, 1, 1), 0, 90},
+          {MakeSheet(2, 1, 8, 4), 0, 90},
+          {MakeBricard(), 0, 25},
+          {MakeSteffen(), -10, 5},
+          {MakeMiura(1, 1, 60, 3, 3), 20, 45}};
+}
+
+TEST(Exponential, UndoesTheLogarithm) {
+  for (const auto& [body, first, last] : Pairs()) {
+    SCOPED_TRACE(body.name);
+    const Shape from = body.pose(first).colwise() + Eigen::Vector3d(5, 6, 7);
+    const Shape to = Rotation(30, {1, 2, 3}) * body.pose(last);
+    const auto metric =
+        std::make_shared<const Metric>(FreezeMetric({}, body.connectivity, {from, to}));
+    for (int shapes : {3, 7}) {
+      const Tangent velocity = Logarithm(metric, from, to, Exactly(shapes));
+      const Shape end = Exponential(metric, from, velocity, shapes + 1);
+      // Logarithms are of shapes that lie on each other.
+      const Shape expected = FitRigidMotion(to, from, metric->vertex_area)(to);
+      EXPECT_LT(Distance(end, expected), 1e-6 * Diameter(to));
+    }
+  }
+}
+
+TEST(Extrapolate, FromTheFirstTwoShapesReturnsTheOthers) {
+  for (const auto& [body, first, last] : Pairs()) {
+    SCOPED_TRACE(body.name);
+    for (int shapes : {3, 7}) {
+      const Path path =
+          Interpolate(body.connectivity, {body.pose(first), body.pose(last)}, Exactly(shapes)).path;
+      const auto [again, summary] = Extrapolate(FirstShapes(path, 2), shapes);
+      EXPECT_TRUE(summary.Converged());
+      ASSERT_EQ(again.NumShapes(), path.NumShapes());
+      EXPECT_EQ(again.extrapolated, shapes);
+      for (int i = 0; i < path.NumShapes(); ++i) {
+        EXPECT_NEAR(again.parameters[i], path.parameters[i], 1e-14);
+        EXPECT_LT(Distance(again.shapes[i], path.shapes[i]), 1e-6 * Diameter(path.shapes[i]));
+      }
+    }
+  }
+}
+
+// On the path and on its continuation by twice its length.
+TEST(Extrapolate, KeepsTheEnergyToSecondOrder) {
+  for (const auto& [body, first, last] :
+       {Pair{MakeBricard(), 0, 25}, Pair{MakeMiura(1, 1, 60, 3, 3), 20, 45}}) {
+    SCOPED_TRACE(body.name);
+    double previous = 0;
+    for (int segments : {8, 16}) {
+      const Path path =
+          Interpolate(body.connectivity, {body.pose(first), body.pose(last)}, Exactly(segments - 1))
+              .path;
+      const auto [longer, summary] = Extrapolate(path, 2 * segments);
+      EXPECT_TRUE(summary.Converged()) << summary.FullReport();
+      const FeatureMap map(*path.metric);
+      std::vector<double> energies;
+      for (int i = 0; i < 3 * segments; ++i) {
+        energies.push_back(
+            std::pow(segments, 2) *
+            (map.Values(longer.shapes[i + 1]) - map.Values(longer.shapes[i])).squaredNorm());
+        if (i >= segments) {
+          EXPECT_NEAR(summary.steps[i - segments].energy, energies[i], 1e-9 * energies[i]);
+        }
+      }
+      const auto [least, most] = std::minmax_element(energies.begin(), energies.end());
+      const double spread = *most / *least - 1;
+      EXPECT_LT(spread, 2e-3);
+      if (previous > 0) {
+        EXPECT_NEAR(previous / spread, 4, 0.5);
+      }
+      previous = spread;
+    }
+  }
+}
+
+// Of a path that stands still but for its rigid motion, and of one that deforms as well.
+TEST(Extrapolate, GoesOnWithTheRigidMotionAsAScrew) {
+  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const Eigen::Vector3d axis(1, 2, 0.5), way(4, 5, 6);
+  for (double last : {20.0, 20.0001, 50.0}) {
+    GeodesicOptions geodesic;
+    geodesic.shapes = 3;
+    const Shape first = bar.pose(20);
+    const Shape moved = (Rotation(40, axis) * bar.pose(last)).colwise() + way;
+    const Path path = Interpolate(bar.connectivity, {first, moved}, geodesic).path;
+    const auto [longer, summary] = Extrapolate(path, 4);
+    EXPECT_TRUE(summary.Converged());
+    ASSERT_EQ(longer.NumShapes(), 9);
+    EXPECT_NEAR(longer.parameters.back(), 2, 1e-14);
+    const Eigen::Matrix3d turn =
+        longer.motions[4].rotation * longer.motions[0].rotation.transpose();
+    EXPECT_LT((longer.motions[8].rotation - turn * longer.motions[4].rotation).norm(), 1e-10);
+    EXPECT_LT((longer.motions[8].translation + longer.motions[0].translation -
+               2 * longer.motions[4].translation)
+                  .norm(),
+              1e-10);
+    if (last == 20) {
+      const Eigen::Vector3d centre = Centroid(first, path.metric->vertex_area);
+      const Eigen::Vector3d shift = Centroid(moved, path.metric->vertex_area) - centre;
+      const Shape expected =
+          (Rotation(80, axis) * (first.colwise() - centre)).colwise() + (centre + 2 * shift);
+      EXPECT_LT(Distance(longer.Placed(8), expected), 1e-9);
+    }
+  }
+}
+
+// Where only the lengths count, and hold the body but for one motion, that motion is its geodesic.
+TEST(Exponential, FollowsExactIsometricFlexes) {
+  for (const Body& body : {MakeStrip(1, 0.9, 16), MakeBricard(), MakeSteffen()}) {
+    SCOPED_TRACE(body.name);
+    double previous = 0;
+    for (double lambda : {1e-2, 1e-3, 1e-4}) {
+      const Motion motion =
+          Deforming(body, body.begin + 0.5 * (body.end - body.begin), 10, Membrane(lambda));
+      const auto [path, summary] = Shoot(motion, 16);
+      EXPECT_TRUE(summary.Converged()) << summary.FullReport();
+      double largest = 0;
+      for (const ExponentialSummary::Step& step : summary.steps) {
+        largest = std::max(largest, step.edge_max);
+      }
+      EXPECT_LT(largest, 3 * lambda);
+      if (previous > 0) {
+        EXPECT_NEAR(previous / largest, 10, 1);
+      }
+      previous = largest;
+    }
+  }
+  // The Miura fold's parallelograms are stiff in their planes only: they give to the square root.
+  for (double lambda : {1e-2, 1e-3, 1e-4}) {
+    const auto [path, summary] =
+        Shoot(Deforming(MakeMiura(1, 1, 60, 3, 3), 40, 20, Membrane(lambda)), 16);
+    EXPECT_TRUE(summary.Converged());
+    EXPECT_LT(summary.steps.back().edge_max, 0.01 * std::sqrt(lambda));
+  }
+}
+
+// The paper's (7) says that a_j = x_j (G x)_j is constant for every coordinate j. Only the sum of
+// all is.
+TEST(FirstIntegral, IsNoneOfTheGeodesicEquation) {
+  for (const Motion& motion : TurningBodies()) {
+    SCOPED_TRACE(motion.name);
+    const int steps = 64;
+    const auto [path, summary] = Shoot(motion, steps);
+    const FeatureMap map(*motion.metric);
+    Tangent first, last;
+    for (int i : {1, steps - 1}) {
+      const Tangent x = steps / 2.0 * (path.shapes[i + 1] - path.shapes[i - 1]);
+      const FeatureDerivative derivative = map.Derivative(path.shapes[i]);
+      (i == 1 ? first : last) = x.cwiseProduct(derivative.TransposeTimes(derivative.Times(x)));
+    }
+    EXPECT_GT((last - first).lpNorm<1>(), 0.1 * first.lpNorm<1>());
+    for (const ExponentialSummary::Step& step : summary.steps) {
+      EXPECT_NEAR(step.energy, summary.steps[0].energy, 1e-5 * step.energy);
+    }
+  }
+}
+
+TEST(FirstIntegral, DoesNotConverge) {
+  for (const Motion& motion : {TurningBodies()[0], TurningBodies()[1]}) {
+    SCOPED_TRACE(motion.name);
+    const Shape exact = End(motion, 64, Integrator::kRungeKutta4);
+    for (int steps : {8, 16, 32}) {
+      const double error = Distance(End(motion, steps, Integrator::kFirstIntegral), exact);
+      EXPECT_GT(error, 0.3 * Distance(motion.shape, exact)) << steps;
+    }
+  }
+}
+
+TEST(Exponential, BothSolversOfStepsAgree) {
+  for (const Motion& motion : {TurningBodies()[0], TurningBodies()[1], DeformingBodies()[1],
+                               Deforming(MakeTube(100), 30, 60, {})}) {
+    SCOPED_TRACE(motion.name);
+    ExponentialOptions options = Options(Integrator::kVariational, 1e-10);
+    options.solver = StepSolver::kNewtonKrylov;
+    const ExponentialResult newton = Shoot(motion, 8, options);
+    options.solver = StepSolver::kCeres;
+    const ExponentialResult ceres = Shoot(motion, 8, options);
+    EXPECT_TRUE(newton.summary.Converged()) << newton.summary.FullReport();
+    EXPECT_TRUE(ceres.summary.Converged()) << ceres.summary.FullReport();
+    for (int i = 0; i <= 8; ++i) {
+      EXPECT_LT(Distance(newton.path.shapes[i], ceres.path.shapes[i]), 1e-9);
+    }
+    EXPECT_GT(newton.summary.steps[0].krylov_iterations, 0);
+    EXPECT_EQ(ceres.summary.steps[0].krylov_iterations, 0);
+  }
+}
+
+TEST(Exponential, CommutesWithRotationTranslationAndScale) {
+  const Eigen::Matrix3d turn = Rotation(70, {1, 2, -1});
+  for (const Motion& motion : {TurningBodies()[0], DeformingBodies()[3], DeformingBodies()[4]}) {
+    SCOPED_TRACE(motion.name);
+    for (const Integrator integrator : {Integrator::kVariational, Integrator::kRungeKutta4}) {
+      const Shape end = End(motion, 8, integrator);
+      for (double scale : {1e-4, 1.0, 1e4}) {
+        const Eigen::Vector3d way = scale * Eigen::Vector3d(3, -8, 5);
+        const auto move = [&](const Shape& x) -> Shape { return scale * (turn * x); };
+        Motion moved = motion;
+        moved.shape = move(motion.shape).colwise() + way;
+        moved.velocity = move(motion.velocity);
+        moved.metric = std::make_shared<const Metric>(
+            FreezeMetric(motion.metric->options, motion.metric->connectivity, {moved.shape}));
+        EXPECT_LT(Distance(End(moved, 8, integrator), move(end).colwise() + way),
+                  1e-9 * scale * Diameter(end));
+      }
+    }
+  }
+}
+
+TEST(Exponential, DoesNotDependOnTheOrderOfVertices) {
+  for (const Motion& motion : {TurningBodies()[0], DeformingBodies()[4]}) {
+    SCOPED_TRACE(motion.name);
+    std::vector<int> to(motion.shape.cols());
+    std::iota(to.begin(), to.end(), 0);
+    std::shuffle(to.begin(), to.end(), std::mt19937(1));
+    Eigen::Matrix3Xi triangles = motion.metric->connectivity->Triangles();
+    for (int& v : triangles.reshaped()) v = to[v];
+    const auto renumber = [&](const Shape& x) {
+      Shape y(3, x.cols());
+      for (int v = 0; v < x.cols(); ++v) y.col(to[v]) = x.col(v);
+      return y;
+    };
+    Motion other = motion;
+    other.shape = renumber(motion.shape);
+    other.velocity = renumber(motion.velocity);
+    other.metric = std::make_shared<const Metric>(FreezeMetric(
+        motion.metric->options, Connectivity::FromTriangles(static_cast<int>(to.size()), triangles),
+        {other.shape}));
+    for (const Integrator integrator : {Integrator::kVariational, Integrator::kRungeKutta4}) {
+      EXPECT_LT(Distance(End(other, 8, integrator), renumber(End(motion, 8, integrator))),
+                1e-9 * Diameter(motion.shape));
+    }
+  }
+}
+
+TEST(Exponential, IsTheSameForAnyNumberOfThreads) {
+  const Motion motion = Turning(MakeBar(6, 1, 1, 48, 8, 8), 30, 20, {});
+  ASSERT_GT(motion.shape.cols(), 1024);  // several blocks of elements
+  std::vector<Shape> ends;
+  for (int threads : {1, 2}) {
+    SetThreads(threads);
+    ends.push_back(End(motion, 2));
+  }
+  SetThreads(0);
+  EXPECT_TRUE(ends[0] == ends[1]);
+}
+
+// A body whose shape is pressed together along z (or y), at a rate at which straight lines would
+// have it flat at time 1 / rate.
+Motion Crushed(const Body& body, double rate) {
+  Motion motion = Turning(body, body.begin, 0, {});
+  const int axis = body.name == "sheet" ? 1 : 2;
+  motion.velocity.row(axis) = -rate * motion.shape.row(axis);
+  return motion;
+}
+
+// Either it ends, saying why, or it goes on with shapes that are flagged.
+TEST(Exponential, NeverTakesACrushedBodyForASuccess) {
+  int stopped = 0, flagged = 0;
+  for (const Body& body :
+       {MakeBar(6, 1, 1, 6, 1, 1), MakeSheet(2, 1, 8, 4), MakeSteffen(), MakeTube(100)}) {
+    for (double rate : {2.0, 10.0, 100.0}) {
+      for (const Integrator integrator : {Integrator::kVariational, Integrator::kRungeKutta4}) {
+        for (int steps : {1, 2, 8}) {
+          SCOPED_TRACE(::testing::Message() << body.name << ", rate " << rate << ", integrator "
+                                            << static_cast<int>(integrator) << ", steps " << steps);
+          const auto [path, summary] = Shoot(Crushed(body, rate), steps, Options(integrator));
+          for (const Shape& shape : path.shapes) EXPECT_TRUE(shape.allFinite());
+          EXPECT_FALSE(summary.Converged()) << summary.FullReport();
+          ASSERT_FALSE(summary.warnings.empty());
+          EXPECT_EQ(path.NumShapes(), 1 + static_cast<int>(summary.steps.size()));
+          EXPECT_EQ(path.extrapolated, static_cast<int>(summary.steps.size()));
+          if (summary.ending == Ending::kDegenerate) {
+            EXPECT_LT(path.NumShapes(), 1 + steps);
+            EXPECT_EQ(summary.stopped.rfind("step ", 0), 0u) << summary.stopped;
+            EXPECT_NE(summary.warnings.back().find(summary.stopped), std::string::npos);
+            EXPECT_NE(summary.BriefReport().find("STOPPED EARLY"), std::string::npos);
+            ++stopped;
+          } else {
+            EXPECT_EQ(path.NumShapes(), 1 + steps);
+            EXPECT_NE(summary.BriefReport().find("NOT CONVERGED"), std::string::npos);
+            ++flagged;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(stopped, 0);
+  EXPECT_GT(flagged, 0);
+}
+
+// This path, gone on for twice its length, ends where a bend would have to press triangles flat,
+// and no shape near goes on. To stand still from there on would be no answer.
+TEST(Extrapolate, EndsWhereTheMotionComesToAHalt) {
+  const Body tube = MakeTube(100);
+  const Path path = Interpolate(tube.connectivity, {tube.pose(0), tube.pose(60)}, Exactly(7)).path;
+  const auto [longer, summary] = Extrapolate(path, 16);
+  EXPECT_EQ(summary.ending, Ending::kDegenerate) << summary.FullReport();
+  EXPECT_NE(summary.stopped.find("comes to a halt"), std::string::npos) << summary.stopped;
+  EXPECT_GT(summary.steps.size(), 8u);
+  for (const ExponentialSummary::Step& step : summary.steps) {
+    EXPECT_GT(step.energy, 0.5 * summary.steps[0].energy);
+  }
+}
+
+TEST(Exponential, ThrowsWhereTheGeodesicEndsEarly) {
+  const Motion motion = Crushed(MakeSteffen(), 100);
+  EXPECT_EQ(MessageOf<SolverError>([&] { End(motion, 8); }).find("the exponential map stopped"),
+            0u);
+}
+
+TEST(ExponentialSummary, ReportsTheSteps) {
+  const ExponentialSummary summary = Shoot(DeformingBodies()[1], 3).summary;
+  EXPECT_EQ(summary.BriefReport().rfind("converged: 6 vertices, 3 of 3 steps", 0), 0u)
+      << summary.BriefReport();
+  EXPECT_NE(summary.FullReport().find("variational"), std::string::npos);
+  const auto json = nlohmann::json::parse(summary.ToJson());
+  EXPECT_EQ(json["converged"], true);
+  EXPECT_EQ(json["steps"].size(), 3u);
+}
+
+TEST(Extrapolate, RefusesWhatCannotBeShot) {
+  const Motion motion = DeformingBodies()[1];
+  const auto refusal = [&](void (*change)(ExponentialOptions*)) {
+    ExponentialOptions options;
+    change(&options);
+    return MessageOf<InvalidOptions>([&] { Shoot(motion, 3, options); });
+  };
+  for (double tolerance : {0.0, -1.0, 1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    ExponentialOptions options;
+    options.tolerance = tolerance;
+    EXPECT_EQ(MessageOf<InvalidOptions>([&] { Shoot(motion, 3, options); }).find("tolerance:"), 0u);
+  }
+  EXPECT_EQ(refusal([](ExponentialOptions* o) { o->max_iterations = 0; }).find("max_iterations:"),
+            0u);
+  EXPECT_EQ(MessageOf<InvalidOptions>([&] { Shoot(motion, 0); }).find("steps:"), 0u);
+
+  Motion broken = motion;
+  broken.velocity(1, 2) = std::numeric_limits<double>::infinity();
+  EXPECT_NE(MessageOf<MeshError>([&] { Shoot(broken, 3); }).find("velocity"), std::string::npos);
+  broken = motion;
+  broken.shape(1, 2) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(MessageOf<MeshError>([&] { Shoot(broken, 3); }).find("shape"), std::string::npos);
+  broken = motion;
+  broken.velocity.conservativeResize(3, 5);
+  EXPECT_THROW(Shoot(broken, 3), MeshError);
+  const Path one = FirstShapes(Shoot(motion, 2).path, 1);
+  EXPECT_THROW(Extrapolate(one, 3), MeshError);
+  EXPECT_THROW(InitialVelocity(one), MeshError);
+}
+
+TEST(Extrapolate, RefusesRigidMetrics) {
+  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  GeodesicOptions options;
+  options.shapes = 3;
+  options.metric = MetricOptions::Rigid();
+  const Path path = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(30)}, options).path;
+  for (const Integrator integrator : kAllIntegrators) {
+    const std::string message =
+        MessageOf<InvalidOptions>([&] { Extrapolate(path, 2, Options(integrator)); });
+    EXPECT_NE(message.find("rigid"), std::string::npos) << message;
+  }
+  EXPECT_THROW(InitialVelocity(path), InvalidOptions);
+  EXPECT_THROW(Logarithm(path.metric, bar.pose(0), bar.pose(30)), InvalidOptions);
+}
+
+TEST(Extrapolate, SaysThatTrapezoidPathsGoOnInMidpointForm) {
+  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  GeodesicOptions options;
+  options.shapes = 3;
+  options.metric.discretization = Discretization::kTrapezoid;
+  const Path path = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(30)}, options).path;
+  const auto [longer, summary] = Extrapolate(path, 2);
+  ASSERT_FALSE(summary.warnings.empty());
+  EXPECT_NE(summary.warnings[0].find("trapezoid"), std::string::npos);
+  // And they do so: as if the metric had always been the midpoint's.
+  Path midpoint = path;
+  Metric metric = *path.metric;
+  metric.options.discretization = Discretization::kMidpoint;
+  midpoint.metric = std::make_shared<const Metric>(metric);
+  const auto [expected, silent] = Extrapolate(midpoint, 2);
+  EXPECT_TRUE(silent.warnings.empty());
+  EXPECT_TRUE(longer.shapes.back() == expected.shapes.back());
+}
+
+class StopAt final : public Progress {
+ public:
+  explicit StopAt(int step) : step_(step) {}
+  bool Report(const std::string&, int done, int) override { return done < step_; }
+
+ private:
+  const int step_;
+};
+
+TEST(Extrapolate, CanBeCancelled) {
+  const Motion motion = DeformingBodies()[1];
+  for (int step : {0, 2}) {
+    StopAt progress(step);
+    EXPECT_THROW(Extrapolate(motion.metric, motion.shape, motion.velocity, 4, {}, &progress),
+                 Cancelled);
+  }
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,454 @@
+#include <shapespace/solvers/transfer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+#include <nlohmann/json.hpp>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/skinned.h>
+#include <shapespace/path/rigid_motion.h>
+
+#include "support/message_of.h"
+#include "support/path_of.h"
+
+namespace shapespace {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using testing::MessageOf;
+using testing::PathOf;
+
+constexpr Carrier kCarriers[] = {Carrier::kNearest, Carrier::kLeviCivita,
+                                 Carrier::kConstrainedProjection};
+
+const Body& ThickBar() {
+  static const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  return bar;
+}
+
+// Longer, wider and thinner: what bends it by as much strains it less.
+Shape ThinBar() { return MakeBar(8, 1.6, 0.6, 12, 2, 2).pose(0); }
+
+// The thick bar, bent by 60 degrees in so many steps.
+Path Bending(int steps) {
+  std::vector<Shape> shapes;
+  for (int i = 0; i <= steps; ++i) shapes.push_back(ThickBar().pose(60.0 * i / steps));
+  return PathOf(ThickBar().connectivity, shapes);
+}
+
+Matrix3d Turn(double degrees, const Vector3d& axis) {
+  return Eigen::AngleAxisd(degrees * M_PI / 180, axis.normalized()).toRotationMatrix();
+}
+
+double Degrees(const Matrix3d& rotation) {
+  return std::abs(Eigen::AngleAxisd(rotation).angle()) * 180 / M_PI;
+}
+
+double Diameter(const Shape& shape) {
+  return (shape.rowwise().maxCoeff() - shape.rowwise().minCoeff()).norm();
+}
+
+// Largest distance between corresponding vertices, over the diameter.
+double Apart(const Shape& a, const Shape& b) {
+  return (a - b).colwise().norm().maxCoeff() / Diameter(b);
+}
+
+// Root mean square distance of the surfaces, laid on each other, over the diameter.
+double ShapesApart(const Shape& a, const Shape& b, const Eigen::VectorXd& area) {
+  const Shape off = FitRigidMotion(a, b, area)(a) - b;
+  return std::sqrt(off.colwise().squaredNorm().dot(area) / area.sum()) / Diameter(b);
+}
+
+// By how much the bar's end faces are turned against each other.
+double BendOf(const Shape& straight, const Shape& bent) {
+  Matrix3d ends[2];
+  for (int end : {0, 1}) {
+    const double x = end == 0 ? straight.row(0).minCoeff() : straight.row(0).maxCoeff();
+    const Eigen::VectorXd face = (straight.row(0).array() == x).cast<double>().transpose();
+    ends[end] = FitRigidMotion(straight, bent, face).rotation;
+  }
+  return Degrees(ends[0].transpose() * ends[1]);
+}
+
+double StrainOf(const Metric& metric, const Shape& first, const Shape& shape) {
+  const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
+  double squares = 0;
+  for (int e = 0; e < edges.cols(); ++e) {
+    const auto length = [&](const Shape& s) {
+      return (s.col(edges(1, e)) - s.col(edges(0, e))).norm();
+    };
+    squares += metric.edge_area(e) * std::pow(length(shape) / length(first) - 1, 2);
+  }
+  return std::sqrt(squares / metric.edge_area.sum());
+}
+
+// Sumner and Popovic, "Deformation Transfer for Triangle Meshes" (2004): the target whose triangles
+// are deformed as the source's, in the least squares sense. Every triangle has a fourth vertex
+// along its normal; all are unknown but the first vertex. Both bodies have to stand alike.
+class SumnerPopovic {
+ public:
+  static Shape Transfer(const Connectivity& connectivity, const Shape& source,
+                        const Shape& deformed, const Shape& target) {
+    const int vertices = connectivity.NumVertices(), triangles = connectivity.NumTriangles();
+    std::vector<Eigen::Triplet<double>> entries = {{3 * triangles, 0, 1.0}};
+    Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(3 * triangles + 1, 3);
+    for (int f = 0; f < triangles; ++f) {
+      const Eigen::Vector3i t = connectivity.Triangles().col(f);
+      const Matrix3d gradient = Frame(deformed, t) * Frame(source, t).inverse();
+      const Matrix3d inverse = Frame(target, t).inverse();
+      for (int axis = 0; axis < 3; ++axis) {
+        const int row = 3 * f + axis;
+        entries.emplace_back(row, t(0), -inverse.col(axis).sum());
+        entries.emplace_back(row, t(1), inverse(0, axis));
+        entries.emplace_back(row, t(2), inverse(1, axis));
+        entries.emplace_back(row, vertices + f, inverse(2, axis));
+        wanted.row(row) = gradient.col(axis).transpose();
+      }
+    }
+    Eigen::SparseMatrix<double> matrix(3 * triangles + 1, vertices + triangles);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SparseMatrix<double> normal = matrix.transpose() * matrix;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(normal);
+    const Eigen::MatrixXd solution = solver.solve(matrix.transpose() * wanted);
+    return solution.topRows(vertices).transpose();
+  }
+
+ private:
+  static Matrix3d Frame(const Shape& shape, const Eigen::Vector3i& t) {
+    Matrix3d frame;
+    frame.col(0) = shape.col(t(1)) - shape.col(t(0));
+    frame.col(1) = shape.col(t(2)) - shape.col(t(0));
+    const Vector3d normal = frame.col(0).cross(frame.col(1));
+    frame.col(2) = normal / std::sqrt(normal.norm());
+    return frame;
+  }
+};
+
+// Wherever the target lies and however large it is.
+TEST(Transfer, BendsAnotherBarAsSumnerAndPopovicDo) {
+  const Path source = Bending(6);
+  const Shape straight = ThinBar();
+  const Shape theirs = SumnerPopovic::Transfer(*source.metric->connectivity, source.Placed(0),
+                                               source.Placed(6), straight);
+  EXPECT_NEAR(BendOf(straight, theirs), 62.1, 0.1);  // as measured on another implementation
+  const struct {
+    Matrix3d turn;
+    double scale;
+  } places[] = {{Matrix3d::Identity(), 1},
+                {Turn(90, Vector3d::UnitZ()), 1},
+                {Turn(90, Vector3d::UnitY()), 1},
+                {Turn(130, {1, 2, 3}), 3},
+                {Matrix3d::Identity(), 0.2}};
+  for (const auto& [turn, scale] : places) {
+    for (Carrier carrier : {Carrier::kNearest, Carrier::kLeviCivita}) {
+      TransferOptions options;
+      options.carrier = carrier;
+      const auto [path, hybrids, summary] =
+          Transfer(source, (scale * turn * straight).colwise() + Vector3d(20, -3, 1), options);
+      EXPECT_TRUE(summary.Converged());
+      ASSERT_EQ(path.NumShapes(), 7);
+      const Shape end = turn.transpose() * path.Placed(6) / scale;
+      EXPECT_NEAR(BendOf(straight, end), 60, carrier == Carrier::kNearest ? 3 : 3.5);
+      EXPECT_NEAR(StrainOf(*source.metric, straight, end), 0.022, 1e-3);
+      EXPECT_LT(ShapesApart(end, theirs, source.metric->vertex_area), 0.005);
+    }
+  }
+}
+
+// What the metric of strains and the ladder's scaling and turning are for.
+TEST(Transfer, AbsoluteLengthsAndThePapersTransportBendFalsely) {
+  const Path source = Bending(6);
+  const Shape straight = ThinBar();
+  TransferOptions lengths;
+  lengths.metric = MetricOptions();
+  EXPECT_GT(BendOf(straight, Transfer(source, straight, lengths).path.Placed(6)), 100);
+
+  TransferOptions paper;
+  paper.metric = MetricOptions();
+  paper.metric.bending = 0;
+  paper.carrier = Carrier::kConstrainedProjection;
+  paper.scale = paper.align = false;
+  EXPECT_GT(BendOf(straight, Transfer(source, straight, paper).path.Placed(6)), 80);
+  const Shape turned = Turn(90, Vector3d::UnitZ()) * straight;
+  EXPECT_LT(BendOf(straight, Transfer(source, turned, paper).path.Placed(6)), 20);
+}
+
+// The step is taken in features, so that on a bar few rungs do for 60 degrees.
+TEST(Transfer, HardlyDependsOnHowFinelyTheSourceIsDivided) {
+  const Shape straight = ThinBar();
+  const Eigen::VectorXd area = Bending(1).metric->vertex_area;
+  const Shape fine = Transfer(Bending(12), straight).path.Placed(12);
+  for (int steps : {1, 3, 6}) {
+    const Shape end = Transfer(Bending(steps), straight).path.Placed(steps);
+    EXPECT_LT(ShapesApart(end, fine, area), steps == 1 ? 3e-4 : 5e-5) << steps;
+  }
+}
+
+TEST(Transfer, ACopyMovesAsTheSourceDoes) {
+  std::vector<Shape> shapes;
+  for (int i = 0; i <= 3; ++i) {
+    // The path carries a rigid motion, and begins off the axes.
+    shapes.push_back((Turn(40 + 30 * i, {1, 1, 0}) * ThickBar().pose(20 * i)).colwise() +
+                     Vector3d(i, 7, -2 * i));
+  }
+  const Path source = PathOf(ThickBar().connectivity, shapes);
+  const Matrix3d turn = Turn(100, {3, -1, 2});
+  const double scale = 2.5;
+  const auto copy = [&](const Shape& shape) -> Shape {
+    return (scale * turn * shape).colwise() + Vector3d(-11, 4, 0.5);
+  };
+  for (Carrier carrier : kCarriers) {
+    SCOPED_TRACE(static_cast<int>(carrier));
+    TransferOptions options;
+    options.carrier = carrier;
+    const auto [path, hybrids, summary] = Transfer(source, copy(shapes[0]), options);
+    EXPECT_TRUE(summary.Converged());
+    EXPECT_NEAR(summary.scale, scale, 1e-12);
+    EXPECT_LT(summary.strain_max, 1e-10);
+    EXPECT_LT(summary.angle_rms, 1e-8);
+    for (int i = 0; i <= 3; ++i) {
+      EXPECT_LT(Apart(path.Placed(i), copy(shapes[i])), 1e-10) << i;
+      EXPECT_LT(Apart(hybrids.Placed(i), copy(shapes[i])), 1e-10) << i;
+    }
+  }
+
+  // Taken as it stands, a turned copy makes the paper's transport turn the motion falsely.
+  TransferOptions paper;
+  paper.carrier = Carrier::kConstrainedProjection;
+  paper.align = false;
+  EXPECT_GT(Apart(Transfer(source, copy(shapes[0]), paper).path.Placed(3), copy(shapes[3])), 0.02);
+}
+
+// The quadruped's own poses, in other proportions, are what it should become.
+TEST(Transfer, BodiesWithJointsTakeThePoseOver) {
+  const SkinnedBody normal = MakeSkinnedBody("quadruped", 1500);
+  for (const char* proportions : {"long", "short"}) {
+    SCOPED_TRACE(proportions);
+    const SkinnedBody other = MakeSkinnedBody("quadruped", 1500, proportions);
+    GeodesicOptions geodesic;
+    geodesic.shapes = 3;
+    const GeodesicResult source =
+        Interpolate(normal.connectivity, {normal.pose("stand"), normal.pose("sit")}, geodesic);
+    const Shape stand = other.pose("stand"), sit = other.pose("sit");
+    const auto [path, hybrids, summary] = Transfer(source.path, stand);
+    const Shape end = path.Placed(4);
+    const Eigen::VectorXd& area = path.metric->vertex_area;
+    EXPECT_LT(ShapesApart(end, sit, area), 0.015);
+    EXPECT_GT(ShapesApart(stand, sit, area), 0.04);
+    EXPECT_LT(Degrees(FitRigidMotion(end, sit, area).rotation), 2);
+    for (const TransferSummary::Rung& rung : summary.rungs) {
+      EXPECT_LE(rung.norm_change, 0);  // the nearest tangent is never longer
+      EXPECT_GT(rung.norm_change, -0.1);
+    }
+    // The hybrid lies between: closer to either than they are to each other.
+    const Shape sitting = normal.pose("sit");
+    EXPECT_LT(ShapesApart(hybrids.Placed(4), end, area), ShapesApart(sitting, end, area));
+    EXPECT_LT(ShapesApart(hybrids.Placed(4), sitting, area), ShapesApart(end, sitting, area));
+  }
+}
+
+TEST(Transfer, HybridsStandHalfWay) {
+  const auto [path, hybrids, summary] = Transfer(Bending(3), ThinBar());
+  ASSERT_EQ(hybrids.NumShapes(), 4);
+  const auto proportion = [](const Shape& shape) {
+    const Vector3d extent = shape.rowwise().maxCoeff() - shape.rowwise().minCoeff();
+    return std::log(extent(0) / extent(2));
+  };
+  // Strains are logarithmic, so the middle of two boxes is the geometric one.
+  EXPECT_NEAR(proportion(hybrids.Placed(0)),
+              (proportion(ThickBar().pose(0)) + proportion(ThinBar())) / 2, 0.02);
+}
+
+TEST(Transfer, SaysWhatItsPathsAre) {
+  Path source = Bending(3);
+  source.provenance = "a test";
+  const auto [path, hybrids, summary] = Transfer(source, ThinBar());
+  EXPECT_TRUE(path.Placed(0).isApprox(ThinBar(), 1e-14));
+  EXPECT_EQ(path.parameters, source.parameters);
+  EXPECT_EQ(path.poses, std::vector<int>{0});
+  EXPECT_EQ(path.extrapolated, 3);
+  EXPECT_EQ(path.provenance, "a test; transferred");
+  EXPECT_EQ(hybrids.parameters, source.parameters);
+  EXPECT_TRUE(hybrids.poses.empty());
+  EXPECT_EQ(hybrids.provenance, "a test; hybrids");
+  for (const Path& made : {path, hybrids}) {
+    for (const Shape& shape : made.shapes) {
+      EXPECT_LT(Centroid(shape, made.metric->vertex_area).norm(), 1e-12);
+    }
+  }
+  EXPECT_EQ(summary.rungs.size(), 4u);
+  EXPECT_EQ(summary.metric, "log_length 1, lambda 0.0001, bending 0.02");
+  EXPECT_GT(summary.strain_rms, 0.01);  // the thin bar strains less
+  EXPECT_LT(summary.strain_rms, 0.05);
+  EXPECT_LT(summary.angle_rms, 3);
+  EXPECT_TRUE(summary.warnings.empty());
+  EXPECT_NE(summary.BriefReport().find("converged: 106 vertices, 4 rungs"), std::string::npos);
+  EXPECT_NE(summary.FullReport().find("energy / bound"), std::string::npos);
+  const auto json = nlohmann::json::parse(summary.ToJson());
+  EXPECT_EQ(json["converged"], true);
+  EXPECT_EQ(json["rungs"].size(), 4u);
+  EXPECT_EQ(json["scale"], summary.scale);
+  EXPECT_EQ(json["strain_off"]["rms"], summary.strain_rms);
+  EXPECT_EQ(json["angle_off_degrees"], summary.angle_rms);
+}
+
+// A source and a target in other frames and sizes make the same motion, in the target's frame.
+TEST(Transfer, CommutesWithRotationAndScale) {
+  const Shape straight = ThinBar();
+  const Path reference = Transfer(Bending(3), straight).path;
+  const Matrix3d turn = Turn(75, {1, 2, -1});
+  for (double scale : {1e-4, 1.0, 1e4}) {
+    std::vector<Shape> shapes;
+    for (int i = 0; i <= 3; ++i) shapes.push_back(scale * turn * ThickBar().pose(20 * i));
+    const Path moved = PathOf(ThickBar().connectivity, shapes);
+    const Path of_source = Transfer(moved, straight).path;
+    const Path of_target = Transfer(Bending(3), scale * turn * straight).path;
+    for (int i = 0; i <= 3; ++i) {
+      EXPECT_LT(Apart(of_source.Placed(i), reference.Placed(i)), 1e-6) << scale;
+      EXPECT_LT(Apart(of_target.Placed(i), scale * turn * reference.Placed(i)), 1e-6) << scale;
+    }
+  }
+}
+
+TEST(Transfer, DoesNotDependOnTheNumbersOfVertices) {
+  const Path source = Bending(3);
+  const Connectivity& connectivity = *source.metric->connectivity;
+  std::vector<int> number(connectivity.NumVertices());
+  std::iota(number.begin(), number.end(), 0);
+  std::shuffle(number.begin(), number.end(), std::mt19937(5));
+  const auto renumbered = [&](const Shape& shape) {
+    Shape result = shape;
+    for (int v = 0; v < shape.cols(); ++v) result.col(number[v]) = shape.col(v);
+    return result;
+  };
+  Eigen::Matrix3Xi triangles = connectivity.Triangles();
+  for (int& v : triangles.reshaped()) v = number[v];
+  const auto other = Connectivity::FromTriangles(connectivity.NumVertices(), triangles);
+  std::vector<Shape> shapes;
+  for (const Shape& shape : source.Placed()) shapes.push_back(renumbered(shape));
+  TransferOptions options;
+  options.tolerance = 1e-12;
+  const Path a = Transfer(source, ThinBar(), options).path;
+  const Path b = Transfer(PathOf(other, shapes), renumbered(ThinBar()), options).path;
+  EXPECT_LT(Apart(b.Placed(3), renumbered(a.Placed(3))), 1e-5);
+}
+
+TEST(Transfer, IsTheSameForAnyNumberOfThreads) {
+  const Body thick = MakeBar(6, 1, 1, 48, 8, 8);
+  const Path source = PathOf(thick.connectivity, {thick.pose(0), thick.pose(20)});
+  const Shape thin = MakeBar(8, 1.6, 0.6, 48, 8, 8).pose(0);
+  ASSERT_GT(thin.cols(), 1024);  // several blocks of rows
+  std::vector<TransferResult> results;
+  for (int threads : {1, 2}) {
+    SetThreads(threads);
+    results.push_back(Transfer(source, thin));
+  }
+  SetThreads(0);
+  for (int i : {0, 1}) {
+    EXPECT_TRUE(results[0].path.Placed(i) == results[1].path.Placed(i));
+    EXPECT_TRUE(results[0].hybrids.Placed(i) == results[1].hybrids.Placed(i));
+  }
+}
+
+TEST(TransferPoses, EveryPoseIsReachedOnItsOwn) {
+  const auto& connectivity = ThickBar().connectivity;
+  const std::vector<Shape> poses = {ThickBar().pose(0), ThickBar().pose(60), ThickBar().pose(30)};
+  GeodesicOptions geodesic;
+  geodesic.shapes = 3;
+  const auto [path, hybrids, summary] = TransferPoses(connectivity, poses, ThinBar(), geodesic);
+  ASSERT_EQ(path.NumShapes(), 3);
+  ASSERT_EQ(hybrids.NumShapes(), 3);
+  EXPECT_EQ(path.parameters, (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(path.poses, std::vector<int>{0});
+  EXPECT_EQ(path.extrapolated, 2);
+  EXPECT_TRUE(path.Placed(0).isApprox(ThinBar(), 1e-14));
+  EXPECT_NEAR(BendOf(ThinBar(), path.Placed(1)), 60, 4);
+  EXPECT_NEAR(BendOf(ThinBar(), path.Placed(2)), 30, 2);
+  const auto alone = TransferPoses(connectivity, {poses[0], poses[2]}, ThinBar(), geodesic);
+  EXPECT_LT(Apart(alone.path.Placed(1), path.Placed(2)), 1e-12);
+  EXPECT_LT(Apart(alone.hybrids.Placed(1), hybrids.Placed(2)), 1e-12);
+
+  ASSERT_EQ(summary.transfers.size(), 2u);
+  EXPECT_EQ(summary.transfers[0].rungs.size(), 5u);
+  EXPECT_TRUE(summary.Converged());
+  EXPECT_TRUE(summary.Warnings().empty());
+  EXPECT_NE(summary.BriefReport().find("2 poses, 10 rungs"), std::string::npos);
+  EXPECT_NE(summary.FullReport().find("Pose 3, its transfer"), std::string::npos);
+  const auto json = nlohmann::json::parse(summary.ToJson());
+  ASSERT_EQ(json["poses"].size(), 2u);
+  EXPECT_EQ(json["poses"][0]["geodesic"]["shapes"], 3);
+  EXPECT_EQ(json["poses"][1]["transfer"]["rungs"].size(), 5u);
+
+  EXPECT_THROW(TransferPoses(connectivity, {poses[0]}, ThinBar()), MeshError);
+}
+
+TEST(Transfer, RefusesWhatCannotBeTransferred) {
+  const Path source = Bending(2);
+  const auto refusal = [&](const Shape& target) {
+    return MessageOf<MeshError>([&] { Transfer(source, target); });
+  };
+  EXPECT_EQ(refusal(ThinBar().leftCols(7)), "the target has 7 vertices, the source has 106");
+  Shape broken = ThinBar();
+  broken(1, 2) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(refusal(broken).find("not finite"), std::string::npos);
+  EXPECT_NE(refusal(Shape::Zero(3, 106)).find("no extent"), std::string::npos);
+  EXPECT_THROW(Transfer(FirstShapes(source, 1), ThinBar()), MeshError);
+  const auto message = [&](void (*change)(TransferOptions*)) {
+    TransferOptions options;
+    change(&options);
+    return MessageOf<InvalidOptions>([&] { Transfer(source, ThinBar(), options); });
+  };
+  EXPECT_EQ(message([](TransferOptions* o) { o->metric.rigid = 1; }).find("metric.rigid:"), 0u);
+  EXPECT_EQ(message([](TransferOptions* o) {
+              o->metric.discretization = Discretization::kTrapezoid;
+            }).find("metric.discretization:"),
+            0u);
+  EXPECT_EQ(message([](TransferOptions* o) { o->metric.bending = -1; }).find("bending:"), 0u);
+  EXPECT_EQ(message([](TransferOptions* o) { o->rung_shapes = 4; }).find("rung_shapes:"), 0u);
+  EXPECT_EQ(message([](TransferOptions* o) { o->rung_shapes = -1; }).find("rung_shapes:"), 0u);
+  EXPECT_EQ(message([](TransferOptions* o) { o->tolerance = 0; }).find("tolerance:"), 0u);
+}
+
+// A fifth of the size, and absolute lengths that a fifth of the size cannot take over.
+TEST(Transfer, SaysWhichShapeDegenerates) {
+  TransferOptions options;
+  options.metric = MetricOptions();
+  options.carrier = Carrier::kLeviCivita;
+  options.scale = false;
+  const auto transfer = [&] { Transfer(Bending(6), 0.2 * ThinBar(), options); };
+  const std::string message = MessageOf<SolverError>(transfer);
+  EXPECT_EQ(message.find("transfer of shape "), 0u) << message;
+  EXPECT_NE(message.find("; a source with more shapes"), std::string::npos) << message;
+}
+
+class StopAt final : public Progress {
+ public:
+  explicit StopAt(int calls) : calls_(calls) {}
+  bool Report(const std::string& stage, int, int) override {
+    EXPECT_EQ(stage, "transferring");
+    return calls_-- > 0;
+  }
+
+ private:
+  int calls_;
+};
+
+TEST(Transfer, CanBeCancelledWithinARung) {
+  for (int calls : {0, 1, 5, 20}) {
+    StopAt progress(calls);
+    EXPECT_THROW(Transfer(Bending(2), ThinBar(), {}, &progress), Cancelled) << calls;
+  }
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,223 @@
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include <shapespace/mesh/read.h>
+#include <shapespace/mesh/write.h>
+#include <shapespace/path/path_file.h>
+
+#include "tools/run.h"
+
+namespace shapespace {
+namespace {
+
+using testing::Content;
+using testing::ExpectContains;
+using testing::ExpectLacks;
+using testing::Outcome;
+using testing::ToolsTest;
+
+using Strings = std::vector<std::string>;
+
+class TransferTest : public ToolsTest {
+ protected:
+  Shape Vertices(const std::string& file) const { return ReadSoup(Path(file)).vertices; }
+
+  /// tube0.obj, tube1.obj, tube2.obj: a tube bent by 0, 40 and 20 degrees; thin.obj: the first one,
+  /// longer and thinner.
+  void MakeBodies() const {
+    Succeed("shape-body",
+            {"tube", "--triangles", "300", "--at", "0,40,20", "--output", "tube%d.obj"});
+    const Soup tube = ReadSoup(Path("tube0.obj"));
+    WriteMesh(Path("thin.obj"), Eigen::Vector3d(1.4, 0.8, 0.8).asDiagonal() * tube.vertices, tube);
+  }
+
+  /// The largest distance between corresponding vertices, over the diameter.
+  double Apart(const std::string& file, const Shape& other) const {
+    const Shape shape = Vertices(file);
+    return (shape - other).colwise().norm().maxCoeff() /
+           (other.rowwise().maxCoeff() - other.rowwise().minCoeff()).norm();
+  }
+};
+
+TEST_F(TransferTest, EveryPoseMakesAFrame) {
+  MakeBodies();
+  const Outcome outcome =
+      Run("shape-transfer",
+          {"tube0.obj", "tube1.obj", "tube2.obj", "--target", "thin.obj", "--shapes", "3",
+           "--output", "out/%02d.obj,out.path,out.png", "--hybrids", "mid/%02d.ply,mid.path"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(Files(), (Strings{"mid", "mid.path", "mid/00.ply", "mid/01.ply", "mid/02.ply", "out",
+                              "out.path", "out.png", "out/00.obj", "out/01.obj", "out/02.obj",
+                              "thin.obj", "tube0.obj", "tube1.obj", "tube2.obj"}));
+  EXPECT_LT(Apart("out/00.obj", Vertices("thin.obj")), 1e-8);
+  const shapespace::Path path = ReadPath(Path("out.path"));
+  ASSERT_EQ(path.NumShapes(), 3);
+  EXPECT_EQ(path.poses, std::vector<int>{0});
+  EXPECT_EQ(path.extrapolated, 2);
+  EXPECT_EQ(Describe(path.metric->options), "log_length 1, lambda 0.0001, bending 0.02");
+  ExpectContains(path.provenance, "shape-transfer ");
+  ExpectContains(path.provenance, ": tube0.obj tube1.obj tube2.obj thin.obj");
+  const shapespace::Path hybrids = ReadPath(Path("mid.path"));
+  ASSERT_EQ(hybrids.NumShapes(), 3);
+  EXPECT_TRUE(hybrids.poses.empty());
+  for (int i = 0; i < 3; ++i) {
+    const std::string number = std::to_string(i);
+    EXPECT_LT(Apart("out/0" + number + ".obj", path.Placed(i)), 1e-8);
+    EXPECT_TRUE(Vertices("mid/0" + number + ".ply") == hybrids.Placed(i));
+  }
+  // Each is reached from the reference, whichever poses stand before it.
+  Succeed("shape-transfer", {"tube0.obj", "tube2.obj", "--target", "thin.obj", "--shapes", "3",
+                             "--output", "alone%d.obj"});
+  EXPECT_LT(Apart("alone1.obj", path.Placed(2)), 1e-8);
+  ExpectContains(outcome.out, "converged: 152 vertices, 2 poses, 10 rungs");
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(TransferTest, ACopyTakesThePosesAsTheyAre) {
+  MakeBodies();
+  const Soup tube = ReadSoup(Path("tube0.obj"));
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(1.2, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const auto copy = [&](const Shape& shape) -> Shape {
+    return (3 * turn * shape).colwise() + Eigen::Vector3d(5, 6, 7);
+  };
+  WriteMesh(Path("copy.ply"), copy(tube.vertices), tube);
+  Succeed("shape-transfer", {"tube0.obj", "tube1.obj", "tube2.obj", "--target", "copy.ply",
+                             "--output", "%d.ply", "--hybrids", "h%d.ply"});
+  for (int i = 0; i < 3; ++i) {
+    const std::string number = std::to_string(i);
+    const Shape wanted = copy(Vertices("tube" + number + ".obj"));
+    EXPECT_LT(Apart(number + ".ply", wanted), 1e-9) << i;
+    EXPECT_LT(Apart("h" + number + ".ply", wanted), 1e-9) << i;
+  }
+}
+
+TEST_F(TransferTest, OfAPathEveryShapeIsTransferred) {
+  MakeBodies();
+  Succeed("shape-interpolate",
+          {"tube0.obj", "tube1.obj", "--shapes", "3", "--output", "walk.path"});
+  const Outcome outcome = Run("shape-transfer", {"walk.path", "--target", "thin.obj", "--output",
+                                                 "on.path,%d.obj", "--report", "-"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const shapespace::Path walk = ReadPath(Path("walk.path")), on = ReadPath(Path("on.path"));
+  ASSERT_EQ(on.NumShapes(), 5);
+  EXPECT_EQ(on.parameters, walk.parameters);
+  EXPECT_EQ(on.extrapolated, 4);
+  EXPECT_LT(Apart("4.obj", on.Placed(4)), 1e-8);
+  const nlohmann::json report = nlohmann::json::parse(outcome.out, nullptr, false);
+  ASSERT_TRUE(report.is_object()) << outcome.out;
+  EXPECT_EQ(report["converged"], true);
+  EXPECT_EQ(report["rungs"].size(), 5u);
+  ExpectContains(outcome.err, "converged: 152 vertices, 5 rungs");
+  // The pose alone, by way of as many shapes.
+  Succeed("shape-transfer", {"tube0.obj", "tube1.obj", "--shapes", "3", "--target", "thin.obj",
+                             "--output", "pose%d.obj"});
+  EXPECT_LT(Apart("pose1.obj", on.Placed(4)), 1e-8);
+}
+
+TEST_F(TransferTest, FlagsOfTheTransferReachIt) {
+  MakeBodies();
+  const auto report = [&](Strings flags) {
+    flags.insert(flags.begin(), {"tube0.obj", "tube1.obj", "--shapes", "1", "--target", "thin.obj",
+                                 "--output", "on.path", "--report", "r.json"});
+    Succeed("shape-transfer", flags);
+    return nlohmann::json::parse(Content(Path("r.json")))["poses"][0];
+  };
+  const nlohmann::json plain = report({});
+  EXPECT_EQ(plain["geodesic"]["shapes"], 1);
+  EXPECT_EQ(plain["transfer"]["rungs"].size(), 3u);
+  for (const Strings& flags :
+       {Strings{"--noscale"}, Strings{"--connection", "levi_civita"},
+        Strings{"--connection", "projection"}, Strings{"--rung_shapes", "5"},
+        Strings{"--transfer_bending", "0.1"}, Strings{"--bending", "1e-3"}}) {
+    EXPECT_NE(report(flags)["transfer"]["strain_off"]["rms"],
+              plain["transfer"]["strain_off"]["rms"])
+        << flags[0];
+  }
+  EXPECT_EQ(report({"--transfer_bending", "0.1"})["transfer"]["metric"],
+            "log_length 1, lambda 0.0001, bending 0.1");
+  EXPECT_EQ(report({"--bending", "1e-3"})["geodesic"]["metric"],
+            "isometric 1, lambda 0.0001, bending 0.001");
+  Succeed("shape-transfer", {"tube0.obj", "tube1.obj", "--shapes", "1", "--target", "thin.obj",
+                             "--noalign", "--output", "on.path", "--report", "r.txt"});
+  ExpectContains(Content(Path("r.txt")), "Pose 2, its transfer");
+}
+
+TEST_F(TransferTest, BodiesOfOtherConnectivityAreRefusedByName) {
+  MakeBodies();
+  Succeed("shape-interpolate",
+          {"tube0.obj", "tube1.obj", "--shapes", "1", "--output", "walk.path"});
+  Succeed("shape-body", {"bar", "--triangles", "300", "--at", "0", "--output", "bar%d.obj"});
+  // The same numbers of everything, but two vertices that have changed places.
+  Soup changed = ReadSoup(Path("thin.obj"));
+  for (int& v : changed.corners) v = v == 0 ? 70 : v == 70 ? 0 : v;
+  changed.vertices.col(0).swap(changed.vertices.col(70));
+  WriteMesh(Path("changed.obj"), changed.vertices, changed);
+  const Strings before = Files();
+  for (const Strings& source : {Strings{"tube0.obj", "tube1.obj"}, Strings{"walk.path"}}) {
+    for (const auto& [target, message] :
+         {std::make_pair("bar0.obj", "vertices instead of 152; these are not poses of one mesh"),
+          {"changed.obj", "the first polygon that differs is "}}) {
+      Strings arguments = source;
+      arguments.insert(arguments.end(), {"--target", target, "--output", "on%d.obj"});
+      const Outcome outcome = Run("shape-transfer", arguments);
+      EXPECT_EQ(outcome.code, 1);
+      ExpectContains(outcome.err, std::string(target) + " against " + source[0] + ": ");
+      ExpectContains(outcome.err, message);
+    }
+  }
+  EXPECT_EQ(Run("shape-transfer", {"tube0.obj", "tube1.obj", "--target", "nowhere.obj"}).code, 1);
+  EXPECT_EQ(Files(), before);
+}
+
+TEST_F(TransferTest, WrongCommandLines) {
+  MakeBodies();
+  Succeed("shape-interpolate",
+          {"tube0.obj", "tube1.obj", "--shapes", "1", "--output", "walk.path"});
+  const Strings before = Files();
+  const struct {
+    Strings arguments;
+    const char* message;
+  } cases[] = {
+      {{}, "at least two poses of one mesh, or one .path file alone"},
+      {{"tube0.obj"}, "at least two poses of one mesh, or one .path file alone"},
+      {{"walk.path", "tube1.obj"}, "at least two poses of one mesh, or one .path file alone"},
+      {{"tube0.obj", "tube1.obj", "--target", ""}, "--target: name the body that is to move"},
+      {{"walk.path", "--lambda", "0.001"}, "--lambda: goes with poses"},
+      {{"walk.path", "--shapes", "15"}, "--shapes: goes with poses"},
+      {{"walk.path", "--stiffeners", "s.txt"}, "--stiffeners: goes with poses"},
+      {{"walk.path", "--rung_shapes", "2"}, "--rung_shapes: must be odd"},
+      {{"walk.path", "--transfer_bending=-1"}, "--transfer_bending: must be"},
+      {{"walk.path", "--connection", "affine"},
+       "--connection affine: must be one of nearest, levi_civita, projection"},
+      {{"walk.path", "--hybrids", "half.gif"}, "--hybrids half.gif: must end in"},
+      {{"walk.path", "--hybrids", "half.obj"}, "--hybrids "},
+      {{"walk.path", "--output", "on.gif"}, "--output on.gif: must end in"},
+      {{"walk.path", "--report", "r.html"}, "--report r.html: must end in .json or .txt, or be -"},
+  };
+  for (const auto& [given, message] : cases) {
+    SCOPED_TRACE(message);
+    Strings arguments = {"--target", "thin.obj"};
+    arguments.insert(arguments.end(), given.begin(), given.end());
+    const Outcome outcome = Run("shape-transfer", arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    ExpectContains(outcome.err, message);
+    ExpectContains(outcome.err, "--help");
+    EXPECT_EQ(Files(), before);
+  }
+}
+
+TEST_F(TransferTest, FramesLookLikeTheTarget) {
+  const std::string faces = "f 1 2 3\nf 2 1 4\n", positions = "v 0 0 0\nv 0 1 0\n";
+  File("a.obj", positions + "v -0.8 0.5 0.6\nv 0.8 0.5 0.6\n" + faces);
+  File("b.obj", positions + "v -0.9 0.5 0.4\nv 0.9 0.5 0.4\n" + faces);
+  File("t.obj",
+       "mtllib paint.mtl\nv 0 0 0\nv 0 2 0\nv -0.9 0.5 0.6\nv 0.8 0.5 0.7\nusemtl red\n" + faces);
+  Succeed("shape-transfer", {"a.obj", "b.obj", "--target", "t.obj", "--output", "%d.obj"});
+  ExpectContains(Content(Path("1.obj")), "usemtl red");
+  ExpectLacks(Content(Path("1.obj")), "nan");
+}
+
+}  // namespace
+}  // namespace shapespace
