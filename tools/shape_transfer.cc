@@ -47,10 +47,10 @@ TransferOptions TransferFromFlags() {
   options.rung_shapes = FLAGS_rung_shapes;
   options.scale = FLAGS_scale;
   options.align = FLAGS_align;
-  options.carrier = Choose<Carrier>("connection", FLAGS_connection,
-                                    {{"nearest", Carrier::kNearest},
-                                     {"levi_civita", Carrier::kLeviCivita},
-                                     {"projection", Carrier::kConstrainedProjection}});
+  options.connection = Choose<Connection>("connection", FLAGS_connection,
+                                          {{"nearest", Connection::kNearest},
+                                           {"levi_civita", Connection::kLeviCivita},
+                                           {"projection", Connection::kConstrainedProjection}});
   options.Validate();
   options.metric.bending = FLAGS_transfer_bending;
   try {

@@ -28,8 +28,8 @@ using Eigen::Vector3d;
 using testing::MessageOf;
 using testing::PathOf;
 
-constexpr Carrier kCarriers[] = {Carrier::kNearest, Carrier::kLeviCivita,
-                                 Carrier::kConstrainedProjection};
+constexpr Connection kConnections[] = {Connection::kNearest, Connection::kLeviCivita,
+                                       Connection::kConstrainedProjection};
 
 const Body& ThickBar() {
   static const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
@@ -150,15 +150,15 @@ TEST(Transfer, BendsAnotherBarAsSumnerAndPopovicDo) {
                 {Turn(130, {1, 2, 3}), 3},
                 {Matrix3d::Identity(), 0.2}};
   for (const auto& [turn, scale] : places) {
-    for (Carrier carrier : {Carrier::kNearest, Carrier::kLeviCivita}) {
+    for (Connection connection : {Connection::kNearest, Connection::kLeviCivita}) {
       TransferOptions options;
-      options.carrier = carrier;
+      options.connection = connection;
       const auto [path, hybrids, summary] =
           Transfer(source, (scale * turn * straight).colwise() + Vector3d(20, -3, 1), options);
       EXPECT_TRUE(summary.Converged());
       ASSERT_EQ(path.NumShapes(), 7);
       const Shape end = turn.transpose() * path.Placed(6) / scale;
-      EXPECT_NEAR(BendOf(straight, end), 60, carrier == Carrier::kNearest ? 3 : 3.5);
+      EXPECT_NEAR(BendOf(straight, end), 60, connection == Connection::kNearest ? 3 : 3.5);
       EXPECT_NEAR(StrainOf(*source.metric, straight, end), 0.022, 1e-3);
       EXPECT_LT(ShapesApart(end, theirs, source.metric->vertex_area), 0.005);
     }
@@ -176,7 +176,7 @@ TEST(Transfer, AbsoluteLengthsAndThePapersTransportBendFalsely) {
   TransferOptions paper;
   paper.metric = MetricOptions();
   paper.metric.bending = 0;
-  paper.carrier = Carrier::kConstrainedProjection;
+  paper.connection = Connection::kConstrainedProjection;
   paper.scale = paper.align = false;
   EXPECT_GT(BendOf(straight, Transfer(source, straight, paper).path.Placed(6)), 80);
   const Shape turned = Turn(90, Vector3d::UnitZ()) * straight;
@@ -207,10 +207,10 @@ TEST(Transfer, ACopyMovesAsTheSourceDoes) {
   const auto copy = [&](const Shape& shape) -> Shape {
     return (scale * turn * shape).colwise() + Vector3d(-11, 4, 0.5);
   };
-  for (Carrier carrier : kCarriers) {
-    SCOPED_TRACE(static_cast<int>(carrier));
+  for (Connection connection : kConnections) {
+    SCOPED_TRACE(static_cast<int>(connection));
     TransferOptions options;
-    options.carrier = carrier;
+    options.connection = connection;
     const auto [path, hybrids, summary] = Transfer(source, copy(shapes[0]), options);
     EXPECT_TRUE(summary.Converged());
     EXPECT_NEAR(summary.scale, scale, 1e-12);
@@ -224,7 +224,7 @@ TEST(Transfer, ACopyMovesAsTheSourceDoes) {
 
   // Taken as it stands, a turned copy makes the paper's transport turn the motion falsely.
   TransferOptions paper;
-  paper.carrier = Carrier::kConstrainedProjection;
+  paper.connection = Connection::kConstrainedProjection;
   paper.align = false;
   EXPECT_GT(Apart(Transfer(source, copy(shapes[0]), paper).path.Placed(3), copy(shapes[3])), 0.02);
 }
@@ -423,7 +423,7 @@ TEST(Transfer, RefusesWhatCannotBeTransferred) {
 TEST(Transfer, SaysWhichShapeDegenerates) {
   TransferOptions options;
   options.metric = MetricOptions();
-  options.carrier = Carrier::kLeviCivita;
+  options.connection = Connection::kLeviCivita;
   options.scale = false;
   const auto transfer = [&] { Transfer(Bending(6), 0.2 * ThinBar(), options); };
   const std::string message = MessageOf<SolverError>(transfer);

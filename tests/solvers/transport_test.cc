@@ -215,6 +215,31 @@ TEST(Transport, IsOfSecondOrderOnBodiesThatBend) {
   }
 }
 
+// By two segments and by many: never longer, and to the connection in the end.
+TEST(NearestTransport, NeverLengthensAndConvergesToTheConnection) {
+  const std::pair<Body, double> cases[] = {{Bar(), 90}, {MakeSheet(2, 1, 8, 4), 120}};
+  for (const auto& [body, last] : cases) {
+    SCOPED_TRACE(body.name);
+    TransportOptions options;
+    options.connection = Connection::kNearest;
+    const std::vector<Tangent> tangents = SomeTangents(body, 10);
+    const std::vector<Tangent> exact = Transport(Deforming(body, 10, last, 256), tangents).tangents;
+    double previous[2] = {0, 0};
+    for (int segments : {2, 32, 64, 128}) {
+      const auto [there, summary] =
+          Transport(Deforming(body, 10, last, segments), tangents, options);
+      for (int k : {0, 1}) {
+        EXPECT_LE(summary.last_norm[k], (1 + 1e-10) * summary.first_norm[k]);
+        const double error = (there[k] - exact[k]).norm() / exact[k].norm();
+        if (segments > 32) {
+          EXPECT_NEAR(std::log2(previous[k] / error), 1, 0.25);
+        }
+        previous[k] = error;
+      }
+    }
+  }
+}
+
 // An independent answer: the covariant derivative along the path vanishes, which says that the
 // products with fields of coordinates satisfy an ordinary equation, G Y' = -J^T (dJ/dt) Y. By
 // Runge and Kutta's method of fourth order, the derivative of J from central differences.

@@ -7,11 +7,8 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/hierarchy/detail.h>
-#include <shapespace/metric/feature_map.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/rigid_motion.h>
-#include <shapespace/solvers/optimise/metric_solver.h>
-#include <shapespace/solvers/optimise/step.h>
 
 namespace shapespace {
 namespace {
@@ -67,29 +64,6 @@ Path PathOfTarget(const std::shared_ptr<const Metric>& metric, const std::vector
 
 double NormChange(double before, double after) { return before > 0 ? after / before - 1 : 0; }
 
-// Carrier::kNearest.
-Tangent CarryToNearest(const Path& path, Tangent velocity, bool align, TransferSummary::Rung* row,
-                       Progress* progress) {
-  const Metric& metric = *path.metric;
-  const FeatureMap map(metric);
-  internal::MetricSolver solver;
-  velocity = path.motions.front().rotation.transpose() * velocity / metric.unit;
-  FeatureDerivative derivative = map.Derivative(path.shapes[0]);
-  const double norm = derivative.Times(velocity).norm();
-  for (int i = 1; i < path.NumShapes(); ++i) {
-    ReportProgress(progress, "carrying", i - 1, path.NumShapes() - 1);
-    RigidMotion turn;
-    if (align) turn = FitRigidMotion(path.shapes[i - 1], path.shapes[i], metric.vertex_area);
-    const Eigen::VectorXd change =
-        map.Derivative(turn(path.shapes[i - 1])).Times(turn.rotation * velocity);
-    derivative = map.Derivative(path.shapes[i]);
-    solver.Factor(derivative);
-    velocity = internal::SolveMetric(solver, derivative, derivative.TransposeTimes(change));
-  }
-  row->norm_change = NormChange(norm, derivative.Times(velocity).norm());
-  return metric.unit * path.motions.back().rotation * velocity;
-}
-
 // What goes on within a rung is heard as that rung's.
 class WithinRung final : public Progress {
  public:
@@ -124,9 +98,7 @@ class Ladder {
       : metric_(std::move(metric)), options_(options) {
     geodesic_.shapes = options.rung_shapes;
     geodesic_.tolerance = options.tolerance;
-    transport_.connection = options.carrier == Carrier::kLeviCivita
-                                ? Connection::kLeviCivita
-                                : Connection::kConstrainedProjection;
+    transport_.connection = options.connection;
     transport_.align = options.align;
     step_.tolerance = kStepTolerance;
   }
@@ -170,9 +142,6 @@ class Ladder {
  private:
   Tangent Carry(const Path& path, const Tangent& velocity, TransferSummary::Rung* row,
                 Progress* progress) const {
-    if (options_.carrier == Carrier::kNearest) {
-      return CarryToNearest(path, velocity, options_.align, row, progress);
-    }
     const TransportResult carried = Transport(path, {velocity}, transport_, progress);
     row->norm_change = NormChange(carried.summary.first_norm[0], carried.summary.last_norm[0]);
     row->converged = row->converged && carried.summary.converged;

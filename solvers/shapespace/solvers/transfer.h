@@ -15,16 +15,6 @@
 
 namespace shapespace {
 
-/// What carries the source's velocity along a rung.
-enum class Carrier {
-  kNearest,                ///< at every shape of the rung, the tangent that changes the features
-                           ///< most nearly as the one before: the metric's own connection to first
-                           ///< order. Never makes a tangent longer, however few shapes there are
-  kLeviCivita,             ///< Connection::kLeviCivita: of second order, but between real bodies
-                           ///< tangents grow many times over unless rungs have dozens of shapes
-  kConstrainedProjection,  ///< Connection::kConstrainedProjection: the paper's
-};
-
 /// How a motion is carried over to another body.
 struct TransferOptions {
   /// Strains and dihedral angles, with strong bending: what the target takes over is how many per
@@ -47,7 +37,9 @@ struct TransferOptions {
   /// shapes alone. Without, rungs turn on their way, as the paper has them.
   bool align = true;
 
-  Carrier carrier = Carrier::kNearest;
+  /// What carries the source's velocity along a rung. Rungs are short of shapes for how far limbs
+  /// may turn between two real bodies, which the midpoint scheme does not bear.
+  Connection connection = Connection::kNearest;
 
   /// Of the geodesics that are the rungs (GeodesicOptions::tolerance).
   double tolerance = 1e-5;
@@ -97,8 +89,7 @@ struct TransferResult {
 /// target turns and travels as the source does, in its own frame and size: a copy of the source
 /// that was moved, turned and scaled makes the moved, turned and scaled motion.
 /// \throw InvalidOptions, MeshError (the source has one shape only; the target has another number
-/// of
-///        vertices, is not finite, or has no extent), SolverError (a rung's shape degenerates),
+///        of vertices, is not finite, or has no extent), SolverError (a rung's shape degenerates),
 ///        Cancelled.
 TransferResult Transfer(const Path& source, const Shape& target,
                         const TransferOptions& options = {}, Progress* progress = nullptr);

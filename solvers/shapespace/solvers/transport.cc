@@ -15,10 +15,11 @@ namespace {
 
 using internal::MetricSolver;
 
-// From path.shapes[i] to the next: [J_m^T J_1] Y = J_m^T J_0 X, J_m the mean of J_0 and J_1.
-class LeviCivita {
+// The metric's own: from path.shapes[i] to the next [J^T J_1] Y = J^T J_0 X, with J the mean of J_0
+// and J_1, or, for the nearest, J_1 itself: then Y minimises |J_1 Y - J_0 X|.
+class MetricTransport {
  public:
-  LeviCivita(const Path& path, const TransportOptions& options)
+  MetricTransport(const Path& path, const TransportOptions& options)
       : path_(path), options_(options), map_(*path.metric) {}
 
   void Carry(int i, std::vector<Tangent>* tangents, TransportSummary::Step* row) {
@@ -30,17 +31,19 @@ class LeviCivita {
       for (Tangent& x : *tangents) x = turn.rotation * x;
     }
     const FeatureDerivative at_from = map_.Derivative(from), at_to = map_.Derivative(to);
-    const FeatureDerivative middle = FeatureDerivative::Blend(at_from, at_to, 0.5);
-    solver_.Factor(middle);
+    const FeatureDerivative left = options_.connection == Connection::kNearest
+                                       ? at_to
+                                       : FeatureDerivative::Blend(at_from, at_to, 0.5);
+    solver_.Factor(left);
     for (Tangent& x : *tangents) {
-      const Tangent right = middle.TransposeTimes(at_from.Times(x));
+      const Tangent right = left.TransposeTimes(at_from.Times(x));
       // What changes is little: solved for as a correction, it is found to more digits.
-      const Tangent change = right - middle.TransposeTimes(at_to.Times(x));
+      const Tangent change = right - left.TransposeTimes(at_to.Times(x));
       const double scale = solver_.DualNorm(right), size = solver_.DualNorm(change);
       if (!(size > options_.tolerance * scale)) continue;
       Tangent correction;
       const MetricSolver::Result result =
-          solver_.Solve(middle, at_to, change, options_.tolerance * scale / size,
+          solver_.Solve(left, at_to, change, options_.tolerance * scale / size,
                         options_.max_iterations, &correction);
       x += correction;
       row->krylov_iterations = std::max(row->krylov_iterations, result.iterations);
@@ -132,17 +135,17 @@ TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents
   }
   result.summary.metric = Describe(metric.options);
   result.summary.first_norm = Norms(path, 0, result.tangents);
-  LeviCivita levi_civita(path, options);
+  MetricTransport metric_transport(path, options);
   ConstrainedProjection projection(path);
   for (int i = 0; i < segments; ++i) {
     ReportProgress(progress, "transporting", i, segments);
     const Stopwatch stopwatch;
     TransportSummary::Step row;
-    if (options.connection == Connection::kLeviCivita) {
-      levi_civita.Carry(i, &result.tangents, &row);
-      if (row.residual > options.tolerance) result.summary.converged = false;
-    } else {
+    if (options.connection == Connection::kConstrainedProjection) {
       projection.Carry(i, &result.tangents);
+    } else {
+      metric_transport.Carry(i, &result.tangents, &row);
+      if (row.residual > options.tolerance) result.summary.converged = false;
     }
     row.seconds = stopwatch.Seconds();
     result.summary.steps.push_back(row);

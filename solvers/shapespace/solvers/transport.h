@@ -12,7 +12,10 @@ namespace shapespace {
 
 /// What "the same tangent" means at another shape (docs/mathematics.md, section 10).
 enum class Connection {
-  kLeviCivita,             ///< the metric's own, by its midpoint scheme: order 2, keeps norms
+  kLeviCivita,  ///< the metric's own, by its midpoint scheme: order 2, keeps norms. On paths whose
+                ///< limbs turn by tens of degrees within a segment norms can grow many times over
+  kNearest,     ///< the metric's own to first order: the tangent that changes the features most
+                ///< nearly as the one before. Never makes a tangent longer, however few shapes
   kConstrainedProjection,  ///< the paper's: least Euclidean change that keeps the product with the
                            ///< path's velocity; keeps neither norm nor rotation
 };
@@ -20,9 +23,9 @@ enum class Connection {
 struct TransportOptions {
   Connection connection = Connection::kLeviCivita;
 
-  /// Before each step of the Levi-Civita scheme, turn the shape onto the next one, and the tangent
-  /// with it: what is carried turns with the body, exactly where that moves rigidly. Without, the
-  /// bare connection leaves the rigid part of a tangent behind when the body turns.
+  /// Before each step of the metric's own schemes, turn the shape onto the next one, and the
+  /// tangent with it: what is carried turns with the body, exactly where that moves rigidly.
+  /// Without, the bare connection leaves the rigid part of a tangent behind when the body turns.
   bool align = true;
 
   /// Residual of a step's linear system, as a share of its right-hand side.
