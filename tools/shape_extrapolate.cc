@@ -66,9 +66,9 @@ ExponentialOptions ExponentialFromFlags() {
                                           {{"variational", Integrator::kVariational},
                                            {"runge_kutta4", Integrator::kRungeKutta4},
                                            {"first_integral", Integrator::kFirstIntegral}});
-  options.solver = Choose<StepSolver>("step_solver", FLAGS_step_solver,
-                                      {{"newton_krylov", StepSolver::kNewtonKrylov},
-                                       {"ceres", StepSolver::kCeres}});
+  options.solver = Choose<StepSolver>(
+      "step_solver", FLAGS_step_solver,
+      {{"newton_krylov", StepSolver::kNewtonKrylov}, {"ceres", StepSolver::kCeres}});
   options.tolerance = FLAGS_step_tolerance;
   Check(options, "step_tolerance");
   options.max_iterations = FLAGS_step_iterations;

@@ -232,6 +232,9 @@ void CheckSteps(int steps) {
   if (steps < 1) throw InvalidOptions("steps: must be 1 or more");
 }
 
+// A path whose energy has fallen to this share stands still.
+constexpr double kHalted = 1e-2;
+
 // What a person should look at.
 void Warn(ExponentialSummary* summary) {
   int coarse = 0, open = 0;
@@ -252,6 +255,11 @@ void Warn(ExponentialSummary* summary) {
   if (inverted > 0) {
     summary->warnings.push_back("up to " + std::to_string(100 * inverted) +
                                 "% of the surface turned over in a step: look at the pictures");
+  }
+  if (!summary->steps.empty() &&
+      summary->steps.back().energy < kHalted * summary->steps.front().energy) {
+    summary->warnings.push_back(
+        "the motion comes to a halt on the way: the body can go no further");
   }
   if (summary->ending == ExponentialSummary::Ending::kDegenerate) {
     summary->warnings.push_back("stopped early, at " + summary->stopped);

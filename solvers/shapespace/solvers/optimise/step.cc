@@ -10,10 +10,11 @@
 namespace shapespace::internal {
 namespace {
 
-// Newton's method starts only from shapes that are a better answer than to stay in place, whose
-// residual is the whole step, and goes on only while each of its steps leaves at most so much of
-// the residual: on real meshes it either converges within ten steps or never.
-constexpr double kFarthestStart = 1, kLeastProgress = 0.8;
+// Newton's method starts only from shapes that are not much worse an answer than to stay in place,
+// whose residual is the whole step (1; roots were found from up to 1.1), and goes on only while
+// each of its steps leaves at most so much of the residual: on real meshes it either converges
+// within ten steps or never.
+constexpr double kFarthestStart = 1.5, kLeastProgress = 0.8;
 constexpr int kHalvings = 2;
 // Where rounding ends Newton's method before the tolerance, the shape is a root all the same.
 constexpr double kRoot = 1e-6;
