@@ -126,6 +126,9 @@ void Run(const std::vector<std::string>& files) {
   if (FLAGS_steps < 1) throw UsageError("--steps must be 1 or more");
   if (FLAGS_keep != 0 && FLAGS_keep < 2) throw UsageError("--keep must be 2 or more, or 0 for all");
   const GeodesicOptions geodesic = GeodesicFromFlags();
+  if (geodesic.metric.rigid > 0) {  // told now, not after the interpolation
+    throw UsageError("--rigid: the rigid metric has no exponential map; use --metric isometric");
+  }
   const ExponentialOptions exponential = ExponentialFromFlags();
   const CorrectionOptions correction = CorrectionFromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();

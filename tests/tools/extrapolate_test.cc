@@ -298,6 +298,9 @@ TEST_F(ExtrapolateTest, RigidMetricsAreRefused) {
   const Outcome outcome = Run("shape-extrapolate", {"rigid.path", "--output", "on.path"});
   EXPECT_EQ(outcome.code, 2) << outcome.err;
   ExpectContains(outcome.err, "rigid");
+  const Outcome poses = Run("shape-extrapolate", {"tube0.obj", "tube1.obj", "--metric", "rigid"});
+  EXPECT_EQ(poses.code, 2);
+  ExpectContains(poses.err, "--rigid");
 }
 
 }  // namespace
