@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <gflags/gflags.h>
+#include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
 #include <shapespace/output/frames.h>
@@ -46,8 +47,6 @@ struct Origin {
   Soup appearance;
 };
 
-bool IsPath(const std::string& file) { return std::filesystem::path(file).extension() == ".path"; }
-
 // Checks options of which a flag sets one field. Messages name the field, which may be the name of
 // another flag here.
 template <typename Options>
@@ -83,17 +82,6 @@ CorrectionOptions CorrectionFromFlags() {
   return options;
 }
 
-// So that nobody who gives a flag of the interpolation believes that it did anything.
-void RefuseFlagsOfPoses(const std::string& file) {
-  for (const char* source :
-       {"support/geodesic_flags.cc", "support/metric_flags.cc", "support/poses.cc"}) {
-    for (const std::string& flag : GivenFlags(source)) {
-      throw UsageError("--" + flag + ": goes with poses; " + file +
-                       " is solved, with the metric that it carries");
-    }
-  }
-}
-
 void CheckKeep(int shapes) {
   if (FLAGS_keep > shapes) {
     throw UsageError("--keep " + std::to_string(FLAGS_keep) + ": the path has " +
@@ -104,6 +92,12 @@ void CheckKeep(int shapes) {
 Origin OriginFromPath(const std::string& file) {
   Origin origin;
   origin.path = ReadPath(file);
+  if (origin.path.metric->rigid.Active()) {
+    throw SolverError(
+        file +
+        ": made under the rigid metric, which has no exponential map; interpolate its "
+        "poses under another");
+  }
   origin.appearance = PlainAppearance(*origin.path.metric->connectivity);
   CheckKeep(origin.path.NumShapes());
   return origin;
@@ -118,11 +112,10 @@ Origin OriginFromPoses(const std::vector<std::string>& files, const GeodesicOpti
 }
 
 void Run(const std::vector<std::string>& files) {
-  const bool from_path = std::any_of(files.begin(), files.end(), IsPath);
-  if (from_path ? files.size() != 1 : files.size() < 2) {
-    throw UsageError("name at least two poses of one mesh, or one .path file alone");
+  const bool from_path = IsOnePath(files);
+  if (from_path && IsGiven("allow_nonmanifold")) {
+    throw UsageError("--allow_nonmanifold: goes with poses; a path was let in when it was made");
   }
-  if (from_path) RefuseFlagsOfPoses(files[0]);
   if (FLAGS_steps < 1) throw UsageError("--steps must be 1 or more");
   if (FLAGS_keep != 0 && FLAGS_keep < 2) throw UsageError("--keep must be 2 or more, or 0 for all");
   const GeodesicOptions geodesic = GeodesicFromFlags();
@@ -141,13 +134,17 @@ void Run(const std::vector<std::string>& files) {
   PrintSummary(summary.BriefReport(), summary.warnings);
   result.path.provenance =
       (from_path ? origin.path.provenance + "; " : "") + Provenance("shape-extrapolate", files);
+  std::string text = summary.FullReport();
+  auto json = nlohmann::ordered_json::parse(summary.ToJson());
   if (FLAGS_correct != 0 && !summary.steps.empty()) {
     CorrectionResult corrected = CorrectPath(result.path, correction, TerminalProgress());
     PrintSummary(corrected.summary.BriefReport(), corrected.summary.warnings);
     result.path = std::move(corrected.path);
+    text += "Corrected         " + corrected.summary.BriefReport() + '\n';
+    json["correction"] = nlohmann::ordered_json::parse(corrected.summary.ToJson());
   }
   WriteOutputs(outputs, result.path, origin.appearance, result.path);
-  WriteReport(summary.FullReport(), summary.ToJson());
+  WriteReport(text, json.dump(2) + '\n');
   if (summary.steps.empty()) throw SolverError("no shape could be added");
 }
 

@@ -40,8 +40,6 @@ namespace {
 // Every shape of a geodesic is a rung to climb, and each takes as long as a small geodesic.
 constexpr char kShapes[] = "7";
 
-bool IsPath(const std::string& file) { return std::filesystem::path(file).extension() == ".path"; }
-
 TransferOptions TransferFromFlags() {
   TransferOptions options;
   options.rung_shapes = FLAGS_rung_shapes;
@@ -59,16 +57,6 @@ TransferOptions TransferFromFlags() {
     throw UsageError("--transfer_" + std::string(error.what()));
   }
   return options;
-}
-
-// So that nobody who gives a flag of the geodesics believes that it did anything.
-void RefuseFlagsOfGeodesics(const std::string& file) {
-  std::vector<std::string> flags = GivenFlags("support/geodesic_flags.cc");
-  for (const std::string& flag : GivenFlags("support/metric_flags.cc")) flags.push_back(flag);
-  if (IsGiven("stiffeners")) flags.push_back("stiffeners");
-  if (!flags.empty()) {
-    throw UsageError("--" + flags[0] + ": goes with poses; " + file + " is solved");
-  }
 }
 
 // The target, as a pose of the path's mesh.
@@ -93,12 +81,8 @@ void Tell(const Summary& summary, const std::vector<std::string>& warnings) {
 }
 
 void Run(const std::vector<std::string>& files) {
-  const bool from_path = std::any_of(files.begin(), files.end(), IsPath);
-  if (from_path ? files.size() != 1 : files.size() < 2) {
-    throw UsageError("name at least two poses of one mesh, or one .path file alone");
-  }
+  const bool from_path = IsOnePath(files);
   if (FLAGS_target.empty()) throw UsageError("--target: name the body that is to move");
-  if (from_path) RefuseFlagsOfGeodesics(files[0]);
   const GeodesicOptions geodesic = GeodesicFromFlags();
   const TransferOptions options = TransferFromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();

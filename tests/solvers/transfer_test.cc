@@ -344,14 +344,16 @@ TEST(Transfer, DoesNotDependOnTheNumbersOfVertices) {
 }
 
 TEST(Transfer, IsTheSameForAnyNumberOfThreads) {
-  const Body thick = MakeBar(6, 1, 1, 48, 8, 8);
+  const Body thick = MakeBar(6, 1, 1, 40, 7, 7);
   const Path source = PathOf(thick.connectivity, {thick.pose(0), thick.pose(20)});
-  const Shape thin = MakeBar(8, 1.6, 0.6, 48, 8, 8).pose(0);
+  const Shape thin = MakeBar(8, 1.6, 0.6, 40, 7, 7).pose(0);
   ASSERT_GT(thin.cols(), 1024);  // several blocks of rows
+  TransferOptions options;
+  options.rung_shapes = 1;
   std::vector<TransferResult> results;
   for (int threads : {1, 2}) {
     SetThreads(threads);
-    results.push_back(Transfer(source, thin));
+    results.push_back(Transfer(source, thin, options));
   }
   SetThreads(0);
   for (int i : {0, 1}) {

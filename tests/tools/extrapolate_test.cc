@@ -216,14 +216,17 @@ TEST_F(ExtrapolateTest, EveryIntegratorAndSolverOfStepsCanBeChosen) {
 TEST_F(ExtrapolateTest, CorrectionBringsEdgesBackToTheFirstShapesLengths) {
   MakeWalk();
   Succeed("shape-extrapolate", {"walk.path", "--steps", "4", "--output", "on.path"});
-  Succeed("shape-extrapolate",
-          {"walk.path", "--steps", "4", "--correct", "1", "--output", "corrected.path"});
+  Succeed("shape-extrapolate", {"walk.path", "--steps", "4", "--correct", "1", "--output",
+                                "corrected.path", "--report", "corrected.json"});
   const shapespace::Path on = ReadPath(Path("on.path")),
                          corrected = ReadPath(Path("corrected.path"));
   EXPECT_EQ(corrected.NumShapes(), 9);
   EXPECT_EQ(corrected.extrapolated, 4);
   EXPECT_TRUE(corrected.Placed(0) == on.Placed(0));
   EXPECT_LT(MeasureQuality(corrected).first_rms, 0.9 * MeasureQuality(on).first_rms);
+  const auto report = nlohmann::json::parse(Content(Path("corrected.json")));
+  EXPECT_NEAR(report["correction"]["length_error"]["rms"].get<double>(),
+              MeasureQuality(corrected).first_rms, 1e-9);
 }
 
 TEST_F(ExtrapolateTest, WrongCommandLines) {
@@ -296,8 +299,8 @@ TEST_F(ExtrapolateTest, RigidMetricsAreRefused) {
   Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "3", "--metric", "rigid",
                                 "--output", "rigid.path"});
   const Outcome outcome = Run("shape-extrapolate", {"rigid.path", "--output", "on.path"});
-  EXPECT_EQ(outcome.code, 2) << outcome.err;
-  ExpectContains(outcome.err, "rigid");
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  ExpectContains(outcome.err, "rigid.path: made under the rigid metric");
   const Outcome poses = Run("shape-extrapolate", {"tube0.obj", "tube1.obj", "--metric", "rigid"});
   EXPECT_EQ(poses.code, 2);
   ExpectContains(poses.err, "--rigid");

@@ -1,9 +1,13 @@
 #include "support/geodesic_flags.h"
 
+#include <algorithm>
+#include <filesystem>
+
 #include <gflags/gflags.h>
 
 #include "support/choose.h"
 #include "support/metric_flags.h"
+#include "support/tool.h"
 
 DEFINE_int32(shapes, 15, "shapes to insert between neighbouring poses");
 DEFINE_double(tolerance, 1e-4,
@@ -48,6 +52,24 @@ GeodesicOptions GeodesicFromFlags() {
                                  {"rigid", Start::kRigid}});
   options.Validate();
   return options;
+}
+
+bool IsOnePath(const std::vector<std::string>& files) {
+  const bool is_path = std::any_of(files.begin(), files.end(), [](const std::string& file) {
+    return std::filesystem::path(file).extension() == ".path";
+  });
+  if (is_path ? files.size() != 1 : files.size() < 2) {
+    throw UsageError("name at least two poses of one mesh, or one .path file alone");
+  }
+  if (!is_path) return false;
+  std::vector<std::string> flags = GivenFlags("support/geodesic_flags.cc");
+  for (const std::string& flag : GivenFlags("support/metric_flags.cc")) flags.push_back(flag);
+  if (IsGiven("stiffeners")) flags.push_back("stiffeners");
+  if (!flags.empty()) {
+    throw UsageError("--" + flags[0] + ": goes with poses; " + files[0] +
+                     " is solved, with the metric that it carries");
+  }
+  return true;
 }
 
 }  // namespace shapespace::tools

@@ -31,8 +31,9 @@ RigidMotion FitRigidMotion(const Shape& from, const Shape& to, const Eigen::Vect
 /// not change. The ends must be centred at the origin.
 void RemoveRigidDrift(std::vector<Shape>* shapes, const Eigen::VectorXd& weights);
 
-/// Motion at t in [0, 1] between two: the rotation at constant speed about one axis, and the image
-/// of the origin, where aligned shapes have their centroid, along a straight line.
+/// Motion at t in [0, 1] between two, or going on from them: the rotation at constant speed about
+/// one axis, and the image of the origin, where aligned shapes have their centroid, along a
+/// straight line.
 RigidMotion InterpolateMotion(const RigidMotion& first, const RigidMotion& last, double t);
 
 }  // namespace shapespace

@@ -13,6 +13,7 @@
 #include <shapespace/metric/feature_map.h>
 #include <shapespace/solvers/optimise/shooter.h>
 #include <shapespace/solvers/optimise/step_ceres.h>
+#include <shapespace/solvers/report.h>
 
 namespace shapespace {
 namespace {
@@ -47,6 +48,8 @@ class RungeKutta4 {
     row->vertices = static_cast<int>(shape_.cols());
     return shape_;
   }
+
+  const MetricSolver& Solver() const { return solver_; }
 
  private:
   Tangent Acceleration(const Shape& shape, const Tangent& velocity) {
@@ -232,37 +235,56 @@ void CheckSteps(int steps) {
   if (steps < 1) throw InvalidOptions("steps: must be 1 or more");
 }
 
-// A path whose energy has fallen to this share stands still.
-constexpr double kHalted = 1e-2;
+// The energy of segments is constant along a geodesic. A path on which it falls to this share
+// stands still; where it rises so many times, detail that was carried along has got a motion of its
+// own.
+constexpr double kHalted = 1e-2, kRisen = 2;
 
 // What a person should look at.
 void Warn(ExponentialSummary* summary) {
-  int coarse = 0, open = 0;
-  double inverted = 0;
+  int coarse = 0, nearest = 0, open = 0;
+  double inverted = 0, energy = 0;
   for (const ExponentialSummary::Step& step : summary->steps) {
-    if (step.vertices < summary->vertices) ++coarse;
-    if (step.vertices == summary->vertices && !step.converged) ++open;
+    if (step.vertices == 0) {
+      ++nearest;
+    } else if (step.vertices < summary->vertices) {
+      ++coarse;
+    } else if (!step.converged) {
+      ++open;
+    }
     inverted = std::max(inverted, step.inverted);
+    energy = std::max(energy, step.energy);
   }
+  const auto warn = [&](const std::string& text) { summary->warnings.push_back(text); };
   const std::string of = " of " + std::to_string(summary->steps.size()) + " steps ";
   if (coarse > 0) {
-    summary->warnings.push_back(std::to_string(coarse) + of +
-                                "have no answer on the mesh itself, some of whose triangles cannot "
-                                "go on as they moved: they were made on a coarser one, and detail "
-                                "carried along");
+    warn(std::to_string(coarse) + of +
+         "have no answer on the mesh itself, some of whose triangles cannot go on as they moved: "
+         "they were made on a coarser one, and detail carried along");
   }
-  if (open > 0) summary->warnings.push_back(std::to_string(open) + of + "did not converge");
+  if (nearest > 0) {
+    warn(
+        std::to_string(nearest) + of +
+        "have no answer on any resolution: the nearest shape to what they ask for was taken, which "
+        "slows the motion down");
+  }
+  if (open > 0) warn(std::to_string(open) + of + "did not converge");
   if (inverted > 0) {
-    summary->warnings.push_back("up to " + std::to_string(100 * inverted) +
-                                "% of the surface turned over in a step: look at the pictures");
+    warn("up to " + std::to_string(100 * inverted) +
+         "% of the surface turned over in a step: look at the pictures");
   }
-  if (!summary->steps.empty() &&
-      summary->steps.back().energy < kHalted * summary->steps.front().energy) {
-    summary->warnings.push_back(
-        "the motion comes to a halt on the way: the body can go no further");
+  if (!summary->steps.empty()) {
+    const double first = summary->steps.front().energy;
+    if (energy > kRisen * first) {
+      warn("the energy of a segment, constant on a geodesic, rises to " +
+           internal::Format("%.3g", energy / first) + " times what it was at first");
+    }
+    if (summary->steps.back().energy < kHalted * first) {
+      warn("the motion comes to a halt on the way: the body can go no further");
+    }
   }
   if (summary->ending == ExponentialSummary::Ending::kDegenerate) {
-    summary->warnings.push_back("stopped early, at " + summary->stopped);
+    warn("stopped early, at " + summary->stopped);
   }
 }
 
@@ -315,6 +337,8 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
                                   : departure.velocity);
       March([&](ExponentialSummary::Step* row) { return scheme.Next(row); }, steps, step, progress,
             result);
+      summary.factorisations = scheme.Solver().NumFactorisations();
+      summary.factor_seconds = scheme.Solver().FactorSeconds();
       break;
     }
     case Integrator::kFirstIntegral: {

@@ -31,7 +31,8 @@ struct ExponentialOptions {
   Integrator integrator = Integrator::kVariational;
   StepSolver solver = StepSolver::kNewtonKrylov;
 
-  /// A step is solved when its residual, measured in the metric, is this share of the step itself.
+  /// A step is solved when its residual, measured in the metric (kCeres: by its coordinates), is
+  /// this share of the step itself.
   double tolerance = 1e-9;
 
   /// Of Newton's method in a step, or of Ceres' trust region. A step that runs out of them is taken
@@ -91,10 +92,10 @@ struct ExponentialResult {
 };
 
 /// Continues a path (Kilian et al. 2007, section 4) by `steps` shapes: the geodesic through its
-/// last two shapes, at their distance in time. The rigid motion that the path carries goes on as a
-/// screw. The path's own metric decides; one made in trapezoid form is continued by the midpoint's,
-/// and a warning says so.
-/// \throw InvalidOptions (also if the metric is rigid, or steps < 1), MeshError (fewer than two
+/// last two shapes, at their distance in time. What the path carries as rigid motion goes on: the
+/// rotation at its speed, the centroid along its line. The path's own metric decides; one made in
+/// trapezoid form is continued by the midpoint's, and a warning says so. \throw InvalidOptions
+/// (also if the metric is rigid, or steps < 1), MeshError (fewer than two
 ///        shapes), SolverError, Cancelled.
 ExponentialResult Extrapolate(const Path& path, int steps, const ExponentialOptions& options = {},
                               Progress* progress = nullptr);
@@ -114,7 +115,8 @@ Shape Exponential(const std::shared_ptr<const Metric>& metric, const Shape& shap
 /// log: the initial velocity of the geodesic from `from` to `to` (user's unit), which is first
 /// moved rigidly onto it. Computed from a path of options.shapes inner shapes under `metric`
 /// (options.metric is not read), so that Exponential with options.shapes + 1 steps leads to `to`,
-/// as closely as options.tolerance lets it. \throw as Interpolate; InvalidOptions if the metric is
+/// as closely as options.tolerance lets it (not for a trapezoid metric: shooting is in midpoint
+/// form). \throw as Interpolate; InvalidOptions if the metric is
 /// rigid.
 Tangent Logarithm(const std::shared_ptr<const Metric>& metric, const Shape& from, const Shape& to,
                   const GeodesicOptions& options = {}, Progress* progress = nullptr);

@@ -136,6 +136,7 @@ class Ladder {
       throw SolverError(step.summary.stopped);
     }
     row->on_mesh = step.summary.steps[0].vertices == step.summary.vertices;
+    if (row->on_mesh) row->converged = row->converged && step.summary.Converged();
     return step.path.Placed(1);
   }
 
@@ -203,7 +204,7 @@ void Warn(TransferSummary* summary) {
   }
   if (const auto open = count([](const TransferSummary::Rung& rung) { return !rung.converged; })) {
     summary->warnings.push_back(std::to_string(open) + of +
-                                "did not converge: look at the pictures, or raise the tolerance");
+                                "did not converge: look at the pictures");
   }
 }
 
@@ -329,9 +330,10 @@ PoseTransferResult TransferPoses(const std::shared_ptr<const Connectivity>& conn
   std::vector<Shape> placed = {target}, hybrids;
   std::vector<double> parameters = {0};
   for (int i = 1; i < count; ++i) {
-    GeodesicResult source = Interpolate(connectivity, {poses[0], poses[i]}, geodesic, progress);
+    GeodesicResult source;
     TransferResult transfer;
     try {
+      source = Interpolate(connectivity, {poses[0], poses[i]}, geodesic, progress);
       transfer = Transfer(source.path, target, options, progress);
     } catch (const SolverError& error) {
       throw SolverError("pose " + std::to_string(i + 1) + ": " + error.what());

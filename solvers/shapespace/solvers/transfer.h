@@ -51,7 +51,7 @@ struct TransferOptions {
 struct TransferSummary {
   /// One rung: from shape i of the source to the target's shape i, and on to the next.
   struct Rung {
-    bool converged = true;   ///< geodesic and transport
+    bool converged = true;   ///< geodesic, transport and step
     bool on_mesh = true;     ///< the step was made on the mesh itself (ExponentialSummary)
     double ratio = 1;        ///< energy of the rung's geodesic over its lower bound
     double norm_change = 0;  ///< |Y| / |X| - 1 of the transported tangent
@@ -68,6 +68,7 @@ struct TransferSummary {
   std::vector<std::string> warnings;
   double total_seconds = 0;
 
+  /// All rungs converged, and all steps were made on the mesh itself.
   bool Converged() const;
   std::string BriefReport() const;  ///< one line
   std::string FullReport() const;   ///< a page
@@ -78,7 +79,8 @@ struct TransferResult {
   /// The target's shapes, at the source's parameters. The first is the target, and the only pose;
   /// all others count as extrapolated.
   Path path;
-  Path hybrids;  ///< half way between source and target, in the target's size, at the same times
+  /// Half way between source and target, at the same times; in the target's size if options.scale.
+  Path hybrids;
   TransferSummary summary;
 };
 

@@ -38,7 +38,8 @@ const char* Ending(bool converged) { return converged ? "converged" : "NOT CONVE
 }  // namespace
 
 bool TransferSummary::Converged() const {
-  return std::all_of(rungs.begin(), rungs.end(), [](const Rung& rung) { return rung.converged; });
+  return std::all_of(rungs.begin(), rungs.end(),
+                     [](const Rung& rung) { return rung.converged && rung.on_mesh; });
 }
 
 std::string TransferSummary::BriefReport() const {
@@ -92,6 +93,7 @@ std::vector<std::string> PoseTransferSummary::Warnings() const {
 }
 
 std::string PoseTransferSummary::BriefReport() const {
+  if (transfers.empty()) return "no pose was transferred";
   double strain = 0, angle = 0, seconds = 0;
   size_t rungs = 0;
   for (size_t i = 0; i < transfers.size(); ++i) {

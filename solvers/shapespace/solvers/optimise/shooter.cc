@@ -40,7 +40,9 @@ Shape Shooter::NextOn(int level, const Departure& departure, ExponentialSummary:
   }
   if (level == 0) {
     row->vertices = 0;
-    return step.Nearest(shape, row);
+    shape = step.Nearest(shape, row);
+    row->residual = Step(own.map, &own.solver, departure).Residual(shape);
+    return shape;
   }
   Departure coarse;
   const auto restrict = [&](const Shape& fine) {
@@ -56,6 +58,7 @@ Shape Shooter::NextOn(int level, const Departure& departure, ExponentialSummary:
     row->vertices = static_cast<int>(shape.cols());
   } else {
     row->vertices = coarse_row.vertices;
+    row->residual = step.Residual(shape);
   }
   return shape;
 }

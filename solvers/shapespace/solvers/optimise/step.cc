@@ -145,13 +145,12 @@ Shape Step::Nearest(const Shape& start, ExponentialSummary::Step* row) const {
     shape = departure_.shape;
     distance = current_ - target_;
   }
-  MetricSolver solver;
   bool progress = true;
   for (int iteration = 0; progress && iteration < kMaxGaussNewton; ++iteration) {
     ++row->iterations;
     const FeatureDerivative derivative = map_.Derivative(shape);
-    solver.Factor(derivative);
-    const Tangent step = SolveMetric(solver, derivative, derivative.TransposeTimes(distance));
+    solver_.Factor(derivative);
+    const Tangent step = SolveMetric(solver_, derivative, derivative.TransposeTimes(distance));
     const double size = distance.norm();
     progress = false;
     double factor = 1;

@@ -39,6 +39,11 @@ class Step {
   /// geodesic's, and does not count.
   bool Solve(const ExponentialOptions& options, ExponentialSummary::Step* row, Shape* shape) const;
 
+  /// The residual of any shape, as a share of the step; until `Nearest` is called.
+  double Residual(const Shape& shape) const {
+    return solver_.DualNorm(derivative_.TransposeTimes(map_.Values(shape) - target_)) / speed_;
+  }
+
   /// The shape nearest in feature space to what the step asks for: argmin |Phi(P) - Phi(P_i) -
   /// change|^2, by Gauss-Newton from `start`. Of first order only.
   /// \throw SolverError if that is the departure's own: the motion would stand still from here on.
