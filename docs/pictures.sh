@@ -31,8 +31,8 @@ done
 
 # guide/transfer.md
 "$bin/shape-body" quadruped --pose stand,rear,stride --output 'pose%d.obj'
-"$bin/shape-body" quadruped --pose stand --proportions long --output other.obj
-"$bin/shape-transfer" pose0.obj pose1.obj pose2.obj --target other.obj \
+"$bin/shape-body" quadruped --pose stand --proportions long --output 'other%d.obj'
+"$bin/shape-transfer" pose0.obj pose1.obj pose2.obj --target other0.obj \
   --output "$pictures/transfer.png" --hybrids "$pictures/hybrids.png"
 
 # file-formats.md

@@ -11,7 +11,7 @@ namespace shapespace {
 namespace {
 
 using internal::Format;
-using internal::Number;
+using internal::JsonNumber;
 
 const char* Name(Integrator integrator) {
   switch (integrator) {
@@ -87,9 +87,9 @@ std::string ExponentialSummary::ToJson() const {
                              {"vertices", step.vertices},
                              {"iterations", step.iterations},
                              {"krylov_iterations", step.krylov_iterations},
-                             {"residual", Number(step.residual)},
-                             {"energy", Number(step.energy)},
-                             {"momentum_drift", Number(step.momentum_drift)},
+                             {"residual", JsonNumber(step.residual)},
+                             {"energy", JsonNumber(step.energy)},
+                             {"momentum_drift", JsonNumber(step.momentum_drift)},
                              {"edge_rms", step.edge_rms},
                              {"edge_max", step.edge_max},
                              {"inverted", step.inverted},

@@ -10,7 +10,7 @@ namespace shapespace {
 namespace {
 
 using internal::Format;
-using internal::Number;
+using internal::JsonNumber;
 
 const char* Name(Termination termination) {
   switch (termination) {
@@ -98,17 +98,17 @@ std::string GeodesicSummary::ToJson() const {
   json["shapes"] = shapes;
   json["metric"] = metric;
   json["unit"] = unit;
-  json["energy"] = Number(energy);
-  json["lower_bound"] = Number(lower_bound);
-  json["energy_over_bound"] = Number(Ratio());
-  for (const auto& [name, value] : parts) json["energy_parts"][name] = Number(value);
+  json["energy"] = JsonNumber(energy);
+  json["lower_bound"] = JsonNumber(lower_bound);
+  json["energy_over_bound"] = JsonNumber(Ratio());
+  for (const auto& [name, value] : parts) json["energy_parts"][name] = JsonNumber(value);
   json["edge_deviation"] = {
       {"rms", quality.edge_rms}, {"p99", quality.edge_p99}, {"max", quality.edge_max}};
   json["first_pose_deviation"] = {
       {"rms", quality.first_rms}, {"p99", quality.first_p99}, {"max", quality.first_max}};
   json["roughness_degrees"] = quality.roughness;
   json["folds_per_shape"] = quality.folds;
-  json["greatest_speed"] = Number(quality.speed_max);
+  json["greatest_speed"] = JsonNumber(quality.speed_max);
   json["intersections_per_shape"] = intersections;
   json["hierarchy_vertices"] = hierarchy;
   json["hierarchy_stopped_early"] = hierarchy_stopped_early;
@@ -122,9 +122,9 @@ std::string GeodesicSummary::ToJson() const {
                               {"termination", Name(level.termination)},
                               {"iterations", level.iterations},
                               {"evaluations", level.evaluations},
-                              {"initial_energy", Number(level.initial_energy)},
-                              {"energy", Number(level.energy)},
-                              {"remaining", Number(level.remaining)},
+                              {"initial_energy", JsonNumber(level.initial_energy)},
+                              {"energy", JsonNumber(level.energy)},
+                              {"remaining", JsonNumber(level.remaining)},
                               {"kept", level.kept},
                               {"seconds", level.seconds}});
   }

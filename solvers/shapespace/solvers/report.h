@@ -20,7 +20,7 @@ std::string Format(const char* format, Arguments... arguments) {
 }
 
 /// JSON knows no NaN: a figure that does not exist is null.
-inline nlohmann::ordered_json Number(double value) {
+inline nlohmann::ordered_json JsonNumber(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 

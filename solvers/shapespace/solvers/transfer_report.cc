@@ -10,7 +10,7 @@ namespace shapespace {
 namespace {
 
 using internal::Format;
-using internal::Number;
+using internal::JsonNumber;
 
 nlohmann::ordered_json Json(const TransferSummary& summary) {
   nlohmann::ordered_json json;
@@ -22,8 +22,8 @@ nlohmann::ordered_json Json(const TransferSummary& summary) {
   for (const TransferSummary::Rung& rung : summary.rungs) {
     json["rungs"].push_back({{"converged", rung.converged},
                              {"on_mesh", rung.on_mesh},
-                             {"energy_over_bound", Number(rung.ratio)},
-                             {"norm_change", Number(rung.norm_change)},
+                             {"energy_over_bound", JsonNumber(rung.ratio)},
+                             {"norm_change", JsonNumber(rung.norm_change)},
                              {"seconds", rung.seconds}});
   }
   json["strain_off"] = {{"rms", summary.strain_rms}, {"max", summary.strain_max}};
