@@ -59,21 +59,9 @@ PathQuality MeasureQuality(const Path& path) {
   }
   const double shortest = kShortestEdge * kShortestEdge * mean_squared_length;
 
-  Dihedral dihedral;
-  dihedral.stencils = connectivity.Hinges();
-  dihedral.normal_epsilon_squared = dihedral.edge_epsilon_squared = 1e-30;
-
-  const auto angle_in = [&](const Shape& shape, int h) {
-    double x[12];
-    Gather(dihedral, h, shape, x);
-    return dihedral.Angle(x);
-  };
   std::vector<Eigen::VectorXd> pose_angles(path.poses.size());
   ParallelFor(static_cast<int>(path.poses.size()), [&](int i) {
-    pose_angles[i].resize(connectivity.NumHinges());
-    for (int h = 0; h < connectivity.NumHinges(); ++h) {
-      pose_angles[i](h) = angle_in(path.shapes[path.poses[i]], h);
-    }
+    pose_angles[i] = DihedralAngles(connectivity, path.shapes[path.poses[i]]);
   });
 
   std::vector<Deviations> between(num_shapes), against_first(num_shapes);
@@ -101,11 +89,12 @@ PathQuality MeasureQuality(const Path& path) {
       }
     }
     double squares = 0;
+    const Eigen::VectorXd angles = DihedralAngles(connectivity, shape);
     const Eigen::VectorXd& angles_m = pose_angles[next - 1 - path.poses.begin()];
     const Eigen::VectorXd& angles_n = pose_angles[next - path.poses.begin()];
     for (int h = 0; h < connectivity.NumHinges(); ++h) {
       const double angle_m = angles_m(h), angle_n = angles_n(h);
-      const double angle = angle_in(shape, h);
+      const double angle = angles(h);
       const double off = WrapAngle(angle - (angle_m + t * WrapAngle(angle_n - angle_m)));
       squares += metric.hinge_area(h) * off * off;
       const double beyond = std::abs(angle) - std::max(std::abs(angle_m), std::abs(angle_n));
@@ -136,6 +125,19 @@ PathQuality MeasureQuality(const Path& path) {
                           ? kDegrees * std::sqrt(quality.roughness / (hinge_area * inner))
                           : 0;
   return quality;
+}
+
+Eigen::VectorXd DihedralAngles(const Connectivity& connectivity, const Shape& shape) {
+  Dihedral dihedral;
+  dihedral.stencils = connectivity.Hinges();
+  dihedral.normal_epsilon_squared = dihedral.edge_epsilon_squared = 1e-30;  // below all rounding
+  Eigen::VectorXd angles(connectivity.NumHinges());
+  for (int h = 0; h < angles.size(); ++h) {
+    double x[3 * Dihedral::kVertices];
+    Gather(dihedral, h, shape, x);
+    angles(h) = dihedral.Angle(x);
+  }
+  return angles;
 }
 
 double GreatestSpeed(const Metric& metric, const std::vector<Shape>& shapes,

@@ -34,6 +34,9 @@ struct PathQuality {
 
 PathQuality MeasureQuality(const Path& path);
 
+/// The dihedral angle of every hinge (Dihedral::Angle) of a shape in the metric's unit.
+Eigen::VectorXd DihedralAngles(const Connectivity& connectivity, const Shape& shape);
+
 /// The greatest speed over the mean, as above, of `shapes` (in the metric's unit) at rising
 /// `times`.
 double GreatestSpeed(const Metric& metric, const std::vector<Shape>& shapes,

@@ -11,6 +11,7 @@
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/rigid_motion.h>
+#include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/optimise/minimise.h>
 #include <shapespace/solvers/optimise/preconditioner.h>
 #include <shapespace/solvers/optimise/resolution.h>
@@ -140,9 +141,8 @@ nlohmann::ordered_json Lengths(const PathQuality& quality) {
 
 void CorrectionOptions::Validate() const {
   if (!(mu >= 0) || !std::isfinite(mu)) throw InvalidOptions("mu: must be 0 or more, and finite");
-  if (!(tolerance > 0) || !(tolerance < 1))
-    throw InvalidOptions("tolerance: must be between 0 and 1");
-  if (max_iterations < 1) throw InvalidOptions("max_iterations: must be 1 or more");
+  internal::CheckTolerance(tolerance);
+  internal::CheckMaxIterations(max_iterations);
 }
 
 std::string CorrectionSummary::BriefReport() const {

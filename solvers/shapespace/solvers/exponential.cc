@@ -11,6 +11,7 @@
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/hierarchy/detail.h>
 #include <shapespace/metric/feature_map.h>
+#include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/optimise/shooter.h>
 #include <shapespace/solvers/optimise/step_ceres.h>
 #include <shapespace/solvers/report.h>
@@ -27,9 +28,6 @@ using NextShape = std::function<Shape(ExponentialSummary::Step*)>;
 // A surface of which more than this share turns over in one step is no surface any more, nor is one
 // with an edge that has shrunk to so little of its length at the start.
 constexpr double kInvertedShare = 1e-2, kVanishedEdge = 1e-5;
-// Along a geodesic the speed is constant; an integrator that changes it by more than this share has
-// lost the geodesic.
-constexpr double kSpeedChange = 0.1;
 
 // Of the geodesic equation G(P) P'' = -J^T Phi''(P', P'), a step being the unit of time.
 class RungeKutta4 {
@@ -44,7 +42,7 @@ class RungeKutta4 {
     const Tangent v4 = velocity_ + a3, a4 = Acceleration(shape_ + v3, v4);
     shape_ += (v1 + 2 * v2 + 2 * v3 + v4) / 6;
     velocity_ += (a1 + 2 * a2 + 2 * a3 + a4) / 6;
-    row->converged = std::abs(Speed() - speed_) <= kSpeedChange * speed_;
+    row->converged = std::abs(Speed() - speed_) <= internal::kSpeedChange * speed_;
     row->vertices = static_cast<int>(shape_.cols());
     return shape_;
   }
@@ -101,9 +99,10 @@ struct Momenta {
   double linear_scale = 0, angular_scale = 0;
 };
 
-// The discrete momenta of a segment, of which translations and rotations keep the two sums.
-Momenta MeasureMomenta(const FeatureMap& map, const Shape& from, const Shape& to) {
-  const Tangent momentum = map.Derivative(from).TransposeTimes(map.Values(to) - map.Values(from));
+// The discrete momenta of a segment from `from` on which Phi changes so much, of which translations
+// and rotations keep the two sums.
+Momenta MeasureMomenta(const FeatureMap& map, const Shape& from, const Eigen::VectorXd& change) {
+  const Tangent momentum = map.Derivative(from).TransposeTimes(change);
   Momenta result;
   result.linear = momentum.rowwise().sum();
   for (int v = 0; v < from.cols(); ++v) {
@@ -213,8 +212,9 @@ void March(const NextShape& next, int steps, double step, Progress* progress,
       summary.stopped = "step " + std::to_string(i + 1) + ": " + summary.stopped;
       return;
     }
-    row.energy = (map.Values(shape) - map.Values(current)).squaredNorm() / (step * step);
-    const Momenta momenta = MeasureMomenta(map, current, shape);
+    const Eigen::VectorXd change = map.Values(shape) - map.Values(current);
+    row.energy = change.squaredNorm() / (step * step);
+    const Momenta momenta = MeasureMomenta(map, current, change);
     if (i == 0) first = momenta;
     row.momentum_drift = Drift(first, momenta);
     MeasureEdges(metric, path.shapes.front(), shape, &row);
@@ -360,10 +360,8 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
 }  // namespace
 
 void ExponentialOptions::Validate() const {
-  if (!(tolerance > 0) || !(tolerance < 1)) {
-    throw InvalidOptions("tolerance: must be between 0 and 1");
-  }
-  if (max_iterations < 1) throw InvalidOptions("max_iterations: must be 1 or more");
+  internal::CheckTolerance(tolerance);
+  internal::CheckMaxIterations(max_iterations);
 }
 
 ExponentialResult Extrapolate(const Path& path, int steps, const ExponentialOptions& options,

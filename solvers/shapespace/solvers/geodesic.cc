@@ -12,6 +12,7 @@
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/intersections.h>
+#include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/optimise/piece.h>
 
 namespace shapespace {
@@ -143,9 +144,8 @@ void Warn(GeodesicSummary* summary) {
 void GeodesicOptions::Validate() const {
   metric.Validate();
   if (shapes < 1) throw InvalidOptions("shapes: must be 1 or more");
-  if (!(tolerance > 0) || !(tolerance < 1))
-    throw InvalidOptions("tolerance: must be between 0 and 1");
-  if (max_iterations < 1) throw InvalidOptions("max_iterations: must be 1 or more");
+  internal::CheckTolerance(tolerance);
+  internal::CheckMaxIterations(max_iterations);
   if (!(memory_limit > 0)) throw InvalidOptions("memory_limit: must be positive");
 }
 

@@ -8,7 +8,9 @@
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/hierarchy/detail.h>
 #include <shapespace/path/align.h>
+#include <shapespace/path/quality.h>
 #include <shapespace/path/rigid_motion.h>
+#include <shapespace/solvers/check_options.h>
 
 namespace shapespace {
 namespace {
@@ -160,7 +162,10 @@ class Ladder {
 void MeasureWhatIsOff(const Metric& metric, const Path& source, const Path& target,
                       TransferSummary* summary) {
   const auto change = [](const Path& path, const auto& value) {
-    return value(path.shapes.back()) - value(path.shapes.front());
+    const auto first = value(path.shapes.front());
+    auto last = value(path.shapes.back());
+    last -= first;  // no expression, which would outlive the two
+    return last;
   };
   const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
   double squares = 0, area = 0;
@@ -176,19 +181,11 @@ void MeasureWhatIsOff(const Metric& metric, const Path& source, const Path& targ
   }
   if (area > 0) summary->strain_rms = std::sqrt(squares / area);
 
-  Dihedral hinges;
-  hinges.stencils = metric.connectivity->Hinges();
-  hinges.normal_epsilon_squared = hinges.edge_epsilon_squared = 1e-30;  // below all rounding
-  squares = 0;
-  for (int h = 0; h < hinges.stencils.cols(); ++h) {
-    const auto angle = [&](const Shape& shape) {
-      double x[3 * Dihedral::kVertices];
-      Gather(hinges, h, shape, x);
-      return hinges.Angle(x);
-    };
-    const double off = WrapAngle(change(target, angle) - change(source, angle));
-    squares += metric.hinge_area(h) * off * off;
-  }
+  const auto angles_of = [&](const Shape& shape) {
+    return DihedralAngles(*metric.connectivity, shape);
+  };
+  const Eigen::VectorXd off = change(target, angles_of) - change(source, angles_of);
+  squares = metric.hinge_area.dot(off.unaryExpr(&WrapAngle).cwiseAbs2());
   area = metric.hinge_area.sum();
   if (area > 0) summary->angle_rms = std::sqrt(squares / area) * 180 / M_PI;
 }
@@ -230,9 +227,7 @@ void TransferOptions::Validate() const {
   if (rung_shapes < 1 || rung_shapes % 2 == 0) {
     throw InvalidOptions("rung_shapes: must be odd, 1 or more");
   }
-  if (!(tolerance > 0) || !(tolerance < 1)) {
-    throw InvalidOptions("tolerance: must be between 0 and 1");
-  }
+  internal::CheckTolerance(tolerance);
 }
 
 TransferResult Transfer(const Path& source, const Shape& target, const TransferOptions& options,

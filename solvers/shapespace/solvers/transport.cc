@@ -6,6 +6,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/metric/feature_map.h>
+#include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/optimise/metric_solver.h>
 #include <shapespace/solvers/optimise/step_ceres.h>
 #include <shapespace/solvers/report.h>
@@ -101,10 +102,8 @@ std::vector<double> Norms(const Path& path, int shape, const std::vector<Tangent
 }  // namespace
 
 void TransportOptions::Validate() const {
-  if (!(tolerance > 0) || !(tolerance < 1)) {
-    throw InvalidOptions("tolerance: must be between 0 and 1");
-  }
-  if (max_iterations < 1) throw InvalidOptions("max_iterations: must be 1 or more");
+  internal::CheckTolerance(tolerance);
+  internal::CheckMaxIterations(max_iterations);
 }
 
 std::string TransportSummary::BriefReport() const {

@@ -179,10 +179,9 @@ struct Displacement {
 
 /// Equation (7) for the three coordinates j of one vertex: F_0 - 2 x_j (G x)_j - C_j, where
 /// F_0 - C_j = 2 a_j is taken as one number, since F_0 alone is far greater. Parameter blocks: the
-/// velocities of the vertices with which G couples this one.
+/// velocities of the vertices with which G couples this one, itself the first.
 struct FirstIntegralRows {
   std::vector<Eigen::Matrix3d> couplings;  ///< blocks of G, one a parameter block
-  int own = 0;                             ///< the parameter block of the vertex itself
   Eigen::Vector3d constants;               ///< a_j
   double scale = 1;                        ///< of the residuals
 
@@ -195,7 +194,7 @@ struct FirstIntegralRows {
       }
     }
     for (int axis = 0; axis < 3; ++axis) {
-      residual[axis] = scale * (2 * constants(axis) - 2.0 * blocks[own][axis] * momentum[axis]);
+      residual[axis] = scale * (2 * constants(axis) - 2.0 * blocks[0][axis] * momentum[axis]);
     }
     return true;
   }

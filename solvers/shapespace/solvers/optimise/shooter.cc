@@ -41,7 +41,7 @@ Shape Shooter::NextOn(int level, const Departure& departure, ExponentialSummary:
   if (level == 0) {
     row->vertices = 0;
     shape = step.Nearest(shape, row);
-    row->residual = Step(own.map, &own.solver, departure).Residual(shape);
+    row->residual = step.Residual(shape);
     return shape;
   }
   Departure coarse;

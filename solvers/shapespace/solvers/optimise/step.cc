@@ -24,8 +24,6 @@ constexpr double kForcing = 1e-2;
 constexpr int kMaxKrylov = 20;
 // Of a path that rests, or moves rigidly, aligned shapes differ by a few roundings.
 constexpr double kRest = 10;
-// Along a geodesic the speed is constant but for the discretisation's second order.
-constexpr double kSpeedChange = 0.1;
 
 constexpr int kMaxGaussNewton = 20, kGaussNewtonHalvings = 8;
 constexpr double kGaussNewtonProgress = 1e-4;
@@ -164,6 +162,7 @@ Shape Step::Nearest(const Shape& start, ExponentialSummary::Step* row) const {
       }
     }
   }
+  solver_.Factor(derivative_);  // what residuals are measured by
   if (shape == departure_.shape) {
     throw SolverError("no shape near is any closer to where the motion leads: it comes to a halt");
   }

@@ -11,6 +11,10 @@
 
 namespace shapespace::internal {
 
+/// Along a geodesic the speed is constant but for the discretisation's error: what changes it by
+/// more than this share has lost the geodesic.
+inline constexpr double kSpeedChange = 0.1;
+
 /// Where a step starts from: a shape, and either the shape before it, one step earlier, or, at the
 /// start of a geodesic, its velocity per step.
 struct Departure {
@@ -39,7 +43,7 @@ class Step {
   /// geodesic's, and does not count.
   bool Solve(const ExponentialOptions& options, ExponentialSummary::Step* row, Shape* shape) const;
 
-  /// The residual of any shape, as a share of the step; until `Nearest` is called.
+  /// The residual of any shape, as a share of the step.
   double Residual(const Shape& shape) const {
     return solver_.DualNorm(derivative_.TransposeTimes(map_.Values(shape) - target_)) / speed_;
   }

@@ -1,0 +1,24 @@
+#ifndef SHAPESPACE_SOLVERS_CHECK_OPTIONS_H_
+#define SHAPESPACE_SOLVERS_CHECK_OPTIONS_H_
+
+#include <shapespace/base/error.h>
+
+// Private: what the options of all solvers have in common.
+
+namespace shapespace::internal {
+
+/// \throw InvalidOptions.
+inline void CheckTolerance(double tolerance) {
+  if (!(tolerance > 0) || !(tolerance < 1)) {
+    throw InvalidOptions("tolerance: must be between 0 and 1");
+  }
+}
+
+/// \throw InvalidOptions.
+inline void CheckMaxIterations(int max_iterations) {
+  if (max_iterations < 1) throw InvalidOptions("max_iterations: must be 1 or more");
+}
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_SOLVERS_CHECK_OPTIONS_H_
