@@ -106,6 +106,16 @@ TEST(ConnectivityTest, RefusesBadIndices) {
   ExpectError<MeshError>([] { Connectivity::Make(3, {0, 3}, {0, 1, 3}); }, {"3", "0 .. 2"});
   ExpectError<MeshError>([] { Connectivity::Make(3, {0, 3}, {0, 1, -1}); }, {"-1", "0 .. 2"});
   ExpectError<MeshError>([] { Connectivity::Make(3, {0, 2}, {0, 1, 2}); }, {"polygon_begin"});
+  ExpectError<MeshError>(
+      [] {
+        Connectivity::Make(3, {0, 3, 5}, {0, 1, 2, 0, 1});
+      },
+      {"polygon 1 has 2 corners; a polygon needs three"});
+  ExpectError<MeshError>(
+      [] {
+        Connectivity::Make(3, {0, 0, 3}, {0, 1, 2});
+      },
+      {"polygon 0 has 0 corners"});
   ExpectError<MeshError>([] { Connectivity::Make(3, {0}, {}, {{0, 3}}); }, {"segment 0 3"});
   ExpectError<MeshError>(
       [] {
@@ -117,6 +127,28 @@ TEST(ConnectivityTest, RefusesBadIndices) {
         Connectivity::Make(3, {0}, {}, {{0, 1}}, {{2, 2}});
       },
       {"stiffener joins vertex 2"});
+}
+
+TEST(ConnectivityTest, RefusesTrianglesThatAreNotThoseOfThePolygons) {
+  const std::vector<int> begin = {0, 4, 7}, corners = {0, 1, 2, 3, 3, 2, 4};
+  const auto make = [&](const Eigen::Matrix3Xi& triangles) {
+    return Connectivity::Make(5, begin, corners, {}, {}, triangles);
+  };
+  Eigen::Matrix3Xi good(3, 3);
+  good << 0, 1, 3,  //
+      1, 2, 2,      //
+      3, 3, 4;
+  EXPECT_EQ(make(good)->Triangles(), good);
+  ExpectError<MeshError>([&] { make(good.leftCols(2)); }, {"triangles: must be those"});
+  Eigen::Matrix3Xi foreign = good;
+  foreign(2, 0) = 4;  // no corner of the first polygon
+  ExpectError<MeshError>([&] { make(foreign); }, {"triangles: must be those"});
+}
+
+TEST(ConnectivityTest, KeepsSegmentsApartFromStiffeners) {
+  const auto graph = Connectivity::Make(4, {0}, {}, {{2, 1}, {0, 1}}, {{0, 3}});
+  EXPECT_EQ(graph->NumEdges(), 3);
+  EXPECT_EQ(graph->Segments(), (std::vector<std::pair<int, int>>{{2, 1}, {0, 1}}));
 }
 
 }  // namespace

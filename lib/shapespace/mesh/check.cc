@@ -199,15 +199,32 @@ Findings CheckStructure(const Soup& soup) {
 }
 
 Findings CheckPositions(const Soup& soup) {
-  Named not_finite, no_area, no_length;
+  Named not_finite, too_large, no_area, no_length;
   for (int v = 0; v < soup.NumVertices(); ++v) {
-    if (!soup.vertices.col(v).allFinite()) not_finite.Add([&] { return VertexName(soup, v); });
+    const double largest = soup.vertices.col(v).cwiseAbs().maxCoeff();
+    if (!soup.vertices.col(v).allFinite()) {
+      not_finite.Add([&] { return VertexName(soup, v); });
+    } else if (largest > kLargestCoordinate) {
+      too_large.Add([&] { return VertexName(soup, v); });
+    }
   }
   Findings findings;
   not_finite.Tell(soup, Severity::kFatal, "non-finite-coordinate",
                   "vertices with a coordinate that is not a finite number", "export the mesh again",
                   &findings);
+  too_large.Tell(soup, Severity::kFatal, "coordinate-out-of-range",
+                 "vertices with a coordinate beyond " + Number(kLargestCoordinate),
+                 "choose another unit of length", &findings);
   if (!findings.empty()) return findings;
+  const double extent =
+      (soup.vertices.rowwise().maxCoeff() - soup.vertices.rowwise().minCoeff()).maxCoeff();
+  if (extent > 0 && extent < 1 / kLargestCoordinate) {
+    findings.push_back({Severity::kFatal, "coordinate-out-of-range",
+                        FileName(soup) + ": the whole mesh is only " + Number(extent) +
+                            " in size, less than " + Number(1 / kLargestCoordinate) +
+                            "; choose another unit of length"});
+    return findings;
+  }
 
   for (int p = 0; p < soup.NumPolygons(); ++p) {
     const int begin = soup.polygon_begin[p], end = soup.polygon_begin[p + 1];

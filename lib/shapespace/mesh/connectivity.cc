@@ -32,18 +32,19 @@ void CheckJoins(const std::vector<Edge>& joins, int num_vertices, const char* wh
   }
 }
 
-}  // namespace
-
-std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
-                                                       std::vector<int> polygon_begin,
-                                                       std::vector<int> corners,
-                                                       const std::vector<Edge>& segments,
-                                                       const std::vector<Edge>& stiffeners) {
-  if (num_vertices <= 0) throw MeshError("a mesh needs at least one vertex");
+void CheckPolygons(int num_vertices, const std::vector<int>& polygon_begin,
+                   const std::vector<int>& corners) {
   if (polygon_begin.empty() || polygon_begin.front() != 0 ||
       polygon_begin.back() != static_cast<int>(corners.size()) ||
       !std::is_sorted(polygon_begin.begin(), polygon_begin.end())) {
     throw MeshError("polygon_begin must rise from 0 to the number of corners");
+  }
+  for (size_t p = 0; p + 1 < polygon_begin.size(); ++p) {
+    const int size = polygon_begin[p + 1] - polygon_begin[p];
+    if (size < 3) {
+      throw MeshError("polygon " + std::to_string(p) + " has " + std::to_string(size) +
+                      " corners; a polygon needs three");
+    }
   }
   for (int v : corners) {
     if (v < 0 || v >= num_vertices) {
@@ -51,32 +52,86 @@ std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
                       std::to_string(num_vertices - 1));
     }
   }
+}
+
+/// Fans from the smallest vertex of each polygon.
+Eigen::Matrix3Xi Fans(const std::vector<int>& polygon_begin, const std::vector<int>& corners) {
+  const size_t num_polygons = polygon_begin.size() - 1;
+  Eigen::Matrix3Xi triangles(3, corners.size() - 2 * num_polygons);
+  int next = 0;
+  for (size_t p = 0; p < num_polygons; ++p) {
+    const int* const corner = corners.data() + polygon_begin[p];
+    const int size = polygon_begin[p + 1] - polygon_begin[p];
+    const int apex = static_cast<int>(std::min_element(corner, corner + size) - corner);
+    for (int k = 2; k < size; ++k) {
+      triangles.col(next++) << corner[apex], corner[(apex + k - 1) % size],
+          corner[(apex + k) % size];
+    }
+  }
+  return triangles;
+}
+
+void CheckTriangles(const std::vector<int>& polygon_begin, const std::vector<int>& corners,
+                    const Eigen::Matrix3Xi& triangles) {
+  const size_t num_polygons = polygon_begin.size() - 1;
+  bool good = triangles.cols() == static_cast<Eigen::Index>(corners.size() - 2 * num_polygons);
+  int f = 0;
+  for (size_t p = 0; p < num_polygons && good; ++p) {
+    const auto first = corners.begin() + polygon_begin[p];
+    const auto last = corners.begin() + polygon_begin[p + 1];
+    for (const int end = f + static_cast<int>(last - first) - 2; f < end; ++f) {
+      for (const int v : triangles.col(f)) good = good && std::find(first, last, v) != last;
+    }
+  }
+  if (!good) {
+    throw MeshError(
+        "triangles: must be those into which the polygons are cut, polygon after polygon, two less "
+        "than each has corners");
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
+                                                       std::vector<int> polygon_begin,
+                                                       std::vector<int> corners,
+                                                       const std::vector<Edge>& segments,
+                                                       const std::vector<Edge>& stiffeners,
+                                                       const Eigen::Matrix3Xi& triangles) {
+  if (num_vertices <= 0) throw MeshError("a mesh needs at least one vertex");
+  CheckPolygons(num_vertices, polygon_begin, corners);
   CheckJoins(segments, num_vertices, "segment");
   CheckJoins(stiffeners, num_vertices, "stiffener");
 
   std::shared_ptr<Connectivity> result(new Connectivity);
   result->num_vertices_ = num_vertices;
 
-  std::vector<std::array<int, 3>> triangles;
+  if (triangles.cols() == 0) {
+    result->triangles_ = Fans(polygon_begin, corners);
+  } else {
+    CheckTriangles(polygon_begin, corners, triangles);
+    result->triangles_ = triangles;
+  }
+
   std::vector<Edge> extra;
   for (size_t p = 0; p + 1 < polygon_begin.size(); ++p) {
     const int* corner = corners.data() + polygon_begin[p];
     const int size = polygon_begin[p + 1] - polygon_begin[p];
-    for (int k = 2; k < size; ++k) triangles.push_back({corner[0], corner[k - 1], corner[k]});
-    if (size == 4 && corner[1] != corner[3]) extra.push_back(Sorted(corner[1], corner[3]));
+    for (int k = 0; k < size && size > 3; ++k) {
+      const int a = corner[k], b = corner[(k + 2) % size];
+      if (a != b) extra.push_back(Sorted(a, b));
+    }
   }
   for (const auto& [a, b] : segments) extra.push_back(Sorted(a, b));
   for (const auto& [a, b] : stiffeners) extra.push_back(Sorted(a, b));
 
-  result->triangles_.resize(3, triangles.size());
   std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (size_t f = 0; f < triangles.size(); ++f) {
+  sides.reserve(result->triangles_.size());
+  for (const auto& t : result->triangles_.colwise()) {
     for (int k = 0; k < 3; ++k) {
-      result->triangles_(k, f) = triangles[f][k];
-      const int a = triangles[f][k], b = triangles[f][(k + 1) % 3];
+      const int a = t[k], b = t[(k + 1) % 3];
       // A side of no length in a degenerate triangle is no edge.
-      if (a != b) sides.push_back({Sorted(a, b), triangles[f][(k + 2) % 3], a < b});
+      if (a != b) sides.push_back({Sorted(a, b), t[(k + 2) % 3], a < b});
     }
   }
   std::stable_sort(sides.begin(), sides.end(),
@@ -117,6 +172,7 @@ std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
   }
   result->polygon_begin_ = std::move(polygon_begin);
   result->corners_ = std::move(corners);
+  result->segments_ = segments;
   return result;
 }
 

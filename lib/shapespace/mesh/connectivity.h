@@ -16,14 +16,18 @@ class Connectivity {
  public:
   /// Polygons as in `Soup` (`polygon_begin` of size P + 1, `corners`); `segments` are the edges of
   /// straight-line graphs; `stiffeners` are further edges that the metric is to hold.
-  /// Polygons are triangulated as fans from their first corner; the second diagonal of every
-  /// quadrilateral becomes an extra edge, so that a metric does not depend on which one was taken.
-  /// \throw MeshError if there is no vertex, or an index is outside [0, num_vertices), or a segment
-  ///        or stiffener joins a vertex to itself.
+  /// `triangles`, 3 x T, is how the polygons are cut, polygon after polygon, two triangles less
+  /// than each has corners (`Triangulate`). Without, they are cut as fans from their smallest
+  /// vertex, which is right where they are convex. All diagonals of a polygon that cut off one
+  /// corner become edges, so that a polygon is held in shape whichever way it was cut.
+  /// \throw MeshError if there is no vertex, a polygon has fewer than three corners, an index is
+  ///        outside [0, num_vertices), a segment or stiffener joins a vertex to itself, or the
+  ///        triangles are not those of the polygons.
   static std::shared_ptr<const Connectivity> Make(
       int num_vertices, std::vector<int> polygon_begin, std::vector<int> corners,
       const std::vector<std::pair<int, int>>& segments = {},
-      const std::vector<std::pair<int, int>>& stiffeners = {});
+      const std::vector<std::pair<int, int>>& stiffeners = {},
+      const Eigen::Matrix3Xi& triangles = {});
 
   /// A triangle mesh without extra edges; `triangles` is 3 x F.
   static std::shared_ptr<const Connectivity> FromTriangles(int num_vertices,
@@ -35,16 +39,17 @@ class Connectivity {
   int NumEdges() const { return static_cast<int>(edges_.cols()); }
   int NumHinges() const { return static_cast<int>(hinges_.cols()); }
 
-  /// The file's polygons, for output.
+  /// The file's polygons and segments, for output.
   const std::vector<int>& PolygonBegin() const { return polygon_begin_; }
   const std::vector<int>& Corners() const { return corners_; }
+  const std::vector<std::pair<int, int>>& Segments() const { return segments_; }
 
-  /// The fan triangulation, for metrics, 3 x F.
+  /// The triangles into which the polygons are cut, 3 x F.
   const Eigen::Matrix3Xi& Triangles() const { return triangles_; }
 
   /// Unique edges, 2 x E, each with its smaller vertex first. The first `NumTriangleEdges()` are
-  /// sides of triangles, in lexicographic order; the others are segments, quadrilaterals' second
-  /// diagonals and stiffeners that are no sides of triangles.
+  /// sides of triangles, in lexicographic order; the others are segments, diagonals of polygons
+  /// that cut off one corner, and stiffeners, as far as they are no sides of triangles.
   const Eigen::Matrix2Xi& Edges() const { return edges_; }
   int NumTriangleEdges() const { return num_triangle_edges_; }
 
@@ -61,6 +66,7 @@ class Connectivity {
   int num_vertices_ = 0;
   int num_triangle_edges_ = 0;
   std::vector<int> polygon_begin_, corners_;
+  std::vector<std::pair<int, int>> segments_;
   Eigen::Matrix3Xi triangles_;
   Eigen::Matrix2Xi edges_;
   Eigen::Matrix4Xi hinges_;

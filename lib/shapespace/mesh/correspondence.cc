@@ -9,8 +9,10 @@
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/check_structure.h>
 #include <shapespace/mesh/check_words.h>
+#include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/sides.h>
 #include <shapespace/mesh/sorted_polygons.h>
+#include <shapespace/mesh/volume.h>
 
 namespace shapespace {
 namespace {
@@ -45,6 +47,8 @@ class Comparison {
 
   void Run() {
     if (!CountsAgree() || !PolygonsAgree() || !SegmentsAgree()) return;
+    if (!reference_.vertices.allFinite() || !pose_.vertices.allFinite()) return;
+    CompareOrientations();
     CompareLengths();
   }
 
@@ -69,17 +73,24 @@ class Comparison {
     return agree;
   }
 
-  /// Polygons that differ only in where their list begins and in winding get the same key.
+  /// Polygons that differ only in where their list begins and in winding get the same key; of the
+  /// two sides of a double-sided polygon the one that was not turned stands first.
   static SortedPolygons Canonical(const Soup& soup, std::vector<bool>* turned) {
     turned->assign(soup.NumPolygons(), false);
     using Iterator = std::vector<int>::iterator;
-    return SortedPolygons(soup, [turned](int p, Iterator first, Iterator last) {
+    SortedPolygons sorted(soup, [turned](int p, Iterator first, Iterator last) {
       std::rotate(first, std::min_element(first, last), last);
       if (*(first + 1) > *(last - 1)) {
         std::reverse(first + 1, last);
         (*turned)[p] = true;
       }
     });
+    for (auto first = sorted.order.begin(), last = first; first != sorted.order.end();
+         first = last) {
+      while (last != sorted.order.end() && SameKey(sorted, *first, sorted, *last)) ++last;
+      std::stable_partition(first, last, [turned](int p) { return !(*turned)[p]; });
+    }
+    return sorted;
   }
 
   bool PolygonsAgree() {
@@ -185,6 +196,16 @@ class Comparison {
     return false;
   }
 
+  void CompareOrientations() {
+    const auto connectivity =
+        Connectivity::Make(reference_.NumVertices(), reference_.polygon_begin, reference_.corners);
+    if (!IsMirrored(*connectivity, reference_.vertices, pose_.vertices)) return;
+    Tell(Severity::kFatal, "mirrored",
+         "the body is a mirror image of the reference: what is inside there is outside here; "
+         "export both in the same coordinate system, or pass --mirror x (y, z) to flip that "
+         "coordinate");
+  }
+
   /// Root mean square distance from the centre, of the vertices that have edges.
   static double Radius(const Soup& soup, const std::vector<int>& vertices) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -200,7 +221,7 @@ class Comparison {
         internal::MakeSides(reference_.NumVertices(), reference_.polygon_begin, reference_.corners);
     for (int e = 0; e < sides.NumEdges(); ++e) edges.push_back(sides.Ends(e));
     edges.insert(edges.end(), reference_.segments.begin(), reference_.segments.end());
-    if (edges.empty() || !reference_.vertices.allFinite() || !pose_.vertices.allFinite()) return;
+    if (edges.empty()) return;
 
     auto lengths = [&edges](const Soup& soup) {
       std::vector<double> result;

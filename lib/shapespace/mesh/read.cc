@@ -13,6 +13,8 @@
 #include <shapespace/mesh/check_positions.h>
 #include <shapespace/mesh/read_formats.h>
 #include <shapespace/mesh/text.h>
+#include <shapespace/mesh/triangulate.h>
+#include <shapespace/mesh/volume.h>
 
 namespace shapespace {
 namespace {
@@ -75,6 +77,35 @@ class Judge {
   std::vector<std::string>* warnings_;
 };
 
+/// Turns mirror images of a reference back, if asked to.
+class Mirror {
+ public:
+  /// \throw InvalidOptions if `axis` is none.
+  Mirror(char axis, const Soup& reference) : axis_(axis - 'x'), reference_(reference.vertices) {
+    if (axis == 0) return;
+    if (axis_ < 0 || axis_ > 2) {
+      throw InvalidOptions(std::string("mirror: '") + axis + "' is none of x, y and z");
+    }
+    connectivity_ =
+        Connectivity::Make(reference.NumVertices(), reference.polygon_begin, reference.corners);
+  }
+
+  /// True if the pose was a mirror image.
+  bool Flip(Soup* pose) const {
+    if (!connectivity_ || pose->NumVertices() != connectivity_->NumVertices() ||
+        !IsMirrored(*connectivity_, reference_, pose->vertices)) {
+      return false;
+    }
+    pose->vertices.row(axis_) *= -1;
+    return true;
+  }
+
+ private:
+  const int axis_;
+  const Shape& reference_;
+  std::shared_ptr<const Connectivity> connectivity_;  // null: nothing is to be turned
+};
+
 }  // namespace
 
 Soup ReadSoup(const std::string& file) {
@@ -130,8 +161,13 @@ Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& option
   const Soup& first = poses.appearance;
   judge.Hear<MeshError>(CheckSoup(first));
   poses.shapes.push_back(first.vertices);
+  const Mirror mirror(options.mirror, first);
   for (size_t i = 1; i < files.size(); ++i) {
-    const Soup pose = ReadSoup(files[i]);
+    Soup pose = ReadSoup(files[i]);
+    if (mirror.Flip(&pose)) {
+      poses.warnings.push_back(files[i] + ": is a mirror image of " + files[0] + "; its " +
+                               options.mirror + " has changed sign");
+    }
     judge.Hear<CorrespondenceError>(CheckCorrespondence(first, pose));
     // Only its positions are used from here on; the polygons are the first file's.
     judge.Hear<MeshError>(internal::CheckPositions(pose));
@@ -141,8 +177,9 @@ Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& option
   if (!options.stiffeners.empty()) {
     stiffeners = ReadStiffeners(options.stiffeners, first.NumVertices());
   }
-  poses.connectivity = Connectivity::Make(first.NumVertices(), first.polygon_begin, first.corners,
-                                          first.segments, stiffeners);
+  poses.connectivity =
+      Connectivity::Make(first.NumVertices(), first.polygon_begin, first.corners, first.segments,
+                         stiffeners, Triangulate(first.polygon_begin, first.corners, poses.shapes));
   return poses;
 }
 

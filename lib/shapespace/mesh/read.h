@@ -36,6 +36,10 @@ struct ReadOptions {
   bool allow_nonmanifold =
       false;               ///< take non-manifold or inconsistently wound meshes, with a warning
   std::string stiffeners;  ///< file of further edges; empty for none
+
+  /// 'x', 'y' or 'z': poses that are mirror images of the first (closed meshes only: `IsMirrored`)
+  /// have this coordinate's sign changed. 0: they are refused.
+  char mirror = 0;
 };
 
 /// Reads one or more files as poses of the first one's connectivity.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <sstream>
 
 #include <shapespace/base/error.h>
+#include <shapespace/mesh/volume.h>
 
 namespace shapespace {
 namespace {
@@ -101,29 +101,6 @@ Eigen::VectorXd HingeAreas(const Connectivity& connectivity, const std::vector<S
   return result;
 }
 
-double EnclosedVolume(const Connectivity& connectivity, const Shape& shape) {
-  double volume = 0;
-  for (int f = 0; f < connectivity.NumTriangles(); ++f) {
-    const Eigen::Vector3i t = connectivity.Triangles().col(f);
-    volume += shape.col(t(0)).dot(shape.col(t(1)).cross(shape.col(t(2)))) / 6;
-  }
-  return volume;
-}
-
-void CheckClosed(const Connectivity& connectivity) {
-  std::set<std::pair<int, int>> open;  // directed sides whose opposite was not yet seen
-  for (int f = 0; f < connectivity.NumTriangles(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = connectivity.Triangles()(k, f), b = connectivity.Triangles()((k + 1) % 3, f);
-      if (open.erase({b, a}) == 0) open.insert({a, b});
-    }
-  }
-  if (connectivity.IsGraph() || !open.empty()) {
-    throw InvalidOptions(
-        "volume: the mesh is not closed, so it encloses none; use volume 0, or fill its holes");
-  }
-}
-
 Dihedral MakeDihedral(double bending, const Connectivity& connectivity, const Measures& measures,
                       const Eigen::VectorXd& hinge_area, const std::vector<Shape>& poses) {
   Dihedral feature;
@@ -159,6 +136,15 @@ Dihedral MakeDihedral(double bending, const Connectivity& connectivity, const Me
 void CheckNonNegative(double value, const char* field) {
   if (!(value >= 0) || !std::isfinite(value)) {
     throw InvalidOptions(std::string(field) + ": must be a number, zero or more");
+  }
+}
+
+/// Squares of lengths, and their products, must be numbers too.
+void CheckMagnitude(const Shape& pose) {
+  const double extent = (pose.rowwise().maxCoeff() - pose.rowwise().minCoeff()).maxCoeff();
+  if (pose.cwiseAbs().maxCoeff() > kLargestCoordinate ||
+      (extent > 0 && extent < 1 / kLargestCoordinate)) {
+    throw MeshError("a pose has coordinates beyond 1e60 or is smaller than 1e-60: scale it");
   }
 }
 
@@ -209,6 +195,7 @@ Metric FreezeMetric(const MetricOptions& options,
                       std::to_string(connectivity->NumVertices()));
     }
     if (!pose.allFinite()) throw MeshError("a pose has a coordinate that is not finite");
+    CheckMagnitude(pose);
   }
   if (connectivity->NumEdges() == 0) throw MeshError("the mesh has no edge");
 
@@ -216,6 +203,7 @@ Metric FreezeMetric(const MetricOptions& options,
   Measures measures = Measure(*connectivity, poses);
   Metric metric;
   metric.options = options;
+  if (connectivity->NumHinges() == 0) metric.options.bending = 0;
   metric.connectivity = connectivity;
   metric.unit = unit > 0                  ? unit
                 : connectivity->IsGraph() ? measures.squared_length.cwiseSqrt().sum()
@@ -258,12 +246,15 @@ Metric FreezeMetric(const MetricOptions& options,
     feature.weights = options.lambda * metric.vertex_area;
     metric.features.emplace_back(std::move(feature));
   }
-  if (options.bending > 0 && connectivity->NumHinges() > 0) {
+  if (metric.options.bending > 0) {
     metric.features.emplace_back(
         MakeDihedral(options.bending, *connectivity, measures, metric.hinge_area, scaled));
   }
   if (options.volume > 0) {
-    CheckClosed(*connectivity);
+    if (!IsClosed(*connectivity)) {
+      throw InvalidOptions(
+          "volume: the mesh is not closed, so it encloses none; use volume 0, or fill its holes");
+    }
     Volume feature;
     feature.stencils = connectivity->Triangles();
     double volume = 0;

@@ -59,7 +59,7 @@ using AnyFeature = std::variant<EdgeLength, LogLength, Position, Dihedral, Volum
 /// every solver, and every path between these poses, means the same by a length. Works on shapes in
 /// its own unit: divide the user's coordinates by `unit`.
 struct Metric {
-  MetricOptions options;
+  MetricOptions options;  ///< as given; but bending is 0 where the mesh has no hinge
   std::shared_ptr<const Connectivity> connectivity;
   double unit = 1;              ///< length, in the user's units, that has length 1 here
   Eigen::VectorXd vertex_area;  ///< A_p, of sum 1 (all positive, also where the mesh degenerates)
@@ -75,10 +75,11 @@ struct Metric {
 /// Freezes `options` on all `poses` (user's units; each 3 x m): squared edge lengths and areas are
 /// the poses' means, the damping of hinges looks at all consecutive pairs. Graphs without faces
 /// have total edge length 1 instead of area 1. `unit` > 0 is the unit to take instead: coarse
-/// levels of a mesh take the finest one's.
-/// \throw InvalidOptions if the options are invalid, or ask for bending or volume where the mesh
-/// cannot have it (volume needs a closed mesh); MeshError if a shape has another number of
-/// vertices, is not finite or has no extent.
+/// levels of a mesh take the finest one's. Where no two triangles share an edge, as in graphs,
+/// nothing can bend: `Metric::options.bending` is 0 then.
+/// \throw InvalidOptions if the options are invalid, or ask for volume and the mesh is not closed;
+/// MeshError if a shape has another number of vertices, is not finite, has no extent or lies beyond
+/// `kLargestCoordinate`.
 Metric FreezeMetric(const MetricOptions& options,
                     const std::shared_ptr<const Connectivity>& connectivity,
                     const std::vector<Shape>& poses, double unit = 0);

@@ -34,11 +34,7 @@ Soup PlainAppearance(const Connectivity& connectivity) {
   soup.vertices.resize(3, connectivity.NumVertices());
   soup.polygon_begin = connectivity.PolygonBegin();
   soup.corners = connectivity.Corners();
-  if (connectivity.IsGraph()) {
-    for (int e = 0; e < connectivity.NumEdges(); ++e) {
-      soup.segments.emplace_back(connectivity.Edges()(0, e), connectivity.Edges()(1, e));
-    }
-  }
+  soup.segments = connectivity.Segments();
   return soup;
 }
 

@@ -20,8 +20,7 @@ std::string FrameName(const std::string& pattern, int number);
 void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes,
                  const Soup& appearance);
 
-/// The appearance of a mesh that came from no file: its polygons and nothing else, and the edges of
-/// a graph.
+/// The appearance of a mesh that came from no file: its polygons and segments and nothing else.
 Soup PlainAppearance(const Connectivity& connectivity);
 
 }  // namespace shapespace

@@ -69,8 +69,10 @@ std::vector<int> BreadthFirstOrder(const Connectivity& connectivity) {
 PathEnergy::PathEnergy(const Metric& metric, int inner, End end)
     : metric_(metric), end_(end), inner_(inner), stride_(PaddedLength(inner)) {
   if (inner < 1) throw InvalidOptions("inner: a path energy needs at least one inner shape");
-  if (end == End::kFree && metric.options.bending > 0) {
-    throw InvalidOptions("bending: a path energy with a free end takes none; set it to 0");
+  for (const AnyFeature& any : metric.features) {
+    if (end == End::kFree && std::holds_alternative<Dihedral>(any)) {
+      throw InvalidOptions("bending: a path energy with a free end takes none; set it to 0");
+    }
   }
   vertex_of_row_ = BreadthFirstOrder(*metric.connectivity);
   const int num_vertices = static_cast<int>(vertex_of_row_.size());

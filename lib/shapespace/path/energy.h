@@ -29,8 +29,8 @@ class PathEnergy {
   };
 
   /// `metric` is kept by reference and must outlive the object.
-  /// \throw InvalidOptions if `inner` < 1, or if the end is free and the metric has bending, whose
-  ///        values at the ends are computed once.
+  /// \throw InvalidOptions if `inner` < 1, or if the end is free and the metric has the
+  ///        dihedral feature, whose values at the ends are computed once.
   PathEnergy(const Metric& metric, int inner, End end = End::kFixed);
 
   int Inner() const { return inner_; }

@@ -1,12 +1,38 @@
 #include <shapespace/path/path.h>
 
 #include <algorithm>
-#include <functional>
+#include <cmath>
+#include <sstream>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 
 namespace shapespace {
+namespace {
+
+/// False also if a number is not one.
+bool Rise(const std::vector<double>& numbers) {
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    if (!std::isfinite(numbers[i]) || (i > 0 && !(numbers[i] > numbers[i - 1]))) return false;
+  }
+  return true;
+}
+
+/// \throw InvalidOptions naming the first time that cannot be shown.
+void CheckTimes(const std::vector<double>& times, double first, double last) {
+  for (size_t k = 0; k < times.size(); ++k) {
+    const bool inside = times[k] >= first && times[k] <= last;
+    if (inside && (k == 0 || times[k] > times[k - 1])) continue;
+    std::ostringstream message;
+    message << "times: " << times[k]
+            << (inside ? " does not rise above the one before" : " is not on the path, which runs")
+            << (inside ? "" : " from ");
+    if (!inside) message << first << " to " << last;
+    throw InvalidOptions(message.str());
+  }
+}
+
+}  // namespace
 
 std::vector<Shape> Path::Placed() const {
   std::vector<Shape> result(NumShapes());
@@ -16,6 +42,10 @@ std::vector<Shape> Path::Placed() const {
 
 std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<double>& parameters,
                             const std::vector<double>& times) {
+  if (shapes.empty() || parameters.size() != shapes.size() || !Rise(parameters)) {
+    throw InvalidOptions("parameters: must rise, one for each shape, of which there must be one");
+  }
+  CheckTimes(times, parameters.front(), parameters.back());
   const int count = static_cast<int>(shapes.size());
   const int window = std::min(4, count);
   std::vector<Shape> result(times.size());
@@ -41,11 +71,8 @@ std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<
 }
 
 Path Resample(const Path& path, const std::vector<double>& times) {
-  if (times.empty() || !(times.front() >= path.parameters.front()) ||
-      !(times.back() <= path.parameters.back()) ||
-      std::adjacent_find(times.begin(), times.end(), std::greater_equal<double>()) != times.end()) {
-    throw InvalidOptions("times: must rise, between the first and the last of the path");
-  }
+  if (times.empty()) throw InvalidOptions("times: at least one is needed");
+  CheckTimes(times, path.parameters.front(), path.parameters.back());
   Path result;
   result.metric = path.metric;
   result.parameters = times;

@@ -34,15 +34,19 @@ struct Path {
   std::vector<Shape> Placed() const;
 };
 
-/// `shapes` at `times` rising parameter values, by cubic interpolation in time through the
-/// four nearest shapes; a value that is a shape's own gives that shape.
+/// `shapes`, which lie at rising `parameters`, at rising `times` between the first and the last of
+/// these, by cubic interpolation in time through the four nearest shapes; a time that is a shape's
+/// own gives that shape.
+/// \throw InvalidOptions if there is no shape, or not as many parameters as shapes, or if
+///        parameters or times do not rise, are not finite or leave the path.
 std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<double>& parameters,
                             const std::vector<double>& times);
 
 /// The path seen at other times, rising between its first and its last: shapes as above, but never
 /// across a pose, where a path may have a corner. `poses` are those that a time hits exactly,
 /// `extrapolated` counts the times after the last shape that was not.
-/// \throw InvalidOptions if the times do not rise or leave the path.
+/// \throw InvalidOptions if there is no time, or times do not rise, are not finite or leave the
+/// path.
 Path Resample(const Path& path, const std::vector<double>& times);
 
 /// The first `count` shapes of a path, to go on from: the same metric and times, and the poses that

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr char kMagic[8] = {'S', 'H', 'A', 'P', 'P', 'A', 'T', 'H'};
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 // Magic, version, checksum, length of the header.
 constexpr size_t kPreamble = sizeof kMagic + 2 * sizeof(uint32_t) + sizeof(uint64_t);
 
@@ -198,12 +198,17 @@ Path Parse(const std::string& bytes) {
   const int num_vertices = header.at("vertices").get<int>();
   const auto begin = arrays.Get<Eigen::VectorXi>("polygon_begin", Eigen::Dynamic, 1);
   const auto corners = arrays.Get<Eigen::VectorXi>("corners", Eigen::Dynamic, 1);
-  const auto extra = arrays.Get<Eigen::Matrix2Xi>("extra_edges", 2, Eigen::Dynamic);
-  std::vector<std::pair<int, int>> segments;
-  for (int e = 0; e < extra.cols(); ++e) segments.emplace_back(extra(0, e), extra(1, e));
+  const auto pairs = [&](const char* name) {
+    const auto columns = arrays.Get<Eigen::Matrix2Xi>(name, 2, Eigen::Dynamic);
+    std::vector<std::pair<int, int>> result;
+    for (int i = 0; i < columns.cols(); ++i) result.emplace_back(columns(0, i), columns(1, i));
+    return result;
+  };
   const auto metric = std::make_shared<Metric>();
-  metric->connectivity = Connectivity::Make(num_vertices, {begin.begin(), begin.end()},
-                                            {corners.begin(), corners.end()}, segments);
+  metric->connectivity =
+      Connectivity::Make(num_vertices, {begin.begin(), begin.end()},
+                         {corners.begin(), corners.end()}, pairs("segments"), pairs("extra_edges"),
+                         arrays.Get<Eigen::Matrix3Xi>("triangles", 3, Eigen::Dynamic));
   const Connectivity& connectivity = *metric->connectivity;
   metric->options = OptionsFromJson(header.at("metric"));
   metric->unit = header.at("unit").get<double>();
@@ -271,6 +276,12 @@ void WritePath(const std::string& file, const Path& path) {
   arrays.Add("polygon_begin", connectivity.PolygonBegin().data(),
              connectivity.PolygonBegin().size(), 1);
   arrays.Add("corners", connectivity.Corners().data(), connectivity.Corners().size(), 1);
+  arrays.Add("triangles", connectivity.Triangles());
+  Eigen::Matrix2Xi segments(2, connectivity.Segments().size());
+  for (Eigen::Index i = 0; i < segments.cols(); ++i) {
+    segments.col(i) << connectivity.Segments()[i].first, connectivity.Segments()[i].second;
+  }
+  arrays.Add("segments", segments);
   arrays.Add("extra_edges", Eigen::Matrix2Xi(connectivity.Edges().rightCols(
                                 connectivity.NumEdges() - connectivity.NumTriangleEdges())));
   arrays.Add("vertex_area", metric.vertex_area);

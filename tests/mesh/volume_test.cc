@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <shapespace/mesh/volume.h>
+
+#include "mesh/bodies.h"
+
+namespace shapespace {
+namespace {
+
+using testing::Cube;
+using testing::Grid;
+using testing::Torus;
+
+std::shared_ptr<const Connectivity> Make(const Soup& soup) {
+  return Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments);
+}
+
+TEST(VolumeTest, IsTheSameFarFromTheOrigin) {
+  const Soup cube = Cube();
+  const auto connectivity = Make(cube);
+  EXPECT_NEAR(EnclosedVolume(*connectivity, cube.vertices), 1, 1e-14);
+  const Eigen::Matrix3d turn(Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()));
+  const Shape far = (turn * cube.vertices).colwise() + Eigen::Vector3d(1e6, 2e6, -3e6);
+  EXPECT_NEAR(EnclosedVolume(*connectivity, far), 1, 1e-8);
+}
+
+TEST(VolumeTest, ClosedMeshesAreClosedInWhateverOrderTheirTrianglesStand) {
+  // Two cubes that share an edge, which has four triangles: closed all the same.
+  const Soup cube = Cube();
+  std::vector<std::vector<int>> polygons;
+  const auto add = [&](const std::vector<int>& to) {
+    for (int p = 0; p < cube.NumPolygons(); ++p) {
+      polygons.emplace_back();
+      for (int k = 0; k < 4; ++k) polygons.back().push_back(to[cube.corners[4 * p + k]]);
+    }
+  };
+  add({0, 1, 2, 3, 4, 5, 6, 7});
+  add({3, 8, 9, 10, 7, 11, 12, 13});  // beyond the edge 3-7
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::shuffle(polygons.begin(), polygons.end(), random);
+    EXPECT_TRUE(IsClosed(*Make(testing::MakeSoup(Shape::Zero(3, 14), polygons)))) << trial;
+  }
+  polygons.pop_back();
+  EXPECT_FALSE(IsClosed(*Make(testing::MakeSoup(Shape::Zero(3, 14), polygons))));
+}
+
+TEST(VolumeTest, OpenAndInconsistentlyWoundMeshesAndGraphsAreNotClosed) {
+  EXPECT_FALSE(IsClosed(*Make(Grid(2, 2))));
+  EXPECT_FALSE(IsClosed(*Connectivity::Make(2, {0}, {}, {{0, 1}})));
+  Soup cube = Cube();
+  EXPECT_TRUE(IsClosed(*Make(cube)));
+  std::reverse(cube.corners.begin(), cube.corners.begin() + 4);
+  EXPECT_FALSE(IsClosed(*Make(cube)));
+}
+
+TEST(VolumeTest, MirrorImagesOfClosedBodiesAreTold) {
+  const Soup torus = Torus(12, 8), sheet = Grid(4, 4);
+  const auto closed = Make(torus);
+  Shape flipped = torus.vertices;
+  flipped.row(2) *= -1;
+  EXPECT_TRUE(IsMirrored(*closed, torus.vertices, flipped));
+  EXPECT_TRUE(IsMirrored(*closed, flipped, torus.vertices));
+  EXPECT_FALSE(IsMirrored(*closed, flipped, flipped));  // inside out, but both alike
+  const Eigen::Matrix3d turn(Eigen::AngleAxisd(3, Eigen::Vector3d(1, 2, 3).normalized()));
+  EXPECT_FALSE(IsMirrored(*closed, torus.vertices, 100 * (turn * torus.vertices)));
+  // Flat enough for its sides to change places.
+  Shape leaf = torus.vertices, turned_leaf = leaf;
+  leaf.row(2) *= 0.001;
+  turned_leaf.row(2) *= -0.001;
+  EXPECT_FALSE(IsMirrored(*closed, leaf, turned_leaf));
+  Shape flipped_sheet = sheet.vertices;
+  flipped_sheet.row(0) *= -1;
+  EXPECT_FALSE(IsMirrored(*Make(sheet), sheet.vertices, flipped_sheet));
+}
+
+}  // namespace
+}  // namespace shapespace
