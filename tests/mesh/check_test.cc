@@ -93,6 +93,20 @@ TEST(CheckTest, NonFiniteCoordinates) {
                 {"pose.obj", "(2): vertex 4 (line 103), vertex 7 (line 106)"});
 }
 
+TEST(CheckTest, CoordinatesWhoseSquaresWouldBeNoNumbers) {
+  for (const double far : {1e150, -1e307}) {
+    Soup soup = WithLines(Cube());
+    soup.vertices(1, 4) = far;
+    ExpectFinding(soup, "coordinate-out-of-range", Severity::kFatal,
+                  {"pose.obj", "1e+60", "(1): vertex 5 (line 104)", "another unit"});
+  }
+  Soup tiny = WithLines(Cube());
+  tiny.vertices *= 1e-150;
+  ExpectFinding(tiny, "coordinate-out-of-range", Severity::kFatal, {"only 1e-150 in size"});
+  tiny.vertices *= 1e100;
+  EXPECT_TRUE(CheckSoup(tiny).front().severity == Severity::kNote);
+}
+
 TEST(CheckTest, DegeneratePolygons) {
   Shape vertices(3, 4);
   vertices << 0, .1, .3, 0, 0, .1, .3, 1, 0, .1, .3, 0;

@@ -112,6 +112,33 @@ TEST(CorrespondenceTest, MirroredWindingIsAWarning) {
   ExpectOnly(torus, pose, "polygon-winding", Severity::kWarning, {"(63)", "mirror"});
 }
 
+TEST(CorrespondenceTest, DoubleSidedPolygonsInAnotherOrderAreNotWoundTheOtherWay) {
+  Soup sheet = Grid(5, 4);
+  const std::vector<int> front = sheet.corners;
+  for (size_t k = 0; k < front.size(); k += 3) {
+    sheet.corners.insert(sheet.corners.end(), {front[k], front[k + 2], front[k + 1]});
+    sheet.polygon_begin.push_back(static_cast<int>(sheet.corners.size()));
+  }
+  Soup pose = sheet;  // its backs first
+  std::rotate(pose.corners.begin(), pose.corners.begin() + front.size(), pose.corners.end());
+  ExpectOnly(sheet, pose, "polygon-order", Severity::kWarning, {"another order"});
+  // One front turned to the back: two backs there, and no front.
+  std::swap(pose.corners[pose.corners.size() - 1], pose.corners[pose.corners.size() - 2]);
+  ExpectOnly(sheet, pose, "polygon-winding", Severity::kWarning, {"(1)"});
+}
+
+TEST(CorrespondenceTest, MirrorImagesOfClosedBodiesAreRefused) {
+  const Soup torus = Torus(9, 7);
+  for (int axis = 0; axis < 3; ++axis) {
+    Soup pose = torus;
+    pose.vertices.row(axis) *= -1;
+    ExpectOnly(torus, pose, "mirrored", Severity::kFatal, {"mirror image", "--mirror x"});
+  }
+  Soup turned = torus;
+  turned.vertices.topRows(2) *= -1;  // by 180 degrees
+  EXPECT_TRUE(CheckCorrespondence(torus, turned).empty());
+}
+
 TEST(CorrespondenceTest, Segments) {
   Soup a;
   a.vertices = Shape::Random(3, 4);

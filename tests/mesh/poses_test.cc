@@ -74,6 +74,34 @@ TEST_F(PosesTest, OtherMeshesAreRefused) {
       {"c.obj", "polygon 1 (line 5) with vertices 1 3 2 4", "polygon 1 (line 5) with 1 2 3 4"});
 }
 
+TEST_F(PosesTest, MirrorImagesAreTurnedBackIfAsked) {
+  const std::string faces = "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  const std::vector<std::string> files = {
+      File("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" + faces),
+      File("b.obj", "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 1\n" + faces),
+      File("c.obj", "v 0 0 0\nv 1 0 0\nv 0 -1 0\nv 0 0 1\n" + faces)};
+  ExpectError<CorrespondenceError>([&] { ReadPoses(files); }, {"c.obj", "mirror image"});
+  ReadOptions options;
+  options.mirror = 'y';
+  const Poses poses = ReadPoses(files, options);
+  EXPECT_EQ(poses.shapes[1](0, 1), 2.0);
+  EXPECT_EQ(poses.shapes[2](1, 2), 1.0);
+  ASSERT_EQ(poses.warnings.size(), 1u);
+  EXPECT_NE(poses.warnings[0].find("c.obj: is a mirror image"), std::string::npos);
+  options.mirror = 'w';
+  ExpectError<InvalidOptions>([&] { ReadPoses(files, options); }, {"mirror: 'w'"});
+}
+
+TEST_F(PosesTest, ConcavePolygonsAreCutAsTheMeanOfThePosesSuits) {
+  // A dart with its tip at vertex 2: only the diagonal 2-4 lies inside.
+  const std::string dart = "v 0 0 0\nv 2 0.5 0\nv 0 1 0\nv 0.5 0.5 0\nf 1 2 3 4\n";
+  const Poses poses = ReadPoses({File("a.obj", dart), File("b.obj", dart)});
+  for (int f = 0; f < 2; ++f) {
+    const Eigen::Vector3i t = poses.connectivity->Triangles().col(f);
+    EXPECT_TRUE((t.array() == 1).any() && (t.array() == 3).any()) << t.transpose();
+  }
+}
+
 TEST_F(PosesTest, StiffenersAreReadStrictly) {
   auto refused = [&](const std::string& content, const std::vector<std::string>& parts) {
     ExpectError<FileError>([&] { ReadStiffeners(File("stiff.txt", content), 10); }, parts);

@@ -143,6 +143,29 @@ TEST(FreezeMetric, HingesFoldedOrJumpingInThePosesAreLetGo) {
   EXPECT_NEAR(weight(3, -3) / weight(3, 3), 1, 1e-9);          // the jump is 16 degrees, not 344
 }
 
+TEST(FreezeMetric, TheEnclosedVolumeIsThatOfTheBodyFarFromTheOrigin) {
+  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  MetricOptions options;
+  options.volume = 1;
+  const Shape near = bar.pose(30);
+  const Shape far = near.colwise() + 1e6 * Eigen::Vector3d(1, -2, 3);
+  EXPECT_NEAR(Get<Volume>(FreezeMetric(options, bar.connectivity, {far})).reference,
+              Get<Volume>(FreezeMetric(options, bar.connectivity, {near})).reference, 1e-9);
+}
+
+TEST(FreezeMetric, SaysThatNothingBendsWhereNoTrianglesShareAnEdge) {
+  MetricOptions options;
+  options.bending = 1e-3;
+  Shape points(3, 3);
+  points << 0, 1, 1, 0, 0, 1, 0, 0, 0;
+  const auto graph = Connectivity::Make(3, {0}, {}, {{0, 1}, {1, 2}});
+  EXPECT_EQ(FreezeMetric(options, graph, {points}).options.bending, 0);
+  const auto triangle = Connectivity::Make(3, {0, 3}, {0, 1, 2});
+  EXPECT_EQ(FreezeMetric(options, triangle, {points}).options.bending, 0);
+  const Body sheet = MakeSheet(1, 1, 3, 3);
+  EXPECT_EQ(FreezeMetric(options, sheet.connectivity, {sheet.pose(0)}).options.bending, 1e-3);
+}
+
 TEST(FreezeMetric, RefusesWhatItCannotFreeze) {
   const Body sheet = MakeSheet(1, 1, 3, 3);
   const Shape flat = sheet.pose(0);
@@ -152,6 +175,9 @@ TEST(FreezeMetric, RefusesWhatItCannotFreeze) {
   Shape broken = flat;
   broken(1, 2) = std::nan("");
   EXPECT_THROW(FreezeMetric({}, sheet.connectivity, {broken}), MeshError);
+  for (const double scale : {1e150, 1e-150}) {
+    EXPECT_THROW(FreezeMetric({}, sheet.connectivity, {scale * flat}), MeshError);
+  }
   MetricOptions options;
   options.volume = 1;  // a sheet encloses none
   EXPECT_THROW(FreezeMetric(options, sheet.connectivity, {flat}), InvalidOptions);

@@ -9,6 +9,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/triangulate.h>
 
 #include "output/bodies.h"
 #include "support/message_of.h"
@@ -80,6 +81,31 @@ TEST(RenderFilmStripTest, ReversedFacesHaveTheBackColour) {
   const Counts counts = Count(RenderFilmStrip(*inside_out, {sphere.shape}, Small()));
   EXPECT_GT(counts.orange, 0.95 * EIGEN_PI * 45 * 45);
   EXPECT_EQ(counts.blue, 0);
+}
+
+TEST(RenderFilmStripTest, ConcavePolygonsShowNoBackAndCoverNoMoreThanThemselves) {
+  // A star of five points, one polygon; seen from its front.
+  constexpr int kCorners = 10;
+  Shape star(3, kCorners);
+  std::vector<int> corners;
+  for (int k = 0; k < kCorners; ++k) {
+    const double angle = 2 * EIGEN_PI * k / kCorners, radius = k % 2 == 0 ? 1 : 0.4;
+    star.col(k) << radius * std::cos(angle), radius * std::sin(angle), 0;
+    corners.push_back(k);
+  }
+  const auto connectivity = Connectivity::Make(kCorners, {0, kCorners}, corners, {}, {},
+                                               Triangulate({0, kCorners}, corners, {star}));
+  FilmStripOptions options;
+  options.frame_width = 400;
+  options.view = Eigen::Vector3d::UnitZ();
+  const Image image = RenderFilmStrip(*connectivity, {star}, options);
+  const Counts counts = Count(image);
+  EXPECT_EQ(counts.orange, 0);
+  // The star is 1 + cos(36 degrees) wide, and so is the frame less its margins. Its area is less
+  // than half of that of its hull.
+  const double degree = EIGEN_PI / 180;
+  const double unit = (image.width - 2 * 400 / 32.0) / (1 + std::cos(36 * degree));
+  EXPECT_NEAR(counts.drawn / (unit * unit), 5 * 0.4 * std::sin(36 * degree), 0.05);
 }
 
 TEST(RenderFilmStripTest, OneReversedTriangleShows) {

@@ -11,6 +11,7 @@
 #include <shapespace/base/parallel.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
+#include <shapespace/mesh/triangulate.h>
 #include <shapespace/metric/trapezoid.h>
 
 #include "support/paths.h"
@@ -288,6 +289,46 @@ TEST(PathEnergy, DoesNotDependOnFrameOrNumberingOfVertices) {
   const double expected = energy(bar.connectivity, shapes);
   EXPECT_NEAR(energy(bar.connectivity, turned), expected, 1e-11 * expected);
   EXPECT_NEAR(energy(renumbered, shuffled), expected, 1e-11 * expected);
+}
+
+TEST(PathEnergy, DoesNotDependOnTheCornerAtWhichPolygonsBegin) {
+  // A prism over a concave polygon of seven corners, leaning to one side and to the other.
+  constexpr int kCorners = 7;
+  Shape straight(3, 2 * kCorners);
+  for (int k = 0; k < kCorners; ++k) {
+    const double angle = 2 * M_PI * k / kCorners, radius = k % 2 == 0 ? 1 : 0.4;
+    straight.col(k) << radius * std::cos(angle), radius * std::sin(angle), 0;
+    straight.col(kCorners + k) = straight.col(k) + Eigen::Vector3d(0, 0, 1.5);
+  }
+  Shape leaning = straight;
+  leaning.row(0) += 0.5 * straight.row(2);
+  leaning.row(1) += 0.2 * straight.row(2).cwiseAbs2();
+  const std::vector<Shape> poses = {straight, leaning};
+  const auto energy = [&](int first) {
+    std::vector<std::vector<int>> polygons(2);
+    for (int k = 0; k < kCorners; ++k) {
+      const int next = (k + 1) % kCorners;
+      polygons[0].insert(polygons[0].begin(), k);
+      polygons[1].push_back(kCorners + k);
+      polygons.push_back({k, next, kCorners + next, kCorners + k});
+    }
+    std::vector<int> begin = {0}, corners;
+    for (std::vector<int>& polygon : polygons) {
+      std::rotate(polygon.begin(), polygon.begin() + first % polygon.size(), polygon.end());
+      corners.insert(corners.end(), polygon.begin(), polygon.end());
+      begin.push_back(static_cast<int>(corners.size()));
+    }
+    const auto connectivity = Connectivity::Make(2 * kCorners, begin, corners, {}, {},
+                                                 Triangulate(begin, corners, poses));
+    const Metric metric = FreezeMetric({}, connectivity, poses);
+    return FromPathEnergy(metric,
+                          NoisyBlend(straight / metric.unit, leaning / metric.unit, 3, 1e-2), 1)
+        .energy;
+  };
+  const double expected = energy(0);
+  for (int first = 1; first < kCorners; ++first) {
+    EXPECT_NEAR(energy(first), expected, 1e-12 * expected) << "beginning at corner " << first;
+  }
 }
 
 TEST(EnergyLowerBound, IsBelowAnyPathAndReachedWhereFeaturesMoveEvenly) {

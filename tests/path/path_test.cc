@@ -114,5 +114,29 @@ TEST(ResamplePath, RefusesTimesThatFallOrLeaveThePath) {
   EXPECT_THROW(Resample(path, {0.1, 1.4}), InvalidOptions);
 }
 
+TEST(ResamplePath, RefusesTimesThatAreNotFinite) {
+  const Path path = CorneredPath();
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    for (const std::vector<double>& times :
+         {std::vector<double>{bad}, {0.1, bad}, {bad, 0.9}, {0.1, bad, 0.9}}) {
+      EXPECT_THROW(Resample(path, times), InvalidOptions);
+      EXPECT_THROW(Resample(path.shapes, path.parameters, times), InvalidOptions);
+    }
+  }
+}
+
+TEST(Resample, RefusesWhatIsNoPathAndTimesOffIt) {
+  const std::vector<Shape> shapes(3, testing::Noise(5, 1, 1));
+  const std::vector<double> times = {0, 0.5, 1};
+  EXPECT_THROW(Resample({}, {}, {0.5}), InvalidOptions);
+  EXPECT_THROW(Resample(shapes, {0, 1}, {0.5}), InvalidOptions);
+  EXPECT_THROW(Resample(shapes, {0, 0.5, 0.5}, {0.5}), InvalidOptions);
+  EXPECT_THROW(Resample(shapes, {0, std::nan(""), 1}, {0.5}), InvalidOptions);
+  EXPECT_THROW(Resample(shapes, times, {-0.1}), InvalidOptions);
+  EXPECT_THROW(Resample(shapes, times, {0.2, 1.1}), InvalidOptions);
+  EXPECT_THROW(Resample(shapes, times, {0.5, 0.2}), InvalidOptions);
+  EXPECT_TRUE(Resample(shapes, times, {}).empty());
+}
+
 }  // namespace
 }  // namespace shapespace

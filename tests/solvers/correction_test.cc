@@ -351,6 +351,15 @@ TEST(PathEnergy, AFreeEndFollowsItsGradient) {
       InvalidOptions);
 }
 
+TEST(PathEnergy, AFreeEndIsRefusedForItsHingesAndNotForAnOption) {
+  // The default options ask for bending, of which a graph has none.
+  const auto graph = testing::SingleEdge();
+  Shape ends(3, 2);
+  ends << 0, 1, 0, 0, 0, 0;
+  const Metric metric = FreezeMetric({}, graph, {ends});
+  EXPECT_EQ(PathEnergy(metric, 1, PathEnergy::End::kFree).NumShapes(), 2);
+}
+
 TEST(CorrectPath, RefusesWhatCannotBeCorrected) {
   const Path given = Bricard();
   Path one = given;
