@@ -84,19 +84,20 @@ bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* ro
   }
   const double tolerance = std::max(options.tolerance, rounding_ / speed_);
   Shape root = *shape;
-  bool found = false;
+  bool found = false, converged = false;
   if (options.solver == StepSolver::kCeres) {
     const StepResult result = SolveStepWithCeres(map_, departure_.shape, target_, options.tolerance,
                                                  options.max_iterations, &root);
     row->iterations += result.iterations;
     row->residual = result.residual;
-    found = result.converged;
+    found = converged = result.converged;
   } else {
     found = SolveWithNewton(tolerance, options.max_iterations, row, &root);
+    converged = row->residual <= tolerance;
   }
   const double speed = (map_.Values(root) - current_).norm();
   if (!found || !(std::abs(speed / speed_ - 1) < kSpeedChange)) return false;
-  row->converged = row->residual <= tolerance;
+  row->converged = converged;
   *shape = root;
   return true;
 }
