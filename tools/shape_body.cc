@@ -57,7 +57,7 @@ void WritePoses(const std::string& name) {
   const SkinnedBody body = MakeSkinnedBody(name, FLAGS_triangles, FLAGS_proportions);
   std::vector<Shape> shapes;
   for (const std::string& pose : Split(FLAGS_pose)) shapes.push_back(body.pose(pose));
-  WriteFrames(FLAGS_output, shapes, PlainAppearance(*body.connectivity));
+  WriteFrames(FLAGS_output, shapes, FrameSoup(*body.connectivity));
   std::cout << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
             << body.connectivity->NumTriangles() << " triangles; poses are "
             << Join(body.pose_names) << '\n';
@@ -69,7 +69,7 @@ void WriteValues(const std::string& name) {
   std::vector<double> values = {body.begin, body.end};
   if (!FLAGS_at.empty()) values = NumbersFromFlag("at", FLAGS_at);
   for (double value : values) shapes.push_back(body.pose(value));
-  WriteFrames(FLAGS_output, shapes, PlainAppearance(*body.connectivity));
+  WriteFrames(FLAGS_output, shapes, FrameSoup(*body.connectivity));
   std::cout << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
             << body.connectivity->NumTriangles() << " triangles; " << body.parameter << " from "
             << body.begin << " to " << body.end << '\n';

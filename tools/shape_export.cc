@@ -7,7 +7,6 @@
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/output/frames.h>
 #include <shapespace/path/path_file.h>
 
 #include "support/lists.h"
@@ -58,7 +57,7 @@ void Run(const std::vector<std::string>& files) {
   }
   const Path path = ReadPath(files[0]);
   const Path shown = ResampledByFlags(path);
-  WriteOutputs(outputs, shown, PlainAppearance(*path.metric->connectivity), path);
+  WriteOutputs(outputs, shown, path);
   std::cout << shown.NumShapes() << " shapes of " << files[0] << '\n';
 }
 

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
-#include <shapespace/output/frames.h>
 #include <shapespace/path/path_file.h>
 #include <shapespace/solvers/correction.h>
 #include <shapespace/solvers/exponential.h>
@@ -40,12 +39,6 @@ namespace {
 // Poses are interpolated more accurately than to look at them: errors of the two shapes that a
 // geodesic is shot from grow with every step.
 constexpr char kTolerance[] = "1e-6";
-
-// What is shot from, and how frames of it look.
-struct Origin {
-  Path path;
-  Soup appearance;
-};
 
 // Checks options of which a flag sets one field. Messages name the field, which may be the name of
 // another flag here.
@@ -89,26 +82,24 @@ void CheckKeep(int shapes) {
   }
 }
 
-Origin OriginFromPath(const std::string& file) {
-  Origin origin;
-  origin.path = ReadPath(file);
-  if (origin.path.metric->rigid.Active()) {
+Path OriginFromPath(const std::string& file) {
+  Path path = ReadPath(file);
+  if (path.metric->rigid.Active()) {
     throw SolverError(
         file +
         ": made under the rigid metric, which has no exponential map; interpolate its "
         "poses under another");
   }
-  origin.appearance = PlainAppearance(*origin.path.metric->connectivity);
-  CheckKeep(origin.path.NumShapes());
-  return origin;
+  CheckKeep(path.NumShapes());
+  return path;
 }
 
-Origin OriginFromPoses(const std::vector<std::string>& files, const GeodesicOptions& options) {
+Path OriginFromPoses(const std::vector<std::string>& files, const GeodesicOptions& options) {
   CheckKeep((static_cast<int>(files.size()) - 1) * (options.shapes + 1) + 1);
-  Poses poses = ReadPosesFromFlags(files);
+  const Poses poses = ReadPosesFromFlags(files);
   GeodesicResult result = Interpolate(poses, options, TerminalProgress());
   PrintSummary(result.summary.BriefReport(), result.summary.warnings);
-  return {std::move(result.path), std::move(poses.appearance)};
+  return std::move(result.path);
 }
 
 void Run(const std::vector<std::string>& files) {
@@ -127,13 +118,13 @@ void Run(const std::vector<std::string>& files) {
   const std::vector<std::string> outputs = OutputsFromFlags();
   CheckReportFlag();
 
-  Origin origin = from_path ? OriginFromPath(files[0]) : OriginFromPoses(files, geodesic);
-  if (FLAGS_keep != 0) origin.path = FirstShapes(origin.path, FLAGS_keep);
-  ExponentialResult result = Extrapolate(origin.path, FLAGS_steps, exponential, TerminalProgress());
+  Path origin = from_path ? OriginFromPath(files[0]) : OriginFromPoses(files, geodesic);
+  if (FLAGS_keep != 0) origin = FirstShapes(origin, FLAGS_keep);
+  ExponentialResult result = Extrapolate(origin, FLAGS_steps, exponential, TerminalProgress());
   const ExponentialSummary& summary = result.summary;
   PrintSummary(summary.BriefReport(), summary.warnings);
   result.path.provenance =
-      (from_path ? origin.path.provenance + "; " : "") + Provenance("shape-extrapolate", files);
+      (from_path ? origin.provenance + "; " : "") + Provenance("shape-extrapolate", files);
   std::string text = summary.FullReport();
   auto json = nlohmann::ordered_json::parse(summary.ToJson());
   if (FLAGS_correct != 0 && !summary.steps.empty()) {
@@ -143,7 +134,7 @@ void Run(const std::vector<std::string>& files) {
     text += "Corrected         " + corrected.summary.BriefReport() + '\n';
     json["correction"] = nlohmann::ordered_json::parse(corrected.summary.ToJson());
   }
-  WriteOutputs(outputs, result.path, origin.appearance, result.path);
+  WriteOutputs(outputs, result.path, result.path);
   WriteReport(text, json.dump(2) + '\n');
   if (summary.steps.empty()) throw SolverError("no shape could be added");
 }

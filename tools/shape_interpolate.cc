@@ -20,7 +20,7 @@ void Run(const std::vector<std::string>& files) {
   const Poses poses = ReadPosesFromFlags(files);
   GeodesicResult result = Interpolate(poses, options, TerminalProgress());
   result.path.provenance = Provenance("shape-interpolate", files);
-  WriteOutputs(outputs, result.path, poses.appearance, result.path);
+  WriteOutputs(outputs, result.path, result.path);
   WriteReport(result.summary.FullReport(), result.summary.ToJson());
   PrintSummary(result.summary.BriefReport(), result.summary.warnings);
 }

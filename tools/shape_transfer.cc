@@ -62,7 +62,7 @@ TransferOptions TransferFromFlags() {
 // The target, as a pose of the path's mesh.
 Poses ReadTargetOf(const Path& path, const std::string& file) {
   Poses target = ReadPosesFromFlags({FLAGS_target});
-  Soup reference = PlainAppearance(*path.metric->connectivity), pose = target.appearance;
+  Soup reference = FrameSoup(*path.metric->connectivity), pose = target.soup;
   reference.file = file;
   reference.vertices = path.Placed(0);
   // Only graphs' segments are told from the other edges that a path holds.
@@ -93,17 +93,18 @@ void Run(const std::vector<std::string>& files) {
   std::vector<std::string> all = files;
   all.push_back(FLAGS_target);
   const std::string provenance = Provenance("shape-transfer", all);
-  const auto write = [&](Path path, Path hybrids, const Soup& appearance) {
+  const auto write = [&](Path path, Path hybrids, const Appearance& appearance) {
     path.provenance = hybrids.provenance = provenance;
     hybrids.provenance += "; hybrids";
-    WriteOutputs(outputs, path, appearance, path);
-    WriteOutputs(hybrid_outputs, hybrids, appearance, hybrids);
+    path.appearance = hybrids.appearance = appearance;
+    WriteOutputs(outputs, path, path);
+    WriteOutputs(hybrid_outputs, hybrids, hybrids);
   };
   if (from_path) {
     const Path source = ReadPath(files[0]);
     const Poses target = ReadTargetOf(source, files[0]);
     const TransferResult result = Transfer(source, target.shapes[0], options, TerminalProgress());
-    write(result.path, result.hybrids, target.appearance);
+    write(result.path, result.hybrids, target.soup.appearance);
     Tell(result.summary, result.summary.warnings);
   } else {
     Poses poses = ReadPosesFromFlags(all);
@@ -111,7 +112,7 @@ void Run(const std::vector<std::string>& files) {
     poses.shapes.pop_back();
     const PoseTransferResult result = TransferPoses(poses.connectivity, poses.shapes, target,
                                                     geodesic, options, TerminalProgress());
-    write(result.path, result.hybrids, ReadSoup(FLAGS_target));
+    write(result.path, result.hybrids, ReadSoup(FLAGS_target).appearance);
     Tell(result.summary, result.summary.Warnings());
   }
 }

@@ -26,7 +26,7 @@ TEST_F(PosesTest, ReadsPosesWithSegmentsAndStiffeners) {
   ASSERT_EQ(poses.shapes.size(), 2u);
   EXPECT_EQ(poses.shapes[0](2, 4), 5.0);
   EXPECT_EQ(poses.shapes[1](2, 4), 6.0);
-  EXPECT_EQ(poses.appearance.vertices, poses.shapes[0]);
+  EXPECT_EQ(poses.soup.vertices, poses.shapes[0]);
   EXPECT_EQ(poses.connectivity->NumPolygons(), 1);
   // Four sides and two diagonals of the square, the segment, one stiffener that is neither.
   EXPECT_EQ(poses.connectivity->NumEdges(), 8);

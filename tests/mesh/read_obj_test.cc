@@ -30,7 +30,7 @@ TEST_F(ReadObjTest, KeepsOrderPolygonsAndLines) {
       "l 1 2 5\n");
   EXPECT_EQ(soup.file, Path("pose.obj"));
   ASSERT_EQ(soup.NumVertices(), 5);
-  EXPECT_NEAR((soup.vertices.col(0) - Eigen::Vector3d(1.5, -2e-3, .25)).norm(), 0.0, 1e-15);
+  EXPECT_EQ(soup.vertices.col(0), Eigen::Vector3d(1.5, -2e-3, .25));
   EXPECT_EQ(soup.vertices.col(4), Eigen::Vector3d(2, 2, 2));
   EXPECT_EQ(soup.polygon_begin, (Ints{0, 5, 8}));
   EXPECT_EQ(soup.corners, (Ints{0, 1, 2, 3, 4, 2, 1, 0}));
@@ -38,8 +38,8 @@ TEST_F(ReadObjTest, KeepsOrderPolygonsAndLines) {
   EXPECT_EQ(soup.vertex_line, (Ints{2, 4, 5, 6, 7}));
   EXPECT_EQ(soup.polygon_line, (Ints{8, 9}));
   EXPECT_EQ(soup.segment_line, (Ints{10, 10}));
-  EXPECT_TRUE(soup.corner_texture.empty());
-  EXPECT_TRUE(soup.polygon_material.empty());
+  EXPECT_TRUE(soup.appearance.corner_texture.empty());
+  EXPECT_TRUE(soup.appearance.materials.of_polygon.empty());
   EXPECT_TRUE(soup.dropped.empty());
 }
 
@@ -72,26 +72,55 @@ TEST_F(ReadObjTest, AppearanceIsKept) {
   const Soup soup = Read("mtllib my things.mtl\n" + std::string(kThree) +
                          "vt 0 0\nvt 1 .5\nvt 0 1 0\nvn 0 0 1\nf 1 2 3\n"
                          "usemtl red paint \nf 1/1 2/2 3/3\nf 1/-1/1 2//1 3/1/1\n");
-  EXPECT_EQ(soup.material_libraries, std::vector<std::string>{"my things.mtl"});
-  EXPECT_EQ(soup.polygon_material, (std::vector<std::string>{"", "red paint", "red paint"}));
-  ASSERT_EQ(soup.texture_coordinates.cols(), 3);
-  EXPECT_EQ(soup.texture_coordinates.col(1), Eigen::Vector2d(1, .5));
-  EXPECT_EQ(soup.corner_texture, (Ints{-1, -1, -1, 0, 1, 2, 2, -1, 0}));
+  EXPECT_EQ(soup.appearance.material_libraries, std::vector<std::string>{"my things.mtl"});
+  EXPECT_EQ(soup.appearance.materials.names, std::vector<std::string>{"red paint"});
+  EXPECT_EQ(soup.appearance.materials.of_polygon, (Ints{-1, 0, 0}));
+  ASSERT_EQ(soup.appearance.texture_coordinates.cols(), 3);
+  EXPECT_EQ(soup.appearance.texture_coordinates.col(1), Eigen::Vector2d(1, .5));
+  EXPECT_EQ(soup.appearance.corner_texture, (Ints{-1, -1, -1, 0, 1, 2, 2, -1, 0}));
   ASSERT_EQ(soup.dropped.size(), 1u);
   EXPECT_EQ(soup.dropped[0], "1 normals (vn) not kept");
 }
 
+TEST_F(ReadObjTest, NamesOfPolygonsAreKept) {
+  const Soup soup = Read("o body\n" + std::string(kThree) +
+                         "g left upper\nf 1 2 3\ng\nf 1 2 3\ng right\no other\nf 1 2 3\n"
+                         "g left upper\nf 1 2 3\n");
+  EXPECT_EQ(soup.appearance.groups.names, (std::vector<std::string>{"left upper", "right"}));
+  EXPECT_EQ(soup.appearance.groups.of_polygon, (Ints{0, -1, 1, 0}));
+  EXPECT_EQ(soup.appearance.objects.names, (std::vector<std::string>{"body", "other"}));
+  EXPECT_EQ(soup.appearance.objects.of_polygon, (Ints{0, 0, 1, 1}));
+  EXPECT_TRUE(soup.dropped.empty());
+}
+
+TEST_F(ReadObjTest, VertexColoursAreKeptWhereTheyAreColours) {
+  const Soup soup =
+      Read("v 0 0 0\nv 1 0 0 1 0 .25\nv 0 1 0 2\nv 1 1 0 .1 .2 .3 .4\nv 2 2 2\nf 1 2 3\n");
+  Eigen::MatrixXd expected(4, 5);
+  expected << 1, 1, 1, .1, 1, 1, 0, 1, .2, 1, 1, .25, 1, .3, 1, 1, 1, 1, .4, 1;
+  EXPECT_EQ(soup.appearance.vertex_colours, expected);
+  EXPECT_EQ(Read("v 0 0 0 .1 .2 .3\nv 1 0 0 1 0 0\nl 1 2\n").appearance.vertex_colours,
+            (Eigen::MatrixXd(3, 2) << .1, 1, .2, 0, .3, 0).finished());
+  const Soup bytes = Read("v 0 0 0 255 128 0\nv 1 0 0\nl 1 2\n");
+  EXPECT_EQ(bytes.appearance.vertex_colours.size(), 0);
+  EXPECT_EQ(bytes.dropped, std::vector<std::string>{
+                               "1 vertex colours (some number of them is not in 0 .. 1) not kept"});
+}
+
 TEST_F(ReadObjTest, SaysWhatItDrops) {
   const Soup soup = Read(
-      "o body\nv 0 0 0 1 0 0\nv 1 0 0 .5 .5 .5\nv 0 1 0 2\ng part\ns off\nf 1 2 3\np 1\n"
-      "wobble 3\nwobble 4\n");
+      "o empty\ng\no body\nv 0 0 0\nv 1 0 0 1\nv 0 1 0 2\ns off\nvt 0 0\nf 1 2 3\np 1\n"
+      "wobble 3\nwobble 4\ng late\nusemtl late\n");
   std::string all;
   for (const std::string& sentence : soup.dropped) all += sentence + "\n";
   EXPECT_EQ(all,
-            "2 vertex colours not kept\n1 vertex weights other than 1 not kept\n"
-            "1 group names (g) not kept\n1 object names (o) not kept\n1 points (p) not kept\n"
+            "1 vertex weights other than 1 not kept\n"
+            "1 texture coordinates that no polygon has not kept\n"
+            "1 materials (usemtl) that no polygon has not kept\n"
+            "1 group names (g) that no polygon has not kept\n"
+            "1 object names (o) that no polygon has not kept\n1 points (p) not kept\n"
             "1 smoothing groups (s) not kept\n"
-            "2 statements 'wobble' (the first on line 9) not kept\n");
+            "2 statements 'wobble' (the first on line 11) not kept\n");
 }
 
 TEST_F(ReadObjTest, RefusesBadVertices) {

@@ -1,4 +1,8 @@
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <limits>
 #include <random>
 
 #include <shapespace/base/error.h>
@@ -7,6 +11,7 @@
 
 #include "mesh/bodies.h"
 #include "mesh/files.h"
+#include "support/same_appearance.h"
 
 namespace shapespace {
 namespace {
@@ -38,27 +43,84 @@ TEST_F(WriteTest, PlyIsExact) {
   EXPECT_TRUE(read.dropped.empty());
 }
 
-TEST_F(WriteTest, ObjKeepsNineDigitsAndTheAppearance) {
-  soup_.texture_coordinates = Eigen::Matrix2Xd::Random(2, 5);
+TEST_F(WriteTest, ObjIsExactAndKeepsTheAppearance) {
+  Appearance& appearance = soup_.appearance;
+  appearance.texture_coordinates = Eigen::Matrix2Xd::Random(2, 5);
   for (size_t k = 0; k < soup_.corners.size(); ++k) {
-    soup_.corner_texture.push_back(static_cast<int>(k) % 6 - 1);
+    appearance.corner_texture.push_back(static_cast<int>(k) % 6 - 1);
   }
-  soup_.material_libraries = {"one.mtl", "two words.mtl"};
-  soup_.polygon_material = {"", "a", "a", "b", "a b", "a"};
+  appearance.material_libraries = {"one.mtl", "two words.mtl"};
+  appearance.materials = {{"a", "b", "a b"}, {-1, 0, 0, 1, 2, 0}};
+  appearance.groups = {{"left arm", "head"}, {0, 0, -1, -1, 1, 0}};
+  appearance.objects = {{"body"}, {0, 0, 0, 0, 0, 0}};
+  appearance.vertex_colours = (Eigen::MatrixXd::Random(4, 8).array() + 1) / 2;
   WriteMesh(Path("a.obj"), soup_.vertices, soup_);
   const Soup read = ReadSoup(Path("a.obj"));
-  EXPECT_LE(((read.vertices - soup_.vertices).array() / soup_.vertices.array()).abs().maxCoeff(),
-            5.1e-9);
+  EXPECT_EQ(read.vertices, soup_.vertices);
   EXPECT_EQ(read.polygon_begin, soup_.polygon_begin);
   EXPECT_EQ(read.corners, soup_.corners);
   EXPECT_EQ(read.segments, soup_.segments);
-  EXPECT_LE((read.texture_coordinates - soup_.texture_coordinates).cwiseAbs().maxCoeff(), 1e-9);
-  EXPECT_EQ(read.corner_texture, soup_.corner_texture);
-  EXPECT_EQ(read.material_libraries, soup_.material_libraries);
-  EXPECT_EQ(read.polygon_material, soup_.polygon_material);
+  testing::ExpectSame(read.appearance, appearance);
+  EXPECT_TRUE(read.dropped.empty());
 
   WriteMesh(Path("b.obj"), read.vertices, read);
   EXPECT_EQ(testing::Content(Path("b.obj")), testing::Content(Path("a.obj")));
+}
+
+// Any number that a double can hold comes back, whatever its bits; frames are as exact as that.
+TEST_F(WriteTest, ObjKeepsEveryBitOfEveryNumber) {
+  Soup soup;
+  soup.vertices.resize(3, 20000);
+  std::mt19937_64 random(11);
+  for (double& x : soup.vertices.reshaped()) {
+    do {
+      const std::uint64_t bits = random();
+      std::memcpy(&x, &bits, sizeof x);
+    } while (!std::isfinite(x));
+  }
+  using Limits = std::numeric_limits<double>;
+  soup.vertices.leftCols(3) << 4e6 + 0.1, Limits::denorm_min(), -0.0,  //
+      std::nextafter(1, 2), Limits::max(), 3 * Limits::denorm_min(),   //
+      Limits::lowest(), Limits::min(), std::nextafter(4e6, 5e6);
+  soup.segments = {{0, 1}};
+  WriteMesh(Path("a.obj"), soup.vertices, soup);
+  const Shape read = ReadSoup(Path("a.obj")).vertices;
+  ASSERT_EQ(read.cols(), soup.vertices.cols());
+  EXPECT_EQ(std::memcmp(read.data(), soup.vertices.data(), sizeof(double) * read.size()), 0);
+}
+
+TEST_F(WriteTest, RefusesAnAppearanceOfAnotherMesh) {
+  const auto expect_refused = [&](const std::function<void(Appearance*)>& change,
+                                  const std::string& part) {
+    Soup soup = soup_;
+    change(&soup.appearance);
+    ExpectError<MeshError>([&] { WriteMesh(Path("never.obj"), soup.vertices, soup); },
+                           {"never.obj: ", part});
+  };
+  using A = Appearance;
+  expect_refused([](A* a) { a->texture_coordinates.setZero(2, 3); }, "both be there");
+  expect_refused(
+      [](A* a) {
+        a->texture_coordinates.setZero(2, 3);
+        a->corner_texture.assign(24, 3);
+      },
+      "texture coordinates of corners: index 3 is not in -1 .. 2");
+  expect_refused(
+      [](A* a) {
+        a->texture_coordinates.setZero(2, 3);
+        a->corner_texture.assign(23, 0);
+      },
+      "texture coordinates of corners: given 23 times, the mesh has 24");
+  expect_refused(
+      [](A* a) {
+        a->materials = {{"a"}, {0, 0, 0, 0, 0, 1}};
+      },
+      "materials of polygons: index 1");
+  expect_refused([](A* a) { a->groups = {{"a"}, {0}}; }, "groups of polygons: given 1 times");
+  expect_refused([](A* a) { a->objects = {{"a\nb"}, {0, 0, 0, 0, 0, 0}}; }, "'a?b'");
+  expect_refused([](A* a) { a->vertex_colours.setZero(3, 7); }, "3 x 7 instead of 3 or 4 x 8");
+  expect_refused([](A* a) { a->vertex_colours.setConstant(3, 8, 1.5); }, "not in 0 .. 1");
+  EXPECT_FALSE(std::filesystem::exists(Path("never.obj")));
 }
 
 TEST_F(WriteTest, LongPolygonsAndPureGraphsSurvivePly) {

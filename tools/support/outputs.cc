@@ -138,8 +138,7 @@ std::string Provenance(const char* program, const std::vector<std::string>& file
   return provenance;
 }
 
-void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Soup& appearance,
-                  const Path& whole) {
+void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Path& whole) {
   const std::vector<Shape> placed = path.Placed();
   Eigen::VectorXi parts;
   if (FLAGS_color == "parts") parts = FindRigidParts(whole).of_vertex;
@@ -179,11 +178,12 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
         break;
       case Kind::kFrames:
         if (std::filesystem::path(output).extension() == ".ply" &&
-            (appearance.texture_coordinates.cols() > 0 || !appearance.polygon_material.empty())) {
+            (path.appearance.texture_coordinates.cols() > 0 ||
+             !path.appearance.materials.of_polygon.empty())) {
           std::cerr << "note: " << output
                     << ": texture coordinates and materials are dropped; OBJ frames keep them\n";
         }
-        WriteFrames(output, placed, appearance);
+        WriteFrames(output, placed, FrameSoup(*path.metric->connectivity, path.appearance));
         break;
     }
   }

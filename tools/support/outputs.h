@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <shapespace/mesh/soup.h>
 #include <shapespace/path/path.h>
 
 namespace shapespace::tools {
@@ -25,11 +24,10 @@ void CheckCanBeWritten(const std::string& file);
 std::string Provenance(const char* program, const std::vector<std::string>& files);
 
 /// Writes each: `.path`, `.png` film strip, `.glb` animation, or frames (`frames/%03d.obj`,
-/// `.ply`). Texture coordinates and materials of `appearance` go into OBJ frames; where they are
-/// dropped, stderr is told. `whole` is the path that `path` shows, perhaps at other times: colours
-/// of deviation compare with its first shape, those of parts are of its near-rigid parts.
-void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Soup& appearance,
-                  const Path& whole);
+/// `.ply`). Where a format drops something of the path's appearance, stderr is told. `whole` is the
+/// path that `path` shows, perhaps at other times: colours of deviation compare with its first
+/// shape, those of parts are of its near-rigid parts.
+void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Path& whole);
 
 }  // namespace shapespace::tools
 

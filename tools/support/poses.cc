@@ -17,7 +17,7 @@ Poses ReadPosesFromFlags(const std::vector<std::string>& files) {
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
   Poses poses = ReadPoses(files, options);
   for (const std::string& warning : poses.warnings) std::cerr << "warning: " << warning << '\n';
-  for (const std::string& dropped : poses.appearance.dropped) {
+  for (const std::string& dropped : poses.soup.dropped) {
     std::cerr << "note: " << dropped << '\n';
   }
   return poses;

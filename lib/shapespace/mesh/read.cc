@@ -1,14 +1,10 @@
 #include <shapespace/mesh/read.h>
 
-#include <algorithm>
-#include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/extension.h>
+#include <shapespace/base/read_file.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/check_positions.h>
 #include <shapespace/mesh/read_formats.h>
@@ -19,31 +15,9 @@
 namespace shapespace {
 namespace {
 
+// So that no index and no count that a file can hold outgrows an int.
 std::string Content(const std::string& file) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
-    throw FileError(file + ": is a folder, not a mesh file");
-  }
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  if (!stream) throw FileError(file + ": cannot be opened: " + std::strerror(errno));
-  const std::streamoff size = stream.tellg();
-  if (size == 0) throw FileError(file + ": is empty");
-  // So that no index and no count that a file can hold outgrows an int.
-  if (size < 0 || size > std::numeric_limits<int>::max()) {
-    throw FileError(file + ": is larger than 2 GB, or no ordinary file");
-  }
-  std::string content(static_cast<size_t>(size), '\0');
-  stream.seekg(0);
-  stream.read(content.data(), size);
-  if (stream.gcount() != size) throw FileError(file + ": cannot be read to its end");
-  return content;
-}
-
-std::string Extension(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
+  return ReadFile(file, std::numeric_limits<int>::max());
 }
 
 /// Sorts findings into warnings and refusals. Where several are fatal the first three are told:
@@ -157,8 +131,8 @@ Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& option
   Poses poses;
   Judge judge(options, &poses.warnings);
   poses.names = files;
-  poses.appearance = ReadSoup(files[0]);
-  const Soup& first = poses.appearance;
+  poses.soup = ReadSoup(files[0]);
+  const Soup& first = poses.soup;
   judge.Hear<MeshError>(CheckSoup(first));
   poses.shapes.push_back(first.vertices);
   const Mirror mirror(options.mirror, first);

@@ -28,7 +28,7 @@ struct Poses {
   std::shared_ptr<const Connectivity> connectivity;
   std::vector<Shape> shapes;          ///< one a file, in the files' units
   std::vector<std::string> names;     ///< the files
-  Soup appearance;                    ///< the first file's soup, for writing frames like it
+  Soup soup;                          ///< of the first file: polygons, appearance
   std::vector<std::string> warnings;  ///< what `CheckSoup` and `CheckCorrespondence` had to say
 };
 

@@ -1,327 +1,309 @@
+#include <algorithm>
 #include <cmath>
-#include <istream>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
-#include <streambuf>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <tiny_obj_loader.h>
-
-#include <shapespace/base/error.h>
 #include <shapespace/mesh/read_formats.h>
 #include <shapespace/mesh/text.h>
-
-// tinyobjloader reads what is well-formed and takes anything else without a word: 'nan' and missing
-// coordinates become 0, "1.5x" becomes 1.5, "f 1 2 x" a triangle with vertex 0. So every line is
-// checked first (`Scan`), which also blanks what tinyobjloader would trip over, and keeps the line
-// numbers and the polylines, which its callbacks do not deliver. Its callbacks are used rather than
-// its `attrib_t`, which counts the corners of a polygon in a byte and loses or repeats polylines at
-// `g` and `usemtl`.
 
 namespace shapespace::internal {
 namespace {
 
-/// Checks the lines of an OBJ file one by one.
-class Scan {
+/// What `usemtl`, `g` or `o` said last, for the polygons that follow.
+class CurrentName {
  public:
-  Scan(const std::string& file, std::string* text, Soup* soup)
-      : file_(file), text_(text), soup_(soup) {}
+  explicit CurrentName(PolygonNames* names) : names_(names) {}
 
-  /// \throw FileError at the first malformed line. Afterwards the text holds no byte order mark, no
-  /// comment behind an element and no continued line; line numbers, segments, material libraries
-  /// and what is dropped are in the soup.
-  void Run() {
-    if (text_->compare(0, 3, "\xEF\xBB\xBF") == 0) text_->replace(0, 3, 3, ' ');
-    size_t position = 0;
-    while (position < text_->size()) position = CheckLine(position);
-    TellDropped();
+  /// An empty name stands for none.
+  void Set(std::string_view name) {
+    current_ = name.empty() ? nullptr : &index_.try_emplace(std::string(name), -1).first->second;
+    if (current_ != nullptr && *current_ < 0) pending_ = name;
+  }
+
+  void AddPolygon() {
+    if (current_ != nullptr && *current_ < 0) {
+      *current_ = static_cast<int>(names_->names.size());
+      names_->names.push_back(pending_);
+    }
+    names_->of_polygon.push_back(current_ == nullptr ? -1 : *current_);
+  }
+
+  /// Returns how many names no polygon has.
+  int Finish() {
+    if (names_->names.empty()) names_->of_polygon.clear();
+    return static_cast<int>(index_.size() - names_->names.size());
   }
 
  private:
+  PolygonNames* names_;
+  std::map<std::string, int, std::less<>> index_;  // into the names; -1 before the first polygon
+  int* current_ = nullptr;                         // in `index_`
+  std::string pending_;                            // the current name, if it has no polygon yet
+};
+
+class ObjReader {
+ public:
+  ObjReader(const std::string& file, std::string text) : text_(std::move(text)) {
+    soup_.file = file;
+    soup_.appearance.folder = std::filesystem::path(file).parent_path().string();
+  }
+
+  Soup Read() {
+    if (text_.compare(0, 3, "\xEF\xBB\xBF") == 0) text_.replace(0, 3, 3, ' ');
+    size_t position = 0;
+    while (position < text_.size()) position = ReadLine(position);
+    if (coordinates_.empty()) {
+      throw FileError(soup_.file + ": no vertex in it; is this an OBJ file?");
+    }
+    soup_.vertices = Eigen::Map<Shape>(coordinates_.data(), 3, NumVertices());
+    FinishAppearance();
+    CheckIndices();
+    TellDropped();
+    return std::move(soup_);
+  }
+
+ private:
+  [[noreturn]] void Fail(const std::string& what) const { FailAt(soup_.file, line_, what); }
+
+  int NumVertices() const { return static_cast<int>(coordinates_.size() / 3); }
+  int NumTexture() const { return static_cast<int>(texture_.size() / 2); }
+
   /// Joins lines that a backslash continues, by blanks; returns where the text goes on.
-  size_t CheckLine(size_t begin) {
-    ++lines_read_;
-    line_ = lines_read_;
+  size_t ReadLine(size_t begin) {
+    line_ = ++lines_read_;
     size_t end = EndOfLine(begin);
-    while (end > begin && (*text_)[end - 1] == '\\' && end < text_->size()) {
+    while (end > begin && text_[end - 1] == '\\' && end < text_.size()) {
       const size_t next = AfterLineEnd(end);
-      text_->replace(end - 1, next - end + 1, next - end + 1, ' ');
+      text_.replace(end - 1, next - end + 1, next - end + 1, ' ');
       ++lines_read_;
       end = EndOfLine(next);
     }
-    const std::string_view line(text_->data() + begin, end - begin);
+    const std::string_view line(text_.data() + begin, end - begin);
     if (line.find('\0') != std::string_view::npos) {
-      FailAt(file_, line_, "a zero byte: this is no text file, or it is stored as UTF-16");
+      Fail("a zero byte: this is no text file, or it is stored as UTF-16");
     }
-    CheckStatement(begin, line);
-    return end < text_->size() ? AfterLineEnd(end) : end;
+    ReadStatement(line);
+    return end < text_.size() ? AfterLineEnd(end) : end;
   }
 
   size_t EndOfLine(size_t begin) const {
-    return std::min(text_->find_first_of("\r\n", begin), text_->size());
+    return std::min(text_.find_first_of("\r\n", begin), text_.size());
   }
 
   size_t AfterLineEnd(size_t end) const {
-    return end + (text_->compare(end, 2, "\r\n") == 0 ? 2 : 1);
+    return end + (text_.compare(end, 2, "\r\n") == 0 ? 2 : 1);
   }
 
-  void CheckStatement(size_t begin, std::string_view line) {
+  void ReadStatement(std::string_view line) {
     Words words(line);
     const std::string_view keyword = words.Next();
     if (keyword.empty() || keyword[0] == '#') return;
-    const bool element = keyword == "v" || keyword == "vt" || keyword == "f" || keyword == "l";
-    if (element) {
-      const size_t comment = line.find('#');
-      if (comment != std::string_view::npos) {
-        text_->replace(begin + comment, line.size() - comment, line.size() - comment, ' ');
-      }
-    }
-    if (keyword == "v") return CheckVertex(words);
-    if (keyword == "vt") return CheckTexture(words);
-    if (keyword == "f") return CheckPolygon(words);
-    if (keyword == "l") return TakePolyline(words);
+    if (keyword == "v") return ReadVertex(Words(WithoutComment(words.Rest())));
+    if (keyword == "vt") return ReadTexture(Words(WithoutComment(words.Rest())));
+    if (keyword == "f") return ReadPolygon(Words(WithoutComment(words.Rest())));
+    if (keyword == "l") return ReadPolyline(Words(WithoutComment(words.Rest())));
+    if (keyword == "usemtl") return material_.Set(words.Rest());
+    if (keyword == "g") return group_.Set(words.Rest());
+    if (keyword == "o") return object_.Set(words.Rest());
     if (keyword == "mtllib") {
-      if (!words.Done()) soup_->material_libraries.emplace_back(words.Rest());
-    } else if (keyword != "usemtl") {
-      auto& [count, first_line] = dropped_[std::string(keyword.substr(0, kLongestKeyword))];
-      if (count++ == 0) first_line = line_;
+      if (!words.Done()) soup_.appearance.material_libraries.emplace_back(words.Rest());
+      return;
     }
+    auto& [count, first_line] = dropped_[std::string(keyword.substr(0, kLongestKeyword))];
+    if (count++ == 0) first_line = line_;
   }
 
-  void CheckVertex(Words words) {
-    soup_->vertex_line.push_back(line_);
-    const std::string element = "vertex " + std::to_string(soup_->vertex_line.size());
+  double Number(std::string_view word, const char* what, const ElementName& element) const {
+    return FiniteNumber(word, what, soup_.file, line_, element);
+  }
+
+  void ReadVertex(Words words) {
+    soup_.vertex_line.push_back(line_);
+    const ElementName element{"vertex", soup_.vertex_line.size()};
     for (const char* axis : {"coordinate x", "coordinate y", "coordinate z"}) {
-      FiniteNumber(words.Next(), axis, file_, line_, element);
+      coordinates_.push_back(Number(words.Next(), axis, element));
     }
     // Behind x y z stand a weight, or a colour of three or four numbers.
-    double further[4];
+    double further[4] = {1, 1, 1, 1};
     int count = 0;
     for (; !words.Done(); ++count) {
-      if (count == 4) FailAt(file_, line_, element + ": more than seven numbers" + kReexport);
-      further[count] = FiniteNumber(words.Next(), "what follows x y z,", file_, line_, element);
+      if (count == 4) Fail(element.Text() + ": more than seven numbers" + kReexport);
+      further[count] = Number(words.Next(), "what follows x y z,", element);
     }
-    if (count == 2) FailAt(file_, line_, element + ": five numbers instead of three" + kReexport);
+    if (count == 2) Fail(element.Text() + ": five numbers instead of three" + kReexport);
     if (count == 1 && further[0] != 1.0) ++weights_;
-    if (count >= 3) ++colours_;
-  }
-
-  void CheckTexture(Words words) {
-    ++num_texture_;
-    const std::string element = "texture coordinate " + std::to_string(num_texture_);
-    FiniteNumber(words.Next(), "u", file_, line_, element);
-    if (!words.Done()) FiniteNumber(words.Next(), "v", file_, line_, element);
-    if (!words.Done() && FiniteNumber(words.Next(), "w", file_, line_, element) != 0.0) {
-      ++third_texture_;
-    }
-    if (!words.Done()) FailAt(file_, line_, element + ": more than three numbers" + kReexport);
-  }
-
-  void CheckPolygon(Words words) {
-    soup_->polygon_line.push_back(line_);
-    const std::string element = "polygon " + std::to_string(soup_->polygon_line.size());
-    int corners = 0;
-    for (; !words.Done(); ++corners) CheckCorner(words.Next(), element);
-    if (corners < 3) {
-      FailAt(
-          file_, line_,
-          element + ": " + std::to_string(corners) + " corners, a polygon needs three" + kReexport);
+    if (count >= 3) {
+      ++num_coloured_;
+      any_opacity_ = any_opacity_ || count == 4;
+      // Vertices before the first coloured one are white, as are those without a colour after it.
+      colours_.resize(4 * (soup_.vertex_line.size() - 1), 1.0);
+      colours_.insert(colours_.end(), further, further + 4);
     }
   }
 
-  void TakePolyline(Words words) {
-    const std::string element = "polyline on this line";
+  void ReadTexture(Words words) {
+    const ElementName element{"texture coordinate", texture_.size() / 2 + 1};
+    texture_.push_back(Number(words.Next(), "u", element));
+    texture_.push_back(words.Done() ? 0.0 : Number(words.Next(), "v", element));
+    if (!words.Done() && Number(words.Next(), "w", element) != 0.0) ++third_texture_;
+    if (!words.Done()) Fail(element.Text() + ": more than three numbers" + kReexport);
+  }
+
+  void ReadPolygon(Words words) {
+    soup_.polygon_line.push_back(line_);
+    const ElementName element{"polygon", soup_.polygon_line.size()};
+    int count = 0;
+    for (; !words.Done(); ++count) {
+      const auto [vertex, texture] = Corner(words.Next(), element);
+      soup_.corners.push_back(vertex);
+      soup_.appearance.corner_texture.push_back(texture);
+      any_texture_ = any_texture_ || texture != -1;
+    }
+    if (count < 3) {
+      Fail(element.Text() + ": " + std::to_string(count) + " corners, a polygon needs three" +
+           kReexport);
+    }
+    soup_.polygon_begin.push_back(static_cast<int>(soup_.corners.size()));
+    for (CurrentName* name : {&material_, &group_, &object_}) name->AddPolygon();
+  }
+
+  void ReadPolyline(Words words) {
+    const ElementName element{"polyline on this line"};
     std::vector<int> vertices;
-    while (!words.Done()) {
-      const int number = CheckCorner(words.Next(), element);
-      const int before = static_cast<int>(soup_->vertex_line.size());
-      vertices.push_back(number > 0 ? number - 1 : before + number);
-    }
-    if (vertices.size() < 2) FailAt(file_, line_, element + ": needs two vertices" + kReexport);
+    while (!words.Done()) vertices.push_back(Corner(words.Next(), element).first);
+    if (vertices.size() < 2) Fail(element.Text() + ": needs two vertices" + kReexport);
     for (size_t i = 1; i < vertices.size(); ++i) {
-      soup_->segments.emplace_back(vertices[i - 1], vertices[i]);
-      soup_->segment_line.push_back(line_);
+      soup_.segments.emplace_back(vertices[i - 1], vertices[i]);
+      soup_.segment_line.push_back(line_);
     }
   }
 
-  /// Checks "v", "v/t", "v//n" or "v/t/n", with any but v empty; returns v.
-  int CheckCorner(std::string_view word, const std::string& element) {
+  /// The vertex and the texture coordinate, or -1, of "v", "v/t", "v//n" or "v/t/n", where any but
+  /// v may be empty. Counted from 0; whether they exist is told at the end of the file.
+  std::pair<int, int> Corner(std::string_view word, const ElementName& element) const {
     const std::string_view whole = word;
-    int vertex = 0;
+    int numbers[3] = {0, 0, 0};
     for (int part = 0; part < 3; ++part) {
       const size_t slash = std::min(word.find('/'), word.size());
       const std::string_view digits = word.substr(0, slash);
       if (!digits.empty() || part == 0) {
         const std::optional<std::int64_t> number = ParseInteger(digits);
         if (!number || *number == 0 || std::abs(*number) > std::numeric_limits<int>::max()) {
-          FailAt(file_, line_,
-                 element + ": corner " + Quoted(whole) + " is not made of numbers counted from 1" +
-                     kReexport);
+          Fail(element.Text() + ": corner " + Quoted(whole) +
+               " is not made of numbers counted from 1" + kReexport);
         }
-        if (part == 0) vertex = static_cast<int>(*number);
+        numbers[part] = static_cast<int>(*number);
       }
-      if (slash == word.size()) return vertex;
+      if (slash == word.size()) {
+        return {FromZero(numbers[0], NumVertices()), FromZero(numbers[1], NumTexture())};
+      }
       word.remove_prefix(slash + 1);
     }
-    FailAt(file_, line_, element + ": corner " + Quoted(whole) + " has more than three parts");
+    Fail(element.Text() + ": corner " + Quoted(whole) + " has more than three parts");
+  }
+
+  /// Negative numbers count back from the last of `count` elements so far. 0 stands for none, which
+  /// becomes -1; what lies before the first becomes less.
+  static int FromZero(int number, int count) {
+    if (number >= 0) return number - 1;
+    return count + number >= 0 ? count + number : -2;
+  }
+
+  void FinishAppearance() {
+    Appearance& appearance = soup_.appearance;
+    if (any_texture_) {
+      appearance.texture_coordinates =
+          Eigen::Map<Eigen::Matrix2Xd>(texture_.data(), 2, NumTexture());
+    } else {
+      appearance.corner_texture.clear();
+    }
+    if (num_coloured_ > 0) {
+      colours_.resize(4 * soup_.vertex_line.size(), 1.0);
+      const auto outside = [](double x) { return x < 0 || x > 1; };
+      if (std::any_of(colours_.begin(), colours_.end(), outside)) {
+        Tell(num_coloured_, "vertex colours (some number of them is not in 0 .. 1)");
+      } else {
+        appearance.vertex_colours = Eigen::Map<Eigen::Matrix4Xd>(colours_.data(), 4, NumVertices())
+                                        .topRows(any_opacity_ ? 4 : 3);
+      }
+    }
+  }
+
+  void CheckIndices() {
+    for (int p = 0; p < soup_.NumPolygons(); ++p) {
+      line_ = soup_.polygon_line[p];
+      const ElementName element{"polygon", static_cast<size_t>(p + 1)};
+      for (int k = soup_.polygon_begin[p]; k < soup_.polygon_begin[p + 1]; ++k) {
+        CheckIndex(soup_.corners[k], element, NumVertices(), "vertex");
+        if (!any_texture_ || soup_.appearance.corner_texture[k] == -1) continue;
+        CheckIndex(soup_.appearance.corner_texture[k], element, NumTexture(), "texture coordinate");
+      }
+    }
+    for (size_t s = 0; s < soup_.segments.size(); ++s) {
+      line_ = soup_.segment_line[s];
+      CheckIndex(soup_.segments[s].first, {"segment", s + 1}, NumVertices(), "vertex");
+      CheckIndex(soup_.segments[s].second, {"segment", s + 1}, NumVertices(), "vertex");
+    }
+  }
+
+  void CheckIndex(int index, const ElementName& element, int count, const std::string& what) const {
+    if (index >= 0 && index < count) return;
+    Fail(element.Text() + ": " +
+         (index < 0 ? "a relative index reaches before the first " + what
+                    : what + " " + std::to_string(index + 1) + " does not exist") +
+         ", the file has " + std::to_string(count) + kReexport);
+  }
+
+  void Tell(int count, const std::string& what) {
+    if (count > 0) soup_.dropped.push_back(std::to_string(count) + " " + what + " not kept");
   }
 
   void TellDropped() {
-    auto tell = [this](int count, const std::string& what) {
-      if (count > 0) soup_->dropped.push_back(std::to_string(count) + " " + what + " not kept");
-    };
-    tell(colours_, "vertex colours");
-    tell(weights_, "vertex weights other than 1");
-    tell(third_texture_, "third texture coordinates");
-    static const std::map<std::string, std::string> kKnown = {{"vn", "normals (vn)"},
-                                                              {"g", "group names (g)"},
-                                                              {"o", "object names (o)"},
-                                                              {"s", "smoothing groups (s)"},
-                                                              {"p", "points (p)"}};
+    Tell(weights_, "vertex weights other than 1");
+    Tell(third_texture_, "third texture coordinates");
+    if (!any_texture_) Tell(NumTexture(), "texture coordinates that no polygon has");
+    Tell(material_.Finish(), "materials (usemtl) that no polygon has");
+    Tell(group_.Finish(), "group names (g) that no polygon has");
+    Tell(object_.Finish(), "object names (o) that no polygon has");
+    static const std::map<std::string, std::string> kKnown = {
+        {"vn", "normals (vn)"}, {"s", "smoothing groups (s)"}, {"p", "points (p)"}};
     constexpr int kMostUnknown = 5;
     int unknown = 0;
     for (const auto& [keyword, seen] : dropped_) {
       const auto known = kKnown.find(keyword);
       if (known != kKnown.end()) {
-        tell(seen.first, known->second);
+        Tell(seen.first, known->second);
       } else if (++unknown <= kMostUnknown) {
-        tell(seen.first, "statements " + Quoted(keyword) + " (the first on line " +
+        Tell(seen.first, "statements " + Quoted(keyword) + " (the first on line " +
                              std::to_string(seen.second) + ")");
       }
     }
-    tell(unknown - kMostUnknown, "further kinds of statement");
+    Tell(unknown - kMostUnknown, "further kinds of statement");
   }
 
   static constexpr size_t kLongestKeyword = 40;
 
-  const std::string& file_;
-  std::string* text_;
-  Soup* soup_;
+  std::string text_;
+  Soup soup_;
   int lines_read_ = 0;
-  int line_ = 0;  // on which the statement at hand begins
-  int num_texture_ = 0, weights_ = 0, colours_ = 0, third_texture_ = 0;
+  int line_ = 0;                               // on which the statement at hand begins
+  std::vector<double> coordinates_, texture_;  // three a vertex, two a texture coordinate
+  std::vector<double> colours_;                // four a vertex, up to the last that has one
+  int num_coloured_ = 0, weights_ = 0, third_texture_ = 0;
+  bool any_opacity_ = false, any_texture_ = false;
+  CurrentName material_{&soup_.appearance.materials}, group_{&soup_.appearance.groups},
+      object_{&soup_.appearance.objects};
   std::map<std::string, std::pair<int, int>> dropped_;  // keyword -> count, first line
 };
-
-/// What tinyobjloader's callbacks fill.
-struct Taken {
-  Soup* soup;
-  std::vector<double> vertices, texture;
-  std::string material;
-  bool any_texture = false, any_material = false;
-
-  static Taken& From(void* user) { return *static_cast<Taken*>(user); }
-
-  static void Vertex(void* user, double x, double y, double z, double) {
-    From(user).vertices.insert(From(user).vertices.end(), {x, y, z});
-  }
-
-  static void Texture(void* user, double u, double v, double) {
-    From(user).texture.insert(From(user).texture.end(), {u, v});
-  }
-
-  static void Material(void* user, const char* name, int) {
-    From(user).material = std::string(Words(name).Rest());
-    From(user).any_material = true;
-  }
-
-  static void Polygon(void* user, tinyobj::index_t* corners, int count) {
-    Taken& taken = From(user);
-    Soup& soup = *taken.soup;
-    const int vertices = static_cast<int>(taken.vertices.size() / 3);
-    const int texture = static_cast<int>(taken.texture.size() / 2);
-    for (int k = 0; k < count; ++k) {
-      const int v = corners[k].vertex_index, t = corners[k].texcoord_index;
-      soup.corners.push_back(v > 0 ? v - 1 : vertices + v);
-      // 0 stands for none, which becomes -1; a relative index before the first becomes -2.
-      soup.corner_texture.push_back(t >= 0 ? t - 1 : texture + t >= 0 ? texture + t : -2);
-      taken.any_texture = taken.any_texture || t != 0;
-    }
-    soup.polygon_begin.push_back(static_cast<int>(soup.corners.size()));
-    soup.polygon_material.push_back(taken.material);
-  }
-};
-
-/// A string as a stream without a copy.
-class StringBuffer : public std::streambuf {
- public:
-  explicit StringBuffer(std::string& text) {
-    setg(text.data(), text.data(), text.data() + text.size());
-  }
-};
-
-void CheckIndices(const Soup& soup) {
-  auto outside = [&soup](int index, int line, const std::string& element, int count,
-                         const std::string& what) {
-    FailAt(soup.file, line,
-           element + ": " +
-               (index < 0 ? "a relative index reaches before the first " + what
-                          : what + " " + std::to_string(index + 1) + " does not exist") +
-               ", the file has " + std::to_string(count) + kReexport);
-  };
-  const int vertices = soup.NumVertices();
-  const int texture = static_cast<int>(soup.texture_coordinates.cols());
-  for (int p = 0; p < soup.NumPolygons(); ++p) {
-    for (int k = soup.polygon_begin[p]; k < soup.polygon_begin[p + 1]; ++k) {
-      const int v = soup.corners[k];
-      if (v < 0 || v >= vertices) {
-        outside(v, soup.polygon_line[p], "polygon " + std::to_string(p + 1), vertices, "vertex");
-      }
-      const int t = soup.corner_texture.empty() ? -1 : soup.corner_texture[k];
-      if (t < -1 || t >= texture) {
-        outside(t, soup.polygon_line[p], "polygon " + std::to_string(p + 1), texture,
-                "texture coordinate");
-      }
-    }
-  }
-  for (size_t s = 0; s < soup.segments.size(); ++s) {
-    for (int v : {soup.segments[s].first, soup.segments[s].second}) {
-      if (v < 0 || v >= vertices) {
-        outside(v, soup.segment_line[s], "segment " + std::to_string(s + 1), vertices, "vertex");
-      }
-    }
-  }
-}
 
 }  // namespace
 
 Soup ReadObj(const std::string& file, std::string text) {
-  Soup soup;
-  soup.file = file;
-  Scan(file, &text, &soup).Run();
-  const size_t num_polygons = soup.polygon_line.size();
-  if (soup.vertex_line.empty()) throw FileError(file + ": no vertex in it; is this an OBJ file?");
-
-  Taken taken;
-  taken.soup = &soup;
-  taken.vertices.reserve(3 * soup.vertex_line.size());
-  soup.corners.reserve(3 * num_polygons);
-  soup.corner_texture.reserve(3 * num_polygons);
-  soup.polygon_begin.reserve(num_polygons + 1);
-  tinyobj::callback_t callbacks;
-  callbacks.vertex_cb = Taken::Vertex;
-  callbacks.texcoord_cb = Taken::Texture;
-  callbacks.usemtl_cb = Taken::Material;
-  callbacks.index_cb = Taken::Polygon;
-  StringBuffer buffer(text);
-  std::istream stream(&buffer);
-  tinyobj::LoadObjWithCallback(stream, callbacks, &taken);
-
-  if (taken.vertices.size() != 3 * soup.vertex_line.size() ||
-      soup.polygon_begin.size() != num_polygons + 1) {
-    throw FileError(file + ": holds statements that cannot be told apart" + kReexport);
-  }
-  soup.vertices = Eigen::Map<Shape>(taken.vertices.data(), 3, soup.vertex_line.size());
-  if (taken.any_texture) {
-    soup.texture_coordinates =
-        Eigen::Map<Eigen::Matrix2Xd>(taken.texture.data(), 2, taken.texture.size() / 2);
-  } else {
-    soup.corner_texture.clear();
-  }
-  if (!taken.any_material) soup.polygon_material.clear();
-  CheckIndices(soup);
-  return soup;
+  return ObjReader(file, std::move(text)).Read();
 }
 
 }  // namespace shapespace::internal

@@ -40,18 +40,19 @@ class OffReader {
 
   /// The words of the next line that holds any.
   /// \throw FileError at the end of the file.
-  Words NextWords(const std::string& wanted) {
+  Words NextWords(const ElementName& wanted, int of = 0) {
     while (lines_.Next(&line_)) {
       const Words words(WithoutComment(line_));
       if (!words.Done()) return words;
     }
-    Fail("the file ends before " + wanted + kReexport);
+    Fail("the file ends before " + wanted.Text() + (of > 0 ? " of " + std::to_string(of) : "") +
+         kReexport);
   }
 
   void ReadHeader() {
-    Words words = NextWords("its header");
+    Words words = NextWords({"its header"});
     if (!ParseInteger(Words(words).Next())) CheckKeyword(words.Next(), words);
-    if (words.Done()) words = NextWords("the numbers of vertices and polygons");
+    if (words.Done()) words = NextWords({"the numbers of vertices and polygons"});
     num_vertices_ = Count(words.Next(), "vertices");
     num_polygons_ = Count(words.Next(), "polygons");
     if (num_vertices_ == 0) Fail("the header says that there are no vertices");
@@ -86,8 +87,8 @@ class OffReader {
   void ReadVertices() {
     soup_.vertices.resize(3, num_vertices_);
     for (int v = 0; v < num_vertices_; ++v) {
-      const std::string element = "vertex " + std::to_string(v + 1);
-      Words words = NextWords(element + " of " + std::to_string(num_vertices_));
+      const ElementName element{"vertex", static_cast<size_t>(v + 1)};
+      Words words = NextWords(element, num_vertices_);
       static constexpr const char* kAxes[3] = {"coordinate x", "coordinate y", "coordinate z"};
       for (int axis = 0; axis < 3; ++axis) {
         soup_.vertices(axis, v) =
@@ -103,16 +104,16 @@ class OffReader {
 
   void ReadPolygons() {
     for (int p = 0; p < num_polygons_; ++p) {
-      const std::string element = "polygon " + std::to_string(p + 1);
-      Words words = NextWords(element + " of " + std::to_string(num_polygons_));
+      const ElementName element{"polygon", static_cast<size_t>(p + 1)};
+      Words words = NextWords(element, num_polygons_);
       const std::string_view word = words.Next();
       const std::optional<std::int64_t> size = ParseInteger(word);
       if (!size || *size < 3) {
-        Fail(element + ": " + Quoted(word) + " corners, a polygon needs three" + kReexport);
+        Fail(element.Text() + ": " + Quoted(word) + " corners, a polygon needs three" + kReexport);
       }
       for (std::int64_t k = 0; k < *size; ++k) {
         if (words.Done()) {
-          Fail(element + ": " + std::to_string(k) + " of " + std::to_string(*size) +
+          Fail(element.Text() + ": " + std::to_string(k) + " of " + std::to_string(*size) +
                " corners, the others are missing" + kReexport);
         }
         soup_.corners.push_back(Index(words.Next(), element));
@@ -123,10 +124,10 @@ class OffReader {
     }
   }
 
-  int Index(std::string_view word, const std::string& element) {
+  int Index(std::string_view word, const ElementName& element) {
     const std::optional<std::int64_t> index = ParseInteger(word);
     if (!index || *index < 0 || *index >= num_vertices_) {
-      Fail(element + ": vertex index " + Quoted(word) + " is not one of 0 to " +
+      Fail(element.Text() + ": vertex index " + Quoted(word) + " is not one of 0 to " +
            std::to_string(num_vertices_ - 1) + kReexport);
     }
     return static_cast<int>(*index);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <shapespace/mesh/appearance.h>
 #include <shapespace/mesh/shape.h>
 
 namespace shapespace {
@@ -26,14 +27,9 @@ struct Soup {
   /// lines (binary PLY) or the mesh was made in code.
   std::vector<int> vertex_line, polygon_line, segment_line;
 
-  /// Appearance, kept only to be written again with frames. Per corner indices into
-  /// `texture_coordinates` (2 x k), -1 where a corner has none; empty if no corner has one.
-  Eigen::Matrix2Xd texture_coordinates;
-  std::vector<int> corner_texture;
-  std::vector<std::string> material_libraries;  ///< OBJ `mtllib`
-  std::vector<std::string> polygon_material;    ///< OBJ `usemtl`, one a polygon; empty if none
+  Appearance appearance;  ///< kept for outputs
 
-  /// Sentences about what the file holds and shapespace does not keep (normals, colours, ...).
+  /// Sentences about what the file holds and shapespace does not keep (normals, points, ...).
   std::vector<std::string> dropped;
 
   int NumVertices() const { return static_cast<int>(vertices.cols()); }

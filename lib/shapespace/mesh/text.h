@@ -120,18 +120,30 @@ inline std::optional<std::int64_t> ParseInteger(std::string_view word) {
   return value;
 }
 
+/// An element of a file, such as its third vertex; put into words only where a message needs them.
+struct ElementName {
+  const char* kind;
+  size_t number = 0;  ///< counted from 1; 0 for none
+
+  std::string Text() const {
+    return number > 0 ? std::string(kind) + " " + std::to_string(number) : kind;
+  }
+};
+
 /// The whole word as a finite number.
 /// \throw FileError "file:line: element: what 'word' is not ..." otherwise.
 inline double FiniteNumber(std::string_view word, const char* what, const std::string& file,
-                           int line, const std::string& element) {
-  if (word.empty()) FailAt(file, line, element + ": " + what + " is missing" + kReexport);
+                           int line, const ElementName& element) {
+  if (word.empty()) FailAt(file, line, element.Text() + ": " + what + " is missing" + kReexport);
   const std::optional<double> value = ParseDouble(word);
   if (!value) {
-    FailAt(file, line, element + ": " + what + " " + Quoted(word) + " is not a number" + kReexport);
+    FailAt(file, line,
+           element.Text() + ": " + what + " " + Quoted(word) + " is not a number" + kReexport);
   }
   if (!std::isfinite(*value)) {
-    FailAt(file, line,
-           element + ": " + what + " " + Quoted(word) + " is not a finite number" + kReexport);
+    FailAt(
+        file, line,
+        element.Text() + ": " + what + " " + Quoted(word) + " is not a finite number" + kReexport);
   }
   return *value;
 }

@@ -1,14 +1,13 @@
 #include <shapespace/mesh/write.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstring>
-#include <filesystem>
 #include <ostream>
 
 #include <shapespace/base/atomic_file.h>
 #include <shapespace/base/error.h>
+#include <shapespace/base/extension.h>
 
 namespace shapespace {
 namespace {
@@ -18,17 +17,13 @@ class Text {
  public:
   void Add(std::string_view words) { text_ += words; }
 
-  void Add(int number) {
-    char buffer[16];
-    text_.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr);
-  }
-
-  void Add(double number) {
-    constexpr int kDigits = 9;
+  /// Numbers stand behind `words`. Those that are not whole have the fewest digits that read back
+  /// as the very number.
+  template <typename Number>
+  void Add(std::string_view words, Number number) {
+    Add(words);
     char buffer[32];
-    text_.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, number,
-                                       std::chars_format::general, kDigits)
-                             .ptr);
+    text_.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr);
   }
 
   const std::string& Get() const { return text_; }
@@ -37,49 +32,62 @@ class Text {
   std::string text_;
 };
 
-std::string Obj(const Shape& vertices, const Soup& appearance) {
+/// The names of polygons as statements, written where a polygon has another than the one before.
+class NameStatements {
+ public:
+  NameStatements(const char* keyword, const PolygonNames& names)
+      : keyword_(keyword), names_(names) {}
+
+  void Next(int polygon, Text* text) {
+    const int name = names_.of_polygon.empty() ? -1 : names_.of_polygon[polygon];
+    if (name == current_) return;
+    current_ = name;
+    text->Add(keyword_);
+    if (name >= 0) text->Add(" " + names_.names[name]);
+    text->Add("\n");
+  }
+
+ private:
+  const char* keyword_;
+  const PolygonNames& names_;
+  int current_ = -1;
+};
+
+std::string Obj(const Shape& vertices, const Soup& soup) {
+  const Appearance& appearance = soup.appearance;
   Text text;
   for (const std::string& library : appearance.material_libraries) {
     text.Add("mtllib " + library + "\n");
   }
   for (int v = 0; v < vertices.cols(); ++v) {
-    text.Add("v ");
-    text.Add(vertices(0, v));
-    text.Add(" ");
-    text.Add(vertices(1, v));
-    text.Add(" ");
-    text.Add(vertices(2, v));
-    text.Add("\n");
-  }
-  for (int t = 0; t < appearance.texture_coordinates.cols(); ++t) {
-    text.Add("vt ");
-    text.Add(appearance.texture_coordinates(0, t));
-    text.Add(" ");
-    text.Add(appearance.texture_coordinates(1, t));
-    text.Add("\n");
-  }
-  std::string material;
-  for (int p = 0; p < appearance.NumPolygons(); ++p) {
-    if (!appearance.polygon_material.empty() && appearance.polygon_material[p] != material) {
-      material = appearance.polygon_material[p];
-      text.Add("usemtl " + material + "\n");
+    text.Add("v");
+    for (const double x : vertices.col(v)) text.Add(" ", x);
+    if (appearance.vertex_colours.size() > 0) {
+      for (const double x : appearance.vertex_colours.col(v)) text.Add(" ", x);
     }
+    text.Add("\n");
+  }
+  for (const auto& coordinates : appearance.texture_coordinates.colwise()) {
+    text.Add("vt");
+    for (const double x : coordinates) text.Add(" ", x);
+    text.Add("\n");
+  }
+  NameStatements objects("o", appearance.objects), groups("g", appearance.groups),
+      materials("usemtl", appearance.materials);
+  for (int p = 0; p < soup.NumPolygons(); ++p) {
+    for (NameStatements* names : {&objects, &groups, &materials}) names->Next(p, &text);
     text.Add("f");
-    for (int k = appearance.polygon_begin[p]; k < appearance.polygon_begin[p + 1]; ++k) {
-      text.Add(" ");
-      text.Add(appearance.corners[k] + 1);
+    for (int k = soup.polygon_begin[p]; k < soup.polygon_begin[p + 1]; ++k) {
+      text.Add(" ", soup.corners[k] + 1);
       if (!appearance.corner_texture.empty() && appearance.corner_texture[k] >= 0) {
-        text.Add("/");
-        text.Add(appearance.corner_texture[k] + 1);
+        text.Add("/", appearance.corner_texture[k] + 1);
       }
     }
     text.Add("\n");
   }
-  for (const auto& [a, b] : appearance.segments) {
-    text.Add("l ");
-    text.Add(a + 1);
-    text.Add(" ");
-    text.Add(b + 1);
+  for (const auto& [a, b] : soup.segments) {
+    text.Add("l ", a + 1);
+    text.Add(" ", b + 1);
     text.Add("\n");
   }
   return text.Get();
@@ -94,40 +102,40 @@ void AddBytes(T number, std::string* bytes) {
   for (size_t i = 0; i < sizeof bits; ++i) *bytes += static_cast<char>(bits >> (8 * i) & 0xff);
 }
 
-std::string Ply(const Shape& vertices, const Soup& appearance) {
+std::string Ply(const Shape& vertices, const Soup& soup) {
   int longest = 0;
-  for (int p = 0; p < appearance.NumPolygons(); ++p) {
-    longest = std::max(longest, appearance.polygon_begin[p + 1] - appearance.polygon_begin[p]);
+  for (int p = 0; p < soup.NumPolygons(); ++p) {
+    longest = std::max(longest, soup.polygon_begin[p + 1] - soup.polygon_begin[p]);
   }
   // One byte a length is what every reader knows; longer polygons leave no choice.
   const bool short_lengths = longest <= 255;
   std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                       std::to_string(vertices.cols()) +
                       "\nproperty double x\nproperty double y\nproperty double z\n";
-  if (appearance.NumPolygons() > 0) {
-    bytes += "element face " + std::to_string(appearance.NumPolygons()) + "\nproperty list " +
+  if (soup.NumPolygons() > 0) {
+    bytes += "element face " + std::to_string(soup.NumPolygons()) + "\nproperty list " +
              (short_lengths ? "uchar" : "int") + " int vertex_indices\n";
   }
-  if (!appearance.segments.empty()) {
-    bytes += "element edge " + std::to_string(appearance.segments.size()) +
+  if (!soup.segments.empty()) {
+    bytes += "element edge " + std::to_string(soup.segments.size()) +
              "\nproperty int vertex1\nproperty int vertex2\n";
   }
   bytes += "end_header\n";
-  bytes.reserve(bytes.size() + 24 * vertices.cols() + 4 * appearance.corners.size() +
-                4 * appearance.polygon_begin.size() + 8 * appearance.segments.size());
+  bytes.reserve(bytes.size() + 24 * vertices.cols() + 4 * soup.corners.size() +
+                4 * soup.polygon_begin.size() + 8 * soup.segments.size());
   for (int i = 0; i < vertices.size(); ++i) {
     AddBytes<std::uint64_t>(vertices.data()[i], &bytes);
   }
-  for (int p = 0; p < appearance.NumPolygons(); ++p) {
-    const int begin = appearance.polygon_begin[p], end = appearance.polygon_begin[p + 1];
+  for (int p = 0; p < soup.NumPolygons(); ++p) {
+    const int begin = soup.polygon_begin[p], end = soup.polygon_begin[p + 1];
     if (short_lengths) {
       bytes += static_cast<char>(end - begin);
     } else {
       AddBytes<std::uint32_t>(end - begin, &bytes);
     }
-    for (int k = begin; k < end; ++k) AddBytes<std::uint32_t>(appearance.corners[k], &bytes);
+    for (int k = begin; k < end; ++k) AddBytes<std::uint32_t>(soup.corners[k], &bytes);
   }
-  for (const auto& [a, b] : appearance.segments) {
+  for (const auto& [a, b] : soup.segments) {
     AddBytes<std::uint32_t>(a, &bytes);
     AddBytes<std::uint32_t>(b, &bytes);
   }
@@ -136,18 +144,16 @@ std::string Ply(const Shape& vertices, const Soup& appearance) {
 
 }  // namespace
 
-void WriteMesh(const std::string& file, const Shape& vertices, const Soup& appearance) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+void WriteMesh(const std::string& file, const Shape& vertices, const Soup& soup) {
+  const std::string extension = Extension(file);
   if (extension != ".obj" && extension != ".ply") {
     throw FileError(file + ": the extension '" + extension +
                     "' is neither .obj nor .ply; name the file as one of these");
   }
-  if (vertices.cols() != appearance.NumVertices()) {
+  if (vertices.cols() != soup.NumVertices()) {
     throw MeshError(file + ": " + std::to_string(vertices.cols()) +
                     " vertices for the polygons of a mesh of " +
-                    std::to_string(appearance.NumVertices()));
+                    std::to_string(soup.NumVertices()));
   }
   for (int v = 0; v < vertices.cols(); ++v) {
     if (!vertices.col(v).allFinite()) {
@@ -155,8 +161,13 @@ void WriteMesh(const std::string& file, const Shape& vertices, const Soup& appea
                       ": a coordinate is not a finite number; nothing was written");
     }
   }
-  const std::string content =
-      extension == ".obj" ? Obj(vertices, appearance) : Ply(vertices, appearance);
+  try {
+    soup.appearance.Validate(soup.NumVertices(), soup.NumPolygons(),
+                             static_cast<int>(soup.corners.size()));
+  } catch (const MeshError& error) {
+    throw MeshError(file + ": " + error.what());
+  }
+  const std::string content = extension == ".obj" ? Obj(vertices, soup) : Ply(vertices, soup);
   WriteFileAtomically(file, [&content](std::ostream& stream) {
     stream.write(content.data(), static_cast<std::streamsize>(content.size()));
   });

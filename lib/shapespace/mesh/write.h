@@ -8,14 +8,15 @@
 
 namespace shapespace {
 
-/// Writes `vertices` with the polygons, segments, texture coordinates and materials of `appearance`
-/// (its own vertices are not used): OBJ (text, 9 significant digits) or PLY (binary little-endian,
-/// double), told by the extension. PLY keeps polygons and segments only.
-/// Material libraries are named as `appearance` names them, not copied.
+/// Writes `vertices` with the polygons, segments and appearance of `soup` (its own vertices are not
+/// used): OBJ (text) or PLY (binary little-endian), told by the extension. Coordinates read back as
+/// they were, to the last bit. PLY keeps polygons and segments only.
+/// Material libraries are named as `soup` names them, not copied.
 /// The file appears whole or not at all.
 /// \throw FileError if the extension is neither or the file cannot be written; MeshError if a
-///        coordinate is not finite or the number of vertices is not the appearance's.
-void WriteMesh(const std::string& file, const Shape& vertices, const Soup& appearance);
+///        coordinate is not finite, the number of vertices is not the soup's, or its appearance is
+///        not valid.
+void WriteMesh(const std::string& file, const Shape& vertices, const Soup& soup);
 
 }  // namespace shapespace
 

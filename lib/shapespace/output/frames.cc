@@ -22,19 +22,19 @@ std::string FrameName(const std::string& pattern, int number) {
   return match[1].str() + digits + match[4].str();
 }
 
-void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes,
-                 const Soup& appearance) {
+void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes, const Soup& soup) {
   FrameName(pattern, 0);  // says what is wrong before anything is written
   ParallelFor(static_cast<int>(shapes.size()),
-              [&](int i) { WriteMesh(FrameName(pattern, i), shapes[i], appearance); });
+              [&](int i) { WriteMesh(FrameName(pattern, i), shapes[i], soup); });
 }
 
-Soup PlainAppearance(const Connectivity& connectivity) {
+Soup FrameSoup(const Connectivity& connectivity, const Appearance& appearance) {
   Soup soup;
-  soup.vertices.resize(3, connectivity.NumVertices());
+  soup.vertices.setZero(3, connectivity.NumVertices());
   soup.polygon_begin = connectivity.PolygonBegin();
   soup.corners = connectivity.Corners();
   soup.segments = connectivity.Segments();
+  soup.appearance = appearance;
   return soup;
 }
 

@@ -15,13 +15,13 @@ namespace shapespace {
 std::string FrameName(const std::string& pattern, int number);
 
 /// Writes one mesh file a shape, numbered from 000, in the format of the pattern's extension
-/// (`WriteMesh`). `appearance` gives polygons, texture coordinates and materials.
+/// (`WriteMesh`). `soup` gives polygons, segments and appearance.
 /// \throw FileError, MeshError.
-void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes,
-                 const Soup& appearance);
+void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes, const Soup& soup);
 
-/// The appearance of a mesh that came from no file: its polygons and segments and nothing else.
-Soup PlainAppearance(const Connectivity& connectivity);
+/// What frames of a path or of a body hold besides positions: polygons, segments and the appearance.
+/// Its vertices are zero.
+Soup FrameSoup(const Connectivity& connectivity, const Appearance& appearance = {});
 
 }  // namespace shapespace
 

@@ -76,7 +76,9 @@ Path Resample(const Path& path, const std::vector<double>& times) {
   Path result;
   result.metric = path.metric;
   result.parameters = times;
+  result.converged = path.converged;
   result.provenance = path.provenance + "; resampled";
+  result.appearance = path.appearance;
   // Pieces end at poses and, of a path that goes on past them, at its ends.
   std::vector<int> corners = path.poses;
   corners.insert(corners.begin(), 0);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <shapespace/mesh/appearance.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/rigid_motion.h>
@@ -25,7 +26,9 @@ struct Path {
   std::vector<RigidMotion> motions;  ///< of every shape, to its place, in the user's unit
   std::vector<int> poses;            ///< indices of the shapes that were given, rising
   int extrapolated = 0;              ///< how many of the last shapes were extrapolated
+  bool converged = true;             ///< false if a solve ended before it was done
   std::string provenance;            ///< who made the path, from what
+  Appearance appearance;             ///< of the connectivity's polygons: for outputs
 
   int NumShapes() const { return static_cast<int>(shapes.size()); }
 

@@ -254,7 +254,9 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
 }
 
 GeodesicResult Interpolate(const Poses& poses, const GeodesicOptions& options, Progress* progress) {
-  return Interpolate(poses.connectivity, poses.shapes, options, progress);
+  GeodesicResult result = Interpolate(poses.connectivity, poses.shapes, options, progress);
+  result.path.appearance = poses.soup.appearance;
+  return result;
 }
 
 }  // namespace shapespace

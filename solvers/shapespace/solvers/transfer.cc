@@ -308,6 +308,7 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
   const std::string provenance = source.provenance.empty() ? "" : source.provenance + "; ";
   result.path = PathOfTarget(metric, placed, source.parameters, provenance + "transferred");
   result.hybrids = PathOfPlaced(metric, hybrids, source.parameters, provenance + "hybrids");
+  result.path.appearance = result.hybrids.appearance = source.appearance;
   MeasureWhatIsOff(*metric, source, result.path, &summary);
   Warn(&summary);
   summary.total_seconds = total.Seconds();
