@@ -1,5 +1,6 @@
 #include <shapespace/path/path_file.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -8,6 +9,7 @@
 #include <functional>
 #include <iterator>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -17,6 +19,7 @@
 
 #include "support/message_of.h"
 #include "support/paths.h"
+#include "support/same_appearance.h"
 
 namespace shapespace {
 namespace {
@@ -34,7 +37,7 @@ void Spill(const std::string& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
-// A path with every kind of feature, a quadrilateral and a stiffener.
+// A path with every kind of feature, a quadrilateral, a stiffener and all that an appearance has.
 Path MakePath() {
   const Body bar = MakeBar(4, 1, 1, 3, 1, 1);
   MetricOptions options;
@@ -54,6 +57,22 @@ Path MakePath() {
   path.motions[4].rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   path.poses = {0, 2};
   path.extrapolated = 2;
+  path.converged = false;
+  const int polygons = connectivity->NumPolygons();
+  const int corners = static_cast<int>(connectivity->Corners().size());
+  Appearance& appearance = path.appearance;
+  appearance.texture_coordinates = Eigen::Matrix2Xd::Random(2, 7);
+  for (int k = 0; k < corners; ++k) appearance.corner_texture.push_back(k % 8 - 1);
+  appearance.material_libraries = {"bar.mtl", "d\xE9tail.mtl"};  // Latin-1, no UTF-8
+  appearance.materials = {{"red", "gr\xC3\xBCn", "\xFF\xFE"}, {}};
+  appearance.groups = {{"left", "right"}, {}};
+  appearance.objects = {{"bar"}, std::vector<int>(polygons, 0)};
+  for (int p = 0; p < polygons; ++p) {
+    appearance.materials.of_polygon.push_back(p % 4 - 1);
+    appearance.groups.of_polygon.push_back(p % 2);
+  }
+  appearance.vertex_colours =
+      (Eigen::MatrixXd::Random(4, connectivity->NumVertices()).array() + 1) / 2;
   path.provenance = "a test, with \"quotes\" and \xC3\xA9";
   return path;
 }
@@ -88,7 +107,9 @@ TEST(PathFile, RoundTripKeepsEveryBit) {
   EXPECT_EQ(read.parameters, path.parameters);
   EXPECT_EQ(read.poses, path.poses);
   EXPECT_EQ(read.extrapolated, 2);
+  EXPECT_FALSE(read.converged);
   EXPECT_EQ(read.provenance, path.provenance);
+  testing::ExpectSame(read.appearance, path.appearance);
   EXPECT_EQ(read.metric->connectivity->Corners(), path.metric->connectivity->Corners());
   EXPECT_TRUE(read.metric->connectivity->Edges() == path.metric->connectivity->Edges());
   EXPECT_EQ(Describe(read.metric->options), Describe(path.metric->options));
@@ -140,41 +161,91 @@ TEST(PathFile, ErrorsNameTheFileAndTheReason) {
   EXPECT_NE(message(file).find("version 9"), std::string::npos) << message(file);
 }
 
-TEST(PathFile, FilesFromBeforeExtrapolationHaveNone) {
-  const std::string file = TemporaryFile("early.path");
+TEST(PathFile, TheFirstVersionIsRefused) {
+  const std::string file = TemporaryFile("first_version.path");
   WritePath(file, MakePath());
   std::string bytes = Slurp(file);
-  const std::string entry = "\"extrapolated\":2,";
-  ASSERT_NE(bytes.find(entry), std::string::npos);
-  bytes.replace(bytes.find(entry), entry.size(), std::string(entry.size(), ' '));
-  const uint32_t checksum = Checksum(bytes.substr(16));
-  std::memcpy(&bytes[12], &checksum, sizeof checksum);
+  bytes[8] = 1;
   Spill(file, bytes);
-  EXPECT_EQ(ReadPath(file).extrapolated, 0);
-  EXPECT_EQ(ReadPath(file).NumShapes(), 5);
+  const std::string message = testing::MessageOf<FileError>([&] { ReadPath(file); });
+  EXPECT_EQ(message.find(file + ": version 1 of the format is not read"), 0u) << message;
 }
 
-TEST(PathFile, PathsAtOddsWithThemselvesAreRefused) {
+TEST(PathFile, AFolderOfSuchANameIsAFolder) {
+  const std::string folder = TemporaryFile("folder.path");
+  std::filesystem::create_directories(folder);
+  EXPECT_EQ(testing::MessageOf<FileError>([&] { ReadPath(folder); }),
+            folder + ": is a folder; name a file");
+}
+
+TEST(PathFile, LibrariesAreFoundFromTheFile) {
+  const std::filesystem::path folder = TemporaryFile("moved");
+  std::filesystem::remove_all(folder);
+  Path path = MakePath();
+  path.appearance.folder = (folder / "here" / "poses").string();
+  WritePath((folder / "here" / "out" / "w.path").string(), path);
+  EXPECT_EQ(ReadPath((folder / "here" / "out" / "w.path").string()).appearance.folder,
+            path.appearance.folder);
+  std::filesystem::rename(folder / "here", folder / "there");
+  EXPECT_EQ(ReadPath((folder / "there" / "out" / "w.path").string()).appearance.folder,
+            (folder / "there" / "poses").string());
+}
+
+TEST(PathFile, PathsAtOddsWithThemselvesAreNotWritten) {
   const std::string file = TemporaryFile("odd.path");
+  std::filesystem::remove(file);
   const auto message = [&](const std::function<void(Path*)>& change) {
     Path path = MakePath();
     change(&path);
-    WritePath(file, path);
+    return testing::MessageOf<MeshError>([&] { WritePath(file, path); });
+  };
+  using P = Path;
+  EXPECT_EQ(message([](P* p) { p->shapes.clear(); }), file + ": the path has no shape");
+  EXPECT_EQ(message([](P* p) { p->motions.pop_back(); }),
+            file + ": the path needs a parameter and a motion for each of its 5 shapes");
+  EXPECT_EQ(message([](P* p) { p->shapes[1](2, 5) = std::nan(""); }),
+            file + ": shape 1: vertex 5 is not finite");
+  EXPECT_EQ(message([](P* p) { p->shapes[2] = Shape::Zero(3, 7); }).find(file + ": shape 2 has 7 "),
+            0u);
+  EXPECT_EQ(message([](P* p) { p->motions[3].translation.x() = std::nan(""); }),
+            file + ": shape 3: its motion is not finite");
+  const std::string extrapolated = file + ": the path's number of extrapolated shapes, ";
+  EXPECT_EQ(message([](P* p) { p->extrapolated = 5; }), extrapolated + "5, is not in 0 .. 4");
+  EXPECT_EQ(message([](P* p) { p->extrapolated = -1; }), extrapolated + "-1, is not in 0 .. 4");
+  const std::string pose = file + ": the path's pose ";
+  const std::string none = " shapes that are not extrapolated";
+  EXPECT_EQ(message([](P* p) { p->extrapolated = 3; }), pose + "2 is none of its 2" + none);
+  EXPECT_EQ(message([](P* p) { p->poses[1] = 5; }), pose + "5 is none of its 3" + none);
+  EXPECT_EQ(message([](P* p) { p->poses[0] = -1; }), pose + "-1 is none of its 3" + none);
+  EXPECT_EQ(message([](P* p) { std::swap(p->poses[0], p->poses[1]); }),
+            file + ": the path's poses do not rise");
+  EXPECT_EQ(message([](P* p) { p->parameters[3] = 0.5; }),
+            file + ": the path's parameters do not rise");
+  EXPECT_EQ(message([](P* p) { p->appearance.corner_texture[2] = 7; }),
+            file + ": texture coordinates of corners: index 7 is not in -1 .. 6");
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST(PathFile, FilesAtOddsWithThemselvesAreNotRead) {
+  const std::string file = TemporaryFile("odd_file.path");
+  const auto message = [&](const std::string& entry, std::string other) {
+    WritePath(file, MakePath());
+    std::string bytes = Slurp(file);
+    EXPECT_NE(bytes.find(entry), std::string::npos) << entry;
+    other.resize(entry.size(), ' ');
+    bytes.replace(bytes.find(entry), entry.size(), other);
+    const uint32_t checksum = Checksum(bytes.substr(16));
+    std::memcpy(&bytes[12], &checksum, sizeof checksum);
+    Spill(file, bytes);
     return testing::MessageOf<FileError>([&] { ReadPath(file); });
   };
-  const std::string extrapolated = file + ": its number of extrapolated shapes is out of range";
-  EXPECT_EQ(message([](Path* path) { path->extrapolated = 5; }), extrapolated);
-  EXPECT_EQ(message([](Path* path) { path->extrapolated = -1; }), extrapolated);
-  const std::string pose = file + ": a pose's index is out of range";
-  EXPECT_EQ(message([](Path* path) { path->extrapolated = 3; }), pose);  // a pose among them
-  EXPECT_EQ(message([](Path* path) { path->poses = {0, 5}; }), pose);
-  EXPECT_EQ(message([](Path* path) { path->poses = {-1, 2}; }), pose);
-  EXPECT_EQ(message([](Path* path) {
-              path->poses = {2, 0};
-            }),
-            file + ": its poses' indices do not rise");
-  EXPECT_EQ(message([](Path* path) { path->parameters[3] = 0.5; }),
-            file + ": its parameters do not rise");
+  EXPECT_EQ(message("\"extrapolated\":2", "\"extrapolated\":5"),
+            file + ": the path's number of extrapolated shapes, 5, is not in 0 .. 4");
+  EXPECT_EQ(message("\"groups\":[\"left\",\"right\"]", "\"groups\":[\"left\"]"),
+            file + ": groups of polygons: index 1 is not in -1 .. 0");
+  EXPECT_EQ(message("{\"name\":\"triangles\"", "{\"name\":\"trianglez\""),
+            file + ": it lacks the array triangles");
+  EXPECT_NE(message("\"converged\":false,", "").find("converged"), std::string::npos);
 }
 
 TEST(PathFile, NothingIsLeftBehindWhereItCannotBeWritten) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
@@ -33,6 +34,46 @@ void CheckTimes(const std::vector<double>& times, double first, double last) {
 }
 
 }  // namespace
+
+void Path::Validate() const {
+  const Connectivity& connectivity = *metric->connectivity;
+  const int count = NumShapes(), vertices = connectivity.NumVertices();
+  const auto text = [](int number) { return std::to_string(number); };
+  if (count == 0) throw MeshError("the path has no shape");
+  if (parameters.size() != shapes.size() || motions.size() != shapes.size()) {
+    throw MeshError("the path needs a parameter and a motion for each of its " + text(count) +
+                    " shapes");
+  }
+  if (!Rise(parameters)) throw MeshError("the path's parameters do not rise");
+  for (int i = 0; i < count; ++i) {
+    const std::string shape = "shape " + text(i);
+    if (shapes[i].cols() != vertices) {
+      throw MeshError(shape + " has " + text(static_cast<int>(shapes[i].cols())) +
+                      " vertices, its connectivity " + text(vertices));
+    }
+    if (!motions[i].rotation.allFinite() || !motions[i].translation.allFinite()) {
+      throw MeshError(shape + ": its motion is not finite");
+    }
+    for (int v = 0; v < vertices; ++v) {
+      if (!shapes[i].col(v).allFinite()) {
+        throw MeshError(shape + ": vertex " + text(v) + " is not finite");
+      }
+    }
+  }
+  if (extrapolated < 0 || extrapolated >= count) {
+    throw MeshError("the path's number of extrapolated shapes, " + text(extrapolated) +
+                    ", is not in 0 .. " + text(count - 1));
+  }
+  for (size_t k = 0; k < poses.size(); ++k) {
+    if (poses[k] < 0 || poses[k] >= count - extrapolated) {
+      throw MeshError("the path's pose " + text(poses[k]) + " is none of its " +
+                      text(count - extrapolated) + " shapes that are not extrapolated");
+    }
+    if (k > 0 && poses[k] <= poses[k - 1]) throw MeshError("the path's poses do not rise");
+  }
+  appearance.Validate(vertices, connectivity.NumPolygons(),
+                      static_cast<int>(connectivity.Corners().size()));
+}
 
 std::vector<Shape> Path::Placed() const {
   std::vector<Shape> result(NumShapes());

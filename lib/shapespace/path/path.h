@@ -32,6 +32,11 @@ struct Path {
 
   int NumShapes() const { return static_cast<int>(shapes.size()); }
 
+  /// \throw MeshError if numbers of shapes, of vertices or of anything else do not fit together,
+  /// the
+  ///        appearance is not valid, or a number is not finite.
+  void Validate() const;
+
   /// Shape i in the user's frame and unit.
   Shape Placed(int i) const { return motions[i](metric->unit * shapes[i]); }
   std::vector<Shape> Placed() const;

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <functional>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <type_traits>
@@ -14,6 +13,7 @@
 
 #include <shapespace/base/atomic_file.h>
 #include <shapespace/base/error.h>
+#include <shapespace/base/read_file.h>
 
 namespace shapespace {
 namespace {
@@ -67,6 +67,10 @@ class ArrayReader {
       array.columns = entry.at("columns").get<size_t>();
       array.begin = begin;
       const size_t size = array.type == "f8" ? 8 : 4;
+      constexpr size_t kMost = std::numeric_limits<int>::max();
+      if (array.rows > kMost || array.columns > kMost) {
+        throw FileError("its arrays have sizes out of range");
+      }
       if (array.columns != 0 && array.rows > (bytes.size() - begin) / size / array.columns) {
         throw FileError("its arrays are longer than the file");
       }
@@ -176,7 +180,79 @@ bool ReadFeature(const std::string& name, const Json& constants, const std::stri
   return true;
 }
 
-Path Parse(const std::string& bytes) {
+// JSON holds text in UTF-8 only: any other name stands as the list of its bytes.
+Json NameToJson(const std::string& name) {
+  try {
+    (void)Json(name).dump();
+    return name;
+  } catch (const Json::exception&) {
+    return std::vector<uint8_t>(name.begin(), name.end());
+  }
+}
+
+std::string NameFromJson(const Json& json) {
+  if (json.is_string()) return json.get<std::string>();
+  const auto bytes = json.get<std::vector<uint8_t>>();
+  return {bytes.begin(), bytes.end()};
+}
+
+Json NamesToJson(const std::vector<std::string>& names) {
+  Json json = Json::array();
+  for (const std::string& name : names) json.push_back(NameToJson(name));
+  return json;
+}
+
+std::vector<std::string> NamesFromJson(const Json& json) {
+  std::vector<std::string> names;
+  for (const Json& name : json) names.push_back(NameFromJson(name));
+  return names;
+}
+
+// Names in the header, numbers in the arrays. Libraries lie relative to `file`, so that all can be
+// moved together.
+Json AddAppearance(const Appearance& appearance, const std::string& file, ArrayWriter* arrays) {
+  const auto add_indices = [arrays](const std::string& name, const std::vector<int>& indices) {
+    arrays->Add(name, indices.data(), indices.size(), 1);
+  };
+  arrays->Add("texture_coordinates", appearance.texture_coordinates);
+  add_indices("corner_texture", appearance.corner_texture);
+  add_indices("polygon_material", appearance.materials.of_polygon);
+  add_indices("polygon_group", appearance.groups.of_polygon);
+  add_indices("polygon_object", appearance.objects.of_polygon);
+  arrays->Add("vertex_colours", appearance.vertex_colours);
+  const auto here = std::filesystem::current_path();
+  const auto folder = (here / appearance.folder)
+                          .lexically_normal()
+                          .lexically_proximate((here / file).parent_path().lexically_normal());
+  const bool has_libraries = !appearance.material_libraries.empty();
+  return {{"material_libraries", NamesToJson(appearance.material_libraries)},
+          {"folder", NameToJson(has_libraries ? folder.string() : "")},
+          {"materials", NamesToJson(appearance.materials.names)},
+          {"groups", NamesToJson(appearance.groups.names)},
+          {"objects", NamesToJson(appearance.objects.names)}};
+}
+
+Appearance ReadAppearance(const Json& json, const std::filesystem::path& folder,
+                          const ArrayReader& arrays) {
+  const auto indices = [&arrays](const std::string& name) {
+    const auto column = arrays.Get<Eigen::VectorXi>(name, Eigen::Dynamic, 1);
+    return std::vector<int>(column.begin(), column.end());
+  };
+  Appearance appearance;
+  appearance.texture_coordinates =
+      arrays.Get<Eigen::Matrix2Xd>("texture_coordinates", 2, Eigen::Dynamic);
+  appearance.corner_texture = indices("corner_texture");
+  appearance.material_libraries = NamesFromJson(json.at("material_libraries"));
+  appearance.folder = (folder / NameFromJson(json.at("folder"))).lexically_normal().string();
+  appearance.materials = {NamesFromJson(json.at("materials")), indices("polygon_material")};
+  appearance.groups = {NamesFromJson(json.at("groups")), indices("polygon_group")};
+  appearance.objects = {NamesFromJson(json.at("objects")), indices("polygon_object")};
+  appearance.vertex_colours =
+      arrays.Get<Eigen::MatrixXd>("vertex_colours", Eigen::Dynamic, Eigen::Dynamic);
+  return appearance;
+}
+
+Path Parse(const std::string& file, const std::string& bytes) {
   if (bytes.size() < kPreamble || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0) {
     throw FileError("this is no .path file");
   }
@@ -186,8 +262,9 @@ Path Parse(const std::string& bytes) {
   std::memcpy(&checksum, bytes.data() + 12, sizeof checksum);
   std::memcpy(&header_size, bytes.data() + 16, sizeof header_size);
   if (version != kVersion) {
-    throw FileError("version " + std::to_string(version) + " of the format is not known; this is " +
-                    std::to_string(kVersion) + ", use the shapespace that wrote it");
+    throw FileError("version " + std::to_string(version) + " of the format is not read, only " +
+                    std::to_string(kVersion) +
+                    " is; use the shapespace that wrote it, or make the path again with this one");
   }
   if (Checksum(bytes, 16) != checksum || header_size > bytes.size() - kPreamble) {
     throw FileError("it is damaged or was cut off (its checksum does not fit); make it again");
@@ -236,27 +313,12 @@ Path Parse(const std::string& bytes) {
   Path path;
   path.metric = metric;
   const int num_shapes = header.at("shapes").get<int>();
-  if (num_shapes < 1) throw FileError("it holds no shape");
   const auto parameters = arrays.Get<Eigen::VectorXd>("parameters", num_shapes, 1);
   path.parameters.assign(parameters.begin(), parameters.end());
   const auto poses = arrays.Get<Eigen::VectorXi>("poses", Eigen::Dynamic, 1);
-  if (std::adjacent_find(parameters.begin(), parameters.end(), std::greater_equal<>()) !=
-      parameters.end()) {
-    throw FileError("its parameters do not rise");
-  }
   path.poses.assign(poses.begin(), poses.end());
-  if (std::adjacent_find(poses.begin(), poses.end(), std::greater_equal<>()) != poses.end()) {
-    throw FileError("its poses' indices do not rise");
-  }
-  // Files that were written before paths could go on beyond their poses do not have the entry.
-  path.extrapolated = header.value("extrapolated", 0);
-  if (path.extrapolated < 0 || path.extrapolated >= num_shapes) {
-    throw FileError("its number of extrapolated shapes is out of range");
-  }
-  if (!path.poses.empty() &&
-      (path.poses.front() < 0 || path.poses.back() >= num_shapes - path.extrapolated)) {
-    throw FileError("a pose's index is out of range");
-  }
+  path.extrapolated = header.at("extrapolated").get<int>();
+  path.converged = header.at("converged").get<bool>();
   const auto rotations = arrays.Get<Eigen::Matrix3Xd>("rotations", 3, 3 * num_shapes);
   const auto translations = arrays.Get<Eigen::Matrix3Xd>("translations", 3, num_shapes);
   for (int i = 0; i < num_shapes; ++i) {
@@ -264,12 +326,20 @@ Path Parse(const std::string& bytes) {
     path.shapes.push_back(arrays.Get<Shape>("shape" + std::to_string(i), 3, num_vertices));
   }
   path.provenance = header.at("provenance").get<std::string>();
+  path.appearance =
+      ReadAppearance(header.at("appearance"), std::filesystem::path(file).parent_path(), arrays);
+  path.Validate();
   return path;
 }
 
 }  // namespace
 
 void WritePath(const std::string& file, const Path& path) {
+  try {
+    path.Validate();
+  } catch (const MeshError& error) {
+    throw MeshError(file + ": " + error.what());
+  }
   const Metric& metric = *path.metric;
   const Connectivity& connectivity = *metric.connectivity;
   ArrayWriter arrays;
@@ -311,14 +381,17 @@ void WritePath(const std::string& file, const Path& path) {
   for (int i = 0; i < path.NumShapes(); ++i) {
     arrays.Add("shape" + std::to_string(i), path.shapes[i]);
   }
+  const Json appearance = AddAppearance(path.appearance, file, &arrays);
 
   const Json header = {{"vertices", connectivity.NumVertices()},  //
                        {"shapes", path.NumShapes()},
                        {"extrapolated", path.extrapolated},
+                       {"converged", path.converged},
                        {"unit", metric.unit},
                        {"metric", OptionsToJson(metric.options)},
                        {"features", features},
                        {"provenance", path.provenance},
+                       {"appearance", appearance},
                        {"arrays", arrays.Table()}};
   // A provenance may name files in bytes that are no UTF-8: those are replaced.
   std::string header_text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -338,14 +411,9 @@ void WritePath(const std::string& file, const Path& path) {
 }
 
 Path ReadPath(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  if (!stream) throw FileError(file + ": cannot be opened");
-  std::string bytes(static_cast<size_t>(std::max<std::streamoff>(0, stream.tellg())), '\0');
-  stream.seekg(0);
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!stream) throw FileError(file + ": cannot be read to its end");
+  const std::string bytes = ReadFile(file);
   try {
-    return Parse(bytes);
+    return Parse(file, bytes);
   } catch (const std::exception& error) {
     throw FileError(file + ": " + error.what());
   }

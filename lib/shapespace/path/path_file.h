@@ -8,12 +8,14 @@
 namespace shapespace {
 
 /// Writes everything a path is (connectivity, metric with its frozen weights, aligned shapes, rigid
-/// motions, unit, provenance) to a `.path` file: docs/file-formats.md. Doubles keep all their bits.
-/// The file appears whole or not at all. \throw FileError.
+/// motions, unit, appearance, provenance) to a `.path` file: docs/file-formats.md. Doubles keep all
+/// their bits. Material libraries and textures are named, relative to the file, not copied.
+/// The file appears whole or not at all.
+/// \throw FileError if it cannot be written, MeshError if the path is not valid.
 void WritePath(const std::string& file, const Path& path);
 
 /// Reads it back.
-/// \throw FileError naming the file: not a path, written by a later version, truncated or damaged
+/// \throw FileError naming the file: not a path, of another version, truncated or damaged
 ///        (its checksum does not fit), or inconsistent.
 Path ReadPath(const std::string& file);
 
