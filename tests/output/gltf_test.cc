@@ -1,7 +1,6 @@
 #include <shapespace/output/gltf.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -12,6 +11,8 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
+#include <shapespace/mesh/soup.h>
+#include <shapespace/mesh/triangulate.h>
 #include <shapespace/output/colour.h>
 #include <shapespace/output/key_shapes.h>
 
@@ -26,13 +27,6 @@ using testing::MessageOf;
 
 // Rounding errors of single precision, in sizes of the body: of two numbers and their sum.
 constexpr double kPrecision = 4e-7;
-
-// In a folder that is kept where somebody wants to look at the files: tests/gltf/run.sh.
-std::string File(const std::string& name) {
-  const char* const folder = std::getenv("SHAPESPACE_GLB_DIR");
-  return (folder != nullptr ? folder + std::string("/") : ::testing::TempDir() + "gltf_test_") +
-         name + ".glb";
-}
 
 // A path through `shapes`, which lie where `Placed` has them.
 Path MakePath(const std::shared_ptr<const Connectivity>& connectivity,
@@ -51,7 +45,8 @@ Path MakePath(const std::shared_ptr<const Connectivity>& connectivity,
                           path.metric->unit);
     path.parameters.push_back(count > 1 ? i / (count - 1.0) : 0);
   }
-  path.poses = {0, count - 1};
+  path.poses = {0};
+  if (count > 1) path.poses.push_back(count - 1);
   return path;
 }
 
@@ -84,10 +79,10 @@ Shape Shown(const Glb& glb, double time) { return glb.InTheWorld(glb.Morphed("PO
 TEST(WriteGltfTest, ShowsEveryShapeAtItsTime) {
   Path path = SpherePath(6, {2, 0, -1});
   path.parameters = {0, 0.1, 0.2, 0.55, 0.6, 1};
-  const GltfSummary summary = WriteGltf(File("path"), path);
+  const GltfSummary summary = WriteGltf(GlbFile("path"), path);
   EXPECT_EQ(summary.keys, 6);
   EXPECT_FALSE(summary.subsampled);
-  const Glb glb(File("path"));
+  const Glb glb(GlbFile("path"));
   const double begin = TimeOf(glb, 0), end = TimeOf(glb, 5);
   for (int i = 0; i < 6; ++i) {
     EXPECT_NEAR((TimeOf(glb, i) - begin) / (end - begin), path.parameters[i], 1e-6);
@@ -103,8 +98,8 @@ TEST(WriteGltfTest, RunsThereAndBackWithRestsInTheGivenTime) {
   const Path path = SpherePath(4);
   GltfOptions options;
   options.duration = 7;
-  WriteGltf(File("there-and-back"), path, options);
-  const Glb glb(File("there-and-back"));
+  WriteGltf(GlbFile("there-and-back"), path, options);
+  const Glb glb(GlbFile("there-and-back"));
   const Eigen::MatrixXd times = glb.Times();
   EXPECT_EQ(times(0), 0);
   EXPECT_FLOAT_EQ(times(times.size() - 1), 7);
@@ -123,20 +118,110 @@ TEST(WriteGltfTest, RunsThereAndBackWithRestsInTheGivenTime) {
   EXPECT_EQ(accessor["max"][0], 7);
 }
 
+TEST(WriteGltfTest, EachEndIsHeldForATenthOfTheTime) {
+  const Path path = SpherePath(3);
+  GltfOptions options;
+  options.duration = 10;
+  WriteGltf(GlbFile("holds"), path, options);
+  const Glb glb(GlbFile("holds"));
+  for (const double t : {0.0, 0.499, 9.501, 10.0}) {
+    EXPECT_LT(Distance(Shown(glb, t), path.Placed(0)), 1e-6) << t;
+  }
+  for (const double t : {4.501, 5.0, 5.499}) {
+    EXPECT_LT(Distance(Shown(glb, t), path.Placed(2)), 2e-6) << t;
+  }
+  for (const double t : {0.51, 9.49}) {
+    EXPECT_GT(Distance(Shown(glb, t), path.Placed(0)), 1e-4) << t;
+  }
+}
+
+TEST(WriteGltfTest, LoopsRunFromTheFirstToTheLastAllTheTime) {
+  const Path path = SpherePath(5);
+  GltfOptions options;
+  options.duration = 8;
+  options.playback = Playback::kLoop;
+  WriteGltf(GlbFile("loop"), path, options);
+  const Glb glb(GlbFile("loop"));
+  EXPECT_EQ(glb.Times().maxCoeff(), 8);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_LT(Distance(Shown(glb, 2 * i), path.Placed(i)), 2e-6) << i;
+  }
+  EXPECT_LT(Distance(Shown(glb, 7), (path.Placed(3) + path.Placed(4)) / 2), 2e-6);
+}
+
+TEST(WriteGltfTest, OnceEndsWithAHold) {
+  const Path path = SpherePath(4);
+  GltfOptions options;
+  options.duration = 10;
+  options.playback = Playback::kOnce;
+  WriteGltf(GlbFile("once"), path, options);
+  const Glb glb(GlbFile("once"));
+  EXPECT_EQ(glb.Times().maxCoeff(), 10);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_LT(Distance(Shown(glb, 3 * i), path.Placed(i)), 2e-6) << i;
+  }
+  EXPECT_LT(Distance(Shown(glb, 9.5), path.Placed(3)), 2e-6);
+  EXPECT_LT(Distance(Shown(glb, 10), path.Placed(3)), 2e-6);
+}
+
+TEST(WriteGltfTest, FramesASecondSetTheTimeBetweenShapes) {
+  const Path path = SpherePath(7), long_path = SpherePath(65);
+  GltfOptions options;
+  options.fps = 4;
+  for (const Playback playback : {Playback::kThereAndBack, Playback::kLoop, Playback::kOnce}) {
+    options.playback = playback;
+    WriteGltf(GlbFile("frames"), path, options);
+    const Glb glb(GlbFile("frames"));
+    const double begin = playback == Playback::kThereAndBack ? TimeOf(glb, 0) : 0;
+    for (int i = 0; i < 7; ++i) {
+      EXPECT_LT(Distance(Shown(glb, begin + i / 4.0), path.Placed(i)), 3e-6) << i;
+    }
+    // Also where not all shapes are in the file.
+    WriteGltf(GlbFile("frames-long"), long_path, options);
+    const Glb long_glb(GlbFile("frames-long"));
+    const double start = playback == Playback::kThereAndBack ? TimeOf(long_glb, 0) : 0;
+    EXPECT_LT(Distance(Shown(long_glb, start + 16), long_path.Placed(64)), 3e-6);
+    EXPECT_GT(Distance(Shown(long_glb, start + 15.5), long_path.Placed(64)), 1e-2);
+  }
+}
+
+// Of a path of two shapes too, which has no key in between whose time could be another.
+TEST(WriteGltfTest, EasedMotionsAreSlowAtBothEnds) {
+  for (const int count : {2, 6}) {
+    const Path path = SpherePath(count);
+    GltfOptions options;
+    options.duration = 1;
+    options.playback = Playback::kLoop;
+    options.ease = true;
+    WriteGltf(GlbFile("eased"), path, options);
+    options.ease = false;
+    WriteGltf(GlbFile("even"), path, options);
+    const Glb eased(GlbFile("eased")), even(GlbFile("even"));
+    for (const double tau : {0.0, 0.03, 0.1, 0.3, 0.5, 0.77, 0.98, 1.0}) {
+      const double t = 0.5 * (1 - std::cos(EIGEN_PI * tau));
+      EXPECT_LT(Distance(Shown(eased, tau), Shown(even, t)), 2e-3) << tau;
+    }
+    for (int i = 0; i < count; ++i) {
+      const double tau = std::acos(1 - 2 * path.parameters[i]) / EIGEN_PI;
+      EXPECT_LT(Distance(Shown(eased, tau), path.Placed(i)), 2e-5) << i;
+    }
+  }
+}
+
 TEST(WriteGltfTest, TimesRiseHoweverCloseTheShapes) {
   Path path = SpherePath(5);
   path.parameters = {0, 1e-12, 0.5, 1 - 1e-15, 1};
-  WriteGltf(File("close"), path);
-  const Eigen::MatrixXd times = Glb(File("close")).Times();
+  WriteGltf(GlbFile("close"), path);
+  const Eigen::MatrixXd times = Glb(GlbFile("close")).Times();
   for (Eigen::Index s = 1; s < times.size(); ++s) EXPECT_GT(times(s), times(s - 1)) << s;
 }
 
 TEST(WriteGltfTest, NormalsStandOnTheSurface) {
   const SimpleBody sphere = Sphere(1, 40, 80);
   const Eigen::Vector3d axes(1, 2, 0.5);
-  WriteGltf(File("normals"),
+  WriteGltf(GlbFile("normals"),
             MakePath(sphere.connectivity, {sphere.shape, axes.asDiagonal() * sphere.shape}));
-  const Glb glb(File("normals"));
+  const Glb glb(GlbFile("normals"));
   const Eigen::MatrixXd first = glb.Morphed("NORMAL", 0), last = glb.Morphed("NORMAL", 2);
   for (int v = 80; v < 39 * 80; ++v) {  // all but the poles
     EXPECT_NEAR(first.col(v).norm(), 1, 1e-6);
@@ -153,8 +238,8 @@ TEST(WriteGltfTest, NormalsAreUnitVectorsWhereThereIsNoSurface) {
       Connectivity::FromTriangles(7, (Eigen::Matrix3Xi(3, 2) << 0, 3, 1, 4, 2, 5).finished());
   Shape first = Shape::Random(3, 7), last = first;
   last.col(4) = last.col(5) = last.col(3);
-  WriteGltf(File("degenerate"), MakePath(connectivity, {first, last}));
-  const Glb glb(File("degenerate"));
+  WriteGltf(GlbFile("degenerate"), MakePath(connectivity, {first, last}));
+  const Glb glb(GlbFile("degenerate"));
   for (const double time : {0.0, 2.0}) {
     const Eigen::MatrixXd normals = glb.Morphed("NORMAL", time);
     for (int v = 0; v < 7; ++v) EXPECT_NEAR(normals.col(v).norm(), 1, 1e-6) << time << " " << v;
@@ -162,8 +247,8 @@ TEST(WriteGltfTest, NormalsAreUnitVectorsWhereThereIsNoSurface) {
 }
 
 TEST(WriteGltfTest, BoundsAreThoseOfThePositions) {
-  WriteGltf(File("bounds"), SpherePath(3));
-  const Glb glb(File("bounds"));
+  WriteGltf(GlbFile("bounds"), SpherePath(3));
+  const Glb glb(GlbFile("bounds"));
   std::vector<int> accessors = {glb.Primitive()["attributes"]["POSITION"]};
   for (const auto& target : glb.Primitive()["targets"]) accessors.push_back(target["POSITION"]);
   EXPECT_EQ(accessors.size(), 3u);
@@ -179,10 +264,10 @@ TEST(WriteGltfTest, BoundsAreThoseOfThePositions) {
 TEST(WriteGltfTest, LongPathsAreSubsampledWithPosesAndEnds) {
   Path path = SpherePath(100);
   path.poses = {0, 37, 99};
-  const GltfSummary summary = WriteGltf(File("long"), path);
+  const GltfSummary summary = WriteGltf(GlbFile("long"), path);
   EXPECT_EQ(summary.keys, 32);
   EXPECT_TRUE(summary.subsampled);
-  const Glb glb(File("long"));
+  const Glb glb(GlbFile("long"));
   EXPECT_EQ(glb.Primitive()["targets"].size(), 31u);
   EXPECT_EQ(glb.json["asset"]["extras"]["shapes"], 100);
   const double begin = TimeOf(glb, 0), end = TimeOf(glb, 31);
@@ -216,8 +301,8 @@ TEST(KeyShapesTest, OfTooManyPosesKeepsTheEnds) {
 
 TEST(WriteGltfTest, OneShapeIsAStill) {
   const Path path = SpherePath(1);
-  EXPECT_EQ(WriteGltf(File("still"), path).keys, 1);
-  const Glb glb(File("still"));
+  EXPECT_EQ(WriteGltf(GlbFile("still"), path).keys, 1);
+  const Glb glb(GlbFile("still"));
   EXPECT_FALSE(glb.json.contains("animations"));
   EXPECT_FALSE(glb.Primitive().contains("targets"));
   const Shape shown = glb.InTheWorld(glb.Read(glb.Primitive()["attributes"]["POSITION"]));
@@ -226,8 +311,8 @@ TEST(WriteGltfTest, OneShapeIsAStill) {
 
 TEST(WriteGltfTest, PolygonsAreTriangulatedAndSeenFromBothSides) {
   const SimpleBody box = Box(1, 2, 3);
-  WriteGltf(File("box"), MakePath(box.connectivity, {box.shape, 2 * box.shape}));
-  const Glb glb(File("box"));
+  WriteGltf(GlbFile("box"), MakePath(box.connectivity, {box.shape, 2 * box.shape}));
+  const Glb glb(GlbFile("box"));
   EXPECT_EQ(glb.Primitive()["mode"], 4);
   const Eigen::MatrixXd indices = glb.Indices();
   ASSERT_EQ(indices.size(), 36);
@@ -236,10 +321,42 @@ TEST(WriteGltfTest, PolygonsAreTriangulatedAndSeenFromBothSides) {
   EXPECT_EQ(material["doubleSided"], true);
 }
 
+// A star, one polygon, whose fan from any corner would cover parts outside of it.
+TEST(WriteGltfTest, ConcavePolygonsAreFilledOnce) {
+  constexpr int kCorners = 10;
+  Soup soup;
+  soup.vertices.resize(3, kCorners);
+  for (int v = 0; v < kCorners; ++v) {
+    const double angle = 2 * EIGEN_PI * v / kCorners, radius = v % 2 == 0 ? 1 : 0.3;
+    soup.vertices.col(v) << radius * std::cos(angle), radius * std::sin(angle), 0;
+    soup.corners.push_back(v);
+  }
+  soup.polygon_begin.push_back(kCorners);
+  const auto connectivity =
+      Connectivity::Make(kCorners, soup.polygon_begin, soup.corners, {}, {},
+                         Triangulate(soup.polygon_begin, soup.corners, {soup.vertices}));
+  WriteGltf(GlbFile("star"), MakePath(connectivity, {soup.vertices, 2 * soup.vertices}));
+  const Glb glb(GlbFile("star"));
+  const Eigen::MatrixXd indices = glb.Indices();
+  ASSERT_EQ(indices.size(), 3 * (kCorners - 2));
+  const double area = kCorners * 0.5 * 0.3 * std::sin(2 * EIGEN_PI / kCorners);
+  for (const double time : {TimeOf(glb, 0), TimeOf(glb, 1)}) {
+    const Shape shape = Shown(glb, time);
+    double sum = 0;
+    for (int i = 0; i < indices.size(); i += 3) {
+      const auto corner = [&](int k) -> Eigen::Vector3d { return shape.col(indices(i + k)); };
+      const double twice = (corner(1) - corner(0)).cross(corner(2) - corner(0)).z();
+      EXPECT_GT(twice, 0) << "triangle " << i / 3;
+      sum += twice / 2;
+    }
+    EXPECT_NEAR(sum, time == TimeOf(glb, 0) ? area : 4 * area, 1e-5);
+  }
+}
+
 TEST(WriteGltfTest, FacetsAreShadedFlat) {
   const auto has_normals = [](const Path& path) {
-    WriteGltf(File("facets"), path);
-    const Glb glb(File("facets"));
+    WriteGltf(GlbFile("facets"), path);
+    const Glb glb(GlbFile("facets"));
     const bool normals = glb.Primitive()["attributes"].contains("NORMAL");
     EXPECT_EQ(glb.Primitive()["targets"][0].contains("NORMAL"), normals);
     return normals;
@@ -278,8 +395,8 @@ TEST(WriteGltfTest, GraphsAreLines) {
   const Path path = MakePath(graph, {first, last});
   GltfOptions options;
   options.colour_by_deviation = true;
-  WriteGltf(File("graph"), path, options);
-  const Glb glb(File("graph"));
+  WriteGltf(GlbFile("graph"), path, options);
+  const Glb glb(GlbFile("graph"));
   EXPECT_EQ(glb.Primitive()["mode"], 1);
   EXPECT_FALSE(glb.Primitive()["attributes"].contains("NORMAL"));
   EXPECT_FALSE(glb.Primitive()["targets"][0].contains("NORMAL"));
@@ -291,11 +408,11 @@ TEST(WriteGltfTest, ZPointsUpIfAskedTo) {
   const Path path = SpherePath(2, {1, 2, 3});
   GltfOptions options;
   options.up = 'z';
-  WriteGltf(File("z-up"), path, options);
+  WriteGltf(GlbFile("z-up"), path, options);
   const Shape last = path.Placed(1);
   Shape expected(3, last.cols());
   expected << last.row(0), last.row(2), -last.row(1);
-  EXPECT_LT(Distance(Shown(Glb(File("z-up")), 2), expected), 2e-6);
+  EXPECT_LT(Distance(Shown(Glb(GlbFile("z-up")), 2), expected), 2e-6);
 }
 
 TEST(WriteGltfTest, UnitsBecomeMetres) {
@@ -303,17 +420,17 @@ TEST(WriteGltfTest, UnitsBecomeMetres) {
   GltfOptions options;
   options.unit = 0.001;
   options.up = 'z';
-  WriteGltf(File("millimetres"), path, options);
+  WriteGltf(GlbFile("millimetres"), path, options);
   const Shape last = 0.001 * path.Placed(1);
   Shape expected(3, last.cols());
   expected << last.row(0), last.row(2), -last.row(1);
-  EXPECT_LT(Distance(Shown(Glb(File("millimetres")), 2), expected), 2e-9);
+  EXPECT_LT(Distance(Shown(Glb(GlbFile("millimetres")), 2), expected), 2e-9);
 }
 
 TEST(WriteGltfTest, FarFromTheOriginNothingIsLost) {
   const Path path = SpherePath(3, {1e6, -1e6, 1e6});
-  WriteGltf(File("far"), path);
-  const Glb glb(File("far"));
+  WriteGltf(GlbFile("far"), path);
+  const Glb glb(GlbFile("far"));
   for (int i = 0; i < 3; ++i) {
     const Shape expected = path.Placed(i);
     EXPECT_LT(Distance(Shown(glb, TimeOf(glb, i)), expected), 1e-6 * Size(expected));
@@ -326,8 +443,8 @@ TEST(WriteGltfTest, IndicesHaveSixteenBitsWhereTheyFit) {
         Connectivity::FromTriangles(vertices, Eigen::Vector3i(0, 1, vertices - 1));
     Shape shape = Shape::Zero(3, vertices);
     shape.col(1).x() = shape.col(vertices - 1).y() = 1;
-    WriteGltf(File("indices"), MakePath(connectivity, {shape}));
-    const Glb glb(File("indices"));
+    WriteGltf(GlbFile("indices"), MakePath(connectivity, {shape}));
+    const Glb glb(GlbFile("indices"));
     EXPECT_EQ(glb.Indices()(2), vertices - 1);
     return glb.json["accessors"][glb.Primitive()["indices"].get<int>()]["componentType"];
   };
@@ -336,8 +453,8 @@ TEST(WriteGltfTest, IndicesHaveSixteenBitsWhereTheyFit) {
 }
 
 TEST(WriteGltfTest, IsNoLargerThanItsArrays) {
-  const GltfSummary summary = WriteGltf(File("size"), SpherePath(17, {0, 0, 0}, 40, 80));
-  EXPECT_EQ(summary.bytes, std::filesystem::file_size(File("size")));
+  const GltfSummary summary = WriteGltf(GlbFile("size"), SpherePath(17, {0, 0, 0}, 40, 80));
+  EXPECT_EQ(summary.bytes, std::filesystem::file_size(GlbFile("size")));
   const double vertices = 40 * 80, triangles = 39 * 80 * 2;
   const double arrays = 24 * vertices * 17 + 6 * triangles;
   EXPECT_GT(summary.bytes, arrays);
@@ -352,14 +469,14 @@ TEST(WriteGltfTest, ColoursShowTheLargestDeviationOnTheWay) {
     if (middle(1, v) > 0) middle.col(v) *= 2;
   }
   const Path path = MakePath(sphere.connectivity, {sphere.shape, middle, sphere.shape});
-  const GltfSummary plain = WriteGltf(File("plain"), path);
+  const GltfSummary plain = WriteGltf(GlbFile("plain"), path);
   EXPECT_EQ(plain.colour_end, 0);
-  EXPECT_FALSE(Glb(File("plain")).Primitive()["attributes"].contains("COLOR_0"));
+  EXPECT_FALSE(Glb(GlbFile("plain")).Primitive()["attributes"].contains("COLOR_0"));
 
   GltfOptions options;
   options.colour_by_deviation = true;
-  const GltfSummary summary = WriteGltf(File("coloured"), path, options);
-  const Glb glb(File("coloured"));
+  const GltfSummary summary = WriteGltf(GlbFile("coloured"), path, options);
+  const Glb glb(GlbFile("coloured"));
   EXPECT_EQ(glb.json["asset"]["extras"]["last_colour_deviation"], summary.colour_end);
   EXPECT_GE(summary.colour_end, 1);
   const Eigen::MatrixXd colours = glb.Read(glb.Primitive()["attributes"]["COLOR_0"]);
@@ -380,7 +497,7 @@ TEST(WriteGltfTest, DeviationMayBeFromAShapeThatIsNotShown) {
   GltfOptions options;
   options.colour_by_deviation = true;
   options.reference = 0.5 * path.shapes[0];
-  EXPECT_DOUBLE_EQ(WriteGltf(File("reference"), path, options).colour_end, 1);
+  EXPECT_DOUBLE_EQ(WriteGltf(GlbFile("reference"), path, options).colour_end, 1);
 }
 
 TEST(WriteGltfTest, ColoursShowGroups) {
@@ -388,8 +505,8 @@ TEST(WriteGltfTest, ColoursShowGroups) {
   const Path path = MakePath(sphere.connectivity, {sphere.shape, 2 * sphere.shape});
   GltfOptions options;
   options.groups = Eigen::VectorXi::LinSpaced(sphere.shape.cols(), -1, 12);
-  WriteGltf(File("groups"), path, options);
-  const Glb glb(File("groups"));
+  WriteGltf(GlbFile("groups"), path, options);
+  const Glb glb(GlbFile("groups"));
   const Eigen::MatrixXd colours = glb.Read(glb.Primitive()["attributes"]["COLOR_0"]);
   for (int v = 0; v < sphere.shape.cols(); ++v) {
     const Colour expected = GroupColour(options.groups(v));
@@ -401,8 +518,8 @@ TEST(WriteGltfTest, ColoursShowGroups) {
 TEST(WriteGltfTest, SaysWhatItIsAndWhereItIsFrom) {
   Path path = SpherePath(2);
   path.provenance = "from \"a\xff.obj\" and \xc3\xa9.obj";
-  WriteGltf(File("provenance"), path);
-  const Glb glb(File("provenance"));
+  WriteGltf(GlbFile("provenance"), path);
+  const Glb glb(GlbFile("provenance"));
   EXPECT_EQ(glb.json["asset"]["version"], "2.0");
   EXPECT_EQ(glb.json["asset"]["generator"].get<std::string>().substr(0, 11), "shapespace ");
   const auto& extras = glb.json["asset"]["extras"];
@@ -424,6 +541,8 @@ TEST(WriteGltfTest, NamesTheOptionThatIsWrong) {
   EXPECT_EQ(message([](O* o) { o->unit = -1; }).find("unit: -1.0 is not in"), 0u);
   EXPECT_EQ(message([](O* o) { o->unit = std::nan(""); }).find("unit:"), 0u);
   EXPECT_EQ(message([](O* o) { o->duration = 0; }).find("duration: 0.0 is not in 0.1 .. 3600"), 0u);
+  EXPECT_EQ(message([](O* o) { o->fps = -1; }).find("fps: -1.0 is not in 0.01 .. 1000"), 0u);
+  EXPECT_EQ(message([](O* o) { o->fps = std::nan(""); }).find("fps:"), 0u);
   EXPECT_EQ(message([](O* o) { o->groups.setZero(3); }).find("groups: given for 3"), 0u);
   EXPECT_EQ(message([](O* o) {
               o->colour_by_deviation = true;
@@ -451,13 +570,13 @@ TEST(WriteGltfTest, NamesWhatIsWrongWithThePath) {
   EXPECT_EQ(message([](P* p) { p->shapes[2] = Shape::Zero(3, 7); }),
             "a.glb: shape 2 has 7 vertices, its connectivity 384");
   EXPECT_EQ(message([](P* p) { p->parameters[2] = p->parameters[1]; }),
-            "a.glb: the path's parameters do not rise at shape 2");
+            "a.glb: the path's parameters do not rise");
   EXPECT_NE(message([](P* p) { p->motions.pop_back(); }).find("a motion for each of its 3 shapes"),
             std::string::npos);
   EXPECT_EQ(message([](P* p) {
               p->poses = {0, 3};
             }),
-            "a.glb: the path's pose 3 is none of its 3 shapes");
+            "a.glb: the path's pose 3 is none of its 3 shapes that are not extrapolated");
   for (const double scale : {1e40, 1e-40}) {
     EXPECT_NE(message([&](P* p) {
                 for (Shape& shape : p->shapes) shape *= scale;

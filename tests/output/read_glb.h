@@ -2,6 +2,7 @@
 #define TESTS_OUTPUT_READ_GLB_H_
 
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -9,14 +10,23 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 namespace shapespace {
 
-/// What a player makes of a .glb file with one mesh of one primitive and at most one animation,
-/// from the format's specification and nothing of the writer's.
+/// Where a test writes a .glb file: in a folder that is kept where somebody wants to look at the
+/// files (tests/gltf/run.sh).
+inline std::string GlbFile(const std::string& name) {
+  const char* const folder = std::getenv("SHAPESPACE_GLB_DIR");
+  return (folder != nullptr ? folder + std::string("/") : ::testing::TempDir() + "gltf_test_") +
+         name + ".glb";
+}
+
+/// What a player makes of a .glb file with one mesh, whose primitives share their vertices, and at
+/// most one animation, from the format's specification and nothing of the writer's.
 class Glb {
  public:
   explicit Glb(const std::string& file) {
@@ -36,7 +46,8 @@ class Glb {
   Eigen::MatrixXd Read(int index) const {
     const auto& accessor = json["accessors"].at(index);
     const auto& view = json["bufferViews"].at(accessor["bufferView"].get<int>());
-    const int rows = accessor["type"] == "VEC3" ? 3 : 1;
+    const std::string type = accessor["type"];
+    const int rows = type == "SCALAR" ? 1 : type.at(3) - '0';
     const int component = accessor["componentType"];
     const size_t size = component == 5123 ? 2 : 4;
     Eigen::MatrixXd values(rows, accessor["count"].get<int>());
@@ -51,8 +62,19 @@ class Glb {
     return values;
   }
 
-  const nlohmann::json& Primitive() const { return json["meshes"].at(0)["primitives"].at(0); }
-  Eigen::MatrixXd Indices() const { return Read(Primitive()["indices"]); }
+  /// The bytes of a view, such as an image.
+  std::string Bytes(int index) const {
+    const auto& view = json["bufferViews"].at(index);
+    return bytes_.substr(data_ + view.value("byteOffset", 0), view["byteLength"]);
+  }
+
+  const nlohmann::json& Primitive(int i = 0) const {
+    return json["meshes"].at(0)["primitives"].at(i);
+  }
+  Eigen::MatrixXd Indices(int i = 0) const { return Read(Primitive(i)["indices"]); }
+  Eigen::MatrixXd Attribute(const std::string& name) const {
+    return Read(Primitive()["attributes"].at(name));
+  }
 
   Eigen::MatrixXd Times() const { return Read(Sampler()["input"]); }
 
@@ -64,7 +86,7 @@ class Glb {
     Eigen::Index after = 1;
     while (after + 1 < times.size() && times(after) < time) ++after;
     const double t = (time - times(after - 1)) / (times(after) - times(after - 1));
-    Eigen::MatrixXd result = Read(Primitive()["attributes"][attribute]);
+    Eigen::MatrixXd result = Attribute(attribute);
     for (int k = 0; k < targets; ++k) {
       const double weight = (1 - t) * weights(k, after - 1) + t * weights(k, after);
       result += weight * Read(Primitive()["targets"][k][attribute]);

@@ -83,6 +83,9 @@ void WriteGltfAndTell(const std::string& output, const Path& path, const Shape& 
   options.reference = reference;
   options.groups = parts;
   const GltfSummary summary = WriteGltf(output, path, options);
+  for (const std::string& warning : summary.warnings) {
+    std::cerr << "warning: " << output << ": " << warning << '\n';
+  }
   if (summary.subsampled) {
     std::cerr << "note: " << output << ": " << summary.keys << " of the " << path.NumShapes()
               << " shapes, evenly, as many as players can be expected to take\n";

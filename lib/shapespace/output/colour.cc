@@ -22,10 +22,6 @@ constexpr int kGroupsToRepeat = 21;
 constexpr float kGroupLightness[] = {0.62f, 0.78f, 0.50f};
 constexpr unsigned kNoGroupHex = 0xd8d8d4;
 
-float ToLinear(float s) {
-  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-}
-
 // Oklab (Ottosson 2020): equal steps in it look equal, which plain RGB mixing does not give.
 const Eigen::Matrix3f& RgbToLms() {
   static const Eigen::Matrix3f matrix =
@@ -61,6 +57,10 @@ std::array<Colour, kSteps> MakeValueColours() {
 }
 
 }  // namespace
+
+float ToLinear(float srgb) {
+  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
 
 Colour FromHex(unsigned hex) {
   return {ToLinear(((hex >> 16) & 255) / 255.0f), ToLinear(((hex >> 8) & 255) / 255.0f),

@@ -15,6 +15,9 @@ inline constexpr unsigned kPoseHex = 0x4a86c8;
 /// From `0xrrggbb` in sRGB.
 Colour FromHex(unsigned hex);
 
+/// One channel of sRGB, 0 .. 1, as linear light.
+float ToLinear(float srgb);
+
 /// One channel of linear light (clamped to 0 .. 1) as an sRGB byte.
 unsigned char ToByte(float linear);
 

@@ -19,8 +19,8 @@ std::string FrameName(const std::string& pattern, int number);
 /// \throw FileError, MeshError.
 void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes, const Soup& soup);
 
-/// What frames of a path or of a body hold besides positions: polygons, segments and the appearance.
-/// Its vertices are zero.
+/// What frames of a path or of a body hold besides positions: polygons, segments and the
+/// appearance. Its vertices are zero.
 Soup FrameSoup(const Connectivity& connectivity, const Appearance& appearance = {});
 
 }  // namespace shapespace

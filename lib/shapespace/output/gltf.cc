@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -14,9 +16,12 @@
 
 #include <shapespace/base/atomic_file.h>
 #include <shapespace/base/error.h>
+#include <shapespace/base/read_file.h>
 #include <shapespace/output/colour.h>
 #include <shapespace/output/key_shapes.h>
 #include <shapespace/output/legend.h>
+#include <shapespace/output/materials.h>
+#include <shapespace/output/seams.h>
 #include <shapespace/output/tinygltf.h>
 #include <shapespace/path/quality.h>
 
@@ -31,6 +36,9 @@ constexpr int kMostKeys = 32;
 
 // The share of the duration for which the shapes rest, at either end, so that the poses are seen.
 constexpr double kRest = 0.1;
+
+// Between so many points of time the speed of an eased motion is constant.
+constexpr int kEasePoints = 64;
 
 constexpr double kRoughness = 0.7;
 
@@ -55,52 +63,19 @@ void CheckRange(const char* field, double value, double least, double most) {
 }
 
 void CheckPath(const std::string& file, const Path& path) {
-  if (path.shapes.empty()) throw MeshError(file + ": the path has no shape");
-  const size_t count = path.shapes.size();
-  if (path.parameters.size() != count || path.motions.size() != count) {
-    throw MeshError(file + ": the path needs a parameter and a motion for each of its " +
-                    std::to_string(count) + " shapes");
+  try {
+    path.Validate();
+  } catch (const MeshError& error) {
+    throw MeshError(file + ": " + error.what());
   }
-  for (const int pose : path.poses) {
-    if (pose < 0 || pose >= path.NumShapes()) {
-      throw MeshError(file + ": the path's pose " + std::to_string(pose) + " is none of its " +
-                      std::to_string(count) + " shapes");
-    }
-  }
-  for (size_t i = 0; i < count; ++i) {
-    if (i > 0 && !(path.parameters[i] > path.parameters[i - 1])) {
-      throw MeshError(file + ": the path's parameters do not rise at shape " + std::to_string(i));
-    }
-    if (path.shapes[i].cols() != path.metric->connectivity->NumVertices()) {
-      throw MeshError(file + ": shape " + std::to_string(i) + " has " +
-                      std::to_string(path.shapes[i].cols()) + " vertices, its connectivity " +
-                      std::to_string(path.metric->connectivity->NumVertices()));
-    }
-  }
-}
-
-// The shapes with indices `keys` as placed, all others only looked at.
-std::vector<Shape> PlacedKeys(const std::string& file, const Path& path,
-                              const std::vector<int>& keys) {
-  std::vector<Shape> placed;
-  for (int i = 0; i < path.NumShapes(); ++i) {
-    Shape shape = path.Placed(i);
-    for (Eigen::Index v = 0; v < shape.cols(); ++v) {
-      if (!shape.col(v).allFinite()) {
-        throw MeshError(file + ": shape " + std::to_string(i) + ": vertex " + std::to_string(v) +
-                        " is not finite");
-      }
-    }
-    if (keys[placed.size()] == i) placed.push_back(std::move(shape));
-  }
-  return placed;
 }
 
 void CheckSize(const std::string& file, const std::vector<Shape>& shapes,
                const Eigen::Vector3d& origin) {
   double size = 0;
   for (const Shape& shape : shapes) {
-    size = std::max(size, (shape.colwise() - origin).cwiseAbs().maxCoeff());
+    const Shape arms = shape.colwise() - origin;
+    size = std::max(size, arms.allFinite() ? arms.cwiseAbs().maxCoeff() : HUGE_VAL);
   }
   if (size >= kSmallest && size <= kLargest) return;
   throw MeshError(file + ": single precision cannot hold a mesh of size " +
@@ -167,40 +142,49 @@ Eigen::Matrix3Xf GroupColours(const Eigen::VectorXi& groups) {
   return colours;
 }
 
+// sRGB, with opacities in a fourth row, as linear light.
+Eigen::MatrixXf LinearColours(const Eigen::MatrixXd& colours) {
+  Eigen::MatrixXf linear = colours.cast<float>();
+  if (linear.size() > 0) linear.topRows<3>() = linear.topRows<3>().unaryExpr(&ToLinear);
+  return linear;
+}
+
 constexpr int ComponentType(uint16_t) { return TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT; }
 constexpr int ComponentType(uint32_t) { return TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT; }
 constexpr int ComponentType(float) { return TINYGLTF_COMPONENT_TYPE_FLOAT; }
 
-// Appends numbers, or columns of three, to the model's buffer. Returns their accessor.
-template <typename Array>
-int Add(const Array& array, int target, Model* model) {
-  using Scalar = typename Array::Scalar;
-  constexpr bool kVectors = Array::RowsAtCompileTime == 3;
+// Appends bytes to the model's buffer. Returns their view.
+int AddBytes(const void* data, size_t size, int target, Model* model) {
   std::vector<unsigned char>& bytes = model->buffers[0].data;
   bytes.resize((bytes.size() + 3) / 4 * 4);
-
   tinygltf::BufferView view;
   view.buffer = 0;
   view.byteOffset = bytes.size();
-  view.byteLength = array.size() * sizeof(Scalar);
+  view.byteLength = size;
   view.target = target;
-  const auto* const data = reinterpret_cast<const unsigned char*>(array.data());
-  bytes.insert(bytes.end(), data, data + view.byteLength);
-
-  tinygltf::Accessor accessor;
-  accessor.bufferView = static_cast<int>(model->bufferViews.size());
-  accessor.componentType = ComponentType(Scalar());
-  accessor.type = kVectors ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR;
-  accessor.count = kVectors ? array.cols() : array.size();
+  const auto* const begin = static_cast<const unsigned char*>(data);
+  bytes.insert(bytes.end(), begin, begin + size);
   model->bufferViews.push_back(view);
+  return static_cast<int>(model->bufferViews.size()) - 1;
+}
+
+// Appends numbers, or vectors of them, to the model's buffer. Returns their accessor.
+template <typename Array>
+int Add(const Array& array, int type, int target, Model* model) {
+  using Scalar = typename Array::Scalar;
+  tinygltf::Accessor accessor;
+  accessor.bufferView = AddBytes(array.data(), array.size() * sizeof(Scalar), target, model);
+  accessor.componentType = ComponentType(Scalar());
+  accessor.type = type;
+  accessor.count = array.size() / tinygltf::GetNumComponentsInType(type);
   model->accessors.push_back(accessor);
   return static_cast<int>(model->accessors.size()) - 1;
 }
 
 // The same with the bounds that the format asks for of positions and times.
 template <typename Array>
-int AddWithBounds(const Array& array, int target, Model* model) {
-  const int index = Add(array, target, model);
+int AddWithBounds(const Array& array, int type, int target, Model* model) {
+  const int index = Add(array, type, target, model);
   for (Eigen::Index r = 0; r < array.rows(); ++r) {
     model->accessors[index].minValues.push_back(array.row(r).minCoeff());
     model->accessors[index].maxValues.push_back(array.row(r).maxCoeff());
@@ -211,79 +195,126 @@ int AddWithBounds(const Array& array, int target, Model* model) {
 template <typename Index>
 int AddIndices(const Eigen::Ref<const Eigen::VectorXi>& indices, Model* model) {
   const Eigen::Matrix<Index, Eigen::Dynamic, 1> array = indices.cast<Index>();
-  return Add(array, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, model);
+  return Add(array, TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, model);
 }
 
-// The first shape of `shapes` with the others as morph targets.
-tinygltf::Primitive AddPrimitive(const Connectivity& connectivity, const std::vector<Shape>& shapes,
-                                 const Eigen::Vector3d& origin, Model* model) {
-  constexpr int kTarget = TINYGLTF_TARGET_ARRAY_BUFFER;
+int AddIndices(const Eigen::Ref<const Eigen::VectorXi>& indices, size_t num_vertices,
+               Model* model) {
+  return num_vertices <= kLargestShortIndex + 1 ? AddIndices<uint16_t>(indices, model)
+                                                : AddIndices<uint32_t>(indices, model);
+}
+
+// The vertices of the first of `shapes`, with the others as morph targets: a primitive without
+// indices. `source` are the mesh's vertices that these are.
+tinygltf::Primitive AddVertices(const Connectivity& connectivity, const std::vector<Shape>& shapes,
+                                const Eigen::Vector3d& origin, const std::vector<int>& source,
+                                Model* model) {
+  const auto add_bounded = [&](const Eigen::Matrix3Xf& array) {
+    const Eigen::Matrix3Xf copies = array(Eigen::all, source);
+    return AddWithBounds(copies, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER, model);
+  };
+  const auto add = [&](const Eigen::Matrix3Xf& array) {
+    const Eigen::Matrix3Xf copies = array(Eigen::all, source);
+    return Add(copies, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER, model);
+  };
   tinygltf::Primitive primitive;
   const bool graph = connectivity.IsGraph();
   primitive.mode = graph ? TINYGLTF_MODE_LINE : TINYGLTF_MODE_TRIANGLES;
-  const int* const data = graph ? connectivity.Edges().data() : connectivity.Triangles().data();
-  const Eigen::Index count = graph ? connectivity.Edges().size() : connectivity.Triangles().size();
-  const Eigen::Map<const Eigen::VectorXi> indices(data, count);
-  primitive.indices = connectivity.NumVertices() - 1 <= kLargestShortIndex
-                          ? AddIndices<uint16_t>(indices, model)
-                          : AddIndices<uint32_t>(indices, model);
-
   const Eigen::Matrix3Xf positions = (shapes[0].colwise() - origin).cast<float>();
-  primitive.attributes["POSITION"] = AddWithBounds(positions, kTarget, model);
+  primitive.attributes["POSITION"] = add_bounded(positions);
   // Players give triangles without normals flat shading.
   const bool smooth = !graph && !IsFaceted(connectivity, shapes);
   Eigen::Matrix3Xf normals;
   if (smooth) {
     normals = SmoothNormals(connectivity, shapes[0]).cast<float>();
-    primitive.attributes["NORMAL"] = Add(normals, kTarget, model);
+    primitive.attributes["NORMAL"] = add(normals);
   }
   for (size_t k = 1; k < shapes.size(); ++k) {
     // From the rounded first shape, so that rounding errors do not add up.
-    const Eigen::Matrix3Xf move =
-        ((shapes[k].colwise() - origin) - positions.cast<double>()).cast<float>();
-    std::map<std::string, int> target = {{"POSITION", AddWithBounds(move, kTarget, model)}};
+    const Shape arms = shapes[k].colwise() - origin;
+    std::map<std::string, int> target = {
+        {"POSITION", add_bounded((arms - positions.cast<double>()).cast<float>())}};
     if (smooth) {
-      const Eigen::Matrix3Xf turn =
-          (SmoothNormals(connectivity, shapes[k]) - normals.cast<double>()).cast<float>();
-      target["NORMAL"] = Add(turn, kTarget, model);
+      const Eigen::Matrix3Xd turned = SmoothNormals(connectivity, shapes[k]);
+      target["NORMAL"] = add((turned - normals.cast<double>()).cast<float>());
     }
     primitive.targets.push_back(target);
   }
   return primitive;
 }
 
-// Key shape by key shape with a rest at either end, and back. `parameters` rise from 0 to 1.
-tinygltf::Animation AddAnimation(const std::vector<double>& parameters, double duration,
-                                 Model* model) {
-  const int count = static_cast<int>(parameters.size());
-  const double rest = kRest * duration;
-  std::vector<std::pair<double, int>> samples = {{0, 0}};  // when which key is seen
-  for (int k = 0; k < count; ++k) {
-    samples.emplace_back(rest / 2 + parameters[k] * (duration / 2 - rest), k);
-  }
-  for (int k = count - 1; k >= 0; --k) samples.emplace_back(duration - samples[k + 1].first, k);
-  samples.emplace_back(duration, 0);
+// `colours` (3 or 4 rows) of the mesh's vertices.
+void AddColours(const Eigen::MatrixXf& colours, const std::vector<int>& source,
+                tinygltf::Primitive* primitive, Model* model) {
+  const Eigen::MatrixXf copies = colours(Eigen::all, source);
+  primitive->attributes["COLOR_0"] =
+      Add(copies, colours.rows() == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4,
+          TINYGLTF_TARGET_ARRAY_BUFFER, model);
+}
 
-  Eigen::RowVectorXf times(samples.size());
-  Eigen::MatrixXf weights = Eigen::MatrixXf::Zero(count - 1, samples.size());
+// When the animation shows which point of the way, from 0 to 1.
+std::vector<std::pair<double, double>> Moments(const std::vector<double>& parameters, int shapes,
+                                               const GltfOptions& options) {
+  std::vector<double> points = parameters;
+  if (options.ease) {
+    for (int i = 1; i < kEasePoints; ++i) {
+      points.push_back((1 - std::cos(EIGEN_PI * i / kEasePoints)) / 2);
+    }
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+  }
+  const bool back = options.playback == Playback::kThereAndBack;
+  const bool held = options.playback == Playback::kOnce;
+  const double share = back ? 0.5 - kRest : held ? 1 - kRest : 1.0;  // of the way there
+  const double duration = options.fps > 0 ? (shapes - 1) / options.fps / share : options.duration;
+  const double begin = back ? kRest / 2 * duration : 0;
+  std::vector<std::pair<double, double>> moments;
+  if (back) moments.emplace_back(0, 0);
+  for (const double point : points) {
+    const double time = options.ease ? std::acos(1 - 2 * point) / EIGEN_PI : point;
+    moments.emplace_back(begin + share * duration * time, point);
+  }
+  if (back) {
+    for (size_t i = points.size(); i > 0; --i) {
+      moments.emplace_back(duration - moments[i].first, points[i - 1]);
+    }
+    moments.emplace_back(duration, 0);
+  }
+  if (held) moments.emplace_back(duration, 1);
+  return moments;
+}
+
+// The weights of the morph targets over time. `parameters`, of the key shapes, rise from 0 to 1;
+// `shapes` is how many the whole path has.
+tinygltf::Animation AddAnimation(const std::vector<double>& parameters, int shapes,
+                                 const GltfOptions& options, Model* model) {
+  const std::vector<std::pair<double, double>> moments = Moments(parameters, shapes, options);
+  Eigen::RowVectorXf times(moments.size());
+  Eigen::MatrixXf weights = Eigen::MatrixXf::Zero(parameters.size() - 1, moments.size());
   float least = 0;
-  for (size_t s = 0; s < samples.size(); ++s) {
+  for (size_t m = 0; m < moments.size(); ++m) {
+    const auto [time, point] = moments[m];
     // Parameters may be closer together than single precision tells, but times must rise.
-    times[s] = std::max(least, static_cast<float>(samples[s].first));
-    least = std::nextafter(times[s], std::numeric_limits<float>::max());
-    if (samples[s].second > 0) weights(samples[s].second - 1, s) = 1;
+    times[m] = std::max(least, static_cast<float>(time));
+    least = std::nextafter(times[m], std::numeric_limits<float>::max());
+    // The key shapes on both sides; the first has no target, as it is the mesh itself.
+    const auto after = std::lower_bound(parameters.begin(), parameters.end(), point);
+    const int key = static_cast<int>(after - parameters.begin());
+    const double part = key == 0 ? 0 : (*after - point) / (*after - *(after - 1));
+    if (key > 0) weights(key - 1, m) = static_cast<float>(1 - part);
+    if (key > 1) weights(key - 2, m) = static_cast<float>(part);
   }
 
   tinygltf::AnimationSampler sampler;
-  sampler.input = AddWithBounds(times, 0, model);
-  sampler.output = Add(weights, 0, model);
+  sampler.input = AddWithBounds(times, TINYGLTF_TYPE_SCALAR, 0, model);
+  sampler.output = Add(weights, TINYGLTF_TYPE_SCALAR, 0, model);
   sampler.interpolation = "LINEAR";
   tinygltf::AnimationChannel channel;
   channel.sampler = 0;
   channel.target_node = 0;
   channel.target_path = "weights";
   tinygltf::Animation animation;
-  animation.name = "there and back";
+  animation.name = options.playback == Playback::kThereAndBack ? "there and back" : "there";
   animation.samplers = {sampler};
   animation.channels = {channel};
   return animation;
@@ -304,6 +335,12 @@ tinygltf::Node PlacedNode(const Eigen::Vector3d& origin, const GltfOptions& opti
   return node;
 }
 
+// File names in a provenance may hold any bytes; JSON may not.
+std::string AsUtf8(const std::string& text) {
+  using Json = nlohmann::json;
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
 tinygltf::Material PlainMaterial(const Colour& colour) {
   tinygltf::Material material;
   material.name = "shape";
@@ -315,16 +352,110 @@ tinygltf::Material PlainMaterial(const Colour& colour) {
   return material;
 }
 
-// File names in a provenance may hold any bytes; JSON may not.
-std::string AsUtf8(const std::string& text) {
-  using Json = nlohmann::json;
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
+// The texture that shows an image file, which becomes a part of the model; each file once. -1, and
+// a warning, if it cannot be.
+class Textures {
+ public:
+  Textures(Model* model, std::vector<std::string>* warnings) : model_(model), warnings_(warnings) {}
+
+  int Add(const std::string& file) {
+    const auto [found, is_new] = known_.try_emplace(file, -1);
+    if (is_new) found->second = AddNew(file);
+    return found->second;
+  }
+
+ private:
+  int AddNew(const std::string& file) {
+    tinygltf::Image image;
+    std::string bytes;
+    try {
+      bytes = ReadFile(file);
+    } catch (const FileError& error) {
+      warnings_->push_back("texture " + std::string(error.what()) + "; it is left out");
+      return -1;
+    }
+    // How every PNG and every JPEG begins.
+    if (bytes.compare(0, 8, "\x89PNG\r\n\x1a\n") == 0) {
+      image.mimeType = "image/png";
+    } else if (bytes.compare(0, 3, "\xff\xd8\xff") == 0) {
+      image.mimeType = "image/jpeg";
+    } else {
+      warnings_->push_back(
+          "texture " + file +
+          ": is neither PNG nor JPEG, which are all that glTF has; it is left out");
+      return -1;
+    }
+    image.name = AsUtf8(std::filesystem::path(file).filename().string());
+    image.bufferView = AddBytes(bytes.data(), bytes.size(), 0, model_);
+    tinygltf::Texture texture;
+    texture.source = static_cast<int>(model_->images.size());
+    model_->images.push_back(image);
+    model_->textures.push_back(texture);
+    return static_cast<int>(model_->textures.size()) - 1;
+  }
+
+  Model* model_;
+  std::vector<std::string>* warnings_;
+  std::map<std::string, int> known_;
+};
+
+tinygltf::Material MaterialFromLibrary(const std::string& name, const Material& described,
+                                       bool has_texture_coordinates, Textures* textures) {
+  const bool textured = has_texture_coordinates && !described.texture.empty();
+  const int texture = textured ? textures->Add(described.texture) : -1;
+  // What stands beside a texture is black or grey as often as it means something.
+  const Eigen::Vector3d colour = texture >= 0 ? Eigen::Vector3d::Ones() : described.colour;
+  tinygltf::Material material = PlainMaterial(LinearColours(colour));
+  material.name = AsUtf8(name);
+  material.pbrMetallicRoughness.baseColorFactor[3] = described.opacity;
+  material.pbrMetallicRoughness.baseColorTexture.index = texture;
+  if (described.opacity < 1) material.alphaMode = "BLEND";
+  return material;
+}
+
+// Triangles, or a graph's edges, that share a material.
+struct Part {
+  tinygltf::Material material;
+  std::vector<int> indices;
+};
+
+std::vector<Part> PartsByMaterial(const Connectivity& connectivity, const CutMesh& mesh,
+                                  const Appearance& appearance, const tinygltf::Material& plain,
+                                  Textures* textures, std::vector<std::string>* warnings) {
+  if (connectivity.IsGraph()) {
+    const Eigen::Matrix2Xi& edges = connectivity.Edges();
+    return {{plain, std::vector<int>(edges.data(), edges.data() + edges.size())}};
+  }
+  std::vector<std::vector<int>> indices(appearance.materials.names.size() + 1);  // last: of none
+  const std::vector<int>& material_of = appearance.materials.of_polygon;
+  const std::vector<int> polygons = PolygonsOfTriangles(connectivity);
+  for (size_t f = 0; f < polygons.size(); ++f) {
+    const int material = material_of.empty() ? -1 : material_of[polygons[f]];
+    std::vector<int>& part = material < 0 ? indices.back() : indices[material];
+    for (const int vertex : mesh.triangles.col(f)) part.push_back(vertex);
+  }
+  const std::vector<std::optional<Material>> described = ReadMaterials(appearance, warnings);
+  std::vector<Part> parts;
+  for (size_t i = 0; i < indices.size(); ++i) {
+    if (indices[i].empty()) continue;
+    Part part = {plain, std::move(indices[i])};
+    if (i < described.size()) {
+      const std::string& name = appearance.materials.names[i];
+      part.material.name = AsUtf8(name);
+      if (described[i]) {
+        part.material = MaterialFromLibrary(name, *described[i], mesh.texture.cols() > 0, textures);
+      }
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts;
 }
 
 }  // namespace
 
 void GltfOptions::Validate() const {
   CheckRange("duration", duration, 0.1, 3600);
+  if (fps != 0) CheckRange("fps", fps, 0.01, 1000);
   if (up != 'y' && up != 'z') {
     throw InvalidOptions(std::string("up: '") + up + "' is neither 'y' nor 'z'");
   }
@@ -338,14 +469,6 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   options.Validate();
   CheckPath(file, path);
   const Connectivity& connectivity = *path.metric->connectivity;
-  const std::vector<int> keys = KeyShapes(path.NumShapes(), path.poses, kMostKeys);
-  const double bytes = 4.0 * (6.0 * connectivity.NumVertices() * keys.size() +
-                              3.0 * std::max(connectivity.NumTriangles(), connectivity.NumEdges()));
-  if (bytes > kMostBytes) {
-    throw MeshError(file + ": " + std::to_string(keys.size()) +
-                    " shapes of so many vertices need more than the 4 GB that the format can "
-                    "hold; resample the path to fewer");
-  }
   const bool by_group = options.groups.size() != 0;
   const auto check_count = [&](const char* field, Eigen::Index count) {
     if (count != 0 && count != connectivity.NumVertices()) {
@@ -356,7 +479,9 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   };
   check_count("reference", options.reference.cols());
   check_count("groups", options.groups.size());
-  const std::vector<Shape> shapes = PlacedKeys(file, path, keys);
+  const std::vector<int> keys = KeyShapes(path.NumShapes(), path.poses, kMostKeys);
+  std::vector<Shape> shapes;
+  for (const int key : keys) shapes.push_back(path.Placed(key));
   const Eigen::Vector3d origin =
       (shapes[0].rowwise().minCoeff() + shapes[0].rowwise().maxCoeff()) / 2;
   CheckSize(file, shapes, origin);
@@ -365,32 +490,65 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   summary.keys = static_cast<int>(keys.size());
   summary.subsampled = summary.keys < path.NumShapes();
 
-  Model model;
-  model.buffers.emplace_back();
-  tinygltf::Primitive primitive = AddPrimitive(connectivity, shapes, origin, &model);
-  primitive.material = 0;
+  const Appearance none;
+  const Appearance& appearance = options.colour_by_deviation || by_group ? none : path.appearance;
+  Eigen::MatrixXf colours = LinearColours(appearance.vertex_colours);
   if (options.colour_by_deviation) {
     const Shape& reference = options.reference.cols() > 0 ? options.reference : path.shapes[0];
-    const Eigen::Matrix3Xf colours = DeviationColours(path, reference, &summary.colour_end);
-    primitive.attributes["COLOR_0"] = Add(colours, TINYGLTF_TARGET_ARRAY_BUFFER, &model);
+    colours = DeviationColours(path, reference, &summary.colour_end);
   } else if (by_group) {
-    primitive.attributes["COLOR_0"] =
-        Add(GroupColours(options.groups), TINYGLTF_TARGET_ARRAY_BUFFER, &model);
+    colours = GroupColours(options.groups);
   }
-  model.materials = {PlainMaterial(options.colour_by_deviation || by_group ? Colour::Ones().eval()
-                                                                           : FromHex(kPoseHex))};
+  const tinygltf::Material plain =
+      PlainMaterial(colours.size() > 0 ? Colour::Ones().eval() : FromHex(kPoseHex));
+
+  Model model;
+  model.buffers.emplace_back();
+  const CutMesh cut = CutAtSeams(connectivity, appearance);
+  if (!cut.texture.allFinite()) {
+    throw MeshError(file + ": single precision cannot hold a texture coordinate");
+  }
+  Textures textures(&model, &summary.warnings);
+  std::vector<Part> parts =
+      PartsByMaterial(connectivity, cut, appearance, plain, &textures, &summary.warnings);
+  const double bytes = model.buffers[0].data.size() +
+                       4.0 * ((6.0 * keys.size() + 6) * cut.source.size() +
+                              3.0 * std::max(connectivity.NumTriangles(), connectivity.NumEdges()));
+  if (bytes > kMostBytes) {
+    throw MeshError(file + ": " + std::to_string(keys.size()) +
+                    " shapes of so many vertices need more than the 4 GB that the format can "
+                    "hold; resample the path to fewer");
+  }
+
+  tinygltf::Primitive vertices = AddVertices(connectivity, shapes, origin, cut.source, &model);
+  if (cut.texture.cols() > 0) {
+    vertices.attributes["TEXCOORD_0"] =
+        Add(cut.texture, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER, &model);
+  }
+  if (colours.size() > 0) AddColours(colours, cut.source, &vertices, &model);
+  const bool opaque = colours.rows() < 4 || (colours.row(3).array() == 1).all();
   tinygltf::Mesh mesh;
   mesh.name = "shape";
-  mesh.primitives = {primitive};
+  for (Part& part : parts) {
+    if (!opaque) part.material.alphaMode = "BLEND";
+    tinygltf::Primitive primitive = vertices;
+    primitive.indices =
+        AddIndices(Eigen::Map<const Eigen::VectorXi>(part.indices.data(), part.indices.size()),
+                   cut.source.size(), &model);
+    primitive.material = static_cast<int>(model.materials.size());
+    mesh.primitives.push_back(std::move(primitive));
+    model.materials.push_back(std::move(part.material));
+  }
   mesh.weights.assign(keys.size() - 1, 0);
   model.meshes = {mesh};
   model.nodes = {PlacedNode(origin, options)};
   if (keys.size() > 1) {
     std::vector<double> parameters;
     const double first = path.parameters.front(), last = path.parameters.back();
-    for (const int key : keys)
+    for (const int key : keys) {
       parameters.push_back((path.parameters[key] - first) / (last - first));
-    model.animations = {AddAnimation(parameters, options.duration, &model)};
+    }
+    model.animations = {AddAnimation(parameters, path.NumShapes(), options, &model)};
   }
   tinygltf::Scene scene;
   scene.nodes = {0};

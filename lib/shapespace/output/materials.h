@@ -1,0 +1,31 @@
+#ifndef SHAPESPACE_OUTPUT_MATERIALS_H_
+#define SHAPESPACE_OUTPUT_MATERIALS_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <shapespace/mesh/appearance.h>
+
+// Private: materials of OBJ, and their textures.
+
+namespace shapespace {
+
+/// What a material library says of one material, as far as outputs can show it.
+struct Material {
+  Eigen::Vector3d colour = Eigen::Vector3d::Ones();  ///< `Kd`: red, green and blue in sRGB, 0 .. 1
+  double opacity = 1;                                ///< `d`, or 1 - `Tr`
+  std::string texture;  ///< `map_Kd`: the image's file, which may not exist; empty for none
+};
+
+/// Looks up the materials of an appearance in its libraries, in the order of their names. Those
+/// that no library has are empty. Libraries that cannot be read, and what they say that cannot be
+/// understood, are told as sentences in `warnings`.
+std::vector<std::optional<Material>> ReadMaterials(const Appearance& appearance,
+                                                   std::vector<std::string>* warnings);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_OUTPUT_MATERIALS_H_

@@ -1,0 +1,201 @@
+#include <set>
+#include <tuple>
+
+#include <shapespace/output/colour.h>
+#include <shapespace/output/gltf.h>
+#include <shapespace/output/picture.h>
+
+#include "mesh/bodies.h"
+#include "mesh/files.h"
+#include "output/read_glb.h"
+#include "support/path_of.h"
+
+namespace shapespace {
+namespace {
+
+/// A cube in a path of its own folder: every square has its own part of the texture, but for two
+/// that share an edge; three materials, one of which no library has, and one polygon without any.
+class WriteGltfAppearanceTest : public testing::FilesTest {
+ protected:
+  WriteGltfAppearanceTest() {
+    const Soup cube = testing::Cube();
+    connectivity_ =
+        Connectivity::Make(cube.NumVertices(), cube.polygon_begin, cube.corners, cube.segments);
+    const Eigen::Vector3d stretch(1, 1.5, 0.75);
+    path_ = testing::PathOf(connectivity_, {cube.vertices, stretch.asDiagonal() * cube.vertices});
+
+    Appearance& appearance = path_.appearance;
+    appearance.folder = Path("");
+    appearance.material_libraries = {"cube.mtl"};
+    appearance.materials = {{"painted", "glass", "unknown"}, {0, 0, 1, 0, 2, -1}};
+    appearance.texture_coordinates.resize(2, 24);
+    for (int k = 0; k < 24; ++k) {
+      const int p = k / 4, corner = k % 4;
+      appearance.corner_texture.push_back(k);
+      appearance.texture_coordinates.col(k) << (p + (corner == 1 || corner == 2)) / 8.0,
+          corner / 2 / 4.0;
+    }
+    // Polygons 0 and 4 meet in the edge from 0 to 2: no seam there.
+    for (const int vertex : {0, 2}) {
+      Texture(4, vertex) = Texture(0, vertex);
+    }
+    appearance.corner_texture[23] = -1;  // a corner without
+    File("cube.mtl",
+         "newmtl painted\nKd 0 0 0\nmap_Kd maps/checks.png\nnewmtl glass\nKd 0.5 0.25 1\nd 0.5\n");
+    WritePng(Path("maps/checks.png"), {2, 1, {255, 0, 0, 0, 0, 255}});
+  }
+
+  Eigen::Ref<Eigen::Vector2d> Texture(int polygon, int vertex) {
+    return path_.appearance.texture_coordinates.col(
+        path_.appearance.corner_texture[CornerOf(polygon, vertex)]);
+  }
+
+  int CornerOf(int polygon, int vertex) const {
+    int k = connectivity_->PolygonBegin()[polygon];
+    while (connectivity_->Corners()[k] != vertex) ++k;
+    return k;
+  }
+
+  std::shared_ptr<const Connectivity> connectivity_;
+  shapespace::Path path_;
+};
+
+TEST_F(WriteGltfAppearanceTest, EveryCornerHasItsTextureCoordinateInEveryShape) {
+  const GltfSummary summary = WriteGltf(GlbFile("textured"), path_);
+  const Glb glb(GlbFile("textured"));
+  const auto& materials = glb.json["materials"];
+  ASSERT_EQ(glb.json["meshes"][0]["primitives"].size(), 4u);
+  const Eigen::MatrixXd uv = glb.Attribute("TEXCOORD_0");
+
+  // As few vertices as there are different pairs.
+  std::set<std::tuple<int, double, double>> pairs;
+  for (int p = 0; p < 6; ++p) {
+    for (int k = connectivity_->PolygonBegin()[p]; k < connectivity_->PolygonBegin()[p + 1]; ++k) {
+      const int v = connectivity_->Corners()[k];
+      if (path_.appearance.corner_texture[k] < 0) continue;
+      pairs.insert({v, Texture(p, v).x(), Texture(p, v).y()});
+    }
+  }
+  EXPECT_EQ(pairs.size(), 21u);
+  EXPECT_EQ(uv.cols(), 21);
+
+  const std::vector<std::string> names = {"painted", "glass", "unknown", "shape"};
+  const std::vector<std::set<int>> polygons = {{0, 1, 3}, {2}, {4}, {5}};
+  for (const auto& [time, shape] : {std::pair(0.0, 0), std::pair(2.0, 1)}) {
+    const Shape drawn = glb.InTheWorld(glb.Morphed("POSITION", time));
+    const Shape placed = path_.Placed(shape);
+    EXPECT_LT((drawn.leftCols(8) - placed).cwiseAbs().maxCoeff(), 1e-6) << "the mesh's own first";
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_EQ(materials[glb.Primitive(i)["material"].get<int>()]["name"], names[i]);
+      EXPECT_EQ(glb.Primitive(i)["attributes"], glb.Primitive(0)["attributes"]);
+      EXPECT_EQ(glb.Primitive(i)["targets"], glb.Primitive(0)["targets"]);
+      const Eigen::MatrixXd indices = glb.Indices(i);
+      int at = 0;
+      for (const int p : polygons[i]) {
+        for (int f = 2 * p; f < 2 * p + 2; ++f) {
+          for (int k = 0; k < 3; ++k, ++at) {
+            const int v = connectivity_->Triangles()(k, f), index = static_cast<int>(indices(at));
+            EXPECT_LT((drawn.col(index) - placed.col(v)).norm(), 1e-6);
+            const int t = path_.appearance.corner_texture[CornerOf(p, v)];
+            if (t < 0) continue;
+            const Eigen::Vector2d expected = path_.appearance.texture_coordinates.col(t);
+            EXPECT_EQ(uv(0, index), static_cast<float>(expected.x())) << p << " " << v;
+            EXPECT_EQ(uv(1, index), static_cast<float>(1 - expected.y())) << p << " " << v;
+          }
+        }
+      }
+      EXPECT_EQ(indices.size(), at);
+    }
+  }
+  ASSERT_EQ(summary.warnings.size(), 1u);
+  EXPECT_NE(summary.warnings[0].find("'unknown'"), std::string::npos);
+}
+
+TEST_F(WriteGltfAppearanceTest, MaterialsAreThoseOfTheLibrary) {
+  WriteGltf(GlbFile("materials"), path_);
+  const Glb glb(GlbFile("materials"));
+  const auto& materials = glb.json["materials"];
+  const auto& painted = materials[0]["pbrMetallicRoughness"];
+  EXPECT_FALSE(painted.contains("baseColorFactor")) << "black beside a texture";
+  const auto& texture = glb.json["textures"][painted["baseColorTexture"]["index"].get<int>()];
+  const auto& image = glb.json["images"][texture["source"].get<int>()];
+  EXPECT_EQ(image["mimeType"], "image/png");
+  EXPECT_EQ(glb.Bytes(image["bufferView"]), testing::Content(Path("maps/checks.png")));
+
+  const auto& glass = materials[1]["pbrMetallicRoughness"];
+  EXPECT_FALSE(glass.contains("baseColorTexture"));
+  const std::vector<double> factor = glass["baseColorFactor"];
+  const Colour linear = FromHex(0x8040ff);  // 128, 64 and 255 of 255
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(factor[k], linear[k], 0.005) << k;
+  EXPECT_EQ(factor[3], 0.5);
+  EXPECT_EQ(materials[1]["alphaMode"], "BLEND");
+  EXPECT_FALSE(materials[0].contains("alphaMode"));
+  EXPECT_EQ(materials[3]["pbrMetallicRoughness"], materials[2]["pbrMetallicRoughness"]);
+  for (const auto& material : materials) EXPECT_EQ(material["doubleSided"], true);
+}
+
+TEST_F(WriteGltfAppearanceTest, MissingLibrariesAndTexturesAreWarnedOf) {
+  std::filesystem::remove(Path("maps/checks.png"));
+  const GltfSummary summary = WriteGltf(GlbFile("no-texture"), path_);
+  ASSERT_EQ(summary.warnings.size(), 2u);
+  EXPECT_EQ(summary.warnings[1],
+            "texture " + Path("maps/checks.png") +
+                ": cannot be opened: No such file or directory; it is left out");
+  EXPECT_FALSE(Glb(GlbFile("no-texture")).json.contains("images"));
+
+  File("maps/checks.png", "BM this is none");
+  EXPECT_NE(WriteGltf(GlbFile("bad-texture"), path_).warnings[1].find("neither PNG nor JPEG"),
+            std::string::npos);
+
+  std::filesystem::remove(Path("cube.mtl"));
+  const GltfSummary plain = WriteGltf(GlbFile("no-library"), path_);
+  ASSERT_EQ(plain.warnings.size(), 2u);
+  EXPECT_EQ(plain.warnings[0].find("material library " + Path("cube.mtl") + ": cannot be opened"),
+            0u);
+  EXPECT_TRUE(Glb(GlbFile("no-library")).Primitive()["attributes"].contains("TEXCOORD_0"));
+}
+
+TEST_F(WriteGltfAppearanceTest, VertexColoursFollowTheirVerticesAcrossSeams) {
+  path_.appearance.vertex_colours = (Eigen::MatrixXd::Random(4, 8).array() + 1) / 2;
+  path_.appearance.materials = {};
+  WriteGltf(GlbFile("vertex-colours"), path_);
+  const Glb glb(GlbFile("vertex-colours"));
+  const Eigen::MatrixXd colours = glb.Attribute("COLOR_0");
+  const Shape drawn = glb.InTheWorld(glb.Attribute("POSITION")), placed = path_.Placed(0);
+  ASSERT_EQ(colours.rows(), 4);
+  ASSERT_EQ(colours.cols(), drawn.cols());
+  for (int i = 0; i < drawn.cols(); ++i) {
+    int v = 0;
+    (placed.colwise() - drawn.col(i)).colwise().norm().minCoeff(&v);
+    const Eigen::VectorXd given = path_.appearance.vertex_colours.col(v);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(ToByte(static_cast<float>(colours(k, i))), 255 * given[k], 0.51) << i;
+    }
+    EXPECT_FLOAT_EQ(colours(3, i), given[3]);
+  }
+  EXPECT_EQ(glb.json["materials"][0]["alphaMode"], "BLEND");
+  EXPECT_FALSE(glb.json["materials"][0]["pbrMetallicRoughness"].contains("baseColorFactor"));
+}
+
+TEST_F(WriteGltfAppearanceTest, OtherColoursReplaceIt) {
+  GltfOptions options;
+  options.colour_by_deviation = true;
+  EXPECT_TRUE(WriteGltf(GlbFile("replaced"), path_, options).warnings.empty());
+  const Glb glb(GlbFile("replaced"));
+  EXPECT_EQ(glb.json["materials"].size(), 1u);
+  EXPECT_EQ(glb.Attribute("POSITION").cols(), 8);
+  EXPECT_FALSE(glb.Primitive()["attributes"].contains("TEXCOORD_0"));
+  EXPECT_FALSE(glb.json.contains("images"));
+}
+
+TEST_F(WriteGltfAppearanceTest, GraphsHaveTheirVertexColours) {
+  const auto graph = Connectivity::Make(3, {0}, {}, {{0, 1}, {1, 2}});
+  const Shape shape = Shape::Identity(3, 3);
+  shapespace::Path path = testing::PathOf(graph, {shape, 2 * shape});
+  path.appearance.vertex_colours = Eigen::MatrixXd::Identity(3, 3);
+  WriteGltf(GlbFile("coloured-graph"), path);
+  EXPECT_EQ(Glb(GlbFile("coloured-graph")).Attribute("COLOR_0"), Eigen::MatrixXd::Identity(3, 3));
+}
+
+}  // namespace
+}  // namespace shapespace

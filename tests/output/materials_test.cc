@@ -1,0 +1,69 @@
+#include <shapespace/output/materials.h>
+
+#include "mesh/files.h"
+
+namespace shapespace {
+namespace {
+
+class ReadMaterialsTest : public testing::FilesTest {
+ protected:
+  std::vector<std::optional<Material>> Read(const std::vector<std::string>& libraries,
+                                            const std::vector<std::string>& names) {
+    Appearance appearance;
+    appearance.material_libraries = libraries;
+    appearance.folder = Path("");
+    appearance.materials.names = names;
+    return ReadMaterials(appearance, &warnings_);
+  }
+
+  std::vector<std::string> warnings_;
+};
+
+TEST_F(ReadMaterialsTest, ReadsColourOpacityAndTexture) {
+  File(
+      "a b.mtl",
+      "# made by hand\r\nnewmtl red paint\r\nKa 1 1 1\r\nKd 0.5 0.25 1\r\nd 0.75\r\nillum 2\r\n\r\n"
+      "newmtl glass\nTr 0.9\nKd 2 -1 0\nnewmtl wood\nmap_Kd maps\\oak plank.png\n");
+  const auto materials = Read({"a b.mtl"}, {"wood", "red paint", "glass"});
+  ASSERT_EQ(materials.size(), 3u);
+  EXPECT_EQ(materials[0]->texture, Path("maps/oak plank.png"));
+  EXPECT_EQ(materials[0]->opacity, 1);
+  EXPECT_EQ(materials[1]->colour, Eigen::Vector3d(0.5, 0.25, 1));
+  EXPECT_EQ(materials[1]->opacity, 0.75);
+  EXPECT_EQ(materials[1]->texture, "");
+  EXPECT_NEAR(materials[2]->opacity, 0.1, 1e-15);
+  EXPECT_EQ(materials[2]->colour, Eigen::Vector3d(1, 0, 0));
+  EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(ReadMaterialsTest, TakesSeveralLibrariesOfOneStatement) {
+  File("a.mtl", "newmtl a\nd 0.5\n");
+  File("b.mtl", "newmtl b\nd 0.25\n");
+  const auto materials = Read({"a.mtl b.mtl"}, {"a", "b"});
+  EXPECT_EQ(materials[0]->opacity, 0.5);
+  EXPECT_EQ(materials[1]->opacity, 0.25);
+  EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(ReadMaterialsTest, WarnsOfWhatIsMissing) {
+  File("a.mtl", "newmtl a\nKd 0 0 nan\nKd 1\nmap_Kd\nmap_Kd -s 2 2 2 a.png\nd\n");
+  const auto materials = Read({"none.mtl", "a.mtl"}, {"a", "b", "c"});
+  ASSERT_TRUE(materials[0]);
+  EXPECT_EQ(materials[0]->colour, Eigen::Vector3d::Ones());
+  EXPECT_EQ(materials[0]->texture, Path("a.png"));
+  EXPECT_FALSE(materials[1]);
+  ASSERT_EQ(warnings_.size(), 7u);
+  EXPECT_EQ(warnings_[0], "material library " + Path("none.mtl") +
+                              ": cannot be opened: No such file or directory");
+  EXPECT_EQ(warnings_[1], Path("a.mtl") + ":2: 'Kd 0 0 nan' is not understood");
+  EXPECT_EQ(warnings_[2], Path("a.mtl") + ":3: 'Kd 1' is not understood");
+  EXPECT_EQ(warnings_[3], Path("a.mtl") + ":4: 'map_Kd' is not understood");
+  EXPECT_EQ(warnings_[4],
+            Path("a.mtl") + ":5: 'map_Kd -s 2 2 2 a.png' has options, which are not used");
+  EXPECT_EQ(warnings_[5], Path("a.mtl") + ":6: 'd' is not understood");
+  EXPECT_EQ(warnings_[6],
+            "no material library describes the materials 'b', 'c': they are shown plain");
+}
+
+}  // namespace
+}  // namespace shapespace
