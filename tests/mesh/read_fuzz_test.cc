@@ -46,6 +46,8 @@ class ReadFuzzTest : public testing::FilesTest {
       try {
         const Soup soup = ReadSoup(file);
         ASSERT_TRUE(soup.vertices.allFinite());
+        soup.appearance.Validate(soup.NumVertices(), soup.NumPolygons(),
+                                 static_cast<int>(soup.corners.size()));
         for (const Finding& finding : CheckSoup(soup)) ASSERT_FALSE(finding.message.empty());
         CheckCorrespondence(soup, soup);
         ++accepted;
@@ -62,7 +64,8 @@ class ReadFuzzTest : public testing::FilesTest {
 
 TEST_F(ReadFuzzTest, Obj) {
   Damage(".obj",
-         "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nv 2 2 2\nvt 0 0\nvt 1 1\nvn 0 0 1\n"
+         "mtllib a.mtl\no a\nv 0 0 0 1 0 1\nv 1 0 0\nv 1 1 0.5\nv 0 1 0\nv 2 2 2\nvt 0 0\nvt 1 "
+         "1\nvn 0 0 1\n"
          "usemtl red\nf 1/1 2/2 3/1 4/2\nf -1//1 3/1/1 2\nl 1 2 \\\n 5\ng part\n",
          3000);
 }
@@ -76,16 +79,20 @@ TEST_F(ReadFuzzTest, Off) {
 TEST_F(ReadFuzzTest, TextPly) {
   Damage(".ply",
          "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-         "property float z\nproperty uchar red\nelement face 2\n"
-         "property list uchar int vertex_indices\nelement edge 1\nproperty int vertex1\n"
-         "property int vertex2\nend_header\n0 0 0 1\n1 0 0 1\n1 1 0.5 1\n0 1 0 1\n3 0 1 2\n"
-         "3 0 2 3\n1 3\n",
+         "property float z\nproperty uchar red\nproperty uchar green\nproperty float blue\n"
+         "element face 2\nproperty list uchar int vertex_indices\n"
+         "property list uchar float texcoord\nelement edge 1\nproperty int vertex1\n"
+         "property int vertex2\nend_header\n0 0 0 1 2 1\n1 0 0 1 3 0\n1 1 0.5 1 4 .5\n"
+         "0 1 0 1 5 1\n3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 0\n1 3\n",
          3000);
 }
 
 TEST_F(ReadFuzzTest, BinaryPly) {
   Soup soup = testing::Cube();
   soup.segments = {{0, 7}};
+  soup.appearance.texture_coordinates = Eigen::Matrix2Xd::Random(2, 24);
+  for (int k = 0; k < 24; ++k) soup.appearance.corner_texture.push_back(k);
+  soup.appearance.vertex_colours.setConstant(4, 8, 0.5);
   WriteMesh(Path("cube.ply"), soup.vertices, soup);
   Damage(".ply", testing::Content(Path("cube.ply")), 3000);
 }

@@ -80,6 +80,57 @@ TEST_F(ReadPlyTest, ReadsTextAndSkipsWhatItDoesNotKnow) {
             "properties of element 'edge' not kept: red\n");
 }
 
+// As MeshLab writes them.
+TEST_F(ReadPlyTest, ReadsColoursAndTextureCoordinates) {
+  const Soup soup = Read(
+      "ply\nformat ascii 1.0\ncomment TextureFile skin.png\nelement vertex 4\n"
+      "property float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n"
+      "element face 3\nproperty list uchar int vertex_indices\n"
+      "property list uchar float texcoord\nproperty int texnumber\nend_header\n"
+      "0 0 0 255 0 51 255\n1 0 0 0 255 0 0\n1 1 0 0 0 0 102\n0 1 0 1 2 3 255\n"
+      "3 0 1 2 6 0 0 1 0 1 1 0\n3 0 2 3 0 0\n4 0 1 2 3 8 0 0 1 0 0.5 1 0 1 0\n");
+  const Appearance& appearance = soup.appearance;
+  Eigen::MatrixXd colours(4, 4);
+  colours << 255, 0, 0, 1, 0, 255, 0, 2, 51, 0, 0, 3, 255, 0, 102, 255;
+  EXPECT_EQ(appearance.vertex_colours, colours / 255);
+  Eigen::MatrixXd expected(2, 5);
+  expected << 0, 1, 1, 0.5, 0, 0, 0, 1, 1, 1;
+  EXPECT_EQ(appearance.texture_coordinates, expected);
+  EXPECT_EQ(appearance.corner_texture, (Ints{0, 1, 2, -1, -1, -1, 0, 1, 3, 4}));
+  EXPECT_EQ(soup.dropped, (std::vector<std::string>{
+                              "texture file 'skin.png' not kept; a material of an OBJ can name it",
+                              "properties of element 'face' not kept: texnumber"}));
+}
+
+TEST_F(ReadPlyTest, SaysWhereColoursOrTextureCoordinatesAreNone) {
+  const auto dropped = [this](const std::string& type, const std::string& vertices,
+                              const std::string& texture) {
+    const Soup soup = Read(
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+        "property float y\nproperty float z\nproperty " +
+        type + " red\nproperty " + type + " green\nproperty " + type +
+        " blue\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "property list uchar float texcoord\nend_header\n" +
+        vertices + "3 0 1 2 " + texture + "\n");
+    EXPECT_EQ(soup.appearance.vertex_colours.size(), 0);
+    EXPECT_TRUE(soup.appearance.corner_texture.empty());
+    return soup.dropped;
+  };
+  EXPECT_EQ(dropped("int", "0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n", "0"),
+            std::vector<std::string>{"properties of element 'vertex' not kept: red, green, blue"});
+  EXPECT_EQ(dropped("float", "0 0 0 1 0 1\n1 0 0 1 nan 0\n0 1 0 1 0 1\n", "2 0 0"),
+            (std::vector<std::string>{
+                "texture coordinates of 1 polygons, which are not two numbers a corner, not kept",
+                "3 vertex colours (some number of them is not in 0 .. 1) not kept"}));
+  ExpectRefused(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+      "property list uchar float texcoord\nend_header\n" +
+          std::string(kVertices) + "3 0 1 2 6 0 0 0 0 0 inf\n",
+      {"pose.ply:14: polygon 1: a texture coordinate is not a finite number"});
+}
+
 TEST_F(ReadPlyTest, ReadsEveryScalarTypeInBothByteOrders) {
   for (const bool big : {false, true}) {
     Bytes bytes(big);

@@ -43,6 +43,45 @@ TEST_F(WriteTest, PlyIsExact) {
   EXPECT_TRUE(read.dropped.empty());
 }
 
+TEST_F(WriteTest, PlyKeepsTextureCoordinatesAndColours) {
+  Appearance& appearance = soup_.appearance;
+  appearance.texture_coordinates = Eigen::Matrix2Xf::Random(2, 7).cast<double>();
+  for (size_t k = 0; k < soup_.corners.size(); ++k) {
+    appearance.corner_texture.push_back(static_cast<int>(k) % 7);
+  }
+  appearance.corner_texture[5] = -1;  // in polygon 1
+  Eigen::MatrixXi bytes = (Eigen::MatrixXd::Random(4, 8).array() * 127.9 + 128).cast<int>();
+  appearance.vertex_colours = bytes.cast<double>() / 255;
+  WriteMesh(Path("a.ply"), soup_.vertices, soup_);
+  const Soup read = ReadSoup(Path("a.ply"));
+  EXPECT_EQ(read.vertices, soup_.vertices);
+  EXPECT_EQ(read.segments, soup_.segments);
+  EXPECT_EQ(read.appearance.vertex_colours, appearance.vertex_colours);
+  ASSERT_EQ(read.appearance.corner_texture.size(), soup_.corners.size());
+  for (size_t k = 0; k < soup_.corners.size(); ++k) {
+    const int index = read.appearance.corner_texture[k];
+    if (k >= 4 && k < 8) {
+      EXPECT_EQ(index, -1);
+      continue;
+    }
+    EXPECT_EQ(read.appearance.texture_coordinates.col(index),
+              appearance.texture_coordinates.col(appearance.corner_texture[k]));
+  }
+  EXPECT_EQ(read.appearance.texture_coordinates.cols(), 7) << "one each, however often used";
+  EXPECT_TRUE(read.dropped.empty());
+
+  appearance.materials = {{"a"}, std::vector<int>(6, 0)};
+  appearance.objects = appearance.materials;
+  EXPECT_EQ(NotKept("a.PLY", soup_),
+            (std::vector<std::string>{"materials, objects are dropped; OBJ keeps them",
+                                      "texture coordinates of 1 polygons are dropped, since some "
+                                      "of their corners have none"}));
+  EXPECT_TRUE(NotKept("a.obj", soup_).empty());
+  appearance.texture_coordinates(0, 0) = 1e39;
+  ExpectError<MeshError>([&] { WriteMesh(Path("b.ply"), soup_.vertices, soup_); },
+                         {"b.ply: a texture coordinate is too large"});
+}
+
 TEST_F(WriteTest, ObjIsExactAndKeepsTheAppearance) {
   Appearance& appearance = soup_.appearance;
   appearance.texture_coordinates = Eigen::Matrix2Xd::Random(2, 5);
@@ -128,8 +167,11 @@ TEST_F(WriteTest, LongPolygonsAndPureGraphsSurvivePly) {
   soup.vertices = Shape::Random(3, 400);
   for (int v = 0; v < 300; ++v) soup.corners.push_back(v);
   soup.polygon_begin = {0, 300};
+  soup.appearance.texture_coordinates = Eigen::Matrix2Xd::Identity(2, 400);
+  soup.appearance.corner_texture = soup.corners;
   WriteMesh(Path("long.ply"), soup.vertices, soup);
   EXPECT_EQ(ReadSoup(Path("long.ply")).corners, soup.corners);
+  EXPECT_EQ(ReadSoup(Path("long.ply")).appearance.corner_texture.size(), 300u);
 
   Soup graph;
   graph.vertices = Shape::Random(3, 3);

@@ -23,12 +23,12 @@ TEST_F(FramesTest, GraphsWithStiffenersGoThroughPathFilesAsTheyWere) {
   WritePath(file, testing::PathOf(graph, {first, last}));
   const shapespace::Path read = ReadPath(file);
   EXPECT_EQ(read.metric->connectivity->NumEdges(), 5);
-  EXPECT_EQ(PlainAppearance(*read.metric->connectivity).segments, segments);
+  EXPECT_EQ(FrameSoup(*read.metric->connectivity).segments, segments);
 }
 
 TEST_F(FramesTest, SegmentsBesidePolygonsAreKeptToo) {
   const auto flag = Connectivity::Make(5, {0, 4}, {0, 1, 2, 3}, {{3, 4}});
-  const Soup plain = PlainAppearance(*flag);
+  const Soup plain = FrameSoup(*flag);
   EXPECT_EQ(plain.segments, (std::vector<std::pair<int, int>>{{3, 4}}));
   EXPECT_EQ(plain.corners, (std::vector<int>{0, 1, 2, 3}));
 }

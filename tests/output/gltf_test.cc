@@ -388,7 +388,7 @@ TEST(WriteGltfTest, FacetsAreShadedFlat) {
 }
 
 TEST(WriteGltfTest, GraphsAreLines) {
-  const auto graph = Connectivity::Make(4, {0}, {}, {{0, 1}, {1, 2}, {1, 3}});
+  const auto graph = Connectivity::Make(4, {0}, {}, {{0, 1}, {1, 2}, {1, 3}}, {{0, 3}});
   const Shape first = Shape::Random(3, 4);
   Shape last = first;
   last.col(2) += Eigen::Vector3d(0, 1, 2);

@@ -190,7 +190,7 @@ TEST_F(InterpolateTest, ObjFramesKeepTextureAndMaterialsAndPlySaysThatItDropsThe
   const Outcome ply =
       Run("shape-interpolate", {"a.obj", "b.obj", "--shapes", "1", "--output", "%d.ply"});
   ASSERT_EQ(ply.code, 0) << ply.err;
-  ExpectContains(ply.err, "%d.ply: texture coordinates and materials are dropped");
+  ExpectContains(ply.err, "%d.ply: materials are dropped");
 }
 
 TEST_F(InterpolateTest, StiffenersHoldWhatTheyJoin) {

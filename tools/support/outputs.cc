@@ -13,6 +13,7 @@
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/mesh/write.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/gltf.h>
 #include <shapespace/output/picture.h>
@@ -94,6 +95,14 @@ void WriteGltfAndTell(const std::string& output, const Path& path, const Shape& 
     std::cerr << "note: " << output << ": the last colour stands for a deviation of "
               << 100 * summary.colour_end << "%\n";
   }
+}
+
+void WriteFramesAndTell(const std::string& output, const std::vector<Shape>& shapes,
+                        const Soup& soup) {
+  for (const std::string& sentence : NotKept(output, soup)) {
+    std::cerr << "note: " << output << ": " << sentence << '\n';
+  }
+  WriteFrames(output, shapes, soup);
 }
 
 }  // namespace
@@ -180,13 +189,7 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
         WriteGltfAndTell(output, path, whole.shapes[0], parts);
         break;
       case Kind::kFrames:
-        if (std::filesystem::path(output).extension() == ".ply" &&
-            (path.appearance.texture_coordinates.cols() > 0 ||
-             !path.appearance.materials.of_polygon.empty())) {
-          std::cerr << "note: " << output
-                    << ": texture coordinates and materials are dropped; OBJ frames keep them\n";
-        }
-        WriteFrames(output, placed, FrameSoup(*path.metric->connectivity, path.appearance));
+        WriteFramesAndTell(output, placed, FrameSoup(*path.metric->connectivity, path.appearance));
         break;
     }
   }

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -112,6 +114,7 @@ class PlyReader {
     }
     CheckEnd();
     CheckIndices();
+    FinishAppearance();
     return std::move(soup_);
   }
 
@@ -142,7 +145,13 @@ class PlyReader {
         ReadElement(words);
       } else if (keyword == "property") {
         ReadProperty(words);
-      } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
+      } else if (keyword == "comment") {
+        // By which some programs name the image that texture coordinates lead into.
+        if (words.Next() == "TextureFile") {
+          soup_.dropped.push_back("texture file " + Quoted(words.Rest()) +
+                                  " not kept; a material of an OBJ can name it");
+        }
+      } else if (keyword != "obj_info" && !keyword.empty()) {
         Fail("the header holds " + Quoted(keyword) + ", which is no statement of PLY" + kReexport);
       }
     }
@@ -308,7 +317,7 @@ class PlyReader {
   // ---- elements
 
   /// For each property its place in `wanted`, or -1.
-  std::vector<int> Roles(const Element& element, const std::vector<std::string>& wanted) {
+  std::vector<int> Roles(const Element& element, const std::vector<std::string>& wanted) const {
     std::vector<int> role(element.properties.size(), -1);
     for (size_t w = 0; w < wanted.size(); ++w) {
       bool found = false;
@@ -322,14 +331,49 @@ class PlyReader {
       }
       if (!found) Fail("element " + element.name + " has no property " + wanted[w] + kReexport);
     }
-    TellDropped(element, role);
     return role;
   }
 
+  /// What a number of this type is divided by to give a share of full colour; empty where no colour
+  /// is of such a type.
+  static std::optional<double> FullColour(const Property& property) {
+    if (property.count_type) return std::nullopt;
+    switch (property.type) {
+      case Type::kUint8:
+        return 255;
+      case Type::kUint16:
+        return 65535;
+      case Type::kFloat:
+      case Type::kDouble:
+        return 1;
+      default:
+        return std::nullopt;
+    }
+  }
+
+  /// Gives red, green, blue and alpha, where vertices have all of the first three, the roles 3
+  /// to 6. Returns the number of channels, 0 without.
+  static int AddColourRoles(const Element& element, std::vector<int>* role) {
+    static constexpr const char* kChannels[] = {"red", "green", "blue", "alpha"};
+    int place[4] = {-1, -1, -1, -1};
+    for (size_t i = 0; i < role->size(); ++i) {
+      for (int c = 0; c < 4; ++c) {
+        const Property& property = element.properties[i];
+        if (property.name == kChannels[c] && FullColour(property)) place[c] = static_cast<int>(i);
+      }
+    }
+    if (std::count(place, place + 3, -1) > 0) return 0;
+    const int channels = place[3] < 0 ? 3 : 4;
+    for (int c = 0; c < channels; ++c) (*role)[place[c]] = 3 + c;
+    return channels;
+  }
+
   void ReadVertices(const Element& element) {
-    const std::vector<int> role = Roles(element, {"x", "y", "z"});
+    std::vector<int> role = Roles(element, {"x", "y", "z"});
     const int count = static_cast<int>(element.count);
     soup_.vertices.resize(3, count);
+    soup_.appearance.vertex_colours.resize(AddColourRoles(element, &role), count);
+    TellDropped(element, role);
     for (int v = 0; v < count; ++v) {
       Begin("vertex " + std::to_string(v + 1));
       for (size_t i = 0; i < role.size(); ++i) {
@@ -339,6 +383,10 @@ class PlyReader {
           continue;
         }
         const double value = Number(property.type, property.name);
+        if (role[i] >= 3) {
+          soup_.appearance.vertex_colours(role[i] - 3, v) = value / *FullColour(property);
+          continue;
+        }
         if (!std::isfinite(value)) {
           Fail(label_ + ": coordinate " + property.name + " is not a finite number" + kReexport);
         }
@@ -362,6 +410,11 @@ class PlyReader {
       role[i] = 0;
       ++found;
     }
+    for (size_t i = 0; i < role.size(); ++i) {
+      const Property& property = element.properties[i];
+      if (property.name != "texcoord" || !property.count_type || IsInteger(property.type)) continue;
+      role[i] = 1;
+    }
     if (found != 1) {
       Fail("element face needs one list vertex_indices, it has " + std::to_string(found) +
            kReexport);
@@ -372,11 +425,14 @@ class PlyReader {
       for (size_t i = 0; i < role.size(); ++i) {
         if (role[i] < 0) {
           Skip(element.properties[i]);
-        } else {
+        } else if (role[i] == 0) {
           ReadCorners(element.properties[i]);
+        } else {
+          ReadTexture(element.properties[i]);
         }
       }
       End();
+      AddTexture();
       if (IsText()) soup_.polygon_line.push_back(lines_.Number());
     }
   }
@@ -388,6 +444,56 @@ class PlyReader {
     }
     for (std::int64_t k = 0; k < count; ++k) soup_.corners.push_back(Index(property));
     soup_.polygon_begin.push_back(static_cast<int>(soup_.corners.size()));
+  }
+
+  /// Texture coordinates of the polygon at hand: u and v of each corner.
+  void ReadTexture(const Property& property) {
+    const std::int64_t count = Length(property);
+    polygon_texture_.clear();
+    for (std::int64_t k = 0; k < count; ++k) {
+      polygon_texture_.push_back(Number(property.type, property.name));
+      if (!std::isfinite(polygon_texture_.back())) {
+        Fail(label_ + ": a texture coordinate is not a finite number" + kReexport);
+      }
+    }
+  }
+
+  /// Gives them to its corners. Equal ones become one, as OBJ has them.
+  void AddTexture() {
+    std::vector<int>& corner_texture = soup_.appearance.corner_texture;
+    const size_t corners = soup_.corners.size() - corner_texture.size();
+    const bool fits = polygon_texture_.size() == 2 * corners;
+    if (!fits && !polygon_texture_.empty()) ++unfit_texture_;
+    for (size_t k = 0; k < corners; ++k) {
+      if (!fits) {
+        corner_texture.push_back(-1);
+        continue;
+      }
+      const std::pair<double, double> uv(polygon_texture_[2 * k], polygon_texture_[2 * k + 1]);
+      const int next = static_cast<int>(texture_.size() / 2);
+      const auto [found, is_new] = texture_index_.try_emplace(uv, next);
+      if (is_new) texture_.insert(texture_.end(), {uv.first, uv.second});
+      corner_texture.push_back(found->second);
+    }
+    polygon_texture_.clear();
+  }
+
+  void FinishAppearance() {
+    Appearance& appearance = soup_.appearance;
+    if (unfit_texture_ > 0) {
+      soup_.dropped.push_back("texture coordinates of " + std::to_string(unfit_texture_) +
+                              " polygons, which are not two numbers a corner, not kept");
+    }
+    if (texture_.empty()) appearance.corner_texture.clear();
+    appearance.texture_coordinates =
+        Eigen::Map<Eigen::Matrix2Xd>(texture_.data(), 2, texture_.size() / 2);
+    if (appearance.vertex_colours.rows() == 0) appearance.vertex_colours.resize(0, 0);
+    const auto shares = appearance.vertex_colours.array();
+    if (!((shares >= 0).all() && (shares <= 1).all())) {
+      soup_.dropped.push_back(std::to_string(soup_.NumVertices()) +
+                              " vertex colours (some number of them is not in 0 .. 1) not kept");
+      appearance.vertex_colours.resize(0, 0);
+    }
   }
 
   /// A vertex index; its range is checked when the number of vertices is known, for elements may
@@ -403,6 +509,7 @@ class PlyReader {
   void ReadSegments(const Element& element) {
     if (element.count == 0) return;
     const std::vector<int> role = Roles(element, {"vertex1", "vertex2"});
+    TellDropped(element, role);
     for (std::int64_t s = 0; s < element.count; ++s) {
       Begin("segment " + std::to_string(s + 1));
       int ends[2] = {0, 0};
@@ -465,6 +572,10 @@ class PlyReader {
   std::vector<Element> elements_;
   std::string label_;  // of the instance at hand
   Words words_{std::string_view()};
+  std::vector<double> polygon_texture_;                     // of the polygon at hand
+  std::vector<double> texture_;                             // u, v, u, v, ...
+  std::map<std::pair<double, double>, int> texture_index_;  // of those
+  int unfit_texture_ = 0;
   Soup soup_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <ostream>
 
@@ -102,38 +104,81 @@ void AddBytes(T number, std::string* bytes) {
   for (size_t i = 0; i < sizeof bits; ++i) *bytes += static_cast<char>(bits >> (8 * i) & 0xff);
 }
 
+/// True if every corner of the polygon has a texture coordinate.
+bool IsTextured(const Soup& soup, int polygon) {
+  const std::vector<int>& texture = soup.appearance.corner_texture;
+  return !texture.empty() && std::none_of(texture.begin() + soup.polygon_begin[polygon],
+                                          texture.begin() + soup.polygon_begin[polygon + 1],
+                                          [](int index) { return index < 0; });
+}
+
+/// Lists in PLY, whose lengths are told by one byte, as every reader knows it, where all fit.
+class Lists {
+ public:
+  explicit Lists(int longest) : short_lengths_(longest <= 255) {}
+
+  const char* LengthType() const { return short_lengths_ ? "uchar" : "int"; }
+
+  void AddLength(int length, std::string* bytes) const {
+    if (short_lengths_) {
+      *bytes += static_cast<char>(length);
+    } else {
+      AddBytes<std::uint32_t>(length, bytes);
+    }
+  }
+
+ private:
+  bool short_lengths_;
+};
+
 std::string Ply(const Shape& vertices, const Soup& soup) {
+  const Appearance& appearance = soup.appearance;
+  const Eigen::MatrixXd& colours = appearance.vertex_colours;
   int longest = 0;
   for (int p = 0; p < soup.NumPolygons(); ++p) {
     longest = std::max(longest, soup.polygon_begin[p + 1] - soup.polygon_begin[p]);
   }
-  // One byte a length is what every reader knows; longer polygons leave no choice.
-  const bool short_lengths = longest <= 255;
+  const Lists corners(longest), texture(2 * longest);
+  const bool textured = !appearance.corner_texture.empty();
   std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                       std::to_string(vertices.cols()) +
                       "\nproperty double x\nproperty double y\nproperty double z\n";
+  static constexpr const char* kChannels[] = {"red", "green", "blue", "alpha"};
+  for (int c = 0; c < colours.rows(); ++c) {
+    bytes += std::string("property uchar ") + kChannels[c] + "\n";
+  }
   if (soup.NumPolygons() > 0) {
     bytes += "element face " + std::to_string(soup.NumPolygons()) + "\nproperty list " +
-             (short_lengths ? "uchar" : "int") + " int vertex_indices\n";
+             corners.LengthType() + " int vertex_indices\n";
+    if (textured) {
+      bytes += std::string("property list ") + texture.LengthType() + " float texcoord\n";
+    }
   }
   if (!soup.segments.empty()) {
     bytes += "element edge " + std::to_string(soup.segments.size()) +
              "\nproperty int vertex1\nproperty int vertex2\n";
   }
   bytes += "end_header\n";
-  bytes.reserve(bytes.size() + 24 * vertices.cols() + 4 * soup.corners.size() +
-                4 * soup.polygon_begin.size() + 8 * soup.segments.size());
-  for (int i = 0; i < vertices.size(); ++i) {
-    AddBytes<std::uint64_t>(vertices.data()[i], &bytes);
+  bytes.reserve(bytes.size() + 28 * vertices.cols() + (textured ? 12 : 4) * soup.corners.size() +
+                8 * soup.polygon_begin.size() + 8 * soup.segments.size());
+  for (int v = 0; v < vertices.cols(); ++v) {
+    for (const double x : vertices.col(v)) AddBytes<std::uint64_t>(x, &bytes);
+    for (int c = 0; c < colours.rows(); ++c) {
+      bytes += static_cast<char>(std::lround(255 * colours(c, v)));
+    }
   }
   for (int p = 0; p < soup.NumPolygons(); ++p) {
     const int begin = soup.polygon_begin[p], end = soup.polygon_begin[p + 1];
-    if (short_lengths) {
-      bytes += static_cast<char>(end - begin);
-    } else {
-      AddBytes<std::uint32_t>(end - begin, &bytes);
-    }
+    corners.AddLength(end - begin, &bytes);
     for (int k = begin; k < end; ++k) AddBytes<std::uint32_t>(soup.corners[k], &bytes);
+    if (!textured) continue;
+    const bool has_all = IsTextured(soup, p);
+    texture.AddLength(has_all ? 2 * (end - begin) : 0, &bytes);
+    for (int k = begin; has_all && k < end; ++k) {
+      for (const double x : appearance.texture_coordinates.col(appearance.corner_texture[k])) {
+        AddBytes<std::uint32_t>(static_cast<float>(x), &bytes);
+      }
+    }
   }
   for (const auto& [a, b] : soup.segments) {
     AddBytes<std::uint32_t>(a, &bytes);
@@ -143,6 +188,32 @@ std::string Ply(const Shape& vertices, const Soup& soup) {
 }
 
 }  // namespace
+
+std::vector<std::string> NotKept(const std::string& file, const Soup& soup) {
+  if (Extension(file) != ".ply") return {};
+  const Appearance& appearance = soup.appearance;
+  std::vector<std::string> sentences;
+  std::string names;
+  const auto add = [&names](const PolygonNames& of, const char* what) {
+    if (!of.of_polygon.empty()) names += (names.empty() ? "" : ", ") + std::string(what);
+  };
+  add(appearance.materials, "materials");
+  add(appearance.groups, "groups");
+  add(appearance.objects, "objects");
+  if (!names.empty()) sentences.push_back(names + " are dropped; OBJ keeps them");
+  const std::vector<int>& texture = appearance.corner_texture;
+  int partly = 0;
+  for (int p = 0; p < soup.NumPolygons() && !texture.empty(); ++p) {
+    const auto begin = texture.begin() + soup.polygon_begin[p];
+    const auto end = texture.begin() + soup.polygon_begin[p + 1];
+    partly += !IsTextured(soup, p) && std::any_of(begin, end, [](int t) { return t >= 0; });
+  }
+  if (partly > 0) {
+    sentences.push_back("texture coordinates of " + std::to_string(partly) +
+                        " polygons are dropped, since some of their corners have none");
+  }
+  return sentences;
+}
 
 void WriteMesh(const std::string& file, const Shape& vertices, const Soup& soup) {
   const std::string extension = Extension(file);
@@ -166,6 +237,9 @@ void WriteMesh(const std::string& file, const Shape& vertices, const Soup& soup)
                              static_cast<int>(soup.corners.size()));
   } catch (const MeshError& error) {
     throw MeshError(file + ": " + error.what());
+  }
+  if (extension == ".ply" && !soup.appearance.texture_coordinates.cast<float>().allFinite()) {
+    throw MeshError(file + ": a texture coordinate is too large for PLY's single precision");
   }
   const std::string content = extension == ".obj" ? Obj(vertices, soup) : Ply(vertices, soup);
   WriteFileAtomically(file, [&content](std::ostream& stream) {

@@ -413,7 +413,7 @@ tinygltf::Material MaterialFromLibrary(const std::string& name, const Material& 
   return material;
 }
 
-// Triangles, or a graph's edges, that share a material.
+// Triangles, or a graph's segments, that share a material.
 struct Part {
   tinygltf::Material material;
   std::vector<int> indices;
@@ -423,8 +423,11 @@ std::vector<Part> PartsByMaterial(const Connectivity& connectivity, const CutMes
                                   const Appearance& appearance, const tinygltf::Material& plain,
                                   Textures* textures, std::vector<std::string>* warnings) {
   if (connectivity.IsGraph()) {
-    const Eigen::Matrix2Xi& edges = connectivity.Edges();
-    return {{plain, std::vector<int>(edges.data(), edges.data() + edges.size())}};
+    Part lines = {plain, {}};
+    for (const auto& [a, b] : connectivity.Segments()) {
+      lines.indices.insert(lines.indices.end(), {a, b});
+    }
+    return {lines};
   }
   std::vector<std::vector<int>> indices(appearance.materials.names.size() + 1);  // last: of none
   const std::vector<int>& material_of = appearance.materials.of_polygon;

@@ -71,7 +71,7 @@ struct GltfSummary {
 ///
 /// Normals are smooth, weighted by area, also across single sharp edges: leaving those sharp would
 /// take further vertices. Polyhedra and folded paper, of which most edges are sharp, have no
-/// normals and so are shaded flat. Graphs become lines along their edges. `asset.extras` tells the
+/// normals and so are shaded flat. Graphs become lines along their segments. `asset.extras` tells the
 /// metric, the number of shapes, the provenance and the end of the colour scale.
 ///
 /// The file appears whole or not at all.
