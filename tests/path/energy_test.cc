@@ -132,12 +132,14 @@ std::vector<Case> AllBlends() {
   membrane.bending = 0;
   everything.log_length = 0.2;
   everything.volume = 0.3;
+  everything.strain = 0.3;
   strains.isometric = 0;
   strains.log_length = 1;
   paper_with_bending.bending = 1e-3;
   return {{"default", {}},
           {"membrane", membrane},
           {"strains", strains},
+          {"triangle strain", MetricOptions::Strain()},
           {"everything", everything},
           {"paper", MetricOptions::Paper()},
           {"paper with bending", paper_with_bending}};

@@ -56,7 +56,7 @@ TEST_F(RefusalTest, WrongCommandLines) {
       {{"--tolerance", "2"}, "--tolerance: must be between 0 and 1"},
       {{"--lambda=-1"}, "--lambda: must be a number, zero or more"},
       {{"--lambda", "nan"}, "--lambda: must be a number, zero or more"},
-      {{"--metric", "taxicab"}, "--metric taxicab: must be isometric, rigid or paper"},
+      {{"--metric", "taxicab"}, "--metric taxicab: must be isometric, strain, rigid or paper"},
       {{"--weights", "heavy"}, "--weights heavy: must be area or uniform"},
       {{"--discretization", "fine"}, "--discretization fine: must be midpoint or trapezoid"},
       {{"--solver", "magic"},

@@ -8,11 +8,13 @@
 
 DEFINE_string(metric, "isometric",
               "preset that sets the defaults of the other flags of the metric: isometric (as shown "
-              "here), rigid (isometric 0, rigid 1, bending 0), or paper (bending 0, lambda 0.001, "
-              "weights uniform, discretization trapezoid)");
+              "here), strain (isometric 0, strain 1), rigid (isometric 0, rigid 1, bending 0), or "
+              "paper (bending 0, lambda 0.001, weights uniform, discretization trapezoid)");
 DEFINE_double(isometric, 1,
               "cost of stretching edges; all costs are pure numbers, the area being 1");
-DEFINE_double(log_length, 0, "cost of strains: log edge lengths");
+DEFINE_double(strain, 0,
+              "cost of logarithmic strains of triangles: as --isometric, but paths can always go on");
+DEFINE_double(log_length, 0, "cost of changing the logarithms of edge lengths");
 DEFINE_double(rigid, 0, "cost of deviation from rigid motion of the whole body");
 DEFINE_double(lambda, 1e-4, "cost of moving vertices; harmless up to 1e-3");
 DEFINE_double(bending, 1e-5, "cost of bending: t^2 / 12 for a shell of thickness t");
@@ -26,12 +28,15 @@ MetricOptions MetricFromFlags() {
   MetricOptions options;
   if (FLAGS_metric == "rigid") {
     options = MetricOptions::Rigid();
+  } else if (FLAGS_metric == "strain") {
+    options = MetricOptions::Strain();
   } else if (FLAGS_metric == "paper") {
     options = MetricOptions::Paper();
   } else if (FLAGS_metric != "isometric") {
-    throw UsageError("--metric " + FLAGS_metric + ": must be isometric, rigid or paper");
+    throw UsageError("--metric " + FLAGS_metric + ": must be isometric, strain, rigid or paper");
   }
   if (IsGiven("isometric")) options.isometric = FLAGS_isometric;
+  if (IsGiven("strain")) options.strain = FLAGS_strain;
   if (IsGiven("log_length")) options.log_length = FLAGS_log_length;
   if (IsGiven("rigid")) options.rigid = FLAGS_rigid;
   if (IsGiven("lambda")) options.lambda = FLAGS_lambda;

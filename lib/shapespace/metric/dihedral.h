@@ -17,7 +17,7 @@ inline double WrapAngle(double angle) { return std::remainder(angle, 2 * M_PI); 
 /// points needs no wrapping, is bounded, and gives the same Riemannian metric as theta itself.
 /// What a feature is: edge_length.h.
 struct Dihedral {
-  static constexpr int kVertices = 4, kValues = 2;
+  static constexpr int kVertices = 4, kValues = 2, kStencils = 1;
   static constexpr bool kRigidInvariant = true, kSum = false, kTrapezoid = false;
   static constexpr const char* kName = "dihedral";
 

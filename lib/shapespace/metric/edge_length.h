@@ -16,13 +16,15 @@ namespace shapespace {
 //   kTrapezoid       it has a form of its own in the paper's discretisation (trapezoid.h),
 //   LeastChange      the least of sum_i |Phi_{i+1} - Phi_i|^2 over all paths of `segments` segments
 //                    from value a to value b: the element's share in the lower bound,
-//   Stencil          a scalar k per vertex such that sum w k k^T resembles the metric's matrix,
-//                    axis by axis: what the preconditioner is assembled from.
+//   Stencil          kStencils vectors k, each of a scalar per vertex, one after the other, such
+//   that
+//                    sum w k k^T resembles the metric's matrix, axis by axis: what the
+//                    preconditioner is assembled from.
 
 /// |e|^2 / 2 of an edge: the paper's metric (4), since its derivative along X is <X_p - X_q, p -
 /// q>.
 struct EdgeLength {
-  static constexpr int kVertices = 2, kValues = 1;
+  static constexpr int kVertices = 2, kValues = 1, kStencils = 1;
   static constexpr bool kRigidInvariant = true, kSum = false, kTrapezoid = true;
   static constexpr const char* kName = "edge length";
 
@@ -47,9 +49,9 @@ struct EdgeLength {
   }
 };
 
-/// log |e| of an edge: a metric of strains, indifferent to the lengths themselves.
+/// log |e| of an edge: its strain, indifferent to the length itself.
 struct LogLength {
-  static constexpr int kVertices = 2, kValues = 1;
+  static constexpr int kVertices = 2, kValues = 1, kStencils = 1;
   static constexpr bool kRigidInvariant = true, kSum = false, kTrapezoid = false;
   static constexpr const char* kName = "log length";
 

@@ -40,6 +40,7 @@ inline LineJet operator/(const LineJet& a, const LineJet& b) {
   const double inverse = 1 / b.value;
   return a * Chain(b, inverse, -inverse * inverse, 2 * inverse * inverse * inverse);
 }
+inline bool operator<(const LineJet& a, const LineJet& b) { return a.value < b.value; }
 inline LineJet sqrt(const LineJet& a) {
   const double root = std::sqrt(a.value);
   return Chain(a, root, 0.5 / root, -0.25 / (root * a.value));

@@ -150,6 +150,13 @@ void CheckMagnitude(const Shape& pose) {
 
 }  // namespace
 
+MetricOptions MetricOptions::Strain() {
+  MetricOptions options;
+  options.isometric = 0;
+  options.strain = 1;
+  return options;
+}
+
 MetricOptions MetricOptions::Rigid() {
   MetricOptions options;
   options.isometric = 0;
@@ -169,14 +176,15 @@ MetricOptions MetricOptions::Paper() {
 
 void MetricOptions::Validate() const {
   CheckNonNegative(isometric, "isometric");
+  CheckNonNegative(strain, "strain");
   CheckNonNegative(log_length, "log_length");
   CheckNonNegative(rigid, "rigid");
   CheckNonNegative(lambda, "lambda");
   CheckNonNegative(bending, "bending");
   CheckNonNegative(volume, "volume");
-  if (isometric + log_length + rigid + lambda == 0) {
+  if (isometric + strain + log_length + rigid + lambda == 0) {
     throw InvalidOptions(
-        "isometric, log_length, rigid, lambda: all zero, so motion costs nothing; set one");
+        "isometric, strain, log_length, rigid, lambda: all zero, so motion costs nothing; set one");
   }
 }
 
@@ -231,13 +239,31 @@ Metric FreezeMetric(const MetricOptions& options,
                                             squared_length.square());
     metric.features.emplace_back(std::move(feature));
   }
-  if (options.log_length > 0) {
-    LogLength feature;
-    feature.stencils = connectivity->Edges();
+  const double collapsed_squared = kCollapsed * kCollapsed * mean_squared_length;
+  if (options.strain > 0 && !connectivity->IsGraph()) {
+    TriangleStrain feature;
+    feature.stencils = connectivity->Triangles();
     feature.weights = uniform
-                          ? Eigen::VectorXd::Constant(metric.edge_area.size(), options.log_length)
-                          : Eigen::VectorXd(options.log_length * metric.edge_area);
-    feature.epsilon_squared = kCollapsed * kCollapsed * mean_squared_length;
+                          ? Eigen::VectorXd::Constant(connectivity->NumTriangles(), options.strain)
+                          : Eigen::VectorXd(options.strain * measures.triangle_area);
+    feature.epsilon_squared = collapsed_squared;
+    metric.features.emplace_back(std::move(feature));
+  }
+  // Edges that are no sides of triangles are strained by themselves.
+  const int num_edges = connectivity->NumEdges();
+  const int first_edge = options.log_length > 0 ? 0 : connectivity->NumTriangleEdges();
+  if (options.log_length > 0 || (options.strain > 0 && first_edge < num_edges)) {
+    LogLength feature;
+    feature.stencils = connectivity->Edges().rightCols(num_edges - first_edge);
+    const Eigen::VectorXd coefficient =
+        Eigen::VectorXd::NullaryExpr(num_edges - first_edge, [&](Eigen::Index e) {
+          const bool loose = first_edge + e >= connectivity->NumTriangleEdges();
+          return options.log_length + (loose ? options.strain : 0);
+        });
+    feature.weights = uniform ? coefficient
+                              : Eigen::VectorXd(coefficient.cwiseProduct(
+                                    metric.edge_area.tail(num_edges - first_edge)));
+    feature.epsilon_squared = collapsed_squared;
     metric.features.emplace_back(std::move(feature));
   }
   if (options.lambda > 0) {
@@ -280,6 +306,7 @@ std::string Describe(const MetricOptions& options) {
     if (value > 0) text << (text.tellp() > 0 ? ", " : "") << name << ' ' << value;
   };
   add("isometric", options.isometric);
+  add("strain", options.strain);
   add("log_length", options.log_length);
   add("rigid", options.rigid);
   add("lambda", options.lambda);

@@ -14,6 +14,7 @@
 #include <shapespace/metric/edge_length.h>
 #include <shapespace/metric/position.h>
 #include <shapespace/metric/rigid.h>
+#include <shapespace/metric/triangle_strain.h>
 #include <shapespace/metric/volume.h>
 
 namespace shapespace {
@@ -34,7 +35,8 @@ enum class Discretization {
 /// measured in units in which the surface has area 1.
 struct MetricOptions {
   double isometric = 1;   ///< change of edge lengths, the paper's (4)
-  double log_length = 0;  ///< change of log edge lengths: strains
+  double strain = 0;      ///< change of the triangles' logarithmic strains; paths can always go on
+  double log_length = 0;  ///< change of log edge lengths
   double rigid = 0;       ///< deviation from rigid motion of the whole, the paper's (3)
   double lambda = 1e-4;   ///< motion of vertices, the paper's (5); harmless up to 1e-3
   double bending = 1e-5;  ///< change of dihedral angles: t^2 / 12 for a shell of thickness t
@@ -43,6 +45,9 @@ struct MetricOptions {
   Discretization discretization = Discretization::kMidpoint;
 
   static MetricOptions Isometric() { return {}; }
+  /// As isometric as possible, by strains: paths between poses are much as under `Isometric`, and
+  /// can be continued without end.
+  static MetricOptions Strain();
   /// As rigid as possible: (3) + lambda (5).
   static MetricOptions Rigid();
   /// The paper's own setting: (4) + 0.001 (5) with w_e = 1, energy (6), no bending.
@@ -53,7 +58,7 @@ struct MetricOptions {
 };
 
 /// A feature of the metric; lib and solvers visit it once per feature, never per element.
-using AnyFeature = std::variant<EdgeLength, LogLength, Position, Dihedral, Volume>;
+using AnyFeature = std::variant<EdgeLength, LogLength, TriangleStrain, Position, Dihedral, Volume>;
 
 /// A blend frozen on a connectivity and the poses that take part: all weights are numbers, so that
 /// every solver, and every path between these poses, means the same by a length. Works on shapes in

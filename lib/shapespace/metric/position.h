@@ -8,7 +8,7 @@ namespace shapespace {
 /// The position of a vertex: the paper's regularising L2 metric (5), weights lambda A_p.
 /// What a feature is: edge_length.h.
 struct Position {
-  static constexpr int kVertices = 1, kValues = 3;
+  static constexpr int kVertices = 1, kValues = 3, kStencils = 1;
   static constexpr bool kRigidInvariant = false, kSum = false, kTrapezoid = false;
   static constexpr const char* kName = "position";
 

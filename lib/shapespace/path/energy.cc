@@ -73,6 +73,9 @@ PathEnergy::PathEnergy(const Metric& metric, int inner, End end)
     if (end == End::kFree && std::holds_alternative<Dihedral>(any)) {
       throw InvalidOptions("bending: a path energy with a free end takes none; set it to 0");
     }
+    if (end == End::kFree && std::holds_alternative<TriangleStrain>(any)) {
+      throw InvalidOptions("strain: a path energy with a free end takes none; set it to 0");
+    }
   }
   vertex_of_row_ = BreadthFirstOrder(*metric.connectivity);
   const int num_vertices = static_cast<int>(vertex_of_row_.size());
@@ -164,22 +167,28 @@ void PathEnergy::Load(const std::vector<Shape>& shapes, double* unknowns) {
     if (const auto* dihedral = std::get_if<Dihedral>(&metric_.features[i])) {
       EvaluateEnds(*dihedral, &terms_[i]);
     }
+    if (const auto* strain = std::get_if<TriangleStrain>(&metric_.features[i])) {
+      EvaluateEnds(*strain, &terms_[i]);
+    }
   }
 }
 
-void PathEnergy::EvaluateEnds(const Dihedral& feature, Term* term) const {
+template <typename Feature>
+void PathEnergy::EvaluateEnds(const Feature& feature, Term* term) const {
+  constexpr int kVertices = Feature::kVertices, kValues = Feature::kValues;
   for (std::vector<Group>& groups : term->groups) {
     ParallelFor(static_cast<int>(groups.size()), [&](int g) {
       Group& group = groups[g];
-      group.ends.resize(4 * group.weights.size());
-      double x[12];
+      group.ends.resize(2 * kValues * group.weights.size());
+      double x[3 * kVertices];
       for (size_t e = 0; e < group.weights.size(); ++e) {
         for (const bool last : {false, true}) {
           const std::vector<double>& end = last ? last_ : first_;
-          for (int k = 0; k < 4; ++k) {
-            std::copy_n(&end[3 * static_cast<size_t>(group.stencils[4 * e + k])], 3, x + 3 * k);
+          for (int k = 0; k < kVertices; ++k) {
+            const size_t row = 3 * static_cast<size_t>(group.stencils[kVertices * e + k]);
+            std::copy_n(&end[row], 3, x + 3 * k);
           }
-          feature(x, &group.ends[4 * e + 2 * last]);
+          feature(x, &group.ends[kValues * (2 * e + last)]);
         }
       }
     });
@@ -283,6 +292,9 @@ double PathEnergy::EvaluateGroup(const Feature& feature, const Group& group, con
     return internal::DihedralKernel(rows, stencils, weights, group.ends.data(), count,
                                     feature.normal_epsilon_squared, feature.edge_epsilon_squared,
                                     scratch);
+  } else if constexpr (std::is_same_v<Feature, TriangleStrain>) {
+    return internal::TriangleStrainKernel(rows, stencils, weights, group.ends.data(), count,
+                                          feature.epsilon_squared, scratch);
   } else {
     // Any other feature: its functor on jets, one shape after the other.
     constexpr int kSize = 3 * Feature::kVertices, kValues = Feature::kValues;

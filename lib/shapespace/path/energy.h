@@ -30,7 +30,7 @@ class PathEnergy {
 
   /// `metric` is kept by reference and must outlive the object.
   /// \throw InvalidOptions if `inner` < 1, or if the end is free and the metric has the
-  ///        dihedral feature, whose values at the ends are computed once.
+  ///        dihedral or the triangle strain, whose values at the ends are computed once.
   PathEnergy(const Metric& metric, int inner, End end = End::kFixed);
 
   int Inner() const { return inner_; }
@@ -68,7 +68,8 @@ class PathEnergy {
   struct Group {
     std::vector<int> stencils;
     std::vector<double> weights;
-    std::vector<double> ends;  // the dihedral's values at the first and the last shape
+    std::vector<double>
+        ends;  // values at the first and the last shape, where the kernel takes them
   };
   struct Term {  // of the feature with the same index
     std::vector<Group> groups[kPhases];
@@ -79,7 +80,8 @@ class PathEnergy {
   int FirstRow(int block) const;
   template <typename Feature>
   void Build(const Feature& feature);
-  void EvaluateEnds(const Dihedral& feature, Term* term) const;
+  template <typename Feature>
+  void EvaluateEnds(const Feature& feature, Term* term) const;
   std::vector<double> EvaluateParts(const double* unknowns, double* gradient);
   template <typename Feature>
   double EvaluateGroup(const Feature& feature, const Group& group, const double* unknowns,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <numeric>
 
 #include <shapespace/base/clones.h>
@@ -18,6 +20,35 @@ struct Scratch {
 };
 
 Scratch MakeScratch(double* memory, int stride) { return {memory, stride + 16}; }
+
+/// The natural logarithm of a positive normal number, to two units in the last place; plain
+/// arithmetic, so that loops that call it are vectorised. With x = 2^k z, z between 1 / sqrt 2 and
+/// sqrt 2, and s = (z - 1) / (z + 1): log x = k log 2 + 2 atanh s, by its series.
+inline double Log(double x) {
+  constexpr std::uint64_t kOne = 0x3ff0000000000000, kRootHalf = 0x3fe6a09e667f3bcd;
+  constexpr std::uint64_t kMantissa = 0x000fffffffffffff, kTwoTo52 = 0x4330000000000000;
+  std::uint64_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  bits += kOne - kRootHalf;
+  const std::uint64_t exponent = (bits >> 52) | kTwoTo52;  // as the last bits of a double
+  bits = (bits & kMantissa) + kRootHalf;
+  double z, k;
+  std::memcpy(&z, &bits, sizeof z);
+  std::memcpy(&k, &exponent, sizeof k);
+  k -= 4503599627370496.0 + 1023;
+  const double s = (z - 1) / (z + 1), w = s * s;
+  double series = 1.0 / 21;
+  series = series * w + 1.0 / 19;
+  series = series * w + 1.0 / 17;
+  series = series * w + 1.0 / 15;
+  series = series * w + 1.0 / 13;
+  series = series * w + 1.0 / 11;
+  series = series * w + 1.0 / 9;
+  series = series * w + 1.0 / 7;
+  series = series * w + 1.0 / 5;
+  series = series * w + 1.0 / 3;
+  return k * M_LN2 + 2 * (s + s * w * series);
+}
 
 }  // namespace
 
@@ -230,6 +261,132 @@ double DihedralKernel(const PathRows& rows, const int* stencils, const double* w
       gd[t] += gvx;
       gd[t + stride] += gvy;
       gd[t + 2 * stride] += gvz;
+    }
+  }
+  return std::accumulate(sums + 1, sums + n + 2, 0.0);
+}
+
+// With a = q - p, b = r - p, the values depend on aa = |a|^2, ab = a . b and bb = |b|^2 only; what
+// is written here as in the functor (metric/triangle_strain.h) has the same names there.
+SHAPESPACE_CLONES
+double TriangleStrainKernel(const PathRows& rows, const int* stencils, const double* weights,
+                            const double* ends, int count, double epsilon_squared, double* memory) {
+  const int n = rows.inner, stride = rows.stride;
+  const Scratch scratch = MakeScratch(memory, stride);
+  double* row[21];
+  for (int i = 0; i < 21; ++i) row[i] = scratch.Row(i) + 7;
+  double *const ax = row[0], *const ay = row[1], *const az = row[2];
+  double *const bx = row[3], *const by = row[4], *const bz = row[5];
+  double *const saa = row[6], *const sab = row[7], *const sbb = row[8];
+  double *const sd = row[9], *const so = row[10], *const sm = row[11];
+  double* const inverse = row[12];                       // 1 / determinant
+  double *const slope = row[13], *const turn = row[14];  // values / (d, o); its derivative by R
+  double* const ratio = row[15];                         // R = (d^2 + o^2) / m^2
+  double *const v0 = row[16], *const v1 = row[17], *const v2 = row[18];
+  double* const sums = row[19];
+  constexpr double kThird = 1.0 / 3, kRoot3 = 0.57735026918962576451;
+  constexpr double kSmall = 0.01;  // ratios below take the series of atanh(r) / r
+  std::fill(sums, sums + n + 2, 0.0);
+  for (int element = 0; element < count; ++element) {
+    const int* const stencil = stencils + 3 * element;
+    const double* const end = ends + 6 * element;
+    const size_t p = 3 * static_cast<size_t>(stencil[0]);
+    const double w = weights[element];
+    for (int k = 1; k < 3; ++k) {
+      const size_t q = 3 * static_cast<size_t>(stencil[k]);
+      for (int axis = 0; axis < 3; ++axis) {
+        const double* const from = rows.shapes + (p + axis) * stride - 1;
+        const double* const to = rows.shapes + (q + axis) * stride - 1;
+        double* const difference = row[3 * (k - 1) + axis];
+#pragma GCC ivdep
+        for (int t = 1; t <= stride; ++t) difference[t] = to[t] - from[t];
+      }
+    }
+#pragma GCC ivdep
+    for (int t = 1; t <= stride; ++t) {
+      const double aa = ax[t] * ax[t] + ay[t] * ay[t] + az[t] * az[t];
+      const double ab = ax[t] * bx[t] + ay[t] * by[t] + az[t] * bz[t];
+      const double bb = bx[t] * bx[t] + by[t] * by[t] + bz[t] * bz[t];
+      const double nx = ay[t] * bz[t] - az[t] * by[t];
+      const double ny = az[t] * bx[t] - ax[t] * bz[t];
+      const double nz = ax[t] * by[t] - ay[t] * bx[t];
+      const double mean = 2 * kThird * (aa + bb - ab);
+      const double d = kThird * (aa + 2 * (ab - bb)), o = kRoot3 * (2 * ab - aa);
+      const double m = mean + epsilon_squared;
+      const double determinant = 4 * kThird * (nx * nx + ny * ny + nz * nz) +
+                                 (2 * mean + epsilon_squared) * epsilon_squared;
+      const double squared = d * d + o * o, reciprocal = 1 / m;
+      const double r = squared * reciprocal * reciprocal;
+      const double length = std::sqrt(squared), root = std::sqrt(determinant);
+      // F = atanh(sqrt R) / sqrt R and F', where R is small by their series.
+      const double safe = r < kSmall ? m : length;
+      const double general = m / safe * Log((m + length) / root);
+      const double one_less = m * m / determinant;  // 1 / (1 - R)
+      const double general_slope = 0.5 * (one_less - general) * (m * m) / (safe * safe);
+      const double series =
+          1 + r * (1.0 / 3 +
+                   r * (1.0 / 5 +
+                        r * (1.0 / 7 +
+                             r * (1.0 / 9 + r * (1.0 / 11 + r * (1.0 / 13 + r * (1.0 / 15)))))));
+      const double series_slope =
+          1.0 / 3 +
+          r * (2.0 / 5 +
+               r * (3.0 / 7 +
+                    r * (4.0 / 9 +
+                         r * (5.0 / 11 + r * (6.0 / 13 + r * (7.0 / 15 + r * (8.0 / 17)))))));
+      const double f = r < kSmall ? series : general;
+      const double f_slope = r < kSmall ? series_slope : general_slope;
+      const double s = 0.5 * M_SQRT1_2 * f * reciprocal;
+      saa[t] = aa, sab[t] = ab, sbb[t] = bb;
+      sd[t] = d, so[t] = o, sm[t] = reciprocal;
+      inverse[t] = 1 / determinant;
+      slope[t] = s;
+      turn[t] = M_SQRT1_2 * f_slope * reciprocal;
+      ratio[t] = r;
+      v0[t] = 0.25 * Log(determinant);
+      v1[t] = s * d;
+      v2[t] = s * o;
+    }
+    v0[0] = end[0], v1[0] = end[1], v2[0] = end[2];
+    v0[n + 1] = end[3], v1[n + 1] = end[4], v2[n + 1] = end[5];
+#pragma GCC ivdep
+    for (int t = 1; t <= n + 1; ++t) {
+      const double d0 = v0[t] - v0[t - 1], d1 = v1[t] - v1[t - 1], d2 = v2[t] - v2[t - 1];
+      sums[t] += 2 * w * (d0 * d0 + d1 * d1 + d2 * d2);
+    }
+
+    double* const gp = rows.gradient + p * stride - 1;
+    double* const gq = rows.gradient + 3 * static_cast<size_t>(stencil[1]) * stride - 1;
+    double* const gr = rows.gradient + 3 * static_cast<size_t>(stencil[2]) * stride - 1;
+#pragma GCC ivdep
+    for (int t = 1; t <= stride; ++t) {
+      const double f0 = 4 * w * (2 * v0[t] - v0[t - 1] - v0[t + 1]);
+      const double f1 = 4 * w * (2 * v1[t] - v1[t - 1] - v1[t + 1]);
+      const double f2 = 4 * w * (2 * v2[t] - v2[t - 1] - v2[t + 1]);
+      // Derivatives with respect to the determinant, d, o and the mean m ...
+      const double by_determinant = kThird * f0 * inverse[t];
+      const double sum = (f1 * sd[t] + f2 * so[t]) * sm[t];
+      const double by_d = slope[t] * f1 + sum * turn[t] * sd[t] * sm[t];
+      const double by_o = kRoot3 * (slope[t] * f2 + sum * turn[t] * so[t] * sm[t]);
+      const double by_m = -2 * kThird * sum * (turn[t] * ratio[t] + slope[t]);
+      // ... and to aa, bb and ab.
+      const double by_aa =
+          by_m + kThird * by_d - by_o + by_determinant * (sbb[t] + epsilon_squared);
+      const double by_bb = by_m - 2 * kThird * by_d + by_determinant * (saa[t] + epsilon_squared);
+      const double by_ab =
+          -by_m + 2 * kThird * by_d + 2 * by_o - by_determinant * (2 * sab[t] + epsilon_squared);
+      const double qx = 2 * by_aa * ax[t] + by_ab * bx[t], rx = 2 * by_bb * bx[t] + by_ab * ax[t];
+      const double qy = 2 * by_aa * ay[t] + by_ab * by[t], ry = 2 * by_bb * by[t] + by_ab * ay[t];
+      const double qz = 2 * by_aa * az[t] + by_ab * bz[t], rz = 2 * by_bb * bz[t] + by_ab * az[t];
+      gp[t] -= qx + rx;
+      gp[t + stride] -= qy + ry;
+      gp[t + 2 * stride] -= qz + rz;
+      gq[t] += qx;
+      gq[t + stride] += qy;
+      gq[t + 2 * stride] += qz;
+      gr[t] += rx;
+      gr[t + stride] += ry;
+      gr[t + 2 * stride] += rz;
     }
   }
   return std::accumulate(sums + 1, sums + n + 2, 0.0);

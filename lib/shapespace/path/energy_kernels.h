@@ -36,6 +36,11 @@ double DihedralKernel(const PathRows& rows, const int* stencils, const double* w
                       const double* ends, int count, double normal_epsilon_squared,
                       double edge_epsilon_squared, double* scratch);
 
+/// `ends` holds the functor's three values at the first and at the last shape, 6 numbers an
+/// element.
+double TriangleStrainKernel(const PathRows& rows, const int* stencils, const double* weights,
+                            const double* ends, int count, double epsilon_squared, double* scratch);
+
 }  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_PATH_ENERGY_KERNELS_H_

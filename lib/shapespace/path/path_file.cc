@@ -113,6 +113,7 @@ class ArrayReader {
 
 Json OptionsToJson(const MetricOptions& options) {
   return {{"isometric", options.isometric},
+          {"strain", options.strain},
           {"log_length", options.log_length},
           {"rigid", options.rigid},
           {"lambda", options.lambda},
@@ -126,6 +127,7 @@ Json OptionsToJson(const MetricOptions& options) {
 MetricOptions OptionsFromJson(const Json& json) {
   MetricOptions options;
   json.at("isometric").get_to(options.isometric);
+  json.at("strain").get_to(options.strain);
   json.at("log_length").get_to(options.log_length);
   json.at("rigid").get_to(options.rigid);
   json.at("lambda").get_to(options.lambda);
@@ -144,6 +146,7 @@ Json Constants(const Feature&) {
   return Json::object();
 }
 Json Constants(const LogLength& f) { return {{"epsilon_squared", f.epsilon_squared}}; }
+Json Constants(const TriangleStrain& f) { return {{"epsilon_squared", f.epsilon_squared}}; }
 Json Constants(const Dihedral& f) {
   return {{"normal_epsilon_squared", f.normal_epsilon_squared},
           {"edge_epsilon_squared", f.edge_epsilon_squared}};
@@ -153,6 +156,9 @@ Json Constants(const Volume& f) { return {{"reference", f.reference}}; }
 template <typename Feature>
 void SetConstants(const Json&, Feature*) {}
 void SetConstants(const Json& json, LogLength* f) {
+  json.at("epsilon_squared").get_to(f->epsilon_squared);
+}
+void SetConstants(const Json& json, TriangleStrain* f) {
   json.at("epsilon_squared").get_to(f->epsilon_squared);
 }
 void SetConstants(const Json& json, Dihedral* f) {
@@ -299,6 +305,7 @@ Path Parse(const std::string& file, const std::string& bytes) {
     const std::string prefix = "feature" + std::to_string(index++) + "_";
     if (!ReadFeature<EdgeLength>(name, constants, prefix, arrays, metric.get()) &&
         !ReadFeature<LogLength>(name, constants, prefix, arrays, metric.get()) &&
+        !ReadFeature<TriangleStrain>(name, constants, prefix, arrays, metric.get()) &&
         !ReadFeature<Position>(name, constants, prefix, arrays, metric.get()) &&
         !ReadFeature<Dihedral>(name, constants, prefix, arrays, metric.get()) &&
         !ReadFeature<Volume>(name, constants, prefix, arrays, metric.get())) {

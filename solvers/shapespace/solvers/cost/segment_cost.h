@@ -66,6 +66,11 @@ class SegmentFunctor {
     return Call<T>({p0, p1, q0, q1}, residual);
   }
   template <typename T>
+  bool operator()(const T* p0, const T* p1, const T* p2, const T* q0, const T* q1, const T* q2,
+                  T* residual) const {
+    return Call<T>({p0, p1, p2, q0, q1, q2}, residual);
+  }
+  template <typename T>
   bool operator()(const T* p0, const T* p1, const T* p2, const T* p3, const T* q0, const T* q1,
                   const T* q2, const T* q3, T* residual) const {
     return Call<T>({p0, p1, p2, p3, q0, q1, q2, q3}, residual);
@@ -86,7 +91,7 @@ class SegmentFunctor {
   Segment segment_;
 };
 
-/// The cost of `segment`, whose element has kVertices (1, 2 or 4) vertices; the caller owns it.
+/// The cost of `segment`, whose element has kVertices (1 to 4) vertices; the caller owns it.
 template <int kVertices, typename Segment>
 ceres::CostFunction* MakeSegmentCost(const Segment& segment) {
   using Functor = SegmentFunctor<Segment, kVertices>;
@@ -95,6 +100,9 @@ ceres::CostFunction* MakeSegmentCost(const Segment& segment) {
     return new ceres::AutoDiffCostFunction<Functor, kResiduals, 3, 3>(new Functor(segment));
   } else if constexpr (kVertices == 2) {
     return new ceres::AutoDiffCostFunction<Functor, kResiduals, 3, 3, 3, 3>(new Functor(segment));
+  } else if constexpr (kVertices == 3) {
+    return new ceres::AutoDiffCostFunction<Functor, kResiduals, 3, 3, 3, 3, 3, 3>(
+        new Functor(segment));
   } else {
     static_assert(kVertices == 4);
     return new ceres::AutoDiffCostFunction<Functor, kResiduals, 3, 3, 3, 3, 3, 3, 3, 3>(

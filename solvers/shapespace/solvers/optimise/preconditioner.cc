@@ -50,7 +50,7 @@ Eigen::SparseMatrix<double> ScalarMetric(const Metric& metric, const std::vector
               Eigen::Matrix<double, kVertices, kVertices> block;
               block.setZero();
               Eigen::Vector3d x[kVertices];
-              Eigen::Matrix<double, kVertices, 1> k;
+              Eigen::Matrix<double, kVertices, Feature::kStencils> k;
               for (const Shape& pose : poses) {
                 for (int i = 0; i < kVertices; ++i) x[i] = pose.col(feature.stencils(i, e));
                 feature.Stencil(x, k.data());

@@ -1,0 +1,78 @@
+#ifndef SHAPESPACE_METRIC_TRIANGLE_STRAIN_H_
+#define SHAPESPACE_METRIC_TRIANGLE_STRAIN_H_
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+namespace shapespace {
+
+/// The logarithmic (Hencky) strain of a triangle against the equilateral triangle of side 1. With
+/// the first fundamental form g in the basis (q - p, r - p) and the equilateral triangle's edges as
+/// the columns of E, C = E^-T g E^-1 and L = (1/2) log C, the values are
+///   ( tr L / 2, (L11 - L22) / (2 sqrt 2), L12 / sqrt 2 ),
+/// whose squares add up to the mean of (n^T L n)^2 over all directions n. For small strains of
+/// triangles that are nearly equilateral this is what `EdgeLength` and `LogLength` measure. Every
+/// three numbers are the values of some triangle, so that a geodesic under this feature goes on for
+/// ever (docs/mathematics.md, section 1). What a feature is: edge_length.h.
+struct TriangleStrain {
+  static constexpr int kVertices = 3, kValues = 3, kStencils = 3;
+  static constexpr bool kRigidInvariant = true, kSum = false, kTrapezoid = false;
+  static constexpr const char* kName = "triangle strain";
+
+  Eigen::Matrix3Xi stencils;
+  Eigen::VectorXd weights;
+  /// The square of a length far below those of the mesh, added to both eigenvalues of C: keeps the
+  /// logarithm of a collapsed triangle finite.
+  double epsilon_squared = 0;
+
+  template <typename T>
+  void operator()(const T* x, T* value) const {
+    using std::log;
+    using std::sqrt;
+    const T ax = x[3] - x[0], ay = x[4] - x[1], az = x[5] - x[2];
+    const T bx = x[6] - x[0], by = x[7] - x[1], bz = x[8] - x[2];
+    const T aa = ax * ax + ay * ay + az * az, ab = ax * bx + ay * by + az * bz,
+            bb = bx * bx + by * by + bz * bz;
+    const T nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+    // C = mean I + (d, o; o, -d).
+    const T mean = (2.0 * (aa + bb - ab)) / 3.0;
+    const T d = (aa + 2.0 * (ab - bb)) / 3.0;
+    const T o = (2.0 * ab - aa) / std::sqrt(3.0);
+    const T m = mean + epsilon_squared;
+    const T determinant = (4.0 / 3.0) * (nx * nx + ny * ny + nz * nz) +
+                          (2.0 * mean + epsilon_squared) * epsilon_squared;
+    const T squared = d * d + o * o;
+    const T ratio_squared = squared / (m * m);  // less than 1: that of the eigenvalues' difference
+    T factor;                                   // atanh(ratio) / ratio
+    if (ratio_squared < T(1e-4)) {
+      factor =
+          1.0 + ratio_squared * (1.0 / 3.0 + ratio_squared * (0.2 + ratio_squared * (1.0 / 7.0)));
+    } else {
+      const T length = sqrt(squared);
+      factor = m / length * log((m + length) / sqrt(determinant));
+    }
+    const T slope = factor / (2.0 * std::sqrt(2.0) * m);
+    value[0] = 0.25 * log(determinant);
+    value[1] = slope * d;
+    value[2] = slope * o;
+  }
+
+  double LeastChange(const double* a, const double* b, int segments) const {
+    const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
+    return (x * x + y * y + z * z) / segments;
+  }
+
+  /// The three sides, each as strained by itself.
+  void Stencil(const Eigen::Vector3d* x, double* k) const {
+    for (int side = 0; side < 3; ++side) {
+      const int from = side, to = (side + 1) % 3;
+      const double inverse = std::sqrt(0.2 / ((x[to] - x[from]).squaredNorm() + epsilon_squared));
+      for (int v = 0; v < 3; ++v) k[3 * side + v] = v == from ? -inverse : v == to ? inverse : 0;
+    }
+  }
+};
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_METRIC_TRIANGLE_STRAIN_H_

@@ -1,0 +1,143 @@
+#include <shapespace/metric/triangle_strain.h>
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <shapespace/mesh/connectivity.h>
+#include <shapespace/metric/metric.h>
+
+namespace shapespace {
+namespace {
+
+using Corners = Eigen::Matrix3d;  // of a triangle, one a column
+
+Eigen::Vector3d Values(const Corners& corners) {
+  Eigen::Vector3d value;
+  TriangleStrain()(corners.data(), value.data());
+  return value;
+}
+
+const Eigen::Matrix2d kEquilateral{{1, 0.5}, {0, std::sqrt(0.75)}};
+
+/// A triangle that has the strain L: its edges are E' = exp(L) E, since E'^T E' = E^T exp(2 L) E.
+Corners WithStrain(const Eigen::Matrix2d& strain) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(strain);
+  const Eigen::Matrix2d stretch = eigen.eigenvectors() *
+                                  eigen.eigenvalues().array().exp().matrix().asDiagonal() *
+                                  eigen.eigenvectors().transpose();
+  Corners corners = Corners::Zero();
+  corners.topRightCorner<2, 2>() = stretch * kEquilateral;
+  return corners;
+}
+
+Eigen::Matrix2d StrainOf(const Eigen::Vector3d& value) {
+  const double half = M_SQRT2 * value(1), side = M_SQRT2 * value(2);
+  return Eigen::Matrix2d{{value(0) + half, side}, {side, value(0) - half}};
+}
+
+TEST(TriangleStrain, EveryThreeNumbersAreTheValuesOfATriangle) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  for (const double size : {1e-6, 1e-3, 0.03, 0.1, 1.0, 3.0}) {
+    for (int trial = 0; trial < 50; ++trial) {
+      const Eigen::Vector3d wanted =
+          size * Eigen::Vector3d(normal(random), normal(random), normal(random));
+      const Eigen::Vector3d found = Values(WithStrain(StrainOf(wanted)));
+      EXPECT_LT((found - wanted).norm(), 1e-13 * (1 + std::exp(2 * wanted.norm())))
+          << wanted.transpose() << " became " << found.transpose();
+    }
+  }
+}
+
+TEST(TriangleStrain, ItsSquareIsTheMeanOverAllDirections) {
+  const Eigen::Vector3d value(0.3, -0.2, 0.5);
+  const Eigen::Matrix2d strain = StrainOf(value);
+  double mean = 0;
+  constexpr int kDirections = 100;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = M_PI * i / kDirections;
+    const Eigen::Vector2d n(std::cos(angle), std::sin(angle));
+    mean += std::pow(n.dot(strain * n), 2) / kDirections;
+  }
+  EXPECT_NEAR(value.squaredNorm(), mean, 1e-14);
+}
+
+TEST(TriangleStrain, DoesNotSeeRigidMotionAndAddsUpUnderScaling) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  const Eigen::Matrix3d turn(Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()));
+  for (int trial = 0; trial < 20; ++trial) {
+    const Corners corners = Corners::NullaryExpr([&] { return normal(random); });
+    const Eigen::Vector3d value = Values(corners);
+    const Corners moved = (turn * corners).colwise() + Eigen::Vector3d(3, -2, 5);
+    EXPECT_LT((Values(moved) - value).norm(), 1e-11);
+    EXPECT_LT((Values(1000 * corners) - value - Eigen::Vector3d(std::log(1000), 0, 0)).norm(),
+              1e-12);
+  }
+}
+
+TEST(TriangleStrain, IsTheStrainOfEdgesWhereTrianglesAreEquilateralAndStrainsSmall) {
+  // The three edges of an equilateral triangle are directions enough to give the mean over all.
+  const auto triangle = Connectivity::Make(3, {0, 3}, {0, 1, 2});
+  const Corners still = WithStrain(Eigen::Matrix2d::Zero());
+  MetricOptions edges, triangles;
+  edges.isometric = triangles.isometric = edges.lambda = triangles.lambda = 0;
+  edges.log_length = triangles.strain = 1;
+  const auto cost = [&](const MetricOptions& options, const Corners& moved) {
+    const Metric metric = FreezeMetric(options, triangle, {Shape(still)});
+    return std::visit(
+        [&](const auto& feature) {
+          using Feature = std::decay_t<decltype(feature)>;
+          double sum = 0, x[3 * Feature::kVertices], a[Feature::kValues], b[Feature::kValues];
+          for (int e = 0; e < feature.stencils.cols(); ++e) {
+            Gather(feature, e, still / metric.unit, x);
+            feature(x, a);
+            Gather(feature, e, moved / metric.unit, x);
+            feature(x, b);
+            sum += feature.weights(e) * feature.LeastChange(a, b, 1);
+          }
+          return sum;
+        },
+        metric.features.at(0));
+  };
+  for (const Eigen::Vector3d& way :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0.3, -0.5, 0.8)}) {
+    const Corners moved = WithStrain(StrainOf(1e-5 * way));
+    EXPECT_NEAR(cost(triangles, moved) / cost(edges, moved), 1, 1e-4) << way.transpose();
+  }
+}
+
+TEST(TriangleStrain, HoldsEdgesWithoutTrianglesByTheirOwnStrain) {
+  Shape shape(3, 4);
+  shape << 0, 1, 0, 2, 0, 0, 1, 0, 0, 0, 0, 0;
+  const auto graph = Connectivity::Make(4, {0}, {}, {{0, 1}, {1, 2}, {1, 3}});
+  const Metric sticks = FreezeMetric(MetricOptions::Strain(), graph, {shape});
+  ASSERT_TRUE(std::holds_alternative<LogLength>(sticks.features[0]));
+  EXPECT_TRUE(std::get<LogLength>(sticks.features[0]).weights.isApprox(sticks.edge_area));
+  const auto flag = Connectivity::Make(4, {0, 3}, {0, 1, 2}, {{1, 3}});
+  const Metric both = FreezeMetric(MetricOptions::Strain(), flag, {shape});
+  ASSERT_TRUE(std::holds_alternative<TriangleStrain>(both.features[0]));
+  ASSERT_TRUE(std::holds_alternative<LogLength>(both.features[1]));
+  EXPECT_EQ(std::get<LogLength>(both.features[1]).stencils,
+            Eigen::Matrix2Xi(flag->Edges().rightCols(1)));
+}
+
+TEST(TriangleStrain, CollapsedTrianglesHaveFiniteValues) {
+  TriangleStrain strain;
+  strain.epsilon_squared = 1e-16;
+  Corners point = Corners::Zero(), line = Corners::Zero();
+  line(0, 1) = 1;
+  line(0, 2) = 2;
+  for (const Corners& corners : {point, line}) {
+    Eigen::Vector3d value;
+    strain(corners.data(), value.data());
+    EXPECT_TRUE(value.allFinite()) << value.transpose();
+  }
+}
+
+}  // namespace
+}  // namespace shapespace
