@@ -38,6 +38,7 @@ Case Bent(const std::string& name, const Body& body, const MetricOptions& option
 // Every feature that there is, on a closed bar.
 Case AllFeatures() {
   MetricOptions options;
+  options.strain = 0.2;
   options.log_length = 0.1;
   options.volume = 0.3;
   return Bent("all features", MakeBar(6, 1, 1, 6, 2, 2), options);

@@ -209,7 +209,8 @@ TEST(Interpolate, BothSolversFindTheSameMinimum) {
   MetricOptions volume, strains;
   volume.volume = 0.3;
   strains.isometric = 0;
-  strains.log_length = 1;
+  strains.strain = 1;
+  strains.log_length = 0.3;
   strains.bending = 1e-3;
   MetricOptions rigid = MetricOptions::Rigid();
   rigid.lambda = 1e-2;

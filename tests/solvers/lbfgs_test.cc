@@ -53,7 +53,8 @@ TEST(Minimise, AllThreeReachTheSameMinimum) {
   MetricOptions with_volume, strains, paper = MetricOptions::Paper();
   with_volume.volume = 0.3;
   strains.isometric = 0;
-  strains.log_length = 1;
+  strains.strain = 1;
+  strains.log_length = 0.3;
   strains.bending = 1e-3;
   paper.bending = 1e-4;
   for (const MetricOptions& metric : {MetricOptions(), with_volume, strains, paper}) {
