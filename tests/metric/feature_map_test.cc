@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <Eigen/SparseCore>
 
 #include <shapespace/base/error.h>
@@ -87,7 +88,7 @@ TEST(FeatureMap, ValuesAreThoseOfTheGeometryTimesTheRootOfTheWeight) {
   const Case test = AllFeatures();
   const Connectivity& mesh = *test.connectivity;
   const auto parts = ByFeature(test.metric, FeatureMap(test.metric).Values(test.shape));
-  ASSERT_EQ(parts.size(), 5u);
+  ASSERT_EQ(parts.size(), 6u);
   for (const auto& [name, values] : parts) {
     SCOPED_TRACE(name);
     if (name == "edge length" || name == "log length") {
@@ -100,6 +101,20 @@ TEST(FeatureMap, ValuesAreThoseOfTheGeometryTimesTheRootOfTheWeight) {
                                     : std::sqrt(0.1 * test.metric.edge_area(e)) * std::log(length);
         EXPECT_NEAR(values(e), expected, 1e-13);
       }
+    } else if (name == "triangle strain") {
+      const Eigen::Matrix2d equilateral{{1, 0.5}, {0, std::sqrt(0.75)}};
+      for (int f = 0; f < mesh.NumTriangles(); ++f) {
+        const Eigen::Vector3i t = mesh.Triangles().col(f);
+        Eigen::Matrix<double, 3, 2> edges;
+        edges << test.shape.col(t(1)) - test.shape.col(t(0)),
+            test.shape.col(t(2)) - test.shape.col(t(0));
+        const Eigen::Vector2d stretches =
+            Eigen::JacobiSVD<Eigen::MatrixXd>(edges * equilateral.inverse()).singularValues();
+        const double a = std::log(stretches(0)), b = std::log(stretches(1));
+        const double root = std::sqrt(std::get<TriangleStrain>(test.metric.features[1]).weights(f));
+        EXPECT_NEAR(values(3 * f), root * (a + b) / 2, 1e-13);
+        EXPECT_NEAR(values.segment<2>(3 * f + 1).norm(), root * (a - b) / std::sqrt(8.0), 1e-13);
+      }
     } else if (name == "position") {
       for (int v = 0; v < mesh.NumVertices(); ++v) {
         const Eigen::Vector3d expected =
@@ -107,7 +122,7 @@ TEST(FeatureMap, ValuesAreThoseOfTheGeometryTimesTheRootOfTheWeight) {
         EXPECT_LT((values.segment<3>(3 * v) - expected).norm(), 1e-15);
       }
     } else if (name == "dihedral") {
-      const auto& feature = std::get<Dihedral>(test.metric.features[3]);
+      const auto& feature = std::get<Dihedral>(test.metric.features[4]);
       for (int h = 0; h < mesh.NumHinges(); ++h) {
         const Eigen::Vector4i v = mesh.Hinges().col(h);
         const Eigen::Vector3d a = test.shape.col(v(0)), b = test.shape.col(v(1));
