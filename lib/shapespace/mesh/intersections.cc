@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
-#include <embree3/rtcore.h>
 #include <Eigen/Geometry>
 
+#include <shapespace/base/embree.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 

@@ -4,8 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include <embree3/rtcore.h>
-
+#include <shapespace/base/embree.h>
 #include <shapespace/base/error.h>
 
 namespace shapespace {
@@ -149,14 +148,11 @@ void Scene::AddTubes(const Shape& shape) {
 }
 
 bool Scene::Trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, Hit* hit) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   RTCRayHit ray;
   SetRay(&ray.ray, origin, direction, std::numeric_limits<float>::infinity());
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_.get(), &context, &ray);
+  EmbreeIntersect(scene_.get(), &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
 
   const unsigned element = ray.hit.primID;
@@ -194,11 +190,9 @@ bool Scene::Trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& directio
 
 bool Scene::Blocked(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                     float distance) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   RTCRay ray;
   SetRay(&ray, origin, direction, distance);
-  rtcOccluded1(scene_.get(), &context, &ray);
+  EmbreeOccluded(scene_.get(), &ray);
   return ray.tfar < 0;
 }
 

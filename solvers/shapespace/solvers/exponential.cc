@@ -383,12 +383,14 @@ ExponentialResult Extrapolate(const std::shared_ptr<const Metric>& metric, const
                               Progress* progress) {
   options.Validate();
   CheckSteps(steps);
-  for (const auto& [matrix, name] : {std::make_pair(&shape, "shape"), {&velocity, "velocity"}}) {
-    if (matrix->cols() != metric->connectivity->NumVertices() || !matrix->allFinite()) {
+  const auto check = [&](const Eigen::Matrix3Xd& matrix, const char* name) {
+    if (matrix.cols() != metric->connectivity->NumVertices() || !matrix.allFinite()) {
       throw MeshError(std::string("the ") + name +
                       " is not finite, or has another number of vertices than the metric");
     }
-  }
+  };
+  check(shape, "shape");
+  check(velocity, "velocity");
   ExponentialResult result;
   Path& path = result.path;
   path.metric = metric;

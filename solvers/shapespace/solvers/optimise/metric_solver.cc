@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <Eigen/Dense>
 
@@ -18,7 +19,7 @@ void MetricSolver::Factor(const FeatureDerivative& at) {
     at.UpdateMetricMatrix(&matrix_);
   }
   factor_.reset();  // the old one's memory goes before the new one's comes
-  factor_.emplace(matrix_, *analysis_);
+  factor_ = std::make_unique<Cholesky>(matrix_, *analysis_);
   ++factorisations_;
   factor_seconds_ += stopwatch.Seconds();
 }

@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_SOLVERS_OPTIMISE_METRIC_SOLVER_H_
 #define SHAPESPACE_SOLVERS_OPTIMISE_METRIC_SOLVER_H_
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -50,7 +51,7 @@ class MetricSolver {
 
   Eigen::SparseMatrix<double> matrix_;
   std::optional<CholeskyAnalysis> analysis_;
-  std::optional<Cholesky> factor_;
+  std::unique_ptr<Cholesky> factor_;
   int factorisations_ = 0;
   double factor_seconds_ = 0;
 };
