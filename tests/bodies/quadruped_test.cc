@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <shapespace/base/parallel.h>
 #include <shapespace/bodies/body.h>
 #include <shapespace/mesh/topology.h>
 
 #include "bodies/measure.h"
+#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -123,14 +123,14 @@ TEST(QuadrupedTest, ProportionsKeepTheConnectivityAndTheAnglesFair) {
 }
 
 TEST(QuadrupedTest, IsTheSameForAnyNumberOfThreads) {
-  SetThreads(1);
-  const SkinnedBody one = MakeQuadruped(3000);
-  const Shape one_sits = one.pose("sit");
-  SetThreads(2);
-  const SkinnedBody two = MakeQuadruped(3000);
-  EXPECT_TRUE(two.connectivity->Triangles() == one.connectivity->Triangles());
-  EXPECT_TRUE(two.pose("sit") == one_sits);
-  SetThreads(0);
+  const auto results = testing::OnThreads([] {
+    const SkinnedBody body = MakeQuadruped(3000);
+    return std::make_pair(body.connectivity, body.pose("sit"));
+  });
+  for (const auto& [connectivity, sits] : results) {
+    EXPECT_TRUE(connectivity->Triangles() == results[0].first->Triangles());
+    EXPECT_TRUE(sits == results[0].second);
+  }
 }
 
 TEST(QuadrupedTest, GoesFromPoseToPose) {

@@ -8,12 +8,12 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/mesh/read.h>
 
 #include "bodies/measure.h"
 #include "hierarchy/meshes.h"
 #include "support/message_of.h"
+#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -283,20 +283,18 @@ TEST(Hierarchy, RefusesWhatDoesNotFit) {
 
 TEST(Hierarchy, IsTheSameForAnyNumberOfThreads) {
   const PosedMesh mesh = testing::Animal(6000, {"stand", "sit"});
-  std::vector<Shape> lifted;
-  std::vector<std::vector<int>> vertices;
-  for (int threads : {1, 2}) {
-    SetThreads(threads);
+  const auto results = testing::OnThreads([&] {
     const Hierarchy hierarchy(mesh.connectivity, mesh.poses);
     const int last = hierarchy.NumLevels() - 2;
     const Shape coarse =
         0.5 * (hierarchy.Restrict(mesh.poses[0], last) + hierarchy.Restrict(mesh.poses[1], last));
-    lifted.push_back(hierarchy.Lift(coarse, last, mesh.poses[0], mesh.poses[1], 0.5));
-    vertices.push_back(hierarchy.Vertices(0));
+    return std::make_pair(hierarchy.Lift(coarse, last, mesh.poses[0], mesh.poses[1], 0.5),
+                          hierarchy.Vertices(0));
+  });
+  for (const auto& [lifted, vertices] : results) {
+    EXPECT_TRUE(lifted == results[0].first);
+    EXPECT_EQ(vertices, results[0].second);
   }
-  SetThreads(0);
-  EXPECT_TRUE(lifted[0] == lifted[1]);
-  EXPECT_EQ(vertices[0], vertices[1]);
 }
 
 TEST(Hierarchy, TakesAnyTriangles) {

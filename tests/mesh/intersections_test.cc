@@ -11,10 +11,11 @@
 #include <Eigen/LU>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/steffen.h>
 #include <shapespace/bodies/tube.h>
+
+#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -188,11 +189,10 @@ TEST(CountIntersections, TouchingIsNone) {
 TEST(CountIntersections, DoesNotDependOnThreads) {
   const Mesh mesh = WoundTube(1.3, 0);
   const std::vector<Shape> shapes(5, mesh.shape);
-  SetThreads(1);
-  const std::vector<std::int64_t> one = CountIntersections(*mesh.connectivity, shapes);
-  SetThreads(0);
-  EXPECT_EQ(one, CountIntersections(*mesh.connectivity, shapes));
-  EXPECT_EQ(one, std::vector<std::int64_t>(5, mesh.Count()));
+  for (const std::vector<std::int64_t>& counts :
+       testing::OnThreads([&] { return CountIntersections(*mesh.connectivity, shapes); })) {
+    EXPECT_EQ(counts, std::vector<std::int64_t>(5, mesh.Count()));
+  }
 }
 
 TEST(CountIntersections, OfAGraphOrAPointAreNone) {

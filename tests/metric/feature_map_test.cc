@@ -10,13 +10,13 @@
 #include <Eigen/SparseCore>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/path/energy.h>
 
 #include "support/message_of.h"
 #include "support/paths.h"
+#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -267,8 +267,7 @@ TEST(FeatureMap, IsBitwiseTheSameForAnyNumberOfThreads) {
     Eigen::VectorXd values, jx, second, gx;
     Tangent jty;
   };
-  const auto compute = [&](int threads) {
-    SetThreads(threads);
+  const auto compute = [&] {
     const FeatureDerivative derivative = map.Derivative(test.shape);
     Results results;
     results.values = map.Values(test.shape);
@@ -276,15 +275,16 @@ TEST(FeatureMap, IsBitwiseTheSameForAnyNumberOfThreads) {
     results.second = map.SecondDerivative(test.shape, x);
     results.jty = derivative.TransposeTimes(results.jx);
     results.gx = derivative.MetricMatrix().selfadjointView<Eigen::Lower>() * x.reshaped();
-    SetThreads(0);
     return results;
   };
-  const Results one = compute(1), two = compute(2);
-  EXPECT_TRUE(one.values == two.values);
-  EXPECT_TRUE(one.jx == two.jx);
-  EXPECT_TRUE(one.second == two.second);
-  EXPECT_TRUE(one.jty == two.jty);
-  EXPECT_TRUE(one.gx == two.gx);
+  const std::vector<Results> results = testing::OnThreads(compute);
+  for (const Results& result : results) {
+    EXPECT_TRUE(result.values == results[0].values);
+    EXPECT_TRUE(result.jx == results[0].jx);
+    EXPECT_TRUE(result.second == results[0].second);
+    EXPECT_TRUE(result.jty == results[0].jty);
+    EXPECT_TRUE(result.gx == results[0].gx);
+  }
 }
 
 TEST(FeatureMap, RefusesTheRigidMetric) {

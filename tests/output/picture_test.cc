@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/mesh/triangulate.h>
 
 #include "output/bodies.h"
 #include "support/message_of.h"
+#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -155,12 +155,9 @@ TEST(RenderFilmStripTest, DoesNotDependOnThreads) {
   Shape squashed = sphere.shape;
   squashed.row(1) *= 0.4;
   const std::vector<Shape> shapes = {sphere.shape, squashed, sphere.shape};
-  SetThreads(1);
-  const Image one = RenderFilmStrip(*sphere.connectivity, shapes, options);
-  SetThreads(2);
-  const Image two = RenderFilmStrip(*sphere.connectivity, shapes, options);
-  SetThreads(0);
-  EXPECT_EQ(one.pixels, two.pixels);
+  const auto images =
+      testing::OnThreads([&] { return RenderFilmStrip(*sphere.connectivity, shapes, options); });
+  for (const Image& image : images) EXPECT_EQ(image.pixels, images[0].pixels);
 }
 
 TEST(RenderFilmStripTest, CellsFollowTheShapes) {

@@ -8,13 +8,13 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/mesh/triangulate.h>
 #include <shapespace/metric/trapezoid.h>
 
 #include "support/paths.h"
+#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -249,15 +249,11 @@ TEST(PathEnergy, IsTheSameForAnyNumberOfThreads) {
   const Metric metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(60)});
   const std::vector<Shape> shapes =
       NoisyBlend(bar.pose(0) / metric.unit, bar.pose(60) / metric.unit, 3, 1e-3);
-  SetThreads(1);
-  const Evaluated one = FromPathEnergy(metric, shapes, 1);
-  for (int threads : {2, 3, 8}) {
-    SetThreads(threads);
-    const Evaluated many = FromPathEnergy(metric, shapes, 1);
-    EXPECT_EQ(one.energy, many.energy);
-    for (int i = 0; i < 3; ++i) EXPECT_TRUE(one.gradient[i] == many.gradient[i]);
+  const auto results = testing::OnThreads([&] { return FromPathEnergy(metric, shapes, 1); });
+  for (const Evaluated& result : results) {
+    EXPECT_EQ(result.energy, results[0].energy);
+    EXPECT_TRUE(result.gradient == results[0].gradient);
   }
-  SetThreads(0);
 }
 
 TEST(PathEnergy, DoesNotDependOnFrameOrNumberingOfVertices) {

@@ -10,13 +10,13 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
 
 #include "support/path_of.h"
+#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -260,13 +260,12 @@ TEST(FindRigidParts, DoesNotDependOnNumbering) {
 TEST(FindRigidParts, DoesNotDependOnThreads) {
   const BentBar bar(60);
   const Path path = PathOf(bar.body.connectivity, bar.shapes);
-  SetThreads(1);
-  const RigidParts one = FindRigidParts(path);
-  SetThreads(0);
-  const RigidParts all = FindRigidParts(path);
-  EXPECT_TRUE(one.of_triangle == all.of_triangle);
-  ASSERT_EQ(one.parts.size(), all.parts.size());
-  EXPECT_EQ(one.parts[1].residual, all.parts[1].residual);
+  const auto results = testing::OnThreads([&] { return FindRigidParts(path); });
+  for (const RigidParts& result : results) {
+    EXPECT_TRUE(result.of_triangle == results[0].of_triangle);
+    ASSERT_EQ(result.parts.size(), results[0].parts.size());
+    EXPECT_EQ(result.parts[1].residual, results[0].parts[1].residual);
+  }
 }
 
 TEST(FindRigidParts, TheToleranceDecidesWhatABendIs) {

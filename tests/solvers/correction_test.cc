@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/bricard.h>
 #include <shapespace/bodies/sheet.h>
@@ -20,6 +19,7 @@
 #include "support/message_of.h"
 #include "support/path_of.h"
 #include "support/paths.h"
+#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -217,17 +217,10 @@ TEST(CorrectPath, CommutesWithRotationAndScale) {
 TEST(CorrectPath, IsTheSameForAnyNumberOfThreads) {
   const Path given = StraightOn(MakeBar(6, 1, 1, 48, 8, 8), 0, 10, 8, 8);
   ASSERT_GT(given.shapes[0].cols(), 1024);  // several blocks of rows
-  std::vector<Path> paths;
-  for (int threads : {1, 2}) {
-    SetThreads(threads);
-    CorrectionOptions options;
-    options.max_iterations = 20;
-    paths.push_back(CorrectPath(given, options).path);
-  }
-  SetThreads(0);
-  for (int i = 0; i < given.NumShapes(); ++i) {
-    EXPECT_TRUE(paths[0].shapes[i] == paths[1].shapes[i]);
-  }
+  CorrectionOptions options;
+  options.max_iterations = 20;
+  const auto paths = testing::OnThreads([&] { return CorrectPath(given, options).path; });
+  for (const Path& path : paths) EXPECT_TRUE(path.shapes == paths[0].shapes);
 }
 
 // sqrt(w) (P - P^given) of one vertex.

@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/bricard.h>
 #include <shapespace/bodies/catenoid.h>
@@ -24,6 +23,7 @@
 #include "support/message_of.h"
 #include "support/motions.h"
 #include "support/paths.h"
+#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -534,13 +534,8 @@ TEST(Exponential, DoesNotDependOnTheOrderOfVertices) {
 TEST(Exponential, IsTheSameForAnyNumberOfThreads) {
   const Motion motion = Turning(MakeBar(6, 1, 1, 48, 8, 8), 30, 20, {});
   ASSERT_GT(motion.shape.cols(), 1024);  // several blocks of elements
-  std::vector<Shape> ends;
-  for (int threads : {1, 2}) {
-    SetThreads(threads);
-    ends.push_back(End(motion, 2));
-  }
-  SetThreads(0);
-  EXPECT_TRUE(ends[0] == ends[1]);
+  const auto ends = testing::OnThreads([&] { return End(motion, 2); });
+  for (const Shape& end : ends) EXPECT_TRUE(end == ends[0]);
 }
 
 // A body whose shape is pressed together along z (or y), at a rate at which straight lines would

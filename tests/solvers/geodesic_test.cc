@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/bricard.h>
 #include <shapespace/bodies/catenoid.h>
@@ -20,6 +19,7 @@
 #include <shapespace/path/energy.h>
 
 #include "support/paths.h"
+#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -290,12 +290,10 @@ TEST(Interpolate, IsTheSameBackwards) {
 
 TEST(Interpolate, IsTheSameForAnyNumberOfThreads) {
   const Body bar = MakeBar(6, 1, 1, 60, 10, 10);
-  SetThreads(1);
-  const auto one = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, Options(7, 1e-4));
-  SetThreads(3);
-  const auto three = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, Options(7, 1e-4));
-  SetThreads(0);
-  for (int i = 0; i < 9; ++i) EXPECT_TRUE(one.path.shapes[i] == three.path.shapes[i]);
+  const auto paths = testing::OnThreads([&] {
+    return Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, Options(7, 1e-4)).path;
+  });
+  for (const Path& path : paths) EXPECT_TRUE(path.shapes == paths[0].shapes);
 }
 
 TEST(Interpolate, PassesThroughAllPosesAtEvenTimes) {

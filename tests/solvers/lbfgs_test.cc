@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/solvers/optimise/line_search.h>
 #include <shapespace/solvers/optimise/minimise.h>
 
 #include "support/paths.h"
+#include "support/threads.h"
 
 namespace shapespace::internal {
 namespace {
@@ -97,14 +97,12 @@ TEST(ThreadedLbfgs, IsTheSameForAnyNumberOfThreads) {
   Problem problem(MakeBar(6, 1, 1, 60, 10, 10), 5);
   MinimiseOptions options = Tolerance(1e-6);
   options.rank = 4;
-  std::vector<double> results[2];
-  for (int i = 0; i < 2; ++i) {
-    SetThreads(1 + i);
-    results[i] = problem.start;
-    problem.Ours(options, &results[i]);
-  }
-  SetThreads(0);
-  EXPECT_TRUE(results[0] == results[1]);
+  const auto results = testing::OnThreads([&] {
+    std::vector<double> unknowns = problem.start;
+    problem.Ours(options, &unknowns);
+    return unknowns;
+  });
+  for (const std::vector<double>& unknowns : results) EXPECT_TRUE(unknowns == results[0]);
 }
 
 TEST(ThreadedLbfgs, DoesNothingAtAMinimum) {

@@ -12,13 +12,13 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/skinned.h>
 #include <shapespace/path/rigid_motion.h>
 
 #include "support/message_of.h"
 #include "support/path_of.h"
+#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -350,15 +350,12 @@ TEST(Transfer, IsTheSameForAnyNumberOfThreads) {
   ASSERT_GT(thin.cols(), 1024);  // several blocks of rows
   TransferOptions options;
   options.rung_shapes = 1;
-  std::vector<TransferResult> results;
-  for (int threads : {1, 2}) {
-    SetThreads(threads);
-    results.push_back(Transfer(source, thin, options));
-  }
-  SetThreads(0);
-  for (int i : {0, 1}) {
-    EXPECT_TRUE(results[0].path.Placed(i) == results[1].path.Placed(i));
-    EXPECT_TRUE(results[0].hybrids.Placed(i) == results[1].hybrids.Placed(i));
+  const auto results = testing::OnThreads([&] { return Transfer(source, thin, options); });
+  for (const TransferResult& result : results) {
+    for (int i : {0, 1}) {
+      EXPECT_TRUE(result.path.Placed(i) == results[0].path.Placed(i));
+      EXPECT_TRUE(result.hybrids.Placed(i) == results[0].hybrids.Placed(i));
+    }
   }
 }
 

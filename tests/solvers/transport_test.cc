@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/bricard.h>
 #include <shapespace/bodies/miura.h>
@@ -20,6 +19,7 @@
 #include "support/message_of.h"
 #include "support/motions.h"
 #include "support/paths.h"
+#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -383,13 +383,10 @@ TEST(Transport, IsTheSameForAnyNumberOfThreads) {
   const Path path = Deforming(body, 10, 40, 2);
   ASSERT_GT(path.shapes[0].cols(), 1024);  // several blocks of elements
   const std::vector<Tangent> tangents = SomeTangents(body, 10);
-  std::vector<TransportResult> results;
-  for (int threads : {1, 2}) {
-    SetThreads(threads);
-    results.push_back(Transport(path, tangents));
+  const auto results = testing::OnThreads([&] { return Transport(path, tangents); });
+  for (const TransportResult& result : results) {
+    EXPECT_TRUE(result.tangents == results[0].tangents);
   }
-  SetThreads(0);
-  for (int k : {0, 1}) EXPECT_TRUE(results[0].tangents[k] == results[1].tangents[k]);
 }
 
 // That is what a geodesic is.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <string>
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -14,35 +16,54 @@
 namespace shapespace {
 namespace {
 
-std::mutex arena_mutex;
-std::shared_ptr<tbb::task_arena> arena;
+// The threads that work is spread over.
+struct Pool {
+  // TBB makes no more threads in a process than there are cores, unless it is told.
+  std::unique_ptr<tbb::global_control> more_than_cores;
+  tbb::task_arena arena;
+};
 
-std::shared_ptr<tbb::task_arena> Arena() {
-  std::lock_guard<std::mutex> lock(arena_mutex);
-  if (!arena) arena = std::make_shared<tbb::task_arena>();
-  return arena;
+std::mutex pool_mutex;
+std::shared_ptr<Pool> pool;
+
+std::shared_ptr<Pool> NewPool(int threads) {
+  auto result = std::make_shared<Pool>();
+  if (threads > tbb::info::default_concurrency()) {
+    result->more_than_cores = std::make_unique<tbb::global_control>(
+        tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+  }
+  result->arena.initialize(threads == 0 ? tbb::task_arena::automatic : threads);
+  return result;
+}
+
+std::shared_ptr<Pool> CurrentPool() {
+  std::lock_guard<std::mutex> lock(pool_mutex);
+  if (!pool) pool = NewPool(0);
+  return pool;
 }
 
 }  // namespace
 
 void SetThreads(int threads) {
-  if (threads < 0) throw InvalidOptions("threads: must be 0 (all cores) or more");
-  const int cores = tbb::info::default_concurrency();
-  auto replacement =
-      std::make_shared<tbb::task_arena>(threads == 0 ? cores : std::min(threads, cores));
-  std::lock_guard<std::mutex> lock(arena_mutex);
-  arena = std::move(replacement);
+  const int most = std::max(256, tbb::info::default_concurrency());
+  if (threads < 0 || threads > most) {
+    throw InvalidOptions("threads: must be 0 (all cores) to " + std::to_string(most));
+  }
+  std::lock_guard<std::mutex> lock(pool_mutex);
+  pool.reset();  // of several global_controls TBB takes the smallest
+  pool = NewPool(threads);
 }
 
-int Threads() { return Arena()->max_concurrency(); }
+int Threads() { return CurrentPool()->arena.max_concurrency(); }
 
 void ParallelFor(int count, const std::function<void(int)>& body) {
-  const auto current = Arena();
-  if (count <= 1 || current->max_concurrency() == 1) {
+  const auto current = CurrentPool();
+  tbb::task_arena& arena = current->arena;
+  if (count <= 1 || arena.max_concurrency() == 1) {
     for (int i = 0; i < count; ++i) body(i);
     return;
   }
-  current->execute([&] {
+  arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<int>(0, count, 1),
         [&](const tbb::blocked_range<int>& r) {

@@ -5,9 +5,10 @@
 
 namespace shapespace {
 
-/// Threads that `ParallelFor` may use from now on; 0 (at the start) means all cores, and
-/// more than there are cores means as many.
-/// \throw InvalidOptions if negative.
+/// Threads that `ParallelFor` may use from now on; 0 (at the start) means one for each core. There
+/// may be more than cores, up to 256: they take turns, which is of use in tests, and TBB makes as
+/// many for the rest of the process, too.
+/// \throw InvalidOptions if negative or too large.
 void SetThreads(int threads);
 
 /// Threads in use, at least 1.

@@ -1,0 +1,27 @@
+#ifndef SHAPESPACE_TESTS_SUPPORT_THREADS_H_
+#define SHAPESPACE_TESTS_SUPPORT_THREADS_H_
+
+#include <vector>
+
+#include <shapespace/base/parallel.h>
+
+namespace shapespace::testing {
+
+/// What `compute` returns on one thread, then on two, on three, and on eight, however few cores
+/// there are.
+template <class Compute>
+auto OnThreads(const Compute& compute) {
+  struct Reset {
+    ~Reset() { SetThreads(0); }
+  } reset;
+  std::vector<decltype(compute())> results;
+  for (int threads : {1, 2, 3, 8}) {
+    SetThreads(threads);
+    results.push_back(compute());
+  }
+  return results;
+}
+
+}  // namespace shapespace::testing
+
+#endif  // SHAPESPACE_TESTS_SUPPORT_THREADS_H_
