@@ -24,9 +24,11 @@ cmake --install "$build" --prefix "$work/prefix" >"$work/install.log"
 headers=$(cd "$work/prefix/include" && find shapespace -name '*.h' | sort | paste -sd ';')
 [[ $headers == *shapespace/solvers/geodesic.h* ]] || fail "headers are missing: $headers"
 
+flags=(-march=native -fsanitize=address)
+if grep -qw avx2 /proc/cpuinfo; then flags+=(-mavx2); fi
 cmake -S "$here" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_PREFIX_PATH="$work/prefix" -DHEADERS="$headers" \
-  -DGUIDE="$work/guide.cc" >"$work/configure.log" ||
+  -DFLAGS="$(IFS=';' && echo "${flags[*]}")" -DGUIDE="$work/guide.cc" >"$work/configure.log" ||
   fail "the package is not found"
 cmake --build "$work/build"
 
@@ -35,6 +37,11 @@ cd "$work"
 grep -qx 'Termination  *converged' report.txt || fail "the solver did not converge"
 [[ $(head -c 8 tube.png | od -An -tx1 | tr -d ' \n') == 89504e470d0a1a0a ]] ||
   fail "tube.png is no PNG"
+for flag in "${flags[@]}"; do
+  "$work/build/consumer${flag//[^a-z0-9]/_}" >report.txt ||
+    fail "built with $flag the README's program ends with exit code $?"
+  grep -qx 'Termination  *converged' report.txt || fail "with $flag the solver did not converge"
+done
 "$work/prefix/bin/shape-interpolate" --version
 "$work/prefix/bin/shape-body" tube --triangles 500 --at 0,90 --output 'pose%d.obj'
 "$work/build/guide" pose0.obj pose1.obj | grep -qx 'Termination  *converged' ||
