@@ -1,5 +1,6 @@
 #include <shapespace/output/frames.h>
 
+#include <shapespace/mesh/read.h>
 #include <shapespace/path/path_file.h>
 
 #include "mesh/files.h"
@@ -24,6 +25,43 @@ TEST_F(FramesTest, GraphsWithStiffenersGoThroughPathFilesAsTheyWere) {
   const shapespace::Path read = ReadPath(file);
   EXPECT_EQ(read.metric->connectivity->NumEdges(), 5);
   EXPECT_EQ(FrameSoup(*read.metric->connectivity).segments, segments);
+}
+
+// Frames made from a path file are those made from the poses, byte for byte.
+TEST_F(FramesTest, PathFilesKeepWhatFramesNeed) {
+  const std::string
+      head = "mtllib paint.mtl\n",
+      tail =
+          "vt 0 0\nvt 0.1 0\nvt 1 0\nvt 0 1\nvt 0.7 1\nvt 1 1\no page\ng left\nusemtl red\n"
+          "f 1/1 2/2 5/5 4/4\ng right\nusemtl blue\nf 2/2 3 6/6 5/5\nl 3 6\n";
+  const Poses poses = ReadPoses(
+      {File("a.obj", head + "v 0 0 0 1 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n" + tail),
+       File("b.obj", head + "v 0 0 0\nv 1 0 0\nv 2 0 1\nv 0 1 0\nv 1 1 0\nv 2 1 1\n" + tail)});
+  shapespace::Path path = testing::PathOf(poses.connectivity, poses.shapes);
+  path.appearance = poses.soup.appearance;
+  WritePath(Path("page.path"), path);
+  const shapespace::Path read = ReadPath(Path("page.path"));
+  WriteFrames(Path("direct%d.obj"), path.Placed(), poses.soup);
+  WriteFrames(Path("read%d.obj"), read.Placed(),
+              FrameSoup(*read.metric->connectivity, read.appearance));
+  for (const char* number : {"0", "1"}) {
+    const std::string frame = testing::Content(Path(std::string("direct") + number + ".obj"));
+    EXPECT_EQ(testing::Content(Path(std::string("read") + number + ".obj")), frame);
+    EXPECT_EQ(frame.substr(frame.find("vt ")), tail);
+    EXPECT_EQ(frame.find(head), 0u);
+  }
+}
+
+TEST_F(FramesTest, FramesFarFromTheOriginLieWhereThePosesAre) {
+  const auto triangle = Connectivity::FromTriangles(3, Eigen::Vector3i(0, 1, 2));
+  Shape pose(3, 3);
+  pose << 4e6 + 0.1, 4e6 + 1.3, 4e6, -4e6, -4e6 + 0.7, -4e6 + 1.1, 4e6, 4e6 + 0.9, 4e6 - 0.3;
+  Shape other = pose;
+  other.col(2).x() += 0.5;
+  const shapespace::Path path = testing::PathOf(triangle, {pose, other});
+  WriteFrames(Path("%d.obj"), path.Placed(), FrameSoup(*triangle));
+  EXPECT_LT((ReadSoup(Path("0.obj")).vertices - pose).cwiseAbs().maxCoeff(), 4e-9);
+  EXPECT_LT((ReadSoup(Path("1.obj")).vertices - other).cwiseAbs().maxCoeff(), 4e-9);
 }
 
 TEST_F(FramesTest, SegmentsBesidePolygonsAreKeptToo) {
