@@ -484,6 +484,7 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   check_count("groups", options.groups.size());
   const std::vector<int> keys = KeyShapes(path.NumShapes(), path.poses, kMostKeys);
   std::vector<Shape> shapes;
+  shapes.reserve(keys.size());
   for (const int key : keys) shapes.push_back(path.Placed(key));
   const Eigen::Vector3d origin =
       (shapes[0].rowwise().minCoeff() + shapes[0].rowwise().maxCoeff()) / 2;
@@ -547,6 +548,7 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   model.nodes = {PlacedNode(origin, options)};
   if (keys.size() > 1) {
     std::vector<double> parameters;
+    parameters.reserve(keys.size());
     const double first = path.parameters.front(), last = path.parameters.back();
     for (const int key : keys) {
       parameters.push_back((path.parameters[key] - first) / (last - first));

@@ -284,6 +284,7 @@ Path Parse(const std::string& file, const std::string& bytes) {
   const auto pairs = [&](const char* name) {
     const auto columns = arrays.Get<Eigen::Matrix2Xi>(name, 2, Eigen::Dynamic);
     std::vector<std::pair<int, int>> result;
+    result.reserve(columns.cols());
     for (int i = 0; i < columns.cols(); ++i) result.emplace_back(columns(0, i), columns(1, i));
     return result;
   };
