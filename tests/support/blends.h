@@ -1,0 +1,36 @@
+#ifndef SHAPESPACE_TESTS_SUPPORT_BLENDS_H_
+#define SHAPESPACE_TESTS_SUPPORT_BLENDS_H_
+
+#include <vector>
+
+#include <shapespace/metric/metric.h>
+
+namespace shapespace::testing {
+
+struct Blend {
+  const char* name;
+  MetricOptions options;
+};
+
+/// Blends in which each feature has its part, in both discretisations; closed surfaces only.
+inline std::vector<Blend> AllBlends() {
+  MetricOptions membrane, everything, strains, paper_with_bending = MetricOptions::Paper();
+  membrane.bending = 0;
+  everything.log_length = 0.2;
+  everything.volume = 0.3;
+  everything.strain = 0.3;
+  strains.isometric = 0;
+  strains.log_length = 1;
+  paper_with_bending.bending = 1e-3;
+  return {{"default", {}},
+          {"membrane", membrane},
+          {"strains", strains},
+          {"triangle strain", MetricOptions::Strain()},
+          {"everything", everything},
+          {"paper", MetricOptions::Paper()},
+          {"paper with bending", paper_with_bending}};
+}
+
+}  // namespace shapespace::testing
+
+#endif  // SHAPESPACE_TESTS_SUPPORT_BLENDS_H_
