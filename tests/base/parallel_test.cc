@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -75,6 +76,26 @@ TEST(ParallelFor, RethrowsWhatABodyThrows) {
     EXPECT_EQ(message, "57");
   }
 }
+
+#ifdef __SANITIZE_THREAD__
+// The sanitizer is told what ParallelFor orders (parallel.cc): it must not take that for more.
+TEST(ParallelForDeathTest, LetsTheThreadSanitizerSeeARaceOfTwoBodies) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  constexpr int kExitCodeOfRaces = 66;
+  const auto race = [] {
+    SetThreads(2);
+    int shared = 0;
+    std::atomic<int> running{0};
+    ParallelFor(2, [&](int) {
+      ++shared;
+      running.fetch_add(1, std::memory_order_relaxed);  // relaxed: orders nothing
+      while (running.load(std::memory_order_relaxed) < 2) std::this_thread::yield();
+    });
+    std::exit(0);
+  };
+  EXPECT_EXIT(race(), ::testing::ExitedWithCode(kExitCodeOfRaces), "data race");
+}
+#endif
 
 }  // namespace
 }  // namespace shapespace

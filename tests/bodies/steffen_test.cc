@@ -90,7 +90,7 @@ TEST(SteffenTest, HasAHalfTurnThatReversesTheFlex) {
 
 TEST(SteffenTest, HasTheEdgesOfTheMeshInCirculation) {
   const std::string folder = SHAPESPACE_DATA_DIR;
-  if (folder.empty()) GTEST_SKIP() << "no folder of real meshes";
+  if (folder.empty()) GTEST_SKIP() << "no real meshes";
   const Soup soup = ReadSoup(folder + "/steffen/steffen_polyhedron.obj");
   const Body body = MakeSteffen();
   ASSERT_EQ(soup.NumVertices(), 9);

@@ -329,7 +329,7 @@ class HierarchyOfRealPoses : public ::testing::TestWithParam<RealPair> {};
 TEST_P(HierarchyOfRealPoses, HasSoundLevels) {
   const auto& [name, first, second, manifold] = GetParam();
   const std::filesystem::path folder = std::filesystem::path(SHAPESPACE_DATA_DIR) / name;
-  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no folder of real meshes";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no real meshes";
   ReadOptions allow;
   allow.allow_nonmanifold = !manifold;
   const Poses poses =

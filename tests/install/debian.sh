@@ -27,12 +27,13 @@ debootstrap --variant=minbase "$release" "$root" "$mirror" >"$work/debootstrap.l
   fail "debootstrap: $(tail -1 "$work/debootstrap.log")"
 git clone -q "$source" "$root/root/shapespace"
 
-# In the new system, with processes and mounts of its own that end with the command, and with
-# nothing of this one's environment.
+# In the new system, with processes, mounts and terminals of its own that end with the command, and
+# with nothing of this one's environment.
 inside() {
-  unshare --mount --pid --fork --mount-proc="$root/proc" chroot "$root" \
-    /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin \
-    /bin/sh -c "cd /root/shapespace && $1"
+  unshare --mount --pid --fork --mount-proc="$root/proc" /bin/sh -c '
+    mount -t devpts -o newinstance,ptmxmode=0666 devpts "$0/dev/pts" &&
+    exec chroot "$0" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin \
+      /bin/sh -c "cd /root/shapespace && $1"' "$root" "$1"
 }
 
 inside './dev demo'

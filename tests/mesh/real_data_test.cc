@@ -18,7 +18,7 @@ class RealDataTest : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::is_directory(SHAPESPACE_DATA_DIR)) {
-      GTEST_SKIP() << "no folder of real meshes";
+      GTEST_SKIP() << "no real meshes";
     }
   }
 

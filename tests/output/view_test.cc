@@ -64,7 +64,7 @@ TEST(ChooseUpTest, DoesNotDependOnPlaceAndUnits) {
 
 TEST(ChooseUpTest, IsRightForRealMeshes) {
   if (!std::filesystem::is_directory(SHAPESPACE_DATA_DIR)) {
-    GTEST_SKIP() << "SHAPESPACE_DATA_DIR names no folder of meshes";
+    GTEST_SKIP() << "no real meshes";
   }
   using Files = std::vector<std::string>;
   const auto up = [](const Files& names) {

@@ -1,6 +1,6 @@
 // The lower bound of path/energy.h against minima, which take a solver to find.
 
-#include <cmath>
+#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>
