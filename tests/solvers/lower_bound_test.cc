@@ -60,9 +60,10 @@ TEST(EnergyLowerBound, IsBelowTheMinimaOfEveryBlend) {
         EXPECT_EQ(summary.termination, Termination::kConverged);
         EXPECT_GT(summary.lower_bound, 0);
         EXPECT_LE(summary.lower_bound, summary.energy * (1 + 1e-12));
-        // The paper's form pays for the rotation of edges besides.
+        // Features that would grow at different times disagree by a little. The paper's form pays
+        // for the rotation of edges besides.
         if (blend.options.discretization == Discretization::kMidpoint) {
-          EXPECT_LT(summary.Ratio(), 1.01);
+          EXPECT_LT(summary.Ratio(), 1.02);
         }
       }
     }
