@@ -16,6 +16,7 @@
 #include <shapespace/bodies/catenoid.h>
 #include <shapespace/bodies/miura.h>
 #include <shapespace/bodies/sheet.h>
+#include <shapespace/bodies/skinned.h>
 #include <shapespace/bodies/steffen.h>
 #include <shapespace/bodies/tube.h>
 #include <shapespace/metric/feature_map.h>
@@ -691,6 +692,29 @@ TEST(Extrapolate, CanBeCancelled) {
     StopAt progress(step);
     EXPECT_THROW(Extrapolate(motion.metric, motion.shape, motion.velocity, 4, {}, &progress),
                  Cancelled);
+  }
+}
+
+// Where the mesh has no next shape, that of a coarser one is lifted, and detail with it. On real
+// geodesics the energy of segments is constant; taken for a momentum, what the detail did would
+// multiply it.
+TEST(Extrapolate, KeepsTheEnergyAcrossStepsOfCoarserMeshes) {
+  const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
+  for (const char* pose : {"rear", "stride"}) {
+    SCOPED_TRACE(pose);
+    GeodesicOptions options;
+    options.shapes = 7;
+    options.tolerance = 1e-6;
+    const Path path =
+        Interpolate(animal.connectivity, {animal.pose("stand"), animal.pose(pose)}, options).path;
+    const ExponentialSummary summary = Extrapolate(path, 16).summary;
+    EXPECT_EQ(summary.ending, ExponentialSummary::Ending::kComplete) << summary.FullReport();
+    int coarse = 0;
+    for (const ExponentialSummary::Step& step : summary.steps) {
+      coarse += step.vertices < summary.vertices;
+    }
+    EXPECT_GT(coarse, 0);
+    EXPECT_NEAR(summary.steps.back().energy / summary.steps.front().energy, 1, 0.1);
   }
 }
 

@@ -299,6 +299,17 @@ Tangent SegmentVelocity(const Metric& metric, const Shape& other, const Shape& a
                      derivative.TransposeTimes(sign * (map.Values(at) - map.Values(other))));
 }
 
+// How to go on from `shape`, which was not made on the mesh itself: detail that was carried along
+// moved as nothing would move by itself, and taken for a momentum it would be multiplied from step
+// to step. So only the part of the change is kept that the metric sees as a velocity at the new
+// shape, at the speed that the geodesic has.
+Departure Restart(const FeatureMap& map, const Shape& before, const Shape& shape, double speed) {
+  Tangent velocity = SegmentVelocity(map.GetMetric(), before, shape, 1);
+  const double found = map.Derivative(shape).Times(velocity).norm();
+  if (found > 0) velocity *= speed / found;
+  return {shape, {}, std::move(velocity)};
+}
+
 // Continues the result's path, whose last shape is that of `departure`.
 void Shoot(Departure departure, int steps, double step, const ExponentialOptions& options,
            Progress* progress, ExponentialResult* result) {
@@ -320,10 +331,18 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
   switch (options.integrator) {
     case Integrator::kVariational: {
       internal::Shooter shooter(path.metric, {path.shapes.front(), departure.shape}, options);
+      const FeatureMap map(metric);
+      const double speed =
+          discrete ? (map.Values(departure.shape) - map.Values(departure.previous)).norm()
+                   : map.Derivative(departure.shape).Times(departure.velocity).norm();
       const auto next = [&](ExponentialSummary::Step* row) {
         Shape shape = shooter.Next(departure, row);
-        departure.velocity.resize(3, 0);
-        departure.previous = std::exchange(departure.shape, shape);
+        if (row->vertices == summary.vertices) {
+          departure.velocity.resize(3, 0);
+          departure.previous = std::exchange(departure.shape, shape);
+        } else {
+          departure = Restart(map, departure.shape, shape, speed);
+        }
         return shape;
       };
       March(next, steps, step, progress, result);
