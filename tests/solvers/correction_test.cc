@@ -16,6 +16,7 @@
 #include <shapespace/path/energy.h>
 #include <shapespace/solvers/cost/segment_cost.h>
 
+#include "support/listener.h"
 #include "support/message_of.h"
 #include "support/path_of.h"
 #include "support/paths.h"
@@ -24,6 +25,7 @@
 namespace shapespace {
 namespace {
 
+using testing::Listener;
 using testing::MessageOf;
 using testing::PathOf;
 
@@ -375,20 +377,16 @@ TEST(CorrectPath, RefusesWhatCannotBeCorrected) {
             0u);
 }
 
-class StopAt final : public Progress {
- public:
-  explicit StopAt(int iteration) : iteration_(iteration) {}
-  bool Report(const std::string&, int done, int) override { return done < iteration_; }
-
- private:
-  const int iteration_;
-};
-
-TEST(CorrectPath, CanBeCancelled) {
-  for (int iteration : {0, 3}) {
-    StopAt progress(iteration);
-    EXPECT_THROW(CorrectPath(Strip(), {}, &progress), Cancelled);
-  }
+TEST(CorrectPath, ReturnsTheBestSoFarWhenCancelled) {
+  Listener at_once(1);
+  EXPECT_THROW(CorrectPath(Strip(), {}, &at_once), Cancelled);
+  Listener later(5);
+  const auto [path, summary] = CorrectPath(Strip(), {}, &later);
+  EXPECT_FALSE(summary.converged);
+  ASSERT_FALSE(summary.warnings.empty());
+  EXPECT_NE(summary.warnings[0].find("cancelled"), std::string::npos);
+  EXPECT_LT(summary.energy, summary.initial_energy);
+  EXPECT_LT(summary.quality.first_rms, summary.initial_quality.first_rms);
 }
 
 TEST(CorrectionSummary, SaysThatIterationsRanOut) {

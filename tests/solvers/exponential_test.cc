@@ -21,6 +21,7 @@
 #include <shapespace/bodies/tube.h>
 #include <shapespace/metric/feature_map.h>
 
+#include "support/listener.h"
 #include "support/message_of.h"
 #include "support/motions.h"
 #include "support/paths.h"
@@ -32,6 +33,7 @@ namespace {
 using testing::Deforming;
 using testing::Diameter;
 using testing::Distance;
+using testing::Listener;
 using testing::MessageOf;
 using testing::Motion;
 using testing::Rotation;
@@ -677,21 +679,42 @@ TEST(Extrapolate, SaysThatTrapezoidPathsGoOnInMidpointForm) {
   EXPECT_TRUE(longer.shapes.back() == expected.shapes.back());
 }
 
-class StopAt final : public Progress {
- public:
-  explicit StopAt(int step) : step_(step) {}
-  bool Report(const std::string&, int done, int) override { return done < step_; }
-
- private:
-  const int step_;
-};
-
-TEST(Extrapolate, CanBeCancelled) {
+TEST(Extrapolate, KeepsTheStepsMadeBeforeItIsCancelled) {
   const Motion motion = DeformingBodies()[1];
-  for (int step : {0, 2}) {
-    StopAt progress(step);
-    EXPECT_THROW(Extrapolate(motion.metric, motion.shape, motion.velocity, 4, {}, &progress),
-                 Cancelled);
+  const auto shoot = [&](Progress* progress) {
+    return Extrapolate(motion.metric, motion.shape, motion.velocity, 4, {}, progress);
+  };
+  Listener all;
+  int reports_before_the_third = 0;
+  all.on_report = [&](const std::string&, int done) { reports_before_the_third += done < 2; };
+  const Path whole = shoot(&all).path;
+  EXPECT_EQ(all.shares, (std::vector<double>{0, .25, .5, .75}));
+  ASSERT_GT(reports_before_the_third, 2);  // also within steps
+
+  for (const int last : {1, 2}) {
+    Listener early(last);
+    EXPECT_THROW(shoot(&early), Cancelled);
+  }
+  for (const int last : {1, 2}) {  // before the third step, and within it
+    Listener later(reports_before_the_third + last);
+    const auto [path, summary] = shoot(&later);
+    EXPECT_EQ(summary.ending, ExponentialSummary::Ending::kCancelled);
+    EXPECT_FALSE(summary.Converged());
+    EXPECT_EQ(summary.stopped, "step 3: cancelled");
+    EXPECT_EQ(summary.requested_steps, 4);
+    ASSERT_EQ(path.NumShapes(), 3);
+    EXPECT_EQ(path.extrapolated, 2);
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(path.shapes[i] == whole.shapes[i]) << i;
+  }
+}
+
+TEST(Logarithm, CanBeCancelled) {
+  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const auto metric = std::make_shared<const Metric>(
+      FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(60)}));
+  for (const int last : {1, 4}) {
+    Listener progress(last);
+    EXPECT_THROW(Logarithm(metric, bar.pose(0), bar.pose(60), {}, &progress), Cancelled);
   }
 }
 

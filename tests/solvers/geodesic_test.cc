@@ -11,18 +11,23 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/body.h>
 #include <shapespace/bodies/bricard.h>
 #include <shapespace/bodies/catenoid.h>
 #include <shapespace/bodies/miura.h>
 #include <shapespace/bodies/sheet.h>
+#include <shapespace/bodies/skinned.h>
 #include <shapespace/bodies/steffen.h>
 #include <shapespace/path/energy.h>
 
+#include "support/listener.h"
 #include "support/paths.h"
 #include "support/threads.h"
 
 namespace shapespace {
 namespace {
+
+using testing::Listener;
 
 GeodesicOptions Options(int shapes, double tolerance) {
   GeodesicOptions options;
@@ -383,22 +388,145 @@ TEST(Interpolate, RefusesWhatCannotWork) {
                InvalidOptions);
 }
 
-class StopsAfter final : public Progress {
- public:
-  explicit StopsAfter(int reports) : left_(reports) {}
-  bool Report(const std::string&, int, int) override { return --left_ > 0; }
+// A tube of several levels: solves on all of them, by all three optimisers.
+const Body& Tube() {
+  static const Body tube = MakeBody("tube", 4000);
+  return tube;
+}
 
- private:
-  int left_;
-};
+TEST(Interpolate, ReturnsTheBestSoFarWheneverItIsCancelled) {
+  const std::vector<Shape> poses = {Tube().pose(0), Tube().pose(90)};
+  const auto solve = [&](Progress* progress) {
+    return Interpolate(Tube().connectivity, poses, Options(7, 1e-6), progress);
+  };
+  Listener all;
+  const auto [whole, summary] = solve(&all);
+  ASSERT_EQ(summary.termination, Termination::kConverged);
+  ASSERT_GT(summary.hierarchy.size(), 2u);
 
-TEST(Interpolate, CanBeCancelledAtAnyTime) {
-  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
-  for (int reports : {1, 3, 8}) {
-    StopsAfter progress(reports);
-    EXPECT_THROW(
-        Interpolate(bar.connectivity, {bar.pose(0), bar.pose(90)}, Options(15, 1e-9), &progress),
-        Cancelled);
+  // Before the first solve there is nothing to return.
+  for (const int last : {1, 2}) {
+    Listener early(last);
+    EXPECT_THROW(solve(&early), Cancelled);
+  }
+  std::vector<Shape> blend;
+  for (int i = 0; i <= 8; ++i) {
+    blend.push_back((1 - i / 8.0) * whole.shapes.front() + i / 8.0 * whole.shapes.back());
+  }
+  PathEnergy energy(*whole.metric, 7);
+  std::vector<double> unknowns(energy.Size());
+  energy.Load(blend, unknowns.data());
+  double before = ScaledEnergy(energy.Evaluate(unknowns.data(), nullptr), 8);
+  for (const double share : {0.0, .3, .6, .9, 1.0}) {
+    SCOPED_TRACE(share);
+    Listener stop(3 + static_cast<int>(share * (all.reports - 3)));
+    const auto [path, cancelled] = solve(&stop);
+    EXPECT_EQ(cancelled.termination, Termination::kCancelled);
+    EXPECT_NE(cancelled.BriefReport().find("NOT CONVERGED: cancelled"), std::string::npos);
+    EXPECT_TRUE(std::any_of(
+        cancelled.warnings.begin(), cancelled.warnings.end(),
+        [](const std::string& warning) { return warning.rfind("cancelled: ", 0) == 0; }));
+    ASSERT_EQ(path.NumShapes(), 9);
+    EXPECT_EQ(path.poses, whole.poses);
+    EXPECT_EQ(path.parameters, whole.parameters);
+    EXPECT_LT((path.Placed(0) - poses[0]).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((path.Placed(8) - poses[1]).cwiseAbs().maxCoeff(), 1e-12);
+    // The more was solved, the better.
+    EXPECT_TRUE(std::isfinite(cancelled.energy));
+    EXPECT_LE(cancelled.energy, before * (1 + 1e-6));
+    before = cancelled.energy;
+  }
+  EXPECT_LT(before, 1.01 * summary.energy);
+}
+
+TEST(Interpolate, CancelledInOnePieceKeepsTheOnesBefore) {
+  const std::vector<Shape> poses = {Tube().pose(0), Tube().pose(60), Tube().pose(20),
+                                    Tube().pose(90)};
+  const GeodesicOptions options = Options(3, 1e-4);
+  Listener all;
+  int of_first = 0;
+  all.on_report = [&](const std::string&, int) {
+    if (all.shares.empty() || all.shares.back() < 1 / 3.0) of_first = all.reports;
+  };
+  const auto [whole, summary] = Interpolate(Tube().connectivity, poses, options, &all);
+  Listener stop(of_first + 5);
+  const auto [path, cancelled] = Interpolate(Tube().connectivity, poses, options, &stop);
+  EXPECT_EQ(cancelled.termination, Termination::kCancelled);
+  ASSERT_EQ(path.NumShapes(), 13);
+  EXPECT_EQ(path.poses, whole.poses);
+  for (int i = 0; i <= 4; ++i) EXPECT_TRUE(path.shapes[i] == whole.shapes[i]) << i;
+  EXPECT_FALSE(path.shapes[6] == whole.shapes[6]);
+  // The last piece was not begun.
+  const Shape middle = 0.5 * (path.shapes[8] + path.shapes[12]);
+  EXPECT_LT((path.shapes[10] - middle).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_NE(cancelled.warnings.front().find("the pieces from 2 on are straight-line blends"),
+            std::string::npos)
+      << cancelled.warnings.front();
+}
+
+// Work is what evaluations cost: vertices times shapes. An estimate of the time left that comes
+// from a share which is a quarter off in the middle is off by a factor of two to three.
+TEST(Interpolate, TellsWhatShareOfItsWorkIsDone) {
+  const SkinnedBody body = MakeSkinnedBody("quadruped", 3000);
+  for (const double tolerance : {1e-4, 1e-6}) {
+    Listener progress;
+    std::vector<double> at_start;  // of each solve
+    progress.on_report = [&](const std::string& stage, int iteration) {
+      if (iteration == 0 && stage.find(" vertices, ") != std::string::npos) {
+        at_start.push_back(progress.shares.back());
+      }
+    };
+    const GeodesicSummary summary =
+        Interpolate(body.connectivity, {body.pose("stand"), body.pose("sit"), body.pose("stretch")},
+                    Options(15, tolerance), &progress)
+            .summary;
+    EXPECT_EQ(progress.shares.front(), 0);
+    EXPECT_TRUE(std::is_sorted(progress.shares.begin(), progress.shares.end()));
+    EXPECT_LE(progress.shares.back(), 1);
+    ASSERT_EQ(at_start.size(), summary.levels.size());
+    std::vector<double> done = {0};
+    for (const auto& level : summary.levels) {
+      done.push_back(done.back() +
+                     static_cast<double>(level.vertices) * level.shapes * level.evaluations);
+    }
+    for (size_t i = 0; i < at_start.size(); ++i) {
+      EXPECT_NEAR(at_start[i], done[i] / done.back(), 0.25)
+          << "solve " << i << " at a tolerance of " << tolerance;
+    }
+  }
+}
+
+// Their distance is lost in rounding, so that no share of it means anything; and a distance that is
+// not lost counts.
+TEST(Interpolate, CopiesConvergeAndPosesThatAreHardlyApartMustBeSolved) {
+  std::vector<std::pair<int, int>> segments;
+  Shape straight(3, 11);
+  for (int i = 0; i <= 10; ++i) {
+    straight.col(i) = Eigen::Vector3d(i, 0, 0);
+    if (i > 0) segments.emplace_back(i - 1, i);
+  }
+  const auto stick = Connectivity::Make(11, {0}, {}, segments);
+  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  for (const auto& [connectivity, shape] :
+       {std::make_pair(stick, straight), {bar.connectivity, bar.pose(50)}}) {
+    for (const MetricOptions& metric :
+         {MetricOptions::Isometric(), MetricOptions::Rigid(), MetricOptions::Paper()}) {
+      GeodesicOptions options = Options(5, 1e-15);
+      options.metric = metric;
+      options.metric.bending = 0;
+      options.max_iterations = 1;
+      const Shape turned = (Rotation(1.2, {1, 2, 3}) * shape).colwise() + Eigen::Vector3d(5, 6, 7);
+      for (const Shape& copy : {shape, turned}) {
+        const auto [path, summary] = Interpolate(connectivity, {shape, copy}, options);
+        EXPECT_EQ(summary.termination, Termination::kConverged) << summary.FullReport();
+        EXPECT_LT((path.Placed(6) - copy).cwiseAbs().maxCoeff(), 1e-13);
+      }
+      options.start = Start::kFirst;  // even of the rigid metric no solution, however near
+      Shape other = shape;
+      for (int i = 0; i < other.size(); ++i) other.data()[i] += 1e-6 * std::sin(7.0 * i * i);
+      const GeodesicSummary apart = Interpolate(connectivity, {shape, other}, options).summary;
+      EXPECT_EQ(apart.termination, Termination::kMaxIterations) << apart.FullReport();
+    }
   }
 }
 

@@ -165,9 +165,18 @@ TEST(ThreadedLbfgs, KeepsItsLimitsAndCanBeCancelled) {
   EXPECT_EQ(result.stop, Stop::kMaxIterations);
   EXPECT_EQ(result.iterations, 4);
   for (int last : {0, 2}) {
-    options.keep_going = [&](int iteration) { return iteration < last; };
-    unknowns = problem.start;
-    EXPECT_THROW(problem.Ours(options, &unknowns), Cancelled);
+    options.keep_going = [&](int iteration, double) { return iteration < last; };
+    for (const bool ours : {true, false}) {
+      unknowns = problem.start;
+      const MinimiseResult stopped = ours ? problem.Ours(options, &unknowns)
+                                          : MinimiseLbfgs(ObjectiveOf(&problem.energy),
+                                                          &problem.variables, options, &unknowns);
+      EXPECT_EQ(stopped.stop, Stop::kCancelled);
+      EXPECT_EQ(stopped.iterations, last);
+      EXPECT_EQ(stopped.energy<stopped.initial_energy, last> 0);
+      EXPECT_NEAR(problem.energy.Evaluate(unknowns.data(), nullptr), stopped.energy,
+                  1e-12 * stopped.energy);
+    }
   }
 }
 

@@ -16,6 +16,7 @@
 #include <shapespace/bodies/skinned.h>
 #include <shapespace/path/rigid_motion.h>
 
+#include "support/listener.h"
 #include "support/message_of.h"
 #include "support/path_of.h"
 #include "support/threads.h"
@@ -25,6 +26,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using testing::Listener;
 using testing::MessageOf;
 using testing::PathOf;
 
@@ -430,22 +432,98 @@ TEST(Transfer, SaysWhichShapeDegenerates) {
   EXPECT_NE(message.find("; a source with more shapes"), std::string::npos) << message;
 }
 
-class StopAt final : public Progress {
- public:
-  explicit StopAt(int calls) : calls_(calls) {}
-  bool Report(const std::string& stage, int, int) override {
+TEST(Transfer, KeepsTheShapesMadeBeforeItIsCancelled) {
+  Listener all;
+  int reports_before_the_third = 0;
+  all.on_report = [&](const std::string& stage, int done) {
     EXPECT_EQ(stage, "transferring");
-    return calls_-- > 0;
+    reports_before_the_third += done < 2;
+  };
+  const TransferResult whole = Transfer(Bending(3), ThinBar(), {}, &all);
+  EXPECT_EQ(all.shares, (std::vector<double>{0, .25, .5, .75}));
+  EXPECT_TRUE(whole.summary.Converged());
+
+  for (const int last : {1, 2, 6, 20}) {
+    Listener early(last);
+    EXPECT_THROW(Transfer(Bending(3), ThinBar(), {}, &early), Cancelled) << last;
   }
+  for (const int last : {1, 9}) {  // before the third rung, and within it
+    Listener later(reports_before_the_third + last);
+    const auto [path, hybrids, summary] = Transfer(Bending(3), ThinBar(), {}, &later);
+    EXPECT_TRUE(summary.cancelled);
+    EXPECT_FALSE(summary.Converged());
+    ASSERT_FALSE(summary.warnings.empty());
+    EXPECT_NE(summary.warnings[0].find("cancelled"), std::string::npos);
+    EXPECT_EQ(summary.rungs.size(), 2u);
+    ASSERT_EQ(path.NumShapes(), 2);
+    ASSERT_EQ(hybrids.NumShapes(), 2);
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_EQ(path.parameters[i], whole.path.parameters[i]);
+      EXPECT_LT(Apart(path.Placed(i), whole.path.Placed(i)), 1e-12);
+      EXPECT_LT(Apart(hybrids.Placed(i), whole.hybrids.Placed(i)), 1e-12);
+    }
+    // What is off is measured against the source's second shape, not its last.
+    EXPECT_LT(summary.strain_rms, whole.summary.strain_rms);
+  }
+}
 
- private:
-  int calls_;
-};
+TEST(TransferPoses, KeepsThePosesMadeBeforeItIsCancelled) {
+  GeodesicOptions geodesic;
+  geodesic.shapes = 1;
+  const std::vector<Shape> poses = {ThickBar().pose(0), ThickBar().pose(40), ThickBar().pose(60)};
+  const auto transfer = [&](Progress* progress) {
+    return TransferPoses(ThickBar().connectivity, poses, ThinBar(), geodesic, {}, progress);
+  };
+  Listener all;
+  const PoseTransferResult whole = transfer(&all);
+  ASSERT_FALSE(all.shares.empty());
+  EXPECT_EQ(all.shares.front(), 0);
+  EXPECT_TRUE(std::is_sorted(all.shares.begin(), all.shares.end()));
+  EXPECT_LE(all.shares.back(), 1);
+  Listener first(all.reports / 4);
+  EXPECT_THROW(transfer(&first), Cancelled);
+  Listener second(all.reports - 2);
+  const PoseTransferResult half = transfer(&second);
+  EXPECT_TRUE(half.summary.cancelled);
+  EXPECT_FALSE(half.summary.Converged());
+  EXPECT_NE(half.summary.Warnings().at(0).find("cancelled"), std::string::npos);
+  ASSERT_EQ(half.path.NumShapes(), 2);
+  EXPECT_EQ(half.summary.transfers.size(), 1u);
+  EXPECT_LT(Apart(half.path.Placed(1), whole.path.Placed(1)), 1e-12);
+}
 
-TEST(Transfer, CanBeCancelledWithinARung) {
-  for (int calls : {0, 1, 5, 20}) {
-    StopAt progress(calls);
-    EXPECT_THROW(Transfer(Bending(2), ThinBar(), {}, &progress), Cancelled) << calls;
+// Neither in shape nor in pose is there anything to carry along: every rung has no length.
+TEST(Transfer, AnExactCopyConvergesAndMakesTheVeryMotion) {
+  // A straight stick besides: nothing but its first bending holds it.
+  std::vector<std::pair<int, int>> segments;
+  Shape straight(3, 11), arc(3, 11);
+  for (int i = 0; i <= 10; ++i) {
+    straight.col(i) = Vector3d(i, 0, 0);
+    arc.col(i) = Vector3d(5 * std::sin(.2 * i), 5 - 5 * std::cos(.2 * i), 0);
+    if (i > 0) segments.emplace_back(i - 1, i);
+  }
+  const auto stick = Connectivity::Make(11, {0}, {}, segments);
+  const SkinnedBody quadruped = MakeSkinnedBody("quadruped", 3000);
+  const struct {
+    std::shared_ptr<const Connectivity> connectivity;
+    Shape first, second;
+  } bodies[] = {{stick, straight, arc},
+                {quadruped.connectivity, quadruped.pose("stand"), quadruped.pose("sit")}};
+  for (const auto& [connectivity, first, second] : bodies) {
+    for (const double scale : {1.0, 3.0}) {
+      const auto copy = [&, scale = scale](const Shape& shape) -> Shape {
+        return (scale * Turn(70, {1, 2, 3}) * shape).colwise() + Vector3d(5, 6, 7);
+      };
+      GeodesicOptions geodesic;
+      geodesic.shapes = 3;
+      const auto [path, hybrids, summary] =
+          TransferPoses(connectivity, {first, second}, copy(first), geodesic);
+      EXPECT_TRUE(summary.Converged()) << summary.BriefReport();
+      // About its own axis a straight stick may stand in any way.
+      const Eigen::VectorXd area = Eigen::VectorXd::Ones(first.cols());
+      EXPECT_LT(ShapesApart(path.Placed(1), copy(second), area), 1e-12);
+      EXPECT_LT(ShapesApart(hybrids.Placed(1), copy(second), area), 1e-12);
+    }
   }
 }
 

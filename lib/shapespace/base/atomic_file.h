@@ -13,6 +13,11 @@ namespace shapespace {
 /// temporary or the rename fails, or the stream went bad.
 void WriteFileAtomically(const std::string& file, const std::function<void(std::ostream&)>& body);
 
+/// Removes the temporaries of all files that any thread is writing. From then on no file is begun
+/// or finished: `WriteFileAtomically` waits forever. For a process that is about to end, and may
+/// not wait until its files are written. Takes a lock, so signal handlers must not call it.
+void AbandonUnfinishedFiles();
+
 }  // namespace shapespace
 
 #endif  // SHAPESPACE_BASE_ATOMIC_FILE_H_

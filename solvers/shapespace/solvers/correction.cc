@@ -119,6 +119,8 @@ void Warn(internal::Stop stop, CorrectionSummary* summary) {
     summary->warnings.push_back("out of iterations; raise max_iterations or the tolerance");
   } else if (stop == internal::Stop::kStalled) {
     summary->warnings.push_back("stalled: the line search found no better point");
+  } else if (stop == internal::Stop::kCancelled) {
+    summary->warnings.push_back("cancelled: the shapes are the best so far");
   }
   if (summary->deformation_left < kCollapsed) {
     const std::string text = internal::Format(
@@ -206,7 +208,7 @@ CorrectionResult CorrectPath(const Path& path, const CorrectionOptions& options,
   minimise.enough = std::pow(options.tolerance, options.mode == CorrectionMode::kPaper ? 3 : 2);
   minimise.max_iterations = options.max_iterations;
   minimise.rank = internal::HistoryRank(static_cast<double>(variables.Size()));
-  minimise.keep_going = [&](int iteration) {
+  minimise.keep_going = [&](int iteration, double) {
     return progress == nullptr || progress->Report("correcting", iteration, 0);
   };
   const internal::MinimiseResult minimised = internal::MinimiseLbfgs(
@@ -220,6 +222,7 @@ CorrectionResult CorrectPath(const Path& path, const CorrectionOptions& options,
   energy.Store(unknowns.data(), &result.path.shapes);
   result.path.provenance += "; corrected";
   summary.converged = minimised.stop == internal::Stop::kConverged;
+  result.path.converged = path.converged && summary.converged;
   summary.iterations = minimised.iterations;
   summary.evaluations = minimised.evaluations;
   summary.initial_energy = ScaledEnergy(minimised.initial_energy, segments);

@@ -80,7 +80,8 @@ struct CorrectionResult {
 /// (CorrectionMode::kPaper). Metric, motions, parameters and poses of the path are kept.
 /// It trades motion for lengths: a path by `Extrapolate` hardly needs it.
 /// \throw InvalidOptions, MeshError (fewer than two shapes; see FreezeMetric), SolverError (a shape
-///        that is not finite), Cancelled.
+///        that is not finite), Cancelled (stopped by `progress` before the first iteration; later
+///        the best so far is returned, as not converged, with a warning).
 CorrectionResult CorrectPath(const Path& path, const CorrectionOptions& options = {},
                              Progress* progress = nullptr);
 

@@ -192,16 +192,22 @@ void March(const NextShape& next, int steps, double step, Progress* progress,
   const Shape start = path.shapes.back();
   Momenta first;
   for (int i = 0; i < steps; ++i) {
-    ReportProgress(progress, "shooting", i, steps);
+    if (progress != nullptr) progress->ReportShare(static_cast<double>(i) / steps);
     const Stopwatch stopwatch;
     ExponentialSummary::Step row;
     const Shape& current = path.shapes.back();
     row.t = path.parameters.back() + step;
     Shape shape;
     try {
+      ReportProgress(progress, "shooting", i, steps);
       shape = next(&row);
     } catch (const SolverError& error) {
       summary.stopped = error.what();
+    } catch (const Cancelled& cancelled) {
+      if (i == 0) throw;
+      summary.ending = ExponentialSummary::Ending::kCancelled;
+      summary.stopped = "step " + std::to_string(i + 1) + ": " + cancelled.what();
+      return;
     }
     if (summary.stopped.empty()) {
       if (shape.allFinite()) row.inverted = InvertedShare(metric, current, shape);
@@ -283,7 +289,7 @@ void Warn(ExponentialSummary* summary) {
       warn("the motion comes to a halt on the way: the body can go no further");
     }
   }
-  if (summary->ending == ExponentialSummary::Ending::kDegenerate) {
+  if (summary->ending != ExponentialSummary::Ending::kComplete) {
     warn("stopped early, at " + summary->stopped);
   }
 }
@@ -330,7 +336,9 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
   const bool discrete = departure.previous.size() > 0;
   switch (options.integrator) {
     case Integrator::kVariational: {
-      internal::Shooter shooter(path.metric, {path.shapes.front(), departure.shape}, options);
+      internal::Shooter shooter(path.metric, {path.shapes.front(), departure.shape}, options, [&] {
+        ReportProgress(progress, "shooting", static_cast<int>(summary.steps.size()), steps);
+      });
       const FeatureMap map(metric);
       const double speed =
           discrete ? (map.Values(departure.shape) - map.Values(departure.previous)).norm()
@@ -372,6 +380,7 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
     }
   }
   path.extrapolated += static_cast<int>(summary.steps.size());
+  path.converged = path.converged && summary.Converged();
   Warn(&summary);
   summary.total_seconds = total.Seconds();
 }
@@ -437,7 +446,9 @@ Shape Exponential(const std::shared_ptr<const Metric>& metric, const Shape& shap
 Tangent Logarithm(const std::shared_ptr<const Metric>& metric, const Shape& from, const Shape& to,
                   const GeodesicOptions& options, Progress* progress) {
   const FeatureMap refuses_rigid_metrics(*metric);  // before the solve, not after
-  return InitialVelocity(Interpolate(metric, {from, to}, options, progress).path);
+  const GeodesicResult geodesic = Interpolate(metric, {from, to}, options, progress);
+  if (geodesic.summary.termination == Termination::kCancelled) throw Cancelled();
+  return InitialVelocity(geodesic.path);
 }
 
 Tangent InitialVelocity(const Path& path) {

@@ -48,6 +48,7 @@ struct ExponentialSummary {
   enum class Ending {
     kComplete,    ///< all steps were made
     kDegenerate,  ///< the shape degenerated: the path ends before (`stopped` says where and why)
+    kCancelled,   ///< `progress` asked to stop: the path ends with the steps made before
   };
 
   struct Step {
@@ -96,7 +97,8 @@ struct ExponentialResult {
 /// rotation at its speed, the centroid along its line. The path's own metric decides; one made in
 /// trapezoid form is continued by the midpoint's, and a warning says so. \throw InvalidOptions
 /// (also if the metric is rigid, or steps < 1), MeshError (fewer than two
-///        shapes), SolverError, Cancelled.
+///        shapes), SolverError, Cancelled (stopped before the first step was made; later the path
+///        so far is returned, Ending::kCancelled).
 ExponentialResult Extrapolate(const Path& path, int steps, const ExponentialOptions& options = {},
                               Progress* progress = nullptr);
 

@@ -39,7 +39,7 @@ std::string ExponentialSummary::BriefReport() const {
         return !step.converged || step.vertices < vertices;
       }));
   std::string text = Converged() ? "converged"
-                     : ending == Ending::kDegenerate
+                     : ending != Ending::kComplete
                          ? "STOPPED EARLY"
                          : Format("%d steps NOT CONVERGED on the mesh itself", open);
   text += Format(": %d vertices, %zu of %d steps", vertices, steps.size(), requested_steps);

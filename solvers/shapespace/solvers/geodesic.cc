@@ -51,6 +51,37 @@ std::vector<internal::Resolution> Resolve(const Hierarchy& hierarchy,
   return resolutions;
 }
 
+// On straight lines from one pose to another.
+std::vector<Shape> Blend(const Shape& from, const Shape& to, int inner) {
+  std::vector<Shape> shapes;
+  for (int k = 0; k <= inner + 1; ++k) {
+    const double t = static_cast<double>(k) / (inner + 1);
+    shapes.push_back((1 - t) * from + t * to);
+  }
+  return shapes;
+}
+
+// A way so short that its energy is lost in rounding is straight: what bends it is of second order.
+// Shares of that energy mean nothing to a solver. Tells the summary, if this is one.
+bool IsSolved(int piece, const std::vector<Shape>& blend, const GeodesicOptions& options,
+              internal::Resolution* finest, GeodesicSummary* summary) {
+  constexpr double kNear = 1e-6;  // else there is no need to look
+  const double apart = (blend.back() - blend.front()).cwiseAbs().maxCoeff();
+  if (apart > kNear * blend.front().cwiseAbs().maxCoeff()) return false;
+  const int segments = static_cast<int>(blend.size()) - 1;
+  const double energy = ScaledEnergy(finest->Energy(blend, options), segments);
+  if (!(energy < GeodesicSummary::kZeroEnergy)) return false;
+  GeodesicSummary::Level row;
+  row.piece = piece;
+  row.vertices = static_cast<int>(blend.front().cols());
+  row.shapes = segments - 1;
+  row.start = "blend";
+  row.solver = "none";
+  row.initial_energy = row.energy = energy;
+  summary->levels.push_back(row);
+  return true;
+}
+
 void CheckRigidTurns(const Path& path) {
   for (int i = 0; i + 1 < path.NumShapes(); ++i) {
     const RigidMotion turn =
@@ -106,7 +137,8 @@ void Assess(const Path& path, GeodesicSummary* summary) {
 // Figures that are possible but hardly what a person wants to see.
 void Warn(GeodesicSummary* summary) {
   for (const GeodesicSummary::Level& level : summary->levels) {
-    if (level.kept && level.termination != Termination::kConverged) {
+    if (level.kept && level.termination != Termination::kConverged &&
+        level.termination != Termination::kCancelled) {
       summary->warnings.push_back(
           "the level of " + std::to_string(level.shapes) + " shapes of piece " +
           std::to_string(level.piece) +
@@ -114,6 +146,11 @@ void Warn(GeodesicSummary* summary) {
                ? " ran out of iterations; raise max_iterations or the tolerance"
                : " stalled: its line search found no better point"));
     }
+  }
+  if (summary->termination == Termination::kCancelled) {
+    summary->warnings.push_back(
+        "cancelled: the path is the best so far; what was not solved yet is lifted or refined from "
+        "what was");
   }
   constexpr double kManyIntersections = 5;
   if (summary->intersections > kManyIntersections) {
@@ -216,10 +253,21 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
   path.shapes = {aligned[0]};
   path.parameters = {0};
   path.motions = {motions[0]};
+  internal::Workload workload(progress, options.tolerance, options.max_iterations);
   for (int i = 0; i < pieces; ++i) {
-    internal::Piece piece(i, hierarchy, &resolutions, options, progress, &summary);
-    piece.Run(schedule);
-    std::vector<Shape> shapes = std::move(piece).Result();
+    internal::Plan(schedule, schedule.size(), resolutions, &workload);
+  }
+  for (int i = 0; i < pieces; ++i) {
+    std::vector<Shape> shapes = Blend(aligned[i], aligned[i + 1], options.shapes);
+    if (!workload.Stopped() && !IsSolved(i, shapes, options, &resolutions.back(), &summary)) {
+      internal::Piece piece(i, hierarchy, &resolutions, options, &workload, &summary);
+      piece.Run(schedule);
+      shapes = std::move(piece).Result();
+      if (workload.Stopped() && i + 1 < pieces) {
+        summary.warnings.push_back("cancelled: the pieces from " + std::to_string(i + 1) +
+                                   " on are straight-line blends of their poses");
+      }
+    }
     for (int k = 1; k <= options.shapes + 1; ++k) {
       const double t = static_cast<double>(k) / (options.shapes + 1);
       path.shapes.push_back(std::move(shapes[k]));
@@ -233,7 +281,7 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
     summary.factor_seconds += resolution.FactorSeconds();
     summary.factor_nonzeros += resolution.FactorNonzeros();
   }
-  if (metric->rigid.Active()) CheckRigidTurns(path);
+  if (metric->rigid.Active() && !workload.Stopped()) CheckRigidTurns(path);
 
   summary.metric = Describe(metric->options);
   summary.vertices = connectivity->NumVertices();
@@ -247,6 +295,8 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
   for (const GeodesicSummary::Level& level : summary.levels) {
     if (level.kept) summary.termination = std::max(summary.termination, level.termination);
   }
+  if (workload.Stopped()) summary.termination = Termination::kCancelled;
+  path.converged = summary.termination == Termination::kConverged;
   Assess(path, &summary);
   Warn(&summary);
   summary.total_seconds = total.Seconds();

@@ -75,6 +75,7 @@ enum class Termination {
   kConverged,      ///< every level reached the tolerance
   kMaxIterations,  ///< some level ran out of iterations; the path is the best so far
   kStalled,        ///< some line search found no better point; the path is the best so far
+  kCancelled,      ///< `progress` asked to stop; the path is the best so far
 };
 
 /// What happened, and how good the answer is.
@@ -133,8 +134,13 @@ struct GeodesicResult {
 /// The geodesic through given poses (boundary value problem; Kilian et al. 2007, section 3): piece
 /// after piece between neighbours, at t = i / (poses - 1). Poses are aligned rigidly first, since
 /// rigid motion is not what a metric of shapes is about; the path carries it separately.
+/// Once the first solve has begun there is a path: if `progress` asks to stop then, the best so far
+/// is returned (Termination::kCancelled), with as many shapes as were asked for. Those of the piece
+/// that was being solved come from the resolutions that were, lifted and refined; pieces behind it
+/// are straight-line blends.
 /// \throw InvalidOptions, MeshError (fewer than two poses; see FreezeMetric), SolverError (memory
-///        limit, two neighbours that turn too far for the rigid metric), Cancelled.
+///        limit, two neighbours that turn too far for the rigid metric), Cancelled (stopped before
+///        the first solve).
 GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivity,
                            const std::vector<Shape>& poses, const GeodesicOptions& options = {},
                            Progress* progress = nullptr);

@@ -19,9 +19,11 @@ const char* Name(Termination termination) {
     case Termination::kMaxIterations:
       return "NOT CONVERGED: out of iterations";
     case Termination::kStalled:
+      return "NOT CONVERGED: stalled";
+    case Termination::kCancelled:
       break;
   }
-  return "NOT CONVERGED: stalled";
+  return "NOT CONVERGED: cancelled";
 }
 
 }  // namespace

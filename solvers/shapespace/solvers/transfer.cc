@@ -15,6 +15,9 @@
 namespace shapespace {
 namespace {
 
+// Of the time that a pose's geodesic and the transfer of it take together.
+constexpr double kGeodesicShare = 0.1;
+
 // So that a copy of the source comes out as its motion to ten digits.
 constexpr double kStepTolerance = 1e-12;
 
@@ -79,6 +82,22 @@ class WithinRung final : public Progress {
   const int done_, total_;
 };
 
+// A call within a call, as a part of its work.
+class Within final : public Progress {
+ public:
+  Within(Progress* all, double begin, double end) : all_(all), begin_(begin), end_(end) {}
+  bool Report(const std::string& stage, int done, int total) override {
+    return all_ == nullptr || all_->Report(stage, done, total);
+  }
+  void ReportShare(double share) override {
+    if (all_ != nullptr) all_->ReportShare(begin_ + share * (end_ - begin_));
+  }
+
+ private:
+  Progress* const all_;
+  const double begin_, end_;
+};
+
 // The rotation that gives the target's surface, in the mean over it, the orientation that the
 // source's has. Bodies of other proportions have their mass elsewhere, so that shapes which lie
 // well on each other as a whole do not stand alike.
@@ -120,19 +139,24 @@ class Ladder {
     rung.from = onto(scale * source);
     rung.next = onto(scale * next);
     rung.geodesic = Interpolate(metric_, {rung.from, target}, geodesic_, progress);
+    if (rung.geodesic.summary.termination == Termination::kCancelled) throw Cancelled();
     if (!options_.align) TurnShapes(&rung.geodesic.path);
     return rung;
+  }
+
+  // A rung without length: the target is the source's shape.
+  bool HasNoLength(const Rung& rung) const {
+    return options_.align && rung.geodesic.summary.energy < GeodesicSummary::kZeroEnergy;
   }
 
   // What `target` becomes as the source becomes its next shape. \throw SolverError.
   Shape Climb(const Rung& rung, const Shape& target, TransferSummary::Rung* row,
               Progress* progress) const {
-    Tangent velocity = InitialVelocity(TwoShapes(metric_, rung.from, rung.next));
-    // Along a rung without length nothing changes, and the paper's transport knows no direction.
-    const bool stands_still = rung.geodesic.summary.energy < GeodesicSummary::kZeroEnergy;
-    if (!stands_still || !options_.align) {
-      velocity = Carry(rung.geodesic.path, velocity, row, progress);
-    }
+    // Along a rung without length nothing changes, and the target's step is the source's.
+    if (HasNoLength(rung)) return rung.next + (target - rung.from);
+    const Tangent velocity =
+        Carry(rung.geodesic.path, InitialVelocity(TwoShapes(metric_, rung.from, rung.next)), row,
+              progress);
     const ExponentialResult step = Extrapolate(metric_, target, velocity, 1, step_, progress);
     if (step.summary.ending != ExponentialSummary::Ending::kComplete) {
       throw SolverError(step.summary.stopped);
@@ -191,6 +215,9 @@ void MeasureWhatIsOff(const Metric& metric, const Path& source, const Path& targ
 }
 
 void Warn(TransferSummary* summary) {
+  if (summary->cancelled) {
+    summary->warnings.push_back("cancelled: the path ends with the last shape made before");
+  }
   const auto count = [&](const auto& is_so) {
     return std::count_if(summary->rungs.begin(), summary->rungs.end(), is_so);
   };
@@ -273,7 +300,8 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
 
   const Ladder ladder(metric, options);
   std::vector<Shape> placed, hybrids;
-  for (int i = 0; i < count; ++i) {
+  const auto climb = [&](int i) {
+    if (progress != nullptr) progress->ReportShare(static_cast<double>(i) / count);
     ReportProgress(progress, "transferring", i, count);
     const Stopwatch stopwatch;
     WithinRung within(progress, i, count);
@@ -281,7 +309,8 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
     const Ladder::Rung rung = ladder.Lay(shapes[i], shapes[last ? i : i + 1], targets[i], &within);
     TransferSummary::Rung row;
     row.ratio = rung.geodesic.summary.Ratio();
-    row.converged = rung.geodesic.summary.termination == Termination::kConverged;
+    row.converged =
+        ladder.HasNoLength(rung) || rung.geodesic.summary.termination == Termination::kConverged;
     if (!last) {
       try {
         targets.push_back(ladder.Climb(rung, targets[i], &row, &within));
@@ -303,13 +332,21 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
         size * turn * (source.motions[i].translation - source.motions[0].translation);
     placed.push_back(motion(targets[i]));
     hybrids.push_back(motion(rung.geodesic.path.Placed((options.rung_shapes + 1) / 2)));
+  };
+  try {
+    for (int i = 0; i < count; ++i) climb(i);
+  } catch (const Cancelled&) {
+    if (placed.size() < 2) throw;
+    summary.cancelled = true;
   }
   placed[0] = target;
+  const Path made = FirstShapes(source, static_cast<int>(placed.size()));
   const std::string provenance = source.provenance.empty() ? "" : source.provenance + "; ";
-  result.path = PathOfTarget(metric, placed, source.parameters, provenance + "transferred");
-  result.hybrids = PathOfPlaced(metric, hybrids, source.parameters, provenance + "hybrids");
+  result.path = PathOfTarget(metric, placed, made.parameters, provenance + "transferred");
+  result.hybrids = PathOfPlaced(metric, hybrids, made.parameters, provenance + "hybrids");
   result.path.appearance = result.hybrids.appearance = source.appearance;
-  MeasureWhatIsOff(*metric, source, result.path, &summary);
+  result.path.converged = result.hybrids.converged = source.converged && summary.Converged();
+  MeasureWhatIsOff(*metric, made, result.path, &summary);
   Warn(&summary);
   summary.total_seconds = total.Seconds();
   return result;
@@ -325,12 +362,21 @@ PoseTransferResult TransferPoses(const std::shared_ptr<const Connectivity>& conn
   PoseTransferResult result;
   std::vector<Shape> placed = {target}, hybrids;
   std::vector<double> parameters = {0};
-  for (int i = 1; i < count; ++i) {
+  for (int i = 1; i < count && !result.summary.cancelled; ++i) {
     GeodesicResult source;
     TransferResult transfer;
+    const double begin = (i - 1.0) / (count - 1), end = 1.0 * i / (count - 1);
+    const double between = begin + kGeodesicShare * (end - begin);
+    Within to_pose(progress, begin, between), from_pose(progress, between, end);
     try {
-      source = Interpolate(connectivity, {poses[0], poses[i]}, geodesic, progress);
-      transfer = Transfer(source.path, target, options, progress);
+      source = Interpolate(connectivity, {poses[0], poses[i]}, geodesic, &to_pose);
+      if (source.summary.termination == Termination::kCancelled) throw Cancelled();
+      transfer = Transfer(source.path, target, options, &from_pose);
+      if (transfer.summary.cancelled) throw Cancelled();
+    } catch (const Cancelled&) {
+      if (i == 1) throw;
+      result.summary.cancelled = true;
+      continue;
     } catch (const SolverError& error) {
       throw SolverError("pose " + std::to_string(i + 1) + ": " + error.what());
     }
@@ -346,6 +392,7 @@ PoseTransferResult TransferPoses(const std::shared_ptr<const Connectivity>& conn
       std::make_shared<const Metric>(FreezeMetric(options.metric, connectivity, placed));
   result.path = PathOfTarget(metric, placed, parameters, "transferred");
   result.hybrids = PathOfPlaced(metric, hybrids, parameters, "hybrids");
+  result.path.converged = result.hybrids.converged = result.summary.Converged();
   return result;
 }
 

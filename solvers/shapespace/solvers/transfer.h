@@ -65,10 +65,11 @@ struct TransferSummary {
   /// What the target's last shape did not take over from the source's, both against their first:
   /// log |e| of an edge, weighted by A_e, and a hinge's dihedral angle in degrees, weighted by A_f.
   double strain_rms = 0, strain_max = 0, angle_rms = 0;
+  bool cancelled = false;  ///< `progress` asked to stop: there are the shapes made before
   std::vector<std::string> warnings;
   double total_seconds = 0;
 
-  /// All rungs converged, and all steps were made on the mesh itself.
+  /// All rungs were climbed and converged, and all steps were made on the mesh itself.
   bool Converged() const;
   std::string BriefReport() const;  ///< one line
   std::string FullReport() const;   ///< a page
@@ -92,7 +93,8 @@ struct TransferResult {
 /// that was moved, turned and scaled makes the moved, turned and scaled motion.
 /// \throw InvalidOptions, MeshError (the source has one shape only; the target has another number
 ///        of vertices, is not finite, or has no extent), SolverError (a rung's shape degenerates),
-///        Cancelled.
+///        Cancelled (stopped before the target's second shape was made; later the path so far is
+///        returned, TransferSummary::cancelled).
 TransferResult Transfer(const Path& source, const Shape& target,
                         const TransferOptions& options = {}, Progress* progress = nullptr);
 
@@ -100,6 +102,7 @@ TransferResult Transfer(const Path& source, const Shape& target,
 struct PoseTransferSummary {
   std::vector<GeodesicSummary> geodesics;  ///< from the reference to each of the other poses
   std::vector<TransferSummary> transfers;  ///< of those geodesics
+  bool cancelled = false;                  ///< `progress` asked to stop: poses before are there
 
   bool Converged() const;
   std::vector<std::string> Warnings() const;  ///< of all, saying of which pose
@@ -120,6 +123,7 @@ struct PoseTransferResult {
 /// target is in itself: the geodesic from the first to another is transferred, of which
 /// options.shapes + 1 rungs are climbed, and its end kept.
 /// \throw as Interpolate and Transfer; messages of SolverError name the pose, counted from 1.
+///        Cancelled, if stopped before the first pose was made.
 PoseTransferResult TransferPoses(const std::shared_ptr<const Connectivity>& connectivity,
                                  const std::vector<Shape>& poses, const Shape& target,
                                  const GeodesicOptions& geodesic = {},

@@ -38,8 +38,8 @@ const char* Ending(bool converged) { return converged ? "converged" : "NOT CONVE
 }  // namespace
 
 bool TransferSummary::Converged() const {
-  return std::all_of(rungs.begin(), rungs.end(),
-                     [](const Rung& rung) { return rung.converged && rung.on_mesh; });
+  return !cancelled && std::all_of(rungs.begin(), rungs.end(),
+                                   [](const Rung& rung) { return rung.converged && rung.on_mesh; });
 }
 
 std::string TransferSummary::BriefReport() const {
@@ -73,15 +73,16 @@ std::string TransferSummary::FullReport() const {
 std::string TransferSummary::ToJson() const { return Json(*this).dump(2) + "\n"; }
 
 bool PoseTransferSummary::Converged() const {
-  return std::all_of(
-             geodesics.begin(), geodesics.end(),
-             [](const auto& path) { return path.termination == Termination::kConverged; }) &&
-         std::all_of(transfers.begin(), transfers.end(),
-                     [](const auto& transfer) { return transfer.Converged(); });
+  return !cancelled && std::all_of(geodesics.begin(), geodesics.end(), [](const auto& path) {
+    return path.termination == Termination::kConverged;
+  }) && std::all_of(transfers.begin(), transfers.end(), [](const auto& transfer) {
+    return transfer.Converged();
+  });
 }
 
 std::vector<std::string> PoseTransferSummary::Warnings() const {
   std::vector<std::string> warnings;
+  if (cancelled) warnings.push_back("cancelled: the poses before are there, the others are not");
   for (size_t i = 0; i < transfers.size(); ++i) {
     for (const auto* some : {&geodesics[i].warnings, &transfers[i].warnings}) {
       for (const std::string& warning : *some) {

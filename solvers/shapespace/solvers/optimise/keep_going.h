@@ -7,16 +7,20 @@
 
 namespace shapespace::internal {
 
-/// Asks after every iteration of a Ceres solver whether to go on; a no ends it as USER_FAILURE.
+/// Asks after every iteration of a Ceres solver whether to go on; a no ends it as USER_SUCCESS, so
+/// that Ceres hands over the best that it has.
 class KeepGoing final : public ceres::IterationCallback {
  public:
-  explicit KeepGoing(const std::function<bool(int)>& ask) : ask_(ask) {}
+  explicit KeepGoing(const std::function<bool(int, double)>& ask) : ask_(ask) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    return !ask_ || ask_(summary.iteration) ? ceres::SOLVER_CONTINUE : ceres::SOLVER_ABORT;
+    stopped_ = ask_ && !ask_(summary.iteration, summary.cost);
+    return stopped_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
+  bool Stopped() const { return stopped_; }
 
  private:
-  const std::function<bool(int)>& ask_;
+  const std::function<bool(int, double)>& ask_;
+  bool stopped_ = false;
 };
 
 }  // namespace shapespace::internal

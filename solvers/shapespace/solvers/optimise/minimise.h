@@ -23,10 +23,12 @@ struct MinimiseOptions {
   /// is at hand and stays moderate where sharp creases make the former enormous. The trust region
   /// ignores it.
   double enough = 0;
-  std::function<bool(int iteration)> keep_going;  ///< false cancels; may be empty
+  /// Asked after every iteration and before the first, with the energy in some unit; false stops
+  /// the solve there. May be empty.
+  std::function<bool(int iteration, double energy)> keep_going;
 };
 
-enum class Stop { kConverged, kMaxIterations, kStalled };
+enum class Stop { kConverged, kMaxIterations, kStalled, kCancelled };
 
 struct MinimiseResult {
   Stop stop = Stop::kStalled;
@@ -57,21 +59,21 @@ double RemainingDecrease(PathEnergy* energy, Preconditioner* preconditioner,
 
 /// Ceres' L-BFGS in the preconditioned variables. `unknowns` (PathEnergy::Size()) is where it
 /// starts and where the result goes.
-/// \throw Cancelled, SolverError if the energy is not finite at the start.
+/// \throw SolverError if the energy is not finite at the start.
 MinimiseResult MinimiseLbfgs(const Objective& energy, ChangeOfVariables* variables,
                              const MinimiseOptions& options, std::vector<double>* unknowns);
 
 /// L-BFGS of ours (Nocedal and Wright, Numerical Optimization, algorithm 7.4), for large problems:
 /// as many vectors as twice the rank and three, every pass over them on all threads, the
 /// preconditioner applied once an iteration. Bitwise the same for any number of threads.
-/// \throw Cancelled, SolverError if the energy is not finite at the start.
+/// \throw SolverError if the energy is not finite at the start.
 MinimiseResult MinimiseThreadedLbfgs(PathEnergy* energy, Preconditioner* preconditioner,
                                      const MinimiseOptions& options, std::vector<double>* unknowns);
 
 /// Ceres' Levenberg-Marquardt with sparse Cholesky on residual blocks, differentiated
 /// automatically: for small problems, and the oracle of the other. `shapes` in the metric's unit,
 /// the first and the last stay.
-/// \throw Cancelled, InvalidOptions if the metric has a volume feature and more than
+/// \throw InvalidOptions if the metric has a volume feature and more than
 ///        kMaxDenseVertices vertices: its rows are dense.
 MinimiseResult MinimiseTrustRegion(const Metric& metric, double quartic_weight,
                                    const MinimiseOptions& options, std::vector<Shape>* shapes);

@@ -105,7 +105,6 @@ MinimiseResult MinimiseLbfgs(const Objective& energy, ChangeOfVariables* variabl
   if (options.enough > 0) ceres_options.callbacks.push_back(&enough_gained);
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(ceres_options, problem, y.data(), &summary);
-  if (summary.termination_type == ceres::USER_FAILURE) throw Cancelled();
 
   const std::vector<double> origin = *unknowns;
   variables->Apply(y.data(), origin.data(), std::sqrt(unit), unknowns->data());
@@ -114,9 +113,11 @@ MinimiseResult MinimiseLbfgs(const Objective& energy, ChangeOfVariables* variabl
   result.remaining = RemainingDecrease(energy, variables, *unknowns);
   // A line search that finds no descent at a point where there is nothing to gain has converged to
   // rounding; anywhere else it has stalled.
-  if (summary.termination_type == ceres::CONVERGENCE ||
-      summary.termination_type == ceres::USER_SUCCESS ||
-      result.remaining < options.tolerance * 1e-3) {
+  if (keep_going.Stopped()) {
+    result.stop = Stop::kCancelled;
+  } else if (summary.termination_type == ceres::CONVERGENCE ||
+             summary.termination_type == ceres::USER_SUCCESS ||
+             result.remaining < options.tolerance * 1e-3) {
     result.stop = Stop::kConverged;
   } else if (summary.termination_type == ceres::NO_CONVERGENCE) {
     result.stop = Stop::kMaxIterations;

@@ -76,7 +76,9 @@ class ThreadedLbfgs {
     // One short step of the line search says little; two small decreases in a row end the solve.
     int small = 0;
     for (;; ++result_.iterations) {
-      if (options_.keep_going && !options_.keep_going(result_.iterations)) throw Cancelled();
+      if (options_.keep_going && !options_.keep_going(result_.iterations, value_)) {
+        return Stop::kCancelled;
+      }
       if (small >= 2) return Stop::kConverged;
       if (result_.iterations >= options_.max_iterations) return Stop::kMaxIterations;
       const double before = value_;

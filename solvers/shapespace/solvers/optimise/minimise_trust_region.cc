@@ -103,14 +103,15 @@ MinimiseResult MinimiseTrustRegion(const Metric& metric, double quartic_weight,
   ceres_options.callbacks.push_back(&keep_going);
   ceres::Solver::Summary summary;
   ceres::Solve(ceres_options, &problem, &summary);
-  if (summary.termination_type == ceres::USER_FAILURE) throw Cancelled();
 
   MinimiseResult result;
   result.iterations = static_cast<int>(summary.iterations.size()) - 1;
   result.evaluations = summary.num_residual_evaluations;
   result.initial_energy = 4 * summary.initial_cost;  // Ceres' cost is a quarter of the energy
   result.energy = 4 * summary.final_cost;
-  if (summary.termination_type == ceres::CONVERGENCE) {
+  if (keep_going.Stopped()) {
+    result.stop = Stop::kCancelled;
+  } else if (summary.termination_type == ceres::CONVERGENCE) {
     result.stop = Stop::kConverged;
   } else if (summary.termination_type == ceres::NO_CONVERGENCE) {
     result.stop = Stop::kMaxIterations;

@@ -47,13 +47,21 @@ std::vector<double> UniformTimes(int inner) {
 
 }  // namespace
 
+void Plan(const std::vector<ScheduleStep>& schedule, size_t count,
+          const std::vector<Resolution>& resolutions, Workload* workload) {
+  for (size_t i = 0; i < count; ++i) {
+    workload->Plan(resolutions[schedule[i].level].GetMetric().connectivity->NumVertices(),
+                   schedule[i].shapes, i + 1 == schedule.size());
+  }
+}
+
 Piece::Piece(int index, const Hierarchy& hierarchy, std::vector<Resolution>* resolutions,
-             const GeodesicOptions& options, Progress* progress, GeodesicSummary* summary)
+             const GeodesicOptions& options, Workload* workload, GeodesicSummary* summary)
     : index_(index),
       hierarchy_(hierarchy),
       resolutions_(*resolutions),
       options_(options),
-      progress_(progress),
+      workload_(*workload),
       summary_(*summary) {}
 
 void Piece::Run(const std::vector<ScheduleStep>& schedule) {
@@ -77,14 +85,16 @@ void Piece::Run(const std::vector<ScheduleStep>& schedule) {
   if (options_.start == Start::kBest) starts = {Start::kBlend, Start::kFirst, Start::kLast};
   Attempt best;
   for (Start start : starts) {
+    if (start != starts.front()) Plan(schedule, trial, resolutions_, &workload_);
     Keep(Take(schedule, 0, trial, {start, ends}), &best);
-    if (best.energy <= kCertified * bound) break;
+    if (best.energy <= kCertified * bound || workload_.Stopped()) break;
   }
   best = Take(schedule, trial, schedule.size(), std::move(best));
   // Second chances: the other starts, then all of them without coarse levels.
   const Start first = best.start;
   for (Start start : starts) {
     if (start != first && Snaps(best)) {
+      Plan(schedule, schedule.size(), resolutions_, &workload_);
       Keep(Take(schedule, 0, schedule.size(), {start, ends}), &best);
     }
   }
@@ -92,20 +102,24 @@ void Piece::Run(const std::vector<ScheduleStep>& schedule) {
       MakeSchedule(Schedule::kFlat, static_cast<int>(ends.size()), options_.shapes);
   for (Start start : starts) {
     if (flat.size() < schedule.size() && starts.size() > 1 && Snaps(best)) {
+      Plan(flat, flat.size(), resolutions_, &workload_);
       Keep(Take(flat, 0, flat.size(), {start, ends}), &best);
     }
   }
   known_ = std::move(best.known);
 }
 
+// Whether another start shall have its chance.
 bool Piece::Snaps(const Attempt& attempt) const {
+  if (workload_.Stopped()) return false;
   const std::vector<Shape>& shapes = attempt.known.back().shapes;
   return GreatestSpeed(resolutions_.back().GetMetric(), shapes,
                        UniformTimes(static_cast<int>(shapes.size()) - 2)) > kSnaps;
 }
 
 void Piece::Keep(Attempt attempt, Attempt* best) {
-  const bool better = best->known.empty() || attempt.energy < best->energy;
+  const bool better =
+      best->known.empty() || (attempt.energy < best->energy && !workload_.Stopped());
   for (size_t row : (better ? *best : attempt).rows) summary_.levels[row].kept = false;
   if (better) *best = std::move(attempt);
 }
@@ -155,10 +169,12 @@ void Piece::Take(const ScheduleStep& step, Start start, bool last) {
   }
   known.refined = std::move(refined);
 
-  GeodesicSummary::Level row =
-      resolution.Relax(index_, last ? 0 : kEnough, options_, progress_, &shapes);
-  row.start = name;
-  summary_.levels.push_back(row);
+  if (!workload_.Stopped()) {
+    GeodesicSummary::Level row =
+        resolution.Relax(index_, last ? 0 : kEnough, options_, &workload_, &shapes);
+    row.start = name;
+    summary_.levels.push_back(row);
+  }
   known.shapes = std::move(shapes);
 }
 
@@ -177,7 +193,8 @@ std::vector<Shape> Piece::OneInnerShape(Start start, int level) {
               MetricOptions::Rigid(), resolutions_[level].GetMetric().connectivity, ends, 1)),
           ends);
       std::vector<Shape> shapes = {ends[0], blend, ends[1]};
-      GeodesicSummary::Level row = rigid.Relax(0, 0, options_, progress_, &shapes);
+      workload_.Plan(static_cast<int>(blend.cols()), 1, true);
+      GeodesicSummary::Level row = rigid.Relax(0, 0, options_, &workload_, &shapes);
       row.piece = index_;
       row.start = "blend";
       row.solver += ", rigid metric";

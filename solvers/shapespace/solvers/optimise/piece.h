@@ -14,15 +14,21 @@ namespace shapespace::internal {
 /// over; good paths between real poses stay below 1.05, snapping ones were found at 1.27 and more.
 inline constexpr double kSnaps = 1.15;
 
+/// Tells `workload` of the first `count` steps of `schedule`.
+void Plan(const std::vector<ScheduleStep>& schedule, size_t count,
+          const std::vector<Resolution>& resolutions, Workload* workload);
+
 /// The solve between two neighbouring poses, coarse to fine in space and time.
 class Piece {
  public:
-  /// Between pose `index` and the next. `resolutions` has one entry for each level of `hierarchy`.
+  /// Between pose `index` and the next. `resolutions` has one entry for each level of `hierarchy`;
+  /// `workload` knows of the steps that `Run` will be called with.
   Piece(int index, const Hierarchy& hierarchy, std::vector<Resolution>* resolutions,
-        const GeodesicOptions& options, Progress* progress, GeodesicSummary* summary);
+        const GeodesicOptions& options, Workload* workload, GeodesicSummary* summary);
 
   /// Takes all steps. The first ones, with one inner shape on few vertices, decide which valley the
-  /// path lies in: they are taken from every start, and the best goes on.
+  /// path lies in: they are taken from every start, and the best goes on. Once `workload` was asked
+  /// to stop nothing is solved any more: shapes are lifted and refined only.
   void Run(const std::vector<ScheduleStep>& schedule);
   /// The path found on the finest level.
   std::vector<Shape> Result() && { return std::move(known_.back().shapes); }
@@ -45,7 +51,8 @@ class Piece {
     std::vector<size_t> rows = {};  // of the summary's table
   };
 
-  // Keeps the one of lower energy, and marks the other's rows as not kept.
+  // Keeps the one of lower energy, or the one that was taken to its end, and marks the other's rows
+  // as not kept.
   void Keep(Attempt attempt, Attempt* best);
   bool Snaps(const Attempt& attempt) const;
   Attempt Take(const std::vector<ScheduleStep>& schedule, size_t begin, size_t end,
@@ -63,7 +70,7 @@ class Piece {
   const Hierarchy& hierarchy_;
   std::vector<Resolution>& resolutions_;
   const GeodesicOptions& options_;
-  Progress* const progress_;
+  Workload& workload_;
   GeodesicSummary& summary_;
   std::vector<Known> known_;  // by level
 };

@@ -28,6 +28,8 @@ Termination Translate(Stop stop) {
       return Termination::kConverged;
     case Stop::kMaxIterations:
       return Termination::kMaxIterations;
+    case Stop::kCancelled:
+      return Termination::kCancelled;
     case Stop::kStalled:
       break;
   }
@@ -45,7 +47,7 @@ double QuarticWeight(int inner, const GeodesicOptions& options) {
 int HistoryRank(double unknowns) { return unknowns <= kLongRankUnknowns ? kLongRank : kShortRank; }
 
 GeodesicSummary::Level Resolution::Relax(int piece, double enough, const GeodesicOptions& options,
-                                         Progress* progress, std::vector<Shape>* shapes) {
+                                         Workload* workload, std::vector<Shape>* shapes) {
   const Stopwatch stopwatch;
   const int inner = static_cast<int>(shapes->size()) - 2;
   GeodesicSummary::Level row;
@@ -54,14 +56,15 @@ GeodesicSummary::Level Resolution::Relax(int piece, double enough, const Geodesi
   row.shapes = inner;
   if (metric_->RigidInvariantButForPosition()) RemoveRigidDrift(shapes, metric_->vertex_area);
 
-  const std::string stage = std::to_string(row.vertices) + " vertices, " + std::to_string(inner) +
-                            (inner == 1 ? " inner shape" : " inner shapes");
+  workload->Begin(std::to_string(row.vertices) + " vertices, " + std::to_string(inner) +
+                      (inner == 1 ? " inner shape" : " inner shapes"),
+                  row.vertices, inner, enough == 0);
   MinimiseOptions minimise;
   minimise.tolerance = options.tolerance;
   minimise.enough = enough;
   minimise.max_iterations = options.max_iterations;
-  minimise.keep_going = [&](int iteration) {
-    return progress == nullptr || progress->Report(stage, iteration, 0);
+  minimise.keep_going = [&](int iteration, double energy) {
+    return workload->GoOn(iteration, energy);
   };
   PathEnergy& energy = EnergyOf(inner, options);
   std::vector<double> unknowns(energy.Size());
@@ -104,6 +107,7 @@ GeodesicSummary::Level Resolution::Relax(int piece, double enough, const Geodesi
   row.energy = ScaledEnergy(result.energy, inner + 1);
   row.remaining = result.remaining;
   row.seconds = stopwatch.Seconds();
+  workload->End();
   return row;
 }
 

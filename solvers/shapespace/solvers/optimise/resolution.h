@@ -10,6 +10,7 @@
 #include <shapespace/path/energy.h>
 #include <shapespace/solvers/geodesic.h>
 #include <shapespace/solvers/optimise/cholesky.h>
+#include <shapespace/solvers/optimise/workload.h>
 
 namespace shapespace::internal {
 
@@ -28,9 +29,9 @@ class Resolution {
   const Shape& Pose(int i) const { return poses_[i]; }
 
   /// Relaxes the inner ones of `shapes`, a path from pose `piece` to the next, and says how it
-  /// went.
+  /// went. `enough` as in MinimiseOptions; 0 for the last solve on the way.
   GeodesicSummary::Level Relax(int piece, double enough, const GeodesicOptions& options,
-                               Progress* progress, std::vector<Shape>* shapes);
+                               Workload* workload, std::vector<Shape>* shapes);
 
   /// The energy of a path of any number of shapes, unscaled.
   double Energy(const std::vector<Shape>& shapes, const GeodesicOptions& options);

@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_SOLVERS_OPTIMISE_SHOOTER_H_
 #define SHAPESPACE_SOLVERS_OPTIMISE_SHOOTER_H_
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -23,9 +24,10 @@ namespace shapespace::internal {
 /// a better start; where even from there no root is found, as the answer.
 class Shooter {
  public:
-  /// `known` are shapes of `metric`'s mesh, in its unit: what is decimated.
+  /// `known` are shapes of `metric`'s mesh, in its unit: what is decimated. `breathe` is called
+  /// every now and then while a step is made, and may throw to end it.
   Shooter(std::shared_ptr<const Metric> metric, std::vector<Shape> known,
-          const ExponentialOptions& options);
+          const ExponentialOptions& options, std::function<void()> breathe);
 
   /// The shape after the departure. \throw SolverError if no resolution has an answer.
   Shape Next(const Departure& departure, ExponentialSummary::Step* row);
@@ -45,6 +47,7 @@ class Shooter {
   void Decimate();
 
   const ExponentialOptions options_;
+  const std::function<void()> breathe_;
   std::vector<Shape> known_;
   std::optional<Hierarchy> hierarchy_;          // once it is needed
   std::vector<std::unique_ptr<Level>> levels_;  // the finest last

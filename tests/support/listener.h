@@ -1,0 +1,39 @@
+#ifndef SHAPESPACE_TESTS_SUPPORT_LISTENER_H_
+#define SHAPESPACE_TESTS_SUPPORT_LISTENER_H_
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/base/progress.h>
+
+namespace shapespace::testing {
+
+/// Hears what a call reports, and stops it at report number `last`, counted from 1. A call that was
+/// stopped must report no more.
+class Listener final : public Progress {
+ public:
+  explicit Listener(int last = std::numeric_limits<int>::max()) : last_(last) {}
+
+  bool Report(const std::string& stage, int done, int) override {
+    EXPECT_LT(reports, last_) << "reports on after it was stopped";
+    ++reports;
+    if (on_report) on_report(stage, done);
+    return reports < last_;
+  }
+  void ReportShare(double share) override { shares.push_back(share); }
+
+  int reports = 0;
+  std::vector<double> shares;
+  std::function<void(const std::string& stage, int done)> on_report;
+
+ private:
+  const int last_;
+};
+
+}  // namespace shapespace::testing
+
+#endif  // SHAPESPACE_TESTS_SUPPORT_LISTENER_H_
