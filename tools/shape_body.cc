@@ -1,15 +1,13 @@
 // Poses of bodies made in code.
 
-#include <filesystem>
-#include <iostream>
-
 #include <gflags/gflags.h>
 
-#include <shapespace/base/error.h>
+#include <shapespace/base/extension.h>
 #include <shapespace/bodies/body.h>
 #include <shapespace/bodies/skinned.h>
 #include <shapespace/output/frames.h>
 
+#include "support/frames.h"
 #include "support/lists.h"
 #include "support/tool.h"
 
@@ -30,24 +28,20 @@ std::string Join(const std::vector<std::string>& parts) {
 }
 
 void CheckOutput() {
-  const std::string extension = std::filesystem::path(FLAGS_output).extension().string();
+  const std::string extension = Extension(FLAGS_output);
   if (extension != ".obj" && extension != ".ply") {
     throw UsageError("--output " + FLAGS_output + ": must end in .obj or .ply");
   }
-  try {
-    FrameName(FLAGS_output, 0);
-  } catch (const FileError& error) {
-    throw UsageError("--output " + std::string(error.what()));
-  }
+  CheckFramePattern("output", FLAGS_output);
 }
 
 void List() {
   for (const BodyInfo& info : ListBodies()) {
-    std::cout << info.name << ": " << info.description << '\n';
+    Out() << info.name << ": " << info.description << '\n';
   }
   for (const SkinnedBodyInfo& info : ListSkinnedBodies()) {
-    std::cout << "poses of " << info.name << ": " << Join(info.poses) << "\nproportions of "
-              << info.name << ": " << Join(info.proportions) << '\n';
+    Out() << "poses of " << info.name << ": " << Join(info.poses) << "\nproportions of "
+          << info.name << ": " << Join(info.proportions) << '\n';
   }
 }
 
@@ -57,10 +51,10 @@ void WritePoses(const std::string& name) {
   const SkinnedBody body = MakeSkinnedBody(name, FLAGS_triangles, FLAGS_proportions);
   std::vector<Shape> shapes;
   for (const std::string& pose : Split(FLAGS_pose)) shapes.push_back(body.pose(pose));
-  WriteFrames(FLAGS_output, shapes, FrameSoup(*body.connectivity));
-  std::cout << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
-            << body.connectivity->NumTriangles() << " triangles; poses are "
-            << Join(body.pose_names) << '\n';
+  Out() << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
+        << body.connectivity->NumTriangles() << " triangles; poses are " << Join(body.pose_names)
+        << '\n';
+  WriteFramesAndTell(FLAGS_output, shapes, FrameSoup(*body.connectivity));
 }
 
 void WriteValues(const std::string& name) {
@@ -69,25 +63,23 @@ void WriteValues(const std::string& name) {
   std::vector<double> values = {body.begin, body.end};
   if (!FLAGS_at.empty()) values = NumbersFromFlag("at", FLAGS_at);
   for (double value : values) shapes.push_back(body.pose(value));
-  WriteFrames(FLAGS_output, shapes, FrameSoup(*body.connectivity));
-  std::cout << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
-            << body.connectivity->NumTriangles() << " triangles; " << body.parameter << " from "
-            << body.begin << " to " << body.end << '\n';
+  Out() << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
+        << body.connectivity->NumTriangles() << " triangles; " << body.parameter << " from "
+        << body.begin << " to " << body.end << '\n';
+  WriteFramesAndTell(FLAGS_output, shapes, FrameSoup(*body.connectivity));
 }
 
 void Run(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return List();
   if (arguments.size() > 1) throw UsageError("name one body");
   CheckOutput();
-  try {
+  NamingFlags({{"parameter", "at"}}, [&] {
     if (FLAGS_pose.empty() && FLAGS_proportions.empty()) {
       WriteValues(arguments[0]);
     } else {
       WritePoses(arguments[0]);
     }
-  } catch (const InvalidOptions& error) {  // its fields are not named as our flags are
-    throw UsageError(error.what());
-  }
+  });
 }
 
 }  // namespace

@@ -1,64 +1,78 @@
 // Outputs of a path that was solved before.
 
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <iostream>
 
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/path/path_file.h>
+#include <shapespace/base/extension.h>
 
 #include "support/lists.h"
+#include "support/memory_flag.h"
 #include "support/outputs.h"
 #include "support/tool.h"
 
-DEFINE_string(at, "",
-              "times to show, rising and separated by commas, e.g. .25,.5: 0 is the first shape, 1 "
-              "the last pose, and what was extrapolated goes on beyond 1");
+DEFINE_string(
+    at, "",
+    "times to show, rising and separated by commas, e.g. .25,.5: 0 is the first shape, 1 "
+    "the last pose, and what was extrapolated goes on beyond 1; of k poses number i, from 0, is "
+    "at i / (k - 1)");
 DEFINE_int32(frames, 0, "so many shapes at even times instead of the path's own; 2 or more");
-DEFINE_bool(ease, false, "with --frames: slow at both ends, as an animator would have it");
+DECLARE_bool(ease);
 
 namespace shapespace::tools {
 namespace {
 
-// The path at the times that the flags ask for; as it is if they ask for none.
-Path ResampledByFlags(Path path) {
+// The times that the flags ask for; the path's own if they ask for none. What would not fit into
+// memory is refused before even the times are there.
+std::vector<double> TimesFromFlags(const Path& path) {
   if (!FLAGS_at.empty() && FLAGS_frames != 0) throw UsageError("--at and --frames: give one");
-  if (FLAGS_ease && FLAGS_frames == 0) throw UsageError("--ease goes with --frames");
+  if (!(FLAGS_memory_limit > 0)) throw UsageError(AsTyped("memory_limit") + ": must be positive");
+  if (!FLAGS_at.empty()) return NumbersFromFlag("at", FLAGS_at);
+  if (FLAGS_frames == 0) return path.parameters;
+  if (FLAGS_frames < 2) throw UsageError(AsTyped("frames") + ": must be 2 or more");
+  // Each shape is held twice, in the metric's unit and where the poses are.
+  const double bytes = 2.0 * FLAGS_frames * path.shapes[0].size() * sizeof(double);
+  if (bytes > 1e9 * FLAGS_memory_limit) {
+    throw SolverError(AsTyped("frames") + ": needs about " +
+                      std::to_string(std::llround(bytes / 1e6)) +
+                      " MB, more than the memory limit; ask for fewer frames or raise "
+                      "--memory_limit");
+  }
   std::vector<double> times;
-  if (!FLAGS_at.empty()) {
-    times = NumbersFromFlag("at", FLAGS_at);
-  } else if (FLAGS_frames != 0) {
-    if (FLAGS_frames < 2) throw UsageError("--frames must be 2 or more");
-    for (int i = 0; i < FLAGS_frames; ++i) {
-      const double t = static_cast<double>(i) / (FLAGS_frames - 1);
-      times.push_back(path.parameters.back() * (FLAGS_ease ? 0.5 * (1 - std::cos(M_PI * t)) : t));
-    }
-  } else {
-    return path;
+  for (int i = 0; i < FLAGS_frames; ++i) {
+    const double t = static_cast<double>(i) / (FLAGS_frames - 1);
+    times.push_back(path.parameters.back() * (FLAGS_ease ? 0.5 * (1 - std::cos(M_PI * t)) : t));
   }
-  try {
-    return Resample(path, times);
-  } catch (const InvalidOptions& error) {
-    throw UsageError("--at: " + std::string(error.what()));
-  }
+  return times;
 }
 
 void Run(const std::vector<std::string>& files) {
   if (files.size() != 1) throw UsageError("name one .path file");
   const std::vector<std::string> outputs = OutputsFromFlags();
   for (const std::string& output : outputs) {
-    if (std::filesystem::path(output).extension() == ".path") {
+    if (IsPathFile(output)) {
       throw UsageError("--output " + output +
                        ": a path seen at other times is no geodesic any more; export meshes or "
                        "pictures");
     }
   }
-  const Path path = ReadPath(files[0]);
-  const Path shown = ResampledByFlags(path);
+  const bool makes_glb = std::any_of(outputs.begin(), outputs.end(), [](const auto& output) {
+    return Extension(output) == ".glb";
+  });
+  if (FLAGS_ease && FLAGS_frames == 0 && !makes_glb) {
+    throw UsageError("--ease goes with --frames, or with a .glb");
+  }
+  const Path path = ReadPathAndTell(files[0]);
+  const std::vector<double> times = TimesFromFlags(path);
+  CheckNothingIsOverwritten(files, {{"output", outputs, static_cast<std::int64_t>(times.size())}});
+  Path shown = path;
+  if (times != path.parameters) {
+    NamingFlags({{"times", "at"}}, [&] { shown = Resample(path, times); });
+  }
+  Out() << shown.NumShapes() << " shapes of " << files[0] << '\n';
   WriteOutputs(outputs, shown, path);
-  std::cout << shown.NumShapes() << " shapes of " << files[0] << '\n';
 }
 
 }  // namespace
@@ -71,6 +85,6 @@ int main(int argc, char** argv) {
                   "meshes and pictures of a path, without solving again",
                   "  shape-export walk.path --output walk.png,frames/%03d.obj --frames 40 --ease\n"
                   "  shape-export walk.path --output quarter%d.obj --at .25,.5,.75",
-                  {"shape_export.cc", "support/outputs.cc"}},
+                  {"shape_export.cc", "support/outputs.cc", "support/memory_flag.cc"}},
                  Run);
 }

@@ -1,22 +1,20 @@
 // A path that goes on beyond its poses: a geodesic shot from its last shapes.
 
-#include <algorithm>
-#include <filesystem>
-
 #include <gflags/gflags.h>
 #include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
-#include <shapespace/path/path_file.h>
 #include <shapespace/solvers/correction.h>
 #include <shapespace/solvers/exponential.h>
 #include <shapespace/solvers/geodesic.h>
 
 #include "support/choose.h"
 #include "support/geodesic_flags.h"
+#include "support/interrupt.h"
 #include "support/outputs.h"
 #include "support/poses.h"
 #include "support/report.h"
+#include "support/solve_progress.h"
 #include "support/tool.h"
 
 DEFINE_int32(steps, 8, "shapes to add, as far apart in time as the last two that are kept");
@@ -40,18 +38,6 @@ namespace {
 // geodesic is shot from grow with every step.
 constexpr char kTolerance[] = "1e-6";
 
-// Checks options of which a flag sets one field. Messages name the field, which may be the name of
-// another flag here.
-template <typename Options>
-void Check(const Options& options, const std::string& flag) {
-  try {
-    options.Validate();
-  } catch (const InvalidOptions& error) {
-    const std::string message = error.what();
-    throw UsageError("--" + flag + message.substr(message.find(':')));
-  }
-}
-
 ExponentialOptions ExponentialFromFlags() {
   ExponentialOptions options;
   options.integrator = Choose<Integrator>("integrator", FLAGS_integrator,
@@ -62,43 +48,50 @@ ExponentialOptions ExponentialFromFlags() {
       "step_solver", FLAGS_step_solver,
       {{"newton_krylov", StepSolver::kNewtonKrylov}, {"ceres", StepSolver::kCeres}});
   options.tolerance = FLAGS_step_tolerance;
-  Check(options, "step_tolerance");
   options.max_iterations = FLAGS_step_iterations;
-  Check(options, "step_iterations");
+  NamingFlags({{"tolerance", "step_tolerance"}, {"max_iterations", "step_iterations"}},
+              [&] { options.Validate(); });
   return options;
 }
 
 CorrectionOptions CorrectionFromFlags() {
   CorrectionOptions options;
   options.mu = FLAGS_correct;
-  Check(options, "correct");
+  NamingFlags({{"mu", "correct"}}, [&] { options.Validate(); });
   return options;
 }
 
-void CheckKeep(int shapes) {
+// Of a path of so many shapes, before it is gone on from.
+void CheckFlags(const std::vector<std::string>& files, std::int64_t shapes,
+                const std::vector<std::string>& outputs) {
   if (FLAGS_keep > shapes) {
     throw UsageError("--keep " + std::to_string(FLAGS_keep) + ": the path has " +
                      std::to_string(shapes) + " shapes");
   }
+  const std::int64_t frames = (FLAGS_keep != 0 ? FLAGS_keep : shapes) + FLAGS_steps;
+  CheckNothingIsOverwritten(WithStiffeners(files), {{"output", outputs, frames}, ReportFromFlag()});
 }
 
-Path OriginFromPath(const std::string& file) {
-  Path path = ReadPath(file);
+Path OriginFromPath(const std::string& file, const std::vector<std::string>& outputs) {
+  Path path = ReadPathAndTell(file);
   if (path.metric->rigid.Active()) {
     throw SolverError(
         file +
         ": made under the rigid metric, which has no exponential map; interpolate its "
         "poses under another");
   }
-  CheckKeep(path.NumShapes());
+  CheckFlags({file}, path.NumShapes(), outputs);
   return path;
 }
 
-Path OriginFromPoses(const std::vector<std::string>& files, const GeodesicOptions& options) {
-  CheckKeep((static_cast<int>(files.size()) - 1) * (options.shapes + 1) + 1);
+Path OriginFromPoses(const std::vector<std::string>& files, const GeodesicOptions& options,
+                     const std::vector<std::string>& outputs) {
+  CheckFlags(files, NumShapes(files.size(), options), outputs);
   const Poses poses = ReadPosesFromFlags(files);
-  GeodesicResult result = Interpolate(poses, options, TerminalProgress());
-  PrintSummary(result.summary.BriefReport(), result.summary.warnings);
+  GeodesicResult result = Interpolate(
+      poses, options, SolveProgress(outputs, std::to_string(FLAGS_steps) + " steps").get());
+  PrintSummary(result.summary.BriefReport(), result.summary.warnings,
+               result.summary.termination == Termination::kConverged);
   return std::move(result.path);
 }
 
@@ -116,20 +109,27 @@ void Run(const std::vector<std::string>& files) {
   const ExponentialOptions exponential = ExponentialFromFlags();
   const CorrectionOptions correction = CorrectionFromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
-  CheckReportFlag();
 
-  Path origin = from_path ? OriginFromPath(files[0]) : OriginFromPoses(files, geodesic);
-  if (FLAGS_keep != 0) origin = FirstShapes(origin, FLAGS_keep);
-  ExponentialResult result = Extrapolate(origin, FLAGS_steps, exponential, TerminalProgress());
-  const ExponentialSummary& summary = result.summary;
-  PrintSummary(summary.BriefReport(), summary.warnings);
-  result.path.provenance =
+  Path origin =
+      from_path ? OriginFromPath(files[0], outputs) : OriginFromPoses(files, geodesic, outputs);
+  const std::string provenance =
       (from_path ? origin.provenance + "; " : "") + Provenance("shape-extrapolate", files);
+  if (Interrupted()) {  // what was interpolated so far is worth keeping
+    origin.provenance = provenance;
+    return WriteOutputs(outputs, origin, origin);
+  }
+  if (FLAGS_keep != 0) origin = FirstShapes(origin, FLAGS_keep);
+  ExponentialResult result =
+      Extrapolate(origin, FLAGS_steps, exponential, SolveProgress(outputs).get());
+  const ExponentialSummary& summary = result.summary;
+  PrintSummary(summary.BriefReport(), summary.warnings, summary.Converged());
+  result.path.provenance = provenance;
   std::string text = summary.FullReport();
   auto json = nlohmann::ordered_json::parse(summary.ToJson());
-  if (FLAGS_correct != 0 && !summary.steps.empty()) {
-    CorrectionResult corrected = CorrectPath(result.path, correction, TerminalProgress());
-    PrintSummary(corrected.summary.BriefReport(), corrected.summary.warnings);
+  if (FLAGS_correct != 0 && !summary.steps.empty() && !Interrupted()) {
+    CorrectionResult corrected = CorrectPath(result.path, correction, SolveProgress(outputs).get());
+    PrintSummary(corrected.summary.BriefReport(), corrected.summary.warnings,
+                 corrected.summary.converged);
     result.path = std::move(corrected.path);
     text += "Corrected         " + corrected.summary.BriefReport() + '\n';
     json["correction"] = nlohmann::ordered_json::parse(corrected.summary.ToJson());
@@ -149,17 +149,23 @@ int main(int argc, char** argv) {
       argc, argv,
       {"shape-extrapolate",
        "a path that goes on beyond its poses",
-       "  shape-extrapolate a.obj b.obj [c.obj ...] --shapes 15 --steps 8 --output on.glb\n"
-       "  shape-extrapolate walk.path --keep 2 --steps 7 --output on/%03d.obj\n\n"
-       "Poses are interpolated first, as by shape-interpolate but more accurately (--tolerance), "
-       "for errors\ngrow on the way. A .path may stand instead of them: it carries the metric that "
-       "it was made with.\nOutputs hold the shapes kept and the new ones; in a film strip poses "
-       "are "
-       "blue, shapes between them\ngreen, extrapolated ones purple.\n\n"
-       "If the shape degenerates on the way, the outputs hold what was made before, and stderr "
-       "says "
-       "so: exit\ncode 0 with some new shapes, 1 with none.",
+       std::string(
+           "  shape-extrapolate a.obj b.obj [c.obj ...] --shapes 15 --steps 8 --output on.glb\n"
+           "  shape-extrapolate walk.path --keep 2 --steps 7 --output on/%03d.obj\n\n"
+           "Poses are interpolated first, as by shape-interpolate but more accurately "
+           "(--tolerance), "
+           "for errors\ngrow on the way. A .path may stand instead of them: it carries the metric "
+           "that "
+           "it was made with.\nOutputs hold the shapes kept and the new ones; in a film strip "
+           "poses "
+           "are "
+           "blue, shapes between them\ngreen, extrapolated ones purple.\n\n"
+           "If the shape degenerates on the way, the outputs hold what was made before, and stderr "
+           "says "
+           "so: exit\ncode 0 with some new shapes, 1 with none.") +
+           kHowASolveEnds,
        {"shape_extrapolate.cc", "support/geodesic_flags.cc", "support/report.cc",
-        "support/outputs.cc", "support/metric_flags.cc", "support/poses.cc"}},
+        "support/outputs.cc", "support/metric_flags.cc", "support/poses.cc",
+        "support/nonmanifold_flag.cc", "support/memory_flag.cc"}},
       Run);
 }

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cinttypes>
-#include <csignal>
 #include <cstdio>
-#include <filesystem>
 
 #include <gflags/gflags.h>
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/extension.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/intersections.h>
 #include <shapespace/mesh/read.h>
@@ -22,6 +21,7 @@
 #include <shapespace/path/rigid_parts.h>
 
 #include "support/metric_flags.h"
+#include "support/nonmanifold_flag.h"
 #include "support/tool.h"
 
 namespace shapespace::tools {
@@ -49,9 +49,12 @@ const char* Name(Severity severity) {
 bool Print(const std::vector<Finding>& findings) {
   bool good = true;
   for (const Finding& finding : findings) {
-    std::printf("  %-12s %-24s %s\n", Name(finding.severity), finding.kind.c_str(),
+    Severity severity = finding.severity;
+    if (severity == Severity::kNonManifold && FLAGS_allow_nonmanifold)
+      severity = Severity::kWarning;
+    std::printf("  %-12s %-24s %s\n", Name(severity), finding.kind.c_str(),
                 finding.message.c_str());
-    good = good && finding.severity <= Severity::kWarning;
+    good = good && severity <= Severity::kWarning;
   }
   return good;
 }
@@ -166,6 +169,7 @@ void PrintPath(const std::string& file) {
   std::printf("  made by      %s\n", path.provenance.c_str());
   std::printf("  metric       %s; unit of length %.6g\n", Describe(path.metric->options).c_str(),
               path.metric->unit);
+  if (!path.converged) std::printf("  solve        NOT CONVERGED, or stopped\n");
   if (quality.inner_shapes > 0) {
     std::printf(
         "  edges        rms %.4g%%, 99th percentile %.4g%%, max %.4g%% off the lengths to be "
@@ -190,32 +194,39 @@ void PrintPath(const std::string& file) {
   PrintParts(parts);
 }
 
+// Reads and prints a mesh, and how it goes with the first one. Returns whether it can be used.
+bool PrintMesh(const std::string& file, std::vector<Soup>* soups) {
+  soups->push_back(ReadSoup(file));
+  const Soup& soup = soups->back();
+  PrintContent(soup);
+  const bool usable = Print(CheckSoup(soup));
+  if (usable) PrintIntersections(soup);
+  const bool corresponds = soups->size() == 1 || Print(CheckCorrespondence(soups->front(), soup));
+  return usable && corresponds;
+}
+
 void Run(const std::vector<std::string>& files) {
   if (files.empty()) throw UsageError("name one or more mesh or path files");
-  std::signal(SIGINT, SIG_DFL);  // nothing is written here, so that Ctrl-C may end it at once
-  std::vector<std::string> meshes;
-  for (const std::string& file : files) {
-    if (std::filesystem::path(file).extension() == ".path") {
-      PrintPath(file);
-    } else {
-      meshes.push_back(file);
+  bool usable = true, readable = true;
+  std::vector<Soup> soups;
+  for (const bool paths : {true, false}) {
+    for (const std::string& file : files) {
+      if ((Extension(file) == ".path") != paths) continue;
+      try {
+        if (paths) {
+          PrintPath(file);
+        } else {
+          usable = PrintMesh(file, &soups) && usable;
+        }
+      } catch (const Error& error) {
+        Complain(error.what());
+        readable = false;
+      }
     }
   }
-  if (meshes.empty()) return;
-  bool good = true;
-  std::vector<Soup> soups;
-  for (const std::string& file : meshes) {
-    soups.push_back(ReadSoup(file));
-    PrintContent(soups.back());
-    const bool usable = Print(CheckSoup(soups.back()));
-    if (usable) PrintIntersections(soups.back());
-    good = usable && good;
-    if (soups.size() > 1) good = Print(CheckCorrespondence(soups[0], soups.back())) && good;
-  }
-  if (good) {
-    for (size_t i = 1; i < soups.size(); ++i) PrintDistance(soups[0], soups[i]);
-  }
-  if (!good) throw MeshError("not usable as it is: see what was found");
+  if (!usable) throw MeshError("not usable as it is: see what was found");
+  if (!readable) return;
+  for (size_t i = 1; i < soups.size(); ++i) PrintDistance(soups[0], soups[i]);
 }
 
 }  // namespace
@@ -227,7 +238,8 @@ int main(int argc, char** argv) {
                  {"shape-inspect",
                   "what is in these files, whether they correspond, how far apart they are",
                   "  shape-inspect a.obj b.obj walk.path\n\n"
-                  "Exit code 1 if a mesh cannot be used as it is, or meshes do not correspond.",
-                  {"support/metric_flags.cc"}},
+                  "Exit code 1 if a file cannot be read, a mesh cannot be used as it is, or meshes "
+                  "do not\ncorrespond.",
+                  {"support/metric_flags.cc", "support/nonmanifold_flag.cc"}},
                  Run);
 }

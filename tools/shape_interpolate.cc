@@ -6,6 +6,7 @@
 #include "support/outputs.h"
 #include "support/poses.h"
 #include "support/report.h"
+#include "support/solve_progress.h"
 #include "support/tool.h"
 
 namespace shapespace::tools {
@@ -15,14 +16,18 @@ void Run(const std::vector<std::string>& files) {
   if (files.size() < 2) throw UsageError("name at least two poses of one mesh");
   const GeodesicOptions options = GeodesicFromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
-  CheckReportFlag();
+  CheckNothingIsOverwritten(
+      WithStiffeners(files),
+      {{"output", outputs, NumShapes(files.size(), options)}, ReportFromFlag()});
 
   const Poses poses = ReadPosesFromFlags(files);
-  GeodesicResult result = Interpolate(poses, options, TerminalProgress());
+  GeodesicResult result = Interpolate(poses, options, SolveProgress(outputs).get());
+  const GeodesicSummary& summary = result.summary;
   result.path.provenance = Provenance("shape-interpolate", files);
+  PrintSummary(summary.BriefReport(), summary.warnings,
+               summary.termination == Termination::kConverged);
   WriteOutputs(outputs, result.path, result.path);
-  WriteReport(result.summary.FullReport(), result.summary.ToJson());
-  PrintSummary(result.summary.BriefReport(), result.summary.warnings);
+  WriteReport(summary.FullReport(), summary.ToJson());
 }
 
 }  // namespace
@@ -34,12 +39,15 @@ int main(int argc, char** argv) {
       argc, argv,
       {"shape-interpolate",
        "a geodesic of shape space between poses of a mesh",
-       "  shape-interpolate a.obj b.obj [c.obj ...] --shapes 15 --output "
-       "walk.png,walk.path,frames/%03d.obj\n\n"
-       "Poses are OBJ, PLY or OFF files with the same faces in the same order. With 15 "
-       "shapes inserted\nbetween two poses 17 frames are written, numbered from 000, the "
-       "poses included.",
+       std::string(
+           "  shape-interpolate a.obj b.obj [c.obj ...] --shapes 15 --output "
+           "walk.png,walk.path,frames/%03d.obj\n\n"
+           "Poses are OBJ, PLY or OFF files with the same faces in the same order. With 15 "
+           "shapes inserted\nbetween two poses 17 frames are written, numbered from 000, the "
+           "poses included.") +
+           kHowASolveEnds,
        {"support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
-        "support/metric_flags.cc", "support/poses.cc"}},
+        "support/metric_flags.cc", "support/poses.cc", "support/nonmanifold_flag.cc",
+        "support/memory_flag.cc"}},
       Run);
 }

@@ -1,15 +1,10 @@
 // A motion, carried over to another body of the same connectivity.
 
-#include <algorithm>
-#include <filesystem>
-#include <iostream>
-
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/output/frames.h>
-#include <shapespace/path/path_file.h>
 #include <shapespace/solvers/transfer.h>
 
 #include "support/choose.h"
@@ -17,6 +12,7 @@
 #include "support/outputs.h"
 #include "support/poses.h"
 #include "support/report.h"
+#include "support/solve_progress.h"
 #include "support/tool.h"
 
 DEFINE_string(target, "", "the other body, in the pose of the first source: what is to move");
@@ -49,13 +45,8 @@ TransferOptions TransferFromFlags() {
                                           {{"nearest", Connection::kNearest},
                                            {"levi_civita", Connection::kLeviCivita},
                                            {"projection", Connection::kConstrainedProjection}});
-  options.Validate();
   options.metric.bending = FLAGS_transfer_bending;
-  try {
-    options.metric.Validate();
-  } catch (const InvalidOptions& error) {  // names the field, which is another flag here
-    throw UsageError("--transfer_" + std::string(error.what()));
-  }
+  NamingFlags({{"bending", "transfer_bending"}}, [&] { options.Validate(); });
   return options;
 }
 
@@ -69,15 +60,9 @@ Poses ReadTargetOf(const Path& path, const std::string& file) {
   if (!path.metric->connectivity->IsGraph()) pose.segments.clear();
   for (const Finding& finding : CheckCorrespondence(reference, pose)) {
     if (finding.severity == Severity::kFatal) throw CorrespondenceError(finding.message);
-    std::cerr << "warning: " << finding.message << '\n';
+    Err() << "warning: " << finding.message << '\n';
   }
   return target;
-}
-
-template <typename Summary>
-void Tell(const Summary& summary, const std::vector<std::string>& warnings) {
-  WriteReport(summary.FullReport(), summary.ToJson());
-  PrintSummary(summary.BriefReport(), warnings);
 }
 
 void Run(const std::vector<std::string>& files) {
@@ -88,32 +73,42 @@ void Run(const std::vector<std::string>& files) {
   const std::vector<std::string> outputs = OutputsFromFlags();
   std::vector<std::string> hybrid_outputs;
   if (!FLAGS_hybrids.empty()) hybrid_outputs = OutputsFromFlag("hybrids", FLAGS_hybrids);
-  CheckReportFlag();
-
   std::vector<std::string> all = files;
   all.push_back(FLAGS_target);
-  const std::string provenance = Provenance("shape-transfer", all);
-  const auto write = [&](Path path, Path hybrids, const Appearance& appearance) {
-    path.provenance = hybrids.provenance = provenance;
-    hybrids.provenance += "; hybrids";
-    path.appearance = hybrids.appearance = appearance;
-    WriteOutputs(outputs, path, path);
-    WriteOutputs(hybrid_outputs, hybrids, hybrids);
+  const auto check = [&](std::int64_t frames) {
+    CheckNothingIsOverwritten(
+        WithStiffeners(all),
+        {{"output", outputs, frames}, {"hybrids", hybrid_outputs, frames}, ReportFromFlag()});
+  };
+  std::vector<std::string> all_outputs = outputs;
+  all_outputs.insert(all_outputs.end(), hybrid_outputs.begin(), hybrid_outputs.end());
+  const auto finish = [&](auto result, const std::vector<std::string>& warnings,
+                          const Appearance& appearance) {
+    PrintSummary(result.summary.BriefReport(), warnings, result.summary.Converged());
+    result.path.provenance = Provenance("shape-transfer", all);
+    result.hybrids.provenance = result.path.provenance + "; hybrids";
+    result.path.appearance = result.hybrids.appearance = appearance;
+    WriteOutputs(outputs, result.path, result.path);
+    WriteOutputs(hybrid_outputs, result.hybrids, result.hybrids);
+    WriteReport(result.summary.FullReport(), result.summary.ToJson());
   };
   if (from_path) {
-    const Path source = ReadPath(files[0]);
+    const Path source = ReadPathAndTell(files[0]);
+    check(source.NumShapes());
     const Poses target = ReadTargetOf(source, files[0]);
-    const TransferResult result = Transfer(source, target.shapes[0], options, TerminalProgress());
-    write(result.path, result.hybrids, target.soup.appearance);
-    Tell(result.summary, result.summary.warnings);
+    TransferResult result =
+        Transfer(source, target.shapes[0], options, SolveProgress(all_outputs).get());
+    const std::vector<std::string> warnings = result.summary.warnings;
+    finish(std::move(result), warnings, target.soup.appearance);
   } else {
+    check(static_cast<std::int64_t>(files.size()));
     Poses poses = ReadPosesFromFlags(all);
     const Shape target = poses.shapes.back();
     poses.shapes.pop_back();
-    const PoseTransferResult result = TransferPoses(poses.connectivity, poses.shapes, target,
-                                                    geodesic, options, TerminalProgress());
-    write(result.path, result.hybrids, ReadSoup(FLAGS_target).appearance);
-    Tell(result.summary, result.summary.Warnings());
+    PoseTransferResult result = TransferPoses(poses.connectivity, poses.shapes, target, geodesic,
+                                              options, SolveProgress(all_outputs).get());
+    const std::vector<std::string> warnings = result.summary.Warnings();
+    finish(std::move(result), warnings, ReadSoup(FLAGS_target).appearance);
   }
 }
 
@@ -127,15 +122,21 @@ int main(int argc, char** argv) {
       argc, argv,
       {"shape-transfer",
        "a motion, carried over to another body",
-       "  shape-transfer stand.obj sit.obj leap.obj --target other.obj --output other%d.obj\n"
-       "  shape-transfer walk.path --target other.obj --output walk.glb --hybrids half.glb\n\n"
-       "All meshes have the same faces in the same order. The target is in the first pose. Each "
-       "of the\nothers is reached on its own, by a geodesic in --shapes + 1 steps, and every step "
-       "is carried over:\nframe 0 is the target, frame 1 the target in the second pose. Of a "
-       ".path every shape is carried\nover, and there are as many frames. The flags of the metric "
-       "are those of the geodesics between\nthe source's poses. In a film strip the target is "
-       "blue, all that became of it purple; hybrids are\ngreen.",
+       std::string(
+           "  shape-transfer stand.obj sit.obj leap.obj --target other.obj --output moved%d.obj\n"
+           "  shape-transfer walk.path --target other.obj --output walk.glb --hybrids half.glb\n\n"
+           "All meshes have the same faces in the same order. The target is in the first pose. "
+           "Each "
+           "of the\nothers is reached on its own, by a geodesic in --shapes + 1 steps, and every "
+           "step "
+           "is carried over:\nframe 0 is the target, frame 1 the target in the second pose. Of a "
+           ".path every shape is carried\nover, and there are as many frames. The flags of the "
+           "metric "
+           "are those of the geodesics between\nthe source's poses. In a film strip the target is "
+           "blue, all that became of it purple; hybrids are\ngreen.") +
+           kHowASolveEnds,
        {"shape_transfer.cc", "support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
-        "support/metric_flags.cc", "support/poses.cc"}},
+        "support/metric_flags.cc", "support/poses.cc", "support/nonmanifold_flag.cc",
+        "support/memory_flag.cc"}},
       Run);
 }

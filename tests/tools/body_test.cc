@@ -69,8 +69,8 @@ TEST_F(BodyToolTest, RefusesWhatItCannotMake) {
       {{"quadruped", "--pose", "sit", "--at", "1"}, "--at and --pose exclude each other"},
       {{"tube", "--pose", "sit"}, "no body with bones is called 'tube'; known are quadruped"},
       {{"tube", "--at", "0,x"}, "--at 0,x: 'x' is not a number"},
-      {{"tube", "--at", "200"}, "200 is outside 0 .. 150"},
-      {{"tube", "--triangles=-5"}, "-5 is outside"},
+      {{"tube", "--at", "200"}, "--at 200: 200 is outside 0 .. 150"},
+      {{"tube", "--triangles=-5"}, "--triangles -5: -5 is outside"},
       {{"tube", "--output", "tube.obj"}, "needs one number"},
       {{"tube", "--output", "tube%d.stl"}, "must end in .obj or .ply"},
   };

@@ -251,9 +251,9 @@ TEST_F(ExtrapolateTest, WrongCommandLines) {
        "--integrator euler: must be one of variational, runge_kutta4, first_integral"},
       {{"walk.path", "--step_solver", "lbfgs"},
        "--step_solver lbfgs: must be one of newton_krylov, ceres"},
-      {{"walk.path", "--step_tolerance", "0"}, "--step_tolerance: must be"},
-      {{"walk.path", "--step_iterations", "0"}, "--step_iterations: must be"},
-      {{"walk.path", "--correct=-1"}, "--correct: must be"},
+      {{"walk.path", "--step_tolerance", "0"}, "--step_tolerance 0: must be"},
+      {{"walk.path", "--step_iterations", "0"}, "--step_iterations 0: must be"},
+      {{"walk.path", "--correct=-1"}, "--correct -1: must be"},
       {{"walk.path", "--report", "r.html"}, "--report r.html: must end in .json or .txt, or be -"},
       {{"walk.path", "--output", "on.gif"}, "on.gif: must end in"},
   };

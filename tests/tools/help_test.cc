@@ -52,10 +52,10 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                                         "log_length", "metric",         "rigid",     "strain",
                                         "volume",     "weights"};
   std::set<std::string> wanted = metric;
-  wanted.insert({"help", "threads", "version"});
+  wanted.insert({"allow_nonmanifold", "help", "threads", "version"});
   EXPECT_EQ(Listed("shape-inspect"), wanted);
-  wanted.insert({"allow_nonmanifold", "color", "max_iterations", "memory_limit", "output", "report",
-                 "shapes", "solver", "stiffeners", "tolerance"});
+  wanted.insert({"color", "ease", "fps", "loop", "max_iterations", "memory_limit", "once", "output",
+                 "report", "seconds", "shapes", "solver", "stiffeners", "strict", "tolerance"});
   const std::set<std::string> listed = Listed("shape-interpolate");
   for (const std::string& flag : wanted) EXPECT_EQ(listed.count(flag), 1u) << flag;
   // What interpolates poses before it goes on takes the same flags, and its own.

@@ -146,6 +146,37 @@ TEST_F(InspectTest, DamagedPathsFail) {
   }
 }
 
+TEST_F(InspectTest, NonManifoldMeshesPassIfAllowed) {
+  const std::string faces = "f 1 2 3\nf 1 2 4\nf 2 1 5\n";
+  File("fan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\n" + faces);
+  File("fan2.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 2\nv 0 -1 0\n" + faces);
+  const Outcome refused = Run("shape-inspect", {"fan.obj", "fan2.obj"});
+  EXPECT_EQ(refused.code, 1);
+  ExpectContains(refused.out, "--allow_nonmanifold");
+  ExpectLacks(refused.out, "edges stretched by");
+  const Outcome allowed = Run("shape-inspect", {"fan.obj", "fan2.obj", "--allow_nonmanifold"});
+  EXPECT_EQ(allowed.code, 0) << allowed.err;
+  EXPECT_TRUE(std::regex_search(allowed.out, std::regex("warning +non-manifold-edge")))
+      << allowed.out;
+  ExpectContains(allowed.out, "edges stretched by");
+}
+
+TEST_F(InspectTest, AFileThatCannotBeReadDoesNotHideTheOthers) {
+  MakeTubes();
+  Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "1", "--output", "w.path"});
+  File("cut.path", "SHAPPATH");
+  File("cut.obj", "v 0 0 0\nv 1 0\n");
+  const Outcome outcome =
+      Run("shape-inspect", {"cut.path", "cut.obj", "none.obj", "tube0.obj", "w.path", "tube1.obj"});
+  EXPECT_EQ(outcome.code, 1);
+  for (const char* file : {"cut.path: ", "cut.obj:2: ", "none.obj: "}) {
+    ExpectContains(outcome.err, std::string("shape-inspect: ") + file);
+  }
+  ExpectContains(outcome.out, "3 shapes, 2 of them given");
+  ExpectContains(outcome.out, "tube0.obj\n  152 vertices");
+  ExpectContains(outcome.out, "tube1.obj\n  152 vertices");
+}
+
 TEST_F(InspectTest, NeedsAFile) {
   const Outcome outcome = Run("shape-inspect", {});
   EXPECT_EQ(outcome.code, 2);

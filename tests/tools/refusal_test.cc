@@ -51,26 +51,42 @@ TEST_F(RefusalTest, WrongCommandLines) {
   } cases[] = {
       {{"--spoon"}, "unknown command line flag 'spoon'"},
       {{"--shapes", "many"}, "illegal value 'many'"},
-      {{"--shapes", "0"}, "--shapes: must be 1 or more"},
+      {{"--shapes", "0"}, "--shapes 0: must be 1 or more"},
       {{"--shapes"}, "--shapes' is missing its argument"},
-      {{"--tolerance", "2"}, "--tolerance: must be between 0 and 1"},
-      {{"--lambda=-1"}, "--lambda: must be a number, zero or more"},
-      {{"--lambda", "nan"}, "--lambda: must be a number, zero or more"},
+      {{"--tolerance", "2"}, "--tolerance 2: must be between 0 and 1"},
+      {{"--lambda=-1"}, "--lambda -1: must be a number, zero or more"},
+      {{"--lambda", "nan"}, "--lambda nan: must be a number, zero or more"},
       {{"--metric", "taxicab"}, "--metric taxicab: must be isometric, strain, rigid or paper"},
       {{"--weights", "heavy"}, "--weights heavy: must be area or uniform"},
       {{"--discretization", "fine"}, "--discretization fine: must be midpoint or trapezoid"},
       {{"--solver", "magic"},
        "--solver magic: must be one of automatic, lbfgs, threaded_lbfgs, trust_region"},
       {{"--color", "pink"}, "--color pink: must be plain, deviation or parts"},
-      {{"--threads=-1"}, "--threads must be 0 or more"},
-      {{"--memory_limit", "0"}, "--memory_limit: must be positive"},
-      {{"--isometric", "0", "--lambda", "0"}, "motion costs nothing"},
+      {{"--threads=-1"}, "--threads -1: must be 0 (all cores) or more"},
+      {{"--memory_limit", "0"}, "--memory_limit 0: must be positive"},
+      {{"--isometric", "0", "--lambda", "0"},
+       "--isometric 0, --log_length, --rigid, --lambda 0: all zero, so motion costs nothing"},
       {{"--output", "walk.gif"}, "walk.gif: must end in .path, .png, .glb, .obj or .ply"},
       {{"--output", ","}, "--output: names no file"},
       {{"--output", "frame.obj"}, "frame.obj: a name for frames needs one number"},
       {{"--output", "%d%d.obj"}, "needs one number"},
       {{"--output", "w.path,%s.ply"}, "%s.ply: a name for frames needs one number"},
       {{"--report", "r.html"}, "--report r.html: must end in .json or .txt, or be -"},
+      {{"--output", "w.path,z%d.png"},
+       "--output z%d.png: only frames, .obj and .ply, are numbered"},
+      {{"--output", "z%03d.GLB"}, "--output z%03d.GLB: only frames"},
+      {{"--output", "%d/w.path"}, "--output %d/w.path: only frames"},
+      {{"--seconds", "0"}, "--seconds 0: must be from 0.1 to 3600"},
+      {{"--seconds", "1e-9"}, "--seconds 1e-9: must be"},
+      {{"--unit", "nan"}, "--unit nan: must be from 1e-12 to 1e+12"},
+      {{"--unit", "1", "--unit=0"}, "--unit 0: must be"},
+      {{"--fps", "0"}, "--fps 0: must be positive"},
+      {{"--fps=-24"}, "--fps -24: must be from 0.01 to 1000"},
+      {{"--fps", "24", "--seconds", "3"}, "--seconds and --fps exclude each other"},
+      {{"--loop", "--once"}, "--loop and --once exclude each other"},
+      {{"--title", std::string(200, 'x')}, "--title xxx"},
+      {{"--coarsest", "3"}, "--coarsest 3: must be 4 triangles or more"},
+      {{"--max_iterations", "0"}, "--max_iterations 0: must be 1 or more"},
   };
   for (const auto& [flags, message] : cases) {
     SCOPED_TRACE(message);
@@ -208,7 +224,7 @@ TEST_F(RefusalTest, StiffenerFiles) {
 TEST_F(RefusalTest, MetricsThatTheMeshCannotHave) {
   Succeed("shape-body", {"sheet", "--triangles", "100", "--output", "sheet%d.obj"});
   ExpectRefusal(2, {"sheet0.obj", "sheet1.obj", "--volume", "1", "--output", "w.path"},
-                {"--volume: the mesh is not closed"});
+                {"--volume 1: the mesh is not closed"});
 }
 
 TEST_F(RefusalTest, SolvesBeyondTheMemoryLimit) {

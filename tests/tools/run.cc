@@ -19,7 +19,7 @@ int OpenToWrite(const std::string& file) {
 }  // namespace
 
 pid_t ToolsTest::Start(const std::string& tool, const std::vector<std::string>& arguments,
-                       int error) const {
+                       int error, int out) const {
   const std::string program = std::string(SHAPESPACE_TOOLS_DIR) + "/" + tool;
   std::vector<char*> argv = {const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) {
@@ -27,7 +27,8 @@ pid_t ToolsTest::Start(const std::string& tool, const std::vector<std::string>& 
   }
   argv.push_back(nullptr);
   const std::string folder = Path("");
-  const int out = OpenToWrite(Path(kOut));
+  const bool to_file = out < 0;
+  if (to_file) out = OpenToWrite(Path(kOut));
   const pid_t process = fork();
   if (process == 0) {
     dup2(out, STDOUT_FILENO);
@@ -35,7 +36,7 @@ pid_t ToolsTest::Start(const std::string& tool, const std::vector<std::string>& 
     if (chdir(folder.c_str()) == 0) execv(program.c_str(), argv.data());
     _exit(127);
   }
-  close(out);
+  if (to_file) close(out);
   return process;
 }
 

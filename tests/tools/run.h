@@ -33,8 +33,10 @@ class ToolsTest : public FilesTest {
   /// All files below the test's folder, sorted, without those of `Run` itself.
   std::vector<std::string> Files() const;
 
-  /// Starts a tool in the test's folder; its stderr goes to `error`, a file descriptor.
-  pid_t Start(const std::string& tool, const std::vector<std::string>& arguments, int error) const;
+  /// Starts a tool in the test's folder; its stderr goes to `error`, a file descriptor, and its
+  /// stdout to `out`, or without to a file of `Run`'s.
+  pid_t Start(const std::string& tool, const std::vector<std::string>& arguments, int error,
+              int out = -1) const;
   static int Wait(pid_t process);
 };
 

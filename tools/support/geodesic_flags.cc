@@ -1,12 +1,13 @@
 #include "support/geodesic_flags.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <gflags/gflags.h>
 
 #include "support/choose.h"
+#include "support/memory_flag.h"
 #include "support/metric_flags.h"
+#include "support/outputs.h"
 #include "support/tool.h"
 
 DEFINE_int32(shapes, 15, "shapes to insert between neighbouring poses");
@@ -22,7 +23,6 @@ DEFINE_string(start, "best",
               "where the first solve starts: blend, first, last, rigid, or the best of the first "
               "three");
 DEFINE_int32(coarsest, 200, "triangles of the coarsest level of the hierarchy");
-DEFINE_double(memory_limit, 8, "gigabytes that the solve may take; more is refused beforehand");
 
 namespace shapespace::tools {
 
@@ -54,17 +54,21 @@ GeodesicOptions GeodesicFromFlags() {
   return options;
 }
 
+std::int64_t NumShapes(size_t poses, const GeodesicOptions& options) {
+  return (static_cast<std::int64_t>(poses) - 1) * (options.shapes + std::int64_t{1}) + 1;
+}
+
 bool IsOnePath(const std::vector<std::string>& files) {
-  const bool is_path = std::any_of(files.begin(), files.end(), [](const std::string& file) {
-    return std::filesystem::path(file).extension() == ".path";
-  });
+  const bool is_path = std::any_of(files.begin(), files.end(), IsPathFile);
   if (is_path ? files.size() != 1 : files.size() < 2) {
     throw UsageError("name at least two poses of one mesh, or one .path file alone");
   }
   if (!is_path) return false;
   std::vector<std::string> flags = GivenFlags("support/geodesic_flags.cc");
   for (const std::string& flag : GivenFlags("support/metric_flags.cc")) flags.push_back(flag);
-  if (IsGiven("stiffeners")) flags.push_back("stiffeners");
+  for (const char* flag : {"memory_limit", "stiffeners"}) {
+    if (IsGiven(flag)) flags.push_back(flag);
+  }
   if (!flags.empty()) {
     throw UsageError("--" + flags[0] + ": goes with poses; " + files[0] +
                      " is solved, with the metric that it carries");

@@ -1,5 +1,6 @@
 #include "support/lists.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -11,7 +12,10 @@ namespace shapespace::tools {
 std::vector<std::string> Split(const std::string& list) {
   std::vector<std::string> parts;
   std::stringstream text(list);
-  for (std::string part; std::getline(text, part, ',');) parts.push_back(part);
+  for (std::string part; std::getline(text, part, ',');) {
+    const size_t begin = std::min(part.find_first_not_of(" \t\n"), part.size());
+    parts.push_back(part.substr(begin, part.find_last_not_of(" \t\n") + 1 - begin));
+  }
   return parts;
 }
 

@@ -6,7 +6,7 @@
 
 namespace shapespace::tools {
 
-/// The parts of `list` between commas.
+/// The parts of `list` between commas, without the blanks around them.
 std::vector<std::string> Split(const std::string& list);
 
 /// The numbers that `text`, the value of `flag`, lists with commas between them.

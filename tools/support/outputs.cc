@@ -7,13 +7,16 @@
 #include <cstring>
 #include <filesystem>
 #include <iomanip>
-#include <iostream>
+#include <map>
+#include <new>
+#include <regex>
 #include <sstream>
+#include <utility>
 
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/write.h>
+#include <shapespace/base/extension.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/gltf.h>
 #include <shapespace/output/picture.h>
@@ -21,6 +24,8 @@
 #include <shapespace/path/quality.h>
 #include <shapespace/path/rigid_parts.h>
 
+#include "support/frames.h"
+#include "support/interrupt.h"
 #include "support/lists.h"
 #include "support/tool.h"
 
@@ -28,7 +33,7 @@ DEFINE_string(
     output, "path.png",
     "files to write, separated by commas: .path (everything, to go on from), .png (film "
     "strip), .glb (animated, for browsers and Blender), frames/%03d.obj or .ply (one mesh "
-    "a shape)");
+    "a shape). No name of them may hold a comma");
 DEFINE_string(color, "plain",
               "film strip and glb: plain, deviation (of edge lengths from the first pose), or "
               "parts (that move nearly rigidly)");
@@ -37,7 +42,15 @@ DEFINE_string(up, "",
               "the axis of the poses that points up, y or z; without, film strips choose, and glb "
               "takes y");
 DEFINE_double(unit, 1, "glb: metres in one unit of the poses; 0.001 for millimetres");
-DEFINE_double(seconds, 4, "glb: duration, there and back");
+DEFINE_double(seconds, 4, "glb: duration");
+DEFINE_double(fps, 0, "glb: shapes of the path a second, in place of --seconds");
+DEFINE_bool(loop, false,
+            "glb: from the first shape to the last and no way back, for motions that end as they "
+            "begin; without, there and back");
+DEFINE_bool(once, false, "glb: from the first shape to the last, which is then held");
+DEFINE_bool(ease, false,
+            "glb, and frames of shape-export --frames: slow at both ends, as an animator would "
+            "have it");
 DEFINE_string(title, "", "film strip: a line above it");
 
 namespace shapespace::tools {
@@ -46,17 +59,21 @@ namespace {
 enum class Kind { kPath, kPicture, kGltf, kFrames };
 
 Kind KindOf(const std::string& output, const std::string& flag = "output") {
-  const std::string extension = std::filesystem::path(output).extension().string();
-  if (extension == ".path") return Kind::kPath;
-  if (extension == ".png") return Kind::kPicture;
-  if (extension == ".glb") return Kind::kGltf;
+  const std::string extension = Extension(output);
   if (extension == ".obj" || extension == ".ply") {
-    try {
-      FrameName(output, 0);
-    } catch (const FileError& error) {
-      throw UsageError("--" + flag + " " + error.what());
-    }
+    CheckFramePattern(flag, output);
     return Kind::kFrames;
+  }
+  for (const auto& [known, kind] :
+       {std::make_pair(".path", Kind::kPath), {".png", Kind::kPicture}, {".glb", Kind::kGltf}}) {
+    if (extension != known) continue;
+    static const std::regex number("%0?[1-9]?d");
+    if (std::regex_search(output, number)) {
+      throw UsageError("--" + flag + " " + output +
+                       ": only frames, .obj and .ply, are numbered; one " + extension +
+                       " holds the whole path");
+    }
+    return kind;
   }
   throw UsageError("--" + flag + " " + output + ": must end in .path, .png, .glb, .obj or .ply");
 }
@@ -66,7 +83,17 @@ GltfOptions GltfOptionsFromFlags() {
     throw UsageError("--up " + FLAGS_up + ": must be y or z");
   }
   GltfOptions options;
+  for (const auto& [one, other] : {std::make_pair("seconds", "fps"), {"loop", "once"}}) {
+    if (IsGiven(one) && IsGiven(other)) {
+      throw UsageError("--" + std::string(one) + " and --" + other + " exclude each other");
+    }
+  }
+  if (IsGiven("fps") && FLAGS_fps == 0) throw UsageError(AsTyped("fps") + ": must be positive");
   options.duration = FLAGS_seconds;
+  options.fps = FLAGS_fps;
+  if (FLAGS_loop) options.playback = Playback::kLoop;
+  if (FLAGS_once) options.playback = Playback::kOnce;
+  options.ease = FLAGS_ease;
   options.up = FLAGS_up == "z" ? 'z' : 'y';
   options.unit = FLAGS_unit;
   options.colour_by_deviation = FLAGS_color == "deviation";
@@ -85,24 +112,57 @@ void WriteGltfAndTell(const std::string& output, const Path& path, const Shape& 
   options.groups = parts;
   const GltfSummary summary = WriteGltf(output, path, options);
   for (const std::string& warning : summary.warnings) {
-    std::cerr << "warning: " << output << ": " << warning << '\n';
+    Err() << "warning: " << output << ": " << warning << '\n';
   }
   if (summary.subsampled) {
-    std::cerr << "note: " << output << ": " << summary.keys << " of the " << path.NumShapes()
-              << " shapes, evenly, as many as players can be expected to take\n";
+    Err() << "note: " << output << ": " << summary.keys << " of the " << path.NumShapes()
+          << " shapes, evenly, as many as players can be expected to take\n";
   }
   if (FLAGS_color == "deviation") {
-    std::cerr << "note: " << output << ": the last colour stands for a deviation of "
-              << 100 * summary.colour_end << "%\n";
+    Err() << "note: " << output << ": the last colour stands for a deviation of "
+          << 100 * summary.colour_end << "%\n";
   }
 }
 
-void WriteFramesAndTell(const std::string& output, const std::vector<Shape>& shapes,
-                        const Soup& soup) {
-  for (const std::string& sentence : NotKept(output, soup)) {
-    std::cerr << "note: " << output << ": " << sentence << '\n';
+void WritePicture(const std::string& output, const Path& path, const Shape& reference,
+                  const Eigen::VectorXi& parts) {
+  FilmStripOptions options;
+  options.title = FLAGS_title;
+  if (FLAGS_up == "y") options.up = Eigen::Vector3d::UnitY();
+  if (FLAGS_up == "z") options.up = Eigen::Vector3d::UnitZ();
+  for (int i = 0; i < path.NumShapes(); ++i) {
+    options.roles.push_back(RoleOf(path, i));
+    std::ostringstream label;
+    label << "t = " << std::setprecision(3) << path.parameters[i];
+    options.labels.push_back(label.str());
   }
-  WriteFrames(output, shapes, soup);
+  if (FLAGS_color == "deviation") {
+    for (int i = 0; i < path.NumShapes(); ++i) {
+      options.values.push_back(EdgeDeviation(*path.metric, reference, path.shapes[i]));
+    }
+    options.legend = "edge length, deviation from the first pose";
+  } else if (FLAGS_color == "parts") {
+    options.groups = parts;
+    options.legend = "near-rigid parts, by size";
+  }
+  WritePng(output, RenderFilmStrip(*path.metric->connectivity, path.Placed(), options));
+}
+
+// `parts` are empty until they are needed.
+void Write(const std::string& output, const Path& path, const Path& whole, Eigen::VectorXi* parts) {
+  const Kind kind = KindOf(output);
+  if (kind == Kind::kFrames) {
+    WriteFramesAndTell(output, path.Placed(),
+                       FrameSoup(*path.metric->connectivity, path.appearance));
+    return;
+  }
+  if (kind != Kind::kPath && FLAGS_color == "parts" && parts->size() == 0) {
+    *parts = FindRigidParts(whole).of_vertex;
+  }
+  if (kind == Kind::kPath) WritePath(output, path);
+  if (kind == Kind::kPicture) WritePicture(output, path, whole.shapes[0], *parts);
+  if (kind == Kind::kGltf) WriteGltfAndTell(output, path, whole.shapes[0], *parts);
+  Out() << "wrote " << output << '\n';
 }
 
 }  // namespace
@@ -114,7 +174,7 @@ std::vector<std::string> OutputsFromFlags() {
   FilmStripOptions strip;
   strip.title = FLAGS_title;
   strip.Validate();  // a title that cannot be drawn is told now, not after the solve
-  GltfOptionsFromFlags().Validate();
+  NamingFlags({{"duration", "seconds"}}, [] { GltfOptionsFromFlags().Validate(); });
   return OutputsFromFlag("output", FLAGS_output);
 }
 
@@ -128,6 +188,38 @@ std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::str
   }
   if (outputs.empty()) throw UsageError("--" + flag + ": names no file");
   return outputs;
+}
+
+bool IsPathFile(const std::string& file) { return Extension(file) == ".path"; }
+
+void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
+                               const std::vector<FlagOutputs>& outputs) {
+  namespace fs = std::filesystem;
+  // Whoever has more frames than this has none of that number among the inputs.
+  constexpr std::int64_t kMostNames = 20000;
+  const auto key = [](const std::string& file) {
+    return fs::weakly_canonical(fs::absolute(file)).string();
+  };
+  std::map<std::string, std::string> read, written;  // by key: as the command line has it
+  for (const std::string& input : inputs) read.emplace(key(input), input);
+  for (const auto& [flag, files, frames] : outputs) {
+    for (const std::string& file : files) {
+      const bool is_pattern = file.find('%') != file.npos && KindOf(file, flag) == Kind::kFrames;
+      const std::string whole = "--" + flag + " " + file;
+      for (std::int64_t i = 0; i < (is_pattern ? std::min(frames, kMostNames) : 1); ++i) {
+        const std::string name = is_pattern ? FrameName(file, static_cast<int>(i)) : file;
+        const std::string makes = is_pattern ? whole + ": " + name : whole;
+        if (const auto input = read.find(key(name)); input != read.end()) {
+          throw UsageError(makes + " would overwrite " + input->second +
+                           ", which is read; choose another name");
+        }
+        if (const auto [other, is_new] = written.emplace(key(name), whole); !is_new) {
+          throw UsageError(makes + " would overwrite what " + other->second +
+                           " writes; choose another name");
+        }
+      }
+    }
+  }
 }
 
 void CheckCanBeWritten(const std::string& file) {
@@ -144,53 +236,36 @@ void CheckCanBeWritten(const std::string& file) {
   }
 }
 
+Path ReadPathAndTell(const std::string& file) {
+  Path path = ReadPath(file);
+  if (!path.converged) {
+    Err() << "warning: " << file << ": the solve that made it did not converge, or was stopped\n";
+  }
+  return path;
+}
+
 std::string Provenance(const char* program, const std::vector<std::string>& files) {
   std::string provenance = std::string(program) + " " SHAPESPACE_VERSION ":";
-  for (const std::string& file : files) provenance += " " + file;
+  for (const std::string& file : files) {
+    const bool has_blanks = file.find(' ') != file.npos;
+    provenance += has_blanks ? " '" + file + "'" : " " + file;
+  }
   return provenance;
 }
 
 void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Path& whole) {
-  const std::vector<Shape> placed = path.Placed();
+  std::vector<std::string> paths_first = outputs;
+  std::stable_partition(paths_first.begin(), paths_first.end(), IsPathFile);
   Eigen::VectorXi parts;
-  if (FLAGS_color == "parts") parts = FindRigidParts(whole).of_vertex;
-  int done = 0;
-  for (const std::string& output : outputs) {
-    ReportProgress(TerminalProgress(), "writing " + output, ++done,
-                   static_cast<int>(outputs.size()));
-    switch (KindOf(output)) {
-      case Kind::kPath:
-        WritePath(output, path);
-        break;
-      case Kind::kPicture: {
-        FilmStripOptions options;
-        options.title = FLAGS_title;
-        if (FLAGS_up == "y") options.up = Eigen::Vector3d::UnitY();
-        if (FLAGS_up == "z") options.up = Eigen::Vector3d::UnitZ();
-        for (int i = 0; i < path.NumShapes(); ++i) {
-          options.roles.push_back(RoleOf(path, i));
-          std::ostringstream label;
-          label << "t = " << std::setprecision(3) << path.parameters[i];
-          options.labels.push_back(label.str());
-        }
-        if (FLAGS_color == "deviation") {
-          for (int i = 0; i < path.NumShapes(); ++i) {
-            options.values.push_back(EdgeDeviation(*path.metric, whole.shapes[0], path.shapes[i]));
-          }
-          options.legend = "edge length, deviation from the first pose";
-        } else if (FLAGS_color == "parts") {
-          options.groups = parts;
-          options.legend = "near-rigid parts, by size";
-        }
-        WritePng(output, RenderFilmStrip(*path.metric->connectivity, placed, options));
-        break;
-      }
-      case Kind::kGltf:
-        WriteGltfAndTell(output, path, whole.shapes[0], parts);
-        break;
-      case Kind::kFrames:
-        WriteFramesAndTell(output, placed, FrameSoup(*path.metric->connectivity, path.appearance));
-        break;
+  for (const std::string& output : paths_first) {
+    if (Interrupted() && !IsPathFile(output)) continue;
+    ShowProgress("writing " + output);
+    try {
+      Write(output, path, whole, &parts);
+    } catch (const Error& error) {
+      Complain(error.what());
+    } catch (const std::bad_alloc&) {
+      Complain(output + ": not written: out of memory");
     }
   }
 }

@@ -1,24 +1,28 @@
 #include "support/poses.h"
 
-#include <iostream>
-
 #include <gflags/gflags.h>
+
+#include "support/console.h"
+#include "support/nonmanifold_flag.h"
 
 DEFINE_string(stiffeners, "",
               "text file of further edges to hold: two vertex numbers a line, from 1");
-DEFINE_bool(allow_nonmanifold, false,
-            "take meshes with non-manifold edges or vertices, or inconsistent winding");
 
 namespace shapespace::tools {
+
+std::vector<std::string> WithStiffeners(std::vector<std::string> files) {
+  if (!FLAGS_stiffeners.empty()) files.push_back(FLAGS_stiffeners);
+  return files;
+}
 
 Poses ReadPosesFromFlags(const std::vector<std::string>& files) {
   ReadOptions options;
   options.stiffeners = FLAGS_stiffeners;
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
   Poses poses = ReadPoses(files, options);
-  for (const std::string& warning : poses.warnings) std::cerr << "warning: " << warning << '\n';
+  for (const std::string& warning : poses.warnings) Err() << "warning: " << warning << '\n';
   for (const std::string& dropped : poses.soup.dropped) {
-    std::cerr << "note: " << dropped << '\n';
+    Err() << "note: " << dropped << '\n';
   }
   return poses;
 }

@@ -12,6 +12,9 @@ namespace shapespace::tools {
 /// warnings, and what the files hold that no output will.
 Poses ReadPosesFromFlags(const std::vector<std::string>& files);
 
+/// These files, and the one of --stiffeners if it was given: all that is read.
+std::vector<std::string> WithStiffeners(std::vector<std::string> files);
+
 }  // namespace shapespace::tools
 
 #endif  // SHAPESPACE_TOOLS_SUPPORT_POSES_H_

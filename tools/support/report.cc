@@ -1,45 +1,57 @@
 #include "support/report.h"
 
-#include <filesystem>
 #include <iostream>
 
 #include <gflags/gflags.h>
 
 #include <shapespace/base/atomic_file.h>
+#include <shapespace/base/error.h>
+#include <shapespace/base/extension.h>
 
-#include "support/outputs.h"
+#include "support/interrupt.h"
 #include "support/tool.h"
 
-DEFINE_string(report, "", "write a report: .json, or .txt for reading; - prints JSON on stdout");
+DEFINE_string(
+    report, "",
+    "write a report: .json, or .txt for reading; - prints JSON on stdout, and all else on "
+    "stderr");
+DEFINE_bool(strict, false,
+            "exit with 1 if what was asked for did not converge; outputs are written all the same");
 
 namespace shapespace::tools {
-namespace {
 
-std::string Extension() { return std::filesystem::path(FLAGS_report).extension().string(); }
-
-}  // namespace
-
-void CheckReportFlag() {
-  if (FLAGS_report.empty() || FLAGS_report == "-") return;
-  if (Extension() != ".json" && Extension() != ".txt") {
+FlagOutputs ReportFromFlag() {
+  if (FLAGS_report == "-") ResultsToStderr();
+  if (FLAGS_report.empty() || FLAGS_report == "-") return {"report", {}};
+  const std::string extension = Extension(FLAGS_report);
+  if (extension != ".json" && extension != ".txt") {
     throw UsageError("--report " + FLAGS_report + ": must end in .json or .txt, or be -");
   }
   CheckCanBeWritten(FLAGS_report);
+  return {"report", {FLAGS_report}};
+}
+
+void PrintSummary(const std::string& brief, const std::vector<std::string>& warnings,
+                  bool converged) {
+  for (const std::string& warning : warnings) Err() << "warning: " << warning << '\n';
+  Out() << brief << '\n';
+  if (FLAGS_strict && !converged) Complain("not converged, which --strict takes for a failure");
 }
 
 void WriteReport(const std::string& text, const std::string& json) {
-  if (FLAGS_report.empty()) return;
+  if (FLAGS_report.empty() || Interrupted()) return;
   if (FLAGS_report == "-") {
     std::cout << json << std::flush;
     return;
   }
-  const std::string& report = Extension() == ".txt" ? text : json;
-  WriteFileAtomically(FLAGS_report, [&](std::ostream& out) { out << report; });
-}
-
-void PrintSummary(const std::string& brief, const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
-  (FLAGS_report == "-" ? std::cerr : std::cout) << brief << '\n';
+  try {
+    WriteFileAtomically(FLAGS_report, [&](std::ostream& out) {
+      out << (Extension(FLAGS_report) == ".txt" ? text : json);
+    });
+    Out() << "wrote " << FLAGS_report << '\n';
+  } catch (const Error& error) {
+    Complain(error.what());
+  }
 }
 
 }  // namespace shapespace::tools

@@ -1,11 +1,7 @@
 #include "support/tool.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
 #include <charconv>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -17,6 +13,8 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 
+#include "support/interrupt.h"
+
 DEFINE_int32(threads, 0, "threads to use; 0 takes all cores (results do not depend on it)");
 
 // gflags ends the process itself when it cannot read a flag, with a code of its own.
@@ -27,37 +25,10 @@ extern void (*gflags_exitfunc)(int);
 namespace shapespace::tools {
 namespace {
 
-std::atomic<bool> interrupted{false};
-
-class Terminal final : public Progress {
- public:
-  ~Terminal() override { Clear(); }
-  bool Report(const std::string& stage, int done, int total) override {
-    if (shown_) {
-      std::string line = stage;
-      if (total > 0) {
-        line += ": " + std::to_string(done) + " of " + std::to_string(total);
-      } else if (done > 0) {
-        line += ": iteration " + std::to_string(done);
-      }
-      std::cerr << "\r\033[K" << line << std::flush;
-      dirty_ = true;
-    }
-    return !interrupted;
-  }
-  void Clear() {
-    if (dirty_) std::cerr << "\r\033[K" << std::flush;
-    dirty_ = false;
-  }
-
- private:
-  const bool shown_ = isatty(STDERR_FILENO) != 0;
-  bool dirty_ = false;
-};
-
-Terminal& TheTerminal() {
-  static Terminal terminal;
-  return terminal;
+// The command line before gflags took it apart.
+std::vector<std::string>& Typed() {
+  static std::vector<std::string> typed;
+  return typed;
 }
 
 std::vector<gflags::CommandLineFlagInfo> FlagsOf(const std::string& source) {
@@ -107,6 +78,7 @@ void PrintHelp(const Program& program) {
   }
   PrintFlag("  --help", "this text");
   PrintFlag("  --version", "version of shapespace");
+  std::cout << "\nExit codes: 0 done, 1 something failed, 2 the command line is wrong.\n";
 }
 
 }  // namespace
@@ -121,18 +93,58 @@ std::vector<std::string> GivenFlags(const std::string& source) {
   return names;
 }
 
-Progress* TerminalProgress() { return &TheTerminal(); }
+std::string AsTyped(const std::string& flag) {
+  std::string text = "--" + flag;
+  for (size_t i = 1; i < Typed().size() && Typed()[i] != "--"; ++i) {
+    const std::string& typed = Typed()[i];
+    const size_t begin = typed.find_first_not_of('-');
+    if (begin != 1 && begin != 2) continue;
+    const size_t equals = typed.find('=');
+    std::string name = typed.substr(begin, equals == typed.npos ? equals : equals - begin);
+    std::replace(name.begin(), name.end(), '-', '_');
+    if (name != flag) continue;
+    if (equals != typed.npos) {
+      text = "--" + flag + " " + typed.substr(equals + 1);
+    } else if (i + 1 < Typed().size()) {
+      text = "--" + flag + " " + Typed()[i + 1];
+    }
+  }
+  return text;
+}
+
+void NamingFlags(const FlagNames& names, const std::function<void()>& body) {
+  try {
+    body();
+  } catch (const InvalidOptions& error) {
+    const std::string message = error.what();
+    const size_t colon = std::min(message.find(':'), message.size());
+    std::string flags;
+    std::istringstream fields(message.substr(0, colon));
+    for (std::string field; std::getline(fields >> std::ws, field, ',');) {
+      for (const auto& [own, flag] : names) {
+        if (own == field) field = flag;
+      }
+      gflags::CommandLineFlagInfo info;
+      const bool is_flag = gflags::GetCommandLineFlagInfo(field.c_str(), &info);
+      flags += (flags.empty() ? "" : ", ") + (is_flag ? AsTyped(field) : field);
+    }
+    throw UsageError(flags + message.substr(colon));
+  }
+}
 
 int RunTool(int argc, char** argv, const Program& program,
             const std::function<void(const std::vector<std::string>& arguments)>& body) {
+  SetProgramName(program.name);
+  HandleInterrupts(ClearProgress);
   google::InitGoogleLogging(argv[0]);
   FLAGS_logtostderr = true;
-  FLAGS_minloglevel = google::GLOG_ERROR;
+  FLAGS_minloglevel = google::GLOG_FATAL;
   GFLAGS_NAMESPACE::gflags_exitfunc = [](int) {
     std::cerr << "Try --help\n";
     std::_Exit(2);
   };
   gflags::SetVersionString(SHAPESPACE_VERSION);
+  Typed().assign(argv, argv + argc);
   gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
   if (IsGiven("help")) {
     PrintHelp(program);
@@ -142,37 +154,28 @@ int RunTool(int argc, char** argv, const Program& program,
     std::cout << program.name << " of shapespace " << SHAPESPACE_VERSION << '\n';
     return 0;
   }
-  // The first Ctrl-C asks the solver to stop, which leaves nothing behind; the second kills.
-  std::signal(SIGINT, [](int) {
-    interrupted = true;
-    std::signal(SIGINT, SIG_DFL);
-  });
-  const auto complain = [&](const std::string& message) {
-    TheTerminal().Clear();
-    std::cerr << program.name << ": " << message << '\n';
-  };
   try {
-    if (FLAGS_threads < 0) throw UsageError("--threads must be 0 or more");
-    SetThreads(FLAGS_threads);
-    body({argv + 1, argv + argc});
+    NamingFlags({}, [&] {
+      SetThreads(FLAGS_threads);
+      body({argv + 1, argv + argc});
+    });
     if (!std::cout.flush() || std::fflush(stdout) != 0) {
       throw FileError("stdout: writing failed (is the disk full?)");
     }
-    TheTerminal().Clear();
-    return 0;
   } catch (const UsageError& error) {
-    complain(error.what());
-  } catch (const InvalidOptions& error) {
-    complain("--" + std::string(error.what()));
+    Complain(error.what());
+    Err() << "Try " << program.name << " --help\n";
+    return 2;
+  } catch (const Cancelled&) {
+    Err() << program.name << ": interrupted before there was anything to keep\n";
   } catch (const std::bad_alloc&) {
-    complain("out of memory");
-    return 1;
+    Complain("out of memory");
   } catch (const std::exception& error) {
-    complain(error.what());
-    return 1;
+    Complain(error.what());
   }
-  std::cerr << "Try " << program.name << " --help\n";
-  return 2;
+  EndIfInterrupted();
+  ClearProgress();
+  return HasComplained() ? 1 : 0;
 }
 
 }  // namespace shapespace::tools

@@ -4,9 +4,10 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <shapespace/base/progress.h>
+#include "support/console.h"
 
 namespace shapespace::tools {
 
@@ -19,14 +20,14 @@ class UsageError : public std::runtime_error {
 struct Program {
   const char* name;
   const char* summary;  ///< one line
-  const char* usage;    ///< arguments and an example
+  std::string usage;    ///< arguments and an example
   /// Folders or files of this project whose flags the program takes, e.g. "tools/support/metric".
   std::vector<std::string> flag_sources;
 };
 
 /// What main() of every tool is: reads gflags, answers --help and --version, runs `body` with the
-/// arguments that are no flags. Returns the exit code: 0, 1 after an error or Ctrl-C, 2 after a
-/// usage error. Messages go to stderr.
+/// arguments that are no flags. Returns the exit code: 0, 1 after an error or a `Complain`, 2 after
+/// a usage error; Ctrl-C ends the process by its signal. Messages go to stderr.
 int RunTool(int argc, char** argv, const Program& program,
             const std::function<void(const std::vector<std::string>& arguments)>& body);
 
@@ -36,8 +37,17 @@ bool IsGiven(const char* flag);
 /// Those flags of one of `flag_sources` that the command line gave, by name.
 std::vector<std::string> GivenFlags(const std::string& source);
 
-/// Shows a line of progress on stderr where that is a terminal, and cancels on Ctrl-C.
-Progress* TerminalProgress();
+/// A flag as messages name it, with its value as it was typed: "--unit 1e-3"; without value if the
+/// command line did not give it.
+std::string AsTyped(const std::string& flag);
+
+/// Which flags set the fields of an options struct, where their names differ: field, flag.
+using FlagNames = std::vector<std::pair<std::string, std::string>>;
+
+/// Runs `body`. Messages of InvalidOptions begin with a field's name: they become those of a
+/// UsageError that begin with the flag `AsTyped`. What `names` does not list has a flag of its
+/// name.
+void NamingFlags(const FlagNames& names, const std::function<void()>& body);
 
 }  // namespace shapespace::tools
 

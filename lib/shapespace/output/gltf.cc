@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,9 +58,9 @@ constexpr int kLargestShortIndex = 65534;
 
 void CheckRange(const char* field, double value, double least, double most) {
   if (value >= least && value <= most) return;
-  nlohmann::json range = {value, least, most};
-  throw InvalidOptions(std::string(field) + ": " + range[0].dump() + " is not in " +
-                       range[1].dump() + " .. " + range[2].dump());
+  std::ostringstream message;
+  message << field << ": must be from " << least << " to " << most;
+  throw InvalidOptions(message.str());
 }
 
 void CheckPath(const std::string& file, const Path& path) {

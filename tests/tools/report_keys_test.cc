@@ -1,0 +1,121 @@
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/run.h"
+
+namespace shapespace {
+namespace {
+
+using testing::Content;
+using testing::ToolsTest;
+
+using Keys = std::set<std::string>;
+
+/// The words in backticks that could be keys.
+Keys KeysIn(const std::string& text) {
+  static const std::regex key("`([a-z][a-z0-9_]*)`");
+  Keys keys;
+  for (std::sregex_iterator match(text.begin(), text.end(), key), end; match != end; ++match) {
+    keys.insert((*match)[1]);
+  }
+  return keys;
+}
+
+/// The keys of an object, or of the objects in an array, and of those in them.
+void Collect(const nlohmann::json& json, Keys* keys) {
+  for (const auto& [key, value] : json.items()) {
+    if (json.is_object()) keys->insert(key);
+    if (value.is_structured()) Collect(value, keys);
+  }
+}
+
+/// The tables of docs/file-formats.md that tell what reports hold.
+class ReportKeysTest : public ToolsTest {
+ protected:
+  /// The rows of the table after `heading`: the keys of the first column, and what the second says.
+  static std::vector<std::pair<Keys, std::string>> Rows(const std::string& heading) {
+    const std::string text = Content(SHAPESPACE_DOCS_DIR "/file-formats.md");
+    const size_t begin = text.find(heading);
+    EXPECT_NE(begin, text.npos) << heading;
+    std::istringstream lines(text.substr(begin + heading.size()));
+    std::vector<std::pair<Keys, std::string>> rows;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.rfind("| `", 0) == 0) {
+        const size_t bar = line.find('|', 1);
+        rows.emplace_back(KeysIn(line.substr(0, bar)), line.substr(bar));
+      } else if (!rows.empty()) {
+        break;
+      }
+    }
+    return rows;
+  }
+
+  /// Every key of `json` has its place in the table, and the table has no other. `sometimes` are
+  /// keys that this report does not have; what `energy_parts` holds depends on the metric.
+  static void Compare(const std::string& heading, nlohmann::json json, const Keys& sometimes = {}) {
+    SCOPED_TRACE(heading);
+    json["energy_parts"] = 0;
+    Keys documented = sometimes;
+    documented.insert("energy_parts");
+    for (const auto& [keys, content] : Rows(heading)) {
+      Keys inner;
+      bool structured = false;
+      for (const std::string& key : keys) {
+        documented.insert(key);
+        EXPECT_TRUE(json.contains(key) || sometimes.count(key) > 0) << key << " is not written";
+        if (!json.contains(key) || !json[key].is_structured()) continue;
+        Collect(json[key], &inner);
+        structured = true;
+      }
+      const Keys told = KeysIn(content);
+      for (const std::string& key : inner) {
+        const bool is_range = key == "rms" || key == "p99" || key == "max";
+        EXPECT_TRUE(told.count(key) > 0 || is_range) << key << " in " << *keys.begin();
+      }
+      for (const std::string& key : told) {
+        EXPECT_TRUE(!structured || inner.count(key) > 0 || json.contains(key))
+            << key << " is not in " << *keys.begin();
+      }
+    }
+    for (const auto& [key, value] : json.items()) {
+      EXPECT_EQ(documented.count(key), 1u) << key << " is not documented";
+    }
+  }
+
+  nlohmann::json Report(const std::string& tool, std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"--report", "r.json"});
+    Succeed(tool, arguments);
+    return nlohmann::json::parse(Content(Path("r.json")));
+  }
+};
+
+TEST_F(ReportKeysTest, TheDocumentationHasThemAllAndNoOthers) {
+  MakeTubes();
+  const nlohmann::json geodesic =
+      Report("shape-interpolate", {"tube0.obj", "tube1.obj", "--output", "w.path"});
+  Compare("Of `shape-interpolate`:", geodesic);
+  Compare("Of `shape-extrapolate`,",
+          Report("shape-extrapolate",
+                 {"w.path", "--steps", "2", "--correct", "1", "--output", "on.path"}),
+          {"stopped"});
+  const nlohmann::json transfer =
+      Report("shape-transfer", {"w.path", "--target", "tube0.obj", "--output", "t.path"});
+  Compare("Of `shape-transfer` from", transfer);
+  const nlohmann::json poses = Report(
+      "shape-transfer",
+      {"tube0.obj", "tube1.obj", "--shapes", "1", "--target", "tube0.obj", "--output", "t.path"});
+  Keys keys, parts;
+  for (const auto& [key, value] : poses.items()) keys.insert(key);
+  EXPECT_EQ(keys, (Keys{"converged", "poses"}));
+  for (const auto& [key, value] : poses["poses"][0].items()) parts.insert(key);
+  EXPECT_EQ(parts, (Keys{"geodesic", "transfer"}));
+  EXPECT_EQ(poses["poses"][0]["geodesic"].size(), geodesic.size());
+  EXPECT_EQ(poses["poses"][0]["transfer"].size(), transfer.size());
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,82 @@
+#include "support/console.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <iostream>
+#include <limits>
+
+#include <shapespace/base/stopwatch.h>
+
+namespace shapespace::tools {
+namespace {
+
+// Seconds between two lines of progress, on a terminal and elsewhere.
+constexpr double kTerminalPause = 0.05, kPause = 10;
+
+struct Console {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const Stopwatch stopwatch;
+  double last = terminal ? -kTerminalPause : 0;  // when progress was shown
+  std::atomic<bool> shown{false};                // a line of progress stands on the terminal
+  bool results_to_stderr = false;
+  bool has_complained = false;
+  std::string name;
+};
+
+Console& TheConsole() {
+  static Console console;
+  return console;
+}
+
+size_t TerminalWidth() {
+  winsize size = {};
+  constexpr size_t kUsual = 80;
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsual;
+}
+
+}  // namespace
+
+std::ostream& Out() {
+  if (TheConsole().results_to_stderr) return Err();
+  ClearProgress();
+  return std::cout;
+}
+
+void ResultsToStderr() { TheConsole().results_to_stderr = true; }
+
+std::ostream& Err() {
+  ClearProgress();
+  std::cout << std::flush;  // so that lines stand in order where both go to one place
+  return std::cerr;
+}
+
+void Complain(const std::string& message) {
+  TheConsole().has_complained = true;
+  Err() << TheConsole().name + ": " + message + '\n';
+}
+
+void SetProgramName(const std::string& name) { TheConsole().name = name; }
+
+bool HasComplained() { return TheConsole().has_complained; }
+
+void ShowProgress(const std::string& line) {
+  Console& console = TheConsole();
+  const double now = console.stopwatch.Seconds();
+  if (now - console.last < (console.terminal ? kTerminalPause : kPause)) return;
+  console.last = now;
+  if (!console.terminal) {
+    Err() << console.name + ": " + line + '\n';
+    return;
+  }
+  // A line that wraps could not be cleared.
+  std::cerr << "\r\033[K" + line.substr(0, TerminalWidth() - 1) << std::flush;
+  console.shown = true;
+}
+
+void ClearProgress() {
+  if (TheConsole().shown.exchange(false)) std::cerr << "\r\033[K" << std::flush;
+}
+
+}  // namespace shapespace::tools

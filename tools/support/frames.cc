@@ -1,0 +1,45 @@
+#include "support/frames.h"
+
+#include <filesystem>
+
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/write.h>
+#include <shapespace/output/frames.h>
+
+#include "support/tool.h"
+
+namespace shapespace::tools {
+namespace {
+
+std::string FirstToLast(const std::string& pattern, int first, int last) {
+  const std::string name = FrameName(pattern, first);
+  return first == last ? name : name + " .. " + FrameName(pattern, last);
+}
+
+}  // namespace
+
+void WriteFramesAndTell(const std::string& pattern, const std::vector<Shape>& shapes,
+                        const Soup& soup) {
+  for (const std::string& sentence : NotKept(pattern, soup)) {
+    Err() << "note: " << pattern << ": " << sentence << '\n';
+  }
+  WriteFrames(pattern, shapes, soup);
+  const int count = static_cast<int>(shapes.size());
+  Out() << "wrote " << FirstToLast(pattern, 0, count - 1) << '\n';
+  int end = count;
+  while (std::filesystem::exists(FrameName(pattern, end))) ++end;
+  if (end == count) return;
+  Err() << "note: " << FirstToLast(pattern, count, end - 1)
+        << (end - count == 1 ? " is of an earlier run, and stays\n"
+                             : " are of an earlier run, and stay\n");
+}
+
+void CheckFramePattern(const std::string& flag, const std::string& file) {
+  try {
+    FrameName(file, 0);
+  } catch (const FileError& error) {
+    throw UsageError("--" + flag + " " + error.what());
+  }
+}
+
+}  // namespace shapespace::tools

@@ -1,0 +1,95 @@
+#include "support/interrupt.h"
+
+#include <semaphore.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <mutex>
+#include <thread>
+
+#include <shapespace/base/atomic_file.h>
+
+namespace shapespace::tools {
+namespace {
+
+struct State {
+  std::mutex mutex;
+  int signal = 0;  // that came and waits
+  std::function<void()> before_the_end;
+  std::function<void()> notice;  // empty: the first signal ends the process
+};
+
+State& TheState() {
+  static State* const state = new State;  // the listening thread may outlive main()
+  return *state;
+}
+
+// All that a handler may do is to say that there was a signal, and which.
+volatile std::sig_atomic_t received = 0;
+sem_t came;
+
+void Receive(int signal) {
+  received = signal;
+  sem_post(&came);
+}
+
+[[noreturn]] void EndBy(int signal) {
+  TheState().before_the_end();
+  AbandonUnfinishedFiles();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+  std::_Exit(128 + signal);
+}
+
+// On a thread of its own, which may take locks, and so knows which temporaries there are.
+void Listen() {
+  State& state = TheState();
+  for (;;) {
+    while (sem_wait(&came) != 0) continue;
+    std::function<void()> notice;
+    {
+      const std::lock_guard<std::mutex> lock(state.mutex);
+      if (state.signal == 0) notice = state.notice;
+      if (notice) state.signal = received;
+    }
+    if (!notice) EndBy(received);
+    notice();
+  }
+}
+
+}  // namespace
+
+void HandleInterrupts(const std::function<void()>& before_the_end) {
+  TheState().before_the_end = before_the_end;
+  sem_init(&came, 0, 0);
+  std::thread(Listen).detach();
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action = {};
+    sigaction(signal, nullptr, &action);
+    if (action.sa_handler == SIG_IGN) continue;  // nohup, or a job in the background of a script
+    action.sa_handler = Receive;
+    action.sa_flags = SA_RESTART;
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+FirstInterruptWaits::FirstInterruptWaits(const std::function<void()>& notice) {
+  const std::lock_guard<std::mutex> lock(TheState().mutex);
+  TheState().notice = notice;
+}
+
+FirstInterruptWaits::~FirstInterruptWaits() {
+  const std::lock_guard<std::mutex> lock(TheState().mutex);
+  TheState().notice = nullptr;
+}
+
+bool Interrupted() {
+  const std::lock_guard<std::mutex> lock(TheState().mutex);
+  return TheState().signal != 0;
+}
+
+void EndIfInterrupted() {
+  if (Interrupted()) EndBy(TheState().signal);
+}
+
+}  // namespace shapespace::tools

@@ -1,0 +1,8 @@
+#ifndef SHAPESPACE_TOOLS_SUPPORT_MEMORY_FLAG_H_
+#define SHAPESPACE_TOOLS_SUPPORT_MEMORY_FLAG_H_
+
+#include <gflags/gflags.h>
+
+DECLARE_double(memory_limit);
+
+#endif  // SHAPESPACE_TOOLS_SUPPORT_MEMORY_FLAG_H_

@@ -1,0 +1,63 @@
+#include "support/solve_progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "support/console.h"
+#include "support/outputs.h"
+
+namespace shapespace::tools {
+namespace {
+
+// Before so many seconds, and so much of the work, an estimate of the rest means nothing.
+constexpr double kLeastSeconds = 2, kLeastShare = 0.05;
+
+// As precise as such an estimate can be.
+std::string InWords(double seconds) {
+  const auto rounded = [](double value, int unit) {
+    return std::to_string(unit * std::max(1L, std::lround(value / unit)));
+  };
+  if (seconds < 55) return rounded(seconds, seconds < 10 ? 1 : 5) + " s";
+  if (seconds < 100 * 60) return rounded(seconds / 60, 1) + " min";
+  return rounded(seconds / 3600, 1) + " h";
+}
+
+}  // namespace
+
+SolveProgress::SolveProgress(const std::vector<std::string>& outputs, std::string next)
+    : next_(std::move(next)) {
+  for (const std::string& output : outputs) {
+    if (!IsPathFile(output)) continue;
+    waits_.emplace([output] {
+      Err() << "stopping: the best path so far goes to " + output + "; Ctrl-C again ends at once\n";
+    });
+    return;
+  }
+}
+
+SolveProgress::~SolveProgress() { ClearProgress(); }
+
+bool SolveProgress::Report(const std::string& stage, int done, int total) {
+  std::string line = stage;
+  if (total > 0) {
+    line += ": " + std::to_string(done) + " of " + std::to_string(total);
+  } else if (done > 0) {
+    line += ": iteration " + std::to_string(done);
+  }
+  ShowProgress(line + TimeLeft());
+  return !Interrupted();
+}
+
+void SolveProgress::ReportShare(double share) {
+  if (share == 0) working_.emplace();
+  share_ = share;
+}
+
+std::string SolveProgress::TimeLeft() const {
+  if (!working_ || working_->Seconds() < kLeastSeconds || share_ < kLeastShare) return {};
+  return "; about " + InWords(working_->Seconds() * (1 / share_ - 1)) + " left" +
+         (next_.empty() ? "" : ", then " + next_);
+}
+
+}  // namespace shapespace::tools
