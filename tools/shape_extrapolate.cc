@@ -97,8 +97,11 @@ Path OriginFromPoses(const std::vector<std::string>& files, const GeodesicOption
 
 void Run(const std::vector<std::string>& files) {
   const bool from_path = IsOnePath(files);
-  if (from_path && IsGiven("allow_nonmanifold")) {
-    throw UsageError("--allow_nonmanifold: goes with poses; a path was let in when it was made");
+  for (const char* flag : {"allow_nonmanifold", "mirror"}) {
+    if (from_path && IsGiven(flag)) {
+      throw UsageError("--" + std::string(flag) +
+                       ": goes with poses; a path was let in when it was made");
+    }
   }
   if (FLAGS_steps < 1) throw UsageError("--steps must be 1 or more");
   if (FLAGS_keep != 0 && FLAGS_keep < 2) throw UsageError("--keep must be 2 or more, or 0 for all");
@@ -166,6 +169,6 @@ int main(int argc, char** argv) {
            kHowASolveEnds,
        {"shape_extrapolate.cc", "support/geodesic_flags.cc", "support/report.cc",
         "support/outputs.cc", "support/metric_flags.cc", "support/poses.cc",
-        "support/nonmanifold_flag.cc", "support/memory_flag.cc"}},
+        "support/mesh_flags.cc", "support/memory_flag.cc"}},
       Run);
 }

@@ -12,6 +12,7 @@
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/intersections.h>
 #include <shapespace/mesh/read.h>
+#include <shapespace/mesh/triangulate.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
@@ -20,8 +21,8 @@
 #include <shapespace/path/quality.h>
 #include <shapespace/path/rigid_parts.h>
 
+#include "support/mesh_flags.h"
 #include "support/metric_flags.h"
-#include "support/nonmanifold_flag.h"
 #include "support/tool.h"
 
 namespace shapespace::tools {
@@ -73,10 +74,16 @@ void PrintContent(const Soup& soup) {
   }
 }
 
+// As solvers see it; of meshes that can be used.
+std::shared_ptr<const Connectivity> ConnectivityOf(const Soup& soup,
+                                                   const std::vector<Shape>& poses) {
+  return Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments, {},
+                            Triangulate(soup.polygon_begin, soup.corners, poses));
+}
+
 // Where the surface passes through itself; of a mesh that can be used.
 void PrintIntersections(const Soup& soup) {
-  const auto connectivity =
-      Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments);
+  const auto connectivity = ConnectivityOf(soup, {soup.vertices});
   const std::int64_t pairs = CountIntersections(*connectivity, soup.vertices);
   const std::string message = std::to_string(pairs) + " pairs of triangles cross";
   std::printf("  %-12s %-24s %s\n", Name(Severity::kNote), "self-intersections",
@@ -85,9 +92,9 @@ void PrintIntersections(const Soup& soup) {
 
 // How far a pose is from the first, rigid motion apart.
 void PrintDistance(const Soup& reference, const Soup& pose) {
-  const auto connectivity = Connectivity::Make(reference.NumVertices(), reference.polygon_begin,
-                                               reference.corners, reference.segments);
   const std::vector<Shape> pair = {reference.vertices, pose.vertices};
+  const auto connectivity = ConnectivityOf(reference, pair);
+  CheckMetricFlags(*connectivity);
   const Metric metric = FreezeMetric(MetricFromFlags(), connectivity, pair);
   const AlignedPoses aligned = AlignPoses(metric, pair);
   const Shape &first = aligned.shapes[0], &other = aligned.shapes[1];
@@ -197,10 +204,15 @@ void PrintPath(const std::string& file) {
 // Reads and prints a mesh, and how it goes with the first one. Returns whether it can be used.
 bool PrintMesh(const std::string& file, std::vector<Soup>* soups) {
   soups->push_back(ReadSoup(file));
-  const Soup& soup = soups->back();
+  Soup& soup = soups->back();
   PrintContent(soup);
   const bool usable = Print(CheckSoup(soup));
   if (usable) PrintIntersections(soup);
+  const char axis = MirrorFromFlags();
+  if (usable && soups->size() > 1 && axis != 0 && MirrorBack(soups->front(), axis, &soup)) {
+    std::printf("  %-12s %-24s mirrored; its %c has changed sign\n", Name(Severity::kNote),
+                "mirrored", axis);
+  }
   const bool corresponds = soups->size() == 1 || Print(CheckCorrespondence(soups->front(), soup));
   return usable && corresponds;
 }
@@ -240,6 +252,6 @@ int main(int argc, char** argv) {
                   "  shape-inspect a.obj b.obj walk.path\n\n"
                   "Exit code 1 if a file cannot be read, a mesh cannot be used as it is, or meshes "
                   "do not\ncorrespond.",
-                  {"support/metric_flags.cc", "support/nonmanifold_flag.cc"}},
+                  {"support/metric_flags.cc", "support/mesh_flags.cc"}},
                  Run);
 }

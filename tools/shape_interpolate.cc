@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
            "poses included.") +
            kHowASolveEnds,
        {"support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
-        "support/metric_flags.cc", "support/poses.cc", "support/nonmanifold_flag.cc",
+        "support/metric_flags.cc", "support/poses.cc", "support/mesh_flags.cc",
         "support/memory_flag.cc"}},
       Run);
 }

@@ -9,6 +9,7 @@
 
 #include "support/choose.h"
 #include "support/geodesic_flags.h"
+#include "support/mesh_flags.h"
 #include "support/outputs.h"
 #include "support/poses.h"
 #include "support/report.h"
@@ -56,8 +57,12 @@ Poses ReadTargetOf(const Path& path, const std::string& file) {
   Soup reference = FrameSoup(*path.metric->connectivity), pose = target.soup;
   reference.file = file;
   reference.vertices = path.Placed(0);
-  // Only graphs' segments are told from the other edges that a path holds.
-  if (!path.metric->connectivity->IsGraph()) pose.segments.clear();
+  const char axis = MirrorFromFlags();
+  if (axis != 0 && MirrorBack(reference, axis, &pose)) {
+    Err() << "warning: " << FLAGS_target << ": is a mirror image of the path's first shape; its "
+          << axis << " has changed sign\n";
+    target.shapes[0] = pose.vertices;
+  }
   for (const Finding& finding : CheckCorrespondence(reference, pose)) {
     if (finding.severity == Severity::kFatal) throw CorrespondenceError(finding.message);
     Err() << "warning: " << finding.message << '\n';
@@ -136,7 +141,7 @@ int main(int argc, char** argv) {
            "blue, all that became of it purple; hybrids are\ngreen.") +
            kHowASolveEnds,
        {"shape_transfer.cc", "support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
-        "support/metric_flags.cc", "support/poses.cc", "support/nonmanifold_flag.cc",
+        "support/metric_flags.cc", "support/poses.cc", "support/mesh_flags.cc",
         "support/memory_flag.cc"}},
       Run);
 }

@@ -52,7 +52,7 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                                         "log_length", "metric",         "rigid",     "strain",
                                         "volume",     "weights"};
   std::set<std::string> wanted = metric;
-  wanted.insert({"allow_nonmanifold", "help", "threads", "version"});
+  wanted.insert({"allow_nonmanifold", "help", "mirror", "threads", "version"});
   EXPECT_EQ(Listed("shape-inspect"), wanted);
   wanted.insert({"color", "ease", "fps", "loop", "max_iterations", "memory_limit", "once", "output",
                  "report", "seconds", "shapes", "solver", "stiffeners", "strict", "tolerance"});

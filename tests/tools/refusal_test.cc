@@ -62,10 +62,11 @@ TEST_F(RefusalTest, WrongCommandLines) {
       {{"--solver", "magic"},
        "--solver magic: must be one of automatic, lbfgs, threaded_lbfgs, trust_region"},
       {{"--color", "pink"}, "--color pink: must be plain, deviation or parts"},
-      {{"--threads=-1"}, "--threads -1: must be 0 (all cores) or more"},
+      {{"--threads=-1"}, "--threads -1: must be 0 (all cores) to 256"},
       {{"--memory_limit", "0"}, "--memory_limit 0: must be positive"},
       {{"--isometric", "0", "--lambda", "0"},
-       "--isometric 0, --log_length, --rigid, --lambda 0: all zero, so motion costs nothing"},
+       "--isometric 0, --strain, --log_length, --rigid, --lambda 0: all zero, so motion costs "
+       "nothing"},
       {{"--output", "walk.gif"}, "walk.gif: must end in .path, .png, .glb, .obj or .ply"},
       {{"--output", ","}, "--output: names no file"},
       {{"--output", "frame.obj"}, "frame.obj: a name for frames needs one number"},
@@ -225,6 +226,51 @@ TEST_F(RefusalTest, MetricsThatTheMeshCannotHave) {
   Succeed("shape-body", {"sheet", "--triangles", "100", "--output", "sheet%d.obj"});
   ExpectRefusal(2, {"sheet0.obj", "sheet1.obj", "--volume", "1", "--output", "w.path"},
                 {"--volume 1: the mesh is not closed"});
+}
+
+TEST_F(RefusalTest, BendingOfWhatCannotBend) {
+  File("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nl 1 2\nl 2 3\n");
+  File("b.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2\nl 2 3\n");
+  ExpectRefusal(2, {"a.obj", "b.obj", "--bending", "1e-3", "--output", "w.path"},
+                {"--bending 1e-3: no two triangles of this mesh share an edge"});
+  Succeed("shape-interpolate", {"a.obj", "b.obj", "--output", "w.path"});
+}
+
+TEST_F(RefusalTest, MirrorImagesAreToldAndTurnedBackIfAsked) {
+  MakeTubes();
+  const Soup tube = ReadSoup(Path("tube1.obj"));
+  Shape flipped = tube.vertices;
+  flipped.row(2) *= -1;
+  WriteMesh(Path("flipped.obj"), flipped, tube);
+  ExpectRefusal(1, {"tube0.obj", "flipped.obj", "--output", "w.path"},
+                {"flipped.obj against tube0.obj: the body is a mirror image", "--mirror x"});
+  ExpectRefusal(2, {"tube0.obj", "flipped.obj", "--mirror", "up", "--output", "w.path"},
+                {"--mirror up: must be x, y or z"});
+  const Outcome inspected = Run("shape-inspect", {"tube0.obj", "flipped.obj"});
+  EXPECT_EQ(inspected.code, 1);
+  ExpectContains(inspected.out, "mirror image");
+  const Outcome turned = Run("shape-inspect", {"tube0.obj", "flipped.obj", "--mirror", "z"});
+  EXPECT_EQ(turned.code, 0) << turned.err;
+  ExpectContains(turned.out, "its z has changed sign");
+
+  const Strings more = {"--shapes", "1", "--output"};
+  const auto interpolate = [&](Strings arguments, const std::string& output) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    arguments.push_back(output);
+    return Run("shape-interpolate", arguments);
+  };
+  const Outcome mended =
+      interpolate({"tube0.obj", "flipped.obj", "--mirror", "z"}, "mended.path,m%d.ply");
+  EXPECT_EQ(mended.code, 0) << mended.err;
+  ExpectContains(mended.err, "warning: flipped.obj: is a mirror image of tube0.obj");
+  ASSERT_EQ(interpolate({"tube0.obj", "tube1.obj"}, "%d.ply").code, 0);
+  for (int i = 0; i < 3; ++i) {
+    const std::string frame = std::to_string(i) + ".ply";
+    EXPECT_TRUE(ReadSoup(Path("m" + frame)).vertices == ReadSoup(Path(frame)).vertices) << i;
+  }
+  // A body that is to move as a path does is looked at in the same way.
+  const Strings transfer = {"mended.path", "--target", "flipped.obj", "--output", "t%d.ply"};
+  EXPECT_EQ(Run("shape-transfer", transfer).code, 1);
 }
 
 TEST_F(RefusalTest, SolvesBeyondTheMemoryLimit) {

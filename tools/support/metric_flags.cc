@@ -12,8 +12,9 @@ DEFINE_string(metric, "isometric",
               "paper (bending 0, lambda 0.001, weights uniform, discretization trapezoid)");
 DEFINE_double(isometric, 1,
               "cost of stretching edges; all costs are pure numbers, the area being 1");
-DEFINE_double(strain, 0,
-              "cost of logarithmic strains of triangles: as --isometric, but paths can always go on");
+DEFINE_double(
+    strain, 0,
+    "cost of logarithmic strains of triangles: as --isometric, but paths can always go on");
 DEFINE_double(log_length, 0, "cost of changing the logarithms of edge lengths");
 DEFINE_double(rigid, 0, "cost of deviation from rigid motion of the whole body");
 DEFINE_double(lambda, 1e-4, "cost of moving vertices; harmless up to 1e-3");
@@ -58,6 +59,14 @@ MetricOptions MetricFromFlags() {
   }
   options.Validate();
   return options;
+}
+
+void CheckMetricFlags(const Connectivity& connectivity) {
+  if (IsGiven("bending") && FLAGS_bending > 0 && connectivity.NumHinges() == 0) {
+    throw UsageError(AsTyped("bending") +
+                     ": no two triangles of this mesh share an edge, so that nothing can bend; "
+                     "leave the flag out");
+  }
 }
 
 }  // namespace shapespace::tools

@@ -9,6 +9,9 @@ namespace shapespace::tools {
 /// flags; a flag that was given wins. \throw UsageError.
 MetricOptions MetricFromFlags();
 
+/// \throw UsageError if --bending was given for a mesh on which nothing can bend.
+void CheckMetricFlags(const Connectivity& connectivity);
+
 }  // namespace shapespace::tools
 
 #endif  // SHAPESPACE_TOOLS_SUPPORT_METRIC_FLAGS_H_

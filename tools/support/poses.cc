@@ -3,7 +3,8 @@
 #include <gflags/gflags.h>
 
 #include "support/console.h"
-#include "support/nonmanifold_flag.h"
+#include "support/mesh_flags.h"
+#include "support/metric_flags.h"
 
 DEFINE_string(stiffeners, "",
               "text file of further edges to hold: two vertex numbers a line, from 1");
@@ -19,7 +20,9 @@ Poses ReadPosesFromFlags(const std::vector<std::string>& files) {
   ReadOptions options;
   options.stiffeners = FLAGS_stiffeners;
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
+  options.mirror = MirrorFromFlags();
   Poses poses = ReadPoses(files, options);
+  CheckMetricFlags(*poses.connectivity);
   for (const std::string& warning : poses.warnings) Err() << "warning: " << warning << '\n';
   for (const std::string& dropped : poses.soup.dropped) {
     Err() << "note: " << dropped << '\n';

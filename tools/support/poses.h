@@ -8,8 +8,9 @@
 
 namespace shapespace::tools {
 
-/// Reads pose files as the flags --stiffeners and --allow_nonmanifold say; tells stderr the
-/// warnings, and what the files hold that no output will.
+/// Reads pose files as the flags --stiffeners, --allow_nonmanifold and --mirror say; tells stderr
+/// the warnings, and what the files hold that no output will. \throw UsageError if a flag of the
+/// metric asks for what the mesh cannot have.
 Poses ReadPosesFromFlags(const std::vector<std::string>& files);
 
 /// These files, and the one of --stiffeners if it was given: all that is read.

@@ -51,35 +51,6 @@ class Judge {
   std::vector<std::string>* warnings_;
 };
 
-/// Turns mirror images of a reference back, if asked to.
-class Mirror {
- public:
-  /// \throw InvalidOptions if `axis` is none.
-  Mirror(char axis, const Soup& reference) : axis_(axis - 'x'), reference_(reference.vertices) {
-    if (axis == 0) return;
-    if (axis_ < 0 || axis_ > 2) {
-      throw InvalidOptions(std::string("mirror: '") + axis + "' is none of x, y and z");
-    }
-    connectivity_ =
-        Connectivity::Make(reference.NumVertices(), reference.polygon_begin, reference.corners);
-  }
-
-  /// True if the pose was a mirror image.
-  bool Flip(Soup* pose) const {
-    if (!connectivity_ || pose->NumVertices() != connectivity_->NumVertices() ||
-        !IsMirrored(*connectivity_, reference_, pose->vertices)) {
-      return false;
-    }
-    pose->vertices.row(axis_) *= -1;
-    return true;
-  }
-
- private:
-  const int axis_;
-  const Shape& reference_;
-  std::shared_ptr<const Connectivity> connectivity_;  // null: nothing is to be turned
-};
-
 }  // namespace
 
 Soup ReadSoup(const std::string& file) {
@@ -89,6 +60,18 @@ Soup ReadSoup(const std::string& file) {
   if (extension == ".off") return internal::ReadOff(file, Content(file));
   throw FileError(file + ": the extension " + internal::Quoted(extension) +
                   " is none of .obj, .ply, .off; convert the mesh to one of these");
+}
+
+bool MirrorBack(const Soup& reference, char axis, Soup* pose) {
+  if (axis < 'x' || axis > 'z') {
+    throw InvalidOptions(std::string("mirror: '") + axis + "' is none of x, y and z");
+  }
+  if (pose->NumVertices() != reference.NumVertices()) return false;
+  const auto connectivity =
+      Connectivity::Make(reference.NumVertices(), reference.polygon_begin, reference.corners);
+  if (!IsMirrored(*connectivity, reference.vertices, pose->vertices)) return false;
+  pose->vertices.row(axis - 'x') *= -1;
+  return true;
 }
 
 std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num_vertices) {
@@ -135,10 +118,9 @@ Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& option
   const Soup& first = poses.soup;
   judge.Hear<MeshError>(CheckSoup(first));
   poses.shapes.push_back(first.vertices);
-  const Mirror mirror(options.mirror, first);
   for (size_t i = 1; i < files.size(); ++i) {
     Soup pose = ReadSoup(files[i]);
-    if (mirror.Flip(&pose)) {
+    if (options.mirror != 0 && MirrorBack(first, options.mirror, &pose)) {
       poses.warnings.push_back(files[i] + ": is a mirror image of " + files[0] + "; its " +
                                options.mirror + " has changed sign");
     }

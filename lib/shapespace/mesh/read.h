@@ -18,6 +18,11 @@ namespace shapespace {
 ///        that is none, an index out of range, an unknown extension.
 Soup ReadSoup(const std::string& file);
 
+/// Changes the sign of the coordinate `axis`, 'x', 'y' or 'z', of a pose that is a mirror image of
+/// the reference (`IsMirrored`, with the reference's polygons, which must be valid). True if it was
+/// one. \throw InvalidOptions if there is no such axis.
+bool MirrorBack(const Soup& reference, char axis, Soup* pose);
+
 /// Reads pairs of vertex numbers, counted from 1 as in OBJ, one pair a line; `#` begins a comment.
 /// \return pairs counted from 0.
 /// \throw FileError naming file and line.

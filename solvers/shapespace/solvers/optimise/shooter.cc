@@ -5,8 +5,8 @@
 namespace shapespace::internal {
 
 Shooter::Shooter(std::shared_ptr<const Metric> metric, std::vector<Shape> known,
-                 const ExponentialOptions& options, std::function<void()> breathe)
-    : options_(options), breathe_(std::move(breathe)), known_(std::move(known)) {
+                 const ExponentialOptions& options, std::function<void()> check_cancelled)
+    : options_(options), check_cancelled_(std::move(check_cancelled)), known_(std::move(known)) {
   levels_.push_back(std::make_unique<Level>(std::move(metric)));
 }
 
@@ -28,7 +28,7 @@ void Shooter::Decimate() {
 
 Shape Shooter::NextOn(int level, const Departure& departure, ExponentialSummary::Step* row) {
   Level& own = *levels_[level];
-  const Step step(own.map, &own.solver, departure, breathe_);
+  const Step step(own.map, &own.solver, departure, check_cancelled_);
   Shape shape = step.Predict();
   if (step.Solve(options_, row, &shape)) {
     row->vertices = static_cast<int>(shape.cols());

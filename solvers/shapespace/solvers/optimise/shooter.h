@@ -24,10 +24,10 @@ namespace shapespace::internal {
 /// a better start; where even from there no root is found, as the answer.
 class Shooter {
  public:
-  /// `known` are shapes of `metric`'s mesh, in its unit: what is decimated. `breathe` is called
-  /// every now and then while a step is made, and may throw to end it.
+  /// `known` are shapes of `metric`'s mesh, in its unit: what is decimated. `check_cancelled` is
+  /// called every now and then while a step is made, and may throw to end it.
   Shooter(std::shared_ptr<const Metric> metric, std::vector<Shape> known,
-          const ExponentialOptions& options, std::function<void()> breathe);
+          const ExponentialOptions& options, std::function<void()> check_cancelled);
 
   /// The shape after the departure. \throw SolverError if no resolution has an answer.
   Shape Next(const Departure& departure, ExponentialSummary::Step* row);
@@ -47,7 +47,7 @@ class Shooter {
   void Decimate();
 
   const ExponentialOptions options_;
-  const std::function<void()> breathe_;
+  const std::function<void()> check_cancelled_;
   std::vector<Shape> known_;
   std::optional<Hierarchy> hierarchy_;          // once it is needed
   std::vector<std::unique_ptr<Level>> levels_;  // the finest last

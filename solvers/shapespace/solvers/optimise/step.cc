@@ -51,11 +51,11 @@ Tangent SolveMetric(const MetricSolver& solver, const FeatureDerivative& derivat
 }
 
 Step::Step(const FeatureMap& map, MetricSolver* solver, const Departure& departure,
-           const std::function<void()>& breathe)
+           const std::function<void()>& check_cancelled)
     : map_(map),
       solver_(*solver),
       departure_(departure),
-      breathe_(breathe),
+      check_cancelled_(check_cancelled),
       current_(map.Values(departure.shape)),
       derivative_(map.Derivative(departure.shape)) {
   const Eigen::VectorXd change = departure.previous.size() > 0
@@ -115,7 +115,7 @@ bool Step::SolveWithNewton(double tolerance, int max_iterations, ExponentialSumm
   if (!(size < kFarthestStart)) return false;
   for (int iteration = 0; size > tolerance; ++iteration) {
     if (iteration == max_iterations) return size <= kRoot;
-    breathe_();
+    check_cancelled_();
     ++row->iterations;
     Tangent step;
     const MetricSolver::Result linear =
@@ -149,7 +149,7 @@ Shape Step::Nearest(const Shape& start, ExponentialSummary::Step* row) const {
   }
   bool progress = true;
   for (int iteration = 0; progress && iteration < kMaxGaussNewton; ++iteration) {
-    breathe_();
+    check_cancelled_();
     ++row->iterations;
     const FeatureDerivative derivative = map_.Derivative(shape);
     solver_.Factor(derivative);

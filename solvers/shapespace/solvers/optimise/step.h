@@ -31,10 +31,10 @@ struct Departure {
 class Step {
  public:
   /// `map` and `solver` are kept by reference; the solver factors the metric at the departure.
-  /// `breathe` is called before every iteration, and may throw to end the step. \throw SolverError
-  /// if the metric is not definite there.
+  /// `check_cancelled` is called before every iteration, and may throw to end the step. \throw
+  /// SolverError if the metric is not definite there.
   Step(const FeatureMap& map, MetricSolver* solver, const Departure& departure,
-       const std::function<void()>& breathe);
+       const std::function<void()>& check_cancelled);
 
   /// The departure continued by its velocity and the geodesic equation's acceleration: a start
   /// whose error is of third order in the step.
@@ -63,7 +63,7 @@ class Step {
   const FeatureMap& map_;
   MetricSolver& solver_;
   const Departure& departure_;
-  const std::function<void()>& breathe_;
+  const std::function<void()>& check_cancelled_;
   Eigen::VectorXd target_;   // Phi(P_i) + change
   Eigen::VectorXd current_;  // Phi(P_i)
   double speed_ = 0;         // |change|

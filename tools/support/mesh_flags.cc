@@ -1,0 +1,23 @@
+#include "support/mesh_flags.h"
+
+#include <string>
+
+#include "support/tool.h"
+
+DEFINE_bool(allow_nonmanifold, false,
+            "take meshes with non-manifold edges or vertices, or inconsistent winding");
+DEFINE_string(mirror, "",
+              "x, y or z: change the sign of this coordinate in poses that are mirror images of "
+              "the first (found for closed meshes only, and else refused)");
+
+namespace shapespace::tools {
+
+char MirrorFromFlags() {
+  if (FLAGS_mirror.empty()) return 0;
+  if (FLAGS_mirror != "x" && FLAGS_mirror != "y" && FLAGS_mirror != "z") {
+    throw UsageError("--mirror " + FLAGS_mirror + ": must be x, y or z");
+  }
+  return FLAGS_mirror[0];
+}
+
+}  // namespace shapespace::tools

@@ -1,0 +1,15 @@
+#ifndef SHAPESPACE_TOOLS_SUPPORT_MESH_FLAGS_H_
+#define SHAPESPACE_TOOLS_SUPPORT_MESH_FLAGS_H_
+
+#include <gflags/gflags.h>
+
+DECLARE_bool(allow_nonmanifold);
+
+namespace shapespace::tools {
+
+/// The axis of --mirror, 'x', 'y' or 'z'; 0 if the flag was not given. \throw UsageError.
+char MirrorFromFlags();
+
+}  // namespace shapespace::tools
+
+#endif  // SHAPESPACE_TOOLS_SUPPORT_MESH_FLAGS_H_
