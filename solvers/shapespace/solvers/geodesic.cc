@@ -61,13 +61,16 @@ std::vector<Shape> Blend(const Shape& from, const Shape& to, int inner) {
   return shapes;
 }
 
+// Poses farther apart than this have a way between them that is not lost in rounding.
+bool AreNear(const Shape& a, const Shape& b) {
+  constexpr double kNear = 1e-6;
+  return (b - a).cwiseAbs().maxCoeff() <= kNear * a.cwiseAbs().maxCoeff();
+}
+
 // A way so short that its energy is lost in rounding is straight: what bends it is of second order.
 // Shares of that energy mean nothing to a solver. Tells the summary, if this is one.
 bool IsSolved(int piece, const std::vector<Shape>& blend, const GeodesicOptions& options,
               internal::Resolution* finest, GeodesicSummary* summary) {
-  constexpr double kNear = 1e-6;  // else there is no need to look
-  const double apart = (blend.back() - blend.front()).cwiseAbs().maxCoeff();
-  if (apart > kNear * blend.front().cwiseAbs().maxCoeff()) return false;
   const int segments = static_cast<int>(blend.size()) - 1;
   const double energy = ScaledEnergy(finest->Energy(blend, options), segments);
   if (!(energy < GeodesicSummary::kZeroEnergy)) return false;
@@ -258,8 +261,12 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
     internal::Plan(schedule, schedule.size(), resolutions, &workload);
   }
   for (int i = 0; i < pieces; ++i) {
-    std::vector<Shape> shapes = Blend(aligned[i], aligned[i + 1], options.shapes);
-    if (!workload.Stopped() && !IsSolved(i, shapes, options, &resolutions.back(), &summary)) {
+    std::vector<Shape> shapes;
+    if (workload.Stopped() || AreNear(aligned[i], aligned[i + 1])) {
+      shapes = Blend(aligned[i], aligned[i + 1], options.shapes);
+    }
+    if (!workload.Stopped() &&
+        (shapes.empty() || !IsSolved(i, shapes, options, &resolutions.back(), &summary))) {
       internal::Piece piece(i, hierarchy, &resolutions, options, &workload, &summary);
       piece.Run(schedule);
       shapes = std::move(piece).Result();
