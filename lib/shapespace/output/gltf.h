@@ -71,8 +71,8 @@ struct GltfSummary {
 ///
 /// Normals are smooth, weighted by area, also across single sharp edges: leaving those sharp would
 /// take further vertices. Polyhedra and folded paper, of which most edges are sharp, have no
-/// normals and so are shaded flat. Graphs become lines along their segments. `asset.extras` tells the
-/// metric, the number of shapes, the provenance and the end of the colour scale.
+/// normals and so are shaded flat. Graphs become lines along their segments. `asset.extras` tells
+/// the metric, the number of shapes, the provenance and the end of the colour scale.
 ///
 /// The file appears whole or not at all.
 /// \throw InvalidOptions; FileError if it cannot be written; MeshError if there is no shape, if one
