@@ -19,7 +19,8 @@ struct Console {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const Stopwatch stopwatch;
   double last = terminal ? -kTerminalPause : 0;  // when progress was shown
-  std::atomic<bool> shown{false};                // a line of progress stands on the terminal
+  std::string line;                              // of progress, shown last
+  std::atomic<bool> shown{false};                // it stands on the terminal
   bool results_to_stderr = false;
   bool has_complained = false;
   std::string name;
@@ -65,7 +66,9 @@ void ShowProgress(const std::string& line) {
   Console& console = TheConsole();
   const double now = console.stopwatch.Seconds();
   if (now - console.last < (console.terminal ? kTerminalPause : kPause)) return;
+  if (console.shown && line == console.line) return;
   console.last = now;
+  console.line = line;
   if (!console.terminal) {
     Err() << console.name + ": " + line + '\n';
     return;

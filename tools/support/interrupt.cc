@@ -2,6 +2,7 @@
 
 #include <semaphore.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <mutex>
@@ -25,7 +26,8 @@ State& TheState() {
 }
 
 // All that a handler may do is to say that there was a signal, and which.
-volatile std::sig_atomic_t received = 0;
+std::atomic<int> received{0};
+static_assert(std::atomic<int>::is_always_lock_free);
 sem_t came;
 
 void Receive(int signal) {
@@ -89,7 +91,7 @@ bool Interrupted() {
 }
 
 void EndIfInterrupted() {
-  if (Interrupted()) EndBy(TheState().signal);
+  if (Interrupted()) EndBy(received);
 }
 
 }  // namespace shapespace::tools

@@ -51,13 +51,16 @@ bool SolveProgress::Report(const std::string& stage, int done, int total) {
 
 void SolveProgress::ReportShare(double share) {
   if (share == 0) working_.emplace();
+  if (share == share_ || !working_) return;  // time passes, and the end stays where it is
   share_ = share;
+  const double now = working_->Seconds();
+  end_ = now < kLeastSeconds || share < kLeastShare ? 0 : now / share;
 }
 
 std::string SolveProgress::TimeLeft() const {
-  if (!working_ || working_->Seconds() < kLeastSeconds || share_ < kLeastShare) return {};
-  return "; about " + InWords(working_->Seconds() * (1 / share_ - 1)) + " left" +
-         (next_.empty() ? "" : ", then " + next_);
+  const double left = working_ ? end_ - working_->Seconds() : 0;
+  if (left <= 0) return {};
+  return "; about " + InWords(left) + " left" + (next_.empty() ? "" : ", then " + next_);
 }
 
 }  // namespace shapespace::tools

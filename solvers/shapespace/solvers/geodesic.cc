@@ -154,6 +154,7 @@ void Warn(GeodesicSummary* summary) {
     summary->warnings.push_back(
         "cancelled: the path is the best so far; what was not solved yet is lifted or refined from "
         "what was");
+    return;  // what else there were to say of it comes from that
   }
   constexpr double kManyIntersections = 5;
   if (summary->intersections > kManyIntersections) {
