@@ -52,7 +52,8 @@ class Marcher {
 
   Eigen::Vector3d Point(int node) const {
     const int k = node % nodes_[2], j = node / nodes_[2] % nodes_[1];
-    return origin_ + cell_ * Eigen::Vector3d(node / nodes_[2] / nodes_[1], j, k);
+    const int i = node / nodes_[2] / nodes_[1];
+    return origin_ + cell_ * Eigen::Vector3d(i, j, k);
   }
 
   /// Six tetrahedra, one for each order in which the three axes lead from a corner to the opposite

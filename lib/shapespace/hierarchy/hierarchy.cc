@@ -55,7 +55,7 @@ void HierarchyOptions::Validate() const {
   if (coarsest < 4) throw InvalidOptions("coarsest: must be 4 triangles or more");
 }
 
-Hierarchy::Hierarchy(std::shared_ptr<const Connectivity> connectivity,
+Hierarchy::Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
                      const std::vector<Shape>& poses, const HierarchyOptions& options) {
   options.Validate();
   if (poses.empty()) throw MeshError("a hierarchy needs at least one pose");

@@ -29,8 +29,8 @@ class Hierarchy {
   /// Built once for all `poses` (3 x m each) that take part. Edges that are no sides of triangles
   /// go where their ends go. A graph has one level. O(m log m).
   /// \throw InvalidOptions, MeshError (no pose, or one with the wrong number of vertices).
-  Hierarchy(std::shared_ptr<const Connectivity> connectivity, const std::vector<Shape>& poses,
-            const HierarchyOptions& options = {});
+  Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
+            const std::vector<Shape>& poses, const HierarchyOptions& options = {});
 
   /// Level 0 is the coarsest, NumLevels() - 1 the mesh itself.
   int NumLevels() const { return static_cast<int>(levels_.size()); }

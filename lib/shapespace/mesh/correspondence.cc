@@ -326,7 +326,7 @@ class Comparison {
 
 Findings CheckCorrespondence(const Soup& reference, const Soup& pose) {
   for (const Soup* soup : {&reference, &pose}) {
-    const Findings findings = internal::CheckStructure(*soup);
+    Findings findings = internal::CheckStructure(*soup);
     if (!findings.empty()) return findings;
   }
   Findings findings;

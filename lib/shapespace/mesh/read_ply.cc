@@ -276,11 +276,11 @@ class PlyReader {
   /// Length of the list that follows.
   std::int64_t Length(const Property& property) {
     const double length = Number(*property.count_type, "the length of " + property.name);
-    const size_t least = IsText() ? 1 : Size(property.type);
+    const size_t room = BytesLeft() / (IsText() ? 1 : Size(property.type));
     if (!(length >= 0) || length != std::floor(length)) {
       Fail(label_ + ": the length of " + property.name + " is no count" + kReexport);
     }
-    if (length > static_cast<double>(BytesLeft() / least) && !IsText()) {
+    if (length > static_cast<double>(room) && !IsText()) {
       Fail("the file ends inside " + label_ + kReexport);
     }
     return static_cast<std::int64_t>(std::min(length, 1e15));

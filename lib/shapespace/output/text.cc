@@ -93,8 +93,9 @@ void DrawText(Image* image, int left, int top, const std::string& text) {
     for (int x = 0; x < width * kTextScale; ++x) {
       int inside = 0;
       for (int s = 0; s < kTextSamples * kTextSamples; ++s) {
-        inside += blurred((x + (s % kTextSamples + 0.5f) / kTextSamples) / kTextScale,
-                          (y + (s / kTextSamples + 0.5f) / kTextSamples) / kTextScale) > kCut;
+        const int column = s % kTextSamples, row = s / kTextSamples;
+        inside += blurred((x + (column + 0.5f) / kTextSamples) / kTextScale,
+                          (y + (row + 0.5f) / kTextSamples) / kTextScale) > kCut;
       }
       const float share = static_cast<float>(inside) / (kTextSamples * kTextSamples);
       if (share > 0) {

@@ -75,24 +75,24 @@ double EdgeLengthKernel(const PathRows& rows, const int* stencils, const double*
       const double* const from = rows.shapes + (p + axis) * stride - 1;
       const double* const to = rows.shapes + (q + axis) * stride - 1;
       double* const d = e[axis];
-#pragma GCC ivdep
+      SHAPESPACE_INDEPENDENT
       for (int t = 1; t <= stride; ++t) d[t] = to[t] - from[t];
       d[0] = rows.first[q + axis] - rows.first[p + axis];
       d[n + 1] = rows.last[q + axis] - rows.last[p + axis];
     }
-#pragma GCC ivdep
+    SHAPESPACE_INDEPENDENT
     for (int t = 1; t <= stride; ++t) {
       value[t] = 0.5 * (ex[t] * ex[t] + ey[t] * ey[t] + ez[t] * ez[t]);
     }
     for (int t : {0, n + 1}) value[t] = 0.5 * (ex[t] * ex[t] + ey[t] * ey[t] + ez[t] * ez[t]);
-#pragma GCC ivdep
+    SHAPESPACE_INDEPENDENT
     for (int t = 1; t <= n + 1; ++t) {
       const double change = value[t] - value[t - 1];
       flow[t] = 4 * w * change;
       sums[t] += 2 * w * change * change;
     }
     if (quartic > 0) {
-#pragma GCC ivdep
+      SHAPESPACE_INDEPENDENT
       for (int t = 1; t <= n + 1; ++t) {
         const double dx = ex[t] - ex[t - 1], dy = ey[t] - ey[t - 1], dz = ez[t] - ez[t - 1];
         const double squared = dx * dx + dy * dy + dz * dz;
@@ -105,7 +105,7 @@ double EdgeLengthKernel(const PathRows& rows, const int* stencils, const double*
       double* const gq = rows.gradient + (q + axis) * stride - 1;
       const double* const d = e[axis];
       if (quartic > 0) {
-#pragma GCC ivdep
+        SHAPESPACE_INDEPENDENT
         for (int t = 1; t <= stride; ++t) {
           const double g = (flow[t] - flow[t + 1]) * d[t] + spread[t] * (d[t] - d[t - 1]) +
                            spread[t + 1] * (d[t] - d[t + 1]);
@@ -113,7 +113,7 @@ double EdgeLengthKernel(const PathRows& rows, const int* stencils, const double*
           gq[t] += g;
         }
       } else {
-#pragma GCC ivdep
+        SHAPESPACE_INDEPENDENT
         for (int t = 1; t <= stride; ++t) {
           const double g = (flow[t] - flow[t + 1]) * d[t];
           gp[t] -= g;
@@ -140,12 +140,12 @@ double PositionKernel(const PathRows& rows, const int* stencils, const double* w
       const double* const shapes = rows.shapes + row * stride - 1;
       double* const g = rows.gradient + row * stride - 1;
       p[0] = rows.first[row];
-#pragma GCC ivdep
+      SHAPESPACE_INDEPENDENT
       for (int t = 1; t <= stride; ++t) p[t] = shapes[t];
       p[n + 1] = rows.last[row];
-#pragma GCC ivdep
+      SHAPESPACE_INDEPENDENT
       for (int t = 1; t <= n + 1; ++t) sums[t] += 2 * w * (p[t] - p[t - 1]) * (p[t] - p[t - 1]);
-#pragma GCC ivdep
+      SHAPESPACE_INDEPENDENT
       for (int t = 1; t <= stride; ++t) g[t] += 4 * w * (2 * p[t] - p[t - 1] - p[t + 1]);
     }
   }
@@ -186,11 +186,11 @@ double DihedralKernel(const PathRows& rows, const int* stencils, const double* w
         const double* const from = rows.shapes + (a + axis) * stride - 1;
         const double* const to = rows.shapes + (b + axis) * stride - 1;
         double* const d = row[3 * (k - 1) + axis];
-#pragma GCC ivdep
+        SHAPESPACE_INDEPENDENT
         for (int t = 1; t <= stride; ++t) d[t] = to[t] - from[t];
       }
     }
-#pragma GCC ivdep
+    SHAPESPACE_INDEPENDENT
     for (int t = 1; t <= stride; ++t) {
       const double nx = ey[t] * uz[t] - ez[t] * uy[t];
       const double ny = ez[t] * ux[t] - ex[t] * uz[t];
@@ -213,7 +213,7 @@ double DihedralKernel(const PathRows& rows, const int* stencils, const double* w
     }
     cosine[0] = end[0], sine[0] = end[1];
     cosine[n + 1] = end[2], sine[n + 1] = end[3];
-#pragma GCC ivdep
+    SHAPESPACE_INDEPENDENT
     for (int t = 1; t <= n + 1; ++t) {
       const double dc = cosine[t] - cosine[t - 1], ds = sine[t] - sine[t - 1];
       sums[t] += 2 * w * (dc * dc + ds * ds);
@@ -223,7 +223,7 @@ double DihedralKernel(const PathRows& rows, const int* stencils, const double* w
     double* const gb = rows.gradient + 3 * static_cast<size_t>(stencil[1]) * stride - 1;
     double* const gc = rows.gradient + 3 * static_cast<size_t>(stencil[2]) * stride - 1;
     double* const gd = rows.gradient + 3 * static_cast<size_t>(stencil[3]) * stride - 1;
-#pragma GCC ivdep
+    SHAPESPACE_INDEPENDENT
     for (int t = 1; t <= stride; ++t) {
       const double fc = 4 * w * (2 * cosine[t] - cosine[t - 1] - cosine[t + 1]);
       const double fs = 4 * w * (2 * sine[t] - sine[t - 1] - sine[t + 1]);
@@ -298,11 +298,11 @@ double TriangleStrainKernel(const PathRows& rows, const int* stencils, const dou
         const double* const from = rows.shapes + (p + axis) * stride - 1;
         const double* const to = rows.shapes + (q + axis) * stride - 1;
         double* const difference = row[3 * (k - 1) + axis];
-#pragma GCC ivdep
+        SHAPESPACE_INDEPENDENT
         for (int t = 1; t <= stride; ++t) difference[t] = to[t] - from[t];
       }
     }
-#pragma GCC ivdep
+    SHAPESPACE_INDEPENDENT
     for (int t = 1; t <= stride; ++t) {
       const double aa = ax[t] * ax[t] + ay[t] * ay[t] + az[t] * az[t];
       const double ab = ax[t] * bx[t] + ay[t] * by[t] + az[t] * bz[t];
@@ -349,7 +349,7 @@ double TriangleStrainKernel(const PathRows& rows, const int* stencils, const dou
     }
     v0[0] = end[0], v1[0] = end[1], v2[0] = end[2];
     v0[n + 1] = end[3], v1[n + 1] = end[4], v2[n + 1] = end[5];
-#pragma GCC ivdep
+    SHAPESPACE_INDEPENDENT
     for (int t = 1; t <= n + 1; ++t) {
       const double d0 = v0[t] - v0[t - 1], d1 = v1[t] - v1[t - 1], d2 = v2[t] - v2[t - 1];
       sums[t] += 2 * w * (d0 * d0 + d1 * d1 + d2 * d2);
@@ -358,7 +358,7 @@ double TriangleStrainKernel(const PathRows& rows, const int* stencils, const dou
     double* const gp = rows.gradient + p * stride - 1;
     double* const gq = rows.gradient + 3 * static_cast<size_t>(stencil[1]) * stride - 1;
     double* const gr = rows.gradient + 3 * static_cast<size_t>(stencil[2]) * stride - 1;
-#pragma GCC ivdep
+    SHAPESPACE_INDEPENDENT
     for (int t = 1; t <= stride; ++t) {
       const double f0 = 4 * w * (2 * v0[t] - v0[t - 1] - v0[t + 1]);
       const double f1 = 4 * w * (2 * v1[t] - v1[t - 1] - v1[t + 1]);

@@ -21,13 +21,13 @@ double Dot(const double* a, const double* b, size_t count) {
 
 SHAPESPACE_CLONES
 void Add(double factor, const double* from, double* to, size_t count) {
-#pragma GCC ivdep
+  SHAPESPACE_INDEPENDENT
   for (size_t i = 0; i < count; ++i) to[i] += factor * from[i];
 }
 
 SHAPESPACE_CLONES
 void Combine(const double* a, double factor, const double* b, double* result, size_t count) {
-#pragma GCC ivdep
+  SHAPESPACE_INDEPENDENT
   for (size_t i = 0; i < count; ++i) result[i] = a[i] + factor * b[i];
 }
 
