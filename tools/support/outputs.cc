@@ -198,7 +198,9 @@ void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
   // Whoever has more frames than this has none of that number among the inputs.
   constexpr std::int64_t kMostNames = 20000;
   const auto key = [](const std::string& file) {
-    return fs::weakly_canonical(fs::absolute(file)).string();
+    std::error_code error;  // such as a loop of links: whoever opens the file will say so
+    const fs::path path = fs::weakly_canonical(fs::absolute(file), error);
+    return error ? file : path.string();
   };
   std::map<std::string, std::string> read, written;  // by key: as the command line has it
   for (const std::string& input : inputs) read.emplace(key(input), input);
