@@ -213,7 +213,8 @@ TEST_F(OutputsTest, NamesMayBeInCapitalsAndStandApart) {
   EXPECT_EQ(nlohmann::json::parse(Content(Path("r.JSON")))["converged"], true);
   Succeed("shape-extrapolate", {"w.PATH", "--steps", "1", "--output", "on.path"});
   ExpectContains(Run("shape-inspect", {"w.PATH"}).out, "3 shapes, 2 of them given");
-  Succeed("shape-interpolate", {"A 0.OBJ", "A 2.OBJ", "--shapes", "1", "--output", "b.path"});
+  Succeed("shape-interpolate",
+          {"A 0.OBJ", "A 2.OBJ", "--shapes", "1", "--output", "b.path", "--report", "100%.txt"});
   ExpectContains(ReadPath(Path("b.path")).provenance, ": 'A 0.OBJ' 'A 2.OBJ'");
   Succeed("shape-body", {"bar", "--output", "bar%d.PLY"});
 }
