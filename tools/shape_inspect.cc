@@ -219,7 +219,7 @@ bool PrintMesh(const std::string& file, std::vector<Soup>* soups) {
 
 void Run(const std::vector<std::string>& files) {
   if (files.empty()) throw UsageError("name one or more mesh or path files");
-  bool usable = true, readable = true;
+  bool usable = true;
   std::vector<Soup> soups;
   for (const bool paths : {true, false}) {
     for (const std::string& file : files) {
@@ -232,12 +232,10 @@ void Run(const std::vector<std::string>& files) {
         }
       } catch (const Error& error) {
         Complain(error.what());
-        readable = false;
       }
     }
   }
   if (!usable) throw MeshError("not usable as it is: see what was found");
-  if (!readable) return;
   for (size_t i = 1; i < soups.size(); ++i) PrintDistance(soups[0], soups[i]);
 }
 

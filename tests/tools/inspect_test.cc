@@ -175,6 +175,7 @@ TEST_F(InspectTest, AFileThatCannotBeReadDoesNotHideTheOthers) {
   ExpectContains(outcome.out, "3 shapes, 2 of them given");
   ExpectContains(outcome.out, "tube0.obj\n  152 vertices");
   ExpectContains(outcome.out, "tube1.obj\n  152 vertices");
+  ExpectContains(outcome.out, "tube1.obj against tube0.obj");
 }
 
 TEST_F(InspectTest, NeedsAFile) {
