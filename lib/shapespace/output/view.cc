@@ -73,8 +73,9 @@ double VisibleArea(const Scene& scene, const Axes& axes) {
   double area = 0;
   Scene::Hit hit;
   for (int i = 0; i < kGrid * kGrid; ++i) {
-    const Eigen::Vector3f position((i % kGrid + 0.5f) * 2 / kGrid - 1,
-                                   (i / kGrid + 0.5f) * 2 / kGrid - 1, 2);
+    const int column = i % kGrid, row = i / kGrid;
+    const Eigen::Vector3f position((column + 0.5f) * 2 / kGrid - 1, (row + 0.5f) * 2 / kGrid - 1,
+                                   2);
     if (scene.Trace(a * position, -a.col(2), &hit)) area += hit.back ? kBackWorth : 1;
   }
   return area;
