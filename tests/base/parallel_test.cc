@@ -78,7 +78,7 @@ TEST(ParallelFor, RethrowsWhatABodyThrows) {
 }
 
 #ifdef __SANITIZE_THREAD__
-// The sanitizer is told what ParallelFor orders (parallel.cc): it must not take that for more.
+// The sanitizer is told what ParallelFor orders (base/fork_join.h): it must not take that for more.
 TEST(ParallelForDeathTest, LetsTheThreadSanitizerSeeARaceOfTwoBodies) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   constexpr int kExitCodeOfRaces = 66;

@@ -12,41 +12,10 @@
 #include <tbb/task_arena.h>
 
 #include <shapespace/base/error.h>
-
-#ifdef SHAPESPACE_THREAD_SANITIZER
-#include <sanitizer/tsan_interface.h>
-#endif
+#include <shapespace/base/fork_join.h>
 
 namespace shapespace {
 namespace {
-
-// What the thread sanitizer is told of one ParallelFor: all bodies come after its beginning, and
-// its end comes after all bodies. Nothing orders the bodies among themselves.
-#ifdef SHAPESPACE_THREAD_SANITIZER
-class Order {
- public:
-  Order() { __tsan_release(&begin_); }
-  ~Order() { __tsan_acquire(&end_); }
-
-  class Body {
-   public:
-    explicit Body(Order* order) : order_(order) { __tsan_acquire(&order_->begin_); }
-    ~Body() { __tsan_release(&order_->end_); }
-
-   private:
-    Order* order_;
-  };
-
- private:
-  char begin_, end_;
-};
-#else
-struct Order {
-  struct Body {
-    explicit Body(Order*) {}
-  };
-};
-#endif
 
 // The threads that work is spread over.
 struct Pool {
@@ -95,12 +64,12 @@ void ParallelFor(int count, const std::function<void(int)>& body) {
     for (int i = 0; i < count; ++i) body(i);
     return;
   }
-  Order order;
+  const ForkJoin bodies{};
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<int>(0, count, 1),
         [&](const tbb::blocked_range<int>& r) {
-          const Order::Body ordered(&order);
+          const ForkJoin::Piece piece(bodies);
           for (int i = r.begin(); i != r.end(); ++i) body(i);
         },
         tbb::simple_partitioner());

@@ -13,6 +13,7 @@
 
 #include <shapespace/base/embree.h>
 #include <shapespace/base/error.h>
+#include <shapespace/base/fork_join.h>
 #include <shapespace/base/parallel.h>
 
 namespace shapespace {
@@ -76,6 +77,7 @@ struct Triangles {
   const Eigen::Matrix3Xi* indices;
   Shape vertices;  // within the unit cube about the origin, where floats are good for boxes
   std::atomic<std::int64_t> count{0};
+  ForkJoin callbacks;
 
   Corners At(unsigned f) const {
     const auto corner = indices->col(f);
@@ -93,8 +95,9 @@ bool BoxesApart(const Corners& a, const Corners& b) {
 }
 
 void Bounds(const RTCBoundsFunctionArguments* arguments) {
-  const Corners corners =
-      static_cast<const Triangles*>(arguments->geometryUserPtr)->At(arguments->primID);
+  const auto* triangles = static_cast<const Triangles*>(arguments->geometryUserPtr);
+  const ForkJoin::Piece piece(triangles->callbacks);
+  const Corners corners = triangles->At(arguments->primID);
   const Eigen::Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
   const Eigen::Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
   // Outwards by more than rounding to float can move a coordinate within the unit cube.
@@ -111,6 +114,7 @@ void Bounds(const RTCBoundsFunctionArguments* arguments) {
 // Called on several threads at once. Of a scene with itself Embree finds every pair both ways.
 void OnPairs(void* user, RTCCollision* pairs, unsigned num_pairs) {
   auto* triangles = static_cast<Triangles*>(user);
+  const ForkJoin::Piece piece(triangles->callbacks);
   std::int64_t found = 0;
   for (unsigned i = 0; i < num_pairs; ++i) {
     const unsigned first = pairs[i].primID0, second = pairs[i].primID1;
@@ -147,9 +151,8 @@ std::int64_t CountOnDevice(RTCDevice device, const Connectivity& connectivity, c
   const Eigen::Vector3d low = shape.rowwise().minCoeff(), high = shape.rowwise().maxCoeff();
   const double extent = (high - low).maxCoeff();
   if (!(extent > 0)) return 0;
-  Triangles triangles;
-  triangles.indices = &connectivity.Triangles();
-  triangles.vertices = (shape.colwise() - (low + high) / 2) / extent;
+  Triangles triangles{
+      &connectivity.Triangles(), (shape.colwise() - (low + high) / 2) / extent, {}, {}};
 
   const std::unique_ptr<RTCSceneTy, void (*)(RTCScene)> scene(rtcNewScene(device), rtcReleaseScene);
   const std::unique_ptr<RTCGeometryTy, void (*)(RTCGeometry)> geometry(
