@@ -30,7 +30,7 @@ git clone -q "$source" "$root/root/shapespace"
 # In the new system, with processes, mounts and terminals of its own that end with the command, and
 # with nothing of this one's environment.
 inside() {
-  unshare --mount --pid --fork --mount-proc="$root/proc" /bin/sh -c '
+  unshare --mount --pid --fork --kill-child --mount-proc="$root/proc" /bin/sh -c '
     mount -t devpts -o newinstance,ptmxmode=0666 devpts "$0/dev/pts" &&
     exec chroot "$0" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin \
       /bin/sh -c "cd /root/shapespace && $1"' "$root" "$1"
