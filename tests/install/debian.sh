@@ -21,6 +21,7 @@ mirror=$(apt-get indextargets --format '$(ORIGIN) $(SITE)' | awk '$1 == "Debian"
 source=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf --one-file-system "$work"' EXIT
+trap 'exit 1' HUP INT TERM
 root=$work/system
 
 debootstrap --variant=minbase "$release" "$root" "$mirror" >"$work/debootstrap.log" ||
