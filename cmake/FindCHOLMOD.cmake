@@ -1,4 +1,5 @@
-# Debian's SuiteSparse has no CMake package. Defines CHOLMOD::CHOLMOD.
+# Debian 12's SuiteSparse has no CMake package, Debian 13's has one with targets of other names.
+# Defines CHOLMOD::CHOLMOD on both.
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 find_library(CHOLMOD_LIBRARY cholmod)
 include(FindPackageHandleStandardArgs)

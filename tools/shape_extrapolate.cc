@@ -38,6 +38,9 @@ namespace {
 // geodesic is shot from grow with every step.
 constexpr char kTolerance[] = "1e-6";
 
+// The metric under which every step has a next one.
+constexpr char kMetric[] = "strain";
+
 ExponentialOptions ExponentialFromFlags() {
   ExponentialOptions options;
   options.integrator = Choose<Integrator>("integrator", FLAGS_integrator,
@@ -148,6 +151,7 @@ void Run(const std::vector<std::string>& files) {
 int main(int argc, char** argv) {
   using namespace shapespace::tools;
   gflags::SetCommandLineOptionWithMode("tolerance", kTolerance, gflags::SET_FLAGS_DEFAULT);
+  gflags::SetCommandLineOptionWithMode("metric", kMetric, gflags::SET_FLAGS_DEFAULT);
   return RunTool(
       argc, argv,
       {"shape-extrapolate",
@@ -156,10 +160,10 @@ int main(int argc, char** argv) {
            "  shape-extrapolate a.obj b.obj [c.obj ...] --shapes 15 --steps 8 --output on.glb\n"
            "  shape-extrapolate walk.path --keep 2 --steps 7 --output on/%03d.obj\n\n"
            "Poses are interpolated first, as by shape-interpolate but more accurately "
-           "(--tolerance), "
-           "for errors\ngrow on the way. A .path may stand instead of them: it carries the metric "
-           "that "
-           "it was made with.\nOutputs hold the shapes kept and the new ones; in a film strip "
+           "(--tolerance), for errors\ngrow on the way, and under the strain metric, under which "
+           "every step has a next one (--metric).\nA .path may stand instead of them: it carries "
+           "the metric that it was made with.\nOutputs hold the shapes kept and the new ones; in a "
+           "film strip "
            "poses "
            "are "
            "blue, shapes between them\ngreen, extrapolated ones purple.\n\n"

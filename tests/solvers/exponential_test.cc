@@ -718,6 +718,26 @@ TEST(Logarithm, CanBeCancelled) {
   }
 }
 
+// The same motions under triangle strain: every value belongs to a triangle, so no step needs a
+// coarser mesh.
+TEST(Extrapolate, MakesEveryStepOnTheMeshUnderStrain) {
+  const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
+  for (const char* pose : {"rear", "stride"}) {
+    SCOPED_TRACE(pose);
+    GeodesicOptions options;
+    options.metric = MetricOptions::Strain();
+    options.shapes = 7;
+    options.tolerance = 1e-6;
+    const Path path =
+        Interpolate(animal.connectivity, {animal.pose("stand"), animal.pose(pose)}, options).path;
+    const ExponentialSummary summary = Extrapolate(path, 8).summary;
+    EXPECT_TRUE(summary.Converged()) << summary.FullReport();
+    for (const ExponentialSummary::Step& step : summary.steps) {
+      EXPECT_NEAR(step.energy / summary.steps.front().energy, 1, 1e-3);
+    }
+  }
+}
+
 // Where the mesh has no next shape, that of a coarser one is lifted, and detail with it. On real
 // geodesics the energy of segments is constant; taken for a momentum, what the detail did would
 // multiply it.
@@ -737,6 +757,7 @@ TEST(Extrapolate, KeepsTheEnergyAcrossStepsOfCoarserMeshes) {
       coarse += step.vertices < summary.vertices;
     }
     EXPECT_GT(coarse, 0);
+    EXPECT_NE(summary.FullReport().find("--metric strain"), std::string::npos);
     EXPECT_NEAR(summary.steps.back().energy / summary.steps.front().energy, 1, 0.1);
   }
 }

@@ -86,6 +86,19 @@ TEST_F(ExtrapolateTest, PosesAreInterpolatedAndGoneOnFrom) {
   EXPECT_EQ(outcome.err, "");
 }
 
+TEST_F(ExtrapolateTest, PosesAreInterpolatedUnderTheMetricThatCanGoOn) {
+  MakeTubes();
+  const auto metric_of = [&](const Strings& flags) {
+    Strings arguments = {"tube0.obj", "tube1.obj", "--shapes", "1",
+                         "--steps",   "1",         "--output", "on.path"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    Succeed("shape-extrapolate", arguments);
+    return Describe(ReadPath(Path("on.path")).metric->options);
+  };
+  EXPECT_EQ(metric_of({}), "strain 1, lambda 0.0001, bending 1e-05");
+  EXPECT_EQ(metric_of({"--metric", "isometric"}), "isometric 1, lambda 0.0001, bending 1e-05");
+}
+
 TEST_F(ExtrapolateTest, APathGoesOnWithAllThatItIs) {
   MakeWalk();
   Succeed("shape-extrapolate", {"walk.path", "--steps", "3", "--output", "on.path"});
@@ -273,8 +286,9 @@ TEST_F(ExtrapolateTest, WrongCommandLines) {
 TEST_F(ExtrapolateTest, WhatIsMadeBeforeAShapeDegeneratesIsWritten) {
   MakeTubes();
   const Outcome some =
-      Run("shape-extrapolate", {"tube0.obj", "tube1.obj", "--shapes", "1", "--keep", "2", "--steps",
-                                "30", "--integrator", "runge_kutta4", "--output", "some.path"});
+      Run("shape-extrapolate",
+          {"tube0.obj", "tube1.obj", "--metric", "isometric", "--shapes", "1", "--keep", "2",
+           "--steps", "30", "--integrator", "runge_kutta4", "--output", "some.path"});
   EXPECT_EQ(some.code, 0) << some.err;
   ExpectContains(some.err, "stopped early, at step ");
   const shapespace::Path path = ReadPath(Path("some.path"));
@@ -283,9 +297,9 @@ TEST_F(ExtrapolateTest, WhatIsMadeBeforeAShapeDegeneratesIsWritten) {
   EXPECT_EQ(path.NumShapes(), 2 + path.extrapolated);
 
   Succeed("shape-body", {"tube", "--triangles", "300", "--at", "0,150", "--output", "far%d.obj"});
-  const Outcome none =
-      Run("shape-extrapolate", {"far0.obj", "far1.obj", "--shapes", "1", "--integrator",
-                                "runge_kutta4", "--output", "none.path", "--report", "r.json"});
+  const Outcome none = Run("shape-extrapolate", {"far0.obj", "far1.obj", "--metric", "isometric",
+                                                 "--shapes", "1", "--integrator", "runge_kutta4",
+                                                 "--output", "none.path", "--report", "r.json"});
   EXPECT_EQ(none.code, 1) << none.err;
   ExpectContains(none.err, "stopped early, at step 1: ");
   ExpectContains(none.err, "no shape could be added");

@@ -7,9 +7,9 @@
 #include "support/tool.h"
 
 DEFINE_string(metric, "isometric",
-              "preset that sets the defaults of the other flags of the metric: isometric (as shown "
-              "here), strain (isometric 0, strain 1), rigid (isometric 0, rigid 1, bending 0), or "
-              "paper (bending 0, lambda 0.001, weights uniform, discretization trapezoid)");
+              "preset that sets the defaults of the other flags of the metric: isometric (those "
+              "shown here), strain (isometric 0, strain 1), rigid (isometric 0, rigid 1, bending "
+              "0), or paper (bending 0, lambda 0.001, weights uniform, discretization trapezoid)");
 DEFINE_double(isometric, 1,
               "cost of stretching edges; all costs are pure numbers, the area being 1");
 DEFINE_double(

@@ -247,7 +247,7 @@ void CheckSteps(int steps) {
 constexpr double kHalted = 1e-2, kRisen = 2;
 
 // What a person should look at.
-void Warn(ExponentialSummary* summary) {
+void Warn(const Metric& metric, ExponentialSummary* summary) {
   int coarse = 0, nearest = 0, open = 0;
   double inverted = 0, energy = 0;
   for (const ExponentialSummary::Step& step : summary->steps) {
@@ -266,7 +266,10 @@ void Warn(ExponentialSummary* summary) {
   if (coarse > 0) {
     warn(std::to_string(coarse) + of +
          "have no answer on the mesh itself, some of whose triangles cannot go on as they moved: "
-         "they were made on a coarser one, and detail carried along");
+         "they were made on a coarser one, and detail carried along" +
+         (metric.options.strain > 0 ? ""
+                                    : "; under the strain metric (--metric strain where poses are "
+                                      "interpolated) every triangle can go on"));
   }
   if (nearest > 0) {
     warn(
@@ -381,7 +384,7 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
   }
   path.extrapolated += static_cast<int>(summary.steps.size());
   path.converged = path.converged && summary.Converged();
-  Warn(&summary);
+  Warn(metric, &summary);
   summary.total_seconds = total.Seconds();
 }
 
