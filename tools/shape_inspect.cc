@@ -12,7 +12,6 @@
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/intersections.h>
 #include <shapespace/mesh/read.h>
-#include <shapespace/mesh/triangulate.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
@@ -72,13 +71,6 @@ void PrintContent(const Soup& soup) {
   for (const std::string& what : soup.dropped) {
     std::printf("  %-12s %-24s %s\n", Name(Severity::kNote), "not-kept", what.c_str());
   }
-}
-
-// As solvers see it; of meshes that can be used.
-std::shared_ptr<const Connectivity> ConnectivityOf(const Soup& soup,
-                                                   const std::vector<Shape>& poses) {
-  return Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments, {},
-                            Triangulate(soup.polygon_begin, soup.corners, poses));
 }
 
 // Where the surface passes through itself; of a mesh that can be used.

@@ -2,8 +2,10 @@
 #define TESTS_MESH_BODIES_H_
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
+#include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/soup.h>
 
 namespace shapespace::testing {
@@ -16,6 +18,11 @@ inline Soup MakeSoup(const Shape& vertices, const std::vector<std::vector<int>>&
     soup.polygon_begin.push_back(static_cast<int>(soup.corners.size()));
   }
   return soup;
+}
+
+/// With polygons cut as fans.
+inline std::shared_ptr<const Connectivity> Connected(const Soup& soup) {
+  return Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments);
 }
 
 /// The unit cube of six quadrilaterals, wound outwards. Vertex x + 2 y + 4 z lies at (x, y, z).

@@ -11,17 +11,14 @@
 namespace shapespace {
 namespace {
 
+using testing::Connected;
 using testing::Cube;
 using testing::ExpectError;
 using testing::Grid;
 
-std::shared_ptr<const Connectivity> Make(const Soup& soup) {
-  return Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments);
-}
-
 TEST(ConnectivityTest, CubeOfQuadrilaterals) {
   const Soup cube = Cube();
-  const auto c = Make(cube);
+  const auto c = Connected(cube);
   EXPECT_EQ(c->NumVertices(), 8);
   EXPECT_EQ(c->NumPolygons(), 6);
   EXPECT_EQ(c->NumTriangles(), 12);
@@ -51,7 +48,7 @@ TEST(ConnectivityTest, CubeOfQuadrilaterals) {
 }
 
 TEST(ConnectivityTest, HingesKeepTheWindingOfBothTriangles) {
-  const auto c = Make(Grid(3, 3));
+  const auto c = Connected(Grid(3, 3));
   std::set<std::array<int, 3>> triangles;
   auto smallest_first = [](std::array<int, 3> t) {
     while (t[0] > t[1] || t[0] > t[2]) t = {t[1], t[2], t[0]};

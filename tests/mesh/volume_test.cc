@@ -11,21 +11,18 @@
 namespace shapespace {
 namespace {
 
+using testing::Connected;
 using testing::Cube;
 using testing::Grid;
 using testing::Torus;
 
-std::shared_ptr<const Connectivity> Make(const Soup& soup) {
-  return Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments);
-}
-
 TEST(VolumeTest, IsTheSameFarFromTheOrigin) {
   const Soup cube = Cube();
-  const auto connectivity = Make(cube);
-  EXPECT_NEAR(EnclosedVolume(*connectivity, cube.vertices), 1, 1e-14);
+  const auto connectivity = Connected(cube);
+  EXPECT_NEAR(EnclosedVolume(connectivity->Triangles(), cube.vertices), 1, 1e-14);
   const Eigen::Matrix3d turn(Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, 3).normalized()));
   const Shape far = (turn * cube.vertices).colwise() + Eigen::Vector3d(1e6, 2e6, -3e6);
-  EXPECT_NEAR(EnclosedVolume(*connectivity, far), 1, 1e-8);
+  EXPECT_NEAR(EnclosedVolume(connectivity->Triangles(), far), 1, 1e-8);
 }
 
 TEST(VolumeTest, ClosedMeshesAreClosedInWhateverOrderTheirTrianglesStand) {
@@ -43,39 +40,40 @@ TEST(VolumeTest, ClosedMeshesAreClosedInWhateverOrderTheirTrianglesStand) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 50; ++trial) {
     std::shuffle(polygons.begin(), polygons.end(), random);
-    EXPECT_TRUE(IsClosed(*Make(testing::MakeSoup(Shape::Zero(3, 14), polygons)))) << trial;
+    EXPECT_TRUE(IsClosed(Connected(testing::MakeSoup(Shape::Zero(3, 14), polygons))->Triangles()))
+        << trial;
   }
   polygons.pop_back();
-  EXPECT_FALSE(IsClosed(*Make(testing::MakeSoup(Shape::Zero(3, 14), polygons))));
+  EXPECT_FALSE(IsClosed(Connected(testing::MakeSoup(Shape::Zero(3, 14), polygons))->Triangles()));
 }
 
 TEST(VolumeTest, OpenAndInconsistentlyWoundMeshesAndGraphsAreNotClosed) {
-  EXPECT_FALSE(IsClosed(*Make(Grid(2, 2))));
-  EXPECT_FALSE(IsClosed(*Connectivity::Make(2, {0}, {}, {{0, 1}})));
+  EXPECT_FALSE(IsClosed(Connected(Grid(2, 2))->Triangles()));
+  EXPECT_FALSE(IsClosed(Connectivity::Make(2, {0}, {}, {{0, 1}})->Triangles()));
   Soup cube = Cube();
-  EXPECT_TRUE(IsClosed(*Make(cube)));
+  EXPECT_TRUE(IsClosed(Connected(cube)->Triangles()));
   std::reverse(cube.corners.begin(), cube.corners.begin() + 4);
-  EXPECT_FALSE(IsClosed(*Make(cube)));
+  EXPECT_FALSE(IsClosed(Connected(cube)->Triangles()));
 }
 
 TEST(VolumeTest, MirrorImagesOfClosedBodiesAreTold) {
   const Soup torus = Torus(12, 8), sheet = Grid(4, 4);
-  const auto closed = Make(torus);
+  const auto closed = Connected(torus);
   Shape flipped = torus.vertices;
   flipped.row(2) *= -1;
-  EXPECT_TRUE(IsMirrored(*closed, torus.vertices, flipped));
-  EXPECT_TRUE(IsMirrored(*closed, flipped, torus.vertices));
-  EXPECT_FALSE(IsMirrored(*closed, flipped, flipped));  // inside out, but both alike
+  EXPECT_TRUE(IsMirrored(closed->Triangles(), torus.vertices, flipped));
+  EXPECT_TRUE(IsMirrored(closed->Triangles(), flipped, torus.vertices));
+  EXPECT_FALSE(IsMirrored(closed->Triangles(), flipped, flipped));  // inside out, but both alike
   const Eigen::Matrix3d turn(Eigen::AngleAxisd(3, Eigen::Vector3d(1, 2, 3).normalized()));
-  EXPECT_FALSE(IsMirrored(*closed, torus.vertices, 100 * (turn * torus.vertices)));
+  EXPECT_FALSE(IsMirrored(closed->Triangles(), torus.vertices, 100 * (turn * torus.vertices)));
   // Flat enough for its sides to change places.
   Shape leaf = torus.vertices, turned_leaf = leaf;
   leaf.row(2) *= 0.001;
   turned_leaf.row(2) *= -0.001;
-  EXPECT_FALSE(IsMirrored(*closed, leaf, turned_leaf));
+  EXPECT_FALSE(IsMirrored(closed->Triangles(), leaf, turned_leaf));
   Shape flipped_sheet = sheet.vertices;
   flipped_sheet.row(0) *= -1;
-  EXPECT_FALSE(IsMirrored(*Make(sheet), sheet.vertices, flipped_sheet));
+  EXPECT_FALSE(IsMirrored(Connected(sheet)->Triangles(), sheet.vertices, flipped_sheet));
 }
 
 }  // namespace

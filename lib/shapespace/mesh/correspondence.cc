@@ -9,7 +9,7 @@
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/check_structure.h>
 #include <shapespace/mesh/check_words.h>
-#include <shapespace/mesh/connectivity.h>
+#include <shapespace/mesh/polygons.h>
 #include <shapespace/mesh/sides.h>
 #include <shapespace/mesh/sorted_polygons.h>
 #include <shapespace/mesh/volume.h>
@@ -197,9 +197,8 @@ class Comparison {
   }
 
   void CompareOrientations() {
-    const auto connectivity =
-        Connectivity::Make(reference_.NumVertices(), reference_.polygon_begin, reference_.corners);
-    if (!IsMirrored(*connectivity, reference_.vertices, pose_.vertices)) return;
+    const Eigen::Matrix3Xi triangles = internal::Fans(reference_.polygon_begin, reference_.corners);
+    if (!IsMirrored(triangles, reference_.vertices, pose_.vertices)) return;
     Tell(Severity::kFatal, "mirrored",
          "the body is a mirror image of the reference: what is inside there is outside here; "
          "export both in the same coordinate system, or pass --mirror x (y, z) to flip that "

@@ -7,6 +7,7 @@
 #include <shapespace/base/read_file.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/check_positions.h>
+#include <shapespace/mesh/polygons.h>
 #include <shapespace/mesh/read_formats.h>
 #include <shapespace/mesh/text.h>
 #include <shapespace/mesh/triangulate.h>
@@ -67,11 +68,18 @@ bool MirrorBack(const Soup& reference, char axis, Soup* pose) {
     throw InvalidOptions(std::string("mirror: '") + axis + "' is none of x, y and z");
   }
   if (pose->NumVertices() != reference.NumVertices()) return false;
-  const auto connectivity =
-      Connectivity::Make(reference.NumVertices(), reference.polygon_begin, reference.corners);
-  if (!IsMirrored(*connectivity, reference.vertices, pose->vertices)) return false;
+  internal::CheckPolygons(reference.NumVertices(), reference.polygon_begin, reference.corners);
+  const Eigen::Matrix3Xi triangles = internal::Fans(reference.polygon_begin, reference.corners);
+  if (!IsMirrored(triangles, reference.vertices, pose->vertices)) return false;
   pose->vertices.row(axis - 'x') *= -1;
   return true;
+}
+
+std::shared_ptr<const Connectivity> ConnectivityOf(
+    const Soup& soup, const std::vector<Shape>& poses,
+    const std::vector<std::pair<int, int>>& stiffeners) {
+  return Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments,
+                            stiffeners, Triangulate(soup.polygon_begin, soup.corners, poses));
 }
 
 std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num_vertices) {
@@ -133,9 +141,7 @@ Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& option
   if (!options.stiffeners.empty()) {
     stiffeners = ReadStiffeners(options.stiffeners, first.NumVertices());
   }
-  poses.connectivity =
-      Connectivity::Make(first.NumVertices(), first.polygon_begin, first.corners, first.segments,
-                         stiffeners, Triangulate(first.polygon_begin, first.corners, poses.shapes));
+  poses.connectivity = ConnectivityOf(first, poses.shapes, stiffeners);
   return poses;
 }
 

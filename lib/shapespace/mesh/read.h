@@ -23,6 +23,12 @@ Soup ReadSoup(const std::string& file);
 /// one. \throw InvalidOptions if there is no such axis.
 bool MirrorBack(const Soup& reference, char axis, Soup* pose);
 
+/// The connectivity of a mesh whose `poses`, of as many vertices, decide how its polygons are cut
+/// (`Triangulate`). \throw MeshError as `Connectivity::Make` and `Triangulate`.
+std::shared_ptr<const Connectivity> ConnectivityOf(
+    const Soup& soup, const std::vector<Shape>& poses,
+    const std::vector<std::pair<int, int>>& stiffeners = {});
+
 /// Reads pairs of vertex numbers, counted from 1 as in OBJ, one pair a line; `#` begins a comment.
 /// \return pairs counted from 0.
 /// \throw FileError naming file and line.

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <string>
 
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
+#include <shapespace/mesh/polygons.h>
 
 namespace shapespace {
 namespace {
@@ -137,23 +137,14 @@ Eigen::Matrix3Xi Triangulate(const std::vector<int>& polygon_begin, const std::v
                              const std::vector<Shape>& poses) {
   if (poses.empty())
     throw MeshError("polygons are cut by their shape in a pose: give at least one");
+  for (const Shape& pose : poses) {
+    internal::CheckPolygons(static_cast<int>(pose.cols()), polygon_begin, corners);
+  }
   std::vector<Eigen::Vector3i> triangles;
   triangles.reserve(corners.size());
   for (size_t p = 0; p + 1 < polygon_begin.size(); ++p) {
     std::vector<int> polygon(corners.begin() + polygon_begin[p],
                              corners.begin() + polygon_begin[p + 1]);
-    if (polygon.size() < 3) {
-      throw MeshError("polygon " + std::to_string(p) + " has " + std::to_string(polygon.size()) +
-                      " corners; a polygon needs three");
-    }
-    for (const int v : polygon) {
-      for (const Shape& pose : poses) {
-        if (v < 0 || v >= pose.cols()) {
-          throw MeshError("vertex index " + std::to_string(v) + " outside 0 .. " +
-                          std::to_string(pose.cols() - 1));
-        }
-      }
-    }
     if (polygon.size() == 3) {
       triangles.emplace_back(polygon[0], polygon[1], polygon[2]);
       continue;

@@ -18,8 +18,8 @@ namespace shapespace {
 /// orientation and size of the poses.
 /// \return vertices, 3 x T, polygon after polygon, two triangles less than a polygon has corners,
 ///         wound as the polygon is: what `Connectivity::Make` takes.
-/// \throw MeshError if there is no pose, a polygon has fewer than three corners, or an index is out
-///        of range.
+/// \throw MeshError if there is no pose, `polygon_begin` does not fit `corners`, a polygon has
+///        fewer than three corners, or an index is out of range.
 Eigen::Matrix3Xi Triangulate(const std::vector<int>& polygon_begin, const std::vector<int>& corners,
                              const std::vector<Shape>& poses);
 

@@ -11,21 +11,21 @@ namespace shapespace {
 namespace {
 
 /// The enclosed volume as a share of that of a ball of the same surface area.
-double ShareOfBall(const Connectivity& connectivity, const Shape& shape) {
+double ShareOfBall(const Eigen::Matrix3Xi& triangles, const Shape& shape) {
   double area = 0;
-  for (const auto& t : connectivity.Triangles().colwise()) {
+  for (const auto& t : triangles.colwise()) {
     const Eigen::Vector3d a = shape.col(t(0));
     area += 0.5 * (shape.col(t(1)) - a).cross(shape.col(t(2)) - a).norm();
   }
   const double ball = std::pow(area, 1.5) / (6 * std::sqrt(M_PI));
-  return ball > 0 ? EnclosedVolume(connectivity, shape) / ball : 0;
+  return ball > 0 ? EnclosedVolume(triangles, shape) / ball : 0;
 }
 
 }  // namespace
 
-bool IsClosed(const Connectivity& connectivity) {
+bool IsClosed(const Eigen::Matrix3Xi& triangles) {
   std::vector<std::pair<int, int>> up, down;  // smaller vertex first
-  for (const auto& t : connectivity.Triangles().colwise()) {
+  for (const auto& t : triangles.colwise()) {
     for (int k = 0; k < 3; ++k) {
       const int a = t(k), b = t((k + 1) % 3);
       if (a < b) up.emplace_back(a, b);
@@ -37,12 +37,12 @@ bool IsClosed(const Connectivity& connectivity) {
   return !up.empty() && up == down;
 }
 
-double EnclosedVolume(const Connectivity& connectivity, const Shape& shape) {
+double EnclosedVolume(const Eigen::Matrix3Xi& triangles, const Shape& shape) {
   // Determinants about a point among the vertices are as large as the body, not as its distance
   // from the origin.
   const Eigen::Vector3d centre = shape.rowwise().mean();
   double volume = 0;
-  for (const auto& t : connectivity.Triangles().colwise()) {
+  for (const auto& t : triangles.colwise()) {
     const Eigen::Vector3d a = shape.col(t(0)) - centre, b = shape.col(t(1)) - centre,
                           c = shape.col(t(2)) - centre;
     volume += a.dot(b.cross(c)) / 6;
@@ -50,14 +50,15 @@ double EnclosedVolume(const Connectivity& connectivity, const Shape& shape) {
   return volume;
 }
 
-bool IsMirrored(const Connectivity& connectivity, const Shape& reference, const Shape& pose) {
+bool IsMirrored(const Eigen::Matrix3Xi& triangles, const Shape& reference, const Shape& pose) {
   // Bodies of people and animals have a fifth to a half of the ball's volume; what is thinner than
   // a leaf may turn over without being a mirror image.
   constexpr double kLeastShare = 0.01;
-  if (!IsClosed(connectivity)) return false;
-  const double before = ShareOfBall(connectivity, reference);
-  const double after = ShareOfBall(connectivity, pose);
-  return before * after < 0 && std::min(std::abs(before), std::abs(after)) > kLeastShare;
+  const double before = ShareOfBall(triangles, reference);
+  const double after = ShareOfBall(triangles, pose);
+  // Whether the mesh is closed takes longest to find out, and mostly need not be known.
+  return before * after < 0 && std::min(std::abs(before), std::abs(after)) > kLeastShare &&
+         IsClosed(triangles);
 }
 
 }  // namespace shapespace

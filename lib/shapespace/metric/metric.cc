@@ -277,14 +277,15 @@ Metric FreezeMetric(const MetricOptions& options,
         MakeDihedral(options.bending, *connectivity, measures, metric.hinge_area, scaled));
   }
   if (options.volume > 0) {
-    if (!IsClosed(*connectivity)) {
+    if (!IsClosed(connectivity->Triangles())) {
       throw InvalidOptions(
           "volume: the mesh is not closed, so it encloses none; use volume 0, or fill its holes");
     }
     Volume feature;
     feature.stencils = connectivity->Triangles();
     double volume = 0;
-    for (const Shape& pose : scaled) volume += EnclosedVolume(*connectivity, pose) / scaled.size();
+    for (const Shape& pose : scaled)
+      volume += EnclosedVolume(connectivity->Triangles(), pose) / scaled.size();
     if (std::abs(volume) < kCollapsed) {
       throw InvalidOptions("volume: the mesh encloses none; use volume 0");
     }

@@ -273,8 +273,8 @@ double TriangleStrainKernel(const PathRows& rows, const int* stencils, const dou
                             const double* ends, int count, double epsilon_squared, double* memory) {
   const int n = rows.inner, stride = rows.stride;
   const Scratch scratch = MakeScratch(memory, stride);
-  double* row[21];
-  for (int i = 0; i < 21; ++i) row[i] = scratch.Row(i) + 7;
+  double* row[20];
+  for (int i = 0; i < 20; ++i) row[i] = scratch.Row(i) + 7;
   double *const ax = row[0], *const ay = row[1], *const az = row[2];
   double *const bx = row[3], *const by = row[4], *const bz = row[5];
   double *const saa = row[6], *const sab = row[7], *const sbb = row[8];
