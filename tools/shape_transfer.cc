@@ -21,10 +21,9 @@ DEFINE_string(hybrids, "",
               "files for the bodies half way between source and target, named as by --output");
 DEFINE_double(transfer_bending, shapespace::TransferOptions::Strains().bending,
               "in the transfer's own metric, of strains: how much dihedral angles count");
-DEFINE_string(connection, "nearest",
-              "what carries motion along a rung: nearest (what changes strains and angles most "
-              "nearly as before), levi_civita (of second order; takes dozens of --rung_shapes) or "
-              "projection (the paper's)");
+DEFINE_string(connection, "levi_civita",
+              "what carries motion along a rung: levi_civita (the metric's own) or projection (the "
+              "paper's)");
 DEFINE_int32(rung_shapes, shapespace::TransferOptions().rung_shapes,
              "shapes between one of the source and the target's; odd, for the middle one is the "
              "hybrid");
@@ -43,8 +42,7 @@ TransferOptions TransferFromFlags() {
   options.scale = FLAGS_scale;
   options.align = FLAGS_align;
   options.connection = Choose<Connection>("connection", FLAGS_connection,
-                                          {{"nearest", Connection::kNearest},
-                                           {"levi_civita", Connection::kLeviCivita},
+                                          {{"levi_civita", Connection::kLeviCivita},
                                            {"projection", Connection::kConstrainedProjection}});
   options.metric.bending = FLAGS_transfer_bending;
   NamingFlags({{"bending", "transfer_bending"}}, [&] { options.Validate(); });

@@ -237,25 +237,6 @@ TEST(FeatureDerivative, MetricMatrixIsTheProductButForSums) {
   }
 }
 
-TEST(FeatureDerivative, BlendIsTheStraightLineBetweenDerivatives) {
-  for (const Case& test : Cases()) {
-    SCOPED_TRACE(test.name);
-    const FeatureMap map(test.metric);
-    const int num_vertices = static_cast<int>(test.shape.cols());
-    const FeatureDerivative a = map.Derivative(test.shape);
-    const FeatureDerivative b = map.Derivative(test.shape + Noise(num_vertices, 0.02, 8));
-    const Tangent x = Noise(num_vertices, 1, 9);
-    const Eigen::VectorXd ax = a.Times(x), bx = b.Times(x);
-    EXPECT_GT((ax - bx).norm(), 0.01 * ax.norm());
-    for (double t : {0.0, 0.3, 1.0}) {
-      const Eigen::VectorXd expected = (1 - t) * ax + t * bx;
-      EXPECT_LT((FeatureDerivative::Blend(a, b, t).Times(x) - expected).norm(),
-                1e-14 * (ax.norm() + bx.norm()));
-    }
-    EXPECT_TRUE(FeatureDerivative::Blend(a, b, 0).Times(x) == ax);
-  }
-}
-
 TEST(FeatureMap, IsBitwiseTheSameForAnyNumberOfThreads) {
   MetricOptions options;
   options.volume = 0.3;

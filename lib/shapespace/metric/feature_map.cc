@@ -230,19 +230,6 @@ Tangent FeatureDerivative::TransposeTimes(const Eigen::VectorXd& y) const {
   return result;
 }
 
-FeatureDerivative FeatureDerivative::Blend(const FeatureDerivative& a, const FeatureDerivative& b,
-                                           double t) {
-  FeatureDerivative result = a;
-  for (size_t i = 0; i < result.blocks_.size(); ++i) {
-    std::vector<double>& blocks = result.blocks_[i];
-    const std::vector<double>& other = b.blocks_[i];
-    ForRanges(static_cast<int>(blocks.size()), [&](int begin, int end) {
-      for (int k = begin; k < end; ++k) blocks[k] += t * (other[k] - blocks[k]);
-    });
-  }
-  return result;
-}
-
 Eigen::SparseMatrix<double> FeatureDerivative::MetricMatrix() const {
   const int num_vertices = layout_->metric.connectivity->NumVertices();
   std::vector<Eigen::Triplet<double>> triplets;

@@ -22,9 +22,6 @@ class FeatureDerivative {
   /// J^T y.
   Tangent TransposeTimes(const Eigen::VectorXd& y) const;
 
-  /// (1 - t) J_a + t J_b: of use where a scheme takes the derivative at the middle of two shapes.
-  static FeatureDerivative Blend(const FeatureDerivative& a, const FeatureDerivative& b, double t);
-
   /// J^T J, the matrix of the metric, 3m x 3m, unknown 3 v + axis; lower triangle only. What sum
   /// features add is of rank one and dense, and is left out.
   Eigen::SparseMatrix<double> MetricMatrix() const;

@@ -37,9 +37,8 @@ struct TransferOptions {
   /// shapes alone. Without, rungs turn on their way, as the paper has them.
   bool align = true;
 
-  /// What carries the source's velocity along a rung. Rungs are short of shapes for how far limbs
-  /// may turn between two real bodies, which the midpoint scheme does not bear.
-  Connection connection = Connection::kNearest;
+  /// What carries the source's velocity along a rung.
+  Connection connection = Connection::kLeviCivita;
 
   /// Of the geodesics that are the rungs (GeodesicOptions::tolerance).
   double tolerance = 1e-5;

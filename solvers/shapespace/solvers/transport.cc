@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/stopwatch.h>
@@ -16,47 +19,77 @@ namespace {
 
 using internal::MetricSolver;
 
-// The metric's own: from path.shapes[i] to the next [J^T J_1] Y = J^T J_0 X, with J the mean of J_0
-// and J_1, or, for the nearest, J_1 itself: then Y minimises |J_1 Y - J_0 X|.
+// The metric's own. J X of a tangent X lies in the range of J, and to carry it on is to carry it
+// from the range of J_0 to that of J_1, with as little change as can be. With P the orthogonal
+// projections onto the two,
+//   J_1 Y = P_1 (3/2 - 1/2 P_0 P_1) J_0 X,
+// the first step of Newton's and Schulz' iteration for the isometry that is nearest to P_1.
 class MetricTransport {
  public:
   MetricTransport(const Path& path, const TransportOptions& options)
-      : path_(path), options_(options), map_(*path.metric) {}
+      : path_(path),
+        options_(options),
+        map_(*path.metric),
+        here_(std::make_unique<Place>(map_, path.shapes[0])) {}
 
+  /// From path.shapes[i] to the next. Tangents are turned as `Turn` says.
   void Carry(int i, std::vector<Tangent>* tangents, TransportSummary::Step* row) {
-    Shape from = path_.shapes[i];
-    const Shape& to = path_.shapes[i + 1];
+    Shape next = path_.shapes[i + 1];
     if (options_.align) {
-      const RigidMotion turn = FitRigidMotion(from, to, path_.metric->vertex_area);
-      from = turn(from);
-      for (Tangent& x : *tangents) x = turn.rotation * x;
+      const RigidMotion back = FitRigidMotion(next, here_->shape, path_.metric->vertex_area);
+      next = back(next);
+      turn_ = back.rotation.transpose();
     }
-    const FeatureDerivative at_from = map_.Derivative(from), at_to = map_.Derivative(to);
-    const FeatureDerivative left = options_.connection == Connection::kNearest
-                                       ? at_to
-                                       : FeatureDerivative::Blend(at_from, at_to, 0.5);
-    solver_.Factor(left);
+    const std::unique_ptr<Place> from = std::exchange(here_, std::make_unique<Place>(map_, next));
+    const Place& to = *here_;
     for (Tangent& x : *tangents) {
-      const Tangent right = left.TransposeTimes(at_from.Times(x));
-      // What changes is little: solved for as a correction, it is found to more digits.
-      const Tangent change = right - left.TransposeTimes(at_to.Times(x));
-      const double scale = solver_.DualNorm(right), size = solver_.DualNorm(change);
-      if (!(size > options_.tolerance * scale)) continue;
-      Tangent correction;
-      const MetricSolver::Result result =
-          solver_.Solve(left, at_to, change, options_.tolerance * scale / size,
-                        options_.max_iterations, &correction);
-      x += correction;
-      row->krylov_iterations = std::max(row->krylov_iterations, result.iterations);
-      row->residual = std::max(row->residual, result.residual * size / scale);
+      const Eigen::VectorXd change = from->derivative.Times(x);
+      // What the projections change is little: solved for as corrections, it is found to more
+      // digits.
+      const double size = change.norm();
+      const Tangent nearest =
+          x + Solve(to, change - to.derivative.Times(x), size, row);  // J_1 of it is P_1 J_0 X
+      const Tangent there_and_back =
+          Solve(*from, to.derivative.Times(nearest) - change, size, row);  // P_0 P_1 J_0 X - J_0 X
+      x = nearest - 0.5 * Solve(to, from->derivative.Times(there_and_back), size, row);
     }
   }
 
+  /// How the path's shape that was reached is turned against the tangents.
+  const Eigen::Matrix3d& Turn() const { return turn_; }
+
  private:
+  // A shape, and what is needed to project onto the range of J there.
+  struct Place {
+    Place(const FeatureMap& map, Shape at)
+        : shape(std::move(at)), derivative(map.Derivative(shape)) {
+      solver.Factor(derivative);
+    }
+    Shape shape;
+    FeatureDerivative derivative;
+    MetricSolver solver;
+  };
+
+  // The tangent whose image is nearest to `change`, to an error of options_.tolerance times `size`.
+  Tangent Solve(const Place& place, const Eigen::VectorXd& change, double size,
+                TransportSummary::Step* row) const {
+    const Tangent right = place.derivative.TransposeTimes(change);
+    const double length = place.solver.DualNorm(right);
+    Tangent x = Tangent::Zero(3, right.cols());
+    if (!(length > options_.tolerance * size)) return x;
+    const MetricSolver::Result result =
+        place.solver.Solve(place.derivative, place.derivative, right,
+                           options_.tolerance * size / length, options_.max_iterations, &x);
+    row->krylov_iterations = std::max(row->krylov_iterations, result.iterations);
+    row->residual = std::max(row->residual, result.residual * length / size);
+    return x;
+  }
+
   const Path& path_;
   const TransportOptions& options_;
   const FeatureMap map_;
-  MetricSolver solver_;
+  std::unique_ptr<Place> here_;
+  Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();
 };
 
 // The paper's: the tangent nearest to the one before among those with <Y, gamma'> = C.
@@ -134,20 +167,28 @@ TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents
   }
   result.summary.metric = Describe(metric.options);
   result.summary.first_norm = Norms(path, 0, result.tangents);
-  MetricTransport metric_transport(path, options);
-  ConstrainedProjection projection(path);
+  std::optional<MetricTransport> metric_transport;
+  std::optional<ConstrainedProjection> projection;
+  if (options.connection == Connection::kLeviCivita) {
+    metric_transport.emplace(path, options);
+  } else {
+    projection.emplace(path);
+  }
   for (int i = 0; i < segments; ++i) {
     ReportProgress(progress, "transporting", i, segments);
     const Stopwatch stopwatch;
     TransportSummary::Step row;
-    if (options.connection == Connection::kConstrainedProjection) {
-      projection.Carry(i, &result.tangents);
-    } else {
-      metric_transport.Carry(i, &result.tangents, &row);
+    if (metric_transport) {
+      metric_transport->Carry(i, &result.tangents, &row);
       if (row.residual > options.tolerance) result.summary.converged = false;
+    } else {
+      projection->Carry(i, &result.tangents);
     }
     row.seconds = stopwatch.Seconds();
     result.summary.steps.push_back(row);
+  }
+  if (metric_transport) {
+    for (Tangent& x : result.tangents) x = metric_transport->Turn() * x;
   }
   result.summary.last_norm = Norms(path, segments, result.tangents);
   for (Tangent& x : result.tangents) {

@@ -12,10 +12,8 @@ namespace shapespace {
 
 /// What "the same tangent" means at another shape (docs/mathematics.md, section 10).
 enum class Connection {
-  kLeviCivita,  ///< the metric's own, by its midpoint scheme: order 2, keeps norms. On paths whose
-                ///< limbs turn by tens of degrees within a segment norms can grow many times over
-  kNearest,     ///< the metric's own to first order: the tangent that changes the features most
-                ///< nearly as the one before. Never makes a tangent longer, however few shapes
+  kLeviCivita,  ///< the metric's own: order 2, never makes a tangent longer, and shorter only in
+                ///< the fourth order
   kConstrainedProjection,  ///< the paper's: least Euclidean change that keeps the product with the
                            ///< path's velocity; keeps neither norm nor rotation
 };
@@ -23,12 +21,12 @@ enum class Connection {
 struct TransportOptions {
   Connection connection = Connection::kLeviCivita;
 
-  /// Before each step of the metric's own schemes, turn the shape onto the next one, and the
+  /// Before each step of the metric's own scheme, turn the shape onto the next one, and the
   /// tangent with it: what is carried turns with the body, exactly where that moves rigidly.
   /// Without, the bare connection leaves the rigid part of a tangent behind when the body turns.
   bool align = true;
 
-  /// Residual of a step's linear system, as a share of its right-hand side.
+  /// Error of a step's linear systems in the metric, as a share of the tangent's norm.
   double tolerance = 1e-12;
 
   /// Of the linear solver, a step and tangent. A step that runs out of them is reported.
@@ -49,7 +47,8 @@ struct TransportSummary {
   bool converged = true;  ///< every step reached the tolerance
   std::string metric;
   std::vector<Step> steps;
-  /// Norms of every tangent under the metric, before and after. The connection keeps them.
+  /// Norms of every tangent under the metric, before and after. Where the connection is the
+  /// metric's own, what the second lacks tells how coarse the path is.
   std::vector<double> first_norm, last_norm;
   double total_seconds = 0;
 
