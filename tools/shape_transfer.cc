@@ -17,18 +17,25 @@
 #include "support/tool.h"
 
 DEFINE_string(target, "", "the other body, in the pose of the first source: what is to move");
+DEFINE_string(method, "features",
+              "features (strains and angles change as the source's) or ladder (the paper's: "
+              "geodesics between the bodies, parallel transport and the exponential map)");
 DEFINE_string(hybrids, "",
               "files for the bodies half way between source and target, named as by --output");
-DEFINE_double(transfer_bending, shapespace::TransferOptions::Strains().bending,
-              "in the transfer's own metric, of strains: how much dihedral angles count");
+DEFINE_double(ladder_bending, shapespace::LadderOptions::Strains().bending,
+              "of the ladder and of hybrids: how much dihedral angles count beside strains");
 DEFINE_string(connection, "levi_civita",
-              "what carries motion along a rung: levi_civita (the metric's own) or projection (the "
-              "paper's)");
-DEFINE_int32(rung_shapes, shapespace::TransferOptions().rung_shapes,
-             "shapes between one of the source and the target's; odd, for the middle one is the "
-             "hybrid");
-DEFINE_bool(scale, true, "compare in one size; --noscale takes bodies as large as they are");
-DEFINE_bool(align, true, "compare in one orientation; --noalign takes bodies as they stand");
+              "of the ladder, what carries motion along a rung: levi_civita (the metric's own) or "
+              "projection (the paper's)");
+DEFINE_int32(rung_shapes, shapespace::LadderOptions().rung_shapes,
+             "of the ladder and of hybrids: shapes between one of the source and the target's; "
+             "odd, for the middle one is the hybrid");
+DEFINE_bool(scale, true,
+            "of the ladder and of hybrids: compare in one size; --noscale takes bodies as large as "
+            "they are");
+DEFINE_bool(align, true,
+            "of the ladder and of hybrids: compare in one orientation; --noalign takes bodies as "
+            "they stand");
 
 namespace shapespace::tools {
 namespace {
@@ -36,16 +43,39 @@ namespace {
 // Every shape of a geodesic is a rung to climb, and each takes as long as a small geodesic.
 constexpr char kShapes[] = "7";
 
+// Flags that would have no effect are refused.
+void CheckFlagsOfTheLadder(bool climbs) {
+  std::vector<std::string> of_climbing = GivenFlags("support/geodesic_flags.cc");
+  for (const std::string& flag : GivenFlags("support/metric_flags.cc")) of_climbing.push_back(flag);
+  for (const char* flag : {"memory_limit", "connection"}) {
+    if (IsGiven(flag)) of_climbing.push_back(flag);
+  }
+  if (!climbs && !of_climbing.empty()) {
+    throw UsageError("--" + of_climbing[0] + ": goes with --method ladder");
+  }
+  for (const char* flag : {"ladder_bending", "rung_shapes", "scale", "align"}) {
+    if (!climbs && FLAGS_hybrids.empty() && IsGiven(flag)) {
+      throw UsageError("--" + std::string(flag) + ": goes with --method ladder or --hybrids");
+    }
+  }
+}
+
 TransferOptions TransferFromFlags() {
   TransferOptions options;
-  options.rung_shapes = FLAGS_rung_shapes;
-  options.scale = FLAGS_scale;
-  options.align = FLAGS_align;
-  options.connection = Choose<Connection>("connection", FLAGS_connection,
-                                          {{"levi_civita", Connection::kLeviCivita},
-                                           {"projection", Connection::kConstrainedProjection}});
-  options.metric.bending = FLAGS_transfer_bending;
-  NamingFlags({{"bending", "transfer_bending"}}, [&] { options.Validate(); });
+  options.method = Choose<TransferMethod>(
+      "method", FLAGS_method,
+      {{"features", TransferMethod::kFeatures}, {"ladder", TransferMethod::kLadder}});
+  CheckFlagsOfTheLadder(options.method == TransferMethod::kLadder);
+  options.hybrids = !FLAGS_hybrids.empty();
+  options.ladder.rung_shapes = FLAGS_rung_shapes;
+  options.ladder.scale = FLAGS_scale;
+  options.ladder.align = FLAGS_align;
+  options.ladder.connection =
+      Choose<Connection>("connection", FLAGS_connection,
+                         {{"levi_civita", Connection::kLeviCivita},
+                          {"projection", Connection::kConstrainedProjection}});
+  options.ladder.metric.bending = FLAGS_ladder_bending;
+  NamingFlags({{"bending", "ladder_bending"}}, [&] { options.Validate(); });
   return options;
 }
 
@@ -92,7 +122,7 @@ void Run(const std::vector<std::string>& files) {
     result.hybrids.provenance = result.path.provenance + "; hybrids";
     result.path.appearance = result.hybrids.appearance = appearance;
     WriteOutputs(outputs, result.path, result.path);
-    WriteOutputs(hybrid_outputs, result.hybrids, result.hybrids);
+    if (!hybrid_outputs.empty()) WriteOutputs(hybrid_outputs, result.hybrids, result.hybrids);
     WriteReport(result.summary.FullReport(), result.summary.ToJson());
   };
   if (from_path) {
@@ -128,15 +158,16 @@ int main(int argc, char** argv) {
        std::string(
            "  shape-transfer stand.obj sit.obj leap.obj --target other.obj --output moved%d.obj\n"
            "  shape-transfer walk.path --target other.obj --output walk.glb --hybrids half.glb\n\n"
-           "All meshes have the same faces in the same order. The target is in the first pose. "
-           "Each "
-           "of the\nothers is reached on its own, by a geodesic in --shapes + 1 steps, and every "
-           "step "
-           "is carried over:\nframe 0 is the target, frame 1 the target in the second pose. Of a "
-           ".path every shape is carried\nover, and there are as many frames. The flags of the "
-           "metric "
-           "are those of the geodesics between\nthe source's poses. In a film strip the target is "
-           "blue, all that became of it purple; hybrids are\ngreen.") +
+           "All meshes have the same faces in the same order. The target is in the first pose; "
+           "frame 0 "
+           "is\nthe target, frame 1 the target in the second pose, and so on. Of a .path every "
+           "shape "
+           "is carried\nover, and there are as many frames. With --method ladder each pose is "
+           "reached "
+           "by a geodesic in\n--shapes + 1 steps, and every step is carried over; the flags of the "
+           "metric are those of these\ngeodesics. In a film strip the target is blue, all that "
+           "became "
+           "of it purple; hybrids are green.") +
            kHowASolveEnds,
        {"shape_transfer.cc", "support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
         "support/metric_flags.cc", "support/poses.cc", "support/mesh_flags.cc",

@@ -8,132 +8,103 @@
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
 #include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/skinned.h>
-#include <shapespace/path/rigid_motion.h>
+#include <shapespace/path/quality.h>
+#include <shapespace/solvers/optimise/feature_transfer.h>
 
 #include "support/listener.h"
 #include "support/message_of.h"
 #include "support/path_of.h"
 #include "support/threads.h"
+#include "support/transfer_cases.h"
 
 namespace shapespace {
 namespace {
 
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-using testing::Listener;
-using testing::MessageOf;
-using testing::PathOf;
+using namespace testing;
 
-constexpr Connection kConnections[] = {Connection::kLeviCivita, Connection::kConstrainedProjection};
-
-const Body& ThickBar() {
-  static const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
-  return bar;
+TransferOptions WithHybrids() {
+  TransferOptions options;
+  options.hybrids = true;
+  return options;
 }
 
-// Longer, wider and thinner: what bends it by as much strains it less.
-Shape ThinBar() { return MakeBar(8, 1.6, 0.6, 12, 2, 2).pose(0); }
-
-// The thick bar, bent by 60 degrees in so many steps.
-Path Bending(int steps) {
-  std::vector<Shape> shapes;
-  for (int i = 0; i <= steps; ++i) shapes.push_back(ThickBar().pose(60.0 * i / steps));
-  return PathOf(ThickBar().connectivity, shapes);
-}
-
-Matrix3d Turn(double degrees, const Vector3d& axis) {
-  return Eigen::AngleAxisd(degrees * M_PI / 180, axis.normalized()).toRotationMatrix();
-}
-
-double Degrees(const Matrix3d& rotation) {
-  return std::abs(Eigen::AngleAxisd(rotation).angle()) * 180 / M_PI;
-}
-
-double Diameter(const Shape& shape) {
-  return (shape.rowwise().maxCoeff() - shape.rowwise().minCoeff()).norm();
-}
-
-// Largest distance between corresponding vertices, over the diameter.
-double Apart(const Shape& a, const Shape& b) {
-  return (a - b).colwise().norm().maxCoeff() / Diameter(b);
-}
-
-// Root mean square distance of the surfaces, laid on each other, over the diameter.
-double ShapesApart(const Shape& a, const Shape& b, const Eigen::VectorXd& area) {
-  const Shape off = FitRigidMotion(a, b, area)(a) - b;
-  return std::sqrt(off.colwise().squaredNorm().dot(area) / area.sum()) / Diameter(b);
-}
-
-// By how much the bar's end faces are turned against each other.
-double BendOf(const Shape& straight, const Shape& bent) {
-  Matrix3d ends[2];
-  for (int end : {0, 1}) {
-    const double x = end == 0 ? straight.row(0).minCoeff() : straight.row(0).maxCoeff();
-    const Eigen::VectorXd face = (straight.row(0).array() == x).cast<double>().transpose();
-    ends[end] = FitRigidMotion(straight, bent, face).rotation;
+// Against a solution of their system that has nothing in common with ours.
+TEST(GradientTransfer, IsThatOfSumnerAndPopovic) {
+  const SkinnedBody normal = MakeSkinnedBody("quadruped", 1500),
+                    heavy = MakeSkinnedBody("quadruped", 1500, "heavy");
+  const struct {
+    std::shared_ptr<const Connectivity> connectivity;
+    Shape source, deformed, target;
+  } cases[] = {
+      {ThickBar().connectivity, ThickBar().pose(0), ThickBar().pose(60), ThinBar()},
+      {normal.connectivity, normal.pose("stand"), normal.pose("sit"), heavy.pose("stand")}};
+  for (const auto& [connectivity, source, deformed, target] : cases) {
+    const Shape theirs = SumnerPopovic::Transfer(*connectivity, source, deformed, target);
+    const Shape ours = internal::GradientTransfer(connectivity, source, target)(deformed);
+    const Vector3d offset = (theirs - ours).rowwise().mean();  // theirs holds one vertex
+    EXPECT_LT(Apart(ours.colwise() + offset, theirs), 1e-5);
+    EXPECT_GT(Apart(ours.colwise() + offset, target), 0.1);
   }
-  return Degrees(ends[0].transpose() * ends[1]);
 }
 
-double StrainOf(const Metric& metric, const Shape& first, const Shape& shape) {
-  const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
-  double squares = 0;
-  for (int e = 0; e < edges.cols(); ++e) {
-    const auto length = [&](const Shape& s) {
-      return (s.col(edges(1, e)) - s.col(edges(0, e))).norm();
-    };
-    squares += metric.edge_area(e) * std::pow(length(shape) / length(first) - 1, 2);
-  }
-  return std::sqrt(squares / metric.edge_area.sum());
+// What a mesh leaves open is taken from the source: one bar goes up, another one turns.
+TEST(GradientTransfer, ComponentsAndVerticesWithoutTrianglesGoWhereTheSourcesGo) {
+  const Connectivity& bar = *ThickBar().connectivity;
+  const int m = bar.NumVertices();
+  Eigen::Matrix3Xi triangles(3, 2 * bar.NumTriangles());
+  triangles << bar.Triangles(), bar.Triangles().array() + m;
+  std::vector<int> begin, corners(triangles.data(), triangles.data() + triangles.size());
+  for (int i = 0; i <= triangles.cols(); ++i) begin.push_back(3 * i);
+  // A stick hangs on the first bar, and a vertex on nothing.
+  const auto connectivity = Connectivity::Make(2 * m + 2, begin, corners, {{0, 2 * m}});
+  const auto both = [&](const Shape& one, const Shape& other, const Vector3d& lonely) {
+    Shape result(3, 2 * m + 2);
+    result << one, other.colwise() + Vector3d(0, 0, 20), one.col(0) + Vector3d(0, 0, 1), lonely;
+    return result;
+  };
+  const Shape thick = ThickBar().pose(0), thin = ThinBar();
+  const Vector3d up(0, 3, 0);
+  const Matrix3d turn = Turn(90, Vector3d::UnitX());
+  const internal::GradientTransfer transfer(connectivity, both(thick, thick, {9, 9, 9}),
+                                            both(thin, thin, {8, 8, 8}));
+  const Shape result = transfer(both(thick.colwise() + up, turn * thick, {9, 9, 5}));
+  const Shape expected = both(thin.colwise() + up, turn * thin, {8, 8, 4});
+  const Shape off = result - expected;
+  // The second bar turns about where its source's middle is, which is not its own.
+  const Vector3d shift = off.middleCols(m, m).rowwise().mean();
+  EXPECT_LT(shift.norm(), 1.5);
+  EXPECT_LT((off.middleCols(m, m).colwise() - shift).norm(), 1e-4);
+  EXPECT_LT(off.leftCols(m).norm(), 1e-4);
+  EXPECT_LT(off.rightCols(2).norm(), 1e-4);
 }
 
-// Sumner and Popovic, "Deformation Transfer for Triangle Meshes" (2004): the target whose triangles
-// are deformed as the source's, in the least squares sense. Every triangle has a fourth vertex
-// along its normal; all are unknown but the first vertex. Both bodies have to stand alike.
-class SumnerPopovic {
- public:
-  static Shape Transfer(const Connectivity& connectivity, const Shape& source,
-                        const Shape& deformed, const Shape& target) {
-    const int vertices = connectivity.NumVertices(), triangles = connectivity.NumTriangles();
-    std::vector<Eigen::Triplet<double>> entries = {{3 * triangles, 0, 1.0}};
-    Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(3 * triangles + 1, 3);
-    for (int f = 0; f < triangles; ++f) {
-      const Eigen::Vector3i t = connectivity.Triangles().col(f);
-      const Matrix3d gradient = Frame(deformed, t) * Frame(source, t).inverse();
-      const Matrix3d inverse = Frame(target, t).inverse();
-      for (int axis = 0; axis < 3; ++axis) {
-        const int row = 3 * f + axis;
-        entries.emplace_back(row, t(0), -inverse.col(axis).sum());
-        entries.emplace_back(row, t(1), inverse(0, axis));
-        entries.emplace_back(row, t(2), inverse(1, axis));
-        entries.emplace_back(row, vertices + f, inverse(2, axis));
-        wanted.row(row) = gradient.col(axis).transpose();
-      }
-    }
-    Eigen::SparseMatrix<double> matrix(3 * triangles + 1, vertices + triangles);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SparseMatrix<double> normal = matrix.transpose() * matrix;
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(normal);
-    const Eigen::MatrixXd solution = solver.solve(matrix.transpose() * wanted);
-    return solution.topRows(vertices).transpose();
-  }
-
- private:
-  static Matrix3d Frame(const Shape& shape, const Eigen::Vector3i& t) {
-    Matrix3d frame;
-    frame.col(0) = shape.col(t(1)) - shape.col(t(0));
-    frame.col(1) = shape.col(t(2)) - shape.col(t(0));
-    const Vector3d normal = frame.col(0).cross(frame.col(1));
-    frame.col(2) = normal / std::sqrt(normal.norm());
-    return frame;
-  }
-};
+TEST(FindNearestShape, FindsAShapeByItsFeatures) {
+  const Metric metric =
+      FreezeMetric(MetricOptions::Strain(), ThickBar().connectivity, {ThickBar().pose(0)});
+  const FeatureMap map(metric);
+  const Shape start = ThickBar().pose(0) / metric.unit, bent = ThickBar().pose(20) / metric.unit;
+  const Eigen::VectorXd wanted = map.Values(bent);
+  internal::MetricSolver solver;
+  int asked = 0;
+  const auto find = [&](double tolerance, int max_iterations) {
+    return internal::FindNearestShape(
+        map, wanted, start, {tolerance, max_iterations}, [&] { ++asked; }, &solver);
+  };
+  const internal::NearestShape found = find(1e-20, 30);
+  EXPECT_TRUE(found.converged);
+  EXPECT_LT(Apart(found.shape, bent), 1e-9);
+  EXPECT_NEAR(found.squared_distance, (map.Values(found.shape) - wanted).squaredNorm(), 1e-22);
+  EXPECT_EQ(asked, found.iterations);
+  const internal::NearestShape early = find(1e-20, 1);
+  EXPECT_FALSE(early.converged);
+  EXPECT_EQ(early.iterations, 1);
+  EXPECT_LT(early.squared_distance, (map.Values(start) - wanted).squaredNorm());
+}
 
 // Wherever the target lies and however large it is.
 TEST(Transfer, BendsAnotherBarAsSumnerAndPopovicDo) {
@@ -156,39 +127,49 @@ TEST(Transfer, BendsAnotherBarAsSumnerAndPopovicDo) {
     EXPECT_TRUE(summary.Converged());
     ASSERT_EQ(path.NumShapes(), 7);
     const Shape end = turn.transpose() * path.Placed(6) / scale;
-    EXPECT_NEAR(BendOf(straight, end), 60, 3.5);
-    EXPECT_NEAR(StrainOf(*source.metric, straight, end), 0.022, 1e-3);
-    EXPECT_LT(ShapesApart(end, theirs, source.metric->vertex_area), 0.005);
+    EXPECT_NEAR(BendOf(straight, end), 62.4, 0.4);
+    EXPECT_NEAR(StrainOf(*source.metric, straight, end), 0.023, 2e-3);
+    EXPECT_LT(ShapesApart(end, theirs, source.metric->vertex_area), 0.002);
   }
 }
 
-// What the metric of strains and the ladder's scaling and turning are for.
-TEST(Transfer, AbsoluteLengthsAndThePapersTransportBendFalsely) {
-  const Path source = Bending(6);
-  const Shape straight = ThinBar();
-  TransferOptions lengths;
-  lengths.metric = MetricOptions();
-  EXPECT_GT(BendOf(straight, Transfer(source, straight, lengths).path.Placed(6)), 100);
-
-  TransferOptions paper;
-  paper.metric = MetricOptions();
-  paper.metric.bending = 0;
-  paper.connection = Connection::kConstrainedProjection;
-  paper.scale = paper.align = false;
-  EXPECT_GT(BendOf(straight, Transfer(source, straight, paper).path.Placed(6)), 80);
-  const Shape turned = Turn(90, Vector3d::UnitZ()) * straight;
-  EXPECT_LT(BendOf(straight, Transfer(source, turned, paper).path.Placed(6)), 20);
-}
-
-// The step is taken in features, so that on a bar few rungs do for 60 degrees.
-TEST(Transfer, HardlyDependsOnHowFinelyTheSourceIsDivided) {
-  const Shape straight = ThinBar();
-  const Eigen::VectorXd area = Bending(1).metric->vertex_area;
-  const Shape fine = Transfer(Bending(12), straight).path.Placed(12);
-  for (int steps : {1, 3, 6}) {
-    const Shape end = Transfer(Bending(steps), straight).path.Placed(steps);
-    EXPECT_LT(ShapesApart(end, fine, area), steps == 1 ? 3e-4 : 5e-5) << steps;
+// Nearer to the source's strains and angles than Sumner and Popovic's, and as near to the pose that
+// the body itself has.
+TEST(Transfer, BodiesWithJointsTakeThePoseOver) {
+  const SkinnedBody normal = MakeSkinnedBody("quadruped", 3000);
+  double ours = 0, theirs = 0;
+  for (const char* proportions : {"long", "short", "heavy"}) {
+    const SkinnedBody other = MakeSkinnedBody("quadruped", 3000, proportions);
+    const Shape stand = other.pose("stand");
+    const std::vector<Shape> poses = {normal.pose("stand"), normal.pose("stride"),
+                                      normal.pose("rear"), normal.pose("sit")};
+    const auto [path, hybrids, summary] = TransferPoses(normal.connectivity, poses, stand);
+    EXPECT_TRUE(summary.Converged());
+    const Eigen::VectorXd& area = path.metric->vertex_area;
+    int i = 0;
+    for (const char* pose : {"stride", "rear", "sit"}) {
+      SCOPED_TRACE(std::string(proportions) + ", " + pose);
+      const Shape own = other.pose(pose), made = path.Placed(++i);
+      const Shape sumner_popovic =
+          SumnerPopovic::Transfer(*normal.connectivity, poses[0], poses[i], stand);
+      EXPECT_LT(ShapesApart(made, own, area), 0.007);
+      EXPECT_GT(ShapesApart(stand, own, area), 0.02);
+      EXPECT_LT(Degrees(FitRigidMotion(made, own, area).rotation), 2);
+      ours += ShapesApart(made, own, area) / 9;
+      theirs += ShapesApart(sumner_popovic, own, area) / 9;
+      const auto angles_off = [&](const Shape& shape) {
+        const auto change = [&](const Shape& from, const Shape& to) -> Eigen::VectorXd {
+          return DihedralAngles(*normal.connectivity, to) -
+                 DihedralAngles(*normal.connectivity, from);
+        };
+        const Eigen::VectorXd off = change(stand, shape) - change(poses[0], poses[i]);
+        return off.unaryExpr(&WrapAngle).cwiseAbs2().dot(path.metric->hinge_area);
+      };
+      EXPECT_LT(angles_off(made), 0.6 * angles_off(sumner_popovic));
+    }
   }
+  EXPECT_LT(ours, 0.0045);
+  EXPECT_LT(ours, 1.1 * theirs);
 }
 
 TEST(Transfer, ACopyMovesAsTheSourceDoes) {
@@ -204,58 +185,42 @@ TEST(Transfer, ACopyMovesAsTheSourceDoes) {
   const auto copy = [&](const Shape& shape) -> Shape {
     return (scale * turn * shape).colwise() + Vector3d(-11, 4, 0.5);
   };
-  for (Connection connection : kConnections) {
-    SCOPED_TRACE(static_cast<int>(connection));
-    TransferOptions options;
-    options.connection = connection;
-    const auto [path, hybrids, summary] = Transfer(source, copy(shapes[0]), options);
-    EXPECT_TRUE(summary.Converged());
-    EXPECT_NEAR(summary.scale, scale, 1e-12);
-    EXPECT_LT(summary.strain_max, 1e-10);
-    EXPECT_LT(summary.angle_rms, 1e-8);
-    for (int i = 0; i <= 3; ++i) {
-      EXPECT_LT(Apart(path.Placed(i), copy(shapes[i])), 1e-10) << i;
-      EXPECT_LT(Apart(hybrids.Placed(i), copy(shapes[i])), 1e-10) << i;
-    }
+  const auto [path, hybrids, summary] = Transfer(source, copy(shapes[0]), WithHybrids());
+  EXPECT_TRUE(summary.Converged());
+  EXPECT_NEAR(summary.scale, scale, 1e-12);
+  EXPECT_LT(summary.strain_max, 1e-9);
+  EXPECT_LT(summary.angle_rms, 1e-7);
+  for (int i = 0; i <= 3; ++i) {
+    EXPECT_LT(Apart(path.Placed(i), copy(shapes[i])), 1e-10) << i;
+    EXPECT_LT(Apart(hybrids.Placed(i), copy(shapes[i])), 1e-10) << i;
   }
-
-  // Taken as it stands, a turned copy makes the paper's transport turn the motion falsely.
-  TransferOptions paper;
-  paper.connection = Connection::kConstrainedProjection;
-  paper.align = false;
-  EXPECT_GT(Apart(Transfer(source, copy(shapes[0]), paper).path.Placed(3), copy(shapes[3])), 0.02);
 }
 
-// The quadruped's own poses, in other proportions, are what it should become.
-TEST(Transfer, BodiesWithJointsTakeThePoseOver) {
-  const SkinnedBody normal = MakeSkinnedBody("quadruped", 1500);
-  for (const char* proportions : {"long", "short"}) {
-    SCOPED_TRACE(proportions);
-    const SkinnedBody other = MakeSkinnedBody("quadruped", 1500, proportions);
-    GeodesicOptions geodesic;
-    geodesic.shapes = 3;
-    const GeodesicResult source =
-        Interpolate(normal.connectivity, {normal.pose("stand"), normal.pose("sit")}, geodesic);
-    const Shape stand = other.pose("stand"), sit = other.pose("sit");
-    const auto [path, hybrids, summary] = Transfer(source.path, stand);
-    const Shape end = path.Placed(4);
-    const Eigen::VectorXd& area = path.metric->vertex_area;
-    EXPECT_LT(ShapesApart(end, sit, area), 0.015);
-    EXPECT_GT(ShapesApart(stand, sit, area), 0.04);
-    EXPECT_LT(Degrees(FitRigidMotion(end, sit, area).rotation), 2);
-    for (const TransferSummary::Rung& rung : summary.rungs) {
-      EXPECT_LE(rung.norm_change, 0);  // the nearest tangent is never longer
-      EXPECT_GT(rung.norm_change, -0.1);
-    }
-    // The hybrid lies between: closer to either than they are to each other.
-    const Shape sitting = normal.pose("sit");
-    EXPECT_LT(ShapesApart(hybrids.Placed(4), end, area), ShapesApart(sitting, end, area));
-    EXPECT_LT(ShapesApart(hybrids.Placed(4), sitting, area), ShapesApart(end, sitting, area));
-  }
+// Pairs of triangles without area, and a pose in which more collapse.
+TEST(Transfer, CollapsedTrianglesAreNoObstacle) {
+  Shape straight = ThickBar().pose(0), bent = ThickBar().pose(40), thin = ThinBar();
+  for (Shape* shape : {&straight, &bent, &thin}) shape->col(7) = shape->col(8);
+  bent.col(40) = bent.col(41);
+  const Path source = PathOf(ThickBar().connectivity, {straight, bent});
+  const auto copy = [&](const Shape& shape) -> Shape { return 3 * Turn(50, {1, 2, 3}) * shape; };
+  const Path of_copy = Transfer(source, copy(straight)).path;
+  EXPECT_LT(Apart(of_copy.Placed(1), copy(bent)), 1e-8);
+  const auto [path, hybrids, summary] = Transfer(source, thin);
+  EXPECT_TRUE(summary.Converged());
+  EXPECT_TRUE(path.Placed(1).allFinite());
+  EXPECT_NEAR(BendOf(thin, path.Placed(1)), 41, 2);
+}
+
+TEST(Transfer, ASourceThatRestsLeavesTheTargetAsItIs) {
+  const Shape rest = ThickBar().pose(0);
+  const Path source = PathOf(ThickBar().connectivity, {rest, rest, rest});
+  const auto [path, hybrids, summary] = Transfer(source, ThinBar());
+  EXPECT_TRUE(summary.Converged());
+  EXPECT_LT(Apart(path.Placed(2), ThinBar()), 1e-9);
 }
 
 TEST(Transfer, HybridsStandHalfWay) {
-  const auto [path, hybrids, summary] = Transfer(Bending(3), ThinBar());
+  const auto [path, hybrids, summary] = Transfer(Bending(3), ThinBar(), WithHybrids());
   ASSERT_EQ(hybrids.NumShapes(), 4);
   const auto proportion = [](const Shape& shape) {
     const Vector3d extent = shape.rowwise().maxCoeff() - shape.rowwise().minCoeff();
@@ -269,7 +234,7 @@ TEST(Transfer, HybridsStandHalfWay) {
 TEST(Transfer, SaysWhatItsPathsAre) {
   Path source = Bending(3);
   source.provenance = "a test";
-  const auto [path, hybrids, summary] = Transfer(source, ThinBar());
+  const auto [path, hybrids, summary] = Transfer(source, ThinBar(), WithHybrids());
   EXPECT_TRUE(path.Placed(0).isApprox(ThinBar(), 1e-14));
   EXPECT_EQ(path.parameters, source.parameters);
   EXPECT_EQ(path.poses, std::vector<int>{0});
@@ -283,20 +248,25 @@ TEST(Transfer, SaysWhatItsPathsAre) {
       EXPECT_LT(Centroid(shape, made.metric->vertex_area).norm(), 1e-12);
     }
   }
-  EXPECT_EQ(summary.rungs.size(), 4u);
-  EXPECT_EQ(summary.metric, "log_length 1, lambda 0.0001, bending 0.02");
+  EXPECT_EQ(summary.steps.size(), 3u);
+  EXPECT_EQ(summary.metric, "strain 1, lambda 1000, bending 0.0001");
   EXPECT_GT(summary.strain_rms, 0.01);  // the thin bar strains less
   EXPECT_LT(summary.strain_rms, 0.05);
   EXPECT_LT(summary.angle_rms, 3);
   EXPECT_TRUE(summary.warnings.empty());
-  EXPECT_NE(summary.BriefReport().find("converged: 106 vertices, 4 rungs"), std::string::npos);
-  EXPECT_NE(summary.FullReport().find("energy / bound"), std::string::npos);
+  EXPECT_NE(summary.BriefReport().find("converged: 106 vertices, 3 shapes"), std::string::npos);
+  EXPECT_NE(summary.FullReport().find("iterations"), std::string::npos);
+  EXPECT_EQ(summary.FullReport().find("energy / bound"), std::string::npos);
   const auto json = nlohmann::json::parse(summary.ToJson());
   EXPECT_EQ(json["converged"], true);
-  EXPECT_EQ(json["rungs"].size(), 4u);
+  EXPECT_EQ(json["method"], "features");
+  EXPECT_EQ(json["steps"].size(), 3u);
   EXPECT_EQ(json["scale"], summary.scale);
   EXPECT_EQ(json["strain_off"]["rms"], summary.strain_rms);
   EXPECT_EQ(json["angle_off_degrees"], summary.angle_rms);
+
+  EXPECT_EQ(Describe(path.metric->options), Describe(MetricOptions::Strain()));
+  EXPECT_TRUE(Transfer(source, ThinBar()).hybrids.shapes.empty());
 }
 
 // A source and a target in other frames and sizes make the same motion, in the target's frame.
@@ -311,8 +281,8 @@ TEST(Transfer, CommutesWithRotationAndScale) {
     const Path of_source = Transfer(moved, straight).path;
     const Path of_target = Transfer(Bending(3), scale * turn * straight).path;
     for (int i = 0; i <= 3; ++i) {
-      EXPECT_LT(Apart(of_source.Placed(i), reference.Placed(i)), 1e-6) << scale;
-      EXPECT_LT(Apart(of_target.Placed(i), scale * turn * reference.Placed(i)), 1e-6) << scale;
+      EXPECT_LT(Apart(of_source.Placed(i), reference.Placed(i)), 1e-8) << scale;
+      EXPECT_LT(Apart(of_target.Placed(i), scale * turn * reference.Placed(i)), 1e-8) << scale;
     }
   }
 }
@@ -333,11 +303,9 @@ TEST(Transfer, DoesNotDependOnTheNumbersOfVertices) {
   const auto other = Connectivity::FromTriangles(connectivity.NumVertices(), triangles);
   std::vector<Shape> shapes;
   for (const Shape& shape : source.Placed()) shapes.push_back(renumbered(shape));
-  TransferOptions options;
-  options.tolerance = 1e-12;
-  const Path a = Transfer(source, ThinBar(), options).path;
-  const Path b = Transfer(PathOf(other, shapes), renumbered(ThinBar()), options).path;
-  EXPECT_LT(Apart(b.Placed(3), renumbered(a.Placed(3))), 1e-5);
+  const Path a = Transfer(source, ThinBar()).path;
+  const Path b = Transfer(PathOf(other, shapes), renumbered(ThinBar())).path;
+  EXPECT_LT(Apart(b.Placed(3), renumbered(a.Placed(3))), 1e-8);
 }
 
 TEST(Transfer, IsTheSameForAnyNumberOfThreads) {
@@ -345,8 +313,8 @@ TEST(Transfer, IsTheSameForAnyNumberOfThreads) {
   const Path source = PathOf(thick.connectivity, {thick.pose(0), thick.pose(20)});
   const Shape thin = MakeBar(8, 1.6, 0.6, 40, 7, 7).pose(0);
   ASSERT_GT(thin.cols(), 1024);  // several blocks of rows
-  TransferOptions options;
-  options.rung_shapes = 1;
+  TransferOptions options = WithHybrids();
+  options.ladder.rung_shapes = 1;
   const auto results = testing::OnThreads([&] { return Transfer(source, thin, options); });
   for (const TransferResult& result : results) {
     for (int i : {0, 1}) {
@@ -359,9 +327,8 @@ TEST(Transfer, IsTheSameForAnyNumberOfThreads) {
 TEST(TransferPoses, EveryPoseIsReachedOnItsOwn) {
   const auto& connectivity = ThickBar().connectivity;
   const std::vector<Shape> poses = {ThickBar().pose(0), ThickBar().pose(60), ThickBar().pose(30)};
-  GeodesicOptions geodesic;
-  geodesic.shapes = 3;
-  const auto [path, hybrids, summary] = TransferPoses(connectivity, poses, ThinBar(), geodesic);
+  const auto [path, hybrids, summary] =
+      TransferPoses(connectivity, poses, ThinBar(), {}, WithHybrids());
   ASSERT_EQ(path.NumShapes(), 3);
   ASSERT_EQ(hybrids.NumShapes(), 3);
   EXPECT_EQ(path.parameters, (std::vector<double>{0, 0.5, 1}));
@@ -370,20 +337,18 @@ TEST(TransferPoses, EveryPoseIsReachedOnItsOwn) {
   EXPECT_TRUE(path.Placed(0).isApprox(ThinBar(), 1e-14));
   EXPECT_NEAR(BendOf(ThinBar(), path.Placed(1)), 60, 4);
   EXPECT_NEAR(BendOf(ThinBar(), path.Placed(2)), 30, 2);
-  const auto alone = TransferPoses(connectivity, {poses[0], poses[2]}, ThinBar(), geodesic);
-  EXPECT_LT(Apart(alone.path.Placed(1), path.Placed(2)), 1e-12);
-  EXPECT_LT(Apart(alone.hybrids.Placed(1), hybrids.Placed(2)), 1e-12);
+  // Weights are frozen on all poses, which alone matter to each other.
+  const auto alone = TransferPoses(connectivity, {poses[0], poses[2]}, ThinBar());
+  EXPECT_LT(Apart(alone.path.Placed(1), path.Placed(2)), 1e-3);
 
-  ASSERT_EQ(summary.transfers.size(), 2u);
-  EXPECT_EQ(summary.transfers[0].rungs.size(), 5u);
+  ASSERT_EQ(summary.transfers.size(), 1u);
+  EXPECT_EQ(summary.transfers[0].steps.size(), 2u);
+  EXPECT_TRUE(summary.geodesics.empty());
   EXPECT_TRUE(summary.Converged());
   EXPECT_TRUE(summary.Warnings().empty());
-  EXPECT_NE(summary.BriefReport().find("2 poses, 10 rungs"), std::string::npos);
-  EXPECT_NE(summary.FullReport().find("Pose 3, its transfer"), std::string::npos);
-  const auto json = nlohmann::json::parse(summary.ToJson());
-  ASSERT_EQ(json["poses"].size(), 2u);
-  EXPECT_EQ(json["poses"][0]["geodesic"]["shapes"], 3);
-  EXPECT_EQ(json["poses"][1]["transfer"]["rungs"].size(), 5u);
+  EXPECT_EQ(summary.BriefReport(), summary.transfers[0].BriefReport());
+  EXPECT_EQ(summary.FullReport(), summary.transfers[0].FullReport());
+  EXPECT_EQ(summary.ToJson(), summary.transfers[0].ToJson());
 
   EXPECT_THROW(TransferPoses(connectivity, {poses[0]}, ThinBar()), MeshError);
 }
@@ -410,21 +375,20 @@ TEST(Transfer, RefusesWhatCannotBeTransferred) {
             }).find("metric.discretization:"),
             0u);
   EXPECT_EQ(message([](TransferOptions* o) { o->metric.bending = -1; }).find("bending:"), 0u);
-  EXPECT_EQ(message([](TransferOptions* o) { o->rung_shapes = 4; }).find("rung_shapes:"), 0u);
-  EXPECT_EQ(message([](TransferOptions* o) { o->rung_shapes = -1; }).find("rung_shapes:"), 0u);
   EXPECT_EQ(message([](TransferOptions* o) { o->tolerance = 0; }).find("tolerance:"), 0u);
+  EXPECT_EQ(message([](TransferOptions* o) { o->max_iterations = 0; }).find("max_iterations:"), 0u);
 }
 
-// A fifth of the size, and absolute lengths that a fifth of the size cannot take over.
-TEST(Transfer, SaysWhichShapeDegenerates) {
+TEST(Transfer, SaysSoWhereASolveRunsOut) {
   TransferOptions options;
-  options.metric = MetricOptions();
-  options.connection = Connection::kLeviCivita;
-  options.scale = false;
-  const auto transfer = [&] { Transfer(Bending(6), 0.2 * ThinBar(), options); };
-  const std::string message = MessageOf<SolverError>(transfer);
-  EXPECT_EQ(message.find("transfer of shape "), 0u) << message;
-  EXPECT_NE(message.find("; a source with more shapes"), std::string::npos) << message;
+  options.tolerance = 1e-14;
+  options.max_iterations = 1;
+  const auto [path, hybrids, summary] = Transfer(Bending(2), ThinBar(), options);
+  EXPECT_FALSE(summary.Converged());
+  EXPECT_FALSE(path.converged);
+  ASSERT_EQ(summary.warnings.size(), 1u);
+  EXPECT_EQ(summary.warnings[0], "2 of 2 shapes did not converge: look at the pictures");
+  EXPECT_EQ(summary.BriefReport().find("NOT CONVERGED"), 0u);
 }
 
 TEST(Transfer, KeepsTheShapesMadeBeforeItIsCancelled) {
@@ -434,22 +398,22 @@ TEST(Transfer, KeepsTheShapesMadeBeforeItIsCancelled) {
     EXPECT_EQ(stage, "transferring");
     reports_before_the_third += done < 2;
   };
-  const TransferResult whole = Transfer(Bending(3), ThinBar(), {}, &all);
+  const TransferResult whole = Transfer(Bending(3), ThinBar(), WithHybrids(), &all);
   EXPECT_EQ(all.shares, (std::vector<double>{0, .25, .5, .75}));
   EXPECT_TRUE(whole.summary.Converged());
 
-  for (const int last : {1, 2, 6, 20}) {
+  for (const int last : {1, 2, 6}) {
     Listener early(last);
-    EXPECT_THROW(Transfer(Bending(3), ThinBar(), {}, &early), Cancelled) << last;
+    EXPECT_THROW(Transfer(Bending(3), ThinBar(), WithHybrids(), &early), Cancelled) << last;
   }
   for (const int last : {1, 9}) {  // before the third rung, and within it
     Listener later(reports_before_the_third + last);
-    const auto [path, hybrids, summary] = Transfer(Bending(3), ThinBar(), {}, &later);
+    const auto [path, hybrids, summary] = Transfer(Bending(3), ThinBar(), WithHybrids(), &later);
     EXPECT_TRUE(summary.cancelled);
     EXPECT_FALSE(summary.Converged());
     ASSERT_FALSE(summary.warnings.empty());
     EXPECT_NE(summary.warnings[0].find("cancelled"), std::string::npos);
-    EXPECT_EQ(summary.rungs.size(), 2u);
+    EXPECT_EQ(summary.steps.size(), 1u);
     ASSERT_EQ(path.NumShapes(), 2);
     ASSERT_EQ(hybrids.NumShapes(), 2);
     for (int i = 0; i < 2; ++i) {
@@ -462,32 +426,6 @@ TEST(Transfer, KeepsTheShapesMadeBeforeItIsCancelled) {
   }
 }
 
-TEST(TransferPoses, KeepsThePosesMadeBeforeItIsCancelled) {
-  GeodesicOptions geodesic;
-  geodesic.shapes = 1;
-  const std::vector<Shape> poses = {ThickBar().pose(0), ThickBar().pose(40), ThickBar().pose(60)};
-  const auto transfer = [&](Progress* progress) {
-    return TransferPoses(ThickBar().connectivity, poses, ThinBar(), geodesic, {}, progress);
-  };
-  Listener all;
-  const PoseTransferResult whole = transfer(&all);
-  ASSERT_FALSE(all.shares.empty());
-  EXPECT_EQ(all.shares.front(), 0);
-  EXPECT_TRUE(std::is_sorted(all.shares.begin(), all.shares.end()));
-  EXPECT_LE(all.shares.back(), 1);
-  Listener first(all.reports / 4);
-  EXPECT_THROW(transfer(&first), Cancelled);
-  Listener second(all.reports - 2);
-  const PoseTransferResult half = transfer(&second);
-  EXPECT_TRUE(half.summary.cancelled);
-  EXPECT_FALSE(half.summary.Converged());
-  EXPECT_NE(half.summary.Warnings().at(0).find("cancelled"), std::string::npos);
-  ASSERT_EQ(half.path.NumShapes(), 2);
-  EXPECT_EQ(half.summary.transfers.size(), 1u);
-  EXPECT_LT(Apart(half.path.Placed(1), whole.path.Placed(1)), 1e-12);
-}
-
-// Neither in shape nor in pose is there anything to carry along: every rung has no length.
 TEST(Transfer, AnExactCopyConvergesAndMakesTheVeryMotion) {
   // A straight stick besides: nothing but its first bending holds it.
   std::vector<std::pair<int, int>> segments;
@@ -509,15 +447,13 @@ TEST(Transfer, AnExactCopyConvergesAndMakesTheVeryMotion) {
       const auto copy = [&, scale = scale](const Shape& shape) -> Shape {
         return (scale * Turn(70, {1, 2, 3}) * shape).colwise() + Vector3d(5, 6, 7);
       };
-      GeodesicOptions geodesic;
-      geodesic.shapes = 3;
       const auto [path, hybrids, summary] =
-          TransferPoses(connectivity, {first, second}, copy(first), geodesic);
+          TransferPoses(connectivity, {first, second}, copy(first), {}, WithHybrids());
       EXPECT_TRUE(summary.Converged()) << summary.BriefReport();
       // About its own axis a straight stick may stand in any way.
       const Eigen::VectorXd area = Eigen::VectorXd::Ones(first.cols());
-      EXPECT_LT(ShapesApart(path.Placed(1), copy(second), area), 1e-12);
-      EXPECT_LT(ShapesApart(hybrids.Placed(1), copy(second), area), 1e-12);
+      EXPECT_LT(ShapesApart(path.Placed(1), copy(second), area), 1e-11);
+      EXPECT_LT(ShapesApart(hybrids.Placed(1), copy(second), area), 1e-11);
     }
   }
 }

@@ -64,8 +64,8 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                       "step_tolerance", "steps"});
   EXPECT_EQ(Listed("shape-extrapolate"), extrapolate);
   std::set<std::string> transfer = Listed("shape-interpolate");
-  transfer.insert(
-      {"align", "connection", "hybrids", "rung_shapes", "scale", "target", "transfer_bending"});
+  transfer.insert({"align", "connection", "hybrids", "ladder_bending", "method", "rung_shapes",
+                   "scale", "target"});
   EXPECT_EQ(Listed("shape-transfer"), transfer);
   for (const char* foreign : {"flagfile", "undefok", "logtostderr", "minloglevel", "v"}) {
     EXPECT_EQ(listed.count(foreign), 0u) << foreign;
@@ -79,7 +79,7 @@ TEST_F(HelpTest, DefaultsReadAsTheyWouldBeTyped) {
   ExpectContains(help, "--tolerance 1e-04 ");
   ExpectContains(Run("shape-extrapolate", {"--help"}).out, "--tolerance 1e-06 ");
   ExpectContains(Run("shape-transfer", {"--help"}).out, "--shapes 7 ");
-  ExpectContains(Run("shape-transfer", {"--help"}).out, "--transfer_bending 0.02 ");
+  ExpectContains(Run("shape-transfer", {"--help"}).out, "--ladder_bending 0.02 ");
   ExpectLacks(help, "00000");
 }
 

@@ -104,17 +104,23 @@ TEST_F(ReportKeysTest, TheDocumentationHasThemAllAndNoOthers) {
           {"stopped"});
   const nlohmann::json transfer =
       Report("shape-transfer", {"w.path", "--target", "tube0.obj", "--output", "t.path"});
-  Compare("Of `shape-transfer` from", transfer);
-  const nlohmann::json poses = Report(
-      "shape-transfer",
-      {"tube0.obj", "tube1.obj", "--shapes", "1", "--target", "tube0.obj", "--output", "t.path"});
+  const nlohmann::json ladder =
+      Report("shape-transfer",
+             {"w.path", "--method", "ladder", "--target", "tube0.obj", "--output", "t.path"});
+  Compare("Of `shape-transfer`:", ladder);
+  for (const auto& [key, value] : ladder.items()) EXPECT_TRUE(transfer.contains(key)) << key;
+  EXPECT_EQ(transfer.size(), ladder.size());
+  EXPECT_EQ(transfer["steps"][0].size() + 3, ladder["steps"][0].size());  // on_mesh and two more
+  const nlohmann::json poses =
+      Report("shape-transfer", {"tube0.obj", "tube1.obj", "--method", "ladder", "--shapes", "1",
+                                "--target", "tube0.obj", "--output", "t.path"});
   Keys keys, parts;
   for (const auto& [key, value] : poses.items()) keys.insert(key);
   EXPECT_EQ(keys, (Keys{"converged", "poses"}));
   for (const auto& [key, value] : poses["poses"][0].items()) parts.insert(key);
   EXPECT_EQ(parts, (Keys{"geodesic", "transfer"}));
   EXPECT_EQ(poses["poses"][0]["geodesic"].size(), geodesic.size());
-  EXPECT_EQ(poses["poses"][0]["transfer"].size(), transfer.size());
+  EXPECT_EQ(poses["poses"][0]["transfer"].size(), ladder.size());
 }
 
 }  // namespace

@@ -39,12 +39,12 @@ class TransferTest : public ToolsTest {
   }
 };
 
-TEST_F(TransferTest, EveryPoseMakesAFrame) {
+TEST_F(TransferTest, TheLadderMakesAFrameOfEveryPose) {
   MakeBodies();
-  const Outcome outcome =
-      Run("shape-transfer",
-          {"tube0.obj", "tube1.obj", "tube2.obj", "--target", "thin.obj", "--shapes", "3",
-           "--output", "out/%02d.obj,out.path,out.png", "--hybrids", "mid/%02d.ply,mid.path"});
+  const Outcome outcome = Run(
+      "shape-transfer", {"tube0.obj", "tube1.obj", "tube2.obj", "--target", "thin.obj", "--shapes",
+                         "3", "--method", "ladder", "--output", "out/%02d.obj,out.path,out.png",
+                         "--hybrids", "mid/%02d.ply,mid.path"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(Files(), (Strings{"mid", "mid.path", "mid/00.ply", "mid/01.ply", "mid/02.ply", "out",
                               "out.path", "out.png", "out/00.obj", "out/01.obj", "out/02.obj",
@@ -67,10 +67,37 @@ TEST_F(TransferTest, EveryPoseMakesAFrame) {
   }
   // Each is reached from the reference, whichever poses stand before it.
   Succeed("shape-transfer", {"tube0.obj", "tube2.obj", "--target", "thin.obj", "--shapes", "3",
-                             "--output", "alone%d.obj"});
+                             "--method", "ladder", "--output", "alone%d.obj"});
   EXPECT_LT(Apart("alone1.obj", path.Placed(2)), 1e-8);
-  ExpectContains(outcome.out, "converged: 152 vertices, 2 poses, 10 rungs");
+  ExpectContains(outcome.out, "converged: 152 vertices, 2 poses in 8 steps");
   EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(TransferTest, EveryPoseMakesAFrame) {
+  MakeBodies();
+  const Outcome outcome =
+      Run("shape-transfer",
+          {"tube0.obj", "tube1.obj", "tube2.obj", "--target", "thin.obj", "--output",
+           "out/%02d.obj,out.path,out.png", "--hybrids", "mid/%02d.ply", "--report", "r.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(Files(), (Strings{"mid", "mid/00.ply", "mid/01.ply", "mid/02.ply", "out", "out.path",
+                              "out.png", "out/00.obj", "out/01.obj", "out/02.obj", "r.json",
+                              "thin.obj", "tube0.obj", "tube1.obj", "tube2.obj"}));
+  const shapespace::Path path = ReadPath(Path("out.path"));
+  ASSERT_EQ(path.NumShapes(), 3);
+  EXPECT_EQ(path.poses, std::vector<int>{0});
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_LT(Apart("out/0" + std::to_string(i) + ".obj", path.Placed(i)), 1e-8);
+  }
+  EXPECT_LT(Apart("out/00.obj", Vertices("thin.obj")), 1e-8);
+  EXPECT_GT(Apart("out/02.obj", Vertices("thin.obj")), 0.05);
+  ExpectContains(outcome.out, "converged: 152 vertices, 2 shapes; target ");
+  EXPECT_EQ(outcome.err, "");
+  const nlohmann::json report = nlohmann::json::parse(Content(Path("r.json")));
+  EXPECT_EQ(report["method"], "features");
+  EXPECT_EQ(report["steps"].size(), 2u);
+  // A path that was transferred can be continued.
+  Succeed("shape-extrapolate", {"out.path", "--steps", "1", "--output", "on%d.obj"});
 }
 
 TEST_F(TransferTest, ACopyTakesThePosesAsTheyAre) {
@@ -107,39 +134,36 @@ TEST_F(TransferTest, OfAPathEveryShapeIsTransferred) {
   const nlohmann::json report = nlohmann::json::parse(outcome.out, nullptr, false);
   ASSERT_TRUE(report.is_object()) << outcome.out;
   EXPECT_EQ(report["converged"], true);
-  EXPECT_EQ(report["rungs"].size(), 5u);
-  ExpectContains(outcome.err, "converged: 152 vertices, 5 rungs");
-  // The pose alone, by way of as many shapes.
-  Succeed("shape-transfer", {"tube0.obj", "tube1.obj", "--shapes", "3", "--target", "thin.obj",
-                             "--output", "pose%d.obj"});
-  EXPECT_LT(Apart("pose1.obj", on.Placed(4)), 1e-8);
+  EXPECT_EQ(report["steps"].size(), 4u);
+  ExpectContains(outcome.err, "converged: 152 vertices, 4 shapes");
 }
 
 TEST_F(TransferTest, FlagsOfTheTransferReachIt) {
   MakeBodies();
   const auto report = [&](Strings flags) {
-    flags.insert(flags.begin(), {"tube0.obj", "tube1.obj", "--shapes", "1", "--target", "thin.obj",
-                                 "--output", "on.path", "--report", "r.json"});
+    flags.insert(flags.begin(),
+                 {"tube0.obj", "tube1.obj", "--method", "ladder", "--shapes", "1", "--target",
+                  "thin.obj", "--output", "on.path", "--report", "r.json"});
     Succeed("shape-transfer", flags);
     return nlohmann::json::parse(Content(Path("r.json")))["poses"][0];
   };
   const nlohmann::json plain = report({});
   EXPECT_EQ(plain["geodesic"]["shapes"], 1);
-  EXPECT_EQ(plain["transfer"]["rungs"].size(), 3u);
+  EXPECT_EQ(plain["transfer"]["steps"].size(), 2u);
   for (const Strings& flags :
-       {Strings{"--noscale"}, Strings{"--connection", "levi_civita"},
-        Strings{"--connection", "projection"}, Strings{"--rung_shapes", "5"},
-        Strings{"--transfer_bending", "0.1"}, Strings{"--bending", "1e-3"}}) {
+       {Strings{"--noscale"}, Strings{"--connection", "projection"}, Strings{"--rung_shapes", "5"},
+        Strings{"--ladder_bending", "0.1"}, Strings{"--bending", "1e-3"}}) {
     EXPECT_NE(report(flags)["transfer"]["strain_off"]["rms"],
               plain["transfer"]["strain_off"]["rms"])
         << flags[0];
   }
-  EXPECT_EQ(report({"--transfer_bending", "0.1"})["transfer"]["metric"],
+  EXPECT_EQ(report({"--ladder_bending", "0.1"})["transfer"]["metric"],
             "log_length 1, lambda 0.0001, bending 0.1");
   EXPECT_EQ(report({"--bending", "1e-3"})["geodesic"]["metric"],
             "isometric 1, lambda 0.0001, bending 0.001");
-  Succeed("shape-transfer", {"tube0.obj", "tube1.obj", "--shapes", "1", "--target", "thin.obj",
-                             "--noalign", "--output", "on.path", "--report", "r.txt"});
+  Succeed("shape-transfer",
+          {"tube0.obj", "tube1.obj", "--shapes", "1", "--target", "thin.obj", "--method", "ladder",
+           "--noalign", "--output", "on.path", "--report", "r.txt"});
   ExpectContains(Content(Path("r.txt")), "Pose 2, its transfer");
 }
 
@@ -186,10 +210,15 @@ TEST_F(TransferTest, WrongCommandLines) {
       {{"walk.path", "--lambda", "0.001"}, "--lambda: goes with poses"},
       {{"walk.path", "--shapes", "15"}, "--shapes: goes with poses"},
       {{"walk.path", "--stiffeners", "s.txt"}, "--stiffeners: goes with poses"},
-      {{"walk.path", "--rung_shapes", "2"}, "--rung_shapes 2: must be odd"},
-      {{"walk.path", "--transfer_bending=-1"}, "--transfer_bending -1: must be"},
-      {{"walk.path", "--connection", "affine"},
-       "--connection affine: must be one of nearest, levi_civita, projection"},
+      {{"walk.path", "--method", "magic"}, "--method magic: must be one of features, ladder"},
+      {{"walk.path", "--hybrids", "h.png", "--rung_shapes", "2"}, "--rung_shapes 2: must be odd"},
+      {{"walk.path", "--method", "ladder", "--ladder_bending=-1"}, "--ladder_bending -1: must be"},
+      {{"walk.path", "--method", "ladder", "--connection", "affine"},
+       "--connection affine: must be one of levi_civita, projection"},
+      {{"walk.path", "--connection", "projection"}, "--connection: goes with --method ladder"},
+      {{"tube0.obj", "tube1.obj", "--shapes", "3"}, "--shapes: goes with --method ladder"},
+      {{"tube0.obj", "tube1.obj", "--lambda", "1e-3"}, "--lambda: goes with --method ladder"},
+      {{"tube0.obj", "tube1.obj", "--noscale"}, "--scale: goes with --method ladder or --hybrids"},
       {{"walk.path", "--hybrids", "half.gif"}, "--hybrids half.gif: must end in"},
       {{"walk.path", "--hybrids", "half.obj"}, "--hybrids "},
       {{"walk.path", "--output", "on.gif"}, "--output on.gif: must end in"},

@@ -122,6 +122,8 @@ Eigen::VectorXd FeatureMap::Values(const Shape& shape) const {
   return result;
 }
 
+int FeatureMap::FirstValue(size_t feature) const { return layout_->terms[feature].first_value; }
+
 Eigen::VectorXd FeatureMap::SecondDerivative(const Shape& shape, const Tangent& x) const {
   Eigen::VectorXd result(layout_->num_values);
   ForFeatures(metric_, [&](size_t i, const auto& feature) {

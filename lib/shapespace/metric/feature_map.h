@@ -47,8 +47,11 @@ class FeatureMap {
 
   const Metric& GetMetric() const { return metric_; }
 
-  /// Phi(P).
+  /// Phi(P): feature after feature, element after element, each value times the root of the
+  /// element's weight.
   Eigen::VectorXd Values(const Shape& shape) const;
+  /// Where the values of metric.features[feature] begin in Phi.
+  int FirstValue(size_t feature) const;
   /// J(P), differentiated automatically.
   FeatureDerivative Derivative(const Shape& shape) const;
   /// The second derivative of Phi at P along X twice.

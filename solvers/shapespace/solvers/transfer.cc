@@ -2,49 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/stopwatch.h>
-#include <shapespace/hierarchy/detail.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/quality.h>
 #include <shapespace/path/rigid_motion.h>
 #include <shapespace/solvers/check_options.h>
+#include <shapespace/solvers/optimise/feature_transfer.h>
+#include <shapespace/solvers/optimise/ladder.h>
 
 namespace shapespace {
 namespace {
 
 // Of the time that a pose's geodesic and the transfer of it take together.
 constexpr double kGeodesicShare = 0.1;
-
-// So that a copy of the source comes out as its motion to ten digits.
-constexpr double kStepTolerance = 1e-12;
-
-// Root mean square distance of the surface from its centroid.
-double Radius(const Shape& shape, const Eigen::VectorXd& weights) {
-  const Eigen::Vector3d centre = Centroid(shape, weights);
-  const Eigen::VectorXd squares = (shape.colwise() - centre).colwise().squaredNorm().transpose();
-  return std::sqrt(squares.dot(weights) / weights.sum());
-}
-
-Path TwoShapes(const std::shared_ptr<const Metric>& metric, const Shape& from, const Shape& to) {
-  Path path;
-  path.metric = metric;
-  path.shapes = {from / metric->unit, to / metric->unit};
-  path.parameters = {0, 1};
-  path.motions.resize(2);
-  path.poses = {0, 1};
-  return path;
-}
-
-// What a path carries as motions becomes part of its shapes.
-void TurnShapes(Path* path) {
-  for (int i = 0; i < path->NumShapes(); ++i) {
-    path->shapes[i] = path->motions[i].rotation * path->shapes[i];
-    path->motions[i].rotation.setIdentity();
-  }
-}
 
 Path PathOfPlaced(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& placed,
                   std::vector<double> parameters, std::string provenance) {
@@ -67,12 +41,10 @@ Path PathOfTarget(const std::shared_ptr<const Metric>& metric, const std::vector
   return path;
 }
 
-double NormChange(double before, double after) { return before > 0 ? after / before - 1 : 0; }
-
-// What goes on within a rung is heard as that rung's.
-class WithinRung final : public Progress {
+// What goes on while a shape is made is heard as that shape's.
+class WithinShape final : public Progress {
  public:
-  WithinRung(Progress* all, int done, int total) : all_(all), done_(done), total_(total) {}
+  WithinShape(Progress* all, int done, int total) : all_(all), done_(done), total_(total) {}
   bool Report(const std::string&, int, int) override {
     return all_ == nullptr || all_->Report("transferring", done_, total_);
   }
@@ -96,90 +68,6 @@ class Within final : public Progress {
  private:
   Progress* const all_;
   const double begin_, end_;
-};
-
-// The rotation that gives the target's surface, in the mean over it, the orientation that the
-// source's has. Bodies of other proportions have their mass elsewhere, so that shapes which lie
-// well on each other as a whole do not stand alike.
-Eigen::Matrix3d Uprighting(const Metric& metric, const Shape& first_source, const Shape& source,
-                           const Shape& first_target, const Shape& target) {
-  const Connectivity& connectivity = *metric.connectivity;
-  const auto is = internal::VertexRotations(connectivity, first_target, target);
-  const auto wanted = internal::VertexRotations(connectivity, first_source, source);
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (size_t v = 0; v < is.size(); ++v) {
-    sum += metric.vertex_area(v) * is[v] * wanted[v].transpose();
-  }
-  return ProcrustesRotation(sum);
-}
-
-class Ladder {
- public:
-  Ladder(std::shared_ptr<const Metric> metric, const TransferOptions& options)
-      : metric_(std::move(metric)), options_(options) {
-    geodesic_.shapes = options.rung_shapes;
-    geodesic_.tolerance = options.tolerance;
-    transport_.connection = options.connection;
-    transport_.align = options.align;
-    step_.tolerance = kStepTolerance;
-  }
-
-  struct Rung {
-    GeodesicResult geodesic;
-    Shape from, next;  // of the source, as they are compared with the target
-  };
-
-  // From a shape of the source to the target's; `next` is the source's after that.
-  Rung Lay(const Shape& source, const Shape& next, const Shape& target, Progress* progress) const {
-    const Eigen::VectorXd& weights = metric_->vertex_area;
-    const double scale = options_.scale ? Radius(target, weights) / Radius(source, weights) : 1;
-    RigidMotion onto;
-    if (options_.align) onto = FitRigidMotion(scale * source, target, weights);
-    Rung rung;
-    rung.from = onto(scale * source);
-    rung.next = onto(scale * next);
-    rung.geodesic = Interpolate(metric_, {rung.from, target}, geodesic_, progress);
-    if (rung.geodesic.summary.termination == Termination::kCancelled) throw Cancelled();
-    if (!options_.align) TurnShapes(&rung.geodesic.path);
-    return rung;
-  }
-
-  // A rung without length: the target is the source's shape.
-  bool HasNoLength(const Rung& rung) const {
-    return options_.align && rung.geodesic.summary.energy < GeodesicSummary::kZeroEnergy;
-  }
-
-  // What `target` becomes as the source becomes its next shape. \throw SolverError.
-  Shape Climb(const Rung& rung, const Shape& target, TransferSummary::Rung* row,
-              Progress* progress) const {
-    // Along a rung without length nothing changes, and the target's step is the source's.
-    if (HasNoLength(rung)) return rung.next + (target - rung.from);
-    const Tangent velocity =
-        Carry(rung.geodesic.path, InitialVelocity(TwoShapes(metric_, rung.from, rung.next)), row,
-              progress);
-    const ExponentialResult step = Extrapolate(metric_, target, velocity, 1, step_, progress);
-    if (step.summary.ending != ExponentialSummary::Ending::kComplete) {
-      throw SolverError(step.summary.stopped);
-    }
-    row->on_mesh = step.summary.steps[0].vertices == step.summary.vertices;
-    if (row->on_mesh) row->converged = row->converged && step.summary.Converged();
-    return step.path.Placed(1);
-  }
-
- private:
-  Tangent Carry(const Path& path, const Tangent& velocity, TransferSummary::Rung* row,
-                Progress* progress) const {
-    const TransportResult carried = Transport(path, {velocity}, transport_, progress);
-    row->norm_change = NormChange(carried.summary.first_norm[0], carried.summary.last_norm[0]);
-    row->converged = row->converged && carried.summary.converged;
-    return carried.tangents[0];
-  }
-
-  const std::shared_ptr<const Metric> metric_;
-  const TransferOptions options_;
-  GeodesicOptions geodesic_;
-  TransportOptions transport_;
-  ExponentialOptions step_;
 };
 
 // Compares what target and source have done since their first shapes.
@@ -218,23 +106,80 @@ void Warn(TransferSummary* summary) {
   if (summary->cancelled) {
     summary->warnings.push_back("cancelled: the path ends with the last shape made before");
   }
-  const auto count = [&](const auto& is_so) {
-    return std::count_if(summary->rungs.begin(), summary->rungs.end(), is_so);
-  };
-  const std::string of = " of " + std::to_string(summary->rungs.size()) + " rungs ";
-  if (const auto coarse = count([](const TransferSummary::Rung& rung) { return !rung.on_mesh; })) {
-    summary->warnings.push_back(std::to_string(coarse) + of +
-                                "made their step on a coarser mesh, and carried detail along");
+  int coarse = 0, open = 0;
+  for (size_t i = 0; i < summary->steps.size(); ++i) {
+    const TransferSummary::Step& step = summary->steps[i];
+    coarse += !step.on_mesh;
+    open += !step.converged;
+    for (const std::string& warning : step.warnings) {
+      summary->warnings.push_back("rung " + std::to_string(i) + ": " + warning);
+    }
   }
-  if (const auto open = count([](const TransferSummary::Rung& rung) { return !rung.converged; })) {
+  const std::string of = " of " + std::to_string(summary->steps.size()) + " shapes ";
+  if (coarse > 0) {
+    summary->warnings.push_back(std::to_string(coarse) + of +
+                                "were made on a coarser mesh, and detail carried along");
+  }
+  if (open > 0) {
     summary->warnings.push_back(std::to_string(open) + of +
                                 "did not converge: look at the pictures");
   }
 }
 
+// What geodesics cannot be shot under, features not be taken of.
+void CheckMetric(const MetricOptions& metric) {
+  metric.Validate();
+  if (metric.rigid > 0) {
+    throw InvalidOptions("metric.rigid: the rigid metric knows no transfer; use 0");
+  }
+  if (metric.discretization != Discretization::kMidpoint) {
+    throw InvalidOptions(
+        "metric.discretization: in trapezoid form nothing can be transferred; use kMidpoint");
+  }
+}
+
+// Source and target as they are compared: in the source's aligned frame and, if `scaled`, in the
+// target's size; the unit is the user's. There the target's first shape is `target`.
+class Comparison {
+ public:
+  Comparison(const Path& source, const Shape& target, double scale, bool align)
+      : source_(source), size_(scale) {
+    const Eigen::VectorXd& weights = source.metric->vertex_area;
+    for (const Shape& shape : source.shapes) shapes_.push_back(size_ * source.metric->unit * shape);
+    place_ = FitRigidMotion(shapes_[0], target, weights);
+    if (!align) {
+      place_.rotation = source.motions[0].rotation;
+      place_.translation =
+          Centroid(target, weights) - place_.rotation * Centroid(shapes_[0], weights);
+    }
+    target_ = place_.rotation.transpose() * (target.colwise() - place_.translation);
+  }
+
+  const std::vector<Shape>& Shapes() const { return shapes_; }
+  const Shape& Target() const { return target_; }
+
+  /// Back to the target's place, at the time of the source's shape i, and `upright` before.
+  RigidMotion Placing(int i, const Eigen::Matrix3d& upright) const {
+    const Eigen::Matrix3d turn = place_.rotation * source_.motions[0].rotation.transpose();
+    RigidMotion motion;
+    motion.rotation = turn * source_.motions[i].rotation * upright;
+    motion.translation =
+        place_.translation +
+        size_ * turn * (source_.motions[i].translation - source_.motions[0].translation);
+    return motion;
+  }
+
+ private:
+  const Path& source_;
+  const double size_;
+  std::vector<Shape> shapes_;
+  RigidMotion place_;
+  Shape target_;
+};
+
 }  // namespace
 
-MetricOptions TransferOptions::Strains() {
+MetricOptions LadderOptions::Strains() {
   MetricOptions metric;
   metric.isometric = 0;
   metric.log_length = 1;
@@ -242,19 +187,28 @@ MetricOptions TransferOptions::Strains() {
   return metric;
 }
 
-void TransferOptions::Validate() const {
-  metric.Validate();
-  if (metric.rigid > 0) {
-    throw InvalidOptions("metric.rigid: the rigid metric knows no parallel transport; use 0");
-  }
-  if (metric.discretization != Discretization::kMidpoint) {
-    throw InvalidOptions(
-        "metric.discretization: in trapezoid form geodesics cannot be shot; use kMidpoint");
-  }
+void LadderOptions::Validate() const {
+  CheckMetric(metric);
   if (rung_shapes < 1 || rung_shapes % 2 == 0) {
     throw InvalidOptions("rung_shapes: must be odd, 1 or more");
   }
   internal::CheckTolerance(tolerance);
+}
+
+MetricOptions TransferOptions::Features() {
+  MetricOptions metric;
+  metric.isometric = 0;
+  metric.strain = 1;
+  metric.lambda = 1000;
+  metric.bending = 1e-4;
+  return metric;
+}
+
+void TransferOptions::Validate() const {
+  CheckMetric(metric);
+  internal::CheckTolerance(tolerance);
+  internal::CheckMaxIterations(max_iterations);
+  ladder.Validate();
 }
 
 TransferResult Transfer(const Path& source, const Shape& target, const TransferOptions& options,
@@ -269,81 +223,94 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
                     " vertices, the source has " + std::to_string(connectivity->NumVertices()));
   }
   if (!target.allFinite()) throw MeshError("a coordinate of the target is not finite");
-  const Eigen::VectorXd& weights = source.metric->vertex_area;
+  const bool climbs = options.method == TransferMethod::kLadder;
+  const bool lays_rungs = climbs || options.hybrids;
   TransferResult result;
   TransferSummary& summary = result.summary;
+  summary.method = options.method;
   summary.vertices = connectivity->NumVertices();
-  summary.metric = Describe(options.metric);
-  summary.scale =
-      Radius(target, weights) / (source.metric->unit * Radius(source.shapes[0], weights));
+  summary.metric = Describe(climbs ? options.ladder.metric : options.metric);
+  const Eigen::VectorXd& weights = source.metric->vertex_area;
+  summary.scale = internal::Radius(target, weights) /
+                  (source.metric->unit * internal::Radius(source.shapes[0], weights));
   if (!(summary.scale > 0) || !std::isfinite(summary.scale)) {
     throw MeshError("the target or the source's first shape has no extent");
   }
 
-  // All happens in the source's aligned frame, and in the target's size: there the target's first
-  // shape is `targets[0]`, and `turn` leads from the source's place to the target's.
-  const double size = options.scale ? summary.scale : 1;
-  std::vector<Shape> shapes;
-  for (const Shape& shape : source.shapes) shapes.push_back(size * source.metric->unit * shape);
-  RigidMotion place = FitRigidMotion(shapes[0], target, weights);
-  if (!options.align) {
-    place.rotation = source.motions[0].rotation;
-    place.translation = Centroid(target, weights) - place.rotation * Centroid(shapes[0], weights);
-  }
-  const Eigen::Matrix3d turn = place.rotation * source.motions[0].rotation.transpose();
-  std::vector<Shape> targets = {place.rotation.transpose() *
-                                (target.colwise() - place.translation)};
+  const Comparison comparison(source, target, climbs && !options.ladder.scale ? 1 : summary.scale,
+                              !climbs || options.ladder.align);
+  const std::vector<Shape>& shapes = comparison.Shapes();
+  std::vector<Shape> targets = {comparison.Target()};
   std::vector<Shape> poses = shapes;
   poses.insert(poses.begin(), targets[0]);
-  const auto metric =
-      std::make_shared<const Metric>(FreezeMetric(options.metric, connectivity, poses));
+  const auto freeze = [&](const MetricOptions& metric) {
+    return std::make_shared<const Metric>(FreezeMetric(metric, connectivity, poses));
+  };
+  const auto metric = freeze(climbs ? options.ladder.metric : MetricOptions::Strain());
+  std::optional<internal::Ladder> ladder;
+  if (lays_rungs) {
+    ladder.emplace(climbs ? metric : freeze(options.ladder.metric), options.ladder);
+  }
+  std::optional<internal::FeatureTransfer> features;
+  if (!climbs) {
+    features.emplace(freeze(options.metric), shapes[0] / metric->unit, targets[0] / metric->unit);
+  }
 
-  const Ladder ladder(metric, options);
-  std::vector<Shape> placed, hybrids;
-  const auto climb = [&](int i) {
-    if (progress != nullptr) progress->ReportShare(static_cast<double>(i) / count);
-    ReportProgress(progress, "transferring", i, count);
-    const Stopwatch stopwatch;
-    WithinRung within(progress, i, count);
-    const bool last = i + 1 == count;
-    const Ladder::Rung rung = ladder.Lay(shapes[i], shapes[last ? i : i + 1], targets[i], &within);
-    TransferSummary::Rung row;
-    row.ratio = rung.geodesic.summary.Ratio();
-    row.converged =
-        ladder.HasNoLength(rung) || rung.geodesic.summary.termination == Termination::kConverged;
-    if (!last) {
+  // The rung at shape i, which the target's next shape and the hybrid share.
+  std::optional<internal::Ladder::Rung> rung;
+  int rung_at = -1;
+  const auto lay = [&](int i, Progress* within) -> const internal::Ladder::Rung& {
+    if (rung_at != i) {
+      rung = ladder->Lay(shapes[i], shapes[std::min(i + 1, count - 1)], targets[i], within);
+      rung_at = i;
+    }
+    return *rung;
+  };
+  const auto make = [&](int i, TransferSummary::Step* row, Progress* within) -> Shape {
+    if (climbs) {
       try {
-        targets.push_back(ladder.Climb(rung, targets[i], &row, &within));
+        return ladder->Climb(lay(i - 1, within), targets[i - 1], row, within);
       } catch (const SolverError& error) {
-        throw SolverError("transfer of shape " + std::to_string(i + 2) + ": " + error.what() +
+        throw SolverError("transfer of shape " + std::to_string(i + 1) + ": " + error.what() +
                           "; a source with more shapes on the same way makes smaller steps");
       }
     }
+    const internal::NearestShape nearest =
+        (*features)(shapes[i] / metric->unit, options.tolerance, options.max_iterations,
+                    [&] { ReportProgress(within, "", i, count); });
+    row->converged = nearest.converged;
+    row->iterations = nearest.iterations;
+    return metric->unit * nearest.shape;
+  };
+  std::vector<Shape> placed, hybrids;
+  const auto add = [&](int i) {
+    if (progress != nullptr) progress->ReportShare(static_cast<double>(i) / count);
+    WithinShape within(progress, i, count);
+    ReportProgress(&within, "", i, count);
+    const Stopwatch stopwatch;
+    TransferSummary::Step row;
+    if (i > 0) targets.push_back(make(i, &row, &within));
+    const RigidMotion motion = comparison.Placing(
+        i, climbs ? ladder->Uprighting(shapes[0], shapes[i], targets[0], targets[i])
+                  : Eigen::Matrix3d::Identity());
+    if (options.hybrids) hybrids.push_back(motion(ladder->Hybrid(lay(i, &within))));
+    placed.push_back(i == 0 ? target : motion(targets[i]));
     row.seconds = stopwatch.Seconds();
-    summary.rungs.push_back(row);
-
-    RigidMotion motion;
-    motion.rotation = turn * source.motions[i].rotation;
-    if (options.align) {
-      motion.rotation *= Uprighting(*metric, shapes[0], shapes[i], targets[0], targets[i]);
-    }
-    motion.translation =
-        place.translation +
-        size * turn * (source.motions[i].translation - source.motions[0].translation);
-    placed.push_back(motion(targets[i]));
-    hybrids.push_back(motion(rung.geodesic.path.Placed((options.rung_shapes + 1) / 2)));
+    if (i > 0) summary.steps.push_back(row);
   };
   try {
-    for (int i = 0; i < count; ++i) climb(i);
+    for (int i = 0; i < count; ++i) add(i);
   } catch (const Cancelled&) {
     if (placed.size() < 2) throw;
     summary.cancelled = true;
+    hybrids.resize(options.hybrids ? placed.size() : 0);
   }
-  placed[0] = target;
   const Path made = FirstShapes(source, static_cast<int>(placed.size()));
   const std::string provenance = source.provenance.empty() ? "" : source.provenance + "; ";
   result.path = PathOfTarget(metric, placed, made.parameters, provenance + "transferred");
-  result.hybrids = PathOfPlaced(metric, hybrids, made.parameters, provenance + "hybrids");
+  if (options.hybrids) {
+    result.hybrids = PathOfPlaced(metric, hybrids, made.parameters, provenance + "hybrids");
+  }
   result.path.appearance = result.hybrids.appearance = source.appearance;
   result.path.converged = result.hybrids.converged = source.converged && summary.Converged();
   MeasureWhatIsOff(*metric, made, result.path, &summary);
@@ -352,13 +319,14 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
   return result;
 }
 
-PoseTransferResult TransferPoses(const std::shared_ptr<const Connectivity>& connectivity,
-                                 const std::vector<Shape>& poses, const Shape& target,
-                                 const GeodesicOptions& geodesic, const TransferOptions& options,
-                                 Progress* progress) {
-  options.Validate();
+namespace {
+
+// By way of geodesics, whose ends are kept.
+PoseTransferResult TransferAlongGeodesics(const std::shared_ptr<const Connectivity>& connectivity,
+                                          const std::vector<Shape>& poses, const Shape& target,
+                                          const GeodesicOptions& geodesic,
+                                          const TransferOptions& options, Progress* progress) {
   const int count = static_cast<int>(poses.size());
-  if (count < 2) throw MeshError("one pose has no motion to transfer");
   PoseTransferResult result;
   std::vector<Shape> placed = {target}, hybrids;
   std::vector<double> parameters = {0};
@@ -382,16 +350,45 @@ PoseTransferResult TransferPoses(const std::shared_ptr<const Connectivity>& conn
     }
     const int last = transfer.path.NumShapes() - 1;
     placed.push_back(transfer.path.Placed(last));
-    if (hybrids.empty()) hybrids.push_back(transfer.hybrids.Placed(0));
-    hybrids.push_back(transfer.hybrids.Placed(last));
+    if (options.hybrids) {
+      if (hybrids.empty()) hybrids.push_back(transfer.hybrids.Placed(0));
+      hybrids.push_back(transfer.hybrids.Placed(last));
+    }
     parameters.push_back(static_cast<double>(i) / (count - 1));
     result.summary.geodesics.push_back(std::move(source.summary));
     result.summary.transfers.push_back(std::move(transfer.summary));
   }
   const auto metric =
-      std::make_shared<const Metric>(FreezeMetric(options.metric, connectivity, placed));
+      std::make_shared<const Metric>(FreezeMetric(options.ladder.metric, connectivity, placed));
   result.path = PathOfTarget(metric, placed, parameters, "transferred");
-  result.hybrids = PathOfPlaced(metric, hybrids, parameters, "hybrids");
+  if (options.hybrids) result.hybrids = PathOfPlaced(metric, hybrids, parameters, "hybrids");
+  return result;
+}
+
+}  // namespace
+
+PoseTransferResult TransferPoses(const std::shared_ptr<const Connectivity>& connectivity,
+                                 const std::vector<Shape>& poses, const Shape& target,
+                                 const GeodesicOptions& geodesic, const TransferOptions& options,
+                                 Progress* progress) {
+  options.Validate();
+  const int count = static_cast<int>(poses.size());
+  if (count < 2) throw MeshError("one pose has no motion to transfer");
+  PoseTransferResult result;
+  if (options.method == TransferMethod::kLadder) {
+    result = TransferAlongGeodesics(connectivity, poses, target, geodesic, options, progress);
+  } else {
+    std::vector<double> parameters;
+    for (int i = 0; i < count; ++i) parameters.push_back(static_cast<double>(i) / (count - 1));
+    const auto metric =
+        std::make_shared<const Metric>(FreezeMetric(MetricOptions::Strain(), connectivity, poses));
+    TransferResult transfer =
+        Transfer(PathOfPlaced(metric, poses, parameters, ""), target, options, progress);
+    result.path = std::move(transfer.path);
+    result.hybrids = std::move(transfer.hybrids);
+    result.summary.cancelled = transfer.summary.cancelled;
+    result.summary.transfers.push_back(std::move(transfer.summary));
+  }
   result.path.converged = result.hybrids.converged = result.summary.Converged();
   return result;
 }

@@ -15,8 +15,18 @@
 
 namespace shapespace {
 
-/// How a motion is carried over to another body.
-struct TransferOptions {
+/// What it means that another body makes the same motion (docs/mathematics.md, section 11).
+enum class TransferMethod {
+  /// The shape whose features are nearest to the target's own plus what the source has changed of
+  /// its. Every shape is found on its own.
+  kFeatures,
+  /// The paper's: geodesics between the two bodies carry the source's velocity over by parallel
+  /// transport, and the exponential map makes the target's next shape of it.
+  kLadder,
+};
+
+/// The paper's ladder, and the hybrids on its rungs.
+struct LadderOptions {
   /// Strains and dihedral angles, with strong bending: what the target takes over is how many per
   /// cent an edge stretches and by how many degrees a hinge folds, whatever the two bodies' sizes.
   /// (Under the default metric of geodesics absolute lengths count, and a thinner target bends too
@@ -47,20 +57,49 @@ struct TransferOptions {
   void Validate() const;
 };
 
+/// How a motion is carried over to another body.
+struct TransferOptions {
+  TransferMethod method = TransferMethod::kFeatures;
+
+  /// Of `kFeatures`: strains of triangles, dihedral angles, and `lambda`, which here says how
+  /// firmly positions are held where Sumner and Popovic's transfer has them: limbs end where it
+  /// puts them, strains and angles are nearer to the source's.
+  MetricOptions metric = Features();
+  static MetricOptions Features();
+
+  /// Of `kFeatures`: a shape is found when an iteration lowers the squared distance by less than
+  /// this share of the squared change of strains and angles that is carried over.
+  double tolerance = 3e-3;
+
+  /// Of `kFeatures`, a shape. One that runs out of them is reported.
+  int max_iterations = 50;
+
+  /// Make the bodies half way between source and target too, by the ladder's rungs.
+  bool hybrids = false;
+
+  LadderOptions ladder;
+
+  /// \throw InvalidOptions naming the field.
+  void Validate() const;
+};
+
 struct TransferSummary {
-  /// One rung: from shape i of the source to the target's shape i, and on to the next.
-  struct Rung {
-    bool converged = true;   ///< geodesic, transport and step
-    bool on_mesh = true;     ///< the step was made on the mesh itself (ExponentialSummary)
-    double ratio = 1;        ///< energy of the rung's geodesic over its lower bound
-    double norm_change = 0;  ///< |Y| / |X| - 1 of the transported tangent
+  /// To one more shape of the target.
+  struct Step {
+    bool converged = true;  ///< the shape; of the ladder geodesic, transport and step
+    int iterations = 0;
+    bool on_mesh = true;     ///< of the ladder: on the mesh itself (ExponentialSummary)
+    double ratio = 1;        ///< of the ladder: energy of the rung's geodesic over its lower bound
+    double norm_change = 0;  ///< of the ladder: |Y| / |X| - 1 of the transported tangent
+    std::vector<std::string> warnings;  ///< of the rung's geodesic
     double seconds = 0;
   };
 
+  TransferMethod method = TransferMethod::kFeatures;
   int vertices = 0;
   std::string metric;
   double scale = 1;  ///< size of the target, as a multiple of the source's
-  std::vector<Rung> rungs;
+  std::vector<Step> steps;
   /// What the target's last shape did not take over from the source's, both against their first:
   /// log |e| of an edge, weighted by A_e, and a hinge's dihedral angle in degrees, weighted by A_f.
   double strain_rms = 0, strain_max = 0, angle_rms = 0;
@@ -68,7 +107,7 @@ struct TransferSummary {
   std::vector<std::string> warnings;
   double total_seconds = 0;
 
-  /// All rungs were climbed and converged, and all steps were made on the mesh itself.
+  /// All shapes were made and converged, on the mesh itself.
   bool Converged() const;
   std::string BriefReport() const;  ///< one line
   std::string FullReport() const;   ///< a page
@@ -77,31 +116,34 @@ struct TransferSummary {
 
 struct TransferResult {
   /// The target's shapes, at the source's parameters. The first is the target, and the only pose;
-  /// all others count as extrapolated.
+  /// all others count as extrapolated. Its metric is one that it can be continued under: strains
+  /// (`MetricOptions::Strain`), or the ladder's.
   Path path;
-  /// Half way between source and target, at the same times; in the target's size if options.scale.
+  /// Half way between source and target, at the same times; in the target's size if ladder.scale.
+  /// No shapes unless options.hybrids.
   Path hybrids;
   TransferSummary summary;
 };
 
-/// Deformation transfer (Kilian et al. 2007, section 5, Figure 11): moves `target` (3 x m, user's
-/// unit; the same connectivity as the source's) as the path `source` moves. A ladder: the geodesic
-/// from a shape of the source to the target's corresponding shape carries the source's velocity
-/// over by parallel transport, and the exponential map makes the target's next shape of it. The
-/// target turns and travels as the source does, in its own frame and size: a copy of the source
-/// that was moved, turned and scaled makes the moved, turned and scaled motion.
+/// Deformation transfer: moves `target` (3 x m, user's unit; the same connectivity as the source's)
+/// as the path `source` moves. The target turns and travels as the source does, in its own frame
+/// and size: a copy of the source that was moved, turned and scaled makes the moved, turned and
+/// scaled motion. After Sumner and Popovic (SIGGRAPH 2004) in feature space, or Kilian et al. 2007,
+/// section 5, Figure 11.
 /// \throw InvalidOptions, MeshError (the source has one shape only; the target has another number
-///        of vertices, is not finite, or has no extent), SolverError (a rung's shape degenerates),
+///        of vertices, is not finite, or has no extent), SolverError (a shape degenerates),
 ///        Cancelled (stopped before the target's second shape was made; later the path so far is
 ///        returned, TransferSummary::cancelled).
 TransferResult Transfer(const Path& source, const Shape& target,
                         const TransferOptions& options = {}, Progress* progress = nullptr);
 
-/// Of poses that were transferred one by one.
+/// Of poses that were transferred.
 struct PoseTransferSummary {
-  std::vector<GeodesicSummary> geodesics;  ///< from the reference to each of the other poses
-  std::vector<TransferSummary> transfers;  ///< of those geodesics
-  bool cancelled = false;                  ///< `progress` asked to stop: poses before are there
+  /// Of the ladder: from the reference to each of the other poses.
+  std::vector<GeodesicSummary> geodesics;
+  /// Of those geodesics; else one, with a step for each pose but the reference.
+  std::vector<TransferSummary> transfers;
+  bool cancelled = false;  ///< `progress` asked to stop: poses before are there
 
   bool Converged() const;
   std::vector<std::string> Warnings() const;  ///< of all, saying of which pose
@@ -114,13 +156,13 @@ struct PoseTransferResult {
   /// The target, and what became of it for each of the other poses, evenly spaced in time: no
   /// motion from one to the next.
   Path path;
-  Path hybrids;  ///< half way between the poses and these, in the target's size
+  Path hybrids;  ///< half way between the poses and these, if options.hybrids
   PoseTransferSummary summary;
 };
 
 /// The target in each of `poses` (3 x m, user's unit) but the first, which is the pose that the
-/// target is in itself: the geodesic from the first to another is transferred, of which
-/// options.shapes + 1 rungs are climbed, and its end kept.
+/// target is in itself. By the ladder the geodesic from the first to another, under `geodesic`, is
+/// transferred, of which geodesic.shapes + 1 rungs are climbed, and its end kept.
 /// \throw as Interpolate and Transfer; messages of SolverError name the pose, counted from 1.
 ///        Cancelled, if stopped before the first pose was made.
 PoseTransferResult TransferPoses(const std::shared_ptr<const Connectivity>& connectivity,

@@ -18,13 +18,17 @@ nlohmann::ordered_json Json(const TransferSummary& summary) {
   json["vertices"] = summary.vertices;
   json["metric"] = summary.metric;
   json["scale"] = summary.scale;
-  json["rungs"] = nlohmann::ordered_json::array();
-  for (const TransferSummary::Rung& rung : summary.rungs) {
-    json["rungs"].push_back({{"converged", rung.converged},
-                             {"on_mesh", rung.on_mesh},
-                             {"energy_over_bound", JsonNumber(rung.ratio)},
-                             {"norm_change", JsonNumber(rung.norm_change)},
-                             {"seconds", rung.seconds}});
+  const bool ladder = summary.method == TransferMethod::kLadder;
+  json["method"] = ladder ? "ladder" : "features";
+  json["steps"] = nlohmann::ordered_json::array();
+  for (const TransferSummary::Step& step : summary.steps) {
+    json["steps"].push_back({{"converged", step.converged}, {"iterations", step.iterations}});
+    if (ladder) {
+      json["steps"].back()["on_mesh"] = step.on_mesh;
+      json["steps"].back()["energy_over_bound"] = JsonNumber(step.ratio);
+      json["steps"].back()["norm_change"] = JsonNumber(step.norm_change);
+    }
+    json["steps"].back()["seconds"] = step.seconds;
   }
   json["strain_off"] = {{"rms", summary.strain_rms}, {"max", summary.strain_max}};
   json["angle_off_degrees"] = summary.angle_rms;
@@ -38,15 +42,16 @@ const char* Ending(bool converged) { return converged ? "converged" : "NOT CONVE
 }  // namespace
 
 bool TransferSummary::Converged() const {
-  return !cancelled && std::all_of(rungs.begin(), rungs.end(),
-                                   [](const Rung& rung) { return rung.converged && rung.on_mesh; });
+  return !cancelled && std::all_of(steps.begin(), steps.end(),
+                                   [](const Step& step) { return step.converged && step.on_mesh; });
 }
 
 std::string TransferSummary::BriefReport() const {
   return Format(
-      "%s: %d vertices, %zu rungs; target %.4g times as large; strains off by %.3g%% rms, dihedral "
+      "%s: %d vertices, %zu shapes; target %.4g times as large; strains off by %.3g%% rms, "
+      "dihedral "
       "angles by %.3g degrees; %.2f s",
-      Ending(Converged()), vertices, rungs.size(), scale, 100 * strain_rms, angle_rms,
+      Ending(Converged()), vertices, steps.size(), scale, 100 * strain_rms, angle_rms,
       total_seconds);
 }
 
@@ -58,12 +63,16 @@ std::string TransferSummary::FullReport() const {
       << Format("Strains, last     off by %.4g%% rms, %.4g%% at most\n", 100 * strain_rms,
                 100 * strain_max)
       << Format("Angles, last      off by %.4g degrees rms\n", angle_rms)
-      << "\nrung  energy / bound  norm changes  seconds\n";
-  for (size_t i = 0; i < rungs.size(); ++i) {
-    const Rung& rung = rungs[i];
-    out << Format("%4zu  %14.5f  %12.3g  %7.3f%s%s\n", i, rung.ratio, rung.norm_change,
-                  rung.seconds, rung.on_mesh ? "" : "  (step on a coarser mesh)",
-                  rung.converged ? "" : "  (not converged)");
+      << "\nshape  iterations  seconds"
+      << (method == TransferMethod::kLadder ? "  energy / bound  norm changes\n" : "\n");
+  for (size_t i = 0; i < steps.size(); ++i) {
+    const Step& step = steps[i];
+    out << Format("%5zu  %10d  %7.3f", i + 2, step.iterations, step.seconds);
+    if (method == TransferMethod::kLadder) {
+      out << Format("  %14.5f  %12.3g", step.ratio, step.norm_change);
+    }
+    out << (step.on_mesh ? "" : "  (on a coarser mesh)")
+        << (step.converged ? "" : "  (not converged)") << '\n';
   }
   out << Format("\nTime              %.3f s\n", total_seconds);
   for (const std::string& warning : warnings) out << "Warning: " << warning << '\n';
@@ -81,6 +90,8 @@ bool PoseTransferSummary::Converged() const {
 }
 
 std::vector<std::string> PoseTransferSummary::Warnings() const {
+  if (geodesics.empty())
+    return transfers.empty() ? std::vector<std::string>() : transfers[0].warnings;
   std::vector<std::string> warnings;
   if (cancelled) warnings.push_back("cancelled: the poses before are there, the others are not");
   for (size_t i = 0; i < transfers.size(); ++i) {
@@ -95,22 +106,24 @@ std::vector<std::string> PoseTransferSummary::Warnings() const {
 
 std::string PoseTransferSummary::BriefReport() const {
   if (transfers.empty()) return "no pose was transferred";
+  if (geodesics.empty()) return transfers[0].BriefReport();
   double strain = 0, angle = 0, seconds = 0;
-  size_t rungs = 0;
+  size_t steps = 0;
   for (size_t i = 0; i < transfers.size(); ++i) {
     strain = std::max(strain, transfers[i].strain_rms);
     angle = std::max(angle, transfers[i].angle_rms);
-    rungs += transfers[i].rungs.size();
+    steps += transfers[i].steps.size();
     seconds += geodesics[i].total_seconds + transfers[i].total_seconds;
   }
   return Format(
-      "%s: %d vertices, %zu poses, %zu rungs; target %.4g times as large; strains off by up to "
+      "%s: %d vertices, %zu poses in %zu steps; target %.4g times as large; strains off by up to "
       "%.3g%% rms, dihedral angles by %.3g degrees; %.2f s",
-      Ending(Converged()), transfers[0].vertices, transfers.size(), rungs, transfers[0].scale,
+      Ending(Converged()), transfers[0].vertices, transfers.size(), steps, transfers[0].scale,
       100 * strain, angle, seconds);
 }
 
 std::string PoseTransferSummary::FullReport() const {
+  if (geodesics.empty()) return transfers.empty() ? "" : transfers[0].FullReport();
   std::ostringstream out;
   for (size_t i = 0; i < transfers.size(); ++i) {
     out << (i > 0 ? "\n" : "") << "Pose " << i + 2 << ", the geodesic to it\n"
@@ -121,6 +134,7 @@ std::string PoseTransferSummary::FullReport() const {
 }
 
 std::string PoseTransferSummary::ToJson() const {
+  if (geodesics.empty() && !transfers.empty()) return transfers[0].ToJson();
   nlohmann::ordered_json json;
   json["converged"] = Converged();
   json["poses"] = nlohmann::ordered_json::array();

@@ -1,0 +1,65 @@
+#include <shapespace/solvers/optimise/feature_transfer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+namespace shapespace::internal {
+
+FeatureTransfer::FeatureTransfer(std::shared_ptr<const Metric> metric, const Shape& source,
+                                 const Shape& target)
+    : metric_(std::move(metric)),
+      map_(*metric_),
+      source_(map_.Values(source)),
+      target_(map_.Values(target)),
+      gradients_(metric_->connectivity, source, target) {}
+
+NearestShape FeatureTransfer::operator()(const Shape& deformed, double tolerance,
+                                         int max_iterations,
+                                         const std::function<void()>& check_cancelled) {
+  const Shape placed = gradients_(deformed);
+  const Eigen::VectorXd wanted = Wanted(deformed, placed);
+  // Of strains and angles: how firmly positions are held is no measure.
+  Eigen::VectorXd change = wanted - target_;
+  for (size_t i = 0; i < metric_->features.size(); ++i) {
+    if (std::holds_alternative<Position>(metric_->features[i])) {
+      change.segment(map_.FirstValue(i), placed.size()).setZero();
+    }
+  }
+  // Of a source that rests nothing is left but rounding.
+  const double rounding = 1e3 * std::numeric_limits<double>::epsilon() * target_.norm();
+  const double least = std::max(tolerance * change.squaredNorm(), rounding * rounding);
+  return FindNearestShape(map_, wanted, placed, {least, max_iterations}, check_cancelled, &solver_);
+}
+
+Eigen::VectorXd FeatureTransfer::Wanted(const Shape& deformed, const Shape& placed) const {
+  const Eigen::VectorXd change = map_.Values(deformed);
+  Eigen::VectorXd wanted = target_ + (change - source_);
+  for (size_t i = 0; i < metric_->features.size(); ++i) {
+    const int begin = map_.FirstValue(i);
+    if (const auto* angles = std::get_if<Dihedral>(&metric_->features[i])) {
+      // On the circle angles are added.
+      for (int e = 0; e < angles->stencils.cols(); ++e) {
+        const auto value = [&](const Eigen::VectorXd& values) {
+          return std::complex<double>(values(begin + 2 * e), values(begin + 2 * e + 1));
+        };
+        const std::complex<double> turn = value(change) * std::conj(value(source_));
+        if (std::abs(turn) == 0) continue;
+        const std::complex<double> turned = value(target_) * (turn / std::abs(turn));
+        wanted(begin + 2 * e) = turned.real();
+        wanted(begin + 2 * e + 1) = turned.imag();
+      }
+    } else if (const auto* positions = std::get_if<Position>(&metric_->features[i])) {
+      for (int v = 0; v < placed.cols(); ++v) {
+        wanted.segment<3>(begin + 3 * v) = std::sqrt(positions->weights(v)) * placed.col(v);
+      }
+    }
+  }
+  return wanted;
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,39 @@
+#ifndef SHAPESPACE_SOLVERS_OPTIMISE_NEAREST_SHAPE_H_
+#define SHAPESPACE_SOLVERS_OPTIMISE_NEAREST_SHAPE_H_
+
+#include <functional>
+
+#include <Eigen/Core>
+
+#include <shapespace/mesh/shape.h>
+#include <shapespace/metric/feature_map.h>
+#include <shapespace/solvers/optimise/metric_solver.h>
+
+namespace shapespace::internal {
+
+/// What `FindNearestShape` is asked for.
+struct NearestShapeOptions {
+  /// The shape is found when an iteration can lower, or has lowered, the squared distance by no
+  /// more than this.
+  double tolerance = 0;
+  int max_iterations = 0;
+};
+
+struct NearestShape {
+  Shape shape;
+  double squared_distance = 0;  ///< |Phi(shape) - target|^2
+  int iterations = 0;
+  bool converged = false;  ///< found, and not run out of iterations or stuck
+};
+
+/// The shape whose features are nearest to `target`, argmin |Phi(P) - target|^2, by Gauss and
+/// Newton's method from `start`; `solver` factors the metric on the way, and is left with the last
+/// factor. `check_cancelled` is called before every iteration, and may throw.
+/// \throw SolverError if the metric is not definite at a shape on the way.
+NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& target,
+                              const Shape& start, const NearestShapeOptions& options,
+                              const std::function<void()>& check_cancelled, MetricSolver* solver);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_SOLVERS_OPTIMISE_NEAREST_SHAPE_H_

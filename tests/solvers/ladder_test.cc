@@ -1,0 +1,414 @@
+#include <shapespace/solvers/transfer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include <shapespace/base/error.h>
+#include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/skinned.h>
+
+#include "support/listener.h"
+#include "support/message_of.h"
+#include "support/path_of.h"
+#include "support/paths.h"
+#include "support/threads.h"
+#include "support/transfer_cases.h"
+
+namespace shapespace {
+namespace {
+
+using namespace testing;
+
+TransferOptions Ladder() {
+  TransferOptions options;
+  options.method = TransferMethod::kLadder;
+  options.hybrids = true;
+  return options;
+}
+
+// Wherever the target lies and however large it is.
+TEST(Ladder, BendsAnotherBarAsSumnerAndPopovicDo) {
+  const Path source = Bending(6);
+  const Shape straight = ThinBar();
+  const Shape theirs = SumnerPopovic::Transfer(*source.metric->connectivity, source.Placed(0),
+                                               source.Placed(6), straight);
+  EXPECT_NEAR(BendOf(straight, theirs), 62.1, 0.1);  // as measured on another implementation
+  const struct {
+    Matrix3d turn;
+    double scale;
+  } places[] = {{Matrix3d::Identity(), 1},
+                {Turn(90, Vector3d::UnitZ()), 1},
+                {Turn(90, Vector3d::UnitY()), 1},
+                {Turn(130, {1, 2, 3}), 3},
+                {Matrix3d::Identity(), 0.2}};
+  for (const auto& [turn, scale] : places) {
+    const auto [path, hybrids, summary] =
+        Transfer(source, (scale * turn * straight).colwise() + Vector3d(20, -3, 1), Ladder());
+    EXPECT_TRUE(summary.Converged());
+    ASSERT_EQ(path.NumShapes(), 7);
+    const Shape end = turn.transpose() * path.Placed(6) / scale;
+    EXPECT_NEAR(BendOf(straight, end), 60, 3.5);
+    EXPECT_NEAR(StrainOf(*source.metric, straight, end), 0.022, 1e-3);
+    EXPECT_LT(ShapesApart(end, theirs, source.metric->vertex_area), 0.005);
+  }
+}
+
+// What the metric of strains and the ladder's scaling and turning are for.
+TEST(Ladder, AbsoluteLengthsAndThePapersTransportBendFalsely) {
+  const Path source = Bending(6);
+  const Shape straight = ThinBar();
+  TransferOptions lengths = Ladder();
+  lengths.ladder.metric = MetricOptions();
+  EXPECT_GT(BendOf(straight, Transfer(source, straight, lengths).path.Placed(6)), 100);
+
+  TransferOptions paper = Ladder();
+  paper.ladder.metric = MetricOptions();
+  paper.ladder.metric.bending = 0;
+  paper.ladder.connection = Connection::kConstrainedProjection;
+  paper.ladder.scale = paper.ladder.align = false;
+  EXPECT_GT(BendOf(straight, Transfer(source, straight, paper).path.Placed(6)), 80);
+  const Shape turned = Turn(90, Vector3d::UnitZ()) * straight;
+  EXPECT_LT(BendOf(straight, Transfer(source, turned, paper).path.Placed(6)), 20);
+}
+
+// The step is taken in features, so that on a bar few rungs do for 60 degrees.
+TEST(Ladder, HardlyDependsOnHowFinelyTheSourceIsDivided) {
+  const Shape straight = ThinBar();
+  const Eigen::VectorXd area = Bending(1).metric->vertex_area;
+  const Shape fine = Transfer(Bending(12), straight, Ladder()).path.Placed(12);
+  for (int steps : {1, 3, 6}) {
+    const Shape end = Transfer(Bending(steps), straight, Ladder()).path.Placed(steps);
+    EXPECT_LT(ShapesApart(end, fine, area), steps == 1 ? 3e-4 : 5e-5) << steps;
+  }
+}
+
+TEST(Ladder, ACopyMovesAsTheSourceDoes) {
+  std::vector<Shape> shapes;
+  for (int i = 0; i <= 3; ++i) {
+    // The path carries a rigid motion, and begins off the axes.
+    shapes.push_back((Turn(40 + 30 * i, {1, 1, 0}) * ThickBar().pose(20 * i)).colwise() +
+                     Vector3d(i, 7, -2 * i));
+  }
+  const Path source = PathOf(ThickBar().connectivity, shapes);
+  const Matrix3d turn = Turn(100, {3, -1, 2});
+  const double scale = 2.5;
+  const auto copy = [&](const Shape& shape) -> Shape {
+    return (scale * turn * shape).colwise() + Vector3d(-11, 4, 0.5);
+  };
+  for (Connection connection : {Connection::kLeviCivita, Connection::kConstrainedProjection}) {
+    SCOPED_TRACE(static_cast<int>(connection));
+    TransferOptions options = Ladder();
+    options.ladder.connection = connection;
+    const auto [path, hybrids, summary] = Transfer(source, copy(shapes[0]), options);
+    EXPECT_TRUE(summary.Converged());
+    EXPECT_NEAR(summary.scale, scale, 1e-12);
+    EXPECT_LT(summary.strain_max, 1e-10);
+    EXPECT_LT(summary.angle_rms, 1e-8);
+    for (int i = 0; i <= 3; ++i) {
+      EXPECT_LT(Apart(path.Placed(i), copy(shapes[i])), 1e-10) << i;
+      EXPECT_LT(Apart(hybrids.Placed(i), copy(shapes[i])), 1e-10) << i;
+    }
+  }
+
+  // Taken as it stands, a turned copy makes the paper's transport turn the motion falsely.
+  TransferOptions paper = Ladder();
+  paper.ladder.connection = Connection::kConstrainedProjection;
+  paper.ladder.align = false;
+  EXPECT_GT(Apart(Transfer(source, copy(shapes[0]), paper).path.Placed(3), copy(shapes[3])), 0.02);
+}
+
+// The quadruped's own poses, in other proportions, are what it should become.
+TEST(Ladder, BodiesWithJointsTakeThePoseOver) {
+  const SkinnedBody normal = MakeSkinnedBody("quadruped", 1500);
+  for (const char* proportions : {"long", "short"}) {
+    SCOPED_TRACE(proportions);
+    const SkinnedBody other = MakeSkinnedBody("quadruped", 1500, proportions);
+    GeodesicOptions geodesic;
+    geodesic.shapes = 3;
+    const GeodesicResult source =
+        Interpolate(normal.connectivity, {normal.pose("stand"), normal.pose("sit")}, geodesic);
+    const Shape stand = other.pose("stand"), sit = other.pose("sit");
+    const auto [path, hybrids, summary] = Transfer(source.path, stand, Ladder());
+    const Shape end = path.Placed(4);
+    const Eigen::VectorXd& area = path.metric->vertex_area;
+    EXPECT_LT(ShapesApart(end, sit, area), 0.015);
+    EXPECT_GT(ShapesApart(stand, sit, area), 0.04);
+    EXPECT_LT(Degrees(FitRigidMotion(end, sit, area).rotation), 2);
+    for (const TransferSummary::Step& step : summary.steps) {
+      EXPECT_LE(step.norm_change, 0);  // a tangent never becomes longer
+      EXPECT_GT(step.norm_change, -0.1);
+    }
+    // The hybrid lies between: closer to either than they are to each other.
+    const Shape sitting = normal.pose("sit");
+    EXPECT_LT(ShapesApart(hybrids.Placed(4), end, area), ShapesApart(sitting, end, area));
+    EXPECT_LT(ShapesApart(hybrids.Placed(4), sitting, area), ShapesApart(end, sitting, area));
+  }
+}
+
+TEST(Ladder, HybridsStandHalfWay) {
+  const auto [path, hybrids, summary] = Transfer(Bending(3), ThinBar(), Ladder());
+  ASSERT_EQ(hybrids.NumShapes(), 4);
+  const auto proportion = [](const Shape& shape) {
+    const Vector3d extent = shape.rowwise().maxCoeff() - shape.rowwise().minCoeff();
+    return std::log(extent(0) / extent(2));
+  };
+  // Strains are logarithmic, so the middle of two boxes is the geometric one.
+  EXPECT_NEAR(proportion(hybrids.Placed(0)),
+              (proportion(ThickBar().pose(0)) + proportion(ThinBar())) / 2, 0.02);
+}
+
+TEST(Ladder, SaysWhatItsPathsAre) {
+  Path source = Bending(3);
+  source.provenance = "a test";
+  const auto [path, hybrids, summary] = Transfer(source, ThinBar(), Ladder());
+  EXPECT_TRUE(path.Placed(0).isApprox(ThinBar(), 1e-14));
+  EXPECT_EQ(path.parameters, source.parameters);
+  EXPECT_EQ(path.poses, std::vector<int>{0});
+  EXPECT_EQ(path.extrapolated, 3);
+  EXPECT_EQ(path.provenance, "a test; transferred");
+  EXPECT_EQ(hybrids.parameters, source.parameters);
+  EXPECT_TRUE(hybrids.poses.empty());
+  EXPECT_EQ(hybrids.provenance, "a test; hybrids");
+  for (const Path& made : {path, hybrids}) {
+    for (const Shape& shape : made.shapes) {
+      EXPECT_LT(Centroid(shape, made.metric->vertex_area).norm(), 1e-12);
+    }
+  }
+  EXPECT_EQ(summary.steps.size(), 3u);
+  EXPECT_EQ(summary.metric, "log_length 1, lambda 0.0001, bending 0.02");
+  EXPECT_GT(summary.strain_rms, 0.01);  // the thin bar strains less
+  EXPECT_LT(summary.strain_rms, 0.05);
+  EXPECT_LT(summary.angle_rms, 3);
+  EXPECT_TRUE(summary.warnings.empty());
+  EXPECT_NE(summary.BriefReport().find("converged: 106 vertices, 3 shapes"), std::string::npos);
+  EXPECT_NE(summary.FullReport().find("energy / bound"), std::string::npos);
+  const auto json = nlohmann::json::parse(summary.ToJson());
+  EXPECT_EQ(json["converged"], true);
+  EXPECT_EQ(json["steps"].size(), 3u);
+  EXPECT_EQ(json["scale"], summary.scale);
+  EXPECT_EQ(json["strain_off"]["rms"], summary.strain_rms);
+  EXPECT_EQ(json["angle_off_degrees"], summary.angle_rms);
+}
+
+// A source and a target in other frames and sizes make the same motion, in the target's frame.
+TEST(Ladder, CommutesWithRotationAndScale) {
+  const Shape straight = ThinBar();
+  const Path reference = Transfer(Bending(3), straight, Ladder()).path;
+  const Matrix3d turn = Turn(75, {1, 2, -1});
+  for (double scale : {1e-4, 1.0, 1e4}) {
+    std::vector<Shape> shapes;
+    for (int i = 0; i <= 3; ++i) shapes.push_back(scale * turn * ThickBar().pose(20 * i));
+    const Path moved = PathOf(ThickBar().connectivity, shapes);
+    const Path of_source = Transfer(moved, straight, Ladder()).path;
+    const Path of_target = Transfer(Bending(3), scale * turn * straight, Ladder()).path;
+    for (int i = 0; i <= 3; ++i) {
+      EXPECT_LT(Apart(of_source.Placed(i), reference.Placed(i)), 1e-6) << scale;
+      EXPECT_LT(Apart(of_target.Placed(i), scale * turn * reference.Placed(i)), 1e-6) << scale;
+    }
+  }
+}
+
+TEST(Ladder, DoesNotDependOnTheNumbersOfVertices) {
+  const Path source = Bending(3);
+  const Connectivity& connectivity = *source.metric->connectivity;
+  std::vector<int> number(connectivity.NumVertices());
+  std::iota(number.begin(), number.end(), 0);
+  std::shuffle(number.begin(), number.end(), std::mt19937(5));
+  const auto renumbered = [&](const Shape& shape) {
+    Shape result = shape;
+    for (int v = 0; v < shape.cols(); ++v) result.col(number[v]) = shape.col(v);
+    return result;
+  };
+  Eigen::Matrix3Xi triangles = connectivity.Triangles();
+  for (int& v : triangles.reshaped()) v = number[v];
+  const auto other = Connectivity::FromTriangles(connectivity.NumVertices(), triangles);
+  std::vector<Shape> shapes;
+  for (const Shape& shape : source.Placed()) shapes.push_back(renumbered(shape));
+  TransferOptions options = Ladder();
+  options.ladder.tolerance = 1e-12;
+  const Path a = Transfer(source, ThinBar(), options).path;
+  const Path b = Transfer(PathOf(other, shapes), renumbered(ThinBar()), options).path;
+  EXPECT_LT(Apart(b.Placed(3), renumbered(a.Placed(3))), 1e-5);
+}
+
+TEST(Ladder, IsTheSameForAnyNumberOfThreads) {
+  const Body thick = MakeBar(6, 1, 1, 40, 7, 7);
+  const Path source = PathOf(thick.connectivity, {thick.pose(0), thick.pose(20)});
+  const Shape thin = MakeBar(8, 1.6, 0.6, 40, 7, 7).pose(0);
+  ASSERT_GT(thin.cols(), 1024);  // several blocks of rows
+  TransferOptions options = Ladder();
+  options.ladder.rung_shapes = 1;
+  const auto results = testing::OnThreads([&] { return Transfer(source, thin, options); });
+  for (const TransferResult& result : results) {
+    for (int i : {0, 1}) {
+      EXPECT_TRUE(result.path.Placed(i) == results[0].path.Placed(i));
+      EXPECT_TRUE(result.hybrids.Placed(i) == results[0].hybrids.Placed(i));
+    }
+  }
+}
+
+TEST(LadderOfPoses, EveryPoseIsReachedOnItsOwn) {
+  const auto& connectivity = ThickBar().connectivity;
+  const std::vector<Shape> poses = {ThickBar().pose(0), ThickBar().pose(60), ThickBar().pose(30)};
+  GeodesicOptions geodesic;
+  geodesic.shapes = 3;
+  const auto [path, hybrids, summary] =
+      TransferPoses(connectivity, poses, ThinBar(), geodesic, Ladder());
+  ASSERT_EQ(path.NumShapes(), 3);
+  ASSERT_EQ(hybrids.NumShapes(), 3);
+  EXPECT_EQ(path.parameters, (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(path.poses, std::vector<int>{0});
+  EXPECT_EQ(path.extrapolated, 2);
+  EXPECT_TRUE(path.Placed(0).isApprox(ThinBar(), 1e-14));
+  EXPECT_NEAR(BendOf(ThinBar(), path.Placed(1)), 60, 4);
+  EXPECT_NEAR(BendOf(ThinBar(), path.Placed(2)), 30, 2);
+  const auto alone =
+      TransferPoses(connectivity, {poses[0], poses[2]}, ThinBar(), geodesic, Ladder());
+  EXPECT_LT(Apart(alone.path.Placed(1), path.Placed(2)), 1e-12);
+  EXPECT_LT(Apart(alone.hybrids.Placed(1), hybrids.Placed(2)), 1e-12);
+
+  ASSERT_EQ(summary.transfers.size(), 2u);
+  EXPECT_EQ(summary.transfers[0].steps.size(), 4u);
+  EXPECT_TRUE(summary.Converged());
+  EXPECT_TRUE(summary.Warnings().empty());
+  EXPECT_NE(summary.BriefReport().find("2 poses in 8 steps"), std::string::npos);
+  EXPECT_NE(summary.FullReport().find("Pose 3, its transfer"), std::string::npos);
+  const auto json = nlohmann::json::parse(summary.ToJson());
+  ASSERT_EQ(json["poses"].size(), 2u);
+  EXPECT_EQ(json["poses"][0]["geodesic"]["shapes"], 3);
+  EXPECT_EQ(json["poses"][1]["transfer"]["steps"].size(), 4u);
+
+  EXPECT_THROW(TransferPoses(connectivity, {poses[0]}, ThinBar(), {}, Ladder()), MeshError);
+}
+
+TEST(Ladder, RefusesOptionsThatMeanNothing) {
+  const auto message = [&](void (*change)(LadderOptions*)) {
+    TransferOptions options = Ladder();
+    change(&options.ladder);
+    return MessageOf<InvalidOptions>([&] { Transfer(Bending(2), ThinBar(), options); });
+  };
+  EXPECT_EQ(message([](LadderOptions* o) { o->metric.rigid = 1; }).find("metric.rigid:"), 0u);
+  EXPECT_EQ(message([](LadderOptions* o) {
+              o->metric.discretization = Discretization::kTrapezoid;
+            }).find("metric.discretization:"),
+            0u);
+  EXPECT_EQ(message([](LadderOptions* o) { o->metric.bending = -1; }).find("bending:"), 0u);
+  EXPECT_EQ(message([](LadderOptions* o) { o->rung_shapes = 4; }).find("rung_shapes:"), 0u);
+  EXPECT_EQ(message([](LadderOptions* o) { o->rung_shapes = -1; }).find("rung_shapes:"), 0u);
+  EXPECT_EQ(message([](LadderOptions* o) { o->tolerance = 0; }).find("tolerance:"), 0u);
+}
+
+// A source that crumples up, almost to a point, moves as no body can go on moving.
+TEST(Ladder, SaysWhichShapeDegenerates) {
+  const Path source = PathOf(ThickBar().connectivity,
+                             {ThickBar().pose(0), ThickBar().pose(5), Noise(106, 0.002, 3)});
+  const auto transfer = [&] { Transfer(source, ThinBar(), Ladder()); };
+  const std::string message = MessageOf<SolverError>(transfer);
+  EXPECT_EQ(message.find("transfer of shape 3"), 0u) << message;
+  EXPECT_NE(message.find("; a source with more shapes"), std::string::npos) << message;
+}
+
+TEST(Ladder, KeepsTheShapesMadeBeforeItIsCancelled) {
+  Listener all;
+  int reports_before_the_third = 0;
+  all.on_report = [&](const std::string& stage, int done) {
+    EXPECT_EQ(stage, "transferring");
+    reports_before_the_third += done < 2;
+  };
+  const TransferResult whole = Transfer(Bending(3), ThinBar(), Ladder(), &all);
+  EXPECT_EQ(all.shares, (std::vector<double>{0, .25, .5, .75}));
+  EXPECT_TRUE(whole.summary.Converged());
+
+  for (const int last : {1, 2, 6, 20}) {
+    Listener early(last);
+    EXPECT_THROW(Transfer(Bending(3), ThinBar(), Ladder(), &early), Cancelled) << last;
+  }
+  for (const int last : {1, 9}) {  // before the third rung, and within it
+    Listener later(reports_before_the_third + last);
+    const auto [path, hybrids, summary] = Transfer(Bending(3), ThinBar(), Ladder(), &later);
+    EXPECT_TRUE(summary.cancelled);
+    EXPECT_FALSE(summary.Converged());
+    ASSERT_FALSE(summary.warnings.empty());
+    EXPECT_NE(summary.warnings[0].find("cancelled"), std::string::npos);
+    EXPECT_EQ(summary.steps.size(), 1u);
+    ASSERT_EQ(path.NumShapes(), 2);
+    ASSERT_EQ(hybrids.NumShapes(), 2);
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_EQ(path.parameters[i], whole.path.parameters[i]);
+      EXPECT_LT(Apart(path.Placed(i), whole.path.Placed(i)), 1e-12);
+      EXPECT_LT(Apart(hybrids.Placed(i), whole.hybrids.Placed(i)), 1e-12);
+    }
+    // What is off is measured against the source's second shape, not its last.
+    EXPECT_LT(summary.strain_rms, whole.summary.strain_rms);
+  }
+}
+
+TEST(LadderOfPoses, KeepsThePosesMadeBeforeItIsCancelled) {
+  GeodesicOptions geodesic;
+  geodesic.shapes = 1;
+  const std::vector<Shape> poses = {ThickBar().pose(0), ThickBar().pose(40), ThickBar().pose(60)};
+  const auto transfer = [&](Progress* progress) {
+    return TransferPoses(ThickBar().connectivity, poses, ThinBar(), geodesic, Ladder(), progress);
+  };
+  Listener all;
+  const PoseTransferResult whole = transfer(&all);
+  ASSERT_FALSE(all.shares.empty());
+  EXPECT_EQ(all.shares.front(), 0);
+  EXPECT_TRUE(std::is_sorted(all.shares.begin(), all.shares.end()));
+  EXPECT_LE(all.shares.back(), 1);
+  Listener first(all.reports / 4);
+  EXPECT_THROW(transfer(&first), Cancelled);
+  Listener second(all.reports - 2);
+  const PoseTransferResult half = transfer(&second);
+  EXPECT_TRUE(half.summary.cancelled);
+  EXPECT_FALSE(half.summary.Converged());
+  EXPECT_NE(half.summary.Warnings().at(0).find("cancelled"), std::string::npos);
+  ASSERT_EQ(half.path.NumShapes(), 2);
+  EXPECT_EQ(half.summary.transfers.size(), 1u);
+  EXPECT_LT(Apart(half.path.Placed(1), whole.path.Placed(1)), 1e-12);
+}
+
+// Neither in shape nor in pose is there anything to carry along: every rung has no length.
+TEST(Ladder, AnExactCopyConvergesAndMakesTheVeryMotion) {
+  // A straight stick besides: nothing but its first bending holds it.
+  std::vector<std::pair<int, int>> segments;
+  Shape straight(3, 11), arc(3, 11);
+  for (int i = 0; i <= 10; ++i) {
+    straight.col(i) = Vector3d(i, 0, 0);
+    arc.col(i) = Vector3d(5 * std::sin(.2 * i), 5 - 5 * std::cos(.2 * i), 0);
+    if (i > 0) segments.emplace_back(i - 1, i);
+  }
+  const auto stick = Connectivity::Make(11, {0}, {}, segments);
+  const SkinnedBody quadruped = MakeSkinnedBody("quadruped", 3000);
+  const struct {
+    std::shared_ptr<const Connectivity> connectivity;
+    Shape first, second;
+  } bodies[] = {{stick, straight, arc},
+                {quadruped.connectivity, quadruped.pose("stand"), quadruped.pose("sit")}};
+  for (const auto& [connectivity, first, second] : bodies) {
+    for (const double scale : {1.0, 3.0}) {
+      const auto copy = [&, scale = scale](const Shape& shape) -> Shape {
+        return (scale * Turn(70, {1, 2, 3}) * shape).colwise() + Vector3d(5, 6, 7);
+      };
+      GeodesicOptions geodesic;
+      geodesic.shapes = 3;
+      const auto [path, hybrids, summary] =
+          TransferPoses(connectivity, {first, second}, copy(first), geodesic, Ladder());
+      EXPECT_TRUE(summary.Converged()) << summary.BriefReport();
+      // About its own axis a straight stick may stand in any way.
+      const Eigen::VectorXd area = Eigen::VectorXd::Ones(first.cols());
+      EXPECT_LT(ShapesApart(path.Placed(1), copy(second), area), 1e-12);
+      EXPECT_LT(ShapesApart(hybrids.Placed(1), copy(second), area), 1e-12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace shapespace
