@@ -738,6 +738,36 @@ TEST(Extrapolate, MakesEveryStepOnTheMeshUnderStrain) {
   }
 }
 
+// The discrete Euler-Lagrange equation reads the same both ways. So do steps so long that some must
+// be approached in increments: shot back from its last two shapes, the path comes back to its
+// first.
+TEST(Extrapolate, LongStepsLeadBackToo) {
+  const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
+  for (const char* pose : {"sit", "stride"}) {
+    SCOPED_TRACE(pose);
+    GeodesicOptions options = Exactly(1);
+    options.metric = MetricOptions::Strain();
+    const Path path =
+        Interpolate(animal.connectivity, {animal.pose("stand"), animal.pose(pose)}, options).path;
+    const auto [longer, summary] = Extrapolate(path, 8);
+    EXPECT_TRUE(summary.Converged()) << summary.FullReport();
+    int increments = 0;
+    for (const ExponentialSummary::Step& step : summary.steps) {
+      increments = std::max(increments, step.increments);
+      EXPECT_NEAR(step.energy / summary.steps.front().energy, 1, 1e-2);
+    }
+    EXPECT_GT(increments, 1);
+
+    Path reverse = longer;
+    std::reverse(reverse.shapes.begin(), reverse.shapes.end());
+    const auto [back, back_summary] = Extrapolate(FirstShapes(reverse, 2), reverse.NumShapes() - 2);
+    EXPECT_TRUE(back_summary.Converged()) << back_summary.FullReport();
+    for (int i = 0; i < back.NumShapes(); ++i) {
+      EXPECT_LT(Distance(back.shapes[i], reverse.shapes[i]), 1e-6 * Diameter(path.shapes[0])) << i;
+    }
+  }
+}
+
 // Where the mesh has no next shape, that of a coarser one is lifted, and detail with it. On real
 // geodesics the energy of segments is constant; taken for a momentum, what the detail did would
 // multiply it.

@@ -316,7 +316,7 @@ Departure Restart(const FeatureMap& map, const Shape& before, const Shape& shape
   Tangent velocity = SegmentVelocity(map.GetMetric(), before, shape, 1);
   const double found = map.Derivative(shape).Times(velocity).norm();
   if (found > 0) velocity *= speed / found;
-  return {shape, {}, std::move(velocity)};
+  return {shape, {}, std::move(velocity), speed};
 }
 
 // Continues the result's path, whose last shape is that of `departure`.
@@ -346,6 +346,7 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
       const double speed =
           discrete ? (map.Values(departure.shape) - map.Values(departure.previous)).norm()
                    : map.Derivative(departure.shape).Times(departure.velocity).norm();
+      departure.speed = speed;
       const auto next = [&](ExponentialSummary::Step* row) {
         Shape shape = shooter.Next(departure, row);
         if (row->vertices == summary.vertices) {
@@ -404,7 +405,7 @@ ExponentialResult Extrapolate(const Path& path, int steps, const ExponentialOpti
   result.path = path;
   result.path.provenance += "; extrapolated";
   const int last = path.NumShapes() - 1;
-  Shoot({path.shapes[last], path.shapes[last - 1], {}}, steps,
+  Shoot({path.shapes[last], path.shapes[last - 1], {}, 0}, steps,
         path.parameters[last] - path.parameters[last - 1], options, progress, &result);
   return result;
 }
@@ -432,7 +433,7 @@ ExponentialResult Extrapolate(const std::shared_ptr<const Metric>& metric, const
   path.parameters = {0};
   path.poses = {0};
   path.provenance = "shot from a shape";
-  Shoot({path.shapes[0], {}, velocity / (metric->unit * steps)}, steps, 1.0 / steps, options,
+  Shoot({path.shapes[0], {}, velocity / (metric->unit * steps), 0}, steps, 1.0 / steps, options,
         progress, &result);
   return result;
 }

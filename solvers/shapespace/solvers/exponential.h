@@ -35,9 +35,10 @@ struct ExponentialOptions {
   /// this share of the step itself.
   double tolerance = 1e-9;
 
-  /// Of Newton's method in a step, or of Ceres' trust region. A step that runs out of them is taken
-  /// over from a coarser resolution, and says so.
-  int max_iterations = 20;
+  /// Of Newton's method in a step, or of Ceres' trust region. Most steps take four; those that must
+  /// be approached in increments (ExponentialSummary::Step::increments) several for each. A step
+  /// that runs out of them is taken over from a coarser resolution, and says so.
+  int max_iterations = 100;
 
   /// \throw InvalidOptions naming the field.
   void Validate() const;
@@ -58,7 +59,10 @@ struct ExponentialSummary {
     /// was taken over with all detail; 0 if on none, and the nearest shape in feature space to what
     /// the coarsest step asked for was taken.
     int vertices = 0;
-    int iterations = 0;  ///< of Newton's method, or of Ceres, on the mesh itself
+    /// In which Newton's method, or Ceres, approached the root on the mesh itself: 1 where it was
+    /// reached at once, 0 where nothing had to be solved.
+    int increments = 0;
+    int iterations = 0;  ///< of Newton's method, or of Ceres, in all of them
     int krylov_iterations = 0;
     double residual = 0;  ///< at the end, on the mesh itself, share of the step
     double energy = 0;    ///< of the segment, scaled as a whole path's: constant on a geodesic
