@@ -67,6 +67,24 @@ INSTANTIATE_TEST_SUITE_P(, RoundTrip,
                                            RealPair{"hand/rest.obj", "hand/curl30.obj", 1e-6}),
                          NameOf);
 
+using Inverse = ExponentialRealPoses;
+
+TEST_P(Inverse, TheExponentialMapUndoesTheLogarithm) {
+  const auto metric =
+      std::make_shared<const Metric>(FreezeMetric({}, poses_.connectivity, poses_.shapes));
+  const Shape &from = poses_.shapes[0], &to = poses_.shapes[1];
+  const Shape end = Exponential(metric, from, Logarithm(metric, from, to));
+  EXPECT_LT(testing::Distance(end, FitRigidMotion(to, from, metric->vertex_area)(to)),
+            GetParam().error * testing::Diameter(to));
+}
+
+INSTANTIATE_TEST_SUITE_P(, Inverse,
+                         ::testing::Values(RealPair{"finger/0.obj", "finger/1.obj", 1e-5},
+                                           RealPair{"horse_lowpoly/base.obj",
+                                                    "horse_lowpoly/m03.obj", 1e-5},
+                                           RealPair{"hand/rest.obj", "hand/curl30.obj", 1e-5}),
+                         NameOf);
+
 using Continuation = ExponentialRealPoses;
 
 // By as long as the path is. At the path's usual tolerance.
