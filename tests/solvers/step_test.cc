@@ -46,8 +46,8 @@ Case BendingBar() {
   return {metric, {bar.pose(10) / metric->unit, bar.pose(5) / metric->unit, {}, 0}};
 }
 
-// Two steps beyond an animal's last pose, as long as half of the way between the poses: slivers
-// turn fast there.
+// A step beyond an animal's last pose, as long as half of the way between the poses: slivers turn
+// fast there.
 Case LongStep(const MetricOptions& metric, int steps_before) {
   const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
   GeodesicOptions options;

@@ -99,7 +99,6 @@ bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* ro
     if (FindRoot(next, last_iteration - row->iterations, options, row, &root)) {
       reached = root;
       load = next;
-      increment *= 2;
     } else {
       increment = 0.5 * (next - load);
       if (increment < kLeastIncrement) return false;
