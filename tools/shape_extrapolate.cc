@@ -26,7 +26,7 @@ DEFINE_string(step_solver, "newton_krylov",
               "of a variational step: newton_krylov, or ceres (for small meshes)");
 DEFINE_double(step_tolerance, 1e-9,
               "a variational step is solved when its residual is this share of the step");
-DEFINE_int32(step_iterations, 20, "iterations that a variational step may take");
+DEFINE_int32(step_iterations, 100, "iterations that a variational step may take");
 DEFINE_double(correct, 0,
               "afterwards move all shapes but the first so that edges keep its lengths: the weight "
               "of staying where they are, 1 to start from and less for truer lengths; 0 for off");

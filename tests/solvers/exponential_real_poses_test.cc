@@ -67,6 +67,24 @@ INSTANTIATE_TEST_SUITE_P(, RoundTrip,
                                            RealPair{"hand/rest.obj", "hand/curl30.obj", 1e-6}),
                          NameOf);
 
+using Inverse = ExponentialRealPoses;
+
+TEST_P(Inverse, TheExponentialMapUndoesTheLogarithm) {
+  const auto metric =
+      std::make_shared<const Metric>(FreezeMetric({}, poses_.connectivity, poses_.shapes));
+  const Shape &from = poses_.shapes[0], &to = poses_.shapes[1];
+  const Shape end = Exponential(metric, from, Logarithm(metric, from, to));
+  EXPECT_LT(testing::Distance(end, FitRigidMotion(to, from, metric->vertex_area)(to)),
+            GetParam().error * testing::Diameter(to));
+}
+
+INSTANTIATE_TEST_SUITE_P(, Inverse,
+                         ::testing::Values(RealPair{"finger/0.obj", "finger/1.obj", 1e-5},
+                                           RealPair{"horse_lowpoly/base.obj",
+                                                    "horse_lowpoly/m03.obj", 1e-5},
+                                           RealPair{"hand/rest.obj", "hand/curl30.obj", 1e-5}),
+                         NameOf);
+
 using Continuation = ExponentialRealPoses;
 
 // By as long as the path is. At the path's usual tolerance.
@@ -77,11 +95,37 @@ TEST_P(Continuation, KeepsGoing) {
   EXPECT_EQ(longer.NumShapes(), 2 * path.NumShapes() - 1);
   for (const Shape& shape : longer.shapes) EXPECT_TRUE(shape.allFinite());
   for (const ExponentialSummary::Step& step : summary.steps) EXPECT_LE(step.inverted, 0.01);
+  // What was carried along on a coarser mesh does not get a motion of its own.
+  for (const ExponentialSummary::Step& step : summary.steps) {
+    if (step.vertices < summary.vertices) continue;
+    EXPECT_NEAR(step.energy / summary.steps.front().energy, 1, 0.1);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(, Continuation,
                          ::testing::Values(RealPair{"finger/0.obj", "finger/1.obj"},
                                            RealPair{"hand/rest.obj", "hand/curl30.obj"}),
+                         NameOf);
+
+using StrainContinuation = ExponentialRealPoses;
+
+// Under strain every step has a root on the mesh itself, slivers and folded hinges or not, and on
+// the way to it nothing turns over: the energy says so.
+TEST_P(StrainContinuation, StaysOnTheMesh) {
+  GeodesicOptions options;
+  options.metric = MetricOptions::Strain();
+  options.tolerance = 1e-6;
+  const Path path = Interpolate(poses_, options).path;
+  const ExponentialSummary summary = Extrapolate(path, path.NumShapes() - 1).summary;
+  EXPECT_TRUE(summary.Converged()) << summary.FullReport();
+  for (const ExponentialSummary::Step& step : summary.steps) {
+    EXPECT_NEAR(step.energy / summary.steps.front().energy, 1, 1e-2);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, StrainContinuation,
+                         ::testing::Values(RealPair{"human/000.obj", "human/007.obj"},
+                                           RealPair{"cat/reference.obj", "cat/01.obj"}),
                          NameOf);
 
 }  // namespace

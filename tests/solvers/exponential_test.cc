@@ -286,11 +286,10 @@ TEST(Exponential, KeepsTheMomentaOfFreePoints) {
 // A path between two poses of a body. Its tolerance is a relative decrease of the energy, with
 // whose square root the path's error goes, and that error grows again when shooting: 1e-15 is what
 // it takes. With loose tolerances, shooting fails for want of a geodesic, not of an integrator.
-GeodesicOptions Exactly(int shapes) {
-  GeodesicOptions options;
+LogarithmOptions Exactly(int shapes) {
+  LogarithmOptions options;
   options.shapes = shapes;
   options.tolerance = 1e-15;
-  options.max_iterations = 5000;
   return options;
 }
 
@@ -462,7 +461,8 @@ TEST(FirstIntegral, DoesNotConverge) {
     SCOPED_TRACE(motion.name);
     const Shape exact = End(motion, 64, Integrator::kRungeKutta4);
     for (int steps : {8, 16, 32}) {
-      const double error = Distance(End(motion, steps, Integrator::kFirstIntegral), exact);
+      const Path path = Shoot(motion, steps, Options(Integrator::kFirstIntegral)).path;
+      const double error = Distance(path.Placed(steps), exact);
       EXPECT_GT(error, 0.3 * Distance(motion.shape, exact)) << steps;
     }
   }
@@ -605,6 +605,82 @@ TEST(Exponential, ThrowsWhereTheGeodesicEndsEarly) {
             0u);
 }
 
+// Extrapolate goes on coarser meshes and says so; the end alone could not.
+TEST(Exponential, RefusesEndsThatWereNotMadeOnTheMeshItself) {
+  const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
+  GeodesicOptions options;
+  options.shapes = 7;
+  const Path path =
+      Interpolate(animal.connectivity, {animal.pose("stand"), animal.pose("rear")}, options).path;
+  const Tangent velocity = 2 * InitialVelocity(path);
+  const auto [longer, summary] = Extrapolate(path.metric, path.Placed(0), velocity, 16);
+  EXPECT_EQ(summary.ending, Ending::kComplete) << summary.FullReport();
+  EXPECT_FALSE(summary.Converged());
+  const std::string message =
+      MessageOf<SolverError>([&] { Exponential(path.metric, path.Placed(0), velocity, 16); });
+  EXPECT_NE(message.find("on the mesh itself"), std::string::npos) << message;
+}
+
+TEST(Logarithm, RefusesPathsThatDidNotConverge) {
+  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const auto metric = std::make_shared<const Metric>(
+      FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(60)}));
+  LogarithmOptions options;
+  options.max_iterations = 1;
+  const std::string message =
+      MessageOf<SolverError>([&] { Logarithm(metric, bar.pose(0), bar.pose(60), options); });
+  EXPECT_NE(message.find("did not converge"), std::string::npos) << message;
+}
+
+// Unlike a path to look at, by default.
+TEST(Logarithm, IsUndoneByTheExponentialMapByDefault) {
+  for (const auto& [body, first, last] : Pairs()) {
+    SCOPED_TRACE(body.name);
+    const Shape from = body.pose(first), to = body.pose(last);
+    const auto metric =
+        std::make_shared<const Metric>(FreezeMetric({}, body.connectivity, {from, to}));
+    const Shape end = Exponential(metric, from, Logarithm(metric, from, to));
+    EXPECT_LT(Distance(end, FitRigidMotion(to, from, metric->vertex_area)(to)),
+              1e-5 * Diameter(to));
+  }
+}
+
+// A path to a deformed copy of a body that stands elsewhere, turned.
+Path Moving(const Body& body, double first, double last, double degrees, int shapes) {
+  const Shape from = Rotation(50, {2, 0, 1}) * body.pose(first);
+  const Shape turned = Rotation(degrees, {1, 2, 0.5}) * (Rotation(50, {2, 0, 1}) * body.pose(last));
+  const Shape to = turned.colwise() + Eigen::Vector3d(4, 5, 6);
+  return Interpolate(body.connectivity, {from, to}, Exactly(shapes)).path;
+}
+
+TEST(InitialVelocity, OfAScrewMotionIsTheScrews) {
+  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const Path path = Moving(bar, 20, 20, 40, 3);
+  const Shape first = path.Placed(0);
+  const Eigen::VectorXd& area = path.metric->vertex_area;
+  const Eigen::Vector3d shift = Centroid(path.Placed(4), area) - Centroid(first, area);
+  const Tangent expected = testing::Spin(*path.metric, first, 40, {1, 2, 0.5}).colwise() + shift;
+  EXPECT_LT(Distance(InitialVelocity(path), expected), 1e-6 * Diameter(first));
+}
+
+// A geodesic's rotation slows down where the body reaches out farther, and its discrete steps turn
+// by the sine of the angle: a path's rigid motion knows of neither.
+TEST(InitialVelocity, LeadsToTheSecondShape) {
+  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const auto error = [](const Path& path) {
+    const Tangent velocity = path.parameters[1] * InitialVelocity(path);
+    return Distance(Exponential(path.metric, path.Placed(0), velocity, 1), path.Placed(1)) /
+           Diameter(path.Placed(0));
+  };
+  const double coarse = error(Moving(bar, 20, 50, 60, 3)), fine = error(Moving(bar, 20, 50, 60, 7));
+  EXPECT_LT(coarse, 1e-2);
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
+
+  Path straight = Moving(bar, 20, 50, 60, 3);
+  straight.motions[1].rotation = straight.motions[0].rotation;
+  EXPECT_LT(error(straight), 1e-9);
+}
+
 TEST(ExponentialSummary, ReportsTheSteps) {
   const ExponentialSummary summary = Shoot(DeformingBodies()[1], 3).summary;
   EXPECT_EQ(summary.BriefReport().rfind("converged: 6 vertices, 3 of 3 steps", 0), 0u)
@@ -734,6 +810,36 @@ TEST(Extrapolate, MakesEveryStepOnTheMeshUnderStrain) {
     EXPECT_TRUE(summary.Converged()) << summary.FullReport();
     for (const ExponentialSummary::Step& step : summary.steps) {
       EXPECT_NEAR(step.energy / summary.steps.front().energy, 1, 1e-3);
+    }
+  }
+}
+
+// The discrete Euler-Lagrange equation reads the same both ways. So do steps so long that some must
+// be approached in increments: shot back from its last two shapes, the path comes back to its
+// first.
+TEST(Extrapolate, LongStepsLeadBackToo) {
+  const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
+  for (const char* pose : {"sit", "stride"}) {
+    SCOPED_TRACE(pose);
+    GeodesicOptions options = Exactly(1);
+    options.metric = MetricOptions::Strain();
+    const Path path =
+        Interpolate(animal.connectivity, {animal.pose("stand"), animal.pose(pose)}, options).path;
+    const auto [longer, summary] = Extrapolate(path, 8);
+    EXPECT_TRUE(summary.Converged()) << summary.FullReport();
+    int increments = 0;
+    for (const ExponentialSummary::Step& step : summary.steps) {
+      increments = std::max(increments, step.increments);
+      EXPECT_NEAR(step.energy / summary.steps.front().energy, 1, 1e-2);
+    }
+    EXPECT_GT(increments, 1);
+
+    Path reverse = longer;
+    std::reverse(reverse.shapes.begin(), reverse.shapes.end());
+    const auto [back, back_summary] = Extrapolate(FirstShapes(reverse, 2), reverse.NumShapes() - 2);
+    EXPECT_TRUE(back_summary.Converged()) << back_summary.FullReport();
+    for (int i = 0; i < back.NumShapes(); ++i) {
+      EXPECT_LT(Distance(back.shapes[i], reverse.shapes[i]), 1e-6 * Diameter(path.shapes[0])) << i;
     }
   }
 }

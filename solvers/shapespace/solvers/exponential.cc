@@ -316,7 +316,7 @@ Departure Restart(const FeatureMap& map, const Shape& before, const Shape& shape
   Tangent velocity = SegmentVelocity(map.GetMetric(), before, shape, 1);
   const double found = map.Derivative(shape).Times(velocity).norm();
   if (found > 0) velocity *= speed / found;
-  return {shape, {}, std::move(velocity)};
+  return {shape, {}, std::move(velocity), speed};
 }
 
 // Continues the result's path, whose last shape is that of `departure`.
@@ -346,6 +346,7 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
       const double speed =
           discrete ? (map.Values(departure.shape) - map.Values(departure.previous)).norm()
                    : map.Derivative(departure.shape).Times(departure.velocity).norm();
+      departure.speed = speed;
       const auto next = [&](ExponentialSummary::Step* row) {
         Shape shape = shooter.Next(departure, row);
         if (row->vertices == summary.vertices) {
@@ -404,7 +405,7 @@ ExponentialResult Extrapolate(const Path& path, int steps, const ExponentialOpti
   result.path = path;
   result.path.provenance += "; extrapolated";
   const int last = path.NumShapes() - 1;
-  Shoot({path.shapes[last], path.shapes[last - 1], {}}, steps,
+  Shoot({path.shapes[last], path.shapes[last - 1], {}, 0}, steps,
         path.parameters[last] - path.parameters[last - 1], options, progress, &result);
   return result;
 }
@@ -432,7 +433,7 @@ ExponentialResult Extrapolate(const std::shared_ptr<const Metric>& metric, const
   path.parameters = {0};
   path.poses = {0};
   path.provenance = "shot from a shape";
-  Shoot({path.shapes[0], {}, velocity / (metric->unit * steps)}, steps, 1.0 / steps, options,
+  Shoot({path.shapes[0], {}, velocity / (metric->unit * steps), 0}, steps, 1.0 / steps, options,
         progress, &result);
   return result;
 }
@@ -440,26 +441,46 @@ ExponentialResult Extrapolate(const std::shared_ptr<const Metric>& metric, const
 Shape Exponential(const std::shared_ptr<const Metric>& metric, const Shape& shape,
                   const Tangent& velocity, int steps, const ExponentialOptions& options) {
   const ExponentialResult result = Extrapolate(metric, shape, velocity, steps, options);
-  if (result.summary.ending != ExponentialSummary::Ending::kComplete) {
-    throw SolverError("the exponential map stopped early, at " + result.summary.stopped);
+  const ExponentialSummary& summary = result.summary;
+  if (summary.ending != ExponentialSummary::Ending::kComplete) {
+    throw SolverError("the exponential map stopped early, at " + summary.stopped);
+  }
+  if (!summary.Converged()) {
+    throw SolverError(
+        "the exponential map is not exact: some steps did not converge on the mesh itself; take "
+        "more steps, or Extrapolate, whose summary says what became of each");
   }
   return result.path.Placed(result.path.NumShapes() - 1);
 }
 
 Tangent Logarithm(const std::shared_ptr<const Metric>& metric, const Shape& from, const Shape& to,
-                  const GeodesicOptions& options, Progress* progress) {
+                  const LogarithmOptions& options, Progress* progress) {
   const FeatureMap refuses_rigid_metrics(*metric);  // before the solve, not after
-  const GeodesicResult geodesic = Interpolate(metric, {from, to}, options, progress);
+  GeodesicResult geodesic = Interpolate(metric, {from, to}, options, progress);
   if (geodesic.summary.termination == Termination::kCancelled) throw Cancelled();
-  return InitialVelocity(geodesic.path);
+  if (geodesic.summary.termination != Termination::kConverged) {
+    throw SolverError(
+        "the logarithm is not exact: the path between the shapes did not converge; raise "
+        "max_iterations or the tolerance");
+  }
+  Path& path = geodesic.path;
+  path.motions.assign(path.NumShapes(), path.motions[0]);  // `to`, moved onto `from`
+  return InitialVelocity(path);
 }
 
 Tangent InitialVelocity(const Path& path) {
   if (path.NumShapes() < 2) throw MeshError("a path of less than two shapes has no direction");
   const Metric& metric = *path.metric;
-  const double scale = metric.unit / (path.parameters[1] - path.parameters[0]);
-  return scale *
-         (path.motions[0].rotation * SegmentVelocity(metric, path.shapes[1], path.shapes[0], -1));
+  const RigidMotion &first = path.motions[0], &second = path.motions[1];
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(second.rotation * first.rotation.transpose()));
+  const Eigen::Vector3d spin = turn.angle() * turn.axis();
+  const Shape arms = metric.unit * (first.rotation * path.shapes[0]);
+  Tangent way =
+      metric.unit * (first.rotation * SegmentVelocity(metric, path.shapes[1], path.shapes[0], -1));
+  for (int v = 0; v < way.cols(); ++v) {
+    way.col(v) += spin.cross(arms.col(v)) + second.translation - first.translation;
+  }
+  return way / (path.parameters[1] - path.parameters[0]);
 }
 
 }  // namespace shapespace

@@ -35,9 +35,10 @@ struct ExponentialOptions {
   /// this share of the step itself.
   double tolerance = 1e-9;
 
-  /// Of Newton's method in a step, or of Ceres' trust region. A step that runs out of them is taken
-  /// over from a coarser resolution, and says so.
-  int max_iterations = 20;
+  /// Of Newton's method in a step, or of Ceres' trust region. Most steps take four; those that must
+  /// be approached in increments (ExponentialSummary::Step::increments) several for each. A step
+  /// that runs out of them is taken over from a coarser resolution, and says so.
+  int max_iterations = 100;
 
   /// \throw InvalidOptions naming the field.
   void Validate() const;
@@ -58,7 +59,10 @@ struct ExponentialSummary {
     /// was taken over with all detail; 0 if on none, and the nearest shape in feature space to what
     /// the coarsest step asked for was taken.
     int vertices = 0;
-    int iterations = 0;  ///< of Newton's method, or of Ceres, on the mesh itself
+    /// In which Newton's method, or Ceres, approached the root on the mesh itself: 1 where it was
+    /// reached at once, 0 where nothing had to be solved.
+    int increments = 0;
+    int iterations = 0;  ///< of Newton's method, or of Ceres, in all of them
     int krylov_iterations = 0;
     double residual = 0;  ///< at the end, on the mesh itself, share of the step
     double energy = 0;    ///< of the segment, scaled as a whole path's: constant on a geodesic
@@ -109,24 +113,39 @@ ExponentialResult Extrapolate(const std::shared_ptr<const Metric>& metric, const
                               const Tangent& velocity, int steps,
                               const ExponentialOptions& options = {}, Progress* progress = nullptr);
 
-/// exp: the end of that geodesic, user's unit and place. \throw as above; SolverError if it
-/// degenerates before the end.
+/// exp: the end of that geodesic, user's unit and place. There is no summary that could say how far
+/// to trust it, so it is refused unless all steps converged on the mesh itself; what goes on
+/// coarser meshes is had from Extrapolate. \throw as above; SolverError if a step did not converge
+/// on the mesh itself, or the shape degenerates before the end.
 Shape Exponential(const std::shared_ptr<const Metric>& metric, const Shape& shape,
                   const Tangent& velocity, int steps = 16, const ExponentialOptions& options = {});
+
+/// How to find a logarithm: a geodesic as shooting needs it, solved far beyond what the eye sees.
+/// The error of the logarithm goes with the root of the path's tolerance. With these defaults
+/// Exponential leads back to within 1e-5 of the diameter.
+struct LogarithmOptions : GeodesicOptions {
+  LogarithmOptions() {
+    tolerance = 1e-12;
+    max_iterations = 5000;
+  }
+};
 
 /// log: the initial velocity of the geodesic from `from` to `to` (user's unit), which is first
 /// moved rigidly onto it. Computed from a path of options.shapes inner shapes under `metric`
 /// (options.metric is not read), so that Exponential with options.shapes + 1 steps leads to `to`,
 /// as closely as options.tolerance lets it (not for a trapezoid metric: shooting is in midpoint
-/// form). \throw as Interpolate; InvalidOptions if the metric is
-/// rigid.
+/// form). \throw as Interpolate; InvalidOptions if the metric is rigid; SolverError if the path did
+/// not converge.
 Tangent Logarithm(const std::shared_ptr<const Metric>& metric, const Shape& from, const Shape& to,
-                  const GeodesicOptions& options = {}, Progress* progress = nullptr);
+                  const LogarithmOptions& options = {}, Progress* progress = nullptr);
 
 /// The velocity with which a path sets out, from its first two shapes: user's unit and place, per
-/// unit of its parameter. Extrapolate from the first shape with it, in steps as long as the first
-/// segment, gives the second. \throw InvalidOptions if the metric is rigid; MeshError (fewer than
-/// two shapes), SolverError.
+/// unit of its parameter. It has two parts: how the shape deforms, and how the path's rigid motion
+/// carries it, rotating at constant speed about its centroid, which moves on a straight line.
+/// Extrapolate from the first shape with it, in steps as long as the first segment, gives the
+/// second: exactly where the motion does not turn, and else but for an error of second order in the
+/// segment's length in time. \throw InvalidOptions if the metric is rigid; MeshError (fewer
+/// than two shapes), SolverError.
 Tangent InitialVelocity(const Path& path);
 
 }  // namespace shapespace

@@ -57,13 +57,14 @@ std::string ExponentialSummary::FullReport() const {
                                       : "STOPPED EARLY: " + stopped)
       << "\nIntegrator        " << Name(integrator) << "\nMetric            " << metric
       << Format("\nMesh              %d vertices\n\n", vertices)
-      << "       t  solved on  iterations  Krylov   residual        energy  momentum drift  edges "
-         "rms   edges max  inverted  seconds\n";
+      << "       t  solved on  increments  iterations  Krylov   residual        energy  "
+         "momentum drift  edges rms   edges max  inverted  seconds\n";
   for (const Step& step : steps) {
-    out << Format("%8.4g %10d %11d %7d %10.1e %13.6g %15.1e %9.3g%% %10.3g%% %8.2g%% %8.3f%s\n",
-                  step.t, step.vertices, step.iterations, step.krylov_iterations, step.residual,
-                  step.energy, step.momentum_drift, 100 * step.edge_rms, 100 * step.edge_max,
-                  100 * step.inverted, step.seconds, step.converged ? "" : "  (not converged)");
+    out << Format(
+        "%8.4g %10d %11d %11d %7d %10.1e %13.6g %15.1e %9.3g%% %10.3g%% %8.2g%% %8.3f%s\n", step.t,
+        step.vertices, step.increments, step.iterations, step.krylov_iterations, step.residual,
+        step.energy, step.momentum_drift, 100 * step.edge_rms, 100 * step.edge_max,
+        100 * step.inverted, step.seconds, step.converged ? "" : "  (not converged)");
   }
   out << Format("\nTime              %.3f s, of which %d factorisations %.3f\n", total_seconds,
                 factorisations, factor_seconds);
@@ -85,6 +86,7 @@ std::string ExponentialSummary::ToJson() const {
     json["steps"].push_back({{"t", step.t},
                              {"converged", step.converged},
                              {"vertices", step.vertices},
+                             {"increments", step.increments},
                              {"iterations", step.iterations},
                              {"krylov_iterations", step.krylov_iterations},
                              {"residual", JsonNumber(step.residual)},

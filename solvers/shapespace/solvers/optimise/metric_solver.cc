@@ -51,13 +51,6 @@ Tangent MetricSolver::Unpermuted(const Eigen::VectorXd& x) const {
   return b;
 }
 
-Tangent MetricSolver::ApplyInverse(const Tangent& b) const {
-  Eigen::VectorXd x = Permuted(b);
-  HalfSolve(false, &x);
-  HalfSolve(true, &x);
-  return Unpermuted(x);
-}
-
 double MetricSolver::DualNorm(const Tangent& b) const {
   Eigen::VectorXd x = Permuted(b);
   HalfSolve(false, &x);

@@ -34,9 +34,6 @@ class MetricSolver {
   Result Solve(const FeatureDerivative& left, const FeatureDerivative& right, const Tangent& b,
                double tolerance, int max_iterations, Tangent* x) const;
 
-  /// G^{-1} b with the factored matrix itself, without what sum features add.
-  Tangent ApplyInverse(const Tangent& b) const;
-
   /// The length of a tangent whose image under G is `b`: sqrt(<b, G^{-1} b>).
   double DualNorm(const Tangent& b) const;
 

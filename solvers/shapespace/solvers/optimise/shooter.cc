@@ -29,7 +29,7 @@ void Shooter::Decimate() {
 Shape Shooter::NextOn(int level, const Departure& departure, ExponentialSummary::Step* row) {
   Level& own = *levels_[level];
   const Step step(own.map, &own.solver, departure, check_cancelled_);
-  Shape shape = step.Predict();
+  Shape shape;
   if (step.Solve(options_, row, &shape)) {
     row->vertices = static_cast<int>(shape.cols());
     return shape;
@@ -40,7 +40,7 @@ Shape Shooter::NextOn(int level, const Departure& departure, ExponentialSummary:
   }
   if (level == 0) {
     row->vertices = 0;
-    shape = step.Nearest(shape, row);
+    shape = step.Nearest(row);
     row->residual = step.Residual(shape);
     return shape;
   }
@@ -54,7 +54,7 @@ Shape Shooter::NextOn(int level, const Departure& departure, ExponentialSummary:
   ExponentialSummary::Step coarse_row;
   const Shape base = NextOn(level - 1, coarse, &coarse_row);
   shape = hierarchy_->Lift(base, level - 1, departure.shape, departure.shape, 0);
-  if (step.Solve(options_, row, &shape)) {
+  if (step.SolveFrom(options_, row, &shape)) {
     row->vertices = static_cast<int>(shape.cols());
   } else {
     row->vertices = coarse_row.vertices;

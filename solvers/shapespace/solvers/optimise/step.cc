@@ -10,18 +10,20 @@
 namespace shapespace::internal {
 namespace {
 
-// Newton's method starts only from shapes that are not much worse an answer than to stay in place,
-// whose residual is the whole step (1; roots were found from up to 1.1), and goes on only while
-// each of its steps leaves at most so much of the residual: on real meshes it either converges
-// within ten steps or never.
-constexpr double kFarthestStart = 1.5, kLeastProgress = 0.8;
-constexpr int kHalvings = 2;
+// Newton's method goes on only while each of its iterations leaves at most so much of the residual.
+// On real meshes it either goes straight to the root or wanders off, often to the root of another
+// geodesic, on which some sliver of a triangle has turned over.
+constexpr double kContraction = 0.5;
+// The load is increased by no less than this.
+constexpr double kLeastIncrement = 1.0 / 64;
 // Where rounding ends Newton's method before the tolerance, the shape is a root all the same.
 constexpr double kRoot = 1e-6;
 // Linear systems are solved to two digits; Newton's method then gains as many a step. Near a root
 // that takes up to eight iterations.
 constexpr double kForcing = 1e-2;
 constexpr int kMaxKrylov = 20;
+// As exactly as rounding allows: without sum features the second iteration is there.
+constexpr double kExact = 1e-13;
 // Of a path that rests, or moves rigidly, aligned shapes differ by a few roundings.
 constexpr double kRest = 10;
 
@@ -41,9 +43,8 @@ double RoundingOf(const Shape& shape, const FeatureDerivative& derivative) {
 Tangent SolveMetric(const MetricSolver& solver, const FeatureDerivative& derivative,
                     const Tangent& b) {
   Tangent x;
-  // Without sum features the first iteration already is the answer but for rounding.
   const MetricSolver::Result result =
-      solver.Solve(derivative, derivative, b, 1e-13, 2 * kMaxKrylov, &x);
+      solver.Solve(derivative, derivative, b, kExact, 2 * kMaxKrylov, &x);
   if (!(result.residual < 1e-8)) {
     throw SolverError("a linear system in the metric could not be solved: the shape degenerates");
   }
@@ -58,23 +59,12 @@ Step::Step(const FeatureMap& map, MetricSolver* solver, const Departure& departu
       check_cancelled_(check_cancelled),
       current_(map.Values(departure.shape)),
       derivative_(map.Derivative(departure.shape)) {
-  const Eigen::VectorXd change = departure.previous.size() > 0
-                                     ? Eigen::VectorXd(current_ - map.Values(departure.previous))
-                                     : derivative_.Times(departure.velocity);
-  target_ = current_ + change;
-  speed_ = change.norm();
+  change_ = departure.previous.size() > 0
+                ? Eigen::VectorXd(current_ - map.Values(departure.previous))
+                : derivative_.Times(departure.velocity);
+  speed_ = change_.norm();
   rounding_ = RoundingOf(departure.shape, derivative_);
   solver_.Factor(derivative_);
-}
-
-Shape Step::Predict() const {
-  const bool discrete = departure_.previous.size() > 0;
-  const Tangent velocity =
-      discrete ? Tangent(departure_.shape - departure_.previous) : departure_.velocity;
-  const Tangent acceleration = -solver_.ApplyInverse(
-      derivative_.TransposeTimes(map_.SecondDerivative(departure_.shape, velocity)));
-  // Seen from two shapes, the velocity is of half a step ago.
-  return departure_.shape + velocity + (discrete ? 1 : 0.5) * acceleration;
 }
 
 bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* row,
@@ -84,69 +74,102 @@ bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* ro
     row->converged = true;
     return true;
   }
-  const double tolerance = std::max(options.tolerance, rounding_ / speed_);
+  // P(load) to second order.
+  const auto solve_metric = [&](const Eigen::VectorXd& values) {
+    Tangent x;
+    solver_.Solve(derivative_, derivative_, derivative_.TransposeTimes(values), kExact, kMaxKrylov,
+                  &x);
+    return x;
+  };
+  const Tangent velocity = solve_metric(change_);
+  const Tangent acceleration = -solve_metric(map_.SecondDerivative(departure_.shape, velocity));
+  const auto expansion = [&](double load) -> Shape {
+    return departure_.shape + load * velocity + 0.5 * load * load * acceleration;
+  };
+
+  const int last_iteration = row->iterations + options.max_iterations;
+  Shape reached = departure_.shape;
+  double load = 0, increment = 1;
+  while (load < 1) {
+    if (row->iterations == last_iteration) return false;
+    const double next = std::min(1.0, load + increment);
+    // What the expansion has missed so far, it will miss again.
+    Shape root = reached + expansion(next) - expansion(load);
+    ++row->increments;
+    if (FindRoot(next, last_iteration - row->iterations, options, row, &root)) {
+      reached = root;
+      load = next;
+    } else {
+      increment = 0.5 * (next - load);
+      if (increment < kLeastIncrement) return false;
+    }
+  }
+  *shape = reached;
+  return true;
+}
+
+bool Step::SolveFrom(const ExponentialOptions& options, ExponentialSummary::Step* row,
+                     Shape* shape) const {
+  return FindRoot(1, options.max_iterations, options, row, shape);
+}
+
+bool Step::FindRoot(double load, int iterations, const ExponentialOptions& options,
+                    ExponentialSummary::Step* row, Shape* shape) const {
+  row->converged = false;
   Shape root = *shape;
   bool found = false, converged = false;
   if (options.solver == StepSolver::kCeres) {
-    const StepResult result = SolveStepWithCeres(map_, departure_.shape, target_, options.tolerance,
-                                                 options.max_iterations, &root);
+    const StepResult result = SolveStepWithCeres(map_, departure_.shape, current_ + load * change_,
+                                                 options.tolerance, iterations, &root);
     row->iterations += result.iterations;
     row->residual = result.residual;
     found = converged = result.converged;
   } else {
-    found = SolveWithNewton(tolerance, options.max_iterations, row, &root);
+    const double tolerance = std::max(options.tolerance, rounding_ / speed_);
+    found = SolveWithNewton(load, iterations, tolerance, row, &root);
     converged = row->residual <= tolerance;
   }
-  const double speed = (map_.Values(root) - current_).norm();
-  if (!found || !(std::abs(speed / speed_ - 1) < kSpeedChange)) return false;
-  row->converged = converged;
+  if (!found || !HasTheGeodesicsSpeed(root, load)) return false;
+  row->converged = converged && load == 1;
   *shape = root;
   return true;
 }
 
-bool Step::SolveWithNewton(double tolerance, int max_iterations, ExponentialSummary::Step* row,
-                           Shape* shape) const {
-  const auto residual_at = [&](const Shape& p) {
-    return derivative_.TransposeTimes(map_.Values(p) - target_);
-  };
-  Tangent residual = residual_at(*shape);
-  double size = solver_.DualNorm(residual) / speed_;
-  row->residual = size;
-  if (!(size < kFarthestStart)) return false;
-  for (int iteration = 0; size > tolerance; ++iteration) {
-    if (iteration == max_iterations) return size <= kRoot;
+bool Step::HasTheGeodesicsSpeed(const Shape& shape, double load) const {
+  const double speed = (map_.Values(shape) - current_).norm() / load;
+  const auto agrees = [&](double other) { return std::abs(speed / other - 1) < kSpeedChange; };
+  return agrees(speed_) && (departure_.speed == 0 || agrees(departure_.speed));
+}
+
+bool Step::SolveWithNewton(double load, int iterations, double tolerance,
+                           ExponentialSummary::Step* row, Shape* shape) const {
+  const Eigen::VectorXd target = current_ + load * change_;
+  Tangent residual = derivative_.TransposeTimes(map_.Values(*shape) - target);
+  row->residual = solver_.DualNorm(residual) / speed_;
+  for (; !(row->residual <= tolerance); --iterations) {
+    const bool is_root = row->residual <= kRoot;
+    if (iterations == 0) return is_root;
     check_cancelled_();
     ++row->iterations;
     Tangent step;
     const MetricSolver::Result linear =
         solver_.Solve(derivative_, map_.Derivative(*shape), residual, kForcing, kMaxKrylov, &step);
     row->krylov_iterations += linear.iterations;
-    if (linear.residual > kForcing) return size <= kRoot;
-    double factor = 1;
-    for (int halving = 0;; ++halving, factor *= 0.5) {
-      if (halving > kHalvings) return size <= kRoot;
-      const Shape trial = *shape - factor * step;
-      const Tangent left = residual_at(trial);
-      const double left_size = solver_.DualNorm(left) / speed_;
-      if (left_size < kLeastProgress * size || left_size <= tolerance) {
-        *shape = trial;
-        residual = left;
-        size = left_size;
-        break;
-      }
-    }
-    row->residual = size;
+    if (!(linear.residual <= kForcing)) return is_root;
+    const Shape next = *shape - step;
+    residual = derivative_.TransposeTimes(map_.Values(next) - target);
+    const double left = solver_.DualNorm(residual) / speed_;
+    if (!(left < kContraction * row->residual || left <= tolerance)) return is_root;
+    *shape = next;
+    row->residual = left;
   }
   return true;
 }
 
-Shape Step::Nearest(const Shape& start, ExponentialSummary::Step* row) const {
-  Shape shape = start;
-  Eigen::VectorXd distance = map_.Values(shape) - target_;
-  if (!(distance.norm() < speed_)) {  // no better than to stay
-    shape = departure_.shape;
-    distance = current_ - target_;
-  }
+Shape Step::Nearest(ExponentialSummary::Step* row) const {
+  Shape shape = departure_.shape;
+  const Eigen::VectorXd target = current_ + change_;
+  Eigen::VectorXd distance = -change_;
   bool progress = true;
   for (int iteration = 0; progress && iteration < kMaxGaussNewton; ++iteration) {
     check_cancelled_();
@@ -159,7 +182,7 @@ Shape Step::Nearest(const Shape& start, ExponentialSummary::Step* row) const {
     double factor = 1;
     for (int halving = 0; !progress && halving <= kGaussNewtonHalvings; ++halving, factor *= 0.5) {
       const Shape trial = shape - factor * step;
-      const Eigen::VectorXd left = map_.Values(trial) - target_;
+      const Eigen::VectorXd left = map_.Values(trial) - target;
       if (left.norm() < size * (1 - kGaussNewtonProgress)) {
         shape = trial;
         distance = left;

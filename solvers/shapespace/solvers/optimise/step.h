@@ -22,6 +22,7 @@ struct Departure {
   Shape shape;
   Shape previous;    ///< empty: there is a velocity
   Tangent velocity;  ///< empty: there is a previous shape
+  double speed = 0;  ///< of the geodesic where it began, a step being the unit of time; 0: unknown
 };
 
 /// One step of the variational integrator on one mesh: finds P with
@@ -36,38 +37,46 @@ class Step {
   Step(const FeatureMap& map, MetricSolver* solver, const Departure& departure,
        const std::function<void()>& check_cancelled);
 
-  /// The departure continued by its velocity and the geodesic equation's acceleration: a start
-  /// whose error is of third order in the step.
-  Shape Predict() const;
-
-  /// Newton's method from `*shape`, which becomes the root if one is found, and else is left where
-  /// it was; row->converged tells whether the tolerance was reached, or what rounding leaves of it.
-  /// A root that is much farther or nearer in the metric than the step before is another
-  /// geodesic's, and does not count.
+  /// The root that belongs to the departure: the end of the curve of roots P(load), load from 0 to
+  /// 1, of the same equation with load * change in place of change. Newton's method first tries to
+  /// reach P(1) at once; where it would wander off, the load is increased bit by bit.
+  /// row->increments tells in how many. A root whose segment is much longer or shorter in the
+  /// metric than the geodesic's is another geodesic's, and does not count.
+  /// \return false, with `*shape` as it was, if there is none.
   bool Solve(const ExponentialOptions& options, ExponentialSummary::Step* row, Shape* shape) const;
+
+  /// The root that Newton's method goes straight to from `*shape`. \return as above. After both,
+  /// row->converged tells whether the tolerance was reached, or what rounding leaves of it.
+  bool SolveFrom(const ExponentialOptions& options, ExponentialSummary::Step* row,
+                 Shape* shape) const;
 
   /// The residual of any shape, as a share of the step.
   double Residual(const Shape& shape) const {
-    return solver_.DualNorm(derivative_.TransposeTimes(map_.Values(shape) - target_)) / speed_;
+    return solver_.DualNorm(derivative_.TransposeTimes(map_.Values(shape) - current_ - change_)) /
+           speed_;
   }
 
   /// The shape nearest in feature space to what the step asks for: argmin |Phi(P) - Phi(P_i) -
-  /// change|^2, by Gauss-Newton from `start`. Of first order only.
+  /// change|^2, by Gauss-Newton from the departure. Of first order only.
   /// \throw SolverError if that is the departure's own: the motion would stand still from here on.
-  Shape Nearest(const Shape& start, ExponentialSummary::Step* row) const;
+  Shape Nearest(ExponentialSummary::Step* row) const;
 
  private:
-  bool SolveWithNewton(double tolerance, int max_iterations, ExponentialSummary::Step* row,
+  // The root under one load, from `*shape`, by `iterations` of Newton's method at most.
+  bool FindRoot(double load, int iterations, const ExponentialOptions& options,
+                ExponentialSummary::Step* row, Shape* shape) const;
+  bool SolveWithNewton(double load, int iterations, double tolerance, ExponentialSummary::Step* row,
                        Shape* shape) const;
+  bool HasTheGeodesicsSpeed(const Shape& shape, double load) const;
 
   const FeatureMap& map_;
   MetricSolver& solver_;
   const Departure& departure_;
   const std::function<void()>& check_cancelled_;
-  Eigen::VectorXd target_;   // Phi(P_i) + change
   Eigen::VectorXd current_;  // Phi(P_i)
-  double speed_ = 0;         // |change|
-  double rounding_ = 0;      // of Phi(P_i), for want of digits in P_i
+  Eigen::VectorXd change_;
+  double speed_ = 0;     // |change|
+  double rounding_ = 0;  // of Phi(P_i), for want of digits in P_i
   FeatureDerivative derivative_;
 };
 

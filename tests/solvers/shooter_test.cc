@@ -1,0 +1,107 @@
+#include <shapespace/solvers/optimise/shooter.h>
+
+#include <memory>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <shapespace/bodies/skinned.h>
+#include <shapespace/solvers/geodesic.h>
+
+#include "support/motions.h"
+
+namespace shapespace::internal {
+namespace {
+
+using testing::Diameter;
+using testing::Distance;
+
+const std::function<void()> kNeverCancelled = [] {};
+
+// An animal on its way beyond its last pose, under a metric of edge lengths, which leaves the mesh
+// without a next shape.
+struct Beyond {
+  Path path;
+  Departure from_previous, with_velocity;
+
+  Beyond() {
+    const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
+    GeodesicOptions options;
+    options.shapes = 3;
+    options.tolerance = 1e-6;
+    path = Interpolate(animal.connectivity, {animal.pose("stand"), animal.pose("stride")}, options)
+               .path;
+    path = Extrapolate(path, 1).path;
+    const int last = path.NumShapes() - 1;
+    from_previous = {path.shapes[last], path.shapes[last - 1], {}, 0};
+    // The same velocity, as the metric sees it.
+    const FeatureMap map(*path.metric);
+    const FeatureDerivative derivative = map.Derivative(path.shapes[last]);
+    MetricSolver solver;
+    solver.Factor(derivative);
+    const Tangent velocity =
+        SolveMetric(solver, derivative,
+                    derivative.TransposeTimes(map.Values(path.shapes[last]) -
+                                              map.Values(path.shapes[last - 1])));
+    with_velocity = {path.shapes[last], {}, velocity, 0};
+  }
+
+  Shape Next(const Departure& departure, ExponentialSummary::Step* row) const {
+    return Shooter(path.metric, {path.shapes.front(), path.shapes.back()}, {}, kNeverCancelled)
+        .Next(departure, row);
+  }
+};
+
+// What is left out on the coarse mesh rides on it: the vertices that the coarse mesh has are where
+// its own step, under its own metric, takes them, and the others where they are lifted from there.
+TEST(Shooter, TakesTheStepOfTheCoarserMeshAndLiftsTheDetail) {
+  const Beyond beyond;
+  const std::vector<Shape> known = {beyond.path.shapes.front(), beyond.path.shapes.back()};
+  const Hierarchy hierarchy(beyond.path.metric->connectivity, known);
+  const int fine = hierarchy.NumLevels() - 1, coarse = fine - 1;
+  const auto restrict = [&](const Shape& shape) {
+    return shape.size() > 0 ? hierarchy.Restrict(shape, coarse) : shape;
+  };
+  const Metric metric =
+      FreezeMetric(beyond.path.metric->options, hierarchy.LevelConnectivity(coarse),
+                   {restrict(known[0]), restrict(known[1])}, 1);
+  const FeatureMap map(metric);
+  for (const Departure* departure : {&beyond.from_previous, &beyond.with_velocity}) {
+    SCOPED_TRACE(departure == &beyond.from_previous ? "from two shapes" : "with a velocity");
+    ExponentialSummary::Step row;
+    const Shape shape = beyond.Next(*departure, &row);
+    EXPECT_EQ(row.vertices, hierarchy.LevelConnectivity(coarse)->NumVertices());
+    EXPECT_FALSE(row.converged);
+    EXPECT_GT(row.residual, 1e-3);
+
+    const Departure restricted = {restrict(departure->shape), restrict(departure->previous),
+                                  restrict(departure->velocity), 0};
+    MetricSolver solver;
+    ExponentialSummary::Step coarse_row;
+    Shape root;
+    ASSERT_TRUE(Step(map, &solver, restricted, kNeverCancelled).Solve({}, &coarse_row, &root));
+    const double size = Diameter(shape);
+    EXPECT_GT(Distance(root, restricted.shape), 1e-2 * size);
+    EXPECT_LT(Distance(restrict(shape), root), 1e-12 * size);
+    EXPECT_LT(Distance(shape, hierarchy.Lift(root, coarse, departure->shape, departure->shape, 0)),
+              1e-12 * size);
+  }
+}
+
+TEST(Shooter, TurnsWithTheBody) {
+  const Beyond beyond;
+  const Eigen::Matrix3d turn = testing::Rotation(70, {1, 2, -1});
+  for (const Departure* departure : {&beyond.from_previous, &beyond.with_velocity}) {
+    Departure turned = *departure;
+    for (Eigen::Matrix3Xd* x : {&turned.shape, &turned.previous, &turned.velocity}) {
+      *x = turn * *x;
+    }
+    ExponentialSummary::Step row;
+    const Shape expected = turn * beyond.Next(*departure, &row);
+    EXPECT_LT(row.vertices, beyond.path.metric->connectivity->NumVertices());
+    EXPECT_LT(Distance(beyond.Next(turned, &row), expected), 1e-6 * Diameter(expected));
+  }
+}
+
+}  // namespace
+}  // namespace shapespace::internal

@@ -1,0 +1,140 @@
+#include <shapespace/solvers/optimise/step.h>
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/skinned.h>
+#include <shapespace/solvers/geodesic.h>
+
+#include "support/motions.h"
+#include "support/paths.h"
+
+namespace shapespace::internal {
+namespace {
+
+using testing::Diameter;
+using testing::Distance;
+
+const std::function<void()> kNeverCancelled = [] {};
+
+// A metric, and a step on from two shapes (in the metric's unit).
+struct Case {
+  std::shared_ptr<const Metric> metric;
+  Departure departure;
+  FeatureMap map{*metric};
+  MetricSolver solver;
+  ExponentialSummary::Step row;
+
+  Case(std::shared_ptr<const Metric> of, Departure from)
+      : metric(std::move(of)), departure(std::move(from)) {}
+
+  double SpeedBefore() const {
+    return (map.Values(departure.shape) - map.Values(departure.previous)).norm();
+  }
+  double SpeedTo(const Shape& shape) const {
+    return (map.Values(shape) - map.Values(departure.shape)).norm();
+  }
+  Step Make() { return Step(map, &solver, departure, kNeverCancelled); }
+};
+
+Case BendingBar() {
+  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const auto metric =
+      std::make_shared<const Metric>(FreezeMetric({}, bar.connectivity, {bar.pose(0)}));
+  return {metric, {bar.pose(10) / metric->unit, bar.pose(5) / metric->unit, {}, 0}};
+}
+
+// A step beyond an animal's last pose, as long as half of the way between the poses: slivers turn
+// fast there.
+Case LongStep(const MetricOptions& metric, int steps_before) {
+  const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
+  GeodesicOptions options;
+  options.metric = metric;
+  options.shapes = 1;
+  options.tolerance = 1e-6;
+  Path path =
+      Interpolate(animal.connectivity, {animal.pose("stand"), animal.pose("sit")}, options).path;
+  if (steps_before > 0) path = Extrapolate(path, steps_before).path;
+  const int last = path.NumShapes() - 1;
+  return {path.metric, {path.shapes[last], path.shapes[last - 1], {}, 0}};
+}
+
+TEST(Step, KeepsTheSpeedOfTheSegmentBefore) {
+  Case bar = BendingBar();
+  Shape root;
+  ASSERT_TRUE(bar.Make().Solve({}, &bar.row, &root));
+  EXPECT_TRUE(bar.row.converged);
+  EXPECT_EQ(bar.row.increments, 1);
+  EXPECT_NEAR(bar.SpeedTo(root) / bar.SpeedBefore(), 1, 1e-2);
+}
+
+// From step to step a tenth is let pass; from the geodesic's beginning on it must not add up.
+TEST(Step, RefusesRootsThatAreATenthOffTheSpeedAtTheStart) {
+  for (const double share : {0.85, 0.95, 1.05, 1.15}) {
+    SCOPED_TRACE(share);
+    Case bar = BendingBar();
+    bar.departure.speed = share * bar.SpeedBefore();
+    Shape root;
+    const bool expected = share > 0.9 && share < 1.1;
+    EXPECT_EQ(bar.Make().Solve({}, &bar.row, &root), expected);
+    EXPECT_EQ(bar.row.converged, expected);
+    Shape again = bar.departure.shape;
+    EXPECT_EQ(bar.Make().SolveFrom({}, &bar.row, &again), expected);
+  }
+}
+
+// An edge turned end for end has the same length: near it there is another root, much farther off
+// in the metric.
+TEST(Step, RefusesTheRootOfAnotherGeodesic) {
+  MetricOptions lengths;
+  lengths.bending = 0;
+  Shape edge = Shape::Zero(3, 2);
+  edge.row(0) << -0.5, 0.5;
+  const auto metric =
+      std::make_shared<const Metric>(FreezeMetric(lengths, testing::SingleEdge(), {edge}));
+  Case step(metric, {edge, 0.999 * edge, {}, 0});
+  Shape root;
+  ASSERT_TRUE(step.Make().Solve({}, &step.row, &root));
+  EXPECT_LT(Distance(root, 1.001 * edge), 1e-4);
+  const Shape turned = -root;
+  Shape other = turned;
+  EXPECT_FALSE(step.Make().SolveFrom({}, &step.row, &other));
+  EXPECT_TRUE(other == turned);
+  EXPECT_FALSE(step.row.converged);
+  EXPECT_LT(step.row.residual, 1e-9);  // though a root it is
+}
+
+TEST(Step, ApproachesInIncrementsWhatNewtonsMethodDoesNotReachAtOnce) {
+  Case step = LongStep(MetricOptions::Strain(), 5);
+  const Step own = step.Make();
+  Shape root;
+  ASSERT_TRUE(own.Solve({}, &step.row, &root));
+  EXPECT_TRUE(step.row.converged);
+  EXPECT_GT(step.row.increments, 1);
+  EXPECT_LT(own.Residual(root), 1e-9);
+  EXPECT_NEAR(step.SpeedTo(root) / step.SpeedBefore(), 1, 1e-2);
+}
+
+TEST(Step, TakesNoMoreIterationsThanItMay) {
+  Case step = LongStep(MetricOptions::Strain(), 5);
+  ExponentialOptions options;
+  options.max_iterations = 6;
+  Shape root;
+  EXPECT_FALSE(step.Make().Solve(options, &step.row, &root));
+  EXPECT_FALSE(step.row.converged);
+  EXPECT_EQ(step.row.iterations, options.max_iterations);
+}
+
+// Squared lengths that go on changing evenly leave the triangle inequality.
+TEST(Step, SoonGivesUpWhereThereIsNoRoot) {
+  Case step = LongStep({}, 1);
+  Shape root;
+  EXPECT_FALSE(step.Make().Solve({}, &step.row, &root));
+  EXPECT_FALSE(step.row.converged);
+  EXPECT_LT(step.row.iterations, ExponentialOptions().max_iterations / 2);
+}
+
+}  // namespace
+}  // namespace shapespace::internal
