@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <type_traits>
 
 #include <cholmod.h>
 
@@ -210,60 +211,67 @@ cholmod_sparse View(const Eigen::SparseMatrix<double>& matrix) {
 
 }  // namespace
 
-struct CholeskyAnalysis::Implementation {
+template <typename Scalar>
+struct CholeskyFactor<Scalar>::Made {
   cholmod_common common;
   cholmod_factor* factor = nullptr;
 
-  Implementation() {
+  explicit Made(cholmod_sparse view) {
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.final_ll = 1;
     common.print = 0;
     common.error_handler = nullptr;
+    factor = cholmod_analyze(&view, &common);
   }
-  ~Implementation() {
+  Made(const Made&) = delete;
+  ~Made() {
     cholmod_free_factor(&factor, &common);
     cholmod_finish(&common);
   }
+
+  void Factorize(cholmod_sparse view) {
+    if (cholmod_factorize(&view, factor, &common) == 0 || common.status != CHOLMOD_OK) {
+      throw SolverError(
+          "the preconditioner's matrix is not positive definite: is a weight of the metric zero or "
+          "a coordinate enormous?");
+    }
+  }
 };
 
-CholeskyAnalysis::CholeskyAnalysis(const Eigen::SparseMatrix<double>& matrix)
-    : implementation_(std::make_unique<Implementation>()) {
-  cholmod_sparse view = View(matrix);
-  implementation_->factor = cholmod_analyze(&view, &implementation_->common);
-  if (implementation_->factor == nullptr) {
+template <typename Scalar>
+CholeskyFactor<Scalar>::CholeskyFactor(const Eigen::SparseMatrix<double>& matrix)
+    : made_(std::make_shared<Made>(View(matrix))) {
+  if (made_->factor == nullptr) {
     throw SolverError("the preconditioner's matrix cannot be analysed: is there memory left?");
   }
-}
-
-CholeskyAnalysis::~CholeskyAnalysis() = default;
-
-template <typename Scalar>
-CholeskyFactor<Scalar>::CholeskyFactor(const Eigen::SparseMatrix<double>& matrix,
-                                       const CholeskyAnalysis& analysis) {
-  cholmod_common& common = analysis.implementation_->common;
-  const auto free_factor = [&](cholmod_factor* factor) { cholmod_free_factor(&factor, &common); };
-  const std::unique_ptr<cholmod_factor, decltype(free_factor)> factor(
-      cholmod_copy_factor(analysis.implementation_->factor, &common), free_factor);
-  cholmod_sparse view = View(matrix);
-  if (factor == nullptr || cholmod_factorize(&view, factor.get(), &common) == 0 ||
-      common.status != CHOLMOD_OK) {
-    throw SolverError(
-        "the preconditioner's matrix is not positive definite: is a weight of the metric zero or a "
-        "coordinate enormous?");
-  }
-
-  permutation_.assign(static_cast<int*>(factor->Perm), static_cast<int*>(factor->Perm) + factor->n);
-  const int* const super = static_cast<int*>(factor->super);
-  const int* const row_begin = static_cast<int*>(factor->pi);
-  const int* const value_begin = static_cast<int*>(factor->px);
-  rows_.assign(static_cast<int*>(factor->s), static_cast<int*>(factor->s) + factor->ssize);
-  values_.assign(static_cast<double*>(factor->x), static_cast<double*>(factor->x) + factor->xsize);
-  for (size_t s = 0; s < factor->nsuper; ++s) {
+  made_->Factorize(View(matrix));
+  const cholmod_factor& factor = *made_->factor;
+  permutation_.assign(static_cast<int*>(factor.Perm), static_cast<int*>(factor.Perm) + factor.n);
+  const int* const super = static_cast<int*>(factor.super);
+  const int* const row_begin = static_cast<int*>(factor.pi);
+  const int* const value_begin = static_cast<int*>(factor.px);
+  const double* const values = static_cast<double*>(factor.x);
+  rows_.assign(static_cast<int*>(factor.s), static_cast<int*>(factor.s) + factor.ssize);
+  num_values_ = factor.xsize;
+  for (size_t s = 0; s < factor.nsuper; ++s) {
     supernodes_.push_back({super[s], super[s + 1] - super[s], row_begin[s + 1] - row_begin[s],
                            static_cast<size_t>(row_begin[s]), static_cast<size_t>(value_begin[s])});
   }
+  if constexpr (std::is_same_v<Scalar, double>) {
+    values_ = values;
+  } else {
+    own_values_.assign(values, values + num_values_);
+    values_ = own_values_.data();
+    made_.reset();
+  }
   GrowBranches();
+}
+
+template <>
+void CholeskyFactor<double>::Update(const Eigen::SparseMatrix<double>& matrix) {
+  made_->Factorize(View(matrix));
+  values_ = static_cast<double*>(made_->factor->x);
 }
 
 template <typename Scalar>

@@ -24,21 +24,6 @@ struct Branch {
   int gathered = 0;          ///< where the rows of its own begin
 };
 
-/// The order of elimination for one pattern of nonzeros: what factors of matrices that differ in
-/// their numbers alone have in common.
-class CholeskyAnalysis {
- public:
-  /// Of the lower triangle of `matrix`. \throw SolverError if memory runs out.
-  explicit CholeskyAnalysis(const Eigen::SparseMatrix<double>& matrix);
-  ~CholeskyAnalysis();
-
- private:
-  template <typename Scalar>
-  friend class CholeskyFactor;
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
-};
-
 /// Sparse Cholesky factor C C^T = Q S Q^T (Q a fill-reducing permutation), computed by CHOLMOD and
 /// applied by kernels of ours, to many right-hand sides at once that lie side by side in memory.
 /// Computed in double precision, kept and applied in `Scalar`: double or float.
@@ -46,11 +31,8 @@ template <typename Scalar>
 class CholeskyFactor {
  public:
   /// `matrix` is symmetric positive definite; only its lower triangle is read.
-  /// \throw SolverError if it is not positive definite.
-  explicit CholeskyFactor(const Eigen::SparseMatrix<double>& matrix)
-      : CholeskyFactor(matrix, CholeskyAnalysis(matrix)) {}
-  /// The same where the analysis of the pattern is known.
-  CholeskyFactor(const Eigen::SparseMatrix<double>& matrix, const CholeskyAnalysis& analysis);
+  /// \throw SolverError if it is not positive definite, or memory runs out.
+  explicit CholeskyFactor(const Eigen::SparseMatrix<double>& matrix);
 
   /// The same factor, rounded.
   template <typename Other>
@@ -58,17 +40,27 @@ class CholeskyFactor {
       : permutation_(other.permutation_),
         supernodes_(other.supernodes_),
         rows_(other.rows_),
-        values_(other.values_.begin(), other.values_.end()),
+        own_values_(other.values_, other.values_ + other.num_values_),
+        values_(own_values_.data()),
+        num_values_(other.num_values_),
         branches_(other.branches_),
         trunk_(other.trunk_),
         branch_rows_(other.branch_rows_),
         work_rows_(other.work_rows_) {}
 
+  CholeskyFactor(const CholeskyFactor&) = delete;
+  CholeskyFactor(CholeskyFactor&&) = default;
+
+  /// The factor of another matrix of the same pattern, in the same order of elimination and the
+  /// same memory; in double precision only. \throw SolverError if it is not positive definite: then
+  /// there is no factor until the next one.
+  void Update(const Eigen::SparseMatrix<double>& matrix);
+
   int Size() const { return static_cast<int>(permutation_.size()); }
   /// Row i of the factor belongs to unknown Permutation()[i] of the matrix.
   const std::vector<int>& Permutation() const { return permutation_; }
   /// Numbers stored, those of dense blocks included.
-  size_t NumNonzeros() const { return values_.size(); }
+  size_t NumNonzeros() const { return num_values_; }
 
   /// x <- C^{-1} x and x <- C^{-T} x; `x` is WorkRows() x `width`, row by row, rows `width` apart,
   /// a multiple of `kColumns`; rows from Size() on are scratch. Uses all threads: several columns
@@ -87,10 +79,15 @@ class CholeskyFactor {
   template <typename SolveNodes>
   bool ForChunks(int width, const SolveNodes& solve) const;
 
+  // What CHOLMOD made; its numbers are used where they are, or rounded.
+  struct Made;
+  std::shared_ptr<Made> made_;
   std::vector<int> permutation_;
   std::vector<Supernode> supernodes_;
   std::vector<int> rows_;
-  std::vector<Scalar> values_;
+  std::vector<Scalar> own_values_;
+  const Scalar* values_ = nullptr;
+  size_t num_values_ = 0;
   std::vector<Branch> branches_;
   std::vector<int> trunk_;        // supernodes in no branch
   std::vector<int> branch_rows_;  // rows_, those outside of a branch replaced by its own

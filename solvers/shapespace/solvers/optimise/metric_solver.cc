@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include <Eigen/Dense>
 
@@ -12,14 +11,13 @@ namespace shapespace::internal {
 
 void MetricSolver::Factor(const FeatureDerivative& at) {
   const Stopwatch stopwatch;
-  if (!analysis_) {
+  if (!factor_) {
     matrix_ = at.MetricMatrix();
-    analysis_.emplace(matrix_);
+    factor_.emplace(matrix_);
   } else {
     at.UpdateMetricMatrix(&matrix_);
+    factor_->Update(matrix_);
   }
-  factor_.reset();  // the old one's memory goes before the new one's comes
-  factor_ = std::make_unique<Cholesky>(matrix_, *analysis_);
   ++factorisations_;
   factor_seconds_ += stopwatch.Seconds();
 }

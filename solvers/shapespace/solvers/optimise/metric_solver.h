@@ -1,7 +1,6 @@
 #ifndef SHAPESPACE_SOLVERS_OPTIMISE_METRIC_SOLVER_H_
 #define SHAPESPACE_SOLVERS_OPTIMISE_METRIC_SOLVER_H_
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -47,8 +46,7 @@ class MetricSolver {
   Tangent Unpermuted(const Eigen::VectorXd& x) const;
 
   Eigen::SparseMatrix<double> matrix_;
-  std::optional<CholeskyAnalysis> analysis_;
-  std::unique_ptr<Cholesky> factor_;
+  std::optional<Cholesky> factor_;
   int factorisations_ = 0;
   double factor_seconds_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include <shapespace/base/stopwatch.h>
@@ -140,10 +141,15 @@ const CholeskyFactor<Scalar>& Resolution::Factor(std::optional<CholeskyFactor<Sc
   }
   if (!*factor) {
     const Stopwatch stopwatch;
-    if (factor_) {
-      factor->emplace(*factor_);
-    } else if (single_factor_) {
-      factor->emplace(*single_factor_);
+    const auto& other = [&]() -> const auto& {
+      if constexpr (std::is_same_v<Scalar, double>)
+        return single_factor_;
+      else
+        return factor_;
+    }
+    ();
+    if (other) {
+      factor->emplace(*other);
     } else {
       factor->emplace(trapezoid
                           ? ScalarMetric(*metric_, {poses_[piece], poses_[piece + 1]}, inner + 1)
