@@ -114,6 +114,25 @@ TEST(EnergyLowerBound, IsReachedByAHingeThatShutsOnItsWay) {
   }
 }
 
+// A triangle without area has no normal, and its hinges' values lie off the circle of angles: there
+// the shortest way is straight.
+TEST(EnergyLowerBound, IsOneWhereAPoseHoldsACollapsedTriangle) {
+  const auto connectivity =
+      Connectivity::FromTriangles(4, (Eigen::Matrix3Xi(3, 2) << 0, 1, 1, 0, 2, 3).finished());
+  const auto folded = [](double degrees, double height) {
+    Shape shape(3, 4);
+    shape << Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0.4, 1, 0),
+        testing::Rotation(degrees, {1, 0, 0}) * Eigen::Vector3d(0.6, -height, 0);
+    return shape;
+  };
+  for (int shapes : {1, 3, 7}) {
+    const GeodesicSummary summary =
+        Solved(connectivity, folded(0, 0), folded(150, 1), shapes, Only(1, 0, 0, 1));
+    EXPECT_GT(summary.lower_bound, 0);
+    EXPECT_LT(summary.lower_bound, (1 + 1e-9) * summary.energy);
+  }
+}
+
 TEST(EnergyLowerBound, IsReachedByStraightLinesUnderPositionAlone) {
   const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
   MetricOptions metric = Only(0, 0, 0, 0);

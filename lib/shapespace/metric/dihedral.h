@@ -48,9 +48,13 @@ struct Dihedral {
     return std::atan2(value[1], value[0]);
   }
 
-  /// On the circle the shortest way in `segments` chords takes equal angles.
+  /// On the circle the shortest way in `segments` chords takes equal angles. Collapsed triangles
+  /// have values inside it, from where the shortest way is straight.
   double LeastChange(const double* a, const double* b, int segments) const {
-    if (segments == 1) return (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]);
+    const auto on_circle = [](const double* z) { return z[0] * z[0] + z[1] * z[1] > 1 - 1e-6; };
+    if (segments == 1 || !on_circle(a) || !on_circle(b)) {
+      return ((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1])) / segments;
+    }
     const double angle = WrapAngle(std::atan2(b[1], b[0]) - std::atan2(a[1], a[0]));
     const double chord = 2 * std::sin(std::abs(angle) / (2 * segments));
     return segments * chord * chord;

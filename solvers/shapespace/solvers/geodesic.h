@@ -50,8 +50,8 @@ struct GeodesicOptions {
   int shapes = 15;
 
   /// A level is finished when an iteration lowers the energy by less than this share of it. Between
-  /// real poses 1e-4 leaves the energy within half a percent, and shapes that look the same; an
-  /// accurate exponential map needs 1e-10.
+  /// real poses 1e-4 leaves the energy within .7 % of what 1e-7 reaches (on cats, whose poses hold
+  /// folds, 1.6 %), and shapes that look the same; an accurate exponential map needs 1e-10.
   double tolerance = 1e-4;
 
   /// Per level. Reaching it is reported as not converged.
