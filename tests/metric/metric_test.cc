@@ -11,6 +11,7 @@
 #include <shapespace/path/energy.h>
 
 #include "support/paths.h"
+#include "support/stiffened.h"
 
 namespace shapespace {
 namespace {
@@ -69,11 +70,11 @@ TEST(Dihedral, LeastChangeIsThatOfEqualAnglesAcrossTheWrap) {
 }
 
 TEST(FreezeMetric, WeightsDoNotDependOnTheUnitOfLength) {
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const Body bar = testing::Stiffened(MakeBar(6, 1, 1, 6, 2, 2));
   const std::vector<Shape> poses = {bar.pose(0), bar.pose(60)};
   MetricOptions options;
   options.volume = 0.3;
-  options.log_length = 0.1;
+  options.strain = 0.1;
   const Metric metric = FreezeMetric(options, bar.connectivity, poses);
   for (double scale : {1e-4, 1e4}) {
     const Metric scaled =

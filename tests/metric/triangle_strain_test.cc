@@ -85,8 +85,8 @@ TEST(TriangleStrain, IsTheStrainOfEdgesWhereTrianglesAreEquilateralAndStrainsSma
   const auto triangle = Connectivity::Make(3, {0, 3}, {0, 1, 2});
   const Corners still = WithStrain(Eigen::Matrix2d::Zero());
   MetricOptions edges, triangles;
-  edges.isometric = triangles.isometric = edges.lambda = triangles.lambda = 0;
-  edges.log_length = triangles.strain = 1;
+  edges.lambda = triangles.lambda = triangles.isometric = 0;
+  triangles.strain = 1;
   const auto cost = [&](const MetricOptions& options, const Corners& moved) {
     const Metric metric = FreezeMetric(options, triangle, {Shape(still)});
     return std::visit(

@@ -15,6 +15,7 @@
 
 #include "support/blends.h"
 #include "support/paths.h"
+#include "support/stiffened.h"
 #include "support/threads.h"
 
 namespace shapespace {
@@ -125,7 +126,7 @@ void ExpectSame(const Evaluated& a, const Evaluated& b, double tolerance) {
 
 // 8e-3 of noise on edges of length .1: creases of tens of degrees.
 TEST(PathEnergy, KernelsEqualTheAutomaticDerivativesOfTheFunctors) {
-  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const Body bar = testing::Stiffened(MakeBar(6, 1, 1, 12, 2, 2));
   for (const testing::Blend& test : testing::AllBlends()) {
     const Metric metric = FreezeMetric(test.options, bar.connectivity, {bar.pose(0), bar.pose(80)});
     for (int inner : {1, 2, 3, 5, 7, 8, 17}) {
@@ -220,10 +221,10 @@ TEST(PathEnergy, RigidMetricHasTheGradientOfCentralDifferences) {
 }
 
 TEST(PathEnergy, IsTheSameForAnyNumberOfThreads) {
-  const Body bar = MakeBar(6, 1, 1, 120, 20, 20);
+  const Body bar = testing::Stiffened(MakeBar(6, 1, 1, 120, 20, 20));
   MetricOptions options;
   options.volume = 0.3;
-  options.log_length = 0.1;
+  options.strain = 0.1;
   const Metric metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(60)});
   const std::vector<Shape> shapes =
       NoisyBlend(bar.pose(0) / metric.unit, bar.pose(60) / metric.unit, 3, 1e-3);

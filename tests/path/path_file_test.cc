@@ -42,7 +42,6 @@ Path MakePath() {
   const Body bar = MakeBar(4, 1, 1, 3, 1, 1);
   MetricOptions options;
   options.strain = 0.2;
-  options.log_length = 0.1;
   options.volume = 0.3;
   options.rigid = 0.2;
   const auto connectivity =

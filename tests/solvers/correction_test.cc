@@ -302,7 +302,6 @@ TEST(CorrectPath, AgreesWithResidualBlocks) {
 TEST(PathEnergy, AFreeEndFollowsItsGradient) {
   const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
   MetricOptions everything, paper = MetricOptions::Paper();
-  everything.log_length = 0.2;
   everything.volume = 0.3;
   everything.rigid = 0.1;
   everything.bending = 0;

@@ -215,7 +215,6 @@ TEST(Interpolate, BothSolversFindTheSameMinimum) {
   volume.volume = 0.3;
   strains.isometric = 0;
   strains.strain = 1;
-  strains.log_length = 0.3;
   strains.bending = 1e-3;
   MetricOptions rigid = MetricOptions::Rigid();
   rigid.lambda = 1e-2;

@@ -54,7 +54,6 @@ TEST(Minimise, AllThreeReachTheSameMinimum) {
   with_volume.volume = 0.3;
   strains.isometric = 0;
   strains.strain = 1;
-  strains.log_length = 0.3;
   strains.bending = 1e-3;
   paper.bending = 1e-4;
   for (const MetricOptions& metric : {MetricOptions(), with_volume, strains, paper}) {

@@ -14,18 +14,14 @@ struct Blend {
 
 /// Blends in which each feature has its part, in both discretisations; closed surfaces only.
 inline std::vector<Blend> AllBlends() {
-  MetricOptions membrane, everything, strains, paper_with_bending = MetricOptions::Paper();
+  MetricOptions membrane, everything, paper_with_bending = MetricOptions::Paper();
   membrane.bending = 0;
-  everything.log_length = 0.2;
   everything.volume = 0.3;
   everything.strain = 0.3;
-  strains.isometric = 0;
-  strains.log_length = 1;
   paper_with_bending.bending = 1e-3;
   return {{"default", {}},
           {"membrane", membrane},
-          {"strains", strains},
-          {"triangle strain", MetricOptions::Strain()},
+          {"strain", MetricOptions::Strain()},
           {"everything", everything},
           {"paper", MetricOptions::Paper()},
           {"paper with bending", paper_with_bending}};

@@ -48,9 +48,9 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
   EXPECT_EQ(Listed("shape-body"),
             (std::set<std::string>{"at", "help", "output", "pose", "proportions", "threads",
                                    "triangles", "version"}));
-  const std::set<std::string> metric = {"bending",    "discretization", "isometric", "lambda",
-                                        "log_length", "metric",         "rigid",     "strain",
-                                        "volume",     "weights"};
+  const std::set<std::string> metric = {"bending", "discretization", "isometric",
+                                        "lambda",  "metric",         "rigid",
+                                        "strain",  "volume",         "weights"};
   std::set<std::string> wanted = metric;
   wanted.insert({"allow_nonmanifold", "help", "mirror", "threads", "version"});
   EXPECT_EQ(Listed("shape-inspect"), wanted);

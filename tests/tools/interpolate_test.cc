@@ -223,8 +223,8 @@ TEST_F(InterpolateTest, PresetsSetDefaultsAndGivenFlagsWin) {
   const nlohmann::json rigid = Report({"--metric", "rigid"});
   EXPECT_EQ(rigid["metric"], "rigid 1, lambda 0.0001");
   EXPECT_TRUE(rigid["lower_bound"].is_null());
-  EXPECT_EQ(Report({"--bending", "0", "--volume", "0.3", "--log_length", "2"})["metric"],
-            "isometric 1, log_length 2, lambda 0.0001, volume 0.3");
+  EXPECT_EQ(Report({"--bending", "0", "--volume", "0.3", "--strain", "2"})["metric"],
+            "isometric 1, strain 2, lambda 0.0001, volume 0.3");
 }
 
 TEST_F(InterpolateTest, ThreadsDoNotChangeAByte) {

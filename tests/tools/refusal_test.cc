@@ -65,7 +65,7 @@ TEST_F(RefusalTest, WrongCommandLines) {
       {{"--threads=-1"}, "--threads -1: must be 0 (all cores) to 256"},
       {{"--memory_limit", "0"}, "--memory_limit 0: must be positive"},
       {{"--isometric", "0", "--lambda", "0"},
-       "--isometric 0, --strain, --log_length, --rigid, --lambda 0: all zero"},
+       "--isometric 0, --strain, --rigid, --lambda 0: all zero"},
       {{"--output", "walk.gif"}, "walk.gif: must end in .path, .png, .glb, .obj or .ply"},
       {{"--output", ","}, "--output: names no file"},
       {{"--output", "frame.obj"}, "frame.obj: a name for frames needs one number"},

@@ -54,7 +54,7 @@ TEST_F(TransferTest, TheLadderMakesAFrameOfEveryPose) {
   ASSERT_EQ(path.NumShapes(), 3);
   EXPECT_EQ(path.poses, std::vector<int>{0});
   EXPECT_EQ(path.extrapolated, 2);
-  EXPECT_EQ(Describe(path.metric->options), "log_length 1, lambda 0.0001, bending 0.02");
+  EXPECT_EQ(Describe(path.metric->options), "strain 1, lambda 0.0001, bending 0.02");
   ExpectContains(path.provenance, "shape-transfer ");
   ExpectContains(path.provenance, ": tube0.obj tube1.obj tube2.obj thin.obj");
   const shapespace::Path hybrids = ReadPath(Path("mid.path"));
@@ -158,7 +158,7 @@ TEST_F(TransferTest, FlagsOfTheTransferReachIt) {
         << flags[0];
   }
   EXPECT_EQ(report({"--ladder_bending", "0.1"})["transfer"]["metric"],
-            "log_length 1, lambda 0.0001, bending 0.1");
+            "strain 1, lambda 0.0001, bending 0.1");
   EXPECT_EQ(report({"--bending", "1e-3"})["geodesic"]["metric"],
             "isometric 1, lambda 0.0001, bending 0.001");
   Succeed("shape-transfer",

@@ -15,7 +15,6 @@ DEFINE_double(isometric, 1,
 DEFINE_double(
     strain, 0,
     "cost of logarithmic strains of triangles: as --isometric, but paths can always go on");
-DEFINE_double(log_length, 0, "cost of changing the logarithms of edge lengths");
 DEFINE_double(rigid, 0, "cost of deviation from rigid motion of the whole body");
 DEFINE_double(lambda, 1e-4, "cost of moving vertices; harmless up to 1e-3");
 DEFINE_double(bending, 1e-5, "cost of bending: t^2 / 12 for a shell of thickness t");
@@ -38,7 +37,6 @@ MetricOptions MetricFromFlags() {
   }
   if (IsGiven("isometric")) options.isometric = FLAGS_isometric;
   if (IsGiven("strain")) options.strain = FLAGS_strain;
-  if (IsGiven("log_length")) options.log_length = FLAGS_log_length;
   if (IsGiven("rigid")) options.rigid = FLAGS_rigid;
   if (IsGiven("lambda")) options.lambda = FLAGS_lambda;
   if (IsGiven("bending")) options.bending = FLAGS_bending;

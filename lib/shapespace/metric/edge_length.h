@@ -49,7 +49,7 @@ struct EdgeLength {
   }
 };
 
-/// log |e| of an edge: its strain, indifferent to the length itself.
+/// log |e| of an edge that is no side of a triangle: its strain, indifferent to the length itself.
 struct LogLength {
   static constexpr int kVertices = 2, kValues = 1, kStencils = 1;
   static constexpr bool kRigidInvariant = true, kSum = false, kTrapezoid = false;

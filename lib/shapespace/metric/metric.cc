@@ -177,14 +177,13 @@ MetricOptions MetricOptions::Paper() {
 void MetricOptions::Validate() const {
   CheckNonNegative(isometric, "isometric");
   CheckNonNegative(strain, "strain");
-  CheckNonNegative(log_length, "log_length");
   CheckNonNegative(rigid, "rigid");
   CheckNonNegative(lambda, "lambda");
   CheckNonNegative(bending, "bending");
   CheckNonNegative(volume, "volume");
-  if (isometric + strain + log_length + rigid + lambda == 0) {
+  if (isometric + strain + rigid + lambda == 0) {
     throw InvalidOptions(
-        "isometric, strain, log_length, rigid, lambda: all zero, so motion costs nothing; set one");
+        "isometric, strain, rigid, lambda: all zero, so motion costs nothing; set one");
   }
 }
 
@@ -250,19 +249,13 @@ Metric FreezeMetric(const MetricOptions& options,
     metric.features.emplace_back(std::move(feature));
   }
   // Edges that are no sides of triangles are strained by themselves.
-  const int num_edges = connectivity->NumEdges();
-  const int first_edge = options.log_length > 0 ? 0 : connectivity->NumTriangleEdges();
-  if (options.log_length > 0 || (options.strain > 0 && first_edge < num_edges)) {
+  const int loose_edges = connectivity->NumEdges() - connectivity->NumTriangleEdges();
+  if (options.strain > 0 && loose_edges > 0) {
     LogLength feature;
-    feature.stencils = connectivity->Edges().rightCols(num_edges - first_edge);
-    const Eigen::VectorXd coefficient =
-        Eigen::VectorXd::NullaryExpr(num_edges - first_edge, [&](Eigen::Index e) {
-          const bool loose = first_edge + e >= connectivity->NumTriangleEdges();
-          return options.log_length + (loose ? options.strain : 0);
-        });
-    feature.weights = uniform ? coefficient
-                              : Eigen::VectorXd(coefficient.cwiseProduct(
-                                    metric.edge_area.tail(num_edges - first_edge)));
+    feature.stencils = connectivity->Edges().rightCols(loose_edges);
+    feature.weights = uniform
+                          ? Eigen::VectorXd::Constant(loose_edges, options.strain)
+                          : Eigen::VectorXd(options.strain * metric.edge_area.tail(loose_edges));
     feature.epsilon_squared = collapsed_squared;
     metric.features.emplace_back(std::move(feature));
   }
@@ -308,7 +301,6 @@ std::string Describe(const MetricOptions& options) {
   };
   add("isometric", options.isometric);
   add("strain", options.strain);
-  add("log_length", options.log_length);
   add("rigid", options.rigid);
   add("lambda", options.lambda);
   add("bending", options.bending);

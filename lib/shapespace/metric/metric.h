@@ -19,7 +19,8 @@
 
 namespace shapespace {
 
-/// Weights of edges in the isometric and log-length features, and of vertices in the rigid metric.
+/// Weights of edges and triangles in the isometric and strain features, and of vertices in the
+/// rigid metric.
 enum class Weights {
   kArea,     ///< by the surface around: unchanged by scale, nearly so by tessellation
   kUniform,  ///< 1: the paper's, which means something else at every mesh resolution
@@ -36,7 +37,6 @@ enum class Discretization {
 struct MetricOptions {
   double isometric = 1;   ///< change of edge lengths, the paper's (4)
   double strain = 0;      ///< change of the triangles' logarithmic strains; paths can always go on
-  double log_length = 0;  ///< change of log edge lengths
   double rigid = 0;       ///< deviation from rigid motion of the whole, the paper's (3)
   double lambda = 1e-4;   ///< motion of vertices, the paper's (5); harmless up to 1e-3
   double bending = 1e-5;  ///< change of dihedral angles: t^2 / 12 for a shell of thickness t

@@ -114,7 +114,6 @@ class ArrayReader {
 Json OptionsToJson(const MetricOptions& options) {
   return {{"isometric", options.isometric},
           {"strain", options.strain},
-          {"log_length", options.log_length},
           {"rigid", options.rigid},
           {"lambda", options.lambda},
           {"bending", options.bending},
@@ -128,7 +127,6 @@ MetricOptions OptionsFromJson(const Json& json) {
   MetricOptions options;
   json.at("isometric").get_to(options.isometric);
   json.at("strain").get_to(options.strain);
-  json.at("log_length").get_to(options.log_length);
   json.at("rigid").get_to(options.rigid);
   json.at("lambda").get_to(options.lambda);
   json.at("bending").get_to(options.bending);

@@ -182,7 +182,7 @@ class Comparison {
 MetricOptions LadderOptions::Strains() {
   MetricOptions metric;
   metric.isometric = 0;
-  metric.log_length = 1;
+  metric.strain = 1;
   metric.bending = 0.02;
   return metric;
 }
