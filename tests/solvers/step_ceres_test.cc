@@ -326,6 +326,7 @@ TEST(SolveFirstIntegral, ReportsHowFarItGot) {
     const auto residual = [&](const Tangent& y) {
       return (constants - Constants(map, test.at, y)).norm() / constants.norm();
     };
+    double other = 0;
     for (const FirstIntegralSolver solver : kFirstIntegralSolvers) {
       SCOPED_TRACE(NameOf(solver));
       Tangent velocity = x;
@@ -335,6 +336,8 @@ TEST(SolveFirstIntegral, ReportsHowFarItGot) {
       EXPECT_TRUE(velocity.allFinite());
       EXPECT_NEAR(result.residual, residual(velocity), 1e-9 * result.residual);
       EXPECT_LT(result.residual, residual(x));
+      EXPECT_NE(result.residual, other);  // they are two solvers
+      other = result.residual;
     }
   }
 }
