@@ -1,6 +1,8 @@
 // The paper's recipes for the exponential map and for parallel transport beside ours: how their
-// errors fall with the step, as tables in Markdown. No times.
+// errors fall with the step, as tables in Markdown (docs/mathematics.md, sections 8 and 10). No
+// times.
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -53,25 +55,36 @@ std::vector<Motion> Motions() {
           deforming("strip, rolling", strip, 5, 10), deforming("Bricard, flexing", bricard, 0, 25)};
 }
 
+// Errors at t = 1, and, of the paper's (7), the steps on which it was solved.
 void PrintExponentials() {
   std::printf(
-      "| error at t = 1, share of the way | steps | variational | Runge-Kutta 4 | (7) |\n"
-      "|---|---:|---:|---:|---:|\n");
+      "| error at t = 1, share of the way | steps | variational | Runge-Kutta 4 | (7), L-BFGS | "
+      "(7), "
+      "Levenberg-Marquardt |\n"
+      "|---|---:|---:|---:|---:|---:|\n");
   for (const Motion& motion : Motions()) {
-    const auto end = [&](int steps, Integrator integrator) {
-      ExponentialOptions options;
-      options.integrator = integrator;
-      const Path path =
-          Extrapolate(motion.metric, motion.shape, motion.velocity, steps, options).path;
-      return path.Placed(path.NumShapes() - 1);
+    const auto shoot = [&](int steps, const ExponentialOptions& options) {
+      return Extrapolate(motion.metric, motion.shape, motion.velocity, steps, options);
     };
-    const Shape exact = end(512, Integrator::kRungeKutta4);
+    ExponentialOptions variational, runge_kutta, lbfgs, levenberg_marquardt;
+    runge_kutta.integrator = Integrator::kRungeKutta4;
+    lbfgs.integrator = levenberg_marquardt.integrator = Integrator::kFirstIntegral;
+    lbfgs.max_iterations = levenberg_marquardt.max_iterations = 1000;
+    lbfgs.first_integral_solver = FirstIntegralSolver::kLbfgs;
+    levenberg_marquardt.first_integral_solver = FirstIntegralSolver::kLevenbergMarquardt;
+    const Shape exact = shoot(512, runge_kutta).path.Placed(512);
     for (int steps : {8, 16, 32, 64}) {
       std::printf("| %s | %d |", motion.name, steps);
-      for (Integrator integrator :
-           {Integrator::kVariational, Integrator::kRungeKutta4, Integrator::kFirstIntegral}) {
-        std::printf(" %.1e |",
-                    (end(steps, integrator) - exact).norm() / (exact - motion.shape).norm());
+      for (const auto& options : {variational, runge_kutta, lbfgs, levenberg_marquardt}) {
+        const auto [path, summary] = shoot(steps, options);
+        std::printf(" %.1e", (path.Placed(steps) - exact).norm() / (exact - motion.shape).norm());
+        if (options.integrator == Integrator::kFirstIntegral) {
+          const auto solved =
+              std::count_if(summary.steps.begin(), summary.steps.end(),
+                            [](const ExponentialSummary::Step& step) { return step.converged; });
+          std::printf(", %d solved", static_cast<int>(solved));
+        }
+        std::printf(" |");
       }
       std::printf("\n");
     }

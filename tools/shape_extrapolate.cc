@@ -24,9 +24,12 @@ DEFINE_string(integrator, "variational",
               "(7), which does not converge; to compare with)");
 DEFINE_string(step_solver, "newton_krylov",
               "of a variational step: newton_krylov, or ceres (for small meshes)");
+DEFINE_string(first_integral_solver, "lbfgs",
+              "of a step by first_integral: lbfgs (as in the paper) or levenberg_marquardt");
 DEFINE_double(step_tolerance, 1e-9,
-              "a variational step is solved when its residual is this share of the step");
-DEFINE_int32(step_iterations, 100, "iterations that a variational step may take");
+              "a step of variational or first_integral is solved when its residual is this share "
+              "of what it is at rest");
+DEFINE_int32(step_iterations, 100, "iterations that such a step may take");
 DEFINE_double(correct, 0,
               "afterwards move all shapes but the first so that edges keep its lengths: the weight "
               "of staying where they are, 1 to start from and less for truer lengths; 0 for off");
@@ -50,6 +53,10 @@ ExponentialOptions ExponentialFromFlags() {
   options.solver = Choose<StepSolver>(
       "step_solver", FLAGS_step_solver,
       {{"newton_krylov", StepSolver::kNewtonKrylov}, {"ceres", StepSolver::kCeres}});
+  options.first_integral_solver = Choose<FirstIntegralSolver>(
+      "first_integral_solver", FLAGS_first_integral_solver,
+      {{"lbfgs", FirstIntegralSolver::kLbfgs},
+       {"levenberg_marquardt", FirstIntegralSolver::kLevenbergMarquardt}});
   options.tolerance = FLAGS_step_tolerance;
   options.max_iterations = FLAGS_step_iterations;
   NamingFlags({{"tolerance", "step_tolerance"}, {"max_iterations", "step_iterations"}},

@@ -460,10 +460,18 @@ TEST(FirstIntegral, DoesNotConverge) {
   for (const Motion& motion : {TurningBodies()[0], TurningBodies()[1]}) {
     SCOPED_TRACE(motion.name);
     const Shape exact = End(motion, 64, Integrator::kRungeKutta4);
-    for (int steps : {8, 16, 32}) {
-      const Path path = Shoot(motion, steps, Options(Integrator::kFirstIntegral)).path;
-      const double error = Distance(path.Placed(steps), exact);
-      EXPECT_GT(error, 0.3 * Distance(motion.shape, exact)) << steps;
+    for (const FirstIntegralSolver solver :
+         {FirstIntegralSolver::kLbfgs, FirstIntegralSolver::kLevenbergMarquardt}) {
+      ExponentialOptions options = Options(Integrator::kFirstIntegral);
+      options.first_integral_solver = solver;
+      for (int steps : {8, 16, 32}) {
+        const auto [path, summary] = Shoot(motion, steps, options);
+        const double error = Distance(path.Placed(steps), exact);
+        EXPECT_GT(error, 0.3 * Distance(motion.shape, exact)) << steps;
+        for (const ExponentialSummary::Step& step : summary.steps) {
+          EXPECT_EQ(step.converged, step.residual <= options.tolerance);
+        }
+      }
     }
   }
 }

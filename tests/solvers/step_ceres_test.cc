@@ -224,6 +224,22 @@ std::vector<Case> CasesWithoutSums() {
   return cases;
 }
 
+constexpr FirstIntegralSolver kFirstIntegralSolvers[] = {FirstIntegralSolver::kLbfgs,
+                                                         FirstIntegralSolver::kLevenbergMarquardt};
+
+std::string NameOf(FirstIntegralSolver solver) {
+  return solver == FirstIntegralSolver::kLbfgs ? "L-BFGS" : "Levenberg-Marquardt";
+}
+
+// Where there is a root to be found: how closely each solver finds it, in so many iterations.
+struct Accuracy {
+  FirstIntegralSolver solver;
+  double tolerance;
+  int max_iterations;
+};
+constexpr Accuracy kAccuracies[] = {{FirstIntegralSolver::kLbfgs, 1e-9, 20000},
+                                    {FirstIntegralSolver::kLevenbergMarquardt, 1e-11, 60}};
+
 TEST(SolveFirstIntegral, StaysWhereTheConstantsWereTaken) {
   for (const Case& test : CasesWithoutSums()) {
     SCOPED_TRACE(test.name);
@@ -234,12 +250,16 @@ TEST(SolveFirstIntegral, StaysWhereTheConstantsWereTaken) {
       // Summed over all coordinates, (7) says what the motion costs.
       const double cost = map.Derivative(test.at).Times(x).squaredNorm();
       EXPECT_NEAR(constants.sum(), cost, 1e-10 * constants.lpNorm<1>());
-      Tangent velocity = x;
-      const StepResult result = SolveFirstIntegral(map, test.at, constants, 1e-10, 20, &velocity);
-      EXPECT_TRUE(result.converged);
-      EXPECT_EQ(result.iterations, 0);
-      EXPECT_LT(result.residual, 1e-11);
-      EXPECT_TRUE(velocity == x);
+      for (const FirstIntegralSolver solver : kFirstIntegralSolvers) {
+        SCOPED_TRACE(NameOf(solver));
+        Tangent velocity = x;
+        const StepResult result =
+            SolveFirstIntegral(map, test.at, constants, solver, 1e-10, 20, &velocity);
+        EXPECT_TRUE(result.converged);
+        EXPECT_EQ(result.iterations, 0);
+        EXPECT_LT(result.residual, 1e-11);
+        EXPECT_TRUE(velocity == x);
+      }
     }
   }
 }
@@ -253,13 +273,17 @@ TEST(SolveFirstIntegral, FindsTheRootOfTheSameSignsInAFlatMetric) {
   const int num_vertices = static_cast<int>(test.at.cols());
   Tangent x = Noise(num_vertices, 1, 2);
   for (double& entry : x.reshaped()) entry += entry > 0 ? 0.5 : -0.5;
-  for (double speed : {1.0, 1e-8, 1e8}) {
-    Tangent velocity = speed * x.cwiseProduct(Tangent::Constant(3, num_vertices, 1) +
-                                              Noise(num_vertices, 0.05, 3));
-    const StepResult result =
-        SolveFirstIntegral(map, test.at, Constants(map, test.at, speed * x), 1e-12, 50, &velocity);
-    EXPECT_TRUE(result.converged);
-    EXPECT_LT((velocity - speed * x).norm(), 1e-10 * speed * x.norm());
+  for (const auto& [solver, tolerance, max_iterations] : kAccuracies) {
+    for (double speed : {1.0, 1e-8, 1e8}) {
+      SCOPED_TRACE(NameOf(solver) + ", speed " + std::to_string(speed));
+      Tangent velocity = speed * x.cwiseProduct(Tangent::Constant(3, num_vertices, 1) +
+                                                Noise(num_vertices, 0.05, 3));
+      const StepResult result = SolveFirstIntegral(map, test.at, Constants(map, test.at, speed * x),
+                                                   solver, tolerance, max_iterations, &velocity);
+      EXPECT_TRUE(result.converged) << result.residual;
+      EXPECT_LE(result.residual, tolerance);
+      EXPECT_LT((velocity - speed * x).norm(), 10 * tolerance * speed * x.norm());
+    }
   }
 }
 
@@ -272,14 +296,20 @@ TEST(SolveFirstIntegral, FindsARootCloseBy) {
     const int num_vertices = static_cast<int>(test.at.cols());
     const Tangent x = Noise(num_vertices, 1, 10);
     const Tangent constants = Constants(map, test.at, x);
-    Tangent velocity = x + Noise(num_vertices, 1e-4, 11);
-    const StepResult result = SolveFirstIntegral(map, test.at, constants, 1e-11, 60, &velocity);
-    EXPECT_TRUE(result.converged);
-    EXPECT_GT(result.iterations, 0);
-    EXPECT_LT((velocity - x).norm(), 1e-6 * x.norm());
-    // Rows of that size add up to at most their root mean square times the root of their number.
-    const double cost = map.Derivative(test.at).Times(velocity).squaredNorm();
-    EXPECT_NEAR(cost, constants.sum(), 1e-11 * constants.norm() * std::sqrt(constants.size()));
+    for (const auto& [solver, tolerance, max_iterations] : kAccuracies) {
+      SCOPED_TRACE(NameOf(solver));
+      Tangent velocity = x + Noise(num_vertices, 1e-4, 11);
+      const StepResult result =
+          SolveFirstIntegral(map, test.at, constants, solver, tolerance, max_iterations, &velocity);
+      EXPECT_TRUE(result.converged) << result.residual;
+      EXPECT_LE(result.residual, tolerance);
+      EXPECT_GT(result.iterations, 0);
+      EXPECT_LT((velocity - x).norm(), 1e-6 * x.norm());
+      // Rows of that size add up to at most their root mean square times the root of their number.
+      const double cost = map.Derivative(test.at).Times(velocity).squaredNorm();
+      EXPECT_NEAR(cost, constants.sum(),
+                  tolerance * constants.norm() * std::sqrt(constants.size()));
+    }
   }
 }
 
@@ -293,12 +323,19 @@ TEST(SolveFirstIntegral, ReportsHowFarItGot) {
     const auto residual = [&](const Tangent& y) {
       return (constants - Constants(map, test.at, y)).norm() / constants.norm();
     };
-    Tangent velocity = x;
-    const StepResult result = SolveFirstIntegral(map, test.at, constants, 1e-8, 30, &velocity);
-    EXPECT_FALSE(result.converged);
-    EXPECT_TRUE(velocity.allFinite());
-    EXPECT_NEAR(result.residual, residual(velocity), 1e-9 * result.residual);
-    EXPECT_LT(result.residual, residual(x));
+    double other = 0;
+    for (const FirstIntegralSolver solver : kFirstIntegralSolvers) {
+      SCOPED_TRACE(NameOf(solver));
+      Tangent velocity = x;
+      const StepResult result =
+          SolveFirstIntegral(map, test.at, constants, solver, 1e-8, 30, &velocity);
+      EXPECT_FALSE(result.converged);
+      EXPECT_TRUE(velocity.allFinite());
+      EXPECT_NEAR(result.residual, residual(velocity), 1e-9 * result.residual);
+      EXPECT_LT(result.residual, residual(x));
+      EXPECT_NE(result.residual, other);  // they are two solvers
+      other = result.residual;
+    }
   }
 }
 
@@ -307,19 +344,23 @@ TEST(SolveFirstIntegral, FindsNoRootWhereThereIsNone) {
   const FeatureMap map(test.metric);
   const Tangent x = test.at - test.previous;
   const Tangent negative = -Constants(map, test.at, x);  // their sum would be <x, G x> < 0
-  Tangent velocity = x;
-  const StepResult result = SolveFirstIntegral(map, test.at, negative, 1e-6, 30, &velocity);
-  EXPECT_FALSE(result.converged);
-  EXPECT_GT(result.residual, 1e-6);
-  EXPECT_TRUE(velocity.allFinite());
+  for (const FirstIntegralSolver solver : kFirstIntegralSolvers) {
+    SCOPED_TRACE(NameOf(solver));
+    Tangent velocity = x;
+    const StepResult result =
+        SolveFirstIntegral(map, test.at, negative, solver, 1e-6, 30, &velocity);
+    EXPECT_FALSE(result.converged);
+    EXPECT_GT(result.residual, 1e-6);
+    EXPECT_TRUE(velocity.allFinite());
+  }
 }
 
 TEST(SolveFirstIntegral, RestsWhereAllConstantsVanishAndRefusesSumFeatures) {
   std::vector<Case> cases = Cases();
   const FeatureMap map(cases[0].metric);
   Tangent velocity = cases[0].at - cases[0].previous;
-  const StepResult result =
-      SolveFirstIntegral(map, cases[0].at, Tangent::Zero(3, velocity.cols()), 1e-9, 20, &velocity);
+  const StepResult result = SolveFirstIntegral(map, cases[0].at, Tangent::Zero(3, velocity.cols()),
+                                               FirstIntegralSolver::kLbfgs, 1e-9, 20, &velocity);
   EXPECT_TRUE(result.converged);
   EXPECT_EQ(velocity.norm(), 0);
 
@@ -328,8 +369,8 @@ TEST(SolveFirstIntegral, RestsWhereAllConstantsVanishAndRefusesSumFeatures) {
   const FeatureMap with_volume(volume.metric);
   velocity = volume.at - volume.previous;
   const std::string message = MessageOf<InvalidOptions>([&] {
-    SolveFirstIntegral(with_volume, volume.at, Constants(with_volume, volume.at, velocity), 1e-9,
-                       20, &velocity);
+    SolveFirstIntegral(with_volume, volume.at, Constants(with_volume, volume.at, velocity),
+                       FirstIntegralSolver::kLbfgs, 1e-9, 20, &velocity);
   });
   EXPECT_EQ(message.rfind("volume:", 0), 0u) << message;
 }

@@ -224,6 +224,14 @@ TEST_F(ExtrapolateTest, EveryIntegratorAndSolverOfStepsCanBeChosen) {
     EXPECT_GT(distance, 1e-8) << integrator;
     EXPECT_LT(distance, 0.2) << integrator;
   }
+  // Equation (7) is solved by L-BFGS if nothing else is asked for, and Levenberg-Marquardt ends
+  // elsewhere.
+  const auto by = [&](const char* solver) {
+    return end({"--integrator", "first_integral", "--first_integral_solver", solver});
+  };
+  const Shape lbfgs = by("lbfgs");
+  EXPECT_TRUE(lbfgs == end({"--integrator", "first_integral"}));
+  EXPECT_FALSE(lbfgs == by("levenberg_marquardt"));
 }
 
 TEST_F(ExtrapolateTest, CorrectionBringsEdgesBackToTheFirstShapesLengths) {
@@ -264,6 +272,8 @@ TEST_F(ExtrapolateTest, WrongCommandLines) {
        "--integrator euler: must be one of variational, runge_kutta4, first_integral"},
       {{"walk.path", "--step_solver", "lbfgs"},
        "--step_solver lbfgs: must be one of newton_krylov, ceres"},
+      {{"walk.path", "--first_integral_solver", "ceres"},
+       "--first_integral_solver ceres: must be one of lbfgs, levenberg_marquardt"},
       {{"walk.path", "--step_tolerance", "0"}, "--step_tolerance 0: must be"},
       {{"walk.path", "--step_iterations", "0"}, "--step_iterations 0: must be"},
       {{"walk.path", "--correct=-1"}, "--correct -1: must be"},

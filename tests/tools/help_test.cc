@@ -60,8 +60,8 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
   for (const std::string& flag : wanted) EXPECT_EQ(listed.count(flag), 1u) << flag;
   // What interpolates poses before it goes on takes the same flags, and its own.
   std::set<std::string> extrapolate = Listed("shape-interpolate");
-  extrapolate.insert({"correct", "integrator", "keep", "step_iterations", "step_solver",
-                      "step_tolerance", "steps"});
+  extrapolate.insert({"correct", "first_integral_solver", "integrator", "keep", "step_iterations",
+                      "step_solver", "step_tolerance", "steps"});
   EXPECT_EQ(Listed("shape-extrapolate"), extrapolate);
   std::set<std::string> transfer = Listed("shape-interpolate");
   transfer.insert({"align", "connection", "hybrids", "ladder_bending", "method", "rung_shapes",

@@ -50,7 +50,18 @@ struct MetricOptions {
   static MetricOptions Strain();
   /// As rigid as possible: (3) + lambda (5).
   static MetricOptions Rigid();
-  /// The paper's own setting: (4) + 0.001 (5) with w_e = 1, energy (6), no bending.
+  /// The paper's setting: isometric 1 with weight w_e = 1 for every edge, lambda 0.001, no bending,
+  /// trapezoid. (4), (5), w_e, lambda and the energy (6) are the paper's, to rounding. What is not:
+  /// the areas A_p are means over the poses and stay so, where the paper's move with the shape; and
+  /// what holds for all metrics here: poses are aligned rigidly first, and the rigid motion between
+  /// them is carried beside the path, and costs nothing. (Inner shapes are not moved rigidly, as
+  /// they are in midpoint form: rotation has a cost in (6).) While few shapes prepare more, the
+  /// part of (6) that penalises the rotation of edges is weighted down (docs/mathematics.md,
+  /// section 6). Lengths are measured in the unit in which the surface has area 1, which changes
+  /// the energy's value and not the path: (4) and (5) both go with the fourth power of length. But
+  /// (4) has a term an edge, so that lambda means something else at every mesh resolution.
+  /// Schedule::kPaper has the paper's order of levels, which must be asked for. Paths are continued
+  /// in midpoint form.
   static MetricOptions Paper();
 
   /// \throw InvalidOptions naming the field.

@@ -78,8 +78,9 @@ class FirstIntegral {
 
   Shape Next(ExponentialSummary::Step* row) {
     shape_ += velocity_;
-    const internal::StepResult result = internal::SolveFirstIntegral(
-        map_, shape_, constants_, options_.tolerance, options_.max_iterations, &velocity_);
+    const internal::StepResult result =
+        internal::SolveFirstIntegral(map_, shape_, constants_, options_.first_integral_solver,
+                                     options_.tolerance, options_.max_iterations, &velocity_);
     row->converged = result.converged;
     row->iterations = result.iterations;
     row->residual = result.residual;

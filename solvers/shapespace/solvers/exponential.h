@@ -26,18 +26,28 @@ enum class StepSolver {
   kCeres,         ///< Ceres' trust region on automatically differentiated rows, small meshes only
 };
 
+/// What solves the paper's (7) for the next velocity, as a nonlinear least squares problem: both
+/// are Ceres', on the same automatically differentiated rows. With neither does the end of the path
+/// converge with the step: docs/mathematics.md, section 8.
+enum class FirstIntegralSolver {
+  kLbfgs,               ///< L-BFGS, as in the paper
+  kLevenbergMarquardt,  ///< finds a root more often, which brings the path no nearer to a geodesic
+};
+
 /// How to shoot.
 struct ExponentialOptions {
   Integrator integrator = Integrator::kVariational;
-  StepSolver solver = StepSolver::kNewtonKrylov;
+  StepSolver solver = StepSolver::kNewtonKrylov;                            ///< kVariational only
+  FirstIntegralSolver first_integral_solver = FirstIntegralSolver::kLbfgs;  ///< kFirstIntegral only
 
-  /// A step is solved when its residual, measured in the metric (kCeres: by its coordinates), is
-  /// this share of the step itself.
+  /// A step is solved when its residual, measured in the metric (kCeres and kFirstIntegral: by its
+  /// coordinates), is this share of the step itself (kFirstIntegral: of what it is at rest).
   double tolerance = 1e-9;
 
-  /// Of Newton's method in a step, or of Ceres' trust region. Most steps take four; those that must
-  /// be approached in increments (ExponentialSummary::Step::increments) several for each. A step
-  /// that runs out of them is taken over from a coarser resolution, and says so.
+  /// Of Newton's method in a step, or of Ceres. Most steps of kVariational take four; those that
+  /// must be approached in increments (ExponentialSummary::Step::increments) several for each. A
+  /// step that runs out of them is taken over from a coarser resolution, and says so.
+  /// kFirstIntegral goes on with what it has.
   int max_iterations = 100;
 
   /// \throw InvalidOptions naming the field.

@@ -27,8 +27,16 @@ enum class Schedule {
                ///< (c,1) ... (f,1), (c,3) ... (f,3), (f,7) ... (f,n). Without a cost of bending
                ///< kFlat: coarse surfaces would crumple, and fine ones keep the folds
   kStart,      ///< all levels for one inner shape only: (c,1) ... (f,1), (f,3), (f,7) ...
-  kPaper,  ///< time and space in turn (Kilian et al. 2007, Figure 3): (c,1), (c,3), (c+1,3), ...
-  kFlat,   ///< the finest level only: (f,1), (f,3), (f,7) ...
+  /// Time and space in turn (Kilian et al. 2007, Figure 3): (c,1), (c,3), (c+1,3), ... The paper's
+  /// are this order, that all poses are decimated in step, and that each level starts from the one
+  /// before. The rest is ours, as in all schedules: which vertices go first, and how many per level
+  /// (Hierarchy); that detail turns with the neighbourhoods of vertices, where the paper keeps
+  /// local coordinates in the frames of faces; new shapes on cubics in time, where the paper has
+  /// straight lines; poses aligned rigidly first, and rigid drift of inner shapes taken out (but
+  /// not under Discretization::kTrapezoid); and a metric for each level, frozen on the decimated
+  /// poses. The paper's starts are Start::kBlend and kRigid, its metric is MetricOptions::Paper().
+  kPaper,
+  kFlat,  ///< the finest level only: (f,1), (f,3), (f,7) ...
 };
 
 /// Where the one inner shape of the first solve starts.

@@ -267,7 +267,8 @@ StepResult SolveStepWithCeres(const FeatureMap& map, const Shape& at, const Eige
 }
 
 StepResult SolveFirstIntegral(const FeatureMap& map, const Shape& at, const Tangent& constants,
-                              double tolerance, int max_iterations, Tangent* velocity) {
+                              FirstIntegralSolver solver, double tolerance, int max_iterations,
+                              Tangent* velocity) {
   RefuseSums(map.GetMetric(), 0, "the first integral (7) cannot take it; use another integrator");
   const int num_vertices = static_cast<int>(at.cols());
   StepResult result;
@@ -319,7 +320,12 @@ StepResult SolveFirstIntegral(const FeatureMap& map, const Shape& at, const Tang
 
   StopAtResidual stop(tolerance);
   ceres::Solver::Options options = SolverOptions(max_iterations);
-  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  if (solver == FirstIntegralSolver::kLbfgs) {
+    options.minimizer_type = ceres::LINE_SEARCH;
+    options.line_search_direction_type = ceres::LBFGS;
+  } else {
+    options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  }
   options.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);

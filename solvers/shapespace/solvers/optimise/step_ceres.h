@@ -5,6 +5,7 @@
 
 #include <shapespace/mesh/shape.h>
 #include <shapespace/metric/feature_map.h>
+#include <shapespace/solvers/exponential.h>
 
 namespace shapespace::internal {
 
@@ -30,13 +31,15 @@ StepResult SolveStepWithCeres(const FeatureMap& map, const Shape& at, const Eige
 
 /// The paper's (7) at the shape `at`: x_j (G x)_j = a_j for every coordinate j of the velocity x,
 /// as residuals F_0 - 2 x_j (G x)_j - C_j with F_0 the sum of all a_j and C_j = F_0 - 2 a_j.
-/// `constants` holds a (3 x m). Starts from `*velocity` and leaves the result there, or the best
-/// that was found. Done when the norm of the residual is at most `tolerance` times what it is at
-/// x = 0. There need be no root, and where there is one it often is not found.
+/// `constants` holds a (3 x m). `solver` lowers the sum of the squared residuals, from `*velocity`,
+/// and leaves there what it ends with. Converged when the norm of the residual is at most
+/// `tolerance` times what it is at x = 0. There need be no root, and where there is one it often is
+/// not found.
 /// \throw InvalidOptions if the metric has a volume feature, which couples all rows; SolverError if
 ///        the residual is not finite at the start.
 StepResult SolveFirstIntegral(const FeatureMap& map, const Shape& at, const Tangent& constants,
-                              double tolerance, int max_iterations, Tangent* velocity);
+                              FirstIntegralSolver solver, double tolerance, int max_iterations,
+                              Tangent* velocity);
 
 /// The paper's transport (section 5): the Y nearest to `x` in the Euclidean sense with
 /// <Y, normal> = constant; Ceres has no constraints, so it is a residual of great weight, and the
