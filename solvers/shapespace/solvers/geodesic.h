@@ -126,7 +126,7 @@ struct GeodesicSummary {
   int threads = 1;
 
   /// energy / lower_bound: 1 is as good as can be (and said of poses that are rigid copies, where
-  /// both are zero but for rounding); about 1.05 where poses hold folded hinges.
+  /// both are zero but for rounding); 1.03 to 1.15 where poses hold folded hinges.
   double Ratio() const { return energy < kZeroEnergy ? 1 : energy / lower_bound; }
   static constexpr double kZeroEnergy = 1e-18;
   std::string BriefReport() const;  ///< one line
