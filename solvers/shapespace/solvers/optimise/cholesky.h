@@ -49,7 +49,7 @@ class CholeskyFactor {
         work_rows_(other.work_rows_) {}
 
   CholeskyFactor(const CholeskyFactor&) = delete;
-  CholeskyFactor(CholeskyFactor&&) = default;
+  CholeskyFactor(CholeskyFactor&&) noexcept = default;
 
   /// The factor of another matrix of the same pattern, in the same order of elimination and the
   /// same memory; in double precision only. \throw SolverError if it is not positive definite: then
