@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <shapespace/base/error.h>
+#include <shapespace/solvers/optimise/nearest_shape.h>
 #include <shapespace/solvers/optimise/step_ceres.h>
 
 namespace shapespace::internal {
@@ -27,8 +28,9 @@ constexpr double kExact = 1e-13;
 // Of a path that rests, or moves rigidly, aligned shapes differ by a few roundings.
 constexpr double kRest = 10;
 
-constexpr int kMaxGaussNewton = 20, kGaussNewtonHalvings = 8;
-constexpr double kGaussNewtonProgress = 1e-4;
+// Where the nearest shape in feature space stands in, it is of first order only.
+constexpr int kMaxGaussNewton = 20;
+constexpr double kNearestTolerance = 1e-4;
 
 // How far in feature space rounding of a shape's coordinates leads, with signs that have nothing to
 // do with each other.
@@ -167,29 +169,11 @@ bool Step::SolveWithNewton(double load, int iterations, double tolerance,
 }
 
 Shape Step::Nearest(ExponentialSummary::Step* row) const {
-  Shape shape = departure_.shape;
-  const Eigen::VectorXd target = current_ + change_;
-  Eigen::VectorXd distance = -change_;
-  bool progress = true;
-  for (int iteration = 0; progress && iteration < kMaxGaussNewton; ++iteration) {
-    check_cancelled_();
-    ++row->iterations;
-    const FeatureDerivative derivative = map_.Derivative(shape);
-    solver_.Factor(derivative);
-    const Tangent step = SolveMetric(solver_, derivative, derivative.TransposeTimes(distance));
-    const double size = distance.norm();
-    progress = false;
-    double factor = 1;
-    for (int halving = 0; !progress && halving <= kGaussNewtonHalvings; ++halving, factor *= 0.5) {
-      const Shape trial = shape - factor * step;
-      const Eigen::VectorXd left = map_.Values(trial) - target;
-      if (left.norm() < size * (1 - kGaussNewtonProgress)) {
-        shape = trial;
-        distance = left;
-        progress = true;
-      }
-    }
-  }
+  const NearestShape nearest = FindNearestShape(
+      map_, current_ + change_, departure_.shape,
+      {kNearestTolerance * speed_ * speed_, kMaxGaussNewton}, check_cancelled_, &solver_);
+  row->iterations += nearest.iterations;
+  const Shape& shape = nearest.shape;
   solver_.Factor(derivative_);  // what residuals are measured by
   if (shape == departure_.shape) {
     throw SolverError("no shape near is any closer to where the motion leads: it comes to a halt");
