@@ -9,6 +9,7 @@
 #include <shapespace/base/clones.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/solvers/optimise/one_thread.h>
 
 namespace shapespace::internal {
 namespace {
@@ -231,6 +232,7 @@ struct CholeskyFactor<Scalar>::Made {
   }
 
   void Factorize(cholmod_sparse view) {
+    const OneThread one_thread;
     if (cholmod_factorize(&view, factor, &common) == 0 || common.status != CHOLMOD_OK) {
       throw SolverError(
           "the preconditioner's matrix is not positive definite: is a weight of the metric zero or "
