@@ -300,8 +300,7 @@ void Warn(const Metric& metric, ExponentialSummary* summary) {
 
 // G(P_1) V = J(P_1)^T [Phi(P_1) - Phi(P_0)]: the velocity per step with which a segment arrives;
 // the other way round, that with which it sets out.
-Tangent SegmentVelocity(const Metric& metric, const Shape& other, const Shape& at, double sign) {
-  const FeatureMap map(metric);
+Tangent SegmentVelocity(const FeatureMap& map, const Shape& other, const Shape& at, double sign) {
   const FeatureDerivative derivative = map.Derivative(at);
   MetricSolver solver;
   solver.Factor(derivative);
@@ -314,7 +313,7 @@ Tangent SegmentVelocity(const Metric& metric, const Shape& other, const Shape& a
 // to step. So only the part of the change is kept that the metric sees as a velocity at the new
 // shape, at the speed that the geodesic has.
 Departure Restart(const FeatureMap& map, const Shape& before, const Shape& shape, double speed) {
-  Tangent velocity = SegmentVelocity(map.GetMetric(), before, shape, 1);
+  Tangent velocity = SegmentVelocity(map, before, shape, 1);
   const double found = map.Derivative(shape).Times(velocity).norm();
   if (found > 0) velocity *= speed / found;
   return {shape, {}, std::move(velocity), speed};
@@ -344,17 +343,16 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
         ReportProgress(progress, "shooting", static_cast<int>(summary.steps.size()), steps);
       });
       const FeatureMap map(metric);
-      const double speed =
-          discrete ? (map.Values(departure.shape) - map.Values(departure.previous)).norm()
-                   : map.Derivative(departure.shape).Times(departure.velocity).norm();
-      departure.speed = speed;
+      departure.speed = discrete
+                            ? (map.Values(departure.shape) - map.Values(departure.previous)).norm()
+                            : map.Derivative(departure.shape).Times(departure.velocity).norm();
       const auto next = [&](ExponentialSummary::Step* row) {
         Shape shape = shooter.Next(departure, row);
         if (row->vertices == summary.vertices) {
           departure.velocity.resize(3, 0);
           departure.previous = std::exchange(departure.shape, shape);
         } else {
-          departure = Restart(map, departure.shape, shape, speed);
+          departure = Restart(map, departure.shape, shape, departure.speed);
         }
         return shape;
       };
@@ -364,9 +362,10 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
       break;
     }
     case Integrator::kRungeKutta4: {
-      RungeKutta4 scheme(metric, departure.shape,
-                         discrete ? SegmentVelocity(metric, departure.previous, departure.shape, 1)
-                                  : departure.velocity);
+      RungeKutta4 scheme(
+          metric, departure.shape,
+          discrete ? SegmentVelocity(FeatureMap(metric), departure.previous, departure.shape, 1)
+                   : departure.velocity);
       March([&](ExponentialSummary::Step* row) { return scheme.Next(row); }, steps, step, progress,
             result);
       summary.factorisations = scheme.Solver().NumFactorisations();
@@ -476,8 +475,8 @@ Tangent InitialVelocity(const Path& path) {
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(second.rotation * first.rotation.transpose()));
   const Eigen::Vector3d spin = turn.angle() * turn.axis();
   const Shape arms = metric.unit * (first.rotation * path.shapes[0]);
-  Tangent way =
-      metric.unit * (first.rotation * SegmentVelocity(metric, path.shapes[1], path.shapes[0], -1));
+  Tangent way = metric.unit * (first.rotation * SegmentVelocity(FeatureMap(metric), path.shapes[1],
+                                                                path.shapes[0], -1));
   for (int v = 0; v < way.cols(); ++v) {
     way.col(v) += spin.cross(arms.col(v)) + second.translation - first.translation;
   }

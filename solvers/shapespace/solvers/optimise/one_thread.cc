@@ -7,31 +7,26 @@
 namespace shapespace::internal {
 namespace {
 
-// Functions of libraries that a program may be linked with or not; null where it is not.
-using Get = int (*)();
-using Set = void (*)(int);
+// A number that a library keeps, if the program is linked with that library.
+struct Setting {
+  Setting(const char* get_name, const char* set_name)
+      : get(reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, get_name))),
+        set(reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, set_name))) {}
+  bool Exists() const { return get != nullptr && set != nullptr; }
 
-template <typename Function>
-Function Find(const char* name) {
-  return reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, name));
+  int (*const get)();
+  void (*const set)(int);
+};
+
+const Setting& BlasThreads() {
+  static const Setting setting("openblas_get_num_threads", "openblas_set_num_threads");
+  return setting;
 }
 
-Get BlasThreads() {
-  static const Get function = Find<Get>("openblas_get_num_threads");
-  return function;
-}
-Set SetBlasThreads() {
-  static const Set function = Find<Set>("openblas_set_num_threads");
-  return function;
-}
 // At most so many parallel regions of OpenMP within each other, of the calling thread.
-Get Levels() {
-  static const Get function = Find<Get>("omp_get_max_active_levels");
-  return function;
-}
-Set SetLevels() {
-  static const Set function = Find<Set>("omp_set_max_active_levels");
-  return function;
+const Setting& Levels() {
+  static const Setting setting("omp_get_max_active_levels", "omp_set_max_active_levels");
+  return setting;
 }
 
 std::mutex blas_mutex;
@@ -40,25 +35,25 @@ int blas_users = 0, blas_threads = 0;
 }  // namespace
 
 OneThread::OneThread() {
-  if (BlasThreads() != nullptr && SetBlasThreads() != nullptr) {
+  if (BlasThreads().Exists()) {
     const std::lock_guard<std::mutex> lock(blas_mutex);
     if (blas_users++ == 0) {
-      blas_threads = BlasThreads()();
-      SetBlasThreads()(1);
+      blas_threads = BlasThreads().get();
+      BlasThreads().set(1);
     }
   }
-  if (Levels() != nullptr && SetLevels() != nullptr) {
-    levels_ = Levels()();
-    SetLevels()(0);
+  if (Levels().Exists()) {
+    levels_ = Levels().get();
+    Levels().set(0);
   }
 }
 
 OneThread::~OneThread() {
-  if (BlasThreads() != nullptr && SetBlasThreads() != nullptr) {
+  if (BlasThreads().Exists()) {
     const std::lock_guard<std::mutex> lock(blas_mutex);
-    if (--blas_users == 0) SetBlasThreads()(blas_threads);
+    if (--blas_users == 0) BlasThreads().set(blas_threads);
   }
-  if (levels_ > 0) SetLevels()(levels_);
+  if (Levels().Exists()) Levels().set(levels_);
 }
 
 }  // namespace shapespace::internal
