@@ -33,33 +33,6 @@ TransferOptions Ladder() {
   return options;
 }
 
-// Wherever the target lies and however large it is.
-TEST(Ladder, BendsAnotherBarAsSumnerAndPopovicDo) {
-  const Path source = Bending(6);
-  const Shape straight = ThinBar();
-  const Shape theirs = SumnerPopovic::Transfer(*source.metric->connectivity, source.Placed(0),
-                                               source.Placed(6), straight);
-  EXPECT_NEAR(BendOf(straight, theirs), 62.1, 0.1);  // as measured on another implementation
-  const struct {
-    Matrix3d turn;
-    double scale;
-  } places[] = {{Matrix3d::Identity(), 1},
-                {Turn(90, Vector3d::UnitZ()), 1},
-                {Turn(90, Vector3d::UnitY()), 1},
-                {Turn(130, {1, 2, 3}), 3},
-                {Matrix3d::Identity(), 0.2}};
-  for (const auto& [turn, scale] : places) {
-    const auto [path, hybrids, summary] =
-        Transfer(source, (scale * turn * straight).colwise() + Vector3d(20, -3, 1), Ladder());
-    EXPECT_TRUE(summary.Converged());
-    ASSERT_EQ(path.NumShapes(), 7);
-    const Shape end = turn.transpose() * path.Placed(6) / scale;
-    EXPECT_NEAR(BendOf(straight, end), 60, 3.5);
-    EXPECT_NEAR(StrainOf(*source.metric, straight, end), 0.022, 1e-3);
-    EXPECT_LT(ShapesApart(end, theirs, source.metric->vertex_area), 0.005);
-  }
-}
-
 // What the metric of strains and the ladder's scaling and turning are for.
 TEST(Ladder, AbsoluteLengthsAndThePapersTransportBendFalsely) {
   const Path source = Bending(6);
