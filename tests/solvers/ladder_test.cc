@@ -1,10 +1,6 @@
 #include <shapespace/solvers/transfer.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <random>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -18,7 +14,6 @@
 #include "support/message_of.h"
 #include "support/path_of.h"
 #include "support/paths.h"
-#include "support/threads.h"
 #include "support/transfer_cases.h"
 
 namespace shapespace {
