@@ -297,14 +297,14 @@ TEST(CorrectPath, AgreesWithResidualBlocks) {
   }
 }
 
-// The gradient of a free end is that of a sum in which nothing follows it, for every feature that
-// may have one; for the last shape from differences of the energy.
+// The gradient of a free end is that of a sum in which nothing follows it, for every feature; for
+// the last shape from differences of the energy.
 TEST(PathEnergy, AFreeEndFollowsItsGradient) {
   const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
   MetricOptions everything, paper = MetricOptions::Paper();
   everything.volume = 0.3;
   everything.rigid = 0.1;
-  everything.bending = 0;
+  everything.strain = 0.5;
   for (const MetricOptions& options : {everything, paper}) {
     const Metric metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(80)});
     for (int inner : {1, 3, 8}) {
@@ -340,18 +340,6 @@ TEST(PathEnergy, AFreeEndFollowsItsGradient) {
       EXPECT_NEAR((values[1] - values[0]) / (2 * kStep), slope, 1e-5 * std::abs(slope));
     }
   }
-  EXPECT_THROW(
-      PathEnergy(FreezeMetric({}, bar.connectivity, {bar.pose(0)}), 3, PathEnergy::End::kFree),
-      InvalidOptions);
-}
-
-TEST(PathEnergy, AFreeEndIsRefusedForItsHingesAndNotForAnOption) {
-  // The default options ask for bending, of which a graph has none.
-  const auto graph = testing::SingleEdge();
-  Shape ends(3, 2);
-  ends << 0, 1, 0, 0, 0, 0;
-  const Metric metric = FreezeMetric({}, graph, {ends});
-  EXPECT_EQ(PathEnergy(metric, 1, PathEnergy::End::kFree).NumShapes(), 2);
 }
 
 TEST(CorrectPath, RefusesWhatCannotBeCorrected) {

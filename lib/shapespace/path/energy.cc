@@ -69,14 +69,6 @@ std::vector<int> BreadthFirstOrder(const Connectivity& connectivity) {
 PathEnergy::PathEnergy(const Metric& metric, int inner, End end)
     : metric_(metric), end_(end), inner_(inner), stride_(PaddedLength(inner)) {
   if (inner < 1) throw InvalidOptions("inner: a path energy needs at least one inner shape");
-  for (const AnyFeature& any : metric.features) {
-    if (end == End::kFree && std::holds_alternative<Dihedral>(any)) {
-      throw InvalidOptions("bending: a path energy with a free end takes none; set it to 0");
-    }
-    if (end == End::kFree && std::holds_alternative<TriangleStrain>(any)) {
-      throw InvalidOptions("strain: a path energy with a free end takes none; set it to 0");
-    }
-  }
   vertex_of_row_ = BreadthFirstOrder(*metric.connectivity);
   const int num_vertices = static_cast<int>(vertex_of_row_.size());
   row_of_vertex_.resize(num_vertices);
@@ -258,14 +250,18 @@ std::vector<double> PathEnergy::EvaluateParts(const double* unknowns, double* gr
   for (size_t i = 0; i < num_terms; ++i) {
     std::visit(
         [&](const auto& feature) {
-          if constexpr (std::decay_t<decltype(feature)>::kSum) {
-            parts[i] = EvaluateSum(feature, terms_[i], unknowns, gradient);
+          if constexpr (std::is_same_v<std::decay_t<decltype(feature)>, Volume>) {
+            parts[i] = EvaluateVolume(feature, terms_[i], unknowns, gradient);
           }
         },
         metric_.features[i]);
   }
   if (metric_.rigid.Active()) parts.push_back(EvaluateRigid(unknowns, gradient));
   return parts;
+}
+
+internal::PathRows PathEnergy::Rows(const double* unknowns, double* gradient) const {
+  return {unknowns, gradient, first_.data(), last_.data(), inner_, stride_, end_ == End::kFree};
 }
 
 void PathEnergy::ReadRow(const double* unknowns, size_t row, double* times) const {
@@ -277,8 +273,7 @@ void PathEnergy::ReadRow(const double* unknowns, size_t row, double* times) cons
 template <typename Feature>
 double PathEnergy::EvaluateGroup(const Feature& feature, const Group& group, const double* unknowns,
                                  double* gradient, double* scratch) const {
-  const internal::PathRows rows = {unknowns,     gradient, first_.data(),
-                                   last_.data(), inner_,   stride_};
+  const internal::PathRows rows = Rows(unknowns, gradient);
   const int count = static_cast<int>(group.weights.size());
   const int* const stencils = group.stencils.data();
   const double* const weights = group.weights.data();
@@ -334,56 +329,34 @@ double PathEnergy::EvaluateGroup(const Feature& feature, const Group& group, con
   }
 }
 
-template <typename Feature>
-double PathEnergy::EvaluateSum(const Feature& feature, const Term& term, const double* unknowns,
-                               double* gradient) {
-  static_assert(Feature::kValues == 1);
-  constexpr int kSize = 3 * Feature::kVertices;
-  const auto gather = [&](const int* stencil, int t, double* x) {
-    for (int k = 0; k < kSize; ++k) {
-      const size_t row = 3 * static_cast<size_t>(stencil[k / 3]) + k % 3;
-      x[k] = At(unknowns, row, t);
-    }
-  };
+double PathEnergy::EvaluateVolume(const Volume& volume, const Term& term, const double* unknowns,
+                                  double* gradient) {
+  const internal::PathRows rows = Rows(unknowns, gradient);
   std::vector<double> total(inner_ + 2, 0.0);
   for (const std::vector<Group>& groups : term.groups) {
     std::vector<std::vector<double>> partial(groups.size());
     ParallelFor(static_cast<int>(groups.size()), [&](int g) {
       partial[g].assign(inner_ + 2, 0.0);
-      double x[kSize], value;
-      for (size_t e = 0; e < groups[g].weights.size(); ++e) {
-        for (int t = 0; t < inner_ + 2; ++t) {
-          gather(groups[g].stencils.data() + Feature::kVertices * e, t, x);
-          feature(x, &value);
-          partial[g][t] += value;
-        }
-      }
+      internal::AddVolumes(rows, groups[g].stencils.data(),
+                           static_cast<int>(groups[g].weights.size()), volume.reference,
+                           partial[g].data(), scratch_[g].data());
     });
     for (const std::vector<double>& p : partial) {
       for (int t = 0; t < inner_ + 2; ++t) total[t] += p[t];
     }
   }
-  const double w = feature.weights(0);
+  const double w = volume.weights(0);
   double energy = 0;
   for (int t = 0; t <= inner_; ++t) energy += 2 * w * std::pow(total[t + 1] - total[t], 2);
+  std::vector<double> slopes(inner_ + 2, 0.0);
+  for (int t = 1; t <= inner_; ++t) {
+    slopes[t] = 4 * w * (2 * total[t] - total[t - 1] - total[t + 1]);
+  }
   for (const std::vector<Group>& groups : term.groups) {
     ParallelFor(static_cast<int>(groups.size()), [&](int g) {
-      using Jet = ceres::Jet<double, kSize>;
-      double x[kSize];
-      Jet jet[kSize], value;
-      for (size_t e = 0; e < groups[g].weights.size(); ++e) {
-        const int* const stencil = groups[g].stencils.data() + Feature::kVertices * e;
-        for (int t = 1; t <= inner_; ++t) {
-          const double slope = 4 * w * (2 * total[t] - total[t - 1] - total[t + 1]);
-          gather(stencil, t, x);
-          for (int k = 0; k < kSize; ++k) jet[k] = Jet(x[k], k);
-          feature(jet, &value);
-          for (int k = 0; k < kSize; ++k) {
-            const size_t row = 3 * static_cast<size_t>(stencil[k / 3]) + k % 3;
-            gradient[row * stride_ + t - 1] += slope * value.v(k);
-          }
-        }
-      }
+      internal::AddVolumeGradients(rows, groups[g].stencils.data(),
+                                   static_cast<int>(groups[g].weights.size()), volume.reference,
+                                   slopes.data(), scratch_[g].data());
     });
   }
   return energy;

@@ -7,6 +7,9 @@
 #include <shapespace/metric/metric.h>
 
 namespace shapespace {
+namespace internal {
+struct PathRows;
+}
 
 /// The energy of a path of shapes and its gradient, on flat arrays: the plain-array height of the
 /// API, for people who bring their own optimiser.
@@ -29,8 +32,7 @@ class PathEnergy {
   };
 
   /// `metric` is kept by reference and must outlive the object.
-  /// \throw InvalidOptions if `inner` < 1, or if the end is free and the metric has the
-  ///        dihedral or the triangle strain, whose values at the ends are computed once.
+  /// \throw InvalidOptions if `inner` < 1.
   PathEnergy(const Metric& metric, int inner, End end = End::kFixed);
 
   int Inner() const { return inner_; }
@@ -86,11 +88,11 @@ class PathEnergy {
   template <typename Feature>
   double EvaluateGroup(const Feature& feature, const Group& group, const double* unknowns,
                        double* gradient, double* scratch) const;
-  template <typename Feature>
-  double EvaluateSum(const Feature& feature, const Term& term, const double* unknowns,
-                     double* gradient);
+  double EvaluateVolume(const Volume& volume, const Term& term, const double* unknowns,
+                        double* gradient);
   double EvaluateRigid(const double* unknowns, double* gradient);
   double* Sink(double* gradient);
+  internal::PathRows Rows(const double* unknowns, double* gradient) const;
   /// One row at time t of 0 .. inner + 1, the ends included.
   double At(const double* unknowns, size_t row, int t) const {
     return t == 0 ? first_[row] : t > inner_ ? last_[row] : unknowns[row * stride_ + t - 1];

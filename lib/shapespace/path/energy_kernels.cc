@@ -212,7 +212,8 @@ double DihedralKernel(const PathRows& rows, const int* stencils, const double* w
       sine[t] = -r * length * l * volume;
     }
     cosine[0] = end[0], sine[0] = end[1];
-    cosine[n + 1] = end[2], sine[n + 1] = end[3];
+    cosine[n + 1] = rows.free_end ? cosine[n] : end[2];
+    sine[n + 1] = rows.free_end ? sine[n] : end[3];
     SHAPESPACE_INDEPENDENT
     for (int t = 1; t <= n + 1; ++t) {
       const double dc = cosine[t] - cosine[t - 1], ds = sine[t] - sine[t - 1];
@@ -348,7 +349,9 @@ double TriangleStrainKernel(const PathRows& rows, const int* stencils, const dou
       v2[t] = s * o;
     }
     v0[0] = end[0], v1[0] = end[1], v2[0] = end[2];
-    v0[n + 1] = end[3], v1[n + 1] = end[4], v2[n + 1] = end[5];
+    v0[n + 1] = rows.free_end ? v0[n] : end[3];
+    v1[n + 1] = rows.free_end ? v1[n] : end[4];
+    v2[n + 1] = rows.free_end ? v2[n] : end[5];
     SHAPESPACE_INDEPENDENT
     for (int t = 1; t <= n + 1; ++t) {
       const double d0 = v0[t] - v0[t - 1], d1 = v1[t] - v1[t - 1], d2 = v2[t] - v2[t - 1];
@@ -390,6 +393,67 @@ double TriangleStrainKernel(const PathRows& rows, const int* stencils, const dou
     }
   }
   return std::accumulate(sums + 1, sums + n + 2, 0.0);
+}
+
+SHAPESPACE_CLONES
+void AddVolumes(const PathRows& rows, const int* stencils, int count, double reference,
+                double* values, double* memory) {
+  const int n = rows.inner, stride = rows.stride;
+  double* const sums = MakeScratch(memory, stride).Row(0);
+  std::fill(sums, sums + stride, 0.0);
+  double ends[2] = {0, 0};
+  const double scale = 1 / (6 * reference);
+  for (int element = 0; element < count; ++element) {
+    const double *p[3], *q[3], *r[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      p[axis] = rows.shapes + (3 * static_cast<size_t>(stencils[3 * element]) + axis) * stride;
+      q[axis] = rows.shapes + (3 * static_cast<size_t>(stencils[3 * element + 1]) + axis) * stride;
+      r[axis] = rows.shapes + (3 * static_cast<size_t>(stencils[3 * element + 2]) + axis) * stride;
+    }
+    SHAPESPACE_INDEPENDENT
+    for (int t = 0; t < stride; ++t) {
+      sums[t] += p[0][t] * (q[1][t] * r[2][t] - q[2][t] * r[1][t]) +
+                 p[1][t] * (q[2][t] * r[0][t] - q[0][t] * r[2][t]) +
+                 p[2][t] * (q[0][t] * r[1][t] - q[1][t] * r[0][t]);
+    }
+    for (int last : {0, 1}) {
+      const double* const end = last ? rows.last : rows.first;
+      const double* const a = end + 3 * static_cast<size_t>(stencils[3 * element]);
+      const double* const b = end + 3 * static_cast<size_t>(stencils[3 * element + 1]);
+      const double* const c = end + 3 * static_cast<size_t>(stencils[3 * element + 2]);
+      ends[last] += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                    a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+  }
+  values[0] += scale * ends[0];
+  for (int t = 0; t < n; ++t) values[t + 1] += scale * sums[t];
+  values[n + 1] += scale * ends[1];
+}
+
+SHAPESPACE_CLONES
+void AddVolumeGradients(const PathRows& rows, const int* stencils, int count, double reference,
+                        const double* slopes, double* memory) {
+  const int n = rows.inner, stride = rows.stride;
+  double* const slope = MakeScratch(memory, stride).Row(0);
+  for (int t = 0; t < stride; ++t) slope[t] = t < n ? slopes[t + 1] / (6 * reference) : 0;
+  for (int element = 0; element < count; ++element) {
+    // The derivative by each corner is the cross product of the next two.
+    for (int corner = 0; corner < 3; ++corner) {
+      const size_t p = 3 * static_cast<size_t>(stencils[3 * element + corner]);
+      const size_t q = 3 * static_cast<size_t>(stencils[3 * element + (corner + 1) % 3]);
+      const size_t r = 3 * static_cast<size_t>(stencils[3 * element + (corner + 2) % 3]);
+      for (int axis = 0; axis < 3; ++axis) {
+        const int next = (axis + 1) % 3, after = (axis + 2) % 3;
+        double* const g = rows.gradient + (p + axis) * stride;
+        const double* const q1 = rows.shapes + (q + next) * stride;
+        const double* const q2 = rows.shapes + (q + after) * stride;
+        const double* const r1 = rows.shapes + (r + next) * stride;
+        const double* const r2 = rows.shapes + (r + after) * stride;
+        SHAPESPACE_INDEPENDENT
+        for (int t = 0; t < stride; ++t) g[t] += slope[t] * (q1[t] * r2[t] - q2[t] * r1[t]);
+      }
+    }
+  }
 }
 
 }  // namespace shapespace::internal

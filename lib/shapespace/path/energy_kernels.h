@@ -14,6 +14,7 @@ struct PathRows {
   const double* last;
   int inner;
   int stride;
+  bool free_end;  ///< `last` repeats the last of the inner shapes, of which nothing goes on
 };
 
 /// Doubles of scratch memory that a kernel needs.
@@ -32,14 +33,22 @@ double PositionKernel(const PathRows& rows, const int* stencils, const double* w
                       double* scratch);
 
 /// `ends` holds the functor's two values at the first and at the last shape, 4 numbers an element.
+/// Those at the last are not read if the end is free.
 double DihedralKernel(const PathRows& rows, const int* stencils, const double* weights,
                       const double* ends, int count, double normal_epsilon_squared,
                       double edge_epsilon_squared, double* scratch);
 
 /// `ends` holds the functor's three values at the first and at the last shape, 6 numbers an
-/// element.
+/// element. Those at the last are not read if the end is free.
 double TriangleStrainKernel(const PathRows& rows, const int* stencils, const double* weights,
                             const double* ends, int count, double epsilon_squared, double* scratch);
+
+/// Volume: adds to `values`, inner + 2 numbers, what elements [0, count) enclose at each time.
+void AddVolumes(const PathRows& rows, const int* stencils, int count, double reference,
+                double* values, double* scratch);
+/// Adds the gradient of sum_t slopes[t] V_t over the inner times, `slopes` as long as `values`.
+void AddVolumeGradients(const PathRows& rows, const int* stencils, int count, double reference,
+                        const double* slopes, double* scratch);
 
 }  // namespace shapespace::internal
 

@@ -63,10 +63,17 @@ double RemainingDecrease(PathEnergy* energy, Preconditioner* preconditioner,
 MinimiseResult MinimiseLbfgs(const Objective& energy, ChangeOfVariables* variables,
                              const MinimiseOptions& options, std::vector<double>* unknowns);
 
+/// result = (about the inverse of the Hessian) gradient, on a PathEnergy's arrays, which may be the
+/// same; `unit` as in Preconditioner::Apply.
+using Precondition = std::function<void(const double* gradient, double unit, double* result)>;
+
 /// L-BFGS of ours (Nocedal and Wright, Numerical Optimization, algorithm 7.4), for large problems:
 /// as many vectors as twice the rank and three, every pass over them on all threads, the
-/// preconditioner applied once an iteration. Bitwise the same for any number of threads.
+/// preconditioner applied once an iteration. Bitwise the same for any number of threads. Unknowns
+/// whose gradient and preconditioned gradient are always zero stay as they are.
 /// \throw SolverError if the energy is not finite at the start.
+MinimiseResult MinimiseThreadedLbfgs(const Objective& energy, const Precondition& precondition,
+                                     const MinimiseOptions& options, std::vector<double>* unknowns);
 MinimiseResult MinimiseThreadedLbfgs(PathEnergy* energy, Preconditioner* preconditioner,
                                      const MinimiseOptions& options, std::vector<double>* unknowns);
 

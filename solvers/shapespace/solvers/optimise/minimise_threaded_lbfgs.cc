@@ -23,10 +23,10 @@ constexpr double kNothingLeft = 1e-3;
 // all sums of a walk are one pass over memory, and all dot products of it another.
 class ThreadedLbfgs {
  public:
-  ThreadedLbfgs(PathEnergy* energy, Preconditioner* preconditioner, const MinimiseOptions& options,
-                std::vector<double>* unknowns)
-      : energy_(*energy),
-        preconditioner_(*preconditioner),
+  ThreadedLbfgs(const Objective& energy, const Precondition& precondition,
+                const MinimiseOptions& options, std::vector<double>* unknowns)
+      : energy_(energy),
+        precondition_(precondition),
         options_(options),
         x_(*unknowns),
         size_(unknowns->size()),
@@ -61,12 +61,12 @@ class ThreadedLbfgs {
 
   double Evaluate(const std::vector<double>& unknowns, std::vector<double>* gradient) {
     ++result_.evaluations;
-    return energy_.Evaluate(unknowns.data(), gradient->data());
+    return energy_(unknowns.data(), gradient->data());
   }
 
   // Half the product of the gradient and the preconditioned gradient.
   double SteepestDecrease() {
-    preconditioner_.Apply(gradient_.data(), unit_, work_.data());
+    precondition_(gradient_.data(), unit_, work_.data());
     return 0.5 * ForChunks(size_, 1, [&](size_t begin, size_t count, double* sums) {
              sums[0] += Dot(&gradient_[begin], &work_[begin], count);
            })[0];
@@ -117,7 +117,7 @@ class ThreadedLbfgs {
       std::copy_n(&gradient_[begin], count, q);
       for (int i = 0; i < pairs; ++i) Add(-first[i], &history_[i].change[begin], q, count);
     });
-    preconditioner_.Apply(work_.data(), unit_, work_.data());
+    precondition_(work_.data(), unit_, work_.data());
     products = ForChunks(size_, pairs, [&](size_t begin, size_t count, double* sums) {
       for (int i = 0; i < pairs; ++i) {
         sums[i] += Dot(&history_[i].change[begin], &work_[begin], count);
@@ -211,8 +211,8 @@ class ThreadedLbfgs {
     return true;
   }
 
-  PathEnergy& energy_;
-  Preconditioner& preconditioner_;
+  const Objective& energy_;
+  const Precondition& precondition_;
   const MinimiseOptions& options_;
   std::vector<double>& x_;
   const size_t size_;
@@ -234,10 +234,21 @@ double RemainingDecrease(PathEnergy* energy, Preconditioner* preconditioner,
   return 0.5 * Dot(gradient.data(), step.data(), step.size()) / value;
 }
 
+MinimiseResult MinimiseThreadedLbfgs(const Objective& energy, const Precondition& precondition,
+                                     const MinimiseOptions& options,
+                                     std::vector<double>* unknowns) {
+  return ThreadedLbfgs(energy, precondition, options, unknowns).Run();
+}
+
 MinimiseResult MinimiseThreadedLbfgs(PathEnergy* energy, Preconditioner* preconditioner,
                                      const MinimiseOptions& options,
                                      std::vector<double>* unknowns) {
-  return ThreadedLbfgs(energy, preconditioner, options, unknowns).Run();
+  return MinimiseThreadedLbfgs(
+      ObjectiveOf(energy),
+      [&](const double* gradient, double unit, double* result) {
+        preconditioner->Apply(gradient, unit, result);
+      },
+      options, unknowns);
 }
 
 }  // namespace shapespace::internal
