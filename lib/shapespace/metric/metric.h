@@ -48,6 +48,10 @@ struct MetricOptions {
   /// As isometric as possible, by strains: paths between poses are much as under `Isometric`, and
   /// can be continued without end.
   static MetricOptions Strain();
+  /// For moving parts of a mesh by handles: stretching as lengths and as strains in equal parts,
+  /// and no cost of position. A closed mesh is the skin of a solid body, stiff in bending, whose
+  /// volume counts; an open one is a sheet.
+  static MetricOptions Deformation(const Connectivity& connectivity);
   /// As rigid as possible: (3) + lambda (5).
   static MetricOptions Rigid();
   /// The paper's setting: isometric 1 with weight w_e = 1 for every edge, lambda 0.001, no bending,

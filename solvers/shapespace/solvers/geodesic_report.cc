@@ -7,10 +7,7 @@
 #include <shapespace/solvers/report.h>
 
 namespace shapespace {
-namespace {
-
-using internal::Format;
-using internal::JsonNumber;
+namespace internal {
 
 const char* Name(Termination termination) {
   switch (termination) {
@@ -26,7 +23,11 @@ const char* Name(Termination termination) {
   return "NOT CONVERGED: cancelled";
 }
 
-}  // namespace
+}  // namespace internal
+
+using internal::Format;
+using internal::JsonNumber;
+using internal::Name;
 
 std::string GeodesicSummary::BriefReport() const {
   std::string ratio = std::isfinite(Ratio()) ? Format("%.4f", Ratio()) : "n/a";

@@ -7,6 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <shapespace/path/shape_error.h>
+#include <shapespace/solvers/geodesic.h>
+
 // Private: what the reports of all solvers are written with.
 
 namespace shapespace::internal {
@@ -22,6 +25,22 @@ std::string Format(const char* format, Arguments... arguments) {
 /// JSON knows no NaN: a figure that does not exist is null.
 inline nlohmann::ordered_json JsonNumber(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+/// How a solve ended, in words.
+const char* Name(Termination termination);
+
+inline std::string VolumeText(const ShapeError& error) {
+  return std::isfinite(error.volume) ? Format("volume %+.3g%%", 100 * error.volume)
+                                     : "volume n/a (the mesh is not closed)";
+}
+
+inline nlohmann::ordered_json ToJson(const ShapeError& error) {
+  return {{"edge_rms", error.edge_rms},
+          {"edge_p99", error.edge_p99},
+          {"edge_max", error.edge_max},
+          {"volume", JsonNumber(error.volume)},
+          {"inverted_hinges", error.inverted_hinges}};
 }
 
 }  // namespace shapespace::internal

@@ -1,122 +1,15 @@
-#include <cmath>
-#include <memory>
-#include <string>
-#include <type_traits>
-
-#include <ceres/problem.h>
-#include <ceres/solver.h>
-
-#include <shapespace/base/error.h>
-#include <shapespace/solvers/cost/segment_cost.h>
-#include <shapespace/solvers/optimise/keep_going.h>
 #include <shapespace/solvers/optimise/minimise.h>
+#include <shapespace/solvers/optimise/residual_blocks.h>
 
 namespace shapespace::internal {
-namespace {
-
-// Adds the residual blocks of all segments for one feature.
-template <typename Feature>
-void AddFeature(const Feature& feature, const Metric& metric, double quartic_weight,
-                std::vector<Shape>* shapes, ceres::Problem* problem) {
-  const int num_vertices = metric.connectivity->NumVertices();
-  for (size_t i = 0; i + 1 < shapes->size(); ++i) {
-    Shape& from = (*shapes)[i];
-    Shape& to = (*shapes)[i + 1];
-    std::vector<double*> blocks;
-    if constexpr (Feature::kSum) {
-      using Segment = SumSegment<Feature>;
-      if (num_vertices > kMaxDenseVertices) {
-        throw InvalidOptions("volume: couples all vertices; above " +
-                             std::to_string(kMaxDenseVertices) + " vertices use the solver kLbfgs");
-      }
-      auto* const cost = new ceres::DynamicAutoDiffCostFunction<Segment>(
-          new Segment{feature, num_vertices, std::sqrt(feature.weights(0))});
-      for (Shape* shape : {&from, &to}) {
-        for (int v = 0; v < num_vertices; ++v) {
-          cost->AddParameterBlock(3);
-          blocks.push_back(shape->col(v).data());
-        }
-      }
-      cost->SetNumResiduals(1);
-      problem->AddResidualBlock(cost, nullptr, blocks);
-    } else {
-      for (int e = 0; e < feature.stencils.cols(); ++e) {
-        const double root = std::sqrt(feature.weights(e));
-        blocks.clear();
-        for (Shape* shape : {&from, &to}) {
-          for (int k = 0; k < Feature::kVertices; ++k) {
-            blocks.push_back(shape->col(feature.stencils(k, e)).data());
-          }
-        }
-        ceres::CostFunction* cost = nullptr;
-        if constexpr (Feature::kTrapezoid) {
-          if (metric.options.discretization == Discretization::kTrapezoid) {
-            cost = MakeSegmentCost<Feature::kVertices>(
-                TrapezoidSegment{root, std::sqrt(quartic_weight)});
-          }
-        }
-        if (cost == nullptr) {
-          cost = MakeSegmentCost<Feature::kVertices>(FeatureSegment<Feature>{feature, root});
-        }
-        problem->AddResidualBlock(cost, nullptr, blocks);
-      }
-    }
-  }
-}
-
-}  // namespace
 
 MinimiseResult MinimiseTrustRegion(const Metric& metric, double quartic_weight,
                                    const MinimiseOptions& options, std::vector<Shape>* shapes) {
-  ceres::Problem problem;
-  for (const AnyFeature& any : metric.features) {
-    std::visit(
-        [&](const auto& feature) { AddFeature(feature, metric, quartic_weight, shapes, &problem); },
-        any);
-  }
-  Eigen::Matrix<double, 6, Eigen::Dynamic> motions;
-  if (metric.rigid.Active()) {
-    motions.setZero(6, shapes->size() - 1);
-    for (size_t i = 0; i + 1 < shapes->size(); ++i) {
-      for (int v = 0; v < metric.connectivity->NumVertices(); ++v) {
-        problem.AddResidualBlock(new ceres::AutoDiffCostFunction<RigidSegment, 3, 3, 3, 6>(
-                                     new RigidSegment{std::sqrt(metric.rigid.weights(v))}),
-                                 nullptr, (*shapes)[i].col(v).data(),
-                                 (*shapes)[i + 1].col(v).data(), motions.col(i).data());
-      }
-    }
-  }
-  for (Shape* end : {&shapes->front(), &shapes->back()}) {
-    for (int v = 0; v < end->cols(); ++v) {
-      double* const block = end->col(v).data();
-      if (problem.HasParameterBlock(block)) problem.SetParameterBlockConstant(block);
-    }
-  }
-  ceres::Solver::Options ceres_options;
-  ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  ceres_options.max_num_iterations = options.max_iterations;
-  ceres_options.function_tolerance = options.tolerance;
-  ceres_options.gradient_tolerance = 0;
-  ceres_options.parameter_tolerance = 0;
-  ceres_options.logging_type = ceres::SILENT;
-  KeepGoing keep_going(options.keep_going);
-  ceres_options.callbacks.push_back(&keep_going);
-  ceres::Solver::Summary summary;
-  ceres::Solve(ceres_options, &problem, &summary);
-
-  MinimiseResult result;
-  result.iterations = static_cast<int>(summary.iterations.size()) - 1;
-  result.evaluations = summary.num_residual_evaluations;
-  result.initial_energy = 4 * summary.initial_cost;  // Ceres' cost is a quarter of the energy
-  result.energy = 4 * summary.final_cost;
-  if (keep_going.Stopped()) {
-    result.stop = Stop::kCancelled;
-  } else if (summary.termination_type == ceres::CONVERGENCE) {
-    result.stop = Stop::kConverged;
-  } else if (summary.termination_type == ceres::NO_CONVERGENCE) {
-    result.stop = Stop::kMaxIterations;
-  }
-  return result;
+  ResidualBlocks blocks;
+  blocks.AddPathEnergy(metric, quartic_weight, shapes);
+  blocks.Fix(&shapes->front());
+  blocks.Fix(&shapes->back());
+  return blocks.Minimise(options);
 }
 
 }  // namespace shapespace::internal

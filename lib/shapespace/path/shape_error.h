@@ -1,0 +1,28 @@
+#ifndef SHAPESPACE_PATH_SHAPE_ERROR_H_
+#define SHAPESPACE_PATH_SHAPE_ERROR_H_
+
+#include <memory>
+
+#include <shapespace/mesh/shape.h>
+#include <shapespace/metric/metric.h>
+
+namespace shapespace {
+
+/// How far a shape is from another of the same mesh in what rigid motion does not change.
+struct ShapeError {
+  /// Of | |e| / |e_reference| - 1 | over all edges: root mean square weighted by area, 99th
+  /// percentile and maximum. Edges shorter than a thousandth of the mesh's are left out.
+  double edge_rms = 0, edge_p99 = 0, edge_max = 0;
+  /// V / V_reference - 1; not a number where the mesh is not closed.
+  double volume = 0;
+  /// Hinges whose angle differs by more than 90 degrees.
+  int inverted_hinges = 0;
+};
+
+/// Of `shape` against `reference`, both 3 x m and in one unit, whichever.
+ShapeError CompareShapes(const std::shared_ptr<const Metric>& metric, const Shape& reference,
+                         const Shape& shape);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_PATH_SHAPE_ERROR_H_

@@ -1,0 +1,496 @@
+#include <shapespace/solvers/deformation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/base/stopwatch.h>
+#include <shapespace/hierarchy/hierarchy.h>
+#include <shapespace/mesh/topology.h>
+#include <shapespace/path/align.h>
+#include <shapespace/solvers/check_options.h>
+#include <shapespace/solvers/optimise/handle_targets.h>
+#include <shapespace/solvers/optimise/pulled_path.h>
+#include <shapespace/solvers/optimise/workload.h>
+
+namespace shapespace {
+namespace {
+
+using internal::HandleTargets;
+using internal::PulledPath;
+
+// While handles go their way on the coarsest level, no handle turns by more than this in a step,
+// and there are at least so many steps.
+constexpr double kFollowTurn = M_PI / 12;
+constexpr int kFollowSteps = 10;
+
+// A solve goes on from the last one if no held vertex, at any time of the path, is farther from
+// where it was than this share of the unit, the root of the body's area.
+constexpr double kLittle = 0.1;
+
+// Where another level follows, a solve may stop when a step is expected to gain less than this
+// share of what was gained.
+constexpr double kEnough = 1e-3;
+
+// Of the mesh itself: shares of what is left mean nothing where all of it can be gained.
+constexpr double kAllGained = 1e-12;
+
+// A hard handle that is off by more than this share of the unit is told of: others are met to
+// rounding.
+constexpr double kContradiction = 1e-9;
+
+Termination Translate(internal::Stop stop) {
+  switch (stop) {
+    case internal::Stop::kConverged:
+      return Termination::kConverged;
+    case internal::Stop::kMaxIterations:
+      return Termination::kMaxIterations;
+    case internal::Stop::kCancelled:
+      return Termination::kCancelled;
+    case internal::Stop::kStalled:
+      break;
+  }
+  return Termination::kStalled;
+}
+
+}  // namespace
+
+void DeformationOptions::Validate() const {
+  if (metric) {
+    metric->Validate();
+    if (metric->rigid > 0) {
+      throw InvalidOptions("rigid: a deformation takes no rigid metric; use rigid 0");
+    }
+    if (metric->discretization != Discretization::kMidpoint) {
+      throw InvalidOptions("discretization: a deformation takes the midpoint form only");
+    }
+  }
+  if (shapes < 1) throw InvalidOptions("shapes: must be 1 or more");
+  if (!(lambda > 0) || !(lambda <= 1)) throw InvalidOptions("lambda: must be in (0, 1]");
+  internal::CheckTolerance(tolerance);
+  internal::CheckMaxIterations(max_iterations);
+  HierarchyOptions{coarsest, {}}.Validate();
+}
+
+// Keeps what a solve leaves for the next.
+class Deformer::Solver {
+ public:
+  Solver(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
+         const DeformationOptions& options);
+
+  // `end` is where the last shape starts, in the user's unit; without one it follows the handles.
+  DeformationResult Solve(const std::vector<Handle>& handles, const Shape* end, Progress* progress);
+
+ private:
+  struct Held {
+    int column;           // of the places of all held vertices
+    int vertex;           // of the level
+    bool carried, given;  // as in HandleTargets
+  };
+  struct Level {
+    PulledPath path;
+    std::vector<Held> held;
+    std::vector<int> component;  // of each vertex; -1 for none
+  };
+
+  void Prepare(const HandleTargets& targets, DeformationSummary* summary);
+  bool IsNear(const std::vector<Shape>& places) const;
+  std::vector<Shape> Cascade(const HandleTargets& targets, const std::vector<Shape>& places,
+                             const Shape* end, Progress* progress, internal::Workload* workload,
+                             DeformationSummary* summary);
+  std::vector<Shape> Follow(const HandleTargets& targets, Progress* progress);
+  std::vector<Shape> StartAt(const Shape& end, const Shape& places, Progress* progress);
+  void Relax(const Shape& places, size_t level, const char* start, internal::Workload* workload,
+             std::vector<Shape>* shapes, DeformationSummary* summary);
+  void Assess(const std::vector<Handle>& handles, const HandleTargets& targets,
+              const std::vector<Shape>& shapes, DeformationResult* result);
+  void Warn(const HandleTargets& targets, DeformationSummary* summary) const;
+  internal::MinimiseOptions Minimise() const;
+
+  static void MoveComponents(const Level& level, const Shape& places, Shape* shape);
+  static void GoAlong(const Level& level, const std::vector<Shape>& places,
+                      std::vector<Shape>* shapes);
+  static Shape Target(const Level& level, const Shape& places);
+
+  const DeformationOptions options_;
+  const std::shared_ptr<const Connectivity> connectivity_;
+  const Shape given_;  // the mesh, in the user's unit
+  std::shared_ptr<const Metric> metric_;
+  Eigen::Vector3d origin_;  // in the user's unit, of all shapes below
+  Shape rest_;              // the mesh, in the metric's unit
+  std::vector<int> component_;
+  std::optional<Hierarchy> hierarchy_;
+  std::vector<Level> levels_;
+  // Of the last solve.
+  std::optional<HandleTargets> last_targets_;
+  std::vector<Shape> last_places_, last_shapes_;
+};
+
+Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
+                         const DeformationOptions& options)
+    : options_(options), connectivity_(connectivity), given_(rest) {
+  options.Validate();
+  metric_ = std::make_shared<const Metric>(FreezeMetric(
+      options.metric.value_or(MetricOptions::Deformation(*connectivity)), connectivity, {rest}));
+  origin_ = Centroid(rest, metric_->vertex_area);
+  rest_ = (rest.colwise() - origin_) / metric_->unit;
+  component_ = ComputeTopology(*connectivity).component;
+}
+
+DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, const Shape* end,
+                                          Progress* progress) {
+  const Stopwatch total;
+  ReportProgress(progress, "deforming", 0, 0);
+  DeformationResult result;
+  DeformationSummary& summary = result.summary;
+  HandleTargets targets(handles, given_, origin_, metric_->unit);
+  std::vector<Shape> places;  // of held vertices, at the times of the shapes
+  for (int i = 0; i <= options_.shapes; ++i) {
+    places.push_back(targets.At(static_cast<double>(i) / options_.shapes));
+  }
+  const bool alike = last_targets_ && targets.HoldAlike(*last_targets_);
+  if (!alike) Prepare(targets, &summary);
+
+  internal::Workload workload(progress, options_.tolerance, options_.max_iterations);
+  const Stopwatch solving;
+  summary.warm = alike && end == nullptr && IsNear(places);
+  std::vector<Shape> shapes;
+  if (summary.warm) {
+    workload.Plan(connectivity_->NumVertices(), options_.shapes, true);
+    shapes = last_shapes_;
+    GoAlong(levels_.back(), places, &shapes);
+    Relax(places.back(), levels_.size() - 1, "warm", &workload, &shapes, &summary);
+  } else {
+    shapes = Cascade(targets, places, end, progress, &workload, &summary);
+  }
+  summary.solve_seconds = solving.Seconds();
+  summary.termination =
+      workload.Stopped() ? Termination::kCancelled : summary.levels.back().termination;
+  Assess(handles, targets, shapes, &result);
+  last_targets_.emplace(std::move(targets));
+  last_places_ = std::move(places);
+  last_shapes_ = std::move(shapes);
+  summary.total_seconds = total.Seconds();
+  return result;
+}
+
+// Hierarchy and factors for handles that hold other vertices, or in another way, than those before.
+void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary* summary) {
+  last_targets_.reset();
+  levels_.clear();
+  const Stopwatch building;
+  hierarchy_.emplace(connectivity_, std::vector<Shape>{rest_},
+                     HierarchyOptions{options_.coarsest, targets.Pins()});
+  summary->hierarchy_seconds = building.Seconds();
+  const Stopwatch factoring;
+  const double strength = 2 * (1 - options_.lambda) / options_.lambda;
+  for (int i = 0; i < hierarchy_->NumLevels(); ++i) {
+    const std::vector<int>& vertices = hierarchy_->Vertices(i);
+    Shape rest = hierarchy_->Restrict(rest_, i);
+    auto metric = metric_;
+    if (i + 1 < hierarchy_->NumLevels()) {
+      metric = std::make_shared<const Metric>(
+          FreezeMetric(metric_->options, hierarchy_->LevelConnectivity(i), {rest}, 1));
+    }
+    internal::Grip grip = targets.Restrict(vertices, metric->vertex_area, strength);
+    Level level = {PulledPath(metric, std::move(rest), std::move(grip)), {}, {}};
+    for (int v : vertices) level.component.push_back(component_[v]);
+    for (size_t k = 0; k < targets.Held().size(); ++k) {
+      const auto found = std::lower_bound(vertices.begin(), vertices.end(), targets.Held()[k]);
+      if (found == vertices.end() || *found != targets.Held()[k]) continue;
+      level.held.push_back({static_cast<int>(k), static_cast<int>(found - vertices.begin()),
+                            targets.IsCarried(k), targets.IsGiven(k)});
+    }
+    levels_.push_back(std::move(level));
+  }
+  summary->factor_seconds = factoring.Seconds();
+}
+
+// Whether the places of held vertices have changed by little, at all times.
+bool Deformer::Solver::IsNear(const std::vector<Shape>& places) const {
+  for (size_t i = 0; i < places.size(); ++i) {
+    if (((places[i] - last_places_[i]).colwise().squaredNorm().array() > kLittle * kLittle).any()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<Shape> Deformer::Solver::Cascade(const HandleTargets& targets,
+                                             const std::vector<Shape>& places, const Shape* end,
+                                             Progress* progress, internal::Workload* workload,
+                                             DeformationSummary* summary) {
+  for (const Level& level : levels_) {
+    workload->Plan(static_cast<int>(level.component.size()), options_.shapes,
+                   &level == &levels_.back());
+  }
+  std::vector<Shape> shapes =
+      end == nullptr ? Follow(targets, progress) : StartAt(*end, places.back(), progress);
+  const char* start = end == nullptr ? "handles" : "given";
+  for (size_t i = 0; i < levels_.size(); ++i) {
+    if (i > 0) {
+      const Shape& rest = levels_[i].path.Rest();
+      std::vector<Shape> lifted(shapes.size(), rest);
+      ParallelFor(static_cast<int>(shapes.size()) - 1, [&](int k) {
+        lifted[k + 1] = hierarchy_->Lift(shapes[k + 1], static_cast<int>(i) - 1, rest, rest, 0);
+      });
+      shapes = std::move(lifted);
+      GoAlong(levels_[i], places, &shapes);
+      start = "lifted";
+    }
+    if (!workload->Stopped()) Relax(places.back(), i, start, workload, &shapes, summary);
+  }
+  return shapes;
+}
+
+internal::MinimiseOptions Deformer::Solver::Minimise() const {
+  internal::MinimiseOptions minimise;
+  minimise.tolerance = options_.tolerance;
+  minimise.max_iterations = options_.max_iterations;
+  return minimise;
+}
+
+// On the coarsest level the handles go their way in small steps; after each the shape is relaxed
+// as if it were the end.
+std::vector<Shape> Deformer::Solver::Follow(const HandleTargets& targets, Progress* progress) {
+  Level& level = levels_.front();
+  const int least =
+      std::max(kFollowSteps, static_cast<int>(std::ceil(targets.GreatestTurn() / kFollowTurn)));
+  const int between = (least + options_.shapes - 1) / options_.shapes;
+  const int steps = between * options_.shapes;
+  internal::MinimiseOptions minimise = Minimise();
+  std::vector<Shape> result = {level.path.Rest()};
+  Shape shape = level.path.Rest();
+  for (int step = 1; step <= steps; ++step) {
+    minimise.keep_going = [&](int, double) {
+      ReportProgress(progress, "following the handles", step, steps);
+      return true;
+    };
+    const Shape places = targets.At(static_cast<double>(step) / steps);
+    MoveComponents(level, places, &shape);
+    std::vector<Shape> pair = {level.path.Rest(), shape};
+    GoAlong(level, {{}, places}, &pair);
+    level.path.Relax(Target(level, places), minimise, &pair);
+    shape = std::move(pair[1]);
+    if (step % between == 0) result.push_back(shape);
+  }
+  return result;
+}
+
+// From a given last shape, relaxed by itself; those before it come out of the first by a geodesic.
+std::vector<Shape> Deformer::Solver::StartAt(const Shape& end, const Shape& places,
+                                             Progress* progress) {
+  Level& level = levels_.front();
+  std::vector<Shape> pair = {level.path.Rest(),
+                             hierarchy_->Restrict((end.colwise() - origin_) / metric_->unit, 0)};
+  internal::MinimiseOptions minimise = Minimise();
+  minimise.keep_going = [&](int, double) {
+    ReportProgress(progress, "deforming", 0, 0);
+    return true;
+  };
+  level.path.Relax(Target(level, places), minimise, &pair);
+  if (options_.shapes == 1) return pair;
+  GeodesicOptions geodesic;
+  geodesic.shapes = options_.shapes - 1;
+  geodesic.tolerance = options_.tolerance;
+  return Interpolate(level.path.GetMetric().connectivity, pair, geodesic, progress).path.Placed();
+}
+
+void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char* start,
+                             internal::Workload* workload, std::vector<Shape>* shapes,
+                             DeformationSummary* summary) {
+  const Stopwatch stopwatch;
+  Level& level = levels_[level_index];
+  const bool finest = level_index + 1 == levels_.size();
+  const int vertices = static_cast<int>(level.component.size());
+  workload->Begin(std::to_string(vertices) + " vertices, " + std::to_string(options_.shapes) +
+                      (options_.shapes == 1 ? " shape" : " shapes"),
+                  vertices, options_.shapes, finest);
+  internal::MinimiseOptions minimise = Minimise();
+  minimise.enough = finest ? kAllGained : kEnough;
+  minimise.keep_going = [&](int iteration, double value) {
+    return workload->GoOn(iteration, value);
+  };
+  const Shape target = Target(level, places);
+  const internal::MinimiseResult result =
+      options_.solver == DeformationOptions::Solver::kTrustRegion
+          ? level.path.RelaxByTrustRegion(target, minimise, shapes)
+          : level.path.Relax(target, minimise, shapes);
+  workload->End();
+  DeformationSummary::Level row;
+  row.vertices = vertices;
+  row.shapes = options_.shapes;
+  row.start = start;
+  row.termination = Translate(result.stop);
+  row.iterations = result.iterations;
+  row.evaluations = result.evaluations;
+  row.initial_value = ScaledEnergy(result.initial_energy, options_.shapes);
+  row.value = ScaledEnergy(result.energy, options_.shapes);
+  row.seconds = stopwatch.Seconds();
+  summary->levels.push_back(row);
+}
+
+// Each connected piece moves rigidly with what is held of it.
+void Deformer::Solver::MoveComponents(const Level& level, const Shape& places, Shape* shape) {
+  std::map<int, std::vector<const Held*>> held;
+  for (const Held& one : level.held) held[level.component[one.vertex]].push_back(&one);
+  std::map<int, RigidMotion> motions;
+  for (const auto& [component, list] : held) {
+    Shape from(3, list.size()), to(3, list.size());
+    for (size_t k = 0; k < list.size(); ++k) {
+      from.col(k) = shape->col(list[k]->vertex);
+      to.col(k) = places.col(list[k]->column);
+    }
+    motions[component] = FitRigidMotion(from, to, Eigen::VectorXd::Ones(from.cols()));
+  }
+  for (int v = 0; v < shape->cols(); ++v) {
+    const auto found = motions.find(level.component[v]);
+    if (level.component[v] >= 0 && found != motions.end()) {
+      shape->col(v) = found->second.rotation * shape->col(v) + found->second.translation;
+    }
+  }
+}
+
+// Moves what is held to its places at the times of the shapes, and takes the rest along.
+void Deformer::Solver::GoAlong(const Level& level, const std::vector<Shape>& places,
+                               std::vector<Shape>* shapes) {
+  const size_t last = shapes->size() - 1;
+  std::vector<Tangent> ways(last, Tangent::Zero(3, level.component.size()));
+  for (size_t i = 1; i <= last; ++i) {
+    for (const Held& held : level.held) {
+      if (i < last && !held.carried) continue;
+      ways[i - 1].col(held.vertex) = places[i].col(held.column) - (*shapes)[i].col(held.vertex);
+    }
+  }
+  const std::vector<Tangent> steps = level.path.Factors().Spread(ways);
+  for (size_t i = 1; i <= last; ++i) {
+    (*shapes)[i] += steps[i - 1];
+    for (const Held& held : level.held) {
+      if (held.carried || (held.given && i == last)) {
+        (*shapes)[i].col(held.vertex) = places[i].col(held.column);
+      }
+    }
+  }
+}
+
+Shape Deformer::Solver::Target(const Level& level, const Shape& places) {
+  Shape target = Shape::Zero(3, level.component.size());
+  for (const Held& held : level.held) target.col(held.vertex) = places.col(held.column);
+  return target;
+}
+
+void Deformer::Solver::Assess(const std::vector<Handle>& handles, const HandleTargets& targets,
+                              const std::vector<Shape>& shapes, DeformationResult* result) {
+  DeformationSummary& summary = result->summary;
+  summary.vertices = connectivity_->NumVertices();
+  summary.triangles = connectivity_->NumTriangles();
+  summary.shapes = options_.shapes;
+  summary.metric = Describe(metric_->options);
+  summary.unit = metric_->unit;
+  summary.lambda = options_.lambda;
+  summary.threads = Threads();
+  summary.energy = ScaledEnergy(levels_.back().path.Energy(shapes), options_.shapes);
+  summary.error = CompareShapes(metric_, shapes.front(), shapes.back());
+  for (int i = 0; i < hierarchy_->NumLevels(); ++i) {
+    summary.hierarchy.push_back(static_cast<int>(hierarchy_->Vertices(i).size()));
+  }
+  std::vector<Shape> placed;
+  for (const Shape& shape : shapes) placed.push_back((metric_->unit * shape).colwise() + origin_);
+  for (const Handle& handle : handles) {
+    DeformationSummary::HandleResult row;
+    row.name = handle.name;
+    row.vertices = static_cast<int>(handle.vertices.size());
+    row.hard = handle.hard;
+    double squares = 0;
+    for (size_t k = 0; k < handle.vertices.size(); ++k) {
+      const int v = handle.vertices[k];
+      const Eigen::Vector3d wanted = handle.positions ? Eigen::Vector3d(handle.positions->col(k))
+                                                      : handle.motion.At(1, given_.col(v));
+      const double distance = (placed.back().col(v) - wanted).norm();
+      squares += distance * distance;
+      row.residual_max = std::max(row.residual_max, distance);
+    }
+    row.residual_rms = std::sqrt(squares / handle.vertices.size());
+    summary.handles.push_back(row);
+  }
+  Warn(targets, &summary);
+
+  Path& path = result->path;
+  path.metric = metric_;
+  AlignedPoses aligned = AlignPoses(*metric_, placed);
+  path.shapes = std::move(aligned.shapes);
+  path.motions = std::move(aligned.motions);
+  for (int i = 0; i <= options_.shapes; ++i) {
+    path.parameters.push_back(static_cast<double>(i) / options_.shapes);
+  }
+  path.poses = {0};
+  path.converged = summary.Converged();
+}
+
+// What a person should look at.
+void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* summary) const {
+  if (summary->termination == Termination::kMaxIterations) {
+    summary->warnings.push_back("out of iterations; raise max_iterations or the tolerance");
+  } else if (summary->termination == Termination::kStalled) {
+    summary->warnings.push_back("stalled: the line search found no better point");
+  } else if (summary->termination == Termination::kCancelled) {
+    summary->warnings.push_back("cancelled: the shapes are the best so far");
+  }
+  std::map<int, std::pair<int, int>> pieces;  // vertices, and the first of them
+  for (size_t v = 0; v < component_.size(); ++v) {
+    if (component_[v] < 0) continue;
+    ++pieces.try_emplace(component_[v], 0, static_cast<int>(v)).first->second.first;
+  }
+  for (int v : targets.Held()) pieces.erase(component_[v]);
+  summary->free_components = static_cast<int>(pieces.size());
+  constexpr int kNamed = 3;
+  int named = 0;
+  for (const auto& [component, piece] : pieces) {
+    if (named++ == kNamed) {
+      summary->warnings.push_back("so do " + std::to_string(pieces.size() - kNamed) + " more");
+      break;
+    }
+    summary->warnings.push_back("no handle holds the connected piece of " +
+                                std::to_string(piece.first) + " vertices whose first is number " +
+                                std::to_string(piece.second + 1) +
+                                " (counted from 1); it stays where it is");
+  }
+  const double far = kContradiction * summary->unit;
+  for (const DeformationSummary::HandleResult& handle : summary->handles) {
+    if (handle.hard && handle.residual_max > far) {
+      summary->warnings.push_back(
+          "the hard handle" + (handle.name.empty() ? "" : " \"" + handle.name + "\"") +
+          " shares vertices with another that wants them elsewhere; they are half way");
+    }
+  }
+}
+
+Deformer::Deformer(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
+                   const DeformationOptions& options)
+    : solver_(std::make_unique<Solver>(connectivity, rest, options)) {}
+Deformer::~Deformer() = default;
+Deformer::Deformer(Deformer&&) noexcept = default;
+Deformer& Deformer::operator=(Deformer&&) noexcept = default;
+
+DeformationResult Deformer::Deform(const std::vector<Handle>& handles, Progress* progress) {
+  return solver_->Solve(handles, nullptr, progress);
+}
+
+DeformationResult Deformer::DeformFrom(const Shape& end, const std::vector<Handle>& handles,
+                                       Progress* progress) {
+  return solver_->Solve(handles, &end, progress);
+}
+
+DeformationResult Deform(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
+                         const std::vector<Handle>& handles, const DeformationOptions& options,
+                         Progress* progress) {
+  return Deformer(connectivity, rest, options).Deform(handles, progress);
+}
+
+}  // namespace shapespace

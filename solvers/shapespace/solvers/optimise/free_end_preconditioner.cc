@@ -1,0 +1,176 @@
+#include <shapespace/solvers/optimise/free_end_preconditioner.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <shapespace/base/parallel.h>
+#include <shapespace/solvers/optimise/preconditioner.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Vertices that one task of a thread takes.
+constexpr int kVerticesPerTask = 512;
+
+template <typename Body>
+void ForVertices(int num_vertices, const Body& body) {
+  ParallelFor((num_vertices + kVerticesPerTask - 1) / kVerticesPerTask, [&](int task) {
+    const int end = std::min(num_vertices, (task + 1) * kVerticesPerTask);
+    for (int v = task * kVerticesPerTask; v < end; ++v) body(v);
+  });
+}
+
+// Numbers in `count` columns' rows, padded as the factor's kernels like them.
+int PaddedWidth(int count) {
+  constexpr int kColumns = CholeskyFactor<float>::kColumns;
+  return (count + kColumns - 1) / kColumns * kColumns;
+}
+
+// The factor of `matrix` + `diagonal`, in which vertices that are given are tied to no other.
+std::shared_ptr<const CholeskyFactor<float>> FactorOf(Eigen::SparseMatrix<double> matrix,
+                                                      const Eigen::VectorXd& diagonal,
+                                                      const std::vector<char>& given) {
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
+      if (entry.row() == column) {
+        entry.valueRef() += diagonal(column);
+      } else if (given[entry.row()] || given[column]) {
+        entry.valueRef() = 0;
+      }
+    }
+  }
+  return std::make_shared<const CholeskyFactor<float>>(CholeskyFactor<double>(matrix));
+}
+
+std::vector<char> Marks(int size, const std::vector<int>& vertices) {
+  std::vector<char> marks(size, 0);
+  for (int v : vertices) marks[v] = 1;
+  return marks;
+}
+
+// Of each vertex its row in the factor.
+std::vector<int> Places(const CholeskyFactor<float>& factor) {
+  std::vector<int> places(factor.Size());
+  for (int i = 0; i < factor.Size(); ++i) places[factor.Permutation()[i]] = i;
+  return places;
+}
+
+}  // namespace
+
+FreeEndFactors::FreeEndFactors(const Metric& metric, const Shape& rest, Grip grip)
+    : grip_(std::move(grip)), scalar_(ScalarMetric(metric, {rest}, 0)) {
+  const int num_vertices = static_cast<int>(rest.cols());
+  given_ = Marks(num_vertices, grip_.carried);
+  between_ = FactorOf(scalar_, Eigen::VectorXd::Zero(num_vertices), given_);
+  for (int v : grip_.landed) given_[v] = 1;
+  const bool same = grip_.landed.empty() && grip_.pull.isZero(0);
+  end_ = same ? between_ : FactorOf(scalar_, 2 * grip_.pull, given_);
+}
+
+size_t FreeEndFactors::NumNonzeros() const {
+  return end_->NumNonzeros() + (between_ == end_ ? 0 : between_->NumNonzeros());
+}
+
+std::vector<Tangent> FreeEndFactors::Spread(const std::vector<Tangent>& ways) const {
+  const int size = end_->Size(), count = static_cast<int>(ways.size());
+  const int width = PaddedWidth(3 * count);
+  const std::vector<int> places = Places(*end_);
+  std::vector<float> work(static_cast<size_t>(end_->WorkRows()) * width, 0.0f);
+  std::vector<double> units(count);
+  for (int i = 0; i < count; ++i) {
+    Tangent given = ways[i];
+    for (int v = 0; v < size; ++v) {
+      if (!given_[v]) given.col(v).setZero();
+    }
+    Eigen::MatrixXd right = -(scalar_.selfadjointView<Eigen::Lower>() * given.transpose());
+    right += 2 * grip_.pull.asDiagonal() * ways[i].transpose();
+    for (int v = 0; v < size; ++v) {
+      if (given_[v]) right.row(v).setZero();
+    }
+    units[i] = right.cwiseAbs().maxCoeff();
+    if (units[i] == 0) units[i] = 1;
+    for (int v = 0; v < size; ++v) {
+      for (int axis = 0; axis < 3; ++axis) {
+        work[static_cast<size_t>(places[v]) * width + 3 * i + axis] =
+            static_cast<float>(right(v, axis) / units[i]);
+      }
+    }
+  }
+  end_->SolveLower(work.data(), width);
+  end_->SolveUpper(work.data(), width);
+  std::vector<Tangent> result = ways;
+  for (int i = 0; i < count; ++i) {
+    for (int v = 0; v < size; ++v) {
+      if (given_[v]) continue;
+      const float* const at = &work[static_cast<size_t>(places[v]) * width + 3 * i];
+      for (int axis = 0; axis < 3; ++axis) result[i](axis, v) = units[i] * at[axis];
+    }
+  }
+  return result;
+}
+
+FreeEndPreconditioner::FreeEndPreconditioner(const FreeEndFactors& factors,
+                                             const PathEnergy& energy)
+    : factors_(factors),
+      energy_(energy),
+      between_width_(PaddedWidth(3 * energy.Inner())),
+      end_width_(PaddedWidth(3)),
+      between_place_(Places(*factors.between_)),
+      end_place_(Places(*factors.end_)),
+      carried_(Marks(factors.end_->Size(), factors.grip_.carried)),
+      between_work_(static_cast<size_t>(factors.between_->WorkRows()) * between_width_),
+      end_work_(static_cast<size_t>(factors.end_->WorkRows()) * end_width_) {}
+
+void FreeEndPreconditioner::Apply(const double* gradient, double unit, double* result) {
+  const int n = energy_.Inner(), stride = energy_.Stride(), size = factors_.end_->Size();
+  const double scale = 1 / unit, root = 1 / std::sqrt(static_cast<double>(n));
+  // The gradient by the differences y_t is a sum over all later times. Its mean over t is for the
+  // end's factor, in the orthonormal direction (1, ..., 1) / sqrt n; the rest for the other.
+  ForVertices(size, [&](int v) {
+    const double* const g = gradient + 3 * static_cast<size_t>(energy_.Row(v)) * stride;
+    float* const end = &end_work_[static_cast<size_t>(end_place_[v]) * end_width_];
+    float* const between = &between_work_[static_cast<size_t>(between_place_[v]) * between_width_];
+    std::fill(end, end + end_width_, 0.0f);
+    std::fill(between, between + between_width_, 0.0f);
+    if (carried_[v]) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      double later = 0, sum = 0;
+      for (int t = n - 1; t >= 0; --t) {
+        later += scale * g[axis * stride + t];
+        sum += later;
+      }
+      if (!factors_.given_[v]) end[axis] = static_cast<float>(sum * root);
+      later = 0;
+      for (int t = n - 1; t >= 0; --t) {
+        later += scale * g[axis * stride + t];
+        between[axis * n + t] = static_cast<float>(later - sum / n);
+      }
+    }
+  });
+  factors_.end_->SolveLower(end_work_.data(), end_width_);
+  factors_.end_->SolveUpper(end_work_.data(), end_width_);
+  if (n > 1) {
+    factors_.between_->SolveLower(between_work_.data(), between_width_);
+    factors_.between_->SolveUpper(between_work_.data(), between_width_);
+  }
+  ForVertices(size, [&](int v) {
+    double* const out = result + 3 * static_cast<size_t>(energy_.Row(v)) * stride;
+    const float* const end = &end_work_[static_cast<size_t>(end_place_[v]) * end_width_];
+    const float* const between =
+        &between_work_[static_cast<size_t>(between_place_[v]) * between_width_];
+    std::fill(out, out + 3 * stride, 0.0);
+    if (carried_[v]) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double share = factors_.given_[v] ? 0 : end[axis] * root;
+      double sum = 0;
+      for (int t = 0; t < n; ++t) {
+        sum += share + between[axis * n + t];
+        out[axis * stride + t] = unit * sum;
+      }
+      if (factors_.given_[v]) out[axis * stride + n - 1] = 0;  // but for rounding it is
+    }
+  });
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,51 @@
+#ifndef SHAPESPACE_SOLVERS_OPTIMISE_PULLED_PATH_H_
+#define SHAPESPACE_SOLVERS_OPTIMISE_PULLED_PATH_H_
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <shapespace/metric/metric.h>
+#include <shapespace/path/energy.h>
+#include <shapespace/solvers/optimise/free_end_preconditioner.h>
+#include <shapespace/solvers/optimise/minimise.h>
+
+namespace shapespace::internal {
+
+/// A path from a given shape to one that is held and pulled at, on one mesh: minimises
+///   E(P) + (1 / n) sum_p pull_p |p_n - target_p|^2
+/// over all of its n + 1 shapes but the first, in which some vertices are given (Grip).
+class PulledPath {
+ public:
+  /// In the metric's unit; `rest` is the first shape of all paths.
+  PulledPath(std::shared_ptr<const Metric> metric, Shape rest, Grip grip)
+      : metric_(std::move(metric)), rest_(std::move(rest)), factors_(*metric_, rest_, grip) {}
+
+  const Metric& GetMetric() const { return *metric_; }
+  const Shape& Rest() const { return rest_; }
+  const FreeEndFactors& Factors() const { return factors_; }
+
+  /// The energy of a path of any number of shapes, unscaled.
+  double Energy(const std::vector<Shape>& shapes);
+
+  /// Relaxes `shapes`, the first of which is `Rest`, by L-BFGS; what is given stays where `shapes`
+  /// have it. `target` has the places that the last shape is pulled to, and anything elsewhere.
+  MinimiseResult Relax(const Shape& target, const MinimiseOptions& options,
+                       std::vector<Shape>* shapes);
+  /// The same by Ceres' trust region on residual blocks, differentiated automatically: for small
+  /// meshes, and the oracle of the other. \throw InvalidOptions as MinimiseTrustRegion.
+  MinimiseResult RelaxByTrustRegion(const Shape& target, const MinimiseOptions& options,
+                                    std::vector<Shape>* shapes) const;
+
+ private:
+  PathEnergy& EnergyOf(int segments);
+
+  std::shared_ptr<const Metric> metric_;
+  Shape rest_;
+  FreeEndFactors factors_;
+  std::optional<PathEnergy> energy_;  // of the number of shapes used last
+};
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_SOLVERS_OPTIMISE_PULLED_PATH_H_
