@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -30,8 +31,8 @@ using internal::PulledPath;
 constexpr double kFollowTurn = M_PI / 12;
 constexpr int kFollowSteps = 10;
 
-// A solve goes on from the last one if no held vertex, at any time of the path, is farther from
-// where it was than this share of the unit, the root of the body's area.
+// A solve goes on from the last one if no handle turns by more than this beside it, in radians, and
+// none of its vertices is farther away, in the unit that is the root of the body's area.
 constexpr double kLittle = 0.1;
 
 // Where another level follows, a solve may stop when a step is expected to gain less than this
@@ -100,7 +101,6 @@ class Deformer::Solver {
   };
 
   void Prepare(const HandleTargets& targets, DeformationSummary* summary);
-  bool IsNear(const std::vector<Shape>& places) const;
   std::vector<Shape> Cascade(const HandleTargets& targets, const std::vector<Shape>& places,
                              const Shape* end, Progress* progress, internal::Workload* workload,
                              DeformationSummary* summary);
@@ -129,7 +129,7 @@ class Deformer::Solver {
   std::vector<Level> levels_;
   // Of the last solve.
   std::optional<HandleTargets> last_targets_;
-  std::vector<Shape> last_places_, last_shapes_;
+  std::vector<Shape> last_shapes_;
 };
 
 Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
@@ -159,7 +159,7 @@ DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, co
 
   internal::Workload workload(progress, options_.tolerance, options_.max_iterations);
   const Stopwatch solving;
-  summary.warm = alike && end == nullptr && IsNear(places);
+  summary.warm = alike && end == nullptr && targets.IsNear(*last_targets_, kLittle);
   std::vector<Shape> shapes;
   if (summary.warm) {
     workload.Plan(connectivity_->NumVertices(), options_.shapes, true);
@@ -174,7 +174,6 @@ DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, co
       workload.Stopped() ? Termination::kCancelled : summary.levels.back().termination;
   Assess(handles, targets, shapes, &result);
   last_targets_.emplace(std::move(targets));
-  last_places_ = std::move(places);
   last_shapes_ = std::move(shapes);
   summary.total_seconds = total.Seconds();
   return result;
@@ -190,6 +189,10 @@ void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary*
   summary->hierarchy_seconds = building.Seconds();
   const Stopwatch factoring;
   const double strength = 2 * (1 - options_.lambda) / options_.lambda;
+  std::set<int> holds;  // connected pieces
+  for (int v : targets.Held()) {
+    if (component_[v] >= 0) holds.insert(component_[v]);
+  }
   for (int i = 0; i < hierarchy_->NumLevels(); ++i) {
     const std::vector<int>& vertices = hierarchy_->Vertices(i);
     Shape rest = hierarchy_->Restrict(rest_, i);
@@ -199,8 +202,13 @@ void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary*
           FreezeMetric(metric_->options, hierarchy_->LevelConnectivity(i), {rest}, 1));
     }
     internal::Grip grip = targets.Restrict(vertices, metric->vertex_area, strength);
-    Level level = {PulledPath(metric, std::move(rest), std::move(grip)), {}, {}};
-    for (int v : vertices) level.component.push_back(component_[v]);
+    std::vector<int> component;
+    for (int v : vertices) component.push_back(component_[v]);
+    // What nothing holds stays where it is, also where volume would have it move.
+    for (size_t v = 0; v < vertices.size(); ++v) {
+      if (holds.count(component[v]) == 0) grip.carried.push_back(static_cast<int>(v));
+    }
+    Level level = {PulledPath(metric, std::move(rest), std::move(grip)), {}, std::move(component)};
     for (size_t k = 0; k < targets.Held().size(); ++k) {
       const auto found = std::lower_bound(vertices.begin(), vertices.end(), targets.Held()[k]);
       if (found == vertices.end() || *found != targets.Held()[k]) continue;
@@ -210,16 +218,6 @@ void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary*
     levels_.push_back(std::move(level));
   }
   summary->factor_seconds = factoring.Seconds();
-}
-
-// Whether the places of held vertices have changed by little, at all times.
-bool Deformer::Solver::IsNear(const std::vector<Shape>& places) const {
-  for (size_t i = 0; i < places.size(); ++i) {
-    if (((places[i] - last_places_[i]).colwise().squaredNorm().array() > kLittle * kLittle).any()) {
-      return false;
-    }
-  }
-  return true;
 }
 
 std::vector<Shape> Deformer::Solver::Cascade(const HandleTargets& targets,
@@ -256,8 +254,9 @@ internal::MinimiseOptions Deformer::Solver::Minimise() const {
   return minimise;
 }
 
-// On the coarsest level the handles go their way in small steps; after each the shape is relaxed
-// as if it were the end.
+// On the coarsest level the handles go their way in small steps. Each adds a shape to the path,
+// which is then relaxed as a whole: a path remembers how far it has turned, where a single shape
+// that is wound up may slip back.
 std::vector<Shape> Deformer::Solver::Follow(const HandleTargets& targets, Progress* progress) {
   Level& level = levels_.front();
   const int least =
@@ -265,21 +264,20 @@ std::vector<Shape> Deformer::Solver::Follow(const HandleTargets& targets, Progre
   const int between = (least + options_.shapes - 1) / options_.shapes;
   const int steps = between * options_.shapes;
   internal::MinimiseOptions minimise = Minimise();
-  std::vector<Shape> result = {level.path.Rest()};
-  Shape shape = level.path.Rest();
+  std::vector<Shape> way = {level.path.Rest()}, result = way;
   for (int step = 1; step <= steps; ++step) {
     minimise.keep_going = [&](int, double) {
       ReportProgress(progress, "following the handles", step, steps);
       return true;
     };
     const Shape places = targets.At(static_cast<double>(step) / steps);
-    MoveComponents(level, places, &shape);
-    std::vector<Shape> pair = {level.path.Rest(), shape};
-    GoAlong(level, {{}, places}, &pair);
-    level.path.Relax(Target(level, places), minimise, &pair);
-    shape = std::move(pair[1]);
-    if (step % between == 0) result.push_back(shape);
+    std::vector<Shape> last = {way.back(), way.back()};
+    MoveComponents(level, places, &last.back());
+    GoAlong(level, {{}, places}, &last);
+    way.push_back(std::move(last.back()));
+    level.path.Relax(Target(level, places), minimise, &way);
   }
+  for (int i = between; i <= steps; i += between) result.push_back(std::move(way[i]));
   return result;
 }
 

@@ -24,8 +24,9 @@ struct DeformationOptions {
   /// holds stays where it is. All features, but not the rigid part; in midpoint form only.
   std::optional<MetricOptions> metric;
 
-  /// Shapes after the first, the deformed one included; 1 or more. More make large turns cheaper,
-  /// and are frames to show.
+  /// Shapes after the first, the deformed one included; 1 or more. They are frames to show, and
+  /// they remember how far a part has turned: a single shape is compared with the first directly,
+  /// and may slip out of a full turn.
   int shapes = 5;
 
   /// Between the metric and soft handles (Kilian et al. 2007, section 5): minimised is

@@ -168,4 +168,15 @@ bool HandleTargets::HoldAlike(const HandleTargets& other) const {
                     lists_alike);
 }
 
+bool HandleTargets::IsNear(const HandleTargets& other, double most) const {
+  for (size_t h = 0; h < handles_.size(); ++h) {
+    // A full turn leads to the same place by another way.
+    if (std::abs(handles_[h].motion.angle - other.handles_[h].motion.angle) > most) return false;
+  }
+  for (double t : {0.5, 1.0}) {
+    if (((At(t) - other.At(t)).colwise().squaredNorm().array() > most * most).any()) return false;
+  }
+  return true;
+}
+
 }  // namespace shapespace::internal

@@ -47,6 +47,9 @@ class HandleTargets {
 
   /// True if the same vertices are held in the same way, wherever to.
   bool HoldAlike(const HandleTargets& other) const;
+  /// Of targets that hold alike: true if no angle differs by more than `most` radians, and on the
+  /// way and at its end no place by more than `most`.
+  bool IsNear(const HandleTargets& other, double most) const;
 
  private:
   enum class Hold { kSoft, kLanded, kCarried };
