@@ -103,7 +103,7 @@ void CheckKeys(const Json& json, const std::string& field, const std::vector<std
 
 const Json& Required(const Json& json, const std::string& field, const std::string& key) {
   const auto found = json.find(key);
-  if (found == json.end()) FailIn(Field(field, key), "is missing");
+  if (found == json.end()) FailIn(Field(field, key), "is missing; add it");
   return *found;
 }
 
