@@ -1,6 +1,7 @@
 #include <shapespace/solvers/handle_file.h>
 
 #include <cmath>
+#include <utility>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/json.h>
@@ -69,8 +70,7 @@ ScrewMotion MotionFrom(const Json& entry, const Eigen::Vector3d& centroid) {
   const std::string field = "rotation";
   CheckKeys(rotation, field, {"axis", "degrees", "point"});
   motion.axis = BoundedVector(Required(rotation, field, "axis"), Field(field, "axis"));
-  if (motion.axis.isZero(0))
-    FailIn(Field(field, "axis"), "must not be zero, for it is a direction");
+  if (motion.axis.isZero(0)) FailIn(Field(field, "axis"), "must not be zero: it is a direction");
   motion.axis.stableNormalize();
   motion.angle =
       BoundedNumber(Required(rotation, field, "degrees"), Field(field, "degrees"), kMostDegrees) *
