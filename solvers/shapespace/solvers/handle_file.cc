@@ -31,7 +31,7 @@ double BoundedNumber(const Json& json, const std::string& field, double most) {
 }
 
 Eigen::Vector3d BoundedVector(const Json& json, const std::string& field) {
-  const Eigen::Vector3d vector = VectorFrom(json, field);
+  Eigen::Vector3d vector = VectorFrom(json, field);
   for (const Json& number : json) BoundedNumber(number, field, kLargestCoordinate);
   return vector;
 }
