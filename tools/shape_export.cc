@@ -8,6 +8,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/extension.h>
 
+#include "support/anchor_flags.h"
 #include "support/lists.h"
 #include "support/memory_flag.h"
 #include "support/outputs.h"
@@ -64,13 +65,16 @@ void Run(const std::vector<std::string>& files) {
   if (FLAGS_ease && FLAGS_frames == 0 && !makes_glb) {
     throw UsageError("--ease goes with --frames, or with a .glb");
   }
+  Anchorage anchorage = Anchorage::FromFlags();
   const Path path = ReadPathAndTell(files[0]);
+  anchorage.Select(path.Placed(0), *path.metric->connectivity, path.appearance);
   const std::vector<double> times = TimesFromFlags(path);
   CheckNothingIsOverwritten(files, {{"output", outputs, static_cast<std::int64_t>(times.size())}});
   Path shown = path;
   if (times != path.parameters) {
     NamingFlags({{"times", "at"}}, [&] { shown = Resample(path, times); });
   }
+  anchorage.Apply(path, &shown);
   Out() << shown.NumShapes() << " shapes of " << files[0] << '\n';
   WriteOutputs(outputs, shown, path);
 }
@@ -85,6 +89,7 @@ int main(int argc, char** argv) {
                   "meshes and pictures of a path, without solving again",
                   "  shape-export walk.path --output walk.png,frames/%03d.obj --frames 40 --ease\n"
                   "  shape-export walk.path --output quarter%d.obj --at .25,.5,.75",
-                  {"shape_export.cc", "support/outputs.cc", "support/memory_flag.cc"}},
+                  {"shape_export.cc", "support/outputs.cc", "support/anchor_flags.cc",
+                   "support/memory_flag.cc"}},
                  Run);
 }

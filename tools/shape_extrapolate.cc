@@ -8,6 +8,7 @@
 #include <shapespace/solvers/exponential.h>
 #include <shapespace/solvers/geodesic.h>
 
+#include "support/anchor_flags.h"
 #include "support/choose.h"
 #include "support/geodesic_flags.h"
 #include "support/interrupt.h"
@@ -82,7 +83,8 @@ void CheckFlags(const std::vector<std::string>& files, std::int64_t shapes,
   CheckNothingIsOverwritten(WithStiffeners(files), {{"output", outputs, frames}, ReportFromFlag()});
 }
 
-Path OriginFromPath(const std::string& file, const std::vector<std::string>& outputs) {
+Path OriginFromPath(const std::string& file, const std::vector<std::string>& outputs,
+                    Anchorage* anchorage) {
   Path path = ReadPathAndTell(file);
   if (path.metric->rigid.Active()) {
     throw SolverError(
@@ -91,13 +93,15 @@ Path OriginFromPath(const std::string& file, const std::vector<std::string>& out
         "poses under another");
   }
   CheckFlags({file}, path.NumShapes(), outputs);
+  anchorage->Select(path.Placed(0), *path.metric->connectivity, path.appearance);
   return path;
 }
 
 Path OriginFromPoses(const std::vector<std::string>& files, const GeodesicOptions& options,
-                     const std::vector<std::string>& outputs) {
+                     const std::vector<std::string>& outputs, Anchorage* anchorage) {
   CheckFlags(files, NumShapes(files.size(), options), outputs);
   const Poses poses = ReadPosesFromFlags(files);
+  anchorage->Select(poses.shapes[0], *poses.connectivity, poses.soup.appearance);
   GeodesicResult result = Interpolate(
       poses, options, SolveProgress(outputs, std::to_string(FLAGS_steps) + " steps").get());
   PrintSummary(result.summary.BriefReport(), result.summary.warnings,
@@ -122,13 +126,15 @@ void Run(const std::vector<std::string>& files) {
   const ExponentialOptions exponential = ExponentialFromFlags();
   const CorrectionOptions correction = CorrectionFromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
+  Anchorage anchorage = Anchorage::FromFlags();
 
-  Path origin =
-      from_path ? OriginFromPath(files[0], outputs) : OriginFromPoses(files, geodesic, outputs);
+  Path origin = from_path ? OriginFromPath(files[0], outputs, &anchorage)
+                          : OriginFromPoses(files, geodesic, outputs, &anchorage);
   const std::string provenance =
       (from_path ? origin.provenance + "; " : "") + Provenance("shape-extrapolate", files);
   if (Interrupted()) {  // what was interpolated so far is worth keeping
     origin.provenance = provenance;
+    anchorage.Apply(&origin);
     return WriteOutputs(outputs, origin, origin);
   }
   if (FLAGS_keep != 0) origin = FirstShapes(origin, FLAGS_keep);
@@ -147,6 +153,7 @@ void Run(const std::vector<std::string>& files) {
     text += "Corrected         " + corrected.summary.BriefReport() + '\n';
     json["correction"] = nlohmann::ordered_json::parse(corrected.summary.ToJson());
   }
+  anchorage.Apply(&result.path);
   WriteOutputs(outputs, result.path, result.path);
   WriteReport(text, json.dump(2) + '\n');
   if (summary.steps.empty()) throw SolverError("no shape could be added");
@@ -180,6 +187,6 @@ int main(int argc, char** argv) {
            kHowASolveEnds,
        {"shape_extrapolate.cc", "support/geodesic_flags.cc", "support/report.cc",
         "support/outputs.cc", "support/metric_flags.cc", "support/poses.cc",
-        "support/mesh_flags.cc", "support/memory_flag.cc"}},
+        "support/mesh_flags.cc", "support/memory_flag.cc", "support/anchor_flags.cc"}},
       Run);
 }

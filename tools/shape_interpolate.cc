@@ -2,6 +2,7 @@
 
 #include <shapespace/solvers/geodesic.h>
 
+#include "support/anchor_flags.h"
 #include "support/geodesic_flags.h"
 #include "support/outputs.h"
 #include "support/poses.h"
@@ -15,15 +16,18 @@ namespace {
 void Run(const std::vector<std::string>& files) {
   if (files.size() < 2) throw UsageError("name at least two poses of one mesh");
   const GeodesicOptions options = GeodesicFromFlags();
+  Anchorage anchorage = Anchorage::FromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
   CheckNothingIsOverwritten(
       WithStiffeners(files),
       {{"output", outputs, NumShapes(files.size(), options)}, ReportFromFlag()});
 
   const Poses poses = ReadPosesFromFlags(files);
+  anchorage.Select(poses.shapes[0], *poses.connectivity, poses.soup.appearance);
   GeodesicResult result = Interpolate(poses, options, SolveProgress(outputs).get());
   const GeodesicSummary& summary = result.summary;
   result.path.provenance = Provenance("shape-interpolate", files);
+  anchorage.Apply(&result.path);
   PrintSummary(summary.BriefReport(), summary.warnings,
                summary.termination == Termination::kConverged);
   WriteOutputs(outputs, result.path, result.path);
@@ -47,7 +51,7 @@ int main(int argc, char** argv) {
            "poses included.") +
            kHowASolveEnds,
        {"support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
-        "support/metric_flags.cc", "support/poses.cc", "support/mesh_flags.cc",
-        "support/memory_flag.cc"}},
+        "support/anchor_flags.cc", "support/metric_flags.cc", "support/poses.cc",
+        "support/mesh_flags.cc", "support/memory_flag.cc"}},
       Run);
 }

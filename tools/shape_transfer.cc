@@ -7,6 +7,7 @@
 #include <shapespace/output/frames.h>
 #include <shapespace/solvers/transfer.h>
 
+#include "support/anchor_flags.h"
 #include "support/choose.h"
 #include "support/geodesic_flags.h"
 #include "support/mesh_flags.h"
@@ -104,6 +105,7 @@ void Run(const std::vector<std::string>& files) {
   const GeodesicOptions geodesic = GeodesicFromFlags();
   const TransferOptions options = TransferFromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
+  Anchorage anchorage = Anchorage::FromFlags();
   std::vector<std::string> hybrid_outputs;
   if (!FLAGS_hybrids.empty()) hybrid_outputs = OutputsFromFlag("hybrids", FLAGS_hybrids);
   std::vector<std::string> all = files;
@@ -121,6 +123,8 @@ void Run(const std::vector<std::string>& files) {
     result.path.provenance = Provenance("shape-transfer", all);
     result.hybrids.provenance = result.path.provenance + "; hybrids";
     result.path.appearance = result.hybrids.appearance = appearance;
+    anchorage.Apply(&result.path);
+    if (!hybrid_outputs.empty()) anchorage.Apply(&result.hybrids);
     WriteOutputs(outputs, result.path, result.path);
     if (!hybrid_outputs.empty()) WriteOutputs(hybrid_outputs, result.hybrids, result.hybrids);
     WriteReport(result.summary.FullReport(), result.summary.ToJson());
@@ -129,6 +133,7 @@ void Run(const std::vector<std::string>& files) {
     const Path source = ReadPathAndTell(files[0]);
     check(source.NumShapes());
     const Poses target = ReadTargetOf(source, files[0]);
+    anchorage.Select(target.shapes[0], *target.connectivity, target.soup.appearance);
     TransferResult result =
         Transfer(source, target.shapes[0], options, SolveProgress(all_outputs).get());
     const std::vector<std::string> warnings = result.summary.warnings;
@@ -138,10 +143,12 @@ void Run(const std::vector<std::string>& files) {
     Poses poses = ReadPosesFromFlags(all);
     const Shape target = poses.shapes.back();
     poses.shapes.pop_back();
+    const Appearance appearance = ReadSoup(FLAGS_target).appearance;
+    anchorage.Select(target, *poses.connectivity, appearance);
     PoseTransferResult result = TransferPoses(poses.connectivity, poses.shapes, target, geodesic,
                                               options, SolveProgress(all_outputs).get());
     const std::vector<std::string> warnings = result.summary.Warnings();
-    finish(std::move(result), warnings, ReadSoup(FLAGS_target).appearance);
+    finish(std::move(result), warnings, appearance);
   }
 }
 
@@ -171,6 +178,6 @@ int main(int argc, char** argv) {
            kHowASolveEnds,
        {"shape_transfer.cc", "support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
         "support/metric_flags.cc", "support/poses.cc", "support/mesh_flags.cc",
-        "support/memory_flag.cc"}},
+        "support/memory_flag.cc", "support/anchor_flags.cc"}},
       Run);
 }

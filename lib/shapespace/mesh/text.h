@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/quoted.h>
 
 // Private: lines, words and numbers of a text file, read strictly.
 
@@ -22,14 +23,6 @@ inline constexpr char kReexport[] = "; is the file damaged? Export the mesh agai
 /// Throws a FileError "file:line: what"; without the line if it is 0.
 [[noreturn]] inline void FailAt(const std::string& file, int line, const std::string& what) {
   throw FileError(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what);
-}
-
-/// A word as it can be shown in a message: short, and without bytes that a terminal cannot show.
-inline std::string Quoted(std::string_view word) {
-  constexpr size_t kLongest = 40;
-  std::string result = "'";
-  for (char c : word.substr(0, kLongest)) result += c >= ' ' && c <= '~' ? c : '?';
-  return result + (word.size() > kLongest ? "...'" : "'");
 }
 
 /// Hands out the lines of a text, ended by LF, CR LF or CR, and counts them from 1.

@@ -1,0 +1,21 @@
+#ifndef SHAPESPACE_MESH_SELECTION_JSON_H_
+#define SHAPESPACE_MESH_SELECTION_JSON_H_
+
+#include <string>
+
+#include <shapespace/base/json.h>
+#include <shapespace/mesh/selection.h>
+
+// Private: the text form of selections, as a part of other JSON.
+
+namespace shapespace::internal {
+
+/// \throw InvalidOptions naming the field.
+Selection ParseSelection(const Json& json);
+
+/// The field that number `i` of the selections in `field`'s `any` is, counted from 0.
+std::string FieldOfAny(const std::string& field, size_t i);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_MESH_SELECTION_JSON_H_

@@ -1,0 +1,156 @@
+#include <shapespace/path/anchor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+
+namespace shapespace {
+namespace {
+
+// The vertices of a part, by which its place is told.
+struct Part {
+  const std::vector<int>& vertices;
+  Eigen::VectorXd weights;  // one a vertex
+};
+
+// A part in one shape, where the path places it. It is kept centred, so that it loses no digits
+// however far away it lies.
+struct PlacedPart {
+  double parameter = 0;
+  Shape points;            // in the metric's unit, turned, about their centroid
+  Eigen::Vector3d inside;  // the centroid before the shape is placed, in the user's unit
+  Eigen::Vector3d centre;  // the centroid where the user has it
+};
+
+PlacedPart PartOf(const Path& path, int i, const Part& part) {
+  const Shape points = path.shapes[i](Eigen::all, part.vertices);
+  const Eigen::Vector3d centroid = Centroid(points, part.weights);
+  const RigidMotion& motion = path.motions[i];
+  PlacedPart placed;
+  placed.parameter = path.parameters[i];
+  placed.points = motion.rotation * (points.colwise() - centroid);
+  placed.inside = path.metric->unit * centroid;
+  placed.centre = motion.rotation * placed.inside + motion.translation;
+  return placed;
+}
+
+// The rotation that carries centred points closest to others, to the last digits; of those that do
+// so equally well the least one.
+Eigen::Matrix3d RotationOnto(const Shape& from, const Shape& to, const Eigen::VectorXd& weights) {
+  constexpr double kPoint = 1e-10;  // parts no larger, in the metric's unit, are points
+  constexpr double kLine = 1e-10;   // parts whose squared width is less of that of their length
+  const Eigen::Matrix3d covariance = from * weights.asDiagonal() * to.transpose();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Vector3d& sizes = svd.singularValues();
+  if (sizes(0) <= kPoint * kPoint * weights.sum()) return Eigen::Matrix3d::Identity();
+  if (sizes(1) <= kLine * sizes(0)) {
+    return Eigen::Quaterniond::FromTwoVectors(svd.matrixU().col(0), svd.matrixV().col(0))
+        .toRotationMatrix();
+  }
+  Eigen::Vector3d sign(1, 1, 1);
+  if ((svd.matrixV() * svd.matrixU().transpose()).determinant() < 0) sign(2) = -1;
+  return svd.matrixV() * sign.asDiagonal() * svd.matrixU().transpose();
+}
+
+// How a part moves from one pose to the next.
+class PartMotion {
+ public:
+  PartMotion(const PlacedPart& first, const PlacedPart& last, const Eigen::VectorXd& weights)
+      : first_(first), last_(last), turn_(RotationOnto(first.points, last.points, weights)) {}
+
+  // The part at a time, which may lie beyond either pose. Its shape goes over from that in the one
+  // pose to that in the other.
+  PlacedPart At(double parameter) const {
+    const double t = (parameter - first_.parameter) / (last_.parameter - first_.parameter);
+    const double share = std::clamp(t, 0.0, 1.0);
+    PlacedPart part;
+    part.points =
+        (1 - share) * (Turned(t) * first_.points) + share * (Turned(t - 1) * last_.points);
+    part.centre = (1 - t) * first_.centre + t * last_.centre;
+    return part;
+  }
+
+ private:
+  Eigen::Matrix3d Turned(double t) const {
+    return Eigen::AngleAxisd(t * turn_.angle(), turn_.axis()).toRotationMatrix();
+  }
+
+  const PlacedPart &first_, &last_;
+  const Eigen::AngleAxisd turn_;
+};
+
+// Where the poses' parts, and the motions between them, want a part at a time.
+PlacedPart WantedAt(double parameter, const std::vector<PlacedPart>& poses,
+                    const std::vector<PartMotion>& motions) {
+  if (motions.empty()) return poses[0];
+  size_t piece = 0;
+  while (piece + 1 < motions.size() && parameter > poses[piece + 1].parameter) ++piece;
+  return motions[piece].At(parameter);
+}
+
+void CheckVertices(const std::vector<int>& vertices, int count) {
+  if (vertices.empty()) throw InvalidOptions("vertices: at least one is needed");
+  for (const int v : vertices) {
+    if (v >= 0 && v < count) continue;
+    throw InvalidOptions("vertices: " + std::to_string(v) + " is not in 0 .. " +
+                         std::to_string(count - 1));
+  }
+}
+
+}  // namespace
+
+void Anchor(Path* path, const std::vector<int>& vertices) { Anchor(*path, vertices, path); }
+
+void Anchor(const Path& whole, const std::vector<int>& vertices, Path* path) {
+  CheckVertices(vertices, whole.metric->connectivity->NumVertices());
+  const Part part = {vertices, whole.metric->vertex_area(vertices)};
+  std::vector<int> indices = whole.poses;
+  if (indices.empty()) indices = {0};
+  std::vector<PlacedPart> poses;
+  for (const int i : indices) poses.push_back(PartOf(whole, i, part));
+  std::vector<PartMotion> motions;
+  motions.reserve(poses.size());
+  for (size_t k = 0; k + 1 < poses.size(); ++k) {
+    motions.emplace_back(poses[k], poses[k + 1], part.weights);
+  }
+  ParallelFor(path->NumShapes(), [&](int i) {
+    if (std::binary_search(path->poses.begin(), path->poses.end(), i)) return;
+    const PlacedPart now = PartOf(*path, i, part);
+    const PlacedPart wanted = WantedAt(path->parameters[i], poses, motions);
+    RigidMotion& motion = path->motions[i];
+    motion.rotation = RotationOnto(now.points, wanted.points, part.weights) * motion.rotation;
+    motion.translation = wanted.centre - motion.rotation * now.inside;
+  });
+}
+
+void Ground(Path* path, int axis, double height) {
+  if (axis < 0 || axis > 2) throw InvalidOptions("axis: must be 0, 1 or 2, for x, y or z");
+  if (!(std::abs(height) <= kLargestCoordinate)) {
+    throw InvalidOptions("height: must be a number of magnitude 1e60 at most");
+  }
+  const Connectivity& connectivity = *path->metric->connectivity;
+  std::vector<bool> is_used(connectivity.NumVertices(), false);
+  for (const int v : connectivity.Corners()) is_used[v] = true;
+  for (const int v : connectivity.Edges().reshaped()) is_used[v] = true;
+  if (std::find(is_used.begin(), is_used.end(), true) == is_used.end()) {
+    throw MeshError("no vertex belongs to a polygon or an edge, so that none can be the lowest");
+  }
+  for (int i = 0; i < path->NumShapes(); ++i) {
+    const Eigen::RowVectorXd heights = path->Placed(i).row(axis);
+    double lowest = std::numeric_limits<double>::infinity();
+    for (int v = 0; v < heights.size(); ++v) {
+      if (is_used[v]) lowest = std::min(lowest, heights(v));
+    }
+    path->motions[i].translation(axis) += height - lowest;
+  }
+}
+
+}  // namespace shapespace

@@ -1,0 +1,22 @@
+#ifndef SHAPESPACE_SOLVERS_HANDLE_FILE_H_
+#define SHAPESPACE_SOLVERS_HANDLE_FILE_H_
+
+#include <string>
+#include <vector>
+
+#include <shapespace/mesh/appearance.h>
+#include <shapespace/mesh/connectivity.h>
+#include <shapespace/solvers/handle.h>
+
+namespace shapespace {
+
+/// Reads a file of handles, which a person writes: JSON, docs/file-formats.md and
+/// docs/handles.schema.json. Vertices are selected in `shape`, in the user's unit and frame.
+/// \throw FileError naming the file, the handle (its number, from 1, and its name) and the field,
+///        or the line if the file is no JSON. MeshError if the arguments are not of one mesh.
+std::vector<Handle> ReadHandles(const std::string& file, const Shape& shape,
+                                const Connectivity& connectivity, const Appearance& appearance);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_SOLVERS_HANDLE_FILE_H_

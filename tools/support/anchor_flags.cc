@@ -1,0 +1,73 @@
+#include "support/anchor_flags.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include <gflags/gflags.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/path/anchor.h>
+
+#include "support/tool.h"
+
+DEFINE_string(anchor, "",
+              "move the shapes rigidly so that a part goes rigidly from pose to pose, and stands "
+              "still if it does in the poses: its vertices as JSON, such as "
+              "'{\"vertices\": [1, [10, 20]]}' or '{\"ball\": {\"centre\": [0, 0, 0], \"radius\": "
+              "2}}', selected in the first shape");
+DEFINE_string(ground, "",
+              "move the shapes so that the lowest vertex of each lies at this height: axis and "
+              "height, such as y=0");
+
+namespace shapespace::tools {
+namespace {
+
+std::pair<int, double> GroundFromFlag() {
+  const std::string& text = FLAGS_ground;
+  const size_t axis = text.empty() ? std::string::npos : std::string("xyz").find(text[0]);
+  if (axis != std::string::npos && text.size() > 2 && text[1] == '=') {
+    char* end = nullptr;
+    const double height = std::strtod(text.c_str() + 2, &end);
+    if (*end == '\0' && std::abs(height) <= kLargestCoordinate) {
+      return {static_cast<int>(axis), height};
+    }
+  }
+  throw UsageError("--ground " + text + ": must be x, y or z, = and a height, such as y=0");
+}
+
+}  // namespace
+
+Anchorage Anchorage::FromFlags() {
+  Anchorage anchorage;
+  if (IsGiven("ground")) anchorage.ground_ = GroundFromFlag();
+  if (!IsGiven("anchor")) return anchorage;
+  try {
+    anchorage.anchor_ = ReadSelection(FLAGS_anchor);
+  } catch (const InvalidOptions& error) {
+    throw UsageError("--anchor " + FLAGS_anchor + ": " + error.what());
+  }
+  return anchorage;
+}
+
+void Anchorage::Select(const Shape& shape, const Connectivity& connectivity,
+                       const Appearance& appearance) {
+  if (!anchor_) return;
+  try {
+    vertices_ = shapespace::Select(*anchor_, shape, connectivity, appearance);
+  } catch (const InvalidOptions& error) {
+    throw UsageError("--anchor " + FLAGS_anchor + ": " + error.what());
+  }
+}
+
+void Anchorage::Apply(const Path& whole, Path* path) const {
+  if (anchor_) {
+    Anchor(whole, vertices_, path);
+    path->provenance += "; anchored";
+  }
+  if (ground_) {
+    Ground(path, ground_->first, ground_->second);
+    path->provenance += "; on the ground " + FLAGS_ground;
+  }
+}
+
+}  // namespace shapespace::tools

@@ -1,0 +1,37 @@
+#ifndef SHAPESPACE_TOOLS_SUPPORT_ANCHOR_FLAGS_H_
+#define SHAPESPACE_TOOLS_SUPPORT_ANCHOR_FLAGS_H_
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <shapespace/mesh/selection.h>
+#include <shapespace/path/path.h>
+
+namespace shapespace::tools {
+
+/// Where a path's shapes are put in the end, as --anchor and --ground say.
+class Anchorage {
+ public:
+  /// \throw UsageError if a flag's value cannot be understood.
+  static Anchorage FromFlags();
+
+  /// Selects the vertices of --anchor: in the first shape, before anything is solved.
+  /// \throw UsageError if there are none.
+  void Select(const Shape& shape, const Connectivity& connectivity, const Appearance& appearance);
+
+  /// Moves the shapes of `path`, which shows `whole`, perhaps at other times; its provenance says
+  /// so. What --anchor names must have been selected.
+  void Apply(const Path& whole, Path* path) const;
+  void Apply(Path* path) const { Apply(*path, path); }
+
+ private:
+  std::optional<Selection> anchor_;
+  std::vector<int> vertices_;
+  std::optional<std::pair<int, double>> ground_;  // axis and height
+};
+
+}  // namespace shapespace::tools
+
+#endif  // SHAPESPACE_TOOLS_SUPPORT_ANCHOR_FLAGS_H_
