@@ -250,12 +250,12 @@ std::vector<Case> RealCases() {
       const Shape& rest = poses.shapes[0];
       const Vector3d low = rest.rowwise().minCoeff(), size = rest.rowwise().maxCoeff() - low;
       const std::vector<int> feet =
-          Where(rest, [&](const auto& p) { return p.y() < low.y() + 0.1 * size.y(); });
-      const std::vector<int> trunk = Tip(rest, Vector3d(0, -0.3, 1), 0.06 * size.norm());
+          Where(rest, [&](const auto& p) { return p.y() < low.y() + 0.05 * size.y(); });
+      const std::vector<int> trunk = Tip(rest, Vector3d(0, -1, 0.7), 0.05 * size.norm());
       ScrewMotion move;
       move.axis = -Vector3d::UnitX();
       move.angle = 70 * kRadians;
-      move.point = MeanOf(rest, trunk) + Vector3d(0, 0.2, -0.05) * size.norm();
+      move.point = MeanOf(rest, trunk) + Vector3d(0, 0.18, -0.05) * size.norm();
       cases.push_back({"elephant, the trunk raised by 70 degrees",
                        poses.connectivity,
                        rest,

@@ -151,15 +151,16 @@ void CheckMagnitude(const Shape& pose) {
 }  // namespace
 
 // Chosen on bars and cylinders that are bent and twisted and a plate that is lifted
-// (benchmarks/deformation_benchmark): less bending lets the bodies kink and buckle, more lets them
+// (benchmarks/deformation_table): less bending lets the bodies kink and buckle, more lets them
 // stretch; strains alone stretch few triangles of the plate much, lengths alone squash the bar.
 MetricOptions MetricOptions::Deformation(const Connectivity& connectivity) {
   const bool solid = IsClosed(connectivity.Triangles());
   MetricOptions options;
-  options.isometric = options.strain = 0.5;
+  options.isometric = 0.3;
+  options.strain = 0.7;
   options.lambda = 0;
-  options.bending = solid ? 1e-4 : 4e-5;
-  options.volume = solid ? 0.3 : 0;
+  options.bending = solid ? 7e-5 : 3e-5;
+  options.volume = solid ? 0.05 : 0;
   return options;
 }
 
