@@ -188,4 +188,34 @@ std::vector<Eigen::Matrix3d> VertexRotations(const Connectivity& coarse, const S
   return rotations;
 }
 
+std::vector<Eigen::Matrix3d> VertexGradients(const Connectivity& coarse, const Shape& rest,
+                                             const Shape& moved) {
+  const std::vector<Eigen::Matrix3d> rotations = VertexRotations(coarse, rest, moved);
+  std::vector<Eigen::Matrix3d> products(rotations.size(), Eigen::Matrix3d::Zero());
+  std::vector<Eigen::Matrix3d> squares = products;
+  for (int e = 0; e < coarse.NumEdges(); ++e) {
+    const int a = coarse.Edges()(0, e), b = coarse.Edges()(1, e);
+    const Eigen::Vector3d before = rest.col(b) - rest.col(a), after = moved.col(b) - moved.col(a);
+    for (int v : {a, b}) {
+      products[v] += after * before.transpose();
+      squares[v] += before * before.transpose();
+    }
+  }
+  // Where the edges leave a direction open, as along the normal of a flat fan, the rotation holds:
+  // F (squares + c I) = products + c R.
+  constexpr double kShare = 0.1;
+  std::vector<Eigen::Matrix3d> result(rotations.size());
+  for (size_t v = 0; v < rotations.size(); ++v) {
+    const double trace = squares[v].trace();
+    if (!(trace > 0)) {
+      result[v] = rotations[v];
+      continue;
+    }
+    const double share = kShare * trace;
+    result[v] = (products[v] + share * rotations[v]) *
+                (squares[v] + share * Eigen::Matrix3d::Identity()).inverse();
+  }
+  return result;
+}
+
 }  // namespace shapespace::internal

@@ -28,6 +28,11 @@ Carriers FindCarriers(const Connectivity& coarse, const std::vector<int>& kept,
 std::vector<Eigen::Matrix3d> VertexRotations(const Connectivity& coarse, const Shape& rest,
                                              const Shape& moved);
 
+/// The linear map of each coarse vertex's neighbourhood from `rest` to `moved`: best for the edges
+/// at the vertex, which its rotation completes by the normal.
+std::vector<Eigen::Matrix3d> VertexGradients(const Connectivity& coarse, const Shape& rest,
+                                             const Shape& moved);
+
 }  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_HIERARCHY_DETAIL_H_

@@ -147,4 +147,18 @@ Shape Hierarchy::Lift(const Shape& coarse, int level, const Shape& from_base, co
   return result;
 }
 
+std::vector<Eigen::Matrix3d> Hierarchy::LiftGradients(const Shape& coarse, int level,
+                                                      const Shape& base) const {
+  const Level& here = levels_[level];
+  const std::vector<Eigen::Matrix3d> gradients =
+      internal::VertexGradients(*here.connectivity, base, coarse);
+  std::vector<Eigen::Matrix3d> result(here.carrier.cols(), Eigen::Matrix3d::Zero());
+  for (size_t v = 0; v < result.size(); ++v) {
+    for (int k = 0; k < 3; ++k) {
+      result[v] += here.place(k, v) * gradients[here.carrier(k, v)];
+    }
+  }
+  return result;
+}
+
 }  // namespace shapespace

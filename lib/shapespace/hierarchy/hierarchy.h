@@ -60,6 +60,11 @@ class Hierarchy {
                 t);
   }
 
+  /// Of each vertex of `level` + 1, the linear part of the motion of the neighbourhood that carries
+  /// it, from `base` to `coarse`, shapes of `level`: rotation and stretch.
+  std::vector<Eigen::Matrix3d> LiftGradients(const Shape& coarse, int level,
+                                             const Shape& base) const;
+
  private:
   struct Level {
     std::shared_ptr<const Connectivity> connectivity;

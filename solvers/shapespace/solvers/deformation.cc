@@ -116,6 +116,7 @@ class Deformer::Solver {
   static void MoveComponents(const Level& level, const Shape& places, Shape* shape);
   static void GoAlong(const Level& level, const std::vector<Shape>& places,
                       std::vector<Shape>* shapes);
+  static void Place(const Level& level, const Shape& places, bool last, Shape* shape);
   static Shape Target(const Level& level, const Shape& places);
 
   const DeformationOptions options_;
@@ -234,12 +235,18 @@ std::vector<Shape> Deformer::Solver::Cascade(const HandleTargets& targets,
   for (size_t i = 0; i < levels_.size(); ++i) {
     if (i > 0) {
       const Shape& rest = levels_[i].path.Rest();
-      std::vector<Shape> lifted(shapes.size(), rest);
-      ParallelFor(static_cast<int>(shapes.size()) - 1, [&](int k) {
-        lifted[k + 1] = hierarchy_->Lift(shapes[k + 1], static_cast<int>(i) - 1, rest, rest, 0);
+      const Shape& coarse_rest = levels_[i - 1].path.Rest();
+      std::vector<Shape> lifted(options_.shapes);
+      std::vector<std::vector<Eigen::Matrix3d>> gradients(options_.shapes);
+      ParallelFor(options_.shapes, [&](int k) {
+        const int below = static_cast<int>(i) - 1;
+        lifted[k] = hierarchy_->Lift(shapes[k + 1], below, rest, rest, 0);
+        gradients[k] = hierarchy_->LiftGradients(shapes[k + 1], below, coarse_rest);
+        Place(levels_[i], places[k + 1], k + 1 == options_.shapes, &lifted[k]);
       });
+      levels_[i].path.Factors().Integrate(gradients, &lifted);
+      lifted.insert(lifted.begin(), rest);
       shapes = std::move(lifted);
-      GoAlong(levels_[i], places, &shapes);
       start = "lifted";
     }
     if (!workload->Stopped()) Relax(places.back(), i, start, workload, &shapes, summary);
@@ -369,11 +376,14 @@ void Deformer::Solver::GoAlong(const Level& level, const std::vector<Shape>& pla
   const std::vector<Tangent> steps = level.path.Factors().Spread(ways);
   for (size_t i = 1; i <= last; ++i) {
     (*shapes)[i] += steps[i - 1];
-    for (const Held& held : level.held) {
-      if (held.carried || (held.given && i == last)) {
-        (*shapes)[i].col(held.vertex) = places[i].col(held.column);
-      }
-    }
+    Place(level, places[i], i == last, &(*shapes)[i]);
+  }
+}
+
+// Puts what is given, in the last shape or in all of them, to its places.
+void Deformer::Solver::Place(const Level& level, const Shape& places, bool last, Shape* shape) {
+  for (const Held& held : level.held) {
+    if (held.carried || (held.given && last)) shape->col(held.vertex) = places.col(held.column);
   }
 }
 

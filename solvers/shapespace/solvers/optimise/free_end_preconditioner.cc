@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include <shapespace/base/parallel.h>
 #include <shapespace/solvers/optimise/preconditioner.h>
@@ -59,7 +61,10 @@ std::vector<int> Places(const CholeskyFactor<float>& factor) {
 }  // namespace
 
 FreeEndFactors::FreeEndFactors(const Metric& metric, const Shape& rest, Grip grip)
-    : grip_(std::move(grip)), scalar_(ScalarMetric(metric, {rest}, 0)) {
+    : metric_(metric),
+      rest_(rest),
+      grip_(std::move(grip)),
+      scalar_(ScalarMetric(metric, {rest}, 0)) {
   const int num_vertices = static_cast<int>(rest.cols());
   given_ = Marks(num_vertices, grip_.carried);
   between_ = FactorOf(scalar_, Eigen::VectorXd::Zero(num_vertices), given_);
@@ -72,42 +77,86 @@ size_t FreeEndFactors::NumNonzeros() const {
   return end_->NumNonzeros() + (between_ == end_ ? 0 : between_->NumNonzeros());
 }
 
-std::vector<Tangent> FreeEndFactors::Spread(const std::vector<Tangent>& ways) const {
-  const int size = end_->Size(), count = static_cast<int>(ways.size());
+void FreeEndFactors::SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights,
+                                 std::vector<Tangent>* shapes) const {
+  const int size = end_->Size(), count = static_cast<int>(rights.size());
   const int width = PaddedWidth(3 * count);
   const std::vector<int> places = Places(*end_);
   std::vector<float> work(static_cast<size_t>(end_->WorkRows()) * width, 0.0f);
+  // Numbers about 1 fit a float.
   std::vector<double> units(count);
   for (int i = 0; i < count; ++i) {
-    Tangent given = ways[i];
-    for (int v = 0; v < size; ++v) {
-      if (!given_[v]) given.col(v).setZero();
-    }
-    Eigen::MatrixXd right = -(scalar_.selfadjointView<Eigen::Lower>() * given.transpose());
-    right += 2 * grip_.pull.asDiagonal() * ways[i].transpose();
-    for (int v = 0; v < size; ++v) {
-      if (given_[v]) right.row(v).setZero();
-    }
-    units[i] = right.cwiseAbs().maxCoeff();
+    units[i] = rights[i].cwiseAbs().maxCoeff();
     if (units[i] == 0) units[i] = 1;
-    for (int v = 0; v < size; ++v) {
-      for (int axis = 0; axis < 3; ++axis) {
-        work[static_cast<size_t>(places[v]) * width + 3 * i + axis] =
-            static_cast<float>(right(v, axis) / units[i]);
-      }
-    }
   }
+  ForVertices(size, [&](int v) {
+    if (given_[v]) return;
+    float* const at = &work[static_cast<size_t>(places[v]) * width];
+    for (int k = 0; k < 3 * count; ++k) {
+      at[k] = static_cast<float>(rights[k / 3](v, k % 3) / units[k / 3]);
+    }
+  });
   end_->SolveLower(work.data(), width);
   end_->SolveUpper(work.data(), width);
-  std::vector<Tangent> result = ways;
-  for (int i = 0; i < count; ++i) {
+  ForVertices(size, [&](int v) {
+    if (given_[v]) return;
+    const float* const at = &work[static_cast<size_t>(places[v]) * width];
+    for (int k = 0; k < 3 * count; ++k) (*shapes)[k / 3](k % 3, v) += units[k / 3] * at[k];
+  });
+}
+
+std::vector<Tangent> FreeEndFactors::Spread(const std::vector<Tangent>& ways) const {
+  const int size = end_->Size();
+  std::vector<Tangent> result(ways.size(), Tangent::Zero(3, size));
+  std::vector<Eigen::MatrixXd> rights;
+  for (size_t i = 0; i < ways.size(); ++i) {
     for (int v = 0; v < size; ++v) {
-      if (given_[v]) continue;
-      const float* const at = &work[static_cast<size_t>(places[v]) * width + 3 * i];
-      for (int axis = 0; axis < 3; ++axis) result[i](axis, v) = units[i] * at[axis];
+      if (given_[v]) result[i].col(v) = ways[i].col(v);
     }
+    rights.push_back(-(scalar_.selfadjointView<Eigen::Lower>() * result[i].transpose()));
+    rights.back() += 2 * grip_.pull.asDiagonal() * ways[i].transpose();
   }
+  SolveAndAdd(rights, &result);
   return result;
+}
+
+void FreeEndFactors::Integrate(const std::vector<std::vector<Eigen::Matrix3d>>& gradients,
+                               std::vector<Shape>* shapes) const {
+  std::vector<Eigen::MatrixXd> rights(shapes->size(), Eigen::MatrixXd::Zero(rest_.cols(), 3));
+  ParallelFor(static_cast<int>(shapes->size()), [&](int i) {
+    const Shape& shape = (*shapes)[i];
+    for (const AnyFeature& any : metric_.features) {
+      std::visit(
+          [&](const auto& feature) {
+            using Feature = std::decay_t<decltype(feature)>;
+            if constexpr (Feature::kRigidInvariant && !Feature::kSum) {
+              constexpr int kVertices = Feature::kVertices;
+              for (int e = 0; e < feature.stencils.cols(); ++e) {
+                Eigen::Vector3d x[kVertices];
+                Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+                Eigen::Matrix<double, 3, kVertices> before, after;
+                for (int k = 0; k < kVertices; ++k) {
+                  const int v = feature.stencils(k, e);
+                  x[k] = before.col(k) = rest_.col(v);
+                  after.col(k) = shape.col(v);
+                  gradient += gradients[i][v] / kVertices;
+                }
+                Eigen::Matrix<double, kVertices, Feature::kStencils> stencil;
+                feature.Stencil(x, stencil.data());
+                const Eigen::Matrix<double, Feature::kStencils, 3> off =
+                    (gradient * before * stencil - after * stencil).transpose();
+                const Eigen::Matrix<double, kVertices, 3> push =
+                    4 * feature.weights(e) * stencil * off;
+                for (int k = 0; k < kVertices; ++k) {
+                  rights[i].row(feature.stencils(k, e)) += push.row(k);
+                }
+              }
+            }
+          },
+          any);
+    }
+  });
+  SolveAndAdd(rights, shapes);
 }
 
 FreeEndPreconditioner::FreeEndPreconditioner(const FreeEndFactors& factors,

@@ -41,8 +41,19 @@ class FreeEndFactors {
   /// metric.
   std::vector<Tangent> Spread(const std::vector<Tangent>& ways) const;
 
+  /// Moves each of `shapes` so that the surface is, in the sense of the scalar metric, as near as
+  /// can be to the rest shape's with every neighbourhood transformed by its `gradients` (one matrix
+  /// a vertex, for each shape). What is given stays, what is pulled at is held.
+  void Integrate(const std::vector<std::vector<Eigen::Matrix3d>>& gradients,
+                 std::vector<Shape>* shapes) const;
+
  private:
   friend class FreeEndPreconditioner;
+  // Solves with the end's factor for each of the right-hand sides, m x 3, and adds to `shapes`.
+  void SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights, std::vector<Tangent>* shapes) const;
+
+  const Metric& metric_;
+  const Shape rest_;
   Grip grip_;
   std::vector<char> given_;  // of each vertex: in the last shape
   Eigen::SparseMatrix<double> scalar_;
