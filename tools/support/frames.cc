@@ -16,13 +16,23 @@ std::string FirstToLast(const std::string& pattern, int first, int last) {
   return first == last ? name : name + " .. " + FrameName(pattern, last);
 }
 
+void TellWhatIsNotKept(const std::string& file, const Soup& soup) {
+  for (const std::string& sentence : NotKept(file, soup)) {
+    Err() << "note: " << file << ": " << sentence << '\n';
+  }
+}
+
 }  // namespace
+
+void WriteMeshAndTell(const std::string& file, const Shape& shape, const Soup& soup) {
+  TellWhatIsNotKept(file, soup);
+  WriteMesh(file, shape, soup);
+  Out() << "wrote " << file << '\n';
+}
 
 void WriteFramesAndTell(const std::string& pattern, const std::vector<Shape>& shapes,
                         const Soup& soup) {
-  for (const std::string& sentence : NotKept(pattern, soup)) {
-    Err() << "note: " << pattern << ": " << sentence << '\n';
-  }
+  TellWhatIsNotKept(pattern, soup);
   WriteFrames(pattern, shapes, soup);
   const int count = static_cast<int>(shapes.size());
   Out() << "wrote " << FirstToLast(pattern, 0, count - 1) << '\n';

@@ -15,6 +15,9 @@ namespace shapespace::tools {
 void WriteFramesAndTell(const std::string& pattern, const std::vector<Shape>& shapes,
                         const Soup& soup);
 
+/// `WriteMesh`, and tells the user likewise.
+void WriteMeshAndTell(const std::string& file, const Shape& shape, const Soup& soup);
+
 /// `file`, a value of --`flag`, is a pattern for frames. \throw UsageError.
 void CheckFramePattern(const std::string& flag, const std::string& file);
 

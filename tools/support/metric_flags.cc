@@ -9,7 +9,8 @@
 DEFINE_string(metric, "isometric",
               "preset that sets the defaults of the other flags of the metric: isometric (those "
               "shown here), strain (isometric 0, strain 1), rigid (isometric 0, rigid 1, bending "
-              "0), or paper (bending 0, lambda 0.001, weights uniform, discretization trapezoid)");
+              "0), or paper (bending 0, lambda 0.001, weights uniform, discretization trapezoid); "
+              "shape-deform has one of its own, deformation");
 DEFINE_double(isometric, 1,
               "cost of stretching edges; all costs are pure numbers, the area being 1");
 DEFINE_double(
@@ -24,16 +25,19 @@ DEFINE_string(discretization, "midpoint",
               "along a segment: midpoint, or trapezoid as in the paper");
 
 namespace shapespace::tools {
-MetricOptions MetricFromFlags() {
+MetricOptions MetricFromFlags(const Connectivity* mesh) {
   MetricOptions options;
-  if (FLAGS_metric == "rigid") {
+  if (FLAGS_metric == "deformation" && mesh != nullptr) {
+    options = MetricOptions::Deformation(*mesh);
+  } else if (FLAGS_metric == "rigid") {
     options = MetricOptions::Rigid();
   } else if (FLAGS_metric == "strain") {
     options = MetricOptions::Strain();
   } else if (FLAGS_metric == "paper") {
     options = MetricOptions::Paper();
   } else if (FLAGS_metric != "isometric") {
-    throw UsageError("--metric " + FLAGS_metric + ": must be isometric, strain, rigid or paper");
+    throw UsageError("--metric " + FLAGS_metric + ": must be isometric, strain, rigid or paper" +
+                     (mesh != nullptr ? ", or deformation" : ""));
   }
   if (IsGiven("isometric")) options.isometric = FLAGS_isometric;
   if (IsGiven("strain")) options.strain = FLAGS_strain;

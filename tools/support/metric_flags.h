@@ -6,8 +6,9 @@
 namespace shapespace::tools {
 
 /// The metric that the flags ask for: --metric names a preset, which sets the defaults of the other
-/// flags; a flag that was given wins. \throw UsageError.
-MetricOptions MetricFromFlags();
+/// flags; a flag that was given wins. The preset `deformation` is one of a mesh.
+/// \throw UsageError; also for that preset without a mesh.
+MetricOptions MetricFromFlags(const Connectivity* mesh = nullptr);
 
 /// \throw UsageError if --bending was given for a mesh on which nothing can bend.
 void CheckMetricFlags(const Connectivity& connectivity);

@@ -56,11 +56,14 @@ DEFINE_string(title, "", "film strip: a line above it");
 namespace shapespace::tools {
 namespace {
 
-enum class Kind { kPath, kPicture, kGltf, kFrames };
+enum class Kind { kPath, kPicture, kGltf, kFrames, kLastShape };
+
+bool writes_last_shape_alone = false;
 
 Kind KindOf(const std::string& output, const std::string& flag = "output") {
   const std::string extension = Extension(output);
   if (extension == ".obj" || extension == ".ply") {
+    if (writes_last_shape_alone && output.find('%') == output.npos) return Kind::kLastShape;
     CheckFramePattern(flag, output);
     return Kind::kFrames;
   }
@@ -125,8 +128,9 @@ void WriteGltfAndTell(const std::string& output, const Path& path, const Shape& 
 }
 
 void WritePicture(const std::string& output, const Path& path, const Shape& reference,
-                  const Eigen::VectorXi& parts) {
+                  const Eigen::VectorXi& parts, const Eigen::VectorXi& marks) {
   FilmStripOptions options;
+  options.marks = marks;
   options.title = FLAGS_title;
   if (FLAGS_up == "y") options.up = Eigen::Vector3d::UnitY();
   if (FLAGS_up == "z") options.up = Eigen::Vector3d::UnitZ();
@@ -149,7 +153,8 @@ void WritePicture(const std::string& output, const Path& path, const Shape& refe
 }
 
 // `parts` are empty until they are needed.
-void Write(const std::string& output, const Path& path, const Path& whole, Eigen::VectorXi* parts) {
+void Write(const std::string& output, const Path& path, const Path& whole,
+           const Eigen::VectorXi& marks, Eigen::VectorXi* parts) {
   const Kind kind = KindOf(output);
   if (kind == Kind::kFrames) {
     WriteFramesAndTell(output, path.Placed(),
@@ -159,13 +164,20 @@ void Write(const std::string& output, const Path& path, const Path& whole, Eigen
   if (kind != Kind::kPath && FLAGS_color == "parts" && parts->size() == 0) {
     *parts = FindRigidParts(whole).of_vertex;
   }
+  if (kind == Kind::kLastShape) {
+    WriteMeshAndTell(output, path.Placed(path.NumShapes() - 1),
+                     FrameSoup(*path.metric->connectivity, path.appearance));
+    return;
+  }
   if (kind == Kind::kPath) WritePath(output, path);
-  if (kind == Kind::kPicture) WritePicture(output, path, whole.shapes[0], *parts);
+  if (kind == Kind::kPicture) WritePicture(output, path, whole.shapes[0], *parts, marks);
   if (kind == Kind::kGltf) WriteGltfAndTell(output, path, whole.shapes[0], *parts);
   Out() << "wrote " << output << '\n';
 }
 
 }  // namespace
+
+void WriteLastShapeAlone() { writes_last_shape_alone = true; }
 
 std::vector<std::string> OutputsFromFlags() {
   if (FLAGS_color != "plain" && FLAGS_color != "deviation" && FLAGS_color != "parts") {
@@ -255,7 +267,8 @@ std::string Provenance(const char* program, const std::vector<std::string>& file
   return provenance;
 }
 
-void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Path& whole) {
+void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Path& whole,
+                  const Eigen::VectorXi& marks) {
   std::vector<std::string> paths_first = outputs;
   std::stable_partition(paths_first.begin(), paths_first.end(), IsPathFile);
   Eigen::VectorXi parts;
@@ -263,7 +276,7 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
     if (Interrupted() && !IsPathFile(output)) continue;
     ShowProgress("writing " + output);
     try {
-      Write(output, path, whole, &parts);
+      Write(output, path, whole, marks, &parts);
     } catch (const Error& error) {
       Complain(error.what());
     } catch (const std::bad_alloc&) {

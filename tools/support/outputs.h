@@ -9,6 +9,9 @@
 
 namespace shapespace::tools {
 
+/// From now on an .obj or .ply whose name has no number is an output too: of the last shape alone.
+void WriteLastShapeAlone();
+
 /// The files that --output names, separated by commas.
 /// \throw UsageError if one is of no kind that can be written, FileError as `CheckCanBeWritten`.
 std::vector<std::string> OutputsFromFlags();
@@ -48,8 +51,9 @@ std::string Provenance(const char* program, const std::vector<std::string>& file
 /// and the others are written. Once `Interrupted`, only `.path` files are. Where a format drops
 /// something of the path's appearance, stderr is told. `whole` is the path that `path` shows,
 /// perhaps at other times: colours of deviation compare with its first shape, those of parts are of
-/// its near-rigid parts.
-void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Path& whole);
+/// its near-rigid parts. `marks`, if there are any, are those of FilmStripOptions.
+void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Path& whole,
+                  const Eigen::VectorXi& marks = {});
 
 }  // namespace shapespace::tools
 

@@ -14,6 +14,7 @@ namespace {
 constexpr unsigned kBackgroundHex = 0xfafafa;
 constexpr unsigned kFrontHex[] = {kPoseHex, 0x58a56b, 0x8b68bf};  // by ShapeRole
 constexpr unsigned kBackHex = 0xf08030;
+constexpr unsigned kMarkHex[] = {0x48484c, 0xd23c3c};  // of marks 1 and 2
 
 // Values are drawn a little darker than in the legend, because the lights add up to more than 1;
 // back faces so dark that they can be told from the front, so light that the value can be read.
@@ -150,6 +151,9 @@ void FramePainter::TracePixel(int row, int column) {
 void FramePainter::Shade(const Scene::Hit& hit, Pixel* pixel) const {
   static const Colour back = FromHex(kBackHex);
   Colour colour = hit.back ? back : front_;
+  if (!hit.back && paint_.marks.size() > 0 && paint_.marks(hit.vertex) > 0) {
+    colour = FromHex(kMarkHex[paint_.marks(hit.vertex) - 1]);
+  }
   if (paint_.show_values || paint_.groups.size() > 0) {
     colour = (hit.back ? kBackUnderValues : kFrontUnderValues) *
              (paint_.show_values ? ValueColour(hit.value) : GroupColour(paint_.groups(hit.vertex)));

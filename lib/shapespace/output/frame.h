@@ -27,6 +27,7 @@ struct Paint {
   ShapeRole role = ShapeRole::kPose;  ///< the front faces' colour, unless
   bool show_values = false;           ///< the scene's values are shown, whose scale ends at 1, or
   Eigen::VectorXi groups;             ///< those of the vertices are; empty: none
+  Eigen::VectorXi marks;              ///< of the vertices, as in FilmStripOptions; empty: none
 };
 
 /// Draws `scene` into the rectangle of `image` whose upper left pixel is (left, top).

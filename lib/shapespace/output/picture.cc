@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -27,6 +29,9 @@ constexpr double kMostPixels = 1e8;
 // Tubes of graphs, in radii of the largest shape, unless the edges are too short for that.
 constexpr double kTubeRadius = 0.01;
 constexpr double kTubePerEdge = 0.15;
+
+// Marks are at least this wide, in radii of the largest shape.
+constexpr double kMarkRadius = 0.02;
 
 // Values are cut off here, in units of the colour scale: far beyond it, and safe as floats.
 constexpr double kLargestValue = 1e6;
@@ -73,6 +78,16 @@ void CheckInput(const Connectivity& connectivity, const std::vector<Shape>& shap
   check_count("roles", options.roles.size());
   check_count("labels", options.labels.size());
   check_count("values", options.values.size());
+  if (options.marks.size() != 0) {
+    if (options.marks.size() != connectivity.NumVertices()) {
+      throw InvalidOptions("marks: given for " + std::to_string(options.marks.size()) +
+                           " vertices, but there are " +
+                           std::to_string(connectivity.NumVertices()));
+    }
+    if ((options.marks.array() < 0).any() || (options.marks.array() > 2).any()) {
+      throw InvalidOptions("marks: must be 0, 1 or 2");
+    }
+  }
   if (options.groups.size() != 0) {
     if (!options.values.empty()) throw InvalidOptions("groups: not together with values");
     if (options.groups.size() != connectivity.NumVertices()) {
@@ -126,6 +141,35 @@ std::vector<Shape> Normalised(const Connectivity& connectivity, const std::vecto
   }
   if (radius > 0) {
     for (Shape& shape : result) shape /= radius;
+  }
+  return result;
+}
+
+// Vertices within `radius` of one with a mark, along edges of `shape`, get the nearest one's.
+Eigen::VectorXi Widened(const Connectivity& connectivity, const Shape& shape,
+                        const Eigen::VectorXi& marks, double radius) {
+  if (marks.size() == 0) return marks;
+  std::vector<std::vector<int>> neighbours(connectivity.NumVertices());
+  for (const auto& edge : connectivity.Edges().colwise()) {
+    neighbours[edge(0)].push_back(edge(1));
+    neighbours[edge(1)].push_back(edge(0));
+  }
+  Eigen::VectorXi result = marks;
+  std::set<std::pair<double, int>> front;  // distance and vertex
+  std::vector<double> distance(marks.size(), radius);
+  for (int v = 0; v < marks.size(); ++v) {
+    if (marks(v) > 0) front.emplace(distance[v] = 0, v);
+  }
+  while (!front.empty()) {
+    const int v = front.begin()->second;
+    front.erase(front.begin());
+    for (int w : neighbours[v]) {
+      const double way = distance[v] + (shape.col(w) - shape.col(v)).norm();
+      if (way >= distance[w]) continue;
+      front.erase({distance[w], w});
+      front.emplace(distance[w] = way, w);
+      result(w) = result(v);
+    }
   }
   return result;
 }
@@ -243,6 +287,8 @@ Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>
     legend = DrawGroupLegend(options.groups.maxCoeff() + 1, options.legend);
   }
 
+  const Eigen::VectorXi marks = Widened(connectivity, drawn.front(), options.marks, kMarkRadius);
+
   const int widest = kWidestStrip * options.frame_width;
   const int rows = (frames * camera.width + widest - 1) / widest;
   const int columns = (frames + rows - 1) / rows;
@@ -266,7 +312,7 @@ Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>
         values.empty() ? Eigen::VectorXf() : Eigen::VectorXf(values[i].cast<float>()));
     const int left = i % columns * camera.width, top = title_height + i / columns * cell_height;
     const ShapeRole role = options.roles.empty() ? ShapeRole::kPose : options.roles[chosen[i]];
-    DrawFrame(scene, camera, {role, !values.empty(), options.groups}, left, top, &image);
+    DrawFrame(scene, camera, {role, !values.empty(), options.groups, marks}, left, top, &image);
     if (!options.labels.empty()) {
       const std::string& label = options.labels[chosen[i]];
       DrawText(&image, left + (camera.width - TextWidth(label)) / 2, top + camera.height, label);

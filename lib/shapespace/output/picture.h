@@ -44,6 +44,10 @@ struct FilmStripOptions {
   /// that counts from 1; negative: none, grey. Empty: plain. Not together with `values`.
   Eigen::VectorXi groups;
 
+  /// Optional mark of each vertex, such as what holds it: 1 dark, 2 red, else none; around a vertex
+  /// a spot large enough to see. Not seen where there are values or groups.
+  Eigen::VectorXi marks;
+
   /// Per shape; empty: all are poses. Not seen where there are values or groups.
   std::vector<ShapeRole> roles;
   std::vector<std::string> labels;  ///< written under each shape, as `legend`; empty: none

@@ -1,0 +1,158 @@
+// A mesh, deformed by handles, or a distorted one repaired.
+
+#include <algorithm>
+
+#include <gflags/gflags.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/selection.h>
+#include <shapespace/solvers/deformation.h>
+#include <shapespace/solvers/handle_file.h>
+#include <shapespace/solvers/repair.h>
+
+#include "support/choose.h"
+#include "support/metric_flags.h"
+#include "support/outputs.h"
+#include "support/poses.h"
+#include "support/report.h"
+#include "support/solve_progress.h"
+#include "support/tool.h"
+
+DEFINE_string(handles, "",
+              "JSON file of what is held, and where it is to be (docs/file-formats.md)");
+DEFINE_string(repair, "",
+              "in place of --handles: a sound pose of the same mesh, whose lengths, angles and "
+              "volume the mesh is to have again");
+DEFINE_string(sound, "",
+              "with --repair: the vertices whose places are kept, as a selection (as those of "
+              "handles); without, all");
+DEFINE_int32(shapes, shapespace::DeformationOptions().shapes,
+             "shapes after the first, the deformed one included; of a repair 1");
+DEFINE_double(balance, shapespace::DeformationOptions().lambda,
+              "between soft handles and the metric: to 0 the handles are met, at 1 nothing moves; "
+              "of a repair 0.5");
+DEFINE_double(tolerance, shapespace::DeformationOptions().tolerance,
+              "a level is finished when an iteration lowers what is minimised by less than this "
+              "share");
+DEFINE_int32(max_iterations, shapespace::DeformationOptions().max_iterations,
+             "iterations a level may take");
+DEFINE_string(solver, "threaded_lbfgs",
+              "threaded_lbfgs (ours), or trust_region (of Ceres, for small meshes)");
+DEFINE_int32(coarsest, shapespace::DeformationOptions().coarsest,
+             "triangles of the coarsest level of the hierarchy");
+
+namespace shapespace::tools {
+namespace {
+
+// Without --metric: what suits the mesh.
+constexpr char kMetric[] = "deformation";
+
+void CheckFlags(const std::vector<std::string>& files) {
+  if (files.size() != 1) throw UsageError("name one mesh");
+  if (FLAGS_handles.empty() == FLAGS_repair.empty()) {
+    throw UsageError("give --handles, or --repair");
+  }
+  if (FLAGS_repair.empty() && IsGiven("sound")) throw UsageError("--sound: goes with --repair");
+}
+
+DeformationOptions DeformationFromFlags(const DeformationOptions& defaults,
+                                        const Connectivity& connectivity) {
+  DeformationOptions options = defaults;
+  options.metric = MetricFromFlags(&connectivity);
+  if (IsGiven("shapes")) options.shapes = FLAGS_shapes;
+  if (IsGiven("balance")) options.lambda = FLAGS_balance;
+  options.tolerance = FLAGS_tolerance;
+  options.max_iterations = FLAGS_max_iterations;
+  options.coarsest = FLAGS_coarsest;
+  options.solver = Choose<DeformationOptions::Solver>(
+      "solver", FLAGS_solver,
+      {{"threaded_lbfgs", DeformationOptions::Solver::kThreadedLbfgs},
+       {"trust_region", DeformationOptions::Solver::kTrustRegion}});
+  NamingFlags({{"lambda", "balance"}}, [&] { options.Validate(); });
+  return options;
+}
+
+// The vertices of --sound.
+std::vector<int> SoundVertices(const Poses& poses) {
+  if (FLAGS_sound.empty()) return {};
+  try {
+    return Select(ReadSelection(FLAGS_sound), poses.shapes[0], *poses.connectivity,
+                  poses.soup.appearance);
+  } catch (const InvalidOptions& error) {
+    throw UsageError("--sound: " + std::string(error.what()));
+  }
+}
+
+// 1 for vertices that stay, 2 for those that are moved.
+Eigen::VectorXi Marks(const std::vector<Handle>& handles, int num_vertices) {
+  Eigen::VectorXi marks = Eigen::VectorXi::Zero(num_vertices);
+  for (const Handle& handle : handles) {
+    const bool stays =
+        !handle.positions && handle.motion.angle == 0 && handle.motion.translation.isZero(0);
+    for (int v : handle.vertices) marks(v) = std::max(marks(v), stays ? 1 : 2);
+  }
+  return marks;
+}
+
+void Run(const std::vector<std::string>& files) {
+  CheckFlags(files);
+  WriteLastShapeAlone();
+  const std::vector<std::string> outputs = OutputsFromFlags();
+  std::vector<std::string> inputs = files;
+  inputs.push_back(FLAGS_handles.empty() ? FLAGS_repair : FLAGS_handles);
+  CheckNothingIsOverwritten(
+      WithStiffeners(inputs),
+      {{"output", outputs, FLAGS_shapes + std::int64_t{1}}, ReportFromFlag()});
+  const auto finish = [&](Path path, const auto& summary, const DeformationSummary& deformation,
+                          const Appearance& appearance, const Eigen::VectorXi& marks) {
+    path.provenance = Provenance("shape-deform", inputs);
+    path.appearance = appearance;
+    PrintSummary(summary.BriefReport(), deformation.warnings, summary.Converged());
+    WriteOutputs(outputs, path, path, marks);
+    WriteReport(summary.FullReport(), summary.ToJson());
+  };
+  if (FLAGS_repair.empty()) {
+    const Poses poses = ReadPosesFromFlags(files);
+    const DeformationOptions options = DeformationFromFlags({}, *poses.connectivity);
+    const std::vector<Handle> handles =
+        ReadHandles(FLAGS_handles, poses.shapes[0], *poses.connectivity, poses.soup.appearance);
+    DeformationResult result =
+        Deform(poses.connectivity, poses.shapes[0], handles, options, SolveProgress(outputs).get());
+    finish(std::move(result.path), result.summary, result.summary, poses.soup.appearance,
+           Marks(handles, poses.connectivity->NumVertices()));
+  } else {
+    const Poses poses = ReadPosesFromFlags({files[0], FLAGS_repair});
+    RepairOptions options;
+    options.deformation = DeformationFromFlags(RepairOptions::Defaults(), *poses.connectivity);
+    options.vertices = SoundVertices(poses);
+    RepairResult result = Repair(poses.connectivity, poses.shapes[1], poses.shapes[0], options,
+                                 SolveProgress(outputs).get());
+    finish(std::move(result.path), result.summary, result.summary.deformation,
+           poses.soup.appearance, {});
+  }
+}
+
+}  // namespace
+}  // namespace shapespace::tools
+
+int main(int argc, char** argv) {
+  using namespace shapespace::tools;
+  gflags::SetCommandLineOptionWithMode("metric", kMetric, gflags::SET_FLAGS_DEFAULT);
+  return RunTool(
+      argc, argv,
+      {"shape-deform",
+       "a mesh deformed by handles, or a distorted one repaired",
+       std::string(
+           "  shape-deform mesh.obj --handles handles.json --output bent.obj,steps.png,bend.glb\n"
+           "  shape-deform dented.obj --repair sound.obj --output mended.obj\n\n"
+           "Handles are vertices that stay, move or turn; the rest follows as the metric wants. "
+           "The output\nis a path: an .obj or .ply without a number in its name holds its last "
+           "shape, the deformed mesh.\nIn a film strip, what the handles hold is drawn dark where "
+           "it stays, and red where it moves.\nThe defaults of the metric suit the mesh, closed "
+           "(stiffer, volume counts) or open, unless\n--metric names another; --volume 3 keeps the "
+           "volume within .3 %.") +
+           kHowASolveEnds,
+       {"shape_deform.cc", "support/report.cc", "support/outputs.cc", "support/metric_flags.cc",
+        "support/poses.cc", "support/mesh_flags.cc"}},
+      Run);
+}
