@@ -109,6 +109,9 @@ TEST_P(HierarchyOfSurfaces, LiftsRigidMotionsRigidly) {
       EXPECT_LT(Apart((turn * to).colwise() + shift,
                       hierarchy.Lift((turn * base).colwise() + shift, level, to, to, 0.5)),
                 1e-8);
+      const auto gradients = hierarchy.LiftGradients(turn * base, level, base);
+      ASSERT_EQ(gradients.size(), hierarchy.Vertices(level + 1).size());
+      for (const Eigen::Matrix3d& gradient : gradients) EXPECT_LT((gradient - turn).norm(), 1e-6);
     }
   }
 }

@@ -60,12 +60,12 @@ std::vector<int> Places(const CholeskyFactor<float>& factor) {
 
 }  // namespace
 
-FreeEndFactors::FreeEndFactors(const Metric& metric, const Shape& rest, Grip grip)
+FreeEndFactors::FreeEndFactors(const Metric& metric, Shape rest, Grip grip)
     : metric_(metric),
-      rest_(rest),
+      rest_(std::move(rest)),
       grip_(std::move(grip)),
-      scalar_(ScalarMetric(metric, {rest}, 0)) {
-  const int num_vertices = static_cast<int>(rest.cols());
+      scalar_(ScalarMetric(metric, {rest_}, 0)) {
+  const int num_vertices = static_cast<int>(rest_.cols());
   given_ = Marks(num_vertices, grip_.carried);
   between_ = FactorOf(scalar_, Eigen::VectorXd::Zero(num_vertices), given_);
   for (int v : grip_.landed) given_[v] = 1;

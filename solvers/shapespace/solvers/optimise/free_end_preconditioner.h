@@ -30,9 +30,10 @@ struct Grip {
 /// moves it evenly sees S + 2 pull: two factors are an inverse, whatever is given or pulled at.
 class FreeEndFactors {
  public:
-  /// \throw SolverError if the scalar metric is not definite.
-  FreeEndFactors(const Metric& metric, const Shape& rest, Grip grip);
+  /// `metric` is kept by reference. \throw SolverError if the scalar metric is not definite.
+  FreeEndFactors(const Metric& metric, Shape rest, Grip grip);
 
+  const Shape& Rest() const { return rest_; }
   const Grip& GetGrip() const { return grip_; }
   size_t NumNonzeros() const;
 
@@ -53,7 +54,7 @@ class FreeEndFactors {
   void SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights, std::vector<Tangent>* shapes) const;
 
   const Metric& metric_;
-  const Shape rest_;
+  Shape rest_;
   Grip grip_;
   std::vector<char> given_;  // of each vertex: in the last shape
   Eigen::SparseMatrix<double> scalar_;

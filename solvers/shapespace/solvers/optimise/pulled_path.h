@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <shapespace/metric/metric.h>
@@ -19,10 +20,10 @@ class PulledPath {
  public:
   /// In the metric's unit; `rest` is the first shape of all paths.
   PulledPath(std::shared_ptr<const Metric> metric, Shape rest, Grip grip)
-      : metric_(std::move(metric)), rest_(std::move(rest)), factors_(*metric_, rest_, grip) {}
+      : metric_(std::move(metric)), factors_(*metric_, std::move(rest), std::move(grip)) {}
 
   const Metric& GetMetric() const { return *metric_; }
-  const Shape& Rest() const { return rest_; }
+  const Shape& Rest() const { return factors_.Rest(); }
   const FreeEndFactors& Factors() const { return factors_; }
 
   /// The energy of a path of any number of shapes, unscaled.
@@ -41,7 +42,6 @@ class PulledPath {
   PathEnergy& EnergyOf(int segments);
 
   std::shared_ptr<const Metric> metric_;
-  Shape rest_;
   FreeEndFactors factors_;
   std::optional<PathEnergy> energy_;  // of the number of shapes used last
 };

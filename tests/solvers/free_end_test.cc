@@ -1,0 +1,113 @@
+#include <shapespace/solvers/optimise/free_end_preconditioner.h>
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/bodies/bar.h>
+
+#include "support/motions.h"
+#include "support/paths.h"
+
+namespace shapespace::internal {
+namespace {
+
+using shapespace::testing::Noise;
+using shapespace::testing::Rotation;
+
+// Under the cost of position alone the energy is a quadratic form, and the scalar metric is exact:
+// one step of Newton's method, by the preconditioner, leads to the minimum, whatever is given and
+// pulled at.
+TEST(FreeEndPreconditioner, IsTheInverseOfAQuadraticEnergy) {
+  const Body bar = MakeBar(3, 1, 1, 6, 2, 2);
+  MetricOptions options;
+  options.isometric = 0;
+  options.bending = 0;
+  options.lambda = 1;
+  const Metric metric = FreezeMetric(options, bar.connectivity, {bar.pose(0)});
+  const Shape rest = bar.pose(0) / metric.unit;
+  const int count = static_cast<int>(rest.cols());
+  for (int n : {1, 2, 5}) {
+    Grip grip;
+    grip.carried = {0, 3, 8};
+    grip.landed = {1, 5};
+    grip.pull = Eigen::VectorXd::Zero(count);
+    grip.pull(7) = 0.3;
+    grip.pull(20) = 2;
+    const FreeEndFactors factors(metric, rest, grip);
+    std::vector<Shape> shapes = {rest};
+    for (int t = 1; t <= n; ++t) shapes.push_back(rest + Noise(count, 0.1, t));
+    const Shape target = rest + Noise(count, 0.2, 77);
+
+    PathEnergy energy(metric, n, PathEnergy::End::kFree);
+    std::vector<double> x(energy.Size()), gradient(energy.Size()), step(energy.Size());
+    energy.Load(shapes, x.data());
+    const auto at = [&](int v, int axis, int t) {
+      return (3 * static_cast<size_t>(energy.Row(v)) + axis) * energy.Stride() + t;
+    };
+    // The gradient of what is minimised by what is free.
+    const auto evaluate = [&] {
+      energy.Evaluate(x.data(), gradient.data());
+      double largest = 0;
+      for (int v = 0; v < count; ++v) {
+        for (int axis = 0; axis < 3; ++axis) {
+          gradient[at(v, axis, n - 1)] +=
+              2 * grip.pull(v) / n * (x[at(v, axis, n - 1)] - target(axis, v));
+          for (int t = 0; t < n; ++t) {
+            const bool given = v == 0 || v == 3 || v == 8 || (t == n - 1 && (v == 1 || v == 5));
+            if (given) gradient[at(v, axis, t)] = 0;
+            largest = std::max(largest, std::abs(gradient[at(v, axis, t)]));
+          }
+        }
+      }
+      return largest;
+    };
+    const double before = evaluate();
+    FreeEndPreconditioner(factors, energy).Apply(gradient.data(), 1, step.data());
+    const std::vector<double> start = x;
+    for (size_t k = 0; k < x.size(); ++k) x[k] -= step[k];
+    EXPECT_LT(evaluate(), 1e-5 * before) << n;
+    for (int t = 0; t < n; ++t) EXPECT_EQ(x[at(3, 1, t)], start[at(3, 1, t)]);
+    EXPECT_EQ(x[at(5, 2, n - 1)], start[at(5, 2, n - 1)]);
+  }
+}
+
+struct Held {
+  Body body = MakeBar(4, 1, 1, 12, 3, 3);
+  Metric metric = FreezeMetric(MetricOptions::Deformation(*body.connectivity), body.connectivity,
+                               {body.pose(0)});
+  Shape rest = body.pose(0) / metric.unit;
+  Grip grip;
+
+  Held() {
+    grip.pull = Eigen::VectorXd::Zero(rest.cols());
+    for (int v = 0; v < rest.cols(); v += 9) grip.carried.push_back(v);
+  }
+};
+
+TEST(FreeEndFactors, ATranslationOfWhatIsGivenTakesTheWholeAlong) {
+  const Held held;
+  const FreeEndFactors factors(held.metric, held.rest, held.grip);
+  Tangent way = Tangent::Zero(3, held.rest.cols());
+  for (int v : held.grip.carried) way.col(v) << 0.1, -0.2, 0.3;
+  const Tangent result = factors.Spread({way})[0];
+  for (int v = 0; v < result.cols(); ++v) {
+    EXPECT_LT((result.col(v) - Eigen::Vector3d(0.1, -0.2, 0.3)).norm(), 1e-4);
+  }
+}
+
+// Neighbourhoods that all turn by one rotation are those of the turned shape, from wherever the
+// vertices that are not given start.
+TEST(FreeEndFactors, IntegratesARotation) {
+  const Held held;
+  const FreeEndFactors factors(held.metric, held.rest, held.grip);
+  const Eigen::Matrix3d turn = Rotation(130, {1, 2, 3});
+  const Shape expected = turn * held.rest;
+  std::vector<Shape> shapes = {held.rest};
+  for (int v : held.grip.carried) shapes[0].col(v) = expected.col(v);
+  factors.Integrate({std::vector<Eigen::Matrix3d>(held.rest.cols(), turn)}, &shapes);
+  EXPECT_LT((shapes[0] - expected).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+}  // namespace
+}  // namespace shapespace::internal
