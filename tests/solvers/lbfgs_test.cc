@@ -92,6 +92,26 @@ TEST(ThreadedLbfgs, ReachesTinyTolerancesWithAShortHistoryToo) {
   }
 }
 
+// A preconditioner that is right but for its scale is as good, after the first step.
+TEST(ThreadedLbfgs, FindsTheScaleOfThePreconditioner) {
+  Problem problem(MakeBar(6, 1, 1, 24, 4, 4), 7);
+  int evaluations = 0;
+  for (double factor : {1.0, 0.02, 50.0}) {
+    std::vector<double> unknowns = problem.start;
+    const MinimiseResult result = MinimiseThreadedLbfgs(
+        ObjectiveOf(&problem.energy),
+        [&](const double* gradient, double unit, double* step) {
+          problem.preconditioner.Apply(gradient, unit, step);
+          for (size_t k = 0; k < problem.start.size(); ++k) step[k] *= factor;
+        },
+        Tolerance(1e-8), &unknowns);
+    EXPECT_EQ(result.stop, Stop::kConverged);
+    EXPECT_LT(result.evaluations, 1.2 * result.iterations + 8);
+    if (factor == 1) evaluations = result.evaluations;
+    EXPECT_LT(result.evaluations, 1.3 * evaluations + 8);
+  }
+}
+
 TEST(ThreadedLbfgs, IsTheSameForAnyNumberOfThreads) {
   Problem problem(MakeBar(6, 1, 1, 60, 10, 10), 5);
   MinimiseOptions options = Tolerance(1e-6);

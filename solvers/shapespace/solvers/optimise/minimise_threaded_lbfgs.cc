@@ -31,6 +31,7 @@ class ThreadedLbfgs {
         x_(*unknowns),
         size_(unknowns->size()),
         work_(size_),
+        preconditioned_(size_),
         gradient_(size_),
         trial_gradient_(size_) {}
 
@@ -53,6 +54,7 @@ class ThreadedLbfgs {
  private:
   struct Pair {
     std::vector<double> direction, change;  // of the unknowns, without its length; of the gradient
+    std::vector<double> preconditioned;     // change, once the next direction is looked for
     double length = 0;                      // the step is `length` times `direction`
     double curvature = 0;                   // step . change
     double step_gradient = 0;               // step . gradient at the current point
@@ -100,27 +102,43 @@ class ThreadedLbfgs {
     }
   }
 
+  // Preconditions the gradient, and so the last change of it. The preconditioner's scale is made to
+  // fit what the last step has seen of the Hessian (Nocedal and Wright, equation 7.20).
+  void PreconditionGradient() {
+    precondition_(gradient_.data(), unit_, work_.data());
+    if (!history_.empty() && fresh_change_) {
+      Pair& last = history_.back();
+      const double product = ForChunks(size_, 1, [&](size_t begin, size_t count, double* sums) {
+        Combine(&work_[begin], -1, &preconditioned_[begin], &last.preconditioned[begin], count);
+        sums[0] += Dot(&last.change[begin], &last.preconditioned[begin], count);
+      })[0];
+      if (product > 0) scale_ = last.curvature / product;
+    }
+    fresh_change_ = false;
+    preconditioned_.swap(work_);
+  }
+
   // Appends a pair whose direction is minus the quasi-Newton approximation times the gradient, and
   // leaves in `work_` where a whole step leads. Returns the slope.
   double FindDirection() {
     const int pairs = static_cast<int>(history_.size());
     fresh_ = pairs == 0;
     std::vector<double> first(pairs), products, second(pairs);
+    PreconditionGradient();
     for (int i = pairs - 1; i >= 0; --i) {
       const Pair& pair = history_[i];
       double sum = pair.step_gradient;
       for (int j = i + 1; j < pairs; ++j) sum -= first[j] * pair.step_change[j - i];
       first[i] = sum / pair.curvature;
     }
-    ForChunks(size_, 0, [&](size_t begin, size_t count, double*) {
-      double* const q = &work_[begin];
-      std::copy_n(&gradient_[begin], count, q);
-      for (int i = 0; i < pairs; ++i) Add(-first[i], &history_[i].change[begin], q, count);
-    });
-    precondition_(work_.data(), unit_, work_.data());
     products = ForChunks(size_, pairs, [&](size_t begin, size_t count, double* sums) {
+      double* const z = &work_[begin];
+      for (size_t k = 0; k < count; ++k) z[k] = scale_ * preconditioned_[begin + k];
       for (int i = 0; i < pairs; ++i) {
-        sums[i] += Dot(&history_[i].change[begin], &work_[begin], count);
+        Add(-scale_ * first[i], &history_[i].preconditioned[begin], z, count);
+      }
+      for (int i = 0; i < pairs; ++i) {
+        sums[i] += Dot(&history_[i].change[begin], z, count);
       }
     });
     for (int i = 0; i < pairs; ++i) {
@@ -149,9 +167,11 @@ class ThreadedLbfgs {
     })[0];
     if (full) {
       next.change.swap(history_.front().change);
+      next.preconditioned.swap(history_.front().preconditioned);
       history_.erase(history_.begin());
     } else {
       next.change.resize(size_);
+      next.preconditioned.resize(size_);
     }
     history_.push_back(std::move(next));
     return slope;
@@ -204,7 +224,8 @@ class ThreadedLbfgs {
     }
     last.step_gradient = end.step * end.slope;
     last.step_change = {last.curvature};
-    if (end.slope - slope < -kLeastCurvature * slope) {
+    fresh_change_ = end.slope - slope >= -kLeastCurvature * slope;
+    if (!fresh_change_) {
       history_.pop_back();
       for (Pair& pair : history_) pair.step_change.pop_back();
     }
@@ -216,9 +237,10 @@ class ThreadedLbfgs {
   const MinimiseOptions& options_;
   std::vector<double>& x_;
   const size_t size_;
-  std::vector<double> work_, gradient_, trial_gradient_;
-  double value_ = 0, unit_ = 1;
-  bool fresh_ = true;
+  std::vector<double> work_, preconditioned_, gradient_, trial_gradient_;
+  double value_ = 0, unit_ = 1, scale_ = 1;
+  bool fresh_ = true;          // no history bears on the direction
+  bool fresh_change_ = false;  // the last pair's change has not been preconditioned yet
   std::vector<Pair> history_;  // oldest first
   MinimiseResult result_;
 };
