@@ -11,6 +11,7 @@
 #include <shapespace/solvers/repair.h>
 
 #include "support/choose.h"
+#include "support/memory_flag.h"
 #include "support/metric_flags.h"
 #include "support/outputs.h"
 #include "support/poses.h"
@@ -64,6 +65,7 @@ DeformationOptions DeformationFromFlags(const DeformationOptions& defaults,
   options.tolerance = FLAGS_tolerance;
   options.max_iterations = FLAGS_max_iterations;
   options.coarsest = FLAGS_coarsest;
+  options.memory_limit = 1e9 * FLAGS_memory_limit;
   options.solver = Choose<DeformationOptions::Solver>(
       "solver", FLAGS_solver,
       {{"threaded_lbfgs", DeformationOptions::Solver::kThreadedLbfgs},
@@ -153,6 +155,6 @@ int main(int argc, char** argv) {
            "volume within .3 %.") +
            kHowASolveEnds,
        {"shape_deform.cc", "support/report.cc", "support/outputs.cc", "support/metric_flags.cc",
-        "support/poses.cc", "support/mesh_flags.cc"}},
+        "support/poses.cc", "support/mesh_flags.cc", "support/memory_flag.cc"}},
       Run);
 }

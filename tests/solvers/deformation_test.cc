@@ -552,8 +552,16 @@ TEST(Deform, RefusesWhatMakesNoSense) {
   EXPECT_EQ(of_options([](auto* o) { o->tolerance = 0; }), "tolerance");
   EXPECT_EQ(of_options([](auto* o) { o->max_iterations = 0; }), "max_iterations");
   EXPECT_EQ(of_options([](auto* o) { o->coarsest = 1; }), "coarsest");
+  EXPECT_EQ(of_options([](auto* o) { o->memory_limit = 0; }), "memory_limit");
   EXPECT_EQ(of_options([](auto* o) { o->metric = MetricOptions::Rigid(); }), "rigid");
   EXPECT_EQ(of_options([](auto* o) { o->metric = MetricOptions::Paper(); }), "discretization");
+}
+
+TEST(Deform, RefusesMoreThanTheMemoryLimit) {
+  const HeldBar bar;
+  DeformationOptions options;
+  options.memory_limit = 1e5;
+  EXPECT_THROW(bar.Solve(Twist(30), options), SolverError);
 }
 
 TEST(Deform, StopsWhenAskedTo) {

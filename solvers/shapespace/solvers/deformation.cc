@@ -18,6 +18,7 @@
 #include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/optimise/handle_targets.h>
 #include <shapespace/solvers/optimise/pulled_path.h>
+#include <shapespace/solvers/optimise/resolution.h>
 #include <shapespace/solvers/optimise/workload.h>
 
 namespace shapespace {
@@ -45,6 +46,17 @@ constexpr double kAllGained = 1e-12;
 // A hard handle that is off by more than this share of the unit is told of: others are met to
 // rounding.
 constexpr double kContradiction = 1e-9;
+
+// What a solve holds on the mesh itself: the vectors of L-BFGS, shapes and what becomes of them,
+// two factors in single precision, and one in double while they are made.
+double EstimateBytes(const Metric& metric, int shapes) {
+  const double vertices = metric.connectivity->NumVertices();
+  const double unknowns = 3 * vertices * shapes;
+  const double vectors = 3.0 * internal::HistoryRank(unknowns) + 16;
+  constexpr double kFactor = 300;  // numbers a vertex, as measured for geodesics
+  return 8 * (vectors * unknowns + 2 * kFactor * vertices) +
+         PathEnergy::EstimateBytes(metric, shapes);
+}
 
 Termination Translate(internal::Stop stop) {
   switch (stop) {
@@ -77,6 +89,7 @@ void DeformationOptions::Validate() const {
   internal::CheckTolerance(tolerance);
   internal::CheckMaxIterations(max_iterations);
   HierarchyOptions{coarsest, {}}.Validate();
+  if (!(memory_limit > 0)) throw InvalidOptions("memory_limit: must be positive");
 }
 
 // Keeps what a solve leaves for the next.
@@ -139,6 +152,12 @@ Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity
   options.Validate();
   metric_ = std::make_shared<const Metric>(FreezeMetric(
       options.metric.value_or(MetricOptions::Deformation(*connectivity)), connectivity, {rest}));
+  const double bytes = EstimateBytes(*metric_, options.shapes);
+  if (bytes > options.memory_limit) {
+    throw SolverError(
+        "this deformation needs about " + std::to_string(std::lround(bytes / 1e6)) +
+        " MB, more than the memory limit; ask for fewer shapes or raise memory_limit");
+  }
   origin_ = Centroid(rest, metric_->vertex_area);
   rest_ = (rest.colwise() - origin_) / metric_->unit;
   component_ = ComputeTopology(*connectivity).component;

@@ -55,6 +55,9 @@ struct DeformationOptions {
   /// Triangles of the coarsest level (HierarchyOptions::coarsest).
   int coarsest = 200;
 
+  /// Bytes that a solve may take; an estimate above it is refused before anything is allocated.
+  double memory_limit = 8e9;
+
   /// \throw InvalidOptions naming the field.
   void Validate() const;
 };
@@ -118,7 +121,7 @@ struct DeformationResult {
 /// pieces without a handle stay where they are, and are told of. `rest` may hold collapsed or
 /// repeated triangles.
 /// \throw InvalidOptions (options; handles, naming the one), MeshError (see FreezeMetric),
-///        SolverError (out of memory), Cancelled (stopped by `progress` before there was a path;
+///        SolverError (memory limit), Cancelled (stopped by `progress` before there was a path;
 ///        later the best so far is returned, as Termination::kCancelled).
 DeformationResult Deform(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
                          const std::vector<Handle>& handles, const DeformationOptions& options = {},
