@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -17,7 +16,7 @@
 #include <shapespace/path/align.h>
 #include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/optimise/handle_targets.h>
-#include <shapespace/solvers/optimise/pulled_path.h>
+#include <shapespace/solvers/optimise/held_level.h>
 #include <shapespace/solvers/optimise/resolution.h>
 #include <shapespace/solvers/optimise/workload.h>
 
@@ -25,7 +24,7 @@ namespace shapespace {
 namespace {
 
 using internal::HandleTargets;
-using internal::PulledPath;
+using internal::HeldLevel;
 
 // While handles go their way on the coarsest level, no handle turns by more than this in a step,
 // and there are at least so many steps.
@@ -43,8 +42,8 @@ constexpr double kEnough = 1e-3;
 // Of the mesh itself: shares of what is left mean nothing where all of it can be gained.
 constexpr double kAllGained = 1e-12;
 
-// A hard handle that is off by more than this share of the unit is told of: others are met to
-// rounding.
+// A hard handle that is off by more than this share of the unit is told of, with some room for
+// rounding far from the origin: others are met.
 constexpr double kContradiction = 1e-9;
 
 // What a solve holds on the mesh itself: the vectors of L-BFGS, shapes and what becomes of them,
@@ -102,17 +101,6 @@ class Deformer::Solver {
   DeformationResult Solve(const std::vector<Handle>& handles, const Shape* end, Progress* progress);
 
  private:
-  struct Held {
-    int column;           // of the places of all held vertices
-    int vertex;           // of the level
-    bool carried, given;  // as in HandleTargets
-  };
-  struct Level {
-    PulledPath path;
-    std::vector<Held> held;
-    std::vector<int> component;  // of each vertex; -1 for none
-  };
-
   void Prepare(const HandleTargets& targets, DeformationSummary* summary);
   std::vector<Shape> Cascade(const HandleTargets& targets, const std::vector<Shape>& places,
                              const Shape* end, Progress* progress, internal::Workload* workload,
@@ -126,12 +114,6 @@ class Deformer::Solver {
   void Warn(const HandleTargets& targets, DeformationSummary* summary) const;
   internal::MinimiseOptions Minimise() const;
 
-  static void MoveComponents(const Level& level, const Shape& places, Shape* shape);
-  static void GoAlong(const Level& level, const std::vector<Shape>& places,
-                      std::vector<Shape>* shapes);
-  static void Place(const Level& level, const Shape& places, bool last, Shape* shape);
-  static Shape Target(const Level& level, const Shape& places);
-
   const DeformationOptions options_;
   const std::shared_ptr<const Connectivity> connectivity_;
   const Shape given_;  // the mesh, in the user's unit
@@ -140,7 +122,7 @@ class Deformer::Solver {
   Shape rest_;              // the mesh, in the metric's unit
   std::vector<int> component_;
   std::optional<Hierarchy> hierarchy_;
-  std::vector<Level> levels_;
+  std::vector<HeldLevel> levels_;
   // Of the last solve.
   std::optional<HandleTargets> last_targets_;
   std::vector<Shape> last_shapes_;
@@ -184,7 +166,7 @@ DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, co
   if (summary.warm) {
     workload.Plan(connectivity_->NumVertices(), options_.shapes, true);
     shapes = last_shapes_;
-    GoAlong(levels_.back(), places, &shapes);
+    levels_.back().GoAlong(places, &shapes);
     Relax(places.back(), levels_.size() - 1, "warm", &workload, &shapes, &summary);
   } else {
     shapes = Cascade(targets, places, end, progress, &workload, &summary);
@@ -209,10 +191,6 @@ void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary*
   summary->hierarchy_seconds = building.Seconds();
   const Stopwatch factoring;
   const double strength = 2 * (1 - options_.lambda) / options_.lambda;
-  std::set<int> holds;  // connected pieces
-  for (int v : targets.Held()) {
-    if (component_[v] >= 0) holds.insert(component_[v]);
-  }
   for (int i = 0; i < hierarchy_->NumLevels(); ++i) {
     const std::vector<int>& vertices = hierarchy_->Vertices(i);
     Shape rest = hierarchy_->Restrict(rest_, i);
@@ -221,21 +199,10 @@ void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary*
       metric = std::make_shared<const Metric>(
           FreezeMetric(metric_->options, hierarchy_->LevelConnectivity(i), {rest}, 1));
     }
-    internal::Grip grip = targets.Restrict(vertices, metric->vertex_area, strength);
     std::vector<int> component;
     for (int v : vertices) component.push_back(component_[v]);
-    // What nothing holds stays where it is, also where volume would have it move.
-    for (size_t v = 0; v < vertices.size(); ++v) {
-      if (holds.count(component[v]) == 0) grip.carried.push_back(static_cast<int>(v));
-    }
-    Level level = {PulledPath(metric, std::move(rest), std::move(grip)), {}, std::move(component)};
-    for (size_t k = 0; k < targets.Held().size(); ++k) {
-      const auto found = std::lower_bound(vertices.begin(), vertices.end(), targets.Held()[k]);
-      if (found == vertices.end() || *found != targets.Held()[k]) continue;
-      level.held.push_back({static_cast<int>(k), static_cast<int>(found - vertices.begin()),
-                            targets.IsCarried(k), targets.IsGiven(k)});
-    }
-    levels_.push_back(std::move(level));
+    levels_.emplace_back(std::move(metric), std::move(rest), vertices, std::move(component),
+                         targets, strength);
   }
   summary->factor_seconds = factoring.Seconds();
 }
@@ -244,26 +211,25 @@ std::vector<Shape> Deformer::Solver::Cascade(const HandleTargets& targets,
                                              const std::vector<Shape>& places, const Shape* end,
                                              Progress* progress, internal::Workload* workload,
                                              DeformationSummary* summary) {
-  for (const Level& level : levels_) {
-    workload->Plan(static_cast<int>(level.component.size()), options_.shapes,
-                   &level == &levels_.back());
+  for (const HeldLevel& level : levels_) {
+    workload->Plan(level.NumVertices(), options_.shapes, &level == &levels_.back());
   }
   std::vector<Shape> shapes =
       end == nullptr ? Follow(targets, progress) : StartAt(*end, places.back(), progress);
   const char* start = end == nullptr ? "handles" : "given";
   for (size_t i = 0; i < levels_.size(); ++i) {
     if (i > 0) {
-      const Shape& rest = levels_[i].path.Rest();
-      const Shape& coarse_rest = levels_[i - 1].path.Rest();
+      const Shape& rest = levels_[i].Rest();
+      const Shape& coarse_rest = levels_[i - 1].Rest();
       std::vector<Shape> lifted(options_.shapes);
       std::vector<std::vector<Eigen::Matrix3d>> gradients(options_.shapes);
       ParallelFor(options_.shapes, [&](int k) {
         const int below = static_cast<int>(i) - 1;
         lifted[k] = hierarchy_->Lift(shapes[k + 1], below, rest, rest, 0);
         gradients[k] = hierarchy_->LiftGradients(shapes[k + 1], below, coarse_rest);
-        Place(levels_[i], places[k + 1], k + 1 == options_.shapes, &lifted[k]);
+        levels_[i].Place(places[k + 1], k + 1 == options_.shapes, &lifted[k]);
       });
-      levels_[i].path.Factors().Integrate(gradients, &lifted);
+      levels_[i].Path().Factors().Integrate(gradients, &lifted);
       lifted.insert(lifted.begin(), rest);
       shapes = std::move(lifted);
       start = "lifted";
@@ -284,13 +250,13 @@ internal::MinimiseOptions Deformer::Solver::Minimise() const {
 // which is then relaxed as a whole: a path remembers how far it has turned, where a single shape
 // that is wound up may slip back.
 std::vector<Shape> Deformer::Solver::Follow(const HandleTargets& targets, Progress* progress) {
-  Level& level = levels_.front();
+  HeldLevel& level = levels_.front();
   const int least =
       std::max(kFollowSteps, static_cast<int>(std::ceil(targets.GreatestTurn() / kFollowTurn)));
   const int between = (least + options_.shapes - 1) / options_.shapes;
   const int steps = between * options_.shapes;
   internal::MinimiseOptions minimise = Minimise();
-  std::vector<Shape> way = {level.path.Rest()}, result = way;
+  std::vector<Shape> way = {level.Rest()}, result = way;
   for (int step = 1; step <= steps; ++step) {
     minimise.keep_going = [&](int, double) {
       ReportProgress(progress, "following the handles", step, steps);
@@ -298,10 +264,10 @@ std::vector<Shape> Deformer::Solver::Follow(const HandleTargets& targets, Progre
     };
     const Shape places = targets.At(static_cast<double>(step) / steps);
     std::vector<Shape> last = {way.back(), way.back()};
-    MoveComponents(level, places, &last.back());
-    GoAlong(level, {{}, places}, &last);
+    level.MoveComponents(places, &last.back());
+    level.GoAlong({{}, places}, &last);
     way.push_back(std::move(last.back()));
-    level.path.Relax(Target(level, places), minimise, &way);
+    level.Path().Relax(level.Target(places), minimise, &way);
   }
   for (int i = between; i <= steps; i += between) result.push_back(std::move(way[i]));
   return result;
@@ -310,29 +276,29 @@ std::vector<Shape> Deformer::Solver::Follow(const HandleTargets& targets, Progre
 // From a given last shape, relaxed by itself; those before it come out of the first by a geodesic.
 std::vector<Shape> Deformer::Solver::StartAt(const Shape& end, const Shape& places,
                                              Progress* progress) {
-  Level& level = levels_.front();
-  std::vector<Shape> pair = {level.path.Rest(),
+  HeldLevel& level = levels_.front();
+  std::vector<Shape> pair = {level.Rest(),
                              hierarchy_->Restrict((end.colwise() - origin_) / metric_->unit, 0)};
   internal::MinimiseOptions minimise = Minimise();
   minimise.keep_going = [&](int, double) {
     ReportProgress(progress, "deforming", 0, 0);
     return true;
   };
-  level.path.Relax(Target(level, places), minimise, &pair);
+  level.Path().Relax(level.Target(places), minimise, &pair);
   if (options_.shapes == 1) return pair;
   GeodesicOptions geodesic;
   geodesic.shapes = options_.shapes - 1;
   geodesic.tolerance = options_.tolerance;
-  return Interpolate(level.path.GetMetric().connectivity, pair, geodesic, progress).path.Placed();
+  return Interpolate(level.Path().GetMetric().connectivity, pair, geodesic, progress).path.Placed();
 }
 
 void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char* start,
                              internal::Workload* workload, std::vector<Shape>* shapes,
                              DeformationSummary* summary) {
   const Stopwatch stopwatch;
-  Level& level = levels_[level_index];
+  HeldLevel& level = levels_[level_index];
   const bool finest = level_index + 1 == levels_.size();
-  const int vertices = static_cast<int>(level.component.size());
+  const int vertices = level.NumVertices();
   workload->Begin(std::to_string(vertices) + " vertices, " + std::to_string(options_.shapes) +
                       (options_.shapes == 1 ? " shape" : " shapes"),
                   vertices, options_.shapes, finest);
@@ -341,11 +307,11 @@ void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char
   minimise.keep_going = [&](int iteration, double value) {
     return workload->GoOn(iteration, value);
   };
-  const Shape target = Target(level, places);
+  const Shape target = level.Target(places);
   const internal::MinimiseResult result =
       options_.solver == DeformationOptions::Solver::kTrustRegion
-          ? level.path.RelaxByTrustRegion(target, minimise, shapes)
-          : level.path.Relax(target, minimise, shapes);
+          ? level.Path().RelaxByTrustRegion(target, minimise, shapes)
+          : level.Path().Relax(target, minimise, shapes);
   workload->End();
   DeformationSummary::Level row;
   row.vertices = vertices;
@@ -360,58 +326,6 @@ void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char
   summary->levels.push_back(row);
 }
 
-// Each connected piece moves rigidly with what is held of it.
-void Deformer::Solver::MoveComponents(const Level& level, const Shape& places, Shape* shape) {
-  std::map<int, std::vector<const Held*>> held;
-  for (const Held& one : level.held) held[level.component[one.vertex]].push_back(&one);
-  std::map<int, RigidMotion> motions;
-  for (const auto& [component, list] : held) {
-    Shape from(3, list.size()), to(3, list.size());
-    for (size_t k = 0; k < list.size(); ++k) {
-      from.col(k) = shape->col(list[k]->vertex);
-      to.col(k) = places.col(list[k]->column);
-    }
-    motions[component] = FitRigidMotion(from, to, Eigen::VectorXd::Ones(from.cols()));
-  }
-  for (int v = 0; v < shape->cols(); ++v) {
-    const auto found = motions.find(level.component[v]);
-    if (level.component[v] >= 0 && found != motions.end()) {
-      shape->col(v) = found->second.rotation * shape->col(v) + found->second.translation;
-    }
-  }
-}
-
-// Moves what is held to its places at the times of the shapes, and takes the rest along.
-void Deformer::Solver::GoAlong(const Level& level, const std::vector<Shape>& places,
-                               std::vector<Shape>* shapes) {
-  const size_t last = shapes->size() - 1;
-  std::vector<Tangent> ways(last, Tangent::Zero(3, level.component.size()));
-  for (size_t i = 1; i <= last; ++i) {
-    for (const Held& held : level.held) {
-      if (i < last && !held.carried) continue;
-      ways[i - 1].col(held.vertex) = places[i].col(held.column) - (*shapes)[i].col(held.vertex);
-    }
-  }
-  const std::vector<Tangent> steps = level.path.Factors().Spread(ways);
-  for (size_t i = 1; i <= last; ++i) {
-    (*shapes)[i] += steps[i - 1];
-    Place(level, places[i], i == last, &(*shapes)[i]);
-  }
-}
-
-// Puts what is given, in the last shape or in all of them, to its places.
-void Deformer::Solver::Place(const Level& level, const Shape& places, bool last, Shape* shape) {
-  for (const Held& held : level.held) {
-    if (held.carried || (held.given && last)) shape->col(held.vertex) = places.col(held.column);
-  }
-}
-
-Shape Deformer::Solver::Target(const Level& level, const Shape& places) {
-  Shape target = Shape::Zero(3, level.component.size());
-  for (const Held& held : level.held) target.col(held.vertex) = places.col(held.column);
-  return target;
-}
-
 void Deformer::Solver::Assess(const std::vector<Handle>& handles, const HandleTargets& targets,
                               const std::vector<Shape>& shapes, DeformationResult* result) {
   DeformationSummary& summary = result->summary;
@@ -422,7 +336,7 @@ void Deformer::Solver::Assess(const std::vector<Handle>& handles, const HandleTa
   summary.unit = metric_->unit;
   summary.lambda = options_.lambda;
   summary.threads = Threads();
-  summary.energy = ScaledEnergy(levels_.back().path.Energy(shapes), options_.shapes);
+  summary.energy = ScaledEnergy(levels_.back().Path().Energy(shapes), options_.shapes);
   summary.error = CompareShapes(metric_, shapes.front(), shapes.back());
   for (int i = 0; i < hierarchy_->NumLevels(); ++i) {
     summary.hierarchy.push_back(static_cast<int>(hierarchy_->Vertices(i).size()));
@@ -488,7 +402,7 @@ void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* su
                                 std::to_string(piece.second + 1) +
                                 " (counted from 1); it stays where it is");
   }
-  const double far = kContradiction * summary->unit;
+  const double far = kContradiction * (summary->unit + 1e-3 * origin_.norm());
   for (const DeformationSummary::HandleResult& handle : summary->handles) {
     if (handle.hard && handle.residual_max > far) {
       summary->warnings.push_back(

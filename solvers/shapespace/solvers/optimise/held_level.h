@@ -1,0 +1,51 @@
+#ifndef SHAPESPACE_SOLVERS_OPTIMISE_HELD_LEVEL_H_
+#define SHAPESPACE_SOLVERS_OPTIMISE_HELD_LEVEL_H_
+
+#include <memory>
+#include <vector>
+
+#include <shapespace/metric/metric.h>
+#include <shapespace/solvers/optimise/handle_targets.h>
+#include <shapespace/solvers/optimise/pulled_path.h>
+
+namespace shapespace::internal {
+
+/// One level of the hierarchy of a mesh that handles hold. Places are those of all held vertices,
+/// 3 x HandleTargets::Held(), of which the level has some.
+class HeldLevel {
+ public:
+  /// `rest` is the mesh on this level, which has `vertices` (rising) of it, each of a connected
+  /// `component` (-1: of none). `strength` as in HandleTargets::Restrict.
+  HeldLevel(std::shared_ptr<const Metric> metric, Shape rest, const std::vector<int>& vertices,
+            std::vector<int> component, const HandleTargets& targets, double strength);
+
+  PulledPath& Path() { return path_; }
+  const PulledPath& Path() const { return path_; }
+  const Shape& Rest() const { return path_.Rest(); }
+  int NumVertices() const { return static_cast<int>(component_.size()); }
+
+  /// Each connected piece moves rigidly with what is held of it, to its places.
+  void MoveComponents(const Shape& places, Shape* shape) const;
+  /// Moves what is held of all shapes but the first to its `places`, one for each shape, and takes
+  /// the rest along.
+  void GoAlong(const std::vector<Shape>& places, std::vector<Shape>* shapes) const;
+  /// Puts what is given, in the `last` shape or in all of them, to its places.
+  void Place(const Shape& places, bool last, Shape* shape) const;
+  /// The places by vertex; 0 where nothing holds.
+  Shape Target(const Shape& places) const;
+
+ private:
+  struct Held {
+    int column;           // of the places
+    int vertex;           // of the level
+    bool carried, given;  // as in HandleTargets
+  };
+
+  std::vector<int> component_;
+  PulledPath path_;
+  std::vector<Held> held_;
+};
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_SOLVERS_OPTIMISE_HELD_LEVEL_H_
