@@ -288,14 +288,14 @@ void PrintRepair() {
       "\nRepair of half a straight-line blend with twelve dents, against the first pose\n\n"
       "| poses | volume before, %% | after | edges rms before, %% | after | hinges turned "
       "over | after | seconds |\n|---|--:|--:|--:|--:|--:|--:|--:|\n");
-  const std::string data = SHAPESPACE_DATA_DIR;
+  const std::string data = SHAPESPACE_DATA_DIR "/";
   for (const auto& [first, second] : {std::make_pair("human/000", "human/007"),
                                       {"cat/reference", "cat/01"},
                                       {"hand/rest", "hand/curl65"},
                                       {"horse_lowpoly/base", "horse_lowpoly/m03"},
                                       {"armadillo/arms_up", "armadillo/arms_down"}}) {
     try {
-      const Poses poses = ReadPoses({data + "/" + first + ".obj", data + "/" + second + ".obj"});
+      const Poses poses = ReadPoses({data + first + ".obj", data + second + ".obj"});
       const Metric metric = FreezeMetric({}, poses.connectivity, {poses.shapes[0]});
       const Shape& reference = poses.shapes[0];
       const Shape other =

@@ -201,8 +201,8 @@ void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary*
     }
     std::vector<int> component;
     for (int v : vertices) component.push_back(component_[v]);
-    levels_.emplace_back(std::move(metric), std::move(rest), vertices, std::move(component),
-                         targets, strength);
+    levels_.emplace_back(metric, std::move(rest), vertices, std::move(component), targets,
+                         strength);
   }
   summary->factor_seconds = factoring.Seconds();
 }

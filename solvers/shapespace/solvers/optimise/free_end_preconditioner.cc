@@ -29,10 +29,11 @@ int PaddedWidth(int count) {
   return (count + kColumns - 1) / kColumns * kColumns;
 }
 
-// The factor of `matrix` + `diagonal`, in which vertices that are given are tied to no other.
-std::shared_ptr<const CholeskyFactor<float>> FactorOf(Eigen::SparseMatrix<double> matrix,
+// The factor of `scalar` + `diagonal`, in which vertices that are given are tied to no other.
+std::shared_ptr<const CholeskyFactor<float>> FactorOf(const Eigen::SparseMatrix<double>& scalar,
                                                       const Eigen::VectorXd& diagonal,
                                                       const std::vector<char>& given) {
+  Eigen::SparseMatrix<double> matrix = scalar;
   for (int column = 0; column < matrix.outerSize(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
       if (entry.row() == column) {

@@ -31,7 +31,7 @@ Grip GripOf(const HandleTargets& targets, const std::vector<int>& vertices,
 
 }  // namespace
 
-HeldLevel::HeldLevel(std::shared_ptr<const Metric> metric, Shape rest,
+HeldLevel::HeldLevel(const std::shared_ptr<const Metric>& metric, Shape rest,
                      const std::vector<int>& vertices, std::vector<int> component,
                      const HandleTargets& targets, double strength)
     : component_(std::move(component)),

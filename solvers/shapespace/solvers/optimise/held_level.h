@@ -16,8 +16,9 @@ class HeldLevel {
  public:
   /// `rest` is the mesh on this level, which has `vertices` (rising) of it, each of a connected
   /// `component` (-1: of none). `strength` as in HandleTargets::Restrict.
-  HeldLevel(std::shared_ptr<const Metric> metric, Shape rest, const std::vector<int>& vertices,
-            std::vector<int> component, const HandleTargets& targets, double strength);
+  HeldLevel(const std::shared_ptr<const Metric>& metric, Shape rest,
+            const std::vector<int>& vertices, std::vector<int> component,
+            const HandleTargets& targets, double strength);
 
   PulledPath& Path() { return path_; }
   const PulledPath& Path() const { return path_; }
