@@ -34,12 +34,14 @@ std::shared_ptr<const CholeskyFactor<float>> FactorOf(const Eigen::SparseMatrix<
                                                       const Eigen::VectorXd& diagonal,
                                                       const std::vector<char>& given) {
   Eigen::SparseMatrix<double> matrix = scalar;
-  for (int column = 0; column < matrix.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
-      if (entry.row() == column) {
-        entry.valueRef() += diagonal(column);
-      } else if (given[entry.row()] || given[column]) {
-        entry.valueRef() = 0;
+  double* const values = matrix.valuePtr();
+  for (int column = 0; column < matrix.cols(); ++column) {
+    for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k) {
+      const int row = matrix.innerIndexPtr()[k];
+      if (row == column) {
+        values[k] += diagonal(column);
+      } else if (given[row] || given[column]) {
+        values[k] = 0;
       }
     }
   }
