@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include <shapespace/mesh/read.h>
@@ -17,7 +18,6 @@ namespace {
 using nlohmann::json;
 using testing::Content;
 using testing::ExpectContains;
-using testing::ExpectLacks;
 using testing::Outcome;
 using testing::ToolsTest;
 
