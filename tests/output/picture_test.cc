@@ -305,6 +305,61 @@ TEST(RenderFilmStripTest, RolesDecideTheColour) {
   EXPECT_GT(extrapolated[2], extrapolated[1] + 20);  // purple
 }
 
+TEST(RenderFilmStripTest, MarkedVerticesChangeColourAndNothingElse) {
+  const SimpleBody sphere = Sphere(1);
+  FilmStripOptions options;
+  options.frame_width = 160;
+  options.view = Eigen::Vector3d::UnitZ();
+  const Image plain = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  // Red on the right, dark on the left, and a band between them without marks.
+  options.marks.resize(sphere.shape.cols());
+  for (int v = 0; v < options.marks.size(); ++v) {
+    const double x = sphere.shape(0, v);
+    options.marks(v) = x > 0.3 ? 2 : x < -0.3 ? 1 : 0;
+  }
+  const Image image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  ASSERT_EQ(image.width, plain.width);
+  ASSERT_EQ(image.height, plain.height);
+  // The radius is 75 pixels; marks reach as far as the middle between vertices, and a spot.
+  const int middle = image.width / 2, inner = 15, outer = 30;
+  const Counts red = Count(image, middle + outer, image.width, 0, image.height);
+  EXPECT_GT(red.orange, 0.95 * red.drawn);
+  const Counts dark = Count(image, 0, middle - outer, 0, image.height);
+  EXPECT_EQ(dark.blue + dark.orange, 0);
+  for (int y = 0; y < image.height; ++y) {
+    const int begin = 3 * (y * image.width + middle - inner);
+    EXPECT_TRUE(
+        std::equal(&image.pixels[begin], &image.pixels[begin + 6 * inner], &plain.pixels[begin]))
+        << y;
+  }
+  // What is turned inside out has the colour of back faces, marked or not.
+  const auto inside_out = Reversed(*sphere.connectivity);
+  const Image marked_back = RenderFilmStrip(*inside_out, {sphere.shape}, options);
+  options.marks.resize(0);
+  EXPECT_EQ(Difference(marked_back, RenderFilmStrip(*inside_out, {sphere.shape}, options), 0), 0);
+}
+
+TEST(RenderFilmStripTest, ASingleMarkedVertexOfAFineMeshIsSeen) {
+  const int circles = 201, around = 400;
+  const SimpleBody sphere = Sphere(1, circles, around);
+  FilmStripOptions options;
+  options.view = Eigen::Vector3d::UnitZ();
+  const Image plain = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  options.marks = Eigen::VectorXi::Zero(circles * around);
+  options.marks(circles / 2 * around) = 2;  // at (0, 0, 1)
+  const Image image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  const int x = image.width / 2, y = image.height / 2, near = 8;
+  EXPECT_GT(Count(image, x - near, x + near, y - near, y + near).orange, 12);
+  EXPECT_EQ(Count(image).orange, Count(image, x - near, x + near, y - near, y + near).orange);
+  EXPECT_LT(Difference(image, plain, 0), 4.0 * near * near / (image.width * image.height));
+  // Values have their colours to themselves.
+  options.values = {Eigen::VectorXd::Constant(circles * around, 0.1)};
+  const Image values = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  options.marks.resize(0);
+  EXPECT_EQ(Difference(values, RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options), 0),
+            0);
+}
+
 TEST(RenderFilmStripTest, LabelsStandUnderTheShapesAndTheTitleAboveAll) {
   const SimpleBody sphere = Sphere(1);
   const std::vector<Shape> shapes = {sphere.shape, sphere.shape};
@@ -420,6 +475,9 @@ TEST(RenderFilmStripTest, NamesTheOptionThatIsWrong) {
               o->values = {Eigen::VectorXd::Zero(8)};
             }),
             "groups");
+  EXPECT_EQ(field([](O* o) { o->marks = Eigen::VectorXi::Zero(7); }), "marks");
+  EXPECT_EQ(field([](O* o) { o->marks = Eigen::VectorXi::Constant(8, 3); }), "marks");
+  EXPECT_EQ(field([](O* o) { o->marks = Eigen::VectorXi::Constant(8, -1); }), "marks");
 }
 
 TEST(RenderFilmStripTest, RefusesAPictureTooLargeToOpen) {

@@ -12,8 +12,9 @@ using testing::ExpectLacks;
 using testing::Outcome;
 using testing::ToolsTest;
 
-constexpr const char* kTools[] = {"shape-body",    "shape-export",      "shape-extrapolate",
-                                  "shape-inspect", "shape-interpolate", "shape-transfer"};
+constexpr const char* kTools[] = {"shape-body",        "shape-deform",  "shape-export",
+                                  "shape-extrapolate", "shape-inspect", "shape-interpolate",
+                                  "shape-transfer"};
 
 class HelpTest : public ToolsTest {
  protected:
@@ -67,6 +68,11 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
   transfer.insert({"align", "connection", "hybrids", "ladder_bending", "method", "rung_shapes",
                    "scale", "target"});
   EXPECT_EQ(Listed("shape-transfer"), transfer);
+  std::set<std::string> deform = wanted;
+  deform.erase("memory_limit");
+  deform.insert(
+      {"balance", "coarsest", "fps", "handles", "repair", "sound", "title", "unit", "up"});
+  EXPECT_EQ(Listed("shape-deform"), deform);
   for (const char* foreign : {"flagfile", "undefok", "logtostderr", "minloglevel", "v"}) {
     EXPECT_EQ(listed.count(foreign), 0u) << foreign;
   }
@@ -80,6 +86,8 @@ TEST_F(HelpTest, DefaultsReadAsTheyWouldBeTyped) {
   ExpectContains(Run("shape-extrapolate", {"--help"}).out, "--tolerance 1e-06 ");
   ExpectContains(Run("shape-transfer", {"--help"}).out, "--shapes 7 ");
   ExpectContains(Run("shape-transfer", {"--help"}).out, "--ladder_bending 0.02 ");
+  ExpectContains(Run("shape-deform", {"--help"}).out, "--metric deformation ");
+  ExpectContains(Run("shape-deform", {"--help"}).out, "--balance 0.01 ");
   ExpectLacks(help, "00000");
 }
 

@@ -76,6 +76,9 @@ TEST_F(OutputsTest, NoRunOverwritesWhatItReadsOrWrites) {
   std::filesystem::create_symlink(Path("tube1.obj"), Path("alias1.obj"));
   const Strings poses = {"shape-interpolate", "tube0.obj", "tube1.obj", "--shapes", "3"};
   const Strings transfer = {"shape-transfer", "tube0.obj", "tube1.obj", "--target", "other0.obj"};
+  const Strings handles = {"shape-deform", "tube0.obj", "--handles", "handles.json"};
+  const Strings repair = {"shape-deform", "tube0.obj", "--repair", "other0.obj"};
+  File("handles.json", R"({"handles": [{"fixed": true, "select": {"vertices": [1]}}]})");
   const struct {
     Strings run, more;
     Strings parts;
@@ -116,6 +119,17 @@ TEST_F(OutputsTest, NoRunOverwritesWhatItReadsOrWrites) {
       {{"shape-transfer", "walk.path", "--target", "other0.obj"},
        {"--output", "w.png", "--hybrids", "w.glb,walk.path"},
        {"--hybrids walk.path would overwrite walk.path"}},
+      {handles, {"--output", "w.path,./tube0.obj"}, {"overwrite tube0.obj"}},
+      {handles, {"--output", "tube%d.obj"}, {"--output tube%d.obj: tube0.obj"}},
+      {handles, {"--output", "alias1.obj,tube1.obj"}, {"overwrite what --output alias1.obj"}},
+      {handles,
+       {"--output", "w.path", "--report", "sub/../handles.json"},
+       {"--report sub/../handles.json would overwrite handles.json"}},
+      {handles,
+       {"--stiffeners", "stiff.txt", "--report", "stiff.txt", "--output", "w.path"},
+       {"--report stiff.txt would overwrite stiff.txt"}},
+      {repair, {"--output", "other0.obj"}, {"--output other0.obj would overwrite other0.obj"}},
+      {repair, {"--output", "other%d.obj"}, {"--output other%d.obj: other0.obj"}},
   };
   const Strings before = Contents();
   for (const auto& [run, more, parts] : cases) {
@@ -188,6 +202,9 @@ TEST_F(OutputsTest, EachFileWrittenIsNamed) {
       Run("shape-transfer", {"w.path", "--target", "tube0.obj", "--output", "t%d.obj", "--hybrids",
                              "h.path", "--report", "t.txt"});
   ExpectContains(transfer.out, "wrote t0.obj .. t4.obj\nwrote h.path\nwrote t.txt\n");
+  const Outcome repair = Run("shape-deform", {"tube1.obj", "--repair", "tube0.obj", "--output",
+                                              "m.obj,m%d.obj,m.glb", "--report", "m.json"});
+  ExpectContains(repair.out, "wrote m.obj\nwrote m0.obj .. m1.obj\nwrote m.glb\nwrote m.json\n");
 }
 
 TEST_F(OutputsTest, FramesOfAnEarlierRunAreTold) {

@@ -33,6 +33,12 @@ void Collect(const nlohmann::json& json, Keys* keys) {
   }
 }
 
+Keys KeysOf(const nlohmann::json& object) {
+  Keys keys;
+  for (const auto& [key, value] : object.items()) keys.insert(key);
+  return keys;
+}
+
 /// The tables of docs/file-formats.md that tell what reports hold.
 class ReportKeysTest : public ToolsTest {
  protected:
@@ -114,13 +120,21 @@ TEST_F(ReportKeysTest, TheDocumentationHasThemAllAndNoOthers) {
   const nlohmann::json poses =
       Report("shape-transfer", {"tube0.obj", "tube1.obj", "--method", "ladder", "--shapes", "1",
                                 "--target", "tube0.obj", "--output", "t.path"});
-  Keys keys, parts;
-  for (const auto& [key, value] : poses.items()) keys.insert(key);
-  EXPECT_EQ(keys, (Keys{"converged", "poses"}));
-  for (const auto& [key, value] : poses["poses"][0].items()) parts.insert(key);
-  EXPECT_EQ(parts, (Keys{"geodesic", "transfer"}));
+  EXPECT_EQ(KeysOf(poses), (Keys{"converged", "poses"}));
+  EXPECT_EQ(KeysOf(poses["poses"][0]), (Keys{"geodesic", "transfer"}));
   EXPECT_EQ(poses["poses"][0]["geodesic"].size(), geodesic.size());
   EXPECT_EQ(poses["poses"][0]["transfer"].size(), ladder.size());
+
+  File("handles.json", R"({"handles": [{"fixed": true, "select": {"vertices": [1]}}]})");
+  const nlohmann::json deformation =
+      Report("shape-deform", {"tube0.obj", "--handles", "handles.json", "--output", "d.path"});
+  Compare("Of `shape-deform --handles`:", deformation);
+  const nlohmann::json repair =
+      Report("shape-deform", {"tube0.obj", "--repair", "tube1.obj", "--output", "d.path"});
+  nlohmann::json own = repair;
+  own["deformation"] = true;  // in place of a report as above
+  Compare("Of `shape-deform --repair`:", own);
+  EXPECT_EQ(KeysOf(repair["deformation"]), KeysOf(deformation));
 }
 
 }  // namespace
