@@ -27,9 +27,11 @@ DEFINE_string(repair, "",
 DEFINE_string(sound, "",
               "with --repair: the vertices whose places are kept, as a selection (as those of "
               "handles); without, all");
-DEFINE_int32(shapes, shapespace::DeformationOptions().shapes,
-             "shapes after the first, the deformed one included; of a repair 1");
-DEFINE_double(balance, shapespace::DeformationOptions().lambda,
+DEFINE_int32(
+    shapes, shapespace::DeformationOptions().shapes,
+    "shapes after the first, the deformed one included: at least one for 90 degrees of a turn; "
+    "of a repair 1");
+DEFINE_double(balance, shapespace::DeformationOptions().balance,
               "between soft handles and the metric: to 0 the handles are met, at 1 nothing moves; "
               "of a repair 0.5");
 DEFINE_double(tolerance, shapespace::DeformationOptions().tolerance,
@@ -50,6 +52,11 @@ constexpr char kMetric[] = "deformation";
 
 void CheckFlags(const std::vector<std::string>& files) {
   if (files.size() != 1) throw UsageError("name one mesh");
+  for (const char* flag : {"handles", "repair", "sound"}) {
+    if (IsGiven(flag) && gflags::GetCommandLineFlagInfoOrDie(flag).current_value.empty()) {
+      throw UsageError("--" + std::string(flag) + ": is empty");
+    }
+  }
   if (FLAGS_handles.empty() == FLAGS_repair.empty()) {
     throw UsageError("give --handles, or --repair");
   }
@@ -61,7 +68,7 @@ DeformationOptions DeformationFromFlags(const DeformationOptions& defaults,
   DeformationOptions options = defaults;
   options.metric = MetricFromFlags(&connectivity);
   if (IsGiven("shapes")) options.shapes = FLAGS_shapes;
-  if (IsGiven("balance")) options.lambda = FLAGS_balance;
+  if (IsGiven("balance")) options.balance = FLAGS_balance;
   options.tolerance = FLAGS_tolerance;
   options.max_iterations = FLAGS_max_iterations;
   options.coarsest = FLAGS_coarsest;
@@ -70,7 +77,9 @@ DeformationOptions DeformationFromFlags(const DeformationOptions& defaults,
       "solver", FLAGS_solver,
       {{"threaded_lbfgs", DeformationOptions::Solver::kThreadedLbfgs},
        {"trust_region", DeformationOptions::Solver::kTrustRegion}});
-  NamingFlags({{"lambda", "balance"}}, [&] { options.Validate(); });
+  const auto flag_of = [](const char* field) { return IsGiven(field) ? field : "metric"; };
+  NamingFlags({{"rigid", flag_of("rigid")}, {"discretization", flag_of("discretization")}},
+              [&] { options.Validate(); });
   return options;
 }
 
@@ -78,7 +87,7 @@ DeformationOptions DeformationFromFlags(const DeformationOptions& defaults,
 std::vector<int> SoundVertices(const Poses& poses) {
   if (FLAGS_sound.empty()) return {};
   try {
-    return Select(ReadSelection(FLAGS_sound), poses.shapes[0], *poses.connectivity,
+    return Select(ReadSelection(FLAGS_sound), poses.shapes[1], *poses.connectivity,
                   poses.soup.appearance);
   } catch (const InvalidOptions& error) {
     throw UsageError("--sound: " + std::string(error.what()));
@@ -102,9 +111,10 @@ void Run(const std::vector<std::string>& files) {
   const std::vector<std::string> outputs = OutputsFromFlags();
   std::vector<std::string> inputs = files;
   inputs.push_back(FLAGS_handles.empty() ? FLAGS_repair : FLAGS_handles);
-  CheckNothingIsOverwritten(
-      WithStiffeners(inputs),
-      {{"output", outputs, FLAGS_shapes + std::int64_t{1}}, ReportFromFlag()});
+  const int shapes =
+      IsGiven("shapes") || FLAGS_repair.empty() ? FLAGS_shapes : RepairOptions::Defaults().shapes;
+  CheckNothingIsOverwritten(WithStiffeners(inputs),
+                            {{"output", outputs, shapes + std::int64_t{1}}, ReportFromFlag()});
   const auto finish = [&](Path path, const auto& summary, const DeformationSummary& deformation,
                           const Appearance& appearance, const Eigen::VectorXi& marks) {
     path.provenance = Provenance("shape-deform", inputs);
@@ -123,11 +133,11 @@ void Run(const std::vector<std::string>& files) {
     finish(std::move(result.path), result.summary, result.summary, poses.soup.appearance,
            Marks(handles, poses.connectivity->NumVertices()));
   } else {
-    const Poses poses = ReadPosesFromFlags({files[0], FLAGS_repair});
+    const Poses poses = ReadPosesFromFlags({FLAGS_repair, files[0]});
     RepairOptions options;
     options.deformation = DeformationFromFlags(RepairOptions::Defaults(), *poses.connectivity);
     options.vertices = SoundVertices(poses);
-    RepairResult result = Repair(poses.connectivity, poses.shapes[1], poses.shapes[0], options,
+    RepairResult result = Repair(poses.connectivity, poses.shapes[0], poses.shapes[1], options,
                                  SolveProgress(outputs).get());
     finish(std::move(result.path), result.summary, result.summary.deformation,
            poses.soup.appearance, {});
@@ -151,7 +161,8 @@ int main(int argc, char** argv) {
            "The output\nis a path: an .obj or .ply without a number in its name holds its last "
            "shape, the deformed mesh.\nIn a film strip, what the handles hold is drawn dark where "
            "it stays, and red where it moves.\nThe defaults of the metric suit the mesh, closed "
-           "(stiffer, volume counts) or open, unless\n--metric names another; --volume 3 keeps the "
+           "(stiffer, volume counts) or open, unless\n--metric names another; --volume 30 keeps "
+           "the "
            "volume within .3 %.") +
            kHowASolveEnds,
        {"shape_deform.cc", "support/report.cc", "support/outputs.cc", "support/metric_flags.cc",

@@ -56,12 +56,12 @@ TEST(Repair, LeavesAMovedCopyOfTheReferenceAsItIs) {
   EXPECT_LT((result.path.Placed(1) - copy).cwiseAbs().maxCoeff(), 1e-9);
 }
 
-TEST(Repair, LambdaTradesPoseForGeometry) {
+TEST(Repair, TheBalanceTradesPoseForGeometry) {
   const Finger finger;
   double error = 1, moved = 0;
-  for (double lambda : {0.01, 0.1, 0.5, 0.9}) {
+  for (double balance : {0.01, 0.1, 0.5, 0.9}) {
     RepairOptions options;
-    options.deformation.lambda = lambda;
+    options.deformation.balance = balance;
     const RepairSummary summary =
         Repair(finger.body.connectivity, finger.rest, finger.distorted, options).summary;
     EXPECT_LT(summary.after.edge_rms, error);

@@ -50,7 +50,7 @@ struct MetricOptions {
   static MetricOptions Strain();
   /// For moving parts of a mesh by handles: stretching partly as lengths and partly as strains, and
   /// no cost of position. A closed mesh is the skin of a solid body, stiff in bending, whose volume
-  /// counts (it stays within some per cent; ask for a volume of 3 to have it within .3 %); an open
+  /// counts (it stays within some per cent; ask for a volume of 30 to have it within .3 %); an open
   /// one is a sheet.
   static MetricOptions Deformation(const Connectivity& connectivity);
   /// As rigid as possible: (3) + lambda (5).

@@ -42,6 +42,10 @@ constexpr double kEnough = 1e-3;
 // Of the mesh itself: shares of what is left mean nothing where all of it can be gained.
 constexpr double kAllGained = 1e-12;
 
+// Paths of which a handle turns farther than this from shape to shape are told of: bars were found
+// to slip out of turns by 180 degrees between neighbours, and not by 120.
+constexpr double kFarthestTurn = 2 * M_PI / 3;
+
 // A hard handle that is off by more than this share of the unit is told of, with some room for
 // rounding far from the origin: others are met.
 constexpr double kContradiction = 1e-9;
@@ -84,7 +88,7 @@ void DeformationOptions::Validate() const {
     }
   }
   if (shapes < 1) throw InvalidOptions("shapes: must be 1 or more");
-  if (!(lambda > 0) || !(lambda <= 1)) throw InvalidOptions("lambda: must be in (0, 1]");
+  if (!(balance > 0) || !(balance <= 1)) throw InvalidOptions("balance: must be in (0, 1]");
   internal::CheckTolerance(tolerance);
   internal::CheckMaxIterations(max_iterations);
   HierarchyOptions{coarsest, {}}.Validate();
@@ -190,7 +194,7 @@ void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary*
                      HierarchyOptions{options_.coarsest, targets.Pins()});
   summary->hierarchy_seconds = building.Seconds();
   const Stopwatch factoring;
-  const double strength = 2 * (1 - options_.lambda) / options_.lambda;
+  const double strength = 2 * (1 - options_.balance) / options_.balance;
   for (int i = 0; i < hierarchy_->NumLevels(); ++i) {
     const std::vector<int>& vertices = hierarchy_->Vertices(i);
     Shape rest = hierarchy_->Restrict(rest_, i);
@@ -334,7 +338,7 @@ void Deformer::Solver::Assess(const std::vector<Handle>& handles, const HandleTa
   summary.shapes = options_.shapes;
   summary.metric = Describe(metric_->options);
   summary.unit = metric_->unit;
-  summary.lambda = options_.lambda;
+  summary.balance = options_.balance;
   summary.threads = Threads();
   summary.energy = ScaledEnergy(levels_.back().Path().Energy(shapes), options_.shapes);
   summary.error = CompareShapes(metric_, shapes.front(), shapes.back());
@@ -348,16 +352,17 @@ void Deformer::Solver::Assess(const std::vector<Handle>& handles, const HandleTa
     row.name = handle.name;
     row.vertices = static_cast<int>(handle.vertices.size());
     row.hard = handle.hard;
-    double squares = 0;
+    double squares = 0, area = 0;
     for (size_t k = 0; k < handle.vertices.size(); ++k) {
       const int v = handle.vertices[k];
       const Eigen::Vector3d wanted = handle.positions ? Eigen::Vector3d(handle.positions->col(k))
                                                       : handle.motion.At(1, given_.col(v));
       const double distance = (placed.back().col(v) - wanted).norm();
-      squares += distance * distance;
+      squares += metric_->vertex_area(v) * distance * distance;
+      area += metric_->vertex_area(v);
       row.residual_max = std::max(row.residual_max, distance);
     }
-    row.residual_rms = std::sqrt(squares / handle.vertices.size());
+    row.residual_rms = std::sqrt(squares / area);
     summary.handles.push_back(row);
   }
   Warn(targets, &summary);
@@ -394,7 +399,9 @@ void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* su
   int named = 0;
   for (const auto& [component, piece] : pieces) {
     if (named++ == kNamed) {
-      summary->warnings.push_back("so do " + std::to_string(pieces.size() - kNamed) + " more");
+      summary->warnings.push_back("nor does a handle hold " +
+                                  std::to_string(pieces.size() - kNamed) +
+                                  " further connected pieces, which stay too");
       break;
     }
     summary->warnings.push_back("no handle holds the connected piece of " +
@@ -402,12 +409,21 @@ void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* su
                                 std::to_string(piece.second + 1) +
                                 " (counted from 1); it stays where it is");
   }
+  const double turn = targets.GreatestTurn() / options_.shapes;
+  if (turn > kFarthestTurn) {
+    summary->warnings.push_back(
+        "a handle turns by " + std::to_string(std::lround(turn * 180 / M_PI)) +
+        " degrees from one shape to the next, and the body may slip out of such a turn; ask for " +
+        std::to_string(static_cast<int>(std::ceil(targets.GreatestTurn() / (M_PI / 2)))) +
+        " shapes or more");
+  }
   const double far = kContradiction * (summary->unit + 1e-3 * origin_.norm());
   for (const DeformationSummary::HandleResult& handle : summary->handles) {
     if (handle.hard && handle.residual_max > far) {
       summary->warnings.push_back(
           "the hard handle" + (handle.name.empty() ? "" : " \"" + handle.name + "\"") +
-          " shares vertices with another that wants them elsewhere; they are half way");
+          " shares vertices with another that wants them elsewhere; they are at the mean of the "
+          "targets");
     }
   }
 }

@@ -29,14 +29,15 @@ struct DeformationOptions {
   /// and may slip out of a full turn.
   int shapes = 5;
 
-  /// Between the metric and soft handles (Kilian et al. 2007, section 5): minimised is
-  ///   lambda * energy + (1 - lambda) * mean over soft handles of
+  /// Between the metric and soft handles, the lambda of Kilian et al. 2007, section 5; what is
+  /// minimised is
+  ///   balance * energy + (1 - balance) * mean over soft handles of
   ///                                    weight * mean squared distance of the handle's vertices,
   /// the inner mean weighted by area, lengths in the unit in which the surface has area 1 and the
   /// energy scaled (E n / 2). So it means the same in any unit, at any resolution and for any
   /// number of handles or shapes. In (0, 1]: to 0, handles are met; at 1, nothing moves. Hard
   /// handles do not care.
-  double lambda = 0.01;
+  double balance = 0.01;
 
   /// A level is finished when two iterations in a row lower what is minimised by less than this
   /// share of it.
@@ -69,7 +70,7 @@ struct DeformationSummary {
     int vertices = 0;
     bool hard = true;
     /// Distance of the vertices of the last shape from where the handle wants them: root mean
-    /// square and greatest, in the user's unit.
+    /// square, weighted by area, and greatest; in the user's unit.
     double residual_rms = 0, residual_max = 0;
   };
   /// One row of the solve.
@@ -78,7 +79,7 @@ struct DeformationSummary {
     std::string start;  ///< "handles", stepwise; "given"; "lifted"; "warm" from the last solution
     Termination termination = Termination::kConverged;
     int iterations = 0, evaluations = 0;
-    double initial_value = 0, value = 0;  ///< of what is minimised, over lambda
+    double initial_value = 0, value = 0;  ///< of what is minimised, over the balance
     double seconds = 0;
   };
 
@@ -86,7 +87,7 @@ struct DeformationSummary {
   int vertices = 0, triangles = 0, shapes = 0;
   std::string metric;
   double unit = 1;    ///< user's length that counts as 1
-  double lambda = 0;  ///< as given
+  double balance = 0;  ///< as given
   double energy = 0;  ///< of the path, scaled: E n / 2; a pure number
   ShapeError error;   ///< of the last shape against the first
   std::vector<HandleResult> handles;

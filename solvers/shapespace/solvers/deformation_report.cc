@@ -15,20 +15,22 @@ std::string DeformationSummary::BriefReport() const {
   double greatest = 0;
   for (const HandleResult& handle : handles) greatest = std::max(greatest, handle.residual_max);
   return Format(
-      "%s: %d vertices, %d shapes, %zu handles; handles off by at most %.3g; edges off by %.3g%% "
-      "rms, %s; energy %.6g; %.2f s",
-      internal::Name(termination), vertices, shapes, handles.size(), greatest, 100 * error.edge_rms,
-      VolumeText(error).c_str(), energy, total_seconds);
+      "%s: %d vertices, %d shape%s, %zu handle%s; off by at most %.3g; edges off by %.3g%% rms, "
+      "%s; "
+      "energy %.6g; %.2f s",
+      internal::Name(termination), vertices, shapes, shapes == 1 ? "" : "s", handles.size(),
+      handles.size() == 1 ? "" : "s", greatest, 100 * error.edge_rms, VolumeText(error).c_str(),
+      energy, total_seconds);
 }
 
 std::string DeformationSummary::FullReport() const {
   std::ostringstream out;
   out << "Termination       " << internal::Name(termination) << '\n'
       << Format("Mesh              %d vertices, %d triangles\n", vertices, triangles)
-      << Format("Path              %d shapes after the first%s\n", shapes,
+      << Format("Path              %d shape%s after the first%s\n", shapes, shapes == 1 ? "" : "s",
                 warm ? ", from the last solution" : "")
       << "Metric            " << metric << Format("; unit of length %.6g\n", unit)
-      << Format("Lambda            %.6g\n", lambda) << Format("Energy            %.8g\n", energy)
+      << Format("Balance           %.6g\n", balance) << Format("Energy            %.8g\n", energy)
       << Format("Edges             rms %.4g%%, 99th percentile %.4g%%, max %.4g%%\n",
                 100 * error.edge_rms, 100 * error.edge_p99, 100 * error.edge_max)
       << Format("Turned over       %d hinges; %s\n", error.inverted_hinges,
@@ -68,7 +70,7 @@ std::string DeformationSummary::ToJson() const {
   json["shapes"] = shapes;
   json["metric"] = metric;
   json["unit"] = unit;
-  json["lambda"] = lambda;
+  json["balance"] = balance;
   json["energy"] = JsonNumber(energy);
   json["error"] = internal::ToJson(error);
   json["handles"] = nlohmann::ordered_json::array();

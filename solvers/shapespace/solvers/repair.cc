@@ -39,6 +39,7 @@ std::string RepairSummary::FullReport() const {
 
 std::string RepairSummary::ToJson() const {
   nlohmann::ordered_json json;
+  json["converged"] = Converged();
   json["before"] = internal::ToJson(before);
   json["after"] = internal::ToJson(after);
   json["moved"] = moved;

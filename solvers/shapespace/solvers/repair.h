@@ -16,7 +16,7 @@ namespace shapespace {
 
 /// How to repair.
 struct RepairOptions {
-  /// As for handles, of which the distorted shape is a soft one: a larger lambda restores more of
+  /// As for handles, of which the distorted shape is a soft one: a larger balance restores more of
   /// the reference and keeps less of the pose. One shape by default: the repaired one alone.
   DeformationOptions deformation = Defaults();
 
@@ -27,7 +27,7 @@ struct RepairOptions {
   static DeformationOptions Defaults() {
     DeformationOptions options;
     options.shapes = 1;
-    options.lambda = 0.5;
+    options.balance = 0.5;
     return options;
   }
 };
