@@ -68,7 +68,7 @@ MinimiseResult MinimiseLbfgs(const Objective& energy, ChangeOfVariables* variabl
 using Precondition = std::function<void(const double* gradient, double unit, double* result)>;
 
 /// L-BFGS of ours (Nocedal and Wright, Numerical Optimization, algorithm 7.4), for large problems:
-/// as many vectors as three times the rank and four, every pass over them on all threads, the
+/// as many vectors as twice the rank and five, every pass over them on all threads, the
 /// preconditioner applied once an iteration. Bitwise the same for any number of threads. Unknowns
 /// whose gradient and preconditioned gradient are always zero stay as they are.
 /// \throw SolverError if the energy is not finite at the start.

@@ -32,6 +32,7 @@ class ThreadedLbfgs {
         size_(unknowns->size()),
         work_(size_),
         preconditioned_(size_),
+        change_(size_),
         gradient_(size_),
         trial_gradient_(size_) {}
 
@@ -53,12 +54,14 @@ class ThreadedLbfgs {
 
  private:
   struct Pair {
-    std::vector<double> direction, change;  // of the unknowns, without its length; of the gradient
-    std::vector<double> preconditioned;     // change, once the next direction is looked for
-    double length = 0;                      // the step is `length` times `direction`
-    double curvature = 0;                   // step . change
-    double step_gradient = 0;               // step . gradient at the current point
-    std::vector<double> step_change;        // step . change of this pair and of each later one
+    std::vector<double> direction;  // of the unknowns, without its length
+    std::vector<double> change;     // of the gradient, preconditioned
+    double length = 0;              // the step is `length` times `direction`
+    double curvature = 0;           // step . change of the gradient
+    double step_gradient = 0;       // step . gradient at the current point
+    // Of this pair and each later one: step . change of the gradient, and the product of the change
+    // of the gradient with the preconditioned one.
+    std::vector<double> step_change, change_change;
   };
 
   double Evaluate(const std::vector<double>& unknowns, std::vector<double>* gradient) {
@@ -102,20 +105,33 @@ class ThreadedLbfgs {
     }
   }
 
-  // Preconditions the gradient, and so the last change of it. The preconditioner's scale is made to
-  // fit what the last step has seen of the Hessian (Nocedal and Wright, equation 7.20).
-  void PreconditionGradient() {
+  // Preconditions the gradient, and so the last change of it, whose products with all changes are
+  // taken. Returns the gradient's with each preconditioned change. The preconditioner's scale is
+  // made to fit what the last step has seen of the Hessian (Nocedal and Wright, equation 7.20).
+  std::vector<double> PreconditionGradient() {
     precondition_(gradient_.data(), unit_, work_.data());
-    if (!history_.empty() && fresh_change_) {
-      Pair& last = history_.back();
-      const double product = ForChunks(size_, 1, [&](size_t begin, size_t count, double* sums) {
-        Combine(&work_[begin], -1, &preconditioned_[begin], &last.preconditioned[begin], count);
-        sums[0] += Dot(&last.change[begin], &last.preconditioned[begin], count);
-      })[0];
-      if (product > 0) scale_ = last.curvature / product;
+    const int pairs = static_cast<int>(history_.size());
+    std::vector<double> products =
+        ForChunks(size_, 2 * pairs, [&](size_t begin, size_t count, double* sums) {
+          if (fresh_change_) {
+            Combine(&work_[begin], -1, &preconditioned_[begin], &history_.back().change[begin],
+                    count);
+          }
+          for (int i = 0; i < pairs; ++i) {
+            const double* const change = &history_[i].change[begin];
+            sums[i] += Dot(change, &gradient_[begin], count);
+            if (fresh_change_) sums[pairs + i] += Dot(change, &change_[begin], count);
+          }
+        });
+    if (fresh_change_) {
+      for (int i = 0; i < pairs; ++i) history_[i].change_change.push_back(products[pairs + i]);
+      const double product = products.back();
+      if (product > 0) scale_ = history_.back().curvature / product;
     }
     fresh_change_ = false;
     preconditioned_.swap(work_);
+    products.resize(pairs);
+    return products;
   }
 
   // Appends a pair whose direction is minus the quasi-Newton approximation times the gradient, and
@@ -123,26 +139,20 @@ class ThreadedLbfgs {
   double FindDirection() {
     const int pairs = static_cast<int>(history_.size());
     fresh_ = pairs == 0;
-    std::vector<double> first(pairs), products, second(pairs);
-    PreconditionGradient();
+    const std::vector<double> products = PreconditionGradient();
+    std::vector<double> first(pairs), second(pairs);
     for (int i = pairs - 1; i >= 0; --i) {
       const Pair& pair = history_[i];
       double sum = pair.step_gradient;
       for (int j = i + 1; j < pairs; ++j) sum -= first[j] * pair.step_change[j - i];
       first[i] = sum / pair.curvature;
     }
-    products = ForChunks(size_, pairs, [&](size_t begin, size_t count, double* sums) {
-      double* const z = &work_[begin];
-      for (size_t k = 0; k < count; ++k) z[k] = scale_ * preconditioned_[begin + k];
-      for (int i = 0; i < pairs; ++i) {
-        Add(-scale_ * first[i], &history_[i].preconditioned[begin], z, count);
-      }
-      for (int i = 0; i < pairs; ++i) {
-        sums[i] += Dot(&history_[i].change[begin], z, count);
-      }
-    });
     for (int i = 0; i < pairs; ++i) {
       double sum = products[i];
+      for (int j = 0; j < pairs; ++j) {
+        sum -= first[j] * history_[std::min(i, j)].change_change[std::abs(i - j)];
+      }
+      sum *= scale_;
       for (int j = 0; j < i; ++j) sum += second[j] * history_[j].step_change[i - j];
       second[i] = first[i] - sum / history_[i].curvature;
     }
@@ -155,7 +165,9 @@ class ThreadedLbfgs {
     }
     const double slope = ForChunks(size_, 1, [&](size_t begin, size_t count, double* sums) {
       double* const z = &work_[begin];
+      for (size_t k = 0; k < count; ++k) z[k] = scale_ * preconditioned_[begin + k];
       for (int i = 0; i < pairs; ++i) {
+        Add(-scale_ * first[i], &history_[i].change[begin], z, count);
         const std::vector<double>& direction =
             i == 0 && full ? next.direction : history_[i].direction;
         Add(second[i] * history_[i].length, &direction[begin], z, count);
@@ -167,11 +179,9 @@ class ThreadedLbfgs {
     })[0];
     if (full) {
       next.change.swap(history_.front().change);
-      next.preconditioned.swap(history_.front().preconditioned);
       history_.erase(history_.begin());
     } else {
       next.change.resize(size_);
-      next.preconditioned.resize(size_);
     }
     history_.push_back(std::move(next));
     return slope;
@@ -206,7 +216,7 @@ class ThreadedLbfgs {
     const int pairs = static_cast<int>(history_.size());
     last.length = end.step;
     last.curvature = end.step * (end.slope - slope);
-    // The change takes the place of the old gradient, which is then handed to the pair.
+    // The change takes the place of the old gradient.
     const std::vector<double> products =
         ForChunks(size_, pairs, [&](size_t begin, size_t count, double* sums) {
           Combine(&trial_gradient_[begin], -1, &gradient_[begin], &gradient_[begin], count);
@@ -214,7 +224,7 @@ class ThreadedLbfgs {
             sums[i] += Dot(&history_[i].direction[begin], &trial_gradient_[begin], count);
           }
         });
-    last.change.swap(gradient_);
+    change_.swap(gradient_);
     gradient_.swap(trial_gradient_);
     for (int i = 0; i + 1 < pairs; ++i) {
       Pair& pair = history_[i];
@@ -237,7 +247,7 @@ class ThreadedLbfgs {
   const MinimiseOptions& options_;
   std::vector<double>& x_;
   const size_t size_;
-  std::vector<double> work_, preconditioned_, gradient_, trial_gradient_;
+  std::vector<double> work_, preconditioned_, change_, gradient_, trial_gradient_;
   double value_ = 0, unit_ = 1, scale_ = 1;
   bool fresh_ = true;          // no history bears on the direction
   bool fresh_change_ = false;  // the last pair's change has not been preconditioned yet

@@ -20,8 +20,8 @@ constexpr double kCertified = 1.05;
 // Where another level follows, a solve may stop when a further step is expected to gain less than
 // this share of what it has gained. Refinement in time by cubics has an error of fourth order; the
 // energy in excess goes with its square, and so falls by 256 from one level to the next. What the
-// next one will add is thus at least a 256th of what this one added; this is a quarter of that.
-constexpr double kEnough = 1.0 / 1024;
+// next one will add is thus at least a 256th of what this one added; this is an eighth of that.
+constexpr double kEnough = 1.0 / 2048;
 
 const char* Name(Start start) {
   switch (start) {
