@@ -250,7 +250,10 @@ std::vector<double> PathEnergy::EvaluateParts(const double* unknowns, double* gr
   for (size_t i = 0; i < num_terms; ++i) {
     std::visit(
         [&](const auto& feature) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(feature)>, Volume>) {
+          using Feature = std::decay_t<decltype(feature)>;
+          constexpr bool kIsVolume = std::is_same_v<Feature, Volume>;
+          static_assert(kIsVolume == Feature::kSum, "a sum needs kernels of its own");
+          if constexpr (kIsVolume) {
             parts[i] = EvaluateVolume(feature, terms_[i], unknowns, gradient);
           }
         },
