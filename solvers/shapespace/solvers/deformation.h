@@ -86,10 +86,10 @@ struct DeformationSummary {
   Termination termination = Termination::kConverged;  ///< of the mesh itself
   int vertices = 0, triangles = 0, shapes = 0;
   std::string metric;
-  double unit = 1;    ///< user's length that counts as 1
+  double unit = 1;     ///< user's length that counts as 1
   double balance = 0;  ///< as given
-  double energy = 0;  ///< of the path, scaled: E n / 2; a pure number
-  ShapeError error;   ///< of the last shape against the first
+  double energy = 0;   ///< of the path, scaled: E n / 2; a pure number
+  ShapeError error;    ///< of the last shape against the first
   std::vector<HandleResult> handles;
   int free_components = 0;  ///< connected pieces that no handle holds, and that stay where they are
   std::vector<Level> levels;
