@@ -61,20 +61,6 @@ double EstimateBytes(const Metric& metric, int shapes) {
          PathEnergy::EstimateBytes(metric, shapes);
 }
 
-Termination Translate(internal::Stop stop) {
-  switch (stop) {
-    case internal::Stop::kConverged:
-      return Termination::kConverged;
-    case internal::Stop::kMaxIterations:
-      return Termination::kMaxIterations;
-    case internal::Stop::kCancelled:
-      return Termination::kCancelled;
-    case internal::Stop::kStalled:
-      break;
-  }
-  return Termination::kStalled;
-}
-
 }  // namespace
 
 void DeformationOptions::Validate() const {
@@ -321,7 +307,7 @@ void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char
   row.vertices = vertices;
   row.shapes = options_.shapes;
   row.start = start;
-  row.termination = Translate(result.stop);
+  row.termination = internal::Translate(result.stop);
   row.iterations = result.iterations;
   row.evaluations = result.evaluations;
   row.initial_value = ScaledEnergy(result.initial_energy, options_.shapes);

@@ -8,26 +8,10 @@
 
 #include <shapespace/base/parallel.h>
 #include <shapespace/solvers/optimise/preconditioner.h>
+#include <shapespace/solvers/optimise/rows.h>
 
 namespace shapespace::internal {
 namespace {
-
-// Vertices that one task of a thread takes.
-constexpr int kVerticesPerTask = 512;
-
-template <typename Body>
-void ForVertices(int num_vertices, const Body& body) {
-  ParallelFor((num_vertices + kVerticesPerTask - 1) / kVerticesPerTask, [&](int task) {
-    const int end = std::min(num_vertices, (task + 1) * kVerticesPerTask);
-    for (int v = task * kVerticesPerTask; v < end; ++v) body(v);
-  });
-}
-
-// Numbers in `count` columns' rows, padded as the factor's kernels like them.
-int PaddedWidth(int count) {
-  constexpr int kColumns = CholeskyFactor<float>::kColumns;
-  return (count + kColumns - 1) / kColumns * kColumns;
-}
 
 // The factor of `scalar` + `diagonal`, in which vertices that are given are tied to no other.
 std::shared_ptr<const CholeskyFactor<float>> FactorOf(const Eigen::SparseMatrix<double>& scalar,
@@ -83,7 +67,7 @@ size_t FreeEndFactors::NumNonzeros() const {
 void FreeEndFactors::SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights,
                                  std::vector<Tangent>* shapes) const {
   const int size = end_->Size(), count = static_cast<int>(rights.size());
-  const int width = PaddedWidth(3 * count);
+  const int width = PaddedWidth<float>(3 * count);
   const std::vector<int> places = Places(*end_);
   std::vector<float> work(static_cast<size_t>(end_->WorkRows()) * width, 0.0f);
   // Numbers about 1 fit a float.
@@ -92,7 +76,7 @@ void FreeEndFactors::SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights,
     units[i] = rights[i].cwiseAbs().maxCoeff();
     if (units[i] == 0) units[i] = 1;
   }
-  ForVertices(size, [&](int v) {
+  ForRows(size, [&](int v) {
     if (given_[v]) return;
     float* const at = &work[static_cast<size_t>(places[v]) * width];
     for (int k = 0; k < 3 * count; ++k) {
@@ -101,7 +85,7 @@ void FreeEndFactors::SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights,
   });
   end_->SolveLower(work.data(), width);
   end_->SolveUpper(work.data(), width);
-  ForVertices(size, [&](int v) {
+  ForRows(size, [&](int v) {
     if (given_[v]) return;
     const float* const at = &work[static_cast<size_t>(places[v]) * width];
     for (int k = 0; k < 3 * count; ++k) (*shapes)[k / 3](k % 3, v) += units[k / 3] * at[k];
@@ -166,8 +150,8 @@ FreeEndPreconditioner::FreeEndPreconditioner(const FreeEndFactors& factors,
                                              const PathEnergy& energy)
     : factors_(factors),
       energy_(energy),
-      between_width_(PaddedWidth(3 * energy.Inner())),
-      end_width_(PaddedWidth(3)),
+      between_width_(PaddedWidth<float>(3 * energy.Inner())),
+      end_width_(PaddedWidth<float>(3)),
       between_place_(Places(*factors.between_)),
       end_place_(Places(*factors.end_)),
       carried_(Marks(factors.end_->Size(), factors.grip_.carried)),
@@ -179,7 +163,7 @@ void FreeEndPreconditioner::Apply(const double* gradient, double unit, double* r
   const double scale = 1 / unit, root = 1 / std::sqrt(static_cast<double>(n));
   // The gradient by the differences y_t is a sum over all later times. Its mean over t is for the
   // end's factor, in the orthonormal direction (1, ..., 1) / sqrt n; the rest for the other.
-  ForVertices(size, [&](int v) {
+  ForRows(size, [&](int v) {
     const double* const g = gradient + 3 * static_cast<size_t>(energy_.Row(v)) * stride;
     float* const end = &end_work_[static_cast<size_t>(end_place_[v]) * end_width_];
     float* const between = &between_work_[static_cast<size_t>(between_place_[v]) * between_width_];
@@ -206,7 +190,7 @@ void FreeEndPreconditioner::Apply(const double* gradient, double unit, double* r
     factors_.between_->SolveLower(between_work_.data(), between_width_);
     factors_.between_->SolveUpper(between_work_.data(), between_width_);
   }
-  ForVertices(size, [&](int v) {
+  ForRows(size, [&](int v) {
     double* const out = result + 3 * static_cast<size_t>(energy_.Row(v)) * stride;
     const float* const end = &end_work_[static_cast<size_t>(end_place_[v]) * end_width_];
     const float* const between =

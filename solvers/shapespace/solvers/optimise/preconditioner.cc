@@ -4,28 +4,10 @@
 #include <cmath>
 #include <type_traits>
 
-#include <shapespace/base/parallel.h>
+#include <shapespace/solvers/optimise/rows.h>
 
 namespace shapespace::internal {
 namespace {
-
-// Rows that one task of a thread takes.
-constexpr int kRowsPerTask = 512;
-
-// Numbers in `count` columns' rows, padded as the kernels of a factor like them.
-template <typename Scalar>
-int PaddedWidth(int count) {
-  constexpr int kColumns = CholeskyFactor<Scalar>::kColumns;
-  return (count + kColumns - 1) / kColumns * kColumns;
-}
-
-template <typename Body>
-void ForRows(int num_rows, const Body& body) {
-  ParallelFor((num_rows + kRowsPerTask - 1) / kRowsPerTask, [&](int task) {
-    const int end = std::min(num_rows, (task + 1) * kRowsPerTask);
-    for (int i = task * kRowsPerTask; i < end; ++i) body(i);
-  });
-}
 
 // Without a position term translations cost nothing; this share of it keeps the matrix definite.
 constexpr double kLeastLambda = 1e-6;

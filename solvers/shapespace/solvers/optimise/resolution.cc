@@ -7,7 +7,6 @@
 
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/path/rigid_motion.h>
-#include <shapespace/solvers/optimise/minimise.h>
 #include <shapespace/solvers/optimise/preconditioner.h>
 
 namespace shapespace::internal {
@@ -23,6 +22,14 @@ constexpr double kThreadedUnknowns = 1.2e5;
 constexpr int kLongRank = 20, kShortRank = 5;
 constexpr double kLongRankUnknowns = 3e5;
 
+// A coarse level of the trapezoid that prepares a fine one would be biased by its quartic part,
+// which falls with the square of the number of segments.
+double QuarticWeight(int inner, const GeodesicOptions& options) {
+  return std::pow((inner + 1.0) / (options.shapes + 1.0), 2);
+}
+
+}  // namespace
+
 Termination Translate(Stop stop) {
   switch (stop) {
     case Stop::kConverged:
@@ -36,14 +43,6 @@ Termination Translate(Stop stop) {
   }
   return Termination::kStalled;
 }
-
-// A coarse level of the trapezoid that prepares a fine one would be biased by its quartic part,
-// which falls with the square of the number of segments.
-double QuarticWeight(int inner, const GeodesicOptions& options) {
-  return std::pow((inner + 1.0) / (options.shapes + 1.0), 2);
-}
-
-}  // namespace
 
 int HistoryRank(double unknowns) { return unknowns <= kLongRankUnknowns ? kLongRank : kShortRank; }
 

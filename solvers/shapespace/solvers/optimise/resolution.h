@@ -10,9 +10,13 @@
 #include <shapespace/path/energy.h>
 #include <shapespace/solvers/geodesic.h>
 #include <shapespace/solvers/optimise/cholesky.h>
+#include <shapespace/solvers/optimise/minimise.h>
 #include <shapespace/solvers/optimise/workload.h>
 
 namespace shapespace::internal {
+
+/// How a minimisation ended, as summaries have it.
+Termination Translate(Stop stop);
 
 /// Rank of the L-BFGS approximation for so many unknowns.
 int HistoryRank(double unknowns);
