@@ -35,9 +35,7 @@ Shape DeformByArap(const Connectivity& connectivity, const Shape& rest,
     for (const Handle& handle : handles) {
       for (size_t k = 0; k < handle.vertices.size(); ++k) {
         const int v = handle.vertices[k];
-        const Eigen::Vector3d from = rest.col(v);
-        const Eigen::Vector3d at = handle.positions ? (1 - t) * from + t * handle.positions->col(k)
-                                                    : handle.motion.At(t, from);
+        const Eigen::Vector3d at = handle.Target(static_cast<int>(k), t, rest.col(v));
         deformation.set_target_position(vertices[v], {at.x(), at.y(), at.z()});
       }
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -341,8 +340,7 @@ void Deformer::Solver::Assess(const std::vector<Handle>& handles, const HandleTa
     double squares = 0, area = 0;
     for (size_t k = 0; k < handle.vertices.size(); ++k) {
       const int v = handle.vertices[k];
-      const Eigen::Vector3d wanted = handle.positions ? Eigen::Vector3d(handle.positions->col(k))
-                                                      : handle.motion.At(1, given_.col(v));
+      const Eigen::Vector3d wanted = handle.Target(static_cast<int>(k), 1, given_.col(v));
       const double distance = (placed.back().col(v) - wanted).norm();
       squares += metric_->vertex_area(v) * distance * distance;
       area += metric_->vertex_area(v);

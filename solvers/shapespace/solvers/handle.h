@@ -40,6 +40,10 @@ struct Handle {
   /// shapes. A soft one pulls at the last shape, in proportion to its weight.
   bool hard = true;
   double weight = 1;  ///< of a soft handle, positive
+
+  /// Where the handle wants its vertices[place], which begins at `from`, at t in [0, 1]: positions
+  /// are approached along straight lines.
+  Eigen::Vector3d Target(int place, double t, const Eigen::Vector3d& from) const;
 };
 
 }  // namespace shapespace

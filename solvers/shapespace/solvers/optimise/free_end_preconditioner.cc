@@ -60,10 +60,6 @@ FreeEndFactors::FreeEndFactors(const Metric& metric, Shape rest, Grip grip)
   end_ = same ? between_ : FactorOf(scalar_, 2 * grip_.pull, given_);
 }
 
-size_t FreeEndFactors::NumNonzeros() const {
-  return end_->NumNonzeros() + (between_ == end_ ? 0 : between_->NumNonzeros());
-}
-
 void FreeEndFactors::SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights,
                                  std::vector<Tangent>* shapes) const {
   const int size = end_->Size(), count = static_cast<int>(rights.size());

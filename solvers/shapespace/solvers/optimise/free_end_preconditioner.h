@@ -35,7 +35,6 @@ class FreeEndFactors {
 
   const Shape& Rest() const { return rest_; }
   const Grip& GetGrip() const { return grip_; }
-  size_t NumNonzeros() const;
 
   /// For each tangent of `ways`, which says how vertices that are given or pulled at shall move in
   /// a shape, a motion of all vertices that takes the others along, and is least in the scalar

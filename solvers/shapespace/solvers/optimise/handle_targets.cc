@@ -82,10 +82,7 @@ HandleTargets::HandleTargets(const std::vector<Handle>& handles, const Shape& re
 Eigen::Vector3d HandleTargets::Target(const Part& part, double t) const {
   const Handle& handle = handles_[part.handle];
   const Eigen::Vector3d from = rest_.col(handle.vertices[part.place]);
-  const Eigen::Vector3d at = handle.positions
-                                 ? (1 - t) * from + t * handle.positions->col(part.place)
-                                 : handle.motion.At(t, from);
-  return (at - origin_) / unit_;
+  return (handle.Target(part.place, t, from) - origin_) / unit_;
 }
 
 Shape HandleTargets::At(double t) const {
