@@ -218,7 +218,7 @@ void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
   for (const std::string& input : inputs) read.emplace(key(input), input);
   for (const auto& [flag, files, frames] : outputs) {
     for (const std::string& file : files) {
-      const bool is_pattern = flag != "report" && KindOf(file, flag) == Kind::kFrames;
+      const bool is_pattern = frames > 0 && KindOf(file, flag) == Kind::kFrames;
       const std::string whole = "--" + flag + " " + file;
       for (std::int64_t i = 0; i < (is_pattern ? std::min(frames, kMostNames) : 1); ++i) {
         const std::string name = is_pattern ? FrameName(file, static_cast<int>(i)) : file;
