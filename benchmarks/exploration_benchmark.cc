@@ -30,15 +30,6 @@ void At(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(space.At({0.3, 0.3}));
 }
 
-void AtIntoAShapeThatIsThere(benchmark::State& state) {
-  const Space space = SpaceOfTubes(static_cast<int>(state.range(0)));
-  Shape shape = space.At({0.3, 0.3});
-  for (auto _ : state) {
-    space.Blend(space.Locate({0.3, 0.3}), &shape);
-    benchmark::DoNotOptimize(shape);
-  }
-}
-
 void CopyOfAShape(benchmark::State& state) {
   const Space space = SpaceOfTubes(static_cast<int>(state.range(0)));
   Shape shape = space.nodes[0];
@@ -52,7 +43,6 @@ void Sizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->ArgName("triangles")->Unit(benchmark::kMillisecond)->Arg(10000)->Arg(100000);
 }
 BENCHMARK(At)->Apply(Sizes);
-BENCHMARK(AtIntoAShapeThatIsThere)->Apply(Sizes);
 BENCHMARK(CopyOfAShape)->Apply(Sizes);
 
 }  // namespace

@@ -49,6 +49,11 @@ TEST_F(ExploreToolTest, MakesASpaceMeasuresItAndWalksThroughIt) {
   EXPECT_EQ(report["found"], 0);
   EXPECT_FALSE(fs::exists(Path("p.space.records")));
 
+  const Outcome inspected = Run("shape-inspect", {"p.space"});
+  EXPECT_EQ(inspected.code, 0) << inspected.err;
+  ExpectContains(inspected.out, "of which 4 are poses");
+  ExpectContains(inspected.out, "pose3\n");
+
   File("curve.json", R"({"points": ["pose0", "pose3", "pose2"]})");
   const Outcome walk = Run("shape-explore", {"--sample", "curve.json", "p.space", "--frames", "9",
                                              "--output", "walk.glb,frames/%d.obj"});
