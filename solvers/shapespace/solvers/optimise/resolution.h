@@ -56,8 +56,8 @@ class Resolution {
   PathEnergy& EnergyOf(int inner, const GeodesicOptions& options);
 
   std::shared_ptr<const Metric> metric_;
-  std::vector<Shape> all_poses_;  // which the factor is made for
-  std::vector<Shape> poses_;      // of the path
+  std::vector<Shape> all_poses_;      // which the factor is made for
+  std::vector<Shape> poses_;          // of the path
   std::optional<PathEnergy> energy_;  // of the number of inner shapes used last
   // Of the scalar metric, in the precision that the optimiser takes.
   std::optional<CholeskyFactor<double>> factor_;
