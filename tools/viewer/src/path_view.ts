@@ -1,0 +1,131 @@
+// One path, or two side by side.
+import { BlendedMesh, type Blend } from './blended_mesh';
+import { byId, perCent, shortNumber, themeValue } from './dom';
+import { prefersStillness, prepareWhenIdle, startOptions, stem } from './options';
+import { Plot, type Series } from './plots';
+import { rampGradient } from './ramp';
+import type { PathScene } from './scene_data';
+import { Stage } from './stage';
+import { startTheme } from './theme';
+import { startTransport } from './transport';
+
+function timeAt({ parameters }: PathScene, place: number): number {
+  const first = parameters[0];
+  return first + place * (parameters[parameters.length - 1] - first);
+}
+
+function placeOf({ parameters }: PathScene, shape: number): number {
+  const length = parameters[parameters.length - 1] - parameters[0];
+  return length > 0 ? (parameters[shape] - parameters[0]) / length : 0;
+}
+
+function blendAt(scene: PathScene, place: number): Blend {
+  const { parameters } = scene;
+  const time = timeAt(scene, place);
+  const after = parameters.findIndex((parameter) => parameter >= time);
+  if (after <= 0) {
+    const end = after < 0 ? parameters.length - 1 : 0;
+    return { nodes: [end, end, end], weights: [1, 0, 0] };
+  }
+  const t = (time - parameters[after - 1]) / (parameters[after] - parameters[after - 1]);
+  return { nodes: [after - 1, after, after], weights: [1 - t, t, 0] };
+}
+
+function facts({ vertices, triangles, shapes }: PathScene): string {
+  const faces = triangles.length > 0 ? `, ${(triangles.length / 3).toLocaleString('en')} triangles` : '';
+  return `${shapes.length} shapes, ${vertices.toLocaleString('en')} vertices${faces}`;
+}
+
+function showColours(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): void {
+  const end = Math.max(...scenes.map((scene) => scene.scaleEnd));
+  byId('ramp').style.background = rampGradient();
+  byId('ramp-end').textContent = `${perCent(end)} and more`;
+  const input = byId<HTMLInputElement>('deviation');
+  input.checked = false;
+  input.addEventListener('change', () => {
+    byId('legend').hidden = !input.checked;
+    meshes.forEach((mesh, i) =>
+      mesh.colourByDeviation(scenes[i].scaleEnd, input.checked ? end : null),
+    );
+    stage.draw();
+  });
+}
+
+function showPlots(scenes: PathScene[], onSeek: (place: number) => void): Plot[] {
+  const parent = byId('plots');
+  const plots: Plot[] = [];
+  const prefix = (i: number) => (scenes.length > 1 ? `${'AB'[i]}: ` : '');
+  const colour = (i: number) => (i === 0 ? 1 : 2);
+  const moving = scenes.flatMap((scene, i) => (scene.shapes.length > 1 ? [{ scene, i }] : []));
+  const energies: Series[] = moving
+    .filter(({ scene }) => scene.speeds.every((speed) => speed !== null))
+    .map(({ scene, i }) => ({
+      name: `${prefix(i)}energy`,
+      points: [...scene.speeds, scene.speeds[scene.speeds.length - 1]].map((speed, k) => [
+        placeOf(scene, k),
+        speed!,
+      ]),
+      colour: colour(i),
+      steps: true,
+    }));
+  if (energies.length > 0) {
+    plots.push(new Plot(parent, 'Energy (squared speed)', energies, shortNumber, onSeek));
+  }
+  const deviations: Series[] = moving.flatMap(({ scene, i }) => [
+    {
+      name: `${prefix(i)}rms`,
+      points: scene.rms.map((value, k): [number, number] => [placeOf(scene, k), value]),
+      colour: colour(i),
+    },
+    {
+      name: `${prefix(i)}max`,
+      points: scene.max.map((value, k): [number, number] => [placeOf(scene, k), value]),
+      colour: colour(i),
+      dashed: true,
+    },
+  ]);
+  if (deviations.length > 0) {
+    const title = 'Edge deviation from the first shape';
+    plots.push(new Plot(parent, title, deviations, perCent, onSeek));
+  }
+  return plots;
+}
+
+export function showPaths(scenes: PathScene[]): void {
+  const names = scenes.map(({ name }) => name);
+  byId('title').textContent = names.join(' and ');
+  byId('facts').textContent = scenes.map(facts).join('; ');
+  if (scenes.length > 1) {
+    names.forEach((name, i) => {
+      const caption = document.createElement('span');
+      caption.textContent = `${'AB'[i]}: ${name}`;
+      byId('captions').append(caption);
+    });
+  }
+  const meshes = scenes.map((scene) => new BlendedMesh(scene));
+  const stage: Stage = new Stage(byId<HTMLCanvasElement>('canvas'), meshes, (seconds) =>
+    player.advance(seconds),
+  );
+  let plots: Plot[] = [];
+  const player = startTransport(
+    (place) => {
+      meshes.forEach((mesh, i) => mesh.show(blendAt(scenes[i], place)));
+      for (const plot of plots) plot.show(place);
+      stage.draw();
+    },
+    () => stage.draw(),
+    (place) => `t = ${timeAt(scenes[0], place).toFixed(2)}`,
+  );
+  plots = showPlots(scenes, (place) => {
+    player.pause();
+    player.seek(place);
+  });
+  startOptions(stage, meshes, player, names.map(stem).join('-'));
+  showColours(scenes, meshes, stage);
+  startTheme(() => stage.setBackground(themeValue('--stage')));
+  player.seek(0);
+  prepareWhenIdle(meshes);
+  const canMove = scenes.some((scene) => scene.shapes.length > 1);
+  byId('transport').hidden = !canMove;
+  if (canMove && !prefersStillness()) player.play();
+}
