@@ -109,7 +109,7 @@ export class BlendedMesh extends Group {
       this.surface = new Mesh(this.geometry, this.patch(material));
       const lines = new MeshBasicMaterial({ color: 0x1b2430, wireframe: true });
       lines.transparent = true;
-      lines.opacity = 0.55;
+      lines.opacity = 0.4;
       this.wires = new Mesh(this.geometry, this.patch(lines));
       this.wires.visible = false;
       this.add(this.wires);

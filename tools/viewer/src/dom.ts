@@ -28,6 +28,7 @@ export function shortNumber(value: number): string {
 }
 
 export function perCent(value: number): string {
+  if (value < 1e-6) return '0\u2009%'; // rounding errors
   return `${shortNumber(100 * value)}\u2009%`;
 }
 

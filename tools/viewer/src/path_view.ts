@@ -7,7 +7,7 @@ import { rampGradient } from './ramp';
 import type { PathScene } from './scene_data';
 import { Stage } from './stage';
 import { startTheme } from './theme';
-import { startTransport } from './transport';
+import { setRepeat, startTransport } from './transport';
 
 function timeAt({ parameters }: PathScene, place: number): number {
   const first = parameters[0];
@@ -71,24 +71,24 @@ function showPlots(scenes: PathScene[], onSeek: (place: number) => void): Plot[]
   if (energies.length > 0) {
     plots.push(new Plot(parent, 'Energy (squared speed)', energies, shortNumber, onSeek));
   }
-  const deviations: Series[] = moving.flatMap(({ scene, i }) => [
-    {
-      name: `${prefix(i)}rms`,
-      points: scene.rms.map((value, k): [number, number] => [placeOf(scene, k), value]),
+  for (const [figure, title] of [
+    ['rms', 'Edge deviation, root mean square'],
+    ['max', 'Edge deviation, maximum'],
+  ] as const) {
+    const deviations: Series[] = moving.map(({ scene, i }) => ({
+      name: `${prefix(i)}${figure}`,
+      points: scene[figure].map((value, k) => [placeOf(scene, k), value]),
       colour: colour(i),
-    },
-    {
-      name: `${prefix(i)}max`,
-      points: scene.max.map((value, k): [number, number] => [placeOf(scene, k), value]),
-      colour: colour(i),
-      dashed: true,
-    },
-  ]);
-  if (deviations.length > 0) {
-    const title = 'Edge deviation from the first shape';
-    plots.push(new Plot(parent, title, deviations, perCent, onSeek));
+    }));
+    if (deviations.length > 0) plots.push(new Plot(parent, title, deviations, perCent, onSeek));
   }
   return plots;
+}
+
+/** Whether a motion ends as it began. */
+function isClosed({ shapes }: PathScene): boolean {
+  const [first, last] = [shapes[0], shapes[shapes.length - 1]];
+  return shapes.length > 2 && first.every((value, i) => Math.abs(value - last[i]) < 655);
 }
 
 export function showPaths(scenes: PathScene[]): void {
@@ -123,6 +123,7 @@ export function showPaths(scenes: PathScene[]): void {
   startOptions(stage, meshes, player, names.map(stem).join('-'));
   showColours(scenes, meshes, stage);
   startTheme(() => stage.setBackground(themeValue('--stage')));
+  if (scenes.every(isClosed)) setRepeat(player, 'loop');
   player.seek(0);
   prepareWhenIdle(meshes);
   const canMove = scenes.some((scene) => scene.shapes.length > 1);

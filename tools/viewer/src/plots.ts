@@ -5,9 +5,8 @@ export interface Series {
   name: string;
   /** Place (0 .. 1) and value, from left to right. */
   points: [number, number][];
-  /** The number of a colour of the theme, and whether the line is dashed. */
+  /** The number of a colour of the theme; the line of the second is dashed, too. */
   colour: 1 | 2;
-  dashed?: boolean;
   /** Whether a value holds until the next place; otherwise it changes evenly. */
   steps?: boolean;
 }
@@ -97,13 +96,12 @@ export class Plot {
     };
     text(left, height - 4, '0', 'start');
     text(width - right, height - 4, `top line ${this.format(this.largest)}`, 'end');
-    for (const { points, colour, dashed, steps } of this.series) {
+    for (const { points, colour, steps } of this.series) {
       const corners = points.map(([x, y], i) => {
         const before = steps && i > 0 ? `${this.x(x)},${this.y(points[i - 1][1])} ` : '';
         return `${before}${this.x(x)},${this.y(y)}`;
       });
-      const name = `series-${colour}${dashed ? ' dashed' : ''}`;
-      svg('polyline', { points: corners.join(' '), class: name }, this.picture);
+      svg('polyline', { points: corners.join(' '), class: `series-${colour}` }, this.picture);
     }
     this.cursor = line(0, top, 0, height - bottom, 'cursor');
     this.show(this.place);

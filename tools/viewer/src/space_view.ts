@@ -10,7 +10,7 @@ import { download } from './record';
 import type { SpaceScene } from './scene_data';
 import { Stage } from './stage';
 import { startTheme } from './theme';
-import { startTransport } from './transport';
+import { setRepeat, startTransport } from './transport';
 
 function facts({ names, shapes, vertices, triangles }: SpaceScene): string {
   return (
@@ -90,8 +90,7 @@ export function showSpace(scene: SpaceScene): void {
     },
     (place) => `${shortNumber(Math.round(100 * place))}\u2009%`,
   );
-  player.repeat = 'loop';
-  byId<HTMLSelectElement>('loop').value = 'loop';
+  setRepeat(player, 'loop');
   const addPoint = (point: Point) => {
     const located = go(point);
     curve.add(located.point);

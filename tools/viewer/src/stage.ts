@@ -184,20 +184,40 @@ export class Stage {
     const right = up.cross(this.eye).normalize();
     const above = this.eye.clone().cross(right);
     const tangent = Math.tan((fieldOfView * Math.PI) / 360);
-    let distance = 0.1;
-    for (const point of this.samples) {
-      const [x, y] = [Math.abs(point.dot(right)), Math.abs(point.dot(above))];
-      const needed = point.dot(this.eye) + margin * Math.max(y, x / aspect) / tangent;
-      distance = Math.max(distance, needed);
+    // What is near looks larger, so that the middle of the box is not that of the picture.
+    const target = new Vector3();
+    let distance = 10;
+    for (let round = 0; round < 4; ++round) {
+      const [x, y] = [right, above].map((axis) => this.range(axis, target, distance));
+      target.addScaledVector(right, (distance * (x.low + x.high)) / 2);
+      target.addScaledVector(above, (distance * (y.low + y.high)) / 2);
+      distance = 0.1;
+      for (const point of this.samples) {
+        const from = point.clone().sub(target);
+        const [dx, dy] = [Math.abs(from.dot(right)), Math.abs(from.dot(above))];
+        const needed = from.dot(this.eye) + (margin * Math.max(dy, dx / aspect)) / tangent;
+        distance = Math.max(distance, needed);
+      }
     }
     camera.aspect = aspect;
     camera.near = distance / 50;
     camera.far = 10 * distance;
-    camera.position.copy(this.eye).multiplyScalar(distance);
-    camera.lookAt(0, 0, 0);
+    camera.position.copy(target).addScaledVector(this.eye, distance);
     camera.updateProjectionMatrix();
-    this.controls.target.set(0, 0, 0);
+    this.controls.target.copy(target);
     this.controls.update();
+  }
+
+  /** How far the shapes reach along `axis` in a picture from `distance`, in tangents. */
+  private range(axis: Vector3, target: Vector3, distance: number) {
+    let [low, high] = [Infinity, -Infinity];
+    for (const point of this.samples) {
+      const from = point.clone().sub(target);
+      const tangent = from.dot(axis) / Math.max(1e-3, distance - from.dot(this.eye));
+      low = Math.min(low, tangent);
+      high = Math.max(high, tangent);
+    }
+    return { low, high };
   }
 
   private frame(now: number): void {

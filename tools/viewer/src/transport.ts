@@ -13,6 +13,11 @@ function fill(select: HTMLSelectElement, options: [string, string][], chosen: st
   for (const [value, text] of options) select.add(new Option(text, value, false, value === chosen));
 }
 
+export function setRepeat(player: Player, repeat: Repeat): void {
+  player.repeat = repeat;
+  byId<HTMLSelectElement>('loop').value = repeat;
+}
+
 /** `clock` tells a place in words; `onMove` hears every new place. */
 export function startTransport(
   onMove: (place: number) => void,
