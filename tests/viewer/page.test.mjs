@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { after, before, describe, test } from 'node:test';
+import { deflateSync, inflateSync } from 'node:zlib';
 import { validateBytes } from 'gltf-validator';
 import { launch, settled } from './browser.mjs';
 import { contrastFaults, layoutFaults, namelessControls } from './faults.mjs';
@@ -537,7 +538,7 @@ describe('a page that cannot be shown says so', () => {
   // The page with the text of its data changed.
   async function damaged(name, change) {
     const page = whole(name).replace(
-      /(data-scene[^>]*>)([^<]*)(<\/script>)/,
+      /(<script type="[a-z]+\/[^>]*>)([^<]*)(<\/script>)/,
       (_, begin, data, end) => begin + change(data) + end,
     );
     writeFileSync(`${folder}/damaged.html`, page);
@@ -563,6 +564,36 @@ describe('a page that cannot be shown says so', () => {
         assert.match(message, /is damaged: .*Make the page again/, name);
       }
     }
+  });
+
+  test('where its header is at odds with the rest', async () => {
+    const lies = {
+      'walk-path': [{ vertices: 9 }, { shapes: 10 }, { triangles: -1 }, { kind: 'space' }, { version: 2 }],
+      space: [{ parents: [] }, { planeTriangles: [[0, 1, 6]] }, { names: null }],
+    };
+    for (const [name, list] of Object.entries(lies)) {
+      for (const lie of list) {
+        const message = await damaged(name, (data) => {
+          const bytes = inflateSync(Buffer.from(data, 'base64'));
+          const length = bytes.readUInt32LE(0);
+          const header = JSON.parse(bytes.subarray(4, 4 + length).toString());
+          const text = Buffer.from(JSON.stringify({ ...header, ...lie }));
+          const size = Buffer.alloc(4);
+          size.writeUInt32LE(text.length);
+          const all = Buffer.concat([size, text, bytes.subarray(4 + length)]);
+          return deflateSync(all).toString('base64');
+        });
+        assert.match(message, /is damaged: .*Make the page again/, JSON.stringify(lie));
+      }
+    }
+  });
+
+  test('where the file ends too early', async () => {
+    const page = whole('walk-path');
+    writeFileSync(`${folder}/cut.html`, page.slice(0, page.length - 5000));
+    await open('cut', {}, async (opened) => {
+      assert.match(await opened.getByRole('alert').textContent(), /is damaged/);
+    });
   });
 
   test('where it holds nothing', async () => {

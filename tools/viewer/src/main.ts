@@ -28,7 +28,7 @@ async function read(element: HTMLScriptElement): Promise<SceneData> {
 }
 
 async function start(): Promise<void> {
-  startTheme(() => {});
+  startTheme();
   const elements = [...document.querySelectorAll<HTMLScriptElement>('script[data-scene]')];
   if (elements.length === 0) {
     return showMessage('This page holds nothing to show. shape-view makes pages that do.');

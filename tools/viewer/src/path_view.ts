@@ -6,7 +6,7 @@ import { Plot, type Series } from './plots';
 import { rampGradient } from './ramp';
 import type { PathScene } from './scene_data';
 import { Stage } from './stage';
-import { startTheme } from './theme';
+import { onTheme } from './theme';
 import { setRepeat, startTransport } from './transport';
 
 function timeAt({ parameters }: PathScene, place: number): number {
@@ -122,7 +122,7 @@ export function showPaths(scenes: PathScene[]): void {
   });
   startOptions(stage, meshes, player, names.map(stem).join('-'));
   showColours(scenes, meshes, stage);
-  startTheme(() => stage.setBackground(themeValue('--stage')));
+  onTheme(() => stage.setBackground(themeValue('--stage')));
   if (scenes.every(isClosed)) setRepeat(player, 'loop');
   player.seek(0);
   prepareWhenIdle(meshes);

@@ -9,7 +9,7 @@ import { PlaneView, thumbnailHeight, thumbnailWidth } from './plane';
 import { download } from './record';
 import type { SpaceScene } from './scene_data';
 import { Stage } from './stage';
-import { startTheme } from './theme';
+import { onTheme } from './theme';
 import { setRepeat, startTransport } from './transport';
 
 function facts({ names, shapes, vertices, triangles }: SpaceScene): string {
@@ -57,7 +57,7 @@ export function showSpace(scene: SpaceScene): void {
   const stage: Stage = new Stage(byId<HTMLCanvasElement>('canvas'), [mesh], (seconds) =>
     player.advance(seconds),
   );
-  startTheme(() => stage.setBackground(themeValue('--stage')));
+  onTheme(() => stage.setBackground(themeValue('--stage')));
   const thumbnails = scene.names.map((_, pose) => {
     mesh.show({ nodes: [pose, pose, pose], weights: [1, 0, 0] });
     return stage.thumbnail(thumbnailWidth, thumbnailHeight);

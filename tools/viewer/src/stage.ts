@@ -144,6 +144,7 @@ export class Stage {
     const { clientWidth, clientHeight } = this.canvas.parentElement!;
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
+    this.canvas.parentElement!.classList.toggle('stacked', clientWidth < clientHeight);
     const { width, height } = this.areas(clientWidth, clientHeight)[0];
     if (this.moved) {
       this.camera.aspect = width / height;

@@ -2,8 +2,16 @@ import { byId } from './dom';
 
 type Theme = 'light' | 'dark';
 
-/** The system's theme until the user chooses; `onChange` hears of every change, and once at first. */
-export function startTheme(onChange: () => void): void {
+const listeners: (() => void)[] = [];
+
+/** Calls `listener` now, and whenever the theme changes. */
+export function onTheme(listener: () => void): void {
+  listeners.push(listener);
+  listener();
+}
+
+/** Shows the system's theme until the user chooses. */
+export function startTheme(): void {
   const system = matchMedia('(prefers-color-scheme: dark)');
   const button = byId<HTMLButtonElement>('theme');
   let chosen: Theme | null = null;
@@ -13,7 +21,7 @@ export function startTheme(onChange: () => void): void {
     const other = theme === 'dark' ? 'Light' : 'Dark';
     button.textContent = other;
     button.setAttribute('aria-label', `${other} colours`);
-    onChange();
+    for (const listener of listeners) listener();
   };
   button.addEventListener('click', () => {
     chosen = document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark';
