@@ -102,7 +102,8 @@ Eigen::VectorXd HingeAreas(const Connectivity& connectivity, const std::vector<S
 }
 
 Dihedral MakeDihedral(double bending, const Connectivity& connectivity, const Measures& measures,
-                      const Eigen::VectorXd& hinge_area, const std::vector<Shape>& poses) {
+                      const Eigen::VectorXd& hinge_area, const std::vector<Shape>& poses,
+                      PosePairs pairs) {
   Dihedral feature;
   const double mean_area = measures.triangle_area.mean();
   feature.normal_epsilon_squared = std::pow(kCollapsed * 2 * mean_area, 2);
@@ -110,16 +111,18 @@ Dihedral MakeDihedral(double bending, const Connectivity& connectivity, const Me
   feature.stencils = connectivity.Hinges();
   feature.weights.resize(connectivity.NumHinges());
   double x[12];
+  std::vector<double> angles(poses.size());
   for (int h = 0; h < connectivity.NumHinges(); ++h) {
-    double squared_length = 0, jump = 0, fold = 0, previous = 0;
+    double squared_length = 0, jump = 0, fold = 0;
     for (size_t i = 0; i < poses.size(); ++i) {
       Gather(feature, h, poses[i], x);
       const Eigen::Map<Eigen::Vector3d> a(x), b(x + 3);
       squared_length += (b - a).squaredNorm() / poses.size();
-      const double angle = feature.Angle(x);
-      fold = std::max(fold, std::abs(angle));
-      if (i > 0) jump = std::max(jump, std::abs(WrapAngle(angle - previous)));
-      previous = angle;
+      angles[i] = feature.Angle(x);
+      fold = std::max(fold, std::abs(angles[i]));
+      for (size_t j = pairs == PosePairs::kAll || i == 0 ? 0 : i - 1; j < i; ++j) {
+        jump = std::max(jump, std::abs(WrapAngle(angles[i] - angles[j])));
+      }
     }
     // Given poses hold hinges that are folded, or that jump by more than 90 degrees from one to the
     // next; the chord would stick there, so such hinges are let go.
@@ -207,7 +210,7 @@ bool Metric::RigidInvariantButForPosition() const {
 
 Metric FreezeMetric(const MetricOptions& options,
                     const std::shared_ptr<const Connectivity>& connectivity,
-                    const std::vector<Shape>& poses, double unit) {
+                    const std::vector<Shape>& poses, double unit, PosePairs pairs) {
   options.Validate();
   if (poses.empty()) throw MeshError("a metric needs at least one pose to be frozen on");
   for (const Shape& pose : poses) {
@@ -281,7 +284,7 @@ Metric FreezeMetric(const MetricOptions& options,
   }
   if (metric.options.bending > 0) {
     metric.features.emplace_back(
-        MakeDihedral(options.bending, *connectivity, measures, metric.hinge_area, scaled));
+        MakeDihedral(options.bending, *connectivity, measures, metric.hinge_area, scaled, pairs));
   }
   if (options.volume > 0) {
     if (!IsClosed(connectivity->Triangles())) {

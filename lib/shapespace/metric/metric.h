@@ -93,8 +93,15 @@ struct Metric {
   bool RigidInvariantButForPosition() const;
 };
 
+/// Between which of the poses that it is frozen on a metric is to be good: hinges that jump from
+/// one to the other are damped.
+enum class PosePairs {
+  kConsecutive,  ///< from each to the next: for a path through them
+  kAll,          ///< from each to every other: their order does not matter
+};
+
 /// Freezes `options` on all `poses` (user's units; each 3 x m): squared edge lengths and areas are
-/// the poses' means, the damping of hinges looks at all consecutive pairs. Graphs without faces
+/// the poses' means, the damping of hinges looks at the `pairs`. Graphs without faces
 /// have total edge length 1 instead of area 1. `unit` > 0 is the unit to take instead: coarse
 /// levels of a mesh take the finest one's. Where no two triangles share an edge, as in graphs,
 /// nothing can bend: `Metric::options.bending` is 0 then.
@@ -103,7 +110,8 @@ struct Metric {
 /// `kLargestCoordinate`.
 Metric FreezeMetric(const MetricOptions& options,
                     const std::shared_ptr<const Connectivity>& connectivity,
-                    const std::vector<Shape>& poses, double unit = 0);
+                    const std::vector<Shape>& poses, double unit = 0,
+                    PosePairs pairs = PosePairs::kConsecutive);
 
 /// The same blend, by name, for reports: e.g. "isometric 1, lambda 0.0001, bending 1e-05".
 std::string Describe(const MetricOptions& options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include <Eigen/Geometry>
@@ -33,10 +34,16 @@ double EstimateBytes(const Metric& metric, int poses, int shapes) {
          PathEnergy::EstimateBytes(metric, shapes);
 }
 
+void CheckMemory(double bytes, const GeodesicOptions& options) {
+  if (bytes <= options.memory_limit) return;
+  throw SolverError("this solve needs about " + std::to_string(std::lround(bytes / 1e6)) +
+                    " MB, more than the memory limit; insert fewer shapes or raise memory_limit");
+}
+
 // A metric of each level's own, in the mesh's unit.
 std::vector<internal::Resolution> Resolve(const Hierarchy& hierarchy,
                                           const std::shared_ptr<const Metric>& metric,
-                                          const std::vector<Shape>& aligned) {
+                                          const std::vector<Shape>& aligned, PosePairs pairs) {
   std::vector<internal::Resolution> resolutions;
   for (int level = 0; level < hierarchy.NumLevels(); ++level) {
     std::vector<Shape> poses;
@@ -44,7 +51,7 @@ std::vector<internal::Resolution> Resolve(const Hierarchy& hierarchy,
     auto own = metric;
     if (level + 1 < hierarchy.NumLevels()) {
       own = std::make_shared<const Metric>(
-          FreezeMetric(metric->options, hierarchy.LevelConnectivity(level), poses, 1));
+          FreezeMetric(metric->options, hierarchy.LevelConnectivity(level), poses, 1, pairs));
     }
     resolutions.emplace_back(std::move(own), std::move(poses));
   }
@@ -98,7 +105,7 @@ void CheckRigidTurns(const Path& path) {
 }
 
 // The energy of the finished path by feature, and the bound, over all pieces.
-void Assess(const Path& path, GeodesicSummary* summary) {
+void MeasureEnergy(const Path& path, GeodesicSummary* summary) {
   const Metric& metric = *path.metric;
   for (const AnyFeature& any : metric.features) {
     summary->parts.emplace_back(
@@ -120,6 +127,20 @@ void Assess(const Path& path, GeodesicSummary* summary) {
         ScaledEnergy(EnergyLowerBound(metric, shapes.front(), shapes.back(), segments), segments);
   }
   for (const auto& part : summary->parts) summary->energy += part.second;
+}
+
+PathQuality NotMeasured() {
+  PathQuality quality;
+  for (double* figure : {&quality.edge_rms, &quality.edge_p99, &quality.edge_max,
+                         &quality.first_rms, &quality.first_p99, &quality.first_max,
+                         &quality.roughness, &quality.folds, &quality.speed_max}) {
+    *figure = std::numeric_limits<double>::quiet_NaN();
+  }
+  return quality;
+}
+
+// What a person would see in it.
+void Assess(const Path& path, GeodesicSummary* summary) {
   summary->quality = MeasureQuality(path);
 
   // A few shapes tell whether the body passes through itself.
@@ -135,6 +156,19 @@ void Assess(const Path& path, GeodesicSummary* summary) {
   } catch (const Error& error) {  // not worth losing the path for
     summary->warnings.push_back(std::string("not counted: ") + error.what());
   }
+}
+
+void CheckShape(const Shape& shape, const Metric& metric) {
+  if (shape.cols() != metric.connectivity->NumVertices() || !shape.allFinite()) {
+    throw MeshError("a pose is not finite, or has another number of vertices than the metric");
+  }
+}
+
+Schedule KindOfSchedule(const Metric& metric, const GeodesicOptions& options) {
+  if (options.schedule != Schedule::kAutomatic || metric.options.bending > 0) {
+    return options.schedule;
+  }
+  return Schedule::kFlat;
 }
 
 // Figures that are possible but hardly what a person wants to see.
@@ -206,69 +240,109 @@ GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivi
   return result;
 }
 
-GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
-                           const std::vector<Shape>& poses, const GeodesicOptions& options,
-                           Progress* progress) {
-  options.Validate();
-  if (poses.size() < 2) throw MeshError("a geodesic needs at least two poses");
-  for (const Shape& pose : poses) {
-    if (pose.cols() != metric->connectivity->NumVertices() || !pose.allFinite()) {
-      throw MeshError("a pose is not finite, or has another number of vertices than the metric");
-    }
+namespace internal {
+
+// What all solves between poses of one mesh share.
+class GeodesicLevels {
+ public:
+  GeodesicLevels(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& aligned,
+                 PosePairs pairs, const GeodesicOptions& options)
+      : metric_(metric),
+        options_(options),
+        kind_(KindOfSchedule(*metric, options)),
+        hierarchy_(metric->connectivity, aligned, MakeHierarchyOptions()),
+        resolutions_(Resolve(hierarchy_, metric, aligned, pairs)) {}
+
+  const std::shared_ptr<const Metric>& GetMetric() const { return metric_; }
+  void SetPoses(const std::vector<Shape>& aligned);
+  /// The path through `poses`, which are those that were set last.
+  GeodesicResult Solve(const AlignedPoses& poses, Progress* progress);
+
+ private:
+  HierarchyOptions MakeHierarchyOptions() const {
+    HierarchyOptions result;
+    result.coarsest = kind_ == Schedule::kFlat
+                          ? std::max(options_.coarsest, metric_->connectivity->NumTriangles())
+                          : options_.coarsest;
+    return result;
   }
-  const Stopwatch total;
-  const std::shared_ptr<const Connectivity>& connectivity = metric->connectivity;
+  void SolvePieces(const AlignedPoses& poses, Progress* progress, GeodesicResult* result);
+  void Describe(GeodesicSummary* summary) const;
+
+  const std::shared_ptr<const Metric> metric_;
+  const GeodesicOptions options_;
+  const Schedule kind_;
+  const Hierarchy hierarchy_;
+  std::vector<Resolution> resolutions_;
+};
+
+void GeodesicLevels::SetPoses(const std::vector<Shape>& aligned) {
+  for (int level = 0; level < hierarchy_.NumLevels(); ++level) {
+    std::vector<Shape> poses;
+    for (const Shape& pose : aligned) poses.push_back(hierarchy_.Restrict(pose, level));
+    resolutions_[level].SetPoses(std::move(poses));
+  }
+}
+
+GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progress) {
   GeodesicResult result;
-  Path& path = result.path;
-  GeodesicSummary& summary = result.summary;
-
-  summary.estimated_bytes = EstimateBytes(*metric, static_cast<int>(poses.size()), options.shapes);
-  if (summary.estimated_bytes > options.memory_limit) {
-    throw SolverError("this solve needs about " +
-                      std::to_string(std::lround(summary.estimated_bytes / 1e6)) +
-                      " MB, more than the memory limit; insert fewer shapes or raise memory_limit");
-  }
-
-  path.metric = metric;
-  const auto [aligned, motions] = AlignPoses(*metric, poses);
-  const int pieces = static_cast<int>(poses.size()) - 1;
-
-  const Stopwatch building;
-  ReportProgress(progress, "decimating", 0, 0);
-  Schedule kind = options.schedule;
-  if (kind == Schedule::kAutomatic && metric->options.bending == 0) kind = Schedule::kFlat;
-  HierarchyOptions hierarchy_options;
-  hierarchy_options.coarsest = kind == Schedule::kFlat
-                                   ? std::max(options.coarsest, connectivity->NumTriangles())
-                                   : options.coarsest;
-  const Hierarchy hierarchy(connectivity, aligned, hierarchy_options);
-  std::vector<internal::Resolution> resolutions = Resolve(hierarchy, metric, aligned);
-  summary.hierarchy_seconds = building.Seconds();
-  for (const internal::Resolution& resolution : resolutions) {
-    summary.hierarchy.push_back(resolution.GetMetric().connectivity->NumVertices());
-  }
-  summary.hierarchy_stopped_early = hierarchy.StoppedEarly();
-
-  // Piece after piece, coarse to fine.
   const Stopwatch solving;
-  const std::vector<internal::ScheduleStep> schedule =
-      internal::MakeSchedule(kind, hierarchy.NumLevels(), options.shapes);
+  double factored = 0;
+  for (const auto& resolution : resolutions_) factored += resolution.FactorSeconds();
+  SolvePieces(poses, progress, &result);
+  GeodesicSummary& summary = result.summary;
+  summary.solve_seconds = solving.Seconds();
+  for (const Resolution& resolution : resolutions_) {
+    summary.factor_seconds += resolution.FactorSeconds();
+    summary.factor_nonzeros += resolution.FactorNonzeros();
+  }
+  summary.factor_seconds -= factored;
+  Describe(&summary);
+  summary.poses = static_cast<int>(poses.shapes.size());
+  for (const GeodesicSummary::Level& level : summary.levels) {
+    if (level.kept) summary.termination = std::max(summary.termination, level.termination);
+  }
+  const bool cancelled = summary.termination == Termination::kCancelled;
+  if (metric_->rigid.Active() && !cancelled) CheckRigidTurns(result.path);
+  result.path.converged = summary.termination == Termination::kConverged;
+  MeasureEnergy(result.path, &summary);
+  if (options_.assess) {
+    Assess(result.path, &summary);
+  } else {
+    summary.quality = NotMeasured();
+    summary.intersections = std::numeric_limits<double>::quiet_NaN();
+  }
+  Warn(&summary);
+  return result;
+}
+
+// Piece after piece, coarse to fine.
+void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
+                                 GeodesicResult* result) {
+  const std::vector<Shape>& aligned = poses.shapes;
+  const std::vector<RigidMotion>& motions = poses.motions;
+  GeodesicSummary& summary = result->summary;
+  Path& path = result->path;
+  const int pieces = static_cast<int>(aligned.size()) - 1;
+  const std::vector<ScheduleStep> schedule =
+      MakeSchedule(kind_, hierarchy_.NumLevels(), options_.shapes);
+  path.metric = metric_;
   path.poses = {0};
   path.shapes = {aligned[0]};
   path.parameters = {0};
   path.motions = {motions[0]};
-  internal::Workload workload(progress, options.tolerance, options.max_iterations);
+  Workload workload(progress, options_.tolerance, options_.max_iterations);
   for (int i = 0; i < pieces; ++i) {
-    internal::Plan(schedule, schedule.size(), resolutions, &workload);
+    Plan(schedule, schedule.size(), resolutions_, &workload);
   }
   for (int i = 0; i < pieces; ++i) {
     std::vector<Shape> shapes;
     if (workload.Stopped() || AreNear(aligned[i], aligned[i + 1])) {
-      shapes = Blend(aligned[i], aligned[i + 1], options.shapes);
+      shapes = Blend(aligned[i], aligned[i + 1], options_.shapes);
     }
     if (!workload.Stopped() &&
-        (shapes.empty() || !IsSolved(i, shapes, options, &resolutions.back(), &summary))) {
-      internal::Piece piece(i, hierarchy, &resolutions, options, &workload, &summary);
+        (shapes.empty() || !IsSolved(i, shapes, options_, &resolutions_.back(), &summary))) {
+      Piece piece(i, hierarchy_, &resolutions_, options_, &workload, &summary);
       piece.Run(schedule);
       shapes = std::move(piece).Result();
       if (workload.Stopped() && i + 1 < pieces) {
@@ -276,38 +350,82 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
                                    " on are straight-line blends of their poses");
       }
     }
-    for (int k = 1; k <= options.shapes + 1; ++k) {
-      const double t = static_cast<double>(k) / (options.shapes + 1);
+    for (int k = 1; k <= options_.shapes + 1; ++k) {
+      const double t = static_cast<double>(k) / (options_.shapes + 1);
       path.shapes.push_back(std::move(shapes[k]));
       path.parameters.push_back((i + t) / pieces);
       path.motions.push_back(InterpolateMotion(motions[i], motions[i + 1], t));
     }
     path.poses.push_back(path.NumShapes() - 1);
   }
-  summary.solve_seconds = solving.Seconds();
-  for (const internal::Resolution& resolution : resolutions) {
-    summary.factor_seconds += resolution.FactorSeconds();
-    summary.factor_nonzeros += resolution.FactorNonzeros();
-  }
-  if (metric->rigid.Active() && !workload.Stopped()) CheckRigidTurns(path);
-
-  summary.metric = Describe(metric->options);
-  summary.vertices = connectivity->NumVertices();
-  summary.triangles = connectivity->NumTriangles();
-  summary.edges = connectivity->NumEdges();
-  summary.hinges = connectivity->NumHinges();
-  summary.poses = static_cast<int>(poses.size());
-  summary.shapes = options.shapes;
-  summary.unit = metric->unit;
-  summary.threads = Threads();
-  for (const GeodesicSummary::Level& level : summary.levels) {
-    if (level.kept) summary.termination = std::max(summary.termination, level.termination);
-  }
   if (workload.Stopped()) summary.termination = Termination::kCancelled;
-  path.converged = summary.termination == Termination::kConverged;
-  Assess(path, &summary);
-  Warn(&summary);
-  summary.total_seconds = total.Seconds();
+}
+
+// What is the same for all paths.
+void GeodesicLevels::Describe(GeodesicSummary* summary) const {
+  const Connectivity& connectivity = *metric_->connectivity;
+  for (const Resolution& resolution : resolutions_) {
+    summary->hierarchy.push_back(resolution.GetMetric().connectivity->NumVertices());
+  }
+  summary->hierarchy_stopped_early = hierarchy_.StoppedEarly();
+  summary->metric = shapespace::Describe(metric_->options);
+  summary->vertices = connectivity.NumVertices();
+  summary->triangles = connectivity.NumTriangles();
+  summary->edges = connectivity.NumEdges();
+  summary->hinges = connectivity.NumHinges();
+  summary->shapes = options_.shapes;
+  summary->unit = metric_->unit;
+  summary->threads = Threads();
+}
+
+}  // namespace internal
+
+GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
+                           const std::vector<Shape>& poses, const GeodesicOptions& options,
+                           Progress* progress) {
+  options.Validate();
+  if (poses.size() < 2) throw MeshError("a geodesic needs at least two poses");
+  for (const Shape& pose : poses) CheckShape(pose, *metric);
+  const double bytes = EstimateBytes(*metric, static_cast<int>(poses.size()), options.shapes);
+  CheckMemory(bytes, options);
+  const Stopwatch total;
+  ReportProgress(progress, "decimating", 0, 0);
+  const AlignedPoses aligned = AlignPoses(*metric, poses);
+  internal::GeodesicLevels levels(metric, aligned.shapes, PosePairs::kConsecutive, options);
+  const double hierarchy_seconds = total.Seconds();
+  GeodesicResult result = levels.Solve(aligned, progress);
+  result.summary.hierarchy_seconds = hierarchy_seconds;
+  result.summary.estimated_bytes = bytes;
+  result.summary.total_seconds = total.Seconds();
+  return result;
+}
+
+Interpolator::Interpolator(const std::shared_ptr<const Connectivity>& connectivity,
+                           const std::vector<Shape>& poses, const GeodesicOptions& options) {
+  options.Validate();
+  const auto metric = std::make_shared<const Metric>(
+      FreezeMetric(options.metric, connectivity, poses, 0, PosePairs::kAll));
+  CheckMemory(EstimateBytes(*metric, static_cast<int>(poses.size()), options.shapes), options);
+  levels_ = std::make_unique<internal::GeodesicLevels>(metric, AlignPoses(*metric, poses).shapes,
+                                                       PosePairs::kAll, options);
+}
+
+Interpolator::~Interpolator() = default;
+Interpolator::Interpolator(Interpolator&&) noexcept = default;
+Interpolator& Interpolator::operator=(Interpolator&&) noexcept = default;
+
+const std::shared_ptr<const Metric>& Interpolator::GetMetric() const {
+  return levels_->GetMetric();
+}
+
+GeodesicResult Interpolator::Between(const Shape& from, const Shape& to, Progress* progress) {
+  CheckShape(from, *GetMetric());
+  CheckShape(to, *GetMetric());
+  const Stopwatch total;
+  const AlignedPoses aligned = AlignPoses(*GetMetric(), {from, to});
+  levels_->SetPoses(aligned.shapes);
+  GeodesicResult result = levels_->Solve(aligned, progress);
+  result.summary.total_seconds = total.Seconds();
   return result;
 }
 

@@ -1,7 +1,9 @@
 #ifndef SHAPESPACE_SOLVERS_GEODESIC_H_
 #define SHAPESPACE_SOLVERS_GEODESIC_H_
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <shapespace/base/progress.h>
@@ -11,6 +13,10 @@
 #include <shapespace/path/quality.h>
 
 namespace shapespace {
+
+namespace internal {
+class GeodesicLevels;
+}
 
 /// The optimiser of each level.
 enum class Solver {
@@ -74,6 +80,10 @@ struct GeodesicOptions {
 
   /// Bytes that the solve may take; an estimate above it is refused before anything is allocated.
   double memory_limit = 8e9;
+
+  /// Whether the finished path is measured for `GeodesicSummary::quality` and `intersections`,
+  /// which takes up to a fifth of the time; without, these are not numbers.
+  bool assess = true;
 
   /// \throw InvalidOptions naming the field.
   void Validate() const;
@@ -160,6 +170,29 @@ GeodesicResult Interpolate(const Poses& poses, const GeodesicOptions& options = 
 GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
                            const std::vector<Shape>& poses, const GeodesicOptions& options = {},
                            Progress* progress = nullptr);
+
+/// Geodesics between many pairs of shapes of one mesh, all under one metric: keeps the hierarchy,
+/// the metrics of its levels and their factors. What is found between two shapes does not depend on
+/// the pairs before, to the last bit.
+class Interpolator {
+ public:
+  /// Freezes options.metric on all `poses` (user's unit), between every two of them, and decimates
+  /// them in step. 	hrow as Interpolate; one pose is enough.
+  Interpolator(const std::shared_ptr<const Connectivity>& connectivity,
+               const std::vector<Shape>& poses, const GeodesicOptions& options = {});
+  ~Interpolator();
+  Interpolator(Interpolator&&) noexcept;
+  Interpolator& operator=(Interpolator&&) noexcept;
+
+  const std::shared_ptr<const Metric>& GetMetric() const;
+
+  /// The geodesic from one shape to another (user's unit), which are poses or lie between them.
+  /// 	hrow as Interpolate.
+  GeodesicResult Between(const Shape& from, const Shape& to, Progress* progress = nullptr);
+
+ private:
+  std::unique_ptr<internal::GeodesicLevels> levels_;
+};
 
 }  // namespace shapespace
 

@@ -46,6 +46,12 @@ Termination Translate(Stop stop) {
 
 int HistoryRank(double unknowns) { return unknowns <= kLongRankUnknowns ? kLongRank : kShortRank; }
 
+void Resolution::SetPoses(std::vector<Shape> poses) {
+  poses_ = std::move(poses);
+  // The trapezoid's quartic part depends on them.
+  if (metric_->options.discretization == Discretization::kTrapezoid) factor_key_ = {-1, -1};
+}
+
 GeodesicSummary::Level Resolution::Relax(int piece, double enough, const GeodesicOptions& options,
                                          Workload* workload, std::vector<Shape>* shapes) {
   const Stopwatch stopwatch;
@@ -152,7 +158,7 @@ const CholeskyFactor<Scalar>& Resolution::Factor(std::optional<CholeskyFactor<Sc
     } else {
       factor->emplace(trapezoid
                           ? ScalarMetric(*metric_, {poses_[piece], poses_[piece + 1]}, inner + 1)
-                          : ScalarMetric(*metric_, poses_, 0));
+                          : ScalarMetric(*metric_, all_poses_, 0));
     }
     factor_seconds_ += stopwatch.Seconds();
   }

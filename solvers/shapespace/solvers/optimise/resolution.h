@@ -25,9 +25,13 @@ int HistoryRank(double unknowns);
 /// of its preconditioner.
 class Resolution {
  public:
-  /// `poses` are aligned, in the metric's unit.
+  /// `poses` are aligned, in the metric's unit: those of the path, unless others are set.
   Resolution(std::shared_ptr<const Metric> metric, std::vector<Shape> poses)
-      : metric_(std::move(metric)), poses_(std::move(poses)) {}
+      : metric_(std::move(metric)), all_poses_(std::move(poses)), poses_(all_poses_) {}
+
+  /// Other poses to lead a path through. The preconditioner stays that of the first ones, so that a
+  /// solve does not depend on the solves before it.
+  void SetPoses(std::vector<Shape> poses);
 
   const Metric& GetMetric() const { return *metric_; }
   const Shape& Pose(int i) const { return poses_[i]; }
@@ -52,7 +56,8 @@ class Resolution {
   PathEnergy& EnergyOf(int inner, const GeodesicOptions& options);
 
   std::shared_ptr<const Metric> metric_;
-  std::vector<Shape> poses_;
+  std::vector<Shape> all_poses_;  // which the factor is made for
+  std::vector<Shape> poses_;      // of the path
   std::optional<PathEnergy> energy_;  // of the number of inner shapes used last
   // Of the scalar metric, in the precision that the optimiser takes.
   std::optional<CholeskyFactor<double>> factor_;

@@ -1,0 +1,103 @@
+#ifndef SHAPESPACE_PATH_ARRAY_FILE_H_
+#define SHAPESPACE_PATH_ARRAY_FILE_H_
+
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include <shapespace/base/error.h>
+
+// Private: the layout that files of ours share. A JSON header tells what follows it: arrays of
+// numbers with all their bits, under one checksum (docs/file-formats.md).
+
+namespace shapespace::internal {
+
+using HeaderJson = nlohmann::ordered_json;
+
+/// A kind of file.
+struct ArrayFileKind {
+  char magic[9];  ///< eight letters
+  uint32_t version;
+  const char* name;  ///< as messages have it: ".path"
+};
+
+/// Collects the arrays behind the header, in its order.
+class ArrayWriter {
+ public:
+  template <typename Scalar>
+  void Add(const std::string& name, const Scalar* data, size_t rows, size_t columns) {
+    static_assert(std::is_same_v<Scalar, double> || std::is_same_v<Scalar, int>);
+    const char* const type = std::is_same_v<Scalar, double> ? "f8" : "i4";
+    table_.push_back({{"name", name}, {"type", type}, {"rows", rows}, {"columns", columns}});
+    bytes_.append(reinterpret_cast<const char*>(data), rows * columns * sizeof(Scalar));
+  }
+  template <typename Matrix>
+  void Add(const std::string& name, const Matrix& matrix) {
+    Add(name, matrix.data(), matrix.rows(), matrix.cols());
+  }
+  const HeaderJson& Table() const { return table_; }
+  const std::string& Bytes() const { return bytes_; }
+
+ private:
+  HeaderJson table_ = HeaderJson::array();
+  std::string bytes_;
+};
+
+class ArrayReader {
+ public:
+  /// `table` lists arrays that lie in `bytes` from `begin` on, to the end.
+  ArrayReader(const HeaderJson& table, const std::string& bytes, size_t begin);
+
+  /// A matrix of `rows` x `columns`; either may be Eigen::Dynamic for any. \throw FileError if
+  /// there is none of that name, type and size, or if it holds a number that is not finite.
+  template <typename Matrix>
+  Matrix Get(const std::string& name, Eigen::Index rows, Eigen::Index columns) const {
+    using Scalar = typename Matrix::Scalar;
+    const auto found = arrays_.find(name);
+    if (found == arrays_.end()) throw FileError("it lacks the array " + name);
+    const Array& array = found->second;
+    const bool fits = array.type == (std::is_same_v<Scalar, double> ? "f8" : "i4") &&
+                      (rows == Eigen::Dynamic || static_cast<size_t>(rows) == array.rows) &&
+                      (columns == Eigen::Dynamic || static_cast<size_t>(columns) == array.columns);
+    if (!fits) throw FileError("its array " + name + " has the wrong type or size");
+    Matrix matrix(array.rows, array.columns);
+    // An empty matrix may have no address, which memcpy must not be given.
+    if (matrix.size() > 0) {
+      std::memcpy(matrix.data(), bytes_.data() + array.begin, matrix.size() * sizeof(Scalar));
+    }
+    if constexpr (std::is_same_v<Scalar, double>) {
+      if (!matrix.allFinite()) throw FileError("its array " + name + " holds a non-finite number");
+    }
+    return matrix;
+  }
+
+ private:
+  struct Array {
+    std::string type;
+    size_t rows, columns, begin;
+  };
+  const std::string& bytes_;
+  std::map<std::string, Array> arrays_;
+};
+
+/// The whole file, as bytes; `header` gets the table of `arrays`.
+std::string PackArrayFile(const ArrayFileKind& kind, HeaderJson header, const ArrayWriter& arrays);
+
+/// What `bytes`, a whole file, begin with: the header and where the arrays begin.
+/// \throw FileError, without the file's name: another kind of file, of another version, truncated
+/// or
+///        damaged (its checksum does not fit).
+HeaderJson UnpackHeader(const ArrayFileKind& kind, const std::string& bytes, size_t* arrays_begin);
+
+/// The integers of an array of one column.
+std::vector<int> IndicesFrom(const ArrayReader& arrays, const std::string& name);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_PATH_ARRAY_FILE_H_

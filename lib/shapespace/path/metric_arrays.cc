@@ -1,0 +1,233 @@
+#include <shapespace/path/metric_arrays.h>
+
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+namespace shapespace::internal {
+namespace {
+
+using Json = HeaderJson;
+
+Json OptionsToJson(const MetricOptions& options) {
+  return {{"isometric", options.isometric},
+          {"strain", options.strain},
+          {"rigid", options.rigid},
+          {"lambda", options.lambda},
+          {"bending", options.bending},
+          {"volume", options.volume},
+          {"weights", options.weights == Weights::kUniform ? "uniform" : "area"},
+          {"discretization",
+           options.discretization == Discretization::kTrapezoid ? "trapezoid" : "midpoint"}};
+}
+
+MetricOptions OptionsFromJson(const Json& json) {
+  MetricOptions options;
+  json.at("isometric").get_to(options.isometric);
+  json.at("strain").get_to(options.strain);
+  json.at("rigid").get_to(options.rigid);
+  json.at("lambda").get_to(options.lambda);
+  json.at("bending").get_to(options.bending);
+  json.at("volume").get_to(options.volume);
+  options.weights = json.at("weights") == "uniform" ? Weights::kUniform : Weights::kArea;
+  options.discretization = json.at("discretization") == "trapezoid" ? Discretization::kTrapezoid
+                                                                    : Discretization::kMidpoint;
+  options.Validate();
+  return options;
+}
+
+// What a feature holds besides stencils and weights. An overload each; most hold nothing.
+template <typename Feature>
+Json Constants(const Feature&) {
+  return Json::object();
+}
+Json Constants(const LogLength& f) { return {{"epsilon_squared", f.epsilon_squared}}; }
+Json Constants(const TriangleStrain& f) { return {{"epsilon_squared", f.epsilon_squared}}; }
+Json Constants(const Dihedral& f) {
+  return {{"normal_epsilon_squared", f.normal_epsilon_squared},
+          {"edge_epsilon_squared", f.edge_epsilon_squared}};
+}
+Json Constants(const Volume& f) { return {{"reference", f.reference}}; }
+
+template <typename Feature>
+void SetConstants(const Json&, Feature*) {}
+void SetConstants(const Json& json, LogLength* f) {
+  json.at("epsilon_squared").get_to(f->epsilon_squared);
+}
+void SetConstants(const Json& json, TriangleStrain* f) {
+  json.at("epsilon_squared").get_to(f->epsilon_squared);
+}
+void SetConstants(const Json& json, Dihedral* f) {
+  json.at("normal_epsilon_squared").get_to(f->normal_epsilon_squared);
+  json.at("edge_epsilon_squared").get_to(f->edge_epsilon_squared);
+}
+void SetConstants(const Json& json, Volume* f) { json.at("reference").get_to(f->reference); }
+
+// Adds the feature called `name` to the metric if it is this one.
+template <typename Feature>
+bool ReadFeature(const std::string& name, const Json& constants, const std::string& prefix,
+                 const ArrayReader& arrays, Metric* metric) {
+  if (name != Feature::kName) return false;
+  Feature feature;
+  feature.stencils = arrays.Get<decltype(feature.stencils)>(prefix + "stencils", Feature::kVertices,
+                                                            Eigen::Dynamic);
+  const bool inside = feature.stencils.size() == 0 ||
+                      (feature.stencils.minCoeff() >= 0 &&
+                       feature.stencils.maxCoeff() < metric->connectivity->NumVertices());
+  if (!inside) throw FileError("a stencil of the feature " + name + " has an index out of range");
+  feature.weights = arrays.Get<Eigen::VectorXd>(prefix + "weights",
+                                                Feature::kSum ? 1 : feature.stencils.cols(), 1);
+  SetConstants(constants, &feature);
+  metric->features.emplace_back(std::move(feature));
+  return true;
+}
+
+// JSON holds text in UTF-8 only: any other name stands as the list of its bytes.
+Json NameToJson(const std::string& name) {
+  try {
+    (void)Json(name).dump();
+    return name;
+  } catch (const Json::exception&) {
+    return std::vector<uint8_t>(name.begin(), name.end());
+  }
+}
+
+std::string NameFromJson(const Json& json) {
+  if (json.is_string()) return json.get<std::string>();
+  const auto bytes = json.get<std::vector<uint8_t>>();
+  return {bytes.begin(), bytes.end()};
+}
+
+Json NamesToJson(const std::vector<std::string>& names) {
+  Json json = Json::array();
+  for (const std::string& name : names) json.push_back(NameToJson(name));
+  return json;
+}
+
+std::vector<std::string> NamesFromJson(const Json& json) {
+  std::vector<std::string> names;
+  for (const Json& name : json) names.push_back(NameFromJson(name));
+  return names;
+}
+
+}  // namespace
+
+void AddMetric(const Metric& metric, Json* header, ArrayWriter* arrays) {
+  const Connectivity& connectivity = *metric.connectivity;
+  arrays->Add("polygon_begin", connectivity.PolygonBegin().data(),
+              connectivity.PolygonBegin().size(), 1);
+  arrays->Add("corners", connectivity.Corners().data(), connectivity.Corners().size(), 1);
+  arrays->Add("triangles", connectivity.Triangles());
+  Eigen::Matrix2Xi segments(2, connectivity.Segments().size());
+  for (Eigen::Index i = 0; i < segments.cols(); ++i) {
+    segments.col(i) << connectivity.Segments()[i].first, connectivity.Segments()[i].second;
+  }
+  arrays->Add("segments", segments);
+  arrays->Add("extra_edges", Eigen::Matrix2Xi(connectivity.Edges().rightCols(
+                                 connectivity.NumEdges() - connectivity.NumTriangleEdges())));
+  arrays->Add("vertex_area", metric.vertex_area);
+  arrays->Add("edge_area", metric.edge_area);
+  arrays->Add("hinge_area", metric.hinge_area);
+  Json features = Json::array();
+  for (const AnyFeature& any : metric.features) {
+    std::visit(
+        [&](const auto& feature) {
+          const std::string prefix = "feature" + std::to_string(features.size()) + "_";
+          features.push_back({{"name", feature.kName}, {"constants", Constants(feature)}});
+          arrays->Add(prefix + "stencils", feature.stencils);
+          arrays->Add(prefix + "weights", feature.weights);
+        },
+        any);
+  }
+  arrays->Add("rigid_weights", metric.rigid.weights);
+  (*header)["vertices"] = connectivity.NumVertices();
+  (*header)["unit"] = metric.unit;
+  (*header)["metric"] = OptionsToJson(metric.options);
+  (*header)["features"] = features;
+}
+
+std::shared_ptr<const Metric> ReadMetric(const Json& header, const ArrayReader& arrays) {
+  const int num_vertices = header.at("vertices").get<int>();
+  const auto begin = arrays.Get<Eigen::VectorXi>("polygon_begin", Eigen::Dynamic, 1);
+  const auto corners = arrays.Get<Eigen::VectorXi>("corners", Eigen::Dynamic, 1);
+  const auto pairs = [&](const char* name) {
+    const auto columns = arrays.Get<Eigen::Matrix2Xi>(name, 2, Eigen::Dynamic);
+    std::vector<std::pair<int, int>> result;
+    result.reserve(columns.cols());
+    for (int i = 0; i < columns.cols(); ++i) result.emplace_back(columns(0, i), columns(1, i));
+    return result;
+  };
+  const auto metric = std::make_shared<Metric>();
+  metric->connectivity =
+      Connectivity::Make(num_vertices, {begin.begin(), begin.end()},
+                         {corners.begin(), corners.end()}, pairs("segments"), pairs("extra_edges"),
+                         arrays.Get<Eigen::Matrix3Xi>("triangles", 3, Eigen::Dynamic));
+  const Connectivity& connectivity = *metric->connectivity;
+  metric->options = OptionsFromJson(header.at("metric"));
+  metric->unit = header.at("unit").get<double>();
+  metric->vertex_area = arrays.Get<Eigen::VectorXd>("vertex_area", num_vertices, 1);
+  metric->edge_area = arrays.Get<Eigen::VectorXd>("edge_area", connectivity.NumEdges(), 1);
+  metric->hinge_area = arrays.Get<Eigen::VectorXd>("hinge_area", connectivity.NumHinges(), 1);
+  int index = 0;
+  for (const Json& entry : header.at("features")) {
+    const std::string name = entry.at("name").get<std::string>();
+    const Json& constants = entry.at("constants");
+    const std::string prefix = "feature" + std::to_string(index++) + "_";
+    if (!ReadFeature<EdgeLength>(name, constants, prefix, arrays, metric.get()) &&
+        !ReadFeature<LogLength>(name, constants, prefix, arrays, metric.get()) &&
+        !ReadFeature<TriangleStrain>(name, constants, prefix, arrays, metric.get()) &&
+        !ReadFeature<Position>(name, constants, prefix, arrays, metric.get()) &&
+        !ReadFeature<Dihedral>(name, constants, prefix, arrays, metric.get()) &&
+        !ReadFeature<Volume>(name, constants, prefix, arrays, metric.get())) {
+      throw FileError("its metric has an unknown feature, " + name);
+    }
+  }
+  metric->rigid.weights = arrays.Get<Eigen::VectorXd>("rigid_weights", Eigen::Dynamic, 1);
+  if (metric->rigid.Active() && metric->rigid.weights.size() != num_vertices) {
+    throw FileError("its array rigid_weights has the wrong size");
+  }
+  return metric;
+}
+
+void AddAppearance(const Appearance& appearance, const std::string& file, Json* header,
+                   ArrayWriter* arrays) {
+  const auto add_indices = [arrays](const std::string& name, const std::vector<int>& indices) {
+    arrays->Add(name, indices.data(), indices.size(), 1);
+  };
+  arrays->Add("texture_coordinates", appearance.texture_coordinates);
+  add_indices("corner_texture", appearance.corner_texture);
+  add_indices("polygon_material", appearance.materials.of_polygon);
+  add_indices("polygon_group", appearance.groups.of_polygon);
+  add_indices("polygon_object", appearance.objects.of_polygon);
+  arrays->Add("vertex_colours", appearance.vertex_colours);
+  const auto here = std::filesystem::current_path();
+  const auto folder = (here / appearance.folder)
+                          .lexically_normal()
+                          .lexically_proximate((here / file).parent_path().lexically_normal());
+  const bool has_libraries = !appearance.material_libraries.empty();
+  (*header)["appearance"] = {{"material_libraries", NamesToJson(appearance.material_libraries)},
+                             {"folder", NameToJson(has_libraries ? folder.string() : "")},
+                             {"materials", NamesToJson(appearance.materials.names)},
+                             {"groups", NamesToJson(appearance.groups.names)},
+                             {"objects", NamesToJson(appearance.objects.names)}};
+}
+
+Appearance ReadAppearance(const Json& header, const std::string& file, const ArrayReader& arrays) {
+  const Json& json = header.at("appearance");
+  const auto folder = std::filesystem::path(file).parent_path();
+  Appearance appearance;
+  appearance.texture_coordinates =
+      arrays.Get<Eigen::Matrix2Xd>("texture_coordinates", 2, Eigen::Dynamic);
+  appearance.corner_texture = IndicesFrom(arrays, "corner_texture");
+  appearance.material_libraries = NamesFromJson(json.at("material_libraries"));
+  appearance.folder = (folder / NameFromJson(json.at("folder"))).lexically_normal().string();
+  appearance.materials = {NamesFromJson(json.at("materials")),
+                          IndicesFrom(arrays, "polygon_material")};
+  appearance.groups = {NamesFromJson(json.at("groups")), IndicesFrom(arrays, "polygon_group")};
+  appearance.objects = {NamesFromJson(json.at("objects")), IndicesFrom(arrays, "polygon_object")};
+  appearance.vertex_colours =
+      arrays.Get<Eigen::MatrixXd>("vertex_colours", Eigen::Dynamic, Eigen::Dynamic);
+  return appearance;
+}
+
+}  // namespace shapespace::internal
