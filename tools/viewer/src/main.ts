@@ -14,8 +14,15 @@ function showMessage(text: string): void {
   byId('layout').hidden = true;
 }
 
-function hasWebGl(): boolean {
-  return document.createElement('canvas').getContext('webgl2') !== null;
+/** What this browser lacks, in a sentence; null if nothing. */
+function missing(): string | null {
+  if (typeof DecompressionStream === 'undefined') {
+    return 'This browser is too old for this page: it cannot decompress data.';
+  }
+  if (document.createElement('canvas').getContext('webgl2') === null) {
+    return 'This browser does not draw in three dimensions: WebGL 2 is missing or switched off.';
+  }
+  return null;
 }
 
 async function read(element: HTMLScriptElement): Promise<SceneData> {
@@ -33,11 +40,8 @@ async function start(): Promise<void> {
   if (elements.length === 0) {
     return showMessage('This page holds nothing to show. shape-view makes pages that do.');
   }
-  if (!hasWebGl()) {
-    return showMessage(
-      'This browser does not draw in three dimensions: WebGL 2 is missing or switched off.',
-    );
-  }
+  const lack = missing();
+  if (lack) return showMessage(lack);
   const scenes: SceneData[] = [];
   for (const element of elements) {
     try {

@@ -86,6 +86,8 @@ export function showSpace(scene: SpaceScene): void {
         player.pause();
         tell('Draw a curve first, or add points to it.');
       }
+      // What changes with every frame is not read aloud.
+      status.setAttribute('aria-live', player.playing ? 'off' : 'polite');
       stage.draw();
     },
     (place) => `${shortNumber(Math.round(100 * place))}\u2009%`,

@@ -1,0 +1,36 @@
+// Pictures of the pages that screenshots.sh has made, into the folder named.
+import { launch, settled } from './browser.mjs';
+
+const folder = process.argv[2];
+const browser = await launch();
+
+async function shoot(name, { width, height, colorScheme }, act) {
+  const page = await browser.newPage({
+    viewport: { width, height },
+    colorScheme,
+    reducedMotion: 'reduce',
+  });
+  await page.goto(`file://${process.cwd()}/${name}.html`);
+  await settled(page);
+  await act(page);
+  await page.waitForTimeout(1000);
+  await page.screenshot({ path: `${folder}/view-${name === 'walk' ? 'path' : name}.png` });
+  await page.close();
+}
+
+async function setTime(page, value) {
+  await page.locator('#time').evaluate((input, to) => {
+    input.value = to;
+    input.dispatchEvent(new Event('input'));
+  }, value);
+}
+
+await shoot('walk', { width: 1000, height: 640, colorScheme: 'light' }, async (page) => {
+  await page.locator('#deviation').check();
+  await setTime(page, 0.7);
+});
+await shoot('two', { width: 1000, height: 640, colorScheme: 'dark' }, async (page) => {
+  await page.locator('#wireframe').check();
+  await setTime(page, 0.5);
+});
+await browser.close();
