@@ -1,4 +1,4 @@
-// A page that shows paths and animations in a browser.
+// A page that shows paths, animations and spaces of poses in a browser.
 
 #include <filesystem>
 #include <list>
@@ -9,6 +9,7 @@
 #include <shapespace/base/extension.h>
 #include <shapespace/base/read_file.h>
 #include <shapespace/output/page.h>
+#include <shapespace/solvers/exploration/space_file.h>
 
 #include "support/console.h"
 #include "support/files.h"
@@ -25,14 +26,31 @@ void CheckKinds(const std::vector<std::string>& files) {
   if (files.empty() || files.size() > 2) throw UsageError("name one file, or two to compare");
   for (const std::string& file : files) {
     const std::string extension = Extension(file);
-    if (extension != ".path" && extension != ".glb") {
-      throw UsageError(file + ": must be a .path or .glb");
+    if (extension != ".path" && extension != ".glb" && extension != ".space") {
+      throw UsageError(file + ": must be a .path, .glb or .space");
+    }
+    if (extension == ".space" && files.size() > 1) {
+      throw UsageError(file + ": a space is shown alone");
     }
   }
   const std::string extension = Extension(FLAGS_output);
   if (extension != ".html" && extension != ".htm") {
     throw UsageError("--output " + FLAGS_output + ": must end in .html");
   }
+}
+
+PageSpace ToPage(const Space& space, const std::string& name) {
+  PageSpace page;
+  page.connectivity = space.metric->connectivity;
+  for (int i = 0; i < space.NumNodes(); ++i) page.nodes.push_back(space.Placed(i));
+  page.names = space.names;
+  page.points = space.points;
+  page.triangles = space.triangles;
+  page.segments = space.segments;
+  page.parents = space.parents;
+  page.vertex_colours = space.appearance.vertex_colours;
+  page.name = name;
+  return page;
 }
 
 void CheckIsGlb(const std::string& file, const std::string& bytes) {
@@ -57,6 +75,8 @@ void Run(const std::vector<std::string>& files) {
     if (Extension(file) == ".path") {
       paths.push_back(ReadPathAndTell(file));
       scenes.push_back(PagePath{&paths.back(), name});
+    } else if (Extension(file) == ".space") {
+      scenes.push_back(ToPage(ReadSpace(file), name));
     } else {
       scenes.push_back(PageGlb{ReadFile(file), name});
       CheckIsGlb(file, std::get<PageGlb>(scenes.back()).bytes);
@@ -71,12 +91,14 @@ void Run(const std::vector<std::string>& files) {
 
 int main(int argc, char** argv) {
   using namespace shapespace::tools;
-  return RunTool(argc, argv,
-                 {"shape-view",
-                  "a page that plays paths in a browser, in one file, without network",
-                  "  shape-view walk.path --output walk.html\n"
-                  "  shape-view before.path after.path --output compare.html   side by side\n"
-                  "  shape-view walk.glb --output walk.html",
-                  {"shape_view.cc"}},
-                 Run);
+  return RunTool(
+      argc, argv,
+      {"shape-view",
+       "a page that shows paths and spaces in a browser, in one file, without network",
+       "  shape-view walk.path --output walk.html\n"
+       "  shape-view before.path after.path --output compare.html   side by side\n"
+       "  shape-view walk.glb --output walk.html\n"
+       "  shape-view poses.space --output poses.html                shapes at points of a plane",
+       {"shape_view.cc"}},
+      Run);
 }

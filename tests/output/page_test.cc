@@ -247,6 +247,8 @@ TEST_F(PageTest, RefusesWhatIsNotValid) {
   refused(space);
   (space = good).points(0, 0) = INFINITY;
   refused(space);
+  (space = good).vertex_colours = Eigen::MatrixXd::Constant(3, 1, 0.5);
+  refused(space);
   EXPECT_FALSE(std::filesystem::exists(Path("no.html")));
 }
 

@@ -40,6 +40,7 @@ struct PageSpace {
 
   /// Of every node after the poses: it lies half way between these two, which come before it.
   std::vector<std::array<int, 2>> parents;
+  Eigen::MatrixXd vertex_colours;  ///< as in an Appearance; may be empty
   std::string name;
 };
 
@@ -48,8 +49,9 @@ using PageScene = std::variant<PagePath, PageGlb, PageSpace>;
 /// Writes an HTML page that shows `scenes` and needs nothing else: no server and no network. There
 /// is one scene, or two of paths and glb files, which the page shows side by side.
 ///
-/// `page_template` is the content of the viewer that `./dev viewer` builds, which the tool
-/// shape-view has in itself.
+/// `page_template` is the content of the viewer that `./dev viewer` builds,
+/// tools/viewer/dist/viewer.html, which is installed as share/shapespace/viewer.html. The tool
+/// shape-view has it in itself.
 ///
 /// Positions are rounded to 1/65535 of the longest side of the box around all shapes of a scene,
 /// and are relative to that box, so that nothing is lost far from the origin; docs/file-formats.md

@@ -265,6 +265,11 @@ void CheckSpace(const PageSpace& space) {
                       ": a node's shape has another number of vertices, or is not finite");
     }
   }
+  const Eigen::MatrixXd& colours = space.vertex_colours;
+  if (colours.size() > 0 && (colours.rows() < 3 || colours.cols() != space.nodes[0].cols() ||
+                             !(colours.array() >= 0 && colours.array() <= 1).all())) {
+    throw MeshError(space.name + ": vertex colours do not fit");
+  }
   if (!space.points.allFinite()) throw MeshError(space.name + ": a point is not finite");
   CheckNodes(space.name, "triangles", space.triangles.data(), space.triangles.size(), num_nodes);
   CheckNodes(space.name, "segments", space.segments.data(), space.segments.size(), num_nodes);
@@ -326,7 +331,7 @@ std::string EncodeScene(const PageSpace& scene) {
              &header);
   const std::vector<Steps> steps = QuantiseAll(scene.nodes, &header);
   AppendPositions(steps, PredictFromParents(steps, scene.parents), &arrays);
-  AppendColours({}, &header, &arrays);
+  AppendColours(scene.vertex_colours, &header, &arrays);
   return Pack(header, arrays);
 }
 

@@ -1,0 +1,213 @@
+#include <shapespace/solvers/exploration/pair_solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/path/array_file.h>
+#include <shapespace/path/energy.h>
+#include <shapespace/path/rigid_motion.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Raise it when the same inputs and options lead to another result.
+constexpr uint32_t kVersion = 1;
+constexpr ArrayFileKind kKind = {"SHAPPAIR", kVersion, ".geodesic"};
+
+// A hash of 128 bits of everything that is added.
+class Hasher {
+ public:
+  Hasher() { XXH3_128bits_reset(&state_); }
+  template <typename Number>
+  void Add(const Number* data, size_t count) {
+    const uint64_t size = count * sizeof(Number);
+    XXH3_128bits_update(&state_, &size, sizeof size);
+    XXH3_128bits_update(&state_, data, size);
+  }
+  void Add(double number) { Add(&number, 1); }
+  template <typename Matrix>
+  void AddAll(const Matrix& matrix) {
+    Add(matrix.data(), matrix.size());
+  }
+  std::string Digest() const {
+    const XXH128_hash_t hash = XXH3_128bits_digest(&state_);
+    char text[33];
+    std::snprintf(text, sizeof text, "%016llx%016llx",
+                  static_cast<unsigned long long>(hash.high64),  // NOLINT(google-runtime-int)
+                  static_cast<unsigned long long>(hash.low64));  // NOLINT(google-runtime-int)
+    return text;
+  }
+
+ private:
+  XXH3_state_t state_;
+};
+
+// Of everything that a geodesic depends on but for its two shapes.
+std::string DigestOf(const Connectivity& connectivity, const std::vector<Shape>& poses,
+                     const GeodesicOptions& options) {
+  Hasher hasher;
+  const MetricOptions& metric = options.metric;
+  for (double number :
+       {metric.isometric, metric.strain, metric.rigid, metric.lambda, metric.bending, metric.volume,
+        static_cast<double>(metric.weights), static_cast<double>(metric.discretization),
+        static_cast<double>(options.shapes), options.tolerance,
+        static_cast<double>(options.max_iterations), static_cast<double>(options.solver),
+        static_cast<double>(options.schedule), static_cast<double>(options.start),
+        static_cast<double>(options.coarsest)}) {
+    hasher.Add(number);
+  }
+  hasher.AddAll(connectivity.Triangles());
+  hasher.AddAll(connectivity.Edges());
+  for (const Shape& pose : poses) hasher.AddAll(pose);
+  return hasher.Digest();
+}
+
+double Length(const Metric& metric, const std::vector<Shape>& shapes) {
+  double length = 0;
+  for (size_t i = 0; i + 1 < shapes.size(); ++i) {
+    length += std::sqrt(ScaledEnergy(EnergyLowerBound(metric, shapes[i], shapes[i + 1], 1), 1));
+  }
+  return length;
+}
+
+// Of the straight line from one shape to another, at as many points as a path has.
+double BlendLength(const Metric& metric, const Pair& pair, int segments) {
+  std::vector<Shape> shapes;
+  for (int i = 0; i <= segments; ++i) {
+    const double t = static_cast<double>(i) / segments;
+    shapes.push_back((1 - t) * *pair.from + t * *pair.to);
+  }
+  return Length(metric, shapes);
+}
+
+std::string Pack(const std::string& digest, const PairResult& result) {
+  HeaderJson header = {{"digest", digest}, {"converged", result.converged}};
+  ArrayWriter arrays;
+  arrays.Add("lengths", Eigen::Vector2d(result.length, result.blend_length));
+  arrays.Add("shape", result.shape);
+  return PackArrayFile(kKind, std::move(header), arrays);
+}
+
+// None if the bytes are no whole record of this digest.
+std::optional<PairResult> Unpack(const std::string& digest, const std::string& bytes) {
+  try {
+    size_t begin;
+    const HeaderJson header = UnpackHeader(kKind, bytes, &begin);
+    if (header.at("digest") != digest) return {};
+    const ArrayReader arrays(header.at("arrays"), bytes, begin);
+    const auto lengths = arrays.Get<Eigen::Vector2d>("lengths", 2, 1);
+    return PairResult{lengths(0), lengths(1), header.at("converged").get<bool>(),
+                      arrays.Get<Shape>("shape", 3, Eigen::Dynamic)};
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+// What a solve says to those who wait for many, of which it is one.
+class OneOfMany : public Progress {
+ public:
+  OneOfMany(Progress* progress, std::string stage, int done, int total)
+      : progress_(progress), stage_(std::move(stage)), done_(done), total_(total) {}
+  bool Report(const std::string& /*stage*/, int /*done*/, int /*total*/) override {
+    return progress_ == nullptr || progress_->Report(stage_, done_, total_);
+  }
+
+ private:
+  Progress* const progress_;
+  const std::string stage_;
+  const int done_, total_;
+};
+
+}  // namespace
+
+PairSolver::PairSolver(const std::shared_ptr<const Connectivity>& connectivity,
+                       const std::vector<Shape>& poses, const GeodesicOptions& options, Crew* crew,
+                       const std::string& records)
+    : options_(options),
+      interpolator_(connectivity, poses, options),
+      crew_(*crew),
+      records_(records),
+      digest_(DigestOf(*connectivity, poses, options)) {}
+
+void PairSolver::RemoveRecords() const {
+  if (crew_.Rank() == 0) records_.Remove();
+}
+
+std::string PairSolver::Digest(const Pair& pair) const {
+  Hasher hasher;
+  hasher.AddAll(digest_);
+  hasher.AddAll(*pair.from);
+  hasher.AddAll(*pair.to);
+  hasher.Add(pair.t);
+  return hasher.Digest();
+}
+
+std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const std::string& stage,
+                                          Progress* progress) {
+  // The first process says what is there: others may see another disk.
+  std::vector<std::string> records(pairs.size());
+  std::vector<int> missing;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    if (crew_.Rank() == 0) {
+      if (auto bytes = records_.Find(Digest(pairs[i]))) {
+        if (Unpack(Digest(pairs[i]), *bytes)) {
+          records[i] = *std::move(bytes);
+        } else {
+          ++counts_.damaged;
+        }
+      }
+    }
+    records[i] = crew_.FromFirst(records[i]);
+    if (records[i].empty()) missing.push_back(static_cast<int>(i));
+  }
+  const int total = static_cast<int>(missing.size());
+  counts_.found += static_cast<int>(pairs.size()) - total;
+  counts_.solved += total;
+  if (progress != nullptr) progress->ReportShare(0);
+  std::vector<std::string> solved = crew_.ForEach(total, [&](int i) {
+    OneOfMany one(progress, stage, i, total);
+    std::string bytes = SolveOne(pairs[missing[i]], &one);
+    if (progress != nullptr) progress->ReportShare((i + 1.0) / total);
+    return bytes;
+  });
+  for (int i = 0; i < total; ++i) records[missing[i]] = std::move(solved[i]);
+
+  std::vector<PairResult> results;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    auto result = Unpack(Digest(pairs[i]), records[i]);
+    if (!result) throw SolverError("a geodesic came damaged from another process");
+    if (!result->converged) ++counts_.not_converged;
+    results.push_back(*std::move(result));
+    records[i].clear();
+  }
+  return results;
+}
+
+std::string PairSolver::SolveOne(const Pair& pair, Progress* progress) {
+  const Metric& metric = *GetMetric();
+  ReportProgress(progress, {}, 0, 0);
+  const GeodesicResult found =
+      interpolator_.Between(metric.unit * *pair.from, metric.unit * *pair.to, progress);
+  if (found.summary.termination == Termination::kCancelled) throw Cancelled();
+  PairResult result;
+  result.length = Length(metric, found.path.shapes);
+  result.blend_length = BlendLength(metric, pair, found.path.NumShapes() - 1);
+  result.converged = found.path.converged;
+  result.shape.resize(3, 0);
+  if (pair.t >= 0) {
+    const Shape shape = Resample(found.path.shapes, found.path.parameters, {pair.t}).front();
+    const Shape blend = (1 - pair.t) * *pair.from + pair.t * *pair.to;
+    result.shape = FitRigidMotion(shape, blend, metric.vertex_area)(shape);
+  }
+  std::string bytes = Pack(Digest(pair), result);
+  records_.Keep(Digest(pair), bytes);
+  return bytes;
+}
+
+}  // namespace shapespace::internal

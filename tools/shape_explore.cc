@@ -1,0 +1,181 @@
+// A space of poses: made, sampled along a curve, or measured.
+
+#include <algorithm>
+#include <filesystem>
+
+#include <gflags/gflags.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/extension.h>
+#include <shapespace/solvers/exploration/explore.h>
+#include <shapespace/solvers/exploration/space_file.h>
+
+#include "support/geodesic_flags.h"
+#include "support/lists.h"
+#include "support/mpi_crew.h"
+#include "support/outputs.h"
+#include "support/poses.h"
+#include "support/report.h"
+#include "support/solve_progress.h"
+#include "support/tool.h"
+
+DEFINE_int32(resolution, shapespace::ExploreOptions().resolution,
+             "triangles, at most, of the mesh on which distances between poses, and what --measure "
+             "asks for, are measured; 0: the mesh itself");
+DEFINE_string(threshold, "5%",
+              "straight lines between shapes may be longer than geodesics by this, as a share or "
+              "in per cent");
+DEFINE_int32(depth, shapespace::ExploreOptions().depth,
+             "how often a triangle may be split, at most");
+DEFINE_int32(measure, 0,
+             "at so many random points, compares what the space shows with true blends");
+DEFINE_string(
+    sample, "",
+    "JSON file of a curve on the plane (docs/file-formats.md): writes the shapes along it");
+DEFINE_int32(frames, 32, "with --sample: so many shapes, evenly along the curve");
+DECLARE_string(output);
+
+namespace shapespace::tools {
+namespace {
+
+bool IsSpaceFile(const std::string& file) { return Extension(file) == ".space"; }
+
+double ThresholdFromFlag() {
+  std::string text = FLAGS_threshold;
+  const bool is_percent = !text.empty() && text.back() == '%';
+  if (is_percent) text.pop_back();
+  const std::vector<double> numbers = NumbersFromFlag("threshold", text);
+  if (numbers.size() != 1) throw UsageError(AsTyped("threshold") + ": must be one number");
+  return is_percent ? numbers[0] / 100 : numbers[0];
+}
+
+ExploreOptions ExploreFromFlags(const std::string& space) {
+  ExploreOptions options;
+  options.geodesic = GeodesicFromFlags();
+  options.resolution = FLAGS_resolution;
+  options.threshold = ThresholdFromFlag();
+  options.depth = FLAGS_depth;
+  options.records = space + ".records";
+  options.Validate();
+  if (FLAGS_measure < 0) throw UsageError(AsTyped("measure") + ": must be 0 or more");
+  return options;
+}
+
+// Names of poses: those of their files, as far as these differ.
+std::vector<std::string> NamesOf(const std::vector<std::string>& files) {
+  std::vector<std::string> names;
+  for (const std::string& file : files)
+    names.push_back(std::filesystem::path(file).stem().string());
+  std::vector<std::string> sorted = names;
+  std::sort(sorted.begin(), sorted.end());
+  const bool differ = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+  return differ ? names : files;
+}
+
+void Measure(const Space& space, const ExploreOptions& options, Crew* crew) {
+  const BlendErrors errors =
+      MeasureBlends(space, FLAGS_measure, options, SolveProgress({}).get(), crew);
+  Out() << "at " << errors.samples << " points, on " << errors.vertices
+        << " vertices, blends are off by " << 100 * errors.mean << "% on the mean, "
+        << 100 * errors.max << "% at most, of the greatest distance between poses; "
+        << 100 * errors.within << "% of them by no more than " << 100 * options.threshold << "%\n";
+}
+
+void MakeSpace(const std::vector<std::string>& files, Crew* crew) {
+  if (files.size() < 2) throw UsageError("name at least two poses of one mesh, or a .space file");
+  if (!IsSpaceFile(FLAGS_output)) {
+    throw UsageError("--output " + FLAGS_output + ": must end in .space");
+  }
+  const ExploreOptions options = ExploreFromFlags(FLAGS_output);
+  CheckNothingIsOverwritten(WithStiffeners(files), {{"output", {FLAGS_output}}, ReportFromFlag()});
+  CheckCanBeWritten(FLAGS_output);
+  const Poses poses = ReadPosesFromFlags(files);
+  ExploreResult result = Explore(poses.connectivity, poses.shapes, NamesOf(files), options,
+                                 SolveProgress({}).get(), crew);
+  const ExploreSummary& summary = result.summary;
+  result.space.provenance = Provenance("shape-explore", files);
+  result.space.appearance = poses.soup.appearance;
+  if (summary.found + summary.damaged > 0) {
+    Err() << "note: of " << summary.found + summary.solved << " geodesics, " << summary.found
+          << " were taken from " << options.records << ", where an earlier run had left them\n";
+  }
+  if (summary.damaged > 0) {
+    Err() << "note: " << summary.damaged << " of its records were damaged, and were solved again\n";
+  }
+  PrintSummary(summary.BriefReport(), summary.warnings, summary.Converged());
+  if (crew->Rank() == 0) {
+    WriteSpace(FLAGS_output, result.space);
+    Out() << FLAGS_output << '\n';
+    WriteReport(summary.FullReport(), summary.ToJson());
+  }
+  if (FLAGS_measure > 0) Measure(result.space, options, crew);
+  if (crew->Rank() == 0) RemoveRecords(options.records);
+}
+
+void Sample(const std::string& file) {
+  const std::vector<std::string> outputs = OutputsFromFlags();
+  for (const std::string& output : outputs) {
+    if (IsPathFile(output)) {
+      throw UsageError("--output " + output +
+                       ": a curve through a space is no geodesic; export meshes or pictures");
+    }
+  }
+  if (FLAGS_frames < 1) throw UsageError(AsTyped("frames") + ": must be 1 or more");
+  CheckNothingIsOverwritten({file, FLAGS_sample}, {{"output", outputs, FLAGS_frames}});
+  const Space space = ReadSpace(file);
+  Walk walk = Along(space, ReadCurve(FLAGS_sample, space), FLAGS_frames);
+  if (walk.outside > 0) {
+    Err() << "warning: " << walk.outside << " of the " << FLAGS_frames
+          << " points lie outside the poses' hull: the nearest of the hull were taken\n";
+  }
+  walk.path.provenance = Provenance("shape-explore", {FLAGS_sample, file});
+  WriteOutputs(outputs, walk.path, walk.path);
+}
+
+void Run(const std::vector<std::string>& files) {
+  const bool is_space = files.size() == 1 && IsSpaceFile(files[0]);
+  if (!FLAGS_sample.empty()) {
+    if (!is_space) throw UsageError("--sample: goes with one .space file");
+    Sample(files[0]);
+    return;
+  }
+  if (IsGiven("frames")) throw UsageError("--frames: goes with --sample");
+  if (is_space && FLAGS_measure == 0) {
+    throw UsageError(files[0] + ": give --sample or --measure; shape-view shows it");
+  }
+  WithCrew([&](Crew* crew) {
+    if (!is_space) {
+      MakeSpace(files, crew);
+      return;
+    }
+    ExploreOptions options = ExploreFromFlags(files[0]);
+    const Space space = ReadSpace(files[0]);
+    options.geodesic.metric = space.metric->options;
+    Measure(space, options, crew);
+    if (crew->Rank() == 0) RemoveRecords(options.records);
+  });
+}
+
+}  // namespace
+}  // namespace shapespace::tools
+
+int main(int argc, char** argv) {
+  using namespace shapespace::tools;
+  gflags::SetCommandLineOptionWithMode("output", "poses.space", gflags::SET_FLAGS_DEFAULT);
+  gflags::SetCommandLineOptionWithMode("shapes", "7", gflags::SET_FLAGS_DEFAULT);
+  return RunTool(
+      argc, argv,
+      {"shape-explore",
+       "a space of poses on a plane, and the shapes along a curve through it",
+       "  shape-explore a.obj b.obj c.obj [...] --output poses.space --threshold 5% --depth 2\n"
+       "  shape-explore --sample curve.json poses.space --output walk.glb --frames 32\n"
+       "  shape-explore --measure 200 poses.space\n\n"
+       "Poses with little between them lie close to each other on the plane. shape-view shows it "
+       "in a\nbrowser. A run that was ended goes on from the finished geodesics, which are kept "
+       "in\nposes.space.records until it is done. With mpirun -n 4 in front, four processes share "
+       "them out\n(--threads says how many threads each takes).",
+       {"shape_explore.cc", "support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
+        "support/metric_flags.cc", "support/poses.cc", "support/mesh_flags.cc",
+        "support/memory_flag.cc"}},
+      Run);
+}

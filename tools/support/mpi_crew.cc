@@ -1,0 +1,185 @@
+#include "support/mpi_crew.h"
+
+#include <cstdlib>
+#include <string>
+
+#include "support/tool.h"
+
+#ifdef SHAPESPACE_HAS_MPI
+#include <fcntl.h>
+#include <mpi.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+#endif
+
+namespace shapespace::tools {
+namespace {
+
+// Whether a launcher has started this process as one of several. (MPI_Init would tell, too, but
+// takes a while, and starts daemons of its own where there is no launcher.)
+bool IsLaunched() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"}) {
+    if (std::getenv(name) != nullptr) return true;
+  }
+  return false;
+}
+
+#ifdef SHAPESPACE_HAS_MPI
+
+constexpr int kRequest = 1, kTask = 2;
+
+class MpiCrew final : public Crew {
+ public:
+  MpiCrew() {
+    int provided;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    if (provided < MPI_THREAD_SERIALIZED) {
+      throw std::runtime_error("this MPI does not allow a second thread");
+    }
+  }
+  ~MpiCrew() override { MPI_Finalize(); }
+
+  int Rank() const override { return rank_; }
+  int Size() const override { return size_; }
+
+  std::vector<std::string> ForEach(int count,
+                                   const std::function<std::string(int)>& body) override {
+    std::vector<std::string> results(count);
+    std::vector<int> owner(count, -1);
+    const auto run = [&](int i) {
+      results[i] = body(i);
+      owner[i] = rank_;
+    };
+    if (rank_ == 0) {
+      HandOut(count, run);
+    } else {
+      for (int i; (i = Ask()) < count;) run(i);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, owner.data(), count, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    for (int i = 0; i < count; ++i) Broadcast(owner[i], &results[i]);
+    return results;
+  }
+
+  std::string FromFirst(const std::string& bytes) override {
+    std::string result = bytes;
+    Broadcast(0, &result);
+    return result;
+  }
+
+ private:
+  // The first rank works, too: a thread of its own answers the others, which does nothing most of
+  // the time. Meanwhile the first thread does not call MPI.
+  void HandOut(int count, const std::function<void(int)>& run) {
+    std::atomic<int> next = 0;
+    std::atomic<bool> failed = false;
+    std::thread answering([&] {
+      for (int finished = 0; finished < size_ - 1 && !failed;) {
+        int waiting;
+        MPI_Status status;
+        MPI_Iprobe(MPI_ANY_SOURCE, kRequest, MPI_COMM_WORLD, &waiting, &status);
+        if (!waiting) {
+          std::this_thread::sleep_for(std::chrono::microseconds(500));
+          continue;
+        }
+        MPI_Recv(nullptr, 0, MPI_INT, status.MPI_SOURCE, kRequest, MPI_COMM_WORLD,
+                 MPI_STATUS_IGNORE);
+        const int task = next++;
+        if (task >= count) ++finished;
+        MPI_Send(&task, 1, MPI_INT, status.MPI_SOURCE, kTask, MPI_COMM_WORLD);
+      }
+    });
+    try {
+      for (int i; (i = next++) < count;) run(i);
+    } catch (...) {
+      failed = true;
+      answering.join();
+      throw;
+    }
+    answering.join();
+  }
+
+  static int Ask() {
+    int task;
+    MPI_Send(nullptr, 0, MPI_INT, 0, kRequest, MPI_COMM_WORLD);
+    MPI_Recv(&task, 1, MPI_INT, 0, kTask, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return task;
+  }
+
+  static void Broadcast(int owner, std::string* bytes) {
+    // MPI counts in int: in parts, should there be more.
+    constexpr unsigned long long kPart = 1 << 30;  // NOLINT(google-runtime-int)
+    unsigned long long size = bytes->size();       // NOLINT(google-runtime-int)
+    MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG_LONG, owner, MPI_COMM_WORLD);
+    bytes->resize(size);
+    for (auto at = size - size; at < size; at += kPart) {
+      MPI_Bcast(&(*bytes)[at], static_cast<int>(std::min(kPart, size - at)), MPI_BYTE, owner,
+                MPI_COMM_WORLD);
+    }
+  }
+
+  int rank_ = 0, size_ = 1;
+};
+
+// Sends stdout and stderr nowhere.
+class Silence {
+ public:
+  Silence() : stderr_(dup(STDERR_FILENO)) {
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+  ~Silence() {
+    dup2(stderr_, STDERR_FILENO);
+    close(stderr_);
+  }
+
+ private:
+  const int stderr_;
+};
+
+void WithRanks(const std::function<void(Crew*)>& body) {
+  MpiCrew crew;
+  try {
+    std::optional<Silence> silence;
+    if (crew.Rank() > 0) silence.emplace();
+    body(&crew);
+  } catch (const UsageError&) {
+    if (crew.Rank() == 0) throw;
+  } catch (const std::exception& error) {
+    Complain((crew.Rank() > 0 ? "rank " + std::to_string(crew.Rank()) + ": " : "") + error.what());
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  }
+}
+
+#endif  // SHAPESPACE_HAS_MPI
+
+}  // namespace
+
+void WithCrew(const std::function<void(Crew*)>& body) {
+  if (IsLaunched()) {
+#ifdef SHAPESPACE_HAS_MPI
+    WithRanks(body);
+    return;
+#else
+    throw UsageError(
+        "this program was built without MPI, and its processes know nothing of each other; start "
+        "it without mpirun, or build it where CMake finds MPI");
+#endif
+  }
+  Crew alone;
+  body(&alone);
+}
+
+}  // namespace shapespace::tools
