@@ -33,4 +33,16 @@ await shoot('two', { width: 1000, height: 640, colorScheme: 'dark' }, async (pag
   await page.locator('#wireframe').check();
   await setTime(page, 0.5);
 });
+await shoot('space', { width: 1000, height: 640, colorScheme: 'light' }, async (page) => {
+  await page.locator('#draw').click();
+  const { x, y, width, height } = await page.locator('#plane').boundingBox();
+  for (let i = 0; i <= 40; ++i) {
+    const t = i / 40;
+    const across = [x + width * (0.3 + 0.4 * t), y + height * (0.55 - 0.14 * Math.sin(6 * t))];
+    await page.mouse.move(...across);
+    if (i === 0) await page.mouse.down();
+  }
+  await page.mouse.up();
+  await setTime(page, 0.3);
+});
 await browser.close();

@@ -56,8 +56,24 @@ TEST_F(ViewTest, MakesPagesOfPathsAndGlbs) {
   EXPECT_EQ(elements[1].bytes, Content(Path("walk.glb")));
 }
 
+TEST_F(ViewTest, MakesPagesOfSpaces) {
+  MakeWalk();
+  if (!HasPage()) GTEST_SKIP() << "built without the viewer's page";
+  Succeed("shape-body",
+          {"tube", "--triangles", "300", "--at", "0,50,100", "--output", "pose%d.obj"});
+  Succeed("shape-explore", {"pose0.obj", "pose1.obj", "pose2.obj", "--output", "tubes.space"});
+  Succeed("shape-view", {"tubes.space", "--output", "tubes.html"});
+  const std::vector<PageElement> elements = ReadPage(Path("tubes.html"));
+  ASSERT_EQ(elements.size(), 1u);
+  const DecodedScene scene(elements[0].bytes);
+  EXPECT_EQ(scene.header["kind"], "space");
+  EXPECT_EQ(scene.header["names"].size(), 3u);
+  EXPECT_EQ(scene.header["points"].size(), scene.steps.size());
+}
+
 TEST_F(ViewTest, ExplainsWrongCommandLines) {
   MakeWalk();
+  ExpectRefusal(2, {"walk.path", "tubes.space"}, "tubes.space: a space is shown alone");
   ExpectRefusal(2, {}, "name one file, or two to compare");
   ExpectRefusal(2, {"walk.path", "walk.path", "walk.glb"}, "name one file, or two to compare");
   ExpectRefusal(2, {"tube0.obj"}, "tube0.obj: must be a .path");

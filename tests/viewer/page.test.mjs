@@ -410,7 +410,7 @@ describe('a space', () => {
       assert.equal(name, 'tubes-curve.glb');
       const report = await validateBytes(new Uint8Array(bytes));
       assert.deepEqual(
-        report.issues.messages.filter(({ severity }) => severity < 2),
+        report.issues.messages.filter(({ severity }) => severity < 2), // errors, warnings
         [],
       );
       assert.equal(report.info.animationCount, 1);
@@ -447,6 +447,17 @@ describe('a space', () => {
       await assertChanges(page, () =>
         page.touchscreen.tap(box.x + 0.6 * box.width, box.y + 0.6 * box.height),
       );
+    });
+  });
+
+  test('of shape-explore is explored', async () => {
+    await open('poses', {}, async (page) => {
+      assert.equal(await page.locator('.pose image').count(), 4);
+      await drawCurve(page);
+      await assertChanges(page, () => setTime(page, 0.8));
+      const { bytes } = await saved(page, '#glb');
+      const report = await validateBytes(new Uint8Array(bytes));
+      assert.equal(report.issues.numErrors + report.issues.numWarnings, 0);
     });
   });
 

@@ -35,6 +35,9 @@ cd "$work/pages"
     "$bin/shape-view" $file --output "${file/./-}.html"
   done
   "$bin/shape-view" walk.path rigid.path --output two.html
+  "$bin/shape-body" quadruped --pose stand,sit,stretch,rear --triangles 1000 --output 'pose%d.obj'
+  "$bin/shape-explore" pose?.obj --depth 1 --output poses.space
+  "$bin/shape-view" poses.space --output poses.html
   SHAPESPACE_PAGE_DIR=$PWD SHAPESPACE_PAGE_TEMPLATE=$root/tools/viewer/dist/viewer.html \
     "$root/build/release/tests/output/output_test" --gtest_filter='PageTest.WritesSpaces*'
   cp "$root/tools/viewer/dist/viewer.html" empty.html

@@ -102,7 +102,6 @@ export class BlendedMesh extends Group {
         flatShading,
         side: DoubleSide,
         roughness: 0.75,
-        polygonOffset: true,
         polygonOffsetFactor: 1,
         polygonOffsetUnits: 1,
       });
@@ -146,7 +145,11 @@ export class BlendedMesh extends Group {
     return this.wires?.visible ?? true;
   }
   set wireframe(on: boolean) {
-    if (this.wires) this.wires.visible = on;
+    if (!this.wires) return;
+    this.wires.visible = on;
+    // Lets the surface recede behind its edges. Without edges it must not: at the outline the back
+    // would come through.
+    (this.surface.material as Material).polygonOffset = on;
   }
 
   get flat(): boolean {

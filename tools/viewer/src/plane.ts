@@ -1,13 +1,15 @@
 // The plane in which poses lie, drawn: a point to move, and a curve to draw.
 import { svg } from './dom';
-import type { Point } from './locate';
+import { hullEdges, type Point } from './locate';
 import type { SpaceScene } from './scene_data';
 
 export const thumbnailWidth = 132;
 export const thumbnailHeight = 99;
 const shownWidth = 66;
-const shownHeight = 49.5;
 const border = 84; // room for thumbnails around the poses
+const narrow = 500; // planes narrower than that have smaller thumbnails
+/** Poses inside the hull have smaller thumbnails, which cover less of the plane. */
+const innerShare = 0.75;
 const step = 0.02; // of the plane's size, for one key
 /** Pixels between two points of a drawn curve. */
 const stroke = 4;
@@ -30,6 +32,8 @@ export class PlaneView {
   private low: Point;
   private size: Point;
   private scale = 1;
+  private thumbnailScale = 1;
+  private readonly hull: Set<number>;
   private offset: Point = [0, 0];
   private lastStroke: Point | null = null;
 
@@ -42,6 +46,7 @@ export class PlaneView {
     const [xs, ys] = [0, 1].map((axis) => scene.points.map((point) => point[axis]));
     this.low = [Math.min(...xs), Math.min(...ys)];
     this.size = [Math.max(...xs) - this.low[0], Math.max(...ys) - this.low[1]];
+    this.hull = new Set(hullEdges(scene).flat());
     this.handle = svg('g', {
       class: 'handle',
       tabindex: 0,
@@ -92,8 +97,10 @@ export class PlaneView {
     if (width === 0 || height === 0) return;
     this.picture.setAttribute('width', String(width));
     this.picture.setAttribute('height', String(height));
+    this.thumbnailScale = width < narrow ? 0.75 : 1;
     const fit = [0, 1].map((axis) => {
-      const room = Math.max(40, (axis === 0 ? width : height) - 2 * border);
+      const all = axis === 0 ? width : height;
+      const room = Math.max(40, all - 2 * border * this.thumbnailScale);
       return this.size[axis] > 0 ? room / this.size[axis] : Infinity;
     });
     this.scale = Math.min(...fit);
@@ -125,35 +132,28 @@ export class PlaneView {
       this.low[0] + this.size[0] / 2,
       this.low[1] + this.size[1] / 2,
     ]);
-    names.forEach((name, pose) => {
+    names.forEach((_, pose) => {
       const [x, y] = this.toPixels(points[pose]);
-      this.drawThumbnail(name, this.thumbnails[pose], x, y, x - mx, y - my);
+      this.drawThumbnail(pose, x, y, Math.hypot(x - mx, y - my) > 1 ? [x - mx, y - my] : [0, -1]);
     });
   }
 
-  /** A pose's picture beside its node, on the side (dx, dy) that points out of the plane's middle. */
-  private drawThumbnail(
-    name: string,
-    picture: string,
-    x: number,
-    y: number,
-    dx: number,
-    dy: number,
-  ): void {
-    const length = Math.hypot(dx, dy) || 1;
-    const [ux, uy] = length > 1 ? [dx / length, dy / length] : [0, -1];
-    const [cx, cy] = [x + ux * 46, y + uy * 44];
-    const group = svg('g', { class: 'pose' }, this.picture);
+  /** A pose's picture beside its node at (x, y), on the side that points out of the plane's middle. */
+  private drawThumbnail(pose: number, x: number, y: number, [dx, dy]: Point): void {
+    const isInner = !this.hull.has(pose);
+    const width = shownWidth * this.thumbnailScale * (isInner ? innerShare : 1);
+    const height = (width * thumbnailHeight) / thumbnailWidth;
+    const length = Math.hypot(dx, dy);
+    const [cx, cy] = [x + (0.7 * width * dx) / length, y + (0.9 * height * dy) / length];
+    const name = this.scene.names[pose];
+    const group = svg('g', { class: `pose${isInner ? ' inner' : ''}` }, this.picture);
     svg('title', {}, group).textContent = name;
-    const box = { x: cx - shownWidth / 2, y: cy - shownHeight / 2 };
-    svg('image', { ...box, width: shownWidth, height: shownHeight, href: picture }, group);
-    svg('rect', { ...box, width: shownWidth, height: shownHeight, rx: 4 }, group);
-    const below = uy > -0.5;
-    const label = svg(
-      'text',
-      { x: cx, y: below ? cy + shownHeight / 2 + 13 : cy - shownHeight / 2 - 5 },
-      group,
-    );
+    const box = { x: cx - width / 2, y: cy - height / 2, width, height };
+    svg('rect', { ...box, rx: 4 }, group);
+    svg('image', { ...box, href: this.thumbnails[pose] }, group);
+    const isBelow = dy > -0.5 * length;
+    const baseline = isBelow ? cy + height / 2 + 13 : cy - height / 2 - 5;
+    const label = svg('text', { x: cx, y: baseline }, group);
     label.textContent = name.length > 14 ? `${name.slice(0, 13)}\u2026` : name;
   }
 

@@ -63,9 +63,10 @@ export class Stage {
     meshes: BlendedMesh[],
     private readonly advance: (seconds: number) => boolean,
   ) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.renderer.setScissorTest(true);
+    this.renderer.setClearAlpha(0);
     const [{ body }] = meshes;
     this.camera.up.fromArray(body.up);
     this.eye = new Vector3().fromArray(body.eye).normalize();
@@ -124,7 +125,7 @@ export class Stage {
     this.renderer.setPixelRatio(1);
     this.renderer.setSize(width, height, false);
     this.fit(width / height);
-    scene.background = this.background;
+    scene.background = null;
     lights.quaternion.copy(this.camera.quaternion);
     this.renderer.setViewport(0, 0, width, height);
     this.renderer.setScissor(0, 0, width, height);
