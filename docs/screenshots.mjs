@@ -25,11 +25,11 @@ async function setTime(page, value) {
   }, value);
 }
 
-await shoot('walk', { width: 1000, height: 640, colorScheme: 'light' }, async (page) => {
+await shoot('walk', { width: 1000, height: 760, colorScheme: 'light' }, async (page) => {
   await page.locator('#deviation').check();
   await setTime(page, 0.7);
 });
-await shoot('two', { width: 1000, height: 640, colorScheme: 'dark' }, async (page) => {
+await shoot('two', { width: 1000, height: 760, colorScheme: 'dark' }, async (page) => {
   await page.locator('#wireframe').check();
   await setTime(page, 0.5);
 });

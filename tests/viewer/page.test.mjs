@@ -4,7 +4,7 @@ import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { after, before, describe, test } from 'node:test';
 import { deflateSync, inflateSync } from 'node:zlib';
 import { validateBytes } from 'gltf-validator';
-import { launch, settled } from './browser.mjs';
+import { drawCurve, launch, settled } from './browser.mjs';
 import { contrastFaults, layoutFaults, namelessControls } from './faults.mjs';
 
 const folder = process.env.SHAPESPACE_PAGE_DIR;
@@ -323,20 +323,6 @@ describe('a path', () => {
 
 async function planeBox(page) {
   return page.locator('#plane').boundingBox();
-}
-
-// A curve across the plane, by mouse.
-async function drawCurve(page) {
-  await page.getByRole('button', { name: 'Draw a curve' }).click();
-  const box = await planeBox(page);
-  const at = (x, y) => [box.x + x * box.width, box.y + y * box.height];
-  await page.mouse.move(...at(0.3, 0.65));
-  await page.mouse.down();
-  for (let i = 1; i <= 20; ++i) {
-    const t = i / 20;
-    await page.mouse.move(...at(0.3 + 0.4 * t, 0.65 - 0.25 * Math.sin(Math.PI * t)));
-  }
-  await page.mouse.up();
 }
 
 describe('a space', () => {
