@@ -31,9 +31,10 @@ function blendAt(scene: PathScene, place: number): Blend {
   return { nodes: [after - 1, after, after], weights: [1 - t, t, 0] };
 }
 
-function facts({ vertices, triangles, shapes }: PathScene): string {
+function facts({ vertices, triangles, shapes, metric }: PathScene): string {
   const faces = triangles.length > 0 ? `, ${(triangles.length / 3).toLocaleString('en')} triangles` : '';
-  return `${shapes.length} shapes, ${vertices.toLocaleString('en')} vertices${faces}`;
+  const by = metric ? `, metric ${metric}` : '';
+  return `${shapes.length} shapes, ${vertices.toLocaleString('en')} vertices${faces}${by}`;
 }
 
 function showColours(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): void {
@@ -56,6 +57,7 @@ function showPlots(scenes: PathScene[], onSeek: (place: number) => void): Plot[]
   const plots: Plot[] = [];
   const prefix = (i: number) => (scenes.length > 1 ? `${'AB'[i]}: ` : '');
   const colour = (i: number) => (i === 0 ? 1 : 2);
+  const poses = scenes.flatMap((scene) => scene.poses.map((shape) => placeOf(scene, shape)));
   const moving = scenes.flatMap((scene, i) => (scene.shapes.length > 1 ? [{ scene, i }] : []));
   const energies: Series[] = moving
     .filter(({ scene }) => scene.speeds.every((speed) => speed !== null))
@@ -69,7 +71,7 @@ function showPlots(scenes: PathScene[], onSeek: (place: number) => void): Plot[]
       steps: true,
     }));
   if (energies.length > 0) {
-    plots.push(new Plot(parent, 'Energy (squared speed)', energies, shortNumber, onSeek));
+    plots.push(new Plot(parent, 'Energy (squared speed)', energies, poses, shortNumber, onSeek));
   }
   for (const [figure, title] of [
     ['rms', 'Edge deviation, root mean square'],
@@ -80,7 +82,8 @@ function showPlots(scenes: PathScene[], onSeek: (place: number) => void): Plot[]
       points: scene[figure].map((value, k) => [placeOf(scene, k), value]),
       colour: colour(i),
     }));
-    if (deviations.length > 0) plots.push(new Plot(parent, title, deviations, perCent, onSeek));
+    if (deviations.length === 0) continue;
+    plots.push(new Plot(parent, title, deviations, poses, perCent, onSeek));
   }
   return plots;
 }

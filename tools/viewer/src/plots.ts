@@ -33,6 +33,8 @@ export class Plot {
     parent: HTMLElement,
     title: string,
     private readonly series: Series[],
+    /** Places of poses, which are marked. */
+    private readonly poses: number[],
     private readonly format: (value: number) => string,
     private readonly onSeek: (place: number) => void,
   ) {
@@ -91,6 +93,9 @@ export class Plot {
       svg('line', { x1, y1, x2, y2, class: name }, this.picture);
     line(left, this.y(0), width - right, this.y(0), 'axis');
     line(left, this.y(this.largest), width - right, this.y(this.largest), 'axis');
+    for (const pose of this.poses) {
+      line(this.x(pose), this.y(0) - 4, this.x(pose), this.y(0) + 4, 'pose');
+    }
     const text = (x: number, y: number, words: string, anchor: string) => {
       svg('text', { x, y, 'text-anchor': anchor }, this.picture).textContent = words;
     };

@@ -66,7 +66,7 @@ export function startTransport(
   speed.addEventListener('change', () => (player.speed = Number(speed.value)));
   document.addEventListener('keydown', (event) => {
     const element = event.target as Element;
-    if (event.key !== ' ' || element.closest('button, select, input, a')) return;
+    if (event.key !== ' ' || element.closest('button, select, input[type=checkbox]')) return;
     event.preventDefault();
     player.toggle();
   });
