@@ -19,7 +19,7 @@ cd "$work"
 "$bin/shape-view" walk.path rigid.path --output two.html
 
 "$bin/shape-body" quadruped --pose stand,stride,sit,stretch,rear --output 'pose%d.obj'
-"$bin/shape-explore" pose?.obj --threshold 5% --depth 2 --output poses.space
+"$bin/shape-explore" pose?.obj --output poses.space
 "$bin/shape-view" poses.space --output space.html
 
 node screenshots.mjs "$root/docs/pictures"

@@ -1,4 +1,4 @@
-// What is in mesh and path files, and whether meshes correspond.
+// What is in files of meshes, paths and spaces, and whether meshes correspond.
 
 #include <algorithm>
 #include <cinttypes>
@@ -19,6 +19,7 @@
 #include <shapespace/path/path_file.h>
 #include <shapespace/path/quality.h>
 #include <shapespace/path/rigid_parts.h>
+#include <shapespace/solvers/exploration/space_file.h>
 
 #include "support/mesh_flags.h"
 #include "support/metric_flags.h"
@@ -193,6 +194,26 @@ void PrintPath(const std::string& file) {
   PrintParts(parts);
 }
 
+void PrintSpace(const std::string& file) {
+  const Space space = ReadSpace(file);
+  std::printf("%s\n", file.c_str());
+  if (!space.provenance.empty()) std::printf("  made by      %s\n", space.provenance.c_str());
+  std::printf("  mesh         %d vertices, %d triangles\n",
+              space.metric->connectivity->NumVertices(),
+              space.metric->connectivity->NumTriangles());
+  std::printf("  metric       %s; unit of length %.6g\n", Describe(space.metric->options).c_str(),
+              space.metric->unit);
+  std::printf("  nodes        %d, of which %d are poses; %d triangles, %d segments\n",
+              space.NumNodes(), space.NumPoses(), static_cast<int>(space.triangles.cols()),
+              static_cast<int>(space.segments.cols()));
+  std::printf("  distances    up to %.4g; stress of the plane %.3g\n", space.distances.maxCoeff(),
+              space.stress);
+  for (int i = 0; i < space.NumPoses(); ++i) {
+    std::printf("  pose         at %12.6g %12.6g  %s\n", space.points(0, i), space.points(1, i),
+                space.names[i].c_str());
+  }
+}
+
 // Reads and prints a mesh, and how it goes with the first one. Returns whether it can be used.
 bool PrintMesh(const std::string& file, std::vector<Soup>* soups) {
   soups->push_back(ReadSoup(file));
@@ -210,17 +231,21 @@ bool PrintMesh(const std::string& file, std::vector<Soup>* soups) {
 }
 
 void Run(const std::vector<std::string>& files) {
-  if (files.empty()) throw UsageError("name one or more mesh or path files");
+  if (files.empty()) throw UsageError("name one or more files: meshes, .path or .space");
   bool usable = true;
   std::vector<Soup> soups;
-  for (const bool paths : {true, false}) {
+  // Meshes last: how far they are apart comes behind them.
+  for (const bool meshes : {false, true}) {
     for (const std::string& file : files) {
-      if ((Extension(file) == ".path") != paths) continue;
+      const std::string extension = Extension(file);
+      if ((extension != ".path" && extension != ".space") != meshes) continue;
       try {
-        if (paths) {
+        if (meshes) {
+          usable = PrintMesh(file, &soups) && usable;
+        } else if (extension == ".path") {
           PrintPath(file);
         } else {
-          usable = PrintMesh(file, &soups) && usable;
+          PrintSpace(file);
         }
       } catch (const Error& error) {
         Complain(error.what());
@@ -239,7 +264,7 @@ int main(int argc, char** argv) {
   return RunTool(argc, argv,
                  {"shape-inspect",
                   "what is in these files, whether they correspond, how far apart they are",
-                  "  shape-inspect a.obj b.obj walk.path\n\n"
+                  "  shape-inspect a.obj b.obj walk.path poses.space\n\n"
                   "Exit code 1 if a file cannot be read, a mesh cannot be used as it is, or meshes "
                   "do not\ncorrespond.",
                   {"support/metric_flags.cc", "support/mesh_flags.cc"}},

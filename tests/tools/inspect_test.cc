@@ -181,7 +181,7 @@ TEST_F(InspectTest, AFileThatCannotBeReadDoesNotHideTheOthers) {
 TEST_F(InspectTest, NeedsAFile) {
   const Outcome outcome = Run("shape-inspect", {});
   EXPECT_EQ(outcome.code, 2);
-  ExpectContains(outcome.err, "name one or more mesh or path files");
+  ExpectContains(outcome.err, "name one or more files");
 }
 
 }  // namespace

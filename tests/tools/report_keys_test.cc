@@ -125,6 +125,9 @@ TEST_F(ReportKeysTest, TheDocumentationHasThemAllAndNoOthers) {
   EXPECT_EQ(poses["poses"][0]["geodesic"].size(), geodesic.size());
   EXPECT_EQ(poses["poses"][0]["transfer"].size(), ladder.size());
 
+  Compare("Of `shape-explore`:",
+          Report("shape-explore", {"tube0.obj", "tube1.obj", "--output", "t.space"}));
+
   File("handles.json", R"({"handles": [{"fixed": true, "select": {"vertices": [1]}}]})");
   const nlohmann::json deformation =
       Report("shape-deform", {"tube0.obj", "--handles", "handles.json", "--output", "d.path"});

@@ -327,12 +327,14 @@ BlendErrors MeasureBlends(const Space& space, int samples, const ExploreOptions&
   errors.samples = samples;
   errors.vertices = static_cast<int>(nodes.front().cols());
   const double greatest = space.distances.maxCoeff();
+  int within = 0;
   for (const PairResult& result : off) {
     const double share = result.length / greatest;
     errors.mean += share / samples;
     errors.max = std::max(errors.max, share);
-    if (share <= options.threshold) errors.within += 1.0 / samples;
+    if (share <= options.threshold) ++within;
   }
+  errors.within = static_cast<double>(within) / samples;
   return errors;
 }
 

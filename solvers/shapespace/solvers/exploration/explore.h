@@ -25,7 +25,8 @@ struct ExploreOptions {
 
   /// Triangles, at most, of the level of the hierarchy on which the distances between poses are
   /// measured; the coarsest level has as many as it has. 0: the mesh itself. With many poses of
-  /// fine meshes, 5000 saves most of the time and changes distances by about a per cent.
+  /// fine meshes, 5000 saves most of the time. Between armadillos of 29 K triangles it changes
+  /// distances by up to 12 %, but all by nearly one factor, within 4 %.
   int resolution = 0;
 
   /// A straight line between two nodes that is longer than the geodesic by more than this share is

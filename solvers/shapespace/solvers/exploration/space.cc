@@ -71,16 +71,10 @@ PlaneLocation Space::Locate(const Eigen::Vector2d& point) const {
 }
 
 Shape Space::Blend(const PlaneLocation& location) const {
-  Shape shape(3, nodes.front().cols());
-  Blend(location, &shape);
-  return shape;
-}
-
-void Space::Blend(const PlaneLocation& location, Shape* shape) const {
   const auto& [a, b, c] = location.nodes;
   const Eigen::Vector3d w =
       metric->unit * Eigen::Vector3d(location.weights[0], location.weights[1], location.weights[2]);
-  *shape = (w(0) * nodes[a] + w(1) * nodes[b] + w(2) * nodes[c]).colwise() + translation;
+  return (w(0) * nodes[a] + w(1) * nodes[b] + w(2) * nodes[c]).colwise() + translation;
 }
 
 void Space::Validate() const {

@@ -58,9 +58,8 @@ struct Space {
   /// O(triangles). A point outside is moved to the nearest one of the hull.
   PlaneLocation Locate(const Eigen::Vector2d& point) const;
 
-  /// The blend of nodes, in the user's unit. The second form writes where a shape is already.
+  /// The blend of nodes, in the user's unit.
   Shape Blend(const PlaneLocation& location) const;
-  void Blend(const PlaneLocation& location, Shape* shape) const;
 
   /// The shape at a point of the plane, in the user's unit: continuous, linear within a triangle,
   /// and at a node's place that node.

@@ -20,7 +20,7 @@ void WriteSpace(const std::string& file, const Space& space);
 ///        checksum does not fit), or inconsistent.
 Space ReadSpace(const std::string& file);
 
-/// Reads a curve on the plane, docs/curve.schema.json: points, or names of poses, that it leads
+/// Reads a curve on the plane, docs/file-formats.md: points, or names of poses, that it leads
 /// through. \throw FileError naming the file and what is wrong in it.
 std::vector<Eigen::Vector2d> ReadCurve(const std::string& file, const Space& space);
 

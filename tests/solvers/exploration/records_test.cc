@@ -1,0 +1,115 @@
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/solvers/exploration/explore.h>
+
+#include "mesh/files.h"
+#include "solvers/exploration/spaces.h"
+
+namespace shapespace {
+namespace {
+
+namespace fs = std::filesystem;
+
+using testing::Content;
+using testing::FilesTest;
+using testing::SmallTube;
+using testing::TubePoses;
+
+class RecordsTest : public FilesTest {
+ protected:
+  RecordsTest() { options_.records = Path("records"); }
+
+  ExploreResult Run() const { return Explore(tube_.connectivity, poses_, {}, options_); }
+  std::vector<fs::path> Records() const {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(options_.records)) files.push_back(entry);
+    return files;
+  }
+
+  const Body tube_ = SmallTube();
+  std::vector<Shape> poses_ = TubePoses(tube_);
+  ExploreOptions options_;
+};
+
+TEST_F(RecordsTest, WhatIsThereIsTakenAndLeadsToTheSame) {
+  const ExploreResult first = Run();
+  EXPECT_EQ(first.summary.found, 0);
+  EXPECT_EQ(static_cast<int>(Records().size()), first.summary.solved);
+  const ExploreResult second = Run();
+  EXPECT_EQ(second.summary.found, first.summary.solved);
+  EXPECT_EQ(second.summary.solved, 0);
+  EXPECT_EQ(second.space.nodes, first.space.nodes);
+  EXPECT_EQ(second.space.distances, first.space.distances);
+  // Every other one.
+  const std::vector<fs::path> records = Records();
+  for (size_t i = 0; i < records.size(); i += 2) fs::remove(records[i]);
+  const ExploreResult third = Run();
+  EXPECT_EQ(third.summary.found, static_cast<int>(records.size() / 2));
+  EXPECT_EQ(third.space.nodes, first.space.nodes);
+}
+
+TEST_F(RecordsTest, OtherInputsAndOptionsFindNone) {
+  options_.depth = 1;
+  Run();
+  const auto expect_none = [&](const char* what) {
+    const ExploreSummary summary = Run().summary;
+    EXPECT_EQ(summary.found, 0) << what;
+    EXPECT_GT(summary.solved, 0) << what;
+  };
+  const ExploreOptions options = options_;
+  options_.geodesic.tolerance *= 0.5;
+  expect_none("tolerance");
+  options_ = options;
+  options_.geodesic.shapes = 3;
+  expect_none("shapes");
+  options_ = options;
+  options_.geodesic.metric.bending *= 1 + 1e-12;
+  expect_none("bending");
+  options_ = options;
+  poses_[2](1, 17) += 1e-12;
+  expect_none("a vertex");
+}
+
+TEST_F(RecordsTest, ADepthOrThresholdMoreGoesOnFromThem) {
+  options_.depth = 1;
+  const ExploreSummary first = Run().summary;
+  options_.depth = 2;
+  EXPECT_EQ(Run().summary.found, first.solved);
+}
+
+TEST_F(RecordsTest, WhatIsDamagedIsSolvedAgain) {
+  const ExploreResult first = Run();
+  const std::vector<fs::path> records = Records();
+  ASSERT_GT(records.size(), 5u);
+  std::string bytes = Content(records[0]);
+  bytes[bytes.size() / 2] ^= 1;
+  File("records/" + records[0].filename().string(), bytes);
+  fs::resize_file(records[1], 100);
+  fs::resize_file(records[2], 0);
+  fs::copy_file(records[3], records[4], fs::copy_options::overwrite_existing);
+  const ExploreResult second = Run();
+  EXPECT_EQ(second.summary.solved, 4);
+  EXPECT_GE(second.summary.damaged, 3);
+  EXPECT_EQ(second.space.nodes, first.space.nodes);
+  EXPECT_EQ(second.space.distances, first.space.distances);
+}
+
+TEST_F(RecordsTest, AreRemovedButNothingElse) {
+  options_.depth = 0;
+  Run();
+  const std::string half = Records()[0].string() + ".part123";
+  fs::copy_file(Records()[0], half);
+  File("records/notes.txt", "mine");
+  RemoveRecords(options_.records);
+  ASSERT_EQ(Records().size(), 1u);
+  EXPECT_EQ(Records()[0].filename(), "notes.txt");
+  fs::remove(Path("records/notes.txt"));
+  RemoveRecords(options_.records);
+  EXPECT_FALSE(fs::exists(options_.records));
+  RemoveRecords(options_.records);
+}
+
+}  // namespace
+}  // namespace shapespace
