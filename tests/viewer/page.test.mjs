@@ -316,6 +316,7 @@ describe('a path', () => {
     for (const name of ['graph-path', 'graph-glb']) {
       await open(name, {}, async (page) => {
         await assertChanges(page, () => setTime(page, 0.5), 0.0005);
+        assert.equal(await page.locator('#wireframe').isVisible(), false);
       });
     }
   });

@@ -141,9 +141,6 @@ export class BlendedMesh extends Group {
     return true;
   }
 
-  get wireframe(): boolean {
-    return this.wires?.visible ?? true;
-  }
   set wireframe(on: boolean) {
     if (!this.wires) return;
     this.wires.visible = on;

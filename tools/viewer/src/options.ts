@@ -27,7 +27,8 @@ export function startOptions(
     for (const mesh of meshes) mesh.flat = on;
     stage.draw();
   });
-  byId('facets-option').hidden = meshes[0].body.triangles.length === 0;
+  const areGraphs = meshes.every((mesh) => mesh.body.triangles.length === 0);
+  for (const id of ['wireframe-option', 'facets-option']) byId(id).hidden = areGraphs;
   byId('reset').addEventListener('click', () => stage.showAll());
   byId('picture').addEventListener('click', () => {
     savePicture(stage, `${name}.png`).then(

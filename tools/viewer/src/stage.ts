@@ -76,7 +76,7 @@ export class Stage {
       const alike = largest <= largestRatio * Math.min(...sides);
       const scale = alike ? (mesh.body.side || 1) / largest : 1;
       const { points, centre } = sample(mesh);
-      this.samples.push(...points.map((point) => point.sub(centre).multiplyScalar(scale)));
+      for (const point of points) this.samples.push(point.sub(centre).multiplyScalar(scale));
       mesh.scale.setScalar(scale);
       mesh.position.copy(centre).multiplyScalar(-scale);
       this.cells.push(this.cell(mesh));
@@ -85,7 +85,10 @@ export class Stage {
     this.controls.addEventListener('change', () => this.draw());
     this.controls.addEventListener('start', () => (this.moved = true));
     canvas.addEventListener('keydown', (event) => this.onKey(event));
-    new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
+    new ResizeObserver(() => {
+      this.resize();
+      this.drawNow(); // a canvas of another size is empty
+    }).observe(canvas.parentElement!);
     this.showAll();
   }
 
