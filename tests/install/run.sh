@@ -18,7 +18,9 @@ fail() {
 program_in() { sed -n '/^```cpp$/,/^```$/p' "$1" | sed '/^```/d'; }
 diff "$here/main.cc" <(program_in "$root/README.md") ||
   fail "the README's program is not tests/install/main.cc"
-program_in "$root/docs/guide/library.md" >"$work/guide.cc"
+for page in deforming exploring library; do
+  program_in "$root/docs/guide/$page.md" >"$work/$page.cc"
+done
 
 cmake --install "$build" --prefix "$work/prefix" >"$work/install.log"
 headers=$(cd "$work/prefix/include" && find shapespace -name '*.h' | sort | paste -sd ';')
@@ -28,7 +30,7 @@ flags=(-march=native -fsanitize=address)
 if grep -qw avx2 /proc/cpuinfo; then flags+=(-mavx2); fi
 cmake -S "$here" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_PREFIX_PATH="$work/prefix" -DHEADERS="$headers" \
-  -DFLAGS="$(IFS=';' && echo "${flags[*]}")" -DGUIDE="$work/guide.cc" >"$work/configure.log" ||
+  -DFLAGS="$(IFS=';' && echo "${flags[*]}")" -DGUIDE="$work" >"$work/configure.log" ||
   fail "the package is not found"
 cmake --build "$work/build"
 
@@ -44,7 +46,7 @@ for flag in "${flags[@]}"; do
 done
 "$work/prefix/bin/shape-interpolate" --version
 "$work/prefix/bin/shape-body" tube --triangles 500 --at 0,90 --output 'pose%d.obj'
-"$work/build/guide" pose0.obj pose1.obj | grep -qx 'Termination  *converged' ||
+"$work/build/guide_library" pose0.obj pose1.obj | grep -qx 'Termination  *converged' ||
   fail "the guide's program did not converge"
 [[ $(head -c 4 walk.glb) == glTF ]] || fail "walk.glb is no glTF"
 if grep -rlF -e "$root" "$work/prefix/include" "$work/prefix/lib" --include='*.cmake' \
