@@ -14,7 +14,7 @@ using testing::ToolsTest;
 
 constexpr const char* kTools[] = {"shape-body",        "shape-deform",  "shape-export",
                                   "shape-extrapolate", "shape-inspect", "shape-interpolate",
-                                  "shape-transfer"};
+                                  "shape-transfer",    "shape-view"};
 
 class HelpTest : public ToolsTest {
  protected:
@@ -49,6 +49,7 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
   EXPECT_EQ(Listed("shape-body"),
             (std::set<std::string>{"at", "help", "output", "pose", "proportions", "threads",
                                    "triangles", "version"}));
+  EXPECT_EQ(Listed("shape-view"), (std::set<std::string>{"help", "output", "threads", "version"}));
   const std::set<std::string> metric = {"bending", "discretization", "isometric",
                                         "lambda",  "metric",         "rigid",
                                         "strain",  "volume",         "weights"};

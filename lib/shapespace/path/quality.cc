@@ -46,18 +46,45 @@ void Pool(const std::vector<Deviations>& shapes, double* rms, double* p99, doubl
   *max = *std::max_element(rank, all.magnitudes.end());
 }
 
+// The square of the length below which edges are left out.
+double SquaredShortest(const Path& path) {
+  const Eigen::Matrix2Xi& edges = path.metric->connectivity->Edges();
+  double mean_squared_length = 0;
+  for (int e = 0; e < edges.cols(); ++e) {
+    mean_squared_length += SquaredLength(edges, e, path.shapes[0]) / edges.cols();
+  }
+  return kShortestEdge * kShortestEdge * mean_squared_length;
+}
+
+// Of shape `i` against the first; none of the first itself.
+Deviations AgainstFirst(const Path& path, int i, double shortest) {
+  const Eigen::Matrix2Xi& edges = path.metric->connectivity->Edges();
+  Deviations deviations;
+  for (int e = 0; i > 0 && e < edges.cols(); ++e) {
+    const double first = SquaredLength(edges, e, path.shapes[0]);
+    if (first > shortest) {
+      deviations.Add(std::sqrt(SquaredLength(edges, e, path.shapes[i]) / first),
+                     path.metric->edge_area(e));
+    }
+  }
+  return deviations;
+}
+
 }  // namespace
+
+RmsAndMax DeviationFromFirst(const Path& path, int i) {
+  RmsAndMax figures;
+  double p99 = 0;
+  Pool({AgainstFirst(path, i, SquaredShortest(path))}, &figures.rms, &p99, &figures.max);
+  return figures;
+}
 
 PathQuality MeasureQuality(const Path& path) {
   const Metric& metric = *path.metric;
   const Connectivity& connectivity = *metric.connectivity;
   const int num_shapes = path.NumShapes();
   const Eigen::Matrix2Xi& edges = connectivity.Edges();
-  double mean_squared_length = 0;
-  for (int e = 0; e < edges.cols(); ++e) {
-    mean_squared_length += SquaredLength(edges, e, path.shapes[0]) / edges.cols();
-  }
-  const double shortest = kShortestEdge * kShortestEdge * mean_squared_length;
+  const double shortest = SquaredShortest(path);
 
   std::vector<Eigen::VectorXd> pose_angles(path.poses.size());
   ParallelFor(static_cast<int>(path.poses.size()), [&](int i) {
@@ -68,13 +95,7 @@ PathQuality MeasureQuality(const Path& path) {
   std::vector<double> roughness(num_shapes, 0), folds(num_shapes, 0);
   ParallelFor(num_shapes, [&](int i) {
     const Shape& shape = path.shapes[i];
-    for (int e = 0; e < edges.cols(); ++e) {
-      const double first = SquaredLength(edges, e, path.shapes[0]);
-      if (i > 0 && first > shortest) {
-        against_first[i].Add(std::sqrt(SquaredLength(edges, e, shape) / first),
-                             metric.edge_area(e));
-      }
-    }
+    against_first[i] = AgainstFirst(path, i, shortest);
     const auto next = std::lower_bound(path.poses.begin(), path.poses.end(), i);
     // Only shapes between two poses: not a pose itself, none before the first or after the last.
     if (next == path.poses.begin() || next == path.poses.end() || *next == i) return;

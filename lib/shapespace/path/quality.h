@@ -34,6 +34,14 @@ struct PathQuality {
 
 PathQuality MeasureQuality(const Path& path);
 
+struct RmsAndMax {
+  double rms = 0, max = 0;
+};
+
+/// What `first_rms` and `first_max` are for all shapes, for shape `i` of the path alone; 0 of the
+/// first.
+RmsAndMax DeviationFromFirst(const Path& path, int i);
+
 /// The dihedral angle of every hinge (Dihedral::Angle) of a shape in the metric's unit.
 Eigen::VectorXd DihedralAngles(const Connectivity& connectivity, const Shape& shape);
 

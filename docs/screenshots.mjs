@@ -1,0 +1,48 @@
+// Pictures of the pages that screenshots.sh has made, into the folder named.
+import { launch, settled } from './browser.mjs';
+
+const folder = process.argv[2];
+const browser = await launch();
+
+async function shoot(name, { width, height, colorScheme }, act) {
+  const page = await browser.newPage({
+    viewport: { width, height },
+    colorScheme,
+    reducedMotion: 'reduce',
+  });
+  await page.goto(`file://${process.cwd()}/${name}.html`);
+  await settled(page);
+  await act(page);
+  await page.waitForTimeout(1000);
+  await page.screenshot({ path: `${folder}/view-${name === 'walk' ? 'path' : name}.png` });
+  await page.close();
+}
+
+async function setTime(page, value) {
+  await page.locator('#time').evaluate((input, to) => {
+    input.value = to;
+    input.dispatchEvent(new Event('input'));
+  }, value);
+}
+
+await shoot('walk', { width: 1000, height: 760, colorScheme: 'light' }, async (page) => {
+  await page.locator('#deviation').check();
+  await setTime(page, 0.7);
+});
+await shoot('two', { width: 1000, height: 760, colorScheme: 'dark' }, async (page) => {
+  await page.locator('#wireframe').check();
+  await setTime(page, 0.5);
+});
+await shoot('space', { width: 1000, height: 640, colorScheme: 'light' }, async (page) => {
+  await page.locator('#draw').click();
+  const { x, y, width, height } = await page.locator('#plane').boundingBox();
+  for (let i = 0; i <= 40; ++i) {
+    const t = i / 40;
+    const across = [x + width * (0.3 + 0.4 * t), y + height * (0.55 - 0.14 * Math.sin(6 * t))];
+    await page.mouse.move(...across);
+    if (i === 0) await page.mouse.down();
+  }
+  await page.mouse.up();
+  await setTime(page, 0.3);
+});
+await browser.close();

@@ -1,0 +1,25 @@
+#!/bin/bash
+# Makes every picture of the documentation that shows a page. Run it after ./dev build; needs node,
+# npm and Chromium. The other pictures are made by pictures.sh.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+bin=$PWD/build/release/bin
+root=$PWD
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+npm install --silent --no-fund --no-audit --prefix "$work" playwright-core@1.55.0
+cp tests/viewer/browser.mjs docs/screenshots.mjs "$work"
+cd "$work"
+
+# guide/viewing.md
+"$bin/shape-body" quadruped --pose sit,stretch --output 'animal%d.obj'
+"$bin/shape-interpolate" animal0.obj animal1.obj --output walk.path
+"$bin/shape-interpolate" animal0.obj animal1.obj --metric rigid --output rigid.path
+"$bin/shape-view" walk.path --output walk.html
+"$bin/shape-view" walk.path rigid.path --output two.html
+
+"$bin/shape-body" quadruped --pose stand,stride,sit,stretch,rear --output 'pose%d.obj'
+"$bin/shape-explore" pose?.obj --output poses.space
+"$bin/shape-view" poses.space --output space.html
+
+node screenshots.mjs "$root/docs/pictures"

@@ -1,0 +1,85 @@
+#include <shapespace/output/page.h>
+
+#include <ostream>
+
+#include <shapespace/base/atomic_file.h>
+#include <shapespace/base/error.h>
+#include <shapespace/output/page_scene.h>
+
+namespace shapespace {
+namespace {
+
+// Where the viewer has room for scenes.
+constexpr char kMark[] = "<!-- scenes -->";
+
+std::string Base64(const std::string& bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](size_t k) {
+      return k < bytes.size() ? unsigned{static_cast<unsigned char>(bytes[k])} : 0u;
+    };
+    const unsigned three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    for (int k = 0; k < 4; ++k) {
+      text.push_back(i + k > bytes.size() ? '=' : kDigits[three >> (18 - 6 * k) & 63]);
+    }
+  }
+  return text;
+}
+
+// As the value of an attribute between double quotes.
+std::string Escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '&') {
+      escaped += "&amp;";
+    } else if (c == '"') {
+      escaped += "&quot;";
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string Element(const std::string& type, const std::string& name, const std::string& bytes) {
+  return "<script type=\"" + type + "\" data-scene data-name=\"" + Escaped(name) + "\">" +
+         Base64(bytes) + "</script>\n";
+}
+
+struct MakeElement {
+  std::string operator()(const PagePath& path) const {
+    return Element("application/x-shapespace", path.name, EncodeScene(path));
+  }
+  std::string operator()(const PageSpace& space) const {
+    return Element("application/x-shapespace", space.name, EncodeScene(space));
+  }
+  std::string operator()(const PageGlb& glb) const {
+    return Element("model/gltf-binary", glb.name, glb.bytes);
+  }
+};
+
+}  // namespace
+
+void WritePage(const std::string& file, const std::string& page_template,
+               const std::vector<PageScene>& scenes) {
+  if (scenes.empty() || scenes.size() > 2) throw InvalidOptions("scenes: there must be one or two");
+  for (const PageScene& scene : scenes) {
+    if (scenes.size() == 2 && std::holds_alternative<PageSpace>(scene)) {
+      throw InvalidOptions("scenes: a space is shown alone");
+    }
+  }
+  const size_t mark = page_template.find(kMark);
+  if (mark == std::string::npos || page_template.find(kMark, mark + 1) != std::string::npos) {
+    throw InvalidOptions("page_template: is not the viewer that ./dev viewer builds");
+  }
+  std::string elements;
+  for (const PageScene& scene : scenes) elements += std::visit(MakeElement(), scene);
+  WriteFileAtomically(file, [&](std::ostream& out) {
+    out << page_template.substr(0, mark) << elements
+        << page_template.substr(mark + sizeof kMark - 1);
+  });
+}
+
+}  // namespace shapespace

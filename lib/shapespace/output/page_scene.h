@@ -1,0 +1,19 @@
+#ifndef SHAPESPACE_OUTPUT_PAGE_SCENE_H_
+#define SHAPESPACE_OUTPUT_PAGE_SCENE_H_
+
+#include <string>
+
+#include <shapespace/output/page.h>
+
+// Private: the data of a page's scene.
+
+namespace shapespace {
+
+/// The data of one scene, compressed: what docs/file-formats.md describes under HTML.
+/// \throw MeshError if the scene is not valid.
+std::string EncodeScene(const PagePath& scene);
+std::string EncodeScene(const PageSpace& scene);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_OUTPUT_PAGE_SCENE_H_

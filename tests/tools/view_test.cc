@@ -1,0 +1,102 @@
+#include <filesystem>
+
+#include "output/read_page.h"
+#include "tools/run.h"
+
+namespace shapespace {
+namespace {
+
+using testing::Content;
+using testing::ExpectContains;
+using testing::Outcome;
+using testing::ToolsTest;
+
+using Strings = std::vector<std::string>;
+
+class ViewTest : public ToolsTest {
+ protected:
+  /// walk.path, of three shapes, and walk.glb.
+  void MakeWalk() const {
+    MakeTubes();
+    Succeed("shape-interpolate",
+            {"tube0.obj", "tube1.obj", "--shapes", "1", "--output", "walk.path,walk.glb"});
+  }
+
+  void ExpectRefusal(int code, const Strings& arguments, const std::string& part) const {
+    const Strings before = Files();
+    const Outcome outcome = Run("shape-view", arguments);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    ExpectContains(outcome.err, part);
+    if (code == 2) ExpectContains(outcome.err, "Try shape-view --help");
+    EXPECT_EQ(Files(), before) << outcome.err;
+  }
+
+  /// Whether shape-view has the page in it: that takes npm. Without, it says how to get it.
+  bool HasPage() const {
+    const Outcome outcome = Run("shape-view", {"walk.path", "--output", "try.html"});
+    if (outcome.code == 0) return true;
+    EXPECT_EQ(outcome.code, 1);
+    ExpectContains(outcome.err, "built without the page that it fills in");
+    ExpectContains(outcome.err, "./dev viewer");
+    EXPECT_FALSE(std::filesystem::exists(Path("try.html")));
+    return false;
+  }
+};
+
+TEST_F(ViewTest, MakesPagesOfPathsAndGlbs) {
+  MakeWalk();
+  if (!HasPage()) GTEST_SKIP() << "built without the viewer's page";
+  Succeed("shape-view", {"walk.path", "walk.glb", "--output", "sub/both.html"});
+  const std::vector<PageElement> elements = ReadPage(Path("sub/both.html"));
+  ASSERT_EQ(elements.size(), 2u);
+  const DecodedScene path(elements[0].bytes);
+  EXPECT_EQ(path.header["name"], "walk.path");
+  EXPECT_EQ(path.steps.size(), 3u);
+  EXPECT_EQ(elements[1].name, "walk.glb");
+  EXPECT_EQ(elements[1].bytes, Content(Path("walk.glb")));
+}
+
+TEST_F(ViewTest, MakesPagesOfSpaces) {
+  MakeWalk();
+  if (!HasPage()) GTEST_SKIP() << "built without the viewer's page";
+  Succeed("shape-body",
+          {"tube", "--triangles", "300", "--at", "0,50,100", "--output", "pose%d.obj"});
+  Succeed("shape-explore", {"pose0.obj", "pose1.obj", "pose2.obj", "--output", "tubes.space"});
+  Succeed("shape-view", {"tubes.space", "--output", "tubes.html"});
+  const std::vector<PageElement> elements = ReadPage(Path("tubes.html"));
+  ASSERT_EQ(elements.size(), 1u);
+  const DecodedScene scene(elements[0].bytes);
+  EXPECT_EQ(scene.header["kind"], "space");
+  EXPECT_EQ(scene.header["names"].size(), 3u);
+  EXPECT_EQ(scene.header["points"].size(), scene.steps.size());
+}
+
+TEST_F(ViewTest, ExplainsWrongCommandLines) {
+  MakeWalk();
+  ExpectRefusal(2, {"walk.path", "tubes.space"}, "tubes.space: a space is shown alone");
+  ExpectRefusal(2, {}, "name one file, or two to compare");
+  ExpectRefusal(2, {"walk.path", "walk.path", "walk.glb"}, "name one file, or two to compare");
+  ExpectRefusal(2, {"tube0.obj"}, "tube0.obj: must be a .path");
+  ExpectRefusal(2, {"walk.path", "--output", "walk.png"}, "--output walk.png: must end in .html");
+  ExpectRefusal(1, {"walk.path", "--output", "walk.glb/x.html"}, "walk.glb is no folder");
+}
+
+TEST_F(ViewTest, OverwritesNothingThatItReads) {
+  MakeWalk();
+  std::filesystem::create_symlink(Path("walk.path"), Path("alias.html"));
+  ExpectRefusal(2, {"walk.path", "--output", "alias.html"}, "would overwrite walk.path");
+}
+
+TEST_F(ViewTest, NamesFilesThatCannotBeRead) {
+  MakeWalk();
+  if (!HasPage()) GTEST_SKIP() << "built without the viewer's page";
+  std::filesystem::remove(Path("try.html"));
+  File("cut.path", Content(Path("walk.path")).substr(0, 500));
+  File("no.glb", "no glb");
+  ExpectRefusal(1, {"nowhere.path"}, "nowhere.path");
+  ExpectRefusal(1, {"cut.path"}, "cut.path");
+  ExpectRefusal(1, {"no.glb"}, "no.glb: is no binary glTF file");
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,617 @@
+// What a person does with a page of shape-view, done by a program.
+import assert from 'node:assert/strict';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { after, before, describe, test } from 'node:test';
+import { deflateSync, inflateSync } from 'node:zlib';
+import { validateBytes } from 'gltf-validator';
+import { drawCurve, launch, settled } from './browser.mjs';
+import { contrastFaults, layoutFaults, namelessControls } from './faults.mjs';
+
+const folder = process.env.SHAPESPACE_PAGE_DIR;
+const pictures = process.env.SHAPESPACE_SCREENSHOT_DIR;
+const url = (name) => `file://${folder}/${name}.html`;
+
+let browser;
+before(async () => {
+  browser = await launch();
+  if (pictures) mkdirSync(pictures, { recursive: true });
+});
+after(() => browser.close());
+
+// Opens a page, and fails at the end if it wrote anything to the console or asked for anything.
+async function open(name, options = {}, body = async () => {}) {
+  const context = await browser.newContext({
+    viewport: { width: 1280, height: 800 },
+    reducedMotion: 'reduce',
+    ...options,
+  });
+  const page = await context.newPage();
+  const faults = [];
+  page.on('console', (message) => faults.push(`${message.type()}: ${message.text()}`));
+  page.on('pageerror', (error) => faults.push(`exception: ${error.stack}`));
+  page.on('request', (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) faults.push(`request: ${request.url()}`);
+  });
+  try {
+    await page.goto(name.startsWith('file:') ? name : url(name));
+    await settled(page);
+    await body(page);
+    // Software rasterisers complain of reading pixels back, which tests make them do.
+    assert.deepEqual(
+      faults.filter((fault) => !fault.includes('GPU stall')),
+      [],
+    );
+  } finally {
+    await context.close();
+  }
+}
+
+// What is seen of the stage, or of a part of it: x and width as shares.
+async function look(page, [from, to] = [0, 1]) {
+  await page.evaluate(
+    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+  );
+  const box = await page.locator('#canvas').boundingBox();
+  const clip = {
+    x: box.x + from * box.width,
+    y: box.y + 30,
+    width: (to - from) * box.width,
+    height: box.height - 110,
+  };
+  return (await page.screenshot({ clip })).toString('base64');
+}
+
+// The share of pixels that differ visibly between two looks.
+function difference(page, one, other) {
+  return page.evaluate(
+    async (pictures) => {
+      const pixels = await Promise.all(
+        pictures.map(async (picture) => {
+          const image = new Image();
+          image.src = `data:image/png;base64,${picture}`;
+          await image.decode();
+          const canvas = document.createElement('canvas');
+          canvas.width = image.width;
+          canvas.height = image.height;
+          const context = canvas.getContext('2d');
+          context.drawImage(image, 0, 0);
+          return context.getImageData(0, 0, image.width, image.height).data;
+        }),
+      );
+      let count = 0;
+      for (let i = 0; i < pixels[0].length; i += 4) {
+        const off = [0, 1, 2].map((k) => Math.abs(pixels[0][i + k] - pixels[1][i + k]));
+        if (off[0] + off[1] + off[2] > 24) ++count;
+      }
+      return (4 * count) / pixels[0].length;
+    },
+    [one, other],
+  );
+}
+
+async function assertChanges(page, act, least = 0.005, part = [0, 1]) {
+  const before = await look(page, part);
+  await act();
+  const after = await look(page, part);
+  const share = await difference(page, before, after);
+  assert.ok(share > least, `only ${(100 * share).toFixed(2)} % of the pixels changed`);
+}
+
+const time = (page) => page.locator('#time').inputValue().then(Number);
+
+async function setTime(page, value) {
+  await page.locator('#time').evaluate((input, to) => {
+    input.value = to;
+    input.dispatchEvent(new Event('input'));
+  }, value);
+}
+
+async function saved(page, button) {
+  const [download] = await Promise.all([
+    page.waitForEvent('download', { timeout: 60000 }),
+    page.locator(button).click(),
+  ]);
+  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+}
+
+describe('every page', () => {
+  for (const name of ['walk-path', 'two', 'space']) {
+    for (const width of [360, 768, 1280]) {
+      for (const colorScheme of ['light', 'dark']) {
+        test(`${name}, ${width} px, ${colorScheme}`, async () => {
+          const viewport = { width, height: width < 500 ? 740 : 800 };
+          await open(name, { viewport, colorScheme }, async (page) => {
+            if (name !== 'space') await page.locator('#deviation').check();
+            assert.deepEqual(await page.evaluate(contrastFaults), []);
+            assert.deepEqual(await page.evaluate(layoutFaults), []);
+            assert.deepEqual(await page.evaluate(namelessControls), []);
+            if (name === 'space') await drawCurve(page);
+            else await setTime(page, 0.6);
+            await look(page);
+            if (!pictures) return;
+            const path = `${pictures}/${name}-${width}-${colorScheme}.png`;
+            await page.screenshot({ path, fullPage: true });
+          });
+        });
+      }
+    }
+  }
+  test('follows the theme that is chosen', async () => {
+    await open('walk-path', { colorScheme: 'light' }, async (page) => {
+      await assertChanges(page, () => page.getByRole('button', { name: 'Dark colours' }).click());
+      assert.deepEqual(await page.evaluate(contrastFaults), []);
+      await assertChanges(page, () => page.getByRole('button', { name: 'Light colours' }).click());
+    });
+  });
+});
+
+describe('a path', () => {
+  test('plays by itself, unless motion is unwanted', async () => {
+    await open('walk-path', { reducedMotion: 'no-preference' }, async (page) => {
+      await page.waitForFunction(() => Number(document.getElementById('time').value) > 0.05);
+      await page.locator('#play').click();
+      const stopped = await time(page);
+      await page.waitForTimeout(300);
+      assert.equal(await time(page), stopped);
+    });
+    await open('walk-path', {}, async (page) => {
+      await page.waitForTimeout(300);
+      assert.equal(await time(page), 0);
+    });
+  });
+
+  test('plays, and the shape moves', async () => {
+    await open('walk-path', {}, async (page) => {
+      await assertChanges(page, async () => {
+        await page.locator('#play').click();
+        await page.waitForFunction(() => Number(document.getElementById('time').value) > 0.3);
+        await page.locator('#play').click();
+      });
+    });
+  });
+
+  test('ends, begins again or goes back, as asked', async () => {
+    await open('walk-path', {}, async (page) => {
+      await page.locator('#speed').selectOption('4');
+      await page.locator('#loop').selectOption('once');
+      await page.locator('#play').click();
+      await page.getByRole('button', { name: 'Play' }).waitFor();
+      assert.equal(await time(page), 1);
+      for (const [repeat, falls] of [
+        ['loop', (a, b) => b < a - 0.3],
+        ['swing', (a, b) => b < a && b > a - 0.3],
+      ]) {
+        await page.locator('#loop').selectOption(repeat);
+        await setTime(page, 0.5);
+        await page.locator('#play').click();
+        const places = [];
+        for (let i = 0; i < 60; ++i) {
+          places.push(await time(page));
+          await page.waitForTimeout(25);
+        }
+        assert.ok(places.some((place, i) => i > 0 && falls(places[i - 1], place)), repeat);
+        await page.locator('#play').click();
+      }
+    });
+  });
+
+  test('goes at the speed that is chosen', async () => {
+    await open('walk-path', {}, async (page) => {
+      const distance = async (speed) => {
+        await page.locator('#speed').selectOption(speed);
+        await setTime(page, 0);
+        await page.locator('#play').click();
+        await page.waitForTimeout(800);
+        await page.locator('#play').click();
+        return time(page);
+      };
+      const [slow, fast] = [await distance('0.25'), await distance('2')];
+      assert.ok(fast > 4 * slow, `${fast} after ${slow}`);
+    });
+  });
+
+  test('is scrubbed, by mouse and by keys', async () => {
+    await open('walk-path', {}, async (page) => {
+      await assertChanges(page, () => setTime(page, 0.9));
+      await page.locator('#time').focus();
+      await page.keyboard.press('ArrowLeft');
+      assert.ok(Math.abs((await time(page)) - 0.89) < 1e-6);
+    });
+  });
+
+  test('shows wires, deviation and flat faces', async () => {
+    await open('walk-path', {}, async (page) => {
+      await setTime(page, 0.7);
+      await assertChanges(page, () => page.locator('#wireframe').check());
+      await assertChanges(page, () => page.locator('#wireframe').uncheck());
+      await assertChanges(page, () => page.locator('#facets').check());
+      assert.equal(await page.locator('#legend').isVisible(), false);
+      await assertChanges(page, () => page.locator('#deviation').check(), 0.02);
+      assert.equal(await page.locator('#legend').isVisible(), true);
+      assert.match(await page.locator('#ramp-end').textContent(), /[1-9].*%/);
+      // The first shape deviates nowhere: it has one colour, and red is not in it.
+      await setTime(page, 0);
+      const still = await look(page);
+      await setTime(page, 1);
+      assert.ok((await difference(page, still, await look(page))) > 0.02);
+    });
+  });
+
+  test('plots follow the time, and set it', async () => {
+    await open('two', {}, async (page) => {
+      assert.equal(await page.locator('.plot').count(), 3);
+      const cursor = page.locator('.plot .cursor').first();
+      const place = async () => Number(await cursor.getAttribute('x1'));
+      const start = await place();
+      await setTime(page, 0.5);
+      const middle = await place();
+      const readout = await page.locator('.readout').last().textContent();
+      assert.match(readout, /A: max [1-9].*B: max [1-9]/);
+      const box = await page.locator('.plot').first().boundingBox();
+      assert.ok(Math.abs(middle - start - (box.width - 16) / 2) < 1);
+      await page.mouse.click(box.x + box.width * 0.75, box.y + 40);
+      assert.ok(Math.abs((await time(page)) - 0.75) < 0.03);
+    });
+  });
+
+  test('two stand side by side, seen by one camera', async () => {
+    await open('two', {}, async (page) => {
+      await page.locator('#canvas').focus();
+      for (const half of [
+        [0, 0.5],
+        [0.5, 1],
+      ]) {
+        await assertChanges(
+          page,
+          async () => {
+            for (let i = 0; i < 5; ++i) await page.keyboard.press('ArrowRight');
+          },
+          0.02,
+          half,
+        );
+      }
+    });
+  });
+
+  test('is turned by mouse, and shown whole again', async () => {
+    await open('walk-path', {}, async (page) => {
+      const first = await look(page);
+      const box = await page.locator('#canvas').boundingBox();
+      await assertChanges(page, async () => {
+        await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+        await page.mouse.down();
+        await page.mouse.move(box.x + box.width / 2 + 150, box.y + box.height / 2 + 30);
+        await page.mouse.up();
+        await page.mouse.wheel(0, 300);
+      });
+      await page.locator('#reset').click();
+      assert.ok((await difference(page, first, await look(page))) < 0.002);
+    });
+  });
+
+  test('is saved as picture and as film', async () => {
+    await open('walk-path', { viewport: { width: 700, height: 700 } }, async (page) => {
+      const picture = await saved(page, '#picture');
+      assert.equal(picture.name, 'walk.png');
+      assert.equal(picture.bytes.toString('latin1', 1, 4), 'PNG');
+      assert.ok(picture.bytes.length > 5000);
+      await page.locator('#speed').selectOption('4');
+      const film = await saved(page, '#film');
+      assert.equal(film.name, 'walk.webm');
+      assert.equal(film.bytes.toString('hex', 0, 4), '1a45dfa3');
+      assert.ok(film.bytes.length > 10000, `${film.bytes.length} bytes`);
+      assert.equal(await page.locator('#loop').inputValue(), 'swing');
+    });
+  });
+
+  test('of a glb moves, and has its deviation', async () => {
+    await open('walk-glb', {}, async (page) => {
+      await assertChanges(page, () => setTime(page, 0.5));
+      await assertChanges(page, () => page.locator('#deviation').check());
+      assert.equal(await page.locator('.plot').count(), 2); // no energy
+    });
+  });
+
+  test('of a graph is drawn as lines', async () => {
+    for (const name of ['graph-path', 'graph-glb']) {
+      await open(name, {}, async (page) => {
+        await assertChanges(page, () => setTime(page, 0.5), 0.0005);
+        assert.equal(await page.locator('#wireframe').isVisible(), false);
+      });
+    }
+  });
+});
+
+async function planeBox(page) {
+  return page.locator('#plane').boundingBox();
+}
+
+describe('a space', () => {
+  test('has a picture of every pose', async () => {
+    await open('space', {}, async (page) => {
+      const images = await page
+        .locator('.pose image')
+        .evaluateAll((list) => list.map((image) => image.getAttribute('href')));
+      assert.equal(images.length, 3);
+      assert.equal(new Set(images).size, 3);
+      assert.equal(await page.locator('.edges polygon').count(), 4);
+    });
+  });
+
+  test('shows the shape at the point that is dragged', async () => {
+    await open('space', {}, async (page) => {
+      const dot = await page.locator('.handle .dot').boundingBox();
+      const [x, y] = [dot.x + dot.width / 2, dot.y + dot.height / 2];
+      await assertChanges(page, async () => {
+        await page.mouse.move(x, y);
+        await page.mouse.down();
+        await page.mouse.move(x + 40, y + 25, { steps: 4 });
+        await page.mouse.up();
+      });
+      const moved = await page.locator('.handle .dot').boundingBox();
+      assert.ok(Math.abs(moved.x + moved.width / 2 - x - 40) < 2);
+    });
+  });
+
+  test('says when the point lies outside, and shows the nearest shape', async () => {
+    await open('space', {}, async (page) => {
+      const box = await planeBox(page);
+      await page.mouse.click(box.x + box.width - 4, box.y + box.height - 4);
+      const status = page.locator('#plane-status');
+      assert.match(await status.textContent(), /^bent 100.*lies outside/);
+      const nodes = await page.locator('.nodes circle').nth(1).boundingBox();
+      const dot = await page.locator('.handle .dot').boundingBox();
+      const middle = ({ x, width }) => x + width / 2;
+      assert.ok(Math.abs(middle(nodes) - middle(dot)) < 1);
+    });
+  });
+
+  test('plays a curve that is drawn', async () => {
+    await open('space', {}, async (page) => {
+      await drawCurve(page);
+      const corners = await page.locator('.curve').getAttribute('points');
+      assert.ok(corners.split(' ').length > 10);
+      await assertChanges(page, () => setTime(page, 0.9));
+      await assertChanges(page, async () => {
+        await setTime(page, 0);
+        await page.locator('#play').click();
+        await page.waitForFunction(() => Number(document.getElementById('time').value) > 0.3);
+        await page.locator('#play').click();
+      });
+    });
+  });
+
+  test('plays it at once where motion is welcome', async () => {
+    await open('space', { reducedMotion: 'no-preference' }, async (page) => {
+      await drawCurve(page);
+      await page.waitForFunction(() => Number(document.getElementById('time').value) > 0.05);
+    });
+  });
+
+  test('saves a curve as a glb, which is valid and moves', async () => {
+    await open('space', {}, async (page) => {
+      await page.locator('#glb').click();
+      assert.match(await page.locator('#status').textContent(), /draw a curve first/);
+      await drawCurve(page);
+      const { name, bytes } = await saved(page, '#glb');
+      assert.equal(name, 'tubes-curve.glb');
+      const report = await validateBytes(new Uint8Array(bytes));
+      assert.deepEqual(
+        report.issues.messages.filter(({ severity }) => severity < 2), // errors, warnings
+        [],
+      );
+      assert.equal(report.info.animationCount, 1);
+      assert.ok(report.info.hasMorphTargets);
+      assert.equal(report.info.totalVertexCount, 1002);
+      // It moves as the page does.
+      const page64 = bytes.toString('base64');
+      const element = `<script type="model/gltf-binary" data-scene data-name="c.glb">${page64}</script>`;
+      const viewer = readFileSync(`${folder}/empty.html`, 'utf8');
+      writeFileSync(
+        `${folder}/curve-glb.html`,
+        viewer.replace('<!-- scenes -->', () => element),
+      );
+    });
+    await open('curve-glb', {}, async (page) => {
+      await assertChanges(page, () => setTime(page, 0.9));
+    });
+  });
+
+  test('saves a film of the curve', async () => {
+    await open('space', { viewport: { width: 700, height: 700 } }, async (page) => {
+      await drawCurve(page);
+      await page.locator('#speed').selectOption('4');
+      const { name, bytes } = await saved(page, '#film');
+      assert.equal(name, 'tubes.webm');
+      assert.ok(bytes.length > 10000, `${bytes.length} bytes`);
+    });
+  });
+
+  test('takes touch', async () => {
+    const options = { hasTouch: true, isMobile: true, viewport: { width: 360, height: 740 } };
+    await open('space', options, async (page) => {
+      const box = await planeBox(page);
+      await assertChanges(page, () =>
+        page.touchscreen.tap(box.x + 0.6 * box.width, box.y + 0.6 * box.height),
+      );
+    });
+  });
+
+  test('of shape-explore is explored', async () => {
+    await open('poses', {}, async (page) => {
+      assert.equal(await page.locator('.pose image').count(), 4);
+      await drawCurve(page);
+      await assertChanges(page, () => setTime(page, 0.8));
+      const { bytes } = await saved(page, '#glb');
+      const report = await validateBytes(new Uint8Array(bytes));
+      assert.equal(report.issues.numErrors + report.issues.numWarnings, 0);
+    });
+  });
+
+  test('of two poses lies on a line', async () => {
+    await open('line', {}, async (page) => {
+      const box = await planeBox(page);
+      await assertChanges(page, () => page.mouse.click(box.x + 0.3 * box.width, box.y + 10));
+      assert.match(await page.locator('#plane-status').textContent(), /straight.*bent.*outside/);
+    });
+  });
+});
+
+describe('keys alone', () => {
+  // Elements by the order in which Tab reaches them.
+  async function tabbed(page) {
+    const reached = [];
+    await page.evaluate(() => document.activeElement.blur());
+    for (let i = 0; i < 40; ++i) {
+      await page.keyboard.press('Tab');
+      const at = await page.evaluate(() => {
+        const { activeElement: element } = document;
+        if (!element || element === document.body) return null;
+        const style = getComputedStyle(element.querySelector?.('.target') ?? element);
+        const visible = style.outlineStyle !== 'none' || style.strokeWidth === '3px';
+        return { name: element.id || element.getAttribute('class'), visible };
+      });
+      if (!at || reached.some(({ name }) => name === at.name)) break;
+      reached.push(at);
+    }
+    return reached;
+  }
+
+  test('reach every control, visibly', async () => {
+    for (const name of ['walk-path', 'space']) {
+      await open(name, {}, async (page) => {
+        const reached = await tabbed(page);
+        const wanted = await page.evaluate(() =>
+          [...document.querySelectorAll('button, input, select, canvas, [tabindex="0"]')]
+            .filter((element) => element.checkVisibility())
+            .map((element) => element.id || element.getAttribute('class')),
+        );
+        assert.deepEqual(reached.map((at) => at.name).sort(), [...wanted].sort());
+        assert.deepEqual(
+          reached.filter((at) => !at.visible),
+          [],
+        );
+      });
+    }
+  });
+
+  test('play a path and turn it', async () => {
+    await open('walk-path', {}, async (page) => {
+      await page.keyboard.press(' ');
+      await page.waitForFunction(() => Number(document.getElementById('time').value) > 0.05);
+      await page.keyboard.press(' ');
+      await page.locator('#canvas').focus();
+      for (const key of ['ArrowUp', '+', '+', '-', 'ArrowLeft']) {
+        await assertChanges(page, () => page.keyboard.press(key));
+      }
+      await assertChanges(page, () => page.keyboard.press('Home'));
+    });
+  });
+
+  test('move the point, make a curve and play it', async () => {
+    await open('space', {}, async (page) => {
+      await page.locator('.handle').focus();
+      await page.keyboard.press('Enter');
+      await assertChanges(page, async () => {
+        for (let i = 0; i < 8; ++i) await page.keyboard.press('ArrowRight');
+      });
+      await page.keyboard.press('Enter');
+      for (let i = 0; i < 5; ++i) await page.keyboard.press('ArrowDown');
+      await page.keyboard.press('Enter');
+      assert.match(await page.locator('#status').textContent(), /3 points/);
+      await assertChanges(page, async () => {
+        await page.keyboard.press(' ');
+        await page.waitForFunction(() => Number(document.getElementById('time').value) > 0.2);
+        await page.keyboard.press(' ');
+      });
+      await page.locator('#clear').focus();
+      await page.keyboard.press('Enter');
+      assert.equal(await page.locator('.curve').getAttribute('points'), '');
+    });
+  });
+});
+
+describe('a page that cannot be shown says so', () => {
+  const whole = (name) => readFileSync(`${folder}/${name}.html`, 'utf8');
+  // The page with the text of its data changed.
+  async function damaged(name, change) {
+    const page = whole(name).replace(
+      /(<script type="[a-z]+\/[^>]*>)([^<]*)(<\/script>)/,
+      (_, begin, data, end) => begin + change(data) + end,
+    );
+    writeFileSync(`${folder}/damaged.html`, page);
+    let message = '';
+    await open('damaged', {}, async (opened) => {
+      assert.equal(await opened.locator('#layout').isVisible(), false);
+      message = await opened.getByRole('alert').textContent();
+    });
+    return message;
+  }
+  const cut = (share) => (data) => data.slice(0, 4 * Math.floor((share * data.length) / 4));
+  const flip = (share) => (data) => {
+    const at = Math.floor(share * data.length);
+    return data.slice(0, at) + (data[at] === 'A' ? 'B' : 'A') + data.slice(at + 1);
+  };
+
+  test('where its data is cut, changed, empty or no data', async () => {
+    for (const name of ['walk-path', 'space', 'walk-glb']) {
+      const changes = [cut(0.5), cut(0.999), () => '', () => 'AAAA', () => 'no data: <&>'];
+      if (name !== 'walk-glb') changes.push(flip(0.0001), flip(0.3), flip(0.9)); // has no checksum
+      for (const change of changes) {
+        const message = await damaged(name, change);
+        assert.match(message, /is damaged: .*Make the page again/, name);
+      }
+    }
+  });
+
+  test('where its header is at odds with the rest', async () => {
+    const lies = {
+      'walk-path': [{ vertices: 9 }, { shapes: 10 }, { triangles: -1 }, { kind: 'space' }, { version: 2 }],
+      space: [{ parents: [] }, { planeTriangles: [[0, 1, 6]] }, { names: null }],
+    };
+    for (const [name, list] of Object.entries(lies)) {
+      for (const lie of list) {
+        const message = await damaged(name, (data) => {
+          const bytes = inflateSync(Buffer.from(data, 'base64'));
+          const length = bytes.readUInt32LE(0);
+          const header = JSON.parse(bytes.subarray(4, 4 + length).toString());
+          const text = Buffer.from(JSON.stringify({ ...header, ...lie }));
+          const size = Buffer.alloc(4);
+          size.writeUInt32LE(text.length);
+          const all = Buffer.concat([size, text, bytes.subarray(4 + length)]);
+          return deflateSync(all).toString('base64');
+        });
+        assert.match(message, /is damaged: .*Make the page again/, JSON.stringify(lie));
+      }
+    }
+  });
+
+  test('where the file ends too early', async () => {
+    const page = whole('walk-path');
+    writeFileSync(`${folder}/cut.html`, page.slice(0, page.length - 5000));
+    await open('cut', {}, async (opened) => {
+      assert.match(await opened.getByRole('alert').textContent(), /is damaged/);
+    });
+  });
+
+  test('where it holds nothing', async () => {
+    await open('empty', {}, async (page) => {
+      assert.match(await page.getByRole('alert').textContent(), /holds nothing to show/);
+    });
+  });
+
+  test('where the browser does not draw in three dimensions', async () => {
+    const without = await launch(['--no-sandbox', '--disable-3d-apis']);
+    try {
+      const page = await without.newPage();
+      const errors = [];
+      page.on('pageerror', (error) => errors.push(error.stack));
+      await page.goto(url('walk-path'));
+      await settled(page);
+      assert.match(await page.getByRole('alert').textContent(), /WebGL 2 is missing/);
+      assert.deepEqual(errors, []);
+    } finally {
+      await without.close();
+    }
+  });
+});

@@ -1,0 +1,49 @@
+#!/bin/bash
+# Looks at pages of shape-view in headless Chromium, drawn by software; first a release build with the
+# viewer's page in it: ./dev viewer, ./dev build. With names of pages, says how fast these are instead.
+# Needs node, npm and Chromium; installs chromium where there is none, on Debian as root.
+# SHAPESPACE_SCREENSHOT_DIR: a folder for pictures of the pages.
+set -euo pipefail
+
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+bin=$root/build/release/bin
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+if ! command -v chromium >/dev/null; then
+  apt-get -q update && apt-get -q install -y --no-install-recommends chromium
+fi
+npm install --silent --no-fund --no-audit --prefix "$work" \
+  playwright-core@1.55.0 gltf-validator@2.0.0-dev.3.10
+cp "$here"/*.mjs "$work"
+
+if (($# > 0)); then
+  exec node "$work/measure.mjs" "$@"
+fi
+
+mkdir "$work/pages"
+cd "$work/pages"
+{
+  "$bin/shape-body" quadruped --pose sit,stretch --triangles 3000 --output 'animal%d.obj'
+  "$bin/shape-interpolate" animal0.obj animal1.obj --shapes 7 --output walk.path,walk.glb
+  "$bin/shape-interpolate" animal0.obj animal1.obj --metric rigid --shapes 3 --output rigid.path
+  printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nl 1 2 3 4\n' >graph0.obj
+  printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 2 1 0\nl 1 2 3 4\n' >graph1.obj
+  "$bin/shape-interpolate" graph0.obj graph1.obj --shapes 3 --output graph.path,graph.glb
+  for file in walk.path walk.glb graph.path graph.glb; do
+    "$bin/shape-view" $file --output "${file/./-}.html"
+  done
+  "$bin/shape-view" walk.path rigid.path --output two.html
+  "$bin/shape-body" quadruped --pose stand,sit,stretch,rear --triangles 1000 --output 'pose%d.obj'
+  "$bin/shape-explore" pose?.obj --depth 1 --output poses.space
+  "$bin/shape-view" poses.space --output poses.html
+  SHAPESPACE_PAGE_DIR=$PWD SHAPESPACE_PAGE_TEMPLATE=$root/tools/viewer/dist/viewer.html \
+    "$root/build/release/tests/output/output_test" --gtest_filter='PageTest.WritesSpaces*'
+  cp "$root/tools/viewer/dist/viewer.html" empty.html
+} >"$work/log" 2>&1 || {
+  cat "$work/log"
+  exit 1
+}
+cd "$work"
+SHAPESPACE_PAGE_DIR=$work/pages node --test page.test.mjs

@@ -1,0 +1,104 @@
+// A page that shows paths, animations and spaces of poses in a browser.
+
+#include <filesystem>
+#include <list>
+
+#include <gflags/gflags.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/extension.h>
+#include <shapespace/base/read_file.h>
+#include <shapespace/output/page.h>
+#include <shapespace/solvers/exploration/space_file.h>
+
+#include "support/console.h"
+#include "support/files.h"
+#include "support/tool.h"
+#include "viewer/page.h"
+
+DEFINE_string(output, "page.html", "the page to write: .html");
+
+namespace shapespace::tools {
+namespace {
+
+// Checks that `files` can be shown, as far as their names tell.
+void CheckKinds(const std::vector<std::string>& files) {
+  if (files.empty() || files.size() > 2) throw UsageError("name one file, or two to compare");
+  for (const std::string& file : files) {
+    const std::string extension = Extension(file);
+    if (extension != ".path" && extension != ".glb" && extension != ".space") {
+      throw UsageError(file + ": must be a .path, .glb or .space");
+    }
+    if (extension == ".space" && files.size() > 1) {
+      throw UsageError(file + ": a space is shown alone");
+    }
+  }
+  const std::string extension = Extension(FLAGS_output);
+  if (extension != ".html" && extension != ".htm") {
+    throw UsageError("--output " + FLAGS_output + ": must end in .html");
+  }
+}
+
+PageSpace ToPage(const Space& space, const std::string& name) {
+  PageSpace page;
+  page.connectivity = space.metric->connectivity;
+  for (int i = 0; i < space.NumNodes(); ++i) page.nodes.push_back(space.Placed(i));
+  page.names = space.names;
+  page.points = space.points;
+  page.triangles = space.triangles;
+  page.segments = space.segments;
+  page.parents = space.parents;
+  page.vertex_colours = space.appearance.vertex_colours;
+  page.name = name;
+  return page;
+}
+
+void CheckIsGlb(const std::string& file, const std::string& bytes) {
+  if (bytes.compare(0, 4, "glTF") != 0) {
+    throw FileError(file + ": is no binary glTF file: it does not begin with the letters glTF");
+  }
+}
+
+void Run(const std::vector<std::string>& files) {
+  CheckKinds(files);
+  CheckNothingIsOverwritten(files, {{"output", {FLAGS_output}}});
+  CheckCanBeWritten(FLAGS_output);
+  if (ViewerPage().empty()) {
+    throw Error(
+        "this program was built without the page that it fills in. In the source folder, run "
+        "./dev viewer, which needs npm, and then ./dev build");
+  }
+  std::list<Path> paths;  // scenes point at them
+  std::vector<PageScene> scenes;
+  for (const std::string& file : files) {
+    const std::string name = std::filesystem::path(file).filename().string();
+    if (Extension(file) == ".path") {
+      paths.push_back(ReadPathAndTell(file));
+      scenes.push_back(PagePath{&paths.back(), name});
+    } else if (Extension(file) == ".space") {
+      scenes.push_back(ToPage(ReadSpace(file), name));
+    } else {
+      scenes.push_back(PageGlb{ReadFile(file), name});
+      CheckIsGlb(file, std::get<PageGlb>(scenes.back()).bytes);
+    }
+  }
+  WritePage(FLAGS_output, std::string(ViewerPage()), scenes);
+  Out() << "wrote " << FLAGS_output << '\n';
+}
+
+}  // namespace
+}  // namespace shapespace::tools
+
+int main(int argc, char** argv) {
+  using namespace shapespace::tools;
+  return RunTool(
+      argc, argv,
+      {"shape-view",
+       "a page that shows paths and spaces in a browser, in one file, without network",
+       "  shape-view walk.path --output walk.html\n"
+       "  shape-view before.path after.path --output compare.html   side by side\n"
+       "  shape-view walk.glb --output walk.html\n"
+       "  shape-view poses.space --output poses.html                shapes at points of a plane",
+       {"shape_view.cc"}},
+      Run);
+}

@@ -1,0 +1,83 @@
+#include "support/files.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <map>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/extension.h>
+#include <shapespace/output/frames.h>
+#include <shapespace/path/path_file.h>
+
+#include "support/console.h"
+#include "support/tool.h"
+
+namespace shapespace::tools {
+namespace {
+
+bool IsFramePattern(const std::string& file) {
+  const std::string extension = Extension(file);
+  return (extension == ".obj" || extension == ".ply") && file.find('%') != file.npos;
+}
+
+}  // namespace
+
+void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
+                               const std::vector<FlagOutputs>& outputs) {
+  namespace fs = std::filesystem;
+  // So many names of frames are looked at: inputs are not numbered higher.
+  constexpr std::int64_t kMostNames = 20000;
+  const auto key = [](const std::string& file) {
+    std::error_code error;  // such as a loop of links: whoever opens the file will say so
+    const fs::path path = fs::weakly_canonical(fs::absolute(file), error);
+    return error ? file : path.string();
+  };
+  std::map<std::string, std::string> read, written;  // by key: as the command line has it
+  for (const std::string& input : inputs) read.emplace(key(input), input);
+  for (const auto& [flag, files, frames] : outputs) {
+    for (const std::string& file : files) {
+      const bool is_pattern = frames > 0 && IsFramePattern(file);
+      const std::string whole = "--" + flag + " " + file;
+      for (std::int64_t i = 0; i < (is_pattern ? std::min(frames, kMostNames) : 1); ++i) {
+        const std::string name = is_pattern ? FrameName(file, static_cast<int>(i)) : file;
+        const std::string makes = is_pattern ? whole + ": " + name : whole;
+        if (const auto input = read.find(key(name)); input != read.end()) {
+          throw UsageError(makes + " would overwrite " + input->second +
+                           ", which is read; choose another name");
+        }
+        if (const auto [other, is_new] = written.emplace(key(name), whole); !is_new) {
+          throw UsageError(makes + " would overwrite what " + other->second +
+                           " writes; choose another name");
+        }
+      }
+    }
+  }
+}
+
+void CheckCanBeWritten(const std::string& file) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::is_directory(file, error)) throw FileError(file + ": cannot be written: it is a folder");
+  fs::path folder = fs::absolute(file).parent_path();
+  while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+  if (!fs::is_directory(folder, error)) {
+    throw FileError(file + ": cannot be written: " + folder.string() + " is no folder");
+  }
+  if (access(folder.c_str(), W_OK) != 0) {
+    throw FileError(file + ": cannot be written: " + folder.string() + ": " + std::strerror(errno));
+  }
+}
+
+Path ReadPathAndTell(const std::string& file) {
+  Path path = ReadPath(file);
+  if (!path.converged) {
+    Err() << "warning: " << file << ": the solve that made it did not converge, or was stopped\n";
+  }
+  return path;
+}
+
+}  // namespace shapespace::tools

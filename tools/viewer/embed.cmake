@@ -1,0 +1,17 @@
+# Makes SOURCE, a C++ file that holds the text of PAGE; an empty one where there is no such file.
+# cmake -DPAGE=... -DSOURCE=... -P embed.cmake
+set(page "")
+if(EXISTS "${PAGE}")
+  file(READ "${PAGE}" page)
+endif()
+file(WRITE "${SOURCE}.new" "#include \"viewer/page.h\"
+
+namespace shapespace::tools {
+
+std::string_view ViewerPage() {
+  return R\"~page~(${page})~page~\";
+}
+
+}  // namespace shapespace::tools
+")
+file(COPY_FILE "${SOURCE}.new" "${SOURCE}" ONLY_IF_DIFFERENT)

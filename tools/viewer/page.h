@@ -1,0 +1,14 @@
+#ifndef SHAPESPACE_TOOLS_VIEWER_PAGE_H_
+#define SHAPESPACE_TOOLS_VIEWER_PAGE_H_
+
+#include <string_view>
+
+namespace shapespace::tools {
+
+/// The viewer that `./dev viewer` has built, as it was when this program was; empty if there was
+/// none.
+std::string_view ViewerPage();
+
+}  // namespace shapespace::tools
+
+#endif  // SHAPESPACE_TOOLS_VIEWER_PAGE_H_

@@ -1,0 +1,235 @@
+// A body on the GPU: three of its shapes, and how much of each.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DataTexture,
+  DoubleSide,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  MeshStandardMaterial,
+  Sphere,
+  SRGBColorSpace,
+  Vector3,
+  type Material,
+} from 'three';
+import { isFaceted, vertexNormals } from './normals';
+import { rampColour } from './ramp';
+import type { Body } from './scene_data';
+
+const clay = new Color(0xbfae9a);
+const back = new Color(0xd9822b);
+
+function rampTexture(): DataTexture {
+  const pixels = new Uint8Array(4 * 256);
+  for (let i = 0; i < 256; ++i) pixels.set([...rampColour(i / 255), 255], 4 * i);
+  const texture = new DataTexture(pixels, 256, 1);
+  texture.colorSpace = SRGBColorSpace;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+const declarations = /* glsl */ `
+attribute vec4 shapeA, shapeB, shapeC;
+uniform float weightB, weightC;
+varying float vDeviation;
+vec4 blendedShape() {
+  return shapeA + weightB * (shapeB - shapeA) + weightC * (shapeC - shapeA);
+}
+`;
+
+const normalDeclarations = /* glsl */ `
+attribute vec3 normalA, normalB, normalC;
+vec3 blendedNormal() {
+  return normalize(
+      normalA + weightB * (normalB - normalA) + weightC * (normalC - normalA) + vec3(1e-6));
+}
+`;
+
+/** The three nearest shapes, of which the body is the blend with these weights. */
+export interface Blend {
+  nodes: [number, number, number];
+  weights: [number, number, number];
+}
+
+/**
+ * A body whose geometry has the positions of three shapes. The blend happens on the GPU, by two
+ * uniforms. The arrays of a shape go to the GPU when it is first needed, and stay there: to show
+ * another shape is to point at other arrays.
+ *
+ * The body is scaled to the cube of side 1 with its lowest corner in the origin.
+ */
+export class BlendedMesh extends Group {
+  private readonly geometry = new BufferGeometry();
+  private readonly positions: BufferAttribute[] = [];
+  private readonly normals: BufferAttribute[] = [];
+  private readonly uniforms = {
+    weightB: { value: 0 },
+    weightC: { value: 0 },
+    byDeviation: { value: 0 },
+    deviationScale: { value: 1 },
+    ramp: { value: rampTexture() },
+    backColour: { value: back },
+  };
+  private readonly isGraph: boolean;
+  private readonly surface: Mesh | LineSegments;
+  private readonly wires: Mesh | null = null;
+  private shown: Blend = { nodes: [0, 0, 0], weights: [1, 0, 0] };
+
+  constructor(readonly body: Body) {
+    super();
+    this.isGraph = body.triangles.length === 0;
+    this.geometry.setIndex(
+      new BufferAttribute(this.isGraph ? body.segments : body.triangles, 1),
+    );
+    this.geometry.boundingSphere = new Sphere(new Vector3(0.5, 0.5, 0.5), Math.sqrt(3) / 2);
+    if (body.colours) this.geometry.setAttribute('color', linearColours(body.colours));
+    const vertexColors = body.colours !== null;
+    const color = vertexColors ? new Color(1, 1, 1) : clay;
+    if (this.isGraph) {
+      const material = new LineBasicMaterial({ color, vertexColors });
+      this.surface = new LineSegments(this.geometry, this.patch(material));
+    } else {
+      const flatShading = [0, body.shapes.length >> 1, body.shapes.length - 1].some((shape) =>
+        isFaceted(body, body.shapes[shape]),
+      );
+      const material = new MeshStandardMaterial({
+        color,
+        vertexColors,
+        flatShading,
+        side: DoubleSide,
+        roughness: 0.75,
+        polygonOffsetFactor: 1,
+        polygonOffsetUnits: 1,
+      });
+      this.surface = new Mesh(this.geometry, this.patch(material));
+      const lines = new MeshBasicMaterial({ color: 0x1b2430, wireframe: true });
+      lines.transparent = true;
+      lines.opacity = 0.4;
+      this.wires = new Mesh(this.geometry, this.patch(lines));
+      this.wires.visible = false;
+      this.add(this.wires);
+    }
+    this.add(this.surface);
+    for (const child of this.children) child.frustumCulled = false;
+    this.show(this.shown);
+  }
+
+  /** Shows a blend of three shapes. */
+  show(blend: Blend): void {
+    this.shown = blend;
+    blend.nodes.forEach((node, k) => {
+      const letter = 'ABC'[k];
+      this.geometry.setAttribute(`shape${letter}`, this.positionsOf(node));
+      if (!this.isGraph) this.geometry.setAttribute(`normal${letter}`, this.normalsOf(node));
+    });
+    // three.js counts vertices by this one.
+    this.geometry.setAttribute('position', this.positionsOf(blend.nodes[0]));
+    this.uniforms.weightB.value = blend.weights[1];
+    this.uniforms.weightC.value = blend.weights[2];
+  }
+
+  /** Makes what some shape will need before it is shown; false once there is nothing to do. */
+  prepareNext(): boolean {
+    const next = this.body.shapes.findIndex((_, node) => !this.positions[node]);
+    if (next < 0) return false;
+    this.positionsOf(next);
+    if (!this.isGraph) this.normalsOf(next);
+    return true;
+  }
+
+  set wireframe(on: boolean) {
+    if (!this.wires) return;
+    this.wires.visible = on;
+    // Lets the surface recede behind its edges. Without edges it must not: at the outline the back
+    // would come through.
+    (this.surface.material as Material).polygonOffset = on;
+  }
+
+  get flat(): boolean {
+    return this.surface.material instanceof MeshStandardMaterial && this.surface.material.flatShading;
+  }
+  set flat(on: boolean) {
+    const { material } = this.surface;
+    if (!(material instanceof MeshStandardMaterial) || material.flatShading === on) return;
+    material.flatShading = on;
+    material.needsUpdate = true;
+  }
+
+  /** Colours by deviation: `end` has the last colour; null: plain. `own` has 65535. */
+  colourByDeviation(own: number, end: number | null): void {
+    this.uniforms.byDeviation.value = end === null ? 0 : 1;
+    if (end !== null) this.uniforms.deviationScale.value = own / end;
+  }
+
+  private positionsOf(node: number): BufferAttribute {
+    return (this.positions[node] ??= new BufferAttribute(this.body.shapes[node], 4, true));
+  }
+
+  private normalsOf(node: number): BufferAttribute {
+    return (this.normals[node] ??= new BufferAttribute(
+      vertexNormals(this.body, this.body.shapes[node]),
+      4,
+      true,
+    ));
+  }
+
+  /** Has a material's shaders draw the blend, and its colours. */
+  private patch<Kind extends Material>(material: Kind): Kind {
+    const hasNormals = material instanceof MeshStandardMaterial;
+    const isSurface = hasNormals || this.isGraph;
+    material.onBeforeCompile = (shader) => {
+      Object.assign(shader.uniforms, this.uniforms);
+      shader.vertexShader = shader.vertexShader
+        .replace(
+          '#include <common>',
+          `#include <common>\n${declarations}${hasNormals ? normalDeclarations : ''}`,
+        )
+        .replace(
+          '#include <begin_vertex>',
+          'vec4 blended = blendedShape();\nvDeviation = blended.w;\nvec3 transformed = blended.xyz;',
+        );
+      if (hasNormals) {
+        shader.vertexShader = shader.vertexShader.replace(
+          '#include <beginnormal_vertex>',
+          'vec3 objectNormal = blendedNormal();',
+        );
+      }
+      if (!isSurface) return;
+      shader.fragmentShader = shader.fragmentShader
+        .replace(
+          '#include <common>',
+          `#include <common>
+          varying float vDeviation;
+          uniform float byDeviation, deviationScale;
+          uniform sampler2D ramp;
+          uniform vec3 backColour;`,
+        )
+        .replace(
+          '#include <color_fragment>',
+          `#include <color_fragment>
+          if (byDeviation > 0.5) {
+            float place = clamp(vDeviation * deviationScale, 0.0, 1.0) * 255.0 / 256.0 + 0.5 / 256.0;
+            diffuseColor.rgb = texture2D(ramp, vec2(place, 0.5)).rgb;
+            ${hasNormals ? 'if (!gl_FrontFacing) diffuseColor.rgb *= 0.5;' : ''}
+          }
+          ${hasNormals ? 'else if (!gl_FrontFacing) diffuseColor.rgb = backColour;' : ''}`,
+        );
+    };
+    return material;
+  }
+}
+
+function linearColours(colours: Uint8Array): BufferAttribute {
+  const colour = new Color();
+  const linear = new Float32Array(colours.length);
+  for (let i = 0; i < colours.length; i += 3) {
+    colour
+      .setRGB(colours[i] / 255, colours[i + 1] / 255, colours[i + 2] / 255, SRGBColorSpace)
+      .toArray(linear, i);
+  }
+  return new BufferAttribute(linear, 3);
+}

@@ -1,0 +1,178 @@
+// Reads the scenes that shape-view writes: docs/file-formats.md, HTML.
+import { Damaged, type Body, type SceneData } from './scene_data';
+
+export function bytesFromBase64(text: string): Uint8Array<ArrayBuffer> {
+  let binary: string;
+  try {
+    binary = atob(text);
+  } catch {
+    throw new Damaged('its text is no base64');
+  }
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes;
+}
+
+async function inflate(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array> {
+  try {
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+  } catch {
+    throw new Damaged('it cannot be decompressed');
+  }
+}
+
+/** Takes arrays from the bytes, one after the other. */
+class Reader {
+  private at = 0;
+  constructor(private readonly bytes: Uint8Array) {}
+
+  take(count: number): Uint8Array {
+    if (!Number.isInteger(count) || count < 0 || this.at + count > this.bytes.length) {
+      throw new Damaged('it ends too early');
+    }
+    this.at += count;
+    return this.bytes.subarray(this.at - count, this.at);
+  }
+
+  end(): void {
+    if (this.at !== this.bytes.length) throw new Damaged('it is longer than it says');
+  }
+}
+
+function unZigZag(code: number): number {
+  return (code >>> 1) ^ -(code & 1);
+}
+
+function readIndices(reader: Reader, count: number, vertices: number): Uint32Array {
+  const planes = reader.take(4 * count);
+  const indices = new Uint32Array(count);
+  let last = 0;
+  for (let k = 0; k < count; ++k) {
+    const code =
+      planes[k] |
+      (planes[count + k] << 8) |
+      (planes[2 * count + k] << 16) |
+      (planes[3 * count + k] << 24);
+    last = (last + unZigZag(code)) >>> 0;
+    if (last >= vertices) throw new Damaged('it names a vertex that is not there');
+    indices[k] = last;
+  }
+  return indices;
+}
+
+/** What a coordinate is likely to be, given the shapes before: as the program predicted it. */
+type Predict = (shape: number, index: number) => number;
+
+function readPositions(reader: Reader, shapes: Uint16Array[], vertices: number, predict: Predict) {
+  for (let s = 0; s < shapes.length; ++s) {
+    const shape = shapes[s];
+    for (let axis = 0; axis < 3; ++axis) {
+      const low = reader.take(vertices);
+      const high = reader.take(vertices);
+      let off = 0;
+      for (let v = 0, index = axis; v < vertices; ++v, index += 4) {
+        off += unZigZag(low[v] | (high[v] << 8));
+        shape[index] = predict(s, index) + off;
+      }
+    }
+  }
+}
+
+function readDeviations(reader: Reader, shapes: Uint16Array[], vertices: number) {
+  const last = new Uint8Array(vertices);
+  for (const shape of shapes) {
+    const differences = reader.take(vertices);
+    for (let v = 0; v < vertices; ++v) {
+      last[v] += differences[v];
+      shape[4 * v + 3] = 257 * last[v];
+    }
+  }
+}
+
+function along(shapes: Uint16Array[]): Predict {
+  return (s, index) => {
+    if (s === 0) return 0;
+    if (s === 1) return shapes[0][index];
+    return 2 * shapes[s - 1][index] - shapes[s - 2][index];
+  };
+}
+
+function betweenParents(shapes: Uint16Array[], parents: [number, number][]): Predict {
+  const poses = shapes.length - parents.length;
+  return (s, index) => {
+    if (s === 0) return 0;
+    if (s < poses) return shapes[s - 1][index];
+    const [a, b] = parents[s - poses];
+    return (shapes[a][index] + shapes[b][index]) >> 1;
+  };
+}
+
+function check(condition: boolean) {
+  if (!condition) throw new Damaged('its header does not fit its content');
+}
+
+function isCount(value: unknown): value is number {
+  return Number.isInteger(value) && (value as number) >= 0;
+}
+
+function areNodes(lists: number[][], size: number, nodes: number): boolean {
+  return lists.every(
+    (list) => list.length === size && list.every((node) => isCount(node) && node < nodes),
+  );
+}
+
+function checkHeader(header: any) {
+  check(header.kind === 'path' || header.kind === 'space');
+  check([header.vertices, header.triangles, header.segments, header.shapes].every(isCount));
+  check(header.vertices > 0 && header.shapes > 0 && header.side >= 0);
+  check([header.low, header.up, header.eye].every((vector) => vector.length === 3));
+  if (header.kind === 'path') {
+    check(header.parameters.length === header.shapes && header.rms.length === header.shapes);
+    check(header.max.length === header.shapes && header.scaleEnd > 0);
+    check(header.speeds.length === header.shapes - 1);
+  } else {
+    check(header.names.length > 0 && header.points.length === header.shapes);
+    check(header.names.length + header.parents.length === header.shapes);
+    check(areNodes(header.planeTriangles, 3, header.shapes));
+    check(areNodes(header.planeSegments, 2, header.shapes));
+    check(areNodes(header.parents, 2, header.shapes));
+  }
+}
+
+export async function decodeScene(text: string): Promise<SceneData> {
+  const reader = new Reader(await inflate(bytesFromBase64(text)));
+  const length = reader.take(4);
+  const size = new DataView(length.buffer, length.byteOffset).getUint32(0, true);
+  let header;
+  try {
+    header = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(reader.take(size)));
+    if (header.version !== 1) throw new Damaged(`its version is ${header.version}, not 1`);
+    checkHeader(header);
+  } catch (error) {
+    throw error instanceof Damaged ? error : new Damaged('its header cannot be read');
+  }
+  const { vertices } = header;
+  const triangles = readIndices(reader, 3 * header.triangles, vertices);
+  const segments = readIndices(reader, 2 * header.segments, vertices);
+  if (6 * vertices * header.shapes > 2 ** 31) throw new Damaged('its header does not fit its content');
+  const shapes: Uint16Array[] = [];
+  for (let s = 0; s < header.shapes; ++s) shapes.push(new Uint16Array(4 * vertices));
+  const predict = header.kind === 'path' ? along(shapes) : betweenParents(shapes, header.parents);
+  readPositions(reader, shapes, vertices, predict);
+  if (header.kind === 'path') readDeviations(reader, shapes, vertices);
+  const colours = header.colours ? reader.take(3 * vertices) : null;
+  reader.end();
+  const body: Omit<Body, 'name'> = {
+    vertices,
+    triangles,
+    segments,
+    colours,
+    shapes,
+    low: header.low,
+    side: header.side,
+    up: header.up,
+    eye: header.eye,
+  };
+  return { ...header, ...body };
+}

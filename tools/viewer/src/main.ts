@@ -1,0 +1,65 @@
+import './style.css';
+import { decodeScene } from './decode';
+import { byId } from './dom';
+import { decodeGlb } from './gltf';
+import { showPaths } from './path_view';
+import { Damaged, type SceneData } from './scene_data';
+import { showSpace } from './space_view';
+import { startTheme } from './theme';
+
+function showMessage(text: string): void {
+  const message = byId('message');
+  message.hidden = false;
+  message.textContent = text;
+  byId('layout').hidden = true;
+}
+
+/** What this browser lacks, in a sentence; null if nothing. */
+function missing(): string | null {
+  if (typeof DecompressionStream === 'undefined') {
+    return 'This browser is too old for this page: it cannot decompress data.';
+  }
+  if (document.createElement('canvas').getContext('webgl2') === null) {
+    return 'This browser does not draw in three dimensions: WebGL 2 is missing or switched off.';
+  }
+  return null;
+}
+
+async function read(element: HTMLScriptElement): Promise<SceneData> {
+  const text = element.textContent ?? '';
+  const name = element.dataset.name ?? '';
+  const isGlb = element.type === 'model/gltf-binary';
+  const scene = await (isGlb ? decodeGlb(name, text) : decodeScene(text));
+  element.remove(); // the text is no longer needed
+  return scene;
+}
+
+async function start(): Promise<void> {
+  startTheme();
+  const elements = [...document.querySelectorAll<HTMLScriptElement>('script[data-scene]')];
+  if (elements.length === 0) {
+    return showMessage('This page holds nothing to show. shape-view makes pages that do.');
+  }
+  const lack = missing();
+  if (lack) return showMessage(lack);
+  const scenes: SceneData[] = [];
+  for (const element of elements) {
+    try {
+      scenes.push(await read(element));
+    } catch (error) {
+      const why = error instanceof Damaged ? error.message : 'it cannot be read';
+      return showMessage(
+        `The data of ${element.dataset.name} in this page is damaged: ${why}. ` +
+          'Make the page again with shape-view.',
+      );
+    }
+  }
+  byId('message').hidden = true;
+  byId('layout').hidden = false;
+  document.title = scenes.map(({ name }) => name).join(' and ');
+  const [first] = scenes;
+  if (first.kind === 'space') showSpace(first);
+  else showPaths(scenes.filter((scene) => scene.kind === 'path'));
+}
+
+void start();

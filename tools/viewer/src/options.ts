@@ -1,0 +1,69 @@
+// Check boxes and buttons that both views have.
+import type { BlendedMesh } from './blended_mesh';
+import { byId, tell } from './dom';
+import type { Player } from './player';
+import { canFilm, saveFilm, savePicture } from './record';
+import type { Stage } from './stage';
+
+function box(id: string, checked: boolean, onChange: (on: boolean) => void): void {
+  const input = byId<HTMLInputElement>(id);
+  input.checked = checked;
+  input.addEventListener('change', () => onChange(input.checked));
+}
+
+/** `name` begins the names of files; `mayFilm` says what is missing for a film, if anything. */
+export function startOptions(
+  stage: Stage,
+  meshes: BlendedMesh[],
+  player: Player,
+  name: string,
+  mayFilm: () => string | null = () => null,
+): void {
+  box('wireframe', false, (on) => {
+    for (const mesh of meshes) mesh.wireframe = on;
+    stage.draw();
+  });
+  box('facets', meshes[0].flat, (on) => {
+    for (const mesh of meshes) mesh.flat = on;
+    stage.draw();
+  });
+  const areGraphs = meshes.every((mesh) => mesh.body.triangles.length === 0);
+  for (const id of ['wireframe-option', 'facets-option']) byId(id).hidden = areGraphs;
+  byId('reset').addEventListener('click', () => stage.showAll());
+  byId('picture').addEventListener('click', () => {
+    savePicture(stage, `${name}.png`).then(
+      () => tell('The picture is saved.'),
+      (error: Error) => tell(`No picture: ${error.message}.`),
+    );
+  });
+  const film = byId<HTMLButtonElement>('film');
+  film.addEventListener('click', () => {
+    const missing = canFilm() ? mayFilm() : 'this browser cannot record films';
+    if (missing) return tell(`No film: ${missing}.`);
+    film.disabled = true;
+    tell('Recording, from the start to the end\u2026');
+    saveFilm(stage, player, `${name}.webm`)
+      .then(
+        () => tell('The film is saved.'),
+        (error: Error) => tell(`No film: ${error.message}.`),
+      )
+      .finally(() => (film.disabled = false));
+  });
+}
+
+/** Prepares shapes while nothing else happens, so that playing need not wait for them. */
+export function prepareWhenIdle(meshes: BlendedMesh[]): void {
+  const next = () => {
+    if (meshes.map((mesh) => mesh.prepareNext()).some(Boolean)) setTimeout(next, 10);
+  };
+  setTimeout(next, 100);
+}
+
+export function prefersStillness(): boolean {
+  return matchMedia('(prefers-reduced-motion: reduce)').matches;
+}
+
+/** The name of a file without its extension. */
+export function stem(name: string): string {
+  return name.replace(/\.[^.]*$/, '') || 'shape';
+}

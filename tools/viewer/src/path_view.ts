@@ -1,0 +1,135 @@
+// One path, or two side by side.
+import { BlendedMesh, type Blend } from './blended_mesh';
+import { byId, perCent, shortNumber, themeValue } from './dom';
+import { prefersStillness, prepareWhenIdle, startOptions, stem } from './options';
+import { Plot, type Series } from './plots';
+import { rampGradient } from './ramp';
+import type { PathScene } from './scene_data';
+import { Stage } from './stage';
+import { onTheme } from './theme';
+import { setRepeat, startTransport } from './transport';
+
+function timeAt({ parameters }: PathScene, place: number): number {
+  const first = parameters[0];
+  return first + place * (parameters[parameters.length - 1] - first);
+}
+
+function placeOf({ parameters }: PathScene, shape: number): number {
+  const length = parameters[parameters.length - 1] - parameters[0];
+  return length > 0 ? (parameters[shape] - parameters[0]) / length : 0;
+}
+
+function blendAt(scene: PathScene, place: number): Blend {
+  const { parameters } = scene;
+  const time = timeAt(scene, place);
+  const after = parameters.findIndex((parameter) => parameter >= time);
+  if (after <= 0) {
+    const end = after < 0 ? parameters.length - 1 : 0;
+    return { nodes: [end, end, end], weights: [1, 0, 0] };
+  }
+  const t = (time - parameters[after - 1]) / (parameters[after] - parameters[after - 1]);
+  return { nodes: [after - 1, after, after], weights: [1 - t, t, 0] };
+}
+
+function facts({ vertices, triangles, shapes, metric }: PathScene): string {
+  const faces = triangles.length > 0 ? `, ${(triangles.length / 3).toLocaleString('en')} triangles` : '';
+  const by = metric ? `, metric ${metric}` : '';
+  return `${shapes.length} shapes, ${vertices.toLocaleString('en')} vertices${faces}${by}`;
+}
+
+function showColours(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): void {
+  const end = Math.max(...scenes.map((scene) => scene.scaleEnd));
+  byId('ramp').style.background = rampGradient();
+  byId('ramp-end').textContent = `${perCent(end)} and more`;
+  const input = byId<HTMLInputElement>('deviation');
+  input.checked = false;
+  input.addEventListener('change', () => {
+    byId('legend').hidden = !input.checked;
+    meshes.forEach((mesh, i) =>
+      mesh.colourByDeviation(scenes[i].scaleEnd, input.checked ? end : null),
+    );
+    stage.draw();
+  });
+}
+
+function showPlots(scenes: PathScene[], onSeek: (place: number) => void): Plot[] {
+  const parent = byId('plots');
+  const plots: Plot[] = [];
+  const prefix = (i: number) => (scenes.length > 1 ? `${'AB'[i]}: ` : '');
+  const colour = (i: number) => (i === 0 ? 1 : 2);
+  const poses = scenes.flatMap((scene) => scene.poses.map((shape) => placeOf(scene, shape)));
+  const moving = scenes.flatMap((scene, i) => (scene.shapes.length > 1 ? [{ scene, i }] : []));
+  const energies: Series[] = moving
+    .filter(({ scene }) => scene.speeds.every((speed) => speed !== null))
+    .map(({ scene, i }) => ({
+      name: `${prefix(i)}energy`,
+      points: [...scene.speeds, scene.speeds[scene.speeds.length - 1]].map((speed, k) => [
+        placeOf(scene, k),
+        speed!,
+      ]),
+      colour: colour(i),
+      steps: true,
+    }));
+  if (energies.length > 0) {
+    plots.push(new Plot(parent, 'Energy (squared speed)', energies, poses, shortNumber, onSeek));
+  }
+  for (const [figure, title] of [
+    ['rms', 'Edge deviation, root mean square'],
+    ['max', 'Edge deviation, maximum'],
+  ] as const) {
+    const deviations: Series[] = moving.map(({ scene, i }) => ({
+      name: `${prefix(i)}${figure}`,
+      points: scene[figure].map((value, k) => [placeOf(scene, k), value]),
+      colour: colour(i),
+    }));
+    if (deviations.length === 0) continue;
+    plots.push(new Plot(parent, title, deviations, poses, perCent, onSeek));
+  }
+  return plots;
+}
+
+/** Whether a motion ends as it began. */
+function isClosed({ shapes }: PathScene): boolean {
+  const [first, last] = [shapes[0], shapes[shapes.length - 1]];
+  return shapes.length > 2 && first.every((value, i) => Math.abs(value - last[i]) < 655);
+}
+
+export function showPaths(scenes: PathScene[]): void {
+  const names = scenes.map(({ name }) => name);
+  byId('title').textContent = names.join(' and ');
+  byId('facts').textContent = scenes.map(facts).join('; ');
+  if (scenes.length > 1) {
+    names.forEach((name, i) => {
+      const caption = document.createElement('span');
+      caption.textContent = `${'AB'[i]}: ${name}`;
+      byId('captions').append(caption);
+    });
+  }
+  const meshes = scenes.map((scene) => new BlendedMesh(scene));
+  const stage: Stage = new Stage(byId<HTMLCanvasElement>('canvas'), meshes, (seconds) =>
+    player.advance(seconds),
+  );
+  let plots: Plot[] = [];
+  const player = startTransport(
+    (place) => {
+      meshes.forEach((mesh, i) => mesh.show(blendAt(scenes[i], place)));
+      for (const plot of plots) plot.show(place);
+      stage.draw();
+    },
+    () => stage.draw(),
+    (place) => `t = ${timeAt(scenes[0], place).toFixed(2)}`,
+  );
+  plots = showPlots(scenes, (place) => {
+    player.pause();
+    player.seek(place);
+  });
+  startOptions(stage, meshes, player, names.map(stem).join('-'));
+  showColours(scenes, meshes, stage);
+  onTheme(() => stage.setBackground(themeValue('--stage')));
+  if (scenes.every(isClosed)) setRepeat(player, 'loop');
+  player.seek(0);
+  prepareWhenIdle(meshes);
+  const canMove = scenes.some((scene) => scene.shapes.length > 1);
+  byId('transport').hidden = !canMove;
+  if (canMove && !prefersStillness()) player.play();
+}

@@ -1,0 +1,277 @@
+// Where bodies are seen: one canvas, one camera, a part of the canvas for every body.
+import {
+  Color,
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  PerspectiveCamera,
+  Scene,
+  Quaternion,
+  Spherical,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { BlendedMesh } from './blended_mesh';
+
+const fieldOfView = 30;
+const margin = 1.06;
+/** Bodies whose sizes differ more than that are drawn equally large. */
+const largestRatio = 3;
+/** So many vertices are enough to know how far away the camera has to be. */
+const mostSamples = 20000;
+
+interface Cell {
+  scene: Scene;
+  lights: Group;
+  mesh: BlendedMesh;
+}
+
+/** Some vertices of all shapes, in the unit cube, and the middle of the box around them. */
+function sample({ body }: BlendedMesh): { points: Vector3[]; centre: Vector3 } {
+  const points: Vector3[] = [];
+  const step = Math.max(1, Math.floor((body.shapes.length * body.vertices) / mostSamples));
+  const low = new Vector3(1, 1, 1);
+  const high = new Vector3(0, 0, 0);
+  for (const shape of body.shapes) {
+    for (let v = 0; v < body.vertices; v += step) {
+      const point = new Vector3(shape[4 * v], shape[4 * v + 1], shape[4 * v + 2]);
+      points.push(point.divideScalar(65535));
+      low.min(point);
+      high.max(point);
+    }
+  }
+  return { points, centre: low.add(high).multiplyScalar(0.5) };
+}
+
+export class Stage {
+  private readonly renderer: WebGLRenderer;
+  private readonly camera = new PerspectiveCamera(fieldOfView, 1, 0.01, 100);
+  private readonly controls: OrbitControls;
+  private readonly cells: Cell[] = [];
+  private readonly samples: Vector3[] = [];
+  private readonly eye: Vector3;
+  private moved = false; // by the user: then resizing leaves the camera alone
+  private background = new Color();
+  private wanted = false;
+  private last = 0;
+
+  /** `advance` hears of the seconds that have passed, and tells whether to draw again. */
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    meshes: BlendedMesh[],
+    private readonly advance: (seconds: number) => boolean,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.renderer.setScissorTest(true);
+    this.renderer.setClearAlpha(0);
+    const [{ body }] = meshes;
+    this.camera.up.fromArray(body.up);
+    this.eye = new Vector3().fromArray(body.eye).normalize();
+    const sides = meshes.map((mesh) => mesh.body.side || 1);
+    const largest = Math.max(...sides);
+    for (const mesh of meshes) {
+      const alike = largest <= largestRatio * Math.min(...sides);
+      const scale = alike ? (mesh.body.side || 1) / largest : 1;
+      const { points, centre } = sample(mesh);
+      for (const point of points) this.samples.push(point.sub(centre).multiplyScalar(scale));
+      mesh.scale.setScalar(scale);
+      mesh.position.copy(centre).multiplyScalar(-scale);
+      this.cells.push(this.cell(mesh));
+    }
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener('change', () => this.draw());
+    this.controls.addEventListener('start', () => (this.moved = true));
+    canvas.addEventListener('keydown', (event) => this.onKey(event));
+    new ResizeObserver(() => {
+      this.resize();
+      this.drawNow(); // a canvas of another size is empty
+    }).observe(canvas.parentElement!);
+    this.showAll();
+  }
+
+  setBackground(colour: string): void {
+    this.background = new Color(colour);
+    this.draw();
+  }
+
+  /** Has the next frame drawn. */
+  draw(): void {
+    if (this.wanted) return;
+    this.wanted = true;
+    requestAnimationFrame((now) => this.frame(now));
+  }
+
+  /** Draws at once, so that the canvas can be read. */
+  drawNow(): void {
+    const size = this.renderer.getSize(new Vector2());
+    const areas = this.areas(size.x, size.y);
+    this.cells.forEach(({ scene, lights }, i) => {
+      const { x, y, width, height } = areas[i];
+      scene.background = this.background;
+      lights.quaternion.copy(this.camera.quaternion);
+      this.renderer.setViewport(x, y, width, height);
+      this.renderer.setScissor(x, y, width, height);
+      this.renderer.render(scene, this.camera);
+    });
+  }
+
+  /** A small picture of the first body as it is now, without background. */
+  thumbnail(width: number, height: number): string {
+    const picture = document.createElement('canvas');
+    picture.width = width;
+    picture.height = height;
+    const { scene, lights } = this.cells[0];
+    const ratio = this.renderer.getPixelRatio();
+    this.renderer.setPixelRatio(1);
+    this.renderer.setSize(width, height, false);
+    this.fit(width / height);
+    scene.background = null;
+    lights.quaternion.copy(this.camera.quaternion);
+    this.renderer.setViewport(0, 0, width, height);
+    this.renderer.setScissor(0, 0, width, height);
+    this.renderer.render(scene, this.camera);
+    picture.getContext('2d')!.drawImage(this.renderer.domElement, 0, 0);
+    this.renderer.setPixelRatio(ratio);
+    return picture.toDataURL();
+  }
+
+  /** Looks from the first direction again, at all of every shape. */
+  showAll(): void {
+    this.moved = false;
+    this.resize();
+  }
+
+  resize(): void {
+    const { clientWidth, clientHeight } = this.canvas.parentElement!;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.canvas.parentElement!.classList.toggle('stacked', clientWidth < clientHeight);
+    const { width, height } = this.areas(clientWidth, clientHeight)[0];
+    if (this.moved) {
+      this.camera.aspect = width / height;
+      this.camera.updateProjectionMatrix();
+    } else {
+      this.fit(width / height);
+    }
+    this.draw();
+  }
+
+  private cell(mesh: BlendedMesh): Cell {
+    const scene = new Scene();
+    const lights = new Group();
+    const key = new DirectionalLight(0xffffff, 2.0);
+    key.position.set(-0.5, 0.8, 1);
+    const fill = new DirectionalLight(0xdfe8ff, 0.7);
+    fill.position.set(1, 0.1, 0.6);
+    const sky = new HemisphereLight(0xffffff, 0x8a8f99, 1.1);
+    sky.position.copy(this.camera.up);
+    lights.add(key, key.target, fill, fill.target);
+    scene.add(mesh, lights, sky);
+    return { scene, lights, mesh };
+  }
+
+  /** The parts of the canvas: side by side, or one above the other where it is high. */
+  private areas(width: number, height: number) {
+    const count = this.cells.length;
+    return this.cells.map((_, i) =>
+      width >= height
+        ? { x: (i * width) / count, y: 0, width: width / count, height }
+        : { x: 0, y: ((count - 1 - i) * height) / count, width, height: height / count },
+    );
+  }
+
+  private fit(aspect: number): void {
+    const { camera } = this;
+    const up = camera.up.clone();
+    const right = up.cross(this.eye).normalize();
+    const above = this.eye.clone().cross(right);
+    const tangent = Math.tan((fieldOfView * Math.PI) / 360);
+    // What is near looks larger, so that the middle of the box is not that of the picture.
+    const target = new Vector3();
+    let distance = 10;
+    for (let round = 0; round < 4; ++round) {
+      const [x, y] = [right, above].map((axis) => this.range(axis, target, distance));
+      target.addScaledVector(right, (distance * (x.low + x.high)) / 2);
+      target.addScaledVector(above, (distance * (y.low + y.high)) / 2);
+      distance = 0.1;
+      for (const point of this.samples) {
+        const from = point.clone().sub(target);
+        const [dx, dy] = [Math.abs(from.dot(right)), Math.abs(from.dot(above))];
+        const needed = from.dot(this.eye) + (margin * Math.max(dy, dx / aspect)) / tangent;
+        distance = Math.max(distance, needed);
+      }
+    }
+    camera.aspect = aspect;
+    camera.near = distance / 50;
+    camera.far = 10 * distance;
+    camera.position.copy(target).addScaledVector(this.eye, distance);
+    camera.updateProjectionMatrix();
+    this.controls.target.copy(target);
+    this.controls.update();
+  }
+
+  /** How far the shapes reach along `axis` in a picture from `distance`, in tangents. */
+  private range(axis: Vector3, target: Vector3, distance: number) {
+    let [low, high] = [Infinity, -Infinity];
+    for (const point of this.samples) {
+      const from = point.clone().sub(target);
+      const tangent = from.dot(axis) / Math.max(1e-3, distance - from.dot(this.eye));
+      low = Math.min(low, tangent);
+      high = Math.max(high, tangent);
+    }
+    return { low, high };
+  }
+
+  private frame(now: number): void {
+    this.wanted = false;
+    const seconds = this.last > 0 ? Math.min(0.25, (now - this.last) / 1000) : 0;
+    const again = this.advance(seconds);
+    this.drawNow();
+    this.last = again ? now : 0;
+    if (again) this.draw();
+  }
+
+  private onKey(event: KeyboardEvent): void {
+    const turns: Record<string, [number, number]> = {
+      ArrowLeft: [-0.1, 0],
+      ArrowRight: [0.1, 0],
+      ArrowUp: [0, -0.1],
+      ArrowDown: [0, 0.1],
+    };
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key in turns) this.turn(...turns[event.key]);
+    else if (event.key === '+' || event.key === '=') this.zoom(1 / 1.1);
+    else if (event.key === '-') this.zoom(1.1);
+    else if (event.key === 'Home') this.showAll();
+    else return;
+    event.preventDefault();
+  }
+
+  private turn(around: number, down: number): void {
+    const { camera, controls } = this;
+    const toY = new Quaternion().setFromUnitVectors(camera.up, new Vector3(0, 1, 0));
+    const offset = camera.position.clone().sub(controls.target).applyQuaternion(toY);
+    const spherical = new Spherical().setFromVector3(offset);
+    spherical.theta += around;
+    spherical.phi += down;
+    spherical.makeSafe();
+    offset.setFromSpherical(spherical).applyQuaternion(toY.invert());
+    camera.position.copy(controls.target).add(offset);
+    this.afterKeys();
+  }
+
+  private zoom(factor: number): void {
+    const { camera, controls } = this;
+    camera.position.sub(controls.target).multiplyScalar(factor).add(controls.target);
+    this.afterKeys();
+  }
+
+  private afterKeys(): void {
+    this.moved = true;
+    this.controls.update();
+    this.draw();
+  }
+}
