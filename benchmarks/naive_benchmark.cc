@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <variant>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -12,7 +11,7 @@
 #include <ceres/solver.h>
 
 #include <shapespace/path/energy.h>
-#include <shapespace/solvers/cost/segment_cost.h>
+#include <shapespace/solvers/cost/path_energy.h>
 #include <shapespace/solvers/geodesic.h>
 
 #include "measure.h"
@@ -44,31 +43,9 @@ class Watch final : public ceres::IterationCallback {
   double energy_ = 0, seconds_ = 0;
 };
 
-template <typename Feature>
-void AddBlocks(const Feature& feature, std::vector<Shape>* shapes, ceres::Problem* problem) {
-  if constexpr (!Feature::kSum) {
-    for (size_t i = 0; i + 1 < shapes->size(); ++i) {
-      for (int e = 0; e < feature.stencils.cols(); ++e) {
-        std::vector<double*> blocks;
-        for (Shape* shape : {&(*shapes)[i], &(*shapes)[i + 1]}) {
-          for (int k = 0; k < Feature::kVertices; ++k) {
-            blocks.push_back(shape->col(feature.stencils(k, e)).data());
-          }
-        }
-        const double root = std::sqrt(feature.weights(e));
-        problem->AddResidualBlock(internal::MakeSegmentCost<Feature::kVertices>(
-                                      internal::FeatureSegment<Feature>{feature, root}),
-                                  nullptr, blocks);
-      }
-    }
-  }
-}
-
 void MinimiseNaively(const Metric& metric, std::vector<Shape> shapes, Watch* watch) {
   ceres::Problem problem;
-  for (const AnyFeature& any : metric.features) {
-    std::visit([&](const auto& feature) { AddBlocks(feature, &shapes, &problem); }, any);
-  }
+  cost::AddPathEnergy(metric, &shapes, &problem);
   for (Shape* end : {&shapes.front(), &shapes.back()}) {
     for (int v = 0; v < end->cols(); ++v) problem.SetParameterBlockConstant(end->col(v).data());
   }

@@ -18,7 +18,7 @@ fail() {
 program_in() { sed -n '/^```cpp$/,/^```$/p' "$1" | sed '/^```/d'; }
 diff "$here/main.cc" <(program_in "$root/README.md") ||
   fail "the README's program is not tests/install/main.cc"
-for page in deforming exploring library; do
+for page in ceres deforming exploring library; do
   program_in "$root/docs/guide/$page.md" >"$work/$page.cc"
 done
 
@@ -48,6 +48,9 @@ done
 "$work/prefix/bin/shape-body" tube --triangles 500 --at 0,90 --output 'pose%d.obj'
 "$work/build/guide_library" pose0.obj pose1.obj | grep -qx 'Termination  *converged' ||
   fail "the guide's program did not converge"
+"$work/prefix/bin/shape-body" tube --triangles 300 --at 0,90 --output 'pose%d.obj'
+"$work/build/guide_ceres" pose0.obj pose1.obj | grep -q 'Termination: CONVERGENCE' ||
+  fail "the guide's problem of Ceres did not converge"
 [[ $(head -c 4 walk.glb) == glTF ]] || fail "walk.glb is no glTF"
 if grep -rlF -e "$root" "$work/prefix/include" "$work/prefix/lib" --include='*.cmake' \
   --include='*.h'; then

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include <ceres/autodiff_cost_function.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@
 #include <shapespace/bodies/bricard.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/path/energy.h>
-#include <shapespace/solvers/cost/segment_cost.h>
+#include <shapespace/solvers/cost/path_energy.h>
 
 #include "support/listener.h"
 #include "support/message_of.h"
@@ -243,19 +244,11 @@ double SolveFromResidualBlocks(const Path& given, double mu, std::vector<Shape>*
   options.lambda = options.bending = 0;
   const Metric metric =
       FreezeMetric(options, given.metric->connectivity, {given.shapes.front()}, 1);
-  const auto& lengths = std::get<EdgeLength>(metric.features.at(0));
   const int segments = given.NumShapes() - 1;
   ceres::Problem problem;
+  cost::AddPathEnergy(metric, shapes, &problem);
   for (int i = 0; i < segments; ++i) {
-    Shape& from = (*shapes)[i];
     Shape& to = (*shapes)[i + 1];
-    for (int e = 0; e < lengths.stencils.cols(); ++e) {
-      const int p = lengths.stencils(0, e), q = lengths.stencils(1, e);
-      problem.AddResidualBlock(internal::MakeSegmentCost<2>(internal::FeatureSegment<EdgeLength>{
-                                   lengths, std::sqrt(lengths.weights(e))}),
-                               nullptr, from.col(p).data(), from.col(q).data(), to.col(p).data(),
-                               to.col(q).data());
-    }
     for (int v = 0; v < to.cols(); ++v) {
       const double weight = mu / (segments * segments) * given.metric->vertex_area(v);
       problem.AddResidualBlock(

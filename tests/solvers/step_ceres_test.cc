@@ -10,7 +10,7 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/bricard.h>
 #include <shapespace/bodies/sheet.h>
-#include <shapespace/solvers/optimise/minimise.h>
+#include <shapespace/solvers/cost/path_energy.h>
 
 #include "support/message_of.h"
 #include "support/paths.h"
@@ -188,7 +188,7 @@ TEST(SolveStepWithCeres, RefusesSumFeaturesOnLargeMeshes) {
   MetricOptions options;
   options.volume = 0.3;
   const Case test = Moving("", MakeBar(6, 1, 1, 100, 6, 6), options, 20, 30);
-  ASSERT_GT(test.at.cols(), kMaxDenseVertices);
+  ASSERT_GT(test.at.cols(), cost::kMaxDenseVertices);
   const FeatureMap map(test.metric);
   Shape shape = test.at;
   const std::string message = MessageOf<InvalidOptions>(

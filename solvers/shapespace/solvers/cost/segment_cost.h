@@ -11,7 +11,7 @@
 #include <shapespace/metric/metric.h>
 #include <shapespace/metric/trapezoid.h>
 
-namespace shapespace::internal {
+namespace shapespace::cost {
 
 // Ceres cost functions of one segment of a path, differentiated automatically. Their parameter
 // blocks are vertices (3 numbers): first the element's in shape i, then the same in shape i + 1.
@@ -146,6 +146,6 @@ struct RigidSegment {
   }
 };
 
-}  // namespace shapespace::internal
+}  // namespace shapespace::cost
 
 #endif  // SHAPESPACE_SOLVERS_COST_SEGMENT_COST_H_

@@ -13,7 +13,7 @@
 #include <shapespace/mesh/shape.h>
 #include <shapespace/metric/metric.h>
 
-namespace shapespace::internal {
+namespace shapespace::cost {
 
 // Ceres cost functions of shooting and of the paper's transport, differentiated automatically.
 // Their parameter blocks are vertices (3 numbers).
@@ -200,6 +200,6 @@ struct FirstIntegralRows {
   }
 };
 
-}  // namespace shapespace::internal
+}  // namespace shapespace::cost
 
 #endif  // SHAPESPACE_SOLVERS_COST_SHOOTING_COST_H_

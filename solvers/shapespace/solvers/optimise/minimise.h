@@ -81,10 +81,9 @@ MinimiseResult MinimiseThreadedLbfgs(PathEnergy* energy, Preconditioner* precond
 /// automatically: for small problems, and the oracle of the other. `shapes` in the metric's unit,
 /// the first and the last stay.
 /// \throw InvalidOptions if the metric has a volume feature and more than
-///        kMaxDenseVertices vertices: its rows are dense.
+///        cost::kMaxDenseVertices vertices: its rows are dense.
 MinimiseResult MinimiseTrustRegion(const Metric& metric, double quartic_weight,
                                    const MinimiseOptions& options, std::vector<Shape>* shapes);
-inline constexpr int kMaxDenseVertices = 2000;
 
 }  // namespace shapespace::internal
 

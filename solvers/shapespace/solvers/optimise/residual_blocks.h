@@ -8,6 +8,7 @@
 #include <ceres/problem.h>
 
 #include <shapespace/metric/metric.h>
+#include <shapespace/solvers/cost/path_energy.h>
 #include <shapespace/solvers/optimise/minimise.h>
 
 namespace shapespace::internal {
@@ -18,7 +19,7 @@ class ResidualBlocks {
  public:
   /// The energy of the path `shapes` (metric's unit), differentiated automatically; quartic weight
   /// as in PathEnergy. \throw InvalidOptions if the metric has a volume feature and more than
-  ///        kMaxDenseVertices vertices: its rows are dense.
+  ///        cost::kMaxDenseVertices vertices: its rows are dense.
   void AddPathEnergy(const Metric& metric, double quartic_weight, std::vector<Shape>* shapes);
   /// weight |vertex - target|^2.
   void AddPull(double weight, const Eigen::Vector3d& target, double* vertex);
@@ -32,7 +33,7 @@ class ResidualBlocks {
 
  private:
   ceres::Problem problem_;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> motions_;  // of the rigid metric's segments
+  cost::RigidMotions motions_;
 };
 
 }  // namespace shapespace::internal

@@ -10,7 +10,7 @@
 namespace shapespace::internal {
 
 // What Ceres solves for shooting and transport, on automatically differentiated cost functions
-// (cost/shooting_cost.h). Shapes in the metric's unit.
+// (cost/). Shapes in the metric's unit.
 
 struct StepResult {
   bool converged = false;
@@ -24,7 +24,7 @@ struct StepResult {
 /// |J(at)^T (target - Phi(at))|, or as small as rounding lets it be. Ceres factors the normal
 /// equations, which square the condition number of the step: about 3 iterations up to 1000
 /// vertices, 12 at 3000.
-/// \throw InvalidOptions if the metric has a volume feature and more than kMaxDenseVertices
+/// \throw InvalidOptions if the metric has a volume feature and more than cost::kMaxDenseVertices
 ///        vertices; SolverError if the residual is not finite at the start.
 StepResult SolveStepWithCeres(const FeatureMap& map, const Shape& at, const Eigen::VectorXd& target,
                               double tolerance, int max_iterations, Shape* shape);

@@ -1,0 +1,21 @@
+#ifndef SHAPESPACE_SOLVERS_COST_INDEX_OF_H_
+#define SHAPESPACE_SOLVERS_COST_INDEX_OF_H_
+
+#include <algorithm>
+#include <vector>
+
+// Private: numbers parameter blocks as they turn up.
+
+namespace shapespace::cost {
+
+/// The index of `value` in `list`, at whose end it is put if it was not there.
+inline int IndexOf(int value, std::vector<int>* list) {
+  const auto found = std::find(list->begin(), list->end(), value);
+  const int index = static_cast<int>(found - list->begin());
+  if (found == list->end()) list->push_back(value);
+  return index;
+}
+
+}  // namespace shapespace::cost
+
+#endif  // SHAPESPACE_SOLVERS_COST_INDEX_OF_H_

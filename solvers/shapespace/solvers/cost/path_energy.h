@@ -1,0 +1,37 @@
+#ifndef SHAPESPACE_SOLVERS_COST_PATH_ENERGY_H_
+#define SHAPESPACE_SOLVERS_COST_PATH_ENERGY_H_
+
+#include <vector>
+
+#include <ceres/problem.h>
+#include <Eigen/Core>
+
+#include <shapespace/mesh/shape.h>
+#include <shapespace/metric/metric.h>
+
+namespace shapespace::cost {
+
+/// Rows of sum features are dense: problems of more vertices than this are refused if they have
+/// one.
+inline constexpr int kMaxDenseVertices = 2000;
+
+/// The rigid metric's (c, c_bar), a parameter block of six numbers for each segment of a path.
+using RigidMotions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// Adds the energy of a path to `problem`, as residual blocks that are differentiated
+/// automatically: one for every element of every feature in every segment (segment_cost.h). Every
+/// vertex of every shape is a parameter block of three numbers, (*shapes)[i].col(v).data(); set
+/// those constant that shall stay, such as the ends. Ceres' cost is a quarter of `PathEnergy`'s
+/// energy: the scaled energy, E n / 2 for n segments, is 2 n times the cost.
+///
+/// `shapes` are in the metric's unit (Metric::unit). They, the metric and `motions` must outlive
+/// the problem, and must not be resized while it lives. `motions` is for the rigid metric, and not
+/// read without; it is resized here. `quartic_weight` as in PathEnergy::SetQuarticWeight. \throw
+/// InvalidOptions if the metric has a sum feature (volume) and more than kMaxDenseVertices
+///        vertices, or a rigid part and there are no `motions`.
+void AddPathEnergy(const Metric& metric, std::vector<Shape>* shapes, ceres::Problem* problem,
+                   RigidMotions* motions = nullptr, double quartic_weight = 1);
+
+}  // namespace shapespace::cost
+
+#endif  // SHAPESPACE_SOLVERS_COST_PATH_ENERGY_H_

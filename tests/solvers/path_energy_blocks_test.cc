@@ -1,0 +1,181 @@
+#include <filesystem>
+
+#include <ceres/autodiff_cost_function.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+#include <gtest/gtest.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/bodies/bar.h>
+#include <shapespace/mesh/read.h>
+#include <shapespace/path/energy.h>
+#include <shapespace/solvers/cost/path_energy.h>
+#include <shapespace/solvers/geodesic.h>
+
+#include "support/message_of.h"
+#include "support/motions.h"
+#include "support/paths.h"
+
+namespace shapespace {
+namespace {
+
+using testing::MessageOf;
+using testing::NoisyBlend;
+
+void Fix(Shape* shape, ceres::Problem* problem) {
+  for (int v = 0; v < shape->cols(); ++v) problem->SetParameterBlockConstant(shape->col(v).data());
+}
+
+// Values and gradients, against the kernels that know nothing of Ceres' problems.
+TEST(PathEnergyBlocks, AreAQuarterOfTheEnergy) {
+  MetricOptions all, paper = MetricOptions::Paper();
+  all.strain = 0.5;
+  all.volume = 0.3;
+  paper.bending = 1e-4;
+  for (const MetricOptions& options : {MetricOptions(), all, paper}) {
+    SCOPED_TRACE(Describe(options));
+    const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
+    const std::vector<Shape> ends = {bar.pose(0), bar.pose(80)};
+    const Metric metric = FreezeMetric(options, bar.connectivity, ends);
+    std::vector<Shape> shapes = NoisyBlend(ends[0] / metric.unit, ends[1] / metric.unit, 3, 0.01);
+    PathEnergy energy(metric, 3);
+    energy.SetQuarticWeight(0.25);
+    std::vector<double> unknowns(energy.Size()), gradient(energy.Size());
+    energy.Load(shapes, unknowns.data());
+    const double expected = energy.Evaluate(unknowns.data(), gradient.data());
+    std::vector<Shape> slopes = shapes;
+    energy.Store(gradient.data(), &slopes);
+
+    ceres::Problem problem;
+    cost::AddPathEnergy(metric, &shapes, &problem, nullptr, 0.25);
+    ceres::Problem::EvaluateOptions evaluate;
+    for (int i = 1; i <= 3; ++i) {
+      for (int v = 0; v < shapes[i].cols(); ++v) {
+        evaluate.parameter_blocks.push_back(shapes[i].col(v).data());
+      }
+    }
+    double cost;
+    std::vector<double> derivative;
+    problem.Evaluate(evaluate, &cost, nullptr, &derivative, nullptr);
+    EXPECT_NEAR(4 * cost, expected, 1e-12 * expected);
+    size_t k = 0;
+    double largest = 0;
+    for (double slope : gradient) largest = std::max(largest, std::abs(slope));
+    for (int i = 1; i <= 3; ++i) {
+      for (double slope : slopes[i].reshaped()) {
+        EXPECT_NEAR(4 * derivative[k++], slope, 1e-11 * largest);
+      }
+    }
+  }
+}
+
+TEST(PathEnergyBlocks, OfTheRigidMetricAreItsEnergyOnceTheMotionsAreSolvedFor) {
+  const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
+  const std::vector<Shape> ends = {bar.pose(0), bar.pose(80)};
+  const Metric metric = FreezeMetric(MetricOptions::Rigid(), bar.connectivity, ends);
+  std::vector<Shape> shapes = NoisyBlend(ends[0] / metric.unit, ends[1] / metric.unit, 2, 0.01);
+  PathEnergy energy(metric, 2);
+  std::vector<double> unknowns(energy.Size());
+  energy.Load(shapes, unknowns.data());
+  ceres::Problem problem;
+  cost::RigidMotions motions;
+  cost::AddPathEnergy(metric, &shapes, &problem, &motions);
+  for (Shape& shape : shapes) Fix(&shape, &problem);
+  ceres::Solver::Options options;
+  options.logging_type = ceres::SILENT;
+  options.function_tolerance = options.gradient_tolerance = options.parameter_tolerance = 0;
+  options.max_num_iterations = 20;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  EXPECT_NEAR(4 * summary.final_cost, energy.Evaluate(unknowns.data(), nullptr),
+              1e-9 * summary.final_cost);
+}
+
+// A spring of the user's own: the stiffer it is, the nearer its vertex comes to the target.
+TEST(PathEnergyBlocks, TakeResidualsOfTheUser) {
+  const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
+  GeodesicOptions options;
+  options.shapes = 3;
+  options.tolerance = 1e-10;
+  Path path = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(60)}, options).path;
+  const Eigen::Vector3d target = path.shapes[2].col(5) + Eigen::Vector3d(0, 0.2, 0);
+  struct Spring {
+    Eigen::Vector3d target;
+    double stiffness;
+    bool operator()(const ceres::Jet<double, 3>* p, ceres::Jet<double, 3>* r) const {
+      for (int k = 0; k < 3; ++k) r[k] = stiffness * (p[k] - target(k));
+      return true;
+    }
+    bool operator()(const double* p, double* r) const {
+      for (int k = 0; k < 3; ++k) r[k] = stiffness * (p[k] - target(k));
+      return true;
+    }
+  };
+  double before = (path.shapes[2].col(5) - target).norm();
+  double cost_before = 0;
+  for (double stiffness : {1e-3, 1e-1, 1e2}) {
+    std::vector<Shape> shapes = path.shapes;
+    ceres::Problem problem;
+    cost::AddPathEnergy(*path.metric, &shapes, &problem);
+    Fix(&shapes.front(), &problem);
+    Fix(&shapes.back(), &problem);
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<Spring, 3, 3>(new Spring{target, stiffness}), nullptr,
+        shapes[2].col(5).data());
+    ceres::Solver::Options solve;
+    solve.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+    solve.function_tolerance = 1e-12;
+    solve.gradient_tolerance = solve.parameter_tolerance = 0;
+    solve.max_num_iterations = 200;
+    solve.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(solve, &problem, &summary);
+    const double off = (shapes[2].col(5) - target).norm();
+    EXPECT_LT(off, before) << stiffness;
+    EXPECT_GT(summary.final_cost, cost_before) << stiffness;
+    before = off;
+    cost_before = summary.final_cost;
+  }
+  EXPECT_LT(before, 1e-3);
+}
+
+TEST(PathEnergyBlocks, RefuseWhatTheyCannotTake) {
+  const Body bar = MakeBar(4, 1, 1, 40, 15, 15);
+  std::vector<Shape> shapes = {bar.pose(0), bar.pose(0)};
+  ASSERT_GT(shapes[0].cols(), cost::kMaxDenseVertices);
+  MetricOptions volume;
+  volume.volume = 1;
+  const auto message = [&](const MetricOptions& options) {
+    const Metric metric = FreezeMetric(options, bar.connectivity, shapes);
+    return MessageOf<InvalidOptions>([&] {
+      ceres::Problem problem;
+      cost::AddPathEnergy(metric, &shapes, &problem);
+    });
+  };
+  EXPECT_EQ(message(volume).rfind("volume:", 0), 0u);
+  EXPECT_EQ(message(MetricOptions::Rigid()).rfind("motions:", 0), 0u);
+}
+
+TEST(RealPosesBySolvers, CeresAndOursReachTheSameEnergy) {
+  const std::filesystem::path folder = SHAPESPACE_DATA_DIR;
+  const std::string first = (folder / "horse_lowpoly/base.obj").string();
+  if (folder.empty() || !std::filesystem::exists(first)) {
+    GTEST_SKIP() << "no real meshes: set the CMake cache path SHAPESPACE_DATA_DIR";
+  }
+  const Poses poses = ReadPoses({first, (folder / "horse_lowpoly/m03.obj").string()});
+  std::vector<double> energies;
+  for (Solver solver : {Solver::kLbfgs, Solver::kThreadedLbfgs, Solver::kTrustRegion}) {
+    GeodesicOptions options;
+    options.solver = solver;
+    options.shapes = 7;
+    options.tolerance = 1e-8;
+    options.max_iterations = 2000;
+    const GeodesicSummary summary = Interpolate(poses, options).summary;
+    EXPECT_EQ(summary.termination, Termination::kConverged);
+    energies.push_back(summary.energy);
+  }
+  for (double energy : energies) EXPECT_NEAR(energy, energies[0], 1e-4 * energies[0]);
+}
+
+}  // namespace
+}  // namespace shapespace
