@@ -19,9 +19,10 @@
 #include "support/solve_progress.h"
 #include "support/tool.h"
 
-DEFINE_int32(resolution, shapespace::ExploreOptions().resolution,
-             "triangles, at most, of the mesh on which distances between poses, and what --measure "
-             "asks for, are measured; 0: the mesh itself");
+DEFINE_int32(
+    resolution, shapespace::ExploreOptions().resolution,
+    "distances between poses, and what --measure asks for, are measured on a decimated mesh "
+    "of at most so many triangles, or the coarsest there is; 0: the mesh itself");
 DEFINE_string(threshold, "5%",
               "straight lines between shapes may be longer than geodesics by this, as a share or "
               "in per cent");
@@ -49,13 +50,14 @@ double ThresholdFromFlag() {
   return is_percent ? numbers[0] / 100 : numbers[0];
 }
 
-ExploreOptions ExploreFromFlags(const std::string& space) {
+// `records` is where finished geodesics are kept.
+ExploreOptions ExploreFromFlags(const std::string& records) {
   ExploreOptions options;
   options.geodesic = GeodesicFromFlags();
   options.resolution = FLAGS_resolution;
   options.threshold = ThresholdFromFlag();
   options.depth = FLAGS_depth;
-  options.records = space + ".records";
+  options.records = records;
   options.Validate();
   if (FLAGS_measure < 0) throw UsageError(AsTyped("measure") + ": must be 0 or more");
   return options;
@@ -86,7 +88,7 @@ void MakeSpace(const std::vector<std::string>& files, Crew* crew) {
   if (!IsSpaceFile(FLAGS_output)) {
     throw UsageError("--output " + FLAGS_output + ": must end in .space");
   }
-  const ExploreOptions options = ExploreFromFlags(FLAGS_output);
+  const ExploreOptions options = ExploreFromFlags(FLAGS_output + ".records");
   CheckNothingIsOverwritten(WithStiffeners(files), {{"output", {FLAGS_output}}, ReportFromFlag()});
   CheckCanBeWritten(FLAGS_output);
   const Poses poses = ReadPosesFromFlags(files);
@@ -105,7 +107,7 @@ void MakeSpace(const std::vector<std::string>& files, Crew* crew) {
   PrintSummary(summary.BriefReport(), summary.warnings, summary.Converged());
   if (crew->Rank() == 0) {
     WriteSpace(FLAGS_output, result.space);
-    Out() << FLAGS_output << '\n';
+    Out() << "wrote " << FLAGS_output << '\n';
     WriteReport(summary.FullReport(), summary.ToJson());
   }
   if (FLAGS_measure > 0) Measure(result.space, options, crew);
@@ -132,27 +134,56 @@ void Sample(const std::string& file) {
   WriteOutputs(outputs, walk.path, walk.path);
 }
 
+// Nobody shall believe that a flag did anything which did not.
+void RefuseFlags(std::vector<std::string> flags, const std::string& reason) {
+  flags.erase(std::remove_if(flags.begin(), flags.end(),
+                             [](const std::string& flag) { return !IsGiven(flag.c_str()); }),
+              flags.end());
+  if (!flags.empty()) throw UsageError("--" + flags[0] + ": " + reason);
+}
+
+std::vector<std::string> Joined(std::vector<std::string> flags,
+                                const std::vector<std::string>& more) {
+  flags.insert(flags.end(), more.begin(), more.end());
+  return flags;
+}
+
+void MeasureSpace(const std::string& file, Crew* crew) {
+  RefuseFlags(
+      Joined(GivenFlags("support/metric_flags.cc"),
+             {"depth", "output", "report", "strict", "stiffeners"}),
+      "goes with poses; " + file + " is measured as it is, with the metric that it carries");
+  ExploreOptions options = ExploreFromFlags(file + ".measure.records");
+  const Space space = ReadSpace(file);
+  options.geodesic.metric = space.metric->options;
+  Measure(space, options, crew);
+  if (crew->Rank() == 0) RemoveRecords(options.records);
+}
+
 void Run(const std::vector<std::string>& files) {
   const bool is_space = files.size() == 1 && IsSpaceFile(files[0]);
   if (!FLAGS_sample.empty()) {
     if (!is_space) throw UsageError("--sample: goes with one .space file");
+    if (!IsGiven("output")) throw UsageError("--sample: needs --output, a .glb for example");
+    RefuseFlags(Joined(Joined(GivenFlags("support/metric_flags.cc"),
+                              GivenFlags("support/geodesic_flags.cc")),
+                       {"depth", "measure", "resolution", "threshold", "report", "strict"}),
+                "does nothing with --sample");
     Sample(files[0]);
     return;
   }
-  if (IsGiven("frames")) throw UsageError("--frames: goes with --sample");
+  RefuseFlags({"frames"}, "goes with --sample");
   if (is_space && FLAGS_measure == 0) {
     throw UsageError(files[0] + ": give --sample or --measure; shape-view shows it");
   }
   WithCrew([&](Crew* crew) {
-    if (!is_space) {
-      MakeSpace(files, crew);
-      return;
-    }
-    ExploreOptions options = ExploreFromFlags(files[0]);
-    const Space space = ReadSpace(files[0]);
-    options.geodesic.metric = space.metric->options;
-    Measure(space, options, crew);
-    if (crew->Rank() == 0) RemoveRecords(options.records);
+    NamingFlags({}, [&] {
+      if (is_space) {
+        MeasureSpace(files[0], crew);
+      } else {
+        MakeSpace(files, crew);
+      }
+    });
   });
 }
 

@@ -1,5 +1,6 @@
 // A page that shows paths, animations and spaces of poses in a browser.
 
+#include <cstdint>
 #include <filesystem>
 #include <list>
 
@@ -56,6 +57,15 @@ PageSpace ToPage(const Space& space, const std::string& name) {
 void CheckIsGlb(const std::string& file, const std::string& bytes) {
   if (bytes.compare(0, 4, "glTF") != 0) {
     throw FileError(file + ": is no binary glTF file: it does not begin with the letters glTF");
+  }
+  const auto number = [&](size_t at) {  // little-endian
+    std::uint32_t value = 0;
+    for (size_t k = 4; k > 0; --k)
+      value = value << 8 | static_cast<unsigned char>(bytes[at + k - 1]);
+    return value;
+  };
+  if (bytes.size() < 12 || number(4) != 2 || number(8) != bytes.size()) {
+    throw FileError(file + ": is cut off, or not of version 2 of glTF; make it again");
   }
 }
 

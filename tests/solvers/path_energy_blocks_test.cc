@@ -154,6 +154,26 @@ TEST(PathEnergyBlocks, RefuseWhatTheyCannotTake) {
   };
   EXPECT_EQ(message(volume).rfind("volume:", 0), 0u);
   EXPECT_EQ(message(MetricOptions::Rigid()).rfind("motions:", 0), 0u);
+  const Metric metric = FreezeMetric({}, bar.connectivity, shapes);
+  ceres::Problem problem;
+  std::vector<Shape> one = {shapes[0]}, other = {shapes[0], shapes[1].leftCols(3)};
+  EXPECT_THROW(cost::AddPathEnergy(metric, &one, &problem), MeshError);
+  EXPECT_THROW(cost::AddPathEnergy(metric, &other, &problem), MeshError);
+  EXPECT_EQ(problem.NumParameterBlocks(), 0);
+}
+
+// Without a cost of position nothing pulls at a vertex that no polygon uses.
+TEST(PathEnergyBlocks, KnowEveryVertex) {
+  Shape shape(3, 4);
+  shape << 0, 1, 0, 5, 0, 0, 1, 5, 0, 0, 0, 5;
+  std::vector<Shape> shapes = {shape, shape};
+  MetricOptions options;
+  options.lambda = 0;
+  const Metric metric = FreezeMetric(options, Connectivity::Make(4, {0, 3}, {0, 1, 2}, {}), shapes);
+  ceres::Problem problem;
+  cost::AddPathEnergy(metric, &shapes, &problem);
+  for (Shape& each : shapes) Fix(&each, &problem);
+  EXPECT_EQ(problem.NumParameterBlocks(), 8);
 }
 
 TEST(RealPosesBySolvers, CeresAndOursReachTheSameEnergy) {

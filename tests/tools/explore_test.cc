@@ -74,15 +74,16 @@ TEST_F(ExploreToolTest, MakesASpaceMeasuresItAndWalksThroughIt) {
 
 TEST_F(ExploreToolTest, KilledAtAnyTimeItGoesOn) {
   MakePoses();
+  const auto begin = std::chrono::steady_clock::now();
   Succeed("shape-explore", WithPoses({"--output", "whole.space"}));
+  const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin;
   std::mt19937 random(11);
   size_t most = 0;
   for (int i = 0; i < 10; ++i) {
     const int null = open("/dev/null", O_WRONLY);
     const pid_t process =
         Start("shape-explore", WithPoses({"--output", "killed.space"}), null, null);
-    std::this_thread::sleep_for(
-        std::chrono::milliseconds(std::uniform_int_distribution<int>(20, 400)(random)));
+    std::this_thread::sleep_for(std::uniform_real_distribution<double>(0, 0.5)(random) * whole);
     kill(process, SIGKILL);
     Wait(process);
     close(null);
@@ -101,6 +102,26 @@ TEST_F(ExploreToolTest, KilledAtAnyTimeItGoesOn) {
   EXPECT_GT(most, 0u);
   EXPECT_TRUE(Content(Path("killed.space")) == Content(Path("whole.space")));
   EXPECT_FALSE(fs::exists(Path("killed.space.records")));
+}
+
+TEST_F(ExploreToolTest, MeasuringLeavesTheRecordsOfAnEndedRun) {
+  MakePoses();
+  Succeed("shape-explore", WithPoses({"--depth", "0", "--output", "p.space"}));
+  fs::create_directory(Path("p.space.records"));
+  File("p.space.records/0123.geodesic", "left by another run");
+  Succeed("shape-explore", {"--measure", "3", "--resolution", "500", "p.space"});
+  EXPECT_TRUE(fs::exists(Path("p.space.records/0123.geodesic")));
+  EXPECT_FALSE(fs::exists(Path("p.space.measure.records")));
+}
+
+TEST_F(ExploreToolTest, NamesOfPosesMayBeOfAnyBytes) {
+  MakePoses();
+  fs::copy_file(Path("pose0.obj"), Path("k\xf6rper.obj"));
+  const Outcome outcome =
+      Run("shape-explore", {"pose0.obj", "pose1.obj", "pose2.obj", "k\xf6rper.obj", "--depth", "0",
+                            "--output", "p.space", "--report", "r.json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(Content(Path("r.json")), "is at the place of a pose before it");
 }
 
 TEST_F(ExploreToolTest, AnyNumberOfRanksMakesTheSameFile) {
@@ -125,6 +146,8 @@ TEST_F(ExploreToolTest, AnyNumberOfRanksMakesTheSameFile) {
   EXPECT_NE(run(2, " pose0.obj none.obj --output ranks2.space"), 0);
   ExpectContains(Content(Path("err")), "none.obj");
   EXPECT_NE(run(2, poses + "--depth x"), 0);
+  EXPECT_EQ(WEXITSTATUS(run(2, poses + "--threshold 0")), 2);
+  ExpectContains(Content(Path("err")), "--threshold 0:");
 }
 
 TEST_F(ExploreToolTest, WhatIsWrongIsNamed) {
@@ -151,6 +174,11 @@ TEST_F(ExploreToolTest, WhatIsWrongIsNamed) {
   expect(1, {"--measure", "5", "bad.space"}, {"bad.space", "no .space file"});
 
   Succeed("shape-explore", WithPoses({"--depth", "0", "--output", "p.space"}));
+  expect(2, {"--measure", "5", "p.space", "--depth", "3"}, {"--depth", "goes with poses"});
+  expect(2, {"--measure", "5", "p.space", "--bending", "1"}, {"--bending", "goes with poses"});
+  expect(2, {"--sample", "c.json", "p.space"}, {"--sample", "--output"});
+  expect(2, {"--sample", "c.json", "p.space", "--output", "w.glb", "--threshold", "1"},
+         {"--threshold", "--sample"});
   File("c.json", R"({"points": ["nobody"]})");
   expect(1, {"--sample", "c.json", "p.space", "--output", "w.glb"}, {"c.json", "nobody"});
   File("d.json", R"({"points": ["pose0"]})");

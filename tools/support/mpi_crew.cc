@@ -117,14 +117,13 @@ class MpiCrew final : public Crew {
   }
 
   static void Broadcast(int owner, std::string* bytes) {
-    // MPI counts in int: in parts, should there be more.
-    constexpr unsigned long long kPart = 1 << 30;  // NOLINT(google-runtime-int)
-    unsigned long long size = bytes->size();       // NOLINT(google-runtime-int)
+    constexpr size_t kPart = 1 << 30;         // MPI counts in int
+    unsigned long long size = bytes->size();  // NOLINT(google-runtime-int)
     MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG_LONG, owner, MPI_COMM_WORLD);
     bytes->resize(size);
-    for (auto at = size - size; at < size; at += kPart) {
-      MPI_Bcast(&(*bytes)[at], static_cast<int>(std::min(kPart, size - at)), MPI_BYTE, owner,
-                MPI_COMM_WORLD);
+    for (size_t at = 0; at < size; at += kPart) {
+      MPI_Bcast(&(*bytes)[at], static_cast<int>(std::min<size_t>(kPart, size - at)), MPI_BYTE,
+                owner, MPI_COMM_WORLD);
     }
   }
 

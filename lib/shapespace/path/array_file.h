@@ -90,8 +90,7 @@ class ArrayReader {
 std::string PackArrayFile(const ArrayFileKind& kind, HeaderJson header, const ArrayWriter& arrays);
 
 /// What `bytes`, a whole file, begin with: the header and where the arrays begin.
-/// \throw FileError, without the file's name: another kind of file, of another version, truncated
-/// or
+/// \throw FileError, without the file's name: another kind of file, of another version, cut off or
 ///        damaged (its checksum does not fit).
 HeaderJson UnpackHeader(const ArrayFileKind& kind, const std::string& bytes, size_t* arrays_begin);
 

@@ -98,6 +98,8 @@ std::string NameFromJson(const Json& json) {
   return {bytes.begin(), bytes.end()};
 }
 
+}  // namespace
+
 Json NamesToJson(const std::vector<std::string>& names) {
   Json json = Json::array();
   for (const std::string& name : names) json.push_back(NameToJson(name));
@@ -109,8 +111,6 @@ std::vector<std::string> NamesFromJson(const Json& json) {
   for (const Json& name : json) names.push_back(NameFromJson(name));
   return names;
 }
-
-}  // namespace
 
 void AddMetric(const Metric& metric, Json* header, ArrayWriter* arrays) {
   const Connectivity& connectivity = *metric.connectivity;
@@ -165,6 +165,7 @@ std::shared_ptr<const Metric> ReadMetric(const Json& header, const ArrayReader& 
   const Connectivity& connectivity = *metric->connectivity;
   metric->options = OptionsFromJson(header.at("metric"));
   metric->unit = header.at("unit").get<double>();
+  if (!(metric->unit > 0)) throw FileError("its unit of length is not positive");
   metric->vertex_area = arrays.Get<Eigen::VectorXd>("vertex_area", num_vertices, 1);
   metric->edge_area = arrays.Get<Eigen::VectorXd>("edge_area", connectivity.NumEdges(), 1);
   metric->hinge_area = arrays.Get<Eigen::VectorXd>("hinge_area", connectivity.NumHinges(), 1);
@@ -185,6 +186,18 @@ std::shared_ptr<const Metric> ReadMetric(const Json& header, const ArrayReader& 
   metric->rigid.weights = arrays.Get<Eigen::VectorXd>("rigid_weights", Eigen::Dynamic, 1);
   if (metric->rigid.Active() && metric->rigid.weights.size() != num_vertices) {
     throw FileError("its array rigid_weights has the wrong size");
+  }
+  const auto check = [](const Eigen::VectorXd& areas, const char* name) {
+    if (areas.size() > 0 && areas.minCoeff() < 0) {
+      throw FileError(std::string("its array ") + name + " holds a negative number");
+    }
+  };
+  check(metric->vertex_area, "vertex_area");
+  check(metric->edge_area, "edge_area");
+  check(metric->hinge_area, "hinge_area");
+  check(metric->rigid.weights, "rigid_weights");
+  for (const AnyFeature& any : metric->features) {
+    std::visit([&](const auto& feature) { check(feature.weights, feature.kName); }, any);
   }
   return metric;
 }

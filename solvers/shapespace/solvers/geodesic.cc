@@ -405,7 +405,10 @@ Interpolator::Interpolator(const std::shared_ptr<const Connectivity>& connectivi
   options.Validate();
   const auto metric = std::make_shared<const Metric>(
       FreezeMetric(options.metric, connectivity, poses, 0, PosePairs::kAll));
-  CheckMemory(EstimateBytes(*metric, static_cast<int>(poses.size()), options.shapes), options);
+  // One path at a time, and all poses on all levels.
+  CheckMemory(EstimateBytes(*metric, 2, options.shapes) +
+                  2.0 * sizeof(double) * poses.size() * poses.front().size(),
+              options);
   levels_ = std::make_unique<internal::GeodesicLevels>(metric, AlignPoses(*metric, poses).shapes,
                                                        PosePairs::kAll, options);
 }

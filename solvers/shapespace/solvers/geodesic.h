@@ -177,7 +177,8 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
 class Interpolator {
  public:
   /// Freezes options.metric on all `poses` (user's unit), between every two of them, and decimates
-  /// them in step. 	hrow as Interpolate; one pose is enough.
+  /// them in step.
+  /// \throw as Interpolate; one pose is enough.
   Interpolator(const std::shared_ptr<const Connectivity>& connectivity,
                const std::vector<Shape>& poses, const GeodesicOptions& options = {});
   ~Interpolator();
@@ -187,7 +188,7 @@ class Interpolator {
   const std::shared_ptr<const Metric>& GetMetric() const;
 
   /// The geodesic from one shape to another (user's unit), which are poses or lie between them.
-  /// 	hrow as Interpolate.
+  /// \throw as Interpolate.
   GeodesicResult Between(const Shape& from, const Shape& to, Progress* progress = nullptr);
 
  private:

@@ -90,6 +90,8 @@ TEST(EmbeddingTest, ScalesWithTheDistancesAndFollowsTheirOrder) {
   const Embedding scaled = Embed(1e6 * DistancesOf(points));
   EXPECT_LT((scaled.points - 1e6 * embedding.points).cwiseAbs().maxCoeff(), 1);
   EXPECT_NEAR(scaled.stress, embedding.stress, 1e-9);
+  EXPECT_NEAR(Embed(1e200 * DistancesOf(points)).points(0, 0) / 1e200, embedding.points(0, 0),
+              1e-6);
   const Embedding reversed = Embed(DistancesOf(points.rowwise().reverse()));
   EXPECT_LT((reversed.points.rowwise().reverse() - embedding.points).cwiseAbs().maxCoeff(), 1e-3);
 }

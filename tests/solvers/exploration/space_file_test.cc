@@ -70,6 +70,13 @@ TEST_F(SpaceFileTest, ASpaceThatIsNotValidIsNotWritten) {
   EXPECT_FALSE(std::filesystem::exists(Path("a.space")));
 }
 
+TEST_F(SpaceFileTest, NamesMayBeOfAnyBytes) {
+  Space space = space_;
+  space.names[1] = "k\xf6rper";
+  WriteSpace(Path("a.space"), space);
+  EXPECT_EQ(ReadSpace(Path("a.space")).names, space.names);
+}
+
 TEST_F(SpaceFileTest, CurvesLeadThroughPointsAndPoses) {
   File("curve.json", R"({"points": [[0.5, 0.25], "c", [1e-3, 2]]})");
   const auto points = ReadCurve(Path("curve.json"), space_);

@@ -64,6 +64,7 @@ TEST(SpaceTest, ALineHasNoInside) {
   EXPECT_EQ(space.At({1, 0}), space.Placed(1));
   EXPECT_TRUE(space.Locate({.25, 0}).inside);
   EXPECT_LT(Distance(space.At({.25, 0}), .75 * space.Placed(0) + .25 * space.Placed(1)), 1e-12);
+  EXPECT_TRUE(space.Locate({.25, -.001}).inside);  // as poses that count as lying on it may
   const PlaneLocation off = space.Locate({.25, -.1});
   EXPECT_FALSE(off.inside);
   EXPECT_LT((off.point - Eigen::Vector2d(.25, 0)).norm(), 1e-15);
@@ -107,6 +108,8 @@ TEST(SpaceTest, WhatIsNoCurveIsRefused) {
   EXPECT_THROW(Along(space, {{0, 0}}, 0), InvalidOptions);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(Along(space, {{0, nan}}, 3), InvalidOptions);
+  EXPECT_THROW(Along(space, {{-1e308, 0}, {1e308, 0}}, 3), InvalidOptions);
+  EXPECT_EQ(Along(space, {{1, 0}, {1e200, 0}}, 3).path.Placed(0), space.Placed(1));
 }
 
 TEST(SpaceTest, ASpaceAtOddsWithItselfIsRefused) {
@@ -125,6 +128,8 @@ TEST(SpaceTest, ASpaceAtOddsWithItselfIsRefused) {
   EXPECT_TRUE(contains(message([](Space* s) { s->nodes[1].resize(3, 2); }), "a node"));
   EXPECT_TRUE(contains(message([](Space* s) { s->triangles(0, 0) = 5; }), "out of range"));
   EXPECT_TRUE(contains(message([](Space* s) { s->triangles.resize(3, 0); }), "neither"));
+  EXPECT_TRUE(contains(message([](Space* s) { s->distances.setZero(); }), "distances"));
+  EXPECT_TRUE(contains(message([](Space* s) { s->distances(0, 1) = 2; }), "symmetric"));
   EXPECT_TRUE(contains(message([](Space* s) { s->parents[0] = {0, 4}; }), "parents"));
   EXPECT_TRUE(
       contains(message([](Space* s) { s->points(0, 0) = std::numeric_limits<double>::infinity(); }),

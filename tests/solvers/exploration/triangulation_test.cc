@@ -57,7 +57,7 @@ TEST(TriangulationTest, NoPointLiesInsideACircleThroughATrianglesCorners) {
 TEST(TriangulationTest, FourPointsOfACircleAreTwoTriangles) {
   Eigen::Matrix2Xd square(2, 4);
   square << 0, 1, 1, 0, 0, 0, 1, 1;
-  for (double scale : {1e-6, 1.0, 1e6}) {
+  for (double scale : {1e-100, 1e-6, 1.0, 1e6, 1e100}) {
     const Triangulation triangulation = Triangulate(scale * square);
     ASSERT_EQ(triangulation.triangles.cols(), 2);
     EXPECT_NEAR(Area(scale * square, triangulation.triangles.col(0)), scale * scale / 2,

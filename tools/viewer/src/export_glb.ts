@@ -54,7 +54,7 @@ function minus(values: Float32Array, base: Float32Array): Float32Array {
 
 /**
  * The nodes that the curve touches become the mesh and its morph targets, so that the file holds no
- * shape twice, and the curve exactly.
+ * shape twice, and the whole curve, in the positions that the page has.
  */
 export async function curveToGlb(
   body: Body,

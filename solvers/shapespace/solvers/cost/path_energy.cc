@@ -21,10 +21,6 @@ void AddFeature(const Feature& feature, const Metric& metric, double quartic_wei
     std::vector<double*> blocks;
     if constexpr (Feature::kSum) {
       using Segment = SumSegment<Feature>;
-      if (num_vertices > kMaxDenseVertices) {
-        throw InvalidOptions("volume: couples all vertices; above " +
-                             std::to_string(kMaxDenseVertices) + " vertices use the solver kLbfgs");
-      }
       auto* const cost = new ceres::DynamicAutoDiffCostFunction<Segment>(
           new Segment{feature, num_vertices, std::sqrt(feature.weights(0))});
       for (Shape* shape : {&from, &to}) {
@@ -60,17 +56,39 @@ void AddFeature(const Feature& feature, const Metric& metric, double quartic_wei
   }
 }
 
+// Before anything is added.
+void Check(const Metric& metric, const std::vector<Shape>& shapes, const RigidMotions* motions) {
+  const int num_vertices = metric.connectivity->NumVertices();
+  if (shapes.size() < 2) throw MeshError("a path needs at least two shapes");
+  for (const Shape& shape : shapes) {
+    if (shape.cols() != num_vertices) {
+      throw MeshError("a shape has another number of vertices than the metric");
+    }
+  }
+  if (metric.rigid.Active() && motions == nullptr) {
+    throw InvalidOptions("motions: the rigid metric needs them");
+  }
+  for (const AnyFeature& any : metric.features) {
+    const bool is_sum = std::visit([](const auto& feature) { return feature.kSum; }, any);
+    if (is_sum && num_vertices > kMaxDenseVertices) {
+      throw InvalidOptions("volume: couples all vertices; above " +
+                           std::to_string(kMaxDenseVertices) + " vertices use the solver kLbfgs");
+    }
+  }
+}
+
 }  // namespace
 
 void AddPathEnergy(const Metric& metric, std::vector<Shape>* shapes, ceres::Problem* problem,
                    RigidMotions* motions, double quartic_weight) {
+  Check(metric, *shapes, motions);
+  for (Shape& shape : *shapes) {
+    for (int v = 0; v < shape.cols(); ++v) problem->AddParameterBlock(shape.col(v).data(), 3);
+  }
   for (const AnyFeature& any : metric.features) {
     std::visit(
         [&](const auto& feature) { AddFeature(feature, metric, quartic_weight, shapes, problem); },
         any);
-  }
-  if (metric.rigid.Active() && motions == nullptr) {
-    throw InvalidOptions("motions: the rigid metric needs them");
   }
   if (!metric.rigid.Active()) return;
   motions->setZero(6, shapes->size() - 1);

@@ -26,9 +26,10 @@ using RigidMotions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 ///
 /// `shapes` are in the metric's unit (Metric::unit). They, the metric and `motions` must outlive
 /// the problem, and must not be resized while it lives. `motions` is for the rigid metric, and not
-/// read without; it is resized here. `quartic_weight` as in PathEnergy::SetQuarticWeight. \throw
-/// InvalidOptions if the metric has a sum feature (volume) and more than kMaxDenseVertices
-///        vertices, or a rigid part and there are no `motions`.
+/// read without; it is resized here. `quartic_weight` as in PathEnergy::SetQuarticWeight.
+/// \throw MeshError if there are fewer than two shapes, or one has another number of vertices than
+///        the metric; InvalidOptions if the metric has a sum feature (volume) and more than
+///        kMaxDenseVertices vertices, or a rigid part and there are no `motions`.
 void AddPathEnergy(const Metric& metric, std::vector<Shape>* shapes, ceres::Problem* problem,
                    RigidMotions* motions = nullptr, double quartic_weight = 1);
 

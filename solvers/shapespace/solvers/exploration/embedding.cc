@@ -90,6 +90,13 @@ void EmbeddingOptions::Validate() const {
 Embedding Embed(const Eigen::MatrixXd& distances, const EmbeddingOptions& options) {
   options.Validate();
   CheckDistances(distances);
+  // In units of the greatest distance, so that squares are numbers too.
+  const double unit = distances.maxCoeff();
+  if (unit > 0 && unit != 1) {
+    Embedding scaled = Embed(distances / unit, options);
+    scaled.points *= unit;
+    return scaled;
+  }
   constexpr double kNoStress = 1e-14;  // of rounding
   Embedding result;
   result.points = ClassicalScaling(distances);

@@ -92,9 +92,10 @@ Eigen::MatrixXd MeasureDistances(Measuring* measuring, Progress* progress) {
 
 void CheckPoses(const Connectivity& connectivity, const std::vector<Shape>& poses) {
   if (poses.size() < 2) throw MeshError("a space needs at least two poses");
-  for (const Shape& pose : poses) {
-    if (pose.cols() != connectivity.NumVertices() || !pose.allFinite()) {
-      throw MeshError("a pose is not finite, or has another number of vertices than the mesh");
+  for (size_t i = 0; i < poses.size(); ++i) {
+    if (poses[i].cols() != connectivity.NumVertices() || !poses[i].allFinite()) {
+      throw MeshError("pose " + std::to_string(i) +
+                      " is not finite, or has another number of vertices than the mesh");
     }
   }
 }

@@ -38,9 +38,9 @@ struct ExploreOptions {
 
   EmbeddingOptions embedding;
 
-  /// A folder for finished geodesics, which must not be another program's: if a run is ended, the
-  /// next one with the same inputs and options goes on from there. They are left there at the end
-  /// (RemoveRecords). Empty: none.
+  /// A folder in which finished geodesics are kept, and nothing else should be: if a run is ended,
+  /// the next one with the same inputs and options goes on from there. The caller removes it
+  /// (RemoveRecords). Processes of a crew must all see the same disk. Empty: nothing is kept.
   std::string records;
 
   static GeodesicOptions Defaults();
@@ -51,7 +51,7 @@ struct ExploreOptions {
 
 /// What happened, and how good the answer is.
 struct ExploreSummary {
-  /// One look at all edges that are new.
+  /// A round: all new edges are measured, and some are split.
   struct Level {
     int cells = 0;   ///< triangles or segments before
     int edges = 0;   ///< that were new
@@ -95,8 +95,8 @@ struct ExploreResult {
 /// Lengths of the geodesics between every two poses, as pure numbers: symmetric, zero on the
 /// diagonal and between rigid copies. One metric, frozen on all poses, and one hierarchy serve all.
 /// \throw InvalidOptions, MeshError (fewer than two poses; see FreezeMetric), SolverError,
-/// FileError
-///        (records), Cancelled.
+/// Cancelled,
+///        FileError (records).
 Eigen::MatrixXd DistanceMatrix(const std::shared_ptr<const Connectivity>& connectivity,
                                const std::vector<Shape>& poses, const ExploreOptions& options = {},
                                Progress* progress = nullptr, Crew* crew = nullptr);

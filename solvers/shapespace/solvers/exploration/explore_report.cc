@@ -82,7 +82,8 @@ std::string ExploreSummary::ToJson() const {
                                        {"threads", threads},
                                        {"processes", processes},
                                        {"warnings", warnings}};
-  return json.dump(2) + "\n";
+  // Names of files need not be UTF-8.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace shapespace

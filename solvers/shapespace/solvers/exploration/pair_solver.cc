@@ -129,15 +129,10 @@ class OneOfMany : public Progress {
 PairSolver::PairSolver(const std::shared_ptr<const Connectivity>& connectivity,
                        const std::vector<Shape>& poses, const GeodesicOptions& options, Crew* crew,
                        const std::string& records)
-    : options_(options),
-      interpolator_(connectivity, poses, options),
+    : interpolator_(connectivity, poses, options),
       crew_(*crew),
       records_(records),
       digest_(DigestOf(*connectivity, poses, options)) {}
-
-void PairSolver::RemoveRecords() const {
-  if (crew_.Rank() == 0) records_.Remove();
-}
 
 std::string PairSolver::Digest(const Pair& pair) const {
   Hasher hasher;
@@ -150,7 +145,7 @@ std::string PairSolver::Digest(const Pair& pair) const {
 
 std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const std::string& stage,
                                           Progress* progress) {
-  // The first process says what is there: others may see another disk.
+  // The first process says what is there, so that all see the same.
   std::vector<std::string> records(pairs.size());
   std::vector<int> missing;
   for (size_t i = 0; i < pairs.size(); ++i) {

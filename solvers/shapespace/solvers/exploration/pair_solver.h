@@ -14,7 +14,7 @@
 
 namespace shapespace::internal {
 
-/// Two shapes, turned onto each other, centred, in the metric's unit.
+/// Two shapes of a space: centred, turned onto the first pose, in the metric's unit.
 struct Pair {
   const Shape* from = nullptr;
   const Shape* to = nullptr;
@@ -50,14 +50,10 @@ class PairSolver {
   std::vector<PairResult> Solve(const std::vector<Pair>& pairs, const std::string& stage,
                                 Progress* progress);
 
-  /// Removes what was kept on disk.
-  void RemoveRecords() const;
-
  private:
   std::string Digest(const Pair& pair) const;
   std::string SolveOne(const Pair& pair, Progress* progress);
 
-  const GeodesicOptions options_;
   Interpolator interpolator_;
   Crew& crew_;
   const Records records_;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <shapespace/base/error.h>
+#include <shapespace/solvers/exploration/triangulation.h>
 
 namespace shapespace {
 namespace {
@@ -65,8 +66,9 @@ PlaneLocation Space::Locate(const Eigen::Vector2d& point) const {
     for (int k = 0; k < 3; ++k) try_side(triangles(k, t), triangles((k + 1) % 3, t));
   }
   for (int s = 0; s < segments.cols(); ++s) try_side(segments(0, s), segments(1, s));
+  // Points count as lying on a line if they are as near to it as those of a triangulation are.
   const double extent = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
-  best.inside = nearest <= kRounding * extent;
+  best.inside = nearest <= (triangles.cols() > 0 ? kRounding : kFlat) * extent;
   return best;
 }
 
@@ -94,6 +96,9 @@ void Space::Validate() const {
   if (!points.allFinite() || !distances.allFinite() || !translation.allFinite()) {
     fail("a point or a distance is not finite");
   }
+  if (distances.minCoeff() < 0 || distances.maxCoeff() == 0 || distances != distances.transpose()) {
+    fail("its distances are negative, all zero, or not symmetric");
+  }
   const auto in_range = [](const auto& indices, int end) {
     return indices.size() == 0 || (indices.minCoeff() >= 0 && indices.maxCoeff() < end);
   };
@@ -116,8 +121,9 @@ Walk Along(const Space& space, const std::vector<Eigen::Vector2d>& polyline, int
   std::vector<double> length = {0};  // up to each point
   for (size_t i = 0; i < polyline.size(); ++i) {
     if (!polyline[i].allFinite()) throw InvalidOptions("points: one is not finite");
-    if (i > 0) length.push_back(length.back() + (polyline[i] - polyline[i - 1]).norm());
+    if (i > 0) length.push_back(length.back() + (polyline[i] - polyline[i - 1]).stableNorm());
   }
+  if (!std::isfinite(length.back())) throw InvalidOptions("points: the curve has no finite length");
   Walk walk;
   walk.path.metric = space.metric;
   walk.path.appearance = space.appearance;

@@ -31,7 +31,7 @@ Space Parse(const std::string& file, const std::string& bytes) {
     space.nodes.push_back(arrays.Get<Shape>("node" + std::to_string(i), 3,
                                             space.metric->connectivity->NumVertices()));
   }
-  header.at("names").get_to(space.names);
+  space.names = internal::NamesFromJson(header.at("names"));
   header.at("stress").get_to(space.stress);
   header.at("provenance").get_to(space.provenance);
   space.translation = arrays.Get<Eigen::Vector3d>("translation", 3, 1);
@@ -74,7 +74,7 @@ void WriteSpace(const std::string& file, const Space& space) {
   internal::AddMetric(*space.metric, &header, &arrays);
   internal::AddAppearance(space.appearance, file, &header, &arrays);
   header["nodes"] = space.NumNodes();
-  header["names"] = space.names;
+  header["names"] = internal::NamesToJson(space.names);
   header["stress"] = space.stress;
   header["provenance"] = space.provenance;
   arrays.Add("translation", space.translation);

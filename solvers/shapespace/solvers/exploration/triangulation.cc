@@ -1,8 +1,10 @@
 #include <shapespace/solvers/exploration/triangulation.h>
 
 #include <algorithm>
+#include <string>
 
 #include <libqhullcpp/Qhull.h>
+#include <libqhullcpp/QhullError.h>
 #include <libqhullcpp/QhullFacetList.h>
 #include <libqhullcpp/QhullVertexSet.h>
 #include <Eigen/Eigenvalues>
@@ -14,14 +16,19 @@ namespace {
 
 // Points nearer to each other than this share of the extent are one.
 constexpr double kCoincident = 1e-9;
-constexpr double kFlat = 1e-2;
 
 Eigen::Matrix3Xi Delaunay(const Eigen::Matrix2Xd& points, const std::vector<int>& kept) {
   std::vector<double> coordinates;
   for (int i : kept) coordinates.insert(coordinates.end(), {points(0, i), points(1, i)});
+  const double extent = points.cwiseAbs().maxCoeff();
+  for (double& coordinate : coordinates) coordinate /= extent;
   orgQhull::Qhull qhull;
   // Scaled to the cube, with a point at infinity, and facets of more than three points cut up.
-  qhull.runQhull("", 2, static_cast<int>(kept.size()), coordinates.data(), "d Qbb Qz Qt Q12");
+  try {
+    qhull.runQhull("", 2, static_cast<int>(kept.size()), coordinates.data(), "d Qbb Qz Qt Q12");
+  } catch (const orgQhull::QhullError& error) {
+    throw SolverError(std::string("the points could not be triangulated: ") + error.what());
+  }
   std::vector<Eigen::Vector3i> triangles;
   for (const orgQhull::QhullFacet& facet : qhull.facetList()) {
     if (!facet.isGood() || facet.isUpperDelaunay()) continue;
