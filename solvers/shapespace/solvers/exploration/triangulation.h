@@ -20,8 +20,8 @@ struct Triangulation {
 inline constexpr double kFlat = 1e-2;
 
 /// The Delaunay triangulation of points of the plane, by Qhull.
-/// \throw InvalidOptions if a point is not finite, or if fewer than two differ; SolverError if Qhull
-///        fails.
+/// \throw InvalidOptions if a point is not finite, or if fewer than two differ; SolverError if
+///        Qhull fails.
 Triangulation Triangulate(const Eigen::Matrix2Xd& points);
 
 }  // namespace shapespace
