@@ -134,24 +134,9 @@ void Sample(const std::string& file) {
   WriteOutputs(outputs, walk.path, walk.path);
 }
 
-// Nobody shall believe that a flag did anything which did not.
-void RefuseFlags(std::vector<std::string> flags, const std::string& reason) {
-  flags.erase(std::remove_if(flags.begin(), flags.end(),
-                             [](const std::string& flag) { return !IsGiven(flag.c_str()); }),
-              flags.end());
-  if (!flags.empty()) throw UsageError("--" + flags[0] + ": " + reason);
-}
-
-std::vector<std::string> Joined(std::vector<std::string> flags,
-                                const std::vector<std::string>& more) {
-  flags.insert(flags.end(), more.begin(), more.end());
-  return flags;
-}
-
 void MeasureSpace(const std::string& file, Crew* crew) {
   RefuseFlags(
-      Joined(GivenFlags("support/metric_flags.cc"),
-             {"depth", "output", "report", "strict", "stiffeners"}),
+      {"support/metric_flags.cc"}, {"depth", "output", "report", "strict", "stiffeners"},
       "goes with poses; " + file + " is measured as it is, with the metric that it carries");
   ExploreOptions options = ExploreFromFlags(file + ".measure.records");
   const Space space = ReadSpace(file);
@@ -165,14 +150,13 @@ void Run(const std::vector<std::string>& files) {
   if (!FLAGS_sample.empty()) {
     if (!is_space) throw UsageError("--sample: goes with one .space file");
     if (!IsGiven("output")) throw UsageError("--sample: needs --output, a .glb for example");
-    RefuseFlags(Joined(Joined(GivenFlags("support/metric_flags.cc"),
-                              GivenFlags("support/geodesic_flags.cc")),
-                       {"depth", "measure", "resolution", "threshold", "report", "strict"}),
+    RefuseFlags({"support/metric_flags.cc", "support/geodesic_flags.cc"},
+                {"depth", "measure", "resolution", "threshold", "report", "strict"},
                 "does nothing with --sample");
     Sample(files[0]);
     return;
   }
-  RefuseFlags({"frames"}, "goes with --sample");
+  RefuseFlags({}, {"frames"}, "goes with --sample");
   if (is_space && FLAGS_measure == 0) {
     throw UsageError(files[0] + ": give --sample or --measure; shape-view shows it");
   }

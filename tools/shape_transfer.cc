@@ -46,18 +46,12 @@ constexpr char kShapes[] = "7";
 
 // Flags that would have no effect are refused.
 void CheckFlagsOfTheLadder(bool climbs) {
-  std::vector<std::string> of_climbing = GivenFlags("support/geodesic_flags.cc");
-  for (const std::string& flag : GivenFlags("support/metric_flags.cc")) of_climbing.push_back(flag);
-  for (const char* flag : {"memory_limit", "connection"}) {
-    if (IsGiven(flag)) of_climbing.push_back(flag);
-  }
-  if (!climbs && !of_climbing.empty()) {
-    throw UsageError("--" + of_climbing[0] + ": goes with --method ladder");
-  }
-  for (const char* flag : {"ladder_bending", "rung_shapes", "scale", "align"}) {
-    if (!climbs && FLAGS_hybrids.empty() && IsGiven(flag)) {
-      throw UsageError("--" + std::string(flag) + ": goes with --method ladder or --hybrids");
-    }
+  if (climbs) return;
+  RefuseFlags({"support/geodesic_flags.cc", "support/metric_flags.cc"},
+              {"memory_limit", "connection"}, "goes with --method ladder");
+  if (FLAGS_hybrids.empty()) {
+    RefuseFlags({}, {"ladder_bending", "rung_shapes", "scale", "align"},
+                "goes with --method ladder or --hybrids");
   }
 }
 

@@ -270,6 +270,9 @@ TEST_F(PageTest, WritesSpacesForOtherTests) {
   line.segments << 0, 1;
   line.name = "line.space";
   WritePage(std::string(folder) + "/line.html", viewer, {line});
+  for (const char* name : {"/space.html", "/line.html"}) {
+    EXPECT_GT(ReadFile(folder + std::string(name)).size(), viewer.size()) << name;
+  }
 }
 
 }  // namespace

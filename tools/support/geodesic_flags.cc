@@ -64,15 +64,9 @@ bool IsOnePath(const std::vector<std::string>& files) {
     throw UsageError("name at least two poses of one mesh, or one .path file alone");
   }
   if (!is_path) return false;
-  std::vector<std::string> flags = GivenFlags("support/geodesic_flags.cc");
-  for (const std::string& flag : GivenFlags("support/metric_flags.cc")) flags.push_back(flag);
-  for (const char* flag : {"memory_limit", "stiffeners"}) {
-    if (IsGiven(flag)) flags.push_back(flag);
-  }
-  if (!flags.empty()) {
-    throw UsageError("--" + flags[0] + ": goes with poses; " + files[0] +
-                     " is solved, with the metric that it carries");
-  }
+  RefuseFlags({"support/geodesic_flags.cc", "support/metric_flags.cc"},
+              {"memory_limit", "stiffeners"},
+              "goes with poses; " + files[0] + " is solved, with the metric that it carries");
   return true;
 }
 

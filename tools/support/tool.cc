@@ -85,12 +85,16 @@ void PrintHelp(const Program& program) {
 
 bool IsGiven(const char* flag) { return !gflags::GetCommandLineFlagInfoOrDie(flag).is_default; }
 
-std::vector<std::string> GivenFlags(const std::string& source) {
-  std::vector<std::string> names;
-  for (const gflags::CommandLineFlagInfo& flag : FlagsOf(source)) {
-    if (!flag.is_default) names.push_back(flag.name);
+void RefuseFlags(const std::vector<std::string>& sources, const std::vector<std::string>& flags,
+                 const std::string& reason) {
+  for (const std::string& source : sources) {
+    for (const gflags::CommandLineFlagInfo& flag : FlagsOf(source)) {
+      if (!flag.is_default) throw UsageError("--" + flag.name + ": " + reason);
+    }
   }
-  return names;
+  for (const std::string& flag : flags) {
+    if (IsGiven(flag.c_str())) throw UsageError("--" + flag + ": " + reason);
+  }
 }
 
 std::string AsTyped(const std::string& flag) {

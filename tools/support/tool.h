@@ -34,8 +34,11 @@ int RunTool(int argc, char** argv, const Program& program,
 /// Whether the command line gave this flag.
 bool IsGiven(const char* flag);
 
-/// Those flags of one of `flag_sources` that the command line gave, by name.
-std::vector<std::string> GivenFlags(const std::string& source);
+/// So that nobody believes that a flag did anything which did not: `flags`, and all of `sources`,
+/// which are some of `flag_sources`, do nothing here, for `reason`.
+/// \throw UsageError "--flag: reason" if the command line gave one of them.
+void RefuseFlags(const std::vector<std::string>& sources, const std::vector<std::string>& flags,
+                 const std::string& reason);
 
 /// A flag as messages name it, with its value as it was typed: "--unit 1e-3"; without value if the
 /// command line did not give it.

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <zlib.h>
+
+#include <shapespace/base/atomic_file.h>
 
 namespace shapespace::internal {
 namespace {
@@ -82,6 +85,14 @@ HeaderJson UnpackHeader(const ArrayFileKind& kind, const std::string& bytes, siz
   }
   *arrays_begin = kPreamble + header_size;
   return HeaderJson::parse(bytes.substr(kPreamble, header_size));
+}
+
+void WriteArrayFile(const std::string& file, const ArrayFileKind& kind, HeaderJson header,
+                    const ArrayWriter& arrays) {
+  const std::string bytes = PackArrayFile(kind, std::move(header), arrays);
+  WriteFileAtomically(file, [&](std::ostream& out) {
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  });
 }
 
 std::vector<int> IndicesFrom(const ArrayReader& arrays, const std::string& name) {

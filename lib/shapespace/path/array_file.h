@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <exception>
 #include <map>
 #include <string>
 #include <type_traits>
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/read_file.h>
 
 // Private: the layout that files of ours share. A JSON header tells what follows it: arrays of
 // numbers with all their bits, under one checksum (docs/file-formats.md).
@@ -93,6 +95,24 @@ std::string PackArrayFile(const ArrayFileKind& kind, HeaderJson header, const Ar
 /// \throw FileError, without the file's name: another kind of file, of another version, cut off or
 ///        damaged (its checksum does not fit).
 HeaderJson UnpackHeader(const ArrayFileKind& kind, const std::string& bytes, size_t* arrays_begin);
+
+/// Writes a file of this layout, whole or not at all. \throw FileError.
+void WriteArrayFile(const std::string& file, const ArrayFileKind& kind, HeaderJson header,
+                    const ArrayWriter& arrays);
+
+/// What `parse` makes of the header and the arrays of a file. \throw FileError naming the file,
+/// whatever is wrong with it.
+template <typename Parse>
+auto ReadArrayFile(const std::string& file, const ArrayFileKind& kind, const Parse& parse) {
+  const std::string bytes = ReadFile(file);
+  try {
+    size_t begin;
+    const HeaderJson header = UnpackHeader(kind, bytes, &begin);
+    return parse(header, ArrayReader(header.at("arrays"), bytes, begin));
+  } catch (const std::exception& error) {
+    throw FileError(file + ": " + error.what());
+  }
+}
 
 /// The integers of an array of one column.
 std::vector<int> IndicesFrom(const ArrayReader& arrays, const std::string& name);

@@ -1,10 +1,8 @@
 #include <shapespace/path/path_file.h>
 
-#include <exception>
+#include <utility>
 
-#include <shapespace/base/atomic_file.h>
 #include <shapespace/base/error.h>
-#include <shapespace/base/read_file.h>
 #include <shapespace/path/metric_arrays.h>
 
 namespace shapespace {
@@ -16,10 +14,7 @@ using internal::HeaderJson;
 
 constexpr internal::ArrayFileKind kKind = {"SHAPPATH", 2, ".path"};
 
-Path Parse(const std::string& file, const std::string& bytes) {
-  size_t begin;
-  const HeaderJson header = internal::UnpackHeader(kKind, bytes, &begin);
-  const ArrayReader arrays(header.at("arrays"), bytes, begin);
+Path Parse(const std::string& file, const HeaderJson& header, const ArrayReader& arrays) {
   Path path;
   path.metric = internal::ReadMetric(header, arrays);
   const int num_vertices = path.metric->connectivity->NumVertices();
@@ -69,19 +64,14 @@ void WritePath(const std::string& file, const Path& path) {
   header["extrapolated"] = path.extrapolated;
   header["converged"] = path.converged;
   header["provenance"] = path.provenance;
-  const std::string bytes = internal::PackArrayFile(kKind, std::move(header), arrays);
-  WriteFileAtomically(file, [&](std::ostream& out) {
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  });
+  internal::WriteArrayFile(file, kKind, std::move(header), arrays);
 }
 
 Path ReadPath(const std::string& file) {
-  const std::string bytes = ReadFile(file);
-  try {
-    return Parse(file, bytes);
-  } catch (const std::exception& error) {
-    throw FileError(file + ": " + error.what());
-  }
+  return internal::ReadArrayFile(file, kKind,
+                                 [&](const HeaderJson& header, const ArrayReader& arrays) {
+                                   return Parse(file, header, arrays);
+                                 });
 }
 
 }  // namespace shapespace

@@ -40,14 +40,21 @@ void CheckMemory(double bytes, const GeodesicOptions& options) {
                     " MB, more than the memory limit; insert fewer shapes or raise memory_limit");
 }
 
+// All of `shapes` as a level sees them.
+std::vector<Shape> Restrict(const Hierarchy& hierarchy, const std::vector<Shape>& shapes,
+                            int level) {
+  std::vector<Shape> restricted;
+  for (const Shape& shape : shapes) restricted.push_back(hierarchy.Restrict(shape, level));
+  return restricted;
+}
+
 // A metric of each level's own, in the mesh's unit.
 std::vector<internal::Resolution> Resolve(const Hierarchy& hierarchy,
                                           const std::shared_ptr<const Metric>& metric,
                                           const std::vector<Shape>& aligned, PosePairs pairs) {
   std::vector<internal::Resolution> resolutions;
   for (int level = 0; level < hierarchy.NumLevels(); ++level) {
-    std::vector<Shape> poses;
-    for (const Shape& pose : aligned) poses.push_back(hierarchy.Restrict(pose, level));
+    std::vector<Shape> poses = Restrict(hierarchy, aligned, level);
     auto own = metric;
     if (level + 1 < hierarchy.NumLevels()) {
       own = std::make_shared<const Metric>(
@@ -278,9 +285,7 @@ class GeodesicLevels {
 
 void GeodesicLevels::SetPoses(const std::vector<Shape>& aligned) {
   for (int level = 0; level < hierarchy_.NumLevels(); ++level) {
-    std::vector<Shape> poses;
-    for (const Shape& pose : aligned) poses.push_back(hierarchy_.Restrict(pose, level));
-    resolutions_[level].SetPoses(std::move(poses));
+    resolutions_[level].SetPoses(Restrict(hierarchy_, aligned, level));
   }
 }
 

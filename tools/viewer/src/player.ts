@@ -44,12 +44,12 @@ export class Player {
   /** Lets time pass; whether more of it should. */
   advance(seconds: number): boolean {
     if (!this.running) return false;
-    let place = this.at + (this.direction * this.speed * seconds) / this.duration;
+    const there = this.at + (this.direction * this.speed * seconds) / this.duration;
+    let place = there;
     if (this.repeat === 'loop') place -= Math.floor(place);
     if (this.repeat === 'swing') {
       place = Math.abs(place % 2);
       if (place > 1) place = 2 - place;
-      const there = this.at + (this.direction * this.speed * seconds) / this.duration;
       if (Math.abs(Math.floor(there)) % 2 === 1) this.direction = -this.direction;
     }
     this.move(Math.min(1, place));

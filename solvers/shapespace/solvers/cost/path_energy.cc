@@ -5,6 +5,7 @@
 #include <variant>
 
 #include <shapespace/base/error.h>
+#include <shapespace/solvers/cost/refuse_sums.h>
 #include <shapespace/solvers/cost/segment_cost.h>
 
 namespace shapespace::cost {
@@ -68,13 +69,8 @@ void Check(const Metric& metric, const std::vector<Shape>& shapes, const RigidMo
   if (metric.rigid.Active() && motions == nullptr) {
     throw InvalidOptions("motions: the rigid metric needs them");
   }
-  for (const AnyFeature& any : metric.features) {
-    const bool is_sum = std::visit([](const auto& feature) { return feature.kSum; }, any);
-    if (is_sum && num_vertices > kMaxDenseVertices) {
-      throw InvalidOptions("volume: couples all vertices; above " +
-                           std::to_string(kMaxDenseVertices) + " vertices use the solver kLbfgs");
-    }
-  }
+  RefuseSums(metric, kMaxDenseVertices,
+             "above " + std::to_string(kMaxDenseVertices) + " vertices use the solver kLbfgs");
 }
 
 }  // namespace

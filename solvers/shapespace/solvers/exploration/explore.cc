@@ -317,9 +317,7 @@ BlendErrors MeasureBlends(const Space& space, int samples, const ExploreOptions&
     return Pair{&between[k].shape, &nodes[locations[k].nodes[2]], locations[k].weights[2]};
   });
   std::vector<Shape> linear;
-  for (const auto& [n, w, point, inside] : locations) {
-    linear.push_back(w[0] * nodes[n[0]] + w[1] * nodes[n[1]] + w[2] * nodes[n[2]]);
-  }
+  for (const PlaneLocation& location : locations) linear.push_back(BlendNodes(nodes, location));
   const std::vector<PairResult> off = solve("how far they are off", [&](int k) {
     return Pair{&linear[k], &blended[k].shape, -1};
   });

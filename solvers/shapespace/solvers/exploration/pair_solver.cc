@@ -76,16 +76,6 @@ double Length(const Metric& metric, const std::vector<Shape>& shapes) {
   return length;
 }
 
-// Of the straight line from one shape to another, at as many points as a path has.
-double BlendLength(const Metric& metric, const Pair& pair, int segments) {
-  std::vector<Shape> shapes;
-  for (int i = 0; i <= segments; ++i) {
-    const double t = static_cast<double>(i) / segments;
-    shapes.push_back((1 - t) * *pair.from + t * *pair.to);
-  }
-  return Length(metric, shapes);
-}
-
 std::string Pack(const std::string& digest, const PairResult& result) {
   HeaderJson header = {{"digest", digest}, {"converged", result.converged}};
   ArrayWriter arrays;
@@ -146,19 +136,19 @@ std::string PairSolver::Digest(const Pair& pair) const {
 std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const std::string& stage,
                                           Progress* progress) {
   // The first process says what is there, so that all see the same.
-  std::vector<std::string> records(pairs.size());
+  std::vector<std::string> digests, records;
   std::vector<int> missing;
   for (size_t i = 0; i < pairs.size(); ++i) {
+    digests.push_back(Digest(pairs[i]));
+    std::string record;
     if (crew_.Rank() == 0) {
-      if (auto bytes = records_.Find(Digest(pairs[i]))) {
-        if (Unpack(Digest(pairs[i]), *bytes)) {
-          records[i] = *std::move(bytes);
-        } else {
-          ++counts_.damaged;
-        }
+      record = records_.Find(digests[i]).value_or("");
+      if (!record.empty() && !Unpack(digests[i], record)) {
+        ++counts_.damaged;
+        record.clear();
       }
     }
-    records[i] = crew_.FromFirst(records[i]);
+    records.push_back(crew_.FromFirst(record));
     if (records[i].empty()) missing.push_back(static_cast<int>(i));
   }
   const int total = static_cast<int>(missing.size());
@@ -167,7 +157,9 @@ std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const 
   if (progress != nullptr) progress->ReportShare(0);
   std::vector<std::string> solved = crew_.ForEach(total, [&](int i) {
     OneOfMany one(progress, stage, i, total);
-    std::string bytes = SolveOne(pairs[missing[i]], &one);
+    const PairResult result = SolveOne(pairs[missing[i]], &one);
+    std::string bytes = Pack(digests[missing[i]], result);
+    records_.Keep(digests[missing[i]], bytes);
     if (progress != nullptr) progress->ReportShare((i + 1.0) / total);
     return bytes;
   });
@@ -175,7 +167,7 @@ std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const 
 
   std::vector<PairResult> results;
   for (size_t i = 0; i < pairs.size(); ++i) {
-    auto result = Unpack(Digest(pairs[i]), records[i]);
+    auto result = Unpack(digests[i], records[i]);
     if (!result) throw SolverError("a geodesic came damaged from another process");
     if (!result->converged) ++counts_.not_converged;
     results.push_back(*std::move(result));
@@ -184,7 +176,7 @@ std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const 
   return results;
 }
 
-std::string PairSolver::SolveOne(const Pair& pair, Progress* progress) {
+PairResult PairSolver::SolveOne(const Pair& pair, Progress* progress) {
   const Metric& metric = *GetMetric();
   ReportProgress(progress, {}, 0, 0);
   const GeodesicResult found =
@@ -192,7 +184,8 @@ std::string PairSolver::SolveOne(const Pair& pair, Progress* progress) {
   if (found.summary.termination == Termination::kCancelled) throw Cancelled();
   PairResult result;
   result.length = Length(metric, found.path.shapes);
-  result.blend_length = BlendLength(metric, pair, found.path.NumShapes() - 1);
+  result.blend_length =
+      Length(metric, Resample({*pair.from, *pair.to}, {0, 1}, found.path.parameters));
   result.converged = found.path.converged;
   result.shape.resize(3, 0);
   if (pair.t >= 0) {
@@ -200,9 +193,7 @@ std::string PairSolver::SolveOne(const Pair& pair, Progress* progress) {
     const Shape blend = (1 - pair.t) * *pair.from + pair.t * *pair.to;
     result.shape = FitRigidMotion(shape, blend, metric.vertex_area)(shape);
   }
-  std::string bytes = Pack(Digest(pair), result);
-  records_.Keep(Digest(pair), bytes);
-  return bytes;
+  return result;
 }
 
 }  // namespace shapespace::internal

@@ -52,7 +52,7 @@ class PairSolver {
 
  private:
   std::string Digest(const Pair& pair) const;
-  std::string SolveOne(const Pair& pair, Progress* progress);
+  PairResult SolveOne(const Pair& pair, Progress* progress);
 
   Interpolator interpolator_;
   Crew& crew_;

@@ -29,6 +29,12 @@ double ToSide(const Eigen::Matrix2Xd& points, int a, int b, const Eigen::Vector2
 
 }  // namespace
 
+Shape BlendNodes(const std::vector<Shape>& nodes, const PlaneLocation& location, double scale) {
+  const auto& [a, b, c] = location.nodes;
+  const auto& [u, v, w] = location.weights;
+  return scale * u * nodes[a] + scale * v * nodes[b] + scale * w * nodes[c];
+}
+
 PlaneLocation Space::Locate(const Eigen::Vector2d& point) const {
   // Inside by this much less than nothing, as a share of the triangle, is rounding.
   constexpr double kRounding = 1e-12;
@@ -73,10 +79,7 @@ PlaneLocation Space::Locate(const Eigen::Vector2d& point) const {
 }
 
 Shape Space::Blend(const PlaneLocation& location) const {
-  const auto& [a, b, c] = location.nodes;
-  const Eigen::Vector3d w =
-      metric->unit * Eigen::Vector3d(location.weights[0], location.weights[1], location.weights[2]);
-  return (w(0) * nodes[a] + w(1) * nodes[b] + w(2) * nodes[c]).colwise() + translation;
+  return BlendNodes(nodes, location, metric->unit).colwise() + translation;
 }
 
 void Space::Validate() const {
@@ -145,9 +148,7 @@ Walk Along(const Space& space, const std::vector<Eigen::Vector2d>& polyline, int
     for (int k = 0; k < 3; ++k) {
       if (weights[k] == 1 && nodes[k] < space.NumPoses()) walk.path.poses.push_back(frame);
     }
-    walk.path.shapes.push_back(weights[0] * space.nodes[nodes[0]] +
-                               weights[1] * space.nodes[nodes[1]] +
-                               weights[2] * space.nodes[nodes[2]]);
+    walk.path.shapes.push_back(BlendNodes(space.nodes, location));
     walk.path.parameters.push_back(frames > 1 ? t : 0);
     walk.path.motions.push_back({Eigen::Matrix3d::Identity(), space.translation});
     walk.locations.push_back(location);

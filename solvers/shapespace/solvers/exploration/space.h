@@ -24,6 +24,9 @@ struct PlaneLocation {
   bool inside = true;                               ///< false: the point lies outside the hull
 };
 
+/// scale (w_1 node_1 + w_2 node_2 + w_3 node_3).
+Shape BlendNodes(const std::vector<Shape>& nodes, const PlaneLocation& location, double scale = 1);
+
 /// Poses of a mesh and shapes between them, spread out on a plane such that distances on the plane
 /// are about the lengths of geodesics (Kilian et al. 2007, section 5 and Figures 7 and 8). Between
 /// nodes shapes are blended linearly, over the triangles of the plane.

@@ -1,9 +1,8 @@
 #include <shapespace/solvers/exploration/space_file.h>
 
 #include <algorithm>
-#include <exception>
+#include <utility>
 
-#include <shapespace/base/atomic_file.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/json.h>
 #include <shapespace/base/quoted.h>
@@ -19,10 +18,7 @@ using internal::HeaderJson;
 
 constexpr internal::ArrayFileKind kKind = {"SHAPPLAN", 1, ".space"};
 
-Space Parse(const std::string& file, const std::string& bytes) {
-  size_t begin;
-  const HeaderJson header = internal::UnpackHeader(kKind, bytes, &begin);
-  const ArrayReader arrays(header.at("arrays"), bytes, begin);
+Space Parse(const std::string& file, const HeaderJson& header, const ArrayReader& arrays) {
   Space space;
   space.metric = internal::ReadMetric(header, arrays);
   space.appearance = internal::ReadAppearance(header, file, arrays);
@@ -90,19 +86,14 @@ void WriteSpace(const std::string& file, const Space& space) {
   for (int i = 0; i < space.NumNodes(); ++i) {
     arrays.Add("node" + std::to_string(i), space.nodes[i]);
   }
-  const std::string bytes = internal::PackArrayFile(kKind, std::move(header), arrays);
-  WriteFileAtomically(file, [&](std::ostream& out) {
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  });
+  internal::WriteArrayFile(file, kKind, std::move(header), arrays);
 }
 
 Space ReadSpace(const std::string& file) {
-  const std::string bytes = ReadFile(file);
-  try {
-    return Parse(file, bytes);
-  } catch (const std::exception& error) {
-    throw FileError(file + ": " + error.what());
-  }
+  return internal::ReadArrayFile(file, kKind,
+                                 [&](const HeaderJson& header, const ArrayReader& arrays) {
+                                   return Parse(file, header, arrays);
+                                 });
 }
 
 std::vector<Eigen::Vector2d> ReadCurve(const std::string& file, const Space& space) {

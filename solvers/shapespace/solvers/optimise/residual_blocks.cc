@@ -35,9 +35,7 @@ void ResidualBlocks::AddPull(double weight, const Eigen::Vector3d& target, doubl
                             nullptr, vertex);
 }
 
-void ResidualBlocks::Fix(double* vertex) {
-  if (problem_.HasParameterBlock(vertex)) problem_.SetParameterBlockConstant(vertex);
-}
+void ResidualBlocks::Fix(double* vertex) { problem_.SetParameterBlockConstant(vertex); }
 
 void ResidualBlocks::Fix(Shape* shape) {
   for (int v = 0; v < shape->cols(); ++v) Fix(shape->col(v).data());

@@ -15,6 +15,7 @@
 #include <shapespace/solvers/cost/euler_lagrange.h>
 #include <shapespace/solvers/cost/first_integral.h>
 #include <shapespace/solvers/cost/path_energy.h>
+#include <shapespace/solvers/cost/refuse_sums.h>
 #include <shapespace/solvers/cost/transport_constraint.h>
 
 namespace shapespace::internal {
@@ -43,26 +44,14 @@ ceres::Solver::Options SolverOptions(int max_iterations) {
   return options;
 }
 
-void RefuseSums(const Metric& metric, int max_vertices, const std::string& remedy) {
-  if (metric.connectivity->NumVertices() <= max_vertices) return;
-  for (const AnyFeature& any : metric.features) {
-    std::visit(
-        [&](const auto& feature) {
-          if (feature.kSum) {
-            throw InvalidOptions(std::string(feature.kName) + ": couples all vertices; " + remedy);
-          }
-        },
-        any);
-  }
-}
-
 }  // namespace
 
 StepResult SolveStepWithCeres(const FeatureMap& map, const Shape& at, const Eigen::VectorXd& target,
                               double tolerance, int max_iterations, Shape* shape) {
   const Metric& metric = map.GetMetric();
-  RefuseSums(metric, cost::kMaxDenseVertices,
-             "above " + std::to_string(cost::kMaxDenseVertices) + " vertices use another solver");
+  cost::RefuseSums(
+      metric, cost::kMaxDenseVertices,
+      "above " + std::to_string(cost::kMaxDenseVertices) + " vertices use another solver");
   const FeatureDerivative derivative = map.Derivative(at);
   const auto residual = [&](const Shape& p) {
     return derivative.TransposeTimes(map.Values(p) - target).norm();
@@ -109,7 +98,8 @@ StepResult SolveStepWithCeres(const FeatureMap& map, const Shape& at, const Eige
 StepResult SolveFirstIntegral(const FeatureMap& map, const Shape& at, const Tangent& constants,
                               FirstIntegralSolver solver, double tolerance, int max_iterations,
                               Tangent* velocity) {
-  RefuseSums(map.GetMetric(), 0, "the first integral (7) cannot take it; use another integrator");
+  cost::RefuseSums(map.GetMetric(), 0,
+                   "the first integral (7) cannot take it; use another integrator");
   const int num_vertices = static_cast<int>(at.cols());
   StepResult result;
   const double norm = 2 * constants.norm();

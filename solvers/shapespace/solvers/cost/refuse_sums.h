@@ -1,0 +1,31 @@
+#ifndef SHAPESPACE_SOLVERS_COST_REFUSE_SUMS_H_
+#define SHAPESPACE_SOLVERS_COST_REFUSE_SUMS_H_
+
+#include <string>
+#include <variant>
+
+#include <shapespace/base/error.h>
+#include <shapespace/metric/metric.h>
+
+// Private: sum features couple all vertices, so that their rows are dense.
+
+namespace shapespace::cost {
+
+/// \throw InvalidOptions, ending in `remedy`, if the metric has a sum feature and more than
+///        `max_vertices` vertices.
+inline void RefuseSums(const Metric& metric, int max_vertices, const std::string& remedy) {
+  if (metric.connectivity->NumVertices() <= max_vertices) return;
+  for (const AnyFeature& any : metric.features) {
+    std::visit(
+        [&](const auto& feature) {
+          if (feature.kSum) {
+            throw InvalidOptions(std::string(feature.kName) + ": couples all vertices; " + remedy);
+          }
+        },
+        any);
+  }
+}
+
+}  // namespace shapespace::cost
+
+#endif  // SHAPESPACE_SOLVERS_COST_REFUSE_SUMS_H_
