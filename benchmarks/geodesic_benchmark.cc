@@ -127,10 +127,8 @@ BENCHMARK(Membrane)
 
 // Named Schedule/<pair of poses>/<schedule>.
 const bool kSchedulesRegistered = [] {
-  const std::pair<const char*, Schedule> schedules[] = {{"automatic", Schedule::kAutomatic},
-                                                        {"start", Schedule::kStart},
-                                                        {"paper", Schedule::kPaper},
-                                                        {"flat", Schedule::kFlat}};
+  const std::pair<const char*, Schedule> schedules[] = {
+      {"automatic", Schedule::kAutomatic}, {"paper", Schedule::kPaper}, {"flat", Schedule::kFlat}};
   const double bending = MetricOptions().bending;
   const struct {
     std::string name, from, to;

@@ -16,9 +16,9 @@ DEFINE_double(tolerance, 1e-4,
 DEFINE_int32(max_iterations, 500, "iterations a level may take");
 DEFINE_string(solver, "automatic",
               "automatic, lbfgs (of Ceres), threaded_lbfgs (ours) or trust_region (of Ceres)");
-DEFINE_string(schedule, "automatic",
-              "order of resolutions: automatic, start (in space for the first shape only), paper "
-              "(space and time in turn) or flat (no hierarchy)");
+DEFINE_string(
+    schedule, "automatic",
+    "order of resolutions: automatic, paper (space and time in turn) or flat (no hierarchy)");
 DEFINE_string(start, "best",
               "where the first solve starts: blend, first, last, rigid, or the best of the first "
               "three");
@@ -41,7 +41,6 @@ GeodesicOptions GeodesicFromFlags() {
                                    {"trust_region", Solver::kTrustRegion}});
   options.schedule = Choose<Schedule>("schedule", FLAGS_schedule,
                                       {{"automatic", Schedule::kAutomatic},
-                                       {"start", Schedule::kStart},
                                        {"paper", Schedule::kPaper},
                                        {"flat", Schedule::kFlat}});
   options.start = Choose<Start>("start", FLAGS_start,

@@ -204,12 +204,12 @@ void Warn(GeodesicSummary* summary) {
                                 " intersecting pairs of triangles more than the poses, which no "
                                 "metric sees; a pose in between may help");
   }
-  constexpr double kPoorRatio = 1.5, kManyFolds = 1e-3;
+  constexpr double kPoorRatio = 1.5, kManyFolds = 1e-3, kUneven = 1.15;
   if (summary->Ratio() > kPoorRatio) {
     summary->warnings.push_back("the energy is " + std::to_string(summary->Ratio()) +
                                 " times its lower bound: the path may lie in a poor valley");
   }
-  if (summary->quality.speed_max > internal::kSnaps) {
+  if (summary->quality.speed_max > kUneven) {
     summary->warnings.push_back(
         "some segment is " + std::to_string(summary->quality.speed_max) +
         " times as fast as the mean: a part may wait and then snap over; look at the pictures");
@@ -338,7 +338,7 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
   path.motions = {motions[0]};
   Workload workload(progress, options_.tolerance, options_.max_iterations);
   for (int i = 0; i < pieces; ++i) {
-    Plan(schedule, schedule.size(), resolutions_, &workload);
+    internal::Plan(schedule, resolutions_, options_.start, &workload);
   }
   for (int i = 0; i < pieces; ++i) {
     std::vector<Shape> shapes;

@@ -29,10 +29,10 @@ enum class Solver {
 /// In which order resolutions in space (levels of a `Hierarchy`, coarse c to fine f) and time
 /// (numbers of inner shapes 1, 3, 7, ... n) are solved, each from the ones before.
 enum class Schedule {
-  kAutomatic,  ///< all levels in turn for one and for three inner shapes, then the finest only:
-               ///< (c,1) ... (f,1), (c,3) ... (f,3), (f,7) ... (f,n). Without a cost of bending
-               ///< kFlat: coarse surfaces would crumple, and fine ones keep the folds
-  kStart,      ///< all levels for one inner shape only: (c,1) ... (f,1), (f,3), (f,7) ...
+  kAutomatic,  ///< all levels in turn for one, three and seven inner shapes, then the finest only:
+               ///< (c,1) ... (f,1), (c,3) ... (f,3), (c,7) ... (f,7), (f,15) ... (f,n). Without a
+               ///< cost of bending kFlat: coarse surfaces would crumple, and fine ones keep the
+               ///< folds
   /// Time and space in turn (Kilian et al. 2007, Figure 3): (c,1), (c,3), (c+1,3), ... The paper's
   /// are this order, that all poses are decimated in step, and that each level starts from the one
   /// before. The rest is ours, as in all schedules: which vertices go first, and how many per level
@@ -47,9 +47,8 @@ enum class Schedule {
 
 /// Where the one inner shape of the first solve starts.
 enum class Start {
-  kBest,   ///< from the blend and from both poses; the one that ends lowest goes on. If a part of
-           ///< the finished path snaps over, all of them are taken to the end, with coarse
-           ///< levels and without, until one does not
+  kBest,   ///< from the blend and from both poses; the one that ends lowest, on few vertices, goes
+           ///< on
   kBlend,  ///< half way on straight lines
   kFirst,  ///< at the first pose
   kLast,   ///< at the last pose
@@ -104,7 +103,7 @@ struct GeodesicSummary {
     int vertices = 0;    ///< of the level of the hierarchy
     int shapes = 0;      ///< inner shapes
     std::string start;   ///< where it started: "blend", "first", "last", "rigid"; or from earlier
-                         ///< rows: "refined" in time, "lifted" in space, "corrected": both
+                         ///< rows: "refined" in time, "lifted" in space
     std::string solver;  ///< "L-BFGS", "own L-BFGS" or "trust region"
     Termination termination = Termination::kConverged;
     int iterations = 0, evaluations = 0;

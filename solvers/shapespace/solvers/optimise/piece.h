@@ -10,25 +10,21 @@
 
 namespace shapespace::internal {
 
-/// A path with a segment this much faster than the mean holds a part that waits and then snaps
-/// over; good paths between real poses stay below 1.05, snapping ones were found at 1.27 and more.
-inline constexpr double kSnaps = 1.15;
-
-/// Tells `workload` of the first `count` steps of `schedule`.
-void Plan(const std::vector<ScheduleStep>& schedule, size_t count,
-          const std::vector<Resolution>& resolutions, Workload* workload);
+/// Tells `workload` of all steps that a `Piece` will take.
+void Plan(const std::vector<ScheduleStep>& schedule, const std::vector<Resolution>& resolutions,
+          Start start, Workload* workload);
 
 /// The solve between two neighbouring poses, coarse to fine in space and time.
 class Piece {
  public:
   /// Between pose `index` and the next. `resolutions` has one entry for each level of `hierarchy`;
-  /// `workload` knows of the steps that `Run` will be called with.
+  /// `workload` knows of the piece (`Plan`).
   Piece(int index, const Hierarchy& hierarchy, std::vector<Resolution>* resolutions,
         const GeodesicOptions& options, Workload* workload, GeodesicSummary* summary);
 
   /// Takes all steps. The first ones, with one inner shape on few vertices, decide which valley the
-  /// path lies in: they are taken from every start, and the best goes on. Once `workload` was asked
-  /// to stop nothing is solved any more: shapes are lifted and refined only.
+  /// whole body lies in: they are taken from every start, and the best goes on. Once `workload` was
+  /// asked to stop nothing is solved any more: shapes are lifted and refined only.
   void Run(const std::vector<ScheduleStep>& schedule);
   /// The path found on the finest level.
   std::vector<Shape> Result() && { return std::move(known_.back().shapes); }
@@ -39,8 +35,6 @@ class Piece {
     std::vector<Shape> shapes;
     // The shapes of the next coarser level on which they sit, found for the same times.
     std::vector<Shape> base;
-    // Where they were after refinement in time, if they come from fewer on the same level.
-    std::vector<Shape> refined;
   };
 
   // All levels after some steps of the schedule, from one start.
@@ -51,20 +45,13 @@ class Piece {
     std::vector<size_t> rows = {};  // of the summary's table
   };
 
-  // Keeps the one of lower energy, or the one that was taken to its end, and marks the other's rows
-  // as not kept.
-  void Keep(Attempt attempt, Attempt* best);
-  bool Snaps(const Attempt& attempt) const;
-  Attempt Take(const std::vector<ScheduleStep>& schedule, size_t begin, size_t end,
-               Attempt attempt);
-  void Take(const ScheduleStep& step, Start start, bool last);
+  Attempt TakeSteps(const std::vector<ScheduleStep>& schedule, size_t begin, size_t end,
+                    Attempt attempt);
+  void TakeStep(const ScheduleStep& step, Start start, bool last);
   std::vector<Shape> OneInnerShape(Start start, int level);
   // The coarser level's shapes with the detail that this level's shapes had, at the times around
   // each, on the coarser level's then: right also where parts turn far between those times.
   std::vector<Shape> Lift(const ScheduleStep& step) const;
-  // This level's shapes refined in time, moved as solving moved the coarser level's: keeps what is
-  // local, and takes what is global from below.
-  std::vector<Shape> Correct(const ScheduleStep& step, std::vector<Shape> refined) const;
 
   const int index_;
   const Hierarchy& hierarchy_;

@@ -1,0 +1,213 @@
+#include <shapespace/solvers/optimise/unwind.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include <shapespace/base/parallel.h>
+#include <shapespace/path/rigid_motion.h>
+
+namespace shapespace::internal {
+namespace {
+
+constexpr int kHingesPerTask = 1024;
+
+// Whether a hinge turns by half a turn more than it has to, or by more in one segment than twice
+// what is half a turn's even share.
+bool IsWound(const Dihedral& dihedral, int hinge, const std::vector<Shape>& shapes) {
+  const int segments = static_cast<int>(shapes.size()) - 1;
+  double first = 0, before = 0, turned = 0, fastest = 0;
+  for (int i = 0; i <= segments; ++i) {
+    double x[12];
+    Gather(dihedral, hinge, shapes[i], x);
+    const double angle = dihedral.Angle(x);
+    if (i == 0) {
+      first = angle;
+    } else {
+      const double turn = std::abs(WrapAngle(angle - before));
+      turned += turn;
+      fastest = std::max(fastest, turn);
+    }
+    before = angle;
+  }
+  return turned > std::abs(WrapAngle(before - first)) + M_PI || fastest > 2 * M_PI / segments;
+}
+
+std::vector<int> WoundHinges(const Dihedral& dihedral, const std::vector<Shape>& shapes) {
+  const int num_hinges = static_cast<int>(dihedral.stencils.cols());
+  std::vector<char> wound(num_hinges);
+  ParallelFor((num_hinges + kHingesPerTask - 1) / kHingesPerTask, [&](int task) {
+    const int end = std::min(num_hinges, (task + 1) * kHingesPerTask);
+    for (int h = task * kHingesPerTask; h < end; ++h) wound[h] = IsWound(dihedral, h, shapes);
+  });
+  std::vector<int> result;
+  for (int h = 0; h < num_hinges; ++h) {
+    if (wound[h]) result.push_back(h);
+  }
+  return result;
+}
+
+using Element = std::pair<int, int>;  // which of the metric's features, which of its elements
+
+// What an element adds to the energy, but for a factor that all have.
+double ElementEnergy(const Metric& metric, const Element& element,
+                     const std::vector<Shape>& shapes) {
+  return std::visit(
+      [&](const auto& feature) {
+        using Feature = std::decay_t<decltype(feature)>;
+        double x[3 * Feature::kVertices], values[2][Feature::kValues], sum = 0;
+        for (size_t i = 0; i < shapes.size(); ++i) {
+          Gather(feature, element.second, shapes[i], x);
+          double* const value = values[i % 2];
+          feature(x, value);
+          for (int k = 0; i > 0 && k < Feature::kValues; ++k) {
+            sum += std::pow(value[k] - values[(i + 1) % 2][k], 2);
+          }
+        }
+        return feature.weights(element.second) * sum;
+      },
+      metric.features[element.first]);
+}
+
+template <typename T>
+void SortUnique(std::vector<T>* items) {
+  std::sort(items->begin(), items->end());
+  items->erase(std::unique(items->begin(), items->end()), items->end());
+}
+
+// Moves vertices of a path and knows what that costs.
+class Mover {
+ public:
+  // Looks up the elements and neighbours of `vertices`, the ones that may be moved.
+  Mover(const Metric& metric, const std::vector<int>& vertices, std::vector<Shape>* shapes);
+
+  // Puts `group`, some of the vertices, where it costs least.
+  void Move(const std::vector<int>& group);
+
+ private:
+  // Of the vertices `columns`, their positions in a shape.
+  Shape Columns(const std::vector<int>& columns, size_t shape) const;
+  void Place(const std::vector<int>& group, const std::vector<Shape>& places);
+  // The sum over `elements`; stops where it exceeds `enough`.
+  double Energy(const std::vector<Element>& elements, double enough) const;
+
+  const Metric& metric_;
+  std::vector<Shape>& shapes_;
+  std::vector<int> index_;  // of a vertex of the mesh in the lists below, or -1
+  std::vector<std::vector<Element>> elements_;
+  std::vector<std::vector<int>> neighbours_;
+};
+
+Mover::Mover(const Metric& metric, const std::vector<int>& vertices, std::vector<Shape>* shapes)
+    : metric_(metric),
+      shapes_(*shapes),
+      index_(metric.connectivity->NumVertices(), -1),
+      elements_(vertices.size()),
+      neighbours_(vertices.size()) {
+  const Connectivity& connectivity = *metric_.connectivity;
+  for (size_t i = 0; i < vertices.size(); ++i) index_[vertices[i]] = static_cast<int>(i);
+  for (size_t f = 0; f < metric_.features.size(); ++f) {
+    std::visit(
+        [&](const auto& feature) {
+          if constexpr (!std::decay_t<decltype(feature)>::kSum) {
+            for (int e = 0; e < feature.stencils.cols(); ++e) {
+              for (int v : feature.stencils.col(e)) {
+                if (index_[v] >= 0) elements_[index_[v]].emplace_back(static_cast<int>(f), e);
+              }
+            }
+          }
+        },
+        metric_.features[f]);
+  }
+  for (int e = 0; e < connectivity.NumEdges(); ++e) {
+    const int a = connectivity.Edges()(0, e), b = connectivity.Edges()(1, e);
+    if (index_[a] >= 0) neighbours_[index_[a]].push_back(b);
+    if (index_[b] >= 0) neighbours_[index_[b]].push_back(a);
+  }
+}
+
+void Mover::Move(const std::vector<int>& group) {
+  std::vector<int> around;
+  std::vector<Element> elements;
+  for (int v : group) {
+    const int i = index_[v];
+    for (int neighbour : neighbours_[i]) {
+      if (std::find(group.begin(), group.end(), neighbour) == group.end()) {
+        around.push_back(neighbour);
+      }
+    }
+    elements.insert(elements.end(), elements_[i].begin(), elements_[i].end());
+  }
+  SortUnique(&around);
+  SortUnique(&elements);
+  if (around.size() < 3) return;  // which hold no rotation
+
+  const size_t last = shapes_.size() - 1;
+  const Eigen::VectorXd weights = Eigen::VectorXd::Ones(static_cast<int>(around.size()));
+  const Shape first_around = Columns(around, 0), last_around = Columns(around, last);
+  const Shape first_group = Columns(group, 0), last_group = Columns(group, last);
+  std::vector<Shape> best, as_first, as_last, between;
+  for (size_t i = 1; i < last; ++i) {
+    const Shape here = Columns(around, i);
+    best.push_back(Columns(group, i));
+    as_first.push_back(FitRigidMotion(first_around, here, weights)(first_group));
+    as_last.push_back(FitRigidMotion(last_around, here, weights)(last_group));
+    const double t = static_cast<double>(i) / last;
+    between.push_back((1 - t) * as_first.back() + t * as_last.back());
+  }
+  double least = Energy(elements, std::numeric_limits<double>::infinity());
+  for (std::vector<Shape>* places : {&as_first, &as_last, &between}) {
+    Place(group, *places);
+    const double energy = Energy(elements, least);
+    if (energy < least) {
+      least = energy;
+      best.swap(*places);
+    }
+  }
+  Place(group, best);
+}
+
+Shape Mover::Columns(const std::vector<int>& columns, size_t shape) const {
+  return shapes_[shape](Eigen::all, columns);
+}
+
+void Mover::Place(const std::vector<int>& group, const std::vector<Shape>& places) {
+  for (size_t i = 0; i < places.size(); ++i) shapes_[i + 1](Eigen::all, group) = places[i];
+}
+
+double Mover::Energy(const std::vector<Element>& elements, double enough) const {
+  double energy = 0;
+  for (const Element& element : elements) {
+    energy += ElementEnergy(metric_, element, shapes_);
+    if (energy > enough) break;
+  }
+  return energy;
+}
+
+}  // namespace
+
+void Unwind(const Metric& metric, std::vector<Shape>* shapes) {
+  for (const AnyFeature& any : metric.features) {
+    const auto* const dihedral = std::get_if<Dihedral>(&any);
+    if (dihedral == nullptr) continue;
+    const std::vector<int> hinges = WoundHinges(*dihedral, *shapes);
+    if (hinges.empty()) continue;
+    std::vector<int> vertices;
+    for (int h : hinges) {
+      for (int v : dihedral->stencils.col(h)) vertices.push_back(v);
+    }
+    SortUnique(&vertices);
+    Mover mover(metric, vertices, shapes);
+    for (int h : hinges) {
+      const Eigen::Vector4i stencil = dihedral->stencils.col(h);
+      mover.Move({stencil(0), stencil(1), stencil(2), stencil(3)});
+      for (int v : stencil) mover.Move({v});
+    }
+    for (int v : vertices) mover.Move({v});  // now that all others have moved
+  }
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,137 @@
+#include <shapespace/solvers/optimise/unwind.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <shapespace/bodies/sheet.h>
+#include <shapespace/path/energy.h>
+#include "support/paths.h"
+
+namespace shapespace {
+namespace {
+
+using internal::Unwind;
+
+// A sheet with a hinge far from its boundary, and what is asked of paths between two of its poses.
+struct Sheet {
+  static constexpr int kSegments = 8;
+
+  explicit Sheet(MetricOptions options = {})
+      : body(MakeSheet(1, 1, 8, 8)),
+        metric(FreezeMetric(options, body.connectivity, {body.pose(0)})),
+        rest(body.pose(0) / metric.unit) {
+    const Eigen::Matrix4Xi& hinges = body.connectivity->Hinges();
+    double nearest = 1;
+    for (int h = 0; h < hinges.cols(); ++h) {
+      const double distance = (rest.col(hinges(0, h)) + rest.col(hinges(1, h))).norm();
+      if (distance < nearest) {
+        nearest = distance;
+        hinge = hinges.col(h);
+      }
+    }
+  }
+
+  // The sheet with one of the two triangles turned about the hinge's edge.
+  Shape Turned(double angle) const {
+    const Eigen::Vector3d a = rest.col(hinge(0)), axis = rest.col(hinge(1)) - a;
+    Shape shape = rest;
+    shape.col(hinge(2)) =
+        a + Eigen::AngleAxisd(angle, axis.normalized()) * (rest.col(hinge(2)) - a);
+    return shape;
+  }
+
+  double Energy(const std::vector<Shape>& shapes) const {
+    PathEnergy energy(metric, static_cast<int>(shapes.size()) - 2);
+    std::vector<double> unknowns(energy.Size());
+    energy.Load(shapes, unknowns.data());
+    return energy.Evaluate(unknowns.data(), nullptr);
+  }
+
+  const Body body;
+  const Metric metric;
+  const Shape rest;
+  Eigen::Vector4i hinge;
+};
+
+// One triangle turns all the way round, evenly, and ends where it began.
+std::vector<Shape> FullTurn(const Sheet& sheet) {
+  std::vector<Shape> shapes;
+  for (int i = 0; i <= Sheet::kSegments; ++i) {
+    shapes.push_back(sheet.Turned(2 * M_PI * i / Sheet::kSegments));
+  }
+  shapes.back() = shapes.front();
+  return shapes;
+}
+
+TEST(Unwind, AFullTurnIsTakenBack) {
+  const Sheet sheet;
+  std::vector<Shape> shapes = FullTurn(sheet);
+  Unwind(sheet.metric, &shapes);
+  for (const Shape& shape : shapes) EXPECT_LT((shape - sheet.rest).norm(), 1e-12);
+}
+
+TEST(Unwind, AJumpIsSpreadOverAllSegments) {
+  const Sheet sheet;
+  std::vector<Shape> shapes(Sheet::kSegments, sheet.rest);
+  shapes.push_back(sheet.Turned(1.5));
+  const std::vector<Shape> before = shapes;
+  Unwind(sheet.metric, &shapes);
+  EXPECT_EQ(shapes.front(), before.front());
+  EXPECT_EQ(shapes.back(), before.back());
+  EXPECT_LT(sheet.Energy(shapes), 0.3 * sheet.Energy(before));
+}
+
+TEST(Unwind, WhatTurnsEvenlyTheShortWayStaysAsItIs) {
+  const Sheet sheet;
+  std::vector<Shape> shapes;
+  for (int i = 0; i <= Sheet::kSegments; ++i) {
+    shapes.push_back(sheet.Turned(0.9 * M_PI * i / Sheet::kSegments));
+  }
+  const std::vector<Shape> before = shapes;
+  Unwind(sheet.metric, &shapes);
+  EXPECT_EQ(shapes, before);
+}
+
+TEST(Unwind, NothingMovesThatWouldCostMore) {
+  const Sheet sheet;
+  for (int seed : {1, 2, 3}) {
+    std::vector<Shape> shapes = testing::NoisyBlend(sheet.rest, sheet.rest, 7, 0.1);
+    for (Shape* end : {&shapes.front(), &shapes.back()}) {
+      *end += testing::Noise(static_cast<int>(end->cols()), 0.1, 10 * seed + (end == &shapes[0]));
+    }
+    const double before = sheet.Energy(shapes);
+    Unwind(sheet.metric, &shapes);
+    EXPECT_LT(sheet.Energy(shapes), before);
+  }
+}
+
+TEST(Unwind, MovesWithTheBody) {
+  const Sheet sheet;
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  std::vector<Shape> shapes = testing::NoisyBlend(sheet.rest, sheet.Turned(2), 7, 0.1);
+  std::vector<Shape> turned;
+  for (const Shape& shape : shapes) turned.push_back(turn * shape);
+  Unwind(sheet.metric, &shapes);
+  Unwind(sheet.metric, &turned);
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    EXPECT_LT((turn * shapes[i] - turned[i]).norm(), 1e-9 * shapes[i].norm());
+  }
+}
+
+TEST(Unwind, AMetricThatSeesNoHingesHasNoneToUnwind) {
+  MetricOptions options;
+  options.bending = 0;
+  const Sheet sheet(options);
+  std::vector<Shape> shapes = FullTurn(sheet);
+  const std::vector<Shape> before = shapes;
+  Unwind(sheet.metric, &shapes);
+  EXPECT_EQ(shapes, before);
+}
+
+}  // namespace
+}  // namespace shapespace
