@@ -120,6 +120,7 @@ TEST(Transfer, IsTheSameForAnyNumberOfThreads) {
     options.method = method;
     options.hybrids = true;
     options.ladder.rung_shapes = 1;
+    options.ladder.tolerance = 1e-3;
     const auto results = testing::OnThreads([&] { return Transfer(source, thin, options); });
     for (const TransferResult& result : results) {
       EXPECT_TRUE(result.path.shapes == results[0].path.shapes);
