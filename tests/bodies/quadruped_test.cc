@@ -6,7 +6,6 @@
 #include <shapespace/mesh/topology.h>
 
 #include "bodies/measure.h"
-#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -120,17 +119,6 @@ TEST(QuadrupedTest, ProportionsKeepTheConnectivityAndTheAnglesFair) {
   EXPECT_LT(sizes["short"].y(), 0.85 * sizes["normal"].y());
   EXPECT_GT(sizes["short"].z(), 1.05 * sizes["normal"].z());
   EXPECT_GT(sizes["heavy"].x(), 1.4 * sizes["normal"].x());
-}
-
-TEST(QuadrupedTest, IsTheSameForAnyNumberOfThreads) {
-  const auto results = testing::OnThreads([] {
-    const SkinnedBody body = MakeQuadruped(3000);
-    return std::make_pair(body.connectivity, body.pose("sit"));
-  });
-  for (const auto& [connectivity, sits] : results) {
-    EXPECT_TRUE(connectivity->Triangles() == results[0].first->Triangles());
-    EXPECT_TRUE(sits == results[0].second);
-  }
 }
 
 TEST(QuadrupedTest, GoesFromPoseToPose) {

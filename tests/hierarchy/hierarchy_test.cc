@@ -13,7 +13,6 @@
 #include "bodies/measure.h"
 #include "hierarchy/meshes.h"
 #include "support/message_of.h"
-#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -281,22 +280,6 @@ TEST(Hierarchy, RefusesWhatDoesNotFit) {
     EXPECT_EQ(testing::MessageOf<InvalidOptions>(
                   [&] { Hierarchy(tube.connectivity, tube.poses, Coarsest(3)); }),
               "coarsest: must be 4 triangles or more");
-  }
-}
-
-TEST(Hierarchy, IsTheSameForAnyNumberOfThreads) {
-  const PosedMesh mesh = testing::Animal(6000, {"stand", "sit"});
-  const auto results = testing::OnThreads([&] {
-    const Hierarchy hierarchy(mesh.connectivity, mesh.poses);
-    const int last = hierarchy.NumLevels() - 2;
-    const Shape coarse =
-        0.5 * (hierarchy.Restrict(mesh.poses[0], last) + hierarchy.Restrict(mesh.poses[1], last));
-    return std::make_pair(hierarchy.Lift(coarse, last, mesh.poses[0], mesh.poses[1], 0.5),
-                          hierarchy.Vertices(0));
-  });
-  for (const auto& [lifted, vertices] : results) {
-    EXPECT_TRUE(lifted == results[0].first);
-    EXPECT_EQ(vertices, results[0].second);
   }
 }
 

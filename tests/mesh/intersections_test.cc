@@ -15,8 +15,6 @@
 #include <shapespace/bodies/steffen.h>
 #include <shapespace/bodies/tube.h>
 
-#include "support/threads.h"
-
 namespace shapespace {
 namespace {
 
@@ -184,15 +182,6 @@ TEST(CountIntersections, TouchingIsNone) {
   EXPECT_EQ(count({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), 0);               // doubled
   EXPECT_EQ(count({0.1, 0.1, 0}, {2, 0, 0}, {0, 2, 0}), 0);           // in one plane
   EXPECT_EQ(count({0.2, 0.2, -1}, {0.2, 0.2, 1}, {0.2, 0.2, 2}), 0);  // of no area
-}
-
-TEST(CountIntersections, DoesNotDependOnThreads) {
-  const Mesh mesh = WoundTube(1.3, 0);
-  const std::vector<Shape> shapes(5, mesh.shape);
-  for (const std::vector<std::int64_t>& counts :
-       testing::OnThreads([&] { return CountIntersections(*mesh.connectivity, shapes); })) {
-    EXPECT_EQ(counts, std::vector<std::int64_t>(5, mesh.Count()));
-  }
 }
 
 TEST(CountIntersections, OfAGraphOrAPointAreNone) {

@@ -17,7 +17,6 @@
 #include "support/message_of.h"
 #include "support/paths.h"
 #include "support/stiffened.h"
-#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -241,37 +240,6 @@ TEST(FeatureDerivative, MetricMatrixIsTheProductButForSums) {
     const Tangent expected = derivative.TransposeTimes(jx);
     const Eigen::VectorXd got = matrix.selfadjointView<Eigen::Lower>() * x.reshaped();
     EXPECT_LT((got - expected.reshaped()).norm(), 1e-13 * expected.norm());
-  }
-}
-
-TEST(FeatureMap, IsBitwiseTheSameForAnyNumberOfThreads) {
-  MetricOptions options;
-  options.volume = 0.3;
-  const Case test = Bent("large", MakeBar(6, 1, 1, 60, 4, 4), options);  // several tasks a feature
-  const FeatureMap map(test.metric);
-  const int num_vertices = static_cast<int>(test.shape.cols());
-  const Tangent x = Noise(num_vertices, 1, 10);
-  struct Results {
-    Eigen::VectorXd values, jx, second, gx;
-    Tangent jty;
-  };
-  const auto compute = [&] {
-    const FeatureDerivative derivative = map.Derivative(test.shape);
-    Results results;
-    results.values = map.Values(test.shape);
-    results.jx = derivative.Times(x);
-    results.second = map.SecondDerivative(test.shape, x);
-    results.jty = derivative.TransposeTimes(results.jx);
-    results.gx = derivative.MetricMatrix().selfadjointView<Eigen::Lower>() * x.reshaped();
-    return results;
-  };
-  const std::vector<Results> results = testing::OnThreads(compute);
-  for (const Results& result : results) {
-    EXPECT_TRUE(result.values == results[0].values);
-    EXPECT_TRUE(result.jx == results[0].jx);
-    EXPECT_TRUE(result.second == results[0].second);
-    EXPECT_TRUE(result.jty == results[0].jty);
-    EXPECT_TRUE(result.gx == results[0].gx);
   }
 }
 

@@ -12,7 +12,6 @@
 
 #include "output/bodies.h"
 #include "support/message_of.h"
-#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -146,18 +145,6 @@ TEST(RenderFilmStripTest, ScaleIsTheSameForAllShapes) {
   const Counts large = Count(image, 0, image.width / 2, 0, image.height);
   const Counts small = Count(image, image.width / 2, image.width, 0, image.height);
   EXPECT_NEAR(static_cast<double>(large.drawn) / small.drawn, 4, 0.2);
-}
-
-TEST(RenderFilmStripTest, DoesNotDependOnThreads) {
-  const SimpleBody sphere = Sphere(1);
-  FilmStripOptions options = Small();
-  options.values.assign(3, sphere.shape.row(0).transpose().cwiseAbs());
-  Shape squashed = sphere.shape;
-  squashed.row(1) *= 0.4;
-  const std::vector<Shape> shapes = {sphere.shape, squashed, sphere.shape};
-  const auto images =
-      testing::OnThreads([&] { return RenderFilmStrip(*sphere.connectivity, shapes, options); });
-  for (const Image& image : images) EXPECT_EQ(image.pixels, images[0].pixels);
 }
 
 TEST(RenderFilmStripTest, CellsFollowTheShapes) {

@@ -16,7 +16,6 @@
 #include "support/blends.h"
 #include "support/paths.h"
 #include "support/stiffened.h"
-#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -217,21 +216,6 @@ TEST(PathEnergy, RigidMetricHasTheGradientOfCentralDifferences) {
         }
       }
     }
-  }
-}
-
-TEST(PathEnergy, IsTheSameForAnyNumberOfThreads) {
-  const Body bar = testing::Stiffened(MakeBar(6, 1, 1, 120, 20, 20));
-  MetricOptions options;
-  options.volume = 0.3;
-  options.strain = 0.1;
-  const Metric metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(60)});
-  const std::vector<Shape> shapes =
-      NoisyBlend(bar.pose(0) / metric.unit, bar.pose(60) / metric.unit, 3, 1e-3);
-  const auto results = testing::OnThreads([&] { return FromPathEnergy(metric, shapes, 1); });
-  for (const Evaluated& result : results) {
-    EXPECT_EQ(result.energy, results[0].energy);
-    EXPECT_TRUE(result.gradient == results[0].gradient);
   }
 }
 

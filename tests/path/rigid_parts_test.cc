@@ -16,7 +16,6 @@
 #include <shapespace/bodies/tube.h>
 
 #include "support/path_of.h"
-#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -255,17 +254,6 @@ TEST(FindRigidParts, DoesNotDependOnNumbering) {
       FindRigidParts(PathOf(Connectivity::FromTriangles(count, triangles), renumbered));
   ASSERT_EQ(result.parts.size(), plain.parts.size());
   EXPECT_LT(Mismatch(result.of_triangle.reverse(), plain.of_triangle), 0.01);
-}
-
-TEST(FindRigidParts, DoesNotDependOnThreads) {
-  const BentBar bar(60);
-  const Path path = PathOf(bar.body.connectivity, bar.shapes);
-  const auto results = testing::OnThreads([&] { return FindRigidParts(path); });
-  for (const RigidParts& result : results) {
-    EXPECT_TRUE(result.of_triangle == results[0].of_triangle);
-    ASSERT_EQ(result.parts.size(), results[0].parts.size());
-    EXPECT_EQ(result.parts[1].residual, results[0].parts[1].residual);
-  }
 }
 
 TEST(FindRigidParts, TheToleranceDecidesWhatABendIs) {

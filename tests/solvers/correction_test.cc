@@ -21,7 +21,6 @@
 #include "support/message_of.h"
 #include "support/path_of.h"
 #include "support/paths.h"
-#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -215,15 +214,6 @@ TEST(CorrectPath, CommutesWithRotationAndScale) {
       EXPECT_LT((b.path.Placed(i) - expected).norm(), kClose * expected.norm());
     }
   }
-}
-
-TEST(CorrectPath, IsTheSameForAnyNumberOfThreads) {
-  const Path given = StraightOn(MakeBar(6, 1, 1, 48, 8, 8), 0, 10, 8, 8);
-  ASSERT_GT(given.shapes[0].cols(), 1024);  // several blocks of rows
-  CorrectionOptions options;
-  options.max_iterations = 20;
-  const auto paths = testing::OnThreads([&] { return CorrectPath(given, options).path; });
-  for (const Path& path : paths) EXPECT_TRUE(path.shapes == paths[0].shapes);
 }
 
 // sqrt(w) (P - P^given) of one vertex.

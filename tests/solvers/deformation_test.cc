@@ -20,7 +20,6 @@
 #include "support/listener.h"
 #include "support/message_of.h"
 #include "support/motions.h"
-#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -321,16 +320,6 @@ TEST(Deform, IsTheSameForAnyOrderOfVertices) {
   for (int v = 0; v < count; ++v) EXPECT_LT((a.col(v) - b.col(to[v])).norm(), 1e-4);
 }
 
-TEST(Deform, IsTheSameForAnyNumberOfThreads) {
-  const HeldBar bar;
-  Handle soft = To(bar.rest, bar.right, {0, 1, 0});
-  soft.hard = false;
-  const auto results = testing::OnThreads([&] {
-    return Last(Deform(bar.body.connectivity, bar.rest, {Fixed(bar.left), soft}));
-  });
-  for (const Shape& result : results) EXPECT_EQ(result, results[0]);
-}
-
 TEST(Deform, OwnLbfgsAndCeresTrustRegionAgree) {
   const Body body = MakeBar(6, 1, 1, 8, 2, 2);
   const Shape rest = body.pose(0);
@@ -552,11 +541,15 @@ TEST(Deform, RefusesWhatMakesNoSense) {
   EXPECT_EQ(of_options([](auto* o) { o->metric = MetricOptions::Paper(); }), "discretization");
 }
 
-TEST(Deform, RefusesMoreThanTheMemoryLimit) {
+TEST(Deform, RefusesWhatIsTooLarge) {
   const HeldBar bar;
   DeformationOptions options;
   options.memory_limit = 1e5;
   EXPECT_THROW(bar.Solve(Twist(30), options), SolverError);
+  const Body large = MakeBar(6, 1, 1, 60, 20, 20);
+  options = {};
+  options.solver = DeformationOptions::Solver::kTrustRegion;  // its rows would be dense
+  EXPECT_THROW(Deformer(large.connectivity, large.pose(0), options), InvalidOptions);
 }
 
 TEST(Deform, StopsWhenAskedTo) {

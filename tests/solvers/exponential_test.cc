@@ -25,7 +25,6 @@
 #include "support/message_of.h"
 #include "support/motions.h"
 #include "support/paths.h"
-#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -540,13 +539,6 @@ TEST(Exponential, DoesNotDependOnTheOrderOfVertices) {
                 1e-9 * Diameter(motion.shape));
     }
   }
-}
-
-TEST(Exponential, IsTheSameForAnyNumberOfThreads) {
-  const Motion motion = Turning(MakeBar(6, 1, 1, 48, 8, 8), 30, 20, {});
-  ASSERT_GT(motion.shape.cols(), 1024);  // several blocks of elements
-  const auto ends = testing::OnThreads([&] { return End(motion, 2); });
-  for (const Shape& end : ends) EXPECT_TRUE(end == ends[0]);
 }
 
 // A body whose shape is pressed together along z (or y), at a rate at which straight lines would

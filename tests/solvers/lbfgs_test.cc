@@ -9,7 +9,6 @@
 #include <shapespace/solvers/optimise/minimise.h>
 
 #include "support/paths.h"
-#include "support/threads.h"
 
 namespace shapespace::internal {
 namespace {
@@ -111,18 +110,6 @@ TEST(ThreadedLbfgs, FindsTheScaleOfThePreconditioner) {
     if (factor == 1) evaluations = result.evaluations;
     EXPECT_LT(result.evaluations, 1.3 * evaluations + 8);
   }
-}
-
-TEST(ThreadedLbfgs, IsTheSameForAnyNumberOfThreads) {
-  Problem problem(MakeBar(6, 1, 1, 60, 10, 10), 5);
-  MinimiseOptions options = Tolerance(1e-6);
-  options.rank = 4;
-  const auto results = testing::OnThreads([&] {
-    std::vector<double> unknowns = problem.start;
-    problem.Ours(options, &unknowns);
-    return unknowns;
-  });
-  for (const std::vector<double>& unknowns : results) EXPECT_TRUE(unknowns == results[0]);
 }
 
 TEST(ThreadedLbfgs, DoesNothingAtAMinimum) {

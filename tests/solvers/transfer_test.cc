@@ -19,7 +19,6 @@
 #include "support/listener.h"
 #include "support/message_of.h"
 #include "support/path_of.h"
-#include "support/threads.h"
 #include "support/transfer_cases.h"
 
 namespace shapespace {
@@ -323,22 +322,6 @@ TEST_P(AnyTransfer, DoesNotDependOnTheNumbersOfVertices) {
   const Path a = Transfer(source, ThinBar(), options).path;
   const Path b = Transfer(PathOf(other, shapes), renumbered(ThinBar()), options).path;
   EXPECT_LT(Apart(b.Placed(3), renumbered(a.Placed(3))), 1e-5);
-}
-
-TEST_P(AnyTransfer, IsTheSameForAnyNumberOfThreads) {
-  const Body thick = MakeBar(6, 1, 1, 40, 7, 7);
-  const Path source = PathOf(thick.connectivity, {thick.pose(0), thick.pose(20)});
-  const Shape thin = MakeBar(8, 1.6, 0.6, 40, 7, 7).pose(0);
-  ASSERT_GT(thin.cols(), 1024);  // several blocks of rows
-  TransferOptions options = WithHybrids(GetParam());
-  options.ladder.rung_shapes = 1;
-  const auto results = testing::OnThreads([&] { return Transfer(source, thin, options); });
-  for (const TransferResult& result : results) {
-    for (int i : {0, 1}) {
-      EXPECT_TRUE(result.path.Placed(i) == results[0].path.Placed(i));
-      EXPECT_TRUE(result.hybrids.Placed(i) == results[0].hybrids.Placed(i));
-    }
-  }
 }
 
 TEST(TransferPoses, EveryPoseIsReachedOnItsOwn) {

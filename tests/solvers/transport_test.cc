@@ -20,7 +20,6 @@
 #include "support/message_of.h"
 #include "support/motions.h"
 #include "support/paths.h"
-#include "support/threads.h"
 
 namespace shapespace {
 namespace {
@@ -384,17 +383,6 @@ TEST(Transport, CommutesWithRotationTranslationAndScale) {
         EXPECT_LT((y - expected).norm(), 1e-9 * expected.norm());
       }
     }
-  }
-}
-
-TEST(Transport, IsTheSameForAnyNumberOfThreads) {
-  const Body body = MakeBar(6, 1, 1, 48, 8, 8);
-  const Path path = Deforming(body, 10, 40, 2);
-  ASSERT_GT(path.shapes[0].cols(), 1024);  // several blocks of elements
-  const std::vector<Tangent> tangents = SomeTangents(body, 10);
-  const auto results = testing::OnThreads([&] { return Transport(path, tangents); });
-  for (const TransportResult& result : results) {
-    EXPECT_TRUE(result.tangents == results[0].tangents);
   }
 }
 

@@ -14,6 +14,7 @@
 #include <shapespace/mesh/topology.h>
 #include <shapespace/path/align.h>
 #include <shapespace/solvers/check_options.h>
+#include <shapespace/solvers/cost/refuse_sums.h>
 #include <shapespace/solvers/optimise/handle_targets.h>
 #include <shapespace/solvers/optimise/held_level.h>
 #include <shapespace/solvers/optimise/resolution.h>
@@ -123,6 +124,7 @@ Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity
   options.Validate();
   metric_ = std::make_shared<const Metric>(FreezeMetric(
       options.metric.value_or(MetricOptions::Deformation(*connectivity)), connectivity, {rest}));
+  if (options.solver == DeformationOptions::Solver::kTrustRegion) cost::RefuseDenseRows(*metric_);
   const double bytes = EstimateBytes(*metric_, options.shapes);
   if (bytes > options.memory_limit) {
     throw SolverError(

@@ -14,6 +14,7 @@
 #include <shapespace/path/energy.h>
 #include <shapespace/path/intersections.h>
 #include <shapespace/solvers/check_options.h>
+#include <shapespace/solvers/cost/refuse_sums.h>
 #include <shapespace/solvers/optimise/piece.h>
 
 namespace shapespace {
@@ -34,7 +35,9 @@ double EstimateBytes(const Metric& metric, int poses, int shapes) {
          PathEnergy::EstimateBytes(metric, shapes);
 }
 
-void CheckMemory(double bytes, const GeodesicOptions& options) {
+// Whether the finest level can be solved, before any other is.
+void CheckFinest(const Metric& metric, double bytes, const GeodesicOptions& options) {
+  if (options.solver == Solver::kTrustRegion) cost::RefuseDenseRows(metric);
   if (bytes <= options.memory_limit) return;
   throw SolverError("this solve needs about " + std::to_string(std::lround(bytes / 1e6)) +
                     " MB, more than the memory limit; insert fewer shapes or raise memory_limit");
@@ -392,7 +395,7 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
   if (poses.size() < 2) throw MeshError("a geodesic needs at least two poses");
   for (const Shape& pose : poses) CheckShape(pose, *metric);
   const double bytes = EstimateBytes(*metric, static_cast<int>(poses.size()), options.shapes);
-  CheckMemory(bytes, options);
+  CheckFinest(*metric, bytes, options);
   const Stopwatch total;
   ReportProgress(progress, "decimating", 0, 0);
   const AlignedPoses aligned = AlignPoses(*metric, poses);
@@ -411,7 +414,8 @@ Interpolator::Interpolator(const std::shared_ptr<const Connectivity>& connectivi
   const auto metric = std::make_shared<const Metric>(
       FreezeMetric(options.metric, connectivity, poses, 0, PosePairs::kAll));
   // One path at a time, and all poses on all levels.
-  CheckMemory(EstimateBytes(*metric, 2, options.shapes) +
+  CheckFinest(*metric,
+              EstimateBytes(*metric, 2, options.shapes) +
                   2.0 * sizeof(double) * poses.size() * poses.front().size(),
               options);
   levels_ = std::make_unique<internal::GeodesicLevels>(metric, AlignPoses(*metric, poses).shapes,

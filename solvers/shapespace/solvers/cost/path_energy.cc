@@ -69,8 +69,7 @@ void Check(const Metric& metric, const std::vector<Shape>& shapes, const RigidMo
   if (metric.rigid.Active() && motions == nullptr) {
     throw InvalidOptions("motions: the rigid metric needs them");
   }
-  RefuseSums(metric, kMaxDenseVertices,
-             "above " + std::to_string(kMaxDenseVertices) + " vertices use the solver kLbfgs");
+  RefuseDenseRows(metric);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/metric/metric.h>
+#include <shapespace/solvers/cost/path_energy.h>
 
 // Private: sum features couple all vertices, so that their rows are dense.
 
@@ -24,6 +25,12 @@ inline void RefuseSums(const Metric& metric, int max_vertices, const std::string
         },
         any);
   }
+}
+
+/// Of a solver on residual blocks. \throw InvalidOptions if these had too many dense rows.
+inline void RefuseDenseRows(const Metric& metric) {
+  RefuseSums(metric, kMaxDenseVertices,
+             "above " + std::to_string(kMaxDenseVertices) + " vertices use another solver");
 }
 
 }  // namespace shapespace::cost

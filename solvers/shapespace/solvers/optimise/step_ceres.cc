@@ -49,9 +49,7 @@ ceres::Solver::Options SolverOptions(int max_iterations) {
 StepResult SolveStepWithCeres(const FeatureMap& map, const Shape& at, const Eigen::VectorXd& target,
                               double tolerance, int max_iterations, Shape* shape) {
   const Metric& metric = map.GetMetric();
-  cost::RefuseSums(
-      metric, cost::kMaxDenseVertices,
-      "above " + std::to_string(cost::kMaxDenseVertices) + " vertices use another solver");
+  cost::RefuseDenseRows(metric);
   const FeatureDerivative derivative = map.Derivative(at);
   const auto residual = [&](const Shape& p) {
     return derivative.TransposeTimes(map.Values(p) - target).norm();

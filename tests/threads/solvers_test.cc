@@ -1,0 +1,141 @@
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/bodies/bar.h>
+#include <shapespace/path/energy.h>
+#include <shapespace/solvers/correction.h>
+#include <shapespace/solvers/deformation.h>
+#include <shapespace/solvers/exploration/explore.h>
+#include <shapespace/solvers/exponential.h>
+#include <shapespace/solvers/geodesic.h>
+#include <shapespace/solvers/optimise/minimise.h>
+#include <shapespace/solvers/transfer.h>
+#include <shapespace/solvers/transport.h>
+
+#include "solvers/exploration/spaces.h"
+#include "support/motions.h"
+#include "support/path_of.h"
+#include "support/paths.h"
+#include "support/threads.h"
+
+namespace shapespace {
+namespace {
+
+// Of more than 1024 vertices, which are several blocks of rows and of elements.
+Body Bar() { return MakeBar(6, 1, 1, 48, 8, 8); }
+
+TEST(ThreadedLbfgs, IsTheSameForAnyNumberOfThreads) {
+  const Body bar = MakeBar(6, 1, 1, 60, 10, 10);
+  const Metric metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(70)});
+  const std::vector<Shape> shapes =
+      testing::NoisyBlend(bar.pose(0) / metric.unit, bar.pose(70) / metric.unit, 5, 2e-3);
+  PathEnergy energy(metric, 5);
+  std::vector<double> start(energy.Size());
+  energy.Load(shapes, start.data());
+  const internal::Cholesky factor(
+      internal::ScalarMetric(metric, {shapes.front(), shapes.back()}, 0));
+  const internal::CholeskyFactor<float> single(factor);
+  internal::Preconditioner preconditioner(single, energy);
+  internal::MinimiseOptions options;
+  options.tolerance = 1e-6;
+  options.rank = 4;
+  const auto results = testing::OnThreads([&] {
+    std::vector<double> unknowns = start;
+    internal::MinimiseThreadedLbfgs(&energy, &preconditioner, options, &unknowns);
+    return unknowns;
+  });
+  EXPECT_FALSE(results[0] == start);
+  for (const std::vector<double>& unknowns : results) EXPECT_TRUE(unknowns == results[0]);
+}
+
+TEST(Interpolate, IsTheSameForAnyNumberOfThreads) {
+  const Body bar = MakeBar(6, 1, 1, 60, 10, 10);
+  GeodesicOptions options;
+  options.shapes = 7;
+  const auto paths = testing::OnThreads([&] {
+    return Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, options).path;
+  });
+  for (const Path& path : paths) EXPECT_TRUE(path.shapes == paths[0].shapes);
+}
+
+TEST(Deform, IsTheSameForAnyNumberOfThreads) {
+  const Body bar = MakeBar(6, 1, 1, 24, 4, 4);
+  const Shape rest = bar.pose(0);
+  Handle left, right;
+  for (int v = 0; v < rest.cols(); ++v) {
+    if (rest(0, v) < -2.7) left.vertices.push_back(v);
+    if (rest(0, v) > 2.7) right.vertices.push_back(v);
+  }
+  right.positions = rest(Eigen::all, right.vertices).colwise() + Eigen::Vector3d(0, 1, 0);
+  right.hard = false;
+  const auto paths = testing::OnThreads([&] {
+    return Deform(bar.connectivity, rest, {left, right}).path;
+  });
+  for (const Path& path : paths) EXPECT_TRUE(path.shapes == paths[0].shapes);
+}
+
+TEST(Exponential, IsTheSameForAnyNumberOfThreads) {
+  const testing::Motion motion = testing::Turning(Bar(), 30, 20, {});
+  ExponentialOptions options;
+  options.tolerance = 1e-9;
+  const auto ends = testing::OnThreads(
+      [&] { return Exponential(motion.metric, motion.shape, motion.velocity, 2, options); });
+  for (const Shape& end : ends) EXPECT_TRUE(end == ends[0]);
+}
+
+TEST(Transport, IsTheSameForAnyNumberOfThreads) {
+  const Body bar = Bar();
+  const Path path = testing::PathOf(bar.connectivity, {bar.pose(10), bar.pose(25), bar.pose(40)});
+  const int num_vertices = bar.connectivity->NumVertices();
+  const std::vector<Tangent> tangents = {Tangent::Constant(3, num_vertices, 0.1),
+                                         testing::Noise(num_vertices, 0.5, 3)};
+  const auto results = testing::OnThreads([&] { return Transport(path, tangents).tangents; });
+  for (const std::vector<Tangent>& there : results) EXPECT_TRUE(there == results[0]);
+}
+
+TEST(CorrectPath, IsTheSameForAnyNumberOfThreads) {
+  const Body bar = Bar();
+  const Tangent way = bar.pose(10) - bar.pose(0);
+  std::vector<Shape> shapes;  // straight on, which stretches the bar
+  for (int i = 0; i <= 8; ++i) shapes.push_back(bar.pose(0) + i * way);
+  Path given = testing::PathOf(bar.connectivity, shapes);
+  given.poses = {0};
+  given.extrapolated = 8;
+  CorrectionOptions options;
+  options.max_iterations = 20;
+  const auto paths = testing::OnThreads([&] { return CorrectPath(given, options).path; });
+  for (const Path& path : paths) EXPECT_TRUE(path.shapes == paths[0].shapes);
+}
+
+TEST(Transfer, IsTheSameForAnyNumberOfThreads) {
+  const Body thick = MakeBar(6, 1, 1, 40, 7, 7);
+  const Path source = testing::PathOf(thick.connectivity, {thick.pose(0), thick.pose(20)});
+  const Shape thin = MakeBar(8, 1.6, 0.6, 40, 7, 7).pose(0);
+  ASSERT_GT(thin.cols(), 1024);  // several blocks of rows
+  for (const TransferMethod method : {TransferMethod::kFeatures, TransferMethod::kLadder}) {
+    TransferOptions options;
+    options.method = method;
+    options.hybrids = true;
+    options.ladder.rung_shapes = 1;
+    options.ladder.tolerance = 1e-3;
+    const auto results = testing::OnThreads([&] { return Transfer(source, thin, options); });
+    for (const TransferResult& result : results) {
+      EXPECT_TRUE(result.path.shapes == results[0].path.shapes);
+      EXPECT_TRUE(result.hybrids.shapes == results[0].hybrids.shapes);
+    }
+  }
+}
+
+TEST(Explore, IsTheSameForAnyNumberOfThreads) {
+  const Body tube = testing::SmallTube();
+  const std::vector<Shape> poses = testing::TubePoses(tube);
+  const auto results =
+      testing::OnThreads([&] { return Explore(tube.connectivity, poses).space.nodes; });
+  for (const std::vector<Shape>& nodes : results) EXPECT_EQ(nodes, results[0]);
+}
+
+}  // namespace
+}  // namespace shapespace
