@@ -128,7 +128,21 @@ TEST(PathEnergy, KernelsEqualTheAutomaticDerivativesOfTheFunctors) {
   const Body bar = testing::Stiffened(MakeBar(6, 1, 1, 12, 2, 2));
   for (const testing::Blend& test : testing::AllBlends()) {
     const Metric metric = FreezeMetric(test.options, bar.connectivity, {bar.pose(0), bar.pose(80)});
-    for (int inner : {1, 2, 3, 5, 7, 8, 17}) {
+    for (int inner : {1, 2, 3, 4, 5, 7, 8, 17}) {
+      SCOPED_TRACE(std::string(test.name) + ", inner shapes: " + std::to_string(inner));
+      const std::vector<Shape> shapes =
+          NoisyBlend(bar.pose(0) / metric.unit, bar.pose(80) / metric.unit, inner, 8e-3);
+      ExpectSame(FromPathEnergy(metric, shapes, 0.7), FromDefinition(metric, shapes, 0.7), 1e-12);
+    }
+  }
+}
+
+// The kernels take them in windows of 128 shapes.
+TEST(PathEnergy, KernelsEqualTheFunctorsOnLongPaths) {
+  const Body bar = testing::Stiffened(MakeBar(2, 1, 1, 2, 1, 1));
+  for (const testing::Blend& test : testing::AllBlends()) {
+    const Metric metric = FreezeMetric(test.options, bar.connectivity, {bar.pose(0), bar.pose(80)});
+    for (int inner : {128, 129, 300}) {
       SCOPED_TRACE(std::string(test.name) + ", inner shapes: " + std::to_string(inner));
       const std::vector<Shape> shapes =
           NoisyBlend(bar.pose(0) / metric.unit, bar.pose(80) / metric.unit, inner, 8e-3);

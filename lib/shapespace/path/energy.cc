@@ -18,10 +18,7 @@ namespace shapespace {
 namespace {
 
 // Rows are padded to whole SIMD registers, but not where that would multiply the work.
-int PaddedLength(int inner) {
-  if (inner <= 2) return inner;
-  return inner <= 4 ? 4 : (inner + 7) / 8 * 8;
-}
+int PaddedLength(int inner) { return inner <= internal::kFewShapes ? inner : (inner + 7) / 8 * 8; }
 
 // Breadth first from vertices of low degree: neighbours get rows close together, so that the path
 // streams through the cache and elements touch few blocks.
@@ -82,7 +79,6 @@ PathEnergy::PathEnergy(const Metric& metric, int inner, End end)
   if (metric.rigid.Active()) {
     for (int v : vertex_of_row_) rigid_weights_.push_back(metric.rigid.weights(v));
   }
-  scratch_.assign(blocks_, std::vector<double>(internal::KernelScratch(stride_)));
 }
 
 int PathEnergy::NumGroups(int phase) const {
@@ -236,8 +232,8 @@ std::vector<double> PathEnergy::EvaluateParts(const double* unknowns, double* gr
         std::visit(
             [&](const auto& feature) {
               if constexpr (!std::decay_t<decltype(feature)>::kSum) {
-                partial[g * num_terms + i] = EvaluateGroup(feature, terms_[i].groups[phase][g],
-                                                           unknowns, gradient, scratch_[g].data());
+                partial[g * num_terms + i] =
+                    EvaluateGroup(feature, terms_[i].groups[phase][g], unknowns, gradient);
               }
             },
             metric_.features[i]);
@@ -275,24 +271,24 @@ void PathEnergy::ReadRow(const double* unknowns, size_t row, double* times) cons
 
 template <typename Feature>
 double PathEnergy::EvaluateGroup(const Feature& feature, const Group& group, const double* unknowns,
-                                 double* gradient, double* scratch) const {
+                                 double* gradient) const {
   const internal::PathRows rows = Rows(unknowns, gradient);
   const int count = static_cast<int>(group.weights.size());
+  if (count == 0) return 0;
   const int* const stencils = group.stencils.data();
   const double* const weights = group.weights.data();
   if constexpr (std::is_same_v<Feature, EdgeLength>) {
     const bool trapezoid = metric_.options.discretization == Discretization::kTrapezoid;
     return internal::EdgeLengthKernel(rows, stencils, weights, count,
-                                      trapezoid ? quartic_weight_ : 0, scratch);
+                                      trapezoid ? quartic_weight_ : 0);
   } else if constexpr (std::is_same_v<Feature, Position>) {
-    return internal::PositionKernel(rows, stencils, weights, count, scratch);
+    return internal::PositionKernel(rows, stencils, weights, count);
   } else if constexpr (std::is_same_v<Feature, Dihedral>) {
     return internal::DihedralKernel(rows, stencils, weights, group.ends.data(), count,
-                                    feature.normal_epsilon_squared, feature.edge_epsilon_squared,
-                                    scratch);
+                                    feature.normal_epsilon_squared, feature.edge_epsilon_squared);
   } else if constexpr (std::is_same_v<Feature, TriangleStrain>) {
     return internal::TriangleStrainKernel(rows, stencils, weights, group.ends.data(), count,
-                                          feature.epsilon_squared, scratch);
+                                          feature.epsilon_squared);
   } else {
     // Any other feature: its functor on jets, one shape after the other.
     constexpr int kSize = 3 * Feature::kVertices, kValues = Feature::kValues;
@@ -342,7 +338,7 @@ double PathEnergy::EvaluateVolume(const Volume& volume, const Term& term, const 
       partial[g].assign(inner_ + 2, 0.0);
       internal::AddVolumes(rows, groups[g].stencils.data(),
                            static_cast<int>(groups[g].weights.size()), volume.reference,
-                           partial[g].data(), scratch_[g].data());
+                           partial[g].data());
     });
     for (const std::vector<double>& p : partial) {
       for (int t = 0; t < inner_ + 2; ++t) total[t] += p[t];
@@ -359,7 +355,7 @@ double PathEnergy::EvaluateVolume(const Volume& volume, const Term& term, const 
     ParallelFor(static_cast<int>(groups.size()), [&](int g) {
       internal::AddVolumeGradients(rows, groups[g].stencils.data(),
                                    static_cast<int>(groups[g].weights.size()), volume.reference,
-                                   slopes.data(), scratch_[g].data());
+                                   slopes.data());
     });
   }
   return energy;
@@ -437,24 +433,41 @@ double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& l
     std::visit(
         [&](const auto& feature) {
           using Feature = std::decay_t<decltype(feature)>;
-          double x[3 * Feature::kVertices];
-          double a[Feature::kValues], b[Feature::kValues];
-          double sum_a = 0, sum_b = 0;
-          for (int e = 0; e < feature.stencils.cols(); ++e) {
-            Gather(feature, e, first, x);
-            feature(x, a);
-            Gather(feature, e, last, x);
-            feature(x, b);
-            if constexpr (Feature::kSum) {
-              sum_a += a[0];
-              sum_b += b[0];
-            } else {
-              bound += 2 * feature.weights(e) * feature.LeastChange(a, b, segments);
+          struct Sums {
+            double bound = 0, first = 0, last = 0;
+          };
+          constexpr int kElementsPerTask = 4096;
+          const int num_elements = static_cast<int>(feature.stencils.cols());
+          std::vector<Sums> partial((num_elements + kElementsPerTask - 1) / kElementsPerTask);
+          ParallelFor(static_cast<int>(partial.size()), [&](int task) {
+            Sums sums;
+            const int end = std::min(num_elements, (task + 1) * kElementsPerTask);
+            for (int e = task * kElementsPerTask; e < end; ++e) {
+              double x[3 * Feature::kVertices], a[Feature::kValues], b[Feature::kValues];
+              Gather(feature, e, first, x);
+              feature(x, a);
+              Gather(feature, e, last, x);
+              feature(x, b);
+              if constexpr (Feature::kSum) {
+                sums.first += a[0];
+                sums.last += b[0];
+              } else {
+                sums.bound += 2 * feature.weights(e) * feature.LeastChange(a, b, segments);
+              }
             }
+            partial[task] = sums;
+          });
+          Sums sums;
+          for (const Sums& part : partial) {
+            sums.bound += part.bound;
+            sums.first += part.first;
+            sums.last += part.last;
           }
           if constexpr (Feature::kSum) {
-            bound += 2 * feature.weights(0) * feature.LeastChange(&sum_a, &sum_b, segments);
+            sums.bound =
+                2 * feature.weights(0) * feature.LeastChange(&sums.first, &sums.last, segments);
           }
+          bound += sums.bound;
         },
         any);
   }

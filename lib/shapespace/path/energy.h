@@ -87,7 +87,7 @@ class PathEnergy {
   std::vector<double> EvaluateParts(const double* unknowns, double* gradient);
   template <typename Feature>
   double EvaluateGroup(const Feature& feature, const Group& group, const double* unknowns,
-                       double* gradient, double* scratch) const;
+                       double* gradient) const;
   double EvaluateVolume(const Volume& volume, const Term& term, const double* unknowns,
                         double* gradient);
   double EvaluateRigid(const double* unknowns, double* gradient);
@@ -109,9 +109,8 @@ class PathEnergy {
   // to the other, so that this segment costs nothing and pulls at nothing.
   std::vector<double> first_, last_;
   std::vector<Term> terms_;
-  std::vector<double> rigid_weights_;         // by row
-  std::vector<double> sink_;                  // gradient where the caller wants none
-  std::vector<std::vector<double>> scratch_;  // one a block
+  std::vector<double> rigid_weights_;  // by row
+  std::vector<double> sink_;           // gradient where the caller wants none
 };
 
 /// Lower bound of the energy over all paths of `segments` segments from `first` to `last` (metric

@@ -1,8 +1,6 @@
 #ifndef SHAPESPACE_PATH_ENERGY_KERNELS_H_
 #define SHAPESPACE_PATH_ENERGY_KERNELS_H_
 
-#include <cstddef>
-
 namespace shapespace::internal {
 
 /// A path as the kernels see it: row 3 v + axis holds that coordinate of vertex v in all inner
@@ -17,8 +15,9 @@ struct PathRows {
   bool free_end;  ///< `last` repeats the last of the inner shapes, of which nothing goes on
 };
 
-/// Doubles of scratch memory that a kernel needs.
-inline size_t KernelScratch(int stride) { return 32 * (static_cast<size_t>(stride) + 16); }
+/// Up to so many inner shapes the kernels fill their registers with several elements, for which no
+/// padding is wanted: stride = inner.
+inline constexpr int kFewShapes = 4;
 
 // Each kernel treats elements [0, count): adds the gradient of 2 sum w |Phi_{i+1} - Phi_i|^2 and
 // returns its value. `stencils` holds kVertices vertices an element. They repeat, in closed form,
@@ -27,28 +26,27 @@ inline size_t KernelScratch(int stride) { return 32 * (static_cast<size_t>(strid
 /// EdgeLength. With `quartic` > 0 adds quartic * w |e_{i+1} - e_i|^4 / 2, which makes the midpoint
 /// form the paper's trapezoid (6).
 double EdgeLengthKernel(const PathRows& rows, const int* stencils, const double* weights, int count,
-                        double quartic, double* scratch);
+                        double quartic);
 
-double PositionKernel(const PathRows& rows, const int* stencils, const double* weights, int count,
-                      double* scratch);
+double PositionKernel(const PathRows& rows, const int* stencils, const double* weights, int count);
 
 /// `ends` holds the functor's two values at the first and at the last shape, 4 numbers an element.
 /// Those at the last are not read if the end is free.
 double DihedralKernel(const PathRows& rows, const int* stencils, const double* weights,
                       const double* ends, int count, double normal_epsilon_squared,
-                      double edge_epsilon_squared, double* scratch);
+                      double edge_epsilon_squared);
 
 /// `ends` holds the functor's three values at the first and at the last shape, 6 numbers an
 /// element. Those at the last are not read if the end is free.
 double TriangleStrainKernel(const PathRows& rows, const int* stencils, const double* weights,
-                            const double* ends, int count, double epsilon_squared, double* scratch);
+                            const double* ends, int count, double epsilon_squared);
 
 /// Volume: adds to `values`, inner + 2 numbers, what elements [0, count) enclose at each time.
 void AddVolumes(const PathRows& rows, const int* stencils, int count, double reference,
-                double* values, double* scratch);
+                double* values);
 /// Adds the gradient of sum_t slopes[t] V_t over the inner times, `slopes` as long as `values`.
 void AddVolumeGradients(const PathRows& rows, const int* stencils, int count, double reference,
-                        const double* slopes, double* scratch);
+                        const double* slopes);
 
 }  // namespace shapespace::internal
 

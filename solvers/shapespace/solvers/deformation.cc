@@ -55,7 +55,7 @@ constexpr double kContradiction = 1e-9;
 double EstimateBytes(const Metric& metric, int shapes) {
   const double vertices = metric.connectivity->NumVertices();
   const double unknowns = 3 * vertices * shapes;
-  const double vectors = 2.0 * internal::HistoryRank(unknowns) + 18;
+  const double vectors = internal::HistoryRank(unknowns) + 18.0;
   constexpr double kFactor = 300;  // numbers a vertex, as measured for geodesics
   return 8 * (vectors * unknowns + 2 * kFactor * vertices) +
          PathEnergy::EstimateBytes(metric, shapes);

@@ -28,7 +28,7 @@ constexpr double kMaxRigidTurn = 2 * M_PI / 3;
 double EstimateBytes(const Metric& metric, int poses, int shapes) {
   const double vertices = metric.connectivity->NumVertices();
   const double unknowns = 3 * vertices * shapes;
-  const double vectors = 2.0 * internal::HistoryRank(unknowns) + 10;
+  const double vectors = internal::HistoryRank(unknowns) + 10.0;
   const double factor = metric.options.bending > 0 ? 300 : 45;
   const double all_shapes = 3 * vertices * (poses + (poses - 1.0) * shapes);
   return 8 * (vectors * unknowns + factor * vertices + 2 * all_shapes) +

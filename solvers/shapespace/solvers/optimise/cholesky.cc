@@ -350,64 +350,57 @@ void CholeskyFactor<Scalar>::GrowBranches() {
 }
 
 template <typename Scalar>
-template <typename SolveNodes>
-bool CholeskyFactor<Scalar>::ForChunks(int width, const SolveNodes& solve) const {
-  // At least two chunks, where there are columns for two, so that two threads have work.
+template <typename Task>
+void CholeskyFactor<Scalar>::ForChunks(int tasks, int width, const Task& task) const {
+  // At least two chunks of a single task, where there are columns for two: one for each thread.
   const int groups = width / kColumns;
-  const int chunks = std::max(std::min(2, groups), (width + kChunk - 1) / kChunk);
-  if (chunks == 1) return false;
-  ParallelFor(chunks, [&](int chunk) {
-    const int begin = groups * chunk / chunks * kColumns;
-    solve(begin, groups * (chunk + 1) / chunks * kColumns - begin);
+  const int chunks = std::max(tasks == 1 ? std::min(2, groups) : 1, (width + kChunk - 1) / kChunk);
+  ParallelFor(tasks * chunks, [&](int i) {
+    const int chunk = i % chunks, begin = groups * chunk / chunks * kColumns;
+    task(i / chunks, begin, groups * (chunk + 1) / chunks * kColumns - begin);
   });
-  return true;
 }
 
 template <typename Scalar>
 void CholeskyFactor<Scalar>::SolveLower(Scalar* x, int width) const {
-  const bool done = ForChunks(width, [&](int begin, int count) {
-    for (const Supernode& node : supernodes_) {
+  const int num_branches = static_cast<int>(branches_.size());
+  ForChunks(num_branches, width, [&](int b, int begin, int count) {
+    const Branch& branch = branches_[b];
+    for (size_t row = 0; row < branch.outside.size(); ++row) {
+      std::fill_n(x + (branch.gathered + row) * width + begin, count, Scalar(0));
+    }
+    for (int s : branch.nodes) {
+      const Supernode& node = supernodes_[s];
+      ForwardNode(node, &values_[node.values], &branch_rows_[node.rows], x + begin, width, count);
+    }
+  });
+  ForChunks(1, width, [&](int, int begin, int count) {
+    for (const Branch& branch : branches_) {
+      const Scalar* from = x + static_cast<size_t>(branch.gathered) * width + begin;
+      for (int row : branch.outside) {
+        Scalar* const to = x + static_cast<size_t>(row) * width + begin;
+        for (int c = 0; c < count; ++c) to[c] += from[c];
+        from += width;
+      }
+    }
+    for (int s : trunk_) {
+      const Supernode& node = supernodes_[s];
       ForwardNode(node, &values_[node.values], &rows_[node.rows], x + begin, width, count);
     }
   });
-  if (done) return;
-  ParallelFor(static_cast<int>(branches_.size()), [&](int b) {
-    const Branch& branch = branches_[b];
-    std::fill_n(x + static_cast<size_t>(branch.gathered) * width, branch.outside.size() * width,
-                Scalar(0));
-    for (int s : branch.nodes) {
-      const Supernode& node = supernodes_[s];
-      ForwardNode(node, &values_[node.values], &branch_rows_[node.rows], x, width, width);
-    }
-  });
-  for (const Branch& branch : branches_) {
-    const Scalar* from = x + static_cast<size_t>(branch.gathered) * width;
-    for (int row : branch.outside) {
-      for (int c = 0; c < width; ++c) x[static_cast<size_t>(row) * width + c] += *from++;
-    }
-  }
-  for (int s : trunk_) {
-    const Supernode& node = supernodes_[s];
-    ForwardNode(node, &values_[node.values], &rows_[node.rows], x, width, width);
-  }
 }
 
 template <typename Scalar>
 void CholeskyFactor<Scalar>::SolveUpper(Scalar* x, int width) const {
-  const auto solve = [&](const std::vector<int>& nodes) {
+  const auto solve = [&](const std::vector<int>& nodes, int begin, int count) {
     for (auto s = nodes.rbegin(); s != nodes.rend(); ++s) {
       const Supernode& node = supernodes_[*s];
-      BackwardNode(node, &values_[node.values], &rows_[node.rows], x, width, width);
+      BackwardNode(node, &values_[node.values], &rows_[node.rows], x + begin, width, count);
     }
   };
-  const bool done = ForChunks(width, [&](int begin, int count) {
-    for (auto node = supernodes_.rbegin(); node != supernodes_.rend(); ++node) {
-      BackwardNode(*node, &values_[node->values], &rows_[node->rows], x + begin, width, count);
-    }
-  });
-  if (done) return;
-  solve(trunk_);
-  ParallelFor(static_cast<int>(branches_.size()), [&](int b) { solve(branches_[b].nodes); });
+  ForChunks(1, width, [&](int, int begin, int count) { solve(trunk_, begin, count); });
+  ForChunks(static_cast<int>(branches_.size()), width,
+            [&](int b, int begin, int count) { solve(branches_[b].nodes, begin, count); });
 }
 
 template class CholeskyFactor<double>;

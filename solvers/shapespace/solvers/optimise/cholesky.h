@@ -63,8 +63,8 @@ class CholeskyFactor {
   size_t NumNonzeros() const { return num_values_; }
 
   /// x <- C^{-1} x and x <- C^{-T} x; `x` is WorkRows() x `width`, row by row, rows `width` apart,
-  /// a multiple of `kColumns`; rows from Size() on are scratch. Uses all threads: several columns
-  /// go side by side, and for as few as kColumns the branches of the elimination tree.
+  /// a multiple of `kColumns`; rows from Size() on are scratch. Uses all threads: the branches of
+  /// the elimination tree are independent, and so are chunks of columns.
   int WorkRows() const { return work_rows_; }
   void SolveLower(Scalar* x, int width) const;
   void SolveUpper(Scalar* x, int width) const;
@@ -74,10 +74,9 @@ class CholeskyFactor {
   template <typename Other>
   friend class CholeskyFactor;
   void GrowBranches();
-  // Calls solve(begin, count) for chunks of the columns. \return false, having done nothing, if
-  // there are too few of them for two threads.
-  template <typename SolveNodes>
-  bool ForChunks(int width, const SolveNodes& solve) const;
+  // Calls task(i, begin, count) for every i in [0, tasks) and chunks of the columns.
+  template <typename Task>
+  void ForChunks(int tasks, int width, const Task& task) const;
 
   // What CHOLMOD made; its numbers are used where they are, or rounded.
   struct Made;

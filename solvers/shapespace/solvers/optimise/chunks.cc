@@ -3,9 +3,12 @@
 #include <shapespace/base/clones.h>
 
 namespace shapespace::internal {
+namespace {
 
-SHAPESPACE_CLONES
-double Dot(const double* a, const double* b, size_t count) {
+#define SHAPESPACE_INLINE inline __attribute__((always_inline))
+
+template <typename A>
+SHAPESPACE_INLINE double DotOf(const A* a, const double* b, size_t count) {
   // Four registers of eight sums each, so that the compiler has nothing to reorder.
   constexpr size_t kLanes = 32;
   double sums[kLanes] = {};
@@ -19,16 +22,41 @@ double Dot(const double* a, const double* b, size_t count) {
   return sum;
 }
 
-SHAPESPACE_CLONES
-void Add(double factor, const double* from, double* to, size_t count) {
+template <typename B, typename Result>
+SHAPESPACE_INLINE void CombineTo(const double* a, double factor, const B* b, Result* result,
+                                 size_t count) {
   SHAPESPACE_INDEPENDENT
-  for (size_t i = 0; i < count; ++i) to[i] += factor * from[i];
+  for (size_t i = 0; i < count; ++i) result[i] = static_cast<Result>(a[i] + factor * b[i]);
+}
+
+}  // namespace
+
+// Clones must not be templates.
+
+SHAPESPACE_CLONES
+double Dot(const double* a, const double* b, size_t count) { return DotOf(a, b, count); }
+
+SHAPESPACE_CLONES
+double Dot(const float* a, const double* b, size_t count) { return DotOf(a, b, count); }
+
+SHAPESPACE_CLONES
+void Add(double factor, const float* from, double* to, size_t count) {
+  CombineTo(to, factor, from, to, count);
 }
 
 SHAPESPACE_CLONES
 void Combine(const double* a, double factor, const double* b, double* result, size_t count) {
-  SHAPESPACE_INDEPENDENT
-  for (size_t i = 0; i < count; ++i) result[i] = a[i] + factor * b[i];
+  CombineTo(a, factor, b, result, count);
+}
+
+SHAPESPACE_CLONES
+void Combine(const double* a, double factor, const double* b, float* result, size_t count) {
+  CombineTo(a, factor, b, result, count);
+}
+
+SHAPESPACE_CLONES
+void Combine(const double* a, double factor, const float* b, double* result, size_t count) {
+  CombineTo(a, factor, b, result, count);
 }
 
 }  // namespace shapespace::internal

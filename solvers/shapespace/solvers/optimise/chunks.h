@@ -35,10 +35,13 @@ std::vector<double> ForChunks(size_t size, int num_sums, const Body& body) {
 
 /// a . b
 double Dot(const double* a, const double* b, size_t count);
+double Dot(const float* a, const double* b, size_t count);
 /// to += factor * from
-void Add(double factor, const double* from, double* to, size_t count);
+void Add(double factor, const float* from, double* to, size_t count);
 /// result = a + factor * b, where `result` may be one of the two
 void Combine(const double* a, double factor, const double* b, double* result, size_t count);
+void Combine(const double* a, double factor, const double* b, float* result, size_t count);
+void Combine(const double* a, double factor, const float* b, double* result, size_t count);
 
 }  // namespace shapespace::internal
 

@@ -68,9 +68,9 @@ MinimiseResult MinimiseLbfgs(const Objective& energy, ChangeOfVariables* variabl
 using Precondition = std::function<void(const double* gradient, double unit, double* result)>;
 
 /// L-BFGS of ours (Nocedal and Wright, Numerical Optimization, algorithm 7.4), for large problems:
-/// as many vectors as twice the rank and five, every pass over them on all threads, the
-/// preconditioner applied once an iteration. Bitwise the same for any number of threads. Unknowns
-/// whose gradient and preconditioned gradient are always zero stay as they are.
+/// as many vectors as twice the rank in single precision and six in double, every pass over them on
+/// all threads, the preconditioner applied once an iteration. Bitwise the same for any number of
+/// threads. Unknowns whose gradient and preconditioned gradient are always zero stay as they are.
 /// \throw SolverError if the energy is not finite at the start.
 MinimiseResult MinimiseThreadedLbfgs(const Objective& energy, const Precondition& precondition,
                                      const MinimiseOptions& options, std::vector<double>* unknowns);

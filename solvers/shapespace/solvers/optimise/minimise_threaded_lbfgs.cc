@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include <shapespace/base/error.h>
@@ -18,6 +19,14 @@ constexpr double kLeastCurvature = 1e-3;
 // search that finds no descent has converged to rounding.
 constexpr double kNothingLeft = 1e-3;
 
+// A vector whose memory nothing fills before it is written: that is done by all threads.
+template <typename Number>
+using Buffer = std::unique_ptr<Number[]>;
+template <typename Number = double>
+Buffer<Number> MakeBuffer(size_t size) {
+  return Buffer<Number>(new Number[size]);
+}
+
 // The algorithm in its usual form walks through the history twice, forth and back, every dot
 // product waiting for the one before. Here the vectors' products with each other are kept, so that
 // all sums of a walk are one pass over memory, and all dot products of it another.
@@ -28,16 +37,18 @@ class ThreadedLbfgs {
       : energy_(energy),
         precondition_(precondition),
         options_(options),
-        x_(*unknowns),
+        unknowns_(*unknowns),
         size_(unknowns->size()),
-        work_(size_),
-        preconditioned_(size_),
-        change_(size_),
-        gradient_(size_),
-        trial_gradient_(size_) {}
+        x_(MakeBuffer(size_)),
+        work_(MakeBuffer(size_)),
+        preconditioned_(MakeBuffer(size_)),
+        change_(MakeBuffer(size_)),
+        gradient_(MakeBuffer(size_)),
+        trial_gradient_(MakeBuffer(size_)) {}
 
   MinimiseResult Run() {
-    value_ = Evaluate(x_, &gradient_);
+    Copy(unknowns_.data(), x_.get());
+    value_ = Evaluate(x_, gradient_.get());
     if (!std::isfinite(value_)) {
       throw SolverError("the energy of the path to start from is not finite");
     }
@@ -49,29 +60,38 @@ class ThreadedLbfgs {
     if (result_.stop == Stop::kStalled && result_.remaining < kNothingLeft * options_.tolerance) {
       result_.stop = Stop::kConverged;
     }
+    Copy(x_.get(), unknowns_.data());
     return result_;
   }
 
  private:
+  // The vectors are rounded, which is no error: `direction` is what a step goes along, and the
+  // preconditioner works in single precision.
   struct Pair {
-    std::vector<double> direction;  // of the unknowns, without its length
-    std::vector<double> change;     // of the gradient, preconditioned
-    double length = 0;              // the step is `length` times `direction`
-    double curvature = 0;           // step . change of the gradient
-    double step_gradient = 0;       // step . gradient at the current point
+    Buffer<float> direction;   // of the unknowns, without its length
+    Buffer<float> change;      // of the gradient, preconditioned
+    double length = 0;         // the step is `length` times `direction`
+    double curvature = 0;      // step . change of the gradient
+    double step_gradient = 0;  // step . gradient at the current point
     // Of this pair and each later one: step . change of the gradient, and the product of the change
     // of the gradient with the preconditioned one.
     std::vector<double> step_change, change_change;
   };
 
-  double Evaluate(const std::vector<double>& unknowns, std::vector<double>* gradient) {
+  void Copy(const double* from, double* to) {
+    ForChunks(size_, 0, [&](size_t begin, size_t count, double*) {
+      std::copy_n(from + begin, count, to + begin);
+    });
+  }
+
+  double Evaluate(const Buffer<double>& unknowns, double* gradient) {
     ++result_.evaluations;
-    return energy_(unknowns.data(), gradient->data());
+    return energy_(unknowns.get(), gradient);
   }
 
   // Half the product of the gradient and the preconditioned gradient.
   double SteepestDecrease() {
-    precondition_(gradient_.data(), unit_, work_.data());
+    precondition_(gradient_.get(), unit_, work_.get());
     return 0.5 * ForChunks(size_, 1, [&](size_t begin, size_t count, double* sums) {
              sums[0] += Dot(&gradient_[begin], &work_[begin], count);
            })[0];
@@ -109,7 +129,7 @@ class ThreadedLbfgs {
   // taken. Returns the gradient's with each preconditioned change. The preconditioner's scale is
   // made to fit what the last step has seen of the Hessian (Nocedal and Wright, equation 7.20).
   std::vector<double> PreconditionGradient() {
-    precondition_(gradient_.data(), unit_, work_.data());
+    precondition_(gradient_.get(), unit_, work_.get());
     const int pairs = static_cast<int>(history_.size());
     std::vector<double> products =
         ForChunks(size_, 2 * pairs, [&](size_t begin, size_t count, double* sums) {
@@ -118,7 +138,7 @@ class ThreadedLbfgs {
                     count);
           }
           for (int i = 0; i < pairs; ++i) {
-            const double* const change = &history_[i].change[begin];
+            const float* const change = &history_[i].change[begin];
             sums[i] += Dot(change, &gradient_[begin], count);
             if (fresh_change_) sums[pairs + i] += Dot(change, &change_[begin], count);
           }
@@ -161,19 +181,18 @@ class ThreadedLbfgs {
     if (full) {
       next.direction.swap(history_.front().direction);
     } else {
-      next.direction.resize(size_);
+      next.direction = MakeBuffer<float>(size_);
     }
     const double slope = ForChunks(size_, 1, [&](size_t begin, size_t count, double* sums) {
       double* const z = &work_[begin];
       for (size_t k = 0; k < count; ++k) z[k] = scale_ * preconditioned_[begin + k];
       for (int i = 0; i < pairs; ++i) {
         Add(-scale_ * first[i], &history_[i].change[begin], z, count);
-        const std::vector<double>& direction =
-            i == 0 && full ? next.direction : history_[i].direction;
+        const Buffer<float>& direction = i == 0 && full ? next.direction : history_[i].direction;
         Add(second[i] * history_[i].length, &direction[begin], z, count);
       }
-      double* const d = &next.direction[begin];
-      for (size_t k = 0; k < count; ++k) d[k] = -z[k];
+      float* const d = &next.direction[begin];
+      for (size_t k = 0; k < count; ++k) d[k] = static_cast<float>(-z[k]);
       sums[0] += Dot(d, &gradient_[begin], count);
       Combine(&x_[begin], 1, d, z, count);
     })[0];
@@ -181,7 +200,7 @@ class ThreadedLbfgs {
       next.change.swap(history_.front().change);
       history_.erase(history_.begin());
     } else {
-      next.change.resize(size_);
+      next.change = MakeBuffer<float>(size_);
     }
     history_.push_back(std::move(next));
     return slope;
@@ -191,7 +210,7 @@ class ThreadedLbfgs {
   // point was found.
   bool Search(double slope) {
     Pair& last = history_.back();
-    const std::vector<double>& direction = last.direction;
+    const Buffer<float>& direction = last.direction;
     bool whole = true;  // `work_` is where a whole step leads
     const LinePoint start = {0, value_, slope};
     const LinePoint end = !(slope < 0) ? start : SearchLine(start, [&](double step) {
@@ -201,7 +220,7 @@ class ThreadedLbfgs {
         });
         whole = step == 1;
       }
-      const double value = Evaluate(work_, &trial_gradient_);
+      const double value = Evaluate(work_, trial_gradient_.get());
       const double trial_slope = ForChunks(size_, 1, [&](size_t begin, size_t count, double* sums) {
         sums[0] += Dot(&direction[begin], &trial_gradient_[begin], count);
       })[0];
@@ -245,9 +264,9 @@ class ThreadedLbfgs {
   const Objective& energy_;
   const Precondition& precondition_;
   const MinimiseOptions& options_;
-  std::vector<double>& x_;
+  std::vector<double>& unknowns_;
   const size_t size_;
-  std::vector<double> work_, preconditioned_, change_, gradient_, trial_gradient_;
+  Buffer<double> x_, work_, preconditioned_, change_, gradient_, trial_gradient_;
   double value_ = 0, unit_ = 1, scale_ = 1;
   bool fresh_ = true;          // no history bears on the direction
   bool fresh_change_ = false;  // the last pair's change has not been preconditioned yet

@@ -17,7 +17,7 @@ namespace {
 constexpr int kTrustRegionUnknowns = 400;
 // Unknowns from which on our own L-BFGS is at least 1.5 times faster than Ceres', whose vector work
 // is serial.
-constexpr double kThreadedUnknowns = 1.2e5;
+constexpr double kThreadedUnknowns = 2e4;
 // History of L-BFGS: long where a level is small, short where the history would be the memory.
 constexpr int kLongRank = 20, kShortRank = 5;
 constexpr double kLongRankUnknowns = 3e5;
