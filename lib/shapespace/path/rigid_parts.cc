@@ -376,6 +376,84 @@ Eigen::VectorXi PartsOfVertices(const Connectivity& connectivity,
   return result;
 }
 
+// Regions of triangles that are large enough, the largest first.
+struct Regions {
+  std::vector<int> of_triangle;  // -1 where the triangle's is too small
+  std::vector<double> area;
+};
+
+Regions LargeRegions(Merger merger, const Eigen::VectorXd& area, double least_share) {
+  Regions result;
+  int count = 0;
+  result.of_triangle = merger.Run(&count);
+  std::vector<double> region_area(count, 0);
+  for (size_t f = 0; f < result.of_triangle.size(); ++f) {
+    region_area[result.of_triangle[f]] += area(f);
+  }
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return region_area[a] > region_area[b]; });
+  std::vector<int> rank(count, -1);
+  for (const int region : order) {
+    if (region_area[region] < least_share) break;
+    rank[region] = static_cast<int>(result.area.size());
+    result.area.push_back(region_area[region]);
+  }
+  for (int& region : result.of_triangle) region = rank[region];
+  return result;
+}
+
+// Of a region of this area, by how the first shape's fits it in all others.
+bool IsRigid(const std::vector<std::vector<RegionFit>>& fits, int region, double area,
+             const RigidPartsOptions& options) {
+  double deviation = 0, residual = 0;
+  for (size_t i = 1; i < fits.size(); ++i) {
+    deviation = std::max(deviation, std::sqrt(fits[i][region].squared_edge_deviation));
+    residual = std::max(residual, std::sqrt(fits[i][region].squared_residual));
+  }
+  // The root of (residual per area) as a share of the root of the area.
+  return residual <= kOwnShare * options.tolerance * area && !(deviation > options.most_deviation);
+}
+
+// But for what `CountAndPlaceParts` finds; turns are against the region `largest`.
+RigidPart DescribePart(const std::vector<std::vector<RegionFit>>& fits, int region, int largest,
+                       double area, double unit) {
+  RigidPart part;
+  part.area_share = area;
+  const double moved_shapes = std::max<double>(1, static_cast<double>(fits.size()) - 1);
+  double residual = 0, deviation = 0;
+  for (size_t i = 1; i < fits.size(); ++i) {
+    residual += fits[i][region].squared_residual / moved_shapes;
+    deviation += fits[i][region].squared_edge_deviation / moved_shapes;
+    part.turn =
+        std::max(part.turn, DegreesBetween(fits[i][region].rotation, fits[i][largest].rotation));
+  }
+  const double distance = std::sqrt(residual / area);
+  part.residual = distance * unit;
+  part.relative_residual = distance / std::sqrt(area);
+  part.edge_deviation = std::sqrt(deviation);
+  return part;
+}
+
+void CountAndPlaceParts(const Path& path, const Eigen::VectorXd& area, RigidParts* result) {
+  const Eigen::Matrix3Xi& triangles = path.metric->connectivity->Triangles();
+  const Shape first = path.Placed(0);
+  std::vector<Eigen::Vector3d> sums(result->parts.size(), Eigen::Vector3d::Zero());
+  for (int f = 0; f < triangles.cols(); ++f) {
+    const int part = result->of_triangle(f);
+    if (part == RigidParts::kJoint) continue;
+    ++result->parts[part].num_triangles;
+    for (const int v : triangles.col(f)) sums[part] += area(f) / 3 * first.col(v);
+  }
+  for (size_t part = 0; part < sums.size(); ++part) {
+    result->parts[part].centre = sums[part] / result->parts[part].area_share;
+  }
+  for (const int part : result->of_vertex) {
+    if (part != RigidParts::kJoint) ++result->parts[part].num_vertices;
+  }
+}
+
 }  // namespace
 
 void RigidPartsOptions::Validate() const {
@@ -395,81 +473,32 @@ RigidParts FindRigidParts(const Path& path, const RigidPartsOptions& options) {
   result.of_vertex = PartsOfVertices(connectivity, result.of_triangle);
   if (num_triangles == 0) return result;
 
-  int count = 0;
-  std::vector<int> region = Merger(path, options).Run(&count);
   const Eigen::VectorXd area = MeanAreas(path, DecidingShapes(path.NumShapes()));
-  std::vector<double> region_area(count, 0);
-  for (int f = 0; f < num_triangles; ++f) region_area[region[f]] += area(f);
-  std::vector<int> order(count);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return region_area[a] > region_area[b]; });
-  // From here on regions that are large enough, by size.
-  std::vector<int> rank(count, -1);
-  int large = 0;
-  while (large < count && region_area[order[large]] >= options.least_share) {
-    rank[order[large]] = large;
-    ++large;
-  }
-  for (int& r : region) r = rank[r];
-
+  const Regions regions = LargeRegions(Merger(path, options), area, options.least_share);
+  const int large = static_cast<int>(regions.area.size());
   std::vector<std::vector<RegionFit>> fits(path.NumShapes());
   ParallelFor(path.NumShapes(), [&](int i) {
-    if (i > 0) fits[i] = FitRegions(path, i, area, region, large);
+    if (i > 0) fits[i] = FitRegions(path, i, area, regions.of_triangle, large);
   });
   std::vector<int> part_of(large, RigidParts::kJoint);
   std::vector<int> region_of;
   for (int r = 0; r < large; ++r) {
-    double deviation = 0, residual = 0;
-    for (int i = 1; i < path.NumShapes(); ++i) {
-      deviation = std::max(deviation, std::sqrt(fits[i][r].squared_edge_deviation));
-      residual = std::max(residual, std::sqrt(fits[i][r].squared_residual));
-    }
-    // The root of (residual per area) as a share of the root of the area.
-    const bool rigid = residual <= kOwnShare * options.tolerance * region_area[order[r]];
-    if (!rigid || deviation > options.most_deviation) continue;
+    if (!IsRigid(fits, r, regions.area[r], options)) continue;
     part_of[r] = static_cast<int>(region_of.size());
     region_of.push_back(r);
   }
   for (int f = 0; f < num_triangles; ++f) {
-    if (region[f] >= 0) result.of_triangle(f) = part_of[region[f]];
+    const int region = regions.of_triangle[f];
+    if (region >= 0) result.of_triangle(f) = part_of[region];
   }
   result.of_vertex = PartsOfVertices(connectivity, result.of_triangle);
-
-  result.joint_share = 1;
-  const int moved_shapes = std::max(1, path.NumShapes() - 1);
+  double rigid = 0;
   for (const int r : region_of) {
-    RigidPart part;
-    part.area_share = region_area[order[r]];
-    result.joint_share -= part.area_share;
-    double residual = 0, deviation = 0;
-    for (int i = 1; i < path.NumShapes(); ++i) {
-      residual += fits[i][r].squared_residual / moved_shapes;
-      deviation += fits[i][r].squared_edge_deviation / moved_shapes;
-      part.turn =
-          std::max(part.turn, DegreesBetween(fits[i][r].rotation, fits[i][region_of[0]].rotation));
-    }
-    const double distance = std::sqrt(residual / part.area_share);
-    part.residual = distance * path.metric->unit;
-    part.relative_residual = distance / std::sqrt(part.area_share);
-    part.edge_deviation = std::sqrt(deviation);
-    result.parts.push_back(part);
+    result.parts.push_back(DescribePart(fits, r, region_of[0], regions.area[r], path.metric->unit));
+    rigid += regions.area[r];
   }
-  result.joint_share = std::max(0.0, result.joint_share);
-  const Shape first = path.Placed(0);
-  std::vector<Eigen::Vector3d> sums(result.parts.size(), Eigen::Vector3d::Zero());
-  for (int f = 0; f < num_triangles; ++f) {
-    const int part = result.of_triangle(f);
-    if (part == RigidParts::kJoint) continue;
-    ++result.parts[part].num_triangles;
-    for (const int v : connectivity.Triangles().col(f)) sums[part] += area(f) / 3 * first.col(v);
-  }
-  for (size_t part = 0; part < sums.size(); ++part) {
-    result.parts[part].centre = sums[part] / result.parts[part].area_share;
-  }
-  for (const int part : result.of_vertex) {
-    if (part != RigidParts::kJoint) ++result.parts[part].num_vertices;
-  }
+  result.joint_share = std::max(0.0, 1 - rigid);
+  CountAndPlaceParts(path, area, &result);
   return result;
 }
 

@@ -177,6 +177,113 @@ class Comparison {
   Shape target_;
 };
 
+void CheckTarget(const Path& source, const Shape& target) {
+  const int num_vertices = source.metric->connectivity->NumVertices();
+  if (source.NumShapes() < 2) throw MeshError("a source of one shape has no motion to transfer");
+  if (target.cols() != num_vertices) {
+    throw MeshError("the target has " + std::to_string(target.cols()) +
+                    " vertices, the source has " + std::to_string(num_vertices));
+  }
+  if (!target.allFinite()) throw MeshError("a coordinate of the target is not finite");
+}
+
+// How many times the target is as large as the source.
+double ScaleOf(const Path& source, const Shape& target) {
+  const Eigen::VectorXd& weights = source.metric->vertex_area;
+  const double scale = internal::Radius(target, weights) /
+                       (source.metric->unit * internal::Radius(source.shapes[0], weights));
+  if (!(scale > 0) || !std::isfinite(scale)) {
+    throw MeshError("the target or the source's first shape has no extent");
+  }
+  return scale;
+}
+
+// The target's shapes, one after the other; the first is there from the beginning.
+class TargetShapes {
+ public:
+  TargetShapes(const Path& source, const Shape& target, double scale,
+               const TransferOptions& options)
+      : options_(options),
+        climbs_(options.method == TransferMethod::kLadder),
+        comparison_(source, target, climbs_ && !options.ladder.scale ? 1 : scale,
+                    !climbs_ || options.ladder.align),
+        shapes_{comparison_.Target()} {
+    std::vector<Shape> poses = comparison_.Shapes();
+    poses.insert(poses.begin(), shapes_[0]);
+    const auto freeze = [&](const MetricOptions& metric) {
+      return std::make_shared<const Metric>(
+          FreezeMetric(metric, source.metric->connectivity, poses));
+    };
+    metric_ = freeze(climbs_ ? options.ladder.metric : MetricOptions::Strain());
+    if (climbs_ || options.hybrids) {
+      ladder_.emplace(climbs_ ? metric_ : freeze(options.ladder.metric), options.ladder);
+    }
+    if (!climbs_) {
+      features_.emplace(freeze(options.metric), comparison_.Shapes()[0] / metric_->unit,
+                        shapes_[0] / metric_->unit);
+    }
+  }
+
+  const std::shared_ptr<const Metric>& GetMetric() const { return metric_; }
+
+  void MakeNext(TransferSummary::Step* row, Progress* within) {
+    const int i = static_cast<int>(shapes_.size());
+    if (climbs_) {
+      try {
+        shapes_.push_back(ladder_->Climb(RungAt(i - 1, within), shapes_.back(), row, within));
+      } catch (const SolverError& error) {
+        throw SolverError("transfer of shape " + std::to_string(i + 1) + ": " + error.what() +
+                          "; a source with more shapes on the same way makes smaller steps");
+      }
+      return;
+    }
+    const internal::NearestShape nearest =
+        (*features_)(comparison_.Shapes()[i] / metric_->unit, options_.tolerance,
+                     options_.max_iterations, [&] { ReportProgress(within, "", i, 0); });
+    row->converged = nearest.converged;
+    row->iterations = nearest.iterations;
+    shapes_.push_back(metric_->unit * nearest.shape);
+  }
+
+  /// The last shape in its place.
+  Shape Placed() const { return Placing()(shapes_.back()); }
+  /// Half way between it and the source's.
+  Shape Hybrid(Progress* within) {
+    const int last = static_cast<int>(shapes_.size()) - 1;
+    return Placing()(ladder_->Hybrid(RungAt(last, within)));
+  }
+
+ private:
+  RigidMotion Placing() const {
+    const int last = static_cast<int>(shapes_.size()) - 1;
+    const std::vector<Shape>& source = comparison_.Shapes();
+    return comparison_.Placing(
+        last, climbs_ ? ladder_->Uprighting(source[0], source[last], shapes_[0], shapes_[last])
+                      : Eigen::Matrix3d::Identity());
+  }
+
+  // The target's next shape and the hybrid share it.
+  const internal::Ladder::Rung& RungAt(int i, Progress* within) {
+    if (rung_at_ != i) {
+      const std::vector<Shape>& source = comparison_.Shapes();
+      const size_t next = std::min<size_t>(i + 1, source.size() - 1);
+      rung_ = ladder_->Lay(source[i], source[next], shapes_[i], within);
+      rung_at_ = i;
+    }
+    return *rung_;
+  }
+
+  const TransferOptions& options_;
+  const bool climbs_;
+  const Comparison comparison_;
+  std::vector<Shape> shapes_;
+  std::shared_ptr<const Metric> metric_;
+  std::optional<internal::Ladder> ladder_;
+  std::optional<internal::FeatureTransfer> features_;
+  std::optional<internal::Ladder::Rung> rung_;
+  int rung_at_ = -1;
+};
+
 }  // namespace
 
 MetricOptions LadderOptions::Strains() {
@@ -214,92 +321,31 @@ void TransferOptions::Validate() const {
 TransferResult Transfer(const Path& source, const Shape& target, const TransferOptions& options,
                         Progress* progress) {
   options.Validate();
+  CheckTarget(source, target);
   const Stopwatch total;
-  const std::shared_ptr<const Connectivity>& connectivity = source.metric->connectivity;
-  const int count = source.NumShapes();
-  if (count < 2) throw MeshError("a source of one shape has no motion to transfer");
-  if (target.cols() != connectivity->NumVertices()) {
-    throw MeshError("the target has " + std::to_string(target.cols()) +
-                    " vertices, the source has " + std::to_string(connectivity->NumVertices()));
-  }
-  if (!target.allFinite()) throw MeshError("a coordinate of the target is not finite");
-  const bool climbs = options.method == TransferMethod::kLadder;
-  const bool lays_rungs = climbs || options.hybrids;
   TransferResult result;
   TransferSummary& summary = result.summary;
+  const bool climbs = options.method == TransferMethod::kLadder;
   summary.method = options.method;
-  summary.vertices = connectivity->NumVertices();
+  summary.vertices = source.metric->connectivity->NumVertices();
   summary.metric = Describe(climbs ? options.ladder.metric : options.metric);
-  const Eigen::VectorXd& weights = source.metric->vertex_area;
-  summary.scale = internal::Radius(target, weights) /
-                  (source.metric->unit * internal::Radius(source.shapes[0], weights));
-  if (!(summary.scale > 0) || !std::isfinite(summary.scale)) {
-    throw MeshError("the target or the source's first shape has no extent");
-  }
-
-  const Comparison comparison(source, target, climbs && !options.ladder.scale ? 1 : summary.scale,
-                              !climbs || options.ladder.align);
-  const std::vector<Shape>& shapes = comparison.Shapes();
-  std::vector<Shape> targets = {comparison.Target()};
-  std::vector<Shape> poses = shapes;
-  poses.insert(poses.begin(), targets[0]);
-  const auto freeze = [&](const MetricOptions& metric) {
-    return std::make_shared<const Metric>(FreezeMetric(metric, connectivity, poses));
-  };
-  const auto metric = freeze(climbs ? options.ladder.metric : MetricOptions::Strain());
-  std::optional<internal::Ladder> ladder;
-  if (lays_rungs) {
-    ladder.emplace(climbs ? metric : freeze(options.ladder.metric), options.ladder);
-  }
-  std::optional<internal::FeatureTransfer> features;
-  if (!climbs) {
-    features.emplace(freeze(options.metric), shapes[0] / metric->unit, targets[0] / metric->unit);
-  }
-
-  // The rung at shape i, which the target's next shape and the hybrid share.
-  std::optional<internal::Ladder::Rung> rung;
-  int rung_at = -1;
-  const auto lay = [&](int i, Progress* within) -> const internal::Ladder::Rung& {
-    if (rung_at != i) {
-      rung = ladder->Lay(shapes[i], shapes[std::min(i + 1, count - 1)], targets[i], within);
-      rung_at = i;
-    }
-    return *rung;
-  };
-  const auto make = [&](int i, TransferSummary::Step* row, Progress* within) -> Shape {
-    if (climbs) {
-      try {
-        return ladder->Climb(lay(i - 1, within), targets[i - 1], row, within);
-      } catch (const SolverError& error) {
-        throw SolverError("transfer of shape " + std::to_string(i + 1) + ": " + error.what() +
-                          "; a source with more shapes on the same way makes smaller steps");
-      }
-    }
-    const internal::NearestShape nearest =
-        (*features)(shapes[i] / metric->unit, options.tolerance, options.max_iterations,
-                    [&] { ReportProgress(within, "", i, count); });
-    row->converged = nearest.converged;
-    row->iterations = nearest.iterations;
-    return metric->unit * nearest.shape;
-  };
+  summary.scale = ScaleOf(source, target);
+  TargetShapes shapes(source, target, summary.scale, options);
+  const int count = source.NumShapes();
   std::vector<Shape> placed, hybrids;
-  const auto add = [&](int i) {
-    if (progress != nullptr) progress->ReportShare(static_cast<double>(i) / count);
-    WithinShape within(progress, i, count);
-    ReportProgress(&within, "", i, count);
-    const Stopwatch stopwatch;
-    TransferSummary::Step row;
-    if (i > 0) targets.push_back(make(i, &row, &within));
-    const RigidMotion motion = comparison.Placing(
-        i, climbs ? ladder->Uprighting(shapes[0], shapes[i], targets[0], targets[i])
-                  : Eigen::Matrix3d::Identity());
-    if (options.hybrids) hybrids.push_back(motion(ladder->Hybrid(lay(i, &within))));
-    placed.push_back(i == 0 ? target : motion(targets[i]));
-    row.seconds = stopwatch.Seconds();
-    if (i > 0) summary.steps.push_back(row);
-  };
   try {
-    for (int i = 0; i < count; ++i) add(i);
+    for (int i = 0; i < count; ++i) {
+      if (progress != nullptr) progress->ReportShare(static_cast<double>(i) / count);
+      WithinShape within(progress, i, count);
+      ReportProgress(&within, "", i, count);
+      const Stopwatch stopwatch;
+      TransferSummary::Step row;
+      if (i > 0) shapes.MakeNext(&row, &within);
+      if (options.hybrids) hybrids.push_back(shapes.Hybrid(&within));
+      placed.push_back(i == 0 ? target : shapes.Placed());
+      row.seconds = stopwatch.Seconds();
+      if (i > 0) summary.steps.push_back(row);
+    }
   } catch (const Cancelled&) {
     if (placed.size() < 2) throw;
     summary.cancelled = true;
@@ -307,6 +353,7 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
   }
   const Path made = FirstShapes(source, static_cast<int>(placed.size()));
   const std::string provenance = source.provenance.empty() ? "" : source.provenance + "; ";
+  const std::shared_ptr<const Metric>& metric = shapes.GetMetric();
   result.path = PathOfTarget(metric, placed, made.parameters, provenance + "transferred");
   if (options.hybrids) {
     result.hybrids = PathOfPlaced(metric, hybrids, made.parameters, provenance + "hybrids");

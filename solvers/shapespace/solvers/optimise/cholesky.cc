@@ -283,70 +283,83 @@ void CholeskyFactor<Scalar>::GrowBranches() {
   for (int s = 0; s < num_nodes; ++s) {
     std::fill_n(node_of_row.begin() + supernodes_[s].begin, supernodes_[s].width, s);
   }
-  // A supernode's parent has the first row below it, and comes later.
-  std::vector<int> parent(num_nodes, -1);
-  std::vector<std::vector<int>> children(num_nodes);
-  std::vector<double> work(num_nodes, 0);  // of the subtree
-  std::vector<int> roots;
-  double total = 0;
-  for (int s = 0; s < num_nodes; ++s) {
-    const Supernode& node = supernodes_[s];
-    const double own = static_cast<double>(node.width) * node.height;
-    work[s] += own;
-    total += own;
-    if (node.height == node.width) {
-      roots.push_back(s);
-      continue;
-    }
-    parent[s] = node_of_row[rows_[node.rows + node.width]];
-    children[parent[s]].push_back(s);
-    work[parent[s]] += work[s];
-  }
-  // Subtrees are split until none is so large that others would wait for it.
-  std::vector<int> branch_of(num_nodes, -1), open = roots;
-  while (!open.empty()) {
-    const int s = open.back();
-    open.pop_back();
-    if (work[s] > kBranchShare * total && total > kWorthBranches) {
-      open.insert(open.end(), children[s].begin(), children[s].end());
-    } else if (total > kWorthBranches) {
-      branch_of[s] = static_cast<int>(branches_.size());
-      branches_.emplace_back();
-    }
-  }
-  for (int s = num_nodes - 1; s >= 0; --s) {
-    if (branch_of[s] < 0 && parent[s] >= 0) branch_of[s] = branch_of[parent[s]];
-  }
+  const std::vector<int> branch_of = AssignBranches(node_of_row);
+  branches_.resize(*std::max_element(branch_of.begin(), branch_of.end()) + 1);
   for (int s = 0; s < num_nodes; ++s) {
     (branch_of[s] < 0 ? trunk_ : branches_[branch_of[s]].nodes).push_back(s);
   }
   work_rows_ = Size();
   branch_rows_ = rows_;
   for (size_t b = 0; b < branches_.size(); ++b) {
-    Branch& branch = branches_[b];
-    for (int s : branch.nodes) {
-      const Supernode& node = supernodes_[s];
-      for (int k = node.width; k < node.height; ++k) {
-        const int row = rows_[node.rows + k];
-        if (branch_of[node_of_row[row]] != static_cast<int>(b)) branch.outside.push_back(row);
-      }
+    GatherOutsideRows([&](int row) { return branch_of[node_of_row[row]] != static_cast<int>(b); },
+                      &branches_[b]);
+  }
+}
+
+// Of every supernode the number of its branch, or -1 in the trunk.
+template <typename Scalar>
+std::vector<int> CholeskyFactor<Scalar>::AssignBranches(const std::vector<int>& node_of_row) const {
+  const int num_nodes = static_cast<int>(supernodes_.size());
+  // A supernode's parent has the first row below it, and comes later.
+  std::vector<int> parent(num_nodes, -1), branch_of(num_nodes, -1), open;
+  std::vector<std::vector<int>> children(num_nodes);
+  std::vector<double> work(num_nodes, 0);  // of the subtree
+  double total = 0;
+  for (int s = 0; s < num_nodes; ++s) {
+    const Supernode& node = supernodes_[s];
+    const double own = static_cast<double>(node.width) * node.height;
+    work[s] += own;
+    total += own;
+    if (node.height == node.width) {  // a root
+      open.push_back(s);
+      continue;
     }
-    std::sort(branch.outside.begin(), branch.outside.end());
-    branch.outside.erase(std::unique(branch.outside.begin(), branch.outside.end()),
-                         branch.outside.end());
-    branch.gathered = work_rows_;
-    work_rows_ += static_cast<int>(branch.outside.size());
-    for (int s : branch.nodes) {
-      const Supernode& node = supernodes_[s];
-      for (int k = node.width; k < node.height; ++k) {
-        int& row = branch_rows_[node.rows + k];
-        const auto found = std::lower_bound(branch.outside.begin(), branch.outside.end(), row);
-        if (found != branch.outside.end() && *found == row) {
-          row = branch.gathered + static_cast<int>(found - branch.outside.begin());
-        }
-      }
+    parent[s] = node_of_row[rows_[node.rows + node.width]];
+    children[parent[s]].push_back(s);
+    work[parent[s]] += work[s];
+  }
+  if (total <= kWorthBranches) return branch_of;
+  // Subtrees are split until none is so large that others would wait for it.
+  int num_branches = 0;
+  while (!open.empty()) {
+    const int s = open.back();
+    open.pop_back();
+    if (work[s] > kBranchShare * total) {
+      open.insert(open.end(), children[s].begin(), children[s].end());
+    } else {
+      branch_of[s] = num_branches++;
     }
   }
+  for (int s = num_nodes - 1; s >= 0; --s) {
+    if (branch_of[s] < 0 && parent[s] >= 0) branch_of[s] = branch_of[parent[s]];
+  }
+  return branch_of;
+}
+
+// Gives a branch rows of its own for what it adds to rows that are outside of it.
+template <typename Scalar>
+template <typename IsOutside>
+void CholeskyFactor<Scalar>::GatherOutsideRows(const IsOutside& is_outside, Branch* branch) {
+  const auto for_rows_below = [&](const auto& body) {
+    for (int s : branch->nodes) {
+      const Supernode& node = supernodes_[s];
+      for (int k = node.width; k < node.height; ++k) body(branch_rows_[node.rows + k]);
+    }
+  };
+  std::vector<int>& outside = branch->outside;
+  for_rows_below([&](int row) {
+    if (is_outside(row)) outside.push_back(row);
+  });
+  std::sort(outside.begin(), outside.end());
+  outside.erase(std::unique(outside.begin(), outside.end()), outside.end());
+  branch->gathered = work_rows_;
+  work_rows_ += static_cast<int>(outside.size());
+  for_rows_below([&](int& row) {
+    const auto found = std::lower_bound(outside.begin(), outside.end(), row);
+    if (found != outside.end() && *found == row) {
+      row = branch->gathered + static_cast<int>(found - outside.begin());
+    }
+  });
 }
 
 template <typename Scalar>

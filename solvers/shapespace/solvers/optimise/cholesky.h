@@ -74,6 +74,9 @@ class CholeskyFactor {
   template <typename Other>
   friend class CholeskyFactor;
   void GrowBranches();
+  std::vector<int> AssignBranches(const std::vector<int>& node_of_row) const;
+  template <typename IsOutside>
+  void GatherOutsideRows(const IsOutside& is_outside, Branch* branch);
   // Calls task(i, begin, count) for every i in [0, tasks) and chunks of the columns.
   template <typename Task>
   void ForChunks(int tasks, int width, const Task& task) const;

@@ -154,31 +154,46 @@ class ThreadedLbfgs {
     return products;
   }
 
+  // Of minus the direction, as a sum over pairs: what each (preconditioned) change and each step
+  // is multiplied by. These are the two walks through the history, on products alone.
+  struct Weights {
+    std::vector<double> changes, steps;
+  };
+  Weights WalkThroughHistory(const std::vector<double>& products) const {
+    const int pairs = static_cast<int>(history_.size());
+    std::vector<double> back(pairs), forth(pairs);
+    for (int i = pairs - 1; i >= 0; --i) {
+      const Pair& pair = history_[i];
+      double sum = pair.step_gradient;
+      for (int j = i + 1; j < pairs; ++j) sum -= back[j] * pair.step_change[j - i];
+      back[i] = sum / pair.curvature;
+    }
+    for (int i = 0; i < pairs; ++i) {
+      double sum = products[i];
+      for (int j = 0; j < pairs; ++j) {
+        sum -= back[j] * history_[std::min(i, j)].change_change[std::abs(i - j)];
+      }
+      sum *= scale_;
+      for (int j = 0; j < i; ++j) sum += forth[j] * history_[j].step_change[i - j];
+      forth[i] = back[i] - sum / history_[i].curvature;
+    }
+    Weights weights;
+    for (int i = 0; i < pairs; ++i) {
+      weights.changes.push_back(-scale_ * back[i]);
+      weights.steps.push_back(forth[i] * history_[i].length);
+    }
+    return weights;
+  }
+
   // Appends a pair whose direction is minus the quasi-Newton approximation times the gradient, and
   // leaves in `work_` where a whole step leads. Returns the slope.
   double FindDirection() {
     const int pairs = static_cast<int>(history_.size());
     fresh_ = pairs == 0;
-    const std::vector<double> products = PreconditionGradient();
-    std::vector<double> first(pairs), second(pairs);
-    for (int i = pairs - 1; i >= 0; --i) {
-      const Pair& pair = history_[i];
-      double sum = pair.step_gradient;
-      for (int j = i + 1; j < pairs; ++j) sum -= first[j] * pair.step_change[j - i];
-      first[i] = sum / pair.curvature;
-    }
-    for (int i = 0; i < pairs; ++i) {
-      double sum = products[i];
-      for (int j = 0; j < pairs; ++j) {
-        sum -= first[j] * history_[std::min(i, j)].change_change[std::abs(i - j)];
-      }
-      sum *= scale_;
-      for (int j = 0; j < i; ++j) sum += second[j] * history_[j].step_change[i - j];
-      second[i] = first[i] - sum / history_[i].curvature;
-    }
+    const Weights weights = WalkThroughHistory(PreconditionGradient());
     Pair next;
     const bool full = pairs == options_.rank;
-    if (full) {
+    if (full) {  // the oldest pair's memory is overwritten, piece by piece
       next.direction.swap(history_.front().direction);
     } else {
       next.direction = MakeBuffer<float>(size_);
@@ -187,9 +202,9 @@ class ThreadedLbfgs {
       double* const z = &work_[begin];
       for (size_t k = 0; k < count; ++k) z[k] = scale_ * preconditioned_[begin + k];
       for (int i = 0; i < pairs; ++i) {
-        Add(-scale_ * first[i], &history_[i].change[begin], z, count);
+        Add(weights.changes[i], &history_[i].change[begin], z, count);
         const Buffer<float>& direction = i == 0 && full ? next.direction : history_[i].direction;
-        Add(second[i] * history_[i].length, &direction[begin], z, count);
+        Add(weights.steps[i], &direction[begin], z, count);
       }
       float* const d = &next.direction[begin];
       for (size_t k = 0; k < count; ++k) d[k] = static_cast<float>(-z[k]);
