@@ -72,9 +72,7 @@ LinePoint SearchLine(const LinePoint& start,
       step = Between(low, high);
     }
   }
-  if (low.step > 0) return evaluate(low.step);
-  if (high.value < start.value) return evaluate(high.step);
-  return start;
+  return low.step > 0 ? evaluate(low.step) : start;
 }
 
 }  // namespace shapespace::internal

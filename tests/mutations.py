@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+"""Changes one line of the solvers at a time and looks whether a test notices.
+
+Every mutation below takes out, or puts out of order, one special case or one term. It is applied to
+a copy of the tree, which is built and tested; a mutation that no test notices is printed as
+SURVIVED: the line then either needs a test or can go. Run it by hand, from a shell (a mutation takes
+about a minute):
+
+    tests/mutations.py            all mutations
+    tests/mutations.py shooter    those whose file or text contains "shooter"
+    tests/mutations.py --list     only lists them
+
+Lines that only make a solve faster (schedules, tolerances of inner solvers, preconditioners) are not
+in the list: no test is a stopwatch. Real meshes are not used: tests on bodies made in code are to
+notice. Exit code 1 if more than one in twenty-five survives.
+"""
+
+import filecmp
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+COPY = os.path.join(ROOT, "build", "mutations")
+SOLVERS = "solvers/shapespace/solvers/"
+METRIC = "lib/shapespace/metric/metric.cc"
+
+# File, text (which must stand there once), what takes its place, and the tests that notice it, as a
+# filter of GoogleTest's: they are run first. An empty filter stands for all tests.
+MUTATIONS = [
+    # Going on from a path.
+    ("optimise/shooter.cc", "coarse.previous = restrict(departure.previous);",
+     "if (departure.previous.size() > 0) coarse.previous = coarse.shape;", ""),
+    ("optimise/shooter.cc", "if (step.SolveFrom(options_, row, &shape)) {",
+     "if (row == nullptr) {", ""),
+    ("optimise/step.cc", "constexpr double kRest = 10;", "constexpr double kRest = 1e9;", ""),
+    ("optimise/step.cc", "constexpr double kRest = 10;", "constexpr double kRest = 0;", ""),
+    ("optimise/step.cc", "constexpr double kContraction = 0.5;",
+     "constexpr double kContraction = 1e9;", ""),
+    ("optimise/step.cc", "constexpr double kLeastIncrement = 1.0 / 64;",
+     "constexpr double kLeastIncrement = 1;", ""),
+    ("optimise/step.cc", "constexpr double kRoot = 1e-6;", "constexpr double kRoot = 0;", ""),
+    ("optimise/step.cc", "return agrees(speed_) && (departure_.speed == 0 || agrees(departure_.speed));",
+     "return agrees(speed_) || true;", ""),
+    ("optimise/step.cc", "Shape root = reached + expansion(next) - expansion(load);",
+     "Shape root = expansion(next);", ""),
+    ("optimise/step.cc", "std::max(options.tolerance, rounding_ / speed_)", "options.tolerance", ""),
+    ("exponential.cc", "metric.unit * (first.rotation * SegmentVelocity(FeatureMap(metric), path.shapes[1],",
+     "metric.unit * (1.0 * SegmentVelocity(FeatureMap(metric), path.shapes[1],", ""),
+    ("exponential.cc", "if (row.inverted > kInvertedShare) {", "if (row.inverted > 1) {", ""),
+    ("exponential.cc", "if (now < kVanishedEdge * before) {", "if (now < 0 * before) {", ""),
+    ("exponential.cc", "constexpr double kHalted = 1e-2, kRisen = 2;",
+     "constexpr double kHalted = 0, kRisen = 2;", ""),
+    ("exponential.cc", "constexpr double kHalted = 1e-2, kRisen = 2;",
+     "constexpr double kHalted = 1e-2, kRisen = 1e9;", ""),
+    ("exponential.cc", "if (found > 0) velocity *= speed / found;", "if (found < 0) velocity *= speed;", ""),
+    ("exponential.cc", "departure = Restart(map, departure.shape, shape, departure.speed);",
+     "departure.previous = std::exchange(departure.shape, shape);", ""),
+    ("exponential.cc", "if (discrete) scheme.Next(&unused);", "if (!discrete) scheme.Next(&unused);", ""),
+    # Geodesics.
+    ("geodesic.cc", "FreezeMetric(metric->options, hierarchy.LevelConnectivity(level), poses, 1, pairs)",
+     "FreezeMetric(metric->options, hierarchy.LevelConnectivity(level), poses, 0, pairs)", ""),
+    ("geodesic.cc", "if (!(energy < GeodesicSummary::kZeroEnergy)) return false;",
+     "if (energy >= 0) return false;", ""),
+    ("geodesic.cc", "if (options.schedule != Schedule::kAutomatic || metric.options.bending > 0) {",
+     "if (options.schedule != Schedule::kAutomatic || metric.options.bending >= 0) {", ""),
+    ("geodesic.cc", "if (metric_->rigid.Active() && !cancelled) CheckRigidTurns(result.path);", "(void)cancelled;", ""),
+    ("optimise/resolution.cc", "return std::pow((inner + 1.0) / (options.shapes + 1.0), 2);",
+     "return inner + options.shapes > 0 ? 1 : 0;", ""),
+    ("optimise/resolution.cc", "if (factor_key_ != key) {", "if (factor_key_ != key && trapezoid && inner < 0) {", ""),
+    ("optimise/resolution.cc", "if (metric_->RigidInvariantButForPosition()) RemoveRigidDrift(shapes, metric_->vertex_area);\n\n",
+     "\n", ""),
+    ("optimise/resolution.cc", "if (metric_->options.discretization == Discretization::kTrapezoid) factor_key_ = {-1, -1};",
+     "", ""),
+    ("optimise/resolution.cc", "constexpr int kTrustRegionUnknowns = 400;",
+     "constexpr int kTrustRegionUnknowns = 0;", ""),
+    ("optimise/piece.cc", "constexpr double kEnough = 1.0 / 2048;", "constexpr double kEnough = 1;", ""),
+    ("optimise/piece.cc", "constexpr int kTrialVertices = 1000;", "constexpr int kTrialVertices = 0;", ""),
+    ("optimise/piece.cc", "Unwind(resolution.GetMetric(), &shapes);", "", ""),
+    ("optimise/schedule.cc", "constexpr int kShapesOnAllLevels = 7;", "constexpr int kShapesOnAllLevels = 1;", ""),
+    ("optimise/unwind.cc", "if (around.size() < 3) return;", "if (around.empty()) return;", ""),
+    ("optimise/unwind.cc", "for (int v : vertices) mover.Move({v});", "", ""),
+    ("optimise/unwind.cc", "for (int v : stencil) mover.Move({v});", "", ""),
+    ("optimise/unwind.cc", "mover.Move({stencil(0), stencil(1), stencil(2), stencil(3)});", "", ""),
+    ("optimise/unwind.cc", "|| fastest > 2 * M_PI / segments;", "|| fastest > 7;", ""),
+    ("optimise/unwind.cc", "std::abs(WrapAngle(before - first)) + M_PI ||", "1e9 ||", ""),
+    # Minimising.
+    ("optimise/minimise_threaded_lbfgs.cc", "fresh_change_ = end.slope - slope >= -kLeastCurvature * slope;",
+     "fresh_change_ = true;", ""),
+    ("optimise/minimise_threaded_lbfgs.cc", "if (small >= 2) return Stop::kConverged;",
+     "if (small >= 1) return Stop::kConverged;", ""),
+    ("optimise/minimise_threaded_lbfgs.cc", "if (fresh_) return Stop::kStalled;", "return Stop::kStalled;", ""),
+    ("optimise/minimise_threaded_lbfgs.cc", "if (result_.stop == Stop::kStalled && result_.remaining < kNothingLeft * options_.tolerance) {",
+     "if (result_.stop == Stop::kStalled && result_.remaining < 0) {", ""),
+    ("optimise/line_search.cc", "if ((decreases || equal) && std::isfinite(point.slope)) {",
+     "if (decreases && std::isfinite(point.slope)) {", ""),
+    ("optimise/line_search.cc", "if (low.step > 0) return evaluate(low.step);", "", ""),
+    ("optimise/line_search.cc", "if (high.value < start.value) return evaluate(high.step);", "", ""),
+    ("optimise/line_search.cc", "if (square >= 0) {", "if (square >= 0 || true) {", ""),
+    ("optimise/line_search.cc", "if (std::isfinite(high.value) && std::isfinite(high.slope)) {", "if (true) {", ""),
+    ("optimise/preconditioner.cc", "constexpr double kLeastLambda = 1e-6;", "constexpr double kLeastLambda = 0;", ""),
+    ("optimise/nearest_shape.cc", "constexpr int kHalvings = 8;", "constexpr int kHalvings = 0;", ""),
+    ("optimise/metric_solver.cc", "if (!(hessenberg(k + 1, k) > 0)) break;", "", ""),
+    # Transport and transfer.
+    ("transport.cc", "x = nearest - 0.5 * Solve(to, from->derivative.Times(there_and_back), size, row);",
+     "x = nearest;", ""),
+    ("transport.cc", "for (Tangent& x : result.tangents) x = metric_transport->Turn() * x;", ";", ""),
+    ("optimise/ladder.cc", "if (HasNoLength(rung)) return", "if (false) return", ""),
+    ("optimise/ladder.cc", "if (!options_.align) TurnShapes(&rung.geodesic.path);", "", ""),
+    ("optimise/feature_transfer.cc", "const double rounding = 1e3 *", "const double rounding = 0 *", ""),
+    ("optimise/feature_transfer.cc", "if (std::abs(turn) == 0) continue;", "", ""),
+    ("optimise/feature_transfer.cc", "change.segment(map_.FirstValue(i), placed.size()).setZero();", "", ""),
+    ("optimise/gradient_transfer.cc", "constexpr double kSliver = 1e-2, kSmall = 1e-3;",
+     "constexpr double kSliver = 0, kSmall = 1e-3;", ""),
+    ("optimise/gradient_transfer.cc", "constexpr double kSliver = 1e-2, kSmall = 1e-3;",
+     "constexpr double kSliver = 1e-2, kSmall = 0;", ""),
+    ("correction.cc", "options.mode == CorrectionMode::kPaper ? 3 : 2", "options.mode == CorrectionMode::kPaper ? 2 : 2", ""),
+    ("correction.cc", "options.mode == CorrectionMode::kPaper ? 3 : 2", "options.mode == CorrectionMode::kPaper ? 3 : 1", ""),
+    ("correction.cc", "if (before > kNoDeformation)", "if (before > 0)", ""),
+    # Handles and repair.
+    ("deformation.cc", "constexpr double kFollowTurn = M_PI / 12;", "constexpr double kFollowTurn = 10;", ""),
+    ("deformation.cc", "constexpr int kFollowSteps = 10;", "constexpr int kFollowSteps = 1;", ""),
+    ("deformation.cc", "constexpr double kLittle = 0.1;", "constexpr double kLittle = 1e9;", ""),
+    ("deformation.cc", "constexpr double kAllGained = 1e-12;", "constexpr double kAllGained = 0;", ""),
+    ("deformation.cc", "levels_[i].Path().Factors().Integrate(gradients, &lifted);", "", ""),
+    ("deformation.cc", "level.MoveComponents(places, &last.back());", "", ""),
+    ("optimise/pulled_path.cc", "constexpr double kZero = 1e-20;", "constexpr double kZero = 0;", ""),
+    ("optimise/held_level.cc", "if (i < last && !held.carried) continue;", "", ""),
+    ("repair.cc", "FitRigidMotion(reference, distorted, metric.vertex_area)(reference)", "reference", ""),
+    # Exploring.
+    ("exploration/embedding.cc", "if (points(axis, farthest) < 0) points.row(axis) *= -1;", "", ""),
+    ("exploration/embedding.cc", "if (!(stress < result.stress)) break;", "", ""),
+    ("exploration/refinement.cc", "count_split(t) < 2) {", "true) {", ""),
+    ("exploration/pair_solver.cc", 'if (header.at("digest") != digest) return {};', "", ""),
+    # The weights that solvers rely on.
+    (METRIC, "area * kGreatestHingeAspect > squared_length ? squared_length / area : kGreatestHingeAspect;",
+     "squared_length / area;", ""),
+    (METRIC, "measures.squared_length.array().max(kShortestEdge * kShortestEdge * mean_squared_length);",
+     "measures.squared_length.array();", ""),
+    (METRIC, "feature.weights(h) = bending * aspect / (1 + u * u * u * u);",
+     "feature.weights(h) = bending * aspect;", ""),
+]
+
+
+def run(command, **more):
+  return subprocess.run(command, cwd=COPY, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                        text=True, **more)
+
+
+def copy_tree():
+  tracked = subprocess.run(["git", "ls-files", "-z", "CMakeLists.txt", "cmake", "docs", "lib",
+                            "solvers", "tests"], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
+  for name in filter(None, tracked.split("\0")):
+    source, copy = os.path.join(ROOT, name), os.path.join(COPY, name)
+    if not os.path.exists(copy) or not filecmp.cmp(source, copy, shallow=False):
+      os.makedirs(os.path.dirname(copy), exist_ok=True)
+      shutil.copy(source, copy)
+  configured = run(["cmake", "-B", "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                    "-DSHAPESPACE_BUILD_TOOLS=OFF", "-DSHAPESPACE_DATA_DIR="])
+  if configured.returncode != 0:
+    sys.exit(configured.stdout)
+
+
+PROGRAMS = ["solvers/solvers_test", "solvers/exploration/exploration_test", "metric/metric_test"]
+
+
+def build():
+  return run(["cmake", "--build", "build", "--target"] + [os.path.basename(p) for p in PROGRAMS])
+
+
+def failing_test(test_filter):
+  """The first test that fails, or None."""
+  for program in PROGRAMS:
+    try:
+      tested = run([os.path.join(COPY, "build", "tests", program), "--gtest_fail_fast",
+                    "--gtest_filter=" + (test_filter or "*")], timeout=900)
+    except subprocess.TimeoutExpired:
+      return program + " (never ends)"
+    if tested.returncode != 0:
+      found = re.search(r"\[  FAILED  \] (\S+)", tested.stdout)
+      return found.group(1).rstrip(",") if found else program + " (crashes)"
+  return None
+
+
+def main():
+  wanted = sys.argv[1] if len(sys.argv) > 1 else ""
+  chosen = [m for m in MUTATIONS if wanted == "--list" or wanted in m[0] + m[1]]
+  if wanted == "--list":
+    for name, text, instead, tests in chosen:
+      print(f"{name}: {text.strip()}  ->  {instead.strip()}  [{tests}]")
+    return 0
+  copy_tree()
+  built = build()
+  if built.returncode != 0:
+    sys.exit(built.stdout[-3000:])
+  fails = failing_test("")
+  if fails:
+    sys.exit(f"without any change fails {fails}")
+  survived = 0
+  for name, text, instead, tests in chosen:
+    path = os.path.join(COPY, name if name.startswith("lib/") else SOLVERS + name)
+    with open(path) as file:
+      source = file.read()
+    if source.count(text) != 1:
+      sys.exit(f"{name}: this text stands there {source.count(text)} times, not once: {text}")
+    with open(path, "w") as file:
+      file.write(source.replace(text, instead))
+    try:
+      built = build()
+      if built.returncode != 0:
+        print(f"{name}: does not compile: {instead}\n" + built.stdout[-1500:], flush=True); continue
+      by = failing_test(tests) if tests else None
+      by = by or failing_test("")
+    finally:
+      with open(path, "w") as file:
+        file.write(source)
+    survived += by is None
+    print(f"{'SURVIVED' if by is None else 'noticed '}  {name}: {instead.strip() or text.strip()}"
+          f"{'' if by is None else '  by ' + by}", flush=True)
+  print(f"{len(chosen) - survived} of {len(chosen)} noticed")
+  return survived * 25 > len(chosen)
+
+
+if __name__ == "__main__":
+  sys.exit(main())
