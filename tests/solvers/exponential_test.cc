@@ -681,6 +681,70 @@ TEST(InitialVelocity, LeadsToTheSecondShape) {
   EXPECT_LT(error(straight), 1e-9);
 }
 
+// A path is the same motion wherever it is placed.
+TEST(InitialVelocity, TurnsWithThePath) {
+  Path path = Moving(MakeBar(6, 1, 1, 6, 1, 1), 20, 20, 40, 3);
+  const Eigen::Matrix3d turn = testing::Rotation(70, {1, -2, 1});
+  const Tangent expected = turn * InitialVelocity(path);
+  for (RigidMotion& motion : path.motions) {
+    motion.rotation = turn * motion.rotation;
+    motion.translation = turn * motion.translation;
+  }
+  EXPECT_LT(Distance(InitialVelocity(path), expected), 1e-9 * Diameter(expected));
+}
+
+// A sheet of 5 x 5 vertices, of which only the one in the middle is pushed, by `way` cells to the
+// side. One step of the paper's scheme takes it exactly there.
+ExponentialResult PushMiddle(double way) {
+  const Body sheet = MakeSheet(1, 1, 4, 4);
+  const Shape flat = sheet.pose(0);
+  int middle = 0;
+  (flat.colwise() - flat.rowwise().mean()).colwise().norm().minCoeff(&middle);
+  Tangent velocity = Tangent::Zero(3, flat.cols());
+  velocity(0, middle) = 0.25 * way;
+  const auto metric = std::make_shared<const Metric>(FreezeMetric({}, sheet.connectivity, {flat}));
+  return Extrapolate(metric, flat, velocity, 1, Options(Integrator::kFirstIntegral));
+}
+
+TEST(Extrapolate, StopsWhereTheSurfaceTurnsInsideOut) {
+  const ExponentialSummary inside = PushMiddle(0.7).summary, over = PushMiddle(1.5).summary;
+  EXPECT_EQ(inside.ending, Ending::kComplete) << inside.stopped;
+  EXPECT_EQ(over.ending, Ending::kDegenerate);
+  EXPECT_NE(over.stopped.find("% of the surface turn inside out"), std::string::npos)
+      << over.stopped;
+}
+
+TEST(Extrapolate, StopsWhereAnEdgeVanishes) {
+  const ExponentialSummary summary = PushMiddle(1).summary;
+  EXPECT_EQ(summary.ending, Ending::kDegenerate);
+  EXPECT_NE(summary.stopped.find("the edge between vertices "), std::string::npos)
+      << summary.stopped;
+  EXPECT_NE(summary.stopped.find("vanishes"), std::string::npos) << summary.stopped;
+}
+
+// Every vertex flies off in a direction of its own: a few steps on Runge and Kutta's scheme fails.
+TEST(Extrapolate, WarnsWhereTheEnergyRises) {
+  const Body sheet = MakeSheet(1, 1, 4, 4);
+  const auto metric =
+      std::make_shared<const Metric>(FreezeMetric({}, sheet.connectivity, {sheet.pose(0)}));
+  const Tangent velocity = testing::Noise(25, 0.05, 3);
+  const auto warns = [&](Integrator integrator) {
+    const ExponentialSummary summary =
+        Extrapolate(metric, sheet.pose(0), velocity, 16, Options(integrator)).summary;
+    double greatest = 0;
+    for (const auto& step : summary.steps) greatest = std::max(greatest, step.energy);
+    const bool rises = greatest > 2 * summary.steps.front().energy;
+    bool warned = false;
+    for (const std::string& warning : summary.warnings) {
+      warned = warned || warning.find("the energy of a segment") == 0;
+    }
+    EXPECT_EQ(warned, rises);
+    return warned;
+  };
+  EXPECT_TRUE(warns(Integrator::kRungeKutta4));
+  EXPECT_FALSE(warns(Integrator::kVariational));
+}
+
 TEST(ExponentialSummary, ReportsTheSteps) {
   const ExponentialSummary summary = Shoot(DeformingBodies()[1], 3).summary;
   EXPECT_EQ(summary.BriefReport().rfind("converged: 6 vertices, 3 of 3 steps", 0), 0u)

@@ -242,10 +242,9 @@ void CheckSteps(int steps) {
   if (steps < 1) throw InvalidOptions("steps: must be 1 or more");
 }
 
-// The energy of segments is constant along a geodesic. A path on which it falls to this share
-// stands still; where it rises so many times, detail that was carried along has got a motion of its
-// own.
-constexpr double kHalted = 1e-2, kRisen = 2;
+// The energy of segments is constant along a geodesic. Where it rises so many times, the steps are
+// too long for the integrator, or detail that was carried along has got a motion of its own.
+constexpr double kRisen = 2;
 
 // What a person should look at.
 void Warn(const Metric& metric, ExponentialSummary* summary) {
@@ -288,9 +287,6 @@ void Warn(const Metric& metric, ExponentialSummary* summary) {
     if (energy > kRisen * first) {
       warn("the energy of a segment, constant on a geodesic, rises to " +
            internal::Format("%.3g", energy / first) + " times what it was at first");
-    }
-    if (summary->steps.back().energy < kHalted * first) {
-      warn("the motion comes to a halt on the way: the body can go no further");
     }
   }
   if (summary->ending != ExponentialSummary::Ending::kComplete) {

@@ -54,12 +54,8 @@ Shape Shooter::NextOn(int level, const Departure& departure, ExponentialSummary:
   ExponentialSummary::Step coarse_row;
   const Shape base = NextOn(level - 1, coarse, &coarse_row);
   shape = hierarchy_->Lift(base, level - 1, departure.shape, departure.shape, 0);
-  if (step.SolveFrom(options_, row, &shape)) {
-    row->vertices = static_cast<int>(shape.cols());
-  } else {
-    row->vertices = coarse_row.vertices;
-    row->residual = step.Residual(shape);
-  }
+  row->vertices = coarse_row.vertices;
+  row->residual = step.Residual(shape);
   return shape;
 }
 

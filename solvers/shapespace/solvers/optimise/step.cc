@@ -17,16 +17,12 @@ namespace {
 constexpr double kContraction = 0.5;
 // The load is increased by no less than this.
 constexpr double kLeastIncrement = 1.0 / 64;
-// Where rounding ends Newton's method before the tolerance, the shape is a root all the same.
-constexpr double kRoot = 1e-6;
 // Linear systems are solved to two digits; Newton's method then gains as many a step. Near a root
 // that takes up to eight iterations.
 constexpr double kForcing = 1e-2;
 constexpr int kMaxKrylov = 20;
 // As exactly as rounding allows: without sum features the second iteration is there.
 constexpr double kExact = 1e-13;
-// Of a path that rests, or moves rigidly, aligned shapes differ by a few roundings.
-constexpr double kRest = 10;
 
 // Where the nearest shape in feature space stands in, it is of first order only.
 constexpr int kMaxGaussNewton = 20;
@@ -71,7 +67,7 @@ Step::Step(const FeatureMap& map, MetricSolver* solver, const Departure& departu
 
 bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* row,
                  Shape* shape) const {
-  if (speed_ <= kRest * rounding_) {
+  if (speed_ <= rounding_) {  // a path that rests, or moves rigidly
     *shape = departure_.shape;
     row->converged = true;
     return true;
@@ -110,29 +106,23 @@ bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* ro
   return true;
 }
 
-bool Step::SolveFrom(const ExponentialOptions& options, ExponentialSummary::Step* row,
-                     Shape* shape) const {
-  return FindRoot(1, options.max_iterations, options, row, shape);
-}
-
 bool Step::FindRoot(double load, int iterations, const ExponentialOptions& options,
                     ExponentialSummary::Step* row, Shape* shape) const {
   row->converged = false;
   Shape root = *shape;
-  bool found = false, converged = false;
+  bool found = false;
   if (options.solver == StepSolver::kCeres) {
     const StepResult result = SolveStepWithCeres(map_, departure_.shape, current_ + load * change_,
                                                  options.tolerance, iterations, &root);
     row->iterations += result.iterations;
     row->residual = result.residual;
-    found = converged = result.converged;
+    found = result.converged;
   } else {
     const double tolerance = std::max(options.tolerance, rounding_ / speed_);
     found = SolveWithNewton(load, iterations, tolerance, row, &root);
-    converged = row->residual <= tolerance;
   }
   if (!found || !HasTheGeodesicsSpeed(root, load)) return false;
-  row->converged = converged && load == 1;
+  row->converged = load == 1;
   *shape = root;
   return true;
 }
@@ -149,19 +139,18 @@ bool Step::SolveWithNewton(double load, int iterations, double tolerance,
   Tangent residual = derivative_.TransposeTimes(map_.Values(*shape) - target);
   row->residual = solver_.DualNorm(residual) / speed_;
   for (; !(row->residual <= tolerance); --iterations) {
-    const bool is_root = row->residual <= kRoot;
-    if (iterations == 0) return is_root;
+    if (iterations == 0) return false;
     check_cancelled_();
     ++row->iterations;
     Tangent step;
     const MetricSolver::Result linear =
         solver_.Solve(derivative_, map_.Derivative(*shape), residual, kForcing, kMaxKrylov, &step);
     row->krylov_iterations += linear.iterations;
-    if (!(linear.residual <= kForcing)) return is_root;
+    if (!(linear.residual <= kForcing)) return false;
     const Shape next = *shape - step;
     residual = derivative_.TransposeTimes(map_.Values(next) - target);
     const double left = solver_.DualNorm(residual) / speed_;
-    if (!(left < kContraction * row->residual || left <= tolerance)) return is_root;
+    if (!(left < kContraction * row->residual || left <= tolerance)) return false;
     *shape = next;
     row->residual = left;
   }

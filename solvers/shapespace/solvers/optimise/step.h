@@ -42,19 +42,18 @@ class Step {
   /// reach P(1) at once; where it would wander off, the load is increased bit by bit.
   /// row->increments tells in how many. A root whose segment is much longer or shorter in the
   /// metric than the geodesic's is another geodesic's, and does not count.
-  /// \return false, with `*shape` as it was, if there is none.
+  /// \return false, with `*shape` as it was, if there is none; otherwise row->converged is true.
   bool Solve(const ExponentialOptions& options, ExponentialSummary::Step* row, Shape* shape) const;
-
-  /// The root that Newton's method goes straight to from `*shape`. \return as above. After both,
-  /// row->converged tells whether the tolerance was reached, or what rounding leaves of it.
-  bool SolveFrom(const ExponentialOptions& options, ExponentialSummary::Step* row,
-                 Shape* shape) const;
 
   /// The residual of any shape, as a share of the step.
   double Residual(const Shape& shape) const {
     return solver_.DualNorm(derivative_.TransposeTimes(map_.Values(shape) - current_ - change_)) /
            speed_;
   }
+
+  /// Whether the segment to a root under `load` is as long in the metric as the segment before, and
+  /// as the geodesic's first one if that is known, but for a tenth.
+  bool HasTheGeodesicsSpeed(const Shape& root, double load) const;
 
   /// The shape nearest in feature space to what the step asks for: argmin |Phi(P) - Phi(P_i) -
   /// change|^2, by Gauss-Newton from the departure. Of first order only.
@@ -67,7 +66,6 @@ class Step {
                 ExponentialSummary::Step* row, Shape* shape) const;
   bool SolveWithNewton(double load, int iterations, double tolerance, ExponentialSummary::Step* row,
                        Shape* shape) const;
-  bool HasTheGeodesicsSpeed(const Shape& shape, double load) const;
 
   const FeatureMap& map_;
   MetricSolver& solver_;
