@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
@@ -178,6 +179,67 @@ TEST(Interpolate, LeavesAStartThatEndsInAPoorValley) {
   blend.start = Start::kBlend;
   const double energy = Interpolate(sheet.connectivity, {up, down}).summary.energy;
   EXPECT_LT(energy, 0.1 * Interpolate(sheet.connectivity, {up, down}, blend).summary.energy);
+}
+
+// Of a body and its copy at twice the size every edge can grow as it would alone, so that energies
+// go with areas: those of coarse surfaces, which cut corners, are smaller, and they are measured in
+// the mesh's unit.
+TEST(Interpolate, MeasuresAllLevelsInOneUnit) {
+  const Body tube = MakeTube(2000);
+  const Shape small = tube.pose(0);
+  GeodesicOptions options;
+  options.shapes = 3;
+  options.tolerance = 1e-7;
+  options.metric.lambda = 0;
+  const auto [path, summary] = Interpolate(tube.connectivity, {small, 2 * small}, options);
+  const Hierarchy hierarchy(tube.connectivity, {path.shapes.front(), path.shapes.back()});
+  const auto area = [&](int vertices) {
+    int level = 0;
+    while (hierarchy.LevelConnectivity(level)->NumVertices() != vertices) ++level;
+    const auto coarse = hierarchy.LevelConnectivity(level);
+    const Shape shape = hierarchy.Restrict(small, level);
+    double sum = 0;
+    for (const auto& t : coarse->Triangles().colwise()) {
+      const Eigen::Vector3d a = shape.col(t(0)), b = shape.col(t(1)), c = shape.col(t(2));
+      sum += 0.5 * (b - a).cross(c - a).norm();
+    }
+    return sum;
+  };
+  const auto& last = summary.levels.back();
+  EXPECT_LT(area(summary.levels.front().vertices), 0.97 * area(last.vertices));
+  for (const auto& level : summary.levels) {
+    if (level.shapes != last.shapes) continue;
+    EXPECT_NEAR(level.energy / last.energy, area(level.vertices) / area(last.vertices), 1e-3);
+  }
+}
+
+// In trapezoid form a turn costs with the fourth power of its angle: two segments of 40 degrees
+// each would cost many times what sixteen of 5 cost.
+TEST(Interpolate, FewShapesCostWhatManyDoInTrapezoidForm) {
+  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  GeodesicOptions options;
+  options.metric = MetricOptions::Paper();
+  options.shapes = 15;
+  const GeodesicSummary summary =
+      Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, options).summary;
+  for (const auto& level : summary.levels) {
+    if (level.vertices == summary.vertices && level.kept) {
+      EXPECT_NEAR(level.energy / summary.energy, 1, 0.05) << level.shapes << " shapes";
+    }
+  }
+}
+
+// Coarse surfaces crumple where nothing resists it.
+TEST(Interpolate, SolvesWithoutBendingOnTheMeshItselfAlone) {
+  const SkinnedBody body = MakeQuadruped(4000);
+  GeodesicOptions options;
+  options.shapes = 1;
+  for (const double bending : {0.0, 1e-5}) {
+    options.metric.bending = bending;
+    const GeodesicSummary summary =
+        Interpolate(body.connectivity, {body.pose("stand"), body.pose("sit")}, options).summary;
+    EXPECT_EQ(summary.hierarchy.size() == 1, bending == 0);
+  }
 }
 
 TEST(Interpolate, SolvesOnFewVerticesFirst) {

@@ -20,9 +20,6 @@
 namespace shapespace {
 namespace {
 
-// Segments of the rigid metric turning by more than this are not resolved by a Cayley map.
-constexpr double kMaxRigidTurn = 2 * M_PI / 3;
-
 // What the solve holds at its largest level; the factor is estimated from meshes of 2 K to 40 K
 // vertices (120 to 250 numbers a vertex with bending, a seventh of it without).
 double EstimateBytes(const Metric& metric, int poses, int shapes) {
@@ -100,18 +97,6 @@ bool IsSolved(int piece, const std::vector<Shape>& blend, const GeodesicOptions&
   row.initial_energy = row.energy = energy;
   summary->levels.push_back(row);
   return true;
-}
-
-void CheckRigidTurns(const Path& path) {
-  for (int i = 0; i + 1 < path.NumShapes(); ++i) {
-    const RigidMotion turn =
-        FitRigidMotion(path.shapes[i], path.shapes[i + 1], path.metric->vertex_area);
-    if (Eigen::AngleAxisd(turn.rotation).angle() > kMaxRigidTurn) {
-      throw SolverError("the rigid metric: between shapes " + std::to_string(i) + " and " +
-                        std::to_string(i + 1) +
-                        " the body turns by more than 120 degrees; insert more shapes");
-    }
-  }
 }
 
 // The energy of the finished path by feature, and the bound, over all pieces.
@@ -310,8 +295,6 @@ GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progre
   for (const GeodesicSummary::Level& level : summary.levels) {
     if (level.kept) summary.termination = std::max(summary.termination, level.termination);
   }
-  const bool cancelled = summary.termination == Termination::kCancelled;
-  if (metric_->rigid.Active() && !cancelled) CheckRigidTurns(result.path);
   result.path.converged = summary.termination == Termination::kConverged;
   MeasureEnergy(result.path, &summary);
   if (options_.assess) {

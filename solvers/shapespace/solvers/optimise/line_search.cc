@@ -14,25 +14,17 @@ constexpr double kDecrease = 1e-4, kFlatness = 0.9;
 constexpr double kRounding = 1e-14;
 constexpr int kMaxTrials = 20;
 // A new trial keeps this share of the bracket away from its ends; without a bracket it goes at most
-// kFurthest times as far, and where nothing is finite to this share of the way.
-constexpr double kMargin = 0.1, kFurthest = 10, kRetreat = 0.3;
+// kFurthest times as far.
+constexpr double kMargin = 0.1, kFurthest = 10;
 
-// The minimum of the cubic through both values and slopes, kept within the bracket.
+// The minimum of the cubic through both values and slopes, kept within the bracket; the middle of
+// it where there is no minimum, or a value is not finite.
 double Between(const LinePoint& low, const LinePoint& high) {
   const double width = high.step - low.step;
-  double share = kRetreat;
-  if (std::isfinite(high.value) && std::isfinite(high.slope)) {
-    const double sum = low.slope + high.slope - 3 * (high.value - low.value) / width;
-    const double square = sum * sum - low.slope * high.slope;
-    if (square >= 0) {
-      const double root = std::sqrt(square);
-      share = 1 - (high.slope + root - sum) / (high.slope - low.slope + 2 * root);
-    } else {
-      share = 0.5;
-    }
-    if (!std::isfinite(share)) share = 0.5;
-  }
-  return low.step + width * std::clamp(share, kMargin, 1 - kMargin);
+  const double sum = low.slope + high.slope - 3 * (high.value - low.value) / width;
+  const double root = std::sqrt(sum * sum - low.slope * high.slope);
+  const double share = 1 - (high.slope + root - sum) / (high.slope - low.slope + 2 * root);
+  return low.step + width * (std::isfinite(share) ? std::clamp(share, kMargin, 1 - kMargin) : 0.5);
 }
 
 // Where the slope would vanish if it went on as from `before` to `low`.
