@@ -1,0 +1,84 @@
+#include <shapespace/solvers/correspondence/marker_check.h>
+
+#include <cmath>
+#include <limits>
+
+#include <shapespace/base/parallel.h>
+
+namespace shapespace::internal {
+namespace {
+
+// How far a marker may be from where the others expect it, as a share of the root of the area, and
+// how much worse its distances must fit where it is than there.
+constexpr double kMostOff = 0.25, kMuchWorse = 2;
+// Distances count by their inverse, as proportions spoil long ones more; this is added to them.
+constexpr float kNear = 0.1F;
+// Fewer others say nothing: three distances fix a point of the plane up to reflection.
+constexpr int kLeastOthers = 4;
+
+struct Prediction {
+  int expected = -1;
+  double off = 0, ratio = 0;
+};
+
+Prediction Predict(int marker, const std::vector<bool>& is_out, const Eigen::MatrixXf& on_template,
+                   const Eigen::MatrixXf& on_target, const std::vector<int>& template_vertices,
+                   const std::vector<int>& target_vertices) {
+  Eigen::VectorXf cost = Eigen::VectorXf::Zero(on_target.rows());
+  int others = 0;
+  for (int k = 0; k < on_template.cols(); ++k) {
+    const float distance = on_template(template_vertices[marker], k);
+    if (k == marker || is_out[k] || !std::isfinite(distance)) continue;
+    ++others;
+    cost += (on_target.col(k).array() - distance).abs().matrix() / (distance + kNear);
+  }
+  if (others < kLeastOthers) return {};
+  Prediction prediction;
+  const float least = cost.minCoeff(&prediction.expected);
+  prediction.off = on_target(prediction.expected, marker);
+  const float own = cost(target_vertices[marker]);
+  prediction.ratio = least > 0 ? own / least : std::numeric_limits<double>::infinity();
+  return prediction;
+}
+
+// Whether marker `a` is expected about where `b` is, and the other way round.
+bool AreSwapped(const CorrespondenceSummary::Doubt& a, const CorrespondenceSummary::Doubt& b,
+                const Eigen::MatrixXf& on_target) {
+  return on_target(a.expected, b.marker) < kMostOff / 2 &&
+         on_target(b.expected, a.marker) < kMostOff / 2;
+}
+
+}  // namespace
+
+std::vector<CorrespondenceSummary::Doubt> FindDoubtfulMarkers(
+    const Eigen::MatrixXf& on_template, const Eigen::MatrixXf& on_target,
+    const std::vector<int>& template_vertices, const std::vector<int>& target_vertices) {
+  const int num_markers = static_cast<int>(template_vertices.size());
+  std::vector<bool> is_out(num_markers, false);
+  std::vector<CorrespondenceSummary::Doubt> doubtful;
+  while (true) {
+    std::vector<Prediction> predictions(num_markers);
+    ParallelFor(num_markers, [&](int k) {
+      if (is_out[k]) return;
+      predictions[k] =
+          Predict(k, is_out, on_template, on_target, template_vertices, target_vertices);
+    });
+    int worst = -1;
+    for (int k = 0; k < num_markers; ++k) {
+      const Prediction& prediction = predictions[k];
+      if (!(prediction.off > kMostOff && prediction.ratio > kMuchWorse)) continue;
+      if (worst < 0 || prediction.ratio > predictions[worst].ratio) worst = k;
+    }
+    if (worst < 0) break;
+    is_out[worst] = true;
+    doubtful.push_back({worst, predictions[worst].off, predictions[worst].expected, -1});
+  }
+  for (auto& a : doubtful) {
+    for (const auto& b : doubtful) {
+      if (a.marker != b.marker && AreSwapped(a, b, on_target)) a.swapped = b.marker;
+    }
+  }
+  return doubtful;
+}
+
+}  // namespace shapespace::internal

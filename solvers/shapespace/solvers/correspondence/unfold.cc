@@ -1,0 +1,153 @@
+#include <shapespace/solvers/correspondence/unfold.h>
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+#include <shapespace/base/parallel.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Rings by which patches grow, one a round, and rounds of averaging in each.
+constexpr int kRings = 6, kAverages = 60;
+
+using Neighbours = std::vector<std::vector<int>>;
+
+Neighbours NeighboursOf(const Connectivity& connectivity) {
+  Neighbours neighbours(connectivity.NumVertices());
+  for (int e = 0; e < connectivity.NumTriangleEdges(); ++e) {
+    const auto edge = connectivity.Edges().col(e);
+    neighbours[edge(0)].push_back(edge(1));
+    neighbours[edge(1)].push_back(edge(0));
+  }
+  return neighbours;
+}
+
+// Numbers the connected patches of `inside` from 0; -1 outside.
+std::vector<int> PatchesOf(const std::vector<bool>& inside, const Neighbours& neighbours,
+                           int* count) {
+  std::vector<int> patch(inside.size(), -1);
+  *count = 0;
+  std::vector<int> open;
+  for (size_t seed = 0; seed < inside.size(); ++seed) {
+    if (!inside[seed] || patch[seed] >= 0) continue;
+    open.assign(1, static_cast<int>(seed));
+    patch[seed] = *count;
+    while (!open.empty()) {
+      const int v = open.back();
+      open.pop_back();
+      for (const int w : neighbours[v]) {
+        if (!inside[w] || patch[w] >= 0) continue;
+        patch[w] = *count;
+        open.push_back(w);
+      }
+    }
+    ++*count;
+  }
+  return patch;
+}
+
+// How many turned triangles each patch has to do with.
+std::vector<int> CountTurned(const std::vector<bool>& turned, const Eigen::Matrix3Xi& triangles,
+                             const std::vector<int>& patch, int num_patches) {
+  std::vector<int> counts(num_patches, 0);
+  for (int f = 0; f < triangles.cols(); ++f) {
+    if (!turned[f]) continue;
+    for (int k = 0; k < 3; ++k) {
+      const int p = patch[triangles(k, f)];
+      // Corners in one patch count once.
+      const bool counted = (k > 0 && patch[triangles(0, f)] == p) ||
+                           (k > 1 && patch[triangles(1, f)] == p);
+      if (p >= 0 && !counted) ++counts[p];
+    }
+  }
+  return counts;
+}
+
+}  // namespace
+
+std::vector<bool> TurnedTriangles(const Level& level, const Shape& shape, const Target& target,
+                                  const std::vector<Foot>& feet) {
+  const Eigen::Matrix3Xi& triangles = level.connectivity->Triangles();
+  const Eigen::Matrix3Xi& others = target.GetConnectivity().Triangles();
+  const Shape& place = target.GetShape();
+  std::vector<bool> turned(triangles.cols());
+  for (int f = 0; f < triangles.cols(); ++f) {
+    const Eigen::Vector3d a = shape.col(triangles(0, f));
+    const Eigen::Vector3d p = shape.col(triangles(1, f)) - a, q = shape.col(triangles(2, f)) - a;
+    Eigen::Vector3d there = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const auto other = others.col(feet[triangles(k, f)].triangle);
+      const Eigen::Vector3d b = place.col(other(0));
+      const Eigen::Vector3d r = place.col(other(1)) - b, s = place.col(other(2)) - b;
+      there += r.cross(s);
+    }
+    turned[f] = p.cross(q).dot(there) < 0;
+  }
+  return turned;
+}
+
+std::vector<Foot> MapVertices(const Level& level, const Shape& shape, const Target& target) {
+  const Shape normals = VertexNormals(*level.connectivity, shape);
+  std::vector<Foot> feet(shape.cols());
+  ParallelFor(static_cast<int>(shape.cols()), [&](int v) {
+    const int vertex = level.vertices[v];
+    feet[v] = target.Nearest(shape.col(v), normals.col(v), vertex);
+    if (feet[v].triangle >= 0) return;
+    feet[v] = target.GetSurface().Nearest(shape.col(v), [&](int f) {
+      return target.Distances().MayMatch(vertex, target.GetConnectivity().Triangles()(0, f));
+    });
+    if (feet[v].triangle < 0) feet[v] = target.GetSurface().Nearest(shape.col(v));
+  });
+  return feet;
+}
+
+void Unfold(const Level& level, const Target& target, const std::vector<int>& held, Shape* shape) {
+  const Eigen::Matrix3Xi& triangles = level.connectivity->Triangles();
+  const Neighbours neighbours = NeighboursOf(*level.connectivity);
+  std::vector<bool> is_held(shape->cols(), false);
+  for (const int v : held) is_held[v] = true;
+  for (int rings = 1; rings <= kRings; ++rings) {
+    const std::vector<bool> turned =
+        TurnedTriangles(level, *shape, target, MapVertices(level, *shape, target));
+    std::vector<bool> inside(shape->cols(), false);
+    for (int f = 0; f < triangles.cols(); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        if (turned[f] && !is_held[triangles(k, f)]) inside[triangles(k, f)] = true;
+      }
+    }
+    for (int ring = 1; ring < rings; ++ring) {
+      const std::vector<bool> before = inside;
+      for (size_t v = 0; v < before.size(); ++v) {
+        if (!before[v]) continue;
+        for (const int w : neighbours[v]) inside[w] = inside[w] || !is_held[w];
+      }
+    }
+    int num_patches = 0;
+    const std::vector<int> patch = PatchesOf(inside, neighbours, &num_patches);
+    if (num_patches == 0) return;
+    Shape flat = *shape;
+    for (int round = 0; round < kAverages; ++round) {
+      for (int v = 0; v < flat.cols(); ++v) {
+        if (!inside[v]) continue;
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const int w : neighbours[v]) sum += flat.col(w);
+        flat.col(v) = sum / static_cast<double>(neighbours[v].size());
+      }
+    }
+    const std::vector<Foot> feet = MapVertices(level, flat, target);
+    for (int v = 0; v < flat.cols(); ++v) {
+      if (inside[v]) flat.col(v) = feet[v].point;
+    }
+    const std::vector<bool> still =
+        TurnedTriangles(level, flat, target, MapVertices(level, flat, target));
+    const std::vector<int> before = CountTurned(turned, triangles, patch, num_patches);
+    const std::vector<int> after = CountTurned(still, triangles, patch, num_patches);
+    for (int v = 0; v < flat.cols(); ++v) {
+      if (inside[v] && after[patch[v]] < before[patch[v]]) shape->col(v) = flat.col(v);
+    }
+  }
+}
+
+}  // namespace shapespace::internal
