@@ -33,7 +33,6 @@ using internal::Target;
 // Weights of closest points, from loose to firm; what they mean is said where they are used. With
 // them as they are, all pairs of docs/performance.md reach their figures; half or twice as many
 // rounds change those by less than a tenth.
-constexpr double kGradientWeights[] = {0, 3e-3, 3e-2, 0.3};
 constexpr double kCoarseWeights[] = {1, 3, 10, 30, 100};
 constexpr int kCoarseRounds = 6;
 constexpr double kFineWeight = 100, kLastWeight = 1000;
@@ -151,37 +150,18 @@ class Fit {
     return true;
   }
 
-  // Sumner and Popovic's rounds, which bring limbs near to where they belong however far that is.
+  // From markers alone to where limbs are near to where they belong, and on under strain and
+  // bending.
   void FindPose(const Level& level, const Shape& rest, Shape* shape) {
-    internal::GradientFit fit(level.connectivity, rest, HeldOn(level), places_);
-    const auto num_vertices = static_cast<int>(rest.cols());
-    for (const double weight : kGradientWeights) {
-      const Stopwatch stopwatch;
-      Stops();
-      Eigen::VectorXd weights = Eigen::VectorXd::Zero(num_vertices);
-      Shape targets = *shape;
-      double squares = 0;
-      if (weight > 0) {
-        const Shape normals = VertexNormals(*level.connectivity, *shape);
-        std::vector<Foot> feet(num_vertices);
-        ParallelFor(num_vertices, [&](int v) {
-          feet[v] = target_.Nearest(shape->col(v), normals.col(v), level.vertices[v]);
-        });
-        for (int v = 0; v < num_vertices; ++v) {
-          if (feet[v].triangle < 0) continue;
-          squares += feet[v].distance * feet[v].distance;
-          if (target_.IsOnBorder(feet[v])) continue;
-          weights(v) = weight;
-          targets.col(v) = feet[v].point;
-        }
-      }
-      const Shape next = fit(weights, targets);
-      summary_->stages.push_back({num_vertices, "gradients", weight, 1,
-                                  std::sqrt(squares / num_vertices),
-                                  std::sqrt((next - *shape).squaredNorm() / num_vertices),
-                                  stopwatch.Seconds()});
-      *shape = next;
-    }
+    const Stopwatch stopwatch;
+    Stops();
+    *shape = internal::FitGradients(*level.connectivity, rest, HeldOn(level), places_);
+    CorrespondenceSummary::Stage stage;
+    stage.vertices = static_cast<int>(shape->cols());
+    stage.name = "gradients";
+    stage.rounds = 1;
+    stage.seconds = stopwatch.Seconds();
+    summary_->stages.push_back(stage);
     internal::ShellFit shell = MakeFit(level, rest, kCoarseBending * options_.bending);
     for (const double weight : kCoarseWeights) {
       Rounds(level, &shell, weight, kCoarseRounds, shape);

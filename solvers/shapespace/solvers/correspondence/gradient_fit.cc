@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <tuple>
+#include <vector>
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCore>
 
 #include <shapespace/solvers/correspondence/frames.h>
 #include <shapespace/solvers/correspondence/solve.h>
@@ -51,17 +53,17 @@ void AddSquare(const std::vector<int>& unknowns, const std::vector<Eigen::Vector
 
 }  // namespace
 
-GradientFit::GradientFit(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
-                         const std::vector<int>& held, const Shape& places)
-    : num_vertices_(connectivity->NumVertices()) {
-  const Eigen::Matrix3Xi& triangles = connectivity->Triangles();
-  const int num_unknowns = num_vertices_ + connectivity->NumTriangles();
-  std::vector<Element> elements(connectivity->NumTriangles());
+Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
+                   const std::vector<int>& held, const Shape& places) {
+  const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
+  const int num_vertices = connectivity.NumVertices();
+  const int num_unknowns = num_vertices + connectivity.NumTriangles();
+  std::vector<Element> elements(connectivity.NumTriangles());
   std::vector<Eigen::Triplet<double>> entries;
-  right_ = Eigen::MatrixX3d::Zero(num_unknowns, 3);
-  for (int v = 0; v < num_vertices_; ++v) {
+  Eigen::MatrixX3d right = Eigen::MatrixX3d::Zero(num_unknowns, 3);
+  for (int v = 0; v < num_vertices; ++v) {
     entries.emplace_back(v, v, kPlace);
-    right_.row(v) = kPlace * rest.col(v).transpose();
+    right.row(v) = kPlace * rest.col(v).transpose();
   }
   for (int f = 0; f < triangles.cols(); ++f) {
     Element& element = elements[f];
@@ -71,7 +73,7 @@ GradientFit::GradientFit(const std::shared_ptr<const Connectivity>& connectivity
       element.unknowns[k] = triangles(k, f);
       element.gradients[k + 1] = inverse.row(k);
     }
-    element.unknowns[3] = num_vertices_ + f;
+    element.unknowns[3] = num_vertices + f;
     element.gradients[0] = -(element.gradients[1] + element.gradients[2] + element.gradients[3]);
     const double longest = std::max({frame.col(0).squaredNorm(), frame.col(1).squaredNorm(),
                                      (frame.col(1) - frame.col(0)).squaredNorm()});
@@ -84,9 +86,9 @@ GradientFit::GradientFit(const std::shared_ptr<const Connectivity>& connectivity
     const double weight = kIdentity * element.quality;
     AddSquare(unknowns, gradients, weight, &entries);
     for (int k = 0; k < 4; ++k) {
-      right_.row(unknowns[k]) += weight * gradients[k].transpose();
+      right.row(unknowns[k]) += weight * gradients[k].transpose();
     }
-    entries.emplace_back(num_vertices_ + f, num_vertices_ + f, kPlace);
+    entries.emplace_back(num_vertices + f, num_vertices + f, kPlace);
   }
   const auto sides = Sides(triangles);
   for (size_t i = 1; i < sides.size(); ++i) {
@@ -109,54 +111,33 @@ GradientFit::GradientFit(const std::shared_ptr<const Connectivity>& connectivity
     }
     AddSquare(unknowns, gradients, std::min(elements[f].quality, elements[g].quality), &entries);
   }
-  constant_.resize(num_unknowns, num_unknowns);
-  constant_.setFromTriplets(entries.begin(), entries.end());
+  Eigen::SparseMatrix<double> matrix(num_unknowns, num_unknowns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
 
-  is_held_.assign(num_unknowns, false);
-  places_ = Shape::Zero(3, num_vertices_);
-  for (size_t i = 0; i < held.size(); ++i) {
-    is_held_[held[i]] = true;
-    places_.col(held[i]) = places.col(static_cast<Eigen::Index>(i));
-  }
-  double squares = 0;
-  for (int e = 0; e < connectivity->NumTriangleEdges(); ++e) {
-    const auto edge = connectivity->Edges().col(e);
-    squares += (rest.col(edge(1)) - rest.col(edge(0))).squaredNorm();
-  }
-  per_edge_ = connectivity->NumTriangleEdges() / squares;
-}
-
-Shape GradientFit::operator()(const Eigen::VectorXd& weights, const Shape& targets) {
-  matrix_ = constant_;
-  Eigen::MatrixX3d right = right_;
-  for (int v = 0; v < num_vertices_; ++v) {
-    const double weight = weights(v) * per_edge_;
-    matrix_.coeffRef(v, v) += weight;
-    right.row(v) += weight * targets.col(v).transpose();
-  }
   // What is held goes to the right hand side; its equations become x = place.
-  for (int column = 0; column < matrix_.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix_, column); entry; ++entry) {
+  std::vector<bool> is_held(num_unknowns, false);
+  Eigen::MatrixX3d known = Eigen::MatrixX3d::Zero(num_unknowns, 3);
+  for (size_t i = 0; i < held.size(); ++i) {
+    is_held[held[i]] = true;
+    known.row(held[i]) = places.col(static_cast<Eigen::Index>(i)).transpose();
+  }
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
       const int row = static_cast<int>(entry.row());
-      if (!is_held_[row] && !is_held_[column]) continue;
+      if (!is_held[row] && !is_held[column]) continue;
       if (row == column) {
         entry.valueRef() = 1;
         continue;
       }
-      if (!is_held_[row]) right.row(row) -= entry.value() * places_.col(column).transpose();
-      if (!is_held_[column]) right.row(column) -= entry.value() * places_.col(row).transpose();
+      if (!is_held[row]) right.row(row) -= entry.value() * known.row(column);
+      if (!is_held[column]) right.row(column) -= entry.value() * known.row(row);
       entry.valueRef() = 0;
     }
   }
-  for (int v = 0; v < num_vertices_; ++v) {
-    if (is_held_[v]) right.row(v) = places_.col(v).transpose();
+  for (int v = 0; v < num_vertices; ++v) {
+    if (is_held[v]) right.row(v) = known.row(v);
   }
-  if (factor_ == nullptr) {
-    factor_ = std::make_unique<Cholesky>(matrix_);
-  } else {
-    factor_->Update(matrix_);
-  }
-  return Solve(*factor_, right).topRows(num_vertices_).transpose();
+  return Solve(Cholesky(matrix), right).topRows(num_vertices).transpose();
 }
 
 }  // namespace shapespace::internal

@@ -10,7 +10,7 @@ namespace shapespace::internal {
 namespace {
 
 // Rings by which patches grow, one a round, and rounds of averaging in each.
-constexpr int kRings = 6, kAverages = 60;
+constexpr int kRings = 6, kAverages = 8;
 
 using Neighbours = std::vector<std::vector<int>>;
 
@@ -109,8 +109,8 @@ void Unfold(const Level& level, const Target& target, const std::vector<int>& he
   std::vector<bool> is_held(shape->cols(), false);
   for (const int v : held) is_held[v] = true;
   for (int rings = 1; rings <= kRings; ++rings) {
-    const std::vector<bool> turned =
-        TurnedTriangles(level, *shape, target, MapVertices(level, *shape, target));
+    const std::vector<Foot> feet = MapVertices(level, *shape, target);
+    const std::vector<bool> turned = TurnedTriangles(level, *shape, target, feet);
     std::vector<bool> inside(shape->cols(), false);
     for (int f = 0; f < triangles.cols(); ++f) {
       for (int k = 0; k < 3; ++k) {
@@ -127,18 +127,24 @@ void Unfold(const Level& level, const Target& target, const std::vector<int>& he
     int num_patches = 0;
     const std::vector<int> patch = PatchesOf(inside, neighbours, &num_patches);
     if (num_patches == 0) return;
+    // On the target all the way: a mean is projected to where the target faces as it does around.
     Shape flat = *shape;
+    Shape facing(3, flat.cols());
+    for (int v = 0; v < flat.cols(); ++v) facing.col(v) = target.NormalAt(feet[v]);
     for (int round = 0; round < kAverages; ++round) {
       for (int v = 0; v < flat.cols(); ++v) {
         if (!inside[v]) continue;
-        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for (const int w : neighbours[v]) sum += flat.col(w);
-        flat.col(v) = sum / static_cast<double>(neighbours[v].size());
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+        for (const int w : neighbours[v]) {
+          sum += flat.col(w);
+          normal += facing.col(w);
+        }
+        const Eigen::Vector3d mean = sum / static_cast<double>(neighbours[v].size());
+        const Foot foot = target.Nearest(mean, normal.stableNormalized(), level.vertices[v]);
+        if (foot.triangle < 0) continue;
+        flat.col(v) = foot.point;
+        facing.col(v) = target.NormalAt(foot);
       }
-    }
-    const std::vector<Foot> feet = MapVertices(level, flat, target);
-    for (int v = 0; v < flat.cols(); ++v) {
-      if (inside[v]) flat.col(v) = feet[v].point;
     }
     const std::vector<bool> still =
         TurnedTriangles(level, flat, target, MapVertices(level, flat, target));
