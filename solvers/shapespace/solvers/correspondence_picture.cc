@@ -56,6 +56,23 @@ Eigen::VectorXi PatchesOf(const Shape& shape) {
   return patch;
 }
 
+// The nearest marker of every vertex that is near one, -1 elsewhere.
+Eigen::VectorXi SpotsAround(const std::vector<int>& vertices, const Shape& shape) {
+  constexpr double kRadius = 0.012;  // of the body's diameter
+  const double diameter = (shape.rowwise().maxCoeff() - shape.rowwise().minCoeff()).norm();
+  Eigen::VectorXi spots = Eigen::VectorXi::Constant(shape.cols(), -1);
+  for (Eigen::Index v = 0; v < shape.cols(); ++v) {
+    double least = kRadius * diameter;
+    for (size_t k = 0; k < vertices.size(); ++k) {
+      const double distance = (shape.col(v) - shape.col(vertices[k])).norm();
+      if (distance > least) continue;
+      least = distance;
+      spots(v) = static_cast<int>(k);
+    }
+  }
+  return spots;
+}
+
 void PasteBelow(const Image& part, Image* image) {
   const int width = std::max(image->width, part.width);
   Image whole = {width, image->height + part.height, {}};
@@ -99,15 +116,20 @@ Image RenderCorrespondence(const Connectivity& template_connectivity, const Shap
   options.roles = {ShapeRole::kPose, ShapeRole::kPose, ShapeRole::kInserted};
   options.labels = {"template", "target", "fitted template"};
   FilmStripOptions with_markers = options, with_patches = options, with_values = options;
-  with_markers.marks = Eigen::VectorXi::Zero(both.first + both.second);
-  for (size_t k = 0; k < markers.size(); ++k) {
-    const bool is_doubtful =
-        std::any_of(result.summary.doubtful.begin(), result.summary.doubtful.end(),
-                    [&](const auto& doubt) { return doubt.marker == static_cast<int>(k); });
-    const int mark = is_doubtful ? 1 : 2;
-    with_markers.marks(markers[k].template_vertex) = mark;
-    with_markers.marks(both.first + markers[k].target_vertex) = mark;
+  with_markers.groups.resize(both.first + both.second);
+  std::vector<int> on_template, on_target;
+  for (const Marker& marker : markers) {
+    on_template.push_back(marker.template_vertex);
+    on_target.push_back(marker.target_vertex);
   }
+  with_markers.groups << SpotsAround(on_template, template_shape),
+      SpotsAround(on_target, target_shape);
+  with_markers.legend = "markers";
+  for (const auto& doubt : result.summary.doubtful) {
+    with_markers.legend += (&doubt == &result.summary.doubtful.front() ? ", of them doubtful: " : ", ") +
+                           std::to_string(doubt.marker + 1);
+  }
+  with_markers.legend.resize(std::min<size_t>(with_markers.legend.size(), 120));
   Image image = RenderFilmStrip(*both.connectivity, shapes, with_markers);
 
   const Eigen::VectorXi patches = PatchesOf(template_shape);
@@ -129,7 +151,7 @@ Image RenderCorrespondence(const Connectivity& template_connectivity, const Shap
   with_values.values[1].tail(both.second) =
       Pull(points, template_connectivity.Triangles(), result.map.round_trip.transpose())
           .transpose();
-  with_values.legend = "round trip, of the root of the area: where it is much, trust the map less";
+  with_values.legend = "round trip, of the root of the area: low is good";
   PasteBelow(RenderFilmStrip(*both.connectivity, shapes, with_values), &image);
   return image;
 }
