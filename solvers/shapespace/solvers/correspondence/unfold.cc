@@ -10,7 +10,7 @@ namespace shapespace::internal {
 namespace {
 
 // Rings by which patches grow, one a round, and rounds of averaging in each.
-constexpr int kRings = 6, kAverages = 8;
+constexpr int kRings = 4, kAverages = 8;
 
 using Neighbours = std::vector<std::vector<int>>;
 
