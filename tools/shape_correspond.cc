@@ -69,9 +69,9 @@ void Run(const std::vector<std::string>& files) {
     if (extension == ".txt") {
       WriteSurfaceMap(output, result.map);
     } else if (extension == ".png") {
-      WritePng(output, RenderCorrespondence(*first.connectivity, first.shapes[0],
-                                            *second.connectivity, second.shapes[0], markers,
-                                            result));
+      WritePng(output,
+               RenderCorrespondence(*first.connectivity, first.shapes[0], *second.connectivity,
+                                    second.shapes[0], markers, result));
     } else {
       WriteMeshAndTell(output, result.fitted,
                        FrameSoup(*first.connectivity, first.soup.appearance));

@@ -3,8 +3,8 @@
 #include <limits>
 #include <random>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <shapespace/bodies/quadruped.h>
 
@@ -21,8 +21,7 @@ Shape PointsAround(const Shape& shape, int count) {
   const Vector3d size = shape.rowwise().maxCoeff() - low;
   Shape points(3, count);
   for (int i = 0; i < count; ++i) {
-    points.col(i) =
-        low + size.cwiseProduct(Vector3d(share(random), share(random), share(random)));
+    points.col(i) = low + size.cwiseProduct(Vector3d(share(random), share(random), share(random)));
   }
   return points;
 }
@@ -35,9 +34,8 @@ double LeastOnGrids(const Connectivity& connectivity, const Shape& shape, const 
   for (const auto& t : connectivity.Triangles().colwise()) {
     for (int i = 0; i <= kGrid; ++i) {
       for (int j = 0; i + j <= kGrid; ++j) {
-        const Vector3d on = (i * shape.col(t(0)) + j * shape.col(t(1)) +
-                             (kGrid - i - j) * shape.col(t(2))) /
-                            kGrid;
+        const Vector3d on =
+            (i * shape.col(t(0)) + j * shape.col(t(1)) + (kGrid - i - j) * shape.col(t(2))) / kGrid;
         least = std::min(least, (on - point).norm());
       }
     }

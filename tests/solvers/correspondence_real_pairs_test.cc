@@ -44,9 +44,8 @@ TEST_P(RealPairs, MapIsAsGoodAsMeasured) {
   const Poses target = ReadPoses({(folder / "target.obj").string()});
   const std::vector<Marker> markers = ReadMarkers(
       (folder / ("markers" + std::to_string(pair.markers) + ".txt")).string(), source, target);
-  const auto [fitted, map, summary] =
-      Correspond(source.connectivity, source.shapes[0], target.connectivity, target.shapes[0],
-                 markers);
+  const auto [fitted, map, summary] = Correspond(source.connectivity, source.shapes[0],
+                                                 target.connectivity, target.shapes[0], markers);
   EXPECT_TRUE(summary.doubtful.empty());
   EXPECT_LT(summary.turned, pair.turned) << summary.FullReport();
 
@@ -73,8 +72,7 @@ TEST_P(RealPairs, MapIsAsGoodAsMeasured) {
   for (size_t i = 0; i < from.size(); ++i) {
     Eigen::Index corner = 0;
     map.to_target.barycentric.col(from[i]).maxCoeff(&corner);
-    const int landed =
-        target.connectivity->Triangles()(corner, map.to_target.triangle(from[i]));
+    const int landed = target.connectivity->Triangles()(corner, map.to_target.triangle(from[i]));
     const double error = distances(landed, static_cast<Eigen::Index>(i)) / root;
     sum += error;
     far += error > 0.2;
@@ -84,16 +82,15 @@ TEST_P(RealPairs, MapIsAsGoodAsMeasured) {
 }
 
 // A tenth above what was measured at the default options (docs/performance.md).
-INSTANTIATE_TEST_SUITE_P(
-    , RealPairs,
-    ::testing::Values(KnownPair{"person_000-person_001", 20, 0.0125, 0, 4e-3},
-                      KnownPair{"person_000-person_001", 55, 0.0105, 0, 1e-3},
-                      KnownPair{"person_010-person_031", 20, 0.0145, 0, 5e-3},
-                      KnownPair{"person_010-person_031", 55, 0.012, 0, 1e-3},
-                      KnownPair{"person_002-person_007", 55, 0.0135, 2, 1e-3},
-                      KnownPair{"gorilla_01-man_01", 55, 0.024, 1, 5e-3},
-                      KnownPair{"man_03-woman_05", 20, 0.03, 2, 5e-3},
-                      KnownPair{"man_03-woman_05", 55, 0.024, 2, 5e-3}));
+INSTANTIATE_TEST_SUITE_P(, RealPairs,
+                         ::testing::Values(KnownPair{"person_000-person_001", 20, 0.0125, 0, 4e-3},
+                                           KnownPair{"person_000-person_001", 55, 0.0105, 0, 1e-3},
+                                           KnownPair{"person_010-person_031", 20, 0.0145, 0, 5e-3},
+                                           KnownPair{"person_010-person_031", 55, 0.012, 0, 1e-3},
+                                           KnownPair{"person_002-person_007", 55, 0.0135, 2, 1e-3},
+                                           KnownPair{"gorilla_01-man_01", 55, 0.024, 1, 5e-3},
+                                           KnownPair{"man_03-woman_05", 20, 0.03, 2, 5e-3},
+                                           KnownPair{"man_03-woman_05", 55, 0.024, 2, 5e-3}));
 
 }  // namespace
 }  // namespace shapespace

@@ -6,8 +6,8 @@
 #include <limits>
 #include <set>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
@@ -70,7 +70,8 @@ TEST(Correspond, IsExactAtMarkers) {
   ASSERT_TRUE(result.summary.doubtful.empty());
   const Shape landed =
       Pull(result.map.to_target, bodies.second.connectivity->Triangles(), bodies.target);
-  const Shape back = Pull(result.map.to_template, bodies.first.connectivity->Triangles(), bodies.rest);
+  const Shape back =
+      Pull(result.map.to_template, bodies.first.connectivity->Triangles(), bodies.rest);
   for (const Marker& marker : bodies.markers) {
     EXPECT_EQ(result.fitted.col(marker.template_vertex), bodies.target.col(marker.target_vertex));
     EXPECT_EQ(landed.col(marker.template_vertex), bodies.target.col(marker.target_vertex));
@@ -97,9 +98,9 @@ TEST(Correspond, DoesNotCareWhereTheTemplateIs) {
   const Remeshed bodies("sit");
   const CorrespondenceResult result = bodies.Fit();
   Remeshed moved = bodies;
-  moved.rest = (1e-3 * Rotation(120, Eigen::Vector3d(0.1, 1, -0.4).normalized()) * bodies.rest)
-                   .colwise() +
-               Eigen::Vector3d(1e3, 0, -1e3);
+  moved.rest =
+      (1e-3 * Rotation(120, Eigen::Vector3d(0.1, 1, -0.4).normalized()) * bodies.rest).colwise() +
+      Eigen::Vector3d(1e3, 0, -1e3);
   const CorrespondenceResult other = moved.Fit();
   EXPECT_LT((other.fitted - result.fitted).colwise().norm().maxCoeff(), 1e-6);
   EXPECT_LT((other.map.round_trip - result.map.round_trip).cwiseAbs().maxCoeff(), 1e-6);
@@ -112,9 +113,8 @@ TEST(Correspond, ThereAndBackIsNearTheIdentity) {
   for (const Marker& marker : bodies.markers) {
     reversed.push_back({marker.target_vertex, marker.template_vertex});
   }
-  const CorrespondenceResult back =
-      Correspond(bodies.second.connectivity, bodies.target, bodies.first.connectivity, bodies.rest,
-                 reversed);
+  const CorrespondenceResult back = Correspond(bodies.second.connectivity, bodies.target,
+                                               bodies.first.connectivity, bodies.rest, reversed);
   const Shape first = Pull(back.map.to_target, bodies.first.connectivity->Triangles(), bodies.rest);
   const Shape both = Pull(there.map.to_target, bodies.second.connectivity->Triangles(), first);
   EXPECT_LT((both - bodies.rest).colwise().norm().mean(), 0.75 * bodies.Edge());
@@ -227,9 +227,8 @@ TEST(Correspond, RefusesMarkersThatCannotDo) {
     }
   }
   ASSERT_GE(line.size(), 3u);
-  expect(MessageOf<MeshError>([&] {
-           Correspond(bar.connectivity, rest, bar.connectivity, rest, line);
-         }),
+  expect(MessageOf<MeshError>(
+             [&] { Correspond(bar.connectivity, rest, bar.connectivity, rest, line); }),
          "on one line of the template");
 }
 
@@ -294,8 +293,8 @@ TEST(Correspond, DoesNotTakeOneLegForAnother) {
     }
   }
   const CorrespondenceResult result = bodies.Fit();
-  const Shape landed = Pull(result.map.to_target, bodies.second.connectivity->Triangles(),
-                            bodies.other_rest);
+  const Shape landed =
+      Pull(result.map.to_target, bodies.second.connectivity->Triangles(), bodies.other_rest);
   int wrong = 0, low = 0;
   for (int v = 0; v < landed.cols(); ++v) {
     if (bodies.rest(1, v) > 0.3) continue;
@@ -366,10 +365,9 @@ TEST(Correspond, ReportsAreWhole) {
 TEST(CarryPath, TakesATransferredPoseToTheTargetsOwnMesh) {
   const Remeshed bodies;
   const CorrespondenceResult fit = bodies.Fit();
-  const PoseTransferResult moved = TransferPoses(
-      bodies.first.connectivity, {bodies.rest, bodies.first.pose("sit")}, fit.fitted);
-  const Path path =
-      CarryPath(fit, moved.path, bodies.second.connectivity, bodies.target);
+  const PoseTransferResult moved =
+      TransferPoses(bodies.first.connectivity, {bodies.rest, bodies.first.pose("sit")}, fit.fitted);
+  const Path path = CarryPath(fit, moved.path, bodies.second.connectivity, bodies.target);
   ASSERT_EQ(path.NumShapes(), 2);
   EXPECT_NO_THROW(path.Validate());
   EXPECT_LT((path.Placed(0) - bodies.target).colwise().norm().maxCoeff(), 1e-9);

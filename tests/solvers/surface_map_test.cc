@@ -1,7 +1,7 @@
 #include <shapespace/solvers/surface_map.h>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
 #include <shapespace/solvers/marker_file.h>
@@ -55,8 +55,8 @@ TEST_F(SurfaceMapTest, CarriesOffsetsAlongRigidly) {
   const auto move = [&](const Shape& shape) -> Shape {
     return (rotation * shape).colwise() + Eigen::Vector3d(5, -1, 2);
   };
-  EXPECT_TRUE(CarryAlong(points_, *connectivity_, square_, move(square_), own)
-                  .isApprox(move(own), 1e-12));
+  EXPECT_TRUE(
+      CarryAlong(points_, *connectivity_, square_, move(square_), own).isApprox(move(own), 1e-12));
   EXPECT_TRUE(CarryAlong(points_, *connectivity_, square_, square_, own).isApprox(own, 1e-14));
   EXPECT_THROW(CarryAlong(points_, *connectivity_, square_, square_, square_), MeshError);
 }
@@ -104,8 +104,8 @@ class MarkerFileTest : public testing::FilesTest {
 };
 
 TEST_F(MarkerFileTest, ReadsNumbersAndNamesOfGroups) {
-  const std::vector<Marker> markers =
-      ReadMarkers(File("m.txt", "# two columns\n1 2\n\n 3 4  # corners\nnose nose\n"), mesh_, mesh_);
+  const std::vector<Marker> markers = ReadMarkers(
+      File("m.txt", "# two columns\n1 2\n\n 3 4  # corners\nnose nose\n"), mesh_, mesh_);
   ASSERT_EQ(markers.size(), 3u);
   EXPECT_EQ(markers[0].template_vertex, 0);
   EXPECT_EQ(markers[0].target_vertex, 1);

@@ -26,8 +26,7 @@ struct Remeshed {
         other_rest(second.pose("stand")),
         target(MakeQuadruped(second_triangles, form).pose(pose)) {
     // Far from each other; the target's are the nearest vertices.
-    Eigen::RowVectorXd distance =
-        (rest.colwise() - rest.rowwise().mean()).colwise().squaredNorm();
+    Eigen::RowVectorXd distance = (rest.colwise() - rest.rowwise().mean()).colwise().squaredNorm();
     for (int k = 0; k < num_markers; ++k) {
       Eigen::Index from = 0, to = 0;
       distance.maxCoeff(&from);

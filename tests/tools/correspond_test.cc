@@ -24,10 +24,10 @@ class CorrespondTest : public ToolsTest {
   /// One animal as two meshes that have nothing to do with each other: a0.obj and a1.obj, standing
   /// and sitting, and b0.obj and b1.obj. markers.txt are vertices that stand at one place.
   void MakeBodies() const {
-    Succeed("shape-body", {"quadruped", "--triangles", "1500", "--pose", "stand,sit", "--output",
-                           "a%d.obj"});
-    Succeed("shape-body", {"quadruped", "--triangles", "2100", "--pose", "stand,sit", "--output",
-                           "b%d.obj"});
+    Succeed("shape-body",
+            {"quadruped", "--triangles", "1500", "--pose", "stand,sit", "--output", "a%d.obj"});
+    Succeed("shape-body",
+            {"quadruped", "--triangles", "2100", "--pose", "stand,sit", "--output", "b%d.obj"});
     const Shape a = Vertices("a0.obj"), b = Vertices("b0.obj");
     Eigen::RowVectorXd distance = (a.colwise() - a.col(0)).colwise().squaredNorm();
     std::ofstream file(Path("markers.txt"));
@@ -62,9 +62,9 @@ TEST_F(CorrespondTest, WritesTheFittedTemplateTheMapAndAPicture) {
 
 TEST_F(CorrespondTest, MovesABodyOfAnotherConnectivity) {
   MakeBodies();
-  const Outcome outcome = Run("shape-transfer", {"a0.obj", "a1.obj", "--target", "b0.obj",
-                                                 "--markers", "markers.txt", "--output",
-                                                 "out/%02d.obj,out.path"});
+  const Outcome outcome =
+      Run("shape-transfer", {"a0.obj", "a1.obj", "--target", "b0.obj", "--markers", "markers.txt",
+                             "--output", "out/%02d.obj,out.path"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Soup target = ReadSoup(Path("b0.obj"));
   EXPECT_EQ(ReadSoup(Path("out/00.obj")).corners, target.corners);
@@ -80,8 +80,8 @@ TEST_F(CorrespondTest, MovesABodyOfAnotherConnectivity) {
   EXPECT_LT(off, 0.2 * moved);
   // And on from a path.
   Succeed("shape-interpolate", {"a0.obj", "a1.obj", "--shapes", "1", "--output", "a.path"});
-  Succeed("shape-transfer", {"a.path", "--target", "b0.obj", "--markers", "markers.txt",
-                             "--output", "b.path"});
+  Succeed("shape-transfer",
+          {"a.path", "--target", "b0.obj", "--markers", "markers.txt", "--output", "b.path"});
   ExpectContains(Run("shape-inspect", {"b.path"}).out, std::to_string(target.NumVertices()));
 }
 

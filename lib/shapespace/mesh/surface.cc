@@ -127,8 +127,8 @@ struct Surface::Scene {
     const Eigen::Vector3d point = barycentric(0) * a + barycentric(1) * b + barycentric(2) * c;
     const double distance = (point - query->point).norm();
     Foot& foot = query->foot;
-    if (foot.triangle >= 0 && (distance > foot.distance ||
-                               (distance == foot.distance && number > foot.triangle))) {
+    if (foot.triangle >= 0 &&
+        (distance > foot.distance || (distance == foot.distance && number > foot.triangle))) {
       return false;
     }
     if (*query->admits && !(*query->admits)(number)) return false;

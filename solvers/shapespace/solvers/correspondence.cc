@@ -175,7 +175,7 @@ class Fit {
     summary_->converged =
         Rounds(level, &fit, kLastWeight, options_.max_iterations, shape) && !summary_->cancelled;
     const Stopwatch stopwatch;
-    internal::Unfold(level, target_, held_, shape);
+    internal::Unfold(level, rest, target_, held_, shape);
     summary_->unfold_seconds = stopwatch.Seconds();
   }
 
@@ -192,8 +192,7 @@ class Fit {
     stage.name = "shell";
     stage.weight = weight;
     // As many of the target's vertices as the level has, more or less, are enough.
-    const int stride =
-        std::max(1, target_.GetConnectivity().NumVertices() / (2 * stage.vertices));
+    const int stride = std::max(1, target_.GetConnectivity().NumVertices() / (2 * stage.vertices));
     bool at_rest = false;
     while (!at_rest && stage.rounds < rounds && !Stops()) {
       const std::vector<internal::Pull> pulls = internal::FindPulls(
@@ -229,9 +228,8 @@ SurfacePoints PointsOf(const std::vector<Foot>& feet) {
 }
 
 // Both directions of the map, and how good they are.
-SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest,
-                   const Target& target, const std::vector<Marker>& held,
-                   CorrespondenceSummary* summary) {
+SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, const Target& target,
+                   const std::vector<Marker>& held, CorrespondenceSummary* summary) {
   SurfaceMap map;
   const std::vector<Foot> feet = internal::MapVertices(level, fitted, target);
   map.to_target = PointsOf(feet);
@@ -374,8 +372,7 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
     Eigen::MatrixXf second = internal::DistancesFrom(*target_connectivity, goal, on_target);
     *size = RelativeSize(first, second, on_template, on_target);
     first *= static_cast<float>(*size);
-    summary.doubtful =
-        internal::FindDoubtfulMarkers(first, second, on_template, on_target);
+    summary.doubtful = internal::FindDoubtfulMarkers(first, second, on_template, on_target);
     return MarkerDistances(std::move(first), std::move(second));
   };
   double size = 1;
@@ -392,9 +389,8 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
   summary.scale = size * target_frame.unit / template_frame.unit;
 
   // In the order of the template's vertices, in which levels have them.
-  std::sort(markers.begin(), markers.end(), [](const Marker& a, const Marker& b) {
-    return a.template_vertex < b.template_vertex;
-  });
+  std::sort(markers.begin(), markers.end(),
+            [](const Marker& a, const Marker& b) { return a.template_vertex < b.template_vertex; });
   std::vector<int> held;
   Shape from(3, markers.size()), places(3, markers.size());
   for (size_t k = 0; k < markers.size(); ++k) {
@@ -432,8 +428,8 @@ Path CarryPath(const CorrespondenceResult& result, const Path& path,
   path.Validate();
   std::vector<Shape> carried;
   for (int i = 0; i < path.NumShapes(); ++i) {
-    carried.push_back(CarryAlong(result.map.to_template, *path.metric->connectivity,
-                                 result.fitted, path.Placed(i), target_shape));
+    carried.push_back(CarryAlong(result.map.to_template, *path.metric->connectivity, result.fitted,
+                                 path.Placed(i), target_shape));
   }
   Path own;
   own.metric = std::make_shared<const Metric>(

@@ -53,8 +53,8 @@ struct CorrespondenceSummary {
   /// Rounds of closest points on one level.
   struct Stage {
     int vertices = 0;
-    std::string name;     ///< "gradients" (Sumner and Popovic's), or "shell" (strain and bending)
-    double weight = 0;    ///< of closest points
+    std::string name;   ///< "gradients" (Sumner and Popovic's), or "shell" (strain and bending)
+    double weight = 0;  ///< of closest points
     int rounds = 0;
     double distance = 0;  ///< of its vertices from the target before the last, root mean square
     double motion = 0;    ///< in the last round, root mean square
@@ -77,8 +77,8 @@ struct CorrespondenceSummary {
   double scale = 1;  ///< size of the target, as a multiple of the template's
   std::vector<Stage> stages;
   /// All lengths of this summary are shares of the root of the target's area.
-  double distance_rms = 0, distance_max = 0;      ///< of the fitted template from the target
-  double round_trip_mean = 0, round_trip_p95 = 0; ///< SurfaceMap::round_trip
+  double distance_rms = 0, distance_max = 0;       ///< of the fitted template from the target
+  double round_trip_mean = 0, round_trip_p95 = 0;  ///< SurfaceMap::round_trip
   double turned = 0;     ///< share of triangles whose normal points against the target's
   double uncovered = 0;  ///< share of the target's area that no part of the template came near
   std::vector<std::string> warnings;
@@ -106,11 +106,11 @@ struct CorrespondenceResult {
 /// After R. Sumner and J. Popovic, "Deformation Transfer for Triangle Meshes" (SIGGRAPH 2004),
 /// section 5, for a start; then under strain and bending (docs/mathematics.md, section 14).
 /// \throw InvalidOptions; MeshError (a mesh without triangles or extent, a shape that is not finite
-///        or has another number of vertices than its connectivity; fewer than three markers, markers
-///        on one line, out of range, repeated or on a vertex without triangle; a component of the
-///        template without a marker; markers that only fit a mirror image), naming the marker, from
-///        1; SolverError; Cancelled (stopped before a fit was found; later what there is is mapped,
-///        CorrespondenceSummary::cancelled).
+///        or has another number of vertices than its connectivity; fewer than three markers,
+///        markers on one line, out of range, repeated or on a vertex without triangle; a component
+///        of the template without a marker; markers that only fit a mirror image), naming the
+///        marker, from 1; SolverError; Cancelled (stopped before a fit was found; later what there
+///        is is mapped, CorrespondenceSummary::cancelled).
 CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& template_connectivity,
                                 const Shape& template_shape,
                                 const std::shared_ptr<const Connectivity>& target_connectivity,

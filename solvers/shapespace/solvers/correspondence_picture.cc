@@ -22,8 +22,7 @@ struct Both {
       : first(a.NumVertices()), second(b.NumVertices()) {
     Eigen::Matrix3Xi triangles(3, a.NumTriangles() + b.NumTriangles());
     triangles << a.Triangles(), b.Triangles().array() + a.NumVertices();
-    connectivity =
-        Connectivity::FromTriangles(a.NumVertices() + b.NumVertices(), triangles);
+    connectivity = Connectivity::FromTriangles(a.NumVertices() + b.NumVertices(), triangles);
   }
 
   Shape First(const Shape& shape) const {
@@ -41,8 +40,7 @@ struct Both {
 // Patches around vertices that are far from each other.
 Eigen::VectorXi PatchesOf(const Shape& shape) {
   Eigen::VectorXi patch = Eigen::VectorXi::Zero(shape.cols());
-  Eigen::RowVectorXd distance =
-      (shape.colwise() - shape.rowwise().mean()).colwise().squaredNorm();
+  Eigen::RowVectorXd distance = (shape.colwise() - shape.rowwise().mean()).colwise().squaredNorm();
   for (int i = 0; i < kPatches; ++i) {
     Eigen::Index seed = 0;
     distance.maxCoeff(&seed);
@@ -94,8 +92,7 @@ void PasteBelow(const Image& part, Image* image) {
 
 Image RenderCorrespondence(const Connectivity& template_connectivity, const Shape& template_shape,
                            const Connectivity& target_connectivity, const Shape& target_shape,
-                           const std::vector<Marker>& markers,
-                           const CorrespondenceResult& result) {
+                           const std::vector<Marker>& markers, const CorrespondenceResult& result) {
   if (template_shape.cols() != result.fitted.cols() ||
       target_shape.cols() != result.map.to_template.NumVertices()) {
     throw MeshError("the meshes are not those of the correspondence");
@@ -126,8 +123,9 @@ Image RenderCorrespondence(const Connectivity& template_connectivity, const Shap
       SpotsAround(on_target, target_shape);
   with_markers.legend = "markers";
   for (const auto& doubt : result.summary.doubtful) {
-    with_markers.legend += (&doubt == &result.summary.doubtful.front() ? ", of them doubtful: " : ", ") +
-                           std::to_string(doubt.marker + 1);
+    with_markers.legend +=
+        (&doubt == &result.summary.doubtful.front() ? ", of them doubtful: " : ", ") +
+        std::to_string(doubt.marker + 1);
   }
   with_markers.legend.resize(std::min<size_t>(with_markers.legend.size(), 120));
   Image image = RenderFilmStrip(*both.connectivity, shapes, with_markers);

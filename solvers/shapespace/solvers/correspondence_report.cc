@@ -12,14 +12,19 @@ std::string CorrespondenceSummary::BriefReport() const {
   return Format(
       "%s: %d vertices on %d, %d markers, %.3g%% off the target (rms), %.3g%% turned over, "
       "%.2f s",
-      cancelled ? "cancelled" : converged ? "converged" : "not converged", template_vertices,
-      target_vertices, markers, 100 * distance_rms, 100 * turned, total_seconds);
+      cancelled   ? "cancelled"
+      : converged ? "converged"
+                  : "not converged",
+      template_vertices, target_vertices, markers, 100 * distance_rms, 100 * turned, total_seconds);
 }
 
 std::string CorrespondenceSummary::FullReport() const {
   std::ostringstream out;
   out << "Termination       "
-      << (cancelled ? "cancelled" : converged ? "converged" : "not converged") << '\n'
+      << (cancelled   ? "cancelled"
+          : converged ? "converged"
+                      : "not converged")
+      << '\n'
       << Format("Template          %d vertices, %d triangles\n", template_vertices,
                 template_triangles)
       << Format("Target            %d vertices, %d triangles; %.6g times as large\n",
@@ -84,7 +89,7 @@ std::string CorrespondenceSummary::ToJson() const {
                               {"motion", JsonNumber(stage.motion)},
                               {"seconds", stage.seconds}});
   }
-  json["seconds"] = {{"total", total_seconds},   {"markers", marker_seconds},
+  json["seconds"] = {{"total", total_seconds},         {"markers", marker_seconds},
                      {"hierarchy", hierarchy_seconds}, {"fit", fit_seconds},
                      {"unfolding", unfold_seconds},    {"map", map_seconds}};
   json["warnings"] = warnings;

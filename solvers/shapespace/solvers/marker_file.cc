@@ -13,10 +13,10 @@ namespace {
 
 int VertexFrom(std::string_view word, const Poses& mesh, const std::string& file, int line) {
   const int num_vertices = mesh.connectivity->NumVertices();
-  const std::string wanted =
-      " is neither a vertex number from 1 to " + std::to_string(num_vertices) +
-      " nor a group of " + mesh.names[0] + "; a line holds a vertex of the template and one of the "
-      "target";
+  const std::string wanted = " is neither a vertex number from 1 to " +
+                             std::to_string(num_vertices) + " nor a group of " + mesh.names[0] +
+                             "; a line holds a vertex of the template and one of the "
+                             "target";
   if (const std::optional<std::int64_t> number = internal::ParseInteger(word)) {
     if (*number < 1 || *number > num_vertices) {
       internal::FailAt(file, line, internal::Quoted(word) + wanted);

@@ -123,8 +123,7 @@ Eigen::MatrixXd Pull(const SurfacePoints& points, const Eigen::Matrix3Xi& triang
   Eigen::MatrixXd pulled = Eigen::MatrixXd::Zero(function.rows(), points.NumVertices());
   for (int v = 0; v < points.NumVertices(); ++v) {
     for (int k = 0; k < 3; ++k) {
-      pulled.col(v) +=
-          points.barycentric(k, v) * function.col(triangles(k, points.triangle(v)));
+      pulled.col(v) += points.barycentric(k, v) * function.col(triangles(k, points.triangle(v)));
     }
   }
   return pulled;
@@ -143,11 +142,10 @@ Shape CarryAlong(const SurfacePoints& points, const Connectivity& connectivity, 
   ParallelFor(points.NumVertices(), [&](int v) {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     for (int k = 0; k < 3; ++k) {
-      covariance += points.barycentric(k, v) *
-                    turns[connectivity.Triangles()(k, points.triangle(v))];
+      covariance +=
+          points.barycentric(k, v) * turns[connectivity.Triangles()(k, points.triangle(v))];
     }
-    carried.col(v) =
-        to.col(v) + ProcrustesRotation(covariance) * (own.col(v) - from.col(v));
+    carried.col(v) = to.col(v) + ProcrustesRotation(covariance) * (own.col(v) - from.col(v));
   });
   return carried;
 }

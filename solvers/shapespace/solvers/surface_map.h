@@ -12,8 +12,8 @@ namespace shapespace {
 
 /// Where each vertex of one mesh lies on the surface of another.
 struct SurfacePoints {
-  Eigen::VectorXi triangle;     ///< of the other's Connectivity::Triangles(), a vertex
-  Eigen::Matrix3Xd barycentric; ///< of that triangle's corners: not negative, of sum 1
+  Eigen::VectorXi triangle;      ///< of the other's Connectivity::Triangles(), a vertex
+  Eigen::Matrix3Xd barycentric;  ///< of that triangle's corners: not negative, of sum 1
 
   int NumVertices() const { return static_cast<int>(triangle.size()); }
 };

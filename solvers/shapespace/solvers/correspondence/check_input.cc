@@ -31,8 +31,8 @@ void CheckBody(const std::string& name, const Connectivity& connectivity, const 
     throw MeshError("the " + name + " has no triangles; correspondence needs a surface");
   }
   if (shape.cols() != connectivity.NumVertices()) {
-    throw MeshError("the " + name + " has " + std::to_string(connectivity.NumVertices()) + " vertices" +
-                    ", its shape " + std::to_string(shape.cols()));
+    throw MeshError("the " + name + " has " + std::to_string(connectivity.NumVertices()) +
+                    " vertices" + ", its shape " + std::to_string(shape.cols()));
   }
   if (!shape.allFinite() || shape.cwiseAbs().maxCoeff() > kLargestCoordinate) {
     throw MeshError("the " + name + " has a coordinate that is not finite or enormous");
@@ -135,8 +135,7 @@ void WarnOfTopology(const Connectivity& template_connectivity,
   const Topology second = ComputeTopology(target_connectivity);
   std::vector<bool> has_marker(second.components, false);
   for (const Marker& marker : markers) has_marker[second.component[marker.target_vertex]] = true;
-  const auto without =
-      static_cast<int>(std::count(has_marker.begin(), has_marker.end(), false));
+  const auto without = static_cast<int>(std::count(has_marker.begin(), has_marker.end(), false));
   if (without > 0) {
     warnings->push_back("the target has " + Count(second.components, "component") + ", " +
                         std::to_string(without) +

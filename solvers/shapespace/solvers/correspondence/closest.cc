@@ -117,8 +117,8 @@ std::vector<Pull> FindPulls(const Level& level, const Shape& shape, const Eigen:
     squares += areas(v) * feet[v].distance * feet[v].distance;
     sum += areas(v);
     if (!holds(feet[v]) || target.IsOnBorder(feet[v])) continue;
-    pulls.push_back({{v, v, v}, {1, 0, 0}, feet[v].point, target.NormalAt(feet[v]),
-                     weight * areas(v)});
+    pulls.push_back(
+        {{v, v, v}, {1, 0, 0}, feet[v].point, target.NormalAt(feet[v]), weight * areas(v)});
   }
   *distance = sum > 0 ? std::sqrt(squares / sum) : 0;
 
@@ -132,9 +132,8 @@ std::vector<Pull> FindPulls(const Level& level, const Shape& shape, const Eigen:
   for (int i = 0; i < num_others; ++i) {
     if (!holds(others[i]) || IsOnSide(others[i], level.borders)) continue;
     const int y = stride * i;
-    pulls.push_back({level.connectivity->Triangles().col(others[i].triangle),
-                     others[i].barycentric, target.GetShape().col(y),
-                     target.GetVertexNormals().col(y),
+    pulls.push_back({level.connectivity->Triangles().col(others[i].triangle), others[i].barycentric,
+                     target.GetShape().col(y), target.GetVertexNormals().col(y),
                      weight * target.VertexAreas()(y) / areas_of_others});
   }
   return pulls;

@@ -59,8 +59,8 @@ std::vector<std::array<bool, 3>> BorderSides(const Connectivity& connectivity);
 /// The part of the template that a level of the hierarchy has.
 struct Level {
   std::shared_ptr<const Connectivity> connectivity;
-  std::vector<int> vertices;                   ///< of each vertex, its number in the template
-  std::vector<std::array<bool, 3>> borders;    ///< BorderSides
+  std::vector<int> vertices;                 ///< of each vertex, its number in the template
+  std::vector<std::array<bool, 3>> borders;  ///< BorderSides
 };
 
 /// Of each target vertex that takes part, the point of the fitted template that it belongs to.

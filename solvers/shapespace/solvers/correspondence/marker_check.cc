@@ -47,8 +47,7 @@ Prediction Predict(int marker, const std::vector<bool>& is_out, const Eigen::Mat
 // Whether marker `a` is expected about where `b` is, and the other way round.
 bool AreSwapped(const CorrespondenceSummary::Doubt& a, const CorrespondenceSummary::Doubt& b,
                 const Eigen::MatrixXf& on_target) {
-  return on_target(a.expected, b.marker) < kLeastOff &&
-         on_target(b.expected, a.marker) < kLeastOff;
+  return on_target(a.expected, b.marker) < kLeastOff && on_target(b.expected, a.marker) < kLeastOff;
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ Eigen::MatrixXf DistancesFrom(const Connectivity& connectivity, const Shape& sha
     neighbours[end[a]++] = {b, length};
     neighbours[end[b]++] = {a, length};
   }
-  Eigen::MatrixXf distances = Eigen::MatrixXf::Constant(
-      num_vertices, vertices.size(), std::numeric_limits<float>::infinity());
+  Eigen::MatrixXf distances = Eigen::MatrixXf::Constant(num_vertices, vertices.size(),
+                                                        std::numeric_limits<float>::infinity());
   ParallelFor(static_cast<int>(vertices.size()), [&](int k) {
     auto distance = distances.col(k);
     using Entry = std::pair<float, int>;

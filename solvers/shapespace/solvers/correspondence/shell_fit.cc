@@ -77,8 +77,8 @@ void ShellFit::AddPulls(const std::vector<Pull>& pulls, const Shape& shape, Tang
   const int* const rows = matrix_.innerIndexPtr();
   const int* const begins = matrix_.outerIndexPtr();
   for (const Pull& pull : pulls) {
-    const Eigen::Matrix3d stiffness =
-        pull.weight * (pull.normal * pull.normal.transpose() + kAlong * Eigen::Matrix3d::Identity());
+    const Eigen::Matrix3d stiffness = pull.weight * (pull.normal * pull.normal.transpose() +
+                                                     kAlong * Eigen::Matrix3d::Identity());
     const Eigen::Vector3d force = stiffness * Offset(pull, shape);
     for (int i = 0; i < 3; ++i) {
       if (pull.barycentric(i) == 0) continue;
@@ -90,9 +90,9 @@ void ShellFit::AddPulls(const std::vector<Pull>& pulls, const Shape& shape, Tang
         for (int b = 0; b < 3; ++b) {
           const int column = 3 * q + b;
           const int first = p == q ? column : 3 * p;
-          double* entry = values + (std::lower_bound(rows + begins[column],
-                                                     rows + begins[column + 1], first) -
-                                    rows);
+          double* entry =
+              values +
+              (std::lower_bound(rows + begins[column], rows + begins[column + 1], first) - rows);
           for (int a = first - 3 * p; a < 3; ++a, ++entry) *entry += factor * stiffness(a, b);
         }
       }

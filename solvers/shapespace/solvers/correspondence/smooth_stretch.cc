@@ -79,11 +79,10 @@ Eigen::Matrix<double, 9, Eigen::Dynamic> SmoothStretch::StretchedTriangles(
   ParallelFor(num_triangles, [&](int f) {
     const Eigen::Matrix3d gradient = Frame(shape, triangles.col(f)) * inverses_[f];
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squared(gradient.transpose() * gradient);
-    const Eigen::Vector3d logarithm = (0.5 * squared.eigenvalues().array().max(1e-12).log())
-                                          .max(-kMostStretch)
-                                          .min(kMostStretch);
-    raw.col(f) = Pack(squared.eigenvectors() * logarithm.asDiagonal() *
-                      squared.eigenvectors().transpose());
+    const Eigen::Vector3d logarithm =
+        (0.5 * squared.eigenvalues().array().max(1e-12).log()).max(-kMostStretch).min(kMostStretch);
+    raw.col(f) =
+        Pack(squared.eigenvectors() * logarithm.asDiagonal() * squared.eigenvectors().transpose());
   });
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(shape.cols(), 6);
   for (int f = 0; f < num_triangles; ++f) {
@@ -97,10 +96,9 @@ Eigen::Matrix<double, 9, Eigen::Dynamic> SmoothStretch::StretchedTriangles(
     Sixfold mean = Sixfold::Zero();
     for (int k = 0; k < 3; ++k) mean += smooth.row(triangles(k, f)).transpose() / 3;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> logarithm(Unpack(mean));
-    const Eigen::Matrix3d stretch =
-        logarithm.eigenvectors() *
-        logarithm.eigenvalues().array().exp().matrix().asDiagonal() *
-        logarithm.eigenvectors().transpose();
+    const Eigen::Matrix3d stretch = logarithm.eigenvectors() *
+                                    logarithm.eigenvalues().array().exp().matrix().asDiagonal() *
+                                    logarithm.eigenvectors().transpose();
     for (int k = 0; k < 3; ++k) {
       stretched.col(f).segment<3>(3 * k) =
           stretch * (rest_.col(triangles(k, f)) - rest_.col(triangles(0, f)));

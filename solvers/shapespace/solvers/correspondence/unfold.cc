@@ -1,6 +1,7 @@
 #include <shapespace/solvers/correspondence/unfold.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Geometry>
 
@@ -10,16 +11,39 @@ namespace shapespace::internal {
 namespace {
 
 // Rings by which patches grow, one a round, and rounds of averaging in each.
-constexpr int kRings = 4, kAverages = 8;
+constexpr int kRings = 6, kAverages = 8;
 
-using Neighbours = std::vector<std::vector<int>>;
+// The vertices around each, with M. Floater's mean value weights ("Mean value coordinates", 2003),
+// which are positive, so that nothing folds, and keep the triangles' forms as far as that goes.
+struct Neighbour {
+  int vertex;
+  double weight;
+};
+using Neighbours = std::vector<std::vector<Neighbour>>;
 
-Neighbours NeighboursOf(const Connectivity& connectivity) {
+Neighbours NeighboursOf(const Connectivity& connectivity, const Shape& rest) {
   Neighbours neighbours(connectivity.NumVertices());
-  for (int e = 0; e < connectivity.NumTriangleEdges(); ++e) {
-    const auto edge = connectivity.Edges().col(e);
-    neighbours[edge(0)].push_back(edge(1));
-    neighbours[edge(1)].push_back(edge(0));
+  const auto add = [&](int from, int to, double weight) {
+    for (Neighbour& neighbour : neighbours[from]) {
+      if (neighbour.vertex != to) continue;
+      neighbour.weight += weight;
+      return;
+    }
+    neighbours[from].push_back({to, weight});
+  };
+  for (const Eigen::Vector3i triangle : connectivity.Triangles().colwise()) {
+    for (int k = 0; k < 3; ++k) {
+      const int v = triangle(k), a = triangle((k + 1) % 3), b = triangle((k + 2) % 3);
+      const Eigen::Vector3d p = rest.col(a) - rest.col(v), q = rest.col(b) - rest.col(v);
+      const double lengths = p.norm() * q.norm();
+      // The tangent of half the angle; kLeast where a triangle has collapsed.
+      constexpr double kLeast = 1e-3;
+      const double tangent = std::max(kLeast * lengths, p.cross(q).norm()) /
+                             std::max(kLeast * lengths, lengths + p.dot(q));
+      if (!(lengths > 0)) continue;
+      add(v, a, tangent / p.norm());
+      add(v, b, tangent / q.norm());
+    }
   }
   return neighbours;
 }
@@ -37,7 +61,7 @@ std::vector<int> PatchesOf(const std::vector<bool>& inside, const Neighbours& ne
     while (!open.empty()) {
       const int v = open.back();
       open.pop_back();
-      for (const int w : neighbours[v]) {
+      for (const auto& [w, weight] : neighbours[v]) {
         if (!inside[w] || patch[w] >= 0) continue;
         patch[w] = *count;
         open.push_back(w);
@@ -57,8 +81,8 @@ std::vector<int> CountTurned(const std::vector<bool>& turned, const Eigen::Matri
     for (int k = 0; k < 3; ++k) {
       const int p = patch[triangles(k, f)];
       // Corners in one patch count once.
-      const bool counted = (k > 0 && patch[triangles(0, f)] == p) ||
-                           (k > 1 && patch[triangles(1, f)] == p);
+      const bool counted =
+          (k > 0 && patch[triangles(0, f)] == p) || (k > 1 && patch[triangles(1, f)] == p);
       if (p >= 0 && !counted) ++counts[p];
     }
   }
@@ -103,9 +127,10 @@ std::vector<Foot> MapVertices(const Level& level, const Shape& shape, const Targ
   return feet;
 }
 
-void Unfold(const Level& level, const Target& target, const std::vector<int>& held, Shape* shape) {
+void Unfold(const Level& level, const Shape& rest, const Target& target,
+            const std::vector<int>& held, Shape* shape) {
   const Eigen::Matrix3Xi& triangles = level.connectivity->Triangles();
-  const Neighbours neighbours = NeighboursOf(*level.connectivity);
+  const Neighbours neighbours = NeighboursOf(*level.connectivity, rest);
   std::vector<bool> is_held(shape->cols(), false);
   for (const int v : held) is_held[v] = true;
   for (int rings = 1; rings <= kRings; ++rings) {
@@ -121,7 +146,10 @@ void Unfold(const Level& level, const Target& target, const std::vector<int>& he
       const std::vector<bool> before = inside;
       for (size_t v = 0; v < before.size(); ++v) {
         if (!before[v]) continue;
-        for (const int w : neighbours[v]) inside[w] = inside[w] || !is_held[w];
+        for (const auto& neighbour : neighbours[v]) {
+          const int w = neighbour.vertex;
+          inside[w] = inside[w] || !is_held[w];
+        }
       }
     }
     int num_patches = 0;
@@ -135,11 +163,13 @@ void Unfold(const Level& level, const Target& target, const std::vector<int>& he
       for (int v = 0; v < flat.cols(); ++v) {
         if (!inside[v]) continue;
         Eigen::Vector3d sum = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
-        for (const int w : neighbours[v]) {
-          sum += flat.col(w);
-          normal += facing.col(w);
+        double weights = 0;
+        for (const auto& [w, weight] : neighbours[v]) {
+          sum += weight * flat.col(w);
+          normal += weight * facing.col(w);
+          weights += weight;
         }
-        const Eigen::Vector3d mean = sum / static_cast<double>(neighbours[v].size());
+        const Eigen::Vector3d mean = sum / weights;
         const Foot foot = target.Nearest(mean, normal.stableNormalized(), level.vertices[v]);
         if (foot.triangle < 0) continue;
         flat.col(v) = foot.point;

@@ -19,10 +19,11 @@ std::vector<bool> TurnedTriangles(const Level& level, const Shape& shape, const 
 std::vector<Foot> MapVertices(const Level& level, const Shape& shape, const Target& target);
 
 /// Takes out folds: around triangles that point against the target, vertices (but `held` ones) move
-/// to the mean of their neighbours, as in W. Tutte's embedding ("How to draw a graph", 1963), and
+/// to a mean of their neighbours, as in W. Tutte's embedding ("How to draw a graph", 1963), and
 /// back onto the target. Patches grow ring by ring until that helps; one that it does not help is
 /// left as it was. What a template has and the target has not, as the inside of a mouth, ends flat.
-void Unfold(const Level& level, const Target& target, const std::vector<int>& held, Shape* shape);
+void Unfold(const Level& level, const Shape& rest, const Target& target,
+            const std::vector<int>& held, Shape* shape);
 
 }  // namespace shapespace::internal
 
