@@ -73,7 +73,7 @@ EOF
 "$bin/shape-body" quadruped --triangles 3000 --pose stand,rear,stride --output 'template%d.obj'
 "$bin/shape-body" quadruped --triangles 5000 --pose stand --output 'plain%d.obj'
 "$bin/shape-body" quadruped --triangles 5000 --pose stand --proportions heavy --output 'heavy%d.obj'
-"$bin/shape-body" quadruped --triangles 5000 --pose stretch --proportions heavy \
+"$bin/shape-body" quadruped --triangles 5000 --pose stride --proportions heavy \
   --output 'target%d.obj'
 awk '
   # Of the first file twenty vertices that are far from each other, and of the second the nearest.

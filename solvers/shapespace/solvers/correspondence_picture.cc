@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include <shapespace/base/error.h>
+#include <shapespace/output/view.h>
 #include <shapespace/path/rigid_motion.h>
 
 namespace shapespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr int kPatches = 12;
 
 // Both meshes as one, so that pictures of either have one camera. What a picture does not show of
-// the two lies in a point, which has no area.
+// the two lies in a point inside the other, where it neither has area nor stands on the floor.
 struct Both {
   std::shared_ptr<const Connectivity> connectivity;
   Eigen::Index first, second;
@@ -27,12 +28,12 @@ struct Both {
 
   Shape First(const Shape& shape) const {
     Shape both(3, first + second);
-    both << shape, shape.col(0).replicate(1, second);
+    both << shape, shape.rowwise().mean().replicate(1, second);
     return both;
   }
   Shape Second(const Shape& shape) const {
     Shape both(3, first + second);
-    both << shape.col(0).replicate(1, first), shape;
+    both << shape.rowwise().mean().replicate(1, first), shape;
     return both;
   }
 };
@@ -110,6 +111,8 @@ Image RenderCorrespondence(const Connectivity& template_connectivity, const Shap
                                      both.First(result.fitted)};
 
   FilmStripOptions options;
+  // The template leans as the markers have it.
+  options.up = ChooseUp(target_connectivity, {target_shape});
   options.roles = {ShapeRole::kPose, ShapeRole::kPose, ShapeRole::kInserted};
   options.labels = {"template", "target", "fitted template"};
   FilmStripOptions with_markers = options, with_patches = options, with_values = options;
