@@ -378,5 +378,38 @@ TEST(CarryPath, TakesATransferredPoseToTheTargetsOwnMesh) {
   EXPECT_LT(off, 0.5 * bodies.Edge());
 }
 
+// What the template has nothing for goes along, and is not torn off.
+TEST(CarryPath, KeepsTogetherWhatTheTemplateDoesNotHave) {
+  const Remeshed bodies;
+  const double cut = 1.25;  // the template ends at the neck
+  const auto& all = bodies.first.connectivity->Triangles();
+  std::vector<int> kept;
+  for (int f = 0; f < all.cols(); ++f) {
+    if ((bodies.rest(1, all.col(f)).array() < cut).all()) kept.push_back(f);
+  }
+  const auto headless =
+      Connectivity::FromTriangles(bodies.first.connectivity->NumVertices(), all(Eigen::all, kept));
+  std::vector<Marker> markers;
+  for (const Marker& marker : bodies.markers) {
+    if (bodies.rest(1, marker.template_vertex) < cut - 0.1) markers.push_back(marker);
+  }
+  const CorrespondenceResult fit =
+      Correspond(headless, bodies.rest, bodies.second.connectivity, bodies.target, markers);
+  EXPECT_GT(fit.summary.uncovered, 0.05);
+  EXPECT_TRUE(Names(fit.summary.warnings, "covered by no part"));
+  const PoseTransferResult moved =
+      TransferPoses(headless, {bodies.rest, bodies.first.pose("sit")}, fit.fitted);
+  const Shape sitting =
+      CarryPath(fit, moved.path, bodies.second.connectivity, bodies.target).Placed(1);
+  double most = 0;
+  for (const auto& edge : bodies.second.connectivity->Edges().colwise()) {
+    const auto length = [&](const Shape& shape) {
+      return (shape.col(edge(0)) - shape.col(edge(1))).norm();
+    };
+    most = std::max(most, length(sitting) / length(bodies.target));
+  }
+  EXPECT_LT(most, 3);
+}
+
 }  // namespace
 }  // namespace shapespace

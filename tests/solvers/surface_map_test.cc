@@ -66,16 +66,18 @@ TEST_F(SurfaceMapTest, FilesKeepEveryBit) {
   map.to_target = map.to_template = points_;
   map.to_target.barycentric.col(1) << 1.0 / 3, 1.0 / 3, 1.0 / 3;
   map.round_trip = Eigen::Vector3d(0, 0.1, 1.0 / 7);
+  map.gap = Eigen::Vector3d(1, 1.0 / 3, 0);
   WriteSurfaceMap(Path("map.txt"), map);
   const SurfaceMap read = ReadSurfaceMap(Path("map.txt"), 2, 2);
   EXPECT_EQ(read.to_target.triangle, map.to_target.triangle);
   EXPECT_EQ(read.to_target.barycentric, map.to_target.barycentric);
   EXPECT_EQ(read.to_template.barycentric, map.to_template.barycentric);
   EXPECT_EQ(read.round_trip, map.round_trip);
+  EXPECT_EQ(read.gap, map.gap);
 }
 
 TEST_F(SurfaceMapTest, DamagedFilesAreRefusedByLine) {
-  const std::string good = "to_target 1\n1 1 0 0 0.5\nto_template 1\n2 0 1 0\n";
+  const std::string good = "to_target 1\n1 1 0 0 0.5\nto_template 1\n2 0 1 0 0.25\n";
   EXPECT_EQ(ReadSurfaceMap(File("good.txt", good), 2, 2).to_template.triangle(0), 1);
   ExpectRefused("to_template 1\n", "m.txt:1: expected 'to_target'");
   ExpectRefused("to_target 99999999999\n", "m.txt:1: 'to_target' must be followed by");

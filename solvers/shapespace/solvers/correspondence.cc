@@ -155,7 +155,8 @@ class Fit {
   void FindPose(const Level& level, const Shape& rest, Shape* shape) {
     const Stopwatch stopwatch;
     Stops();
-    *shape = internal::FitGradients(*level.connectivity, rest, HeldOn(level), places_);
+    *shape = internal::FitGradients(*level.connectivity, rest, HeldOn(level), places_,
+                                    internal::kIdentity);
     CorrespondenceSummary::Stage stage;
     stage.vertices = static_cast<int>(shape->cols());
     stage.name = "gradients";
@@ -247,16 +248,28 @@ SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, c
   const Surface surface(level.connectivity, fitted);
   const int num_others = target.GetConnectivity().NumVertices();
   std::vector<Foot> others(num_others);
-  std::vector<char> is_covered(num_others, 1);
+  map.gap.resize(num_others);
   ParallelFor(num_others, [&](int y) {
     others[y] = internal::NearestOnTemplate(surface, level, target, y);
-    is_covered[y] = others[y].triangle >= 0 && others[y].distance < kCovered;
-    if (others[y].triangle < 0) others[y] = surface.Nearest(target.GetShape().col(y));
+    map.gap(y) = others[y].triangle >= 0 ? std::min(1.0, others[y].distance) : 1;
   });
-  map.to_template = PointsOf(others);
+  std::vector<int> covered;
   for (int y = 0; y < num_others; ++y) {
-    if (is_covered[y] == 0) summary->uncovered += target.VertexAreas()(y);
+    if (map.gap(y) < kCovered) {
+      covered.push_back(y);
+    } else {
+      summary->uncovered += target.VertexAreas()(y);
+    }
   }
+  // What is not covered belongs to what is nearest to it along the surface.
+  const std::vector<int> nearest =
+      internal::NearestOf(target.GetConnectivity(), target.GetShape(), covered);
+  for (int y = 0; y < num_others; ++y) {
+    if (map.gap(y) < kCovered) continue;
+    map.gap(y) = 1;
+    others[y] = nearest[y] >= 0 ? others[nearest[y]] : surface.Nearest(target.GetShape().col(y));
+  }
+  map.to_template = PointsOf(others);
 
   for (const Marker& marker : held) {
     // A vertex lies in several triangles: the nearest point may be rounding away from it.
@@ -426,10 +439,18 @@ Path CarryPath(const CorrespondenceResult& result, const Path& path,
                const std::shared_ptr<const Connectivity>& target_connectivity,
                const Shape& target_shape) {
   path.Validate();
+  std::vector<int> covered;
+  for (int y = 0; y < result.map.gap.size(); ++y) {
+    if (result.map.gap(y) < kCovered) covered.push_back(y);
+  }
   std::vector<Shape> carried;
   for (int i = 0; i < path.NumShapes(); ++i) {
     carried.push_back(CarryAlong(result.map.to_template, *path.metric->connectivity, result.fitted,
                                  path.Placed(i), target_shape));
+    if (static_cast<int>(covered.size()) == target_connectivity->NumVertices()) continue;
+    // What the template has nothing for is deformed as the surface is where it begins.
+    carried.back() = internal::FitGradients(*target_connectivity, target_shape, covered,
+                                            carried.back()(Eigen::all, covered), 0);
   }
   Path own;
   own.metric = std::make_shared<const Metric>(

@@ -36,7 +36,7 @@ std::vector<Eigen::Matrix3d> Turns(const Connectivity& connectivity, const Shape
 }
 
 void WritePoints(std::ostream& out, const char* name, const SurfacePoints& points,
-                 const Eigen::VectorXd* round_trip) {
+                 const Eigen::VectorXd& last) {
   char text[32];
   const auto write = [&](double value) {
     const auto end = std::to_chars(text, text + sizeof text, value).ptr;
@@ -46,7 +46,7 @@ void WritePoints(std::ostream& out, const char* name, const SurfacePoints& point
   for (int v = 0; v < points.NumVertices(); ++v) {
     out << points.triangle(v) + 1;
     for (int k = 0; k < 3; ++k) write(points.barycentric(k, v));
-    if (round_trip != nullptr) write((*round_trip)(v));
+    write(last(v));
     out << '\n';
   }
 }
@@ -57,7 +57,7 @@ class MapReader {
   explicit MapReader(const std::string& file) : file_(file), text_(ReadFile(file)), lines_(text_) {}
 
   void ReadPoints(const std::string& name, int num_triangles, SurfacePoints* points,
-                  Eigen::VectorXd* round_trip) {
+                  Eigen::VectorXd* last) {
     internal::Words header = NextLine(name);
     const std::string_view word = header.Next();
     if (word != name) Fail("expected '" + name + "' and the number of its lines");
@@ -69,7 +69,7 @@ class MapReader {
     const auto size = static_cast<int>(*count);
     points->triangle.resize(size);
     points->barycentric.resize(3, size);
-    if (round_trip != nullptr) round_trip->resize(size);
+    last->resize(size);
     for (int v = 0; v < size; ++v) {
       internal::Words words = NextLine(name);
       const std::optional<std::int64_t> triangle = internal::ParseInteger(words.Next());
@@ -83,7 +83,7 @@ class MapReader {
       if (barycentric.minCoeff() < -kRounding || std::abs(barycentric.sum() - 1) > kRounding) {
         Fail("the three barycentric coordinates must not be negative, and add up to 1");
       }
-      if (round_trip != nullptr) (*round_trip)(v) = Number(&words);
+      (*last)(v) = Number(&words);
       if (!words.Done()) Fail("there is more than expected on this line");
     }
   }
@@ -152,11 +152,12 @@ Shape CarryAlong(const SurfacePoints& points, const Connectivity& connectivity, 
 
 void WriteSurfaceMap(const std::string& file, const SurfaceMap& map) {
   WriteFileAtomically(file, [&](std::ostream& out) {
-    out << "# shapespace map: a line a vertex, of the triangle of the other mesh (from 1) and the\n"
-           "# barycentric coordinates of its corners; of the template also how far the vertex\n"
-           "# comes back from itself, as a share of the root of the area\n";
-    WritePoints(out, kToTarget, map.to_target, &map.round_trip);
-    WritePoints(out, kToTemplate, map.to_template, nullptr);
+    out << "# shapespace map: a line a vertex, of the triangle of the other mesh (from 1), the\n"
+           "# barycentric coordinates of its corners, and, as a share of the root of the area, of\n"
+           "# the template how far the vertex comes back from itself, of the target how far the\n"
+           "# fitted template is from it\n";
+    WritePoints(out, kToTarget, map.to_target, map.round_trip);
+    WritePoints(out, kToTemplate, map.to_template, map.gap);
   });
 }
 
@@ -164,7 +165,7 @@ SurfaceMap ReadSurfaceMap(const std::string& file, int template_triangles, int t
   MapReader reader(file);
   SurfaceMap map;
   reader.ReadPoints(kToTarget, target_triangles, &map.to_target, &map.round_trip);
-  reader.ReadPoints(kToTemplate, template_triangles, &map.to_template, nullptr);
+  reader.ReadPoints(kToTemplate, template_triangles, &map.to_template, &map.gap);
   return map;
 }
 

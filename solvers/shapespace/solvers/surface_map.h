@@ -27,6 +27,10 @@ struct SurfaceMap {
   /// share of the root of the template's area: large where the map folds or the target has nothing
   /// that belongs there.
   Eigen::VectorXd round_trip;
+  /// Of each vertex of the target how far the fitted template is from it, as a share of the root of
+  /// the target's area; 1 where no part of it came near. `to_template` is then that of the nearest
+  /// vertex, along the target's surface, to which it came.
+  Eigen::VectorXd gap;
 };
 
 /// A function on the vertices of the mesh on which `points` lie, d x n, as its values at those

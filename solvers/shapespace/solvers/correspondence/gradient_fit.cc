@@ -14,7 +14,6 @@
 namespace shapespace::internal {
 namespace {
 
-constexpr double kIdentity = 1e-3;
 // Holds what nothing else does, such as vertices without triangles.
 constexpr double kPlace = 1e-9;
 // A triangle whose area is less than such a share of its longest side's square counts less, as its
@@ -54,7 +53,7 @@ void AddSquare(const std::vector<int>& unknowns, const std::vector<Eigen::Vector
 }  // namespace
 
 Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
-                   const std::vector<int>& held, const Shape& places) {
+                   const std::vector<int>& held, const Shape& places, double identity) {
   const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
   const int num_vertices = connectivity.NumVertices();
   const int num_unknowns = num_vertices + connectivity.NumTriangles();
@@ -83,7 +82,7 @@ Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
     const std::vector<int> unknowns(element.unknowns.begin(), element.unknowns.end());
     const std::vector<Eigen::Vector3d> gradients(element.gradients.begin(),
                                                  element.gradients.end());
-    const double weight = kIdentity * element.quality;
+    const double weight = identity * element.quality;
     AddSquare(unknowns, gradients, weight, &entries);
     for (int k = 0; k < 4; ++k) {
       right.row(unknowns[k]) += weight * gradients[k].transpose();

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -20,46 +21,75 @@ void FindNearest(const Eigen::MatrixXf& distances, std::vector<int>* nearest,
   }
 }
 
-}  // namespace
-
-Eigen::MatrixXf DistancesFrom(const Connectivity& connectivity, const Shape& shape,
-                              const std::vector<int>& vertices) {
-  const int num_vertices = connectivity.NumVertices();
-  const Eigen::Matrix2Xi& edges = connectivity.Edges();
-  // The neighbours of vertex v are those from begin[v] on.
-  std::vector<int> begin(num_vertices + 1, 0);
-  for (const int v : edges.reshaped()) ++begin[v + 1];
-  for (int v = 0; v < num_vertices; ++v) begin[v + 1] += begin[v];
-  std::vector<std::pair<int, float>> neighbours(begin.back());
-  std::vector<int> end(begin.begin(), begin.end() - 1);
-  for (int e = 0; e < edges.cols(); ++e) {
-    const int a = edges(0, e), b = edges(1, e);
-    const auto length = static_cast<float>((shape.col(a) - shape.col(b)).norm());
-    neighbours[end[a]++] = {b, length};
-    neighbours[end[b]++] = {a, length};
+// A mesh's edges, vertex by vertex.
+class Graph {
+ public:
+  Graph(const Connectivity& connectivity, const Shape& shape)
+      : begin_(connectivity.NumVertices() + 1, 0) {
+    const Eigen::Matrix2Xi& edges = connectivity.Edges();
+    for (const int v : edges.reshaped()) ++begin_[v + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    neighbours_.resize(begin_.back());
+    std::vector<int> end(begin_.begin(), begin_.end() - 1);
+    for (int e = 0; e < edges.cols(); ++e) {
+      const int a = edges(0, e), b = edges(1, e);
+      const auto length = static_cast<float>((shape.col(a) - shape.col(b)).norm());
+      neighbours_[end[a]++] = {b, length};
+      neighbours_[end[b]++] = {a, length};
+    }
   }
-  Eigen::MatrixXf distances = Eigen::MatrixXf::Constant(num_vertices, vertices.size(),
-                                                        std::numeric_limits<float>::infinity());
-  ParallelFor(static_cast<int>(vertices.size()), [&](int k) {
-    auto distance = distances.col(k);
+
+  // How far each vertex is from the nearest of `sources`, and which that is.
+  Eigen::VectorXf Dijkstra(const std::vector<int>& sources, std::vector<int>* nearest) const {
+    const auto num_vertices = static_cast<Eigen::Index>(begin_.size()) - 1;
+    Eigen::VectorXf distance =
+        Eigen::VectorXf::Constant(num_vertices, std::numeric_limits<float>::infinity());
+    nearest->assign(num_vertices, -1);
     using Entry = std::pair<float, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    distance(vertices[k]) = 0;
-    queue.emplace(0.0F, vertices[k]);
+    for (const int v : sources) {
+      distance(v) = 0;
+      (*nearest)[v] = v;
+      queue.emplace(0.0F, v);
+    }
     while (!queue.empty()) {
       const auto [so_far, v] = queue.top();
       queue.pop();
       if (so_far > distance(v)) continue;
-      for (int i = begin[v]; i < begin[v + 1]; ++i) {
-        const auto& [to, length] = neighbours[i];
-        if (so_far + length < distance(to)) {
-          distance(to) = so_far + length;
-          queue.emplace(distance(to), to);
-        }
+      for (int i = begin_[v]; i < begin_[v + 1]; ++i) {
+        const auto& [to, length] = neighbours_[i];
+        if (so_far + length >= distance(to)) continue;
+        distance(to) = so_far + length;
+        (*nearest)[to] = (*nearest)[v];
+        queue.emplace(distance(to), to);
       }
     }
+    return distance;
+  }
+
+ private:
+  std::vector<int> begin_;  // the neighbours of vertex v are those from begin_[v] on
+  std::vector<std::pair<int, float>> neighbours_;
+};
+
+}  // namespace
+
+Eigen::MatrixXf DistancesFrom(const Connectivity& connectivity, const Shape& shape,
+                              const std::vector<int>& vertices) {
+  const Graph graph(connectivity, shape);
+  Eigen::MatrixXf distances(connectivity.NumVertices(), vertices.size());
+  ParallelFor(static_cast<int>(vertices.size()), [&](int k) {
+    std::vector<int> nearest;
+    distances.col(k) = graph.Dijkstra({vertices[k]}, &nearest);
   });
   return distances;
+}
+
+std::vector<int> NearestOf(const Connectivity& connectivity, const Shape& shape,
+                           const std::vector<int>& vertices) {
+  std::vector<int> nearest;
+  Graph(connectivity, shape).Dijkstra(vertices, &nearest);
+  return nearest;
 }
 
 MarkerDistances::MarkerDistances(Eigen::MatrixXf on_template, Eigen::MatrixXf on_target)

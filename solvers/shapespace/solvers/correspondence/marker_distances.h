@@ -17,6 +17,11 @@ namespace shapespace::internal {
 Eigen::MatrixXf DistancesFrom(const Connectivity& connectivity, const Shape& shape,
                               const std::vector<int>& vertices);
 
+/// Of each vertex the one of `vertices` that is nearest along the mesh's edges; -1 where no edge
+/// leads from one.
+std::vector<int> NearestOf(const Connectivity& connectivity, const Shape& shape,
+                           const std::vector<int>& vertices);
+
 /// Which points of two bodies may belong together, as far as their distances from the markers
 /// tell: the marker nearest to the one must not be far from the other. So a hand that rests on a
 /// hip is not taken for a piece of the hip.
