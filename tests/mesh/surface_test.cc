@@ -79,6 +79,20 @@ TEST(Surface, FindsTheSamePointsFarFromTheOrigin) {
   }
 }
 
+TEST(Surface, LooksNoFartherThanAsked) {
+  const SkinnedBody body = MakeQuadruped(600);
+  const Shape shape = body.pose("stand");
+  const Surface surface(body.connectivity, shape);
+  const Shape points = PointsAround(shape, 60);
+  for (const auto& point : points.colwise()) {
+    const Foot foot = surface.Nearest(point);
+    const Foot same = surface.Nearest(point, nullptr, 1.0001 * foot.distance);
+    EXPECT_EQ(same.triangle, foot.triangle);
+    EXPECT_EQ(same.distance, foot.distance);
+    EXPECT_EQ(surface.Nearest(point, nullptr, 0.9999 * foot.distance).triangle, -1);
+  }
+}
+
 TEST(Surface, AsksOnlyTrianglesThatAreAdmitted) {
   const SkinnedBody body = MakeQuadruped(600);
   const Shape shape = body.pose("stand");

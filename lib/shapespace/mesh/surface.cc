@@ -107,7 +107,7 @@ struct Surface::Scene {
     const Scene* scene;
     const std::function<bool(int)>* admits;
     Eigen::Vector3d point;
-    double slack;
+    double slack, within;
     Foot foot;
   };
 
@@ -127,6 +127,7 @@ struct Surface::Scene {
     const Eigen::Vector3d point = barycentric(0) * a + barycentric(1) * b + barycentric(2) * c;
     const double distance = (point - query->point).norm();
     Foot& foot = query->foot;
+    if (!(distance <= query->within)) return false;
     if (foot.triangle >= 0 &&
         (distance > foot.distance || (distance == foot.distance && number > foot.triangle))) {
       return false;
@@ -166,19 +167,19 @@ Surface::Surface(std::shared_ptr<const Connectivity> connectivity, const Shape& 
 Surface::Surface(Surface&&) noexcept = default;
 Surface::~Surface() = default;
 
-Foot Surface::Nearest(const Eigen::Vector3d& point,
-                      const std::function<bool(int triangle)>& admits) const {
+Foot Surface::Nearest(const Eigen::Vector3d& point, const std::function<bool(int triangle)>& admits,
+                      double within) const {
   const Scene& self = *scene_;
   const Eigen::Vector3d local = (point - self.centre) / self.unit;
   // The slack is what rounding to float may move the point by.
   const double slack = 4.0 * kRounding * (1 + local.cwiseAbs().maxCoeff());
-  Scene::Query query = {&self, &admits, point, slack, {}};
+  Scene::Query query = {&self, &admits, point, slack, within, {}};
   RTCPointQuery at;
   at.x = static_cast<float>(local.x());
   at.y = static_cast<float>(local.y());
   at.z = static_cast<float>(local.z());
   at.time = 0;
-  at.radius = std::numeric_limits<float>::infinity();
+  at.radius = Scene::Radius(within / self.unit, slack);
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(self.scene, &at, &context, nullptr, &query);

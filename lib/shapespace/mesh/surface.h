@@ -2,6 +2,7 @@
 #define SHAPESPACE_MESH_SURFACE_H_
 
 #include <functional>
+#include <limits>
 #include <memory>
 
 #include <Eigen/Core>
@@ -36,10 +37,11 @@ class Surface {
   Surface(Surface&&) noexcept;
   ~Surface();
 
-  /// The nearest point on triangles that `admits(triangle)` takes; without, on any. Of equally near
-  /// points the one on the triangle with the smallest number.
+  /// The nearest point on triangles that `admits(triangle)` takes (without, on any), not farther
+  /// than `within`. Of equally near points the one on the triangle with the smallest number.
   Foot Nearest(const Eigen::Vector3d& point,
-               const std::function<bool(int triangle)>& admits = nullptr) const;
+               const std::function<bool(int triangle)>& admits = nullptr,
+               double within = std::numeric_limits<double>::infinity()) const;
 
   const Connectivity& GetConnectivity() const;
   const Shape& GetShape() const;

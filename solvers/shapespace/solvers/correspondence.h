@@ -56,8 +56,10 @@ struct CorrespondenceSummary {
     std::string name;   ///< "gradients" (Sumner and Popovic's), or "shell" (strain and bending)
     double weight = 0;  ///< of closest points
     int rounds = 0;
-    double distance = 0;  ///< of its vertices from the target before the last, root mean square
-    double motion = 0;    ///< in the last round, root mean square
+    /// Of those of its vertices that are near the target from it, before the last, root mean
+    /// square.
+    double distance = 0;
+    double motion = 0;  ///< in the last round, root mean square
     double seconds = 0;
   };
 

@@ -82,11 +82,14 @@ Eigen::Vector3d Target::NormalAt(const Foot& foot) const {
 }
 
 Foot Target::Nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
-                     int template_vertex) const {
-  return surface_.Nearest(point, [&](int f) {
-    return surface_.GetTriangleNormals().col(f).dot(normal) > kLeastCosine &&
-           distances_.MayMatch(template_vertex, connectivity_->Triangles()(0, f));
-  });
+                     int template_vertex, double within) const {
+  return surface_.Nearest(
+      point,
+      [&](int f) {
+        return surface_.GetTriangleNormals().col(f).dot(normal) > kLeastCosine &&
+               distances_.MayMatch(template_vertex, connectivity_->Triangles()(0, f));
+      },
+      within);
 }
 
 bool Target::IsOnBorder(const Foot& foot) const { return IsOnSide(foot, borders_); }
@@ -94,11 +97,14 @@ bool Target::IsOnBorder(const Foot& foot) const { return IsOnSide(foot, borders_
 Foot NearestOnTemplate(const Surface& fitted, const Level& level, const Target& target,
                        int target_vertex) {
   const auto normal = target.GetVertexNormals().col(target_vertex);
-  return fitted.Nearest(target.GetShape().col(target_vertex), [&](int f) {
-    const int vertex = level.vertices[level.connectivity->Triangles()(0, f)];
-    return fitted.GetTriangleNormals().col(f).dot(normal) > kLeastCosine &&
-           target.Distances().MayMatch(vertex, target_vertex);
-  });
+  return fitted.Nearest(
+      target.GetShape().col(target_vertex),
+      [&](int f) {
+        const int vertex = level.vertices[level.connectivity->Triangles()(0, f)];
+        return fitted.GetTriangleNormals().col(f).dot(normal) > kLeastCosine &&
+               target.Distances().MayMatch(vertex, target_vertex);
+      },
+      kFar);
 }
 
 std::vector<Pull> FindPulls(const Level& level, const Shape& shape, const Eigen::VectorXd& areas,
@@ -107,16 +113,15 @@ std::vector<Pull> FindPulls(const Level& level, const Shape& shape, const Eigen:
   const Shape normals = VertexNormals(*level.connectivity, shape);
   std::vector<Foot> feet(num_vertices);
   ParallelFor(num_vertices, [&](int v) {
-    feet[v] = target.Nearest(shape.col(v), normals.col(v), level.vertices[v]);
+    feet[v] = target.Nearest(shape.col(v), normals.col(v), level.vertices[v], kFar);
   });
-  const auto holds = [](const Foot& foot) { return foot.triangle >= 0 && foot.distance < kFar; };
   std::vector<Pull> pulls;
   double squares = 0, sum = 0;
   for (int v = 0; v < num_vertices; ++v) {
     if (feet[v].triangle < 0) continue;
     squares += areas(v) * feet[v].distance * feet[v].distance;
     sum += areas(v);
-    if (!holds(feet[v]) || target.IsOnBorder(feet[v])) continue;
+    if (target.IsOnBorder(feet[v])) continue;
     pulls.push_back(
         {{v, v, v}, {1, 0, 0}, feet[v].point, target.NormalAt(feet[v]), weight * areas(v)});
   }
@@ -130,7 +135,7 @@ std::vector<Pull> FindPulls(const Level& level, const Shape& shape, const Eigen:
   double areas_of_others = 0;
   for (int i = 0; i < num_others; ++i) areas_of_others += target.VertexAreas()(stride * i);
   for (int i = 0; i < num_others; ++i) {
-    if (!holds(others[i]) || IsOnSide(others[i], level.borders)) continue;
+    if (others[i].triangle < 0 || IsOnSide(others[i], level.borders)) continue;
     const int y = stride * i;
     pulls.push_back({level.connectivity->Triangles().col(others[i].triangle), others[i].barycentric,
                      target.GetShape().col(y), target.GetVertexNormals().col(y),

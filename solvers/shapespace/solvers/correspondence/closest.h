@@ -2,6 +2,7 @@
 #define SHAPESPACE_SOLVERS_CORRESPONDENCE_CLOSEST_H_
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -35,8 +36,8 @@ class Target {
   Eigen::Vector3d NormalAt(const Foot& foot) const;
   /// The point nearest to `point`, which belongs to a vertex of the template, where the normal is
   /// within 70 degrees of `normal` and which the vertex may match.
-  Foot Nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
-               int template_vertex) const;
+  Foot Nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, int template_vertex,
+               double within = std::numeric_limits<double>::infinity()) const;
   /// Whether a point lies on the border of an open target: what is nearest to it may belong into
   /// the hole.
   bool IsOnBorder(const Foot& foot) const;
@@ -63,13 +64,14 @@ struct Level {
   std::vector<std::array<bool, 3>> borders;  ///< BorderSides
 };
 
-/// Of each target vertex that takes part, the point of the fitted template that it belongs to.
+/// The point of the fitted template to which a vertex of the target belongs, if one is near.
 Foot NearestOnTemplate(const Surface& fitted, const Level& level, const Target& target,
                        int target_vertex);
 
 /// What pulls `shape`, a level's, onto the target: its vertices to their nearest points there, and
 /// every `stride`-th vertex of the target at the point nearest to it. Only what is nearer than
-/// a twentieth of the root of the area pulls. `distance` is the root mean square of the former.
+/// a twentieth of the root of the area pulls. `distance` is the root mean
+/// square of the former.
 std::vector<Pull> FindPulls(const Level& level, const Shape& shape, const Eigen::VectorXd& areas,
                             const Target& target, int stride, double weight, double* distance);
 
