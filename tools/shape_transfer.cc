@@ -1,14 +1,19 @@
 // A motion, carried over to another body of the same connectivity.
 
+#include <optional>
+
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/output/frames.h>
+#include <shapespace/solvers/correspondence.h>
+#include <shapespace/solvers/marker_file.h>
 #include <shapespace/solvers/transfer.h>
 
 #include "support/anchor_flags.h"
 #include "support/choose.h"
+#include "support/correspondence_flags.h"
 #include "support/geodesic_flags.h"
 #include "support/mesh_flags.h"
 #include "support/outputs.h"
@@ -17,7 +22,9 @@
 #include "support/solve_progress.h"
 #include "support/tool.h"
 
-DEFINE_string(target, "", "the other body, in the pose of the first source: what is to move");
+DEFINE_string(target, "",
+              "the other body, in the pose of the first source: what is to move; with --markers a "
+              "mesh of any connectivity");
 DEFINE_string(method, "features",
               "features (strains and angles change as the source's) or ladder (the paper's: "
               "geodesics between the bodies, parallel transport and the exponential map)");
@@ -74,6 +81,40 @@ TransferOptions TransferFromFlags() {
   return options;
 }
 
+// A target of another connectivity: the source, fitted onto it, takes its place.
+class OtherMesh {
+ public:
+  // `source` is a mesh of the source's connectivity, in its first pose.
+  explicit OtherMesh(const Poses& source)
+      : target_(ReadPosesFromFlags({FLAGS_target})),
+        fit_(Correspond(source.connectivity, source.shapes[0], target_.connectivity,
+                        target_.shapes[0], ReadMarkers(FLAGS_markers, source, target_),
+                        CorrespondenceFromFlags(), SolveProgress({}, "transferring").get())) {
+    PrintSummary(fit_.summary.BriefReport(), fit_.summary.warnings, fit_.summary.Converged());
+  }
+
+  const Poses& Target() const { return target_; }
+  const Shape& Fitted() const { return fit_.fitted; }
+  // What became of the fitted source, on the target's own mesh.
+  Path Carry(const Path& path) const {
+    return CarryPath(fit_, path, target_.connectivity, target_.shapes[0]);
+  }
+
+ private:
+  const Poses target_;
+  const CorrespondenceResult fit_;
+};
+
+// A path's first shape, as if it had been read.
+Poses FirstShapeOf(const Path& path, const std::string& file) {
+  Poses poses;
+  poses.connectivity = path.metric->connectivity;
+  poses.shapes = {path.Placed(0)};
+  poses.names = {file};
+  poses.soup = FrameSoup(*poses.connectivity, path.appearance);
+  return poses;
+}
+
 // The target, as a pose of the path's mesh.
 Poses ReadTargetOf(const Path& path, const std::string& file) {
   Poses target = ReadPosesFromFlags({FLAGS_target});
@@ -102,11 +143,20 @@ void Run(const std::vector<std::string>& files) {
   Anchorage anchorage = Anchorage::FromFlags();
   std::vector<std::string> hybrid_outputs;
   if (!FLAGS_hybrids.empty()) hybrid_outputs = OutputsFromFlag("hybrids", FLAGS_hybrids);
+  if (FLAGS_markers.empty()) {
+    RefuseFlags({"support/correspondence_flags.cc"}, {}, "goes with --markers");
+  } else {
+    RefuseFlags({}, {"hybrids", "stiffeners"}, "does not go with --markers");
+    CorrespondenceFromFlags();
+  }
+  std::optional<OtherMesh> other;
   std::vector<std::string> all = files;
   all.push_back(FLAGS_target);
   const auto check = [&](std::int64_t frames) {
+    std::vector<std::string> inputs = WithStiffeners(all);
+    if (!FLAGS_markers.empty()) inputs.push_back(FLAGS_markers);
     CheckNothingIsOverwritten(
-        WithStiffeners(all),
+        inputs,
         {{"output", outputs, frames}, {"hybrids", hybrid_outputs, frames}, ReportFromFlag()});
   };
   std::vector<std::string> all_outputs = outputs;
@@ -114,6 +164,7 @@ void Run(const std::vector<std::string>& files) {
   const auto finish = [&](auto result, const std::vector<std::string>& warnings,
                           const Appearance& appearance) {
     PrintSummary(result.summary.BriefReport(), warnings, result.summary.Converged());
+    if (other) result.path = other->Carry(result.path);
     result.path.provenance = Provenance("shape-transfer", all);
     result.hybrids.provenance = result.path.provenance + "; hybrids";
     result.path.appearance = result.hybrids.appearance = appearance;
@@ -126,19 +177,29 @@ void Run(const std::vector<std::string>& files) {
   if (from_path) {
     const Path source = ReadPathAndTell(files[0]);
     check(source.NumShapes());
-    const Poses target = ReadTargetOf(source, files[0]);
+    if (!FLAGS_markers.empty()) other.emplace(FirstShapeOf(source, files[0]));
+    const Poses target = other ? other->Target() : ReadTargetOf(source, files[0]);
     anchorage.Select(target.shapes[0], *target.connectivity, target.soup.appearance);
-    TransferResult result =
-        Transfer(source, target.shapes[0], options, SolveProgress(all_outputs).get());
+    TransferResult result = Transfer(source, other ? other->Fitted() : target.shapes[0], options,
+                                     SolveProgress(all_outputs).get());
     const std::vector<std::string> warnings = result.summary.warnings;
     finish(std::move(result), warnings, target.soup.appearance);
   } else {
     check(static_cast<std::int64_t>(files.size()));
-    Poses poses = ReadPosesFromFlags(all);
-    const Shape target = poses.shapes.back();
-    poses.shapes.pop_back();
-    const Appearance appearance = ReadSoup(FLAGS_target).appearance;
-    anchorage.Select(target, *poses.connectivity, appearance);
+    Poses poses = ReadPosesFromFlags(FLAGS_markers.empty() ? all : files);
+    Shape target;
+    Appearance appearance;
+    if (FLAGS_markers.empty()) {
+      target = poses.shapes.back();
+      poses.shapes.pop_back();
+      appearance = ReadSoup(FLAGS_target).appearance;
+      anchorage.Select(target, *poses.connectivity, appearance);
+    } else {
+      other.emplace(poses);
+      target = other->Fitted();
+      appearance = other->Target().soup.appearance;
+      anchorage.Select(other->Target().shapes[0], *other->Target().connectivity, appearance);
+    }
     PoseTransferResult result = TransferPoses(poses.connectivity, poses.shapes, target, geodesic,
                                               options, SolveProgress(all_outputs).get());
     const std::vector<std::string> warnings = result.summary.Warnings();
@@ -158,10 +219,13 @@ int main(int argc, char** argv) {
        "a motion, carried over to another body",
        std::string(
            "  shape-transfer stand.obj sit.obj leap.obj --target other.obj --output moved%d.obj\n"
-           "  shape-transfer walk.path --target other.obj --output walk.glb --hybrids half.glb\n\n"
-           "All meshes have the same faces in the same order. The target is in the first pose; "
-           "frame 0 "
-           "is\nthe target, frame 1 the target in the second pose, and so on. Of a .path every "
+           "  shape-transfer walk.path --target other.obj --output walk.glb --hybrids half.glb\n"
+           "  shape-transfer cat0.obj cat1.obj --target lion.obj --markers cat_lion.txt --output "
+           "lion%d.obj\n\n"
+           "All meshes have the same faces in the same order, but with --markers the target: then "
+           "the source\nis fitted onto it, as by shape-correspond, and outputs have the target's "
+           "own faces.\nThe target is in the first pose; frame 0 is\nthe target, frame 1 the "
+           "target in the second pose, and so on. Of a .path every "
            "shape "
            "is carried\nover, and there are as many frames. With --method ladder each pose is "
            "reached "
@@ -172,6 +236,6 @@ int main(int argc, char** argv) {
            kHowASolveEnds,
        {"shape_transfer.cc", "support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
         "support/metric_flags.cc", "support/poses.cc", "support/mesh_flags.cc",
-        "support/memory_flag.cc", "support/anchor_flags.cc"}},
+        "support/memory_flag.cc", "support/anchor_flags.cc", "support/correspondence_flags.cc"}},
       Run);
 }

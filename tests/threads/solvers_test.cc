@@ -7,6 +7,7 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/solvers/correction.h>
+#include <shapespace/solvers/correspondence.h>
 #include <shapespace/solvers/deformation.h>
 #include <shapespace/solvers/exploration/explore.h>
 #include <shapespace/solvers/exponential.h>
@@ -19,6 +20,7 @@
 #include "support/motions.h"
 #include "support/path_of.h"
 #include "support/paths.h"
+#include "support/remeshed.h"
 #include "support/threads.h"
 
 namespace shapespace {
@@ -49,6 +51,16 @@ TEST(ThreadedLbfgs, IsTheSameForAnyNumberOfThreads) {
   });
   EXPECT_FALSE(results[0] == start);
   for (const std::vector<double>& unknowns : results) EXPECT_TRUE(unknowns == results[0]);
+}
+
+TEST(Correspond, IsTheSameForAnyNumberOfThreads) {
+  const testing::Remeshed bodies("sit");
+  const auto results = testing::OnThreads([&] { return bodies.Fit(); });
+  for (const CorrespondenceResult& result : results) {
+    EXPECT_TRUE(result.fitted == results[0].fitted);
+    EXPECT_TRUE(result.map.to_template.triangle == results[0].map.to_template.triangle);
+    EXPECT_TRUE(result.map.round_trip == results[0].map.round_trip);
+  }
 }
 
 TEST(Interpolate, IsTheSameForAnyNumberOfThreads) {

@@ -12,9 +12,9 @@ using testing::ExpectLacks;
 using testing::Outcome;
 using testing::ToolsTest;
 
-constexpr const char* kTools[] = {"shape-body",        "shape-deform",  "shape-export",
-                                  "shape-extrapolate", "shape-inspect", "shape-interpolate",
-                                  "shape-transfer",    "shape-view"};
+constexpr const char* kTools[] = {"shape-body",        "shape-correspond",  "shape-deform",
+                                  "shape-export",      "shape-extrapolate", "shape-inspect",
+                                  "shape-interpolate", "shape-transfer",    "shape-view"};
 
 class HelpTest : public ToolsTest {
  protected:
@@ -50,6 +50,10 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
             (std::set<std::string>{"at", "help", "output", "pose", "proportions", "threads",
                                    "triangles", "version"}));
   EXPECT_EQ(Listed("shape-view"), (std::set<std::string>{"help", "output", "threads", "version"}));
+  EXPECT_EQ(
+      Listed("shape-correspond"),
+      (std::set<std::string>{"allow_nonmanifold", "help", "hold_all_markers", "markers", "output",
+                             "proportions", "report", "strict", "threads", "version"}));
   const std::set<std::string> metric = {"bending", "discretization", "isometric",
                                         "lambda",  "metric",         "rigid",
                                         "strain",  "volume",         "weights"};
@@ -66,8 +70,8 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                       "step_solver", "step_tolerance", "steps"});
   EXPECT_EQ(Listed("shape-extrapolate"), extrapolate);
   std::set<std::string> transfer = Listed("shape-interpolate");
-  transfer.insert({"align", "connection", "hybrids", "ladder_bending", "method", "rung_shapes",
-                   "scale", "target"});
+  transfer.insert({"align", "connection", "hold_all_markers", "hybrids", "ladder_bending",
+                   "markers", "method", "proportions", "rung_shapes", "scale", "target"});
   EXPECT_EQ(Listed("shape-transfer"), transfer);
   std::set<std::string> deform = wanted;
   deform.insert(

@@ -128,6 +128,14 @@ TEST_F(ReportKeysTest, TheDocumentationHasThemAllAndNoOthers) {
   Compare("Of `shape-explore`:",
           Report("shape-explore", {"tube0.obj", "tube1.obj", "--output", "t.space"}));
 
+  // One is at the other end of the tube.
+  std::string markers = "150 2\n";
+  for (int v = 3; v < 145; v += 11) markers += std::to_string(v) + ' ' + std::to_string(v) + '\n';
+  File("markers.txt", markers);
+  Compare("Of `shape-correspond`,",
+          Report("shape-correspond",
+                 {"tube0.obj", "tube0.obj", "--markers", "markers.txt", "--output", "m.txt"}));
+
   File("handles.json", R"({"handles": [{"fixed": true, "select": {"vertices": [1]}}]})");
   const nlohmann::json deformation =
       Report("shape-deform", {"tube0.obj", "--handles", "handles.json", "--output", "d.path"});

@@ -72,6 +72,8 @@ void CheckCanBeWritten(const std::string& file) {
   }
 }
 
+bool IsPathFile(const std::string& file) { return Extension(file) == ".path"; }
+
 Path ReadPathAndTell(const std::string& file) {
   Path path = ReadPath(file);
   if (!path.converged) {

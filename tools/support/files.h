@@ -26,6 +26,9 @@ void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
 /// \throw FileError.
 void CheckCanBeWritten(const std::string& file);
 
+/// Whether a file is a .path, by its name.
+bool IsPathFile(const std::string& file);
+
 /// Reads a .path file, and tells stderr if the solve that made it did not converge. \throw
 /// FileError.
 Path ReadPathAndTell(const std::string& file);

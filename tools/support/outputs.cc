@@ -196,8 +196,6 @@ std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::str
   return outputs;
 }
 
-bool IsPathFile(const std::string& file) { return Extension(file) == ".path"; }
-
 std::string Provenance(const char* program, const std::vector<std::string>& files) {
   std::string provenance = std::string(program) + " " SHAPESPACE_VERSION ":";
   for (const std::string& file : files) {

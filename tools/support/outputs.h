@@ -20,9 +20,6 @@ std::vector<std::string> OutputsFromFlags();
 /// The same of another flag, whose value is `list`.
 std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::string& list);
 
-/// Whether a file is a .path, by its name.
-bool IsPathFile(const std::string& file);
-
 /// Who made a path from which files, with the version: for `Path::provenance`.
 std::string Provenance(const char* program, const std::vector<std::string>& files);
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "support/console.h"
-#include "support/outputs.h"
+#include "support/files.h"
 
 namespace shapespace::tools {
 namespace {

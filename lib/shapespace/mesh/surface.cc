@@ -1,0 +1,193 @@
+#include <shapespace/mesh/surface.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <shapespace/base/embree.h>
+#include <shapespace/base/error.h>
+#include <shapespace/base/fork_join.h>
+
+namespace shapespace {
+namespace {
+
+constexpr float kRounding = std::numeric_limits<float>::epsilon();
+
+// C. Ericson, Real-Time Collision Detection (2005), section 5.1.5: the barycentric coordinates of
+// the point of a triangle nearest to p.
+Eigen::Vector3d NearestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                                  const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 >= d3 && d5 >= d6) {
+    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {0, 1 - w, w};
+  }
+  const double sum = va + vb + vc;
+  return {va / sum, vb / sum, vc / sum};
+}
+
+}  // namespace
+
+Shape TriangleNormals(const Connectivity& connectivity, const Shape& shape) {
+  const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
+  Shape normals(3, triangles.cols());
+  for (int f = 0; f < triangles.cols(); ++f) {
+    const Eigen::Vector3d a = shape.col(triangles(0, f));
+    normals.col(f) =
+        (shape.col(triangles(1, f)) - a).cross(shape.col(triangles(2, f)) - a).stableNormalized();
+  }
+  return normals;
+}
+
+Shape VertexNormals(const Connectivity& connectivity, const Shape& shape) {
+  const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
+  Shape normals = Shape::Zero(3, shape.cols());
+  for (int f = 0; f < triangles.cols(); ++f) {
+    const Eigen::Vector3d a = shape.col(triangles(0, f));
+    const Eigen::Vector3d normal =
+        (shape.col(triangles(1, f)) - a).cross(shape.col(triangles(2, f)) - a);
+    for (int k = 0; k < 3; ++k) normals.col(triangles(k, f)) += normal;
+  }
+  for (int v = 0; v < shape.cols(); ++v) normals.col(v).stableNormalize();
+  return normals;
+}
+
+struct Surface::Scene {
+  std::shared_ptr<const Connectivity> connectivity;
+  Shape shape, normals;
+  Eigen::Vector3d centre;
+  double unit = 1;  // half the extent: about the centre, in it, floats are good for boxes
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  ForkJoin callbacks;
+
+  Scene() = default;
+  Scene(const Scene&) = delete;
+  ~Scene() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+
+  Eigen::Vector3d Corner(unsigned f, int k) const {
+    return shape.col(connectivity->Triangles()(k, f));
+  }
+
+  static void Bounds(const RTCBoundsFunctionArguments* arguments) {
+    const auto* self = static_cast<const Scene*>(arguments->geometryUserPtr);
+    const ForkJoin::Piece piece(self->callbacks);
+    std::array<Eigen::Vector3d, 3> corners;
+    for (int k = 0; k < 3; ++k) {
+      corners[k] = (self->Corner(arguments->primID, k) - self->centre) / self->unit;
+    }
+    const Eigen::Vector3f low =
+        corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]).cast<float>().array() - kRounding;
+    const Eigen::Vector3f high =
+        corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]).cast<float>().array() + kRounding;
+    RTCBounds* bounds = arguments->bounds_o;
+    bounds->lower_x = low.x(), bounds->lower_y = low.y(), bounds->lower_z = low.z();
+    bounds->upper_x = high.x(), bounds->upper_y = high.y(), bounds->upper_z = high.z();
+  }
+
+  struct Query {
+    const Scene* scene;
+    const std::function<bool(int)>* admits;
+    Eigen::Vector3d point;
+    double slack, within;
+    Foot foot;
+  };
+
+  // The point query's radius, in units, that holds all that is as near as `distance`.
+  static float Radius(double distance, double slack) {
+    return static_cast<float>(distance * (1 + 4.0 * kRounding) + slack);
+  }
+
+  static bool OnTriangle(RTCPointQueryFunctionArguments* arguments) {
+    auto* query = static_cast<Query*>(arguments->userPtr);
+    const Scene& self = *query->scene;
+    const unsigned f = arguments->primID;
+    const int number = static_cast<int>(f);
+    if (self.normals.col(f).isZero(0)) return false;
+    const Eigen::Vector3d a = self.Corner(f, 0), b = self.Corner(f, 1), c = self.Corner(f, 2);
+    const Eigen::Vector3d barycentric = NearestOnTriangle(query->point, a, b, c);
+    const Eigen::Vector3d point = barycentric(0) * a + barycentric(1) * b + barycentric(2) * c;
+    const double distance = (point - query->point).norm();
+    Foot& foot = query->foot;
+    if (!(distance <= query->within)) return false;
+    if (foot.triangle >= 0 &&
+        (distance > foot.distance || (distance == foot.distance && number > foot.triangle))) {
+      return false;
+    }
+    if (*query->admits && !(*query->admits)(number)) return false;
+    foot = {number, barycentric, point, distance};
+    arguments->query->radius = Radius(distance / self.unit, query->slack);
+    return true;
+  }
+};
+
+Surface::Surface(std::shared_ptr<const Connectivity> connectivity, const Shape& shape)
+    : scene_(std::make_unique<Scene>()) {
+  Scene& self = *scene_;
+  self.connectivity = std::move(connectivity);
+  self.shape = shape;
+  self.normals = TriangleNormals(*self.connectivity, shape);
+  const Eigen::Vector3d low = shape.rowwise().minCoeff(), high = shape.rowwise().maxCoeff();
+  self.centre = low + 0.5 * (high - low);
+  self.unit = 0.5 * (high - low).maxCoeff();
+  self.device = rtcNewDevice(nullptr);
+  if (self.device == nullptr) throw Error("Embree cannot start");
+  self.scene = rtcNewScene(self.device);
+  RTCGeometry geometry = rtcNewGeometry(self.device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry,
+                                   static_cast<unsigned>(self.connectivity->NumTriangles()));
+  rtcSetGeometryUserData(geometry, &self);
+  rtcSetGeometryBoundsFunction(geometry, &Scene::Bounds, nullptr);
+  rtcSetGeometryPointQueryFunction(geometry, &Scene::OnTriangle);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(self.scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(self.scene);
+  if (rtcGetDeviceError(self.device) != RTC_ERROR_NONE) throw Error("Embree ran out of memory");
+}
+
+Surface::Surface(Surface&&) noexcept = default;
+Surface::~Surface() = default;
+
+Foot Surface::Nearest(const Eigen::Vector3d& point, const std::function<bool(int triangle)>& admits,
+                      double within) const {
+  const Scene& self = *scene_;
+  const Eigen::Vector3d local = (point - self.centre) / self.unit;
+  // The slack is what rounding to float may move the point by.
+  const double slack = 4.0 * kRounding * (1 + local.cwiseAbs().maxCoeff());
+  Scene::Query query = {&self, &admits, point, slack, within, {}};
+  RTCPointQuery at;
+  at.x = static_cast<float>(local.x());
+  at.y = static_cast<float>(local.y());
+  at.z = static_cast<float>(local.z());
+  at.time = 0;
+  at.radius = Scene::Radius(within / self.unit, slack);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(self.scene, &at, &context, nullptr, &query);
+  return query.foot;
+}
+
+const Connectivity& Surface::GetConnectivity() const { return *scene_->connectivity; }
+const Shape& Surface::GetShape() const { return scene_->shape; }
+const Shape& Surface::GetTriangleNormals() const { return scene_->normals; }
+
+}  // namespace shapespace

@@ -1,0 +1,159 @@
+#include <shapespace/solvers/correspondence/check_input.h>
+
+#include <algorithm>
+#include <map>
+
+#include <Eigen/Geometry>
+
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/topology.h>
+#include <shapespace/solvers/correspondence/similarity.h>
+
+namespace shapespace::internal {
+namespace {
+
+std::vector<bool> InTriangles(const Connectivity& connectivity) {
+  std::vector<bool> inside(connectivity.NumVertices(), false);
+  for (const int v : connectivity.Triangles().reshaped()) inside[v] = true;
+  return inside;
+}
+
+std::string MarkerName(size_t marker) { return "marker " + std::to_string(marker + 1); }
+
+std::string Count(int count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void CheckBody(const std::string& name, const Connectivity& connectivity, const Shape& shape) {
+  if (connectivity.NumTriangles() == 0) {
+    throw MeshError("the " + name + " has no triangles; correspondence needs a surface");
+  }
+  if (shape.cols() != connectivity.NumVertices()) {
+    throw MeshError("the " + name + " has " + std::to_string(connectivity.NumVertices()) +
+                    " vertices" + ", its shape " + std::to_string(shape.cols()));
+  }
+  if (!shape.allFinite() || shape.cwiseAbs().maxCoeff() > kLargestCoordinate) {
+    throw MeshError("the " + name + " has a coordinate that is not finite or enormous");
+  }
+  const double extent = (shape.rowwise().maxCoeff() - shape.rowwise().minCoeff()).maxCoeff();
+  double area = 0;
+  for (int f = 0; f < connectivity.NumTriangles() && extent > 0; ++f) {
+    const auto triangle = connectivity.Triangles().col(f);
+    const Eigen::Vector3d a = shape.col(triangle(0));
+    const Eigen::Vector3d p = (shape.col(triangle(1)) - a) / extent;
+    const Eigen::Vector3d q = (shape.col(triangle(2)) - a) / extent;
+    area += p.cross(q).norm();
+  }
+  if (!(area > 0)) throw MeshError("the " + name + " has no area");
+}
+
+void CheckMarkers(const std::vector<Marker>& markers, const Connectivity& template_connectivity,
+                  const Connectivity& target_connectivity) {
+  if (markers.size() < 3) {
+    throw MeshError(Count(static_cast<int>(markers.size()), "marker") +
+                    (markers.size() == 1 ? " is" : " are") +
+                    " too few: give at least three that do not lie on a line, better one at the "
+                    "end of every limb and a few on the trunk");
+  }
+  const auto check = [&](const std::string& name, const Connectivity& connectivity,
+                         int Marker::*vertex) {
+    const std::vector<bool> in_triangles = InTriangles(connectivity);
+    std::map<int, size_t> seen;
+    for (size_t k = 0; k < markers.size(); ++k) {
+      const int v = markers[k].*vertex;
+      if (v < 0 || v >= connectivity.NumVertices()) {
+        throw MeshError(MarkerName(k) + ": the " + name + " has no vertex " +
+                        std::to_string(v + 1) + "; it has " +
+                        std::to_string(connectivity.NumVertices()));
+      }
+      if (!in_triangles[v]) {
+        throw MeshError(MarkerName(k) + ": no triangle of the " + name + " uses vertex " +
+                        std::to_string(v + 1) + "; name one on the surface");
+      }
+      const auto [found, is_new] = seen.emplace(v, k);
+      if (!is_new) {
+        throw MeshError(MarkerName(k) + " and " + MarkerName(found->second) +
+                        " are on the same vertex " + std::to_string(v + 1) + " of the " + name +
+                        "; leave one of them out");
+      }
+    }
+  };
+  check("template", template_connectivity, &Marker::template_vertex);
+  check("target", target_connectivity, &Marker::target_vertex);
+
+  const Topology topology = ComputeTopology(template_connectivity);
+  std::vector<bool> has_marker(topology.components, false);
+  for (const Marker& marker : markers) {
+    has_marker[topology.component[marker.template_vertex]] = true;
+  }
+  for (size_t v = 0; v < topology.component.size(); ++v) {
+    const int component = topology.component[v];
+    if (component < 0 || has_marker[component]) continue;
+    throw MeshError("the template has " + Count(topology.components, "component") +
+                    ", and the one with vertex " + std::to_string(v + 1) +
+                    " has no marker that says where it belongs; give it one, or take it out of "
+                    "the mesh");
+  }
+}
+
+void CheckPlacement(const Shape& on_template, const Shape& on_target) {
+  const auto check = [](const std::string& name, const Shape& points) {
+    if (!AreCollinear(points)) return;
+    throw MeshError("the markers lie on one line of the " + name +
+                    ", which leaves open how it is turned; add one beside the line");
+  };
+  check("template", on_template);
+  check("target", on_target);
+  // Poses that are far apart fit badly either way; only what fits a mirror image well is one.
+  constexpr double kFitsWell = 0.2, kMuchBetter = 0.5;
+  const SimilarityErrors errors = CompareReflection(on_template, on_target);
+  if (errors.reflected < kFitsWell && errors.reflected < kMuchBetter * errors.proper) {
+    throw MeshError(
+        "the markers fit a mirror image of the template, not the template: are left and right "
+        "exchanged, or is one of the meshes mirrored?");
+  }
+}
+
+std::vector<Marker> Without(const std::vector<Marker>& markers,
+                            const std::vector<CorrespondenceSummary::Doubt>& doubtful) {
+  std::vector<Marker> kept;
+  for (size_t k = 0; k < markers.size(); ++k) {
+    const bool is_doubtful = std::any_of(doubtful.begin(), doubtful.end(), [&](const auto& doubt) {
+      return doubt.marker == static_cast<int>(k);
+    });
+    if (!is_doubtful) kept.push_back(markers[k]);
+  }
+  return kept;
+}
+
+void WarnOfTopology(const Connectivity& template_connectivity,
+                    const Connectivity& target_connectivity, const std::vector<Marker>& markers,
+                    std::vector<std::string>* warnings) {
+  const Topology first = ComputeTopology(template_connectivity);
+  const Topology second = ComputeTopology(target_connectivity);
+  std::vector<bool> has_marker(second.components, false);
+  for (const Marker& marker : markers) has_marker[second.component[marker.target_vertex]] = true;
+  const auto without = static_cast<int>(std::count(has_marker.begin(), has_marker.end(), false));
+  if (without > 0) {
+    warnings->push_back("the target has " + Count(second.components, "component") + ", " +
+                        std::to_string(without) +
+                        " of them without a marker: nothing is mapped onto those");
+  }
+  if (!first.manifold || !second.manifold) return;
+  if (first.components == second.components && first.genus != second.genus) {
+    warnings->push_back("the template's genus is " + std::to_string(first.genus) +
+                        ", the target's " + std::to_string(second.genus) +
+                        ": around a handle that only one has, the map cannot be right");
+  }
+  if (!second.boundary_loops.empty() &&
+      second.boundary_loops.size() != first.boundary_loops.size()) {
+    warnings->push_back("the template has " +
+                        Count(static_cast<int>(first.boundary_loops.size()), "border") +
+                        ", the target " + std::to_string(second.boundary_loops.size()) +
+                        ": over a hole the template is carried by what is around");
+  }
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,147 @@
+#include <shapespace/solvers/correspondence/closest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <shapespace/base/parallel.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Of normals that belong together.
+constexpr double kLeastCosine = 0.3;
+// What is farther apart, as a share of the root of the area, is no match yet.
+constexpr double kFar = 0.05;
+
+}  // namespace
+
+Eigen::VectorXd VertexAreas(const Connectivity& connectivity, const Shape& shape) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(shape.cols());
+  for (int f = 0; f < connectivity.NumTriangles(); ++f) {
+    const auto triangle = connectivity.Triangles().col(f);
+    const Eigen::Vector3d a = shape.col(triangle(0));
+    const Eigen::Vector3d p = shape.col(triangle(1)) - a, q = shape.col(triangle(2)) - a;
+    const double area = p.cross(q).norm();
+    for (int k = 0; k < 3; ++k) areas(triangle(k)) += area;
+  }
+  return areas / areas.sum();
+}
+
+std::vector<std::array<bool, 3>> BorderSides(const Connectivity& connectivity) {
+  const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
+  std::vector<std::tuple<int, int, int, int>> sides;  // edge, triangle, opposite corner
+  for (int f = 0; f < triangles.cols(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(triangles((k + 1) % 3, f), triangles((k + 2) % 3, f));
+      sides.emplace_back(a, b, f, k);
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  std::vector<std::array<bool, 3>> borders(triangles.cols(), {false, false, false});
+  const auto same_edge = [&](size_t i, size_t j) {
+    return std::get<0>(sides[i]) == std::get<0>(sides[j]) &&
+           std::get<1>(sides[i]) == std::get<1>(sides[j]);
+  };
+  for (size_t i = 0; i < sides.size(); ++i) {
+    const bool shared =
+        (i > 0 && same_edge(i - 1, i)) || (i + 1 < sides.size() && same_edge(i, i + 1));
+    if (!shared) borders[std::get<2>(sides[i])][std::get<3>(sides[i])] = true;
+  }
+  return borders;
+}
+
+namespace {
+
+bool IsOnSide(const Foot& foot, const std::vector<std::array<bool, 3>>& borders) {
+  for (int k = 0; k < 3; ++k) {
+    if (foot.barycentric(k) == 0 && borders[foot.triangle][k]) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Target::Target(std::shared_ptr<const Connectivity> connectivity, const Shape& shape,
+               const MarkerDistances& distances)
+    : connectivity_(std::move(connectivity)),
+      surface_(connectivity_, shape),
+      normals_(shapespace::VertexNormals(*connectivity_, shape)),
+      areas_(internal::VertexAreas(*connectivity_, shape)),
+      borders_(BorderSides(*connectivity_)),
+      distances_(distances) {}
+
+Eigen::Vector3d Target::NormalAt(const Foot& foot) const {
+  const auto triangle = connectivity_->Triangles().col(foot.triangle);
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) normal += foot.barycentric(k) * normals_.col(triangle(k));
+  return normal.stableNormalized();
+}
+
+Foot Target::Nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
+                     int template_vertex, double within) const {
+  return surface_.Nearest(
+      point,
+      [&](int f) {
+        return surface_.GetTriangleNormals().col(f).dot(normal) > kLeastCosine &&
+               distances_.MayMatch(template_vertex, connectivity_->Triangles()(0, f));
+      },
+      within);
+}
+
+bool Target::IsOnBorder(const Foot& foot) const { return IsOnSide(foot, borders_); }
+
+Foot NearestOnTemplate(const Surface& fitted, const Level& level, const Target& target,
+                       int target_vertex) {
+  const auto normal = target.GetVertexNormals().col(target_vertex);
+  return fitted.Nearest(
+      target.GetShape().col(target_vertex),
+      [&](int f) {
+        const int vertex = level.vertices[level.connectivity->Triangles()(0, f)];
+        return fitted.GetTriangleNormals().col(f).dot(normal) > kLeastCosine &&
+               target.Distances().MayMatch(vertex, target_vertex);
+      },
+      kFar);
+}
+
+std::vector<Pull> FindPulls(const Level& level, const Shape& shape, const Eigen::VectorXd& areas,
+                            const Target& target, int stride, double weight, double* distance) {
+  const auto num_vertices = static_cast<int>(shape.cols());
+  const Shape normals = VertexNormals(*level.connectivity, shape);
+  std::vector<Foot> feet(num_vertices);
+  ParallelFor(num_vertices, [&](int v) {
+    feet[v] = target.Nearest(shape.col(v), normals.col(v), level.vertices[v], kFar);
+  });
+  std::vector<Pull> pulls;
+  double squares = 0, sum = 0;
+  for (int v = 0; v < num_vertices; ++v) {
+    if (feet[v].triangle < 0) continue;
+    squares += areas(v) * feet[v].distance * feet[v].distance;
+    sum += areas(v);
+    if (target.IsOnBorder(feet[v])) continue;
+    pulls.push_back(
+        {{v, v, v}, {1, 0, 0}, feet[v].point, target.NormalAt(feet[v]), weight * areas(v)});
+  }
+  *distance = sum > 0 ? std::sqrt(squares / sum) : 0;
+
+  const Surface fitted(level.connectivity, shape);
+  const int num_others = (target.GetConnectivity().NumVertices() + stride - 1) / stride;
+  std::vector<Foot> others(num_others);
+  ParallelFor(num_others,
+              [&](int i) { others[i] = NearestOnTemplate(fitted, level, target, stride * i); });
+  double areas_of_others = 0;
+  for (int i = 0; i < num_others; ++i) areas_of_others += target.VertexAreas()(stride * i);
+  for (int i = 0; i < num_others; ++i) {
+    if (others[i].triangle < 0 || IsOnSide(others[i], level.borders)) continue;
+    const int y = stride * i;
+    pulls.push_back({level.connectivity->Triangles().col(others[i].triangle), others[i].barycentric,
+                     target.GetShape().col(y), target.GetVertexNormals().col(y),
+                     weight * target.VertexAreas()(y) / areas_of_others});
+  }
+  return pulls;
+}
+
+}  // namespace shapespace::internal

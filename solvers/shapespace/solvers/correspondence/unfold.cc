@@ -1,0 +1,189 @@
+#include <shapespace/solvers/correspondence/unfold.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include <shapespace/base/parallel.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Rings by which patches grow, one a round, and rounds of averaging in each.
+constexpr int kRings = 6, kAverages = 8;
+
+// The vertices around each, with M. Floater's mean value weights ("Mean value coordinates", 2003),
+// which are positive, so that nothing folds, and keep the triangles' forms as far as that goes.
+struct Neighbour {
+  int vertex;
+  double weight;
+};
+using Neighbours = std::vector<std::vector<Neighbour>>;
+
+Neighbours NeighboursOf(const Connectivity& connectivity, const Shape& rest) {
+  Neighbours neighbours(connectivity.NumVertices());
+  const auto add = [&](int from, int to, double weight) {
+    for (Neighbour& neighbour : neighbours[from]) {
+      if (neighbour.vertex != to) continue;
+      neighbour.weight += weight;
+      return;
+    }
+    neighbours[from].push_back({to, weight});
+  };
+  for (const Eigen::Vector3i triangle : connectivity.Triangles().colwise()) {
+    for (int k = 0; k < 3; ++k) {
+      const int v = triangle(k), a = triangle((k + 1) % 3), b = triangle((k + 2) % 3);
+      const Eigen::Vector3d p = rest.col(a) - rest.col(v), q = rest.col(b) - rest.col(v);
+      const double lengths = p.norm() * q.norm();
+      // The tangent of half the angle; kLeast where a triangle has collapsed.
+      constexpr double kLeast = 1e-3;
+      const double tangent = std::max(kLeast * lengths, p.cross(q).norm()) /
+                             std::max(kLeast * lengths, lengths + p.dot(q));
+      if (!(lengths > 0)) continue;
+      add(v, a, tangent / p.norm());
+      add(v, b, tangent / q.norm());
+    }
+  }
+  return neighbours;
+}
+
+// Numbers the connected patches of `inside` from 0; -1 outside.
+std::vector<int> PatchesOf(const std::vector<bool>& inside, const Neighbours& neighbours,
+                           int* count) {
+  std::vector<int> patch(inside.size(), -1);
+  *count = 0;
+  std::vector<int> open;
+  for (size_t seed = 0; seed < inside.size(); ++seed) {
+    if (!inside[seed] || patch[seed] >= 0) continue;
+    open.assign(1, static_cast<int>(seed));
+    patch[seed] = *count;
+    while (!open.empty()) {
+      const int v = open.back();
+      open.pop_back();
+      for (const auto& [w, weight] : neighbours[v]) {
+        if (!inside[w] || patch[w] >= 0) continue;
+        patch[w] = *count;
+        open.push_back(w);
+      }
+    }
+    ++*count;
+  }
+  return patch;
+}
+
+// How many turned triangles each patch has to do with.
+std::vector<int> CountTurned(const std::vector<bool>& turned, const Eigen::Matrix3Xi& triangles,
+                             const std::vector<int>& patch, int num_patches) {
+  std::vector<int> counts(num_patches, 0);
+  for (int f = 0; f < triangles.cols(); ++f) {
+    if (!turned[f]) continue;
+    for (int k = 0; k < 3; ++k) {
+      const int p = patch[triangles(k, f)];
+      // Corners in one patch count once.
+      const bool counted =
+          (k > 0 && patch[triangles(0, f)] == p) || (k > 1 && patch[triangles(1, f)] == p);
+      if (p >= 0 && !counted) ++counts[p];
+    }
+  }
+  return counts;
+}
+
+}  // namespace
+
+std::vector<bool> TurnedTriangles(const Level& level, const Shape& shape, const Target& target,
+                                  const std::vector<Foot>& feet) {
+  const Eigen::Matrix3Xi& triangles = level.connectivity->Triangles();
+  const Eigen::Matrix3Xi& others = target.GetConnectivity().Triangles();
+  const Shape& place = target.GetShape();
+  std::vector<bool> turned(triangles.cols());
+  for (int f = 0; f < triangles.cols(); ++f) {
+    const Eigen::Vector3d a = shape.col(triangles(0, f));
+    const Eigen::Vector3d p = shape.col(triangles(1, f)) - a, q = shape.col(triangles(2, f)) - a;
+    Eigen::Vector3d there = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const auto other = others.col(feet[triangles(k, f)].triangle);
+      const Eigen::Vector3d b = place.col(other(0));
+      const Eigen::Vector3d r = place.col(other(1)) - b, s = place.col(other(2)) - b;
+      there += r.cross(s);
+    }
+    turned[f] = p.cross(q).dot(there) < 0;
+  }
+  return turned;
+}
+
+std::vector<Foot> MapVertices(const Level& level, const Shape& shape, const Target& target) {
+  const Shape normals = VertexNormals(*level.connectivity, shape);
+  std::vector<Foot> feet(shape.cols());
+  ParallelFor(static_cast<int>(shape.cols()), [&](int v) {
+    const int vertex = level.vertices[v];
+    feet[v] = target.Nearest(shape.col(v), normals.col(v), vertex);
+    if (feet[v].triangle >= 0) return;
+    feet[v] = target.GetSurface().Nearest(shape.col(v), [&](int f) {
+      return target.Distances().MayMatch(vertex, target.GetConnectivity().Triangles()(0, f));
+    });
+    if (feet[v].triangle < 0) feet[v] = target.GetSurface().Nearest(shape.col(v));
+  });
+  return feet;
+}
+
+void Unfold(const Level& level, const Shape& rest, const Target& target,
+            const std::vector<int>& held, Shape* shape) {
+  const Eigen::Matrix3Xi& triangles = level.connectivity->Triangles();
+  const Neighbours neighbours = NeighboursOf(*level.connectivity, rest);
+  std::vector<bool> is_held(shape->cols(), false);
+  for (const int v : held) is_held[v] = true;
+  for (int rings = 1; rings <= kRings; ++rings) {
+    const std::vector<Foot> feet = MapVertices(level, *shape, target);
+    const std::vector<bool> turned = TurnedTriangles(level, *shape, target, feet);
+    std::vector<bool> inside(shape->cols(), false);
+    for (int f = 0; f < triangles.cols(); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        if (turned[f] && !is_held[triangles(k, f)]) inside[triangles(k, f)] = true;
+      }
+    }
+    for (int ring = 1; ring < rings; ++ring) {
+      const std::vector<bool> before = inside;
+      for (size_t v = 0; v < before.size(); ++v) {
+        if (!before[v]) continue;
+        for (const auto& neighbour : neighbours[v]) {
+          const int w = neighbour.vertex;
+          inside[w] = inside[w] || !is_held[w];
+        }
+      }
+    }
+    int num_patches = 0;
+    const std::vector<int> patch = PatchesOf(inside, neighbours, &num_patches);
+    if (num_patches == 0) return;
+    // On the target all the way: a mean is projected to where the target faces as it does around.
+    Shape flat = *shape;
+    Shape facing(3, flat.cols());
+    for (int v = 0; v < flat.cols(); ++v) facing.col(v) = target.NormalAt(feet[v]);
+    for (int round = 0; round < kAverages; ++round) {
+      for (int v = 0; v < flat.cols(); ++v) {
+        if (!inside[v]) continue;
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+        double weights = 0;
+        for (const auto& [w, weight] : neighbours[v]) {
+          sum += weight * flat.col(w);
+          normal += weight * facing.col(w);
+          weights += weight;
+        }
+        const Eigen::Vector3d mean = sum / weights;
+        const Foot foot = target.Nearest(mean, normal.stableNormalized(), level.vertices[v]);
+        if (foot.triangle < 0) continue;
+        flat.col(v) = foot.point;
+        facing.col(v) = target.NormalAt(foot);
+      }
+    }
+    const std::vector<bool> still =
+        TurnedTriangles(level, flat, target, MapVertices(level, flat, target));
+    const std::vector<int> before = CountTurned(turned, triangles, patch, num_patches);
+    const std::vector<int> after = CountTurned(still, triangles, patch, num_patches);
+    for (int v = 0; v < flat.cols(); ++v) {
+      if (inside[v] && after[patch[v]] < before[patch[v]]) shape->col(v) = flat.col(v);
+    }
+  }
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,112 @@
+#include <shapespace/mesh/surface.h>
+
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <shapespace/bodies/quadruped.h>
+
+namespace shapespace {
+namespace {
+
+using Eigen::Vector3d;
+
+// Points in and around the body's box.
+Shape PointsAround(const Shape& shape, int count) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(-0.3, 1.3);
+  const Vector3d low = shape.rowwise().minCoeff();
+  const Vector3d size = shape.rowwise().maxCoeff() - low;
+  Shape points(3, count);
+  for (int i = 0; i < count; ++i) {
+    points.col(i) = low + size.cwiseProduct(Vector3d(share(random), share(random), share(random)));
+  }
+  return points;
+}
+
+// The least distance by looking at every triangle: of a fine grid of its points, which is an upper
+// bound that comes within the grid's width.
+double LeastOnGrids(const Connectivity& connectivity, const Shape& shape, const Vector3d& point) {
+  constexpr int kGrid = 12;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& t : connectivity.Triangles().colwise()) {
+    for (int i = 0; i <= kGrid; ++i) {
+      for (int j = 0; i + j <= kGrid; ++j) {
+        const Vector3d on =
+            (i * shape.col(t(0)) + j * shape.col(t(1)) + (kGrid - i - j) * shape.col(t(2))) / kGrid;
+        least = std::min(least, (on - point).norm());
+      }
+    }
+  }
+  return least;
+}
+
+TEST(Surface, FindsTheNearestPoint) {
+  const SkinnedBody body = MakeQuadruped(600);
+  const Shape shape = body.pose("stand");
+  const Surface surface(body.connectivity, shape);
+  const Shape points = PointsAround(shape, 60);
+  for (const auto& point : points.colwise()) {
+    const Foot foot = surface.Nearest(point);
+    ASSERT_GE(foot.triangle, 0);
+    EXPECT_GE(foot.barycentric.minCoeff(), 0);
+    EXPECT_NEAR(foot.barycentric.sum(), 1, 1e-12);
+    Vector3d on = Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      on += foot.barycentric(k) * shape.col(body.connectivity->Triangles()(k, foot.triangle));
+    }
+    EXPECT_LT((on - foot.point).norm(), 1e-12);
+    EXPECT_NEAR(foot.distance, (foot.point - point).norm(), 1e-12);
+    const double least = LeastOnGrids(*body.connectivity, shape, point);
+    EXPECT_LE(foot.distance, least + 1e-12);
+    EXPECT_GT(foot.distance, least - 0.03);
+  }
+}
+
+// Embree's floats alone would be wrong by a hundred bodies here.
+TEST(Surface, FindsTheSamePointsFarFromTheOrigin) {
+  const SkinnedBody body = MakeQuadruped(600);
+  const Shape shape = body.pose("stand");
+  const Vector3d far(1e8, -2e8, 3e8);
+  const Surface surface(body.connectivity, shape), moved(body.connectivity, shape.colwise() + far);
+  const Shape points = PointsAround(shape, 60);
+  for (const auto& point : points.colwise()) {
+    const Foot here = surface.Nearest(point), there = moved.Nearest(point + far);
+    EXPECT_LT((here.point + far - there.point).norm(), 1e-6);
+    EXPECT_NEAR(here.distance, there.distance, 1e-6);
+  }
+}
+
+TEST(Surface, LooksNoFartherThanAsked) {
+  const SkinnedBody body = MakeQuadruped(600);
+  const Shape shape = body.pose("stand");
+  const Surface surface(body.connectivity, shape);
+  const Shape points = PointsAround(shape, 60);
+  for (const auto& point : points.colwise()) {
+    const Foot foot = surface.Nearest(point);
+    const Foot same = surface.Nearest(point, nullptr, 1.0001 * foot.distance);
+    EXPECT_EQ(same.triangle, foot.triangle);
+    EXPECT_EQ(same.distance, foot.distance);
+    EXPECT_EQ(surface.Nearest(point, nullptr, 0.9999 * foot.distance).triangle, -1);
+  }
+}
+
+TEST(Surface, AsksOnlyTrianglesThatAreAdmitted) {
+  const SkinnedBody body = MakeQuadruped(600);
+  const Shape shape = body.pose("stand");
+  const Surface surface(body.connectivity, shape);
+  const auto upwards = [&](int f) { return surface.GetTriangleNormals()(1, f) > 0.5; };
+  const Shape points = PointsAround(shape, 60);
+  for (const auto& point : points.colwise()) {
+    const Foot any = surface.Nearest(point), up = surface.Nearest(point, upwards);
+    ASSERT_GE(up.triangle, 0);
+    EXPECT_TRUE(upwards(up.triangle));
+    EXPECT_GE(up.distance, any.distance);
+  }
+  EXPECT_EQ(surface.Nearest(shape.col(0), [](int) { return false; }).triangle, -1);
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,96 @@
+// Correspondence of real bodies whose answer is known: skipped where there are none. They stand in
+// the folder `correspondence` beside the folder of real meshes.
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/mesh/read.h>
+#include <shapespace/solvers/correspondence.h>
+#include <shapespace/solvers/correspondence/marker_distances.h>
+#include <shapespace/solvers/marker_file.h>
+
+#include "bodies/measure.h"
+
+namespace shapespace {
+namespace {
+
+struct KnownPair {
+  const char* folder;
+  int markers;
+  // What the map may have at most: the mean geodesic error, as a share of the root of the target's
+  // area; vertices that are off by a fifth of it, other than those whose answer is wrong itself (it
+  // lies on another limb, which touches the right one); and the share of triangles turned over.
+  double mean;
+  int far;
+  double turned;
+};
+
+void PrintTo(const KnownPair& pair, std::ostream* out) { *out << pair.folder << pair.markers; }
+
+class RealPairs : public ::testing::TestWithParam<KnownPair> {};
+
+TEST_P(RealPairs, MapIsAsGoodAsMeasured) {
+  const std::filesystem::path data = SHAPESPACE_DATA_DIR;
+  const KnownPair& pair = GetParam();
+  const std::filesystem::path folder = data / ".." / "correspondence" / pair.folder;
+  if (data.empty() || !std::filesystem::exists(folder)) {
+    GTEST_SKIP() << "no real pairs: set the CMake cache path SHAPESPACE_DATA_DIR";
+  }
+  const Poses source = ReadPoses({(folder / "source.obj").string()});
+  const Poses target = ReadPoses({(folder / "target.obj").string()});
+  const std::vector<Marker> markers = ReadMarkers(
+      (folder / ("markers" + std::to_string(pair.markers) + ".txt")).string(), source, target);
+  const auto [fitted, map, summary] = Correspond(source.connectivity, source.shapes[0],
+                                                 target.connectivity, target.shapes[0], markers);
+  EXPECT_TRUE(summary.doubtful.empty());
+  EXPECT_LT(summary.turned, pair.turned) << summary.FullReport();
+
+  // Of every tenth known answer.
+  std::vector<int> vertices, answers;
+  std::ifstream file(folder / "truth.txt");
+  for (std::string line; std::getline(file, line);) {
+    int vertex = 0, answer = 0;
+    if (std::sscanf(line.c_str(), "%d %d", &vertex, &answer) != 2) continue;
+    vertices.push_back(vertex - 1);
+    answers.push_back(answer - 1);
+  }
+  ASSERT_GT(vertices.size(), 500u);
+  std::vector<int> from, to;
+  for (size_t i = 0; i < vertices.size(); i += 10) {
+    from.push_back(vertices[i]);
+    to.push_back(answers[i]);
+  }
+  const Eigen::MatrixXf distances =
+      internal::DistancesFrom(*target.connectivity, target.shapes[0], to);
+  const double root = std::sqrt(Area(*target.connectivity, target.shapes[0]));
+  double sum = 0;
+  int far = 0;
+  for (size_t i = 0; i < from.size(); ++i) {
+    Eigen::Index corner = 0;
+    map.to_target.barycentric.col(from[i]).maxCoeff(&corner);
+    const int landed = target.connectivity->Triangles()(corner, map.to_target.triangle(from[i]));
+    const double error = distances(landed, static_cast<Eigen::Index>(i)) / root;
+    sum += error;
+    far += error > 0.2;
+  }
+  EXPECT_LT(sum / static_cast<double>(from.size()), pair.mean) << summary.FullReport();
+  EXPECT_LE(far, pair.far);
+}
+
+// A tenth above what was measured at the default options (docs/performance.md).
+INSTANTIATE_TEST_SUITE_P(, RealPairs,
+                         ::testing::Values(KnownPair{"person_000-person_001", 20, 0.0125, 0, 4e-3},
+                                           KnownPair{"person_000-person_001", 55, 0.0105, 0, 1e-3},
+                                           KnownPair{"person_010-person_031", 20, 0.0145, 0, 5e-3},
+                                           KnownPair{"person_010-person_031", 55, 0.012, 0, 1e-3},
+                                           KnownPair{"person_002-person_007", 55, 0.0135, 2, 1e-3},
+                                           KnownPair{"gorilla_01-man_01", 55, 0.024, 1, 5e-3},
+                                           KnownPair{"man_03-woman_05", 20, 0.03, 2, 5e-3},
+                                           KnownPair{"man_03-woman_05", 55, 0.024, 2, 5e-3}));
+
+}  // namespace
+}  // namespace shapespace

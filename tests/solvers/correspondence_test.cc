@@ -1,0 +1,415 @@
+#include <shapespace/solvers/correspondence.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include <shapespace/base/error.h>
+#include <shapespace/bodies/bar.h>
+#include <shapespace/solvers/correspondence_picture.h>
+#include <shapespace/solvers/transfer.h>
+
+#include "support/listener.h"
+#include "support/message_of.h"
+#include "support/motions.h"
+#include "support/remeshed.h"
+
+namespace shapespace {
+namespace {
+
+using testing::Listener;
+using testing::MessageOf;
+using testing::Remeshed;
+using testing::Rotation;
+
+bool Names(const std::vector<std::string>& warnings, const std::string& part) {
+  return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+    return warning.find(part) != warning.npos;
+  });
+}
+
+TEST(Correspond, MapsARemeshedCopyBackToItself) {
+  const Remeshed bodies;
+  const CorrespondenceResult result = bodies.Fit();
+  EXPECT_TRUE(result.summary.Converged()) << result.summary.FullReport();
+  const Eigen::VectorXd errors = bodies.Errors(result.map);
+  EXPECT_LT(errors.mean(), 0.5 * bodies.Edge());
+  EXPECT_LT(errors.maxCoeff(), 2 * bodies.Edge());
+  EXPECT_LT(result.summary.turned, 2e-3);
+  EXPECT_LT(result.summary.distance_rms, 2e-3);
+  EXPECT_LT(result.summary.uncovered, 1e-3);
+  EXPECT_TRUE(result.summary.warnings.empty()) << result.summary.warnings.front();
+}
+
+TEST(Correspond, FindsAnotherPoseOfTheBody) {
+  for (const char* pose : {"sit", "stretch"}) {
+    const Remeshed bodies(pose);
+    const CorrespondenceResult result = bodies.Fit();
+    const Eigen::VectorXd errors = bodies.Errors(result.map);
+    EXPECT_LT(errors.mean(), 0.6 * bodies.Edge()) << pose << result.summary.FullReport();
+    EXPECT_LT(result.summary.turned, 5e-3) << pose;
+  }
+}
+
+TEST(Correspond, FindsABodyOfOtherProportions) {
+  const Remeshed bodies("stand", 2400, 3300, 20, NamedQuadrupedForm("heavy"));
+  const CorrespondenceResult result = bodies.Fit();
+  EXPECT_LT(bodies.Errors(result.map).mean(), bodies.Edge()) << result.summary.FullReport();
+  EXPECT_TRUE(result.summary.doubtful.empty());
+}
+
+TEST(Correspond, IsExactAtMarkers) {
+  const Remeshed bodies("sit");
+  const CorrespondenceResult result = bodies.Fit();
+  ASSERT_TRUE(result.summary.doubtful.empty());
+  const Shape landed =
+      Pull(result.map.to_target, bodies.second.connectivity->Triangles(), bodies.target);
+  const Shape back =
+      Pull(result.map.to_template, bodies.first.connectivity->Triangles(), bodies.rest);
+  for (const Marker& marker : bodies.markers) {
+    EXPECT_EQ(result.fitted.col(marker.template_vertex), bodies.target.col(marker.target_vertex));
+    EXPECT_EQ(landed.col(marker.template_vertex), bodies.target.col(marker.target_vertex));
+    EXPECT_EQ(back.col(marker.target_vertex), bodies.rest.col(marker.template_vertex));
+  }
+}
+
+TEST(Correspond, MovesAndScalesWithTheTarget) {
+  const Remeshed bodies("sit");
+  const CorrespondenceResult result = bodies.Fit();
+  const Eigen::Matrix3d rotation = Rotation(180, Eigen::Vector3d(1, 0.3, 0.2).normalized());
+  const Eigen::Vector3d far(1e6, -2e6, 3e6);
+  Remeshed moved = bodies;
+  moved.target = (10 * rotation * bodies.target).colwise() + far;
+  const CorrespondenceResult other = moved.Fit();
+  const Shape wanted = (10 * rotation * result.fitted).colwise() + far;
+  // Within what coordinates so far from the origin are rounded to.
+  EXPECT_LT((other.fitted - wanted).colwise().norm().maxCoeff(), 1e-6);
+  EXPECT_NEAR(other.summary.scale / result.summary.scale, 10, 1e-6);
+  EXPECT_NEAR(other.summary.distance_rms, result.summary.distance_rms, 1e-8);
+}
+
+TEST(Correspond, DoesNotCareWhereTheTemplateIs) {
+  const Remeshed bodies("sit");
+  const CorrespondenceResult result = bodies.Fit();
+  Remeshed moved = bodies;
+  moved.rest =
+      (1e-3 * Rotation(120, Eigen::Vector3d(0.1, 1, -0.4).normalized()) * bodies.rest).colwise() +
+      Eigen::Vector3d(1e3, 0, -1e3);
+  const CorrespondenceResult other = moved.Fit();
+  EXPECT_LT((other.fitted - result.fitted).colwise().norm().maxCoeff(), 1e-6);
+  EXPECT_LT((other.map.round_trip - result.map.round_trip).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(Correspond, ThereAndBackIsNearTheIdentity) {
+  const Remeshed bodies("sit");
+  const CorrespondenceResult there = bodies.Fit();
+  std::vector<Marker> reversed;
+  for (const Marker& marker : bodies.markers) {
+    reversed.push_back({marker.target_vertex, marker.template_vertex});
+  }
+  const CorrespondenceResult back = Correspond(bodies.second.connectivity, bodies.target,
+                                               bodies.first.connectivity, bodies.rest, reversed);
+  const Shape first = Pull(back.map.to_target, bodies.first.connectivity->Triangles(), bodies.rest);
+  const Shape both = Pull(there.map.to_target, bodies.second.connectivity->Triangles(), first);
+  EXPECT_LT((both - bodies.rest).colwise().norm().mean(), 0.75 * bodies.Edge());
+}
+
+// A scan that ends at the neck. The round trip says where the map is wrong.
+TEST(Correspond, TrustsItselfLessWhereTheTargetHasNothing) {
+  const Remeshed bodies;
+  // The target without its highest part, ears and all, left open.
+  const double cut = 1.25;
+  std::vector<Eigen::Vector3i> kept;
+  for (const Eigen::Vector3i triangle : bodies.second.connectivity->Triangles().colwise()) {
+    if ((bodies.target(1, triangle).array() < cut).all()) kept.push_back(triangle);
+  }
+  Eigen::Matrix3Xi triangles(3, kept.size());
+  for (size_t f = 0; f < kept.size(); ++f) triangles.col(static_cast<Eigen::Index>(f)) = kept[f];
+  std::vector<Marker> markers;
+  for (const Marker& marker : bodies.markers) {
+    if (bodies.target(1, marker.target_vertex) < cut - 0.2) markers.push_back(marker);
+  }
+  const CorrespondenceResult result =
+      Correspond(bodies.first.connectivity, bodies.rest,
+                 Connectivity::FromTriangles(bodies.second.connectivity->NumVertices(), triangles),
+                 bodies.target, markers);
+  EXPECT_TRUE(Names(result.summary.warnings, "border")) << result.summary.FullReport();
+  double above = 0, below = 0;
+  int num_above = 0, num_below = 0;
+  const Eigen::VectorXd errors = bodies.Errors(result.map);
+  double wrong_below = 0;
+  for (int v = 0; v < bodies.rest.cols(); ++v) {
+    if (bodies.rest(1, v) > cut + 0.1) {
+      above += result.map.round_trip(v), ++num_above;
+    } else if (bodies.rest(1, v) < cut - 0.2) {
+      below += result.map.round_trip(v), ++num_below;
+      wrong_below += errors(v);
+    }
+  }
+  // Where the surface goes on beyond the border, the template does so too.
+  double off_beyond = 0;
+  int num_beyond = 0;
+  for (int v = 0; v < bodies.rest.cols(); ++v) {
+    if (bodies.rest(1, v) < cut || bodies.rest(1, v) > cut + 0.15) continue;
+    off_beyond += (result.fitted.col(v) - bodies.rest.col(v)).norm(), ++num_beyond;
+  }
+  ASSERT_GT(num_beyond, 20);
+  EXPECT_LT(off_beyond / num_beyond, 0.5 * bodies.Edge());
+  ASSERT_GT(num_above, 20);
+  EXPECT_GT(above / num_above, 5 * below / num_below);
+  EXPECT_LT(wrong_below / num_below, bodies.Edge());
+}
+
+TEST(Correspond, NamesAWrongMarkerAndLeavesItOut) {
+  Remeshed bodies("sit");
+  const double right = bodies.Errors(bodies.Fit().map).mean();
+  // To where the last marker is, which is left out.
+  const Marker last = bodies.markers.back();
+  bodies.markers.pop_back();
+  bodies.markers[2].target_vertex = last.target_vertex;
+  const CorrespondenceResult result = bodies.Fit();
+  ASSERT_EQ(result.summary.doubtful.size(), 1u) << result.summary.FullReport();
+  EXPECT_EQ(result.summary.doubtful[0].marker, 2);
+  EXPECT_EQ(result.summary.doubtful[0].swapped, -1);
+  EXPECT_EQ(result.summary.markers, 14);
+  EXPECT_TRUE(Names(result.summary.warnings, "marker 3 "));
+  EXPECT_LT(bodies.Errors(result.map).mean(), 2 * right);
+  CorrespondenceOptions hold;
+  hold.drop_doubtful = false;
+  const CorrespondenceResult held = bodies.Fit(hold);
+  EXPECT_EQ(held.summary.markers, 15);
+  EXPECT_GT(bodies.Errors(held.map).mean(), 2 * bodies.Errors(result.map).mean());
+}
+
+TEST(Correspond, NamesMarkersThatHaveChangedPlaces) {
+  Remeshed bodies("stretch");
+  std::swap(bodies.markers[1].target_vertex, bodies.markers[5].target_vertex);
+  const CorrespondenceResult result = bodies.Fit();
+  ASSERT_EQ(result.summary.doubtful.size(), 2u) << result.summary.FullReport();
+  std::set<int> named;
+  for (const auto& doubt : result.summary.doubtful) {
+    named.insert(doubt.marker);
+    EXPECT_EQ(doubt.swapped, doubt.marker == 1 ? 5 : 1);
+  }
+  EXPECT_EQ(named, (std::set<int>{1, 5}));
+  EXPECT_TRUE(Names(result.summary.warnings, "changed places with marker 6"));
+}
+
+TEST(Correspond, RefusesMarkersThatCannotDo) {
+  const Remeshed bodies;
+  const auto message = [&](const std::function<void(std::vector<Marker>*)>& change) {
+    Remeshed changed = bodies;
+    change(&changed.markers);
+    return MessageOf<MeshError>([&] { changed.Fit(); });
+  };
+  const auto expect = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  expect(message([](auto* m) { m->resize(2); }), "2 markers are too few");
+  expect(message([](auto* m) { m->clear(); }), "0 markers are too few");
+  expect(message([](auto* m) { (*m)[1] = (*m)[0]; }), "marker 2 and marker 1 are on the same");
+  expect(message([](auto* m) { (*m)[3].target_vertex = 100000; }),
+         "marker 4: the target has no vertex 100001");
+  expect(message([](auto* m) { (*m)[3].template_vertex = -1; }),
+         "marker 4: the template has no vertex 0");
+  const Body bar = MakeBar(6, 1, 1, 24, 4, 4);
+  const Shape rest = bar.pose(0);
+  std::vector<Marker> line;  // a long edge of the bar
+  for (int v = 0; v < rest.cols(); ++v) {
+    if (rest(1, v) == rest.row(1).maxCoeff() && rest(2, v) == rest.row(2).maxCoeff()) {
+      line.push_back({v, v});
+    }
+  }
+  ASSERT_GE(line.size(), 3u);
+  expect(MessageOf<MeshError>(
+             [&] { Correspond(bar.connectivity, rest, bar.connectivity, rest, line); }),
+         "on one line of the template");
+}
+
+TEST(Correspond, RefusesAMirrorImage) {
+  Remeshed bodies;
+  bodies.target.row(0) *= -1;
+  const std::string message = MessageOf<MeshError>([&] { bodies.Fit(); });
+  EXPECT_NE(message.find("mirror image"), std::string::npos) << message;
+}
+
+TEST(Correspond, RefusesShapesThatAreNone) {
+  const Remeshed bodies;
+  const auto expect = [&](const std::function<void(Remeshed*)>& change, const std::string& part) {
+    Remeshed changed = bodies;
+    change(&changed);
+    const std::string message = MessageOf<MeshError>([&] { changed.Fit(); });
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  expect([](Remeshed* b) { b->target(0, 7) = std::numeric_limits<double>::quiet_NaN(); },
+         "the target has a coordinate");
+  expect([](Remeshed* b) { b->rest.conservativeResize(3, 5); }, "the template has");
+  expect([](Remeshed* b) { b->rest.setOnes(); }, "the template has no area");
+}
+
+// A copy of the body beside it, as a second component.
+std::shared_ptr<const Connectivity> Twice(const Connectivity& connectivity) {
+  Eigen::Matrix3Xi triangles(3, 2 * connectivity.NumTriangles());
+  triangles << connectivity.Triangles(),
+      connectivity.Triangles().array() + connectivity.NumVertices();
+  return Connectivity::FromTriangles(2 * connectivity.NumVertices(), triangles);
+}
+
+Shape Beside(const Shape& shape) {
+  Shape both(3, 2 * shape.cols());
+  both << shape, shape.colwise() + Eigen::Vector3d(3, 0, 0);
+  return both;
+}
+
+TEST(Correspond, SaysWhatItDoesWithFurtherComponents) {
+  const Remeshed bodies;
+  const CorrespondenceResult result =
+      Correspond(bodies.first.connectivity, bodies.rest, Twice(*bodies.second.connectivity),
+                 Beside(bodies.target), bodies.markers);
+  EXPECT_TRUE(Names(result.summary.warnings, "2 components")) << result.summary.FullReport();
+  const Eigen::VectorXi& triangle = result.map.to_target.triangle;
+  EXPECT_LT(triangle.maxCoeff(), bodies.second.connectivity->NumTriangles());
+  const std::string message = MessageOf<MeshError>([&] {
+    Correspond(Twice(*bodies.first.connectivity), Beside(bodies.rest), bodies.second.connectivity,
+               bodies.target, bodies.markers);
+  });
+  EXPECT_NE(message.find("has no marker"), std::string::npos) << message;
+}
+
+// A hand on a hip: the nearest point is on the other limb.
+TEST(Correspond, DoesNotTakeOneLegForAnother) {
+  Remeshed bodies;
+  // Legs are pressed together until left and right pass through each other a little.
+  for (Shape* shape : {&bodies.target}) {
+    for (int v = 0; v < shape->cols(); ++v) {
+      const double height = (*shape)(1, v);
+      if (height < 0.6) (*shape)(0, v) *= 1 - 0.75 * std::min(1.0, (0.6 - height) / 0.3);
+    }
+  }
+  const CorrespondenceResult result = bodies.Fit();
+  const Shape landed =
+      Pull(result.map.to_target, bodies.second.connectivity->Triangles(), bodies.other_rest);
+  int wrong = 0, low = 0;
+  for (int v = 0; v < landed.cols(); ++v) {
+    if (bodies.rest(1, v) > 0.3) continue;
+    ++low;
+    wrong += landed(0, v) * bodies.rest(0, v) < 0;
+  }
+  ASSERT_GT(low, 50);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(Correspond, SaysWhenItHasNotComeToRest) {
+  const Remeshed bodies("sit");
+  CorrespondenceOptions options;
+  options.max_iterations = 1;
+  options.tolerance = 1e-9;
+  const CorrespondenceResult result = bodies.Fit(options);
+  EXPECT_FALSE(result.summary.Converged());
+  EXPECT_TRUE(Names(result.summary.warnings, "did not come to rest"));
+  EXPECT_NE(result.summary.BriefReport().find("not converged"), std::string::npos);
+}
+
+TEST(Correspond, StopsWhenAskedTo) {
+  const Remeshed bodies("sit");
+  const auto run = [&](Progress* progress) {
+    return Correspond(bodies.first.connectivity, bodies.rest, bodies.second.connectivity,
+                      bodies.target, bodies.markers, {}, progress);
+  };
+  Listener all;
+  run(&all);
+  ASSERT_GT(all.reports, 5);
+  Listener first(1), early(3), late(all.reports - 1);
+  EXPECT_THROW(run(&first), Cancelled);
+  EXPECT_THROW(run(&early), Cancelled);
+  const CorrespondenceResult result = run(&late);
+  EXPECT_TRUE(result.summary.cancelled);
+  EXPECT_FALSE(result.summary.Converged());
+}
+
+TEST(Correspond, RefusesOptionsByName) {
+  const auto message = [](const std::function<void(CorrespondenceOptions*)>& change) {
+    CorrespondenceOptions options;
+    change(&options);
+    return MessageOf<InvalidOptions>([&] { options.Validate(); });
+  };
+  EXPECT_EQ(message([](auto* o) { o->proportions = 0; }).rfind("proportions: ", 0), 0u);
+  EXPECT_EQ(message([](auto* o) { o->bending = -1; }).rfind("bending: ", 0), 0u);
+  EXPECT_EQ(message([](auto* o) { o->tolerance = 1; }).rfind("tolerance: ", 0), 0u);
+  EXPECT_EQ(message([](auto* o) { o->max_iterations = 0; }).rfind("max_iterations: ", 0), 0u);
+  EXPECT_EQ(message([](auto* o) { o->coarsest = 0; }).rfind("coarsest: ", 0), 0u);
+}
+
+TEST(Correspond, ReportsAreWhole) {
+  const Remeshed bodies;
+  const CorrespondenceResult result = bodies.Fit();
+  const auto json = nlohmann::json::parse(result.summary.ToJson());
+  EXPECT_EQ(json["markers"], 16);
+  EXPECT_EQ(json["template"]["vertices"], bodies.rest.cols());
+  EXPECT_GE(json["stages"].size(), 3u);
+  EXPECT_NE(result.summary.FullReport().find("Round trip"), std::string::npos);
+  const Image image =
+      RenderCorrespondence(*bodies.first.connectivity, bodies.rest, *bodies.second.connectivity,
+                           bodies.target, bodies.markers, result);
+  EXPECT_GT(image.width, 300);
+  EXPECT_GT(image.height, 300);
+}
+
+// Poses of the one mesh are made on the other's own faces.
+TEST(CarryPath, TakesATransferredPoseToTheTargetsOwnMesh) {
+  const Remeshed bodies;
+  const CorrespondenceResult fit = bodies.Fit();
+  const PoseTransferResult moved =
+      TransferPoses(bodies.first.connectivity, {bodies.rest, bodies.first.pose("sit")}, fit.fitted);
+  const Path path = CarryPath(fit, moved.path, bodies.second.connectivity, bodies.target);
+  ASSERT_EQ(path.NumShapes(), 2);
+  EXPECT_NO_THROW(path.Validate());
+  EXPECT_LT((path.Placed(0) - bodies.target).colwise().norm().maxCoeff(), 1e-9);
+  const Shape wanted = bodies.second.pose("sit");
+  const RigidMotion motion =
+      FitRigidMotion(path.Placed(1), wanted, Eigen::VectorXd::Ones(wanted.cols()));
+  const double off = (motion(path.Placed(1)) - wanted).colwise().norm().mean();
+  EXPECT_LT(off, 0.5 * bodies.Edge());
+}
+
+// What the template has nothing for goes along, and is not torn off.
+TEST(CarryPath, KeepsTogetherWhatTheTemplateDoesNotHave) {
+  const Remeshed bodies;
+  const double cut = 1.25;  // the template ends at the neck
+  const auto& all = bodies.first.connectivity->Triangles();
+  std::vector<int> kept;
+  for (int f = 0; f < all.cols(); ++f) {
+    if ((bodies.rest(1, all.col(f)).array() < cut).all()) kept.push_back(f);
+  }
+  const auto headless =
+      Connectivity::FromTriangles(bodies.first.connectivity->NumVertices(), all(Eigen::all, kept));
+  std::vector<Marker> markers;
+  for (const Marker& marker : bodies.markers) {
+    if (bodies.rest(1, marker.template_vertex) < cut - 0.1) markers.push_back(marker);
+  }
+  const CorrespondenceResult fit =
+      Correspond(headless, bodies.rest, bodies.second.connectivity, bodies.target, markers);
+  EXPECT_GT(fit.summary.uncovered, 0.05);
+  EXPECT_TRUE(Names(fit.summary.warnings, "covered by no part"));
+  const PoseTransferResult moved =
+      TransferPoses(headless, {bodies.rest, bodies.first.pose("sit")}, fit.fitted);
+  const Shape sitting =
+      CarryPath(fit, moved.path, bodies.second.connectivity, bodies.target).Placed(1);
+  double most = 0;
+  for (const auto& edge : bodies.second.connectivity->Edges().colwise()) {
+    const auto length = [&](const Shape& shape) {
+      return (shape.col(edge(0)) - shape.col(edge(1))).norm();
+    };
+    most = std::max(most, length(sitting) / length(bodies.target));
+  }
+  EXPECT_LT(most, 3);
+}
+
+}  // namespace
+}  // namespace shapespace

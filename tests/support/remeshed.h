@@ -1,0 +1,63 @@
+#ifndef SHAPESPACE_TESTS_SUPPORT_REMESHED_H_
+#define SHAPESPACE_TESTS_SUPPORT_REMESHED_H_
+
+#include <string>
+#include <vector>
+
+#include <shapespace/bodies/quadruped.h>
+#include <shapespace/solvers/correspondence.h>
+
+namespace shapespace::testing {
+
+/// One animal as two meshes of different connectivity, whose vertices have nothing to do with each
+/// other: the template stands, the target is in a pose.
+struct Remeshed {
+  SkinnedBody first, second;
+  Shape rest, other_rest;  ///< both standing: points that are near belong together
+  Shape target;
+  std::vector<Marker> markers;
+
+  explicit Remeshed(const std::string& pose = "stand", int first_triangles = 2400,
+                    int second_triangles = 3300, int num_markers = 16,
+                    const QuadrupedForm& form = {})
+      : first(MakeQuadruped(first_triangles)),
+        second(MakeQuadruped(second_triangles)),
+        rest(first.pose("stand")),
+        other_rest(second.pose("stand")),
+        target(MakeQuadruped(second_triangles, form).pose(pose)) {
+    // Far from each other; the target's are the nearest vertices.
+    Eigen::RowVectorXd distance = (rest.colwise() - rest.rowwise().mean()).colwise().squaredNorm();
+    for (int k = 0; k < num_markers; ++k) {
+      Eigen::Index from = 0, to = 0;
+      distance.maxCoeff(&from);
+      distance = distance.cwiseMin(
+          Eigen::RowVectorXd((rest.colwise() - rest.col(from)).colwise().squaredNorm()));
+      if (k == 0) distance = (rest.colwise() - rest.col(from)).colwise().squaredNorm();
+      (other_rest.colwise() - rest.col(from)).colwise().squaredNorm().minCoeff(&to);
+      markers.push_back({static_cast<int>(from), static_cast<int>(to)});
+    }
+  }
+
+  CorrespondenceResult Fit(const CorrespondenceOptions& options = {}) const {
+    return Correspond(first.connectivity, rest, second.connectivity, target, markers, options);
+  }
+
+  /// Of each vertex of the template how far it lands from where it belongs.
+  Eigen::VectorXd Errors(const SurfaceMap& map) const {
+    const Shape landed = Pull(map.to_target, second.connectivity->Triangles(), other_rest);
+    return (landed - rest).colwise().norm();
+  }
+
+  /// The mean edge of the coarser mesh.
+  double Edge() const {
+    double sum = 0;
+    for (const auto& edge : first.connectivity->Edges().colwise()) {
+      sum += (rest.col(edge(0)) - rest.col(edge(1))).norm();
+    }
+    return sum / first.connectivity->NumEdges();
+  }
+};
+
+}  // namespace shapespace::testing
+
+#endif  // SHAPESPACE_TESTS_SUPPORT_REMESHED_H_

@@ -1,0 +1,104 @@
+// A template, fitted onto another body, and the map between the two surfaces.
+
+#include <gflags/gflags.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/extension.h>
+#include <shapespace/output/frames.h>
+#include <shapespace/solvers/correspondence.h>
+#include <shapespace/solvers/correspondence_picture.h>
+#include <shapespace/solvers/marker_file.h>
+
+#include "support/correspondence_flags.h"
+#include "support/frames.h"
+#include "support/lists.h"
+#include "support/report.h"
+#include "support/solve_progress.h"
+#include "support/tool.h"
+
+DEFINE_string(output, "fitted.obj,map.txt,check.png",
+              "files to write, separated by commas: .obj or .ply (the template as fitted), .txt "
+              "(the map, both ways), .png (a picture to judge it by)");
+DEFINE_bool(allow_nonmanifold, false,
+            "take meshes with non-manifold edges or vertices, or inconsistent winding");
+
+namespace shapespace::tools {
+namespace {
+
+std::vector<std::string> Outputs() {
+  std::vector<std::string> outputs;
+  for (const std::string& output : Split(FLAGS_output)) {
+    if (output.empty()) continue;
+    const std::string extension = Extension(output);
+    if (extension != ".obj" && extension != ".ply" && extension != ".txt" && extension != ".png") {
+      throw UsageError("--output " + output + ": must end in .obj, .ply, .txt or .png");
+    }
+    CheckCanBeWritten(output);
+    outputs.push_back(output);
+  }
+  if (outputs.empty()) throw UsageError("--output: names no file");
+  return outputs;
+}
+
+Poses ReadMesh(const std::string& file) {
+  ReadOptions options;
+  options.allow_nonmanifold = FLAGS_allow_nonmanifold;
+  Poses mesh = ReadPoses({file}, options);
+  for (const std::string& warning : mesh.warnings) Err() << "warning: " << warning << '\n';
+  for (const std::string& dropped : mesh.soup.dropped) Err() << "note: " << dropped << '\n';
+  return mesh;
+}
+
+void Run(const std::vector<std::string>& files) {
+  if (files.size() != 2) throw UsageError("name two meshes: the template and the target");
+  if (FLAGS_markers.empty()) {
+    throw UsageError("--markers: name the file of vertices that belong together");
+  }
+  const CorrespondenceOptions options = CorrespondenceFromFlags();
+  const std::vector<std::string> outputs = Outputs();
+  CheckNothingIsOverwritten({files[0], files[1], FLAGS_markers},
+                            {{"output", outputs}, ReportFromFlag()});
+  const Poses first = ReadMesh(files[0]), second = ReadMesh(files[1]);
+  const std::vector<Marker> markers = ReadMarkers(FLAGS_markers, first, second);
+  const CorrespondenceResult result =
+      Correspond(first.connectivity, first.shapes[0], second.connectivity, second.shapes[0],
+                 markers, options, SolveProgress(outputs).get());
+  PrintSummary(result.summary.BriefReport(), result.summary.warnings, result.summary.Converged());
+  for (const std::string& output : outputs) {
+    const std::string extension = Extension(output);
+    if (extension == ".txt") {
+      WriteSurfaceMap(output, result.map);
+    } else if (extension == ".png") {
+      WritePng(output,
+               RenderCorrespondence(*first.connectivity, first.shapes[0], *second.connectivity,
+                                    second.shapes[0], markers, result));
+    } else {
+      WriteMeshAndTell(output, result.fitted,
+                       FrameSoup(*first.connectivity, first.soup.appearance));
+      continue;
+    }
+    Out() << "wrote " << output << '\n';
+  }
+  WriteReport(result.summary.FullReport(), result.summary.ToJson());
+}
+
+}  // namespace
+}  // namespace shapespace::tools
+
+int main(int argc, char** argv) {
+  using namespace shapespace::tools;
+  return RunTool(
+      argc, argv,
+      {"shape-correspond",
+       "a template fitted onto another body of any connectivity, and the map between them",
+       "  shape-correspond cat.obj lion.obj --markers cat_lion.txt \\\n"
+       "    --output fitted.obj,map.txt,check.png\n\n"
+       "A line of the markers' file names a vertex of the template and the one of the target that "
+       "belongs\nto it; twenty of them, at the ends of limbs and at joints, are a good start. "
+       "The fitted template\nhas the template's faces, and goes with the template's poses into "
+       "every other tool. Look at the\npicture before you trust the map.\n\n"
+       "What did not converge says so, its outputs are written, and the exit code is 0, or with "
+       "--strict 1.",
+       {"shape_correspond.cc", "support/correspondence_flags.cc", "support/report.cc"}},
+      Run);
+}

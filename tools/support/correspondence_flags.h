@@ -1,0 +1,20 @@
+#ifndef SHAPESPACE_TOOLS_SUPPORT_CORRESPONDENCE_FLAGS_H_
+#define SHAPESPACE_TOOLS_SUPPORT_CORRESPONDENCE_FLAGS_H_
+
+#include <string>
+
+#include <gflags/gflags.h>
+
+#include <shapespace/mesh/read.h>
+#include <shapespace/solvers/correspondence.h>
+
+DECLARE_string(markers);
+
+namespace shapespace::tools {
+
+/// How to fit, as the flags say. \throw UsageError.
+CorrespondenceOptions CorrespondenceFromFlags();
+
+}  // namespace shapespace::tools
+
+#endif  // SHAPESPACE_TOOLS_SUPPORT_CORRESPONDENCE_FLAGS_H_
