@@ -225,5 +225,24 @@ TEST(AngularVelocity, SolvesTheNormalEquationsAndLeavesOutTheAxisOfALine) {
   EXPECT_TRUE((degenerate * c).isApprox(degenerate * spin, 1e-12));
 }
 
+// One vertex inside a sheet goes nearly all the way to a neighbour: an edge is a hundred-thousandth
+// of the others, and the two triangles at it are slivers. None of them may freeze what hangs on it.
+TEST(FreezeMetric, SliversAndShortEdgesWeighNoMoreThanTheyHaveTo) {
+  const Body sheet = MakeSheet(1, 1, 6, 6);
+  Shape shape = sheet.pose(0);
+  const Eigen::Matrix2Xi& edges = sheet.connectivity->Edges();
+  int inner = 0;
+  const auto is_inner = [&](int v) { return shape.col(v).head<2>().cwiseAbs().maxCoeff() < 0.3; };
+  while (!is_inner(edges(0, inner)) || !is_inner(edges(1, inner))) ++inner;
+  const int from = edges(0, inner), to = edges(1, inner);
+  const Metric before = FreezeMetric({}, sheet.connectivity, {shape});
+  shape.col(from) += (1 - 1e-5) * (shape.col(to) - shape.col(from));
+  const Metric after = FreezeMetric({}, sheet.connectivity, {shape});
+  const auto heaviest = [](const auto& feature) { return feature.weights.maxCoeff(); };
+  // An edge that is a thousandth as long as the others weighs a million times as much.
+  EXPECT_LT(heaviest(Get<EdgeLength>(after)), 1e7 * heaviest(Get<EdgeLength>(before)));
+  EXPECT_LT(heaviest(Get<Dihedral>(after)), 5 * heaviest(Get<Dihedral>(before)));
+}
+
 }  // namespace
 }  // namespace shapespace

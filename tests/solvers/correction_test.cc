@@ -19,6 +19,7 @@
 
 #include "support/listener.h"
 #include "support/message_of.h"
+#include "support/motions.h"
 #include "support/path_of.h"
 #include "support/paths.h"
 
@@ -157,9 +158,11 @@ TEST(CorrectPath, LeavesAnIsometricPathAlone) {
   EXPECT_NEAR(summary.deformation_left, 1, 1e-10);
 }
 
-TEST(CorrectPath, LeavesAPathThatDoesNotMoveAlone) {
+TEST(CorrectPath, LeavesAPathThatOnlyTurnsAlone) {
   const Shape shape = MakeBar(4, 1, 1, 4, 1, 1).pose(20);
-  const Path given = PathOf(MakeBar(4, 1, 1, 4, 1, 1).connectivity, {shape, shape, shape});
+  const Eigen::Matrix3d turn = testing::Rotation(1e-3, {1, 2, 3});
+  const Path given =
+      PathOf(MakeBar(4, 1, 1, 4, 1, 1).connectivity, {shape, turn * shape, turn * turn * shape});
   for (const CorrectionMode mode : {CorrectionMode::kProximal, CorrectionMode::kPaper}) {
     CorrectionOptions options;
     options.mode = mode;

@@ -231,6 +231,15 @@ TEST(SearchLine, FindsAStepThatSatisfiesTheWolfeConditions) {
   }
 }
 
+// A parabola on top of a number so large that its values do not differ.
+TEST(SearchLine, SlopesDecideWhereValuesDifferByRoundingOnly) {
+  const auto evaluate = [](double step) {
+    return LinePoint{step, 1e6 + 1e-12 * std::pow(step - 0.9, 2), 2e-12 * (step - 0.9)};
+  };
+  const LinePoint end = SearchLine(evaluate(0), evaluate);
+  EXPECT_EQ(end.step, 1);
+}
+
 TEST(SearchLine, StaysWhereNothingIsLower) {
   const LinePoint start = {0, 1, -1};  // a slope that lies
   const LinePoint end = SearchLine(start, [](double step) { return LinePoint{step, 1 + step, 1}; });

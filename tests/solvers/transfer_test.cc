@@ -115,6 +115,28 @@ TEST(FindNearestShape, FindsAShapeByItsFeatures) {
   EXPECT_LT(early.squared_distance, (map.Values(start) - wanted).squaredNorm());
 }
 
+// Whole steps of Gauss and Newton's method overshoot here.
+TEST(FindNearestShape, ShortensStepsThatLeadTooFar) {
+  const Metric metric =
+      FreezeMetric(MetricOptions::Strain(), ThickBar().connectivity, {ThickBar().pose(0)});
+  const FeatureMap map(metric);
+  const Shape start = ThickBar().pose(0) / metric.unit, bent = ThickBar().pose(150) / metric.unit;
+  internal::MetricSolver solver;
+  const internal::NearestShape found = internal::FindNearestShape(
+      map, map.Values(bent), start, {1e-20, 100}, [] {}, &solver);
+  EXPECT_TRUE(found.converged);
+  EXPECT_LT(Apart(found.shape, bent), 1e-6);
+}
+
+// A triangle of the target is but a point.
+TEST(GradientTransfer, CollapsedTrianglesMakeNoNan) {
+  const Connectivity& bar = *ThickBar().connectivity;
+  Shape target = ThinBar();
+  for (int k : {1, 2}) target.col(bar.Triangles()(k, 0)) = target.col(bar.Triangles()(0, 0));
+  const internal::GradientTransfer transfer(ThickBar().connectivity, ThickBar().pose(0), target);
+  EXPECT_TRUE(transfer(ThickBar().pose(60)).allFinite());
+}
+
 // Wherever the target lies and however large it is.
 TEST_P(AnyTransfer, BendsAnotherBarAsSumnerAndPopovicDo) {
   const bool ladder = GetParam() == TransferMethod::kLadder;

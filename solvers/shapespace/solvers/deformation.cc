@@ -26,9 +26,7 @@ namespace {
 using internal::HandleTargets;
 using internal::HeldLevel;
 
-// While handles go their way on the coarsest level, no handle turns by more than this in a step,
-// and there are at least so many steps.
-constexpr double kFollowTurn = M_PI / 12;
+// Handles go their way on the coarsest level in so many steps at least.
 constexpr int kFollowSteps = 10;
 
 // A solve goes on from the last one if no handle turns by more than this beside it, in radians, and
@@ -38,9 +36,6 @@ constexpr double kLittle = 0.1;
 // Where another level follows, a solve may stop when a step is expected to gain less than this
 // share of what was gained.
 constexpr double kEnough = 1e-3;
-
-// Of the mesh itself: shares of what is left mean nothing where all of it can be gained.
-constexpr double kAllGained = 1e-12;
 
 // Paths of which a handle turns farther than this from shape to shape are told of: bars were found
 // to slip out of turns by 180 degrees between neighbours, and not by 120.
@@ -242,9 +237,7 @@ internal::MinimiseOptions Deformer::Solver::Minimise() const {
 // that is wound up may slip back.
 std::vector<Shape> Deformer::Solver::Follow(const HandleTargets& targets, Progress* progress) {
   HeldLevel& level = levels_.front();
-  const int least =
-      std::max(kFollowSteps, static_cast<int>(std::ceil(targets.GreatestTurn() / kFollowTurn)));
-  const int between = (least + options_.shapes - 1) / options_.shapes;
+  const int between = (kFollowSteps + options_.shapes - 1) / options_.shapes;
   const int steps = between * options_.shapes;
   internal::MinimiseOptions minimise = Minimise();
   std::vector<Shape> way = {level.Rest()}, result = way;
@@ -294,7 +287,7 @@ void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char
                       (options_.shapes == 1 ? " shape" : " shapes"),
                   vertices, options_.shapes, finest);
   internal::MinimiseOptions minimise = Minimise();
-  minimise.enough = finest ? kAllGained : kEnough;
+  minimise.enough = finest ? 0 : kEnough;
   minimise.keep_going = [&](int iteration, double value) {
     return workload->GoOn(iteration, value);
   };

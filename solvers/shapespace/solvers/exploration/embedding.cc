@@ -107,7 +107,6 @@ Embedding Embed(const Eigen::MatrixXd& distances, const EmbeddingOptions& option
     const Eigen::Matrix2Xd next = GuttmanTransform(result.points, distances);
     const double stress = Stress(next, distances);
     result.converged = !(stress < (1 - options.tolerance) * result.stress) || stress <= kNoStress;
-    if (!(stress < result.stress)) break;  // but for rounding it never rises
     result.points = next;
     result.stress = stress;
     result.stresses.push_back(stress);

@@ -70,7 +70,6 @@ void HeldLevel::GoAlong(const std::vector<Shape>& places, std::vector<Shape>* sh
   std::vector<Tangent> ways(last, Tangent::Zero(3, component_.size()));
   for (size_t i = 1; i <= last; ++i) {
     for (const Held& held : held_) {
-      if (i < last && !held.carried) continue;
       ways[i - 1].col(held.vertex) = places[i].col(held.column) - (*shapes)[i].col(held.vertex);
     }
   }

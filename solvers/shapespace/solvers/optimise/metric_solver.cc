@@ -94,7 +94,6 @@ MetricSolver::Result MetricSolver::Solve(const FeatureDerivative& left,
     target(0) = 1;
     coefficients = small.householderQr().solve(target);
     result.residual = (small * coefficients - target).norm();
-    if (!(hessenberg(k + 1, k) > 0)) break;  // the basis holds the solution
     basis.push_back(next / hessenberg(k + 1, k));
   }
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(start.size());

@@ -7,14 +7,6 @@
 #include <shapespace/solvers/optimise/resolution.h>
 
 namespace shapespace::internal {
-namespace {
-
-// What is minimised is a pure number. Below this it is zero but for rounding, and shares of it mean
-// nothing.
-constexpr double kZero = 1e-20;
-
-}  // namespace
-
 PathEnergy& PulledPath::EnergyOf(int segments) {
   if (!energy_ || energy_->Inner() != segments) {
     energy_.emplace(*metric_, segments, PathEnergy::End::kFree);
@@ -58,16 +50,10 @@ MinimiseResult PulledPath::Relax(const Shape& target, const MinimiseOptions& opt
     }
     return value;
   };
-  MinimiseResult result;
-  result.initial_energy = result.energy = objective(unknowns.data(), nullptr);
-  if (result.energy < kZero) {
-    result.stop = Stop::kConverged;
-    return result;
-  }
   FreeEndPreconditioner preconditioner(factors_, energy);
   MinimiseOptions own = options;
   own.rank = HistoryRank(static_cast<double>(unknowns.size()));
-  result = MinimiseThreadedLbfgs(
+  const MinimiseResult result = MinimiseThreadedLbfgs(
       objective,
       [&](const double* gradient, double unit, double* step) {
         preconditioner.Apply(gradient, unit, step);

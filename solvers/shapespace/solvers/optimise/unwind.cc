@@ -143,7 +143,7 @@ void Mover::Move(const std::vector<int>& group) {
   }
   SortUnique(&around);
   SortUnique(&elements);
-  if (around.size() < 3) return;  // which hold no rotation
+  if (around.empty()) return;
 
   const size_t last = shapes_.size() - 1;
   const Eigen::VectorXd weights = Eigen::VectorXd::Ones(static_cast<int>(around.size()));
@@ -204,9 +204,8 @@ void Unwind(const Metric& metric, std::vector<Shape>* shapes) {
     for (int h : hinges) {
       const Eigen::Vector4i stencil = dihedral->stencils.col(h);
       mover.Move({stencil(0), stencil(1), stencil(2), stencil(3)});
-      for (int v : stencil) mover.Move({v});
     }
-    for (int v : vertices) mover.Move({v});  // now that all others have moved
+    for (int v : vertices) mover.Move({v});
   }
 }
 
