@@ -9,12 +9,15 @@
 namespace shapespace::internal {
 namespace {
 
+// Meshes up to this size are solved from every start: they take milliseconds, and hold enough of
+// the shape to tell good valleys from bad ones.
+constexpr int kTrialVertices = 1000;
+
 // Where another level follows, a solve may stop when a further step is expected to gain less than
 // this share of what it has gained. Refinement in time by cubics has an error of fourth order; the
 // energy in excess goes with its square, and so falls by 256 from one level to the next. What the
-// next one will add is thus at least a 256th of what this one added; this is a 32nd of that. (With an
-// eighth, paths ended a third of a per cent higher, in the mean over 19 real pairs.)
-constexpr double kEnough = 1.0 / 8192;
+// next one will add is thus at least a 256th of what this one added; this is an eighth of that.
+constexpr double kEnough = 1.0 / 2048;
 
 const char* Name(Start start) {
   switch (start) {
@@ -41,6 +44,17 @@ int NumVertices(const Resolution& resolution) {
   return resolution.GetMetric().connectivity->NumVertices();
 }
 
+// How many steps it takes milliseconds to take.
+size_t TrialSteps(const std::vector<ScheduleStep>& schedule,
+                  const std::vector<Resolution>& resolutions) {
+  size_t trial = 1;
+  while (trial < schedule.size() && schedule[trial].shapes == 1 &&
+         NumVertices(resolutions[schedule[trial].level]) <= kTrialVertices) {
+    ++trial;
+  }
+  return trial;
+}
+
 std::vector<double> UniformTimes(int inner) {
   std::vector<double> times(inner + 2);
   for (int i = 0; i < inner + 2; ++i) times[i] = static_cast<double>(i) / (inner + 1);
@@ -51,8 +65,9 @@ std::vector<double> UniformTimes(int inner) {
 
 void Plan(const std::vector<ScheduleStep>& schedule, const std::vector<Resolution>& resolutions,
           Start start, Workload* workload) {
+  const size_t trial = TrialSteps(schedule, resolutions), starts = Starts(start).size();
   for (size_t i = 0; i < schedule.size(); ++i) {
-    for (size_t k = 0; k < (i == 0 ? Starts(start).size() : 1); ++k) {
+    for (size_t k = 0; k < (i < trial ? starts : 1); ++k) {
       workload->Plan(NumVertices(resolutions[schedule[i].level]), schedule[i].shapes,
                      i + 1 == schedule.size());
     }
@@ -74,16 +89,17 @@ void Piece::Run(const std::vector<ScheduleStep>& schedule) {
     ends[level].shapes = {resolutions_[level].Pose(index_), resolutions_[level].Pose(index_ + 1)};
     if (level > 0) ends[level].base = ends[level - 1].shapes;
   }
+  const size_t trial = TrialSteps(schedule, resolutions_);
   Attempt best;
   for (Start start : Starts(options_.start)) {
-    Attempt attempt = TakeSteps(schedule, 0, 1, {start, ends});
+    Attempt attempt = TakeSteps(schedule, 0, trial, {start, ends});
     const bool better =
         best.known.empty() || (attempt.energy < best.energy && !workload_.Stopped());
     for (size_t row : (better ? best : attempt).rows) summary_.levels[row].kept = false;
     if (better) best = std::move(attempt);
     if (workload_.Stopped()) break;
   }
-  known_ = TakeSteps(schedule, 1, schedule.size(), std::move(best)).known;
+  known_ = TakeSteps(schedule, trial, schedule.size(), std::move(best)).known;
 }
 
 Piece::Attempt Piece::TakeSteps(const std::vector<ScheduleStep>& schedule, size_t begin, size_t end,
