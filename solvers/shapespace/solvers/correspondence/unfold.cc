@@ -95,9 +95,9 @@ std::vector<int> CountTurned(const std::vector<bool>& turned, const Eigen::Matri
 Foot MapVertex(const Level& level, const Shape& shape, const Shape& normals, const Target& target,
                int v) {
   const int vertex = level.vertices[v];
-  const Foot foot = target.Nearest(shape.col(v), normals.col(v), vertex);
+  Foot foot = target.Nearest(shape.col(v), normals.col(v), vertex);
   if (foot.triangle >= 0) return foot;
-  const Foot other = target.GetSurface().Nearest(shape.col(v), [&](int f) {
+  Foot other = target.GetSurface().Nearest(shape.col(v), [&](int f) {
     return target.Distances().MayMatch(vertex, target.GetConnectivity().Triangles()(0, f));
   });
   return other.triangle >= 0 ? other : target.GetSurface().Nearest(shape.col(v));
