@@ -12,6 +12,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
+#include <shapespace/solvers/correspondence/closest.h>
 #include <shapespace/solvers/correspondence_picture.h>
 #include <shapespace/solvers/transfer.h>
 
@@ -166,6 +167,30 @@ TEST(Correspond, TrustsItselfLessWhereTheTargetHasNothing) {
   EXPECT_LT(wrong_below / num_below, bodies.Edge());
 }
 
+// A square of 2 x 2 cells, each cut along the same diagonal.
+TEST(Target, KnowsTheBorderAtCornersOfAnyTriangle) {
+  Eigen::Matrix3Xi triangles(3, 8);
+  triangles << 0, 0, 1, 1, 3, 3, 4, 4, 1, 4, 2, 5, 4, 7, 5, 8, 4, 3, 5, 4, 7, 6, 8, 7;
+  Shape square(3, 9);
+  square << 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 0, 0, 1, 1, 1, 2, 2, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0;
+  const internal::MarkerDistances distances(Eigen::MatrixXf::Zero(9, 1),
+                                            Eigen::MatrixXf::Zero(9, 1));
+  const internal::Target target(Connectivity::FromTriangles(9, triangles), square, distances);
+  for (int f = 0; f < 8; ++f) {
+    for (int k = 0; k < 3; ++k) {
+      Foot foot;
+      foot.triangle = f;
+      foot.barycentric = Eigen::Vector3d::Unit(k);
+      EXPECT_EQ(target.IsOnBorder(foot), triangles(k, f) != 4) << f << ' ' << k;
+      foot.barycentric = Eigen::Vector3d(0.5, 0.5, 0.5) - 0.5 * foot.barycentric;
+      const Eigen::Vector3d middle = square(Eigen::all, triangles.col(f)) * foot.barycentric;
+      const bool is_outside =
+          (middle.head<2>().array() == 0).any() || (middle.head<2>().array() == 2).any();
+      EXPECT_EQ(target.IsOnBorder(foot), is_outside) << f << ' ' << k;
+    }
+  }
+}
+
 TEST(Correspond, NamesAWrongMarkerAndLeavesItOut) {
   Remeshed bodies("sit");
   const double right = bodies.Errors(bodies.Fit().map).mean();
@@ -232,11 +257,33 @@ TEST(Correspond, RefusesMarkersThatCannotDo) {
          "on one line of the template");
 }
 
-TEST(Correspond, RefusesAMirrorImage) {
-  Remeshed bodies;
-  bodies.target.row(0) *= -1;
-  const std::string message = MessageOf<MeshError>([&] { bodies.Fit(); });
-  EXPECT_NE(message.find("mirror image"), std::string::npos) << message;
+// With every face the other way round.
+std::shared_ptr<const Connectivity> Reversed(const Connectivity& connectivity) {
+  return Connectivity::FromTriangles(connectivity.NumVertices(),
+                                     connectivity.Triangles().colwise().reverse());
+}
+
+TEST(Correspond, RefusesMirrorImagesAndWhatIsInsideOut) {
+  const auto expect = [](const Remeshed& bodies, const std::string& part) {
+    const std::string message = MessageOf<MeshError>([&] { bodies.Fit(); });
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  for (const char* pose : {"stand", "sit", "stretch"}) {
+    Remeshed bodies(pose);
+    bodies.second.connectivity = Reversed(*bodies.second.connectivity);
+    expect(bodies, "the target is inside out");
+    bodies.target.row(0) *= -1;  // outwards again
+    expect(bodies, "run around each other the other way");
+    bodies.second.connectivity = Reversed(*bodies.second.connectivity);
+    expect(bodies, "the target is inside out");
+  }
+  // An open body has no inside, but stands as the mirror image does.
+  Remeshed open;
+  open.target.row(0) *= -1;
+  open.second.connectivity = Connectivity::FromTriangles(
+      open.second.connectivity->NumVertices(), open.second.connectivity->Triangles().rightCols(
+                                                   open.second.connectivity->NumTriangles() - 1));
+  expect(open, "fit a mirror image");
 }
 
 TEST(Correspond, RefusesShapesThatAreNone) {
@@ -371,6 +418,8 @@ TEST(CarryPath, TakesATransferredPoseToTheTargetsOwnMesh) {
   ASSERT_EQ(path.NumShapes(), 2);
   EXPECT_NO_THROW(path.Validate());
   EXPECT_LT((path.Placed(0) - bodies.target).colwise().norm().maxCoeff(), 1e-9);
+  EXPECT_THROW(CarryPath(fit, moved.path, bodies.second.connectivity, bodies.rest), MeshError);
+  EXPECT_THROW(CarryPath(fit, moved.path, bodies.first.connectivity, bodies.rest), MeshError);
   const Shape wanted = bodies.second.pose("sit");
   const RigidMotion motion =
       FitRigidMotion(path.Placed(1), wanted, Eigen::VectorXd::Ones(wanted.cols()));
@@ -409,6 +458,18 @@ TEST(CarryPath, KeepsTogetherWhatTheTemplateDoesNotHave) {
     most = std::max(most, length(sitting) / length(bodies.target));
   }
   EXPECT_LT(most, 3);
+
+  // A thousand times as large and far away the same comes out.
+  const auto move = [](const Shape& shape) -> Shape {
+    return (1e3 * shape).colwise() + Eigen::Vector3d(1e6, -2e6, 3e6);
+  };
+  CorrespondenceResult large = fit;
+  large.fitted = move(fit.fitted);
+  const PoseTransferResult far =
+      TransferPoses(headless, {bodies.rest, bodies.first.pose("sit")}, large.fitted);
+  const Shape other =
+      CarryPath(large, far.path, bodies.second.connectivity, move(bodies.target)).Placed(1);
+  EXPECT_LT((other - move(sitting)).colwise().norm().maxCoeff(), 1e-3);
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ TEST_F(SurfaceMapTest, PullsLinearFunctionsExactly) {
   wanted << 0, 0.25, 0.5, 0, 0.75, 1, 0, 0, 0;
   EXPECT_TRUE(pulled.isApprox(wanted, 1e-15)) << pulled;
   EXPECT_THROW(Pull(points_, triangles_, square_.leftCols(3)), MeshError);
+  EXPECT_THROW(Pull(points_, triangles_.leftCols(1), square_), MeshError);
 }
 
 TEST_F(SurfaceMapTest, CarriesOffsetsAlongRigidly) {
@@ -113,6 +114,12 @@ TEST_F(MarkerFileTest, ReadsNumbersAndNamesOfGroups) {
   EXPECT_EQ(markers[0].target_vertex, 1);
   EXPECT_EQ(markers[1].target_vertex, 3);
   EXPECT_EQ(markers[2].template_vertex, 4);  // the right angle is nearest to the middle
+  EXPECT_EQ(ReadMarkers(File("w.txt",
+                             "\xEF\xBB\xBF"
+                             "1 2\r\n3 4\r\n"),
+                        mesh_, mesh_)
+                .size(),
+            2u);
 }
 
 TEST_F(MarkerFileTest, WrongLinesAreNamed) {

@@ -112,7 +112,7 @@ class Fit {
     for (level_ = 0; level_ < num_levels_; ++level_) {
       const Shape level_rest = hierarchy.Restrict(rest, level_);
       const Level level = {hierarchy.LevelConnectivity(level_), hierarchy.Vertices(level_),
-                           internal::BorderSides(*hierarchy.LevelConnectivity(level_))};
+                           internal::BorderOf(*hierarchy.LevelConnectivity(level_))};
       if (level_ == 0) FindPose(level, level_rest, &shape);
       if (level_ + 1 == num_levels_) {
         Finish(level, level_rest, &shape);
@@ -302,7 +302,7 @@ SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, c
 
 std::string Percent(double share) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+  std::snprintf(text, sizeof text, share < 0.1 ? "%.2g %%" : "%.0f %%", 100 * share);
   return text;
 }
 
@@ -401,6 +401,9 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
   summary.markers = static_cast<int>(markers.size());
   summary.scale = size * target_frame.unit / template_frame.unit;
 
+  internal::CheckHandedness(*template_connectivity, rest, *target_connectivity, goal, markers,
+                            marker_distances->OnTemplate());
+
   // In the order of the template's vertices, in which levels have them.
   std::sort(markers.begin(), markers.end(),
             [](const Marker& a, const Marker& b) { return a.template_vertex < b.template_vertex; });
@@ -420,7 +423,7 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
   Shape fitted = fit(template_connectivity, rest);
 
   const Stopwatch map_stopwatch;
-  Level all = {template_connectivity, {}, internal::BorderSides(*template_connectivity)};
+  Level all = {template_connectivity, {}, internal::BorderOf(*template_connectivity)};
   for (int v = 0; v < template_connectivity->NumVertices(); ++v) all.vertices.push_back(v);
   result.map = MakeMap(all, fitted, rest / size, target, markers, &summary);
   result.fitted = target_frame.Out(fitted);
@@ -439,6 +442,13 @@ Path CarryPath(const CorrespondenceResult& result, const Path& path,
                const std::shared_ptr<const Connectivity>& target_connectivity,
                const Shape& target_shape) {
   path.Validate();
+  const int num_vertices = target_connectivity->NumVertices();
+  if (target_shape.cols() != num_vertices || result.map.gap.size() != num_vertices) {
+    throw MeshError("the target has " + std::to_string(num_vertices) + " vertices, its shape " +
+                    std::to_string(target_shape.cols()) + ", and the map's target " +
+                    std::to_string(result.map.gap.size()));
+  }
+  const OwnFrame frame(*target_connectivity, target_shape);
   std::vector<int> covered;
   for (int y = 0; y < result.map.gap.size(); ++y) {
     if (result.map.gap(y) < kCovered) covered.push_back(y);
@@ -447,10 +457,11 @@ Path CarryPath(const CorrespondenceResult& result, const Path& path,
   for (int i = 0; i < path.NumShapes(); ++i) {
     carried.push_back(CarryAlong(result.map.to_template, *path.metric->connectivity, result.fitted,
                                  path.Placed(i), target_shape));
-    if (static_cast<int>(covered.size()) == target_connectivity->NumVertices()) continue;
+    if (static_cast<int>(covered.size()) == num_vertices) continue;
     // What the template has nothing for is deformed as the surface is where it begins.
-    carried.back() = internal::FitGradients(*target_connectivity, target_shape, covered,
-                                            carried.back()(Eigen::all, covered), 0);
+    const Shape places = frame.In(carried.back())(Eigen::all, covered);
+    carried.back() = frame.Out(
+        internal::FitGradients(*target_connectivity, frame.In(target_shape), covered, places, 0));
   }
   Path own;
   own.metric = std::make_shared<const Metric>(

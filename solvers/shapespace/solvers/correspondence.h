@@ -59,7 +59,9 @@ struct CorrespondenceSummary {
     /// Of those of its vertices that are near the target from it, before the last, root mean
     /// square.
     double distance = 0;
-    double motion = 0;  ///< in the last round, root mean square
+    /// Of the vertices' way to where the last round would have had them, root mean square, as a
+    /// share of the root of the template's area; it may have taken only a part of it.
+    double motion = 0;
     double seconds = 0;
   };
 
@@ -78,9 +80,9 @@ struct CorrespondenceSummary {
   std::vector<Doubt> doubtful;
   double scale = 1;  ///< size of the target, as a multiple of the template's
   std::vector<Stage> stages;
-  /// All lengths of this summary are shares of the root of the target's area.
+  /// Lengths of this summary are shares of the root of the target's area, if nothing else is said.
   double distance_rms = 0, distance_max = 0;       ///< of the fitted template from the target
-  double round_trip_mean = 0, round_trip_p95 = 0;  ///< SurfaceMap::round_trip
+  double round_trip_mean = 0, round_trip_p95 = 0;  ///< SurfaceMap::round_trip, of the template's
   double turned = 0;     ///< share of triangles whose normal points against the target's
   double uncovered = 0;  ///< share of the target's area that no part of the template came near
   std::vector<std::string> warnings;
@@ -110,9 +112,9 @@ struct CorrespondenceResult {
 /// \throw InvalidOptions; MeshError (a mesh without triangles or extent, a shape that is not finite
 ///        or has another number of vertices than its connectivity; fewer than three markers,
 ///        markers on one line, out of range, repeated or on a vertex without triangle; a component
-///        of the template without a marker; markers that only fit a mirror image), naming the
-///        marker, from 1; SolverError; Cancelled (stopped before a fit was found; later what there
-///        is is mapped, CorrespondenceSummary::cancelled).
+///        of the template without a marker; markers that only fit a mirror image; a body that is
+///        inside out), naming the marker, from 1; SolverError; Cancelled (stopped before a fit was
+///        found; later what there is is mapped, CorrespondenceSummary::cancelled).
 CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& template_connectivity,
                                 const Shape& template_shape,
                                 const std::shared_ptr<const Connectivity>& target_connectivity,

@@ -41,7 +41,8 @@ int VertexFrom(std::string_view word, const Poses& mesh, const std::string& file
 
 std::vector<Marker> ReadMarkers(const std::string& file, const Poses& template_mesh,
                                 const Poses& target) {
-  const std::string text = ReadFile(file);
+  std::string text = ReadFile(file);
+  if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.replace(0, 3, 3, ' ');  // as some editors write
   std::vector<Marker> markers;
   internal::Lines lines(text);
   std::string_view line;

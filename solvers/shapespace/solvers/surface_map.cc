@@ -120,6 +120,11 @@ Eigen::MatrixXd Pull(const SurfacePoints& points, const Eigen::Matrix3Xi& triang
     throw MeshError("the function has " + std::to_string(function.cols()) +
                     " columns; it needs one for each vertex");
   }
+  if (points.NumVertices() > 0 && points.triangle.maxCoeff() >= triangles.cols()) {
+    throw MeshError("the points lie on triangle " + std::to_string(points.triangle.maxCoeff() + 1) +
+                    " of a mesh that has " + std::to_string(triangles.cols()) +
+                    "; is it that of the other direction?");
+  }
   Eigen::MatrixXd pulled = Eigen::MatrixXd::Zero(function.rows(), points.NumVertices());
   for (int v = 0; v < points.NumVertices(); ++v) {
     for (int k = 0; k < 3; ++k) {

@@ -37,7 +37,8 @@ struct SurfaceMap {
 /// points, d x m: positions (d = 3), colours, a scalar field. `triangles` are those of that mesh.
 /// So a function on the target is pulled back to the template by `to_target`, and one on the
 /// template is carried to the target by `to_template`.
-/// \throw MeshError if `function` has no column for a corner of the triangles.
+/// \throw MeshError if `function` has no column for a corner of the triangles, or if a point lies
+/// on a triangle that there is not.
 Eigen::MatrixXd Pull(const SurfacePoints& points, const Eigen::Matrix3Xi& triangles,
                      const Eigen::MatrixXd& function);
 

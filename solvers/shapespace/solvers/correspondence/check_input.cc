@@ -1,12 +1,16 @@
 #include <shapespace/solvers/correspondence/check_input.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
+#include <shapespace/mesh/surface.h>
 #include <shapespace/mesh/topology.h>
+#include <shapespace/mesh/volume.h>
 #include <shapespace/solvers/correspondence/similarity.h>
 
 namespace shapespace::internal {
@@ -24,6 +28,13 @@ std::string Count(int count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
+// How vertices b and c lie around a, seen from outside: the sine of the angle between them.
+double SineAround(const Shape& shape, const Shape& normals, int a, int b, int c) {
+  const Eigen::Vector3d p = shape.col(b) - shape.col(a), q = shape.col(c) - shape.col(a);
+  const double lengths = p.norm() * q.norm();
+  return lengths > 0 ? normals.col(a).dot(p.cross(q)) / lengths : 0;
+}
+
 }  // namespace
 
 void CheckBody(const std::string& name, const Connectivity& connectivity, const Shape& shape) {
@@ -35,7 +46,7 @@ void CheckBody(const std::string& name, const Connectivity& connectivity, const 
                     " vertices" + ", its shape " + std::to_string(shape.cols()));
   }
   if (!shape.allFinite() || shape.cwiseAbs().maxCoeff() > kLargestCoordinate) {
-    throw MeshError("the " + name + " has a coordinate that is not finite or enormous");
+    throw MeshError("the " + name + " has a coordinate that is enormous or not finite");
   }
   const double extent = (shape.rowwise().maxCoeff() - shape.rowwise().minCoeff()).maxCoeff();
   double area = 0;
@@ -113,6 +124,57 @@ void CheckPlacement(const Shape& on_template, const Shape& on_target) {
     throw MeshError(
         "the markers fit a mirror image of the template, not the template: are left and right "
         "exchanged, or is one of the meshes mirrored?");
+  }
+}
+
+void CheckHandedness(const Connectivity& template_connectivity, const Shape& template_shape,
+                     const Connectivity& target_connectivity, const Shape& target_shape,
+                     const std::vector<Marker>& markers, const Eigen::MatrixXf& distances) {
+  // A hundredth of a ball's; thinner bodies have no inside to speak of.
+  constexpr double kLeastVolume = 1e-3;
+  const double first = EnclosedVolume(template_connectivity.Triangles(), template_shape);
+  const double second = EnclosedVolume(target_connectivity.Triangles(), target_shape);
+  if (first * second < 0 && std::min(std::abs(first), std::abs(second)) > kLeastVolume &&
+      IsClosed(template_connectivity.Triangles()) && IsClosed(target_connectivity.Triangles())) {
+    throw MeshError(std::string("the ") + (first < 0 ? "template" : "target") +
+                    " is inside out: reverse the vertices of each of its faces; or is it a mirror "
+                    "image?");
+  }
+  // Of six real pairs, markers that are right have a correlation of .2 to .9, and any twelve of
+  // them of -.2 at the least; fewer say too little.
+  constexpr int kLeastMarkers = 12, kNeighbours = 4;
+  constexpr double kOpposite = -0.5;
+  const auto num_markers = static_cast<int>(markers.size());
+  if (num_markers < kLeastMarkers) return;
+  const Shape template_normals = VertexNormals(template_connectivity, template_shape);
+  const Shape target_normals = VertexNormals(target_connectivity, target_shape);
+  double both = 0, on_template = 0, on_target = 0;
+  for (const Marker& a : markers) {
+    std::vector<int> near(num_markers);
+    std::iota(near.begin(), near.end(), 0);
+    // The first is `a` itself.
+    std::partial_sort(near.begin(), near.begin() + kNeighbours + 1, near.end(), [&](int k, int l) {
+      return distances(a.template_vertex, k) < distances(a.template_vertex, l);
+    });
+    for (int i = 1; i <= kNeighbours; ++i) {
+      for (int j = 1; j < i; ++j) {
+        const Marker& b = markers[near[i]];
+        const Marker& c = markers[near[j]];
+        const double from = SineAround(template_shape, template_normals, a.template_vertex,
+                                       b.template_vertex, c.template_vertex);
+        const double to = SineAround(target_shape, target_normals, a.target_vertex, b.target_vertex,
+                                     c.target_vertex);
+        both += from * to;
+        on_template += from * from;
+        on_target += to * to;
+      }
+    }
+  }
+  if (both < kOpposite * std::sqrt(on_template * on_target)) {
+    throw MeshError(
+        "the markers run around each other the other way on the target than on the template, as on "
+        "a mirror image: are left and right exchanged, or is one of the meshes mirrored or inside "
+        "out?");
   }
 }
 

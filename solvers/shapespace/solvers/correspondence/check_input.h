@@ -24,6 +24,14 @@ void CheckMarkers(const std::vector<Marker>& markers, const Connectivity& templa
 /// mirror image much better than the body.
 void CheckPlacement(const Shape& on_template, const Shape& on_target);
 
+/// \throw MeshError if one of two closed bodies is inside out, or if markers run around each other
+/// the other way on the one surface, seen from outside, than on the other. Bends change neither, so
+/// that this finds mirror images in other poses. Shapes are such that the areas are 1; `distances`
+/// are the template's of `MarkerDistances`.
+void CheckHandedness(const Connectivity& template_connectivity, const Shape& template_shape,
+                     const Connectivity& target_connectivity, const Shape& target_shape,
+                     const std::vector<Marker>& markers, const Eigen::MatrixXf& distances);
+
 /// The markers that are not doubtful.
 std::vector<Marker> Without(const std::vector<Marker>& markers,
                             const std::vector<CorrespondenceSummary::Doubt>& doubtful);

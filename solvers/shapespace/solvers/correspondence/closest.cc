@@ -31,7 +31,7 @@ Eigen::VectorXd VertexAreas(const Connectivity& connectivity, const Shape& shape
   return areas / areas.sum();
 }
 
-std::vector<std::array<bool, 3>> BorderSides(const Connectivity& connectivity) {
+Border BorderOf(const Connectivity& connectivity) {
   const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
   std::vector<std::tuple<int, int, int, int>> sides;  // edge, triangle, opposite corner
   for (int f = 0; f < triangles.cols(); ++f) {
@@ -41,7 +41,9 @@ std::vector<std::array<bool, 3>> BorderSides(const Connectivity& connectivity) {
     }
   }
   std::sort(sides.begin(), sides.end());
-  std::vector<std::array<bool, 3>> borders(triangles.cols(), {false, false, false});
+  Border border;
+  border.sides.assign(triangles.cols(), {false, false, false});
+  border.vertices.assign(connectivity.NumVertices(), false);
   const auto same_edge = [&](size_t i, size_t j) {
     return std::get<0>(sides[i]) == std::get<0>(sides[j]) &&
            std::get<1>(sides[i]) == std::get<1>(sides[j]);
@@ -49,16 +51,21 @@ std::vector<std::array<bool, 3>> BorderSides(const Connectivity& connectivity) {
   for (size_t i = 0; i < sides.size(); ++i) {
     const bool shared =
         (i > 0 && same_edge(i - 1, i)) || (i + 1 < sides.size() && same_edge(i, i + 1));
-    if (!shared) borders[std::get<2>(sides[i])][std::get<3>(sides[i])] = true;
+    if (shared) continue;
+    const auto [a, b, f, k] = sides[i];
+    border.sides[f][k] = true;
+    border.vertices[a] = border.vertices[b] = true;
   }
-  return borders;
+  return border;
 }
 
 namespace {
 
-bool IsOnSide(const Foot& foot, const std::vector<std::array<bool, 3>>& borders) {
+// A foot on a corner lies on the border if any side there does, also one of another triangle.
+bool IsOnBorder(const Foot& foot, const Eigen::Matrix3Xi& triangles, const Border& border) {
   for (int k = 0; k < 3; ++k) {
-    if (foot.barycentric(k) == 0 && borders[foot.triangle][k]) return true;
+    if (foot.barycentric(k) == 0 && border.sides[foot.triangle][k]) return true;
+    if (foot.barycentric(k) == 1 && border.vertices[triangles(k, foot.triangle)]) return true;
   }
   return false;
 }
@@ -71,7 +78,7 @@ Target::Target(std::shared_ptr<const Connectivity> connectivity, const Shape& sh
       surface_(connectivity_, shape),
       normals_(shapespace::VertexNormals(*connectivity_, shape)),
       areas_(internal::VertexAreas(*connectivity_, shape)),
-      borders_(BorderSides(*connectivity_)),
+      border_(BorderOf(*connectivity_)),
       distances_(distances) {}
 
 Eigen::Vector3d Target::NormalAt(const Foot& foot) const {
@@ -92,7 +99,9 @@ Foot Target::Nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal
       within);
 }
 
-bool Target::IsOnBorder(const Foot& foot) const { return IsOnSide(foot, borders_); }
+bool Target::IsOnBorder(const Foot& foot) const {
+  return internal::IsOnBorder(foot, connectivity_->Triangles(), border_);
+}
 
 Foot NearestOnTemplate(const Surface& fitted, const Level& level, const Target& target,
                        int target_vertex) {
@@ -135,7 +144,10 @@ std::vector<Pull> FindPulls(const Level& level, const Shape& shape, const Eigen:
   double areas_of_others = 0;
   for (int i = 0; i < num_others; ++i) areas_of_others += target.VertexAreas()(stride * i);
   for (int i = 0; i < num_others; ++i) {
-    if (others[i].triangle < 0 || IsOnSide(others[i], level.borders)) continue;
+    if (others[i].triangle < 0 ||
+        IsOnBorder(others[i], level.connectivity->Triangles(), level.border)) {
+      continue;
+    }
     const int y = stride * i;
     pulls.push_back({level.connectivity->Triangles().col(others[i].triangle), others[i].barycentric,
                      target.GetShape().col(y), target.GetVertexNormals().col(y),

@@ -18,6 +18,14 @@
 
 namespace shapespace::internal {
 
+/// Where an open surface ends.
+struct Border {
+  /// Of each triangle, whether the side opposite to corner k is no other triangle's.
+  std::vector<std::array<bool, 3>> sides;
+  std::vector<bool> vertices;  ///< whether each vertex is an end of such a side
+};
+Border BorderOf(const Connectivity& connectivity);
+
 /// The target of a fit: its surface, and what closest points on it are judged by.
 class Target {
  public:
@@ -47,21 +55,18 @@ class Target {
   const Surface surface_;
   const Shape normals_;
   const Eigen::VectorXd areas_;
-  const std::vector<std::array<bool, 3>> borders_;
+  const Border border_;
   const MarkerDistances& distances_;
 };
 
 /// A third of the triangles around each vertex, of sum 1.
 Eigen::VectorXd VertexAreas(const Connectivity& connectivity, const Shape& shape);
 
-/// Of each triangle, whether the side opposite to corner k is no other triangle's.
-std::vector<std::array<bool, 3>> BorderSides(const Connectivity& connectivity);
-
 /// The part of the template that a level of the hierarchy has.
 struct Level {
   std::shared_ptr<const Connectivity> connectivity;
-  std::vector<int> vertices;                 ///< of each vertex, its number in the template
-  std::vector<std::array<bool, 3>> borders;  ///< BorderSides
+  std::vector<int> vertices;  ///< of each vertex, its number in the template
+  Border border;
 };
 
 /// The point of the fitted template to which a vertex of the target belongs, if one is near.

@@ -133,6 +133,7 @@ double ShellFit::Step(const std::vector<Pull>& user_pulls, Shape* user_shape) {
   }
   const Eigen::VectorXd solution = Solve(*factor_, gradient.reshaped());
   const Eigen::Map<const Shape> step(solution.data(), 3, shape.cols());
+  const double motion = std::sqrt(metric_.vertex_area.dot(step.colwise().squaredNorm()));
 
   double factor = 1;
   for (int halving = 0; halving <= kHalvings; ++halving, factor *= 0.5) {
@@ -142,10 +143,10 @@ double ShellFit::Step(const std::vector<Pull>& user_pulls, Shape* user_shape) {
       for (int v = 0; v < shape.cols(); ++v) {
         if (is_held_[v]) user_shape->col(v) = unit * shape.col(v);
       }
-      return factor * std::sqrt(metric_.vertex_area.dot(step.colwise().squaredNorm()));
+      break;
     }
   }
-  return 0;
+  return motion;
 }
 
 }  // namespace shapespace::internal

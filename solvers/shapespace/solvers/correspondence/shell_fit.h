@@ -44,7 +44,8 @@ class ShellFit {
 
   /// One iteration: proportions are taken anew from `*shape`, then it takes a step that lowers the
   /// sum, or stays as it is if there is none.
-  /// \return the root mean square of the vertices' motion, as a share of the root of the area.
+  /// \return the root mean square of the vertices' motion in a whole step, as a share of the root
+  /// of the area, so that a step that had to be cut short is not taken for rest.
   double Step(const std::vector<Pull>& pulls, Shape* shape);
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -12,6 +13,8 @@ namespace {
 
 // Rings by which patches grow, one a round, and rounds of averaging in each.
 constexpr int kRings = 6, kAverages = 8;
+// How often patches grow anew, from what is left: three times leave a fifth less than once.
+constexpr int kPasses = 3;
 
 // The vertices around each, with M. Floater's mean value weights ("Mean value coordinates", 2003),
 // which are positive, so that nothing folds, and keep the triangles' forms as far as that goes.
@@ -89,6 +92,33 @@ std::vector<int> CountTurned(const std::vector<bool>& turned, const Eigen::Matri
   return counts;
 }
 
+Foot MapVertex(const Level& level, const Shape& shape, const Shape& normals, const Target& target,
+               int v) {
+  const int vertex = level.vertices[v];
+  Foot foot = target.Nearest(shape.col(v), normals.col(v), vertex);
+  if (foot.triangle >= 0) return foot;
+  Foot other = target.GetSurface().Nearest(shape.col(v), [&](int f) {
+    return target.Distances().MayMatch(vertex, target.GetConnectivity().Triangles()(0, f));
+  });
+  return other.triangle >= 0 ? other : target.GetSurface().Nearest(shape.col(v));
+}
+
+// MapVertices, where `feet` are those of a shape that differed at the vertices `moved` only: their
+// neighbours' normals have changed as well.
+std::vector<Foot> MapAnew(const Level& level, const Shape& shape, const Target& target,
+                          const std::vector<bool>& moved, const Neighbours& neighbours,
+                          std::vector<Foot> feet) {
+  const Shape normals = VertexNormals(*level.connectivity, shape);
+  ParallelFor(static_cast<int>(shape.cols()), [&](int v) {
+    const bool is_affected = moved[v] || std::any_of(neighbours[v].begin(), neighbours[v].end(),
+                                                     [&](const Neighbour& neighbour) {
+                                                       return moved[neighbour.vertex];
+                                                     });
+    if (is_affected) feet[v] = MapVertex(level, shape, normals, target, v);
+  });
+  return feet;
+}
+
 }  // namespace
 
 std::vector<bool> TurnedTriangles(const Level& level, const Shape& shape, const Target& target,
@@ -115,15 +145,8 @@ std::vector<bool> TurnedTriangles(const Level& level, const Shape& shape, const 
 std::vector<Foot> MapVertices(const Level& level, const Shape& shape, const Target& target) {
   const Shape normals = VertexNormals(*level.connectivity, shape);
   std::vector<Foot> feet(shape.cols());
-  ParallelFor(static_cast<int>(shape.cols()), [&](int v) {
-    const int vertex = level.vertices[v];
-    feet[v] = target.Nearest(shape.col(v), normals.col(v), vertex);
-    if (feet[v].triangle >= 0) return;
-    feet[v] = target.GetSurface().Nearest(shape.col(v), [&](int f) {
-      return target.Distances().MayMatch(vertex, target.GetConnectivity().Triangles()(0, f));
-    });
-    if (feet[v].triangle < 0) feet[v] = target.GetSurface().Nearest(shape.col(v));
-  });
+  ParallelFor(static_cast<int>(shape.cols()),
+              [&](int v) { feet[v] = MapVertex(level, shape, normals, target, v); });
   return feet;
 }
 
@@ -133,8 +156,9 @@ void Unfold(const Level& level, const Shape& rest, const Target& target,
   const Neighbours neighbours = NeighboursOf(*level.connectivity, rest);
   std::vector<bool> is_held(shape->cols(), false);
   for (const int v : held) is_held[v] = true;
-  for (int rings = 1; rings <= kRings; ++rings) {
-    const std::vector<Foot> feet = MapVertices(level, *shape, target);
+  std::vector<Foot> feet = MapVertices(level, *shape, target);
+  for (int round = 0; round < kPasses * kRings; ++round) {
+    const int rings = 1 + round % kRings;
     const std::vector<bool> turned = TurnedTriangles(level, *shape, target, feet);
     std::vector<bool> inside(shape->cols(), false);
     for (int f = 0; f < triangles.cols(); ++f) {
@@ -159,7 +183,7 @@ void Unfold(const Level& level, const Shape& rest, const Target& target,
     Shape flat = *shape;
     Shape facing(3, flat.cols());
     for (int v = 0; v < flat.cols(); ++v) facing.col(v) = target.NormalAt(feet[v]);
-    for (int round = 0; round < kAverages; ++round) {
+    for (int average = 0; average < kAverages; ++average) {
       for (int v = 0; v < flat.cols(); ++v) {
         if (!inside[v]) continue;
         Eigen::Vector3d sum = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
@@ -176,13 +200,16 @@ void Unfold(const Level& level, const Shape& rest, const Target& target,
         facing.col(v) = target.NormalAt(foot);
       }
     }
-    const std::vector<bool> still =
-        TurnedTriangles(level, flat, target, MapVertices(level, flat, target));
+    const std::vector<bool> still = TurnedTriangles(
+        level, flat, target, MapAnew(level, flat, target, inside, neighbours, feet));
     const std::vector<int> before = CountTurned(turned, triangles, patch, num_patches);
     const std::vector<int> after = CountTurned(still, triangles, patch, num_patches);
+    std::vector<bool> moved(flat.cols(), false);
     for (int v = 0; v < flat.cols(); ++v) {
-      if (inside[v] && after[patch[v]] < before[patch[v]]) shape->col(v) = flat.col(v);
+      moved[v] = inside[v] && after[patch[v]] < before[patch[v]];
+      if (moved[v]) shape->col(v) = flat.col(v);
     }
+    feet = MapAnew(level, *shape, target, moved, neighbours, std::move(feet));
   }
 }
 

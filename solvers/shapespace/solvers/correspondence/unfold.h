@@ -20,8 +20,9 @@ std::vector<Foot> MapVertices(const Level& level, const Shape& shape, const Targ
 
 /// Takes out folds: around triangles that point against the target, vertices (but `held` ones) move
 /// to a mean of their neighbours, as in W. Tutte's embedding ("How to draw a graph", 1963), and
-/// back onto the target. Patches grow ring by ring until that helps; one that it does not help is
-/// left as it was. What a template has and the target has not, as the inside of a mouth, ends flat.
+/// back onto the target. Patches grow ring by ring until that helps, a few times over; one that it
+/// does not help is left as it was. What a template has and the target has not, as the inside of a
+/// mouth, ends flat.
 void Unfold(const Level& level, const Shape& rest, const Target& target,
             const std::vector<int>& held, Shape* shape);
 
