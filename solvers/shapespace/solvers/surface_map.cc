@@ -15,7 +15,7 @@
 #include <shapespace/base/read_file.h>
 #include <shapespace/mesh/text.h>
 #include <shapespace/path/rigid_motion.h>
-#include <shapespace/solvers/correspondence/frames.h>
+#include <shapespace/solvers/optimise/frames.h>
 
 namespace shapespace {
 namespace {

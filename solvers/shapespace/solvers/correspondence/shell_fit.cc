@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include <shapespace/solvers/correspondence/solve.h>
+#include <shapespace/solvers/optimise/solve.h>
 
 namespace shapespace::internal {
 namespace {

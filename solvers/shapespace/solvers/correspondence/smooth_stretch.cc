@@ -7,8 +7,8 @@
 #include <Eigen/SparseCore>
 
 #include <shapespace/base/parallel.h>
-#include <shapespace/solvers/correspondence/frames.h>
-#include <shapespace/solvers/correspondence/solve.h>
+#include <shapespace/solvers/optimise/frames.h>
+#include <shapespace/solvers/optimise/solve.h>
 
 namespace shapespace::internal {
 namespace {

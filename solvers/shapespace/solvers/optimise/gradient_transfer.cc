@@ -1,13 +1,13 @@
 #include <shapespace/solvers/optimise/gradient_transfer.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <Eigen/SparseCore>
+
+#include <shapespace/solvers/optimise/frames.h>
+#include <shapespace/solvers/optimise/solve.h>
 
 namespace shapespace::internal {
 namespace {
@@ -18,16 +18,6 @@ constexpr double kSliver = 1e-2, kSmall = 1e-3;
 // How firmly the mesh as a whole is held where the source's displacements lead, against how firmly
 // it holds together: too little to show where it is connected.
 constexpr double kPlace = 1e-4;
-
-// Two edges and a normal as long as they are.
-Eigen::Matrix3d Frame(const Shape& shape, const Eigen::Vector3i& triangle) {
-  Eigen::Matrix3d frame;
-  frame.col(0) = shape.col(triangle(1)) - shape.col(triangle(0));
-  frame.col(1) = shape.col(triangle(2)) - shape.col(triangle(0));
-  const Eigen::Vector3d normal = frame.col(0).cross(frame.col(1));
-  frame.col(2) = normal / std::sqrt(std::max(normal.norm(), std::numeric_limits<double>::min()));
-  return frame;
-}
 
 }  // namespace
 
@@ -49,9 +39,7 @@ GradientTransfer::GradientTransfer(std::shared_ptr<const Connectivity> connectiv
     double sliver;
     const double source_area = measure(source_, &sliver);
     quality(f) = source_area < sliver ? source_area / sliver : 1;
-    // Of a collapsed triangle the pseudo-inverse.
-    inverses_.emplace_back(
-        Frame(source_, triangles.col(f)).completeOrthogonalDecomposition().pseudoInverse());
+    inverses_.push_back(InverseFrame(Frame(source_, triangles.col(f))));
   }
   const double mean_area = num_triangles > 0 ? area.mean() : 0;
   for (int f = 0; f < num_triangles; ++f) {
@@ -98,19 +86,7 @@ Shape GradientTransfer::operator()(const Shape& deformed) const {
     right.col(b) += weight * side;
     right.col(a) -= weight * side;
   }
-  constexpr int kWidth = Cholesky::kColumns;
-  const std::vector<int>& permutation = factor_->Permutation();
-  std::vector<double> rows(static_cast<size_t>(kWidth) * factor_->WorkRows(), 0.0);
-  for (int i = 0; i < right.cols(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) rows[kWidth * i + axis] = right(axis, permutation[i]);
-  }
-  factor_->SolveLower(rows.data(), kWidth);
-  factor_->SolveUpper(rows.data(), kWidth);
-  Shape result(3, right.cols());
-  for (int i = 0; i < right.cols(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) result(axis, permutation[i]) = rows[kWidth * i + axis];
-  }
-  return result;
+  return Solve(*factor_, right.transpose()).transpose();
 }
 
 }  // namespace shapespace::internal

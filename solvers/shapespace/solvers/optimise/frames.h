@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_SOLVERS_CORRESPONDENCE_FRAMES_H_
-#define SHAPESPACE_SOLVERS_CORRESPONDENCE_FRAMES_H_
+#ifndef SHAPESPACE_SOLVERS_OPTIMISE_FRAMES_H_
+#define SHAPESPACE_SOLVERS_OPTIMISE_FRAMES_H_
 
 #include <algorithm>
 #include <cmath>
@@ -31,4 +31,4 @@ inline Eigen::Matrix3d InverseFrame(const Eigen::Matrix3d& frame) {
 
 }  // namespace shapespace::internal
 
-#endif  // SHAPESPACE_SOLVERS_CORRESPONDENCE_FRAMES_H_
+#endif  // SHAPESPACE_SOLVERS_OPTIMISE_FRAMES_H_

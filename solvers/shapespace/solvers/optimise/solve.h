@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_SOLVERS_CORRESPONDENCE_SOLVE_H_
-#define SHAPESPACE_SOLVERS_CORRESPONDENCE_SOLVE_H_
+#ifndef SHAPESPACE_SOLVERS_OPTIMISE_SOLVE_H_
+#define SHAPESPACE_SOLVERS_OPTIMISE_SOLVE_H_
 
 #include <vector>
 
@@ -35,4 +35,4 @@ inline Eigen::MatrixXd Solve(const Cholesky& factor, const Eigen::MatrixXd& righ
 
 }  // namespace shapespace::internal
 
-#endif  // SHAPESPACE_SOLVERS_CORRESPONDENCE_SOLVE_H_
+#endif  // SHAPESPACE_SOLVERS_OPTIMISE_SOLVE_H_
