@@ -683,7 +683,7 @@ TEST(InitialVelocity, LeadsToTheSecondShape) {
 
 // A path is the same motion wherever it is placed.
 TEST(InitialVelocity, TurnsWithThePath) {
-  Path path = Moving(MakeBar(6, 1, 1, 6, 1, 1), 20, 20, 40, 3);
+  Path path = Moving(MakeBar(6, 1, 1, 6, 1, 1), 20, 60, 40, 3);
   const Eigen::Matrix3d turn = testing::Rotation(70, {1, -2, 1});
   const Tangent expected = turn * InitialVelocity(path);
   for (RigidMotion& motion : path.motions) {
