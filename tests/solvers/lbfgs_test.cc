@@ -231,13 +231,12 @@ TEST(SearchLine, FindsAStepThatSatisfiesTheWolfeConditions) {
   }
 }
 
-// A parabola on top of a number so large that its values do not differ.
+// A parabola on top of a number so large that its values are rounding, which here goes up.
 TEST(SearchLine, SlopesDecideWhereValuesDifferByRoundingOnly) {
   const auto evaluate = [](double step) {
-    return LinePoint{step, 1e6 + 1e-12 * std::pow(step - 0.9, 2), 2e-12 * (step - 0.9)};
+    return LinePoint{step, step > 0 ? 1e6 * (1 + 1e-15) : 1e6, 2e-12 * (step - 0.9)};
   };
-  const LinePoint end = SearchLine(evaluate(0), evaluate);
-  EXPECT_EQ(end.step, 1);
+  EXPECT_EQ(SearchLine(evaluate(0), evaluate).step, 1);
 }
 
 TEST(SearchLine, StaysWhereNothingIsLower) {
