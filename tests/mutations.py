@@ -82,7 +82,6 @@ MUTATIONS = [
     ("optimise/piece.cc", "attempt.energy < best.energy && !workload_.Stopped()",
      "attempt.energy > best.energy && !workload_.Stopped()", GEODESICS),
     ("optimise/schedule.cc", "constexpr int kShapesOnAllLevels = 7;", "constexpr int kShapesOnAllLevels = 1;", GEODESICS),
-    ("optimise/unwind.cc", "if (around.empty()) return;", "", GEODESICS),
     ("optimise/unwind.cc", "for (int v : vertices) mover.Move({v});", "", GEODESICS),
     ("optimise/unwind.cc", "mover.Move({stencil(0), stencil(1), stencil(2), stencil(3)});", "", GEODESICS),
     ("optimise/unwind.cc", "|| fastest > 2 * M_PI / segments;", "|| fastest > 7;", GEODESICS),

@@ -33,8 +33,10 @@ double AreaOf(const Space& space) {
   return area;
 }
 
-TEST(RefinementTest, TilesTheHullWithoutHangingNodes) {
-  const Space coarse = Explored(0), fine = Explored(3);
+class RefinementTo : public ::testing::TestWithParam<double> {};
+
+TEST_P(RefinementTo, TilesTheHullWithoutHangingNodes) {
+  const Space coarse = Explored(0), fine = Explored(3, GetParam());
   ASSERT_GT(fine.NumNodes(), coarse.NumNodes());
   EXPECT_NEAR(AreaOf(fine), AreaOf(coarse), 1e-12 * AreaOf(coarse));
   // Each side is that of one triangle, on the hull, or of two that run along it in opposite ways;
@@ -55,6 +57,8 @@ TEST(RefinementTest, TilesTheHullWithoutHangingNodes) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Thresholds, RefinementTo, ::testing::Values(0.01, 0.02, 0.05, 0.1, 0.2));
 
 TEST(RefinementTest, EachNodeIsThereOnceHalfWayBetweenItsParents) {
   const Space space = Explored(3);
