@@ -12,6 +12,10 @@
 #define SHAPESPACE_CLONES
 #endif
 
+// Templates, which cannot be cloned, are compiled for the instruction set of the clone that calls
+// them if they are part of it.
+#define SHAPESPACE_INLINE inline __attribute__((always_inline))
+
 // Before a loop: no iteration writes what another one reads, so that g++ may vectorise it. (clang
 // finds that out when the program runs.)
 #if defined(__clang__)

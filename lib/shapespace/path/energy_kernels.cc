@@ -12,8 +12,6 @@
 namespace shapespace::internal {
 namespace {
 
-#define SHAPESPACE_INLINE inline __attribute__((always_inline))
-
 // Registers are filled with times of one element or, where a path has few shapes, with one time of
 // eight elements. The code is the same: in a scratch row, which holds one quantity of kElements
 // elements at all times, the same element a time later stands kElements slots further on. Time 0 is

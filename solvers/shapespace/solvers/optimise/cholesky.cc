@@ -35,8 +35,6 @@ struct Vectors<float> {
   using Full = float __attribute__((vector_size(64), aligned(4), may_alias));
 };
 
-#define SHAPESPACE_INLINE inline __attribute__((always_inline))
-
 // The solves below keep a tile of kRows x kVectors vectors in registers while they sweep over the
 // factor's entries for it. `x` points at the tile's first column, rows `stride` apart.
 

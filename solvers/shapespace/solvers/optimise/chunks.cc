@@ -5,8 +5,6 @@
 namespace shapespace::internal {
 namespace {
 
-#define SHAPESPACE_INLINE inline __attribute__((always_inline))
-
 template <typename A>
 SHAPESPACE_INLINE double DotOf(const A* a, const double* b, size_t count) {
   // Four registers of eight sums each, so that the compiler has nothing to reorder.
