@@ -53,7 +53,7 @@ class ObjReader {
   }
 
   Soup Read() {
-    if (text_.compare(0, 3, "\xEF\xBB\xBF") == 0) text_.replace(0, 3, 3, ' ');
+    BlankByteOrderMark(&text_);
     size_t position = 0;
     while (position < text_.size()) position = ReadLine(position);
     if (coordinates_.empty()) {

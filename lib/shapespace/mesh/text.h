@@ -25,6 +25,11 @@ inline constexpr char kReexport[] = "; is the file damaged? Export the mesh agai
   throw FileError(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what);
 }
 
+/// Makes blanks of the mark with which some editors begin a text in UTF-8.
+inline void BlankByteOrderMark(std::string* text) {
+  if (text->compare(0, 3, "\xEF\xBB\xBF") == 0) text->replace(0, 3, 3, ' ');
+}
+
 /// Hands out the lines of a text, ended by LF, CR LF or CR, and counts them from 1.
 class Lines {
  public:

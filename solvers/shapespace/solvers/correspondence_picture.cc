@@ -1,7 +1,6 @@
 #include <shapespace/solvers/correspondence_picture.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include <shapespace/base/error.h>
 #include <shapespace/output/view.h>

@@ -5,8 +5,6 @@
 #include <limits>
 #include <memory>
 
-#include <Eigen/Geometry>
-
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/base/stopwatch.h>

@@ -11,12 +11,14 @@
 namespace shapespace {
 namespace {
 
+constexpr const char* kWhatALineHolds =
+    "; a line holds a vertex of the template and one of the target";
+
 int VertexFrom(std::string_view word, const Poses& mesh, const std::string& file, int line) {
   const int num_vertices = mesh.connectivity->NumVertices();
   const std::string wanted = " is neither a vertex number from 1 to " +
                              std::to_string(num_vertices) + " nor a group of " + mesh.names[0] +
-                             "; a line holds a vertex of the template and one of the "
-                             "target";
+                             kWhatALineHolds;
   if (const std::optional<std::int64_t> number = internal::ParseInteger(word)) {
     if (*number < 1 || *number > num_vertices) {
       internal::FailAt(file, line, internal::Quoted(word) + wanted);
@@ -42,7 +44,7 @@ int VertexFrom(std::string_view word, const Poses& mesh, const std::string& file
 std::vector<Marker> ReadMarkers(const std::string& file, const Poses& template_mesh,
                                 const Poses& target) {
   std::string text = ReadFile(file);
-  if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.replace(0, 3, 3, ' ');  // as some editors write
+  internal::BlankByteOrderMark(&text);
   std::vector<Marker> markers;
   internal::Lines lines(text);
   std::string_view line;
@@ -52,15 +54,12 @@ std::vector<Marker> ReadMarkers(const std::string& file, const Poses& template_m
     const std::string_view first = words.Next();
     if (words.Done()) {
       internal::FailAt(file, lines.Number(),
-                       "there is one word only; a line holds a vertex of the template and one of "
-                       "the target");
+                       std::string("there is one word only") + kWhatALineHolds);
     }
     const std::string_view second = words.Next();
     if (!words.Done()) {
       internal::FailAt(file, lines.Number(),
-                       internal::Quoted(words.Next()) +
-                           " is too much; a line holds a vertex of the template and one of the "
-                           "target");
+                       internal::Quoted(words.Next()) + " is too much" + kWhatALineHolds);
     }
     const Marker marker = {VertexFrom(first, template_mesh, file, lines.Number()),
                            VertexFrom(second, target, file, lines.Number())};
