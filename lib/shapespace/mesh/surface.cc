@@ -68,15 +68,23 @@ Shape VertexNormals(const Connectivity& connectivity, const Shape& shape) {
 }
 
 struct Surface::Scene {
-  std::shared_ptr<const Connectivity> connectivity;
-  Shape shape, normals;
-  Eigen::Vector3d centre;
-  double unit = 1;  // half the extent: about the centre, in it, floats are good for boxes
+  const std::shared_ptr<const Connectivity> connectivity;
+  const Shape shape, normals;
+  // Boxes are in single precision, relative to the centre and in units of half the extent.
+  const Eigen::Vector3d low, high, centre;
+  const double unit;
+  const ForkJoin callbacks;  // after all that they read
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  ForkJoin callbacks;
 
-  Scene() = default;
+  Scene(std::shared_ptr<const Connectivity> the_connectivity, const Shape& the_shape)
+      : connectivity(std::move(the_connectivity)),
+        shape(the_shape),
+        normals(TriangleNormals(*connectivity, shape)),
+        low(shape.rowwise().minCoeff()),
+        high(shape.rowwise().maxCoeff()),
+        centre(low + 0.5 * (high - low)),
+        unit(0.5 * (high - low).maxCoeff()) {}
   Scene(const Scene&) = delete;
   ~Scene() {
     if (scene != nullptr) rtcReleaseScene(scene);
@@ -140,14 +148,8 @@ struct Surface::Scene {
 };
 
 Surface::Surface(std::shared_ptr<const Connectivity> connectivity, const Shape& shape)
-    : scene_(std::make_unique<Scene>()) {
+    : scene_(std::make_unique<Scene>(std::move(connectivity), shape)) {
   Scene& self = *scene_;
-  self.connectivity = std::move(connectivity);
-  self.shape = shape;
-  self.normals = TriangleNormals(*self.connectivity, shape);
-  const Eigen::Vector3d low = shape.rowwise().minCoeff(), high = shape.rowwise().maxCoeff();
-  self.centre = low + 0.5 * (high - low);
-  self.unit = 0.5 * (high - low).maxCoeff();
   self.device = rtcNewDevice(nullptr);
   if (self.device == nullptr) throw Error("Embree cannot start");
   self.scene = rtcNewScene(self.device);
