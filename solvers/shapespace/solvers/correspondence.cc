@@ -31,7 +31,7 @@ using internal::MarkerDistances;
 using internal::Target;
 
 // Weights of closest points, from loose to firm; what they mean is said where they are used. With
-// them as they are, all pairs of docs/performance.md reach their figures; half or twice as many
+// them as they are, all pairs of docs/measurements.md reach their figures; half or twice as many
 // rounds change those by less than a tenth.
 constexpr double kCoarseWeights[] = {1, 3, 10, 30, 100};
 constexpr int kCoarseRounds = 6;

@@ -36,7 +36,7 @@ struct CorrespondenceOptions {
   double bending = 3e-5;
 
   /// The last rounds end when vertices move by less than this, root mean square, as a share of the
-  /// root of the area. The figures of docs/performance.md do not change below 1e-3.
+  /// root of the area. The figures of docs/measurements.md do not change below 1e-3.
   double tolerance = 1e-3;
 
   /// Rounds that these last may take. A fit that runs out of them is reported as not converged.
