@@ -1,7 +1,7 @@
 // Deformation by handles: the four cases of Botsch and Sorkine's survey ("On Linear Variational
 // Surface Deformation Methods", 2008) made in code, beside CGAL's SRE_ARAP where the program was
 // built with CGAL; parts of real bodies; seconds, cold and warm; repair. Tables of
-// docs/performance.md, in Markdown. Seconds are those of this machine.
+// docs/measurements.md and docs/performance.md, in Markdown. Seconds are those of this machine.
 //   deformation_table [folder for the shapes, as OBJ]
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // What bending mends, how closely the exponential map undoes the logarithm, how far geodesics of
-// real bodies go on, and what error correction does: the tables of docs/mathematics.md, sections 3,
-// 8 and 9, in Markdown. No times.
+// real bodies go on, and what error correction does: the tables of docs/measurements.md, sections
+// 3, 8 and 9, in Markdown. No times.
 
 #include <algorithm>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // The paper's recipes for the exponential map and for parallel transport beside ours: how their
-// errors fall with the step, as tables in Markdown (docs/mathematics.md, sections 8 and 10). No
+// errors fall with the step, as tables in Markdown (docs/measurements.md, sections 8 and 10). No
 // times.
 
 #include <algorithm>

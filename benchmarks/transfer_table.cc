@@ -1,5 +1,5 @@
 // Deformation transfer in feature space, by the ladder, and as Sumner and Popovic have it, on
-// bodies whose answers are known: the tables of docs/mathematics.md, section 11, in Markdown.
+// bodies whose answers are known: the tables of docs/measurements.md, section 11, in Markdown.
 // Seconds are those of this machine.
 
 #include <cmath>

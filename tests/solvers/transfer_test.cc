@@ -409,7 +409,7 @@ TEST(Transfer, SaysSoWhereASolveRunsOut) {
   EXPECT_FALSE(summary.Converged());
   EXPECT_FALSE(path.converged);
   ASSERT_EQ(summary.warnings.size(), 1u);
-  EXPECT_EQ(summary.warnings[0], "2 of 2 shapes did not converge: look at the pictures");
+  EXPECT_EQ(summary.warnings[0], "2 of 2 shapes did not converge: check the pictures");
   EXPECT_EQ(summary.BriefReport().find("NOT CONVERGED"), 0u);
 }
 
