@@ -73,7 +73,7 @@ struct Surface::Scene {
   // Boxes are in single precision, relative to the centre and in units of half the extent.
   const Eigen::Vector3d low, high, centre;
   const double unit;
-  const ForkJoin callbacks;  // after all that they read
+  const ForkJoin callbacks{};  // after all that they read
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
