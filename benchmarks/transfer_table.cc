@@ -10,12 +10,12 @@
 
 #include <Eigen/Geometry>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/skinned.h>
 #include <shapespace/mesh/read.h>
 #include <shapespace/path/align.h>
-#include <shapespace/path/quality.h>
 #include <shapespace/solvers/optimise/gradient_transfer.h>
 #include <shapespace/solvers/transfer.h>
 

@@ -9,14 +9,14 @@
 
 #include <gflags/gflags.h>
 
+#include <shapespace/analysis/quality.h>
+#include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/extension.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/gltf.h>
 #include <shapespace/output/picture.h>
 #include <shapespace/path/path_file.h>
-#include <shapespace/path/quality.h>
-#include <shapespace/path/rigid_parts.h>
 
 #include "support/frames.h"
 #include "support/interrupt.h"

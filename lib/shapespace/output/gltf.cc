@@ -15,6 +15,7 @@
 
 #include <Eigen/Geometry>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/atomic_file.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/read_file.h>
@@ -24,7 +25,6 @@
 #include <shapespace/output/materials.h>
 #include <shapespace/output/seams.h>
 #include <shapespace/output/tinygltf.h>
-#include <shapespace/path/quality.h>
 
 namespace shapespace {
 namespace {

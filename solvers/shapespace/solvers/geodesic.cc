@@ -5,12 +5,12 @@
 #include <limits>
 #include <memory>
 
+#include <shapespace/analysis/path_intersections.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
-#include <shapespace/path/intersections.h>
 #include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/cost/refuse_sums.h>
 #include <shapespace/solvers/optimise/piece.h>

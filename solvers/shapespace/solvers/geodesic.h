@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/mesh/read.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/path.h>
-#include <shapespace/path/quality.h>
 
 namespace shapespace {
 

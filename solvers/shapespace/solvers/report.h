@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <shapespace/path/shape_error.h>
+#include <shapespace/analysis/shape_error.h>
 #include <shapespace/solvers/geodesic.h>
 
 // Private: what the reports of all solvers are written with.

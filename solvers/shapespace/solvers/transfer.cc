@@ -5,10 +5,10 @@
 #include <optional>
 #include <utility>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/path/align.h>
-#include <shapespace/path/quality.h>
 #include <shapespace/path/rigid_motion.h>
 #include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/optimise/feature_transfer.h>

@@ -1,10 +1,10 @@
-#include <shapespace/path/shape_error.h>
+#include <shapespace/analysis/shape_error.h>
 
 #include <cmath>
 #include <limits>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/mesh/volume.h>
-#include <shapespace/path/quality.h>
 
 namespace shapespace {
 
