@@ -15,6 +15,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/fork_join.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -59,8 +60,8 @@ Span Cut(const Corners& triangle, const std::array<double, 3>& heights,
 // T. Moeller, "A fast triangle-triangle intersection test", Journal of Graphics Tools 1997: both
 // triangles cut the line common to their planes, and the cuts overlap.
 bool Cross(const Corners& a, const Corners& b, double touching) {
-  const Eigen::Vector3d normal_a = (a[1] - a[0]).cross(a[2] - a[0]).stableNormalized();
-  const Eigen::Vector3d normal_b = (b[1] - b[0]).cross(b[2] - b[0]).stableNormalized();
+  const Eigen::Vector3d normal_a = internal::UnitNormal(a[0], a[1], a[2]);
+  const Eigen::Vector3d normal_b = internal::UnitNormal(b[0], b[1], b[2]);
   std::array<double, 3> heights_a, heights_b;
   if (!Heights(a, b, normal_b, touching, &heights_a) ||
       !Heights(b, a, normal_a, touching, &heights_b)) {

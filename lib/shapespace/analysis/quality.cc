@@ -5,12 +5,14 @@
 #include <vector>
 
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/path/energy.h>
 
 namespace shapespace {
 namespace {
 
-constexpr double kDegrees = 180 / M_PI;
+using internal::kDegrees;
+
 constexpr double kShortestEdge = 1e-3;
 // Pieces slower than this, in the metric's pure numbers, stand still but for rounding.
 constexpr double kNoSpeed = 1e-9;

@@ -7,11 +7,10 @@
 #include <numeric>
 #include <utility>
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <shapespace/base/parallel.h>
-#include <shapespace/mesh/sides.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace::internal {
 namespace {
@@ -77,8 +76,7 @@ Eigen::VectorXd MeanAreas(const Path& path, const std::vector<int>& shapes) {
   Eigen::VectorXd area = Eigen::VectorXd::Zero(triangles.cols());
   const auto add = [&](const Shape& shape) {
     for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
-      const Eigen::Vector3d a = shape.col(triangles(0, f));
-      area(f) += (shape.col(triangles(1, f)) - a).cross(shape.col(triangles(2, f)) - a).norm();
+      area(f) += TriangleArea(shape, triangles.col(f));
     }
   };
   add(path.shapes[0]);
@@ -121,14 +119,10 @@ RegionMerger::RegionMerger(const Path& path, const RigidPartsOptions& options) :
       residual_[at] = SquaredResidual(rest_[f], moved_[at]);
     }
   }
-  std::vector<int> begin(count + 1);
-  for (int f = 0; f <= count; ++f) begin[f] = 3 * f;
-  const std::vector<int> corners(triangles.data(), triangles.data() + triangles.size());
-  const Sides sides = MakeSides(connectivity.NumVertices(), begin, corners);
-  for (int e = 0; e < sides.NumEdges(); ++e) {
-    for (int s = sides.begin[e] + 1; s < sides.begin[e + 1]; ++s) {
-      const auto [low, high] = std::minmax(sides.sides[s - 1].polygon, sides.sides[s].polygon);
-      if (low != high) pairs_.push_back({low, high, -1});
+  for (int e = 0; e < connectivity.NumTriangleEdges(); ++e) {
+    const IndexLists::Row around = connectivity.TrianglesOfEdges()[e];
+    for (int i = 1; i < around.size(); ++i) {
+      if (around[i - 1] != around[i]) pairs_.push_back({around[i - 1], around[i], -1});
     }
   }
 }

@@ -10,6 +10,7 @@
 #include <shapespace/analysis/region_merger.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/path/rigid_motion.h>
 
 namespace shapespace {
@@ -69,7 +70,7 @@ std::vector<RegionFit> FitRegions(const Path& path, int i, const Eigen::VectorXd
 }
 
 double DegreesBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  return Eigen::AngleAxisd(Eigen::Matrix3d(a * b.transpose())).angle() * 180 / M_PI;
+  return Eigen::AngleAxisd(Eigen::Matrix3d(a * b.transpose())).angle() * internal::kDegrees;
 }
 
 // Per vertex the first of the parts that its triangles have.

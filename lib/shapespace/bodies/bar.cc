@@ -6,6 +6,7 @@
 #include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/checks.h>
 #include <shapespace/bodies/grid.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -80,10 +81,10 @@ Body MakeBar(double length, double width, double height, int nx, int ny, int nz)
   body.name = "bar";
   body.connectivity = ConnectivityOf(node.Count(), triangles);
   body.parameter = "bend angle, degrees";
-  body.end = std::min({360.0, 90.0 * nx, 0.9 * 2 * length / height / kRadians});
+  body.end = std::min({360.0, 90.0 * nx, 0.9 * 2 * length / height / internal::kRadians});
   body.pose = [rest = std::move(rest), length](double angle) {
     Shape shape(3, rest.cols());
-    const double curvature = angle * kRadians / length;
+    const double curvature = angle * internal::kRadians / length;
     for (int v = 0; v < rest.cols(); ++v) shape.col(v) = Bend(rest.col(v), curvature);
     return shape;
   };

@@ -7,9 +7,6 @@
 
 namespace shapespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadians = kPi / 180;  ///< radians in a degree
-
 /// sin(x) / x; the first terms of its series are exact to rounding where the quotient is not.
 inline double Sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 

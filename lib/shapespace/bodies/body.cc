@@ -15,6 +15,7 @@
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/steffen.h>
 #include <shapespace/bodies/tube.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -41,8 +42,8 @@ Body Bricard(int) { return MakeBricard(); }
 
 Body Catenoid(int triangles) {
   const double half_height = 1;
-  const double cell = std::sqrt(2 * 2 * kPi * 2 * half_height / triangles);
-  return MakeCatenoid(half_height, std::max(3, CellsAlong(2 * kPi, cell)),
+  const double cell = std::sqrt(2 * 2 * internal::kPi * 2 * half_height / triangles);
+  return MakeCatenoid(half_height, std::max(3, CellsAlong(2 * internal::kPi, cell)),
                       CellsAlong(2 * half_height, cell));
 }
 

@@ -6,6 +6,7 @@
 #include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/checks.h>
 #include <shapespace/bodies/grid.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -51,7 +52,7 @@ Body MakeBricard() {
   body.isometric = true;
   body.begin = -35;
   body.end = 50;
-  body.pose = [](double angle) { return Pose(angle * kRadians); };
+  body.pose = [](double angle) { return Pose(angle * internal::kRadians); };
   return WithCheckedRange(std::move(body));
 }
 

@@ -6,6 +6,7 @@
 #include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/checks.h>
 #include <shapespace/bodies/grid.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 
@@ -30,10 +31,11 @@ Body MakeCatenoid(double half_height, int around, int along) {
   // With w = u + i v the catenoid is the real part of (cos w, sin w, -i w), the helicoid its
   // imaginary part; the associated surfaces turn one into the other.
   body.pose = [=](double angle) {
-    const double real = std::cos(angle * kRadians), imaginary = std::sin(angle * kRadians);
+    const double real = std::cos(angle * internal::kRadians),
+                 imaginary = std::sin(angle * internal::kRadians);
     Shape shape(3, num_vertices);
     for (int i = 0; i <= around; ++i) {
-      const double u = kPi * (2.0 * i / around - 1);
+      const double u = internal::kPi * (2.0 * i / around - 1);
       for (int j = 0; j <= along; ++j) {
         const double v = half_height * (2.0 * j / along - 1);
         const Eigen::Vector3d catenoid(std::cosh(v) * std::cos(u), std::cosh(v) * std::sin(u), v);

@@ -6,6 +6,7 @@
 
 #include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/checks.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 
@@ -32,9 +33,10 @@ Body MakeMiura(double a, double b, double corner, int nx, int ny) {
   body.isometric = true;
   body.end = 85;
   body.pose = [=](double angle) {
-    const double cosine = std::cos(angle * kRadians), sine = std::sin(angle * kRadians);
-    const double tangent = cosine * std::tan(corner * kRadians);
-    const double lift = sine * std::sin(corner * kRadians);
+    const double cosine = std::cos(angle * internal::kRadians),
+                 sine = std::sin(angle * internal::kRadians);
+    const double tangent = cosine * std::tan(corner * internal::kRadians);
+    const double lift = sine * std::sin(corner * internal::kRadians);
     const double zigzag = b / std::sqrt(1 + tangent * tangent);
     const double along_x = zigzag * tangent;
     const double along_y = a * std::sqrt(1 - lift * lift);

@@ -12,6 +12,7 @@
 #include <shapespace/bodies/polygonise.h>
 #include <shapespace/bodies/quadruped_poses.h>
 #include <shapespace/bodies/skeleton.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -167,7 +168,7 @@ Rotations RotationsOf(const Skeleton& skeleton, const Turns& turns) {
   std::vector<bool> named(rotations.size(), false);
   for (const Turn& turn : turns) {
     const int j = skeleton.Find(turn.bone);
-    rotations[j] = kRadians * Eigen::Vector3d(turn.roll, turn.pitch, turn.yaw);
+    rotations[j] = internal::kRadians * Eigen::Vector3d(turn.roll, turn.pitch, turn.yaw);
     named[j] = true;
   }
   for (size_t j = 0; j < rotations.size(); ++j) {

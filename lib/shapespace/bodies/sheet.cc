@@ -7,6 +7,7 @@
 #include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/checks.h>
 #include <shapespace/bodies/grid.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 
@@ -34,7 +35,7 @@ Body MakeSheet(double length, double width, int nx, int ny) {
   body.end = std::min(360.0, 90.0 * nx);
   body.pose = [rest = std::move(rest), length](double angle) {
     Shape shape(3, rest.cols());
-    const double curvature = angle * kRadians / length;
+    const double curvature = angle * internal::kRadians / length;
     for (int v = 0; v < rest.cols(); ++v) shape.col(v) = Bend(rest.col(v), curvature);
     return shape;
   };
@@ -64,7 +65,8 @@ Body MakeStrip(double side, double width, int triangles) {
 
   // Two or three triangles make no ring; they stop where four would. Narrow strips, whose hinges
   // are nearly along x, stop before a hinge is shut, which is at k t^2 = 1.
-  const double t_end = std::min(std::tan(kPi / std::max(4, triangles)), std::sqrt(0.9 / k));
+  const double t_end =
+      std::min(std::tan(internal::kPi / std::max(4, triangles)), std::sqrt(0.9 / k));
   const double sin_half_end = std::sqrt((1 + k) / (1 + t_end * t_end)) * t_end;
 
   Body body;
@@ -72,9 +74,9 @@ Body MakeStrip(double side, double width, int triangles) {
   body.connectivity = ConnectivityOf(num_vertices, list);
   body.parameter = "hinge angle, degrees";
   body.isometric = true;
-  body.end = 2 * std::asin(sin_half_end) / kRadians;
+  body.end = 2 * std::asin(sin_half_end) / internal::kRadians;
   body.pose = [=](double angle) {
-    const double hinge = angle * kRadians;
+    const double hinge = angle * internal::kRadians;
     const double sin_half = std::sin(hinge / 2);
     const double t = sin_half / std::sqrt(1 + k - sin_half * sin_half);
     const double step = 2 * std::atan(t);

@@ -8,6 +8,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -16,10 +17,7 @@ namespace {
 /// of both sides.
 constexpr double kMiddle = 0.06;
 
-double SmoothStep(double x) {
-  x = std::clamp(x, 0.0, 1.0);
-  return x * x * x * (10 + x * (6 * x - 15));
-}
+using internal::SmoothStep;
 
 Eigen::Vector3d Direction(const Bone& bone) { return (bone.end - bone.begin).normalized(); }
 

@@ -8,6 +8,7 @@
 #include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/checks.h>
 #include <shapespace/bodies/grid.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -53,7 +54,7 @@ Body MakeSteffen() {
   body.isometric = true;
   body.begin = -12.5;
   body.end = 12.5;
-  body.pose = [](double angle) { return Pose(angle * kRadians); };
+  body.pose = [](double angle) { return Pose(angle * internal::kRadians); };
   return WithCheckedRange(std::move(body));
 }
 

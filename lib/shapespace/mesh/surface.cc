@@ -6,11 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include <shapespace/base/embree.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/fork_join.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -47,9 +46,7 @@ Shape TriangleNormals(const Connectivity& connectivity, const Shape& shape) {
   const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
   Shape normals(3, triangles.cols());
   for (int f = 0; f < triangles.cols(); ++f) {
-    const Eigen::Vector3d a = shape.col(triangles(0, f));
-    normals.col(f) =
-        (shape.col(triangles(1, f)) - a).cross(shape.col(triangles(2, f)) - a).stableNormalized();
+    normals.col(f) = internal::UnitNormal(shape, triangles.col(f));
   }
   return normals;
 }
@@ -58,9 +55,7 @@ Shape VertexNormals(const Connectivity& connectivity, const Shape& shape) {
   const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
   Shape normals = Shape::Zero(3, shape.cols());
   for (int f = 0; f < triangles.cols(); ++f) {
-    const Eigen::Vector3d a = shape.col(triangles(0, f));
-    const Eigen::Vector3d normal =
-        (shape.col(triangles(1, f)) - a).cross(shape.col(triangles(2, f)) - a);
+    const Eigen::Vector3d normal = internal::AreaNormal(shape, triangles.col(f));
     for (int k = 0; k < 3; ++k) normals.col(triangles(k, f)) += normal;
   }
   for (int v = 0; v < shape.cols(); ++v) normals.col(v).stableNormalize();

@@ -19,6 +19,7 @@
 #include <shapespace/base/atomic_file.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/read_file.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/output/colour.h>
 #include <shapespace/output/key_shapes.h>
 #include <shapespace/output/legend.h>
@@ -83,11 +84,6 @@ void CheckSize(const std::string& file, const std::vector<Shape>& shapes,
                   nlohmann::json(size).dump() + "; choose another unit of length");
 }
 
-Eigen::Vector3d TriangleNormal(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                               const Eigen::Vector3d& c) {
-  return (b - a).cross(c - a);
-}
-
 // Whether most of the hinges that are not flat all the time are sharp at some time.
 bool IsFaceted(const Connectivity& connectivity, const std::vector<Shape>& shapes) {
   const Eigen::Matrix4Xi& hinges = connectivity.Hinges();
@@ -96,8 +92,8 @@ bool IsFaceted(const Connectivity& connectivity, const std::vector<Shape>& shape
     double least_cosine = 1;
     for (const Shape& shape : shapes) {
       const auto corner = [&](int k) { return shape.col(hinges(k, h)); };
-      const Eigen::Vector3d first = TriangleNormal(corner(0), corner(1), corner(2));
-      const Eigen::Vector3d second = TriangleNormal(corner(1), corner(0), corner(3));
+      const Eigen::Vector3d first = internal::AreaNormal(corner(0), corner(1), corner(2));
+      const Eigen::Vector3d second = internal::AreaNormal(corner(1), corner(0), corner(3));
       const double areas = first.norm() * second.norm();
       if (areas > 0) least_cosine = std::min(least_cosine, first.dot(second) / areas);
     }
@@ -112,7 +108,7 @@ Eigen::Matrix3Xd SmoothNormals(const Connectivity& connectivity, const Shape& sh
   Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, shape.cols());
   for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
     const auto corner = [&](int k) { return shape.col(triangles(k, f)); };
-    const Eigen::Vector3d normal = TriangleNormal(corner(0), corner(1), corner(2));
+    const Eigen::Vector3d normal = internal::AreaNormal(corner(0), corner(1), corner(2));
     for (int k = 0; k < 3; ++k) normals.col(triangles(k, f)) += normal;
   }
   for (Eigen::Index v = 0; v < normals.cols(); ++v) {
@@ -259,7 +255,7 @@ std::vector<std::pair<double, double>> Moments(const std::vector<double>& parame
   std::vector<double> points = parameters;
   if (options.ease) {
     for (int i = 1; i < kEasePoints; ++i) {
-      points.push_back((1 - std::cos(EIGEN_PI * i / kEasePoints)) / 2);
+      points.push_back((1 - std::cos(internal::kPi * i / kEasePoints)) / 2);
     }
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -272,7 +268,7 @@ std::vector<std::pair<double, double>> Moments(const std::vector<double>& parame
   std::vector<std::pair<double, double>> moments;
   if (back) moments.emplace_back(0, 0);
   for (const double point : points) {
-    const double time = options.ease ? std::acos(1 - 2 * point) / EIGEN_PI : point;
+    const double time = options.ease ? std::acos(1 - 2 * point) / internal::kPi : point;
     moments.emplace_back(begin + share * duration * time, point);
   }
   if (back) {

@@ -149,11 +149,6 @@ std::vector<Shape> Normalised(const Connectivity& connectivity, const std::vecto
 Eigen::VectorXi Widened(const Connectivity& connectivity, const Shape& shape,
                         const Eigen::VectorXi& marks, double radius) {
   if (marks.size() == 0) return marks;
-  std::vector<std::vector<int>> neighbours(connectivity.NumVertices());
-  for (const auto& edge : connectivity.Edges().colwise()) {
-    neighbours[edge(0)].push_back(edge(1));
-    neighbours[edge(1)].push_back(edge(0));
-  }
   Eigen::VectorXi result = marks;
   std::set<std::pair<double, int>> front;  // distance and vertex
   std::vector<double> distance(marks.size(), radius);
@@ -163,7 +158,8 @@ Eigen::VectorXi Widened(const Connectivity& connectivity, const Shape& shape,
   while (!front.empty()) {
     const int v = front.begin()->second;
     front.erase(front.begin());
-    for (int w : neighbours[v]) {
+    for (const int e : connectivity.EdgesOfVertices()[v]) {
+      const int w = connectivity.OtherEnd(e, v);
       const double way = distance[v] + (shape.col(w) - shape.col(v)).norm();
       if (way >= distance[w]) continue;
       front.erase({distance[w], w});

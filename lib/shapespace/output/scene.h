@@ -7,7 +7,6 @@
 
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
-#include <shapespace/output/normals.h>
 
 struct RTCDeviceTy;
 struct RTCSceneTy;
@@ -25,7 +24,6 @@ class RayTracer {
   friend class Scene;
   const Connectivity& connectivity_;
   const float tube_radius_;
-  const CornerNormals normals_;
   std::shared_ptr<RTCDeviceTy> device_;
 };
 

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -48,7 +49,7 @@ Eigen::Vector3d CentreOfArea(const Connectivity& connectivity, const Shape& shap
   for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
     const Eigen::Vector3d a = shape.col(triangles(0, f)), b = shape.col(triangles(1, f)),
                           c = shape.col(triangles(2, f));
-    const double area = (b - a).cross(c - a).norm();
+    const double area = internal::TriangleArea(a, b, c);
     sum += area / 3 * (a + b + c);
     total += area;
   }

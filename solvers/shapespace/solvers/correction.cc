@@ -9,6 +9,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/base/stopwatch.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/rigid_motion.h>
 #include <shapespace/solvers/check_options.h>
@@ -80,7 +81,7 @@ Metric FreezeLengths(const Path& path, CorrectionMode mode, double lambda) {
 // slowest mode weighs (pi / n)^2: lambda makes of that what the distance from the given shapes
 // weighs.
 internal::Cholesky Factor(const Path& path, CorrectionMode mode, double mu) {
-  const Metric metric = FreezeLengths(path, mode, mu / (M_PI * M_PI));
+  const Metric metric = FreezeLengths(path, mode, mu / (internal::kPi * internal::kPi));
   return internal::Cholesky(mode == CorrectionMode::kPaper
                                 ? internal::ScalarMetric(metric,
                                                          {path.shapes.front(), path.shapes.back()},

@@ -11,6 +11,7 @@
 #include <shapespace/base/parallel.h>
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/hierarchy/hierarchy.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/mesh/topology.h>
 #include <shapespace/path/align.h>
 #include <shapespace/solvers/check_options.h>
@@ -52,15 +53,12 @@ struct OwnFrame {
     const Eigen::Vector3d low = shape.rowwise().minCoeff();
     const double extent = (shape.rowwise().maxCoeff() - low).maxCoeff();
     const Shape near = (shape.colwise() - low) / extent;
-    double twice_area = 0;
-    for (int f = 0; f < connectivity.NumTriangles(); ++f) {
-      const auto triangle = connectivity.Triangles().col(f);
-      const Eigen::Vector3d a = near.col(triangle(0));
-      const Eigen::Vector3d p = near.col(triangle(1)) - a, q = near.col(triangle(2)) - a;
-      twice_area += p.cross(q).norm();
+    double area = 0;
+    for (const auto& triangle : connectivity.Triangles().colwise()) {
+      area += internal::TriangleArea(near, triangle);
     }
     centre = low + extent * (near * internal::VertexAreas(connectivity, near));
-    unit = extent * std::sqrt(0.5 * twice_area);
+    unit = extent * std::sqrt(area);
   }
 
   Shape In(const Shape& shape) const { return (shape.colwise() - centre) / unit; }

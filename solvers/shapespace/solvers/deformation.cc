@@ -11,6 +11,7 @@
 #include <shapespace/base/parallel.h>
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/hierarchy/hierarchy.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/mesh/topology.h>
 #include <shapespace/path/align.h>
 #include <shapespace/solvers/check_options.h>
@@ -39,7 +40,7 @@ constexpr double kEnough = 1e-3;
 
 // Paths of which a handle turns farther than this from shape to shape are told of: bars were found
 // to slip out of turns by 180 degrees between neighbours, and not by 120.
-constexpr double kFarthestTurn = 2 * M_PI / 3;
+constexpr double kFarthestTurn = 2 * internal::kPi / 3;
 
 // A hard handle that is off by more than this share of the unit is told of, with some room for
 // rounding far from the origin: others are met.
@@ -391,9 +392,9 @@ void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* su
   const double turn = targets.GreatestTurn() / options_.shapes;
   if (turn > kFarthestTurn) {
     summary->warnings.push_back(
-        "a handle turns by " + std::to_string(std::lround(turn * 180 / M_PI)) +
+        "a handle turns by " + std::to_string(std::lround(turn * internal::kDegrees)) +
         " degrees from one shape to the next, and the body may slip out of such a turn; ask for " +
-        std::to_string(static_cast<int>(std::ceil(targets.GreatestTurn() / (M_PI / 2)))) +
+        std::to_string(static_cast<int>(std::ceil(targets.GreatestTurn() / (internal::kPi / 2)))) +
         " shapes or more");
   }
   const double far = kContradiction * (summary->unit + 1e-3 * origin_.norm());

@@ -10,6 +10,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/hierarchy/detail.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/metric/feature_map.h>
 #include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/optimise/shooter.h>
@@ -146,17 +147,13 @@ double InvertedShare(const Metric& metric, const Shape& before, const Shape& aft
   const Connectivity& connectivity = *metric.connectivity;
   if (connectivity.NumTriangles() == 0) return 0;
   const std::vector<Eigen::Matrix3d> turns = internal::VertexRotations(connectivity, before, after);
-  const auto normal = [&](const Shape& shape, const Eigen::Vector3i& t) -> Eigen::Vector3d {
-    const Eigen::Vector3d a = shape.col(t(0)), b = shape.col(t(1)), c = shape.col(t(2));
-    return (b - a).cross(c - a);
-  };
   double inverted = 0, all = 0;
   for (int f = 0; f < connectivity.NumTriangles(); ++f) {
     const Eigen::Vector3i t = connectivity.Triangles().col(f);
-    const Eigen::Vector3d n = normal(before, t);
+    const Eigen::Vector3d n = internal::AreaNormal(before, t);
     const Eigen::Vector3d expected = (turns[t(0)] + turns[t(1)] + turns[t(2)]) * n;
     all += n.norm();
-    if (expected.dot(normal(after, t)) < 0) inverted += n.norm();
+    if (expected.dot(internal::AreaNormal(after, t)) < 0) inverted += n.norm();
   }
   return all > 0 ? inverted / all : 0;
 }

@@ -8,6 +8,7 @@
 #include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/stopwatch.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/rigid_motion.h>
 #include <shapespace/solvers/check_options.h>
@@ -99,7 +100,7 @@ void MeasureWhatIsOff(const Metric& metric, const Path& source, const Path& targ
   const Eigen::VectorXd off = change(target, angles_of) - change(source, angles_of);
   squares = metric.hinge_area.dot(off.unaryExpr(&WrapAngle).cwiseAbs2());
   area = metric.hinge_area.sum();
-  if (area > 0) summary->angle_rms = std::sqrt(squares / area) * 180 / M_PI;
+  if (area > 0) summary->angle_rms = std::sqrt(squares / area) * internal::kDegrees;
 }
 
 void Warn(TransferSummary* summary) {
