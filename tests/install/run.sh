@@ -45,6 +45,7 @@ for flag in "${flags[@]}"; do
     fail "built with $flag the README's program ends with exit code $?"
   grep -qx 'Termination  *converged' report.txt || fail "with $flag the solver did not converge"
 done
+"$work/build/openmesh_consumer" || fail "the adaptor for OpenMesh ends with exit code $?"
 "$work/prefix/bin/shape-interpolate" --version
 "$work/prefix/bin/shape-body" tube --triangles 500 --at 0,90 --output 'pose%d.obj'
 "$work/build/guide_library" pose0.obj pose1.obj | grep -qx 'Termination  *converged' ||
