@@ -81,7 +81,7 @@ TEST_P(RealPairs, MapIsAsGoodAsMeasured) {
   EXPECT_LE(far, pair.far);
 }
 
-// A tenth above what was measured at the default options (docs/performance.md).
+// A tenth above what was measured at the default options (docs/measurements.md).
 INSTANTIATE_TEST_SUITE_P(, RealPairs,
                          ::testing::Values(KnownPair{"person_000-person_001", 20, 0.0125, 0, 4e-3},
                                            KnownPair{"person_000-person_001", 55, 0.0105, 0, 1e-3},

@@ -223,7 +223,7 @@ TEST(Correspond, NamesMarkersThatHaveChangedPlaces) {
     EXPECT_EQ(doubt.swapped, doubt.marker == 1 ? 5 : 1);
   }
   EXPECT_EQ(named, (std::set<int>{1, 5}));
-  EXPECT_TRUE(Names(result.summary.warnings, "changed places with marker 6"));
+  EXPECT_TRUE(Names(result.summary.warnings, "exchanged with marker 6"));
 }
 
 TEST(Correspond, RefusesMarkersThatCannotDo) {
@@ -359,7 +359,7 @@ TEST(Correspond, SaysWhenItHasNotComeToRest) {
   options.tolerance = 1e-9;
   const CorrespondenceResult result = bodies.Fit(options);
   EXPECT_FALSE(result.summary.Converged());
-  EXPECT_TRUE(Names(result.summary.warnings, "did not come to rest"));
+  EXPECT_TRUE(Names(result.summary.warnings, "the final rounds did not converge"));
   EXPECT_NE(result.summary.BriefReport().find("not converged"), std::string::npos);
 }
 
@@ -445,7 +445,7 @@ TEST(CarryPath, KeepsTogetherWhatTheTemplateDoesNotHave) {
   const CorrespondenceResult fit =
       Correspond(headless, bodies.rest, bodies.second.connectivity, bodies.target, markers);
   EXPECT_GT(fit.summary.uncovered, 0.05);
-  EXPECT_TRUE(Names(fit.summary.warnings, "covered by no part"));
+  EXPECT_TRUE(Names(fit.summary.warnings, "not near any part"));
   const PoseTransferResult moved =
       TransferPoses(headless, {bodies.rest, bodies.first.pose("sit")}, fit.fitted);
   const Shape sitting =

@@ -448,7 +448,7 @@ TEST(Deform, APieceWithoutHandleStaysAndIsNamed) {
                                           {Fixed(bar.left), Moving(bar.right, Twist(90))});
   EXPECT_EQ(result.summary.free_components, 1);
   ASSERT_EQ(result.summary.warnings.size(), 1u);
-  EXPECT_NE(result.summary.warnings[0].find("number " + std::to_string(count + 1)),
+  EXPECT_NE(result.summary.warnings[0].find("vertex " + std::to_string(count + 1)),
             std::string::npos);
   for (const Shape& shape : result.path.Placed()) {
     EXPECT_LT(Largest(shape.rightCols(count), rest.rightCols(count)), 1e-12);

@@ -60,7 +60,7 @@ TEST(RealPosesThatCross, AreWarnedOf) {
   const auto [path, summary] = Interpolate(ReadPoses({first, (folder / "scape/6.obj").string()}));
   EXPECT_GT(summary.intersections, 20);
   const std::string report = summary.FullReport();
-  EXPECT_NE(report.find("Warning: the body passes through itself"), std::string::npos) << report;
+  EXPECT_NE(report.find("Warning: the body intersects itself"), std::string::npos) << report;
 }
 
 }  // namespace

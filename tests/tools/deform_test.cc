@@ -317,8 +317,8 @@ TEST_F(DeformTest, WarnsOfWhatNothingHoldsAndOfContradictions) {
       Run("shape-deform", {"two.obj", "--handles", "handles.json", "--output", "b.obj"});
   EXPECT_EQ(outcome.code, 0);
   ExpectContains(outcome.err,
-                 "warning: no handle holds the connected piece of 152 vertices whose first is "
-                 "number 153");
+                 "warning: no handle holds the connected component of 152 vertices that begins "
+                 "with vertex 153");
   ExpectContains(outcome.err, "warning: the hard handle \"root\" shares vertices with another");
   ExpectContains(outcome.err, "warning: the hard handle \"off\" shares vertices with another");
   EXPECT_TRUE(Vertices("b.obj").rightCols(152).isApprox(Vertices("two.obj").rightCols(152), 1e-12));

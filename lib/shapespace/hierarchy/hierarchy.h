@@ -47,6 +47,10 @@ class Hierarchy {
   /// A shape of `level` as the next coarser level sees it.
   Shape RestrictOnce(const Shape& shape, int level) const;
 
+  /// A field of positive numbers, one a vertex of the mesh itself, as `level` sees it: the
+  /// geometric mean over the vertices that each vertex of `level` stands for.
+  Eigen::VectorXd RestrictField(const Eigen::VectorXd& field, int level) const;
+
   /// A shape of `level` + 1 that sits on `coarse`, a shape of `level`, as `from` sits on
   /// `from_base` and `to` on `to_base`, blended by (1 - t, t): each neighbourhood moves with the
   /// rotation of the vertices that carry it. Exact where `coarse` is `from_base` and t is 0, or

@@ -197,7 +197,7 @@ std::vector<double> SquaredSpeeds(const Path& path) {
   if (path.NumShapes() < 2) return speeds;
   // Of three shapes of which the last two are one, the first segment has all of the energy, which
   // is twice the squared distance, whatever the metric.
-  PathEnergy energy(*path.metric, 1);
+  PathEnergy energy(path.metric, 1);
   std::vector<double> unknowns(energy.Size());
   for (int i = 0; i + 1 < path.NumShapes(); ++i) {
     energy.Load({path.shapes[i], path.shapes[i + 1], path.shapes[i + 1]}, unknowns.data());

@@ -3,7 +3,7 @@
 
 #include <shapespace/base/error.h>
 
-// Private: what the options of all solvers have in common.
+// Private: checks of options that all solvers have.
 
 namespace shapespace::internal {
 

@@ -21,14 +21,14 @@
 namespace shapespace {
 namespace {
 
-// Less than this share of the deformation left is a collapse. At mu = 1 half and more was left of
-// all paths tried; the paper's energy left 0.06 at most at a tolerance of 1e-3.
+// A path with less than this share of its deformation left has collapsed. At mu = 1 at least half
+// was left of all paths tried; the paper's energy left 0.06 at most at a tolerance of 1e-3.
 constexpr double kCollapsed = 1.0 / 3;
 
-// Rows that one task of a thread takes.
+// Rows per task of a thread.
 constexpr int kRowsPerTask = 512;
 
-// weight * sum_i sum_p A_p |P_i - P_i^given|^2, on a path energy's arrays.
+// weight * sum_i sum_p A_p |P_i - P_i^given|^2, on the arrays of a path energy.
 class Proximity {
  public:
   Proximity(double weight, const Eigen::VectorXd& vertex_area, const PathEnergy& energy,
@@ -64,36 +64,36 @@ class Proximity {
   std::vector<double> row_weights_, given_;
 };
 
-// Edge lengths alone, on the path's shapes as they are.
-Metric FreezeLengths(const Path& path, CorrectionMode mode, double lambda) {
+// A metric of edge lengths only, frozen on the path's shapes.
+std::shared_ptr<const Metric> FreezeLengths(const Path& path, CorrectionMode mode, double lambda) {
   MetricOptions options;
   options.isometric = 1;
   options.lambda = lambda;
   options.bending = 0;
   if (mode == CorrectionMode::kPaper) {
-    options.weights = Weights::kUniform;
+    options.weights = Weighting::kUniform;
     options.discretization = Discretization::kTrapezoid;
   }
   return FreezeMetric(options, path.metric->connectivity, {path.shapes.front()}, 1);
 }
 
 // The scalar metric. The preconditioner multiplies it by the second difference in time, whose
-// slowest mode weighs (pi / n)^2: lambda makes of that what the distance from the given shapes
-// weighs.
+// smallest eigenvalue is about (pi / n)^2. lambda is chosen such that the product is then the
+// weight of the distance from the given shapes.
 internal::Cholesky Factor(const Path& path, CorrectionMode mode, double mu) {
-  const Metric metric = FreezeLengths(path, mode, mu / (internal::kPi * internal::kPi));
+  const auto metric = FreezeLengths(path, mode, mu / (internal::kPi * internal::kPi));
   return internal::Cholesky(mode == CorrectionMode::kPaper
-                                ? internal::ScalarMetric(metric,
+                                ? internal::ScalarMetric(*metric,
                                                          {path.shapes.front(), path.shapes.back()},
                                                          path.NumShapes() - 1)
-                                : internal::ScalarMetric(metric, {path.shapes.front()}, 0));
+                                : internal::ScalarMetric(*metric, {path.shapes.front()}, 0));
 }
 
 double MeanDistance(const Shape& a, const Shape& b, const Eigen::VectorXd& vertex_area) {
   return std::sqrt((a - b).colwise().squaredNorm().dot(vertex_area) / vertex_area.sum());
 }
 
-// Of the last shape from the first, modulo rigid motion.
+// Distance of the last shape from the first, modulo rigid motion.
 double Deformation(const Path& path) {
   const Eigen::VectorXd& area = path.metric->vertex_area;
   const RigidMotion motion = FitRigidMotion(path.shapes.back(), path.shapes.front(), area);
@@ -110,7 +110,7 @@ void Assess(const Path& given, const Path& path, CorrectionSummary* summary) {
   }
   summary->distance = std::sqrt(squares);
   const double before = Deformation(given);
-  // Of a path that only moves rigidly, rounding is left: nothing to lose.
+  // A path that moves only rigidly has a deformation at the level of rounding.
   constexpr double kNoDeformation = 1e-9;
   if (before > kNoDeformation) summary->deformation_left = Deformation(path) / before;
 }
@@ -180,7 +180,7 @@ std::string CorrectionSummary::ToJson() const {
 CorrectionResult CorrectPath(const Path& path, const CorrectionOptions& options,
                              Progress* progress) {
   options.Validate();
-  if (path.NumShapes() < 2) throw MeshError("a path of fewer than two shapes has none to correct");
+  if (path.NumShapes() < 2) throw MeshError("a path needs at least two shapes to be corrected");
   const Stopwatch total;
   CorrectionResult result;
   CorrectionSummary& summary = result.summary;
@@ -191,7 +191,7 @@ CorrectionResult CorrectPath(const Path& path, const CorrectionOptions& options,
 
   ReportProgress(progress, "correcting", 0, 0);
   const int segments = path.NumShapes() - 1;
-  const Metric lengths = FreezeLengths(path, options.mode, 0);
+  const auto lengths = FreezeLengths(path, options.mode, 0);
   PathEnergy energy(lengths, segments, PathEnergy::End::kFree);
   std::vector<double> unknowns(energy.Size());
   energy.Load(path.shapes, unknowns.data());
@@ -202,10 +202,10 @@ CorrectionResult CorrectPath(const Path& path, const CorrectionOptions& options,
 
   internal::MinimiseOptions minimise;
   minimise.tolerance = options.tolerance;
-  // A minimum of zero is never reached by shares of what is left; so shares of what was gained.
-  // They are of second order in errors of length; but near a translate the paper's energy is of
-  // fourth in deformations, and what its gradient promises of sixth: these are right to the
-  // tolerance's root.
+  // Relative decrease never ends the solve if the minimum is zero, so it also ends at a share of
+  // the decrease since the start. Energies are of second order in errors of length, but near a
+  // translate the paper's energy is of fourth order in deformations and its predicted decrease of
+  // sixth. With these powers errors and deformations are correct to the tolerance's square root.
   minimise.enough = std::pow(options.tolerance, options.mode == CorrectionMode::kPaper ? 3 : 2);
   minimise.max_iterations = options.max_iterations;
   minimise.rank = internal::HistoryRank(static_cast<double>(variables.Size()));

@@ -31,25 +31,25 @@ using internal::Level;
 using internal::MarkerDistances;
 using internal::Target;
 
-// Weights of closest points, from loose to firm; what they mean is said where they are used. With
-// them as they are, all pairs of docs/performance.md reach their figures; half or twice as many
-// rounds change those by less than a tenth.
+// Weights of the closest-point terms, ascending; their meaning is explained where they are used.
+// With these values all pairs reach the figures of docs/measurements.md; half or twice as many
+// rounds change the figures by less than a tenth.
 constexpr double kCoarseWeights[] = {1, 3, 10, 30, 100};
 constexpr int kCoarseRounds = 6;
 constexpr double kFineWeight = 100, kLastWeight = 1000;
 constexpr int kFineRounds = 3;
-// While the pose is sought, bodies bend less easily.
+// Factor of the bending weight during the search for the pose.
 constexpr double kCoarseBending = 3;
-// The target is near enough to be covered, as a share of the root of its area.
+// Vertices of the target nearer than this are covered; share of the square root of its area.
 constexpr double kCovered = 0.03;
 
-// A body in its own frame: its area is 1, and its centroid at the origin.
+// A body's own frame, in which its area is 1 and its centroid is at the origin.
 struct OwnFrame {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double unit = 1;
 
   OwnFrame(const Connectivity& connectivity, const Shape& shape) {
-    // In two steps, so that far from the origin nothing is lost and no square overflows.
+    // In two steps, to avoid cancellation far from the origin and overflow of squares.
     const Eigen::Vector3d low = shape.rowwise().minCoeff();
     const double extent = (shape.rowwise().maxCoeff() - low).maxCoeff();
     const Shape near = (shape.colwise() - low) / extent;
@@ -65,8 +65,8 @@ struct OwnFrame {
   Shape Out(const Shape& shape) const { return (unit * shape).colwise() + centre; }
 };
 
-// The bodies' sizes compared by distances between markers along the surface, which do not depend
-// on poses or on holes: the median ratio.
+// Ratio of the bodies' sizes: the median ratio of the distances between markers along the surface,
+// which do not depend on poses or holes.
 double RelativeSize(const Eigen::MatrixXf& on_template, const Eigen::MatrixXf& on_target,
                     const std::vector<int>& template_vertices,
                     const std::vector<int>& target_vertices) {
@@ -85,7 +85,7 @@ double RelativeSize(const Eigen::MatrixXf& on_template, const Eigen::MatrixXf& o
   return *middle;
 }
 
-// Fits on one level after another.
+// Fits the template level by level.
 class Fit {
  public:
   Fit(const CorrespondenceOptions& options, const Target& target, std::vector<int> held,
@@ -97,7 +97,7 @@ class Fit {
         progress_(progress),
         summary_(summary) {}
 
-  // The template at rest, in the target's frame. \return the fitted template.
+  // `rest`: the template at rest, in the target's frame. \return the fitted template.
   Shape operator()(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest) {
     const Stopwatch stopwatch;
     HierarchyOptions hierarchy_options;
@@ -137,7 +137,7 @@ class Fit {
     return held;
   }
 
-  // Asked to stop, the last level ends early; before there is nothing worth returning.
+  // If asked to stop, the last level ends early; before that there is no result worth returning.
   bool Stops() {
     if (summary_->cancelled) return true;
     if (progress_ == nullptr || progress_->Report("fitting, level", level_ + 1, num_levels_)) {
@@ -148,8 +148,8 @@ class Fit {
     return true;
   }
 
-  // From markers alone to where limbs are near to where they belong, and on under strain and
-  // bending.
+  // Starts from the markers alone, approaches the pose with the gradient fit, then continues under
+  // strain and bending.
   void FindPose(const Level& level, const Shape& rest, Shape* shape) {
     const Stopwatch stopwatch;
     Stops();
@@ -182,7 +182,7 @@ class Fit {
     return {level.connectivity, rest, HeldOn(level), bending, options_.proportions};
   }
 
-  // \return whether vertices came to rest.
+  // \return whether the vertices stopped moving.
   bool Rounds(const Level& level, internal::ShellFit* fit, double weight, int rounds,
               Shape* shape) {
     const Stopwatch stopwatch;
@@ -190,7 +190,7 @@ class Fit {
     stage.vertices = static_cast<int>(shape->cols());
     stage.name = "shell";
     stage.weight = weight;
-    // As many of the target's vertices as the level has, more or less, are enough.
+    // It is enough to use about as many of the target's vertices as the level has.
     const int stride = std::max(1, target_.GetConnectivity().NumVertices() / (2 * stage.vertices));
     bool at_rest = false;
     while (!at_rest && stage.rounds < rounds && !Stops()) {
@@ -207,7 +207,7 @@ class Fit {
 
   const CorrespondenceOptions& options_;
   const Target& target_;
-  const std::vector<int> held_;  // rising
+  const std::vector<int> held_;  // ascending
   const Shape places_;
   Progress* const progress_;
   CorrespondenceSummary* const summary_;
@@ -226,7 +226,7 @@ SurfacePoints PointsOf(const std::vector<Foot>& feet) {
   return points;
 }
 
-// Both directions of the map, and how good they are.
+// Computes both directions of the map, and their figures of quality.
 SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, const Target& target,
                    const std::vector<Marker>& held, CorrespondenceSummary* summary) {
   SurfaceMap map;
@@ -259,7 +259,7 @@ SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, c
       summary->uncovered += target.VertexAreas()(y);
     }
   }
-  // What is not covered belongs to what is nearest to it along the surface.
+  // A vertex that is not covered takes the image of the nearest covered one along the surface.
   const std::vector<int> nearest =
       internal::NearestOf(target.GetConnectivity(), target.GetShape(), covered);
   for (int y = 0; y < num_others; ++y) {
@@ -270,7 +270,7 @@ SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, c
   map.to_template = PointsOf(others);
 
   for (const Marker& marker : held) {
-    // A vertex lies in several triangles: the nearest point may be rounding away from it.
+    // A vertex lies in several triangles, so the nearest point may differ from it by rounding.
     const auto snap = [](SurfacePoints* points, int from, const Eigen::Matrix3Xi& triangles,
                          int to) {
       for (int f = 0; f < triangles.cols(); ++f) {
@@ -310,29 +310,29 @@ void Warn(const CorrespondenceOptions& options, const std::vector<Marker>& marke
     const Marker& marker = markers[doubt.marker];
     std::string text = "marker " + std::to_string(doubt.marker + 1) + " (vertices " +
                        std::to_string(marker.template_vertex + 1) + " and " +
-                       std::to_string(marker.target_vertex + 1) + ") contradicts the others, ";
+                       std::to_string(marker.target_vertex + 1) + ") contradicts the others";
     if (doubt.swapped >= 0) {
-      text += "as if it had changed places with marker " + std::to_string(doubt.swapped + 1);
+      text += "; it seems to be exchanged with marker " + std::to_string(doubt.swapped + 1);
     } else {
-      text += "which expect it near the target's vertex " + std::to_string(doubt.expected + 1);
+      text += "; they predict it near the target's vertex " + std::to_string(doubt.expected + 1);
     }
-    summary->warnings.push_back(
-        text + (options.drop_doubtful ? ", and was left out" : ", and was held all the same"));
+    summary->warnings.push_back(text +
+                                (options.drop_doubtful ? ", and was ignored" : ", but was used"));
   }
   if (summary->cancelled) summary->warnings.push_back("cancelled: the fit ended early");
   if (!summary->converged && !summary->cancelled) {
-    summary->warnings.push_back("the last rounds did not come to rest: look at the picture");
+    summary->warnings.push_back("the final rounds did not converge: check the picture");
   }
   constexpr double kWorthATurn = 2e-3, kWorthAHole = 0.02;
   if (summary->turned > kWorthATurn) {
     summary->warnings.push_back(Percent(summary->turned) +
-                                " of the triangles point against the target: look there for "
-                                "detail that only one of the bodies has");
+                                " of the triangles have normals opposite to the target's: check "
+                                "there for detail that only one of the bodies has");
   }
   if (summary->uncovered > kWorthAHole) {
-    summary->warnings.push_back(
-        Percent(summary->uncovered) +
-        " of the target's area is covered by no part of the template: is a marker missing there?");
+    summary->warnings.push_back(Percent(summary->uncovered) +
+                                " of the target's area is not near any part of the template: a "
+                                "marker may be missing there");
   }
 }
 
@@ -402,7 +402,7 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
   internal::CheckHandedness(*template_connectivity, rest, *target_connectivity, goal, markers,
                             marker_distances->OnTemplate());
 
-  // In the order of the template's vertices, in which levels have them.
+  // In ascending order of the template's vertices, which is their order in the levels.
   std::sort(markers.begin(), markers.end(),
             [](const Marker& a, const Marker& b) { return a.template_vertex < b.template_vertex; });
   std::vector<int> held;
@@ -456,14 +456,21 @@ Path CarryPath(const CorrespondenceResult& result, const Path& path,
     carried.push_back(CarryAlong(result.map.to_template, *path.metric->connectivity, result.fitted,
                                  path.Placed(i), target_shape));
     if (static_cast<int>(covered.size()) == num_vertices) continue;
-    // What the template has nothing for is deformed as the surface is where it begins.
+    // Where the template has no corresponding part, the target moves as its nearest covered part.
     const Shape places = frame.In(carried.back())(Eigen::all, covered);
     carried.back() = frame.Out(
         internal::FitGradients(*target_connectivity, frame.In(target_shape), covered, places, 0));
   }
   Path own;
-  own.metric = std::make_shared<const Metric>(
-      FreezeMetric(path.metric->options, target_connectivity, carried));
+  MetricOptions options = path.metric->options;
+  for (Eigen::VectorXd* field : {&options.stretching_stiffness, &options.bending_stiffness}) {
+    if (field->size() == 0) continue;
+    const Eigen::VectorXd of_vertices = VertexStiffness(*field, *path.metric->connectivity);
+    *field = Pull(result.map.to_template, path.metric->connectivity->Triangles(),
+                  of_vertices.transpose())
+                 .transpose();
+  }
+  own.metric = FreezeMetric(options, target_connectivity, carried);
   AlignedPoses aligned = AlignPoses(*own.metric, carried);
   own.shapes = std::move(aligned.shapes);
   own.motions = std::move(aligned.motions);

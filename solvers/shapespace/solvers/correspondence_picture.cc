@@ -9,11 +9,12 @@
 namespace shapespace {
 namespace {
 
-// Patches of colour: as many as can be told apart.
+// Number of coloured patches; more colours would be hard to distinguish.
 constexpr int kPatches = 12;
 
-// Both meshes as one, so that pictures of either have one camera. What a picture does not show of
-// the two lies in a point inside the other, where it neither has area nor stands on the floor.
+// Both meshes as one, so that all pictures have the same camera. The mesh that a picture does not
+// show is collapsed to a point inside the other one, where it has no area and does not affect the
+// position of the floor.
 struct Both {
   std::shared_ptr<const Connectivity> connectivity;
   Eigen::Index first, second;
@@ -37,7 +38,7 @@ struct Both {
   }
 };
 
-// Patches around vertices that are far from each other.
+// Voronoi patches around vertices that are far from each other.
 Eigen::VectorXi PatchesOf(const Shape& shape) {
   Eigen::VectorXi patch = Eigen::VectorXi::Zero(shape.cols());
   Eigen::RowVectorXd distance = (shape.colwise() - shape.rowwise().mean()).colwise().squaredNorm();
@@ -75,7 +76,7 @@ void PasteBelow(const Image& part, Image* image) {
   const int width = std::max(image->width, part.width);
   Image whole = {width, image->height + part.height, {}};
   whole.pixels.resize(3 * static_cast<size_t>(width) * whole.height);
-  // A strip's first pixel is its background's.
+  // The first pixel of a strip has the background's colour.
   for (size_t i = 0; i < whole.pixels.size(); ++i) whole.pixels[i] = part.pixels[i % 3];
   const auto paste = [&](const Image& from, int top) {
     for (int row = 0; row < from.height; ++row) {
@@ -110,7 +111,7 @@ Image RenderCorrespondence(const Connectivity& template_connectivity, const Shap
                                      both.First(result.fitted)};
 
   FilmStripOptions options;
-  // The template leans as the markers have it.
+  // The markers have oriented the template like the target.
   options.up = ChooseUp(target_connectivity, {target_shape});
   options.roles = {ShapeRole::kPose, ShapeRole::kPose, ShapeRole::kInserted};
   options.labels = {"template", "target", "fitted template"};
@@ -142,7 +143,7 @@ Image RenderCorrespondence(const Connectivity& template_connectivity, const Shap
     with_patches.groups(both.first + y) =
         patches(template_connectivity.Triangles()(corner, points.triangle(y)));
   }
-  with_patches.legend = "patches of the template, carried over";
+  with_patches.legend = "patches, mapped from the template";
   PasteBelow(RenderFilmStrip(*both.connectivity, shapes, with_patches), &image);
 
   with_values.values.assign(3, Eigen::VectorXd::Zero(both.first + both.second));
@@ -151,7 +152,7 @@ Image RenderCorrespondence(const Connectivity& template_connectivity, const Shap
   with_values.values[1].tail(both.second) =
       Pull(points, template_connectivity.Triangles(), result.map.round_trip.transpose())
           .transpose();
-  with_values.legend = "round trip, of the root of the area: low is good";
+  with_values.legend = "round-trip error / root of area: low is good";
   PasteBelow(RenderFilmStrip(*both.connectivity, shapes, with_values), &image);
   return image;
 }

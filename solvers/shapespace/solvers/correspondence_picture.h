@@ -8,12 +8,12 @@
 
 namespace shapespace {
 
-/// A picture to judge a correspondence by. In three columns the template, the target, and the
-/// template as fitted; in three rows the markers, each in a colour of its own, patches of colour
-/// that are carried from the template to the target, and how far each vertex comes back from itself
-/// (`SurfaceMap::round_trip`): where that is much, nobody should trust the map. All are drawn in
-/// one size, and turned alike by the markers. \throw MeshError if the arguments are not of each
-/// other.
+/// A picture for judging a correspondence. Its columns show the template, the target and the fitted
+/// template. Its rows show the markers, each in a colour of its own; coloured patches mapped from
+/// the template to the target; and the round-trip error of each vertex (`SurfaceMap::round_trip`),
+/// which is large where the map is unreliable. All bodies are drawn in one size and orientation;
+/// the markers determine the template's.
+/// \throw MeshError if the arguments do not belong together.
 Image RenderCorrespondence(const Connectivity& template_connectivity, const Shape& template_shape,
                            const Connectivity& target_connectivity, const Shape& target_shape,
                            const std::vector<Marker>& markers, const CorrespondenceResult& result);

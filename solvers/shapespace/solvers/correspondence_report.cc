@@ -31,7 +31,7 @@ std::string CorrespondenceSummary::FullReport() const {
                 target_vertices, target_triangles, scale)
       << Format("Markers           %d held, %d doubtful\n", markers,
                 static_cast<int>(doubtful.size()))
-      << "\nIn per cent of the root of the target's area:\n"
+      << "\nIn per cent of the square root of the target's area:\n"
       << Format("From the target   rms %.4g%%, max %.4g%%\n", 100 * distance_rms,
                 100 * distance_max)
       << Format("Round trip        mean %.4g%%, 95th percentile %.4g%%\n", 100 * round_trip_mean,
@@ -45,8 +45,9 @@ std::string CorrespondenceSummary::FullReport() const {
                   stage.seconds);
   }
   for (const Doubt& doubt : doubtful) {
-    out << Format("\nmarker %d is %.3g%% off where the others expect it: vertex %d of the target",
-                  doubt.marker + 1, 100 * doubt.off, doubt.expected + 1);
+    out << Format(
+        "\nmarker %d is %.3g%% from the position that the others predict: vertex %d of the target",
+        doubt.marker + 1, 100 * doubt.off, doubt.expected + 1);
     if (doubt.swapped >= 0) out << Format(" (swapped with marker %d?)", doubt.swapped + 1);
   }
   out << Format(

@@ -10,6 +10,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/base/stopwatch.h>
+#include <shapespace/hierarchy/freeze_level.h>
 #include <shapespace/hierarchy/hierarchy.h>
 #include <shapespace/mesh/geometry.h>
 #include <shapespace/mesh/topology.h>
@@ -27,32 +28,32 @@ namespace {
 using internal::HandleTargets;
 using internal::HeldLevel;
 
-// Handles go their way on the coarsest level in so many steps at least.
+// Least number of steps in which handles are moved on the coarsest level.
 constexpr int kFollowSteps = 10;
 
-// A solve goes on from the last one if no handle turns by more than this beside it, in radians, and
-// none of its vertices is farther away, in the unit that is the root of the body's area.
+// A solve starts from the last one if no handle turns further than this, in radians, and no handle
+// vertex moves further than this, in the unit that is the square root of the surface area.
 constexpr double kLittle = 0.1;
 
-// Where another level follows, a solve may stop when a step is expected to gain less than this
-// share of what was gained.
+// On all levels but the finest a solve may stop when a step is expected to gain less than this
+// share of the total gain.
 constexpr double kEnough = 1e-3;
 
-// Paths of which a handle turns farther than this from shape to shape are told of: bars were found
-// to slip out of turns by 180 degrees between neighbours, and not by 120.
+// If a handle turns further than this between neighbouring shapes, a warning is given: bars lost
+// turns of 180 degrees between neighbours, but not turns of 120.
 constexpr double kFarthestTurn = 2 * internal::kPi / 3;
 
-// A hard handle that is off by more than this share of the unit is told of, with some room for
-// rounding far from the origin: others are met.
+// A hard handle that misses its target by more than this share of the unit is reported. The margin
+// allows for rounding far from the origin; a handle without conflict is met.
 constexpr double kContradiction = 1e-9;
 
-// What a solve holds on the mesh itself: the vectors of L-BFGS, shapes and what becomes of them,
-// two factors in single precision, and one in double while they are made.
+// Memory of a solve on the finest level: the vectors of L-BFGS, shapes and data derived from them,
+// two factors in single precision, and one in double while they are computed.
 double EstimateBytes(const Metric& metric, int shapes) {
   const double vertices = metric.connectivity->NumVertices();
   const double unknowns = 3 * vertices * shapes;
   const double vectors = internal::HistoryRank(unknowns) + 18.0;
-  constexpr double kFactor = 300;  // numbers a vertex, as measured for geodesics
+  constexpr double kFactor = 300;  // numbers per vertex, as measured for geodesics
   return 8 * (vectors * unknowns + 2 * kFactor * vertices) +
          PathEnergy::EstimateBytes(metric, shapes);
 }
@@ -77,13 +78,14 @@ void DeformationOptions::Validate() const {
   if (!(memory_limit > 0)) throw InvalidOptions("memory_limit: must be positive");
 }
 
-// Keeps what a solve leaves for the next.
+// Stores the data of a solve that the next one can reuse.
 class Deformer::Solver {
  public:
   Solver(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
          const DeformationOptions& options);
 
-  // `end` is where the last shape starts, in the user's unit; without one it follows the handles.
+  // `end` is the initial guess of the last shape, in the user's unit; if null, it is found by
+  // following the handles.
   DeformationResult Solve(const std::vector<Handle>& handles, const Shape* end, Progress* progress);
 
  private:
@@ -104,12 +106,12 @@ class Deformer::Solver {
   const std::shared_ptr<const Connectivity> connectivity_;
   const Shape given_;  // the mesh, in the user's unit
   std::shared_ptr<const Metric> metric_;
-  Eigen::Vector3d origin_;  // in the user's unit, of all shapes below
+  Eigen::Vector3d origin_;  // in the user's unit; subtracted from all shapes below
   Shape rest_;              // the mesh, in the metric's unit
   std::vector<int> component_;
   std::optional<Hierarchy> hierarchy_;
   std::vector<HeldLevel> levels_;
-  // Of the last solve.
+  // Results of the last solve.
   std::optional<HandleTargets> last_targets_;
   std::vector<Shape> last_shapes_;
 };
@@ -118,8 +120,8 @@ Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity
                          const DeformationOptions& options)
     : options_(options), connectivity_(connectivity), given_(rest) {
   options.Validate();
-  metric_ = std::make_shared<const Metric>(FreezeMetric(
-      options.metric.value_or(MetricOptions::Deformation(*connectivity)), connectivity, {rest}));
+  metric_ = FreezeMetric(options.metric.value_or(MetricOptions::Deformation(*connectivity)),
+                         connectivity, {rest});
   if (options.solver == DeformationOptions::Solver::kTrustRegion) cost::RefuseDenseRows(*metric_);
   const double bytes = EstimateBytes(*metric_, options.shapes);
   if (bytes > options.memory_limit) {
@@ -139,7 +141,7 @@ DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, co
   DeformationResult result;
   DeformationSummary& summary = result.summary;
   HandleTargets targets(handles, given_, origin_, metric_->unit);
-  std::vector<Shape> places;  // of held vertices, at the times of the shapes
+  std::vector<Shape> places;  // targets of held vertices, at the parameters of the shapes
   for (int i = 0; i <= options_.shapes; ++i) {
     places.push_back(targets.At(static_cast<double>(i) / options_.shapes));
   }
@@ -168,7 +170,7 @@ DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, co
   return result;
 }
 
-// Hierarchy and factors for handles that hold other vertices, or in another way, than those before.
+// Computes hierarchy and factors if handles hold other vertices than before, or in another way.
 void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary* summary) {
   last_targets_.reset();
   levels_.clear();
@@ -183,8 +185,7 @@ void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary*
     Shape rest = hierarchy_->Restrict(rest_, i);
     auto metric = metric_;
     if (i + 1 < hierarchy_->NumLevels()) {
-      metric = std::make_shared<const Metric>(
-          FreezeMetric(metric_->options, hierarchy_->LevelConnectivity(i), {rest}, 1));
+      metric = FreezeLevel(*metric_, *hierarchy_, i, {rest});
     }
     std::vector<int> component;
     for (int v : vertices) component.push_back(component_[v]);
@@ -233,9 +234,9 @@ internal::MinimiseOptions Deformer::Solver::Minimise() const {
   return minimise;
 }
 
-// On the coarsest level the handles go their way in small steps. Each adds a shape to the path,
-// which is then relaxed as a whole: a path remembers how far it has turned, where a single shape
-// that is wound up may slip back.
+// Follows the handles on the coarsest level in small steps (numerical continuation). Each step adds
+// a shape to the path, which is then relaxed as a whole: a path keeps the number of revolutions of
+// a part, which a single shape may lose when it is relaxed.
 std::vector<Shape> Deformer::Solver::Follow(const HandleTargets& targets, Progress* progress) {
   HeldLevel& level = levels_.front();
   const int between = (kFollowSteps + options_.shapes - 1) / options_.shapes;
@@ -258,7 +259,8 @@ std::vector<Shape> Deformer::Solver::Follow(const HandleTargets& targets, Progre
   return result;
 }
 
-// From a given last shape, relaxed by itself; those before it come out of the first by a geodesic.
+// Starts from a given last shape, which is relaxed by itself. The shapes before it form a geodesic
+// from the first.
 std::vector<Shape> Deformer::Solver::StartAt(const Shape& end, const Shape& places,
                                              Progress* progress) {
   HeldLevel& level = levels_.front();
@@ -274,7 +276,8 @@ std::vector<Shape> Deformer::Solver::StartAt(const Shape& end, const Shape& plac
   GeodesicOptions geodesic;
   geodesic.shapes = options_.shapes - 1;
   geodesic.tolerance = options_.tolerance;
-  return Interpolate(level.Path().GetMetric().connectivity, pair, geodesic, progress).path.Placed();
+  return Interpolate(level.Path().GetMetric()->connectivity, pair, geodesic, progress)
+      .path.Placed();
 }
 
 void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char* start,
@@ -359,7 +362,7 @@ void Deformer::Solver::Assess(const std::vector<Handle>& handles, const HandleTa
   path.converged = summary.Converged();
 }
 
-// What a person should look at.
+// Appends warnings for the user.
 void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* summary) const {
   if (summary->termination == Termination::kMaxIterations) {
     summary->warnings.push_back("out of iterations; raise max_iterations or the tolerance");
@@ -368,7 +371,7 @@ void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* su
   } else if (summary->termination == Termination::kCancelled) {
     summary->warnings.push_back("cancelled: the shapes are the best so far");
   }
-  std::map<int, std::pair<int, int>> pieces;  // vertices, and the first of them
+  std::map<int, std::pair<int, int>> pieces;  // number of vertices, and the first vertex
   for (size_t v = 0; v < component_.size(); ++v) {
     if (component_[v] < 0) continue;
     ++pieces.try_emplace(component_[v], 0, static_cast<int>(v)).first->second.first;
@@ -379,13 +382,12 @@ void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* su
   int named = 0;
   for (const auto& [component, piece] : pieces) {
     if (named++ == kNamed) {
-      summary->warnings.push_back("nor does a handle hold " +
-                                  std::to_string(pieces.size() - kNamed) +
-                                  " further connected pieces, which stay too");
+      summary->warnings.push_back(std::to_string(pieces.size() - kNamed) +
+                                  " further connected components have no handle and stay too");
       break;
     }
-    summary->warnings.push_back("no handle holds the connected piece of " +
-                                std::to_string(piece.first) + " vertices whose first is number " +
+    summary->warnings.push_back("no handle holds the connected component of " +
+                                std::to_string(piece.first) + " vertices that begins with vertex " +
                                 std::to_string(piece.second + 1) +
                                 " (counted from 1); it stays where it is");
   }
@@ -393,7 +395,7 @@ void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* su
   if (turn > kFarthestTurn) {
     summary->warnings.push_back(
         "a handle turns by " + std::to_string(std::lround(turn * internal::kDegrees)) +
-        " degrees from one shape to the next, and the body may slip out of such a turn; ask for " +
+        " degrees from one shape to the next, and the body may lose such a turn; ask for " +
         std::to_string(static_cast<int>(std::ceil(targets.GreatestTurn() / (internal::kPi / 2)))) +
         " shapes or more");
   }
@@ -402,8 +404,8 @@ void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* su
     if (handle.hard && handle.residual_max > far) {
       summary->warnings.push_back(
           "the hard handle" + (handle.name.empty() ? "" : " \"" + handle.name + "\"") +
-          " shares vertices with another that wants them elsewhere; they are at the mean of the "
-          "targets");
+          " shares vertices with another that has different targets for them; they are at the mean "
+          "of the targets");
     }
   }
 }

@@ -19,27 +19,28 @@ namespace shapespace {
 
 /// How to deform.
 struct DeformationOptions {
-  /// What a deformation costs; without, MetricOptions::Deformation of the mesh. Without a cost of
-  /// position (lambda 0 in the metric) bodies that handles move rigidly move so, and what no handle
-  /// holds stays where it is. All features, but not the rigid part; in midpoint form only.
+  /// The metric; by default MetricOptions::Deformation of the mesh. If it has no cost of position
+  /// (lambda 0), bodies whose handles move rigidly move rigidly too, and components without a
+  /// handle stay where they are. All features are allowed, but not the rigid form; midpoint form
+  /// only.
   std::optional<MetricOptions> metric;
 
-  /// Shapes after the first, the deformed one included; 1 or more. They are frames to show, and
-  /// they remember how far a part has turned: a single shape is compared with the first directly,
-  /// and may slip out of a full turn.
+  /// Shapes after the first, including the deformed one; 1 or more. They are the frames to show,
+  /// and they resolve large rotations: with a single shape the deformed mesh is compared with the
+  /// first directly, so turns by a full revolution may be lost.
   int shapes = 5;
 
-  /// Between the metric and soft handles, the lambda of Kilian et al. 2007, section 5; what is
-  /// minimised is
+  /// Weight of the metric relative to soft handles, the lambda of Kilian et al. 2007, section 5.
+  /// The objective is
   ///   balance * energy + (1 - balance) * mean over soft handles of
   ///                                    weight * mean squared distance of the handle's vertices,
-  /// the inner mean weighted by area, lengths in the unit in which the surface has area 1 and the
-  /// energy scaled (E n / 2). So it means the same in any unit, at any resolution and for any
-  /// number of handles or shapes. In (0, 1]: to 0, handles are met; at 1, nothing moves. Hard
-  /// handles do not care.
+  /// where the inner mean is weighted by area, lengths are in the unit in which the surface has
+  /// area 1 and the energy is scaled (E n / 2). The value therefore has the same meaning in any
+  /// unit, at any resolution and for any number of handles or shapes. In (0, 1]: towards 0 soft
+  /// handles are met exactly; at 1 they have no effect. Hard handles do not depend on it.
   double balance = 0.01;
 
-  /// A level is finished when two iterations in a row lower what is minimised by less than this
+  /// A level has converged when two consecutive iterations lower the objective by less than this
   /// share of it.
   double tolerance = 1e-4;
 
@@ -47,7 +48,7 @@ struct DeformationOptions {
   int max_iterations = 500;
 
   enum class Solver {
-    kThreadedLbfgs,  ///< L-BFGS of ours on hand-written kernels
+    kThreadedLbfgs,  ///< this library's L-BFGS on hand-written kernels
     kTrustRegion,    ///< Ceres' Levenberg-Marquardt on automatically differentiated residual
                      ///< blocks; slow beyond a thousand vertices
   };
@@ -56,46 +57,48 @@ struct DeformationOptions {
   /// Triangles of the coarsest level (HierarchyOptions::coarsest).
   int coarsest = 200;
 
-  /// Bytes that a solve may take; an estimate above it is refused before anything is allocated.
+  /// Memory limit of a solve in bytes; if the estimate exceeds it, the solve is refused before
+  /// anything is allocated.
   double memory_limit = 8e9;
 
   /// \throw InvalidOptions naming the field.
   void Validate() const;
 };
 
-/// What happened, and how good the answer is.
+/// Outcome and quality of a deformation.
 struct DeformationSummary {
   struct HandleResult {
     std::string name;
     int vertices = 0;
     bool hard = true;
-    /// Distance of the vertices of the last shape from where the handle wants them: root mean
-    /// square, weighted by area, and greatest; in the user's unit.
+    /// Distance of the last shape's vertices from the handle's targets: area-weighted root mean
+    /// square, and maximum; in the user's unit.
     double residual_rms = 0, residual_max = 0;
   };
-  /// One row of the solve.
+  /// One solve.
   struct Level {
     int vertices = 0, shapes = 0;
-    std::string start;  ///< "handles", stepwise; "given"; "lifted"; "warm" from the last solution
+    std::string start;  ///< "handles": by following the handles step by step; "given"; "lifted";
+                        ///< "warm": from the last solution
     Termination termination = Termination::kConverged;
     int iterations = 0, evaluations = 0;
-    double initial_value = 0, value = 0;  ///< of what is minimised, over the balance
+    double initial_value = 0, value = 0;  ///< of the objective divided by the balance
     double seconds = 0;
   };
 
-  Termination termination = Termination::kConverged;  ///< of the mesh itself
+  Termination termination = Termination::kConverged;  ///< of the finest level
   int vertices = 0, triangles = 0, shapes = 0;
   std::string metric;
-  double unit = 1;     ///< user's length that counts as 1
+  double unit = 1;     ///< length in the user's unit that has length 1 in the metric
   double balance = 0;  ///< as given
   double energy = 0;   ///< of the path, scaled: E n / 2; a pure number
-  ShapeError error;    ///< of the last shape against the first
+  ShapeError error;    ///< of the last shape relative to the first
   std::vector<HandleResult> handles;
-  int free_components = 0;  ///< connected pieces that no handle holds, and that stay where they are
+  int free_components = 0;  ///< connected components without a handle; they stay where they are
   std::vector<Level> levels;
   std::vector<int> hierarchy;         ///< vertices of its levels, the coarsest first
-  bool warm = false;                  ///< went on from the last solution of the same `Deformer`
-  std::vector<std::string> warnings;  ///< what a person should look at
+  bool warm = false;                  ///< started from the last solution of the same `Deformer`
+  std::vector<std::string> warnings;  ///< to be checked by the user
   double hierarchy_seconds = 0, factor_seconds = 0, solve_seconds = 0, total_seconds = 0;
   int threads = 1;
 
@@ -106,31 +109,31 @@ struct DeformationSummary {
 };
 
 struct DeformationResult {
-  /// From the mesh as it was, its one pose, to the deformed one; its shapes lie at even times.
+  /// From the given mesh, its only pose, to the deformed one, at evenly spaced parameters.
   Path path;
   DeformationSummary summary;
 };
 
-/// Deforms a mesh by handles (Kilian et al. 2007, section 5 and Figure 10): a whole path of shapes,
-/// of which the first is the mesh and the last is held by the handles, and which is as short as the
-/// metric allows. Coarse to fine: on the coarsest level the handles go their way step by step, so
-/// that large turns lead to large turns; then the path is relaxed as a whole, lifted with the
-/// mesh's own detail and relaxed again, level by level.
+/// Deforms a mesh by handles (Kilian et al. 2007, section 5 and Figure 10): finds the path of least
+/// energy whose first shape is the mesh and whose last shape satisfies the handles. Works from
+/// coarse to fine: on the coarsest level the handles move to their targets in small steps
+/// (numerical continuation), so that large turns of handles produce large turns of the body. Then
+/// the whole path is relaxed, lifted with the mesh's own detail and relaxed again, level by level.
 ///
-/// Handles may ask for what cannot be: vertices in several hard handles go to the mean of their
-/// targets, and the summary tells how far each handle is from having what it asks for. Connected
-/// pieces without a handle stay where they are, and are told of. `rest` may hold collapsed or
-/// repeated triangles.
-/// \throw InvalidOptions (options; handles, naming the one), MeshError (see FreezeMetric),
-///        SolverError (memory limit), Cancelled (stopped by `progress` before there was a path;
-///        later the best so far is returned, as Termination::kCancelled).
+/// Handles may contradict each other: vertices in several hard handles go to the mean of their
+/// targets, and the summary reports the distance of each handle from its target. Connected
+/// components without a handle stay where they are and are reported. `rest` may contain collapsed
+/// or repeated triangles.
+/// \throw InvalidOptions (options; handles, naming the handle), MeshError (see FreezeMetric),
+///        SolverError (memory limit), Cancelled (stopped by `progress` before there was a path; if
+///        stopped later, the best path so far is returned with Termination::kCancelled).
 DeformationResult Deform(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
                          const std::vector<Handle>& handles, const DeformationOptions& options = {},
                          Progress* progress = nullptr);
 
-/// Deforms one mesh again and again: keeps its hierarchy, factors and the last path. If the next
-/// handles hold the same vertices in the same way, and move them by little, the solve goes on from
-/// that path on the mesh itself; otherwise it is as `Deform`.
+/// Deforms one mesh repeatedly: keeps its hierarchy, factors and the last path. If the next handles
+/// constrain the same vertices in the same way and move them only a little, the solve starts from
+/// that path on the finest level; otherwise it is the same as `Deform`.
 class Deformer {
  public:
   /// \throw as Deform.
@@ -141,8 +144,8 @@ class Deformer {
   Deformer& operator=(Deformer&&) noexcept;
 
   DeformationResult Deform(const std::vector<Handle>& handles, Progress* progress = nullptr);
-  /// The same from a shape near which the deformed one is looked for, in place of following the
-  /// handles there; hard handles need not have their places in it.
+  /// The same, but starts from a given last shape instead of following the handles from the mesh.
+  /// Hard handles need not be satisfied in `end`.
   DeformationResult DeformFrom(const Shape& end, const std::vector<Handle>& handles,
                                Progress* progress = nullptr);
 

@@ -23,17 +23,18 @@ namespace {
 using internal::Departure;
 using internal::MetricSolver;
 
-// Makes the next shape, and fills what a row of the summary says of solving for it.
+// Computes the next shape and fills in the fields of the summary's row that concern the solve.
 using NextShape = std::function<Shape(ExponentialSummary::Step*)>;
 
-// A surface of which more than this share turns over in one step is no surface any more, nor is one
-// with an edge that has shrunk to so little of its length at the start.
+// The path ends if in one step more than this share of the surface turns over, or if an edge
+// shrinks to less than this share of its length in the first shape.
 constexpr double kInvertedShare = 1e-2, kVanishedEdge = 1e-5;
 
-// Of the geodesic equation G(P) P'' = -J^T Phi''(P', P'), a step being the unit of time.
+// Runge-Kutta 4 for the geodesic equation G(P) P'' = -J^T Phi''(P', P'), with a step as the unit of
+// time.
 class RungeKutta4 {
  public:
-  RungeKutta4(const Metric& metric, Shape shape, Tangent velocity)
+  RungeKutta4(const std::shared_ptr<const Metric>& metric, Shape shape, Tangent velocity)
       : map_(metric), shape_(std::move(shape)), velocity_(std::move(velocity)), speed_(Speed()) {}
 
   Shape Next(ExponentialSummary::Step* row) {
@@ -67,11 +68,12 @@ class RungeKutta4 {
   const double speed_;
 };
 
-// The paper's scheme: Euler steps, and after each the velocity that (7) asks for at the new shape.
+// The paper's scheme: Euler steps, after each of which the velocity is found from (7) at the new
+// shape.
 class FirstIntegral {
  public:
-  FirstIntegral(const Metric& metric, const Shape& start, const Tangent& velocity,
-                const ExponentialOptions& options)
+  FirstIntegral(const std::shared_ptr<const Metric>& metric, const Shape& start,
+                const Tangent& velocity, const ExponentialOptions& options)
       : map_(metric), options_(options), shape_(start), velocity_(velocity) {
     const FeatureDerivative derivative = map_.Derivative(start);
     constants_ = velocity.cwiseProduct(derivative.TransposeTimes(derivative.Times(velocity)));
@@ -101,8 +103,8 @@ struct Momenta {
   double linear_scale = 0, angular_scale = 0;
 };
 
-// The discrete momenta of a segment from `from` on which Phi changes so much, of which translations
-// and rotations keep the two sums.
+// The discrete momenta of a segment that starts at `from` and on which Phi changes by `change`: the
+// two sums that are conserved because of the invariance under translations and rotations.
 Momenta MeasureMomenta(const FeatureMap& map, const Shape& from, const Eigen::VectorXd& change) {
   const Tangent momentum = map.Derivative(from).TransposeTimes(change);
   Momenta result;
@@ -124,7 +126,7 @@ double Drift(const Momenta& a, const Momenta& b) {
                   share(b.angular - a.angular, a.angular_scale));
 }
 
-// What has become of the edges since the path began.
+// Measures the change of edge lengths since the first shape.
 void MeasureEdges(const Metric& metric, const Shape& first, const Shape& shape,
                   ExponentialSummary::Step* row) {
   const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
@@ -141,8 +143,8 @@ void MeasureEdges(const Metric& metric, const Shape& first, const Shape& shape,
   row->edge_rms = area > 0 ? std::sqrt(squares / area) : 0;
 }
 
-// The share of the surface whose triangles turn, in this step, by more than a right angle against
-// the rotation of what is around them.
+// The share of the surface whose triangles rotate in this step by more than a right angle relative
+// to the rotation of their neighbourhood.
 double InvertedShare(const Metric& metric, const Shape& before, const Shape& after) {
   const Connectivity& connectivity = *metric.connectivity;
   if (connectivity.NumTriangles() == 0) return 0;
@@ -158,15 +160,15 @@ double InvertedShare(const Metric& metric, const Shape& before, const Shape& aft
   return all > 0 ? inverted / all : 0;
 }
 
-// Why a path must end before `shape`; empty if it need not.
+// The reason why a path must end before `shape`; empty if there is none.
 std::string WhyDegenerate(const Metric& metric, const Shape& start, const Shape& shape,
                           const ExponentialSummary::Step& row) {
   if (!shape.allFinite()) {
-    return "a coordinate is not finite any more: the steps are too large for this integrator";
+    return "a coordinate is not finite: the steps are too large for this integrator";
   }
   if (row.inverted > kInvertedShare) {
     return std::to_string(std::lround(100 * row.inverted)) +
-           "% of the surface turn inside out; the motion cannot go on like this";
+           "% of the surface turn inside out; the motion cannot be continued";
   }
   const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
   for (int e = 0; e < edges.cols(); ++e) {
@@ -174,19 +176,19 @@ std::string WhyDegenerate(const Metric& metric, const Shape& start, const Shape&
     const double now = (shape.col(edges(1, e)) - shape.col(edges(0, e))).norm();
     if (now < kVanishedEdge * before) {
       return "the edge between vertices " + std::to_string(edges(0, e) + 1) + " and " +
-             std::to_string(edges(1, e) + 1) + " vanishes; the motion cannot go on like this";
+             std::to_string(edges(1, e) + 1) + " vanishes; the motion cannot be continued";
     }
   }
   return {};
 }
 
-// Appends `steps` shapes to the result's path, `step` apart in time, after the last one.
+// Appends `steps` shapes after the last one of the result's path, `step` apart in time.
 void March(const NextShape& next, int steps, double step, Progress* progress,
            ExponentialResult* result) {
   Path& path = result->path;
   ExponentialSummary& summary = result->summary;
   const Metric& metric = *path.metric;
-  const FeatureMap map(metric);
+  const FeatureMap map(path.metric);
   const Shape start = path.shapes.back();
   Momenta first;
   for (int i = 0; i < steps; ++i) {
@@ -239,11 +241,11 @@ void CheckSteps(int steps) {
   if (steps < 1) throw InvalidOptions("steps: must be 1 or more");
 }
 
-// The energy of segments is constant along a geodesic. Where it rises so many times, the steps are
-// too long for the integrator, or detail that was carried along has got a motion of its own.
+// The energy of segments is constant along a geodesic. If it grows by this factor, the steps are
+// too long for the integrator, or lifted detail has acquired momentum.
 constexpr double kRisen = 2;
 
-// What a person should look at.
+// Appends warnings for the user.
 void Warn(const Metric& metric, ExponentialSummary* summary) {
   int coarse = 0, nearest = 0, open = 0;
   double inverted = 0, energy = 0;
@@ -261,29 +263,29 @@ void Warn(const Metric& metric, ExponentialSummary* summary) {
   const auto warn = [&](const std::string& text) { summary->warnings.push_back(text); };
   const std::string of = " of " + std::to_string(summary->steps.size()) + " steps ";
   if (coarse > 0) {
-    warn(std::to_string(coarse) + of +
-         "have no answer on the mesh itself, some of whose triangles cannot go on as they moved: "
-         "they were made on a coarser one, and detail carried along" +
-         (metric.options.strain > 0 ? ""
-                                    : "; under the strain metric (--metric strain where poses are "
-                                      "interpolated) every triangle can go on"));
+    warn(
+        std::to_string(coarse) + of +
+        "have no solution on the mesh itself, because some triangles cannot continue their motion: "
+        "they were solved on a coarser mesh and lifted with its detail" +
+        (metric.options.strain > 0 ? ""
+                                   : "; under the strain metric (--metric strain where poses are "
+                                     "interpolated) every triangle can continue"));
   }
   if (nearest > 0) {
-    warn(
-        std::to_string(nearest) + of +
-        "have no answer on any resolution: the nearest shape to what they ask for was taken, which "
-        "slows the motion down");
+    warn(std::to_string(nearest) + of +
+         "have no solution on any resolution: the nearest shape in feature space was taken, which "
+         "slows the motion down");
   }
   if (open > 0) warn(std::to_string(open) + of + "did not converge");
   if (inverted > 0) {
     warn("up to " + std::to_string(100 * inverted) +
-         "% of the surface turned over in a step: look at the pictures");
+         "% of the surface turned over in a step: check the pictures");
   }
   if (!summary->steps.empty()) {
     const double first = summary->steps.front().energy;
     if (energy > kRisen * first) {
       warn("the energy of a segment, constant on a geodesic, rises to " +
-           internal::Format("%.3g", energy / first) + " times what it was at first");
+           internal::Format("%.3g", energy / first) + " times its first value");
     }
   }
   if (summary->ending != ExponentialSummary::Ending::kComplete) {
@@ -291,8 +293,8 @@ void Warn(const Metric& metric, ExponentialSummary* summary) {
   }
 }
 
-// G(P_1) V = J(P_1)^T [Phi(P_1) - Phi(P_0)]: the velocity per step with which a segment arrives;
-// the other way round, that with which it sets out.
+// G(P_1) V = J(P_1)^T [Phi(P_1) - Phi(P_0)]: the velocity per step at the end of a segment; with
+// the shapes exchanged and sign -1, the velocity at its beginning.
 Tangent SegmentVelocity(const FeatureMap& map, const Shape& other, const Shape& at, double sign) {
   const FeatureDerivative derivative = map.Derivative(at);
   MetricSolver solver;
@@ -301,10 +303,10 @@ Tangent SegmentVelocity(const FeatureMap& map, const Shape& other, const Shape& 
                      derivative.TransposeTimes(sign * (map.Values(at) - map.Values(other))));
 }
 
-// How to go on from `shape`, which was not made on the mesh itself: detail that was carried along
-// moved as nothing would move by itself, and taken for a momentum it would be multiplied from step
-// to step. So only the part of the change is kept that the metric sees as a velocity at the new
-// shape, at the speed that the geodesic has.
+// The departure from a `shape` that was not solved on the mesh itself. Its lifted detail did not
+// move as on a geodesic; used as a momentum, this motion would grow from step to step. Therefore
+// only the projection of the change onto the velocities at the new shape is kept, scaled to the
+// speed of the geodesic.
 Departure Restart(const FeatureMap& map, const Shape& before, const Shape& shape, double speed) {
   Tangent velocity = SegmentVelocity(map, before, shape, 1);
   const double found = map.Derivative(shape).Times(velocity).norm();
@@ -325,7 +327,8 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
   summary.metric = Describe(metric.options);
   if (metric.options.discretization == Discretization::kTrapezoid) {
     summary.warnings.push_back(
-        "the path was made in trapezoid form, in which geodesics cannot be shot: it goes on in "
+        "the path was made in trapezoid form, in which geodesics cannot be shot: it is continued "
+        "in "
         "midpoint form");
   }
 
@@ -335,7 +338,7 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
       internal::Shooter shooter(path.metric, {path.shapes.front(), departure.shape}, options, [&] {
         ReportProgress(progress, "shooting", static_cast<int>(summary.steps.size()), steps);
       });
-      const FeatureMap map(metric);
+      const FeatureMap map(path.metric);
       departure.speed = discrete
                             ? (map.Values(departure.shape) - map.Values(departure.previous)).norm()
                             : map.Derivative(departure.shape).Times(departure.velocity).norm();
@@ -355,10 +358,10 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
       break;
     }
     case Integrator::kRungeKutta4: {
-      RungeKutta4 scheme(
-          metric, departure.shape,
-          discrete ? SegmentVelocity(FeatureMap(metric), departure.previous, departure.shape, 1)
-                   : departure.velocity);
+      RungeKutta4 scheme(path.metric, departure.shape,
+                         discrete ? SegmentVelocity(FeatureMap(path.metric), departure.previous,
+                                                    departure.shape, 1)
+                                  : departure.velocity);
       March([&](ExponentialSummary::Step* row) { return scheme.Next(row); }, steps, step, progress,
             result);
       summary.factorisations = scheme.Solver().NumFactorisations();
@@ -366,11 +369,11 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
       break;
     }
     case Integrator::kFirstIntegral: {
-      FirstIntegral scheme(metric, discrete ? departure.previous : departure.shape,
+      FirstIntegral scheme(path.metric, discrete ? departure.previous : departure.shape,
                            discrete ? departure.shape - departure.previous : departure.velocity,
                            options);
       ExponentialSummary::Step unused;
-      if (discrete) scheme.Next(&unused);  // its first step is the path's last
+      if (discrete) scheme.Next(&unused);  // its first step is the last segment of the path
       March([&](ExponentialSummary::Step* row) { return scheme.Next(row); }, steps, step, progress,
             result);
       break;
@@ -393,7 +396,7 @@ ExponentialResult Extrapolate(const Path& path, int steps, const ExponentialOpti
                               Progress* progress) {
   options.Validate();
   CheckSteps(steps);
-  if (path.NumShapes() < 2) throw MeshError("a path of less than two shapes has no direction");
+  if (path.NumShapes() < 2) throw MeshError("a path needs at least two shapes to have a direction");
   ExponentialResult result;
   result.path = path;
   result.path.provenance += "; extrapolated";
@@ -441,14 +444,14 @@ Shape Exponential(const std::shared_ptr<const Metric>& metric, const Shape& shap
   if (!summary.Converged()) {
     throw SolverError(
         "the exponential map is not exact: some steps did not converge on the mesh itself; take "
-        "more steps, or Extrapolate, whose summary says what became of each");
+        "more steps, or use Extrapolate, whose summary describes each step");
   }
   return result.path.Placed(result.path.NumShapes() - 1);
 }
 
 Tangent Logarithm(const std::shared_ptr<const Metric>& metric, const Shape& from, const Shape& to,
                   const LogarithmOptions& options, Progress* progress) {
-  const FeatureMap refuses_rigid_metrics(*metric);  // before the solve, not after
+  const FeatureMap refuses_rigid_metrics(metric);  // to fail before the solve, not after it
   GeodesicResult geodesic = Interpolate(metric, {from, to}, options, progress);
   if (geodesic.summary.termination == Termination::kCancelled) throw Cancelled();
   if (geodesic.summary.termination != Termination::kConverged) {
@@ -457,19 +460,20 @@ Tangent Logarithm(const std::shared_ptr<const Metric>& metric, const Shape& from
         "max_iterations or the tolerance");
   }
   Path& path = geodesic.path;
-  path.motions.assign(path.NumShapes(), path.motions[0]);  // `to`, moved onto `from`
+  path.motions.assign(path.NumShapes(), path.motions[0]);  // `to`, aligned with `from`
   return InitialVelocity(path);
 }
 
 Tangent InitialVelocity(const Path& path) {
-  if (path.NumShapes() < 2) throw MeshError("a path of less than two shapes has no direction");
+  if (path.NumShapes() < 2) throw MeshError("a path needs at least two shapes to have a direction");
   const Metric& metric = *path.metric;
   const RigidMotion &first = path.motions[0], &second = path.motions[1];
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(second.rotation * first.rotation.transpose()));
   const Eigen::Vector3d spin = turn.angle() * turn.axis();
   const Shape arms = metric.unit * (first.rotation * path.shapes[0]);
-  Tangent way = metric.unit * (first.rotation * SegmentVelocity(FeatureMap(metric), path.shapes[1],
-                                                                path.shapes[0], -1));
+  Tangent way =
+      metric.unit * (first.rotation *
+                     SegmentVelocity(FeatureMap(path.metric), path.shapes[1], path.shapes[0], -1));
   for (int v = 0; v < way.cols(); ++v) {
     way.col(v) += spin.cross(arms.col(v)) + second.translation - first.translation;
   }

@@ -9,6 +9,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/base/stopwatch.h>
+#include <shapespace/hierarchy/freeze_level.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/solvers/check_options.h>
@@ -18,8 +19,8 @@
 namespace shapespace {
 namespace {
 
-// What the solve holds at its largest level; the factor is estimated from meshes of 2 K to 40 K
-// vertices (120 to 250 numbers a vertex with bending, a seventh of it without).
+// Memory of the solve on its largest level. The size of the factor is an estimate from meshes of 2
+// K to 40 K vertices (120 to 250 numbers per vertex with bending, a seventh of it without).
 double EstimateBytes(const Metric& metric, int poses, int shapes) {
   const double vertices = metric.connectivity->NumVertices();
   const double unknowns = 3 * vertices * shapes;
@@ -30,7 +31,7 @@ double EstimateBytes(const Metric& metric, int poses, int shapes) {
          PathEnergy::EstimateBytes(metric, shapes);
 }
 
-// Whether the finest level can be solved, before any other is.
+// Fails early if the finest level cannot be solved.
 void CheckFinest(const Metric& metric, double bytes, const GeodesicOptions& options) {
   if (options.solver == Solver::kTrustRegion) cost::RefuseDenseRows(metric);
   if (bytes <= options.memory_limit) return;
@@ -38,7 +39,7 @@ void CheckFinest(const Metric& metric, double bytes, const GeodesicOptions& opti
                     " MB, more than the memory limit; insert fewer shapes or raise memory_limit");
 }
 
-// All of `shapes` as a level sees them.
+// Restricts all `shapes` to a level.
 std::vector<Shape> Restrict(const Hierarchy& hierarchy, const std::vector<Shape>& shapes,
                             int level) {
   std::vector<Shape> restricted;
@@ -46,7 +47,7 @@ std::vector<Shape> Restrict(const Hierarchy& hierarchy, const std::vector<Shape>
   return restricted;
 }
 
-// A metric of each level's own, in the mesh's unit.
+// Prepares all levels, each with a metric of its own in the mesh's unit.
 std::vector<internal::Resolution> Resolve(const Hierarchy& hierarchy,
                                           const std::shared_ptr<const Metric>& metric,
                                           const std::vector<Shape>& aligned, PosePairs pairs) {
@@ -55,15 +56,14 @@ std::vector<internal::Resolution> Resolve(const Hierarchy& hierarchy,
     std::vector<Shape> poses = Restrict(hierarchy, aligned, level);
     auto own = metric;
     if (level + 1 < hierarchy.NumLevels()) {
-      own = std::make_shared<const Metric>(
-          FreezeMetric(metric->options, hierarchy.LevelConnectivity(level), poses, 1, pairs));
+      own = FreezeLevel(*metric, hierarchy, level, poses, pairs);
     }
     resolutions.emplace_back(std::move(own), std::move(poses));
   }
   return resolutions;
 }
 
-// On straight lines from one pose to another.
+// Linear interpolation from one pose to another.
 std::vector<Shape> Blend(const Shape& from, const Shape& to, int inner) {
   std::vector<Shape> shapes;
   for (int k = 0; k <= inner + 1; ++k) {
@@ -73,14 +73,15 @@ std::vector<Shape> Blend(const Shape& from, const Shape& to, int inner) {
   return shapes;
 }
 
-// Poses farther apart than this have a way between them that is not lost in rounding.
+// Whether poses differ so little that the path between them is dominated by rounding.
 bool AreNear(const Shape& a, const Shape& b) {
   constexpr double kNear = 1e-6;
   return (b - a).cwiseAbs().maxCoeff() <= kNear * a.cwiseAbs().maxCoeff();
 }
 
-// A way so short that its energy is lost in rounding is straight: what bends it is of second order.
-// Shares of that energy mean nothing to a solver. Tells the summary, if this is one.
+// If the poses are so near that the energy is dominated by rounding, the blend is the solution,
+// because curvature is of second order, and a relative tolerance on the energy has no meaning. Adds
+// a row to the summary in that case.
 bool IsSolved(int piece, const std::vector<Shape>& blend, const GeodesicOptions& options,
               internal::Resolution* finest, GeodesicSummary* summary) {
   const int segments = static_cast<int>(blend.size()) - 1;
@@ -97,19 +98,16 @@ bool IsSolved(int piece, const std::vector<Shape>& blend, const GeodesicOptions&
   return true;
 }
 
-// The energy of the finished path by feature, and the bound, over all pieces.
+// Measures the energy of the finished path by feature, and the lower bound, over all pieces.
 void MeasureEnergy(const Path& path, GeodesicSummary* summary) {
   const Metric& metric = *path.metric;
-  for (const AnyFeature& any : metric.features) {
-    summary->parts.emplace_back(
-        std::visit([](const auto& feature) { return std::string(feature.kName); }, any), 0.0);
-  }
+  for (const auto& feature : metric.features) summary->parts.emplace_back(feature->Name(), 0.0);
   if (metric.rigid.Active()) summary->parts.emplace_back("rigid", 0.0);
   for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
     const std::vector<Shape> shapes(path.shapes.begin() + path.poses[piece],
                                     path.shapes.begin() + path.poses[piece + 1] + 1);
     const int segments = static_cast<int>(shapes.size()) - 1;
-    PathEnergy energy(metric, segments - 1);
+    PathEnergy energy(path.metric, segments - 1);
     std::vector<double> unknowns(energy.Size());
     energy.Load(shapes, unknowns.data());
     const std::vector<double> parts = energy.Parts(unknowns.data());
@@ -132,11 +130,11 @@ PathQuality NotMeasured() {
   return quality;
 }
 
-// What a person would see in it.
+// Measures what is visible in the finished path.
 void Assess(const Path& path, GeodesicSummary* summary) {
   summary->quality = MeasureQuality(path);
 
-  // A few shapes tell whether the body passes through itself.
+  // A few shapes suffice to find out whether the body intersects itself.
   std::vector<double> times = {0};
   for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
     const double begin = path.parameters[path.poses[piece]];
@@ -146,7 +144,7 @@ void Assess(const Path& path, GeodesicSummary* summary) {
   }
   try {
     summary->intersections = MeasureIntersections(Resample(path, times)).beyond_poses;
-  } catch (const Error& error) {  // not worth losing the path for
+  } catch (const Error& error) {  // no reason to discard the path
     summary->warnings.push_back(std::string("not counted: ") + error.what());
   }
 }
@@ -164,7 +162,7 @@ Schedule KindOfSchedule(const Metric& metric, const GeodesicOptions& options) {
   return Schedule::kFlat;
 }
 
-// Figures that are possible but hardly what a person wants to see.
+// Appends warnings about results that are valid but probably not wanted.
 void Warn(GeodesicSummary* summary) {
   for (const GeodesicSummary::Level& level : summary->levels) {
     if (level.kept && level.termination != Termination::kConverged &&
@@ -179,31 +177,31 @@ void Warn(GeodesicSummary* summary) {
   }
   if (summary->termination == Termination::kCancelled) {
     summary->warnings.push_back(
-        "cancelled: the path is the best so far; what was not solved yet is lifted or refined from "
-        "what was");
-    return;  // what else there were to say of it comes from that
+        "cancelled: the path is the best so far; shapes that were not solved yet are lifted or "
+        "refined from others");
+    return;  // further warnings would only follow from the cancellation
   }
   constexpr double kManyIntersections = 5;
   if (summary->intersections > kManyIntersections) {
-    summary->warnings.push_back("the body passes through itself: inner shapes have " +
+    summary->warnings.push_back("the body intersects itself: inner shapes have " +
                                 std::to_string(std::lround(summary->intersections)) +
-                                " intersecting pairs of triangles more than the poses, which no "
-                                "metric sees; a pose in between may help");
+                                " more pairs of intersecting triangles than the poses; no metric "
+                                "prevents this, but an additional pose in between may");
   }
   constexpr double kPoorRatio = 1.5, kManyFolds = 1e-3, kUneven = 1.15;
   if (summary->Ratio() > kPoorRatio) {
     summary->warnings.push_back("the energy is " + std::to_string(summary->Ratio()) +
-                                " times its lower bound: the path may lie in a poor valley");
+                                " times its lower bound: the path may be a poor local minimum");
   }
   if (summary->quality.speed_max > kUneven) {
     summary->warnings.push_back(
         "some segment is " + std::to_string(summary->quality.speed_max) +
-        " times as fast as the mean: a part may wait and then snap over; look at the pictures");
+        " times as fast as the mean: a part may rest and then jump; check the pictures");
   }
   if (summary->quality.folds > kManyFolds * summary->hinges) {
-    summary->warnings.push_back("inner shapes hold " +
+    summary->warnings.push_back("inner shapes have " +
                                 std::to_string(std::lround(summary->quality.folds)) +
-                                " folds that the poses do not have: look at the pictures");
+                                " folds that the poses do not have: check the pictures");
   }
 }
 
@@ -224,8 +222,7 @@ GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivi
   if (poses.size() < 2) throw MeshError("a geodesic needs at least two poses");
   const Stopwatch freezing;
   ReportProgress(progress, "freezing the metric", 0, 0);
-  const auto metric =
-      std::make_shared<const Metric>(FreezeMetric(options.metric, connectivity, poses));
+  const auto metric = FreezeMetric(options.metric, connectivity, poses);
   const double freeze_seconds = freezing.Seconds();
   GeodesicResult result = Interpolate(metric, poses, options, progress);
   result.summary.freeze_seconds = freeze_seconds;
@@ -235,7 +232,7 @@ GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivi
 
 namespace internal {
 
-// What all solves between poses of one mesh share.
+// The data shared by all solves between poses of one mesh.
 class GeodesicLevels {
  public:
   GeodesicLevels(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& aligned,
@@ -305,7 +302,7 @@ GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progre
   return result;
 }
 
-// Piece after piece, coarse to fine.
+// Solves piece by piece, from coarse to fine.
 void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
                                  GeodesicResult* result) {
   const std::vector<Shape>& aligned = poses.shapes;
@@ -350,11 +347,11 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
   if (workload.Stopped()) summary.termination = Termination::kCancelled;
 }
 
-// What is the same for all paths.
+// Fills in the fields of the summary that are the same for all paths.
 void GeodesicLevels::Describe(GeodesicSummary* summary) const {
   const Connectivity& connectivity = *metric_->connectivity;
   for (const Resolution& resolution : resolutions_) {
-    summary->hierarchy.push_back(resolution.GetMetric().connectivity->NumVertices());
+    summary->hierarchy.push_back(resolution.GetMetric()->connectivity->NumVertices());
   }
   summary->hierarchy_stopped_early = hierarchy_.StoppedEarly();
   summary->metric = shapespace::Describe(metric_->options);
@@ -392,9 +389,8 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
 Interpolator::Interpolator(const std::shared_ptr<const Connectivity>& connectivity,
                            const std::vector<Shape>& poses, const GeodesicOptions& options) {
   options.Validate();
-  const auto metric = std::make_shared<const Metric>(
-      FreezeMetric(options.metric, connectivity, poses, 0, PosePairs::kAll));
-  // One path at a time, and all poses on all levels.
+  const auto metric = FreezeMetric(options.metric, connectivity, poses, 0, PosePairs::kAll);
+  // One path is solved at a time, but all poses are stored on all levels.
   CheckFinest(*metric,
               EstimateBytes(*metric, 2, options.shapes) +
                   2.0 * sizeof(double) * poses.size() * poses.front().size(),

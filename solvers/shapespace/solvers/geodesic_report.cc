@@ -66,8 +66,7 @@ std::string GeodesicSummary::FullReport() const {
       << Format("Intersections     %.3g pairs of triangles more than in the poses\n", intersections)
       << "Hierarchy        ";
   for (size_t i = 0; i < hierarchy.size(); ++i) out << (i > 0 ? ", " : " ") << hierarchy[i];
-  out << " vertices"
-      << (hierarchy_stopped_early ? " (no legal collapse leads further down)\n" : "\n")
+  out << " vertices" << (hierarchy_stopped_early ? " (no further edge could be collapsed)\n" : "\n")
       << "\npiece vertices shapes start     solver        iterations  evaluations  energy before  "
          "energy "
          "after"

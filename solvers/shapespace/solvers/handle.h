@@ -11,10 +11,10 @@
 
 namespace shapespace {
 
-/// A rigid motion together with its way: at t in [0, 1] everything has turned by t times `angle`
-/// about the direction `axis` through `point`, and has then moved by t times `translation`. Where
-/// the translation runs along the axis this is a screw motion. Turns of 180 degrees and more are
-/// what they say, and not the short way to the same place.
+/// A rigid motion with its course in time: at t in [0, 1] everything is rotated by t times `angle`
+/// about the direction `axis` through `point` and then translated by t times `translation`. If the
+/// translation is parallel to the axis this is a screw motion. Angles of 180 degrees and more are
+/// not reduced to the shorter way.
 struct ScrewMotion {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< of any length but 0
   double angle = 0;                                 ///< radians
@@ -25,24 +25,25 @@ struct ScrewMotion {
   Eigen::Vector3d At(double t, const Eigen::Vector3d& x) const;
 };
 
-/// Some vertices of a mesh, and where they are to be in the end. All lengths are in the user's unit
-/// and frame.
+/// Some vertices of a mesh and their target positions. All lengths are in the user's unit and
+/// frame.
 struct Handle {
   std::string name;           ///< for messages and reports; may be empty
-  std::vector<int> vertices;  ///< counted from 0, at least one, each once
+  std::vector<int> vertices;  ///< counted from 0; at least one, no repetitions
 
-  /// Where each of the vertices is to be in the end, 3 x vertices: the way there is left to the
-  /// metric. Without, they move rigidly, as `motion` says; by default they stay where they are.
+  /// Target position of each of the vertices, 3 x vertices; their course in time is determined by
+  /// the metric. If absent, the vertices move rigidly by `motion`, whose default leaves them where
+  /// they are.
   std::optional<Shape> positions;
   ScrewMotion motion;
 
-  /// A hard handle is met exactly: positions by the last shape of a path, a motion by all of its
-  /// shapes. A soft one pulls at the last shape, in proportion to its weight.
+  /// A hard handle is satisfied exactly: positions in the last shape of a path, a motion in all of
+  /// its shapes. A soft one is a penalty on the last shape, proportional to its weight.
   bool hard = true;
   double weight = 1;  ///< of a soft handle, positive
 
-  /// Where the handle wants its vertices[place], which begins at `from`, at t in [0, 1]: positions
-  /// are approached along straight lines.
+  /// Target at t in [0, 1] of vertices[place], whose position at t = 0 is `from`; `positions` are
+  /// approached along straight lines.
   Eigen::Vector3d Target(int place, double t, const Eigen::Vector3d& from) const;
 };
 

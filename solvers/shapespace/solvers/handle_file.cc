@@ -37,7 +37,7 @@ Eigen::Vector3d BoundedVector(const Json& json, const std::string& field) {
   return vector;
 }
 
-// How the handle of an entry is to move; exactly one way must be given.
+// The ways in which a handle can be moved; an entry must have exactly one of them.
 enum class Target { kFixed, kMotion, kPosition, kPositions };
 
 Target TargetOf(const Json& entry) {
@@ -55,12 +55,12 @@ Target TargetOf(const Json& entry) {
     }
     found = &key;
   }
-  if (found == nullptr) FailIn("", std::string("says no target; give one of ") + kTargets);
+  if (found == nullptr) FailIn("", std::string("has no target; give one of ") + kTargets);
   return found->second;
 }
 
 ScrewMotion MotionFrom(const Json& entry, const Eigen::Vector3d& centroid) {
-  constexpr double kMostDegrees = 36000;  // more is a slip of the pen
+  constexpr double kMostDegrees = 36000;  // a larger value is taken for a typing error
   ScrewMotion motion;
   motion.point = centroid;
   if (entry.contains("translation")) {
@@ -82,8 +82,8 @@ ScrewMotion MotionFrom(const Json& entry, const Eigen::Vector3d& centroid) {
   return motion;
 }
 
-// Where each of so many vertices is to be. They stand in the order of the vertices' numbers, so
-// this must be the order in which the file selects them.
+// The target positions of `count` vertices. Positions are in ascending order of the vertices'
+// numbers, so the file must select them in this order.
 Shape PositionsFrom(const Json& entry, const Selection& selection, size_t count) {
   const std::string field = "positions";
   const Json& list = ListFrom(entry["positions"], field);
@@ -93,8 +93,8 @@ Shape PositionsFrom(const Json& entry, const Selection& selection, size_t count)
   }
   if (!rise) {
     FailIn(field,
-           "stand in the order of the vertices' numbers; select the vertices in this order, each "
-           "once and without any");
+           "are assigned in the order of the vertices' numbers; select the vertices in this order, "
+           "each once and without \"any\"");
   }
   if (list.size() != count) {
     FailIn(field, std::to_string(list.size()) + " are given for " + std::to_string(count) +
@@ -140,7 +140,7 @@ Handle HandleFrom(const Json& entry, const Shape& shape, const Connectivity& con
   switch (TargetOf(entry)) {
     case Target::kFixed:
       if (!BoolFrom(entry["fixed"], "fixed")) {
-        FailIn("fixed", "must be true; of a handle that moves leave it out");
+        FailIn("fixed", "must be true; leave it out if the handle moves");
       }
       break;
     case Target::kMotion:
@@ -163,7 +163,7 @@ Handle HandleFrom(const Json& entry, const Shape& shape, const Connectivity& con
   return handle;
 }
 
-// "handle 3 ('head')", by what is there of the name.
+// "handle 3 ('head')"; without a valid name only "handle 3".
 std::string NameOf(const Json& entry, size_t i) {
   std::string name = "handle " + std::to_string(i + 1);
   if (entry.is_object() && entry.contains("name") && entry["name"].is_string()) {

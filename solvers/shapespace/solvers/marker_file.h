@@ -9,10 +9,10 @@
 
 namespace shapespace {
 
-/// Reads a file of markers, which a person writes (docs/file-formats.md): a line each, of a vertex
-/// of the template and one of the target, counted from 1 as in OBJ; `#` begins a comment. In place
-/// of a number a vertex may be named by a group of its mesh: it is the group's vertex nearest to
-/// the mean of them all.
+/// Reads a file of markers written by the user (docs/file-formats.md). Each line has a vertex of
+/// the template and one of the target, counted from 1 as in OBJ; `#` begins a comment. In place of
+/// a number a vertex may be given by the name of a group of its mesh, which stands for the group's
+/// vertex that is nearest to the group's centroid.
 /// \throw FileError naming file and line.
 std::vector<Marker> ReadMarkers(const std::string& file, const Poses& template_mesh,
                                 const Poses& target);

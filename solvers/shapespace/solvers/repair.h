@@ -14,14 +14,14 @@
 
 namespace shapespace {
 
-/// How to repair.
+/// Options of a repair.
 struct RepairOptions {
-  /// As for handles, of which the distorted shape is a soft one: a larger balance restores more of
-  /// the reference and keeps less of the pose. One shape by default: the repaired one alone.
+  /// As for handles; the distorted shape acts as a soft handle. A larger balance restores more of
+  /// the reference and keeps less of the pose. The default is one shape, the repaired one.
   DeformationOptions deformation = Defaults();
 
-  /// The vertices whose places in the distorted shape are to be kept as far as that can be, counted
-  /// from 0; empty: all. Name those of the sound parts where others are beyond repair.
+  /// Vertices (counted from 0) whose positions in the distorted shape are to be kept approximately;
+  /// if empty, all. List the undistorted parts if the rest is distorted too strongly.
   std::vector<int> vertices;
 
   static DeformationOptions Defaults() {
@@ -32,12 +32,13 @@ struct RepairOptions {
   }
 };
 
-/// What happened, and what was restored.
+/// Outcome of a repair.
 struct RepairSummary {
-  DeformationSummary deformation;  ///< from the reference, as a deformation of it
-  ShapeError before, after;        ///< of the distorted and of the repaired shape
-  /// How far the vertices of the repaired shape are from where the distorted one has them: root
-  /// mean square weighted by area, in the user's unit.
+  DeformationSummary deformation;  ///< of the reference
+  ShapeError before, after;        ///< of the distorted and of the repaired shape, relative to the
+                                   ///< reference
+  /// Distance of the vertices of the repaired shape from those of the distorted one: area-weighted
+  /// root mean square, in the user's unit.
   double moved = 0;
 
   bool Converged() const { return deformation.Converged(); }
@@ -47,13 +48,13 @@ struct RepairSummary {
 };
 
 struct RepairResult {
-  Path path;  ///< from the reference, moved onto the distorted shape, to the repaired one
+  Path path;  ///< from the reference, aligned with the distorted shape, to the repaired shape
   RepairSummary summary;
 };
 
 /// Restores a reference's geometry in a distorted pose of the same mesh (Kilian et al. 2007, Figure
-/// 9): finds the shape near the pose that is as little stretched, bent and changed in volume
-/// against the reference as the metric allows.
+/// 9): finds the shape near the pose that has the least stretching, bending and change of volume
+/// relative to the reference.
 /// \throw as Deform.
 RepairResult Repair(const std::shared_ptr<const Connectivity>& connectivity, const Shape& reference,
                     const Shape& distorted, const RepairOptions& options = {},

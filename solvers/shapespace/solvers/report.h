@@ -10,11 +10,11 @@
 #include <shapespace/analysis/shape_error.h>
 #include <shapespace/solvers/geodesic.h>
 
-// Private: what the reports of all solvers are written with.
+// Private: helpers for the reports of all solvers.
 
 namespace shapespace::internal {
 
-/// printf into a string, of at most 511 characters.
+/// printf into a string; the result is truncated after 511 characters.
 template <typename... Arguments>
 std::string Format(const char* format, Arguments... arguments) {
   char text[512];
@@ -22,7 +22,7 @@ std::string Format(const char* format, Arguments... arguments) {
   return text;
 }
 
-/// JSON knows no NaN: a figure that does not exist is null.
+/// JSON has no NaN: a value that is not finite becomes null.
 inline nlohmann::ordered_json JsonNumber(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }

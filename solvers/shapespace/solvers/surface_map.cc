@@ -22,7 +22,7 @@ namespace {
 
 constexpr char kToTarget[] = "to_target", kToTemplate[] = "to_template";
 
-// The rotation that is nearest to the mean motion of the triangles around each vertex.
+// Per vertex, the rotation nearest to the mean deformation gradient of the triangles around it.
 std::vector<Eigen::Matrix3d> Turns(const Connectivity& connectivity, const Shape& rest,
                                    const Shape& moved) {
   std::vector<Eigen::Matrix3d> sums(rest.cols(), Eigen::Matrix3d::Zero());
@@ -51,7 +51,7 @@ void WritePoints(std::ostream& out, const char* name, const SurfacePoints& point
   }
 }
 
-// Reads lines that are neither empty nor comments.
+// Reads the next line that is neither empty nor a comment.
 class MapReader {
  public:
   explicit MapReader(const std::string& file) : file_(file), text_(ReadFile(file)), lines_(text_) {}
@@ -62,7 +62,7 @@ class MapReader {
     const std::string_view word = header.Next();
     if (word != name) Fail("expected '" + name + "' and the number of its lines");
     const std::optional<std::int64_t> count = internal::ParseInteger(header.Next());
-    // A line has at least eight characters, so that no file makes memory run out.
+    // A line has at least eight characters; this limits the memory that a file can request.
     if (!count || *count < 1 || *count > static_cast<std::int64_t>(lines_.BytesLeft() / 8 + 1)) {
       Fail("'" + name + "' must be followed by the number of its lines");
     }
@@ -84,7 +84,7 @@ class MapReader {
         Fail("the three barycentric coordinates must not be negative, and add up to 1");
       }
       (*last)(v) = Number(&words);
-      if (!words.Done()) Fail("there is more than expected on this line");
+      if (!words.Done()) Fail("there are additional words on this line");
     }
   }
 
@@ -95,7 +95,7 @@ class MapReader {
 
   double Number(internal::Words* words) const {
     const std::optional<double> number = internal::ParseDouble(words->Next());
-    if (!number || !std::isfinite(*number)) Fail("a number is missing or none");
+    if (!number || !std::isfinite(*number)) Fail("a number is missing or invalid");
     return *number;
   }
 
@@ -123,7 +123,7 @@ Eigen::MatrixXd Pull(const SurfacePoints& points, const Eigen::Matrix3Xi& triang
   if (points.NumVertices() > 0 && points.triangle.maxCoeff() >= triangles.cols()) {
     throw MeshError("the points lie on triangle " + std::to_string(points.triangle.maxCoeff() + 1) +
                     " of a mesh that has " + std::to_string(triangles.cols()) +
-                    "; is it that of the other direction?");
+                    "; was it made for the other direction?");
   }
   Eigen::MatrixXd pulled = Eigen::MatrixXd::Zero(function.rows(), points.NumVertices());
   for (int v = 0; v < points.NumVertices(); ++v) {

@@ -18,7 +18,7 @@
 namespace shapespace {
 namespace {
 
-// Of the time that a pose's geodesic and the transfer of it take together.
+// The geodesic's share of the time that a pose's geodesic and its transfer take together.
 constexpr double kGeodesicShare = 0.1;
 
 Path PathOfPlaced(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& placed,
@@ -33,7 +33,7 @@ Path PathOfPlaced(const std::shared_ptr<const Metric>& metric, const std::vector
   return path;
 }
 
-// The target's path: the target itself, and what was shot from there.
+// The target's path: the target itself and the shapes computed from it.
 Path PathOfTarget(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& placed,
                   std::vector<double> parameters, std::string provenance) {
   Path path = PathOfPlaced(metric, placed, std::move(parameters), std::move(provenance));
@@ -42,7 +42,7 @@ Path PathOfTarget(const std::shared_ptr<const Metric>& metric, const std::vector
   return path;
 }
 
-// What goes on while a shape is made is heard as that shape's.
+// Reports progress inside one shape as progress of that shape.
 class WithinShape final : public Progress {
  public:
   WithinShape(Progress* all, int done, int total) : all_(all), done_(done), total_(total) {}
@@ -55,7 +55,7 @@ class WithinShape final : public Progress {
   const int done_, total_;
 };
 
-// A call within a call, as a part of its work.
+// Reports the progress of a nested call as a part of the outer call's work.
 class Within final : public Progress {
  public:
   Within(Progress* all, double begin, double end) : all_(all), begin_(begin), end_(end) {}
@@ -71,13 +71,13 @@ class Within final : public Progress {
   const double begin_, end_;
 };
 
-// Compares what target and source have done since their first shapes.
+// Measures the difference between the changes of target and source since their first shapes.
 void MeasureWhatIsOff(const Metric& metric, const Path& source, const Path& target,
                       TransferSummary* summary) {
   const auto change = [](const Path& path, const auto& value) {
     const auto first = value(path.shapes.front());
     auto last = value(path.shapes.back());
-    last -= first;  // no expression, which would outlive the two
+    last -= first;  // not an expression template, which would outlive its operands
     return last;
   };
   const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
@@ -87,7 +87,7 @@ void MeasureWhatIsOff(const Metric& metric, const Path& source, const Path& targ
       return std::log((shape.col(edges(1, e)) - shape.col(edges(0, e))).norm());
     };
     const double off = std::abs(change(target, log_length) - change(source, log_length));
-    if (!std::isfinite(off)) continue;  // an edge without length
+    if (!std::isfinite(off)) continue;  // an edge of length zero
     squares += metric.edge_area(e) * off * off;
     area += metric.edge_area(e);
     summary->strain_max = std::max(summary->strain_max, off);
@@ -119,15 +119,14 @@ void Warn(TransferSummary* summary) {
   const std::string of = " of " + std::to_string(summary->steps.size()) + " shapes ";
   if (coarse > 0) {
     summary->warnings.push_back(std::to_string(coarse) + of +
-                                "were made on a coarser mesh, and detail carried along");
+                                "were solved on a coarser mesh and lifted with its detail");
   }
   if (open > 0) {
-    summary->warnings.push_back(std::to_string(open) + of +
-                                "did not converge: look at the pictures");
+    summary->warnings.push_back(std::to_string(open) + of + "did not converge: check the pictures");
   }
 }
 
-// What geodesics cannot be shot under, features not be taken of.
+// Rejects metrics under which no geodesics can be shot or whose features cannot be taken.
 void CheckMetric(const MetricOptions& metric) {
   metric.Validate();
   if (metric.rigid > 0) {
@@ -139,8 +138,9 @@ void CheckMetric(const MetricOptions& metric) {
   }
 }
 
-// Source and target as they are compared: in the source's aligned frame and, if `scaled`, in the
-// target's size; the unit is the user's. There the target's first shape is `target`.
+// Brings source and target into the frame in which they are compared: the source's aligned frame
+// and, if `scaled`, the target's size, in the user's unit. In it the target's first shape is
+// `target`.
 class Comparison {
  public:
   Comparison(const Path& source, const Shape& target, double scale, bool align)
@@ -159,7 +159,7 @@ class Comparison {
   const std::vector<Shape>& Shapes() const { return shapes_; }
   const Shape& Target() const { return target_; }
 
-  /// Back to the target's place, at the time of the source's shape i, and `upright` before.
+  /// The motion back to the target's frame, for shape i of the source; `upright` is applied first.
   RigidMotion Placing(int i, const Eigen::Matrix3d& upright) const {
     const Eigen::Matrix3d turn = place_.rotation * source_.motions[0].rotation.transpose();
     RigidMotion motion;
@@ -188,7 +188,7 @@ void CheckTarget(const Path& source, const Shape& target) {
   if (!target.allFinite()) throw MeshError("a coordinate of the target is not finite");
 }
 
-// How many times the target is as large as the source.
+// Size of the target as a multiple of the source's.
 double ScaleOf(const Path& source, const Shape& target) {
   const Eigen::VectorXd& weights = source.metric->vertex_area;
   const double scale = internal::Radius(target, weights) /
@@ -199,7 +199,7 @@ double ScaleOf(const Path& source, const Shape& target) {
   return scale;
 }
 
-// The target's shapes, one after the other; the first is there from the beginning.
+// Computes the target's shapes one after the other, beginning with the given first one.
 class TargetShapes {
  public:
   TargetShapes(const Path& source, const Shape& target, double scale,
@@ -212,8 +212,7 @@ class TargetShapes {
     std::vector<Shape> poses = comparison_.Shapes();
     poses.insert(poses.begin(), shapes_[0]);
     const auto freeze = [&](const MetricOptions& metric) {
-      return std::make_shared<const Metric>(
-          FreezeMetric(metric, source.metric->connectivity, poses));
+      return FreezeMetric(metric, source.metric->connectivity, poses);
     };
     metric_ = freeze(climbs_ ? options.ladder.metric : MetricOptions::Strain());
     if (climbs_ || options.hybrids) {
@@ -234,7 +233,7 @@ class TargetShapes {
         shapes_.push_back(ladder_->Climb(RungAt(i - 1, within), shapes_.back(), row, within));
       } catch (const SolverError& error) {
         throw SolverError("transfer of shape " + std::to_string(i + 1) + ": " + error.what() +
-                          "; a source with more shapes on the same way makes smaller steps");
+                          "; use a source with more shapes, so that steps are smaller");
       }
       return;
     }
@@ -246,9 +245,9 @@ class TargetShapes {
     shapes_.push_back(metric_->unit * nearest.shape);
   }
 
-  /// The last shape in its place.
+  /// The last shape in the target's own frame.
   Shape Placed() const { return Placing()(shapes_.back()); }
-  /// Half way between it and the source's.
+  /// The shape half way between the last shape and the source's corresponding one.
   Shape Hybrid(Progress* within) {
     const int last = static_cast<int>(shapes_.size()) - 1;
     return Placing()(ladder_->Hybrid(RungAt(last, within)));
@@ -263,7 +262,7 @@ class TargetShapes {
                       : Eigen::Matrix3d::Identity());
   }
 
-  // The target's next shape and the hybrid share it.
+  // The rung of shape i; used for both the target's next shape and the hybrid.
   const internal::Ladder::Rung& RungAt(int i, Progress* within) {
     if (rung_at_ != i) {
       const std::vector<Shape>& source = comparison_.Shapes();
@@ -369,7 +368,7 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
 
 namespace {
 
-// By way of geodesics, whose ends are kept.
+// Transfers geodesics between the poses and uses their last shapes.
 PoseTransferResult TransferAlongGeodesics(const std::shared_ptr<const Connectivity>& connectivity,
                                           const std::vector<Shape>& poses, const Shape& target,
                                           const GeodesicOptions& geodesic,
@@ -406,8 +405,7 @@ PoseTransferResult TransferAlongGeodesics(const std::shared_ptr<const Connectivi
     result.summary.geodesics.push_back(std::move(source.summary));
     result.summary.transfers.push_back(std::move(transfer.summary));
   }
-  const auto metric =
-      std::make_shared<const Metric>(FreezeMetric(options.ladder.metric, connectivity, placed));
+  const auto metric = FreezeMetric(options.ladder.metric, connectivity, placed);
   result.path = PathOfTarget(metric, placed, parameters, "transferred");
   if (options.hybrids) result.hybrids = PathOfPlaced(metric, hybrids, parameters, "hybrids");
   return result;
@@ -428,8 +426,7 @@ PoseTransferResult TransferPoses(const std::shared_ptr<const Connectivity>& conn
   } else {
     std::vector<double> parameters;
     for (int i = 0; i < count; ++i) parameters.push_back(static_cast<double>(i) / (count - 1));
-    const auto metric =
-        std::make_shared<const Metric>(FreezeMetric(MetricOptions::Strain(), connectivity, poses));
+    const auto metric = FreezeMetric(MetricOptions::Strain(), connectivity, poses);
     TransferResult transfer =
         Transfer(PathOfPlaced(metric, poses, parameters, ""), target, options, progress);
     result.path = std::move(transfer.path);

@@ -93,7 +93,7 @@ std::vector<std::string> PoseTransferSummary::Warnings() const {
   if (geodesics.empty())
     return transfers.empty() ? std::vector<std::string>() : transfers[0].warnings;
   std::vector<std::string> warnings;
-  if (cancelled) warnings.push_back("cancelled: the poses before are there, the others are not");
+  if (cancelled) warnings.push_back("cancelled: only the poses before this point were computed");
   for (size_t i = 0; i < transfers.size(); ++i) {
     for (const auto* some : {&geodesics[i].warnings, &transfers[i].warnings}) {
       for (const std::string& warning : *some) {

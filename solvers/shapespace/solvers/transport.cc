@@ -19,20 +19,20 @@ namespace {
 
 using internal::MetricSolver;
 
-// The metric's own. J X of a tangent X lies in the range of J, and to carry it on is to carry it
-// from the range of J_0 to that of J_1, with as little change as can be. With P the orthogonal
-// projections onto the two,
+// Levi-Civita transport. J X of a tangent X lies in the range of J; transport maps the range of J_0
+// to that of J_1 isometrically with least change. With the orthogonal projections P onto the two
+// ranges,
 //   J_1 Y = P_1 (3/2 - 1/2 P_0 P_1) J_0 X,
-// the first step of Newton's and Schulz' iteration for the isometry that is nearest to P_1.
+// the first step of the Newton-Schulz iteration for the isometry that is nearest to P_1.
 class MetricTransport {
  public:
   MetricTransport(const Path& path, const TransportOptions& options)
       : path_(path),
         options_(options),
-        map_(*path.metric),
+        map_(path.metric),
         here_(std::make_unique<Place>(map_, path.shapes[0])) {}
 
-  /// From path.shapes[i] to the next. Tangents are turned as `Turn` says.
+  /// Transports from path.shapes[i] to the next shape. The tangents are rotated as `Turn` says.
   void Carry(int i, std::vector<Tangent>* tangents, TransportSummary::Step* row) {
     Shape next = path_.shapes[i + 1];
     if (options_.align) {
@@ -44,8 +44,8 @@ class MetricTransport {
     const Place& to = *here_;
     for (Tangent& x : *tangents) {
       const Eigen::VectorXd change = from->derivative.Times(x);
-      // What the projections change is little: solved for as corrections, it is found to more
-      // digits.
+      // The projections change vectors only slightly. Solving for the corrections is more accurate
+      // than solving for the projected vectors.
       const double size = change.norm();
       const Tangent nearest =
           x + Solve(to, change - to.derivative.Times(x), size, row);  // J_1 of it is P_1 J_0 X
@@ -55,11 +55,11 @@ class MetricTransport {
     }
   }
 
-  /// How the path's shape that was reached is turned against the tangents.
+  /// Rotation of the path's shape against the frame of the tangents.
   const Eigen::Matrix3d& Turn() const { return turn_; }
 
  private:
-  // A shape, and what is needed to project onto the range of J there.
+  // A shape and the data for projections onto the range of J there.
   struct Place {
     Place(const FeatureMap& map, Shape at)
         : shape(std::move(at)), derivative(map.Derivative(shape)) {
@@ -92,10 +92,10 @@ class MetricTransport {
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();
 };
 
-// The paper's: the tangent nearest to the one before among those with <Y, gamma'> = C.
+// The paper's transport: the tangent nearest to the previous one among those with <Y, gamma'> = C.
 class ConstrainedProjection {
  public:
-  explicit ConstrainedProjection(const Path& path) : path_(path), map_(*path.metric) {}
+  explicit ConstrainedProjection(const Path& path) : path_(path), map_(path.metric) {}
 
   void Carry(int i, std::vector<Tangent>* tangents) {
     if (i == 0) {
@@ -110,7 +110,7 @@ class ConstrainedProjection {
   }
 
  private:
-  // G gamma' at shape i; at the last one, gamma' is that of the segment before.
+  // G gamma' at shape i; at the last one, gamma' is that of the last segment.
   Tangent Normal(int i) const {
     const int begin = std::min(i, path_.NumShapes() - 2);
     const double time = path_.parameters[begin + 1] - path_.parameters[begin];
@@ -125,7 +125,7 @@ class ConstrainedProjection {
 };
 
 std::vector<double> Norms(const Path& path, int shape, const std::vector<Tangent>& tangents) {
-  const FeatureMap map(*path.metric);
+  const FeatureMap map(path.metric);
   const FeatureDerivative derivative = map.Derivative(path.shapes[shape]);
   std::vector<double> norms;
   for (const Tangent& x : tangents) norms.push_back(derivative.Times(x).norm());
@@ -157,7 +157,7 @@ TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents
   const Stopwatch total;
   const Metric& metric = *path.metric;
   const int segments = path.NumShapes() - 1;
-  if (segments < 1) throw MeshError("a path of one shape leads nowhere");
+  if (segments < 1) throw MeshError("transport needs a path of at least two shapes");
   TransportResult result;
   for (const Tangent& x : tangents) {
     if (x.cols() != metric.connectivity->NumVertices() || !x.allFinite()) {

@@ -10,26 +10,27 @@
 
 namespace shapespace {
 
-/// What "the same tangent" means at another shape (docs/mathematics.md, section 10).
+/// Definition of transport of a tangent to another shape (docs/mathematics.md, section 10).
 enum class Connection {
-  kLeviCivita,  ///< the metric's own: order 2, never makes a tangent longer, and shorter only in
-                ///< the fourth order
-  kConstrainedProjection,  ///< the paper's: least Euclidean change that keeps the product with the
-                           ///< path's velocity; keeps neither norm nor rotation
+  kLeviCivita,  ///< the metric's own: order 2; the norm of a tangent never grows, and shrinks only
+                ///< to fourth order in the step
+  kConstrainedProjection,  ///< the paper's: least Euclidean change that preserves the product with
+                           ///< the path's velocity; preserves neither norm nor rotation
 };
 
 struct TransportOptions {
   Connection connection = Connection::kLeviCivita;
 
-  /// Before each step of the metric's own scheme, turn the shape onto the next one, and the
-  /// tangent with it: what is carried turns with the body, exactly where that moves rigidly.
-  /// Without, the bare connection leaves the rigid part of a tangent behind when the body turns.
+  /// Before each step of kLeviCivita, align the shape with the next one and rotate the tangent with
+  /// it. Tangents then turn with the body, exactly where the body moves rigidly. If false, a
+  /// tangent does not turn with the rigid rotation of the body.
   bool align = true;
 
-  /// Error of a step's linear systems in the metric, as a share of the tangent's norm.
+  /// Tolerance of the linear systems of a step, in the metric, as a share of the tangent's norm.
   double tolerance = 1e-12;
 
-  /// Of the linear solver, a step and tangent. A step that runs out of them is reported.
+  /// Iterations of the linear solver, per step and tangent. A step that reaches the limit is
+  /// reported.
   int max_iterations = 200;
 
   /// \throw InvalidOptions naming the field.
@@ -37,18 +38,18 @@ struct TransportOptions {
 };
 
 struct TransportSummary {
-  /// A segment of the path.
+  /// One segment of the path.
   struct Step {
-    int krylov_iterations = 0;  ///< most over the tangents
-    double residual = 0;        ///< largest over the tangents
+    int krylov_iterations = 0;  ///< maximum over the tangents
+    double residual = 0;        ///< maximum over the tangents
     double seconds = 0;
   };
 
   bool converged = true;  ///< every step reached the tolerance
   std::string metric;
   std::vector<Step> steps;
-  /// Norms of every tangent under the metric, before and after. Where the connection is the
-  /// metric's own, what the second lacks tells how coarse the path is.
+  /// Norms of each tangent under the metric, before and after. With kLeviCivita, the loss of norm
+  /// shows how coarse the path is.
   std::vector<double> first_norm, last_norm;
   double total_seconds = 0;
 
@@ -56,14 +57,14 @@ struct TransportSummary {
 };
 
 struct TransportResult {
-  std::vector<Tangent> tangents;  ///< as they were given, but at the last shape
+  std::vector<Tangent> tangents;  ///< in the given order, at the last shape
   TransportSummary summary;
 };
 
-/// Carries `tangents` (3 x m each, at the path's first shape as placed, user's unit) along the path
-/// to its last shape, as placed: parallel transport (Kilian et al. 2007, section 5). One
-/// factorisation a segment serves all of them. The rigid motion that the path carries turns them
-/// with the shapes.
+/// Transports `tangents` (3 x m each, at the path's first shape as placed, user's unit) along the
+/// path to its last shape as placed: parallel transport (Kilian et al. 2007, section 5). Each
+/// segment is factorised once for all tangents. The path's rigid motion rotates the tangents with
+/// the shapes.
 /// \throw InvalidOptions (also if the metric is rigid), MeshError (a tangent of the wrong size or
 ///        not finite, a path of one shape), SolverError (the metric is not definite; for
 ///        kConstrainedProjection, the path stands still), Cancelled.

@@ -7,10 +7,10 @@
 
 int main(int, char** arguments) {
   const shapespace::Poses poses = shapespace::ReadPoses({arguments[1], arguments[2]});
-  const shapespace::Metric metric = shapespace::FreezeMetric(shapespace::MetricOptions::Isometric(),
-                                                             poses.connectivity, poses.shapes);
-  const double bound = shapespace::EnergyLowerBound(metric, poses.shapes[0] / metric.unit,
-                                                    poses.shapes[1] / metric.unit, 1);
+  const auto metric = shapespace::FreezeMetric(shapespace::MetricOptions::Isometric(),
+                                               poses.connectivity, poses.shapes);
+  const double bound = shapespace::EnergyLowerBound(*metric, poses.shapes[0] / metric->unit,
+                                                    poses.shapes[1] / metric->unit, 1);
   std::printf("lower bound %g\n", bound);
   return bound > 0 ? 0 : 1;
 }

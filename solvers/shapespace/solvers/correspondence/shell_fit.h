@@ -40,7 +40,7 @@ class ShellFit {
            const std::vector<int>& held, double bending, double proportions);
 
   /// A_p of sum 1.
-  const Eigen::VectorXd& VertexAreas() const { return metric_.vertex_area; }
+  const Eigen::VectorXd& VertexAreas() const { return metric_->vertex_area; }
 
   /// One iteration: proportions are taken anew from `*shape`, then it takes a step that lowers the
   /// sum, or stays as it is if there is none.
@@ -54,7 +54,7 @@ class ShellFit {
   void AddPulls(const std::vector<Pull>& pulls, const Shape& shape, Tangent* gradient);
   void SetWanted(const Shape& shape);
 
-  const Metric metric_;
+  const std::shared_ptr<const Metric> metric_;
   const FeatureMap map_;
   const SmoothStretch stretch_;
   std::vector<bool> is_held_;

@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_SOLVERS_COST_EULER_LAGRANGE_H_
 #define SHAPESPACE_SOLVERS_COST_EULER_LAGRANGE_H_
 
+#include <memory>
 #include <vector>
 
 #include <ceres/problem.h>
@@ -19,8 +20,7 @@ namespace shapespace::cost {
 class EulerLagrange {
  public:
   /// Shapes in the metric's unit; `target` has the layout of FeatureMap::Values. Rows are
-  /// multiplied by `scale`: Ceres' limits are absolute, and want numbers of about one. `metric`
-  /// must outlive the problems that rows are added to.
+  /// multiplied by `scale`: Ceres' limits are absolute, and want numbers of about one.
   EulerLagrange(const Metric& metric, const Shape& at, const Eigen::VectorXd& target,
                 double scale = 1);
 
@@ -38,15 +38,14 @@ class EulerLagrange {
   double Rounding() const;
 
  private:
-  template <typename Feature>
-  const double* Add(const AnyFeature& any, const Feature& feature, const Shape& at,
+  const double* Add(const std::shared_ptr<const Feature>& feature, const Shape& at,
                     const double* targets, double scale);
-  VertexElements& Part(const AnyFeature& any, int v);
+  VertexElements& Part(const std::shared_ptr<const Feature>& feature, int v);
   void AddSums(Shape* shape, std::vector<double>* sums, ceres::Problem* problem) const;
 
-  const Metric& metric_;
+  const std::vector<std::shared_ptr<const Feature>> features_;
   const int num_sums_;
-  std::vector<EulerLagrangeRows> rows_;
+  std::vector<std::vector<VertexElements>> rows_;  // of each vertex
   std::vector<std::vector<int>> neighbours_;
   Tangent magnitude_;  // the sums of the absolute values of what the residual is made of
   std::vector<double> sum_gradients_;  // norm of the scaled gradient of each sum feature

@@ -30,8 +30,8 @@ struct Grip {
 /// moves it evenly sees S + 2 pull: two factors are an inverse, whatever is given or pulled at.
 class FreeEndFactors {
  public:
-  /// `metric` is kept by reference. \throw SolverError if the scalar metric is not definite.
-  FreeEndFactors(const Metric& metric, Shape rest, Grip grip);
+  /// \throw SolverError if the scalar metric is not definite.
+  FreeEndFactors(std::shared_ptr<const Metric> metric, Shape rest, Grip grip);
 
   const Shape& Rest() const { return rest_; }
   const Grip& GetGrip() const { return grip_; }
@@ -52,7 +52,7 @@ class FreeEndFactors {
   // Solves with the end's factor for each of the right-hand sides, m x 3, and adds to `shapes`.
   void SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights, std::vector<Tangent>* shapes) const;
 
-  const Metric& metric_;
+  std::shared_ptr<const Metric> metric_;
   Shape rest_;
   Grip grip_;
   std::vector<char> given_;  // of each vertex: in the last shape

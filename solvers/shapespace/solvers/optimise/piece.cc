@@ -41,7 +41,7 @@ std::vector<Start> Starts(Start start) {
 }
 
 int NumVertices(const Resolution& resolution) {
-  return resolution.GetMetric().connectivity->NumVertices();
+  return resolution.GetMetric()->connectivity->NumVertices();
 }
 
 // How many steps it takes milliseconds to take.
@@ -135,7 +135,7 @@ void Piece::TakeStep(const ScheduleStep& step, Start start, bool last) {
     name = Name(start);
   }
   if (!workload_.Stopped()) {
-    Unwind(resolution.GetMetric(), &shapes);
+    Unwind(*resolution.GetMetric(), &shapes);
     GeodesicSummary::Level row =
         resolution.Relax(index_, last ? 0 : kEnough, options_, &workload_, &shapes);
     row.start = name;
@@ -154,10 +154,9 @@ std::vector<Shape> Piece::OneInnerShape(Start start, int level) {
       return {ends[0], ends[1], ends[1]};
     case Start::kRigid: {
       // The paper's advice for blends that degenerate: a first round as rigid as possible.
-      Resolution rigid(
-          std::make_shared<const Metric>(FreezeMetric(
-              MetricOptions::Rigid(), resolutions_[level].GetMetric().connectivity, ends, 1)),
-          ends);
+      Resolution rigid(FreezeMetric(MetricOptions::Rigid(),
+                                    resolutions_[level].GetMetric()->connectivity, ends, 1),
+                       ends);
       std::vector<Shape> shapes = {ends[0], blend, ends[1]};
       workload_.Plan(static_cast<int>(blend.cols()), 1, true);
       GeodesicSummary::Level row = rigid.Relax(0, 0, options_, &workload_, &shapes);
