@@ -239,7 +239,7 @@ void Run(const std::vector<std::string>& files) {
   // Meshes last: how far they are apart comes behind them.
   for (const bool meshes : {false, true}) {
     for (const std::string& file : files) {
-      const std::string extension = Extension(file);
+      const std::string extension = FileExtension(file);
       if ((extension != ".path" && extension != ".space") != meshes) continue;
       try {
         if (meshes) {

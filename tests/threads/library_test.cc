@@ -142,7 +142,7 @@ TEST(RenderFilmStripTest, IsTheSameForAnyNumberOfThreads) {
   const std::vector<Shape> shapes = {sphere.shape, squashed, sphere.shape};
   const auto images =
       testing::OnThreads([&] { return RenderFilmStrip(*sphere.connectivity, shapes, options); });
-  for (const Image& image : images) EXPECT_EQ(image.pixels, images[0].pixels);
+  for (const RgbImage& image : images) EXPECT_EQ(image.pixels, images[0].pixels);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ enum class Kind { kPath, kPicture, kGltf, kFrames, kLastShape };
 bool writes_last_shape_alone = false;
 
 Kind KindOf(const std::string& output, const std::string& flag = "output") {
-  const std::string extension = Extension(output);
+  const std::string extension = FileExtension(output);
   if (extension == ".obj" || extension == ".ply") {
     if (writes_last_shape_alone && output.find('%') == output.npos) return Kind::kLastShape;
     CheckFramePattern(flag, output);
@@ -88,8 +88,8 @@ GltfOptions GltfOptionsFromFlags() {
   if (IsGiven("fps") && FLAGS_fps == 0) throw UsageError(AsTyped("fps") + ": must be positive");
   options.duration = FLAGS_seconds;
   options.fps = FLAGS_fps;
-  if (FLAGS_loop) options.playback = Playback::kLoop;
-  if (FLAGS_once) options.playback = Playback::kOnce;
+  if (FLAGS_loop) options.playback = GltfPlayback::kLoop;
+  if (FLAGS_once) options.playback = GltfPlayback::kOnce;
   options.ease = FLAGS_ease;
   options.up = FLAGS_up == "z" ? 'z' : 'y';
   options.unit = FLAGS_unit;

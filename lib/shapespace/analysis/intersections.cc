@@ -78,7 +78,7 @@ struct Triangles {
   const Eigen::Matrix3Xi* indices;
   Shape vertices;  // within the unit cube about the origin, where floats are good for boxes
   std::atomic<std::int64_t> count{0};
-  ForkJoin callbacks;
+  internal::ForkJoin callbacks;
 
   Corners At(unsigned f) const {
     const auto corner = indices->col(f);
@@ -97,7 +97,7 @@ bool BoxesApart(const Corners& a, const Corners& b) {
 
 void Bounds(const RTCBoundsFunctionArguments* arguments) {
   const auto* triangles = static_cast<const Triangles*>(arguments->geometryUserPtr);
-  const ForkJoin::Piece piece(triangles->callbacks);
+  const internal::ForkJoin::Piece piece(triangles->callbacks);
   const Corners corners = triangles->At(arguments->primID);
   const Eigen::Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
   const Eigen::Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
@@ -115,7 +115,7 @@ void Bounds(const RTCBoundsFunctionArguments* arguments) {
 // Called on several threads at once. Of a scene with itself Embree finds every pair both ways.
 void OnPairs(void* user, RTCCollision* pairs, unsigned num_pairs) {
   auto* triangles = static_cast<Triangles*>(user);
-  const ForkJoin::Piece piece(triangles->callbacks);
+  const internal::ForkJoin::Piece piece(triangles->callbacks);
   std::int64_t found = 0;
   for (unsigned i = 0; i < num_pairs; ++i) {
     const unsigned first = pairs[i].primID0, second = pairs[i].primID1;

@@ -11,12 +11,12 @@
 namespace shapespace {
 
 Body MakeMiura(double a, double b, double corner, int nx, int ny) {
-  CheckLength("a", a);
-  CheckLength("b", b);
+  internal::CheckLength("a", a);
+  internal::CheckLength("b", b);
   if (!(corner >= 10 && corner <= 80)) throw InvalidOptions("corner: must be in [10, 80] degrees");
-  CheckCount("nx", nx, 1);
-  CheckCount("ny", ny, 1);
-  CheckTriangles(2 * std::int64_t{nx} * ny);
+  internal::CheckCount("nx", nx, 1);
+  internal::CheckCount("ny", ny, 1);
+  internal::CheckTriangles(2 * std::int64_t{nx} * ny);
 
   std::vector<int> begin = {0}, corners;
   for (int i = 0; i < nx; ++i) {
@@ -48,7 +48,7 @@ Body MakeMiura(double a, double b, double corner, int nx, int ny) {
     }
     return shape;
   };
-  return WithCheckedRange(std::move(body));
+  return internal::WithCheckedRange(std::move(body));
 }
 
 }  // namespace shapespace

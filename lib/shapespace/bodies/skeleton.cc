@@ -10,14 +10,12 @@
 #include <shapespace/base/parallel.h>
 #include <shapespace/mesh/geometry.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 /// Half of the width of the strip about the plane of symmetry in which the skin follows the limbs
 /// of both sides.
 constexpr double kMiddle = 0.06;
-
-using internal::SmoothStep;
 
 Eigen::Vector3d Direction(const Bone& bone) { return (bone.end - bone.begin).normalized(); }
 
@@ -139,4 +137,4 @@ Shape Skin::Pose(const Rotations& rotations) const {
   return shape;
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

@@ -123,7 +123,7 @@ std::vector<Ring> MakeRings(int triangles, const TubeForm& form) {
 /// The triangles between two rings, by walking around both at once, always by the step that leads
 /// less far around. Where both lead as far, the ring of fewer vertices goes first, which makes the
 /// sectors of a cap mirror images of themselves.
-void Stitch(const Ring& low, const Ring& high, TriangleList* triangles) {
+void Stitch(const Ring& low, const Ring& high, internal::TriangleList* triangles) {
   const auto vertex = [](const Ring& ring, int i) { return ring.first + i % ring.count; };
   const int low_steps = low.count > 1 ? low.count : 0;
   const int high_steps = high.count > 1 ? high.count : 0;
@@ -189,9 +189,9 @@ Shape Pose(const TubeForm& form, const std::vector<Ring>& rings, double angle) {
 }  // namespace
 
 void TubeForm::Validate() const {
-  CheckLength("length", length);
-  CheckLength("base_radius", base_radius);
-  CheckLength("tip_radius", tip_radius);
+  internal::CheckLength("length", length);
+  internal::CheckLength("base_radius", base_radius);
+  internal::CheckLength("tip_radius", tip_radius);
   const auto [least, most] = std::minmax({length, base_radius, tip_radius});
   // Far beyond any use, and far from where summing up relative lengths would lose small ones.
   if (most > 1e4 * least) {
@@ -204,20 +204,20 @@ void TubeForm::Validate() const {
 
 Body MakeTube(int triangles, const TubeForm& form) {
   form.Validate();
-  CheckTriangles(triangles);
+  internal::CheckTriangles(triangles);
   std::vector<Ring> rings = MakeRings(std::max(50, triangles), form);
-  TriangleList list;
+  internal::TriangleList list;
   for (size_t k = 0; k + 1 < rings.size(); ++k) Stitch(rings[k], rings[k + 1], &list);
 
   Body body;
   body.name = "tube";
-  body.connectivity = ConnectivityOf(rings.back().first + 1, list);
+  body.connectivity = internal::ConnectivityOf(rings.back().first + 1, list);
   body.parameter = "bend angle, degrees";
   body.end = std::min(150.0, LargestBend(form) / internal::kRadians);
   body.pose = [form, rings = std::move(rings)](double angle) {
     return Pose(form, rings, angle * internal::kRadians);
   };
-  return WithCheckedRange(std::move(body));
+  return internal::WithCheckedRange(std::move(body));
 }
 
 }  // namespace shapespace

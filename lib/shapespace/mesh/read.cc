@@ -103,7 +103,7 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
 }  // namespace
 
 Soup ReadSoup(const std::string& file) {
-  const std::string extension = Extension(file);
+  const std::string extension = FileExtension(file);
   if (extension == ".obj") return Parse(file, Content(file), MeshFormat::kObj);
   if (extension == ".ply") return Parse(file, Content(file), MeshFormat::kPly);
   if (extension == ".off") return Parse(file, Content(file), MeshFormat::kOff);

@@ -68,7 +68,7 @@ struct Surface::Scene {
   // Boxes are in single precision, relative to the centre and in units of half the extent.
   const Eigen::Vector3d low, high, centre;
   const double unit;
-  const ForkJoin callbacks{};  // after all that they read
+  const internal::ForkJoin callbacks{};  // after all that they read
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
@@ -92,7 +92,7 @@ struct Surface::Scene {
 
   static void Bounds(const RTCBoundsFunctionArguments* arguments) {
     const auto* self = static_cast<const Scene*>(arguments->geometryUserPtr);
-    const ForkJoin::Piece piece(self->callbacks);
+    const internal::ForkJoin::Piece piece(self->callbacks);
     std::array<Eigen::Vector3d, 3> corners;
     for (int k = 0; k < 3; ++k) {
       corners[k] = (self->Corner(arguments->primID, k) - self->centre) / self->unit;

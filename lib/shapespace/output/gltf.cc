@@ -125,24 +125,26 @@ Eigen::Matrix3Xf DeviationColours(const Path& path, const Shape& reference, doub
   for (const Shape& shape : path.shapes) {
     largest = largest.cwiseMax(EdgeDeviation(*path.metric, reference, shape));
   }
-  *scale_end = EndOfScale({largest});
+  *scale_end = internal::EndOfScale({largest});
   Eigen::Matrix3Xf colours(3, largest.size());
   for (Eigen::Index v = 0; v < largest.size(); ++v) {
-    colours.col(v) = ValueColour(static_cast<float>(std::min(1.0, largest[v] / *scale_end)));
+    colours.col(v) =
+        internal::ValueColour(static_cast<float>(std::min(1.0, largest[v] / *scale_end)));
   }
   return colours;
 }
 
 Eigen::Matrix3Xf GroupColours(const Eigen::VectorXi& groups) {
   Eigen::Matrix3Xf colours(3, groups.size());
-  for (Eigen::Index v = 0; v < groups.size(); ++v) colours.col(v) = GroupColour(groups(v));
+  for (Eigen::Index v = 0; v < groups.size(); ++v)
+    colours.col(v) = internal::GroupColour(groups(v));
   return colours;
 }
 
 // sRGB, with opacities in a fourth row, as linear light.
 Eigen::MatrixXf LinearColours(const Eigen::MatrixXd& colours) {
   Eigen::MatrixXf linear = colours.cast<float>();
-  if (linear.size() > 0) linear.topRows<3>() = linear.topRows<3>().unaryExpr(&ToLinear);
+  if (linear.size() > 0) linear.topRows<3>() = linear.topRows<3>().unaryExpr(&internal::ToLinear);
   return linear;
 }
 
@@ -260,8 +262,8 @@ std::vector<std::pair<double, double>> Moments(const std::vector<double>& parame
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
   }
-  const bool back = options.playback == Playback::kThereAndBack;
-  const bool held = options.playback == Playback::kOnce;
+  const bool back = options.playback == GltfPlayback::kThereAndBack;
+  const bool held = options.playback == GltfPlayback::kOnce;
   const double share = back ? 0.5 - kRest : held ? 1 - kRest : 1.0;  // of the way there
   const double duration = options.fps > 0 ? (shapes - 1) / options.fps / share : options.duration;
   const double begin = back ? kRest / 2 * duration : 0;
@@ -311,7 +313,7 @@ tinygltf::Animation AddAnimation(const std::vector<double>& parameters, int shap
   channel.target_node = 0;
   channel.target_path = "weights";
   tinygltf::Animation animation;
-  animation.name = options.playback == Playback::kThereAndBack ? "there and back" : "there";
+  animation.name = options.playback == GltfPlayback::kThereAndBack ? "there and back" : "there";
   animation.samplers = {sampler};
   animation.channels = {channel};
   return animation;
@@ -338,7 +340,7 @@ std::string AsUtf8(const std::string& text) {
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-tinygltf::Material PlainMaterial(const Colour& colour) {
+tinygltf::Material PlainMaterial(const internal::Colour& colour) {
   tinygltf::Material material;
   material.name = "shape";
   material.doubleSided = true;
@@ -396,7 +398,7 @@ class Textures {
   std::map<std::string, int> known_;
 };
 
-tinygltf::Material MaterialFromLibrary(const std::string& name, const Material& described,
+tinygltf::Material MaterialFromLibrary(const std::string& name, const internal::Material& described,
                                        bool has_texture_coordinates, Textures* textures) {
   const bool textured = has_texture_coordinates && !described.texture.empty();
   const int texture = textured ? textures->Add(described.texture) : -1;
@@ -416,7 +418,7 @@ struct Part {
   std::vector<int> indices;
 };
 
-std::vector<Part> PartsByMaterial(const Connectivity& connectivity, const CutMesh& mesh,
+std::vector<Part> PartsByMaterial(const Connectivity& connectivity, const internal::CutMesh& mesh,
                                   const Appearance& appearance, const tinygltf::Material& plain,
                                   Textures* textures, std::vector<std::string>* warnings) {
   if (connectivity.IsGraph()) {
@@ -428,13 +430,14 @@ std::vector<Part> PartsByMaterial(const Connectivity& connectivity, const CutMes
   }
   std::vector<std::vector<int>> indices(appearance.materials.names.size() + 1);  // last: of none
   const std::vector<int>& material_of = appearance.materials.of_polygon;
-  const std::vector<int> polygons = PolygonsOfTriangles(connectivity);
+  const std::vector<int> polygons = internal::PolygonsOfTriangles(connectivity);
   for (size_t f = 0; f < polygons.size(); ++f) {
     const int material = material_of.empty() ? -1 : material_of[polygons[f]];
     std::vector<int>& part = material < 0 ? indices.back() : indices[material];
     for (const int vertex : mesh.triangles.col(f)) part.push_back(vertex);
   }
-  const std::vector<std::optional<Material>> described = ReadMaterials(appearance, warnings);
+  const std::vector<std::optional<internal::Material>> described =
+      internal::ReadMaterials(appearance, warnings);
   std::vector<Part> parts;
   for (size_t i = 0; i < indices.size(); ++i) {
     if (indices[i].empty()) continue;
@@ -479,7 +482,7 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   };
   check_count("reference", options.reference.cols());
   check_count("groups", options.groups.size());
-  const std::vector<int> keys = KeyShapes(path.NumShapes(), path.poses, kMostKeys);
+  const std::vector<int> keys = internal::KeyShapes(path.NumShapes(), path.poses, kMostKeys);
   std::vector<Shape> shapes;
   shapes.reserve(keys.size());
   for (const int key : keys) shapes.push_back(path.Placed(key));
@@ -500,12 +503,12 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   } else if (by_group) {
     colours = GroupColours(options.groups);
   }
-  const tinygltf::Material plain =
-      PlainMaterial(colours.size() > 0 ? Colour::Ones().eval() : FromHex(kPoseHex));
+  const tinygltf::Material plain = PlainMaterial(
+      colours.size() > 0 ? internal::Colour::Ones().eval() : internal::FromHex(internal::kPoseHex));
 
   Model model;
   model.buffers.emplace_back();
-  const CutMesh cut = CutAtSeams(connectivity, appearance);
+  const internal::CutMesh cut = internal::CutAtSeams(connectivity, appearance);
   if (!cut.texture.allFinite()) {
     throw MeshError(file + ": single precision cannot hold a texture coordinate");
   }

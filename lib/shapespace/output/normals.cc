@@ -2,7 +2,7 @@
 
 #include <shapespace/mesh/geometry.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 // Cosine of 55 degrees: an eight-sided tube (45) still looks round, a box (90) does not.
@@ -15,7 +15,7 @@ Eigen::Matrix3Xf CornerNormals(const Connectivity& connectivity, const Shape& sh
   Eigen::Matrix3Xf unit(3, triangles.cols());
   Eigen::VectorXf area(triangles.cols());
   for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
-    const Eigen::Vector3d normal = internal::AreaNormal(shape, triangles.col(f));
+    const Eigen::Vector3d normal = AreaNormal(shape, triangles.col(f));
     area[f] = static_cast<float>(normal.norm());
     unit.col(f) = normal.stableNormalized().cast<float>();
   }
@@ -32,4 +32,4 @@ Eigen::Matrix3Xf CornerNormals(const Connectivity& connectivity, const Shape& sh
   return normals;
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

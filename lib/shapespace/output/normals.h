@@ -8,7 +8,7 @@
 
 // Private.
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// Normals for smooth shading that leaves sharp edges sharp: a corner of a triangle averages, by
 /// area, the triangles around its vertex that lie within a crease angle of its own.
@@ -17,6 +17,6 @@ namespace shapespace {
 ///         without area meet.
 Eigen::Matrix3Xf CornerNormals(const Connectivity& connectivity, const Shape& shape);
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_OUTPUT_NORMALS_H_

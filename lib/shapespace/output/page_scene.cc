@@ -16,7 +16,7 @@
 #include <shapespace/output/view.h>
 #include <shapespace/path/energy.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -335,4 +335,4 @@ std::string EncodeScene(const PageSpace& scene) {
   return Pack(header, arrays);
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

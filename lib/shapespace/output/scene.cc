@@ -8,7 +8,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/output/normals.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 // Order in which AddTubes attaches its two geometries.
@@ -196,4 +196,4 @@ bool Scene::Blocked(const Eigen::Vector3f& origin, const Eigen::Vector3f& direct
   return ray.tfar < 0;
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

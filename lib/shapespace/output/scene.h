@@ -11,7 +11,7 @@
 struct RTCDeviceTy;
 struct RTCSceneTy;
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// What all scenes of one picture share.
 class RayTracer {
@@ -61,6 +61,6 @@ class Scene {
   std::shared_ptr<RTCSceneTy> scene_;
 };
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_OUTPUT_SCENE_H_

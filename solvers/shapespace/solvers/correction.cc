@@ -181,7 +181,7 @@ CorrectionResult CorrectPath(const Path& path, const CorrectionOptions& options,
                              Progress* progress) {
   options.Validate();
   if (path.NumShapes() < 2) throw MeshError("a path needs at least two shapes to be corrected");
-  const Stopwatch total;
+  const internal::Stopwatch total;
   CorrectionResult result;
   CorrectionSummary& summary = result.summary;
   summary.mode = options.mode;

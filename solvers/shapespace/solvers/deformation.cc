@@ -136,7 +136,7 @@ Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity
 
 DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, const Shape* end,
                                           Progress* progress) {
-  const Stopwatch total;
+  const internal::Stopwatch total;
   ReportProgress(progress, "deforming", 0, 0);
   DeformationResult result;
   DeformationSummary& summary = result.summary;
@@ -149,7 +149,7 @@ DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, co
   if (!alike) Prepare(targets, &summary);
 
   internal::Workload workload(progress, options_.tolerance, options_.max_iterations);
-  const Stopwatch solving;
+  const internal::Stopwatch solving;
   summary.warm = alike && end == nullptr && targets.IsNear(*last_targets_, kLittle);
   std::vector<Shape> shapes;
   if (summary.warm) {
@@ -174,11 +174,11 @@ DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, co
 void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary* summary) {
   last_targets_.reset();
   levels_.clear();
-  const Stopwatch building;
+  const internal::Stopwatch building;
   hierarchy_.emplace(connectivity_, std::vector<Shape>{rest_},
                      HierarchyOptions{options_.coarsest, targets.Pins()});
   summary->hierarchy_seconds = building.Seconds();
-  const Stopwatch factoring;
+  const internal::Stopwatch factoring;
   const double strength = 2 * (1 - options_.balance) / options_.balance;
   for (int i = 0; i < hierarchy_->NumLevels(); ++i) {
     const std::vector<int>& vertices = hierarchy_->Vertices(i);
@@ -283,7 +283,7 @@ std::vector<Shape> Deformer::Solver::StartAt(const Shape& end, const Shape& plac
 void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char* start,
                              internal::Workload* workload, std::vector<Shape>* shapes,
                              DeformationSummary* summary) {
-  const Stopwatch stopwatch;
+  const internal::Stopwatch stopwatch;
   HeldLevel& level = levels_[level_index];
   const bool finest = level_index + 1 == levels_.size();
   const int vertices = level.NumVertices();

@@ -193,7 +193,7 @@ void March(const NextShape& next, int steps, double step, Progress* progress,
   Momenta first;
   for (int i = 0; i < steps; ++i) {
     if (progress != nullptr) progress->ReportShare(static_cast<double>(i) / steps);
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     ExponentialSummary::Step row;
     const Shape& current = path.shapes.back();
     row.t = path.parameters.back() + step;
@@ -317,7 +317,7 @@ Departure Restart(const FeatureMap& map, const Shape& before, const Shape& shape
 // Continues the result's path, whose last shape is that of `departure`.
 void Shoot(Departure departure, int steps, double step, const ExponentialOptions& options,
            Progress* progress, ExponentialResult* result) {
-  const Stopwatch total;
+  const internal::Stopwatch total;
   Path& path = result->path;
   ExponentialSummary& summary = result->summary;
   const Metric& metric = *path.metric;

@@ -322,7 +322,7 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
                         Progress* progress) {
   options.Validate();
   CheckTarget(source, target);
-  const Stopwatch total;
+  const internal::Stopwatch total;
   TransferResult result;
   TransferSummary& summary = result.summary;
   const bool climbs = options.method == TransferMethod::kLadder;
@@ -338,7 +338,7 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
       if (progress != nullptr) progress->ReportShare(static_cast<double>(i) / count);
       WithinShape within(progress, i, count);
       ReportProgress(&within, "", i, count);
-      const Stopwatch stopwatch;
+      const internal::Stopwatch stopwatch;
       TransferSummary::Step row;
       if (i > 0) shapes.MakeNext(&row, &within);
       if (options.hybrids) hybrids.push_back(shapes.Hybrid(&within));
