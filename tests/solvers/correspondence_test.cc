@@ -273,7 +273,7 @@ TEST(Correspond, RefusesMirrorImagesAndWhatIsInsideOut) {
     bodies.second.connectivity = Reversed(*bodies.second.connectivity);
     expect(bodies, "the target is inside out");
     bodies.target.row(0) *= -1;  // outwards again
-    expect(bodies, "run around each other the other way");
+    expect(bodies, "the cyclic order of the markers around each other is reversed");
     bodies.second.connectivity = Reversed(*bodies.second.connectivity);
     expect(bodies, "the target is inside out");
   }

@@ -121,7 +121,7 @@ TEST_F(ExploreToolTest, NamesOfPosesMayBeOfAnyBytes) {
       Run("shape-explore", {"pose0.obj", "pose1.obj", "pose2.obj", "k\xf6rper.obj", "--depth", "0",
                             "--output", "p.space", "--report", "r.json"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  ExpectContains(Content(Path("r.json")), "is at the place of a pose before it");
+  ExpectContains(Content(Path("r.json")), "is at the position of an earlier pose");
 }
 
 TEST_F(ExploreToolTest, AnyNumberOfRanksMakesTheSameFile) {

@@ -11,7 +11,7 @@
 namespace shapespace::internal {
 namespace {
 
-// The marker nearest to each vertex, and how far it is.
+// Finds the marker nearest to each vertex, and its distance.
 void FindNearest(const Eigen::MatrixXf& distances, std::vector<int>* nearest,
                  std::vector<float>* least) {
   nearest->resize(distances.rows());
@@ -21,7 +21,7 @@ void FindNearest(const Eigen::MatrixXf& distances, std::vector<int>* nearest,
   }
 }
 
-// A mesh's edges, vertex by vertex.
+// Adjacency lists of a mesh's edges.
 class Graph {
  public:
   Graph(const Connectivity& connectivity, const Shape& shape)
@@ -39,7 +39,7 @@ class Graph {
     }
   }
 
-  // How far each vertex is from the nearest of `sources`, and which that is.
+  // The distance of each vertex from the nearest of `sources`; `nearest` becomes that source.
   Eigen::VectorXf Dijkstra(const std::vector<int>& sources, std::vector<int>* nearest) const {
     const auto num_vertices = static_cast<Eigen::Index>(begin_.size()) - 1;
     Eigen::VectorXf distance =
@@ -68,7 +68,7 @@ class Graph {
   }
 
  private:
-  std::vector<int> begin_;  // the neighbours of vertex v are those from begin_[v] on
+  std::vector<int> begin_;  // the neighbours of vertex v begin at begin_[v]
   std::vector<std::pair<int, float>> neighbours_;
 };
 
