@@ -39,8 +39,8 @@ double EulerLagrange::Rounding() const {
   return std::numeric_limits<double>::epsilon() * magnitude_.norm();
 }
 
-// Ceres' default of four derivatives a pass was measured to be the fastest (3 to 64 tried), though
-// a row with bending has some sixty unknowns: Jets of that size do not fit into registers.
+// Ceres' default of four derivatives per pass was the fastest of 3 to 64, although a row with
+// bending has about sixty unknowns: Jets of that size do not fit into registers.
 void EulerLagrange::AddTo(Shape* shape, std::vector<double>* sums, ceres::Problem* problem) const {
   sums->resize(NumSums());
   std::vector<double*> blocks;
@@ -63,7 +63,7 @@ void EulerLagrange::AddTo(Shape* shape, std::vector<double>* sums, ceres::Proble
   AddSums(shape, sums, problem);
 }
 
-// Adds s = sum for every sum feature, and sets `sums` to the values at `shape`.
+// Adds a row s = sum for every sum feature, and sets `sums` to the values at `shape`.
 void EulerLagrange::AddSums(Shape* shape, std::vector<double>* sums,
                             ceres::Problem* problem) const {
   size_t i = 0;
@@ -87,7 +87,7 @@ void EulerLagrange::AddSums(Shape* shape, std::vector<double>* sums,
   }
 }
 
-// Returns where the targets of the next feature begin.
+// Returns the beginning of the next feature's targets.
 template <typename Feature>
 const double* EulerLagrange::Add(const AnyFeature& any, const Feature& feature, const Shape& at,
                                  const double* targets, double scale) {
@@ -102,7 +102,7 @@ const double* EulerLagrange::Add(const AnyFeature& any, const Feature& feature, 
     for (int k = 0; k < 3 * kVertices; ++k) jet[k] = Jet(x[k], k);
     feature(jet, value);
     const double root = std::sqrt(feature.weights(Feature::kSum ? 0 : e));
-    double rounded[kValues];  // what values, and coordinates by way of them, are made of
+    double rounded[kValues];  // magnitudes of the terms of values
     for (int k = 0; k < kValues; ++k) {
       rounded[k] = Feature::kSum ? 0 : std::abs(targets[k]);
       for (int i = 0; i < 3 * kVertices; ++i) rounded[k] += root * std::abs(value[k].v[i] * x[i]);
@@ -144,7 +144,7 @@ const double* EulerLagrange::Add(const AnyFeature& any, const Feature& feature, 
   return targets;
 }
 
-// What vertex v sees of the feature that is being added.
+// The terms of vertex v for the feature that is being added.
 VertexElements& EulerLagrange::Part(const AnyFeature& any, int v) {
   std::vector<VertexElements>& parts = rows_[v].parts;
   if (parts.empty() || parts.back().feature != &any) parts.push_back({&any, {}, {}, {}, {}});

@@ -13,9 +13,10 @@
 
 namespace shapespace::cost {
 
-// Ceres cost functions of one segment of a path, differentiated automatically. Their parameter
-// blocks are vertices (3 numbers): first the element's in shape i, then the same in shape i + 1.
-// Residuals are scaled so that Ceres' cost, half the sum of squares, is a quarter of the energy.
+// Ceres cost functions of one segment of a path, automatically differentiated. Their parameter
+// blocks are vertices (3 numbers): first the element's vertices in shape i, then the same in shape
+// i + 1. Residuals are scaled so that Ceres' cost, half the sum of squares, is a quarter of the
+// energy.
 
 /// sqrt(w) (Phi_{i+1} - Phi_i) of one element of a feature.
 template <typename Feature>
@@ -33,8 +34,8 @@ struct FeatureSegment {
   }
 };
 
-/// The paper's (6) for one edge, its quartic part weighted (PathEnergy::SetQuarticWeight): the
-/// residuals are a - b and a + b with the midpoint's a and a quartic b.
+/// The paper's (6) for one edge, with a weight for its quartic part (PathEnergy::SetQuarticWeight):
+/// the residuals are a - b and a + b with the midpoint's a and a quartic b.
 struct TrapezoidSegment {
   static constexpr int kResiduals = 2;
   double root_weight, root_quartic_weight;
@@ -50,8 +51,8 @@ struct TrapezoidSegment {
   }
 };
 
-/// Spreads Ceres' parameter blocks, of which there are twice kVertices, over the two arrays that a
-/// segment's `Evaluate` takes.
+/// Distributes Ceres' 2 kVertices parameter blocks over the two arrays that a segment's `Evaluate`
+/// takes.
 template <typename Segment, int kVertices>
 class SegmentFunctor {
  public:
@@ -110,7 +111,8 @@ ceres::CostFunction* MakeSegmentCost(const Segment& segment) {
   }
 }
 
-/// A sum feature couples all vertices: blocks are all m vertices of shape i, then those of i + 1.
+/// A sum feature couples all vertices: the blocks are all m vertices of shape i, then those of i +
+/// 1.
 template <typename Feature>
 struct SumSegment {
   const Feature& feature;
@@ -134,7 +136,7 @@ struct SumSegment {
   }
 };
 
-/// The rigid metric (3) for one vertex, with (c, c_bar) of the segment as one more block of 6.
+/// The rigid metric (3) for one vertex, with (c, c_bar) of the segment as an additional block of 6.
 struct RigidSegment {
   double root_weight;
 

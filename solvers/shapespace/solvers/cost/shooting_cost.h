@@ -15,16 +15,17 @@
 
 namespace shapespace::cost {
 
-// Ceres cost functions of shooting and of the paper's transport, differentiated automatically.
+// Ceres cost functions of shooting and of the paper's transport, automatically differentiated.
 // Their parameter blocks are vertices (3 numbers).
 
-/// What one vertex v sees of one feature in J(at)^T [Phi(P) - target] = 0.
+/// The terms of one feature in the rows of vertex v of J(at)^T [Phi(P) - target] = 0.
 struct VertexElements {
   const AnyFeature* feature = nullptr;
-  std::vector<int> elements;     ///< those that touch v
-  std::vector<int> blocks;       ///< kVertices an element: the parameter blocks of its corners
-  std::vector<double> targets;   ///< kValues an element
-  std::vector<double> gradient;  ///< 3 kValues an element: of its values along v, at the shape `at`
+  std::vector<int> elements;     ///< elements at v
+  std::vector<int> blocks;       ///< kVertices per element: the parameter blocks of its vertices
+  std::vector<double> targets;   ///< kValues per element
+  std::vector<double> gradient;  ///< 3 kValues per element: gradients of its values with respect to
+                                 ///< v, at the shape `at`
 };
 
 /// The three rows of vertex v in J(at)^T [Phi(P) - target] = 0. Parameter blocks: the value of each
@@ -72,8 +73,8 @@ struct EulerLagrangeRows {
 
 /// weight (sum over all elements of a function of their vertices - s): the value s of a sum
 /// feature, or a linear constraint. Parameter blocks: all m vertices, then s (1 number). Each
-/// element is differentiated on Jets of its own size, so that the dense row costs time and memory
-/// in proportion to m, where DynamicAutoDiffCostFunction would take its square.
+/// element is differentiated with Jets of its own size, so that time and memory of the dense row
+/// are proportional to m; with DynamicAutoDiffCostFunction they would be proportional to m^2.
 /// `Elements` has kVertices, Count(), Vertex(corner, element) and a templated Value(element, x).
 template <typename Elements>
 class SumCost final : public ceres::CostFunction {
@@ -85,7 +86,7 @@ class SumCost final : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(1);
   }
 
-  /// The sum alone, at the m vertices.
+  /// The sum alone, as a function of the m vertices.
   double Sum(const double* const* blocks) const {
     double sum = 0;
     ForElements<double>(
@@ -177,11 +178,11 @@ struct Displacement {
   }
 };
 
-/// Equation (7) for the three coordinates j of one vertex: F_0 - 2 x_j (G x)_j - C_j, where
-/// F_0 - C_j = 2 a_j is taken as one number, since F_0 alone is far greater. Parameter blocks: the
-/// velocities of the vertices with which G couples this one, itself the first.
+/// Equation (7) for the three coordinates j of one vertex: F_0 - 2 x_j (G x)_j - C_j, where F_0 -
+/// C_j = 2 a_j is stored as one number, because F_0 alone is much larger. Parameter blocks: the
+/// velocities of the vertices that G couples with this one, beginning with itself.
 struct FirstIntegralRows {
-  std::vector<Eigen::Matrix3d> couplings;  ///< blocks of G, one a parameter block
+  std::vector<Eigen::Matrix3d> couplings;  ///< blocks of G, one per parameter block
   Eigen::Vector3d constants;               ///< a_j
   double scale = 1;                        ///< of the residuals
 

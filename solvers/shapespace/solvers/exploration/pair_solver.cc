@@ -168,7 +168,7 @@ std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const 
   std::vector<PairResult> results;
   for (size_t i = 0; i < pairs.size(); ++i) {
     auto result = Unpack(digests[i], records[i]);
-    if (!result) throw SolverError("a geodesic came damaged from another process");
+    if (!result) throw SolverError("the result of another process is damaged");
     if (!result->converged) ++counts_.not_converged;
     results.push_back(*std::move(result));
     records[i].clear();

@@ -87,7 +87,7 @@ void Space::Validate() const {
   const auto fail = [](const std::string& what) { throw MeshError("the space: " + what); };
   const Eigen::Index vertices = metric->connectivity->NumVertices();
   const int count = NumNodes(), poses = NumPoses();
-  if (poses < 2 || poses > count) fail("needs two poses or more, and a name for each");
+  if (poses < 2 || poses > count) fail("must have at least two poses, and a name for each");
   if (points.cols() != count || static_cast<int>(parents.size()) != count - poses ||
       distances.rows() != poses || distances.cols() != poses) {
     fail("its nodes, points, parents and distances differ in number");
