@@ -10,8 +10,8 @@
 namespace shapespace {
 namespace {
 
-/// Numbers the surface nodes of a box grid slice by slice along x: the two end slices are full, the
-/// others are rings.
+/// Numbers the surface nodes of a box grid slice by slice along x: the two end slices are complete,
+/// the others are rings.
 class BoxNodes {
  public:
   BoxNodes(int nx, int ny, int nz) : nx_(nx), ny_(ny), nz_(nz) {}
@@ -46,7 +46,7 @@ Body MakeBar(double length, double width, double height, int nx, int ny, int nz)
   CheckCount("nx", nx, 1);
   CheckCount("ny", ny, 1);
   CheckCount("nz", nz, 1);
-  // Each count is checked first, as the products of three large ones would overflow.
+  // Each count is checked first, because products of three large counts would overflow.
   CheckTriangles(std::max({nx, ny, nz}));
   CheckTriangles(4 * (std::int64_t{nx} * ny + std::int64_t{ny} * nz + std::int64_t{nz} * nx));
 

@@ -10,14 +10,15 @@
 
 namespace shapespace {
 
-/// Normals for smooth shading that leaves sharp edges sharp: a corner of a triangle averages, by
-/// area, the triangles around its vertex that lie within a crease angle of its own.
+/// Normals for smooth shading with sharp edges: the normal at a corner of a triangle is the
+/// area-weighted mean over those triangles around the vertex whose normals are within a crease
+/// angle of the triangle's own.
 class CornerNormals {
  public:
   explicit CornerNormals(const Connectivity& connectivity);
 
-  /// Unit normals, 3 x 3F, column 3 f + k for corner k of triangle f; zero where only triangles
-  /// without area meet.
+  /// Unit normals, 3 x 3F, column 3 f + k for corner k of triangle f; zero if all triangles there
+  /// have no area.
   Eigen::Matrix3Xf operator()(const Shape& shape) const;
 
  private:
