@@ -182,8 +182,7 @@ void PrintWithAndWithoutVolume(const Case& problem) {
 
 void PrintArap(const Case& problem) {
 #ifdef SHAPESPACE_HAS_CGAL
-  const auto metric = std::make_shared<const Metric>(
-      FreezeMetric(MetricOptions(), problem.connectivity, {problem.rest}));
+  const auto metric = FreezeMetric(MetricOptions(), problem.connectivity, {problem.rest});
   for (const auto& [steps, iterations] : {std::make_pair(10, 30), {10, 300}}) {
     const Stopwatch stopwatch;
     const Shape shape = benchmarks::DeformByArap(*problem.connectivity, problem.rest,
@@ -296,19 +295,19 @@ void PrintRepair() {
                                       {"armadillo/arms_up", "armadillo/arms_down"}}) {
     try {
       const Poses poses = ReadPoses({data + first + ".obj", data + second + ".obj"});
-      const Metric metric = FreezeMetric({}, poses.connectivity, {poses.shapes[0]});
+      const auto metric = FreezeMetric({}, poses.connectivity, {poses.shapes[0]});
       const Shape& reference = poses.shapes[0];
       const Shape other =
-          FitRigidMotion(poses.shapes[1], reference, metric.vertex_area)(poses.shapes[1]);
+          FitRigidMotion(poses.shapes[1], reference, metric->vertex_area)(poses.shapes[1]);
       Shape distorted = 0.5 * (reference + other);
-      const Vector3d centre = Centroid(reference, metric.vertex_area);
+      const Vector3d centre = Centroid(reference, metric->vertex_area);
       for (int k = 0; k < 12; ++k) {
         const Vector3d at = reference.col((k * 7919 + 13) % reference.cols());
         const Vector3d inwards = (centre - at).normalized();
         for (int v = 0; v < reference.cols(); ++v) {
-          const double share = (reference.col(v) - at).norm() / (0.12 * metric.unit);
+          const double share = (reference.col(v) - at).norm() / (0.12 * metric->unit);
           if (share < 1) {
-            distorted.col(v) += 0.06 * metric.unit * std::pow(1 - share * share, 2) * inwards;
+            distorted.col(v) += 0.06 * metric->unit * std::pow(1 - share * share, 2) * inwards;
           }
         }
       }

@@ -22,7 +22,7 @@ namespace {
 constexpr double kDefaultBending = 1e-5;
 
 struct Problem {
-  Metric metric;
+  std::shared_ptr<const Metric> metric;
   std::vector<Shape> shapes;
 
   Problem(int triangles, int inner, double bending, Discretization discretization) {
@@ -34,16 +34,16 @@ struct Problem {
     metric = FreezeMetric(options, body.connectivity, poses);
     for (int i = 0; i < inner + 2; ++i) {
       const double t = static_cast<double>(i) / (inner + 1);
-      shapes.push_back(body.between("sit", "stretch", t) / metric.unit);
+      shapes.push_back(body.between("sit", "stretch", t) / metric->unit);
     }
   }
 
   double EdgeSegments() const {
-    return static_cast<double>(metric.connectivity->NumEdges()) *
+    return static_cast<double>(metric->connectivity->NumEdges()) *
            static_cast<double>(shapes.size() - 1);
   }
   Eigen::SparseMatrix<double> Scalar() const {
-    return internal::ScalarMetric(metric, {shapes.front(), shapes.back()}, 0);
+    return internal::ScalarMetric(*metric, {shapes.front(), shapes.back()}, 0);
   }
 };
 

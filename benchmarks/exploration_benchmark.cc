@@ -16,7 +16,7 @@ Space SpaceOfTubes(int triangles) {
   const Body tube = MakeTube(triangles);
   const std::vector<Shape> poses = {tube.pose(0), tube.pose(40), tube.pose(80)};
   Space space;
-  space.metric = std::make_shared<const Metric>(FreezeMetric({}, tube.connectivity, poses));
+  space.metric = FreezeMetric({}, tube.connectivity, poses);
   for (const Shape& pose : poses) space.nodes.emplace_back(pose / space.metric->unit);
   space.points.resize(2, 3);
   space.points << 0, 1, 0, 0, 0, 1;

@@ -42,7 +42,7 @@ void Finger(benchmark::State& state) {
   const Body tube = MakeTube(static_cast<int>(state.range(0)));
   const std::vector<Shape> poses = {tube.pose(26), tube.pose(30)};
   Path path;
-  path.metric = std::make_shared<const Metric>(FreezeMetric({}, tube.connectivity, poses));
+  path.metric = FreezeMetric({}, tube.connectivity, poses);
   AlignedPoses aligned = AlignPoses(*path.metric, poses);
   path.shapes = std::move(aligned.shapes);
   path.motions = std::move(aligned.motions);

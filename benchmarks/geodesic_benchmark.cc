@@ -22,7 +22,7 @@ namespace shapespace {
 namespace {
 
 double EvaluationSeconds(const Path& path) {
-  PathEnergy energy(*path.metric, path.NumShapes() - 2);
+  PathEnergy energy(path.metric, path.NumShapes() - 2);
   std::vector<double> unknowns(energy.Size()), gradient(energy.Size());
   energy.Load(path.shapes, unknowns.data());
   return MedianSeconds([&] { energy.Evaluate(unknowns.data(), gradient.data()); });

@@ -67,8 +67,7 @@ void PrintLogarithms() {
        {Read("finger 0-1", "finger", "0", "1"), Read("hand rest-curl30", "hand", "rest", "curl30"),
         Read("low horse base-m03", "horse_lowpoly", "base", "m03")}) {
     const Shape &from = pair.poses.shapes[0], &to = pair.poses.shapes[1];
-    const auto metric =
-        std::make_shared<const Metric>(FreezeMetric({}, pair.poses.connectivity, {from, to}));
+    const auto metric = FreezeMetric({}, pair.poses.connectivity, {from, to});
     const Shape wanted = FitRigidMotion(to, from, metric->vertex_area)(to);
     const double diameter = (to.rowwise().maxCoeff() - to.rowwise().minCoeff()).norm();
     std::printf("| %s |", pair.name);
@@ -118,7 +117,7 @@ void PrintSteps() {
 void PrintCorrection(const char* name, const std::shared_ptr<const Connectivity>& connectivity,
                      const Shape& first, const Shape& towards, double reach) {
   Path path;
-  path.metric = std::make_shared<const Metric>(FreezeMetric({}, connectivity, {first}));
+  path.metric = FreezeMetric({}, connectivity, {first});
   const AlignedPoses aligned = AlignPoses(*path.metric, {first, towards});
   constexpr int kSegments = 8;
   for (int i = 0; i <= kSegments; ++i) {

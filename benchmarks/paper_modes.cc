@@ -34,8 +34,7 @@ Eigen::Matrix3d Rotation(double degrees) {
 Motion Make(const char* name, const Body& body, double at, const Shape& before, const Shape& after,
             double time, const MetricOptions& options) {
   const Shape shape = body.pose(at);
-  return {name, std::make_shared<const Metric>(FreezeMetric(options, body.connectivity, {shape})),
-          shape, (after - before) / time};
+  return {name, FreezeMetric(options, body.connectivity, {shape}), shape, (after - before) / time};
 }
 
 std::vector<Motion> Motions() {
@@ -94,7 +93,7 @@ void PrintExponentials() {
 void PrintTransports() {
   const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
   const Shape shape = bar.pose(5);
-  const auto metric = std::make_shared<const Metric>(FreezeMetric({}, bar.connectivity, {shape}));
+  const auto metric = FreezeMetric({}, bar.connectivity, {shape});
   const Tangent bend = 100 * (bar.pose(5.01) - shape);
   const Tangent stretch = 0.1 * Eigen::Vector3d(1, 0, 0).asDiagonal() * shape;
   const auto turning = [&](int segments) {

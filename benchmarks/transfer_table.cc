@@ -61,7 +61,7 @@ void PrintBars() {
   std::vector<Shape> bending;
   for (int i = 0; i <= 6; ++i) bending.push_back(thick.pose(10.0 * i));
   Path source;
-  source.metric = std::make_shared<const Metric>(FreezeMetric({}, thick.connectivity, bending));
+  source.metric = FreezeMetric({}, thick.connectivity, bending);
   AlignedPoses aligned = AlignPoses(*source.metric, bending);
   source.shapes = aligned.shapes;
   source.motions = aligned.motions;
@@ -140,7 +140,7 @@ void PrintLine(const char* name, const std::vector<Pose>& poses, const TransferO
   Off off;
   bool converged = true;
   for (const Pose& pose : poses) {
-    const Metric metric =
+    const auto metric =
         FreezeMetric(MetricOptions::Strain(), pose.connectivity, {pose.source, pose.target});
     const Stopwatch stopwatch;
     Shape made;
@@ -150,16 +150,16 @@ void PrintLine(const char* name, const std::vector<Pose>& poses, const TransferO
       made = result.path.Placed(1);
       converged = converged && result.summary.Converged();
     } else {
-      const RigidMotion onto = FitRigidMotion(pose.source, pose.target, metric.vertex_area);
+      const RigidMotion onto = FitRigidMotion(pose.source, pose.target, metric->vertex_area);
       made = internal::GradientTransfer(pose.connectivity, onto(pose.source),
                                         pose.target)(onto(pose.deformed));
     }
     seconds += stopwatch.Seconds() / poses.size();
-    const Off here = WhatIsOff(metric, pose.source, pose.deformed, pose.target, made);
+    const Off here = WhatIsOff(*metric, pose.source, pose.deformed, pose.target, made);
     off.strain += here.strain / poses.size();
     off.angle += here.angle / poses.size();
     if (pose.own.size() == 0) continue;
-    const double apart = Apart(made, pose.own, metric.vertex_area);
+    const double apart = Apart(made, pose.own, metric->vertex_area);
     distance += apart / poses.size();
     greatest = std::max(greatest, apart);
   }

@@ -88,8 +88,8 @@ void PrintDistance(const Soup& reference, const Soup& pose) {
   const std::vector<Shape> pair = {reference.vertices, pose.vertices};
   const auto connectivity = ConnectivityOf(reference, pair);
   CheckMetricFlags(*connectivity);
-  const Metric metric = FreezeMetric(MetricFromFlags(), connectivity, pair);
-  const AlignedPoses aligned = AlignPoses(metric, pair);
+  const auto metric = FreezeMetric(MetricFromFlags(), connectivity, pair);
+  const AlignedPoses aligned = AlignPoses(*metric, pair);
   const Shape &first = aligned.shapes[0], &other = aligned.shapes[1];
   const Eigen::RowVectorXd squared = (other - first).colwise().squaredNorm();
   std::vector<double> stretch;
@@ -105,16 +105,17 @@ void PrintDistance(const Soup& reference, const Soup& pose) {
   std::printf("%s against %s\n", pose.file.c_str(), reference.file.c_str());
   std::printf("  turned by            %.4g degrees\n",
               Eigen::AngleAxisd(aligned.motions[1].rotation).angle() * 180 / M_PI);
-  std::printf("  vertices apart       rms %.4g, max %.4g (user's units, once aligned)\n",
-              metric.unit * std::sqrt(squared.dot(metric.vertex_area) / metric.vertex_area.sum()),
-              metric.unit * std::sqrt(squared.maxCoeff()));
+  std::printf(
+      "  vertices apart       rms %.4g, max %.4g (user's units, once aligned)\n",
+      metric->unit * std::sqrt(squared.dot(metric->vertex_area) / metric->vertex_area.sum()),
+      metric->unit * std::sqrt(squared.maxCoeff()));
   std::printf("  edges stretched by   median %.3g%%, 99th percentile %.3g%%, max %.3g%%\n",
               100 * stretch[stretch.size() / 2], 100 * stretch[(stretch.size() - 1) * 99 / 100],
               100 * stretch.back());
-  const double bound = ScaledEnergy(EnergyLowerBound(metric, first, other, 1000), 1000);
+  const double bound = ScaledEnergy(EnergyLowerBound(*metric, first, other, 1000), 1000);
   if (std::isfinite(bound)) {
     std::printf("  distance             at least %.6g (%s)\n", std::sqrt(bound),
-                Describe(metric.options).c_str());
+                Describe(metric->options).c_str());
   }
 }
 

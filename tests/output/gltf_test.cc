@@ -32,8 +32,7 @@ constexpr double kPrecision = 4e-7;
 Path MakePath(const std::shared_ptr<const Connectivity>& connectivity,
               const std::vector<Shape>& shapes) {
   Path path;
-  path.metric = std::make_shared<Metric>(
-      FreezeMetric(MetricOptions(), connectivity, {shapes.front(), shapes.back()}));
+  path.metric = FreezeMetric(MetricOptions(), connectivity, {shapes.front(), shapes.back()});
   path.provenance = "made by a test";
   const int count = static_cast<int>(shapes.size());
   for (int i = 0; i < count; ++i) {

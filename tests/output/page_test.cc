@@ -110,8 +110,8 @@ TEST_F(PageTest, TellsFiguresOfShapesAndSegments) {
 
 TEST_F(PageTest, MetricsWithoutBoundHaveSpeedsToo) {
   shapespace::Path path = BendingTube(300, 3);
-  path.metric = std::make_shared<Metric>(FreezeMetric(
-      MetricOptions::Rigid(), path.metric->connectivity, {path.Placed(0), path.Placed(2)}));
+  path.metric = FreezeMetric(MetricOptions::Rigid(), path.metric->connectivity,
+                             {path.Placed(0), path.Placed(2)});
   const DecodedScene scene = Write(PagePath{&path, "tube.path"});
   EXPECT_GT(scene.header["speeds"][0].get<double>(), 0);
 }

@@ -48,8 +48,7 @@ Path MakePath() {
       Connectivity::Make(bar.connectivity->NumVertices(), bar.connectivity->PolygonBegin(),
                          bar.connectivity->Corners(), {}, {{0, 7}});
   Path path;
-  path.metric = std::make_shared<const Metric>(
-      FreezeMetric(options, connectivity, {bar.pose(0), bar.pose(70)}));
+  path.metric = FreezeMetric(options, connectivity, {bar.pose(0), bar.pose(70)});
   path.shapes = testing::NoisyBlend(bar.pose(0), bar.pose(70), 3, 0.1);
   path.parameters = {0, 0.2, 0.5, 0.9, 1};
   path.motions.resize(5);
@@ -88,7 +87,7 @@ uint32_t Checksum(const std::string& bytes) {
 }
 
 double Energy(const Path& path) {
-  PathEnergy energy(*path.metric, path.NumShapes() - 2);
+  PathEnergy energy(path.metric, path.NumShapes() - 2);
   std::vector<double> unknowns(energy.Size());
   energy.Load(path.shapes, unknowns.data());
   return energy.Evaluate(unknowns.data(), nullptr);

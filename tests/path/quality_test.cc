@@ -11,8 +11,7 @@ namespace {
 
 Path MakePath(const Body& body, const std::vector<Shape>& shapes) {
   Path path;
-  path.metric = std::make_shared<const Metric>(
-      FreezeMetric({}, body.connectivity, {shapes.front(), shapes.back()}));
+  path.metric = FreezeMetric({}, body.connectivity, {shapes.front(), shapes.back()});
   path.shapes = shapes;
   for (size_t i = 0; i < shapes.size(); ++i) {
     path.parameters.push_back(static_cast<double>(i) / (shapes.size() - 1));
@@ -82,14 +81,14 @@ TEST(GreatestSpeed, IsTheFastestSegmentOverTheMean) {
   const Shape flat = sheet.pose(0);
   MetricOptions options;
   options.isometric = options.bending = 0;
-  const Metric metric = FreezeMetric(options, sheet.connectivity, {flat});
+  const auto metric = FreezeMetric(options, sheet.connectivity, {flat});
   const auto at = [&](double x) -> Shape { return flat.colwise() + Eigen::Vector3d(x, 0, 0); };
   const std::vector<Shape> waits = {at(0), at(1), at(2), at(4)};
-  EXPECT_NEAR(GreatestSpeed(metric, waits, {0, 1, 2, 3}), 1.5, 1e-12);
-  EXPECT_NEAR(GreatestSpeed(metric, waits, {0, 1, 2, 4}), 1, 1e-12);
-  EXPECT_EQ(GreatestSpeed(metric, {flat, flat, flat}, {0, 0.5, 1}), 1);
-  const Metric rigid = FreezeMetric(MetricOptions::Rigid(), sheet.connectivity, {flat});
-  EXPECT_TRUE(std::isnan(GreatestSpeed(rigid, waits, {0, 1, 2, 3})));
+  EXPECT_NEAR(GreatestSpeed(*metric, waits, {0, 1, 2, 3}), 1.5, 1e-12);
+  EXPECT_NEAR(GreatestSpeed(*metric, waits, {0, 1, 2, 4}), 1, 1e-12);
+  EXPECT_EQ(GreatestSpeed(*metric, {flat, flat, flat}, {0, 0.5, 1}), 1);
+  const auto rigid = FreezeMetric(MetricOptions::Rigid(), sheet.connectivity, {flat});
+  EXPECT_TRUE(std::isnan(GreatestSpeed(*rigid, waits, {0, 1, 2, 3})));
 }
 
 TEST(MeasureQuality, CountsFoldsThatThePosesDoNotHave) {

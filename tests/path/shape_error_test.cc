@@ -12,8 +12,7 @@ namespace {
 
 TEST(CompareShapes, SeesScale) {
   const Body bar = MakeBar(3, 1, 1, 6, 2, 2);
-  const auto metric =
-      std::make_shared<const Metric>(FreezeMetric({}, bar.connectivity, {bar.pose(0)}));
+  const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0)});
   const ShapeError error = CompareShapes(metric, bar.pose(0), 0.9 * bar.pose(0));
   EXPECT_NEAR(error.edge_rms, 0.1, 1e-12);
   EXPECT_NEAR(error.edge_max, 0.1, 1e-8);
@@ -23,8 +22,7 @@ TEST(CompareShapes, SeesScale) {
 
 TEST(CompareShapes, CountsHingesThatAreTurnedOver) {
   const Body sheet = MakeSheet(2, 1, 2, 1);
-  const auto metric =
-      std::make_shared<const Metric>(FreezeMetric({}, sheet.connectivity, {sheet.pose(0)}));
+  const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});
   Shape folded = sheet.pose(0);
   folded.row(0) = folded.row(0).cwiseAbs();
   const ShapeError error = CompareShapes(metric, sheet.pose(0), folded);

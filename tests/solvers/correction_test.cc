@@ -235,11 +235,10 @@ struct ProximityCost {
 double SolveFromResidualBlocks(const Path& given, double mu, std::vector<Shape>* shapes) {
   MetricOptions options;
   options.lambda = options.bending = 0;
-  const Metric metric =
-      FreezeMetric(options, given.metric->connectivity, {given.shapes.front()}, 1);
+  const auto metric = FreezeMetric(options, given.metric->connectivity, {given.shapes.front()}, 1);
   const int segments = given.NumShapes() - 1;
   ceres::Problem problem;
-  cost::AddPathEnergy(metric, shapes, &problem);
+  cost::AddPathEnergy(*metric, shapes, &problem);
   for (int i = 0; i < segments; ++i) {
     Shape& to = (*shapes)[i + 1];
     for (int v = 0; v < to.cols(); ++v) {
@@ -292,10 +291,10 @@ TEST(PathEnergy, AFreeEndFollowsItsGradient) {
   everything.rigid = 0.1;
   everything.strain = 0.5;
   for (const MetricOptions& options : {everything, paper}) {
-    const Metric metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(80)});
+    const auto metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(80)});
     for (int inner : {1, 3, 8}) {
       std::vector<Shape> shapes =
-          testing::NoisyBlend(bar.pose(0) / metric.unit, bar.pose(80) / metric.unit, inner, 1e-2);
+          testing::NoisyBlend(bar.pose(0) / metric->unit, bar.pose(80) / metric->unit, inner, 1e-2);
       shapes.pop_back();
       PathEnergy energy(metric, inner, PathEnergy::End::kFree);
       ASSERT_EQ(energy.NumShapes(), inner + 1);

@@ -136,17 +136,17 @@ TEST_F(RealDeformation, DistortedPosesAreRepaired) {
     SCOPED_TRACE(first);
     const Poses poses = Read({first, second});
     const Shape& reference = poses.shapes[0];
-    const Metric metric = FreezeMetric({}, poses.connectivity, {reference});
+    const auto metric = FreezeMetric({}, poses.connectivity, {reference});
     Shape distorted = 0.5 * (reference + FitRigidMotion(poses.shapes[1], reference,
-                                                        metric.vertex_area)(poses.shapes[1]));
-    const Vector3d centre = Centroid(reference, metric.vertex_area);
+                                                        metric->vertex_area)(poses.shapes[1]));
+    const Vector3d centre = Centroid(reference, metric->vertex_area);
     for (int k = 0; k < 12; ++k) {
       const Vector3d at = reference.col((k * 7919 + 13) % reference.cols());
       for (int v = 0; v < reference.cols(); ++v) {
-        const double share = (reference.col(v) - at).norm() / (0.12 * metric.unit);
+        const double share = (reference.col(v) - at).norm() / (0.12 * metric->unit);
         if (share >= 1) continue;
         distorted.col(v) +=
-            0.06 * metric.unit * std::pow(1 - share * share, 2) * (centre - at).normalized();
+            0.06 * metric->unit * std::pow(1 - share * share, 2) * (centre - at).normalized();
       }
     }
     const RepairSummary summary = Repair(poses.connectivity, reference, distorted).summary;

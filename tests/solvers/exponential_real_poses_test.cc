@@ -70,8 +70,7 @@ INSTANTIATE_TEST_SUITE_P(, RoundTrip,
 using Inverse = ExponentialRealPoses;
 
 TEST_P(Inverse, TheExponentialMapUndoesTheLogarithm) {
-  const auto metric =
-      std::make_shared<const Metric>(FreezeMetric({}, poses_.connectivity, poses_.shapes));
+  const auto metric = FreezeMetric({}, poses_.connectivity, poses_.shapes);
   const Shape &from = poses_.shapes[0], &to = poses_.shapes[1];
   const Shape end = Exponential(metric, from, Logarithm(metric, from, to));
   EXPECT_LT(testing::Distance(end, FitRigidMotion(to, from, metric->vertex_area)(to)),

@@ -24,8 +24,8 @@ TEST(FreeEndPreconditioner, IsTheInverseOfAQuadraticEnergy) {
   options.isometric = 0;
   options.bending = 0;
   options.lambda = 1;
-  const Metric metric = FreezeMetric(options, bar.connectivity, {bar.pose(0)});
-  const Shape rest = bar.pose(0) / metric.unit;
+  const auto metric = FreezeMetric(options, bar.connectivity, {bar.pose(0)});
+  const Shape rest = bar.pose(0) / metric->unit;
   const int count = static_cast<int>(rest.cols());
   for (int n : {1, 2, 5}) {
     Grip grip;
@@ -74,9 +74,9 @@ TEST(FreeEndPreconditioner, IsTheInverseOfAQuadraticEnergy) {
 
 struct Held {
   Body body = MakeBar(4, 1, 1, 12, 3, 3);
-  Metric metric = FreezeMetric(MetricOptions::Deformation(*body.connectivity), body.connectivity,
-                               {body.pose(0)});
-  Shape rest = body.pose(0) / metric.unit;
+  std::shared_ptr<const Metric> metric = FreezeMetric(
+      MetricOptions::Deformation(*body.connectivity), body.connectivity, {body.pose(0)});
+  Shape rest = body.pose(0) / metric->unit;
   Grip grip;
 
   Held() {

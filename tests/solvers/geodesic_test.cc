@@ -20,6 +20,7 @@
 #include <shapespace/bodies/steffen.h>
 #include <shapespace/path/energy.h>
 
+#include "support/features.h"
 #include "support/listener.h"
 #include "support/paths.h"
 
@@ -120,7 +121,7 @@ TEST(Interpolate, StretchesASingleEdgeAsTheClosedFormSays) {
     options.metric.lambda = 3;  // of the size of the other part, or the path is nearly known
     const auto [path, summary] = Interpolate(testing::SingleEdge(), {first, last}, options);
     const double unit = path.metric->unit;
-    const double w = std::get<EdgeLength>(path.metric->features[0]).weights(0);
+    const double w = testing::Get<EdgeLength>(*path.metric).weights(0);
     const double c = 3 / 4.0 / w;  // lambda (A_p / 4 + A_q / 4) / w
     const auto arc = [&](double r) {
       return 0.5 * (r * std::sqrt(r * r + c) + c * std::asinh(r / std::sqrt(c)));
@@ -405,7 +406,7 @@ TEST(Interpolate, ReturnsTheBestSoFarWheneverItIsCancelled) {
   for (int i = 0; i <= 8; ++i) {
     blend.push_back((1 - i / 8.0) * whole.shapes.front() + i / 8.0 * whole.shapes.back());
   }
-  PathEnergy energy(*whole.metric, 7);
+  PathEnergy energy(whole.metric, 7);
   std::vector<double> unknowns(energy.Size());
   energy.Load(blend, unknowns.data());
   double before = ScaledEnergy(energy.Evaluate(unknowns.data(), nullptr), 8);

@@ -17,10 +17,10 @@ namespace {
 struct Problem {
   Problem(const Body& body, int inner, const MetricOptions& options = {})
       : metric(FreezeMetric(options, body.connectivity, {body.pose(0), body.pose(70)})),
-        shapes(testing::NoisyBlend(body.pose(0) / metric.unit, body.pose(70) / metric.unit, inner,
+        shapes(testing::NoisyBlend(body.pose(0) / metric->unit, body.pose(70) / metric->unit, inner,
                                    2e-3)),
         energy(metric, inner),
-        factor(ScalarMetric(metric, {shapes.front(), shapes.back()}, 0)),
+        factor(ScalarMetric(*metric, {shapes.front(), shapes.back()}, 0)),
         single(factor),
         variables(factor, energy),
         preconditioner(single, energy),
@@ -32,7 +32,7 @@ struct Problem {
     return MinimiseThreadedLbfgs(&energy, &preconditioner, options, unknowns);
   }
 
-  Metric metric;
+  std::shared_ptr<const Metric> metric;
   std::vector<Shape> shapes;
   PathEnergy energy;
   Cholesky factor;
@@ -64,7 +64,7 @@ TEST(Minimise, AllThreeReachTheSameMinimum) {
     const MinimiseResult a = problem.Ours(options, &ours);
     const MinimiseResult b =
         MinimiseLbfgs(ObjectiveOf(&problem.energy), &problem.variables, options, &ceres);
-    const MinimiseResult c = MinimiseTrustRegion(problem.metric, 1, options, &problem.shapes);
+    const MinimiseResult c = MinimiseTrustRegion(*problem.metric, 1, options, &problem.shapes);
     EXPECT_EQ(a.stop, Stop::kConverged);
     EXPECT_NEAR(a.energy, b.energy, 1e-7 * b.energy);
     EXPECT_NEAR(a.energy, c.energy, 1e-7 * c.energy);
@@ -128,7 +128,7 @@ TEST(ThreadedLbfgs, DoesNothingAtAMinimum) {
 TEST(ThreadedLbfgs, AcceptsAnEnergyOfRounding) {
   const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
   Problem problem(bar, 3);
-  const Shape shape = bar.pose(0) / problem.metric.unit;
+  const Shape shape = bar.pose(0) / problem.metric->unit;
   problem.energy.Load(std::vector<Shape>(5, shape), problem.start.data());
   std::vector<double> unknowns = problem.start;
   const MinimiseResult result = problem.Ours({}, &unknowns);

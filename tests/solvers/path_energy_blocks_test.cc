@@ -36,8 +36,8 @@ TEST(PathEnergyBlocks, AreAQuarterOfTheEnergy) {
     SCOPED_TRACE(Describe(options));
     const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
     const std::vector<Shape> ends = {bar.pose(0), bar.pose(80)};
-    const Metric metric = FreezeMetric(options, bar.connectivity, ends);
-    std::vector<Shape> shapes = NoisyBlend(ends[0] / metric.unit, ends[1] / metric.unit, 3, 0.01);
+    const auto metric = FreezeMetric(options, bar.connectivity, ends);
+    std::vector<Shape> shapes = NoisyBlend(ends[0] / metric->unit, ends[1] / metric->unit, 3, 0.01);
     PathEnergy energy(metric, 3);
     energy.SetQuarticWeight(0.25);
     std::vector<double> unknowns(energy.Size()), gradient(energy.Size());
@@ -47,7 +47,7 @@ TEST(PathEnergyBlocks, AreAQuarterOfTheEnergy) {
     energy.Store(gradient.data(), &slopes);
 
     ceres::Problem problem;
-    cost::AddPathEnergy(metric, &shapes, &problem, nullptr, 0.25);
+    cost::AddPathEnergy(*metric, &shapes, &problem, nullptr, 0.25);
     ceres::Problem::EvaluateOptions evaluate;
     for (int i = 1; i <= 3; ++i) {
       for (int v = 0; v < shapes[i].cols(); ++v) {
@@ -72,14 +72,14 @@ TEST(PathEnergyBlocks, AreAQuarterOfTheEnergy) {
 TEST(PathEnergyBlocks, OfTheRigidMetricAreItsEnergyOnceTheMotionsAreSolvedFor) {
   const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
   const std::vector<Shape> ends = {bar.pose(0), bar.pose(80)};
-  const Metric metric = FreezeMetric(MetricOptions::Rigid(), bar.connectivity, ends);
-  std::vector<Shape> shapes = NoisyBlend(ends[0] / metric.unit, ends[1] / metric.unit, 2, 0.01);
+  const auto metric = FreezeMetric(MetricOptions::Rigid(), bar.connectivity, ends);
+  std::vector<Shape> shapes = NoisyBlend(ends[0] / metric->unit, ends[1] / metric->unit, 2, 0.01);
   PathEnergy energy(metric, 2);
   std::vector<double> unknowns(energy.Size());
   energy.Load(shapes, unknowns.data());
   ceres::Problem problem;
   cost::RigidMotions motions;
-  cost::AddPathEnergy(metric, &shapes, &problem, &motions);
+  cost::AddPathEnergy(*metric, &shapes, &problem, &motions);
   for (Shape& shape : shapes) Fix(&shape, &problem);
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
@@ -146,19 +146,19 @@ TEST(PathEnergyBlocks, RefuseWhatTheyCannotTake) {
   MetricOptions volume;
   volume.volume = 1;
   const auto message = [&](const MetricOptions& options) {
-    const Metric metric = FreezeMetric(options, bar.connectivity, shapes);
+    const auto metric = FreezeMetric(options, bar.connectivity, shapes);
     return MessageOf<InvalidOptions>([&] {
       ceres::Problem problem;
-      cost::AddPathEnergy(metric, &shapes, &problem);
+      cost::AddPathEnergy(*metric, &shapes, &problem);
     });
   };
   EXPECT_EQ(message(volume).rfind("volume:", 0), 0u);
   EXPECT_EQ(message(MetricOptions::Rigid()).rfind("motions:", 0), 0u);
-  const Metric metric = FreezeMetric({}, bar.connectivity, shapes);
+  const auto metric = FreezeMetric({}, bar.connectivity, shapes);
   ceres::Problem problem;
   std::vector<Shape> one = {shapes[0]}, other = {shapes[0], shapes[1].leftCols(3)};
-  EXPECT_THROW(cost::AddPathEnergy(metric, &one, &problem), MeshError);
-  EXPECT_THROW(cost::AddPathEnergy(metric, &other, &problem), MeshError);
+  EXPECT_THROW(cost::AddPathEnergy(*metric, &one, &problem), MeshError);
+  EXPECT_THROW(cost::AddPathEnergy(*metric, &other, &problem), MeshError);
   EXPECT_EQ(problem.NumParameterBlocks(), 0);
 }
 
@@ -169,9 +169,9 @@ TEST(PathEnergyBlocks, KnowEveryVertex) {
   std::vector<Shape> shapes = {shape, shape};
   MetricOptions options;
   options.lambda = 0;
-  const Metric metric = FreezeMetric(options, Connectivity::Make(4, {0, 3}, {0, 1, 2}, {}), shapes);
+  const auto metric = FreezeMetric(options, Connectivity::Make(4, {0, 3}, {0, 1, 2}, {}), shapes);
   ceres::Problem problem;
-  cost::AddPathEnergy(metric, &shapes, &problem);
+  cost::AddPathEnergy(*metric, &shapes, &problem);
   for (Shape& each : shapes) Fix(&each, &problem);
   EXPECT_EQ(problem.NumParameterBlocks(), 8);
 }

@@ -17,8 +17,8 @@ namespace {
 
 Eigen::SparseMatrix<double> Matrix(const Body& body) {
   const std::vector<Shape> poses = {body.pose(0), body.pose(40)};
-  const Metric metric = FreezeMetric({}, body.connectivity, poses);
-  return ScalarMetric(metric, {poses[0] / metric.unit, poses[1] / metric.unit}, 0);
+  const auto metric = FreezeMetric({}, body.connectivity, poses);
+  return ScalarMetric(*metric, {poses[0] / metric->unit, poses[1] / metric->unit}, 0);
 }
 
 // Of a large matrix few columns are solved for branch by branch.
@@ -72,8 +72,8 @@ TEST(Cholesky, RefusesAnIndefiniteMatrix) {
 
 TEST(ScalarMetric, CostsNothingForTranslationsButForThePositionTerm) {
   const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
-  const Metric metric = FreezeMetric({}, bar.connectivity, {bar.pose(0)});
-  const Eigen::SparseMatrix<double> matrix = ScalarMetric(metric, {bar.pose(0) / metric.unit}, 0);
+  const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0)});
+  const Eigen::SparseMatrix<double> matrix = ScalarMetric(*metric, {bar.pose(0) / metric->unit}, 0);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(matrix.rows());
   const double cost = ones.dot(matrix.selfadjointView<Eigen::Lower>() * ones);
   EXPECT_NEAR(cost, 4 * 1e-4 * 1.01, 1e-10);  // 4 lambda, areas adding up to 1, and its safeguard
@@ -81,8 +81,8 @@ TEST(ScalarMetric, CostsNothingForTranslationsButForThePositionTerm) {
 
 TEST(ChangeOfVariables, TransposeIsTheTranspose) {
   const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
-  const Metric metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(40)});
-  const Cholesky factor(ScalarMetric(metric, {bar.pose(0) / metric.unit}, 0));
+  const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(40)});
+  const Cholesky factor(ScalarMetric(*metric, {bar.pose(0) / metric->unit}, 0));
   for (int inner : {1, 4, 15}) {
     PathEnergy energy(metric, inner);
     ChangeOfVariables variables(factor, energy);
@@ -103,8 +103,8 @@ TEST(ChangeOfVariables, TransposeIsTheTranspose) {
 
 TEST(Preconditioner, IsBothHalvesOfTheChangeOfVariables) {
   const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
-  const Metric metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(40)});
-  const Cholesky factor(ScalarMetric(metric, {bar.pose(0) / metric.unit}, 0));
+  const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(40)});
+  const Cholesky factor(ScalarMetric(*metric, {bar.pose(0) / metric->unit}, 0));
   const CholeskyFactor<float> single(factor);
   for (int inner : {1, 4, 15}) {
     PathEnergy energy(metric, inner);
@@ -139,12 +139,12 @@ TEST(ChangeOfVariables, MakesTheHessianOfAFlatMetricTheIdentity) {
   MetricOptions options;
   options.isometric = options.bending = 0;
   options.lambda = 1;
-  const Metric metric = FreezeMetric(options, sheet.connectivity, {sheet.pose(0)});
-  const Cholesky factor(ScalarMetric(metric, {sheet.pose(0) / metric.unit}, 0));
+  const auto metric = FreezeMetric(options, sheet.connectivity, {sheet.pose(0)});
+  const Cholesky factor(ScalarMetric(*metric, {sheet.pose(0) / metric->unit}, 0));
   PathEnergy energy(metric, 5);
   ChangeOfVariables variables(factor, energy);
   const std::vector<Shape> shapes =
-      testing::NoisyBlend(sheet.pose(0) / metric.unit, sheet.pose(0) / metric.unit, 5, 0.1);
+      testing::NoisyBlend(sheet.pose(0) / metric->unit, sheet.pose(0) / metric->unit, 5, 0.1);
   std::vector<double> x(energy.Size()), gradient(energy.Size()), y(variables.Size());
   energy.Load(shapes, x.data());
   const double before = energy.Evaluate(x.data(), gradient.data());

@@ -35,7 +35,7 @@ struct Beyond {
     const int last = path.NumShapes() - 1;
     from_previous = {path.shapes[last], path.shapes[last - 1], {}, 0};
     // The same velocity, as the metric sees it.
-    const FeatureMap map(*path.metric);
+    const FeatureMap map(path.metric);
     const FeatureDerivative derivative = map.Derivative(path.shapes[last]);
     MetricSolver solver;
     solver.Factor(derivative);
@@ -62,9 +62,8 @@ TEST(Shooter, TakesTheStepOfTheCoarserMeshAndLiftsTheDetail) {
   const auto restrict = [&](const Shape& shape) {
     return shape.size() > 0 ? hierarchy.Restrict(shape, coarse) : shape;
   };
-  const Metric metric =
-      FreezeMetric(beyond.path.metric->options, hierarchy.LevelConnectivity(coarse),
-                   {restrict(known[0]), restrict(known[1])}, 1);
+  const auto metric = FreezeMetric(beyond.path.metric->options, hierarchy.LevelConnectivity(coarse),
+                                   {restrict(known[0]), restrict(known[1])}, 1);
   const FeatureMap map(metric);
   for (const Departure* departure : {&beyond.from_previous, &beyond.with_velocity}) {
     SCOPED_TRACE(departure == &beyond.from_previous ? "from two shapes" : "with a velocity");

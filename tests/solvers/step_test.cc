@@ -23,7 +23,7 @@ const std::function<void()> kNeverCancelled = [] {};
 struct Case {
   std::shared_ptr<const Metric> metric;
   Departure departure;
-  FeatureMap map{*metric};
+  FeatureMap map{metric};
   MetricSolver solver;
   ExponentialSummary::Step row;
 
@@ -41,8 +41,7 @@ struct Case {
 
 Case BendingBar() {
   const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
-  const auto metric =
-      std::make_shared<const Metric>(FreezeMetric({}, bar.connectivity, {bar.pose(0)}));
+  const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0)});
   return {metric, {bar.pose(10) / metric->unit, bar.pose(5) / metric->unit, {}, 0}};
 }
 
@@ -90,8 +89,7 @@ TEST(Step, RefusesTheRootOfAnotherGeodesic) {
   lengths.bending = 0;
   Shape edge = Shape::Zero(3, 2);
   edge.row(0) << -0.5, 0.5;
-  const auto metric =
-      std::make_shared<const Metric>(FreezeMetric(lengths, testing::SingleEdge(), {edge}));
+  const auto metric = FreezeMetric(lengths, testing::SingleEdge(), {edge});
   Case step(metric, {edge, 0.999 * edge, {}, 0});
   Shape root;
   ASSERT_TRUE(step.Make().Solve({}, &step.row, &root));

@@ -93,10 +93,10 @@ TEST(GradientTransfer, ComponentsAndVerticesWithoutTrianglesGoWhereTheSourcesGo)
 }
 
 TEST(FindNearestShape, FindsAShapeByItsFeatures) {
-  const Metric metric =
+  const auto metric =
       FreezeMetric(MetricOptions::Strain(), ThickBar().connectivity, {ThickBar().pose(0)});
   const FeatureMap map(metric);
-  const Shape start = ThickBar().pose(0) / metric.unit, bent = ThickBar().pose(20) / metric.unit;
+  const Shape start = ThickBar().pose(0) / metric->unit, bent = ThickBar().pose(20) / metric->unit;
   const Eigen::VectorXd wanted = map.Values(bent);
   internal::MetricSolver solver;
   int asked = 0;
@@ -117,10 +117,10 @@ TEST(FindNearestShape, FindsAShapeByItsFeatures) {
 
 // Whole steps of Gauss and Newton's method overshoot here.
 TEST(FindNearestShape, ShortensStepsThatLeadTooFar) {
-  const Metric metric =
+  const auto metric =
       FreezeMetric(MetricOptions::Strain(), ThickBar().connectivity, {ThickBar().pose(0)});
   const FeatureMap map(metric);
-  const Shape start = ThickBar().pose(0) / metric.unit, bent = ThickBar().pose(150) / metric.unit;
+  const Shape start = ThickBar().pose(0) / metric->unit, bent = ThickBar().pose(150) / metric->unit;
   internal::MetricSolver solver;
   const internal::NearestShape found = internal::FindNearestShape(
       map, map.Values(bent), start, {1e-20, 100}, [] {}, &solver);

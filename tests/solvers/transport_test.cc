@@ -46,8 +46,7 @@ TransportOptions ThePapers() {
 Path AsTheyAre(const std::shared_ptr<const Connectivity>& connectivity,
                const std::vector<Shape>& shapes, const MetricOptions& options = {}) {
   Path path;
-  path.metric =
-      std::make_shared<const Metric>(FreezeMetric(options, connectivity, {shapes.front()}));
+  path.metric = FreezeMetric(options, connectivity, {shapes.front()});
   for (const Shape& shape : shapes) path.shapes.push_back(shape / path.metric->unit);
   path.motions.resize(shapes.size());
   for (size_t i = 0; i < shapes.size(); ++i) {
@@ -243,11 +242,11 @@ TEST(Transport, NeverLengthensAndHardlyShortens) {
 // An independent answer: the covariant derivative along the path vanishes, which says that the
 // products with fields of coordinates satisfy an ordinary equation, G Y' = -J^T (dJ/dt) Y. By
 // Runge and Kutta's method of fourth order, the derivative of J from central differences.
-Tangent FromItsEquation(const Body& body, double first, double last, const Metric& metric,
-                        Tangent y, int steps) {
+Tangent FromItsEquation(const Body& body, double first, double last,
+                        const std::shared_ptr<const Metric>& metric, Tangent y, int steps) {
   const FeatureMap map(metric);
   const auto shape = [&](double t) -> Shape {
-    return body.pose(first + (last - first) * t) / metric.unit;
+    return body.pose(first + (last - first) * t) / metric->unit;
   };
   const auto rate = [&](double t, const Tangent& x) -> Tangent {
     constexpr double kDifference = 1e-5;
@@ -277,7 +276,7 @@ TEST(Transport, SolvesTheEquationOfTheLeviCivitaConnection) {
     SCOPED_TRACE(body.name);
     const Path path = Deforming(body, 10, last, 64);
     for (const Tangent& x : SomeTangents(body, 10)) {
-      const Tangent expected = FromItsEquation(body, 10, last, *path.metric, x, 32);
+      const Tangent expected = FromItsEquation(body, 10, last, path.metric, x, 32);
       const Tangent y = Transport(path, {x}, Unaligned()).tangents[0];
       EXPECT_LT((y - expected).norm(), 1e-3 * expected.norm());
       EXPECT_GT((x - expected).norm(), 0.01 * expected.norm());  // and does something
@@ -424,7 +423,7 @@ TEST(PapersTransport, KeepsTheProductWithTheVelocity) {
     SCOPED_TRACE(body.name);
     const int segments = 8;
     const Path path = Deforming(body, 10, 40, segments);
-    const FeatureMap map(*path.metric);
+    const FeatureMap map(path.metric);
     // <Y, G gamma'> at a shape, gamma' that of the segment that begins, or at last ends, there.
     const auto product = [&](int shape, const Tangent& y) {
       const int begin = std::min(shape, segments - 1);

@@ -23,7 +23,7 @@ struct Sheet {
   explicit Sheet(MetricOptions options = {})
       : body(MakeSheet(1, 1, 8, 8)),
         metric(FreezeMetric(options, body.connectivity, {body.pose(0)})),
-        rest(body.pose(0) / metric.unit) {
+        rest(body.pose(0) / metric->unit) {
     const Eigen::Matrix4Xi& hinges = body.connectivity->Hinges();
     double nearest = 1;
     for (int h = 0; h < hinges.cols(); ++h) {
@@ -52,7 +52,7 @@ struct Sheet {
   }
 
   const Body body;
-  const Metric metric;
+  std::shared_ptr<const Metric> metric;
   const Shape rest;
   Eigen::Vector4i hinge;
 };
@@ -70,7 +70,7 @@ std::vector<Shape> FullTurn(const Sheet& sheet) {
 TEST(Unwind, AFullTurnIsTakenBack) {
   const Sheet sheet;
   std::vector<Shape> shapes = FullTurn(sheet);
-  Unwind(sheet.metric, &shapes);
+  Unwind(*sheet.metric, &shapes);
   for (const Shape& shape : shapes) EXPECT_LT((shape - sheet.rest).norm(), 1e-12);
 }
 
@@ -79,7 +79,7 @@ TEST(Unwind, AJumpIsSpreadOverAllSegments) {
   std::vector<Shape> shapes(Sheet::kSegments, sheet.rest);
   shapes.push_back(sheet.Turned(1.5));
   const std::vector<Shape> before = shapes;
-  Unwind(sheet.metric, &shapes);
+  Unwind(*sheet.metric, &shapes);
   EXPECT_EQ(shapes.front(), before.front());
   EXPECT_EQ(shapes.back(), before.back());
   EXPECT_LT(sheet.Energy(shapes), 0.3 * sheet.Energy(before));
@@ -92,7 +92,7 @@ TEST(Unwind, WhatTurnsEvenlyTheShortWayStaysAsItIs) {
     shapes.push_back(sheet.Turned(0.9 * M_PI * i / Sheet::kSegments));
   }
   const std::vector<Shape> before = shapes;
-  Unwind(sheet.metric, &shapes);
+  Unwind(*sheet.metric, &shapes);
   EXPECT_EQ(shapes, before);
 }
 
@@ -104,7 +104,7 @@ TEST(Unwind, NothingMovesThatWouldCostMore) {
       *end += testing::Noise(static_cast<int>(end->cols()), 0.1, 10 * seed + (end == &shapes[0]));
     }
     const double before = sheet.Energy(shapes);
-    Unwind(sheet.metric, &shapes);
+    Unwind(*sheet.metric, &shapes);
     EXPECT_LT(sheet.Energy(shapes), before);
   }
 }
@@ -116,8 +116,8 @@ TEST(Unwind, MovesWithTheBody) {
   std::vector<Shape> shapes = testing::NoisyBlend(sheet.rest, sheet.Turned(2), 7, 0.1);
   std::vector<Shape> turned;
   for (const Shape& shape : shapes) turned.push_back(turn * shape);
-  Unwind(sheet.metric, &shapes);
-  Unwind(sheet.metric, &turned);
+  Unwind(*sheet.metric, &shapes);
+  Unwind(*sheet.metric, &turned);
   for (size_t i = 0; i < shapes.size(); ++i) {
     EXPECT_LT((turn * shapes[i] - turned[i]).norm(), 1e-9 * shapes[i].norm());
   }
@@ -129,7 +129,7 @@ TEST(Unwind, AMetricThatSeesNoHingesHasNoneToUnwind) {
   const Sheet sheet(options);
   std::vector<Shape> shapes = FullTurn(sheet);
   const std::vector<Shape> before = shapes;
-  Unwind(sheet.metric, &shapes);
+  Unwind(*sheet.metric, &shapes);
   EXPECT_EQ(shapes, before);
 }
 

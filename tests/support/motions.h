@@ -53,8 +53,7 @@ inline Tangent Spin(const Metric& metric, const Shape& shape, double degrees,
 /// A body turning, its shape that at parameter `at`.
 inline Motion Turning(const Body& body, double at, double degrees, const MetricOptions& options) {
   const Shape shape = body.pose(at);
-  const auto metric =
-      std::make_shared<const Metric>(FreezeMetric(options, body.connectivity, {shape}));
+  const auto metric = FreezeMetric(options, body.connectivity, {shape});
   return {body.name + ", turning", metric, shape, Spin(*metric, shape, degrees, {0.3, 1, 0.5})};
 }
 
@@ -65,8 +64,7 @@ inline Motion Deforming(const Body& body, double at, double rate, const MetricOp
   const double h = 1e-5 * (body.end - body.begin);
   const Shape shape = body.pose(at);
   const Tangent velocity = rate / (2 * h) * (body.pose(at + h) - body.pose(at - h));
-  return {body.name + ", deforming",
-          std::make_shared<const Metric>(FreezeMetric(options, body.connectivity, {shape})), shape,
+  return {body.name + ", deforming", FreezeMetric(options, body.connectivity, {shape}), shape,
           velocity};
 }
 

@@ -14,7 +14,7 @@ namespace shapespace::testing {
 inline Path PathOf(const std::shared_ptr<const Connectivity>& connectivity,
                    const std::vector<Shape>& shapes) {
   Path path;
-  path.metric = std::make_shared<const Metric>(FreezeMetric({}, connectivity, shapes));
+  path.metric = FreezeMetric({}, connectivity, shapes);
   AlignedPoses aligned = AlignPoses(*path.metric, shapes);
   path.shapes = std::move(aligned.shapes);
   path.motions = std::move(aligned.motions);

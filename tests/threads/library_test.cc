@@ -70,10 +70,10 @@ TEST(FeatureMap, IsTheSameForAnyNumberOfThreads) {
   ASSERT_GT(bar.connectivity->NumVertices(), 512);  // several tasks a feature
   MetricOptions options;
   options.volume = 0.3;
-  const Metric metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(60)});
+  const auto metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(60)});
   const FeatureMap map(metric);
   const int num_vertices = bar.connectivity->NumVertices();
-  const Shape shape = bar.pose(30) / metric.unit + testing::Noise(num_vertices, 0.01, 1);
+  const Shape shape = bar.pose(30) / metric->unit + testing::Noise(num_vertices, 0.01, 1);
   const Tangent x = testing::Noise(num_vertices, 1, 10);
   struct Results {
     Eigen::VectorXd values, jx, second, gx;
@@ -103,9 +103,9 @@ TEST(PathEnergy, IsTheSameForAnyNumberOfThreads) {
   MetricOptions options;
   options.volume = 0.3;
   options.strain = 0.1;
-  const Metric metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(60)});
+  const auto metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(60)});
   const std::vector<Shape> shapes =
-      testing::NoisyBlend(bar.pose(0) / metric.unit, bar.pose(60) / metric.unit, 3, 1e-3);
+      testing::NoisyBlend(bar.pose(0) / metric->unit, bar.pose(60) / metric->unit, 3, 1e-3);
   const auto results = testing::OnThreads([&] {
     PathEnergy energy(metric, 3);
     std::vector<double> unknowns(energy.Size()), gradient(energy.Size());

@@ -31,14 +31,14 @@ Body Bar() { return MakeBar(6, 1, 1, 48, 8, 8); }
 
 TEST(ThreadedLbfgs, IsTheSameForAnyNumberOfThreads) {
   const Body bar = MakeBar(6, 1, 1, 60, 10, 10);
-  const Metric metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(70)});
+  const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(70)});
   const std::vector<Shape> shapes =
-      testing::NoisyBlend(bar.pose(0) / metric.unit, bar.pose(70) / metric.unit, 5, 2e-3);
+      testing::NoisyBlend(bar.pose(0) / metric->unit, bar.pose(70) / metric->unit, 5, 2e-3);
   PathEnergy energy(metric, 5);
   std::vector<double> start(energy.Size());
   energy.Load(shapes, start.data());
   const internal::Cholesky factor(
-      internal::ScalarMetric(metric, {shapes.front(), shapes.back()}, 0));
+      internal::ScalarMetric(*metric, {shapes.front(), shapes.back()}, 0));
   const internal::CholeskyFactor<float> single(factor);
   internal::Preconditioner preconditioner(single, energy);
   internal::MinimiseOptions options;

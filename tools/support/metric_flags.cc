@@ -49,7 +49,7 @@ MetricOptions MetricFromFlags(const Connectivity* mesh) {
     if (FLAGS_weights != "area" && FLAGS_weights != "uniform") {
       throw UsageError("--weights " + FLAGS_weights + ": must be area or uniform");
     }
-    options.weights = FLAGS_weights == "area" ? Weights::kArea : Weights::kUniform;
+    options.weights = FLAGS_weights == "area" ? Weighting::kArea : Weighting::kUniform;
   }
   if (IsGiven("discretization")) {
     if (FLAGS_discretization != "midpoint" && FLAGS_discretization != "trapezoid") {

@@ -124,6 +124,24 @@ Shape Hierarchy::RestrictOnce(const Shape& shape, int level) const {
   return shape(Eigen::all, levels_[level - 1].kept);
 }
 
+Eigen::VectorXd Hierarchy::RestrictField(const Eigen::VectorXd& field, int level) const {
+  // Of each vertex, for how many of the mesh's it stands, and the sum of their logarithms.
+  Eigen::MatrixX2d sums(field.size(), 2);
+  sums << Eigen::VectorXd::Ones(field.size()), field.array().log().matrix();
+  for (int at = NumLevels() - 2; at >= level; --at) {
+    const Level& here = levels_[at];
+    Eigen::MatrixX2d coarse = sums(here.kept, Eigen::all);
+    std::vector<char> is_kept(sums.rows(), 0);
+    for (const int v : here.kept) is_kept[v] = 1;
+    for (int v = 0; v < sums.rows(); ++v) {
+      if (is_kept[v]) continue;
+      for (int k = 0; k < 3; ++k) coarse.row(here.carrier(k, v)) += here.place(k, v) * sums.row(v);
+    }
+    sums = std::move(coarse);
+  }
+  return (sums.col(1).array() / sums.col(0).array()).exp();
+}
+
 Shape Hierarchy::Lift(const Shape& coarse, int level, const Shape& from_base, const Shape& from,
                       const Shape& to_base, const Shape& to, double t) const {
   const Level& here = levels_[level];

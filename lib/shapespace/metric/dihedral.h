@@ -7,7 +7,11 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <shapespace/metric/feature.h>
+
 namespace shapespace {
+
+struct MetricBasis;
 
 /// The angle difference b - a as a number in [-pi, pi].
 inline double WrapAngle(double angle) { return std::remainder(angle, 2 * M_PI); }
@@ -15,17 +19,21 @@ inline double WrapAngle(double angle) { return std::remainder(angle, 2 * M_PI); 
 /// (cos theta, sin theta) of a hinge (Connectivity::Hinges): the bending of a thin shell. theta is
 /// the angle between the two normals, 0 when flat, positive when convex. The chord between two such
 /// points needs no wrapping, is bounded, and gives the same Riemannian metric as theta itself.
-/// What a feature is: edge_length.h.
-struct Dihedral {
-  static constexpr int kVertices = 4, kValues = 2, kStencils = 1;
-  static constexpr bool kRigidInvariant = true, kSum = false, kTrapezoid = false;
+struct Dihedral : ElementFeature<4, 2> {
+  static constexpr int kScalarRows = 1;
   static constexpr const char* kName = "dihedral";
 
-  Eigen::Matrix4Xi stencils;
-  Eigen::VectorXd weights;
   /// Squares of lengths far below those of the mesh, which keep the directions of a collapsed
   /// triangle's normal and of a collapsed edge finite.
   double normal_epsilon_squared = 0, edge_epsilon_squared = 0;
+
+  static Dihedral Freeze(const MetricBasis& basis);
+
+  template <typename Self, typename Visit>
+  static void ForConstants(Self* self, const Visit& visit) {
+    visit("normal_epsilon_squared", self->normal_epsilon_squared);
+    visit("edge_epsilon_squared", self->edge_epsilon_squared);
+  }
 
   template <typename T>
   void operator()(const T* x, T* value) const {
@@ -64,7 +72,7 @@ struct Dihedral {
   /// the two tips, shared between the edge's ends with opposite sign. Heights count as a
   /// ten-thousandth of the mesh's edges at least: with collapsed triangles the matrix would not be
   /// definite but for rounding.
-  void Stencil(const Eigen::Vector3d* x, double* k) const {
+  void ScalarRows(const Eigen::Vector3d* x, double* k) const {
     const Eigen::Vector3d e = x[1] - x[0];
     const double squared_length = e.squaredNorm() + edge_epsilon_squared;
     const double least = 1e8 * edge_epsilon_squared;  // epsilon is 1e-8 of an edge

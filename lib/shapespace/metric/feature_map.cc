@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <type_traits>
-
-#include <ceres/jet.h>
+#include <utility>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/metric/line_jet.h>
 
 namespace shapespace {
 
@@ -20,7 +17,7 @@ struct FeatureDerivative::Layout {
     // Where each vertex occurs, in the order of the elements: kVertices * element + corner.
     std::vector<int> begin, occurrences;
   };
-  const Metric& metric;
+  std::shared_ptr<const Metric> metric;
   int num_values = 0;
   std::vector<Term> terms;
 };
@@ -29,6 +26,9 @@ namespace {
 
 // Elements, or vertices, that one task of a thread takes.
 constexpr int kPerTask = 512;
+// Elements whose values are evaluated in one call, into buffers on the stack.
+constexpr int kChunk = 16;
+constexpr int kMaxCoordinates = 3 * Feature::kMaxVertices;
 
 // Calls body(begin, end) for ranges of [0, count).
 template <typename Body>
@@ -47,78 +47,77 @@ double Sum(int count, const Value& value) {
   return std::accumulate(partial.begin(), partial.end(), 0.0);
 }
 
-// Calls body(i, feature) for every feature of the metric.
-template <typename Body>
-void ForFeatures(const Metric& metric, const Body& body) {
-  for (size_t i = 0; i < metric.features.size(); ++i) {
-    std::visit([&](const auto& feature) { body(i, feature); }, metric.features[i]);
-  }
-}
-
-// Writes what `value(e, out)` says of each element into the feature's part of Phi, times the root
-// of its weight; of a sum feature, whose elements share a weight, the sum.
-template <typename Feature, typename Value>
-void FillValues(const Feature& feature, double* result, const Value& value) {
-  const int num_elements = static_cast<int>(feature.stencils.cols());
-  if constexpr (Feature::kSum) {
-    static_assert(Feature::kValues == 1);
-    *result = std::sqrt(feature.weights(0)) * Sum(num_elements, [&](int e) {
-                double out;
-                value(e, &out);
-                return out;
-              });
-  } else {
+// Writes what `evaluate(begin, end, out)` says of the elements into the feature's part of Phi,
+// times the roots of their weights; of a sum, whose elements share a weight, the sum.
+template <typename Evaluate>
+void FillValues(const Feature& feature, double* result, const Evaluate& evaluate) {
+  const int num_elements = feature.NumElements(), num_values = feature.ValuesPerElement();
+  const auto for_chunks = [&](int begin, int end, const auto& body) {
+    for (; begin < end; begin += kChunk) body(begin, std::min(begin + kChunk, end));
+  };
+  if (feature.IsSum()) {
+    std::vector<double> partial((num_elements + kPerTask - 1) / kPerTask, 0.0);
     ForRanges(num_elements, [&](int begin, int end) {
-      for (int e = begin; e < end; ++e) {
-        double* const out = result + static_cast<size_t>(Feature::kValues) * e;
-        value(e, out);
-        const double root = std::sqrt(feature.weights(e));
-        for (int k = 0; k < Feature::kValues; ++k) out[k] *= root;
+      double& sum = partial[begin / kPerTask];
+      for_chunks(begin, end, [&](int first, int last) {
+        double out[kChunk];
+        evaluate(first, last, out);
+        for (int i = 0; i < last - first; ++i) sum += out[i];
+      });
+    });
+    *result = std::sqrt(feature.Weight(0)) * std::accumulate(partial.begin(), partial.end(), 0.0);
+    return;
+  }
+  ForRanges(num_elements, [&](int begin, int end) {
+    for_chunks(begin, end, [&](int first, int last) {
+      double* const out = result + static_cast<size_t>(num_values) * first;
+      evaluate(first, last, out);
+      for (int e = first; e < last; ++e) {
+        const double root = std::sqrt(feature.Weight(e));
+        for (int k = 0; k < num_values; ++k) out[num_values * (e - first) + k] *= root;
       }
     });
-  }
+  });
 }
 
 }  // namespace
 
-FeatureMap::FeatureMap(const Metric& metric) : metric_(metric) {
-  if (metric.rigid.Active()) {
+FeatureMap::FeatureMap(std::shared_ptr<const Metric> metric) : metric_(std::move(metric)) {
+  if (metric_->rigid.Active()) {
     throw InvalidOptions(
         "rigid: the rigid metric is no feature map, so it has no exponential map, parallel "
         "transport or deformation transfer; use rigid 0");
   }
   auto layout =
-      std::make_shared<FeatureDerivative::Layout>(FeatureDerivative::Layout{metric, 0, {}});
-  const int num_vertices = metric.connectivity->NumVertices();
-  ForFeatures(metric, [&](size_t, const auto& feature) {
-    using Feature = std::decay_t<decltype(feature)>;
+      std::make_shared<FeatureDerivative::Layout>(FeatureDerivative::Layout{metric_, 0, {}});
+  const int num_vertices = metric_->connectivity->NumVertices();
+  for (const auto& feature : metric_->features) {
     FeatureDerivative::Layout::Term term;
     term.first_value = layout->num_values;
-    const int num_elements = static_cast<int>(feature.stencils.cols());
-    layout->num_values += Feature::kSum ? 1 : Feature::kValues * num_elements;
+    layout->num_values += feature->NumValues();
+    const int num_places = feature->NumElements() * feature->VerticesPerElement();
+    const int* const vertices = feature->Element(0);
     term.begin.assign(num_vertices + 1, 0);
-    for (int v : feature.stencils.reshaped()) ++term.begin[v + 1];
+    for (int i = 0; i < num_places; ++i) ++term.begin[vertices[i] + 1];
     std::partial_sum(term.begin.begin(), term.begin.end(), term.begin.begin());
     term.occurrences.resize(term.begin.back());
     std::vector<int> fill(term.begin.begin(), term.begin.end() - 1);
-    for (int i = 0; i < feature.stencils.size(); ++i) {
-      term.occurrences[fill[feature.stencils.data()[i]]++] = i;
-    }
+    for (int i = 0; i < num_places; ++i) term.occurrences[fill[vertices[i]]++] = i;
     layout->terms.push_back(std::move(term));
-  });
+  }
   layout_ = std::move(layout);
 }
 
 Eigen::VectorXd FeatureMap::Values(const Shape& shape) const {
   Eigen::VectorXd result(layout_->num_values);
-  ForFeatures(metric_, [&](size_t i, const auto& feature) {
-    using Feature = std::decay_t<decltype(feature)>;
-    FillValues(feature, result.data() + layout_->terms[i].first_value, [&](int e, double* out) {
-      double x[3 * Feature::kVertices];
-      Gather(feature, e, shape, x);
-      feature(x, out);
+  for (size_t i = 0; i < metric_->features.size(); ++i) {
+    const Feature& feature = *metric_->features[i];
+    FillValues(feature, result.data() + FirstValue(i), [&](int begin, int end, double* out) {
+      double x[kChunk * kMaxCoordinates];
+      feature.Gather(begin, end, shape, x);
+      feature.Evaluate(end - begin, x, out);
     });
-  });
+  }
   return result;
 }
 
@@ -126,91 +125,82 @@ int FeatureMap::FirstValue(size_t feature) const { return layout_->terms[feature
 
 Eigen::VectorXd FeatureMap::SecondDerivative(const Shape& shape, const Tangent& x) const {
   Eigen::VectorXd result(layout_->num_values);
-  ForFeatures(metric_, [&](size_t i, const auto& feature) {
-    using Feature = std::decay_t<decltype(feature)>;
-    FillValues(feature, result.data() + layout_->terms[i].first_value, [&](int e, double* out) {
-      constexpr int kSize = 3 * Feature::kVertices;
-      double at[kSize], along[kSize];
-      Gather(feature, e, shape, at);
-      Gather(feature, e, x, along);
-      internal::LineJet jet[kSize], value[Feature::kValues];
-      for (int k = 0; k < kSize; ++k) jet[k] = {at[k], along[k], 0};
-      feature(jet, value);
-      for (int k = 0; k < Feature::kValues; ++k) out[k] = value[k].second;
+  for (size_t i = 0; i < metric_->features.size(); ++i) {
+    const Feature& feature = *metric_->features[i];
+    FillValues(feature, result.data() + FirstValue(i), [&](int begin, int end, double* out) {
+      double at[kChunk * kMaxCoordinates], along[kChunk * kMaxCoordinates];
+      feature.Gather(begin, end, shape, at);
+      feature.Gather(begin, end, x, along);
+      feature.SecondDerivatives(end - begin, at, along, out);
     });
-  });
+  }
   return result;
 }
 
 FeatureDerivative FeatureMap::Derivative(const Shape& shape) const {
   FeatureDerivative derivative;
   derivative.layout_ = layout_;
-  ForFeatures(metric_, [&](size_t, const auto& feature) {
-    using Feature = std::decay_t<decltype(feature)>;
-    constexpr int kSize = 3 * Feature::kVertices;
-    const int num_elements = static_cast<int>(feature.stencils.cols());
-    std::vector<double> blocks(static_cast<size_t>(num_elements) * kSize * Feature::kValues);
-    ForRanges(num_elements, [&](int begin, int end) {
-      using Jet = ceres::Jet<double, kSize>;
-      for (int e = begin; e < end; ++e) {
-        double x[kSize];
-        Gather(feature, e, shape, x);
-        Jet jet[kSize], value[Feature::kValues];
-        for (int k = 0; k < kSize; ++k) jet[k] = Jet(x[k], k);
-        feature(jet, value);
-        const double root = std::sqrt(feature.weights(Feature::kSum ? 0 : e));
-        double* out = &blocks[static_cast<size_t>(e) * kSize * Feature::kValues];
-        for (int corner = 0; corner < Feature::kVertices; ++corner) {
-          for (int k = 0; k < Feature::kValues; ++k) {
-            for (int axis = 0; axis < 3; ++axis) *out++ = root * value[k].v[3 * corner + axis];
-          }
+  for (const auto& feature : metric_->features) {
+    const size_t size = 3 * static_cast<size_t>(feature->VerticesPerElement()) *
+                        feature->ValuesPerElement();  // numbers of an element
+    std::vector<double> blocks(feature->NumElements() * size);
+    ForRanges(feature->NumElements(), [&](int begin, int end) {
+      for (int first = begin; first < end; first += kChunk) {
+        const int last = std::min(first + kChunk, end);
+        double x[kChunk * kMaxCoordinates], values[kChunk * Feature::kMaxValues];
+        feature->Gather(first, last, shape, x);
+        double* out = &blocks[first * size];
+        feature->Evaluate(last - first, x, values, out);
+        for (int e = first; e < last; ++e) {
+          const double root = std::sqrt(feature->Weight(e));
+          for (size_t k = 0; k < size; ++k) *out++ *= root;
         }
       }
     });
     derivative.blocks_.push_back(std::move(blocks));
-  });
+  }
   return derivative;
 }
 
 Eigen::VectorXd FeatureDerivative::Times(const Tangent& x) const {
   Eigen::VectorXd result(layout_->num_values);
-  ForFeatures(layout_->metric, [&](size_t i, const auto& feature) {
-    using Feature = std::decay_t<decltype(feature)>;
-    constexpr int kVertices = Feature::kVertices, kValues = Feature::kValues;
+  for (size_t i = 0; i < blocks_.size(); ++i) {
+    const Feature& feature = *layout_->metric->features[i];
+    const int num_vertices = feature.VerticesPerElement(), num_values = feature.ValuesPerElement();
     const double* const blocks = blocks_[i].data();
     double* const values = result.data() + layout_->terms[i].first_value;
     const auto product = [&](int e, double* out) {
-      const double* block = blocks + static_cast<size_t>(e) * 3 * kVertices * kValues;
-      std::fill(out, out + kValues, 0.0);
-      for (int corner = 0; corner < kVertices; ++corner) {
-        const double* const at = x.col(feature.stencils(corner, e)).data();
-        for (int k = 0; k < kValues; ++k, block += 3) {
+      const double* block = blocks + static_cast<size_t>(e) * 3 * num_vertices * num_values;
+      std::fill(out, out + num_values, 0.0);
+      for (int corner = 0; corner < num_vertices; ++corner) {
+        const double* const at = x.col(feature.Element(e)[corner]).data();
+        for (int k = 0; k < num_values; ++k, block += 3) {
           out[k] += block[0] * at[0] + block[1] * at[1] + block[2] * at[2];
         }
       }
     };
-    const int num_elements = static_cast<int>(feature.stencils.cols());
-    if constexpr (Feature::kSum) {
-      *values = Sum(num_elements, [&](int e) {
+    if (feature.IsSum()) {
+      *values = Sum(feature.NumElements(), [&](int e) {
         double out;
         product(e, &out);
         return out;
       });
     } else {
-      ForRanges(num_elements, [&](int begin, int end) {
-        for (int e = begin; e < end; ++e) product(e, values + static_cast<size_t>(kValues) * e);
+      ForRanges(feature.NumElements(), [&](int begin, int end) {
+        for (int e = begin; e < end; ++e) product(e, values + static_cast<size_t>(num_values) * e);
       });
     }
-  });
+  }
   return result;
 }
 
 Tangent FeatureDerivative::TransposeTimes(const Eigen::VectorXd& y) const {
   // Gathered by vertex, so that no two threads add to one place.
-  Tangent result = Tangent::Zero(3, layout_->metric.connectivity->NumVertices());
-  ForFeatures(layout_->metric, [&](size_t i, const auto& feature) {
-    using Feature = std::decay_t<decltype(feature)>;
-    constexpr int kVertices = Feature::kVertices, kValues = Feature::kValues;
+  Tangent result = Tangent::Zero(3, layout_->metric->connectivity->NumVertices());
+  for (size_t i = 0; i < blocks_.size(); ++i) {
+    const Feature& feature = *layout_->metric->features[i];
+    const int num_vertices = feature.VerticesPerElement(), num_values = feature.ValuesPerElement();
+    const bool is_sum = feature.IsSum();
     const Layout::Term& term = layout_->terms[i];
     const double* const blocks = blocks_[i].data();
     const double* const values = y.data() + term.first_value;
@@ -219,34 +209,34 @@ Tangent FeatureDerivative::TransposeTimes(const Eigen::VectorXd& y) const {
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
         for (int k = term.begin[v]; k < term.begin[v + 1]; ++k) {
           const int place = term.occurrences[k];
-          const double* block = blocks + static_cast<size_t>(place) * 3 * kValues;
-          const double* const at = Feature::kSum ? values : values + place / kVertices * kValues;
-          for (int value = 0; value < kValues; ++value, block += 3) {
+          const double* block = blocks + static_cast<size_t>(place) * 3 * num_values;
+          const double* const at = is_sum ? values : values + place / num_vertices * num_values;
+          for (int value = 0; value < num_values; ++value, block += 3) {
             sum += at[value] * Eigen::Map<const Eigen::Vector3d>(block);
           }
         }
         result.col(v) += sum;
       }
     });
-  });
+  }
   return result;
 }
 
 Eigen::SparseMatrix<double> FeatureDerivative::MetricMatrix() const {
-  const int num_vertices = layout_->metric.connectivity->NumVertices();
+  const int num_vertices = layout_->metric->connectivity->NumVertices();
   std::vector<Eigen::Triplet<double>> triplets;
-  ForFeatures(layout_->metric, [&](size_t, const auto& feature) {
-    using Feature = std::decay_t<decltype(feature)>;
-    if constexpr (!Feature::kSum) {
-      for (int e = 0; e < feature.stencils.cols(); ++e) {
-        for (int p : feature.stencils.col(e)) {
-          for (int q : feature.stencils.col(e)) {
-            if (p >= q) triplets.emplace_back(p, q, 0.0);
-          }
+  for (const auto& feature : layout_->metric->features) {
+    if (feature->IsSum()) continue;
+    const int corners = feature->VerticesPerElement();
+    for (int e = 0; e < feature->NumElements(); ++e) {
+      const int* const vertices = feature->Element(e);
+      for (int k = 0; k < corners; ++k) {
+        for (int l = 0; l < corners; ++l) {
+          if (vertices[k] >= vertices[l]) triplets.emplace_back(vertices[k], vertices[l], 0.0);
         }
       }
     }
-  });
+  }
   Eigen::SparseMatrix<double> blocks(num_vertices, num_vertices);
   blocks.setFromTriplets(triplets.begin(), triplets.end());
 
@@ -273,33 +263,32 @@ void FeatureDerivative::UpdateMetricMatrix(Eigen::SparseMatrix<double>* matrix) 
   const int* const rows = matrix->innerIndexPtr();
   const int* const begins = matrix->outerIndexPtr();
   std::fill(entries, entries + matrix->nonZeros(), 0.0);
-  ForFeatures(layout_->metric, [&](size_t i, const auto& feature) {
-    using Feature = std::decay_t<decltype(feature)>;
-    constexpr int kVertices = Feature::kVertices, kValues = Feature::kValues;
-    if constexpr (!Feature::kSum) {
-      const double* element = blocks_[i].data();
-      for (int e = 0; e < feature.stencils.cols(); ++e, element += 3 * kVertices * kValues) {
-        for (int k = 0; k < kVertices; ++k) {
-          for (int l = 0; l < kVertices; ++l) {
-            const int p = feature.stencils(k, e), q = feature.stencils(l, e);
-            if (p < q) continue;
-            const double* const left = element + 3 * kValues * k;
-            const double* const right = element + 3 * kValues * l;
-            for (int b = 0; b < 3; ++b) {
-              const int column = 3 * q + b;
-              const int first = p == q ? column : 3 * p;
-              double* entry = entries + (std::lower_bound(rows + begins[column],
-                                                          rows + begins[column + 1], first) -
-                                         rows);
-              for (int a = first - 3 * p; a < 3; ++a, ++entry) {
-                for (int v = 0; v < kValues; ++v) *entry += left[3 * v + a] * right[3 * v + b];
-              }
+  for (size_t i = 0; i < blocks_.size(); ++i) {
+    const Feature& feature = *layout_->metric->features[i];
+    if (feature.IsSum()) continue;
+    const int num_vertices = feature.VerticesPerElement(), num_values = feature.ValuesPerElement();
+    const double* element = blocks_[i].data();
+    for (int e = 0; e < feature.NumElements(); ++e, element += 3 * num_vertices * num_values) {
+      for (int k = 0; k < num_vertices; ++k) {
+        for (int l = 0; l < num_vertices; ++l) {
+          const int p = feature.Element(e)[k], q = feature.Element(e)[l];
+          if (p < q) continue;
+          const double* const left = element + 3 * num_values * k;
+          const double* const right = element + 3 * num_values * l;
+          for (int b = 0; b < 3; ++b) {
+            const int column = 3 * q + b;
+            const int first = p == q ? column : 3 * p;
+            double* entry =
+                entries +
+                (std::lower_bound(rows + begins[column], rows + begins[column + 1], first) - rows);
+            for (int a = first - 3 * p; a < 3; ++a, ++entry) {
+              for (int v = 0; v < num_values; ++v) *entry += left[3 * v + a] * right[3 * v + b];
             }
           }
         }
       }
     }
-  });
+  }
 }
 
 }  // namespace shapespace

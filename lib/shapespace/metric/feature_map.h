@@ -41,11 +41,10 @@ class FeatureDerivative {
 /// shooting and transport is written in terms of it. Shapes are in the metric's unit.
 class FeatureMap {
  public:
-  /// `metric` is kept by reference and must outlive the map and its derivatives.
-  /// \throw InvalidOptions if it has a rigid part, which is no feature.
-  explicit FeatureMap(const Metric& metric);
+  /// \throw InvalidOptions if the metric has a rigid part, which is no feature.
+  explicit FeatureMap(std::shared_ptr<const Metric> metric);
 
-  const Metric& GetMetric() const { return metric_; }
+  const Metric& GetMetric() const { return *metric_; }
 
   /// Phi(P): feature after feature, element after element, each value times the root of the
   /// element's weight.
@@ -58,7 +57,7 @@ class FeatureMap {
   Eigen::VectorXd SecondDerivative(const Shape& shape, const Tangent& x) const;
 
  private:
-  const Metric& metric_;
+  std::shared_ptr<const Metric> metric_;
   std::shared_ptr<const FeatureDerivative::Layout> layout_;
 };
 

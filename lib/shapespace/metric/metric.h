@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,6 +11,8 @@
 #include <shapespace/mesh/shape.h>
 #include <shapespace/metric/dihedral.h>
 #include <shapespace/metric/edge_length.h>
+#include <shapespace/metric/feature.h>
+#include <shapespace/metric/metric_basis.h>
 #include <shapespace/metric/position.h>
 #include <shapespace/metric/rigid.h>
 #include <shapespace/metric/triangle_strain.h>
@@ -19,17 +20,16 @@
 
 namespace shapespace {
 
-/// Weights of edges and triangles in the isometric and strain features, and of vertices in the
-/// rigid metric.
-enum class Weights {
-  kArea,     ///< by the surface around: unchanged by scale, nearly so by tessellation
-  kUniform,  ///< 1: the paper's, which means something else at every mesh resolution
-};
-
 /// How the metric is integrated along a segment of a path.
 enum class Discretization {
   kMidpoint,   ///< differences of Phi: second order, certified by a lower bound
   kTrapezoid,  ///< the paper's (6) for edge lengths and positions; penalises rotation of edges
+};
+
+/// A registered feature (define_feature.h) in a blend.
+struct FeatureTerm {
+  std::string name;
+  double coefficient = 1;  ///< zero or more
 };
 
 /// Which motions cost how much: non-negative coefficients of a blend. Pure numbers: everything is
@@ -41,8 +41,16 @@ struct MetricOptions {
   double lambda = 1e-4;   ///< motion of vertices, the paper's (5); harmless up to 1e-3
   double bending = 1e-5;  ///< change of dihedral angles: t^2 / 12 for a shell of thickness t
   double volume = 0;      ///< change of enclosed volume, closed meshes only; start from 0.3
-  Weights weights = Weights::kArea;
+  std::vector<FeatureTerm> features;  ///< of your own: docs/guide/features.md
+  Weighting weights = Weighting::kArea;
   Discretization discretization = Discretization::kMidpoint;
+
+  /// Factors, all positive, on the cost of stretching (isometric and strain) and of bending, where
+  /// a body is stiffer or softer: one number a vertex, or else one an edge (Connectivity::Edges).
+  /// Edges take the mean of their two ends, triangles that of their three sides. Empty: 1
+  /// everywhere. Coarser levels of a solver take geometric means over the vertices that a vertex of
+  /// theirs stands for.
+  Eigen::VectorXd stretching_stiffness, bending_stiffness;
 
   static MetricOptions Isometric() { return {}; }
   /// As isometric as possible, by strains: paths between poses are much as under `Isometric`, and
@@ -73,12 +81,11 @@ struct MetricOptions {
   void Validate() const;
 };
 
-/// A feature of the metric; lib and solvers visit it once per feature, never per element.
-using AnyFeature = std::variant<EdgeLength, LogLength, TriangleStrain, Position, Dihedral, Volume>;
-
 /// A blend frozen on a connectivity and the poses that take part: all weights are numbers, so that
 /// every solver, and every path between these poses, means the same by a length. Works on shapes in
-/// its own unit: divide the user's coordinates by `unit`.
+/// its own unit: divide the user's coordinates by `unit`. Immutable, since the coarser levels of a
+/// solver make metrics of their own from `options`: to weigh elements differently, use the options'
+/// stiffness, or a feature of your own.
 struct Metric {
   MetricOptions options;  ///< as given; but bending is 0 where the mesh has no hinge
   std::shared_ptr<const Connectivity> connectivity;
@@ -86,18 +93,11 @@ struct Metric {
   Eigen::VectorXd vertex_area;  ///< A_p, of sum 1 (all positive, also where the mesh degenerates)
   Eigen::VectorXd edge_area;    ///< A_e, a third of the triangles at the edge
   Eigen::VectorXd hinge_area;   ///< A_f, a third of the hinge's two triangles
-  std::vector<AnyFeature> features;
+  std::vector<std::shared_ptr<const Feature>> features;
   RigidForm rigid;
 
   /// True if rigid motion of a shape costs nothing but position: then solvers take it out exactly.
   bool RigidInvariantButForPosition() const;
-};
-
-/// Between which of the poses that it is frozen on a metric is to be good: hinges that jump from
-/// one to the other are damped.
-enum class PosePairs {
-  kConsecutive,  ///< from each to the next: for a path through them
-  kAll,          ///< from each to every other: their order does not matter
 };
 
 /// Freezes `options` on all `poses` (user's units; each 3 x m): squared edge lengths and areas are
@@ -105,24 +105,17 @@ enum class PosePairs {
 /// have total edge length 1 instead of area 1. `unit` > 0 is the unit to take instead: coarse
 /// levels of a mesh take the finest one's. Where no two triangles share an edge, as in graphs,
 /// nothing can bend: `Metric::options.bending` is 0 then.
-/// \throw InvalidOptions if the options are invalid, or ask for volume and the mesh is not closed;
+/// \throw InvalidOptions if the options are invalid, name a feature that is not registered, have
+/// stiffness for another number of vertices or edges, or ask for volume and the mesh is not closed;
 /// MeshError if a shape has another number of vertices, is not finite, has no extent or lies beyond
 /// `kLargestCoordinate`.
-Metric FreezeMetric(const MetricOptions& options,
-                    const std::shared_ptr<const Connectivity>& connectivity,
-                    const std::vector<Shape>& poses, double unit = 0,
-                    PosePairs pairs = PosePairs::kConsecutive);
+std::shared_ptr<const Metric> FreezeMetric(const MetricOptions& options,
+                                           const std::shared_ptr<const Connectivity>& connectivity,
+                                           const std::vector<Shape>& poses, double unit = 0,
+                                           PosePairs pairs = PosePairs::kConsecutive);
 
 /// The same blend, by name, for reports: e.g. "isometric 1, lambda 0.0001, bending 1e-05".
 std::string Describe(const MetricOptions& options);
-
-/// Reads the coordinates of `element`'s vertices out of a shape, vertex after vertex.
-template <typename Feature>
-void Gather(const Feature& feature, int element, const Shape& shape, double* x) {
-  for (int k = 0; k < Feature::kVertices; ++k) {
-    Eigen::Map<Eigen::Vector3d>(x + 3 * k) = shape.col(feature.stencils(k, element));
-  }
-}
 
 }  // namespace shapespace
 

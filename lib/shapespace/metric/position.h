@@ -3,17 +3,19 @@
 
 #include <Eigen/Core>
 
+#include <shapespace/metric/feature.h>
+
 namespace shapespace {
 
+struct MetricBasis;
+
 /// The position of a vertex: the paper's regularising L2 metric (5), weights lambda A_p.
-/// What a feature is: edge_length.h.
-struct Position {
-  static constexpr int kVertices = 1, kValues = 3, kStencils = 1;
-  static constexpr bool kRigidInvariant = false, kSum = false, kTrapezoid = false;
+struct Position : ElementFeature<1, 3> {
+  static constexpr bool kRigidInvariant = false;
+  static constexpr int kScalarRows = 1;
   static constexpr const char* kName = "position";
 
-  Eigen::Matrix<int, 1, Eigen::Dynamic> stencils;
-  Eigen::VectorXd weights;
+  static Position Freeze(const MetricBasis& basis);
 
   template <typename T>
   void operator()(const T* x, T* value) const {
@@ -22,13 +24,7 @@ struct Position {
     value[2] = x[2];
   }
 
-  double LeastChange(const double* a, const double* b, int segments) const {
-    return (Eigen::Map<const Eigen::Vector3d>(b) - Eigen::Map<const Eigen::Vector3d>(a))
-               .squaredNorm() /
-           segments;
-  }
-
-  void Stencil(const Eigen::Vector3d*, double* k) const { k[0] = 1; }
+  void ScalarRows(const Eigen::Vector3d*, double* k) const { k[0] = 1; }
 };
 
 }  // namespace shapespace

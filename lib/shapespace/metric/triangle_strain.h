@@ -5,7 +5,11 @@
 
 #include <Eigen/Core>
 
+#include <shapespace/metric/feature.h>
+
 namespace shapespace {
+
+struct MetricBasis;
 
 /// The logarithmic (Hencky) strain of a triangle against the equilateral triangle of side 1. With
 /// the first fundamental form g in the basis (q - p, r - p) and the equilateral triangle's edges as
@@ -14,17 +18,21 @@ namespace shapespace {
 /// whose squares add up to the mean of (n^T L n)^2 over all directions n. For small strains of
 /// triangles that are nearly equilateral this is what `EdgeLength` and `LogLength` measure. Every
 /// three numbers are the values of some triangle, so that a geodesic under this feature goes on for
-/// ever (docs/mathematics.md, section 1). What a feature is: edge_length.h.
-struct TriangleStrain {
-  static constexpr int kVertices = 3, kValues = 3, kStencils = 3;
-  static constexpr bool kRigidInvariant = true, kSum = false, kTrapezoid = false;
+/// ever (docs/mathematics.md, section 1).
+struct TriangleStrain : ElementFeature<3, 3> {
+  static constexpr int kScalarRows = 3;
   static constexpr const char* kName = "triangle strain";
 
-  Eigen::Matrix3Xi stencils;
-  Eigen::VectorXd weights;
   /// The square of a length far below those of the mesh, added to both eigenvalues of C: keeps the
   /// logarithm of a collapsed triangle finite.
   double epsilon_squared = 0;
+
+  static TriangleStrain Freeze(const MetricBasis& basis);
+
+  template <typename Self, typename Visit>
+  static void ForConstants(Self* self, const Visit& visit) {
+    visit("epsilon_squared", self->epsilon_squared);
+  }
 
   template <typename T>
   void operator()(const T* x, T* value) const {
@@ -58,13 +66,8 @@ struct TriangleStrain {
     value[2] = slope * o;
   }
 
-  double LeastChange(const double* a, const double* b, int segments) const {
-    const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
-    return (x * x + y * y + z * z) / segments;
-  }
-
   /// The three sides, each as strained by itself.
-  void Stencil(const Eigen::Vector3d* x, double* k) const {
+  void ScalarRows(const Eigen::Vector3d* x, double* k) const {
     for (int side = 0; side < 3; ++side) {
       const int from = side, to = (side + 1) % 3;
       const double inverse = std::sqrt(0.2 / ((x[to] - x[from]).squaredNorm() + epsilon_squared));

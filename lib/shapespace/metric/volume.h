@@ -3,28 +3,33 @@
 
 #include <Eigen/Core>
 
+#include <shapespace/metric/feature.h>
+
 namespace shapespace {
 
+struct MetricBasis;
+
 /// The volume that a closed mesh encloses, as a share of the poses' mean: one number, the sum of
-/// det(p, q, r) / (6 V_ref) over the triangles. What a feature is: edge_length.h.
-struct Volume {
-  static constexpr int kVertices = 3, kValues = 1;
-  static constexpr bool kRigidInvariant = true, kSum = true, kTrapezoid = false;
+/// det(p, q, r) / (6 V_ref) over the triangles.
+struct Volume : ElementFeature<3, 1> {
+  static constexpr bool kSum = true;
   static constexpr const char* kName = "volume";
 
-  Eigen::Matrix3Xi stencils;
-  Eigen::VectorXd weights;  ///< one number: of the square of the sum
-  double reference = 1;     ///< V_ref
+  double reference = 1;  ///< V_ref
+
+  /// \throw InvalidOptions if the mesh is not closed.
+  static Volume Freeze(const MetricBasis& basis);
+
+  template <typename Self, typename Visit>
+  static void ForConstants(Self* self, const Visit& visit) {
+    visit("reference", self->reference);
+  }
 
   template <typename T>
   void operator()(const T* x, T* value) const {
     value[0] = (x[0] * (x[4] * x[8] - x[5] * x[7]) + x[1] * (x[5] * x[6] - x[3] * x[8]) +
                 x[2] * (x[3] * x[7] - x[4] * x[6])) /
                (6 * reference);
-  }
-
-  double LeastChange(const double* a, const double* b, int segments) const {
-    return (b[0] - a[0]) * (b[0] - a[0]) / segments;
   }
 };
 

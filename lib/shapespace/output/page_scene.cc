@@ -195,9 +195,9 @@ void AppendDeviations(const Path& path, Json* header, std::string* bytes) {
 std::vector<double> SquaredSpeeds(const Path& path) {
   std::vector<double> speeds;
   if (path.NumShapes() < 2) return speeds;
-  // For three shapes of which the last two are equal, the first segment has all of the energy,
-  // which is twice the squared distance, whatever the metric.
-  PathEnergy energy(*path.metric, 1);
+  // Of three shapes of which the last two are one, the first segment has all of the energy, which
+  // is twice the squared distance, whatever the metric.
+  PathEnergy energy(path.metric, 1);
   std::vector<double> unknowns(energy.Size());
   for (int i = 0; i + 1 < path.NumShapes(); ++i) {
     energy.Load({path.shapes[i], path.shapes[i + 1], path.shapes[i + 1]}, unknowns.data());

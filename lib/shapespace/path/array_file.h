@@ -56,6 +56,8 @@ class ArrayReader {
   /// `table` lists arrays that lie in `bytes` from `begin` on, to the end.
   ArrayReader(const HeaderJson& table, const std::string& bytes, size_t begin);
 
+  bool Has(const std::string& name) const { return arrays_.count(name) > 0; }
+
   /// A matrix of `rows` x `columns`; either may be Eigen::Dynamic for any. \throw FileError if
   /// there is none of that name, type and size, or if it holds a number that is not finite.
   template <typename Matrix>

@@ -6,13 +6,12 @@
 #include <limits>
 #include <numeric>
 #include <string>
-#include <type_traits>
-
-#include <ceres/jet.h>
+#include <utility>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/path/energy_kernels.h>
+#include <shapespace/path/energy_term.h>
 
 namespace shapespace {
 namespace {
@@ -63,23 +62,31 @@ std::vector<int> BreadthFirstOrder(const Connectivity& connectivity) {
 
 }  // namespace
 
-PathEnergy::PathEnergy(const Metric& metric, int inner, End end)
-    : metric_(metric), end_(end), inner_(inner), stride_(PaddedLength(inner)) {
+struct PathEnergy::Term {
+  std::shared_ptr<const Feature> feature;
+  internal::TermKernel kernel;   // unless it is a sum
+  internal::SumKernel of_a_sum;  // if it is
+  std::vector<internal::ElementGroup> groups[kPhases];
+};
+
+PathEnergy::PathEnergy(std::shared_ptr<const Metric> metric, int inner, End end)
+    : metric_(std::move(metric)), end_(end), inner_(inner), stride_(PaddedLength(inner)) {
   if (inner < 1) throw InvalidOptions("inner: a path energy needs at least one inner shape");
-  vertex_of_row_ = BreadthFirstOrder(*metric.connectivity);
+  vertex_of_row_ = BreadthFirstOrder(*metric_->connectivity);
   const int num_vertices = static_cast<int>(vertex_of_row_.size());
   row_of_vertex_.resize(num_vertices);
   for (int r = 0; r < num_vertices; ++r) row_of_vertex_[vertex_of_row_[r]] = r;
   blocks_ = std::clamp(num_vertices / 256, 1, 64);
   first_.resize(3 * num_vertices);
   last_.resize(3 * num_vertices);
-  for (const AnyFeature& any : metric.features) {
-    std::visit([&](const auto& feature) { Build(feature); }, any);
-  }
-  if (metric.rigid.Active()) {
-    for (int v : vertex_of_row_) rigid_weights_.push_back(metric.rigid.weights(v));
+  for (const auto& feature : metric_->features) terms_.push_back(MakeTerm(feature));
+  if (metric_->rigid.Active()) {
+    for (int v : vertex_of_row_) rigid_weights_.push_back(metric_->rigid.weights(v));
   }
 }
+
+PathEnergy::PathEnergy(PathEnergy&&) noexcept = default;
+PathEnergy::~PathEnergy() = default;
 
 int PathEnergy::NumGroups(int phase) const {
   const int groups[kPhases] = {blocks_, (blocks_ + 1) / 2, blocks_ / 2, 1};
@@ -90,11 +97,17 @@ int PathEnergy::FirstRow(int block) const {
   return static_cast<int>(static_cast<int64_t>(vertex_of_row_.size()) * block / blocks_);
 }
 
-template <typename Feature>
-void PathEnergy::Build(const Feature& feature) {
+PathEnergy::Term PathEnergy::MakeTerm(const std::shared_ptr<const Feature>& feature) const {
   Term term;
+  term.feature = feature;
+  if (feature->IsSum()) {
+    term.of_a_sum = internal::SumKernelOf(feature);
+  } else {
+    term.kernel = internal::KernelOf(feature);
+  }
   for (int phase = 0; phase < kPhases; ++phase) term.groups[phase].resize(NumGroups(phase));
-  const int num_elements = static_cast<int>(feature.stencils.cols());
+  const int num_elements = feature->NumElements();
+  const int corners = feature->VerticesPerElement();
   std::vector<int> block_of(vertex_of_row_.size());
   for (int block = 0; block < blocks_; ++block) {
     std::fill(block_of.begin() + FirstRow(block), block_of.begin() + FirstRow(block + 1), block);
@@ -103,26 +116,26 @@ void PathEnergy::Build(const Feature& feature) {
   std::vector<std::pair<int, int>> order(num_elements);
   for (int e = 0; e < num_elements; ++e) {
     int low = std::numeric_limits<int>::max();
-    for (int k = 0; k < Feature::kVertices; ++k) {
-      low = std::min(low, row_of_vertex_[feature.stencils(k, e)]);
+    for (int k = 0; k < corners; ++k) {
+      low = std::min(low, row_of_vertex_[feature->Element(e)[k]]);
     }
     order[e] = {low, e};
   }
   std::sort(order.begin(), order.end());
   for (const auto& [low_row, e] : order) {
     int high_row = low_row;
-    for (int k = 0; k < Feature::kVertices; ++k) {
-      high_row = std::max(high_row, row_of_vertex_[feature.stencils(k, e)]);
+    for (int k = 0; k < corners; ++k) {
+      high_row = std::max(high_row, row_of_vertex_[feature->Element(e)[k]]);
     }
     const int low = block_of[low_row], high = block_of[high_row];
     const int phase = low == high ? 0 : high > low + 1 ? 3 : 1 + low % 2;
-    Group& group = term.groups[phase][phase == 0 ? low : phase == 3 ? 0 : low / 2];
-    for (int k = 0; k < Feature::kVertices; ++k) {
-      group.stencils.push_back(row_of_vertex_[feature.stencils(k, e)]);
+    internal::ElementGroup& group = term.groups[phase][phase == 0 ? low : phase == 3 ? 0 : low / 2];
+    for (int k = 0; k < corners; ++k) {
+      group.stencils.push_back(row_of_vertex_[feature->Element(e)[k]]);
     }
-    group.weights.push_back(feature.weights(Feature::kSum ? 0 : e));
+    group.weights.push_back(feature->Weight(e));
   }
-  terms_.push_back(std::move(term));
+  return term;
 }
 
 void PathEnergy::CheckNumber(const std::vector<Shape>& shapes) const {
@@ -151,35 +164,12 @@ void PathEnergy::Load(const std::vector<Shape>& shapes, double* unknowns) {
       }
     }
   });
-  for (size_t i = 0; i < terms_.size(); ++i) {
-    if (const auto* dihedral = std::get_if<Dihedral>(&metric_.features[i])) {
-      EvaluateEnds(*dihedral, &terms_[i]);
+  for (Term& term : terms_) {
+    if (!term.kernel.takes_ends) continue;
+    for (std::vector<internal::ElementGroup>& groups : term.groups) {
+      ParallelFor(static_cast<int>(groups.size()),
+                  [&](int g) { EvaluateEnds(*term.feature, first_, last_, &groups[g]); });
     }
-    if (const auto* strain = std::get_if<TriangleStrain>(&metric_.features[i])) {
-      EvaluateEnds(*strain, &terms_[i]);
-    }
-  }
-}
-
-template <typename Feature>
-void PathEnergy::EvaluateEnds(const Feature& feature, Term* term) const {
-  constexpr int kVertices = Feature::kVertices, kValues = Feature::kValues;
-  for (std::vector<Group>& groups : term->groups) {
-    ParallelFor(static_cast<int>(groups.size()), [&](int g) {
-      Group& group = groups[g];
-      group.ends.resize(2 * kValues * group.weights.size());
-      double x[3 * kVertices];
-      for (size_t e = 0; e < group.weights.size(); ++e) {
-        for (const bool last : {false, true}) {
-          const std::vector<double>& end = last ? last_ : first_;
-          for (int k = 0; k < kVertices; ++k) {
-            const size_t row = 3 * static_cast<size_t>(group.stencils[kVertices * e + k]);
-            std::copy_n(&end[row], 3, x + 3 * k);
-          }
-          feature(x, &group.ends[kValues * (2 * e + last)]);
-        }
-      }
-    });
   }
 }
 
@@ -213,6 +203,9 @@ std::vector<double> PathEnergy::Parts(const double* unknowns) {
 
 std::vector<double> PathEnergy::EvaluateParts(const double* unknowns, double* gradient) {
   const size_t num_terms = terms_.size();
+  const internal::PathRows rows = Rows(unknowns, gradient);
+  const bool trapezoid = metric_->options.discretization == Discretization::kTrapezoid;
+  const double quartic = trapezoid ? quartic_weight_ : 0;
   std::vector<double> parts(num_terms, 0.0);
   for (int phase = 0; phase < kPhases; ++phase) {
     const int num_groups = NumGroups(phase);
@@ -229,14 +222,9 @@ std::vector<double> PathEnergy::EvaluateParts(const double* unknowns, double* gr
                   gradient + 3 * static_cast<size_t>(FirstRow(g + 1)) * stride_, 0.0);
       }
       for (size_t i = 0; i < num_terms; ++i) {
-        std::visit(
-            [&](const auto& feature) {
-              if constexpr (!std::decay_t<decltype(feature)>::kSum) {
-                partial[g * num_terms + i] =
-                    EvaluateGroup(feature, terms_[i].groups[phase][g], unknowns, gradient);
-              }
-            },
-            metric_.features[i]);
+        const internal::ElementGroup& group = terms_[i].groups[phase][g];
+        if (terms_[i].feature->IsSum() || group.Count() == 0) continue;
+        partial[g * num_terms + i] = terms_[i].kernel.evaluate(rows, group, quartic);
       }
     });
     for (int g = 0; g < num_groups; ++g) {
@@ -244,18 +232,9 @@ std::vector<double> PathEnergy::EvaluateParts(const double* unknowns, double* gr
     }
   }
   for (size_t i = 0; i < num_terms; ++i) {
-    std::visit(
-        [&](const auto& feature) {
-          using Feature = std::decay_t<decltype(feature)>;
-          constexpr bool kIsVolume = std::is_same_v<Feature, Volume>;
-          static_assert(kIsVolume == Feature::kSum, "a sum needs kernels of its own");
-          if constexpr (kIsVolume) {
-            parts[i] = EvaluateVolume(feature, terms_[i], unknowns, gradient);
-          }
-        },
-        metric_.features[i]);
+    if (terms_[i].feature->IsSum()) parts[i] = EvaluateSum(terms_[i], unknowns, gradient);
   }
-  if (metric_.rigid.Active()) parts.push_back(EvaluateRigid(unknowns, gradient));
+  if (metric_->rigid.Active()) parts.push_back(EvaluateRigid(unknowns, gradient));
   return parts;
 }
 
@@ -263,100 +242,29 @@ internal::PathRows PathEnergy::Rows(const double* unknowns, double* gradient) co
   return {unknowns, gradient, first_.data(), last_.data(), inner_, stride_, end_ == End::kFree};
 }
 
-void PathEnergy::ReadRow(const double* unknowns, size_t row, double* times) const {
-  times[0] = first_[row];
-  std::copy_n(unknowns + row * stride_, inner_, times + 1);
-  times[inner_ + 1] = last_[row];
-}
-
-template <typename Feature>
-double PathEnergy::EvaluateGroup(const Feature& feature, const Group& group, const double* unknowns,
-                                 double* gradient) const {
-  const internal::PathRows rows = Rows(unknowns, gradient);
-  const int count = static_cast<int>(group.weights.size());
-  if (count == 0) return 0;
-  const int* const stencils = group.stencils.data();
-  const double* const weights = group.weights.data();
-  if constexpr (std::is_same_v<Feature, EdgeLength>) {
-    const bool trapezoid = metric_.options.discretization == Discretization::kTrapezoid;
-    return internal::EdgeLengthKernel(rows, stencils, weights, count,
-                                      trapezoid ? quartic_weight_ : 0);
-  } else if constexpr (std::is_same_v<Feature, Position>) {
-    return internal::PositionKernel(rows, stencils, weights, count);
-  } else if constexpr (std::is_same_v<Feature, Dihedral>) {
-    return internal::DihedralKernel(rows, stencils, weights, group.ends.data(), count,
-                                    feature.normal_epsilon_squared, feature.edge_epsilon_squared);
-  } else if constexpr (std::is_same_v<Feature, TriangleStrain>) {
-    return internal::TriangleStrainKernel(rows, stencils, weights, group.ends.data(), count,
-                                          feature.epsilon_squared);
-  } else {
-    // Any other feature: its functor on jets, one shape after the other.
-    constexpr int kSize = 3 * Feature::kVertices, kValues = Feature::kValues;
-    using Jet = ceres::Jet<double, kSize>;
-    std::vector<std::array<double, kSize>> x(inner_ + 2);
-    std::vector<std::array<Jet, kValues>> value(inner_ + 2);
-    std::vector<double> times(inner_ + 2);
-    double energy = 0;
-    for (int element = 0; element < count; ++element) {
-      const int* const stencil = stencils + Feature::kVertices * element;
-      for (int k = 0; k < kSize; ++k) {
-        ReadRow(unknowns, 3 * static_cast<size_t>(stencil[k / 3]) + k % 3, times.data());
-        for (int t = 0; t < inner_ + 2; ++t) x[t][k] = times[t];
-      }
-      for (int t = 0; t < inner_ + 2; ++t) {
-        Jet jet[kSize];
-        for (int k = 0; k < kSize; ++k) jet[k] = Jet(x[t][k], k);
-        feature(jet, value[t].data());
-      }
-      const double w = weights[element];
-      for (int t = 0; t <= inner_; ++t) {
-        for (int c = 0; c < kValues; ++c) {
-          energy += 2 * w * std::pow(value[t + 1][c].a - value[t][c].a, 2);
-        }
-      }
-      for (int t = 1; t <= inner_; ++t) {
-        for (int c = 0; c < kValues; ++c) {
-          const double g = 4 * w * (2 * value[t][c].a - value[t - 1][c].a - value[t + 1][c].a);
-          for (int k = 0; k < kSize; ++k) {
-            const size_t row = 3 * static_cast<size_t>(stencil[k / 3]) + k % 3;
-            gradient[row * stride_ + t - 1] += g * value[t][c].v(k);
-          }
-        }
-      }
-    }
-    return energy;
-  }
-}
-
-double PathEnergy::EvaluateVolume(const Volume& volume, const Term& term, const double* unknowns,
-                                  double* gradient) {
+double PathEnergy::EvaluateSum(const Term& term, const double* unknowns, double* gradient) const {
   const internal::PathRows rows = Rows(unknowns, gradient);
   std::vector<double> total(inner_ + 2, 0.0);
-  for (const std::vector<Group>& groups : term.groups) {
+  for (const std::vector<internal::ElementGroup>& groups : term.groups) {
     std::vector<std::vector<double>> partial(groups.size());
     ParallelFor(static_cast<int>(groups.size()), [&](int g) {
       partial[g].assign(inner_ + 2, 0.0);
-      internal::AddVolumes(rows, groups[g].stencils.data(),
-                           static_cast<int>(groups[g].weights.size()), volume.reference,
-                           partial[g].data());
+      term.of_a_sum.add_values(rows, groups[g], partial[g].data());
     });
     for (const std::vector<double>& p : partial) {
       for (int t = 0; t < inner_ + 2; ++t) total[t] += p[t];
     }
   }
-  const double w = volume.weights(0);
+  const double w = term.feature->Weight(0);
   double energy = 0;
   for (int t = 0; t <= inner_; ++t) energy += 2 * w * std::pow(total[t + 1] - total[t], 2);
   std::vector<double> slopes(inner_ + 2, 0.0);
   for (int t = 1; t <= inner_; ++t) {
     slopes[t] = 4 * w * (2 * total[t] - total[t - 1] - total[t + 1]);
   }
-  for (const std::vector<Group>& groups : term.groups) {
-    ParallelFor(static_cast<int>(groups.size()), [&](int g) {
-      internal::AddVolumeGradients(rows, groups[g].stencils.data(),
-                                   static_cast<int>(groups[g].weights.size()), volume.reference,
-                                   slopes.data());
-    });
+  for (const std::vector<internal::ElementGroup>& groups : term.groups) {
+    ParallelFor(static_cast<int>(groups.size()),
+                [&](int g) { term.of_a_sum.add_gradients(rows, groups[g], slopes.data()); });
   }
   return energy;
 }
@@ -428,48 +336,45 @@ double PathEnergy::EstimateBytes(const Metric& metric, int inner) {
 
 double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& last, int segments) {
   if (metric.rigid.Active()) return std::numeric_limits<double>::quiet_NaN();
+  constexpr int kElementsPerTask = 4096, kChunk = 16;
   double bound = 0;
-  for (const AnyFeature& any : metric.features) {
-    std::visit(
-        [&](const auto& feature) {
-          using Feature = std::decay_t<decltype(feature)>;
-          struct Sums {
-            double bound = 0, first = 0, last = 0;
-          };
-          constexpr int kElementsPerTask = 4096;
-          const int num_elements = static_cast<int>(feature.stencils.cols());
-          std::vector<Sums> partial((num_elements + kElementsPerTask - 1) / kElementsPerTask);
-          ParallelFor(static_cast<int>(partial.size()), [&](int task) {
-            Sums sums;
-            const int end = std::min(num_elements, (task + 1) * kElementsPerTask);
-            for (int e = task * kElementsPerTask; e < end; ++e) {
-              double x[3 * Feature::kVertices], a[Feature::kValues], b[Feature::kValues];
-              Gather(feature, e, first, x);
-              feature(x, a);
-              Gather(feature, e, last, x);
-              feature(x, b);
-              if constexpr (Feature::kSum) {
-                sums.first += a[0];
-                sums.last += b[0];
-              } else {
-                sums.bound += 2 * feature.weights(e) * feature.LeastChange(a, b, segments);
-              }
-            }
-            partial[task] = sums;
-          });
-          Sums sums;
-          for (const Sums& part : partial) {
-            sums.bound += part.bound;
-            sums.first += part.first;
-            sums.last += part.last;
-          }
-          if constexpr (Feature::kSum) {
-            sums.bound =
-                2 * feature.weights(0) * feature.LeastChange(&sums.first, &sums.last, segments);
-          }
-          bound += sums.bound;
-        },
-        any);
+  for (const auto& feature : metric.features) {
+    const int num_elements = feature->NumElements();
+    struct Sums {
+      double bound = 0, first = 0, last = 0;
+    };
+    std::vector<Sums> partial((num_elements + kElementsPerTask - 1) / kElementsPerTask);
+    ParallelFor(static_cast<int>(partial.size()), [&](int task) {
+      Sums& sums = partial[task];
+      const int end = std::min(num_elements, (task + 1) * kElementsPerTask);
+      for (int e = task * kElementsPerTask; e < end; e += kChunk) {
+        const int count = std::min(kChunk, end - e);
+        double x[kChunk * 3 * Feature::kMaxVertices];
+        double a[kChunk * Feature::kMaxValues], b[kChunk * Feature::kMaxValues];
+        feature->Gather(e, e + count, first, x);
+        feature->Evaluate(count, x, a);
+        feature->Gather(e, e + count, last, x);
+        feature->Evaluate(count, x, b);
+        if (feature->IsSum()) {
+          sums.first += std::accumulate(a, a + count, 0.0);
+          sums.last += std::accumulate(b, b + count, 0.0);
+        } else {
+          sums.bound +=
+              2 * feature->LeastChange(count, a, b, feature->Weights().data() + e, segments);
+        }
+      }
+    });
+    Sums sums;
+    for (const Sums& part : partial) {
+      sums.bound += part.bound;
+      sums.first += part.first;
+      sums.last += part.last;
+    }
+    if (feature->IsSum()) {
+      sums.bound =
+          2 * feature->LeastChange(1, &sums.first, &sums.last, feature->Weights().data(), segments);
+    }
+    bound += sums.bound;
   }
   return bound;
 }

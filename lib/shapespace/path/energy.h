@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_PATH_ENERGY_H_
 #define SHAPESPACE_PATH_ENERGY_H_
 
+#include <memory>
 #include <vector>
 
 #include <shapespace/mesh/shape.h>
@@ -8,8 +9,9 @@
 
 namespace shapespace {
 namespace internal {
+struct ElementGroup;
 struct PathRows;
-}
+}  // namespace internal
 
 /// The energy of a path of shapes and its gradient, on flat arrays: the plain-array height of the
 /// API, for people who bring their own optimiser.
@@ -31,9 +33,10 @@ class PathEnergy {
     kFree,   ///< the last shape is an unknown too
   };
 
-  /// `metric` is kept by reference and must outlive the object.
   /// \throw InvalidOptions if `inner` < 1.
-  PathEnergy(const Metric& metric, int inner, End end = End::kFixed);
+  PathEnergy(std::shared_ptr<const Metric> metric, int inner, End end = End::kFixed);
+  PathEnergy(PathEnergy&&) noexcept;
+  ~PathEnergy();
 
   int Inner() const { return inner_; }
   /// Shapes of the whole path: Inner() and those that are fixed.
@@ -67,29 +70,14 @@ class PathEnergy {
   // Elements are grouped by the blocks of rows that they touch: inside one block, across one border
   // to the next block (even and odd borders apart), or elsewhere. Groups of one phase share no row.
   static constexpr int kPhases = 4;
-  struct Group {
-    std::vector<int> stencils;
-    std::vector<double> weights;
-    std::vector<double>
-        ends;  // values at the first and the last shape, where the kernel takes them
-  };
-  struct Term {  // of the feature with the same index
-    std::vector<Group> groups[kPhases];
-  };
+  struct Term;  // of the feature with the same index
 
   void CheckNumber(const std::vector<Shape>& shapes) const;
   int NumGroups(int phase) const;
   int FirstRow(int block) const;
-  template <typename Feature>
-  void Build(const Feature& feature);
-  template <typename Feature>
-  void EvaluateEnds(const Feature& feature, Term* term) const;
+  Term MakeTerm(const std::shared_ptr<const Feature>& feature) const;
   std::vector<double> EvaluateParts(const double* unknowns, double* gradient);
-  template <typename Feature>
-  double EvaluateGroup(const Feature& feature, const Group& group, const double* unknowns,
-                       double* gradient) const;
-  double EvaluateVolume(const Volume& volume, const Term& term, const double* unknowns,
-                        double* gradient);
+  double EvaluateSum(const Term& term, const double* unknowns, double* gradient) const;
   double EvaluateRigid(const double* unknowns, double* gradient);
   double* Sink(double* gradient);
   internal::PathRows Rows(const double* unknowns, double* gradient) const;
@@ -97,16 +85,14 @@ class PathEnergy {
   double At(const double* unknowns, size_t row, int t) const {
     return t == 0 ? first_[row] : t > inner_ ? last_[row] : unknowns[row * stride_ + t - 1];
   }
-  /// The same at all times.
-  void ReadRow(const double* unknowns, size_t row, double* times) const;
 
-  const Metric& metric_;
+  std::shared_ptr<const Metric> metric_;
   const End end_;
   int inner_, stride_, blocks_;
   double quartic_weight_ = 1;
   std::vector<int> row_of_vertex_, vertex_of_row_;
-  // The ends, by row. Behind a free end the last shape stands once more: nothing moves from the one
-  // to the other, so that this segment costs nothing and pulls at nothing.
+  // The ends, by row. If the end is free, the last shape is repeated after itself: the segment
+  // between the two has no length, no energy and no gradient.
   std::vector<double> first_, last_;
   std::vector<Term> terms_;
   std::vector<double> rigid_weights_;  // by row

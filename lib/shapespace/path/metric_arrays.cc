@@ -4,19 +4,26 @@
 #include <utility>
 #include <vector>
 
+#include <shapespace/metric/feature_registry.h>
+
 namespace shapespace::internal {
 namespace {
 
 using Json = HeaderJson;
 
 Json OptionsToJson(const MetricOptions& options) {
+  Json features = Json::array();
+  for (const FeatureTerm& term : options.features) {
+    features.push_back({{"name", term.name}, {"coefficient", term.coefficient}});
+  }
   return {{"isometric", options.isometric},
           {"strain", options.strain},
           {"rigid", options.rigid},
           {"lambda", options.lambda},
           {"bending", options.bending},
           {"volume", options.volume},
-          {"weights", options.weights == Weights::kUniform ? "uniform" : "area"},
+          {"features", features},
+          {"weights", options.weights == Weighting::kUniform ? "uniform" : "area"},
           {"discretization",
            options.discretization == Discretization::kTrapezoid ? "trapezoid" : "midpoint"}};
 }
@@ -29,57 +36,38 @@ MetricOptions OptionsFromJson(const Json& json) {
   json.at("lambda").get_to(options.lambda);
   json.at("bending").get_to(options.bending);
   json.at("volume").get_to(options.volume);
-  options.weights = json.at("weights") == "uniform" ? Weights::kUniform : Weights::kArea;
+  if (json.contains("features")) {
+    for (const Json& term : json.at("features")) {
+      options.features.push_back(
+          {term.at("name").get<std::string>(), term.at("coefficient").get<double>()});
+    }
+  }
+  options.weights = json.at("weights") == "uniform" ? Weighting::kUniform : Weighting::kArea;
   options.discretization = json.at("discretization") == "trapezoid" ? Discretization::kTrapezoid
                                                                     : Discretization::kMidpoint;
-  options.Validate();
   return options;
 }
 
-// What a feature holds besides stencils and weights. An overload each; most hold nothing.
-template <typename Feature>
-Json Constants(const Feature&) {
-  return Json::object();
-}
-Json Constants(const LogLength& f) { return {{"epsilon_squared", f.epsilon_squared}}; }
-Json Constants(const TriangleStrain& f) { return {{"epsilon_squared", f.epsilon_squared}}; }
-Json Constants(const Dihedral& f) {
-  return {{"normal_epsilon_squared", f.normal_epsilon_squared},
-          {"edge_epsilon_squared", f.edge_epsilon_squared}};
-}
-Json Constants(const Volume& f) { return {{"reference", f.reference}}; }
+constexpr const char* kStretching = "stretching_stiffness";
+constexpr const char* kBending = "bending_stiffness";
 
-template <typename Feature>
-void SetConstants(const Json&, Feature*) {}
-void SetConstants(const Json& json, LogLength* f) {
-  json.at("epsilon_squared").get_to(f->epsilon_squared);
-}
-void SetConstants(const Json& json, TriangleStrain* f) {
-  json.at("epsilon_squared").get_to(f->epsilon_squared);
-}
-void SetConstants(const Json& json, Dihedral* f) {
-  json.at("normal_epsilon_squared").get_to(f->normal_epsilon_squared);
-  json.at("edge_epsilon_squared").get_to(f->edge_epsilon_squared);
-}
-void SetConstants(const Json& json, Volume* f) { json.at("reference").get_to(f->reference); }
-
-// Adds the feature called `name` to the metric if it is this one.
-template <typename Feature>
-bool ReadFeature(const std::string& name, const Json& constants, const std::string& prefix,
-                 const ArrayReader& arrays, Metric* metric) {
-  if (name != Feature::kName) return false;
-  Feature feature;
-  feature.stencils = arrays.Get<decltype(feature.stencils)>(prefix + "stencils", Feature::kVertices,
-                                                            Eigen::Dynamic);
-  const bool inside = feature.stencils.size() == 0 ||
-                      (feature.stencils.minCoeff() >= 0 &&
-                       feature.stencils.maxCoeff() < metric->connectivity->NumVertices());
-  if (!inside) throw FileError("a stencil of the feature " + name + " has an index out of range");
-  feature.weights = arrays.Get<Eigen::VectorXd>(prefix + "weights",
-                                                Feature::kSum ? 1 : feature.stencils.cols(), 1);
-  SetConstants(constants, &feature);
-  metric->features.emplace_back(std::move(feature));
-  return true;
+std::shared_ptr<const Feature> ReadFeature(const std::string& name, const Json& constants,
+                                           const std::string& prefix, const ArrayReader& arrays,
+                                           int num_vertices) {
+  if (!IsRegistered(name)) {
+    throw FileError("its metric has the feature " + name +
+                    ", which this program does not know; a program that defines it calls "
+                    "RegisterFeature first (shapespace/metric/define_feature.h)");
+  }
+  const FeatureKind kind = FindFeature(name);
+  const auto stencils =
+      arrays.Get<Eigen::MatrixXi>(prefix + "stencils", kind.vertices, Eigen::Dynamic);
+  const auto weights = arrays.Get<Eigen::VectorXd>(prefix + "weights", Eigen::Dynamic, 1);
+  auto feature = kind.restore(stencils, weights, [&](const std::string& constant) {
+    return constants.at(constant).get<double>();
+  });
+  CheckFeature(*feature, num_vertices);
+  return feature;
 }
 
 // JSON holds text in UTF-8 only: any other name stands as the list of its bytes.
@@ -129,15 +117,18 @@ void AddMetric(const Metric& metric, Json* header, ArrayWriter* arrays) {
   arrays->Add("edge_area", metric.edge_area);
   arrays->Add("hinge_area", metric.hinge_area);
   Json features = Json::array();
-  for (const AnyFeature& any : metric.features) {
-    std::visit(
-        [&](const auto& feature) {
-          const std::string prefix = "feature" + std::to_string(features.size()) + "_";
-          features.push_back({{"name", feature.kName}, {"constants", Constants(feature)}});
-          arrays->Add(prefix + "stencils", feature.stencils);
-          arrays->Add(prefix + "weights", feature.weights);
-        },
-        any);
+  for (const auto& feature : metric.features) {
+    const std::string prefix = "feature" + std::to_string(features.size()) + "_";
+    Json constants = Json::object();
+    for (const auto& [name, number] : feature->Constants()) constants[name] = number;
+    features.push_back({{"name", feature->Name()}, {"constants", constants}});
+    arrays->Add(prefix + "stencils", feature->Element(0), feature->VerticesPerElement(),
+                feature->NumElements());
+    arrays->Add(prefix + "weights", feature->Weights());
+  }
+  for (const auto& [name, field] : {std::pair(kStretching, &metric.options.stretching_stiffness),
+                                    std::pair(kBending, &metric.options.bending_stiffness)}) {
+    if (field->size() > 0) arrays->Add(name, *field);
   }
   arrays->Add("rigid_weights", metric.rigid.weights);
   (*header)["vertices"] = connectivity.NumVertices();
@@ -164,6 +155,11 @@ std::shared_ptr<const Metric> ReadMetric(const Json& header, const ArrayReader& 
                          arrays.Get<Eigen::Matrix3Xi>("triangles", 3, Eigen::Dynamic));
   const Connectivity& connectivity = *metric->connectivity;
   metric->options = OptionsFromJson(header.at("metric"));
+  for (const auto& [name, field] : {std::pair(kStretching, &metric->options.stretching_stiffness),
+                                    std::pair(kBending, &metric->options.bending_stiffness)}) {
+    if (arrays.Has(name)) *field = arrays.Get<Eigen::VectorXd>(name, Eigen::Dynamic, 1);
+  }
+  metric->options.Validate();
   metric->unit = header.at("unit").get<double>();
   if (!(metric->unit > 0)) throw FileError("its unit of length is not positive");
   metric->vertex_area = arrays.Get<Eigen::VectorXd>("vertex_area", num_vertices, 1);
@@ -174,14 +170,7 @@ std::shared_ptr<const Metric> ReadMetric(const Json& header, const ArrayReader& 
     const std::string name = entry.at("name").get<std::string>();
     const Json& constants = entry.at("constants");
     const std::string prefix = "feature" + std::to_string(index++) + "_";
-    if (!ReadFeature<EdgeLength>(name, constants, prefix, arrays, metric.get()) &&
-        !ReadFeature<LogLength>(name, constants, prefix, arrays, metric.get()) &&
-        !ReadFeature<TriangleStrain>(name, constants, prefix, arrays, metric.get()) &&
-        !ReadFeature<Position>(name, constants, prefix, arrays, metric.get()) &&
-        !ReadFeature<Dihedral>(name, constants, prefix, arrays, metric.get()) &&
-        !ReadFeature<Volume>(name, constants, prefix, arrays, metric.get())) {
-      throw FileError("its metric has an unknown feature, " + name);
-    }
+    metric->features.push_back(ReadFeature(name, constants, prefix, arrays, num_vertices));
   }
   metric->rigid.weights = arrays.Get<Eigen::VectorXd>("rigid_weights", Eigen::Dynamic, 1);
   if (metric->rigid.Active() && metric->rigid.weights.size() != num_vertices) {
@@ -196,9 +185,6 @@ std::shared_ptr<const Metric> ReadMetric(const Json& header, const ArrayReader& 
   check(metric->edge_area, "edge_area");
   check(metric->hinge_area, "hinge_area");
   check(metric->rigid.weights, "rigid_weights");
-  for (const AnyFeature& any : metric->features) {
-    std::visit([&](const auto& feature) { check(feature.weights, feature.kName); }, any);
-  }
   return metric;
 }
 

@@ -64,13 +64,13 @@ class Proximity {
 };
 
 // A metric of edge lengths only, frozen on the path's shapes.
-Metric FreezeLengths(const Path& path, CorrectionMode mode, double lambda) {
+std::shared_ptr<const Metric> FreezeLengths(const Path& path, CorrectionMode mode, double lambda) {
   MetricOptions options;
   options.isometric = 1;
   options.lambda = lambda;
   options.bending = 0;
   if (mode == CorrectionMode::kPaper) {
-    options.weights = Weights::kUniform;
+    options.weights = Weighting::kUniform;
     options.discretization = Discretization::kTrapezoid;
   }
   return FreezeMetric(options, path.metric->connectivity, {path.shapes.front()}, 1);
@@ -80,12 +80,12 @@ Metric FreezeLengths(const Path& path, CorrectionMode mode, double lambda) {
 // smallest eigenvalue is about (pi / n)^2. lambda is chosen such that the product is then the
 // weight of the distance from the given shapes.
 internal::Cholesky Factor(const Path& path, CorrectionMode mode, double mu) {
-  const Metric metric = FreezeLengths(path, mode, mu / (M_PI * M_PI));
+  const auto metric = FreezeLengths(path, mode, mu / (M_PI * M_PI));
   return internal::Cholesky(mode == CorrectionMode::kPaper
-                                ? internal::ScalarMetric(metric,
+                                ? internal::ScalarMetric(*metric,
                                                          {path.shapes.front(), path.shapes.back()},
                                                          path.NumShapes() - 1)
-                                : internal::ScalarMetric(metric, {path.shapes.front()}, 0));
+                                : internal::ScalarMetric(*metric, {path.shapes.front()}, 0));
 }
 
 double MeanDistance(const Shape& a, const Shape& b, const Eigen::VectorXd& vertex_area) {
@@ -190,7 +190,7 @@ CorrectionResult CorrectPath(const Path& path, const CorrectionOptions& options,
 
   ReportProgress(progress, "correcting", 0, 0);
   const int segments = path.NumShapes() - 1;
-  const Metric lengths = FreezeLengths(path, options.mode, 0);
+  const auto lengths = FreezeLengths(path, options.mode, 0);
   PathEnergy energy(lengths, segments, PathEnergy::End::kFree);
   std::vector<double> unknowns(energy.Size());
   energy.Load(path.shapes, unknowns.data());

@@ -464,8 +464,15 @@ Path CarryPath(const CorrespondenceResult& result, const Path& path,
         internal::FitGradients(*target_connectivity, frame.In(target_shape), covered, places, 0));
   }
   Path own;
-  own.metric = std::make_shared<const Metric>(
-      FreezeMetric(path.metric->options, target_connectivity, carried));
+  MetricOptions options = path.metric->options;
+  for (Eigen::VectorXd* field : {&options.stretching_stiffness, &options.bending_stiffness}) {
+    if (field->size() == 0) continue;
+    const Eigen::VectorXd of_vertices = VertexStiffness(*field, *path.metric->connectivity);
+    *field = Pull(result.map.to_template, path.metric->connectivity->Triangles(),
+                  of_vertices.transpose())
+                 .transpose();
+  }
+  own.metric = FreezeMetric(options, target_connectivity, carried);
   AlignedPoses aligned = AlignPoses(*own.metric, carried);
   own.shapes = std::move(aligned.shapes);
   own.motions = std::move(aligned.motions);

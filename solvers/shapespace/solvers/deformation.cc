@@ -10,6 +10,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/base/stopwatch.h>
+#include <shapespace/hierarchy/freeze_level.h>
 #include <shapespace/hierarchy/hierarchy.h>
 #include <shapespace/mesh/topology.h>
 #include <shapespace/path/align.h>
@@ -118,8 +119,8 @@ Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity
                          const DeformationOptions& options)
     : options_(options), connectivity_(connectivity), given_(rest) {
   options.Validate();
-  metric_ = std::make_shared<const Metric>(FreezeMetric(
-      options.metric.value_or(MetricOptions::Deformation(*connectivity)), connectivity, {rest}));
+  metric_ = FreezeMetric(options.metric.value_or(MetricOptions::Deformation(*connectivity)),
+                         connectivity, {rest});
   if (options.solver == DeformationOptions::Solver::kTrustRegion) cost::RefuseDenseRows(*metric_);
   const double bytes = EstimateBytes(*metric_, options.shapes);
   if (bytes > options.memory_limit) {
@@ -183,8 +184,7 @@ void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary*
     Shape rest = hierarchy_->Restrict(rest_, i);
     auto metric = metric_;
     if (i + 1 < hierarchy_->NumLevels()) {
-      metric = std::make_shared<const Metric>(
-          FreezeMetric(metric_->options, hierarchy_->LevelConnectivity(i), {rest}, 1));
+      metric = FreezeLevel(*metric_, *hierarchy_, i, {rest});
     }
     std::vector<int> component;
     for (int v : vertices) component.push_back(component_[v]);
@@ -275,7 +275,8 @@ std::vector<Shape> Deformer::Solver::StartAt(const Shape& end, const Shape& plac
   GeodesicOptions geodesic;
   geodesic.shapes = options_.shapes - 1;
   geodesic.tolerance = options_.tolerance;
-  return Interpolate(level.Path().GetMetric().connectivity, pair, geodesic, progress).path.Placed();
+  return Interpolate(level.Path().GetMetric()->connectivity, pair, geodesic, progress)
+      .path.Placed();
 }
 
 void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char* start,

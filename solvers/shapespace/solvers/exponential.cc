@@ -33,7 +33,7 @@ constexpr double kInvertedShare = 1e-2, kVanishedEdge = 1e-5;
 // time.
 class RungeKutta4 {
  public:
-  RungeKutta4(const Metric& metric, Shape shape, Tangent velocity)
+  RungeKutta4(const std::shared_ptr<const Metric>& metric, Shape shape, Tangent velocity)
       : map_(metric), shape_(std::move(shape)), velocity_(std::move(velocity)), speed_(Speed()) {}
 
   Shape Next(ExponentialSummary::Step* row) {
@@ -71,8 +71,8 @@ class RungeKutta4 {
 // shape.
 class FirstIntegral {
  public:
-  FirstIntegral(const Metric& metric, const Shape& start, const Tangent& velocity,
-                const ExponentialOptions& options)
+  FirstIntegral(const std::shared_ptr<const Metric>& metric, const Shape& start,
+                const Tangent& velocity, const ExponentialOptions& options)
       : map_(metric), options_(options), shape_(start), velocity_(velocity) {
     const FeatureDerivative derivative = map_.Derivative(start);
     constants_ = velocity.cwiseProduct(derivative.TransposeTimes(derivative.Times(velocity)));
@@ -191,7 +191,7 @@ void March(const NextShape& next, int steps, double step, Progress* progress,
   Path& path = result->path;
   ExponentialSummary& summary = result->summary;
   const Metric& metric = *path.metric;
-  const FeatureMap map(metric);
+  const FeatureMap map(path.metric);
   const Shape start = path.shapes.back();
   Momenta first;
   for (int i = 0; i < steps; ++i) {
@@ -341,7 +341,7 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
       internal::Shooter shooter(path.metric, {path.shapes.front(), departure.shape}, options, [&] {
         ReportProgress(progress, "shooting", static_cast<int>(summary.steps.size()), steps);
       });
-      const FeatureMap map(metric);
+      const FeatureMap map(path.metric);
       departure.speed = discrete
                             ? (map.Values(departure.shape) - map.Values(departure.previous)).norm()
                             : map.Derivative(departure.shape).Times(departure.velocity).norm();
@@ -361,10 +361,10 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
       break;
     }
     case Integrator::kRungeKutta4: {
-      RungeKutta4 scheme(
-          metric, departure.shape,
-          discrete ? SegmentVelocity(FeatureMap(metric), departure.previous, departure.shape, 1)
-                   : departure.velocity);
+      RungeKutta4 scheme(path.metric, departure.shape,
+                         discrete ? SegmentVelocity(FeatureMap(path.metric), departure.previous,
+                                                    departure.shape, 1)
+                                  : departure.velocity);
       March([&](ExponentialSummary::Step* row) { return scheme.Next(row); }, steps, step, progress,
             result);
       summary.factorisations = scheme.Solver().NumFactorisations();
@@ -372,7 +372,7 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
       break;
     }
     case Integrator::kFirstIntegral: {
-      FirstIntegral scheme(metric, discrete ? departure.previous : departure.shape,
+      FirstIntegral scheme(path.metric, discrete ? departure.previous : departure.shape,
                            discrete ? departure.shape - departure.previous : departure.velocity,
                            options);
       ExponentialSummary::Step unused;
@@ -454,7 +454,7 @@ Shape Exponential(const std::shared_ptr<const Metric>& metric, const Shape& shap
 
 Tangent Logarithm(const std::shared_ptr<const Metric>& metric, const Shape& from, const Shape& to,
                   const LogarithmOptions& options, Progress* progress) {
-  const FeatureMap refuses_rigid_metrics(*metric);  // to fail before the solve, not after it
+  const FeatureMap refuses_rigid_metrics(metric);  // to fail before the solve, not after it
   GeodesicResult geodesic = Interpolate(metric, {from, to}, options, progress);
   if (geodesic.summary.termination == Termination::kCancelled) throw Cancelled();
   if (geodesic.summary.termination != Termination::kConverged) {
@@ -474,8 +474,9 @@ Tangent InitialVelocity(const Path& path) {
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(second.rotation * first.rotation.transpose()));
   const Eigen::Vector3d spin = turn.angle() * turn.axis();
   const Shape arms = metric.unit * (first.rotation * path.shapes[0]);
-  Tangent way = metric.unit * (first.rotation * SegmentVelocity(FeatureMap(metric), path.shapes[1],
-                                                                path.shapes[0], -1));
+  Tangent way =
+      metric.unit * (first.rotation *
+                     SegmentVelocity(FeatureMap(path.metric), path.shapes[1], path.shapes[0], -1));
   for (int v = 0; v < way.cols(); ++v) {
     way.col(v) += spin.cross(arms.col(v)) + second.translation - first.translation;
   }

@@ -8,6 +8,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/base/stopwatch.h>
+#include <shapespace/hierarchy/freeze_level.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/intersections.h>
@@ -55,8 +56,7 @@ std::vector<internal::Resolution> Resolve(const Hierarchy& hierarchy,
     std::vector<Shape> poses = Restrict(hierarchy, aligned, level);
     auto own = metric;
     if (level + 1 < hierarchy.NumLevels()) {
-      own = std::make_shared<const Metric>(
-          FreezeMetric(metric->options, hierarchy.LevelConnectivity(level), poses, 1, pairs));
+      own = FreezeLevel(*metric, hierarchy, level, poses, pairs);
     }
     resolutions.emplace_back(std::move(own), std::move(poses));
   }
@@ -101,16 +101,13 @@ bool IsSolved(int piece, const std::vector<Shape>& blend, const GeodesicOptions&
 // Measures the energy of the finished path by feature, and the lower bound, over all pieces.
 void MeasureEnergy(const Path& path, GeodesicSummary* summary) {
   const Metric& metric = *path.metric;
-  for (const AnyFeature& any : metric.features) {
-    summary->parts.emplace_back(
-        std::visit([](const auto& feature) { return std::string(feature.kName); }, any), 0.0);
-  }
+  for (const auto& feature : metric.features) summary->parts.emplace_back(feature->Name(), 0.0);
   if (metric.rigid.Active()) summary->parts.emplace_back("rigid", 0.0);
   for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
     const std::vector<Shape> shapes(path.shapes.begin() + path.poses[piece],
                                     path.shapes.begin() + path.poses[piece + 1] + 1);
     const int segments = static_cast<int>(shapes.size()) - 1;
-    PathEnergy energy(metric, segments - 1);
+    PathEnergy energy(path.metric, segments - 1);
     std::vector<double> unknowns(energy.Size());
     energy.Load(shapes, unknowns.data());
     const std::vector<double> parts = energy.Parts(unknowns.data());
@@ -225,8 +222,7 @@ GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivi
   if (poses.size() < 2) throw MeshError("a geodesic needs at least two poses");
   const Stopwatch freezing;
   ReportProgress(progress, "freezing the metric", 0, 0);
-  const auto metric =
-      std::make_shared<const Metric>(FreezeMetric(options.metric, connectivity, poses));
+  const auto metric = FreezeMetric(options.metric, connectivity, poses);
   const double freeze_seconds = freezing.Seconds();
   GeodesicResult result = Interpolate(metric, poses, options, progress);
   result.summary.freeze_seconds = freeze_seconds;
@@ -355,7 +351,7 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
 void GeodesicLevels::Describe(GeodesicSummary* summary) const {
   const Connectivity& connectivity = *metric_->connectivity;
   for (const Resolution& resolution : resolutions_) {
-    summary->hierarchy.push_back(resolution.GetMetric().connectivity->NumVertices());
+    summary->hierarchy.push_back(resolution.GetMetric()->connectivity->NumVertices());
   }
   summary->hierarchy_stopped_early = hierarchy_.StoppedEarly();
   summary->metric = shapespace::Describe(metric_->options);
@@ -393,8 +389,7 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
 Interpolator::Interpolator(const std::shared_ptr<const Connectivity>& connectivity,
                            const std::vector<Shape>& poses, const GeodesicOptions& options) {
   options.Validate();
-  const auto metric = std::make_shared<const Metric>(
-      FreezeMetric(options.metric, connectivity, poses, 0, PosePairs::kAll));
+  const auto metric = FreezeMetric(options.metric, connectivity, poses, 0, PosePairs::kAll);
   // One path is solved at a time, but all poses are stored on all levels.
   CheckFinest(*metric,
               EstimateBytes(*metric, 2, options.shapes) +

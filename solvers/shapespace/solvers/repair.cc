@@ -50,9 +50,9 @@ std::string RepairSummary::ToJson() const {
 RepairResult Repair(const std::shared_ptr<const Connectivity>& connectivity, const Shape& reference,
                     const Shape& distorted, const RepairOptions& options, Progress* progress) {
   options.deformation.Validate();
-  const Metric metric =
+  const auto metric =
       FreezeMetric(MetricOptions::Isometric(), connectivity, {reference, distorted});
-  const Shape placed = FitRigidMotion(reference, distorted, metric.vertex_area)(reference);
+  const Shape placed = FitRigidMotion(reference, distorted, metric->vertex_area)(reference);
   Handle pose;
   pose.name = "distorted shape";
   pose.vertices = options.vertices;
@@ -78,7 +78,7 @@ RepairResult Repair(const std::shared_ptr<const Connectivity>& connectivity, con
   const Shape repaired = result.path.Placed(result.path.NumShapes() - 1);
   summary.before = CompareShapes(result.path.metric, placed, distorted);
   summary.after = CompareShapes(result.path.metric, placed, repaired);
-  const Eigen::VectorXd& area = metric.vertex_area;
+  const Eigen::VectorXd& area = metric->vertex_area;
   summary.moved = std::sqrt((repaired - distorted).colwise().squaredNorm().dot(area) / area.sum());
   return result;
 }

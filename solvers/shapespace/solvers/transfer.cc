@@ -211,8 +211,7 @@ class TargetShapes {
     std::vector<Shape> poses = comparison_.Shapes();
     poses.insert(poses.begin(), shapes_[0]);
     const auto freeze = [&](const MetricOptions& metric) {
-      return std::make_shared<const Metric>(
-          FreezeMetric(metric, source.metric->connectivity, poses));
+      return FreezeMetric(metric, source.metric->connectivity, poses);
     };
     metric_ = freeze(climbs_ ? options.ladder.metric : MetricOptions::Strain());
     if (climbs_ || options.hybrids) {
@@ -405,8 +404,7 @@ PoseTransferResult TransferAlongGeodesics(const std::shared_ptr<const Connectivi
     result.summary.geodesics.push_back(std::move(source.summary));
     result.summary.transfers.push_back(std::move(transfer.summary));
   }
-  const auto metric =
-      std::make_shared<const Metric>(FreezeMetric(options.ladder.metric, connectivity, placed));
+  const auto metric = FreezeMetric(options.ladder.metric, connectivity, placed);
   result.path = PathOfTarget(metric, placed, parameters, "transferred");
   if (options.hybrids) result.hybrids = PathOfPlaced(metric, hybrids, parameters, "hybrids");
   return result;
@@ -427,8 +425,7 @@ PoseTransferResult TransferPoses(const std::shared_ptr<const Connectivity>& conn
   } else {
     std::vector<double> parameters;
     for (int i = 0; i < count; ++i) parameters.push_back(static_cast<double>(i) / (count - 1));
-    const auto metric =
-        std::make_shared<const Metric>(FreezeMetric(MetricOptions::Strain(), connectivity, poses));
+    const auto metric = FreezeMetric(MetricOptions::Strain(), connectivity, poses);
     TransferResult transfer =
         Transfer(PathOfPlaced(metric, poses, parameters, ""), target, options, progress);
     result.path = std::move(transfer.path);

@@ -29,7 +29,7 @@ class MetricTransport {
   MetricTransport(const Path& path, const TransportOptions& options)
       : path_(path),
         options_(options),
-        map_(*path.metric),
+        map_(path.metric),
         here_(std::make_unique<Place>(map_, path.shapes[0])) {}
 
   /// Transports from path.shapes[i] to the next shape. The tangents are rotated as `Turn` says.
@@ -95,7 +95,7 @@ class MetricTransport {
 // The paper's transport: the tangent nearest to the previous one among those with <Y, gamma'> = C.
 class ConstrainedProjection {
  public:
-  explicit ConstrainedProjection(const Path& path) : path_(path), map_(*path.metric) {}
+  explicit ConstrainedProjection(const Path& path) : path_(path), map_(path.metric) {}
 
   void Carry(int i, std::vector<Tangent>* tangents) {
     if (i == 0) {
@@ -125,7 +125,7 @@ class ConstrainedProjection {
 };
 
 std::vector<double> Norms(const Path& path, int shape, const std::vector<Tangent>& tangents) {
-  const FeatureMap map(*path.metric);
+  const FeatureMap map(path.metric);
   const FeatureDerivative derivative = map.Derivative(path.shapes[shape]);
   std::vector<double> norms;
   for (const Tangent& x : tangents) norms.push_back(derivative.Times(x).norm());

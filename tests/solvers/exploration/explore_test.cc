@@ -10,6 +10,7 @@
 #include <shapespace/hierarchy/hierarchy.h>
 
 #include "solvers/exploration/spaces.h"
+#include "support/features.h"
 #include "support/listener.h"
 #include "support/message_of.h"
 #include "support/motions.h"
@@ -80,8 +81,8 @@ TEST(MetricTest, FrozenOnAllPairsDoesNotDependOnTheOrderOfPoses) {
   const Body tube = SmallTube();
   std::vector<Shape> poses = {tube.pose(0), tube.pose(75), tube.pose(150)};
   const auto weights = [&](PosePairs pairs) {
-    const Metric metric = FreezeMetric({}, tube.connectivity, poses, 0, pairs);
-    return std::get<Dihedral>(metric.features.back()).weights;
+    const auto metric = FreezeMetric({}, tube.connectivity, poses, 0, pairs);
+    return testing::Get<Dihedral>(*metric).weights;
   };
   const Eigen::VectorXd all = weights(PosePairs::kAll), steps = weights(PosePairs::kConsecutive);
   EXPECT_TRUE((all.array() <= steps.array()).all());

@@ -35,7 +35,7 @@ inline std::vector<Shape> TubePoses(const Body& tube) {
 inline Space MadeUpSpace(const Body& tube, const Eigen::Vector3d& translation = {1, 2, 3}) {
   Space space;
   const std::vector<Shape> poses = TubePoses(tube);
-  auto metric = std::make_shared<Metric>(FreezeMetric({}, tube.connectivity, poses));
+  auto metric = FreezeMetric({}, tube.connectivity, poses);
   space.metric = metric;
   for (const Shape& pose : poses) space.nodes.emplace_back(pose / metric->unit);
   space.nodes.emplace_back((space.nodes[0] + space.nodes[2]) / 2);

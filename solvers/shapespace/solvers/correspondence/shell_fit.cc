@@ -38,20 +38,20 @@ ShellFit::ShellFit(const std::shared_ptr<const Connectivity>& connectivity, cons
                    const std::vector<int>& held, double bending, double proportions)
     : metric_(FreezeMetric(ShellMetric(bending), connectivity, {rest})),
       map_(metric_),
-      stretch_(connectivity, rest / metric_.unit, proportions),
+      stretch_(connectivity, rest / metric_->unit, proportions),
       is_held_(rest.cols(), false),
-      wanted_(map_.Values(rest / metric_.unit)) {
+      wanted_(map_.Values(rest / metric_->unit)) {
   for (const int v : held) is_held_[v] = true;
 }
 
 void ShellFit::SetWanted(const Shape& shape) {
-  for (size_t i = 0; i < metric_.features.size(); ++i) {
+  for (size_t i = 0; i < metric_->features.size(); ++i) {
     const int begin = map_.FirstValue(i);
-    if (const auto* positions = std::get_if<Position>(&metric_.features[i])) {
+    if (const auto* positions = metric_->features[i]->As<Position>()) {
       for (int v = 0; v < shape.cols(); ++v) {
         wanted_.segment<3>(begin + 3 * v) = std::sqrt(positions->weights(v)) * shape.col(v);
       }
-    } else if (const auto* strains = std::get_if<TriangleStrain>(&metric_.features[i])) {
+    } else if (const auto* strains = metric_->features[i]->As<TriangleStrain>()) {
       const auto triangles = stretch_.StretchedTriangles(shape);
       for (int f = 0; f < triangles.cols(); ++f) {
         Eigen::Vector3d strain;
@@ -101,7 +101,7 @@ void ShellFit::AddPulls(const std::vector<Pull>& pulls, const Shape& shape, Tang
 }
 
 double ShellFit::Step(const std::vector<Pull>& user_pulls, Shape* user_shape) {
-  const double unit = metric_.unit;
+  const double unit = metric_->unit;
   const Shape shape = *user_shape / unit;
   std::vector<Pull> pulls = user_pulls;
   for (Pull& pull : pulls) pull.point /= unit;
@@ -133,7 +133,7 @@ double ShellFit::Step(const std::vector<Pull>& user_pulls, Shape* user_shape) {
   }
   const Eigen::VectorXd solution = Solve(*factor_, gradient.reshaped());
   const Eigen::Map<const Shape> step(solution.data(), 3, shape.cols());
-  const double motion = std::sqrt(metric_.vertex_area.dot(step.colwise().squaredNorm()));
+  const double motion = std::sqrt(metric_->vertex_area.dot(step.colwise().squaredNorm()));
 
   double factor = 1;
   for (int halving = 0; halving <= kHalvings; ++halving, factor *= 0.5) {

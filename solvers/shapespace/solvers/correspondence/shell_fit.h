@@ -39,8 +39,8 @@ class ShellFit {
   ShellFit(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
            const std::vector<int>& held, double bending, double proportions);
 
-  /// The areas A_p, scaled to sum 1.
-  const Eigen::VectorXd& VertexAreas() const { return metric_.vertex_area; }
+  /// A_p of sum 1.
+  const Eigen::VectorXd& VertexAreas() const { return metric_->vertex_area; }
 
   /// One iteration: updates the smoothed strains from `*shape` and takes a step that decreases the
   /// sum; `*shape` is unchanged if there is none. \return the root mean square motion of the
@@ -54,7 +54,7 @@ class ShellFit {
   void AddPulls(const std::vector<Pull>& pulls, const Shape& shape, Tangent* gradient);
   void SetWanted(const Shape& shape);
 
-  const Metric metric_;
+  const std::shared_ptr<const Metric> metric_;
   const FeatureMap map_;
   const SmoothStretch stretch_;
   std::vector<bool> is_held_;

@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_SOLVERS_COST_EULER_LAGRANGE_H_
 #define SHAPESPACE_SOLVERS_COST_EULER_LAGRANGE_H_
 
+#include <memory>
 #include <vector>
 
 #include <ceres/problem.h>
@@ -18,9 +19,8 @@ namespace shapespace::cost {
 /// geodesic (the discrete Euler-Lagrange equation of the path energy).
 class EulerLagrange {
  public:
-  /// Shapes are in the metric's unit; `target` has the layout of FeatureMap::Values. Rows are
-  /// multiplied by `scale`, because Ceres' limits are absolute and assume numbers of the order of
-  /// one. `metric` must outlive the problems to which rows are added.
+  /// Shapes in the metric's unit; `target` has the layout of FeatureMap::Values. Rows are
+  /// multiplied by `scale`: Ceres' limits are absolute, and want numbers of about one.
   EulerLagrange(const Metric& metric, const Shape& at, const Eigen::VectorXd& target,
                 double scale = 1);
 
@@ -38,15 +38,14 @@ class EulerLagrange {
   double Rounding() const;
 
  private:
-  template <typename Feature>
-  const double* Add(const AnyFeature& any, const Feature& feature, const Shape& at,
+  const double* Add(const std::shared_ptr<const Feature>& feature, const Shape& at,
                     const double* targets, double scale);
-  VertexElements& Part(const AnyFeature& any, int v);
+  VertexElements& Part(const std::shared_ptr<const Feature>& feature, int v);
   void AddSums(Shape* shape, std::vector<double>* sums, ceres::Problem* problem) const;
 
-  const Metric& metric_;
+  const std::vector<std::shared_ptr<const Feature>> features_;
   const int num_sums_;
-  std::vector<EulerLagrangeRows> rows_;
+  std::vector<std::vector<VertexElements>> rows_;  // of each vertex
   std::vector<std::vector<int>> neighbours_;
   Tangent magnitude_;                  // sums of the absolute values of the residual's terms
   std::vector<double> sum_gradients_;  // norm of the scaled gradient of each sum feature

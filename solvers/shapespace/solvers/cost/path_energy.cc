@@ -1,8 +1,8 @@
 #include <shapespace/solvers/cost/path_energy.h>
 
 #include <cmath>
+#include <memory>
 #include <string>
-#include <variant>
 
 #include <shapespace/base/error.h>
 #include <shapespace/solvers/cost/refuse_sums.h>
@@ -11,49 +11,34 @@
 namespace shapespace::cost {
 namespace {
 
-// Adds the residual blocks of all segments for one feature.
-template <typename Feature>
-void AddFeature(const Feature& feature, const Metric& metric, double quartic_weight,
-                std::vector<Shape>* shapes, ceres::Problem* problem) {
-  const int num_vertices = metric.connectivity->NumVertices();
-  for (size_t i = 0; i + 1 < shapes->size(); ++i) {
-    Shape& from = (*shapes)[i];
-    Shape& to = (*shapes)[i + 1];
-    std::vector<double*> blocks;
-    if constexpr (Feature::kSum) {
-      using Segment = SumSegment<Feature>;
-      auto* const cost = new ceres::DynamicAutoDiffCostFunction<Segment>(
-          new Segment{feature, num_vertices, std::sqrt(feature.weights(0))});
-      for (Shape* shape : {&from, &to}) {
-        for (int v = 0; v < num_vertices; ++v) {
-          cost->AddParameterBlock(3);
-          blocks.push_back(shape->col(v).data());
-        }
-      }
-      cost->SetNumResiduals(1);
-      problem->AddResidualBlock(cost, nullptr, blocks);
-    } else {
-      for (int e = 0; e < feature.stencils.cols(); ++e) {
-        const double root = std::sqrt(feature.weights(e));
-        blocks.clear();
-        for (Shape* shape : {&from, &to}) {
-          for (int k = 0; k < Feature::kVertices; ++k) {
-            blocks.push_back(shape->col(feature.stencils(k, e)).data());
-          }
-        }
-        ceres::CostFunction* cost = nullptr;
-        if constexpr (Feature::kTrapezoid) {
-          if (metric.options.discretization == Discretization::kTrapezoid) {
-            cost = MakeSegmentCost<Feature::kVertices>(
-                TrapezoidSegment{root, std::sqrt(quartic_weight)});
-          }
-        }
-        if (cost == nullptr) {
-          cost = MakeSegmentCost<Feature::kVertices>(FeatureSegment<Feature>{feature, root});
-        }
-        problem->AddResidualBlock(cost, nullptr, blocks);
+// Adds the residual blocks of a segment for one feature.
+void AddFeature(const std::shared_ptr<const Feature>& feature, bool trapezoid,
+                double quartic_weight, Shape* from, Shape* to, ceres::Problem* problem) {
+  std::vector<double*> blocks;
+  if (feature->IsSum()) {
+    for (Shape* shape : {from, to}) {
+      for (int v = 0; v < shape->cols(); ++v) blocks.push_back(shape->col(v).data());
+    }
+    problem->AddResidualBlock(new SumSegment(feature, static_cast<int>(from->cols())), nullptr,
+                              blocks);
+    return;
+  }
+  const bool quartic = trapezoid && feature->As<EdgeLength>() != nullptr;
+  for (int e = 0; e < feature->NumElements(); ++e) {
+    blocks.clear();
+    for (Shape* shape : {from, to}) {
+      for (int k = 0; k < feature->VerticesPerElement(); ++k) {
+        blocks.push_back(shape->col(feature->Element(e)[k]).data());
       }
     }
+    ceres::CostFunction* cost = nullptr;
+    if (quartic) {
+      cost = new ceres::AutoDiffCostFunction<TrapezoidSegment, 2, 3, 3, 3, 3>(
+          new TrapezoidSegment{std::sqrt(feature->Weight(e)), std::sqrt(quartic_weight)});
+    } else {
+      cost = new FeatureSegment(feature, e);
+    }
+    problem->AddResidualBlock(cost, nullptr, blocks);
   }
 }
 
@@ -79,10 +64,11 @@ void AddPathEnergy(const Metric& metric, std::vector<Shape>* shapes, ceres::Prob
   for (Shape& shape : *shapes) {
     for (int v = 0; v < shape.cols(); ++v) problem->AddParameterBlock(shape.col(v).data(), 3);
   }
-  for (const AnyFeature& any : metric.features) {
-    std::visit(
-        [&](const auto& feature) { AddFeature(feature, metric, quartic_weight, shapes, problem); },
-        any);
+  const bool trapezoid = metric.options.discretization == Discretization::kTrapezoid;
+  for (const auto& feature : metric.features) {
+    for (size_t i = 0; i + 1 < shapes->size(); ++i) {
+      AddFeature(feature, trapezoid, quartic_weight, &(*shapes)[i], &(*shapes)[i + 1], problem);
+    }
   }
   if (!metric.rigid.Active()) return;
   motions->setZero(6, shapes->size() - 1);

@@ -2,7 +2,6 @@
 #define SHAPESPACE_SOLVERS_COST_REFUSE_SUMS_H_
 
 #include <string>
-#include <variant>
 
 #include <shapespace/base/error.h>
 #include <shapespace/metric/metric.h>
@@ -16,14 +15,10 @@ namespace shapespace::cost {
 ///        `max_vertices` vertices.
 inline void RefuseSums(const Metric& metric, int max_vertices, const std::string& remedy) {
   if (metric.connectivity->NumVertices() <= max_vertices) return;
-  for (const AnyFeature& any : metric.features) {
-    std::visit(
-        [&](const auto& feature) {
-          if (feature.kSum) {
-            throw InvalidOptions(std::string(feature.kName) + ": couples all vertices; " + remedy);
-          }
-        },
-        any);
+  for (const auto& feature : metric.features) {
+    if (feature->IsSum()) {
+      throw InvalidOptions(feature->Name() + ": couples all vertices; " + remedy);
+    }
   }
 }
 

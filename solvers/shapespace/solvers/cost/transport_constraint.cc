@@ -5,6 +5,7 @@
 #include <ceres/autodiff_cost_function.h>
 
 #include <shapespace/solvers/cost/shooting_cost.h>
+#include <shapespace/solvers/cost/sum_cost.h>
 
 namespace shapespace::cost {
 
@@ -19,7 +20,12 @@ void AddTransportConstraint(const Tangent& normal, double weight, double* bound,
   }
   blocks.push_back(bound);
   problem->AddResidualBlock(
-      new SumCost<InnerProduct>({normal}, static_cast<int>(y->cols()), weight), nullptr, blocks);
+      new SumCost(
+          [&normal](const double* const* at, double scale, double** jacobians) {
+            return AddInnerProduct(normal, at, scale, jacobians);
+          },
+          static_cast<int>(y->cols()), weight),
+      nullptr, blocks);
   problem->SetParameterBlockConstant(bound);
 }
 

@@ -8,7 +8,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/base/stopwatch.h>
-#include <shapespace/hierarchy/hierarchy.h>
+#include <shapespace/hierarchy/freeze_level.h>
 #include <shapespace/path/rigid_motion.h>
 #include <shapespace/solvers/exploration/pair_solver.h>
 #include <shapespace/solvers/exploration/refinement.h>
@@ -58,6 +58,7 @@ Measuring::Measuring(const std::shared_ptr<const Connectivity>& connectivity,
                      Crew* crew) {
   std::shared_ptr<const Connectivity> coarse = connectivity;
   std::vector<Shape> restricted = all_poses;
+  GeodesicOptions geodesic = WithoutAssessment(options.geodesic);
   if (options.resolution > 0 && connectivity->NumTriangles() > options.resolution) {
     HierarchyOptions hierarchy_options;
     hierarchy_options.coarsest = options.geodesic.coarsest;
@@ -69,9 +70,9 @@ Measuring::Measuring(const std::shared_ptr<const Connectivity>& connectivity,
     coarse = hierarchy.LevelConnectivity(level);
     vertices = hierarchy.Vertices(level);
     for (Shape& pose : restricted) pose = Restrict(pose);
+    geodesic.metric = RestrictOptions(geodesic.metric, *connectivity, hierarchy, level);
   }
-  solver = std::make_unique<PairSolver>(coarse, restricted, WithoutAssessment(options.geodesic),
-                                        crew, options.records);
+  solver = std::make_unique<PairSolver>(coarse, restricted, geodesic, crew, options.records);
   poses = TurnOntoFirst(*solver->GetMetric(), restricted);
 }
 

@@ -48,8 +48,8 @@ class Hasher {
   XXH3_state_t state_;
 };
 
-// Digest of everything that a geodesic depends on except its two shapes.
-std::string DigestOf(const Connectivity& connectivity, const std::vector<Shape>& poses,
+// Of everything that a geodesic depends on but for its two shapes.
+std::string DigestOf(const Metric& frozen, const std::vector<Shape>& poses,
                      const GeodesicOptions& options) {
   Hasher hasher;
   const MetricOptions& metric = options.metric;
@@ -62,8 +62,14 @@ std::string DigestOf(const Connectivity& connectivity, const std::vector<Shape>&
         static_cast<double>(options.coarsest)}) {
     hasher.Add(number);
   }
-  hasher.AddAll(connectivity.Triangles());
-  hasher.AddAll(connectivity.Edges());
+  for (const auto& feature : frozen.features) {
+    hasher.Add(feature->Name().data(), feature->Name().size());
+    hasher.Add(feature->Element(0), feature->NumElements() * feature->VerticesPerElement());
+    hasher.AddAll(feature->Weights());
+    for (const auto& constant : feature->Constants()) hasher.Add(constant.second);
+  }
+  hasher.AddAll(frozen.connectivity->Triangles());
+  hasher.AddAll(frozen.connectivity->Edges());
   for (const Shape& pose : poses) hasher.AddAll(pose);
   return hasher.Digest();
 }
@@ -122,7 +128,7 @@ PairSolver::PairSolver(const std::shared_ptr<const Connectivity>& connectivity,
     : interpolator_(connectivity, poses, options),
       crew_(*crew),
       records_(records),
-      digest_(DigestOf(*connectivity, poses, options)) {}
+      digest_(DigestOf(*GetMetric(), poses, options)) {}
 
 std::string PairSolver::Digest(const Pair& pair) const {
   Hasher hasher;

@@ -12,7 +12,7 @@ namespace shapespace::internal {
 FeatureTransfer::FeatureTransfer(std::shared_ptr<const Metric> metric, const Shape& source,
                                  const Shape& target)
     : metric_(std::move(metric)),
-      map_(*metric_),
+      map_(metric_),
       source_(map_.Values(source)),
       target_(map_.Values(target)),
       gradients_(metric_->connectivity, source, target) {}
@@ -25,7 +25,7 @@ NearestShape FeatureTransfer::operator()(const Shape& deformed, double tolerance
   // The change of strains and angles only, because the weight of positions is arbitrary.
   Eigen::VectorXd change = wanted - target_;
   for (size_t i = 0; i < metric_->features.size(); ++i) {
-    if (std::holds_alternative<Position>(metric_->features[i])) {
+    if (metric_->features[i]->As<Position>() != nullptr) {
       change.segment(map_.FirstValue(i), placed.size()).setZero();
     }
   }
@@ -40,8 +40,8 @@ Eigen::VectorXd FeatureTransfer::Wanted(const Shape& deformed, const Shape& plac
   Eigen::VectorXd wanted = target_ + (change - source_);
   for (size_t i = 0; i < metric_->features.size(); ++i) {
     const int begin = map_.FirstValue(i);
-    if (const auto* angles = std::get_if<Dihedral>(&metric_->features[i])) {
-      // On the unit circle: multiplying complex numbers adds angles.
+    if (const auto* angles = metric_->features[i]->As<Dihedral>()) {
+      // On the circle angles are added.
       for (int e = 0; e < angles->stencils.cols(); ++e) {
         const auto value = [&](const Eigen::VectorXd& values) {
           return std::complex<double>(values(begin + 2 * e), values(begin + 2 * e + 1));
@@ -52,7 +52,7 @@ Eigen::VectorXd FeatureTransfer::Wanted(const Shape& deformed, const Shape& plac
         wanted(begin + 2 * e) = turned.real();
         wanted(begin + 2 * e + 1) = turned.imag();
       }
-    } else if (const auto* positions = std::get_if<Position>(&metric_->features[i])) {
+    } else if (const auto* positions = metric_->features[i]->As<Position>()) {
       for (int v = 0; v < placed.cols(); ++v) {
         wanted.segment<3>(begin + 3 * v) = std::sqrt(positions->weights(v)) * placed.col(v);
       }

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <utility>
-#include <variant>
 
 #include <shapespace/base/parallel.h>
 #include <shapespace/solvers/optimise/preconditioner.h>
@@ -47,11 +45,11 @@ std::vector<int> Places(const CholeskyFactor<float>& factor) {
 
 }  // namespace
 
-FreeEndFactors::FreeEndFactors(const Metric& metric, Shape rest, Grip grip)
-    : metric_(metric),
+FreeEndFactors::FreeEndFactors(std::shared_ptr<const Metric> metric, Shape rest, Grip grip)
+    : metric_(std::move(metric)),
       rest_(std::move(rest)),
       grip_(std::move(grip)),
-      scalar_(ScalarMetric(metric, {rest_}, 0)) {
+      scalar_(ScalarMetric(*metric_, {rest_}, 0)) {
   const int num_vertices = static_cast<int>(rest_.cols());
   given_ = Marks(num_vertices, grip_.carried);
   between_ = FactorOf(scalar_, Eigen::VectorXd::Zero(num_vertices), given_);
@@ -108,35 +106,24 @@ void FreeEndFactors::Integrate(const std::vector<std::vector<Eigen::Matrix3d>>& 
   std::vector<Eigen::MatrixXd> rights(shapes->size(), Eigen::MatrixXd::Zero(rest_.cols(), 3));
   ParallelFor(static_cast<int>(shapes->size()), [&](int i) {
     const Shape& shape = (*shapes)[i];
-    for (const AnyFeature& any : metric_.features) {
-      std::visit(
-          [&](const auto& feature) {
-            using Feature = std::decay_t<decltype(feature)>;
-            if constexpr (Feature::kRigidInvariant && !Feature::kSum) {
-              constexpr int kVertices = Feature::kVertices;
-              for (int e = 0; e < feature.stencils.cols(); ++e) {
-                Eigen::Vector3d x[kVertices];
-                Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-                Eigen::Matrix<double, 3, kVertices> before, after;
-                for (int k = 0; k < kVertices; ++k) {
-                  const int v = feature.stencils(k, e);
-                  x[k] = before.col(k) = rest_.col(v);
-                  after.col(k) = shape.col(v);
-                  gradient += gradients[i][v] / kVertices;
-                }
-                Eigen::Matrix<double, kVertices, Feature::kStencils> stencil;
-                feature.Stencil(x, stencil.data());
-                const Eigen::Matrix<double, Feature::kStencils, 3> off =
-                    (gradient * before * stencil - after * stencil).transpose();
-                const Eigen::Matrix<double, kVertices, 3> push =
-                    4 * feature.weights(e) * stencil * off;
-                for (int k = 0; k < kVertices; ++k) {
-                  rights[i].row(feature.stencils(k, e)) += push.row(k);
-                }
-              }
-            }
-          },
-          any);
+    for (const auto& feature : metric_->features) {
+      if (!feature->IsRigidInvariant() || feature->IsSum()) continue;
+      const int corners = feature->VerticesPerElement(), num_rows = feature->NumScalarRows();
+      Eigen::Matrix3Xd before(3, corners), after(3, corners);
+      Eigen::MatrixXd k(corners, num_rows), off(num_rows, 3);
+      for (int e = 0; e < feature->NumElements(); ++e) {
+        const int* const vertices = feature->Element(e);
+        Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+        feature->Gather(e, e + 1, rest_, before.data());
+        feature->Gather(e, e + 1, shape, after.data());
+        for (int c = 0; c < corners; ++c) gradient += gradients[i][vertices[c]] / corners;
+        feature->ScalarRows(1, before.data(), k.data());
+        after = gradient.lazyProduct(before) - after;
+        off.noalias() = k.transpose().lazyProduct(after.transpose());
+        for (int c = 0; c < corners; ++c) {
+          rights[i].row(vertices[c]) += 4 * feature->Weight(e) * k.row(c).lazyProduct(off);
+        }
+      }
     }
   });
   SolveAndAdd(rights, shapes);

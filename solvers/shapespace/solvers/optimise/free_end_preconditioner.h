@@ -31,8 +31,8 @@ struct Grip {
 /// sufficient, for any constraints and penalties.
 class FreeEndFactors {
  public:
-  /// `metric` is kept by reference. \throw SolverError if the scalar metric is not definite.
-  FreeEndFactors(const Metric& metric, Shape rest, Grip grip);
+  /// \throw SolverError if the scalar metric is not definite.
+  FreeEndFactors(std::shared_ptr<const Metric> metric, Shape rest, Grip grip);
 
   const Shape& Rest() const { return rest_; }
   const Grip& GetGrip() const { return grip_; }
@@ -54,7 +54,7 @@ class FreeEndFactors {
   // Solves with the factor `end_` for each of the right-hand sides, m x 3, and adds to `shapes`.
   void SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights, std::vector<Tangent>* shapes) const;
 
-  const Metric& metric_;
+  std::shared_ptr<const Metric> metric_;
   Shape rest_;
   Grip grip_;
   std::vector<char> given_;  // per vertex: prescribed in the last shape

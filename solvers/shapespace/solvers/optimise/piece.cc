@@ -42,7 +42,7 @@ std::vector<Start> Starts(Start start) {
 }
 
 int NumVertices(const Resolution& resolution) {
-  return resolution.GetMetric().connectivity->NumVertices();
+  return resolution.GetMetric()->connectivity->NumVertices();
 }
 
 // The number of first steps that take only milliseconds.
@@ -136,7 +136,7 @@ void Piece::TakeStep(const ScheduleStep& step, Start start, bool last) {
     name = Name(start);
   }
   if (!workload_.Stopped()) {
-    Unwind(resolution.GetMetric(), &shapes);
+    Unwind(*resolution.GetMetric(), &shapes);
     GeodesicSummary::Level row =
         resolution.Relax(index_, last ? 0 : kEnough, options_, &workload_, &shapes);
     row.start = name;
@@ -154,11 +154,10 @@ std::vector<Shape> Piece::OneInnerShape(Start start, int level) {
     case Start::kLast:
       return {ends[0], ends[1], ends[1]};
     case Start::kRigid: {
-      // The paper's advice for degenerate blends: a first solve that is as rigid as possible.
-      Resolution rigid(
-          std::make_shared<const Metric>(FreezeMetric(
-              MetricOptions::Rigid(), resolutions_[level].GetMetric().connectivity, ends, 1)),
-          ends);
+      // The paper's advice for blends that degenerate: a first round as rigid as possible.
+      Resolution rigid(FreezeMetric(MetricOptions::Rigid(),
+                                    resolutions_[level].GetMetric()->connectivity, ends, 1),
+                       ends);
       std::vector<Shape> shapes = {ends[0], blend, ends[1]};
       workload_.Plan(static_cast<int>(blend.cols()), 1, true);
       GeodesicSummary::Level row = rigid.Relax(0, 0, options_, &workload_, &shapes);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include <shapespace/solvers/optimise/rows.h>
 
@@ -21,42 +20,33 @@ Eigen::SparseMatrix<double> ScalarMetric(const Metric& metric, const std::vector
   const auto add = [&](int i, int j, double value) {
     if (i >= j) triplets.emplace_back(i, j, value);
   };
-  for (const AnyFeature& any : metric.features) {
-    std::visit(
-        [&](const auto& feature) {
-          using Feature = std::decay_t<decltype(feature)>;
-          // A sum feature is a dense row, and is left to the quasi-Newton updates.
-          if constexpr (!Feature::kSum) {
-            constexpr int kVertices = Feature::kVertices;
-            for (int e = 0; e < feature.stencils.cols(); ++e) {
-              Eigen::Matrix<double, kVertices, kVertices> block;
-              block.setZero();
-              Eigen::Vector3d x[kVertices];
-              Eigen::Matrix<double, kVertices, Feature::kStencils> k;
-              for (const Shape& pose : poses) {
-                for (int i = 0; i < kVertices; ++i) x[i] = pose.col(feature.stencils(i, e));
-                feature.Stencil(x, k.data());
-                block += 4 * feature.weights(e) / poses.size() * k * k.transpose();
-              }
-              if constexpr (Feature::kTrapezoid) {
-                if (quartic_segments > 0) {
-                  const int p = feature.stencils(0, e), q = feature.stencils(1, e);
-                  const Eigen::Vector3d turn = poses.back().col(q) - poses.back().col(p) -
-                                               poses.front().col(q) + poses.front().col(p);
-                  const double share = 2 * feature.weights(e) * turn.squaredNorm() /
-                                       (static_cast<double>(quartic_segments) * quartic_segments);
-                  block += share * Eigen::Matrix2d{{1, -1}, {-1, 1}};
-                }
-              }
-              for (int i = 0; i < kVertices; ++i) {
-                for (int j = 0; j < kVertices; ++j) {
-                  add(feature.stencils(i, e), feature.stencils(j, e), block(i, j));
-                }
-              }
-            }
-          }
-        },
-        any);
+  const bool quartic = quartic_segments > 0;
+  for (const auto& feature : metric.features) {
+    // A sum over all elements is a dense row: left to the quasi-Newton updates.
+    if (feature->IsSum()) continue;
+    const int corners = feature->VerticesPerElement(), num_rows = feature->NumScalarRows();
+    Eigen::MatrixXd k(corners, num_rows), block(corners, corners);
+    double x[3 * Feature::kMaxVertices];
+    for (int e = 0; e < feature->NumElements(); ++e) {
+      const int* const vertices = feature->Element(e);
+      block.setZero();
+      for (const Shape& pose : poses) {
+        feature->Gather(e, e + 1, pose, x);
+        feature->ScalarRows(1, x, k.data());
+        block.noalias() += 4 * feature->Weight(e) / poses.size() * k.lazyProduct(k.transpose());
+      }
+      if (quartic && feature->As<EdgeLength>() != nullptr) {
+        const int p = vertices[0], q = vertices[1];
+        const Eigen::Vector3d turn =
+            poses.back().col(q) - poses.back().col(p) - poses.front().col(q) + poses.front().col(p);
+        const double share = 2 * feature->Weight(e) * turn.squaredNorm() /
+                             (static_cast<double>(quartic_segments) * quartic_segments);
+        block += share * Eigen::Matrix2d{{1, -1}, {-1, 1}};
+      }
+      for (int i = 0; i < corners; ++i) {
+        for (int j = 0; j < corners; ++j) add(vertices[i], vertices[j], block(i, j));
+      }
+    }
   }
   const int num_vertices = metric.connectivity->NumVertices();
   for (int v = 0; v < num_vertices; ++v) {

@@ -9,7 +9,7 @@
 namespace shapespace::internal {
 PathEnergy& PulledPath::EnergyOf(int segments) {
   if (!energy_ || energy_->Inner() != segments) {
-    energy_.emplace(*metric_, segments, PathEnergy::End::kFree);
+    energy_.emplace(metric_, segments, PathEnergy::End::kFree);
   }
   return *energy_;
 }

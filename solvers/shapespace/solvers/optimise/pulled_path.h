@@ -21,9 +21,9 @@ class PulledPath {
  public:
   /// In the metric's unit; `rest` is the first shape of all paths.
   PulledPath(std::shared_ptr<const Metric> metric, Shape rest, Grip grip)
-      : metric_(std::move(metric)), factors_(*metric_, std::move(rest), std::move(grip)) {}
+      : metric_(std::move(metric)), factors_(metric_, std::move(rest), std::move(grip)) {}
 
-  const Metric& GetMetric() const { return *metric_; }
+  const std::shared_ptr<const Metric>& GetMetric() const { return metric_; }
   const Shape& Rest() const { return factors_.Rest(); }
   const FreeEndFactors& Factors() const { return factors_; }
 

@@ -126,7 +126,7 @@ double Resolution::Energy(const std::vector<Shape>& shapes, const GeodesicOption
 
 PathEnergy& Resolution::EnergyOf(int inner, const GeodesicOptions& options) {
   if (!energy_ || energy_->Inner() != inner) {
-    energy_.emplace(*metric_, inner);
+    energy_.emplace(metric_, inner);
     energy_->SetQuarticWeight(QuarticWeight(inner, options));
   }
   return *energy_;

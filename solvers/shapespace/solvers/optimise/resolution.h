@@ -33,7 +33,7 @@ class Resolution {
   /// that a solve does not depend on earlier ones.
   void SetPoses(std::vector<Shape> poses);
 
-  const Metric& GetMetric() const { return *metric_; }
+  const std::shared_ptr<const Metric>& GetMetric() const { return metric_; }
   const Shape& Pose(int i) const { return poses_[i]; }
 
   /// Relaxes the inner ones of `shapes`, a path from pose `piece` to the next, and returns the

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <shapespace/hierarchy/freeze_level.h>
+
 namespace shapespace::internal {
 
 Shooter::Shooter(std::shared_ptr<const Metric> metric, std::vector<Shape> known,
@@ -21,8 +23,7 @@ void Shooter::Decimate() {
     std::vector<Shape> poses;
     for (const Shape& shape : known_) poses.push_back(hierarchy_->Restrict(shape, level));
     levels_.insert(levels_.begin(),
-                   std::make_unique<Level>(std::make_shared<const Metric>(FreezeMetric(
-                       finest->options, hierarchy_->LevelConnectivity(level), poses, 1))));
+                   std::make_unique<Level>(FreezeLevel(*finest, *hierarchy_, level, poses)));
   }
 }
 

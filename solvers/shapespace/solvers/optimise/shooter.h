@@ -38,7 +38,7 @@ class Shooter {
 
  private:
   struct Level {
-    explicit Level(std::shared_ptr<const Metric> own) : metric(std::move(own)), map(*metric) {}
+    explicit Level(std::shared_ptr<const Metric> own) : metric(std::move(own)), map(metric) {}
     std::shared_ptr<const Metric> metric;
     FeatureMap map;
     MetricSolver solver;

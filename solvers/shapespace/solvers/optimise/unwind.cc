@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <utility>
-#include <variant>
 
 #include <shapespace/base/parallel.h>
 #include <shapespace/path/rigid_motion.h>
@@ -55,21 +53,18 @@ using Element = std::pair<int, int>;  // which of the metric's features, which o
 // The energy of an element, up to a factor that is common to all.
 double ElementEnergy(const Metric& metric, const Element& element,
                      const std::vector<Shape>& shapes) {
-  return std::visit(
-      [&](const auto& feature) {
-        using Feature = std::decay_t<decltype(feature)>;
-        double x[3 * Feature::kVertices], values[2][Feature::kValues], sum = 0;
-        for (size_t i = 0; i < shapes.size(); ++i) {
-          Gather(feature, element.second, shapes[i], x);
-          double* const value = values[i % 2];
-          feature(x, value);
-          for (int k = 0; i > 0 && k < Feature::kValues; ++k) {
-            sum += std::pow(value[k] - values[(i + 1) % 2][k], 2);
-          }
-        }
-        return feature.weights(element.second) * sum;
-      },
-      metric.features[element.first]);
+  const Feature& feature = *metric.features[element.first];
+  const int e = element.second, num_values = feature.ValuesPerElement();
+  double x[3 * Feature::kMaxVertices], values[2][Feature::kMaxValues], sum = 0;
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    feature.Gather(e, e + 1, shapes[i], x);
+    double* const value = values[i % 2];
+    feature.Evaluate(1, x, value);
+    for (int k = 0; i > 0 && k < num_values; ++k) {
+      sum += std::pow(value[k] - values[(i + 1) % 2][k], 2);
+    }
+  }
+  return feature.Weight(e) * sum;
 }
 
 template <typename T>
@@ -110,17 +105,14 @@ Mover::Mover(const Metric& metric, const std::vector<int>& vertices, std::vector
   const Connectivity& connectivity = *metric_.connectivity;
   for (size_t i = 0; i < vertices.size(); ++i) index_[vertices[i]] = static_cast<int>(i);
   for (size_t f = 0; f < metric_.features.size(); ++f) {
-    std::visit(
-        [&](const auto& feature) {
-          if constexpr (!std::decay_t<decltype(feature)>::kSum) {
-            for (int e = 0; e < feature.stencils.cols(); ++e) {
-              for (int v : feature.stencils.col(e)) {
-                if (index_[v] >= 0) elements_[index_[v]].emplace_back(static_cast<int>(f), e);
-              }
-            }
-          }
-        },
-        metric_.features[f]);
+    const Feature& feature = *metric_.features[f];
+    if (feature.IsSum()) continue;
+    for (int e = 0; e < feature.NumElements(); ++e) {
+      for (int k = 0; k < feature.VerticesPerElement(); ++k) {
+        const int i = index_[feature.Element(e)[k]];
+        if (i >= 0) elements_[i].emplace_back(static_cast<int>(f), e);
+      }
+    }
   }
   for (int e = 0; e < connectivity.NumEdges(); ++e) {
     const int a = connectivity.Edges()(0, e), b = connectivity.Edges()(1, e);
@@ -190,8 +182,8 @@ double Mover::Energy(const std::vector<Element>& elements, double enough) const 
 }  // namespace
 
 void Unwind(const Metric& metric, std::vector<Shape>* shapes) {
-  for (const AnyFeature& any : metric.features) {
-    const auto* const dihedral = std::get_if<Dihedral>(&any);
+  for (const auto& feature : metric.features) {
+    const auto* const dihedral = feature->As<Dihedral>();
     if (dihedral == nullptr) continue;
     const std::vector<int> hinges = WoundHinges(*dihedral, *shapes);
     if (hinges.empty()) continue;

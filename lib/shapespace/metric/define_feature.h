@@ -1,0 +1,172 @@
+#ifndef SHAPESPACE_METRIC_DEFINE_FEATURE_H_
+#define SHAPESPACE_METRIC_DEFINE_FEATURE_H_
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <typeinfo>
+#include <utility>
+#include <vector>
+
+#include <ceres/jet.h>
+#include <Eigen/Core>
+
+#include <shapespace/metric/feature.h>
+#include <shapespace/metric/feature_registry.h>
+#include <shapespace/metric/line_jet.h>
+
+// What makes a `Feature` of a struct that derives from `ElementFeature`, and makes it known by its
+// name. Only who defines a feature includes this: it takes the automatic derivatives from
+// ceres/jet.h.
+
+namespace shapespace {
+namespace internal {
+
+template <typename Struct>
+class FeatureOf final : public Feature {
+ public:
+  explicit FeatureOf(Struct feature) : feature_(std::move(feature)) {
+    static_assert(kVertices <= kMaxVertices && kValues <= kMaxValues,
+                  "Feature::kMaxVertices and kMaxValues limit the size of an element");
+    static_assert(!Struct::kSum || kValues == 1, "a sum has one value");
+    name_ = Struct::kName;
+    vertices_ = kVertices;
+    values_ = kValues;
+    num_elements_ = static_cast<int>(feature_.stencils.cols());
+    scalar_rows_ = kHasRows ? Struct::kScalarRows : 3 * kValues;
+    is_sum_ = Struct::kSum;
+    is_rigid_invariant_ = Struct::kRigidInvariant;
+    stencils_ = feature_.stencils.data();
+    weights_ = &feature_.weights;
+  }
+
+  void Evaluate(int count, const double* x, double* values, double* derivatives) const override {
+    for (int e = 0; e < count; ++e, x += kSize, values += kValues) {
+      if (derivatives == nullptr) {
+        feature_(x, values);
+        continue;
+      }
+      Jet jet[kSize], value[kValues];
+      for (int k = 0; k < kSize; ++k) jet[k] = Jet(x[k], k);
+      feature_(jet, value);
+      for (int k = 0; k < kValues; ++k) values[k] = value[k].a;
+      for (int corner = 0; corner < kVertices; ++corner) {
+        for (int k = 0; k < kValues; ++k) {
+          for (int axis = 0; axis < 3; ++axis) *derivatives++ = value[k].v[3 * corner + axis];
+        }
+      }
+    }
+  }
+
+  void SecondDerivatives(int count, const double* x, const double* along,
+                         double* values) const override {
+    for (int e = 0; e < count; ++e, x += kSize, along += kSize) {
+      LineJet jet[kSize], value[kValues];
+      for (int k = 0; k < kSize; ++k) jet[k] = {x[k], along[k], 0};
+      feature_(jet, value);
+      for (int k = 0; k < kValues; ++k) *values++ = value[k].second;
+    }
+  }
+
+  double LeastChange(int count, const double* a, const double* b, const double* weights,
+                     int segments) const override {
+    double sum = 0;
+    for (int e = 0; e < count; ++e) {
+      sum += weights[e] * feature_.LeastChange(a + kValues * e, b + kValues * e, segments);
+    }
+    return sum;
+  }
+
+  void ScalarRows(int count, const double* x, double* rows) const override {
+    for (int e = 0; e < count; ++e, x += kSize, rows += kVertices * scalar_rows_) {
+      if constexpr (kHasRows) {
+        Eigen::Vector3d vertices[kVertices];
+        for (int k = 0; k < kVertices; ++k)
+          vertices[k] = Eigen::Map<const Eigen::Vector3d>(x + 3 * k);
+        feature_.ScalarRows(vertices, rows);
+      } else {
+        // A derivative acts along one direction, its scalar stand-in along all three. A third would
+        // be the average over directions; 0.6 makes the unit step of a quasi-Newton method
+        // acceptable from the first iteration on, as measured with edge lengths.
+        double values[kValues], derivatives[kSize * kValues];
+        Evaluate(1, x, values, derivatives);
+        const double root = std::sqrt(0.6);
+        for (int corner = 0; corner < kVertices; ++corner) {
+          for (int row = 0; row < 3 * kValues; ++row) {
+            rows[kVertices * row + corner] = root * derivatives[3 * kValues * corner + row];
+          }
+        }
+      }
+    }
+  }
+
+  std::vector<std::pair<std::string, double>> Constants() const override {
+    std::vector<std::pair<std::string, double>> result;
+    Struct::ForConstants(&feature_, [&](const char* name, const double& number) {
+      result.emplace_back(name, number);
+    });
+    return result;
+  }
+
+ private:
+  static constexpr int kVertices = Struct::kVertices, kValues = Struct::kValues;
+  static constexpr int kSize = 3 * kVertices;
+  static constexpr bool kHasRows = Struct::kScalarRows > 0;
+  using Jet = ceres::Jet<double, kSize>;
+
+  const void* StructIf(const std::type_info& type) const override {
+    return type == typeid(Struct) ? &feature_ : nullptr;
+  }
+
+  const Struct feature_;
+};
+
+}  // namespace internal
+
+/// A feature of what the struct says. Whoever freezes or reads a metric checks it.
+template <typename Struct>
+std::shared_ptr<const Feature> MakeFeature(Struct feature) {
+  return std::make_shared<const internal::FeatureOf<Struct>>(std::move(feature));
+}
+
+namespace internal {
+
+template <typename Struct>
+FeatureKind KindOf(std::function<Struct(const MetricBasis&)> freeze) {
+  FeatureKind kind;
+  kind.vertices = Struct::kVertices;
+  kind.is_sum = Struct::kSum;
+  kind.freeze = [freeze](const MetricBasis& basis, double coefficient) {
+    Struct feature = freeze(basis);
+    feature.weights *= coefficient;
+    return MakeFeature(std::move(feature));
+  };
+  kind.restore = [](const Eigen::MatrixXi& stencils, const Eigen::VectorXd& weights,
+                    const std::function<double(const std::string&)>& constant) {
+    Struct feature;
+    feature.stencils = stencils;
+    feature.weights = weights;
+    Struct::ForConstants(&feature,
+                         [&](const char* name, double& number) { number = constant(name); });
+    return MakeFeature(std::move(feature));
+  };
+  return kind;
+}
+
+}  // namespace internal
+
+/// Makes a feature known by its name, Struct::kName, to `MetricOptions::features`, to every level
+/// of every solver, and to readers of files. `freeze` says what the feature is on a mesh: its
+/// stencils, its weights for a coefficient of 1, and its constants. It is called again for every
+/// coarser mesh, also from several threads, and depends on nothing but what it is given. Without
+/// elements the feature has no part in the metric.
+/// \throw InvalidOptions if a feature of another type has that name.
+template <typename Struct>
+void RegisterFeature(std::function<Struct(const MetricBasis&)> freeze = &Struct::Freeze) {
+  internal::Register(Struct::kName, typeid(Struct), internal::KindOf<Struct>(std::move(freeze)));
+}
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_METRIC_DEFINE_FEATURE_H_

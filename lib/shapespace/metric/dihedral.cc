@@ -1,0 +1,54 @@
+#include <shapespace/metric/dihedral.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <shapespace/metric/metric_basis.h>
+
+namespace shapespace {
+namespace {
+
+// |f|^2 / A_f of a hinge grows without bound on slivers; 8 is a triangle of aspect ratio 4.
+constexpr double kGreatestHingeAspect = 8;
+
+double Radians(double degrees) { return degrees * M_PI / 180; }
+
+}  // namespace
+
+Dihedral Dihedral::Freeze(const MetricBasis& basis) {
+  const Connectivity& connectivity = *basis.connectivity;
+  Dihedral feature;
+  feature.stencils = connectivity.Hinges();
+  feature.weights.resize(connectivity.NumHinges());
+  if (connectivity.NumHinges() == 0) return feature;
+  feature.normal_epsilon_squared =
+      std::pow(MetricBasis::kCollapsed * 2 * basis.triangle_area.mean(), 2);
+  feature.edge_epsilon_squared = basis.CollapsedSquared();
+  double x[12];
+  std::vector<double> angles(basis.poses.size());
+  for (int h = 0; h < connectivity.NumHinges(); ++h) {
+    double squared_length = 0, jump = 0, fold = 0;
+    for (size_t i = 0; i < basis.poses.size(); ++i) {
+      Gather(feature, h, basis.poses[i], x);
+      const Eigen::Map<Eigen::Vector3d> a(x), b(x + 3);
+      squared_length += (b - a).squaredNorm() / basis.poses.size();
+      angles[i] = feature.Angle(x);
+      fold = std::max(fold, std::abs(angles[i]));
+      for (size_t j = basis.pairs == PosePairs::kAll || i == 0 ? 0 : i - 1; j < i; ++j) {
+        jump = std::max(jump, std::abs(WrapAngle(angles[i] - angles[j])));
+      }
+    }
+    // Hinges that are folded in a given pose, or that turn by more than 90 degrees from one pose to
+    // the next, are weighted down, because the chord has no gradient there.
+    const double ramp = std::clamp((fold - Radians(120)) / Radians(15), 0.0, 1.0);
+    const double u = std::max(jump, ramp * fold) / Radians(60);
+    const double area = basis.hinge_area(h);
+    const double aspect =
+        area * kGreatestHingeAspect > squared_length ? squared_length / area : kGreatestHingeAspect;
+    feature.weights(h) = basis.hinge_stiffness(h) * aspect / (1 + u * u * u * u);
+  }
+  return feature;
+}
+
+}  // namespace shapespace

@@ -1,0 +1,39 @@
+#include <shapespace/metric/edge_length.h>
+
+#include <shapespace/metric/metric_basis.h>
+
+namespace shapespace {
+namespace {
+
+// An edge far shorter than the rest would weigh A_e / |e|^4 and freeze whatever hangs on it. Below
+// this share of the root mean square length it is weighed as if it had that length.
+constexpr double kShortestEdge = 1e-3;
+
+}  // namespace
+
+EdgeLength EdgeLength::Freeze(const MetricBasis& basis) {
+  EdgeLength feature;
+  feature.stencils = basis.connectivity->Edges();
+  feature.weights = basis.edge_stiffness;
+  if (basis.weighting == Weighting::kArea) {
+    const double least = kShortestEdge * kShortestEdge * basis.squared_length.mean();
+    feature.weights.array() *=
+        basis.edge_area.array() / basis.squared_length.array().max(least).square();
+  }
+  return feature;
+}
+
+LogLength LogLength::Freeze(const MetricBasis& basis) {
+  const Connectivity& connectivity = *basis.connectivity;
+  const int loose_edges = connectivity.NumEdges() - connectivity.NumTriangleEdges();
+  LogLength feature;
+  feature.stencils = connectivity.Edges().rightCols(loose_edges);
+  feature.weights = basis.edge_stiffness.tail(loose_edges);
+  if (basis.weighting == Weighting::kArea) {
+    feature.weights.array() *= basis.edge_area.tail(loose_edges).array();
+  }
+  feature.epsilon_squared = basis.CollapsedSquared();
+  return feature;
+}
+
+}  // namespace shapespace

@@ -1,0 +1,206 @@
+#include <shapespace/metric/metric_basis.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <shapespace/base/error.h>
+#include <shapespace/metric/metric.h>
+
+namespace shapespace {
+namespace {
+
+// A vertex whose triangles all have no area, or that has none, keeps this share of the mean area.
+constexpr double kLeastArea = 1e-3;
+
+struct Measures {
+  Eigen::VectorXd triangle_area, squared_length;  // means over the poses
+};
+
+Measures Measure(const Connectivity& connectivity, const std::vector<Shape>& poses) {
+  Measures result;
+  result.triangle_area = Eigen::VectorXd::Zero(connectivity.NumTriangles());
+  result.squared_length = Eigen::VectorXd::Zero(connectivity.NumEdges());
+  for (const Shape& pose : poses) {
+    for (int f = 0; f < connectivity.NumTriangles(); ++f) {
+      const Eigen::Vector3i t = connectivity.Triangles().col(f);
+      const Eigen::Vector3d a = pose.col(t(0));
+      result.triangle_area(f) +=
+          0.5 * (pose.col(t(1)) - a).cross(pose.col(t(2)) - a).norm() / poses.size();
+    }
+    for (int e = 0; e < connectivity.NumEdges(); ++e) {
+      const Eigen::Vector2i v = connectivity.Edges().col(e);
+      result.squared_length(e) += (pose.col(v(1)) - pose.col(v(0))).squaredNorm() / poses.size();
+    }
+  }
+  return result;
+}
+
+// The index of a side of a triangle among the edges.
+int FindSide(const Connectivity& connectivity, int a, int b) {
+  const Eigen::Matrix2Xi& edges = connectivity.Edges();
+  const std::pair<int, int> side = std::minmax(a, b);
+  int low = 0, high = connectivity.NumTriangleEdges();
+  while (low < high) {
+    const int middle = (low + high) / 2;
+    if (std::pair<int, int>(edges(0, middle), edges(1, middle)) < side) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+// A_e of every edge and A_p of every vertex, of sum 1 each where the mesh is a plain surface.
+void AssignAreas(const Connectivity& connectivity, const Measures& measures,
+                 Eigen::VectorXd* edge_area, Eigen::VectorXd* vertex_area) {
+  const int num_vertices = connectivity.NumVertices();
+  const int num_sides = connectivity.NumTriangleEdges();
+  *edge_area = Eigen::VectorXd::Zero(connectivity.NumEdges());
+  *vertex_area = Eigen::VectorXd::Zero(num_vertices);
+  const Eigen::Matrix2Xi& edges = connectivity.Edges();
+  if (connectivity.IsGraph()) {
+    *edge_area = measures.squared_length.cwiseSqrt();
+    for (int e = 0; e < connectivity.NumEdges(); ++e) {
+      for (int k = 0; k < 2; ++k) (*vertex_area)(edges(k, e)) += 0.5 * (*edge_area)(e);
+    }
+  } else {
+    for (int f = 0; f < connectivity.NumTriangles(); ++f) {
+      const Eigen::Vector3i t = connectivity.Triangles().col(f);
+      for (int k = 0; k < 3; ++k) {
+        const int a = t(k), b = t((k + 1) % 3);
+        (*vertex_area)(a) += measures.triangle_area(f) / 3;
+        if (a != b) (*edge_area)(FindSide(connectivity, a, b)) += measures.triangle_area(f) / 3;
+      }
+    }
+    // A stiffener has no triangle: it holds a share of the surface at its ends.
+    for (int e = num_sides; e < connectivity.NumEdges(); ++e) {
+      (*edge_area)(e) = ((*vertex_area)(edges(0, e)) + (*vertex_area)(edges(1, e))) / 6;
+    }
+  }
+  *vertex_area = vertex_area->cwiseMax(kLeastArea * vertex_area->sum() / num_vertices);
+}
+
+Eigen::VectorXd HingeAreas(const Connectivity& connectivity, const std::vector<Shape>& poses) {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(connectivity.NumHinges());
+  for (const Shape& pose : poses) {
+    for (int h = 0; h < connectivity.NumHinges(); ++h) {
+      const Eigen::Vector4i v = connectivity.Hinges().col(h);
+      const Eigen::Vector3d a = pose.col(v(0)), e = pose.col(v(1)) - a;
+      result(h) += (e.cross(pose.col(v(2)) - a).norm() + e.cross(pose.col(v(3)) - a).norm()) /
+                   (6 * poses.size());
+    }
+  }
+  return result;
+}
+
+// Squares of lengths, and their products, must be numbers too.
+void CheckMagnitude(const Shape& pose) {
+  const double extent = (pose.rowwise().maxCoeff() - pose.rowwise().minCoeff()).maxCoeff();
+  if (pose.cwiseAbs().maxCoeff() > kLargestCoordinate ||
+      (extent > 0 && extent < 1 / kLargestCoordinate)) {
+    throw MeshError("a pose has coordinates beyond 1e60 or is smaller than 1e-60: scale it");
+  }
+}
+
+// The factors of all edges: given for edges, or as means over their ends, or 1.
+Eigen::VectorXd EdgeStiffness(const Eigen::VectorXd& field, const Connectivity& connectivity) {
+  const Eigen::Matrix2Xi& edges = connectivity.Edges();
+  Eigen::VectorXd result = Eigen::VectorXd::Ones(edges.cols());
+  for (int e = 0; e < edges.cols() && field.size() > 0; ++e) {
+    result(e) = field.size() == connectivity.NumVertices()
+                    ? 0.5 * (field(edges(0, e)) + field(edges(1, e)))
+                    : field(e);
+  }
+  return result;
+}
+
+void CheckStiffness(const Eigen::VectorXd& field, const char* name,
+                    const Connectivity& connectivity) {
+  if (field.size() == 0 || field.size() == connectivity.NumVertices() ||
+      field.size() == connectivity.NumEdges()) {
+    return;
+  }
+  throw InvalidOptions(std::string(name) + ": has " + std::to_string(field.size()) +
+                       " numbers; the mesh has " + std::to_string(connectivity.NumVertices()) +
+                       " vertices and " + std::to_string(connectivity.NumEdges()) + " edges");
+}
+
+void AssignStiffness(const MetricOptions& options, MetricBasis* basis) {
+  const Connectivity& connectivity = *basis->connectivity;
+  CheckStiffness(options.stretching_stiffness, "stretching_stiffness", connectivity);
+  CheckStiffness(options.bending_stiffness, "bending_stiffness", connectivity);
+  basis->edge_stiffness = EdgeStiffness(options.stretching_stiffness, connectivity);
+  basis->triangle_stiffness.setOnes(connectivity.NumTriangles());
+  for (int f = 0; f < connectivity.NumTriangles(); ++f) {
+    double sum = 0;
+    const Eigen::Vector3i t = connectivity.Triangles().col(f);
+    for (int k = 0; k < 3; ++k) {
+      const int a = t(k), b = t((k + 1) % 3);
+      sum += a == b ? 1 : basis->edge_stiffness(FindSide(connectivity, a, b));
+    }
+    basis->triangle_stiffness(f) = sum / 3;
+  }
+  const Eigen::VectorXd bending = EdgeStiffness(options.bending_stiffness, connectivity);
+  basis->hinge_stiffness.resize(connectivity.NumHinges());
+  for (int h = 0; h < connectivity.NumHinges(); ++h) {
+    const Eigen::Vector4i hinge = connectivity.Hinges().col(h);
+    basis->hinge_stiffness(h) = bending(FindSide(connectivity, hinge(0), hinge(1)));
+  }
+}
+
+}  // namespace
+
+MetricBasis MakeMetricBasis(const MetricOptions& options,
+                            const std::shared_ptr<const Connectivity>& connectivity,
+                            const std::vector<Shape>& poses, double unit, PosePairs pairs) {
+  if (poses.empty()) throw MeshError("a metric needs at least one pose to be frozen on");
+  for (const Shape& pose : poses) {
+    if (pose.cols() != connectivity->NumVertices()) {
+      throw MeshError("a pose has " + std::to_string(pose.cols()) + " vertices, the mesh " +
+                      std::to_string(connectivity->NumVertices()));
+    }
+    if (!pose.allFinite()) throw MeshError("a pose has a coordinate that is not finite");
+    CheckMagnitude(pose);
+  }
+  if (connectivity->NumEdges() == 0) throw MeshError("the mesh has no edge");
+
+  // Two rounds: the first finds the unit, the second measures in it.
+  Measures measures = Measure(*connectivity, poses);
+  MetricBasis basis;
+  basis.connectivity = connectivity;
+  basis.pairs = pairs;
+  basis.weighting = options.weights;
+  basis.unit = unit > 0                  ? unit
+               : connectivity->IsGraph() ? measures.squared_length.cwiseSqrt().sum()
+                                         : std::sqrt(measures.triangle_area.sum());
+  if (!(basis.unit > 0) || !std::isfinite(basis.unit)) {
+    throw MeshError("the mesh has no extent: all of its triangles or edges are of size zero");
+  }
+  for (const Shape& pose : poses) basis.poses.push_back(pose / basis.unit);
+  measures = Measure(*connectivity, basis.poses);
+  AssignAreas(*connectivity, measures, &basis.edge_area, &basis.vertex_area);
+  basis.triangle_area = std::move(measures.triangle_area);
+  basis.squared_length = std::move(measures.squared_length);
+  basis.hinge_area = HingeAreas(*connectivity, basis.poses);
+  AssignStiffness(options, &basis);
+  return basis;
+}
+
+Eigen::VectorXd VertexStiffness(const Eigen::VectorXd& field, const Connectivity& connectivity) {
+  const int num_vertices = connectivity.NumVertices();
+  if (field.size() == num_vertices) return field;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(num_vertices);
+  Eigen::VectorXd count = Eigen::VectorXd::Zero(num_vertices);
+  for (int e = 0; e < connectivity.NumEdges(); ++e) {
+    for (const int v : connectivity.Edges().col(e)) {
+      sum(v) += std::log(field(e));
+      ++count(v);
+    }
+  }
+  return (sum.array() / count.array().max(1)).exp();
+}
+
+}  // namespace shapespace

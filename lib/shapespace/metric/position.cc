@@ -1,0 +1,15 @@
+#include <shapespace/metric/position.h>
+
+#include <shapespace/metric/metric_basis.h>
+
+namespace shapespace {
+
+Position Position::Freeze(const MetricBasis& basis) {
+  const int num_vertices = basis.connectivity->NumVertices();
+  Position feature;
+  feature.stencils.setLinSpaced(num_vertices, 0, num_vertices - 1);
+  feature.weights = basis.vertex_area;
+  return feature;
+}
+
+}  // namespace shapespace

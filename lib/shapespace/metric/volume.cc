@@ -1,0 +1,31 @@
+#include <shapespace/metric/volume.h>
+
+#include <cmath>
+
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/volume.h>
+#include <shapespace/metric/metric_basis.h>
+
+namespace shapespace {
+
+Volume Volume::Freeze(const MetricBasis& basis) {
+  const Eigen::Matrix3Xi& triangles = basis.connectivity->Triangles();
+  if (!IsClosed(triangles)) {
+    throw InvalidOptions(
+        "volume: the mesh is not closed, so it encloses none; use volume 0, or fill its holes");
+  }
+  Volume feature;
+  feature.stencils = triangles;
+  double volume = 0;
+  for (const Shape& pose : basis.poses) {
+    volume += EnclosedVolume(triangles, pose) / basis.poses.size();
+  }
+  if (std::abs(volume) < MetricBasis::kCollapsed) {
+    throw InvalidOptions("volume: the mesh encloses none; use volume 0");
+  }
+  feature.reference = std::abs(volume);
+  feature.weights = Eigen::VectorXd::Ones(1);
+  return feature;
+}
+
+}  // namespace shapespace
