@@ -61,7 +61,7 @@ TEST(CatenoidTest, TangentPlanesKeepTheirDirections) {
 
 TEST(CatenoidTest, RefusesBadArguments) {
   EXPECT_EQ(Refusal([] { MakeCatenoid(-1, 10, 10); }),
-            "half_height: -1 is no length; it must be positive and finite");
+            "half_height: -1 is not a length; it must be positive and finite");
   EXPECT_EQ(Refusal([] { MakeCatenoid(21, 10, 10); }),
             "half_height: above 20, in units of the waist radius");
   EXPECT_EQ(Refusal([] { MakeCatenoid(1, 2, 10); }), "around: 2 is too few; at least 3 are needed");

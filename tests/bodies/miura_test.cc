@@ -55,7 +55,7 @@ TEST(MiuraTest, ShrinksBothWaysAsItFolds) {
 
 TEST(MiuraTest, RefusesBadArguments) {
   EXPECT_EQ(Refusal([] { MakeMiura(0, 1, 60, 2, 2); }),
-            "a: 0 is no length; it must be positive and finite");
+            "a: 0 is not a length; it must be positive and finite");
   EXPECT_EQ(Refusal([] { MakeMiura(1, 1, 90, 2, 2); }), "corner: must be in [10, 80] degrees");
   EXPECT_EQ(Refusal([] { MakeMiura(1, 1, 60, 2, 0); }), "ny: 0 is too few; at least 1 are needed");
   EXPECT_EQ(Refusal([] { MakeMiura(1, 1, 60, 1'000'000, 1'000'000); }),

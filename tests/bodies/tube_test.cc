@@ -91,7 +91,7 @@ TEST(TubeTest, RefusesBadArguments) {
   EXPECT_EQ(Refusal([] {
               MakeTube(1000, {6, 0.5, 0, 0});
             }),
-            "tip_radius: 0 is no length; it must be positive and finite");
+            "tip_radius: 0 is not a length; it must be positive and finite");
   EXPECT_EQ(Refusal([] {
               MakeTube(1000, {6, 0.5, 0.5, -0.1});
             }),

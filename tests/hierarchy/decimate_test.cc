@@ -285,7 +285,7 @@ TEST(PlanCollapses, RefusesWhatDoesNotFit) {
   for (int v : {-1, mesh.connectivity->NumVertices()}) {
     EXPECT_EQ(testing::MessageOf<InvalidOptions>(
                   [&] { PlanCollapses(*mesh.connectivity, mesh.poses, 10, {v}); }),
-              "pinned: " + std::to_string(v) + " is no vertex of the mesh");
+              "pinned: " + std::to_string(v) + " is not a vertex of the mesh");
   }
 }
 

@@ -276,7 +276,7 @@ TEST(Hierarchy, RefusesWhatDoesNotFit) {
     options.pinned = {-3};
     EXPECT_EQ(testing::MessageOf<InvalidOptions>(
                   [&] { Hierarchy(tube.connectivity, tube.poses, options); }),
-              "pinned: -3 is no vertex of the mesh");
+              "pinned: -3 is not a vertex of the mesh");
     EXPECT_EQ(testing::MessageOf<InvalidOptions>(
                   [&] { Hierarchy(tube.connectivity, tube.poses, Coarsest(3)); }),
               "coarsest: must be 4 triangles or more");

@@ -197,7 +197,7 @@ TEST_F(ReadPlyTest, RefusesBadHeaders) {
   refused("property float x\n", {"pose.ply:3: a property stands before"});
   refused("element vertex 1\nproperty quad x\n", {"pose.ply:4: 'quad' is no type"});
   refused("element face 1\nproperty list float int i\n", {"pose.ply:4: 'float' is no type that"});
-  refused("element vertex 1\nelement vertex 1\n", {"pose.ply:4: element 'vertex' stands twice"});
+  refused("element vertex 1\nelement vertex 1\n", {"pose.ply:4: element 'vertex' occurs twice"});
   refused("element vertex 1\nproperty int x\nproperty int x\n", {"pose.ply:5: property 'x'"});
   refused("wobble\n", {"pose.ply:3: the header holds 'wobble'"});
   refused("element face 1\nproperty list int int vertex_indices\nend_header\n3 0 0 0\n",

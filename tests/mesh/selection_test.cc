@@ -101,11 +101,11 @@ TEST_F(SelectionTest, ErrorsNameTheField) {
   const struct {
     const char *text, *message;
   } cases[] = {
-      {"", "line 1: this is no JSON: "},
-      {"{\"vertices\":\n[1,]}", "line 2: this is no JSON: "},
-      {"{\"ball\": {\"radius\":\n1e999\n}}", "line 2: this is no JSON: number overflow"},
-      {R"({"group": nan})", "line 1: this is no JSON: "},
-      {"{\"group\": \"a\",\n\"group\": \"b\"}", "line 2: the key 'group' stands twice"},
+      {"", "line 1: this is not valid JSON: "},
+      {"{\"vertices\":\n[1,]}", "line 2: this is not valid JSON: "},
+      {"{\"ball\": {\"radius\":\n1e999\n}}", "line 2: this is not valid JSON: number overflow"},
+      {R"({"group": nan})", "line 1: this is not valid JSON: "},
+      {"{\"group\": \"a\",\n\"group\": \"b\"}", "line 2: the key 'group' occurs twice"},
       {"[1, 2]", "must be an object, { }, with keys of vertices, ball, box, halfspace, group, any"},
       {"{}", "says nothing"},
       {R"({"any": [{}]})", "any (selection 1): says nothing"},
@@ -141,8 +141,8 @@ TEST_F(SelectionTest, ErrorsNameTheField) {
       {R"({"vertices": ["1"]})", "vertices: must hold vertex numbers and ranges of them"},
       {R"({"vertices": [[1, 2, 3]]})", "vertices: a range is two vertex numbers"},
       {R"({"vertices": [[3, 2]]})", "vertices: the range [3, 2] ends before it begins"},
-      {R"({"vertices": [9]})", "vertices: 9 is no vertex of this mesh, which has 8"},
-      {R"({"vertices": [[1, 2147483647]]})", "vertices: 2147483647 is no vertex of this mesh"},
+      {R"({"vertices": [9]})", "vertices: 9 is not a vertex of this mesh, which has 8"},
+      {R"({"vertices": [[1, 2147483647]]})", "vertices: 2147483647 is not a vertex of this mesh"},
       {R"({"any": [{"vertices": [1]}, {"ball": {"centre": [0, 0, 0], "radius": -1}}]})",
        "any (selection 2).ball.radius: must be zero or more"},
   };

@@ -575,7 +575,7 @@ TEST(WriteGltfTest, NamesWhatIsWrongWithThePath) {
   EXPECT_EQ(message([](P* p) {
               p->poses = {0, 3};
             }),
-            "a.glb: the path's pose 3 is none of its 3 shapes that are not extrapolated");
+            "a.glb: the path's pose 3 is not one of its 3 shapes that are not extrapolated");
   for (const double scale : {1e40, 1e-40}) {
     EXPECT_NE(message([&](P* p) {
                 for (Shape& shape : p->shapes) shape *= scale;

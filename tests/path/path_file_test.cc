@@ -152,7 +152,7 @@ TEST(PathFile, ErrorsNameTheFileAndTheReason) {
   EXPECT_NE(message("nowhere.path").find("nowhere.path"), std::string::npos);
   const std::string file = TemporaryFile("text.path");
   Spill(file, "v 1 2 3 this is an OBJ file, is it not?\n");
-  EXPECT_NE(message(file).find("no .path file"), std::string::npos) << message(file);
+  EXPECT_NE(message(file).find("not a .path file"), std::string::npos) << message(file);
   WritePath(file, MakePath());
   std::string later = Slurp(file);
   later[8] = 9;
@@ -213,9 +213,9 @@ TEST(PathFile, PathsAtOddsWithThemselvesAreNotWritten) {
   EXPECT_EQ(message([](P* p) { p->extrapolated = -1; }), extrapolated + "-1, is not in 0 .. 4");
   const std::string pose = file + ": the path's pose ";
   const std::string none = " shapes that are not extrapolated";
-  EXPECT_EQ(message([](P* p) { p->extrapolated = 3; }), pose + "2 is none of its 2" + none);
-  EXPECT_EQ(message([](P* p) { p->poses[1] = 5; }), pose + "5 is none of its 3" + none);
-  EXPECT_EQ(message([](P* p) { p->poses[0] = -1; }), pose + "-1 is none of its 3" + none);
+  EXPECT_EQ(message([](P* p) { p->extrapolated = 3; }), pose + "2 is not one of its 2" + none);
+  EXPECT_EQ(message([](P* p) { p->poses[1] = 5; }), pose + "5 is not one of its 3" + none);
+  EXPECT_EQ(message([](P* p) { p->poses[0] = -1; }), pose + "-1 is not one of its 3" + none);
   EXPECT_EQ(message([](P* p) { std::swap(p->poses[0], p->poses[1]); }),
             file + ": the path's poses do not rise");
   EXPECT_EQ(message([](P* p) { p->parameters[3] = 0.5; }),

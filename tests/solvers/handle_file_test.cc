@@ -93,9 +93,9 @@ TEST_F(HandleFileTest, PositionsStandInTheOrderOfTheVertices) {
 }
 
 TEST_F(HandleFileTest, ErrorsNameTheHandleTheFieldAndTheRemedy) {
-  ExpectError("{\"handles\": [\n{\"fixed\": true,}\n]}", "line 2: this is no JSON: ");
+  ExpectError("{\"handles\": [\n{\"fixed\": true,}\n]}", "line 2: this is not valid JSON: ");
   ExpectError("{\"handles\": [{\"fixed\": true,\n\"fixed\": true}]}",
-              "line 2: the key 'fixed' stands twice in one object; leave one out");
+              "line 2: the key 'fixed' occurs twice in one object; remove one");
   ExpectError("[]", "must be an object, { }, with keys of handles, $schema");
   ExpectError("{}", "handles: is missing");
   ExpectError(R"({"handles": []})", "handles: the list is empty");
@@ -113,7 +113,7 @@ TEST_F(HandleFileTest, ErrorsNameTheHandleTheFieldAndTheRemedy) {
     std::string keys, message;
   } cases[] = {
       {R"("fixed": true, "select": {"vertices": [9]})",
-       "select: vertices: 9 is no vertex of this mesh, which has 8"},
+       "select: vertices: 9 is not a vertex of this mesh, which has 8"},
       {R"("fixed": true, "select": {"ball": {"centre": [0, 0, 0], "radius": -1}})",
        "select: ball.radius: must be zero or more"},
       {R"("fixed": true, "select": {"group": "head"})", "select: group: no polygon has"},

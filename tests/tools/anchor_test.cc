@@ -178,12 +178,12 @@ TEST_F(AnchorTest, WhatCannotBeHeldIsRefusedBeforeAnythingIsSolved) {
   const struct {
     const char *flag, *value, *message;
   } cases[] = {
-      {"--anchor", "", "--anchor : line 1: this is no JSON: "},
-      {"--anchor", "feet", "--anchor feet: line 1: this is no JSON: "},
+      {"--anchor", "", "--anchor : line 1: this is not valid JSON: "},
+      {"--anchor", "feet", "--anchor feet: line 1: this is not valid JSON: "},
       {"--anchor", R"({"vertices": [0]})", "vertices: 0 is no vertex number"},
       {"--anchor", R"({"feet": 1})", "unknown key 'feet'; the keys here are vertices, ball, "},
       {"--anchor", R"({"vertices": [153]})",
-       "vertices: 153 is no vertex of this mesh, which has 152"},
+       "vertices: 153 is not a vertex of this mesh, which has 152"},
       {"--anchor", R"({"group": "foot"})",
        "group: no polygon has the group or object 'foot'; this mesh has none at all"},
       {"--anchor", R"({"ball": {"centre": [99, 0, 0], "radius": 1}})", "no vertex is in {"},

@@ -357,7 +357,7 @@ TEST_F(DeformTest, WrongCommandLines) {
       {handles, {"--repair", "tube1.obj"}, "give --handles, or --repair"},
       {handles, {"--sound", R"({"vertices": [1]})"}, "--sound: goes with --repair"},
       {repair, {"--sound", R"({"vertices": [999]})"}, "--sound: vertices: 999 is no vertex"},
-      {repair, {"--sound", "feet"}, "--sound: line 1: this is no JSON"},
+      {repair, {"--sound", "feet"}, "--sound: line 1: this is not valid JSON"},
       {handles,
        {"--solver", "magic"},
        "--solver magic: must be one of threaded_lbfgs, trust_region"},
@@ -410,14 +410,14 @@ TEST_F(DeformTest, FilesThatCannotServe) {
   const struct {
     std::string content, message;
   } cases[] = {
-      {"{\"handles\": [\n  feet\n]}", "bad.json: line 2: this is no JSON"},
+      {"{\"handles\": [\n  feet\n]}", "bad.json: line 2: this is not valid JSON"},
       {R"({"handles": []})", "bad.json: handles: the list is empty"},
       {R"({"handle": []})", "bad.json: unknown key 'handle'; the keys here are handles, $schema"},
       {R"({"handles": [)" + Fixed(kRoot) + R"(, {"name": "tip", "select": )" + kTip +
            R"(, "rotation": {"axis": [0, 0, 0], "degrees": 9}}]})",
        "bad.json: handle 2 ('tip'): rotation.axis: must not be zero"},
       {R"({"handles": [{"fixed": true, "select": {"vertices": [153]}}]})",
-       "bad.json: handle 1: select: vertices: 153 is no vertex of this mesh, which has 152"},
+       "bad.json: handle 1: select: vertices: 153 is not a vertex of this mesh, which has 152"},
       {R"({"handles": [{"fixed": true, "weight": 0, "select": {"vertices": [1]}}]})",
        "bad.json: handle 1: weight: must be positive"},
   };

@@ -134,7 +134,7 @@ TEST_F(InspectTest, DamagedPathsFail) {
   } cases[] = {
       {"cut.path", "damaged or was cut off"},
       {"flipped.path", "damaged or was cut off"},
-      {"none.path", "this is no .path file"},
+      {"none.path", "this is not a .path file"},
       {"missing.path", "cannot be opened"},
   };
   for (const auto& [file, message] : cases) {

@@ -102,7 +102,7 @@ TEST_F(RefusalTest, FilesThatCannotBeRead) {
   ExpectRefusal(1, {"none.obj", "none.obj"}, {"none.obj: cannot be opened"});
   ExpectRefusal(1, {".", "."}, {"none of .obj, .ply, .off"});
   ExpectBadFile("empty.obj", "", {"empty.obj: is empty"});
-  ExpectBadFile("mesh.stl", "solid\n", {"mesh.stl: the extension '.stl' is none of .obj"});
+  ExpectBadFile("mesh.stl", "solid\n", {"mesh.stl: the extension '.stl' is not one of .obj"});
   ExpectBadFile("cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1\n",
                 {"cut.obj:3: vertex 3: coordinate z is missing"});
   ExpectBadFile("cut.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", {"cut.off:4: the file ends before"});

@@ -125,7 +125,8 @@ Shape Hierarchy::RestrictOnce(const Shape& shape, int level) const {
 }
 
 Eigen::VectorXd Hierarchy::RestrictField(const Eigen::VectorXd& field, int level) const {
-  // Of each vertex, for how many of the mesh's it stands, and the sum of their logarithms.
+  // Per vertex, the number of the mesh's vertices that have collapsed to it, and the sum of their
+  // logarithms.
   Eigen::MatrixX2d sums(field.size(), 2);
   sums << Eigen::VectorXd::Ones(field.size()), field.array().log().matrix();
   for (int at = NumLevels() - 2; at >= level; --at) {

@@ -48,14 +48,14 @@ class Hierarchy {
   /// Restricts a shape of `level` to the next coarser level.
   Shape RestrictOnce(const Shape& shape, int level) const;
 
-  /// A field of positive numbers, one a vertex of the mesh itself, as `level` sees it: the
-  /// geometric mean over the vertices that each vertex of `level` stands for.
+  /// Restricts a field of positive numbers, one per vertex of the mesh itself, to `level`: the
+  /// geometric mean over the vertices that have collapsed to each vertex of `level`.
   Eigen::VectorXd RestrictField(const Eigen::VectorXd& field, int level) const;
 
-  /// A shape of `level` + 1 that sits on `coarse`, a shape of `level`, as `from` sits on
-  /// `from_base` and `to` on `to_base`, blended by (1 - t, t): each neighbourhood moves with the
-  /// rotation of the vertices that carry it. Exact where `coarse` is `from_base` and t is 0, or
-  /// `to_base` and t is 1.
+  /// Lifts `coarse`, a shape of `level`, to `level` + 1. The detail is that of `from` relative to
+  /// `from_base` and of `to` relative to `to_base`, blended by (1 - t, t), rotated with the
+  /// neighbourhoods that carry it. Exact if `coarse` is `from_base` and t is 0, or `to_base` and t
+  /// is 1.
   Shape Lift(const Shape& coarse, int level, const Shape& from_base, const Shape& from,
              const Shape& to_base, const Shape& to, double t) const;
   /// The same with the restrictions of `from` and `to` as bases: vertices of `level` are those of

@@ -60,12 +60,12 @@ Soup ReadSoup(const std::string& file) {
   if (extension == ".ply") return internal::ReadPly(file, Content(file));
   if (extension == ".off") return internal::ReadOff(file, Content(file));
   throw FileError(file + ": the extension " + internal::Quoted(extension) +
-                  " is none of .obj, .ply, .off; convert the mesh to one of these");
+                  " is not one of .obj, .ply, .off; convert the mesh to one of these");
 }
 
 bool MirrorBack(const Soup& reference, char axis, Soup* pose) {
   if (axis < 'x' || axis > 'z') {
-    throw InvalidOptions(std::string("mirror: '") + axis + "' is none of x, y and z");
+    throw InvalidOptions(std::string("mirror: '") + axis + "' is not one of x, y and z");
   }
   if (pose->NumVertices() != reference.NumVertices()) return false;
   internal::CheckPolygons(reference.NumVertices(), reference.polygon_begin, reference.corners);

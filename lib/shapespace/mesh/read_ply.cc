@@ -185,7 +185,7 @@ class PlyReader {
     Element element;
     element.name = words.Next();
     for (const Element& other : elements_) {
-      if (other.name == element.name) Fail("element " + Quoted(element.name) + " stands twice");
+      if (other.name == element.name) Fail("element " + Quoted(element.name) + " occurs twice");
     }
     const std::string_view word = words.Next();
     const std::optional<std::int64_t> count = ParseInteger(word);
@@ -213,7 +213,7 @@ class PlyReader {
     property.type = *type;
     property.name = words.Next();
     for (const Property& other : elements_.back().properties) {
-      if (other.name == property.name) Fail("property " + Quoted(property.name) + " stands twice");
+      if (other.name == property.name) Fail("property " + Quoted(property.name) + " occurs twice");
     }
     elements_.back().properties.push_back(std::move(property));
   }

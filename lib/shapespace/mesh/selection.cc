@@ -137,7 +137,8 @@ class Selector {
     for (const auto& [first, last] : selection.vertices) {
       if (last >= shape_.cols()) {
         FailIn(field, std::to_string(std::int64_t{last} + 1) +
-                          " is no vertex of this mesh, which has " + std::to_string(shape_.cols()));
+                          " is not a vertex of this mesh, which has " +
+                          std::to_string(shape_.cols()));
       }
       std::fill(listed.begin() + first, listed.begin() + last + 1, true);
     }

@@ -195,8 +195,8 @@ void AppendDeviations(const Path& path, Json* header, std::string* bytes) {
 std::vector<double> SquaredSpeeds(const Path& path) {
   std::vector<double> speeds;
   if (path.NumShapes() < 2) return speeds;
-  // Of three shapes of which the last two are one, the first segment has all of the energy, which
-  // is twice the squared distance, whatever the metric.
+  // For three shapes of which the last two are equal, the first segment has all of the energy,
+  // which is twice the squared distance, whatever the metric.
   PathEnergy energy(path.metric, 1);
   std::vector<double> unknowns(energy.Size());
   for (int i = 0; i + 1 < path.NumShapes(); ++i) {

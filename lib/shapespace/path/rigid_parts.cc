@@ -19,25 +19,25 @@
 namespace shapespace {
 namespace {
 
-// Shapes against the first that decide: motion along a path is smooth, and memory is by triangle
-// and shape.
+// Number of shapes, besides the first, that determine the parts: motion along a path is smooth, and
+// memory is proportional to triangles times shapes.
 constexpr int kMostShapes = 8;
 
-// Displacements below this, as a share of a region's size, are no motion: where nothing moves,
-// small regions are joined first, so that all grow alike.
+// Displacements below this, as a share of a region's size, count as no motion; in regions without
+// motion, small regions are merged first, so that all grow at the same rate.
 constexpr double kNoMotion = 1e-4;
 
 // Deviations below this are rounding.
 constexpr double kNoise = 1e-9;
 
-// A region that itself is off rigid motion by more than this share of the tolerance is a slice of
-// something that bends throughout. On real paths bones are at 0.05 to 0.55, slices from 0.6 on.
+// A region whose own deviation from rigid motion exceeds this share of the tolerance is a slice of
+// a region that bends throughout. On real paths bones have 0.05 to 0.55, slices 0.6 and more.
 constexpr double kOwnShare = 0.6;
 
-constexpr int kBatch = 512;  // pairs a task: some 100 microseconds
+constexpr int kBatch = 512;  // pairs per task: about 100 microseconds
 
-// What a region's points sum to, each weighted by its area: enough for the best rigid motion of the
-// region, and for that of two regions together by adding.
+// Area-weighted sums over a region's points. They are sufficient for the best rigid motion of the
+// region and, added, for that of two regions together.
 struct RestSums {
   double area = 0, squares = 0;
   Eigen::Vector3d points = Eigen::Vector3d::Zero();
@@ -60,9 +60,9 @@ struct MovedSums {
   }
 };
 
-// The squared distance, summed over the area, that the best rigid motion leaves. It is G - 2 x with
-// x the largest root of a quartic whose coefficients are invariants of the covariance, and x <= G /
-// 2, from where Newton's method falls monotonically. D. L. Theobald, "Rapid calculation of RMSDs
+// The squared distance from the best rigid motion, integrated over the area. It is G - 2 x, where x
+// is the largest root of a quartic whose coefficients are invariants of the covariance; x <= G / 2,
+// from where Newton's method decreases monotonically. D. L. Theobald, "Rapid calculation of RMSDs
 // using a quaternion-based characteristic polynomial", Acta Cryst. A61, 2005.
 double SquaredResidual(const RestSums& rest, const MovedSums& moved) {
   const double both = (rest.squares - rest.points.squaredNorm() / rest.area) +
@@ -85,17 +85,17 @@ double SquaredResidual(const RestSums& rest, const MovedSums& moved) {
   return std::max(0.0, (1 - x) * both);
 }
 
-// Two regions with a border.
+// Two adjacent regions.
 struct Pair {
   int first, second;  // first < second
-  double loss;        // negative: not known
+  double loss;        // negative: not computed yet
 };
 
 class Merger {
  public:
   Merger(const Path& path, const RigidPartsOptions& options);
 
-  // Joins regions until no two fit; per triangle its region, in 0 .. count - 1.
+  // Merges regions until no pair fits; returns the region of each triangle, in 0 .. count - 1.
   std::vector<int> Run(int* count);
 
  private:
@@ -105,10 +105,10 @@ class Merger {
 
   const RigidPartsOptions options_;
   int shapes_ = 0;
-  std::vector<int> region_;  // of each triangle
+  std::vector<int> region_;  // per triangle
   std::vector<RestSums> rest_;
-  std::vector<MovedSums> moved_;  // region by region
-  std::vector<double> residual_;  // likewise
+  std::vector<MovedSums> moved_;  // by region
+  std::vector<double> residual_;  // by region
   std::vector<Pair> pairs_;
 };
 
@@ -121,7 +121,7 @@ std::vector<int> DecidingShapes(int num_shapes) {
   return chosen;
 }
 
-// Per triangle its mean area in the first and the given shapes, of sum 1.
+// Per triangle its mean area in the first and the given shapes, with sum 1.
 Eigen::VectorXd MeanAreas(const Path& path, const std::vector<int>& shapes) {
   const Eigen::Matrix3Xi& triangles = path.metric->connectivity->Triangles();
   Eigen::VectorXd area = Eigen::VectorXd::Zero(triangles.cols());
@@ -134,7 +134,7 @@ Eigen::VectorXd MeanAreas(const Path& path, const std::vector<int>& shapes) {
   add(path.shapes[0]);
   for (const int i : shapes) add(path.shapes[i]);
   area /= area.sum();
-  // Degenerate triangles go with their neighbours at no cost, but must not divide by zero.
+  // Degenerate triangles can be merged at no cost, but must not cause a division by zero.
   area = area.cwiseMax(std::numeric_limits<double>::epsilon() / area.size());
   return area / area.sum();
 }
@@ -183,7 +183,7 @@ Merger::Merger(const Path& path, const RigidPartsOptions& options) : options_(op
   }
 }
 
-// What the two lose by moving together, summed over the area, in the worst shape.
+// The increase of the error by merging the two, integrated over the area, in the worst shape.
 double Merger::Loss(const Pair& pair) const {
   RestSums rest = rest_[pair.first];
   rest.Add(rest_[pair.second]);
@@ -198,15 +198,15 @@ double Merger::Loss(const Pair& pair) const {
   return loss;
 }
 
-// What two lose falls to the smaller, for it is the larger that the common motion follows. Regions
-// too small to be parts need not be better than the smallest part.
+// The increase is attributed to the smaller region, because the common motion follows the larger
+// one. Regions too small to be parts are compared with the size of the smallest part.
 bool Merger::Fits(const Pair& pair) const {
   const double area = std::min(rest_[pair.first].area, rest_[pair.second].area);
   const double size_squared = std::max(area, options_.least_share);
   return pair.loss <= options_.tolerance * options_.tolerance * size_squared * area;
 }
 
-// Mixes the bits of a pair, for an order that favours no place on the mesh.
+// Hashes a pair, for an order that is independent of the position on the mesh.
 std::uint64_t Mix(const Pair& pair) {
   std::uint64_t x =
       (static_cast<std::uint64_t>(pair.first) << 32) | static_cast<std::uint32_t>(pair.second);
@@ -215,8 +215,9 @@ std::uint64_t Mix(const Pair& pair) {
   return x ^ (x >> 31);
 }
 
-// Joins all pairs of which each is the other's best. That is what joining one pair after the
-// other, always the best of all, comes to, for whom two join grows no closer to others by that.
+// Merges all pairs that are mutual nearest neighbours. This gives the same result as always merging
+// the pair with the least loss, because the loss of a merged region with another one is not less
+// than the lesser of the two regions' losses (reducibility).
 bool Merger::Pass() {
   const int batches = (static_cast<int>(pairs_.size()) + kBatch - 1) / kBatch;
   ParallelFor(batches, [&](int batch) {
@@ -307,14 +308,14 @@ std::vector<int> Merger::Run(int* count) {
   return region_;
 }
 
-// Per region its rigid motion from the first shape to one other, and what that leaves.
+// The rigid motion of a region from the first shape to another one, and its errors.
 struct RegionFit {
   Eigen::Matrix3d rotation;
-  double squared_residual = 0;        // summed over the area
+  double squared_residual = 0;        // integrated over the area
   double squared_edge_deviation = 0;  // area-weighted mean over the edges
 };
 
-// Regions of one shape; triangles in region -1 do not count.
+// Fits the regions of one shape; triangles in region -1 are not counted.
 std::vector<RegionFit> FitRegions(const Path& path, int i, const Eigen::VectorXd& area,
                                   const std::vector<int>& region, int count) {
   const Eigen::Matrix3Xi& triangles = path.metric->connectivity->Triangles();
@@ -360,7 +361,7 @@ double DegreesBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return Eigen::AngleAxisd(Eigen::Matrix3d(a * b.transpose())).angle() * 180 / M_PI;
 }
 
-// Per vertex the first of the parts that its triangles have.
+// Per vertex the first part among those of its triangles.
 Eigen::VectorXi PartsOfVertices(const Connectivity& connectivity,
                                 const Eigen::VectorXi& of_triangle) {
   Eigen::VectorXi result =
@@ -376,9 +377,9 @@ Eigen::VectorXi PartsOfVertices(const Connectivity& connectivity,
   return result;
 }
 
-// Regions of triangles that are large enough, the largest first.
+// Regions of triangles that are large enough, in order of descending area.
 struct Regions {
-  std::vector<int> of_triangle;  // -1 where the triangle's is too small
+  std::vector<int> of_triangle;  // -1 if the triangle's region is too small
   std::vector<double> area;
 };
 
@@ -404,7 +405,7 @@ Regions LargeRegions(Merger merger, const Eigen::VectorXd& area, double least_sh
   return result;
 }
 
-// Of a region of this area, by how the first shape's fits it in all others.
+// Whether a region of this area is rigid, according to its fits in all shapes.
 bool IsRigid(const std::vector<std::vector<RegionFit>>& fits, int region, double area,
              const RigidPartsOptions& options) {
   double deviation = 0, residual = 0;
@@ -412,11 +413,12 @@ bool IsRigid(const std::vector<std::vector<RegionFit>>& fits, int region, double
     deviation = std::max(deviation, std::sqrt(fits[i][region].squared_edge_deviation));
     residual = std::max(residual, std::sqrt(fits[i][region].squared_residual));
   }
-  // The root of (residual per area) as a share of the root of the area.
+  // Square root of (residual per area) as a share of the square root of the area.
   return residual <= kOwnShare * options.tolerance * area && !(deviation > options.most_deviation);
 }
 
-// But for what `CountAndPlaceParts` finds; turns are against the region `largest`.
+// All fields except those set by `CountAndPlaceParts`; rotations are relative to the region
+// `largest`.
 RigidPart DescribePart(const std::vector<std::vector<RegionFit>>& fits, int region, int largest,
                        double area, double unit) {
   RigidPart part;
@@ -538,7 +540,7 @@ std::vector<DeviationSite> FindDeviationSites(const Path& path, const RigidParts
       site.vertex = v;
     }
   }
-  // Ends of edges at the site, counted by part.
+  // Numbers of ends of edges at the site, by part.
   std::vector<std::vector<std::pair<int, int>>> touched(result.size());
   for (int e = 0; e < edges.cols(); ++e) {
     const int at = std::max(index[edges(0, e)], index[edges(1, e)]);

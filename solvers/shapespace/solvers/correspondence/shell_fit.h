@@ -39,7 +39,7 @@ class ShellFit {
   ShellFit(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
            const std::vector<int>& held, double bending, double proportions);
 
-  /// A_p of sum 1.
+  /// The areas A_p, scaled to sum 1.
   const Eigen::VectorXd& VertexAreas() const { return metric_->vertex_area; }
 
   /// One iteration: updates the smoothed strains from `*shape` and takes a step that decreases the

@@ -19,8 +19,9 @@ namespace shapespace::cost {
 /// geodesic (the discrete Euler-Lagrange equation of the path energy).
 class EulerLagrange {
  public:
-  /// Shapes in the metric's unit; `target` has the layout of FeatureMap::Values. Rows are
-  /// multiplied by `scale`: Ceres' limits are absolute, and want numbers of about one.
+  /// Shapes are in the metric's unit; `target` has the layout of FeatureMap::Values. Rows are
+  /// multiplied by `scale`, because Ceres' limits are absolute and assume numbers of the order of
+  /// one.
   EulerLagrange(const Metric& metric, const Shape& at, const Eigen::VectorXd& target,
                 double scale = 1);
 
@@ -45,7 +46,7 @@ class EulerLagrange {
 
   const std::vector<std::shared_ptr<const Feature>> features_;
   const int num_sums_;
-  std::vector<std::vector<VertexElements>> rows_;  // of each vertex
+  std::vector<std::vector<VertexElements>> rows_;  // per vertex
   std::vector<std::vector<int>> neighbours_;
   Tangent magnitude_;                  // sums of the absolute values of the residual's terms
   std::vector<double> sum_gradients_;  // norm of the scaled gradient of each sum feature

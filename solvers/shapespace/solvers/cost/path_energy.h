@@ -24,8 +24,8 @@ using RigidMotions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 /// E n / 2 for n segments, is 2 n times the cost.
 ///
 /// `shapes` are in the metric's unit (Metric::unit). They and `motions` must outlive the problem,
-/// and must not be resized while it lives. `motions` is for the rigid metric, and not
-/// read without; it is resized here. `quartic_weight` as in PathEnergy::SetQuarticWeight.
+/// and must not be resized while it exists. `motions` is used for the rigid metric only and is
+/// resized here. `quartic_weight` as in PathEnergy::SetQuarticWeight.
 /// \throw MeshError if there are fewer than two shapes, or one has another number of vertices than
 ///        the metric; InvalidOptions if the metric has a sum feature (volume) and more than
 ///        kMaxDenseVertices vertices, or a rigid part and there are no `motions`.

@@ -20,7 +20,7 @@ namespace shapespace::cost {
 // i + 1. Residuals are scaled so that Ceres' cost, half the sum of squares, is a quarter of the
 // energy.
 
-/// sqrt(w) (Phi_{i+1} - Phi_i) of one element of a feature. Each end is differentiated on Jets of
+/// sqrt(w) (Phi_{i+1} - Phi_i) of one element of a feature. Each end is differentiated with Jets of
 /// its own, which are half as long as those of the whole segment would be.
 class FeatureSegment final : public ceres::CostFunction {
  public:
@@ -76,7 +76,8 @@ struct TrapezoidSegment {
   }
 };
 
-/// A sum feature couples all vertices: blocks are all m vertices of shape i, then those of i + 1.
+/// A sum feature couples all vertices: the blocks are all m vertices of shape i, followed by those
+/// of shape i + 1.
 class SumSegment final : public ceres::CostFunction {
  public:
   SumSegment(std::shared_ptr<const Feature> feature, int num_vertices)

@@ -18,16 +18,16 @@ namespace shapespace::cost {
 /// The terms of one feature in the rows of vertex v of J(at)^T [Phi(P) - target] = 0.
 struct VertexElements {
   std::shared_ptr<const Feature> feature;
-  std::vector<int> elements;     ///< those that touch v
-  std::vector<int> blocks;       ///< of each element, the parameter blocks of its vertices
-  std::vector<double> targets;   ///< of each element, its values
-  std::vector<double> gradient;  ///< of each value, 3 numbers: along v, at the shape `at`
+  std::vector<int> elements;     ///< elements at v
+  std::vector<int> blocks;       ///< per element, the parameter blocks of its vertices
+  std::vector<double> targets;   ///< per element, its values
+  std::vector<double> gradient;  ///< per value, its gradient with respect to v, at the shape `at`
 };
 
 /// The three rows of vertex v in J(at)^T [Phi(P) - target] = 0. Parameter blocks: the value of each
 /// sum feature (1 number), which all rows share, then the vertices that share an element with v.
-/// Each element is differentiated automatically on Jets of its own size; one row with bending has
-/// some sixty unknowns, of which an element has twelve.
+/// Each element is differentiated automatically with Jets of its own size; a row with bending has
+/// about sixty unknowns, of which an element has twelve.
 class EulerLagrangeRows final : public ceres::CostFunction {
  public:
   /// The first `num_sums` blocks are those of sums, `num_vertices` blocks follow.

@@ -48,7 +48,7 @@ class Hasher {
   XXH3_state_t state_;
 };
 
-// Of everything that a geodesic depends on but for its two shapes.
+// Digest of everything that a geodesic depends on except its two shapes.
 std::string DigestOf(const Metric& frozen, const std::vector<Shape>& poses,
                      const GeodesicOptions& options) {
   Hasher hasher;

@@ -41,7 +41,7 @@ Eigen::VectorXd FeatureTransfer::Wanted(const Shape& deformed, const Shape& plac
   for (size_t i = 0; i < metric_->features.size(); ++i) {
     const int begin = map_.FirstValue(i);
     if (const auto* angles = metric_->features[i]->As<Dihedral>()) {
-      // On the circle angles are added.
+      // On the unit circle: multiplying complex numbers adds angles.
       for (int e = 0; e < angles->stencils.cols(); ++e) {
         const auto value = [&](const Eigen::VectorXd& values) {
           return std::complex<double>(values(begin + 2 * e), values(begin + 2 * e + 1));

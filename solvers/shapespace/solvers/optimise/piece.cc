@@ -154,7 +154,7 @@ std::vector<Shape> Piece::OneInnerShape(Start start, int level) {
     case Start::kLast:
       return {ends[0], ends[1], ends[1]};
     case Start::kRigid: {
-      // The paper's advice for blends that degenerate: a first round as rigid as possible.
+      // The paper's advice for degenerate blends: a first solve that is as rigid as possible.
       Resolution rigid(FreezeMetric(MetricOptions::Rigid(),
                                     resolutions_[level].GetMetric()->connectivity, ends, 1),
                        ends);

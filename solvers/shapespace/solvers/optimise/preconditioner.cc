@@ -22,7 +22,7 @@ Eigen::SparseMatrix<double> ScalarMetric(const Metric& metric, const std::vector
   };
   const bool quartic = quartic_segments > 0;
   for (const auto& feature : metric.features) {
-    // A sum over all elements is a dense row: left to the quasi-Newton updates.
+    // A sum feature is a dense row, and is left to the quasi-Newton updates.
     if (feature->IsSum()) continue;
     const int corners = feature->VerticesPerElement(), num_rows = feature->NumScalarRows();
     Eigen::MatrixXd k(corners, num_rows), block(corners, corners);
