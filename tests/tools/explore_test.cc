@@ -98,7 +98,7 @@ TEST_F(ExploreToolTest, KilledAtAnyTimeItGoesOn) {
   const bool was_left = fs::exists(Path("killed.space.records"));
   const Outcome last = Run("shape-explore", WithPoses({"--output", "killed.space"}));
   EXPECT_EQ(last.code, 0);
-  if (was_left) ExpectContains(last.err, "an earlier run had left them");
+  if (was_left) ExpectContains(last.err, "the records of an earlier run");
   EXPECT_GT(most, 0u);
   EXPECT_TRUE(Content(Path("killed.space")) == Content(Path("whole.space")));
   EXPECT_FALSE(fs::exists(Path("killed.space.records")));
@@ -182,7 +182,7 @@ TEST_F(ExploreToolTest, WhatIsWrongIsNamed) {
   File("c.json", R"({"points": ["nobody"]})");
   expect(1, {"--sample", "c.json", "p.space", "--output", "w.glb"}, {"c.json", "nobody"});
   File("d.json", R"({"points": ["pose0"]})");
-  expect(2, {"--sample", "d.json", "p.space", "--output", "w.path"}, {"w.path", "no geodesic"});
+  expect(2, {"--sample", "d.json", "p.space", "--output", "w.path"}, {"w.path", "not a geodesic"});
   expect(2, {"--sample", "d.json", "p.space", "--frames", "0", "--output", "w.glb"},
          {"--frames 0"});
   const std::string before = Content(Path("p.space"));

@@ -176,7 +176,7 @@ TEST_F(ExtrapolateTest, OtherToolsShowWhatGoesOn) {
   const Outcome inspected = Run("shape-inspect", {"on.path"});
   EXPECT_EQ(inspected.code, 0) << inspected.err;
   ExpectContains(inspected.out, "9 shapes, 2 of them given, 4 extrapolated; 152 vertices");
-  ExpectContains(inspected.out, "off the lengths in the first shape");
+  ExpectContains(inspected.out, "from the lengths in the first shape");
   ExpectLacks(Run("shape-inspect", {"walk.path"}).out, "extrapolated");
 }
 

@@ -281,7 +281,7 @@ TEST_F(RefusalTest, SolvesBeyondTheMemoryLimit) {
 TEST_F(RefusalTest, OutputsThatCannotBeWrittenAreFoundBeforeAnythingIs) {
   MakeTubes();
   ExpectRefusal(1, {"tube0.obj", "tube1.obj", "--output", "w.path,tube0.obj/frames/%d.obj"},
-                {"tube0.obj/frames/%d.obj: cannot be written: ", "tube0.obj is no folder"});
+                {"tube0.obj/frames/%d.obj: cannot be written: ", "tube0.obj is not a folder"});
   ExpectRefusal(1, {"tube0.obj", "tube1.obj", "--output", "w.path", "--report", "tube0.obj/r.txt"},
                 {"tube0.obj/r.txt: cannot be written"});
 }

@@ -118,7 +118,7 @@ TEST_F(TerminalTest, CtrlCKeepsTheBestPathSoFarAndNothingElse) {
   EXPECT_EQ(path.NumShapes(), 65);
   ExpectContains(path.provenance, "tube0.obj tube1.obj");
   Screen();
-  ExpectContains(terminal_.Text(), "stopping: the best path so far goes to walk.path");
+  ExpectContains(terminal_.Text(), "stopping: writing the best path so far to walk.path");
   ExpectContains(terminal_.Text(), "NOT CONVERGED: cancelled");
   ExpectContains(terminal_.Text(), "wrote walk.path");
 }

@@ -206,7 +206,7 @@ TEST_F(TransferTest, WrongCommandLines) {
       {{}, "at least two poses of one mesh, or one .path file alone"},
       {{"tube0.obj"}, "at least two poses of one mesh, or one .path file alone"},
       {{"walk.path", "tube1.obj"}, "at least two poses of one mesh, or one .path file alone"},
-      {{"tube0.obj", "tube1.obj", "--target", ""}, "--target: name the body that is to move"},
+      {{"tube0.obj", "tube1.obj", "--target", ""}, "--target: name the body to move"},
       {{"walk.path", "--lambda", "0.001"}, "--lambda: goes with poses"},
       {{"walk.path", "--shapes", "15"}, "--shapes: goes with poses"},
       {{"walk.path", "--stiffeners", "s.txt"}, "--stiffeners: goes with poses"},

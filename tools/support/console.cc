@@ -12,15 +12,15 @@
 namespace shapespace::tools {
 namespace {
 
-// Seconds between two lines of progress, on a terminal and elsewhere.
+// Seconds between two lines of progress, on a terminal and otherwise.
 constexpr double kTerminalPause = 0.05, kPause = 10;
 
 struct Console {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const Stopwatch stopwatch = {};
-  double last = terminal ? -kTerminalPause : 0;  // when progress was shown
-  std::string line;                              // of progress, shown last
-  std::atomic<bool> shown{false};                // it stands on the terminal
+  double last = terminal ? -kTerminalPause : 0;  // time of the last line of progress
+  std::string line;                              // the last line of progress
+  std::atomic<bool> shown{false};                // it is visible on the terminal
   bool results_to_stderr = false;
   bool has_complained = false;
   std::string name;
@@ -49,7 +49,7 @@ void ResultsToStderr() { TheConsole().results_to_stderr = true; }
 
 std::ostream& Err() {
   ClearProgress();
-  std::cout << std::flush;  // so that lines stand in order where both go to one place
+  std::cout << std::flush;  // keeps the order of lines if both go to the same place
   return std::cerr;
 }
 
