@@ -42,6 +42,12 @@ struct Path {
   std::vector<Shape> Placed() const;
 };
 
+/// A path through `placed`, shapes in the user's frame and unit, at ascending `parameters`; if empty,
+/// evenly from 0 to 1. Its poses are the first and the last shape; set `poses` if others were given.
+/// \throw MeshError if there is no shape, or as `Path::Validate`.
+Path MakePath(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& placed,
+              std::vector<double> parameters = {});
+
 /// Interpolates `shapes`, which belong to ascending `parameters`, at ascending `times` between the
 /// first and the last of these, cubically in time through the four nearest shapes; at a shape's own
 /// parameter the result is that shape.
