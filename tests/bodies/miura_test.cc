@@ -24,7 +24,7 @@ TEST(MiuraTest, KeepsSidesDiagonalsAndFlatnessOfEveryParallelogram) {
     const Shape rest = body.pose(0);
     for (double angle : {1e-6, 10.0, 45.0, 85.0}) {
       const Shape folded = body.pose(angle);
-      // Edges include the diagonals that cut the polygons and those that do not.
+      // Edges include both diagonals of the polygons.
       EXPECT_EQ(body.connectivity->NumEdges(), 5 * 5 + 6 * 4 + 2 * 20);
       EXPECT_LT(LargestStrain(*body.connectivity, rest, folded), 1e-13);
       for (int p = 0; p < body.connectivity->NumPolygons(); ++p) {

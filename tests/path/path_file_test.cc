@@ -37,7 +37,7 @@ void Spill(const std::string& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
-// A path with every kind of feature, a quadrilateral, a stiffener and all that an appearance has.
+// A path with every kind of feature, a quadrilateral, a stiffener and a complete appearance.
 Path MakePath() {
   const Body bar = MakeBar(4, 1, 1, 3, 1, 1);
   MetricOptions options;
@@ -112,9 +112,9 @@ TEST(PathFile, RoundTripKeepsEveryBit) {
   EXPECT_EQ(read.metric->connectivity->Corners(), path.metric->connectivity->Corners());
   EXPECT_TRUE(read.metric->connectivity->Edges() == path.metric->connectivity->Edges());
   EXPECT_EQ(Describe(read.metric->options), Describe(path.metric->options));
-  // The frozen metric means the same: the very energy, to the last bit.
+  // The frozen metric is the same: the energies are equal to the last bit.
   EXPECT_EQ(Energy(read), Energy(path));
-  // Writing what was read gives the very file.
+  // Writing what was read gives an identical file.
   const std::string again = TemporaryFile("again.path");
   WritePath(again, read);
   EXPECT_EQ(Slurp(again), Slurp(file));

@@ -61,7 +61,7 @@ TEST_F(ExploreToolTest, MakesASpaceMeasuresItAndWalksThroughIt) {
   EXPECT_EQ(walk.err, "");
   EXPECT_TRUE(fs::exists(Path("frames/8.obj")));
   EXPECT_FALSE(fs::exists(Path("frames/9.obj")));
-  // The curve begins at the first pose, which stays where it was.
+  // The curve begins at the first pose, which is unchanged.
   const Poses first = ReadPoses({Path("pose0.obj"), Path("frames/0.obj")});
   EXPECT_LT((first.shapes[0] - first.shapes[1]).cwiseAbs().maxCoeff(), 1e-12);
 

@@ -65,7 +65,7 @@ TEST_F(TransferTest, TheLadderMakesAFrameOfEveryPose) {
     EXPECT_LT(Apart("out/0" + number + ".obj", path.Placed(i)), 1e-8);
     EXPECT_TRUE(Vertices("mid/0" + number + ".ply") == hybrids.Placed(i));
   }
-  // Each is reached from the reference, whichever poses stand before it.
+  // Each pose is reached from the reference, independently of the poses before it.
   Succeed("shape-transfer", {"tube0.obj", "tube2.obj", "--target", "thin.obj", "--shapes", "3",
                              "--method", "ladder", "--output", "alone%d.obj"});
   EXPECT_LT(Apart("alone1.obj", path.Placed(2)), 1e-8);
@@ -172,7 +172,7 @@ TEST_F(TransferTest, BodiesOfOtherConnectivityAreRefusedByName) {
   Succeed("shape-interpolate",
           {"tube0.obj", "tube1.obj", "--shapes", "1", "--output", "walk.path"});
   Succeed("shape-body", {"bar", "--triangles", "300", "--at", "0", "--output", "bar%d.obj"});
-  // The same numbers of everything, but two vertices that have changed places.
+  // All counts are equal, but two vertices are exchanged.
   Soup changed = ReadSoup(Path("thin.obj"));
   for (int& v : changed.corners) v = v == 0 ? 70 : v == 70 ? 0 : v;
   changed.vertices.col(0).swap(changed.vertices.col(70));

@@ -31,7 +31,7 @@ class ViewTest : public ToolsTest {
     EXPECT_EQ(Files(), before) << outcome.err;
   }
 
-  /// Whether shape-view has the page in it: that takes npm. Without, it says how to get it.
+  /// Whether shape-view contains the page, which needs npm. Otherwise it explains how to get it.
   bool HasPage() const {
     const Outcome outcome = Run("shape-view", {"walk.path", "--output", "try.html"});
     if (outcome.code == 0) return true;
