@@ -115,7 +115,7 @@ void CheckUnreferenced(const Soup& soup, Findings* findings) {
               "nothing ties them to the mesh when it moves; take them out of every pose", findings);
 }
 
-/// Notes; for a mesh without fatal findings.
+/// Notes for a mesh without fatal findings.
 void DescribeTopology(const Soup& soup, Findings* findings) {
   const Topology topology = ComputeTopology(
       *Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments));
@@ -239,7 +239,7 @@ Findings CheckPositions(const Soup& soup) {
       longest = std::max(longest, (b - a).norm());
       shortest = std::min(shortest, (b - a).norm());
     }
-    // Of the size of rounding errors in double coordinates; thin but honest triangles are above it.
+    // About the rounding errors of double coordinates; valid thin triangles have more.
     constexpr double kNoArea = 1e-12;
     if (area.norm() <= kNoArea * longest * longest) {
       no_area.Add([&] { return PolygonName(soup, p); });

@@ -76,7 +76,7 @@ bool HasWord(const std::string& names, const std::string& name) {
   return false;
 }
 
-// Selects in one shape of one mesh.
+// Evaluates selections in one shape of one mesh.
 class Selector {
  public:
   Selector(const Shape& shape, const Connectivity& connectivity, const Appearance& appearance)
@@ -89,7 +89,7 @@ class Selector {
 
   Flags Run(const Selection& selection, const std::string& field) const {
     Flags selected(shape_.cols(), true);
-    // Takes away the vertices for which `holds` is false.
+    // Removes the vertices for which `holds` is false.
     const auto restrict_to = [&](const auto& holds) {
       for (int v = 0; v < shape_.cols(); ++v) selected[v] = selected[v] && holds(v);
     };
@@ -193,7 +193,7 @@ class Selector {
   const Connectivity& connectivity_;
   const Appearance& appearance_;
   const Eigen::Vector3d low_, high_;
-  const double slack_;  // by which boundaries are widened, for coordinates are rounded
+  const double slack_;  // boundaries are widened by this, because coordinates are rounded
 };
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace shapespace {
 namespace internal {
 namespace {
 
-// Nobody writes that many selections inside each other; and each takes its share of the stack.
+// More nested selections are not plausible, and each needs space on the stack.
 constexpr int kMostNested = 50;
 
 // A vertex number, counted from 1, as an index from 0.
@@ -122,7 +122,7 @@ Selection ReadSelection(const std::string& text) {
 
 std::string ToText(const Selection& selection) {
   using Ordered = nlohmann::ordered_json;
-  // A name of a group may be in bytes that are no UTF-8: those are replaced.
+  // The name of a group may not be valid UTF-8; invalid bytes are replaced.
   return internal::JsonOf(selection).dump(-1, ' ', false, Ordered::error_handler_t::replace);
 }
 
