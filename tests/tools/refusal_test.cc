@@ -183,7 +183,7 @@ TEST_F(RefusalTest, PosesWhoseVerticesWereReordered) {
   File("a.obj", "v 0 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 2 0 0\nf 1 3 2\nf 2 3 4\nf 3 5 4\n");
   File("b.obj", "v 0 1 0\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 2 0 0\nf 2 3 1\nf 1 3 4\nf 3 5 4\n");
   ExpectRefusal(1, {"a.obj", "b.obj", "--output", "w.path"},
-                {"only the vertices in another (the reference's vertex 1 is number 2 here)",
+                {"but the vertices are not (the reference's vertex 1 is number 2 here)",
                  "'keep vertex order'"});
 }
 

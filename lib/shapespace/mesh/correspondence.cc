@@ -120,12 +120,12 @@ class Comparison {
     }
     if (wound.Count() == 0) {
       Tell(Severity::kWarning, "polygon-order",
-           std::string("the same polygons stand in another order or begin at other corners; the "
+           std::string("the same polygons are in another order or begin at other corners; the "
                        "reference's are used. If the result looks wrong, ") +
                kKeepOrder);
     } else {
       Tell(Severity::kWarning, "polygon-winding",
-           "the same polygons, but wound the other way (" + std::to_string(wound.Count()) +
+           "the same polygons, but with reversed orientation (" + std::to_string(wound.Count()) +
                "): " + wound.Names() +
                "; the reference's are used. If the pose is a mirror image, "
                "export both in the same coordinate system");
@@ -160,7 +160,7 @@ class Comparison {
       if (renumbered) {
         int v = 0;
         while (to[v] < 0 || to[v] == v) ++v;
-        return "the polygons stand in the same order and only the vertices in another (the "
+        return "the polygons are in the same order, but the vertices are not (the "
                "reference's vertex " +
                std::to_string(v + 1) + " is number " + std::to_string(to[v] + 1) + " here)";
       }
@@ -262,7 +262,7 @@ class Comparison {
     if (!(factor > kFactor) || Median(deviation) < kSpread) return false;
     Tell(Severity::kWarning, "vertex-order",
          "the edges are " + Number(factor) +
-             " times as long against the whole as in the reference; most vertices probably stand "
+             " times as long against the whole as in the reference; most vertices are probably "
              "in another order, although the counts agree: " +
              kKeepOrder);
     return true;
@@ -312,7 +312,7 @@ class Comparison {
          "vertices whose edges stretch or shrink together, up to " + Number(largest) + " times (" +
              std::to_string(members.Count()) + " in groups: " + std::to_string(count) +
              "): " + members.Names() +
-             "; they probably stand in another order than in the reference, although the counts "
+             "; they are probably in another order than in the reference, although the counts "
              "agree: " +
              kKeepOrder);
   }

@@ -159,7 +159,8 @@ class PlyReader {
                                   " not kept; a material of an OBJ can name it");
         }
       } else if (keyword != "obj_info" && !keyword.empty()) {
-        Fail("the header holds " + Quoted(keyword) + ", which is no statement of PLY" + kReexport);
+        Fail("the header holds " + Quoted(keyword) + ", which is not a statement of PLY" +
+             kReexport);
       }
     }
     if (!has_format) Fail("the header has no 'format' statement" + std::string(kReexport));
@@ -197,26 +198,26 @@ class PlyReader {
     const std::string_view word = words.Next();
     const std::optional<std::int64_t> count = ParseInteger(word);
     if (!count || *count < 0) {
-      Fail("element " + Quoted(element.name) + ": " + Quoted(word) + " is no count" + kReexport);
+      Fail("element " + Quoted(element.name) + ": " + Quoted(word) + " is not a count" + kReexport);
     }
     element.count = *count;
     elements_.push_back(std::move(element));
   }
 
   void ReadProperty(Words words) {
-    if (elements_.empty()) Fail("a property stands before any element" + std::string(kReexport));
+    if (elements_.empty()) Fail("a property precedes any element" + std::string(kReexport));
     Property property;
     std::string_view word = words.Next();
     if (word == "list") {
       const std::string_view count_word = words.Next();
       property.count_type = ParseType(count_word);
       if (!property.count_type || !IsInteger(*property.count_type)) {
-        Fail(Quoted(count_word) + " is no type that can count the items of a list");
+        Fail(Quoted(count_word) + " is not a type that can count the items of a list");
       }
       word = words.Next();
     }
     const std::optional<Type> type = ParseType(word);
-    if (!type) Fail(Quoted(word) + " is no type of PLY's");
+    if (!type) Fail(Quoted(word) + " is not a type of PLY");
     property.type = *type;
     property.name = words.Next();
     for (const Property& other : elements_.back().properties) {
@@ -285,7 +286,7 @@ class PlyReader {
     const double length = Number(*property.count_type, "the length of " + property.name);
     const size_t room = BytesLeft() / (IsText() ? 1 : Size(property.type));
     if (!(length >= 0) || length != std::floor(length)) {
-      Fail(label_ + ": the length of " + property.name + " is no count" + kReexport);
+      Fail(label_ + ": the length of " + property.name + " is not a count" + kReexport);
     }
     if (length > static_cast<double>(room) && !IsText()) {
       Fail("the file ends inside " + label_ + kReexport);
@@ -420,7 +421,7 @@ class PlyReader {
       const Property& property = element.properties[i];
       if (property.name != "vertex_indices" && property.name != "vertex_index") continue;
       if (!property.count_type || !IsInteger(property.type)) {
-        Fail("property " + property.name + " of element face is no list of integers");
+        Fail("property " + property.name + " of element face is not a list of integers");
       }
       role[i] = 0;
       ++found;

@@ -18,7 +18,7 @@ int VertexFrom(const Json& json, const std::string& field) {
   }
   const auto number = json.is_number_unsigned() ? json.get<std::uint64_t>() : 0;
   if (number < 1 || number > kMost) {
-    FailIn(field, json.dump() + " is no vertex number; the first vertex has the number 1");
+    FailIn(field, json.dump() + " is not a vertex number; the first vertex has the number 1");
   }
   return static_cast<int>(number - 1);
 }

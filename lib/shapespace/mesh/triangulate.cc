@@ -135,8 +135,7 @@ class EarClipper {
 
 Eigen::Matrix3Xi Triangulate(const std::vector<int>& polygon_begin, const std::vector<int>& corners,
                              const std::vector<Shape>& poses) {
-  if (poses.empty())
-    throw MeshError("polygons are cut by their shape in a pose: give at least one");
+  if (poses.empty()) throw MeshError("triangulation needs at least one pose");
   for (const Shape& pose : poses) {
     internal::CheckPolygons(static_cast<int>(pose.cols()), polygon_begin, corners);
   }
