@@ -266,11 +266,8 @@ std::vector<std::pair<double, double>> Moments(const std::vector<double>& parame
   }
   const bool back = options.playback == Playback::kThereAndBack;
   const bool held = options.playback == Playback::kOnce;
-  const double share = back   ? 0.5 - kRest
-                       : held ? 1 - kRest
-                              : 1.0;  // of the duration, for the way
-                                      // from the first shape to the
-                                      // last
+  // Share of the duration for the way from the first shape to the last.
+  const double share = back ? 0.5 - kRest : held ? 1 - kRest : 1.0;
   const double duration = options.fps > 0 ? (shapes - 1) / options.fps / share : options.duration;
   const double begin = back ? kRest / 2 * duration : 0;
   std::vector<std::pair<double, double>> moments;
