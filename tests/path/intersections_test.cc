@@ -51,8 +51,7 @@ TEST(MeasureIntersections, LooksAtThePosesAroundEachShape) {
   Path path = PathOf(kTwo, {through, through, apart, through, apart});
   path.poses = {0, 2, 4};
   EXPECT_EQ(MeasureIntersections(path).beyond_poses, 0.5);  // shape 3, not shape 1
-  path.poses = {2};                                         // a path that continues beyond its
-                                                            // poses
+  path.poses = {2};                                         // continued beyond its poses
   EXPECT_EQ(MeasureIntersections(path).beyond_poses, 0.75);
 }
 

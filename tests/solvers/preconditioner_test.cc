@@ -76,8 +76,7 @@ TEST(ScalarMetric, CostsNothingForTranslationsButForThePositionTerm) {
   const Eigen::SparseMatrix<double> matrix = ScalarMetric(*metric, {bar.pose(0) / metric->unit}, 0);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(matrix.rows());
   const double cost = ones.dot(matrix.selfadjointView<Eigen::Lower>() * ones);
-  EXPECT_NEAR(cost, 4 * 1e-4 * 1.01, 1e-10);  // 4 lambda, with areas of sum 1, and the
-                                              // regularisation
+  EXPECT_NEAR(cost, 4 * 1e-4 * 1.01, 1e-10);  // 4 lambda, regularised
 }
 
 TEST(ChangeOfVariables, TransposeIsTheTranspose) {

@@ -21,8 +21,7 @@ struct State {
 };
 
 State& TheState() {
-  static State* const state = new State;  // never destroyed, because the listening thread may
-                                          // outlive main()
+  static State* const state = new State;  // the thread may outlive main()
   return *state;
 }
 

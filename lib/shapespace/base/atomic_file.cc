@@ -23,8 +23,7 @@ struct Unfinished {
 };
 
 Unfinished& TheUnfinished() {
-  static Unfinished* const unfinished = new Unfinished;  // never destroyed, for threads that are
-                                                         // still writing
+  static Unfinished* const unfinished = new Unfinished;  // other threads may outlive it
   return *unfinished;
 }
 

@@ -45,8 +45,7 @@ ImplicitValue Evaluate(const std::vector<RoundCone>& cones, const Eigen::Vector3
 ImplicitValue Project(const std::vector<RoundCone>& cones, Eigen::Vector3d* point) {
   ImplicitValue here = Evaluate(cones, *point);
   for (int i = 0; i < 4; ++i) {
-    const double slope = std::max(here.gradient.norm(), 0.1);  // it is near 1 except in deep
-                                                               // creases
+    const double slope = std::max(here.gradient.norm(), 0.1);  // near 1 except in creases
     const double largest = here.radius / 2;
     const double step = here.value / slope;
     *point -= std::clamp(step, -largest, largest) / slope * here.gradient;

@@ -11,8 +11,7 @@ namespace shapespace {
 /// Names that polygons of a mesh share, such as those of their materials.
 struct PolygonNames {
   std::vector<std::string> names;  ///< no repetitions
-  std::vector<int> of_polygon;     ///< per polygon an index into `names`, -1 for none; empty if no
-                                   ///< polygon has a name
+  std::vector<int> of_polygon;     ///< index into `names` per polygon, -1: none; may be empty
 };
 
 /// The visual properties of a mesh and the names of its parts: used by outputs, not by metrics. It

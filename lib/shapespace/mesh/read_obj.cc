@@ -40,8 +40,7 @@ class CurrentName {
 
  private:
   PolygonNames* names_;
-  std::map<std::string, int, std::less<>> index_;  // index into the names; -1 before the first
-                                                   // polygon
+  std::map<std::string, int, std::less<>> index_;  // index of the name; -1: no polygon yet
   int* current_ = nullptr;                         // in `index_`
   std::string pending_;                            // the current name, until a polygon has it
 };

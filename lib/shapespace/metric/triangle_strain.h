@@ -51,8 +51,7 @@ struct TriangleStrain : ElementFeature<3, 3> {
     const T determinant = (4.0 / 3.0) * (nx * nx + ny * ny + nz * nz) +
                           (2.0 * mean + epsilon_squared) * epsilon_squared;
     const T squared = d * d + o * o;
-    const T ratio_squared = squared / (m * m);  // less than 1: squared difference over sum of the
-                                                // eigenvalues
+    const T ratio_squared = squared / (m * m);  // of the eigenvalues; less than 1
     T factor;                                   // atanh(ratio) / ratio
     if (ratio_squared < T(1e-4)) {
       factor =

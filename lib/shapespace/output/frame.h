@@ -24,8 +24,7 @@ struct Camera {
 
 /// What determines a shape's colour.
 struct Paint {
-  ShapeRole role = ShapeRole::kPose;  ///< colour of front faces if there are no values, groups and
-                                      ///< marks
+  ShapeRole role = ShapeRole::kPose;  ///< colour of front faces by default
   bool show_values = false;           ///< show the scene's values, on a scale that ends at 1
   Eigen::VectorXi groups;             ///< group of each vertex; empty: none
   Eigen::VectorXi marks;              ///< mark of each vertex, as in FilmStripOptions; empty: none

@@ -31,8 +31,7 @@ struct FilmStripOptions {
   /// Direction from the body to the eye: (0, 0, 1) looks at it from +z. Zero: a three-quarter view
   /// chosen from the shapes.
   Eigen::Vector3d view = Eigen::Vector3d::Zero();
-  Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< zero: +y or +z, depending on which the shapes
-                                                 ///< can stand
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< zero: chosen from +y and +z
 
   /// Optional values per shape and vertex (.01 is one per cent; negative values count as 0), shown
   /// as colours with a legend in per cent; empty: none. The scale ends at the 99th percentile of

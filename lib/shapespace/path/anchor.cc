@@ -44,10 +44,8 @@ PlacedPart PartOf(const Path& path, int i, const Part& part) {
 // The rotation that maps centred points closest to others, accurate to rounding; if it is not
 // unique, the smallest one.
 Eigen::Matrix3d RotationOnto(const Shape& from, const Shape& to, const Eigen::VectorXd& weights) {
-  constexpr double kPoint = 1e-10;  // parts up to this size, in the metric's unit, are treated as
-                                    // points
-  constexpr double kLine = 1e-10;   // parts with a smaller ratio of squared width to squared length
-                                    // are treated as lines
+  constexpr double kPoint = 1e-10;  // size, in the metric's unit, of parts treated as points
+  constexpr double kLine = 1e-10;   // (width / length)^2 of parts treated as lines
   const Eigen::Matrix3d covariance = from * weights.asDiagonal() * to.transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);

@@ -14,8 +14,7 @@ namespace shapespace {
 
 /// A polyline in shape space: the result of solvers and the input of all outputs.
 struct Path {
-  std::shared_ptr<const Metric> metric;  ///< under which the path was computed; contains the
-                                         ///< connectivity
+  std::shared_ptr<const Metric> metric;  ///< of the solve; with the connectivity
 
   /// The shapes, rigidly aligned, centred, in the metric's unit; they satisfy the geodesic
   /// equation. Use `Placed` for shapes in the user's frame and unit.
@@ -42,9 +41,9 @@ struct Path {
   std::vector<Shape> Placed() const;
 };
 
-/// A path through `placed`, shapes in the user's frame and unit, at ascending `parameters`; if empty,
-/// evenly from 0 to 1. Its poses are the first and the last shape; set `poses` if others were given.
-/// \throw MeshError if there is no shape, or as `Path::Validate`.
+/// A path through `placed`, shapes in the user's frame and unit, at ascending `parameters`; if
+/// empty, evenly from 0 to 1. Its poses are the first and the last shape; set `poses` if others
+/// were given. \throw MeshError if there is no shape, or as `Path::Validate`.
 Path MakePath(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& placed,
               std::vector<double> parameters = {});
 

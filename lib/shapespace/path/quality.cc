@@ -151,8 +151,7 @@ PathQuality MeasureQuality(const Path& path) {
 Eigen::VectorXd DihedralAngles(const Connectivity& connectivity, const Shape& shape) {
   Dihedral dihedral;
   dihedral.stencils = connectivity.Hinges();
-  dihedral.normal_epsilon_squared = dihedral.edge_epsilon_squared = 1e-30;  // below the level of
-                                                                            // rounding
+  dihedral.normal_epsilon_squared = dihedral.edge_epsilon_squared = 1e-30;  // below rounding
   Eigen::VectorXd angles(connectivity.NumHinges());
   for (int h = 0; h < angles.size(); ++h) {
     double x[3 * Dihedral::kVertices];

@@ -21,8 +21,7 @@ struct PlaneLocation {
   /// Weights of these: not negative, with sum 1; 0 for unused nodes, such as the third one for a
   /// segment.
   std::array<double, 3> weights = {1, 0, 0};
-  Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< the point itself, or the nearest point of
-                                                    ///< the hull
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< the point, or the nearest of the hull
   bool inside = true;                               ///< whether the point lies in the hull
 };
 
@@ -79,8 +78,7 @@ struct Space {
 struct Walk {
   Path path;  ///< not a geodesic but a sequence of blends; `poses` are those reached exactly
   std::vector<PlaneLocation> locations;  ///< of its shapes
-  int outside = 0;                       ///< number of shapes whose point was projected onto the
-                                         ///< hull
+  int outside = 0;                       ///< number of points projected onto the hull
 };
 
 /// The shapes along a polyline of the plane, at `frames` points evenly spaced along it.

@@ -93,8 +93,7 @@ class CholeskyFactor {
   size_t num_values_ = 0;
   std::vector<Branch> branches_;
   std::vector<int> trunk_;        // supernodes that belong to no branch
-  std::vector<int> branch_rows_;  // rows_, with the rows outside of a branch replaced by its
-                                  // separate ones
+  std::vector<int> branch_rows_;  // rows_, with separate rows outside of a branch
   int work_rows_ = 0;
 };
 

@@ -41,8 +41,7 @@ class GradientTransfer {
   const Shape source_, target_;
   std::vector<Side> sides_;                // three per triangle, then the edges without triangles
   std::vector<Eigen::Matrix3d> inverses_;  // of the source's frames, per triangle
-  double place_ = 0;                       // weight of the distance of a vertex from its position
-                                           // on the source
+  double place_ = 0;                       // weight of positions
   std::unique_ptr<Cholesky> factor_;
 };
 

@@ -110,8 +110,7 @@ class ThreadedLbfgs {
       if (result_.iterations >= options_.max_iterations) return Stop::kMaxIterations;
       const double before = value_;
       double slope = FindDirection();
-      const double promise = -0.5 * slope;  // the gain of the step according to the quasi-Newton
-                                            // model
+      const double promise = -0.5 * slope;  // gain predicted by the model
       // If rounding makes the direction lead upwards, the predicted gain has no meaning.
       if (promise >= 0 &&
           promise <= std::max(kNothingLeft * options_.tolerance * value_,

@@ -150,8 +150,7 @@ Tangent ProjectOntoConstraint(const Tangent& x, const Tangent& normal, double co
   // part in the weight's square, and that square still leaves half of the digits.
   constexpr double kWeight = 1e4;
   const double norm = normal.norm();
-  const double least = std::abs(constant) / norm;  // least norm of a Y that satisfies the
-                                                   // constraint
+  const double least = std::abs(constant) / norm;  // least norm on the constraint
   const double length = x.norm();
   if (!(norm > 0) || !std::isfinite(least) || (length > 0 && kEpsilon * least > length)) {
     throw SolverError(
