@@ -40,7 +40,7 @@ DEFINE_double(fps, 0, "glb: shapes of the path per second, instead of --seconds"
 DEFINE_bool(loop, false,
             "glb: from the first shape to the last and again from the first, for motions that end "
             "where they begin; default: forward and back");
-DEFINE_bool(once, false, "glb: from the first shape to the last, where the animation ends");
+DEFINE_bool(once, false, "glb: from the first shape to the last, which is then held");
 DEFINE_bool(ease, false,
             "glb, and frames of shape-export --frames: slow at both ends, as an animator would "
             "have it");
