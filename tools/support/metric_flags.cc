@@ -26,9 +26,10 @@ DEFINE_string(weights, "area", "weights of edges: area, or uniform as in the pap
 DEFINE_string(discretization, "midpoint",
               "discretisation along a segment: midpoint, or trapezoid as in the paper");
 
-DEFINE_string(stiffness, "",
-              "file of factors on the cost of stretching and bending, one positive number a "
-              "vertex: a text of one number a line, or a property of a PLY file, as body.ply:name");
+DEFINE_string(
+    stiffness, "",
+    "file of factors on the cost of stretching and bending, one positive number per "
+    "vertex: a text with one number per line, or a property of a PLY file, as body.ply:name");
 
 namespace shapespace::tools {
 MetricOptions MetricFromFlags(const Connectivity* mesh) {
