@@ -10,8 +10,8 @@
 namespace shapespace::benchmarks {
 
 /// The end shape of CGAL's `Surface_mesh_deformation` (SRE_ARAP: Sorkine and Alexa 2007 with the
-/// smooth rotations of Levi and Gotsman 2015), all vertices in its region. The handles go their way
-/// in `steps`, of `iterations` iterations each, ended early at a change of 1e-6.
+/// smooth rotations of Levi and Gotsman 2015), with all vertices in its region. The handles move in
+/// `steps` steps of `iterations` iterations each, which end early at a change of 1e-6.
 Shape DeformByArap(const Connectivity& connectivity, const Shape& rest,
                    const std::vector<Handle>& handles, int steps, int iterations);
 

@@ -1,7 +1,7 @@
 // Deformation by handles: the four cases of Botsch and Sorkine's survey ("On Linear Variational
-// Surface Deformation Methods", 2008) made in code, beside CGAL's SRE_ARAP where the program was
-// built with CGAL; parts of real bodies; seconds, cold and warm; repair. Tables of
-// docs/measurements.md and docs/performance.md, in Markdown. Seconds are those of this machine.
+// Surface Deformation Methods", 2008) with generated bodies, compared with CGAL's SRE_ARAP if the
+// program was built with CGAL; parts of real bodies; seconds, cold and warm; repair. Prints tables
+// of docs/measurements.md and docs/performance.md, in Markdown. Seconds depend on the machine.
 //   deformation_table [folder for the shapes, as OBJ]
 
 #include <cmath>
@@ -61,8 +61,8 @@ Handle Moving(std::vector<int> vertices, const ScrewMotion& motion = {}) {
   return handle;
 }
 
-// Turns the end of a body that lies along x upwards about y, so that its middle line, `length` from
-// `begin` on, becomes an arc.
+// Rotates the end of a body that lies along x upwards about y, so that its middle line, of length
+// `length` from `begin` on, becomes an arc.
 ScrewMotion AlongAnArc(double begin, double length, double degrees) {
   ScrewMotion motion;
   motion.axis = -Vector3d::UnitY();
@@ -201,8 +201,8 @@ Vector3d Size(const Shape& shape) {
   return shape.rowwise().maxCoeff() - shape.rowwise().minCoeff();
 }
 
-// A part to move: what lies within a share of the body's size from the vertex that is farthest
-// along `way`, turned about a point at `arm` sizes from its middle.
+// A part to move: the vertices within a share of the body's size from the one that is farthest in
+// the direction `way`, rotated about a point at `arm` sizes from the body's centre.
 struct Limb {
   Vector3d way;
   double share;
@@ -211,7 +211,7 @@ struct Limb {
   Vector3d arm;
 };
 
-// The body stands on what is lowest, y up, by a share of its height, and moves a limb.
+// The lowest part of the body, y up, by a share of its height, is fixed, and a limb moves.
 Case RealCase(const std::string& name, const std::string& file, double feet, const Limb& limb) {
   const Poses poses = ReadPoses({std::string(SHAPESPACE_DATA_DIR) + "/" + file});
   const Shape& rest = poses.shapes[0];

@@ -1,8 +1,8 @@
-// What one energy with its gradient costs, beside what the machine's memory can do, and what its
-// preconditioner costs. Times of one run compare with each other only: read ns_per_edge_segment
-// against those of other rows and against limit_ns, the same if the sweep only moved the bytes that
-// it has to, at the speed of a plain a[i] = b[i] + 3 c[i] on as many threads. Small problems, which
-// stay in the caches, may be below it.
+// The cost of one energy with its gradient, relative to the memory bandwidth of the machine, and
+// the cost of its preconditioner. Only times of the same run can be compared: compare
+// ns_per_edge_segment with that of other rows and with limit_ns, the time to move only the
+// necessary bytes at the speed of a simple a[i] = b[i] + 3 c[i] on the same number of threads.
+// Small problems that fit into the caches may be below it.
 
 #include <algorithm>
 #include <vector>
@@ -47,7 +47,7 @@ struct Problem {
   }
 };
 
-// Bytes a second, as the STREAM benchmark counts them: two arrays read, one written.
+// Bytes per second, counted as in the STREAM benchmark: two arrays read, one written.
 double Triad() {
   constexpr int kChunks = 64, kChunk = 1 << 18;
   std::vector<double> a(kChunks * kChunk, 1), b(a.size(), 2), c(a.size(), 3);
@@ -76,7 +76,7 @@ void Evaluate(benchmark::State& state, double bending, Discretization discretiza
     seconds += stopwatch.Seconds() / static_cast<double>(state.max_iterations);
   }
   const double triad = Triad();
-  // The unknowns read once, the gradient written once.
+  // Reading the unknowns once, writing the gradient once.
   const double least = 2 * sizeof(double) * static_cast<double>(energy.Size()) / triad;
   state.counters["ns_per_edge_segment"] = 1e9 * seconds / problem.EdgeSegments();
   state.counters["limit_ns"] = 1e9 * least / problem.EdgeSegments();
@@ -90,7 +90,7 @@ void Default(benchmark::State& state) {
   Evaluate(state, kDefaultBending, Discretization::kMidpoint);
 }
 
-// Once for a mesh, whatever the number of shapes.
+// Once per mesh, for any number of shapes.
 void Factorise(benchmark::State& state, double bending) {
   const Problem problem(static_cast<int>(state.range(0)), 1, bending, Discretization::kMidpoint);
   size_t nonzeros = 0;
@@ -103,7 +103,7 @@ void Factorise(benchmark::State& state, double bending) {
 void FactoriseMembrane(benchmark::State& state) { Factorise(state, 0); }
 void FactoriseDefault(benchmark::State& state) { Factorise(state, kDefaultBending); }
 
-// What the preconditioner adds to an iteration, beside one evaluation of the energy.
+// The preconditioner's cost per iteration, relative to one evaluation of the energy.
 template <typename Apply>
 void CompareWithEnergy(const Apply& apply, PathEnergy* energy, std::vector<double>* unknowns,
                        benchmark::State* state) {
@@ -119,7 +119,7 @@ void CompareWithEnergy(const Apply& apply, PathEnergy* energy, std::vector<doubl
   state->counters["evaluations"] = seconds / evaluation;
 }
 
-// As Ceres takes it: there and back, in double precision.
+// As used by Ceres: both directions, in double precision.
 void ChangeVariables(benchmark::State& state) {
   const int inner = static_cast<int>(state.range(1));
   SetThreads(static_cast<int>(state.range(2)));
@@ -137,7 +137,7 @@ void ChangeVariables(benchmark::State& state) {
   CompareWithEnergy(apply, &energy, &unknowns, &state);
 }
 
-// As an optimiser of ours takes it: from a gradient to a step, in single precision.
+// As used by this library's L-BFGS: from a gradient to a step, in single precision.
 void Precondition(benchmark::State& state) {
   const int inner = static_cast<int>(state.range(1));
   SetThreads(static_cast<int>(state.range(2)));

@@ -1,4 +1,5 @@
-// What a step along a curve through a space of poses costs, beside what its memory takes at least.
+// The cost of a step along a curve through a space of poses, relative to the time for its memory
+// access.
 
 #include <memory>
 #include <vector>
@@ -11,7 +12,7 @@
 namespace shapespace {
 namespace {
 
-// A triangle between three bends of a tube; nothing is solved.
+// A triangle between three bends of a tube, without solving.
 Space SpaceOfTubes(int triangles) {
   const Body tube = MakeTube(triangles);
   const std::vector<Shape> poses = {tube.pose(0), tube.pose(40), tube.pose(80)};

@@ -1,5 +1,5 @@
-// What going on from a path costs: seconds of one step of the variational integrator, what part of
-// it is the factorisation, and how many iterations the linear solver takes.
+// The cost of continuing a path: seconds per step of the variational integrator, the share of the
+// factorisation, and the number of iterations of the linear solver.
 
 #include <memory>
 
@@ -37,7 +37,8 @@ void Measure(const Path& path, benchmark::State* state) {
   state->counters["peak_mb"] = PeakMegabytes();
 }
 
-// A finger that bends on from 30 degrees, 4 degrees a step: all steps are made on the mesh itself.
+// A finger that continues to bend from 30 degrees, 4 degrees per step: all steps are solved on the
+// mesh itself.
 void Finger(benchmark::State& state) {
   const Body tube = MakeTube(static_cast<int>(state.range(0)));
   const std::vector<Shape> poses = {tube.pose(26), tube.pose(30)};
@@ -51,7 +52,7 @@ void Finger(benchmark::State& state) {
   Measure(path, &state);
 }
 
-// An animal between two poses and on: here some steps are made on coarser meshes.
+// An animal between two poses and beyond: some steps are solved on coarser meshes.
 void Animal(benchmark::State& state) {
   const SkinnedBody& body = Quadruped(static_cast<int>(state.range(0)));
   GeodesicOptions options;

@@ -1,7 +1,7 @@
-// Whole solves. Read `evaluations`: the solve's time over that of one energy and gradient at the
-// final size, measured in the same run; it holds on any machine. `peak_mb` is the process's, and
-// means something only if it runs one case (--benchmark_filter); `table` does so. 0 threads are all
-// cores.
+// Complete solves. `evaluations` is the solve's time divided by that of one energy and gradient at
+// the final size, measured in the same run, so it can be compared between machines. `peak_mb` is
+// that of the process, and is meaningful only if it runs one case (--benchmark_filter), as `table`
+// does. 0 threads means all cores.
 
 #include <cmath>
 #include <filesystem>
@@ -116,7 +116,7 @@ void DefaultSizes(benchmark::internal::Benchmark* benchmark) {
 }
 BENCHMARK(Default)->Apply(DefaultSizes);
 
-// The last tolerance of a size gives the energy that the others are compared with.
+// The last tolerance of a size gives the reference energy for the others.
 BENCHMARK(Membrane)
     ->ArgNames({"triangles", "shapes", "threads", "digits"})
     ->ArgsProduct({{6000}, {31}, {0}, {4, 5, 7}})

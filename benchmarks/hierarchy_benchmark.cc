@@ -1,6 +1,6 @@
-// What a hierarchy costs: decimating two poses in step, and lifting one shape from the level
-// below to the mesh itself. Items are triangles: items_per_second would be constant if growth were
-// linear.
+// The cost of a hierarchy: decimating two poses simultaneously, and lifting one shape from the
+// level below to the mesh itself. Items are triangles: items_per_second would be constant for
+// linear complexity.
 
 #include <vector>
 

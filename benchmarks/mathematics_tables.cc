@@ -1,6 +1,6 @@
-// What bending mends, how closely the exponential map undoes the logarithm, how far geodesics of
-// real bodies go on, and what error correction does: the tables of docs/measurements.md, sections
-// 3, 8 and 9, in Markdown. No times.
+// The effect of bending, the round trip of logarithm and exponential map, the number of steps of
+// geodesics of real bodies, and the effect of error correction: prints the tables of
+// docs/measurements.md, sections 3, 8 and 9, in Markdown. No times.
 
 #include <algorithm>
 #include <cstdio>
@@ -31,7 +31,7 @@ Pair Read(const char* name, const std::string& folder, const char* first, const 
   return {name, ReadPoses({place + first + ".obj", place + second + ".obj"})};
 }
 
-// 15 inner shapes under three metrics.
+// 15 inner shapes under each of three metrics.
 void PrintBending() {
   MetricOptions membrane;
   membrane.bending = 0;
@@ -57,7 +57,7 @@ void PrintBending() {
   }
 }
 
-// How far Exponential misses the shape that Logarithm was asked for, over the diameter.
+// The distance between Exponential's end and the shape given to Logarithm, over the diameter.
 void PrintLogarithms() {
   std::printf(
       "\n| section 8: distance, of the diameter, by tolerance of the path | 1e-10 | 1e-12 | 1e-14 "
@@ -87,7 +87,7 @@ void PrintLogarithms() {
   }
 }
 
-// 16 steps on from 15 inner shapes, under strain.
+// 16 steps after 15 inner shapes, under strain.
 void PrintSteps() {
   std::printf(
       "\n| section 8: steps on the mesh itself | of 16 | greatest number of increments | last "
@@ -113,7 +113,8 @@ void PrintSteps() {
   }
 }
 
-// From one shape straight on towards another and `reach` times as far, in 8 segments, corrected.
+// From one shape on a straight line towards another to `reach` times the distance, in 8 segments,
+// corrected.
 void PrintCorrection(const char* name, const std::shared_ptr<const Connectivity>& connectivity,
                      const Shape& first, const Shape& towards, double reach) {
   Path path;

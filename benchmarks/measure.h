@@ -13,8 +13,8 @@
 
 namespace shapespace {
 
-/// Median time of one call of `body` over a fifth of a second, and at least five calls after a
-/// first one that warms up.
+/// Median time of one call of `body` during a fifth of a second, with at least five calls after one
+/// for warming up.
 template <typename Body>
 double MedianSeconds(const Body& body) {
   body();
@@ -30,14 +30,14 @@ double MedianSeconds(const Body& body) {
   return *middle;
 }
 
-/// Forgets the peak of what came before, such as the making of a body. Where the kernel does not
-/// let a process do that, PeakMegabytes() includes it.
+/// Resets the peak memory, for instance after making a body. If the kernel does not permit this,
+/// PeakMegabytes() includes the earlier peak.
 inline void ResetPeakMemory() {
   malloc_trim(0);
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 
-/// The most memory that was resident since; not a number where there is no Linux to say so.
+/// The peak of resident memory since then; NaN on systems other than Linux.
 inline double PeakMegabytes() {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {

@@ -1,6 +1,7 @@
-// What a person would write first: Ceres' L-BFGS on automatically differentiated residual blocks,
-// one for each element and segment, at full resolution, from the linear blend of the poses. How
-// long does it take to come within one percent of the least energy, and how long does Interpolate?
+// A simple implementation for comparison: Ceres' L-BFGS on automatically differentiated residual
+// blocks, one for each element and segment, at full resolution, from the linear blend of the poses.
+// Measures the time until the energy is within one percent of the minimum, and the time of
+// Interpolate.
 
 #include <cmath>
 #include <limits>
@@ -23,7 +24,7 @@ namespace {
 constexpr double kNear = 1.01;
 constexpr double kLimitSeconds = 60;
 
-// Stops once the energy is at most `goal`, or the time is over.
+// Stops when the energy is at most `goal`, or the time is over.
 class Watch final : public ceres::IterationCallback {
  public:
   explicit Watch(double goal) : goal_(goal) {}
@@ -59,7 +60,7 @@ void MinimiseNaively(const Metric& metric, std::vector<Shape> shapes, Watch* wat
   ceres::Solve(options, &problem, &summary);
 }
 
-// Time of the loosest tolerance that comes within one percent.
+// Time for the largest tolerance that is within one percent.
 double OurSeconds(const SkinnedBody& body, const std::vector<Shape>& poses, GeodesicOptions options,
                   double goal) {
   for (options.tolerance = 1e-2; options.tolerance > 1e-6; options.tolerance /= 10) {

@@ -1,7 +1,7 @@
-// Geodesics with 15 inner shapes between all pairs of real poses of a mesh, in Markdown: their
-// energy and its bound, how even their speed is, what they cost. With an argument, only the pairs
-// whose names contain it. "Work" counts evaluations of energy and gradient on all levels, by
-// vertices and shapes, in units of one on the finished path: it does not depend on the machine.
+// Geodesics with 15 inner shapes between all pairs of real poses of a mesh, in Markdown: energy and
+// bound, uniformity of speed, cost. With an argument, only the pairs whose names contain it. "Work"
+// is the number of evaluations of energy and gradient on all levels, weighted by vertices and
+// shapes, in units of one on the finished path; it does not depend on the machine.
 
 #include <cstdio>
 #include <string>

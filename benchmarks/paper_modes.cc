@@ -1,6 +1,6 @@
-// The paper's recipes for the exponential map and for parallel transport beside ours: how their
-// errors fall with the step, as tables in Markdown (docs/measurements.md, sections 8 and 10). No
-// times.
+// The paper's methods for the exponential map and for parallel transport, compared with this
+// library's: the decrease of their errors with the step, as tables in Markdown
+// (docs/measurements.md, sections 8 and 10). No times.
 
 #include <algorithm>
 #include <cstdio>
@@ -41,7 +41,7 @@ std::vector<Motion> Motions() {
   MetricOptions membrane;
   membrane.bending = 0;
   membrane.lambda = 1e-3;
-  constexpr double kTime = 2e-4;  // of the differences that make velocities
+  constexpr double kTime = 2e-4;  // of the differences from which velocities are computed
   const Body bar = MakeBar(6, 1, 1, 6, 1, 1), strip = MakeStrip(1, 0.9, 16),
              bricard = MakeBricard();
   const auto deforming = [&](const char* name, const Body& body, double at, double rate) {
@@ -54,7 +54,7 @@ std::vector<Motion> Motions() {
           deforming("strip, rolling", strip, 5, 10), deforming("Bricard, flexing", bricard, 0, 25)};
 }
 
-// Errors at t = 1, and, of the paper's (7), the steps on which it was solved.
+// Errors at t = 1 and, for the paper's (7), the number of steps that were solved.
 void PrintExponentials() {
   std::printf(
       "| error at t = 1, share of the way | steps | variational | Runge-Kutta 4 | (7), L-BFGS | "
@@ -119,7 +119,8 @@ void PrintTransports() {
       "\n| along a bar that turns by 90 degrees: norm, error | segments | ours, aligned | ours, "
       "not aligned | the paper's |\n|---|---:|---:|---:|---:|\n");
   for (const auto& [name, x] : {std::make_pair("its bending", bend), {"its stretching", stretch}}) {
-    // Two answers: what turns with the body, and the limit of many segments without alignment.
+    // Two references: the tangent rotated with the body, and the limit of many segments without
+    // alignment.
     const Tangent turned = Rotation(90) * x;
     const Tangent limit = carry(x, 512, TransportConnection::kLeviCivita, false).tangents[0];
     for (int segments : {4, 16, 64}) {

@@ -7,8 +7,8 @@
 
 namespace shapespace {
 
-/// MakeQuadruped, once for each number of triangles: google-benchmark calls a function several
-/// times, and a body may take longer to make than what is measured.
+/// MakeQuadruped, called once per number of triangles: google-benchmark calls a function several
+/// times, and making a body may take longer than the measured operation.
 inline const SkinnedBody& Quadruped(int triangles) {
   static std::map<int, SkinnedBody> bodies;
   const auto found = bodies.find(triangles);

@@ -1,6 +1,6 @@
-// Deformation transfer in feature space, by the ladder, and as Sumner and Popovic have it, on
-// bodies whose answers are known: the tables of docs/measurements.md, section 11, in Markdown.
-// Seconds are those of this machine.
+// Deformation transfer in feature space, by the ladder, and by Sumner and Popovic's method, on
+// bodies with known results: prints the tables of docs/measurements.md, section 11, in Markdown.
+// Seconds depend on the machine.
 
 #include <cmath>
 #include <cstdio>
@@ -29,13 +29,13 @@ double Diameter(const Shape& shape) {
   return (shape.rowwise().maxCoeff() - shape.rowwise().minCoeff()).norm();
 }
 
-// Root mean square distance, laid on each other, over the diameter.
+// Root mean square distance after alignment, over the diameter.
 double Apart(const Shape& a, const Shape& b, const Eigen::VectorXd& area) {
   const Shape off = FitRigidMotion(a, b, area)(a) - b;
   return std::sqrt(off.colwise().squaredNorm().dot(area) / area.sum()) / Diameter(b);
 }
 
-// By how much the bar's end faces are turned against each other, in degrees.
+// The angle between the bar's end faces, in degrees.
 double BendOf(const Shape& straight, const Shape& bent) {
   Matrix3d ends[2];
   for (int end : {0, 1}) {
@@ -102,7 +102,8 @@ void PrintBars() {
   }
 }
 
-// What strains (log |e|) and angles are off the source's change of them, as shares and in degrees.
+// Difference between the changes of target and source: strains (log |e|) as shares, angles in
+// degrees.
 struct Off {
   double strain = 0, angle = 0;
 };
@@ -132,10 +133,10 @@ Off WhatIsOff(const Metric& metric, const Shape& source, const Shape& deformed, 
 
 struct Pose {
   std::shared_ptr<const Connectivity> connectivity;
-  Shape source, deformed, target, own;  // own: what the target should become, where it is known
+  Shape source, deformed, target, own;  // own: the expected shape of the target, if known
 };
 
-// A line: mean over the poses of the distance from their own, of what is off, and of the time.
+// A row: means over the poses of the distance from their own, of the differences, and of the time.
 void PrintLine(const char* name, const std::vector<Pose>& poses, const TransferOptions* options) {
   double distance = 0, greatest = 0, seconds = 0;
   Off off;

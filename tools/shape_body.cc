@@ -1,4 +1,4 @@
-// Poses of bodies made in code.
+// Writes poses of generated bodies.
 
 #include <gflags/gflags.h>
 
@@ -11,12 +11,12 @@
 #include "support/lists.h"
 #include "support/tool.h"
 
-DEFINE_int32(triangles, 0, "about how many triangles; 0 takes the body's own number");
-DEFINE_string(at, "", "parameter values, separated by commas; without: both ends of the range");
+DEFINE_int32(triangles, 0, "approximate number of triangles; 0: the body's default");
+DEFINE_string(at, "", "parameter values, separated by commas; default: both ends of the range");
 DEFINE_string(pose, "",
               "names of poses, separated by commas, of a body with bones; instead of --at");
 DEFINE_string(proportions, "", "name of the proportions of a body with bones, for --pose");
-DEFINE_string(output, "body%d.obj", "one file a value, numbered from 0: .obj or .ply");
+DEFINE_string(output, "body%d.obj", "one file per value, numbered from 0: .obj or .ply");
 
 namespace shapespace::tools {
 namespace {
@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
   return RunTool(
       argc, argv,
       {"shape-body",
-       "poses of bodies made in code, to try things on",
+       "poses of generated bodies, for trying the other tools",
        "  shape-body                                      lists the bodies\n"
        "  shape-body tube --at 0,90 --output tube%d.obj   writes tube0.obj and tube1.obj\n"
        "  shape-body quadruped --pose stand,sit --proportions long --output animal%d.obj",

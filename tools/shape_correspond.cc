@@ -1,4 +1,4 @@
-// A template, fitted onto another body, and the map between the two surfaces.
+// Fits a template onto another body and maps the two surfaces onto each other.
 
 #include <gflags/gflags.h>
 
@@ -17,10 +17,10 @@
 #include "support/tool.h"
 
 DEFINE_string(output, "fitted.obj,map.txt,check.png",
-              "files to write, separated by commas: .obj or .ply (the template as fitted), .txt "
-              "(the map, both ways), .png (a picture to judge it by)");
+              "files to write, separated by commas: .obj or .ply (the fitted template), .txt (the "
+              "map in both directions), .png (a picture for judging it)");
 DEFINE_bool(allow_nonmanifold, false,
-            "take meshes with non-manifold edges or vertices, or inconsistent winding");
+            "accept meshes with non-manifold edges or vertices, or inconsistent winding");
 
 namespace shapespace::tools {
 namespace {
@@ -52,7 +52,7 @@ Poses ReadMesh(const std::string& file) {
 void Run(const std::vector<std::string>& files) {
   if (files.size() != 2) throw UsageError("name two meshes: the template and the target");
   if (FLAGS_markers.empty()) {
-    throw UsageError("--markers: name the file of vertices that belong together");
+    throw UsageError("--markers: name a file of corresponding vertices");
   }
   const CorrespondenceOptions options = CorrespondenceFromFlags();
   const std::vector<std::string> outputs = Outputs();
@@ -93,12 +93,12 @@ int main(int argc, char** argv) {
        "a template fitted onto another body of any connectivity, and the map between them",
        "  shape-correspond cat.obj lion.obj --markers cat_lion.txt \\\n"
        "    --output fitted.obj,map.txt,check.png\n\n"
-       "A line of the markers' file names a vertex of the template and the one of the target that "
-       "belongs\nto it; twenty of them, at the ends of limbs and at joints, are a good start. "
-       "The fitted template\nhas the template's faces, and goes with the template's poses into "
-       "every other tool. Look at the\npicture before you trust the map.\n\n"
-       "What did not converge says so, its outputs are written, and the exit code is 0, or with "
-       "--strict 1.",
+       "Each line of the markers' file names a vertex of the template and the corresponding one of "
+       "the\ntarget; twenty of them, at the ends of limbs and at joints, are a good start. The "
+       "fitted template\nhas the template's faces, so every other tool accepts it together with "
+       "the template's poses. Check\nthe picture before you rely on the map.\n\nA fit that does "
+       "not converge is reported; its outputs are written, and the exit code is 0, or 1\nwith "
+       "--strict.",
        {"shape_correspond.cc", "support/correspondence_flags.cc", "support/report.cc"}},
       Run);
 }

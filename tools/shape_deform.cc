@@ -1,4 +1,4 @@
-// A mesh, deformed by handles, or a distorted one repaired.
+// Deforms a mesh by handles, or repairs a distorted one.
 
 #include <algorithm>
 
@@ -20,34 +20,33 @@
 #include "support/tool.h"
 
 DEFINE_string(handles, "",
-              "JSON file of what is held, and where it is to be (docs/file-formats.md)");
+              "JSON file of handles: vertices and their targets (docs/file-formats.md)");
 DEFINE_string(repair, "",
-              "in place of --handles: a sound pose of the same mesh, whose lengths, angles and "
-              "volume the mesh is to have again");
+              "instead of --handles: an undistorted pose of the same mesh, whose lengths, angles "
+              "and volume are restored");
 DEFINE_string(sound, "",
-              "with --repair: the vertices whose places are kept, as a selection (as those of "
-              "handles); without, all");
-DEFINE_int32(
-    shapes, shapespace::DeformationOptions().shapes,
-    "shapes after the first, the deformed one included: at least one for 90 degrees of a turn; "
-    "of a repair 1");
+              "with --repair: the vertices whose positions are kept, as a selection (as in "
+              "handles); default: all");
+DEFINE_int32(shapes, shapespace::DeformationOptions().shapes,
+             "shapes after the first, including the deformed one: at least one per 90 degrees of a "
+             "turn; default for repairs: 1");
 DEFINE_double(balance, shapespace::DeformationOptions().balance,
-              "between soft handles and the metric: to 0 the handles are met, at 1 nothing moves; "
-              "of a repair 0.5");
-DEFINE_double(tolerance, shapespace::DeformationOptions().tolerance,
-              "a level is finished when an iteration lowers what is minimised by less than this "
-              "share");
+              "weight of the metric relative to soft handles: towards 0 they are met exactly, at 1 "
+              "they have no effect; default for repairs: 0.5");
+DEFINE_double(
+    tolerance, shapespace::DeformationOptions().tolerance,
+    "a level has converged when an iteration lowers the objective by less than this share");
 DEFINE_int32(max_iterations, shapespace::DeformationOptions().max_iterations,
-             "iterations a level may take");
+             "maximum number of iterations per level");
 DEFINE_string(solver, "threaded_lbfgs",
-              "threaded_lbfgs (ours), or trust_region (of Ceres, for small meshes)");
+              "threaded_lbfgs, or trust_region (Ceres, for small meshes)");
 DEFINE_int32(coarsest, shapespace::DeformationOptions().coarsest,
              "triangles of the coarsest level of the hierarchy");
 
 namespace shapespace::tools {
 namespace {
 
-// Without --metric: what suits the mesh.
+// The default depends on the mesh.
 constexpr char kMetric[] = "deformation";
 
 void CheckFlags(const std::vector<std::string>& files) {
@@ -83,7 +82,7 @@ DeformationOptions DeformationFromFlags(const DeformationOptions& defaults,
   return options;
 }
 
-// The vertices of --sound.
+// The vertices selected by --sound.
 std::vector<int> SoundVertices(const Poses& poses) {
   if (FLAGS_sound.empty()) return {};
   try {
@@ -94,7 +93,7 @@ std::vector<int> SoundVertices(const Poses& poses) {
   }
 }
 
-// 1 for vertices that stay, 2 for those that are moved.
+// 1 for vertices that stay, 2 for those that move.
 Eigen::VectorXi Marks(const std::vector<Handle>& handles, int num_vertices) {
   Eigen::VectorXi marks = Eigen::VectorXi::Zero(num_vertices);
   for (const Handle& handle : handles) {
@@ -157,13 +156,12 @@ int main(int argc, char** argv) {
        std::string(
            "  shape-deform mesh.obj --handles handles.json --output bent.obj,steps.png,bend.glb\n"
            "  shape-deform dented.obj --repair sound.obj --output mended.obj\n\n"
-           "Handles are vertices that stay, move or turn; the rest follows as the metric wants. "
-           "The output\nis a path: an .obj or .ply without a number in its name holds its last "
-           "shape, the deformed mesh.\nIn a film strip, what the handles hold is drawn dark where "
-           "it stays, and red where it moves.\nThe defaults of the metric suit the mesh, closed "
-           "(stiffer, volume counts) or open, unless\n--metric names another; --volume 30 keeps "
-           "the "
-           "volume within .3 %.") +
+           "Handles are vertices that stay, move or turn; the motion of the others has the least "
+           "cost. The\noutput is a path: an .obj or .ply without a number in its name contains its "
+           "last shape, the\ndeformed mesh. In a film strip, vertices of handles are drawn dark if "
+           "they stay, and red if they\nmove. The default metric depends on whether the mesh is "
+           "closed (stiffer, with a cost of volume) or\nopen; --metric selects another; --volume "
+           "30 keeps the volume within .3 %.") +
            kHowASolveEnds,
        {"shape_deform.cc", "support/report.cc", "support/outputs.cc", "support/metric_flags.cc",
         "support/poses.cc", "support/mesh_flags.cc", "support/memory_flag.cc"}},

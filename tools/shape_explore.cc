@@ -1,4 +1,4 @@
-// A space of poses: made, sampled along a curve, or measured.
+// Makes a space of poses, samples it along a curve, or measures it.
 
 #include <algorithm>
 #include <filesystem>
@@ -19,21 +19,21 @@
 #include "support/solve_progress.h"
 #include "support/tool.h"
 
-DEFINE_int32(
-    resolution, shapespace::ExploreOptions().resolution,
-    "distances between poses, and what --measure asks for, are measured on a decimated mesh "
-    "of at most so many triangles, or the coarsest there is; 0: the mesh itself");
+DEFINE_int32(resolution, shapespace::ExploreOptions().resolution,
+             "distances between poses, and the errors of --measure, are computed on a decimated "
+             "mesh with at most this number of triangles, or the coarsest; 0: the mesh itself");
 DEFINE_string(threshold, "5%",
-              "straight lines between shapes may be longer than geodesics by this, as a share or "
-              "in per cent");
+              "by how much straight lines between shapes may be longer than geodesics, as a share "
+              "or in per cent");
 DEFINE_int32(depth, shapespace::ExploreOptions().depth,
-             "how often a triangle may be split, at most");
-DEFINE_int32(measure, 0,
-             "at so many random points, compares what the space shows with true blends");
+             "maximum number of times a triangle is split");
+DEFINE_int32(
+    measure, 0,
+    "compares blends of the space with blends along geodesics at this number of random points");
 DEFINE_string(
     sample, "",
     "JSON file of a curve on the plane (docs/file-formats.md): writes the shapes along it");
-DEFINE_int32(frames, 32, "with --sample: so many shapes, evenly along the curve");
+DEFINE_int32(frames, 32, "with --sample: number of shapes, evenly spaced along the curve");
 DECLARE_string(output);
 
 namespace shapespace::tools {
@@ -50,7 +50,7 @@ double ThresholdFromFlag() {
   return is_percent ? numbers[0] / 100 : numbers[0];
 }
 
-// `records` is where finished geodesics are kept.
+// `records` is the folder for finished geodesics.
 ExploreOptions ExploreFromFlags(const std::string& records) {
   ExploreOptions options;
   options.geodesic = GeodesicFromFlags();
@@ -63,7 +63,7 @@ ExploreOptions ExploreFromFlags(const std::string& records) {
   return options;
 }
 
-// Names of poses: those of their files, as far as these differ.
+// Names of poses: the parts in which the names of their files differ.
 std::vector<std::string> NamesOf(const std::vector<std::string>& files) {
   std::vector<std::string> names;
   for (const std::string& file : files)
@@ -78,9 +78,9 @@ void Measure(const Space& space, const ExploreOptions& options, Crew* crew) {
   const BlendErrors errors =
       MeasureBlends(space, FLAGS_measure, options, SolveProgress({}).get(), crew);
   Out() << "at " << errors.samples << " points, on " << errors.vertices
-        << " vertices, blends are off by " << 100 * errors.mean << "% on the mean, "
+        << " vertices, blends deviate by " << 100 * errors.mean << "% on the mean, "
         << 100 * errors.max << "% at most, of the greatest distance between poses; "
-        << 100 * errors.within << "% of them by no more than " << 100 * options.threshold << "%\n";
+        << 100 * errors.within << "% of them by at most " << 100 * options.threshold << "%\n";
 }
 
 void MakeSpace(const std::vector<std::string>& files, Crew* crew) {
@@ -99,10 +99,11 @@ void MakeSpace(const std::vector<std::string>& files, Crew* crew) {
   result.space.appearance = poses.soup.appearance;
   if (summary.found + summary.damaged > 0) {
     Err() << "note: of " << summary.found + summary.solved << " geodesics, " << summary.found
-          << " were taken from " << options.records << ", where an earlier run had left them\n";
+          << " were taken from " << options.records << ", the records of an earlier run\n";
   }
   if (summary.damaged > 0) {
-    Err() << "note: " << summary.damaged << " of its records were damaged, and were solved again\n";
+    Err() << "note: " << summary.damaged
+          << " of its records were damaged and had to be solved again\n";
   }
   PrintSummary(summary.BriefReport(), summary.warnings, summary.Converged());
   if (crew->Rank() == 0) {
@@ -119,7 +120,7 @@ void Sample(const std::string& file) {
   for (const std::string& output : outputs) {
     if (IsPathFile(output)) {
       throw UsageError("--output " + output +
-                       ": a curve through a space is no geodesic; export meshes or pictures");
+                       ": a curve through a space is not a geodesic; export meshes or pictures");
     }
   }
   if (FLAGS_frames < 1) throw UsageError(AsTyped("frames") + ": must be 1 or more");
@@ -128,16 +129,16 @@ void Sample(const std::string& file) {
   Walk walk = WalkAlong(space, ReadCurve(FLAGS_sample, space), FLAGS_frames);
   if (walk.outside > 0) {
     Err() << "warning: " << walk.outside << " of the " << FLAGS_frames
-          << " points lie outside the poses' hull: the nearest of the hull were taken\n";
+          << " points lie outside the poses' hull and were replaced by the nearest points of the "
+             "hull\n";
   }
   walk.path.provenance = Provenance("shape-explore", {FLAGS_sample, file});
   WriteOutputs(outputs, walk.path, walk.path);
 }
 
 void MeasureSpace(const std::string& file, Crew* crew) {
-  RefuseFlags(
-      {"support/metric_flags.cc"}, {"depth", "output", "report", "strict", "stiffeners"},
-      "goes with poses; " + file + " is measured as it is, with the metric that it carries");
+  RefuseFlags({"support/metric_flags.cc"}, {"depth", "output", "report", "strict", "stiffeners"},
+              "goes with poses; " + file + " contains its own metric");
   ExploreOptions options = ExploreFromFlags(file + ".measure.records");
   const Space space = ReadSpace(file);
   options.geodesic.metric = space.metric->options;
@@ -152,7 +153,7 @@ void Run(const std::vector<std::string>& files) {
     if (!IsGiven("output")) throw UsageError("--sample: needs --output, a .glb for example");
     RefuseFlags({"support/metric_flags.cc", "support/geodesic_flags.cc"},
                 {"depth", "measure", "resolution", "threshold", "report", "strict"},
-                "does nothing with --sample");
+                "has no effect with --sample");
     Sample(files[0]);
     return;
   }
@@ -185,10 +186,10 @@ int main(int argc, char** argv) {
        "  shape-explore a.obj b.obj c.obj [...] --output poses.space --threshold 5% --depth 2\n"
        "  shape-explore --sample curve.json poses.space --output walk.glb --frames 32\n"
        "  shape-explore --measure 200 poses.space\n\n"
-       "Poses with little between them lie close to each other on the plane. shape-view shows it "
-       "in a\nbrowser. A run that was ended goes on from the finished geodesics, which are kept "
-       "in\nposes.space.records until it is done. With mpirun -n 4 in front, four processes share "
-       "them out\n(--threads says how many threads each takes).",
+       "Similar poses are close to each other on the plane. shape-view shows it in a browser. "
+       "An\ninterrupted run can be continued: finished geodesics are stored in poses.space.records "
+       "until the\nspace is complete. With mpirun -n 4 in front, four processes share the "
+       "geodesics (--threads is the\nnumber of threads of each process).",
        {"shape_explore.cc", "support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
         "support/metric_flags.cc", "support/poses.cc", "support/mesh_flags.cc",
         "support/memory_flag.cc"}},

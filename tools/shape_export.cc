@@ -1,4 +1,4 @@
-// Outputs of a path that was solved before.
+// Writes outputs of an existing path.
 
 #include <algorithm>
 #include <cmath>
@@ -14,26 +14,27 @@
 #include "support/outputs.h"
 #include "support/tool.h"
 
-DEFINE_string(
-    at, "",
-    "times to show, rising and separated by commas, e.g. .25,.5: 0 is the first shape, 1 "
-    "the last pose, and what was extrapolated goes on beyond 1; of k poses number i, from 0, is "
-    "at i / (k - 1)");
-DEFINE_int32(frames, 0, "so many shapes at even times instead of the path's own; 2 or more");
+DEFINE_string(at, "",
+              "times of the shapes to write, ascending and separated by commas, e.g. .25,.5: 0 is "
+              "the first shape, 1 the last pose, extrapolated shapes are beyond 1; pose i of k, "
+              "counted from 0, is at i / (k - 1)");
+DEFINE_int32(
+    frames, 0,
+    "write this number of shapes at evenly spaced times instead of the path's own; 2 or more");
 DECLARE_bool(ease);
 
 namespace shapespace::tools {
 namespace {
 
-// The times that the flags ask for; the path's own if they ask for none. What would not fit into
-// memory is refused before even the times are there.
+// The times specified by flags, or the path's own. If the shapes would exceed the memory limit,
+// this fails before the times are computed.
 std::vector<double> TimesFromFlags(const Path& path) {
   if (!FLAGS_at.empty() && FLAGS_frames != 0) throw UsageError("--at and --frames: give one");
   if (!(FLAGS_memory_limit > 0)) throw UsageError(AsTyped("memory_limit") + ": must be positive");
   if (!FLAGS_at.empty()) return NumbersFromFlag("at", FLAGS_at);
   if (FLAGS_frames == 0) return path.parameters;
   if (FLAGS_frames < 2) throw UsageError(AsTyped("frames") + ": must be 2 or more");
-  // Each shape is held twice, in the metric's unit and where the poses are.
+  // Each shape is stored twice, in the metric's unit and as placed.
   const double bytes = 2.0 * FLAGS_frames * path.shapes[0].size() * sizeof(double);
   if (bytes > 1e9 * FLAGS_memory_limit) {
     throw SolverError(AsTyped("frames") + ": needs about " +
@@ -55,8 +56,7 @@ void Run(const std::vector<std::string>& files) {
   for (const std::string& output : outputs) {
     if (IsPathFile(output)) {
       throw UsageError("--output " + output +
-                       ": a path seen at other times is no geodesic any more; export meshes or "
-                       "pictures");
+                       ": a path at other times is not a geodesic; export meshes or pictures");
     }
   }
   const bool makes_glb = std::any_of(outputs.begin(), outputs.end(), [](const auto& output) {

@@ -1,4 +1,4 @@
-// A path that goes on beyond its poses: a geodesic shot from its last shapes.
+// Continues a path beyond its poses by shooting a geodesic from its last shapes.
 
 #include <gflags/gflags.h>
 #include <nlohmann/json.hpp>
@@ -18,31 +18,34 @@
 #include "support/solve_progress.h"
 #include "support/tool.h"
 
-DEFINE_int32(steps, 8, "shapes to add, as far apart in time as the last two that are kept");
-DEFINE_int32(keep, 0, "shoot from the first so many shapes of the path; 2 or more, or 0 for all");
+DEFINE_int32(steps, 8,
+             "shapes to add, with the spacing in time of the last two shapes that are kept");
+DEFINE_int32(keep, 0,
+             "continue from the first shapes of the path, this many; 2 or more, or 0 for all");
 DEFINE_string(integrator, "variational",
               "variational, runge_kutta4 (of the geodesic equation) or first_integral (the paper's "
-              "(7), which does not converge; to compare with)");
+              "(7), which does not converge; for comparison)");
 DEFINE_string(step_solver, "newton_krylov",
-              "of a variational step: newton_krylov, or ceres (for small meshes)");
+              "solver of a variational step: newton_krylov, or ceres (for small meshes)");
 DEFINE_string(first_integral_solver, "lbfgs",
-              "of a step by first_integral: lbfgs (as in the paper) or levenberg_marquardt");
+              "solver of a step of first_integral: lbfgs (as in the paper) or levenberg_marquardt");
 DEFINE_double(step_tolerance, 1e-9,
-              "a step of variational or first_integral is solved when its residual is this share "
-              "of what it is at rest");
-DEFINE_int32(step_iterations, 100, "iterations that such a step may take");
-DEFINE_double(correct, 0,
-              "afterwards move all shapes but the first so that edges keep its lengths: the weight "
-              "of staying where they are, 1 to start from and less for truer lengths; 0 for off");
+              "a step of variational or first_integral has converged when its residual is less "
+              "than this share of its value at velocity zero");
+DEFINE_int32(step_iterations, 100, "maximum number of iterations of such a step");
+DEFINE_double(
+    correct, 0,
+    "afterwards correct all shapes but the first towards its edge lengths: weight of the distance "
+    "from the uncorrected shapes; start from 1, less for more accurate lengths; 0: off");
 
 namespace shapespace::tools {
 namespace {
 
-// Poses are interpolated more accurately than to look at them: errors of the two shapes that a
-// geodesic is shot from grow with every step.
+// The tolerance of the interpolation of poses is stricter than is needed for viewing, because
+// errors in the two shapes from which a geodesic is shot grow with every step.
 constexpr char kTolerance[] = "1e-6";
 
-// The metric under which every step has a next one.
+// The metric under which every step has a solution.
 constexpr char kMetric[] = "strain";
 
 ExponentialOptions ExponentialFromFlags() {
@@ -72,7 +75,7 @@ CorrectionOptions CorrectionFromFlags() {
   return options;
 }
 
-// Of a path of so many shapes, before it is gone on from.
+// Checks the flags for a path of `shapes` shapes, before it is continued.
 void CheckFlags(const std::vector<std::string>& files, std::int64_t shapes,
                 const std::vector<std::string>& outputs) {
   if (FLAGS_keep > shapes) {
@@ -87,10 +90,9 @@ Path OriginFromPath(const std::string& file, const std::vector<std::string>& out
                     Anchorage* anchorage) {
   Path path = ReadPathAndTell(file);
   if (path.metric->rigid.Active()) {
-    throw SolverError(
-        file +
-        ": made under the rigid metric, which has no exponential map; interpolate its "
-        "poses under another");
+    throw SolverError(file +
+                      ": was computed under the rigid metric, which has no exponential map; "
+                      "interpolate its poses under another one");
   }
   CheckFlags({file}, path.NumShapes(), outputs);
   anchorage->Select(path.Placed(0), *path.metric->connectivity, path.appearance);
@@ -114,13 +116,13 @@ void Run(const std::vector<std::string>& files) {
   for (const char* flag : {"allow_nonmanifold", "mirror"}) {
     if (from_path && IsGiven(flag)) {
       throw UsageError("--" + std::string(flag) +
-                       ": goes with poses; a path was let in when it was made");
+                       ": goes with poses; a .path was already checked when it was made");
     }
   }
   if (FLAGS_steps < 1) throw UsageError("--steps must be 1 or more");
   if (FLAGS_keep != 0 && FLAGS_keep < 2) throw UsageError("--keep must be 2 or more, or 0 for all");
   const GeodesicOptions geodesic = GeodesicFromFlags();
-  if (geodesic.metric.rigid > 0) {  // told now, not after the interpolation
+  if (geodesic.metric.rigid > 0) {  // before the interpolation, not after it
     throw UsageError("--rigid: the rigid metric has no exponential map; use --metric isometric");
   }
   const ExponentialOptions exponential = ExponentialFromFlags();
@@ -132,7 +134,7 @@ void Run(const std::vector<std::string>& files) {
                           : OriginFromPoses(files, geodesic, outputs, &anchorage);
   const std::string provenance =
       (from_path ? origin.provenance + "; " : "") + Provenance("shape-extrapolate", files);
-  if (Interrupted()) {  // what was interpolated so far is worth keeping
+  if (Interrupted()) {  // the interpolated part so far is written
     origin.provenance = provenance;
     anchorage.Apply(&origin);
     return WriteOutputs(outputs, origin, origin);
@@ -169,21 +171,18 @@ int main(int argc, char** argv) {
   return RunTool(
       argc, argv,
       {"shape-extrapolate",
-       "a path that goes on beyond its poses",
+       "a path that continues beyond its poses",
        std::string(
            "  shape-extrapolate a.obj b.obj [c.obj ...] --shapes 15 --steps 8 --output on.glb\n"
            "  shape-extrapolate walk.path --keep 2 --steps 7 --output on/%03d.obj\n\n"
            "Poses are interpolated first, as by shape-interpolate but more accurately "
-           "(--tolerance), for errors\ngrow on the way, and under the strain metric, under which "
-           "every step has a next one (--metric).\nA .path may stand instead of them: it carries "
-           "the metric that it was made with.\nOutputs hold the shapes kept and the new ones; in a "
-           "film strip "
-           "poses "
-           "are "
-           "blue, shapes between them\ngreen, extrapolated ones purple.\n\n"
-           "If the shape degenerates on the way, the outputs hold what was made before, and stderr "
-           "says "
-           "so: exit\ncode 0 with some new shapes, 1 with none.") +
+           "(--tolerance), because\nerrors grow from step to step, and under the strain metric, "
+           "under which every step has a solution\n(--metric). A .path may be given instead of "
+           "poses; it contains the metric with which it was made.\nOutputs contain the shapes kept "
+           "and the new ones; in a film strip poses are blue, shapes between\nthem green, "
+           "extrapolated ones purple.\n\nIf the shape degenerates, the outputs contain the shapes "
+           "before that, and stderr says so: exit code\n0 if there are new shapes, 1 if there are "
+           "none.") +
            kHowASolveEnds,
        {"shape_extrapolate.cc", "support/geodesic_flags.cc", "support/report.cc",
         "support/outputs.cc", "support/metric_flags.cc", "support/poses.cc",

@@ -1,4 +1,4 @@
-// What is in files of meshes, paths and spaces, and whether meshes correspond.
+// Prints the contents of meshes, paths and spaces, and whether meshes correspond.
 
 #include <algorithm>
 #include <cinttypes>
@@ -29,7 +29,7 @@
 namespace shapespace::tools {
 namespace {
 
-// Lines and numbers of lists that say no more to a person when longer.
+// Limits of printed lists.
 constexpr size_t kMostSites = 8, kMostParts = 4;
 constexpr double kLeastSite = 0.001;  // as a share of all deviation
 
@@ -47,7 +47,7 @@ const char* Name(Severity severity) {
   return "fatal";
 }
 
-// True if nothing worse than a warning was found.
+// Returns whether no finding is worse than a warning.
 bool Print(const std::vector<Finding>& findings) {
   bool good = true;
   for (const Finding& finding : findings) {
@@ -75,7 +75,7 @@ void PrintContent(const Soup& soup) {
   }
 }
 
-// Where the surface passes through itself; of a mesh that can be used.
+// Prints self-intersections of a usable mesh.
 void PrintIntersections(const Soup& soup) {
   const auto connectivity = ConnectivityOf(soup, {soup.vertices});
   const std::int64_t pairs = CountIntersections(*connectivity, soup.vertices);
@@ -84,7 +84,7 @@ void PrintIntersections(const Soup& soup) {
               pairs == 0 ? "none" : message.c_str());
 }
 
-// How far a pose is from the first, rigid motion apart.
+// Prints the difference of a pose from the first, up to rigid motion.
 void PrintDistance(const Soup& reference, const Soup& pose) {
   const std::vector<Shape> pair = {reference.vertices, pose.vertices};
   const auto connectivity = ConnectivityOf(reference, pair);
@@ -134,7 +134,7 @@ void PrintParts(const RigidParts& parts) {
   }
 }
 
-// Where the edges' deviation from the first pose sits.
+// Prints the regions with the largest deviation of edges from the first pose.
 void PrintDeviation(const Path& path, const RigidParts& parts) {
   const std::vector<DeviationSite> sites = FindDeviationSites(path, parts);
   if (sites.empty()) {
@@ -174,15 +174,14 @@ void PrintPath(const std::string& file) {
   if (!path.converged) std::printf("  solve        NOT CONVERGED, or stopped\n");
   if (quality.inner_shapes > 0) {
     std::printf(
-        "  edges        rms %.4g%%, 99th percentile %.4g%%, max %.4g%% off the lengths to be "
-        "expected\n",
+        "  edges        rms %.4g%%, 99th percentile %.4g%%, max %.4g%% from the expected lengths\n",
         100 * quality.edge_rms, 100 * quality.edge_p99, 100 * quality.edge_max);
     std::printf("  roughness    %.4g degrees; folds %.4g per inner shape\n", quality.roughness,
                 quality.folds);
   }
   if (path.extrapolated > 0) {
     std::printf(
-        "  edges        rms %.4g%%, 99th percentile %.4g%%, max %.4g%% off the lengths in the "
+        "  edges        rms %.4g%%, 99th percentile %.4g%%, max %.4g%% from the lengths in the "
         "first shape\n",
         100 * quality.first_rms, 100 * quality.first_p99, 100 * quality.first_max);
   }
@@ -216,7 +215,7 @@ void PrintSpace(const std::string& file) {
   }
 }
 
-// Reads and prints a mesh, and how it goes with the first one. Returns whether it can be used.
+// Reads and prints a mesh, and compares it with the first one. Returns whether it is usable.
 bool PrintMesh(const std::string& file, std::vector<Soup>* soups) {
   soups->push_back(ReadSoup(file));
   Soup& soup = soups->back();
@@ -236,7 +235,7 @@ void Run(const std::vector<std::string>& files) {
   if (files.empty()) throw UsageError("name one or more files: meshes, .path or .space");
   bool usable = true;
   std::vector<Soup> soups;
-  // Meshes last: how far they are apart comes behind them.
+  // Meshes last, because the comparison of poses follows after them.
   for (const bool meshes : {false, true}) {
     for (const std::string& file : files) {
       const std::string extension = FileExtension(file);
@@ -254,7 +253,7 @@ void Run(const std::vector<std::string>& files) {
       }
     }
   }
-  if (!usable) throw MeshError("not usable as it is: see what was found");
+  if (!usable) throw MeshError("not usable as it is: see the findings");
   for (size_t i = 1; i < soups.size(); ++i) PrintDistance(soups[0], soups[i]);
 }
 
@@ -265,7 +264,7 @@ int main(int argc, char** argv) {
   using namespace shapespace::tools;
   return RunTool(argc, argv,
                  {"shape-inspect",
-                  "what is in these files, whether they correspond, how far apart they are",
+                  "contents of files, correspondence of meshes, differences between poses",
                   "  shape-inspect a.obj b.obj walk.path poses.space\n\n"
                   "Exit code 1 if a file cannot be read, a mesh cannot be used as it is, or meshes "
                   "do not\ncorrespond.",

@@ -1,4 +1,4 @@
-// A geodesic between poses of a mesh.
+// Computes a geodesic between poses of a mesh.
 
 #include <shapespace/solvers/geodesic.h>
 

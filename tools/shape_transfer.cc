@@ -1,4 +1,4 @@
-// A motion, carried over to another body of the same connectivity.
+// Transfers a motion to another body of the same connectivity.
 
 #include <optional>
 
@@ -22,36 +22,36 @@
 #include "support/solve_progress.h"
 #include "support/tool.h"
 
-DEFINE_string(target, "",
-              "the other body, in the pose of the first source: what is to move; with --markers a "
-              "mesh of any connectivity");
+DEFINE_string(
+    target, "",
+    "the body to move, in the pose of the first source; with --markers a mesh of any connectivity");
 DEFINE_string(method, "features",
-              "features (strains and angles change as the source's) or ladder (the paper's: "
-              "geodesics between the bodies, parallel transport and the exponential map)");
+              "features (strains and angles change like the source's) or ladder (the paper's "
+              "method: geodesics between the bodies, parallel transport and the exponential map)");
 DEFINE_string(hybrids, "",
               "files for the bodies half way between source and target, named as by --output");
 DEFINE_double(ladder_bending, shapespace::LadderOptions::Strains().bending,
-              "of the ladder and of hybrids: how much dihedral angles count beside strains");
+              "for the ladder and hybrids: weight of dihedral angles relative to strains");
 DEFINE_string(connection, "levi_civita",
-              "of the ladder, what carries motion along a rung: levi_civita (the metric's own) or "
-              "projection (the paper's)");
+              "for the ladder: parallel transport along a rung by levi_civita (the metric's own) "
+              "or projection (the paper's)");
 DEFINE_int32(rung_shapes, shapespace::LadderOptions().rung_shapes,
-             "of the ladder and of hybrids: shapes between one of the source and the target's; "
-             "odd, for the middle one is the hybrid");
-DEFINE_bool(scale, true,
-            "of the ladder and of hybrids: compare in one size; --noscale takes bodies as large as "
-            "they are");
-DEFINE_bool(align, true,
-            "of the ladder and of hybrids: compare in one orientation; --noalign takes bodies as "
-            "they stand");
+             "for the ladder and hybrids: inner shapes between source and target; odd, because the "
+             "middle one is the hybrid");
+DEFINE_bool(
+    scale, true,
+    "for the ladder and hybrids: scale the source to the target's size; --noscale keeps sizes");
+DEFINE_bool(
+    align, true,
+    "for the ladder and hybrids: align the source with the target; --noalign keeps orientations");
 
 namespace shapespace::tools {
 namespace {
 
-// Every shape of a geodesic is a rung to climb, and each takes as long as a small geodesic.
+// Each shape of a geodesic is a rung of the ladder, which takes as long as a small geodesic.
 constexpr char kShapes[] = "7";
 
-// Flags that would have no effect are refused.
+// Refuses flags that would have no effect.
 void CheckFlagsOfTheLadder(bool climbs) {
   if (climbs) return;
   RefuseFlags({"support/geodesic_flags.cc", "support/metric_flags.cc"},
@@ -81,7 +81,7 @@ TransferOptions TransferFromFlags() {
   return options;
 }
 
-// A target of another connectivity: the source, fitted onto it, takes its place.
+// A target of another connectivity, represented by the source that is fitted onto it.
 class OtherMesh {
  public:
   // `source` is a mesh of the source's connectivity, in its first pose.
@@ -95,7 +95,7 @@ class OtherMesh {
 
   const Poses& Target() const { return target_; }
   const Shape& Fitted() const { return fit_.fitted; }
-  // What became of the fitted source, on the target's own mesh.
+  // The motion of the fitted source as a motion of the target's own mesh.
   Path Carry(const Path& path) const {
     return CarryPath(fit_, path, target_.connectivity, target_.shapes[0]);
   }
@@ -105,7 +105,7 @@ class OtherMesh {
   const CorrespondenceResult fit_;
 };
 
-// A path's first shape, as if it had been read.
+// A path's first shape, in the form of a file that was read.
 Poses FirstShapeOf(const Path& path, const std::string& file) {
   Poses poses;
   poses.connectivity = path.metric->connectivity;
@@ -136,7 +136,7 @@ Poses ReadTargetOf(const Path& path, const std::string& file) {
 
 void Run(const std::vector<std::string>& files) {
   const bool from_path = IsOnePath(files);
-  if (FLAGS_target.empty()) throw UsageError("--target: name the body that is to move");
+  if (FLAGS_target.empty()) throw UsageError("--target: name the body to move");
   const GeodesicOptions geodesic = GeodesicFromFlags();
   const TransferOptions options = TransferFromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
@@ -216,23 +216,19 @@ int main(int argc, char** argv) {
   return RunTool(
       argc, argv,
       {"shape-transfer",
-       "a motion, carried over to another body",
+       "deformation transfer: the same motion of another body",
        std::string(
            "  shape-transfer stand.obj sit.obj leap.obj --target other.obj --output moved%d.obj\n"
            "  shape-transfer walk.path --target other.obj --output walk.glb --hybrids half.glb\n"
            "  shape-transfer cat0.obj cat1.obj --target lion.obj --markers cat_lion.txt --output "
            "lion%d.obj\n\n"
-           "All meshes have the same faces in the same order, but with --markers the target: then "
-           "the source\nis fitted onto it, as by shape-correspond, and outputs have the target's "
-           "own faces.\nThe target is in the first pose; frame 0 is\nthe target, frame 1 the "
-           "target in the second pose, and so on. Of a .path every "
-           "shape "
-           "is carried\nover, and there are as many frames. With --method ladder each pose is "
-           "reached "
-           "by a geodesic in\n--shapes + 1 steps, and every step is carried over; the flags of the "
-           "metric are those of these\ngeodesics. In a film strip the target is blue, all that "
-           "became "
-           "of it purple; hybrids are green.") +
+           "All meshes must have the same faces in the same order; only with --markers may the "
+           "target differ:\nthen the source is fitted onto it, as by shape-correspond, and outputs "
+           "have the target's faces.\nThe target is in the first pose; frame 0 is the target, "
+           "frame 1 the target in the second pose, and\nso on. For a .path there is one frame per "
+           "shape. With --method ladder the geodesic to each pose has\n--shapes + 1 segments, each "
+           "of which is transferred; the flags of the metric are those of these\ngeodesics. In a "
+           "film strip the target is blue, its other shapes are purple, hybrids are green.") +
            kHowASolveEnds,
        {"shape_transfer.cc", "support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
         "support/metric_flags.cc", "support/poses.cc", "support/mesh_flags.cc",

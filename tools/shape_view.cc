@@ -1,4 +1,4 @@
-// A page that shows paths, animations and spaces of poses in a browser.
+// Writes a page that shows paths, animations and spaces of poses in a browser.
 
 #include <cstdint>
 #include <filesystem>
@@ -22,7 +22,7 @@ DEFINE_string(output, "page.html", "the page to write: .html");
 namespace shapespace::tools {
 namespace {
 
-// Checks that `files` can be shown, as far as their names tell.
+// Checks by their names that `files` can be shown.
 void CheckKinds(const std::vector<std::string>& files) {
   if (files.empty() || files.size() > 2) throw UsageError("name one file, or two to compare");
   for (const std::string& file : files) {
@@ -56,7 +56,7 @@ PageSpace ToPage(const Space& space, const std::string& name) {
 
 void CheckIsGlb(const std::string& file, const std::string& bytes) {
   if (bytes.compare(0, 4, "glTF") != 0) {
-    throw FileError(file + ": is no binary glTF file: it does not begin with the letters glTF");
+    throw FileError(file + ": is not a binary glTF file: it does not begin with the letters glTF");
   }
   const auto number = [&](size_t at) {  // little-endian
     std::uint32_t value = 0;
@@ -65,7 +65,7 @@ void CheckIsGlb(const std::string& file, const std::string& bytes) {
     return value;
   };
   if (bytes.size() < 12 || number(4) != 2 || number(8) != bytes.size()) {
-    throw FileError(file + ": is cut off, or not of version 2 of glTF; make it again");
+    throw FileError(file + ": is truncated, or not of version 2 of glTF; make it again");
   }
 }
 
@@ -75,10 +75,10 @@ void Run(const std::vector<std::string>& files) {
   CheckCanBeWritten(FLAGS_output);
   if (ViewerPage().empty()) {
     throw Error(
-        "this program was built without the page that it fills in. In the source folder, run "
-        "./dev viewer, which needs npm, and then ./dev build");
+        "this program was built without the viewer page. In the source folder, run ./dev viewer, "
+        "which needs npm, and then ./dev build");
   }
-  std::list<Path> paths;  // scenes point at them
+  std::list<Path> paths;  // scenes contain pointers to them
   std::vector<PageScene> scenes;
   for (const std::string& file : files) {
     const std::string name = std::filesystem::path(file).filename().string();

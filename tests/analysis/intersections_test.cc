@@ -25,7 +25,7 @@ struct Mesh {
   std::int64_t Count() const { return CountIntersections(*connectivity, shape); }
 };
 
-// Triangles with corners of their own, in a cube of side 1, of sides up to `size`.
+// Triangles without common corners, in a cube of side 1, with sides of up to `size`.
 Mesh RandomTriangles(int count, double size, int seed) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
@@ -58,7 +58,7 @@ bool Pierces(const Shape& shape, int p, int q, const Eigen::Vector3i& abc) {
   return uvs(0) > 0 && uvs(1) > 0 && uvs(0) + uvs(1) < 1 && uvs(2) > 0 && uvs(2) < 1;
 }
 
-// All pairs, one edge against one triangle after the other.
+// Tests all pairs, one edge against one triangle after the other.
 std::int64_t BruteForce(const Mesh& mesh) {
   const Eigen::Matrix3Xi& triangles = mesh.connectivity->Triangles();
   std::int64_t count = 0;

@@ -11,7 +11,7 @@ namespace {
 
 using testing::PathOf;
 
-// Two triangles, one above the other, or pushed through it.
+// Two triangles, one above the other, or intersecting.
 const auto kTwo =
     Connectivity::FromTriangles(6, (Eigen::Matrix3Xi(3, 2) << 0, 3, 1, 4, 2, 5).finished());
 
@@ -51,7 +51,7 @@ TEST(MeasureIntersections, LooksAtThePosesAroundEachShape) {
   Path path = PathOf(kTwo, {through, through, apart, through, apart});
   path.poses = {0, 2, 4};
   EXPECT_EQ(MeasureIntersections(path).beyond_poses, 0.5);  // shape 3, not shape 1
-  path.poses = {2};                                         // a path that goes on past its poses
+  path.poses = {2};                                         // continued beyond its poses
   EXPECT_EQ(MeasureIntersections(path).beyond_poses, 0.75);
 }
 

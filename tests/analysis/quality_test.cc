@@ -66,7 +66,7 @@ TEST(MeasureQuality, FiguresOfInnerShapesAreOfThoseBetweenPosesOnly) {
   EXPECT_EQ(all.folds, inner.folds);
   EXPECT_EQ(all.speed_max, inner.speed_max);
   EXPECT_NEAR(all.first_max, 4, 1e-6);  // 5 times as long, against the first
-  // Shapes with a pose on one side only, or on none, are no inner shapes.
+  // Shapes with a pose on one side only, or on none, are not inner shapes.
   beyond.poses = {1};
   beyond.extrapolated = 3;
   EXPECT_EQ(MeasureQuality(beyond).inner_shapes, 0);
@@ -75,7 +75,7 @@ TEST(MeasureQuality, FiguresOfInnerShapesAreOfThoseBetweenPosesOnly) {
   EXPECT_EQ(MeasureQuality(beyond).roughness, 0);
 }
 
-// In a metric of positions alone a body that is carried along moves as fast as it is carried.
+// With a metric of positions alone, the speed of a rigid motion is the body's speed.
 TEST(GreatestSpeed, IsTheFastestSegmentOverTheMean) {
   const Body sheet = MakeSheet(1, 1, 6, 6);
   const Shape flat = sheet.pose(0);
@@ -101,7 +101,7 @@ TEST(MeasureQuality, CountsFoldsThatThePosesDoNotHave) {
   const PathQuality quality = MeasureQuality(MakePath(sheet, {flat, folded, flat}));
   EXPECT_EQ(quality.folds, 1);
   EXPECT_GT(quality.roughness, 170);
-  // A fold that both ends hold is none.
+  // A fold that both ends have is not counted.
   EXPECT_EQ(MeasureQuality(MakePath(sheet, {folded, folded, folded})).folds, 0);
 }
 

@@ -27,8 +27,8 @@ Eigen::Matrix3d Turn(double degrees, const Eigen::Vector3d& axis) {
   return Eigen::AngleAxisd(degrees * M_PI / 180, axis.normalized()).toRotationMatrix();
 }
 
-// A shape with everything at x > 0 turned about the y axis, the turn spread evenly over
-// [-width / 2, width / 2].
+// A shape whose part at x > 0 is rotated about the y axis, with a bend distributed over [-width /
+// 2, width / 2].
 Shape BentAtOrigin(const Shape& rest, double degrees, double width) {
   Shape bent = rest;
   const double angle = degrees * M_PI / 180, curvature = angle / width;
@@ -64,7 +64,7 @@ std::vector<Shape> BendTube(const Body& tube, double degrees) {
   return shapes;
 }
 
-// The share of triangles that are in different parts; parts are matched by their rank.
+// The share of triangles that are in different parts; parts are matched by their rank in size.
 double Mismatch(const Eigen::VectorXi& a, const Eigen::VectorXi& b) {
   return (a.array() != b.array()).cast<double>().mean();
 }
@@ -137,16 +137,16 @@ TEST(FindRigidParts, ABarBentAtOneJointIsTwoPartsAndTheJoint) {
 }
 
 TEST(FindRigidParts, TheResidualIsWhatABestMotionLeaves) {
-  // All of the bar as one part, of which the middle comes nearer to the ends' common motion: with
-  // every triangle in it, scaled by 1 + s about its centre, the residual is s times its spread.
+  // With all of the bar as one part that is scaled by 1 + s about its centre, the residual is s
+  // times the root mean square distance from the centre.
   const Body bar = MakeBar(2, 2, 2, 6, 6, 6);
   const Shape rest = bar.pose(0);
   const Path path = PathOf(bar.connectivity, {rest, 1.01 * rest});
   const RigidParts result = FindRigidParts(path);
   ASSERT_EQ(result.parts.size(), 1u);
   EXPECT_NEAR(result.parts[0].edge_deviation, 0.01, 1e-9);
-  // Of a cube's surface of half side 1: mean square distance from the centre 1 + 2 / 3, here of
-  // cells of half side 1 / 6, whose corners are sampled, not their insides.
+  // For a cube's surface of half side 1 the mean square distance from the centre is 1 + 2 / 3, here
+  // of cells of half side 1 / 6, sampled at their corners.
   EXPECT_NEAR(result.parts[0].residual, 0.01 * std::sqrt(5. / 3), 2e-4);
   EXPECT_NEAR(result.parts[0].relative_residual, result.parts[0].residual / std::sqrt(24.), 1e-4);
 }
@@ -155,7 +155,7 @@ TEST(FindRigidParts, AFingerHasThreeBones) {
   const Body tube = MakeTube(3000);
   const Path path = PathOf(tube.connectivity, BendTube(tube, 110));
   const RigidParts result = FindRigidParts(path);
-  // The joints are wide: pieces of them may be near-rigid too, but none is as large.
+  // The joints are wide: parts of them may be nearly rigid too, but are smaller.
   ASSERT_GE(result.parts.size(), 3u);
   std::vector<RigidPart> bones(result.parts.begin(), result.parts.begin() + 3);
   std::sort(bones.begin(), bones.end(),
@@ -223,7 +223,7 @@ TEST(FindRigidParts, DoesNotDependOnScaleOrPlace) {
                       scale * Eigen::Vector3d(i, 3, -5));
     }
     Path path = PathOf(tube.connectivity, moved);
-    // Nor on how the path happens to hold its shapes.
+    // Nor on the rigid motions that the path stores.
     for (size_t i = 0; i < path.shapes.size(); ++i) {
       path.shapes[i] = Turn(70. * i, {0, 1, 3}) * path.shapes[i];
     }

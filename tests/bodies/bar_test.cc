@@ -80,9 +80,9 @@ TEST(BarTest, RangeEndsBeforeTheInnerFaceVanishes) {
 TEST(BarTest, RefusesBadArguments) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(Refusal([] { MakeBar(0, 1, 1, 1, 1, 1); }),
-            "length: 0 is no length; it must be positive and finite");
+            "length: 0 is not a length; it must be positive and finite");
   EXPECT_EQ(Refusal([=] { MakeBar(1, nan, 1, 1, 1, 1); }),
-            "width: nan is no length; it must be positive and finite");
+            "width: nan is not a length; it must be positive and finite");
   EXPECT_EQ(Refusal([] { MakeBar(1, 1, 1, 1, 0, 1); }), "ny: 0 is too few; at least 1 are needed");
   EXPECT_EQ(Refusal([] { MakeBar(1, 1, 1, 10000, 10000, 1); }),
             "triangles: 400080000 is outside 0 .. 20000000");

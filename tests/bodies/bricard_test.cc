@@ -30,7 +30,7 @@ TEST(BricardTest, KeepsAllEdgesWhileEveryHingeMoves) {
     const Shape shape = body.pose(body.begin + (body.end - body.begin) * i / 100);
     EXPECT_LT(LargestStrain(*body.connectivity, rest, shape), 1e-14);
     const Eigen::VectorXd angles = HingeAngles(*body.connectivity, shape);
-    // Hinges may pass through 180 degrees, so that differences count around the circle.
+    // Hinges may pass through 180 degrees, so differences are taken modulo a full turn.
     for (int h = 0; h < moved.size(); ++h) {
       moved(h) = std::max(moved(h), std::abs(std::remainder(angles(h) - rest_angles(h), 360)));
     }

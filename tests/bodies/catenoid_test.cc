@@ -15,7 +15,7 @@ TEST(CatenoidTest, BeginsAtTheCatenoidAndEndsAtTheHelicoid) {
   for (int v = 0; v < catenoid.cols(); ++v) {
     const auto p = catenoid.col(v), q = helicoid.col(v);
     EXPECT_NEAR(std::hypot(p.x(), p.y()), std::cosh(p.z()), 1e-14);
-    // On the helicoid the direction from the axis turns with the height.
+    // On the helicoid the direction from the axis rotates with the height.
     EXPECT_NEAR(q.x() * std::cos(q.z()) - q.y() * std::sin(q.z()), 0, 1e-14);
   }
   EXPECT_NEAR(catenoid.row(2).maxCoeff(), 1.2, 1e-15);
@@ -23,7 +23,7 @@ TEST(CatenoidTest, BeginsAtTheCatenoidAndEndsAtTheHelicoid) {
 }
 
 TEST(CatenoidTest, AreaApproachesTheCatenoids) {
-  // Area of the catenoid between -h and h: pi (2 h + sinh 2 h), the same all along the family.
+  // Area of the catenoid between -h and h: pi (2 h + sinh 2 h), constant along the family.
   const double exact = 180 / kDegrees * (2 + std::sinh(2.0));
   const Body body = MakeCatenoid(1, 160, 50);
   for (double angle : {0.0, 45.0, 90.0}) {
@@ -54,14 +54,14 @@ TEST(CatenoidTest, TangentPlanesKeepTheirDirections) {
       const Eigen::Vector3d v = shape.col(t(2)) - shape.col(t(0));
       return u.cross(v).normalized();
     };
-    // A triangle's normal is a tangent plane's somewhere within the triangle.
+    // A triangle's normal equals that of a tangent plane somewhere within the triangle.
     EXPECT_GT(normal(first).dot(normal(last)), 0.998);
   }
 }
 
 TEST(CatenoidTest, RefusesBadArguments) {
   EXPECT_EQ(Refusal([] { MakeCatenoid(-1, 10, 10); }),
-            "half_height: -1 is no length; it must be positive and finite");
+            "half_height: -1 is not a length; it must be positive and finite");
   EXPECT_EQ(Refusal([] { MakeCatenoid(21, 10, 10); }),
             "half_height: above 20, in units of the waist radius");
   EXPECT_EQ(Refusal([] { MakeCatenoid(1, 2, 10); }), "around: 2 is too few; at least 3 are needed");

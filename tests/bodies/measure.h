@@ -56,8 +56,8 @@ inline double LargestStrain(const Connectivity& connectivity, const Shape& rest,
   return (after / before - 1).abs().maxCoeff();
 }
 
-/// Signed angles, in degrees, between the normals of the triangles at every hinge: 0 where flat,
-/// positive where the surface is folded towards its normals.
+/// Signed angles, in degrees, between the normals of the triangles at every hinge: 0 if flat,
+/// positive if folded towards the normals.
 inline Eigen::VectorXd HingeAngles(const Connectivity& connectivity, const Shape& shape) {
   Eigen::VectorXd angles(connectivity.NumHinges());
   for (int h = 0; h < angles.size(); ++h) {
@@ -84,8 +84,8 @@ inline double SmallestAngle(const Connectivity& connectivity, const Shape& shape
   return smallest;
 }
 
-/// Sides of triangles that no other triangle has in the opposite direction, plus those that occur
-/// twice in one direction: 0 for a closed, consistently wound surface.
+/// Number of sides of triangles without a side in the opposite direction, plus sides that occur
+/// twice in one direction: 0 for a closed, consistently oriented surface.
 inline int UnmatchedSides(const Connectivity& connectivity) {
   std::map<std::pair<int, int>, int> count;
   for (const auto& t : connectivity.Triangles().colwise()) {
@@ -113,7 +113,8 @@ inline double SmallestDistance(const Shape& shape) {
   return smallest;
 }
 
-/// What the `InvalidOptions` that `call` throws says; a text no test expects if it throws none.
+/// The message of the `InvalidOptions` that `call` throws; if there is none, a text that no test
+/// expects.
 inline std::string Refusal(const std::function<void()>& call) {
   try {
     call();

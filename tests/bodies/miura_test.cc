@@ -24,7 +24,7 @@ TEST(MiuraTest, KeepsSidesDiagonalsAndFlatnessOfEveryParallelogram) {
     const Shape rest = body.pose(0);
     for (double angle : {1e-6, 10.0, 45.0, 85.0}) {
       const Shape folded = body.pose(angle);
-      // Edges include the diagonals that cut the polygons and those that do not.
+      // Edges include both diagonals of the polygons.
       EXPECT_EQ(body.connectivity->NumEdges(), 5 * 5 + 6 * 4 + 2 * 20);
       EXPECT_LT(LargestStrain(*body.connectivity, rest, folded), 1e-13);
       for (int p = 0; p < body.connectivity->NumPolygons(); ++p) {
@@ -55,7 +55,7 @@ TEST(MiuraTest, ShrinksBothWaysAsItFolds) {
 
 TEST(MiuraTest, RefusesBadArguments) {
   EXPECT_EQ(Refusal([] { MakeMiura(0, 1, 60, 2, 2); }),
-            "a: 0 is no length; it must be positive and finite");
+            "a: 0 is not a length; it must be positive and finite");
   EXPECT_EQ(Refusal([] { MakeMiura(1, 1, 90, 2, 2); }), "corner: must be in [10, 80] degrees");
   EXPECT_EQ(Refusal([] { MakeMiura(1, 1, 60, 2, 0); }), "ny: 0 is too few; at least 1 are needed");
   EXPECT_EQ(Refusal([] { MakeMiura(1, 1, 60, 1'000'000, 1'000'000); }),

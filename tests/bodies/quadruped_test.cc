@@ -10,7 +10,7 @@
 namespace shapespace {
 namespace {
 
-// Hinges folded over: beyond what even the tip of a coarse ear has.
+// Number of hinges with a fold sharper than at the tip of a coarse ear.
 int Folds(const SkinnedBody& body, const std::string& pose) {
   return (HingeAngles(*body.connectivity, body.pose(pose)).array().abs() > 120).count();
 }
@@ -53,7 +53,7 @@ TEST(QuadrupedTest, StandsUprightOnTheFloorInEveryPose) {
   for (const std::string& name : body.pose_names) {
     EXPECT_EQ(body.pose(name).row(1).minCoeff(), 0) << name;
   }
-  // Left and right are alike at rest, the head is in front.
+  // Left and right are symmetric at rest, and the head is in front.
   const Shape rest = body.pose("stand");
   EXPECT_NEAR(rest.row(0).maxCoeff(), -rest.row(0).minCoeff(), 0.02);
   Eigen::Index highest;
@@ -61,7 +61,7 @@ TEST(QuadrupedTest, StandsUprightOnTheFloorInEveryPose) {
   EXPECT_GT(rest(2, highest), 0.4);
 }
 
-// What the pictures show: all other folds are the skin's behind the knees of an animal that sits.
+// According to the pictures, all other folds are in the skin behind the knees of the sitting pose.
 TEST(QuadrupedTest, FoldsNowhereButBehindTheKnees) {
   const SkinnedBody body = MakeQuadruped(20000);
   for (const std::string& name : body.pose_names) EXPECT_EQ(Folds(body, name), 0) << name;
@@ -90,8 +90,8 @@ TEST(QuadrupedTest, PosesKeepTheVolumeAndMostEdges) {
 
 TEST(QuadrupedTest, OneLegDoesNotMoveAnother) {
   const SkinnedBody body = MakeQuadruped(5000);
-  // In "stride" the bones of all four lower legs are rigid: their edges keep their lengths, as
-  // they would not if another leg's joint reached them.
+  // In "stride" the bones of all four lower legs are rigid: their edges keep their lengths, which
+  // they would not if another leg's joint influenced them.
   const Shape rest = body.pose("stand"), stride = body.pose("stride");
   int checked = 0;
   for (const auto& edge : body.connectivity->Edges().colwise()) {
@@ -126,7 +126,7 @@ TEST(QuadrupedTest, GoesFromPoseToPose) {
   EXPECT_EQ(body.between("stand", "sit", 0), body.pose("stand"));
   EXPECT_LT((body.between("rear", "sit", 1) - body.pose("sit")).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_EQ(MakeBody("quadruped", 1000).pose(1), body.pose("stretch"));
-  // Joints turn by parts: half of the way from a pose to itself is that pose.
+  // Joints are interpolated: half way from a pose to itself is that pose.
   EXPECT_LT((body.between("sit", "sit", 0.5) - body.pose("sit")).cwiseAbs().maxCoeff(), 1e-14);
 }
 

@@ -42,7 +42,7 @@ TEST(SheetTest, EdgesShortenByTheDocumentedPart) {
 
 TEST(SheetTest, RefusesBadArguments) {
   EXPECT_EQ(Refusal([] { MakeSheet(1, -1, 2, 2); }),
-            "width: -1 is no length; it must be positive and finite");
+            "width: -1 is not a length; it must be positive and finite");
   EXPECT_EQ(Refusal([] { MakeSheet(1, 1, -2, 2); }), "nx: -2 is too few; at least 1 are needed");
   EXPECT_EQ(Refusal([] { MakeSheet(1, 1, 2'000'000'000, 2'000'000'000); }),
             "triangles: 8000000000000000000 is outside 0 .. 20000000");
@@ -91,7 +91,7 @@ TEST(StripTest, RefusesBadArguments) {
   EXPECT_EQ(Refusal([] { MakeStrip(1, 1, 20'000'001); }),
             "triangles: 20000001 is outside 0 .. 20000000");
   EXPECT_EQ(Refusal([] { MakeStrip(1e300, 1, 4); }),
-            "side: 1e+300 is no length; it must be positive and finite");
+            "side: 1e+300 is not a length; it must be positive and finite");
   EXPECT_EQ(Refusal([] { MakeStrip(1e6, 1, 4); }), "side: must be at most 10000 times the width");
 }
 

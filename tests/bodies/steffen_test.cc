@@ -21,8 +21,8 @@ bool Crosses(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Ve
          normal.dot((a - c).cross(at - c)) > 0;
 }
 
-// Pairs of an edge and a triangle that cross. Two triangles cross just if an edge of one, which
-// has no corner in common with the other, does so.
+// Pairs of an edge and a triangle that intersect. Two triangles intersect if and only if an edge of
+// one, without a common corner with the other, intersects the other.
 int Crossings(const Connectivity& connectivity, const Shape& shape) {
   int crossings = 0;
   for (const auto& t : connectivity.Triangles().colwise()) {
@@ -63,7 +63,7 @@ TEST(SteffenTest, KeepsEdgesAndVolumeWhileItMoves) {
       moved(h) = std::max(moved(h), std::abs(std::remainder(angles(h) - rest_angles(h), 360)));
     }
   }
-  // The edge from 0 to 1 belongs to the tetrahedron that is rigid; all others fold.
+  // The edge from 0 to 1 belongs to the rigid tetrahedron; all others fold.
   EXPECT_EQ((moved.array() > 2).count(), 20);
   EXPECT_GT(moved.maxCoeff(), 12);
 }

@@ -64,7 +64,7 @@ TEST(TubeTest, BaseStaysAndTipTurnsByTheAngle) {
   for (double angle : {0.0, 1e-3, 60.0, 150.0}) {
     const Shape bent = tube.pose(angle);
     EXPECT_TRUE(bent.col(0).isApprox(Eigen::Vector3d(-form.base_radius, 0, 0)));
-    // The ring of five next to each pole: its middle and the pole are on the axis of the cap.
+    // The ring of five next to each pole: its centre and the pole are on the axis of the cap.
     const Eigen::Vector3d axis = bent.col(last) - bent.block<3, 5>(0, last - 5).rowwise().mean();
     EXPECT_NEAR(std::atan2(axis.z(), axis.x()) * kDegrees, angle, 1e-9);
     EXPECT_LT(bent.row(1).sum(), 1e-9);
@@ -91,7 +91,7 @@ TEST(TubeTest, RefusesBadArguments) {
   EXPECT_EQ(Refusal([] {
               MakeTube(1000, {6, 0.5, 0, 0});
             }),
-            "tip_radius: 0 is no length; it must be positive and finite");
+            "tip_radius: 0 is not a length; it must be positive and finite");
   EXPECT_EQ(Refusal([] {
               MakeTube(1000, {6, 0.5, 0.5, -0.1});
             }),

@@ -49,8 +49,8 @@ TEST_P(PlanCollapsesOfSurfaces, KeepTheTopology) {
   }
 }
 
-// All triangles of a mesh that is regular in every pose; 6.6 degrees is the smallest angle at the
-// quality that the decimater accepts.
+// For all triangles of a mesh that is regular in every pose; with the quality that the decimater
+// accepts, the smallest angle is 6.6 degrees.
 TEST_P(PlanCollapsesOfSurfaces, MakeNoSliverInAnyPose) {
   const PosedMesh mesh = GetParam().make();
   const std::shared_ptr<const Connectivity> left = After(*mesh.connectivity, ToTheEnd(mesh));
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(, PlanCollapsesOfSurfaces, ::testing::ValuesIn(testing:
 TEST(PlanCollapses, DependsNeitherOnUnitNorOnPlace) {
   PosedMesh mesh = testing::Animal(2000, {"stand", "sit"});
   for (int p = 0; p < 2; ++p) {
-    // Without symmetry, and so without equal costs that rounding would order.
+    // Noise removes symmetry, and thereby equal costs, whose order would depend on rounding.
     mesh.poses[p] += testing::Noise(mesh.connectivity->NumVertices(), 1e-3, p);
   }
   const std::vector<Collapse> collapses = ToTheEnd(mesh);
@@ -115,7 +115,8 @@ TEST(PlanCollapses, GoesOnWhereAShorterPlanEnds) {
   ExpectSameCollapses(part, whole);
 }
 
-// Flat faces need no vertices but their corners, which the quadrics and the boundary planes hold.
+// Flat faces need no vertices except their corners, which the quadrics and the boundary planes
+// preserve.
 TEST(PlanCollapses, KeepsWhatIsFlat) {
   const Soup grid = testing::Grid(12, 9);
   const PosedMesh flat = {"grid", testing::ConnectivityOf(grid), {grid.vertices}};
@@ -167,7 +168,7 @@ TEST(PlanCollapses, LeavesTheLeastSurfaces) {
   EXPECT_TRUE(ToTheEnd(testing::Pair(tetrahedron, tetrahedron)).empty());
   const PosedMesh pillow = {"pillow", TrianglesOf(3, {{0, 1, 2}, {0, 2, 1}}), {triangle.poses}};
   EXPECT_TRUE(ToTheEnd(pillow).empty());
-  // Two triangles side by side are a disc, as one is.
+  // Two adjacent triangles are a disc, and so is one.
   const PosedMesh square = {"square", TrianglesOf(4, {{0, 1, 2}, {2, 1, 3}}), {corners}};
   const std::vector<Collapse> one = ToTheEnd(square);
   ASSERT_EQ(one.size(), 1u);
@@ -217,8 +218,8 @@ TEST(PlanCollapses, KeepsTheSpineOfABook) {
   }
 }
 
-// A triangle that hangs between two corners of sheets joins them; one that stands on an edge inside
-// a sheet is a fin. Their free corners could go without a flip, and must not.
+// A triangle between corners of two sheets connects them; a triangle on an edge in the interior of
+// a sheet is a fin. Their free corners could be removed without a flip, but must not.
 TEST(PlanCollapses, KeepsBridgesAndFins) {
   const Soup grid = testing::Grid(6, 6);
   const int n = grid.NumVertices();
@@ -243,8 +244,8 @@ TEST(PlanCollapses, KeepsBridgesAndFins) {
   EXPECT_EQ(ComputeTopology(*After(*mesh.connectivity, collapses)).components, 1);
 }
 
-// Time would be cubic in the size of a fan if its vertex, and its neighbours, were tried at every
-// collapse: this would run for days.
+// If such a vertex, and its neighbours, were tried at every collapse, time would be cubic in the
+// number of its triangles, and this test would run for days.
 TEST(PlanCollapses, CopesWithVerticesOfManyTriangles) {
   constexpr int kAround = 30000;
   std::vector<Eigen::Vector3i> triangles;
@@ -285,7 +286,7 @@ TEST(PlanCollapses, RefusesWhatDoesNotFit) {
   for (int v : {-1, mesh.connectivity->NumVertices()}) {
     EXPECT_EQ(testing::MessageOf<InvalidOptions>(
                   [&] { PlanCollapses(*mesh.connectivity, mesh.poses, 10, {v}); }),
-              "pinned: " + std::to_string(v) + " is no vertex of the mesh");
+              "pinned: " + std::to_string(v) + " is not a vertex of the mesh");
   }
 }
 

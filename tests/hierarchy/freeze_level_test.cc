@@ -31,7 +31,7 @@ TEST(RestrictField, KeepsConstantsAndTheRange) {
     const Eigen::VectorXd coarse = levels.hierarchy.RestrictField(halves, level);
     EXPECT_GE(coarse.minCoeff(), 1 - 1e-12);
     EXPECT_LE(coarse.maxCoeff(), 100 + 1e-12);
-    // Away from the border between the halves, nothing of the other one is seen.
+    // Away from the border between the halves, values do not depend on the other half.
     const Shape places = levels.hierarchy.Restrict(levels.rest, level);
     for (int v = 0; v < places.cols(); ++v) {
       if (places(0, v) > 1 && places(0, v) < 7) continue;
@@ -40,7 +40,8 @@ TEST(RestrictField, KeepsConstantsAndTheRange) {
   }
 }
 
-// A vertex of a coarse level stands for several: the mean is over all of them.
+// Several vertices of the mesh collapse to a vertex of a coarse level; the mean is over all of
+// them.
 TEST(RestrictField, IsTheMeanOverTheVerticesThatAVertexStandsFor) {
   const Levels levels;
   Eigen::VectorXd field = Eigen::VectorXd::Ones(levels.bar.connectivity->NumVertices());
@@ -50,7 +51,7 @@ TEST(RestrictField, IsTheMeanOverTheVerticesThatAVertexStandsFor) {
     if (!kept[v]) field(v) = 4;
   }
   const Eigen::VectorXd coarse = levels.hierarchy.RestrictField(field, 0);
-  // Of so many vertices to one that is kept, the logarithm's mean says that share.
+  // The mean of the logarithm gives the share of the vertices that collapsed to a kept one.
   const double share = 1 - static_cast<double>(coarse.size()) / static_cast<double>(field.size());
   EXPECT_NEAR(coarse.array().log().mean() / std::log(4.0), share, 0.15);
   EXPECT_GT(coarse.minCoeff(), 1);

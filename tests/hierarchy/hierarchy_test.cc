@@ -26,13 +26,14 @@ HierarchyOptions Coarsest(int triangles) {
   return options;
 }
 
-// The largest distance between vertices of two shapes, in parts of the first one's extent.
+// The largest distance between vertices of two shapes, relative to the first one's extent.
 double Apart(const Shape& a, const Shape& b) {
   const double extent = (a.rowwise().maxCoeff() - a.rowwise().minCoeff()).norm();
   return (a - b).colwise().norm().maxCoeff() / extent;
 }
 
-// Whatever the mesh: levels thin out, nest, restrict to each other, and lift to the poses again.
+// For any mesh: levels become coarser, are nested, restrict to each other, and lift to the poses
+// again.
 void ExpectSoundLevels(const PosedMesh& mesh, const Hierarchy& hierarchy, double exact = 1e-12) {
   const int finest = hierarchy.NumLevels() - 1;
   EXPECT_EQ(hierarchy.LevelConnectivity(finest), mesh.connectivity);
@@ -98,7 +99,7 @@ TEST_P(HierarchyOfSurfaces, LiftsRigidMotionsRigidly) {
     for (int level = 0; level + 1 < hierarchy.NumLevels(); ++level) {
       const Shape from = hierarchy.Restrict(mesh.poses.front(), level + 1);
       const Shape to = hierarchy.Restrict(mesh.poses.back(), level + 1);
-      // A pose that moves as a whole, and a shape that is none of the poses.
+      // A rigidly moved pose, and a shape that is not a pose.
       Shape between = 0.7 * hierarchy.RestrictOnce(from, level + 1) +
                       0.3 * hierarchy.RestrictOnce(to, level + 1);
       const Shape lifted = hierarchy.Lift(between, level, from, to, 0.3);
@@ -131,8 +132,8 @@ TEST(Hierarchy, KeepsTheVolumeInEveryPose) {
   }
 }
 
-// What is lifted from a true shape between the poses, with the details of these, is nearly that
-// shape. Bounds are a fifth above what was measured.
+// A shape between the poses, lifted with the poses' detail, is nearly the true shape. Bounds are a
+// fifth above the measured values.
 TEST(Hierarchy, LiftsShapesBetweenThePoses) {
   const Body tube = MakeTube(6000);
   const std::vector<Shape> poses = {tube.pose(0), tube.pose(90)};
@@ -164,7 +165,7 @@ TEST(Hierarchy, LiftsKeptVerticesToWhereTheyAre) {
   coarse += testing::Noise(static_cast<int>(coarse.cols()), 0.05, 1);
   EXPECT_LT(Apart(coarse, hierarchy.RestrictOnce(hierarchy.Lift(coarse, 0, from, to, 0.4), 1)),
             1e-14);
-  // From another shape of the finer level, the difference to its base is put back.
+  // From another shape of the finer level, the difference to its base is added.
   const Shape shifted = from.colwise() + Eigen::Vector3d(0, 0, 1);
   const Shape base = hierarchy.RestrictOnce(from, 1);
   EXPECT_LT(Apart(shifted, hierarchy.Lift(base, 0, base, shifted, base, shifted, 0)), 1e-12);
@@ -192,7 +193,7 @@ TEST(Hierarchy, StopsEarlyWhereNothingMayGo) {
   const Hierarchy fixed(mesh.connectivity, mesh.poses, options);
   EXPECT_TRUE(fixed.StoppedEarly());
   EXPECT_EQ(fixed.NumLevels(), 1);
-  // A level with nearly all triangles would gain nothing.
+  // A level with nearly all triangles would be useless.
   options.pinned.resize(mesh.connectivity->NumVertices() * 9 / 10);
   const Hierarchy nearly(mesh.connectivity, mesh.poses, options);
   EXPECT_TRUE(nearly.StoppedEarly());
@@ -233,7 +234,7 @@ TEST(Hierarchy, JoinsWhatSegmentsJoin) {
   const PosedMesh pair = testing::Pair(testing::BentTube(1000), testing::BentTube(1000));
   const Eigen::Matrix3Xi& triangles = pair.connectivity->Triangles();
   const int n = pair.connectivity->NumVertices();
-  // A string of two segments through a vertex that no triangle has.
+  // A string of two segments through a vertex without triangles.
   const auto connectivity =
       Connectivity::Make(n + 1, pair.connectivity->PolygonBegin(),
                          std::vector<int>(triangles.data(), triangles.data() + triangles.size()),
@@ -276,7 +277,7 @@ TEST(Hierarchy, RefusesWhatDoesNotFit) {
     options.pinned = {-3};
     EXPECT_EQ(testing::MessageOf<InvalidOptions>(
                   [&] { Hierarchy(tube.connectivity, tube.poses, options); }),
-              "pinned: -3 is no vertex of the mesh");
+              "pinned: -3 is not a vertex of the mesh");
     EXPECT_EQ(testing::MessageOf<InvalidOptions>(
                   [&] { Hierarchy(tube.connectivity, tube.poses, Coarsest(3)); }),
               "coarsest: must be 4 triangles or more");
@@ -294,7 +295,8 @@ TEST(Hierarchy, TakesAnyTriangles) {
       const Shape coarse = hierarchy.RestrictOnce(from, level + 1);
       const Shape lifted = hierarchy.Lift(coarse, level, from, to, 0);
       EXPECT_TRUE(lifted.allFinite());
-      // Where all triangles at a vertex lie on one line, rounding turns its neighbourhood.
+      // Where all triangles at a vertex lie on one line, rounding determines the rotation of its
+      // neighbourhood.
       EXPECT_LT((lifted - from).cwiseAbs().maxCoeff(), 1e-5);
       EXPECT_TRUE(hierarchy.Lift(coarse, level, from, to, 0.5).allFinite());
       const Shape nothing = Shape::Zero(3, coarse.cols());

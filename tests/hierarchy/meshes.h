@@ -40,7 +40,7 @@ inline std::shared_ptr<const Connectivity> TrianglesOf(
   return Connectivity::FromTriangles(num_vertices, columns);
 }
 
-/// Bends what lies along x, in proportion to its size.
+/// Bends a shape along x, in proportion to its size.
 inline Shape BentByHand(const Shape& shape) {
   const double turn = 2 / (shape.row(0).maxCoeff() - shape.row(0).minCoeff());
   Shape bent = shape;
@@ -63,7 +63,7 @@ inline PosedMesh Animal(int triangles, std::vector<std::string> pose_names = {})
   return mesh;
 }
 
-/// Two meshes as one, the second moved aside.
+/// Two meshes as one, the second one translated.
 inline PosedMesh Pair(const PosedMesh& first, const PosedMesh& second) {
   const int offset = first.connectivity->NumVertices();
   std::vector<Eigen::Vector3i> triangles;
@@ -108,7 +108,7 @@ inline PosedMesh RolledSheet() {
   return {"sheet", sheet.connectivity, {sheet.pose(0), sheet.pose(100), sheet.pose(200)}};
 }
 
-/// A mesh to be made when a test wants it.
+/// A mesh, made on demand.
 struct Surface {
   const char* name;
   PosedMesh (*make)();
@@ -116,7 +116,7 @@ struct Surface {
 
 inline void PrintTo(const Surface& surface, std::ostream* out) { *out << surface.name; }
 
-/// Surfaces of every kind: with and without boundary, handles, several pieces, quadrilaterals.
+/// Surfaces of every kind: with and without boundary, handles, several components, quadrilaterals.
 inline constexpr Surface kSurfaces[] = {
     {"tube", [] { return BentTube(2000); }},
     {"sheet", RolledSheet},
@@ -150,8 +150,8 @@ inline std::shared_ptr<const Connectivity> After(const Connectivity& mesh,
   return TrianglesOf(mesh.NumVertices(), triangles);
 }
 
-/// A mesh of up to 40 vertices and 80 triangles with anything in it: boundaries, edges of many
-/// triangles, triangles that occur twice, without area or with a corner twice.
+/// A random mesh of up to 40 vertices and 80 triangles, with boundaries, edges of many triangles,
+/// and triangles that are repeated, without area or with a repeated corner.
 inline PosedMesh AnyMesh(int seed) {
   std::mt19937 random(seed);
   const auto below = [&](int n) { return static_cast<int>(random() % n); };

@@ -20,7 +20,7 @@ inline Soup MakeSoup(const Shape& vertices, const std::vector<std::vector<int>>&
   return soup;
 }
 
-/// With polygons cut as fans.
+/// With polygons triangulated as fans.
 inline std::shared_ptr<const Connectivity> Connected(const Soup& soup) {
   return Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments);
 }

@@ -44,7 +44,7 @@ std::vector<std::string> Kinds(const std::vector<Finding>& findings) {
 using Names = std::vector<std::string>;
 const Names kNotes = {"components", "boundary-loops", "genus"};
 
-/// `soup` as if it had been read: element i of each kind stands on line 100 + i or so.
+/// `soup` with line numbers: element i of each kind is on line 100 + i or so.
 Soup WithLines(Soup soup) {
   soup.file = "pose.obj";
   for (int v = 0; v < soup.NumVertices(); ++v) soup.vertex_line.push_back(100 + v);
@@ -118,7 +118,7 @@ TEST(CheckTest, DegeneratePolygons) {
   ExpectFinding(coincident, "zero-length-edge", Severity::kWarning,
                 {"(1): a side of polygon 2 (line 201)"});
 
-  // A sliver of a millionth of a degree is thin, but a triangle.
+  // A sliver with an angle of a millionth of a degree is still a triangle.
   vertices << 0, 1, .5, .5, 0, 0, 1e-8, -1, 0, 0, 0, 0;
   EXPECT_EQ(Kinds(CheckSoup(MakeSoup(vertices, {{0, 1, 2}, {1, 0, 3}}))), kNotes);
 

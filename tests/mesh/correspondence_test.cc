@@ -21,7 +21,7 @@ Soup Named(Soup soup, const std::string& file, int first_line) {
   return soup;
 }
 
-/// A finding is expected alone, with these words in it.
+/// Expects exactly one finding, with these words in it.
 void ExpectOnly(const Soup& reference, const Soup& pose, const std::string& kind, Severity severity,
                 const std::vector<std::string>& parts) {
   const std::vector<Finding> findings = CheckCorrespondence(reference, pose);

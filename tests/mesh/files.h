@@ -14,7 +14,7 @@
 
 namespace shapespace::testing {
 
-/// A test with a folder of its own, which goes away with it.
+/// A test with a temporary folder.
 class FilesTest : public ::testing::Test {
  protected:
   FilesTest() {
@@ -46,7 +46,7 @@ inline std::string Content(const std::string& file) {
   return content.str();
 }
 
-/// The message of the E that `call` throws; it must hold all `parts`.
+/// The message of the E that `call` throws, which must contain all `parts`.
 template <typename E>
 void ExpectError(const std::function<void()>& call, const std::vector<std::string>& parts) {
   try {

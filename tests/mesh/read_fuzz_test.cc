@@ -13,11 +13,11 @@ namespace {
 
 class ReadFuzzTest : public testing::FilesTest {
  protected:
-  /// Damaged copies of a file must be refused by an Error, or give a soup that can be checked.
+  /// Damaged copies of a file must be rejected with an Error, or give a soup that can be checked.
   void Damage(const std::string& extension, const std::string& content, int count) {
     std::mt19937 random(12345);
     auto below = [&random](size_t n) { return static_cast<size_t>(random() % n); };
-    // Bytes that mean something to one of the readers turn up more often than by chance.
+    // Bytes with a meaning for one of the readers are inserted more often.
     const std::string telling = "0123456789 \n\r\t-+.e/#\\vflOFply\xff";
     int accepted = 0, refused = 0;
     for (int i = 0; i < count; ++i) {
@@ -56,7 +56,7 @@ class ReadFuzzTest : public testing::FilesTest {
         ++refused;
       }
     }
-    // Otherwise the damage was too small, or too great, to try anything.
+    // Otherwise the damage was too small, or too large, for a meaningful test.
     EXPECT_GT(accepted, count / 100);
     EXPECT_GT(refused, count / 5);
   }

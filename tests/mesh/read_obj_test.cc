@@ -175,7 +175,7 @@ TEST_F(ReadObjTest, RefusesWhatIsNoMesh) {
   std::filesystem::create_directory(Path("folder.obj"));
   ExpectError<FileError>([&] { ReadSoup(Path("folder.obj")); }, {"folder.obj: is a folder"});
   ExpectError<FileError>([&] { ReadSoup(File("a.stl", "solid")); },
-                         {"a.stl", "'.stl' is none of .obj, .ply, .off"});
+                         {"a.stl", "'.stl' is not one of .obj, .ply, .off"});
 }
 
 }  // namespace

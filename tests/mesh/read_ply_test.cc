@@ -192,12 +192,13 @@ TEST_F(ReadPlyTest, RefusesBadHeaders) {
   ExpectRefused("ply\nformat ascii 1.0\nelement vertex 1\n", {"pose.ply:3: ", "inside its header"});
   ExpectRefused("ply\nformat utf8 1.0\n", {"pose.ply:2: format 'utf8'"});
   ExpectRefused("ply\nelement vertex 1\nproperty float x\nend_header\n0\n", {"no 'format'"});
-  refused("element vertex many\n", {"pose.ply:3: element 'vertex': 'many' is no count"});
-  refused("element vertex -1\n", {"pose.ply:3: element 'vertex': '-1' is no count"});
+  refused("element vertex many\n", {"pose.ply:3: element 'vertex': 'many' is not a count"});
+  refused("element vertex -1\n", {"pose.ply:3: element 'vertex': '-1' is not a count"});
   refused("property float x\n", {"pose.ply:3: a property stands before"});
-  refused("element vertex 1\nproperty quad x\n", {"pose.ply:4: 'quad' is no type"});
-  refused("element face 1\nproperty list float int i\n", {"pose.ply:4: 'float' is no type that"});
-  refused("element vertex 1\nelement vertex 1\n", {"pose.ply:4: element 'vertex' stands twice"});
+  refused("element vertex 1\nproperty quad x\n", {"pose.ply:4: 'quad' is not a type"});
+  refused("element face 1\nproperty list float int i\n",
+          {"pose.ply:4: 'float' is not a type that"});
+  refused("element vertex 1\nelement vertex 1\n", {"pose.ply:4: element 'vertex' occurs twice"});
   refused("element vertex 1\nproperty int x\nproperty int x\n", {"pose.ply:5: property 'x'"});
   refused("wobble\n", {"pose.ply:3: the header holds 'wobble'"});
   refused("element face 1\nproperty list int int vertex_indices\nend_header\n3 0 0 0\n",

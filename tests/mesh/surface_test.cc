@@ -26,8 +26,8 @@ Shape PointsAround(const Shape& shape, int count) {
   return points;
 }
 
-// The least distance by looking at every triangle: of a fine grid of its points, which is an upper
-// bound that comes within the grid's width.
+// An upper bound of the least distance by brute force: a fine grid of points of every triangle. It
+// is accurate to the grid's width.
 double LeastOnGrids(const Connectivity& connectivity, const Shape& shape, const Vector3d& point) {
   constexpr int kGrid = 12;
   double least = std::numeric_limits<double>::infinity();
@@ -65,7 +65,7 @@ TEST(Surface, FindsTheNearestPoint) {
   }
 }
 
-// Embree's floats alone would be wrong by a hundred bodies here.
+// Embree's single precision alone would have errors of a hundred times the body's size here.
 TEST(Surface, FindsTheSamePointsFarFromTheOrigin) {
   const SkinnedBody body = MakeQuadruped(600);
   const Shape shape = body.pose("stand");

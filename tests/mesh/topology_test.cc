@@ -99,7 +99,7 @@ TEST(TopologyTest, NonManifolds) {
 }
 
 TEST(TopologyTest, AnyOrderOfTrianglesWillDo) {
-  // Built in this order, vertices are touched by several fans for a while.
+  // In this order, vertices have several fans for some time during the construction.
   Soup torus = Torus(8, 8), shuffled = torus;
   for (int p = 0; p < 64; ++p) {
     std::copy_n(torus.corners.begin() + 4 * (p * 29 % 64), 4, shuffled.corners.begin() + 4 * p);

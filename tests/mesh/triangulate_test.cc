@@ -16,8 +16,8 @@
 namespace shapespace {
 namespace {
 
-/// A polygon in the plane z = 0 whose corners are seen from the origin in rising order, at random
-/// distances: with as many corners as here, concave in many places.
+/// A polygon in the plane z = 0 whose corners are in cyclic order around the origin, at random
+/// distances; with this number of corners it is concave in many places.
 Shape RandomPolygon(int corners, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> radius(0.2, 1.0);
@@ -41,7 +41,7 @@ double SignedArea(const Shape& flat, const Eigen::Vector3i& t) {
   return 0.5 * (b - a).cross(c - a).z();
 }
 
-/// Of a polygon in the plane z = 0.
+/// Signed area of a polygon in the plane z = 0.
 double Area(const Shape& flat) {
   double area = 0;
   for (int k = 0; k < flat.cols(); ++k) {
@@ -74,7 +74,7 @@ TEST(TriangulateTest, ConcavePolygonsAreCoveredOnceAndOnTheRightSide) {
         EXPECT_GT(area, 0) << corners << " corners, seed " << seed;
         sum += area;
       }
-      // Areas of one sign that add up to the polygon's cannot overlap.
+      // Areas of the same sign with the polygon's area as their sum cannot overlap.
       EXPECT_NEAR(sum, Area(flat), 1e-12) << corners << " corners, seed " << seed;
     }
   }
@@ -98,8 +98,8 @@ TEST(TriangulateTest, ThePlaceOrientationAndSizeOfPosesAndTheFirstCornerDoNotMat
 }
 
 TEST(TriangulateTest, ThePosesMeanDecides) {
-  // A square whose corner 0 is pushed in by far in one pose and out by little in the other: in the
-  // mean, as in the first, only the diagonal 0-2 lies inside. And the other way round.
+  // A square whose corner 0 is pushed inwards far in one pose and outwards slightly in the other:
+  // in the mean, as in the first pose, only the diagonal 0-2 is inside. The opposite case likewise.
   Shape dented(3, 4), kite(3, 4);
   dented << 0.9, 1, 1, 0, 0.9, 0, 1, 1, 0, 0, 0, 0;
   kite << -0.1, 1, 1, 0, -0.1, 0, 1, 1, 0, 0, 0, 0;
@@ -135,7 +135,7 @@ TEST(TriangulateTest, PolygonsThatCannotBeCutWellAreCutAllTheSame) {
     star.col(k) << std::cos(0.8 * M_PI * k), std::sin(0.8 * M_PI * k), 0;
   }
   EXPECT_EQ(AsSet(Triangulate({0, 5}, Counting(5), {star})).size(), 3u);
-  // A corner that stands twice, as where two holes were joined to the outline.
+  // A repeated corner, as where two holes were connected to the outline.
   EXPECT_EQ(Triangulate({0, 5}, {0, 1, 2, 1, 3}, {RandomPolygon(4, 1)}).cols(), 3);
 }
 

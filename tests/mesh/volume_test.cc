@@ -26,7 +26,7 @@ TEST(VolumeTest, IsTheSameFarFromTheOrigin) {
 }
 
 TEST(VolumeTest, ClosedMeshesAreClosedInWhateverOrderTheirTrianglesStand) {
-  // Two cubes that share an edge, which has four triangles: closed all the same.
+  // Two cubes with a common edge, which has four triangles, are closed.
   const Soup cube = Cube();
   std::vector<std::vector<int>> polygons;
   const auto add = [&](const std::vector<int>& to) {
@@ -66,7 +66,7 @@ TEST(VolumeTest, MirrorImagesOfClosedBodiesAreTold) {
   EXPECT_FALSE(IsMirrored(closed->Triangles(), flipped, flipped));  // inside out, but both alike
   const Eigen::Matrix3d turn(Eigen::AngleAxisd(3, Eigen::Vector3d(1, 2, 3).normalized()));
   EXPECT_FALSE(IsMirrored(closed->Triangles(), torus.vertices, 100 * (turn * torus.vertices)));
-  // Flat enough for its sides to change places.
+  // So flat that its sides can be exchanged.
   Shape leaf = torus.vertices, turned_leaf = leaf;
   leaf.row(2) *= 0.001;
   turned_leaf.row(2) *= -0.001;

@@ -21,7 +21,7 @@ using testing::ExpectError;
 class WriteTest : public testing::FilesTest {
  protected:
   WriteTest() : soup_(testing::Cube()) {
-    // Numbers of all magnitudes, so that a lost digit shows.
+    // Numbers of all magnitudes, to detect lost digits.
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> mantissa(-1, 1), exponent(-20, 20);
     for (int i = 0; i < soup_.vertices.size(); ++i) {
@@ -106,7 +106,7 @@ TEST_F(WriteTest, ObjIsExactAndKeepsTheAppearance) {
   EXPECT_EQ(testing::Content(Path("b.obj")), testing::Content(Path("a.obj")));
 }
 
-// Any number that a double can hold comes back, whatever its bits; frames are as exact as that.
+// Every double is reproduced exactly; frames rely on that.
 TEST_F(WriteTest, ObjKeepsEveryBitOfEveryNumber) {
   Soup soup;
   soup.vertices.resize(3, 20000);

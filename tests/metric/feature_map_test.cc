@@ -37,7 +37,7 @@ Case Bent(const std::string& name, const Body& body, const MetricOptions& option
   return {name, body.connectivity, metric, pose + Noise(static_cast<int>(pose.cols()), 0.01, 1)};
 }
 
-// Every feature that there is, on a closed bar with edges inside.
+// All features, on a closed bar with additional edges inside.
 Case AllFeatures() {
   MetricOptions options;
   options.strain = 0.2;
@@ -67,7 +67,7 @@ std::vector<std::pair<std::string, Eigen::VectorXd>> ByFeature(const Metric& met
   return parts;
 }
 
-// Every part of `got` is that of `expected` to `tolerance` of the latter's norm.
+// Expects that every part of `got` equals that of `expected`, to `tolerance` of the latter's norm.
 void ExpectNearByFeature(const Metric& metric, const Eigen::VectorXd& got,
                          const Eigen::VectorXd& expected, double tolerance) {
   const auto got_parts = ByFeature(metric, got), expected_parts = ByFeature(metric, expected);
@@ -175,7 +175,7 @@ TEST(FeatureMap, SecondDerivativeIsThatOfDifferencesOfTheFirst) {
     const auto expected = ByFeature(*test.metric, differences);
     for (size_t i = 0; i < got.size(); ++i) {
       SCOPED_TRACE(got[i].first);
-      // Positions are linear: their differences are rounding divided by h.
+      // Positions are linear: their differences are rounding errors divided by h.
       const double rounding = 1e-14 / h;
       EXPECT_LE((got[i].second - expected[i].second).norm(),
                 1e-6 * expected[i].second.norm() + rounding);
@@ -193,7 +193,7 @@ TEST(FeatureMap, TransposeTimesIsTheAdjointOfTimes) {
     const Eigen::VectorXd y = Eigen::VectorXd::Random(jx.size());
     const Tangent jty = derivative.TransposeTimes(y);
     EXPECT_NEAR(jx.dot(y), x.cwiseProduct(jty).sum(), 1e-13 * jx.norm() * y.norm());
-    // One feature at a time: none hides behind another's size.
+    // One feature at a time, because features differ in size.
     int begin = 0;
     for (const auto& [name, part] : ByFeature(*test.metric, jx)) {
       SCOPED_TRACE(name);

@@ -101,8 +101,8 @@ TEST(Metric, KnowsWhetherItsOwnFeaturesAreRigidInvariant) {
       FreezeMetric(options, bar.connectivity, {bar.pose(0)})->RigidInvariantButForPosition());
 }
 
-// Numbers whose second derivatives along a line are known in closed form, through every function
-// that features may call.
+// Functions whose second derivatives along a line are known in closed form, with every operation
+// that features may use.
 TEST(LineJet, DifferentiatesTwice) {
   using internal::LineJet;
   struct Case {

@@ -103,7 +103,8 @@ TEST(FreezeMetric, GraphsHaveTotalLengthOne) {
   EXPECT_NEAR(metric->vertex_area(1), 0.5, 1e-14);
 }
 
-// The paper's w_e = 1 makes lambda mean something else at every resolution; area weights do not.
+// With the paper's w_e = 1 the meaning of lambda depends on the resolution; with area weights it
+// does not.
 TEST(FreezeMetric, RatioOfPartsSurvivesRefinementWithAreaWeightsOnly) {
   const auto ratio = [](int n, const MetricOptions& options) {
     const Body bar = MakeBar(6, 1, 1, 6 * n, n, n);
@@ -220,8 +221,9 @@ TEST(AngularVelocity, SolvesTheNormalEquationsAndLeavesOutTheAxisOfALine) {
   EXPECT_TRUE((degenerate * c).isApprox(degenerate * spin, 1e-12));
 }
 
-// One vertex inside a sheet goes nearly all the way to a neighbour: an edge is a hundred-thousandth
-// of the others, and the two triangles at it are slivers. None of them may freeze what hangs on it.
+// One vertex in the interior of a sheet moves nearly onto a neighbour, so that an edge has a
+// hundred-thousandth of the others' length, and the two triangles at it are slivers. None of them
+// may make its neighbourhood rigid.
 TEST(FreezeMetric, SliversAndShortEdgesWeighNoMoreThanTheyHaveTo) {
   const Body sheet = MakeSheet(1, 1, 6, 6);
   Shape shape = sheet.pose(0);
@@ -234,11 +236,11 @@ TEST(FreezeMetric, SliversAndShortEdgesWeighNoMoreThanTheyHaveTo) {
   shape.col(from) += (1 - 1e-5) * (shape.col(to) - shape.col(from));
   const auto after = FreezeMetric({}, sheet.connectivity, {shape});
   const auto heaviest = [](const auto& feature) { return feature.weights.maxCoeff(); };
-  // An edge that is a thousandth as long as the others weighs a million times as much.
+  // An edge of a thousandth of the others' length has a million times their weight.
   EXPECT_LT(heaviest(Get<EdgeLength>(*after)), 1e7 * heaviest(Get<EdgeLength>(*before)));
 }
 
-// The thinner a sheet's triangles, the more a hinge along them would weigh.
+// The weight of a hinge along thin triangles grows with their aspect ratio.
 TEST(FreezeMetric, HingesOfSliversWeighNoMoreThanThoseOfThinTriangles) {
   const auto heaviest = [](double width) {
     const Body sheet = MakeSheet(1, width, 4, 4);

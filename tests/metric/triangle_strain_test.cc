@@ -84,7 +84,8 @@ TEST(TriangleStrain, DoesNotSeeRigidMotionAndAddsUpUnderScaling) {
 }
 
 TEST(TriangleStrain, IsTheStrainOfEdgesWhereTrianglesAreEquilateralAndStrainsSmall) {
-  // The three edges of an equilateral triangle are directions enough to give the mean over all.
+  // The mean over the directions of an equilateral triangle's three edges equals the mean over all
+  // directions.
   const auto triangle = Connectivity::Make(3, {0, 3}, {0, 1, 2});
   const Corners still = WithStrain(Eigen::Matrix2d::Zero());
   MetricOptions edges, triangles;

@@ -17,7 +17,7 @@ struct SimpleBody {
   Shape shape;
 };
 
-/// A sphere of circles of latitude, wound outwards; its poles are on the y axis.
+/// A sphere of circles of latitude, oriented outwards; its poles are on the y axis.
 inline SimpleBody Sphere(double radius, int circles = 40, int around = 80) {
   SimpleBody body;
   body.shape.resize(3, circles * around);
@@ -41,7 +41,7 @@ inline SimpleBody Sphere(double radius, int circles = 40, int around = 80) {
   return body;
 }
 
-/// A box about the origin, wound outwards.
+/// A box centred at the origin, oriented outwards.
 inline SimpleBody Box(double x, double y, double z) {
   SimpleBody body;
   body.shape.resize(3, 8);
@@ -54,7 +54,7 @@ inline SimpleBody Box(double x, double y, double z) {
   return body;
 }
 
-/// The same triangles seen from the other side.
+/// The same triangles with opposite orientation.
 inline std::shared_ptr<const Connectivity> Reversed(const Connectivity& connectivity) {
   Eigen::Matrix3Xi triangles = connectivity.Triangles();
   triangles.row(1).swap(triangles.row(2));

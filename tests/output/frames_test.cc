@@ -11,7 +11,7 @@ namespace {
 
 class FramesTest : public testing::FilesTest {};
 
-// Stiffeners are edges of the metric, not of the mesh, and frames of a path file must not have
+// Stiffeners are edges of the metric, not of the mesh, so frames of a path file must not contain
 // them.
 TEST_F(FramesTest, GraphsWithStiffenersGoThroughPathFilesAsTheyWere) {
   using Pairs = std::vector<std::pair<int, int>>;

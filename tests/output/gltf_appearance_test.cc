@@ -13,8 +13,9 @@
 namespace shapespace {
 namespace {
 
-/// A cube in a path of its own folder: every square has its own part of the texture, but for two
-/// that share an edge; three materials, one of which no library has, and one polygon without any.
+/// A cube in a folder of its own: every square has its own part of the texture, except two that
+/// share an edge; three materials, one of which no library contains, and one polygon without
+/// material.
 class WriteGltfAppearanceTest : public testing::FilesTest {
  protected:
   WriteGltfAppearanceTest() {
@@ -67,7 +68,7 @@ TEST_F(WriteGltfAppearanceTest, EveryCornerHasItsTextureCoordinateInEveryShape) 
   ASSERT_EQ(glb.json["meshes"][0]["primitives"].size(), 4u);
   const Eigen::MatrixXd uv = glb.Attribute("TEXCOORD_0");
 
-  // As few vertices as there are different pairs.
+  // The minimal number of vertices: one per different pair.
   std::set<std::tuple<int, double, double>> pairs;
   for (int p = 0; p < 6; ++p) {
     for (int k = connectivity_->PolygonBegin()[p]; k < connectivity_->PolygonBegin()[p + 1]; ++k) {

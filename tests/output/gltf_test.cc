@@ -25,10 +25,10 @@ namespace {
 
 using testing::MessageOf;
 
-// Rounding errors of single precision, in sizes of the body: of two numbers and their sum.
+// Rounding errors of single precision, relative to the body's size: of two numbers and their sum.
 constexpr double kPrecision = 4e-7;
 
-// A path through `shapes`, which lie where `Placed` has them.
+// A path through `shapes`, as placed.
 Path MakePath(const std::shared_ptr<const Connectivity>& connectivity,
               const std::vector<Shape>& shapes) {
   Path path;
@@ -70,7 +70,7 @@ double Size(const Shape& shape) {
 
 double Distance(const Shape& a, const Shape& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
-// When the file shows key k on the way there: after the rest, which has two samples.
+// The time of key k on the way from the first shape: after the rest, which has two samples.
 double TimeOf(const Glb& glb, int k) { return glb.Times()(1 + k); }
 
 Shape Shown(const Glb& glb, double time) { return glb.InTheWorld(glb.Morphed("POSITION", time)); }
@@ -176,7 +176,7 @@ TEST(WriteGltfTest, FramesASecondSetTheTimeBetweenShapes) {
     for (int i = 0; i < 7; ++i) {
       EXPECT_LT(Distance(Shown(glb, begin + i / 4.0), path.Placed(i)), 3e-6) << i;
     }
-    // Also where not all shapes are in the file.
+    // Also if the file does not contain all shapes.
     WriteGltf(GlbFile("frames-long"), long_path, options);
     const Glb long_glb(GlbFile("frames-long"));
     const double start = playback == GltfPlayback::kThereAndBack ? TimeOf(long_glb, 0) : 0;
@@ -185,7 +185,7 @@ TEST(WriteGltfTest, FramesASecondSetTheTimeBetweenShapes) {
   }
 }
 
-// Of a path of two shapes too, which has no key in between whose time could be another.
+// Also for a path of two shapes, which has no key in between whose time could change.
 TEST(WriteGltfTest, EasedMotionsAreSlowAtBothEnds) {
   for (const int count : {2, 6}) {
     const Path path = SpherePath(count);
@@ -233,7 +233,7 @@ TEST(WriteGltfTest, NormalsStandOnTheSurface) {
 }
 
 TEST(WriteGltfTest, NormalsAreUnitVectorsWhereThereIsNoSurface) {
-  // A stray vertex, and a triangle that collapses on the way.
+  // An unused vertex, and a triangle that collapses on the way.
   const auto connectivity =
       Connectivity::FromTriangles(7, (Eigen::Matrix3Xi(3, 2) << 0, 3, 1, 4, 2, 5).finished());
   Shape first = Shape::Random(3, 7), last = first;
@@ -289,7 +289,7 @@ TEST(KeyShapesTest, KeepsAllThatFit) {
 TEST(KeyShapesTest, KeepsPosesAndFillsTheWidestGaps) {
   EXPECT_EQ(internal::KeyShapes(101, {0, 100}, 5), (std::vector<int>{0, 25, 50, 75, 100}));
   EXPECT_EQ(internal::KeyShapes(101, {0, 3, 100}, 5), (std::vector<int>{0, 3, 35, 68, 100}));
-  // The path goes on past its poses.
+  // The path continues beyond its poses.
   EXPECT_EQ(internal::KeyShapes(101, {40, 60}, 4), (std::vector<int>{0, 40, 60, 100}));
 }
 
@@ -321,7 +321,7 @@ TEST(WriteGltfTest, PolygonsAreTriangulatedAndSeenFromBothSides) {
   EXPECT_EQ(material["doubleSided"], true);
 }
 
-// A star, one polygon, whose fan from any corner would cover parts outside of it.
+// A star, one polygon; a fan from any corner would cover parts outside of it.
 TEST(WriteGltfTest, ConcavePolygonsAreFilledOnce) {
   constexpr int kCorners = 10;
   Soup soup;
@@ -462,7 +462,7 @@ TEST(WriteGltfTest, IsNoLargerThanItsArrays) {
 }
 
 TEST(WriteGltfTest, ColoursShowTheLargestDeviationOnTheWay) {
-  // The upper half is twice as large in the middle of the path, and itself again at the end.
+  // The upper half is twice as large in the middle of the path, and back to its size at the end.
   const SimpleBody sphere = Sphere(1);
   Shape middle = sphere.shape;
   for (int v = 0; v < middle.cols(); ++v) {
@@ -577,7 +577,7 @@ TEST(WriteGltfTest, NamesWhatIsWrongWithThePath) {
   EXPECT_EQ(message([](P* p) {
               p->poses = {0, 3};
             }),
-            "a.glb: the path's pose 3 is none of its 3 shapes that are not extrapolated");
+            "a.glb: the path's pose 3 is not one of its 3 shapes that are not extrapolated");
   for (const double scale : {1e40, 1e-40}) {
     EXPECT_NE(message([&](P* p) {
                 for (Shape& shape : p->shapes) shape *= scale;

@@ -72,7 +72,7 @@ TEST(DrawLegendTest, DrawsDarkTextOnALightGround) {
       ink += titled.pixels[3 * (y * titled.width + x)] < 180;
     }
   }
-  // Six letters, each with at least a stem two pixels wide and ten high.
+  // Six letters, each with at least one stem two pixels wide and ten high.
   EXPECT_GT(ink, 6 * 20);
   EXPECT_GT(titled.pixels[0], 240);
 }

@@ -32,7 +32,7 @@ Path BendingTube(int triangles, int count) {
   return PathOf(tube.connectivity, shapes);
 }
 
-// Three poses of a tube in the plane, with the middles of its sides. The shapes there are blends.
+// Three poses of a tube in the plane, with the midpoints of its sides. The shapes there are blends.
 PageSpace TubeSpace(int triangles = 300) {
   const Body tube = MakeBody("tube", triangles);
   PageSpace space;
@@ -253,7 +253,7 @@ TEST_F(PageTest, RefusesWhatIsNotValid) {
   EXPECT_FALSE(std::filesystem::exists(Path("no.html")));
 }
 
-// For tests of the page itself: a template and a folder are in the environment.
+// For tests of the page itself: template and folder are environment variables.
 TEST_F(PageTest, WritesSpacesForOtherTests) {
   const char* const folder = std::getenv("SHAPESPACE_PAGE_DIR");
   const char* const page = std::getenv("SHAPESPACE_PAGE_TEMPLATE");

@@ -68,7 +68,7 @@ TEST(RenderFilmStripTest, ASphereFillsItsCellInTheFrontColour) {
   // Margins are 160 / 32 on each side.
   const double disk = EIGEN_PI * 75 * 75;
   const Counts counts = Count(image);
-  // A pixel that the outline only touches is drawn, too: half a pixel all around.
+  // A pixel that the outline only touches is drawn too: half a pixel all around.
   EXPECT_NEAR(counts.drawn, EIGEN_PI * 75.5 * 75.5, 0.02 * disk);
   EXPECT_GT(counts.blue, 0.96 * disk);
   EXPECT_EQ(counts.orange, 0);
@@ -100,8 +100,8 @@ TEST(RenderFilmStripTest, ConcavePolygonsShowNoBackAndCoverNoMoreThanThemselves)
   const RgbImage image = RenderFilmStrip(*connectivity, {star}, options);
   const Counts counts = Count(image);
   EXPECT_EQ(counts.orange, 0);
-  // The star is 1 + cos(36 degrees) wide, and so is the frame less its margins. Its area is less
-  // than half of that of its hull.
+  // The star's width is 1 + cos(36 degrees), and so is that of the frame without margins. Its area
+  // is less than half of that of its convex hull.
   const double degree = EIGEN_PI / 180;
   const double unit = (image.width - 2 * 400 / 32.0) / (1 + std::cos(36 * degree));
   EXPECT_NEAR(counts.drawn / (unit * unit), 5 * 0.4 * std::sin(36 * degree), 0.05);
@@ -110,7 +110,7 @@ TEST(RenderFilmStripTest, ConcavePolygonsShowNoBackAndCoverNoMoreThanThemselves)
 TEST(RenderFilmStripTest, OneReversedTriangleShows) {
   const SimpleBody sphere = Sphere(1, 12, 24);
   Eigen::Matrix3Xi triangles = sphere.connectivity->Triangles();
-  // The triangle that is nearest to the eye, at +z.
+  // The triangle nearest to the eye, at +z.
   const auto height = [&](int f) {
     return sphere.shape(2, triangles(0, f)) + sphere.shape(2, triangles(1, f)) +
            sphere.shape(2, triangles(2, f));
@@ -175,7 +175,7 @@ TEST(RenderFilmStripTest, WrapsIntoFullRows) {
 TEST(RenderFilmStripTest, SubsamplingKeepsBothEnds) {
   const SimpleBody sphere = Sphere(1, 10, 20);
   std::vector<Shape> shapes(20, sphere.shape);
-  // Only the ends are flat, so that frames show which shapes were taken.
+  // Only the ends are flat, so that frames show which shapes were selected.
   shapes.front().row(1) *= 0.25;
   shapes.back().row(1) *= 0.25;
   FilmStripOptions options = Small();
@@ -227,7 +227,7 @@ TEST(RenderFilmStripTest, FollowsTheGivenViewAndUp) {
   EXPECT_NEAR(aspect({0, 0, 1}, {0, 1, 0}), 0.5, 0.02);
   EXPECT_NEAR(aspect({0, 0, 1}, {1, 0, 0}), 2, 0.05);
   EXPECT_NEAR(aspect({1, 0, 0}, {0, 0, 1}), 0.5, 0.02);
-  // From above, with no up given, the other of y and z is up.
+  // From above, without an up vector, the other of y and z points up.
   EXPECT_NEAR(aspect({0, 1, 0}, {0, 0, 0}), 0.25, 0.02);
 }
 
@@ -259,7 +259,7 @@ TEST(RenderFilmStripTest, GroupsAreShownAsColoursWithALegend) {
   options.frame_width = 160;
   options.view = Eigen::Vector3d::UnitZ();
   const RgbImage plain = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
-  // The first group, which is blue, on the right, and none, which is grey, on the left.
+  // The first group, which is blue, on the right, and no group, which is grey, on the left.
   options.groups = (sphere.shape.row(0).array() > 0)
                        .select(Eigen::ArrayXXi::Zero(1, 3200), -1)
                        .matrix()
@@ -308,7 +308,7 @@ TEST(RenderFilmStripTest, MarkedVerticesChangeColourAndNothingElse) {
   const RgbImage image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
   ASSERT_EQ(image.width, plain.width);
   ASSERT_EQ(image.height, plain.height);
-  // The radius is 75 pixels; marks reach as far as the middle between vertices, and a spot.
+  // The radius is 75 pixels; marks extend to the middle between vertices, plus a spot.
   const int middle = image.width / 2, inner = 15, outer = 30;
   const Counts red = Count(image, middle + outer, image.width, 0, image.height);
   EXPECT_GT(red.orange, 0.95 * red.drawn);
@@ -320,7 +320,7 @@ TEST(RenderFilmStripTest, MarkedVerticesChangeColourAndNothingElse) {
         std::equal(&image.pixels[begin], &image.pixels[begin + 6 * inner], &plain.pixels[begin]))
         << y;
   }
-  // What is turned inside out has the colour of back faces, marked or not.
+  // Inverted surfaces have the colour of back faces, with or without marks.
   const auto inside_out = Reversed(*sphere.connectivity);
   const RgbImage marked_back = RenderFilmStrip(*inside_out, {sphere.shape}, options);
   options.marks.resize(0);
@@ -340,7 +340,7 @@ TEST(RenderFilmStripTest, ASingleMarkedVertexOfAFineMeshIsSeen) {
   EXPECT_GT(Count(image, x - near, x + near, y - near, y + near).orange, 12);
   EXPECT_EQ(Count(image).orange, Count(image, x - near, x + near, y - near, y + near).orange);
   EXPECT_LT(Difference(image, plain, 0), 4.0 * near * near / (image.width * image.height));
-  // Values have their colours to themselves.
+  // Values replace the colours of marks.
   options.values = {Eigen::VectorXd::Constant(circles * around, 0.1)};
   const RgbImage values = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
   options.marks.resize(0);
@@ -364,7 +364,7 @@ TEST(RenderFilmStripTest, LabelsStandUnderTheShapesAndTheTitleAboveAll) {
   const RgbImage titled = RenderFilmStrip(*sphere.connectivity, shapes, options);
   const int line = titled.height - labelled.height;
   EXPECT_GT(Count(titled, 0, titled.width, 0, line).drawn, 20);
-  // Below the title stands the picture as it was.
+  // Below the title the picture is unchanged.
   const RgbImage below = {labelled.width,
                           labelled.height,
                           {titled.pixels.begin() + 3 * line * titled.width, titled.pixels.end()}};
@@ -385,7 +385,7 @@ TEST(RenderFilmStripTest, DrawsAGraph) {
   const RgbImage solid = RenderFilmStrip(*box.connectivity, {box.shape}, options);
   const RgbImage image = RenderFilmStrip(*graph, {box.shape}, options);
   const Counts counts = Count(image);
-  // Twelve tubes, at least about 30 x 2 pixels each, and much to see through.
+  // Twelve tubes of at least about 30 x 2 pixels each, and visible background.
   EXPECT_GT(counts.blue, 12 * 60);
   EXPECT_LT(counts.drawn, 0.4 * Count(solid).drawn);
   EXPECT_EQ(counts.orange, 0);

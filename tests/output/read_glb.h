@@ -17,16 +17,16 @@
 
 namespace shapespace {
 
-/// Where a test writes a .glb file: in a folder that is kept where somebody wants to look at the
-/// files (tests/gltf/run.sh).
+/// Where a test writes a .glb file: in a persistent folder if the files are to be checked by other
+/// programs (tests/gltf/run.sh).
 inline std::string GlbFile(const std::string& name) {
   const char* const folder = std::getenv("SHAPESPACE_GLB_DIR");
   return (folder != nullptr ? folder + std::string("/") : ::testing::TempDir() + "gltf_test_") +
          name + ".glb";
 }
 
-/// What a player makes of a .glb file with one mesh, whose primitives share their vertices, and at
-/// most one animation, from the format's specification and nothing of the writer's.
+/// A player's view of a .glb file with one mesh, whose primitives share their vertices, and at most
+/// one animation. Written from the format's specification, independently of the writer.
 class Glb {
  public:
   explicit Glb(const std::string& file) {
@@ -42,7 +42,7 @@ class Glb {
     data_ = 28 + json_size;
   }
 
-  /// Numbers of an accessor, one element a column.
+  /// Numbers of an accessor, one element per column.
   Eigen::MatrixXd Read(int index) const {
     const auto& accessor = json["accessors"].at(index);
     const auto& view = json["bufferViews"].at(accessor["bufferView"].get<int>());
@@ -94,7 +94,7 @@ class Glb {
     return result;
   }
 
-  /// Positions, as stored or as morphed, where the node puts them.
+  /// Positions, stored or morphed, after the node's transformation.
   Eigen::Matrix3Xd InTheWorld(const Eigen::Matrix3Xd& positions) const {
     const auto& node = json["nodes"].at(json["scenes"][0]["nodes"].at(0).get<int>());
     const auto numbers = [&](const char* key, std::vector<double> value) {

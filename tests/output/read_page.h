@@ -14,7 +14,7 @@
 
 namespace shapespace {
 
-/// One of a page's scenes, as it stands in the file.
+/// One of a page's scenes, as written in the file.
 struct PageElement {
   std::string type, name, bytes;
 };
@@ -52,7 +52,7 @@ inline std::vector<PageElement> ReadPage(const std::string& file) {
   return elements;
 }
 
-/// A scene's arrays, read by what docs/file-formats.md says of them.
+/// A scene's arrays, decoded according to docs/file-formats.md.
 class DecodedScene {
  public:
   explicit DecodedScene(const std::string& compressed) {
@@ -85,7 +85,7 @@ class DecodedScene {
     if (at_ != bytes_.size()) throw std::runtime_error("bytes are left over");
   }
 
-  /// A shape where the user has it.
+  /// A shape in the user's frame.
   Eigen::Matrix3Xd Shape(int s) const {
     Eigen::Vector3d low;
     for (int k = 0; k < 3; ++k) low[k] = header["low"][k];

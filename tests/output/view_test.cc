@@ -13,7 +13,7 @@
 namespace shapespace {
 namespace {
 
-// A post on z with a heavy arm towards +y, so that it would tip over on any other side.
+// A post on z with a heavy arm towards +y, so that it would fall over on any other side.
 SimpleBody Gallows() {
   SimpleBody body = Box(0.3, 0.3, 3);
   const SimpleBody arm = Box(0.2, 1, 0.2), foot = Box(0.6, 1.4, 0.1);

@@ -28,14 +28,14 @@ const Vertices kPart = {0, 1, 2, 5, 6, 7, 12};
 
 Shape PartOf(const Shape& shape, const Vertices& part) { return shape(Eigen::all, part); }
 
-/// Moved by a motion that is another one for every number, and near.
+/// Applies a small rigid motion that differs for every number.
 Shape Moved(const Shape& shape, int number) {
   return (Rotation(20.0 * number, {1, number + 1.0, -2}) * shape).colwise() +
          Eigen::Vector3d(number, -1, 0.5 * number);
 }
 
-/// A crumpled grid of 25 vertices in seven shapes. `part` is the same in all of them, but each
-/// shape, unless it is one of `poses`, is somewhere else.
+/// A crumpled grid of 25 vertices in seven shapes. `part` is rigid; each shape that is not one of
+/// `poses` is moved.
 Path PathWithRigidPart(const Vertices& part, const std::vector<int>& poses) {
   const Soup grid = Grid(4, 4);
   const Shape rest = grid.vertices + Noise(25, 0.3, 99);
@@ -107,7 +107,7 @@ TEST(Anchor, APartThatIsElsewhereInTheNextPoseGoesThereRigidlyAndOnBeyondIt) {
 }
 
 TEST(Anchor, APartThatDeformsIsMetAtThePoses) {
-  // Two shapes a moment after the one pose and before the other one.
+  // Two shapes, shortly after one pose and shortly before the other.
   const Soup grid = Grid(4, 4);
   const Shape first = grid.vertices + Noise(25, 0.2, 1), last = grid.vertices + Noise(25, 0.2, 2);
   Path path = PathOf(Connected(grid), {first, Moved(first, 1), Moved(last, 2), last});
@@ -229,7 +229,7 @@ TEST(Ground, PutsTheLowestVertexOnTheGround) {
 TEST(Ground, LooksAtVerticesOfTheBodyOnly) {
   Shape shape = Shape::Zero(3, 4);
   shape.rightCols(2) << 1, 0, 2, -9, 0, 0;
-  // The last vertex, far below, belongs to nothing.
+  // The last vertex, far below, belongs to no edge.
   const auto chain = Connectivity::Make(4, {0}, {}, {{0, 1}, {1, 2}});
   shape.col(1) = Eigen::Vector3d(1, 0, 0);
   Path path = PathOf(chain, {shape, shape});

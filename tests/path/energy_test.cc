@@ -28,8 +28,8 @@ struct Evaluated {
   std::vector<Shape> gradient;  // of the inner shapes
 };
 
-// The energy as its definition says it, from the functors and their automatic derivatives: no
-// kernel, no reordering, one element and segment after the other.
+// The energy by its definition, from the functors and their automatic derivatives: without kernels
+// or reordering, element by element and segment by segment.
 Evaluated FromDefinition(const Metric& metric, const std::vector<Shape>& shapes, double quartic) {
   Evaluated result{0, std::vector<Shape>(shapes.size(), Shape::Zero(3, shapes[0].cols()))};
   const bool trapezoid = metric.options.discretization == Discretization::kTrapezoid;
@@ -124,7 +124,7 @@ void ExpectSame(const Evaluated& a, const Evaluated& b, double tolerance) {
   EXPECT_LT(difference, tolerance * largest);
 }
 
-// 8e-3 of noise on edges of length .1: creases of tens of degrees.
+// Noise of 8e-3 on edges of length .1 makes creases of tens of degrees.
 TEST(PathEnergy, KernelsEqualTheAutomaticDerivativesOfTheFunctors) {
   const Body bar = testing::Stiffened(MakeBar(6, 1, 1, 12, 2, 2));
   for (const testing::Blend& test : testing::AllBlends()) {
@@ -138,7 +138,7 @@ TEST(PathEnergy, KernelsEqualTheAutomaticDerivativesOfTheFunctors) {
   }
 }
 
-// The kernels take them in windows of 128 shapes.
+// The kernels process them in windows of 128 shapes.
 TEST(PathEnergy, KernelsEqualTheFunctorsOnLongPaths) {
   const Body bar = testing::Stiffened(MakeBar(2, 1, 1, 2, 1, 1));
   for (const testing::Blend& test : testing::AllBlends()) {
@@ -268,7 +268,7 @@ TEST(PathEnergy, DoesNotDependOnFrameOrNumberingOfVertices) {
 }
 
 TEST(PathEnergy, DoesNotDependOnTheCornerAtWhichPolygonsBegin) {
-  // A prism over a concave polygon of seven corners, leaning to one side and to the other.
+  // A prism over a concave polygon of seven corners, inclined to one side and to the other.
   constexpr int kCorners = 7;
   Shape straight(3, 2 * kCorners);
   for (int k = 0; k < kCorners; ++k) {
@@ -307,7 +307,7 @@ TEST(PathEnergy, DoesNotDependOnTheCornerAtWhichPolygonsBegin) {
   }
 }
 
-// Solved minima are held to the bound in tests/solvers/lower_bound_test.cc.
+// tests/solvers/lower_bound_test.cc compares minima with the bound.
 TEST(EnergyLowerBound, IsReachedByAnEdgeWhoseSquaredLengthGrowsEvenly) {
   MetricOptions membrane;
   membrane.bending = membrane.lambda = 0;

@@ -44,7 +44,7 @@ TEST(OwnFeature, HasTheEnergyOfTheLibrarysKernels) {
     const Evaluated expected = Evaluate(testing::LibraryBlend(), bar, inner);
     const Evaluated own = Evaluate(testing::OwnBlend(), bar, inner);
     EXPECT_NEAR(own.energy, expected.energy, 1e-12 * expected.energy);
-    // Rows of up to four shapes have no padding, others have one whose numbers mean nothing.
+    // Rows of up to four shapes have no padding, others have undefined padding.
     const auto row = [inner](size_t i) { return inner <= 4 ? true : i % 8 < 7; };
     double largest = 0, apart = 0;
     for (size_t i = 0; i < own.gradient.size(); ++i) {
@@ -104,7 +104,7 @@ struct Unheard : EdgeLength {
   static constexpr const char* kName = "unheard of";
 };
 
-// As if another program read the file, which does not know the feature.
+// The file is read as by a program that does not know the feature.
 TEST(PathFile, SaysWhichFeatureIsNotRegistered) {
   Path path = WithOwnFeatures();
   auto metric = std::make_shared<Metric>(*path.metric);

@@ -37,7 +37,7 @@ void Spill(const std::string& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
-// A path with every kind of feature, a quadrilateral, a stiffener and all that an appearance has.
+// A path with every kind of feature, a quadrilateral, a stiffener and a complete appearance.
 Path MakePath() {
   const Body bar = MakeBar(4, 1, 1, 3, 1, 1);
   MetricOptions options;
@@ -112,9 +112,9 @@ TEST(PathFile, RoundTripKeepsEveryBit) {
   EXPECT_EQ(read.metric->connectivity->Corners(), path.metric->connectivity->Corners());
   EXPECT_TRUE(read.metric->connectivity->Edges() == path.metric->connectivity->Edges());
   EXPECT_EQ(Describe(read.metric->options), Describe(path.metric->options));
-  // The frozen metric means the same: the very energy, to the last bit.
+  // The frozen metric is the same: the energies are equal to the last bit.
   EXPECT_EQ(Energy(read), Energy(path));
-  // Writing what was read gives the very file.
+  // Writing what was read gives an identical file.
   const std::string again = TemporaryFile("again.path");
   WritePath(again, read);
   EXPECT_EQ(Slurp(again), Slurp(file));
@@ -152,7 +152,7 @@ TEST(PathFile, ErrorsNameTheFileAndTheReason) {
   EXPECT_NE(message("nowhere.path").find("nowhere.path"), std::string::npos);
   const std::string file = TemporaryFile("text.path");
   Spill(file, "v 1 2 3 this is an OBJ file, is it not?\n");
-  EXPECT_NE(message(file).find("no .path file"), std::string::npos) << message(file);
+  EXPECT_NE(message(file).find("not a .path file"), std::string::npos) << message(file);
   WritePath(file, MakePath());
   std::string later = Slurp(file);
   later[8] = 9;
@@ -213,9 +213,9 @@ TEST(PathFile, PathsAtOddsWithThemselvesAreNotWritten) {
   EXPECT_EQ(message([](P* p) { p->extrapolated = -1; }), extrapolated + "-1, is not in 0 .. 4");
   const std::string pose = file + ": the path's pose ";
   const std::string none = " shapes that are not extrapolated";
-  EXPECT_EQ(message([](P* p) { p->extrapolated = 3; }), pose + "2 is none of its 2" + none);
-  EXPECT_EQ(message([](P* p) { p->poses[1] = 5; }), pose + "5 is none of its 3" + none);
-  EXPECT_EQ(message([](P* p) { p->poses[0] = -1; }), pose + "-1 is none of its 3" + none);
+  EXPECT_EQ(message([](P* p) { p->extrapolated = 3; }), pose + "2 is not one of its 2" + none);
+  EXPECT_EQ(message([](P* p) { p->poses[1] = 5; }), pose + "5 is not one of its 3" + none);
+  EXPECT_EQ(message([](P* p) { p->poses[0] = -1; }), pose + "-1 is not one of its 3" + none);
   EXPECT_EQ(message([](P* p) { std::swap(p->poses[0], p->poses[1]); }),
             file + ": the path's poses do not rise");
   EXPECT_EQ(message([](P* p) { p->parameters[3] = 0.5; }),

@@ -25,7 +25,7 @@ TEST(Resample, IsExactOnCubicsInTimeAndGivesShapesBackAtTheirOwnTimes) {
   EXPECT_TRUE(result[2] == shapes[2]);
 }
 
-// Three poses; on each piece the vertices run along a parabola, with a corner between.
+// Three poses; in each piece the vertices move along a parabola, with a corner between.
 Path CorneredPath() {
   Path path;
   const Shape way = testing::Noise(4, 1, 7);
@@ -54,7 +54,8 @@ TEST(ResamplePath, DoesNotRoundTheCornersAtPoses) {
   EXPECT_EQ(result.poses, (std::vector<int>{0, 3, 6}));
 }
 
-// The same, gone on from the last pose by four shapes: on the line back, so that there is a corner.
+// The same, continued beyond the last pose by four shapes, back along a line, so that there is a
+// corner.
 Path ContinuedPath() {
   Path path = CorneredPath();
   const Shape end = path.shapes.back();

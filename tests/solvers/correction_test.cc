@@ -30,8 +30,8 @@ using testing::Listener;
 using testing::MessageOf;
 using testing::PathOf;
 
-// From the body's pose at `begin` straight on towards the one at `step`, `reach` times as far: what
-// is left of an isometric motion without its curvature.
+// From the body's pose at `begin` on a straight line towards the one at `step`, to `reach` times
+// the distance: an isometric motion without its curvature.
 Path StraightOn(const Body& body, double begin, double step, double reach, int segments) {
   const Shape first = body.pose(begin);
   const Tangent way = reach * (body.pose(step) - first);
@@ -44,7 +44,7 @@ Path StraightOn(const Body& body, double begin, double step, double reach, int s
   return path;
 }
 
-// Both can flex with all edges of constant length; these paths stretch them by a third at least.
+// Both can flex with all edges of constant length; these paths stretch them by at least a third.
 Path Strip(int segments = 8) { return StraightOn(MakeStrip(1, 0.9, 16), 0, 2.5, 8, segments); }
 Path Bricard(int segments = 8) { return StraightOn(MakeBricard(), 0, 4, 8, segments); }
 
@@ -56,8 +56,8 @@ CorrectionOptions Options(double mu, double tolerance = 1e-10) {
   return options;
 }
 
-// Solved to a tolerance of 1e-14, shapes are right to about its root, and so are all figures that
-// are not least there.
+// With a tolerance of 1e-14, shapes are accurate to about its square root, and so are all figures
+// that are not minimal there.
 constexpr double kClose = 3e-6;
 
 // Largest distance between corresponding vertices, over the body's size: both are in its unit.
@@ -89,8 +89,8 @@ TEST(CorrectPath, KeepsAllButTheShapes) {
   EXPECT_LT(summary.quality.first_rms, 0.3 * summary.initial_quality.first_rms);
 }
 
-// The softer it is held, the truer the lengths, in the end in proportion, and the further the path
-// moves; the motion that remains is the body's own flex.
+// The smaller the weight of the distance, the more accurate the lengths, in the end proportionally,
+// and the larger the displacement; the remaining motion is the body's own flex.
 TEST(CorrectPath, LengthErrorsFallWithMu) {
   for (const Path& given : {Strip(), Bricard()}) {
     double error = MeasureQuality(given).first_max, energy = 0, distance = 0;
@@ -122,8 +122,9 @@ TEST(CorrectPath, FindsExactlyIsometricPathsWhereLengthsAreAllThatCounts) {
   }
 }
 
-// Corrected finely and coarsely, a path ends alike: discretisation errors are of first order in the
-// length of a segment, as the distance is summed over the shapes but the first.
+// Corrected paths of fine and coarse resolution in time end in nearly the same shape:
+// discretisation errors are of first order in the length of a segment, because the distance is
+// summed over all shapes but the first.
 TEST(CorrectPath, MuMeansTheSameForAnyNumberOfShapes) {
   std::vector<Shape> ends;
   for (int segments : {8, 16, 32}) {
@@ -134,8 +135,8 @@ TEST(CorrectPath, MuMeansTheSameForAnyNumberOfShapes) {
   EXPECT_LT(fine, 0.02);
 }
 
-// Moving a shape rigidly changes no length: where its centroid and orientation are is the distance
-// term's choice alone, which is Procrustes' own criterion.
+// A rigid motion of a shape changes no length: its centroid and orientation are determined by the
+// distance term alone, which is Procrustes' own criterion.
 TEST(CorrectPath, LeavesShapesAlignedWithTheGivenOnes) {
   const Path given = Strip();
   const Path path = CorrectPath(given, Options(1, 1e-14)).path;
@@ -184,13 +185,13 @@ TEST(CorrectPath, ThePapersEnergyCollapsesAndSaysSo) {
     EXPECT_TRUE(path.shapes[0] == given.shapes[0]);
     EXPECT_LT(summary.quality.first_max, 1e-4);
     EXPECT_LT(summary.deformation_left, 0.02);
-    // A translate: not even turned.
+    // A translate: not even rotated.
     const Shape& first = path.shapes.front();
     const Shape& last = path.shapes.back();
     const Shape moved = last.colwise() - Centroid(last - first, given.metric->vertex_area);
     EXPECT_LT((moved - first).norm(), 0.1 * (given.shapes.back() - first).norm());
 
-    // Stopped early it looks better, and is flagged all the same.
+    // If stopped early, the result looks better, but has the warning too.
     for (double tolerance : {1e-4, 1e-3}) {
       options.tolerance = tolerance;
       const std::vector<std::string> warnings = CorrectPath(given, options).summary.warnings;
@@ -230,8 +231,8 @@ struct ProximityCost {
   }
 };
 
-// The same sum from residual blocks, differentiated automatically, by another optimiser. Ceres'
-// cost is a quarter of it.
+// The same sum from automatically differentiated residual blocks, minimised by another optimiser.
+// Ceres' cost is a quarter of it.
 double SolveFromResidualBlocks(const Path& given, double mu, std::vector<Shape>* shapes) {
   MetricOptions options;
   options.lambda = options.bending = 0;
@@ -282,8 +283,8 @@ TEST(CorrectPath, AgreesWithResidualBlocks) {
   }
 }
 
-// The gradient of a free end is that of a sum in which nothing follows it, for every feature; for
-// the last shape from differences of the energy.
+// The gradient at a free end is that of a sum with no segment after it, for every feature; for the
+// last shape it is compared with differences of the energy.
 TEST(PathEnergy, AFreeEndFollowsItsGradient) {
   const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
   MetricOptions everything, paper = MetricOptions::Paper();
@@ -301,7 +302,7 @@ TEST(PathEnergy, AFreeEndFollowsItsGradient) {
       std::vector<double> unknowns(energy.Size()), gradient(energy.Size());
       energy.Load(shapes, unknowns.data());
       const double value = energy.Evaluate(unknowns.data(), gradient.data());
-      // Standing still at the end costs nothing more.
+      // If the path rests at its end, the energy does not change.
       PathEnergy fixed(metric, inner);
       std::vector<double> same(fixed.Size());
       std::vector<Shape> longer = shapes;

@@ -1,4 +1,4 @@
-// Correspondence of real bodies whose answer is known: skipped where there are none. They stand in
+// Correspondence of real bodies with known correspondence; skipped if they are missing. They are in
 // the folder `correspondence` beside the folder of real meshes.
 
 #include <cmath>
@@ -21,9 +21,9 @@ namespace {
 struct KnownPair {
   const char* folder;
   int markers;
-  // What the map may have at most: the mean geodesic error, as a share of the root of the target's
-  // area; vertices that are off by a fifth of it, other than those whose answer is wrong itself (it
-  // lies on another limb, which touches the right one); and the share of triangles turned over.
+  // Upper bounds for the map: the mean geodesic error, as a share of the square root of the
+  // target's area; vertices with an error above a fifth of it, except where the reference itself is
+  // wrong (on another limb that touches the right one); and the share of inverted triangles.
   double mean;
   int far;
   double turned;
@@ -49,7 +49,7 @@ TEST_P(RealPairs, MapIsAsGoodAsMeasured) {
   EXPECT_TRUE(summary.doubtful.empty());
   EXPECT_LT(summary.turned, pair.turned) << summary.FullReport();
 
-  // Of every tenth known answer.
+  // For every tenth reference point.
   std::vector<int> vertices, answers;
   std::ifstream file(folder / "truth.txt");
   for (std::string line; std::getline(file, line);) {
@@ -81,7 +81,7 @@ TEST_P(RealPairs, MapIsAsGoodAsMeasured) {
   EXPECT_LE(far, pair.far);
 }
 
-// A tenth above what was measured at the default options (docs/measurements.md).
+// A tenth above the values measured with the default options (docs/measurements.md).
 INSTANTIATE_TEST_SUITE_P(, RealPairs,
                          ::testing::Values(KnownPair{"person_000-person_001", 20, 0.0125, 0, 4e-3},
                                            KnownPair{"person_000-person_001", 55, 0.0105, 0, 1e-3},

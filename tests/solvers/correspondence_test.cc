@@ -89,7 +89,7 @@ TEST(Correspond, MovesAndScalesWithTheTarget) {
   moved.target = (10 * rotation * bodies.target).colwise() + far;
   const CorrespondenceResult other = moved.Fit();
   const Shape wanted = (10 * rotation * result.fitted).colwise() + far;
-  // Within what coordinates so far from the origin are rounded to.
+  // Up to the rounding of coordinates so far from the origin.
   EXPECT_LT((other.fitted - wanted).colwise().norm().maxCoeff(), 1e-6);
   EXPECT_NEAR(other.summary.scale / result.summary.scale, 10, 1e-6);
   EXPECT_NEAR(other.summary.distance_rms, result.summary.distance_rms, 1e-8);
@@ -122,10 +122,10 @@ TEST(Correspond, ThereAndBackIsNearTheIdentity) {
   EXPECT_LT((both - bodies.rest).colwise().norm().mean(), 0.75 * bodies.Edge());
 }
 
-// A scan that ends at the neck. The round trip says where the map is wrong.
+// A scan that ends at the neck. The round trip shows where the map is wrong.
 TEST(Correspond, TrustsItselfLessWhereTheTargetHasNothing) {
   const Remeshed bodies;
-  // The target without its highest part, ears and all, left open.
+  // The target without its highest part, including the ears, left open.
   const double cut = 1.25;
   std::vector<Eigen::Vector3i> kept;
   for (const Eigen::Vector3i triangle : bodies.second.connectivity->Triangles().colwise()) {
@@ -154,7 +154,7 @@ TEST(Correspond, TrustsItselfLessWhereTheTargetHasNothing) {
       wrong_below += errors(v);
     }
   }
-  // Where the surface goes on beyond the border, the template does so too.
+  // Where the surface continues beyond the border, the template continues too.
   double off_beyond = 0;
   int num_beyond = 0;
   for (int v = 0; v < bodies.rest.cols(); ++v) {
@@ -195,7 +195,7 @@ TEST(Target, KnowsTheBorderAtCornersOfAnyTriangle) {
 TEST(Correspond, NamesAWrongMarkerAndLeavesItOut) {
   Remeshed bodies("sit");
   const double right = bodies.Errors(bodies.Fit().map).mean();
-  // To where the last marker is, which is left out.
+  // At the position of the last marker, which is ignored.
   const Marker last = bodies.markers.back();
   bodies.markers.pop_back();
   bodies.markers[2].target_vertex = last.target_vertex;
@@ -258,7 +258,7 @@ TEST(Correspond, RefusesMarkersThatCannotDo) {
          "on one line of the template");
 }
 
-// With every face the other way round.
+// With the orientation of every face reversed.
 std::shared_ptr<const Connectivity> Reversed(const Connectivity& connectivity) {
   return Connectivity::FromTriangles(connectivity.NumVertices(),
                                      connectivity.Triangles().colwise().reverse());
@@ -274,11 +274,11 @@ TEST(Correspond, RefusesMirrorImagesAndWhatIsInsideOut) {
     bodies.second.connectivity = Reversed(*bodies.second.connectivity);
     expect(bodies, "the target is inside out");
     bodies.target.row(0) *= -1;  // outwards again
-    expect(bodies, "run around each other the other way");
+    expect(bodies, "the cyclic order of the markers around each other is reversed");
     bodies.second.connectivity = Reversed(*bodies.second.connectivity);
     expect(bodies, "the target is inside out");
   }
-  // An open body has no inside, but stands as the mirror image does.
+  // An open body has no inside, but has the markers of a mirror image.
   Remeshed open;
   open.target.row(0) *= -1;
   open.second.connectivity = Connectivity::FromTriangles(
@@ -330,10 +330,10 @@ TEST(Correspond, SaysWhatItDoesWithFurtherComponents) {
   EXPECT_NE(message.find("has no marker"), std::string::npos) << message;
 }
 
-// A hand on a hip: the nearest point is on the other limb.
+// Two limbs in contact: the nearest point is on the other limb.
 TEST(Correspond, DoesNotTakeOneLegForAnother) {
   Remeshed bodies;
-  // Legs are pressed together until left and right pass through each other a little.
+  // Legs are pressed together until left and right intersect slightly.
   for (Shape* shape : {&bodies.target}) {
     for (int v = 0; v < shape->cols(); ++v) {
       const double height = (*shape)(1, v);
@@ -409,7 +409,7 @@ TEST(Correspond, ReportsAreWhole) {
   EXPECT_GT(image.height, 300);
 }
 
-// Poses of the one mesh are made on the other's own faces.
+// Transferred poses have the other mesh's own faces.
 TEST(CarryPath, TakesATransferredPoseToTheTargetsOwnMesh) {
   const Remeshed bodies;
   const CorrespondenceResult fit = bodies.Fit();
@@ -428,7 +428,7 @@ TEST(CarryPath, TakesATransferredPoseToTheTargetsOwnMesh) {
   EXPECT_LT(off, 0.5 * bodies.Edge());
 }
 
-// What the template has nothing for goes along, and is not torn off.
+// Parts of the target without a corresponding part of the template move with their neighbourhood.
 TEST(CarryPath, KeepsTogetherWhatTheTemplateDoesNotHave) {
   const Remeshed bodies;
   const double cut = 1.25;  // the template ends at the neck
@@ -460,7 +460,7 @@ TEST(CarryPath, KeepsTogetherWhatTheTemplateDoesNotHave) {
   }
   EXPECT_LT(most, 3);
 
-  // A thousand times as large and far away the same comes out.
+  // Scaling by a thousand and a large translation do not change the result.
   const auto move = [](const Shape& shape) -> Shape {
     return (1e3 * shape).colwise() + Eigen::Vector3d(1e6, -2e6, 3e6);
   };

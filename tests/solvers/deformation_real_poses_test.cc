@@ -1,5 +1,5 @@
-// Deformation by handles, and repair, of scanned and modelled bodies, where the folder of real
-// meshes is there.
+// Deformation by handles, and repair, of scanned and modelled bodies; skipped if the folder of real
+// meshes is missing.
 
 #include <cmath>
 #include <filesystem>
@@ -47,7 +47,7 @@ Vector3d Size(const Shape& shape) {
   return shape.rowwise().maxCoeff() - shape.rowwise().minCoeff();
 }
 
-// What stands on the ground, y up, by a share of the height.
+// The vertices near the ground, y up, within a share of the height.
 Handle Feet(const Shape& rest, double share) {
   Handle feet;
   const double top = rest.row(1).minCoeff() + share * Size(rest).y();
@@ -55,8 +55,8 @@ Handle Feet(const Shape& rest, double share) {
   return feet;
 }
 
-// The part within a share of the body's size from the vertex that is farthest along `way`, turned
-// about a point at `arm` sizes from its middle.
+// The vertices within a share of the body's size from the one that is farthest in the direction
+// `way`, rotated about a point at `arm` sizes from the body's centre.
 Handle Limb(const Shape& rest, const Vector3d& way, double share, const Vector3d& axis,
             double degrees, const Vector3d& arm) {
   int tip = 0;
@@ -126,8 +126,8 @@ TEST_F(RealDeformation, ANonManifoldMeshIsTaken) {
   EXPECT_LT(summary.error.edge_rms, 0.05);
 }
 
-// Half way on straight lines between two poses, dented: of the volume that is lost so at most as
-// much is left missing as the paper has (25 % to 3.6 %).
+// A dented shape half way on straight lines between two poses: the remaining loss of volume must be
+// at most the share that the paper reports (3.6 of 25 %).
 TEST_F(RealDeformation, DistortedPosesAreRepaired) {
   for (const auto& [first, second] :
        {std::pair("human/000", "human/007"), std::pair("cat/reference", "cat/01"),

@@ -63,7 +63,7 @@ ScrewMotion Twist(double degrees) {
   return motion;
 }
 
-// A bar along x with its ends in two handles.
+// A bar along x whose ends are handles.
 struct HeldBar {
   Body body = MakeBar(6, 1, 1, 24, 4, 4);
   Shape rest = body.pose(0);
@@ -98,7 +98,7 @@ TEST(Deform, WithoutHandlesNothingMoves) {
   EXPECT_EQ(result.summary.free_components, 1);
 }
 
-// A shape alone can slip back by a full turn; a path that is followed does not.
+// A single shape may lose a full turn; a path along which handles are followed does not.
 TEST(Deform, OneShapeIsTwistedAsFarAsMany) {
   const HeldBar bar;
   ScrewMotion motion;
@@ -161,7 +161,7 @@ TEST(Deform, HardHandlesAreMetExactly) {
 }
 
 // The mean angle about x by which the cross-section at each end of the bar's middle line has
-// turned, summed up cell by cell, so that full turns count.
+// turned, summed cell by cell, so that full turns count.
 double Turned(const Shape& rest, const Shape& shape) {
   double sum = 0;
   Eigen::Matrix3d before = Eigen::Matrix3d::Identity();
@@ -222,7 +222,7 @@ TEST(Deform, TheBalanceLeadsFromTheHandlesToTheRestShape) {
   EXPECT_LT(Largest(Last(result), bar.rest), 1e-9);
 }
 
-// What the balance means does not depend on how the same pull is written down.
+// The meaning of the balance does not depend on equivalent ways to specify the same penalty.
 TEST(Deform, TheBalanceMeansTheSameForAnyNumberOfHandlesOrShapes) {
   const HeldBar bar;
   Handle soft = To(bar.rest, bar.right, {0, 0, 1});
@@ -319,7 +319,7 @@ TEST(Deform, IsTheSameForAnyOrderOfVertices) {
   for (int& v : triangles.reshaped()) v = to[v];
   const auto solve = [&](const std::shared_ptr<const Connectivity>& connectivity,
                          const Shape& shape) {
-    // One level: decimation follows the order of the vertices where costs are equal.
+    // One level only, because decimation depends on the order of vertices with equal costs.
     DeformationOptions options = Tight(1e-12);
     options.coarsest = 1000;
     return Last(Deform(connectivity, shape,
@@ -364,7 +364,8 @@ TEST(Deform, KeepsTheVolumeThatIsAskedFor) {
   EXPECT_LT(std::abs(bar.Solve(Twist(360), options).summary.error.volume), 0.003);
 }
 
-// A sheet whose edge is carried round: bending it is free of stretching, and so its lengths stay.
+// A sheet whose edge is rotated: bending without stretching is possible, so lengths should not
+// change.
 TEST(Deform, ASheetBentByItsEdgesStaysIsometric) {
   const Body sheet = MakeSheet(2, 1, 32, 16);
   const Shape rest = sheet.pose(0), rolled = sheet.pose(150);
@@ -382,7 +383,7 @@ TEST(Deform, ASheetBentByItsEdgesStaysIsometric) {
   options.metric = metric;
   const DeformationResult result = Deform(sheet.connectivity, rest, handles, options);
   EXPECT_LT(result.summary.error.edge_rms, 3e-3);
-  // It lies on the cylinder too, along which it is bent least.
+  // It also lies on the cylinder, the surface with the least bending.
   EXPECT_LT(Largest(Last(result), rolled), 0.05);
 }
 
@@ -401,7 +402,7 @@ TEST(Deformer, WarmIsCold) {
   EXPECT_LT(warm.summary.levels.back().iterations, cold.summary.levels.back().iterations);
 }
 
-// Full turns lead back to the same places, and are no small change.
+// Full turns lead to the same positions, but are not a small change.
 TEST(Deformer, FullTurnsAreNotWarm) {
   const HeldBar bar;
   Deformer deformer(bar.body.connectivity, bar.rest);
@@ -435,7 +436,7 @@ TEST(Deform, ContradictoryHandlesMeetHalfWayAndAreToldOf) {
   EXPECT_NE(result.summary.warnings[0].find("\"up\""), std::string::npos);
 }
 
-// Two bars, of which handles hold one.
+// Two bars, of which one has handles.
 TEST(Deform, APieceWithoutHandleStaysAndIsNamed) {
   const HeldBar bar;
   const int count = static_cast<int>(bar.rest.cols());
@@ -579,8 +580,8 @@ TEST(Deform, StopsWhenAskedTo) {
   EXPECT_LT(result.summary.handles[1].residual_max, 1e-12);
 }
 
-// One shape is compared with the first by the chord between them, which is short again after a full
-// turn.
+// A single shape is compared with the first by the chord between them, which is short again after a
+// full turn.
 TEST(Deform, TooFewShapesForATurnAreToldOf) {
   const HeldBar bar;
   DeformationOptions options;

@@ -1,4 +1,4 @@
-// Shooting on real meshes: skipped where there are none.
+// Shooting on real meshes; skipped if they are missing.
 
 #include <algorithm>
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace {
 
 struct RealPair {
   const char *first, *last;
-  double error = 0;  // of a round trip at most, share of the diameter
+  double error = 0;  // bound of a round trip, as a share of the diameter
 };
 
 void PrintTo(const RealPair& pair, std::ostream* out) { *out << pair.first << ' ' << pair.last; }
@@ -42,9 +42,9 @@ class ExponentialRealPoses : public ::testing::TestWithParam<RealPair> {
 
 using RoundTrip = ExponentialRealPoses;
 
-// As closely as the path is a geodesic: see exponential_test.cc on tolerances. The horse's L-BFGS
-// ends where rounding hides what is left to gain. Solved by the trust region, in a minute, its path
-// comes back to 1e-9 of the diameter.
+// The accuracy depends on that of the path: see exponential_test.cc on tolerances. The horse's
+// L-BFGS ends where rounding hides the remaining gain. When the path is solved by the trust region,
+// which takes a minute, the round trip is accurate to 1e-9 of the diameter.
 TEST_P(RoundTrip, ReturnsThePath) {
   GeodesicOptions options;
   options.tolerance = 1e-15;
@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(, Inverse,
 
 using Continuation = ExponentialRealPoses;
 
-// By as long as the path is. At the path's usual tolerance.
+// An extrapolation of the path's own length, at the path's default tolerance.
 TEST_P(Continuation, KeepsGoing) {
   const Path path = Interpolate(poses_).path;
   const auto [longer, summary] = Extrapolate(path, path.NumShapes() - 1);
@@ -94,7 +94,7 @@ TEST_P(Continuation, KeepsGoing) {
   EXPECT_EQ(longer.NumShapes(), 2 * path.NumShapes() - 1);
   for (const Shape& shape : longer.shapes) EXPECT_TRUE(shape.allFinite());
   for (const ExponentialSummary::Step& step : summary.steps) EXPECT_LE(step.inverted, 0.01);
-  // What was carried along on a coarser mesh does not get a motion of its own.
+  // Detail that was lifted from a coarser mesh must not acquire a motion of its own.
   for (const ExponentialSummary::Step& step : summary.steps) {
     if (step.vertices < summary.vertices) continue;
     EXPECT_NEAR(step.energy / summary.steps.front().energy, 1, 0.1);
@@ -108,8 +108,8 @@ INSTANTIATE_TEST_SUITE_P(, Continuation,
 
 using StrainContinuation = ExponentialRealPoses;
 
-// Under strain every step has a root on the mesh itself, slivers and folded hinges or not, and on
-// the way to it nothing turns over: the energy says so.
+// Under strain every step has a root on the mesh itself, also with slivers and folded hinges, and
+// the constant energy shows that nothing turns over on the way to it.
 TEST_P(StrainContinuation, StaysOnTheMesh) {
   GeodesicOptions options;
   options.metric = MetricOptions::Strain();

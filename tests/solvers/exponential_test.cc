@@ -66,7 +66,7 @@ MetricOptions Membrane(double lambda) {
   return options;
 }
 
-// Motions of which each goes far: vertices by a tenth to all of the body's size.
+// Large motions: vertices move by a tenth of the body's size or more.
 std::vector<Motion> TurningBodies() {
   return {Turning(MakeBar(6, 1, 1, 6, 1, 1), 30, 90, {}),
           Turning(MakeSheet(2, 1, 8, 4), 90, 90, {}), Turning(MakeBricard(), 0, 90, {})};
@@ -119,7 +119,7 @@ TEST(Exponential, IsAStraightLineInAFlatMetric) {
   for (const Body& body : {MakeBar(6, 1, 1, 6, 1, 1), MakeSheet(2, 1, 8, 4), MakeSteffen()}) {
     SCOPED_TRACE(body.name);
     Motion motion = Turning(body, body.begin, 0, flat);
-    // A little way only, so that no edge vanishes.
+    // A short motion only, so that no edge vanishes.
     const double size = Diameter(motion.shape);
     motion.velocity = testing::Noise(static_cast<int>(motion.shape.cols()), 0.01 * size, 1);
     for (const Integrator integrator : kAllIntegrators) {
@@ -141,9 +141,9 @@ TEST(Exponential, StaysWhereThereIsNoVelocity) {
   }
 }
 
-// The two integrators are derived from different equations, the one from the discrete energy, the
-// other from the geodesic equation with the features' second derivatives: they agree in the limit,
-// each with its own order.
+// The two integrators are derived from different equations, one from the discrete energy, the other
+// from the geodesic equation with the features' second derivatives. They agree in the limit, each
+// with its own order.
 TEST(Exponential, IntegratorsConvergeWithTheirOrdersToOneGeodesic) {
   for (const Motion& motion : AllMotions()) {
     SCOPED_TRACE(motion.name);
@@ -166,7 +166,7 @@ TEST(Exponential, IntegratorsConvergeWithTheirOrdersToOneGeodesic) {
   }
 }
 
-// Started with M + dt X, as Euler would, the first step alone would be wrong by a second order.
+// If the first step were an Euler step M + dt X, it alone would cause an error of second order.
 TEST(Exponential, SetsOutWithAnErrorOfThirdOrder) {
   for (const Motion& motion : AllMotions()) {
     SCOPED_TRACE(motion.name);
@@ -224,7 +224,7 @@ TEST(Exponential, MovesASingleEdgeAsClairautSays) {
   const double unit = motion.metric->unit;
   Clairaut exact{};
   exact.w = testing::Get<EdgeLength>(*motion.metric).weights(0);
-  // Each vertex moves half as fast as the edge's vector.
+  // Each vertex has half the speed of the edge's vector.
   exact.c = kLambda * motion.metric->vertex_area.sum() / 4;
   exact.start = kLength / unit;
   exact.h = exact.start * kSideways / unit;
@@ -252,8 +252,8 @@ TEST(Exponential, MovesASingleEdgeAsClairautSays) {
   EXPECT_NEAR(exact.Time((last.col(1) - last.col(0)).norm()), 1, 1e-7);
 }
 
-// All features but positions are unchanged by rigid motion, so by Noether's theorem the discrete
-// momenta are those of free points of masses A_p.
+// All features except positions are invariant under rigid motion, so by Noether's theorem the
+// discrete momenta are those of free points with masses A_p.
 TEST(Exponential, KeepsTheMomentaOfFreePoints) {
   for (Motion motion : AllMotions()) {
     SCOPED_TRACE(motion.name);
@@ -280,9 +280,10 @@ TEST(Exponential, KeepsTheMomentaOfFreePoints) {
   }
 }
 
-// A path between two poses of a body. Its tolerance is a relative decrease of the energy, with
-// whose square root the path's error goes, and that error grows again when shooting: 1e-15 is what
-// it takes. With loose tolerances, shooting fails for want of a geodesic, not of an integrator.
+// A path between two poses of a body. Its tolerance is a relative decrease of the energy; the
+// path's error is proportional to the tolerance's square root, and grows when shooting, so that
+// 1e-15 is necessary. With larger tolerances the round trip is inaccurate because of the path, not
+// because of the integrator.
 LogarithmOptions Exactly(int shapes) {
   LogarithmOptions options;
   options.shapes = shapes;
@@ -312,7 +313,7 @@ TEST(Exponential, UndoesTheLogarithm) {
     for (int shapes : {3, 7}) {
       const Tangent velocity = Logarithm(metric, from, to, Exactly(shapes));
       const Shape end = Exponential(metric, from, velocity, shapes + 1);
-      // Logarithms are of shapes that lie on each other.
+      // Logarithms are of aligned shapes.
       const Shape expected = FitRigidMotion(to, from, metric->vertex_area)(to);
       EXPECT_LT(Distance(end, expected), 1e-6 * Diameter(to));
     }
@@ -337,7 +338,7 @@ TEST(Extrapolate, FromTheFirstTwoShapesReturnsTheOthers) {
   }
 }
 
-// On the path and on its continuation by twice its length.
+// On the path and on its continuation to three times its length.
 TEST(Extrapolate, KeepsTheEnergyToSecondOrder) {
   for (const auto& [body, first, last] :
        {Pair{MakeBricard(), 0, 25}, Pair{MakeMiura(1, 1, 60, 3, 3), 20, 45}}) {
@@ -370,7 +371,7 @@ TEST(Extrapolate, KeepsTheEnergyToSecondOrder) {
   }
 }
 
-// Of a path that stands still but for its rigid motion, and of one that deforms as well.
+// For a path that is a rigid motion only, and for one that also deforms.
 TEST(Extrapolate, GoesOnWithTheRigidMotionAsAScrew) {
   const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
   const Eigen::Vector3d axis(1, 2, 0.5), way(4, 5, 6);
@@ -401,7 +402,8 @@ TEST(Extrapolate, GoesOnWithTheRigidMotionAsAScrew) {
   }
 }
 
-// Where only the lengths count, and hold the body but for one motion, that motion is its geodesic.
+// If only lengths have a cost and they permit a single motion of the body, that motion is the
+// geodesic.
 TEST(Exponential, FollowsExactIsometricFlexes) {
   for (const Body& body : {MakeStrip(1, 0.9, 16), MakeBricard(), MakeSteffen()}) {
     SCOPED_TRACE(body.name);
@@ -422,7 +424,8 @@ TEST(Exponential, FollowsExactIsometricFlexes) {
       previous = largest;
     }
   }
-  // The Miura fold's parallelograms are stiff in their planes only: they give to the square root.
+  // The Miura fold's parallelograms are stiff only within their planes, so the deviation is
+  // proportional to the square root of the tolerance.
   for (double lambda : {1e-2, 1e-3, 1e-4}) {
     const auto [path, summary] =
         Shoot(Deforming(MakeMiura(1, 1, 60, 3, 3), 40, 20, Membrane(lambda)), 16);
@@ -431,8 +434,8 @@ TEST(Exponential, FollowsExactIsometricFlexes) {
   }
 }
 
-// The paper's (7) says that a_j = x_j (G x)_j is constant for every coordinate j. Only the sum of
-// all is.
+// According to the paper's (7), a_j = x_j (G x)_j is constant for every coordinate j. In fact only
+// the sum over all j is.
 TEST(FirstIntegral, IsNoneOfTheGeodesicEquation) {
   for (const Motion& motion : TurningBodies()) {
     SCOPED_TRACE(motion.name);
@@ -538,8 +541,8 @@ TEST(Exponential, DoesNotDependOnTheOrderOfVertices) {
   }
 }
 
-// A body whose shape is pressed together along z (or y), at a rate at which straight lines would
-// have it flat at time 1 / rate.
+// A body that is compressed along z (or y), at a rate at which straight motion would make it flat
+// at time 1 / rate.
 Motion Crushed(const Body& body, double rate) {
   Motion motion = Turning(body, body.begin, 0, {});
   const int axis = body.name == "sheet" ? 1 : 2;
@@ -547,7 +550,7 @@ Motion Crushed(const Body& body, double rate) {
   return motion;
 }
 
-// Either it ends, saying why, or it goes on with shapes that are flagged.
+// Either it ends with an explanation, or its shapes have warnings.
 TEST(Exponential, NeverTakesACrushedBodyForASuccess) {
   int stopped = 0, flagged = 0;
   for (const Body& body :
@@ -582,8 +585,8 @@ TEST(Exponential, NeverTakesACrushedBodyForASuccess) {
   EXPECT_GT(flagged, 0);
 }
 
-// This path, gone on for twice its length, ends where a bend would have to press triangles flat,
-// and no shape near goes on. To stand still from there on would be no answer.
+// This path, continued to three times its length, ends where further bending would make triangles
+// collapse, and there is no nearby shape to continue with. Resting there would be a wrong result.
 TEST(Extrapolate, EndsWhereTheMotionComesToAHalt) {
   const Body tube = MakeTube(100);
   const Path path = Interpolate(tube.connectivity, {tube.pose(0), tube.pose(60)}, Exactly(7)).path;
@@ -602,7 +605,7 @@ TEST(Exponential, ThrowsWhereTheGeodesicEndsEarly) {
             0u);
 }
 
-// Extrapolate goes on coarser meshes and says so; the end alone could not.
+// Extrapolate continues on coarser meshes and reports that; the end shape alone could not.
 TEST(Exponential, RefusesEndsThatWereNotMadeOnTheMeshItself) {
   const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
   GeodesicOptions options;
@@ -628,7 +631,7 @@ TEST(Logarithm, RefusesPathsThatDidNotConverge) {
   EXPECT_NE(message.find("did not converge"), std::string::npos) << message;
 }
 
-// Unlike a path to look at, by default.
+// The default is stricter than for a path that is only viewed.
 TEST(Logarithm, IsUndoneByTheExponentialMapByDefault) {
   for (const auto& [body, first, last] : Pairs()) {
     SCOPED_TRACE(body.name);
@@ -640,7 +643,7 @@ TEST(Logarithm, IsUndoneByTheExponentialMapByDefault) {
   }
 }
 
-// A path to a deformed copy of a body that stands elsewhere, turned.
+// A path to a deformed copy of a body in another position and orientation.
 Path Moving(const Body& body, double first, double last, double degrees, int shapes) {
   const Shape from = Rotation(50, {2, 0, 1}) * body.pose(first);
   const Shape turned = Rotation(degrees, {1, 2, 0.5}) * (Rotation(50, {2, 0, 1}) * body.pose(last));
@@ -658,8 +661,8 @@ TEST(InitialVelocity, OfAScrewMotionIsTheScrews) {
   EXPECT_LT(Distance(InitialVelocity(path), expected), 1e-6 * Diameter(first));
 }
 
-// A geodesic's rotation slows down where the body reaches out farther, and its discrete steps turn
-// by the sine of the angle: a path's rigid motion knows of neither.
+// A geodesic's rotation slows down when the body extends farther from the axis, and its discrete
+// steps rotate by the sine of the angle; a path's rigid motion does neither.
 TEST(InitialVelocity, LeadsToTheSecondShape) {
   const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
   const auto error = [](const Path& path) {
@@ -676,7 +679,7 @@ TEST(InitialVelocity, LeadsToTheSecondShape) {
   EXPECT_LT(error(straight), 1e-9);
 }
 
-// A path is the same motion wherever it is placed.
+// The motion of a path does not depend on its position.
 TEST(InitialVelocity, TurnsWithThePath) {
   Path path = Moving(MakeBar(6, 1, 1, 6, 1, 1), 20, 60, 40, 3);
   const Eigen::Matrix3d turn = testing::Rotation(70, {1, -2, 1});
@@ -688,8 +691,8 @@ TEST(InitialVelocity, TurnsWithThePath) {
   EXPECT_LT(Distance(InitialVelocity(path), expected), 1e-9 * Diameter(expected));
 }
 
-// A sheet of 5 x 5 vertices, of which only the one in the middle is pushed, by `way` cells to the
-// side. One step of the paper's scheme takes it exactly there.
+// A sheet of 5 x 5 vertices, of which only the centre moves, by `way` cells to the side. One step
+// of the paper's scheme moves it exactly that far.
 ExponentialResult PushMiddle(double way) {
   const Body sheet = MakeSheet(1, 1, 4, 4);
   const Shape flat = sheet.pose(0);
@@ -717,7 +720,7 @@ TEST(Extrapolate, StopsWhereAnEdgeVanishes) {
   EXPECT_NE(summary.stopped.find("vanishes"), std::string::npos) << summary.stopped;
 }
 
-// Every vertex flies off in a direction of its own: a few steps on Runge and Kutta's scheme fails.
+// Every vertex has its own velocity: after a few steps the Runge-Kutta scheme fails.
 TEST(Extrapolate, WarnsWhereTheEnergyRises) {
   const Body sheet = MakeSheet(1, 1, 4, 4);
   const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});
@@ -803,7 +806,7 @@ TEST(Extrapolate, SaysThatTrapezoidPathsGoOnInMidpointForm) {
   const auto [longer, summary] = Extrapolate(path, 2);
   ASSERT_FALSE(summary.warnings.empty());
   EXPECT_NE(summary.warnings[0].find("trapezoid"), std::string::npos);
-  // And they do so: as if the metric had always been the midpoint's.
+  // The continuation is as if the metric had been in midpoint form from the beginning.
   Path midpoint = path;
   Metric metric = *path.metric;
   metric.options.discretization = Discretization::kMidpoint;
@@ -851,7 +854,7 @@ TEST(Logarithm, CanBeCancelled) {
   }
 }
 
-// The same motions under triangle strain: every value belongs to a triangle, so no step needs a
+// The same motions under triangle strain: any values belong to a triangle, so no step needs a
 // coarser mesh.
 TEST(Extrapolate, MakesEveryStepOnTheMeshUnderStrain) {
   const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
@@ -871,9 +874,8 @@ TEST(Extrapolate, MakesEveryStepOnTheMeshUnderStrain) {
   }
 }
 
-// The discrete Euler-Lagrange equation reads the same both ways. So do steps so long that some must
-// be approached in increments: shot back from its last two shapes, the path comes back to its
-// first.
+// The discrete Euler-Lagrange equation is symmetric in time, also for steps so long that some need
+// increments: shooting back from the last two shapes returns to the first.
 TEST(Extrapolate, LongStepsLeadBackToo) {
   const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
   for (const char* pose : {"sit", "stride"}) {
@@ -901,9 +903,9 @@ TEST(Extrapolate, LongStepsLeadBackToo) {
   }
 }
 
-// Where the mesh has no next shape, that of a coarser one is lifted, and detail with it. On real
-// geodesics the energy of segments is constant; taken for a momentum, what the detail did would
-// multiply it.
+// If a step has no solution on the mesh, that of a coarser mesh is lifted with detail. On geodesics
+// the energy of segments is constant; if the motion of the detail were used as a momentum, it would
+// grow.
 TEST(Extrapolate, KeepsTheEnergyAcrossStepsOfCoarserMeshes) {
   const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
   for (const char* pose : {"rear", "stride"}) {

@@ -15,9 +15,9 @@ namespace {
 using shapespace::testing::Noise;
 using shapespace::testing::Rotation;
 
-// Under the cost of position alone the energy is a quadratic form, and the scalar metric is exact:
-// one step of Newton's method, by the preconditioner, leads to the minimum, whatever is given and
-// pulled at.
+// With a cost of position alone the energy is a quadratic form, and the scalar metric is exact: one
+// step of Newton's method with the preconditioner reaches the minimum, for any constraints and
+// penalties.
 TEST(FreeEndPreconditioner, IsTheInverseOfAQuadraticEnergy) {
   const Body bar = MakeBar(3, 1, 1, 6, 2, 2);
   MetricOptions options;
@@ -45,7 +45,7 @@ TEST(FreeEndPreconditioner, IsTheInverseOfAQuadraticEnergy) {
     const auto at = [&](int v, int axis, int t) {
       return (3 * static_cast<size_t>(energy.Row(v)) + axis) * energy.Stride() + t;
     };
-    // The gradient of what is minimised by what is free.
+    // The gradient of the objective with respect to the free vertices.
     const auto evaluate = [&] {
       energy.Evaluate(x.data(), gradient.data());
       double largest = 0;
@@ -96,8 +96,8 @@ TEST(FreeEndFactors, ATranslationOfWhatIsGivenTakesTheWholeAlong) {
   }
 }
 
-// Neighbourhoods that all turn by one rotation are those of the turned shape, from wherever the
-// vertices that are not given start.
+// If all neighbourhoods rotate by the same rotation, the result is the rotated shape, whatever the
+// initial positions of the free vertices.
 TEST(FreeEndFactors, IntegratesARotation) {
   const Held held;
   const FreeEndFactors factors(held.metric, held.rest, held.grip);

@@ -72,7 +72,7 @@ TEST(Interpolate, TranslatesAlongAStraightLine) {
   }
 }
 
-// Also by 179 degrees, where the linear blend of the poses as they are collapses.
+// Also by 179 degrees, for which the linear blend of the poses without alignment would collapse.
 TEST(Interpolate, TurnsARigidCopyAtConstantSpeedAndKeepsItsShape) {
   const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
   const Shape first = bar.pose(50);
@@ -109,8 +109,8 @@ TEST(Interpolate, IsTheLinearBlendOfAlignedPosesInAFlatMetric) {
   EXPECT_NEAR(summary.Ratio(), 1, 1e-9);
 }
 
-// An edge that only grows: ds^2 = (w r^2 + lambda / 8) dr^2 with A_p = 1/2, so that t is the share
-// of an arc length in closed form; the discretisation is of second order.
+// An edge that only grows: ds^2 = (w r^2 + lambda / 8) dr^2 with A_p = 1/2, so t is the normalised
+// arc length, in closed form. The discretisation is of second order.
 TEST(Interpolate, StretchesASingleEdgeAsTheClosedFormSays) {
   Shape first = Shape::Zero(3, 2), last = Shape::Zero(3, 2);
   first(0, 1) = 1;
@@ -118,7 +118,7 @@ TEST(Interpolate, StretchesASingleEdgeAsTheClosedFormSays) {
   double previous = 0;
   for (int shapes : {7, 15, 31}) {
     GeodesicOptions options = Options(shapes, 1e-15);
-    options.metric.lambda = 3;  // of the size of the other part, or the path is nearly known
+    options.metric.lambda = 3;  // of the magnitude of the other part, so that both matter
     const auto [path, summary] = Interpolate(testing::SingleEdge(), {first, last}, options);
     const double unit = path.metric->unit;
     const double w = testing::Get<EdgeLength>(*path.metric).weights(0);
@@ -158,9 +158,9 @@ TEST(Interpolate, FollowsExactIsometricFlexes) {
   }
 }
 
-// A flat parallelogram whose sides and diagonals hold it can still twist by any small angle x while
-// lengths change by x^2 only: for a gain proportional to lambda x, paid with x^4. So the deviation,
-// x^2, is proportional to lambda^(2/3).
+// A flat parallelogram with stiff sides and diagonals can still twist by any small angle x while
+// lengths change by x^2 only. The gain is proportional to lambda x and the cost to x^4, so the
+// deviation x^2 is proportional to lambda^(2/3).
 TEST(Interpolate, FoldsAMiuraSheetWithItsParallelogramsNearlyFlat) {
   const Body body = MakeMiura(1, 1, 60, 3, 3);
   GeodesicOptions options = Options(15, 1e-10);
@@ -177,7 +177,7 @@ TEST(Interpolate, FoldsAMiuraSheetWithItsParallelogramsNearlyFlat) {
   EXPECT_NEAR(deviation[0] / deviation[1], std::pow(10, 2.0 / 3), 0.5);
 }
 
-// The associate family of the catenoid is isometric, and its way is short: the geodesic stays near.
+// The associate family of the catenoid is isometric and short, so the geodesic is near it.
 TEST(Interpolate, BendsTheCatenoidToTheHelicoidWithoutStretchingIt) {
   const Body catenoid = MakeCatenoid(1, 32, 12);
   const auto [path, summary] =
@@ -378,10 +378,10 @@ TEST(Interpolate, RefusesWhatCannotWork) {
   Listener listener;
   EXPECT_THROW(Interpolate(large.connectivity, {large.pose(0), large.pose(9)}, options, &listener),
                InvalidOptions);
-  EXPECT_EQ(listener.reports, 1);  // of freezing the metric: nothing was solved
+  EXPECT_EQ(listener.reports, 1);  // only that of freezing the metric: nothing was solved
 }
 
-// A tube of several levels: solves on all of them, by all three optimisers.
+// A tube with several levels, solved on all of them by all three optimisers.
 const Body& Tube() {
   static const Body tube = MakeBody("tube", 4000);
   return tube;
@@ -397,7 +397,7 @@ TEST(Interpolate, ReturnsTheBestSoFarWheneverItIsCancelled) {
   ASSERT_EQ(summary.termination, Termination::kConverged);
   ASSERT_GT(summary.hierarchy.size(), 2u);
 
-  // Before the first solve there is nothing to return.
+  // Before the first solve there is no result to return.
   for (const int last : {1, 2}) {
     Listener early(last);
     EXPECT_THROW(solve(&early), Cancelled);
@@ -424,7 +424,7 @@ TEST(Interpolate, ReturnsTheBestSoFarWheneverItIsCancelled) {
     EXPECT_EQ(path.parameters, whole.parameters);
     EXPECT_LT((path.Placed(0) - poses[0]).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT((path.Placed(8) - poses[1]).cwiseAbs().maxCoeff(), 1e-12);
-    // The more was solved, the better.
+    // More solves give a better result.
     EXPECT_TRUE(std::isfinite(cancelled.energy));
     EXPECT_LE(cancelled.energy, before * (1 + 1e-6));
     before = cancelled.energy;
@@ -449,7 +449,7 @@ TEST(Interpolate, CancelledInOnePieceKeepsTheOnesBefore) {
   EXPECT_EQ(path.poses, whole.poses);
   for (int i = 0; i <= 4; ++i) EXPECT_TRUE(path.shapes[i] == whole.shapes[i]) << i;
   EXPECT_FALSE(path.shapes[6] == whole.shapes[6]);
-  // The last piece was not begun.
+  // The last piece was not started.
   const Shape middle = 0.5 * (path.shapes[8] + path.shapes[12]);
   EXPECT_LT((path.shapes[10] - middle).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_NE(cancelled.warnings.front().find("the pieces from 2 on are straight-line blends"),
@@ -457,8 +457,8 @@ TEST(Interpolate, CancelledInOnePieceKeepsTheOnesBefore) {
       << cancelled.warnings.front();
 }
 
-// Work is what evaluations cost: vertices times shapes. An estimate of the time left that comes
-// from a share which is a quarter off in the middle is off by a factor of two to three.
+// Work is the cost of evaluations: vertices times shapes. If the share of the work is wrong by a
+// quarter in the middle, the estimate of the remaining time is wrong by a factor of two to three.
 TEST(Interpolate, TellsWhatShareOfItsWorkIsDone) {
   const SkinnedBody body = MakeSkinnedBody("quadruped", 3000);
   for (const double tolerance : {1e-4, 1e-6}) {
@@ -489,8 +489,8 @@ TEST(Interpolate, TellsWhatShareOfItsWorkIsDone) {
   }
 }
 
-// Their distance is lost in rounding, so that no share of it means anything; and a distance that is
-// not lost counts.
+// If their distance is at the level of rounding, relative tolerances of it are meaningless; a
+// distance above that level is used.
 TEST(Interpolate, CopiesConvergeAndPosesThatAreHardlyApartMustBeSolved) {
   std::vector<std::pair<int, int>> segments;
   Shape straight(3, 11);

@@ -28,7 +28,8 @@ class HandleFileTest : public testing::FilesTest {
     return Read(R"({"handles": [{)" + keys + "}]}").at(0);
   }
 
-  /// The file is refused with words that begin with its name and `begin`, and hold `part`.
+  /// The file is rejected with a message that begins with its name and `begin`, and contains
+  /// `part`.
   void ExpectError(const std::string& text, const std::string& begin,
                    const std::string& part = "") const {
     testing::ExpectError<FileError>([&] { Read(text); }, {Path("h.json") + ": " + begin, part});
@@ -93,9 +94,9 @@ TEST_F(HandleFileTest, PositionsStandInTheOrderOfTheVertices) {
 }
 
 TEST_F(HandleFileTest, ErrorsNameTheHandleTheFieldAndTheRemedy) {
-  ExpectError("{\"handles\": [\n{\"fixed\": true,}\n]}", "line 2: this is no JSON: ");
+  ExpectError("{\"handles\": [\n{\"fixed\": true,}\n]}", "line 2: this is not valid JSON: ");
   ExpectError("{\"handles\": [{\"fixed\": true,\n\"fixed\": true}]}",
-              "line 2: the key 'fixed' stands twice in one object; leave one out");
+              "line 2: the key 'fixed' occurs twice in one object; remove one");
   ExpectError("[]", "must be an object, { }, with keys of handles, $schema");
   ExpectError("{}", "handles: is missing");
   ExpectError(R"({"handles": []})", "handles: the list is empty");
@@ -113,7 +114,7 @@ TEST_F(HandleFileTest, ErrorsNameTheHandleTheFieldAndTheRemedy) {
     std::string keys, message;
   } cases[] = {
       {R"("fixed": true, "select": {"vertices": [9]})",
-       "select: vertices: 9 is no vertex of this mesh, which has 8"},
+       "select: vertices: 9 is not a vertex of this mesh, which has 8"},
       {R"("fixed": true, "select": {"ball": {"centre": [0, 0, 0], "radius": -1}})",
        "select: ball.radius: must be zero or more"},
       {R"("fixed": true, "select": {"group": "head"})", "select: group: no polygon has"},
@@ -185,7 +186,7 @@ TEST_F(HandleFileTest, TheExampleOfTheDocumentationIsRead) {
   EXPECT_EQ(vertices.size(), count) << "two handles of the example have a vertex in common";
 }
 
-/// What `keys` an object of the schema may have.
+/// The keys that an object of the schema may have, compared with `keys`.
 std::set<std::string> KeysOf(const nlohmann::json& object) {
   std::set<std::string> keys;
   for (const auto& [key, value] : object.at("properties").items()) keys.insert(key);
@@ -198,7 +199,7 @@ TEST_F(HandleFileTest, TheSchemaHasTheKeysOfTheReaderAndNoOthers) {
   const nlohmann::json& parts = schema.at("$defs");
   const struct {
     nlohmann::json object;
-    std::string before, after;  // around an object of this kind with an unknown key
+    std::string before, after;  // text around an object of this kind with an unknown key
   } cases[] = {
       {schema, "", ""},
       {parts.at("handle"), R"({"handles": [)", "]}"},

@@ -28,7 +28,7 @@ TransferOptions Ladder() {
   return options;
 }
 
-// What the metric of strains and the ladder's scaling and turning are for.
+// The case for the metric of strains and the ladder's scaling and alignment.
 TEST(Ladder, AbsoluteLengthsAndThePapersTransportBendFalsely) {
   const Path source = Bending(6);
   const Shape straight = ThinBar();
@@ -46,7 +46,7 @@ TEST(Ladder, AbsoluteLengthsAndThePapersTransportBendFalsely) {
   EXPECT_LT(BendOf(straight, Transfer(source, turned, paper).path.Placed(6)), 20);
 }
 
-// The step is taken in features, so that on a bar few rungs do for 60 degrees.
+// The step is made in features, so few rungs are sufficient for a bend of 60 degrees.
 TEST(Ladder, HardlyDependsOnHowFinelyTheSourceIsDivided) {
   const Shape straight = ThinBar();
   const Eigen::VectorXd area = Bending(1).metric->vertex_area;
@@ -60,7 +60,7 @@ TEST(Ladder, HardlyDependsOnHowFinelyTheSourceIsDivided) {
 TEST(Ladder, ACopyMovesAsTheSourceDoes) {
   std::vector<Shape> shapes;
   for (int i = 0; i <= 3; ++i) {
-    // The path carries a rigid motion, and begins off the axes.
+    // The path has a rigid motion and an oblique start.
     shapes.push_back((Turn(40 + 30 * i, {1, 1, 0}) * ThickBar().pose(20 * i)).colwise() +
                      Vector3d(i, 7, -2 * i));
   }
@@ -86,14 +86,14 @@ TEST(Ladder, ACopyMovesAsTheSourceDoes) {
     }
   }
 
-  // Taken as it stands, a turned copy makes the paper's transport turn the motion falsely.
+  // Without alignment, the paper's transport rotates the motion of a rotated copy incorrectly.
   TransferOptions paper = Ladder();
   paper.ladder.connection = TransportConnection::kConstrainedProjection;
   paper.ladder.align = false;
   EXPECT_GT(Apart(Transfer(source, copy(shapes[0]), paper).path.Placed(3), copy(shapes[3])), 0.02);
 }
 
-// The quadruped's own poses, in other proportions, are what it should become.
+// The expected results are the quadruped's own poses, in other proportions.
 TEST(Ladder, BodiesWithJointsTakeThePoseOver) {
   const SkinnedBody normal = MakeSkinnedBody("quadruped", 1500);
   for (const char* proportions : {"long", "short"}) {
@@ -111,10 +111,10 @@ TEST(Ladder, BodiesWithJointsTakeThePoseOver) {
     EXPECT_GT(ShapesApart(stand, sit, area), 0.04);
     EXPECT_LT(Degrees(FitRigidMotion(end, sit, area).rotation), 2);
     for (const TransferSummary::Step& step : summary.steps) {
-      EXPECT_LE(step.norm_change, 0);  // a tangent never becomes longer
+      EXPECT_LE(step.norm_change, 0);  // the norm of a tangent never grows
       EXPECT_GT(step.norm_change, -0.1);
     }
-    // The hybrid lies between: closer to either than they are to each other.
+    // The hybrid is in between: its distances from both are less than their distance.
     const Shape sitting = normal.pose("sit");
     EXPECT_LT(ShapesApart(hybrids.Placed(4), end, area), ShapesApart(sitting, end, area));
     EXPECT_LT(ShapesApart(hybrids.Placed(4), sitting, area), ShapesApart(end, sitting, area));
@@ -186,7 +186,7 @@ TEST(Ladder, RefusesOptionsThatMeanNothing) {
   EXPECT_EQ(message([](LadderOptions* o) { o->tolerance = 0; }).find("tolerance:"), 0u);
 }
 
-// A source that crumples up, almost to a point, moves as no body can go on moving.
+// A source that crumples almost to a point, a motion that cannot be continued.
 TEST(Ladder, SaysWhichShapeDegenerates) {
   const Path source = PathOf(ThickBar().connectivity,
                              {ThickBar().pose(0), ThickBar().pose(5), Noise(106, 0.002, 3)});

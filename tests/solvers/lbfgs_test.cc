@@ -13,7 +13,7 @@
 namespace shapespace::internal {
 namespace {
 
-// A bent bar between two poses, and what an optimiser needs to relax the way between them.
+// A bent bar between two poses, and the data with which an optimiser relaxes the path between them.
 struct Problem {
   Problem(const Body& body, int inner, const MetricOptions& options = {})
       : metric(FreezeMetric(options, body.connectivity, {body.pose(0), body.pose(70)})),
@@ -58,7 +58,7 @@ TEST(Minimise, AllThreeReachTheSameMinimum) {
   for (const MetricOptions& metric : {MetricOptions(), with_volume, strains, paper}) {
     SCOPED_TRACE(Describe(metric));
     Problem problem(MakeBar(4, 1, 1, 6, 1, 1), 3, metric);
-    // The valley is flat: hundreds of iterations lead from here to 1e-13, and gain 3e-8.
+    // The minimum is flat: hundreds of iterations lead to 1e-13 and gain 3e-8.
     const MinimiseOptions options = Tolerance(1e-11);
     std::vector<double> ours = problem.start, ceres = problem.start;
     const MinimiseResult a = problem.Ours(options, &ours);
@@ -85,14 +85,14 @@ TEST(ThreadedLbfgs, ReachesTinyTolerancesWithAShortHistoryToo) {
     EXPECT_NEAR(result.remaining,
                 RemainingDecrease(ObjectiveOf(&problem.energy), &problem.variables, unknowns),
                 1e-3 * result.remaining);
-    // A new start there gains next to nothing.
+    // A new solve from the result gains almost nothing.
     const MinimiseResult again = problem.Ours(options, &unknowns);
     EXPECT_LE(again.energy, result.energy);
     EXPECT_NEAR(again.energy, result.energy, 1e-6 * result.energy);
   }
 }
 
-// A preconditioner that is right but for its scale is as good, after the first step.
+// A preconditioner with a wrong scale is equally good after the first step.
 TEST(ThreadedLbfgs, FindsTheScaleOfThePreconditioner) {
   Problem problem(MakeBar(6, 1, 1, 24, 4, 4), 7);
   int evaluations = 0;
@@ -231,7 +231,8 @@ TEST(SearchLine, FindsAStepThatSatisfiesTheWolfeConditions) {
   }
 }
 
-// A parabola on top of a number so large that its values are rounding, which here goes up.
+// A parabola plus a number so large that differences of its values are rounding errors, which
+// increase here.
 TEST(SearchLine, SlopesDecideWhereValuesDifferByRoundingOnly) {
   const auto evaluate = [](double step) {
     return LinePoint{step, step > 0 ? 1e6 * (1 + 1e-15) : 1e6, 2e-12 * (step - 0.9)};
@@ -240,7 +241,7 @@ TEST(SearchLine, SlopesDecideWhereValuesDifferByRoundingOnly) {
 }
 
 TEST(SearchLine, StaysWhereNothingIsLower) {
-  const LinePoint start = {0, 1, -1};  // a slope that lies
+  const LinePoint start = {0, 1, -1};  // an incorrect slope
   const LinePoint end = SearchLine(start, [](double step) { return LinePoint{step, 1 + step, 1}; });
   EXPECT_EQ(end.step, 0);
   EXPECT_EQ(end.value, 1);

@@ -1,4 +1,4 @@
-// The lower bound of path/energy.h against minima, which take a solver to find.
+// The lower bound of path/energy.h compared with minima that are found by a solver.
 
 #include <memory>
 #include <string>
@@ -26,7 +26,7 @@ GeodesicSummary Solved(const std::shared_ptr<const Connectivity>& connectivity, 
   return Interpolate(connectivity, {first, last}, options).summary;
 }
 
-// No cost of position, whose bound is that of straight lines.
+// No cost of position, whose bound is reached by straight lines.
 MetricOptions Only(double isometric, double strain, double bending) {
   MetricOptions options;
   options.lambda = 0;
@@ -59,8 +59,8 @@ TEST(EnergyLowerBound, IsBelowTheMinimaOfEveryBlend) {
         EXPECT_EQ(summary.termination, Termination::kConverged);
         EXPECT_GT(summary.lower_bound, 0);
         EXPECT_LE(summary.lower_bound, summary.energy * (1 + 1e-12));
-        // Features that would grow at different times disagree by a little. The paper's form pays
-        // for the rotation of edges besides.
+        // Features that would change at different times are slightly incompatible. The paper's form
+        // also penalises the rotation of edges.
         if (blend.options.discretization == Discretization::kMidpoint) {
           EXPECT_LT(summary.Ratio(), 1.02);
         }
@@ -69,7 +69,7 @@ TEST(EnergyLowerBound, IsBelowTheMinimaOfEveryBlend) {
   }
 }
 
-// Where all elements can take their own shortest ways at once the minimum is the bound.
+// If all elements can follow their own shortest paths at once, the minimum equals the bound.
 TEST(EnergyLowerBound, IsReachedByGrowthUnderOneMeasureOfLength) {
   const Body tube = MakeTube(150);
   for (int shapes : {1, 7}) {
@@ -92,8 +92,8 @@ TEST(EnergyLowerBound, IsReachedByIsometricMotionThatFoldsEvenly) {
   }
 }
 
-// Two triangles, folded by 150 degrees one way and by 150 the other: 60 degrees apart, by way of
-// the hinge that is shut.
+// Two triangles, folded by 150 degrees in one direction and by 150 in the other: the difference is
+// 60 degrees, through the closed hinge.
 TEST(EnergyLowerBound, IsReachedByAHingeThatShutsOnItsWay) {
   const auto connectivity =
       Connectivity::FromTriangles(4, (Eigen::Matrix3Xi(3, 2) << 0, 1, 1, 0, 2, 3).finished());
@@ -111,8 +111,8 @@ TEST(EnergyLowerBound, IsReachedByAHingeThatShutsOnItsWay) {
   }
 }
 
-// A triangle without area has no normal, and its hinges' values lie off the circle of angles: there
-// the shortest way is straight.
+// A triangle without area has no normal, and its hinges' values lie inside the circle of angles,
+// where the shortest path is straight.
 TEST(EnergyLowerBound, IsOneWhereAPoseHoldsACollapsedTriangle) {
   const auto connectivity =
       Connectivity::FromTriangles(4, (Eigen::Matrix3Xi(3, 2) << 0, 1, 1, 0, 2, 3).finished());

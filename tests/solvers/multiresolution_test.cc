@@ -27,8 +27,8 @@ using internal::ScheduleStep;
 constexpr GeodesicSchedule kSchedules[] = {GeodesicSchedule::kAutomatic, GeodesicSchedule::kPaper,
                                            GeodesicSchedule::kFlat};
 
-// Whatever a step starts from must be known by then: either the next coarser level at the same
-// number of shapes, or its own level at fewer.
+// The start of every step must be known: either the next coarser level with the same number of
+// shapes, or its own level with fewer.
 TEST(Schedule, StepsFollowFromEarlierOnesAndEndWithEverything) {
   for (GeodesicSchedule schedule : kSchedules) {
     for (int levels : {1, 2, 5}) {
@@ -52,7 +52,7 @@ TEST(Schedule, StepsFollowFromEarlierOnesAndEndWithEverything) {
   }
 }
 
-// A torus of rings x 12 vertices; `squash` flattens it, so that it changes shape.
+// A torus of rings x 12 vertices; `squash` flattens it, which changes its shape.
 std::shared_ptr<const Connectivity> TorusConnectivity(int rings) {
   constexpr int kRound = 12;
   Eigen::Matrix3Xi triangles(3, 2 * rings * kRound);
@@ -116,7 +116,7 @@ std::vector<Pair> Pairs() {
   return pairs;
 }
 
-// Greatest over least energy of the paths that `all` options lead to.
+// Ratio of the greatest to the least energy of the paths for all `options`.
 double Spread(const Pair& pair, const std::vector<GeodesicOptions>& all) {
   std::vector<double> energies;
   for (GeodesicOptions options : all) {
@@ -145,7 +145,7 @@ TEST(Interpolate, AllStartsEndInTheSameValley) {
   for (const Pair& pair : Pairs()) EXPECT_LT(Spread(pair, all), 1.003) << pair.name;
 }
 
-// On a good path a body moves at constant speed: no part waits to snap over at the end.
+// On a good path a body moves at constant speed: no part rests and then jumps.
 TEST(Interpolate, MovesAtConstantSpeed) {
   for (const Pair& pair : Pairs()) {
     const auto [path, summary] = Interpolate(pair.connectivity, {pair.first, pair.last});
@@ -153,8 +153,8 @@ TEST(Interpolate, MovesAtConstantSpeed) {
   }
 }
 
-// Poses with random folds everywhere, as bad scans have them: hinges would go the long way round,
-// or wait and jump.
+// Poses with random folds everywhere, as in bad scans: hinges could turn the wrong way, or rest and
+// jump.
 TEST(Interpolate, CrumpledPosesMoveAtConstantSpeedToo) {
   const Body tube = MakeTube(1600);
   const Shape first = tube.pose(0), last = tube.pose(90);
@@ -172,8 +172,8 @@ TEST(Interpolate, CrumpledPosesMoveAtConstantSpeedToo) {
   }
 }
 
-// Half way between a half pipe and the one that is open to the other side straight lines have a
-// flat sheet, pressed together: a valley of its own.
+// Half way between a half pipe and one that is open to the opposite side, straight lines give a
+// flat, compressed sheet, which belongs to another local minimum.
 TEST(Interpolate, LeavesAStartThatEndsInAPoorValley) {
   const Body sheet = MakeSheet(4, 1, 40, 10);
   const Shape up = sheet.pose(180);
@@ -184,9 +184,9 @@ TEST(Interpolate, LeavesAStartThatEndsInAPoorValley) {
   EXPECT_LT(energy, 0.1 * Interpolate(sheet.connectivity, {up, down}, blend).summary.energy);
 }
 
-// Of a body and its copy at twice the size every edge can grow as it would alone, so that energies
-// go with areas: those of coarse surfaces, which cut corners, are smaller, and they are measured in
-// the mesh's unit.
+// Between a body and its copy at twice the size every edge can grow independently, so energies are
+// proportional to areas. Coarse surfaces, which cut corners, have smaller areas, measured in the
+// mesh's unit.
 TEST(Interpolate, MeasuresAllLevelsInOneUnit) {
   const Body tube = MakeTube(2000);
   const Shape small = tube.pose(0);
@@ -216,8 +216,8 @@ TEST(Interpolate, MeasuresAllLevelsInOneUnit) {
   }
 }
 
-// In trapezoid form a turn costs with the fourth power of its angle: two segments of 40 degrees
-// each would cost many times what sixteen of 5 cost.
+// In trapezoid form the cost of a rotation is proportional to the fourth power of its angle: two
+// segments of 40 degrees each would cost much more than sixteen of 5.
 TEST(Interpolate, FewShapesCostWhatManyDoInTrapezoidForm) {
   const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
   GeodesicOptions options;
@@ -232,7 +232,7 @@ TEST(Interpolate, FewShapesCostWhatManyDoInTrapezoidForm) {
   }
 }
 
-// Coarse surfaces crumple where nothing resists it.
+// Without resistance to bending, coarse surfaces crumple.
 TEST(Interpolate, SolvesWithoutBendingOnTheMeshItselfAlone) {
   const SkinnedBody body = MakeQuadruped(4000);
   GeodesicOptions options;

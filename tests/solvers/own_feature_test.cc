@@ -1,4 +1,4 @@
-// Solvers under features that a user defines, against the same features of the library, which have
+// Solvers with user-defined features, compared with the same features of the library, which have
 // kernels, bounds and preconditioners of their own.
 
 #include <algorithm>
@@ -53,7 +53,7 @@ TEST(OwnFeature, MakesTheSameGeodesicOnAllLevels) {
   EXPECT_NEAR(own.summary.lower_bound, library.summary.lower_bound,
               1e-9 * library.summary.lower_bound);
   EXPECT_LT(Apart(own.path, library.path), 2e-3);
-  // Every feature has its part of the energy, by its name.
+  // Every feature's part of the energy is listed by its name.
   double strain = -1;
   for (const auto& [name, part] : own.summary.parts) {
     if (name == "own strain") strain = part;
@@ -115,7 +115,7 @@ TEST(OwnFeature, DeformsAlike) {
             5e-3);
 }
 
-// Values and gradients of Ceres' blocks, against PathEnergy.
+// Values and gradients of Ceres' blocks, compared with PathEnergy.
 TEST(OwnFeature, HasResidualBlocks) {
   const auto metric =
       FreezeMetric(testing::OwnBlend(), Bar().connectivity, {Bar().pose(0), Bar().pose(80)});
@@ -148,7 +148,7 @@ TEST(OwnFeature, HasResidualBlocks) {
   }
 }
 
-// A field that is stiff on one half moves the bending to the other, on all levels.
+// A stiffness field that is large on one half moves the bending to the other half, on all levels.
 TEST(Stiffness, MovesStretchingToWhereItIsSoft) {
   MetricOptions options;
   options.stretching_stiffness.setOnes(Bar().connectivity->NumVertices());

@@ -26,7 +26,7 @@ void Fix(Shape* shape, ceres::Problem* problem) {
   for (int v = 0; v < shape->cols(); ++v) problem->SetParameterBlockConstant(shape->col(v).data());
 }
 
-// Values and gradients, against the kernels that know nothing of Ceres' problems.
+// Values and gradients, compared with the kernels, which are independent of Ceres.
 TEST(PathEnergyBlocks, AreAQuarterOfTheEnergy) {
   MetricOptions all, paper = MetricOptions::Paper();
   all.strain = 0.5;
@@ -91,7 +91,8 @@ TEST(PathEnergyBlocks, OfTheRigidMetricAreItsEnergyOnceTheMotionsAreSolvedFor) {
               1e-9 * summary.final_cost);
 }
 
-// A spring of the user's own: the stiffer it is, the nearer its vertex comes to the target.
+// A user's spring as additional residual: the stiffer it is, the nearer its vertex is to the
+// target.
 TEST(PathEnergyBlocks, TakeResidualsOfTheUser) {
   const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
   GeodesicOptions options;
@@ -162,7 +163,7 @@ TEST(PathEnergyBlocks, RefuseWhatTheyCannotTake) {
   EXPECT_EQ(problem.NumParameterBlocks(), 0);
 }
 
-// Without a cost of position nothing pulls at a vertex that no polygon uses.
+// Without a cost of position nothing determines a vertex that no polygon uses.
 TEST(PathEnergyBlocks, KnowEveryVertex) {
   Shape shape(3, 4);
   shape << 0, 1, 0, 5, 0, 0, 1, 5, 0, 0, 0, 5;

@@ -21,7 +21,7 @@ Eigen::SparseMatrix<double> Matrix(const Body& body) {
   return ScalarMetric(*metric, {poses[0] / metric->unit, poses[1] / metric->unit}, 0);
 }
 
-// Of a large matrix few columns are solved for branch by branch.
+// A large matrix and few columns, for which branches are solved in parallel.
 TEST(Cholesky, SolvesAsItsMatrixSays) {
   for (int cells : {4, 16}) {
     const Eigen::SparseMatrix<double> matrix = Matrix(MakeBar(6, 1, 1, 6 * cells, cells, cells));
@@ -76,7 +76,7 @@ TEST(ScalarMetric, CostsNothingForTranslationsButForThePositionTerm) {
   const Eigen::SparseMatrix<double> matrix = ScalarMetric(*metric, {bar.pose(0) / metric->unit}, 0);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(matrix.rows());
   const double cost = ones.dot(matrix.selfadjointView<Eigen::Lower>() * ones);
-  EXPECT_NEAR(cost, 4 * 1e-4 * 1.01, 1e-10);  // 4 lambda, areas adding up to 1, and its safeguard
+  EXPECT_NEAR(cost, 4 * 1e-4 * 1.01, 1e-10);  // 4 lambda, regularised
 }
 
 TEST(ChangeOfVariables, TransposeIsTheTranspose) {
@@ -90,7 +90,7 @@ TEST(ChangeOfVariables, TransposeIsTheTranspose) {
     const std::vector<double> origin(energy.Size(), 0.0);
     std::vector<double> x(energy.Size()), g(energy.Size());
     variables.Apply(y.data(), origin.data(), 0.7, x.data());
-    // A gradient that is zero in the padding.
+    // A gradient with zero padding.
     std::vector<Shape> random(inner + 2, Shape::Zero(3, factor.Size()));
     for (int i = 1; i <= inner; ++i) random[i] = testing::Noise(factor.Size(), 1, i);
     energy.Load(random, g.data());
@@ -119,7 +119,7 @@ TEST(Preconditioner, IsBothHalvesOfTheChangeOfVariables) {
     variables.Apply(y.data(), origin.data(), 1, x.data());
     double largest = 0;
     for (double value : x) largest = std::max(largest, std::abs(value));
-    // Gradients far outside of the range of a float, too; in place; padding stays zero.
+    // Also for gradients far outside of the range of a float; in place; the padding remains zero.
     for (double scale : {1.0, 1e-60}) {
       std::vector<double> z = g;
       for (double& value : z) value *= scale;
@@ -133,7 +133,8 @@ TEST(Preconditioner, IsBothHalvesOfTheChangeOfVariables) {
   }
 }
 
-// In a flat metric the Hessian is the very matrix: one step from anywhere reaches the minimum.
+// In a flat metric the preconditioner is the inverse Hessian: one step from anywhere reaches the
+// minimum.
 TEST(ChangeOfVariables, MakesTheHessianOfAFlatMetricTheIdentity) {
   const Body sheet = MakeSheet(1, 1, 6, 6);
   MetricOptions options;

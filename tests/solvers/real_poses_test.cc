@@ -1,4 +1,4 @@
-// The main job on real meshes: skipped where there are none.
+// Geodesics between real poses; skipped if they are missing.
 
 #include <filesystem>
 #include <ostream>
@@ -13,14 +13,14 @@ namespace {
 
 struct RealPair {
   const char *first, *last;
-  double rms, roughness, folds, ratio;  // what the path may have at most
+  double rms, roughness, folds, ratio;  // upper bounds for the path
 };
 
 void PrintTo(const RealPair& pair, std::ostream* out) { *out << pair.first << ' ' << pair.last; }
 
 class RealPoses : public ::testing::TestWithParam<RealPair> {};
 
-// Bounds are a fifth above what was measured at the default options, 15 shapes.
+// Bounds are a fifth above the values measured with the default options, 15 shapes.
 TEST_P(RealPoses, PathIsAsGoodAsMeasured) {
   const std::filesystem::path folder = SHAPESPACE_DATA_DIR;
   const RealPair& pair = GetParam();
@@ -34,7 +34,7 @@ TEST_P(RealPoses, PathIsAsGoodAsMeasured) {
   EXPECT_LT(summary.quality.roughness, pair.roughness);
   EXPECT_LE(summary.quality.folds, pair.folds);
   EXPECT_LT(summary.Ratio(), pair.ratio);
-  EXPECT_LT(summary.quality.speed_max, 1.15);  // nothing waits to snap over
+  EXPECT_LT(summary.quality.speed_max, 1.15);  // no part rests and then jumps
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
       return std::filesystem::path(info.param.first).parent_path().string();
     });
 
-// The forearms go through the body, from behind to the front.
+// The forearms pass through the body, from behind to the front.
 TEST(RealPosesThatCross, AreWarnedOf) {
   const std::filesystem::path folder = SHAPESPACE_DATA_DIR;
   const std::string first = (folder / "scape/5.obj").string();

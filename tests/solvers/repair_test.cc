@@ -53,7 +53,7 @@ TEST(Repair, LeavesAMovedCopyOfTheReferenceAsItIs) {
   const Shape copy = (Rotation(70, {1, 2, 3}) * finger.rest).colwise() + Eigen::Vector3d(3, -20, 1);
   const RepairResult result = Repair(finger.body.connectivity, finger.rest, copy);
   EXPECT_LT(result.summary.moved, 1e-9);
-  // The path to it begins with the reference, moved there.
+  // The path to it begins with the reference, aligned with it.
   for (const Shape& shape : result.path.Placed()) {
     EXPECT_LT((shape - copy).cwiseAbs().maxCoeff(), 1e-9);
   }
@@ -74,7 +74,7 @@ TEST(Repair, TheBalanceTradesPoseForGeometry) {
   }
 }
 
-// A leg that is lost is left out; the rest of the body says where it was.
+// A lost leg is not selected; the rest of the body determines its position.
 TEST(Repair, KeepsOnlyTheVerticesThatAreNamed) {
   const Finger finger;
   Shape broken = finger.rest;
@@ -101,7 +101,7 @@ TEST(Repair, MakesAPathOfAsManyShapesAsAreAskedFor) {
       Repair(finger.body.connectivity, finger.rest, finger.distorted, options);
   ASSERT_EQ(result.path.NumShapes(), 5);
   EXPECT_TRUE(result.summary.Converged());
-  // A way whose steps are alike in length, and a little longer than the chord.
+  // A path with steps of equal length, slightly longer than the chord.
   const RepairResult chord = Repair(finger.body.connectivity, finger.rest, finger.distorted);
   EXPECT_LT(std::abs(result.summary.after.edge_rms - chord.summary.after.edge_rms), 0.01);
 }

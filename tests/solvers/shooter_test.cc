@@ -18,8 +18,8 @@ using testing::Distance;
 
 const std::function<void()> kNeverCancelled = [] {};
 
-// An animal on its way beyond its last pose, under a metric of edge lengths, which leaves the mesh
-// without a next shape.
+// An animal that moves beyond its last pose, under a metric of edge lengths, for which the step has
+// no solution on the mesh itself.
 struct Beyond {
   Path path;
   Departure from_previous, with_velocity;
@@ -34,7 +34,7 @@ struct Beyond {
     path = Extrapolate(path, 1).path;
     const int last = path.NumShapes() - 1;
     from_previous = {path.shapes[last], path.shapes[last - 1], {}, 0};
-    // The same velocity, as the metric sees it.
+    // The same velocity according to the metric.
     const FeatureMap map(path.metric);
     const FeatureDerivative derivative = map.Derivative(path.shapes[last]);
     MetricSolver solver;
@@ -52,8 +52,8 @@ struct Beyond {
   }
 };
 
-// What is left out on the coarse mesh rides on it: the vertices that the coarse mesh has are where
-// its own step, under its own metric, takes them, and the others where they are lifted from there.
+// Vertices of the coarse mesh are at the solution of the coarse mesh's own step, under its own
+// metric; all others are lifted from there.
 TEST(Shooter, TakesTheStepOfTheCoarserMeshAndLiftsTheDetail) {
   const Beyond beyond;
   const std::vector<Shape> known = {beyond.path.shapes.front(), beyond.path.shapes.back()};

@@ -22,7 +22,7 @@ namespace {
 using testing::MessageOf;
 using testing::Noise;
 
-// Two shapes of a motion, in the metric's unit; the step of the geodesic leads on from the second.
+// Two shapes of a motion, in the metric's unit; the step of the geodesic continues from the second.
 struct Case {
   std::string name;
   std::shared_ptr<const Metric> metric;
@@ -52,7 +52,7 @@ std::vector<Case> Cases() {
                  MetricOptions::Strain(), 20, 30)};
 }
 
-// |J(at)^T [Phi(P) - target]| as a share of what it is at `at`.
+// |J(at)^T [Phi(P) - target]| as a share of its value at `at`.
 double Residual(const FeatureMap& map, const Shape& at, const Eigen::VectorXd& target,
                 const Shape& shape) {
   const FeatureDerivative derivative = map.Derivative(at);
@@ -66,16 +66,16 @@ TEST(SolveStepWithCeres, FindsARootOfTheDiscreteEulerLagrangeEquation) {
     const FeatureMap map(test.metric);
     const Eigen::VectorXd target = test.Target(map);
     Shape shape = test.Predicted();
-    EXPECT_GT(Residual(map, test.at, target, shape), 1e-3);  // the straight line is no solution
+    EXPECT_GT(Residual(map, test.at, target, shape), 1e-3);  // the straight line is not a solution
     const StepResult result = SolveStepWithCeres(map, test.at, target, 1e-10, 20, &shape);
     EXPECT_TRUE(result.converged);
     EXPECT_LE(result.residual, 1e-10);
     EXPECT_GT(result.iterations, 0);
     EXPECT_NEAR(Residual(map, test.at, target, shape), result.residual, 1e-12);
     const double step = (test.at - test.previous).norm();
-    EXPECT_LT((shape - test.Predicted()).norm(), 0.5 * step);  // no other root far away
+    EXPECT_LT((shape - test.Predicted()).norm(), 0.5 * step);  // not another, distant root
 
-    // From a start that is the root nothing moves, not in the last bit.
+    // If the start is the root, no bit changes.
     Shape again = shape;
     const StepResult stay = SolveStepWithCeres(map, test.at, target, 1e-10, 20, &again);
     EXPECT_TRUE(stay.converged);
@@ -84,7 +84,7 @@ TEST(SolveStepWithCeres, FindsARootOfTheDiscreteEulerLagrangeEquation) {
   }
 }
 
-// Where the target is Phi of a shape, that shape is a root.
+// If the target is Phi of a shape, that shape is a root.
 TEST(SolveStepWithCeres, FindsTheShapeWhoseFeaturesAreTheTarget) {
   for (const Case& test : Cases()) {
     SCOPED_TRACE(test.name);
@@ -93,7 +93,7 @@ TEST(SolveStepWithCeres, FindsTheShapeWhoseFeaturesAreTheTarget) {
     Shape shape = test.at;
     const StepResult result = SolveStepWithCeres(map, test.at, map.Values(root), 1e-12, 30, &shape);
     EXPECT_TRUE(result.converged);
-    // The condition number of the step is some 1e6.
+    // The condition number of the step is about 1e6.
     EXPECT_LT((shape - root).norm(), 1e-6 * (root - test.at).norm());
   }
 }
@@ -116,7 +116,7 @@ TEST(SolveStepWithCeres, IsIndifferentToTheSizeOfTheStep) {
   }
 }
 
-// Of so small a step rounding leaves few digits; what it leaves is reached at once.
+// For such a small step rounding leaves few digits, and this accuracy is reached immediately.
 TEST(SolveStepWithCeres, StopsWhereRoundingBegins) {
   const Case test = Moving("", MakeSheet(2, 1, 24, 12), {}, 30 - 1e-3, 30);
   const FeatureMap map(test.metric);
@@ -139,7 +139,7 @@ TEST(SolveStepWithCeres, TranslatesAndRestsExactly) {
         map, test.at, 2 * map.Values(test.at) - map.Values(before), 1e-10, 20, &shape);
     EXPECT_TRUE(moved.converged);
     EXPECT_LT((shape - after).cwiseAbs().maxCoeff(), 1e-8);
-    // At rest the equation says that P = at, and so all of its rows vanish there.
+    // At velocity zero the equation says P = at, where all of its rows vanish.
     Shape rest = test.Predicted();
     const StepResult rested =
         SolveStepWithCeres(map, test.at, map.Values(test.at), 1e-10, 20, &rest);
@@ -175,7 +175,7 @@ TEST(SolveStepWithCeres, SumFeaturesPullTheirShare) {
     const FeatureMap map(test.metric);
     Shape shape = test.Predicted();
     EXPECT_TRUE(SolveStepWithCeres(map, test.at, test.Target(map), 1e-10, 40, &shape).converged);
-    // Against the volume that goes on evenly, by a map that knows volumes.
+    // Compared with a constant rate of change of the volume, by a map with a volume feature.
     const auto metric = FreezeMetric(stiff, bar.connectivity, {bar.pose(0), bar.pose(30)});
     const FeatureMap measure(metric);
     const Eigen::VectorXd defect = measure.Values(shape) - test.Target(measure);
@@ -231,7 +231,7 @@ std::string NameOf(FirstIntegralSolver solver) {
   return solver == FirstIntegralSolver::kLbfgs ? "L-BFGS" : "Levenberg-Marquardt";
 }
 
-// Where there is a root to be found: how closely each solver finds it, in so many iterations.
+// If there is a root: the accuracy of each solver after a number of iterations.
 struct Accuracy {
   FirstIntegralSolver solver;
   double tolerance;
@@ -247,7 +247,7 @@ TEST(SolveFirstIntegral, StaysWhereTheConstantsWereTaken) {
     for (double speed : {1.0, 0x1p-20}) {
       const Tangent x = speed * (test.at - test.previous);
       const Tangent constants = Constants(map, test.at, x);
-      // Summed over all coordinates, (7) says what the motion costs.
+      // The sum of (7) over all coordinates is the cost of the motion.
       const double cost = map.Derivative(test.at).Times(x).squaredNorm();
       EXPECT_NEAR(constants.sum(), cost, 1e-10 * constants.lpNorm<1>());
       for (const FirstIntegralSolver solver : kFirstIntegralSolvers) {
@@ -264,7 +264,7 @@ TEST(SolveFirstIntegral, StaysWhereTheConstantsWereTaken) {
   }
 }
 
-// With G diagonal (7) says x_j^2 = a_j / G_jj, and signs cannot change on the way.
+// With diagonal G, (7) says x_j^2 = a_j / G_jj, and signs cannot change.
 TEST(SolveFirstIntegral, FindsTheRootOfTheSameSignsInAFlatMetric) {
   MetricOptions flat;
   flat.isometric = flat.bending = 0;
@@ -287,7 +287,7 @@ TEST(SolveFirstIntegral, FindsTheRootOfTheSameSignsInAFlatMetric) {
   }
 }
 
-// Where all coordinates move, and the start is close, (7) does have a root to be found.
+// If all coordinates move and the start is close, (7) has a root that is found.
 TEST(SolveFirstIntegral, FindsARootCloseBy) {
   for (const Case& test : {Moving("sheet", MakeSheet(1, 1, 2, 2), {}, 30, 45),
                            Moving("bricard", MakeBricard(), {}, 10, 14)}) {
@@ -305,7 +305,8 @@ TEST(SolveFirstIntegral, FindsARootCloseBy) {
       EXPECT_LE(result.residual, tolerance);
       EXPECT_GT(result.iterations, 0);
       EXPECT_LT((velocity - x).norm(), 1e-6 * x.norm());
-      // Rows of that size add up to at most their root mean square times the root of their number.
+      // The sum of rows of that size is at most their root mean square times the square root of
+      // their number.
       const double cost = map.Derivative(test.at).Times(velocity).squaredNorm();
       EXPECT_NEAR(cost, constants.sum(),
                   tolerance * constants.norm() * std::sqrt(constants.size()));
@@ -313,7 +314,7 @@ TEST(SolveFirstIntegral, FindsARootCloseBy) {
   }
 }
 
-// On the step that an integrator takes it does not: the constants are those of the shape before.
+// For a step of the integrator there is no root: the constants are those of the previous shape.
 TEST(SolveFirstIntegral, ReportsHowFarItGot) {
   for (const Case& test : CasesWithoutSums()) {
     SCOPED_TRACE(test.name);
@@ -333,7 +334,7 @@ TEST(SolveFirstIntegral, ReportsHowFarItGot) {
       EXPECT_TRUE(velocity.allFinite());
       EXPECT_NEAR(result.residual, residual(velocity), 1e-9 * result.residual);
       EXPECT_LT(result.residual, residual(x));
-      EXPECT_NE(result.residual, other);  // they are two solvers
+      EXPECT_NE(result.residual, other);  // the two solvers differ
       other = result.residual;
     }
   }
@@ -401,7 +402,7 @@ TEST(ProjectOntoConstraint, LeavesWhatMeetsTheConstraint) {
   const Tangent x = Noise(50, 1, 6), normal = Noise(50, 1, 7);
   const Tangent y = ProjectOntoConstraint(x, normal, x.cwiseProduct(normal).sum());
   EXPECT_LT((y - x).norm(), 1e-14 * x.norm());
-  // The zero vector goes to the constraint's nearest point, and stays if it lies on it.
+  // The zero vector moves to the nearest point of the constraint, or stays if it satisfies it.
   const Tangent zero = Tangent::Zero(3, 50);
   EXPECT_LT((ProjectOntoConstraint(zero, normal, 2) - 2 / normal.squaredNorm() * normal).norm(),
             1e-7 / normal.norm());
@@ -414,7 +415,7 @@ TEST(ProjectOntoConstraint, RefusesANormalThatVanishes) {
   EXPECT_THROW(ProjectOntoConstraint(x, 0 * normal, constant), SolverError);
   EXPECT_THROW(ProjectOntoConstraint(x, 0 * normal, 0), SolverError);
   EXPECT_THROW(ProjectOntoConstraint(x, 1e-17 * normal, constant), SolverError);
-  // The unit of the normal says nothing.
+  // The result does not depend on the normal's length.
   EXPECT_NO_THROW(ProjectOntoConstraint(x, 1e-17 * normal, 1e-17 * constant));
 }
 

@@ -19,7 +19,7 @@ using testing::Distance;
 
 const std::function<void()> kNeverCancelled = [] {};
 
-// A metric, and a step on from two shapes (in the metric's unit).
+// A metric, and a step that continues from two shapes (in the metric's unit).
 struct Case {
   std::shared_ptr<const Metric> metric;
   Departure departure;
@@ -45,8 +45,8 @@ Case BendingBar() {
   return {metric, {bar.pose(10) / metric->unit, bar.pose(5) / metric->unit, {}, 0}};
 }
 
-// A step beyond an animal's last pose, as long as half of the way between the poses: slivers turn
-// fast there.
+// A step beyond an animal's last pose, of half the distance between the poses: slivers rotate fast
+// there.
 Case LongStep(const MetricOptions& metric, int steps_before) {
   const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
   GeodesicOptions options;
@@ -69,7 +69,8 @@ TEST(Step, KeepsTheSpeedOfTheSegmentBefore) {
   EXPECT_NEAR(bar.SpeedTo(root) / bar.SpeedBefore(), 1, 1e-2);
 }
 
-// From step to step a tenth is let pass; from the geodesic's beginning on it must not add up.
+// A change by a tenth is permitted from step to step, but must not accumulate since the geodesic's
+// beginning.
 TEST(Step, RefusesRootsThatAreATenthOffTheSpeedAtTheStart) {
   for (const double share : {0.85, 0.95, 1.05, 1.15}) {
     SCOPED_TRACE(share);
@@ -82,8 +83,8 @@ TEST(Step, RefusesRootsThatAreATenthOffTheSpeedAtTheStart) {
   }
 }
 
-// An edge turned end for end has the same length: near it there is another root, much farther off
-// in the metric.
+// A reversed edge has the same length: near it there is another root, which is much farther away in
+// the metric.
 TEST(Step, RefusesTheRootOfAnotherGeodesic) {
   MetricOptions lengths;
   lengths.bending = 0;
@@ -100,7 +101,7 @@ TEST(Step, RefusesTheRootOfAnotherGeodesic) {
   EXPECT_FALSE(step.Make().HasTheGeodesicsSpeed(turned, 1));
 }
 
-// Squared lengths and angles change linearly in a motion that is slow enough.
+// Squared lengths and angles change linearly in sufficiently slow motions.
 TEST(Step, TakesStepsAThousandMillionthOfTheBodyLong) {
   Case bar = BendingBar();
   const Shape velocity = bar.departure.shape - bar.departure.previous;
@@ -141,7 +142,7 @@ TEST(Step, TakesNoMoreIterationsThanItMay) {
   EXPECT_EQ(step.row.iterations, options.max_iterations);
 }
 
-// Squared lengths that go on changing evenly leave the triangle inequality.
+// Squared lengths with a constant rate of change violate the triangle inequality.
 TEST(Step, SoonGivesUpWhereThereIsNoRoot) {
   Case step = LongStep({}, 1);
   Shape root;

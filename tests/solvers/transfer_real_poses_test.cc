@@ -1,4 +1,5 @@
-// Deformation transfer of scanned and modelled poses, where the folder of real meshes is there.
+// Deformation transfer of scanned and modelled poses; skipped if the folder of real meshes is
+// missing.
 
 #include <filesystem>
 #include <string>
@@ -26,7 +27,7 @@ class RealTransfer : public ::testing::Test {
   }
 };
 
-// Their poses hold folded hinges and triangles that almost collapse.
+// Their poses contain folded hinges and nearly collapsed triangles.
 TEST_F(RealTransfer, CopiesEndInExactCopies) {
   for (const auto& [reference, pose] :
        {std::pair("cat/reference", "cat/01"), std::pair("human/000", "human/007"),
@@ -43,7 +44,7 @@ TEST_F(RealTransfer, CopiesEndInExactCopies) {
   }
 }
 
-// Nearer to what the source does than Sumner and Popovic's transfer, in strains and in angles.
+// Closer to the source's motion than Sumner and Popovic's transfer, in strains and in angles.
 TEST_F(RealTransfer, APersonTakesAnothersPose) {
   const Poses poses =
       ReadPoses({RealMesh("human/000"), RealMesh("human/007"), RealMesh("human_b/024")});
@@ -51,7 +52,7 @@ TEST_F(RealTransfer, APersonTakesAnothersPose) {
   const auto ours = TransferPoses(poses.connectivity, source, poses.shapes[2]).summary;
   EXPECT_TRUE(ours.Converged()) << ours.BriefReport();
   TransferOptions options;
-  options.metric.lambda = 1e8;  // Sumner and Popovic's, but for rounding
+  options.metric.lambda = 1e8;  // Sumner and Popovic's, up to rounding
   const auto theirs =
       TransferPoses(poses.connectivity, source, poses.shapes[2], {}, options).summary;
   EXPECT_LT(ours.transfers[0].strain_rms, 0.92 * theirs.transfers[0].strain_rms);

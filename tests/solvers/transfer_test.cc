@@ -33,7 +33,7 @@ TransferOptions WithHybrids(TransferMethod method = TransferMethod::kFeatures) {
   return options;
 }
 
-// What holds of both methods.
+// Properties of both methods.
 class AnyTransfer : public ::testing::TestWithParam<TransferMethod> {};
 
 INSTANTIATE_TEST_SUITE_P(Methods, AnyTransfer,
@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, AnyTransfer,
                            return info.param == TransferMethod::kLadder ? "Ladder" : "Features";
                          });
 
-// Against a solution of their system that has nothing in common with ours.
+// Compared with an independent implementation of their method.
 TEST(GradientTransfer, IsThatOfSumnerAndPopovic) {
   const SkinnedBody normal = MakeSkinnedBody("quadruped", 1500),
                     heavy = MakeSkinnedBody("quadruped", 1500, "heavy");
@@ -55,13 +55,14 @@ TEST(GradientTransfer, IsThatOfSumnerAndPopovic) {
   for (const auto& [connectivity, source, deformed, target] : cases) {
     const Shape theirs = SumnerPopovic::Transfer(*connectivity, source, deformed, target);
     const Shape ours = internal::GradientTransfer(connectivity, source, target)(deformed);
-    const Vector3d offset = (theirs - ours).rowwise().mean();  // theirs holds one vertex
+    const Vector3d offset = (theirs - ours).rowwise().mean();  // theirs fixes one vertex
     EXPECT_LT(Apart(ours.colwise() + offset, theirs), 1e-5);
     EXPECT_GT(Apart(ours.colwise() + offset, target), 0.1);
   }
 }
 
-// What a mesh leaves open is taken from the source: one bar goes up, another one turns.
+// Motions that a mesh does not determine are taken from the source: one bar moves up, another one
+// rotates.
 TEST(GradientTransfer, ComponentsAndVerticesWithoutTrianglesGoWhereTheSourcesGo) {
   const Connectivity& bar = *ThickBar().connectivity;
   const int m = bar.NumVertices();
@@ -69,7 +70,7 @@ TEST(GradientTransfer, ComponentsAndVerticesWithoutTrianglesGoWhereTheSourcesGo)
   triangles << bar.Triangles(), bar.Triangles().array() + m;
   std::vector<int> begin, corners(triangles.data(), triangles.data() + triangles.size());
   for (int i = 0; i <= triangles.cols(); ++i) begin.push_back(3 * i);
-  // A stick hangs on the first bar, and a vertex on nothing.
+  // A stick is attached to the first bar, and a vertex to nothing.
   const auto connectivity = Connectivity::Make(2 * m + 2, begin, corners, {{0, 2 * m}});
   const auto both = [&](const Shape& one, const Shape& other, const Vector3d& lonely) {
     Shape result(3, 2 * m + 2);
@@ -84,7 +85,7 @@ TEST(GradientTransfer, ComponentsAndVerticesWithoutTrianglesGoWhereTheSourcesGo)
   const Shape result = transfer(both(thick.colwise() + up, turn * thick, {9, 9, 5}));
   const Shape expected = both(thin.colwise() + up, turn * thin, {8, 8, 4});
   const Shape off = result - expected;
-  // The second bar turns about where its source's middle is, which is not its own.
+  // The second bar rotates about the centre of its source's, which is not its own.
   const Vector3d shift = off.middleCols(m, m).rowwise().mean();
   EXPECT_LT(shift.norm(), 1.5);
   EXPECT_LT((off.middleCols(m, m).colwise() - shift).norm(), 1e-4);
@@ -115,7 +116,7 @@ TEST(FindNearestShape, FindsAShapeByItsFeatures) {
   EXPECT_LT(early.squared_distance, (map.Values(start) - wanted).squaredNorm());
 }
 
-// Whole steps of Gauss and Newton's method overshoot here.
+// Full Gauss-Newton steps would overshoot here.
 TEST(FindNearestShape, ShortensStepsThatLeadTooFar) {
   const auto metric =
       FreezeMetric(MetricOptions::Strain(), ThickBar().connectivity, {ThickBar().pose(0)});
@@ -128,7 +129,7 @@ TEST(FindNearestShape, ShortensStepsThatLeadTooFar) {
   EXPECT_LT(Apart(found.shape, bent), 1e-6);
 }
 
-// A triangle of the target is but a point.
+// A triangle of the target has collapsed to a point.
 TEST(GradientTransfer, CollapsedTrianglesMakeNoNan) {
   const Connectivity& bar = *ThickBar().connectivity;
   Shape target = ThinBar();
@@ -137,14 +138,14 @@ TEST(GradientTransfer, CollapsedTrianglesMakeNoNan) {
   EXPECT_TRUE(transfer(ThickBar().pose(60)).allFinite());
 }
 
-// Wherever the target lies and however large it is.
+// The result does not depend on the target's position and size.
 TEST_P(AnyTransfer, BendsAnotherBarAsSumnerAndPopovicDo) {
   const bool ladder = GetParam() == TransferMethod::kLadder;
   const Path source = Bending(6);
   const Shape straight = ThinBar();
   const Shape theirs = SumnerPopovic::Transfer(*source.metric->connectivity, source.Placed(0),
                                                source.Placed(6), straight);
-  EXPECT_NEAR(BendOf(straight, theirs), 62.1, 0.1);  // as measured on another implementation
+  EXPECT_NEAR(BendOf(straight, theirs), 62.1, 0.1);  // as measured with another implementation
   const struct {
     Matrix3d turn;
     double scale;
@@ -168,8 +169,8 @@ TEST_P(AnyTransfer, BendsAnotherBarAsSumnerAndPopovicDo) {
   }
 }
 
-// Nearer to the source's strains and angles than Sumner and Popovic's, and as near to the pose that
-// the body itself has.
+// Closer to the source's strains and angles than Sumner and Popovic's, and equally close to the
+// body's own pose.
 TEST(Transfer, BodiesWithJointsTakeThePoseOver) {
   const SkinnedBody normal = MakeSkinnedBody("quadruped", 3000);
   double ours = 0, theirs = 0;
@@ -210,7 +211,7 @@ TEST(Transfer, BodiesWithJointsTakeThePoseOver) {
 TEST(Transfer, ACopyMovesAsTheSourceDoes) {
   std::vector<Shape> shapes;
   for (int i = 0; i <= 3; ++i) {
-    // The path carries a rigid motion, and begins off the axes.
+    // The path has a rigid motion and an oblique start.
     shapes.push_back((Turn(40 + 30 * i, {1, 1, 0}) * ThickBar().pose(20 * i)).colwise() +
                      Vector3d(i, 7, -2 * i));
   }
@@ -231,7 +232,7 @@ TEST(Transfer, ACopyMovesAsTheSourceDoes) {
   }
 }
 
-// Pairs of triangles without area, and a pose in which more collapse.
+// Pairs of triangles without area, and a pose in which more of them collapse.
 TEST(Transfer, CollapsedTrianglesAreNoObstacle) {
   Shape straight = ThickBar().pose(0), bent = ThickBar().pose(40), thin = ThinBar();
   for (Shape* shape : {&straight, &bent, &thin}) shape->col(7) = shape->col(8);
@@ -261,7 +262,7 @@ TEST_P(AnyTransfer, HybridsStandHalfWay) {
     const Vector3d extent = shape.rowwise().maxCoeff() - shape.rowwise().minCoeff();
     return std::log(extent(0) / extent(2));
   };
-  // Strains are logarithmic, so the middle of two boxes is the geometric one.
+  // Strains are logarithmic, so the midpoint of two boxes is the geometric mean.
   EXPECT_NEAR(proportion(hybrids.Placed(0)),
               (proportion(ThickBar().pose(0)) + proportion(ThinBar())) / 2, 0.02);
 }
@@ -285,7 +286,7 @@ TEST(Transfer, SaysWhatItsPathsAre) {
   }
   EXPECT_EQ(summary.steps.size(), 3u);
   EXPECT_EQ(summary.metric, "strain 1, lambda 1000, bending 0.0001");
-  EXPECT_GT(summary.strain_rms, 0.01);  // the thin bar strains less
+  EXPECT_GT(summary.strain_rms, 0.01);  // less strain on the thin bar
   EXPECT_LT(summary.strain_rms, 0.05);
   EXPECT_LT(summary.angle_rms, 3);
   EXPECT_TRUE(summary.warnings.empty());
@@ -359,7 +360,7 @@ TEST(TransferPoses, EveryPoseIsReachedOnItsOwn) {
   EXPECT_TRUE(path.Placed(0).isApprox(ThinBar(), 1e-14));
   EXPECT_NEAR(BendOf(ThinBar(), path.Placed(1)), 60, 4);
   EXPECT_NEAR(BendOf(ThinBar(), path.Placed(2)), 30, 2);
-  // Weights are frozen on all poses, which alone matter to each other.
+  // Weights are frozen on all poses, which are the only data shared by the transfers.
   const auto alone = TransferPoses(connectivity, {poses[0], poses[2]}, ThinBar());
   EXPECT_LT(Apart(alone.path.Placed(1), path.Placed(2)), 1e-3);
 
@@ -445,13 +446,13 @@ TEST_P(AnyTransfer, KeepsTheShapesMadeBeforeItIsCancelled) {
       EXPECT_LT(Apart(path.Placed(i), whole.path.Placed(i)), 1e-12);
       EXPECT_LT(Apart(hybrids.Placed(i), whole.hybrids.Placed(i)), 1e-12);
     }
-    // What is off is measured against the source's second shape, not its last.
+    // Differences are relative to the source's second shape, not its last.
     EXPECT_LT(summary.strain_rms, whole.summary.strain_rms);
   }
 }
 
 TEST_P(AnyTransfer, AnExactCopyConvergesAndMakesTheVeryMotion) {
-  // A straight stick besides: nothing but its first bending holds it.
+  // An additional straight stick, which is determined only by its first bending.
   std::vector<std::pair<int, int>> segments;
   Shape straight(3, 11), arc(3, 11);
   for (int i = 0; i <= 10; ++i) {
@@ -476,7 +477,7 @@ TEST_P(AnyTransfer, AnExactCopyConvergesAndMakesTheVeryMotion) {
       const auto [path, hybrids, summary] = TransferPoses(
           connectivity, {first, second}, copy(first), geodesic, WithHybrids(GetParam()));
       EXPECT_TRUE(summary.Converged()) << summary.BriefReport();
-      // About its own axis a straight stick may stand in any way.
+      // The rotation of a straight stick about its own axis is arbitrary.
       const Eigen::VectorXd area = Eigen::VectorXd::Ones(first.cols());
       EXPECT_LT(ShapesApart(path.Placed(1), copy(second), area), 1e-11);
       EXPECT_LT(ShapesApart(hybrids.Placed(1), copy(second), area), 1e-11);

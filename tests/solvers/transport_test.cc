@@ -41,8 +41,8 @@ TransportOptions ThePapers() {
   return options;
 }
 
-// The path of shapes as they are (user's unit), evenly spaced in time, not aligned: so that what
-// turns does so in the shapes themselves.
+// The path of unaligned shapes (user's unit), evenly spaced in time, so that rotations are in the
+// shapes themselves.
 Path AsTheyAre(const std::shared_ptr<const Connectivity>& connectivity,
                const std::vector<Shape>& shapes, const MetricOptions& options = {}) {
   Path path;
@@ -68,7 +68,7 @@ Path Deforming(const Body& body, double first, double last, int segments,
 
 const Eigen::Vector3d kAxis(1, 2, -0.5);
 
-// The body's shape at `at`, turned by so many degrees about an axis through the origin.
+// The body's shape at `at`, rotated by an angle in degrees about an axis through the origin.
 Path Turning(const Body& body, double at, double degrees, int segments,
              const MetricOptions& options = {}, const Eigen::Vector3d& axis = kAxis) {
   std::vector<Shape> shapes;
@@ -80,7 +80,7 @@ Path Turning(const Body& body, double at, double degrees, int segments,
 
 Body Bar() { return MakeBar(6, 1, 1, 6, 1, 1); }
 
-// Of the body's own deformation, and of no motion that it has.
+// One tangent along the body's own deformation, and one arbitrary.
 std::vector<Tangent> SomeTangents(const Body& body, double at) {
   const Shape shape = body.pose(at);
   const double size = testing::Diameter(shape);
@@ -97,7 +97,7 @@ double NormChange(const TransportSummary& summary) {
   return largest;
 }
 
-// At constant speed, though not in segments of equal length: the paper's knows the time.
+// At constant speed, but with segments of different length: the paper's transport depends on time.
 TEST(Transport, DoesNothingAlongATranslation) {
   for (const Body& body : {Bar(), MakeSteffen(), MakeSheet(2, 1, 8, 4)}) {
     SCOPED_TRACE(body.name);
@@ -113,7 +113,8 @@ TEST(Transport, DoesNothingAlongATranslation) {
       EXPECT_TRUE(summary.converged);
       ASSERT_EQ(there.size(), 2u);
       ASSERT_EQ(summary.steps.size(), 3u);
-      // Edges, whose lengths the paper's G weighs 1 / lambda as much as positions, see rounding.
+      // Edge lengths, whose weight in the paper's G is 1 / lambda times that of positions, have
+      // rounding errors.
       const bool papers = options.connection == TransportConnection::kConstrainedProjection;
       for (int k : {0, 1}) {
         EXPECT_LT((there[k] - tangents[k]).norm(), (papers ? 1e-10 : 1e-12) * tangents[k].norm());
@@ -150,7 +151,7 @@ TEST(Transport, TurnsTangentsWithBodiesThatTurn) {
   }
 }
 
-// The same where the path's shapes rest and its motions turn.
+// The same if the path's shapes rest and its motions rotate.
 TEST(Transport, TurnsTangentsWithTheRigidMotionThatThePathCarries) {
   const Body body = MakeBricard();
   Path path = Turning(body, 5, 0, 3);
@@ -164,8 +165,8 @@ TEST(Transport, TurnsTangentsWithTheRigidMotionThatThePathCarries) {
   }
 }
 
-// Without alignment the metric itself has to turn the tangent. It does not turn what is rigid in
-// it, so that there is no closed form; but norms are kept, and the order is two.
+// Without alignment, the connection itself must rotate the tangent. It does not rotate its rigid
+// part, so there is no closed form; but norms are preserved, and the order is two.
 TEST(Transport, IsOfSecondOrderAtLeastOnBodiesThatTurn) {
   for (const Body& body : {Bar(), MakeBricard()}) {
     SCOPED_TRACE(body.name);
@@ -214,8 +215,8 @@ TEST(Transport, IsOfSecondOrderAtLeastOnBodiesThatBend) {
   }
 }
 
-// However few the segments and however far they turn; and what is lost is of the fourth order in a
-// segment, so of the third in the path.
+// For any number of segments and any rotation; the loss is of fourth order per segment, so of third
+// order for the path.
 TEST(Transport, NeverLengthensAndHardlyShortens) {
   const std::pair<Body, double> cases[] = {
       {Bar(), 90}, {MakeSheet(2, 1, 8, 4), 120}, {MakeBricard(), 40}};
@@ -239,9 +240,10 @@ TEST(Transport, NeverLengthensAndHardlyShortens) {
   }
 }
 
-// An independent answer: the covariant derivative along the path vanishes, which says that the
-// products with fields of coordinates satisfy an ordinary equation, G Y' = -J^T (dJ/dt) Y. By
-// Runge and Kutta's method of fourth order, the derivative of J from central differences.
+// An independent method: the covariant derivative along the path vanishes, so the products with
+// fields of coordinates satisfy the ordinary differential equation G Y' = -J^T (dJ/dt) Y. It is
+// solved by the Runge-Kutta method of fourth order, with the derivative of J from central
+// differences.
 Tangent FromItsEquation(const Body& body, double first, double last,
                         const std::shared_ptr<const Metric>& metric, Tangent y, int steps) {
   const FeatureMap map(metric);
@@ -279,7 +281,7 @@ TEST(Transport, SolvesTheEquationOfTheLeviCivitaConnection) {
       const Tangent expected = FromItsEquation(body, 10, last, path.metric, x, 32);
       const Tangent y = Transport(path, {x}, Unaligned()).tangents[0];
       EXPECT_LT((y - expected).norm(), 1e-3 * expected.norm());
-      EXPECT_GT((x - expected).norm(), 0.01 * expected.norm());  // and does something
+      EXPECT_GT((x - expected).norm(), 0.01 * expected.norm());  // and is a significant change
     }
   }
 }
@@ -326,8 +328,8 @@ TEST(Transport, ManyTangentsAtOnceAreAsOneByOne) {
   }
 }
 
-// An edge of constant length is a point of a sphere and moves as one of the sphere's: along the
-// edges of an octant, whose angles are right, tangents turn by a right angle.
+// An edge of constant length corresponds to a point of a sphere and moves like one: along the edges
+// of an octant, whose angles are right, tangents turn by a right angle.
 TEST(Transport, TurnsByARightAngleRoundAnOctant) {
   const Eigen::Vector3d corners[] = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
                                      Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()};
@@ -336,7 +338,7 @@ TEST(Transport, TurnsByARightAngleRoundAnOctant) {
     options.bending = 0;
     options.lambda = lambda;
     double first = 0;
-    for (int segments : {4, 16}) {  // of each leg
+    for (int segments : {4, 16}) {  // per leg
       std::vector<Shape> shapes;
       for (int leg = 0; leg < 3; ++leg) {
         const Eigen::Vector3d axis = corners[leg].cross(corners[leg + 1]);
@@ -385,7 +387,7 @@ TEST(Transport, CommutesWithRotationTranslationAndScale) {
   }
 }
 
-// That is what a geodesic is.
+// This is the definition of a geodesic.
 TEST(Transport, CarriesTheVelocityOfAGeodesicToItsVelocity) {
   for (const testing::Motion& motion :
        {testing::Turning(Bar(), 30, 60, {}), testing::Deforming(MakeBricard(), 0, 25, {})}) {
@@ -417,14 +419,15 @@ TEST(Transport, CarriesTheVelocityOfAGeodesicToItsVelocity) {
   }
 }
 
-// The paper's transport keeps the product with the path's velocity, and nothing else.
+// The paper's transport preserves the product with the path's velocity, and nothing else.
 TEST(PapersTransport, KeepsTheProductWithTheVelocity) {
   for (const Body& body : {Bar(), MakeBricard()}) {
     SCOPED_TRACE(body.name);
     const int segments = 8;
     const Path path = Deforming(body, 10, 40, segments);
     const FeatureMap map(path.metric);
-    // <Y, G gamma'> at a shape, gamma' that of the segment that begins, or at last ends, there.
+    // <Y, G gamma'> at a shape, with gamma' of the segment that begins, or at the last shape ends,
+    // there.
     const auto product = [&](int shape, const Tangent& y) {
       const int begin = std::min(shape, segments - 1);
       const FeatureDerivative derivative = map.Derivative(path.shapes[shape]);
@@ -442,8 +445,8 @@ TEST(PapersTransport, DoesNotKeepNormsNorConverge) {
   const Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
   for (const Body& body : {Bar(), MakeSheet(2, 1, 8, 4)}) {
     SCOPED_TRACE(body.name);
-    // What bends the body while it lies as it does. It does not turn with the body, which it then
-    // stretches.
+    // A tangent that bends the body in its first position. It does not rotate with the body, so
+    // later it stretches it.
     const Tangent bend = 100 * (body.pose(5.01) - body.pose(5));
     const Tangent exact =
         Transport(Turning(body, 5, 90, 128, {}, axis), {bend}, Unaligned()).tangents[0];
@@ -488,16 +491,16 @@ TEST(Transport, RefusesWhatCannotBeTransported) {
   const Path rigid = Deforming(body, -20, 40, 3, MetricOptions::Rigid());
   EXPECT_NE(MessageOf<InvalidOptions>([&] { Transport(rigid, {x}); }).find("rigid"),
             std::string::npos);
-  // A metric without positions does not see translations.
+  // A metric without positions does not depend on translations.
   MetricOptions blind;
   blind.lambda = 0;
   EXPECT_THROW(Transport(Deforming(body, -20, 40, 3, blind), {x}), SolverError);
-  // The paper's constraint needs a direction.
+  // The paper's constraint needs a velocity.
   EXPECT_THROW(Transport(Turning(body, -20, 0, 3), {x}, ThePapers()), SolverError);
   EXPECT_TRUE(Transport(Turning(body, -20, 0, 3), {x}).tangents[0].isApprox(x, 1e-14));
 }
 
-// The volume couples all vertices, which the factor does not know of.
+// The volume couples all vertices, which the factor does not contain.
 TEST(Transport, SaysSoWhereTheSolverRunsOut) {
   MetricOptions metric;
   metric.volume = 0.3;

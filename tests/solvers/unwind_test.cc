@@ -16,7 +16,7 @@ namespace {
 
 using internal::Unwind;
 
-// A sheet with a hinge far from its boundary, and what is asked of paths between two of its poses.
+// A sheet with a hinge far from its boundary, and checks for paths between two of its poses.
 struct Sheet {
   static constexpr int kSegments = 8;
 
@@ -35,7 +35,7 @@ struct Sheet {
     }
   }
 
-  // The sheet with one of the two triangles turned about the hinge's edge.
+  // The sheet with one of the two triangles rotated about the hinge's edge.
   Shape Turned(double angle) const {
     const Eigen::Vector3d a = rest.col(hinge(0)), axis = rest.col(hinge(1)) - a;
     Shape shape = rest;
@@ -57,7 +57,7 @@ struct Sheet {
   Eigen::Vector4i hinge;
 };
 
-// One triangle turns all the way round, evenly, and ends where it began.
+// One triangle makes a full turn at constant speed, and ends where it began.
 std::vector<Shape> FullTurn(const Sheet& sheet) {
   std::vector<Shape> shapes;
   for (int i = 0; i <= Sheet::kSegments; ++i) {

@@ -12,7 +12,7 @@ struct Blend {
   MetricOptions options;
 };
 
-/// Blends in which each feature has its part, in both discretisations; closed surfaces only.
+/// Metrics that together contain every feature, in both discretisations; for closed surfaces only.
 inline std::vector<Blend> AllBlends() {
   MetricOptions membrane, everything, paper_with_bending = MetricOptions::Paper();
   membrane.bending = 0;

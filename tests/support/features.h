@@ -16,8 +16,8 @@ const Struct& Get(const Metric& metric) {
   throw std::runtime_error("the metric lacks the feature");
 }
 
-/// Calls body(struct) with the struct that a feature of the library was made from: for tests that
-/// differentiate it in a way of their own.
+/// Calls body(struct) with the struct of a library feature, for tests that differentiate it
+/// independently.
 template <typename Body>
 void WithStruct(const Feature& feature, const Body& body) {
   const auto with = [&](const auto* of_type) {

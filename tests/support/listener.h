@@ -12,8 +12,8 @@
 
 namespace shapespace::testing {
 
-/// Hears what a call reports, and stops it at report number `last`, counted from 1. A call that was
-/// stopped must report no more.
+/// Records the reports of a call, and stops it at report number `last`, counted from 1. A stopped
+/// call must make no further reports.
 class Listener final : public Progress {
  public:
   explicit Listener(int last = std::numeric_limits<int>::max()) : last_(last) {}

@@ -6,7 +6,7 @@
 
 namespace shapespace::testing {
 
-/// What the error says that `call` throws; errors of other types pass.
+/// The message of the error that `call` throws; errors of other types are not caught.
 template <class ErrorType>
 std::string MessageOf(const std::function<void()>& call) {
   try {

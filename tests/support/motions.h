@@ -26,7 +26,7 @@ inline double Distance(const Shape& a, const Shape& b) {
   return (a - b).colwise().norm().maxCoeff();
 }
 
-/// A shape that starts to move: what a geodesic is shot from. User's unit, per unit of time.
+/// A shape with an initial velocity for shooting, in the user's unit per unit of time.
 struct Motion {
   std::string name;
   std::shared_ptr<const Metric> metric;  ///< frozen on the shape
@@ -37,7 +37,7 @@ struct Motion {
   Motion Times(double factor) const { return {name, metric, shape, factor * velocity}; }
 };
 
-/// The velocity of a body that turns about its centroid, by so many degrees in the unit of time.
+/// The velocity of a rotation about the centroid, in degrees per unit of time.
 inline Tangent Spin(const Metric& metric, const Shape& shape, double degrees,
                     const Eigen::Vector3d& axis) {
   const Eigen::Vector3d omega = degrees * M_PI / 180 * axis.normalized();
@@ -50,17 +50,17 @@ inline Tangent Spin(const Metric& metric, const Shape& shape, double degrees,
   return velocity;
 }
 
-/// A body turning, its shape that at parameter `at`.
+/// A rotating body, in its shape at parameter `at`.
 inline Motion Turning(const Body& body, double at, double degrees, const MetricOptions& options) {
   const Shape shape = body.pose(at);
   const auto metric = FreezeMetric(options, body.connectivity, {shape});
   return {body.name + ", turning", metric, shape, Spin(*metric, shape, degrees, {0.3, 1, 0.5})};
 }
 
-/// A body deforming as its own family does at parameter `at`, `rate` parameter values in the unit
+/// A body that deforms along its own family at parameter `at`, by `rate` parameter values per unit
 /// of time.
 inline Motion Deforming(const Body& body, double at, double rate, const MetricOptions& options) {
-  // By central differences, under which edges of an isometric family grow by less than h^2.
+  // By central differences, for which edges of an isometric family grow by less than h^2.
   const double h = 1e-5 * (body.end - body.begin);
   const Shape shape = body.pose(at);
   const Tangent velocity = rate / (2 * h) * (body.pose(at + h) - body.pose(at - h));

@@ -4,8 +4,8 @@
 #include <shapespace/metric/define_feature.h>
 #include <shapespace/metric/metric.h>
 
-// Features as a user defines them. Two say the same as features of the library, which have kernels,
-// bounds and preconditioners of their own: results of both must agree.
+// User-defined features. Two of them equal features of the library, which have kernels, bounds and
+// preconditioners of their own: results of both must agree.
 
 namespace shapespace::testing {
 
@@ -52,7 +52,7 @@ struct OwnVolume : ElementFeature<3, 1> {
   }
 };
 
-/// The height of a vertex: not the same after a rotation.
+/// The height of a vertex, which is not invariant under rotation.
 struct Height : ElementFeature<1, 1> {
   static constexpr bool kRigidInvariant = false;
   static constexpr const char* kName = "height";
@@ -76,7 +76,7 @@ inline void RegisterOwnFeatures() {
   RegisterFeature<Height>();
 }
 
-/// Strain and volume, by the library's features.
+/// Strain and volume, with the library's features.
 inline MetricOptions LibraryBlend() {
   MetricOptions options;
   options.isometric = 0.3;
@@ -85,7 +85,7 @@ inline MetricOptions LibraryBlend() {
   return options;
 }
 
-/// The same by features of one's own.
+/// The same with user-defined features.
 inline MetricOptions OwnBlend() {
   RegisterOwnFeatures();
   MetricOptions options = LibraryBlend();

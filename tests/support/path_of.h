@@ -9,8 +9,8 @@
 
 namespace shapespace::testing {
 
-/// The path that `shapes` (user's unit, evenly spaced in time) are, aligned as solvers do; the
-/// first and the last are its poses.
+/// A path of `shapes` (user's unit, evenly spaced in time), aligned as by solvers; the first and
+/// the last are its poses.
 inline Path PathOf(const std::shared_ptr<const Connectivity>& connectivity,
                    const std::vector<Shape>& shapes) {
   Path path;

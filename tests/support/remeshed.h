@@ -9,11 +9,11 @@
 
 namespace shapespace::testing {
 
-/// One animal as two meshes of different connectivity, whose vertices have nothing to do with each
-/// other: the template stands, the target is in a pose.
+/// One animal as two meshes of different, unrelated connectivity: the template stands, the target
+/// is in a pose.
 struct Remeshed {
   SkinnedBody first, second;
-  Shape rest, other_rest;  ///< both standing: points that are near belong together
+  Shape rest, other_rest;  ///< both standing: near points correspond
   Shape target;
   std::vector<Marker> markers;
 
@@ -25,7 +25,7 @@ struct Remeshed {
         rest(first.pose("stand")),
         other_rest(second.pose("stand")),
         target(MakeQuadruped(second_triangles, form).pose(pose)) {
-    // Far from each other; the target's are the nearest vertices.
+    // Markers far from each other; the target's are the nearest vertices.
     Eigen::RowVectorXd distance = (rest.colwise() - rest.rowwise().mean()).colwise().squaredNorm();
     for (int k = 0; k < num_markers; ++k) {
       Eigen::Index from = 0, to = 0;
@@ -42,7 +42,7 @@ struct Remeshed {
     return Correspond(first.connectivity, rest, second.connectivity, target, markers, options);
   }
 
-  /// Of each vertex of the template how far it lands from where it belongs.
+  /// Per vertex of the template, the distance between its image and the correct point.
   Eigen::VectorXd Errors(const SurfaceMap& map) const {
     const Shape landed = PullBack(map.to_target, second.connectivity->Triangles(), other_rest);
     return (landed - rest).colwise().norm();

@@ -12,7 +12,7 @@ inline void ExpectSame(const PolygonNames& a, const PolygonNames& b) {
   EXPECT_EQ(a.of_polygon, b.of_polygon);
 }
 
-/// The same, to the last bit, but for the folder.
+/// Expects equality to the last bit, except for the folder.
 inline void ExpectSame(const Appearance& a, const Appearance& b) {
   EXPECT_EQ(a.texture_coordinates, b.texture_coordinates);
   EXPECT_EQ(a.corner_texture, b.corner_texture);

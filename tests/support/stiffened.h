@@ -8,7 +8,7 @@
 
 namespace shapespace::testing {
 
-/// The body with a few edges inside, which are no sides of triangles.
+/// The body with a few inner edges that are not sides of triangles.
 inline Body Stiffened(Body body) {
   const Connectivity& surface = *body.connectivity;
   std::vector<int> begin, corners;

@@ -7,8 +7,7 @@
 
 namespace shapespace::testing {
 
-/// What `compute` returns on one thread, then on two, on three, and on eight, however few cores
-/// there are.
+/// Results of `compute` on one, two, three and eight threads, however few cores there are.
 template <class Compute>
 auto OnThreads(const Compute& compute) {
   struct Reset {

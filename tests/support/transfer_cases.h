@@ -22,10 +22,10 @@ inline const Body& ThickBar() {
   return bar;
 }
 
-// Longer, wider and thinner: what bends it by as much strains it less.
+// Longer, wider and thinner: the same bend means less strain.
 inline Shape ThinBar() { return MakeBar(8, 1.6, 0.6, 12, 2, 2).pose(0); }
 
-// The thick bar, bent by 60 degrees in so many steps.
+// The thick bar, bent by 60 degrees in `steps` steps.
 inline Path Bending(int steps) {
   std::vector<Shape> shapes;
   for (int i = 0; i <= steps; ++i) shapes.push_back(ThickBar().pose(60.0 * i / steps));
@@ -49,13 +49,13 @@ inline double Apart(const Shape& a, const Shape& b) {
   return (a - b).colwise().norm().maxCoeff() / Diameter(b);
 }
 
-// Root mean square distance of the surfaces, laid on each other, over the diameter.
+// Root mean square distance of the surfaces after alignment, over the diameter.
 inline double ShapesApart(const Shape& a, const Shape& b, const Eigen::VectorXd& area) {
   const Shape off = FitRigidMotion(a, b, area)(a) - b;
   return std::sqrt(off.colwise().squaredNorm().dot(area) / area.sum()) / Diameter(b);
 }
 
-// By how much the bar's end faces are turned against each other.
+// The angle between the bar's end faces.
 inline double BendOf(const Shape& straight, const Shape& bent) {
   Matrix3d ends[2];
   for (int end : {0, 1}) {
@@ -79,8 +79,9 @@ inline double StrainOf(const Metric& metric, const Shape& first, const Shape& sh
 }
 
 // Sumner and Popovic, "Deformation Transfer for Triangle Meshes" (2004): the target whose triangles
-// are deformed as the source's, in the least squares sense. Every triangle has a fourth vertex
-// along its normal; all are unknown but the first vertex. Both bodies have to stand alike.
+// have the source's deformation gradients, in the least squares sense. Every triangle has a fourth
+// vertex along its normal; all vertices except the first are unknowns. Both bodies must have the
+// same orientation.
 class SumnerPopovic {
  public:
   static Shape Transfer(const Connectivity& connectivity, const Shape& source,

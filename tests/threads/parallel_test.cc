@@ -19,7 +19,7 @@
 namespace shapespace {
 namespace {
 
-// How many bodies run at the same time, when there are as many as threads and each waits for all.
+// How many bodies run at the same time, if there are as many as threads and each waits for all.
 int AtTheSameTime(int threads) {
   std::atomic<int> running{0};
   std::atomic<bool> gave_up{false};
@@ -78,7 +78,7 @@ TEST(ParallelFor, RethrowsWhatABodyThrows) {
 }
 
 #ifdef __SANITIZE_THREAD__
-// The sanitizer is told what ParallelFor orders (base/fork_join.h): it must not take that for more.
+// The annotations of base/fork_join.h must not hide races between bodies.
 TEST(ParallelForDeathTest, LetsTheThreadSanitizerSeeARaceOfTwoBodies) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   constexpr int kExitCodeOfRaces = 66;

@@ -26,7 +26,7 @@
 namespace shapespace {
 namespace {
 
-// Of more than 1024 vertices, which are several blocks of rows and of elements.
+// With more than 1024 vertices, which are several blocks of rows and of elements.
 Body Bar() { return MakeBar(6, 1, 1, 48, 8, 8); }
 
 TEST(ThreadedLbfgs, IsTheSameForAnyNumberOfThreads) {
@@ -111,7 +111,7 @@ TEST(Transport, IsTheSameForAnyNumberOfThreads) {
 TEST(CorrectPath, IsTheSameForAnyNumberOfThreads) {
   const Body bar = Bar();
   const Tangent way = bar.pose(10) - bar.pose(0);
-  std::vector<Shape> shapes;  // straight on, which stretches the bar
+  std::vector<Shape> shapes;  // on a straight line, which stretches the bar
   for (int i = 0; i <= 8; ++i) shapes.push_back(bar.pose(0) + i * way);
   Path given = testing::PathOf(bar.connectivity, shapes);
   given.poses = {0};

@@ -17,11 +17,11 @@ using Strings = std::vector<std::string>;
 constexpr char kVertex[] = R"({"vertices": [1]})";
 constexpr char kEnd[] = R"({"vertices": [[1, 20]]})";
 
-/// --anchor and --ground of all tools that take them.
+/// --anchor and --ground of all tools with these flags.
 class AnchorTest : public ToolsTest {
  protected:
   /// tube0.obj and bent.obj: a tube, straight and bent, whose first vertices (a cap, which hardly
-  /// deforms) lie in the same place; walk.path: five shapes from the one to the other.
+  /// deforms) are in the same position; walk.path: five shapes from one to the other.
   void MakeWalk() const {
     MakeTubes();
     const Soup tube = ReadSoup(Path("tube0.obj")), bent = ReadSoup(Path("tube1.obj"));
@@ -36,7 +36,8 @@ class AnchorTest : public ToolsTest {
 
   Shape Vertices(const std::string& file) const { return ReadSoup(Path(file)).vertices; }
 
-  /// How far vertex 1 is at most from its place in tube0.obj, in the frames 0, 1, ... of `pattern`.
+  /// The greatest distance of vertex 1 from its position in tube0.obj, over the frames 0, 1, ... of
+  /// `pattern`.
   double Slip(const std::string& pattern, int frames) const {
     const Eigen::Vector3d place = Vertices("tube0.obj").col(0);
     double most = 0;
@@ -178,12 +179,12 @@ TEST_F(AnchorTest, WhatCannotBeHeldIsRefusedBeforeAnythingIsSolved) {
   const struct {
     const char *flag, *value, *message;
   } cases[] = {
-      {"--anchor", "", "--anchor : line 1: this is no JSON: "},
-      {"--anchor", "feet", "--anchor feet: line 1: this is no JSON: "},
+      {"--anchor", "", "--anchor : line 1: this is not valid JSON: "},
+      {"--anchor", "feet", "--anchor feet: line 1: this is not valid JSON: "},
       {"--anchor", R"({"vertices": [0]})", "vertices: 0 is no vertex number"},
       {"--anchor", R"({"feet": 1})", "unknown key 'feet'; the keys here are vertices, ball, "},
       {"--anchor", R"({"vertices": [153]})",
-       "vertices: 153 is no vertex of this mesh, which has 152"},
+       "vertices: 153 is not a vertex of this mesh, which has 152"},
       {"--anchor", R"({"group": "foot"})",
        "group: no polygon has the group or object 'foot'; this mesh has none at all"},
       {"--anchor", R"({"ball": {"centre": [99, 0, 0], "radius": 1}})", "no vertex is in {"},
@@ -208,7 +209,7 @@ TEST_F(AnchorTest, WhatCannotBeHeldIsRefusedBeforeAnythingIsSolved) {
     }
   }
   EXPECT_EQ(Files(), before);
-  // What is wrong on the command line alone is told before any file is read.
+  // Errors of the command line alone are reported before any file is read.
   const Outcome outcome = Run("shape-interpolate", {"no.obj", "no.obj", "--anchor", "feet"});
   EXPECT_EQ(outcome.code, 2);
   ExpectContains(outcome.err, "--anchor feet");

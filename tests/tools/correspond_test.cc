@@ -21,8 +21,8 @@ class CorrespondTest : public ToolsTest {
  protected:
   Shape Vertices(const std::string& file) const { return ReadSoup(Path(file)).vertices; }
 
-  /// One animal as two meshes that have nothing to do with each other: a0.obj and a1.obj, standing
-  /// and sitting, and b0.obj and b1.obj. markers.txt are vertices that stand at one place.
+  /// One animal as two unrelated meshes: a0.obj and a1.obj, standing and sitting, and b0.obj and
+  /// b1.obj. markers.txt contains vertices at the same positions.
   void MakeBodies() const {
     Succeed("shape-body",
             {"quadruped", "--triangles", "1500", "--pose", "stand,sit", "--output", "a%d.obj"});
@@ -56,7 +56,7 @@ TEST_F(CorrespondTest, WritesTheFittedTemplateTheMapAndAPicture) {
   ExpectContains(Content(Path("map.txt")),
                  "to_target " + std::to_string(source.NumVertices()) + "\n");
   EXPECT_EQ(json::parse(Content(Path("r.json")))["doubtful"].size(), 0u);
-  // The fitted template is a pose of the template, for all other tools.
+  // The fitted template is a pose of the template for all other tools.
   EXPECT_EQ(Run("shape-inspect", {"a0.obj", "fitted.obj"}).code, 0);
 }
 
@@ -69,7 +69,7 @@ TEST_F(CorrespondTest, MovesABodyOfAnotherConnectivity) {
   const Soup target = ReadSoup(Path("b0.obj"));
   EXPECT_EQ(ReadSoup(Path("out/00.obj")).corners, target.corners);
   EXPECT_LT((Vertices("out/00.obj") - target.vertices).cwiseAbs().maxCoeff(), 1e-6);
-  // It sits as it would by itself, but for its place.
+  // It sits as in its own pose, up to a translation.
   const auto centred = [](const Shape& shape) -> Shape {
     return shape.colwise() - shape.rowwise().mean();
   };
@@ -78,7 +78,7 @@ TEST_F(CorrespondTest, MovesABodyOfAnotherConnectivity) {
   const double moved =
       (centred(target.vertices) - centred(Vertices("b1.obj"))).colwise().norm().mean();
   EXPECT_LT(off, 0.2 * moved);
-  // And on from a path.
+  // The same with a path.
   Succeed("shape-interpolate", {"a0.obj", "a1.obj", "--shapes", "1", "--output", "a.path"});
   Succeed("shape-transfer",
           {"a.path", "--target", "b0.obj", "--markers", "markers.txt", "--output", "b.path"});

@@ -23,14 +23,14 @@ using testing::ToolsTest;
 
 using Strings = std::vector<std::string>;
 
-// Of the straight tube, which lies along x from -0.62 to 6.48.
+// For the straight tube, which lies along x from -0.62 to 6.48.
 constexpr char kRoot[] = R"({"halfspace": {"point": [0.5, 0, 0], "normal": [-1, 0, 0]}})";
 constexpr char kTip[] = R"({"halfspace": {"point": [5.5, 0, 0], "normal": [1, 0, 0]}})";
 constexpr double kRootEnd = 0.5, kTipBegin = 5.5;
 
 class DeformTest : public ToolsTest {
  protected:
-  /// handles.json of these entries.
+  /// Writes handles.json with these entries.
   void Handles(const Strings& entries) const {
     std::string text;
     for (const std::string& entry : entries) text += (text.empty() ? "" : ",\n  ") + entry;
@@ -41,7 +41,7 @@ class DeformTest : public ToolsTest {
     return R"({"name": "root", "fixed": true, "select": )" + select + "}";
   }
 
-  /// tube0.obj and tube1.obj; handles.json, which bends the first upwards by its tip.
+  /// Writes tube0.obj and tube1.obj, and handles.json, which bends the first upwards by its tip.
   void MakeCase() const {
     MakeTubes();
     Handles({Fixed(kRoot), std::string(R"({"name": "tip", "select": )") + kTip +
@@ -49,7 +49,8 @@ class DeformTest : public ToolsTest {
                                     "translation": [-1, 0, 2]})"});
   }
 
-  /// dented.obj: half way on straight lines from tube0.obj to tube1.obj, and flattened at the tip.
+  /// Writes dented.obj: half way on straight lines from tube0.obj to tube1.obj, and flattened at
+  /// the tip.
   void MakeDented() const {
     MakeTubes(1000);
     const Soup tube = ReadSoup(Path("tube0.obj"));
@@ -76,7 +77,7 @@ class DeformTest : public ToolsTest {
     return EnclosedVolume(triangles, soup.vertices);
   }
 
-  /// What --report - prints of a run with `flags`, of the handles unless `flags` has --repair.
+  /// The output of --report - of a run with `flags`, by handles unless `flags` contains --repair.
   json Report(const std::string& mesh, Strings flags) const {
     if (std::find(flags.begin(), flags.end(), "--repair") == flags.end()) {
       flags.insert(flags.begin(), {"--handles", "handles.json"});
@@ -90,7 +91,7 @@ class DeformTest : public ToolsTest {
     return report.is_object() ? report : json::object();
   }
 
-  /// The run fails with `code` and this message, and leaves no file behind.
+  /// Expects that the run fails with `code` and this message, and leaves no file behind.
   void ExpectRefusal(int code, const Strings& arguments, const std::string& message) const {
     SCOPED_TRACE(message);
     const Strings before = Files();
@@ -133,7 +134,7 @@ TEST_F(DeformTest, WritesTheLastShapeAloneAndAllKindsOfPaths) {
   EXPECT_EQ(Glb(Path("w.glb")).json["meshes"][0]["primitives"][0]["targets"].size(), 3u);
   EXPECT_EQ(Content(Path("w.png")).substr(1, 3), "PNG");
   ExpectContains(Content(Path("r.txt")), "\nroot ");
-  // Other tools go on from it.
+  // Other tools accept the result.
   Succeed("shape-export", {"w.path", "--at", "0.5", "--output", "half%d.obj"});
 }
 
@@ -168,7 +169,7 @@ TEST_F(DeformTest, ASingleVertexAndASoftHandlePull) {
   Succeed("shape-deform", {"tube0.obj", "--handles", "handles.json", "--output", "hard.obj"});
   const Eigen::Vector3d wanted(5, 1, 2);
   EXPECT_LT((Vertices("hard.obj").col(tip) - wanted).norm(), 1e-12);
-  // A soft one comes the nearer the smaller --balance is; at 1 nothing moves.
+  // The smaller --balance, the nearer is a soft handle to its target; at 1 nothing moves.
   Handles({Fixed(kRoot), R"({"position": [5, 1, 2], "weight": 1, )" + vertex + "}"});
   double before = 0;
   for (const char* balance : {"0.0001", "0.1", "0.9"}) {
@@ -208,7 +209,7 @@ TEST_F(DeformTest, TheMetricsPresetSuitsTheMeshAndFlagsOverrideIt) {
 
 TEST_F(DeformTest, VolumeIsKeptIfAsked) {
   MakeTubes();
-  // Pushed together by a fifth of its length.
+  // Compressed by a fifth of its length.
   Handles({Fixed(kRoot), std::string(R"({"translation": [-1.4, 0, 0], "select": )") + kTip + "}"});
   const double rest = Volume("tube0.obj");
   const auto change = [&](const Strings& flags) {
@@ -234,7 +235,7 @@ TEST_F(DeformTest, TurnsBeyond180DegreesAreWhatTheySay) {
   Handles({Fixed(kRoot), std::string(R"({"rotation": {"axis": [1, 0, 0], "degrees": 360}, )") +
                              R"("select": )" + kTip + "}"});
   Succeed("shape-deform", {"tube0.obj", "--handles", "handles.json", "--output", "%d.obj"});
-  // The tip is back where it was, and the middle has turned by half as much.
+  // The tip is back in its position, and the middle has turned by half as much.
   const Shape tube = Vertices("tube0.obj"), wound = Vertices("5.obj");
   const int tip = TipVertices().front();
   EXPECT_LT((wound.col(tip) - tube.col(tip)).norm(), 1e-12);
@@ -276,7 +277,7 @@ TEST_F(DeformTest, RepairRestoresVolumeAndLengths) {
 }
 
 TEST_F(DeformTest, RepairKeepsThePlacesOfWhatIsSound) {
-  // The tip, whose vertices are the last ones, is shrunk and in a wrong place.
+  // The tip, whose vertices are the last ones, is shrunk and displaced.
   MakeTubes(1000);
   const Soup tube = ReadSoup(Path("tube0.obj"));
   const std::vector<int> tip = TipVertices();
@@ -357,7 +358,7 @@ TEST_F(DeformTest, WrongCommandLines) {
       {handles, {"--repair", "tube1.obj"}, "give --handles, or --repair"},
       {handles, {"--sound", R"({"vertices": [1]})"}, "--sound: goes with --repair"},
       {repair, {"--sound", R"({"vertices": [999]})"}, "--sound: vertices: 999 is no vertex"},
-      {repair, {"--sound", "feet"}, "--sound: line 1: this is no JSON"},
+      {repair, {"--sound", "feet"}, "--sound: line 1: this is not valid JSON"},
       {handles,
        {"--solver", "magic"},
        "--solver magic: must be one of threaded_lbfgs, trust_region"},
@@ -410,14 +411,14 @@ TEST_F(DeformTest, FilesThatCannotServe) {
   const struct {
     std::string content, message;
   } cases[] = {
-      {"{\"handles\": [\n  feet\n]}", "bad.json: line 2: this is no JSON"},
+      {"{\"handles\": [\n  feet\n]}", "bad.json: line 2: this is not valid JSON"},
       {R"({"handles": []})", "bad.json: handles: the list is empty"},
       {R"({"handle": []})", "bad.json: unknown key 'handle'; the keys here are handles, $schema"},
       {R"({"handles": [)" + Fixed(kRoot) + R"(, {"name": "tip", "select": )" + kTip +
            R"(, "rotation": {"axis": [0, 0, 0], "degrees": 9}}]})",
        "bad.json: handle 2 ('tip'): rotation.axis: must not be zero"},
       {R"({"handles": [{"fixed": true, "select": {"vertices": [153]}}]})",
-       "bad.json: handle 1: select: vertices: 153 is no vertex of this mesh, which has 152"},
+       "bad.json: handle 1: select: vertices: 153 is not a vertex of this mesh, which has 152"},
       {R"({"handles": [{"fixed": true, "weight": 0, "select": {"vertices": [1]}}]})",
        "bad.json: handle 1: weight: must be positive"},
   };

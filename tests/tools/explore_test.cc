@@ -61,7 +61,7 @@ TEST_F(ExploreToolTest, MakesASpaceMeasuresItAndWalksThroughIt) {
   EXPECT_EQ(walk.err, "");
   EXPECT_TRUE(fs::exists(Path("frames/8.obj")));
   EXPECT_FALSE(fs::exists(Path("frames/9.obj")));
-  // The curve begins at the first pose, which stays where it was.
+  // The curve begins at the first pose, which is unchanged.
   const Poses first = ReadPoses({Path("pose0.obj"), Path("frames/0.obj")});
   EXPECT_LT((first.shapes[0] - first.shapes[1]).cwiseAbs().maxCoeff(), 1e-12);
 
@@ -98,7 +98,7 @@ TEST_F(ExploreToolTest, KilledAtAnyTimeItGoesOn) {
   const bool was_left = fs::exists(Path("killed.space.records"));
   const Outcome last = Run("shape-explore", WithPoses({"--output", "killed.space"}));
   EXPECT_EQ(last.code, 0);
-  if (was_left) ExpectContains(last.err, "an earlier run had left them");
+  if (was_left) ExpectContains(last.err, "the records of an earlier run");
   EXPECT_GT(most, 0u);
   EXPECT_TRUE(Content(Path("killed.space")) == Content(Path("whole.space")));
   EXPECT_FALSE(fs::exists(Path("killed.space.records")));
@@ -121,7 +121,7 @@ TEST_F(ExploreToolTest, NamesOfPosesMayBeOfAnyBytes) {
       Run("shape-explore", {"pose0.obj", "pose1.obj", "pose2.obj", "k\xf6rper.obj", "--depth", "0",
                             "--output", "p.space", "--report", "r.json"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  ExpectContains(Content(Path("r.json")), "is at the place of a pose before it");
+  ExpectContains(Content(Path("r.json")), "is at the position of an earlier pose");
 }
 
 TEST_F(ExploreToolTest, AnyNumberOfRanksMakesTheSameFile) {
@@ -182,7 +182,7 @@ TEST_F(ExploreToolTest, WhatIsWrongIsNamed) {
   File("c.json", R"({"points": ["nobody"]})");
   expect(1, {"--sample", "c.json", "p.space", "--output", "w.glb"}, {"c.json", "nobody"});
   File("d.json", R"({"points": ["pose0"]})");
-  expect(2, {"--sample", "d.json", "p.space", "--output", "w.path"}, {"w.path", "no geodesic"});
+  expect(2, {"--sample", "d.json", "p.space", "--output", "w.path"}, {"w.path", "not a geodesic"});
   expect(2, {"--sample", "d.json", "p.space", "--frames", "0", "--output", "w.glb"},
          {"--frames 0"});
   const std::string before = Content(Path("p.space"));

@@ -26,8 +26,8 @@ using testing::ToolsTest;
 
 using Strings = std::vector<std::string>;
 
-/// The colour, by its initial, that most of a cell of a film strip without legend is drawn in; the
-/// strip has `count` cells in one row.
+/// The initial of the dominant colour of each cell of a film strip without legend, which has
+/// `count` cells in one row.
 std::string CellColours(const std::string& file, int count) {
   int width, height, channels;
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
@@ -52,7 +52,7 @@ std::string CellColours(const std::string& file, int count) {
 
 class ExtrapolateTest : public ToolsTest {
  protected:
-  /// walk.path: five shapes from one tube to the other.
+  /// Writes walk.path: five shapes from one tube to the other.
   void MakeWalk() const {
     MakeTubes();
     Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "3", "--tolerance", "1e-6",
@@ -82,7 +82,7 @@ TEST_F(ExtrapolateTest, PosesAreInterpolatedAndGoneOnFrom) {
   ExpectContains(path.provenance, "shape-extrapolate ");
   ExpectContains(path.provenance, ": tube0.obj tube1.obj");
   EXPECT_EQ(Content(Path("on.glb")).substr(0, 4), "glTF");
-  ExpectContains(outcome.out, "2 poses, 3 shapes inserted");  // the interpolation's line
+  ExpectContains(outcome.out, "2 poses, 3 shapes inserted");  // the summary of the interpolation
   EXPECT_EQ(outcome.err, "");
 }
 
@@ -112,7 +112,7 @@ TEST_F(ExtrapolateTest, APathGoesOnWithAllThatItIs) {
   EXPECT_EQ(on.provenance.rfind(walk.provenance + "; shape-extrapolate ", 0), 0u);
   ExpectContains(on.provenance, ": walk.path");
 
-  // And on again: all that was ever extrapolated counts.
+  // Extrapolating again: all shapes that were ever extrapolated are counted.
   Succeed("shape-extrapolate", {"on.path", "--steps", "1", "--output", "again.path"});
   const shapespace::Path again = ReadPath(Path("again.path"));
   EXPECT_EQ(again.NumShapes(), 9);
@@ -120,8 +120,8 @@ TEST_F(ExtrapolateTest, APathGoesOnWithAllThatItIs) {
   EXPECT_EQ(again.extrapolated, 4);
 }
 
-// The two shapes must be accurate, for shooting multiplies what is off in them. At tolerances of
-// 1e-8, 1e-10 and 1e-12, shapes were found to come back within 2e-5, 3e-6 and 2e-7 of the diameter.
+// The two shapes must be accurate, because shooting amplifies their errors. At tolerances of 1e-8,
+// 1e-10 and 1e-12, round trips had errors of 2e-5, 3e-6 and 2e-7 of the diameter.
 TEST_F(ExtrapolateTest, ShotFromItsFirstTwoShapesAPathComesBack) {
   Succeed("shape-body", {"bar", "--triangles", "300", "--at", "0,90", "--output", "bar%d.obj"});
   Succeed("shape-interpolate", {"bar0.obj", "bar1.obj", "--shapes", "7", "--tolerance", "1e-12",
@@ -166,7 +166,7 @@ TEST_F(ExtrapolateTest, ColoursTellPosesInterpolatedAndExtrapolatedShapes) {
 TEST_F(ExtrapolateTest, OtherToolsShowWhatGoesOn) {
   MakeWalk();
   Succeed("shape-extrapolate", {"walk.path", "--steps", "4", "--output", "on.path,solved%d.ply"});
-  // The whole path in even times: at the first and the last shape, and at one between.
+  // The whole path at evenly spaced times: at the first and the last shape, and at one between.
   Succeed("shape-export", {"on.path", "--frames", "5", "--output", "even%d.ply"});
   for (int i = 0; i < 5; ++i) {
     EXPECT_TRUE(Vertices("even" + std::to_string(i) + ".ply") ==
@@ -176,7 +176,7 @@ TEST_F(ExtrapolateTest, OtherToolsShowWhatGoesOn) {
   const Outcome inspected = Run("shape-inspect", {"on.path"});
   EXPECT_EQ(inspected.code, 0) << inspected.err;
   ExpectContains(inspected.out, "9 shapes, 2 of them given, 4 extrapolated; 152 vertices");
-  ExpectContains(inspected.out, "off the lengths in the first shape");
+  ExpectContains(inspected.out, "from the lengths in the first shape");
   ExpectLacks(Run("shape-inspect", {"walk.path"}).out, "extrapolated");
 }
 
@@ -190,7 +190,7 @@ TEST_F(ExtrapolateTest, ReportsGoWhereTheyAreSent) {
   EXPECT_EQ(report["vertices"], 152);
   EXPECT_EQ(report["requested_steps"], 2);
   EXPECT_EQ(report["steps"].size(), 2u);
-  EXPECT_NE(on_stdout.err, "");  // the line that stands on stdout else
+  EXPECT_NE(on_stdout.err, "");  // the line that is otherwise on stdout
   for (const char* file : {"r.json", "r.txt"}) {
     const Outcome in_file =
         Run("shape-extrapolate", {"tube0.obj", "tube1.obj", "--shapes", "1", "--steps", "2",
@@ -216,7 +216,7 @@ TEST_F(ExtrapolateTest, EveryIntegratorAndSolverOfStepsCanBeChosen) {
   const auto apart = [&](const Shape& shape) {
     return (shape - variational).colwise().norm().maxCoeff() / size;
   };
-  // Two solvers of the same equations agree; another integrator comes near, and is another.
+  // Two solvers of the same equations agree; another integrator is close, but different.
   EXPECT_LT(apart(end({"--step_solver", "newton_krylov"})), 1e-8);
   EXPECT_LT(apart(end({"--step_solver", "ceres"})), 1e-6);
   for (const char* integrator : {"runge_kutta4", "first_integral"}) {
@@ -224,8 +224,7 @@ TEST_F(ExtrapolateTest, EveryIntegratorAndSolverOfStepsCanBeChosen) {
     EXPECT_GT(distance, 1e-8) << integrator;
     EXPECT_LT(distance, 0.2) << integrator;
   }
-  // Equation (7) is solved by L-BFGS if nothing else is asked for, and Levenberg-Marquardt ends
-  // elsewhere.
+  // The default solver of equation (7) is L-BFGS; Levenberg-Marquardt gives a different result.
   const auto by = [&](const char* solver) {
     return end({"--integrator", "first_integral", "--first_integral_solver", solver});
   };
@@ -292,7 +291,7 @@ TEST_F(ExtrapolateTest, WrongCommandLines) {
   EXPECT_EQ(Run("shape-extrapolate", {"nowhere.path"}).code, 1);
 }
 
-// The integrator without a safeguard, in steps too large for it.
+// The unstable integrator, with steps that are too large for it.
 TEST_F(ExtrapolateTest, WhatIsMadeBeforeAShapeDegeneratesIsWritten) {
   MakeTubes();
   const Outcome some =

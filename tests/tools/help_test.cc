@@ -64,7 +64,7 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                  "report", "seconds", "shapes", "solver", "stiffeners", "strict", "tolerance"});
   const std::set<std::string> listed = Listed("shape-interpolate");
   for (const std::string& flag : wanted) EXPECT_EQ(listed.count(flag), 1u) << flag;
-  // What interpolates poses before it goes on takes the same flags, and its own.
+  // Tools that begin with an interpolation of poses have the same flags, and their own.
   std::set<std::string> extrapolate = Listed("shape-interpolate");
   extrapolate.insert({"correct", "first_integral_solver", "integrator", "keep", "step_iterations",
                       "step_solver", "step_tolerance", "steps"});

@@ -91,7 +91,7 @@ TEST_F(InspectTest, TellsPartsJointsAndCrossings) {
 }
 
 TEST_F(InspectTest, TellsWhereAMeshPassesThroughItself) {
-  // A pyramid's point through a square below it.
+  // The apex of a pyramid, through a square below it.
   File("through.obj",
        "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\n"
        "v 1 2 1\nv 3 2 1\nv 2 3.5 1\nv 2.1 2.4 -1\n"
@@ -134,7 +134,7 @@ TEST_F(InspectTest, DamagedPathsFail) {
   } cases[] = {
       {"cut.path", "damaged or was cut off"},
       {"flipped.path", "damaged or was cut off"},
-      {"none.path", "this is no .path file"},
+      {"none.path", "this is not a .path file"},
       {"missing.path", "cannot be opened"},
   };
   for (const auto& [file, message] : cases) {

@@ -38,7 +38,7 @@ class InterpolateTest : public ToolsTest {
  protected:
   Shape Vertices(const std::string& file) const { return ReadSoup(Path(file)).vertices; }
 
-  /// The report of a run on the tubes with these further flags.
+  /// The report of a run on the tubes with these additional flags.
   nlohmann::json Report(Strings flags) const {
     flags.insert(flags.begin(), {"tube0.obj", "tube1.obj", "--shapes", "3", "--output", "w.path",
                                  "--report", "-"});
@@ -133,7 +133,7 @@ TEST_F(InterpolateTest, ThreePosesArePassedThrough) {
 }
 
 TEST_F(InterpolateTest, GraphsStayGraphs) {
-  // A straight stick of ten edges that becomes an arc.
+  // A straight stick of ten edges becomes an arc.
   std::string straight, bent, lines;
   for (int i = 0; i <= 10; ++i) {
     straight += "v " + std::to_string(i) + " 0 0\n";
@@ -194,8 +194,8 @@ TEST_F(InterpolateTest, ObjFramesKeepTextureAndMaterialsAndPlySaysThatItDropsThe
 }
 
 TEST_F(InterpolateTest, StiffenersHoldWhatTheyJoin) {
-  // A book of two triangles, opened upwards in one pose and downwards in the other: on the way it
-  // lies flat, unless a stiffener holds the tips together.
+  // A book of two triangles, opened upwards in one pose and downwards in the other: it is flat on
+  // the way, unless a stiffener connects the tips.
   const std::string faces = "f 1 2 3\nf 2 1 4\n";
   File("a.obj", "v 0 0 0\nv 0 1 0\nv -0.8 0.5 0.6\nv 0.8 0.5 0.6\n" + faces);
   File("b.obj", "v 0 0 0\nv 0 1 0\nv -0.8 0.5 -0.6\nv 0.8 0.5 -0.6\n" + faces);
@@ -217,7 +217,7 @@ TEST_F(InterpolateTest, PresetsSetDefaultsAndGivenFlagsWin) {
   EXPECT_EQ(Report({})["metric"], "isometric 1, lambda 0.0001, bending 1e-05");
   EXPECT_EQ(Report({"--metric", "paper"})["metric"],
             "isometric 1, lambda 0.001, uniform weights, trapezoid");
-  // Values that are the defaults of another preset, given, are given all the same.
+  // Given values override a preset, also if they are the defaults of another one.
   EXPECT_EQ(Report({"--metric", "paper", "--lambda", "1e-4", "--weights", "area"})["metric"],
             "isometric 1, lambda 0.0001, trapezoid");
   const nlohmann::json rigid = Report({"--metric", "rigid"});

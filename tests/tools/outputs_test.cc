@@ -28,7 +28,7 @@ class OutputsTest : public ToolsTest {
             {"tube0.obj", "tube1.obj", "--shapes", "3", "--output", "walk.path"});
   }
 
-  /// Sorted contents of all files: nothing may change unseen.
+  /// Sorted contents of all files, to detect any change.
   Strings Contents() const {
     Strings contents;
     for (const std::string& file : Files()) {
@@ -46,7 +46,8 @@ class OutputsTest : public ToolsTest {
     return {times.data(), times.data() + times.size()};
   }
 
-  /// Which shape of the path, counted from 0 with fractions, stands after this share of the time.
+  /// The shape of the path, counted from 0 with fractions, that is shown after this share of the
+  /// time.
   double ShapeAt(const std::string& file, double share) const {
     const Glb glb(Path(file));
     const std::vector<double> times = Times(file);
@@ -148,7 +149,8 @@ TEST_F(OutputsTest, WhatAnEarlierRunWroteIsOverwritten) {
   MakeWalk();
   File("w.png", "old");
   File("f1.obj", "old");
-  // Of five frames none is number 5; and more shapes than fit are refused before names are made.
+  // Five frames do not include number 5; and too many shapes are refused before names are
+  // generated.
   std::filesystem::rename(Path("tube0.obj"), Path("f5.obj"));
   Succeed("shape-interpolate",
           {"f5.obj", "tube1.obj", "--shapes", "3", "--output", "w.png,f%d.obj"});
@@ -162,7 +164,7 @@ TEST_F(OutputsTest, WhatAnEarlierRunWroteIsOverwritten) {
 
 TEST_F(OutputsTest, AWriteThatFailsLosesNothingElse) {
   MakeTubes();
-  std::filesystem::create_directories(Path("f/2.obj"));  // where a frame is to go
+  std::filesystem::create_directories(Path("f/2.obj"));  // at the name of a frame
   const Outcome outcome =
       Run("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "3", "--output",
                                 "f/%d.obj,w.png,w.path", "--report", "r.json"});
@@ -250,8 +252,8 @@ TEST_F(OutputsTest, FlagsSetTheTimesOfAGlb) {
   const std::vector<double> once = times({"--once", "--seconds", "10"});
   EXPECT_NEAR(once[4], 9, 1e-6);  // then it is held
   EXPECT_NEAR(once[1] - once[0], once[2] - once[1], 1e-6);
-  // By a quarter of the time an eased motion has gone (1 - cos(pi / 4)) / 2 of its way, and half by
-  // a half; of frames at eased times, so many that a quarter of them lies behind.
+  // After a quarter of the time an eased motion has covered (1 - cos(pi / 4)) / 2 of the path, and
+  // after half the time a half; likewise for frames at eased times.
   EXPECT_NEAR(ShapeAt("a.glb", 0.25), 0.25 * 4 / 0.9, 1e-3);
   times({"--loop", "--ease"});
   EXPECT_NEAR(ShapeAt("a.glb", 0.25), 4 * 0.146447, 1e-2);
@@ -299,7 +301,7 @@ TEST_F(OutputsTest, StrictTakesWhatDidNotConvergeForAFailure) {
   EXPECT_EQ(strict.code, 1);
   ExpectContains(strict.err, "not converged");
   EXPECT_FALSE(ReadPath(Path("w.path")).converged);
-  // Whoever goes on from there is told.
+  // Tools that continue from there print a warning.
   ExpectContains(Run("shape-inspect", {"w.path"}).out, "NOT CONVERGED");
   const Outcome shown = Run("shape-export", {"w.path", "--output", "w.png"});
   EXPECT_EQ(shown.code, 0);

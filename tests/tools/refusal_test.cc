@@ -23,7 +23,7 @@ constexpr char kTetrahedron[] =
 
 class RefusalTest : public ToolsTest {
  protected:
-  /// The run fails with `code` and these words, and leaves no file behind.
+  /// Expects that the run fails with `code` and these words, and leaves no file behind.
   void ExpectRefusal(int code, Strings arguments, const Strings& parts) const {
     const Strings before = Files();
     const Outcome outcome = Run("shape-interpolate", arguments);
@@ -34,7 +34,7 @@ class RefusalTest : public ToolsTest {
     EXPECT_EQ(Files(), before) << outcome.err;
   }
 
-  /// The mesh `content` in a file `name` is refused as second pose, or alone.
+  /// Expects that the mesh `content` in a file `name` is rejected as second pose, or alone.
   void ExpectBadFile(const std::string& name, const std::string& content,
                      const Strings& parts) const {
     SCOPED_TRACE(name);
@@ -102,7 +102,7 @@ TEST_F(RefusalTest, FilesThatCannotBeRead) {
   ExpectRefusal(1, {"none.obj", "none.obj"}, {"none.obj: cannot be opened"});
   ExpectRefusal(1, {".", "."}, {"none of .obj, .ply, .off"});
   ExpectBadFile("empty.obj", "", {"empty.obj: is empty"});
-  ExpectBadFile("mesh.stl", "solid\n", {"mesh.stl: the extension '.stl' is none of .obj"});
+  ExpectBadFile("mesh.stl", "solid\n", {"mesh.stl: the extension '.stl' is not one of .obj"});
   ExpectBadFile("cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1\n",
                 {"cut.obj:3: vertex 3: coordinate z is missing"});
   ExpectBadFile("cut.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", {"cut.off:4: the file ends before"});
@@ -179,16 +179,16 @@ TEST_F(RefusalTest, PosesOfDifferentMeshes) {
 }
 
 TEST_F(RefusalTest, PosesWhoseVerticesWereReordered) {
-  // A strip of three triangles, and the same with its first two vertices in the other order.
+  // A strip of three triangles, and the same with its first two vertices exchanged.
   File("a.obj", "v 0 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 2 0 0\nf 1 3 2\nf 2 3 4\nf 3 5 4\n");
   File("b.obj", "v 0 1 0\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 2 0 0\nf 2 3 1\nf 1 3 4\nf 3 5 4\n");
   ExpectRefusal(1, {"a.obj", "b.obj", "--output", "w.path"},
-                {"only the vertices in another (the reference's vertex 1 is number 2 here)",
+                {"but the vertices are not (the reference's vertex 1 is number 2 here)",
                  "'keep vertex order'"});
 }
 
 TEST_F(RefusalTest, SuspiciousPosesAreUsedWithAWarning) {
-  // Vertices of one end in a wrong order: all counts and faces agree.
+  // Vertices at one end in a wrong order: all counts and faces agree.
   MakeTubes(4000);
   const Soup soup = ReadSoup(Path("tube1.obj"));
   std::vector<int> order(soup.NumVertices());
@@ -267,7 +267,7 @@ TEST_F(RefusalTest, MirrorImagesAreToldAndTurnedBackIfAsked) {
     const std::string frame = std::to_string(i) + ".ply";
     EXPECT_TRUE(ReadSoup(Path("m" + frame)).vertices == ReadSoup(Path(frame)).vertices) << i;
   }
-  // A body that is to move as a path does is looked at in the same way.
+  // The target of a transfer is checked in the same way.
   const Strings transfer = {"mended.path", "--target", "flipped.obj", "--output", "t%d.ply"};
   EXPECT_EQ(Run("shape-transfer", transfer).code, 1);
 }
@@ -281,7 +281,7 @@ TEST_F(RefusalTest, SolvesBeyondTheMemoryLimit) {
 TEST_F(RefusalTest, OutputsThatCannotBeWrittenAreFoundBeforeAnythingIs) {
   MakeTubes();
   ExpectRefusal(1, {"tube0.obj", "tube1.obj", "--output", "w.path,tube0.obj/frames/%d.obj"},
-                {"tube0.obj/frames/%d.obj: cannot be written: ", "tube0.obj is no folder"});
+                {"tube0.obj/frames/%d.obj: cannot be written: ", "tube0.obj is not a folder"});
   ExpectRefusal(1, {"tube0.obj", "tube1.obj", "--output", "w.path", "--report", "tube0.obj/r.txt"},
                 {"tube0.obj/r.txt: cannot be written"});
 }

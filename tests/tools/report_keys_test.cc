@@ -25,7 +25,7 @@ Keys KeysIn(const std::string& text) {
   return keys;
 }
 
-/// The keys of an object, or of the objects in an array, and of those in them.
+/// The keys of an object, or of the objects in an array, recursively.
 void Collect(const nlohmann::json& json, Keys* keys) {
   for (const auto& [key, value] : json.items()) {
     if (json.is_object()) keys->insert(key);
@@ -39,10 +39,11 @@ Keys KeysOf(const nlohmann::json& object) {
   return keys;
 }
 
-/// The tables of docs/file-formats.md that tell what reports hold.
+/// The tables of docs/file-formats.md that describe reports.
 class ReportKeysTest : public ToolsTest {
  protected:
-  /// The rows of the table after `heading`: the keys of the first column, and what the second says.
+  /// The rows of the table after `heading`: the keys of the first column, and the text of the
+  /// second.
   static std::vector<std::pair<Keys, std::string>> Rows(const std::string& heading) {
     const std::string text = Content(SHAPESPACE_DOCS_DIR "/file-formats.md");
     const size_t begin = text.find(heading);
@@ -60,8 +61,8 @@ class ReportKeysTest : public ToolsTest {
     return rows;
   }
 
-  /// Every key of `json` has its place in the table, and the table has no other. `sometimes` are
-  /// keys that this report does not have; what `energy_parts` holds depends on the metric.
+  /// Checks that `json` and the table have the same keys. `sometimes` are keys that this report
+  /// does not have; the content of `energy_parts` depends on the metric.
   static void Compare(const std::string& heading, nlohmann::json json, const Keys& sometimes = {}) {
     SCOPED_TRACE(heading);
     json["energy_parts"] = 0;
@@ -128,7 +129,7 @@ TEST_F(ReportKeysTest, TheDocumentationHasThemAllAndNoOthers) {
   Compare("Of `shape-explore`:",
           Report("shape-explore", {"tube0.obj", "tube1.obj", "--output", "t.space"}));
 
-  // One is at the other end of the tube.
+  // One marker is at the other end of the tube.
   std::string markers = "150 2\n";
   for (int v = 3; v < 145; v += 11) markers += std::to_string(v) + ' ' + std::to_string(v) + '\n';
   File("markers.txt", markers);
@@ -143,7 +144,7 @@ TEST_F(ReportKeysTest, TheDocumentationHasThemAllAndNoOthers) {
   const nlohmann::json repair =
       Report("shape-deform", {"tube0.obj", "--repair", "tube1.obj", "--output", "d.path"});
   nlohmann::json own = repair;
-  own["deformation"] = true;  // in place of a report as above
+  own["deformation"] = true;  // instead of a report as above
   Compare("Of `shape-deform --repair`:", own);
   EXPECT_EQ(KeysOf(repair["deformation"]), KeysOf(deformation));
 }

@@ -12,29 +12,29 @@
 
 namespace shapespace::testing {
 
-/// What a program left behind.
+/// The result of running a program.
 struct Outcome {
   int code = 0;  ///< exit code; 1000 + the signal if one ended it
   std::string out, err;
 };
 
-/// A test that runs the tools as a user does, in a folder of its own.
+/// A test that runs the tools like a user, in a temporary folder.
 class ToolsTest : public FilesTest {
  protected:
   /// Runs a tool in the test's folder, and waits for it.
   Outcome Run(const std::string& tool, const std::vector<std::string>& arguments) const;
 
-  /// The same for a tool whose run matters to the test only if it fails.
+  /// The same for a run of which the test only needs success.
   void Succeed(const std::string& tool, const std::vector<std::string>& arguments) const;
 
   /// tube0.obj and tube1.obj: a straight tube of `triangles`, and one bent by 60 degrees.
   void MakeTubes(int triangles = 300) const;
 
-  /// All files below the test's folder, sorted, without those of `Run` itself.
+  /// All files below the test's folder, sorted, except those of `Run` itself.
   std::vector<std::string> Files() const;
 
-  /// Starts a tool in the test's folder; its stderr goes to `error`, a file descriptor, and its
-  /// stdout to `out`, or without to a file of `Run`'s.
+  /// Starts a tool in the test's folder, with stderr redirected to the file descriptor `error` and
+  /// stdout to `out`, or if there is none to a file of `Run`.
   pid_t Start(const std::string& tool, const std::vector<std::string>& arguments, int error,
               int out = -1) const;
   static int Wait(pid_t process);

@@ -18,7 +18,7 @@ namespace {
 using testing::ExpectContains;
 using testing::ToolsTest;
 
-/// The two ends of a terminal: programs see `inner`, the test sees `outer`.
+/// The two ends of a terminal: programs use `inner`, the test uses `outer`.
 class PseudoTerminal {
  public:
   PseudoTerminal() : outer_(posix_openpt(O_RDWR | O_NOCTTY)) {
@@ -32,8 +32,8 @@ class PseudoTerminal {
   }
   int Inner() const { return inner_; }
 
-  /// Reads on until `part` was written since the call before; false if that takes so many
-  /// milliseconds, or nobody writes any more.
+  /// Reads until `part` has been written since the previous call; false if that takes longer than
+  /// `milliseconds`, or the other end is closed.
   bool WaitFor(const std::string& part, int milliseconds = 60000) {
     pollfd ready = {outer_, POLLIN, 0};
     for (const size_t begin = text_.size(); text_.find(part, begin) == std::string::npos;) {
@@ -58,7 +58,7 @@ class TerminalTest : public ToolsTest {
     if (terminal_.Inner() < 0) GTEST_SKIP() << "this machine gives no pseudo-terminal";
   }
 
-  /// Both poses, and a solve between them that takes minutes.
+  /// Both poses, and flags for a solve between them that takes minutes.
   std::vector<std::string> LongSolve(const std::vector<std::string>& more) const {
     MakeTubes(4000);
     std::vector<std::string> arguments = {
@@ -69,8 +69,8 @@ class TerminalTest : public ToolsTest {
     return arguments;
   }
 
-  /// Starts a tool with stdout and stderr on the terminal, and sends it `signal` as soon as it
-  /// shows `part`, and again if `twice`. Returns how it ended.
+  /// Starts a tool with stdout and stderr on the terminal, and sends it `signal` when it shows
+  /// `part`, and again if `twice`. Returns its exit status.
   int Interrupt(int signal, const std::string& part, const std::string& tool,
                 const std::vector<std::string>& arguments, bool twice = false) {
     const pid_t process = Start(tool, arguments, terminal_.Inner(), terminal_.Inner());
@@ -81,7 +81,7 @@ class TerminalTest : public ToolsTest {
     return Wait(process);
   }
 
-  /// What stands on the terminal in the end, line by line.
+  /// The final content of the terminal, line by line.
   std::vector<std::string> Screen() {
     terminal_.WaitFor("nothing that is ever written", 100);
     std::vector<std::string> lines;
@@ -118,7 +118,7 @@ TEST_F(TerminalTest, CtrlCKeepsTheBestPathSoFarAndNothingElse) {
   EXPECT_EQ(path.NumShapes(), 65);
   ExpectContains(path.provenance, "tube0.obj tube1.obj");
   Screen();
-  ExpectContains(terminal_.Text(), "stopping: the best path so far goes to walk.path");
+  ExpectContains(terminal_.Text(), "stopping: writing the best path so far to walk.path");
   ExpectContains(terminal_.Text(), "NOT CONVERGED: cancelled");
   ExpectContains(terminal_.Text(), "wrote walk.path");
 }
@@ -152,7 +152,7 @@ TEST_F(TerminalTest, CtrlCWhileWritingLeavesNoHalfFile) {
 
 TEST_F(TerminalTest, CtrlCKeepsTheStepsOfAnExtrapolation) {
   MakeTubes();
-  // At rest a path goes on for ever.
+  // A path at rest can be continued without limit.
   Succeed("shape-interpolate", {"tube0.obj", "tube0.obj", "--shapes", "1", "--output", "w.path"});
   EXPECT_EQ(Interrupt(SIGINT, "shooting: 1", "shape-extrapolate",
                       {"w.path", "--steps", "100000", "--output", "on.path"}),
@@ -175,7 +175,7 @@ TEST_F(TerminalTest, CtrlCWhilePosesAreInterpolatedKeepsThatPath) {
 
 TEST_F(TerminalTest, AnIgnoredCtrlCStaysIgnored) {
   const std::vector<std::string> arguments = LongSolve({"--output", "walk.png"});
-  signal(SIGINT, SIG_IGN);  // as nohup and scripts do for what they start
+  signal(SIGINT, SIG_IGN);  // as nohup and scripts do for processes that they start
   const pid_t process = Start("shape-interpolate", arguments, terminal_.Inner());
   signal(SIGINT, SIG_DFL);
   ASSERT_TRUE(terminal_.WaitFor(": iteration ")) << terminal_.Text();
@@ -209,7 +209,7 @@ TEST_F(TerminalTest, TellsHowLongItStillTakes) {
       << text;
 }
 
-// Takes ten seconds: a line comes that often where there is no terminal.
+// Takes ten seconds, the interval between lines if there is no terminal.
 TEST_F(TerminalTest, WithoutATerminalALineComesNowAndThen) {
   const std::vector<std::string> arguments = LongSolve({"--output", "walk.png"});
   int ends[2];

@@ -65,7 +65,7 @@ TEST_F(TransferTest, TheLadderMakesAFrameOfEveryPose) {
     EXPECT_LT(Apart("out/0" + number + ".obj", path.Placed(i)), 1e-8);
     EXPECT_TRUE(Vertices("mid/0" + number + ".ply") == hybrids.Placed(i));
   }
-  // Each is reached from the reference, whichever poses stand before it.
+  // Each pose is reached from the reference, independently of the poses before it.
   Succeed("shape-transfer", {"tube0.obj", "tube2.obj", "--target", "thin.obj", "--shapes", "3",
                              "--method", "ladder", "--output", "alone%d.obj"});
   EXPECT_LT(Apart("alone1.obj", path.Placed(2)), 1e-8);
@@ -172,7 +172,7 @@ TEST_F(TransferTest, BodiesOfOtherConnectivityAreRefusedByName) {
   Succeed("shape-interpolate",
           {"tube0.obj", "tube1.obj", "--shapes", "1", "--output", "walk.path"});
   Succeed("shape-body", {"bar", "--triangles", "300", "--at", "0", "--output", "bar%d.obj"});
-  // The same numbers of everything, but two vertices that have changed places.
+  // All counts are equal, but two vertices are exchanged.
   Soup changed = ReadSoup(Path("thin.obj"));
   for (int& v : changed.corners) v = v == 0 ? 70 : v == 70 ? 0 : v;
   changed.vertices.col(0).swap(changed.vertices.col(70));
@@ -206,7 +206,7 @@ TEST_F(TransferTest, WrongCommandLines) {
       {{}, "at least two poses of one mesh, or one .path file alone"},
       {{"tube0.obj"}, "at least two poses of one mesh, or one .path file alone"},
       {{"walk.path", "tube1.obj"}, "at least two poses of one mesh, or one .path file alone"},
-      {{"tube0.obj", "tube1.obj", "--target", ""}, "--target: name the body that is to move"},
+      {{"tube0.obj", "tube1.obj", "--target", ""}, "--target: name the body to move"},
       {{"walk.path", "--lambda", "0.001"}, "--lambda: goes with poses"},
       {{"walk.path", "--shapes", "15"}, "--shapes: goes with poses"},
       {{"walk.path", "--stiffeners", "s.txt"}, "--stiffeners: goes with poses"},

@@ -31,12 +31,12 @@ class ViewTest : public ToolsTest {
     EXPECT_EQ(Files(), before) << outcome.err;
   }
 
-  /// Whether shape-view has the page in it: that takes npm. Without, it says how to get it.
+  /// Whether shape-view contains the page, which needs npm. Otherwise it explains how to get it.
   bool HasPage() const {
     const Outcome outcome = Run("shape-view", {"walk.path", "--output", "try.html"});
     if (outcome.code == 0) return true;
     EXPECT_EQ(outcome.code, 1);
-    ExpectContains(outcome.err, "built without the page that it fills in");
+    ExpectContains(outcome.err, "built without the viewer page");
     ExpectContains(outcome.err, "./dev viewer");
     EXPECT_FALSE(std::filesystem::exists(Path("try.html")));
     return false;
@@ -78,7 +78,7 @@ TEST_F(ViewTest, ExplainsWrongCommandLines) {
   ExpectRefusal(2, {"walk.path", "walk.path", "walk.glb"}, "name one file, or two to compare");
   ExpectRefusal(2, {"tube0.obj"}, "tube0.obj: must be a .path");
   ExpectRefusal(2, {"walk.path", "--output", "walk.png"}, "--output walk.png: must end in .html");
-  ExpectRefusal(1, {"walk.path", "--output", "walk.glb/x.html"}, "walk.glb is no folder");
+  ExpectRefusal(1, {"walk.path", "--output", "walk.glb/x.html"}, "walk.glb is not a folder");
 }
 
 TEST_F(ViewTest, OverwritesNothingThatItReads) {

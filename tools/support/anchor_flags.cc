@@ -11,12 +11,12 @@
 #include "support/tool.h"
 
 DEFINE_string(anchor, "",
-              "move the shapes rigidly so that a part goes rigidly from pose to pose, and stands "
-              "still if it does in the poses: its vertices as JSON, such as "
+              "move the shapes rigidly such that a part moves rigidly from pose to pose, or stands "
+              "still if the poses have it in the same position: its vertices as JSON, such as "
               "'{\"vertices\": [1, [10, 20]]}' or '{\"ball\": {\"centre\": [0, 0, 0], \"radius\": "
               "2}}', selected in the first shape");
 DEFINE_string(ground, "",
-              "move the shapes so that the lowest vertex of each lies at this height: axis and "
+              "move the shapes such that the lowest vertex of each is at this height: axis and "
               "height, such as y=0");
 
 namespace shapespace::tools {

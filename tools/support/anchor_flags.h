@@ -11,18 +11,18 @@
 
 namespace shapespace::tools {
 
-/// Where a path's shapes are put in the end, as --anchor and --ground say.
+/// The rigid motion of a path's shapes according to --anchor and --ground.
 class Anchorage {
  public:
-  /// \throw UsageError if a flag's value cannot be understood.
+  /// \throw UsageError if a flag's value is invalid.
   static Anchorage FromFlags();
 
-  /// Selects the vertices of --anchor: in the first shape, before anything is solved.
+  /// Selects the vertices of --anchor in the first shape, before the solve.
   /// \throw UsageError if there are none.
   void Select(const Shape& shape, const Connectivity& connectivity, const Appearance& appearance);
 
-  /// Moves the shapes of `path`, which shows `whole`, perhaps at other times; its provenance says
-  /// so. What --anchor names must have been selected.
+  /// Moves the shapes of `path`, which are those of `whole`, possibly at other times, and adds this
+  /// to its provenance. Requires `Select`.
   void Apply(const Path& whole, Path* path) const;
   void Apply(Path* path) const { Apply(*path, path); }
 

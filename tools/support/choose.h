@@ -9,7 +9,8 @@
 
 namespace shapespace::tools {
 
-/// The value that `name`, given as --`flag`, stands for. \throw UsageError listing the names.
+/// The value for `name`, the argument of --`flag`.
+/// \throw UsageError listing the names.
 template <typename Value>
 Value Choose(const char* flag, const std::string& name,
              const std::vector<std::pair<std::string, Value>>& choices) {

@@ -12,7 +12,7 @@
 namespace shapespace::tools {
 namespace {
 
-// Seconds between two lines of progress, on a terminal and elsewhere.
+// Seconds between two lines of progress, on a terminal and otherwise.
 constexpr double kTerminalPause = 0.05, kPause = 10;
 
 struct Console {
@@ -49,7 +49,7 @@ void ResultsToStderr() { TheConsole().results_to_stderr = true; }
 
 std::ostream& Err() {
   ClearProgress();
-  std::cout << std::flush;  // so that lines stand in order where both go to one place
+  std::cout << std::flush;  // keeps the order of lines if both go to the same place
   return std::cerr;
 }
 

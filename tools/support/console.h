@@ -6,21 +6,21 @@
 
 namespace shapespace::tools {
 
-/// Where results are told: stdout or, after `ResultsToStderr`, stderr.
+/// The stream for results: stdout or, after `ResultsToStderr`, stderr.
 std::ostream& Out();
 void ResultsToStderr();
 
-/// Where all else is told: stderr.
+/// The stream for everything else: stderr.
 std::ostream& Err();
 
-/// Tells stderr, in the program's name, what has gone wrong while the rest goes on: the exit code
+/// Prints an error to stderr, after the program's name, without ending the program; the exit code
 /// will be 1.
 void Complain(const std::string& message);
 void SetProgramName(const std::string& name);
 bool HasComplained();
 
-/// Shows one line of progress: on a terminal in place of the one before, and gone as soon as `Out`
-/// or `Err` is called; elsewhere a line in the program's name, every ten seconds at most.
+/// Shows one line of progress: on a terminal it replaces the one before, and is removed when `Out`
+/// or `Err` is called; otherwise a line after the program's name, at most every ten seconds.
 void ShowProgress(const std::string& line);
 void ClearProgress();
 

@@ -3,13 +3,12 @@
 #include "support/tool.h"
 
 DEFINE_string(markers, "",
-              "text file of vertices that belong together: a vertex of the template (the source) "
-              "and one of the target a line, by number from 1 or by the name of a group");
-DEFINE_bool(hold_all_markers, false,
-            "hold markers that contradict the others, too, in place of leaving them out");
+              "text file of corresponding vertices: in each line a vertex of the template (the "
+              "source) and one of the target, by number from 1 or by the name of a group");
+DEFINE_bool(hold_all_markers, false, "use all markers, including those that contradict the others");
 DEFINE_double(proportions, shapespace::CorrespondenceOptions().proportions,
-              "over which length, as a share of the root of the area, the bodies' proportions may "
-              "differ from place to place");
+              "length over which the ratio of the bodies' proportions may change, as a share of "
+              "the square root of the area");
 
 namespace shapespace::tools {
 

@@ -12,7 +12,8 @@ DECLARE_string(markers);
 
 namespace shapespace::tools {
 
-/// How to fit, as the flags say. \throw UsageError.
+/// The options of a correspondence according to the flags.
+/// \throw UsageError.
 CorrespondenceOptions CorrespondenceFromFlags();
 
 }  // namespace shapespace::tools

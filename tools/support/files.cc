@@ -29,14 +29,14 @@ bool IsFramePattern(const std::string& file) {
 void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
                                const std::vector<FlagOutputs>& outputs) {
   namespace fs = std::filesystem;
-  // So many names of frames are looked at: inputs are not numbered higher.
+  // Number of frame names that are checked; inputs are assumed to have lower numbers.
   constexpr std::int64_t kMostNames = 20000;
   const auto key = [](const std::string& file) {
-    std::error_code error;  // such as a loop of links: whoever opens the file will say so
+    std::error_code error;  // such as a cycle of links; opening the file will report it
     const fs::path path = fs::weakly_canonical(fs::absolute(file), error);
     return error ? file : path.string();
   };
-  std::map<std::string, std::string> read, written;  // by key: as the command line has it
+  std::map<std::string, std::string> read, written;  // by key: the name on the command line
   for (const std::string& input : inputs) read.emplace(key(input), input);
   for (const auto& [flag, files, frames] : outputs) {
     for (const std::string& file : files) {
@@ -65,7 +65,7 @@ void CheckCanBeWritten(const std::string& file) {
   fs::path folder = fs::absolute(file).parent_path();
   while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
   if (!fs::is_directory(folder, error)) {
-    throw FileError(file + ": cannot be written: " + folder.string() + " is no folder");
+    throw FileError(file + ": cannot be written: " + folder.string() + " is not a folder");
   }
   if (access(folder.c_str(), W_OK) != 0) {
     throw FileError(file + ": cannot be written: " + folder.string() + ": " + std::strerror(errno));

@@ -9,28 +9,29 @@
 
 namespace shapespace::tools {
 
-/// Files that the flag `flag` names; of frames, `frames` will be written.
+/// The files named by the flag `flag`; for frames, their number.
 struct FlagOutputs {
   std::string flag;
   std::vector<std::string> files;
   std::int64_t frames = 0;
 };
 
-/// So that no run destroys what it reads, nor what it has written itself: no output is one of
-/// `inputs`, and no two outputs are one file, by whatever names. \throw UsageError naming both.
+/// Prevents overwriting of files that are read or written in the same run: no output may be one of
+/// `inputs`, and no two outputs the same file, also if their names differ.
+/// \throw UsageError naming both.
 void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
                                const std::vector<FlagOutputs>& outputs);
 
-/// So that nobody waits for a solve whose result has nowhere to go, and nothing is written if
-/// something cannot be: `file`'s folder exists, or can probably be made, and can be written to.
+/// To be called before a solve, so that its result can be written: checks that `file`'s folder
+/// exists, or can probably be created, and is writable.
 /// \throw FileError.
 void CheckCanBeWritten(const std::string& file);
 
 /// Whether a file is a .path, by its name.
 bool IsPathFile(const std::string& file);
 
-/// Reads a .path file, and tells stderr if the solve that made it did not converge. \throw
-/// FileError.
+/// Reads a .path file, and prints a warning if its solve did not converge.
+/// \throw FileError.
 Path ReadPathAndTell(const std::string& file);
 
 }  // namespace shapespace::tools

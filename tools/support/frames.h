@@ -9,16 +9,17 @@
 
 namespace shapespace::tools {
 
-/// `WriteFrames`, and tells the user which files they are and what of `soup` their format drops;
-/// also which frames of an earlier run go on behind them, as nobody shall take those for a part of
-/// the same motion.
+/// `WriteFrames`, with messages: which files are written, what of `soup` the format cannot store,
+/// and which frames of an earlier run follow after them, which could be mistaken for a part of the
+/// same motion.
 void WriteFramesAndTell(const std::string& pattern, const std::vector<Shape>& shapes,
                         const Soup& soup);
 
-/// `WriteMesh`, and tells the user likewise.
+/// `WriteMesh`, with messages.
 void WriteMeshAndTell(const std::string& file, const Shape& shape, const Soup& soup);
 
-/// `file`, a value of --`flag`, is a pattern for frames. \throw UsageError.
+/// Checks that `file`, a value of --`flag`, is a pattern for frames.
+/// \throw UsageError.
 void CheckFramePattern(const std::string& flag, const std::string& file);
 
 }  // namespace shapespace::tools

@@ -12,16 +12,16 @@
 
 DEFINE_int32(shapes, 15, "shapes to insert between neighbouring poses");
 DEFINE_double(tolerance, 1e-4,
-              "a level is finished when an iteration lowers the energy by less than this share");
-DEFINE_int32(max_iterations, 500, "iterations a level may take");
+              "a level has converged when an iteration lowers the energy by less than this share");
+DEFINE_int32(max_iterations, 500, "maximum number of iterations per level");
 DEFINE_string(solver, "automatic",
-              "automatic, lbfgs (of Ceres), threaded_lbfgs (ours) or trust_region (of Ceres)");
+              "automatic, lbfgs (Ceres), threaded_lbfgs (shapespace) or trust_region (Ceres)");
 DEFINE_string(
     schedule, "automatic",
     "order of resolutions: automatic, paper (space and time in turn) or flat (no hierarchy)");
-DEFINE_string(start, "best",
-              "where the first solve starts: blend, first, last, rigid, or the best of the first "
-              "three");
+DEFINE_string(
+    start, "best",
+    "initial guess of the first solve: blend, first, last, rigid, or the best of the first three");
 DEFINE_int32(coarsest, 200, "triangles of the coarsest level of the hierarchy");
 
 namespace shapespace::tools {
@@ -65,7 +65,7 @@ bool IsOnePath(const std::vector<std::string>& files) {
   if (!is_path) return false;
   RefuseFlags({"support/geodesic_flags.cc", "support/metric_flags.cc"},
               {"memory_limit", "stiffeners"},
-              "goes with poses; " + files[0] + " is solved, with the metric that it carries");
+              "goes with poses; " + files[0] + " is solved already and contains its metric");
   return true;
 }
 

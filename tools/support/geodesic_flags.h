@@ -9,16 +9,16 @@
 
 namespace shapespace::tools {
 
-/// How to interpolate between poses, as the flags say; those of the metric included.
+/// The options of an interpolation, including the metric, according to the flags.
 /// \throw UsageError, InvalidOptions.
 GeodesicOptions GeodesicFromFlags();
 
-/// How many shapes a path through so many poses has, the poses included.
+/// The number of shapes of a path through this number of poses, including the poses.
 std::int64_t NumShapes(size_t poses, const GeodesicOptions& options);
 
-/// Whether the arguments are a .path file, which takes the place of poses to interpolate.
-/// \throw UsageError if they are neither that nor two or more poses, or if a flag was given that
-/// goes with poses: nobody shall believe that it did anything.
+/// Whether the argument is a .path file instead of poses to interpolate.
+/// \throw UsageError if it is neither that nor two or more poses, or if a flag was given that would
+///        have no effect on a .path.
 bool IsOnePath(const std::vector<std::string>& files);
 
 }  // namespace shapespace::tools

@@ -15,17 +15,17 @@ namespace {
 
 struct State {
   std::mutex mutex;
-  int signal = 0;  // that came and waits
+  int signal = 0;  // pending
   std::function<void()> before_the_end;
   std::function<void()> notice;  // empty: the first signal ends the process
 };
 
 State& TheState() {
-  static State* const state = new State;  // the listening thread may outlive main()
+  static State* const state = new State;  // the thread may outlive main()
   return *state;
 }
 
-// All that a handler may do is to say that there was a signal, and which.
+// A signal handler may do no more than store the signal.
 std::atomic<int> received{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 sem_t came;
@@ -43,7 +43,7 @@ void Receive(int signal) {
   std::_Exit(128 + signal);
 }
 
-// On a thread of its own, which may take locks, and so knows which temporaries there are.
+// Runs on a separate thread, which may take locks and therefore remove temporaries.
 void Listen() {
   State& state = TheState();
   for (;;) {
@@ -68,7 +68,7 @@ void HandleInterrupts(const std::function<void()>& before_the_end) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action = {};
     sigaction(signal, nullptr, &action);
-    if (action.sa_handler == SIG_IGN) continue;  // nohup, or a job in the background of a script
+    if (action.sa_handler == SIG_IGN) continue;  // nohup, or a background job of a script
     action.sa_handler = Receive;
     action.sa_flags = SA_RESTART;
     sigaction(signal, &action, nullptr);

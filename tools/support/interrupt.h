@@ -6,13 +6,13 @@
 
 namespace shapespace::tools {
 
-/// From now on Ctrl-C (SIGINT), SIGTERM and SIGHUP end the process as they would without this, but
-/// remove the temporaries of files that are being written. `before_the_end` is called first.
+/// After this call, Ctrl-C (SIGINT), SIGTERM and SIGHUP still end the process, but temporaries of
+/// files that are being written are removed. `before_the_end` is called first.
 void HandleInterrupts(const std::function<void()>& before_the_end);
 
-/// While one of these lives the first such signal does not end the process: `Interrupted` is true
-/// from then on, so that a solve can be stopped and what it has found be kept. `notice` is called
-/// then, from another thread. A second signal ends the process.
+/// While an object of this class exists, the first such signal does not end the process:
+/// `Interrupted` becomes true, so that a solve can be stopped and its result be written, and
+/// `notice` is called from another thread. A second signal ends the process.
 class FirstInterruptWaits {
  public:
   explicit FirstInterruptWaits(const std::function<void()>& notice);
@@ -21,10 +21,10 @@ class FirstInterruptWaits {
   FirstInterruptWaits& operator=(const FirstInterruptWaits&) = delete;
 };
 
-/// Whether a signal came that has not ended the process yet.
+/// Whether there was a signal that has not ended the process yet.
 bool Interrupted();
 
-/// Ends the process by the signal that came, if one did.
+/// If there was a signal, ends the process by it.
 void EndIfInterrupted();
 
 }  // namespace shapespace::tools

@@ -9,8 +9,8 @@ namespace shapespace::tools {
 /// The parts of `list` between commas, without the blanks around them.
 std::vector<std::string> Split(const std::string& list);
 
-/// The numbers that `text`, the value of `flag`, lists with commas between them.
-/// \throw UsageError naming the flag and what is no number.
+/// The numbers in `text`, the value of `flag`, separated by commas.
+/// \throw UsageError naming the flag and the invalid number.
 std::vector<double> NumbersFromFlag(const std::string& flag, const std::string& text);
 
 }  // namespace shapespace::tools

@@ -1,3 +1,4 @@
 #include "support/memory_flag.h"
 
-DEFINE_double(memory_limit, 8, "gigabytes that the run may take; more is refused beforehand");
+DEFINE_double(memory_limit, 8,
+              "memory limit in gigabytes; a run whose estimate exceeds it is refused");

@@ -5,10 +5,11 @@
 #include "support/tool.h"
 
 DEFINE_bool(allow_nonmanifold, false,
-            "take meshes with non-manifold edges or vertices, or inconsistent winding");
-DEFINE_string(mirror, "",
-              "x, y or z: change the sign of this coordinate in poses that are mirror images of "
-              "the first (found for closed meshes only, and else refused)");
+            "accept meshes with non-manifold edges or vertices, or inconsistent winding");
+DEFINE_string(
+    mirror, "",
+    "x, y or z: change the sign of this coordinate in poses that are mirror images of the first "
+    "(these are detected for closed meshes only, and refused without this flag)");
 
 namespace shapespace::tools {
 

@@ -10,26 +10,26 @@
 #include "support/tool.h"
 
 DEFINE_string(metric, "isometric",
-              "preset that sets the defaults of the other flags of the metric: isometric (those "
-              "shown here), strain (isometric 0, strain 1), rigid (isometric 0, rigid 1, bending "
+              "preset of the metric's other flags: isometric (the defaults shown here), strain "
+              "(isometric 0, strain 1), rigid (isometric 0, rigid 1, bending "
               "0), or paper (bending 0, lambda 0.001, weights uniform, discretization trapezoid); "
               "shape-deform has one of its own, deformation");
-DEFINE_double(isometric, 1,
-              "cost of stretching edges; all costs are pure numbers, the area being 1");
-DEFINE_double(
-    strain, 0,
-    "cost of logarithmic strains of triangles: as --isometric, but paths can always go on");
+DEFINE_double(isometric, 1, "cost of stretching edges; all costs are pure numbers, for area 1");
+DEFINE_double(strain, 0,
+              "cost of logarithmic strains of triangles: like --isometric, but paths can always be "
+              "continued");
 DEFINE_double(rigid, 0, "cost of deviation from rigid motion of the whole body");
 DEFINE_double(lambda, 1e-4, "cost of moving vertices; harmless up to 1e-3");
 DEFINE_double(bending, 1e-5, "cost of bending: t^2 / 12 for a shell of thickness t");
 DEFINE_double(volume, 0, "cost of changing the enclosed volume; start from 0.3");
 DEFINE_string(weights, "area", "weights of edges: area, or uniform as in the paper");
 DEFINE_string(discretization, "midpoint",
-              "along a segment: midpoint, or trapezoid as in the paper");
+              "discretisation along a segment: midpoint, or trapezoid as in the paper");
 
-DEFINE_string(stiffness, "",
-              "file of factors on the cost of stretching and bending, one positive number a "
-              "vertex: a text of one number a line, or a property of a PLY file, as body.ply:name");
+DEFINE_string(
+    stiffness, "",
+    "file of factors on the cost of stretching and bending, one positive number per "
+    "vertex: a text with one number per line, or a property of a PLY file, as body.ply:name");
 
 namespace shapespace::tools {
 MetricOptions MetricFromFlags(const Connectivity* mesh) {
@@ -82,8 +82,8 @@ MetricOptions MetricFromFlags(const Connectivity* mesh) {
 void CheckMetricFlags(const Connectivity& connectivity) {
   if (IsGiven("bending") && FLAGS_bending > 0 && connectivity.NumHinges() == 0) {
     throw UsageError(AsTyped("bending") +
-                     ": no two triangles of this mesh share an edge, so that nothing can bend; "
-                     "leave the flag out");
+                     ": no two triangles of this mesh share an edge, so there is no bending; leave "
+                     "the flag out");
   }
 }
 

@@ -5,12 +5,12 @@
 
 namespace shapespace::tools {
 
-/// The metric that the flags ask for: --metric names a preset, which sets the defaults of the other
-/// flags; a flag that was given wins. The preset `deformation` is one of a mesh.
-/// \throw UsageError; also for that preset without a mesh.
+/// The metric according to the flags: --metric is a preset, and other flags that were given
+/// override it. The preset `deformation` depends on the mesh.
+/// \throw UsageError, also for that preset without a mesh.
 MetricOptions MetricFromFlags(const Connectivity* mesh = nullptr);
 
-/// \throw UsageError if --bending was given for a mesh on which nothing can bend.
+/// \throw UsageError if --bending was given for a mesh without hinges.
 void CheckMetricFlags(const Connectivity& connectivity);
 
 }  // namespace shapespace::tools

@@ -24,8 +24,8 @@
 namespace shapespace::tools {
 namespace {
 
-// Whether a launcher has started this process as one of several. (MPI_Init would tell, too, but
-// takes a while, and starts daemons of its own where there is no launcher.)
+// Whether a launcher has started this process as one of several. (MPI_Init would detect it too, but
+// is slow, and starts daemons if there is no launcher.)
 bool IsLaunched() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"}) {
     if (std::getenv(name) != nullptr) return true;
@@ -78,8 +78,8 @@ class MpiCrew final : public Crew {
   }
 
  private:
-  // The first rank works, too: a thread of its own answers the others, which does nothing most of
-  // the time. Meanwhile the first thread does not call MPI.
+  // The first rank works too: a separate thread, which is mostly idle, replies to the other ranks.
+  // The first thread does not call MPI in the meantime.
   void HandOut(int count, const std::function<void(int)>& run) {
     std::atomic<int> next = 0;
     std::atomic<bool> failed = false;
@@ -130,7 +130,7 @@ class MpiCrew final : public Crew {
   int rank_ = 0, size_ = 1;
 };
 
-// Sends stdout and stderr nowhere.
+// Redirects stdout and stderr to /dev/null.
 class Silence {
  public:
   Silence() : stderr_(dup(STDERR_FILENO)) {
@@ -173,8 +173,8 @@ void WithCrew(const std::function<void(Crew*)>& body) {
     return;
 #else
     throw UsageError(
-        "this program was built without MPI, and its processes know nothing of each other; start "
-        "it without mpirun, or build it where CMake finds MPI");
+        "this program was built without MPI, so its processes cannot share work; start it without "
+        "mpirun, or build it where CMake finds MPI");
 #endif
   }
   Crew alone;

@@ -7,10 +7,10 @@
 
 namespace shapespace::tools {
 
-/// Runs `body` with the crew that this process belongs to: the ranks that mpirun has started, or
-/// this process alone. Ranks but the first are silent, unless something fails there; then all end,
-/// with exit code 1. A usage error, which all ranks make, is thrown on the first alone.
-/// \throw UsageError if mpirun has started several of a program that was built without MPI.
+/// Runs `body` with the crew of this process: the ranks started by mpirun, or this process alone.
+/// Other ranks than the first print nothing unless they fail; then all ranks end with exit code 1.
+/// A usage error, which occurs on all ranks, is thrown on the first only.
+/// \throw UsageError if mpirun has started several processes of a program without MPI.
 void WithCrew(const std::function<void(Crew*)>& body);
 
 }  // namespace shapespace::tools

@@ -23,24 +23,23 @@
 #include "support/lists.h"
 #include "support/tool.h"
 
-DEFINE_string(
-    output, "path.png",
-    "files to write, separated by commas: .path (everything, to go on from), .png (film "
-    "strip), .glb (animated, for browsers and Blender), frames/%03d.obj or .ply (one mesh "
-    "a shape). No name of them may hold a comma");
+DEFINE_string(output, "path.png",
+              "files to write, separated by commas: .path (the complete result, for other tools), "
+              ".png (film strip), .glb (animation, for browsers and Blender), frames/%03d.obj or "
+              ".ply (one mesh per shape). Names must not contain commas");
 DEFINE_string(color, "plain",
               "film strip and glb: plain, deviation (of edge lengths from the first pose), or "
-              "parts (that move nearly rigidly)");
+              "parts (regions that move nearly rigidly)");
 
 DEFINE_string(up, "",
               "the axis of the poses that points up, y or z; without, film strips choose, and glb "
               "takes y");
 DEFINE_double(unit, 1, "glb: metres in one unit of the poses; 0.001 for millimetres");
 DEFINE_double(seconds, 4, "glb: duration");
-DEFINE_double(fps, 0, "glb: shapes of the path a second, in place of --seconds");
+DEFINE_double(fps, 0, "glb: shapes of the path per second, instead of --seconds");
 DEFINE_bool(loop, false,
-            "glb: from the first shape to the last and no way back, for motions that end as they "
-            "begin; without, there and back");
+            "glb: from the first shape to the last and again from the first, for motions that end "
+            "where they begin; default: forward and back");
 DEFINE_bool(once, false, "glb: from the first shape to the last, which is then held");
 DEFINE_bool(ease, false,
             "glb, and frames of shape-export --frames: slow at both ends, as an animator would "
@@ -68,7 +67,7 @@ Kind KindOf(const std::string& output, const std::string& flag = "output") {
     if (std::regex_search(output, number)) {
       throw UsageError("--" + flag + " " + output +
                        ": only frames, .obj and .ply, are numbered; one " + extension +
-                       " holds the whole path");
+                       " contains the whole path");
     }
     return kind;
   }
@@ -113,7 +112,7 @@ void WriteGltfAndTell(const std::string& output, const Path& path, const Shape& 
   }
   if (summary.subsampled) {
     Err() << "note: " << output << ": " << summary.keys << " of the " << path.NumShapes()
-          << " shapes, evenly, as many as players can be expected to take\n";
+          << " shapes, evenly spaced, because players do not support more\n";
   }
   if (FLAGS_color == "deviation") {
     Err() << "note: " << output << ": the last colour stands for a deviation of "
@@ -146,7 +145,7 @@ void WritePicture(const std::string& output, const Path& path, const Shape& refe
   WritePng(output, RenderFilmStrip(*path.metric->connectivity, path.Placed(), options));
 }
 
-// `parts` are empty until they are needed.
+// `parts` are computed when first needed.
 void Write(const std::string& output, const Path& path, const Path& whole,
            const Eigen::VectorXi& marks, Eigen::VectorXi* parts) {
   const Kind kind = KindOf(output);
@@ -179,7 +178,7 @@ std::vector<std::string> OutputsFromFlags() {
   }
   FilmStripOptions strip;
   strip.title = FLAGS_title;
-  strip.Validate();  // a title that cannot be drawn is told now, not after the solve
+  strip.Validate();  // checks the title before the solve, not after it
   NamingFlags({{"duration", "seconds"}}, [] { GltfOptionsFromFlags().Validate(); });
   return OutputsFromFlag("output", FLAGS_output);
 }

@@ -10,25 +10,26 @@
 
 namespace shapespace::tools {
 
-/// From now on an .obj or .ply whose name has no number is an output too: of the last shape alone.
+/// From now on an .obj or .ply without a number in its name is a valid output: of the last shape
+/// alone.
 void WriteLastShapeAlone();
 
-/// The files that --output names, separated by commas.
-/// \throw UsageError if one is of no kind that can be written, FileError as `CheckCanBeWritten`.
+/// The files named by --output, separated by commas.
+/// \throw UsageError if one has an unknown extension, FileError as `CheckCanBeWritten`.
 std::vector<std::string> OutputsFromFlags();
 
-/// The same of another flag, whose value is `list`.
+/// The same for another flag with the value `list`.
 std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::string& list);
 
-/// Who made a path from which files, with the version: for `Path::provenance`.
+/// The program, its version and the input files of a path: for `Path::provenance`.
 std::string Provenance(const char* program, const std::vector<std::string>& files);
 
-/// Writes each, the `.path` files first: `.path`, `.png` film strip, `.glb` animation, or frames
-/// (`frames/%03d.obj`, `.ply`); tells the user which. One that cannot be written is complained of,
-/// and the others are written. Once `Interrupted`, only `.path` files are. Where a format drops
-/// something of the path's appearance, stderr is told. `whole` is the path that `path` shows,
-/// perhaps at other times: colours of deviation compare with its first shape, those of parts are of
-/// its near-rigid parts. `marks`, if there are any, are those of FilmStripOptions.
+/// Writes each output, the `.path` files first, with messages: `.path`, `.png` film strip, `.glb`
+/// animation, or frames (`frames/%03d.obj`, `.ply`). If one fails, an error is printed and the
+/// others are written. After `Interrupted`, only `.path` files are. Notes on stderr tell which
+/// parts of the appearance a format cannot store. `whole` is the path whose shapes `path` contains,
+/// possibly at other times: deviations are relative to its first shape, and near-rigid parts are
+/// computed from it. `marks` may be empty; they are those of FilmStripOptions.
 void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Path& whole,
                   const Eigen::VectorXi& marks = {});
 

@@ -7,7 +7,7 @@
 #include "support/metric_flags.h"
 
 DEFINE_string(stiffeners, "",
-              "text file of further edges to hold: two vertex numbers a line, from 1");
+              "text file of additional edges (stiffeners): two vertex numbers per line, from 1");
 
 namespace shapespace::tools {
 

@@ -8,12 +8,12 @@
 
 namespace shapespace::tools {
 
-/// Reads pose files as the flags --stiffeners, --allow_nonmanifold and --mirror say; tells stderr
-/// the warnings, and what the files hold that no output will. \throw UsageError if a flag of the
-/// metric asks for what the mesh cannot have.
+/// Reads pose files according to --stiffeners, --allow_nonmanifold and --mirror; prints warnings,
+/// and notes on content that outputs will not have.
+/// \throw UsageError if a flag of the metric cannot be applied to the mesh.
 Poses ReadPosesFromFlags(const std::vector<std::string>& files);
 
-/// These files, and the one of --stiffeners if it was given: all that is read.
+/// These files, and that of --stiffeners if it was given: all inputs.
 std::vector<std::string> WithStiffeners(std::vector<std::string> files);
 
 }  // namespace shapespace::tools

@@ -13,10 +13,10 @@
 
 DEFINE_string(
     report, "",
-    "write a report: .json, or .txt for reading; - prints JSON on stdout, and all else on "
+    "write a report: .json, or .txt for reading; - prints JSON on stdout, and everything else on "
     "stderr");
 DEFINE_bool(strict, false,
-            "exit with 1 if what was asked for did not converge; outputs are written all the same");
+            "exit with code 1 if a solve did not converge; outputs are written nevertheless");
 
 namespace shapespace::tools {
 
@@ -35,7 +35,7 @@ void PrintSummary(const std::string& brief, const std::vector<std::string>& warn
                   bool converged) {
   for (const std::string& warning : warnings) Err() << "warning: " << warning << '\n';
   Out() << brief << '\n';
-  if (FLAGS_strict && !converged) Complain("not converged, which --strict takes for a failure");
+  if (FLAGS_strict && !converged) Complain("not converged, which is a failure with --strict");
 }
 
 void WriteReport(const std::string& text, const std::string& json) {

@@ -8,22 +8,22 @@
 
 namespace shapespace::tools {
 
-/// For the usage of tools that solve: how they end.
+/// For the usage text of tools that solve.
 inline constexpr char kHowASolveEnds[] =
-    "\n\nWhat did not converge says so, its outputs are written, and the exit code is 0, or with "
-    "--strict 1.\nCtrl-C ends the program. If --output has a .path, that holds the best so far, "
-    "marked as not\nconverged.";
+    "\n\nA solve that does not converge is reported; its outputs are written, and the exit code is "
+    "0, or 1\nwith --strict. Ctrl-C ends the program. If --output has a .path, it contains the "
+    "best path so far,\nmarked as not converged.";
 
-/// The file that --report names, if any. \throw UsageError, FileError if it cannot be one: before
-/// the solve, not after.
+/// The file named by --report, if any. To be called before the solve.
+/// \throw UsageError, FileError if it cannot be written.
 FlagOutputs ReportFromFlag();
 
-/// Tells stderr the warnings of a solve, and the user the line that sums it up. What has not
-/// converged is a failure with --strict.
+/// Prints a solve's warnings to stderr and its one-line summary. With --strict, a solve that did
+/// not converge is an error.
 void PrintSummary(const std::string& brief, const std::vector<std::string>& warnings,
                   bool converged);
 
-/// Writes the report that --report asks for, if any: `text` or `json`, by its extension. Not once
+/// Writes the report of --report, if any: `text` or `json`, by its extension. Not after
 /// `Interrupted`.
 void WriteReport(const std::string& text, const std::string& json);
 

@@ -10,10 +10,10 @@
 namespace shapespace::tools {
 namespace {
 
-// Before so many seconds, and so much of the work, an estimate of the rest means nothing.
+// No estimate is shown before this time and this share of the work.
 constexpr double kLeastSeconds = 2, kLeastShare = 0.05;
 
-// As precise as such an estimate can be.
+// Rounded to the precision of such an estimate.
 std::string InWords(double seconds) {
   const auto rounded = [](double value, int unit) {
     return std::to_string(unit * std::max(1L, std::lround(value / unit)));
@@ -30,7 +30,8 @@ SolveProgress::SolveProgress(const std::vector<std::string>& outputs, std::strin
   for (const std::string& output : outputs) {
     if (!IsPathFile(output)) continue;
     waits_.emplace([output] {
-      Err() << "stopping: the best path so far goes to " + output + "; Ctrl-C again ends at once\n";
+      Err() << "stopping: writing the best path so far to " + output +
+                   "; Ctrl-C again ends immediately\n";
     });
     return;
   }
@@ -51,7 +52,7 @@ bool SolveProgress::Report(const std::string& stage, int done, int total) {
 
 void SolveProgress::ReportShare(double share) {
   if (share == 0) working_.emplace();
-  if (share == share_ || !working_) return;  // time passes, and the end stays where it is
+  if (share == share_ || !working_) return;  // the estimated end does not change
   share_ = share;
   const double now = working_->Seconds();
   end_ = now < kLeastSeconds || share < kLeastShare ? 0 : now / share;

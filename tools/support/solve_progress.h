@@ -12,13 +12,13 @@
 
 namespace shapespace::tools {
 
-/// Shows how far a solve is and, once that can be told, how long it still takes (`ShowProgress`); a
-/// temporary of the call that it is for: Interpolate(poses, options, SolveProgress(outputs).get()).
-/// If one of the outputs is a .path, Ctrl-C makes it ask the solver to stop, so that the best so
-/// far can be written there; otherwise Ctrl-C ends the program at once.
+/// Shows the progress of a solve and, if known, the remaining time (`ShowProgress`). It is used as
+/// a temporary in the call: Interpolate(poses, options, SolveProgress(outputs).get()). If one of
+/// the outputs is a .path, Ctrl-C asks the solver to stop, so that the best path so far can be
+/// written; otherwise Ctrl-C ends the program immediately.
 class SolveProgress final : public Progress {
  public:
-  /// `next` is what else there will be to wait for, if anything.
+  /// `next` names further work after this solve, if any.
   explicit SolveProgress(const std::vector<std::string>& outputs, std::string next = "");
   ~SolveProgress() override;
   bool Report(const std::string& stage, int done, int total) override;
@@ -32,7 +32,7 @@ class SolveProgress final : public Progress {
   std::optional<FirstInterruptWaits> waits_;
   std::optional<internal::Stopwatch> working_;  // since the share was 0
   double share_ = 0;
-  double end_ = 0;  // when all will be done, as it looked when the share was told; 0: not known
+  double end_ = 0;  // estimated end at the time of the last report; 0: unknown
 };
 
 }  // namespace shapespace::tools

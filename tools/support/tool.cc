@@ -15,9 +15,9 @@
 
 #include "support/interrupt.h"
 
-DEFINE_int32(threads, 0, "threads to use; 0 takes all cores (results do not depend on it)");
+DEFINE_int32(threads, 0, "number of threads; 0: all cores (results do not depend on it)");
 
-// gflags ends the process itself when it cannot read a flag, with a code of its own.
+// gflags ends the process itself on an invalid flag, with its own exit code.
 namespace GFLAGS_NAMESPACE {
 extern void (*gflags_exitfunc)(int);
 }
@@ -25,7 +25,7 @@ extern void (*gflags_exitfunc)(int);
 namespace shapespace::tools {
 namespace {
 
-// The command line before gflags took it apart.
+// The command line before gflags modified it.
 std::vector<std::string>& Typed() {
   static std::vector<std::string> typed;
   return typed;
@@ -40,14 +40,14 @@ std::vector<gflags::CommandLineFlagInfo> FlagsOf(const std::string& source) {
   return flags;
 }
 
-// The shortest form that reads back as the same number: gflags writes out 1.0000000000000001e-05.
+// The shortest text that represents the number: gflags prints 1.0000000000000001e-05.
 std::string DefaultValue(const gflags::CommandLineFlagInfo& flag) {
   if (flag.type != "double") return flag.default_value;
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, std::stod(flag.default_value)).ptr};
 }
 
-// One flag of --help: its name and default on the left, the description beside it in lines.
+// One flag of --help: name and default in the left column, the description beside it.
 void PrintFlag(std::string left, const std::string& description) {
   constexpr size_t kLeft = 30, kLine = 100;
   left.resize(std::max(left.size() + 1, kLeft), ' ');
@@ -171,7 +171,7 @@ int RunTool(int argc, char** argv, const Program& program,
     Err() << "Try " << program.name << " --help\n";
     return 2;
   } catch (const Cancelled&) {
-    Err() << program.name << ": interrupted before there was anything to keep\n";
+    Err() << program.name << ": interrupted before there was a result\n";
   } catch (const std::bad_alloc&) {
     Complain("out of memory");
   } catch (const std::exception& error) {

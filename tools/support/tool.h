@@ -11,7 +11,7 @@
 
 namespace shapespace::tools {
 
-/// The command line is wrong: printed with a hint at --help, exit code 2.
+/// The command line is invalid: printed with a hint at --help, exit code 2.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -25,31 +25,30 @@ struct Program {
   std::vector<std::string> flag_sources;
 };
 
-/// What main() of every tool is: reads gflags, answers --help and --version, runs `body` with the
-/// arguments that are no flags. Returns the exit code: 0, 1 after an error or a `Complain`, 2 after
-/// a usage error; Ctrl-C ends the process by its signal. Messages go to stderr.
+/// Implements main() of every tool: parses gflags, handles --help and --version, and runs `body`
+/// with the arguments that are not flags. Returns the exit code: 0; 1 after an error or a
+/// `Complain`; 2 after a usage error. Ctrl-C ends the process by its signal. Messages go to stderr.
 int RunTool(int argc, char** argv, const Program& program,
             const std::function<void(const std::vector<std::string>& arguments)>& body);
 
-/// Whether the command line gave this flag.
+/// Whether this flag was given on the command line.
 bool IsGiven(const char* flag);
 
-/// So that nobody believes that a flag did anything which did not: `flags`, and all of `sources`,
-/// which are some of `flag_sources`, do nothing here, for `reason`.
+/// Refuses flags without effect: `flags`, and all of `sources`, which are some of `flag_sources`,
+/// have no effect here, for `reason`.
 /// \throw UsageError "--flag: reason" if the command line gave one of them.
 void RefuseFlags(const std::vector<std::string>& sources, const std::vector<std::string>& flags,
                  const std::string& reason);
 
-/// A flag as messages name it, with its value as it was typed: "--unit 1e-3"; without value if the
-/// command line did not give it.
+/// A flag in messages, with its value as typed: "--unit 1e-3"; without value if it was not given.
 std::string AsTyped(const std::string& flag);
 
-/// Which flags set the fields of an options struct, where their names differ: field, flag.
+/// Names of flags that set fields of an options struct with other names: field, flag.
 using FlagNames = std::vector<std::pair<std::string, std::string>>;
 
-/// Runs `body`. Messages of InvalidOptions begin with a field's name: they become those of a
-/// UsageError that begin with the flag `AsTyped`. What `names` does not list has a flag of its
-/// name.
+/// Runs `body` and converts InvalidOptions, whose messages begin with a field's name, to
+/// UsageErrors that begin with the flag `AsTyped`. A field that is not in `names` has the name of
+/// its flag.
 void NamingFlags(const FlagNames& names, const std::function<void()>& body);
 
 }  // namespace shapespace::tools

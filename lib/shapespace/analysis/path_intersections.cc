@@ -20,7 +20,7 @@ PathIntersections MeasureIntersections(const Path& path) {
     ++inner;
     result.inner_max = std::max(result.inner_max, pairs);
     result.inner_mean += static_cast<double>(pairs);
-    std::int64_t around = 0;  // beyond the first or last pose there is but one
+    std::int64_t around = 0;  // before the first and after the last pose there is only one
     if (next != path.poses.end()) around = result.pairs[*next];
     if (next != path.poses.begin()) around = std::max(around, result.pairs[*(next - 1)]);
     result.beyond_poses += static_cast<double>(std::max<std::int64_t>(0, pairs - around));

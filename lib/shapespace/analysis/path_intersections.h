@@ -8,15 +8,15 @@
 
 namespace shapespace {
 
-/// Where the body passes through itself, which no term of a metric sees: the paper's own
-/// limitation. Numbers of pairs of triangles as in analysis/intersections.h.
+/// Self-intersections of the body, which no term of a metric prevents, a limitation of the paper
+/// too. Numbers are pairs of triangles as in analysis/intersections.h.
 struct PathIntersections {
-  std::vector<std::int64_t> pairs;  ///< of each shape
-  std::int64_t poses_max = 0;       ///< of the shapes that were given
-  std::int64_t inner_max = 0;       ///< of the others
+  std::vector<std::int64_t> pairs;  ///< per shape
+  std::int64_t poses_max = 0;       ///< maximum over the given shapes
+  std::int64_t inner_max = 0;       ///< maximum over the other shapes
   double inner_mean = 0;            ///< per shape
-  /// Beyond those that the pose before and the pose after have, whichever has more: mean per inner
-  /// shape. What the path is to blame for.
+  /// Pairs in excess of the number in the previous and the next pose (the larger of the two): mean
+  /// per inner shape. These are due to the path.
   double beyond_poses = 0;
 };
 

@@ -14,14 +14,14 @@ namespace {
 using internal::kDegrees;
 
 constexpr double kShortestEdge = 1e-3;
-// Pieces slower than this, in the metric's pure numbers, stand still but for rounding.
+// Pieces slower than this, in the metric's pure numbers, are at rest up to rounding.
 constexpr double kNoSpeed = 1e-9;
 
 double SquaredLength(const Eigen::Matrix2Xi& edges, int e, const Shape& shape) {
   return (shape.col(edges(1, e)) - shape.col(edges(0, e))).squaredNorm();
 }
 
-// Deviations of one shape's edges, to be pooled with those of others.
+// Deviations of one shape's edges, to be combined with those of others.
 struct Deviations {
   double weighted_squares = 0, weight = 0;
   std::vector<float> magnitudes;
@@ -48,7 +48,7 @@ void Pool(const std::vector<Deviations>& shapes, double* rms, double* p99, doubl
   *max = *std::max_element(rank, all.magnitudes.end());
 }
 
-// The square of the length below which edges are left out.
+// The square of the length below which edges are not counted.
 double SquaredShortest(const Path& path) {
   const Eigen::Matrix2Xi& edges = path.metric->connectivity->Edges();
   double mean_squared_length = 0;
@@ -58,7 +58,7 @@ double SquaredShortest(const Path& path) {
   return kShortestEdge * kShortestEdge * mean_squared_length;
 }
 
-// Of shape `i` against the first; none of the first itself.
+// Deviations of shape `i` from the first; empty for the first itself.
 Deviations AgainstFirst(const Path& path, int i, double shortest) {
   const Eigen::Matrix2Xi& edges = path.metric->connectivity->Edges();
   Deviations deviations;
@@ -99,7 +99,7 @@ PathQuality MeasureQuality(const Path& path) {
     const Shape& shape = path.shapes[i];
     against_first[i] = AgainstFirst(path, i, shortest);
     const auto next = std::lower_bound(path.poses.begin(), path.poses.end(), i);
-    // Only shapes between two poses: not a pose itself, none before the first or after the last.
+    // Only shapes between two poses: not poses, and none before the first or after the last pose.
     if (next == path.poses.begin() || next == path.poses.end() || *next == i) return;
     const Shape& m = path.shapes[*(next - 1)];
     const Shape& n = path.shapes[*next];
@@ -153,7 +153,7 @@ PathQuality MeasureQuality(const Path& path) {
 Eigen::VectorXd DihedralAngles(const Connectivity& connectivity, const Shape& shape) {
   Dihedral dihedral;
   dihedral.stencils = connectivity.Hinges();
-  dihedral.normal_epsilon_squared = dihedral.edge_epsilon_squared = 1e-30;  // below all rounding
+  dihedral.normal_epsilon_squared = dihedral.edge_epsilon_squared = 1e-30;  // below rounding
   Eigen::VectorXd angles(connectivity.NumHinges());
   for (int h = 0; h < angles.size(); ++h) {
     double x[3 * Dihedral::kVertices];

@@ -9,26 +9,27 @@
 
 namespace shapespace {
 
-/// Figures that see what an energy cannot: how far edges are from the lengths that they should have
-/// on the way, and whether the surface wrinkles or folds where the poses do not.
+/// Figures for properties that an energy does not show: the deviation of edges from their expected
+/// lengths, and wrinkles and folds that the poses do not have.
 struct PathQuality {
-  /// Shapes between two poses. Without any, the figures of inner shapes are 0.
+  /// Number of shapes between two poses. If 0, the figures of inner shapes are 0.
   int inner_shapes = 0;
-  /// |e| / sqrt((1-t) |e_M|^2 + t |e_N|^2) - 1, between the two poses M and N around a shape, over
-  /// all edges and inner shapes: root mean square weighted by A_e; 99th percentile and maximum of
-  /// the magnitude, unweighted. Edges shorter than a thousandth of the mesh's are left out.
+  /// |e| / sqrt((1-t) |e_M|^2 + t |e_N|^2) - 1, for the two poses M and N around a shape, over all
+  /// edges and inner shapes: root mean square weighted by A_e; 99th percentile and maximum of the
+  /// magnitude, unweighted. Edges shorter than a thousandth of the root mean square length are not
+  /// counted.
   double edge_rms = 0, edge_p99 = 0, edge_max = 0;
-  /// The same of | |e| / |e_first| - 1 | against the first pose, over all shapes, extrapolated ones
-  /// too.
+  /// The same for | |e| / |e_first| - 1 | relative to the first shape, over all shapes, including
+  /// extrapolated ones.
   double first_rms = 0, first_p99 = 0, first_max = 0;
-  /// Area-weighted root mean square, in degrees, of the dihedral angle's distance from the straight
-  /// way between the poses' angles, over all inner shapes.
+  /// Area-weighted root mean square, in degrees, of the difference between the dihedral angle and
+  /// the interpolation between the poses' angles, over all inner shapes.
   double roughness = 0;
   /// Hinges folded beyond 120 degrees, and 40 degrees beyond both poses: mean per inner shape.
   double folds = 0;
-  /// The greatest speed of a segment (square root of its energy over its length in t), over the
-  /// mean of its piece: 1 on a geodesic, more where a part waits and then snaps over. Not a number
-  /// for the rigid metric.
+  /// The greatest speed of a segment (square root of its energy over its length in t) relative to
+  /// the mean of its piece: 1 on a geodesic, more if a part rests and then jumps. NaN for the rigid
+  /// metric.
   double speed_max = 1;
 };
 
@@ -38,23 +39,22 @@ struct RmsAndMax {
   double rms = 0, max = 0;
 };
 
-/// What `first_rms` and `first_max` are for all shapes, for shape `i` of the path alone; 0 of the
-/// first.
+/// `first_rms` and `first_max` for shape `i` of the path alone; 0 for the first.
 RmsAndMax DeviationFromFirst(const Path& path, int i);
 
 /// The dihedral angle of every hinge (Dihedral::Angle) of a shape in the metric's unit.
 Eigen::VectorXd DihedralAngles(const Connectivity& connectivity, const Shape& shape);
 
-/// The greatest speed over the mean, as above, of `shapes` (in the metric's unit) at rising
+/// The greatest speed over the mean, as above, for `shapes` (in the metric's unit) at ascending
 /// `times`.
 double GreatestSpeed(const Metric& metric, const std::vector<Shape>& shapes,
                      const std::vector<double>& times);
 
 /// Per vertex of `shape`, the A_e-weighted mean over its edges of | |e| / |e_reference| - 1 |: the
-/// deviation that the paper's Figure 5 colours by.
+/// deviation shown by colours in the paper's Figure 5.
 Eigen::VectorXd EdgeDeviation(const Metric& metric, const Shape& reference, const Shape& shape);
 
-/// Of shape `i` of the path against its first.
+/// For shape `i` of the path relative to its first.
 inline Eigen::VectorXd EdgeDeviation(const Path& path, int i) {
   return EdgeDeviation(*path.metric, path.shapes.front(), path.shapes[i]);
 }

@@ -8,18 +8,19 @@
 
 namespace shapespace {
 
-/// How far a shape is from another of the same mesh in what rigid motion does not change.
+/// The difference of a shape from another of the same mesh, up to rigid motion.
 struct ShapeError {
   /// Of | |e| / |e_reference| - 1 | over all edges: root mean square weighted by area, 99th
-  /// percentile and maximum. Edges shorter than a thousandth of the mesh's are left out.
+  /// percentile and maximum. Edges shorter than a thousandth of the root mean square length are not
+  /// counted.
   double edge_rms = 0, edge_p99 = 0, edge_max = 0;
-  /// V / V_reference - 1; not a number where the mesh is not closed.
+  /// V / V_reference - 1; NaN if the mesh is not closed.
   double volume = 0;
   /// Hinges whose angle differs by more than 90 degrees.
   int inverted_hinges = 0;
 };
 
-/// Of `shape` against `reference`, both 3 x m and in one unit, whichever.
+/// The error of `shape` relative to `reference`, both 3 x m and in the same unit.
 ShapeError CompareShapes(const std::shared_ptr<const Metric>& metric, const Shape& reference,
                          const Shape& shape);
 

@@ -16,14 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The temporaries that exist now. Nobody makes, renames or removes one without the lock.
+// The existing temporaries. They are created, renamed and removed only under the lock.
 struct Unfinished {
   std::mutex mutex;
   std::set<std::string> temporaries;
 };
 
 Unfinished& TheUnfinished() {
-  static Unfinished* const unfinished = new Unfinished;  // outlives threads that still write
+  static Unfinished* const unfinished = new Unfinished;  // other threads may outlive it
   return *unfinished;
 }
 
@@ -62,7 +62,7 @@ void WriteFileAtomically(const std::string& file, const std::function<void(std::
 
 void AbandonUnfinishedFiles() {
   auto& [mutex, temporaries] = TheUnfinished();
-  mutex.lock();  // for good
+  mutex.lock();  // never unlocked
   std::error_code error;
   for (const std::string& temporary : temporaries) fs::remove(temporary, error);
 }

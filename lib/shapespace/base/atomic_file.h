@@ -7,15 +7,15 @@
 
 namespace shapespace {
 
-/// Writes a file so that nobody ever sees half of it: `body` fills a temporary beside `file`, which
-/// is then renamed onto it. Folders on the way are made. If anything fails, the temporary is
-/// removed and what stood at `file` before stands there still. \throw FileError if the folder, the
-/// temporary or the rename fails, or the stream went bad.
+/// Writes a file atomically: `body` fills a temporary file beside `file`, which is then renamed to
+/// it, so that an incomplete file is never visible. Missing folders are created. On failure the
+/// temporary is removed and an existing `file` remains unchanged.
+/// \throw FileError if the folder, the temporary or the rename fails, or the stream has an error.
 void WriteFileAtomically(const std::string& file, const std::function<void(std::ostream&)>& body);
 
-/// Removes the temporaries of all files that any thread is writing. From then on no file is begun
-/// or finished: `WriteFileAtomically` waits forever. For a process that is about to end, and may
-/// not wait until its files are written. Takes a lock, so signal handlers must not call it.
+/// Removes the temporaries of all files that any thread is writing, and blocks all further calls of
+/// `WriteFileAtomically` forever. For a process that is about to end and cannot wait for its files.
+/// Takes a lock, so signal handlers must not call it.
 void AbandonUnfinishedFiles();
 
 }  // namespace shapespace

@@ -1,9 +1,9 @@
 #ifndef SHAPESPACE_BASE_CLONES_H_
 #define SHAPESPACE_BASE_CLONES_H_
 
-// Private: compiles a function for several instruction sets, of which one is chosen when the
-// program starts: a portable build would otherwise lose a factor of two and more. Sanitizers cannot
-// instrument the choice.
+// Private: compiles a function for several instruction sets, one of which is selected when the
+// program starts. A portable build without this is slower by a factor of two and more. Sanitizers
+// cannot instrument the selection.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define SHAPESPACE_CLONES \
@@ -12,12 +12,11 @@
 #define SHAPESPACE_CLONES
 #endif
 
-// Templates, which cannot be cloned, are compiled for the instruction set of the clone that calls
-// them if they are part of it.
+// Templates cannot be cloned; those inlined into a clone are compiled for its instruction set.
 #define SHAPESPACE_INLINE inline __attribute__((always_inline))
 
-// Before a loop: no iteration writes what another one reads, so that g++ may vectorise it. (clang
-// finds that out when the program runs.)
+// Before a loop: asserts that no iteration writes what another one reads, so that g++ may vectorise
+// it. (clang checks this at run time.)
 #if defined(__clang__)
 #define SHAPESPACE_INDEPENDENT
 #else

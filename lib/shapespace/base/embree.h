@@ -12,7 +12,7 @@
 
 namespace shapespace::internal {
 
-/// Finds the first hit of a ray that runs close to the rays asked about before.
+/// Finds the first hit of a ray; rays of consecutive calls are expected to be close together.
 inline void EmbreeIntersect(RTCScene scene, RTCRayHit* ray) {
 #if RTC_VERSION_MAJOR == 3
   RTCIntersectContext context;

@@ -6,8 +6,8 @@
 
 namespace shapespace {
 
-/// Base of everything that shapespace throws. `what()` is a sentence for a person: it names the
-/// file, the element and the remedy where there are such.
+/// Base class of all exceptions of shapespace. `what()` is a sentence for the user that names the
+/// file, the element and the remedy if there are any.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -19,7 +19,7 @@ class FileError : public Error {
   using Error::Error;
 };
 
-/// A mesh was read but cannot serve: index out of range, non-manifold edge, nothing in it.
+/// A mesh was read but is not usable: index out of range, non-manifold edge, empty.
 class MeshError : public Error {
  public:
   using Error::Error;
@@ -37,14 +37,14 @@ class InvalidOptions : public Error {
   using Error::Error;
 };
 
-/// A solver cannot start or go on: a singular matrix, an estimate above the memory limit.
-/// (A solver that merely did not converge says so in its summary and throws nothing.)
+/// A solver cannot start or continue: a singular matrix, an estimate above the memory limit. (A
+/// solver that does not converge reports it in its summary and throws nothing.)
 class SolverError : public Error {
  public:
   using Error::Error;
 };
 
-/// A `Progress` asked a long call to stop; nothing was left behind.
+/// A `Progress` asked a long call to stop; there is no partial result.
 class Cancelled : public Error {
  public:
   Cancelled() : Error("cancelled") {}

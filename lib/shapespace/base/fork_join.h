@@ -1,8 +1,8 @@
 #ifndef SHAPESPACE_BASE_FORK_JOIN_H_
 #define SHAPESPACE_BASE_FORK_JOIN_H_
 
-// Private. The thread sanitizer cannot see how TBB and Embree, which are not built with it, hand
-// work to their threads, and would report all that this work reads and writes.
+// Private. TBB and Embree are not built with the thread sanitizer, which therefore does not see how
+// they pass work to their threads, and would report false races.
 
 #ifdef SHAPESPACE_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
@@ -10,9 +10,9 @@
 
 namespace shapespace::internal {
 
-/// Tells the thread sanitizer that work on other threads comes after this object's construction and
-/// before its destruction. Nothing orders pieces of the work among themselves: races between them
-/// are found. Without the sanitizer this does nothing.
+/// Tells the thread sanitizer that work on other threads happens after this object's construction
+/// and before its destruction. Parts of the work are not ordered with respect to each other, so
+/// races between them are still found. Does nothing without the sanitizer.
 class ForkJoin {
  public:
 #ifdef SHAPESPACE_THREAD_SANITIZER
@@ -20,7 +20,7 @@ class ForkJoin {
   ~ForkJoin() { __tsan_acquire(&join_); }
 #endif
 
-  /// Lives as long as one piece of the work.
+  /// Exists during one part of the work.
   class Piece {
    public:
 #ifdef SHAPESPACE_THREAD_SANITIZER

@@ -11,7 +11,7 @@
 namespace shapespace::internal {
 namespace {
 
-// Hands a text to the parser and remembers how far it got.
+// Passes a text to the parser and records the position reached.
 class Reader {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -34,8 +34,8 @@ class Reader {
   const char** reached_;
 };
 
-// What the parser says, without what it says of itself: "[json.exception.parse_error.101] parse
-// error at line 1, column 2: syntax error ...".
+// The parser's message without its prefix: "[json.exception.parse_error.101] parse error at line 1,
+// column 2: syntax error ...".
 std::string WithoutPreamble(std::string message) {
   message.erase(0, message.find("] ") + 2);
   if (message.rfind("parse error at", 0) == 0) message.erase(0, message.find(": ") + 2);
@@ -61,18 +61,18 @@ Json ParseJson(const std::string& text) {
   const char* const begin = text.data();
   const char* reached = begin;
   const auto error_here = [&](const std::string& problem) {
-    // The parser may have read one byte beyond what it stumbles over.
+    // The parser may have read one byte beyond the error.
     const auto lines = std::count(begin, std::max(begin, reached - 1), '\n');
     return InvalidOptions("line " + std::to_string(lines + 1) + ": " + problem);
   };
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  std::vector<std::set<std::string>> keys;  // of the objects that are being parsed
   const auto look_for_repetitions = [&](int, Json::parse_event_t event, const Json& parsed) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event != Json::parse_event_t::key) return true;
     const auto key = parsed.get<std::string>();
     if (!keys.back().insert(key).second) {
-      throw error_here("the key " + Quoted(key) + " stands twice in one object; leave one out");
+      throw error_here("the key " + Quoted(key) + " occurs twice in one object; remove one");
     }
     return true;
   };
@@ -80,7 +80,7 @@ Json ParseJson(const std::string& text) {
     return Json::parse(Reader(begin, &reached), Reader(begin + text.size(), &reached),
                        look_for_repetitions);
   } catch (const Json::exception& error) {
-    throw error_here("this is no JSON: " + WithoutPreamble(error.what()));
+    throw error_here("this is not valid JSON: " + WithoutPreamble(error.what()));
   }
 }
 

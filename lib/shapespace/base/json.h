@@ -7,16 +7,16 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-// Private: JSON that a person has written, read strictly. What is wrong with it is told by an
-// InvalidOptions that begins with the field, such as "ball.radius: ...". `field` names the value
-// that is read; it is empty for the outermost one.
+// Private: strict reading of JSON written by a user. Errors are InvalidOptions that begin with the
+// field, such as "ball.radius: ...". `field` names the value that is read; it is empty for the
+// outermost one.
 
 namespace shapespace::internal {
 
 using Json = nlohmann::json;
 
-/// \throw InvalidOptions naming the line where `text` is no JSON, holds a number that no double
-///        can be, or gives one key twice in an object.
+/// \throw InvalidOptions naming the line where `text` is not valid JSON, contains a number outside
+///        the range of double, or has a repeated key in an object.
 Json ParseJson(const std::string& text);
 
 /// "field.key", or "key" inside the outermost object.
@@ -25,7 +25,7 @@ std::string Field(const std::string& field, const std::string& key);
 /// \throw InvalidOptions "field: problem".
 [[noreturn]] void FailIn(const std::string& field, const std::string& problem);
 
-/// \throw InvalidOptions if `json` is no object, or has a key that is none of `keys`.
+/// \throw InvalidOptions if `json` is not an object, or has a key that is not one of `keys`.
 void CheckKeys(const Json& json, const std::string& field, const std::vector<std::string>& keys);
 
 /// \throw InvalidOptions if the object `json` lacks `key`.

@@ -17,9 +17,9 @@
 namespace shapespace {
 namespace {
 
-// The threads that work is spread over.
+// The threads used by ParallelFor.
 struct Pool {
-  // TBB makes no more threads in a process than there are cores, unless it is told.
+  // By default TBB creates no more threads than there are cores.
   std::unique_ptr<tbb::global_control> more_than_cores;
   tbb::task_arena arena;
 };
@@ -51,7 +51,7 @@ void SetThreads(int threads) {
     throw InvalidOptions("threads: must be 0 (all cores) to " + std::to_string(most));
   }
   std::lock_guard<std::mutex> lock(pool_mutex);
-  pool.reset();  // of several global_controls TBB takes the smallest
+  pool.reset();  // because TBB uses the smallest of several global_controls
   pool = NewPool(threads);
 }
 

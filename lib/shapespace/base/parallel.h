@@ -5,9 +5,9 @@
 
 namespace shapespace {
 
-/// Threads that `ParallelFor` may use from now on; 0 (at the start) means one for each core. There
-/// may be more than cores, up to 256: they take turns, which is of use in tests, and TBB makes as
-/// many for the rest of the process, too.
+/// Sets the number of threads that `ParallelFor` uses from now on; 0 (the default) means one per
+/// core. Up to 256, which may be more than cores (useful in tests); TBB then uses as many in the
+/// rest of the process too.
 /// \throw InvalidOptions if negative or too large.
 void SetThreads(int threads);
 
@@ -15,7 +15,7 @@ void SetThreads(int threads);
 int Threads();
 
 /// Calls `body(i)` once for every i in [0, count), in any order and on several threads.
-/// Bodies must write to disjoint memory; nothing here sums, so that a result cannot depend on the
+/// Bodies must write to disjoint memory. There is no reduction, so results do not depend on the
 /// number of threads. The first exception thrown by a body is rethrown.
 void ParallelFor(int count, const std::function<void(int)>& body);
 

@@ -7,20 +7,19 @@
 
 namespace shapespace {
 
-/// Hears how far a long call is, and may stop it. Called from the thread that made the call.
+/// Receives the progress of a long call, and can stop it. Called from the thread of that call.
 class Progress {
  public:
   virtual ~Progress() = default;
 
-  /// `done` of `total` units of `stage` are finished; `total` is 0 where it is not known.
-  /// Returns false to stop: the call then returns the best that it has so far, and its summary says
-  /// so, or throws `Cancelled` if there is nothing worth returning yet. It reports no more then.
+  /// `done` of `total` units of `stage` are finished; `total` is 0 if unknown. Return false to
+  /// stop: the call then returns its best result so far, and says so in its summary, or throws
+  /// `Cancelled` if there is no usable result. There are no reports after that.
   virtual bool Report(const std::string& stage, int done, int total) = 0;
 
-  /// About this share of the call's work, 0 to 1, is done: for an estimate of the time that is
-  /// left. The first is 0, and told when the work begins that the later ones are shares of; a share
-  /// may be less than the one before when more turns out to be to do. Calls that cannot tell do not
-  /// call it.
+  /// Estimated share of the call's work that is done, 0 to 1, for an estimate of the remaining
+  /// time. The first report is 0, at the beginning of that work. A share may be less than the one
+  /// before if more work turns out to be necessary. Calls without an estimate do not report it.
   virtual void ReportShare(double /*share*/) {}
 };
 

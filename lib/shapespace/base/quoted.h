@@ -8,7 +8,7 @@
 
 namespace shapespace::internal {
 
-/// A word as it can be shown in a message: short, and without bytes that a terminal cannot show.
+/// A word prepared for a message: shortened, and without bytes that a terminal cannot show.
 inline std::string Quoted(std::string_view word) {
   constexpr size_t kLongest = 40;
   std::string result = "'";

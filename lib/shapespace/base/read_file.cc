@@ -17,7 +17,7 @@ std::string ReadFile(const std::string& file, std::int64_t most_bytes) {
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
   if (!stream) throw FileError(file + ": cannot be opened: " + std::strerror(errno));
   const std::streamoff size = stream.tellg();
-  if (size < 0) throw FileError(file + ": is no ordinary file");
+  if (size < 0) throw FileError(file + ": is not a regular file");
   if (size == 0) throw FileError(file + ": is empty");
   if (size > most_bytes) {
     throw FileError(file + ": is larger than the " + std::to_string(most_bytes) +

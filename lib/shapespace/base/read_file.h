@@ -8,8 +8,8 @@
 namespace shapespace {
 
 /// All bytes of a file.
-/// \throw FileError naming it: a folder, no ordinary file, not there, not allowed, empty, larger
-///        than `most_bytes`, or not to be read to its end.
+/// \throw FileError naming it if it is a folder or not a regular file, is missing, empty, not
+///        permitted, larger than `most_bytes`, or cannot be read completely.
 std::string ReadFile(const std::string& file,
                      std::int64_t most_bytes = std::numeric_limits<std::int64_t>::max());
 

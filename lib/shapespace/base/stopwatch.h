@@ -5,7 +5,7 @@
 
 namespace shapespace::internal {
 
-/// Runs from its construction on.
+/// Measures the time since its construction.
 class Stopwatch {
  public:
   double Seconds() const {

@@ -11,8 +11,8 @@
 namespace shapespace {
 namespace {
 
-/// Numbers the surface nodes of a box grid slice by slice along x: the two end slices are full, the
-/// others are rings.
+/// Numbers the surface nodes of a box grid slice by slice along x: the two end slices are complete,
+/// the others are rings.
 class BoxNodes {
  public:
   BoxNodes(int nx, int ny, int nz) : nx_(nx), ny_(ny), nz_(nz) {}
@@ -47,7 +47,7 @@ Body MakeBar(double length, double width, double height, int nx, int ny, int nz)
   internal::CheckCount("nx", nx, 1);
   internal::CheckCount("ny", ny, 1);
   internal::CheckCount("nz", nz, 1);
-  // Each count is checked first, as the products of three large ones would overflow.
+  // Each count is checked first, because products of three large counts would overflow.
   internal::CheckTriangles(std::max({nx, ny, nz}));
   internal::CheckTriangles(4 *
                            (std::int64_t{nx} * ny + std::int64_t{ny} * nz + std::int64_t{nz} * nx));

@@ -7,9 +7,9 @@ namespace shapespace {
 
 /// The closed surface of a box, centred at the origin with its length along x, width along y and
 /// height along z, in nx x ny x nz cells. `pose(angle)` bends it about the y axis to a circular
-/// arc, its ends rising to +z, by the angle in degrees between its two ends. The middle line keeps
-/// its length and, as the smooth body is bent about its middle plane, its volume stays
-/// length * width * height; the mesh's comes near to that with the square of the cell length.
+/// arc, by the angle in degrees between its two ends, which rise to +z. The middle line keeps its
+/// length. The smooth body is bent about its middle plane, so that its volume remains length *
+/// width * height; the mesh's volume converges to that with the square of the cell length.
 /// The range ends at a full circle, at 90 degrees a cell, or where the inner face is left with a
 /// tenth of its length.
 /// \throw InvalidOptions if a length is not positive and finite, a count is below 1, or there would

@@ -7,12 +7,12 @@
 
 namespace shapespace::internal {
 
-/// sin(x) / x; the first terms of its series are exact to rounding where the quotient is not.
+/// sin(x) / x; near 0 the first terms of the series, which are accurate to rounding there.
 inline double Sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 
-/// Takes space bent about the y axis: the x axis goes to an arc of the given curvature that stays
-/// at the origin and rises to +z, keeping its length; what was normal to it stays so, at the same
-/// distance. Exact for a curvature of zero and accurate near it.
+/// Bends space about the y axis: maps the x axis to an arc of the given curvature that passes
+/// through the origin and rises to +z, with the same length; normals of the axis remain normals, at
+/// the same distance. Exact for a curvature of zero and accurate near it.
 inline Eigen::Vector3d Bend(const Eigen::Vector3d& point, double curvature) {
   const double turn = curvature * point.x();
   const double half = Sinc(turn / 2) * point.x() / 2;  // half the chord, seen from the origin

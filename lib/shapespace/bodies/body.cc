@@ -20,7 +20,7 @@
 namespace shapespace {
 namespace {
 
-// Each of these cuts its body into cells as square as the number of triangles allows.
+// Each of these divides its body into cells that are as square as the number of triangles allows.
 
 Body Bar(int triangles) {
   const double length = 5, width = 1, height = 1;
@@ -102,7 +102,7 @@ Body MakeBody(const std::string& name, int triangles) {
   std::string known;
   for (const Entry& entry : Registry()) {
     if (entry.info.name == name) {
-      // Half the limit, as rounding to whole cells may add some.
+      // Half the limit, because rounding to whole cells may add triangles.
       internal::CheckTriangles(triangles, internal::kMaxBodyTriangles / 2);
       return entry.make(triangles == 0 ? entry.info.default_triangles : triangles);
     }

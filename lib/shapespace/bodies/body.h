@@ -11,8 +11,9 @@
 
 namespace shapespace {
 
-/// A one-parameter family of shapes of one connectivity, given by formulas: what tests, benchmarks
-/// and demonstrations measure against. Lengths have the unit of the arguments that made the body.
+/// A one-parameter family of shapes of one connectivity, given by formulas, as reference for tests,
+/// benchmarks and demonstrations. Lengths have the unit of the arguments from which the body was
+/// made.
 struct Body {
   std::string name;
   std::shared_ptr<const Connectivity> connectivity;
@@ -23,25 +24,25 @@ struct Body {
 
   double begin = 0;  ///< the rest shape
   double end = 0;
-  std::string parameter;   ///< what the parameter is, with its unit, e.g. "bend angle, degrees"
+  std::string parameter;   ///< meaning and unit of the parameter, e.g. "bend angle, degrees"
   bool isometric = false;  ///< every edge keeps its length along the family
 };
 
-/// What `MakeBody` can make.
+/// A body that `MakeBody` can make.
 struct BodyInfo {
   std::string name;
   std::string description;    ///< one line
-  int default_triangles = 0;  ///< what `MakeBody` makes when no number is given
+  int default_triangles = 0;  ///< number used by `MakeBody` if none is given
 };
 
-/// All bodies by name, in the order in which a list should show them.
+/// All bodies by name, in the order for display.
 std::vector<BodyInfo> ListBodies();
 
-/// The body `name` in the proportions that suit it best, with about `triangles` triangles; 0 stands
-/// for its default number. A number below the smallest mesh of a body gives that mesh; `bricard`
-/// always has 8, `steffen` 14, and `quadruped` at most a million. The functions of the other
-/// headers of this folder make bodies of any proportions. \throw InvalidOptions if the name is not
-/// known (the message lists those that are), or the number
+/// The body `name` in default proportions, with about `triangles` triangles; 0 stands for its
+/// default number. A number below a body's smallest mesh gives that mesh; `bricard` always has 8,
+/// `steffen` 14, and `quadruped` at most a million. The functions of the other headers of this
+/// folder make bodies of any proportions.
+/// \throw InvalidOptions if the name is unknown (the message lists the known ones), or the number
 ///        is negative or above 10 million.
 Body MakeBody(const std::string& name, int triangles = 0);
 

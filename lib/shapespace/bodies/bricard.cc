@@ -11,9 +11,9 @@
 namespace shapespace {
 namespace {
 
-// Edge lengths, chosen so that no vertex of the plane of symmetry comes near the axis within the
-// range of the angle (they would at -42 and 58 degrees), and that every hinge moves by more than
-// 30 degrees.
+// Edge lengths, chosen such that no vertex of the plane of symmetry comes near the axis within the
+// range of the angle (this would happen at -42 and 58 degrees), and that every hinge moves by more
+// than 30 degrees.
 constexpr double kEdge02 = 2, kEdge03 = 3;
 constexpr double kEdge04 = 2.5, kEdge24 = 2.2;
 constexpr double kEdge05 = 3, kEdge25 = 2.6;
@@ -21,7 +21,7 @@ constexpr double kEdge05 = 3, kEdge25 = 2.6;
 // Vertices 0 .. 3 lie in the plane z = 0, at (0, a), (0, -a), (d, b), (d, -b); with the edge from 0
 // to 2 at the angle `angle` to the x axis,
 //   a - b = kEdge02 sin(angle),  d = kEdge02 cos(angle),  (a + b)^2 + d^2 = kEdge03^2.
-// A vertex in the plane of symmetry is where two circles meet, about (0, 0) and (d, 0).
+// A vertex in the plane of symmetry is the intersection of two circles, about (0, 0) and (d, 0).
 Shape Pose(double angle) {
   const double d = kEdge02 * std::cos(angle);
   const double difference = kEdge02 * std::sin(angle);

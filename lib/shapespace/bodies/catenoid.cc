@@ -29,7 +29,7 @@ Body MakeCatenoid(double half_height, int around, int along) {
   body.parameter = "angle of association, degrees";
   body.end = 90;
   // With w = u + i v the catenoid is the real part of (cos w, sin w, -i w), the helicoid its
-  // imaginary part; the associated surfaces turn one into the other.
+  // imaginary part; the associated surfaces interpolate between them.
   body.pose = [=](double angle) {
     const double real = std::cos(angle * internal::kRadians),
                  imaginary = std::sin(angle * internal::kRadians);

@@ -11,14 +11,16 @@
 
 namespace shapespace::internal {
 
-/// Some 2 GB of connectivity: what is larger is rather a slip of the keyboard than a wish.
+/// About 2 GB of connectivity; a larger number is taken for a typing error.
 constexpr std::int64_t kMaxBodyTriangles = 20'000'000;
 
-/// \throw InvalidOptions unless `value` is a length whose cube, and whose inverse's, is a double.
+/// Powers of lengths in this range, from the third to the minus third, do not overflow or
+/// underflow.
+/// \throw InvalidOptions unless `value` is in [1e-100, 1e100].
 inline void CheckLength(const char* field, double value) {
   if (value >= 1e-100 && value <= 1e100) return;
   std::ostringstream message;
-  message << field << ": " << value << " is no length; it must be positive and finite";
+  message << field << ": " << value << " is not a length; it must be positive and finite";
   throw InvalidOptions(message.str());
 }
 
@@ -30,7 +32,7 @@ inline void CheckCount(const char* field, int value, int least) {
   throw InvalidOptions(message.str());
 }
 
-/// \throw InvalidOptions if a mesh of so many triangles should not be made.
+/// \throw InvalidOptions if `triangles` is more than `most`.
 inline void CheckTriangles(std::int64_t triangles, std::int64_t most = kMaxBodyTriangles) {
   if (triangles >= 0 && triangles <= most) return;
   std::ostringstream message;
@@ -38,8 +40,8 @@ inline void CheckTriangles(std::int64_t triangles, std::int64_t most = kMaxBodyT
   throw InvalidOptions(message.str());
 }
 
-/// `body` with a `pose` that refuses values outside of [begin, end]. Values that miss the range by
-/// rounding, as steps computed from its ends do, count as its ends.
+/// `body` with a `pose` that rejects values outside of [begin, end]. Values outside by rounding
+/// only, as in steps computed from the ends, are replaced by the ends.
 inline Body WithCheckedRange(Body body) {
   body.pose = [pose = std::move(body.pose), begin = body.begin, end = body.end, name = body.name,
                parameter = body.parameter](double value) {

@@ -6,7 +6,7 @@
 namespace shapespace::internal {
 
 ImplicitValue Evaluate(const RoundCone& cone, const Eigen::Vector3d& point) {
-  // Flattening: distances along `flat` count for more.
+  // Flattening stretches distances along `flat`.
   const double stretch = 1 / cone.flatness - 1;
   const auto stretched = [&](const Eigen::Vector3d& v) -> Eigen::Vector3d {
     return v + stretch * cone.flat.dot(v) * cone.flat;
@@ -15,7 +15,7 @@ ImplicitValue Evaluate(const RoundCone& cone, const Eigen::Vector3d& point) {
   const Eigen::Vector3d axis = stretched(cone.end - cone.begin);
   const double length = axis.norm();
   const double slope = (cone.end_radius - cone.begin_radius) / length;
-  // The sphere, of all those along the axis, to which the point is nearest.
+  // The sphere on the axis to which the point is nearest.
   const double along = from_begin.dot(axis) / length;
   const double aside = std::sqrt(std::max(0.0, from_begin.squaredNorm() - along * along));
   const double at = std::clamp(along + slope * aside / std::sqrt(1 - slope * slope), 0.0, length);
@@ -34,7 +34,7 @@ ImplicitValue Evaluate(const std::vector<RoundCone>& cones, const Eigen::Vector3
     const bool next_is_nearer = next.value < result.value;
     const ImplicitValue& nearer = next_is_nearer ? next : result;
     const ImplicitValue& other = next_is_nearer ? result : next;
-    const double share = overlap * overlap / 2;  // of the farther one
+    const double share = overlap * overlap / 2;  // weight of the farther one
     result = {nearer.value - blend / 6 * overlap * overlap * overlap,
               (1 - share) * nearer.gradient + share * other.gradient,
               (1 - share) * nearer.radius + share * other.radius};
@@ -45,12 +45,11 @@ ImplicitValue Evaluate(const std::vector<RoundCone>& cones, const Eigen::Vector3
 ImplicitValue Project(const std::vector<RoundCone>& cones, Eigen::Vector3d* point) {
   ImplicitValue here = Evaluate(cones, *point);
   for (int i = 0; i < 4; ++i) {
-    const double slope = std::max(here.gradient.norm(), 0.1);  // it is near 1 but in deep creases
+    const double slope = std::max(here.gradient.norm(), 0.1);  // near 1 except in creases
     const double largest = here.radius / 2;
     const double step = here.value / slope;
     *point -= std::clamp(step, -largest, largest) / slope * here.gradient;
-    // After so short a step, which is exact to second order, the gradient is as good as the one
-    // there.
+    // After such a short step, which is exact to second order, the old gradient is accurate enough.
     if (std::abs(step) < 1e-3 * here.radius) break;
     here = Evaluate(cones, *point);
   }

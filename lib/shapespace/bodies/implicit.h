@@ -7,20 +7,21 @@
 
 namespace shapespace::internal {
 
-/// The hull of two spheres, flattened along one direction.
+/// The convex hull of two spheres, flattened along one direction.
 struct RoundCone {
   Eigen::Vector3d begin, end;
   double begin_radius, end_radius;
-  double blend = 0;  ///< width of the fillet where it joins what stands before it in a list
+  double blend = 0;  ///< width of the fillet where it joins the previous ones of a list
   Eigen::Vector3d flat = Eigen::Vector3d::UnitY();  ///< unit vector
   double flatness = 1;                              ///< in (0, 1]; 1: round
 };
 
-/// A value of an implicit surface's function, negative inside.
+/// The value of an implicit surface's function, negative inside.
 struct ImplicitValue {
   double value;
   Eigen::Vector3d gradient;
-  double radius;  ///< of the parts near the point, blended as they are: the local thickness
+  double radius;  ///< local thickness: the radius of the parts near the point, blended in the same
+                  ///< way
 };
 
 ImplicitValue Evaluate(const RoundCone& cone, const Eigen::Vector3d& point);
@@ -29,8 +30,9 @@ ImplicitValue Evaluate(const RoundCone& cone, const Eigen::Vector3d& point);
 /// twice differentiable); `cones` is not empty.
 ImplicitValue Evaluate(const std::vector<RoundCone>& cones, const Eigen::Vector3d& point);
 
-/// Moves `point` to the surface near it, by at most four of Newton's steps along the gradient, none
-/// longer than half the local radius. Returns what is there, to within a thousandth of that.
+/// Moves `point` to the surface near it, by at most four Newton steps along the gradient, none
+/// longer than half the local radius. Returns the value there, accurate to a thousandth of that
+/// radius.
 ImplicitValue Project(const std::vector<RoundCone>& cones, Eigen::Vector3d* point);
 
 }  // namespace shapespace::internal

@@ -55,8 +55,8 @@ class Marcher {
     return origin_ + cell_ * Eigen::Vector3d(i, j, k);
   }
 
-  /// Six tetrahedra, one for each order in which the three axes lead from a corner to the opposite
-  /// one: neighbouring cells then cut their common face alike.
+  /// Six tetrahedra, one for each order of the three axes on the way from a corner to the opposite
+  /// one, so that neighbouring cells divide their common face in the same way.
   void AddCell(const std::array<int, 3>& corner) {
     static constexpr int kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
                                           {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
@@ -88,7 +88,7 @@ class Marcher {
     const std::int64_t key = std::int64_t{inside} << 32 | outside;
     const auto [at, is_new] = vertices_.try_emplace(key, static_cast<int>(mesh_.points.size()));
     if (is_new) {
-      // Kept from the nodes, so that no triangle is without area.
+      // At a distance from the nodes, so that no triangle has zero area.
       const double part = values_[inside] / (values_[inside] - values_[outside]);
       mesh_.points.push_back(Point(inside) +
                              std::clamp(part, 0.05, 0.95) * (Point(outside) - Point(inside)));

@@ -15,14 +15,14 @@ struct TriangleMesh {
   TriangleList triangles;
 };
 
-/// The surface of `cones` as a grid of cells of the given size sees it, by marching tetrahedra:
-/// closed, wound outwards, a manifold; its triangles may be as bad as can be.
+/// The surface of `cones`, sampled on a grid of cells of the given size, by marching tetrahedra: a
+/// closed manifold, oriented outwards; its triangles may be of any quality.
 TriangleMesh March(const std::vector<RoundCone>& cones, double cell);
 
-/// `mesh` in about `triangles` nearly equilateral triangles, with all vertices on the surface of
-/// `cones`; sides are the longer the thicker the body is. Rounds of splitting, collapsing and
-/// flipping edges and of moving vertices within the surface: M. Botsch, L. Kobbelt, "A Remeshing
-/// Approach to Multiresolution Modeling", SGP 2004. Keeps the topology.
+/// Replaces `mesh` by about `triangles` nearly equilateral triangles with all vertices on the
+/// surface of `cones`; edges are longer where the body is thicker. Repeatedly splits, collapses and
+/// flips edges and moves vertices within the surface: M. Botsch, L. Kobbelt, "A Remeshing Approach
+/// to Multiresolution Modeling", SGP 2004. Keeps the topology.
 TriangleMesh Remesh(const TriangleMesh& mesh, const std::vector<RoundCone>& cones, int triangles);
 
 }  // namespace shapespace::internal

@@ -19,10 +19,10 @@ namespace {
 
 constexpr int kLeastTriangles = 500;
 constexpr int kMostTriangles = 1'000'000;
-/// Of the grid that finds the surface: its thinnest parts, the ears, are twice as thick.
+/// Cell size of the grid for the surface: the thinnest parts, the ears, are twice as thick.
 constexpr double kCell = 0.035;
 
-/// Adds bones and their flesh one after another.
+/// Adds bones and their flesh.
 class Builder {
  public:
   explicit Builder(const QuadrupedForm& form) : form_(form) {}
@@ -47,7 +47,7 @@ class Builder {
                                reach, limb, scale.length, scale.girth});
   }
 
-  /// Flesh of the last bone.
+  /// Adds flesh to the last bone.
   void Grow(const Eigen::Vector3d& begin, double begin_radius, const Eigen::Vector3d& end,
             double end_radius, double blend, const Eigen::Vector3d& flat = Eigen::Vector3d::UnitY(),
             double flatness = 1) {
@@ -107,7 +107,7 @@ class Builder {
     Grow(at[2], 0.054, at[3], 0.062, 0.02);
   }
 
-  /// The middles of a leg's joints and of its toes, and the radii there.
+  /// The centres of a leg's joints and of its toes, and the radii there.
   struct LegForm {
     Eigen::Vector3d top, knee, ankle, fetlock, foot;
     double top_radius, knee_radius, ankle_radius;
@@ -116,7 +116,7 @@ class Builder {
   void Leg(const std::string& name, const std::string& parent, int side, const LegForm& leg) {
     const int limb = NewLimb(0.28, side);
     const Scale scale = {form_.leg_length, form_.leg_girth};
-    // It turns about a point below the top of its flesh, near the skin that it pulls at.
+    // The leg rotates about a point below the top of its flesh, near the skin that it stretches.
     const Eigen::Vector3d hip = leg.top + 0.3 * (leg.knee - leg.top);
     Add(name + "upper", parent, hip, leg.knee, 0.18, limb, scale);
     Grow(leg.top, leg.top_radius, leg.knee, leg.knee_radius, 0.1);
@@ -124,7 +124,7 @@ class Builder {
     Grow(leg.knee, leg.knee_radius, leg.ankle, leg.ankle_radius, 0.03);
     Add(name + "cannon", name + "lower", leg.ankle, leg.fetlock, 0.12, limb, scale);
     Grow(leg.ankle, leg.ankle_radius, leg.fetlock, 0.06, 0.03);
-    // A paw grows with the girth of its leg.
+    // A paw scales with the girth of its leg.
     Add(name + "paw", name + "cannon", leg.fetlock, leg.foot + Eigen::Vector3d(0.08, 0, 0), 0.09,
         limb, {form_.leg_girth, form_.leg_girth});
     Grow(leg.foot, 0.078, leg.foot + Eigen::Vector3d(0.08, 0, -0.008), 0.07, 0.05);
@@ -162,7 +162,7 @@ bool IsPaw(const internal::Bone& bone) {
   return bone.name.size() > 3 && bone.name.compare(bone.name.size() - 3, 3, "paw") == 0;
 }
 
-/// A paw that a pose does not name stays level.
+/// A paw without a rotation in the pose remains level.
 internal::Rotations RotationsOf(const internal::Skeleton& skeleton, const Turns& turns) {
   internal::Rotations rotations(skeleton.bones.size(), Eigen::Vector3d::Zero());
   std::vector<bool> named(rotations.size(), false);

@@ -8,7 +8,7 @@
 
 namespace shapespace {
 
-/// Lengths and girths of a quadruped in parts of the usual ones, each in [0.3, 3].
+/// Lengths and girths of a quadruped relative to the default, each in [0.3, 3].
 struct QuadrupedForm {
   double body_length = 1, body_girth = 1;
   double neck_length = 1, neck_girth = 1;
@@ -21,8 +21,8 @@ struct QuadrupedForm {
   void Validate() const;
 };
 
-/// The names that `NamedQuadrupedForm` knows: normal, long (think of a giraffe), short (a
-/// dachshund), heavy (a bear).
+/// The names for `NamedQuadrupedForm`: normal, long (like a giraffe), short (a dachshund), heavy (a
+/// bear).
 std::vector<std::string> QuadrupedProportions();
 
 /// \throw InvalidOptions if the name is not known; the message lists those that are.
@@ -31,12 +31,12 @@ QuadrupedForm NamedQuadrupedForm(const std::string& name);
 /// The names of its poses.
 std::vector<std::string> QuadrupedPoses();
 
-/// A friendly animal, about 1.7 high and 2 long: body, neck, head with ears, four legs and a tail.
-/// As in glTF, y is up and it faces +z; its lowest point has y = 0. Closed, of genus 0, with about
-/// `triangles` nearly equilateral triangles, which are smaller where it is thinner. Mesh and vertex
-/// order depend on `triangles` alone: other forms move its vertices, and are somewhat less regular.
-/// With 20000 triangles no hinge of the usual form is folded beyond 120 degrees in any pose; of the
-/// other named forms up to 30 are, behind the knees of one that sits.
+/// An animal, about 1.7 high and 2 long: body, neck, head with ears, four legs and a tail. As in
+/// glTF, y is up and it faces +z; its lowest point has y = 0. Closed, of genus 0, with about
+/// `triangles` nearly equilateral triangles, which are smaller where it is thinner. Connectivity
+/// and vertex order depend on `triangles` alone: other forms move the vertices, and their triangles
+/// are less regular. With 20000 triangles no hinge of the default form is folded beyond 120 degrees
+/// in any pose; in the other named forms up to 30 hinges are, behind the knees of the sitting pose.
 /// \throw InvalidOptions if the form is not valid, or `triangles` is negative or above a million.
 ///        Fewer than 500 are taken as 500.
 SkinnedBody MakeQuadruped(int triangles, const QuadrupedForm& form = {});

@@ -3,7 +3,7 @@
 
 namespace shapespace::internal {
 
-/// A joint's rotation in degrees: `pitch` about +y (a leg goes back, a head down), `yaw` about +z
+/// A joint's rotation in degrees: `pitch` about +y (a leg backwards, a head down), `yaw` about +z
 /// (to the left), `roll` about +x (the left side up).
 struct Turn {
   const char* bone;

@@ -17,23 +17,23 @@ using OpenMesh::EdgeHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
-/// Sides are in proportion to the local radius to this power: in proportion to the radius itself,
-/// the thick parts of a coarse mesh would be lumps; all alike, its thin parts would be.
+/// Edge lengths are proportional to the local radius to this power. With power 1, thick parts of a
+/// coarse mesh would become too coarse; with power 0, its thin parts would.
 constexpr double kSizePower = 0.65;
-/// Even so, this many of the local radius are the most, which leaves three sides around a limb.
+/// Greatest edge length in units of the local radius, which leaves three edges around a limb.
 constexpr double kMostPerRadius = 2;
-/// A side may be longer than its neighbour by this share of the distance.
+/// Edge lengths may grow by this share of the distance along the surface.
 constexpr double kGradation = 0.35;
-/// Botsch and Kobbelt's limits, in parts of the wanted length.
+/// Botsch and Kobbelt's limits, relative to the target length.
 constexpr double kLongest = 4.0 / 3, kShortest = 4.0 / 5;
-/// So many of the local radius a triangle's middle may be inside of the surface: a tip or a limb
-/// that a triangle cuts off would be gone for good.
+/// Greatest depth of a triangle's centre below the surface, in units of the local radius. A tip or
+/// a limb that a triangle cuts off could not be restored.
 constexpr double kDeepest = 0.25;
-/// Triangles may lean away from the surface's normals by as much as this cosine says; more would
-/// be a fold.
+/// Least cosine of the angle between a triangle's normal and the surface's; a larger angle would be
+/// a fold.
 constexpr double kLeastCosine = 0.3;
-/// Rounds until the number of triangles is near the one asked for, and those that trim it and see
-/// to the angles.
+/// Rounds until the number of triangles is near the requested one, and final rounds, which adjust
+/// the number and improve the angles.
 constexpr int kRounds = 4, kLastRounds = 3;
 
 class Remesher {
@@ -55,7 +55,7 @@ class Remesher {
   TriangleMesh Run(int triangles) {
     for (int round = 0; round < kRounds + kLastRounds; ++round) {
       const bool last = round >= kRounds;
-      // What the sizes promise is nearly, but not quite, what comes out.
+      // The actual number of triangles differs slightly from the expected one.
       if (last) correction_ = CountTriangles() / Promised();
       SetSizes(triangles);
       SplitLongEdges();
@@ -77,7 +77,7 @@ class Remesher {
   VertexHandle Apex(HalfedgeHandle h) const { return To(mesh_.next_halfedge_handle(h)); }
   const Eigen::Vector3d& Point(VertexHandle v) const { return points_[v.idx()]; }
 
-  /// The length of an edge in parts of what it should be.
+  /// The length of an edge relative to its target length.
   double Relative(VertexHandle a, VertexHandle b) const {
     return (Point(a) - Point(b)).norm() * 2 / (sizes_[a.idx()] + sizes_[b.idx()]);
   }
@@ -87,7 +87,7 @@ class Remesher {
   Eigen::Vector3d Normal(VertexHandle a, VertexHandle b, VertexHandle c) const {
     return AreaNormal(Point(a), Point(b), Point(c));
   }
-  /// Whether a triangle is near the surface's direction at its corners.
+  /// Whether a triangle's normal is close to the surface's at its corners.
   bool Faces(VertexHandle a, VertexHandle b, VertexHandle c) const {
     const Eigen::Vector3d normal = Normal(a, b, c);
     const double least = kLeastCosine * normal.norm();
@@ -128,7 +128,7 @@ class Remesher {
     return count;
   }
 
-  /// The number of equilateral triangles of the wanted sizes that cover the surface.
+  /// The expected number of triangles: equilateral ones of the target sizes that cover the surface.
   double Promised() const {
     double sum = 0;
     for (OpenMesh::FaceHandle f : mesh_.all_faces()) {
@@ -141,8 +141,8 @@ class Remesher {
     return sum;
   }
 
-  /// Sizes by thickness, scaled so that `triangles` of them cover the surface, as the gradation
-  /// lets them.
+  /// Computes target sizes from the thickness, limited by the gradation and scaled so that about
+  /// `triangles` triangles of these sizes cover the surface.
   void SetSizes(int triangles) {
     sizes_.resize(points_.size());
     for (int pass = 0; pass < 3; ++pass) {
@@ -177,7 +177,8 @@ class Remesher {
     ProjectAll();
   }
 
-  /// Whether moving `From(h)` onto `To(h)` leaves no edge too long and no triangle turned away.
+  /// Whether moving `From(h)` to `To(h)` makes no edge too long and no triangle point away from the
+  /// surface.
   bool MayCollapse(HalfedgeHandle h) {
     const VertexHandle gone = From(h), kept = To(h);
     for (HalfedgeHandle spoke : mesh_.voh_range(gone)) {
@@ -203,8 +204,8 @@ class Remesher {
     }
   }
 
-  /// Flips edges where that brings valences nearer to six or, `by_angles`, where it makes the
-  /// smallest angle of both triangles larger.
+  /// Flips an edge if the valences then are nearer to six or, with `by_angles`, if the smallest
+  /// angle of both triangles is then larger.
   void FlipEdges(bool by_angles) {
     for (EdgeHandle e : mesh_.all_edges()) {
       if (!Exists(e) || !mesh_.is_flip_ok(e)) continue;
@@ -234,8 +235,8 @@ class Remesher {
     return std::max({-u.dot(w), -v.dot(u), -w.dot(v)});
   }
 
-  /// Moves every vertex, within the surface, to the middle of its triangles; each counts by its
-  /// area in units of the wanted one, which keeps the gradation.
+  /// Moves every vertex, within the surface, to the mean of its triangles' centres, weighted by the
+  /// ratio of area to target area, which preserves the gradation.
   void Relax() {
     std::vector<Eigen::Vector3d> moved(points_.size());
     ForEachVertex([&](VertexHandle v) {
@@ -274,12 +275,12 @@ class Remesher {
   }
 
   const std::vector<RoundCone>& cones_;
-  OpenMesh::TriConnectivity mesh_;  // never tidied up: what was deleted keeps its number
-  // One a vertex, deleted ones included.
+  OpenMesh::TriConnectivity mesh_;  // never garbage collected: deleted elements keep their index
+  // One per vertex, including deleted ones.
   std::vector<Eigen::Vector3d> points_, normals_;
   std::vector<double> radii_, sizes_;
-  double scale_ = 1;       // size of a side where the radius is 1
-  double correction_ = 1;  // triangles made over those promised
+  double scale_ = 1;       // edge length where the radius is 1
+  double correction_ = 1;  // ratio of actual to expected triangles
 };
 
 }  // namespace

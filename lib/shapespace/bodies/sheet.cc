@@ -42,12 +42,13 @@ Body MakeSheet(double length, double width, int nx, int ny) {
   return internal::WithCheckedRange(std::move(body));
 }
 
-// Let the vertices be numbered along the zigzag. Folded evenly, each comes from the one before by a
-// turn by `step` about one axis, parallel to y, and a change of sides. A triangle's base, two steps
-// long, subtends 2 step at that axis; its height leans inwards by (side / 2) tan(step / 2). With
-// t = tan(step / 2) and k = (side / (2 width))^2 the normals of neighbours give
-//   cos(hinge) = (1 - (1 + 2 k) t^2) / (1 + t^2),  so  sin(hinge / 2)^2 = (1 + k) t^2 / (1 + t^2),
-// of which both directions are used below.
+// Let the vertices be numbered along the zigzag. In an evenly folded strip, each vertex results
+// from the one before by a rotation by `step` about one axis, parallel to y, and a change of sides.
+// A triangle's base, two steps long, subtends 2 step at that axis; its height leans inwards by
+// (side / 2) tan(step / 2). With t = tan(step / 2) and k = (side / (2 width))^2 the normals of
+// neighbours give
+//   cos(hinge) = (1 - (1 + 2 k) t^2) / (1 + t^2),  so  sin(hinge / 2)^2 = (1 + k) t^2 / (1 + t^2).
+// Both directions of this equation are used below.
 Body MakeStrip(double side, double width, int triangles) {
   internal::CheckLength("side", side);
   internal::CheckLength("width", width);
@@ -63,8 +64,8 @@ Body MakeStrip(double side, double width, int triangles) {
   const int num_vertices = triangles + 2;
   const double k = std::pow(side / (2 * width), 2);
 
-  // Two or three triangles make no ring; they stop where four would. Narrow strips, whose hinges
-  // are nearly along x, stop before a hinge is shut, which is at k t^2 = 1.
+  // Two or three triangles cannot form a ring; their range ends as for four. Narrow strips, whose
+  // hinges are nearly along x, stop before a hinge is closed, which happens at k t^2 = 1.
   const double t_end =
       std::min(std::tan(internal::kPi / std::max(4, triangles)), std::sqrt(0.9 / k));
   const double sin_half_end = std::sqrt((1 + k) / (1 + t_end * t_end)) * t_end;

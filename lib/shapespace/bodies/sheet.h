@@ -15,12 +15,12 @@ namespace shapespace {
 ///        be more than 20 million triangles.
 Body MakeSheet(double length, double width, int nx, int ny);
 
-/// A strip of equal isosceles triangles in zigzag, whose flex is exactly isometric. At rest it lies
-/// in the xy plane along x; its vertices alternate between the sides y = width / 2 and
-/// y = -width / 2, and those of one side are `side` apart. `pose(angle)` folds every hinge by the
-/// same angle in degrees (0: flat) towards +z. All vertices then lie on two circles: the strip is
-/// a part of an antiprism's side. The range ends where that closes up to a ring or, in narrow
-/// strips of few triangles, shortly before the hinges are shut.
+/// A zigzag strip of equal isosceles triangles, whose motion is exactly isometric. At rest it lies
+/// in the xy plane along x; its vertices alternate between the sides y = width / 2 and y = -width /
+/// 2, and those of one side are `side` apart. `pose(angle)` folds every hinge by the same angle in
+/// degrees (0: flat) towards +z. All vertices then lie on two circles: the strip is a part of an
+/// antiprism's side. The range ends where the strip closes to a ring or, in narrow strips of few
+/// triangles, shortly before the hinges are closed.
 /// \throw InvalidOptions if a length is not positive and finite, side is above 10000 widths, or
 ///        there are fewer than 2 triangles or more than 20 million.
 Body MakeStrip(double side, double width, int triangles);

@@ -19,15 +19,15 @@ constexpr double kMiddle = 0.06;
 
 Eigen::Vector3d Direction(const Bone& bone) { return (bone.end - bone.begin).normalized(); }
 
-/// Normal of the plane that separates what is before a joint from what is behind it.
+/// Normal of the plane that separates the points before a joint from those behind it.
 Eigen::Vector3d JointNormal(const Skeleton& skeleton, const Bone& bone) {
   const Bone& parent = skeleton.bones[bone.parent];
-  // A limb's first bone stands on the trunk, whose direction says nothing about where the limb is.
+  // A limb's first bone is attached to the trunk, whose direction is unrelated to the limb's.
   if (bone.limb != parent.limb) return Direction(bone);
   return (Direction(bone) + Direction(parent)).normalized();
 }
 
-/// Per bone, how much of the point is behind its joint.
+/// Per bone, the share of the point that is behind its joint.
 Eigen::VectorXd Masks(const Skeleton& skeleton, const std::vector<std::vector<RoundCone>>& limbs,
                       const Eigen::Vector3d& point) {
   std::vector<double> near_limb;
@@ -48,7 +48,7 @@ Eigen::VectorXd Masks(const Skeleton& skeleton, const std::vector<std::vector<Ro
   return masks;
 }
 
-/// The shares of all bones in a point, which add up to 1: behind a joint its bone takes over.
+/// The weights of all bones at a point, with sum 1: behind a joint its bone replaces the parent.
 Eigen::VectorXd Shares(const Skeleton& skeleton, const Eigen::VectorXd& masks) {
   Eigen::VectorXd reached = masks, shares = masks;
   for (int j = 1; j < masks.size(); ++j) {
@@ -59,7 +59,7 @@ Eigen::VectorXd Shares(const Skeleton& skeleton, const Eigen::VectorXd& masks) {
   return shares / shares.sum();
 }
 
-/// What a bone's scales make of a vector in its neighbourhood.
+/// Applies a bone's scales to a vector in its neighbourhood.
 Eigen::Vector3d Scaled(const Bone& bone, const Eigen::Vector3d& vector) {
   const Eigen::Vector3d direction = Direction(bone);
   return bone.girth_scale * vector +
@@ -119,7 +119,7 @@ Skin::Skin(Skeleton skeleton, const Eigen::Matrix3Xd& points) : skeleton_(std::m
 
 Shape Skin::Pose(const Rotations& rotations) const {
   const std::vector<Bone>& bones = skeleton_.bones;
-  // Joints are listed from the trunk to the tips; one behind goes first.
+  // Joints are listed from the trunk to the tips; joints nearer to a tip are applied first.
   std::vector<int> turned;
   for (int j = static_cast<int>(bones.size()) - 1; j >= 0; --j) {
     if (rotations[j] != Eigen::Vector3d::Zero()) turned.push_back(j);

@@ -11,18 +11,19 @@
 
 namespace shapespace::internal {
 
-/// A part of the body that moves without its neighbourhood, such as a leg.
+/// A part of the body that moves separately from its neighbourhood, such as a leg.
 struct Limb {
-  double reach = 0;  ///< how far from it the skin still follows
+  double reach = 0;  ///< distance from it up to which the skin follows it
   int side = 0;      ///< 1: y > 0, -1: y < 0; a limb does not move the other side's skin
 };
 
-/// A bone and the joint at its beginning. At rest no bone is turned.
+/// A bone and the joint at its beginning. At rest all rotations are zero.
 struct Bone {
   std::string name;
   int parent = -1;  ///< a bone listed earlier; -1 for the first
   Eigen::Vector3d begin, end;
-  double reach = 0;  ///< the joint bends the skin from so far before it to so far behind it
+  double reach = 0;  ///< the joint bends the skin from this distance before it to this distance
+                     ///< behind it
   int limb = -1;     ///< index into the limbs; -1: the trunk
   double length_scale = 1, girth_scale = 1;
 };
@@ -44,23 +45,23 @@ struct Skeleton {
   std::vector<RoundCone> Cones() const;
 };
 
-/// A rotation vector (axis times angle, in radians) for every bone, about its beginning, with the
-/// axes of the body at rest; bones that follow turn with it.
+/// A rotation vector (axis times angle, in radians) for every bone, about its beginning, in the
+/// axes of the body at rest; the bones attached to it rotate with it.
 using Rotations = std::vector<Eigen::Vector3d>;
 
-/// Skin and bones, ready to be posed.
+/// A skin with bones, in any pose.
 ///
-/// Every joint has a smooth mask on the skin, 0 before it and 1 behind it, and turns a point by the
-/// mask's part of its angle; joints act from the tips of the limbs to the trunk. So no rotations
-/// are averaged, and nothing collapses: a joint's window is free of folds while its angle times
-/// 15/16 of the radius is less than the window's half width.
+/// Every joint has a smooth mask on the skin, 0 before it and 1 behind it, and rotates a point by
+/// its angle times the mask; joints act in order from the tips of the limbs to the trunk. Since
+/// rotations are not averaged, the skin does not collapse: a joint's region is free of folds while
+/// its angle times 15/16 of the radius is less than half the region's width.
 class Skin {
  public:
-  /// `points` are the skin at rest, before the bones' scales apply. Those stretch every bone's
-  /// neighbourhood along and across it.
+  /// `points` are the skin at rest, before the bones' scales are applied, which stretch every
+  /// bone's neighbourhood along and across the bone.
   Skin(Skeleton skeleton, const Eigen::Matrix3Xd& points);
 
-  /// The skin with these rotations, moved up or down so that its lowest point has z = 0.
+  /// The skin with these rotations, translated vertically so that its lowest point has z = 0.
   Shape Pose(const Rotations& rotations) const;
 
  private:

@@ -11,7 +11,7 @@
 
 namespace shapespace {
 
-/// A body with bones, in poses that have names.
+/// A body with bones, in named poses.
 struct SkinnedBody {
   std::string name;
   std::shared_ptr<const Connectivity> connectivity;
@@ -21,12 +21,12 @@ struct SkinnedBody {
   /// \throw InvalidOptions if no pose has that name (the message lists those that are known).
   std::function<Shape(const std::string& name)> pose;
 
-  /// The shape with every joint turned `part` of the way from one pose to another, in [0, 1].
+  /// The shape with every joint rotated by `part`, in [0, 1], of the difference between two poses.
   /// \throw InvalidOptions as above, or if the part is out of its range.
   std::function<Shape(const std::string& from, const std::string& to, double part)> between;
 };
 
-/// What `MakeSkinnedBody` can make.
+/// A body that `MakeSkinnedBody` can make.
 struct SkinnedBodyInfo {
   std::string name;
   std::vector<std::string> poses;

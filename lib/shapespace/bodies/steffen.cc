@@ -26,10 +26,11 @@ Eigen::Vector3d Trilaterate(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   return a + x * u + y * v + std::sqrt(to_a * to_a - x * x - y * y) * u.cross(v);
 }
 
-// Vertices 2 and 3 are no edge, but 11 apart in every pose: each half of the polyhedron that lies
-// between them and vertex 8 is a flexible octahedron of Bricard's without two of its faces, whose
-// common edge this is. So 0 to 3 form a rigid tetrahedron, about which the rest moves. What makes
-// the octahedra flexible also makes edges 4-6 and 5-7, which are not used here, come out 11 long.
+// Vertices 2 and 3 are not connected by an edge, but their distance is 11 in every pose: each half
+// of the polyhedron between them and vertex 8 is a flexible octahedron of Bricard's without two of
+// its faces, whose common edge is 2-3. So 0 to 3 form a rigid tetrahedron, about which the rest
+// moves. The condition for the octahedra to be flexible also implies that edges 4-6 and 5-7, which
+// are not used here, have length 11.
 Shape Pose(double angle) {
   const double height = std::sqrt(12 * 12 - 8.5 * 8.5 - 5.5 * 5.5);
   const double radius = std::sqrt(10 * 10 - 5.5 * 5.5);

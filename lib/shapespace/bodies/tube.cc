@@ -13,7 +13,7 @@
 namespace shapespace {
 namespace {
 
-/// A joint, in parts of the tube's length: it bends within `kReach` of its middle, by a share of
+/// A joint, in units of the tube's length: it bends within `kReach` of its middle, by a share of
 /// the total angle.
 struct Joint {
   double middle, share;
@@ -43,8 +43,8 @@ double Direction(const TubeForm& form, double angle, double s) {
   return direction;
 }
 
-/// The bend at which no inner side is left with less than a tenth of its length, from bounds of
-/// the curvature and the radius.
+/// The bend at which every inner side keeps at least a tenth of its length, by upper bounds of the
+/// curvature and the radius.
 double LargestBend(const TubeForm& form) {
   const double radius = std::max(form.base_radius, form.tip_radius) + form.knuckle;
   double share = 0;
@@ -52,8 +52,8 @@ double LargestBend(const TubeForm& form) {
   return 0.9 * 2 * kReach * form.length / (internal::kSteepestStep * share * radius);
 }
 
-/// The length of the centre line in units of the local radius, summed up to each of many equal
-/// steps: rings at equal steps of it have triangles of the same proportions everywhere.
+/// The length of the centre line in units of the local radius, cumulated over equal steps: rings at
+/// equal intervals of it have triangles of the same proportions everywhere.
 std::vector<double> RelativeLength(const TubeForm& form) {
   constexpr int kSteps = 4096;
   const double step = form.length / kSteps;
@@ -68,24 +68,25 @@ std::vector<double> RelativeLength(const TubeForm& form) {
 
 /// A circle of vertices about the centre line, or a pole.
 struct Ring {
-  double s;          // along the centre line, which goes on straight into the caps
+  double s;          // along the centre line, extended straight into the caps
   double radius;     // 0 for a pole
   double angle;      // of its first vertex, in radians from the inner side
   int first, count;  // its vertices
 };
 
-/// Rings from pole to pole. Those of the tube proper have 5 m vertices, each turned by half a step
-/// against the one before; those of the caps 5, 10, 15, ... from the pole, in five equal sectors.
+/// Rings from pole to pole. Those of the tube proper have 5 m vertices, each ring rotated by half a
+/// step against the one before; those of the caps have 5, 10, 15, ... from the pole, in five equal
+/// sectors.
 std::vector<Ring> MakeRings(int triangles, const TubeForm& form) {
-  // Equilateral triangles ask for sqrt(3) / 2 of a side between rings, which ties the number of
-  // steps along the tube to m; there are 10 m triangles a step and 5 m^2 in a cap.
+  // Equilateral triangles need rings at a distance of sqrt(3) / 2 of an edge, which relates the
+  // number of steps along the tube to m; there are 10 m triangles per step and 5 m^2 in a cap.
   const std::vector<double> relative_length = RelativeLength(form);
   const double steps_per_m = relative_length.back() * 5 / (std::sqrt(3.0) * internal::kPi);
   const int m = std::max<int>(1, std::lround(std::sqrt(triangles / (10 * (1 + steps_per_m)))));
   const int steps = std::max<int>(1, std::lround(triangles / (10.0 * m) - m));
 
-  // Latitudes in a cap (from its pole) are halfway between equal steps, which have the most even
-  // sizes, and a stereographic projection's, which have the most even angles.
+  // Latitudes in a cap (from its pole) are the mean of equal steps, which have the most even sizes,
+  // and those of a stereographic projection, which have the most even angles.
   const auto latitude = [m](int j) {
     const double x = double(j) / m;
     return x * internal::kPi / 4 + std::atan(x);
@@ -120,9 +121,9 @@ std::vector<Ring> MakeRings(int triangles, const TubeForm& form) {
   return rings;
 }
 
-/// The triangles between two rings, by walking around both at once, always by the step that leads
-/// less far around. Where both lead as far, the ring of fewer vertices goes first, which makes the
-/// sectors of a cap mirror images of themselves.
+/// The triangles between two rings, by walking around both at once, always with the step that ends
+/// first. If both end at the same angle, the ring of fewer vertices goes first, which makes the
+/// sectors of a cap symmetric.
 void Stitch(const Ring& low, const Ring& high, internal::TriangleList* triangles) {
   const auto vertex = [](const Ring& ring, int i) { return ring.first + i % ring.count; };
   const int low_steps = low.count > 1 ? low.count : 0;
@@ -145,8 +146,8 @@ void Stitch(const Ring& low, const Ring& high, internal::TriangleList* triangles
   }
 }
 
-/// Where the centre line gets to from s = begin to s = end, by Gauss's rule of three points on
-/// steps so short that the error is near rounding.
+/// The displacement along the centre line from s = begin to s = end, by Gauss quadrature with three
+/// points per step; steps are so short that the error is at rounding.
 Eigen::Vector3d Advance(const TubeForm& form, double angle, double begin, double end) {
   constexpr double kStepsPerLength = 500;
   const int steps = static_cast<int>(std::ceil((end - begin) / form.length * kStepsPerLength));
@@ -193,7 +194,7 @@ void TubeForm::Validate() const {
   internal::CheckLength("base_radius", base_radius);
   internal::CheckLength("tip_radius", tip_radius);
   const auto [least, most] = std::minmax({length, base_radius, tip_radius});
-  // Far beyond any use, and far from where summing up relative lengths would lose small ones.
+  // Larger ratios are useless and near the limit where cumulated lengths lose small ones.
   if (most > 1e4 * least) {
     throw InvalidOptions("length: the length and the radii may differ by a factor of 10000");
   }

@@ -5,13 +5,13 @@
 
 namespace shapespace {
 
-/// The form of a tube at rest: round, with hemispherical caps, tapering, and a little thicker at
-/// its two joints. The default is a finger.
+/// The form of a tube at rest: round, with hemispherical caps, tapered, and slightly thicker at its
+/// two joints. The default is similar to a finger.
 struct TubeForm {
   double length = 6;          ///< between the centres of the caps
   double base_radius = 0.62;  ///< of the cap that stays in place
   double tip_radius = 0.48;   ///< of the cap that moves
-  double knuckle = 0.06;      ///< what the joints' middles add to the radius; 0: a plain cone
+  double knuckle = 0.06;      ///< added to the radius at the middle of the joints; 0: a plain cone
 
   /// \throw InvalidOptions naming the field: length or radii not positive and finite, or differing
   ///        by more than a factor of 10000; the knuckle negative or larger than all of these.

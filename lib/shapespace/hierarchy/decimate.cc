@@ -17,20 +17,21 @@ namespace {
 
 using internal::Quadric;
 
-// A plane upright on a boundary edge weighs this much more than a triangle of the edge's length.
+// Weight of the plane through a boundary edge, perpendicular to the surface, relative to a triangle
+// with the edge's length.
 constexpr double kBoundaryWeight = 10;
-// Share of the squared length of the collapsed edge in the cost: spreads vertices evenly where the
-// surface is flat and the quadrics say nothing.
+// Weight of the squared length of the collapsed edge in the cost: distributes vertices evenly where
+// the surface is flat and the quadrics are zero.
 constexpr double kLengthWeight = 1e-2;
-// A triangle may turn by less than 60 degrees in one collapse.
+// Least cosine of the angle by which a triangle's normal may turn in one collapse.
 constexpr double kLeastCosine = 0.5;
-// Shape of a triangle, 4 sqrt(3) area / sum of squared sides, is 1 if equilateral. No triangle may
-// get worse than this, or than the worst that it replaces.
+// The quality of a triangle, 4 sqrt(3) area / sum of squared sides, is 1 if it is equilateral. No
+// triangle may become worse than this, or than the worst that it replaces.
 constexpr double kLeastQuality = 0.2;
-// Vertices of more triangles, such as the poles of a globe, stay until their neighbours' collapses
-// have left them fewer, and nothing collapses onto them: trying their neighbours, each against all
-// triangles, again after every collapse nearby would take time cubic in their number. A flat fan of
-// triangles that are no slivers has up to 54.
+// Vertices of more triangles, such as the poles of a globe, are kept until collapses of their
+// neighbours have reduced the number, and no vertex collapses onto them: otherwise, after every
+// collapse nearby, each neighbour would be tested against all triangles again, in time cubic in
+// their number. A flat fan of triangles that are not slivers has up to 54.
 constexpr int kLargestFan = 54;
 
 class Decimator {
@@ -81,8 +82,8 @@ class Decimator {
  private:
   using Entry = std::tuple<double, int, int, int>;  // cost, from, to, version of from
 
-  // The poses' coordinates, of area 1 each, beside each other: pose p of vertex v is column
-  // v num_poses + p.
+  // The poses' coordinates, scaled to area 1 and interleaved: pose p of vertex v is column v
+  // num_poses + p.
   void PlacePoses(const std::vector<Shape>& poses) {
     position_.resize(3, static_cast<Eigen::Index>(head_.size()) * num_poses_);
     for (int p = 0; p < num_poses_; ++p) {
@@ -100,7 +101,7 @@ class Decimator {
 
   Eigen::Vector3d At(int v, int pose) const { return position_.col(v * num_poses_ + pose); }
 
-  // Calls body(a, b) for every triangle (v, a, b) of v, and drops dead ones from its list.
+  // Calls body(a, b) for every triangle (v, a, b) of v, and removes collapsed ones from its list.
   template <typename Body>
   void ForFan(int v, const Body& body) {
     int* link = &head_[v];
@@ -115,9 +116,9 @@ class Decimator {
     }
   }
 
-  // Fixes vertices that are no manifold or have no triangle, and finds boundary ones. In a fan each
-  // neighbour has one triangle before it and one after; at a boundary one neighbour lacks the one
-  // before, another the one after.
+  // Pins non-manifold vertices and vertices without triangles, and marks boundary vertices. In a
+  // closed fan each neighbour is followed and preceded by a triangle; at a boundary one neighbour
+  // has no triangle before it and another none after it.
   void ExamineFan(int v) {
     fan_.clear();
     ring_.clear();
@@ -138,7 +139,7 @@ class Decimator {
       }
     }
     if (begins > 1) manifold = false;
-    if (manifold) {  // walking round must meet every triangle once
+    if (manifold) {  // in a manifold a walk around the vertex visits every triangle once
       size_t steps = 0;
       int at = start;
       do {
@@ -233,7 +234,7 @@ class Decimator {
           ++common;
         }
       }
-      // A triangle that would lie on top of another one of `to`.
+      // A triangle that would coincide with another one of `to`.
       if (shared == 2 && a != to && b != to && (a == opposite[0] || a == opposite[1]) &&
           (b == opposite[0] || b == opposite[1])) {
         ForFan(to, [&](int c, int d) {
@@ -243,8 +244,8 @@ class Decimator {
     });
     if (common != shared || closes) return false;
     if (fan_size_[from] > 1) return true;
-    // The last triangle of `from` may only go if its third side is inside a surface: else a
-    // component, a bridge between two or a fin would vanish.
+    // The last triangle of `from` may only be removed if its third side is in the interior of a
+    // surface; otherwise a component, a bridge between two components or a fin would be lost.
     int first = 0, second = 0;
     ForFan(to, [&](int a, int b) {
       first += a == opposite[0];
@@ -265,7 +266,7 @@ class Decimator {
         worst_after = std::min(worst_after, Quality(new_place, xa, xb));
         const Eigen::Vector3d before = internal::AreaNormal(old_place, xa, xb);
         const Eigen::Vector3d after = internal::AreaNormal(new_place, xa, xb);
-        // `<` on purpose: a triangle without area before has no side to flip from.
+        // `<` on purpose: a triangle without area before has no orientation.
         flips = before.dot(after) < kLeastCosine * before.norm() * after.norm();
       });
       if (flips || worst_after < std::min(kLeastQuality, worst_before)) return false;
@@ -287,7 +288,7 @@ class Decimator {
     });
   }
 
-  // Queues the cheapest legal collapse of `from`, if there is one.
+  // Enqueues the cheapest possible collapse of `from`, if there is one.
   void Push(int from) {
     ++version_[from];
     if (fixed_[from] || fan_size_[from] > kLargestFan) return;
@@ -304,7 +305,7 @@ class Decimator {
   }
 
   void Apply(int from, int to) {
-    // The triangles of `from` go to `to`, but for those at their edge.
+    // The triangles of `from` become triangles of `to`, except those at their edge.
     int last = -1;
     for (int corner = head_[from]; corner >= 0; corner = next_[corner]) {
       const int f = corner / 3;
@@ -335,8 +336,8 @@ class Decimator {
   Eigen::Matrix3Xi triangles_;
   std::vector<char> alive_;
   int num_alive_, num_poses_;
-  std::vector<int> head_, next_;  // of every vertex, its corners as a linked list
-  std::vector<int> fan_size_;     // of every vertex, its triangles
+  std::vector<int> head_, next_;  // per vertex, its corners as a linked list
+  std::vector<int> fan_size_;     // per vertex, its number of triangles
   Eigen::Matrix3Xd position_;
   std::vector<internal::Quadric> quadrics_;  // like position_
   std::vector<int> mark_;
@@ -361,7 +362,7 @@ std::vector<Collapse> PlanCollapses(const Connectivity& connectivity,
   }
   for (int v : pinned) {
     if (v < 0 || v >= connectivity.NumVertices()) {
-      throw InvalidOptions("pinned: " + std::to_string(v) + " is no vertex of the mesh");
+      throw InvalidOptions("pinned: " + std::to_string(v) + " is not a vertex of the mesh");
     }
   }
   if (triangles >= connectivity.NumTriangles()) return {};

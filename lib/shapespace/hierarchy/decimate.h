@@ -14,16 +14,16 @@ struct Collapse {
   int triangles;  ///< left after it
 };
 
-/// Which collapses, in which order, take a mesh to few triangles, the same for all `poses` (3 x m
+/// Edge collapses, in order, that reduce a mesh to few triangles, the same for all `poses` (3 x m
 /// each, in any unit): paired progressive meshes (Hoppe, "Progressive Meshes", SIGGRAPH 1996;
-/// Kilian et al. 2007, section 3). The vertex whose removal costs least goes first; the cost is the
-/// quadric error summed over the poses, each scaled to area 1, boundaries held by planes of their
-/// own. No collapse changes the topology, flips a triangle or makes a sliver in any pose; vertices
-/// of `pinned`, of non-manifold spots and of no triangle stay, and so does one of more than 54
-/// triangles for as long as it has these. Ends when `triangles` are left, or earlier if no collapse
-/// is legal. O(m log m).
-/// \throw MeshError if a pose has the wrong number of vertices; InvalidOptions if `pinned` holds a
-///        number that is no vertex.
+/// Kilian et al. 2007, section 3). The vertex whose removal costs least is removed first; the cost
+/// is the quadric error summed over the poses, each scaled to area 1, with additional planes along
+/// boundaries. No collapse changes the topology, flips a triangle or makes a sliver in any pose.
+/// Vertices of `pinned`, non-manifold vertices and vertices without triangles are kept, and so are
+/// vertices with more than 54 triangles as long as they have so many. Ends when `triangles` are
+/// left, or earlier if no collapse is possible. O(m log m).
+/// \throw MeshError if a pose has the wrong number of vertices; InvalidOptions if `pinned` contains
+///        an invalid vertex.
 std::vector<Collapse> PlanCollapses(const Connectivity& connectivity,
                                     const std::vector<Shape>& poses, int triangles,
                                     const std::vector<int>& pinned = {});

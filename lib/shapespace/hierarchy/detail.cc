@@ -14,7 +14,7 @@ namespace shapespace::internal {
 namespace {
 
 constexpr int kVerticesPerTask = 256;
-// Pull of a rotation to the identity, relative to what determines it.
+// Weight of the identity in the fit of a rotation, relative to the data.
 constexpr double kTurnNothing = 1e-9;
 
 // Barycentric coordinates of the point of triangle (a, b, c) that is closest to p.
@@ -50,8 +50,9 @@ Eigen::Vector3d ClosestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
 }
 
 // The rotation nearest to `matrix`: the orthogonal factor of its polar decomposition, by Newton's
-// iteration (Higham 1986), which takes a tenth of the time of singular values; ProcrustesRotation,
-// which computes those, serves where the matrix is close to singular, or the factor a reflection.
+// iteration (Higham 1986), which is ten times faster than a singular value decomposition.
+// ProcrustesRotation, which uses the latter, is called if the matrix is close to singular or the
+// factor is a reflection.
 Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
   constexpr double kWellConditioned = 1e-4, kConverged = 1e-14;
   constexpr int kIterations = 12;
@@ -90,7 +91,8 @@ Carriers FindCarriers(const Connectivity& coarse, const std::vector<int>& kept,
       return;
     }
     result.vertices.col(v).setConstant(near[v]);
-    // The nearest triangle at `near`; then, as long as that helps, at the corners of the one found.
+    // The nearest triangle at `near`, then at the corners of the triangle found, as long as the
+    // distance decreases.
     double best = std::numeric_limits<double>::infinity();
     Eigen::Vector3i from = Eigen::Vector3i::Constant(near[v]);
     for (bool better = true; better;) {
@@ -151,13 +153,13 @@ std::vector<Eigen::Matrix3d> VertexRotations(const Connectivity& coarse, const S
     const int end = std::min(num_vertices, (task + 1) * kVerticesPerTask);
     for (int v = task * kVerticesPerTask; v < end; ++v) {
       Eigen::Matrix3d& rotation = rotations[v];
-      // Edges of a flat fan say nothing about reflections; the normal does. Its length is twice an
-      // area, so that both terms are squared lengths.
+      // Edges of a flat fan do not distinguish rotations from reflections, but the normal does. Its
+      // length is twice an area, so that both terms are squared lengths.
       const double norms = std::sqrt(rest_normal.col(v).norm() * moved_normal.col(v).norm());
       if (norms > 0) {
         rotation += moved_normal.col(v) * rest_normal.col(v).transpose() / norms;
       }
-      // Where neither says anything (edges of a graph on one line) nothing turns.
+      // If neither determines the rotation (edges of a graph on one line), it is the identity.
       rotation.diagonal().array() += kTurnNothing * rotation.norm();
       rotation = NearestRotation(rotation);
     }
@@ -178,8 +180,8 @@ std::vector<Eigen::Matrix3d> VertexGradients(const Connectivity& coarse, const S
       squares[v] += before * before.transpose();
     }
   }
-  // Where the edges leave a direction open, as along the normal of a flat fan, the rotation holds:
-  // F (squares + c I) = products + c R.
+  // Where the edges do not determine a direction, such as the normal of a flat fan, the rotation
+  // does: F (squares + c I) = products + c R.
   constexpr double kShare = 0.1;
   std::vector<Eigen::Matrix3d> result(rotations.size());
   for (size_t v = 0; v < rotations.size(); ++v) {

@@ -9,13 +9,13 @@
 
 namespace shapespace {
 
-/// `options` of a metric on the mesh itself, `connectivity`, as a level of a hierarchy sees them:
+/// Restricts `options` of a metric on the mesh itself, `connectivity`, to a level of a hierarchy:
 /// the user's stiffness is restricted to the level's vertices (Hierarchy::RestrictField).
 MetricOptions RestrictOptions(const MetricOptions& options, const Connectivity& connectivity,
                               const Hierarchy& hierarchy, int level);
 
 /// The metric of a level of a hierarchy: the options of `finest`, the metric on the mesh itself,
-/// restricted and frozen anew on `poses`, shapes of the level in the finest metric's unit.
+/// are restricted and frozen on `poses`, shapes of the level in the finest metric's unit.
 std::shared_ptr<const Metric> FreezeLevel(const Metric& finest, const Hierarchy& hierarchy,
                                           int level, const std::vector<Shape>& poses,
                                           PosePairs pairs = PosePairs::kConsecutive);

@@ -13,11 +13,11 @@ namespace {
 
 // A level has this many times the triangles of the next coarser one.
 constexpr int kRatio = 4;
-// Where decimation stopped early, a last level with more than this share of the next finer one's
-// triangles is left out: it would cost nearly as much as that one.
+// If decimation stopped early, a last level with more than this share of the next finer one's
+// triangles is omitted, because it would cost nearly as much.
 constexpr double kLargestShare = 0.75;
 
-// Numbers of triangles below the mesh's own, falling to about `coarsest`.
+// Numbers of triangles of the coarser levels, descending to about `coarsest`.
 std::vector<int> Targets(int triangles, int coarsest) {
   std::vector<int> targets;
   while (triangles / 2 >= coarsest) {
@@ -27,7 +27,7 @@ std::vector<int> Targets(int triangles, int coarsest) {
   return targets;
 }
 
-// The mesh after collapses that took vertex v to `place[v]`; `number` gives vertices that are left
+// The mesh after collapses that moved vertex v to `place[v]`; `number` gives the remaining vertices
 // their index.
 std::shared_ptr<const Connectivity> Collapsed(const Connectivity& mesh,
                                               const std::vector<int>& place,
@@ -73,7 +73,7 @@ Hierarchy::Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
       PlanCollapses(*connectivity, poses, fewest, options.pinned);
   stopped_early_ = !targets.empty() && (collapses.empty() || collapses.back().triangles > fewest);
 
-  std::vector<int> place = levels_[0].vertices;  // where every vertex of the mesh went
+  std::vector<int> place = levels_[0].vertices;  // to which every vertex of the mesh has collapsed
   size_t next = 0;
   int left = num_triangles;
   for (int target : targets) {
@@ -83,8 +83,8 @@ Hierarchy::Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
       left = collapses[next].triangles;
     }
     if (left > kLargestShare * before) break;
-    // Chains of collapses end at a vertex that is left. A later level's chains go through earlier
-    // ones, so that each vertex is followed to the end.
+    // Chains of collapses end at a remaining vertex. Chains of later levels continue earlier ones,
+    // so each vertex is followed to the end.
     for (int v = 0; v < num_vertices; ++v) {
       int end = v;
       while (place[end] != end) end = place[end];
@@ -125,7 +125,8 @@ Shape Hierarchy::RestrictOnce(const Shape& shape, int level) const {
 }
 
 Eigen::VectorXd Hierarchy::RestrictField(const Eigen::VectorXd& field, int level) const {
-  // Of each vertex, for how many of the mesh's it stands, and the sum of their logarithms.
+  // Per vertex, the number of the mesh's vertices that have collapsed to it, and the sum of their
+  // logarithms.
   Eigen::MatrixX2d sums(field.size(), 2);
   sums << Eigen::VectorXd::Ones(field.size()), field.array().log().matrix();
   for (int at = NumLevels() - 2; at >= level; --at) {

@@ -10,24 +10,24 @@
 namespace shapespace {
 
 struct HierarchyOptions {
-  /// Triangles of the coarsest level, roughly; it has more where the topology, a boundary or the
-  /// poses allow no fewer. A mesh of less than twice as many has one level.
+  /// Approximate number of triangles of the coarsest level; it has more if the topology, a boundary
+  /// or the poses do not permit so few. A mesh with less than twice this number has one level.
   int coarsest = 200;
-  /// Vertices that every level keeps: handles, markers.
+  /// Vertices that every level keeps, such as handles and markers.
   std::vector<int> pinned;
 
   /// \throw InvalidOptions naming the field.
   void Validate() const;
 };
 
-/// The same mesh at several resolutions, for several poses at once (Kilian et al. 2007, section 3):
-/// each level has about a quarter of the next finer one's triangles, and its vertices are some of
-/// that level's, so that going down is leaving out. Going up puts what was left out back as it sits
-/// in a shape that is known. Immutable.
+/// One mesh at several resolutions, for several poses at once (Kilian et al. 2007, section 3). Each
+/// level has about a quarter of the next finer one's triangles, and its vertices are a subset of
+/// that level's. Restriction therefore selects vertices, and lifting adds the others with the
+/// detail of a known shape. Immutable.
 class Hierarchy {
  public:
-  /// Built once for all `poses` (3 x m each) that take part. Edges that are no sides of triangles
-  /// go where their ends go. A graph has one level. O(m log m).
+  /// Built once for all `poses` (3 x m each) that are used. Edges that are not sides of triangles
+  /// follow their end vertices. A graph has one level. O(m log m).
   /// \throw InvalidOptions, MeshError (no pose, or one with the wrong number of vertices).
   Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
             const std::vector<Shape>& poses, const HierarchyOptions& options = {});
@@ -37,45 +37,46 @@ class Hierarchy {
   const std::shared_ptr<const Connectivity>& LevelConnectivity(int level) const {
     return levels_[level].connectivity;
   }
-  /// Of each vertex of `level`, its index in the mesh itself.
+  /// For each vertex of `level`, its index in the mesh itself.
   const std::vector<int>& Vertices(int level) const { return levels_[level].vertices; }
-  /// True if no legal collapse was left before the coarsest level had as few triangles as asked.
+  /// True if no collapse was possible before the coarsest level had the requested number of
+  /// triangles.
   bool StoppedEarly() const { return stopped_early_; }
 
-  /// A shape of the mesh itself as `level` sees it.
+  /// Restricts a shape of the mesh itself to `level`.
   Shape Restrict(const Shape& shape, int level) const;
-  /// A shape of `level` as the next coarser level sees it.
+  /// Restricts a shape of `level` to the next coarser level.
   Shape RestrictOnce(const Shape& shape, int level) const;
 
-  /// A field of positive numbers, one a vertex of the mesh itself, as `level` sees it: the
-  /// geometric mean over the vertices that each vertex of `level` stands for.
+  /// Restricts a field of positive numbers, one per vertex of the mesh itself, to `level`: the
+  /// geometric mean over the vertices that have collapsed to each vertex of `level`.
   Eigen::VectorXd RestrictField(const Eigen::VectorXd& field, int level) const;
 
-  /// A shape of `level` + 1 that sits on `coarse`, a shape of `level`, as `from` sits on
-  /// `from_base` and `to` on `to_base`, blended by (1 - t, t): each neighbourhood moves with the
-  /// rotation of the vertices that carry it. Exact where `coarse` is `from_base` and t is 0, or
-  /// `to_base` and t is 1.
+  /// Lifts `coarse`, a shape of `level`, to `level` + 1. The detail is that of `from` relative to
+  /// `from_base` and of `to` relative to `to_base`, blended by (1 - t, t), rotated with the
+  /// neighbourhoods that carry it. Exact if `coarse` is `from_base` and t is 0, or `to_base` and t
+  /// is 1.
   Shape Lift(const Shape& coarse, int level, const Shape& from_base, const Shape& from,
              const Shape& to_base, const Shape& to, double t) const;
-  /// The same for `from` and `to` that sit on their own restrictions: vertices that `level` has are
-  /// those of `coarse`.
+  /// The same with the restrictions of `from` and `to` as bases: vertices of `level` are those of
+  /// `coarse`.
   Shape Lift(const Shape& coarse, int level, const Shape& from, const Shape& to, double t) const {
     return Lift(coarse, level, RestrictOnce(from, level + 1), from, RestrictOnce(to, level + 1), to,
                 t);
   }
 
-  /// Of each vertex of `level` + 1, the linear part of the motion of the neighbourhood that carries
-  /// it, from `base` to `coarse`, shapes of `level`: rotation and stretch.
+  /// For each vertex of `level` + 1, the deformation gradient (rotation and stretch) of the
+  /// neighbourhood that carries it, from `base` to `coarse`, which are shapes of `level`.
   std::vector<Eigen::Matrix3d> LiftGradients(const Shape& coarse, int level,
                                              const Shape& base) const;
 
  private:
   struct Level {
     std::shared_ptr<const Connectivity> connectivity;
-    std::vector<int> vertices;  // in the mesh itself
-    std::vector<int> kept;      // of each vertex, its index in the next finer level
-    // Of each vertex of the next finer level, the triangle of this one that carries it, and its
-    // place there.
+    std::vector<int> vertices;  // indices in the mesh itself
+    std::vector<int> kept;      // per vertex, its index in the next finer level
+    // Per vertex of the next finer level, the triangle of this one that carries it, and its
+    // barycentric coordinates there.
     Eigen::Matrix3Xi carrier;
     Eigen::Matrix3Xd place;
   };

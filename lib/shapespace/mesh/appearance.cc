@@ -6,7 +6,7 @@
 namespace shapespace {
 namespace {
 
-/// Names stand alone on the rest of a line of OBJ.
+/// In OBJ a name is the rest of a line.
 void CheckNames(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (name.empty() || name.find_first_of(std::string("\r\n\0", 3)) != std::string::npos) {
@@ -15,7 +15,7 @@ void CheckNames(const std::vector<std::string>& names) {
   }
 }
 
-/// Checks indices from -1 to `limit` - 1, of which there are `count` or none.
+/// Checks indices from -1 to `limit` - 1; their number must be `count` or 0.
 void CheckIndices(const std::vector<int>& indices, const std::string& what, int count, int limit) {
   if (indices.empty()) return;
   if (static_cast<int>(indices.size()) != count) {

@@ -10,32 +10,31 @@ namespace shapespace {
 
 /// Names that polygons of a mesh share, such as those of their materials.
 struct PolygonNames {
-  std::vector<std::string> names;  ///< each once
-  std::vector<int> of_polygon;     ///< per polygon an index into `names`, -1 for none; empty if all
-                                   ///< have none
+  std::vector<std::string> names;  ///< no repetitions
+  std::vector<int> of_polygon;     ///< index into `names` per polygon, -1: none; may be empty
 };
 
-/// How a mesh looks and what its parts are called: what outputs show and no metric sees. It belongs
-/// to polygons, corners and vertices as a `Soup` or a `Connectivity` has them. Any part of it may
-/// be empty.
+/// The visual properties of a mesh and the names of its parts: used by outputs, not by metrics. It
+/// refers to polygons, corners and vertices of a `Soup` or a `Connectivity`. Any part of it may be
+/// empty.
 struct Appearance {
-  /// Texture coordinates, 2 x k, v pointing up as in OBJ, and per corner an index into them, -1
-  /// where a corner has none. Either both are empty or none is.
+  /// Texture coordinates, 2 x k, with v pointing up as in OBJ, and per corner an index into them,
+  /// -1 for a corner without. Both are empty or neither is.
   Eigen::Matrix2Xd texture_coordinates;
   std::vector<int> corner_texture;
 
-  std::vector<std::string> material_libraries;  ///< files, as OBJ `mtllib` names them
-  std::string folder;                           ///< that names of libraries are relative to
+  std::vector<std::string> material_libraries;  ///< files, as in OBJ `mtllib`
+  std::string folder;                           ///< to which names of libraries are relative
   PolygonNames materials;                       ///< OBJ `usemtl`
   PolygonNames groups;                          ///< OBJ `g`, all names of a polygon as one text
   PolygonNames objects;                         ///< OBJ `o`
 
-  /// Red, green and blue of every vertex, and its opacity where a fourth row is there: 3 or 4 x m,
+  /// Red, green and blue of every vertex, and its opacity if there is a fourth row: 3 or 4 x m,
   /// from 0 to 1.
   Eigen::MatrixXd vertex_colours;
 
-  /// \throw MeshError if a size or an index is not that of a mesh with so many vertices, polygons
-  ///        and corners, or a number is out of its range.
+  /// \throw MeshError if a size or an index does not fit a mesh with these numbers of vertices,
+  ///        polygons and corners, or a number is out of its range.
   void Validate(int num_vertices, int num_polygons, int num_corners) const;
 };
 

@@ -96,7 +96,7 @@ void CheckManifold(const Soup& soup, const Sides& sides, Findings* findings) {
   edges.Tell(soup, Severity::kNonManifold, "non-manifold-edge", "edges with more than two polygons",
              kAllow, findings);
   winding.Tell(soup, Severity::kNonManifold, "inconsistent-winding",
-               "edges whose two polygons are wound against each other",
+               "edges whose two polygons have inconsistent orientation",
                "recompute the orientation of the polygons, or pass --allow_nonmanifold", findings);
   vertices.Tell(soup, Severity::kNonManifold, "non-manifold-vertex",
                 "vertices at which separate parts of the surface touch", kAllow, findings);
@@ -112,10 +112,10 @@ void CheckUnreferenced(const Soup& soup, Findings* findings) {
   }
   unused.Tell(soup, Severity::kWarning, "unreferenced-vertex",
               "vertices that no polygon and no segment uses",
-              "nothing ties them to the mesh when it moves; take them out of every pose", findings);
+              "their motion is not determined; remove them from every pose", findings);
 }
 
-/// Notes; for a mesh without fatal findings.
+/// Notes for a mesh without fatal findings.
 void DescribeTopology(const Soup& soup, Findings* findings) {
   const Topology topology = ComputeTopology(
       *Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments));
@@ -173,7 +173,7 @@ Findings CheckStructure(const Soup& soup) {
   }
   if (soup.NumPolygons() == 0 && soup.segments.empty()) {
     fatal("no-elements",
-          "holds no polygons and no segments; a point cloud has nothing that a metric could "
+          "holds no polygons and no segments; a point cloud has no element that a metric could "
           "measure, export it with its polygons");
   }
   Named few_corners, outside;
@@ -239,7 +239,7 @@ Findings CheckPositions(const Soup& soup) {
       longest = std::max(longest, (b - a).norm());
       shortest = std::min(shortest, (b - a).norm());
     }
-    // Of the size of rounding errors in double coordinates; thin but honest triangles are above it.
+    // About the rounding errors of double coordinates; valid thin triangles have more.
     constexpr double kNoArea = 1e-12;
     if (area.norm() <= kNoArea * longest * longest) {
       no_area.Add([&] { return PolygonName(soup, p); });
@@ -253,7 +253,7 @@ Findings CheckPositions(const Soup& soup) {
     }
   }
   no_length.Tell(soup, Severity::kWarning, "zero-length-edge",
-                 "edges whose two ends lie at the same place",
+                 "edges whose two ends are at the same position",
                  "merge these vertices in every pose, or expect wrinkles there", &findings);
   no_area.Tell(soup, Severity::kWarning, "zero-area", "polygons without area",
                "remesh there in every pose, or expect wrinkles there", &findings);

@@ -9,8 +9,8 @@
 
 namespace shapespace::internal {
 
-/// The findings of `CheckSoup` that depend on where the vertices are: coordinates that are not
-/// finite, edges of no length, polygons of no area. The soup's indices must be in range.
+/// The findings of `CheckSoup` that depend on the vertices' positions: coordinates that are not
+/// finite, edges without length, polygons without area. The soup's indices must be in range.
 std::vector<Finding> CheckPositions(const Soup& soup);
 
 }  // namespace shapespace::internal

@@ -9,8 +9,8 @@
 
 namespace shapespace::internal {
 
-/// What must hold before anything of a soup can be indexed: there are vertices and elements, and
-/// all indices are in range. All findings are fatal.
+/// Checks the preconditions for using a soup's indices: there are vertices and elements, and all
+/// indices are in range. All findings are fatal.
 std::vector<Finding> CheckStructure(const Soup& soup);
 
 }  // namespace shapespace::internal

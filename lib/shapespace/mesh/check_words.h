@@ -8,7 +8,7 @@
 
 #include <shapespace/mesh/check.h>
 
-// Private: how findings name files, lines and elements. Elements are counted from 1.
+// Private: names of files, lines and elements in findings. Elements are counted from 1.
 
 namespace shapespace::internal {
 
@@ -38,10 +38,10 @@ inline std::string Number(double value) {
   return stream.str();
 }
 
-/// Counts elements and keeps the names of the first three.
+/// Counts elements and stores the names of the first three.
 class Named {
  public:
-  /// `name()` makes the element's name; it is called only where that is kept.
+  /// `name()` returns the element's name; it is called only if the name is stored.
   template <typename MakeName>
   void Add(const MakeName& name) {
     constexpr int kMostNamed = 3;

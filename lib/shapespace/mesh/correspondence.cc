@@ -39,7 +39,7 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-/// Compares a pose with the reference; what is found goes into `findings`.
+/// Compares a pose with the reference and appends to `findings`.
 class Comparison {
  public:
   Comparison(const Soup& reference, const Soup& pose, Findings* findings)
@@ -73,8 +73,8 @@ class Comparison {
     return agree;
   }
 
-  /// Polygons that differ only in where their list begins and in winding get the same key; of the
-  /// two sides of a double-sided polygon the one that was not turned stands first.
+  /// Polygons that differ only in the first corner of their list and in orientation get the same
+  /// key; of the two sides of a double-sided polygon the one that was not reversed comes first.
   static SortedPolygons Canonical(const Soup& soup, std::vector<bool>* turned) {
     turned->assign(soup.NumPolygons(), false);
     using Iterator = std::vector<int>::iterator;
@@ -120,12 +120,12 @@ class Comparison {
     }
     if (wound.Count() == 0) {
       Tell(Severity::kWarning, "polygon-order",
-           std::string("the same polygons stand in another order or begin at other corners; the "
+           std::string("the same polygons are in another order or begin at other corners; the "
                        "reference's are used. If the result looks wrong, ") +
                kKeepOrder);
     } else {
       Tell(Severity::kWarning, "polygon-winding",
-           "the same polygons, but wound the other way (" + std::to_string(wound.Count()) +
+           "the same polygons, but with reversed orientation (" + std::to_string(wound.Count()) +
                "): " + wound.Names() +
                "; the reference's are used. If the pose is a mirror image, "
                "export both in the same coordinate system");
@@ -145,7 +145,7 @@ class Comparison {
 
   std::string WhyPolygonsDiffer() const {
     const int n = reference_.NumVertices();
-    // The same list of polygons up to new numbers for the vertices?
+    // Checks whether the lists of polygons are equal up to a renumbering of vertices.
     if (reference_.polygon_begin == pose_.polygon_begin) {
       std::vector<int> to(n, -1), from(n, -1);
       bool renumbered = true;
@@ -160,12 +160,12 @@ class Comparison {
       if (renumbered) {
         int v = 0;
         while (to[v] < 0 || to[v] == v) ++v;
-        return "the polygons stand in the same order and only the vertices in another (the "
+        return "the polygons are in the same order, but the vertices are not (the "
                "reference's vertex " +
                std::to_string(v + 1) + " is number " + std::to_string(to[v] + 1) + " here)";
       }
     }
-    // Renumbered beyond recognition leaves the numbers of polygons at the vertices as they are.
+    // After any renumbering, the numbers of polygons at the vertices are the same up to order.
     auto valences = [n](const Soup& soup) {
       std::vector<int> count(n, 0);
       for (int v : soup.corners) ++count[v];
@@ -205,7 +205,7 @@ class Comparison {
          "coordinate");
   }
 
-  /// Root mean square distance from the centre, of the vertices that have edges.
+  /// Root mean square distance from the centroid, over the vertices that have edges.
   static double Radius(const Soup& soup, const std::vector<int>& vertices) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     for (int v : vertices) centre += soup.vertices.col(v) / vertices.size();
@@ -230,7 +230,7 @@ class Comparison {
       return result;
     };
     std::vector<double> before = lengths(reference_), stretch = lengths(pose_);
-    // A sliver that collapsed counts as very short, not as infinitely so.
+    // The limit keeps the stretch of a collapsed sliver finite.
     constexpr double kShortest = 1e-6;
     const double least_before = kShortest * Median(before), least = kShortest * Median(stretch);
     if (!(least_before > 0.0) || !(least > 0.0)) return;  // a mesh shrunk to points: told elsewhere
@@ -250,9 +250,10 @@ class Comparison {
     CheckGroups(edges, stretch, vertices);
   }
 
-  /// All edges longer while the body is not, and unevenly so: most vertices are out of place.
-  /// (An isometric roll keeps its edges while it shrinks, but then the edges all agree.)
-  /// Measured: healthy pairs stay below a factor of 1.5 and a spread of 0.09.
+  /// Detects meshes in which most vertices are in a wrong order: edges have become longer, but the
+  /// body has not, and the ratios vary. (If a sheet is rolled up isometrically, the body shrinks
+  /// too, but all ratios agree.) Measurements: correct pairs have a factor below 1.5 and a spread
+  /// below 0.09.
   bool CheckScrambled(const std::vector<double>& stretch, double scale, double growth) {
     constexpr double kFactor = 4.0, kSpread = 0.25;
     std::vector<double> deviation;
@@ -261,7 +262,7 @@ class Comparison {
     if (!(factor > kFactor) || Median(deviation) < kSpread) return false;
     Tell(Severity::kWarning, "vertex-order",
          "the edges are " + Number(factor) +
-             " times as long against the whole as in the reference; most vertices probably stand "
+             " times as long against the whole as in the reference; most vertices are probably "
              "in another order, although the counts agree: " +
              kKeepOrder);
     return true;
@@ -275,9 +276,9 @@ class Comparison {
              " times as long as the reference's; if the units differ, scale one of the files");
   }
 
-  /// Connected vertices at each of which most edges are stretched, or shrunk, by far.
-  /// Measured: in 39 healthy pairs of poses slivers make 2 such neighbours at most; about 140
-  /// vertices in a wrong order make 176 in three groups, the largest of 67.
+  /// Detects connected vertices at each of which most edges are strongly stretched or shrunk.
+  /// Measurements: in 39 correct pairs of poses slivers cause at most 2 such neighbours; about 140
+  /// vertices in a wrong order cause 176 in three groups, the largest of 67.
   void CheckGroups(const std::vector<std::pair<int, int>>& edges,
                    const std::vector<double>& stretch, const std::vector<int>& vertices) {
     constexpr double kFar = 5.0;
@@ -311,7 +312,7 @@ class Comparison {
          "vertices whose edges stretch or shrink together, up to " + Number(largest) + " times (" +
              std::to_string(members.Count()) + " in groups: " + std::to_string(count) +
              "): " + members.Names() +
-             "; they probably stand in another order than in the reference, although the counts "
+             "; they are probably in another order than in the reference, although the counts "
              "agree: " +
              kKeepOrder);
   }

@@ -108,7 +108,7 @@ Soup ReadSoup(const std::string& file) {
   if (extension == ".ply") return Parse(file, Content(file), MeshFormat::kPly);
   if (extension == ".off") return Parse(file, Content(file), MeshFormat::kOff);
   throw FileError(file + ": the extension " + internal::Quoted(extension) +
-                  " is none of .obj, .ply, .off; convert the mesh to one of these");
+                  " is not one of .obj, .ply, .off; convert the mesh to one of these");
 }
 
 Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format) {
@@ -124,7 +124,7 @@ Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format) 
 
 bool MirrorBack(const Soup& reference, char axis, Soup* pose) {
   if (axis < 'x' || axis > 'z') {
-    throw InvalidOptions(std::string("mirror: '") + axis + "' is none of x, y and z");
+    throw InvalidOptions(std::string("mirror: '") + axis + "' is not one of x, y and z");
   }
   if (pose->NumVertices() != reference.NumVertices()) return false;
   internal::CheckPolygons(reference.NumVertices(), reference.polygon_begin, reference.corners);

@@ -5,8 +5,8 @@
 
 #include <shapespace/mesh/soup.h>
 
-// Private: one reader a format. `text` is the content of `file`, which is named in messages.
-// Each throws FileError as `ReadSoup` does.
+// Private: one reader per format. `text` is the content of `file`, whose name is used in messages.
+// Each throws FileError as `ReadSoup`.
 
 namespace shapespace::internal {
 
@@ -14,7 +14,7 @@ Soup ReadObj(const std::string& file, std::string text);
 Soup ReadPly(const std::string& file, const std::string& text);
 Soup ReadOff(const std::string& file, const std::string& text);
 
-/// A property of the vertices of a PLY file, which may be any but a list.
+/// A property of the vertices of a PLY file; any but a list.
 Eigen::VectorXd ReadPlyProperty(const std::string& file, const std::string& text,
                                 const std::string& property);
 

@@ -13,12 +13,12 @@
 namespace shapespace::internal {
 namespace {
 
-/// What `usemtl`, `g` or `o` said last, for the polygons that follow.
+/// The current name of `usemtl`, `g` or `o`, for the following polygons.
 class CurrentName {
  public:
   explicit CurrentName(PolygonNames* names) : names_(names) {}
 
-  /// An empty name stands for none.
+  /// An empty name means none.
   void Set(std::string_view name) {
     current_ = name.empty() ? nullptr : &index_.try_emplace(std::string(name), -1).first->second;
     if (current_ != nullptr && *current_ < 0) pending_ = name;
@@ -32,7 +32,7 @@ class CurrentName {
     names_->of_polygon.push_back(current_ == nullptr ? -1 : *current_);
   }
 
-  /// Returns how many names no polygon has.
+  /// Returns the number of names that no polygon has.
   int Finish() {
     if (names_->names.empty()) names_->of_polygon.clear();
     return static_cast<int>(index_.size() - names_->names.size());
@@ -40,9 +40,9 @@ class CurrentName {
 
  private:
   PolygonNames* names_;
-  std::map<std::string, int, std::less<>> index_;  // into the names; -1 before the first polygon
+  std::map<std::string, int, std::less<>> index_;  // index of the name; -1: no polygon yet
   int* current_ = nullptr;                         // in `index_`
-  std::string pending_;                            // the current name, if it has no polygon yet
+  std::string pending_;                            // the current name, until a polygon has it
 };
 
 class ObjReader {
@@ -72,7 +72,7 @@ class ObjReader {
   int NumVertices() const { return static_cast<int>(coordinates_.size() / 3); }
   int NumTexture() const { return static_cast<int>(texture_.size() / 2); }
 
-  /// Joins lines that a backslash continues, by blanks; returns where the text goes on.
+  /// Joins lines that end with a backslash, with blanks; returns the beginning of the next line.
   size_t ReadLine(size_t begin) {
     line_ = ++lines_read_;
     size_t end = EndOfLine(begin);
@@ -127,7 +127,7 @@ class ObjReader {
     for (const char* axis : {"coordinate x", "coordinate y", "coordinate z"}) {
       coordinates_.push_back(Number(words.Next(), axis, element));
     }
-    // Behind x y z stand a weight, or a colour of three or four numbers.
+    // x y z may be followed by a weight, or by a colour of three or four numbers.
     double further[4] = {1, 1, 1, 1};
     int count = 0;
     for (; !words.Done(); ++count) {
@@ -139,7 +139,7 @@ class ObjReader {
     if (count >= 3) {
       ++num_coloured_;
       any_opacity_ = any_opacity_ || count == 4;
-      // Vertices before the first coloured one are white, as are those without a colour after it.
+      // Vertices without a colour are white.
       colours_.resize(4 * (soup_.vertex_line.size() - 1), 1.0);
       colours_.insert(colours_.end(), further, further + 4);
     }
@@ -182,8 +182,8 @@ class ObjReader {
     }
   }
 
-  /// The vertex and the texture coordinate, or -1, of "v", "v/t", "v//n" or "v/t/n", where any but
-  /// v may be empty. Counted from 0; whether they exist is told at the end of the file.
+  /// The vertex and the texture coordinate, or -1, of "v", "v/t", "v//n" or "v/t/n", where all but
+  /// v may be empty. Counted from 0; whether they exist is checked at the end of the file.
   std::pair<int, int> Corner(std::string_view word, const ElementName& element) const {
     const std::string_view whole = word;
     int numbers[3] = {0, 0, 0};
@@ -206,8 +206,8 @@ class ObjReader {
     Fail(element.Text() + ": corner " + Quoted(whole) + " has more than three parts");
   }
 
-  /// Negative numbers count back from the last of `count` elements so far. 0 stands for none, which
-  /// becomes -1; what lies before the first becomes less.
+  /// Negative numbers count backwards from the last of `count` elements so far. 0 stands for a
+  /// missing number and becomes -1; an element before the first becomes less.
   static int FromZero(int number, int count) {
     if (number >= 0) return number - 1;
     return count + number >= 0 ? count + number : -2;
@@ -290,9 +290,9 @@ class ObjReader {
   std::string text_;
   Soup soup_;
   int lines_read_ = 0;
-  int line_ = 0;                               // on which the statement at hand begins
-  std::vector<double> coordinates_, texture_;  // three a vertex, two a texture coordinate
-  std::vector<double> colours_;                // four a vertex, up to the last that has one
+  int line_ = 0;                               // on which the current statement begins
+  std::vector<double> coordinates_, texture_;  // three per vertex, two per texture coordinate
+  std::vector<double> colours_;                // four per vertex, up to the last one with a colour
   int num_coloured_ = 0, weights_ = 0, third_texture_ = 0;
   bool any_opacity_ = false, any_texture_ = false;
   CurrentName material_{&soup_.appearance.materials}, group_{&soup_.appearance.groups},

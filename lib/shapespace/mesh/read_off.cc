@@ -38,7 +38,7 @@ class OffReader {
  private:
   [[noreturn]] void Fail(const std::string& what) { FailAt(soup_.file, lines_.Number(), what); }
 
-  /// The words of the next line that holds any.
+  /// The words of the next line that is not empty.
   /// \throw FileError at the end of the file.
   Words NextWords(const ElementName& wanted, int of = 0) {
     while (lines_.Next(&line_)) {
@@ -58,7 +58,7 @@ class OffReader {
     if (num_vertices_ == 0) Fail("the header says that there are no vertices");
   }
 
-  /// [ST][C][N]OFF: what the letters promise follows x y z and is not kept.
+  /// [ST][C][N]OFF: x y z is followed by the data that the letters stand for, which is not stored.
   void CheckKeyword(std::string_view keyword, Words rest) {
     std::string_view prefix = keyword;
     if (prefix.substr(0, 2) == "ST") prefix.remove_prefix(2);
@@ -76,7 +76,7 @@ class OffReader {
     if (!count || *count < 0) {
       Fail("the header has " + Quoted(word) + " for the number of " + what + kReexport);
     }
-    // Each element takes a line of at least two bytes.
+    // Each element has a line of at least two bytes.
     if (*count > static_cast<std::int64_t>(lines_.BytesLeft())) {
       Fail("the header promises " + std::to_string(*count) + " " + what +
            ", more than the file can hold" + kReexport);

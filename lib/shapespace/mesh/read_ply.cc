@@ -99,7 +99,7 @@ class PlyReader {
     soup_.file = file;
   }
 
-  /// The wanted property of all vertices.
+  /// The requested property of all vertices.
   Eigen::VectorXd ReadField() {
     Read();
     return std::move(field_);
@@ -153,13 +153,14 @@ class PlyReader {
       } else if (keyword == "property") {
         ReadProperty(words);
       } else if (keyword == "comment") {
-        // By which some programs name the image that texture coordinates lead into.
+        // Some programs name the image for the texture coordinates in a comment.
         if (words.Next() == "TextureFile") {
           soup_.dropped.push_back("texture file " + Quoted(words.Rest()) +
                                   " not kept; a material of an OBJ can name it");
         }
       } else if (keyword != "obj_info" && !keyword.empty()) {
-        Fail("the header holds " + Quoted(keyword) + ", which is no statement of PLY" + kReexport);
+        Fail("the header holds " + Quoted(keyword) + ", which is not a statement of PLY" +
+             kReexport);
       }
     }
     if (!has_format) Fail("the header has no 'format' statement" + std::string(kReexport));
@@ -192,35 +193,35 @@ class PlyReader {
     Element element;
     element.name = words.Next();
     for (const Element& other : elements_) {
-      if (other.name == element.name) Fail("element " + Quoted(element.name) + " stands twice");
+      if (other.name == element.name) Fail("element " + Quoted(element.name) + " occurs twice");
     }
     const std::string_view word = words.Next();
     const std::optional<std::int64_t> count = ParseInteger(word);
     if (!count || *count < 0) {
-      Fail("element " + Quoted(element.name) + ": " + Quoted(word) + " is no count" + kReexport);
+      Fail("element " + Quoted(element.name) + ": " + Quoted(word) + " is not a count" + kReexport);
     }
     element.count = *count;
     elements_.push_back(std::move(element));
   }
 
   void ReadProperty(Words words) {
-    if (elements_.empty()) Fail("a property stands before any element" + std::string(kReexport));
+    if (elements_.empty()) Fail("a property precedes any element" + std::string(kReexport));
     Property property;
     std::string_view word = words.Next();
     if (word == "list") {
       const std::string_view count_word = words.Next();
       property.count_type = ParseType(count_word);
       if (!property.count_type || !IsInteger(*property.count_type)) {
-        Fail(Quoted(count_word) + " is no type that can count the items of a list");
+        Fail(Quoted(count_word) + " is not a type that can count the items of a list");
       }
       word = words.Next();
     }
     const std::optional<Type> type = ParseType(word);
-    if (!type) Fail(Quoted(word) + " is no type of PLY's");
+    if (!type) Fail(Quoted(word) + " is not a type of PLY");
     property.type = *type;
     property.name = words.Next();
     for (const Property& other : elements_.back().properties) {
-      if (other.name == property.name) Fail("property " + Quoted(property.name) + " stands twice");
+      if (other.name == property.name) Fail("property " + Quoted(property.name) + " occurs twice");
     }
     elements_.back().properties.push_back(std::move(property));
   }
@@ -229,7 +230,7 @@ class PlyReader {
 
   size_t BytesLeft() const { return IsText() ? lines_.BytesLeft() : text_.size() - position_; }
 
-  /// Refuses a count that the rest of the file cannot hold, before memory is taken for it.
+  /// Rejects a count that exceeds the rest of the file, before memory is allocated for it.
   void CheckCount(const Element& element) {
     if (element.count > 0 && element.properties.empty()) {
       Fail("element " + Quoted(element.name) + " has no properties" + kReexport);
@@ -238,7 +239,7 @@ class PlyReader {
     for (const Property& property : element.properties) {
       least += IsText() ? 2 : Size(property.count_type.value_or(property.type));
     }
-    // The last line of a text may lack its end.
+    // The last line of a text need not be terminated.
     const size_t held = least == 0 ? 0 : (BytesLeft() + (IsText() ? 1 : 0)) / least;
     if (static_cast<std::uint64_t>(element.count) > held) {
       Fail("the header promises " + std::to_string(element.count) + " of element " +
@@ -247,7 +248,7 @@ class PlyReader {
     }
   }
 
-  /// Begins the next instance of an element; `label` names it in messages.
+  /// Begins the next instance of an element; `label` is its name in messages.
   void Begin(const std::string& label) {
     label_ = label;
     if (!IsText()) return;
@@ -280,12 +281,12 @@ class PlyReader {
     return value;
   }
 
-  /// Length of the list that follows.
+  /// Length of the next list.
   std::int64_t Length(const Property& property) {
     const double length = Number(*property.count_type, "the length of " + property.name);
     const size_t room = BytesLeft() / (IsText() ? 1 : Size(property.type));
     if (!(length >= 0) || length != std::floor(length)) {
-      Fail(label_ + ": the length of " + property.name + " is no count" + kReexport);
+      Fail(label_ + ": the length of " + property.name + " is not a count" + kReexport);
     }
     if (length > static_cast<double>(room) && !IsText()) {
       Fail("the file ends inside " + label_ + kReexport);
@@ -323,7 +324,7 @@ class PlyReader {
 
   // ---- elements
 
-  /// For each property its place in `wanted`, or -1.
+  /// For each property its index in `wanted`, or -1.
   std::vector<int> Roles(const Element& element, const std::vector<std::string>& wanted) const {
     std::vector<int> role(element.properties.size(), -1);
     for (size_t w = 0; w < wanted.size(); ++w) {
@@ -341,8 +342,8 @@ class PlyReader {
     return role;
   }
 
-  /// What a number of this type is divided by to give a share of full colour; empty where no colour
-  /// is of such a type.
+  /// The value of this type that corresponds to full colour; empty if the type is not used for
+  /// colours.
   static std::optional<double> FullColour(const Property& property) {
     if (property.count_type) return std::nullopt;
     switch (property.type) {
@@ -358,8 +359,8 @@ class PlyReader {
     }
   }
 
-  /// Gives red, green, blue and alpha, where vertices have all of the first three, the roles 3
-  /// to 6. Returns the number of channels, 0 without.
+  /// Assigns the roles 3 to 6 to red, green, blue and alpha, if vertices have the first three.
+  /// Returns the number of channels, or 0.
   static int AddColourRoles(const Element& element, std::vector<int>* role) {
     static constexpr const char* kChannels[] = {"red", "green", "blue", "alpha"};
     int place[4] = {-1, -1, -1, -1};
@@ -420,7 +421,7 @@ class PlyReader {
       const Property& property = element.properties[i];
       if (property.name != "vertex_indices" && property.name != "vertex_index") continue;
       if (!property.count_type || !IsInteger(property.type)) {
-        Fail("property " + property.name + " of element face is no list of integers");
+        Fail("property " + property.name + " of element face is not a list of integers");
       }
       role[i] = 0;
       ++found;
@@ -461,7 +462,7 @@ class PlyReader {
     soup_.polygon_begin.push_back(static_cast<int>(soup_.corners.size()));
   }
 
-  /// Texture coordinates of the polygon at hand: u and v of each corner.
+  /// Texture coordinates of the current polygon: u and v of each corner.
   void ReadTexture(const Property& property) {
     const std::int64_t count = Length(property);
     polygon_texture_.clear();
@@ -473,7 +474,7 @@ class PlyReader {
     }
   }
 
-  /// Gives them to its corners. Equal ones become one, as OBJ has them.
+  /// Assigns them to its corners. Equal ones are merged, as in OBJ.
   void AddTexture() {
     std::vector<int>& corner_texture = soup_.appearance.corner_texture;
     const size_t corners = soup_.corners.size() - corner_texture.size();
@@ -511,8 +512,8 @@ class PlyReader {
     }
   }
 
-  /// A vertex index; its range is checked when the number of vertices is known, for elements may
-  /// come in any order.
+  /// A vertex index; its range is checked when the number of vertices is known, because elements
+  /// may be in any order.
   int Index(const Property& property) {
     const double value = Number(property.type, "vertex index");
     if (!(value >= 0) || value > std::numeric_limits<int>::max() || value != std::floor(value)) {
@@ -585,13 +586,13 @@ class PlyReader {
   bool in_header_ = true;
   Format format_ = Format::kText;
   std::vector<Element> elements_;
-  std::string label_;  // of the instance at hand
+  std::string label_;  // of the current instance
   Words words_{std::string_view()};
-  std::vector<double> polygon_texture_;                     // of the polygon at hand
+  std::vector<double> polygon_texture_;                     // of the current polygon
   std::vector<double> texture_;                             // u, v, u, v, ...
   std::map<std::pair<double, double>, int> texture_index_;  // of those
   int unfit_texture_ = 0;
-  std::string wanted_;  // a property of vertices; empty for none
+  std::string wanted_;  // a requested property of vertices; empty for none
   Eigen::VectorXd field_;
   Soup soup_;
 };

@@ -28,13 +28,14 @@ void CheckNumbers(const Eigen::Ref<const Eigen::VectorXd>& numbers, const std::s
 void ValidateNested(const Selection& selection, const std::string& field) {
   if (selection.vertices.empty() && !selection.ball && !selection.box && !selection.halfspace &&
       !selection.group && selection.any.empty()) {
-    FailIn(field, "says nothing; give one of vertices, ball, box, halfspace, group, any");
+    FailIn(field, "is empty; give one of vertices, ball, box, halfspace, group, any");
   }
   for (const auto& [first, last] : selection.vertices) {
     const auto from = std::int64_t{first} + 1, to = std::int64_t{last} + 1;
     const std::string own = Field(field, "vertices");
     if (from < 1) {
-      FailIn(own, std::to_string(from) + " is no vertex number; the first vertex has the number 1");
+      FailIn(own,
+             std::to_string(from) + " is not a vertex number; the first vertex has the number 1");
     }
     if (to < from) {
       FailIn(own, "the range [" + std::to_string(from) + ", " + std::to_string(to) +
@@ -61,7 +62,7 @@ void ValidateNested(const Selection& selection, const std::string& field) {
     CheckNumbers(selection.halfspace->point, Field(own, "point"));
     CheckNumbers(selection.halfspace->normal, Field(own, "normal"));
     if (selection.halfspace->normal.isZero(0)) {
-      FailIn(Field(own, "normal"), "must not be zero, for it says which side is meant");
+      FailIn(Field(own, "normal"), "must not be zero, because it defines the side");
     }
   }
   for (size_t i = 0; i < selection.any.size(); ++i) {
@@ -76,7 +77,7 @@ bool HasWord(const std::string& names, const std::string& name) {
   return false;
 }
 
-// Selects in one shape of one mesh.
+// Evaluates selections in one shape of one mesh.
 class Selector {
  public:
   Selector(const Shape& shape, const Connectivity& connectivity, const Appearance& appearance)
@@ -89,7 +90,7 @@ class Selector {
 
   Flags Run(const Selection& selection, const std::string& field) const {
     Flags selected(shape_.cols(), true);
-    // Takes away the vertices for which `holds` is false.
+    // Removes the vertices for which `holds` is false.
     const auto restrict_to = [&](const auto& holds) {
       for (int v = 0; v < shape_.cols(); ++v) selected[v] = selected[v] && holds(v);
     };
@@ -137,7 +138,8 @@ class Selector {
     for (const auto& [first, last] : selection.vertices) {
       if (last >= shape_.cols()) {
         FailIn(field, std::to_string(std::int64_t{last} + 1) +
-                          " is no vertex of this mesh, which has " + std::to_string(shape_.cols()));
+                          " is not a vertex of this mesh, which has " +
+                          std::to_string(shape_.cols()));
       }
       std::fill(listed.begin() + first, listed.begin() + last + 1, true);
     }
@@ -192,7 +194,7 @@ class Selector {
   const Connectivity& connectivity_;
   const Appearance& appearance_;
   const Eigen::Vector3d low_, high_;
-  const double slack_;  // by which boundaries are widened, for coordinates are rounded
+  const double slack_;  // boundaries are widened by this, because coordinates are rounded
 };
 
 }  // namespace
@@ -204,7 +206,7 @@ std::vector<int> Select(const Selection& selection, const Shape& shape,
   selection.Validate();
   if (shape.cols() != connectivity.NumVertices()) {
     throw MeshError("a shape of " + std::to_string(shape.cols()) +
-                    " vertices is none of a mesh that has " +
+                    " vertices does not belong to a mesh that has " +
                     std::to_string(connectivity.NumVertices()));
   }
   appearance.Validate(connectivity.NumVertices(), connectivity.NumPolygons(),

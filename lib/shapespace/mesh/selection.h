@@ -14,8 +14,8 @@
 
 namespace shapespace {
 
-/// Some vertices of a mesh, said by what they have in common. What is left out does not restrict
-/// them; of several fields all must hold. Lengths and places are in the user's unit and frame.
+/// A set of vertices, defined by conditions. Fields that are not set are no condition; if several
+/// are set, all must be satisfied. Lengths and positions are in the user's unit and frame.
 struct Selection {
   struct Ball {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -24,7 +24,7 @@ struct Selection {
   struct Box {
     Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();
   };
-  /// The side of a plane through `point` to which `normal` points.
+  /// The points on the side of a plane through `point` to which `normal` points.
   struct HalfSpace {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of any length but 0
@@ -36,31 +36,31 @@ struct Selection {
   std::optional<Box> box;
   std::optional<HalfSpace> halfspace;
 
-  /// The vertices of the polygons that have this OBJ group (`g`) or object (`o`): all names of a
-  /// polygon, or one of them, which blanks separate.
+  /// The vertices of the polygons with this OBJ group (`g`) or object (`o`): all names of a
+  /// polygon, or one of them, if blanks separate several.
   std::optional<std::string> group;
 
-  std::vector<Selection> any;  ///< the vertices that one of these selects, or several
+  std::vector<Selection> any;  ///< the vertices selected by at least one of these
 
-  /// \throw InvalidOptions naming the field: nothing is said at all, a number is not finite, beyond
+  /// \throw InvalidOptions naming the field: no field is set, or a number is not finite, beyond
   ///        `kLargestCoordinate` or out of its range.
   void Validate() const;
 };
 
-/// A selection in its text form, which is JSON: {"ball": {"centre": [0, 0, 0], "radius": 2}}. There
-/// vertices are counted from 1. docs/file-formats.md has it all.
-/// \throw InvalidOptions naming the field, or the line if the text is no JSON.
+/// Reads a selection in its text form, which is JSON: {"ball": {"centre": [0, 0, 0], "radius": 2}}.
+/// In it vertices are counted from 1. See docs/file-formats.md.
+/// \throw InvalidOptions naming the field, or the line if the text is not valid JSON.
 Selection ReadSelection(const std::string& text);
 
 /// The text form, on one line; `ReadSelection` reads it back.
 std::string ToText(const Selection& selection);
 
-/// The vertices that are selected in `shape`, counted from 0 and rising, each once. What lies on
-/// the boundary of a ball, a box or a half-space belongs to it, to within a billionth of the
-/// shape's diameter.
+/// The vertices selected in `shape`, counted from 0, ascending and without repetitions. The
+/// boundary of a ball, a box or a half-space belongs to it, within a billionth of the shape's
+/// diameter.
 /// \throw InvalidOptions as `Validate`; also if a vertex does not exist, no polygon has the group,
 ///        or the selection, or one of those in an `any`, has no vertex. MeshError if the arguments
-///        are not of one mesh.
+///        do not belong to one mesh.
 std::vector<int> Select(const Selection& selection, const Shape& shape,
                         const Connectivity& connectivity, const Appearance& appearance);
 

@@ -7,7 +7,7 @@ namespace shapespace {
 namespace internal {
 namespace {
 
-// Nobody writes that many selections inside each other; and each takes its share of the stack.
+// More nested selections are not plausible, and each needs space on the stack.
 constexpr int kMostNested = 50;
 
 // A vertex number, counted from 1, as an index from 0.
@@ -18,7 +18,7 @@ int VertexFrom(const Json& json, const std::string& field) {
   }
   const auto number = json.is_number_unsigned() ? json.get<std::uint64_t>() : 0;
   if (number < 1 || number > kMost) {
-    FailIn(field, json.dump() + " is no vertex number; the first vertex has the number 1");
+    FailIn(field, json.dump() + " is not a vertex number; the first vertex has the number 1");
   }
   return static_cast<int>(number - 1);
 }
@@ -122,7 +122,7 @@ Selection ReadSelection(const std::string& text) {
 
 std::string ToText(const Selection& selection) {
   using Ordered = nlohmann::ordered_json;
-  // A name of a group may be in bytes that are no UTF-8: those are replaced.
+  // The name of a group may not be valid UTF-8; invalid bytes are replaced.
   return internal::JsonOf(selection).dump(-1, ' ', false, Ordered::error_handler_t::replace);
 }
 

@@ -6,14 +6,14 @@
 #include <shapespace/base/json.h>
 #include <shapespace/mesh/selection.h>
 
-// Private: the text form of selections, as a part of other JSON.
+// Private: the text form of selections, which is also a component of other JSON.
 
 namespace shapespace::internal {
 
 /// \throw InvalidOptions naming the field.
 Selection ParseSelection(const Json& json);
 
-/// The field that number `i` of the selections in `field`'s `any` is, counted from 0.
+/// The field name of selection `i`, counted from 0, in `field`'s `any`.
 std::string FieldOfAny(const std::string& field, size_t i);
 
 }  // namespace shapespace::internal

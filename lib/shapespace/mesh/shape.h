@@ -5,14 +5,14 @@
 
 namespace shapespace {
 
-/// A point of shape space: the positions of all m vertices, 3 x m, one vertex a column.
+/// A point of shape space: the positions of all m vertices, 3 x m, one vertex per column.
 using Shape = Eigen::Matrix3Xd;
 
-/// A tangent vector of shape space: one velocity a vertex. Same storage as a `Shape`.
+/// A tangent vector of shape space: one velocity per vertex. Same storage as a `Shape`.
 using Tangent = Eigen::Matrix3Xd;
 
-/// Coordinates may be as far from zero as this, in any unit, and a mesh no smaller than its
-/// reciprocal: powers of lengths are then numbers too.
+/// Limit of coordinates' magnitudes, in any unit, and of the reciprocal of a mesh's size, so that
+/// powers of lengths do not overflow or underflow.
 inline constexpr double kLargestCoordinate = 1e60;
 
 }  // namespace shapespace

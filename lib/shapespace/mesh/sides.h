@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-// Private: how polygons lie at edges and around vertices, from index arrays alone.
+// Private: the arrangement of polygons at edges and around vertices, from index arrays alone.
 
 namespace shapespace::internal {
 
@@ -20,7 +20,7 @@ class UnionFind {
     return i;
   }
 
-  /// The smaller root stays a root, so that roots do not depend on the order of the calls.
+  /// The smaller root remains the root, so that roots do not depend on the order of the calls.
   void Join(int i, int j) {
     i = Find(i);
     j = Find(j);
@@ -31,10 +31,10 @@ class UnionFind {
   std::vector<int> parent_;
 };
 
-/// One side of a polygon: an edge with the polygon it belongs to.
+/// One side of a polygon: an edge, with the polygon to which it belongs.
 struct Side {
   int high;        ///< the edge's larger vertex
-  int polygon;     ///< that it is a side of
+  int polygon;     ///< to which the side belongs
   int at_low;      ///< corner of the polygon at the edge's smaller vertex
   int at_high;     ///< ... and at the larger
   bool ascending;  ///< the polygon runs from the smaller vertex to the larger
@@ -53,11 +53,11 @@ struct Sides {
   }
 };
 
-/// Sides that join a vertex to itself are no sides.
+/// Sides that join a vertex to itself are not included.
 inline Sides MakeSides(int num_vertices, const std::vector<int>& polygon_begin,
                        const std::vector<int>& corners) {
   const int num_polygons = static_cast<int>(polygon_begin.size()) - 1;
-  // Counting by the smaller vertex leaves a handful of sides a vertex to be sorted.
+  // Bucket sort by the smaller vertex; only the few sides of each vertex remain to be sorted.
   std::vector<int> at(num_vertices + 1, 0);
   auto each_side = [&](auto&& use) {
     for (int p = 0; p < num_polygons; ++p) {
@@ -91,7 +91,7 @@ inline Sides MakeSides(int num_vertices, const std::vector<int>& polygon_begin,
   return result;
 }
 
-/// Per vertex the number of fans that its polygons form: sets connected through edges at it.
+/// Per vertex the number of its fans: sets of polygons that are connected through edges at it.
 inline std::vector<int> CountFans(int num_vertices, const std::vector<int>& polygon_begin,
                                   const std::vector<int>& corners, const Sides& sides) {
   UnionFind fans(static_cast<int>(corners.size()));

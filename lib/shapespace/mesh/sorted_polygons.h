@@ -7,13 +7,13 @@
 
 #include <shapespace/mesh/soup.h>
 
-// Private: how polygons are found again whose lists of vertices differ in order.
+// Private: finds equal polygons whose lists of vertices differ in order.
 
 namespace shapespace::internal {
 
-/// One list of vertices a polygon, and the polygons in the lexicographic order of these lists.
+/// One list of vertices per polygon, and the polygons in lexicographic order of these lists.
 struct SortedPolygons {
-  std::vector<int> keys;   // as Soup::corners, each polygon's made comparable
+  std::vector<int> keys;   // as Soup::corners, with each polygon in a canonical order
   std::vector<int> order;  // polygons
   const std::vector<int>* begin;
 

@@ -10,26 +10,26 @@
 
 namespace shapespace {
 
-/// What a mesh file says, before anything is made of it: nothing merged, dropped or reordered.
+/// The content of a mesh file, with nothing merged, dropped or reordered.
 struct Soup {
-  std::string file;  ///< the path it was read from; empty if made in code
+  std::string file;  ///< from which it was read; empty if made in code
   Shape vertices;    ///< 3 x m, in the file's order and units
 
-  /// Polygons (three or more corners each), concatenated: polygon i holds the vertex indices
+  /// Polygons (three or more corners each), concatenated: polygon i has the vertex indices
   /// corners[polygon_begin[i]] ... corners[polygon_begin[i + 1] - 1], counted from 0.
   std::vector<int> polygon_begin = {0};
   std::vector<int> corners;
 
-  /// Straight-line elements (OBJ `l`), each as its consecutive segments.
+  /// Straight lines (OBJ `l`), as their consecutive segments.
   std::vector<std::pair<int, int>> segments;
 
-  /// Line of the file on which each element stands, counted from 1; empty where the file has no
-  /// lines (binary PLY) or the mesh was made in code.
+  /// The file's line of each element, counted from 1; empty for files without lines (binary PLY)
+  /// and for meshes made in code.
   std::vector<int> vertex_line, polygon_line, segment_line;
 
-  Appearance appearance;  ///< kept for outputs
+  Appearance appearance;  ///< for outputs
 
-  /// Sentences about what the file holds and shapespace does not keep (normals, points, ...).
+  /// Sentences about content of the file that is not stored (normals, points, ...).
   std::vector<std::string> dropped;
 
   int NumVertices() const { return static_cast<int>(vertices.cols()); }

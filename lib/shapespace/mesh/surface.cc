@@ -65,7 +65,7 @@ Shape VertexNormals(const Connectivity& connectivity, const Shape& shape) {
 struct Surface::Scene {
   const std::shared_ptr<const Connectivity> connectivity;
   const Shape shape, normals;
-  // Boxes are in single precision, relative to the centre and in units of half the extent.
+  // Boxes are in single precision, relative to the centre, in units of half the extent.
   const Eigen::Vector3d low, high, centre;
   const double unit;
   const internal::ForkJoin callbacks{};  // after all that they read
@@ -114,7 +114,7 @@ struct Surface::Scene {
     Foot foot;
   };
 
-  // The point query's radius, in units, that holds all that is as near as `distance`.
+  // The point query's radius, in these units, that includes everything within `distance`.
   static float Radius(double distance, double slack) {
     return static_cast<float>(distance * (1 + 4.0 * kRounding) + slack);
   }
@@ -168,7 +168,7 @@ Foot Surface::Nearest(const Eigen::Vector3d& point, const std::function<bool(int
                       double within) const {
   const Scene& self = *scene_;
   const Eigen::Vector3d local = (point - self.centre) / self.unit;
-  // The slack is what rounding to float may move the point by.
+  // The slack is a bound of the point's displacement by rounding to float.
   const double slack = 4.0 * kRounding * (1 + local.cwiseAbs().maxCoeff());
   Scene::Query query = {&self, &admits, point, slack, within, {}};
   RTCPointQuery at;

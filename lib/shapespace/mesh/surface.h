@@ -14,31 +14,32 @@ namespace shapespace {
 
 /// A point of a triangle mesh.
 struct Foot {
-  int triangle = -1;  ///< of Connectivity::Triangles(); -1: there is none
+  int triangle = -1;  ///< index into Connectivity::Triangles(); -1: none
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double distance = 0;
 };
 
-/// Unit normals of a shape's vertices, weighted by the triangles' areas; zero at a vertex that has
-/// none.
+/// Unit normals of a shape's vertices, weighted by the triangles' areas; zero for vertices without
+/// a normal.
 Shape VertexNormals(const Connectivity& connectivity, const Shape& shape);
-/// Unit normals of its triangles; zero for one without area.
+/// Unit normals of its triangles; zero for triangles without area.
 Shape TriangleNormals(const Connectivity& connectivity, const Shape& shape);
 
-/// A shape of a mesh, ready to be asked for its points nearest to others. Candidates come from
-/// Embree's hierarchy of boxes, distances are computed in double precision. Nearest() may be called
+/// A shape of a mesh, prepared for queries of the nearest point. Candidates are found by Embree's
+/// bounding volume hierarchy, distances are computed in double precision. Nearest() may be called
 /// from several threads at once.
 class Surface {
  public:
-  /// The shape is finite and has an extent; triangles without area are never found.
+  /// The shape must be finite and have an extent; triangles without area are never found.
   /// \throw Error if Embree cannot start or runs out of memory.
   Surface(std::shared_ptr<const Connectivity> connectivity, const Shape& shape);
   Surface(Surface&&) noexcept;
   ~Surface();
 
-  /// The nearest point on triangles that `admits(triangle)` takes (without, on any), not farther
-  /// than `within`. Of equally near points the one on the triangle with the smallest number.
+  /// The nearest point on the triangles for which `admits(triangle)` is true (all, if it is null),
+  /// not farther than `within`. Of equally near points the one on the triangle with the smallest
+  /// index.
   Foot Nearest(const Eigen::Vector3d& point,
                const std::function<bool(int triangle)>& admits = nullptr,
                double within = std::numeric_limits<double>::infinity()) const;

@@ -13,11 +13,11 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/quoted.h>
 
-// Private: lines, words and numbers of a text file, read strictly.
+// Private: strict reading of lines, words and numbers of a text file.
 
 namespace shapespace::internal {
 
-/// What to do about a damaged file; ends most messages.
+/// The remedy for a damaged file; ends most messages.
 inline constexpr char kReexport[] = "; is the file damaged? Export the mesh again";
 
 /// Throws a FileError "file:line: what"; without the line if it is 0.
@@ -25,17 +25,17 @@ inline constexpr char kReexport[] = "; is the file damaged? Export the mesh agai
   throw FileError(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what);
 }
 
-/// Makes blanks of the mark with which some editors begin a text in UTF-8.
+/// Replaces the byte order mark with which some editors begin a text in UTF-8 by blanks.
 inline void BlankByteOrderMark(std::string* text) {
   if (text->compare(0, 3, "\xEF\xBB\xBF") == 0) text->replace(0, 3, 3, ' ');
 }
 
-/// Hands out the lines of a text, ended by LF, CR LF or CR, and counts them from 1.
+/// Iterates over the lines of a text, terminated by LF, CR LF or CR, and counts them from 1.
 class Lines {
  public:
   explicit Lines(std::string_view text) : text_(text) {}
 
-  /// False at the end of the text.
+  /// Returns false at the end of the text.
   bool Next(std::string_view* line) {
     if (position_ >= text_.size()) return false;
     const size_t end = std::min(text_.find_first_of("\r\n", position_), text_.size());
@@ -48,7 +48,7 @@ class Lines {
 
   int Number() const { return number_; }
 
-  /// Bytes of the text that no line was made of yet.
+  /// Bytes of the text after the current line.
   size_t BytesLeft() const { return text_.size() - std::min(position_, text_.size()); }
 
  private:
@@ -57,7 +57,7 @@ class Lines {
   int number_ = 0;
 };
 
-/// Hands out the words of a line, separated by blanks and tabs.
+/// Iterates over the words of a line, separated by blanks and tabs.
 class Words {
  public:
   explicit Words(std::string_view line) : rest_(line) { SkipBlanks(); }
@@ -72,7 +72,7 @@ class Words {
     return word;
   }
 
-  /// All that follows, without blanks at its end.
+  /// The rest of the line, without trailing blanks.
   std::string_view Rest() const { return rest_.substr(0, rest_.find_last_not_of(" \t") + 1); }
 
  private:
@@ -90,7 +90,7 @@ inline std::string_view WithoutPlus(std::string_view word) {
   return plus ? word.substr(1) : word;
 }
 
-/// The whole word as a number, which may be infinite or none; empty if it is no number.
+/// The whole word as a number, which may be infinite or NaN; empty if it is not a number.
 inline std::optional<double> ParseDouble(std::string_view word) {
   word = WithoutPlus(word);
   double value = 0.0;
@@ -98,8 +98,8 @@ inline std::optional<double> ParseDouble(std::string_view word) {
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   if (stop != end || error == std::errc::invalid_argument) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // from_chars does not say on which side of a double's range: too small is told by the sign of
-    // the exponent, or, without one, by a leading zero (0.000...).
+    // from_chars does not distinguish overflow from underflow: underflow is recognised by a
+    // negative exponent or, without exponent, by a leading zero (0.000...).
     const size_t exponent = word.find_first_of("eE");
     const bool tiny = exponent == std::string_view::npos ? word[word[0] == '-'] == '0'
                                                          : word[exponent + 1] == '-';
@@ -108,7 +108,7 @@ inline std::optional<double> ParseDouble(std::string_view word) {
   return value;
 }
 
-/// The whole word as an integer; empty if it is none.
+/// The whole word as an integer; empty if it is not one.
 inline std::optional<std::int64_t> ParseInteger(std::string_view word) {
   word = WithoutPlus(word);
   std::int64_t value = 0;
@@ -118,7 +118,7 @@ inline std::optional<std::int64_t> ParseInteger(std::string_view word) {
   return value;
 }
 
-/// An element of a file, such as its third vertex; put into words only where a message needs them.
+/// An element of a file, such as its third vertex; converted to text only for messages.
 struct ElementName {
   const char* kind;
   size_t number = 0;  ///< counted from 1; 0 for none

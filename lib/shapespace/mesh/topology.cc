@@ -30,7 +30,7 @@ bool IsManifold(const Connectivity& connectivity, const std::vector<int>& begin,
   return std::all_of(fans.begin(), fans.end(), [](int count) { return count <= 1; });
 }
 
-/// False if OpenMesh refuses a face.
+/// Returns false if OpenMesh rejects a face.
 bool Build(const Connectivity& connectivity, OpenMesh::TriConnectivity* mesh) {
   const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
   mesh->reserve(connectivity.NumVertices(), connectivity.NumTriangleEdges(), triangles.cols());
@@ -76,12 +76,12 @@ void FindComponents(const Connectivity& connectivity, Topology* topology) {
   topology->component.assign(n, -1);
   for (int v = 0; v < n; ++v) {
     if (!used[v]) continue;
-    const int root = pieces.Find(v);  // the piece's smallest vertex, so it is numbered already
+    const int root = pieces.Find(v);  // the component's smallest vertex, so it has a number already
     topology->component[v] = root == v ? topology->components++ : topology->component[root];
   }
 }
 
-/// From the Euler characteristic of each connected piece of surface: 2 - 2 genus - loops, summed.
+/// From the Euler characteristics of the components: the sum of 2 - 2 genus - loops.
 int Genus(const Connectivity& connectivity, int num_loops) {
   const int n = connectivity.NumVertices();
   UnionFind pieces(n);
@@ -109,7 +109,7 @@ Topology ComputeTopology(const Connectivity& connectivity) {
   std::vector<int> begin(triangles.cols() + 1);
   for (size_t f = 0; f < begin.size(); ++f) begin[f] = static_cast<int>(3 * f);
   const std::vector<int> corners(triangles.data(), triangles.data() + triangles.size());
-  // OpenMesh writes to the error stream when it meets a non-manifold face, so it gets none.
+  // OpenMesh writes to the error stream if it encounters a non-manifold face.
   if (!IsManifold(connectivity, begin, corners)) return topology;
   OpenMesh::TriConnectivity mesh;
   if (!Build(connectivity, &mesh)) return topology;

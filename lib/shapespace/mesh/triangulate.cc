@@ -14,18 +14,18 @@ namespace {
 
 using Point = std::complex<double>;
 
-/// Twice the signed area of a triangle; positive if it runs counter-clockwise.
+/// Twice the signed area of a triangle; positive if it is counterclockwise.
 double Cross(Point a, Point b, Point c) { return std::imag(std::conj(b - a) * (c - a)); }
 
-/// 1 for an equilateral triangle, 0 for one without area, negative for one that runs clockwise.
+/// 1 for an equilateral triangle, 0 for one without area, negative for a clockwise one.
 double Quality(Point a, Point b, Point c) {
   const double lengths = std::norm(b - a) + std::norm(c - b) + std::norm(a - c);
   return lengths > 0 ? 2 * std::sqrt(3.0) * Cross(a, b, c) / lengths : 0;
 }
 
-/// The corners of a polygon in the plane across its vector area, about their mean and in the size
-/// in which their squared distances from there sum to 1; counter-clockwise. Empty if the polygon
-/// has no area.
+/// The corners of a polygon, projected onto the plane perpendicular to its vector area, centred and
+/// scaled such that their squared norms have sum 1; counterclockwise. Empty if the polygon has no
+/// area.
 std::vector<Point> Flatten(const std::vector<int>& polygon, const Shape& pose) {
   Eigen::Matrix3Xd corners(3, polygon.size());
   for (size_t k = 0; k < polygon.size(); ++k) corners.col(k) = pose.col(polygon[k]);
@@ -39,7 +39,7 @@ std::vector<Point> Flatten(const std::vector<int>& polygon, const Shape& pose) {
     const Eigen::Vector3d next = corners.col((k + 1) % corners.cols());
     area += corners.col(k).cross(next);
   }
-  // Rounding errors of the coordinates are no area.
+  // Rounding errors of the coordinates do not count as area.
   constexpr double kNoArea = 1e-12;
   if (area.norm() <= kNoArea) return {};
   const Eigen::Vector3d right = area.unitOrthogonal(), up = area.normalized().cross(right);
@@ -48,7 +48,7 @@ std::vector<Point> Flatten(const std::vector<int>& polygon, const Shape& pose) {
   return flat;
 }
 
-/// The mean of the flattened polygon over the poses, each turned onto the first. Empty if it has
+/// The mean over the poses of the projected polygon, each aligned with the first. Empty if it has
 /// no area in any pose.
 std::vector<Point> MeanPolygon(const std::vector<int>& polygon, const std::vector<Shape>& poses) {
   std::vector<Point> first, mean;
@@ -67,7 +67,7 @@ std::vector<Point> MeanPolygon(const std::vector<int>& polygon, const std::vecto
   return mean;
 }
 
-/// Cuts ears off a polygon in the plane until a triangle is left.
+/// Cuts ears off a planar polygon until a triangle is left.
 class EarClipper {
  public:
   explicit EarClipper(std::vector<Point> points) : points_(std::move(points)) {
@@ -87,14 +87,14 @@ class EarClipper {
   }
 
  private:
-  /// The triangle of the i-th corner that is left and its two neighbours.
+  /// The triangle of the i-th remaining corner and its two neighbours.
   Eigen::Vector3i TriangleAt(int i) const {
     const int count = static_cast<int>(left_.size());
     return {left_[(i + count - 1) % count], left_[i], left_[(i + 1) % count]};
   }
 
-  /// Of the corners that can be cut off the one with the best triangle. A polygon that crosses
-  /// itself may have none: then the best triangle of all.
+  /// The corner with the best triangle among those that can be cut off. A polygon that intersects
+  /// itself may have none; then the corner with the best triangle of all.
   int BestEar() {
     const int count = static_cast<int>(left_.size());
     quality_.resize(count);
@@ -112,8 +112,8 @@ class EarClipper {
     return order_.front();
   }
 
-  /// Whether no other corner lies in the triangle or on its sides. Only corners at which the
-  /// polygon turns right or goes straight on can be the first to lie there.
+  /// Whether no other corner is in the triangle or on its sides. Only corners at which the polygon
+  /// turns right or is straight need to be tested.
   bool IsFree(const Eigen::Vector3i& t) const {
     const Point a = points_[t[0]], b = points_[t[1]], c = points_[t[2]];
     for (size_t i = 0; i < left_.size(); ++i) {
@@ -126,7 +126,7 @@ class EarClipper {
   }
 
   const std::vector<Point> points_;
-  std::vector<int> left_;  // corners not cut off yet, in order
+  std::vector<int> left_;  // remaining corners, in order
   std::vector<double> quality_;
   std::vector<int> order_;
 };
@@ -135,8 +135,7 @@ class EarClipper {
 
 Eigen::Matrix3Xi Triangulate(const std::vector<int>& polygon_begin, const std::vector<int>& corners,
                              const std::vector<Shape>& poses) {
-  if (poses.empty())
-    throw MeshError("polygons are cut by their shape in a pose: give at least one");
+  if (poses.empty()) throw MeshError("triangulation needs at least one pose");
   for (const Shape& pose : poses) {
     internal::CheckPolygons(static_cast<int>(pose.cols()), polygon_begin, corners);
   }
@@ -149,10 +148,10 @@ Eigen::Matrix3Xi Triangulate(const std::vector<int>& polygon_begin, const std::v
       triangles.emplace_back(polygon[0], polygon[1], polygon[2]);
       continue;
     }
-    // All that follows begins at the smallest vertex, wherever the list does.
+    // From here on the first vertex is the smallest one, whatever the list's first.
     std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
     std::vector<Point> flat = MeanPolygon(polygon, poses);
-    if (flat.empty()) flat.resize(polygon.size());  // no ear is better than another
+    if (flat.empty()) flat.resize(polygon.size());  // all ears are equally good
     for (const Eigen::Vector3i& t : EarClipper(std::move(flat)).Run()) {
       triangles.emplace_back(polygon[t[0]], polygon[t[1]], polygon[t[2]]);
     }

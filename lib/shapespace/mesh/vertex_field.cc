@@ -32,8 +32,7 @@ Eigen::VectorXd ReadVertexField(const std::string& source) {
     return field;
   }
   if (IsPly(source)) {
-    throw FileError(source + ": say which property of the vertices to read, as " + source +
-                    ":name");
+    throw FileError(source + ": name the property of the vertices to read, as " + source + ":name");
   }
   std::string text = ReadFile(source);
   internal::BlankByteOrderMark(&text);

@@ -7,10 +7,10 @@
 
 namespace shapespace {
 
-/// Reads one number for each vertex, in the order of the mesh: from a text with one number a line,
-/// in which `#` begins a comment, or, where `source` is like "body.ply:name", from the property
+/// Reads one number per vertex, in the order of the mesh: from a text with one number per line, in
+/// which `#` begins a comment, or, if `source` has the form "body.ply:name", from the property
 /// `name` of that PLY file's vertices.
-/// \throw FileError naming the file, the line and what is wrong.
+/// \throw FileError naming the file, the line and the error.
 Eigen::VectorXd ReadVertexField(const std::string& source);
 
 }  // namespace shapespace

@@ -12,7 +12,7 @@
 namespace shapespace {
 namespace {
 
-/// The enclosed volume as a share of that of a ball of the same surface area.
+/// The enclosed volume, relative to a ball of the same surface area.
 double ShareOfBall(const Eigen::Matrix3Xi& triangles, const Shape& shape) {
   double area = 0;
   for (const auto& t : triangles.colwise()) area += internal::TriangleArea(shape, t);
@@ -37,8 +37,8 @@ bool IsClosed(const Eigen::Matrix3Xi& triangles) {
 }
 
 double EnclosedVolume(const Eigen::Matrix3Xi& triangles, const Shape& shape) {
-  // Determinants about a point among the vertices are as large as the body, not as its distance
-  // from the origin.
+  // Relative to the mean of the vertices, so that determinants do not grow with the distance from
+  // the origin.
   const Eigen::Vector3d centre = shape.rowwise().mean();
   double volume = 0;
   for (const auto& t : triangles.colwise()) {
@@ -50,12 +50,12 @@ double EnclosedVolume(const Eigen::Matrix3Xi& triangles, const Shape& shape) {
 }
 
 bool IsMirrored(const Eigen::Matrix3Xi& triangles, const Shape& reference, const Shape& pose) {
-  // Bodies of people and animals have a fifth to a half of the ball's volume; what is thinner than
-  // a leaf may turn over without being a mirror image.
+  // Bodies of people and animals have a fifth to a half of the ball's volume; a body thinner than a
+  // leaf may turn over without being a mirror image.
   constexpr double kLeastShare = 0.01;
   const double before = ShareOfBall(triangles, reference);
   const double after = ShareOfBall(triangles, pose);
-  // Whether the mesh is closed takes longest to find out, and mostly need not be known.
+  // The test for a closed mesh is last because it is the slowest and rarely needed.
   return before * after < 0 && std::min(std::abs(before), std::abs(after)) > kLeastShare &&
          IsClosed(triangles);
 }

@@ -7,19 +7,20 @@
 
 namespace shapespace {
 
-// Of triangles, 3 x T, each column the vertices of one, in its winding.
+// `triangles`, 3 x T, contains the vertices of each triangle, in its orientation.
 
-/// True if there are triangles and every edge has as many that run along it in one direction as in
-/// the other, so that they enclose a volume.
+/// Whether there are triangles and every edge has equally many of them in both directions, so that
+/// they enclose a volume.
 bool IsClosed(const Eigen::Matrix3Xi& triangles);
 
-/// The volume that a closed mesh encloses, in the cubed unit of `shape` (3 x m); negative if the
-/// triangles are wound inwards. Exact to rounding in the size of the shape, however far from the
-/// origin it lies.
+/// The volume enclosed by a closed mesh, in the cubed unit of `shape` (3 x m); negative if the
+/// triangles are oriented inwards. Accurate to rounding relative to the size of the shape, at any
+/// distance from the origin.
 double EnclosedVolume(const Eigen::Matrix3Xi& triangles, const Shape& shape);
 
-/// Whether `pose` is turned inside out against `reference`, as the mirror image of a closed body
-/// is: both enclose a volume that is clearly none, of opposite signs. False if the mesh is open.
+/// Whether the orientation of `pose` is reversed relative to `reference`, as for the mirror image
+/// of a closed body: both enclose volumes that are clearly not zero, of opposite signs. False if
+/// the mesh is open.
 bool IsMirrored(const Eigen::Matrix3Xi& triangles, const Shape& reference, const Shape& pose);
 
 }  // namespace shapespace

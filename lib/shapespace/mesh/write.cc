@@ -14,13 +14,13 @@
 namespace shapespace {
 namespace {
 
-/// Text put together in one piece of memory: streams format numbers several times slower.
+/// Text assembled in one block of memory, because streams format numbers several times slower.
 class Text {
  public:
   void Add(std::string_view words) { text_ += words; }
 
-  /// Numbers stand behind `words`. Those that are not whole have the fewest digits that read back
-  /// as the very number.
+  /// Appends `words` and a number. Numbers that are not integers have the fewest digits that
+  /// reproduce the number exactly.
   template <typename Number>
   void Add(std::string_view words, Number number) {
     Add(words);
@@ -34,7 +34,7 @@ class Text {
   std::string text_;
 };
 
-/// The names of polygons as statements, written where a polygon has another than the one before.
+/// The names of polygons as statements, written where they change from one polygon to the next.
 class NameStatements {
  public:
   NameStatements(const char* keyword, const PolygonNames& names)
@@ -95,7 +95,7 @@ std::string Obj(const Shape& vertices, const Soup& soup) {
   return text.Get();
 }
 
-/// Appends the bytes of a number, lowest first on any machine.
+/// Appends the bytes of a number in little-endian order on any machine.
 template <typename Bits, typename T>
 void AddBytes(T number, std::string* bytes) {
   static_assert(sizeof(Bits) == sizeof(T));
@@ -104,7 +104,7 @@ void AddBytes(T number, std::string* bytes) {
   for (size_t i = 0; i < sizeof bits; ++i) *bytes += static_cast<char>(bits >> (8 * i) & 0xff);
 }
 
-/// True if every corner of the polygon has a texture coordinate.
+/// Whether every corner of the polygon has a texture coordinate.
 bool IsTextured(const Soup& soup, int polygon) {
   const std::vector<int>& texture = soup.appearance.corner_texture;
   return !texture.empty() && std::none_of(texture.begin() + soup.polygon_begin[polygon],
@@ -112,7 +112,7 @@ bool IsTextured(const Soup& soup, int polygon) {
                                           [](int index) { return index < 0; });
 }
 
-/// Lists in PLY, whose lengths are told by one byte, as every reader knows it, where all fit.
+/// Lists in PLY. If all lengths fit, they are stored in one byte, which every reader supports.
 class Lists {
  public:
   explicit Lists(int longest) : short_lengths_(longest <= 255) {}

@@ -9,17 +9,17 @@
 
 namespace shapespace {
 
-/// Writes `vertices` with the polygons, segments and appearance of `soup` (its own vertices are not
-/// used): OBJ (text) or PLY (binary little-endian), told by the extension. Coordinates read back as
-/// they were, to the last bit. PLY keeps of the appearance texture coordinates, in single
-/// precision, and vertex colours, in eight bits; `NotKept` says what it drops. Material libraries
-/// are named as `soup` names them, not copied. The file appears whole or not at all. \throw
-/// FileError if the extension is neither or the file cannot be written; MeshError if a
+/// Writes `vertices` with the polygons, segments and appearance of `soup` (whose own vertices are
+/// not used): OBJ (text) or PLY (binary little-endian), according to the extension. Coordinates are
+/// stored exactly. PLY stores texture coordinates, in single precision, and vertex colours, in
+/// eight bits; `NotKept` lists what is lost. Material libraries are referenced by the names in
+/// `soup`, not copied. The file is written completely or not at all.
+/// \throw FileError if the extension is neither or the file cannot be written; MeshError if a
 ///        coordinate is not finite, the number of vertices is not the soup's, or its appearance is
 ///        not valid.
 void WriteMesh(const std::string& file, const Shape& vertices, const Soup& soup);
 
-/// What of the soup's appearance a file of this extension cannot hold: sentences, mostly none.
+/// What of the soup's appearance a file with this extension cannot store: sentences, mostly none.
 std::vector<std::string> NotKept(const std::string& file, const Soup& soup);
 
 }  // namespace shapespace

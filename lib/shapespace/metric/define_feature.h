@@ -16,9 +16,9 @@
 #include <shapespace/metric/feature_registry.h>
 #include <shapespace/metric/line_jet.h>
 
-// What makes a `Feature` of a struct that derives from `ElementFeature`, and makes it known by its
-// name. Only who defines a feature includes this: it takes the automatic derivatives from
-// ceres/jet.h.
+// Converts a struct that derives from `ElementFeature` to a `Feature`, and registers it by name. To
+// be included only where a feature is defined, because it includes ceres/jet.h for automatic
+// derivatives.
 
 namespace shapespace {
 namespace internal {
@@ -86,8 +86,8 @@ class FeatureOf final : public Feature {
           vertices[k] = Eigen::Map<const Eigen::Vector3d>(x + 3 * k);
         feature_.ScalarRows(vertices, rows);
       } else {
-        // A derivative acts along one direction, its scalar stand-in along all three. A third would
-        // be the average over directions; 0.6 makes the unit step of a quasi-Newton method
+        // A derivative acts along one direction, but the scalar rows along all three. A third would
+        // be the mean over directions; with 0.6 the unit step of a quasi-Newton method is
         // acceptable from the first iteration on, as measured with edge lengths.
         double values[kValues], derivatives[kSize * kValues];
         Evaluate(1, x, values, derivatives);
@@ -124,7 +124,7 @@ class FeatureOf final : public Feature {
 
 }  // namespace internal
 
-/// A feature of what the struct says. Whoever freezes or reads a metric checks it.
+/// Makes a feature of a struct. It is checked when a metric with it is frozen or read.
 template <typename Struct>
 std::shared_ptr<const Feature> MakeFeature(Struct feature) {
   return std::make_shared<const internal::FeatureOf<Struct>>(std::move(feature));
@@ -156,11 +156,11 @@ FeatureKind KindOf(std::function<Struct(const MetricBasis&)> freeze) {
 
 }  // namespace internal
 
-/// Makes a feature known by its name, Struct::kName, to `MetricOptions::features`, to every level
-/// of every solver, and to readers of files. `freeze` says what the feature is on a mesh: its
-/// stencils, its weights for a coefficient of 1, and its constants. It is called again for every
-/// coarser mesh, also from several threads, and depends on nothing but what it is given. Without
-/// elements the feature has no part in the metric.
+/// Registers a feature by its name, Struct::kName, for `MetricOptions::features`, every level of
+/// every solver, and readers of files. `freeze` returns the feature on a mesh: its stencils, its
+/// weights for a coefficient of 1, and its constants. It is called for every coarser mesh too, also
+/// from several threads, and must depend on its argument only. A feature without elements is not
+/// used in the metric.
 /// \throw InvalidOptions if a feature of another type has that name.
 template <typename Struct>
 void RegisterFeature(std::function<Struct(const MetricBasis&)> freeze = &Struct::Freeze) {

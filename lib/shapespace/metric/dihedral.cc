@@ -9,7 +9,7 @@
 namespace shapespace {
 namespace {
 
-// |f|^2 / A_f of a hinge grows without bound on slivers; 8 is a triangle of aspect ratio 4.
+// |f|^2 / A_f of a hinge is unbounded for slivers; 8 corresponds to a triangle of aspect ratio 4.
 constexpr double kGreatestHingeAspect = 8;
 
 double Radians(double degrees) { return degrees * M_PI / 180; }

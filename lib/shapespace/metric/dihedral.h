@@ -17,14 +17,14 @@ struct MetricBasis;
 inline double WrapAngle(double angle) { return std::remainder(angle, 2 * M_PI); }
 
 /// (cos theta, sin theta) of a hinge (Connectivity::Hinges): the bending of a thin shell. theta is
-/// the angle between the two normals, 0 when flat, positive when convex. The chord between two such
+/// the angle between the two normals, 0 if flat, positive if convex. The chord between two such
 /// points needs no wrapping, is bounded, and gives the same Riemannian metric as theta itself.
 struct Dihedral : ElementFeature<4, 2> {
   static constexpr int kScalarRows = 1;
   static constexpr const char* kName = "dihedral";
 
-  /// Squares of lengths far below those of the mesh, which keep the directions of a collapsed
-  /// triangle's normal and of a collapsed edge finite.
+  /// Squares of lengths far below those of the mesh, which keep the normal of a collapsed triangle
+  /// and the direction of a collapsed edge finite.
   double normal_epsilon_squared = 0, edge_epsilon_squared = 0;
 
   static Dihedral Freeze(const MetricBasis& basis);
@@ -56,8 +56,8 @@ struct Dihedral : ElementFeature<4, 2> {
     return std::atan2(value[1], value[0]);
   }
 
-  /// On the circle the shortest way in `segments` chords takes equal angles. Collapsed triangles
-  /// have values inside it, from where the shortest way is straight.
+  /// On the unit circle the shortest path of `segments` chords has equal angles. Collapsed
+  /// triangles have values inside the circle, for which the shortest path is straight.
   double LeastChange(const double* a, const double* b, int segments) const {
     const auto on_circle = [](const double* z) { return z[0] * z[0] + z[1] * z[1] > 1 - 1e-6; };
     if (segments == 1 || !on_circle(a) || !on_circle(b)) {
@@ -68,10 +68,10 @@ struct Dihedral : ElementFeature<4, 2> {
     return segments * chord * chord;
   }
 
-  /// The derivative of theta along the normal, by vertex, of a nearly flat hinge: 1 / height for
-  /// the two tips, shared between the edge's ends with opposite sign. Heights count as a
-  /// ten-thousandth of the mesh's edges at least: with collapsed triangles the matrix would not be
-  /// definite but for rounding.
+  /// The derivative of theta along the normal, by vertex, for a nearly flat hinge: 1 / height for
+  /// the two opposite vertices, distributed over the edge's ends with opposite sign. Heights are at
+  /// least a ten-thousandth of the mesh's edges; otherwise collapsed triangles would make the
+  /// matrix numerically indefinite.
   void ScalarRows(const Eigen::Vector3d* x, double* k) const {
     const Eigen::Vector3d e = x[1] - x[0];
     const double squared_length = e.squaredNorm() + edge_epsilon_squared;

@@ -5,8 +5,9 @@
 namespace shapespace {
 namespace {
 
-// An edge far shorter than the rest would weigh A_e / |e|^4 and freeze whatever hangs on it. Below
-// this share of the root mean square length it is weighed as if it had that length.
+// An edge far shorter than the others would have the weight A_e / |e|^4 and make its neighbourhood
+// rigid. Below this share of the root mean square length the weight is that of an edge of this
+// length.
 constexpr double kShortestEdge = 1e-3;
 
 }  // namespace

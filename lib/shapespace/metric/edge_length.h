@@ -25,7 +25,8 @@ struct EdgeLength : ElementFeature<2, 1> {
   }
 };
 
-/// log |e| of an edge that is no side of a triangle: its strain, indifferent to the length itself.
+/// log |e| of an edge that is not a side of a triangle: its strain, which does not depend on its
+/// length.
 struct LogLength : ElementFeature<2, 1> {
   static constexpr const char* kName = "log length";
 

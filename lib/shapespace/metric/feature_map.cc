@@ -10,7 +10,7 @@
 
 namespace shapespace {
 
-// What all derivatives of one map share.
+// The data shared by all derivatives of one map.
 struct FeatureDerivative::Layout {
   struct Term {  // of the feature with the same index
     int first_value = 0;
@@ -24,7 +24,7 @@ struct FeatureDerivative::Layout {
 
 namespace {
 
-// Elements, or vertices, that one task of a thread takes.
+// Elements, or vertices, per task of a thread.
 constexpr int kPerTask = 512;
 // Elements whose values are evaluated in one call, into buffers on the stack.
 constexpr int kChunk = 16;
@@ -37,7 +37,7 @@ void ForRanges(int count, const Body& body) {
               [&](int task) { body(task * kPerTask, std::min(count, (task + 1) * kPerTask)); });
 }
 
-// The sum of value(i) over all i, in an order that does not depend on threads.
+// The sum of value(i) over all i, in an order that does not depend on the number of threads.
 template <typename Value>
 double Sum(int count, const Value& value) {
   std::vector<double> partial((count + kPerTask - 1) / kPerTask, 0.0);
@@ -47,8 +47,9 @@ double Sum(int count, const Value& value) {
   return std::accumulate(partial.begin(), partial.end(), 0.0);
 }
 
-// Writes what `evaluate(begin, end, out)` says of the elements into the feature's part of Phi,
-// times the roots of their weights; of a sum, whose elements share a weight, the sum.
+// Writes the values that `evaluate(begin, end, out)` computes, times the square roots of the
+// weights, into the feature's part of Phi; for a sum feature, whose elements share a weight, their
+// sum.
 template <typename Evaluate>
 void FillValues(const Feature& feature, double* result, const Evaluate& evaluate) {
   const int num_elements = feature.NumElements(), num_values = feature.ValuesPerElement();
@@ -195,7 +196,7 @@ Eigen::VectorXd FeatureDerivative::Times(const Tangent& x) const {
 }
 
 Tangent FeatureDerivative::TransposeTimes(const Eigen::VectorXd& y) const {
-  // Gathered by vertex, so that no two threads add to one place.
+  // Gathered by vertex, so that no two threads add to the same entry.
   Tangent result = Tangent::Zero(3, layout_->metric->connectivity->NumVertices());
   for (size_t i = 0; i < blocks_.size(); ++i) {
     const Feature& feature = *layout_->metric->features[i];
@@ -240,7 +241,7 @@ Eigen::SparseMatrix<double> FeatureDerivative::MetricMatrix() const {
   Eigen::SparseMatrix<double> blocks(num_vertices, num_vertices);
   blocks.setFromTriplets(triplets.begin(), triplets.end());
 
-  // Each entry becomes a block of three by three, on the diagonal its lower triangle.
+  // Each entry becomes a 3 x 3 block, on the diagonal its lower triangle.
   Eigen::SparseMatrix<double> matrix(3 * num_vertices, 3 * num_vertices);
   matrix.reserve(9 * blocks.nonZeros());
   for (int q = 0; q < num_vertices; ++q) {

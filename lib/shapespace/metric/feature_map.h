@@ -13,8 +13,8 @@
 namespace shapespace {
 
 /// The derivative J of the feature map at a shape: a linear map from tangents (3 x m) to changes of
-/// all features' values. On flat arrays, one small dense block an element; both products use all
-/// threads, and their results do not depend on how many there are.
+/// all features' values. Stored in flat arrays, one small dense block per element; both products
+/// use all threads, and their results do not depend on the number of threads.
 class FeatureDerivative {
  public:
   /// J X.
@@ -22,34 +22,33 @@ class FeatureDerivative {
   /// J^T y.
   Tangent TransposeTimes(const Eigen::VectorXd& y) const;
 
-  /// J^T J, the matrix of the metric, 3m x 3m, unknown 3 v + axis; lower triangle only. What sum
-  /// features add is of rank one and dense, and is left out.
+  /// J^T J, the matrix of the metric, 3m x 3m, unknown 3 v + axis; lower triangle only. The
+  /// contributions of sum features, which are dense and of rank one, are omitted.
   Eigen::SparseMatrix<double> MetricMatrix() const;
-  /// The same into the numbers of `matrix`, which has this map's pattern already.
+  /// The same, stored in `matrix`, which already has this map's sparsity pattern.
   void UpdateMetricMatrix(Eigen::SparseMatrix<double>* matrix) const;
 
  private:
   friend class FeatureMap;
   struct Layout;
   std::shared_ptr<const Layout> layout_;
-  // Of each feature, of each element, of each of its vertices, of each value: three numbers.
+  // By feature, by element, by vertex, by value: three numbers each.
   std::vector<std::vector<double>> blocks_;
 };
 
-/// The feature map Phi of a metric (docs/mathematics.md, section 1), weights included: the metric's
-/// norm of a tangent X at P is |J(P) X|, the energy of a segment 2 |Phi(Q) - Phi(P)|^2. All of
-/// shooting and transport is written in terms of it. Shapes are in the metric's unit.
+/// The feature map Phi of a metric (docs/mathematics.md, section 1), including weights: the
+/// metric's norm of a tangent X at P is |J(P) X|, the energy of a segment 2 |Phi(Q) - Phi(P)|^2.
+/// Shooting and transport are formulated in terms of it. Shapes are in the metric's unit.
 class FeatureMap {
  public:
-  /// \throw InvalidOptions if the metric has a rigid part, which is no feature.
+  /// \throw InvalidOptions if the metric has a rigid part, which is not a feature.
   explicit FeatureMap(std::shared_ptr<const Metric> metric);
 
   const Metric& GetMetric() const { return *metric_; }
 
-  /// Phi(P): feature after feature, element after element, each value times the root of the
-  /// element's weight.
+  /// Phi(P): by feature, by element; each value times the square root of the element's weight.
   Eigen::VectorXd Values(const Shape& shape) const;
-  /// Where the values of metric.features[feature] begin in Phi.
+  /// Index in Phi of the first value of metric.features[feature].
   int FirstValue(size_t feature) const;
   /// J(P), differentiated automatically.
   FeatureDerivative Derivative(const Shape& shape) const;

@@ -79,7 +79,7 @@ void CheckFeature(const Feature& feature, int num_vertices) {
       const int v = feature.Element(e)[k];
       if (v < 0 || v >= num_vertices) {
         throw InvalidOptions(name + "element " + std::to_string(e) + " has vertex " +
-                             std::to_string(v) + ", which is none of the mesh's " +
+                             std::to_string(v) + ", which is not one of the mesh's " +
                              std::to_string(num_vertices));
       }
     }

@@ -21,12 +21,12 @@ bool IsRegistered(const std::string& name);
 
 namespace internal {
 
-/// What is known of a registered feature.
+/// A registered feature.
 struct FeatureKind {
   int vertices = 0;
   bool is_sum = false;
   std::function<std::shared_ptr<const Feature>(const MetricBasis&, double coefficient)> freeze;
-  /// From what a file holds; `constant` gives a number by its name.
+  /// From the content of a file; `constant` returns a number by its name.
   std::function<std::shared_ptr<const Feature>(
       const Eigen::MatrixXi& stencils, const Eigen::VectorXd& weights,
       const std::function<double(const std::string&)>& constant)>
@@ -36,7 +36,7 @@ struct FeatureKind {
 /// \throw InvalidOptions if a feature of another type has that name.
 void Register(const std::string& name, const std::type_info& type, FeatureKind kind);
 
-/// \throw InvalidOptions, saying how to register it, if there is no feature of that name.
+/// \throw InvalidOptions, explaining how to register it, if there is no feature of that name.
 FeatureKind FindFeature(const std::string& name);
 
 /// \throw InvalidOptions naming the feature, if its stencils have a vertex that is not in the mesh,

@@ -7,9 +7,9 @@
 
 namespace shapespace::internal {
 
-/// f(s) and its first two derivatives along a line: the scalar that features take for their second
-/// derivative along a tangent. (Nested Jets of Ceres do not mix with plain numbers.) It has the
-/// operators and the usual functions of a Jet.
+/// f(s) and its first two derivatives along a line: the scalar type for features' second
+/// derivatives along a tangent. (Nested Ceres Jets cannot be combined with plain numbers.) It has
+/// the operators and the usual functions of a Jet.
 struct LineJet {
   double value = 0, first = 0, second = 0;
 
@@ -96,9 +96,9 @@ inline LineJet tanh(const LineJet& a) {
   const double t = std::tanh(a.value), slope = 1 - t * t;
   return Chain(a, t, slope, -2 * t * slope);
 }
-/// The angle of (x, y); not at the origin.
+/// The angle of (x, y); undefined at the origin.
 inline LineJet atan2(const LineJet& y, const LineJet& x) {
-  // Near the axes one of the two quotients is large; take the other.
+  // Near the axes one of the two quotients is large; use the other one.
   LineJet angle = std::abs(x.value) > std::abs(y.value) ? atan(y / x) : -atan(x / y);
   angle.value = std::atan2(y.value, x.value);
   return angle;

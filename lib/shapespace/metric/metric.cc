@@ -29,9 +29,9 @@ void CheckStiffness(const Eigen::VectorXd& field, const char* name) {
 
 }  // namespace
 
-// Chosen on bars and cylinders that are bent and twisted and a plate that is lifted
-// (benchmarks/deformation_table): less bending lets the bodies kink and buckle, more lets them
-// stretch; strains alone stretch few triangles of the plate much, lengths alone squash the bar.
+// Chosen on bent and twisted bars and cylinders and a lifted plate (benchmarks/deformation_table).
+// With less bending the bodies kink and buckle, with more they stretch; with strains only, a few
+// triangles of the plate stretch strongly; with lengths only, the bar is compressed.
 MetricOptions MetricOptions::Deformation(const Connectivity& connectivity) {
   const bool solid = IsClosed(connectivity.Triangles());
   MetricOptions options;

@@ -11,7 +11,7 @@
 namespace shapespace {
 namespace {
 
-// A vertex whose triangles all have no area, or that has none, keeps this share of the mean area.
+// A vertex without triangles, or with collapsed ones only, has this share of the mean area.
 constexpr double kLeastArea = 1e-3;
 
 struct Measures {
@@ -53,7 +53,8 @@ int FindSide(const Connectivity& connectivity, int a, int b) {
   return low;
 }
 
-// A_e of every edge and A_p of every vertex, of sum 1 each where the mesh is a plain surface.
+// Computes A_e of every edge and A_p of every vertex, each with sum 1 if the mesh is a plain
+// surface.
 void AssignAreas(const Connectivity& connectivity, const Measures& measures,
                  Eigen::VectorXd* edge_area, Eigen::VectorXd* vertex_area) {
   const int num_vertices = connectivity.NumVertices();
@@ -75,7 +76,7 @@ void AssignAreas(const Connectivity& connectivity, const Measures& measures,
         if (a != b) (*edge_area)(FindSide(connectivity, a, b)) += measures.triangle_area(f) / 3;
       }
     }
-    // A stiffener has no triangle: it holds a share of the surface at its ends.
+    // A stiffener has no triangle; it gets a share of the areas at its ends.
     for (int e = num_sides; e < connectivity.NumEdges(); ++e) {
       (*edge_area)(e) = ((*vertex_area)(edges(0, e)) + (*vertex_area)(edges(1, e))) / 6;
     }
@@ -96,7 +97,7 @@ Eigen::VectorXd HingeAreas(const Connectivity& connectivity, const std::vector<S
   return result;
 }
 
-// Squares of lengths, and their products, must be numbers too.
+// Rejects coordinates for which squares of lengths, or their products, overflow or underflow.
 void CheckMagnitude(const Shape& pose) {
   const double extent = (pose.rowwise().maxCoeff() - pose.rowwise().minCoeff()).maxCoeff();
   if (pose.cwiseAbs().maxCoeff() > kLargestCoordinate ||
@@ -105,7 +106,7 @@ void CheckMagnitude(const Shape& pose) {
   }
 }
 
-// The factors of all edges: given for edges, or as means over their ends, or 1.
+// Stiffness per edge: as given for edges, the means over their ends, or 1.
 Eigen::VectorXd EdgeStiffness(const Eigen::VectorXd& field, const Connectivity& connectivity) {
   const Eigen::Matrix2Xi& edges = connectivity.Edges();
   Eigen::VectorXd result = Eigen::VectorXd::Ones(edges.cols());
@@ -167,7 +168,7 @@ MetricBasis MakeMetricBasis(const MetricOptions& options,
   }
   if (connectivity->NumEdges() == 0) throw MeshError("the mesh has no edge");
 
-  // Two rounds: the first finds the unit, the second measures in it.
+  // In two passes: the first computes the unit, the second measures in it.
   Measures measures = Measure(*connectivity, poses);
   MetricBasis basis;
   basis.connectivity = connectivity;

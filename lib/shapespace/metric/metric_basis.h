@@ -14,39 +14,39 @@ namespace shapespace {
 /// Weights of edges and triangles in the isometric and strain features, and of vertices in the
 /// rigid metric.
 enum class Weighting {
-  kArea,     ///< by the surface around: unchanged by scale, nearly so by tessellation
-  kUniform,  ///< 1: the paper's, which means something else at every mesh resolution
+  kArea,     ///< by the surrounding area: invariant under scale, nearly so under tessellation
+  kUniform,  ///< 1, as in the paper; the meaning depends on the mesh resolution
 };
 
-/// Between which of the poses that it is frozen on a metric is to be good: hinges that jump from
-/// one to the other are damped.
+/// The pairs of poses for which the metric is intended. Hinges that turn by more than 90 degrees
+/// between the poses of a pair are down-weighted.
 enum class PosePairs {
-  kConsecutive,  ///< from each to the next: for a path through them
-  kAll,          ///< from each to every other: their order does not matter
+  kConsecutive,  ///< each pose and the next: for a path through them
+  kAll,          ///< all pairs: independent of the poses' order
 };
 
-/// What features make their weights from: a mesh and the poses that take part, in the metric's unit
-/// of length. Measures are means over the poses.
+/// The data from which features compute their weights: a mesh and poses, in the metric's unit of
+/// length. Measures are means over the poses.
 struct MetricBasis {
   std::shared_ptr<const Connectivity> connectivity;
   std::vector<Shape> poses;
   PosePairs pairs = PosePairs::kConsecutive;
   Weighting weighting = Weighting::kArea;
 
-  double unit = 1;                 ///< length, in the user's units, that has length 1 here
-  Eigen::VectorXd triangle_area;   ///< their sum is 1, or that of a graph's edge lengths is
-  Eigen::VectorXd vertex_area;     ///< A_p, of sum 1; all positive, also where the mesh degenerates
-  Eigen::VectorXd edge_area;       ///< A_e, a third of the triangles at the edge
-  Eigen::VectorXd hinge_area;      ///< A_f, a third of the hinge's two triangles
+  double unit = 1;                 ///< length, in the user's unit, that has length 1 in the metric
+  Eigen::VectorXd triangle_area;   ///< with sum 1 (for graphs, the sum of edge lengths is 1)
+  Eigen::VectorXd vertex_area;     ///< A_p, with sum 1; all positive, also for degenerate meshes
+  Eigen::VectorXd edge_area;       ///< A_e, a third of the area of the triangles at the edge
+  Eigen::VectorXd hinge_area;      ///< A_f, a third of the area of the hinge's two triangles
   Eigen::VectorXd squared_length;  ///< of edges
 
-  /// The user's stiffness (MetricOptions), 1 where there is none: of edges and triangles against
-  /// stretching, of hinges against bending.
+  /// The user's stiffness (MetricOptions), 1 by default: of edges and triangles for stretching, of
+  /// hinges for bending.
   Eigen::VectorXd edge_stiffness, triangle_stiffness, hinge_stiffness;
 
-  /// Relative to the mean edge: below such lengths an edge or triangle counts as collapsed.
+  /// Relative to the mean edge: shorter edges, and triangles of that size, count as collapsed.
   static constexpr double kCollapsed = 1e-8;
-  /// The square of that length, which keeps features of what has collapsed finite.
+  /// The square of that length, with which features of collapsed elements remain finite.
   double CollapsedSquared() const { return kCollapsed * kCollapsed * squared_length.mean(); }
 };
 
@@ -57,8 +57,8 @@ MetricBasis MakeMetricBasis(const MetricOptions& options,
                             const std::shared_ptr<const Connectivity>& connectivity,
                             const std::vector<Shape>& poses, double unit, PosePairs pairs);
 
-/// The user's stiffness (MetricOptions), of vertices or of edges, as one number a vertex: of edges
-/// the geometric mean over those at the vertex.
+/// The user's stiffness (MetricOptions), given per vertex or per edge, as one number per vertex: of
+/// edges the geometric mean over those at the vertex.
 Eigen::VectorXd VertexStiffness(const Eigen::VectorXd& field, const Connectivity& connectivity);
 
 }  // namespace shapespace

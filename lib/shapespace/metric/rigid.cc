@@ -7,7 +7,7 @@ namespace shapespace {
 Eigen::Vector3d AngularVelocity(const Eigen::Matrix3d& inertia, const Eigen::Vector3d& moment) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
   const Eigen::Vector3d& values = solver.eigenvalues();
-  // Below this share of the largest moment of inertia an axis is one on which all vertices lie.
+  // If a moment of inertia is below this share of the largest one, all vertices lie on its axis.
   const double least = 1e-12 * values(2);
   Eigen::Vector3d result = Eigen::Vector3d::Zero();
   for (int i = 0; i < 3; ++i) {

@@ -5,11 +5,11 @@
 
 namespace shapespace {
 
-/// The paper's as-rigid-as-possible metric (3): what remains of a motion once the best velocity
-/// field of a rigid body, c_bar + c x p, is taken out. Evaluated at the midpoint of a segment,
-/// where it vanishes on finite rigid motions (Cayley: |c| = 2 tan(angle / 2)). It is no feature.
+/// The paper's as-rigid-as-possible metric (3): the part of a motion that remains after subtracting
+/// the best velocity field of a rigid body, c_bar + c x p. Evaluated at the midpoint of a segment,
+/// where it vanishes on finite rigid motions (Cayley: |c| = 2 tan(angle / 2)). It is not a feature.
 struct RigidForm {
-  Eigen::VectorXd weights;  ///< one a vertex; empty: the metric has no rigid part
+  Eigen::VectorXd weights;  ///< one per vertex; empty: the metric has no rigid part
 
   bool Active() const { return weights.size() > 0; }
 
@@ -25,9 +25,9 @@ struct RigidForm {
   }
 };
 
-/// The c that minimises sum w |X_p - c x m_p|^2 for centred X and m, given the moment
-/// b = sum w m_p x X_p and the inertia sum w (|m_p|^2 I - m_p m_p^T). Directions about which
-/// nothing can be said (collinear vertices) stay zero.
+/// The c that minimises sum w |X_p - c x m_p|^2 for centred X and m, given the moment b = sum w m_p
+/// x X_p and the inertia sum w (|m_p|^2 I - m_p m_p^T). Components that are not determined
+/// (collinear vertices) are zero.
 Eigen::Vector3d AngularVelocity(const Eigen::Matrix3d& inertia, const Eigen::Vector3d& moment);
 
 }  // namespace shapespace

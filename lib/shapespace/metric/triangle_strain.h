@@ -11,19 +11,19 @@ namespace shapespace {
 
 struct MetricBasis;
 
-/// The logarithmic (Hencky) strain of a triangle against the equilateral triangle of side 1. With
-/// the first fundamental form g in the basis (q - p, r - p) and the equilateral triangle's edges as
-/// the columns of E, C = E^-T g E^-1 and L = (1/2) log C, the values are
+/// The logarithmic (Hencky) strain of a triangle relative to the equilateral triangle of side 1.
+/// With the first fundamental form g in the basis (q - p, r - p), the equilateral triangle's edges
+/// as the columns of E, C = E^-T g E^-1 and L = (1/2) log C, the values are
 ///   ( tr L / 2, (L11 - L22) / (2 sqrt 2), L12 / sqrt 2 ),
-/// whose squares add up to the mean of (n^T L n)^2 over all directions n. For small strains of
-/// triangles that are nearly equilateral this is what `EdgeLength` and `LogLength` measure. Every
-/// three numbers are the values of some triangle, so that a geodesic under this feature goes on for
-/// ever (docs/mathematics.md, section 1).
+/// whose sum of squares is the mean of (n^T L n)^2 over all directions n. For small strains of
+/// nearly equilateral triangles this agrees with `EdgeLength` and `LogLength`. Any three numbers
+/// are the values of some triangle, so that geodesics under this feature can be continued without
+/// limit (docs/mathematics.md, section 1).
 struct TriangleStrain : ElementFeature<3, 3> {
   static constexpr int kScalarRows = 3;
   static constexpr const char* kName = "triangle strain";
 
-  /// The square of a length far below those of the mesh, added to both eigenvalues of C: keeps the
+  /// The square of a length far below those of the mesh, added to both eigenvalues of C to keep the
   /// logarithm of a collapsed triangle finite.
   double epsilon_squared = 0;
 
@@ -51,7 +51,7 @@ struct TriangleStrain : ElementFeature<3, 3> {
     const T determinant = (4.0 / 3.0) * (nx * nx + ny * ny + nz * nz) +
                           (2.0 * mean + epsilon_squared) * epsilon_squared;
     const T squared = d * d + o * o;
-    const T ratio_squared = squared / (m * m);  // less than 1: that of the eigenvalues' difference
+    const T ratio_squared = squared / (m * m);  // of the eigenvalues; less than 1
     T factor;                                   // atanh(ratio) / ratio
     if (ratio_squared < T(1e-4)) {
       factor =
@@ -66,7 +66,7 @@ struct TriangleStrain : ElementFeature<3, 3> {
     value[2] = slope * o;
   }
 
-  /// The three sides, each as strained by itself.
+  /// The strains of the three sides.
   void ScalarRows(const Eigen::Vector3d* x, double* k) const {
     for (int side = 0; side < 3; ++side) {
       const int from = side, to = (side + 1) % 3;

@@ -12,7 +12,8 @@ Volume Volume::Freeze(const MetricBasis& basis) {
   const Eigen::Matrix3Xi& triangles = basis.connectivity->Triangles();
   if (!IsClosed(triangles)) {
     throw InvalidOptions(
-        "volume: the mesh is not closed, so it encloses none; use volume 0, or fill its holes");
+        "volume: the mesh is not closed, so it encloses no volume; use volume 0, or fill its "
+        "holes");
   }
   Volume feature;
   feature.stencils = triangles;
@@ -21,7 +22,7 @@ Volume Volume::Freeze(const MetricBasis& basis) {
     volume += EnclosedVolume(triangles, pose) / basis.poses.size();
   }
   if (std::abs(volume) < MetricBasis::kCollapsed) {
-    throw InvalidOptions("volume: the mesh encloses none; use volume 0");
+    throw InvalidOptions("volume: the mesh encloses no volume; use volume 0");
   }
   feature.reference = std::abs(volume);
   feature.weights = Eigen::VectorXd::Ones(1);

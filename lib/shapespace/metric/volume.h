@@ -9,8 +9,8 @@ namespace shapespace {
 
 struct MetricBasis;
 
-/// The volume that a closed mesh encloses, as a share of the poses' mean: one number, the sum of
-/// det(p, q, r) / (6 V_ref) over the triangles.
+/// The volume enclosed by a closed mesh, relative to the mean over the poses: one number, the sum
+/// of det(p, q, r) / (6 V_ref) over the triangles.
 struct Volume : ElementFeature<3, 1> {
   static constexpr bool kSum = true;
   static constexpr const char* kName = "volume";

@@ -13,16 +13,16 @@ namespace {
 constexpr unsigned kValueStops[] = {0xb9cadc, 0xdfc18f, 0xe8923f, 0xcf3f2b, 0x861426};
 constexpr int kSteps = 256;
 
-// Groups, in Oklab: hues a golden angle apart, so that any few in a row are far from each other,
-// in turn somewhat lighter and darker. After 21 hues come close to where they began: every other 21
-// are duller.
+// Groups, in Oklab: hues differ by the golden angle, so that consecutive ones are far from each
+// other, with alternating lightness. After 21 groups hues repeat approximately, so the next 21 are
+// less saturated.
 constexpr float kGroupChroma = 0.13f, kFirstHue = 4.4f, kGoldenAngle = 2.39996323f;
 constexpr float kDullChroma = 0.06f;
 constexpr int kGroupsToRepeat = 21;
 constexpr float kGroupLightness[] = {0.62f, 0.78f, 0.50f};
 constexpr unsigned kNoGroupHex = 0xd8d8d4;
 
-// Oklab (Ottosson 2020): equal steps in it look equal, which plain RGB mixing does not give.
+// Oklab (Ottosson 2020) is perceptually uniform, unlike RGB.
 const Eigen::Matrix3f& RgbToLms() {
   static const Eigen::Matrix3f matrix =
       (Eigen::Matrix3f() << 0.4122214708f, 0.5363325363f, 0.0514459929f,  //
@@ -37,7 +37,7 @@ const Eigen::Matrix3f& LmsToRgb() {
   return matrix;
 }
 
-// Oklab is linear in the cube roots of LMS, so mixing those is mixing in Oklab.
+// Oklab is linear in the cube roots of LMS, so these can be mixed instead.
 Eigen::Vector3f CubeRoots(const Colour& colour) {
   return (RgbToLms() * colour).unaryExpr([](float x) { return std::cbrt(x); });
 }

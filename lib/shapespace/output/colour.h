@@ -5,11 +5,11 @@
 
 namespace shapespace::internal {
 
-/// Linear light, red, green and blue in 0 .. 1. All sums over light and samples are taken in this;
-/// sRGB appears only at the two ends.
+/// Linear light: red, green and blue in 0 .. 1. All sums over lights and samples are computed in
+/// it; sRGB is used only for input and output.
 using Colour = Eigen::Vector3f;
 
-/// The poses' blue, in sRGB.
+/// The colour of poses, a blue, in sRGB.
 inline constexpr unsigned kPoseHex = 0x4a86c8;
 
 /// From `0xrrggbb` in sRGB.
@@ -22,11 +22,11 @@ float ToLinear(float srgb);
 unsigned char ToByte(float linear);
 
 /// Colour of a value in 0 .. 1 (clamped): from light grey-blue through sand and orange to a deep
-/// red, of steadily falling lightness, so that it still reads in grey.
+/// red, with decreasing lightness, so that it is readable in grey scale.
 Colour ValueColour(float value);
 
-/// Colour of group 0, 1, ...: as different as so many can be, the first few most; light grey for
-/// negative numbers, which stand for no group.
+/// Colour of group 0, 1, ...; the first few differ most. Light grey for negative numbers, which
+/// stand for no group.
 Colour GroupColour(int group);
 
 }  // namespace shapespace::internal

@@ -16,13 +16,13 @@ constexpr unsigned kFrontHex[] = {kPoseHex, 0x58a56b, 0x8b68bf};  // by ShapeRol
 constexpr unsigned kBackHex = 0xf08030;
 constexpr unsigned kMarkHex[] = {0x48484c, 0xd23c3c};  // of marks 1 and 2
 
-// Values are drawn a little darker than in the legend, because the lights add up to more than 1;
-// back faces so dark that they can be told from the front, so light that the value can be read.
+// Factors for colours of values. On front faces slightly less than 1, because the lights add up to
+// more than 1; on back faces dark enough to differ from the front, and light enough to be read.
 constexpr float kFrontUnderValues = 0.8f, kBackUnderValues = 0.4f;
 
-// Lights, in the camera's axes (right, up, towards the eye). A key from the upper left, a fill from
-// the right, a sky that is brighter above; together somewhat more than 1 where the key falls
-// square, so that bodies look lit.
+// Lights, in the camera's axes (right, up, towards the eye): a key light from the upper left, a
+// fill light from the right, and a sky that is brighter above. Their sum slightly exceeds 1 on
+// surfaces that face the key light.
 const Eigen::Vector3f kKey = Eigen::Vector3f(-0.5f, 0.65f, 0.62f).normalized();
 const Eigen::Vector3f kFill = Eigen::Vector3f(0.85f, 0.05f, 0.5f).normalized();
 constexpr float kKeyLight = 0.95f;
@@ -30,31 +30,31 @@ constexpr float kFillLight = 0.17f;
 constexpr float kSkyLight = 0.42f, kGroundLight = 0.1f;
 constexpr float kGloss = 0.1f, kGlossExponent = 20;
 
-// Half-width of the key as seen from the body, for soft shadows.
+// Half-width of the key light as seen from the body, for soft shadows.
 constexpr float kKeySpread = 0.12f;
-// Occlusion farther away than this (in radii of the largest shape) does not darken.
+// Occluders farther away than this (in radii of the largest shape) are ignored.
 constexpr float kOcclusionReach = 0.4f;
-// Rays start this far off the surface (same unit), above the float error of a hit.
+// Distance from the surface at which rays start (same unit), greater than the float error of a hit.
 constexpr float kOffset = 3e-4f;
 
-// Occlusion and shadow are traced with few rays a pixel in a pattern that repeats every 4 x 4
-// pixels, then averaged over such a square of the same surface: 128 and 64 rays a point for the
-// price of 8 and 4, and no noise.
+// Occlusion and shadow are sampled with few rays per pixel in a pattern that repeats every 4 x 4
+// pixels, and averaged over such a square of the same surface: 128 and 64 rays per point at the
+// cost of 8 and 4, without noise.
 constexpr int kSkyRays = 8, kKeyRays = 4, kPattern = 4;
 
-// What a pixel collects before occlusion is known.
+// The data of a pixel before occlusion is known.
 struct Pixel {
-  Colour sky = Colour::Zero();  // light that occlusion will dim
-  Colour key = Colour::Zero();  // light that shadow will dim
+  Colour sky = Colour::Zero();  // light to be reduced by occlusion
+  Colour key = Colour::Zero();  // light to be reduced by shadow
   Colour rest = Colour::Zero();
   float coverage = 0;
-  // Of one of the samples that hit, for averaging over the same surface only.
+  // Of one of the samples that hit; averages are taken over the same surface only.
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   float distance = 0;
   float open_sky = 1, open_key = 1;
 };
 
-// Bits mirrored about the binary point: 1 -> 1/2, 2 -> 1/4, 3 -> 3/4 ...
+// Mirrors bits at the binary point: 1 -> 1/2, 2 -> 1/4, 3 -> 3/4 ...
 float RadicalInverse(unsigned i) {
   float result = 0;
   for (float digit = 0.5f; i != 0; i >>= 1, digit /= 2) {
@@ -63,7 +63,7 @@ float RadicalInverse(unsigned i) {
   return result;
 }
 
-// Sample `i` of `count` in the unit square, for the place `cell` of the pattern.
+// Sample `i` of `count` in the unit square, for position `cell` of the pattern.
 Eigen::Vector2f Sample(int i, int count, int cell) {
   const float shift = (cell + 0.5f) / (kPattern * kPattern);
   const float v = RadicalInverse(i) + RadicalInverse(cell) / count;
@@ -121,8 +121,8 @@ void FramePainter::TracePixel(int row, int column) {
   Eigen::Vector3f first_point;
   int hits = 0;
   for (int s = 0; s < n * n; ++s) {
-    // A grid sheared both ways: no two samples share a column or a row, so that nearly upright and
-    // nearly level outlines get n * n shades, not n.
+    // A grid sheared in both directions: no two samples share a column or a row, so that nearly
+    // vertical and nearly horizontal outlines have n * n levels of grey instead of n.
     const int i = s % n, j = s / n;
     const double x = column + (i + (j + 0.5) / n) / n - 0.5 * camera_.width;
     const double y = 0.5 * camera_.height - row - (j + (i + 0.5) / n) / n;
@@ -197,7 +197,7 @@ void FramePainter::TraceLight(const Scene::Hit& hit, const Eigen::Vector3f& poin
 Colour FramePainter::Finished(int row, int column) const {
   const Pixel& pixel = pixels_[static_cast<size_t>(row) * camera_.width + column];
   if (pixel.coverage == 0) return Background();
-  // Ends count half, so that every place of the pattern counts the same.
+  // The ends have half the weight, so that every position of the pattern has the same weight.
   constexpr float kWeights[] = {0.5f, 1, 1, 1, 0.5f};
   const float depth_range = 6 / static_cast<float>(camera_.pixels_per_unit);
   float sky = 0, key = 0, total = 0;

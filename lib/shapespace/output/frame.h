@@ -10,7 +10,7 @@
 
 namespace shapespace::internal {
 
-/// Linear light behind everything.
+/// The background's colour.
 Colour Background();
 
 /// The same for all frames of a strip.
@@ -22,12 +22,12 @@ struct Camera {
   int samples = 1;            ///< per pixel and axis
 };
 
-/// What decides a shape's colour.
+/// What determines a shape's colour.
 struct Paint {
-  ShapeRole role = ShapeRole::kPose;  ///< the front faces' colour, unless
-  bool show_values = false;           ///< the scene's values are shown, whose scale ends at 1, or
-  Eigen::VectorXi groups;             ///< those of the vertices are; empty: none
-  Eigen::VectorXi marks;              ///< of the vertices, as in FilmStripOptions; empty: none
+  ShapeRole role = ShapeRole::kPose;  ///< colour of front faces by default
+  bool show_values = false;           ///< show the scene's values, on a scale that ends at 1
+  Eigen::VectorXi groups;             ///< group of each vertex; empty: none
+  Eigen::VectorXi marks;              ///< mark of each vertex, as in FilmStripOptions; empty: none
 };
 
 /// Draws `scene` into the rectangle of `image` whose upper left pixel is (left, top).

@@ -23,7 +23,7 @@ std::string FrameName(const std::string& pattern, int number) {
 }
 
 void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes, const Soup& soup) {
-  FrameName(pattern, 0);  // says what is wrong before anything is written
+  FrameName(pattern, 0);  // throws before anything is written
   ParallelFor(static_cast<int>(shapes.size()),
               [&](int i) { WriteMesh(FrameName(pattern, i), shapes[i], soup); });
 }

@@ -14,13 +14,13 @@ namespace shapespace {
 /// \throw FileError if the pattern has no such place or more than one.
 std::string FrameName(const std::string& pattern, int number);
 
-/// Writes one mesh file a shape, numbered from 000, in the format of the pattern's extension
-/// (`WriteMesh`). `soup` gives polygons, segments and appearance.
+/// Writes one mesh file per shape, numbered from 000, in the format of the pattern's extension
+/// (`WriteMesh`). `soup` provides polygons, segments and appearance.
 /// \throw FileError, MeshError.
 void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes, const Soup& soup);
 
-/// What frames of a path or of a body hold besides positions: polygons, segments and the
-/// appearance. Its vertices are zero.
+/// The content of frames besides positions: polygons, segments and appearance of a path or a body.
+/// Its vertices are zero.
 Soup FrameSoup(const Connectivity& connectivity, const Appearance& appearance = {});
 
 }  // namespace shapespace

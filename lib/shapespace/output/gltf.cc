@@ -33,28 +33,28 @@ namespace {
 using tinygltf::Model;
 using tinygltf::Value;
 
-// More morph targets are slow in browsers, and no smoother to see.
+// More morph targets are slow in browsers, without a visible improvement.
 constexpr int kMostKeys = 32;
 
-// The share of the duration for which the shapes rest, at either end, so that the poses are seen.
+// Share of the duration for which the shapes rest at each end.
 constexpr double kRest = 0.1;
 
-// Between so many points of time the speed of an eased motion is constant.
+// The speed of an eased motion is constant between this number of points of time.
 constexpr int kEasePoints = 64;
 
 constexpr double kRoughness = 0.7;
 
-// Cosines of 1 and 46 degrees. Of polyhedra and folded paper most edges are either flat or sharper
-// than that; of scanned animals under a quarter is, and of a tube with eight sides none.
+// Cosines of 1 and 46 degrees. In polyhedra and folded paper most edges are either flat or sharper
+// than that; in scanned animals less than a quarter, and in a tube with eight sides none.
 constexpr double kBentCosine = 0.9998477, kSharpCosine = 0.6946584;
 
-// Sizes whose squares, and a millionth of which, are still numbers of single precision.
+// Sizes whose squares, and a millionth of which, are representable in single precision.
 constexpr double kSmallest = 1e-15, kLargest = 1e15;
 
-// What the format can count, less plenty for the header.
+// The limit of the format, with a margin for the header.
 constexpr double kMostBytes = 4.2e9;
 
-// The largest index that viewers with 16 bits draw; the next one means something else to GPUs.
+// The largest 16-bit index for viewers; the next one has a special meaning for GPUs.
 constexpr int kLargestShortIndex = 65534;
 
 void CheckRange(const char* field, double value, double least, double most) {
@@ -112,7 +112,7 @@ Eigen::Matrix3Xd SmoothNormals(const Connectivity& connectivity, const Shape& sh
     for (int k = 0; k < 3; ++k) normals.col(triangles(k, f)) += normal;
   }
   for (Eigen::Index v = 0; v < normals.cols(); ++v) {
-    // Where no triangle has an area any unit vector will do; the format allows no other.
+    // If no triangle has an area, an arbitrary unit vector, because the format requires one.
     const double length = normals.col(v).stableNorm();
     normals.col(v) =
         length > 0 ? Eigen::Vector3d(normals.col(v) / length) : Eigen::Vector3d::UnitY();
@@ -141,7 +141,7 @@ Eigen::Matrix3Xf GroupColours(const Eigen::VectorXi& groups) {
   return colours;
 }
 
-// sRGB, with opacities in a fourth row, as linear light.
+// Converts sRGB, with opacities in a fourth row, to linear light.
 Eigen::MatrixXf LinearColours(const Eigen::MatrixXd& colours) {
   Eigen::MatrixXf linear = colours.cast<float>();
   if (linear.size() > 0) linear.topRows<3>() = linear.topRows<3>().unaryExpr(&internal::ToLinear);
@@ -152,7 +152,7 @@ constexpr int ComponentType(uint16_t) { return TINYGLTF_COMPONENT_TYPE_UNSIGNED_
 constexpr int ComponentType(uint32_t) { return TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT; }
 constexpr int ComponentType(float) { return TINYGLTF_COMPONENT_TYPE_FLOAT; }
 
-// Appends bytes to the model's buffer. Returns their view.
+// Appends bytes to the model's buffer and returns their view.
 int AddBytes(const void* data, size_t size, int target, Model* model) {
   std::vector<unsigned char>& bytes = model->buffers[0].data;
   bytes.resize((bytes.size() + 3) / 4 * 4);
@@ -167,7 +167,7 @@ int AddBytes(const void* data, size_t size, int target, Model* model) {
   return static_cast<int>(model->bufferViews.size()) - 1;
 }
 
-// Appends numbers, or vectors of them, to the model's buffer. Returns their accessor.
+// Appends numbers, or vectors, to the model's buffer and returns their accessor.
 template <typename Array>
 int Add(const Array& array, int type, int target, Model* model) {
   using Scalar = typename Array::Scalar;
@@ -180,7 +180,7 @@ int Add(const Array& array, int type, int target, Model* model) {
   return static_cast<int>(model->accessors.size()) - 1;
 }
 
-// The same with the bounds that the format asks for of positions and times.
+// The same with the bounds that the format requires for positions and times.
 template <typename Array>
 int AddWithBounds(const Array& array, int type, int target, Model* model) {
   const int index = Add(array, type, target, model);
@@ -203,8 +203,8 @@ int AddIndices(const Eigen::Ref<const Eigen::VectorXi>& indices, size_t num_vert
                                                 : AddIndices<uint32_t>(indices, model);
 }
 
-// The vertices of the first of `shapes`, with the others as morph targets: a primitive without
-// indices. `source` are the mesh's vertices that these are.
+// A primitive without indices: the vertices of the first of `shapes`, with the others as morph
+// targets. `source` gives the mesh's vertex of each.
 tinygltf::Primitive AddVertices(const Connectivity& connectivity, const std::vector<Shape>& shapes,
                                 const Eigen::Vector3d& origin, const std::vector<int>& source,
                                 Model* model) {
@@ -221,7 +221,7 @@ tinygltf::Primitive AddVertices(const Connectivity& connectivity, const std::vec
   primitive.mode = graph ? TINYGLTF_MODE_LINE : TINYGLTF_MODE_TRIANGLES;
   const Eigen::Matrix3Xf positions = (shapes[0].colwise() - origin).cast<float>();
   primitive.attributes["POSITION"] = add_bounded(positions);
-  // Players give triangles without normals flat shading.
+  // Players use flat shading for triangles without normals.
   const bool smooth = !graph && !IsFaceted(connectivity, shapes);
   Eigen::Matrix3Xf normals;
   if (smooth) {
@@ -229,7 +229,7 @@ tinygltf::Primitive AddVertices(const Connectivity& connectivity, const std::vec
     primitive.attributes["NORMAL"] = add(normals);
   }
   for (size_t k = 1; k < shapes.size(); ++k) {
-    // From the rounded first shape, so that rounding errors do not add up.
+    // Relative to the rounded first shape, so that rounding errors do not accumulate.
     const Shape arms = shapes[k].colwise() - origin;
     std::map<std::string, int> target = {
         {"POSITION", add_bounded((arms - positions.cast<double>()).cast<float>())}};
@@ -251,7 +251,7 @@ void AddColours(const Eigen::MatrixXf& colours, const std::vector<int>& source,
           TINYGLTF_TARGET_ARRAY_BUFFER, model);
 }
 
-// When the animation shows which point of the way, from 0 to 1.
+// Pairs of time and parameter (0 to 1) of the path that define the animation.
 std::vector<std::pair<double, double>> Moments(const std::vector<double>& parameters, int shapes,
                                                const GltfOptions& options) {
   std::vector<double> points = parameters;
@@ -283,8 +283,8 @@ std::vector<std::pair<double, double>> Moments(const std::vector<double>& parame
   return moments;
 }
 
-// The weights of the morph targets over time. `parameters`, of the key shapes, rise from 0 to 1;
-// `shapes` is how many the whole path has.
+// The weights of the morph targets over time. `parameters`, of the key shapes, increase from 0 to
+// 1; `shapes` is the number of shapes of the whole path.
 tinygltf::Animation AddAnimation(const std::vector<double>& parameters, int shapes,
                                  const GltfOptions& options, Model* model) {
   const std::vector<std::pair<double, double>> moments = Moments(parameters, shapes, options);
@@ -293,10 +293,10 @@ tinygltf::Animation AddAnimation(const std::vector<double>& parameters, int shap
   float least = 0;
   for (size_t m = 0; m < moments.size(); ++m) {
     const auto [time, point] = moments[m];
-    // Parameters may be closer together than single precision tells, but times must rise.
+    // Parameters may differ by less than single precision resolves, but times must increase.
     times[m] = std::max(least, static_cast<float>(time));
     least = std::nextafter(times[m], std::numeric_limits<float>::max());
-    // The key shapes on both sides; the first has no target, as it is the mesh itself.
+    // The key shapes on both sides; the first has no target, because it is the mesh itself.
     const auto after = std::lower_bound(parameters.begin(), parameters.end(), point);
     const int key = static_cast<int>(after - parameters.begin());
     const double part = key == 0 ? 0 : (*after - point) / (*after - *(after - 1));
@@ -319,7 +319,7 @@ tinygltf::Animation AddAnimation(const std::vector<double>& parameters, int shap
   return animation;
 }
 
-// Carries user's coordinates less `origin` to glTF's, in metres and with y up.
+// Transforms user's coordinates relative to `origin` to glTF's, in metres and with y up.
 tinygltf::Node PlacedNode(const Eigen::Vector3d& origin, const GltfOptions& options) {
   tinygltf::Node node;
   node.name = "shape";
@@ -334,7 +334,7 @@ tinygltf::Node PlacedNode(const Eigen::Vector3d& origin, const GltfOptions& opti
   return node;
 }
 
-// File names in a provenance may hold any bytes; JSON may not.
+// File names in a provenance may contain any bytes; JSON may not.
 std::string AsUtf8(const std::string& text) {
   using Json = nlohmann::json;
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
@@ -351,8 +351,7 @@ tinygltf::Material PlainMaterial(const internal::Colour& colour) {
   return material;
 }
 
-// The texture that shows an image file, which becomes a part of the model; each file once. -1, and
-// a warning, if it cannot be.
+// Textures from image files, each of which is embedded once. -1, with a warning, if that fails.
 class Textures {
  public:
   Textures(Model* model, std::vector<std::string>* warnings) : model_(model), warnings_(warnings) {}
@@ -373,15 +372,14 @@ class Textures {
       warnings_->push_back("texture " + std::string(error.what()) + "; it is left out");
       return -1;
     }
-    // How every PNG and every JPEG begins.
+    // The signatures of PNG and JPEG.
     if (bytes.compare(0, 8, "\x89PNG\r\n\x1a\n") == 0) {
       image.mimeType = "image/png";
     } else if (bytes.compare(0, 3, "\xff\xd8\xff") == 0) {
       image.mimeType = "image/jpeg";
     } else {
-      warnings_->push_back(
-          "texture " + file +
-          ": is neither PNG nor JPEG, which are all that glTF has; it is left out");
+      warnings_->push_back("texture " + file +
+                           ": is neither PNG nor JPEG, the formats of glTF; it is left out");
       return -1;
     }
     image.name = AsUtf8(std::filesystem::path(file).filename().string());
@@ -402,7 +400,7 @@ tinygltf::Material MaterialFromLibrary(const std::string& name, const internal::
                                        bool has_texture_coordinates, Textures* textures) {
   const bool textured = has_texture_coordinates && !described.texture.empty();
   const int texture = textured ? textures->Add(described.texture) : -1;
-  // What stands beside a texture is black or grey as often as it means something.
+  // The colour of a material with a texture is often black or grey without meaning.
   const Eigen::Vector3d colour = texture >= 0 ? Eigen::Vector3d::Ones() : described.colour;
   tinygltf::Material material = PlainMaterial(LinearColours(colour));
   material.name = AsUtf8(name);
@@ -412,7 +410,7 @@ tinygltf::Material MaterialFromLibrary(const std::string& name, const internal::
   return material;
 }
 
-// Triangles, or a graph's segments, that share a material.
+// Triangles, or a graph's segments, with the same material.
 struct Part {
   tinygltf::Material material;
   std::vector<int> indices;

@@ -7,7 +7,7 @@
 namespace shapespace::internal {
 namespace {
 
-// `parts` + 1 whole numbers from `first` to `last`, evenly spread; the last one is left out.
+// Appends `parts` + 1 evenly spaced integers from `first` to `last`, without the last one.
 void AppendParts(int first, int last, int parts, std::vector<int>* numbers) {
   for (int j = 0; j < parts; ++j) {
     numbers->push_back(first + static_cast<int>(std::lround(double(j) * (last - first) / parts)));
@@ -29,7 +29,7 @@ std::vector<int> KeyShapes(int count, const std::vector<int>& poses, int most) {
     return keys;
   }
 
-  // Each key more goes where the gaps are widest.
+  // Each additional key goes to the widest gap.
   std::vector<int> parts(kept.size() - 1, 1);
   const auto gap = [&](size_t i) { return double(kept[i + 1] - kept[i]) / parts[i]; };
   for (int used = static_cast<int>(kept.size()); used < std::min(count, most); ++used) {

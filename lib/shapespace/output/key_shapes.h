@@ -5,8 +5,9 @@
 
 namespace shapespace::internal {
 
-/// Indices of at most `most` (2 or more) of `count` shapes, rising, as evenly spread as the ends
-/// and `poses` allow, which are kept; of too many poses as many as fit, evenly, with the ends.
+/// Indices of at most `most` (2 or more) of `count` shapes, ascending. They include the ends and
+/// `poses` and are otherwise evenly spaced; if there are too many poses, an evenly spaced selection
+/// of them and the ends.
 std::vector<int> KeyShapes(int count, const std::vector<int>& poses, int most);
 
 }  // namespace shapespace::internal

@@ -16,7 +16,7 @@ constexpr int kMargin = 12;
 constexpr int kNumbersTop = kMargin + kBarHeight + 6;
 constexpr int kSwatchWidth = 34, kMostSwatches = 24;
 
-// Relative values below this are rounding errors, and shown as 0.
+// Relative values below this are rounding errors, and are shown as 0.
 constexpr double kNoise = 1e-12;
 
 std::string PerCent(double value) {

@@ -10,13 +10,12 @@
 
 namespace shapespace::internal {
 
-/// The value that gets the last colour: the 99th percentile of `values`, rounded up to 1, 2 or 5
-/// times a power of ten; their maximum where that percentile is 0, and 1 %
-/// where all are.
+/// The value at the end of the colour scale: the 99th percentile of `values`, rounded up to 1, 2 or
+/// 5 times a power of ten; their maximum if that percentile is 0; 1 % if all are 0.
 double EndOfScale(const std::vector<Eigen::VectorXd>& values);
 
-/// A bar of the value colours with numbers in per cent, and `title` beside it, as a picture of its
-/// own on the strip's background. `largest` is named where it is beyond the scale.
+/// A bar of the value colours with numbers in per cent, and `title` beside it, as a separate
+/// picture on the strip's background. `largest` is stated if it exceeds the scale.
 RgbImage DrawLegend(double end_of_scale, double largest, const std::string& title);
 
 /// The same for groups: the colours of the first `groups`, at most 24, with numbers from 1.

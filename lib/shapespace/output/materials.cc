@@ -27,7 +27,7 @@ class LibraryReader {
     const std::string text = ReadFile(file_.string());
     Lines lines(text);
     std::string_view line;
-    Material* material = nullptr;  // that statements are about
+    Material* material = nullptr;  // to which the statements belong
     while (lines.Next(&line)) {
       Words words(line);
       const std::string_view keyword = words.Next();
@@ -43,7 +43,7 @@ class LibraryReader {
   }
 
  private:
-  /// Returns what is to be told of the statement, or null.
+  /// Returns the problem with the statement, or null.
   const char* ReadStatement(std::string_view keyword, Words words, Material* material) {
     static constexpr char kNotUnderstood[] = "is not understood";
     if (keyword == "Kd") {
@@ -62,7 +62,7 @@ class LibraryReader {
       std::string name(words.Rest());
       const bool options = name[0] == '-';  // such as a scale; the last word is the file
       if (options) name.erase(0, name.find_last_of(" \t") + 1);
-      // As Windows has it.
+      // Windows path separators.
       std::replace(name.begin(), name.end(), '\\', '/');
       if (name.empty()) return kNotUnderstood;
       material->texture = (file_.parent_path() / name).string();
@@ -71,7 +71,7 @@ class LibraryReader {
     return nullptr;
   }
 
-  /// A number, cut off to lie in 0 .. 1.
+  /// A number, clamped to 0 .. 1.
   static bool ReadShare(std::string_view word, double* share) {
     const std::optional<double> number = ParseDouble(word);
     if (!number || !std::isfinite(*number)) return false;
@@ -84,7 +84,7 @@ class LibraryReader {
   std::vector<std::string>* warnings_;
 };
 
-/// A statement `mtllib` names one file, which may have blanks in its name, or several.
+/// A statement `mtllib` names one file, whose name may contain blanks, or several.
 std::vector<fs::path> Files(const fs::path& folder, const std::string& statement) {
   std::error_code ignored;
   std::vector<fs::path> files;

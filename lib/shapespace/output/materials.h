@@ -13,16 +13,16 @@
 
 namespace shapespace::internal {
 
-/// What a material library says of one material, as far as outputs can show it.
+/// A material of a material library, as far as outputs can show it.
 struct Material {
   Eigen::Vector3d colour = Eigen::Vector3d::Ones();  ///< `Kd`: red, green and blue in sRGB, 0 .. 1
   double opacity = 1;                                ///< `d`, or 1 - `Tr`
   std::string texture;  ///< `map_Kd`: the image's file, which may not exist; empty for none
 };
 
-/// Looks up the materials of an appearance in its libraries, in the order of their names. Those
-/// that no library has are empty. Libraries that cannot be read, and what they say that cannot be
-/// understood, are told as sentences in `warnings`.
+/// Finds the materials of an appearance in its libraries, in the order of their names. Materials
+/// that no library contains are empty. Libraries that cannot be read, and statements in them that
+/// cannot be parsed, are reported as sentences in `warnings`.
 std::vector<std::optional<Material>> ReadMaterials(const Appearance& appearance,
                                                    std::vector<std::string>* warnings);
 

@@ -9,7 +9,7 @@
 namespace shapespace {
 namespace {
 
-// Where the viewer has room for scenes.
+// The placeholder for scenes in the viewer.
 constexpr char kMark[] = "<!-- scenes -->";
 
 std::string Base64(const std::string& bytes) {
@@ -28,7 +28,7 @@ std::string Base64(const std::string& bytes) {
   return text;
 }
 
-// As the value of an attribute between double quotes.
+// As the value of an attribute in double quotes.
 std::string Escaped(const std::string& text) {
   std::string escaped;
   for (const char c : text) {

@@ -23,14 +23,14 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
 constexpr int kSteps = 65535;          // of a position, along the longest side of the box
-constexpr float kTubeRadius = 0.005f;  // of a graph's edges where a view is chosen
+constexpr float kTubeRadius = 0.005f;  // of a graph's edges, when a view is chosen
 constexpr int kShades = 255;           // of a deviation
-constexpr double kMostBytes = 1e9;     // before compression: more is slow or impossible in browsers
+constexpr double kMostBytes = 1e9;     // before compression; more is slow or impossible in browsers
 
-// Positions of one shape in steps, three a vertex.
+// Positions of one shape in quantisation steps, three per vertex.
 using Steps = std::vector<uint16_t>;
 
-// The cube that all shapes lie in.
+// The cube that contains all shapes.
 struct Box {
   Eigen::Vector3d low;
   double side;
@@ -55,7 +55,7 @@ Steps Quantise(const Shape& shape, const Box& box) {
   return steps;
 }
 
-// Numbers of small magnitude become small, whatever their sign.
+// Maps numbers of small magnitude to small numbers, whatever their sign.
 uint16_t ZigZag(uint16_t difference) {
   const auto x = static_cast<int16_t>(difference);
   return static_cast<uint16_t>(2 * x ^ (x >> 15));
@@ -66,7 +66,7 @@ uint32_t ZigZag(uint32_t difference) {
   return static_cast<uint32_t>(2 * int64_t{x}) ^ static_cast<uint32_t>(x >> 31);
 }
 
-// What shape i is likely to be, given those before it.
+// A prediction of shape i from those before it.
 std::vector<Steps> PredictAlongPath(const std::vector<Steps>& shapes) {
   std::vector<Steps> predicted(shapes.size(), Steps(shapes[0].size(), 0));
   for (size_t i = 1; i < shapes.size(); ++i) {
@@ -92,8 +92,8 @@ std::vector<Steps> PredictFromParents(const std::vector<Steps>& shapes,
   return predicted;
 }
 
-// What is off from the prediction, as difference from vertex to vertex; low and high bytes of each
-// axis apart, for that compresses best.
+// The differences from the prediction, as differences from vertex to vertex; low and high bytes of
+// each axis separately, which compresses best.
 void AppendPositions(const std::vector<Steps>& shapes, const std::vector<Steps>& predicted,
                      std::string* bytes) {
   for (size_t i = 0; i < shapes.size(); ++i) {
@@ -112,7 +112,7 @@ void AppendPositions(const std::vector<Steps>& shapes, const std::vector<Steps>&
   }
 }
 
-// Differences from each index to the next, by bytes of equal place.
+// Differences between consecutive indices, ordered by bytes of equal significance.
 void AppendIndices(const int* indices, size_t count, std::string* bytes) {
   std::string planes(4 * count, 0);
   uint32_t last = 0;
@@ -149,7 +149,7 @@ std::vector<Steps> QuantiseAll(const std::vector<Shape>& shapes, Json* header) {
   return steps;
 }
 
-// The direction from which a film strip would show `shapes`, and the one that points up.
+// The view direction of a film strip of `shapes`, and its upward direction.
 void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shapes, Json* header) {
   const Box box = BoxAround(shapes);
   std::vector<Shape> small;
@@ -166,7 +166,7 @@ void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shap
   (*header)["eye"] = {eye[0], eye[1], eye[2]};
 }
 
-// Of every vertex and shape, as difference from shape to shape.
+// Per vertex and shape, as differences from shape to shape.
 void AppendDeviations(const Path& path, Json* header, std::string* bytes) {
   std::vector<Eigen::VectorXd> deviations(path.NumShapes());
   std::vector<RmsAndMax> edges(path.NumShapes());
@@ -191,12 +191,12 @@ void AppendDeviations(const Path& path, Json* header, std::string* bytes) {
   }
 }
 
-// The squared speed along every segment.
+// The squared speed in every segment.
 std::vector<double> SquaredSpeeds(const Path& path) {
   std::vector<double> speeds;
   if (path.NumShapes() < 2) return speeds;
-  // Of three shapes of which the last two are one, the first segment has all of the energy, which
-  // is twice the squared distance, whatever the metric.
+  // For three shapes of which the last two are equal, the first segment has all of the energy,
+  // which is twice the squared distance, whatever the metric.
   PathEnergy energy(path.metric, 1);
   std::vector<double> unknowns(energy.Size());
   for (int i = 0; i + 1 < path.NumShapes(); ++i) {
@@ -228,7 +228,7 @@ std::string Compress(const std::string& bytes) {
 }
 
 std::string Pack(const Json& header, const std::string& arrays) {
-  // Names may be of any bytes: those that are no text are shown as such.
+  // Names may contain any bytes; those that are not valid text are replaced.
   const std::string text = header.dump(-1, ' ', true, Json::error_handler_t::replace);
   std::string all;
   for (int shift = 0; shift < 32; shift += 8)
@@ -240,14 +240,14 @@ void CheckSize(const std::string& name, size_t shapes, int vertices, int bytes_a
   const double bytes = static_cast<double>(shapes) * vertices * bytes_a_vertex;
   if (bytes <= kMostBytes) return;
   throw MeshError(name + ": " + std::to_string(shapes) + " shapes of " + std::to_string(vertices) +
-                  " vertices are too much for a page; take fewer shapes or a smaller mesh");
+                  " vertices are too many for a page; use fewer shapes or a smaller mesh");
 }
 
 void CheckNodes(const std::string& name, const char* what, const int* nodes, Eigen::Index count,
                 size_t num_nodes) {
   for (Eigen::Index k = 0; k < count; ++k) {
     if (nodes[k] < 0 || static_cast<size_t>(nodes[k]) >= num_nodes) {
-      throw MeshError(name + ": " + what + " name a node that is not there");
+      throw MeshError(name + ": " + what + " refer to a node that does not exist");
     }
   }
 }

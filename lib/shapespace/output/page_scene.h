@@ -9,7 +9,7 @@
 
 namespace shapespace::internal {
 
-/// The data of one scene, compressed: what docs/file-formats.md describes under HTML.
+/// The data of one scene, compressed, as described in docs/file-formats.md under HTML.
 /// \throw MeshError if the scene is not valid.
 std::string EncodeScene(const PagePath& scene);
 std::string EncodeScene(const PageSpace& scene);

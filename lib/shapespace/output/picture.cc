@@ -19,24 +19,24 @@
 namespace shapespace {
 namespace {
 
-// A strip wider than this many frame widths wraps into rows.
+// A strip wider than this many frame widths is arranged in rows.
 constexpr int kWidestStrip = 6;
 constexpr int kTextMargin = 8;
 
-// More is no picture that anybody opens, and past what the PNG writer counts in.
+// Larger pictures are not practical, and exceed the range of the PNG writer.
 constexpr double kMostPixels = 1e8;
 
-// Tubes of graphs, in radii of the largest shape, unless the edges are too short for that.
+// Radius of a graph's tubes, in radii of the largest shape and in lengths of edges.
 constexpr double kTubeRadius = 0.01;
 constexpr double kTubePerEdge = 0.15;
 
-// Marks are at least this wide, in radii of the largest shape.
+// Least radius of marks, in radii of the largest shape.
 constexpr double kMarkRadius = 0.02;
 
-// Values are cut off here, in units of the colour scale: far beyond it, and safe as floats.
+// Values are clamped to this, in units of the colour scale; it is safe in single precision.
 constexpr double kLargestValue = 1e6;
 
-// Directions this close (sine of the angle) leave no picture plane.
+// Directions nearer to each other than this (sine of the angle) do not define a picture plane.
 constexpr double kParallel = 1e-6;
 
 void CheckRange(const char* field, int value, int least, int most) {
@@ -113,7 +113,7 @@ void CheckInput(const Connectivity& connectivity, const std::vector<Shape>& shap
   }
 }
 
-// Vertices that show: of a mesh those of its triangles, of a graph all.
+// Visible vertices: those of triangles, or all vertices of a graph.
 std::vector<int> Visible(const Connectivity& connectivity) {
   std::vector<bool> shows(connectivity.NumVertices(), connectivity.IsGraph());
   for (const int v : connectivity.Triangles().reshaped()) shows[v] = true;
@@ -124,8 +124,8 @@ std::vector<int> Visible(const Connectivity& connectivity) {
   return visible;
 }
 
-// The chosen shapes, each about the centre of its bounding box, scaled together into the unit ball.
-// Vertices that do not show go to the centre, so that a stray one does not shrink the picture.
+// The selected shapes, each centred by its bounding box, scaled together into the unit ball.
+// Invisible vertices move to the centre, so that they do not influence the scale.
 std::vector<Shape> Normalised(const Connectivity& connectivity, const std::vector<Shape>& shapes,
                               const std::vector<int>& chosen) {
   const std::vector<int> visible = Visible(connectivity);
@@ -145,7 +145,7 @@ std::vector<Shape> Normalised(const Connectivity& connectivity, const std::vecto
   return result;
 }
 
-// Vertices within `radius` of one with a mark, along edges of `shape`, get the nearest one's.
+// Vertices within `radius` of a marked vertex, along edges of `shape`, get the nearest one's mark.
 Eigen::VectorXi Widened(const Connectivity& connectivity, const Shape& shape,
                         const Eigen::VectorXi& marks, double radius) {
   if (marks.size() == 0) return marks;
@@ -185,7 +185,7 @@ internal::Axes CameraAxes(const Connectivity& connectivity, const std::vector<Sh
                           const internal::RayTracer& tracer, const FilmStripOptions& options) {
   Eigen::Vector3d up = options.up.isZero(0) ? internal::ChooseUp(connectivity, shapes) : options.up;
   if (!options.view.isZero(0)) {
-    // Looked at from above or below, the other of the two axes is up.
+    // If seen from above or below, the other of the two axes points up.
     if (Parallel(up, options.view)) up = Eigen::Vector3d(0, up.z(), up.y());
     return internal::LookFrom(options.view, up);
   }
@@ -195,7 +195,7 @@ internal::Axes CameraAxes(const Connectivity& connectivity, const std::vector<Sh
   return internal::ChooseView(ends, scenes, up);
 }
 
-// A frame just large enough for every shape, its longer side as wide as asked.
+// A frame just large enough for every shape, whose longer side has the requested width.
 internal::Camera FitCamera(const internal::Axes& axes, const std::vector<Shape>& shapes,
                            double border, const FilmStripOptions& options) {
   Eigen::AlignedBox2d window;
@@ -212,7 +212,7 @@ internal::Camera FitCamera(const internal::Axes& axes, const std::vector<Shape>&
   camera.centre = window.center();
   camera.samples = options.samples;
   camera.pixels_per_unit = inner / (size.maxCoeff() > 0 ? size.maxCoeff() : 1);
-  // Rounding noise must not add a pixel to the longer side.
+  // Rounding errors must not add a pixel to the longer side.
   const auto pixels = [&](double length) {
     return 2 * margin +
            std::max(1, static_cast<int>(std::ceil(length * camera.pixels_per_unit - 1e-6)));

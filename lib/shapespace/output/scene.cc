@@ -25,7 +25,7 @@ void CheckEmbree(RTCDevice device) {
   }
 }
 
-// A new buffer of `geometry`, owned by Embree, which pads it for its wide loads.
+// A new buffer of `geometry`, owned by Embree, which pads it for vector loads.
 template <class T>
 T* NewBuffer(RTCDevice device, RTCGeometry geometry, RTCBufferType type, RTCFormat format,
              size_t stride, size_t count) {
@@ -68,8 +68,8 @@ void SetRay(RTCRay* ray, const Eigen::Vector3f& origin, const Eigen::Vector3f& d
 
 }  // namespace
 
-// The device keeps Embree's own number of threads, which it uses to build scenes only: asking for
-// one would limit every user of TBB in the process to one.
+// The device uses Embree's default number of threads, which matters only for building scenes: a
+// limit of one would limit all users of TBB in the process.
 RayTracer::RayTracer(const Connectivity& connectivity, float tube_radius)
     : connectivity_(connectivity),
       tube_radius_(tube_radius),
@@ -86,7 +86,8 @@ Scene::Scene(const RayTracer& tracer, const Shape& shape, Eigen::VectorXf values
     if (scene != nullptr) rtcReleaseScene(scene);
   });
   if (!scene_) CheckEmbree(device);
-  // Robust: no ray slips through between two triangles, which would show the inside as a speck.
+  // Robust mode: no ray passes between two adjacent triangles, which would show specks of the
+  // inside.
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
   if (tracer.connectivity_.IsGraph()) {
     AddTubes(shape);
@@ -169,7 +170,7 @@ bool Scene::Trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& directio
     const Eigen::Vector3f smooth = corner_normals_.middleCols<3>(3 * element) * weights;
     const float length = smooth.norm();
     if (length > 0) hit->normal = (hit->back ? -smooth : smooth) / length;
-    // Near the outline an interpolated normal may point away from the eye: bend it to the outline.
+    // Near the outline an interpolated normal may point away from the eye; make it perpendicular.
     const float away = hit->normal.dot(direction);
     if (away > 0) hit->normal = (hit->normal - away * direction).stableNormalized();
     const auto corners = tracer_.connectivity_.Triangles().col(element);

@@ -13,7 +13,7 @@ struct RTCSceneTy;
 
 namespace shapespace::internal {
 
-/// What all scenes of one picture share.
+/// The data that all scenes of one picture share.
 class RayTracer {
  public:
   /// `connectivity` must outlive the tracer and its scenes. Tubes and balls of graphs get
@@ -27,7 +27,7 @@ class RayTracer {
   std::shared_ptr<RTCDeviceTy> device_;
 };
 
-/// One shape, ready to be hit by rays. Safe to use from several threads.
+/// One shape, prepared for ray tracing. Safe to use from several threads.
 class Scene {
  public:
   struct Hit {
@@ -36,17 +36,17 @@ class Scene {
     Eigen::Vector3f normal;       ///< unit, for shading, towards the ray's origin
     bool back;                    ///< the triangle was hit from behind
     float value;                  ///< interpolated from the vertices; 0 without values
-    int vertex;                   ///< nearest of the triangle's or edge's
+    int vertex;                   ///< the nearest vertex of the triangle or edge
   };
 
   /// `shape` is finite and lies in the unit ball; `values` has one number a vertex or is empty.
   /// \throw Error if Embree runs out of memory.
   Scene(const RayTracer& tracer, const Shape& shape, Eigen::VectorXf values);
 
-  /// The first thing on the ray; false if there is none.
+  /// Finds the first hit along the ray; false if there is none.
   bool Trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, Hit* hit) const;
 
-  /// Whether anything lies on the ray nearer than `distance`.
+  /// Whether the ray hits anything at less than `distance`.
   bool Blocked(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                float distance) const;
 

@@ -22,7 +22,7 @@ CutMesh CutAtSeams(const Connectivity& connectivity, const Appearance& appearanc
   mesh.triangles = connectivity.Triangles();
   if (appearance.corner_texture.empty()) return mesh;
 
-  // Of each vertex: its texture coordinate once it has one, and the next copy of the same vertex.
+  // Per vertex: its texture coordinate if it has one, and the next copy of the same vertex.
   std::vector<Eigen::Vector2f> texture(mesh.source.size());
   std::vector<bool> textured(mesh.source.size(), false);
   std::vector<int> next(mesh.source.size(), -1);

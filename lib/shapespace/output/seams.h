@@ -8,22 +8,22 @@
 #include <shapespace/mesh/appearance.h>
 #include <shapespace/mesh/connectivity.h>
 
-// Private: a mesh as graphics hardware takes it, with one texture coordinate a vertex.
+// Private: a mesh for graphics hardware, with one texture coordinate per vertex.
 
 namespace shapespace::internal {
 
 struct CutMesh {
-  /// The vertex of the mesh that each vertex here is. First come all the mesh's own, in their
-  /// order; after them a copy for each further texture coordinate that one has in a corner.
+  /// Per vertex, the mesh's vertex that it represents. All vertices of the mesh come first, in
+  /// their order, followed by a copy for each further texture coordinate of a vertex.
   std::vector<int> source;
-  Eigen::Matrix2Xf texture;    ///< of each vertex, (0, 0) where it has none; empty without any
-  Eigen::Matrix3Xi triangles;  ///< the connectivity's, between the vertices here
+  Eigen::Matrix2Xf texture;    ///< per vertex; (0, 0) if it has none; empty if the mesh has none
+  Eigen::Matrix3Xi triangles;  ///< the connectivity's, with the indices of the vertices here
 };
 
 /// Cuts a mesh where its texture has seams. An empty appearance leaves it as it is.
 CutMesh CutAtSeams(const Connectivity& connectivity, const Appearance& appearance);
 
-/// The polygon that each triangle of the connectivity is a part of.
+/// The polygon to which each triangle of the connectivity belongs.
 std::vector<int> PolygonsOfTriangles(const Connectivity& connectivity);
 
 }  // namespace shapespace::internal

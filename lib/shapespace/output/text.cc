@@ -13,25 +13,25 @@ namespace shapespace::internal {
 namespace {
 
 constexpr int kTextScale = 2;
-constexpr int kFontRows = 12;  // with descenders
+constexpr int kFontRows = 12;  // including descenders
 constexpr int kTextSamples = 4;
 constexpr float kBlur = 0.5f, kCut = 0.42f;  // in cells of the font; share of ink
 constexpr size_t kLongestText = 120;
 
-// One byte a cell of the font's grid, `width` cells a row and kFontRows rows: 1 where there is ink.
+// The font's grid, one byte per cell, `width` cells per row and kFontRows rows: 1 for ink.
 std::vector<unsigned char> Ink(std::string text, int width) {
   struct Corner {
     float x, y, z;
     unsigned char colour[4];
   };
-  constexpr int kCornersPerCharacter = 100;  // the font's own advice is 270 bytes a character
+  constexpr int kCornersPerCharacter = 100;  // the font recommends 270 bytes per character
   std::vector<Corner> corners(kCornersPerCharacter * (text.size() + 1));
   const int boxes = stb_easy_font_print(0, 0, text.data(), nullptr, corners.data(),
                                         static_cast<int>(corners.size() * sizeof(Corner)));
   std::vector<unsigned char> ink(width * kFontRows, 0);
   for (int i = 0; i < boxes; ++i) {
     const Corner &low = corners[4 * i], &high = corners[4 * i + 2];
-    // The corners are whole numbers.
+    // The corners are integers.
     const Eigen::Vector2i from(std::max(0.0f, low.x), std::max(0.0f, low.y));
     const Eigen::Vector2i to(std::min<float>(width, high.x), std::min<float>(kFontRows, high.y));
     for (int y = from.y(); y < to.y(); ++y) {
@@ -70,8 +70,7 @@ void Fill(RgbImage* image, int x0, int y0, int x1, int y1, const Colour& colour)
   }
 }
 
-// The font's boxes, blurred and cut off again where the blur is half: that rounds its corners and
-// joins its diagonals.
+// The font's boxes, blurred and thresholded at half: that rounds corners and joins diagonals.
 void DrawText(RgbImage* image, int left, int top, const std::string& text) {
   const int width = TextWidth(text) / kTextScale;
   const std::vector<unsigned char> ink = Ink(text, width);

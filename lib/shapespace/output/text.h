@@ -13,14 +13,14 @@ inline constexpr int kTextHeight = 20;
 
 Colour TextColour();
 
-/// \throw InvalidOptions, beginning with `field`, if `text` is longer than 120 characters or holds
-///        one that is not printable ASCII.
+/// \throw InvalidOptions, beginning with `field`, if `text` is longer than 120 characters or
+///        contains a character that is not printable ASCII.
 void CheckText(const char* field, const std::string& text);
 
 /// Width of `text` in pixels.
 int TextWidth(std::string text);
 
-/// Fills the pixels [x0, x1) x [y0, y1), as far as they are in the image.
+/// Fills the part of [x0, x1) x [y0, y1) that lies in the image.
 void Fill(RgbImage* image, int x0, int y0, int x1, int y1, const Colour& colour);
 
 /// Draws `text` with its upper left corner at (left, top).

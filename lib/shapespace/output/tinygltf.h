@@ -1,8 +1,8 @@
 #ifndef SHAPESPACE_OUTPUT_TINYGLTF_H_
 #define SHAPESPACE_OUTPUT_TINYGLTF_H_
 
-// The glTF library, without images: what is defined here changes its classes, so that it
-// is included nowhere else.
+// The glTF library without its image support. The macros defined here change its classes, so it
+// must not be included in any other way.
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_INCLUDE_JSON

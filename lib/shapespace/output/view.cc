@@ -11,24 +11,25 @@
 namespace shapespace::internal {
 namespace {
 
-// What of a shape touches the floor: this share of its bounding box's diagonal, from the bottom.
+// Height of the part of a shape that touches the floor, as a share of its bounding box's diagonal.
 constexpr double kFloorSlab = 0.04;
 
-// Rays per axis with which a candidate view is judged.
+// Rays per axis for the evaluation of a candidate view.
 constexpr int kGrid = 64;
 
-// Back faces are worth less than front faces: a sheet is rather seen from its front.
+// Weight of back faces relative to front faces, so that a sheet is seen from its front.
 constexpr double kBackWorth = 0.6;
 
 struct Candidate {
   double azimuth, elevation;  // degrees; from the front, positive to the right
-  double weight;              // how natural it looks
+  double weight;              // preference
 };
 
 std::vector<Candidate> Candidates() {
-  // Low views look natural; high ones are for what lies flat.
+  // Low views look natural; high ones are for flat shapes.
   constexpr struct { double degrees, weight; } kElevations[] = {{15, 1}, {35, 0.8}, {60, 0.7}};
-  // From the left and the front, what faces the front also faces right, the way a strip is read.
+  // Seen from the left and the front, a body that faces the front faces right, the direction of
+  // reading.
   constexpr struct {
     double degrees, weight;
   } kAzimuths[] = {{-30, 1},    {-60, 1},    {30, 0.88}, {60, 0.88},
@@ -56,7 +57,7 @@ Eigen::Vector3d CentreOfArea(const Connectivity& connectivity, const Shape& shap
   return total > 0 ? Eigen::Vector3d(sum / total) : Eigen::Vector3d(shape.rowwise().mean());
 }
 
-// Whether the centre of area is above what touches a floor across `axis`.
+// Whether the centre of area is above the part that touches a floor perpendicular to `axis`.
 bool Stands(const Connectivity& connectivity, const Shape& shape, int axis) {
   const Eigen::Vector3d low = shape.rowwise().minCoeff();
   const double slab = kFloorSlab * (shape.rowwise().maxCoeff() - low).norm();
@@ -82,16 +83,16 @@ double VisibleArea(const Scene& scene, const Axes& axes) {
   return area;
 }
 
-// Area of the ellipse, up to a constant, that the vertices fill in the picture.
+// Area of the ellipse, up to a constant, of the vertices' projection.
 double Spread(const Eigen::Matrix3d& covariance, const Axes& axes) {
   const Eigen::Matrix2d flat = axes.leftCols<2>().transpose() * covariance * axes.leftCols<2>();
-  // A straight line fills none; it is still to be judged by what is visible.
+  // A straight line has no area, but should still be judged by what is visible.
   constexpr double kLine = 1e-6;
   return kLine + std::sqrt(std::max(0.0, flat.determinant()));
 }
 
-// The horizontal direction that faces the viewer of a front view: +z where y is up (as in glTF),
-// -y where z is.
+// The horizontal direction that faces the viewer in a front view: +z if y is up (as in glTF), -y if
+// z is.
 Eigen::Vector3d Front(const Eigen::Vector3d& up) {
   const bool z_up = std::abs(up.z()) > std::abs(up.y());
   const Eigen::Vector3d front(0, z_up ? -1 : 0, z_up ? 0 : 1);

@@ -8,14 +8,14 @@
 
 namespace shapespace {
 
-/// Poses without their place and orientation, and the motions that give these back.
+/// Poses with position and orientation removed, and the motions that restore these.
 struct AlignedPoses {
   std::vector<Shape> shapes;         ///< centred, in the metric's unit
-  std::vector<RigidMotion> motions;  ///< of unit * shape to the pose, in the user's unit
+  std::vector<RigidMotion> motions;  ///< from unit * shape to the pose, in the user's unit
 };
 
-/// Centres each of `poses` (user's unit) and turns it onto the one before, by the rotation that is
-/// best in the A_p-weighted L2 sense (Procrustes).
+/// Centres each of `poses` (user's unit) and rotates it onto the one before, by the best rotation
+/// in the A_p-weighted L2 sense (Procrustes).
 AlignedPoses AlignPoses(const Metric& metric, const std::vector<Shape>& poses);
 
 }  // namespace shapespace

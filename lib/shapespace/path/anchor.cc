@@ -14,19 +14,19 @@
 namespace shapespace {
 namespace {
 
-// The vertices of a part, by which its place is told.
+// The vertices of a part, which define its position.
 struct Part {
   const std::vector<int>& vertices;
-  Eigen::VectorXd weights;  // one a vertex
+  Eigen::VectorXd weights;  // one per vertex
 };
 
-// A part in one shape, where the path places it. It is kept centred, so that it loses no digits
-// however far away it lies.
+// A part in one shape as placed by the path. Stored relative to its centroid, so that accuracy does
+// not depend on its distance from the origin.
 struct PlacedPart {
   double parameter = 0;
-  Shape points;            // in the metric's unit, turned, about their centroid
+  Shape points;            // in the metric's unit, rotated, relative to their centroid
   Eigen::Vector3d inside;  // the centroid before the shape is placed, in the user's unit
-  Eigen::Vector3d centre;  // the centroid where the user has it
+  Eigen::Vector3d centre;  // the centroid in the user's frame
 };
 
 PlacedPart PartOf(const Path& path, int i, const Part& part) {
@@ -41,11 +41,11 @@ PlacedPart PartOf(const Path& path, int i, const Part& part) {
   return placed;
 }
 
-// The rotation that carries centred points closest to others, to the last digits; of those that do
-// so equally well the least one.
+// The rotation that maps centred points closest to others, accurate to rounding; if it is not
+// unique, the smallest one.
 Eigen::Matrix3d RotationOnto(const Shape& from, const Shape& to, const Eigen::VectorXd& weights) {
-  constexpr double kPoint = 1e-10;  // parts no larger, in the metric's unit, are points
-  constexpr double kLine = 1e-10;   // parts whose squared width is less of that of their length
+  constexpr double kPoint = 1e-10;  // size, in the metric's unit, of parts treated as points
+  constexpr double kLine = 1e-10;   // (width / length)^2 of parts treated as lines
   const Eigen::Matrix3d covariance = from * weights.asDiagonal() * to.transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -60,14 +60,14 @@ Eigen::Matrix3d RotationOnto(const Shape& from, const Shape& to, const Eigen::Ve
   return svd.matrixV() * sign.asDiagonal() * svd.matrixU().transpose();
 }
 
-// How a part moves from one pose to the next.
+// The motion of a part from one pose to the next.
 class PartMotion {
  public:
   PartMotion(const PlacedPart& first, const PlacedPart& last, const Eigen::VectorXd& weights)
       : first_(first), last_(last), turn_(RotationOnto(first.points, last.points, weights)) {}
 
-  // The part at a time, which may lie beyond either pose. Its shape goes over from that in the one
-  // pose to that in the other.
+  // The part at a time, which may lie beyond either pose. Its shape is interpolated between those
+  // in the two poses.
   PlacedPart At(double parameter) const {
     const double t = (parameter - first_.parameter) / (last_.parameter - first_.parameter);
     const double share = std::clamp(t, 0.0, 1.0);
@@ -87,7 +87,8 @@ class PartMotion {
   const Eigen::AngleAxisd turn_;
 };
 
-// Where the poses' parts, and the motions between them, want a part at a time.
+// The required position of the part at a time, from its positions in the poses and the motions
+// between them.
 PlacedPart WantedAt(double parameter, const std::vector<PlacedPart>& poses,
                     const std::vector<PartMotion>& motions) {
   if (motions.empty()) return poses[0];

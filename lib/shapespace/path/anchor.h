@@ -7,22 +7,24 @@
 
 namespace shapespace {
 
-/// Moves each shape of a path rigidly so that the part which `vertices` make up (at least one, each
-/// once) goes rigidly from where one pose has it to where the next has it: its centroid along a
-/// straight line, turning at constant speed about it. Where two poses have the part in the same
-/// place, it stands still between them. As far as the part is not rigid, this holds in the
-/// area-weighted L2 sense (Procrustes); what the part leaves open, such as the turn about a single
-/// vertex, stays as it was. The poses stay where they are. Beyond the last of several poses the
-/// part goes on as it moved before it; with one pose it stays as in that one, without any as in the
-/// first shape. \throw InvalidOptions if `vertices` is empty or names one that is not there.
+/// Moves each shape of a path rigidly so that the part made up of `vertices` (at least one, no
+/// repetitions) moves rigidly from its position in one pose to that in the next: its centroid on a
+/// straight line, with a rotation at constant speed about it. Where two poses have the part in the
+/// same position, it stands still between them. If the part is not rigid, this holds in the
+/// area-weighted L2 sense (Procrustes). Motion that the part does not determine, such as the
+/// rotation about a single vertex, is unchanged. The poses do not move. Beyond the last of several
+/// poses the part continues its previous motion; with one pose it stays as in that pose, without
+/// poses as in the first shape.
+/// \throw InvalidOptions if `vertices` is empty or contains an invalid index.
 void Anchor(Path* path, const std::vector<int>& vertices);
 
-/// The same for a path that shows `whole` at other times (`Resample`) and need not have its poses:
-/// the part moves between the poses of `whole`.
+/// The same for a path that consists of shapes of `whole` at other times (`Resample`) and need not
+/// contain its poses: the part moves between the poses of `whole`.
 void Anchor(const Path& whole, const std::vector<int>& vertices, Path* path);
 
-/// Moves each shape of a path, poses too, along an axis (0, 1 or 2, for x, y or z) so that its
-/// lowest vertex that a polygon or an edge has lies at `height`, in the user's unit and frame.
+/// Moves each shape of a path, including poses, along an axis (0, 1 or 2, for x, y or z) so that
+/// its lowest vertex that belongs to a polygon or an edge lies at `height`, in the user's unit and
+/// frame.
 /// \throw InvalidOptions naming the argument, MeshError if there is no such vertex.
 void Ground(Path* path, int axis, double height);
 

@@ -51,9 +51,9 @@ ArrayReader::ArrayReader(const HeaderJson& table, const std::string& bytes, size
 
 std::string PackArrayFile(const ArrayFileKind& kind, HeaderJson header, const ArrayWriter& arrays) {
   header["arrays"] = arrays.Table();
-  // A header may name files in bytes that are no UTF-8: those are replaced.
+  // A header may contain names of files that are not valid UTF-8; invalid bytes are replaced.
   std::string text = header.dump(-1, ' ', false, HeaderJson::error_handler_t::replace);
-  text.resize((text.size() + 7) / 8 * 8, ' ');  // arrays begin on whole words
+  text.resize((text.size() + 7) / 8 * 8, ' ');  // aligns arrays to 8 bytes
   const uint64_t header_size = text.size();
   std::string bytes(kind.magic, kMagicSize);
   bytes.append(reinterpret_cast<const char*>(&kind.version), sizeof kind.version);
@@ -68,7 +68,7 @@ std::string PackArrayFile(const ArrayFileKind& kind, HeaderJson header, const Ar
 
 HeaderJson UnpackHeader(const ArrayFileKind& kind, const std::string& bytes, size_t* arrays_begin) {
   if (bytes.size() < kPreamble || std::memcmp(bytes.data(), kind.magic, kMagicSize) != 0) {
-    throw FileError(std::string("this is no ") + kind.name + " file");
+    throw FileError(std::string("this is not a ") + kind.name + " file");
   }
   uint32_t version, checksum;
   uint64_t header_size;

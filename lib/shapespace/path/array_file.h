@@ -15,8 +15,8 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/read_file.h>
 
-// Private: the layout that files of ours share. A JSON header tells what follows it: arrays of
-// numbers with all their bits, under one checksum (docs/file-formats.md).
+// Private: the layout shared by shapespace's own file formats. A JSON header describes the arrays
+// that follow it, which contain numbers in binary form, with one checksum (docs/file-formats.md).
 
 namespace shapespace::internal {
 
@@ -26,10 +26,10 @@ using HeaderJson = nlohmann::ordered_json;
 struct ArrayFileKind {
   char magic[9];  ///< eight letters
   uint32_t version;
-  const char* name;  ///< as messages have it: ".path"
+  const char* name;  ///< as used in messages: ".path"
 };
 
-/// Collects the arrays behind the header, in its order.
+/// Collects the arrays that follow the header, in order.
 class ArrayWriter {
  public:
   template <typename Scalar>
@@ -53,13 +53,14 @@ class ArrayWriter {
 
 class ArrayReader {
  public:
-  /// `table` lists arrays that lie in `bytes` from `begin` on, to the end.
+  /// `table` describes arrays that occupy `bytes` from `begin` to the end.
   ArrayReader(const HeaderJson& table, const std::string& bytes, size_t begin);
 
   bool Has(const std::string& name) const { return arrays_.count(name) > 0; }
 
-  /// A matrix of `rows` x `columns`; either may be Eigen::Dynamic for any. \throw FileError if
-  /// there is none of that name, type and size, or if it holds a number that is not finite.
+  /// A matrix of `rows` x `columns`; either may be Eigen::Dynamic for any.
+  /// \throw FileError if there is no array of that name, type and size, or it contains a number
+  ///        that is not finite.
   template <typename Matrix>
   Matrix Get(const std::string& name, Eigen::Index rows, Eigen::Index columns) const {
     using Scalar = typename Matrix::Scalar;
@@ -71,7 +72,7 @@ class ArrayReader {
                       (columns == Eigen::Dynamic || static_cast<size_t>(columns) == array.columns);
     if (!fits) throw FileError("its array " + name + " has the wrong type or size");
     Matrix matrix(array.rows, array.columns);
-    // An empty matrix may have no address, which memcpy must not be given.
+    // An empty matrix may have a null address, which is not permitted in memcpy.
     if (matrix.size() > 0) {
       std::memcpy(matrix.data(), bytes_.data() + array.begin, matrix.size() * sizeof(Scalar));
     }
@@ -90,20 +91,21 @@ class ArrayReader {
   std::map<std::string, Array> arrays_;
 };
 
-/// The whole file, as bytes; `header` gets the table of `arrays`.
+/// The whole file as bytes; the table of `arrays` is added to `header`.
 std::string PackArrayFile(const ArrayFileKind& kind, HeaderJson header, const ArrayWriter& arrays);
 
-/// What `bytes`, a whole file, begin with: the header and where the arrays begin.
-/// \throw FileError, without the file's name: another kind of file, of another version, cut off or
+/// Reads the header at the beginning of `bytes`, a whole file, and the position of the arrays.
+/// \throw FileError, without the file's name: another kind of file, another version, truncated or
 ///        damaged (its checksum does not fit).
 HeaderJson UnpackHeader(const ArrayFileKind& kind, const std::string& bytes, size_t* arrays_begin);
 
-/// Writes a file of this layout, whole or not at all. \throw FileError.
+/// Writes a file of this layout, completely or not at all.
+/// \throw FileError.
 void WriteArrayFile(const std::string& file, const ArrayFileKind& kind, HeaderJson header,
                     const ArrayWriter& arrays);
 
-/// What `parse` makes of the header and the arrays of a file. \throw FileError naming the file,
-/// whatever is wrong with it.
+/// Returns parse(header, arrays) for a file.
+/// \throw FileError naming the file, for any error in it.
 template <typename Parse>
 auto ReadArrayFile(const std::string& file, const ArrayFileKind& kind, const Parse& parse) {
   const std::string bytes = ReadFile(file);
@@ -116,7 +118,7 @@ auto ReadArrayFile(const std::string& file, const ArrayFileKind& kind, const Par
   }
 }
 
-/// The integers of an array of one column.
+/// The entries of an integer array with one column.
 std::vector<int> IndicesFrom(const ArrayReader& arrays, const std::string& name);
 
 }  // namespace shapespace::internal

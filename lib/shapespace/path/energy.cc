@@ -16,11 +16,12 @@
 namespace shapespace {
 namespace {
 
-// Rows are padded to whole SIMD registers, but not where that would multiply the work.
+// Rows are padded to whole SIMD registers, except for few shapes, where that would multiply the
+// work.
 int PaddedLength(int inner) { return inner <= internal::kFewShapes ? inner : (inner + 7) / 8 * 8; }
 
-// Breadth first from vertices of low degree: neighbours get rows close together, so that the path
-// streams through the cache and elements touch few blocks.
+// Breadth-first order from vertices of low degree: neighbours get rows that are close together, so
+// that memory is accessed sequentially and elements use few blocks.
 std::vector<int> BreadthFirstOrder(const Connectivity& connectivity) {
   const int num_vertices = connectivity.NumVertices();
   std::vector<int> begin(num_vertices + 1, 0);
@@ -51,7 +52,8 @@ std::vector<int> BreadthFirstOrder(const Connectivity& connectivity) {
   };
   for (int v = 0; v < num_vertices; ++v) {
     if (seen[v]) continue;
-    // The vertex found last from anywhere is at an end of the component: fewer are on each front.
+    // The vertex found last from anywhere is at an end of the component, from where the fronts of
+    // the search are smaller.
     std::vector<int> component;
     visit_from(v, &component, &seen);
     for (int u : component) seen[u] = 0;
@@ -64,8 +66,8 @@ std::vector<int> BreadthFirstOrder(const Connectivity& connectivity) {
 
 struct PathEnergy::Term {
   std::shared_ptr<const Feature> feature;
-  internal::TermKernel kernel;   // unless it is a sum
-  internal::SumKernel of_a_sum;  // if it is
+  internal::TermKernel kernel;   // of other features than sums
+  internal::SumKernel of_a_sum;  // of sum features
   std::vector<internal::ElementGroup> groups[kPhases];
 };
 
@@ -112,7 +114,7 @@ PathEnergy::Term PathEnergy::MakeTerm(const std::shared_ptr<const Feature>& feat
   for (int block = 0; block < blocks_; ++block) {
     std::fill(block_of.begin() + FirstRow(block), block_of.begin() + FirstRow(block + 1), block);
   }
-  // In the order of their rows, so that the sweep streams.
+  // In the order of their rows, for sequential memory access.
   std::vector<std::pair<int, int>> order(num_elements);
   for (int e = 0; e < num_elements; ++e) {
     int low = std::numeric_limits<int>::max();
@@ -279,8 +281,8 @@ double PathEnergy::EvaluateRigid(const double* unknowns, double* gradient) {
     }
     return p;
   };
-  // Segments are independent; a shape receives gradient from the two at it, so those are kept apart
-  // and added in the order of time.
+  // Segments are processed independently. A shape receives gradients from its two segments, which
+  // are stored separately and added in the order of time.
   std::vector<double> energy(inner_ + 1);
   std::vector<Shape> from(inner_ + 1), to(inner_ + 1);
   ParallelFor(inner_ + 1, [&](int t) {
@@ -309,7 +311,8 @@ double PathEnergy::EvaluateRigid(const double* unknowns, double* gradient) {
       Eigen::Vector3d residual;
       RigidForm::Residual(p.data(), q.data(), c.data(), c_bar.data(), residual.data());
       energy[t] += 2 * rigid_weights_[r] * residual.squaredNorm();
-      // (c, c_bar) is optimal, so that the derivative sees it as constant (envelope theorem).
+      // Since (c, c_bar) is optimal, it can be treated as constant in the derivative (envelope
+      // theorem).
       const Eigen::Vector3d push = 4 * rigid_weights_[r] * residual;
       const Eigen::Vector3d turn = 0.5 * c.cross(push);
       to[t].col(r) = push + turn;

@@ -13,23 +13,23 @@ struct ElementGroup;
 struct PathRows;
 }  // namespace internal
 
-/// The energy of a path of shapes and its gradient, on flat arrays: the plain-array height of the
-/// API, for people who bring their own optimiser.
+/// The energy of a path of shapes and its gradient, on flat arrays: the low-level interface for
+/// users with their own optimiser.
 ///
 /// For features Phi it is E = 2 sum_i |Phi(P_{i+1}) - Phi(P_i)|^2, the midpoint form of the paper's
-/// (6) (docs/mathematics.md); the trapezoid and rigid metrics add their own forms. The first shape
-/// is fixed, and so is the last, unless its end is free. Unknowns are one array of `Size()`
-/// doubles: row 3 r + axis, `Stride()` numbers, holds one coordinate of one vertex in all inner
-/// shapes, time innermost (a free last shape counts as an inner one); r = Row(vertex) is an order
-/// of the vertices that keeps neighbours close. Numbers past `Inner()` in a row are padding: finite
-/// in the unknowns (`Load` sets zeros), without meaning in a gradient.
+/// (6) (docs/mathematics.md); the trapezoid and rigid metrics have forms of their own. The first
+/// shape is fixed, and so is the last, unless its end is free. The unknowns are one array of
+/// `Size()` doubles: row 3 r + axis, with `Stride()` numbers, contains one coordinate of one vertex
+/// in all inner shapes, consecutive in time (a free last shape counts as an inner one); r =
+/// Row(vertex) is an order of the vertices in which neighbours are close. Numbers after `Inner()`
+/// in a row are padding: finite in the unknowns (`Load` sets zeros), undefined in a gradient.
 ///
-/// One object serves one solve at a time; `Evaluate` itself uses all threads, and its result is
-/// bitwise the same for any number of them.
+/// An object is used for one solve at a time; `Evaluate` uses all threads, and its result is
+/// bitwise identical for any number of them.
 class PathEnergy {
  public:
   enum class End {
-    kFixed,  ///< the last shape stays where `Load` finds it
+    kFixed,  ///< the last shape stays as given to `Load`
     kFree,   ///< the last shape is an unknown too
   };
 
@@ -39,36 +39,38 @@ class PathEnergy {
   ~PathEnergy();
 
   int Inner() const { return inner_; }
-  /// Shapes of the whole path: Inner() and those that are fixed.
+  /// Shapes of the whole path: Inner() and the fixed ones.
   int NumShapes() const { return inner_ + (end_ == End::kFree ? 1 : 2); }
   int Stride() const { return stride_; }
   size_t Size() const { return 3 * row_of_vertex_.size() * static_cast<size_t>(stride_); }
   int Row(int vertex) const { return row_of_vertex_[vertex]; }
 
-  /// Weight of the quartic part that distinguishes the trapezoid from the midpoint; 1 is (6).
-  /// A level with fewer shapes than the one it prepares needs less, or its answer is biased.
+  /// Weight of the quartic part that distinguishes the trapezoid from the midpoint; 1 is (6). A
+  /// solve with fewer shapes that prepares another one needs less, otherwise its result is biased.
   void SetQuarticWeight(double weight) { quartic_weight_ = weight; }
 
-  /// Copies `shapes` (NumShapes() of them, in the metric's unit) into `unknowns` (Size() doubles,
-  /// padding set to zero) and takes those that are fixed. \throw MeshError on wrong sizes.
+  /// Copies `shapes` (NumShapes() of them, in the metric's unit) to `unknowns` (Size() doubles,
+  /// with zero padding) and stores the fixed ones.
+  /// \throw MeshError on wrong sizes.
   void Load(const std::vector<Shape>& shapes, double* unknowns);
 
-  /// Copies the unknowns into the inner ones of `shapes`.
+  /// Copies the unknowns to the inner ones of `shapes`.
   void Store(const double* unknowns, std::vector<Shape>* shapes) const;
 
   /// Returns the energy and, unless null, fills `gradient` (Size() doubles).
   double Evaluate(const double* unknowns, double* gradient);
 
-  /// The part of the energy that each feature has, in the metric's order, then the rigid part if
-  /// there is one; evaluates anew.
+  /// Each feature's part of the energy, in the metric's order, followed by the rigid part if there
+  /// is one; evaluates the energy again.
   std::vector<double> Parts(const double* unknowns);
 
-  /// Bytes that an object for this many vertices, edges, hinges and inner shapes takes.
+  /// Memory in bytes of an object for this number of vertices, edges, hinges and inner shapes.
   static double EstimateBytes(const Metric& metric, int inner);
 
  private:
-  // Elements are grouped by the blocks of rows that they touch: inside one block, across one border
-  // to the next block (even and odd borders apart), or elsewhere. Groups of one phase share no row.
+  // Elements are grouped by the blocks of rows that they use: within one block, across one border
+  // to the next block (even and odd borders separately), or others. Groups of one phase share no
+  // row.
   static constexpr int kPhases = 4;
   struct Term;  // of the feature with the same index
 
@@ -81,7 +83,7 @@ class PathEnergy {
   double EvaluateRigid(const double* unknowns, double* gradient);
   double* Sink(double* gradient);
   internal::PathRows Rows(const double* unknowns, double* gradient) const;
-  /// One row at time t of 0 .. inner + 1, the ends included.
+  /// An entry of a row at time t in 0 .. inner + 1, including the ends.
   double At(const double* unknowns, size_t row, int t) const {
     return t == 0 ? first_[row] : t > inner_ ? last_[row] : unknowns[row * stride_ + t - 1];
   }
@@ -96,16 +98,16 @@ class PathEnergy {
   std::vector<double> first_, last_;
   std::vector<Term> terms_;
   std::vector<double> rigid_weights_;  // by row
-  std::vector<double> sink_;           // gradient where the caller wants none
+  std::vector<double> sink_;           // receives the gradient if the caller wants none
 };
 
-/// Lower bound of the energy over all paths of `segments` segments from `first` to `last` (metric
-/// units), feature by feature; not a number if the metric has a rigid part, for which none is
-/// known. The bound holds for the trapezoid too, which is never smaller than the midpoint form.
+/// Lower bound of the energy over all paths of `segments` segments from `first` to `last` (metric's
+/// unit), computed by feature; NaN if the metric has a rigid part, for which no bound is known. The
+/// bound is valid for the trapezoid too, which is never less than the midpoint form.
 double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& last, int segments);
 
-/// An energy E of n segments is reported as E n / 2, which converges as shapes are inserted: to the
-/// integral of the squared speed over the unit interval.
+/// An energy E of n segments is reported as E n / 2, which converges, as shapes are inserted, to
+/// the integral of the squared speed over the unit interval.
 inline double ScaledEnergy(double energy, int segments) { return 0.5 * segments * energy; }
 
 }  // namespace shapespace

@@ -12,14 +12,15 @@
 namespace shapespace::internal {
 namespace {
 
-// Registers are filled with times of one element or, where a path has few shapes, with one time of
-// eight elements. The code is the same: in a scratch row, which holds one quantity of kElements
-// elements at all times, the same element a time later stands kElements slots further on. Time 0 is
-// the first shape, 1 .. inner the inner ones, inner + 1 the last. Slots behind those are finite and
-// mean nothing. kInner is the number of inner shapes where they are few, and otherwise 0.
+// Registers are filled with times of one element or, if a path has few shapes, with one time of
+// eight elements. The code is the same for both: in a scratch row, which contains one quantity of
+// kElements elements at all times, the same element at the next time is kElements slots further on.
+// Time 0 is the first shape, 1 .. inner are the inner ones, inner + 1 is the last. The slots after
+// those are finite but unused. kInner is the number of inner shapes if there are few, and otherwise
+// 0.
 //
-// Long paths are taken in windows, so that rows are short and stand on the stack, where the
-// compiler addresses them most easily. A window's first shape is the last but one of the window
+// Long paths are divided into windows, so that rows are short and on the stack, where the
+// compiler's addressing is most efficient. A window's first shape is the last but one of the window
 // before.
 constexpr int kWindow = 128;
 
@@ -39,24 +40,25 @@ class Scratch {
     for (double(&row)[kRow] : rows_) std::fill_n(row, 8 + End() + kElements, 0.0);
   }
 
-  /// So that the first inner shape is aligned.
+  /// Offset such that the first inner shape is aligned.
   double* Row(int i) { return rows_[i] + 8 - kElements; }
 
   int Begin() const { return begin_; }
   int Last() const { return kElements * (inner_ + 1); }
-  /// Slots [kElements, End()) are the inner shapes, as far as they are stored.
+  /// Slots [kElements, End()) are the inner shapes, including padding that is stored.
   int End() const { return kElements * (stored_ + 1); }
-  /// Slots [kElements, EndOfSegments()) are the segments, each in the place of the shape behind it.
+  /// Slots [kElements, EndOfSegments()) are the segments, each at the position of the shape at its
+  /// end.
   int EndOfSegments() const { return kElements * (inner_ + 2); }
 
-  /// Whether the path begins, or ends, with this window. Its first and last shape are inner ones
-  /// otherwise, and slots [BeginOfInner(), EndOfInner()) are all that are.
+  /// Whether the path begins, or ends, with this window. If not, the window's first and last shape
+  /// are inner ones; slots [BeginOfInner(), EndOfInner()) are all inner shapes.
   bool AtFirst() const { return at_first_; }
   bool AtLast() const { return at_last_; }
   int BeginOfInner() const { return at_first_ ? kElements : 0; }
   int EndOfInner() const { return at_last_ ? End() : EndOfSegments(); }
 
-  /// Of all segments but the one that the next window has, too.
+  /// The sum over all segments except the one that also belongs to the next window.
   double Sum(const double* row) const {
     return std::accumulate(row + kElements, row + (at_last_ ? EndOfSegments() : Last()), 0.0);
   }
@@ -68,18 +70,18 @@ class Scratch {
   static_assert(8 + kElements * (kInner + 1) <= kRow);
 };
 
-/// kElements elements of a kernel's list. Where fewer are left the last one is repeated, without a
-/// weight.
+/// kElements elements of a kernel's list. If fewer are left, the last one is repeated with weight
+/// zero.
 template <int kInner, int kVertices>
 class Tile {
  public:
   static constexpr int kElements = Scratch<kInner>::kElements;
 
-  /// Takes 6 kVertices + 1 scratch rows from `row` on, but for single elements none.
+  /// Uses 6 kVertices + 1 scratch rows from `row` on; for single elements none.
   SHAPESPACE_INLINE Tile(const PathRows& path, Scratch<kInner>* scratch, int row)
       : path_(path), scratch_(*scratch), row_(row) {}
 
-  /// Takes the first of `count` elements.
+  /// Loads the first elements of `count`.
   SHAPESPACE_INLINE void Load(const int* stencils, const double* weights, int count) {
     used_ = std::min(kElements, count);
     for (int i = 0; i < kElements; ++i) {
@@ -110,12 +112,12 @@ class Tile {
     }
   }
 
-  /// The slots of a vertex's first coordinate; those of the next stand Step() further on.
+  /// The slots of a vertex's first coordinate; those of the next coordinate are Step() further on.
   SHAPESPACE_INLINE const double* X(int vertex) const {
     if constexpr (kElements > 1) return Gathered(vertex);
     return path_.shapes + Begin(vertex, 0, 0) * path_.stride + scratch_.Begin() - 1;
   }
-  /// Likewise, where to add the gradient.
+  /// The same for the gradient, to be added to.
   SHAPESPACE_INLINE double* G(int vertex) const {
     if constexpr (kElements > 1) return scratch_.Row(row_ + 1 + 3 * (kVertices + vertex));
     return path_.gradient + Begin(vertex, 0, 0) * path_.stride + scratch_.Begin() - 1;
@@ -129,12 +131,12 @@ class Tile {
     return kElements == 1 ? weight_ : scratch_.Row(row_)[slot];
   }
 
-  /// The row of the path that holds one coordinate of one vertex of one element.
+  /// The path's row of one coordinate of one vertex of one element.
   SHAPESPACE_INLINE size_t Begin(int vertex, int element, int axis) const {
     return 3 * static_cast<size_t>(vertex_[vertex][element]) + axis;
   }
 
-  /// Passes the gradient on.
+  /// Adds the gradient to the path's.
   SHAPESPACE_INLINE void Store() const {
     if constexpr (kElements > 1) {
       for (int i = 0; i < used_; ++i) {
@@ -164,9 +166,9 @@ class Tile {
   double weight_ = 0;
 };
 
-/// The natural logarithm of a positive normal number, to two units in the last place; plain
-/// arithmetic, so that loops that call it are vectorised. With x = 2^k z, z between 1 / sqrt 2 and
-/// sqrt 2, and s = (z - 1) / (z + 1): log x = k log 2 + 2 atanh s, by its series.
+/// The natural logarithm of a positive normal number, with an error of two units in the last place,
+/// in plain arithmetic, so that loops that call it are vectorised. With x = 2^k z, z between 1 /
+/// sqrt 2 and sqrt 2, and s = (z - 1) / (z + 1): log x = k log 2 + 2 atanh s, by its series.
 inline double Log(double x) {
   constexpr std::uint64_t kOne = 0x3ff0000000000000, kRootHalf = 0x3fe6a09e667f3bcd;
   constexpr std::uint64_t kMantissa = 0x000fffffffffffff, kTwoTo52 = 0x4330000000000000;
@@ -193,7 +195,7 @@ inline double Log(double x) {
   return k * M_LN2 + 2 * (s + s * w * series);
 }
 
-// The bodies below are plain loops over slots that the compiler vectorises: no two rows overlap,
+// The functions below are plain loops over slots that the compiler vectorises: rows do not overlap,
 // and energies are summed by slot first, so that no sum has to be reordered.
 
 template <int kInner>
@@ -206,8 +208,8 @@ SHAPESPACE_INLINE double EdgeLengths(const PathRows& path, const int* stencils,
   double* const e[3] = {scratch.Row(0), scratch.Row(1), scratch.Row(2)};
   double *const ex = e[0], *const ey = e[1], *const ez = e[2];
   double* const value = scratch.Row(3);
-  double* const flow = scratch.Row(4);    // 4 w times the change of value on the segment before
-  double* const spread = scratch.Row(5);  // likewise of the quartic part
+  double* const flow = scratch.Row(4);    // 4 w times the change of value on the previous segment
+  double* const spread = scratch.Row(5);  // the same for the quartic part
   double* const sums = scratch.Row(6);
   std::fill(sums, sums + end_of_segments, 0.0);
   Tile<kInner, 2> tile(path, &scratch, 7);
@@ -312,10 +314,11 @@ SHAPESPACE_INLINE double Positions(const PathRows& path, const int* stencils, co
   return scratch.Sum(sums);
 }
 
-// With normals n1 = e x u, n2 = v x e of the two triangles (e = b - a, u = c - a, v = d - a) the
-// functor's values are, since n1 x n2 = -(n1 . v) e,
+// With normals n1 = e x u, n2 = v x e of the two triangles (e = b - a, u = c - a, v = d - a) and n1
+// x n2 = -(n1 . v) e, the functor's values are
 //   cos = R n1 . n2,  sin = -R H n1 . v,  R = 1 / (|n1| |n2|),  H = |e|^2 / |e|,
-// all lengths regularised: two roots and two divisions a hinge instead of three each.
+// with all lengths regularised. This takes two roots and two divisions per hinge instead of three
+// each.
 template <int kInner>
 SHAPESPACE_INLINE double Dihedrals(const PathRows& path, const int* stencils, const double* weights,
                                    const double* ends, int count, double normal_epsilon_squared,
@@ -431,8 +434,8 @@ SHAPESPACE_INLINE double Dihedrals(const PathRows& path, const int* stencils, co
   return scratch.Sum(sums);
 }
 
-// With a = q - p, b = r - p, the values depend on aa = |a|^2, ab = a . b and bb = |b|^2 only; what
-// is written here as in the functor (metric/triangle_strain.h) has the same names there.
+// With a = q - p, b = r - p, the values depend on aa = |a|^2, ab = a . b and bb = |b|^2 only. Names
+// are those of the functor (metric/triangle_strain.h).
 template <int kInner>
 SHAPESPACE_INLINE double TriangleStrains(const PathRows& path, const int* stencils,
                                          const double* weights, const double* ends, int count,
@@ -453,7 +456,7 @@ SHAPESPACE_INLINE double TriangleStrains(const PathRows& path, const int* stenci
   double *const v0 = row[16], *const v1 = row[17], *const v2 = row[18];
   double* const sums = row[19];
   constexpr double kThird = 1.0 / 3, kRoot3 = 0.57735026918962576451;
-  constexpr double kSmall = 0.01;  // ratios below take the series of atanh(r) / r
+  constexpr double kSmall = 0.01;  // the series of atanh(r) / r is used for smaller ratios
   std::fill(sums, sums + end_of_segments, 0.0);
   Tile<kInner, 3> tile(path, &scratch, 20);
   for (int element = 0; element < count; element += kElements) {
@@ -483,7 +486,7 @@ SHAPESPACE_INLINE double TriangleStrains(const PathRows& path, const int* stenci
       const double squared = d * d + o * o, reciprocal = 1 / m;
       const double r = squared * reciprocal * reciprocal;
       const double length = std::sqrt(squared), root = std::sqrt(determinant);
-      // F = atanh(sqrt R) / sqrt R and F', where R is small by their series.
+      // F = atanh(sqrt R) / sqrt R and F', for small R by their series.
       const double safe = r < kSmall ? m : length;
       const double general = m / safe * Log((m + length) / root);
       const double one_less = m * m / determinant;  // 1 / (1 - R)
@@ -567,7 +570,7 @@ SHAPESPACE_INLINE double TriangleStrains(const PathRows& path, const int* stenci
   return scratch.Sum(sums);
 }
 
-// Calls kernel(kInner, begin) for every window of the path and adds up.
+// Calls kernel(kInner, begin) for every window of the path and adds the results.
 template <typename Kernel>
 SHAPESPACE_INLINE double ForWindows(const PathRows& path, const Kernel& kernel) {
   static_assert(kFewShapes == 4);
@@ -592,7 +595,7 @@ SHAPESPACE_INLINE double ForWindows(const PathRows& path, const Kernel& kernel) 
 
 }  // namespace
 
-// Clones must not be templates.
+// Function multiversioning does not work for templates.
 
 SHAPESPACE_CLONES
 double EdgeLengthKernel(const PathRows& path, const int* stencils, const double* weights, int count,
@@ -669,7 +672,7 @@ void AddVolumeGradients(const PathRows& rows, const int* stencils, int count, do
   const int stride = rows.stride;
   const double scale = 1 / (6 * reference);
   for (int element = 0; element < count; ++element) {
-    // The derivative by each corner is the cross product of the next two.
+    // The derivative with respect to each corner is the cross product of the next two.
     for (int corner = 0; corner < 3; ++corner) {
       const size_t p = 3 * static_cast<size_t>(stencils[3 * element + corner]);
       const size_t q = 3 * static_cast<size_t>(stencils[3 * element + (corner + 1) % 3]);

@@ -7,7 +7,7 @@
 namespace shapespace::internal {
 namespace {
 
-// One feature's elements at all times of a path, one element after the other.
+// The elements of one feature at all times of a path, processed one by one.
 class ElementAtAllTimes {
  public:
   ElementAtAllTimes(const Feature& feature, const PathRows& rows)
@@ -56,7 +56,7 @@ class ElementAtAllTimes {
   std::vector<double> x_, values_, derivatives_;
 };
 
-// 2 sum w |Phi_{i+1} - Phi_i|^2 of any feature.
+// 2 sum w |Phi_{i+1} - Phi_i|^2 for any feature.
 double GenericKernel(const Feature& feature, const PathRows& rows, const ElementGroup& group) {
   ElementAtAllTimes element(feature, rows);
   double energy = 0;

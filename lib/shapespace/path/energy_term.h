@@ -9,21 +9,21 @@
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/energy_kernels.h>
 
-// Private: how the elements of one feature are evaluated on a whole path.
+// Private: evaluates the elements of one feature on a whole path.
 
 namespace shapespace::internal {
 
-/// Some elements of a feature. `stencils` holds blocks of rows of a PathRows instead of vertices.
+/// Some elements of a feature. `stencils` contains rows of a PathRows instead of vertices.
 struct ElementGroup {
   std::vector<int> stencils;
   std::vector<double> weights;
-  std::vector<double> ends;  // values at the first and the last shape, where the kernel takes them
+  std::vector<double> ends;  // values at the first and the last shape, if the kernel uses them
 
   int Count() const { return static_cast<int>(weights.size()); }
 };
 
 /// Adds the gradient of a group's part of the energy and returns that part. `quartic` is the weight
-/// of the trapezoid's quartic part, 0 without.
+/// of the trapezoid's quartic part, or 0.
 using GroupKernel =
     std::function<double(const PathRows& rows, const ElementGroup& group, double quartic)>;
 
@@ -32,12 +32,13 @@ struct TermKernel {
   bool takes_ends = false;
 };
 
-/// The hand-written kernel of a feature that has one; else its struct on Jets. Not for sums.
+/// The hand-written kernel of a feature if there is one; otherwise its struct evaluated with Jets.
+/// Not for sum features.
 TermKernel KernelOf(std::shared_ptr<const Feature> feature);
 
-/// The kernels of a sum over all elements: its values at all times, and its gradient.
+/// The kernels of a sum feature: its values at all times, and its gradient.
 struct SumKernel {
-  /// Adds to `values`, inner + 2 numbers, what the group's elements sum up to at each time.
+  /// Adds the sum over the group's elements at each time to `values`, inner + 2 numbers.
   std::function<void(const PathRows& rows, const ElementGroup& group, double* values)> add_values;
   /// Adds the gradient of sum_t slopes[t] value_t over the inner times.
   std::function<void(const PathRows& rows, const ElementGroup& group, const double* slopes)>
@@ -46,7 +47,7 @@ struct SumKernel {
 
 SumKernel SumKernelOf(std::shared_ptr<const Feature> feature);
 
-/// Fills `ends` of a group: the values of its elements at the first and at the last shape.
+/// Fills `ends` of a group with the values of its elements at the first and at the last shape.
 void EvaluateEnds(const Feature& feature, const std::vector<double>& first,
                   const std::vector<double>& last, ElementGroup* group);
 

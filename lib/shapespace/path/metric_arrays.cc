@@ -70,7 +70,7 @@ std::shared_ptr<const Feature> ReadFeature(const std::string& name, const Json& 
   return feature;
 }
 
-// JSON holds text in UTF-8 only: any other name stands as the list of its bytes.
+// JSON contains text in UTF-8 only; any other name becomes a list of its bytes.
 Json NameToJson(const std::string& name) {
   try {
     (void)Json(name).dump();

@@ -9,22 +9,23 @@
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/array_file.h>
 
-// Private: a metric with its connectivity, and an appearance, as parts of files.
+// Private: a metric with its connectivity, and an appearance, as components of files.
 
 namespace shapespace::internal {
 
-/// Adds what a metric is to a file.
+/// Adds a metric to a file.
 void AddMetric(const Metric& metric, HeaderJson* header, ArrayWriter* arrays);
 
-/// Reads it back. \throw FileError, or another exception if the header is at odds with itself.
+/// Reads it back.
+/// \throw FileError, or another exception if the header is inconsistent.
 std::shared_ptr<const Metric> ReadMetric(const HeaderJson& header, const ArrayReader& arrays);
 
-/// Names of any bytes: JSON holds text in UTF-8 only, so that any other stands as a list of bytes.
+/// Names may contain any bytes, but JSON only text in UTF-8; other names become a list of bytes.
 HeaderJson NamesToJson(const std::vector<std::string>& names);
 std::vector<std::string> NamesFromJson(const HeaderJson& json);
 
-/// The same of an appearance. Libraries are named relative to `file`, which is to be written or was
-/// read, so that all can be moved together.
+/// The same for an appearance. Paths of libraries are relative to `file`, the file that is written
+/// or read, so that all can be moved together.
 void AddAppearance(const Appearance& appearance, const std::string& file, HeaderJson* header,
                    ArrayWriter* arrays);
 Appearance ReadAppearance(const HeaderJson& header, const std::string& file,

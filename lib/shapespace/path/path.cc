@@ -12,7 +12,7 @@
 namespace shapespace {
 namespace {
 
-/// False also if a number is not one.
+/// Whether numbers ascend; false if one is not finite.
 bool Rise(const std::vector<double>& numbers) {
   for (size_t i = 0; i < numbers.size(); ++i) {
     if (!std::isfinite(numbers[i]) || (i > 0 && !(numbers[i] > numbers[i - 1]))) return false;
@@ -20,7 +20,7 @@ bool Rise(const std::vector<double>& numbers) {
   return true;
 }
 
-/// \throw InvalidOptions naming the first time that cannot be shown.
+/// \throw InvalidOptions naming the first time that is out of range or order.
 void CheckTimes(const std::vector<double>& times, double first, double last) {
   for (size_t k = 0; k < times.size(); ++k) {
     const bool inside = times[k] >= first && times[k] <= last;
@@ -67,7 +67,7 @@ void Path::Validate() const {
   }
   for (size_t k = 0; k < poses.size(); ++k) {
     if (poses[k] < 0 || poses[k] >= count - extrapolated) {
-      throw MeshError("the path's pose " + text(poses[k]) + " is none of its " +
+      throw MeshError("the path's pose " + text(poses[k]) + " is not one of its " +
                       text(count - extrapolated) + " shapes that are not extrapolated");
     }
     if (k > 0 && poses[k] <= poses[k - 1]) throw MeshError("the path's poses do not rise");
@@ -125,7 +125,7 @@ std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<
     const int begin = std::clamp(after - window / 2, 0, count - window);
     result[k].setZero(3, shapes[0].cols());
     for (int i = begin; i < begin + window; ++i) {
-      double weight = 1;  // Lagrange's polynomial of shape i
+      double weight = 1;  // Lagrange polynomial of shape i
       for (int j = begin; j < begin + window; ++j) {
         if (j != i) weight *= (t - parameters[j]) / (parameters[i] - parameters[j]);
       }
@@ -144,7 +144,7 @@ Path Resample(const Path& path, const std::vector<double>& times) {
   result.converged = path.converged;
   result.provenance = path.provenance + "; resampled";
   result.appearance = path.appearance;
-  // Pieces end at poses and, of a path that goes on past them, at its ends.
+  // Pieces end at poses and, if the path continues beyond them, at its ends.
   std::vector<int> corners = path.poses;
   corners.insert(corners.begin(), 0);
   corners.push_back(path.NumShapes() - 1);

@@ -12,29 +12,28 @@
 
 namespace shapespace {
 
-/// A polyline in shape space: what a solver returns and every output is made from.
+/// A polyline in shape space: the result of solvers and the input of all outputs.
 struct Path {
-  std::shared_ptr<const Metric> metric;  ///< the one that made the path; has the connectivity
+  std::shared_ptr<const Metric> metric;  ///< of the solve; with the connectivity
 
-  /// The shapes, aligned rigidly, centred, in the metric's unit: on these the geodesic equation
-  /// holds. Use `Placed` for shapes where, and as large as, the user's are.
+  /// The shapes, rigidly aligned, centred, in the metric's unit; they satisfy the geodesic
+  /// equation. Use `Placed` for shapes in the user's frame and unit.
   std::vector<Shape> shapes;
 
-  /// t of every shape, rising from 0. The poses of an interpolation end at 1: what was extrapolated
-  /// from the last goes on beyond.
+  /// t of every shape, ascending from 0. The last pose of an interpolation is at 1; extrapolated
+  /// shapes follow after it.
   std::vector<double> parameters;
-  std::vector<RigidMotion> motions;  ///< of every shape, to its place, in the user's unit
-  std::vector<int> poses;            ///< indices of the shapes that were given, rising
-  int extrapolated = 0;              ///< how many of the last shapes were extrapolated
-  bool converged = true;             ///< false if a solve ended before it was done
-  std::string provenance;            ///< who made the path, from what
+  std::vector<RigidMotion> motions;  ///< of every shape, to the user's frame, in the user's unit
+  std::vector<int> poses;            ///< indices of the given shapes, ascending
+  int extrapolated = 0;              ///< number of shapes at the end that were extrapolated
+  bool converged = true;             ///< false if a solve did not converge
+  std::string provenance;            ///< the program and the inputs from which it was made
   Appearance appearance;             ///< of the connectivity's polygons: for outputs
 
   int NumShapes() const { return static_cast<int>(shapes.size()); }
 
   /// \throw MeshError if numbers of shapes, of vertices or of anything else do not fit together,
-  /// the
-  ///        appearance is not valid, or a number is not finite.
+  ///        the appearance is not valid, or a number is not finite.
   void Validate() const;
 
   /// Shape i in the user's frame and unit.
@@ -42,29 +41,30 @@ struct Path {
   std::vector<Shape> Placed() const;
 };
 
-/// A path through `placed`, shapes in the user's frame and unit, at rising `parameters`; empty:
-/// evenly from 0 to 1. Its poses are the first and the last shape; set `poses` if others were
-/// given. \throw MeshError if there is no shape, or as `Path::Validate`.
+/// A path through `placed`, shapes in the user's frame and unit, at ascending `parameters`; if
+/// empty, evenly from 0 to 1. Its poses are the first and the last shape; set `poses` if others
+/// were given. \throw MeshError if there is no shape, or as `Path::Validate`.
 Path MakePath(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& placed,
               std::vector<double> parameters = {});
 
-/// `shapes`, which lie at rising `parameters`, at rising `times` between the first and the last of
-/// these, by cubic interpolation in time through the four nearest shapes; a time that is a shape's
-/// own gives that shape.
+/// Interpolates `shapes`, which belong to ascending `parameters`, at ascending `times` between the
+/// first and the last of these, cubically in time through the four nearest shapes; at a shape's own
+/// parameter the result is that shape.
 /// \throw InvalidOptions if there is no shape, or not as many parameters as shapes, or if
-///        parameters or times do not rise, are not finite or leave the path.
+///        parameters or times do not ascend, are not finite or lie outside of the path.
 std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<double>& parameters,
                             const std::vector<double>& times);
 
-/// The path seen at other times, rising between its first and its last: shapes as above, but never
-/// across a pose, where a path may have a corner. `poses` are those that a time hits exactly,
-/// `extrapolated` counts the times after the last shape that was not.
-/// \throw InvalidOptions if there is no time, or times do not rise, are not finite or leave the
-/// path.
+/// The path at other times, ascending between its first and its last: interpolated as above, but
+/// never across a pose, where a path may have a corner. `poses` are those at whose parameter there
+/// is a time, `extrapolated` counts the times after the last shape that was not extrapolated.
+/// \throw InvalidOptions if there is no time, or times do not ascend, are not finite or lie outside
+///        of the path.
 Path Resample(const Path& path, const std::vector<double>& times);
 
-/// The first `count` shapes of a path, to go on from: the same metric and times, and the poses that
-/// are among them. \throw InvalidOptions if `count` is not in 1 .. `path.NumShapes()`.
+/// The first `count` shapes of a path, for a continuation: the same metric and times, and the poses
+/// among them.
+/// \throw InvalidOptions if `count` is not in 1 .. `path.NumShapes()`.
 Path FirstShapes(const Path& path, int count);
 
 }  // namespace shapespace

@@ -7,10 +7,10 @@
 
 namespace shapespace {
 
-/// Writes everything a path is (connectivity, metric with its frozen weights, aligned shapes, rigid
-/// motions, unit, appearance, provenance) to a `.path` file: docs/file-formats.md. Doubles keep all
-/// their bits. Material libraries and textures are named, relative to the file, not copied.
-/// The file appears whole or not at all.
+/// Writes a complete path (connectivity, metric with its frozen weights, aligned shapes, rigid
+/// motions, unit, appearance, provenance) to a `.path` file: docs/file-formats.md. Doubles are
+/// stored exactly. Material libraries and textures are referenced relative to the file, not copied.
+/// The file is written completely or not at all.
 /// \throw FileError if it cannot be written, MeshError if the path is not valid.
 void WritePath(const std::string& file, const Path& path);
 

@@ -12,7 +12,8 @@ Eigen::Vector3d Centroid(const Shape& shape, const Eigen::VectorXd& weights) {
 }
 
 Eigen::Matrix3d ProcrustesRotation(const Eigen::Matrix3d& covariance) {
-  // A touch of the identity decides for the least rotation where the covariance leaves it open.
+  // A small multiple of the identity selects the smallest rotation where the covariance does not
+  // determine it.
   const double scale = covariance.norm();
   const Eigen::Matrix3d matrix = covariance + 1e-12 * scale * Eigen::Matrix3d::Identity();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -38,14 +39,15 @@ void RemoveRigidDrift(std::vector<Shape>* shapes, const Eigen::VectorXd& weights
     const Eigen::Vector3d centre = Centroid(shape, weights);
     shape.colwise() -= centre;
   });
-  // With the shapes centred only rotations R_i remain, and all that the sum knows of the shapes is
+  // For centred shapes only rotations R_i remain, and the sum depends on the shapes only through
   // C_i = sum_p A_p p_i p_{i+1}^T.
   std::vector<Eigen::Matrix3d> covariance(last);
   ParallelFor(last, [&](int i) {
     covariance[i] = (*shapes)[i] * weights.asDiagonal() * (*shapes)[i + 1].transpose();
   });
   std::vector<Eigen::Matrix3d> rotation(last + 1, Eigen::Matrix3d::Identity());
-  // Start: each shape turned onto the one before; what is then amiss at the end is spread evenly.
+  // Initial guess: each shape is aligned with the one before; the remaining rotation at the end is
+  // distributed evenly.
   for (int i = 0; i < last; ++i) {
     rotation[i + 1] = ProcrustesRotation((rotation[i] * covariance[i]).transpose());
   }
@@ -54,7 +56,7 @@ void RemoveRigidDrift(std::vector<Shape>* shapes, const Eigen::VectorXd& weights
     rotation[i] = Eigen::AngleAxisd(amiss.angle() * i / last, amiss.axis()) * rotation[i];
   }
   rotation[last].setIdentity();
-  // Then sweeps: each rotation is the best for its neighbours'.
+  // Iterations: each rotation is replaced by the best one for its neighbours.
   constexpr int kMaxSweeps = 1000;
   constexpr double kStill = 1e-14;
   for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {

@@ -17,23 +17,23 @@ struct RigidMotion {
   Shape operator()(const Shape& shape) const { return (rotation * shape).colwise() + translation; }
 };
 
-/// The weighted centroid of a shape; weights (one a vertex) need not sum to 1.
+/// The weighted centroid of a shape; weights (one per vertex) need not have sum 1.
 Eigen::Vector3d Centroid(const Shape& shape, const Eigen::VectorXd& weights);
 
-/// The rotation R that maximises trace(R covariance); the least one where it is not unique.
+/// The rotation R that maximises trace(R covariance); the smallest one if it is not unique.
 Eigen::Matrix3d ProcrustesRotation(const Eigen::Matrix3d& covariance);
 
-/// The rigid motion that carries `from` closest to `to` in the weighted L2 sense (Procrustes).
+/// The rigid motion that maps `from` closest to `to` in the weighted L2 sense (Procrustes).
 RigidMotion FitRigidMotion(const Shape& from, const Shape& to, const Eigen::VectorXd& weights);
 
-/// Moves each inner shape rigidly so that sum_i |P_{i+1} - P_i|^2 (weighted) becomes least, given
-/// all shapes but for their rigid motions; the ends stay. What rigid-invariant features cost does
-/// not change. The ends must be centred at the origin.
+/// Moves each inner shape rigidly such that sum_i |P_{i+1} - P_i|^2 (weighted) is minimal over all
+/// such motions; the ends stay. The cost of rigid-invariant features does not change. The ends must
+/// be centred at the origin.
 void RemoveRigidDrift(std::vector<Shape>* shapes, const Eigen::VectorXd& weights);
 
-/// Motion at t in [0, 1] between two, or going on from them: the rotation at constant speed about
-/// one axis, and the image of the origin, where aligned shapes have their centroid, along a
-/// straight line.
+/// The motion at t, interpolated between two (t in [0, 1]) or extrapolated: the rotation at
+/// constant speed about one axis, and the image of the origin, which is the centroid of aligned
+/// shapes, along a straight line.
 RigidMotion InterpolateMotion(const RigidMotion& first, const RigidMotion& last, double t);
 
 }  // namespace shapespace

@@ -59,7 +59,7 @@ struct CorrectionSummary {
   /// Distance of the last shape from the first modulo rigid motion, as a share of the same distance
   /// on the given path: 0 if the path has collapsed, 1 if the given path had no deformation.
   double deformation_left = 1;
-  std::vector<std::string> warnings;  ///< what a person should look at
+  std::vector<std::string> warnings;  ///< to be checked by the user
   double total_seconds = 0;
 
   std::string BriefReport() const;  ///< one line

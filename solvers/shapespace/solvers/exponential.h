@@ -80,8 +80,7 @@ struct ExponentialSummary {
     double energy = 0;    ///< of the segment, scaled to a whole path: constant along a geodesic
     double momentum_drift = 0;  ///< change of linear and angular momentum since the first step, as
                                 ///< a share
-    double edge_rms = 0, edge_max = 0;  ///< | |e| / |e_first| - 1 |: root mean square weighted by
-                                        ///< A_e, and maximum
+    double edge_rms = 0, edge_max = 0;  ///< | |e| / |e_first| - 1 |; rms weighted by A_e
     double inverted =
         0;  ///< share of the area whose triangles turned over relative to their neighbourhood
     double seconds = 0;

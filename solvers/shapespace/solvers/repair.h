@@ -35,8 +35,7 @@ struct RepairOptions {
 /// Outcome of a repair.
 struct RepairSummary {
   DeformationSummary deformation;  ///< of the reference
-  ShapeError before, after;        ///< of the distorted and of the repaired shape, relative to the
-                                   ///< reference
+  ShapeError before, after;        ///< of the distorted and the repaired shape
   /// Distance of the vertices of the repaired shape from those of the distorted one: area-weighted
   /// root mean square, in the user's unit.
   double moved = 0;

@@ -60,7 +60,7 @@ TEST(EmbeddingTest, StressNeverRisesAndEndsAtAMinimum) {
   EXPECT_LT(embedding.stress, 0.99 * embedding.stresses.front());
   EXPECT_NEAR(embedding.stress, StressOf(embedding.points, distances), 1e-12);
   EXPECT_TRUE(embedding.converged);
-  // No coordinate can be moved to advantage.
+  // No change of a coordinate reduces the stress.
   for (int k = 0; k < embedding.points.size(); ++k) {
     for (double step : {-1e-2, 1e-2}) {
       Eigen::MatrixXd moved = embedding.points;
@@ -70,8 +70,8 @@ TEST(EmbeddingTest, StressNeverRisesAndEndsAtAMinimum) {
   }
 }
 
-// Four points at distance 1 from each other: on a plane, the square is best. (With distances that
-// are equal to the last bit, the start may be a stationary point that is no minimum.)
+// Four points at distance 1 from each other: on a plane, the square is best. (With exactly equal
+// distances the start may be a stationary point that is not a minimum.)
 TEST(EmbeddingTest, ATetrahedronBecomesASquare) {
   Eigen::MatrixXd distances = Eigen::MatrixXd::Ones(4, 4);
   distances.diagonal().setZero();

@@ -25,7 +25,7 @@ using testing::Rotation;
 using testing::SmallTube;
 using testing::TubePoses;
 
-// Work is given out last first, as if others had been faster.
+// Processes tasks in reverse order, as if other processes had been faster.
 class LastFirst : public Crew {
  public:
   std::vector<std::string> ForEach(int count,
@@ -86,7 +86,7 @@ TEST(MetricTest, FrozenOnAllPairsDoesNotDependOnTheOrderOfPoses) {
   };
   const Eigen::VectorXd all = weights(PosePairs::kAll), steps = weights(PosePairs::kConsecutive);
   EXPECT_TRUE((all.array() <= steps.array()).all());
-  EXPECT_LT(all.sum(), 0.999 * steps.sum());  // from the first to the last, hinges jump farthest
+  EXPECT_LT(all.sum(), 0.999 * steps.sum());  // hinges jump most from the first to the last pose
   std::swap(poses[0], poses[1]);
   EXPECT_LT((weights(PosePairs::kAll) - all).cwiseAbs().maxCoeff(), 1e-12 * all.maxCoeff());
 }
@@ -222,7 +222,7 @@ TEST(ExploreTest, TellsHowFarItIsAndStopsWhenAsked) {
   Listener listener;
   Explore(tube.connectivity, poses, {}, {}, &listener);
   EXPECT_GT(listener.reports, 10);
-  EXPECT_EQ(std::count(listener.shares.begin(), listener.shares.end(), 0), 3);  // stages
+  EXPECT_EQ(std::count(listener.shares.begin(), listener.shares.end(), 0), 3);  // one per stage
   EXPECT_EQ(listener.shares.back(), 1);
   for (int last : {1, 2, 5, listener.reports / 2}) {
     Listener stops(last);

@@ -39,8 +39,8 @@ TEST_P(RefinementTo, TilesTheHullWithoutHangingNodes) {
   const Space coarse = Explored(0), fine = Explored(3, GetParam());
   ASSERT_GT(fine.NumNodes(), coarse.NumNodes());
   EXPECT_NEAR(AreaOf(fine), AreaOf(coarse), 1e-12 * AreaOf(coarse));
-  // Each side is that of one triangle, on the hull, or of two that run along it in opposite ways;
-  // and no node lies inside a side.
+  // Each side belongs to one triangle, on the hull, or to two with opposite directions; and no node
+  // lies inside a side.
   std::map<std::pair<int, int>, int> sides;
   for (int t = 0; t < fine.triangles.cols(); ++t) {
     for (int k = 0; k < 3; ++k) {
@@ -113,8 +113,8 @@ TEST(RefinementTest, StopsWhereStraightLinesAreGoodEnough) {
   EXPECT_EQ(whole.summary.edges_not_measured, 0);
 }
 
-// Poses near each other beside one that is far: only the triangles that lead there are split, so
-// that triangles with one and with two halved sides occur.
+// Poses close to each other and one far away: only the triangles at the latter are split, so that
+// triangles with one and with two halved sides occur.
 TEST(RefinementTest, NeighboursOfWhatIsSplitFollow) {
   const Body tube = SmallTube();
   std::vector<Shape> poses = {tube.pose(100)};

@@ -57,10 +57,10 @@ TEST_F(SpaceFileTest, DamageIsNoticedWhereverItIs) {
 
 TEST_F(SpaceFileTest, OtherFilesAreNamed) {
   ExpectError<FileError>([&] { ReadSpace(File("a.space", "solid")); },
-                         {"a.space", "this is no .space file"});
+                         {"a.space", "this is not a .space file"});
   ExpectError<FileError>([&] { ReadSpace(Path("none.space")); }, {"none.space"});
   WriteSpace(Path("a.path"), space_);
-  ExpectError<FileError>([&] { ReadPath(Path("a.path")); }, {"this is no .path file"});
+  ExpectError<FileError>([&] { ReadPath(Path("a.path")); }, {"this is not a .path file"});
 }
 
 TEST_F(SpaceFileTest, ASpaceThatIsNotValidIsNotWritten) {

@@ -64,7 +64,7 @@ TEST(SpaceTest, ALineHasNoInside) {
   EXPECT_EQ(space.At({1, 0}), space.Placed(1));
   EXPECT_TRUE(space.Locate({.25, 0}).inside);
   EXPECT_LT(Distance(space.At({.25, 0}), .75 * space.Placed(0) + .25 * space.Placed(1)), 1e-12);
-  EXPECT_TRUE(space.Locate({.25, -.001}).inside);  // as poses that count as lying on it may
+  EXPECT_TRUE(space.Locate({.25, -.001}).inside);  // within the tolerance for collinear points
   const PlaneLocation off = space.Locate({.25, -.1});
   EXPECT_FALSE(off.inside);
   EXPECT_LT((off.point - Eigen::Vector2d(.25, 0)).norm(), 1e-15);

@@ -24,14 +24,14 @@ inline Shape BentAndTwisted(const Body& tube, double bend, double twist) {
   return shape;
 }
 
-/// Four poses that differ in two ways.
+/// Four poses that vary in two parameters.
 inline std::vector<Shape> TubePoses(const Body& tube) {
   return {BentAndTwisted(tube, 0, 0), BentAndTwisted(tube, 70, 0), BentAndTwisted(tube, 0, 120),
           BentAndTwisted(tube, 50, 90)};
 }
 
-/// A space that nothing was solved for: the unit square, cut in two, with the four poses at its
-/// corners and the middle of its diagonal as a fifth node that no triangle has.
+/// A space without solved geodesics: the unit square, cut in two, with the four poses at its
+/// corners and the centre of its diagonal as a fifth node that belongs to no triangle.
 inline Space MadeUpSpace(const Body& tube, const Eigen::Vector3d& translation = {1, 2, 3}) {
   Space space;
   const std::vector<Shape> poses = TubePoses(tube);

@@ -29,7 +29,7 @@ std::string Count(int count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-// How vertices b and c lie around a, seen from outside: the sine of the angle between them.
+// The sine of the angle from vertex b to vertex c around a, seen from outside.
 double SineAround(const Shape& shape, const Shape& normals, int a, int b, int c) {
   const Eigen::Vector3d p = shape.col(b) - shape.col(a), q = shape.col(c) - shape.col(a);
   const double lengths = p.norm() * q.norm();
@@ -104,7 +104,7 @@ void CheckMarkers(const std::vector<Marker>& markers, const Connectivity& templa
     if (component < 0 || has_marker[component]) continue;
     throw MeshError("the template has " + Count(topology.components, "component") +
                     ", and the one with vertex " + std::to_string(v + 1) +
-                    " has no marker that says where it belongs; give it one, or take it out of "
+                    " has no marker, so its position is not determined; add one, or remove it from "
                     "the mesh");
   }
 }
@@ -113,11 +113,12 @@ void CheckPlacement(const Shape& on_template, const Shape& on_target) {
   const auto check = [](const std::string& name, const Shape& points) {
     if (!AreCollinear(points)) return;
     throw MeshError("the markers lie on one line of the " + name +
-                    ", which leaves open how it is turned; add one beside the line");
+                    ", so its rotation is not determined; add one beside the line");
   };
   check("template", on_template);
   check("target", on_target);
-  // Poses that are far apart fit badly either way; only what fits a mirror image well is one.
+  // Different poses fit badly with and without reflection; it is a mirror image only if the fit
+  // with reflection is good.
   constexpr double kFitsWell = 0.2, kMuchBetter = 0.5;
   const SimilarityErrors errors = CompareReflection(on_template, on_target);
   if (errors.reflected < kFitsWell && errors.reflected < kMuchBetter * errors.proper) {
@@ -130,7 +131,8 @@ void CheckPlacement(const Shape& on_template, const Shape& on_target) {
 void CheckHandedness(const Connectivity& template_connectivity, const Shape& template_shape,
                      const Connectivity& target_connectivity, const Shape& target_shape,
                      const std::vector<Marker>& markers, const Eigen::MatrixXf& distances) {
-  // A hundredth of a ball's; thinner bodies have no inside to speak of.
+  // The threshold is a hundredth of a ball's volume: the orientation of thinner bodies is not
+  // reliable.
   constexpr double kLeastVolume = 1e-3;
   const double first = EnclosedVolume(template_connectivity.Triangles(), template_shape);
   const double second = EnclosedVolume(target_connectivity.Triangles(), target_shape);
@@ -140,8 +142,8 @@ void CheckHandedness(const Connectivity& template_connectivity, const Shape& tem
                     " is inside out: reverse the vertices of each of its faces; or is it a mirror "
                     "image?");
   }
-  // Of six real pairs, markers that are right have a correlation of .2 to .9, and any twelve of
-  // them of -.2 at the least; fewer say too little.
+  // On six real pairs, correct markers have a correlation of .2 to .9, and any twelve of them at
+  // least -.2; fewer markers do not suffice for a decision.
   constexpr int kLeastMarkers = 12, kNeighbours = 4;
   constexpr double kOpposite = -0.5;
   const auto num_markers = static_cast<int>(markers.size());
@@ -152,7 +154,7 @@ void CheckHandedness(const Connectivity& template_connectivity, const Shape& tem
   for (const Marker& a : markers) {
     std::vector<int> near(num_markers);
     std::iota(near.begin(), near.end(), 0);
-    // The first is `a` itself.
+    // The first one is `a` itself.
     std::partial_sort(near.begin(), near.begin() + kNeighbours + 1, near.end(), [&](int k, int l) {
       return distances(a.template_vertex, k) < distances(a.template_vertex, l);
     });
@@ -172,8 +174,8 @@ void CheckHandedness(const Connectivity& template_connectivity, const Shape& tem
   }
   if (both < kOpposite * std::sqrt(on_template * on_target)) {
     throw MeshError(
-        "the markers run around each other the other way on the target than on the template, as on "
-        "a mirror image: are left and right exchanged, or is one of the meshes mirrored or inside "
+        "the cyclic order of the markers around each other is reversed on the target, as on a "
+        "mirror image: are left and right exchanged, or is one of the meshes mirrored or inside "
         "out?");
   }
 }
@@ -207,14 +209,14 @@ void WarnOfTopology(const Connectivity& template_connectivity,
   if (first.components == second.components && first.genus != second.genus) {
     warnings->push_back("the template's genus is " + std::to_string(first.genus) +
                         ", the target's " + std::to_string(second.genus) +
-                        ": around a handle that only one has, the map cannot be right");
+                        ": the map is wrong around a handle of the surface that only one has");
   }
   if (!second.boundary_loops.empty() &&
       second.boundary_loops.size() != first.boundary_loops.size()) {
     warnings->push_back("the template has " +
                         Count(static_cast<int>(first.boundary_loops.size()), "border") +
                         ", the target " + std::to_string(second.boundary_loops.size()) +
-                        ": over a hole the template is carried by what is around");
+                        ": over a hole the template follows the surface around it");
   }
 }
 

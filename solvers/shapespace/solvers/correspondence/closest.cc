@@ -9,9 +9,9 @@
 namespace shapespace::internal {
 namespace {
 
-// Of normals that belong together.
+// Least cosine of the angle between corresponding normals.
 constexpr double kLeastCosine = 0.3;
-// What is farther apart, as a share of the root of the area, is no match yet.
+// Points farther apart than this share of the square root of the area are not matched.
 constexpr double kFar = 0.05;
 
 }  // namespace
@@ -45,7 +45,7 @@ Border BorderOf(const Connectivity& connectivity) {
 
 namespace {
 
-// A foot on a corner lies on the border if any side there does, also one of another triangle.
+// A point on a corner lies on the border if a side of any triangle there does.
 bool IsOnBorder(const Foot& foot, const Eigen::Matrix3Xi& triangles, const Border& border) {
   for (int k = 0; k < 3; ++k) {
     if (foot.barycentric(k) == 0 && border.sides[foot.triangle][k]) return true;

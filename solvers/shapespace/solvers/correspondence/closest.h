@@ -18,15 +18,15 @@
 
 namespace shapespace::internal {
 
-/// Where an open surface ends.
+/// The border of an open surface.
 struct Border {
-  /// Of each triangle, whether the side opposite to corner k is no other triangle's.
+  /// Per triangle: whether the side opposite to corner k belongs to no other triangle.
   std::vector<std::array<bool, 3>> sides;
   std::vector<bool> vertices;  ///< whether each vertex is an end of such a side
 };
 Border BorderOf(const Connectivity& connectivity);
 
-/// The target of a fit: its surface, and what closest points on it are judged by.
+/// The target of a fit: its surface, and the data by which closest points on it are selected.
 class Target {
  public:
   /// `distances` is kept by reference.
@@ -42,12 +42,12 @@ class Target {
 
   /// The normal at a point, interpolated.
   Eigen::Vector3d NormalAt(const Foot& foot) const;
-  /// The point nearest to `point`, which belongs to a vertex of the template, where the normal is
-  /// within 70 degrees of `normal` and which the vertex may match.
+  /// The nearest point to `point` at which the normal is within 70 degrees of `normal`, and which
+  /// according to the distances from the markers may correspond to `template_vertex`.
   Foot Nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, int template_vertex,
                double within = std::numeric_limits<double>::infinity()) const;
-  /// Whether a point lies on the border of an open target: what is nearest to it may belong into
-  /// the hole.
+  /// Whether a point lies on the border of an open target. A template vertex with such a nearest
+  /// point may belong to the missing part of the target.
   bool IsOnBorder(const Foot& foot) const;
 
  private:
@@ -59,24 +59,24 @@ class Target {
   const MarkerDistances& distances_;
 };
 
-/// A third of the triangles around each vertex, of sum 1.
+/// A third of the area of the triangles around each vertex, scaled to sum 1.
 Eigen::VectorXd VertexAreas(const Connectivity& connectivity, const Shape& shape);
 
-/// The part of the template that a level of the hierarchy has.
+/// The template on one level of the hierarchy.
 struct Level {
   std::shared_ptr<const Connectivity> connectivity;
-  std::vector<int> vertices;  ///< of each vertex, its number in the template
+  std::vector<int> vertices;  ///< per vertex, its number in the template
   Border border;
 };
 
-/// The point of the fitted template to which a vertex of the target belongs, if one is near.
+/// The point of the fitted template that corresponds to a vertex of the target, if one is near.
 Foot NearestOnTemplate(const Surface& fitted, const Level& level, const Target& target,
                        int target_vertex);
 
-/// What pulls `shape`, a level's, onto the target: its vertices to their nearest points there, and
-/// every `stride`-th vertex of the target at the point nearest to it. Only what is nearer than
-/// a twentieth of the root of the area pulls. `distance` is the root mean
-/// square of the former.
+/// The closest-point terms between `shape`, which is of a level, and the target: from each of its
+/// vertices to the nearest point of the target, and from every `stride`-th vertex of the target to
+/// the nearest point of `shape`. Only points nearer than a twentieth of the square root of the area
+/// count. `distance` becomes the root mean square distance of the former.
 std::vector<Pull> FindPulls(const Level& level, const Shape& shape, const Eigen::VectorXd& areas,
                             const Target& target, int stride, double weight, double* distance);
 

@@ -13,10 +13,10 @@
 namespace shapespace::internal {
 namespace {
 
-// Holds what nothing else does, such as vertices without triangles.
+// Keeps the system definite, for instance for vertices without triangles.
 constexpr double kPlace = 1e-9;
-// A triangle whose area is less than such a share of its longest side's square counts less, as its
-// gradient is mostly rounding.
+// A triangle whose area is less than this share of its longest side's square is given less weight,
+// because its gradient is dominated by rounding.
 constexpr double kSliver = 1e-2;
 
 // T_f is linear in four points: the triangle's corners and its fourth vertex.
@@ -64,7 +64,7 @@ Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
                                      (frame.col(1) - frame.col(0)).squaredNorm()});
     const double share = 0.5 * frame.col(2).squaredNorm() / (kSliver * longest);
     element.quality = share < 1 ? share * share : 1;
-    if (!(element.quality > 0)) element.quality = 0;  // a point
+    if (!(element.quality > 0)) element.quality = 0;  // collapsed to a point
     const std::vector<int> unknowns(element.unknowns.begin(), element.unknowns.end());
     const std::vector<Eigen::Vector3d> gradients(element.gradients.begin(),
                                                  element.gradients.end());
@@ -76,7 +76,7 @@ Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
     entries.emplace_back(num_vertices + f, num_vertices + f, kPlace);
   }
   const auto add_difference = [&](int f, int g) {
-    // T_f - T_g, on the six unknowns of both.
+    // T_f - T_g, as a function of the six unknowns of both.
     std::vector<int> unknowns(elements[f].unknowns.begin(), elements[f].unknowns.end());
     std::vector<Eigen::Vector3d> gradients(elements[f].gradients.begin(),
                                            elements[f].gradients.end());
@@ -99,7 +99,7 @@ Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
   Eigen::SparseMatrix<double> matrix(num_unknowns, num_unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());
 
-  // What is held goes to the right hand side; its equations become x = place.
+  // Held vertices go to the right-hand side; their equations become x = place.
   std::vector<bool> is_held(num_unknowns, false);
   Eigen::MatrixX3d known = Eigen::MatrixX3d::Zero(num_unknowns, 3);
   for (size_t i = 0; i < held.size(); ++i) {

@@ -9,14 +9,17 @@
 namespace shapespace::internal {
 namespace {
 
-// A marker is doubtful if it is so many times as far from where the others expect it as half of all
-// markers are, and at least this share of the root of the area; and if its distances fit so much
-// worse where it is. On six real pairs, with 20 to 55 markers, right ones are up to 5 times as far
-// (where proportions differ most), those that were swapped 14 times and more.
+// A marker is doubtful if its distance from the predicted position is more than this factor times
+// the median over all markers and at least this share of the square root of the area, and if its
+// sum of differences is larger by this factor than at the predicted position. On six real pairs,
+// with 20 to 55 markers, correct markers have up to 5 times the median (where proportions differ
+// most), exchanged ones at least 14 times.
 constexpr double kMuchFarther = 8, kLeastOff = 0.15, kMuchWorse = 1.5;
-// Distances count by their inverse, as proportions spoil long ones more; this is added to them.
+// Differences are weighted by the inverse distance plus this constant, because proportions affect
+// long distances more.
 constexpr float kNear = 0.1F;
-// Fewer others say nothing: three distances fix a point of the plane up to reflection.
+// Fewer other markers do not suffice: three distances determine a point of the plane only up to
+// reflection.
 constexpr int kLeastOthers = 4;
 
 struct Prediction {
@@ -44,7 +47,7 @@ Prediction Predict(int marker, const std::vector<bool>& is_out, const Eigen::Mat
   return prediction;
 }
 
-// Whether marker `a` is expected about where `b` is, and the other way round.
+// Whether marker `a` is predicted near `b`, and `b` near `a`.
 bool AreSwapped(const CorrespondenceSummary::Doubt& a, const CorrespondenceSummary::Doubt& b,
                 const Eigen::MatrixXf& on_target) {
   return on_target(a.expected, b.marker) < kLeastOff && on_target(b.expected, a.marker) < kLeastOff;

@@ -11,10 +11,10 @@
 
 namespace shapespace::internal {
 
-/// Markers that the others contradict, the worst first. Each marker is predicted by all others: it
-/// should lie on the target as far from them, along the surface, as it does on the template. Where
-/// sums of absolute differences are least it is expected, so that a few wrong markers do not spoil
-/// the prediction of the right ones. The worst is taken out, then the next is looked for.
+/// Finds markers that contradict the others, the worst first. Each marker is predicted from all
+/// others: its distances from them along the target's surface should be equal to those on the
+/// template. The prediction is the vertex with the least sum of absolute differences, which is
+/// robust against a few wrong markers. The worst marker is removed and the search repeated.
 ///
 /// Distances are those of `MarkerDistances`; `target_vertices` are the markers'.
 std::vector<CorrespondenceSummary::Doubt> FindDoubtfulMarkers(

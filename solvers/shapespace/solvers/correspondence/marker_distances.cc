@@ -10,7 +10,7 @@
 namespace shapespace::internal {
 namespace {
 
-// The marker nearest to each vertex, and how far it is.
+// Finds the marker nearest to each vertex, and its distance.
 void FindNearest(const Eigen::MatrixXf& distances, std::vector<int>* nearest,
                  std::vector<float>* least) {
   nearest->resize(distances.rows());
@@ -20,7 +20,7 @@ void FindNearest(const Eigen::MatrixXf& distances, std::vector<int>* nearest,
   }
 }
 
-// A mesh with the lengths of its edges.
+// Adjacency lists of a mesh's edges.
 class Graph {
  public:
   Graph(const Connectivity& connectivity, const Shape& shape)
@@ -31,7 +31,7 @@ class Graph {
     }
   }
 
-  // How far each vertex is from the nearest of `sources`, and which that is.
+  // The distance of each vertex from the nearest of `sources`; `nearest` becomes that source.
   Eigen::VectorXf Dijkstra(const std::vector<int>& sources, std::vector<int>* nearest) const {
     const auto num_vertices = connectivity_.NumVertices();
     Eigen::VectorXf distance =

@@ -12,22 +12,21 @@
 
 namespace shapespace::internal {
 
-/// Distances along a mesh's edges (Dijkstra) from each of `vertices`, one a column; infinite where
-/// no edge leads. Bends leave them as they are, which is what both uses of them rest on.
+/// Distances along a mesh's edges (Dijkstra) from each of `vertices`, one per column; infinite if
+/// there is no connection. Bending does not change them, which both uses rely on.
 Eigen::MatrixXf DistancesFrom(const Connectivity& connectivity, const Shape& shape,
                               const std::vector<int>& vertices);
 
-/// Of each vertex the one of `vertices` that is nearest along the mesh's edges; -1 where no edge
-/// leads from one.
+/// Per vertex, the nearest of `vertices` along the mesh's edges; -1 if none is connected to it.
 std::vector<int> NearestOf(const Connectivity& connectivity, const Shape& shape,
                            const std::vector<int>& vertices);
 
-/// Which points of two bodies may belong together, as far as their distances from the markers
-/// tell: the marker nearest to the one must not be far from the other. So a hand that rests on a
-/// hip is not taken for a piece of the hip.
+/// Tells which points of two bodies may correspond, according to their distances from the markers:
+/// the marker nearest to the one must not be far from the other. For instance, this keeps a hand
+/// that rests on a hip from being matched with the hip.
 class MarkerDistances {
  public:
-  /// Distances on both bodies, one row a vertex and one column a marker, in units in which the
+  /// Distances on both bodies, one row per vertex and one column per marker, in units in which the
   /// bodies are equally large and the target's area is 1.
   MarkerDistances(Eigen::MatrixXf on_template, Eigen::MatrixXf on_target);
 
@@ -42,13 +41,13 @@ class MarkerDistances {
   const Eigen::MatrixXf& OnTarget() const { return on_target_; }
 
  private:
-  // Twice as far, for proportions differ, and a tenth or so of the body more, for near a marker
-  // all is soon twice as far.
+  // A factor of two for different proportions, and an offset because near a marker small distances
+  // easily differ by more than that factor.
   static bool IsNear(float distance, float wanted) { return distance <= 2 * wanted + 0.15F; }
 
   Eigen::MatrixXf on_template_, on_target_;
-  std::vector<int> nearest_template_, nearest_target_;  // marker
-  std::vector<float> least_template_, least_target_;    // distance
+  std::vector<int> nearest_template_, nearest_target_;  // index of the marker
+  std::vector<float> least_template_, least_target_;    // distance from it
 };
 
 }  // namespace shapespace::internal

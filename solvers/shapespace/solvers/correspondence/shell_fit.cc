@@ -10,10 +10,10 @@
 namespace shapespace::internal {
 namespace {
 
-// How much the distance from a point counts beside that from its tangent plane: so little that the
-// body slides along the target to where it is strained least.
+// Weight of the distance from a point relative to that from its tangent plane. It is small, so that
+// the body can slide along the target to reduce strain.
 constexpr double kAlong = 0.02;
-// Cost of a vertex's motion in an iteration, which holds what nothing else does.
+// Penalty on the motion of vertices in an iteration; keeps the system definite.
 constexpr double kMotion = 1e-6;
 constexpr int kHalvings = 8;
 

@@ -18,9 +18,9 @@
 
 namespace shapespace::internal {
 
-/// A point of a body, as barycentric coordinates in a triangle, that is pulled to a point of the
-/// target: by `weight` times the squared distance from the tangent plane there, and a little of the
-/// squared distance from the point itself.
+/// A closest-point term: the penalty of a point of a body, given by barycentric coordinates in a
+/// triangle, and a point of the target. It is `weight` times the squared distance from the tangent
+/// plane at the target's point, plus a small multiple of the squared distance from that point.
 struct Pull {
   Eigen::Vector3i vertices;
   Eigen::Vector3d barycentric;
@@ -28,29 +28,29 @@ struct Pull {
   double weight;
 };
 
-/// A body under the metric of strain and bending, pulled onto a surface: minimises
-///   |Phi(X) - Phi*|^2 + sum of pulls
-/// by Gauss and Newton's method, where Phi* are the dihedral angles at rest and strains that the
-/// body takes on smoothly (`SmoothStretch`): to have other proportions costs nothing, to change
-/// them from one place to the next does. Held vertices stay where they are.
+/// A body under the metric of strain and bending, fitted to a surface: minimises
+///   |Phi(X) - Phi*|^2 + sum of the closest-point terms
+/// by the Gauss-Newton method. Phi* are the dihedral angles at rest and the smoothed strains of the
+/// body itself (`SmoothStretch`), so that a smooth change of proportions costs nothing, and only
+/// strains that vary over short distances do. Held vertices stay where they are.
 class ShellFit {
  public:
-  /// `rest` has an extent; `held` are vertices.
+  /// `rest` must not be a single point; `held` are indices of vertices.
   ShellFit(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
            const std::vector<int>& held, double bending, double proportions);
 
-  /// A_p of sum 1.
+  /// The areas A_p, scaled to sum 1.
   const Eigen::VectorXd& VertexAreas() const { return metric_->vertex_area; }
 
-  /// One iteration: proportions are taken anew from `*shape`, then it takes a step that lowers the
-  /// sum, or stays as it is if there is none.
-  /// \return the root mean square of the vertices' motion in a whole step, as a share of the root
-  /// of the area, so that a step that had to be cut short is not taken for rest.
+  /// One iteration: updates the smoothed strains from `*shape` and takes a step that decreases the
+  /// sum; `*shape` is unchanged if there is none. \return the root mean square motion of the
+  /// vertices in a full step, as a share of the square root of the area; a full step, so that a
+  /// shortened step is not mistaken for convergence.
   double Step(const std::vector<Pull>& pulls, Shape* shape);
 
  private:
   double PullEnergy(const std::vector<Pull>& pulls, const Shape& shape) const;
-  // To the matrix and the gradient.
+  // Adds them to the matrix and the gradient.
   void AddPulls(const std::vector<Pull>& pulls, const Shape& shape, Tangent* gradient);
   void SetWanted(const Shape& shape);
 

@@ -23,7 +23,7 @@ bool AreCollinear(const Shape& points) {
 
 SimilarityErrors CompareReflection(const Shape& from, const Shape& to) {
   const Shape a = Centred(from), b = Centred(to);
-  // Of the best rotation and scale, the squared error is |b|^2 - trace^2 / |a|^2.
+  // With the best rotation and scale the squared error is |b|^2 - trace^2 / |a|^2.
   const auto error = [&](double sign) {
     const Eigen::Matrix3d covariance = sign * a * b.transpose();
     const double trace = (ProcrustesRotation(covariance) * covariance).trace();

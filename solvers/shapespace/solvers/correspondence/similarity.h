@@ -9,20 +9,20 @@
 
 namespace shapespace::internal {
 
-/// Whether `points` lie on one line, or nearly so: their spread across it is less than a hundredth
-/// of that along it. A line leaves open how a body is turned about it.
+/// Whether `points` are nearly collinear: their spread across a line is less than a hundredth of
+/// that along it. Collinear points do not determine a rotation.
 bool AreCollinear(const Shape& points);
 
-/// How far `from` fits onto `to` by a proper similarity (rotation, one scale, translation), and by
-/// one with a reflection: root mean square distances as shares of the spread of `to`. S. Umeyama,
-/// "Least-squares estimation of transformation parameters between two point patterns", PAMI 1991.
+/// Root mean square errors of the best similarity (rotation, scale, translation) from `from` to
+/// `to`, without and with a reflection, as shares of the spread of `to`. S. Umeyama, "Least-squares
+/// estimation of transformation parameters between two point patterns", PAMI 1991.
 struct SimilarityErrors {
   double proper = 0, reflected = 0;
 };
 SimilarityErrors CompareReflection(const Shape& from, const Shape& to);
 
-/// The rotation and translation that carry `from` closest to `to` in the least squares sense,
-/// applied to `shape`.
+/// Applies to `shape` the rotation and translation that map `from` closest to `to` in the least
+/// squares sense.
 Shape MovedOnto(const Shape& from, const Shape& to, const Shape& shape);
 
 }  // namespace shapespace::internal

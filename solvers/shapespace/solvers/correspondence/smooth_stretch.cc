@@ -13,11 +13,11 @@
 namespace shapespace::internal {
 namespace {
 
-// Logarithms of stretches beyond this are a triangle that has collapsed, or a slip of a closest
-// point: bodies differ by less than fourfold.
+// Logarithms of stretches are clamped to this. Larger ones belong to collapsed triangles or wrong
+// closest points; proportions of bodies differ by less than a factor of four.
 constexpr double kMostStretch = 1.4;
-// Cotangents below this are an obtuse triangle's, or of a sliver: with it, what is smoothed stays
-// between the values around.
+// Cotangents are at least this. Obtuse triangles and slivers have smaller ones, which would let
+// smoothed values leave the range of the values around them.
 constexpr double kLeastCotangent = 1e-3;
 
 using Sixfold = Eigen::Matrix<double, 6, 1>;
@@ -50,7 +50,7 @@ SmoothStretch::SmoothStretch(std::shared_ptr<const Connectivity> connectivity, S
   }
   const double total = areas_.sum();
   areas_ /= total;
-  constexpr double kLeastArea = 1e-12;  // of a vertex without triangles
+  constexpr double kLeastArea = 1e-12;  // for a vertex without triangles
   std::vector<Eigen::Triplet<double>> entries;
   for (int v = 0; v < num_vertices; ++v) entries.emplace_back(v, v, kLeastArea);
   for (int f = 0; f < triangles.cols(); ++f) {

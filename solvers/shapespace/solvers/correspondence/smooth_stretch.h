@@ -14,24 +14,24 @@
 
 namespace shapespace::internal {
 
-/// By how much a body is stretched on the whole: of every triangle the logarithm of the stretch
-/// (the symmetric factor of its deformation gradient), smoothed along the surface. It does not
-/// depend on how the body is bent, as stretches turn with nothing.
+/// The smoothed stretch of a body: the logarithm of each triangle's stretch (the symmetric factor
+/// of its deformation gradient), smoothed along the surface. It does not depend on bending, because
+/// stretches are expressed in the triangles at rest.
 class SmoothStretch {
  public:
-  /// Stretches are measured from `rest`, and smoothed over `length`, a share of the root of its
-  /// area: S minimises |S - raw|^2 + length^2 |grad S|^2, by linear elements.
+  /// Stretches are measured relative to `rest` and smoothed over `length`, a share of the square
+  /// root of its area: S minimises |S - raw|^2 + length^2 |grad S|^2, with linear finite elements.
   SmoothStretch(std::shared_ptr<const Connectivity> connectivity, Shape rest, double length);
 
-  /// Of the body as `shape`, the corners of each triangle, 9 x T, as they lie in its plane at rest
-  /// but stretched by the smoothed stretch.
+  /// Per triangle of `shape`, the corners of the triangle at rest after the smoothed stretch, in
+  /// its plane at rest: 9 x T.
   Eigen::Matrix<double, 9, Eigen::Dynamic> StretchedTriangles(const Shape& shape) const;
 
  private:
   const std::shared_ptr<const Connectivity> connectivity_;
   const Shape rest_;
   std::vector<Eigen::Matrix3d> inverses_;  // of the rest's frames
-  Eigen::VectorXd areas_;                  // of triangles, of sum 1
+  Eigen::VectorXd areas_;                  // of triangles, with sum 1
   std::unique_ptr<Cholesky> factor_;
 };
 

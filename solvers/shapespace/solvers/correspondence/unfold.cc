@@ -11,14 +11,14 @@
 namespace shapespace::internal {
 namespace {
 
-// Rings by which patches grow, one a round, and rounds of averaging in each.
+// Number of rounds, in each of which patches grow by a ring of vertices, and of averagings per
+// round.
 constexpr int kRings = 6, kAverages = 8;
-// How often patches grow anew, from what is left: three times leave a fifth less than once.
+// Number of passes; three passes leave a fifth fewer folds than one.
 constexpr int kPasses = 3;
 
-// The neighbours of each vertex, with M. Floater's mean value weights ("Mean value coordinates",
-// 2003). They are positive, so that nothing folds, and keep the triangles' forms as far as that
-// goes.
+// Neighbours of each vertex, with M. Floater's mean value weights ("Mean value coordinates", 2003).
+// They are positive, so that no folds arise, and approximately preserve the triangles' shapes.
 class Neighbours {
  public:
   Neighbours(const Connectivity& connectivity, const Shape& rest);
@@ -49,7 +49,7 @@ Neighbours::Neighbours(const Connectivity& connectivity, const Shape& rest)
       const int v = triangle(k), a = triangle((k + 1) % 3), b = triangle((k + 2) % 3);
       const Eigen::Vector3d p = rest.col(a) - rest.col(v), q = rest.col(b) - rest.col(v);
       const double lengths = p.norm() * q.norm();
-      // The tangent of half the angle; kLeast where a triangle has collapsed.
+      // The tangent of half the angle, at least kLeast for collapsed triangles.
       constexpr double kLeast = 1e-3;
       const double tangent = std::max(kLeast * lengths, p.cross(q).norm()) /
                              std::max(kLeast * lengths, lengths + p.dot(q));
@@ -60,7 +60,7 @@ Neighbours::Neighbours(const Connectivity& connectivity, const Shape& rest)
   }
 }
 
-// Numbers the connected patches of `inside` from 0; -1 outside.
+// Labels the connected patches of `inside` from 0; -1 outside.
 std::vector<int> PatchesOf(const std::vector<bool>& inside, const Neighbours& neighbours,
                            int* count) {
   std::vector<int> patch(inside.size(), -1);
@@ -84,7 +84,7 @@ std::vector<int> PatchesOf(const std::vector<bool>& inside, const Neighbours& ne
   return patch;
 }
 
-// How many turned triangles each patch has to do with.
+// The number of turned triangles with a corner in each patch.
 std::vector<int> CountTurned(const std::vector<bool>& turned, const Eigen::Matrix3Xi& triangles,
                              const std::vector<int>& patch, int num_patches) {
   std::vector<int> counts(num_patches, 0);
@@ -92,7 +92,7 @@ std::vector<int> CountTurned(const std::vector<bool>& turned, const Eigen::Matri
     if (!turned[f]) continue;
     for (int k = 0; k < 3; ++k) {
       const int p = patch[triangles(k, f)];
-      // Corners in one patch count once.
+      // A triangle with several corners in a patch counts once.
       const bool counted =
           (k > 0 && patch[triangles(0, f)] == p) || (k > 1 && patch[triangles(1, f)] == p);
       if (p >= 0 && !counted) ++counts[p];
@@ -112,8 +112,8 @@ Foot MapVertex(const Level& level, const Shape& shape, const Shape& normals, con
   return other.triangle >= 0 ? other : target.GetSurface().Nearest(shape.col(v));
 }
 
-// MapVertices, where `feet` are those of a shape that differed at the vertices `moved` only: their
-// neighbours' normals have changed as well.
+// Updates the result `feet` of MapVertices for a shape in which only the vertices `moved` have
+// changed; the normals of their neighbours have changed too.
 std::vector<Foot> MapAnew(const Level& level, const Shape& shape, const Target& target,
                           const std::vector<bool>& moved, const Neighbours& neighbours,
                           std::vector<Foot> feet) {
@@ -179,7 +179,8 @@ void Unfold(const Level& level, const Shape& rest, const Target& target,
     int num_patches = 0;
     const std::vector<int> patch = PatchesOf(inside, neighbours, &num_patches);
     if (num_patches == 0) return;
-    // On the target all the way: a mean is projected to where the target faces as it does around.
+    // The mean is projected onto the target where its normal agrees with those of the neighbours'
+    // feet.
     Shape flat = *shape;
     Shape facing(3, flat.cols());
     for (int v = 0; v < flat.cols(); ++v) facing.col(v) = target.NormalAt(feet[v]);

@@ -9,20 +9,21 @@
 
 namespace shapespace::internal {
 
-/// Which triangles point against the target: their normal against the sum of those of the target's
-/// triangles on which their corners lie.
+/// Which triangles have normals opposite to the target's: the comparison is with the sum of the
+/// normals of the target's triangles on which the corners lie.
 std::vector<bool> TurnedTriangles(const Level& level, const Shape& shape, const Target& target,
                                   const std::vector<Foot>& feet);
 
-/// The points of the target that belong to the vertices of `shape`: by normal and by distance from
-/// the markers where there is one, else by distance alone, else just the nearest.
+/// The points of the target that correspond to the vertices of `shape`: the nearest point that is
+/// compatible by normal and by distances from the markers; if there is none, the nearest that is
+/// compatible by distances; otherwise the nearest.
 std::vector<Foot> MapVertices(const Level& level, const Shape& shape, const Target& target);
 
-/// Takes out folds: around triangles that point against the target, vertices (but `held` ones) move
-/// to a mean of their neighbours, as in W. Tutte's embedding ("How to draw a graph", 1963), and
-/// back onto the target. Patches grow ring by ring until that helps, a few times over; one that it
-/// does not help is left as it was. What a template has and the target has not, as the inside of a
-/// mouth, ends flat.
+/// Removes folds. Around triangles whose normals are opposite to the target's, vertices other than
+/// `held` move to a weighted mean of their neighbours, as in W. Tutte's embedding ("How to draw a
+/// graph", 1963), and are projected back onto the target. Patches grow ring by ring until the fold
+/// is gone, in several passes; a patch without success is restored. Parts of the template that the
+/// target does not have, such as the inside of a mouth, become flat.
 void Unfold(const Level& level, const Shape& rest, const Target& target,
             const std::vector<int>& held, Shape* shape);
 

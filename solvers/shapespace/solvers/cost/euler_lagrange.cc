@@ -47,7 +47,7 @@ void EulerLagrange::AddTo(Shape* shape, std::vector<double>* sums, ceres::Proble
   AddSums(shape, sums, problem);
 }
 
-// Adds s = sum for every sum feature, and sets `sums` to the values at `shape`.
+// Adds a row s = sum for every sum feature, and sets `sums` to the values at `shape`.
 void EulerLagrange::AddSums(Shape* shape, std::vector<double>* sums,
                             ceres::Problem* problem) const {
   size_t i = 0;
@@ -67,7 +67,7 @@ void EulerLagrange::AddSums(Shape* shape, std::vector<double>* sums,
   }
 }
 
-// Returns where the targets of the next feature begin.
+// Returns the beginning of the next feature's targets.
 const double* EulerLagrange::Add(const std::shared_ptr<const Feature>& feature, const Shape& at,
                                  const double* targets, double scale) {
   const int num_vertices = feature->VerticesPerElement();
@@ -85,8 +85,7 @@ const double* EulerLagrange::Add(const std::shared_ptr<const Feature>& feature, 
     feature->Gather(e, e + 1, at, x);
     feature->Evaluate(1, x, values, derivatives);
     const double root = std::sqrt(feature->Weight(e));
-    double
-        rounded[Feature::kMaxValues];  // what values, and coordinates by way of them, are made of
+    double rounded[Feature::kMaxValues];  // magnitudes of the terms of values
     for (int k = 0; k < num_values; ++k) {
       rounded[k] = is_sum ? 0 : std::abs(targets[k]);
       for (int corner = 0; corner < num_vertices; ++corner) {
@@ -127,7 +126,7 @@ const double* EulerLagrange::Add(const std::shared_ptr<const Feature>& feature, 
   return targets + 1;
 }
 
-// What vertex v sees of the feature that is being added.
+// The terms of vertex v for the feature that is being added.
 VertexElements& EulerLagrange::Part(const std::shared_ptr<const Feature>& feature, int v) {
   std::vector<VertexElements>& parts = rows_[v];
   if (parts.empty() || parts.back().feature != feature) parts.push_back({feature, {}, {}, {}, {}});

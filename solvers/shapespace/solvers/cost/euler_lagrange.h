@@ -13,28 +13,29 @@
 
 namespace shapespace::cost {
 
-/// The equation of a step of shooting, J(at)^T [Phi(P) - target] = 0, for a problem of Ceres: three
-/// rows a vertex (EulerLagrangeRows), on the vertices that share an element with it. With
-/// target = 2 Phi(P_i) - Phi(P_(i-1)) and at = P_i its root is the next shape of a geodesic (the
-/// discrete Euler-Lagrange equation of the path energy).
+/// Adds the equation of a step of shooting, J(at)^T [Phi(P) - target] = 0, to a Ceres problem:
+/// three rows per vertex (EulerLagrangeRows), which depend on the vertices that share an element
+/// with it. With target = 2 Phi(P_i) - Phi(P_(i-1)) and at = P_i its root is the next shape of a
+/// geodesic (the discrete Euler-Lagrange equation of the path energy).
 class EulerLagrange {
  public:
-  /// Shapes in the metric's unit; `target` has the layout of FeatureMap::Values. Rows are
-  /// multiplied by `scale`: Ceres' limits are absolute, and want numbers of about one.
+  /// Shapes are in the metric's unit; `target` has the layout of FeatureMap::Values. Rows are
+  /// multiplied by `scale`, because Ceres' limits are absolute and assume numbers of the order of
+  /// one.
   EulerLagrange(const Metric& metric, const Shape& at, const Eigen::VectorXd& target,
                 double scale = 1);
 
-  /// How many values of sum features (volume) there are, each an unknown of its own.
+  /// Number of sum features' values (volume), each an additional unknown.
   int NumSums() const { return static_cast<int>(sum_gradients_.size()); }
 
-  /// Adds all rows to `problem`. Its parameter blocks are shape->col(v).data(), and each of `sums`,
-  /// which is resized and set to the values at `shape`; one more row for each couples it with all
-  /// vertices, of a weight by which an error of it counts as much as the error that it makes in the
-  /// others. Both must outlive the problem.
+  /// Adds all rows to `problem`. Its parameter blocks are shape->col(v).data() and each of `sums`,
+  /// which is resized and set to the values at `shape`. One more row for each of `sums` couples it
+  /// with all vertices; its weight is such that an error of the sum counts as much as the error
+  /// that it causes in the other rows. Both must outlive the problem.
   void AddTo(Shape* shape, std::vector<double>* sums, ceres::Problem* problem) const;
 
-  /// What rounding of values and coordinates leaves of the scaled residual where it should be zero:
-  /// an estimate from above, as if all of it had one sign.
+  /// An upper estimate of the scaled residual that is due to the rounding of values and
+  /// coordinates, as if all errors had the same sign.
   double Rounding() const;
 
  private:
@@ -45,9 +46,9 @@ class EulerLagrange {
 
   const std::vector<std::shared_ptr<const Feature>> features_;
   const int num_sums_;
-  std::vector<std::vector<VertexElements>> rows_;  // of each vertex
+  std::vector<std::vector<VertexElements>> rows_;  // per vertex
   std::vector<std::vector<int>> neighbours_;
-  Tangent magnitude_;  // the sums of the absolute values of what the residual is made of
+  Tangent magnitude_;                  // sums of the absolute values of the residual's terms
   std::vector<double> sum_gradients_;  // norm of the scaled gradient of each sum feature
 };
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <vector>
 
-// Private: numbers parameter blocks as they turn up.
+// Private: numbers parameter blocks in the order of their first use.
 
 namespace shapespace::cost {
 
-/// The index of `value` in `list`, at whose end it is put if it was not there.
+/// The index of `value` in `list`; appends it if it is missing.
 inline int IndexOf(int value, std::vector<int>* list) {
   const auto found = std::find(list->begin(), list->end(), value);
   const int index = static_cast<int>(found - list->begin());

@@ -42,7 +42,6 @@ void AddFeature(const std::shared_ptr<const Feature>& feature, bool trapezoid,
   }
 }
 
-// Before anything is added.
 void Check(const Metric& metric, const std::vector<Shape>& shapes, const RigidMotions* motions) {
   const int num_vertices = metric.connectivity->NumVertices();
   if (shapes.size() < 2) throw MeshError("a path needs at least two shapes");

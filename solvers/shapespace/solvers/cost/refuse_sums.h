@@ -7,7 +7,7 @@
 #include <shapespace/metric/metric.h>
 #include <shapespace/solvers/cost/path_energy.h>
 
-// Private: sum features couple all vertices, so that their rows are dense.
+// Private: checks for sum features, which couple all vertices, so that their rows are dense.
 
 namespace shapespace::cost {
 
@@ -22,7 +22,8 @@ inline void RefuseSums(const Metric& metric, int max_vertices, const std::string
   }
 }
 
-/// Of a solver on residual blocks. \throw InvalidOptions if these had too many dense rows.
+/// The same for solvers on residual blocks, with their limit.
+/// \throw InvalidOptions.
 inline void RefuseDenseRows(const Metric& metric) {
   RefuseSums(metric, kMaxDenseVertices,
              "above " + std::to_string(kMaxDenseVertices) + " vertices use another solver");

@@ -15,11 +15,12 @@
 
 namespace shapespace::cost {
 
-// Ceres cost functions of one segment of a path, differentiated automatically. Their parameter
-// blocks are vertices (3 numbers): first the element's in shape i, then the same in shape i + 1.
-// Residuals are scaled so that Ceres' cost, half the sum of squares, is a quarter of the energy.
+// Ceres cost functions of one segment of a path, automatically differentiated. Their parameter
+// blocks are vertices (3 numbers): first the element's vertices in shape i, then the same in shape
+// i + 1. Residuals are scaled so that Ceres' cost, half the sum of squares, is a quarter of the
+// energy.
 
-/// sqrt(w) (Phi_{i+1} - Phi_i) of one element of a feature. Each end is differentiated on Jets of
+/// sqrt(w) (Phi_{i+1} - Phi_i) of one element of a feature. Each end is differentiated with Jets of
 /// its own, which are half as long as those of the whole segment would be.
 class FeatureSegment final : public ceres::CostFunction {
  public:
@@ -54,8 +55,8 @@ class FeatureSegment final : public ceres::CostFunction {
   const double root_weight_;
 };
 
-/// The paper's (6) for one edge, its quartic part weighted (PathEnergy::SetQuarticWeight): the
-/// residuals are a - b and a + b with the midpoint's a and a quartic b.
+/// The paper's (6) for one edge, with a weight for its quartic part (PathEnergy::SetQuarticWeight):
+/// the residuals are a - b and a + b with the midpoint's a and a quartic b.
 struct TrapezoidSegment {
   double root_weight, root_quartic_weight;
 
@@ -75,7 +76,8 @@ struct TrapezoidSegment {
   }
 };
 
-/// A sum feature couples all vertices: blocks are all m vertices of shape i, then those of i + 1.
+/// A sum feature couples all vertices: the blocks are all m vertices of shape i, followed by those
+/// of shape i + 1.
 class SumSegment final : public ceres::CostFunction {
  public:
   SumSegment(std::shared_ptr<const Feature> feature, int num_vertices)
@@ -100,7 +102,7 @@ class SumSegment final : public ceres::CostFunction {
   const int num_vertices_;
 };
 
-/// The rigid metric (3) for one vertex, with (c, c_bar) of the segment as one more block of 6.
+/// The rigid metric (3) for one vertex, with (c, c_bar) of the segment as an additional block of 6.
 struct RigidSegment {
   double root_weight;
 

@@ -12,22 +12,22 @@
 
 namespace shapespace::cost {
 
-// Ceres cost functions of shooting and of the paper's transport, differentiated automatically.
+// Ceres cost functions of shooting and of the paper's transport, automatically differentiated.
 // Their parameter blocks are vertices (3 numbers).
 
-/// What one vertex v sees of one feature in J(at)^T [Phi(P) - target] = 0.
+/// The terms of one feature in the rows of vertex v of J(at)^T [Phi(P) - target] = 0.
 struct VertexElements {
   std::shared_ptr<const Feature> feature;
-  std::vector<int> elements;     ///< those that touch v
-  std::vector<int> blocks;       ///< of each element, the parameter blocks of its vertices
-  std::vector<double> targets;   ///< of each element, its values
-  std::vector<double> gradient;  ///< of each value, 3 numbers: along v, at the shape `at`
+  std::vector<int> elements;     ///< elements at v
+  std::vector<int> blocks;       ///< per element, the parameter blocks of its vertices
+  std::vector<double> targets;   ///< per element, its values
+  std::vector<double> gradient;  ///< per value, its gradient with respect to v, at the shape `at`
 };
 
 /// The three rows of vertex v in J(at)^T [Phi(P) - target] = 0. Parameter blocks: the value of each
 /// sum feature (1 number), which all rows share, then the vertices that share an element with v.
-/// Each element is differentiated automatically on Jets of its own size; one row with bending has
-/// some sixty unknowns, of which an element has twelve.
+/// Each element is differentiated automatically with Jets of its own size; a row with bending has
+/// about sixty unknowns, of which an element has twelve.
 class EulerLagrangeRows final : public ceres::CostFunction {
  public:
   /// The first `num_sums` blocks are those of sums, `num_vertices` blocks follow.
@@ -50,11 +50,11 @@ struct Displacement {
   }
 };
 
-/// Equation (7) for the three coordinates j of one vertex: F_0 - 2 x_j (G x)_j - C_j, where
-/// F_0 - C_j = 2 a_j is taken as one number, since F_0 alone is far greater. Parameter blocks: the
-/// velocities of the vertices with which G couples this one, itself the first.
+/// Equation (7) for the three coordinates j of one vertex: F_0 - 2 x_j (G x)_j - C_j, where F_0 -
+/// C_j = 2 a_j is stored as one number, because F_0 alone is much larger. Parameter blocks: the
+/// velocities of the vertices that G couples with this one, beginning with itself.
 struct FirstIntegralRows {
-  std::vector<Eigen::Matrix3d> couplings;  ///< blocks of G, one a parameter block
+  std::vector<Eigen::Matrix3d> couplings;  ///< blocks of G, one per parameter block
   Eigen::Vector3d constants;               ///< a_j
   double scale = 1;                        ///< of the residuals
 

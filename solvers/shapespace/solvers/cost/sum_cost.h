@@ -13,22 +13,23 @@
 
 namespace shapespace::cost {
 
-/// Returns scale times the sum of a feature's values over all elements, where block v holds vertex
-/// v, and adds its derivatives to those of `jacobians` that are not null, unless that is null.
+/// Returns `scale` times the sum of a feature's values over all elements, where block v contains
+/// vertex v. Adds the derivatives to those of `jacobians` that are not null; `jacobians` itself may
+/// be null.
 double AddSum(const Feature& feature, const double* const* blocks, double scale,
               double** jacobians);
 
-/// The same of the inner product <Y, normal>, vertex by vertex.
+/// The same for the inner product <Y, normal>, vertex by vertex.
 double AddInnerProduct(const Tangent& normal, const double* const* blocks, double scale,
                        double** jacobians);
 
-/// weight (sum - s), of a sum over all elements and a number s: the value of a sum feature, or the
+/// weight (sum - s), for a sum over all elements and a number s: the value of a sum feature, or the
 /// bound of a linear constraint. Parameter blocks: all m vertices, then s (1 number). Each element
-/// is differentiated on Jets of its own size, so that the dense row costs time and memory in
-/// proportion to m, where DynamicAutoDiffCostFunction would take its square.
+/// is differentiated with Jets of its own size, so that time and memory of the dense row are
+/// proportional to m; with DynamicAutoDiffCostFunction they would be proportional to m^2.
 class SumCost final : public ceres::CostFunction {
  public:
-  /// One of the functions above, for the feature or normal in question, which it must outlive.
+  /// One of the functions above, bound to a feature or normal that outlives this object.
   using Add = std::function<double(const double* const* blocks, double scale, double** jacobians)>;
 
   SumCost(Add add, int num_vertices, double weight)

@@ -21,7 +21,7 @@ void CheckDistances(const Eigen::MatrixXd& distances) {
   }
 }
 
-// Coordinates along the two directions in which the points with these distances extend most.
+// Coordinates along the two principal directions of the points with these distances.
 Eigen::Matrix2Xd ClassicalScaling(const Eigen::MatrixXd& distances) {
   const Eigen::Index n = distances.rows();
   const Eigen::MatrixXd squares = distances.array().square();
@@ -66,8 +66,8 @@ Eigen::Matrix2Xd GuttmanTransform(const Eigen::Matrix2Xd& points,
   return result / static_cast<double>(n);
 }
 
-// Turned onto the principal axes, of which each points to where the points reach out most: so that
-// the result does not depend on the signs that an eigensolver happens to choose.
+// Aligns points with their principal axes. Each axis points to the side on which the points extend
+// farther, so that the result does not depend on an eigensolver's choice of signs.
 Eigen::Matrix2Xd OnPrincipalAxes(Eigen::Matrix2Xd points) {
   points.colwise() -= points.rowwise().mean().eval();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(points * points.transpose());
@@ -90,14 +90,14 @@ void EmbeddingOptions::Validate() const {
 Embedding Embed(const Eigen::MatrixXd& distances, const EmbeddingOptions& options) {
   options.Validate();
   CheckDistances(distances);
-  // In units of the greatest distance, so that squares are numbers too.
+  // In units of the greatest distance, to avoid overflow and underflow of squares.
   const double unit = distances.maxCoeff();
   if (unit > 0 && unit != 1) {
     Embedding scaled = Embed(distances / unit, options);
     scaled.points *= unit;
     return scaled;
   }
-  constexpr double kNoStress = 1e-14;  // of rounding
+  constexpr double kNoStress = 1e-14;  // at the level of rounding
   Embedding result;
   result.points = ClassicalScaling(distances);
   result.stress = Stress(result.points, distances);

@@ -16,19 +16,20 @@ struct EmbeddingOptions {
   void Validate() const;
 };
 
-/// Points of the plane that stand for things of which only distances are known.
+/// Points of the plane that represent objects of which only the distances are known.
 struct Embedding {
-  Eigen::Matrix2Xd points;  ///< centred; the first axis is that along which they extend most
-  /// sqrt(sum (|x_i - x_j| - d_ij)^2 / sum d_ij^2) over all pairs: 0 where the plane holds all
+  Eigen::Matrix2Xd points;  ///< centred; the first axis is the direction of greatest extent
+  /// sqrt(sum (|x_i - x_j| - d_ij)^2 / sum d_ij^2) over all pairs; 0 if the plane reproduces all
   /// distances (Kruskal's stress-1, normalised by the given distances).
   double stress = 0;
-  std::vector<double> stresses;  ///< the same of the start and after every iteration: never rises
+  std::vector<double> stresses;  ///< the same for the start and after every iteration; does not
+                                 ///< increase
   bool converged = true;
 };
 
-/// Metric multidimensional scaling of symmetric `distances`, n x n: classical scaling (Torgerson
-/// 1952) as the start, then stress majorisation by SMACOF (de Leeuw 1977; Borg and Groenen, Modern
-/// Multidimensional Scaling, chapter 8), with all weights 1.
+/// Metric multidimensional scaling of symmetric `distances`, n x n: starts from classical scaling
+/// (Torgerson 1952) and continues with stress majorisation by SMACOF (de Leeuw 1977; Borg and
+/// Groenen, Modern Multidimensional Scaling, chapter 8), with all weights 1.
 /// \throw InvalidOptions (options; distances that are not square, symmetric, finite and zero on the
 ///        diagonal, or negative).
 Embedding Embed(const Eigen::MatrixXd& distances, const EmbeddingOptions& options = {});

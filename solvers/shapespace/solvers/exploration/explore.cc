@@ -21,7 +21,7 @@ using internal::Pair;
 using internal::PairResult;
 using internal::PairSolver;
 
-// Centred, turned onto the first, in the metric's unit.
+// Centres poses and aligns them with the first, in the metric's unit.
 std::vector<Shape> TurnOntoFirst(const Metric& metric, const std::vector<Shape>& poses) {
   std::vector<Shape> turned;
   for (const Shape& pose : poses) {
@@ -38,12 +38,12 @@ GeodesicOptions WithoutAssessment(GeodesicOptions options) {
   return options;
 }
 
-// The poses at the resolution that distances are measured on, and what solves there.
+// The poses at the resolution on which distances are measured, and the solver there.
 struct Measuring {
   Measuring(const std::shared_ptr<const Connectivity>& connectivity,
             const std::vector<Shape>& poses, const ExploreOptions& options, Crew* crew);
 
-  // A shape of the mesh itself at that resolution.
+  // Restricts a shape of the mesh itself to that resolution.
   Shape Restrict(const Shape& shape) const {
     return vertices.empty() ? shape : Shape(shape(Eigen::all, vertices));
   }
@@ -101,9 +101,9 @@ void CheckPoses(const Connectivity& connectivity, const std::vector<Shape>& pose
   }
 }
 
-// Puts the poses on the plane.
+// Computes the positions of the poses on the plane.
 void Spread(const ExploreOptions& options, Space* space, ExploreSummary* summary) {
-  // Distances that are lost in rounding, in the metric's pure numbers.
+  // Distances below this are due to rounding; the metric's distances are pure numbers.
   constexpr double kNoDistance = 1e-9;
   if (space->distances.maxCoeff() < kNoDistance) {
     throw SolverError("all poses are copies of one: there is nothing to explore");
@@ -119,7 +119,7 @@ void Spread(const ExploreOptions& options, Space* space, ExploreSummary* summary
   for (int i : triangulation.left_out) {
     summary->warnings.push_back(
         "pose " + std::to_string(i) + " (" + space->names[i] +
-        ") is at the place of a pose before it, and no triangle leads to it");
+        ") is at the position of an earlier pose, and no triangle contains it");
   }
 }
 
@@ -138,23 +138,23 @@ void Warn(ExploreSummary* summary) {
                                 "tolerance");
   }
   if (!summary->embedded) {
-    summary->warnings.push_back("the places on the plane have not converged");
+    summary->warnings.push_back("the positions on the plane have not converged");
   }
   constexpr double kMuchStress = 0.2;  // "poor" in Kruskal 1964
   if (summary->stress > kMuchStress) {
-    summary->warnings.push_back("a plane cannot hold the distances between these poses (stress " +
-                                std::to_string(summary->stress) +
-                                "): neighbours on it need not be alike");
+    summary->warnings.push_back(
+        "the plane does not reproduce the distances between these poses (stress " +
+        std::to_string(summary->stress) + "): neighbours on it may differ much");
   }
 }
 
-// A point of [0, 1), the same with every standard library.
+// A random number in [0, 1) that is the same with every standard library.
 double Uniform(std::mt19937_64* random) { return static_cast<double>((*random)() >> 11) * 0x1p-53; }
 
 std::vector<PlaneLocation> RandomLocations(const Space& space, int samples) {
   const bool is_line = space.triangles.cols() == 0;
   const Eigen::Index cells = is_line ? space.segments.cols() : space.triangles.cols();
-  std::vector<double> up_to;  // of lengths or areas
+  std::vector<double> up_to;  // cumulative lengths or areas
   for (Eigen::Index i = 0; i < cells; ++i) {
     const Eigen::Vector2d a =
         space.points.col(is_line ? space.segments(0, i) : space.triangles(0, i));
@@ -185,7 +185,7 @@ std::vector<PlaneLocation> RandomLocations(const Space& space, int samples) {
       location.nodes = {space.triangles(0, i), space.triangles(1, i), space.triangles(2, i)};
       location.weights = {1 - u - v, u, v};
     }
-    // The two of most weight first.
+    // The two nodes of greatest weight first.
     for (int pass : {0, 1, 0}) {
       if (location.weights[pass] >= location.weights[pass + 1]) continue;
       std::swap(location.weights[pass], location.weights[pass + 1]);
@@ -209,7 +209,7 @@ void ExploreOptions::Validate() const {
   embedding.Validate();
   if (geodesic.shapes % 2 == 0) throw InvalidOptions("shapes: must be odd, to have one half way");
   if (geodesic.metric.rigid > 0) {
-    throw InvalidOptions("rigid: the rigid metric has no length to explore by; use 0");
+    throw InvalidOptions("rigid: under the rigid metric paths have no length; use 0");
   }
   if (resolution < 0) throw InvalidOptions("resolution: must be 0 or more triangles");
   if (!(threshold > 0) || !std::isfinite(threshold)) {
@@ -255,7 +255,7 @@ ExploreResult Explore(const std::shared_ptr<const Connectivity>& connectivity,
   Spread(options, &space, &summary);
   summary.embedding_seconds = embedding.Seconds();
 
-  // Shapes half way are solved on the mesh itself.
+  // Midpoints are solved on the mesh itself.
   const internal::Stopwatch refining;
   if (!measuring.vertices.empty()) {
     Add(*measuring.solver, &summary);
@@ -319,7 +319,7 @@ BlendErrors MeasureBlends(const Space& space, int samples, const ExploreOptions&
   });
   std::vector<Shape> linear;
   for (const PlaneLocation& location : locations) linear.push_back(BlendNodes(nodes, location));
-  const std::vector<PairResult> off = solve("how far they are off", [&](int k) {
+  const std::vector<PairResult> off = solve("deviations of blends", [&](int k) {
     return Pair{&linear[k], &blended[k].shape, -1};
   });
 

@@ -17,30 +17,30 @@
 
 namespace shapespace {
 
-/// How to make a space of poses.
+/// Options for a space of poses.
 struct ExploreOptions {
-  /// Of every geodesic. `shapes` must be odd, since shapes half way are wanted; `assess` is not
-  /// read. The rigid metric, which has no length, is refused.
+  /// Options of every geodesic. `shapes` must be odd, so that there is a shape half way; `assess`
+  /// is not read. The rigid metric is refused because it has no length.
   GeodesicOptions geodesic = Defaults();
 
-  /// Triangles, at most, of the level of the hierarchy on which the distances between poses are
-  /// measured; the coarsest level has as many as it has. 0: the mesh itself. With many poses of
-  /// fine meshes, 5000 saves most of the time. Between armadillos of 29 K triangles it changes
-  /// distances by up to 12 %, but all by nearly one factor, within 4 %.
+  /// Maximum number of triangles of the hierarchy's level on which distances between poses are
+  /// measured (if the coarsest level has more, the coarsest). 0: the mesh itself. With many poses
+  /// of fine meshes, 5000 saves most of the time. For armadillos of 29 K triangles it changes
+  /// distances by up to 12 %, but all by nearly the same factor, within 4 %.
   int resolution = 0;
 
-  /// A straight line between two nodes that is longer than the geodesic by more than this share is
-  /// replaced by two, over the shape half way on the geodesic.
+  /// If the straight line between two nodes is longer than the geodesic by more than this share, it
+  /// is replaced by two lines via the geodesic's midpoint.
   double threshold = 0.05;
 
-  /// How often a triangle may be split, at most.
+  /// Maximum number of times a triangle is split.
   int depth = 2;
 
   EmbeddingOptions embedding;
 
-  /// A folder in which finished geodesics are kept, and nothing else should be: if a run is ended,
-  /// the next one with the same inputs and options goes on from there. The caller removes it
-  /// (RemoveRecords). Processes of a crew must all see the same disk. Empty: nothing is kept.
+  /// A folder for finished geodesics, which should contain nothing else: after an interruption, the
+  /// next run with the same inputs and options continues from them. The caller removes it
+  /// (RemoveRecords). All processes of a crew must see the same folder. Empty: nothing is stored.
   std::string records;
 
   static GeodesicOptions Defaults();
@@ -49,14 +49,14 @@ struct ExploreOptions {
   void Validate() const;
 };
 
-/// What happened, and how good the answer is.
+/// Outcome and quality of a space.
 struct ExploreSummary {
-  /// A round: all new edges are measured, and some are split.
+  /// One round: all new edges are measured, and some are split.
   struct Level {
-    int cells = 0;   ///< triangles or segments before
-    int edges = 0;   ///< that were new
+    int cells = 0;   ///< triangles or segments before the round
+    int edges = 0;   ///< new in this round
     int marked = 0;  ///< of these: longer than their geodesics by more than the threshold
-    double greatest_excess = 0;  ///< the most that one was longer by, as a share
+    double greatest_excess = 0;  ///< of an edge over its geodesic, as a share
     int new_nodes = 0;
     double seconds = 0;
   };
@@ -64,20 +64,20 @@ struct ExploreSummary {
   int distance_vertices = 0;            ///< of the level on which distances were measured
   int poses = 0, nodes = 0, cells = 0;  ///< cells: triangles or segments of the plane
   std::string metric;
-  double unit = 1;  ///< the user's length that counts as 1
+  double unit = 1;  ///< the length in the user's unit that has length 1 in the metric
   double threshold = 0;
-  int solved = 0;         ///< geodesics that were solved now
-  int found = 0;          ///< that an earlier run had left
-  int damaged = 0;        ///< that it had left, but not whole: solved again
+  int solved = 0;         ///< geodesics solved in this run
+  int found = 0;          ///< read from the records of an earlier run
+  int damaged = 0;        ///< in damaged records; solved again
   int not_converged = 0;  ///< of all
   double stress = 0;      ///< Embedding::stress
   int stress_iterations = 0;
   bool embedded = true;  ///< whether the embedding converged
   std::vector<Level> levels;
-  /// Edges of the last triangulation that nobody has looked at, since the depth was reached; 0: no
-  /// edge is longer than the threshold allows. MeasureBlends tells how good the space is.
+  /// Edges of the last triangulation that were not measured because the depth was reached; 0: no
+  /// edge exceeds the threshold. MeasureBlends measures the quality of the space.
   int edges_not_measured = 0;
-  std::vector<std::string> warnings;  ///< what a person should look at
+  std::vector<std::string> warnings;  ///< to be checked by the user
   double distance_seconds = 0, embedding_seconds = 0, refinement_seconds = 0, total_seconds = 0;
   int threads = 1, processes = 1;
 
@@ -92,46 +92,46 @@ struct ExploreResult {
   ExploreSummary summary;
 };
 
-/// Lengths of the geodesics between every two poses, as pure numbers: symmetric, zero on the
-/// diagonal and between rigid copies. One metric, frozen on all poses, and one hierarchy serve all.
+/// Lengths of the geodesics between all pairs of poses, as pure numbers: symmetric, zero on the
+/// diagonal and between rigid copies. All use one metric, frozen on all poses, and one hierarchy.
 /// \throw InvalidOptions, MeshError (fewer than two poses; see FreezeMetric), SolverError,
-/// Cancelled,
-///        FileError (records).
+///        Cancelled, FileError (records).
 Eigen::MatrixXd DistanceMatrix(const std::shared_ptr<const Connectivity>& connectivity,
                                const std::vector<Shape>& poses, const ExploreOptions& options = {},
                                Progress* progress = nullptr, Crew* crew = nullptr);
 
-/// The space of some poses (Kilian et al. 2007, section 5): their distances, their places on the
-/// plane (`Embed`), what lies between these (`Triangulate`), and shapes half way on geodesics
-/// wherever straight lines between shapes are too long: all edges of a triangle that has such a
-/// side are halved, a neighbour's likewise where two of its sides are, and a neighbour with one
-/// halved side is cut in two, so that no node lies inside a side. `names` are the poses'; there may
-/// be none.
+/// The space of some poses (Kilian et al. 2007, section 5): their distances, their positions on the
+/// plane (`Embed`), a triangulation of these (`Triangulate`), and midpoints of geodesics as
+/// additional nodes where the straight line between two nodes is too long. If a triangle has such a
+/// side, all its sides are halved; so are those of a neighbour with two halved sides, and a
+/// neighbour with one halved side is cut in two, so that no node lies inside a side. `names` are
+/// those of the poses and may be empty.
 ///
-/// `crew`, if not null, shares the geodesics out among processes; all get the same result, which
-/// does not depend on their number.
-/// \throw as DistanceMatrix; SolverError too if all poses are rigid copies of one.
+/// `crew`, if not null, shares the geodesics out among processes. All processes get the same
+/// result, which does not depend on their number.
+/// \throw as DistanceMatrix; SolverError also if all poses are rigid copies of one.
 ExploreResult Explore(const std::shared_ptr<const Connectivity>& connectivity,
                       const std::vector<Shape>& poses, std::vector<std::string> names = {},
                       const ExploreOptions& options = {}, Progress* progress = nullptr,
                       Crew* crew = nullptr);
 
-/// Removes the geodesics that a run kept in `folder`, and the folder if nothing else is in it.
+/// Removes the geodesics that a run stored in `folder`, and the folder if it is then empty.
 void RemoveRecords(const std::string& folder);
 
-/// How far linear blends are from true ones.
+/// Deviation of linear blends from blends along geodesics.
 struct BlendErrors {
   int samples = 0;
-  int vertices = 0;          ///< of the level of the hierarchy on which this was measured
-  double mean = 0, max = 0;  ///< length of the geodesic from one to the other, as a share of the
+  int vertices = 0;          ///< of the hierarchy's level on which this was measured
+  double mean = 0, max = 0;  ///< length of the geodesic between the two blends, as a share of the
                              ///< greatest distance between two poses
-  double within = 0;         ///< share of the samples that are off by no more than the threshold
+  double within = 0;         ///< share of the samples whose deviation is within the threshold
 };
 
-/// Compares Space::At with true blends at so many points, evenly spread over the plane at random
-/// (the same ones every time). The true blend of three nodes goes along the geodesic between the
-/// two of most weight, and from there along the one to the third. Reads `geodesic`, `resolution`,
-/// `threshold` and `records` of the options. \throw as DistanceMatrix.
+/// Compares Space::At with blends along geodesics at `samples` points, uniformly distributed over
+/// the plane (pseudo-random with a fixed seed). A blend of three nodes along geodesics is found in
+/// two steps: the shape on the geodesic between the two nodes of greatest weight, then the shape on
+/// the geodesic from there to the third node. Uses `geodesic`, `resolution`, `threshold` and
+/// `records` of the options. \throw as DistanceMatrix.
 BlendErrors MeasureBlends(const Space& space, int samples, const ExploreOptions& options = {},
                           Progress* progress = nullptr, Crew* crew = nullptr);
 

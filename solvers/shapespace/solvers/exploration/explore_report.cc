@@ -82,7 +82,7 @@ std::string ExploreSummary::ToJson() const {
                                        {"threads", threads},
                                        {"processes", processes},
                                        {"warnings", warnings}};
-  // Names of files need not be UTF-8.
+  // Names of files need not be valid UTF-8.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -16,11 +16,11 @@
 namespace shapespace::internal {
 namespace {
 
-// Raise it when the same inputs and options lead to another result.
+// To be incremented when the same inputs and options give another result.
 constexpr uint32_t kVersion = 1;
 constexpr ArrayFileKind kKind = {"SHAPPAIR", kVersion, ".geodesic"};
 
-// A hash of 128 bits of everything that is added.
+// A 128-bit hash of everything that is added.
 class Hasher {
  public:
   Hasher() { XXH3_128bits_reset(&state_); }
@@ -48,7 +48,7 @@ class Hasher {
   XXH3_state_t state_;
 };
 
-// Of everything that a geodesic depends on but for its two shapes.
+// Digest of everything that a geodesic depends on except its two shapes.
 std::string DigestOf(const Metric& frozen, const std::vector<Shape>& poses,
                      const GeodesicOptions& options) {
   Hasher hasher;
@@ -90,7 +90,7 @@ std::string Pack(const std::string& digest, const PairResult& result) {
   return PackArrayFile(kKind, std::move(header), arrays);
 }
 
-// None if the bytes are no whole record of this digest.
+// Empty if the bytes are not a complete record with this digest.
 std::optional<PairResult> Unpack(const std::string& digest, const std::string& bytes) {
   try {
     size_t begin;
@@ -105,7 +105,7 @@ std::optional<PairResult> Unpack(const std::string& digest, const std::string& b
   }
 }
 
-// What a solve says to those who wait for many, of which it is one.
+// Progress of one solve as a part of the progress of many.
 class OneOfMany : public Progress {
  public:
   OneOfMany(Progress* progress, std::string stage, int done, int total)
@@ -141,7 +141,7 @@ std::string PairSolver::Digest(const Pair& pair) const {
 
 std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const std::string& stage,
                                           Progress* progress) {
-  // The first process says what is there, so that all see the same.
+  // The first process reads the records, so that all processes have the same.
   std::vector<std::string> digests, records;
   std::vector<int> missing;
   for (size_t i = 0; i < pairs.size(); ++i) {
@@ -174,7 +174,7 @@ std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const 
   std::vector<PairResult> results;
   for (size_t i = 0; i < pairs.size(); ++i) {
     auto result = Unpack(digests[i], records[i]);
-    if (!result) throw SolverError("a geodesic came damaged from another process");
+    if (!result) throw SolverError("the result of another process is damaged");
     if (!result->converged) ++counts_.not_converged;
     results.push_back(*std::move(result));
     records[i].clear();

@@ -10,31 +10,31 @@
 #include <shapespace/solvers/exploration/records.h>
 #include <shapespace/solvers/geodesic.h>
 
-// Private: the geodesics that everything about a space is made of.
+// Private: the geodesics from which a space is computed.
 
 namespace shapespace::internal {
 
-/// Two shapes of a space: centred, turned onto the first pose, in the metric's unit.
+/// Two shapes of a space: centred, aligned with the first pose, in the metric's unit.
 struct Pair {
   const Shape* from = nullptr;
   const Shape* to = nullptr;
-  double t = 0.5;  ///< where on the geodesic a shape is wanted; negative: none
+  double t = 0.5;  ///< parameter of the geodesic's shape to return; negative: none
 };
 
 /// The geodesic from the one to the other.
 struct PairResult {
   double length = 0;        ///< a pure number
-  double blend_length = 0;  ///< of the straight line, the linear blends of the two
+  double blend_length = 0;  ///< length of the straight line between the two
   bool converged = true;
-  Shape shape;  ///< at t, turned onto the linear blend; empty if none was wanted
+  Shape shape;  ///< at t, aligned with the linear blend; empty if none was requested
 };
 
-/// What was done, and what was there already.
+/// Counts of geodesics solved now and read from records.
 struct PairCounts {
   int solved = 0, found = 0, damaged = 0, not_converged = 0;
 };
 
-/// Solves pairs, each on one process of a crew, and keeps what it has found on disk.
+/// Solves pairs, each on one process of a crew, and stores the results on disk.
 class PairSolver {
  public:
   /// `crew` must outlive it. \throw as Interpolator.
@@ -45,8 +45,9 @@ class PairSolver {
   const std::shared_ptr<const Metric>& GetMetric() const { return interpolator_.GetMetric(); }
   const PairCounts& Counts() const { return counts_; }
 
-  /// All `pairs`, in their order. The result is the same to the last bit for any crew, and whatever
-  /// was on disk. \throw as Interpolator::Between; FileError; Cancelled.
+  /// Solves all `pairs`, in their order. The result is identical for any crew and any content of
+  /// the records.
+  /// \throw as Interpolator::Between; FileError; Cancelled.
   std::vector<PairResult> Solve(const std::vector<Pair>& pairs, const std::string& stage,
                                 Progress* progress);
 
@@ -57,7 +58,7 @@ class PairSolver {
   Interpolator interpolator_;
   Crew& crew_;
   const Records records_;
-  std::string digest_;  // of all that pairs share
+  std::string digest_;  // of the data that all pairs share
   PairCounts counts_;
 };
 

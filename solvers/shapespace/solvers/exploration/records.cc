@@ -39,7 +39,7 @@ void Records::Remove() const {
   std::error_code error;
   if (folder_.empty() || !fs::is_directory(folder_, error)) return;
   for (const auto& entry : fs::directory_iterator(folder_)) {
-    // Temporaries have something behind the extension (WriteFileAtomically).
+    // Temporary files have a suffix after the extension (WriteFileAtomically).
     const std::string name = entry.path().filename().string();
     if (name.find(kExtension) != std::string::npos) fs::remove(entry.path(), error);
   }

@@ -5,23 +5,22 @@
 #include <string>
 #include <utility>
 
-// Private: finished work on disk.
+// Private: a cache of finished results on disk.
 
 namespace shapespace::internal {
 
-/// A folder of results by the digest of what they were made from. Each appears whole or not at all,
-/// so that a process may be killed at any time; what was made from anything else has another name.
+/// A folder of results, named by the digest of their inputs. Each is written completely or not at
+/// all, so that a process may be killed at any time; other inputs have other names.
 class Records {
  public:
-  /// `folder` is made when it is needed; empty: nothing is kept.
+  /// `folder` is created when needed; empty: nothing is stored.
   explicit Records(std::string folder) : folder_(std::move(folder)) {}
 
-  /// The bytes of a record, if it is there and can be read.
+  /// The bytes of a record, if it exists and can be read.
   std::optional<std::string> Find(const std::string& digest) const;
   /// \throw FileError.
   void Keep(const std::string& digest, const std::string& bytes) const;
-  /// Removes all records, what a killed process left half-written, and the folder if nothing else
-  /// is in it.
+  /// Removes all records, incomplete files of killed processes, and the folder if it is then empty.
   void Remove() const;
 
  private:

@@ -19,17 +19,17 @@ class Refinement {
   Refinement(const ExploreOptions& options, PairSolver* solver, Space* space)
       : options_(options), solver_(*solver), space_(*space) {}
 
-  // Looks at all edges that are new. False: none is too long.
+  // Measures all new edges. Returns false if none is too long.
   bool Measure(Progress* progress, ExploreSummary::Level* level);
-  // Splits what has an edge that is too long.
+  // Splits the cells that have an edge that is too long.
   void Split();
   std::set<Edge> EdgesNotMeasured() const;
 
  private:
   struct Side {
     bool marked = false;
-    int middle = -1;  // the node half way, once there is one
-    Shape shape;      // half way, until then
+    int middle = -1;  // index of the midpoint's node, once it exists
+    Shape shape;      // the midpoint, until then
   };
 
   std::set<Edge> Edges() const;
@@ -41,7 +41,7 @@ class Refinement {
   const ExploreOptions& options_;
   PairSolver& solver_;
   Space& space_;
-  std::map<Edge, Side> sides_;  // all that were measured
+  std::map<Edge, Side> sides_;  // all measured edges
 };
 
 std::set<Edge> Refinement::Edges() const {
@@ -107,8 +107,8 @@ void Refinement::Split() {
 
 void Refinement::SplitTriangles() {
   const Eigen::Matrix3Xi before = space_.triangles;
-  // A triangle with a marked side is split into four; then all its sides are split, and so is a
-  // neighbour that has two such sides. Splitting spreads, until nothing changes.
+  // A triangle with a marked side is split into four, which halves all its sides. A neighbour with
+  // two halved sides is split too, and so on until nothing changes.
   std::set<Edge> split;
   std::vector<bool> is_split(before.cols(), false);
   const auto count_split = [&](int t) {

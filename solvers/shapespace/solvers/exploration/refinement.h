@@ -4,12 +4,13 @@
 #include <shapespace/solvers/exploration/explore.h>
 #include <shapespace/solvers/exploration/pair_solver.h>
 
-// Private: shapes half way between nodes, where they are needed.
+// Private: inserts midpoints of geodesics between nodes.
 
 namespace shapespace::internal {
 
-/// Splits triangles or segments of a space whose edges are too far from geodesics, as `Explore`
-/// says; tells the summary. \throw as PairSolver::Solve.
+/// Splits triangles or segments of a space whose edges differ too much from geodesics, as described
+/// at `Explore`; adds the rounds to the summary.
+/// \throw as PairSolver::Solve.
 void Refine(const ExploreOptions& options, PairSolver* solver, Progress* progress, Space* space,
             ExploreSummary* summary);
 

@@ -14,7 +14,7 @@ double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// The point of a side that is nearest to `point`, as a location, and its distance.
+// The nearest point of a side to `point`, as a location; returns its distance.
 double ToSide(const Eigen::Matrix2Xd& points, int a, int b, const Eigen::Vector2d& point,
               PlaneLocation* location) {
   const Eigen::Vector2d side = points.col(b) - points.col(a);
@@ -36,7 +36,7 @@ Shape BlendNodes(const std::vector<Shape>& nodes, const PlaneLocation& location,
 }
 
 PlaneLocation Space::Locate(const Eigen::Vector2d& point) const {
-  // Inside by this much less than nothing, as a share of the triangle, is rounding.
+  // Tolerance for negative barycentric coordinates due to rounding.
   constexpr double kRounding = 1e-12;
   PlaneLocation best;
   double deepest = -kRounding;
@@ -72,7 +72,8 @@ PlaneLocation Space::Locate(const Eigen::Vector2d& point) const {
     for (int k = 0; k < 3; ++k) try_side(triangles(k, t), triangles((k + 1) % 3, t));
   }
   for (int s = 0; s < segments.cols(); ++s) try_side(segments(0, s), segments(1, s));
-  // Points count as lying on a line if they are as near to it as those of a triangulation are.
+  // On a line, points count as inside with the same tolerance as collinear points of a
+  // triangulation.
   const double extent = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
   best.inside = nearest <= (triangles.cols() > 0 ? kRounding : kFlatSpread) * extent;
   return best;
@@ -86,7 +87,7 @@ void Space::Validate() const {
   const auto fail = [](const std::string& what) { throw MeshError("the space: " + what); };
   const Eigen::Index vertices = metric->connectivity->NumVertices();
   const int count = NumNodes(), poses = NumPoses();
-  if (poses < 2 || poses > count) fail("needs two poses or more, and a name for each");
+  if (poses < 2 || poses > count) fail("must have at least two poses, and a name for each");
   if (points.cols() != count || static_cast<int>(parents.size()) != count - poses ||
       distances.rows() != poses || distances.cols() != poses) {
     fail("its nodes, points, parents and distances differ in number");
@@ -121,7 +122,7 @@ void Space::Validate() const {
 Walk WalkAlong(const Space& space, const std::vector<Eigen::Vector2d>& polyline, int frames) {
   if (polyline.empty()) throw InvalidOptions("points: the curve has none");
   if (frames < 1) throw InvalidOptions("frames: must be 1 or more");
-  std::vector<double> length = {0};  // up to each point
+  std::vector<double> length = {0};  // cumulative, at each point
   for (size_t i = 0; i < polyline.size(); ++i) {
     if (!polyline[i].allFinite()) throw InvalidOptions("points: one is not finite");
     if (i > 0) length.push_back(length.back() + (polyline[i] - polyline[i - 1]).stableNorm());

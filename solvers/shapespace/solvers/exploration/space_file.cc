@@ -47,7 +47,7 @@ Eigen::Vector2d PointFrom(const internal::Json& entry, const Space& space,
     const std::string name = entry.get<std::string>();
     const auto found = std::find(space.names.begin(), space.names.end(), name);
     if (found == space.names.end()) {
-      internal::FailIn(field, internal::Quoted(name) + " is no pose of the space");
+      internal::FailIn(field, internal::Quoted(name) + " is not a pose of the space");
     }
     return space.points.col(found - space.names.begin());
   }

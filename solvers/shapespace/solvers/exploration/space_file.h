@@ -10,8 +10,8 @@
 
 namespace shapespace {
 
-/// Writes everything a space is to a `.space` file: docs/file-formats.md. Doubles keep all their
-/// bits. The file appears whole or not at all.
+/// Writes a complete space to a `.space` file (docs/file-formats.md). Doubles are stored exactly.
+/// The file is written completely or not at all.
 /// \throw FileError if it cannot be written, MeshError if the space is not valid.
 void WriteSpace(const std::string& file, const Space& space);
 
@@ -20,8 +20,9 @@ void WriteSpace(const std::string& file, const Space& space);
 ///        checksum does not fit), or inconsistent.
 Space ReadSpace(const std::string& file);
 
-/// Reads a curve on the plane, docs/file-formats.md: points, or names of poses, that it leads
-/// through. \throw FileError naming the file and what is wrong in it.
+/// Reads a curve on the plane (docs/file-formats.md), given by the points or the names of the poses
+/// through which it leads.
+/// \throw FileError naming the file and the error in it.
 std::vector<Eigen::Vector2d> ReadCurve(const std::string& file, const Space& space);
 
 }  // namespace shapespace

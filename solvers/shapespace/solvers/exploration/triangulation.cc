@@ -14,7 +14,7 @@
 namespace shapespace {
 namespace {
 
-// Points nearer to each other than this share of the extent are one.
+// Points nearer to each other than this share of the extent coincide.
 constexpr double kCoincident = 1e-9;
 
 Eigen::Matrix3Xi Delaunay(const Eigen::Matrix2Xd& points, const std::vector<int>& kept) {
@@ -23,7 +23,8 @@ Eigen::Matrix3Xi Delaunay(const Eigen::Matrix2Xd& points, const std::vector<int>
   const double extent = points.cwiseAbs().maxCoeff();
   for (double& coordinate : coordinates) coordinate /= extent;
   orgQhull::Qhull qhull;
-  // Scaled to the cube, with a point at infinity, and facets of more than three points cut up.
+  // Options of Qhull: scaled to the unit cube, with a point at infinity, non-simplicial facets
+  // triangulated.
   try {
     qhull.runQhull("", 2, static_cast<int>(kept.size()), coordinates.data(), "d Qbb Qz Qt Q12");
   } catch (const orgQhull::QhullError& error) {

@@ -7,16 +7,16 @@
 
 namespace shapespace {
 
-/// What lies between points of the plane.
+/// A triangulation of points of the plane, or their order on a line.
 struct Triangulation {
-  Eigen::Matrix3Xi triangles;  ///< counterclockwise; none where all points lie on a line
-  Eigen::Matrix2Xi segments;   ///< then: from each point to the next on the line
-  std::vector<int> left_out;   ///< points that coincide with one before them
+  Eigen::Matrix3Xi triangles;  ///< counterclockwise; empty if all points lie on a line
+  Eigen::Matrix2Xi segments;   ///< in that case: from each point to the next on the line
+  std::vector<int> left_out;   ///< points that coincide with an earlier one
 };
 
-/// Points that spread across a line by less than this share of how far they reach along it count as
-/// lying on it: that is how precisely lengths of geodesics tell where a shape between two others is
-/// (docs/mathematics.md, section 13).
+/// Points whose spread across a line is less than this share of that along it are treated as
+/// collinear. This is the accuracy with which lengths of geodesics determine the position of a
+/// shape between two others (docs/mathematics.md, section 13).
 inline constexpr double kFlatSpread = 1e-2;
 
 /// The Delaunay triangulation of points of the plane, by Qhull.

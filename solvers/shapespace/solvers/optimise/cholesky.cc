@@ -14,14 +14,14 @@
 namespace shapespace::internal {
 namespace {
 
-// A chunk of columns goes through the whole factor at once: wide enough to be worth reading it, and
-// narrow enough to keep the rows of a supernode in the nearest cache.
+// Number of columns that are solved together with one pass over the factor: large enough to
+// amortise reading it, and small enough to keep the rows of a supernode in the L1 cache.
 constexpr int kChunk = 48;
-// A branch of the elimination tree has at most this share of all work, and a factor has branches
-// only if it has so many numbers that handing them out to threads is worth it.
+// A branch of the elimination tree has at most this share of the total work. A factor has branches
+// only if it has at least this many numbers; smaller ones do not justify several threads.
 constexpr double kBranchShare = 1.0 / 16, kWorthBranches = 1e5;
 
-// Vectors of 32 and 64 bytes at any address that holds a number.
+// Vectors of 32 and 64 bytes without alignment beyond that of a number.
 template <typename Scalar>
 struct Vectors;
 template <>
@@ -35,8 +35,8 @@ struct Vectors<float> {
   using Full = float __attribute__((vector_size(64), aligned(4), may_alias));
 };
 
-// The solves below keep a tile of kRows x kVectors vectors in registers while they sweep over the
-// factor's entries for it. `x` points at the tile's first column, rows `stride` apart.
+// The solves below keep a tile of kRows x kVectors vectors in registers while they read the
+// factor's entries for it. `x` points at the tile's first column; its rows are `stride` apart.
 
 // tile[r] -= sum over k < count of factor(r, k) * source(k).
 template <typename Vector, int kRows, int kVectors, typename Factor, typename Source>
@@ -65,7 +65,7 @@ SHAPESPACE_INLINE void Store(const Vector (&tile)[kRows][kVectors], const Target
   }
 }
 
-// panel(tile, i) for the rows [begin, end): four to a tile, then one by one.
+// Calls panel(tile, i) for the rows [begin, end): tiles of four rows, then of one.
 template <typename Vector, int kVectors, typename Panel>
 SHAPESPACE_INLINE void ForTiles(int begin, int end, const Panel& panel) {
   int i = begin;
@@ -136,7 +136,7 @@ SHAPESPACE_INLINE void BackwardTile(const Supernode& node, const Scalar* block, 
   }
 }
 
-// `count` columns, a multiple of kColumns, through one supernode.
+// Solves `count` columns, a multiple of kColumns, with one supernode.
 template <typename Scalar>
 SHAPESPACE_INLINE void ForwardColumns(const Supernode& node, const Scalar* block, const int* rows,
                                       Scalar* x, size_t stride, int count) {
@@ -165,7 +165,7 @@ SHAPESPACE_INLINE void BackwardColumns(const Supernode& node, const Scalar* bloc
   if (c < count) BackwardTile<Half, 1>(node, block, rows, x + c, stride);
 }
 
-// Clones must not be templates.
+// Function multiversioning does not work for templates.
 SHAPESPACE_CLONES
 void ForwardNode(const Supernode& node, const double* block, const int* rows, double* x,
                  size_t stride, int count) {
@@ -294,11 +294,11 @@ void CholeskyFactor<Scalar>::GrowBranches() {
   }
 }
 
-// Of every supernode the number of its branch, or -1 in the trunk.
+// Per supernode, the index of its branch, or -1 in the trunk.
 template <typename Scalar>
 std::vector<int> CholeskyFactor<Scalar>::AssignBranches(const std::vector<int>& node_of_row) const {
   const int num_nodes = static_cast<int>(supernodes_.size());
-  // A supernode's parent has the first row below it, and comes later.
+  // The parent of a supernode contains the first row below it, and has a larger index.
   std::vector<int> parent(num_nodes, -1), branch_of(num_nodes, -1), open;
   std::vector<std::vector<int>> children(num_nodes);
   std::vector<double> work(num_nodes, 0);  // of the subtree
@@ -317,7 +317,7 @@ std::vector<int> CholeskyFactor<Scalar>::AssignBranches(const std::vector<int>& 
     work[parent[s]] += work[s];
   }
   if (total <= kWorthBranches) return branch_of;
-  // Subtrees are split until none is so large that others would wait for it.
+  // Split subtrees until none is so large that other threads would wait for it.
   int num_branches = 0;
   while (!open.empty()) {
     const int s = open.back();
@@ -334,7 +334,7 @@ std::vector<int> CholeskyFactor<Scalar>::AssignBranches(const std::vector<int>& 
   return branch_of;
 }
 
-// Gives a branch rows of its own for what it adds to rows that are outside of it.
+// Assigns separate rows to a branch for its contributions to rows outside.
 template <typename Scalar>
 template <typename IsOutside>
 void CholeskyFactor<Scalar>::GatherOutsideRows(const IsOutside& is_outside, Branch* branch) {
@@ -363,7 +363,8 @@ void CholeskyFactor<Scalar>::GatherOutsideRows(const IsOutside& is_outside, Bran
 template <typename Scalar>
 template <typename Task>
 void CholeskyFactor<Scalar>::ForChunks(int tasks, int width, const Task& task) const {
-  // At least two chunks of a single task, where there are columns for two: one for each thread.
+  // A single task is split into at least two chunks, if there are enough columns, to use several
+  // threads.
   const int groups = width / kColumns;
   const int chunks = std::max(tasks == 1 ? std::min(2, groups) : 1, (width + kChunk - 1) / kChunk);
   ParallelFor(tasks * chunks, [&](int i) {

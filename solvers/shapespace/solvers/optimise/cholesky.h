@@ -8,25 +8,25 @@
 
 namespace shapespace::internal {
 
-/// Columns begin .. begin + width of a factor that share one pattern: a dense trapezoid, column
-/// after column, `height` apart, whose first `width` rows are the columns themselves.
+/// Columns begin .. begin + width of a factor that share one sparsity pattern: a dense trapezoid,
+/// stored by columns of length `height`, whose first `width` rows are the columns' own.
 struct Supernode {
   int begin, width, height;
-  size_t rows;    // of its first row's index
-  size_t values;  // of its first number
+  size_t rows;    // index into the row list of its first row
+  size_t values;  // index of its first number
 };
 
-/// A subtree of the elimination tree. Its columns take nothing from other branches; what they give
-/// to rows outside, in the trunk, is gathered in rows of its own, to be added later.
+/// A subtree of the elimination tree. Its columns do not depend on other branches. Its
+/// contributions to rows outside, in the trunk, are accumulated in separate rows and added later.
 struct Branch {
-  std::vector<int> nodes;    ///< supernodes, in order
-  std::vector<int> outside;  ///< rows
-  int gathered = 0;          ///< where the rows of its own begin
+  std::vector<int> nodes;    ///< supernodes, in ascending order
+  std::vector<int> outside;  ///< rows outside of the branch
+  int gathered = 0;          ///< first of the separate rows
 };
 
 /// Sparse Cholesky factor C C^T = Q S Q^T (Q a fill-reducing permutation), computed by CHOLMOD and
-/// applied by kernels of ours, to many right-hand sides at once that lie side by side in memory.
-/// Computed in double precision, kept and applied in `Scalar`: double or float.
+/// applied by this library's kernels to many right-hand sides at once, which are adjacent in
+/// memory. Computed in double precision, stored and applied in `Scalar`: double or float.
 template <typename Scalar>
 class CholeskyFactor {
  public:
@@ -51,19 +51,20 @@ class CholeskyFactor {
   CholeskyFactor(const CholeskyFactor&) = delete;
   CholeskyFactor(CholeskyFactor&&) noexcept = default;
 
-  /// The factor of another matrix of the same pattern, in the same order of elimination and the
-  /// same memory; in double precision only. \throw SolverError if it is not positive definite: then
-  /// there is no factor until the next one.
+  /// Factors another matrix of the same pattern, with the same elimination order and the same
+  /// memory; in double precision only.
+  /// \throw SolverError if it is not positive definite; then the object must not be used until the
+  ///        next update.
   void Update(const Eigen::SparseMatrix<double>& matrix);
 
   int Size() const { return static_cast<int>(permutation_.size()); }
   /// Row i of the factor belongs to unknown Permutation()[i] of the matrix.
   const std::vector<int>& Permutation() const { return permutation_; }
-  /// Numbers stored, those of dense blocks included.
+  /// Stored numbers, including those of dense blocks.
   size_t NumNonzeros() const { return num_values_; }
 
-  /// x <- C^{-1} x and x <- C^{-T} x; `x` is WorkRows() x `width`, row by row, rows `width` apart,
-  /// a multiple of `kColumns`; rows from Size() on are scratch. Uses all threads: the branches of
+  /// x <- C^{-1} x and x <- C^{-T} x. `x` is WorkRows() x `width`, stored by rows; `width` is a
+  /// multiple of `kColumns`; rows from Size() on are scratch memory. Uses all threads: branches of
   /// the elimination tree are independent, and so are chunks of columns.
   int WorkRows() const { return work_rows_; }
   void SolveLower(Scalar* x, int width) const;
@@ -81,7 +82,7 @@ class CholeskyFactor {
   template <typename Task>
   void ForChunks(int tasks, int width, const Task& task) const;
 
-  // What CHOLMOD made; its numbers are used where they are, or rounded.
+  // The factor in CHOLMOD's form; its numbers are used in place, or rounded.
   struct Made;
   std::shared_ptr<Made> made_;
   std::vector<int> permutation_;
@@ -91,8 +92,8 @@ class CholeskyFactor {
   const Scalar* values_ = nullptr;
   size_t num_values_ = 0;
   std::vector<Branch> branches_;
-  std::vector<int> trunk_;        // supernodes in no branch
-  std::vector<int> branch_rows_;  // rows_, those outside of a branch replaced by its own
+  std::vector<int> trunk_;        // supernodes that belong to no branch
+  std::vector<int> branch_rows_;  // rows_, with separate rows outside of a branch
   int work_rows_ = 0;
 };
 

@@ -7,7 +7,7 @@ namespace {
 
 template <typename A>
 SHAPESPACE_INLINE double DotOf(const A* a, const double* b, size_t count) {
-  // Four registers of eight sums each, so that the compiler has nothing to reorder.
+  // Four registers of eight sums each, so that vectorisation needs no reordering of sums.
   constexpr size_t kLanes = 32;
   double sums[kLanes] = {};
   size_t i = 0;
@@ -29,7 +29,7 @@ SHAPESPACE_INLINE void CombineTo(const double* a, double factor, const B* b, Res
 
 }  // namespace
 
-// Clones must not be templates.
+// Function multiversioning does not work for templates.
 
 SHAPESPACE_CLONES
 double Dot(const double* a, const double* b, size_t count) { return DotOf(a, b, count); }

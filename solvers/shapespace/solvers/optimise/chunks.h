@@ -8,14 +8,15 @@
 
 namespace shapespace::internal {
 
-// Work on long vectors, piece by piece: several vectors are read at once while a piece of them is
-// in the nearest cache, on all threads, with sums that do not depend on how many there are.
+// Vector operations in chunks: several vectors are read while a chunk of each is in the L1 cache,
+// on all threads, with sums that do not depend on the number of threads.
 
-/// Numbers in a piece: three of them fit into the nearest cache.
+/// Numbers per chunk: three chunks fit into the L1 cache.
 inline constexpr size_t kChunkSize = 2048;
 
-/// Calls body(begin, count, sums) for every piece of [0, size), `sums` being `num_sums` zeros of
-/// its own to add to. \return those of all pieces, added in their order.
+/// Calls body(begin, count, sums) for every chunk of [0, size), where `sums` are `num_sums`
+/// accumulators of the chunk, initially zero. \return the sums over all chunks, added in their
+/// order.
 template <typename Body>
 std::vector<double> ForChunks(size_t size, int num_sums, const Body& body) {
   const int chunks = static_cast<int>((size + kChunkSize - 1) / kChunkSize);

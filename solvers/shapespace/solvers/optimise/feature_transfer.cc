@@ -22,14 +22,14 @@ NearestShape FeatureTransfer::operator()(const Shape& deformed, double tolerance
                                          const std::function<void()>& check_cancelled) {
   const Shape placed = gradients_(deformed);
   const Eigen::VectorXd wanted = Wanted(deformed, placed);
-  // Of strains and angles: how firmly positions are held is no measure.
+  // The change of strains and angles only, because the weight of positions is arbitrary.
   Eigen::VectorXd change = wanted - target_;
   for (size_t i = 0; i < metric_->features.size(); ++i) {
     if (metric_->features[i]->As<Position>() != nullptr) {
       change.segment(map_.FirstValue(i), placed.size()).setZero();
     }
   }
-  // Of a source that rests nothing is left but rounding.
+  // If the source does not move, the change is due to rounding.
   const double rounding = 1e3 * std::numeric_limits<double>::epsilon() * target_.norm();
   const double least = std::max(tolerance * change.squaredNorm(), rounding * rounding);
   return FindNearestShape(map_, wanted, placed, {least, max_iterations}, check_cancelled, &solver_);
@@ -41,7 +41,7 @@ Eigen::VectorXd FeatureTransfer::Wanted(const Shape& deformed, const Shape& plac
   for (size_t i = 0; i < metric_->features.size(); ++i) {
     const int begin = map_.FirstValue(i);
     if (const auto* angles = metric_->features[i]->As<Dihedral>()) {
-      // On the circle angles are added.
+      // On the unit circle: multiplying complex numbers adds angles.
       for (int e = 0; e < angles->stencils.cols(); ++e) {
         const auto value = [&](const Eigen::VectorXd& values) {
           return std::complex<double>(values(begin + 2 * e), values(begin + 2 * e + 1));

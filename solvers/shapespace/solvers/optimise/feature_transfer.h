@@ -16,22 +16,22 @@
 namespace shapespace::internal {
 
 /// Deformation transfer in feature space (docs/mathematics.md, section 11). The features of source
-/// and target belong to the same elements, and their space is flat: what is carried over is the
-/// source's change of them as it is. Positions are those of `GradientTransfer`, where the search
-/// for the shape begins too. Every shape is found on its own.
+/// and target belong to the same elements, and feature space is a vector space: the change of the
+/// source's features is added to the target's. Positions and the initial guess are those of
+/// `GradientTransfer`. Shapes are found independently of each other.
 class FeatureTransfer {
  public:
   /// `source` and `target` as for `GradientTransfer`, in the metric's unit.
   FeatureTransfer(std::shared_ptr<const Metric> metric, const Shape& source, const Shape& target);
 
-  /// What the target becomes as the source becomes `deformed`. `tolerance` is a share of the
-  /// squared change of all features but positions. \throw SolverError if the metric is not
-  /// definite.
+  /// The target's shape that corresponds to the source's shape `deformed`. `tolerance` is a share
+  /// of the squared change of all features except positions.
+  /// \throw SolverError if the metric is not definite.
   NearestShape operator()(const Shape& deformed, double tolerance, int max_iterations,
                           const std::function<void()>& check_cancelled);
 
  private:
-  // What the target's features should become.
+  // The features that the target should have.
   Eigen::VectorXd Wanted(const Shape& deformed, const Shape& placed) const;
 
   const std::shared_ptr<const Metric> metric_;

@@ -13,8 +13,8 @@
 
 namespace shapespace::internal {
 
-/// Two edges of a triangle, and a normal whose length is the root of twice the area, so that it
-/// grows with the triangle (Sumner and Popovic 2004, section 3).
+/// Two edges of a triangle, and a normal with the square root of twice the area as its length, so
+/// that it scales with the triangle (Sumner and Popovic 2004, section 3).
 inline Eigen::Matrix3d Frame(const Shape& shape, const Eigen::Vector3i& triangle) {
   Eigen::Matrix3d frame;
   frame.col(0) = shape.col(triangle(1)) - shape.col(triangle(0));
@@ -24,7 +24,7 @@ inline Eigen::Matrix3d Frame(const Shape& shape, const Eigen::Vector3i& triangle
   return frame;
 }
 
-/// Its inverse; of a collapsed triangle the pseudo-inverse.
+/// Its inverse; for a collapsed triangle the pseudo-inverse.
 inline Eigen::Matrix3d InverseFrame(const Eigen::Matrix3d& frame) {
   return frame.completeOrthogonalDecomposition().pseudoInverse();
 }

@@ -11,7 +11,7 @@
 namespace shapespace::internal {
 namespace {
 
-// The factor of `scalar` + `diagonal`, in which vertices that are given are tied to no other.
+// The factor of `scalar` + diag(`diagonal`), with the prescribed vertices decoupled.
 std::shared_ptr<const CholeskyFactor<float>> FactorOf(const Eigen::SparseMatrix<double>& scalar,
                                                       const Eigen::VectorXd& diagonal,
                                                       const std::vector<char>& given) {
@@ -36,7 +36,7 @@ std::vector<char> Marks(int size, const std::vector<int>& vertices) {
   return marks;
 }
 
-// Of each vertex its row in the factor.
+// Per vertex, its row in the factor.
 std::vector<int> Places(const CholeskyFactor<float>& factor) {
   std::vector<int> places(factor.Size());
   for (int i = 0; i < factor.Size(); ++i) places[factor.Permutation()[i]] = i;
@@ -64,7 +64,7 @@ void FreeEndFactors::SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights,
   const int width = PaddedWidth<float>(3 * count);
   const std::vector<int> places = Places(*end_);
   std::vector<float> work(static_cast<size_t>(end_->WorkRows()) * width, 0.0f);
-  // Numbers about 1 fit a float.
+  // Scale to numbers of the order of 1, which are safe in single precision.
   std::vector<double> units(count);
   for (int i = 0; i < count; ++i) {
     units[i] = rights[i].cwiseAbs().maxCoeff();
@@ -144,8 +144,9 @@ FreeEndPreconditioner::FreeEndPreconditioner(const FreeEndFactors& factors,
 void FreeEndPreconditioner::Apply(const double* gradient, double unit, double* result) {
   const int n = energy_.Inner(), stride = energy_.Stride(), size = factors_.end_->Size();
   const double scale = 1 / unit, root = 1 / std::sqrt(static_cast<double>(n));
-  // The gradient by the differences y_t is a sum over all later times. Its mean over t is for the
-  // end's factor, in the orthonormal direction (1, ..., 1) / sqrt n; the rest for the other.
+  // The derivative with respect to a difference y_t is the sum of the gradient over all later
+  // times. Its mean over t, in the orthonormal direction (1, ..., 1) / sqrt n, is for the factor
+  // `end_`; the rest for `between_`.
   ForRows(size, [&](int v) {
     const double* const g = gradient + 3 * static_cast<size_t>(energy_.Row(v)) * stride;
     float* const end = &end_work_[static_cast<size_t>(end_place_[v]) * end_width_];
@@ -187,7 +188,7 @@ void FreeEndPreconditioner::Apply(const double* gradient, double unit, double* r
         sum += share + between[axis * n + t];
         out[axis * stride + t] = unit * sum;
       }
-      if (factors_.given_[v]) out[axis * stride + n - 1] = 0;  // but for rounding it is
+      if (factors_.given_[v]) out[axis * stride + n - 1] = 0;  // exactly, without rounding
     }
   });
 }

@@ -12,11 +12,11 @@
 namespace shapespace::internal {
 namespace {
 
-// A triangle's area counts as such a share of its longest side's square at least, and of the mean
-// area: what is thinner, on either body, or smaller tells less of what goes on around it.
+// Lower limits of a triangle's area: this share of its longest side's square, and of the mean area.
+// Thinner triangles, on either body, and smaller ones are less reliable.
 constexpr double kSliver = 1e-2, kSmall = 1e-3;
-// How firmly the mesh as a whole is held where the source's displacements lead, against how firmly
-// it holds together: too little to show where it is connected.
+// Weight of the vertices' positions relative to the deformation gradients. It only determines the
+// position of components, and is too small to have a visible effect otherwise.
 constexpr double kPlace = 1e-4;
 
 }  // namespace
@@ -43,7 +43,8 @@ GradientTransfer::GradientTransfer(std::shared_ptr<const Connectivity> connectiv
   }
   const double mean_area = num_triangles > 0 ? area.mean() : 0;
   for (int f = 0; f < num_triangles; ++f) {
-    // |F - S|^2 as a sum over the sides: of each the product of the other two at their corner.
+    // |F - S|^2 as a sum over the sides, weighted by the scalar product of the other two sides
+    // (cotangent weights).
     const double counted = std::max({area(f), least(f), kSmall * mean_area}) / quality(f);
     for (int k = 0; k < 3; ++k) {
       const int a = triangles(k, f), b = triangles((k + 1) % 3, f), c = triangles((k + 2) % 3, f);

@@ -13,24 +13,25 @@
 namespace shapespace::internal {
 
 /// Deformation transfer after Sumner and Popovic, "Deformation Transfer for Triangle Meshes"
-/// (SIGGRAPH 2004): the shape of the target whose triangles are deformed as the source's, sum_f
-/// |F_f - S_f|^2 least, F_f and S_f being the deformation gradients of triangle f on target and
-/// source. (Their fourth vertex, along a triangle's normal, is of one triangle only; eliminated, it
-/// leaves the gradient within the triangle's plane.) One scalar linear system for all shapes.
+/// (SIGGRAPH 2004): the shape of the target that minimises sum_f |F_f - S_f|^2, where F_f and S_f
+/// are the deformation gradients of triangle f on target and source. (Their fourth vertex, along a
+/// triangle's normal, belongs to one triangle only; eliminating it leaves the gradient within the
+/// triangle's plane.) One scalar linear system for all shapes.
 ///
-/// Edges that lead to vertices without triangles, as in graphs, change by the source's vectors.
-/// What all that leaves open, as the places of a mesh's components, is taken from the source too.
+/// Edges to vertices without triangles, as in graphs, change by the same vectors as on the source.
+/// What is not determined by this, such as the positions of a mesh's components, is taken from the
+/// source too.
 class GradientTransfer {
  public:
-  /// Source and target, 3 x m, stand alike and in one size: what they are deformed from.
+  /// Source and target at rest, 3 x m, in the same orientation and size.
   GradientTransfer(std::shared_ptr<const Connectivity> connectivity, const Shape& source,
                    const Shape& target);
 
-  /// What the target becomes as the source becomes `deformed`.
+  /// The target's shape that corresponds to the source's shape `deformed`.
   Shape operator()(const Shape& deformed) const;
 
  private:
-  // An edge of a triangle on the target, that counts for so much.
+  // An edge of a triangle on the target, with its weight.
   struct Side {
     int from, to;
     double weight;
@@ -38,9 +39,9 @@ class GradientTransfer {
 
   const std::shared_ptr<const Connectivity> connectivity_;
   const Shape source_, target_;
-  std::vector<Side> sides_;                // three a triangle, then the edges without
-  std::vector<Eigen::Matrix3d> inverses_;  // of the source's frames, a triangle
-  double place_ = 0;                       // weight of a vertex staying where the source says
+  std::vector<Side> sides_;                // three per triangle, then the edges without triangles
+  std::vector<Eigen::Matrix3d> inverses_;  // of the source's frames, per triangle
+  double place_ = 0;                       // weight of positions
   std::unique_ptr<Cholesky> factor_;
 };
 

@@ -10,7 +10,7 @@
 namespace shapespace::internal {
 namespace {
 
-// Vertices of a handle that every level of a hierarchy keeps.
+// Number of a handle's vertices that are kept on every level of a hierarchy.
 constexpr int kPins = 12;
 
 void CheckHandle(const Handle& handle, int number, int num_vertices) {
@@ -100,7 +100,7 @@ Shape HandleTargets::At(double t) const {
 
 Grip HandleTargets::Restrict(const std::vector<int>& vertices, const Eigen::VectorXd& areas,
                              double strength) const {
-  // Area of each handle on this mesh, and the number of those that pull.
+  // Area of each handle on this mesh, and the number of soft handles with any.
   std::vector<double> area(handles_.size(), 0.0);
   const auto for_held = [&](const auto& body) {
     size_t i = 0;
@@ -167,7 +167,7 @@ bool HandleTargets::HoldAlike(const HandleTargets& other) const {
 
 bool HandleTargets::IsNear(const HandleTargets& other, double most) const {
   for (size_t h = 0; h < handles_.size(); ++h) {
-    // A full turn leads to the same place by another way.
+    // Angles that differ by a full turn have the same end but not the same course.
     if (std::abs(handles_[h].motion.angle - other.handles_[h].motion.angle) > most) return false;
   }
   for (double t : {0.5, 1.0}) {

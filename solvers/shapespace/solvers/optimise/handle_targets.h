@@ -11,49 +11,50 @@
 
 namespace shapespace::internal {
 
-/// What the handles of a deformation ask for, vertex by vertex. Where handles share a vertex, hard
-/// ones go before soft ones, and among equals the vertex is asked to be at the (weighted) mean of
-/// their targets.
+/// The constraints and penalties of a deformation's handles, per vertex. If handles share a vertex,
+/// hard handles take precedence over soft ones, and between handles of one kind the target is the
+/// (weighted) mean.
 class HandleTargets {
  public:
-  /// `rest` is the mesh to deform, in the user's unit; targets are in units of `unit`, seen from
-  /// `origin`. \throw InvalidOptions naming the handle and what is wrong with it.
+  /// `rest` is the mesh to deform, in the user's unit; targets are relative to `origin`, in units
+  /// of `unit`.
+  /// \throw InvalidOptions naming the handle and the error in it.
   HandleTargets(const std::vector<Handle>& handles, const Shape& rest,
                 const Eigen::Vector3d& origin, double unit);
 
-  /// The vertices that a handle holds, rising.
+  /// The vertices that belong to a handle, in ascending order.
   const std::vector<int>& Held() const { return held_; }
-  /// Whether the place of Held()[i] is given in all shapes, or in the last.
+  /// Whether the position of Held()[i] is prescribed in all shapes, or in the last.
   bool IsCarried(size_t i) const { return hold_[i] == Hold::kCarried; }
   bool IsGiven(size_t i) const { return hold_[i] != Hold::kSoft; }
-  /// Of each of these, where it shall be at t: 3 x Held(). What is not given at t lies on the
-  /// straight way, or the motion, there.
+  /// Targets of these vertices at time t: 3 x Held(). For positions that are not prescribed at t,
+  /// the target lies on the straight line or on the motion to the final target.
   Shape At(double t) const;
 
-  /// A mesh that has `vertices` (rising) of this one, in which they have `areas`. Soft handles pull
-  /// at their mean squared distance, weighted by area, so that the strength does not depend on how
-  /// many vertices a handle has; and together as one, so that it does not depend on how many
-  /// handles there are: sum_p pull_p |p - target|^2 = strength * mean over handles of the weight
-  /// times that.
+  /// The constraints on a mesh that has `vertices` (ascending) of this one, whose areas are
+  /// `areas`. A soft handle is a penalty on the area-weighted mean squared distance, which is
+  /// independent of its number of vertices; the penalties of several handles are averaged, so that
+  /// the total is independent of their number: sum_p pull_p |p - target|^2 = strength * mean over
+  /// soft handles of weight * mean squared distance.
   Grip Restrict(const std::vector<int>& vertices, const Eigen::VectorXd& areas,
                 double strength) const;
 
   /// The largest angle by which a handle turns, in radians.
   double GreatestTurn() const;
 
-  /// So many of each handle's vertices, far from each other, that it keeps its form on a coarse
-  /// mesh.
+  /// Vertices of each handle that are far from each other and numerous enough to preserve its shape
+  /// on a coarse mesh.
   std::vector<int> Pins() const;
 
-  /// True if the same vertices are held in the same way, wherever to.
+  /// True if the same vertices are held in the same way, with whatever targets.
   bool HoldAlike(const HandleTargets& other) const;
-  /// Of targets that hold alike: true if no angle differs by more than `most` radians, and on the
-  /// way and at its end no place by more than `most`.
+  /// For targets that hold alike: true if no angle differs by more than `most` radians, and no
+  /// target half way or at the end by more than `most`.
   bool IsNear(const HandleTargets& other, double most) const;
 
  private:
   enum class Hold { kSoft, kLanded, kCarried };
-  struct Part {  // of what holds a vertex
+  struct Part {  // of a handle that holds a vertex
     int handle, place;
     double weight;
   };
@@ -65,8 +66,8 @@ class HandleTargets {
   Eigen::Vector3d origin_;
   double unit_;
   std::vector<int> held_;
-  std::vector<Hold> hold_;                // of each held vertex
-  std::vector<std::vector<Part>> parts_;  // likewise
+  std::vector<Hold> hold_;                // per held vertex
+  std::vector<std::vector<Part>> parts_;  // per held vertex
 };
 
 }  // namespace shapespace::internal

@@ -10,8 +10,8 @@
 namespace shapespace::internal {
 namespace {
 
-// What holds the vertices of a level. What nothing holds stays where it is, also where a cost of
-// volume would have it move.
+// The constraints on a level. All vertices of components without a handle are prescribed, because a
+// cost of volume could move them.
 Grip GripOf(const HandleTargets& targets, const std::vector<int>& vertices,
             const std::vector<int>& component, const Eigen::VectorXd& areas, double strength) {
   Grip grip = targets.Restrict(vertices, areas, strength);

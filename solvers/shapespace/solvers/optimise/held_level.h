@@ -10,11 +10,11 @@
 
 namespace shapespace::internal {
 
-/// One level of the hierarchy of a mesh that handles hold. Places are those of all held vertices,
-/// 3 x HandleTargets::Held(), of which the level has some.
+/// One level of the hierarchy of a mesh that is deformed by handles. `places` are always the
+/// targets of all held vertices, 3 x HandleTargets::Held(), of which the level contains some.
 class HeldLevel {
  public:
-  /// `rest` is the mesh on this level, which has `vertices` (rising) of it, each of a connected
+  /// `rest` is the mesh on this level, which has `vertices` (ascending) of it, each of a connected
   /// `component` (-1: of none). `strength` as in HandleTargets::Restrict.
   HeldLevel(const std::shared_ptr<const Metric>& metric, Shape rest,
             const std::vector<int>& vertices, std::vector<int> component,
@@ -25,19 +25,19 @@ class HeldLevel {
   const Shape& Rest() const { return path_.Rest(); }
   int NumVertices() const { return static_cast<int>(component_.size()); }
 
-  /// Each connected piece moves rigidly with what is held of it, to its places.
+  /// Moves each connected component rigidly so that its held vertices fit their targets.
   void MoveComponents(const Shape& places, Shape* shape) const;
-  /// Moves what is held of all shapes but the first to its `places`, one for each shape, and takes
-  /// the rest along.
+  /// Moves the held vertices of all shapes but the first to their targets `places`, one matrix per
+  /// shape, and all other vertices with them.
   void GoAlong(const std::vector<Shape>& places, std::vector<Shape>* shapes) const;
-  /// Puts what is given, in the `last` shape or in all of them, to its places.
+  /// Sets the prescribed vertices, of the `last` shape or of any shape, to their targets.
   void Place(const Shape& places, bool last, Shape* shape) const;
-  /// The places by vertex; 0 where nothing holds.
+  /// The targets by vertex; 0 for vertices that are not held.
   Shape Target(const Shape& places) const;
 
  private:
   struct Held {
-    int column;           // of the places
+    int column;           // of `places`
     int vertex;           // of the level
     bool carried, given;  // as in HandleTargets
   };

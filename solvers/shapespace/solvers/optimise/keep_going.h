@@ -7,8 +7,8 @@
 
 namespace shapespace::internal {
 
-/// Asks after every iteration of a Ceres solver whether to go on; a no ends it as USER_SUCCESS, so
-/// that Ceres hands over the best that it has.
+/// Asks after every iteration of a Ceres solver whether to continue; if not, the solver ends with
+/// USER_SUCCESS, so that Ceres returns the best iterate.
 class KeepGoing final : public ceres::IterationCallback {
  public:
   explicit KeepGoing(const std::function<bool(int, double)>& ask) : ask_(ask) {}

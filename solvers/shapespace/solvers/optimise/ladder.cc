@@ -13,7 +13,7 @@
 namespace shapespace::internal {
 namespace {
 
-// So that a copy of the source comes out as its motion to ten digits.
+// Small enough that a copy of the source reproduces its motion to ten digits.
 constexpr double kStepTolerance = 1e-12;
 
 Path TwoShapes(const std::shared_ptr<const Metric>& metric, const Shape& from, const Shape& to) {
@@ -26,7 +26,7 @@ Path TwoShapes(const std::shared_ptr<const Metric>& metric, const Shape& from, c
   return path;
 }
 
-// What a path carries as motions becomes part of its shapes.
+// Applies the path's rigid motions to its shapes.
 void TurnShapes(Path* path) {
   for (int i = 0; i < path->NumShapes(); ++i) {
     path->shapes[i] = path->motions[i].rotation * path->shapes[i];
@@ -72,7 +72,7 @@ Shape Ladder::Climb(const Rung& rung, const Shape& target, TransferSummary::Step
   const GeodesicSummary& geodesic = rung.geodesic.summary;
   row->ratio = geodesic.Ratio();
   row->warnings = geodesic.warnings;
-  // Along a rung without length nothing changes, and the target's step is the source's.
+  // For a rung of length zero, the target's step equals the source's.
   if (HasNoLength(rung)) return rung.next + (target - rung.from);
   TransportOptions transport;
   transport.connection = options_.connection;

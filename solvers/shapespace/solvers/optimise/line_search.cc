@@ -7,18 +7,18 @@
 namespace shapespace::internal {
 namespace {
 
-// The usual constants of quasi-Newton methods: nearly any decrease will do, and the slope need only
-// be a little flatter than at the start.
+// The usual constants of quasi-Newton methods: a small decrease is sufficient, and the slope need
+// only be slightly flatter than at the start.
 constexpr double kDecrease = 1e-4, kFlatness = 0.9;
-// Relative differences of sums of millions of terms that mean nothing.
+// Relative differences of sums of millions of terms below this are rounding.
 constexpr double kRounding = 1e-14;
 constexpr int kMaxTrials = 20;
-// A new trial keeps this share of the bracket away from its ends; without a bracket it goes at most
-// kFurthest times as far.
+// A new trial stays away from the bracket's ends by this share of its width; without a bracket it
+// goes at most kFurthest times as far.
 constexpr double kMargin = 0.1, kFurthest = 10;
 
-// The minimum of the cubic through both values and slopes, kept within the bracket; the middle of
-// it where there is no minimum, or a value is not finite.
+// The minimum of the cubic through both values and slopes, limited to the bracket; the bracket's
+// middle if there is no minimum, or a value is not finite.
 double Between(const LinePoint& low, const LinePoint& high) {
   const double width = high.step - low.step;
   const double sum = low.slope + high.slope - 3 * (high.value - low.value) / width;
@@ -27,7 +27,7 @@ double Between(const LinePoint& low, const LinePoint& high) {
   return low.step + width * (std::isfinite(share) ? std::clamp(share, kMargin, 1 - kMargin) : 0.5);
 }
 
-// Where the slope would vanish if it went on as from `before` to `low`.
+// The zero of the slope, extrapolated linearly from `before` and `low`.
 double Beyond(const LinePoint& before, const LinePoint& low) {
   const double flatter = low.slope - before.slope;
   const double further =
@@ -48,7 +48,8 @@ LinePoint SearchLine(const LinePoint& start,
     const bool equal = std::abs(point.value - start.value) <= kRounding * std::abs(start.value) &&
                        point.slope <= (2 * kDecrease - 1) * start.slope;
     if ((decreases || equal) && std::isfinite(point.slope)) {
-      // Past the minimum is as good, and saves trials, unless only rounding calls it a decrease.
+      // A point beyond the minimum is accepted too, which saves trials, unless the decrease may be
+      // due to rounding.
       const bool lower = point.value < start.value && point.slope >= kFlatness * start.slope;
       if (lower || std::abs(point.slope) <= -kFlatness * start.slope) return point;
       if (point.slope > 0) {

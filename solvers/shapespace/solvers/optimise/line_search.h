@@ -5,17 +5,17 @@
 
 namespace shapespace::internal {
 
-/// A function's value and slope where one is after `step` times a direction.
+/// Value and slope of a function along a direction, at `step` times the direction.
 struct LinePoint {
   double step, value, slope;
 };
 
-/// A step that satisfies the Wolfe conditions (Nocedal and Wright, Numerical Optimization, section
-/// 3.1): 1 if it does, else found by bracketing and cubic interpolation. `start` is at step
-/// 0 and goes down. Values that are not finite count as too large. Near the minimum, where values
-/// differ by rounding only, slopes decide (Hager and Zhang 2005, approximate Wolfe conditions).
-/// \return the last point that `evaluate` was called for; if none was found that satisfies both
-///         conditions, one that is lower than the start, or else `start`.
+/// Finds a step that satisfies the Wolfe conditions (Nocedal and Wright, Numerical Optimization,
+/// section 3.1): 1 if it does, otherwise by bracketing and cubic interpolation. `start` is at step
+/// 0 and has a negative slope. Values that are not finite count as too large. Near the minimum,
+/// where values differ only by rounding, slopes are compared instead (Hager and Zhang 2005,
+/// approximate Wolfe conditions). \return the last point for which `evaluate` was called; if no
+/// point satisfies both conditions, one lower than the start, or else `start`.
 LinePoint SearchLine(const LinePoint& start, const std::function<LinePoint(double step)>& evaluate);
 
 }  // namespace shapespace::internal

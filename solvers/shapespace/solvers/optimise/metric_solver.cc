@@ -23,7 +23,7 @@ void MetricSolver::Factor(const FeatureDerivative& at) {
 }
 
 void MetricSolver::HalfSolve(bool transposed, Eigen::VectorXd* x) const {
-  // The factor's kernels take rows of several right-hand sides.
+  // The factor's kernels need several right-hand sides per row.
   constexpr int kWidth = Cholesky::kColumns;
   std::vector<double> rows(static_cast<size_t>(kWidth) * factor_->WorkRows(), 0.0);
   for (int i = 0; i < x->size(); ++i) rows[kWidth * static_cast<size_t>(i)] = (*x)(i);
@@ -58,7 +58,8 @@ double MetricSolver::DualNorm(const Tangent& b) const {
 MetricSolver::Result MetricSolver::Solve(const FeatureDerivative& left,
                                          const FeatureDerivative& right, const Tangent& b,
                                          double tolerance, int max_iterations, Tangent* x) const {
-  // Preconditioned from both sides, C^{-1} left^T right C^{-T}, so that lengths are the metric's.
+  // Preconditioned from both sides, C^{-1} left^T right C^{-T}, so that norms are those of the
+  // metric.
   const auto apply = [&](Eigen::VectorXd y) {
     HalfSolve(true, &y);
     Eigen::VectorXd z = Permuted(left.TransposeTimes(right.Times(Unpermuted(y))));
@@ -79,7 +80,7 @@ MetricSolver::Result MetricSolver::Solve(const FeatureDerivative& left,
   while (result.iterations < max_iterations && result.residual > tolerance) {
     const int k = result.iterations++;
     Eigen::VectorXd next = apply(basis[k]);
-    // Twice, so that the basis stays orthogonal to rounding.
+    // Orthogonalised twice, which keeps the basis orthogonal up to rounding.
     for (int round = 0; round < 2; ++round) {
       for (int i = 0; i <= k; ++i) {
         const double share = basis[i].dot(next);
@@ -88,7 +89,7 @@ MetricSolver::Result MetricSolver::Solve(const FeatureDerivative& left,
       }
     }
     hessenberg(k + 1, k) = next.norm();
-    // The best combination so far: a small least squares problem.
+    // The best combination so far solves a small least squares problem.
     const auto small = hessenberg.topLeftCorner(k + 2, k + 1);
     Eigen::VectorXd target = Eigen::VectorXd::Zero(k + 2);
     target(0) = 1;

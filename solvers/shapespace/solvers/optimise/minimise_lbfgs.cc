@@ -13,9 +13,9 @@
 namespace shapespace::internal {
 namespace {
 
-// The energy as a function of y, in units of its value at the start; y itself is scaled so that the
-// Hessian still resembles the identity. Ceres' absolute tolerances then mean the same for any
-// input.
+// The energy as a function of y, in units of its value at the start; y is scaled so that the
+// Hessian still approximates the identity. Ceres' absolute tolerances then have the same meaning
+// for any input.
 class PreconditionedEnergy final : public ceres::FirstOrderFunction {
  public:
   PreconditionedEnergy(const Objective& energy, ChangeOfVariables* variables,
@@ -48,7 +48,7 @@ class PreconditionedEnergy final : public ceres::FirstOrderFunction {
   mutable std::vector<double> unknowns_, gradient_;
 };
 
-// Ends the solve once what is left to gain is little beside what has been gained (MinimiseOptions).
+// Ends the solve when the remaining gain is small relative to the gain so far (MinimiseOptions).
 class EnoughGained final : public ceres::IterationCallback {
  public:
   explicit EnoughGained(double enough) : enough_(enough) {}
@@ -111,8 +111,8 @@ MinimiseResult MinimiseLbfgs(const Objective& energy, ChangeOfVariables* variabl
   result.energy = summary.final_cost * unit;
   result.iterations = static_cast<int>(summary.iterations.size()) - 1;
   result.remaining = RemainingDecrease(energy, variables, *unknowns);
-  // A line search that finds no descent at a point where there is nothing to gain has converged to
-  // rounding; anywhere else it has stalled.
+  // If a line search finds no decrease at a point with nothing left to gain, the solve has
+  // converged to rounding; otherwise it has stalled.
   if (keep_going.Stopped()) {
     result.stop = Stop::kCancelled;
   } else if (summary.termination_type == ceres::CONVERGENCE ||

@@ -11,15 +11,15 @@
 namespace shapespace::internal {
 namespace {
 
-// A pair of step and change of gradient enters the history where the slope along the step rises by
-// at least this share of what it was.
+// A pair of step and change of gradient enters the history if the slope along the step has
+// increased by at least this share of its initial absolute value.
 constexpr double kLeastCurvature = 1e-3;
 
-// Where nothing is left to gain but this share of the tolerance, a start is a minimum, and a line
-// search that finds no descent has converged to rounding.
+// If the estimated gain is less than this share of the tolerance, the start is a minimum, or a line
+// search without decrease has converged to rounding.
 constexpr double kNothingLeft = 1e-3;
 
-// A vector whose memory nothing fills before it is written: that is done by all threads.
+// Uninitialised memory, so that all threads take part in its first write.
 template <typename Number>
 using Buffer = std::unique_ptr<Number[]>;
 template <typename Number = double>
@@ -27,9 +27,10 @@ Buffer<Number> MakeBuffer(size_t size) {
   return Buffer<Number>(new Number[size]);
 }
 
-// The algorithm in its usual form walks through the history twice, forth and back, every dot
-// product waiting for the one before. Here the vectors' products with each other are kept, so that
-// all sums of a walk are one pass over memory, and all dot products of it another.
+// The usual algorithm traverses the history twice, backward and forward, and each scalar product
+// depends on the previous one. Here the vectors' scalar products with each other are stored, so
+// that all linear combinations of a traversal take one pass over memory, and all its scalar
+// products another.
 class ThreadedLbfgs {
  public:
   ThreadedLbfgs(const Objective& energy, const Precondition& precondition,
@@ -65,16 +66,16 @@ class ThreadedLbfgs {
   }
 
  private:
-  // The vectors are rounded, which is no error: `direction` is what a step goes along, and the
-  // preconditioner works in single precision.
+  // The vectors are in single precision, which causes no inconsistency: a step is taken along the
+  // rounded `direction`, and the preconditioner works in single precision anyway.
   struct Pair {
-    Buffer<float> direction;   // of the unknowns, without its length
+    Buffer<float> direction;   // of the unknowns, not scaled by `length`
     Buffer<float> change;      // of the gradient, preconditioned
     double length = 0;         // the step is `length` times `direction`
     double curvature = 0;      // step . change of the gradient
     double step_gradient = 0;  // step . gradient at the current point
-    // Of this pair and each later one: step . change of the gradient, and the product of the change
-    // of the gradient with the preconditioned one.
+    // For this pair and each later one: step . change of the gradient, and the product of the
+    // change of the gradient with the preconditioned one.
     std::vector<double> step_change, change_change;
   };
 
@@ -98,7 +99,8 @@ class ThreadedLbfgs {
   }
 
   Stop Iterate() {
-    // One short step of the line search says little; two small decreases in a row end the solve.
+    // One short step of the line search is no sign of convergence; two small decreases in a row end
+    // the solve.
     int small = 0;
     for (;; ++result_.iterations) {
       if (options_.keep_going && !options_.keep_going(result_.iterations, value_)) {
@@ -108,8 +110,8 @@ class ThreadedLbfgs {
       if (result_.iterations >= options_.max_iterations) return Stop::kMaxIterations;
       const double before = value_;
       double slope = FindDirection();
-      const double promise = -0.5 * slope;  // what the quasi-Newton model says a step will gain
-      // A direction that leads upwards, by rounding, promises nothing and proves nothing.
+      const double promise = -0.5 * slope;  // gain predicted by the model
+      // If rounding makes the direction lead upwards, the predicted gain has no meaning.
       if (promise >= 0 &&
           promise <= std::max(kNothingLeft * options_.tolerance * value_,
                               options_.enough * (result_.initial_energy - value_))) {
@@ -125,9 +127,10 @@ class ThreadedLbfgs {
     }
   }
 
-  // Preconditions the gradient, and so the last change of it, whose products with all changes are
-  // taken. Returns the gradient's with each preconditioned change. The preconditioner's scale is
-  // made to fit what the last step has seen of the Hessian (Nocedal and Wright, equation 7.20).
+  // Preconditions the gradient and thereby its last change, and computes the products of the latter
+  // with all changes. Returns the products of the gradient with each preconditioned change. The
+  // preconditioner's scale is adapted to the last step's curvature (Nocedal and Wright, equation
+  // 7.20).
   std::vector<double> PreconditionGradient() {
     precondition_(gradient_.get(), unit_, work_.get());
     const int pairs = static_cast<int>(history_.size());
@@ -154,8 +157,8 @@ class ThreadedLbfgs {
     return products;
   }
 
-  // Of minus the direction, as a sum over pairs: what each (preconditioned) change and each step
-  // is multiplied by. These are the two walks through the history, on products alone.
+  // The coefficients of minus the direction as a linear combination of the (preconditioned) changes
+  // and steps of the pairs, from the two traversals of the history, on scalar products alone.
   struct Weights {
     std::vector<double> changes, steps;
   };
@@ -186,14 +189,14 @@ class ThreadedLbfgs {
   }
 
   // Appends a pair whose direction is minus the quasi-Newton approximation times the gradient, and
-  // leaves in `work_` where a whole step leads. Returns the slope.
+  // stores the end of a full step in `work_`. Returns the slope.
   double FindDirection() {
     const int pairs = static_cast<int>(history_.size());
     fresh_ = pairs == 0;
     const Weights weights = WalkThroughHistory(PreconditionGradient());
     Pair next;
     const bool full = pairs == options_.rank;
-    if (full) {  // the oldest pair's memory is overwritten, piece by piece
+    if (full) {  // the oldest pair's memory is overwritten chunk by chunk
       next.direction.swap(history_.front().direction);
     } else {
       next.direction = MakeBuffer<float>(size_);
@@ -221,12 +224,12 @@ class ThreadedLbfgs {
     return slope;
   }
 
-  // Goes along the last pair's direction and completes the pair, or drops it. False if no lower
-  // point was found.
+  // Searches along the last pair's direction and completes the pair, or drops it. Returns false if
+  // no lower point was found.
   bool Search(double slope) {
     Pair& last = history_.back();
     const Buffer<float>& direction = last.direction;
-    bool whole = true;  // `work_` is where a whole step leads
+    bool whole = true;  // `work_` contains the end of a full step
     const LinePoint start = {0, value_, slope};
     const LinePoint end = !(slope < 0) ? start : SearchLine(start, [&](double step) {
       if (!whole || step != 1) {
@@ -250,7 +253,7 @@ class ThreadedLbfgs {
     const int pairs = static_cast<int>(history_.size());
     last.length = end.step;
     last.curvature = end.step * (end.slope - slope);
-    // The change takes the place of the old gradient.
+    // The change overwrites the old gradient.
     const std::vector<double> products =
         ForChunks(size_, pairs, [&](size_t begin, size_t count, double* sums) {
           Combine(&trial_gradient_[begin], -1, &gradient_[begin], &gradient_[begin], count);
@@ -283,7 +286,7 @@ class ThreadedLbfgs {
   const size_t size_;
   Buffer<double> x_, work_, preconditioned_, change_, gradient_, trial_gradient_;
   double value_ = 0, unit_ = 1, scale_ = 1;
-  bool fresh_ = true;          // no history bears on the direction
+  bool fresh_ = true;          // no history influences the direction
   bool fresh_change_ = false;  // the last pair's change has not been preconditioned yet
   std::vector<Pair> history_;  // oldest first
   MinimiseResult result_;

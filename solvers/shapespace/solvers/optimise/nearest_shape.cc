@@ -7,7 +7,7 @@
 namespace shapespace::internal {
 namespace {
 
-// A step is shortened until it lowers the squared distance by such a share of what it promises.
+// A step is shortened until it gains this share of its predicted decrease.
 constexpr double kSufficient = 1e-4;
 constexpr int kHalvings = 8;
 

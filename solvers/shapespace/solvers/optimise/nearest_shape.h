@@ -11,10 +11,10 @@
 
 namespace shapespace::internal {
 
-/// What `FindNearestShape` is asked for.
+/// Options of `FindNearestShape`.
 struct NearestShapeOptions {
-  /// The shape is found when an iteration can lower, or has lowered, the squared distance by no
-  /// more than this.
+  /// Converged when the decrease of the squared distance in an iteration, predicted or actual, is
+  /// not more than this.
   double tolerance = 0;
   int max_iterations = 0;
 };
@@ -23,12 +23,12 @@ struct NearestShape {
   Shape shape;
   double squared_distance = 0;  ///< |Phi(shape) - target|^2
   int iterations = 0;
-  bool converged = false;  ///< found, and not run out of iterations or stuck
+  bool converged = false;  ///< false if it ran out of iterations or found no decrease
 };
 
-/// The shape whose features are nearest to `target`, argmin |Phi(P) - target|^2, by Gauss and
-/// Newton's method from `start`; `solver` factors the metric on the way, and is left with the last
-/// factor. `check_cancelled` is called before every iteration, and may throw.
+/// The shape whose features are nearest to `target`, argmin |Phi(P) - target|^2, by the
+/// Gauss-Newton method from `start`. `solver` factors the metric in each iteration and keeps the
+/// last factor. `check_cancelled` is called before every iteration, and may throw.
 /// \throw SolverError if the metric is not definite at a shape on the way.
 NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& target,
                               const Shape& start, const NearestShapeOptions& options,

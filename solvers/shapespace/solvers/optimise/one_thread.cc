@@ -7,7 +7,7 @@
 namespace shapespace::internal {
 namespace {
 
-// A number that a library keeps, if the program is linked with that library.
+// A setting of a library, if the program is linked with that library.
 struct Setting {
   Setting(const char* get_name, const char* set_name)
       : get(reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, get_name))),
@@ -23,7 +23,7 @@ const Setting& BlasThreads() {
   return setting;
 }
 
-// At most so many parallel regions of OpenMP within each other, of the calling thread.
+// The calling thread's maximum number of nested parallel regions of OpenMP.
 const Setting& Levels() {
   static const Setting setting("omp_get_max_active_levels", "omp_set_max_active_levels");
   return setting;

@@ -3,11 +3,11 @@
 
 namespace shapespace::internal {
 
-/// While it lives, CHOLMOD and the BLAS under it work on the calling thread alone, where they are
-/// built with OpenMP and are OpenBLAS. Their own threads take turns of microseconds and wait for
-/// each other by spinning: that gains little on an idle machine, and where anything else runs it
-/// costs many times what it gains (docs/performance.md). OpenBLAS has one number of threads for the
-/// whole program: it is given back when the last of several objects goes.
+/// While an object of this class exists, CHOLMOD and its BLAS use the calling thread only, if they
+/// are built with OpenMP and OpenBLAS. Their own threads synchronise every few microseconds by
+/// busy-waiting: that gains little on an idle machine and is many times slower on a busy one
+/// (docs/performance.md). OpenBLAS has one number of threads for the whole program; it is restored
+/// when the last of several objects is destroyed.
 class OneThread {
  public:
   OneThread();
@@ -15,7 +15,7 @@ class OneThread {
   ~OneThread();
 
  private:
-  int levels_ = 0;  ///< of OpenMP's regions, to go back to
+  int levels_ = 0;  ///< the previous limit of OpenMP's nested regions
 };
 
 }  // namespace shapespace::internal

@@ -9,14 +9,15 @@
 namespace shapespace::internal {
 namespace {
 
-// Meshes up to this size are solved from every start: they take milliseconds, and hold enough of
-// the shape to tell good valleys from bad ones.
+// Meshes up to this size are solved from every start: this takes milliseconds, and they have enough
+// detail to distinguish good local minima from bad ones.
 constexpr int kTrialVertices = 1000;
 
-// Where another level follows, a solve may stop when a further step is expected to gain less than
-// this share of what it has gained. Refinement in time by cubics has an error of fourth order; the
-// energy in excess goes with its square, and so falls by 256 from one level to the next. What the
-// next one will add is thus at least a 256th of what this one added; this is an eighth of that.
+// If another level follows, a solve may stop when a further step is expected to gain less than this
+// share of the gain so far. Refinement in time by cubics has an error of fourth order, and the
+// excess energy is of its square, so it decreases by a factor of 256 from one level to the next.
+// The next level thus adds at least a 256th of the gain on this one; the limit is an eighth of
+// that.
 constexpr double kEnough = 1.0 / 2048;
 
 const char* Name(GeodesicStart start) {
@@ -44,7 +45,7 @@ int NumVertices(const Resolution& resolution) {
   return resolution.GetMetric()->connectivity->NumVertices();
 }
 
-// How many steps it takes milliseconds to take.
+// The number of first steps that take only milliseconds.
 size_t TrialSteps(const std::vector<ScheduleStep>& schedule,
                   const std::vector<Resolution>& resolutions) {
   size_t trial = 1;
@@ -153,7 +154,7 @@ std::vector<Shape> Piece::OneInnerShape(GeodesicStart start, int level) {
     case GeodesicStart::kLast:
       return {ends[0], ends[1], ends[1]};
     case GeodesicStart::kRigid: {
-      // The paper's advice for blends that degenerate: a first round as rigid as possible.
+      // The paper's advice for degenerate blends: a first solve that is as rigid as possible.
       Resolution rigid(FreezeMetric(MetricOptions::Rigid(),
                                     resolutions_[level].GetMetric()->connectivity, ends, 1),
                        ends);

@@ -10,47 +10,48 @@
 
 namespace shapespace::internal {
 
-/// Tells `workload` of all steps that a `Piece` will take.
+/// Adds all steps that a `Piece` will take to `workload`.
 void Plan(const std::vector<ScheduleStep>& schedule, const std::vector<Resolution>& resolutions,
           GeodesicStart start, Workload* workload);
 
 /// The solve between two neighbouring poses, coarse to fine in space and time.
 class Piece {
  public:
-  /// Between pose `index` and the next. `resolutions` has one entry for each level of `hierarchy`;
-  /// `workload` knows of the piece (`Plan`).
+  /// For the piece between pose `index` and the next. `resolutions` has one entry for each level of
+  /// `hierarchy`; `workload` contains the piece's steps (`Plan`).
   Piece(int index, const Hierarchy& hierarchy, std::vector<Resolution>* resolutions,
         const GeodesicOptions& options, Workload* workload, GeodesicSummary* summary);
 
-  /// Takes all steps. The first ones, with one inner shape on few vertices, decide which valley the
-  /// whole body lies in: they are taken from every start, and the best goes on. Once `workload` was
-  /// asked to stop nothing is solved any more: shapes are lifted and refined only.
+  /// Takes all steps. The first ones, with one inner shape on few vertices, select the valley
+  /// (local minimum) of the path: they are solved from every start, and the best result is
+  /// continued. After `workload` was asked to stop, shapes are only lifted and refined.
   void Run(const std::vector<ScheduleStep>& schedule);
   /// The path found on the finest level.
   std::vector<Shape> Result() && { return std::move(known_.back().shapes); }
 
  private:
-  // What was found last on a level: the ends and the inner shapes.
+  // The last result on a level: the ends and the inner shapes.
   struct Known {
     std::vector<Shape> shapes;
-    // The shapes of the next coarser level on which they sit, found for the same times.
+    // The shapes of the next coarser level from which they were lifted, at the same times.
     std::vector<Shape> base;
   };
 
-  // All levels after some steps of the schedule, from one start.
+  // The results on all levels after some steps of the schedule, from one start.
   struct Attempt {
     GeodesicStart start = GeodesicStart::kBlend;
     std::vector<Known> known = {};
     double energy = 0;              // scaled, of the last step
-    std::vector<size_t> rows = {};  // of the summary's table
+    std::vector<size_t> rows = {};  // in the summary's table
   };
 
   Attempt TakeSteps(const std::vector<ScheduleStep>& schedule, size_t begin, size_t end,
                     Attempt attempt);
   void TakeStep(const ScheduleStep& step, GeodesicStart start, bool last);
   std::vector<Shape> OneInnerShape(GeodesicStart start, int level);
-  // The coarser level's shapes with the detail that this level's shapes had, at the times around
-  // each, on the coarser level's then: right also where parts turn far between those times.
+  // The coarser level's shapes with detail from this level's earlier shapes. The detail at a time
+  // is taken from the earlier shapes around it, each relative to the coarse shape of its own time,
+  // which is correct also if parts turn far between these times.
   std::vector<Shape> Lift(const ScheduleStep& step) const;
 
   const int index_;
@@ -59,7 +60,7 @@ class Piece {
   const GeodesicOptions& options_;
   Workload& workload_;
   GeodesicSummary& summary_;
-  std::vector<Known> known_;  // by level
+  std::vector<Known> known_;  // per level
 };
 
 }  // namespace shapespace::internal

@@ -8,7 +8,7 @@
 namespace shapespace::internal {
 namespace {
 
-// Without a position term translations cost nothing; this share of it keeps the matrix definite.
+// Without a position term translations have no cost; this share of one keeps the matrix definite.
 constexpr double kLeastLambda = 1e-6;
 
 }  // namespace
@@ -22,7 +22,7 @@ Eigen::SparseMatrix<double> ScalarMetric(const Metric& metric, const std::vector
   };
   const bool quartic = quartic_segments > 0;
   for (const auto& feature : metric.features) {
-    // A sum over all elements is a dense row: left to the quasi-Newton updates.
+    // A sum feature is a dense row, and is left to the quasi-Newton updates.
     if (feature->IsSum()) continue;
     const int corners = feature->VerticesPerElement(), num_rows = feature->NumScalarRows();
     Eigen::MatrixXd k(corners, num_rows), block(corners, corners);
@@ -105,7 +105,7 @@ void ChangeOfVariables::ApplyTranspose(const double* gradient, double scale, dou
     for (int axis = 0; axis < 3; ++axis) {
       double* const z = &work_[static_cast<size_t>(i) * width_ + axis * inner_];
       const double* const g = gradient + (3 * static_cast<size_t>(row_[i]) + axis) * stride_;
-      double flow = 0;  // subdiagonal times the result one time earlier
+      double flow = 0;  // subdiagonal times the previous result
       for (int t = 0; t < inner_; ++t) {
         z[t] = (scale * g[t] - flow) * diagonal_[t];
         flow = below_[t] * z[t];
@@ -133,7 +133,7 @@ Preconditioner::Preconditioner(const CholeskyFactor<float>& factor, const PathEn
 
 void Preconditioner::Apply(const double* gradient, double unit, double* result) {
   const double scale = 1 / unit;
-  // Both factors of T at once, since those of S act on other indices.
+  // Both factors of T at once, because they commute with those of S.
   ForRows(factor_.Size(), [&](int i) {
     const double* const g = gradient + 3 * static_cast<size_t>(row_[i]) * stride_;
     float* const z = &work_[static_cast<size_t>(i) * width_];

@@ -13,9 +13,10 @@
 
 namespace shapespace::internal {
 
-/// A path from a given shape to one that is held and pulled at, on one mesh: minimises
+/// Paths on one mesh from a given shape to a last shape with constraints and penalties (Grip):
+/// minimises
 ///   E(P) + (1 / n) sum_p pull_p |p_n - target_p|^2
-/// over all of its n + 1 shapes but the first, in which some vertices are given (Grip).
+/// over all of its n + 1 shapes but the first.
 class PulledPath {
  public:
   /// In the metric's unit; `rest` is the first shape of all paths.
@@ -29,12 +30,14 @@ class PulledPath {
   /// The energy of a path of any number of shapes, unscaled.
   double Energy(const std::vector<Shape>& shapes);
 
-  /// Relaxes `shapes`, the first of which is `Rest`, by L-BFGS; what is given stays where `shapes`
-  /// have it. `target` has the places that the last shape is pulled to, and anything elsewhere.
+  /// Relaxes `shapes`, the first of which is `Rest`, by L-BFGS. Prescribed vertices keep their
+  /// positions in `shapes`. `target` contains the targets of the penalties for the last shape; its
+  /// other columns are not used.
   MinimiseResult Relax(const Shape& target, const MinimiseOptions& options,
                        std::vector<Shape>* shapes);
-  /// The same by Ceres' trust region on residual blocks, differentiated automatically: for small
-  /// meshes, and the oracle of the other. \throw InvalidOptions as MinimiseTrustRegion.
+  /// The same by Ceres' trust region on automatically differentiated residual blocks: for small
+  /// meshes, and as an independent reference.
+  /// \throw InvalidOptions as MinimiseTrustRegion.
   MinimiseResult RelaxByTrustRegion(const Shape& target, const MinimiseOptions& options,
                                     std::vector<Shape>* shapes) const;
 
@@ -43,7 +46,7 @@ class PulledPath {
 
   std::shared_ptr<const Metric> metric_;
   FreeEndFactors factors_;
-  std::optional<PathEnergy> energy_;  // of the number of shapes used last
+  std::optional<PathEnergy> energy_;  // for the number of shapes used last
 };
 
 }  // namespace shapespace::internal

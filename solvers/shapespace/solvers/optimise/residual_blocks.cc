@@ -10,7 +10,7 @@
 namespace shapespace::internal {
 namespace {
 
-// root_weight (p - target).
+// The residual root_weight (p - target).
 struct PullResidual {
   double root_weight;
   Eigen::Vector3d target;

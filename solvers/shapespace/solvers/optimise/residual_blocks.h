@@ -13,22 +13,24 @@
 
 namespace shapespace::internal {
 
-/// A problem of Ceres about the shapes of a path, every vertex of every shape a parameter block of
-/// three numbers where the shape has it. Ceres' cost is a quarter of what is minimised.
+/// A Ceres problem in the shapes of a path. Each vertex of each shape is a parameter block of three
+/// numbers, stored in the shape. Ceres' cost is a quarter of the objective.
 class ResidualBlocks {
  public:
-  /// The energy of the path `shapes` (metric's unit), differentiated automatically; quartic weight
-  /// as in PathEnergy. \throw InvalidOptions if the metric has a volume feature and more than
-  ///        cost::kMaxDenseVertices vertices: its rows are dense.
+  /// Adds the energy of the path `shapes` (metric's unit), automatically differentiated; quartic
+  /// weight as in PathEnergy.
+  /// \throw InvalidOptions if the metric has a volume feature, whose rows are dense, and more than
+  ///        cost::kMaxDenseVertices vertices.
   void AddPathEnergy(const Metric& metric, double quartic_weight, std::vector<Shape>* shapes);
-  /// weight |vertex - target|^2.
+  /// Adds weight |vertex - target|^2.
   void AddPull(double weight, const Eigen::Vector3d& target, double* vertex);
 
-  /// Vertices that stay as they are.
+  /// Keeps vertices constant.
   void Fix(double* vertex);
   void Fix(Shape* shape);
 
-  /// Levenberg and Marquardt's method with sparse Cholesky factors; `shapes` have the result.
+  /// Minimises by the Levenberg-Marquardt method with sparse Cholesky factors; the result is in
+  /// `shapes`.
   MinimiseResult Minimise(const MinimiseOptions& options);
 
  private:

@@ -12,18 +12,18 @@
 namespace shapespace::internal {
 namespace {
 
-// Unknowns up to which the residual-block trust region takes milliseconds, and a few iterations
-// where L-BFGS needs tens; beyond, it loses by factors.
+// Up to this number of unknowns the trust region on residual blocks takes milliseconds and a few
+// iterations, where L-BFGS takes tens; above it is slower by large factors.
 constexpr int kTrustRegionUnknowns = 400;
-// Unknowns from which on our own L-BFGS is at least 1.5 times faster than Ceres', whose vector work
-// is serial.
+// From this number of unknowns on, this library's L-BFGS is at least 1.5 times faster than Ceres',
+// whose vector operations are serial.
 constexpr double kThreadedUnknowns = 2e4;
-// History of L-BFGS: long where a level is small, short where the history would be the memory.
+// Rank of L-BFGS: high for small levels, low where the history would dominate memory.
 constexpr int kLongRank = 20, kShortRank = 5;
 constexpr double kLongRankUnknowns = 3e5;
 
-// A coarse level of the trapezoid that prepares a fine one would be biased by its quartic part,
-// which falls with the square of the number of segments.
+// Weight of the trapezoid's quartic part, which is inversely proportional to the square of the
+// number of segments. With weight 1 a coarse level in time would be a biased start for a finer one.
 double QuarticWeight(int inner, const GeodesicOptions& options) {
   return std::pow((inner + 1.0) / (options.shapes + 1.0), 2);
 }
@@ -48,7 +48,7 @@ int HistoryRank(double unknowns) { return unknowns <= kLongRankUnknowns ? kLongR
 
 void Resolution::SetPoses(std::vector<Shape> poses) {
   poses_ = std::move(poses);
-  // The trapezoid's quartic part depends on them.
+  // The trapezoid's quartic part depends on the poses.
   if (metric_->options.discretization == Discretization::kTrapezoid) factor_key_ = {-1, -1};
 }
 
@@ -135,8 +135,8 @@ PathEnergy& Resolution::EnergyOf(int inner, const GeodesicOptions& options) {
 template <typename Scalar>
 const CholeskyFactor<Scalar>& Resolution::Factor(std::optional<CholeskyFactor<Scalar>>* factor,
                                                  int piece, int inner) {
-  // One factor serves all numbers of shapes and all pieces, but for the trapezoid's quartic part;
-  // rounded, it is as good a change of variables.
+  // Except for the trapezoid's quartic part, one factor is valid for all numbers of shapes and all
+  // pieces; rounded to single precision it is equally good as a preconditioner.
   const bool trapezoid = metric_->options.discretization == Discretization::kTrapezoid;
   const std::pair<int, int> key = trapezoid ? std::make_pair(piece, inner) : std::make_pair(0, 0);
   if (factor_key_ != key) {

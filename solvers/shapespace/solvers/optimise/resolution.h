@@ -15,29 +15,29 @@
 
 namespace shapespace::internal {
 
-/// How a minimisation ended, as summaries have it.
+/// Converts the end of a minimisation to that of a summary.
 Termination Translate(Stop stop);
 
-/// Rank of the L-BFGS approximation for so many unknowns.
+/// Rank of the L-BFGS approximation for this number of unknowns.
 int HistoryRank(double unknowns);
 
-/// One level of a hierarchy, ready to be solved on: the metric and the poses there, and the factor
-/// of its preconditioner.
+/// One level of a hierarchy, prepared for solving: its metric, the poses on it, and the factor of
+/// its preconditioner.
 class Resolution {
  public:
-  /// `poses` are aligned, in the metric's unit: those of the path, unless others are set.
+  /// `poses` are aligned, in the metric's unit: the path's poses unless others are set.
   Resolution(std::shared_ptr<const Metric> metric, std::vector<Shape> poses)
       : metric_(std::move(metric)), all_poses_(std::move(poses)), poses_(all_poses_) {}
 
-  /// Other poses to lead a path through. The preconditioner stays that of the first ones, so that a
-  /// solve does not depend on the solves before it.
+  /// Sets the poses of the next path. The preconditioner remains that of the poses given first, so
+  /// that a solve does not depend on earlier ones.
   void SetPoses(std::vector<Shape> poses);
 
   const std::shared_ptr<const Metric>& GetMetric() const { return metric_; }
   const Shape& Pose(int i) const { return poses_[i]; }
 
-  /// Relaxes the inner ones of `shapes`, a path from pose `piece` to the next, and says how it
-  /// went. `enough` as in MinimiseOptions; 0 for the last solve on the way.
+  /// Relaxes the inner ones of `shapes`, a path from pose `piece` to the next, and returns the
+  /// summary's row. `enough` as in MinimiseOptions; 0 if no further solve follows.
   GeodesicSummary::Level Relax(int piece, double enough, const GeodesicOptions& options,
                                Workload* workload, std::vector<Shape>* shapes);
 
@@ -56,10 +56,10 @@ class Resolution {
   PathEnergy& EnergyOf(int inner, const GeodesicOptions& options);
 
   std::shared_ptr<const Metric> metric_;
-  std::vector<Shape> all_poses_;      // which the factor is made for
-  std::vector<Shape> poses_;          // of the path
-  std::optional<PathEnergy> energy_;  // of the number of inner shapes used last
-  // Of the scalar metric, in the precision that the optimiser takes.
+  std::vector<Shape> all_poses_;      // for which the factor is computed
+  std::vector<Shape> poses_;          // of the current path
+  std::optional<PathEnergy> energy_;  // for the number of inner shapes used last
+  // Of the scalar metric, in the precision of the optimiser.
   std::optional<CholeskyFactor<double>> factor_;
   std::optional<CholeskyFactor<float>> single_factor_;
   std::pair<int, int> factor_key_ = {-1, -1};

@@ -8,7 +8,7 @@
 
 namespace shapespace::internal {
 
-/// Rows that one task of a thread takes.
+/// Rows per task of a thread.
 inline constexpr int kRowsPerTask = 512;
 
 /// Calls body(i) for every i in [0, num_rows), on all threads.
@@ -20,7 +20,7 @@ void ForRows(int num_rows, const Body& body) {
   });
 }
 
-/// Numbers in rows of `count` columns, padded as the kernels of a factor like them.
+/// Numbers per row of `count` columns, padded for the factor's kernels.
 template <typename Scalar>
 int PaddedWidth(int count) {
   constexpr int kColumns = CholeskyFactor<Scalar>::kColumns;

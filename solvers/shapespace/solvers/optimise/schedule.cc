@@ -5,7 +5,7 @@
 namespace shapespace::internal {
 namespace {
 
-// Numbers of inner shapes from one to `shapes`: each halves the segments of the next.
+// Numbers of inner shapes from one to `shapes`; each has about half the segments of the next.
 std::vector<int> TimeLevels(int shapes) {
   std::vector<int> levels = {shapes};
   while (levels.back() > 1) levels.push_back(std::max(1, (levels.back() - 1) / 2));
@@ -13,9 +13,9 @@ std::vector<int> TimeLevels(int shapes) {
   return levels;
 }
 
-// Up to so many inner shapes the levels are taken in turn. On the mesh itself few shapes would let
-// parts wait and then jump, which costs little more there than moving evenly, and later refinements
-// in time do not mend. With seven they hardly do.
+// Up to this number of inner shapes all levels are solved in turn. With fewer shapes on the mesh
+// itself, parts would rest and then jump, which there costs little more than even motion, and later
+// refinements in time do not correct it. With seven this hardly happens.
 constexpr int kShapesOnAllLevels = 7;
 
 }  // namespace

@@ -7,15 +7,15 @@
 
 namespace shapespace::internal {
 
-/// One solve on the way from few unknowns to all.
+/// One solve of a coarse-to-fine schedule.
 struct ScheduleStep {
   int level;   ///< of the hierarchy, 0 the coarsest
   int shapes;  ///< inner shapes
 };
 
-/// The steps of `schedule` on a hierarchy of `levels` levels, to `shapes` inner shapes: the first
-/// on the coarsest level that the schedule uses with one inner shape, the last on the finest with
-/// all; each has either the level or the number of shapes of one before it.
+/// The steps of `schedule` on a hierarchy of `levels` levels with `shapes` inner shapes at the end.
+/// The first step has one inner shape on the coarsest level of the schedule, the last step all
+/// shapes on the finest; each step has the level or the number of shapes of an earlier one.
 std::vector<ScheduleStep> MakeSchedule(GeodesicSchedule schedule, int levels, int shapes);
 
 }  // namespace shapespace::internal

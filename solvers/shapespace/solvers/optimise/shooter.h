@@ -14,22 +14,23 @@
 
 namespace shapespace::internal {
 
-/// The variational integrator on a mesh and, where that has no root, on coarser ones.
+/// The variational integrator on a mesh and, where the step has no root on it, on coarser meshes.
 ///
-/// Between real poses some edges shrink manyfold and some triangles nearly collapse. Going on at
-/// constant speed would give them lengths that no triangle has: the step's equation then has no
-/// root, for the sake of a few triangles out of thousands. Decimated meshes have good triangles in
-/// all poses. So the step is made on the next coarser mesh, and its detail carried along (Kilian et
-/// al. 2007, Figure 4), each neighbourhood turning as the coarse mesh under it does. That serves as
-/// a better start; where even from there no root is found, as the answer.
+/// Between real poses some edges shrink by large factors and some triangles nearly collapse. If
+/// they continued at constant speed, their edges would violate the triangle inequality; then the
+/// step's equation has no root because of a few triangles out of thousands. Decimated meshes have
+/// well-shaped triangles in all poses. So the step is solved on the next coarser mesh and lifted
+/// with detail (Kilian et al. 2007, Figure 4), which rotates with the coarse mesh. The result is
+/// used as a better initial guess; if there is still no root, it is used as the result of the step.
 class Shooter {
  public:
-  /// `known` are shapes of `metric`'s mesh, in its unit: what is decimated. `check_cancelled` is
-  /// called every now and then while a step is made, and may throw to end it.
+  /// `known` are shapes of `metric`'s mesh, in its unit, that are decimated together.
+  /// `check_cancelled` is called regularly during a step, and may throw to end it.
   Shooter(std::shared_ptr<const Metric> metric, std::vector<Shape> known,
           const ExponentialOptions& options, std::function<void()> check_cancelled);
 
-  /// The shape after the departure. \throw SolverError if no resolution has an answer.
+  /// The shape after the departure.
+  /// \throw SolverError if there is no solution on any resolution.
   Shape Next(const Departure& departure, ExponentialSummary::Step* row);
 
   int NumFactorisations() const;
@@ -49,7 +50,7 @@ class Shooter {
   const ExponentialOptions options_;
   const std::function<void()> check_cancelled_;
   std::vector<Shape> known_;
-  std::optional<Hierarchy> hierarchy_;          // once it is needed
+  std::optional<Hierarchy> hierarchy_;          // computed when first needed
   std::vector<std::unique_ptr<Level>> levels_;  // the finest last
 };
 

@@ -11,7 +11,7 @@
 
 namespace shapespace::internal {
 
-/// Solves the factor's system for each column of `right`.
+/// Solves the factored system for each column of `right`.
 inline Eigen::MatrixXd Solve(const Cholesky& factor, const Eigen::MatrixXd& right) {
   const auto columns = static_cast<int>(right.cols());
   const int width = (columns + Cholesky::kColumns - 1) / Cholesky::kColumns * Cholesky::kColumns;

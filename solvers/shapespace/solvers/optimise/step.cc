@@ -11,25 +11,24 @@
 namespace shapespace::internal {
 namespace {
 
-// Newton's method goes on only while each of its iterations leaves at most so much of the residual.
-// On real meshes it either goes straight to the root or wanders off, often to the root of another
-// geodesic, on which some sliver of a triangle has turned over.
+// Newton's method continues only while each of its iterations reduces the residual at least to this
+// share. On real meshes it either converges fast or moves away, often to the root of another
+// geodesic, on which a thin triangle has turned over.
 constexpr double kContraction = 0.5;
-// The load is increased by no less than this.
+// Least increment of the load.
 constexpr double kLeastIncrement = 1.0 / 64;
-// Linear systems are solved to two digits; Newton's method then gains as many a step. Near a root
-// that takes up to eight iterations.
+// Linear systems are solved to two digits, so that an iteration of Newton's method gains two
+// digits. Near a root that takes up to eight iterations.
 constexpr double kForcing = 1e-2;
 constexpr int kMaxKrylov = 20;
-// As exactly as rounding allows: without sum features the second iteration is there.
+// Accuracy limited by rounding; without sum features two iterations reach it.
 constexpr double kExact = 1e-13;
 
-// Where the nearest shape in feature space stands in, it is of first order only.
+// For the nearest shape in feature space, which is an approximation of first order only.
 constexpr int kMaxGaussNewton = 20;
 constexpr double kNearestTolerance = 1e-4;
 
-// How far in feature space rounding of a shape's coordinates leads, with signs that have nothing to
-// do with each other.
+// The change in feature space due to the rounding of a shape's coordinates, with alternating signs.
 double RoundingOf(const Shape& shape, const FeatureDerivative& derivative) {
   Tangent rounding = std::numeric_limits<double>::epsilon() * shape.cwiseAbs();
   for (int i = 1; i < rounding.size(); i += 2) rounding.data()[i] *= -1;
@@ -91,7 +90,7 @@ bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* ro
   while (load < 1) {
     if (row->iterations == last_iteration) return false;
     const double next = std::min(1.0, load + increment);
-    // What the expansion has missed so far, it will miss again.
+    // The previous error of the expansion is added as a correction.
     Shape root = reached + expansion(next) - expansion(load);
     ++row->increments;
     if (FindRoot(next, last_iteration - row->iterations, options, row, &root)) {
@@ -163,9 +162,10 @@ Shape Step::Nearest(ExponentialSummary::Step* row) const {
       {kNearestTolerance * speed_ * speed_, kMaxGaussNewton}, check_cancelled_, &solver_);
   row->iterations += nearest.iterations;
   const Shape& shape = nearest.shape;
-  solver_.Factor(derivative_);  // what residuals are measured by
+  solver_.Factor(derivative_);  // by which residuals are measured
   if (shape == departure_.shape) {
-    throw SolverError("no shape near is any closer to where the motion leads: it comes to a halt");
+    throw SolverError(
+        "no nearby shape is closer to the one that the step requires: the motion comes to a halt");
   }
   return shape;
 }

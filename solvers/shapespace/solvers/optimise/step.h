@@ -12,23 +12,24 @@
 
 namespace shapespace::internal {
 
-/// Along a geodesic the speed is constant but for the discretisation's error: what changes it by
-/// more than this share has lost the geodesic.
+/// Along a geodesic the speed is constant up to the discretisation's error. If a step changes it by
+/// more than this share, its root belongs to another geodesic.
 inline constexpr double kSpeedChange = 0.1;
 
-/// Where a step starts from: a shape, and either the shape before it, one step earlier, or, at the
-/// start of a geodesic, its velocity per step.
+/// The data from which a step starts: a shape, and either the shape before it, one step earlier,
+/// or, at the beginning of a geodesic, its velocity per step.
 struct Departure {
   Shape shape;
-  Shape previous;    ///< empty: there is a velocity
-  Tangent velocity;  ///< empty: there is a previous shape
-  double speed = 0;  ///< of the geodesic where it began, a step being the unit of time; 0: unknown
+  Shape previous;    ///< empty if there is a velocity
+  Tangent velocity;  ///< empty if there is a previous shape
+  double speed = 0;  ///< at the beginning of the geodesic, with a step as the unit of time; 0:
+                     ///< unknown
 };
 
 /// One step of the variational integrator on one mesh: finds P with
 ///   J(P_i)^T [Phi(P) - Phi(P_i) - change] = 0,
-/// where `change` is Phi(P_i) - Phi(P_{i-1}), or J(P_i) X for a start with velocity X: the discrete
-/// Legendre transform, whose inverse the logarithm is.
+/// where `change` is Phi(P_i) - Phi(P_{i-1}), or J(P_i) X for an initial velocity X. This is the
+/// discrete Legendre transform; the logarithm is its inverse.
 class Step {
  public:
   /// `map` and `solver` are kept by reference; the solver factors the metric at the departure.
@@ -37,12 +38,12 @@ class Step {
   Step(const FeatureMap& map, MetricSolver* solver, const Departure& departure,
        const std::function<void()>& check_cancelled);
 
-  /// The root that belongs to the departure: the end of the curve of roots P(load), load from 0 to
-  /// 1, of the same equation with load * change in place of change. Newton's method first tries to
-  /// reach P(1) at once; where it would wander off, the load is increased bit by bit.
-  /// row->increments tells in how many. A root whose segment is much longer or shorter in the
-  /// metric than the geodesic's is another geodesic's, and does not count.
-  /// \return false, with `*shape` as it was, if there is none; otherwise row->converged is true.
+  /// Finds the root that belongs to the departure: the end of the curve of roots P(load), for load
+  /// from 0 to 1, of the same equation with load * change in place of change. Newton's method first
+  /// tries load 1 directly; if it does not converge well, the load is increased in stages, whose
+  /// number is row->increments. A root whose segment is much longer or shorter in the metric than
+  /// the geodesic's segments belongs to another geodesic and is rejected. \return false, with
+  /// `*shape` unchanged, if there is no such root; otherwise row->converged is true.
   bool Solve(const ExponentialOptions& options, ExponentialSummary::Step* row, Shape* shape) const;
 
   /// The residual of any shape, as a share of the step.
@@ -51,17 +52,18 @@ class Step {
            speed_;
   }
 
-  /// Whether the segment to a root under `load` is as long in the metric as the segment before, and
-  /// as the geodesic's first one if that is known, but for a tenth.
+  /// Whether the segment to a root under `load` has the length, in the metric, of the segment
+  /// before it and, if known, of the geodesic's first one, up to a tenth.
   bool HasTheGeodesicsSpeed(const Shape& root, double load) const;
 
-  /// The shape nearest in feature space to what the step asks for: argmin |Phi(P) - Phi(P_i) -
-  /// change|^2, by Gauss-Newton from the departure. Of first order only.
-  /// \throw SolverError if that is the departure's own: the motion would stand still from here on.
+  /// The shape whose features are nearest to those that the step requires: argmin |Phi(P) -
+  /// Phi(P_i) - change|^2, by Gauss-Newton from the departure. Of first order only.
+  /// \throw SolverError if that is the departure's own shape, because all further steps would then
+  ///        be zero.
   Shape Nearest(ExponentialSummary::Step* row) const;
 
  private:
-  // The root under one load, from `*shape`, by `iterations` of Newton's method at most.
+  // Finds the root under one load, from `*shape`, by at most `iterations` of Newton's method.
   bool FindRoot(double load, int iterations, const ExponentialOptions& options,
                 ExponentialSummary::Step* row, Shape* shape) const;
   bool SolveWithNewton(double load, int iterations, double tolerance, ExponentialSummary::Step* row,
@@ -74,12 +76,12 @@ class Step {
   Eigen::VectorXd current_;  // Phi(P_i)
   Eigen::VectorXd change_;
   double speed_ = 0;     // |change|
-  double rounding_ = 0;  // of Phi(P_i), for want of digits in P_i
+  double rounding_ = 0;  // error of Phi(P_i) due to the rounding of P_i
   FeatureDerivative derivative_;
 };
 
-/// Solves G(P) x = b as exactly as rounding allows, the solver's factor being of G at P.
-/// \throw SolverError if it does not get there.
+/// Solves G(P) x = b to rounding accuracy, where the solver's factor is that of G at P.
+/// \throw SolverError if this fails.
 Tangent SolveMetric(const MetricSolver& solver, const FeatureDerivative& derivative,
                     const Tangent& b);
 

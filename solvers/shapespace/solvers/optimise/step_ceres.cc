@@ -35,7 +35,8 @@ class StopAtResidual final : public ceres::IterationCallback {
   double norm_;
 };
 
-// Iterations alone, or a callback, end a solve: Ceres' own tolerances measure no residual.
+// A solve ends by its number of iterations or a callback, because Ceres' own tolerances do not
+// measure the residual.
 ceres::Solver::Options SolverOptions(int max_iterations) {
   ceres::Solver::Options options;
   options.max_num_iterations = max_iterations;
@@ -65,23 +66,22 @@ StepResult SolveStepWithCeres(const FeatureMap& map, const Shape& at, const Eige
     throw SolverError("a step of the geodesic has no finite residual where it starts");
   }
 
-  // In units of the residual at `at` all numbers are moderate, as Ceres' absolute limits (of the
-  // diagonal, of the scaling of columns) expect.
+  // In units of the residual at `at`, so that all numbers are of moderate size, as Ceres' absolute
+  // limits (on the diagonal, on the scaling of columns) require.
   const cost::EulerLagrange equation(metric, at, target, 1 / unit);
   ceres::Problem problem;
   std::vector<double> sums;
   equation.AddTo(shape, &sums, &problem);
   const double enough = std::max(tolerance, equation.Rounding());
-  // As sums are weighted, k of them leave in the true residual at most sqrt(1 + k) times what Ceres
-  // sees.
+  // With the weights of the sums, the true residual of k sums is at most sqrt(1 + k) times Ceres'.
   StopAtResidual stop(enough / std::sqrt(1.0 + sums.size()));
 
   ceres::Solver::Options options = SolverOptions(max_iterations);
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  // Newton's method for as long as that lowers the residual. The damping that goes with a radius is
-  // relative to the squared derivative, in which soft motions are smaller than stiff ones by as
-  // much as 1e16: with the 1e12 of milder metrics convergence is linear (60 iterations are not
-  // enough at 1000 vertices, where this takes 3).
+  // Newton's method without damping as long as it reduces the residual. The damping of a trust
+  // region radius is relative to the squared derivative, which differs between soft and stiff
+  // motions by up to 1e16. With the radius 1e12 convergence is linear (60 iterations are not enough
+  // at 1000 vertices; this takes 3).
   options.initial_trust_region_radius = options.max_trust_region_radius;
   options.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
@@ -101,7 +101,7 @@ StepResult SolveFirstIntegral(const FeatureMap& map, const Shape& at, const Tang
   const int num_vertices = static_cast<int>(at.cols());
   StepResult result;
   const double norm = 2 * constants.norm();
-  if (norm == 0) {  // all of <x, G x> is zero
+  if (norm == 0) {  // all terms of <x, G x> are zero
     velocity->setZero(3, num_vertices);
     result.converged = true;
     return result;
@@ -117,8 +117,8 @@ StepResult SolveFirstIntegral(const FeatureMap& map, const Shape& at, const Tang
     throw SolverError("the first integral (7) has no finite residual where it starts");
   }
 
-  // Ceres' absolute limits want moderate numbers: velocities in units of `unit`, residuals in units
-  // of their norm at rest.
+  // Ceres' absolute limits require numbers of moderate size: velocities in units of `unit`,
+  // residuals in units of their norm at velocity zero.
   const double trace = matrix.diagonal().sum();
   const double unit = trace > 0 ? std::sqrt(constants.lpNorm<1>() / trace) : 1;
   Tangent unknowns = *velocity / unit;
@@ -138,7 +138,7 @@ StepResult SolveFirstIntegral(const FeatureMap& map, const Shape& at, const Tang
   ceres::Solve(options, &problem, &summary);
 
   result.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
-  // There and back again is not exact, and a start that is a root shall stay.
+  // Scaling and back is not exact, and a start that is a root must stay unchanged.
   if (result.iterations > 0) *velocity = unit * unknowns;
   result.residual = residual(*velocity);
   result.converged = result.residual <= tolerance;
@@ -146,18 +146,18 @@ StepResult SolveFirstIntegral(const FeatureMap& map, const Shape& at, const Tang
 }
 
 Tangent ProjectOntoConstraint(const Tangent& x, const Tangent& normal, double constant) {
-  // How great the constraint counts beside the distance that is minimised: what it leaves of the
-  // constraint's error is one part in its square, and that square still leaves half the digits.
+  // Weight of the constraint relative to the distance. The remaining error of the constraint is one
+  // part in the weight's square, and that square still leaves half of the digits.
   constexpr double kWeight = 1e4;
   const double norm = normal.norm();
-  const double least = std::abs(constant) / norm;  // no Y on the constraint is shorter
+  const double least = std::abs(constant) / norm;  // least norm on the constraint
   const double length = x.norm();
   if (!(norm > 0) || !std::isfinite(least) || (length > 0 && kEpsilon * least > length)) {
     throw SolverError(
-        "the constraint's normal, the metric times the path's velocity, vanishes: to meet the "
-        "constraint would change the vector beyond recognition");
+        "the constraint's normal, the metric times the path's velocity, vanishes: a vector that "
+        "satisfies the constraint would have nothing of the given one left");
   }
-  // Of size one, for Ceres' absolute limits.
+  // Scaled to size one because of Ceres' absolute limits.
   const double unit = std::max(length, least);
   if (unit == 0) return x;
   Tangent y = x / unit;
@@ -168,8 +168,8 @@ Tangent ProjectOntoConstraint(const Tangent& x, const Tangent& normal, double co
   cost::AddTransportConstraint(direction, kWeight, &bound, &y, &problem);
 
   // The problem is linear, and its gradient at x is an eigenvector of its matrix, the identity plus
-  // a multiple of n n^T. So one step of conjugate gradients, without preconditioner, solves it; the
-  // next iterations take off rounding.
+  // a multiple of n n^T. So one step of conjugate gradients without preconditioner solves it; the
+  // next iterations remove rounding errors.
   ceres::Solver::Options options = SolverOptions(3);
   options.linear_solver_type = ceres::CGNR;
   options.preconditioner_type = ceres::IDENTITY;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kHingesPerTask = 1024;
 
-// Whether a hinge turns by half a turn more than it has to, or by more in one segment than twice
-// what is half a turn's even share.
+// Whether the turns of a hinge add up to more than the least turn plus 180 degrees, or whether it
+// turns in one segment by more than twice the mean of a turn by 180 degrees.
 bool IsWound(const Dihedral& dihedral, int hinge, const std::vector<Shape>& shapes) {
   const int segments = static_cast<int>(shapes.size()) - 1;
   double first = 0, before = 0, turned = 0, fastest = 0;
@@ -50,7 +50,7 @@ std::vector<int> WoundHinges(const Dihedral& dihedral, const std::vector<Shape>&
 
 using Element = std::pair<int, int>;  // which of the metric's features, which of its elements
 
-// What an element adds to the energy, but for a factor that all have.
+// The energy of an element, up to a factor that is common to all.
 double ElementEnergy(const Metric& metric, const Element& element,
                      const std::vector<Shape>& shapes) {
   const Feature& feature = *metric.features[element.first];
@@ -73,20 +73,20 @@ void SortUnique(std::vector<T>* items) {
   items->erase(std::unique(items->begin(), items->end()), items->end());
 }
 
-// Moves vertices of a path and knows what that costs.
+// Moves vertices of a path and measures the change of energy.
 class Mover {
  public:
-  // Looks up the elements and neighbours of `vertices`, the ones that may be moved.
+  // Collects the elements and neighbours of `vertices`, the ones that may be moved.
   Mover(const Metric& metric, const std::vector<int>& vertices, std::vector<Shape>* shapes);
 
-  // Puts `group`, some of the vertices, where it costs least.
+  // Puts `group`, some of the vertices, where the energy is least.
   void Move(const std::vector<int>& group);
 
  private:
-  // Of the vertices `columns`, their positions in a shape.
+  // The positions of the vertices `columns` in a shape.
   Shape Columns(const std::vector<int>& columns, size_t shape) const;
   void Place(const std::vector<int>& group, const std::vector<Shape>& places);
-  // The sum over `elements`; stops where it exceeds `enough`.
+  // The sum over `elements`; stops when it exceeds `enough`.
   double Energy(const std::vector<Element>& elements, double enough) const;
 
   const Metric& metric_;

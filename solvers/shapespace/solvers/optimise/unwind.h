@@ -8,16 +8,16 @@
 
 namespace shapespace::internal {
 
-/// Takes single hinges of a path out of the long way round. Between two poses in which a hinge has
-/// nearly the same angle it may still turn by nearly 360 degrees, or wait and then jump, where a
-/// guess (lifted, refined in time) put a vertex on the wrong side of its neighbours. No descent
-/// leads back from there, since the energy is periodic in the angle: this is what valleys of real
-/// poses differ by. The vertices of such a hinge, together and then each on its own, are put where
-/// they sit in the first pose, in the last, or between the two, moved rigidly with their
-/// neighbours, at all times at once; what costs least is kept.
+/// Corrects single hinges of a path that turn the wrong way. Between two poses in which a hinge has
+/// nearly the same angle it may turn by nearly 360 degrees, or rest and then jump, if the initial
+/// guess (lifted, or refined in time) put a vertex on the wrong side of its neighbours. Descent
+/// cannot correct this, because the energy is periodic in the angle; it is the main difference
+/// between local minima for real poses. The vertices of such a hinge, first together and then each
+/// alone, are placed as in the first pose, as in the last, or between the two, moved rigidly with
+/// their neighbours, at all times at once; the alternative with the least energy is used.
 ///
-/// `shapes` are in the metric's unit, the ends included, which stay. O(elements) where nothing is
-/// wound. Does nothing if the metric does not see hinges.
+/// `shapes` are in the metric's unit, including the ends, which stay. O(elements) if no hinge needs
+/// correction. Does nothing if the metric has no dihedral angles.
 void Unwind(const Metric& metric, std::vector<Shape>* shapes);
 
 }  // namespace shapespace::internal

@@ -6,8 +6,8 @@
 namespace shapespace::internal {
 
 double Workload::Work(int vertices, int shapes, bool last) const {
-  // Measured on bodies of 10 K to 40 K vertices: as many iterations on all levels at a tolerance of
-  // 1e-4, twice as many on the last at 1e-6.
+  // Measured on bodies of 10 K to 40 K vertices: at a tolerance of 1e-4 all levels need the same
+  // number of iterations, at 1e-6 the last level needs twice as many.
   const double accurate = last ? std::max(1.0, -std::log10(tolerance_) / 2 - 1) : 1;
   return accurate * vertices * shapes;
 }
@@ -21,8 +21,9 @@ void Workload::Begin(const std::string& stage, int vertices, int shapes, bool la
 
 bool Workload::GoOn(int iteration, double energy) {
   if (progress_ == nullptr) return true;
-  // Decreases fall from the first to the tolerance, in a solve of L-BFGS by less and less: when the
-  // logarithm has fallen by a share s of its way, s^2.5 of the iterations were found to be done.
+  // Decreases of the energy fall from the first one to the tolerance, in L-BFGS more and more
+  // slowly: measurements showed that when the logarithm has covered a share s of its range, s^2.5
+  // of the iterations are done.
   const double drop = (energy_ - energy) / energy;
   energy_ = energy;
   if (std::isfinite(drop) && drop > 0) {

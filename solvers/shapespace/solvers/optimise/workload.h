@@ -8,26 +8,26 @@
 
 namespace shapespace::internal {
 
-/// Estimates how much of the work of many solves, one after the other, is done, and asks whether to
-/// go on. A solve costs its vertices times its inner shapes; one that is to be accurate costs more,
-/// as it takes more iterations.
+/// Estimates the completed share of a sequence of solves, and asks whether to continue. The cost of
+/// a solve is its number of vertices times inner shapes, and more for an accurate solve, which
+/// needs more iterations.
 class Workload {
  public:
   Workload(Progress* progress, double tolerance, int max_iterations)
       : progress_(progress), tolerance_(tolerance), max_iterations_(max_iterations) {}
 
-  /// There is this much more to do than was known so far. A solve is `last` of its kind if it goes
-  /// down to the tolerance.
+  /// Adds a solve to the known work. `last` is true if it goes down to the tolerance.
   void Plan(int vertices, int shapes, bool last) { planned_ += Work(vertices, shapes, last); }
 
-  /// A solve of those that are planned begins.
+  /// Begins one of the planned solves.
   void Begin(const std::string& stage, int vertices, int shapes, bool last);
 
-  /// After every iteration, with the energy in any unit, and before the first. False: stop.
+  /// To be called before the first and after every iteration, with the energy in any unit. Returns
+  /// false to stop.
   bool GoOn(int iteration, double energy);
   bool Stopped() const { return stopped_; }
 
-  /// The solve has ended.
+  /// Ends the solve.
   void End();
 
  private:
