@@ -73,8 +73,12 @@ struct Image {
 Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
                       const FilmStripOptions& options = {});
 
-/// Writes a PNG; the file appears whole or not at all.
-/// \throw FileError; InvalidOptions if `image` is empty or its size is not that of its pixels.
+/// The bytes of a PNG file.
+/// \throw InvalidOptions if `image` is empty or its size is not that of its pixels.
+std::string EncodePng(const Image& image);
+
+/// Writes it; the file appears whole or not at all.
+/// \throw FileError; InvalidOptions as above.
 void WritePng(const std::string& file, const Image& image);
 
 }  // namespace shapespace
