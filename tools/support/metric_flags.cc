@@ -4,6 +4,9 @@
 
 #include <gflags/gflags.h>
 
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/vertex_field.h>
+
 #include "support/tool.h"
 
 DEFINE_string(metric, "isometric",
@@ -23,6 +26,10 @@ DEFINE_double(volume, 0, "cost of changing the enclosed volume; start from 0.3")
 DEFINE_string(weights, "area", "weights of edges: area, or uniform as in the paper");
 DEFINE_string(discretization, "midpoint",
               "along a segment: midpoint, or trapezoid as in the paper");
+
+DEFINE_string(stiffness, "",
+              "file of factors on the cost of stretching and bending, one positive number a "
+              "vertex: a text of one number a line, or a property of a PLY file, as body.ply:name");
 
 namespace shapespace::tools {
 MetricOptions MetricFromFlags(const Connectivity* mesh) {
@@ -58,6 +65,15 @@ MetricOptions MetricFromFlags(const Connectivity* mesh) {
     }
     options.discretization =
         FLAGS_discretization == "midpoint" ? Discretization::kMidpoint : Discretization::kTrapezoid;
+  }
+  if (!FLAGS_stiffness.empty()) {
+    options.stretching_stiffness = ReadVertexField(FLAGS_stiffness);
+    for (int v = 0; v < options.stretching_stiffness.size(); ++v) {
+      if (options.stretching_stiffness(v) > 0) continue;
+      throw FileError(FLAGS_stiffness + ": the stiffness of vertex " + std::to_string(v + 1) +
+                      " is not positive");
+    }
+    options.bending_stiffness = options.stretching_stiffness;
   }
   options.Validate();
   return options;

@@ -14,6 +14,10 @@ Soup ReadObj(const std::string& file, std::string text);
 Soup ReadPly(const std::string& file, const std::string& text);
 Soup ReadOff(const std::string& file, const std::string& text);
 
+/// A property of the vertices of a PLY file, which may be any but a list.
+Eigen::VectorXd ReadPlyProperty(const std::string& file, const std::string& text,
+                                const std::string& property);
+
 }  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_MESH_READ_FORMATS_H_

@@ -94,8 +94,15 @@ bool MachineIsBigEndian() {
 
 class PlyReader {
  public:
-  PlyReader(const std::string& file, const std::string& text) : text_(text), lines_(text) {
+  PlyReader(const std::string& file, const std::string& text, std::string wanted = {})
+      : text_(text), lines_(text), wanted_(std::move(wanted)) {
     soup_.file = file;
+  }
+
+  /// The wanted property of all vertices.
+  Eigen::VectorXd ReadField() {
+    Read();
+    return std::move(field_);
   }
 
   Soup Read() {
@@ -374,15 +381,23 @@ class PlyReader {
     soup_.vertices.resize(3, count);
     soup_.appearance.vertex_colours.resize(AddColourRoles(element, &role), count);
     TellDropped(element, role);
+    int of_field = -1;
+    if (!wanted_.empty()) {
+      const std::vector<int> wanted = Roles(element, {wanted_});
+      of_field = static_cast<int>(std::find(wanted.begin(), wanted.end(), 0) - wanted.begin());
+      field_.resize(count);
+    }
     for (int v = 0; v < count; ++v) {
       Begin("vertex " + std::to_string(v + 1));
       for (size_t i = 0; i < role.size(); ++i) {
         const Property& property = element.properties[i];
-        if (role[i] < 0) {
+        if (role[i] < 0 && static_cast<int>(i) != of_field) {
           Skip(property);
           continue;
         }
         const double value = Number(property.type, property.name);
+        if (static_cast<int>(i) == of_field) field_(v) = value;
+        if (role[i] < 0) continue;
         if (role[i] >= 3) {
           soup_.appearance.vertex_colours(role[i] - 3, v) = value / *FullColour(property);
           continue;
@@ -576,6 +591,8 @@ class PlyReader {
   std::vector<double> texture_;                             // u, v, u, v, ...
   std::map<std::pair<double, double>, int> texture_index_;  // of those
   int unfit_texture_ = 0;
+  std::string wanted_;  // a property of vertices; empty for none
+  Eigen::VectorXd field_;
   Soup soup_;
 };
 
@@ -583,6 +600,11 @@ class PlyReader {
 
 Soup ReadPly(const std::string& file, const std::string& text) {
   return PlyReader(file, text).Read();
+}
+
+Eigen::VectorXd ReadPlyProperty(const std::string& file, const std::string& text,
+                                const std::string& property) {
+  return PlyReader(file, text, property).ReadField();
 }
 
 }  // namespace shapespace::internal

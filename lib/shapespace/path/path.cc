@@ -7,6 +7,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/path/align.h>
 
 namespace shapespace {
 namespace {
@@ -79,6 +80,29 @@ std::vector<Shape> Path::Placed() const {
   std::vector<Shape> result(NumShapes());
   ParallelFor(NumShapes(), [&](int i) { result[i] = Placed(i); });
   return result;
+}
+
+Path MakePath(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& placed,
+              std::vector<double> parameters) {
+  const int last = static_cast<int>(placed.size()) - 1;
+  for (const Shape& shape : placed) {
+    if (shape.cols() != metric->connectivity->NumVertices()) {
+      throw MeshError("a shape has another number of vertices than the metric");
+    }
+  }
+  Path path;
+  path.metric = metric;
+  AlignedPoses aligned = AlignPoses(*metric, placed);
+  path.shapes = std::move(aligned.shapes);
+  path.motions = std::move(aligned.motions);
+  path.parameters = std::move(parameters);
+  if (path.parameters.empty()) {
+    for (int i = 0; i <= last; ++i) path.parameters.push_back(last > 0 ? double(i) / last : 0);
+  }
+  path.poses = {0};
+  if (last > 0) path.poses.push_back(last);
+  path.Validate();
+  return path;
 }
 
 std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<double>& parameters,

@@ -42,6 +42,12 @@ struct Path {
   std::vector<Shape> Placed() const;
 };
 
+/// A path through `placed`, shapes in the user's frame and unit, at rising `parameters`; empty:
+/// evenly from 0 to 1. Its poses are the first and the last shape; set `poses` if others were
+/// given. \throw MeshError if there is no shape, or as `Path::Validate`.
+Path MakePath(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& placed,
+              std::vector<double> parameters = {});
+
 /// `shapes`, which lie at rising `parameters`, at rising `times` between the first and the last of
 /// these, by cubic interpolation in time through the four nearest shapes; a time that is a shape's
 /// own gives that shape.

@@ -463,7 +463,6 @@ Path CarryPath(const CorrespondenceResult& result, const Path& path,
     carried.back() = frame.Out(
         internal::FitGradients(*target_connectivity, frame.In(target_shape), covered, places, 0));
   }
-  Path own;
   MetricOptions options = path.metric->options;
   for (Eigen::VectorXd* field : {&options.stretching_stiffness, &options.bending_stiffness}) {
     if (field->size() == 0) continue;
@@ -472,11 +471,8 @@ Path CarryPath(const CorrespondenceResult& result, const Path& path,
                   of_vertices.transpose())
                  .transpose();
   }
-  own.metric = FreezeMetric(options, target_connectivity, carried);
-  AlignedPoses aligned = AlignPoses(*own.metric, carried);
-  own.shapes = std::move(aligned.shapes);
-  own.motions = std::move(aligned.motions);
-  own.parameters = path.parameters;
+  Path own =
+      MakePath(FreezeMetric(options, target_connectivity, carried), carried, path.parameters);
   own.poses = path.poses;
   own.extrapolated = path.extrapolated;
   own.converged = path.converged && result.summary.Converged();

@@ -22,12 +22,8 @@ constexpr double kGeodesicShare = 0.1;
 
 Path PathOfPlaced(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& placed,
                   std::vector<double> parameters, std::string provenance) {
-  Path path;
-  path.metric = metric;
-  AlignedPoses aligned = AlignPoses(*metric, placed);
-  path.shapes = std::move(aligned.shapes);
-  path.motions = std::move(aligned.motions);
-  path.parameters = std::move(parameters);
+  Path path = MakePath(metric, placed, std::move(parameters));
+  path.poses.clear();
   path.provenance = std::move(provenance);
   return path;
 }

@@ -1,0 +1,190 @@
+// Solvers under features that a user defines, against the same features of the library, which have
+// kernels, bounds and preconditioners of their own.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <ceres/problem.h>
+#include <gtest/gtest.h>
+
+#include <shapespace/bodies/bar.h>
+#include <shapespace/path/energy.h>
+#include <shapespace/solvers/cost/path_energy.h>
+#include <shapespace/solvers/deformation.h>
+#include <shapespace/solvers/exponential.h>
+#include <shapespace/solvers/geodesic.h>
+#include <shapespace/solvers/transfer.h>
+#include <shapespace/solvers/transport.h>
+
+#include "support/own_features.h"
+
+namespace shapespace {
+namespace {
+
+const Body& Bar() {
+  static const Body bar = MakeBar(6, 1, 1, 24, 3, 3);
+  return bar;
+}
+
+GeodesicResult Solve(const MetricOptions& metric, int shapes = 7) {
+  GeodesicOptions options;
+  options.metric = metric;
+  options.shapes = shapes;
+  options.tolerance = 1e-9;
+  options.max_iterations = 2000;
+  return Interpolate(Bar().connectivity, {Bar().pose(0), Bar().pose(80)}, options);
+}
+
+double Apart(const Path& a, const Path& b) {
+  double apart = 0;
+  for (int i = 0; i < a.NumShapes(); ++i) {
+    apart = std::max(apart, (a.Placed(i) - b.Placed(i)).colwise().norm().maxCoeff());
+  }
+  return apart;
+}
+
+TEST(OwnFeature, MakesTheSameGeodesicOnAllLevels) {
+  const GeodesicResult library = Solve(testing::LibraryBlend());
+  const GeodesicResult own = Solve(testing::OwnBlend());
+  ASSERT_GT(own.summary.hierarchy.size(), 1u);
+  EXPECT_TRUE(own.summary.Converged());
+  EXPECT_NEAR(own.summary.energy, library.summary.energy, 1e-6 * library.summary.energy);
+  EXPECT_NEAR(own.summary.lower_bound, library.summary.lower_bound,
+              1e-9 * library.summary.lower_bound);
+  EXPECT_LT(Apart(own.path, library.path), 2e-3);
+  // Every feature has its part of the energy, by its name.
+  double strain = -1;
+  for (const auto& [name, part] : own.summary.parts) {
+    if (name == "own strain") strain = part;
+  }
+  EXPECT_GT(strain, 0);
+}
+
+TEST(OwnFeature, GoesOnAndIsTransportedAlike) {
+  const Path path = Solve(testing::LibraryBlend()).path;
+  Path own = path;
+  own.metric =
+      FreezeMetric(testing::OwnBlend(), Bar().connectivity, {Bar().pose(0), Bar().pose(80)});
+  const ExponentialResult expected = Extrapolate(path, 3), longer = Extrapolate(own, 3);
+  EXPECT_TRUE(longer.summary.Converged());
+  EXPECT_LT(Apart(longer.path, expected.path), 1e-8);
+
+  ExponentialOptions runge_kutta;
+  runge_kutta.integrator = Integrator::kRungeKutta4;
+  EXPECT_LT(Apart(Extrapolate(own, 1, runge_kutta).path, Extrapolate(path, 1, runge_kutta).path),
+            1e-8);
+
+  const Tangent tangent = Bar().pose(1) - Bar().pose(0);
+  const Tangent there = Transport(path, {tangent}).tangents[0];
+  EXPECT_LT((Transport(own, {tangent}).tangents[0] - there).norm(), 1e-8 * there.norm());
+}
+
+TEST(OwnFeature, TransfersAlike) {
+  const std::vector<Shape> poses = {Bar().pose(0), Bar().pose(40)};
+  const auto metric = FreezeMetric({}, Bar().connectivity, poses);
+  Shape target = Bar().pose(0);
+  target.row(1) *= 1.5;
+  TransferOptions library, own;
+  library.metric.strain = 1;
+  own.metric = library.metric;
+  own.metric.strain = 0;
+  testing::RegisterOwnFeatures();
+  own.metric.features = {{"own strain", 1}};
+  const Path path = MakePath(metric, poses);
+  EXPECT_LT(Apart(Transfer(path, target, own).path, Transfer(path, target, library).path), 1e-7);
+}
+
+TEST(OwnFeature, DeformsAlike) {
+  Handle held, pulled;
+  const Shape rest = Bar().pose(0);
+  for (int v = 0; v < rest.cols(); ++v) {
+    if (rest(0, v) < rest.row(0).minCoeff() + 0.1) held.vertices.push_back(v);
+    if (rest(0, v) > rest.row(0).maxCoeff() - 0.1) pulled.vertices.push_back(v);
+  }
+  held.positions = rest(Eigen::all, held.vertices);
+  pulled.positions = Bar().pose(50)(Eigen::all, pulled.vertices);
+  const auto last = [&](const MetricOptions& metric) {
+    DeformationOptions options;
+    options.metric = metric;
+    options.tolerance = 1e-9;
+    const Path path = Deform(Bar().connectivity, rest, {held, pulled}, options).path;
+    return path.Placed(path.NumShapes() - 1);
+  };
+  EXPECT_LT((last(testing::OwnBlend()) - last(testing::LibraryBlend())).cwiseAbs().maxCoeff(),
+            5e-3);
+}
+
+// Values and gradients of Ceres' blocks, against PathEnergy.
+TEST(OwnFeature, HasResidualBlocks) {
+  const auto metric =
+      FreezeMetric(testing::OwnBlend(), Bar().connectivity, {Bar().pose(0), Bar().pose(80)});
+  std::vector<Shape> shapes;
+  for (double angle : {0.0, 30.0, 55.0, 80.0})
+    shapes.emplace_back(Bar().pose(angle) / metric->unit);
+  PathEnergy energy(metric, 2);
+  std::vector<double> unknowns(energy.Size()), gradient(energy.Size());
+  energy.Load(shapes, unknowns.data());
+  const double expected = energy.Evaluate(unknowns.data(), gradient.data());
+  std::vector<Shape> slopes = shapes;
+  energy.Store(gradient.data(), &slopes);
+
+  ceres::Problem problem;
+  cost::AddPathEnergy(*metric, &shapes, &problem);
+  ceres::Problem::EvaluateOptions evaluate;
+  for (int i : {1, 2}) {
+    for (int v = 0; v < shapes[i].cols(); ++v) {
+      evaluate.parameter_blocks.push_back(shapes[i].col(v).data());
+    }
+  }
+  double cost;
+  std::vector<double> derivative;
+  problem.Evaluate(evaluate, &cost, nullptr, &derivative, nullptr);
+  EXPECT_NEAR(4 * cost, expected, 1e-12 * expected);
+  const auto size = slopes[1].size();
+  for (int i : {1, 2}) {
+    const Eigen::Map<const Shape> got(derivative.data() + (i - 1) * size, 3, slopes[i].cols());
+    EXPECT_LT((4 * got - slopes[i]).norm(), 1e-11 * slopes[i].norm());
+  }
+}
+
+// A field that is stiff on one half moves the bending to the other, on all levels.
+TEST(Stiffness, MovesStretchingToWhereItIsSoft) {
+  MetricOptions options;
+  options.stretching_stiffness.setOnes(Bar().connectivity->NumVertices());
+  const Shape rest = Bar().pose(0);
+  const double middle = rest.row(0).mean();
+  for (int v = 0; v < rest.cols(); ++v) {
+    if (rest(0, v) < middle) options.stretching_stiffness(v) = 100;
+  }
+  options.bending_stiffness = options.stretching_stiffness;
+  Shape longer = rest;
+  longer.row(0) *= 1.4;
+  DeformationOptions deformation;
+  deformation.metric = options;
+  Handle left, right;
+  for (int v = 0; v < rest.cols(); ++v) {
+    if (rest(0, v) < rest.row(0).minCoeff() + 0.1) left.vertices.push_back(v);
+    if (rest(0, v) > rest.row(0).maxCoeff() - 0.1) right.vertices.push_back(v);
+  }
+  left.positions = longer(Eigen::all, left.vertices);
+  right.positions = longer(Eigen::all, right.vertices);
+  const Path path = Deform(Bar().connectivity, rest, {left, right}, deformation).path;
+  const Shape last = path.Placed(path.NumShapes() - 1);
+  const auto stretch = [&](bool stiff) {
+    double before = 0, after = 0;
+    for (int e = 0; e < Bar().connectivity->NumEdges(); ++e) {
+      const int a = Bar().connectivity->Edges()(0, e), b = Bar().connectivity->Edges()(1, e);
+      const double x = 0.5 * (rest(0, a) + rest(0, b)) - middle;
+      if (std::abs(x) < 0.4 || (x < 0) != stiff) continue;
+      before += std::abs(rest(0, a) - rest(0, b));
+      after += std::abs(last(0, a) - last(0, b));
+    }
+    return after / before - 1;
+  };
+  EXPECT_GT(stretch(false), 0.5);
+  EXPECT_LT(stretch(true), 0.1);
+}
+
+}  // namespace
+}  // namespace shapespace
