@@ -40,9 +40,6 @@ Poses MakePoses(std::vector<Shape> shapes, py::handle faces, const ReadOptions& 
 /// Says each through Python's warnings, as a MeshWarning.
 void Warn(const std::vector<std::string>& warnings);
 
-/// A class's repr from the attributes that `names` lists.
-std::string Describe(py::handle object, const std::vector<std::string>& names);
-
 }  // namespace shapespace::python
 
 #endif  // SHAPESPACE_PYTHON_BIND_H_

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iomanip>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -13,7 +14,6 @@
 #include <shapespace/output/frames.h>
 #include <shapespace/output/gltf.h>
 #include <shapespace/output/picture.h>
-#include <shapespace/path/align.h>
 #include <shapespace/path/anchor.h>
 #include <shapespace/path/intersections.h>
 #include <shapespace/path/path_file.h>
@@ -101,12 +101,13 @@ FilmStripOptions StripOptions(const Path& path, const py::dict& given) {
 
 // Both triangles of the metric's matrix, for tangents of shapes in the user's unit: data, row of
 // each, where columns begin.
-py::tuple FullMatrix(const Metric& metric, const Shape& shape) {
+py::tuple FullMatrix(const FrozenMetric& self, const Shape& shape) {
+  const Metric& metric = *self.metric;
   Eigen::SparseMatrix<double> full;
   {
     const py::gil_scoped_release unlocked;
     const Eigen::SparseMatrix<double> lower =
-        FeatureMap(metric).Derivative(shape / metric.unit).MetricMatrix();
+        FeatureMap(self.metric).Derivative(shape / metric.unit).MetricMatrix();
     full = lower.selfadjointView<Eigen::Lower>();
     full /= metric.unit * metric.unit;
     full.makeCompressed();
@@ -179,7 +180,7 @@ void BindMetric(py::module_* module) {
             const Shape p = ToShape(shape, "shape", n), x = ToShape(tangent, "tangent", n);
             const py::gil_scoped_release unlocked;
             const double unit = self.metric->unit;
-            return FeatureMap(*self.metric).Derivative(p / unit).Times(x / unit).norm();
+            return FeatureMap(self.metric).Derivative(p / unit).Times(x / unit).norm();
           },
           py::arg("shape"), py::arg("tangent"), R"(Length of a tangent at a shape: a pure number.
 
@@ -195,7 +196,7 @@ InvalidOptions
 )")
       .def("_matrix",
            [](const FrozenMetric& self, py::handle shape) {
-             return FullMatrix(*self.metric,
+             return FullMatrix(self,
                                ToShape(shape, "shape", self.metric->connectivity->NumVertices()));
            })
       .def("__repr__", [](const FrozenMetric& self) {
@@ -277,26 +278,16 @@ Path PathOf(const py::bytes& bytes) {
   return ReadPath(file.Name());
 }
 
-Path MakePath(const Poses& poses, const FrozenMetric& metric, const py::object& parameters) {
-  if (poses.connectivity->NumVertices() != metric.metric->connectivity->NumVertices()) {
-    throw MeshError("shapes: are not of the metric's mesh");
-  }
-  const int count = static_cast<int>(poses.shapes.size());
-  Path path;
-  path.metric = metric.metric;
-  AlignedPoses aligned = AlignPoses(*metric.metric, poses.shapes);
-  path.shapes = std::move(aligned.shapes);
-  path.motions = std::move(aligned.motions);
-  path.appearance = poses.soup.appearance;
-  for (int i = 0; i < count; ++i) {
-    path.parameters.push_back(count == 1 ? 0 : static_cast<double>(i) / (count - 1));
-    path.poses.push_back(i);
-  }
+Path PathThrough(const Poses& poses, const FrozenMetric& metric, const py::object& parameters) {
+  std::vector<double> times;
   if (!parameters.is_none()) {
     const Eigen::VectorXd given = ToVector(parameters, "parameters");
-    path.parameters.assign(given.data(), given.data() + given.size());
+    times.assign(given.data(), given.data() + given.size());
   }
-  path.Validate();
+  Path path = MakePath(metric.metric, poses.shapes, std::move(times));
+  path.poses.resize(path.shapes.size());
+  std::iota(path.poses.begin(), path.poses.end(), 0);
+  path.appearance = poses.soup.appearance;
   return path;
 }
 
@@ -324,10 +315,10 @@ parameters : array_like, optional
       .def(
           py::init([](py::handle shapes, const FrozenMetric& metric, const py::object& parameters) {
             if (py::isinstance<Poses>(shapes)) {
-              return MakePath(py::cast<const Poses&>(shapes), metric, parameters);
+              return PathThrough(py::cast<const Poses&>(shapes), metric, parameters);
             }
-            return MakePath(MakePoses(ToShapes(shapes, "shapes"), py::cast(metric)), metric,
-                            parameters);
+            return PathThrough(MakePoses(ToShapes(shapes, "shapes"), py::cast(metric)), metric,
+                               parameters);
           }),
           py::arg("shapes"), py::arg("metric"), py::arg("parameters") = py::none())
       .def_static(
