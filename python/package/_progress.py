@@ -35,9 +35,7 @@ class _Bar:
         if share is None and total:
             share = done / total
         if share is not None:
-            self._bar.n = round(100 * share, 1)
-        self._bar.update(0)
-        self._bar.refresh()
+            self._bar.update(round(100 * share, 1) - self._bar.n)
 
     def close(self):
         self._bar.close()
