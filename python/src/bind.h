@@ -7,7 +7,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/read.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/path.h>

@@ -46,7 +46,7 @@ void BindSurfaceMap(py::module_* module) {
         }
         const Eigen::Map<const Eigen::MatrixXd> function(array.data(), array.shape(1),
                                                          array.shape(0));
-        return FromMatrix(Pull(points, mesh.connectivity->Triangles(), function));
+        return FromMatrix(PullBack(points, mesh.connectivity->Triangles(), function));
       });
   py::class_<SurfaceMap>(*module, "SurfaceMap",
                          "A map between the surfaces of two meshes of different connectivity.")

@@ -17,24 +17,6 @@
 namespace shapespace::python {
 namespace {
 
-// Refuses what a file with such findings would be refused for; what remains worth saying.
-template <typename E>
-void Judge(const std::vector<Finding>& findings, bool allow_nonmanifold,
-           std::vector<std::string>* warnings) {
-  std::string refusal;
-  for (const Finding& finding : findings) {
-    if (finding.severity == Severity::kNote) continue;
-    const bool fatal = finding.severity == Severity::kFatal ||
-                       (finding.severity == Severity::kNonManifold && !allow_nonmanifold);
-    if (fatal) {
-      refusal += (refusal.empty() ? "" : "\n") + finding.message;
-    } else {
-      warnings->push_back(finding.message);
-    }
-  }
-  if (!refusal.empty()) throw E(refusal);
-}
-
 // A mesh whose connectivity is there already.
 Poses PosesOf(const std::shared_ptr<const Connectivity>& connectivity, Soup soup,
               std::vector<Shape> shapes) {
@@ -271,33 +253,30 @@ Poses MakePoses(std::vector<Shape> shapes, py::handle faces, const ReadOptions& 
   if (faces.is_none() && segments.is_none()) {
     throw py::type_error("faces: are missing; give m x 3 integers, or an object that has a mesh");
   }
-  Poses poses;
-  poses.soup.file = "shapes[0]";  // what messages name
-  poses.soup.vertices = shapes[0];
-  const int num_vertices = poses.soup.NumVertices();
-  if (!faces.is_none()) SetPolygons(faces, &poses.soup);
-  if (!segments.is_none()) {
-    poses.soup.segments = ToPairs(segments, "segments", num_vertices, num_vertices);
-  }
-  std::vector<std::pair<int, int>> stiff;
-  if (!stiffeners.is_none()) {
-    stiff = ToPairs(stiffeners, "stiffeners", num_vertices, num_vertices);
-  }
-  Judge<MeshError>(CheckSoup(poses.soup), options.allow_nonmanifold, &poses.warnings);
-  for (size_t i = 1; i < shapes.size(); ++i) {
-    Soup pose = poses.soup;
-    pose.file = "shapes[" + std::to_string(i) + "]";
-    pose.vertices = shapes[i];
-    if (options.mirror != 0 && MirrorBack(poses.soup, options.mirror, &pose)) {
-      poses.warnings.push_back("shapes[" + std::to_string(i) +
-                               "]: is a mirror image of the first; " + options.mirror +
-                               " has changed sign");
-      shapes[i] = pose.vertices;
+  std::vector<Soup> soups(shapes.size());
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    soups[i].file = "shapes[" + std::to_string(i) + "]";  // what messages name
+    soups[i].vertices = std::move(shapes[i]);
+    if (i == 0) {
+      const int num_vertices = soups[0].NumVertices();
+      if (!faces.is_none()) SetPolygons(faces, &soups[0]);
+      if (!segments.is_none()) {
+        soups[0].segments = ToPairs(segments, "segments", num_vertices, num_vertices);
+      }
+    } else {
+      soups[i].polygon_begin = soups[0].polygon_begin;
+      soups[i].corners = soups[0].corners;
+      soups[i].segments = soups[0].segments;
     }
-    Judge<CorrespondenceError>(CheckCorrespondence(poses.soup, pose), false, &poses.warnings);
   }
-  poses.connectivity = ConnectivityOf(poses.soup, shapes, stiff);
-  poses.shapes = std::move(shapes);
+  Poses poses = shapespace::MakePoses(std::move(soups), options);
+  poses.names.clear();
+  poses.soup.file.clear();
+  if (!stiffeners.is_none()) {
+    const int num_vertices = poses.connectivity->NumVertices();
+    poses.connectivity = ConnectivityOf(
+        poses.soup, poses.shapes, ToPairs(stiffeners, "stiffeners", num_vertices, num_vertices));
+  }
   return poses;
 }
 

@@ -40,26 +40,27 @@ const Names<PosePairs>& NamesOf() {
   return names;
 }
 template <>
-const Names<Solver>& NamesOf() {
-  static const Names<Solver> names = {{"automatic", Solver::kAutomatic},
-                                      {"lbfgs", Solver::kLbfgs},
-                                      {"threaded_lbfgs", Solver::kThreadedLbfgs},
-                                      {"trust_region", Solver::kTrustRegion}};
+const Names<GeodesicSolver>& NamesOf() {
+  static const Names<GeodesicSolver> names = {{"automatic", GeodesicSolver::kAutomatic},
+                                              {"lbfgs", GeodesicSolver::kLbfgs},
+                                              {"threaded_lbfgs", GeodesicSolver::kThreadedLbfgs},
+                                              {"trust_region", GeodesicSolver::kTrustRegion}};
   return names;
 }
 template <>
-const Names<Schedule>& NamesOf() {
-  static const Names<Schedule> names = {
-      {"automatic", Schedule::kAutomatic}, {"paper", Schedule::kPaper}, {"flat", Schedule::kFlat}};
+const Names<GeodesicSchedule>& NamesOf() {
+  static const Names<GeodesicSchedule> names = {{"automatic", GeodesicSchedule::kAutomatic},
+                                                {"paper", GeodesicSchedule::kPaper},
+                                                {"flat", GeodesicSchedule::kFlat}};
   return names;
 }
 template <>
-const Names<Start>& NamesOf() {
-  static const Names<Start> names = {{"best", Start::kBest},
-                                     {"blend", Start::kBlend},
-                                     {"first", Start::kFirst},
-                                     {"last", Start::kLast},
-                                     {"rigid", Start::kRigid}};
+const Names<GeodesicStart>& NamesOf() {
+  static const Names<GeodesicStart> names = {{"best", GeodesicStart::kBest},
+                                             {"blend", GeodesicStart::kBlend},
+                                             {"first", GeodesicStart::kFirst},
+                                             {"last", GeodesicStart::kLast},
+                                             {"rigid", GeodesicStart::kRigid}};
   return names;
 }
 template <>
@@ -105,10 +106,10 @@ const Names<CorrectionMode>& NamesOf() {
   return names;
 }
 template <>
-const Names<Connection>& NamesOf() {
-  static const Names<Connection> names = {
-      {"levi_civita", Connection::kLeviCivita},
-      {"constrained_projection", Connection::kConstrainedProjection}};
+const Names<TransportConnection>& NamesOf() {
+  static const Names<TransportConnection> names = {
+      {"levi_civita", TransportConnection::kLeviCivita},
+      {"constrained_projection", TransportConnection::kConstrainedProjection}};
   return names;
 }
 template <>
@@ -125,10 +126,10 @@ const Names<DeformationOptions::Solver>& NamesOf() {
   return names;
 }
 template <>
-const Names<Playback>& NamesOf() {
-  static const Names<Playback> names = {{"there_and_back", Playback::kThereAndBack},
-                                        {"loop", Playback::kLoop},
-                                        {"once", Playback::kOnce}};
+const Names<GltfPlayback>& NamesOf() {
+  static const Names<GltfPlayback> names = {{"there_and_back", GltfPlayback::kThereAndBack},
+                                            {"loop", GltfPlayback::kLoop},
+                                            {"once", GltfPlayback::kOnce}};
   return names;
 }
 

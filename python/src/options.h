@@ -90,11 +90,11 @@ const Names<Discretization>& NamesOf();
 template <>
 const Names<PosePairs>& NamesOf();
 template <>
-const Names<Solver>& NamesOf();
+const Names<GeodesicSolver>& NamesOf();
 template <>
-const Names<Schedule>& NamesOf();
+const Names<GeodesicSchedule>& NamesOf();
 template <>
-const Names<Start>& NamesOf();
+const Names<GeodesicStart>& NamesOf();
 template <>
 const Names<Termination>& NamesOf();
 template <>
@@ -108,13 +108,13 @@ const Names<ExponentialSummary::Ending>& NamesOf();
 template <>
 const Names<CorrectionMode>& NamesOf();
 template <>
-const Names<Connection>& NamesOf();
+const Names<TransportConnection>& NamesOf();
 template <>
 const Names<TransferMethod>& NamesOf();
 template <>
 const Names<DeformationOptions::Solver>& NamesOf();
 template <>
-const Names<Playback>& NamesOf();
+const Names<GltfPlayback>& NamesOf();
 
 /// The name of a value.
 template <typename Enum>

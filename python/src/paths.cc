@@ -8,6 +8,10 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <shapespace/analysis/path_intersections.h>
+#include <shapespace/analysis/quality.h>
+#include <shapespace/analysis/rigid_parts.h>
+#include <shapespace/analysis/shape_error.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/extension.h>
 #include <shapespace/metric/feature_map.h>
@@ -15,11 +19,7 @@
 #include <shapespace/output/gltf.h>
 #include <shapespace/output/picture.h>
 #include <shapespace/path/anchor.h>
-#include <shapespace/path/intersections.h>
 #include <shapespace/path/path_file.h>
-#include <shapespace/path/quality.h>
-#include <shapespace/path/rigid_parts.h>
-#include <shapespace/path/shape_error.h>
 #include <shapespace/solvers/exponential.h>
 
 #include "arrays.h"
@@ -31,30 +31,31 @@ namespace {
 
 // Pictures. ------------------------------------------------------------------------------------
 
-py::array_t<unsigned char> Pixels(const Image& image) {
+py::array_t<unsigned char> Pixels(const RgbImage& image) {
   py::array_t<unsigned char> pixels(std::vector<py::ssize_t>{image.height, image.width, 3});
   std::copy(image.pixels.begin(), image.pixels.end(), pixels.mutable_data());
   return pixels;
 }
 
 void BindImage(py::module_* module) {
-  py::class_<Image>(*module, "Image",
-                    "A picture, such as a film strip; notebooks show it. `numpy.asarray` gives its "
-                    "pixels.")
+  py::class_<RgbImage>(
+      *module, "Image",
+      "A picture, such as a film strip; notebooks show it. `numpy.asarray` gives its "
+      "pixels.")
       .def_property_readonly("pixels", &Pixels, "The pixels, height x width x 3 bytes, sRGB.")
       .def(
           "__array__",
-          [](const Image& image, const py::object& dtype, const py::object& /*copy*/) {
+          [](const RgbImage& image, const py::object& dtype, const py::object& /*copy*/) {
             return py::object(dtype.is_none() ? py::object(Pixels(image))
                                               : Pixels(image).attr("astype")(dtype));
           },
           py::arg("dtype") = py::none(), py::arg("copy") = py::none())
       .def(
-          "png", [](const Image& image) { return py::bytes(EncodePng(image)); },
+          "png", [](const RgbImage& image) { return py::bytes(EncodePng(image)); },
           "The bytes of a PNG file.")
-      .def("_repr_png_", [](const Image& image) { return py::bytes(EncodePng(image)); })
+      .def("_repr_png_", [](const RgbImage& image) { return py::bytes(EncodePng(image)); })
       .def("_repr_html_",
-           [](const Image& image) {
+           [](const RgbImage& image) {
              const auto text = py::module_::import("base64")
                                    .attr("b64encode")(py::bytes(EncodePng(image)))
                                    .attr("decode")("ascii");
@@ -63,21 +64,21 @@ void BindImage(py::module_* module) {
            })
       .def(
           "write",
-          [](const Image& image, const std::filesystem::path& file) {
-            if (Extension(file) != ".png") {
+          [](const RgbImage& image, const std::filesystem::path& file) {
+            if (FileExtension(file) != ".png") {
               throw FileError(file.string() + ": a picture is written as .png only");
             }
             WritePng(file, image);
           },
           py::arg("file"), "Writes a PNG file.")
-      .def("__repr__", [](const Image& image) {
+      .def("__repr__", [](const RgbImage& image) {
         return "<shapespace.Image: " + std::to_string(image.width) + " x " +
                std::to_string(image.height) + " pixels>";
       });
 }
 
-Image Draw(const Connectivity& connectivity, const std::vector<Shape>& shapes,
-           const FilmStripOptions& options) {
+RgbImage Draw(const Connectivity& connectivity, const std::vector<Shape>& shapes,
+              const FilmStripOptions& options) {
   const py::gil_scoped_release unlocked;
   return RenderFilmStrip(connectivity, shapes, options);
 }
@@ -213,7 +214,7 @@ InvalidOptions
 enum class Kind { kPath, kPicture, kGltf, kFrames };
 
 Kind KindOf(const std::string& file) {
-  const std::string extension = Extension(file);
+  const std::string extension = FileExtension(file);
   if (extension == ".path") return Kind::kPath;
   if (extension == ".png") return Kind::kPicture;
   if (extension == ".glb") return Kind::kGltf;

@@ -95,7 +95,7 @@ poses, then the shapes found half way between nodes. `explore` makes it.
             std::vector<Eigen::Vector2d> polyline;
             for (py::handle point : points) polyline.push_back(ToPoint(point, "points"));
             const py::gil_scoped_release unlocked;
-            return Along(space, polyline, frames).path;
+            return WalkAlong(space, polyline, frames).path;
           },
           py::arg("points"), py::arg("frames"),
           "The shapes along a polyline of the plane, k x 2, as a path of so many.")
@@ -107,7 +107,7 @@ poses, then the shapes found half way between nodes. `explore` makes it.
                poses.push_back(space.Placed(i));
                options.labels.push_back(std::to_string(i));
              }
-             const Image image = [&] {
+             const RgbImage image = [&] {
                const py::gil_scoped_release unlocked;
                return RenderFilmStrip(*space.metric->connectivity, poses, options);
              }();

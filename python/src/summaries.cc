@@ -5,8 +5,8 @@
 
 #include <pybind11/stl.h>
 
-#include <shapespace/path/quality.h>
-#include <shapespace/path/shape_error.h>
+#include <shapespace/analysis/quality.h>
+#include <shapespace/analysis/shape_error.h>
 
 #include "bind.h"
 #include "options.h"

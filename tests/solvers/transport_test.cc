@@ -37,7 +37,7 @@ TransportOptions Unaligned() {
 
 TransportOptions ThePapers() {
   TransportOptions options;
-  options.connection = Connection::kConstrainedProjection;
+  options.connection = TransportConnection::kConstrainedProjection;
   return options;
 }
 
@@ -114,7 +114,7 @@ TEST(Transport, DoesNothingAlongATranslation) {
       ASSERT_EQ(there.size(), 2u);
       ASSERT_EQ(summary.steps.size(), 3u);
       // Edges, whose lengths the paper's G weighs 1 / lambda as much as positions, see rounding.
-      const bool papers = options.connection == Connection::kConstrainedProjection;
+      const bool papers = options.connection == TransportConnection::kConstrainedProjection;
       for (int k : {0, 1}) {
         EXPECT_LT((there[k] - tangents[k]).norm(), (papers ? 1e-10 : 1e-12) * tangents[k].norm());
       }

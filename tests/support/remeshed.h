@@ -44,7 +44,7 @@ struct Remeshed {
 
   /// Of each vertex of the template how far it lands from where it belongs.
   Eigen::VectorXd Errors(const SurfaceMap& map) const {
-    const Shape landed = Pull(map.to_target, second.connectivity->Triangles(), other_rest);
+    const Shape landed = PullBack(map.to_target, second.connectivity->Triangles(), other_rest);
     return (landed - rest).colwise().norm();
   }
 

@@ -17,7 +17,7 @@ constexpr double kTerminalPause = 0.05, kPause = 10;
 
 struct Console {
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  const Stopwatch stopwatch = {};
+  const internal::Stopwatch stopwatch = {};
   double last = terminal ? -kTerminalPause : 0;  // when progress was shown
   std::string line;                              // of progress, shown last
   std::atomic<bool> shown{false};                // it stands on the terminal

@@ -8,7 +8,7 @@
 #include <sanitizer/tsan_interface.h>
 #endif
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// Tells the thread sanitizer that work on other threads comes after this object's construction and
 /// before its destruction. Nothing orders pieces of the work among themselves: races between them
@@ -40,6 +40,6 @@ class ForkJoin {
 #endif
 };
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_BASE_FORK_JOIN_H_

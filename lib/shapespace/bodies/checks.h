@@ -9,7 +9,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/body.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// Some 2 GB of connectivity: what is larger is rather a slip of the keyboard than a wish.
 constexpr std::int64_t kMaxBodyTriangles = 20'000'000;
@@ -55,6 +55,6 @@ inline Body WithCheckedRange(Body body) {
   return body;
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_BODIES_CHECKS_H_

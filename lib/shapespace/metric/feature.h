@@ -18,10 +18,10 @@ namespace shapespace {
 /// (an edge, a triangle, ...) to a few numbers, and the element adds weight * |change of these
 /// numbers|^2 to what a motion costs. A struct that derives from this has
 ///
-///   static constexpr const char* kName        its name, in files and reports,
-///   template <typename T> void operator()(const T* x, T* value) const
-///                                             the values: x holds kVertices x 3 coordinates,
-///                                             vertex after vertex, value kValues numbers,
+///      static constexpr const char* kName        its name, in files and reports,
+///      template <typename T> void operator()(const T* x, T* value) const
+///                                                the values: x holds kVertices x 3 coordinates,
+///                                                vertex after vertex, value kValues numbers,
 ///
 /// and may replace any of the members below by its own. T is double or a scalar that carries
 /// derivatives (ceres::Jet and LineJet): call mathematical functions unqualified, after

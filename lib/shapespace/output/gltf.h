@@ -11,7 +11,7 @@
 
 namespace shapespace {
 
-enum class Playback {
+enum class GltfPlayback {
   /// From the first shape to the last and back, in `duration`: players that loop close the motion.
   /// Each of the two is held for a tenth of the duration; the first half at the beginning and half
   /// at the end.
@@ -23,7 +23,7 @@ enum class Playback {
 struct GltfOptions {
   double duration = 4;  ///< seconds, holds included; 0.1 .. 3600
   double fps = 0;       ///< shapes of the path a second instead of `duration`: .01 .. 1000; 0: off
-  Playback playback = Playback::kThereAndBack;
+  GltfPlayback playback = GltfPlayback::kThereAndBack;
 
   /// Slow at both ends: the shape at t of the way comes after a share tau of the time with
   /// t = (1 - cos(pi tau)) / 2. Otherwise tau = t.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 // `parts` + 1 whole numbers from `first` to `last`, evenly spread; the last one is left out.
@@ -44,4 +44,4 @@ std::vector<int> KeyShapes(int count, const std::vector<int>& poses, int most) {
   return keys;
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

@@ -8,7 +8,7 @@
 
 #include <shapespace/output/picture.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// The value that gets the last colour: the 99th percentile of `values`, rounded up to 1, 2 or 5
 /// times a power of ten; their maximum where that percentile is 0, and 1 %
@@ -17,11 +17,11 @@ double EndOfScale(const std::vector<Eigen::VectorXd>& values);
 
 /// A bar of the value colours with numbers in per cent, and `title` beside it, as a picture of its
 /// own on the strip's background. `largest` is named where it is beyond the scale.
-Image DrawLegend(double end_of_scale, double largest, const std::string& title);
+RgbImage DrawLegend(double end_of_scale, double largest, const std::string& title);
 
 /// The same for groups: the colours of the first `groups`, at most 24, with numbers from 1.
-Image DrawGroupLegend(int groups, const std::string& title);
+RgbImage DrawGroupLegend(int groups, const std::string& title);
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_OUTPUT_LEGEND_H_

@@ -58,7 +58,7 @@ struct FilmStripOptions {
 };
 
 /// 8-bit sRGB, row after row from the top, three bytes a pixel.
-struct Image {
+struct RgbImage {
   int width = 0, height = 0;
   std::vector<unsigned char> pixels;
 };
@@ -70,16 +70,16 @@ struct Image {
 /// The picture does not depend on the number of threads.
 /// \throw InvalidOptions, also if the picture would have more than 100 million pixels; MeshError if
 ///        there is no shape, or one has another number of vertices or is not finite.
-Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
-                      const FilmStripOptions& options = {});
+RgbImage RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
+                         const FilmStripOptions& options = {});
 
 /// The bytes of a PNG file.
 /// \throw InvalidOptions if `image` is empty or its size is not that of its pixels.
-std::string EncodePng(const Image& image);
+std::string EncodePng(const RgbImage& image);
 
 /// Writes it; the file appears whole or not at all.
 /// \throw FileError; InvalidOptions as above.
-void WritePng(const std::string& file, const Image& image);
+void WritePng(const std::string& file, const RgbImage& image);
 
 }  // namespace shapespace
 

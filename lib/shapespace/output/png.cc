@@ -12,7 +12,7 @@
 
 namespace shapespace {
 
-std::string EncodePng(const Image& image) {
+std::string EncodePng(const RgbImage& image) {
   // The encoder counts bytes in an int.
   if (image.pixels.size() >= static_cast<size_t>(std::numeric_limits<int>::max())) {
     throw InvalidOptions("image: too large for a PNG");
@@ -34,7 +34,7 @@ std::string EncodePng(const Image& image) {
   return bytes;
 }
 
-void WritePng(const std::string& file, const Image& image) {
+void WritePng(const std::string& file, const RgbImage& image) {
   const std::string bytes = EncodePng(image);
   WriteFileAtomically(file, [&](std::ostream& stream) { stream << bytes; });
 }

@@ -10,7 +10,7 @@
 
 // Private: a mesh as graphics hardware takes it, with one texture coordinate a vertex.
 
-namespace shapespace {
+namespace shapespace::internal {
 
 struct CutMesh {
   /// The vertex of the mesh that each vertex here is. First come all the mesh's own, in their
@@ -26,6 +26,6 @@ CutMesh CutAtSeams(const Connectivity& connectivity, const Appearance& appearanc
 /// The polygon that each triangle of the connectivity is a part of.
 std::vector<int> PolygonsOfTriangles(const Connectivity& connectivity);
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_OUTPUT_SEAMS_H_

@@ -74,7 +74,7 @@ PlaneLocation Space::Locate(const Eigen::Vector2d& point) const {
   for (int s = 0; s < segments.cols(); ++s) try_side(segments(0, s), segments(1, s));
   // Points count as lying on a line if they are as near to it as those of a triangulation are.
   const double extent = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
-  best.inside = nearest <= (triangles.cols() > 0 ? kRounding : kFlat) * extent;
+  best.inside = nearest <= (triangles.cols() > 0 ? kRounding : kFlatSpread) * extent;
   return best;
 }
 
@@ -118,7 +118,7 @@ void Space::Validate() const {
                       static_cast<int>(metric->connectivity->Corners().size()));
 }
 
-Walk Along(const Space& space, const std::vector<Eigen::Vector2d>& polyline, int frames) {
+Walk WalkAlong(const Space& space, const std::vector<Eigen::Vector2d>& polyline, int frames) {
   if (polyline.empty()) throw InvalidOptions("points: the curve has none");
   if (frames < 1) throw InvalidOptions("frames: must be 1 or more");
   std::vector<double> length = {0};  // up to each point

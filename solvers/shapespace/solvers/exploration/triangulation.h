@@ -17,7 +17,7 @@ struct Triangulation {
 /// Points that spread across a line by less than this share of how far they reach along it count as
 /// lying on it: that is how precisely lengths of geodesics tell where a shape between two others is
 /// (docs/mathematics.md, section 13).
-inline constexpr double kFlat = 1e-2;
+inline constexpr double kFlatSpread = 1e-2;
 
 /// The Delaunay triangulation of points of the plane, by Qhull.
 /// \throw InvalidOptions if a point is not finite, or if fewer than two differ; SolverError if

@@ -12,7 +12,7 @@ namespace shapespace::internal {
 
 /// Tells `workload` of all steps that a `Piece` will take.
 void Plan(const std::vector<ScheduleStep>& schedule, const std::vector<Resolution>& resolutions,
-          Start start, Workload* workload);
+          GeodesicStart start, Workload* workload);
 
 /// The solve between two neighbouring poses, coarse to fine in space and time.
 class Piece {
@@ -39,7 +39,7 @@ class Piece {
 
   // All levels after some steps of the schedule, from one start.
   struct Attempt {
-    Start start = Start::kBlend;
+    GeodesicStart start = GeodesicStart::kBlend;
     std::vector<Known> known = {};
     double energy = 0;              // scaled, of the last step
     std::vector<size_t> rows = {};  // of the summary's table
@@ -47,8 +47,8 @@ class Piece {
 
   Attempt TakeSteps(const std::vector<ScheduleStep>& schedule, size_t begin, size_t end,
                     Attempt attempt);
-  void TakeStep(const ScheduleStep& step, Start start, bool last);
-  std::vector<Shape> OneInnerShape(Start start, int level);
+  void TakeStep(const ScheduleStep& step, GeodesicStart start, bool last);
+  std::vector<Shape> OneInnerShape(GeodesicStart start, int level);
   // The coarser level's shapes with the detail that this level's shapes had, at the times around
   // each, on the coarser level's then: right also where parts turn far between those times.
   std::vector<Shape> Lift(const ScheduleStep& step) const;

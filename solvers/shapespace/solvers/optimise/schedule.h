@@ -16,7 +16,7 @@ struct ScheduleStep {
 /// The steps of `schedule` on a hierarchy of `levels` levels, to `shapes` inner shapes: the first
 /// on the coarsest level that the schedule uses with one inner shape, the last on the finest with
 /// all; each has either the level or the number of shapes of one before it.
-std::vector<ScheduleStep> MakeSchedule(Schedule schedule, int levels, int shapes);
+std::vector<ScheduleStep> MakeSchedule(GeodesicSchedule schedule, int levels, int shapes);
 
 }  // namespace shapespace::internal
 

@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_PATH_RIGID_PARTS_H_
-#define SHAPESPACE_PATH_RIGID_PARTS_H_
+#ifndef SHAPESPACE_ANALYSIS_RIGID_PARTS_H_
+#define SHAPESPACE_ANALYSIS_RIGID_PARTS_H_
 
 #include <vector>
 
@@ -67,21 +67,6 @@ struct RigidParts {
 /// \throw InvalidOptions.
 RigidParts FindRigidParts(const Path& path, const RigidPartsOptions& options = {});
 
-/// A region where edges deviate from their lengths in the first shape: a joint, mostly.
-struct DeviationSite {
-  int vertex = 0;  ///< where it is largest, counted from 0
-  /// Of that vertex in the first shape, where the user's is.
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  double largest = 0;  ///< `EdgeDeviation` there, in the worst shape
-  double share = 0;    ///< of the whole path's deviation: the integral of its square
-  double area_share = 0;
-  std::vector<int> parts;  ///< that it touches, the one with the longest border first
-};
-
-/// Connected regions in which the vertices' largest deviation on the path exceeds its root mean
-/// square over the surface, those with most of it first. Empty for rigid motion.
-std::vector<DeviationSite> FindDeviationSites(const Path& path, const RigidParts& parts);
-
 }  // namespace shapespace
 
-#endif  // SHAPESPACE_PATH_RIGID_PARTS_H_
+#endif  // SHAPESPACE_ANALYSIS_RIGID_PARTS_H_

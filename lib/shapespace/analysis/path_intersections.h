@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_PATH_INTERSECTIONS_H_
-#define SHAPESPACE_PATH_INTERSECTIONS_H_
+#ifndef SHAPESPACE_ANALYSIS_PATH_INTERSECTIONS_H_
+#define SHAPESPACE_ANALYSIS_PATH_INTERSECTIONS_H_
 
 #include <cstdint>
 #include <vector>
@@ -9,7 +9,7 @@
 namespace shapespace {
 
 /// Where the body passes through itself, which no term of a metric sees: the paper's own
-/// limitation. Numbers of pairs of triangles as in mesh/intersections.h.
+/// limitation. Numbers of pairs of triangles as in analysis/intersections.h.
 struct PathIntersections {
   std::vector<std::int64_t> pairs;  ///< of each shape
   std::int64_t poses_max = 0;       ///< of the shapes that were given
@@ -25,4 +25,4 @@ PathIntersections MeasureIntersections(const Path& path);
 
 }  // namespace shapespace
 
-#endif  // SHAPESPACE_PATH_INTERSECTIONS_H_
+#endif  // SHAPESPACE_ANALYSIS_PATH_INTERSECTIONS_H_
