@@ -107,3 +107,17 @@ awk '
 # guide/library.md: what the program there draws
 "$bin/shape-body" tube --at 0,110 --output 'tube%d.obj'
 "$bin/shape-interpolate" tube0.obj tube1.obj --output "$pictures/library.png"
+
+# guide/python.md: what the programs there draw, by the module that ./dev python has built
+python=$pictures/../../build/python-venv/bin/python
+[ -x "$python" ] || {
+  echo "pictures.sh: guide/python.md's pictures are left as they are; ./dev python comes first" >&2
+  exit 0
+}
+"$python" - "$pictures/../guide/python.md" <<'EOF'
+import re, sys
+for program in re.findall(r"^```python\n(.*?)^```", open(sys.argv[1]).read(), re.M | re.S):
+    exec(program)
+EOF
+cp walk.png "$pictures/python-path.png"
+cp bent.png "$pictures/python-deformed.png"

@@ -11,6 +11,7 @@
 
 #include "bodies/measure.h"
 #include "hierarchy/meshes.h"
+#include "support/listener.h"
 #include "support/message_of.h"
 
 namespace shapespace {
@@ -102,6 +103,22 @@ TEST(PlanCollapses, DependsNeitherOnUnitNorOnPlace) {
     moved.poses[0] = scale * ((turn * mesh.poses[0]).colwise() + Eigen::Vector3d(4, -5, 6));
     moved.poses[1] *= 3 * scale;
     ExpectSameCollapses(collapses, ToTheEnd(moved));
+  }
+}
+
+TEST(PlanCollapses, TellsHowFarItIsAndCanBeStopped) {
+  const PosedMesh mesh = testing::Animal(4000, {"stand"});
+  testing::Listener all;
+  std::vector<int> done;
+  all.on_report = [&](const std::string&, int so_far) { done.push_back(so_far); };
+  const std::vector<Collapse> plan = PlanCollapses(*mesh.connectivity, mesh.poses, 100, {}, &all);
+  EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
+  EXPECT_EQ(done.front(), 0);
+  EXPECT_GT(done.back(), 1000);
+  ExpectSameCollapses(plan, PlanCollapses(*mesh.connectivity, mesh.poses, 100));
+  for (const int last : {1, all.reports}) {
+    testing::Listener stops(last);
+    EXPECT_THROW(PlanCollapses(*mesh.connectivity, mesh.poses, 100, {}, &stops), Cancelled);
   }
 }
 

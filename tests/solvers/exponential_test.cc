@@ -845,6 +845,17 @@ TEST(Extrapolate, KeepsTheStepsMadeBeforeItIsCancelled) {
   }
 }
 
+TEST(Exponential, CanBeCancelledAtAnyStep) {
+  const Motion motion = DeformingBodies()[1];
+  Listener all;
+  Exponential(motion.metric, motion.shape, motion.velocity, 8, {}, &all);
+  for (const int last : {1, all.reports / 2, all.reports}) {
+    Listener progress(last);
+    EXPECT_THROW(Exponential(motion.metric, motion.shape, motion.velocity, 8, {}, &progress),
+                 Cancelled);
+  }
+}
+
 TEST(Logarithm, CanBeCancelled) {
   const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
   const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(60)});

@@ -62,10 +62,23 @@ class Decimator {
     BuildQuadrics();
   }
 
-  std::vector<Collapse> Run(int target) {
-    for (size_t v = 0; v < head_.size(); ++v) Push(static_cast<int>(v));
+  std::vector<Collapse> Run(int target, Progress* progress) {
+    // Often enough for a person who wants to stop: so many take a few hundredths of a second.
+    constexpr int kBetweenReports = 1000;
+    const int total = num_alive_ - target;
+    int looks = 0;
+    const auto report = [&] {
+      if (looks++ % kBetweenReports == 0) {
+        ReportProgress(progress, "decimating", total + target - num_alive_, total);
+      }
+    };
+    for (size_t v = 0; v < head_.size(); ++v) {
+      report();
+      Push(static_cast<int>(v));
+    }
     std::vector<Collapse> result;
     while (num_alive_ > target && !queue_.empty()) {
+      report();
       const auto [cost, from, to, version] = queue_.top();
       queue_.pop();
       if (version != version_[from]) continue;
@@ -354,7 +367,7 @@ class Decimator {
 
 std::vector<Collapse> PlanCollapses(const Connectivity& connectivity,
                                     const std::vector<Shape>& poses, int triangles,
-                                    const std::vector<int>& pinned) {
+                                    const std::vector<int>& pinned, Progress* progress) {
   for (const Shape& pose : poses) {
     if (pose.cols() != connectivity.NumVertices()) {
       throw MeshError("a pose has the wrong number of vertices");
@@ -366,7 +379,7 @@ std::vector<Collapse> PlanCollapses(const Connectivity& connectivity,
     }
   }
   if (triangles >= connectivity.NumTriangles()) return {};
-  return Decimator(connectivity, poses, pinned).Run(triangles);
+  return Decimator(connectivity, poses, pinned).Run(triangles, progress);
 }
 
 }  // namespace shapespace

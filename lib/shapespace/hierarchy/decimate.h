@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <shapespace/base/progress.h>
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
 
@@ -23,10 +24,11 @@ struct Collapse {
 /// vertices with more than 54 triangles as long as they have so many. Ends when `triangles` are
 /// left, or earlier if no collapse is possible. O(m log m).
 /// \throw MeshError if a pose has the wrong number of vertices; InvalidOptions if `pinned` contains
-///        an invalid vertex.
+///        an invalid vertex; Cancelled.
 std::vector<Collapse> PlanCollapses(const Connectivity& connectivity,
                                     const std::vector<Shape>& poses, int triangles,
-                                    const std::vector<int>& pinned = {});
+                                    const std::vector<int>& pinned = {},
+                                    Progress* progress = nullptr);
 
 }  // namespace shapespace
 

@@ -56,7 +56,8 @@ void HierarchyOptions::Validate() const {
 }
 
 Hierarchy::Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
-                     const std::vector<Shape>& poses, const HierarchyOptions& options) {
+                     const std::vector<Shape>& poses, const HierarchyOptions& options,
+                     Progress* progress) {
   options.Validate();
   if (poses.empty()) throw MeshError("a hierarchy needs at least one pose");
   const int num_vertices = connectivity->NumVertices();
@@ -70,7 +71,7 @@ Hierarchy::Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
   const std::vector<int> targets = Targets(num_triangles, options.coarsest);
   const int fewest = targets.empty() ? num_triangles : targets.back();
   const std::vector<Collapse> collapses =
-      PlanCollapses(*connectivity, poses, fewest, options.pinned);
+      PlanCollapses(*connectivity, poses, fewest, options.pinned, progress);
   stopped_early_ = !targets.empty() && (collapses.empty() || collapses.back().triangles > fewest);
 
   std::vector<int> place = levels_[0].vertices;  // to which every vertex of the mesh has collapsed

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include <shapespace/base/progress.h>
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
 
@@ -28,9 +29,11 @@ class Hierarchy {
  public:
   /// Built once for all `poses` (3 x m each) that are used. Edges that are not sides of triangles
   /// follow their end vertices. A graph has one level. O(m log m).
-  /// \throw InvalidOptions, MeshError (no pose, or one with the wrong number of vertices).
+  /// \throw InvalidOptions, MeshError (no pose, or one with the wrong number of vertices),
+  ///        Cancelled.
   Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
-            const std::vector<Shape>& poses, const HierarchyOptions& options = {});
+            const std::vector<Shape>& poses, const HierarchyOptions& options = {},
+            Progress* progress = nullptr);
 
   /// Level 0 is the coarsest, NumLevels() - 1 the mesh itself.
   int NumLevels() const { return static_cast<int>(levels_.size()); }

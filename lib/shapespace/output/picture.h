@@ -73,8 +73,12 @@ struct RgbImage {
 RgbImage RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
                          const FilmStripOptions& options = {});
 
-/// Writes a PNG file, completely or not at all.
-/// \throw FileError; InvalidOptions if `image` is empty or its size is not that of its pixels.
+/// The bytes of a PNG file.
+/// \throw InvalidOptions if `image` is empty or its size is not that of its pixels.
+std::string EncodePng(const RgbImage& image);
+
+/// Writes it as a file, completely or not at all.
+/// \throw FileError; InvalidOptions as above.
 void WritePng(const std::string& file, const RgbImage& image);
 
 }  // namespace shapespace

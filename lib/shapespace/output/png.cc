@@ -12,7 +12,7 @@
 
 namespace shapespace {
 
-void WritePng(const std::string& file, const RgbImage& image) {
+std::string EncodePng(const RgbImage& image) {
   // The encoder stores sizes in an int.
   if (image.pixels.size() >= static_cast<size_t>(std::numeric_limits<int>::max())) {
     throw InvalidOptions("image: too large for a PNG");
@@ -23,15 +23,20 @@ void WritePng(const std::string& file, const RgbImage& image) {
                          std::to_string(image.width) + " x " + std::to_string(image.height) +
                          " pixels of three");
   }
-  WriteFileAtomically(file, [&](std::ostream& stream) {
-    const auto write = [](void* out, void* data, int size) {
-      static_cast<std::ostream*>(out)->write(static_cast<const char*>(data), size);
-    };
-    if (stbi_write_png_to_func(write, &stream, image.width, image.height, 3, image.pixels.data(),
-                               3 * image.width) == 0) {
-      throw FileError(file + ": the picture could not be encoded (out of memory?)");
-    }
-  });
+  std::string bytes;
+  const auto append = [](void* out, void* data, int size) {
+    static_cast<std::string*>(out)->append(static_cast<const char*>(data), size);
+  };
+  if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.pixels.data(),
+                             3 * image.width) == 0) {
+    throw InvalidOptions("image: could not be encoded (out of memory?)");
+  }
+  return bytes;
+}
+
+void WritePng(const std::string& file, const RgbImage& image) {
+  const std::string bytes = EncodePng(image);
+  WriteFileAtomically(file, [&](std::ostream& stream) { stream << bytes; });
 }
 
 }  // namespace shapespace

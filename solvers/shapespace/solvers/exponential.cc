@@ -435,9 +435,11 @@ ExponentialResult Extrapolate(const std::shared_ptr<const Metric>& metric, const
 }
 
 Shape Exponential(const std::shared_ptr<const Metric>& metric, const Shape& shape,
-                  const Tangent& velocity, int steps, const ExponentialOptions& options) {
-  const ExponentialResult result = Extrapolate(metric, shape, velocity, steps, options);
+                  const Tangent& velocity, int steps, const ExponentialOptions& options,
+                  Progress* progress) {
+  const ExponentialResult result = Extrapolate(metric, shape, velocity, steps, options, progress);
   const ExponentialSummary& summary = result.summary;
+  if (summary.ending == ExponentialSummary::Ending::kCancelled) throw Cancelled();
   if (summary.ending != ExponentialSummary::Ending::kComplete) {
     throw SolverError("the exponential map stopped early, at " + summary.stopped);
   }

@@ -130,9 +130,10 @@ ExponentialResult Extrapolate(const std::shared_ptr<const Metric>& metric, const
 /// returned, it fails unless all steps converged on the mesh itself; use Extrapolate to accept
 /// steps that were solved on coarser meshes.
 /// \throw as above; SolverError if a step did not converge on the mesh itself, or the shape
-///        degenerates before the end.
+///        degenerates before the end; Cancelled, whenever `progress` stops it.
 Shape Exponential(const std::shared_ptr<const Metric>& metric, const Shape& shape,
-                  const Tangent& velocity, int steps = 16, const ExponentialOptions& options = {});
+                  const Tangent& velocity, int steps = 16, const ExponentialOptions& options = {},
+                  Progress* progress = nullptr);
 
 /// Options of the logarithm: a geodesic solved to much higher accuracy than is needed for viewing.
 /// The error of the logarithm is proportional to the square root of the path's tolerance. With

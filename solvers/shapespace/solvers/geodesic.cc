@@ -236,11 +236,11 @@ namespace internal {
 class GeodesicLevels {
  public:
   GeodesicLevels(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& aligned,
-                 PosePairs pairs, const GeodesicOptions& options)
+                 PosePairs pairs, const GeodesicOptions& options, Progress* progress = nullptr)
       : metric_(metric),
         options_(options),
         kind_(KindOfSchedule(*metric, options)),
-        hierarchy_(metric->connectivity, aligned, MakeHierarchyOptions()),
+        hierarchy_(metric->connectivity, aligned, MakeHierarchyOptions(), progress),
         resolutions_(Resolve(hierarchy_, metric, aligned, pairs)) {}
 
   const std::shared_ptr<const Metric>& GetMetric() const { return metric_; }
@@ -377,7 +377,8 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
   const internal::Stopwatch total;
   ReportProgress(progress, "decimating", 0, 0);
   const AlignedPoses aligned = AlignPoses(*metric, poses);
-  internal::GeodesicLevels levels(metric, aligned.shapes, PosePairs::kConsecutive, options);
+  internal::GeodesicLevels levels(metric, aligned.shapes, PosePairs::kConsecutive, options,
+                                  progress);
   const double hierarchy_seconds = total.Seconds();
   GeodesicResult result = levels.Solve(aligned, progress);
   result.summary.hierarchy_seconds = hierarchy_seconds;

@@ -1,0 +1,818 @@
+"""The functions of the package."""
+
+import operator
+import os
+import typing
+from html import escape
+
+import numpy as np
+
+from . import _core
+from ._core import Handle, Metric, Path, Poses, SurfaceMap
+from ._options import takes
+from ._progress import told
+
+
+class GeodesicResult(typing.NamedTuple):
+    """A path and how it was found."""
+
+    path: Path
+    summary: _core.GeodesicSummary
+
+    def _repr_html_(self):
+        return _shown(self)
+
+
+class ExponentialResult(typing.NamedTuple):
+    """A path that goes on, and how it was found."""
+
+    path: Path
+    summary: _core.ExponentialSummary
+
+    def _repr_html_(self):
+        return _shown(self)
+
+
+class CorrectionResult(typing.NamedTuple):
+    """A corrected path, and what the correction cost."""
+
+    path: Path
+    summary: _core.CorrectionSummary
+
+    def _repr_html_(self):
+        return _shown(self)
+
+
+class DeformationResult(typing.NamedTuple):
+    """A path from a mesh to the deformed one, and how it was found."""
+
+    path: Path
+    summary: _core.DeformationSummary
+
+    def _repr_html_(self):
+        return _shown(self)
+
+
+class RepairResult(typing.NamedTuple):
+    """A path from a reference to the repaired shape, and what was restored."""
+
+    path: Path
+    summary: _core.RepairSummary
+
+    def _repr_html_(self):
+        return _shown(self)
+
+
+class TransferResult(typing.NamedTuple):
+    """The target's path; the hybrids', or None; and how they were found."""
+
+    path: Path
+    hybrids: typing.Optional[Path]
+    summary: _core.TransferSummary
+
+    def _repr_html_(self):
+        return _shown(self)
+
+
+class PoseTransferResult(typing.NamedTuple):
+    """The target in every pose, as a path; hybrids, or None; and how they were found."""
+
+    path: Path
+    hybrids: typing.Optional[Path]
+    summary: _core.PoseTransferSummary
+
+    def _repr_html_(self):
+        return _shown(self)
+
+
+class TransportResult(typing.NamedTuple):
+    """Tangents at the last shape of a path, k x n x 3, and how they were carried there."""
+
+    tangents: np.ndarray
+    summary: _core.TransportSummary
+
+
+class ExploreResult(typing.NamedTuple):
+    """A space of poses, and how it was made."""
+
+    space: _core.Space
+    summary: _core.ExploreSummary
+
+
+class Finding(typing.NamedTuple):
+    """One thing found in a mesh."""
+
+    severity: str
+    kind: str
+    message: str
+
+
+def _shown(result):
+    return f"{result.path._repr_html_()}<pre>{escape(repr(result.summary))}</pre>"
+
+
+def _as(kind, value, name):
+    """The value, which must be of a class of the package."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{name}: must be a {kind.__name__}, not {type(value).__name__}")
+    return value
+
+
+def _count(value, name):
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name}: must be int, not {value!r}") from None
+
+
+def _poses(poses, faces):
+    if isinstance(poses, Poses):
+        if faces is not None:
+            raise TypeError("faces: leave them out, since the poses have a mesh already")
+        return poses
+    return Poses(poses, faces)
+
+
+def _handles(handles):
+    return [_as(Handle, handle, f"handles[{i}]") for i, handle in enumerate(handles)]
+
+
+def _mesh(vertices, faces, name="vertices"):
+    """One shape with its mesh."""
+    if isinstance(vertices, Poses):
+        if faces is not None:
+            raise TypeError(f"faces: leave them out, since {name} has a mesh already")
+        if len(vertices) != 1:
+            raise ValueError(f"{name}: must be one shape, and there are {len(vertices)} poses")
+        return vertices
+    return Poses(_one(vertices, name), faces)
+
+
+def _one(vertices, name):
+    """A list of one shape."""
+    array = np.asarray(vertices)
+    if array.ndim != 2:
+        raise ValueError(f"{name}: must be an n x 3 array of numbers, one vertex a row")
+    return [array]
+
+
+def read(*files, stiffeners=None, allow_nonmanifold=False, mirror=None):
+    """Read poses of one mesh.
+
+    Parameters
+    ----------
+    *files : str or path-like
+        One or more OBJ, PLY or OFF files, with the same faces in the same order.
+    stiffeners : str or path-like, optional
+        File of further edges that the metric is to hold: two vertex numbers a line, from 1.
+    allow_nonmanifold : bool, optional
+        Take non-manifold or inconsistently wound meshes, with a warning.
+    mirror : {'x', 'y', 'z'}, optional
+        Poses that are mirror images of the first have this coordinate's sign changed.
+
+    Returns
+    -------
+    Poses
+
+    Raises
+    ------
+    FileError
+        A file cannot be read or understood.
+    MeshError
+        A mesh cannot serve.
+    CorrespondenceError
+        The meshes are not poses of one; the message names the first difference.
+    """
+    names = [os.fspath(file) for file in files]
+    rest = "" if stiffeners is None else os.fspath(stiffeners)
+    return _core.read(names, rest, allow_nonmanifold, mirror)
+
+
+def write(file, vertices, faces):
+    """Write a mesh; the file appears whole or not at all.
+
+    Parameters
+    ----------
+    file : str or path-like
+        An .obj or a .ply file. Coordinates read back as they were, to the last bit.
+    vertices : array_like
+        n x 3.
+    faces : array_like, or an object with a mesh
+        As for `Poses`. Of poses that were read, polygons, materials and textures are written too.
+
+    Returns
+    -------
+    list of str
+        What of the mesh's appearance the file cannot hold: mostly nothing.
+    """
+    return _core.write(os.fspath(file), vertices, faces)
+
+
+def check(vertices, faces):
+    """Find what is worth saying about a mesh.
+
+    Parameters
+    ----------
+    vertices : array_like
+        n x 3.
+    faces : array_like
+        m x 3 integers counted from 0, or a list of polygons.
+
+    Returns
+    -------
+    list of Finding
+        In order of falling severity: 'fatal', 'non-manifold', 'warning', 'note'. Messages count
+        vertices and faces from 1, as files do.
+    """
+    return [Finding(*finding) for finding in _core.check(vertices, faces)]
+
+
+def body(name, triangles=0):
+    """Make a body whose poses are given by one parameter, to try things on.
+
+    Parameters
+    ----------
+    name : str
+        'tube', 'bar', 'sheet', ...; any other name raises an error that lists them all.
+    triangles : int, optional
+        About how many; 0 stands for the body's own number.
+
+    Returns
+    -------
+    Body
+    """
+    return _core.body(name, triangles)
+
+
+def skinned_body(name, triangles=0, proportions=""):
+    """Make a body with bones, whose poses have names, to try things on.
+
+    Parameters
+    ----------
+    name : str
+        'quadruped'.
+    triangles : int, optional
+        About how many; 0 stands for the body's own number.
+    proportions : str, optional
+        'normal', 'long', 'short' or 'heavy'.
+
+    Returns
+    -------
+    SkinnedBody
+    """
+    return _core.skinned_body(name, triangles, proportions)
+
+
+@takes("FilmStripOptions")
+def film_strip(shapes, faces=None, **options):
+    """Draw shapes side by side.
+
+    Parameters
+    ----------
+    shapes : Path, Poses, or sequence of array_like
+        Of a path, given shapes are blue, those between them green, extrapolated ones purple, and
+        each has its time below it.
+    faces : array_like, optional
+        As for `Poses`.
+    {options}
+
+    Returns
+    -------
+    Image
+    """
+    if isinstance(shapes, Path):
+        if faces is not None:
+            raise TypeError("faces: leave them out, since the path has a mesh already")
+        return shapes._film_strip(options)
+    return _core.film_strip(_poses(shapes, faces), options)
+
+
+@takes("GeodesicOptions")
+def interpolate(poses, faces=None, *, progress=None, **options):
+    """Find the geodesic through two or more poses.
+
+    Parameters
+    ----------
+    poses : Poses, or sequence of array_like
+        Vertices of each pose, n x 3, in any unit. Poses are aligned rigidly first.
+    faces : array_like, optional
+        Triangles that all poses share, m x 3, or anything else that `Poses` takes.
+    progress : callable or bool, optional
+        Called as progress(stage, done, total, share); `share` of the work is done, or None if that
+        is not known. If it returns False, the best path so far is returned. True shows a bar.
+    {options}
+
+    Returns
+    -------
+    GeodesicResult
+        The path, with the poses among its shapes, and a summary. Look at `summary.converged`.
+
+    Raises
+    ------
+    MeshError, CorrespondenceError, InvalidOptions
+        The arguments cannot serve.
+    SolverError
+        The memory limit, or poses that turn too far for a rigid metric.
+
+    Notes
+    -----
+    A frozen `Metric` as `metric` makes several paths comparable. See Kilian, Mitra and Pottmann,
+    "Geometric Modeling in Shape Space" (SIGGRAPH 2007), section 3.
+    """
+    poses = _poses(poses, faces)
+    with told(progress) as report:
+        return GeodesicResult(*_core.interpolate(poses, options, report))
+
+
+@takes("ExponentialOptions")
+def extrapolate(path, steps, *, progress=None, **options):
+    """Go on along a path, beyond its last shape.
+
+    Parameters
+    ----------
+    path : Path
+        Of two or more shapes. Paths under the strain metric can always go on.
+    steps : int
+        Shapes to add, at the distance in time of the last two.
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    ExponentialResult
+    """
+    with told(progress) as report:
+        path, steps = _as(Path, path, "path"), _count(steps, "steps")
+        return ExponentialResult(*_core.extrapolate(path, steps, options, report))
+
+
+@takes("ExponentialOptions")
+def shoot(metric, shape, velocity, steps=16, *, progress=None, **options):
+    """Follow the geodesic that begins at a shape with a velocity, over unit time.
+
+    Parameters
+    ----------
+    metric : Metric
+    shape, velocity : array_like
+        n x 3, in the unit of the metric's poses.
+    steps : int, optional
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    ExponentialResult
+    """
+    with told(progress) as report:
+        metric, steps = _as(Metric, metric, "metric"), _count(steps, "steps")
+        return ExponentialResult(*_core.shoot(metric, shape, velocity, steps, options, report))
+
+
+@takes("ExponentialOptions")
+def exponential(metric, shape, velocity, steps=16, *, progress=None, **options):
+    """Find the end of the geodesic that begins at a shape with a velocity: exp.
+
+    Parameters
+    ----------
+    metric : Metric
+    shape, velocity : array_like
+        n x 3, in the unit of the metric's poses.
+    steps : int, optional
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    ndarray
+        n x 3.
+
+    Raises
+    ------
+    SolverError
+        Some step did not converge on the mesh itself; `shoot` goes on coarser ones.
+    """
+    with told(progress) as report:
+        metric, steps = _as(Metric, metric, "metric"), _count(steps, "steps")
+        return _core.exponential(metric, shape, velocity, steps, options, report)
+
+
+@takes("LogarithmOptions")
+def logarithm(metric, shape, end, *, progress=None, **options):
+    """Find the initial velocity of the geodesic from one shape to another: log.
+
+    Parameters
+    ----------
+    metric : Metric
+    shape, end : array_like
+        n x 3; `end` is first moved rigidly onto `shape`.
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    ndarray
+        n x 3, per unit of time: `exponential` with shapes + 1 steps leads to `end`.
+    """
+    with told(progress) as report:
+        return _core.logarithm(_as(Metric, metric, "metric"), shape, end, options, report)
+
+
+@takes("TransportOptions")
+def transport(path, tangents, *, progress=None, **options):
+    """Carry tangents along a path to its last shape.
+
+    Parameters
+    ----------
+    path : Path
+    tangents : sequence of array_like
+        n x 3 each, at the path's first shape.
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    TransportResult
+        Tangents, k x n x 3, and a summary.
+    """
+    with told(progress) as report:
+        return TransportResult(*_core.transport(_as(Path, path, "path"), tangents, options, report))
+
+
+@takes("CorrectionOptions")
+def correct_path(path, *, progress=None, **options):
+    """Bring the edge lengths of an extrapolated path back towards those of its first shape.
+
+    Parameters
+    ----------
+    path : Path
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    CorrectionResult
+    """
+    with told(progress) as report:
+        return CorrectionResult(*_core.correct_path(_as(Path, path, "path"), options, report))
+
+
+@takes("TransferOptions")
+def transfer(source, target, *, progress=None, **options):
+    """Move a body as another one moves.
+
+    Parameters
+    ----------
+    source : Path
+        How the other body moves.
+    target : array_like
+        The body in the source's first pose, n x 3, of the same connectivity.
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    TransferResult
+        The target's path, hybrids (None unless asked for), and a summary.
+    """
+    with told(progress) as report:
+        return TransferResult(*_core.transfer(_as(Path, source, "source"), target, options, report))
+
+
+@takes("TransferOptions")
+def transfer_poses(poses, target, faces=None, *, geodesic=None, progress=None, **options):
+    """Put a body into the poses of another one.
+
+    Parameters
+    ----------
+    poses : Poses, or sequence of array_like
+        The other body's; the first is the pose that the target is in.
+    target : array_like
+        n x 3, of the same connectivity.
+    faces : array_like, optional
+        As for `Poses`.
+    geodesic : GeodesicOptions, optional
+        Of the ladder, on which each pose is reached by a geodesic.
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    PoseTransferResult
+        A path of the target in each pose (no motion between them), hybrids (None unless asked
+        for), and a summary.
+    """
+    poses = _poses(poses, faces)
+    with told(progress) as report:
+        return PoseTransferResult(
+            *_core.transfer_poses(poses, target, geodesic, options, report)
+        )
+
+
+def read_handles(file, vertices, faces=None):
+    """Read a file of handles, as shape-deform does.
+
+    Parameters
+    ----------
+    file : str or path-like
+    vertices : Poses or array_like
+        The mesh, in which the file selects vertices.
+    faces : array_like, optional
+        As for `Poses`.
+
+    Returns
+    -------
+    list of Handle
+    """
+    return _core.read_handles(os.fspath(file), _mesh(vertices, faces))
+
+
+@takes("DeformationOptions")
+def deform(vertices, faces, handles, *, progress=None, **options):
+    """Deform a mesh by handles.
+
+    Parameters
+    ----------
+    vertices : array_like
+        The mesh at rest, n x 3.
+    faces : array_like, or an object with a mesh
+        As for `Poses`.
+    handles : sequence of Handle
+        What is held, and where it is to be.
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    DeformationResult
+        A path from the mesh to the deformed one, which is `path[-1]`, and a summary.
+    """
+    mesh = _mesh(vertices, faces)
+    with told(progress) as report:
+        return DeformationResult(*_core.deform(mesh, _handles(handles), options, report))
+
+
+class Deformer:
+    """Deform one mesh again and again, as `deform` does, each time from the last solution.
+
+    Parameters
+    ----------
+    vertices : array_like
+        The mesh at rest, n x 3.
+    faces : array_like, or an object with a mesh
+        As for `Poses`.
+    **options
+        As for `deform`.
+    """
+
+    def __init__(self, vertices, faces, **options):
+        self._solver = _core._Deformer(_mesh(vertices, faces), options)
+
+    def deform(self, handles, *, progress=None):
+        """Deform the mesh.
+
+        Parameters
+        ----------
+        handles : sequence of Handle
+        progress : callable or bool, optional
+            As for `interpolate`.
+
+        Returns
+        -------
+        DeformationResult
+        """
+        with told(progress) as report:
+            return DeformationResult(*self._solver.deform(_handles(handles), report))
+
+
+takes("DeformationOptions")(Deformer)
+
+
+@takes("RepairOptions")
+def repair(reference, distorted, faces=None, *, vertices=None, progress=None, **options):
+    """Restore a reference's geometry in a distorted pose of the same mesh.
+
+    Parameters
+    ----------
+    reference, distorted : array_like
+        n x 3.
+    faces : array_like, or an object with a mesh
+        As for `Poses`.
+    vertices : array_like, optional
+        Whose places in the distorted shape are to be kept as far as that can be: numbers of
+        vertices, or a truth value for each. Without, all.
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    RepairResult
+        A path from the reference to the repaired shape, which is `path[-1]`, and a summary.
+    """
+    mesh = _mesh(reference, faces, "reference")
+    with told(progress) as report:
+        return RepairResult(*_core.repair(mesh, distorted, vertices, options, report))
+
+
+class Correspondence:
+    """A template fitted onto another body, and the map between the two: what `correspond` returns.
+
+    Attributes
+    ----------
+    fitted : ndarray
+        The template's vertices on the target's surface, n x 3.
+    map : SurfaceMap
+    summary : CorrespondenceSummary
+    """
+
+    def __init__(self, result, template, target, markers):
+        self._result = result
+        self._template = template
+        self._target = target
+        self._markers = markers
+
+    @property
+    def fitted(self):
+        return self._result.fitted
+
+    @property
+    def map(self) -> SurfaceMap:
+        return self._result.map
+
+    @property
+    def summary(self):
+        return self._result.summary
+
+    def carry(self, path):
+        """Move the target's own mesh as the fitted template moves.
+
+        Parameters
+        ----------
+        path : Path
+            Of the template, from `fitted` on.
+
+        Returns
+        -------
+        Path
+        """
+        return self._result.carry(_as(Path, path, "path"), self._target)
+
+    def to_template(self, values):
+        """Values at the target's vertices, n or n x d, as values at the template's."""
+        return _pull(self._result.map.to_target, self._target, values)
+
+    def to_target(self, values):
+        """Values at the template's vertices, n or n x d, as values at the target's."""
+        return _pull(self._result.map.to_template, self._template, values)
+
+    def picture(self):
+        """A picture to judge the correspondence by."""
+        return self._result.picture(self._template, self._target, self._markers)
+
+    def _repr_html_(self):
+        return f"{self.picture()._repr_html_()}<pre>{escape(repr(self.summary))}</pre>"
+
+    def __repr__(self):
+        return f"<shapespace.Correspondence: {self.summary!r}>"
+
+
+def _pull(points, mesh, values):
+    array = np.asarray(values, dtype=np.float64)
+    if array.ndim == 1:
+        return points._pull(mesh, array[:, np.newaxis])[:, 0]
+    return points._pull(mesh, array)
+
+
+@takes("CorrespondenceOptions")
+def correspond(
+    template, template_faces, target, target_faces, markers, *, progress=None, **options
+):
+    """Fit a template onto another body of any connectivity, and map the two onto each other.
+
+    Parameters
+    ----------
+    template, target : array_like
+        Vertices, n x 3 each.
+    template_faces, target_faces : array_like, or objects with a mesh
+        As for `Poses`.
+    markers : array_like
+        k x 2: a vertex of the template and one of the target that belong together, from 0.
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    Correspondence
+    """
+    source = _mesh(template, template_faces, "template")
+    goal = _mesh(target, target_faces, "target")
+    with told(progress) as report:
+        result = _core.correspond(source, goal, markers, options, report)
+    return Correspondence(result, source, goal, markers)
+
+
+def read_markers(file, template, target):
+    """Read a file of markers, as shape-correspond does.
+
+    Parameters
+    ----------
+    file : str or path-like
+    template, target : Poses
+        The two meshes.
+
+    Returns
+    -------
+    ndarray
+        k x 2, from 0.
+    """
+    return _core.read_markers(os.fspath(file), template, target)
+
+
+@takes("ExploreOptions")
+def distance_matrix(poses, faces=None, *, progress=None, **options):
+    """Measure the lengths of the geodesics between every two poses.
+
+    Parameters
+    ----------
+    poses : Poses, or sequence of array_like
+        Vertices of each pose, n x 3.
+    faces : array_like, optional
+        As for `Poses`.
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    ndarray
+        k x k, symmetric: pure numbers.
+    """
+    poses = _poses(poses, faces)
+    with told(progress) as report:
+        return _core.distance_matrix(poses, options, report)
+
+
+@takes("ExploreOptions")
+def explore(poses, faces=None, *, names=(), progress=None, **options):
+    """Spread poses out on a plane, with the shapes between them.
+
+    Parameters
+    ----------
+    poses : Poses, or sequence of array_like
+        Vertices of each pose, n x 3.
+    faces : array_like, optional
+        As for `Poses`.
+    names : sequence of str, optional
+        Of the poses.
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    ExploreResult
+        The `Space` and a summary.
+    """
+    poses = _poses(poses, faces)
+    names = list(names) or list(poses.names)
+    with told(progress) as report:
+        return ExploreResult(*_core.explore(poses, names, options, report))
+
+
+def compare_shapes(metric, reference, shape):
+    """Measure how far a shape is from another one in what rigid motion does not change.
+
+    Parameters
+    ----------
+    metric : Metric
+    reference, shape : array_like
+        n x 3, in one unit.
+
+    Returns
+    -------
+    ShapeError
+    """
+    return _core.compare_shapes(_as(Metric, metric, "metric"), reference, shape)
+
+
+def set_threads(threads):
+    """Let solvers use so many threads from now on; 0 stands for one a core.
+
+    Results do not depend on it.
+    """
+    _core.set_threads(threads)
+
+
+def threads():
+    """The number of threads in use."""
+    return _core.threads()

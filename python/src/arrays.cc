@@ -1,0 +1,218 @@
+#include "arrays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <sstream>
+
+#include <shapespace/base/error.h>
+
+namespace shapespace::python {
+namespace {
+
+std::string ShapeOf(const py::array& array) {
+  std::string text;
+  for (py::ssize_t i = 0; i < array.ndim(); ++i) {
+    text += (i == 0 ? "" : " x ") + std::to_string(array.shape(i));
+  }
+  return text.empty() ? "a single number" : text;
+}
+
+// `value` as an array of numbers; `kinds` are numpy's letters for the kinds of numbers that will
+// do.
+py::array ToNumbers(py::handle value, const std::string& name, const std::string& kinds,
+                    const std::string& what) {
+  py::array array = py::array::ensure(value);
+  if (!array) {
+    PyErr_Clear();
+    throw py::type_error(name + ": must be " + what + ", not " +
+                         py::cast<std::string>(py::str(py::type::handle_of(value))));
+  }
+  if (array.size() > 0 && kinds.find(array.dtype().kind()) == kinds.npos) {
+    throw py::type_error(name + ": must be " + what + "; its numbers are of type " +
+                         py::cast<std::string>(py::str(array.dtype())));
+  }
+  return array;
+}
+
+constexpr char kReal[] = "fiu";
+constexpr char kInteger[] = "iu";
+
+// Rows of three finite numbers.
+void Fill(const double* data, const std::string& name, Shape* shape) {
+  std::memcpy(shape->data(), data, sizeof(double) * static_cast<size_t>(shape->size()));
+  if (shape->allFinite()) return;
+  for (int v = 0; v < shape->cols(); ++v) {
+    if (shape->col(v).allFinite()) continue;
+    std::ostringstream message;
+    message << name << ": vertex " << v << " is not finite (" << shape->col(v).transpose() << ")";
+    throw MeshError(message.str());
+  }
+}
+
+void CheckRows(py::ssize_t rows, const std::string& name, int num_vertices) {
+  if (num_vertices >= 0 && rows != num_vertices) {
+    throw MeshError(name + ": has " + std::to_string(rows) + " vertices, but the mesh has " +
+                    std::to_string(num_vertices));
+  }
+}
+
+[[noreturn]] void RefuseIndex(const std::string& element, std::int64_t index, int num_vertices) {
+  const bool known = num_vertices < std::numeric_limits<int>::max();
+  throw MeshError(
+      element + " names vertex " + std::to_string(index) + ", but " +
+      (known ? "there are " + std::to_string(num_vertices) + " vertices, " : "they are ") +
+      "counted from 0");
+}
+
+std::vector<std::int64_t> ToIndices(py::handle value, const std::string& name,
+                                    const std::string& what) {
+  const py::array numbers = ToNumbers(value, name, kInteger, what);
+  const auto array = Contiguous<std::int64_t>(numbers);
+  return {array.data(), array.data() + array.size()};
+}
+
+}  // namespace
+
+Shape ToShape(py::handle value, const std::string& name, int num_vertices) {
+  const std::string what = "an n x 3 array of numbers, one vertex a row";
+  const py::array array = ToNumbers(value, name, kReal, what);
+  if (array.ndim() != 2 || array.shape(1) != 3) {
+    const bool lying = array.ndim() == 2 && array.shape(0) == 3;
+    throw py::value_error(name + ": must be " + what + ", not " + ShapeOf(array) +
+                          (lying ? "; give its transpose" : ""));
+  }
+  CheckRows(array.shape(0), name, num_vertices);
+  const auto numbers = Contiguous<double>(array);
+  Shape shape(3, array.shape(0));
+  Fill(numbers.data(), name, &shape);
+  return shape;
+}
+
+std::vector<Shape> ToShapes(py::handle value, const std::string& name, int num_vertices) {
+  std::vector<Shape> shapes;
+  if (py::isinstance<py::array>(value)) {
+    const auto array = py::reinterpret_borrow<py::array>(value);
+    if (array.ndim() == 2) {
+      throw py::value_error(name + ": must be several n x 3 arrays, not one of " + ShapeOf(array) +
+                            "; put it in a list");
+    }
+  }
+  if (!py::isinstance<py::sequence>(value) && !py::isinstance<py::array>(value)) {
+    throw py::type_error(name + ": must be a list of n x 3 arrays, not " +
+                         py::cast<std::string>(py::str(py::type::handle_of(value))));
+  }
+  for (py::handle one : value) {
+    const std::string number = name + "[" + std::to_string(shapes.size()) + "]";
+    const int wanted =
+        shapes.empty() || num_vertices >= 0 ? num_vertices : static_cast<int>(shapes[0].cols());
+    shapes.push_back(ToShape(one, number, wanted));
+  }
+  if (shapes.empty()) throw py::value_error(name + ": is empty; give at least one n x 3 array");
+  return shapes;
+}
+
+void SetPolygons(py::handle faces, Soup* soup) {
+  soup->polygon_begin = {0};
+  soup->corners.clear();
+  const int num_vertices = soup->NumVertices();
+  const auto add = [&](const std::int64_t* corners, size_t count) {
+    for (size_t k = 0; k < count; ++k) {
+      if (corners[k] < 0 || corners[k] >= num_vertices) {
+        RefuseIndex("faces: face " + std::to_string(soup->NumPolygons()), corners[k], num_vertices);
+      }
+      soup->corners.push_back(static_cast<int>(corners[k]));
+    }
+    soup->polygon_begin.push_back(static_cast<int>(soup->corners.size()));
+  };
+  const std::string what = "an m x 3 array of integers, or a list of polygons";
+  const bool ragged = py::isinstance<py::list>(faces) || py::isinstance<py::tuple>(faces);
+  if (ragged) {
+    for (py::handle face : faces) {
+      const std::string name = "faces[" + std::to_string(soup->NumPolygons()) + "]";
+      const std::vector<std::int64_t> corners =
+          ToIndices(face, name, "the numbers of a polygon's vertices");
+      if (corners.size() < 3) throw py::value_error(name + ": has fewer than three vertices");
+      add(corners.data(), corners.size());
+    }
+    return;
+  }
+  const py::array array = ToNumbers(faces, "faces", kInteger, what);
+  if (array.ndim() != 2 || array.shape(1) < 3) {
+    throw py::value_error("faces: must be " + what + ", not " + ShapeOf(array));
+  }
+  const auto numbers = Contiguous<std::int64_t>(array);
+  const auto corners = static_cast<size_t>(array.shape(1));
+  for (py::ssize_t i = 0; i < array.shape(0); ++i) {
+    add(numbers.data() + static_cast<size_t>(i) * corners, corners);
+  }
+}
+
+std::vector<std::pair<int, int>> ToPairs(py::handle value, const std::string& name, int num_first,
+                                         int num_second) {
+  const std::string what = "a k x 2 array of integers";
+  const py::array array = ToNumbers(value, name, kInteger, what);
+  if (array.size() == 0) return {};
+  if (array.ndim() != 2 || array.shape(1) != 2) {
+    throw py::value_error(name + ": must be " + what + ", not " + ShapeOf(array));
+  }
+  const std::vector<std::int64_t> numbers = ToIndices(value, name, what);
+  std::vector<std::pair<int, int>> pairs;
+  for (size_t i = 0; i < numbers.size(); i += 2) {
+    const std::string element = name + "[" + std::to_string(i / 2) + "]";
+    for (int k = 0; k < 2; ++k) {
+      const int count = k == 0 ? num_first : num_second;
+      if (numbers[i + k] < 0 || numbers[i + k] >= count) {
+        RefuseIndex(element, numbers[i + k], count);
+      }
+    }
+    pairs.emplace_back(static_cast<int>(numbers[i]), static_cast<int>(numbers[i + 1]));
+  }
+  return pairs;
+}
+
+std::vector<int> ToVertices(py::handle value, const std::string& name, int num_vertices) {
+  const std::string what = "a list of numbers of vertices, or a truth value for each vertex";
+  const py::array array = ToNumbers(value, name, "iub", what);
+  if (array.ndim() != 1) {
+    throw py::value_error(name + ": must be " + what + ", not " + ShapeOf(array));
+  }
+  std::vector<int> vertices;
+  if (array.dtype().kind() == 'b') {
+    CheckRows(array.size(), name, num_vertices);
+    const auto chosen = Contiguous<bool>(array);
+    for (int v = 0; v < num_vertices; ++v) {
+      if (chosen.data()[v]) vertices.push_back(v);
+    }
+    return vertices;
+  }
+  for (const std::int64_t vertex : ToIndices(value, name, what)) {
+    if (vertex < 0 || vertex >= num_vertices) RefuseIndex(name, vertex, num_vertices);
+    vertices.push_back(static_cast<int>(vertex));
+  }
+  return vertices;
+}
+
+Eigen::VectorXd ToVector(py::handle value, const std::string& name) {
+  const std::string what = "a one-dimensional array of numbers";
+  const py::array array = ToNumbers(value, name, kReal, what);
+  if (array.ndim() != 1) {
+    throw py::value_error(name + ": must be " + what + ", not " + ShapeOf(array));
+  }
+  const auto numbers = Contiguous<double>(array);
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
+}
+
+py::array_t<double> FromShape(const Shape& shape) { return FromMatrix(shape); }
+
+py::array_t<double> FromShapes(const std::vector<Shape>& shapes) {
+  const py::ssize_t vertices = shapes.empty() ? 0 : shapes[0].cols();
+  py::array_t<double> array(
+      std::vector<py::ssize_t>{static_cast<py::ssize_t>(shapes.size()), vertices, 3});
+  double* out = array.mutable_data();
+  for (const Shape& shape : shapes) out = std::copy_n(shape.data(), shape.size(), out);
+  return array;
+}
+
+}  // namespace shapespace::python

@@ -1,0 +1,76 @@
+#ifndef SHAPESPACE_PYTHON_ARRAYS_H_
+#define SHAPESPACE_PYTHON_ARRAYS_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <shapespace/mesh/connectivity.h>
+#include <shapespace/mesh/shape.h>
+#include <shapespace/mesh/soup.h>
+
+// Between numpy's arrays, one vertex a row, and the library's matrices, one vertex a column: the
+// same memory, which is copied as a whole, so that nothing that Python does while a solver runs
+// without the interpreter's lock can reach what it works on.
+
+namespace shapespace::python {
+
+namespace py = pybind11;
+
+/// A shape or a tangent from anything that numpy takes for n x 3 integers or floats, in any order
+/// of memory. `name` is the argument's, for messages; `num_vertices`, if not negative, what n must
+/// be. \throw py::type_error, py::value_error, MeshError (a number is not finite).
+Shape ToShape(py::handle value, const std::string& name, int num_vertices = -1);
+
+/// Several shapes of as many vertices: a sequence of n x 3, or one k x n x 3.
+std::vector<Shape> ToShapes(py::handle value, const std::string& name, int num_vertices = -1);
+
+/// The polygons of `soup`, which has its vertices, from an m x 3 or m x 4 array of integers, or a
+/// sequence of polygons of any numbers of corners. \throw also MeshError if an index is outside.
+void SetPolygons(py::handle faces, Soup* soup);
+
+/// Pairs of vertices, k x 2. \throw also MeshError if an index is outside.
+std::vector<std::pair<int, int>> ToPairs(py::handle value, const std::string& name, int num_first,
+                                         int num_second);
+
+/// Numbers of vertices, counted from 0, or the true ones of a truth value a vertex. The largest int
+/// as `num_vertices` stands for a mesh that is not known yet. \throw also
+/// MeshError if one is outside.
+std::vector<int> ToVertices(py::handle value, const std::string& name, int num_vertices);
+
+/// A one-dimensional array of floats.
+Eigen::VectorXd ToVector(py::handle value, const std::string& name);
+
+py::array_t<double> FromShape(const Shape& shape);                 ///< n x 3
+py::array_t<double> FromShapes(const std::vector<Shape>& shapes);  ///< k x n x 3
+
+/// The transpose of any matrix; a vector as one dimension.
+template <typename Derived>
+py::array_t<typename Derived::Scalar> FromMatrix(const Eigen::MatrixBase<Derived>& matrix) {
+  using Scalar = typename Derived::Scalar;
+  if (Derived::ColsAtCompileTime == 1) {
+    py::array_t<Scalar> array(matrix.rows());
+    Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, 1>>(array.mutable_data(), matrix.rows()) =
+        matrix;
+    return array;
+  }
+  py::array_t<Scalar> array(std::vector<py::ssize_t>{matrix.cols(), matrix.rows()});
+  Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>(
+      array.mutable_data(), matrix.rows(), matrix.cols()) = matrix;
+  return array;
+}
+
+/// A copy of `value` with the memory of all its elements in C order.
+template <typename Scalar>
+py::array_t<Scalar> Contiguous(py::handle value) {
+  auto array = py::array_t<Scalar, py::array::c_style | py::array::forcecast>::ensure(value);
+  if (!array) throw py::error_already_set();
+  return array;
+}
+
+}  // namespace shapespace::python
+
+#endif  // SHAPESPACE_PYTHON_ARRAYS_H_

@@ -1,0 +1,44 @@
+#ifndef SHAPESPACE_PYTHON_BIND_H_
+#define SHAPESPACE_PYTHON_BIND_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pybind11/pybind11.h>
+
+#include <shapespace/mesh/read.h>
+#include <shapespace/metric/metric.h>
+#include <shapespace/path/path.h>
+
+// What the parts of the module share.
+
+namespace shapespace::python {
+
+namespace py = pybind11;
+
+/// A metric, frozen: immutable, and shared with the paths that it makes.
+struct FrozenMetric {
+  std::shared_ptr<const Metric> metric;
+};
+
+void BindErrors(py::module_* module);
+void BindMeshes(py::module_* module);
+void BindSummaries(py::module_* module);
+void BindPaths(py::module_* module);
+void BindSpaces(py::module_* module);
+void BindCorrespondence(py::module_* module);
+void BindSolvers(py::module_* module);
+
+/// The mesh that `faces` stands for: of a Poses, Path, Metric, Space or Body; or triangles or
+/// polygons as in `SetPolygons`, on the vertices of `shapes`, which are checked as files are.
+/// \throw py::type_error, py::value_error, MeshError, CorrespondenceError.
+Poses MakePoses(std::vector<Shape> shapes, py::handle faces, const ReadOptions& options = {},
+                py::handle segments = py::none(), py::handle stiffeners = py::none());
+
+/// Says each through Python's warnings, as a MeshWarning.
+void Warn(const std::vector<std::string>& warnings);
+
+}  // namespace shapespace::python
+
+#endif  // SHAPESPACE_PYTHON_BIND_H_

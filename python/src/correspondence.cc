@@ -1,0 +1,118 @@
+#include <filesystem>
+#include <utility>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/solvers/correspondence.h>
+#include <shapespace/solvers/correspondence_picture.h>
+#include <shapespace/solvers/marker_file.h>
+
+#include "arrays.h"
+#include "bind.h"
+#include "options.h"
+#include "progress.h"
+
+namespace shapespace::python {
+namespace {
+
+std::vector<Marker> ToMarkers(py::handle value, const Poses& source, const Poses& target) {
+  std::vector<Marker> markers;
+  for (const auto& [first, second] : ToPairs(value, "markers", source.connectivity->NumVertices(),
+                                             target.connectivity->NumVertices())) {
+    markers.push_back({first, second});
+  }
+  return markers;
+}
+
+void BindSurfaceMap(py::module_* module) {
+  py::class_<SurfacePoints>(*module, "SurfacePoints",
+                            "Where each vertex of one mesh lies on the surface of another.")
+      .def_property_readonly(
+          "triangle", [](const SurfacePoints& points) { return FromMatrix(points.triangle); },
+          "Of each vertex the triangle, counted from 0, of the other mesh's `faces`.")
+      .def_property_readonly(
+          "barycentric", [](const SurfacePoints& points) { return FromMatrix(points.barycentric); },
+          "Of each vertex the weights, n x 3, of that triangle's corners.")
+      .def("__len__", &SurfacePoints::NumVertices)
+      .def("_pull", [](const SurfacePoints& points, const Poses& mesh, py::handle values) {
+        const auto array = Contiguous<double>(values);
+        if (array.ndim() != 2) throw py::value_error("values: must be n or n x d numbers");
+        if (array.shape(0) != mesh.connectivity->NumVertices()) {
+          throw MeshError("values: has " + std::to_string(array.shape(0)) +
+                          " rows, but the mesh has " +
+                          std::to_string(mesh.connectivity->NumVertices()) + " vertices");
+        }
+        const Eigen::Map<const Eigen::MatrixXd> function(array.data(), array.shape(1),
+                                                         array.shape(0));
+        return FromMatrix(PullBack(points, mesh.connectivity->Triangles(), function));
+      });
+  py::class_<SurfaceMap>(*module, "SurfaceMap",
+                         "A map between the surfaces of two meshes of different connectivity.")
+      .def_readonly("to_target", &SurfaceMap::to_target,
+                    "Of each vertex of the template its place on the target.")
+      .def_readonly("to_template", &SurfaceMap::to_template,
+                    "Of each vertex of the target its place on the template.")
+      .def_property_readonly(
+          "round_trip", [](const SurfaceMap& map) { return FromMatrix(map.round_trip); },
+          "Of each vertex of the template how far from itself it comes back, as a share of the "
+          "root "
+          "of the area.")
+      .def_property_readonly(
+          "gap", [](const SurfaceMap& map) { return FromMatrix(map.gap); },
+          "Of each vertex of the target how far the fitted template is from it, likewise.")
+      .def(
+          "write",
+          [](const SurfaceMap& map, const std::filesystem::path& file) {
+            WriteSurfaceMap(file, map);
+          },
+          py::arg("file"), "Writes the map as text.");
+}
+
+}  // namespace
+
+void BindCorrespondence(py::module_* module) {
+  BindSurfaceMap(module);
+  py::class_<CorrespondenceResult>(*module, "_Correspondence")
+      .def_property_readonly(
+          "fitted", [](const CorrespondenceResult& result) { return FromShape(result.fitted); })
+      .def_readonly("map", &CorrespondenceResult::map)
+      .def_readonly("summary", &CorrespondenceResult::summary)
+      .def("carry",
+           [](const CorrespondenceResult& result, const Path& path, const Poses& target) {
+             const py::gil_scoped_release unlocked;
+             Path carried = CarryPath(result, path, target.connectivity, target.shapes[0]);
+             carried.appearance = target.soup.appearance;
+             return carried;
+           })
+      .def("picture", [](const CorrespondenceResult& result, const Poses& source,
+                         const Poses& target, py::handle markers) {
+        const std::vector<Marker> pairs = ToMarkers(markers, source, target);
+        const py::gil_scoped_release unlocked;
+        return RenderCorrespondence(*source.connectivity, source.shapes[0], *target.connectivity,
+                                    target.shapes[0], pairs, result);
+      });
+  module->def("correspond", [](const Poses& source, const Poses& target, py::handle markers,
+                               const py::dict& given, const py::object& progress) {
+    const std::vector<Marker> pairs = ToMarkers(markers, source, target);
+    CorrespondenceOptions options;
+    Set(given, &options);
+    options.Validate();
+    return WithoutLock(progress, [&](Progress* told) {
+      return Correspond(source.connectivity, source.shapes[0], target.connectivity,
+                        target.shapes[0], pairs, options, told);
+    });
+  });
+  module->def("read_markers",
+              [](const std::string& file, const Poses& source, const Poses& target) {
+                const std::vector<Marker> markers = ReadMarkers(file, source, target);
+                Eigen::Matrix2Xi pairs(2, markers.size());
+                for (size_t i = 0; i < markers.size(); ++i) {
+                  pairs.col(i) << markers[i].template_vertex, markers[i].target_vertex;
+                }
+                return FromMatrix(pairs);
+              });
+}
+
+}  // namespace shapespace::python

@@ -1,0 +1,97 @@
+#include <string>
+#include <utility>
+
+#include <shapespace/base/error.h>
+
+#include "bind.h"
+
+namespace shapespace::python {
+namespace {
+
+// The classes live as long as the interpreter.
+PyObject* error = nullptr;
+PyObject* file_error = nullptr;
+PyObject* mesh_error = nullptr;
+PyObject* correspondence_error = nullptr;
+PyObject* invalid_options = nullptr;
+PyObject* solver_error = nullptr;
+PyObject* cancelled = nullptr;
+PyObject* mesh_warning = nullptr;
+
+PyObject* Make(py::module_* module, const char* name, const py::object& bases, const char* doc) {
+  const std::string full = std::string("shapespace.") + name;
+  PyObject* made = PyErr_NewExceptionWithDoc(full.c_str(), doc, bases.ptr(), nullptr);
+  if (made == nullptr) throw py::error_already_set();
+  module->add_object(name, made);
+  return made;
+}
+
+// The library's remedies name flags of the tools; here they are keyword arguments.
+std::string InPython(std::string text) {
+  static const std::pair<const char*, const char*> words[] = {
+      {"--allow_nonmanifold", "allow_nonmanifold=True"},
+      {"--mirror x (y, z)", "mirror='x' ('y', 'z')"},
+      {"--metric strain", "metric='strain'"},
+  };
+  for (const auto& [flag, argument] : words) {
+    const size_t at = text.find(flag);
+    if (at != text.npos) text.replace(at, std::string(flag).size(), argument);
+  }
+  return text;
+}
+
+void Raise(PyObject* type, const Error& e) { PyErr_SetString(type, InPython(e.what()).c_str()); }
+
+void Translate(std::exception_ptr thrown) {
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const FileError& e) {
+    Raise(file_error, e);
+  } catch (const MeshError& e) {
+    Raise(mesh_error, e);
+  } catch (const CorrespondenceError& e) {
+    Raise(correspondence_error, e);
+  } catch (const InvalidOptions& e) {
+    Raise(invalid_options, e);
+  } catch (const SolverError& e) {
+    Raise(solver_error, e);
+  } catch (const Cancelled& e) {
+    Raise(cancelled, e);
+  } catch (const Error& e) {
+    Raise(error, e);
+  }
+}
+
+py::object Class(PyObject* type) { return py::reinterpret_borrow<py::object>(type); }
+
+}  // namespace
+
+void BindErrors(py::module_* module) {
+  error =
+      Make(module, "Error", Class(PyExc_Exception), "Base of everything that shapespace raises.");
+  const auto with = [](PyObject* builtin) { return py::make_tuple(Class(error), Class(builtin)); };
+  file_error = Make(module, "FileError", with(PyExc_OSError),
+                    "A file cannot be opened, read to its end, understood or written.");
+  mesh_error = Make(module, "MeshError", with(PyExc_ValueError), "A mesh cannot serve.");
+  correspondence_error = Make(module, "CorrespondenceError", with(PyExc_ValueError),
+                              "Meshes that should be poses of one connectivity are not.");
+  invalid_options = Make(module, "InvalidOptions", with(PyExc_ValueError),
+                         "An option is outside its range; the message begins with its name.");
+  solver_error = Make(module, "SolverError", with(PyExc_RuntimeError),
+                      "A solver cannot start or go on. One that merely did not converge says so in "
+                      "its summary.");
+  cancelled = Make(module, "Cancelled", Class(error),
+                   "`progress` asked to stop before there was anything worth returning.");
+  mesh_warning =
+      Make(module, "MeshWarning", Class(PyExc_UserWarning), "A mesh is usable, but look at it.");
+  py::register_exception_translator(Translate);
+}
+
+void Warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    if (PyErr_WarnEx(mesh_warning, InPython(warning).c_str(), 1) != 0)
+      throw py::error_already_set();
+  }
+}
+
+}  // namespace shapespace::python

@@ -1,0 +1,290 @@
+#include <utility>
+
+#include <pybind11/stl.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/bodies/body.h>
+#include <shapespace/bodies/skinned.h>
+#include <shapespace/mesh/check.h>
+#include <shapespace/mesh/write.h>
+#include <shapespace/output/frames.h>
+#include <shapespace/solvers/exploration/space.h>
+
+#include "arrays.h"
+#include "bind.h"
+
+namespace shapespace::python {
+namespace {
+
+// A mesh whose connectivity is there already.
+Poses PosesOf(const std::shared_ptr<const Connectivity>& connectivity, Soup soup,
+              std::vector<Shape> shapes) {
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    if (shapes[i].cols() == connectivity->NumVertices()) continue;
+    throw MeshError("shape " + std::to_string(i) + ": has " + std::to_string(shapes[i].cols()) +
+                    " vertices, but the mesh has " + std::to_string(connectivity->NumVertices()));
+  }
+  Poses poses;
+  poses.connectivity = connectivity;
+  poses.soup = std::move(soup);
+  if (!shapes.empty()) poses.soup.vertices = shapes[0];
+  poses.shapes = std::move(shapes);
+  return poses;
+}
+
+std::shared_ptr<const Connectivity> ConnectivityIn(py::handle mesh, Appearance* appearance) {
+  if (py::isinstance<FrozenMetric>(mesh)) {
+    return py::cast<const FrozenMetric&>(mesh).metric->connectivity;
+  }
+  if (py::isinstance<Path>(mesh)) {
+    const auto& path = py::cast<const Path&>(mesh);
+    *appearance = path.appearance;
+    return path.metric->connectivity;
+  }
+  if (py::isinstance<Space>(mesh)) {
+    const auto& space = py::cast<const Space&>(mesh);
+    *appearance = space.appearance;
+    return space.metric->connectivity;
+  }
+  if (py::isinstance<Body>(mesh)) return py::cast<const Body&>(mesh).connectivity;
+  if (py::isinstance<SkinnedBody>(mesh)) return py::cast<const SkinnedBody&>(mesh).connectivity;
+  return nullptr;
+}
+
+ReadOptions ReadingOptions(bool allow_nonmanifold, const py::object& mirror) {
+  ReadOptions options;
+  options.allow_nonmanifold = allow_nonmanifold;
+  if (!mirror.is_none()) {
+    const auto axis = py::cast<std::string>(mirror);
+    if (axis != "x" && axis != "y" && axis != "z") {
+      throw py::value_error("mirror: must be 'x', 'y', 'z' or None, not '" + axis + "'");
+    }
+    options.mirror = axis[0];
+  }
+  return options;
+}
+
+py::list Polygons(const Connectivity& connectivity) {
+  py::list polygons;
+  const std::vector<int>& begin = connectivity.PolygonBegin();
+  for (int i = 0; i < connectivity.NumPolygons(); ++i) {
+    py::list polygon;
+    for (int k = begin[i]; k < begin[i + 1]; ++k) polygon.append(connectivity.Corners()[k]);
+    polygons.append(polygon);
+  }
+  return polygons;
+}
+
+size_t Position(py::ssize_t i, size_t count, const std::string& what) {
+  const auto size = static_cast<py::ssize_t>(count);
+  if (i < -size || i >= size) {
+    throw py::index_error(what + " " + std::to_string(i) + " of " + std::to_string(count));
+  }
+  return static_cast<size_t>(i < 0 ? i + size : i);
+}
+
+void BindPoses(py::module_* module) {
+  py::class_<Poses>(*module, "Poses", R"(Poses of one mesh: what `read` returns and solvers take.
+
+A sequence of the poses' vertices, n x 3 each.
+
+Parameters
+----------
+shapes : sequence of array_like
+    The vertices of each pose, n x 3, in any unit: any type of integer or float, in any order of
+    memory.
+faces : array_like, or an object with a mesh
+    The polygons that all poses share: m x 3 integers counted from 0, or a list of polygons of any
+    numbers of corners. A `Poses`, `Path`, `Metric`, `Space` or body stands for its own. None, of a
+    graph, which has segments only.
+segments : array_like, optional
+    Edges of a straight-line graph, k x 2.
+stiffeners : array_like, optional
+    Further edges that the metric is to hold, k x 2.
+allow_nonmanifold : bool, optional
+    Take non-manifold or inconsistently wound meshes, with a warning.
+mirror : {'x', 'y', 'z'}, optional
+    Poses that are mirror images of the first have this coordinate's sign changed.
+
+Raises
+------
+MeshError
+    The mesh cannot serve: an index out of range, a vertex that is not finite.
+CorrespondenceError
+    The shapes are no poses of one mesh.
+)")
+      .def(py::init([](py::handle shapes, py::handle faces, py::handle segments,
+                       py::handle stiffeners, bool allow_nonmanifold, const py::object& mirror) {
+             Poses poses =
+                 MakePoses(ToShapes(shapes, "shapes"), faces,
+                           ReadingOptions(allow_nonmanifold, mirror), segments, stiffeners);
+             Warn(poses.warnings);
+             return poses;
+           }),
+           py::arg("shapes"), py::arg("faces") = py::none(), py::kw_only(),
+           py::arg("segments") = py::none(), py::arg("stiffeners") = py::none(),
+           py::arg("allow_nonmanifold") = ReadOptions().allow_nonmanifold,
+           py::arg("mirror") = py::none())
+      .def("__len__", [](const Poses& poses) { return poses.shapes.size(); })
+      .def("__getitem__",
+           [](const Poses& poses, py::ssize_t i) {
+             return FromShape(poses.shapes[Position(i, poses.shapes.size(), "pose")]);
+           })
+      .def("__getitem__",
+           [](const Poses& poses, const py::slice& which) {
+             return py::object(FromShapes(poses.shapes)[which]);
+           })
+      .def_property_readonly(
+          "vertices", [](const Poses& poses) { return FromShapes(poses.shapes); },
+          "The vertices of all poses, k x n x 3: a copy.")
+      .def_property_readonly(
+          "faces", [](const Poses& poses) { return FromMatrix(poses.connectivity->Triangles()); },
+          "The triangles, m x 3, into which the polygons are cut.")
+      .def_property_readonly(
+          "polygons", [](const Poses& poses) { return Polygons(*poses.connectivity); },
+          "The polygons as they were given: a list of lists.")
+      .def_property_readonly(
+          "edges", [](const Poses& poses) { return FromMatrix(poses.connectivity->Edges()); },
+          "The edges, k x 2, each once.")
+      .def_readonly("names", &Poses::names, "The files that the poses were read from.")
+      .def_readonly("warnings", &Poses::warnings, "What is worth a look.")
+      .def_property_readonly(
+          "dropped", [](const Poses& poses) { return poses.soup.dropped; },
+          "What the first file holds and is not kept.")
+      .def("__repr__", [](const Poses& poses) {
+        const Connectivity& mesh = *poses.connectivity;
+        return "<shapespace.Poses: " + std::to_string(poses.shapes.size()) + " of " +
+               std::to_string(mesh.NumVertices()) + " vertices, " +
+               std::to_string(mesh.NumTriangles()) + " triangles>";
+      });
+
+  module->def(
+      "read",
+      [](const std::vector<std::string>& files, const std::string& stiffeners,
+         bool allow_nonmanifold, const py::object& mirror) {
+        ReadOptions options = ReadingOptions(allow_nonmanifold, mirror);
+        options.stiffeners = stiffeners;
+        Poses poses = [&] {
+          const py::gil_scoped_release unlocked;
+          return ReadPoses(files, options);
+        }();
+        Warn(poses.warnings);
+        return poses;
+      },
+      py::arg("files"), py::arg("stiffeners"), py::arg("allow_nonmanifold"), py::arg("mirror"));
+
+  module->def("write", [](const std::string& file, py::handle vertices, py::handle faces) {
+    const Shape shape = ToShape(vertices, "vertices");
+    const Poses poses = MakePoses({shape}, faces);
+    WriteMesh(file, shape, poses.soup);
+    return NotKept(file, poses.soup);
+  });
+
+  module->def("check", [](py::handle vertices, py::handle faces) {
+    Soup soup;
+    soup.vertices = ToShape(vertices, "vertices");
+    SetPolygons(faces, &soup);
+    py::list findings;
+    for (const Finding& finding : CheckSoup(soup)) {
+      static const char* const names[] = {"note", "warning", "non-manifold", "fatal"};
+      findings.append(
+          py::make_tuple(names[static_cast<int>(finding.severity)], finding.kind, finding.message));
+    }
+    return findings;
+  });
+}
+
+void BindBodies(py::module_* module) {
+  py::class_<Body>(*module, "Body", "A body made in code, in poses along one parameter.")
+      .def_readonly("name", &Body::name)
+      .def_readonly("begin", &Body::begin, "The parameter's value at rest.")
+      .def_readonly("end", &Body::end, "The parameter's last value.")
+      .def_readonly("parameter", &Body::parameter, "What the parameter is, with its unit.")
+      .def_property_readonly(
+          "faces", [](const Body& body) { return FromMatrix(body.connectivity->Triangles()); },
+          "The triangles, m x 3.")
+      .def(
+          "pose", [](const Body& body, double value) { return FromShape(body.pose(value)); },
+          py::arg("value"), "The vertices, n x 3, at a value of the parameter.")
+      .def("__repr__", [](const Body& body) {
+        return "<shapespace.Body: " + body.name + ", " +
+               std::to_string(body.connectivity->NumVertices()) + " vertices, " + body.parameter +
+               ">";
+      });
+  py::class_<SkinnedBody>(*module, "SkinnedBody",
+                          "A body made in code that has bones, in poses that have names.")
+      .def_readonly("name", &SkinnedBody::name)
+      .def_readonly("pose_names", &SkinnedBody::pose_names, "The poses; the first is at rest.")
+      .def_property_readonly(
+          "faces",
+          [](const SkinnedBody& body) { return FromMatrix(body.connectivity->Triangles()); },
+          "The triangles, m x 3.")
+      .def(
+          "pose",
+          [](const SkinnedBody& body, const std::string& name) {
+            return FromShape(body.pose(name));
+          },
+          py::arg("name"), "The vertices, n x 3, of a pose.")
+      .def("__repr__", [](const SkinnedBody& body) {
+        return "<shapespace.SkinnedBody: " + body.name + ", " +
+               std::to_string(body.connectivity->NumVertices()) + " vertices>";
+      });
+  module->def("body",
+              [](const std::string& name, int triangles) { return MakeBody(name, triangles); });
+  module->def("skinned_body",
+              [](const std::string& name, int triangles, const std::string& proportions) {
+                return MakeSkinnedBody(name, triangles, proportions);
+              });
+}
+
+}  // namespace
+
+Poses MakePoses(std::vector<Shape> shapes, py::handle faces, const ReadOptions& options,
+                py::handle segments, py::handle stiffeners) {
+  if (py::isinstance<Poses>(faces)) {
+    const auto& mesh = py::cast<const Poses&>(faces);
+    return PosesOf(mesh.connectivity, mesh.soup, std::move(shapes));
+  }
+  Appearance appearance;
+  if (const auto connectivity = ConnectivityIn(faces, &appearance)) {
+    return PosesOf(connectivity, FrameSoup(*connectivity, appearance), std::move(shapes));
+  }
+  if (faces.is_none() && segments.is_none()) {
+    throw py::type_error("faces: are missing; give m x 3 integers, or an object that has a mesh");
+  }
+  std::vector<Soup> soups(shapes.size());
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    soups[i].file = "shapes[" + std::to_string(i) + "]";  // what messages name
+    soups[i].vertices = std::move(shapes[i]);
+    if (i == 0) {
+      const int num_vertices = soups[0].NumVertices();
+      if (!faces.is_none()) SetPolygons(faces, &soups[0]);
+      if (!segments.is_none()) {
+        soups[0].segments = ToPairs(segments, "segments", num_vertices, num_vertices);
+      }
+    } else {
+      soups[i].polygon_begin = soups[0].polygon_begin;
+      soups[i].corners = soups[0].corners;
+      soups[i].segments = soups[0].segments;
+    }
+  }
+  Poses poses = shapespace::MakePoses(std::move(soups), options);
+  poses.names.clear();
+  poses.soup.file.clear();
+  if (!stiffeners.is_none()) {
+    const int num_vertices = poses.connectivity->NumVertices();
+    poses.connectivity = ConnectivityOf(
+        poses.soup, poses.shapes, ToPairs(stiffeners, "stiffeners", num_vertices, num_vertices));
+  }
+  return poses;
+}
+
+void BindMeshes(py::module_* module) {
+  BindPoses(module);
+  BindBodies(module);
+  module->def("set_threads", &SetThreads);
+  module->def("threads", &Threads);
+}
+
+}  // namespace shapespace::python

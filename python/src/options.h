@@ -1,0 +1,316 @@
+#ifndef SHAPESPACE_PYTHON_OPTIONS_H_
+#define SHAPESPACE_PYTHON_OPTIONS_H_
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <shapespace/metric/metric.h>
+#include <shapespace/output/gltf.h>
+#include <shapespace/output/picture.h>
+#include <shapespace/solvers/correction.h>
+#include <shapespace/solvers/correspondence.h>
+#include <shapespace/solvers/deformation.h>
+#include <shapespace/solvers/exploration/explore.h>
+#include <shapespace/solvers/exponential.h>
+#include <shapespace/solvers/geodesic.h>
+#include <shapespace/solvers/repair.h>
+#include <shapespace/solvers/transfer.h>
+#include <shapespace/solvers/transport.h>
+
+#include "arrays.h"
+
+// Options as keyword arguments. Each struct of options has one table of its fields: their names,
+// how they are set and read, and what they mean. Defaults are those of the struct.
+
+namespace shapespace::python {
+
+/// A field of a struct of options.
+template <typename Options>
+struct Field {
+  std::string name;  ///< the C++ name; `lambda_` for `lambda`, which Python keeps for itself
+  std::string type;  ///< as numpydoc has it
+  std::string doc;
+  std::function<void(Options*, py::handle)> set;
+  std::function<py::object(const Options&)> get;
+};
+
+template <typename Options>
+using Fields = std::vector<Field<Options>>;
+
+/// The table of a struct.
+template <typename Options>
+const Fields<Options>& FieldsOf();
+template <>
+const Fields<MetricOptions>& FieldsOf();
+template <>
+const Fields<GeodesicOptions>& FieldsOf();
+template <>
+const Fields<LogarithmOptions>& FieldsOf();
+template <>
+const Fields<ExponentialOptions>& FieldsOf();
+template <>
+const Fields<CorrectionOptions>& FieldsOf();
+template <>
+const Fields<TransportOptions>& FieldsOf();
+template <>
+const Fields<LadderOptions>& FieldsOf();
+template <>
+const Fields<TransferOptions>& FieldsOf();
+template <>
+const Fields<DeformationOptions>& FieldsOf();
+template <>
+const Fields<RepairOptions>& FieldsOf();
+template <>
+const Fields<CorrespondenceOptions>& FieldsOf();
+template <>
+const Fields<EmbeddingOptions>& FieldsOf();
+template <>
+const Fields<ExploreOptions>& FieldsOf();
+template <>
+const Fields<FilmStripOptions>& FieldsOf();
+template <>
+const Fields<GltfOptions>& FieldsOf();
+
+/// Names of an enumeration's values: those of C++, in Python's spelling.
+template <typename Enum>
+using Names = std::vector<std::pair<std::string, Enum>>;
+template <typename Enum>
+const Names<Enum>& NamesOf();
+template <>
+const Names<Weighting>& NamesOf();
+template <>
+const Names<Discretization>& NamesOf();
+template <>
+const Names<PosePairs>& NamesOf();
+template <>
+const Names<GeodesicSolver>& NamesOf();
+template <>
+const Names<GeodesicSchedule>& NamesOf();
+template <>
+const Names<GeodesicStart>& NamesOf();
+template <>
+const Names<Termination>& NamesOf();
+template <>
+const Names<Integrator>& NamesOf();
+template <>
+const Names<StepSolver>& NamesOf();
+template <>
+const Names<FirstIntegralSolver>& NamesOf();
+template <>
+const Names<ExponentialSummary::Ending>& NamesOf();
+template <>
+const Names<CorrectionMode>& NamesOf();
+template <>
+const Names<TransportConnection>& NamesOf();
+template <>
+const Names<TransferMethod>& NamesOf();
+template <>
+const Names<DeformationOptions::Solver>& NamesOf();
+template <>
+const Names<GltfPlayback>& NamesOf();
+
+/// The name of a value.
+template <typename Enum>
+std::string NameOf(Enum value) {
+  for (const auto& [name, known] : NamesOf<Enum>()) {
+    if (known == value) return name;
+  }
+  return "unknown";
+}
+
+[[noreturn]] void RefuseKeyword(const std::string& name, const std::vector<std::string>& known);
+[[noreturn]] void RefuseType(const std::string& name, const std::string& type, py::handle value);
+
+/// Sets the fields that `keywords` name. \throw py::type_error naming a keyword that is none or a
+/// value of another type; py::value_error.
+template <typename Options>
+void Set(const py::dict& keywords, Options* options) {
+  for (const auto& [key, value] : keywords) {
+    const auto name = py::cast<std::string>(key);
+    const Fields<Options>& fields = FieldsOf<Options>();
+    bool found = false;
+    for (const Field<Options>& field : fields) {
+      if (field.name != name) continue;
+      field.set(options, value);
+      found = true;
+    }
+    if (found) continue;
+    std::vector<std::string> known;
+    for (const Field<Options>& field : fields) known.push_back(field.name);
+    RefuseKeyword(name, known);
+  }
+}
+
+/// The fields of `options`, by name.
+template <typename Options>
+py::dict Get(const Options& options) {
+  py::dict values;
+  for (const Field<Options>& field : FieldsOf<Options>()) {
+    values[field.name.c_str()] = field.get(options);
+  }
+  return values;
+}
+
+/// How a field of this type is converted. Structs of options are dicts, of which what is left out
+/// stays as it is; None leaves all of it.
+template <typename T, typename = void>
+struct Value {
+  static std::string Type() { return "dict"; }
+  static void Set(T* value, py::handle given, const std::string& name) {
+    if (given.is_none()) return;
+    if (!py::isinstance<py::dict>(given)) RefuseType(name, Type(), given);
+    python::Set(py::reinterpret_borrow<py::dict>(given), value);
+  }
+  static py::object Get(const T& value) { return python::Get(value); }
+};
+
+/// Numbers, truth values, names.
+template <typename T>
+struct SimpleValue {
+  static void Set(T* value, py::handle given, const std::string& name) {
+    // Truth values are integers to Python, and would be taken for numbers.
+    const bool truth = py::isinstance<py::bool_>(given);
+    if (truth != std::is_same_v<T, bool>) RefuseType(name, Value<T>::Type(), given);
+    try {
+      *value = py::cast<T>(given);
+    } catch (const py::cast_error&) {
+      RefuseType(name, Value<T>::Type(), given);
+    }
+  }
+  static py::object Get(const T& value) { return py::cast(value); }
+};
+template <>
+struct Value<int> : SimpleValue<int> {
+  static std::string Type() { return "int"; }
+};
+template <>
+struct Value<double> : SimpleValue<double> {
+  static std::string Type() { return "float"; }
+};
+template <>
+struct Value<bool> : SimpleValue<bool> {
+  static std::string Type() { return "bool"; }
+};
+template <>
+struct Value<std::string> : SimpleValue<std::string> {
+  static std::string Type() { return "str"; }
+};
+template <>
+struct Value<std::vector<std::string>> : SimpleValue<std::vector<std::string>> {
+  static std::string Type() { return "list of str"; }
+};
+
+template <typename T>
+struct Value<T, std::enable_if_t<std::is_enum_v<T>>> {
+  static std::string Type() {
+    std::string type;
+    for (const auto& [name, value] : NamesOf<T>()) {
+      type += (type.empty() ? "{'" : ", '") + name + "'";
+    }
+    return type + "}";
+  }
+  static void Set(T* value, py::handle given, const std::string& name) {
+    if (!py::isinstance<py::str>(given)) RefuseType(name, Type(), given);
+    const auto text = py::cast<std::string>(given);
+    for (const auto& [known, one] : NamesOf<T>()) {
+      if (known != text) continue;
+      *value = one;
+      return;
+    }
+    throw py::value_error(name + ": must be one of " + Type() + ", not '" + text + "'");
+  }
+  static py::object Get(const T& value) { return py::str(NameOf(value)); }
+};
+
+template <>
+struct Value<Eigen::Vector3d> {
+  static std::string Type() { return "three floats"; }
+  static void Set(Eigen::Vector3d* value, py::handle given, const std::string& name) {
+    const Eigen::VectorXd numbers = ToVector(given, name);
+    if (numbers.size() != 3) throw py::value_error(name + ": must be three numbers");
+    *value = numbers;
+  }
+  static py::object Get(const Eigen::Vector3d& value) {
+    return py::make_tuple(value[0], value[1], value[2]);
+  }
+};
+
+template <>
+struct Value<Eigen::VectorXd> {
+  static std::string Type() { return "array of float"; }
+  static void Set(Eigen::VectorXd* value, py::handle given, const std::string& name) {
+    *value = given.is_none() ? Eigen::VectorXd() : ToVector(given, name);
+  }
+  static py::object Get(const Eigen::VectorXd& value) {
+    return value.size() == 0 ? py::object(py::none()) : FromMatrix(value);
+  }
+};
+
+template <>
+struct Value<std::vector<Eigen::VectorXd>> {
+  static std::string Type() { return "array of float, shapes x vertices"; }
+  static void Set(std::vector<Eigen::VectorXd>* value, py::handle given, const std::string& name) {
+    value->clear();
+    if (given.is_none()) return;
+    for (py::handle row : given) {
+      value->push_back(ToVector(row, name + "[" + std::to_string(value->size()) + "]"));
+    }
+  }
+  static py::object Get(const std::vector<Eigen::VectorXd>&) { return py::none(); }
+};
+
+template <>
+struct Value<Eigen::VectorXi> {
+  static std::string Type() { return "array of int"; }
+  static void Set(Eigen::VectorXi* value, py::handle given, const std::string& name) {
+    *value = given.is_none() ? Eigen::VectorXi() : ToVector(given, name).cast<int>();
+  }
+  static py::object Get(const Eigen::VectorXi&) { return py::none(); }
+};
+
+template <>
+struct Value<MetricOptions> {
+  static std::string Type() { return "MetricOptions or str"; }
+  static void Set(MetricOptions* value, py::handle given, const std::string& name);
+  static py::object Get(const MetricOptions& value) { return python::Get(value); }
+};
+
+/// Nothing stands for the metric of the mesh, which the function that takes the options puts there
+/// before it sets them.
+template <>
+struct Value<std::optional<MetricOptions>> {
+  static std::string Type() { return Value<MetricOptions>::Type(); }
+  static void Set(std::optional<MetricOptions>* value, py::handle given, const std::string& name) {
+    if (!value->has_value()) value->emplace();
+    Value<MetricOptions>::Set(&**value, given, name);
+  }
+  static py::object Get(const std::optional<MetricOptions>&) { return py::none(); }
+};
+
+/// The preset that sets the defaults of a metric's other options, as --metric of the tools does.
+/// "deformation" depends on the mesh: that of functions that deform, which is their default.
+MetricOptions PresetMetric(const std::string& preset);
+
+/// A table's row for a member of the struct.
+template <typename Options, typename T>
+Field<Options> Row(const std::string& name, T Options::*member, const std::string& doc) {
+  return {name, Value<T>::Type(), doc,
+          [name, member](Options* options, py::handle given) {
+            Value<T>::Set(&(options->*member), given, name);
+          },
+          [member](const Options& options) { return Value<T>::Get(options.*member); }};
+}
+
+/// What Python is told of each row of the table `name` of options: name, type, default, meaning.
+py::list DescribeOptions(const std::string& name);
+
+}  // namespace shapespace::python
+
+#endif  // SHAPESPACE_PYTHON_OPTIONS_H_

@@ -1,0 +1,279 @@
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <pybind11/stl.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/solvers/handle.h>
+#include <shapespace/solvers/handle_file.h>
+
+#include "arrays.h"
+#include "bind.h"
+#include "options.h"
+#include "progress.h"
+
+namespace shapespace::python {
+namespace {
+
+// Solvers' paths say who made them, as those of the tools do.
+void Sign(const std::string& function, Path* path) {
+  path->provenance = "shapespace " SHAPESPACE_VERSION " for Python: " + function;
+}
+
+template <typename Options>
+Options FromKeywords(const py::dict& given) {
+  Options options;
+  Set(given, &options);
+  options.Validate();
+  return options;
+}
+
+// The key, taken out of the keywords, if it is a metric that is frozen already.
+std::optional<FrozenMetric> TakeFrozen(const py::dict& given) {
+  if (!given.contains("metric") || !py::isinstance<FrozenMetric>(given["metric"])) return {};
+  return py::cast<FrozenMetric>(given.attr("pop")("metric"));
+}
+
+py::tuple InterpolatePoses(const Poses& poses, const py::dict& given, const py::object& progress) {
+  const std::optional<FrozenMetric> frozen = TakeFrozen(given);
+  const auto options = FromKeywords<GeodesicOptions>(given);
+  if (frozen && frozen->metric->connectivity->NumVertices() != poses.connectivity->NumVertices()) {
+    throw MeshError("metric: is of another mesh than the poses");
+  }
+  GeodesicResult result = WithoutLock(progress, [&](Progress* told) {
+    return frozen ? Interpolate(frozen->metric, poses.shapes, options, told)
+                  : Interpolate(poses, options, told);
+  });
+  result.path.appearance = poses.soup.appearance;
+  Sign("interpolate", &result.path);
+  return py::make_tuple(std::move(result.path), std::move(result.summary));
+}
+
+// A handle as Python has it: vertices, and where they are to be.
+Handle MakeHandle(py::handle vertices, const py::object& positions, py::handle axis, double angle,
+                  py::handle point, py::handle translation, bool hard, double weight,
+                  const std::string& name) {
+  Handle handle;
+  handle.name = name;
+  // Whether they exist is for the solver to say, which has the mesh.
+  const py::array given = py::array::ensure(vertices);
+  const int most = given && given.dtype().kind() == 'b' ? static_cast<int>(given.size())
+                                                        : std::numeric_limits<int>::max();
+  handle.vertices = ToVertices(vertices, "vertices", most);
+  if (!positions.is_none()) {
+    const py::array array = py::array::ensure(positions);
+    const bool single = array && array.ndim() == 1;
+    handle.positions = ToShape(single ? py::object(py::make_tuple(positions)) : positions,
+                               "positions", static_cast<int>(handle.vertices.size()));
+  }
+  Value<Eigen::Vector3d>::Set(&handle.motion.axis, axis, "axis");
+  Value<Eigen::Vector3d>::Set(&handle.motion.point, point, "point");
+  Value<Eigen::Vector3d>::Set(&handle.motion.translation, translation, "translation");
+  handle.motion.angle = angle;
+  handle.hard = hard;
+  handle.weight = weight;
+  return handle;
+}
+
+void BindHandle(py::module_* module) {
+  const Handle none;
+  const auto vector = [](const Eigen::Vector3d& value) {
+    return Value<Eigen::Vector3d>::Get(value);
+  };
+  py::class_<Handle>(*module, "Handle", R"(Some vertices, and where they are to be in the end.
+
+Parameters
+----------
+vertices : array_like
+    Numbers of vertices, or a truth value for each vertex of the mesh.
+positions : array_like, optional
+    Where each of them is to be, k x 3; without, they move as below, and by default stay.
+axis : array_like, optional
+    The direction about which they turn.
+angle : float, optional
+    By which, in radians. Turns of half a circle and more are what they say.
+point : array_like, optional
+    A point on the axis.
+translation : array_like, optional
+    By which they move.
+hard : bool, optional
+    Met exactly; a soft handle pulls.
+weight : float, optional
+    Of a soft handle.
+name : str, optional
+    For messages and reports.
+)")
+      .def(py::init(&MakeHandle), py::arg("vertices"), py::arg("positions") = py::none(),
+           py::kw_only(), py::arg("axis") = vector(none.motion.axis),
+           py::arg("angle") = none.motion.angle, py::arg("point") = vector(none.motion.point),
+           py::arg("translation") = vector(none.motion.translation), py::arg("hard") = none.hard,
+           py::arg("weight") = none.weight, py::arg("name") = none.name)
+      .def_readonly("name", &Handle::name)
+      .def_readonly("vertices", &Handle::vertices)
+      .def_readonly("hard", &Handle::hard)
+      .def_readonly("weight", &Handle::weight)
+      .def("__repr__", [](const Handle& handle) {
+        return "<shapespace.Handle: " + (handle.name.empty() ? "" : "'" + handle.name + "', ") +
+               std::to_string(handle.vertices.size()) + " vertices, " +
+               (handle.hard ? "hard" : "soft") + ">";
+      });
+  module->def("read_handles", [](const std::string& file, const Poses& mesh) {
+    return ReadHandles(file, mesh.shapes[0], *mesh.connectivity, mesh.soup.appearance);
+  });
+}
+
+// The metric of the mesh is the default, of which options may say otherwise.
+DeformationOptions DeformationFromKeywords(const Poses& mesh, const py::dict& given) {
+  DeformationOptions options;
+  options.metric = MetricOptions::Deformation(*mesh.connectivity);
+  Set(given, &options);
+  options.Validate();
+  return options;
+}
+
+void BindDeformer(py::module_* module) {
+  py::class_<Deformer>(*module, "_Deformer")
+      .def(py::init([](const Poses& mesh, const py::dict& given) {
+        const DeformationOptions options = DeformationFromKeywords(mesh, given);
+        const py::gil_scoped_release unlocked;
+        return Deformer(mesh.connectivity, mesh.shapes[0], options);
+      }))
+      .def("deform",
+           [](Deformer& deformer, const std::vector<Handle>& handles, const py::object& progress) {
+             DeformationResult result = WithoutLock(
+                 progress, [&](Progress* told) { return deformer.Deform(handles, told); });
+             Sign("deform", &result.path);
+             return py::make_tuple(std::move(result.path), std::move(result.summary));
+           });
+}
+
+void BindShooting(py::module_* module) {
+  module->def("extrapolate",
+              [](const Path& path, int steps, const py::dict& given, const py::object& progress) {
+                const auto options = FromKeywords<ExponentialOptions>(given);
+                ExponentialResult result = WithoutLock(progress, [&](Progress* told) {
+                  return Extrapolate(path, steps, options, told);
+                });
+                Sign("extrapolate", &result.path);
+                return py::make_tuple(std::move(result.path), std::move(result.summary));
+              });
+  module->def("shoot", [](const FrozenMetric& metric, py::handle shape, py::handle velocity,
+                          int steps, const py::dict& given, const py::object& progress) {
+    const int n = metric.metric->connectivity->NumVertices();
+    const Shape from = ToShape(shape, "shape", n), along = ToShape(velocity, "velocity", n);
+    const auto options = FromKeywords<ExponentialOptions>(given);
+    ExponentialResult result = WithoutLock(progress, [&](Progress* told) {
+      return Extrapolate(metric.metric, from, along, steps, options, told);
+    });
+    Sign("shoot", &result.path);
+    return py::make_tuple(std::move(result.path), std::move(result.summary));
+  });
+  module->def("exponential", [](const FrozenMetric& metric, py::handle shape, py::handle velocity,
+                                int steps, const py::dict& given, const py::object& progress) {
+    const int n = metric.metric->connectivity->NumVertices();
+    const Shape from = ToShape(shape, "shape", n), along = ToShape(velocity, "velocity", n);
+    const auto options = FromKeywords<ExponentialOptions>(given);
+    return FromShape(WithoutLock(progress, [&](Progress* told) {
+      return Exponential(metric.metric, from, along, steps, options, told);
+    }));
+  });
+  module->def("logarithm", [](const FrozenMetric& metric, py::handle from, py::handle to,
+                              const py::dict& given, const py::object& progress) {
+    const int n = metric.metric->connectivity->NumVertices();
+    const Shape first = ToShape(from, "shape", n), last = ToShape(to, "end", n);
+    const auto options = FromKeywords<LogarithmOptions>(given);
+    return FromShape(WithoutLock(progress, [&](Progress* told) {
+      return Logarithm(metric.metric, first, last, options, told);
+    }));
+  });
+  module->def("transport", [](const Path& path, py::handle tangents, const py::dict& given,
+                              const py::object& progress) {
+    const std::vector<Tangent> carried =
+        ToShapes(tangents, "tangents", path.metric->connectivity->NumVertices());
+    const auto options = FromKeywords<TransportOptions>(given);
+    TransportResult result = WithoutLock(
+        progress, [&](Progress* told) { return Transport(path, carried, options, told); });
+    return py::make_tuple(FromShapes(result.tangents), std::move(result.summary));
+  });
+  module->def(
+      "correct_path", [](const Path& path, const py::dict& given, const py::object& progress) {
+        const auto options = FromKeywords<CorrectionOptions>(given);
+        CorrectionResult result =
+            WithoutLock(progress, [&](Progress* told) { return CorrectPath(path, options, told); });
+        Sign("correct_path", &result.path);
+        return py::make_tuple(std::move(result.path), std::move(result.summary));
+      });
+}
+
+template <typename Result>
+py::tuple FinishTransfer(const std::string& function, const Appearance& appearance, Result result) {
+  result.path.appearance = result.hybrids.appearance = appearance;
+  Sign(function, &result.path);
+  Sign(function + ", hybrids", &result.hybrids);
+  py::object hybrids = py::none();
+  if (result.hybrids.NumShapes() > 0) hybrids = py::cast(std::move(result.hybrids));
+  return py::make_tuple(std::move(result.path), hybrids, std::move(result.summary));
+}
+
+void BindTransfer(py::module_* module) {
+  module->def("transfer", [](const Path& source, py::handle target, const py::dict& given,
+                             const py::object& progress) {
+    const Shape shape = ToShape(target, "target", source.metric->connectivity->NumVertices());
+    const auto options = FromKeywords<TransferOptions>(given);
+    return FinishTransfer("transfer", source.appearance, WithoutLock(progress, [&](Progress* told) {
+                            return Transfer(source, shape, options, told);
+                          }));
+  });
+  module->def("transfer_poses", [](const Poses& poses, py::handle target,
+                                   const py::object& geodesic, const py::dict& given,
+                                   const py::object& progress) {
+    const Shape shape = ToShape(target, "target", poses.connectivity->NumVertices());
+    GeodesicOptions on_the_way;
+    Value<GeodesicOptions>::Set(&on_the_way, geodesic, "geodesic");
+    on_the_way.Validate();
+    const auto options = FromKeywords<TransferOptions>(given);
+    return FinishTransfer(
+        "transfer_poses", poses.soup.appearance, WithoutLock(progress, [&](Progress* told) {
+          return TransferPoses(poses.connectivity, poses.shapes, shape, on_the_way, options, told);
+        }));
+  });
+}
+
+}  // namespace
+
+void BindSolvers(py::module_* module) {
+  module->def("interpolate", &InterpolatePoses);
+  BindShooting(module);
+  BindTransfer(module);
+  BindHandle(module);
+  BindDeformer(module);
+  module->def("deform", [](const Poses& mesh, const std::vector<Handle>& handles,
+                           const py::dict& given, const py::object& progress) {
+    const DeformationOptions options = DeformationFromKeywords(mesh, given);
+    DeformationResult result = WithoutLock(progress, [&](Progress* told) {
+      return Deform(mesh.connectivity, mesh.shapes[0], handles, options, told);
+    });
+    result.path.appearance = mesh.soup.appearance;
+    Sign("deform", &result.path);
+    return py::make_tuple(std::move(result.path), std::move(result.summary));
+  });
+  module->def("repair", [](const Poses& reference, py::handle distorted, py::handle vertices,
+                           const py::dict& given, const py::object& progress) {
+    const int n = reference.connectivity->NumVertices();
+    const Shape shape = ToShape(distorted, "distorted", n);
+    RepairOptions options;
+    options.deformation.metric = MetricOptions::Deformation(*reference.connectivity);
+    Set(given, &options);
+    options.deformation.Validate();
+    if (!vertices.is_none()) options.vertices = ToVertices(vertices, "vertices", n);
+    RepairResult result = WithoutLock(progress, [&](Progress* told) {
+      return Repair(reference.connectivity, reference.shapes[0], shape, options, told);
+    });
+    result.path.appearance = reference.soup.appearance;
+    Sign("repair", &result.path);
+    return py::make_tuple(std::move(result.path), std::move(result.summary));
+  });
+}
+
+}  // namespace shapespace::python

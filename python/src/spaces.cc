@@ -1,0 +1,145 @@
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/output/picture.h>
+#include <shapespace/solvers/exploration/explore.h>
+#include <shapespace/solvers/exploration/space_file.h>
+
+#include "arrays.h"
+#include "bind.h"
+#include "options.h"
+#include "progress.h"
+
+namespace shapespace::python {
+namespace {
+
+Eigen::Vector2d ToPoint(py::handle value, const std::string& name) {
+  const Eigen::VectorXd point = ToVector(value, name);
+  if (point.size() != 2) throw py::value_error(name + ": must be two numbers, x and y");
+  return point;
+}
+
+ExploreOptions FromKeywords(const py::dict& given) {
+  ExploreOptions options;
+  Set(given, &options);
+  options.Validate();
+  return options;
+}
+
+void BindSpace(py::module_* module) {
+  py::class_<Space>(*module, "Space", R"(Poses of a mesh and shapes between them, on a plane.
+
+Distances on the plane are about the lengths of geodesics. A sequence of nodes, n x 3 each: the
+poses, then the shapes found half way between nodes. `explore` makes it.
+)")
+      .def_static(
+          "read",
+          [](const std::filesystem::path& file) {
+            const py::gil_scoped_release unlocked;
+            return ReadSpace(file);
+          },
+          py::arg("file"), "Reads a .space file.")
+      .def(
+          "write",
+          [](const Space& space, const std::filesystem::path& file) { WriteSpace(file, space); },
+          py::arg("file"), "Writes a .space file.")
+      .def("__len__", &Space::NumNodes)
+      .def("__getitem__",
+           [](const Space& space, int node) {
+             const int count = space.NumNodes();
+             if (node < -count || node >= count) {
+               throw py::index_error("node " + std::to_string(node) + " of " +
+                                     std::to_string(count));
+             }
+             return FromShape(space.Placed(node < 0 ? node + count : node));
+           })
+      .def_readonly("names", &Space::names, "Of the poses.")
+      .def_property_readonly(
+          "metric", [](const Space& space) { return FrozenMetric{space.metric}; },
+          "Frozen on all poses.")
+      .def_property_readonly(
+          "faces",
+          [](const Space& space) { return FromMatrix(space.metric->connectivity->Triangles()); },
+          "The triangles, m x 3.")
+      .def_property_readonly(
+          "points", [](const Space& space) { return FromMatrix(space.points); },
+          "Each node's place on the plane, k x 2, in the unit of lengths.")
+      .def_property_readonly(
+          "triangles", [](const Space& space) { return FromMatrix(space.triangles); },
+          "Nodes of the triangles that tile the plane, k x 3.")
+      .def_property_readonly(
+          "segments", [](const Space& space) { return FromMatrix(space.segments); },
+          "In their place, where all poses lie on a line, k x 2.")
+      .def_property_readonly(
+          "parents", [](const Space& space) { return space.parents; },
+          "Of each node after the poses the two nodes that it lies half way between.")
+      .def_property_readonly(
+          "distances", [](const Space& space) { return FromMatrix(space.distances); },
+          "Lengths of the geodesics between every two poses.")
+      .def_readonly("stress", &Space::stress, "How far the plane is from holding all distances.")
+      .def(
+          "at",
+          [](const Space& space, py::handle point) {
+            return FromShape(space.At(ToPoint(point, "point")));
+          },
+          py::arg("point"),
+          "The shape, n x 3, at a point of the plane; one outside is moved to the nearest inside.")
+      .def(
+          "along",
+          [](const Space& space, py::handle points, int frames) {
+            std::vector<Eigen::Vector2d> polyline;
+            for (py::handle point : points) polyline.push_back(ToPoint(point, "points"));
+            const py::gil_scoped_release unlocked;
+            return WalkAlong(space, polyline, frames).path;
+          },
+          py::arg("points"), py::arg("frames"),
+          "The shapes along a polyline of the plane, k x 2, as a path of so many.")
+      .def("_repr_html_",
+           [](const Space& space) {
+             FilmStripOptions options;
+             std::vector<Shape> poses;
+             for (int i = 0; i < space.NumPoses(); ++i) {
+               poses.push_back(space.Placed(i));
+               options.labels.push_back(std::to_string(i));
+             }
+             const RgbImage image = [&] {
+               const py::gil_scoped_release unlocked;
+               return RenderFilmStrip(*space.metric->connectivity, poses, options);
+             }();
+             return py::cast(image).attr("_repr_html_")();
+           })
+      .def("__repr__", [](const Space& space) {
+        return "<shapespace.Space: " + std::to_string(space.NumPoses()) + " poses, " +
+               std::to_string(space.NumNodes()) + " nodes>";
+      });
+}
+
+}  // namespace
+
+void BindSpaces(py::module_* module) {
+  BindSpace(module);
+  module->def("distance_matrix",
+              [](const Poses& poses, const py::dict& given, const py::object& progress) {
+                const ExploreOptions options = FromKeywords(given);
+                return FromMatrix(WithoutLock(progress, [&](Progress* told) {
+                  return DistanceMatrix(poses.connectivity, poses.shapes, options, told);
+                }));
+              });
+  module->def("explore", [](const Poses& poses, const std::vector<std::string>& names,
+                            const py::dict& given, const py::object& progress) {
+    const ExploreOptions options = FromKeywords(given);
+    ExploreResult result = WithoutLock(progress, [&](Progress* told) {
+      return Explore(poses.connectivity, poses.shapes, names, options, told);
+    });
+    result.space.appearance = poses.soup.appearance;
+    result.space.provenance = "shapespace " SHAPESPACE_VERSION " for Python: explore";
+    return py::make_tuple(std::move(result.space), std::move(result.summary));
+  });
+}
+
+}  // namespace shapespace::python

@@ -1,0 +1,173 @@
+"""Arrays in and out: any type, any order of memory, and messages that name the argument."""
+
+import gc
+
+import numpy as np
+import pytest
+
+import shapespace
+
+TETRAHEDRON = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+SIDES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+
+
+@pytest.mark.parametrize("dtype", ["f2", "f4", "f8", ">f8", "i2", "i8", "u1", "longdouble"])
+def test_any_type_of_number_is_taken(dtype):
+    poses = shapespace.Poses([TETRAHEDRON.astype(dtype)], SIDES)
+    assert poses[0].dtype == np.float64
+    np.testing.assert_array_equal(poses[0], TETRAHEDRON)
+
+
+@pytest.mark.parametrize(
+    "laid_out",
+    [
+        np.asfortranarray,
+        np.ndarray.tolist,
+        lambda v: np.repeat(v, 2, axis=0)[::2],
+        lambda v: np.hstack([v, v])[:, :3],
+        lambda v: v[::-1].copy()[::-1],
+        lambda v: np.lib.stride_tricks.as_strided(v, v.shape, v.strides, writeable=False),
+    ],
+)
+def test_any_order_of_memory_is_taken(laid_out):
+    vertices = np.arange(12.0).reshape(4, 3) ** 2
+    poses = shapespace.Poses([laid_out(vertices)], SIDES)
+    np.testing.assert_array_equal(poses[0], vertices)
+
+
+@pytest.mark.parametrize("dtype", ["i1", "u8", ">i4", "i8"])
+def test_any_type_of_index_is_taken(dtype):
+    poses = shapespace.Poses([TETRAHEDRON], SIDES.astype(dtype))
+    np.testing.assert_array_equal(poses.faces, SIDES)
+
+
+def test_polygons_of_any_number_of_corners_are_kept():
+    square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0.5, 0]]
+    polygons = [[0, 1, 2, 3], [1, 4, 2]]
+    poses = shapespace.Poses([square], polygons)
+    assert poses.polygons == polygons
+    assert len(poses.faces) == 3
+
+
+def test_a_three_dimensional_array_is_several_poses():
+    other = TETRAHEDRON + [[0, 0, 0], [0, 0, 0], [0, 0, 0], [0.5, 0, 0]]
+    poses = shapespace.Poses(np.stack([TETRAHEDRON, other]), SIDES)
+    assert len(poses) == 2
+    np.testing.assert_array_equal(poses[-1], other)
+    np.testing.assert_array_equal(poses.vertices[1], other)
+    with pytest.raises(IndexError):
+        poses[2]
+
+
+def test_returned_arrays_own_their_memory():
+    poses = shapespace.Poses([TETRAHEDRON], SIDES)
+    vertices, faces = poses[0], poses.faces
+    del poses
+    gc.collect()
+    assert vertices.flags.owndata and vertices.flags.writeable and faces.flags.owndata
+    np.testing.assert_array_equal(vertices, TETRAHEDRON)
+
+
+def test_what_is_returned_can_be_changed_without_consequences():
+    poses = shapespace.Poses([TETRAHEDRON], SIDES)
+    poses[0][:] = 7
+    np.testing.assert_array_equal(poses[0], TETRAHEDRON)
+
+
+def test_nothing_that_was_given_is_changed(poses, animal):
+    given = [pose.copy() for pose in poses]
+    shapespace.interpolate(poses, animal.faces, shapes=1)
+    for one, other in zip(given, poses):
+        np.testing.assert_array_equal(one, other)
+
+
+@pytest.mark.parametrize(
+    "shapes, faces, error, words",
+    [
+        ([TETRAHEDRON.T], SIDES, ValueError, r"shapes\[0\].*3 x 4.*transpose"),
+        (TETRAHEDRON, SIDES, ValueError, "shapes: .*put it in a list"),
+        ([], SIDES, ValueError, "shapes: is empty"),
+        ([TETRAHEDRON[0]], SIDES, ValueError, r"shapes\[0\]: .*not 3"),
+        ([TETRAHEDRON[:, :2]], SIDES, ValueError, "4 x 2"),
+        (7, SIDES, TypeError, "shapes: must be a list"),
+        ([TETRAHEDRON.astype(complex)], SIDES, TypeError, r"shapes\[0\].*complex128"),
+        ([TETRAHEDRON.astype(str)], SIDES, TypeError, r"shapes\[0\]"),
+        ([np.full((4, 3), None)], SIDES, TypeError, "object"),
+        ([TETRAHEDRON, TETRAHEDRON[:3]], SIDES, ValueError, r"shapes\[1\]: has 3 .* has 4"),
+        ([TETRAHEDRON], SIDES.astype(float), TypeError, "faces: .*float64"),
+        ([TETRAHEDRON], SIDES + 1, ValueError, "faces: face 1 names vertex 4, .*counted from 0"),
+        ([TETRAHEDRON], SIDES - 1, ValueError, "faces: face 0 names vertex -1"),
+        ([TETRAHEDRON], SIDES[0], ValueError, "faces: "),
+        ([TETRAHEDRON], SIDES[:, :2], ValueError, "faces: "),
+        ([TETRAHEDRON], None, TypeError, "faces: are missing"),
+        ([TETRAHEDRON], [[0, 1, 2], [0, 1]], ValueError, r"faces\[1\]"),
+        ([TETRAHEDRON], [[0, 1, 2], "abc"], TypeError, r"faces\[1\]"),
+    ],
+)
+def test_what_does_not_fit_is_named(shapes, faces, error, words):
+    with pytest.raises(error, match=words):
+        shapespace.Poses(shapes, faces)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_a_vertex_that_is_not_finite_is_named(bad):
+    broken = TETRAHEDRON.copy()
+    broken[2, 1] = bad
+    with pytest.raises(shapespace.MeshError, match=r"shapes\[1\]: vertex 2 is not finite"):
+        shapespace.Poses([TETRAHEDRON, broken], SIDES)
+
+
+def test_a_mesh_that_a_file_would_be_refused_for_is_refused():
+    fan = np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]])
+    vertices = np.vstack([TETRAHEDRON, [[0.5, -1, -1]]])
+    with pytest.raises(shapespace.MeshError, match="allow_nonmanifold=True"):
+        shapespace.Poses([vertices], fan)
+    with pytest.warns(shapespace.MeshWarning):
+        assert shapespace.Poses([vertices], fan, allow_nonmanifold=True).warnings
+
+
+def test_anything_that_has_a_mesh_stands_for_its_faces(path, poses, animal):
+    for mesh in (animal, path, path.metric, shapespace.Poses(poses, animal.faces)):
+        made = shapespace.Poses(poses, mesh)
+        np.testing.assert_array_equal(made.faces, animal.faces)
+    with pytest.raises(shapespace.MeshError, match="vertices"):
+        shapespace.Poses([TETRAHEDRON], path)
+
+
+def test_vertices_may_be_chosen_by_truth_values(path):
+    low = path[0][:, 1] < 0.1
+    one = path.anchor(low)
+    other = path.anchor(np.flatnonzero(low))
+    np.testing.assert_array_equal(one.vertices, other.vertices)
+    with pytest.raises(shapespace.MeshError, match="vertices: "):
+        path.anchor(low[:-1])
+    with pytest.raises(shapespace.MeshError, match="vertices names vertex"):
+        path.anchor([len(low)])
+
+
+def test_slices_are_several_shapes(path):
+    np.testing.assert_array_equal(path[1:3], path.vertices[1:3])
+    np.testing.assert_array_equal(path[::-1][0], path[-1])
+
+
+@pytest.mark.parametrize(
+    "call, words",
+    [
+        (lambda p, f: shapespace.extrapolate(list(p), 2), "path: must be a Path, not list"),
+        (lambda p, f: shapespace.extrapolate(p, 2.5), "steps: must be int, not 2.5"),
+        (lambda p, f: shapespace.transfer(p[:], p[0]), "source: must be a Path"),
+        (lambda p, f: shapespace.logarithm(p, p[0], p[1]), "metric: must be a Metric"),
+        (lambda p, f: shapespace.deform(p[0], f, [0]), r"handles\[0\]: must be a Handle"),
+        (lambda p, f: shapespace.interpolate(shapespace.Poses(p[:2], f), f), "faces: leave them"),
+    ],
+)
+def test_what_is_of_another_class_is_named(path, animal, call, words):
+    with pytest.raises(TypeError, match=words):
+        call(path, animal.faces)
+
+
+def test_a_handle_s_vertices_are_checked(animal):
+    with pytest.raises(shapespace.MeshError, match="vertex -1, but they are counted from 0"):
+        shapespace.Handle([-1])
+    with pytest.raises(shapespace.InvalidOptions, match="1000000"):
+        shapespace.deform(animal.pose("sit"), animal.faces, [shapespace.Handle([1000000])])

@@ -1,0 +1,42 @@
+"""The programs of the documentation run as they are printed."""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+import pytest
+
+import shapespace
+
+PROJECT = pathlib.Path(__file__).resolve().parents[2]
+PAGES = ["docs/guide/python.md", "README.md"]
+
+
+def snippets(page):
+    text = (PROJECT / page).read_text(encoding="utf-8")
+    return re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_snippets_of_a_page_run_one_after_the_other(page, tmp_path, monkeypatch):
+    if "eigsh" in "".join(snippets(page)):
+        pytest.importorskip("scipy")
+    animal = shapespace.skinned_body("quadruped", 3000)
+    for name, pose in (("a.obj", "sit"), ("b.obj", "stretch")):
+        shapespace.write(tmp_path / name, animal.pose(pose), animal.faces)
+    monkeypatch.chdir(tmp_path)
+    assert snippets(page)
+    names = {"__name__": "snippet"}
+    for snippet in snippets(page):
+        exec(compile(snippet, page, "exec"), names)
+    assert (tmp_path / "walk.png").exists()
+
+
+def test_the_example_draws_a_film_strip(animal, tmp_path):
+    for i, pose in enumerate(("sit", "stretch")):
+        shapespace.write(tmp_path / f"{i}.obj", animal.pose(pose), animal.faces)
+    example = PROJECT / "python/examples/film_strip.py"
+    command = [sys.executable, example, "0.obj", "1.obj", "strip.png"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    assert (tmp_path / "strip.png").stat().st_size > 10000

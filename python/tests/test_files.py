@@ -1,0 +1,91 @@
+"""Files in and out."""
+
+import numpy as np
+import pytest
+
+import shapespace
+
+
+@pytest.mark.parametrize("name", ["mesh.obj", "mesh.ply"])
+def test_a_mesh_reads_back_to_the_last_bit(name, animal, tmp_path):
+    vertices = animal.pose("rear") / 3
+    assert shapespace.write(tmp_path / name, vertices, animal.faces) == []
+    again = shapespace.read(tmp_path / name)
+    np.testing.assert_array_equal(again[0], vertices)
+    np.testing.assert_array_equal(again.faces, animal.faces)
+    assert again.names == [str(tmp_path / name)]
+
+
+def test_polygons_and_materials_are_kept(tmp_path):
+    text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nusemtl red\nf 1/1 2/1 3/1 4/1\n"
+    (tmp_path / "square.obj").write_text(text)
+    square = shapespace.read(str(tmp_path / "square.obj"))
+    shapespace.write(tmp_path / "again.obj", 2 * square[0], square)
+    written = (tmp_path / "again.obj").read_text()
+    assert "usemtl red" in written and "f 1/1 2/1 3/1 4/1" in written
+    np.testing.assert_array_equal(shapespace.read(tmp_path / "again.obj")[0], 2 * square[0])
+
+
+def test_a_path_is_written_in_every_form(path, tmp_path):
+    path.write(tmp_path / "walk.path")
+    again = shapespace.Path.read(tmp_path / "walk.path")
+    np.testing.assert_array_equal(again.vertices, path.vertices)
+    assert "for Python: interpolate" in again.provenance
+
+    path.write(tmp_path / "walk.png", title="a walk", frame_width=64)
+    path.write(tmp_path / "walk.glb", duration=2.0, playback="loop")
+    assert (tmp_path / "walk.png").read_bytes()[:4] == b"\x89PNG"
+    assert (tmp_path / "walk.glb").read_bytes()[:4] == b"glTF"
+    (tmp_path / "frames").mkdir()
+    path.write(tmp_path / "frames" / "%03d.ply")
+    assert len(list((tmp_path / "frames").iterdir())) == len(path)
+    with pytest.raises(shapespace.FileError, match="must end in"):
+        path.write(tmp_path / "walk.mp4")
+    with pytest.raises(TypeError, match="'title'"):
+        path.write(tmp_path / "walk.path", title="a walk")
+
+
+def test_what_cannot_be_read_is_named(tmp_path):
+    with pytest.raises(OSError, match="missing.obj"):
+        shapespace.read(tmp_path / "missing.obj")
+    (tmp_path / "bad.obj").write_text("v 0 0 x\n")
+    with pytest.raises(shapespace.FileError, match=r"bad.obj:1"):
+        shapespace.read(tmp_path / "bad.obj")
+    (tmp_path / "bad.path").write_text("nothing")
+    with pytest.raises(shapespace.FileError, match="bad.path"):
+        shapespace.Path.read(tmp_path / "bad.path")
+    with pytest.raises(shapespace.FileError):
+        shapespace.read()
+
+
+def test_what_is_found_in_a_mesh_is_told(animal):
+    assert {finding.severity for finding in shapespace.check(animal.pose("sit"), animal.faces)} == {
+        "note"
+    }
+    torn = np.vstack([animal.faces, animal.faces[:1]])
+    assert "fatal" not in {f.severity for f in shapespace.check(animal.pose("sit"), torn)}
+
+
+def test_a_space_reads_back(animal, tmp_path):
+    shapes = [animal.pose(name) for name in ("stand", "stride", "sit")]
+    space = shapespace.explore(shapes, animal, depth=0, geodesic={"shapes": 1}).space
+    space.write(tmp_path / "poses.space")
+    again = shapespace.Space.read(tmp_path / "poses.space")
+    np.testing.assert_array_equal(again.points, space.points)
+    np.testing.assert_array_equal(again[1], space[1])
+
+
+def test_notebooks_show_paths_and_pictures(path, animal):
+    html = path._repr_html_()
+    assert html.startswith("<img") and "data:image/png;base64,iVBOR" in html
+    strip = shapespace.film_strip(path, frame_width=48)
+    assert strip.png() == strip._repr_png_()
+    pixels = np.asarray(strip)
+    assert pixels.dtype == np.uint8 and pixels.shape[2] == 3
+    # Something is drawn: not all of it has the colour of the background.
+    assert (pixels != pixels[0, 0]).any(axis=2).mean() > 0.05
+    coloured = np.asarray(
+        shapespace.film_strip(path, frame_width=48, values=path.edge_deviation(), legend="edges")
+    )
+    assert coloured.shape != pixels.shape or (coloured != pixels).any()
+    assert shapespace.film_strip([animal.pose("sit")], animal.faces).pixels.ndim == 3

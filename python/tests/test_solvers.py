@@ -1,0 +1,265 @@
+"""What the functions compute: known answers, invariances, and the command line's results."""
+
+import itertools
+import pickle
+
+import numpy as np
+import pytest
+
+import shapespace
+
+
+def rms(difference):
+    return np.sqrt((difference**2).sum(axis=1).mean())
+
+
+def test_the_command_line_finds_the_same_to_the_last_bit(tool, tmp_path):
+    tool("shape-body", "quadruped", "--triangles", 3000, "--pose", "sit,stretch", "--output",
+         "pose%d.obj", cwd=tmp_path)  # fmt: skip
+    tool("shape-body", "quadruped", "--triangles", 3000, "--pose", "sit", "--proportions", "long",
+         "--output", "other%d.obj", cwd=tmp_path)  # fmt: skip
+    tool("shape-interpolate", "pose0.obj", "pose1.obj", "--shapes", 3, "--output",
+         "walk.path,walk.png,walk%d.obj", cwd=tmp_path)  # fmt: skip
+    tool("shape-transfer", "walk.path", "--target", "other0.obj", "--output", "moved.path",
+         cwd=tmp_path)  # fmt: skip
+
+    poses = shapespace.read(tmp_path / "pose0.obj", tmp_path / "pose1.obj")
+    path = shapespace.interpolate(poses, shapes=3).path
+    theirs = shapespace.Path.read(tmp_path / "walk.path")
+    np.testing.assert_array_equal(path.aligned, theirs.aligned)
+    np.testing.assert_array_equal(path.vertices, theirs.vertices)
+    path.write(tmp_path / "ours.png")
+    assert (tmp_path / "ours.png").read_bytes() == (tmp_path / "walk.png").read_bytes()
+    path.write(tmp_path / "ours%d.obj")
+    assert (tmp_path / "ours2.obj").read_bytes() == (tmp_path / "walk2.obj").read_bytes()
+
+    from_arrays = shapespace.interpolate([poses[0], poses[1]], poses.faces, shapes=3).path
+    np.testing.assert_array_equal(from_arrays.vertices, path.vertices)
+
+    moved = shapespace.transfer(path, shapespace.read(tmp_path / "other0.obj")[0]).path
+    theirs = shapespace.Path.read(tmp_path / "moved.path")
+    np.testing.assert_array_equal(moved.vertices, theirs.vertices)
+
+
+def test_a_path_has_the_poses_at_its_ends(poses, animal):
+    path, summary = shapespace.interpolate(poses, animal.faces, shapes=3)
+    assert summary.converged and path.converged and summary.termination == "converged"
+    assert len(path) == 5 and path.poses == [0, 4]
+    np.testing.assert_allclose(path.parameters, [0, 0.25, 0.5, 0.75, 1])
+    np.testing.assert_allclose(path[0], poses[0], atol=1e-12)
+    np.testing.assert_allclose(path[-1], poses[1], atol=1e-12)
+    assert 1 <= summary.ratio < 1.2
+    np.testing.assert_allclose(sum(summary.parts.values()), summary.energy)
+    assert len(list(path)) == 5
+
+
+def test_units_and_place_do_not_matter(poses, animal, rotation):
+    options = {"shapes": 1, "tolerance": 1e-12, "max_iterations": 5000}
+    here = shapespace.interpolate(poses, animal.faces, **options).path
+    there = shapespace.interpolate(
+        [1000 * pose @ rotation.T + [5, -7, 2] for pose in poses], animal.faces, **options
+    ).path
+    np.testing.assert_allclose(there[1], 1000 * here[1] @ rotation.T + [5, -7, 2], atol=0.02)
+
+
+def test_threads_do_not_matter(poses, animal):
+    results = []
+    for threads in (1, 2):
+        shapespace.set_threads(threads)
+        assert shapespace.threads() == threads
+        results.append(shapespace.interpolate(poses, animal.faces, shapes=3).path.vertices)
+    shapespace.set_threads(0)
+    np.testing.assert_array_equal(*results)
+
+
+def test_a_frozen_metric_serves_several_paths(poses, animal):
+    metric = shapespace.Metric(poses, animal.faces, preset="strain", bending=1e-4)
+    assert metric.options["bending"] == 1e-4 and metric.options["strain"] == 1
+    path = shapespace.interpolate(poses, animal.faces, metric=metric, shapes=1).path
+    assert path.metric.unit == metric.unit
+    options = shapespace.MetricOptions(preset="strain", bending=1e-4)
+    named = shapespace.interpolate(poses, animal.faces, metric=options, shapes=1).path
+    np.testing.assert_array_equal(path.vertices, named.vertices)
+
+
+def test_the_exponential_inverts_the_logarithm(animal, poses):
+    start, end = animal.pose("stand"), animal.pose("stride")
+    metric = shapespace.Metric([start, end], animal, preset="strain")
+    velocity = shapespace.logarithm(metric, start, end, shapes=7)
+    reached = shapespace.exponential(metric, start, velocity, 8)
+    goal = shapespace.interpolate([start, end], animal, metric=metric, shapes=7).path
+    # The logarithm moves the end rigidly onto the start; edges tell nothing of that.
+    edges = metric.edges
+    lengths = [np.linalg.norm(v[edges[:, 0]] - v[edges[:, 1]], axis=1) for v in (reached, goal[-1])]
+    np.testing.assert_allclose(*lengths, atol=1e-4)
+    shot, summary = shapespace.shoot(metric, start, velocity, 8)
+    np.testing.assert_array_equal(shot[-1], reached)
+    assert summary.converged and len(summary.steps) == 8
+
+
+def test_an_extrapolated_path_goes_on(path):
+    longer, summary = shapespace.extrapolate(path, 2)
+    assert len(longer) == len(path) + 2 and longer.extrapolated == 2
+    np.testing.assert_array_equal(longer.vertices[: len(path)], path.vertices)
+    assert summary.ending == "complete" and summary.integrator == "variational"
+    assert longer.parameters[-1] > 1
+
+
+def test_transport_keeps_lengths_and_is_linear(path):
+    tangents = np.stack([path[1] - path[0], np.ones_like(path[0]) * [0, 0, 1e-3]])
+    carried, summary = shapespace.transport(path, tangents)
+    assert carried.shape == tangents.shape and summary.converged
+    assert summary.last_norm[0] <= summary.first_norm[0] * (1 + 1e-9)
+    assert summary.last_norm[0] > 0.8 * summary.first_norm[0]
+    doubled, _ = shapespace.transport(path, 2 * tangents)
+    np.testing.assert_allclose(doubled, 2 * carried, atol=1e-6 * np.abs(carried).max())
+
+
+def test_the_metric_s_matrix_and_norm_agree(path):
+    pytest.importorskip("scipy")
+    metric, shape = path.metric, path[0]
+    matrix = metric.matrix(shape)
+    assert abs(matrix - matrix.T).max() < 1e-12 * abs(matrix).max()
+    tangent = path[1] - path[0]
+    square = tangent.ravel() @ (matrix @ tangent.ravel())
+    np.testing.assert_allclose(np.sqrt(square), metric.norm(shape, tangent), rtol=1e-9)
+
+
+def test_a_copy_that_is_moved_makes_the_moved_motion(path, rotation):
+    moved = 2 * path[0] @ rotation.T + [1, 2, 3]
+    result = shapespace.transfer(path, moved)
+    assert result.hybrids is None and result.summary.converged
+    np.testing.assert_allclose(result.path[-1], 2 * path[-1] @ rotation.T + [1, 2, 3], atol=2e-3)
+
+
+def test_poses_are_transferred_with_hybrids(poses, animal):
+    long = shapespace.skinned_body("quadruped", 1500, "long")
+    result = shapespace.transfer_poses(poses, long.pose("sit"), animal.faces, hybrids=True)
+    assert len(result.path) == 2 and len(result.hybrids) == 2
+    assert rms(result.path[-1] - long.pose("stretch")) < 0.1
+    same = shapespace.transfer_poses(poses, poses[0], animal.faces)
+    assert rms(same.path[-1] - poses[1]) < 1e-2
+
+
+def test_handles_are_met(animal):
+    rest = animal.pose("stand")
+    feet = rest[:, 1] < 0.1
+    head = np.flatnonzero(rest[:, 1] > 1.4)
+    handles = [
+        shapespace.Handle(feet, name="feet"),
+        shapespace.Handle(head, rest[head] + [0.1, 0, 0.2], name="head"),
+    ]
+    path, summary = shapespace.deform(rest, animal.faces, handles)
+    np.testing.assert_allclose(path[-1][feet], rest[feet], atol=1e-9)
+    np.testing.assert_allclose(path[-1][head], rest[head] + [0.1, 0, 0.2], atol=1e-9)
+    assert [handle.name for handle in summary.handles] == ["feet", "head"]
+    assert max(handle.residual_max for handle in summary.handles) < 1e-9
+    deformer = shapespace.Deformer(rest, animal.faces, shapes=5)
+    np.testing.assert_array_equal(deformer.deform(handles).path.vertices, path.vertices)
+    assert deformer.deform(handles).summary.warm
+
+
+def test_a_screw_motion_is_made(animal):
+    rest = animal.pose("stand")
+    everything = np.ones(len(rest), bool)
+    turned = shapespace.deform(
+        rest, animal, [shapespace.Handle(everything, axis=(0, 1, 0), angle=np.pi / 2)]
+    ).path[-1]
+    np.testing.assert_allclose(turned, rest[:, [2, 1, 0]] * [1, 1, -1], atol=1e-9)
+
+
+def test_a_sound_pose_needs_no_repair_and_a_blend_does(animal, poses):
+    sound = shapespace.repair(poses[0], poses[0], animal.faces)
+    np.testing.assert_allclose(sound.path[-1], poses[0], atol=1e-6)
+    blend = (poses[0] + poses[1]) / 2
+    repaired = shapespace.repair(poses[0], blend, animal.faces).summary
+    assert repaired.after.edge_rms < 0.5 * repaired.before.edge_rms
+
+
+def test_a_template_is_fitted_to_itself(animal):
+    rest = animal.pose("stand")
+    chosen = np.unique([np.argmax(rest @ d) for d in itertools.product((-1, 0.3, 1), repeat=3)])
+    markers = np.stack([chosen, chosen], axis=1)
+    result = shapespace.correspond(rest, animal, rest + [5, 0, 0], animal.faces, markers)
+    assert result.summary.converged
+    assert rms(result.fitted - rest - [5, 0, 0]) < 0.02
+    # A function that is linear in space is carried over as the same function.
+    height = rest[:, 1]
+    np.testing.assert_allclose(result.to_template(height), result.fitted[:, 1], atol=0.02)
+    assert result.to_target(rest).shape == rest.shape
+    carried = result.carry(shapespace.Path([result.fitted, result.fitted + [0, 0, 1]], _metric_of(
+        result.fitted, animal)))
+    np.testing.assert_allclose(carried[-1], rest + [5, 0, 1], atol=1e-6)
+
+
+def _metric_of(shape, faces):
+    return shapespace.Metric([shape], faces)
+
+
+def test_distances_are_symmetric_and_obey_the_triangle_inequality(animal):
+    names = ["stand", "stride", "sit"]
+    shapes = [animal.pose(name) for name in names]
+    coarse = shapespace.GeodesicOptions(shapes=3)
+    distances = shapespace.distance_matrix(shapes, animal.faces, geodesic=coarse)
+    np.testing.assert_array_equal(distances, distances.T)
+    assert np.all(np.diag(distances) == 0)
+    for i, j, k in itertools.permutations(range(3)):
+        assert distances[i, j] <= 1.02 * (distances[i, k] + distances[k, j])
+
+    space, summary = shapespace.explore(
+        shapes, animal.faces, names=names, geodesic=coarse, depth=0
+    )
+    np.testing.assert_array_equal(space.distances, distances)
+    assert space.names == names and summary.poses == 3
+    middle = space.at(space.points[:2].mean(axis=0))
+    np.testing.assert_allclose(middle, (space[0] + space[1]) / 2, atol=1e-9)
+    assert len(space.along(space.points[[0, 1, 2]], 5)) == 5
+
+
+def test_a_path_of_one_s_own(path, poses):
+    mine = shapespace.Path(poses, path.metric, [0, 2])
+    np.testing.assert_allclose(mine.vertices, poses, atol=1e-12)
+    np.testing.assert_array_equal(mine.parameters, [0, 2])
+    with pytest.raises(shapespace.MeshError):
+        shapespace.Path(poses, path.metric, [0, 0])
+
+
+def test_a_path_at_other_times(path):
+    again = path.at([0, 0.5, 1])
+    np.testing.assert_array_equal(again[1], path.at([0.5])[0])
+    np.testing.assert_allclose(again[-1], path[-1], atol=1e-12)
+    with pytest.raises(shapespace.InvalidOptions):
+        path.at([0, 2])
+    assert len(path.first(3)) == 3
+
+
+def test_grounded_shapes_stand_on_the_ground(path):
+    low = path.ground("y", 0.25).vertices[:, :, 1].min(axis=1)
+    np.testing.assert_allclose(low, 0.25, atol=1e-12)
+
+
+def test_figures_of_a_path(path):
+    deviation = path.edge_deviation()
+    assert deviation.shape == path.vertices.shape[:2]
+    assert np.all(deviation[0] == 0) and deviation[-1].max() > 0
+    assert path.quality().inner_shapes == 7
+    assert path.intersections().shape == (len(path),)
+    assert set(path.rigid_parts()) >= {-1, 0}
+    error = shapespace.compare_shapes(path.metric, path[0], 1.1 * path[0])
+    np.testing.assert_allclose([error.edge_rms, error.volume], [0.1, 1.1**3 - 1], rtol=1e-6)
+
+
+def test_a_path_outlives_what_made_it(path):
+    def temporary():
+        return shapespace.Path(path.vertices, path.metric)
+
+    metric = temporary().metric
+    assert metric.unit == path.metric.unit
+    assert temporary().at([0.5])[0].shape == path[0].shape
+    assert temporary()._repr_html_().startswith("<img")
+
+
+def test_paths_can_be_pickled(path):
+    copy = pickle.loads(pickle.dumps(path))
+    np.testing.assert_array_equal(copy.vertices, path.vertices)
+    assert repr(copy) == repr(path)
