@@ -184,7 +184,7 @@ void PrintArap(const Case& problem) {
 #ifdef SHAPESPACE_HAS_CGAL
   const auto metric = FreezeMetric(MetricOptions(), problem.connectivity, {problem.rest});
   for (const auto& [steps, iterations] : {std::make_pair(10, 30), {10, 300}}) {
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     const Shape shape = benchmarks::DeformByArap(*problem.connectivity, problem.rest,
                                                  problem.handles, steps, iterations);
     const double seconds = stopwatch.Seconds();

@@ -78,7 +78,7 @@ void Membrane(benchmark::State& state) {
 
 // Arguments: triangles, shapes.
 void ScheduleOf(benchmark::State& state, const std::string& from, const std::string& to,
-                double bending, Schedule schedule) {
+                double bending, GeodesicSchedule schedule) {
   GeodesicOptions options;
   options.metric.bending = bending;
   options.shapes = static_cast<int>(state.range(1));
@@ -127,8 +127,10 @@ BENCHMARK(Membrane)
 
 // Named Schedule/<pair of poses>/<schedule>.
 const bool kSchedulesRegistered = [] {
-  const std::pair<const char*, Schedule> schedules[] = {
-      {"automatic", Schedule::kAutomatic}, {"paper", Schedule::kPaper}, {"flat", Schedule::kFlat}};
+  const std::pair<const char*, GeodesicSchedule> schedules[] = {
+      {"automatic", GeodesicSchedule::kAutomatic},
+      {"paper", GeodesicSchedule::kPaper},
+      {"flat", GeodesicSchedule::kFlat}};
   const double bending = MetricOptions().bending;
   const struct {
     std::string name, from, to;

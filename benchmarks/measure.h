@@ -19,9 +19,9 @@ template <typename Body>
 double MedianSeconds(const Body& body) {
   body();
   std::vector<double> seconds;
-  const Stopwatch total;
+  const internal::Stopwatch total;
   while (seconds.size() < 5 || total.Seconds() < 0.2) {
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     body();
     seconds.push_back(stopwatch.Seconds());
   }

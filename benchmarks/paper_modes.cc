@@ -108,7 +108,8 @@ void PrintTransports() {
     path.poses = {0, segments};
     return path;
   };
-  const auto carry = [&](const Tangent& x, int segments, Connection connection, bool align) {
+  const auto carry = [&](const Tangent& x, int segments, TransportConnection connection,
+                         bool align) {
     TransportOptions options;
     options.connection = connection;
     options.align = align;
@@ -121,17 +122,17 @@ void PrintTransports() {
     // Two references: the tangent rotated with the body, and the limit of many segments without
     // alignment.
     const Tangent turned = Rotation(90) * x;
-    const Tangent limit = carry(x, 512, Connection::kLeviCivita, false).tangents[0];
+    const Tangent limit = carry(x, 512, TransportConnection::kLeviCivita, false).tangents[0];
     for (int segments : {4, 16, 64}) {
       std::printf("| %s | %d |", name, segments);
-      const auto print = [&](Connection connection, bool align, const Tangent& exact) {
+      const auto print = [&](TransportConnection connection, bool align, const Tangent& exact) {
         const TransportResult result = carry(x, segments, connection, align);
         std::printf(" %.4f, %.1e |", result.summary.last_norm[0] / result.summary.first_norm[0],
                     (result.tangents[0] - exact).norm() / x.norm());
       };
-      print(Connection::kLeviCivita, true, turned);
-      print(Connection::kLeviCivita, false, limit);
-      print(Connection::kConstrainedProjection, false, limit);
+      print(TransportConnection::kLeviCivita, true, turned);
+      print(TransportConnection::kLeviCivita, false, limit);
+      print(TransportConnection::kConstrainedProjection, false, limit);
       std::printf("\n");
     }
   }

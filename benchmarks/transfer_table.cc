@@ -10,12 +10,12 @@
 
 #include <Eigen/Geometry>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/skinned.h>
 #include <shapespace/mesh/read.h>
 #include <shapespace/path/align.h>
-#include <shapespace/path/quality.h>
 #include <shapespace/solvers/optimise/gradient_transfer.h>
 #include <shapespace/solvers/transfer.h>
 
@@ -46,7 +46,7 @@ double BendOf(const Shape& straight, const Shape& bent) {
   return std::abs(Eigen::AngleAxisd(Matrix3d(ends[0].transpose() * ends[1])).angle()) * 180 / M_PI;
 }
 
-TransferOptions ByLadder(const MetricOptions& metric, Connection connection, bool placed) {
+TransferOptions ByLadder(const MetricOptions& metric, TransportConnection connection, bool placed) {
   TransferOptions options;
   options.method = TransferMethod::kLadder;
   options.ladder.metric = metric;
@@ -73,9 +73,10 @@ void PrintBars() {
   lengths.bending = 0;
   const std::pair<const char*, TransferOptions> modes[] = {
       {"the paper's transport, metric (4)",
-       ByLadder(lengths, Connection::kConstrainedProjection, false)},
-      {"ladder, metric (4), not placed", ByLadder(lengths, Connection::kLeviCivita, false)},
-      {"ladder", ByLadder(LadderOptions::Strains(), Connection::kLeviCivita, true)},
+       ByLadder(lengths, TransportConnection::kConstrainedProjection, false)},
+      {"ladder, metric (4), not placed",
+       ByLadder(lengths, TransportConnection::kLeviCivita, false)},
+      {"ladder", ByLadder(LadderOptions::Strains(), TransportConnection::kLeviCivita, true)},
       {"features", TransferOptions()}};
   const Matrix3d z(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ())),
       y(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitY()));
@@ -143,7 +144,7 @@ void PrintLine(const char* name, const std::vector<Pose>& poses, const TransferO
   for (const Pose& pose : poses) {
     const auto metric =
         FreezeMetric(MetricOptions::Strain(), pose.connectivity, {pose.source, pose.target});
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     Shape made;
     if (options != nullptr) {
       const PoseTransferResult result =

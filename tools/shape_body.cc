@@ -28,7 +28,7 @@ std::string Join(const std::vector<std::string>& parts) {
 }
 
 void CheckOutput() {
-  const std::string extension = Extension(FLAGS_output);
+  const std::string extension = FileExtension(FLAGS_output);
   if (extension != ".obj" && extension != ".ply") {
     throw UsageError("--output " + FLAGS_output + ": must end in .obj or .ply");
   }

@@ -29,7 +29,7 @@ std::vector<std::string> Outputs() {
   std::vector<std::string> outputs;
   for (const std::string& output : Split(FLAGS_output)) {
     if (output.empty()) continue;
-    const std::string extension = Extension(output);
+    const std::string extension = FileExtension(output);
     if (extension != ".obj" && extension != ".ply" && extension != ".txt" && extension != ".png") {
       throw UsageError("--output " + output + ": must end in .obj, .ply, .txt or .png");
     }
@@ -65,7 +65,7 @@ void Run(const std::vector<std::string>& files) {
                  markers, options, SolveProgress(outputs).get());
   PrintSummary(result.summary.BriefReport(), result.summary.warnings, result.summary.Converged());
   for (const std::string& output : outputs) {
-    const std::string extension = Extension(output);
+    const std::string extension = FileExtension(output);
     if (extension == ".txt") {
       WriteSurfaceMap(output, result.map);
     } else if (extension == ".png") {

@@ -39,7 +39,7 @@ DECLARE_string(output);
 namespace shapespace::tools {
 namespace {
 
-bool IsSpaceFile(const std::string& file) { return Extension(file) == ".space"; }
+bool IsSpaceFile(const std::string& file) { return FileExtension(file) == ".space"; }
 
 double ThresholdFromFlag() {
   std::string text = FLAGS_threshold;
@@ -126,7 +126,7 @@ void Sample(const std::string& file) {
   if (FLAGS_frames < 1) throw UsageError(AsTyped("frames") + ": must be 1 or more");
   CheckNothingIsOverwritten({file, FLAGS_sample}, {{"output", outputs, FLAGS_frames}});
   const Space space = ReadSpace(file);
-  Walk walk = Along(space, ReadCurve(FLAGS_sample, space), FLAGS_frames);
+  Walk walk = WalkAlong(space, ReadCurve(FLAGS_sample, space), FLAGS_frames);
   if (walk.outside > 0) {
     Err() << "warning: " << walk.outside << " of the " << FLAGS_frames
           << " points lie outside the poses' hull and were replaced by the nearest points of the "

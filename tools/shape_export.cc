@@ -60,7 +60,7 @@ void Run(const std::vector<std::string>& files) {
     }
   }
   const bool makes_glb = std::any_of(outputs.begin(), outputs.end(), [](const auto& output) {
-    return Extension(output) == ".glb";
+    return FileExtension(output) == ".glb";
   });
   if (FLAGS_ease && FLAGS_frames == 0 && !makes_glb) {
     throw UsageError("--ease goes with --frames, or with a .glb");

@@ -7,18 +7,19 @@
 #include <gflags/gflags.h>
 #include <Eigen/Geometry>
 
+#include <shapespace/analysis/deviation_sites.h>
+#include <shapespace/analysis/intersections.h>
+#include <shapespace/analysis/path_intersections.h>
+#include <shapespace/analysis/quality.h>
+#include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/extension.h>
 #include <shapespace/mesh/check.h>
-#include <shapespace/mesh/intersections.h>
 #include <shapespace/mesh/read.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
-#include <shapespace/path/intersections.h>
 #include <shapespace/path/path_file.h>
-#include <shapespace/path/quality.h>
-#include <shapespace/path/rigid_parts.h>
 #include <shapespace/solvers/exploration/space_file.h>
 
 #include "support/mesh_flags.h"
@@ -237,7 +238,7 @@ void Run(const std::vector<std::string>& files) {
   // Meshes last, because the comparison of poses follows after them.
   for (const bool meshes : {false, true}) {
     for (const std::string& file : files) {
-      const std::string extension = Extension(file);
+      const std::string extension = FileExtension(file);
       if ((extension != ".path" && extension != ".space") != meshes) continue;
       try {
         if (meshes) {

@@ -73,9 +73,9 @@ TransferOptions TransferFromFlags() {
   options.ladder.scale = FLAGS_scale;
   options.ladder.align = FLAGS_align;
   options.ladder.connection =
-      Choose<Connection>("connection", FLAGS_connection,
-                         {{"levi_civita", Connection::kLeviCivita},
-                          {"projection", Connection::kConstrainedProjection}});
+      Choose<TransportConnection>("connection", FLAGS_connection,
+                                  {{"levi_civita", TransportConnection::kLeviCivita},
+                                   {"projection", TransportConnection::kConstrainedProjection}});
   options.ladder.metric.bending = FLAGS_ladder_bending;
   NamingFlags({{"bending", "ladder_bending"}}, [&] { options.Validate(); });
   return options;

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Installs the release build into a folder of its own and builds a project against it, as a user of
-# the library would. Needs a finished release build; takes its folder, build/release by default.
+# the library would, by CMake and by pkg-config; then takes the sources into a project with
+# FetchContent. Needs a finished release build; takes its folder, build/release by default.
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -44,6 +45,7 @@ for flag in "${flags[@]}"; do
     fail "built with $flag the README's program ends with exit code $?"
   grep -qx 'Termination  *converged' report.txt || fail "with $flag the solver did not converge"
 done
+"$work/build/openmesh_consumer" || fail "the adaptor for OpenMesh ends with exit code $?"
 "$work/prefix/bin/shape-interpolate" --version
 "$work/prefix/bin/shape-body" tube --triangles 500 --at 0,90 --output 'pose%d.obj'
 "$work/build/guide_library" pose0.obj pose1.obj | grep -qx 'Termination  *converged' ||
@@ -52,6 +54,25 @@ done
 "$work/build/guide_ceres" pose0.obj pose1.obj | grep -q 'Termination: CONVERGENCE' ||
   fail "the guide's problem of Ceres did not converge"
 [[ $(head -c 4 walk.glb) == glTF ]] || fail "walk.glb is no glTF"
+
+cmake -S "$here/core" -B "$work/core" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_DISABLE_FIND_PACKAGE_Ceres=ON \
+  -DCMAKE_DISABLE_FIND_PACKAGE_CHOLMOD=ON >"$work/configure.log" ||
+  fail "the component core is not found where Ceres is not"
+cmake --build "$work/core"
+"$work/core/core_consumer" pose0.obj pose1.obj
+
+export PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name shapespace.pc)")
+c++ -std=c++17 -O1 "$here/main.cc" $(pkg-config --cflags --libs shapespace) -o "$work/by_pkg_config" ||
+  fail "what pkg-config says of shapespace does not build the README's program"
+"$work/by_pkg_config" | grep -qx 'Termination  *converged' ||
+  fail "built by pkg-config the README's program does not converge"
+
+cmake -S "$here/subproject" -B "$work/parent" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DFETCHCONTENT_FULLY_DISCONNECTED=ON -DSHAPESPACE_SOURCE="$root" >"$work/configure.log" ||
+  fail "another project cannot take shapespace in by FetchContent"
+cmake --build "$work/parent" --target core_in_parent
+"$work/parent/core_in_parent" pose0.obj pose1.obj
 if grep -rlF -e "$root" "$work/prefix/include" "$work/prefix/lib" --include='*.cmake' \
   --include='*.h'; then
   fail "the files above name the folder that they were built in"

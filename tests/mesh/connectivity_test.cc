@@ -1,4 +1,5 @@
 #include <set>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -146,6 +147,49 @@ TEST(ConnectivityTest, KeepsSegmentsApartFromStiffeners) {
   const auto graph = Connectivity::Make(4, {0}, {}, {{2, 1}, {0, 1}}, {{0, 3}});
   EXPECT_EQ(graph->NumEdges(), 3);
   EXPECT_EQ(graph->Segments(), (std::vector<std::pair<int, int>>{{2, 1}, {0, 1}}));
+}
+
+// What the lists say of an element is what a search through all elements finds.
+void ExpectListsOf(const Connectivity& c) {
+  const Eigen::Matrix3Xi& triangles = c.Triangles();
+  const Eigen::Matrix2Xi& edges = c.Edges();
+  const auto list = [](const IndexLists::Row& row) {
+    return std::vector<int>(row.begin(), row.end());
+  };
+  ASSERT_EQ(c.TrianglesOfVertices().NumRows(), c.NumVertices());
+  ASSERT_EQ(c.EdgesOfVertices().NumRows(), c.NumVertices());
+  ASSERT_EQ(c.TrianglesOfEdges().NumRows(), c.NumTriangleEdges());
+  for (int v = 0; v < c.NumVertices(); ++v) {
+    std::vector<int> expected;
+    for (int f = 0; f < c.NumTriangles(); ++f) {
+      if ((triangles.col(f).array() == v).any()) expected.push_back(f);
+    }
+    EXPECT_EQ(list(c.TrianglesOfVertices()[v]), expected);
+    expected.clear();
+    for (int e = 0; e < c.NumEdges(); ++e) {
+      if ((edges.col(e).array() == v).any()) expected.push_back(e);
+    }
+    EXPECT_EQ(list(c.EdgesOfVertices()[v]), expected);
+    for (const int e : expected) EXPECT_EQ(c.OtherEnd(e, c.OtherEnd(e, v)), v);
+  }
+  for (int e = 0; e < c.NumTriangleEdges(); ++e) {
+    std::vector<int> expected;
+    for (int f = 0; f < c.NumTriangles(); ++f) {
+      const auto has = [&](int v) { return (triangles.col(f).array() == v).any(); };
+      if (has(edges(0, e)) && has(edges(1, e))) expected.push_back(f);
+    }
+    EXPECT_EQ(list(c.TrianglesOfEdges()[e]), expected);
+  }
+}
+
+TEST(ConnectivityTest, ListsWhatLiesAtVerticesAndEdges) {
+  ExpectListsOf(*Connected(Cube()));
+  ExpectListsOf(*Connected(Grid(4, 3)));
+  // Three triangles at one edge, one that is an edge there and back, a vertex of no triangle.
+  Eigen::Matrix3Xi book(3, 4);
+  book << 0, 1, 0, 1, 1, 0, 1, 3, 2, 3, 4, 1;
+  ExpectListsOf(*Connectivity::FromTriangles(6, book));
+  ExpectListsOf(*Connectivity::Make(4, {0}, {}, {{0, 1}, {2, 1}}, {{0, 2}}));  // a graph
 }
 
 }  // namespace

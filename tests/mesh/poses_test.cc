@@ -1,3 +1,6 @@
+#include <fstream>
+#include <sstream>
+
 #include <shapespace/base/error.h>
 #include <shapespace/mesh/read.h>
 
@@ -115,6 +118,48 @@ TEST_F(PosesTest, StiffenersAreReadStrictly) {
   ExpectError<FileError>([&] { ReadStiffeners(Path("none.txt"), 10); }, {"none.txt"});
   EXPECT_EQ(ReadStiffeners(File("good.txt", "10 1\r\n2 3"), 10),
             (std::vector<std::pair<int, int>>{{9, 0}, {1, 2}}));
+}
+
+TEST_F(PosesTest, StreamsSayWhatFilesSay) {
+  const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+      "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const std::pair<std::string, MeshFormat> meshes[] = {
+      {square_, MeshFormat::kObj}, {off, MeshFormat::kOff}, {ply, MeshFormat::kPly}};
+  const char* const names[] = {"a.obj", "a.off", "a.ply"};
+  for (int i = 0; i < 3; ++i) {
+    const auto& [text, format] = meshes[i];
+    const Soup expected = ReadSoup(File(names[i], text));
+    std::istringstream stream("before" + text);
+    stream.ignore(6);
+    const Soup soup = ReadSoup(stream, "socket", format);
+    EXPECT_EQ(soup.file, "socket");
+    EXPECT_EQ(soup.vertices, expected.vertices);
+    EXPECT_EQ(soup.corners, expected.corners);
+    EXPECT_EQ(soup.polygon_begin, expected.polygon_begin);
+  }
+}
+
+TEST_F(PosesTest, MessagesAboutStreamsNameThem) {
+  const auto read = [](const std::string& text, const std::string& name) {
+    std::istringstream stream(text);
+    return ReadSoup(stream, name, MeshFormat::kObj);
+  };
+  ExpectError<FileError>([&] { read(square_ + "f 1 2 x\n", "socket"); },
+                         {"socket:6", "polygon 2", "x"});
+  ExpectError<FileError>([&] { read("", "socket"); }, {"socket", "empty"});
+  std::ifstream closed(File("none.obj", square_) + ".not");
+  ExpectError<FileError>([&] { ReadSoup(closed, "closed", MeshFormat::kObj); }, {"closed"});
+  ExpectError<MeshError>([&] { MakePoses({read(book_, "book")}); },
+                         {"book: edges with more than two polygons", "line 6"});
+  ReadOptions options;
+  options.stiffeners = File("stiff.txt", "1 4\n");
+  options.allow_nonmanifold = true;
+  const Poses poses = MakePoses({read(book_, "book"), read(book_, "again")}, options);
+  EXPECT_EQ(poses.names, (std::vector<std::string>{"book", "again"}));
+  EXPECT_EQ(poses.warnings.size(), 1U);
 }
 
 }  // namespace

@@ -196,7 +196,8 @@ TEST_F(ReadPlyTest, RefusesBadHeaders) {
   refused("element vertex -1\n", {"pose.ply:3: element 'vertex': '-1' is not a count"});
   refused("property float x\n", {"pose.ply:3: a property stands before"});
   refused("element vertex 1\nproperty quad x\n", {"pose.ply:4: 'quad' is not a type"});
-  refused("element face 1\nproperty list float int i\n", {"pose.ply:4: 'float' is not a type that"});
+  refused("element face 1\nproperty list float int i\n",
+          {"pose.ply:4: 'float' is not a type that"});
   refused("element vertex 1\nelement vertex 1\n", {"pose.ply:4: element 'vertex' occurs twice"});
   refused("element vertex 1\nproperty int x\nproperty int x\n", {"pose.ply:5: property 'x'"});
   refused("wobble\n", {"pose.ply:3: the header holds 'wobble'"});

@@ -7,45 +7,47 @@ namespace {
 
 TEST(ColourTest, BytesSurviveLinearLight) {
   for (unsigned byte = 0; byte < 256; ++byte) {
-    const Colour colour = FromHex(byte << 16 | byte << 8 | byte);
-    EXPECT_EQ(ToByte(colour[0]), byte);
-    EXPECT_EQ(ToByte(colour[2]), byte);
+    const internal::Colour colour = internal::FromHex(byte << 16 | byte << 8 | byte);
+    EXPECT_EQ(internal::ToByte(colour[0]), byte);
+    EXPECT_EQ(internal::ToByte(colour[2]), byte);
   }
-  const Colour mixed = FromHex(0x804020);
-  EXPECT_EQ(ToByte(mixed[0]), 0x80);
-  EXPECT_EQ(ToByte(mixed[1]), 0x40);
-  EXPECT_EQ(ToByte(mixed[2]), 0x20);
+  const internal::Colour mixed = internal::FromHex(0x804020);
+  EXPECT_EQ(internal::ToByte(mixed[0]), 0x80);
+  EXPECT_EQ(internal::ToByte(mixed[1]), 0x40);
+  EXPECT_EQ(internal::ToByte(mixed[2]), 0x20);
 }
 
-TEST(ColourTest, HalfTheLightIsByte188) { EXPECT_EQ(ToByte(0.5f), 188); }
+TEST(ColourTest, HalfTheLightIsByte188) { EXPECT_EQ(internal::ToByte(0.5f), 188); }
 
 TEST(ColourTest, ValuesRunFromCoolToWarmAndGetDarker) {
-  const Colour cool = ValueColour(0), warm = ValueColour(1);
+  const internal::Colour cool = internal::ValueColour(0), warm = internal::ValueColour(1);
   EXPECT_GT(cool.z(), cool.x());
   EXPECT_GT(warm.x(), 3 * warm.z());
   float previous = 1;
   for (int i = 0; i <= 20; ++i) {
-    const float luminance = ValueColour(i / 20.0f).dot(Colour(0.2126f, 0.7152f, 0.0722f));
+    const float luminance =
+        internal::ValueColour(i / 20.0f).dot(internal::Colour(0.2126f, 0.7152f, 0.0722f));
     EXPECT_LT(luminance, previous) << i;
     previous = luminance;
   }
 }
 
 TEST(ColourTest, GroupsCanBeToldApart) {
-  const Colour none = GroupColour(-1);
+  const internal::Colour none = internal::GroupColour(-1);
   EXPECT_LT(none.maxCoeff() - none.minCoeff(), 0.05);
   for (int i = 0; i < 40; ++i) {
-    const Colour colour = GroupColour(i);
+    const internal::Colour colour = internal::GroupColour(i);
     EXPECT_GE(colour.minCoeff(), 0);
     EXPECT_LE(colour.maxCoeff(), 1);
     EXPECT_GT((colour - none).norm(), 0.1) << i;
-    for (int j = 0; j < i; ++j) EXPECT_GT((colour - GroupColour(j)).norm(), 0.03) << i << ' ' << j;
+    for (int j = 0; j < i; ++j)
+      EXPECT_GT((colour - internal::GroupColour(j)).norm(), 0.03) << i << ' ' << j;
   }
 }
 
 TEST(ColourTest, ValuesOutsideTheScaleGetItsEnds) {
-  EXPECT_EQ(ValueColour(-3), ValueColour(0));
-  EXPECT_EQ(ValueColour(1e6f), ValueColour(1));
+  EXPECT_EQ(internal::ValueColour(-3), internal::ValueColour(0));
+  EXPECT_EQ(internal::ValueColour(1e6f), internal::ValueColour(1));
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ TEST_F(WriteGltfAppearanceTest, MaterialsAreThoseOfTheLibrary) {
   const auto& glass = materials[1]["pbrMetallicRoughness"];
   EXPECT_FALSE(glass.contains("baseColorTexture"));
   const std::vector<double> factor = glass["baseColorFactor"];
-  const Colour linear = FromHex(0x8040ff);  // 128, 64 and 255 of 255
+  const internal::Colour linear = internal::FromHex(0x8040ff);  // 128, 64 and 255 of 255
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(factor[k], linear[k], 0.005) << k;
   EXPECT_EQ(factor[3], 0.5);
   EXPECT_EQ(materials[1]["alphaMode"], "BLEND");
@@ -170,7 +170,7 @@ TEST_F(WriteGltfAppearanceTest, VertexColoursFollowTheirVerticesAcrossSeams) {
     (placed.colwise() - drawn.col(i)).colwise().norm().minCoeff(&v);
     const Eigen::VectorXd given = path_.appearance.vertex_colours.col(v);
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(ToByte(static_cast<float>(colours(k, i))), 255 * given[k], 0.51) << i;
+      EXPECT_NEAR(internal::ToByte(static_cast<float>(colours(k, i))), 255 * given[k], 0.51) << i;
     }
     EXPECT_FLOAT_EQ(colours(3, i), given[3]);
   }

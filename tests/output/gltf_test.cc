@@ -138,7 +138,7 @@ TEST(WriteGltfTest, LoopsRunFromTheFirstToTheLastAllTheTime) {
   const Path path = SpherePath(5);
   GltfOptions options;
   options.duration = 8;
-  options.playback = Playback::kLoop;
+  options.playback = GltfPlayback::kLoop;
   WriteGltf(GlbFile("loop"), path, options);
   const Glb glb(GlbFile("loop"));
   EXPECT_EQ(glb.Times().maxCoeff(), 8);
@@ -152,7 +152,7 @@ TEST(WriteGltfTest, OnceEndsWithAHold) {
   const Path path = SpherePath(4);
   GltfOptions options;
   options.duration = 10;
-  options.playback = Playback::kOnce;
+  options.playback = GltfPlayback::kOnce;
   WriteGltf(GlbFile("once"), path, options);
   const Glb glb(GlbFile("once"));
   EXPECT_EQ(glb.Times().maxCoeff(), 10);
@@ -167,18 +167,19 @@ TEST(WriteGltfTest, FramesASecondSetTheTimeBetweenShapes) {
   const Path path = SpherePath(7), long_path = SpherePath(65);
   GltfOptions options;
   options.fps = 4;
-  for (const Playback playback : {Playback::kThereAndBack, Playback::kLoop, Playback::kOnce}) {
+  for (const GltfPlayback playback :
+       {GltfPlayback::kThereAndBack, GltfPlayback::kLoop, GltfPlayback::kOnce}) {
     options.playback = playback;
     WriteGltf(GlbFile("frames"), path, options);
     const Glb glb(GlbFile("frames"));
-    const double begin = playback == Playback::kThereAndBack ? TimeOf(glb, 0) : 0;
+    const double begin = playback == GltfPlayback::kThereAndBack ? TimeOf(glb, 0) : 0;
     for (int i = 0; i < 7; ++i) {
       EXPECT_LT(Distance(Shown(glb, begin + i / 4.0), path.Placed(i)), 3e-6) << i;
     }
     // Also if the file does not contain all shapes.
     WriteGltf(GlbFile("frames-long"), long_path, options);
     const Glb long_glb(GlbFile("frames-long"));
-    const double start = playback == Playback::kThereAndBack ? TimeOf(long_glb, 0) : 0;
+    const double start = playback == GltfPlayback::kThereAndBack ? TimeOf(long_glb, 0) : 0;
     EXPECT_LT(Distance(Shown(long_glb, start + 16), long_path.Placed(64)), 3e-6);
     EXPECT_GT(Distance(Shown(long_glb, start + 15.5), long_path.Placed(64)), 1e-2);
   }
@@ -190,7 +191,7 @@ TEST(WriteGltfTest, EasedMotionsAreSlowAtBothEnds) {
     const Path path = SpherePath(count);
     GltfOptions options;
     options.duration = 1;
-    options.playback = Playback::kLoop;
+    options.playback = GltfPlayback::kLoop;
     options.ease = true;
     WriteGltf(GlbFile("eased"), path, options);
     options.ease = false;
@@ -280,22 +281,22 @@ TEST(WriteGltfTest, LongPathsAreSubsampledWithPosesAndEnds) {
 }
 
 TEST(KeyShapesTest, KeepsAllThatFit) {
-  EXPECT_EQ(KeyShapes(4, {0, 3}, 32), (std::vector<int>{0, 1, 2, 3}));
-  EXPECT_EQ(KeyShapes(1, {0}, 32), (std::vector<int>{0}));
-  EXPECT_EQ(KeyShapes(32, {0, 7, 31}, 32).size(), 32u);
+  EXPECT_EQ(internal::KeyShapes(4, {0, 3}, 32), (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(internal::KeyShapes(1, {0}, 32), (std::vector<int>{0}));
+  EXPECT_EQ(internal::KeyShapes(32, {0, 7, 31}, 32).size(), 32u);
 }
 
 TEST(KeyShapesTest, KeepsPosesAndFillsTheWidestGaps) {
-  EXPECT_EQ(KeyShapes(101, {0, 100}, 5), (std::vector<int>{0, 25, 50, 75, 100}));
-  EXPECT_EQ(KeyShapes(101, {0, 3, 100}, 5), (std::vector<int>{0, 3, 35, 68, 100}));
+  EXPECT_EQ(internal::KeyShapes(101, {0, 100}, 5), (std::vector<int>{0, 25, 50, 75, 100}));
+  EXPECT_EQ(internal::KeyShapes(101, {0, 3, 100}, 5), (std::vector<int>{0, 3, 35, 68, 100}));
   // The path continues beyond its poses.
-  EXPECT_EQ(KeyShapes(101, {40, 60}, 4), (std::vector<int>{0, 40, 60, 100}));
+  EXPECT_EQ(internal::KeyShapes(101, {40, 60}, 4), (std::vector<int>{0, 40, 60, 100}));
 }
 
 TEST(KeyShapesTest, OfTooManyPosesKeepsTheEnds) {
   std::vector<int> poses;
   for (int i = 0; i < 50; ++i) poses.push_back(2 * i + 1);
-  EXPECT_EQ(KeyShapes(200, poses, 4), (std::vector<int>{0, 33, 67, 199}));
+  EXPECT_EQ(internal::KeyShapes(200, poses, 4), (std::vector<int>{0, 33, 67, 199}));
 }
 
 TEST(WriteGltfTest, OneShapeIsAStill) {
@@ -483,7 +484,8 @@ TEST(WriteGltfTest, ColoursShowTheLargestDeviationOnTheWay) {
     const double y = sphere.shape(1, v);
     if (std::abs(y) < 0.1) continue;  // beside the seam
     const double deviation = y > 0 ? 1 : 0;
-    const Colour expected = ValueColour(static_cast<float>(deviation / summary.colour_end));
+    const internal::Colour expected =
+        internal::ValueColour(static_cast<float>(deviation / summary.colour_end));
     EXPECT_LT((colours.col(v) - expected.cast<double>()).norm(), 0.02) << v;
   }
   EXPECT_FALSE(glb.json["materials"][0]["pbrMetallicRoughness"].contains("baseColorFactor"))
@@ -508,7 +510,7 @@ TEST(WriteGltfTest, ColoursShowGroups) {
   const Glb glb(GlbFile("groups"));
   const Eigen::MatrixXd colours = glb.Read(glb.Primitive()["attributes"]["COLOR_0"]);
   for (int v = 0; v < sphere.shape.cols(); ++v) {
-    const Colour expected = GroupColour(options.groups(v));
+    const internal::Colour expected = internal::GroupColour(options.groups(v));
     EXPECT_LT((colours.col(v) - expected.cast<double>()).norm(), 0.02) << v;
   }
   EXPECT_FALSE(glb.json["materials"][0]["pbrMetallicRoughness"].contains("baseColorFactor"));

@@ -7,13 +7,13 @@ namespace {
 
 class ReadMaterialsTest : public testing::FilesTest {
  protected:
-  std::vector<std::optional<Material>> Read(const std::vector<std::string>& libraries,
-                                            const std::vector<std::string>& names) {
+  std::vector<std::optional<internal::Material>> Read(const std::vector<std::string>& libraries,
+                                                      const std::vector<std::string>& names) {
     Appearance appearance;
     appearance.material_libraries = libraries;
     appearance.folder = Path("");
     appearance.materials.names = names;
-    return ReadMaterials(appearance, &warnings_);
+    return internal::ReadMaterials(appearance, &warnings_);
   }
 
   std::vector<std::string> warnings_;

@@ -9,7 +9,7 @@ namespace {
 
 TEST(CornerNormalsTest, AreRadialOnASphere) {
   const SimpleBody sphere = Sphere(2);
-  const Eigen::Matrix3Xf normals = CornerNormals(*sphere.connectivity)(sphere.shape);
+  const Eigen::Matrix3Xf normals = internal::CornerNormals(*sphere.connectivity, sphere.shape);
   const Eigen::Matrix3Xi& triangles = sphere.connectivity->Triangles();
   for (Eigen::Index i = 0; i < normals.cols(); ++i) {
     // Triangles without area, at the poles, have no normal of their own.
@@ -21,7 +21,7 @@ TEST(CornerNormalsTest, AreRadialOnASphere) {
 
 TEST(CornerNormalsTest, AreThoseOfTheFacesOnABox) {
   const SimpleBody box = Box(3, 2, 1);
-  const Eigen::Matrix3Xf normals = CornerNormals(*box.connectivity)(box.shape);
+  const Eigen::Matrix3Xf normals = internal::CornerNormals(*box.connectivity, box.shape);
   const Eigen::Matrix3Xi& triangles = box.connectivity->Triangles();
   for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -38,7 +38,7 @@ TEST(CornerNormalsTest, AreZeroWithoutArea) {
   triangle << 0, 1, 2;
   const auto connectivity = Connectivity::FromTriangles(3, triangle);
   const Shape line = Shape::Ones(3, 3) * Eigen::Vector3d(0, 1, 2).asDiagonal();
-  EXPECT_TRUE(CornerNormals(*connectivity)(line).isZero(0));
+  EXPECT_TRUE(internal::CornerNormals(*connectivity, line).isZero(0));
 }
 
 }  // namespace

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/body.h>
 #include <shapespace/path/energy.h>
-#include <shapespace/path/quality.h>
 
 #include "mesh/files.h"
 #include "output/read_page.h"

@@ -25,7 +25,7 @@ struct Counts {
 bool IsBackground(const unsigned char* p) { return p[0] == 250 && p[1] == 250 && p[2] == 250; }
 
 // Counts pixels of the rows [top, bottom) and columns [left, right).
-Counts Count(const Image& image, int left, int right, int top, int bottom) {
+Counts Count(const RgbImage& image, int left, int right, int top, int bottom) {
   Counts counts;
   for (int y = top; y < bottom; ++y) {
     for (int x = left; x < right; ++x) {
@@ -38,10 +38,10 @@ Counts Count(const Image& image, int left, int right, int top, int bottom) {
   return counts;
 }
 
-Counts Count(const Image& image) { return Count(image, 0, image.width, 0, image.height); }
+Counts Count(const RgbImage& image) { return Count(image, 0, image.width, 0, image.height); }
 
 // Share of pixels in which some channel differs by more than `by`.
-double Difference(const Image& a, const Image& b, int by) {
+double Difference(const RgbImage& a, const RgbImage& b, int by) {
   if (a.width != b.width || a.height != b.height) return 1;
   int different = 0;
   for (size_t i = 0; i < a.pixels.size(); i += 3) {
@@ -62,7 +62,7 @@ TEST(RenderFilmStripTest, ASphereFillsItsCellInTheFrontColour) {
   const SimpleBody sphere = Sphere(1);
   FilmStripOptions options;
   options.frame_width = 160;
-  const Image image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  const RgbImage image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
   EXPECT_NEAR(image.width, 160, 1);
   EXPECT_NEAR(image.height, 160, 1);
   // Margins are 160 / 32 on each side.
@@ -97,7 +97,7 @@ TEST(RenderFilmStripTest, ConcavePolygonsShowNoBackAndCoverNoMoreThanThemselves)
   FilmStripOptions options;
   options.frame_width = 400;
   options.view = Eigen::Vector3d::UnitZ();
-  const Image image = RenderFilmStrip(*connectivity, {star}, options);
+  const RgbImage image = RenderFilmStrip(*connectivity, {star}, options);
   const Counts counts = Count(image);
   EXPECT_EQ(counts.orange, 0);
   // The star's width is 1 + cos(36 degrees), and so is that of the frame without margins. Its area
@@ -130,17 +130,18 @@ TEST(RenderFilmStripTest, PlaceAndUnitsDoNotMatter) {
   const SimpleBody box = Box(1, 2, 0.7);
   Shape bent = box.shape;
   bent.row(0) += 0.4 * bent.row(1).cwiseAbs2();
-  const Image image = RenderFilmStrip(*box.connectivity, {box.shape, bent}, Small());
+  const RgbImage image = RenderFilmStrip(*box.connectivity, {box.shape, bent}, Small());
   const Shape moved = box.shape.colwise() + Eigen::Vector3d(30, -7, 11);
   EXPECT_LT(Difference(image, RenderFilmStrip(*box.connectivity, {moved, bent}, Small()), 2),
             0.002);
-  const Image scaled = RenderFilmStrip(*box.connectivity, {1e-6 * box.shape, 1e-6 * bent}, Small());
+  const RgbImage scaled =
+      RenderFilmStrip(*box.connectivity, {1e-6 * box.shape, 1e-6 * bent}, Small());
   EXPECT_LT(Difference(image, scaled, 2), 0.002);
 }
 
 TEST(RenderFilmStripTest, ScaleIsTheSameForAllShapes) {
   const SimpleBody sphere = Sphere(1);
-  const Image image =
+  const RgbImage image =
       RenderFilmStrip(*sphere.connectivity, {sphere.shape, 0.5 * sphere.shape}, Small());
   const Counts large = Count(image, 0, image.width / 2, 0, image.height);
   const Counts small = Count(image, image.width / 2, image.width, 0, image.height);
@@ -149,12 +150,12 @@ TEST(RenderFilmStripTest, ScaleIsTheSameForAllShapes) {
 
 TEST(RenderFilmStripTest, CellsFollowTheShapes) {
   const SimpleBody tall = Box(0.5, 3, 0.5), level = Box(3, 0.5, 0.5);
-  const Image narrow = RenderFilmStrip(*tall.connectivity, {tall.shape}, Small());
+  const RgbImage narrow = RenderFilmStrip(*tall.connectivity, {tall.shape}, Small());
   EXPECT_NEAR(narrow.height, 96, 1);
   EXPECT_LT(narrow.width, 40);
   FilmStripOptions options = Small();
   options.view = Eigen::Vector3d::UnitZ();
-  const Image low = RenderFilmStrip(*level.connectivity, {level.shape}, options);
+  const RgbImage low = RenderFilmStrip(*level.connectivity, {level.shape}, options);
   EXPECT_NEAR(low.width, 96, 1);
   EXPECT_LT(low.height, 40);
 }
@@ -162,8 +163,8 @@ TEST(RenderFilmStripTest, CellsFollowTheShapes) {
 TEST(RenderFilmStripTest, WrapsIntoFullRows) {
   const SimpleBody sphere = Sphere(1, 10, 20);
   const std::vector<Shape> shapes(9, sphere.shape);
-  const Image image = RenderFilmStrip(*sphere.connectivity, shapes, Small());
-  const Image single = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, Small());
+  const RgbImage image = RenderFilmStrip(*sphere.connectivity, shapes, Small());
+  const RgbImage single = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, Small());
   EXPECT_EQ(image.width, 5 * single.width);
   EXPECT_EQ(image.height, 2 * single.height);
   EXPECT_GT(Count(image, 3 * single.width, 4 * single.width, single.height, image.height).drawn,
@@ -180,7 +181,7 @@ TEST(RenderFilmStripTest, SubsamplingKeepsBothEnds) {
   FilmStripOptions options = Small();
   options.max_frames = 4;
   options.view = Eigen::Vector3d::UnitZ();
-  const Image image = RenderFilmStrip(*sphere.connectivity, shapes, options);
+  const RgbImage image = RenderFilmStrip(*sphere.connectivity, shapes, options);
   const int width = image.width / 4;
   EXPECT_NEAR(width, 96, 1);
   std::vector<int> drawn;
@@ -200,7 +201,7 @@ TEST(RenderFilmStripTest, SubsamplingKeepsPoses) {
   options.roles.assign(20, ShapeRole::kInserted);
   options.roles[0] = options.roles[16] = ShapeRole::kPose;
   std::fill(options.roles.begin() + 17, options.roles.end(), ShapeRole::kExtrapolated);
-  const Image image = RenderFilmStrip(*sphere.connectivity, shapes, options);
+  const RgbImage image = RenderFilmStrip(*sphere.connectivity, shapes, options);
   const int cell = image.width / 4;
   const auto blue = [&](int i) {
     const unsigned char* p =
@@ -219,7 +220,7 @@ TEST(RenderFilmStripTest, FollowsTheGivenViewAndUp) {
   const auto aspect = [&](const Eigen::Vector3d& view, const Eigen::Vector3d& up) {
     options.view = view;
     options.up = up;
-    const Image image = RenderFilmStrip(*box.connectivity, {box.shape}, options);
+    const RgbImage image = RenderFilmStrip(*box.connectivity, {box.shape}, options);
     // Without the margins of three pixels.
     return (image.width - 6.0) / (image.height - 6.0);
   };
@@ -235,14 +236,14 @@ TEST(RenderFilmStripTest, ValuesAreShownAsColourWithALegend) {
   FilmStripOptions options;
   options.frame_width = 160;
   options.view = Eigen::Vector3d::UnitZ();
-  const Image plain = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  const RgbImage plain = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
   // Hot on the right, cold on the left.
   options.values = {(sphere.shape.row(0).array() > 0)
                         .select(Eigen::ArrayXXd::Constant(1, 3200, 0.1), 0.0)
                         .matrix()
                         .transpose()};
   options.legend = "edge deviation";
-  const Image image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  const RgbImage image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
   EXPECT_GT(image.height, plain.height + 20);
   EXPECT_GT(image.width, plain.width);
   const Counts cold = Count(image, 0, plain.width / 2 - 4, 0, plain.height);
@@ -257,14 +258,14 @@ TEST(RenderFilmStripTest, GroupsAreShownAsColoursWithALegend) {
   FilmStripOptions options;
   options.frame_width = 160;
   options.view = Eigen::Vector3d::UnitZ();
-  const Image plain = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  const RgbImage plain = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
   // The first group, which is blue, on the right, and no group, which is grey, on the left.
   options.groups = (sphere.shape.row(0).array() > 0)
                        .select(Eigen::ArrayXXi::Zero(1, 3200), -1)
                        .matrix()
                        .transpose();
   options.legend = "parts";
-  const Image image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  const RgbImage image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
   EXPECT_GT(image.height, plain.height + 20);
   const Counts none = Count(image, 0, plain.width / 2 - 4, 0, plain.height);
   const Counts first = Count(image, plain.width / 2 + 4, plain.width, 0, plain.height);
@@ -278,7 +279,7 @@ TEST(RenderFilmStripTest, RolesDecideTheColour) {
   const SimpleBody sphere = Sphere(1);
   FilmStripOptions options = Small();
   options.roles = {ShapeRole::kPose, ShapeRole::kInserted, ShapeRole::kExtrapolated};
-  const Image image =
+  const RgbImage image =
       RenderFilmStrip(*sphere.connectivity, {sphere.shape, sphere.shape, sphere.shape}, options);
   const int cell = image.width / 3;
   const auto centre = [&](int i) {
@@ -297,14 +298,14 @@ TEST(RenderFilmStripTest, MarkedVerticesChangeColourAndNothingElse) {
   FilmStripOptions options;
   options.frame_width = 160;
   options.view = Eigen::Vector3d::UnitZ();
-  const Image plain = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  const RgbImage plain = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
   // Red on the right, dark on the left, and a band between them without marks.
   options.marks.resize(sphere.shape.cols());
   for (int v = 0; v < options.marks.size(); ++v) {
     const double x = sphere.shape(0, v);
     options.marks(v) = x > 0.3 ? 2 : x < -0.3 ? 1 : 0;
   }
-  const Image image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  const RgbImage image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
   ASSERT_EQ(image.width, plain.width);
   ASSERT_EQ(image.height, plain.height);
   // The radius is 75 pixels; marks extend to the middle between vertices, plus a spot.
@@ -321,7 +322,7 @@ TEST(RenderFilmStripTest, MarkedVerticesChangeColourAndNothingElse) {
   }
   // Inverted surfaces have the colour of back faces, with or without marks.
   const auto inside_out = Reversed(*sphere.connectivity);
-  const Image marked_back = RenderFilmStrip(*inside_out, {sphere.shape}, options);
+  const RgbImage marked_back = RenderFilmStrip(*inside_out, {sphere.shape}, options);
   options.marks.resize(0);
   EXPECT_EQ(Difference(marked_back, RenderFilmStrip(*inside_out, {sphere.shape}, options), 0), 0);
 }
@@ -331,17 +332,17 @@ TEST(RenderFilmStripTest, ASingleMarkedVertexOfAFineMeshIsSeen) {
   const SimpleBody sphere = Sphere(1, circles, around);
   FilmStripOptions options;
   options.view = Eigen::Vector3d::UnitZ();
-  const Image plain = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  const RgbImage plain = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
   options.marks = Eigen::VectorXi::Zero(circles * around);
   options.marks(circles / 2 * around) = 2;  // at (0, 0, 1)
-  const Image image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  const RgbImage image = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
   const int x = image.width / 2, y = image.height / 2, near = 8;
   EXPECT_GT(Count(image, x - near, x + near, y - near, y + near).orange, 12);
   EXPECT_EQ(Count(image).orange, Count(image, x - near, x + near, y - near, y + near).orange);
   EXPECT_LT(Difference(image, plain, 0), 4.0 * near * near / (image.width * image.height));
   // Values replace the colours of marks.
   options.values = {Eigen::VectorXd::Constant(circles * around, 0.1)};
-  const Image values = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
+  const RgbImage values = RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options);
   options.marks.resize(0);
   EXPECT_EQ(Difference(values, RenderFilmStrip(*sphere.connectivity, {sphere.shape}, options), 0),
             0);
@@ -351,22 +352,22 @@ TEST(RenderFilmStripTest, LabelsStandUnderTheShapesAndTheTitleAboveAll) {
   const SimpleBody sphere = Sphere(1);
   const std::vector<Shape> shapes = {sphere.shape, sphere.shape};
   FilmStripOptions options = Small();
-  const Image plain = RenderFilmStrip(*sphere.connectivity, shapes, options);
+  const RgbImage plain = RenderFilmStrip(*sphere.connectivity, shapes, options);
   options.labels = {"", "t = 1"};
-  const Image labelled = RenderFilmStrip(*sphere.connectivity, shapes, options);
+  const RgbImage labelled = RenderFilmStrip(*sphere.connectivity, shapes, options);
   ASSERT_GT(labelled.height, plain.height);
   EXPECT_EQ(labelled.width, plain.width);
   const int half = plain.width / 2;
   EXPECT_EQ(Count(labelled, 0, half, plain.height, labelled.height).drawn, 0);
   EXPECT_GT(Count(labelled, half, plain.width, plain.height, labelled.height).drawn, 20);
   options.title = "title";
-  const Image titled = RenderFilmStrip(*sphere.connectivity, shapes, options);
+  const RgbImage titled = RenderFilmStrip(*sphere.connectivity, shapes, options);
   const int line = titled.height - labelled.height;
   EXPECT_GT(Count(titled, 0, titled.width, 0, line).drawn, 20);
   // Below the title the picture is unchanged.
-  const Image below = {labelled.width,
-                       labelled.height,
-                       {titled.pixels.begin() + 3 * line * titled.width, titled.pixels.end()}};
+  const RgbImage below = {labelled.width,
+                          labelled.height,
+                          {titled.pixels.begin() + 3 * line * titled.width, titled.pixels.end()}};
   EXPECT_EQ(Difference(below, labelled, 0), 0);
 }
 
@@ -381,8 +382,8 @@ TEST(RenderFilmStripTest, DrawsAGraph) {
   const auto graph = Connectivity::Make(8, {0}, {}, frame);
   FilmStripOptions options;
   options.frame_width = 160;
-  const Image solid = RenderFilmStrip(*box.connectivity, {box.shape}, options);
-  const Image image = RenderFilmStrip(*graph, {box.shape}, options);
+  const RgbImage solid = RenderFilmStrip(*box.connectivity, {box.shape}, options);
+  const RgbImage image = RenderFilmStrip(*graph, {box.shape}, options);
   const Counts counts = Count(image);
   // Twelve tubes of at least about 30 x 2 pixels each, and visible background.
   EXPECT_GT(counts.blue, 12 * 60);
@@ -395,14 +396,14 @@ TEST(RenderFilmStripTest, AStrayVertexDoesNotShrinkTheMesh) {
   const auto with_stray = Connectivity::FromTriangles(9, box.connectivity->Triangles());
   Shape shape(3, 9);
   shape << box.shape, Eigen::Vector3d(1000, 0, 0);
-  const Image expected = RenderFilmStrip(
+  const RgbImage expected = RenderFilmStrip(
       *Connectivity::FromTriangles(8, box.connectivity->Triangles()), {box.shape}, Small());
   EXPECT_LT(Difference(RenderFilmStrip(*with_stray, {shape}, Small()), expected, 2), 0.002);
 }
 
 TEST(RenderFilmStripTest, DrawsWhatIsDegenerate) {
   const SimpleBody sphere = Sphere(1, 10, 20);
-  const Image nothing =
+  const RgbImage nothing =
       RenderFilmStrip(*sphere.connectivity, {0 * sphere.shape, 0 * sphere.shape}, Small());
   EXPECT_EQ(Count(nothing).drawn, 0);
   Shape line = sphere.shape;

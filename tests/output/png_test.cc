@@ -20,7 +20,7 @@ std::string Temporary(const std::string& name) {
 }
 
 TEST(WritePngTest, RoundTrips) {
-  Image image{37, 11, std::vector<unsigned char>(3 * 37 * 11)};
+  RgbImage image{37, 11, std::vector<unsigned char>(3 * 37 * 11)};
   unsigned state = 1;
   for (unsigned char& byte : image.pixels) byte = (state = 1664525 * state + 1013904223) >> 24;
   const std::string file = Temporary("round_trip.png");
@@ -38,8 +38,8 @@ TEST(WritePngTest, RoundTrips) {
 
 TEST(WritePngTest, RefusesAnImageThatIsNone) {
   const std::string file = Temporary("none.png");
-  EXPECT_THROW(WritePng(file, Image()), InvalidOptions);
-  EXPECT_THROW(WritePng(file, Image{2, 2, std::vector<unsigned char>(11)}), InvalidOptions);
+  EXPECT_THROW(WritePng(file, RgbImage()), InvalidOptions);
+  EXPECT_THROW(WritePng(file, RgbImage{2, 2, std::vector<unsigned char>(11)}), InvalidOptions);
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
@@ -47,7 +47,7 @@ TEST(WritePngTest, NamesAFileThatCannotBeWritten) {
   const std::string blocker = Temporary("blocker");
   std::ofstream(blocker) << "a file where a folder should be";
   try {
-    WritePng(blocker + "/picture.png", Image{1, 1, {0, 0, 0}});
+    WritePng(blocker + "/picture.png", RgbImage{1, 1, {0, 0, 0}});
     FAIL() << "wrote below a file";
   } catch (const FileError& error) {
     EXPECT_NE(std::string(error.what()).find("blocker/picture.png"), std::string::npos);

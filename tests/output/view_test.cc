@@ -37,29 +37,30 @@ Shape WithZAsY(const Shape& shape) {
   return turned;
 }
 
-Axes View(const SimpleBody& body, const Eigen::Vector3d& up) {
-  const RayTracer tracer(*body.connectivity, 0);
+internal::Axes View(const SimpleBody& body, const Eigen::Vector3d& up) {
+  const internal::RayTracer tracer(*body.connectivity, 0);
   const std::vector<Shape> shapes = {body.shape / body.shape.colwise().norm().maxCoeff()};
-  std::vector<Scene> scenes;
+  std::vector<internal::Scene> scenes;
   scenes.emplace_back(tracer, shapes[0], Eigen::VectorXf());
-  return ChooseView(shapes, scenes, up);
+  return internal::ChooseView(shapes, scenes, up);
 }
 
 TEST(ChooseUpTest, PrefersYWhereNothingSpeaksAgainst) {
   const SimpleBody box = Box(1, 2, 3);
-  EXPECT_EQ(ChooseUp(*box.connectivity, {box.shape}), Eigen::Vector3d::UnitY());
+  EXPECT_EQ(internal::ChooseUp(*box.connectivity, {box.shape}), Eigen::Vector3d::UnitY());
 }
 
 TEST(ChooseUpTest, IsTheAxisOnWhichTheBodyStands) {
   const SimpleBody gallows = Gallows();
-  EXPECT_EQ(ChooseUp(*gallows.connectivity, {gallows.shape}), Eigen::Vector3d::UnitZ());
-  EXPECT_EQ(ChooseUp(*gallows.connectivity, {WithZAsY(gallows.shape)}), Eigen::Vector3d::UnitY());
+  EXPECT_EQ(internal::ChooseUp(*gallows.connectivity, {gallows.shape}), Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(internal::ChooseUp(*gallows.connectivity, {WithZAsY(gallows.shape)}),
+            Eigen::Vector3d::UnitY());
 }
 
 TEST(ChooseUpTest, DoesNotDependOnPlaceAndUnits) {
   const SimpleBody gallows = Gallows();
   const Shape moved = (1e3 * gallows.shape).colwise() + Eigen::Vector3d(700, -4000, 90);
-  EXPECT_EQ(ChooseUp(*gallows.connectivity, {moved}), Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(internal::ChooseUp(*gallows.connectivity, {moved}), Eigen::Vector3d::UnitZ());
 }
 
 TEST(ChooseUpTest, IsRightForRealMeshes) {
@@ -75,7 +76,7 @@ TEST(ChooseUpTest, IsRightForRealMeshes) {
     ReadOptions options;
     options.allow_nonmanifold = true;
     const Poses poses = ReadPoses(files, options);
-    return ChooseUp(*poses.connectivity, poses.shapes);
+    return internal::ChooseUp(*poses.connectivity, poses.shapes);
   };
   for (const Files& names :
        {Files{"human/000", "human/007"}, Files{"cat/reference", "cat/02"},
@@ -91,7 +92,7 @@ TEST(ChooseUpTest, IsRightForRealMeshes) {
 }
 
 TEST(LookFromTest, HasTheEyeInFrontAndUpInTheUpperHalf) {
-  const Axes axes = LookFrom({3, 1, 2}, {0, 5, 0});
+  const internal::Axes axes = internal::LookFrom({3, 1, 2}, {0, 5, 0});
   EXPECT_TRUE((axes.transpose() * axes).isIdentity(1e-12));
   EXPECT_NEAR(axes.determinant(), 1, 1e-12);
   EXPECT_TRUE(axes.col(2).isApprox(Eigen::Vector3d(3, 1, 2).normalized()));

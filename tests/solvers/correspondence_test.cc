@@ -70,9 +70,9 @@ TEST(Correspond, IsExactAtMarkers) {
   const CorrespondenceResult result = bodies.Fit();
   ASSERT_TRUE(result.summary.doubtful.empty());
   const Shape landed =
-      Pull(result.map.to_target, bodies.second.connectivity->Triangles(), bodies.target);
+      PullBack(result.map.to_target, bodies.second.connectivity->Triangles(), bodies.target);
   const Shape back =
-      Pull(result.map.to_template, bodies.first.connectivity->Triangles(), bodies.rest);
+      PullBack(result.map.to_template, bodies.first.connectivity->Triangles(), bodies.rest);
   for (const Marker& marker : bodies.markers) {
     EXPECT_EQ(result.fitted.col(marker.template_vertex), bodies.target.col(marker.target_vertex));
     EXPECT_EQ(landed.col(marker.template_vertex), bodies.target.col(marker.target_vertex));
@@ -116,8 +116,9 @@ TEST(Correspond, ThereAndBackIsNearTheIdentity) {
   }
   const CorrespondenceResult back = Correspond(bodies.second.connectivity, bodies.target,
                                                bodies.first.connectivity, bodies.rest, reversed);
-  const Shape first = Pull(back.map.to_target, bodies.first.connectivity->Triangles(), bodies.rest);
-  const Shape both = Pull(there.map.to_target, bodies.second.connectivity->Triangles(), first);
+  const Shape first =
+      PullBack(back.map.to_target, bodies.first.connectivity->Triangles(), bodies.rest);
+  const Shape both = PullBack(there.map.to_target, bodies.second.connectivity->Triangles(), first);
   EXPECT_LT((both - bodies.rest).colwise().norm().mean(), 0.75 * bodies.Edge());
 }
 
@@ -341,7 +342,7 @@ TEST(Correspond, DoesNotTakeOneLegForAnother) {
   }
   const CorrespondenceResult result = bodies.Fit();
   const Shape landed =
-      Pull(result.map.to_target, bodies.second.connectivity->Triangles(), bodies.other_rest);
+      PullBack(result.map.to_target, bodies.second.connectivity->Triangles(), bodies.other_rest);
   int wrong = 0, low = 0;
   for (int v = 0; v < landed.cols(); ++v) {
     if (bodies.rest(1, v) > 0.3) continue;
@@ -401,7 +402,7 @@ TEST(Correspond, ReportsAreWhole) {
   EXPECT_EQ(json["template"]["vertices"], bodies.rest.cols());
   EXPECT_GE(json["stages"].size(), 3u);
   EXPECT_NE(result.summary.FullReport().find("Round trip"), std::string::npos);
-  const Image image =
+  const RgbImage image =
       RenderCorrespondence(*bodies.first.connectivity, bodies.rest, *bodies.second.connectivity,
                            bodies.target, bodies.markers, result);
   EXPECT_GT(image.width, 300);

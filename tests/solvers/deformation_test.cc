@@ -10,11 +10,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
-#include <shapespace/path/quality.h>
 #include <shapespace/path/rigid_motion.h>
 
 #include "support/listener.h"

@@ -224,9 +224,9 @@ TEST(Interpolate, BothSolversFindTheSameMinimum) {
     SCOPED_TRACE(Describe(metric));
     GeodesicOptions options = Options(4, 1e-13);
     options.metric = metric;
-    options.solver = Solver::kLbfgs;
+    options.solver = GeodesicSolver::kLbfgs;
     const auto lbfgs = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(70)}, options);
-    options.solver = Solver::kTrustRegion;
+    options.solver = GeodesicSolver::kTrustRegion;
     const auto region = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(70)}, options);
     EXPECT_NEAR(lbfgs.summary.energy, region.summary.energy, 1e-7 * region.summary.energy);
     EXPECT_LT(Difference(lbfgs.path, region.path), 2e-3);
@@ -374,7 +374,7 @@ TEST(Interpolate, RefusesWhatCannotWork) {
   const Body large = MakeBar(6, 1, 1, 60, 20, 20);
   options = {};
   options.metric.volume = 0.3;
-  options.solver = Solver::kTrustRegion;  // its rows would be dense
+  options.solver = GeodesicSolver::kTrustRegion;  // its rows would be dense
   Listener listener;
   EXPECT_THROW(Interpolate(large.connectivity, {large.pose(0), large.pose(9)}, options, &listener),
                InvalidOptions);
@@ -514,7 +514,7 @@ TEST(Interpolate, CopiesConvergeAndPosesThatAreHardlyApartMustBeSolved) {
         EXPECT_EQ(summary.termination, Termination::kConverged) << summary.FullReport();
         EXPECT_LT((path.Placed(6) - copy).cwiseAbs().maxCoeff(), 1e-13);
       }
-      options.start = Start::kFirst;  // not a solution, however near, even under the rigid metric
+      options.start = GeodesicStart::kFirst;  // not a solution, even under the rigid metric
       Shape other = shape;
       for (int i = 0; i < other.size(); ++i) other.data()[i] += 1e-6 * std::sin(7.0 * i * i);
       const GeodesicSummary apart = Interpolate(connectivity, {shape, other}, options).summary;

@@ -39,7 +39,7 @@ TEST(Ladder, AbsoluteLengthsAndThePapersTransportBendFalsely) {
   TransferOptions paper = Ladder();
   paper.ladder.metric = MetricOptions();
   paper.ladder.metric.bending = 0;
-  paper.ladder.connection = Connection::kConstrainedProjection;
+  paper.ladder.connection = TransportConnection::kConstrainedProjection;
   paper.ladder.scale = paper.ladder.align = false;
   EXPECT_GT(BendOf(straight, Transfer(source, straight, paper).path.Placed(6)), 80);
   const Shape turned = Turn(90, Vector3d::UnitZ()) * straight;
@@ -70,7 +70,8 @@ TEST(Ladder, ACopyMovesAsTheSourceDoes) {
   const auto copy = [&](const Shape& shape) -> Shape {
     return (scale * turn * shape).colwise() + Vector3d(-11, 4, 0.5);
   };
-  for (Connection connection : {Connection::kLeviCivita, Connection::kConstrainedProjection}) {
+  for (TransportConnection connection :
+       {TransportConnection::kLeviCivita, TransportConnection::kConstrainedProjection}) {
     SCOPED_TRACE(static_cast<int>(connection));
     TransferOptions options = Ladder();
     options.ladder.connection = connection;
@@ -87,7 +88,7 @@ TEST(Ladder, ACopyMovesAsTheSourceDoes) {
 
   // Without alignment, the paper's transport rotates the motion of a rotated copy incorrectly.
   TransferOptions paper = Ladder();
-  paper.ladder.connection = Connection::kConstrainedProjection;
+  paper.ladder.connection = TransportConnection::kConstrainedProjection;
   paper.ladder.align = false;
   EXPECT_GT(Apart(Transfer(source, copy(shapes[0]), paper).path.Placed(3), copy(shapes[3])), 0.02);
 }

@@ -24,12 +24,13 @@ namespace {
 using internal::MakeSchedule;
 using internal::ScheduleStep;
 
-constexpr Schedule kSchedules[] = {Schedule::kAutomatic, Schedule::kPaper, Schedule::kFlat};
+constexpr GeodesicSchedule kSchedules[] = {GeodesicSchedule::kAutomatic, GeodesicSchedule::kPaper,
+                                           GeodesicSchedule::kFlat};
 
 // The start of every step must be known: either the next coarser level with the same number of
 // shapes, or its own level with fewer.
 TEST(Schedule, StepsFollowFromEarlierOnesAndEndWithEverything) {
-  for (Schedule schedule : kSchedules) {
+  for (GeodesicSchedule schedule : kSchedules) {
     for (int levels : {1, 2, 5}) {
       for (int shapes : {1, 2, 7, 15, 40}) {
         const std::vector<ScheduleStep> steps = MakeSchedule(schedule, levels, shapes);
@@ -136,7 +137,9 @@ TEST(Interpolate, AllSchedulesEndInTheSameValley) {
 }
 
 TEST(Interpolate, AllStartsEndInTheSameValley) {
-  const Start starts[] = {Start::kBest, Start::kBlend, Start::kFirst, Start::kLast, Start::kRigid};
+  const GeodesicStart starts[] = {GeodesicStart::kBest, GeodesicStart::kBlend,
+                                  GeodesicStart::kFirst, GeodesicStart::kLast,
+                                  GeodesicStart::kRigid};
   std::vector<GeodesicOptions> all(std::size(starts));
   for (size_t i = 0; i < all.size(); ++i) all[i].start = starts[i];
   for (const Pair& pair : Pairs()) EXPECT_LT(Spread(pair, all), 1.003) << pair.name;
@@ -176,7 +179,7 @@ TEST(Interpolate, LeavesAStartThatEndsInAPoorValley) {
   const Shape up = sheet.pose(180);
   const Shape down = up.array().colwise() * Eigen::Array3d(1, 1, -1);
   GeodesicOptions blend;
-  blend.start = Start::kBlend;
+  blend.start = GeodesicStart::kBlend;
   const double energy = Interpolate(sheet.connectivity, {up, down}).summary.energy;
   EXPECT_LT(energy, 0.1 * Interpolate(sheet.connectivity, {up, down}, blend).summary.energy);
 }

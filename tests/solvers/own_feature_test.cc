@@ -48,7 +48,7 @@ TEST(OwnFeature, MakesTheSameGeodesicOnAllLevels) {
   const GeodesicResult library = Solve(testing::LibraryBlend());
   const GeodesicResult own = Solve(testing::OwnBlend());
   ASSERT_GT(own.summary.hierarchy.size(), 1u);
-  EXPECT_TRUE(own.summary.Converged());
+  EXPECT_EQ(own.summary.termination, Termination::kConverged);
   EXPECT_NEAR(own.summary.energy, library.summary.energy, 1e-6 * library.summary.energy);
   EXPECT_NEAR(own.summary.lower_bound, library.summary.lower_bound,
               1e-9 * library.summary.lower_bound);

@@ -185,7 +185,8 @@ TEST(RealPosesBySolvers, CeresAndOursReachTheSameEnergy) {
   }
   const Poses poses = ReadPoses({first, (folder / "horse_lowpoly/m03.obj").string()});
   std::vector<double> energies;
-  for (Solver solver : {Solver::kLbfgs, Solver::kThreadedLbfgs, Solver::kTrustRegion}) {
+  for (GeodesicSolver solver :
+       {GeodesicSolver::kLbfgs, GeodesicSolver::kThreadedLbfgs, GeodesicSolver::kTrustRegion}) {
     GeodesicOptions options;
     options.solver = solver;
     options.shapes = 7;

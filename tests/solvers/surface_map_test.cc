@@ -41,16 +41,16 @@ class SurfaceMapTest : public testing::FilesTest {
 };
 
 TEST_F(SurfaceMapTest, PullsLinearFunctionsExactly) {
-  const Eigen::MatrixXd pulled = Pull(points_, triangles_, square_);
+  const Eigen::MatrixXd pulled = PullBack(points_, triangles_, square_);
   Eigen::MatrixXd wanted(3, 3);
   wanted << 0, 0.25, 0.5, 0, 0.75, 1, 0, 0, 0;
   EXPECT_TRUE(pulled.isApprox(wanted, 1e-15)) << pulled;
-  EXPECT_THROW(Pull(points_, triangles_, square_.leftCols(3)), MeshError);
-  EXPECT_THROW(Pull(points_, triangles_.leftCols(1), square_), MeshError);
+  EXPECT_THROW(PullBack(points_, triangles_, square_.leftCols(3)), MeshError);
+  EXPECT_THROW(PullBack(points_, triangles_.leftCols(1), square_), MeshError);
 }
 
 TEST_F(SurfaceMapTest, CarriesOffsetsAlongRigidly) {
-  Shape own = Pull(points_, triangles_, square_);
+  Shape own = PullBack(points_, triangles_, square_);
   own.row(2).setConstant(0.3);  // above the square
   const Eigen::Matrix3d rotation = testing::Rotation(70, Eigen::Vector3d(1, 2, 3).normalized());
   const auto move = [&](const Shape& shape) -> Shape {
@@ -85,7 +85,7 @@ TEST_F(SurfaceMapTest, DamagedFilesAreRefusedByLine) {
   ExpectRefused("to_target 1\n3 1 0 0 0.5\n", "m.txt:2: a line begins with a triangle from 1 to 2");
   ExpectRefused("to_target 1\n1 1 0 x 0.5\n", "m.txt:2: a number is missing or invalid");
   ExpectRefused("to_target 1\n1 1 1 0 0.5\n", "m.txt:2: the three barycentric");
-  ExpectRefused("to_target 1\n1 1 0 0 0.5 7\n", "m.txt:2: there is more");
+  ExpectRefused("to_target 1\n1 1 0 0 0.5 7\n", "m.txt:2: there are additional words");
   ExpectRefused("to_target 1\n1 1 0 0 0.5\n", "the file ends before all of 'to_template'");
 }
 

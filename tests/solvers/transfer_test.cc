@@ -10,10 +10,10 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/skinned.h>
-#include <shapespace/path/quality.h>
 #include <shapespace/solvers/optimise/feature_transfer.h>
 
 #include "support/listener.h"

@@ -37,7 +37,7 @@ TransportOptions Unaligned() {
 
 TransportOptions ThePapers() {
   TransportOptions options;
-  options.connection = Connection::kConstrainedProjection;
+  options.connection = TransportConnection::kConstrainedProjection;
   return options;
 }
 
@@ -115,7 +115,7 @@ TEST(Transport, DoesNothingAlongATranslation) {
       ASSERT_EQ(summary.steps.size(), 3u);
       // Edge lengths, whose weight in the paper's G is 1 / lambda times that of positions, have
       // rounding errors.
-      const bool papers = options.connection == Connection::kConstrainedProjection;
+      const bool papers = options.connection == TransportConnection::kConstrainedProjection;
       for (int k : {0, 1}) {
         EXPECT_LT((there[k] - tangents[k]).norm(), (papers ? 1e-10 : 1e-12) * tangents[k].norm());
       }

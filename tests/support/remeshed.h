@@ -44,7 +44,7 @@ struct Remeshed {
 
   /// Per vertex of the template, the distance between its image and the correct point.
   Eigen::VectorXd Errors(const SurfaceMap& map) const {
-    const Shape landed = Pull(map.to_target, second.connectivity->Triangles(), other_rest);
+    const Shape landed = PullBack(map.to_target, second.connectivity->Triangles(), other_rest);
     return (landed - rest).colwise().norm();
   }
 

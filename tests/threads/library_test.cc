@@ -5,15 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include <shapespace/analysis/intersections.h>
+#include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/tube.h>
 #include <shapespace/hierarchy/hierarchy.h>
-#include <shapespace/mesh/intersections.h>
 #include <shapespace/metric/feature_map.h>
 #include <shapespace/output/picture.h>
 #include <shapespace/path/energy.h>
-#include <shapespace/path/rigid_parts.h>
 
 #include "output/bodies.h"
 #include "support/path_of.h"
@@ -142,7 +142,7 @@ TEST(RenderFilmStripTest, IsTheSameForAnyNumberOfThreads) {
   const std::vector<Shape> shapes = {sphere.shape, squashed, sphere.shape};
   const auto images =
       testing::OnThreads([&] { return RenderFilmStrip(*sphere.connectivity, shapes, options); });
-  for (const Image& image : images) EXPECT_EQ(image.pixels, images[0].pixels);
+  for (const RgbImage& image : images) EXPECT_EQ(image.pixels, images[0].pixels);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/mesh/read.h>
 #include <shapespace/path/path_file.h>
-#include <shapespace/path/quality.h>
 
 #include "tools/run.h"
 

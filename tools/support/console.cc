@@ -17,7 +17,7 @@ constexpr double kTerminalPause = 0.05, kPause = 10;
 
 struct Console {
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  const Stopwatch stopwatch = {};
+  const internal::Stopwatch stopwatch = {};
   double last = terminal ? -kTerminalPause : 0;  // time of the last line of progress
   std::string line;                              // the last line of progress
   std::atomic<bool> shown{false};                // it is visible on the terminal

@@ -20,7 +20,7 @@ namespace shapespace::tools {
 namespace {
 
 bool IsFramePattern(const std::string& file) {
-  const std::string extension = Extension(file);
+  const std::string extension = FileExtension(file);
   return (extension == ".obj" || extension == ".ply") && file.find('%') != file.npos;
 }
 
@@ -72,7 +72,7 @@ void CheckCanBeWritten(const std::string& file) {
   }
 }
 
-bool IsPathFile(const std::string& file) { return Extension(file) == ".path"; }
+bool IsPathFile(const std::string& file) { return FileExtension(file) == ".path"; }
 
 Path ReadPathAndTell(const std::string& file) {
   Path path = ReadPath(file);

@@ -34,21 +34,21 @@ GeodesicOptions GeodesicFromFlags() {
   options.max_iterations = FLAGS_max_iterations;
   options.memory_limit = 1e9 * FLAGS_memory_limit;
   options.coarsest = FLAGS_coarsest;
-  options.solver = Choose<Solver>("solver", FLAGS_solver,
-                                  {{"automatic", Solver::kAutomatic},
-                                   {"lbfgs", Solver::kLbfgs},
-                                   {"threaded_lbfgs", Solver::kThreadedLbfgs},
-                                   {"trust_region", Solver::kTrustRegion}});
-  options.schedule = Choose<Schedule>("schedule", FLAGS_schedule,
-                                      {{"automatic", Schedule::kAutomatic},
-                                       {"paper", Schedule::kPaper},
-                                       {"flat", Schedule::kFlat}});
-  options.start = Choose<Start>("start", FLAGS_start,
-                                {{"best", Start::kBest},
-                                 {"blend", Start::kBlend},
-                                 {"first", Start::kFirst},
-                                 {"last", Start::kLast},
-                                 {"rigid", Start::kRigid}});
+  options.solver = Choose<GeodesicSolver>("solver", FLAGS_solver,
+                                          {{"automatic", GeodesicSolver::kAutomatic},
+                                           {"lbfgs", GeodesicSolver::kLbfgs},
+                                           {"threaded_lbfgs", GeodesicSolver::kThreadedLbfgs},
+                                           {"trust_region", GeodesicSolver::kTrustRegion}});
+  options.schedule = Choose<GeodesicSchedule>("schedule", FLAGS_schedule,
+                                              {{"automatic", GeodesicSchedule::kAutomatic},
+                                               {"paper", GeodesicSchedule::kPaper},
+                                               {"flat", GeodesicSchedule::kFlat}});
+  options.start = Choose<GeodesicStart>("start", FLAGS_start,
+                                        {{"best", GeodesicStart::kBest},
+                                         {"blend", GeodesicStart::kBlend},
+                                         {"first", GeodesicStart::kFirst},
+                                         {"last", GeodesicStart::kLast},
+                                         {"rigid", GeodesicStart::kRigid}});
   options.Validate();
   return options;
 }

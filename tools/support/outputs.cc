@@ -9,14 +9,14 @@
 
 #include <gflags/gflags.h>
 
+#include <shapespace/analysis/quality.h>
+#include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/extension.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/gltf.h>
 #include <shapespace/output/picture.h>
 #include <shapespace/path/path_file.h>
-#include <shapespace/path/quality.h>
-#include <shapespace/path/rigid_parts.h>
 
 #include "support/frames.h"
 #include "support/interrupt.h"
@@ -54,7 +54,7 @@ enum class Kind { kPath, kPicture, kGltf, kFrames, kLastShape };
 bool writes_last_shape_alone = false;
 
 Kind KindOf(const std::string& output, const std::string& flag = "output") {
-  const std::string extension = Extension(output);
+  const std::string extension = FileExtension(output);
   if (extension == ".obj" || extension == ".ply") {
     if (writes_last_shape_alone && output.find('%') == output.npos) return Kind::kLastShape;
     CheckFramePattern(flag, output);
@@ -87,8 +87,8 @@ GltfOptions GltfOptionsFromFlags() {
   if (IsGiven("fps") && FLAGS_fps == 0) throw UsageError(AsTyped("fps") + ": must be positive");
   options.duration = FLAGS_seconds;
   options.fps = FLAGS_fps;
-  if (FLAGS_loop) options.playback = Playback::kLoop;
-  if (FLAGS_once) options.playback = Playback::kOnce;
+  if (FLAGS_loop) options.playback = GltfPlayback::kLoop;
+  if (FLAGS_once) options.playback = GltfPlayback::kOnce;
   options.ease = FLAGS_ease;
   options.up = FLAGS_up == "z" ? 'z' : 'y';
   options.unit = FLAGS_unit;

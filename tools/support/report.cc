@@ -23,7 +23,7 @@ namespace shapespace::tools {
 FlagOutputs ReportFromFlag() {
   if (FLAGS_report == "-") ResultsToStderr();
   if (FLAGS_report.empty() || FLAGS_report == "-") return {"report", {}};
-  const std::string extension = Extension(FLAGS_report);
+  const std::string extension = FileExtension(FLAGS_report);
   if (extension != ".json" && extension != ".txt") {
     throw UsageError("--report " + FLAGS_report + ": must end in .json or .txt, or be -");
   }
@@ -46,7 +46,7 @@ void WriteReport(const std::string& text, const std::string& json) {
   }
   try {
     WriteFileAtomically(FLAGS_report, [&](std::ostream& out) {
-      out << (Extension(FLAGS_report) == ".txt" ? text : json);
+      out << (FileExtension(FLAGS_report) == ".txt" ? text : json);
     });
     Out() << "wrote " << FLAGS_report << '\n';
   } catch (const Error& error) {

@@ -30,7 +30,7 @@ class SolveProgress final : public Progress {
 
   const std::string next_;
   std::optional<FirstInterruptWaits> waits_;
-  std::optional<Stopwatch> working_;  // since the share was 0
+  std::optional<internal::Stopwatch> working_;  // since the share was 0
   double share_ = 0;
   double end_ = 0;  // estimated end at the time of the last report; 0: unknown
 };

@@ -10,7 +10,7 @@
 #include <embree4/rtcore.h>
 #endif
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// Finds the first hit of a ray; rays of consecutive calls are expected to be close together.
 inline void EmbreeIntersect(RTCScene scene, RTCRayHit* ray) {
@@ -38,6 +38,6 @@ inline void EmbreeOccluded(RTCScene scene, RTCRay* ray) {
 #endif
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_BASE_EMBREE_H_

@@ -10,7 +10,7 @@ namespace shapespace {
 
 /// The extension of a file's name in small letters, with its dot: ".obj" of "a/b.OBJ". Empty if the
 /// name has none.
-inline std::string Extension(const std::string& file) {
+inline std::string FileExtension(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -8,7 +8,7 @@
 #include <sanitizer/tsan_interface.h>
 #endif
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// Tells the thread sanitizer that work on other threads happens after this object's construction
 /// and before its destruction. Parts of the work are not ordered with respect to each other, so
@@ -40,6 +40,6 @@ class ForkJoin {
 #endif
 };
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_BASE_FORK_JOIN_H_

@@ -64,12 +64,12 @@ void ParallelFor(int count, const std::function<void(int)>& body) {
     for (int i = 0; i < count; ++i) body(i);
     return;
   }
-  const ForkJoin bodies{};
+  const internal::ForkJoin bodies{};
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<int>(0, count, 1),
         [&](const tbb::blocked_range<int>& r) {
-          const ForkJoin::Piece piece(bodies);
+          const internal::ForkJoin::Piece piece(bodies);
           for (int i = r.begin(); i != r.end(); ++i) body(i);
         },
         tbb::simple_partitioner());

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// Measures the time since its construction.
 class Stopwatch {
@@ -16,6 +16,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_BASE_STOPWATCH_H_

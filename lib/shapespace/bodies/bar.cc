@@ -6,6 +6,7 @@
 #include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/checks.h>
 #include <shapespace/bodies/grid.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -40,29 +41,30 @@ class BoxNodes {
 }  // namespace
 
 Body MakeBar(double length, double width, double height, int nx, int ny, int nz) {
-  CheckLength("length", length);
-  CheckLength("width", width);
-  CheckLength("height", height);
-  CheckCount("nx", nx, 1);
-  CheckCount("ny", ny, 1);
-  CheckCount("nz", nz, 1);
+  internal::CheckLength("length", length);
+  internal::CheckLength("width", width);
+  internal::CheckLength("height", height);
+  internal::CheckCount("nx", nx, 1);
+  internal::CheckCount("ny", ny, 1);
+  internal::CheckCount("nz", nz, 1);
   // Each count is checked first, because products of three large counts would overflow.
-  CheckTriangles(std::max({nx, ny, nz}));
-  CheckTriangles(4 * (std::int64_t{nx} * ny + std::int64_t{ny} * nz + std::int64_t{nz} * nx));
+  internal::CheckTriangles(std::max({nx, ny, nz}));
+  internal::CheckTriangles(4 *
+                           (std::int64_t{nx} * ny + std::int64_t{ny} * nz + std::int64_t{nz} * nx));
 
   const BoxNodes node(nx, ny, nz);
-  TriangleList triangles;
-  AddGrid(
+  internal::TriangleList triangles;
+  internal::AddGrid(
       nx, ny, [&](int i, int j) { return node(i, j, nz); }, &triangles);
-  AddGrid(
+  internal::AddGrid(
       ny, nx, [&](int j, int i) { return node(i, j, 0); }, &triangles);
-  AddGrid(
+  internal::AddGrid(
       ny, nz, [&](int j, int k) { return node(nx, j, k); }, &triangles);
-  AddGrid(
+  internal::AddGrid(
       nz, ny, [&](int k, int j) { return node(0, j, k); }, &triangles);
-  AddGrid(
+  internal::AddGrid(
       nz, nx, [&](int k, int i) { return node(i, ny, k); }, &triangles);
-  AddGrid(
+  internal::AddGrid(
       nx, nz, [&](int i, int k) { return node(i, 0, k); }, &triangles);
 
   Shape rest(3, node.Count());
@@ -78,16 +80,16 @@ Body MakeBar(double length, double width, double height, int nx, int ny, int nz)
 
   Body body;
   body.name = "bar";
-  body.connectivity = ConnectivityOf(node.Count(), triangles);
+  body.connectivity = internal::ConnectivityOf(node.Count(), triangles);
   body.parameter = "bend angle, degrees";
-  body.end = std::min({360.0, 90.0 * nx, 0.9 * 2 * length / height / kRadians});
+  body.end = std::min({360.0, 90.0 * nx, 0.9 * 2 * length / height / internal::kRadians});
   body.pose = [rest = std::move(rest), length](double angle) {
     Shape shape(3, rest.cols());
-    const double curvature = angle * kRadians / length;
-    for (int v = 0; v < rest.cols(); ++v) shape.col(v) = Bend(rest.col(v), curvature);
+    const double curvature = angle * internal::kRadians / length;
+    for (int v = 0; v < rest.cols(); ++v) shape.col(v) = internal::Bend(rest.col(v), curvature);
     return shape;
   };
-  return WithCheckedRange(std::move(body));
+  return internal::WithCheckedRange(std::move(body));
 }
 
 }  // namespace shapespace

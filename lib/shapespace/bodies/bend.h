@@ -5,10 +5,7 @@
 
 #include <Eigen/Core>
 
-namespace shapespace {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadians = kPi / 180;  ///< radians in a degree
+namespace shapespace::internal {
 
 /// sin(x) / x; near 0 the first terms of the series, which are accurate to rounding there.
 inline double Sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
@@ -23,6 +20,6 @@ inline Eigen::Vector3d Bend(const Eigen::Vector3d& point, double curvature) {
           2 * half * std::sin(turn / 2) + point.z() * std::cos(turn)};
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_BODIES_BEND_H_

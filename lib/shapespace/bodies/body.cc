@@ -15,6 +15,7 @@
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/steffen.h>
 #include <shapespace/bodies/tube.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -25,14 +26,15 @@ Body Bar(int triangles) {
   const double length = 5, width = 1, height = 1;
   const double area = 2 * (length * width + width * height + height * length);
   const double cell = std::sqrt(2 * area / triangles);
-  return MakeBar(length, width, height, CellsAlong(length, cell), CellsAlong(width, cell),
-                 CellsAlong(height, cell));
+  return MakeBar(length, width, height, internal::CellsAlong(length, cell),
+                 internal::CellsAlong(width, cell), internal::CellsAlong(height, cell));
 }
 
 Body Sheet(int triangles) {
   const double length = 3, width = 2;
   const double cell = std::sqrt(2 * length * width / triangles);
-  return MakeSheet(length, width, CellsAlong(length, cell), CellsAlong(width, cell));
+  return MakeSheet(length, width, internal::CellsAlong(length, cell),
+                   internal::CellsAlong(width, cell));
 }
 
 Body Strip(int triangles) { return MakeStrip(1, 1.5, std::max(2, triangles)); }
@@ -41,9 +43,9 @@ Body Bricard(int) { return MakeBricard(); }
 
 Body Catenoid(int triangles) {
   const double half_height = 1;
-  const double cell = std::sqrt(2 * 2 * kPi * 2 * half_height / triangles);
-  return MakeCatenoid(half_height, std::max(3, CellsAlong(2 * kPi, cell)),
-                      CellsAlong(2 * half_height, cell));
+  const double cell = std::sqrt(2 * 2 * internal::kPi * 2 * half_height / triangles);
+  return MakeCatenoid(half_height, std::max(3, internal::CellsAlong(2 * internal::kPi, cell)),
+                      internal::CellsAlong(2 * half_height, cell));
 }
 
 Body Tube(int triangles) { return MakeTube(triangles); }
@@ -66,7 +68,7 @@ Body Quadruped(int triangles) {
   body.pose = [between = std::move(animal.between)](double part) {
     return between("stand", "stretch", part);
   };
-  return WithCheckedRange(std::move(body));
+  return internal::WithCheckedRange(std::move(body));
 }
 
 struct Entry {
@@ -101,7 +103,7 @@ Body MakeBody(const std::string& name, int triangles) {
   for (const Entry& entry : Registry()) {
     if (entry.info.name == name) {
       // Half the limit, because rounding to whole cells may add triangles.
-      CheckTriangles(triangles, kMaxBodyTriangles / 2);
+      internal::CheckTriangles(triangles, internal::kMaxBodyTriangles / 2);
       return entry.make(triangles == 0 ? entry.info.default_triangles : triangles);
     }
     known += (known.empty() ? "" : ", ") + entry.info.name;

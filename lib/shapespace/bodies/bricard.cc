@@ -6,6 +6,7 @@
 #include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/checks.h>
 #include <shapespace/bodies/grid.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -42,17 +43,17 @@ Shape Pose(double angle) {
 }  // namespace
 
 Body MakeBricard() {
-  const TriangleList triangles = {{0, 4, 2}, {2, 4, 1}, {1, 4, 3}, {3, 4, 0},
-                                  {2, 5, 0}, {1, 5, 2}, {3, 5, 1}, {0, 5, 3}};
+  const internal::TriangleList triangles = {{0, 4, 2}, {2, 4, 1}, {1, 4, 3}, {3, 4, 0},
+                                            {2, 5, 0}, {1, 5, 2}, {3, 5, 1}, {0, 5, 3}};
   Body body;
   body.name = "bricard";
-  body.connectivity = ConnectivityOf(6, triangles);
+  body.connectivity = internal::ConnectivityOf(6, triangles);
   body.parameter = "angle of edge 0-2 to the plane of symmetry, degrees";
   body.isometric = true;
   body.begin = -35;
   body.end = 50;
-  body.pose = [](double angle) { return Pose(angle * kRadians); };
-  return WithCheckedRange(std::move(body));
+  body.pose = [](double angle) { return Pose(angle * internal::kRadians); };
+  return internal::WithCheckedRange(std::move(body));
 }
 
 }  // namespace shapespace

@@ -6,34 +6,36 @@
 #include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/checks.h>
 #include <shapespace/bodies/grid.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 
 Body MakeCatenoid(double half_height, int around, int along) {
-  CheckLength("half_height", half_height);
+  internal::CheckLength("half_height", half_height);
   // The rim's radius is cosh(half_height).
   if (half_height > 20) throw InvalidOptions("half_height: above 20, in units of the waist radius");
-  CheckCount("around", around, 3);
-  CheckCount("along", along, 1);
-  CheckTriangles(2 * std::int64_t{around} * along);
+  internal::CheckCount("around", around, 3);
+  internal::CheckCount("along", along, 1);
+  internal::CheckTriangles(2 * std::int64_t{around} * along);
 
   const auto node = [along](int i, int j) { return i * (along + 1) + j; };
-  TriangleList triangles;
-  AddGrid(around, along, node, &triangles);
+  internal::TriangleList triangles;
+  internal::AddGrid(around, along, node, &triangles);
   const int num_vertices = node(around, along) + 1;
 
   Body body;
   body.name = "catenoid";
-  body.connectivity = ConnectivityOf(num_vertices, triangles);
+  body.connectivity = internal::ConnectivityOf(num_vertices, triangles);
   body.parameter = "angle of association, degrees";
   body.end = 90;
   // With w = u + i v the catenoid is the real part of (cos w, sin w, -i w), the helicoid its
   // imaginary part; the associated surfaces interpolate between them.
   body.pose = [=](double angle) {
-    const double real = std::cos(angle * kRadians), imaginary = std::sin(angle * kRadians);
+    const double real = std::cos(angle * internal::kRadians),
+                 imaginary = std::sin(angle * internal::kRadians);
     Shape shape(3, num_vertices);
     for (int i = 0; i <= around; ++i) {
-      const double u = kPi * (2.0 * i / around - 1);
+      const double u = internal::kPi * (2.0 * i / around - 1);
       for (int j = 0; j <= along; ++j) {
         const double v = half_height * (2.0 * j / along - 1);
         const Eigen::Vector3d catenoid(std::cosh(v) * std::cos(u), std::cosh(v) * std::sin(u), v);
@@ -43,7 +45,7 @@ Body MakeCatenoid(double half_height, int around, int along) {
     }
     return shape;
   };
-  return WithCheckedRange(std::move(body));
+  return internal::WithCheckedRange(std::move(body));
 }
 
 }  // namespace shapespace

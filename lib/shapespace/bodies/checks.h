@@ -9,7 +9,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/body.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// About 2 GB of connectivity; a larger number is taken for a typing error.
 constexpr std::int64_t kMaxBodyTriangles = 20'000'000;
@@ -57,6 +57,6 @@ inline Body WithCheckedRange(Body body) {
   return body;
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_BODIES_CHECKS_H_

@@ -10,7 +10,7 @@
 
 #include <shapespace/mesh/connectivity.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 using TriangleList = std::vector<Eigen::Vector3i>;
 
@@ -43,6 +43,6 @@ inline int CellsAlong(double length, double size) {
   return std::max(1, static_cast<int>(std::lround(length / size)));
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_BODIES_GRID_H_

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 ImplicitValue Evaluate(const RoundCone& cone, const Eigen::Vector3d& point) {
   // Flattening stretches distances along `flat`.
@@ -56,4 +56,4 @@ ImplicitValue Project(const std::vector<RoundCone>& cones, Eigen::Vector3d* poin
   return here;
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// The convex hull of two spheres, flattened along one direction.
 struct RoundCone {
@@ -35,6 +35,6 @@ ImplicitValue Evaluate(const std::vector<RoundCone>& cones, const Eigen::Vector3
 /// radius.
 ImplicitValue Project(const std::vector<RoundCone>& cones, Eigen::Vector3d* point);
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_BODIES_IMPLICIT_H_

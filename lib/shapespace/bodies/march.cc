@@ -5,12 +5,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include <shapespace/base/parallel.h>
 #include <shapespace/bodies/polygonise.h>
+#include <shapespace/mesh/geometry.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 class Marcher {
@@ -100,7 +99,7 @@ class Marcher {
   void AddTriangle(int a, int b, int c, const std::vector<int>& inside,
                    const std::vector<int>& outside) {
     const Eigen::Vector3d& p = mesh_.points[a];
-    const Eigen::Vector3d normal = (mesh_.points[b] - p).cross(mesh_.points[c] - p);
+    const Eigen::Vector3d normal = AreaNormal(p, mesh_.points[b], mesh_.points[c]);
     // All inner nodes are on one side of the triangle, all outer ones on the other.
     const double side = normal.dot(Point(outside[0]) - p) - normal.dot(Point(inside[0]) - p);
     mesh_.triangles.push_back(side > 0 ? Eigen::Vector3i(a, b, c) : Eigen::Vector3i(a, c, b));
@@ -121,4 +120,4 @@ TriangleMesh March(const std::vector<RoundCone>& cones, double cell) {
   return Marcher(cones, cell).Run();
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

@@ -6,16 +6,17 @@
 
 #include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/checks.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 
 Body MakeMiura(double a, double b, double corner, int nx, int ny) {
-  CheckLength("a", a);
-  CheckLength("b", b);
+  internal::CheckLength("a", a);
+  internal::CheckLength("b", b);
   if (!(corner >= 10 && corner <= 80)) throw InvalidOptions("corner: must be in [10, 80] degrees");
-  CheckCount("nx", nx, 1);
-  CheckCount("ny", ny, 1);
-  CheckTriangles(2 * std::int64_t{nx} * ny);
+  internal::CheckCount("nx", nx, 1);
+  internal::CheckCount("ny", ny, 1);
+  internal::CheckTriangles(2 * std::int64_t{nx} * ny);
 
   std::vector<int> begin = {0}, corners;
   for (int i = 0; i < nx; ++i) {
@@ -32,9 +33,10 @@ Body MakeMiura(double a, double b, double corner, int nx, int ny) {
   body.isometric = true;
   body.end = 85;
   body.pose = [=](double angle) {
-    const double cosine = std::cos(angle * kRadians), sine = std::sin(angle * kRadians);
-    const double tangent = cosine * std::tan(corner * kRadians);
-    const double lift = sine * std::sin(corner * kRadians);
+    const double cosine = std::cos(angle * internal::kRadians),
+                 sine = std::sin(angle * internal::kRadians);
+    const double tangent = cosine * std::tan(corner * internal::kRadians);
+    const double lift = sine * std::sin(corner * internal::kRadians);
     const double zigzag = b / std::sqrt(1 + tangent * tangent);
     const double along_x = zigzag * tangent;
     const double along_y = a * std::sqrt(1 - lift * lift);
@@ -46,7 +48,7 @@ Body MakeMiura(double a, double b, double corner, int nx, int ny) {
     }
     return shape;
   };
-  return WithCheckedRange(std::move(body));
+  return internal::WithCheckedRange(std::move(body));
 }
 
 }  // namespace shapespace

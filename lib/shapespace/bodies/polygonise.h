@@ -8,7 +8,7 @@
 #include <shapespace/bodies/grid.h>
 #include <shapespace/bodies/implicit.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> points;
@@ -25,6 +25,6 @@ TriangleMesh March(const std::vector<RoundCone>& cones, double cell);
 /// to Multiresolution Modeling", SGP 2004. Keeps the topology.
 TriangleMesh Remesh(const TriangleMesh& mesh, const std::vector<RoundCone>& cones, int triangles);
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_BODIES_POLYGONISE_H_

@@ -12,6 +12,7 @@
 #include <shapespace/bodies/polygonise.h>
 #include <shapespace/bodies/quadruped_poses.h>
 #include <shapespace/bodies/skeleton.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -26,7 +27,7 @@ class Builder {
  public:
   explicit Builder(const QuadrupedForm& form) : form_(form) {}
 
-  Skeleton Build() {
+  internal::Skeleton Build() {
     Trunk();
     for (int side : {1, -1}) Ear(side);
     Tail();
@@ -141,33 +142,33 @@ class Builder {
   }
 
   const QuadrupedForm form_;
-  Skeleton skeleton_;
+  internal::Skeleton skeleton_;
 };
 
-using Turns = std::vector<Turn>;
+using Turns = std::vector<internal::Turn>;
 
 const std::vector<std::pair<std::string, Turns>>& Poses() {
   const auto all = [](const auto& turns) { return Turns(std::begin(turns), std::end(turns)); };
   static const auto* const poses =
       new std::vector<std::pair<std::string, Turns>>{{"stand", {}},
-                                                     {"stride", all(kStride)},
-                                                     {"sit", all(kSit)},
-                                                     {"stretch", all(kStretch)},
-                                                     {"rear", all(kRear)}};
+                                                     {"stride", all(internal::kStride)},
+                                                     {"sit", all(internal::kSit)},
+                                                     {"stretch", all(internal::kStretch)},
+                                                     {"rear", all(internal::kRear)}};
   return *poses;
 }
 
-bool IsPaw(const Bone& bone) {
+bool IsPaw(const internal::Bone& bone) {
   return bone.name.size() > 3 && bone.name.compare(bone.name.size() - 3, 3, "paw") == 0;
 }
 
 /// A paw without a rotation in the pose remains level.
-Rotations RotationsOf(const Skeleton& skeleton, const Turns& turns) {
-  Rotations rotations(skeleton.bones.size(), Eigen::Vector3d::Zero());
+internal::Rotations RotationsOf(const internal::Skeleton& skeleton, const Turns& turns) {
+  internal::Rotations rotations(skeleton.bones.size(), Eigen::Vector3d::Zero());
   std::vector<bool> named(rotations.size(), false);
-  for (const Turn& turn : turns) {
+  for (const internal::Turn& turn : turns) {
     const int j = skeleton.Find(turn.bone);
-    rotations[j] = kRadians * Eigen::Vector3d(turn.roll, turn.pitch, turn.yaw);
+    rotations[j] = internal::kRadians * Eigen::Vector3d(turn.roll, turn.pitch, turn.yaw);
     named[j] = true;
   }
   for (size_t j = 0; j < rotations.size(); ++j) {
@@ -260,13 +261,13 @@ std::vector<std::string> QuadrupedPoses() { return Names(Poses()); }
 
 SkinnedBody MakeQuadruped(int triangles, const QuadrupedForm& form) {
   form.Validate();
-  CheckTriangles(triangles, kMostTriangles);
-  const Skeleton skeleton = Builder(form).Build();
-  const std::vector<RoundCone> cones = skeleton.Cones();
-  const TriangleMesh mesh =
-      Remesh(March(cones, kCell), cones, std::max(kLeastTriangles, triangles));
+  internal::CheckTriangles(triangles, kMostTriangles);
+  const internal::Skeleton skeleton = Builder(form).Build();
+  const std::vector<internal::RoundCone> cones = skeleton.Cones();
+  const internal::TriangleMesh mesh =
+      internal::Remesh(internal::March(cones, kCell), cones, std::max(kLeastTriangles, triangles));
   const int num_vertices = static_cast<int>(mesh.points.size());
-  const auto skin = std::make_shared<const Skin>(
+  const auto skin = std::make_shared<const internal::Skin>(
       skeleton, Eigen::Map<const Eigen::Matrix3Xd>(mesh.points[0].data(), 3, num_vertices));
 
   const auto rotations = [skeleton](const std::string& name) {
@@ -274,13 +275,13 @@ SkinnedBody MakeQuadruped(int triangles, const QuadrupedForm& form) {
   };
   SkinnedBody body;
   body.name = "quadruped";
-  body.connectivity = ConnectivityOf(num_vertices, mesh.triangles);
+  body.connectivity = internal::ConnectivityOf(num_vertices, mesh.triangles);
   body.pose_names = QuadrupedPoses();
   body.pose = [=](const std::string& name) { return Placed(skin->Pose(rotations(name))); };
   body.between = [=](const std::string& from, const std::string& to, double part) {
     if (!(part >= 0 && part <= 1)) throw InvalidOptions("part: must be in [0, 1]");
-    Rotations turned = rotations(from);
-    const Rotations goal = rotations(to);
+    internal::Rotations turned = rotations(from);
+    const internal::Rotations goal = rotations(to);
     for (size_t j = 0; j < turned.size(); ++j) turned[j] += part * (goal[j] - turned[j]);
     return Placed(skin->Pose(turned));
   };

@@ -1,7 +1,7 @@
 #ifndef SHAPESPACE_BODIES_QUADRUPED_POSES_H_
 #define SHAPESPACE_BODIES_QUADRUPED_POSES_H_
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// A joint's rotation in degrees: `pitch` about +y (a leg backwards, a head down), `yaw` about +z
 /// (to the left), `roll` about +x (the left side up).
@@ -99,6 +99,6 @@ constexpr Turn kRear[] = {{"pelvis", -52},
                           {"hind right lower", 38},
                           {"hind right cannon", -18}};
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_BODIES_QUADRUPED_POSES_H_

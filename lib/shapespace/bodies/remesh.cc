@@ -8,8 +8,9 @@
 
 #include <shapespace/base/parallel.h>
 #include <shapespace/bodies/polygonise.h>
+#include <shapespace/mesh/geometry.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 using OpenMesh::EdgeHandle;
@@ -84,7 +85,7 @@ class Remesher {
 
   /// Twice a triangle's area, times its normal.
   Eigen::Vector3d Normal(VertexHandle a, VertexHandle b, VertexHandle c) const {
-    return (Point(b) - Point(a)).cross(Point(c) - Point(a));
+    return AreaNormal(Point(a), Point(b), Point(c));
   }
   /// Whether a triangle's normal is close to the surface's at its corners.
   bool Faces(VertexHandle a, VertexHandle b, VertexHandle c) const {
@@ -288,4 +289,4 @@ TriangleMesh Remesh(const TriangleMesh& mesh, const std::vector<RoundCone>& cone
   return Remesher(mesh, cones).Run(triangles);
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

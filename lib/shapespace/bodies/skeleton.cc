@@ -8,18 +8,14 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/geometry.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 /// Half of the width of the strip about the plane of symmetry in which the skin follows the limbs
 /// of both sides.
 constexpr double kMiddle = 0.06;
-
-double SmoothStep(double x) {
-  x = std::clamp(x, 0.0, 1.0);
-  return x * x * x * (10 + x * (6 * x - 15));
-}
 
 Eigen::Vector3d Direction(const Bone& bone) { return (bone.end - bone.begin).normalized(); }
 
@@ -141,4 +137,4 @@ Shape Skin::Pose(const Rotations& rotations) const {
   return shape;
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

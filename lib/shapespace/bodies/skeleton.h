@@ -9,7 +9,7 @@
 #include <shapespace/bodies/implicit.h>
 #include <shapespace/mesh/shape.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// A part of the body that moves separately from its neighbourhood, such as a leg.
 struct Limb {
@@ -71,6 +71,6 @@ class Skin {
   Eigen::Matrix3Xd begins_;  // the scaled bones' joints
 };
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_BODIES_SKELETON_H_

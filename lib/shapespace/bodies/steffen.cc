@@ -8,6 +8,7 @@
 #include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/checks.h>
 #include <shapespace/bodies/grid.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -44,18 +45,18 @@ Shape Pose(double angle) {
 }  // namespace
 
 Body MakeSteffen() {
-  const TriangleList triangles = {{0, 1, 3}, {3, 4, 0}, {2, 8, 5}, {6, 0, 4}, {6, 2, 0},
-                                  {6, 4, 8}, {7, 3, 1}, {7, 8, 3}, {7, 1, 5}, {8, 4, 3},
-                                  {0, 2, 1}, {2, 5, 1}, {7, 5, 8}, {8, 2, 6}};
+  const internal::TriangleList triangles = {{0, 1, 3}, {3, 4, 0}, {2, 8, 5}, {6, 0, 4}, {6, 2, 0},
+                                            {6, 4, 8}, {7, 3, 1}, {7, 8, 3}, {7, 1, 5}, {8, 4, 3},
+                                            {0, 2, 1}, {2, 5, 1}, {7, 5, 8}, {8, 2, 6}};
   Body body;
   body.name = "steffen";
-  body.connectivity = ConnectivityOf(9, triangles);
+  body.connectivity = internal::ConnectivityOf(9, triangles);
   body.parameter = "angle of vertex 8 about the line from 2 to 3, degrees";
   body.isometric = true;
   body.begin = -12.5;
   body.end = 12.5;
-  body.pose = [](double angle) { return Pose(angle * kRadians); };
-  return WithCheckedRange(std::move(body));
+  body.pose = [](double angle) { return Pose(angle * internal::kRadians); };
+  return internal::WithCheckedRange(std::move(body));
 }
 
 }  // namespace shapespace

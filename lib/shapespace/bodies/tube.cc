@@ -8,6 +8,7 @@
 #include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/checks.h>
 #include <shapespace/bodies/grid.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -21,20 +22,12 @@ constexpr Joint kJoints[] = {{0.33, 0.55}, {0.7, 0.45}};
 constexpr double kReach = 0.175;
 constexpr double kKnuckleReach = 0.15;
 
-/// Smooth step from 0 to 1 whose first two derivatives vanish at both ends; its steepest slope is
-/// 15 / 8.
-double SmoothStep(double x) {
-  x = std::clamp(x, 0.0, 1.0);
-  return x * x * x * (10 + x * (6 * x - 15));
-}
-constexpr double kSteepest = 15.0 / 8;
-
 double Radius(const TubeForm& form, double s) {
   const double x = s / form.length;
-  double radius = form.base_radius + (form.tip_radius - form.base_radius) * SmoothStep(x);
+  double radius = form.base_radius + (form.tip_radius - form.base_radius) * internal::SmoothStep(x);
   for (const Joint& joint : kJoints) {
     const double off = std::abs(x - joint.middle) / kKnuckleReach;
-    radius += form.knuckle * (1 - SmoothStep(off));
+    radius += form.knuckle * (1 - internal::SmoothStep(off));
   }
   return radius;
 }
@@ -44,7 +37,8 @@ double Direction(const TubeForm& form, double angle, double s) {
   double direction = 0;
   for (const Joint& joint : kJoints) {
     const double begin = joint.middle - kReach;
-    direction += joint.share * angle * SmoothStep((s / form.length - begin) / (2 * kReach));
+    direction +=
+        joint.share * angle * internal::SmoothStep((s / form.length - begin) / (2 * kReach));
   }
   return direction;
 }
@@ -55,7 +49,7 @@ double LargestBend(const TubeForm& form) {
   const double radius = std::max(form.base_radius, form.tip_radius) + form.knuckle;
   double share = 0;
   for (const Joint& joint : kJoints) share = std::max(share, joint.share);
-  return 0.9 * 2 * kReach * form.length / (kSteepest * share * radius);
+  return 0.9 * 2 * kReach * form.length / (internal::kSteepestStep * share * radius);
 }
 
 /// The length of the centre line in units of the local radius, cumulated over equal steps: rings at
@@ -87,7 +81,7 @@ std::vector<Ring> MakeRings(int triangles, const TubeForm& form) {
   // Equilateral triangles need rings at a distance of sqrt(3) / 2 of an edge, which relates the
   // number of steps along the tube to m; there are 10 m triangles per step and 5 m^2 in a cap.
   const std::vector<double> relative_length = RelativeLength(form);
-  const double steps_per_m = relative_length.back() * 5 / (std::sqrt(3.0) * kPi);
+  const double steps_per_m = relative_length.back() * 5 / (std::sqrt(3.0) * internal::kPi);
   const int m = std::max<int>(1, std::lround(std::sqrt(triangles / (10 * (1 + steps_per_m)))));
   const int steps = std::max<int>(1, std::lround(triangles / (10.0 * m) - m));
 
@@ -95,7 +89,7 @@ std::vector<Ring> MakeRings(int triangles, const TubeForm& form) {
   // and those of a stereographic projection, which have the most even angles.
   const auto latitude = [m](int j) {
     const double x = double(j) / m;
-    return x * kPi / 4 + std::atan(x);
+    return x * internal::kPi / 4 + std::atan(x);
   };
   std::vector<Ring> rings;
   int first = 0;
@@ -108,7 +102,7 @@ std::vector<Ring> MakeRings(int triangles, const TubeForm& form) {
     add(-form.base_radius * std::cos(latitude(j)), form.base_radius * std::sin(latitude(j)), 0,
         5 * j);
   }
-  const double half_turn = kPi / (5 * m);
+  const double half_turn = internal::kPi / (5 * m);
   size_t at = 0;
   for (int k = 0; k <= steps; ++k) {
     const double wanted = relative_length.back() * k / steps;
@@ -130,7 +124,7 @@ std::vector<Ring> MakeRings(int triangles, const TubeForm& form) {
 /// The triangles between two rings, by walking around both at once, always with the step that ends
 /// first. If both end at the same angle, the ring of fewer vertices goes first, which makes the
 /// sectors of a cap symmetric.
-void Stitch(const Ring& low, const Ring& high, TriangleList* triangles) {
+void Stitch(const Ring& low, const Ring& high, internal::TriangleList* triangles) {
   const auto vertex = [](const Ring& ring, int i) { return ring.first + i % ring.count; };
   const int low_steps = low.count > 1 ? low.count : 0;
   const int high_steps = high.count > 1 ? high.count : 0;
@@ -184,7 +178,7 @@ Shape Pose(const TubeForm& form, const std::vector<Ring>& rings, double angle) {
     const Eigen::Vector3d inward(-std::sin(direction), 0, std::cos(direction));
     const Eigen::Vector3d centre = on_line + (ring.s - s) * tangent;
     for (int i = 0; i < ring.count; ++i) {
-      const double around = ring.angle + 2 * kPi * i / ring.count;
+      const double around = ring.angle + 2 * internal::kPi * i / ring.count;
       shape.col(ring.first + i) =
           centre +
           ring.radius * (std::cos(around) * inward + std::sin(around) * Eigen::Vector3d::UnitY());
@@ -196,9 +190,9 @@ Shape Pose(const TubeForm& form, const std::vector<Ring>& rings, double angle) {
 }  // namespace
 
 void TubeForm::Validate() const {
-  CheckLength("length", length);
-  CheckLength("base_radius", base_radius);
-  CheckLength("tip_radius", tip_radius);
+  internal::CheckLength("length", length);
+  internal::CheckLength("base_radius", base_radius);
+  internal::CheckLength("tip_radius", tip_radius);
   const auto [least, most] = std::minmax({length, base_radius, tip_radius});
   // Larger ratios are useless and near the limit where cumulated lengths lose small ones.
   if (most > 1e4 * least) {
@@ -211,20 +205,20 @@ void TubeForm::Validate() const {
 
 Body MakeTube(int triangles, const TubeForm& form) {
   form.Validate();
-  CheckTriangles(triangles);
+  internal::CheckTriangles(triangles);
   std::vector<Ring> rings = MakeRings(std::max(50, triangles), form);
-  TriangleList list;
+  internal::TriangleList list;
   for (size_t k = 0; k + 1 < rings.size(); ++k) Stitch(rings[k], rings[k + 1], &list);
 
   Body body;
   body.name = "tube";
-  body.connectivity = ConnectivityOf(rings.back().first + 1, list);
+  body.connectivity = internal::ConnectivityOf(rings.back().first + 1, list);
   body.parameter = "bend angle, degrees";
-  body.end = std::min(150.0, LargestBend(form) / kRadians);
+  body.end = std::min(150.0, LargestBend(form) / internal::kRadians);
   body.pose = [form, rings = std::move(rings)](double angle) {
-    return Pose(form, rings, angle * kRadians);
+    return Pose(form, rings, angle * internal::kRadians);
   };
-  return WithCheckedRange(std::move(body));
+  return internal::WithCheckedRange(std::move(body));
 }
 
 }  // namespace shapespace

@@ -10,6 +10,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/hierarchy/quadric.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -88,10 +89,7 @@ class Decimator {
     for (int p = 0; p < num_poses_; ++p) {
       double area = 0;
       for (int f = 0; f < triangles_.cols(); ++f) {
-        const Eigen::Vector3d a = poses[p].col(triangles_(0, f));
-        area +=
-            (poses[p].col(triangles_(1, f)) - a).cross(poses[p].col(triangles_(2, f)) - a).norm() /
-            2;
+        area += internal::TriangleArea(poses[p], triangles_.col(f));
       }
       const double scale = area > 0 ? 1 / std::sqrt(area) : 1;
       const Eigen::Vector3d centre = poses[p].rowwise().mean();
@@ -162,7 +160,7 @@ class Decimator {
       for (int p = 0; p < num_poses_; ++p) {
         Eigen::Vector3d x[3];
         for (int k = 0; k < 3; ++k) x[k] = At(triangles_(k, f), p);
-        Eigen::Vector3d normal = (x[1] - x[0]).cross(x[2] - x[0]);
+        Eigen::Vector3d normal = internal::AreaNormal(x[0], x[1], x[2]);
         const double twice_area = normal.norm();
         if (!(twice_area > 0)) continue;
         normal /= twice_area;
@@ -206,7 +204,7 @@ class Decimator {
   static double Quality(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                         const Eigen::Vector3d& c) {
     const double sides = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
-    return sides > 0 ? 2 * std::sqrt(3.0) * (b - a).cross(c - a).norm() / sides : 0;
+    return sides > 0 ? 4 * std::sqrt(3.0) * internal::TriangleArea(a, b, c) / sides : 0;
   }
 
   bool Legal(int from, int to) { return KeepsTopology(from, to) && KeepsGeometry(from, to); }
@@ -266,8 +264,8 @@ class Decimator {
         worst_before = std::min(worst_before, Quality(old_place, xa, xb));
         if (a == to || b == to || flips) return;
         worst_after = std::min(worst_after, Quality(new_place, xa, xb));
-        const Eigen::Vector3d before = (xa - old_place).cross(xb - old_place);
-        const Eigen::Vector3d after = (xa - new_place).cross(xb - new_place);
+        const Eigen::Vector3d before = internal::AreaNormal(old_place, xa, xb);
+        const Eigen::Vector3d after = internal::AreaNormal(new_place, xa, xb);
         // `<` on purpose: a triangle without area before has no orientation.
         flips = before.dot(after) < kLeastCosine * before.norm() * after.norm();
       });

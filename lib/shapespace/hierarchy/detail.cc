@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/path/rigid_motion.h>
 
 namespace shapespace::internal {
@@ -73,30 +73,11 @@ Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& matrix) {
   return ProcrustesRotation(matrix.transpose());
 }
 
-// Lists of indices, concatenated.
-struct Lists {
-  std::vector<int> begin, items;
-};
-
-Lists TrianglesOfVertices(const Connectivity& connectivity) {
-  Lists lists;
-  lists.begin.assign(connectivity.NumVertices() + 1, 0);
-  for (int v : connectivity.Triangles().reshaped()) ++lists.begin[v + 1];
-  std::partial_sum(lists.begin.begin(), lists.begin.end(), lists.begin.begin());
-  lists.items.resize(lists.begin.back());
-  std::vector<int> fill(lists.begin.begin(), lists.begin.end() - 1);
-  for (int f = 0; f < connectivity.NumTriangles(); ++f) {
-    for (int v : connectivity.Triangles().col(f)) lists.items[fill[v]++] = f;
-  }
-  return lists;
-}
-
 }  // namespace
 
 Carriers FindCarriers(const Connectivity& coarse, const std::vector<int>& kept,
                       const std::vector<int>& near, const std::vector<Shape>& poses) {
   const int num_fine = static_cast<int>(near.size());
-  const Lists fans = TrianglesOfVertices(coarse);
   Carriers result;
   result.vertices.resize(3, num_fine);
   result.weights.resize(3, num_fine);
@@ -117,8 +98,8 @@ Carriers FindCarriers(const Connectivity& coarse, const std::vector<int>& kept,
     for (bool better = true; better;) {
       better = false;
       for (int corner : from) {
-        for (int i = fans.begin[corner]; i < fans.begin[corner + 1]; ++i) {
-          const Eigen::Vector3i triangle = coarse.Triangles().col(fans.items[i]);
+        for (const int f : coarse.TrianglesOfVertices()[corner]) {
+          const Eigen::Vector3i triangle = coarse.Triangles().col(f);
           double distance = 0;
           Eigen::Vector3d mean = Eigen::Vector3d::Zero();
           for (const Shape& pose : poses) {
@@ -162,11 +143,7 @@ std::vector<Eigen::Matrix3d> VertexRotations(const Connectivity& coarse, const S
   }
   for (int f = 0; f < coarse.NumTriangles(); ++f) {
     const Eigen::Vector3i t = coarse.Triangles().col(f);
-    const auto normal = [&](const Shape& shape) -> Eigen::Vector3d {
-      const Eigen::Vector3d a = shape.col(t(0));
-      return (shape.col(t(1)) - a).cross(shape.col(t(2)) - a);
-    };
-    const Eigen::Vector3d n = normal(rest), m = normal(moved);
+    const Eigen::Vector3d n = AreaNormal(rest, t), m = AreaNormal(moved, t);
     for (int v : t) {
       rest_normal.col(v) += n;
       moved_normal.col(v) += m;

@@ -17,6 +17,7 @@ Edge Sorted(int a, int b) { return a < b ? Edge(a, b) : Edge(b, a); }
 
 struct Side {
   Edge edge;       // smaller vertex first
+  int triangle;    // whose side it is
   int opposite;    // third vertex of the triangle
   bool ascending;  // the triangle runs from the smaller vertex to the larger
 };
@@ -50,6 +51,25 @@ void CheckTriangles(const std::vector<int>& polygon_begin, const std::vector<int
         "triangles: must be those into which the polygons are cut, polygon after polygon, two less "
         "than each has corners");
   }
+}
+
+// Per vertex the columns of `elements` that have it, each once.
+template <typename Elements>
+IndexLists ListsByVertex(int num_vertices, const Elements& elements) {
+  std::vector<int> begin(num_vertices + 1, 0);
+  const auto each = [&](auto&& use) {
+    for (int i = 0; i < elements.cols(); ++i) {
+      for (int k = 0; k < elements.rows(); ++k) {
+        const auto before = elements.col(i).head(k);
+        if (!(before.array() == elements(k, i)).any()) use(elements(k, i), i);
+      }
+    }
+  };
+  each([&](int v, int) { ++begin[v + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<int> items(begin.back()), fill(begin.begin(), begin.end() - 1);
+  each([&](int v, int i) { items[fill[v]++] = i; });
+  return {std::move(begin), std::move(items)};
 }
 
 }  // namespace
@@ -89,11 +109,12 @@ std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
 
   std::vector<Side> sides;
   sides.reserve(result->triangles_.size());
-  for (const auto& t : result->triangles_.colwise()) {
+  for (int f = 0; f < result->NumTriangles(); ++f) {
+    const auto t = result->triangles_.col(f);
     for (int k = 0; k < 3; ++k) {
       const int a = t[k], b = t[(k + 1) % 3];
       // A side of no length in a degenerate triangle is no edge.
-      if (a != b) sides.push_back({Sorted(a, b), t[(k + 2) % 3], a < b});
+      if (a != b) sides.push_back({Sorted(a, b), f, t[(k + 2) % 3], a < b});
     }
   }
   std::stable_sort(sides.begin(), sides.end(),
@@ -101,10 +122,14 @@ std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
 
   std::vector<Edge> edges;
   std::vector<std::array<int, 4>> hinges;
+  std::vector<int> edge_begin = {0}, edge_triangles;
   for (size_t i = 0, j = 0; i < sides.size(); i = j) {
     for (j = i; j < sides.size() && sides[j].edge == sides[i].edge; ++j) {
+      const int f = sides[j].triangle;  // once, also where two of its sides are the same edge
+      if (j == i || f != edge_triangles.back()) edge_triangles.push_back(f);
     }
     edges.push_back(sides[i].edge);
+    edge_begin.push_back(static_cast<int>(edge_triangles.size()));
     if (j - i == 2 && sides[i].ascending != sides[i + 1].ascending) {
       const Side& up = sides[i].ascending ? sides[i] : sides[i + 1];
       const Side& down = sides[i].ascending ? sides[i + 1] : sides[i];
@@ -132,6 +157,9 @@ std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
   for (size_t h = 0; h < hinges.size(); ++h) {
     result->hinges_.col(h) = Eigen::Map<const Eigen::Vector4i>(hinges[h].data());
   }
+  result->triangles_of_edges_ = IndexLists(std::move(edge_begin), std::move(edge_triangles));
+  result->triangles_of_vertices_ = ListsByVertex(num_vertices, result->triangles_);
+  result->edges_of_vertices_ = ListsByVertex(num_vertices, result->edges_);
   result->polygon_begin_ = std::move(polygon_begin);
   result->corners_ = std::move(corners);
   result->segments_ = segments;

@@ -9,9 +9,39 @@
 
 namespace shapespace {
 
-/// What all poses of a mesh share; immutable. Plain index arrays, one element a column, so that
-/// metrics work on any graph, manifold or not. What needs a manifold (boundary loops, genus) is in
-/// mesh/topology.h.
+/// Lists of indices, one per row, end to end in one array.
+class IndexLists {
+ public:
+  /// One list; valid as long as the `IndexLists` is.
+  class Row {
+   public:
+    Row(const int* begin, const int* end) : begin_(begin), end_(end) {}
+    const int* begin() const { return begin_; }
+    const int* end() const { return end_; }
+    int size() const { return static_cast<int>(end_ - begin_); }
+    int operator[](int i) const { return begin_[i]; }
+
+   private:
+    const int *begin_, *end_;
+  };
+
+  /// Row i is items[begin[i]] ... items[begin[i + 1] - 1]; `begin` has one entry more than rows.
+  IndexLists(std::vector<int> begin, std::vector<int> items)
+      : begin_(std::move(begin)), items_(std::move(items)) {}
+  IndexLists() : begin_{0} {}
+
+  int NumRows() const { return static_cast<int>(begin_.size()) - 1; }
+  Row operator[](int row) const {
+    return {items_.data() + begin_[row], items_.data() + begin_[row + 1]};
+  }
+
+ private:
+  std::vector<int> begin_, items_;
+};
+
+/// What all poses of a mesh share; immutable, and so safe to read from several threads. Plain index
+/// arrays, one element a column, so that metrics work on any graph, manifold or not. What needs a
+/// manifold (boundary loops, genus) is in mesh/topology.h.
 class Connectivity {
  public:
   /// Polygons as in `Soup` (`polygon_begin` of size P + 1, `corners`); `segments` are the edges of
@@ -57,6 +87,18 @@ class Connectivity {
   /// (first, second, third) is one triangle in its own winding, (second, first, fourth) the other.
   const Eigen::Matrix4Xi& Hinges() const { return hinges_; }
 
+  /// Which elements lie at which, in rising order. They are made with the rest, which takes less
+  /// time than that does, so that no call changes the object.
+  /// Row v: the triangles that have vertex v as a corner.
+  const IndexLists& TrianglesOfVertices() const { return triangles_of_vertices_; }
+  /// Row v: the edges, of any kind, that end at vertex v; `OtherEnd` gives its neighbours.
+  const IndexLists& EdgesOfVertices() const { return edges_of_vertices_; }
+  /// Row e, for each of the first `NumTriangleEdges()` edges: the triangles that have it as a side.
+  const IndexLists& TrianglesOfEdges() const { return triangles_of_edges_; }
+
+  /// The end of edge `edge` that is not `vertex`, which must be the other.
+  int OtherEnd(int edge, int vertex) const { return edges_(0, edge) + edges_(1, edge) - vertex; }
+
   /// True for a straight-line graph: edges and no polygon.
   bool IsGraph() const { return NumTriangles() == 0; }
 
@@ -70,6 +112,7 @@ class Connectivity {
   Eigen::Matrix3Xi triangles_;
   Eigen::Matrix2Xi edges_;
   Eigen::Matrix4Xi hinges_;
+  IndexLists triangles_of_vertices_, edges_of_vertices_, triangles_of_edges_;
 };
 
 }  // namespace shapespace

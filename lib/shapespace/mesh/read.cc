@@ -1,12 +1,16 @@
 #include <shapespace/mesh/read.h>
 
+#include <istream>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/extension.h>
 #include <shapespace/base/read_file.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/check_positions.h>
+#include <shapespace/mesh/check_words.h>
 #include <shapespace/mesh/polygons.h>
 #include <shapespace/mesh/read_formats.h>
 #include <shapespace/mesh/text.h>
@@ -17,8 +21,20 @@ namespace shapespace {
 namespace {
 
 // So that no index and no count that a file can hold outgrows an int.
-std::string Content(const std::string& file) {
-  return ReadFile(file, std::numeric_limits<int>::max());
+constexpr int kMostBytes = std::numeric_limits<int>::max();
+
+std::string Content(const std::string& file) { return ReadFile(file, kMostBytes); }
+
+Soup Parse(const std::string& name, std::string content, MeshFormat format) {
+  switch (format) {
+    case MeshFormat::kObj:
+      return internal::ReadObj(name, std::move(content));
+    case MeshFormat::kPly:
+      return internal::ReadPly(name, content);
+    case MeshFormat::kOff:
+      break;
+  }
+  return internal::ReadOff(name, content);
 }
 
 /// Sorts findings into warnings and refusals. Where several are fatal the first three are told:
@@ -52,15 +68,58 @@ class Judge {
   std::vector<std::string>* warnings_;
 };
 
+// Poses of `count` soups, of which `next(i)` makes the i-th: one after the other, as only the
+// positions are kept of all but the first.
+template <typename Next>
+Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
+  Poses poses;
+  Judge judge(options, &poses.warnings);
+  poses.soup = next(0);
+  const Soup& first = poses.soup;
+  poses.names.push_back(first.file);
+  judge.Hear<MeshError>(CheckSoup(first));
+  poses.shapes.push_back(first.vertices);
+  for (size_t i = 1; i < count; ++i) {
+    Soup pose = next(i);
+    poses.names.push_back(pose.file);
+    if (options.mirror != 0 && MirrorBack(first, options.mirror, &pose)) {
+      poses.warnings.push_back(internal::FileName(pose) + ": is a mirror image of " +
+                               internal::FileName(first) + "; its " + options.mirror +
+                               " has changed sign");
+    }
+    judge.Hear<CorrespondenceError>(CheckCorrespondence(first, pose));
+    // Only its positions are used from here on; the polygons are the first one's.
+    judge.Hear<MeshError>(internal::CheckPositions(pose));
+    poses.shapes.push_back(std::move(pose.vertices));
+  }
+  std::vector<std::pair<int, int>> stiffeners;
+  if (!options.stiffeners.empty()) {
+    stiffeners = ReadStiffeners(options.stiffeners, first.NumVertices());
+  }
+  poses.connectivity = ConnectivityOf(first, poses.shapes, stiffeners);
+  return poses;
+}
+
 }  // namespace
 
 Soup ReadSoup(const std::string& file) {
-  const std::string extension = Extension(file);
-  if (extension == ".obj") return internal::ReadObj(file, Content(file));
-  if (extension == ".ply") return internal::ReadPly(file, Content(file));
-  if (extension == ".off") return internal::ReadOff(file, Content(file));
+  const std::string extension = FileExtension(file);
+  if (extension == ".obj") return Parse(file, Content(file), MeshFormat::kObj);
+  if (extension == ".ply") return Parse(file, Content(file), MeshFormat::kPly);
+  if (extension == ".off") return Parse(file, Content(file), MeshFormat::kOff);
   throw FileError(file + ": the extension " + internal::Quoted(extension) +
                   " is not one of .obj, .ply, .off; convert the mesh to one of these");
+}
+
+Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format) {
+  std::string content{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) throw FileError(name + ": cannot be read to its end");
+  if (content.empty()) throw FileError(name + ": is empty");
+  if (content.size() > static_cast<size_t>(kMostBytes)) {
+    throw FileError(name + ": is larger than the " + std::to_string(kMostBytes) +
+                    " bytes that such a file may have");
+  }
+  return Parse(name, std::move(content), format);
 }
 
 bool MirrorBack(const Soup& reference, char axis, Soup* pose) {
@@ -119,30 +178,14 @@ std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num
 
 Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& options) {
   if (files.empty()) throw FileError("no mesh file is named; at least one is needed");
-  Poses poses;
-  Judge judge(options, &poses.warnings);
-  poses.names = files;
-  poses.soup = ReadSoup(files[0]);
-  const Soup& first = poses.soup;
-  judge.Hear<MeshError>(CheckSoup(first));
-  poses.shapes.push_back(first.vertices);
-  for (size_t i = 1; i < files.size(); ++i) {
-    Soup pose = ReadSoup(files[i]);
-    if (options.mirror != 0 && MirrorBack(first, options.mirror, &pose)) {
-      poses.warnings.push_back(files[i] + ": is a mirror image of " + files[0] + "; its " +
-                               options.mirror + " has changed sign");
-    }
-    judge.Hear<CorrespondenceError>(CheckCorrespondence(first, pose));
-    // Only its positions are used from here on; the polygons are the first file's.
-    judge.Hear<MeshError>(internal::CheckPositions(pose));
-    poses.shapes.push_back(pose.vertices);
-  }
-  std::vector<std::pair<int, int>> stiffeners;
-  if (!options.stiffeners.empty()) {
-    stiffeners = ReadStiffeners(options.stiffeners, first.NumVertices());
-  }
-  poses.connectivity = ConnectivityOf(first, poses.shapes, stiffeners);
-  return poses;
+  return Collect(
+      files.size(), [&](size_t i) { return ReadSoup(files[i]); }, options);
+}
+
+Poses MakePoses(std::vector<Soup> soups, const ReadOptions& options) {
+  if (soups.empty()) throw MeshError("there is no pose; at least one is needed");
+  return Collect(
+      soups.size(), [&](size_t i) { return std::move(soups[i]); }, options);
 }
 
 }  // namespace shapespace

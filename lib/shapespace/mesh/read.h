@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_MESH_READ_H_
 #define SHAPESPACE_MESH_READ_H_
 
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,6 +18,14 @@ namespace shapespace {
 /// \throw FileError naming file, line and element: unreadable, empty or truncated file, a number
 ///        that is none, an index out of range, an unknown extension.
 Soup ReadSoup(const std::string& file);
+
+enum class MeshFormat { kObj, kPly, kOff };
+
+/// The same of a stream, from where it stands to its end; binary formats need a binary stream.
+/// Messages call it `name`, which is also the soup's `file`. Material libraries that an OBJ names
+/// are looked for in the folder of that name. \throw FileError as above, and if the stream fails or
+/// holds nothing.
+Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format);
 
 /// Changes the sign of the coordinate `axis`, 'x', 'y' or 'z', of a pose that is a mirror image of
 /// the reference (`IsMirrored`, with the reference's polygons, which must be valid). True if it was
@@ -37,12 +46,13 @@ std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num
 /// Poses of one mesh, ready for a solver.
 struct Poses {
   std::shared_ptr<const Connectivity> connectivity;
-  std::vector<Shape> shapes;          ///< one a file, in the files' units
-  std::vector<std::string> names;     ///< the files
-  Soup soup;                          ///< of the first file: polygons, appearance
+  std::vector<Shape> shapes;          ///< one a soup, in its unit
+  std::vector<std::string> names;     ///< `Soup::file` of each
+  Soup soup;                          ///< the first: polygons, appearance
   std::vector<std::string> warnings;  ///< what `CheckSoup` and `CheckCorrespondence` had to say
 };
 
+/// What is taken as poses of one mesh.
 struct ReadOptions {
   bool allow_nonmanifold =
       false;               ///< take non-manifold or inconsistently wound meshes, with a warning
@@ -57,6 +67,12 @@ struct ReadOptions {
 /// \throw FileError, MeshError (fatal findings of `CheckSoup`), CorrespondenceError (fatal findings
 ///        of `CheckCorrespondence`, naming the first difference).
 Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& options = {});
+
+/// The same of soups that do not come from files alone: `ReadSoup` makes them of streams,
+/// `MakeSoup` (mesh/arrays.h) of matrices, `FromOpenMesh` (mesh/openmesh.h) of OpenMesh's meshes.
+/// They pass the same checks; messages name them by `Soup::file`. \throw MeshError also if there is
+/// none.
+Poses MakePoses(std::vector<Soup> soups, const ReadOptions& options = {});
 
 }  // namespace shapespace
 

@@ -6,11 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include <shapespace/base/embree.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/fork_join.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -47,9 +46,7 @@ Shape TriangleNormals(const Connectivity& connectivity, const Shape& shape) {
   const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
   Shape normals(3, triangles.cols());
   for (int f = 0; f < triangles.cols(); ++f) {
-    const Eigen::Vector3d a = shape.col(triangles(0, f));
-    normals.col(f) =
-        (shape.col(triangles(1, f)) - a).cross(shape.col(triangles(2, f)) - a).stableNormalized();
+    normals.col(f) = internal::UnitNormal(shape, triangles.col(f));
   }
   return normals;
 }
@@ -58,9 +55,7 @@ Shape VertexNormals(const Connectivity& connectivity, const Shape& shape) {
   const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
   Shape normals = Shape::Zero(3, shape.cols());
   for (int f = 0; f < triangles.cols(); ++f) {
-    const Eigen::Vector3d a = shape.col(triangles(0, f));
-    const Eigen::Vector3d normal =
-        (shape.col(triangles(1, f)) - a).cross(shape.col(triangles(2, f)) - a);
+    const Eigen::Vector3d normal = internal::AreaNormal(shape, triangles.col(f));
     for (int k = 0; k < 3; ++k) normals.col(triangles(k, f)) += normal;
   }
   for (int v = 0; v < shape.cols(); ++v) normals.col(v).stableNormalize();
@@ -73,7 +68,7 @@ struct Surface::Scene {
   // Boxes are in single precision, relative to the centre, in units of half the extent.
   const Eigen::Vector3d low, high, centre;
   const double unit;
-  const ForkJoin callbacks{};  // constructed after the data that they read
+  const internal::ForkJoin callbacks{};  // constructed after the data that they read
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
@@ -97,7 +92,7 @@ struct Surface::Scene {
 
   static void Bounds(const RTCBoundsFunctionArguments* arguments) {
     const auto* self = static_cast<const Scene*>(arguments->geometryUserPtr);
-    const ForkJoin::Piece piece(self->callbacks);
+    const internal::ForkJoin::Piece piece(self->callbacks);
     std::array<Eigen::Vector3d, 3> corners;
     for (int k = 0; k < 3; ++k) {
       corners[k] = (self->Corner(arguments->primID, k) - self->centre) / self->unit;

@@ -7,17 +7,16 @@
 
 #include <Eigen/Geometry>
 
+#include <shapespace/mesh/geometry.h>
+
 namespace shapespace {
 namespace {
 
 /// The enclosed volume, relative to a ball of the same surface area.
 double ShareOfBall(const Eigen::Matrix3Xi& triangles, const Shape& shape) {
   double area = 0;
-  for (const auto& t : triangles.colwise()) {
-    const Eigen::Vector3d a = shape.col(t(0));
-    area += 0.5 * (shape.col(t(1)) - a).cross(shape.col(t(2)) - a).norm();
-  }
-  const double ball = std::pow(area, 1.5) / (6 * std::sqrt(M_PI));
+  for (const auto& t : triangles.colwise()) area += internal::TriangleArea(shape, t);
+  const double ball = std::pow(area, 1.5) / (6 * std::sqrt(internal::kPi));
   return ball > 0 ? EnclosedVolume(triangles, shape) / ball : 0;
 }
 

@@ -190,7 +190,7 @@ std::string Ply(const Shape& vertices, const Soup& soup) {
 }  // namespace
 
 std::vector<std::string> NotKept(const std::string& file, const Soup& soup) {
-  if (Extension(file) != ".ply") return {};
+  if (FileExtension(file) != ".ply") return {};
   const Appearance& appearance = soup.appearance;
   std::vector<std::string> sentences;
   std::string names;
@@ -216,7 +216,7 @@ std::vector<std::string> NotKept(const std::string& file, const Soup& soup) {
 }
 
 void WriteMesh(const std::string& file, const Shape& vertices, const Soup& soup) {
-  const std::string extension = Extension(file);
+  const std::string extension = FileExtension(file);
   if (extension != ".obj" && extension != ".ply") {
     throw FileError(file + ": the extension '" + extension +
                     "' is neither .obj nor .ply; name the file as one of these");

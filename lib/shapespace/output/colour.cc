@@ -7,7 +7,7 @@
 
 #include <Eigen/LU>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 constexpr unsigned kValueStops[] = {0xb9cadc, 0xdfc18f, 0xe8923f, 0xcf3f2b, 0x861426};
@@ -90,4 +90,4 @@ Colour GroupColour(int group) {
   return (LmsToRgb() * roots.array().cube().matrix()).cwiseMax(0).cwiseMin(1);
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// Linear light: red, green and blue in 0 .. 1. All sums over lights and samples are computed in
 /// it; sRGB is used only for input and output.
@@ -29,6 +29,6 @@ Colour ValueColour(float value);
 /// stand for no group.
 Colour GroupColour(int group);
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_OUTPUT_COLOUR_H_

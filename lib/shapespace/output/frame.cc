@@ -8,7 +8,7 @@
 
 #include <shapespace/base/parallel.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 constexpr unsigned kBackgroundHex = 0xfafafa;
@@ -226,7 +226,7 @@ Colour Background() {
 }
 
 void DrawFrame(const Scene& scene, const Camera& camera, const Paint& paint, int left, int top,
-               Image* image) {
+               RgbImage* image) {
   FramePainter painter(scene, camera, paint);
   ParallelFor(camera.height, [&](int row) { painter.Trace(row); });
   ParallelFor(camera.height, [&](int row) {
@@ -238,4 +238,4 @@ void DrawFrame(const Scene& scene, const Camera& camera, const Paint& paint, int
   });
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

@@ -8,7 +8,7 @@
 #include <shapespace/output/scene.h>
 #include <shapespace/output/view.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// The background's colour.
 Colour Background();
@@ -32,8 +32,8 @@ struct Paint {
 
 /// Draws `scene` into the rectangle of `image` whose upper left pixel is (left, top).
 void DrawFrame(const Scene& scene, const Camera& camera, const Paint& paint, int left, int top,
-               Image* image);
+               RgbImage* image);
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_OUTPUT_FRAME_H_

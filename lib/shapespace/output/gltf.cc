@@ -15,16 +15,17 @@
 
 #include <Eigen/Geometry>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/atomic_file.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/read_file.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/output/colour.h>
 #include <shapespace/output/key_shapes.h>
 #include <shapespace/output/legend.h>
 #include <shapespace/output/materials.h>
 #include <shapespace/output/seams.h>
 #include <shapespace/output/tinygltf.h>
-#include <shapespace/path/quality.h>
 
 namespace shapespace {
 namespace {
@@ -83,11 +84,6 @@ void CheckSize(const std::string& file, const std::vector<Shape>& shapes,
                   nlohmann::json(size).dump() + "; choose another unit of length");
 }
 
-Eigen::Vector3d TriangleNormal(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                               const Eigen::Vector3d& c) {
-  return (b - a).cross(c - a);
-}
-
 // Whether most of the hinges that are bent at some time are sharp at some time.
 bool IsFaceted(const Connectivity& connectivity, const std::vector<Shape>& shapes) {
   const Eigen::Matrix4Xi& hinges = connectivity.Hinges();
@@ -96,8 +92,8 @@ bool IsFaceted(const Connectivity& connectivity, const std::vector<Shape>& shape
     double least_cosine = 1;
     for (const Shape& shape : shapes) {
       const auto corner = [&](int k) { return shape.col(hinges(k, h)); };
-      const Eigen::Vector3d first = TriangleNormal(corner(0), corner(1), corner(2));
-      const Eigen::Vector3d second = TriangleNormal(corner(1), corner(0), corner(3));
+      const Eigen::Vector3d first = internal::AreaNormal(corner(0), corner(1), corner(2));
+      const Eigen::Vector3d second = internal::AreaNormal(corner(1), corner(0), corner(3));
       const double areas = first.norm() * second.norm();
       if (areas > 0) least_cosine = std::min(least_cosine, first.dot(second) / areas);
     }
@@ -112,7 +108,7 @@ Eigen::Matrix3Xd SmoothNormals(const Connectivity& connectivity, const Shape& sh
   Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, shape.cols());
   for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
     const auto corner = [&](int k) { return shape.col(triangles(k, f)); };
-    const Eigen::Vector3d normal = TriangleNormal(corner(0), corner(1), corner(2));
+    const Eigen::Vector3d normal = internal::AreaNormal(corner(0), corner(1), corner(2));
     for (int k = 0; k < 3; ++k) normals.col(triangles(k, f)) += normal;
   }
   for (Eigen::Index v = 0; v < normals.cols(); ++v) {
@@ -129,24 +125,26 @@ Eigen::Matrix3Xf DeviationColours(const Path& path, const Shape& reference, doub
   for (const Shape& shape : path.shapes) {
     largest = largest.cwiseMax(EdgeDeviation(*path.metric, reference, shape));
   }
-  *scale_end = EndOfScale({largest});
+  *scale_end = internal::EndOfScale({largest});
   Eigen::Matrix3Xf colours(3, largest.size());
   for (Eigen::Index v = 0; v < largest.size(); ++v) {
-    colours.col(v) = ValueColour(static_cast<float>(std::min(1.0, largest[v] / *scale_end)));
+    colours.col(v) =
+        internal::ValueColour(static_cast<float>(std::min(1.0, largest[v] / *scale_end)));
   }
   return colours;
 }
 
 Eigen::Matrix3Xf GroupColours(const Eigen::VectorXi& groups) {
   Eigen::Matrix3Xf colours(3, groups.size());
-  for (Eigen::Index v = 0; v < groups.size(); ++v) colours.col(v) = GroupColour(groups(v));
+  for (Eigen::Index v = 0; v < groups.size(); ++v)
+    colours.col(v) = internal::GroupColour(groups(v));
   return colours;
 }
 
 // Converts sRGB, with opacities in a fourth row, to linear light.
 Eigen::MatrixXf LinearColours(const Eigen::MatrixXd& colours) {
   Eigen::MatrixXf linear = colours.cast<float>();
-  if (linear.size() > 0) linear.topRows<3>() = linear.topRows<3>().unaryExpr(&ToLinear);
+  if (linear.size() > 0) linear.topRows<3>() = linear.topRows<3>().unaryExpr(&internal::ToLinear);
   return linear;
 }
 
@@ -259,13 +257,13 @@ std::vector<std::pair<double, double>> Moments(const std::vector<double>& parame
   std::vector<double> points = parameters;
   if (options.ease) {
     for (int i = 1; i < kEasePoints; ++i) {
-      points.push_back((1 - std::cos(EIGEN_PI * i / kEasePoints)) / 2);
+      points.push_back((1 - std::cos(internal::kPi * i / kEasePoints)) / 2);
     }
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
   }
-  const bool back = options.playback == Playback::kThereAndBack;
-  const bool held = options.playback == Playback::kOnce;
+  const bool back = options.playback == GltfPlayback::kThereAndBack;
+  const bool held = options.playback == GltfPlayback::kOnce;
   // Share of the duration for the way from the first shape to the last.
   const double share = back ? 0.5 - kRest : held ? 1 - kRest : 1.0;
   const double duration = options.fps > 0 ? (shapes - 1) / options.fps / share : options.duration;
@@ -273,7 +271,7 @@ std::vector<std::pair<double, double>> Moments(const std::vector<double>& parame
   std::vector<std::pair<double, double>> moments;
   if (back) moments.emplace_back(0, 0);
   for (const double point : points) {
-    const double time = options.ease ? std::acos(1 - 2 * point) / EIGEN_PI : point;
+    const double time = options.ease ? std::acos(1 - 2 * point) / internal::kPi : point;
     moments.emplace_back(begin + share * duration * time, point);
   }
   if (back) {
@@ -316,7 +314,7 @@ tinygltf::Animation AddAnimation(const std::vector<double>& parameters, int shap
   channel.target_node = 0;
   channel.target_path = "weights";
   tinygltf::Animation animation;
-  animation.name = options.playback == Playback::kThereAndBack ? "there and back" : "there";
+  animation.name = options.playback == GltfPlayback::kThereAndBack ? "there and back" : "there";
   animation.samplers = {sampler};
   animation.channels = {channel};
   return animation;
@@ -343,7 +341,7 @@ std::string AsUtf8(const std::string& text) {
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-tinygltf::Material PlainMaterial(const Colour& colour) {
+tinygltf::Material PlainMaterial(const internal::Colour& colour) {
   tinygltf::Material material;
   material.name = "shape";
   material.doubleSided = true;
@@ -399,7 +397,7 @@ class Textures {
   std::map<std::string, int> known_;
 };
 
-tinygltf::Material MaterialFromLibrary(const std::string& name, const Material& described,
+tinygltf::Material MaterialFromLibrary(const std::string& name, const internal::Material& described,
                                        bool has_texture_coordinates, Textures* textures) {
   const bool textured = has_texture_coordinates && !described.texture.empty();
   const int texture = textured ? textures->Add(described.texture) : -1;
@@ -419,7 +417,7 @@ struct Part {
   std::vector<int> indices;
 };
 
-std::vector<Part> PartsByMaterial(const Connectivity& connectivity, const CutMesh& mesh,
+std::vector<Part> PartsByMaterial(const Connectivity& connectivity, const internal::CutMesh& mesh,
                                   const Appearance& appearance, const tinygltf::Material& plain,
                                   Textures* textures, std::vector<std::string>* warnings) {
   if (connectivity.IsGraph()) {
@@ -431,13 +429,14 @@ std::vector<Part> PartsByMaterial(const Connectivity& connectivity, const CutMes
   }
   std::vector<std::vector<int>> indices(appearance.materials.names.size() + 1);  // last: of none
   const std::vector<int>& material_of = appearance.materials.of_polygon;
-  const std::vector<int> polygons = PolygonsOfTriangles(connectivity);
+  const std::vector<int> polygons = internal::PolygonsOfTriangles(connectivity);
   for (size_t f = 0; f < polygons.size(); ++f) {
     const int material = material_of.empty() ? -1 : material_of[polygons[f]];
     std::vector<int>& part = material < 0 ? indices.back() : indices[material];
     for (const int vertex : mesh.triangles.col(f)) part.push_back(vertex);
   }
-  const std::vector<std::optional<Material>> described = ReadMaterials(appearance, warnings);
+  const std::vector<std::optional<internal::Material>> described =
+      internal::ReadMaterials(appearance, warnings);
   std::vector<Part> parts;
   for (size_t i = 0; i < indices.size(); ++i) {
     if (indices[i].empty()) continue;
@@ -482,7 +481,7 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   };
   check_count("reference", options.reference.cols());
   check_count("groups", options.groups.size());
-  const std::vector<int> keys = KeyShapes(path.NumShapes(), path.poses, kMostKeys);
+  const std::vector<int> keys = internal::KeyShapes(path.NumShapes(), path.poses, kMostKeys);
   std::vector<Shape> shapes;
   shapes.reserve(keys.size());
   for (const int key : keys) shapes.push_back(path.Placed(key));
@@ -503,12 +502,12 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   } else if (by_group) {
     colours = GroupColours(options.groups);
   }
-  const tinygltf::Material plain =
-      PlainMaterial(colours.size() > 0 ? Colour::Ones().eval() : FromHex(kPoseHex));
+  const tinygltf::Material plain = PlainMaterial(
+      colours.size() > 0 ? internal::Colour::Ones().eval() : internal::FromHex(internal::kPoseHex));
 
   Model model;
   model.buffers.emplace_back();
-  const CutMesh cut = CutAtSeams(connectivity, appearance);
+  const internal::CutMesh cut = internal::CutAtSeams(connectivity, appearance);
   if (!cut.texture.allFinite()) {
     throw MeshError(file + ": single precision cannot hold a texture coordinate");
   }

@@ -11,7 +11,7 @@
 
 namespace shapespace {
 
-enum class Playback {
+enum class GltfPlayback {
   /// From the first shape to the last and back in `duration`, for players that repeat the
   /// animation. Each of the two is held for a tenth of the duration, the first shape half of it at
   /// the beginning and half at the end.
@@ -23,9 +23,8 @@ enum class Playback {
 
 struct GltfOptions {
   double duration = 4;  ///< seconds, holds included; 0.1 .. 3600
-  double fps = 0;       ///< shapes of the path per second, used instead of `duration`: .01 .. 1000;
-                        ///< 0: off
-  Playback playback = Playback::kThereAndBack;
+  double fps = 0;       ///< shapes per second instead of `duration`: .01 .. 1000; 0: off
+  GltfPlayback playback = GltfPlayback::kThereAndBack;
 
   /// Slow at both ends: the shape at share t of the path is shown after share tau of the time, with
   /// t = (1 - cos(pi tau)) / 2. Otherwise tau = t.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 // Appends `parts` + 1 evenly spaced integers from `first` to `last`, without the last one.
@@ -44,4 +44,4 @@ std::vector<int> KeyShapes(int count, const std::vector<int>& poses, int most) {
   return keys;
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

@@ -8,7 +8,7 @@
 #include <shapespace/output/frame.h>
 #include <shapespace/output/text.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 constexpr int kBarWidth = 240, kBarHeight = 14, kGap = 16;
@@ -25,8 +25,8 @@ std::string PerCent(double value) {
   return text;
 }
 
-Image BlankLegend(int width) {
-  Image image;
+RgbImage BlankLegend(int width) {
+  RgbImage image;
   image.width = width;
   image.height = 2 * kMargin + kBarHeight + kTextHeight;
   image.pixels.resize(3 * static_cast<size_t>(image.width) * image.height);
@@ -55,14 +55,14 @@ double EndOfScale(const std::vector<Eigen::VectorXd>& values) {
   return end < kNoise ? 0.01 : RoundUp(end);
 }
 
-Image DrawLegend(double end_of_scale, double largest, const std::string& title) {
+RgbImage DrawLegend(double end_of_scale, double largest, const std::string& title) {
   std::string text = title;
   if (largest > end_of_scale) text += (text.empty() ? "" : ", ") + ("up to " + PerCent(largest));
   const std::string first = "0", middle = PerCent(end_of_scale / 2), last = PerCent(end_of_scale);
   const int bar_left = kMargin + TextWidth(first) / 2;
   const int after_bar = bar_left + kBarWidth + TextWidth(last) / 2;
 
-  Image image = BlankLegend(after_bar + kGap + TextWidth(text) + kMargin);
+  RgbImage image = BlankLegend(after_bar + kGap + TextWidth(text) + kMargin);
   for (int x = 0; x < kBarWidth; ++x) {
     Fill(&image, bar_left + x, kMargin, bar_left + x + 1, kMargin + kBarHeight,
          ValueColour((x + 0.5f) / kBarWidth));
@@ -78,10 +78,10 @@ Image DrawLegend(double end_of_scale, double largest, const std::string& title) 
   return image;
 }
 
-Image DrawGroupLegend(int groups, const std::string& title) {
+RgbImage DrawGroupLegend(int groups, const std::string& title) {
   const int swatches = std::min(groups, kMostSwatches);
   const int after_swatches = kMargin + swatches * kSwatchWidth;
-  Image image = BlankLegend(after_swatches + kGap + TextWidth(title) + kMargin);
+  RgbImage image = BlankLegend(after_swatches + kGap + TextWidth(title) + kMargin);
   for (int group = 0; group < swatches; ++group) {
     const int left = kMargin + group * kSwatchWidth;
     Fill(&image, left, kMargin, left + kSwatchWidth - 4, kMargin + kBarHeight, GroupColour(group));
@@ -92,4 +92,4 @@ Image DrawGroupLegend(int groups, const std::string& title) {
   return image;
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

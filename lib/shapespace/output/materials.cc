@@ -10,12 +10,10 @@
 #include <shapespace/base/read_file.h>
 #include <shapespace/mesh/text.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 namespace fs = std::filesystem;
-
-using internal::Words;
 
 /// Reads one library into a map from names to materials.
 class LibraryReader {
@@ -27,7 +25,7 @@ class LibraryReader {
   /// \throw FileError if the file cannot be read.
   void Read() {
     const std::string text = ReadFile(file_.string());
-    internal::Lines lines(text);
+    Lines lines(text);
     std::string_view line;
     Material* material = nullptr;  // to which the statements belong
     while (lines.Next(&line)) {
@@ -39,7 +37,7 @@ class LibraryReader {
         const char* const problem = ReadStatement(keyword, words, material);
         if (problem == nullptr) continue;
         warnings_->push_back(file_.string() + ":" + std::to_string(lines.Number()) + ": " +
-                             internal::Quoted(line) + " " + problem);
+                             Quoted(line) + " " + problem);
       }
     }
   }
@@ -75,7 +73,7 @@ class LibraryReader {
 
   /// A number, clamped to 0 .. 1.
   static bool ReadShare(std::string_view word, double* share) {
-    const std::optional<double> number = internal::ParseDouble(word);
+    const std::optional<double> number = ParseDouble(word);
     if (!number || !std::isfinite(*number)) return false;
     *share = std::clamp(*number, 0.0, 1.0);
     return true;
@@ -116,7 +114,7 @@ std::vector<std::optional<Material>> ReadMaterials(const Appearance& appearance,
   for (const std::string& name : names) {
     const auto found = known.find(name);
     materials.push_back(found == known.end() ? std::optional<Material>() : found->second);
-    if (found == known.end()) missing += (missing.empty() ? "" : ", ") + internal::Quoted(name);
+    if (found == known.end()) missing += (missing.empty() ? "" : ", ") + Quoted(name);
   }
   if (!missing.empty()) {
     warnings->push_back("no material library describes the materials " + missing +
@@ -125,4 +123,4 @@ std::vector<std::optional<Material>> ReadMaterials(const Appearance& appearance,
   return materials;
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

@@ -11,7 +11,7 @@
 
 // Private: materials of OBJ, and their textures.
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// A material of a material library, as far as outputs can show it.
 struct Material {
@@ -26,6 +26,6 @@ struct Material {
 std::vector<std::optional<Material>> ReadMaterials(const Appearance& appearance,
                                                    std::vector<std::string>* warnings);
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_OUTPUT_MATERIALS_H_

@@ -50,10 +50,10 @@ std::string Element(const std::string& type, const std::string& name, const std:
 
 struct MakeElement {
   std::string operator()(const PagePath& path) const {
-    return Element("application/x-shapespace", path.name, EncodeScene(path));
+    return Element("application/x-shapespace", path.name, internal::EncodeScene(path));
   }
   std::string operator()(const PageSpace& space) const {
-    return Element("application/x-shapespace", space.name, EncodeScene(space));
+    return Element("application/x-shapespace", space.name, internal::EncodeScene(space));
   }
   std::string operator()(const PageGlb& glb) const {
     return Element("model/gltf-binary", glb.name, glb.bytes);

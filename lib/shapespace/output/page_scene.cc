@@ -8,15 +8,15 @@
 #include <zlib.h>
 #include <nlohmann/json.hpp>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/output/legend.h>
 #include <shapespace/output/scene.h>
 #include <shapespace/output/view.h>
 #include <shapespace/path/energy.h>
-#include <shapespace/path/quality.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -335,4 +335,4 @@ std::string EncodeScene(const PageSpace& scene) {
   return Pack(header, arrays);
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

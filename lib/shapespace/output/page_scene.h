@@ -7,13 +7,13 @@
 
 // Private: the data of a page's scene.
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// The data of one scene, compressed, as described in docs/file-formats.md under HTML.
 /// \throw MeshError if the scene is not valid.
 std::string EncodeScene(const PagePath& scene);
 std::string EncodeScene(const PageSpace& scene);
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_OUTPUT_PAGE_SCENE_H_

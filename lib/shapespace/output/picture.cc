@@ -149,11 +149,6 @@ std::vector<Shape> Normalised(const Connectivity& connectivity, const std::vecto
 Eigen::VectorXi Widened(const Connectivity& connectivity, const Shape& shape,
                         const Eigen::VectorXi& marks, double radius) {
   if (marks.size() == 0) return marks;
-  std::vector<std::vector<int>> neighbours(connectivity.NumVertices());
-  for (const auto& edge : connectivity.Edges().colwise()) {
-    neighbours[edge(0)].push_back(edge(1));
-    neighbours[edge(1)].push_back(edge(0));
-  }
   Eigen::VectorXi result = marks;
   std::set<std::pair<double, int>> front;  // distance and vertex
   std::vector<double> distance(marks.size(), radius);
@@ -163,7 +158,8 @@ Eigen::VectorXi Widened(const Connectivity& connectivity, const Shape& shape,
   while (!front.empty()) {
     const int v = front.begin()->second;
     front.erase(front.begin());
-    for (int w : neighbours[v]) {
+    for (const int e : connectivity.EdgesOfVertices()[v]) {
+      const int w = connectivity.OtherEnd(e, v);
       const double way = distance[v] + (shape.col(w) - shape.col(v)).norm();
       if (way >= distance[w]) continue;
       front.erase({distance[w], w});
@@ -185,23 +181,23 @@ double TubeRadius(const Connectivity& connectivity, const Shape& shape) {
   return mean > 0 ? std::min(kTubeRadius, kTubePerEdge * mean) : kTubeRadius;
 }
 
-Axes CameraAxes(const Connectivity& connectivity, const std::vector<Shape>& shapes,
-                const RayTracer& tracer, const FilmStripOptions& options) {
-  Eigen::Vector3d up = options.up.isZero(0) ? ChooseUp(connectivity, shapes) : options.up;
+internal::Axes CameraAxes(const Connectivity& connectivity, const std::vector<Shape>& shapes,
+                          const internal::RayTracer& tracer, const FilmStripOptions& options) {
+  Eigen::Vector3d up = options.up.isZero(0) ? internal::ChooseUp(connectivity, shapes) : options.up;
   if (!options.view.isZero(0)) {
     // If seen from above or below, the other of the two axes points up.
     if (Parallel(up, options.view)) up = Eigen::Vector3d(0, up.z(), up.y());
-    return LookFrom(options.view, up);
+    return internal::LookFrom(options.view, up);
   }
   const std::vector<Shape> ends = {shapes.front(), shapes.back()};
-  std::vector<Scene> scenes;
+  std::vector<internal::Scene> scenes;
   for (const Shape& end : ends) scenes.emplace_back(tracer, end, Eigen::VectorXf());
-  return ChooseView(ends, scenes, up);
+  return internal::ChooseView(ends, scenes, up);
 }
 
 // A frame just large enough for every shape, whose longer side has the requested width.
-Camera FitCamera(const Axes& axes, const std::vector<Shape>& shapes, double border,
-                 const FilmStripOptions& options) {
+internal::Camera FitCamera(const internal::Axes& axes, const std::vector<Shape>& shapes,
+                           double border, const FilmStripOptions& options) {
   Eigen::AlignedBox2d window;
   for (const Shape& shape : shapes) {
     const Eigen::Matrix2Xd flat = axes.leftCols<2>().transpose() * shape;
@@ -211,7 +207,7 @@ Camera FitCamera(const Axes& axes, const std::vector<Shape>& shapes, double bord
   const Eigen::Vector2d size = window.sizes().array() + 2 * border;
   const int margin = std::max(2, options.frame_width / 32);
   const int inner = options.frame_width - 2 * margin;
-  Camera camera;
+  internal::Camera camera;
   camera.axes = axes;
   camera.centre = window.center();
   camera.samples = options.samples;
@@ -226,17 +222,19 @@ Camera FitCamera(const Axes& axes, const std::vector<Shape>& shapes, double bord
   return camera;
 }
 
-void Paste(const Image& part, int left, int top, Image* image) {
+void Paste(const RgbImage& part, int left, int top, RgbImage* image) {
   for (int row = 0; row < part.height; ++row) {
     std::copy_n(&part.pixels[3 * static_cast<size_t>(row) * part.width], 3 * part.width,
                 &image->pixels[3 * (static_cast<size_t>(top + row) * image->width + left)]);
   }
 }
 
-Image Blank(int width, int height) {
-  Image image{width, height, std::vector<unsigned char>(3 * static_cast<size_t>(width) * height)};
-  const Colour colour = Background();
-  for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = ToByte(colour[i % 3]);
+RgbImage Blank(int width, int height) {
+  RgbImage image{width, height,
+                 std::vector<unsigned char>(3 * static_cast<size_t>(width) * height)};
+  const internal::Colour colour = internal::Background();
+  for (size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = internal::ToByte(colour[i % 3]);
   return image;
 }
 
@@ -251,40 +249,40 @@ void FilmStripOptions::Validate() const {
   if (!view.isZero(0) && !up.isZero(0) && Parallel(view, up)) {
     throw InvalidOptions("up: parallel to view; give another, or none");
   }
-  CheckText("legend", legend);
-  CheckText("title", title);
-  for (const std::string& label : labels) CheckText("labels", label);
+  internal::CheckText("legend", legend);
+  internal::CheckText("title", title);
+  for (const std::string& label : labels) internal::CheckText("labels", label);
 }
 
-Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
-                      const FilmStripOptions& options) {
+RgbImage RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
+                         const FilmStripOptions& options) {
   CheckInput(connectivity, shapes, options);
   std::vector<int> poses;
   for (size_t i = 0; i < options.roles.size(); ++i) {
     if (options.roles[i] == ShapeRole::kPose) poses.push_back(static_cast<int>(i));
   }
   const std::vector<int> chosen =
-      KeyShapes(static_cast<int>(shapes.size()), poses, options.max_frames);
+      internal::KeyShapes(static_cast<int>(shapes.size()), poses, options.max_frames);
   const int frames = static_cast<int>(chosen.size());
   const std::vector<Shape> drawn = Normalised(connectivity, shapes, chosen);
   const double tube_radius = connectivity.IsGraph() ? TubeRadius(connectivity, drawn.front()) : 0;
-  const RayTracer tracer(connectivity, static_cast<float>(tube_radius));
-  const Camera camera =
+  const internal::RayTracer tracer(connectivity, static_cast<float>(tube_radius));
+  const internal::Camera camera =
       FitCamera(CameraAxes(connectivity, drawn, tracer, options), drawn, tube_radius, options);
 
   std::vector<Eigen::VectorXd> values;
-  Image legend;
+  RgbImage legend;
   if (!options.values.empty()) {
     double largest = 0;
     for (const int i : chosen) {
       values.push_back(options.values[i]);
       largest = std::max(largest, values.back().maxCoeff());
     }
-    const double end_of_scale = EndOfScale(values);
+    const double end_of_scale = internal::EndOfScale(values);
     for (Eigen::VectorXd& v : values) v = (v / end_of_scale).cwiseMin(kLargestValue);
-    legend = DrawLegend(end_of_scale, largest, options.legend);
+    legend = internal::DrawLegend(end_of_scale, largest, options.legend);
   } else if (options.groups.size() != 0) {
-    legend = DrawGroupLegend(options.groups.maxCoeff() + 1, options.legend);
+    legend = internal::DrawGroupLegend(options.groups.maxCoeff() + 1, options.legend);
   }
 
   const Eigen::VectorXi marks = Widened(connectivity, drawn.front(), options.marks, kMarkRadius);
@@ -292,10 +290,11 @@ Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>
   const int widest = kWidestStrip * options.frame_width;
   const int rows = (frames * camera.width + widest - 1) / widest;
   const int columns = (frames + rows - 1) / rows;
-  const int title_height = options.title.empty() ? 0 : kTextHeight + 2 * kTextMargin;
-  const int cell_height = camera.height + (options.labels.empty() ? 0 : kTextHeight + kTextMargin);
+  const int title_height = options.title.empty() ? 0 : internal::kTextHeight + 2 * kTextMargin;
+  const int cell_height =
+      camera.height + (options.labels.empty() ? 0 : internal::kTextHeight + kTextMargin);
   const int strip_height = title_height + (frames + columns - 1) / columns * cell_height;
-  const int title_width = TextWidth(options.title) + 2 * kTextMargin;
+  const int title_width = internal::TextWidth(options.title) + 2 * kTextMargin;
   const int width = std::max({columns * camera.width, legend.width, title_width});
   const int height = strip_height + legend.height;
   if (static_cast<double>(width) * height > kMostPixels) {
@@ -304,18 +303,20 @@ Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>
                          " pixels make a picture of more than 100 million pixels; lower it or "
                          "max_frames");
   }
-  Image image = Blank(width, height);
-  DrawText(&image, kTextMargin, kTextMargin, options.title);
+  RgbImage image = Blank(width, height);
+  internal::DrawText(&image, kTextMargin, kTextMargin, options.title);
   ParallelFor(frames, [&](int i) {
-    const Scene scene(
+    const internal::Scene scene(
         tracer, drawn[i],
         values.empty() ? Eigen::VectorXf() : Eigen::VectorXf(values[i].cast<float>()));
     const int left = i % columns * camera.width, top = title_height + i / columns * cell_height;
     const ShapeRole role = options.roles.empty() ? ShapeRole::kPose : options.roles[chosen[i]];
-    DrawFrame(scene, camera, {role, !values.empty(), options.groups, marks}, left, top, &image);
+    internal::DrawFrame(scene, camera, {role, !values.empty(), options.groups, marks}, left, top,
+                        &image);
     if (!options.labels.empty()) {
       const std::string& label = options.labels[chosen[i]];
-      DrawText(&image, left + (camera.width - TextWidth(label)) / 2, top + camera.height, label);
+      internal::DrawText(&image, left + (camera.width - internal::TextWidth(label)) / 2,
+                         top + camera.height, label);
     }
   });
   Paste(legend, 0, strip_height, &image);

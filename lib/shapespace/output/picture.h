@@ -58,7 +58,7 @@ struct FilmStripOptions {
 };
 
 /// 8-bit sRGB, row after row from the top, three bytes a pixel.
-struct Image {
+struct RgbImage {
   int width = 0, height = 0;
   std::vector<unsigned char> pixels;
 };
@@ -70,12 +70,12 @@ struct Image {
 /// threads.
 /// \throw InvalidOptions, also if the picture would have more than 100 million pixels; MeshError if
 ///        there is no shape, or one has another number of vertices or is not finite.
-Image RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
-                      const FilmStripOptions& options = {});
+RgbImage RenderFilmStrip(const Connectivity& connectivity, const std::vector<Shape>& shapes,
+                         const FilmStripOptions& options = {});
 
 /// Writes a PNG file, completely or not at all.
 /// \throw FileError; InvalidOptions if `image` is empty or its size is not that of its pixels.
-void WritePng(const std::string& file, const Image& image);
+void WritePng(const std::string& file, const RgbImage& image);
 
 }  // namespace shapespace
 

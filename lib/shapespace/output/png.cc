@@ -12,7 +12,7 @@
 
 namespace shapespace {
 
-void WritePng(const std::string& file, const Image& image) {
+void WritePng(const std::string& file, const RgbImage& image) {
   // The encoder stores sizes in an int.
   if (image.pixels.size() >= static_cast<size_t>(std::numeric_limits<int>::max())) {
     throw InvalidOptions("image: too large for a PNG");

@@ -6,8 +6,9 @@
 
 #include <shapespace/base/embree.h>
 #include <shapespace/base/error.h>
+#include <shapespace/output/normals.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 // Order in which AddTubes attaches its two geometries.
@@ -72,7 +73,6 @@ void SetRay(RTCRay* ray, const Eigen::Vector3f& origin, const Eigen::Vector3f& d
 RayTracer::RayTracer(const Connectivity& connectivity, float tube_radius)
     : connectivity_(connectivity),
       tube_radius_(tube_radius),
-      normals_(connectivity),
       device_(rtcNewDevice(nullptr), [](RTCDevice device) {
         if (device != nullptr) rtcReleaseDevice(device);
       }) {
@@ -99,7 +99,7 @@ Scene::Scene(const RayTracer& tracer, const Shape& shape, Eigen::VectorXf values
 }
 
 void Scene::AddTriangles(const Shape& shape) {
-  corner_normals_ = tracer_.normals_(shape);
+  corner_normals_ = CornerNormals(tracer_.connectivity_, shape);
   RTCDevice device = tracer_.device_.get();
   const Eigen::Matrix3Xi& triangles = tracer_.connectivity_.Triangles();
   const Geometry geometry = NewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -197,4 +197,4 @@ bool Scene::Blocked(const Eigen::Vector3f& origin, const Eigen::Vector3f& direct
   return ray.tfar < 0;
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

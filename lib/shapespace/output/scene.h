@@ -7,12 +7,11 @@
 
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
-#include <shapespace/output/normals.h>
 
 struct RTCDeviceTy;
 struct RTCSceneTy;
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// The data that all scenes of one picture share.
 class RayTracer {
@@ -25,7 +24,6 @@ class RayTracer {
   friend class Scene;
   const Connectivity& connectivity_;
   const float tube_radius_;
-  const CornerNormals normals_;
   std::shared_ptr<RTCDeviceTy> device_;
 };
 
@@ -63,6 +61,6 @@ class Scene {
   std::shared_ptr<RTCSceneTy> scene_;
 };
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_OUTPUT_SCENE_H_

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 std::vector<int> PolygonsOfTriangles(const Connectivity& connectivity) {
   const std::vector<int>& begin = connectivity.PolygonBegin();
@@ -63,4 +63,4 @@ CutMesh CutAtSeams(const Connectivity& connectivity, const Appearance& appearanc
   return mesh;
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

@@ -10,7 +10,7 @@
 
 // Private: a mesh for graphics hardware, with one texture coordinate per vertex.
 
-namespace shapespace {
+namespace shapespace::internal {
 
 struct CutMesh {
   /// Per vertex, the mesh's vertex that it represents. All vertices of the mesh come first, in
@@ -26,6 +26,6 @@ CutMesh CutAtSeams(const Connectivity& connectivity, const Appearance& appearanc
 /// The polygon to which each triangle of the connectivity belongs.
 std::vector<int> PolygonsOfTriangles(const Connectivity& connectivity);
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_OUTPUT_SEAMS_H_

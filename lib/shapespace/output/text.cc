@@ -9,7 +9,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/output/frame.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 constexpr int kTextScale = 2;
@@ -60,7 +60,7 @@ Colour TextColour() {
 
 int TextWidth(std::string text) { return kTextScale * stb_easy_font_width(text.data()); }
 
-void Fill(Image* image, int x0, int y0, int x1, int y1, const Colour& colour) {
+void Fill(RgbImage* image, int x0, int y0, int x1, int y1, const Colour& colour) {
   for (int y = std::max(0, y0); y < std::min(image->height, y1); ++y) {
     for (int x = std::max(0, x0); x < std::min(image->width, x1); ++x) {
       for (int k = 0; k < 3; ++k) {
@@ -71,7 +71,7 @@ void Fill(Image* image, int x0, int y0, int x1, int y1, const Colour& colour) {
 }
 
 // The font's boxes, blurred and thresholded at half: that rounds corners and joins diagonals.
-void DrawText(Image* image, int left, int top, const std::string& text) {
+void DrawText(RgbImage* image, int left, int top, const std::string& text) {
   const int width = TextWidth(text) / kTextScale;
   const std::vector<unsigned char> ink = Ink(text, width);
   const auto blurred = [&](float x, float y) {
@@ -105,4 +105,4 @@ void DrawText(Image* image, int left, int top, const std::string& text) {
   }
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

@@ -6,7 +6,7 @@
 #include <shapespace/output/colour.h>
 #include <shapespace/output/picture.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// Height of a line of text in pixels, without descenders.
 inline constexpr int kTextHeight = 20;
@@ -21,11 +21,11 @@ void CheckText(const char* field, const std::string& text);
 int TextWidth(std::string text);
 
 /// Fills the part of [x0, x1) x [y0, y1) that lies in the image.
-void Fill(Image* image, int x0, int y0, int x1, int y1, const Colour& colour);
+void Fill(RgbImage* image, int x0, int y0, int x1, int y1, const Colour& colour);
 
 /// Draws `text` with its upper left corner at (left, top).
-void DrawText(Image* image, int left, int top, const std::string& text);
+void DrawText(RgbImage* image, int left, int top, const std::string& text);
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_OUTPUT_TEXT_H_

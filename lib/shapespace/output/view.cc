@@ -6,8 +6,9 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/geometry.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
 
 // Height of the part of a shape that touches the floor, as a share of its bounding box's diagonal.
@@ -49,7 +50,7 @@ Eigen::Vector3d CentreOfArea(const Connectivity& connectivity, const Shape& shap
   for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
     const Eigen::Vector3d a = shape.col(triangles(0, f)), b = shape.col(triangles(1, f)),
                           c = shape.col(triangles(2, f));
-    const double area = (b - a).cross(c - a).norm();
+    const double area = TriangleArea(a, b, c);
     sum += area / 3 * (a + b + c);
     total += area;
   }
@@ -147,4 +148,4 @@ Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<Scene>& scen
   return views[best];
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

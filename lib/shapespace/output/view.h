@@ -9,7 +9,7 @@
 #include <shapespace/mesh/shape.h>
 #include <shapespace/output/scene.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// An orthographic camera's axes as columns: right and up in the picture, and towards the eye.
 using Axes = Eigen::Matrix3d;
@@ -28,6 +28,6 @@ Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up);
 Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<Scene>& scenes,
                 const Eigen::Vector3d& up);
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_OUTPUT_VIEW_H_

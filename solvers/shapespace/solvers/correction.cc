@@ -9,6 +9,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/base/stopwatch.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/rigid_motion.h>
 #include <shapespace/solvers/check_options.h>
@@ -80,7 +81,7 @@ std::shared_ptr<const Metric> FreezeLengths(const Path& path, CorrectionMode mod
 // smallest eigenvalue is about (pi / n)^2. lambda is chosen such that the product is then the
 // weight of the distance from the given shapes.
 internal::Cholesky Factor(const Path& path, CorrectionMode mode, double mu) {
-  const auto metric = FreezeLengths(path, mode, mu / (M_PI * M_PI));
+  const auto metric = FreezeLengths(path, mode, mu / (internal::kPi * internal::kPi));
   return internal::Cholesky(mode == CorrectionMode::kPaper
                                 ? internal::ScalarMetric(*metric,
                                                          {path.shapes.front(), path.shapes.back()},
@@ -180,7 +181,7 @@ CorrectionResult CorrectPath(const Path& path, const CorrectionOptions& options,
                              Progress* progress) {
   options.Validate();
   if (path.NumShapes() < 2) throw MeshError("a path needs at least two shapes to be corrected");
-  const Stopwatch total;
+  const internal::Stopwatch total;
   CorrectionResult result;
   CorrectionSummary& summary = result.summary;
   summary.mode = options.mode;

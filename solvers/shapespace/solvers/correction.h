@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/path/path.h>
-#include <shapespace/path/quality.h>
 
 namespace shapespace {
 

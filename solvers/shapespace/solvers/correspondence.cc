@@ -11,6 +11,7 @@
 #include <shapespace/base/parallel.h>
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/hierarchy/hierarchy.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/mesh/topology.h>
 #include <shapespace/path/align.h>
 #include <shapespace/solvers/check_options.h>
@@ -52,15 +53,12 @@ struct OwnFrame {
     const Eigen::Vector3d low = shape.rowwise().minCoeff();
     const double extent = (shape.rowwise().maxCoeff() - low).maxCoeff();
     const Shape near = (shape.colwise() - low) / extent;
-    double twice_area = 0;
-    for (int f = 0; f < connectivity.NumTriangles(); ++f) {
-      const auto triangle = connectivity.Triangles().col(f);
-      const Eigen::Vector3d a = near.col(triangle(0));
-      const Eigen::Vector3d p = near.col(triangle(1)) - a, q = near.col(triangle(2)) - a;
-      twice_area += p.cross(q).norm();
+    double area = 0;
+    for (const auto& triangle : connectivity.Triangles().colwise()) {
+      area += internal::TriangleArea(near, triangle);
     }
     centre = low + extent * (near * internal::VertexAreas(connectivity, near));
-    unit = extent * std::sqrt(0.5 * twice_area);
+    unit = extent * std::sqrt(area);
   }
 
   Shape In(const Shape& shape) const { return (shape.colwise() - centre) / unit; }
@@ -101,7 +99,7 @@ class Fit {
 
   // `rest`: the template at rest, in the target's frame. \return the fitted template.
   Shape operator()(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest) {
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     HierarchyOptions hierarchy_options;
     hierarchy_options.coarsest = options_.coarsest;
     hierarchy_options.pinned = held_;
@@ -153,7 +151,7 @@ class Fit {
   // Starts from the markers alone, approaches the pose with the gradient fit, then continues under
   // strain and bending.
   void FindPose(const Level& level, const Shape& rest, Shape* shape) {
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     Stops();
     *shape = internal::FitGradients(*level.connectivity, rest, HeldOn(level), places_,
                                     internal::kIdentity);
@@ -175,7 +173,7 @@ class Fit {
     Rounds(level, &fit, kFineWeight, kFineRounds, shape);
     summary_->converged =
         Rounds(level, &fit, kLastWeight, options_.max_iterations, shape) && !summary_->cancelled;
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     internal::Unfold(level, rest, target_, held_, shape);
     summary_->unfold_seconds = stopwatch.Seconds();
   }
@@ -187,7 +185,7 @@ class Fit {
   // \return whether the vertices stopped moving.
   bool Rounds(const Level& level, internal::ShellFit* fit, double weight, int rounds,
               Shape* shape) {
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     CorrespondenceSummary::Stage stage;
     stage.vertices = static_cast<int>(shape->cols());
     stage.name = "shell";
@@ -290,8 +288,8 @@ SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, c
          marker.template_vertex);
   }
 
-  const Shape back = Pull(map.to_template, level.connectivity->Triangles(), rest);
-  const Shape there_and_back = Pull(map.to_target, target.GetConnectivity().Triangles(), back);
+  const Shape back = PullBack(map.to_template, level.connectivity->Triangles(), rest);
+  const Shape there_and_back = PullBack(map.to_target, target.GetConnectivity().Triangles(), back);
   map.round_trip = (there_and_back - rest).colwise().norm();
   Eigen::VectorXd sorted = map.round_trip;
   std::sort(sorted.begin(), sorted.end());
@@ -357,7 +355,7 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
                                 const std::shared_ptr<const Connectivity>& target_connectivity,
                                 const Shape& target_shape, const std::vector<Marker>& all_markers,
                                 const CorrespondenceOptions& options, Progress* progress) {
-  const Stopwatch total;
+  const internal::Stopwatch total;
   options.Validate();
   internal::CheckBody("template", *template_connectivity, template_shape);
   internal::CheckBody("target", *target_connectivity, target_shape);
@@ -422,7 +420,7 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
   Fit fit(options, target, held, places, progress, &summary);
   Shape fitted = fit(template_connectivity, rest);
 
-  const Stopwatch map_stopwatch;
+  const internal::Stopwatch map_stopwatch;
   Level all = {template_connectivity, {}, internal::BorderOf(*template_connectivity)};
   for (int v = 0; v < template_connectivity->NumVertices(); ++v) all.vertices.push_back(v);
   result.map = MakeMap(all, fitted, rest / size, target, markers, &summary);
@@ -467,8 +465,8 @@ Path CarryPath(const CorrespondenceResult& result, const Path& path,
   for (Eigen::VectorXd* field : {&options.stretching_stiffness, &options.bending_stiffness}) {
     if (field->size() == 0) continue;
     const Eigen::VectorXd of_vertices = VertexStiffness(*field, *path.metric->connectivity);
-    *field = Pull(result.map.to_template, path.metric->connectivity->Triangles(),
-                  of_vertices.transpose())
+    *field = PullBack(result.map.to_template, path.metric->connectivity->Triangles(),
+                      of_vertices.transpose())
                  .transpose();
   }
   Path own =

@@ -72,13 +72,13 @@ Eigen::VectorXi SpotsAround(const std::vector<int>& vertices, const Shape& shape
   return spots;
 }
 
-void PasteBelow(const Image& part, Image* image) {
+void PasteBelow(const RgbImage& part, RgbImage* image) {
   const int width = std::max(image->width, part.width);
-  Image whole = {width, image->height + part.height, {}};
+  RgbImage whole = {width, image->height + part.height, {}};
   whole.pixels.resize(3 * static_cast<size_t>(width) * whole.height);
   // The first pixel of a strip has the background's colour.
   for (size_t i = 0; i < whole.pixels.size(); ++i) whole.pixels[i] = part.pixels[i % 3];
-  const auto paste = [&](const Image& from, int top) {
+  const auto paste = [&](const RgbImage& from, int top) {
     for (int row = 0; row < from.height; ++row) {
       std::copy_n(&from.pixels[3 * static_cast<size_t>(row) * from.width], 3 * from.width,
                   &whole.pixels[3 * static_cast<size_t>(top + row) * width]);
@@ -91,9 +91,10 @@ void PasteBelow(const Image& part, Image* image) {
 
 }  // namespace
 
-Image RenderCorrespondence(const Connectivity& template_connectivity, const Shape& template_shape,
-                           const Connectivity& target_connectivity, const Shape& target_shape,
-                           const std::vector<Marker>& markers, const CorrespondenceResult& result) {
+RgbImage RenderCorrespondence(const Connectivity& template_connectivity,
+                              const Shape& template_shape, const Connectivity& target_connectivity,
+                              const Shape& target_shape, const std::vector<Marker>& markers,
+                              const CorrespondenceResult& result) {
   if (template_shape.cols() != result.fitted.cols() ||
       target_shape.cols() != result.map.to_template.NumVertices()) {
     throw MeshError("the meshes are not those of the correspondence");
@@ -112,7 +113,7 @@ Image RenderCorrespondence(const Connectivity& template_connectivity, const Shap
 
   FilmStripOptions options;
   // The markers have oriented the template like the target.
-  options.up = ChooseUp(target_connectivity, {target_shape});
+  options.up = internal::ChooseUp(target_connectivity, {target_shape});
   options.roles = {ShapeRole::kPose, ShapeRole::kPose, ShapeRole::kInserted};
   options.labels = {"template", "target", "fitted template"};
   FilmStripOptions with_markers = options, with_patches = options, with_values = options;
@@ -131,7 +132,7 @@ Image RenderCorrespondence(const Connectivity& template_connectivity, const Shap
         std::to_string(doubt.marker + 1);
   }
   with_markers.legend.resize(std::min<size_t>(with_markers.legend.size(), 120));
-  Image image = RenderFilmStrip(*both.connectivity, shapes, with_markers);
+  RgbImage image = RenderFilmStrip(*both.connectivity, shapes, with_markers);
 
   const Eigen::VectorXi patches = PatchesOf(template_shape);
   with_patches.groups.resize(both.first + both.second);
@@ -150,7 +151,7 @@ Image RenderCorrespondence(const Connectivity& template_connectivity, const Shap
   with_values.values[0].head(both.first) = result.map.round_trip;
   with_values.values[2].head(both.first) = result.map.round_trip;
   with_values.values[1].tail(both.second) =
-      Pull(points, template_connectivity.Triangles(), result.map.round_trip.transpose())
+      PullBack(points, template_connectivity.Triangles(), result.map.round_trip.transpose())
           .transpose();
   with_values.legend = "round-trip error / root of area: low is good";
   PasteBelow(RenderFilmStrip(*both.connectivity, shapes, with_values), &image);

@@ -14,9 +14,10 @@ namespace shapespace {
 /// which is large where the map is unreliable. All bodies are drawn in one size and orientation;
 /// the markers determine the template's.
 /// \throw MeshError if the arguments do not belong together.
-Image RenderCorrespondence(const Connectivity& template_connectivity, const Shape& template_shape,
-                           const Connectivity& target_connectivity, const Shape& target_shape,
-                           const std::vector<Marker>& markers, const CorrespondenceResult& result);
+RgbImage RenderCorrespondence(const Connectivity& template_connectivity,
+                              const Shape& template_shape, const Connectivity& target_connectivity,
+                              const Shape& target_shape, const std::vector<Marker>& markers,
+                              const CorrespondenceResult& result);
 
 }  // namespace shapespace
 

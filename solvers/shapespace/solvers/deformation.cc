@@ -12,6 +12,7 @@
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/hierarchy/freeze_level.h>
 #include <shapespace/hierarchy/hierarchy.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/mesh/topology.h>
 #include <shapespace/path/align.h>
 #include <shapespace/solvers/check_options.h>
@@ -40,7 +41,7 @@ constexpr double kEnough = 1e-3;
 
 // If a handle turns further than this between neighbouring shapes, a warning is given: bars lost
 // turns of 180 degrees between neighbours, but not turns of 120.
-constexpr double kFarthestTurn = 2 * M_PI / 3;
+constexpr double kFarthestTurn = 2 * internal::kPi / 3;
 
 // A hard handle that misses its target by more than this share of the unit is reported. The margin
 // allows for rounding far from the origin; a handle without conflict is met.
@@ -135,7 +136,7 @@ Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity
 
 DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, const Shape* end,
                                           Progress* progress) {
-  const Stopwatch total;
+  const internal::Stopwatch total;
   ReportProgress(progress, "deforming", 0, 0);
   DeformationResult result;
   DeformationSummary& summary = result.summary;
@@ -148,7 +149,7 @@ DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, co
   if (!alike) Prepare(targets, &summary);
 
   internal::Workload workload(progress, options_.tolerance, options_.max_iterations);
-  const Stopwatch solving;
+  const internal::Stopwatch solving;
   summary.warm = alike && end == nullptr && targets.IsNear(*last_targets_, kLittle);
   std::vector<Shape> shapes;
   if (summary.warm) {
@@ -173,11 +174,11 @@ DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, co
 void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary* summary) {
   last_targets_.reset();
   levels_.clear();
-  const Stopwatch building;
+  const internal::Stopwatch building;
   hierarchy_.emplace(connectivity_, std::vector<Shape>{rest_},
                      HierarchyOptions{options_.coarsest, targets.Pins()});
   summary->hierarchy_seconds = building.Seconds();
-  const Stopwatch factoring;
+  const internal::Stopwatch factoring;
   const double strength = 2 * (1 - options_.balance) / options_.balance;
   for (int i = 0; i < hierarchy_->NumLevels(); ++i) {
     const std::vector<int>& vertices = hierarchy_->Vertices(i);
@@ -282,7 +283,7 @@ std::vector<Shape> Deformer::Solver::StartAt(const Shape& end, const Shape& plac
 void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char* start,
                              internal::Workload* workload, std::vector<Shape>* shapes,
                              DeformationSummary* summary) {
-  const Stopwatch stopwatch;
+  const internal::Stopwatch stopwatch;
   HeldLevel& level = levels_[level_index];
   const bool finest = level_index + 1 == levels_.size();
   const int vertices = level.NumVertices();
@@ -393,9 +394,9 @@ void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* su
   const double turn = targets.GreatestTurn() / options_.shapes;
   if (turn > kFarthestTurn) {
     summary->warnings.push_back(
-        "a handle turns by " + std::to_string(std::lround(turn * 180 / M_PI)) +
+        "a handle turns by " + std::to_string(std::lround(turn * internal::kDegrees)) +
         " degrees from one shape to the next, and the body may lose such a turn; ask for " +
-        std::to_string(static_cast<int>(std::ceil(targets.GreatestTurn() / (M_PI / 2)))) +
+        std::to_string(static_cast<int>(std::ceil(targets.GreatestTurn() / (internal::kPi / 2)))) +
         " shapes or more");
   }
   const double far = kContradiction * (summary->unit + 1e-3 * origin_.norm());

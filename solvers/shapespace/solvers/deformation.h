@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include <shapespace/analysis/shape_error.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/path.h>
-#include <shapespace/path/shape_error.h>
 #include <shapespace/solvers/geodesic.h>
 #include <shapespace/solvers/handle.h>
 

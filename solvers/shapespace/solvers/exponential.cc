@@ -10,6 +10,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/hierarchy/detail.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/metric/feature_map.h>
 #include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/optimise/shooter.h>
@@ -148,17 +149,13 @@ double InvertedShare(const Metric& metric, const Shape& before, const Shape& aft
   const Connectivity& connectivity = *metric.connectivity;
   if (connectivity.NumTriangles() == 0) return 0;
   const std::vector<Eigen::Matrix3d> turns = internal::VertexRotations(connectivity, before, after);
-  const auto normal = [&](const Shape& shape, const Eigen::Vector3i& t) -> Eigen::Vector3d {
-    const Eigen::Vector3d a = shape.col(t(0)), b = shape.col(t(1)), c = shape.col(t(2));
-    return (b - a).cross(c - a);
-  };
   double inverted = 0, all = 0;
   for (int f = 0; f < connectivity.NumTriangles(); ++f) {
     const Eigen::Vector3i t = connectivity.Triangles().col(f);
-    const Eigen::Vector3d n = normal(before, t);
+    const Eigen::Vector3d n = internal::AreaNormal(before, t);
     const Eigen::Vector3d expected = (turns[t(0)] + turns[t(1)] + turns[t(2)]) * n;
     all += n.norm();
-    if (expected.dot(normal(after, t)) < 0) inverted += n.norm();
+    if (expected.dot(internal::AreaNormal(after, t)) < 0) inverted += n.norm();
   }
   return all > 0 ? inverted / all : 0;
 }
@@ -196,7 +193,7 @@ void March(const NextShape& next, int steps, double step, Progress* progress,
   Momenta first;
   for (int i = 0; i < steps; ++i) {
     if (progress != nullptr) progress->ReportShare(static_cast<double>(i) / steps);
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     ExponentialSummary::Step row;
     const Shape& current = path.shapes.back();
     row.t = path.parameters.back() + step;
@@ -320,7 +317,7 @@ Departure Restart(const FeatureMap& map, const Shape& before, const Shape& shape
 // Continues the result's path, whose last shape is that of `departure`.
 void Shoot(Departure departure, int steps, double step, const ExponentialOptions& options,
            Progress* progress, ExponentialResult* result) {
-  const Stopwatch total;
+  const internal::Stopwatch total;
   Path& path = result->path;
   ExponentialSummary& summary = result->summary;
   const Metric& metric = *path.metric;

@@ -5,13 +5,13 @@
 #include <limits>
 #include <memory>
 
+#include <shapespace/analysis/path_intersections.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/hierarchy/freeze_level.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
-#include <shapespace/path/intersections.h>
 #include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/cost/refuse_sums.h>
 #include <shapespace/solvers/optimise/piece.h>
@@ -33,7 +33,7 @@ double EstimateBytes(const Metric& metric, int poses, int shapes) {
 
 // Fails early if the finest level cannot be solved.
 void CheckFinest(const Metric& metric, double bytes, const GeodesicOptions& options) {
-  if (options.solver == Solver::kTrustRegion) cost::RefuseDenseRows(metric);
+  if (options.solver == GeodesicSolver::kTrustRegion) cost::RefuseDenseRows(metric);
   if (bytes <= options.memory_limit) return;
   throw SolverError("this solve needs about " + std::to_string(std::lround(bytes / 1e6)) +
                     " MB, more than the memory limit; insert fewer shapes or raise memory_limit");
@@ -155,11 +155,11 @@ void CheckShape(const Shape& shape, const Metric& metric) {
   }
 }
 
-Schedule KindOfSchedule(const Metric& metric, const GeodesicOptions& options) {
-  if (options.schedule != Schedule::kAutomatic || metric.options.bending > 0) {
+GeodesicSchedule KindOfSchedule(const Metric& metric, const GeodesicOptions& options) {
+  if (options.schedule != GeodesicSchedule::kAutomatic || metric.options.bending > 0) {
     return options.schedule;
   }
-  return Schedule::kFlat;
+  return GeodesicSchedule::kFlat;
 }
 
 // Appends warnings about results that are valid but probably not wanted.
@@ -220,7 +220,7 @@ GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivi
                            Progress* progress) {
   options.Validate();
   if (poses.size() < 2) throw MeshError("a geodesic needs at least two poses");
-  const Stopwatch freezing;
+  const internal::Stopwatch freezing;
   ReportProgress(progress, "freezing the metric", 0, 0);
   const auto metric = FreezeMetric(options.metric, connectivity, poses);
   const double freeze_seconds = freezing.Seconds();
@@ -251,7 +251,7 @@ class GeodesicLevels {
  private:
   HierarchyOptions MakeHierarchyOptions() const {
     HierarchyOptions result;
-    result.coarsest = kind_ == Schedule::kFlat
+    result.coarsest = kind_ == GeodesicSchedule::kFlat
                           ? std::max(options_.coarsest, metric_->connectivity->NumTriangles())
                           : options_.coarsest;
     return result;
@@ -261,7 +261,7 @@ class GeodesicLevels {
 
   const std::shared_ptr<const Metric> metric_;
   const GeodesicOptions options_;
-  const Schedule kind_;
+  const GeodesicSchedule kind_;
   const Hierarchy hierarchy_;
   std::vector<Resolution> resolutions_;
 };
@@ -274,7 +274,7 @@ void GeodesicLevels::SetPoses(const std::vector<Shape>& aligned) {
 
 GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progress) {
   GeodesicResult result;
-  const Stopwatch solving;
+  const internal::Stopwatch solving;
   double factored = 0;
   for (const auto& resolution : resolutions_) factored += resolution.FactorSeconds();
   SolvePieces(poses, progress, &result);
@@ -374,7 +374,7 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
   for (const Shape& pose : poses) CheckShape(pose, *metric);
   const double bytes = EstimateBytes(*metric, static_cast<int>(poses.size()), options.shapes);
   CheckFinest(*metric, bytes, options);
-  const Stopwatch total;
+  const internal::Stopwatch total;
   ReportProgress(progress, "decimating", 0, 0);
   const AlignedPoses aligned = AlignPoses(*metric, poses);
   internal::GeodesicLevels levels(metric, aligned.shapes, PosePairs::kConsecutive, options);
@@ -410,7 +410,7 @@ const std::shared_ptr<const Metric>& Interpolator::GetMetric() const {
 GeodesicResult Interpolator::Between(const Shape& from, const Shape& to, Progress* progress) {
   CheckShape(from, *GetMetric());
   CheckShape(to, *GetMetric());
-  const Stopwatch total;
+  const internal::Stopwatch total;
   const AlignedPoses aligned = AlignPoses(*GetMetric(), {from, to});
   levels_->SetPoses(aligned.shapes);
   GeodesicResult result = levels_->Solve(aligned, progress);

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/mesh/read.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/path.h>
-#include <shapespace/path/quality.h>
 
 namespace shapespace {
 
@@ -19,7 +19,7 @@ class GeodesicLevels;
 }
 
 /// The optimiser of each level.
-enum class Solver {
+enum class GeodesicSolver {
   kAutomatic,      ///< sparse trust region for the smallest problems, otherwise L-BFGS
   kLbfgs,          ///< Ceres' L-BFGS, preconditioned, on hand-written kernels
   kThreadedLbfgs,  ///< this library's L-BFGS on the same kernels, on all threads
@@ -29,7 +29,7 @@ enum class Solver {
 /// The order in which resolutions in space (levels of a `Hierarchy`, coarsest c to finest f) and in
 /// time (1, 3, 7, ... n inner shapes) are solved. Each solve starts from the result of earlier
 /// ones.
-enum class Schedule {
+enum class GeodesicSchedule {
   kAutomatic,  ///< all levels in turn for one, three and seven inner shapes, then the finest only:
                ///< (c,1) ... (f,1), (c,3) ... (f,3), (c,7) ... (f,7), (f,15) ... (f,n). Without a
                ///< cost of bending kFlat: coarse surfaces would crumple, and finer levels would
@@ -48,7 +48,7 @@ enum class Schedule {
 };
 
 /// The initial guess for the one inner shape of the first solve.
-enum class Start {
+enum class GeodesicStart {
   kBest,   ///< kBlend, kFirst and kLast on few vertices; the one that ends with the least energy is
            ///< used
            ///< on
@@ -74,9 +74,9 @@ struct GeodesicOptions {
   /// Per level. Reaching it is reported as not converged.
   int max_iterations = 500;
 
-  Solver solver = Solver::kAutomatic;
-  Schedule schedule = Schedule::kAutomatic;
-  Start start = Start::kBest;
+  GeodesicSolver solver = GeodesicSolver::kAutomatic;
+  GeodesicSchedule schedule = GeodesicSchedule::kAutomatic;
+  GeodesicStart start = GeodesicStart::kBest;
 
   /// Triangles of the coarsest level (HierarchyOptions::coarsest).
   int coarsest = 200;

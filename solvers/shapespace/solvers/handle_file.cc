@@ -7,6 +7,7 @@
 #include <shapespace/base/json.h>
 #include <shapespace/base/quoted.h>
 #include <shapespace/base/read_file.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/mesh/selection_json.h>
 
 namespace shapespace {
@@ -74,7 +75,7 @@ ScrewMotion MotionFrom(const Json& entry, const Eigen::Vector3d& centroid) {
   motion.axis.stableNormalize();
   motion.angle =
       BoundedNumber(Required(rotation, field, "degrees"), Field(field, "degrees"), kMostDegrees) *
-      M_PI / 180;
+      internal::kPi / 180;
   if (rotation.contains("point")) {
     motion.point = BoundedVector(rotation["point"], Field(field, "point"));
   }

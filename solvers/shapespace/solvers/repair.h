@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include <shapespace/analysis/shape_error.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/path/path.h>
-#include <shapespace/path/shape_error.h>
 #include <shapespace/solvers/deformation.h>
 
 namespace shapespace {

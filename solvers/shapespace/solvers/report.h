@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <shapespace/path/shape_error.h>
+#include <shapespace/analysis/shape_error.h>
 #include <shapespace/solvers/geodesic.h>
 
 // Private: helpers for the reports of all solvers.

@@ -114,8 +114,8 @@ class MapReader {
 
 }  // namespace
 
-Eigen::MatrixXd Pull(const SurfacePoints& points, const Eigen::Matrix3Xi& triangles,
-                     const Eigen::MatrixXd& function) {
+Eigen::MatrixXd PullBack(const SurfacePoints& points, const Eigen::Matrix3Xi& triangles,
+                         const Eigen::MatrixXd& function) {
   if (triangles.cols() > 0 && triangles.maxCoeff() >= function.cols()) {
     throw MeshError("the function has " + std::to_string(function.cols()) +
                     " columns; it needs one for each vertex");
@@ -141,8 +141,8 @@ Shape CarryAlong(const SurfacePoints& points, const Connectivity& connectivity, 
     throw MeshError("the shapes have other numbers of vertices than the map");
   }
   const std::vector<Eigen::Matrix3d> turns = Turns(connectivity, rest, moved);
-  const Shape from = Pull(points, connectivity.Triangles(), rest);
-  const Shape to = Pull(points, connectivity.Triangles(), moved);
+  const Shape from = PullBack(points, connectivity.Triangles(), rest);
+  const Shape to = PullBack(points, connectivity.Triangles(), moved);
   Shape carried(3, own.cols());
   ParallelFor(points.NumVertices(), [&](int v) {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();

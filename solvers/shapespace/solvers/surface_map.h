@@ -41,8 +41,8 @@ struct SurfaceMap {
 /// template, and `to_template` pulls one on the template back to the target.
 /// \throw MeshError if `function` has no column for a corner of the triangles, or if a point lies
 ///        on a triangle that does not exist.
-Eigen::MatrixXd Pull(const SurfacePoints& points, const Eigen::Matrix3Xi& triangles,
-                     const Eigen::MatrixXd& function);
+Eigen::MatrixXd PullBack(const SurfacePoints& points, const Eigen::Matrix3Xi& triangles,
+                         const Eigen::MatrixXd& function);
 
 /// Moves a mesh whose vertices lie at or near `points` of a body while that body (of
 /// `connectivity`) moves from `rest` to `moved`: every vertex keeps its offset from its point,

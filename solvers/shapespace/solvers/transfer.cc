@@ -5,10 +5,11 @@
 #include <optional>
 #include <utility>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/stopwatch.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/path/align.h>
-#include <shapespace/path/quality.h>
 #include <shapespace/path/rigid_motion.h>
 #include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/optimise/feature_transfer.h>
@@ -95,7 +96,7 @@ void MeasureWhatIsOff(const Metric& metric, const Path& source, const Path& targ
   const Eigen::VectorXd off = change(target, angles_of) - change(source, angles_of);
   squares = metric.hinge_area.dot(off.unaryExpr(&WrapAngle).cwiseAbs2());
   area = metric.hinge_area.sum();
-  if (area > 0) summary->angle_rms = std::sqrt(squares / area) * 180 / M_PI;
+  if (area > 0) summary->angle_rms = std::sqrt(squares / area) * internal::kDegrees;
 }
 
 void Warn(TransferSummary* summary) {
@@ -317,7 +318,7 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
                         Progress* progress) {
   options.Validate();
   CheckTarget(source, target);
-  const Stopwatch total;
+  const internal::Stopwatch total;
   TransferResult result;
   TransferSummary& summary = result.summary;
   const bool climbs = options.method == TransferMethod::kLadder;
@@ -333,7 +334,7 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
       if (progress != nullptr) progress->ReportShare(static_cast<double>(i) / count);
       WithinShape within(progress, i, count);
       ReportProgress(&within, "", i, count);
-      const Stopwatch stopwatch;
+      const internal::Stopwatch stopwatch;
       TransferSummary::Step row;
       if (i > 0) shapes.MakeNext(&row, &within);
       if (options.hybrids) hybrids.push_back(shapes.Hybrid(&within));

@@ -50,7 +50,7 @@ struct LadderOptions {
   bool align = true;
 
   /// The connection by which the source's velocity is transported along a rung.
-  Connection connection = Connection::kLeviCivita;
+  TransportConnection connection = TransportConnection::kLeviCivita;
 
   /// Tolerance of the geodesics that are the rungs (GeodesicOptions::tolerance).
   double tolerance = 1e-5;

@@ -154,7 +154,7 @@ std::string TransportSummary::BriefReport() const {
 TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents,
                           const TransportOptions& options, Progress* progress) {
   options.Validate();
-  const Stopwatch total;
+  const internal::Stopwatch total;
   const Metric& metric = *path.metric;
   const int segments = path.NumShapes() - 1;
   if (segments < 1) throw MeshError("transport needs a path of at least two shapes");
@@ -169,14 +169,14 @@ TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents
   result.summary.first_norm = Norms(path, 0, result.tangents);
   std::optional<MetricTransport> metric_transport;
   std::optional<ConstrainedProjection> projection;
-  if (options.connection == Connection::kLeviCivita) {
+  if (options.connection == TransportConnection::kLeviCivita) {
     metric_transport.emplace(path, options);
   } else {
     projection.emplace(path);
   }
   for (int i = 0; i < segments; ++i) {
     ReportProgress(progress, "transporting", i, segments);
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     TransportSummary::Step row;
     if (metric_transport) {
       metric_transport->Carry(i, &result.tangents, &row);

@@ -11,7 +11,7 @@
 namespace shapespace {
 
 /// Definition of transport of a tangent to another shape (docs/mathematics.md, section 10).
-enum class Connection {
+enum class TransportConnection {
   kLeviCivita,  ///< the metric's own: order 2; the norm of a tangent never grows, and shrinks only
                 ///< to fourth order in the step
   kConstrainedProjection,  ///< the paper's: least Euclidean change that preserves the product with
@@ -19,7 +19,7 @@ enum class Connection {
 };
 
 struct TransportOptions {
-  Connection connection = Connection::kLeviCivita;
+  TransportConnection connection = TransportConnection::kLeviCivita;
 
   /// Before each step of kLeviCivita, align the shape with the next one and rotate the tangent with
   /// it. Tangents then turn with the body, exactly where the body moves rigidly. If false, a

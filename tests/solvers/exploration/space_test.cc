@@ -81,7 +81,7 @@ TEST(SpaceTest, FarFromTheOriginShapesKeepTheirForm) {
 
 TEST(SpaceTest, ACurveIsWalkedAtEvenSteps) {
   const Space space = MadeUpSpace(SmallTube());
-  const Walk walk = Along(space, {{0, 0}, {1, 0}, {1, 0}, {1, 1}, {0, 1}}, 7);
+  const Walk walk = WalkAlong(space, {{0, 0}, {1, 0}, {1, 0}, {1, 1}, {0, 1}}, 7);
   walk.path.Validate();
   ASSERT_EQ(walk.path.NumShapes(), 7);
   EXPECT_EQ(walk.outside, 0);
@@ -96,20 +96,20 @@ TEST(SpaceTest, ACurveIsWalkedAtEvenSteps) {
 
 TEST(SpaceTest, ACurveThatLeavesTheHullSaysSo) {
   const Space space = MadeUpSpace(SmallTube());
-  const Walk walk = Along(space, {{.5, .5}, {.5, 1.5}}, 5);
+  const Walk walk = WalkAlong(space, {{.5, .5}, {.5, 1.5}}, 5);
   EXPECT_EQ(walk.outside, 2);
-  EXPECT_EQ(Along(space, {{.5, .2}}, 1).path.NumShapes(), 1);
-  EXPECT_EQ(Along(space, {{.5, .2}}, 3).path.NumShapes(), 3);
+  EXPECT_EQ(WalkAlong(space, {{.5, .2}}, 1).path.NumShapes(), 1);
+  EXPECT_EQ(WalkAlong(space, {{.5, .2}}, 3).path.NumShapes(), 3);
 }
 
 TEST(SpaceTest, WhatIsNoCurveIsRefused) {
   const Space space = MadeUpSpace(SmallTube());
-  EXPECT_THROW(Along(space, {}, 3), InvalidOptions);
-  EXPECT_THROW(Along(space, {{0, 0}}, 0), InvalidOptions);
+  EXPECT_THROW(WalkAlong(space, {}, 3), InvalidOptions);
+  EXPECT_THROW(WalkAlong(space, {{0, 0}}, 0), InvalidOptions);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(Along(space, {{0, nan}}, 3), InvalidOptions);
-  EXPECT_THROW(Along(space, {{-1e308, 0}, {1e308, 0}}, 3), InvalidOptions);
-  EXPECT_EQ(Along(space, {{1, 0}, {1e200, 0}}, 3).path.Placed(0), space.Placed(1));
+  EXPECT_THROW(WalkAlong(space, {{0, nan}}, 3), InvalidOptions);
+  EXPECT_THROW(WalkAlong(space, {{-1e308, 0}, {1e308, 0}}, 3), InvalidOptions);
+  EXPECT_EQ(WalkAlong(space, {{1, 0}, {1e200, 0}}, 3).path.Placed(0), space.Placed(1));
 }
 
 TEST(SpaceTest, ASpaceAtOddsWithItselfIsRefused) {

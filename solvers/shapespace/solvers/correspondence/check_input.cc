@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/mesh/surface.h>
 #include <shapespace/mesh/topology.h>
 #include <shapespace/mesh/volume.h>
@@ -53,9 +54,8 @@ void CheckBody(const std::string& name, const Connectivity& connectivity, const 
   for (int f = 0; f < connectivity.NumTriangles() && extent > 0; ++f) {
     const auto triangle = connectivity.Triangles().col(f);
     const Eigen::Vector3d a = shape.col(triangle(0));
-    const Eigen::Vector3d p = (shape.col(triangle(1)) - a) / extent;
-    const Eigen::Vector3d q = (shape.col(triangle(2)) - a) / extent;
-    area += p.cross(q).norm();
+    area += TriangleArea(Eigen::Vector3d::Zero(), (shape.col(triangle(1)) - a) / extent,
+                         (shape.col(triangle(2)) - a) / extent);
   }
   if (!(area > 0)) throw MeshError("the " + name + " has no area");
 }

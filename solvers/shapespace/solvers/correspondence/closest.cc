@@ -1,13 +1,10 @@
 #include <shapespace/solvers/correspondence/closest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
-#include <Eigen/Geometry>
-
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace::internal {
 namespace {
@@ -23,9 +20,7 @@ Eigen::VectorXd VertexAreas(const Connectivity& connectivity, const Shape& shape
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(shape.cols());
   for (int f = 0; f < connectivity.NumTriangles(); ++f) {
     const auto triangle = connectivity.Triangles().col(f);
-    const Eigen::Vector3d a = shape.col(triangle(0));
-    const Eigen::Vector3d p = shape.col(triangle(1)) - a, q = shape.col(triangle(2)) - a;
-    const double area = p.cross(q).norm();
+    const double area = TriangleArea(shape, triangle);
     for (int k = 0; k < 3; ++k) areas(triangle(k)) += area;
   }
   return areas / areas.sum();
@@ -33,27 +28,16 @@ Eigen::VectorXd VertexAreas(const Connectivity& connectivity, const Shape& shape
 
 Border BorderOf(const Connectivity& connectivity) {
   const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
-  std::vector<std::tuple<int, int, int, int>> sides;  // edge, triangle, opposite corner
-  for (int f = 0; f < triangles.cols(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(triangles((k + 1) % 3, f), triangles((k + 2) % 3, f));
-      sides.emplace_back(a, b, f, k);
-    }
-  }
-  std::sort(sides.begin(), sides.end());
   Border border;
   border.sides.assign(triangles.cols(), {false, false, false});
   border.vertices.assign(connectivity.NumVertices(), false);
-  const auto same_edge = [&](size_t i, size_t j) {
-    return std::get<0>(sides[i]) == std::get<0>(sides[j]) &&
-           std::get<1>(sides[i]) == std::get<1>(sides[j]);
-  };
-  for (size_t i = 0; i < sides.size(); ++i) {
-    const bool shared =
-        (i > 0 && same_edge(i - 1, i)) || (i + 1 < sides.size() && same_edge(i, i + 1));
-    if (shared) continue;
-    const auto [a, b, f, k] = sides[i];
-    border.sides[f][k] = true;
+  for (int e = 0; e < connectivity.NumTriangleEdges(); ++e) {
+    const IndexLists::Row around = connectivity.TrianglesOfEdges()[e];
+    if (around.size() > 1) continue;
+    const int a = connectivity.Edges()(0, e), b = connectivity.Edges()(1, e), f = around[0];
+    for (int k = 0; k < 3; ++k) {
+      if (triangles(k, f) != a && triangles(k, f) != b) border.sides[f][k] = true;
+    }
     border.vertices[a] = border.vertices[b] = true;
   }
   return border;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -26,19 +25,6 @@ struct Element {
   std::array<Eigen::Vector3d, 4> gradients;
   double quality;
 };
-
-// (edge, triangle), the edge's smaller vertex first.
-std::vector<std::tuple<int, int, int>> Sides(const Eigen::Matrix3Xi& triangles) {
-  std::vector<std::tuple<int, int, int>> sides;
-  for (int f = 0; f < triangles.cols(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(triangles(k, f), triangles((k + 1) % 3, f));
-      sides.emplace_back(a, b, f);
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  return sides;
-}
 
 void AddSquare(const std::vector<int>& unknowns, const std::vector<Eigen::Vector3d>& gradients,
                double weight, std::vector<Eigen::Triplet<double>>* entries) {
@@ -89,11 +75,7 @@ Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
     }
     entries.emplace_back(num_vertices + f, num_vertices + f, kPlace);
   }
-  const auto sides = Sides(triangles);
-  for (size_t i = 1; i < sides.size(); ++i) {
-    const auto [a, b, f] = sides[i - 1];
-    const auto [c, d, g] = sides[i];
-    if (a != c || b != d) continue;
+  const auto add_difference = [&](int f, int g) {
     // T_f - T_g, as a function of the six unknowns of both.
     std::vector<int> unknowns(elements[f].unknowns.begin(), elements[f].unknowns.end());
     std::vector<Eigen::Vector3d> gradients(elements[f].gradients.begin(),
@@ -109,6 +91,10 @@ Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
       }
     }
     AddSquare(unknowns, gradients, std::min(elements[f].quality, elements[g].quality), &entries);
+  };
+  for (int e = 0; e < connectivity.NumTriangleEdges(); ++e) {
+    const IndexLists::Row around = connectivity.TrianglesOfEdges()[e];
+    for (int i = 1; i < around.size(); ++i) add_difference(around[i - 1], around[i]);
   }
   Eigen::SparseMatrix<double> matrix(num_unknowns, num_unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());

@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -25,23 +24,16 @@ void FindNearest(const Eigen::MatrixXf& distances, std::vector<int>* nearest,
 class Graph {
  public:
   Graph(const Connectivity& connectivity, const Shape& shape)
-      : begin_(connectivity.NumVertices() + 1, 0) {
+      : connectivity_(connectivity), lengths_(connectivity.NumEdges()) {
     const Eigen::Matrix2Xi& edges = connectivity.Edges();
-    for (const int v : edges.reshaped()) ++begin_[v + 1];
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    neighbours_.resize(begin_.back());
-    std::vector<int> end(begin_.begin(), begin_.end() - 1);
     for (int e = 0; e < edges.cols(); ++e) {
-      const int a = edges(0, e), b = edges(1, e);
-      const auto length = static_cast<float>((shape.col(a) - shape.col(b)).norm());
-      neighbours_[end[a]++] = {b, length};
-      neighbours_[end[b]++] = {a, length};
+      lengths_[e] = static_cast<float>((shape.col(edges(0, e)) - shape.col(edges(1, e))).norm());
     }
   }
 
   // The distance of each vertex from the nearest of `sources`; `nearest` becomes that source.
   Eigen::VectorXf Dijkstra(const std::vector<int>& sources, std::vector<int>* nearest) const {
-    const auto num_vertices = static_cast<Eigen::Index>(begin_.size()) - 1;
+    const auto num_vertices = connectivity_.NumVertices();
     Eigen::VectorXf distance =
         Eigen::VectorXf::Constant(num_vertices, std::numeric_limits<float>::infinity());
     nearest->assign(num_vertices, -1);
@@ -56,10 +48,10 @@ class Graph {
       const auto [so_far, v] = queue.top();
       queue.pop();
       if (so_far > distance(v)) continue;
-      for (int i = begin_[v]; i < begin_[v + 1]; ++i) {
-        const auto& [to, length] = neighbours_[i];
-        if (so_far + length >= distance(to)) continue;
-        distance(to) = so_far + length;
+      for (const int e : connectivity_.EdgesOfVertices()[v]) {
+        const int to = connectivity_.OtherEnd(e, v);
+        if (so_far + lengths_[e] >= distance(to)) continue;
+        distance(to) = so_far + lengths_[e];
         (*nearest)[to] = (*nearest)[v];
         queue.emplace(distance(to), to);
       }
@@ -68,8 +60,8 @@ class Graph {
   }
 
  private:
-  std::vector<int> begin_;  // the neighbours of vertex v begin at begin_[v]
-  std::vector<std::pair<int, float>> neighbours_;
+  const Connectivity& connectivity_;
+  std::vector<float> lengths_;
 };
 
 }  // namespace

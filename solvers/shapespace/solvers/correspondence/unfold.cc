@@ -1,12 +1,12 @@
 #include <shapespace/solvers/correspondence/unfold.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <utility>
-
-#include <Eigen/Geometry>
+#include <vector>
 
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace::internal {
 namespace {
@@ -19,21 +19,30 @@ constexpr int kPasses = 3;
 
 // Neighbours of each vertex, with M. Floater's mean value weights ("Mean value coordinates", 2003).
 // They are positive, so that no folds arise, and approximately preserve the triangles' shapes.
-struct Neighbour {
-  int vertex;
-  double weight;
-};
-using Neighbours = std::vector<std::vector<Neighbour>>;
+class Neighbours {
+ public:
+  Neighbours(const Connectivity& connectivity, const Shape& rest);
 
-Neighbours NeighboursOf(const Connectivity& connectivity, const Shape& rest) {
-  Neighbours neighbours(connectivity.NumVertices());
-  const auto add = [&](int from, int to, double weight) {
-    for (Neighbour& neighbour : neighbours[from]) {
-      if (neighbour.vertex != to) continue;
-      neighbour.weight += weight;
-      return;
+  // Calls use(neighbour, weight) for each.
+  template <typename Use>
+  void ForEach(int v, const Use& use) const {
+    for (const int e : connectivity_.EdgesOfVertices()[v]) {
+      const double weight = weights_[e][v == connectivity_.Edges()(0, e) ? 0 : 1];
+      if (weight > 0) use(connectivity_.OtherEnd(e, v), weight);
     }
-    neighbours[from].push_back({to, weight});
+  }
+
+ private:
+  const Connectivity& connectivity_;
+  std::vector<std::array<double, 2>> weights_;  // per edge: for its first vertex and its second
+};
+
+Neighbours::Neighbours(const Connectivity& connectivity, const Shape& rest)
+    : connectivity_(connectivity), weights_(connectivity.NumEdges(), {0, 0}) {
+  const auto add = [&](int from, int to, double weight) {
+    for (const int e : connectivity.EdgesOfVertices()[from]) {
+      if (connectivity.OtherEnd(e, from) == to) weights_[e][from < to ? 0 : 1] += weight;
+    }
   };
   for (const Eigen::Vector3i triangle : connectivity.Triangles().colwise()) {
     for (int k = 0; k < 3; ++k) {
@@ -49,7 +58,6 @@ Neighbours NeighboursOf(const Connectivity& connectivity, const Shape& rest) {
       add(v, b, tangent / q.norm());
     }
   }
-  return neighbours;
 }
 
 // Labels the connected patches of `inside` from 0; -1 outside.
@@ -65,11 +73,11 @@ std::vector<int> PatchesOf(const std::vector<bool>& inside, const Neighbours& ne
     while (!open.empty()) {
       const int v = open.back();
       open.pop_back();
-      for (const auto& [w, weight] : neighbours[v]) {
-        if (!inside[w] || patch[w] >= 0) continue;
+      neighbours.ForEach(v, [&](int w, double) {
+        if (!inside[w] || patch[w] >= 0) return;
         patch[w] = *count;
         open.push_back(w);
-      }
+      });
     }
     ++*count;
   }
@@ -111,10 +119,8 @@ std::vector<Foot> MapAnew(const Level& level, const Shape& shape, const Target& 
                           std::vector<Foot> feet) {
   const Shape normals = VertexNormals(*level.connectivity, shape);
   ParallelFor(static_cast<int>(shape.cols()), [&](int v) {
-    const bool is_affected = moved[v] || std::any_of(neighbours[v].begin(), neighbours[v].end(),
-                                                     [&](const Neighbour& neighbour) {
-                                                       return moved[neighbour.vertex];
-                                                     });
+    bool is_affected = moved[v];
+    neighbours.ForEach(v, [&](int w, double) { is_affected = is_affected || moved[w]; });
     if (is_affected) feet[v] = MapVertex(level, shape, normals, target, v);
   });
   return feet;
@@ -129,16 +135,11 @@ std::vector<bool> TurnedTriangles(const Level& level, const Shape& shape, const 
   const Shape& place = target.GetShape();
   std::vector<bool> turned(triangles.cols());
   for (int f = 0; f < triangles.cols(); ++f) {
-    const Eigen::Vector3d a = shape.col(triangles(0, f));
-    const Eigen::Vector3d p = shape.col(triangles(1, f)) - a, q = shape.col(triangles(2, f)) - a;
     Eigen::Vector3d there = Eigen::Vector3d::Zero();
     for (int k = 0; k < 3; ++k) {
-      const auto other = others.col(feet[triangles(k, f)].triangle);
-      const Eigen::Vector3d b = place.col(other(0));
-      const Eigen::Vector3d r = place.col(other(1)) - b, s = place.col(other(2)) - b;
-      there += r.cross(s);
+      there += AreaNormal(place, others.col(feet[triangles(k, f)].triangle));
     }
-    turned[f] = p.cross(q).dot(there) < 0;
+    turned[f] = AreaNormal(shape, triangles.col(f)).dot(there) < 0;
   }
   return turned;
 }
@@ -154,7 +155,7 @@ std::vector<Foot> MapVertices(const Level& level, const Shape& shape, const Targ
 void Unfold(const Level& level, const Shape& rest, const Target& target,
             const std::vector<int>& held, Shape* shape) {
   const Eigen::Matrix3Xi& triangles = level.connectivity->Triangles();
-  const Neighbours neighbours = NeighboursOf(*level.connectivity, rest);
+  const Neighbours neighbours(*level.connectivity, rest);
   std::vector<bool> is_held(shape->cols(), false);
   for (const int v : held) is_held[v] = true;
   std::vector<Foot> feet = MapVertices(level, *shape, target);
@@ -171,10 +172,8 @@ void Unfold(const Level& level, const Shape& rest, const Target& target,
       const std::vector<bool> before = inside;
       for (size_t v = 0; v < before.size(); ++v) {
         if (!before[v]) continue;
-        for (const auto& neighbour : neighbours[v]) {
-          const int w = neighbour.vertex;
-          inside[w] = inside[w] || !is_held[w];
-        }
+        neighbours.ForEach(static_cast<int>(v),
+                           [&](int w, double) { inside[w] = inside[w] || !is_held[w]; });
       }
     }
     int num_patches = 0;
@@ -190,11 +189,11 @@ void Unfold(const Level& level, const Shape& rest, const Target& target,
         if (!inside[v]) continue;
         Eigen::Vector3d sum = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
         double weights = 0;
-        for (const auto& [w, weight] : neighbours[v]) {
+        neighbours.ForEach(v, [&](int w, double weight) {
           sum += weight * flat.col(w);
           normal += weight * facing.col(w);
           weights += weight;
-        }
+        });
         const Eigen::Vector3d mean = sum / weights;
         const Foot foot = target.Nearest(mean, normal.stableNormalized(), level.vertices[v]);
         if (foot.triangle < 0) continue;

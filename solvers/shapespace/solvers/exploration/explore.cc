@@ -239,7 +239,7 @@ ExploreResult Explore(const std::shared_ptr<const Connectivity>& connectivity,
   if (names.size() != poses.size()) throw InvalidOptions("names: must be one for each pose");
   Crew alone;
   if (crew == nullptr) crew = &alone;
-  const Stopwatch total;
+  const internal::Stopwatch total;
   ExploreResult result;
   Space& space = result.space;
   ExploreSummary& summary = result.summary;
@@ -251,12 +251,12 @@ ExploreResult Explore(const std::shared_ptr<const Connectivity>& connectivity,
   summary.distance_vertices = static_cast<int>(measuring.poses.front().cols());
   summary.distance_seconds = total.Seconds();
 
-  const Stopwatch embedding;
+  const internal::Stopwatch embedding;
   Spread(options, &space, &summary);
   summary.embedding_seconds = embedding.Seconds();
 
   // Midpoints are solved on the mesh itself.
-  const Stopwatch refining;
+  const internal::Stopwatch refining;
   if (!measuring.vertices.empty()) {
     Add(*measuring.solver, &summary);
     ExploreOptions fine = options;

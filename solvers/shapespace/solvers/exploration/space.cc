@@ -75,7 +75,7 @@ PlaneLocation Space::Locate(const Eigen::Vector2d& point) const {
   // On a line, points count as inside with the same tolerance as collinear points of a
   // triangulation.
   const double extent = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
-  best.inside = nearest <= (triangles.cols() > 0 ? kRounding : kFlat) * extent;
+  best.inside = nearest <= (triangles.cols() > 0 ? kRounding : kFlatSpread) * extent;
   return best;
 }
 
@@ -119,7 +119,7 @@ void Space::Validate() const {
                       static_cast<int>(metric->connectivity->Corners().size()));
 }
 
-Walk Along(const Space& space, const std::vector<Eigen::Vector2d>& polyline, int frames) {
+Walk WalkAlong(const Space& space, const std::vector<Eigen::Vector2d>& polyline, int frames) {
   if (polyline.empty()) throw InvalidOptions("points: the curve has none");
   if (frames < 1) throw InvalidOptions("frames: must be 1 or more");
   std::vector<double> length = {0};  // cumulative, at each point

@@ -83,7 +83,7 @@ struct Walk {
 
 /// The shapes along a polyline of the plane, at `frames` points evenly spaced along it.
 /// \throw InvalidOptions if there is no point, one is not finite, or frames is less than 1.
-Walk Along(const Space& space, const std::vector<Eigen::Vector2d>& polyline, int frames);
+Walk WalkAlong(const Space& space, const std::vector<Eigen::Vector2d>& polyline, int frames);
 
 }  // namespace shapespace
 

@@ -71,7 +71,7 @@ Triangulation Triangulate(const Eigen::Matrix2Xd& points) {
   const Eigen::RowVectorXd along = axes.eigenvectors().col(1).transpose() * centred;
   const Eigen::RowVectorXd across = axes.eigenvectors().col(0).transpose() * centred;
   const auto spread = [](const Eigen::RowVectorXd& x) { return x.maxCoeff() - x.minCoeff(); };
-  if (spread(across) >= kFlat * spread(along)) {
+  if (spread(across) >= kFlatSpread * spread(along)) {
     result.triangles = Delaunay(points, kept);
     return result;
   }

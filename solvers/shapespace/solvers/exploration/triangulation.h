@@ -17,7 +17,7 @@ struct Triangulation {
 /// Points whose spread across a line is less than this share of that along it are treated as
 /// collinear. This is the accuracy with which lengths of geodesics determine the position of a
 /// shape between two others (docs/mathematics.md, section 13).
-inline constexpr double kFlat = 1e-2;
+inline constexpr double kFlatSpread = 1e-2;
 
 /// The Delaunay triangulation of points of the plane, by Qhull.
 /// \throw InvalidOptions if a point is not finite, or if fewer than two differ; SolverError if

@@ -20,25 +20,25 @@ constexpr int kTrialVertices = 1000;
 // that.
 constexpr double kEnough = 1.0 / 2048;
 
-const char* Name(Start start) {
+const char* Name(GeodesicStart start) {
   switch (start) {
-    case Start::kBlend:
+    case GeodesicStart::kBlend:
       return "blend";
-    case Start::kFirst:
+    case GeodesicStart::kFirst:
       return "first";
-    case Start::kLast:
+    case GeodesicStart::kLast:
       return "last";
-    case Start::kRigid:
+    case GeodesicStart::kRigid:
       return "rigid";
-    case Start::kBest:
+    case GeodesicStart::kBest:
       break;
   }
   return "best";
 }
 
-std::vector<Start> Starts(Start start) {
-  if (start != Start::kBest) return {start};
-  return {Start::kBlend, Start::kFirst, Start::kLast};
+std::vector<GeodesicStart> Starts(GeodesicStart start) {
+  if (start != GeodesicStart::kBest) return {start};
+  return {GeodesicStart::kBlend, GeodesicStart::kFirst, GeodesicStart::kLast};
 }
 
 int NumVertices(const Resolution& resolution) {
@@ -65,7 +65,7 @@ std::vector<double> UniformTimes(int inner) {
 }  // namespace
 
 void Plan(const std::vector<ScheduleStep>& schedule, const std::vector<Resolution>& resolutions,
-          Start start, Workload* workload) {
+          GeodesicStart start, Workload* workload) {
   const size_t trial = TrialSteps(schedule, resolutions), starts = Starts(start).size();
   for (size_t i = 0; i < schedule.size(); ++i) {
     for (size_t k = 0; k < (i < trial ? starts : 1); ++k) {
@@ -92,7 +92,7 @@ void Piece::Run(const std::vector<ScheduleStep>& schedule) {
   }
   const size_t trial = TrialSteps(schedule, resolutions_);
   Attempt best;
-  for (Start start : Starts(options_.start)) {
+  for (GeodesicStart start : Starts(options_.start)) {
     Attempt attempt = TakeSteps(schedule, 0, trial, {start, ends});
     const bool better =
         best.known.empty() || (attempt.energy < best.energy && !workload_.Stopped());
@@ -116,7 +116,7 @@ Piece::Attempt Piece::TakeSteps(const std::vector<ScheduleStep>& schedule, size_
   return attempt;
 }
 
-void Piece::TakeStep(const ScheduleStep& step, Start start, bool last) {
+void Piece::TakeStep(const ScheduleStep& step, GeodesicStart start, bool last) {
   Known& known = known_[step.level];
   const Known* const coarser = step.level > 0 ? &known_[step.level - 1] : nullptr;
   const int before = static_cast<int>(known.shapes.size()) - 2;
@@ -145,15 +145,15 @@ void Piece::TakeStep(const ScheduleStep& step, Start start, bool last) {
   known.shapes = std::move(shapes);
 }
 
-std::vector<Shape> Piece::OneInnerShape(Start start, int level) {
+std::vector<Shape> Piece::OneInnerShape(GeodesicStart start, int level) {
   const std::vector<Shape>& ends = known_[level].shapes;
   const Shape blend = 0.5 * (ends[0] + ends[1]);
   switch (start) {
-    case Start::kFirst:
+    case GeodesicStart::kFirst:
       return {ends[0], ends[0], ends[1]};
-    case Start::kLast:
+    case GeodesicStart::kLast:
       return {ends[0], ends[1], ends[1]};
-    case Start::kRigid: {
+    case GeodesicStart::kRigid: {
       // The paper's advice for degenerate blends: a first solve that is as rigid as possible.
       Resolution rigid(FreezeMetric(MetricOptions::Rigid(),
                                     resolutions_[level].GetMetric()->connectivity, ends, 1),
@@ -167,8 +167,8 @@ std::vector<Shape> Piece::OneInnerShape(Start start, int level) {
       summary_.levels.push_back(row);
       return shapes;
     }
-    case Start::kBlend:
-    case Start::kBest:
+    case GeodesicStart::kBlend:
+    case GeodesicStart::kBest:
       break;
   }
   return {ends[0], blend, ends[1]};

@@ -12,7 +12,7 @@ namespace shapespace::internal {
 
 /// Adds all steps that a `Piece` will take to `workload`.
 void Plan(const std::vector<ScheduleStep>& schedule, const std::vector<Resolution>& resolutions,
-          Start start, Workload* workload);
+          GeodesicStart start, Workload* workload);
 
 /// The solve between two neighbouring poses, coarse to fine in space and time.
 class Piece {
@@ -39,7 +39,7 @@ class Piece {
 
   // The results on all levels after some steps of the schedule, from one start.
   struct Attempt {
-    Start start = Start::kBlend;
+    GeodesicStart start = GeodesicStart::kBlend;
     std::vector<Known> known = {};
     double energy = 0;              // scaled, of the last step
     std::vector<size_t> rows = {};  // in the summary's table
@@ -47,8 +47,8 @@ class Piece {
 
   Attempt TakeSteps(const std::vector<ScheduleStep>& schedule, size_t begin, size_t end,
                     Attempt attempt);
-  void TakeStep(const ScheduleStep& step, Start start, bool last);
-  std::vector<Shape> OneInnerShape(Start start, int level);
+  void TakeStep(const ScheduleStep& step, GeodesicStart start, bool last);
+  std::vector<Shape> OneInnerShape(GeodesicStart start, int level);
   // The coarser level's shapes with detail from this level's earlier shapes. The detail at a time
   // is taken from the earlier shapes around it, each relative to the coarse shape of its own time,
   // which is correct also if parts turn far between these times.

@@ -77,20 +77,20 @@ GeodesicSummary::Level Resolution::Relax(int piece, double enough, const Geodesi
   energy.Load(*shapes, unknowns.data());
   const double count = 3.0 * row.vertices * inner;
   minimise.rank = HistoryRank(count);
-  Solver solver = options.solver;
-  if (solver == Solver::kAutomatic) {
-    solver = count <= kTrustRegionUnknowns ? Solver::kTrustRegion
-             : count < kThreadedUnknowns   ? Solver::kLbfgs
-                                           : Solver::kThreadedLbfgs;
+  GeodesicSolver solver = options.solver;
+  if (solver == GeodesicSolver::kAutomatic) {
+    solver = count <= kTrustRegionUnknowns ? GeodesicSolver::kTrustRegion
+             : count < kThreadedUnknowns   ? GeodesicSolver::kLbfgs
+                                           : GeodesicSolver::kThreadedLbfgs;
   }
   MinimiseResult result;
-  if (solver == Solver::kLbfgs) {
+  if (solver == GeodesicSolver::kLbfgs) {
     row.solver = "L-BFGS";
     ChangeOfVariables variables(Factor(&factor_, piece, inner), energy);
     result = MinimiseLbfgs(ObjectiveOf(&energy), &variables, minimise, &unknowns);
   } else {
     Preconditioner preconditioner(Factor(&single_factor_, piece, inner), energy);
-    if (solver == Solver::kThreadedLbfgs) {
+    if (solver == GeodesicSolver::kThreadedLbfgs) {
       row.solver = "own L-BFGS";
       result = MinimiseThreadedLbfgs(&energy, &preconditioner, minimise, &unknowns);
     } else {

@@ -20,11 +20,11 @@ constexpr int kShapesOnAllLevels = 7;
 
 }  // namespace
 
-std::vector<ScheduleStep> MakeSchedule(Schedule schedule, int levels, int shapes) {
+std::vector<ScheduleStep> MakeSchedule(GeodesicSchedule schedule, int levels, int shapes) {
   const std::vector<int> times = TimeLevels(shapes);
   const int finest = levels - 1;
   std::vector<ScheduleStep> steps;
-  if (schedule == Schedule::kPaper) {
+  if (schedule == GeodesicSchedule::kPaper) {
     size_t time = 0;
     int level = 0;
     steps.push_back({0, times[0]});
@@ -34,7 +34,7 @@ std::vector<ScheduleStep> MakeSchedule(Schedule schedule, int levels, int shapes
     }
     return steps;
   }
-  const int coarsest = schedule == Schedule::kFlat ? finest : 0;
+  const int coarsest = schedule == GeodesicSchedule::kFlat ? finest : 0;
   for (size_t time = 0; time < times.size(); ++time) {
     const bool all_levels = times[time] <= kShapesOnAllLevels;
     for (int level = all_levels ? coarsest : finest; level <= finest; ++level) {

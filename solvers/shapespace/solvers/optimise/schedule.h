@@ -16,7 +16,7 @@ struct ScheduleStep {
 /// The steps of `schedule` on a hierarchy of `levels` levels with `shapes` inner shapes at the end.
 /// The first step has one inner shape on the coarsest level of the schedule, the last step all
 /// shapes on the finest; each step has the level or the number of shapes of an earlier one.
-std::vector<ScheduleStep> MakeSchedule(Schedule schedule, int levels, int shapes);
+std::vector<ScheduleStep> MakeSchedule(GeodesicSchedule schedule, int levels, int shapes);
 
 }  // namespace shapespace::internal
 

@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_MESH_INTERSECTIONS_H_
-#define SHAPESPACE_MESH_INTERSECTIONS_H_
+#ifndef SHAPESPACE_ANALYSIS_INTERSECTIONS_H_
+#define SHAPESPACE_ANALYSIS_INTERSECTIONS_H_
 
 #include <cstdint>
 #include <vector>
@@ -26,4 +26,4 @@ std::vector<std::int64_t> CountIntersections(const Connectivity& connectivity,
 
 }  // namespace shapespace
 
-#endif  // SHAPESPACE_MESH_INTERSECTIONS_H_
+#endif  // SHAPESPACE_ANALYSIS_INTERSECTIONS_H_

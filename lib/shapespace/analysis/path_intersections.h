@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_PATH_INTERSECTIONS_H_
-#define SHAPESPACE_PATH_INTERSECTIONS_H_
+#ifndef SHAPESPACE_ANALYSIS_PATH_INTERSECTIONS_H_
+#define SHAPESPACE_ANALYSIS_PATH_INTERSECTIONS_H_
 
 #include <cstdint>
 #include <vector>
@@ -25,4 +25,4 @@ PathIntersections MeasureIntersections(const Path& path);
 
 }  // namespace shapespace
 
-#endif  // SHAPESPACE_PATH_INTERSECTIONS_H_
+#endif  // SHAPESPACE_ANALYSIS_PATH_INTERSECTIONS_H_

@@ -1,4 +1,4 @@
-#include <shapespace/mesh/intersections.h>
+#include <shapespace/analysis/intersections.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +15,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/fork_join.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/geometry.h>
 
 namespace shapespace {
 namespace {
@@ -59,8 +60,8 @@ Span Cut(const Corners& triangle, const std::array<double, 3>& heights,
 // T. Moeller, "A fast triangle-triangle intersection test", Journal of Graphics Tools 1997: both
 // triangles cut the line common to their planes, and the cuts overlap.
 bool Cross(const Corners& a, const Corners& b, double touching) {
-  const Eigen::Vector3d normal_a = (a[1] - a[0]).cross(a[2] - a[0]).stableNormalized();
-  const Eigen::Vector3d normal_b = (b[1] - b[0]).cross(b[2] - b[0]).stableNormalized();
+  const Eigen::Vector3d normal_a = internal::UnitNormal(a[0], a[1], a[2]);
+  const Eigen::Vector3d normal_b = internal::UnitNormal(b[0], b[1], b[2]);
   std::array<double, 3> heights_a, heights_b;
   if (!Heights(a, b, normal_b, touching, &heights_a) ||
       !Heights(b, a, normal_a, touching, &heights_b)) {
@@ -77,7 +78,7 @@ struct Triangles {
   const Eigen::Matrix3Xi* indices;
   Shape vertices;  // within the unit cube about the origin, where floats are good for boxes
   std::atomic<std::int64_t> count{0};
-  ForkJoin callbacks;
+  internal::ForkJoin callbacks;
 
   Corners At(unsigned f) const {
     const auto corner = indices->col(f);
@@ -96,7 +97,7 @@ bool BoxesApart(const Corners& a, const Corners& b) {
 
 void Bounds(const RTCBoundsFunctionArguments* arguments) {
   const auto* triangles = static_cast<const Triangles*>(arguments->geometryUserPtr);
-  const ForkJoin::Piece piece(triangles->callbacks);
+  const internal::ForkJoin::Piece piece(triangles->callbacks);
   const Corners corners = triangles->At(arguments->primID);
   const Eigen::Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
   const Eigen::Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
@@ -114,7 +115,7 @@ void Bounds(const RTCBoundsFunctionArguments* arguments) {
 // Called on several threads at once. Of a scene with itself Embree finds every pair both ways.
 void OnPairs(void* user, RTCCollision* pairs, unsigned num_pairs) {
   auto* triangles = static_cast<Triangles*>(user);
-  const ForkJoin::Piece piece(triangles->callbacks);
+  const internal::ForkJoin::Piece piece(triangles->callbacks);
   std::int64_t found = 0;
   for (unsigned i = 0; i < num_pairs; ++i) {
     const unsigned first = pairs[i].primID0, second = pairs[i].primID1;

@@ -1,8 +1,8 @@
-#include <shapespace/path/intersections.h>
+#include <shapespace/analysis/path_intersections.h>
 
 #include <algorithm>
 
-#include <shapespace/mesh/intersections.h>
+#include <shapespace/analysis/intersections.h>
 
 namespace shapespace {
 

@@ -1,16 +1,18 @@
-#include <shapespace/path/quality.h>
+#include <shapespace/analysis/quality.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/path/energy.h>
 
 namespace shapespace {
 namespace {
 
-constexpr double kDegrees = 180 / M_PI;
+using internal::kDegrees;
+
 constexpr double kShortestEdge = 1e-3;
 // Pieces slower than this, in the metric's pure numbers, are at rest up to rounding.
 constexpr double kNoSpeed = 1e-9;

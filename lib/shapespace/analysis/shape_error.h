@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_PATH_SHAPE_ERROR_H_
-#define SHAPESPACE_PATH_SHAPE_ERROR_H_
+#ifndef SHAPESPACE_ANALYSIS_SHAPE_ERROR_H_
+#define SHAPESPACE_ANALYSIS_SHAPE_ERROR_H_
 
 #include <memory>
 
@@ -26,4 +26,4 @@ ShapeError CompareShapes(const std::shared_ptr<const Metric>& metric, const Shap
 
 }  // namespace shapespace
 
-#endif  // SHAPESPACE_PATH_SHAPE_ERROR_H_
+#endif  // SHAPESPACE_ANALYSIS_SHAPE_ERROR_H_

@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_PATH_QUALITY_H_
-#define SHAPESPACE_PATH_QUALITY_H_
+#ifndef SHAPESPACE_ANALYSIS_QUALITY_H_
+#define SHAPESPACE_ANALYSIS_QUALITY_H_
 
 #include <vector>
 
@@ -61,4 +61,4 @@ inline Eigen::VectorXd EdgeDeviation(const Path& path, int i) {
 
 }  // namespace shapespace
 
-#endif  // SHAPESPACE_PATH_QUALITY_H_
+#endif  // SHAPESPACE_ANALYSIS_QUALITY_H_

@@ -1,4 +1,4 @@
-#include <shapespace/mesh/intersections.h>
+#include <shapespace/analysis/intersections.h>
 
 #include <algorithm>
 #include <cmath>

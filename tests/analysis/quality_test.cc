@@ -1,4 +1,4 @@
-#include <shapespace/path/quality.h>
+#include <shapespace/analysis/quality.h>
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
-#include <shapespace/path/intersections.h>
+#include <shapespace/analysis/path_intersections.h>
 
 #include <gtest/gtest.h>
 
-#include <shapespace/mesh/intersections.h>
+#include <shapespace/analysis/intersections.h>
 
 #include "support/path_of.h"
 

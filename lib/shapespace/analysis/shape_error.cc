@@ -1,10 +1,11 @@
-#include <shapespace/path/shape_error.h>
+#include <shapespace/analysis/shape_error.h>
 
 #include <cmath>
 #include <limits>
 
+#include <shapespace/analysis/quality.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/mesh/volume.h>
-#include <shapespace/path/quality.h>
 
 namespace shapespace {
 
@@ -30,7 +31,7 @@ ShapeError CompareShapes(const std::shared_ptr<const Metric>& metric, const Shap
   const Eigen::VectorXd before = DihedralAngles(connectivity, reference);
   const Eigen::VectorXd after = DihedralAngles(connectivity, shape);
   for (int h = 0; h < before.size(); ++h) {
-    if (std::abs(WrapAngle(after(h) - before(h))) > M_PI / 2) ++error.inverted_hinges;
+    if (std::abs(WrapAngle(after(h) - before(h))) > internal::kPi / 2) ++error.inverted_hinges;
   }
   return error;
 }

@@ -1,4 +1,4 @@
-#include <shapespace/path/rigid_parts.h>
+#include <shapespace/analysis/rigid_parts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include <shapespace/analysis/deviation_sites.h>
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/quadruped.h>

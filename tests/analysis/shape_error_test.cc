@@ -1,4 +1,4 @@
-#include <shapespace/path/shape_error.h>
+#include <shapespace/analysis/shape_error.h>
 
 #include <cmath>
 
