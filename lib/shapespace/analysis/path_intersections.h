@@ -9,7 +9,7 @@
 namespace shapespace {
 
 /// Self-intersections of the body, which no term of a metric prevents, a limitation of the paper
-/// too. Numbers are pairs of triangles as in mesh/intersections.h.
+/// too. Numbers are pairs of triangles as in analysis/intersections.h.
 struct PathIntersections {
   std::vector<std::int64_t> pairs;  ///< per shape
   std::int64_t poses_max = 0;       ///< maximum over the given shapes
