@@ -71,7 +71,7 @@ void Evaluate(benchmark::State& state, double bending, Discretization discretiza
   energy.Load(problem.shapes, unknowns.data());
   double seconds = 0;
   for (auto _ : state) {
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     benchmark::DoNotOptimize(energy.Evaluate(unknowns.data(), gradient.data()));
     seconds += stopwatch.Seconds() / static_cast<double>(state.max_iterations);
   }
@@ -112,7 +112,7 @@ void CompareWithEnergy(const Apply& apply, PathEnergy* energy, std::vector<doubl
       MedianSeconds([&] { energy->Evaluate(unknowns->data(), gradient.data()); });
   double seconds = 0;
   for (auto _ : *state) {
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     apply(gradient.data());
     seconds += stopwatch.Seconds() / static_cast<double>(state->max_iterations);
   }

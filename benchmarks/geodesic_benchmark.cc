@@ -34,7 +34,7 @@ void Solve(benchmark::State& state, const std::shared_ptr<const Connectivity>& c
   double seconds = 0;
   ResetPeakMemory();
   for (auto _ : state) {
-    const Stopwatch stopwatch;
+    const internal::Stopwatch stopwatch;
     result = Interpolate(connectivity, poses, options);
     seconds += stopwatch.Seconds() / state.max_iterations;
   }

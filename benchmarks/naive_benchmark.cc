@@ -40,7 +40,7 @@ class Watch final : public ceres::IterationCallback {
 
  private:
   const double goal_;
-  const Stopwatch stopwatch_;
+  const internal::Stopwatch stopwatch_;
   double energy_ = 0, seconds_ = 0;
 };
 
