@@ -1,4 +1,4 @@
-// A mesh of OpenMesh's becomes poses, and a pose a mesh of OpenMesh's again.
+// Converts an OpenMesh mesh to poses, and a pose back to an OpenMesh mesh.
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 
 #include <shapespace/mesh/openmesh.h>

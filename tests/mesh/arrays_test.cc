@@ -51,7 +51,7 @@ TEST(ArraysTest, AnArrayInMemoryIsReadInPlaceOrder) {
   const Soup soup = MakeSoup(vertices, faces, Layout::kRows);
   EXPECT_EQ(soup.vertices.col(1), Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(soup.corners, (std::vector<int>{2, 0, 1}));
-  // The same square matrices say another mesh in the other layout.
+  // The same square matrices are another mesh in the other layout.
   EXPECT_EQ(MakeSoup(vertices, faces.transpose(), Layout::kColumns).vertices.col(1),
             Eigen::Vector3d(2, 5, 8));
 }

@@ -88,7 +88,7 @@ TEST(CorrespondenceTest, RenumberedVerticesAreRecognised) {
   const Soup torus = Named(Torus(9, 7), "a.obj", 10);
   const Soup renumbered = Renumbered(torus, Shuffled(63, 0, 63));
   ExpectOnly(torus, renumbered, "polygons-differ", Severity::kFatal,
-             {"only the vertices in another", "keep vertex order"});
+             {"but the vertices are not", "keep vertex order"});
   Soup both = renumbered;
   std::reverse(both.corners.begin(), both.corners.end());
   ExpectOnly(torus, both, "polygons-differ", Severity::kFatal,

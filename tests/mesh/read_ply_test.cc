@@ -194,7 +194,7 @@ TEST_F(ReadPlyTest, RefusesBadHeaders) {
   ExpectRefused("ply\nelement vertex 1\nproperty float x\nend_header\n0\n", {"no 'format'"});
   refused("element vertex many\n", {"pose.ply:3: element 'vertex': 'many' is not a count"});
   refused("element vertex -1\n", {"pose.ply:3: element 'vertex': '-1' is not a count"});
-  refused("property float x\n", {"pose.ply:3: a property stands before"});
+  refused("property float x\n", {"pose.ply:3: a property precedes"});
   refused("element vertex 1\nproperty quad x\n", {"pose.ply:4: 'quad' is not a type"});
   refused("element face 1\nproperty list float int i\n",
           {"pose.ply:4: 'float' is not a type that"});

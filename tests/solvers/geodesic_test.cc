@@ -520,7 +520,7 @@ TEST(Interpolate, CopiesConvergeAndPosesThatAreHardlyApartMustBeSolved) {
         EXPECT_EQ(summary.termination, Termination::kConverged) << summary.FullReport();
         EXPECT_LT((path.Placed(6) - copy).cwiseAbs().maxCoeff(), 1e-13);
       }
-      options.start = GeodesicStart::kFirst;  // even of the rigid metric no solution, however near
+      options.start = GeodesicStart::kFirst;  // not a solution, even under the rigid metric
       Shape other = shape;
       for (int i = 0; i < other.size(); ++i) other.data()[i] += 1e-6 * std::sin(7.0 * i * i);
       const GeodesicSummary apart = Interpolate(connectivity, {shape, other}, options).summary;

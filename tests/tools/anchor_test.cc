@@ -181,7 +181,7 @@ TEST_F(AnchorTest, WhatCannotBeHeldIsRefusedBeforeAnythingIsSolved) {
   } cases[] = {
       {"--anchor", "", "--anchor : line 1: this is not valid JSON: "},
       {"--anchor", "feet", "--anchor feet: line 1: this is not valid JSON: "},
-      {"--anchor", R"({"vertices": [0]})", "vertices: 0 is no vertex number"},
+      {"--anchor", R"({"vertices": [0]})", "vertices: 0 is not a vertex number"},
       {"--anchor", R"({"feet": 1})", "unknown key 'feet'; the keys here are vertices, ball, "},
       {"--anchor", R"({"vertices": [153]})",
        "vertices: 153 is not a vertex of this mesh, which has 152"},

@@ -97,7 +97,7 @@ TEST_F(CorrespondTest, SaysWhatIsWrongAndWritesNothing) {
   };
   const std::string tool = "shape-correspond", markers = "--markers=markers.txt";
   refused(tool, {"a0.obj", markers}, 2, "name two meshes");
-  refused(tool, {"a0.obj", "b0.obj"}, 2, "--markers: name the file");
+  refused(tool, {"a0.obj", "b0.obj"}, 2, "--markers: name a file");
   refused(tool, {"a0.obj", "b0.obj", markers, "--output", "x.glb"}, 2, "must end in");
   refused(tool, {"a0.obj", "b0.obj", markers, "--output", "b0.obj"}, 2, "would overwrite");
   refused(tool, {"a0.obj", "b0.obj", markers, "--output", "markers.txt"}, 2, "would overwrite");

@@ -357,7 +357,7 @@ TEST_F(DeformTest, WrongCommandLines) {
       {{"tube0.obj"}, {}, "give --handles, or --repair"},
       {handles, {"--repair", "tube1.obj"}, "give --handles, or --repair"},
       {handles, {"--sound", R"({"vertices": [1]})"}, "--sound: goes with --repair"},
-      {repair, {"--sound", R"({"vertices": [999]})"}, "--sound: vertices: 999 is no vertex"},
+      {repair, {"--sound", R"({"vertices": [999]})"}, "--sound: vertices: 999 is not a vertex"},
       {repair, {"--sound", "feet"}, "--sound: line 1: this is not valid JSON"},
       {handles,
        {"--solver", "magic"},

@@ -323,7 +323,7 @@ TEST_F(ExtrapolateTest, RigidMetricsAreRefused) {
                                 "--output", "rigid.path"});
   const Outcome outcome = Run("shape-extrapolate", {"rigid.path", "--output", "on.path"});
   EXPECT_EQ(outcome.code, 1) << outcome.err;
-  ExpectContains(outcome.err, "rigid.path: made under the rigid metric");
+  ExpectContains(outcome.err, "rigid.path: was computed under the rigid metric");
   const Outcome poses = Run("shape-extrapolate", {"tube0.obj", "tube1.obj", "--metric", "rigid"});
   EXPECT_EQ(poses.code, 2);
   ExpectContains(poses.err, "--rigid");

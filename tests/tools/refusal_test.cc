@@ -100,7 +100,7 @@ TEST_F(RefusalTest, WrongCommandLines) {
 
 TEST_F(RefusalTest, FilesThatCannotBeRead) {
   ExpectRefusal(1, {"none.obj", "none.obj"}, {"none.obj: cannot be opened"});
-  ExpectRefusal(1, {".", "."}, {"none of .obj, .ply, .off"});
+  ExpectRefusal(1, {".", "."}, {"not one of .obj, .ply, .off"});
   ExpectBadFile("empty.obj", "", {"empty.obj: is empty"});
   ExpectBadFile("mesh.stl", "solid\n", {"mesh.stl: the extension '.stl' is not one of .obj"});
   ExpectBadFile("cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1\n",

@@ -95,7 +95,7 @@ TEST_F(ViewTest, NamesFilesThatCannotBeRead) {
   File("no.glb", "no glb");
   ExpectRefusal(1, {"nowhere.path"}, "nowhere.path");
   ExpectRefusal(1, {"cut.path"}, "cut.path");
-  ExpectRefusal(1, {"no.glb"}, "no.glb: is no binary glTF file");
+  ExpectRefusal(1, {"no.glb"}, "no.glb: is not a binary glTF file");
 }
 
 }  // namespace

@@ -18,9 +18,9 @@ constexpr double kTerminalPause = 0.05, kPause = 10;
 struct Console {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const internal::Stopwatch stopwatch = {};
-  double last = terminal ? -kTerminalPause : 0;  // when progress was shown
-  std::string line;                              // of progress, shown last
-  std::atomic<bool> shown{false};                // it stands on the terminal
+  double last = terminal ? -kTerminalPause : 0;  // time of the last line of progress
+  std::string line;                              // the last line of progress
+  std::atomic<bool> shown{false};                // it is visible on the terminal
   bool results_to_stderr = false;
   bool has_complained = false;
   std::string name;

@@ -52,7 +52,7 @@ std::vector<DeviationSite> FindDeviationSites(const Path& path, const RigidParts
       site.vertex = v;
     }
   }
-  // Ends of edges at the site, counted by part.
+  // Numbers of ends of edges at the site, by part.
   std::vector<std::vector<std::pair<int, int>>> touched(result.size());
   for (int e = 0; e < edges.cols(); ++e) {
     const int at = std::max(index[edges(0, e)], index[edges(1, e)]);

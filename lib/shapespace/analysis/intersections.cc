@@ -20,19 +20,19 @@
 namespace shapespace {
 namespace {
 
-// Lengths below this, as a share of the shape's extent, are rounding: coordinates as far from the
-// origin as a million times that extent are still good to it.
+// Lengths below this, as a share of the shape's extent, are rounding; this is sufficient for
+// coordinates up to a million extents away from the origin.
 constexpr double kTouching = 1e-9;
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-// Where a triangle meets the line common to its plane and another's.
+// The intersection of a triangle with the common line of its plane and another triangle's.
 struct Span {
   double begin, end;
 };
 
-// The heights of `triangle`'s corners above the plane of `other`; false unless it reaches beyond
-// that on both sides.
+// The heights of `triangle`'s corners above the plane of `other`; returns false unless it has
+// corners on both sides.
 bool Heights(const Corners& triangle, const Corners& other, const Eigen::Vector3d& unit_normal,
              double touching, std::array<double, 3>* heights) {
   for (int k = 0; k < 3; ++k) (*heights)[k] = unit_normal.dot(triangle[k] - other[0]);
@@ -40,8 +40,8 @@ bool Heights(const Corners& triangle, const Corners& other, const Eigen::Vector3
   return -*low > touching && *high > touching;
 }
 
-// Of a triangle with corners on both sides of a plane, the part of the plane that it covers, along
-// `direction` from `origin`.
+// The interval, along `direction` from `origin`, in which a triangle with corners on both sides of
+// a plane intersects it.
 Span Cut(const Corners& triangle, const std::array<double, 3>& heights,
          const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
   Span span = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -58,7 +58,7 @@ Span Cut(const Corners& triangle, const std::array<double, 3>& heights,
 }
 
 // T. Moeller, "A fast triangle-triangle intersection test", Journal of Graphics Tools 1997: both
-// triangles cut the line common to their planes, and the cuts overlap.
+// triangles intersect the common line of their planes, and the intervals overlap.
 bool Cross(const Corners& a, const Corners& b, double touching) {
   const Eigen::Vector3d normal_a = internal::UnitNormal(a[0], a[1], a[2]);
   const Eigen::Vector3d normal_b = internal::UnitNormal(b[0], b[1], b[2]);
@@ -73,10 +73,10 @@ bool Cross(const Corners& a, const Corners& b, double touching) {
   return std::min(span_a.end, span_b.end) - std::max(span_a.begin, span_b.begin) > touching;
 }
 
-// One shape as Embree's callbacks see it.
+// One shape, for Embree's callbacks.
 struct Triangles {
   const Eigen::Matrix3Xi* indices;
-  Shape vertices;  // within the unit cube about the origin, where floats are good for boxes
+  Shape vertices;  // within the unit cube about the origin, where float boxes are accurate
   std::atomic<std::int64_t> count{0};
   internal::ForkJoin callbacks;
 
@@ -101,7 +101,7 @@ void Bounds(const RTCBoundsFunctionArguments* arguments) {
   const Corners corners = triangles->At(arguments->primID);
   const Eigen::Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
   const Eigen::Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
-  // Outwards by more than rounding to float can move a coordinate within the unit cube.
+  // The boxes are enlarged by more than the rounding to float of coordinates in the unit cube.
   constexpr float kRounding = std::numeric_limits<float>::epsilon();
   RTCBounds* bounds = arguments->bounds_o;
   bounds->lower_x = static_cast<float>(low.x()) - kRounding;
@@ -112,7 +112,7 @@ void Bounds(const RTCBoundsFunctionArguments* arguments) {
   bounds->upper_z = static_cast<float>(high.z()) + kRounding;
 }
 
-// Called on several threads at once. Of a scene with itself Embree finds every pair both ways.
+// Called on several threads. For a scene with itself Embree finds every pair twice.
 void OnPairs(void* user, RTCCollision* pairs, unsigned num_pairs) {
   auto* triangles = static_cast<Triangles*>(user);
   const internal::ForkJoin::Piece piece(triangles->callbacks);

@@ -9,18 +9,18 @@
 
 namespace shapespace {
 
-/// The number of pairs of triangles that share no vertex and pass through each other: where a body
-/// passes through itself. They must meet along a line of some length, and both must reach beyond
-/// it; what only touches, such as doubled vertices along a seam, or lies on each other in one
-/// plane, is no intersection. What counts as touching, and as no length, is a billionth of the
-/// shape's extent. Quadrilaterals count as their two triangles. 0 for a graph.
-/// Exact up to that, in doubles; pairs are found by Embree's hierarchy of boxes. Time grows with
-/// the triangles and with those that are close to each other.
+/// The number of pairs of intersecting triangles that share no vertex. Their intersection must have
+/// a length, and both triangles must extend to both sides of it: triangles that only touch, such as
+/// doubled vertices along a seam, or that overlap within one plane, do not count. The tolerance for
+/// touching and for lengths is a billionth of the shape's extent. Quadrilaterals count as their two
+/// triangles. 0 for a graph. Apart from the tolerance the result is exact, in double precision;
+/// pairs are found by Embree's bounding volume hierarchy. Time grows with the number of triangles
+/// and of pairs that are close to each other.
 /// \throw MeshError if the shape has another number of vertices or is not finite; Error if Embree
 ///        cannot start or runs out of memory.
 std::int64_t CountIntersections(const Connectivity& connectivity, const Shape& shape);
 
-/// The same of each shape.
+/// The same for each shape.
 std::vector<std::int64_t> CountIntersections(const Connectivity& connectivity,
                                              const std::vector<Shape>& shapes);
 

@@ -15,19 +15,19 @@
 namespace shapespace::internal {
 namespace {
 
-// Shapes against the first that decide: motion along a path is smooth, and memory is by triangle
-// and shape.
+// Number of shapes, besides the first, that determine the parts: motion along a path is smooth, and
+// memory is proportional to triangles times shapes.
 constexpr int kMostShapes = 8;
 
-// Displacements below this, as a share of a region's size, are no motion: where nothing moves,
-// small regions are joined first, so that all grow alike.
+// Displacements below this, as a share of a region's size, count as no motion; in regions without
+// motion, small regions are merged first, so that all grow at the same rate.
 constexpr double kNoMotion = 1e-4;
 
-constexpr int kBatch = 512;  // pairs a task: some 100 microseconds
+constexpr int kBatch = 512;  // pairs per task: about 100 microseconds
 
-// The squared distance, summed over the area, that the best rigid motion leaves. It is G - 2 x with
-// x the largest root of a quartic whose coefficients are invariants of the covariance, and x <= G /
-// 2, from where Newton's method falls monotonically. D. L. Theobald, "Rapid calculation of RMSDs
+// The squared distance from the best rigid motion, integrated over the area. It is G - 2 x, where x
+// is the largest root of a quartic whose coefficients are invariants of the covariance; x <= G / 2,
+// from where Newton's method decreases monotonically. D. L. Theobald, "Rapid calculation of RMSDs
 // using a quaternion-based characteristic polynomial", Acta Cryst. A61, 2005.
 double SquaredResidual(const RestSums& rest, const MovedSums& moved) {
   const double both = (rest.squares - rest.points.squaredNorm() / rest.area) +
@@ -50,7 +50,7 @@ double SquaredResidual(const RestSums& rest, const MovedSums& moved) {
   return std::max(0.0, (1 - x) * both);
 }
 
-// Mixes the bits of a pair, for an order that favours no place on the mesh.
+// Hashes a pair, for an order that is independent of the position on the mesh.
 std::uint64_t Mix(const RegionPair& pair) {
   std::uint64_t x =
       (static_cast<std::uint64_t>(pair.first) << 32) | static_cast<std::uint32_t>(pair.second);
@@ -70,7 +70,6 @@ std::vector<int> DecidingShapes(int num_shapes) {
   return chosen;
 }
 
-// Per triangle its mean area in the first and the given shapes, of sum 1.
 Eigen::VectorXd MeanAreas(const Path& path, const std::vector<int>& shapes) {
   const Eigen::Matrix3Xi& triangles = path.metric->connectivity->Triangles();
   Eigen::VectorXd area = Eigen::VectorXd::Zero(triangles.cols());
@@ -82,7 +81,7 @@ Eigen::VectorXd MeanAreas(const Path& path, const std::vector<int>& shapes) {
   add(path.shapes[0]);
   for (const int i : shapes) add(path.shapes[i]);
   area /= area.sum();
-  // Degenerate triangles go with their neighbours at no cost, but must not divide by zero.
+  // Degenerate triangles can be merged at no cost, but must not cause a division by zero.
   area = area.cwiseMax(std::numeric_limits<double>::epsilon() / area.size());
   return area / area.sum();
 }
@@ -127,7 +126,7 @@ RegionMerger::RegionMerger(const Path& path, const RigidPartsOptions& options) :
   }
 }
 
-// What the two lose by moving together, summed over the area, in the worst shape.
+// The increase of the error by merging the two, integrated over the area, in the worst shape.
 double RegionMerger::Loss(const RegionPair& pair) const {
   RestSums rest = rest_[pair.first];
   rest.Add(rest_[pair.second]);
@@ -142,17 +141,17 @@ double RegionMerger::Loss(const RegionPair& pair) const {
   return loss;
 }
 
-// What two lose falls to the smaller, for it is the larger that the common motion follows. Regions
-// too small to be parts need not be better than the smallest part.
+// The increase is attributed to the smaller region, because the common motion follows the larger
+// one. Regions too small to be parts are compared with the size of the smallest part.
 bool RegionMerger::Fits(const RegionPair& pair) const {
   const double area = std::min(rest_[pair.first].area, rest_[pair.second].area);
   const double size_squared = std::max(area, options_.least_share);
   return pair.loss <= options_.tolerance * options_.tolerance * size_squared * area;
 }
 
-// Joins all pairs of which each region is the other's best partner. As long as two regions that
-// join get no closer to a third by it, the result is the same as that of joining the best pair of
-// all, one after the other.
+// Merges all pairs of regions that are mutual nearest neighbours, by the loss as distance. As long
+// as merging two regions does not reduce the distance to a third one, the result is the same as
+// that of always merging the pair with the least loss.
 bool RegionMerger::Pass() {
   const int batches = (static_cast<int>(pairs_.size()) + kBatch - 1) / kBatch;
   ParallelFor(batches, [&](int batch) {

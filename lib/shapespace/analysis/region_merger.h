@@ -12,9 +12,9 @@
 
 namespace shapespace::internal {
 
-/// Sums over the points of a region in the first shape, each weighted by its area. With those of
-/// `MovedSums` they determine the best rigid motion of the region; adding the sums of two regions
-/// gives those of both together.
+/// Area-weighted sums over a region's points in the first shape. Together with `MovedSums` they
+/// determine the best rigid motion of the region; the sums of two regions, added, determine that of
+/// both together.
 struct RestSums {
   double area = 0, squares = 0;
   Eigen::Vector3d points = Eigen::Vector3d::Zero();
@@ -26,7 +26,7 @@ struct RestSums {
   }
 };
 
-/// The same in another shape, with the products of corresponding points p q^T.
+/// The same in another shape, with the products p q^T of corresponding points.
 struct MovedSums {
   double squares = 0;
   Eigen::Vector3d points = Eigen::Vector3d::Zero();
@@ -39,25 +39,26 @@ struct MovedSums {
   }
 };
 
-/// The shapes of a path of `num_shapes`, besides the first, by which regions are joined.
+/// The shapes of a path of `num_shapes`, besides the first, that determine which regions are
+/// merged.
 std::vector<int> DecidingShapes(int num_shapes);
 
-/// Per triangle its mean area in the first and the given shapes, of sum 1. All are positive.
+/// Per triangle its mean area in the first and the given shapes, with sum 1. All are positive.
 Eigen::VectorXd MeanAreas(const Path& path, const std::vector<int>& shapes);
 
-/// Two regions with a border.
+/// Two adjacent regions.
 struct RegionPair {
   int first, second;  // first < second
-  double loss;        // negative: not known
+  double loss;        // negative: not computed yet
 };
 
-/// Joins neighbouring regions, which begin as single triangles, as long as the rigid motion common
-/// to two of them is nearly as good as one for each (`FindRigidParts`).
+/// Merges neighbouring regions, beginning with single triangles, as long as a common rigid motion
+/// of two is nearly as good as one for each (`FindRigidParts`).
 class RegionMerger {
  public:
   RegionMerger(const Path& path, const RigidPartsOptions& options);
 
-  /// Joins regions until no two fit. Returns per triangle its region, in 0 .. count - 1.
+  /// Merges regions until no pair fits. Returns the region of each triangle, in 0 .. count - 1.
   std::vector<int> Run(int* count);
 
  private:
@@ -67,10 +68,10 @@ class RegionMerger {
 
   const RigidPartsOptions options_;
   int shapes_ = 0;
-  std::vector<int> region_;  // of each triangle
+  std::vector<int> region_;  // per triangle
   std::vector<RestSums> rest_;
-  std::vector<MovedSums> moved_;  // region by region
-  std::vector<double> residual_;  // likewise
+  std::vector<MovedSums> moved_;  // by region
+  std::vector<double> residual_;  // by region
   std::vector<RegionPair> pairs_;
 };
 

@@ -16,18 +16,18 @@
 namespace shapespace {
 namespace {
 
-// A region that itself is off rigid motion by more than this share of the tolerance is a slice of
-// something that bends throughout. On real paths bones are at 0.05 to 0.55, slices from 0.6 on.
+// A region whose own deviation from rigid motion exceeds this share of the tolerance is a slice of
+// a region that bends throughout. On real paths bones have 0.05 to 0.55, slices 0.6 and more.
 constexpr double kOwnShare = 0.6;
 
-// Per region its rigid motion from the first shape to one other, and what that leaves.
+// The rigid motion of a region from the first shape to another one, and its errors.
 struct RegionFit {
   Eigen::Matrix3d rotation;
-  double squared_residual = 0;        // summed over the area
+  double squared_residual = 0;        // integrated over the area
   double squared_edge_deviation = 0;  // area-weighted mean over the edges
 };
 
-// Regions of one shape; triangles in region -1 do not count.
+// Fits the regions of one shape; triangles in region -1 are not counted.
 std::vector<RegionFit> FitRegions(const Path& path, int i, const Eigen::VectorXd& area,
                                   const std::vector<int>& region, int count) {
   const Eigen::Matrix3Xi& triangles = path.metric->connectivity->Triangles();
@@ -73,7 +73,7 @@ double DegreesBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return Eigen::AngleAxisd(Eigen::Matrix3d(a * b.transpose())).angle() * internal::kDegrees;
 }
 
-// Per vertex the first of the parts that its triangles have.
+// Per vertex the first part among those of its triangles.
 Eigen::VectorXi PartsOfVertices(const Connectivity& connectivity,
                                 const Eigen::VectorXi& of_triangle) {
   Eigen::VectorXi result =
@@ -89,9 +89,9 @@ Eigen::VectorXi PartsOfVertices(const Connectivity& connectivity,
   return result;
 }
 
-// Regions of triangles that are large enough, the largest first.
+// Regions of triangles that are large enough, in order of descending area.
 struct Regions {
-  std::vector<int> of_triangle;  // -1 where the triangle's is too small
+  std::vector<int> of_triangle;  // -1 if the triangle's region is too small
   std::vector<double> area;
 };
 
@@ -118,7 +118,7 @@ Regions LargeRegions(internal::RegionMerger merger, const Eigen::VectorXd& area,
   return result;
 }
 
-// Of a region of this area, by how the first shape's fits it in all others.
+// Whether a region of this area is rigid, according to its fits in all shapes.
 bool IsRigid(const std::vector<std::vector<RegionFit>>& fits, int region, double area,
              const RigidPartsOptions& options) {
   double deviation = 0, residual = 0;
@@ -126,11 +126,12 @@ bool IsRigid(const std::vector<std::vector<RegionFit>>& fits, int region, double
     deviation = std::max(deviation, std::sqrt(fits[i][region].squared_edge_deviation));
     residual = std::max(residual, std::sqrt(fits[i][region].squared_residual));
   }
-  // The root of (residual per area) as a share of the root of the area.
+  // Square root of (residual per area) as a share of the square root of the area.
   return residual <= kOwnShare * options.tolerance * area && !(deviation > options.most_deviation);
 }
 
-// But for what `CountAndPlaceParts` finds; turns are against the region `largest`.
+// All fields except those set by `CountAndPlaceParts`; rotations are relative to the region
+// `largest`.
 RigidPart DescribePart(const std::vector<std::vector<RegionFit>>& fits, int region, int largest,
                        double area, double unit) {
   RigidPart part;

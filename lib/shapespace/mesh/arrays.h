@@ -13,19 +13,20 @@
 
 namespace shapespace {
 
-/// Which way the elements of two matrices run, vertices and polygons alike; how the matrices lie in
-/// memory is Eigen's affair.
+/// Whether elements are rows or columns of the matrices, for vertices and polygons alike. It does
+/// not concern the storage order, which Eigen handles.
 enum class Layout {
   kRows,     ///< a vertex is a row of n x 3, a polygon a row of p x k: libigl, NumPy
   kColumns,  ///< a vertex is a column of 3 x n, a polygon a column of k x p: as in `Shape`
 };
 
-/// A mesh of two matrices of Eigen, row-major or column-major: also of blocks, `Eigen::Ref`, and
+/// A mesh from two Eigen matrices of any storage order, including blocks, `Eigen::Ref`, and
 /// `Eigen::Map`, which makes a matrix of any array in memory. `vertices` are floating-point
-/// numbers, `polygons` are indices of vertices, counted from 0, and have k >= 3 corners each.
-/// `name` is what messages call the mesh. What the soup holds is checked where poses are made of it
-/// (`MakePoses`). \throw MeshError if a matrix has the wrong size, or an index or a count is none
-/// that an int holds.
+/// numbers; `polygons` are indices of vertices, counted from 0, with k >= 3 corners each. `name` is
+/// the name of the mesh in messages. The content is checked when poses are made of it
+/// (`MakePoses`).
+/// \throw MeshError if a matrix has the wrong size, or an index or a count is outside of the range
+///        of int.
 template <typename Vertices, typename Polygons>
 Soup MakeSoup(const Eigen::DenseBase<Vertices>& vertices,
               const Eigen::DenseBase<Polygons>& polygons, Layout layout,

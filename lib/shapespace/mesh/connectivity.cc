@@ -17,7 +17,7 @@ Edge Sorted(int a, int b) { return a < b ? Edge(a, b) : Edge(b, a); }
 
 struct Side {
   Edge edge;       // smaller vertex first
-  int triangle;    // whose side it is
+  int triangle;    // to which the side belongs
   int opposite;    // third vertex of the triangle
   bool ascending;  // the triangle runs from the smaller vertex to the larger
 };
@@ -53,7 +53,7 @@ void CheckTriangles(const std::vector<int>& polygon_begin, const std::vector<int
   }
 }
 
-// Per vertex the columns of `elements` that have it, each once.
+// Per vertex the columns of `elements` that contain it, without repetitions.
 template <typename Elements>
 IndexLists ListsByVertex(int num_vertices, const Elements& elements) {
   std::vector<int> begin(num_vertices + 1, 0);
@@ -113,7 +113,7 @@ std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
     const auto t = result->triangles_.col(f);
     for (int k = 0; k < 3; ++k) {
       const int a = t[k], b = t[(k + 1) % 3];
-      // A side of no length in a degenerate triangle is no edge.
+      // A side of a degenerate triangle from a vertex to itself is not an edge.
       if (a != b) sides.push_back({Sorted(a, b), f, t[(k + 2) % 3], a < b});
     }
   }
@@ -125,7 +125,7 @@ std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
   std::vector<int> edge_begin = {0}, edge_triangles;
   for (size_t i = 0, j = 0; i < sides.size(); i = j) {
     for (j = i; j < sides.size() && sides[j].edge == sides[i].edge; ++j) {
-      const int f = sides[j].triangle;  // once, also where two of its sides are the same edge
+      const int f = sides[j].triangle;  // once, also if two of its sides are the same edge
       if (j == i || f != edge_triangles.back()) edge_triangles.push_back(f);
     }
     edges.push_back(sides[i].edge);

@@ -9,7 +9,7 @@
 
 namespace shapespace {
 
-/// Lists of indices, one per row, end to end in one array.
+/// Lists of indices, one per row, concatenated in one array.
 class IndexLists {
  public:
   /// One list; valid as long as the `IndexLists` is.
@@ -39,17 +39,17 @@ class IndexLists {
   std::vector<int> begin_, items_;
 };
 
-/// What all poses of a mesh share; immutable, and so safe to read from several threads. Plain index
-/// arrays, one element a column, so that metrics work on any graph, manifold or not. What needs a
-/// manifold (boundary loops, genus) is in mesh/topology.h.
+/// The elements that all poses of a mesh share. Immutable, and therefore safe to read from several
+/// threads. Plain index arrays, one column per element, so that metrics work on any graph, manifold
+/// or not. Properties of manifolds (boundary loops, genus) are in mesh/topology.h.
 class Connectivity {
  public:
-  /// Polygons as in `Soup` (`polygon_begin` of size P + 1, `corners`); `segments` are the edges of
-  /// straight-line graphs; `stiffeners` are further edges that the metric is to hold.
-  /// `triangles`, 3 x T, is how the polygons are cut, polygon after polygon, two triangles less
-  /// than each has corners (`Triangulate`). Without, they are cut as fans from their smallest
-  /// vertex, which is right where they are convex. All diagonals of a polygon that cut off one
-  /// corner become edges, so that a polygon is held in shape whichever way it was cut.
+  /// Polygons are as in `Soup` (`polygon_begin` of size P + 1, `corners`); `segments` are the edges
+  /// of straight-line graphs; `stiffeners` are additional edges for the metric. `triangles`, 3 x T,
+  /// is the triangulation of the polygons (`Triangulate`), polygon after polygon, for each two
+  /// triangles less than it has corners. By default they are triangulated as fans from their
+  /// smallest vertex, which is correct for convex polygons. All diagonals of a polygon that cut off
+  /// one corner become edges, so that its shape is measured independently of its triangulation.
   /// \throw MeshError if there is no vertex, a polygon has fewer than three corners, an index is
   ///        outside [0, num_vertices), a segment or stiffener joins a vertex to itself, or the
   ///        triangles are not those of the polygons.
@@ -74,29 +74,30 @@ class Connectivity {
   const std::vector<int>& Corners() const { return corners_; }
   const std::vector<std::pair<int, int>>& Segments() const { return segments_; }
 
-  /// The triangles into which the polygons are cut, 3 x F.
+  /// The triangulation of the polygons, 3 x F.
   const Eigen::Matrix3Xi& Triangles() const { return triangles_; }
 
   /// Unique edges, 2 x E, each with its smaller vertex first. The first `NumTriangleEdges()` are
   /// sides of triangles, in lexicographic order; the others are segments, diagonals of polygons
-  /// that cut off one corner, and stiffeners, as far as they are no sides of triangles.
+  /// that cut off one corner, and stiffeners, unless they are sides of triangles.
   const Eigen::Matrix2Xi& Edges() const { return edges_; }
   int NumTriangleEdges() const { return num_triangle_edges_; }
 
-  /// Hinges, 4 x H: an edge (first, second) with exactly two triangles, wound consistently;
-  /// (first, second, third) is one triangle in its own winding, (second, first, fourth) the other.
+  /// Hinges, 4 x H: an edge (first, second) with exactly two triangles of consistent orientation;
+  /// (first, second, third) is one triangle in its own orientation, (second, first, fourth) the
+  /// other.
   const Eigen::Matrix4Xi& Hinges() const { return hinges_; }
 
-  /// Which elements lie at which, in rising order. They are made with the rest, which takes less
-  /// time than that does, so that no call changes the object.
-  /// Row v: the triangles that have vertex v as a corner.
+  /// Adjacency lists, in ascending order. They are computed at construction, which takes less time
+  /// than the rest of it, so that no call changes the object. Row v: the triangles that have vertex
+  /// v as a corner.
   const IndexLists& TrianglesOfVertices() const { return triangles_of_vertices_; }
-  /// Row v: the edges, of any kind, that end at vertex v; `OtherEnd` gives its neighbours.
+  /// Row v: the edges of any kind that end at vertex v; `OtherEnd` gives its neighbours.
   const IndexLists& EdgesOfVertices() const { return edges_of_vertices_; }
   /// Row e, for each of the first `NumTriangleEdges()` edges: the triangles that have it as a side.
   const IndexLists& TrianglesOfEdges() const { return triangles_of_edges_; }
 
-  /// The end of edge `edge` that is not `vertex`, which must be the other.
+  /// The end of edge `edge` that is not `vertex`; `vertex` must be one of its ends.
   int OtherEnd(int edge, int vertex) const { return edges_(0, edge) + edges_(1, edge) - vertex; }
 
   /// True for a straight-line graph: edges and no polygon.

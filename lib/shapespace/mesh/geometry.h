@@ -17,14 +17,14 @@ inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kRadians = kPi / 180;  ///< radians in a degree
 inline constexpr double kDegrees = 180 / kPi;  ///< degrees in a radian
 
-/// The normal of the triangle (a, b, c), whose length is twice the area; seen from where it points,
-/// the corners run counter-clockwise.
+/// The normal of the triangle (a, b, c), with twice the area as length; seen from the side to which
+/// it points, the corners are counterclockwise.
 inline Eigen::Vector3d AreaNormal(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                   const Eigen::Vector3d& c) {
   return (b - a).cross(c - a);
 }
 
-/// The same of a triangle of a mesh: three indices of columns of `shape`.
+/// The same for a triangle of a mesh: three indices of columns of `shape`.
 template <typename Triangle>
 Eigen::Vector3d AreaNormal(const Shape& shape, const Triangle& triangle) {
   return AreaNormal(shape.col(triangle[0]), shape.col(triangle[1]), shape.col(triangle[2]));
@@ -40,7 +40,7 @@ double TriangleArea(const Shape& shape, const Triangle& triangle) {
   return 0.5 * AreaNormal(shape, triangle).norm();
 }
 
-/// Of length 1 for triangles of any size; zero for those without area.
+/// The unit normal for triangles of any size; zero for triangles without area.
 inline Eigen::Vector3d UnitNormal(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                   const Eigen::Vector3d& c) {
   return AreaNormal(a, b, c).stableNormalized();

@@ -10,16 +10,16 @@
 #include <shapespace/mesh/shape.h>
 #include <shapespace/mesh/soup.h>
 
-// Meshes of OpenMesh's types, to and fro. This header includes nothing of OpenMesh: whoever calls
-// these functions has included what declares the type, and links OpenMesh.
+// Conversion from and to OpenMesh's mesh types. This header includes nothing of OpenMesh: the
+// caller includes the headers of the type, and links OpenMesh.
 
 namespace shapespace {
 
-/// Any triangle or polygon mesh of OpenMesh (`TriMesh_ArrayKernelT`, `PolyMesh_ArrayKernelT`, with
-/// any traits) as a soup: vertex and polygon i are the handles of index i. Coordinates become
-/// doubles. `name` is what messages call the mesh. \throw MeshError if it has elements that were
-/// deleted and still count: call
-///        `garbage_collection` first, which renumbers the others.
+/// Converts any triangle or polygon mesh of OpenMesh (`TriMesh_ArrayKernelT`,
+/// `PolyMesh_ArrayKernelT`, with any traits) to a soup: vertex and polygon i are the handles of
+/// index i. Coordinates become doubles. `name` is the name of the mesh in messages.
+/// \throw MeshError if it contains deleted elements: call `garbage_collection` first, which
+///        renumbers the others.
 template <typename Mesh>
 Soup FromOpenMesh(const Mesh& mesh, const std::string& name = "mesh") {
   const auto check = [&](bool has_status, const auto& handles, const char* what) {
@@ -51,12 +51,13 @@ Soup FromOpenMesh(const Mesh& mesh, const std::string& name = "mesh") {
   return soup;
 }
 
-/// A mesh of OpenMesh's type `Mesh`, whose vertex handle of index i is vertex i of `shape`. The
-/// face handle of index i is polygon i of the connectivity, of a triangle mesh triangle i of
-/// `Connectivity::Triangles`. Coordinates are rounded where the type's are floats. Segments and
-/// stiffeners are left out: OpenMesh has no edges without faces.
-/// \throw MeshError if the shape has another number of vertices, a coordinate is too large for the
-///        type's, or OpenMesh cannot hold a face: it takes no non-manifold edges or vertices.
+/// Converts to a mesh of OpenMesh's type `Mesh`. Its vertex handle of index i is vertex i of
+/// `shape`; its face handle of index i is polygon i of the connectivity or, for a triangle mesh,
+/// triangle i of `Connectivity::Triangles`. Coordinates are rounded if the type's are floats.
+/// Segments and stiffeners are omitted, because OpenMesh has no edges without faces.
+/// \throw MeshError if the shape has another number of vertices, a coordinate is outside of the
+///        type's range, or OpenMesh rejects a face: it does not support non-manifold edges or
+///        vertices.
 template <typename Mesh>
 Mesh ToOpenMesh(const Connectivity& connectivity, const Shape& shape) {
   if (shape.cols() != connectivity.NumVertices()) {

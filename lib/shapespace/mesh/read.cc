@@ -20,7 +20,7 @@
 namespace shapespace {
 namespace {
 
-// So that no index and no count that a file can hold outgrows an int.
+// The limit of size keeps all indices and counts in a file within the range of int.
 constexpr int kMostBytes = std::numeric_limits<int>::max();
 
 std::string Content(const std::string& file) { return ReadFile(file, kMostBytes); }
@@ -37,8 +37,8 @@ Soup Parse(const std::string& name, std::string content, MeshFormat format) {
   return internal::ReadOff(name, content);
 }
 
-/// Sorts findings into warnings and refusals. Where several are fatal the first three are told:
-/// the others mostly follow from them.
+/// Sorts findings into warnings and errors. If several are fatal, the first three are reported,
+/// because the others mostly follow from them.
 class Judge {
  public:
   Judge(const ReadOptions& options, std::vector<std::string>* warnings)
@@ -68,8 +68,8 @@ class Judge {
   std::vector<std::string>* warnings_;
 };
 
-// Poses of `count` soups, of which `next(i)` makes the i-th: one after the other, as only the
-// positions are kept of all but the first.
+// Poses from `count` soups, the i-th of which is next(i). They are made one after the other,
+// because of all but the first only the positions are kept.
 template <typename Next>
 Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
   Poses poses;
@@ -88,7 +88,7 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
                                " has changed sign");
     }
     judge.Hear<CorrespondenceError>(CheckCorrespondence(first, pose));
-    // Only its positions are used from here on; the polygons are the first one's.
+    // From here on only its positions are used, with the polygons of the first one.
     judge.Hear<MeshError>(internal::CheckPositions(pose));
     poses.shapes.push_back(std::move(pose.vertices));
   }

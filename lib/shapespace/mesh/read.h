@@ -13,32 +13,36 @@
 
 namespace shapespace {
 
-/// Reads an OBJ, PLY (text, or binary of either byte order) or OFF file, told by its extension.
-/// Coordinates are doubles and everything stays in the file's order; nothing is repaired.
-/// \throw FileError naming file, line and element: unreadable, empty or truncated file, a number
-///        that is none, an index out of range, an unknown extension.
+/// Reads an OBJ, PLY (text, or binary of either byte order) or OFF file, according to its
+/// extension. Coordinates are doubles and all elements remain in the file's order; nothing is
+/// repaired.
+/// \throw FileError naming file, line and element: unreadable, empty or truncated file, an invalid
+///        number, an index out of range, an unknown extension.
 Soup ReadSoup(const std::string& file);
 
 enum class MeshFormat { kObj, kPly, kOff };
 
-/// The same of a stream, from where it stands to its end; binary formats need a binary stream.
-/// Messages call it `name`, which is also the soup's `file`. Material libraries that an OBJ names
-/// are looked for in the folder of that name. \throw FileError as above, and if the stream fails or
-/// holds nothing.
+/// The same for a stream, from its current position to its end; binary formats need a binary
+/// stream. `name` is used in messages and as the soup's `file`. Material libraries of an OBJ are
+/// searched in the folder of that name.
+/// \throw FileError as above, and if the stream fails or is empty.
 Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format);
 
 /// Changes the sign of the coordinate `axis`, 'x', 'y' or 'z', of a pose that is a mirror image of
-/// the reference (`IsMirrored`, with the reference's polygons, which must be valid). True if it was
-/// one. \throw InvalidOptions if there is no such axis.
+/// the reference (`IsMirrored`, with the reference's polygons, which must be valid). Returns
+/// whether it was one.
+/// \throw InvalidOptions if there is no such axis.
 bool MirrorBack(const Soup& reference, char axis, Soup* pose);
 
-/// The connectivity of a mesh whose `poses`, of as many vertices, decide how its polygons are cut
-/// (`Triangulate`). \throw MeshError as `Connectivity::Make` and `Triangulate`.
+/// The connectivity of a mesh, whose polygons are triangulated according to their shape in `poses`
+/// (`Triangulate`), which have the same number of vertices.
+/// \throw MeshError as `Connectivity::Make` and `Triangulate`.
 std::shared_ptr<const Connectivity> ConnectivityOf(
     const Soup& soup, const std::vector<Shape>& poses,
     const std::vector<std::pair<int, int>>& stiffeners = {});
 
-/// Reads pairs of vertex numbers, counted from 1 as in OBJ, one pair a line; `#` begins a comment.
+/// Reads pairs of vertex numbers, counted from 1 as in OBJ, one pair per line; `#` begins a
+/// comment.
 /// \return pairs counted from 0.
 /// \throw FileError naming file and line.
 std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num_vertices);
@@ -46,20 +50,19 @@ std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num
 /// Poses of one mesh, ready for a solver.
 struct Poses {
   std::shared_ptr<const Connectivity> connectivity;
-  std::vector<Shape> shapes;          ///< one a soup, in its unit
+  std::vector<Shape> shapes;          ///< one per soup, in its unit
   std::vector<std::string> names;     ///< `Soup::file` of each
   Soup soup;                          ///< the first: polygons, appearance
-  std::vector<std::string> warnings;  ///< what `CheckSoup` and `CheckCorrespondence` had to say
+  std::vector<std::string> warnings;  ///< from `CheckSoup` and `CheckCorrespondence`
 };
 
-/// What is taken as poses of one mesh.
+/// Options for meshes that are used as poses.
 struct ReadOptions {
-  bool allow_nonmanifold =
-      false;               ///< take non-manifold or inconsistently wound meshes, with a warning
-  std::string stiffeners;  ///< file of further edges; empty for none
+  bool allow_nonmanifold = false;  ///< accept non-manifold or inconsistent meshes, with a warning
+  std::string stiffeners;          ///< file of additional edges; empty for none
 
-  /// 'x', 'y' or 'z': poses that are mirror images of the first (closed meshes only: `IsMirrored`)
-  /// have this coordinate's sign changed. 0: they are refused.
+  /// 'x', 'y' or 'z': change the sign of this coordinate in poses that are mirror images of the
+  /// first (closed meshes only: `IsMirrored`). 0: they are refused.
   char mirror = 0;
 };
 
@@ -68,10 +71,10 @@ struct ReadOptions {
 ///        of `CheckCorrespondence`, naming the first difference).
 Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& options = {});
 
-/// The same of soups that do not come from files alone: `ReadSoup` makes them of streams,
-/// `MakeSoup` (mesh/arrays.h) of matrices, `FromOpenMesh` (mesh/openmesh.h) of OpenMesh's meshes.
-/// They pass the same checks; messages name them by `Soup::file`. \throw MeshError also if there is
-/// none.
+/// The same for soups from other sources: `ReadSoup` makes them from streams, `MakeSoup`
+/// (mesh/arrays.h) from matrices, `FromOpenMesh` (mesh/openmesh.h) from OpenMesh's meshes. They are
+/// checked in the same way; messages name them by `Soup::file`.
+/// \throw MeshError also if there is none.
 Poses MakePoses(std::vector<Soup> soups, const ReadOptions& options = {});
 
 }  // namespace shapespace

@@ -68,7 +68,7 @@ struct Surface::Scene {
   // Boxes are in single precision, relative to the centre, in units of half the extent.
   const Eigen::Vector3d low, high, centre;
   const double unit;
-  const internal::ForkJoin callbacks{};  // after all that they read
+  const internal::ForkJoin callbacks{};  // constructed after the data that they read
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 

@@ -18,10 +18,10 @@ namespace shapespace {
 /// (an edge, a triangle, ...) to a few values, and the element adds weight * |change of these
 /// values|^2 to the cost of a motion. A struct that derives from this has
 ///
-///   static constexpr const char* kName        its name, in files and reports,
-///   template <typename T> void operator()(const T* x, T* value) const
-///                                             its values: x contains kVertices x 3 coordinates,
-///                                             vertex after vertex, value kValues numbers,
+///      static constexpr const char* kName        its name, in files and reports,
+///      template <typename T> void operator()(const T* x, T* value) const
+///                                                its values: x has kVertices x 3 coordinates,
+///                                                vertex after vertex, value kValues numbers,
 ///
 /// and may redefine any of the members below. T is double or a scalar with derivatives (ceres::Jet
 /// and LineJet), so mathematical functions must be called unqualified, after `using std::sqrt;` and

@@ -74,8 +74,8 @@ struct MetricOptions {
   /// weight (docs/mathematics.md, section 6). Lengths are measured in the unit in which the surface
   /// has area 1, which changes the energy's value but not the path, because (4) and (5) both scale
   /// with the fourth power of length. Since (4) has one term per edge, the meaning of lambda
-  /// depends on the mesh resolution. The paper's order of levels is Schedule::kPaper, which must be
-  /// selected separately. Paths are continued in midpoint form.
+  /// depends on the mesh resolution. The paper's order of levels is GeodesicSchedule::kPaper, which
+  /// must be selected separately. Paths are continued in midpoint form.
   static MetricOptions Paper();
 
   /// \throw InvalidOptions naming the field.

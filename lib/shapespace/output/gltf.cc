@@ -84,7 +84,7 @@ void CheckSize(const std::string& file, const std::vector<Shape>& shapes,
                   nlohmann::json(size).dump() + "; choose another unit of length");
 }
 
-// Whether most of the hinges that are not flat all the time are sharp at some time.
+// Whether most of the hinges that are bent at some time are sharp at some time.
 bool IsFaceted(const Connectivity& connectivity, const std::vector<Shape>& shapes) {
   const Eigen::Matrix4Xi& hinges = connectivity.Hinges();
   int bent = 0, sharp = 0;
@@ -264,7 +264,8 @@ std::vector<std::pair<double, double>> Moments(const std::vector<double>& parame
   }
   const bool back = options.playback == GltfPlayback::kThereAndBack;
   const bool held = options.playback == GltfPlayback::kOnce;
-  const double share = back ? 0.5 - kRest : held ? 1 - kRest : 1.0;  // of the way there
+  // Share of the duration for the way from the first shape to the last.
+  const double share = back ? 0.5 - kRest : held ? 1 - kRest : 1.0;
   const double duration = options.fps > 0 ? (shapes - 1) / options.fps / share : options.duration;
   const double begin = back ? kRest / 2 * duration : 0;
   std::vector<std::pair<double, double>> moments;

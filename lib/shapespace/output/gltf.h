@@ -23,7 +23,7 @@ enum class GltfPlayback {
 
 struct GltfOptions {
   double duration = 4;  ///< seconds, holds included; 0.1 .. 3600
-  double fps = 0;       ///< shapes of the path a second instead of `duration`: .01 .. 1000; 0: off
+  double fps = 0;       ///< shapes per second instead of `duration`: .01 .. 1000; 0: off
   GltfPlayback playback = GltfPlayback::kThereAndBack;
 
   /// Slow at both ends: the shape at share t of the path is shown after share tau of the time, with

@@ -10,11 +10,11 @@
 
 namespace shapespace::internal {
 
-/// Normals for smooth shading that leaves sharp edges sharp: a corner of a triangle averages, by
-/// area, the triangles around its vertex that lie within a crease angle of its own.
-/// \return unit normals, 3 x 3F, column 3 f + k for corner k of triangle f; zero where only
-/// triangles
-///         without area meet.
+/// Normals for smooth shading with sharp edges: the normal at a corner of a triangle is the
+/// area-weighted mean over those triangles around the vertex whose normals are within a crease
+/// angle of the triangle's own.
+/// \return unit normals, 3 x 3F, column 3 f + k for corner k of triangle f; zero if all triangles
+///         there have no area.
 Eigen::Matrix3Xf CornerNormals(const Connectivity& connectivity, const Shape& shape);
 
 }  // namespace shapespace::internal

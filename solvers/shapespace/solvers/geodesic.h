@@ -41,7 +41,7 @@ enum class GeodesicSchedule {
   /// (paper: local coordinates in the frames of faces); new shapes lie on cubics in time (paper:
   /// straight lines); poses are aligned rigidly first, and rigid drift of inner shapes is removed
   /// (but not under Discretization::kTrapezoid); each level has a metric of its own, frozen on the
-  /// decimated poses. The paper's starts are Start::kBlend and kRigid, its metric is
+  /// decimated poses. The paper's starts are GeodesicStart::kBlend and kRigid, its metric is
   /// MetricOptions::Paper().
   kPaper,
   kFlat,  ///< the finest level only: (f,1), (f,3), (f,7) ...

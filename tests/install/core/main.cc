@@ -1,4 +1,4 @@
-// The lower bound of the energy between two poses, which are read from files.
+// Computes the lower bound of the energy between two poses, which are read from files.
 #include <cstdio>
 
 #include <shapespace/mesh/read.h>
