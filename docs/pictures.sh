@@ -59,6 +59,22 @@ cat > twist.json <<'EOF'
 ]}
 EOF
 "$bin/shape-deform" bar0.obj --handles twist.json --volume 3 --output "$pictures/twist.png"
+
+# guide/features.md
+"$bin/shape-body" bar --triangles 1500 --at 0 --output 'bar%d.obj'
+cat >bend.json <<'EOF'
+{"handles": [
+  {"rotation": {"axis": [0, 0, 1], "degrees": -75, "point": [-1.25, 0, 0]}, "translation": [0.5, 0, 0],
+   "select": {"halfspace": {"point": [-2.49, 0, 0], "normal": [-1, 0, 0]}}},
+  {"rotation": {"axis": [0, 0, 1], "degrees": 75, "point": [1.25, 0, 0]}, "translation": [-0.5, 0, 0],
+   "select": {"halfspace": {"point": [2.49, 0, 0], "normal": [1, 0, 0]}}}
+]}
+EOF
+awk '$1 == "v" { print ($2 > -1.2 && $2 < 1.2) ? 100 : 1 }' bar0.obj >stiff.txt
+"$bin/shape-deform" bar0.obj --handles bend.json --up y --output "$pictures/stiffness-even.png"
+"$bin/shape-deform" bar0.obj --handles bend.json --up y --stiffness stiff.txt \
+  --output "$pictures/stiffness.png"
+
 "$bin/shape-body" quadruped --pose stand,stretch,rear --output 'pose%d.obj'
 "$bin/shape-interpolate" pose1.obj pose2.obj --isometric 0 --bending 0 --lambda 1 --shapes 1 \
   --output 'mean%d.obj'

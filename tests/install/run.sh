@@ -19,7 +19,7 @@ fail() {
 program_in() { sed -n '/^```cpp$/,/^```$/p' "$1" | sed '/^```/d'; }
 diff "$here/main.cc" <(program_in "$root/README.md") ||
   fail "the README's program is not tests/install/main.cc"
-for page in ceres deforming exploring library; do
+for page in ceres deforming exploring features library; do
   program_in "$root/docs/guide/$page.md" >"$work/$page.cc"
 done
 
@@ -50,6 +50,8 @@ done
 "$work/prefix/bin/shape-body" tube --triangles 500 --at 0,90 --output 'pose%d.obj'
 "$work/build/guide_library" pose0.obj pose1.obj | grep -qx 'Termination  *converged' ||
   fail "the guide's program did not converge"
+"$work/build/guide_features" pose0.obj pose1.obj >report.txt || fail "a feature of one's own fails"
+grep -q 'log area' report.txt || fail "a feature of one's own has no part in the energy"
 "$work/prefix/bin/shape-body" tube --triangles 300 --at 0,90 --output 'pose%d.obj'
 "$work/build/guide_ceres" pose0.obj pose1.obj | grep -q 'Termination: CONVERGENCE' ||
   fail "the guide's problem of Ceres did not converge"

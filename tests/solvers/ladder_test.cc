@@ -193,7 +193,7 @@ TEST(Ladder, SaysWhichShapeDegenerates) {
   const auto transfer = [&] { Transfer(source, ThinBar(), Ladder()); };
   const std::string message = MessageOf<SolverError>(transfer);
   EXPECT_EQ(message.find("transfer of shape 3"), 0u) << message;
-  EXPECT_NE(message.find("; a source with more shapes"), std::string::npos) << message;
+  EXPECT_NE(message.find("; use a source with more shapes"), std::string::npos) << message;
 }
 
 TEST(LadderOfPoses, KeepsThePosesMadeBeforeItIsCancelled) {

@@ -171,7 +171,7 @@ TEST_F(ExploreToolTest, WhatIsWrongIsNamed) {
   expect(2, {"p.space"}, {"--sample", "--measure"});
   expect(1, {"--measure", "5", "none.space"}, {"none.space"});
   File("bad.space", "no");
-  expect(1, {"--measure", "5", "bad.space"}, {"bad.space", "no .space file"});
+  expect(1, {"--measure", "5", "bad.space"}, {"bad.space", "not a .space file"});
 
   Succeed("shape-explore", WithPoses({"--depth", "0", "--output", "p.space"}));
   expect(2, {"--measure", "5", "p.space", "--depth", "3"}, {"--depth", "goes with poses"});

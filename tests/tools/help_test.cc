@@ -54,9 +54,9 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
       Listed("shape-correspond"),
       (std::set<std::string>{"allow_nonmanifold", "help", "hold_all_markers", "markers", "output",
                              "proportions", "report", "strict", "threads", "version"}));
-  const std::set<std::string> metric = {"bending", "discretization", "isometric",
-                                        "lambda",  "metric",         "rigid",
-                                        "strain",  "volume",         "weights"};
+  const std::set<std::string> metric = {"bending", "discretization", "isometric", "lambda",
+                                        "metric",  "rigid",          "stiffness", "strain",
+                                        "volume",  "weights"};
   std::set<std::string> wanted = metric;
   wanted.insert({"allow_nonmanifold", "help", "mirror", "threads", "version"});
   EXPECT_EQ(Listed("shape-inspect"), wanted);

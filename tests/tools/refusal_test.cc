@@ -98,6 +98,19 @@ TEST_F(RefusalTest, WrongCommandLines) {
   ExpectRefusal(2, {}, {"name at least two poses"});
 }
 
+TEST_F(RefusalTest, StiffnessThatDoesNotFit) {
+  MakeTubes();
+  const auto refuse = [&](const std::string& content, const std::string& message) {
+    File("stiff.txt", content);
+    ExpectRefusal(1, {"tube0.obj", "tube1.obj", "--stiffness", "stiff.txt", "--output", "w.path"},
+                  {message});
+  };
+  refuse("1\n2\n", "stiff.txt: has 2 numbers, the mesh has ");
+  refuse("1\n0\n", "stiff.txt: the stiffness of vertex 2 is not positive");
+  refuse("1\nhard\n", "stiff.txt:2: vertex 2");
+  ExpectRefusal(1, {"tube0.obj", "tube1.obj", "--stiffness", "none.txt"}, {"none.txt"});
+}
+
 TEST_F(RefusalTest, FilesThatCannotBeRead) {
   ExpectRefusal(1, {"none.obj", "none.obj"}, {"none.obj: cannot be opened"});
   ExpectRefusal(1, {".", "."}, {"not one of .obj, .ply, .off"});

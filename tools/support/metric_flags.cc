@@ -32,6 +32,24 @@ DEFINE_string(
     "vertex: a text with one number per line, or a property of a PLY file, as body.ply:name");
 
 namespace shapespace::tools {
+namespace {
+
+/// What --stiffness names, read once.
+const Eigen::VectorXd& Stiffness() {
+  static const Eigen::VectorXd stiffness = [] {
+    Eigen::VectorXd field = ReadVertexField(FLAGS_stiffness);
+    for (int v = 0; v < field.size(); ++v) {
+      if (field(v) > 0) continue;
+      throw FileError(FLAGS_stiffness + ": the stiffness of vertex " + std::to_string(v + 1) +
+                      " is not positive");
+    }
+    return field;
+  }();
+  return stiffness;
+}
+
+}  // namespace
+
 MetricOptions MetricFromFlags(const Connectivity* mesh) {
   MetricOptions options;
   if (FLAGS_metric == "deformation" && mesh != nullptr) {
@@ -67,19 +85,18 @@ MetricOptions MetricFromFlags(const Connectivity* mesh) {
         FLAGS_discretization == "midpoint" ? Discretization::kMidpoint : Discretization::kTrapezoid;
   }
   if (!FLAGS_stiffness.empty()) {
-    options.stretching_stiffness = ReadVertexField(FLAGS_stiffness);
-    for (int v = 0; v < options.stretching_stiffness.size(); ++v) {
-      if (options.stretching_stiffness(v) > 0) continue;
-      throw FileError(FLAGS_stiffness + ": the stiffness of vertex " + std::to_string(v + 1) +
-                      " is not positive");
-    }
-    options.bending_stiffness = options.stretching_stiffness;
+    options.stretching_stiffness = options.bending_stiffness = Stiffness();
   }
   options.Validate();
   return options;
 }
 
 void CheckMetricFlags(const Connectivity& connectivity) {
+  if (!FLAGS_stiffness.empty() && Stiffness().size() != connectivity.NumVertices()) {
+    throw FileError(FLAGS_stiffness + ": has " + std::to_string(Stiffness().size()) +
+                    " numbers, the mesh has " + std::to_string(connectivity.NumVertices()) +
+                    " vertices; give one number a vertex");
+  }
   if (IsGiven("bending") && FLAGS_bending > 0 && connectivity.NumHinges() == 0) {
     throw UsageError(AsTyped("bending") +
                      ": no two triangles of this mesh share an edge, so there is no bending; leave "

@@ -7,10 +7,12 @@ namespace shapespace::tools {
 
 /// The metric according to the flags: --metric is a preset, and other flags that were given
 /// override it. The preset `deformation` depends on the mesh.
-/// \throw UsageError, also for that preset without a mesh.
+/// \throw UsageError, also for that preset without a mesh; FileError if the file that --stiffness
+///        names cannot be read, or has a number that is not positive.
 MetricOptions MetricFromFlags(const Connectivity* mesh = nullptr);
 
-/// \throw UsageError if --bending was given for a mesh without hinges.
+/// \throw UsageError if --bending was given for a mesh without hinges; FileError if --stiffness has
+///        not one number a vertex.
 void CheckMetricFlags(const Connectivity& connectivity);
 
 }  // namespace shapespace::tools

@@ -94,7 +94,7 @@ TEST_F(SpaceFileTest, WhatIsWrongInACurveIsNamed) {
   expect(R"({"point": []})", {"point"});
   expect(R"({"points": [[1]]})", {"point 1", "two numbers"});
   expect(R"({"points": [[1, 2], ["a", 2]]})", {"point 2"});
-  expect(R"({"points": ["nobody"]})", {"point 1", "nobody", "no pose"});
+  expect(R"({"points": ["nobody"]})", {"point 1", "nobody", "not a pose"});
   expect("{", {"curve.json", "line 1"});
 }
 
