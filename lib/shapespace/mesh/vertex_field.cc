@@ -22,7 +22,7 @@ Eigen::VectorXd ReadVertexField(const std::string& source) {
   if (colon != std::string::npos && IsPly(source.substr(0, colon))) {
     const std::string file = source.substr(0, colon), property = source.substr(colon + 1);
     if (property.empty()) throw FileError(source + ": name a property behind the colon");
-    const Eigen::VectorXd field = internal::ReadPlyProperty(file, ReadFile(file), property);
+    Eigen::VectorXd field = internal::ReadPlyProperty(file, ReadFile(file), property);
     for (int v = 0; v < field.size(); ++v) {
       if (!std::isfinite(field(v))) {
         throw FileError(file + ": property " + property + " of vertex " + std::to_string(v + 1) +

@@ -112,7 +112,7 @@ TermKernel KernelOf(std::shared_ptr<const Feature> feature) {
   }};
 }
 
-SumKernel SumKernelOf(std::shared_ptr<const Feature> feature) {
+SumKernel SumKernelOf(const std::shared_ptr<const Feature>& feature) {
   if (const auto* volume = feature->As<Volume>()) {
     const double reference = volume->reference;
     return {[reference](const PathRows& rows, const ElementGroup& group, double* values) {

@@ -45,7 +45,7 @@ struct SumKernel {
       add_gradients;
 };
 
-SumKernel SumKernelOf(std::shared_ptr<const Feature> feature);
+SumKernel SumKernelOf(const std::shared_ptr<const Feature>& feature);
 
 /// Fills `ends` of a group with the values of its elements at the first and at the last shape.
 void EvaluateEnds(const Feature& feature, const std::vector<double>& first,
