@@ -135,7 +135,8 @@ void AssignStiffness(const MetricOptions& options, MetricBasis* basis) {
   CheckStiffness(options.bending_stiffness, "bending_stiffness", connectivity);
   basis->edge_stiffness = EdgeStiffness(options.stretching_stiffness, connectivity);
   basis->triangle_stiffness.setOnes(connectivity.NumTriangles());
-  for (int f = 0; f < connectivity.NumTriangles(); ++f) {
+  const bool stretches = options.stretching_stiffness.size() > 0;
+  for (int f = 0; f < connectivity.NumTriangles() && stretches; ++f) {
     double sum = 0;
     const Eigen::Vector3i t = connectivity.Triangles().col(f);
     for (int k = 0; k < 3; ++k) {
@@ -144,9 +145,10 @@ void AssignStiffness(const MetricOptions& options, MetricBasis* basis) {
     }
     basis->triangle_stiffness(f) = sum / 3;
   }
+  const bool bends = options.bending_stiffness.size() > 0;
   const Eigen::VectorXd bending = EdgeStiffness(options.bending_stiffness, connectivity);
-  basis->hinge_stiffness.resize(connectivity.NumHinges());
-  for (int h = 0; h < connectivity.NumHinges(); ++h) {
+  basis->hinge_stiffness.setOnes(connectivity.NumHinges());
+  for (int h = 0; h < connectivity.NumHinges() && bends; ++h) {
     const Eigen::Vector4i hinge = connectivity.Hinges().col(h);
     basis->hinge_stiffness(h) = bending(FindSide(connectivity, hinge(0), hinge(1)));
   }

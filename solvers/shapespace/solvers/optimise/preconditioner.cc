@@ -25,26 +25,33 @@ Eigen::SparseMatrix<double> ScalarMetric(const Metric& metric, const std::vector
     // A sum feature is a dense row, and is left to the quasi-Newton updates.
     if (feature->IsSum()) continue;
     const int corners = feature->VerticesPerElement(), num_rows = feature->NumScalarRows();
-    Eigen::MatrixXd k(corners, num_rows), block(corners, corners);
+    const bool adds_quartic = quartic && feature->As<EdgeLength>() != nullptr;
     double x[3 * Feature::kMaxVertices];
+    double rows[Feature::kMaxVertices * 3 * Feature::kMaxValues];
+    double block[Feature::kMaxVertices * Feature::kMaxVertices];
     for (int e = 0; e < feature->NumElements(); ++e) {
       const int* const vertices = feature->Element(e);
-      block.setZero();
+      const double factor = 4 * feature->Weight(e) / static_cast<double>(poses.size());
+      std::fill_n(block, corners * corners, 0.0);
       for (const Shape& pose : poses) {
         feature->Gather(e, e + 1, pose, x);
-        feature->ScalarRows(1, x, k.data());
-        block.noalias() += 4 * feature->Weight(e) / poses.size() * k.lazyProduct(k.transpose());
+        feature->ScalarRows(1, x, rows);
+        for (const double* k = rows; k != rows + corners * num_rows; k += corners) {
+          for (int i = 0; i < corners; ++i) {
+            for (int l = 0; l < corners; ++l) block[corners * i + l] += factor * k[i] * k[l];
+          }
+        }
       }
-      if (quartic && feature->As<EdgeLength>() != nullptr) {
+      if (adds_quartic) {
         const int p = vertices[0], q = vertices[1];
         const Eigen::Vector3d turn =
             poses.back().col(q) - poses.back().col(p) - poses.front().col(q) + poses.front().col(p);
         const double share = 2 * feature->Weight(e) * turn.squaredNorm() /
                              (static_cast<double>(quartic_segments) * quartic_segments);
-        block += share * Eigen::Matrix2d{{1, -1}, {-1, 1}};
+        for (int k = 0; k < 4; ++k) block[k] += k % 3 == 0 ? share : -share;
       }
       for (int i = 0; i < corners; ++i) {
-        for (int j = 0; j < corners; ++j) add(vertices[i], vertices[j], block(i, j));
+        for (int l = 0; l < corners; ++l) add(vertices[i], vertices[l], block[corners * i + l]);
       }
     }
   }
