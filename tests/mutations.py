@@ -25,7 +25,9 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 COPY = os.path.join(ROOT, "build", "mutations")
 SOLVERS = "solvers/shapespace/solvers/"
-METRIC = "lib/shapespace/metric/metric.cc"
+EDGE_LENGTH = "lib/shapespace/metric/edge_length.cc"
+DIHEDRAL = "lib/shapespace/metric/dihedral.cc"
+FREEZE_LEVEL = "lib/shapespace/hierarchy/freeze_level.cc"
 
 # The tests that each part of the solvers has, as filters of GoogleTest's.
 GOING = "Exponential*:Extrapolate*:FirstIntegral*:Logarithm*:InitialVelocity*:Shooter*:Step*:*Continuation*:RoundTrip*:Inverse*"
@@ -53,8 +55,8 @@ MUTATIONS = [
     ("optimise/step.cc", "Shape root = reached + expansion(next) - expansion(load);",
      "Shape root = expansion(next);", GOING),
     ("optimise/step.cc", "std::max(options.tolerance, rounding_ / speed_)", "options.tolerance", GOING),
-    ("exponential.cc", "metric.unit * (first.rotation * SegmentVelocity(FeatureMap(metric), path.shapes[1],",
-     "metric.unit * (1.0 * SegmentVelocity(FeatureMap(metric), path.shapes[1],", GOING),
+    ("exponential.cc", "metric.unit * (first.rotation *\n",
+     "metric.unit * (1.0 *\n", GOING),
     ("exponential.cc", "if (row.inverted > kInvertedShare) {", "if (row.inverted > 1) {", GOING),
     ("exponential.cc", "if (now < kVanishedEdge * before) {", "if (now < 0 * before) {", GOING),
     ("exponential.cc", "constexpr double kRisen = 2;", "constexpr double kRisen = 1e9;", GOING),
@@ -63,12 +65,12 @@ MUTATIONS = [
      "departure.previous = std::exchange(departure.shape, shape);", GOING),
     ("exponential.cc", "if (discrete) scheme.Next(&unused);", "if (!discrete) scheme.Next(&unused);", GOING),
     # Geodesics.
-    ("geodesic.cc", "FreezeMetric(metric->options, hierarchy.LevelConnectivity(level), poses, 1, pairs)",
-     "FreezeMetric(metric->options, hierarchy.LevelConnectivity(level), poses, 0, pairs)", GEODESICS),
+    (FREEZE_LEVEL, "hierarchy.LevelConnectivity(level), poses, 1, pairs)",
+     "hierarchy.LevelConnectivity(level), poses, 0, pairs)", GEODESICS),
     ("geodesic.cc", "if (!(energy < GeodesicSummary::kZeroEnergy)) return false;",
      "if (energy >= 0) return false;", GEODESICS),
-    ("geodesic.cc", "if (options.schedule != Schedule::kAutomatic || metric.options.bending > 0) {",
-     "if (options.schedule != Schedule::kAutomatic || metric.options.bending >= 0) {", GEODESICS),
+    ("geodesic.cc", "if (options.schedule != GeodesicSchedule::kAutomatic || metric.options.bending > 0) {",
+     "if (options.schedule != GeodesicSchedule::kAutomatic || metric.options.bending >= 0) {", GEODESICS),
     ("optimise/resolution.cc", "return std::pow((inner + 1.0) / (options.shapes + 1.0), 2);",
      "return inner + options.shapes > 0 ? 1 : 0;", GEODESICS),
     ("optimise/resolution.cc", "if (metric_->RigidInvariantButForPosition()) RemoveRigidDrift(shapes, metric_->vertex_area);\n\n",
@@ -76,9 +78,9 @@ MUTATIONS = [
     ("optimise/resolution.cc", "constexpr int kTrustRegionUnknowns = 400;",
      "constexpr int kTrustRegionUnknowns = 0;", GEODESICS),
     ("optimise/piece.cc", "constexpr double kEnough = 1.0 / 2048;", "constexpr double kEnough = 1;", GEODESICS),
-    ("optimise/piece.cc", "Unwind(resolution.GetMetric(), &shapes);", "", GEODESICS),
-    ("optimise/piece.cc", "return {Start::kBlend, Start::kFirst, Start::kLast};",
-     "return {Start::kBlend};", GEODESICS),
+    ("optimise/piece.cc", "Unwind(*resolution.GetMetric(), &shapes);", "", GEODESICS),
+    ("optimise/piece.cc", "return {GeodesicStart::kBlend, GeodesicStart::kFirst, GeodesicStart::kLast};",
+     "return {GeodesicStart::kBlend};", GEODESICS),
     ("optimise/piece.cc", "attempt.energy < best.energy && !workload_.Stopped()",
      "attempt.energy > best.energy && !workload_.Stopped()", GEODESICS),
     ("optimise/schedule.cc", "constexpr int kShapesOnAllLevels = 7;", "constexpr int kShapesOnAllLevels = 1;", GEODESICS),
@@ -120,18 +122,18 @@ MUTATIONS = [
     ("deformation.cc", "constexpr int kFollowSteps = 10;", "constexpr int kFollowSteps = 1;", HANDLES),
     ("deformation.cc", "constexpr double kLittle = 0.1;", "constexpr double kLittle = 1e9;", HANDLES),
     ("deformation.cc", "level.MoveComponents(places, &last.back());", "", HANDLES),
-    ("repair.cc", "FitRigidMotion(reference, distorted, metric.vertex_area)(reference)", "reference", HANDLES),
+    ("repair.cc", "FitRigidMotion(reference, distorted, metric->vertex_area)(reference)", "reference", HANDLES),
     # Exploring.
     ("exploration/embedding.cc", "if (points(axis, farthest) < 0) points.row(axis) *= -1;", "", EXPLORING),
     ("exploration/refinement.cc", "count_split(t) < 2) {", "true) {", EXPLORING),
     ("exploration/pair_solver.cc", 'if (header.at("digest") != digest) return {};', "", EXPLORING),
     # The weights that solvers rely on.
-    (METRIC, "area * kGreatestHingeAspect > squared_length ? squared_length / area : kGreatestHingeAspect;",
+    (DIHEDRAL, "area * kGreatestHingeAspect > squared_length ? squared_length / area : kGreatestHingeAspect;",
      "squared_length / area;", WEIGHTS),
-    (METRIC, "measures.squared_length.array().max(kShortestEdge * kShortestEdge * mean_squared_length);",
-     "measures.squared_length.array();", WEIGHTS),
-    (METRIC, "feature.weights(h) = bending * aspect / (1 + u * u * u * u);",
-     "feature.weights(h) = bending * aspect;", WEIGHTS),
+    (EDGE_LENGTH, "basis.squared_length.array().max(least).square();",
+     "basis.squared_length.array().max(0 * least).square();", WEIGHTS),
+    (DIHEDRAL, "feature.weights(h) = basis.hinge_stiffness(h) * aspect / (1 + u * u * u * u);",
+     "feature.weights(h) = basis.hinge_stiffness(h) * aspect;", WEIGHTS),
 ]
 
 
