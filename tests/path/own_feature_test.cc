@@ -90,9 +90,9 @@ TEST(PathFile, KeepsOwnFeaturesAndStiffness) {
   const auto& strain = testing::Get<testing::OwnStrain>(*read.metric);
   EXPECT_EQ(strain.stencils, expected.stencils);
   EXPECT_EQ(strain.weights, expected.weights);
-  EXPECT_EQ(strain.strain.epsilon_squared, expected.strain.epsilon_squared);
-  EXPECT_EQ(testing::Get<testing::OwnVolume>(*read.metric).volume.reference,
-            testing::Get<testing::OwnVolume>(*path.metric).volume.reference);
+  EXPECT_EQ(strain.original.epsilon_squared, expected.original.epsilon_squared);
+  EXPECT_EQ(testing::Get<testing::OwnVolume>(*read.metric).original.reference,
+            testing::Get<testing::OwnVolume>(*path.metric).original.reference);
   ASSERT_EQ(read.metric->options.features.size(), 2u);
   EXPECT_EQ(read.metric->options.features[1].name, "own volume");
   EXPECT_EQ(read.metric->options.features[1].coefficient, 0.2);

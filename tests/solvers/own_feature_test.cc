@@ -5,12 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include <ceres/problem.h>
 #include <gtest/gtest.h>
 
 #include <shapespace/bodies/bar.h>
-#include <shapespace/path/energy.h>
-#include <shapespace/solvers/cost/path_energy.h>
 #include <shapespace/solvers/deformation.h>
 #include <shapespace/solvers/exponential.h>
 #include <shapespace/solvers/geodesic.h>
@@ -113,39 +110,6 @@ TEST(OwnFeature, DeformsAlike) {
   };
   EXPECT_LT((last(testing::OwnBlend()) - last(testing::LibraryBlend())).cwiseAbs().maxCoeff(),
             5e-3);
-}
-
-// Values and gradients of Ceres' blocks, compared with PathEnergy.
-TEST(OwnFeature, HasResidualBlocks) {
-  const auto metric =
-      FreezeMetric(testing::OwnBlend(), Bar().connectivity, {Bar().pose(0), Bar().pose(80)});
-  std::vector<Shape> shapes;
-  for (double angle : {0.0, 30.0, 55.0, 80.0})
-    shapes.emplace_back(Bar().pose(angle) / metric->unit);
-  PathEnergy energy(metric, 2);
-  std::vector<double> unknowns(energy.Size()), gradient(energy.Size());
-  energy.Load(shapes, unknowns.data());
-  const double expected = energy.Evaluate(unknowns.data(), gradient.data());
-  std::vector<Shape> slopes = shapes;
-  energy.Store(gradient.data(), &slopes);
-
-  ceres::Problem problem;
-  cost::AddPathEnergy(*metric, &shapes, &problem);
-  ceres::Problem::EvaluateOptions evaluate;
-  for (int i : {1, 2}) {
-    for (int v = 0; v < shapes[i].cols(); ++v) {
-      evaluate.parameter_blocks.push_back(shapes[i].col(v).data());
-    }
-  }
-  double cost;
-  std::vector<double> derivative;
-  problem.Evaluate(evaluate, &cost, nullptr, &derivative, nullptr);
-  EXPECT_NEAR(4 * cost, expected, 1e-12 * expected);
-  const auto size = slopes[1].size();
-  for (int i : {1, 2}) {
-    const Eigen::Map<const Shape> got(derivative.data() + (i - 1) * size, 3, slopes[i].cols());
-    EXPECT_LT((4 * got - slopes[i]).norm(), 1e-11 * slopes[i].norm());
-  }
 }
 
 // A stiffness field that is large on one half moves the bending to the other half, on all levels.

@@ -14,6 +14,7 @@
 
 #include "support/message_of.h"
 #include "support/motions.h"
+#include "support/own_features.h"
 #include "support/paths.h"
 
 namespace shapespace {
@@ -32,7 +33,7 @@ TEST(PathEnergyBlocks, AreAQuarterOfTheEnergy) {
   all.strain = 0.5;
   all.volume = 0.3;
   paper.bending = 1e-4;
-  for (const MetricOptions& options : {MetricOptions(), all, paper}) {
+  for (const MetricOptions& options : {MetricOptions(), all, paper, testing::OwnBlend()}) {
     SCOPED_TRACE(Describe(options));
     const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
     const std::vector<Shape> ends = {bar.pose(0), bar.pose(80)};

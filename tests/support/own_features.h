@@ -9,47 +9,34 @@
 
 namespace shapespace::testing {
 
-struct OwnStrain : ElementFeature<3, 3> {
-  static constexpr const char* kName = "own strain";
-  TriangleStrain strain;
+/// A feature of the library as a user would define it, with only the members that are required.
+template <typename Struct, typename Own>
+struct CopyOf : ElementFeature<Struct::kVertices, Struct::kValues> {
+  static constexpr bool kSum = Struct::kSum;
+  Struct original;
 
-  static OwnStrain Freeze(const MetricBasis& basis) {
-    OwnStrain feature;
-    feature.strain = TriangleStrain::Freeze(basis);
-    feature.stencils = feature.strain.stencils;
-    feature.weights = feature.strain.weights;
+  static Own Freeze(const MetricBasis& basis) {
+    Own feature;
+    feature.original = Struct::Freeze(basis);
+    feature.stencils = feature.original.stencils;
+    feature.weights = feature.original.weights;
     return feature;
   }
   template <typename Self, typename Visit>
   static void ForConstants(Self* self, const Visit& visit) {
-    visit("epsilon", self->strain.epsilon_squared);
+    Struct::ForConstants(&self->original, visit);
   }
   template <typename T>
   void operator()(const T* x, T* value) const {
-    strain(x, value);
+    original(x, value);
   }
 };
 
-struct OwnVolume : ElementFeature<3, 1> {
-  static constexpr bool kSum = true;
+struct OwnStrain : CopyOf<TriangleStrain, OwnStrain> {
+  static constexpr const char* kName = "own strain";
+};
+struct OwnVolume : CopyOf<Volume, OwnVolume> {
   static constexpr const char* kName = "own volume";
-  Volume volume;
-
-  static OwnVolume Freeze(const MetricBasis& basis) {
-    OwnVolume feature;
-    feature.volume = Volume::Freeze(basis);
-    feature.stencils = feature.volume.stencils;
-    feature.weights = feature.volume.weights;
-    return feature;
-  }
-  template <typename Self, typename Visit>
-  static void ForConstants(Self* self, const Visit& visit) {
-    visit("reference", self->volume.reference);
-  }
-  template <typename T>
-  void operator()(const T* x, T* value) const {
-    volume(x, value);
-  }
 };
 
 /// The height of a vertex, which is not invariant under rotation.

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include <shapespace/base/extension.h>
 #include <shapespace/base/read_file.h>
 #include <shapespace/mesh/read_formats.h>
 #include <shapespace/mesh/text.h>
@@ -10,10 +11,7 @@
 namespace shapespace {
 namespace {
 
-bool IsPly(const std::string& file) {
-  const std::string end = file.size() < 4 ? "" : file.substr(file.size() - 4);
-  return end == ".ply" || end == ".PLY";
-}
+bool IsPly(const std::string& file) { return FileExtension(file) == ".ply"; }
 
 }  // namespace
 

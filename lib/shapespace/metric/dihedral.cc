@@ -4,15 +4,16 @@
 #include <cmath>
 #include <vector>
 
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/metric/metric_basis.h>
 
 namespace shapespace {
 namespace {
 
+using internal::kRadians;
+
 // |f|^2 / A_f of a hinge is unbounded for slivers; 8 corresponds to a triangle of aspect ratio 4.
 constexpr double kGreatestHingeAspect = 8;
-
-double Radians(double degrees) { return degrees * M_PI / 180; }
 
 }  // namespace
 
@@ -41,8 +42,8 @@ Dihedral Dihedral::Freeze(const MetricBasis& basis) {
     }
     // Hinges that are folded in a given pose, or that turn by more than 90 degrees from one pose to
     // the next, are weighted down, because the chord has no gradient there.
-    const double ramp = std::clamp((fold - Radians(120)) / Radians(15), 0.0, 1.0);
-    const double u = std::max(jump, ramp * fold) / Radians(60);
+    const double ramp = std::clamp((fold - 120 * kRadians) / (15 * kRadians), 0.0, 1.0);
+    const double u = std::max(jump, ramp * fold) / (60 * kRadians);
     const double area = basis.hinge_area(h);
     const double aspect =
         area * kGreatestHingeAspect > squared_length ? squared_length / area : kGreatestHingeAspect;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
+#include <shapespace/mesh/geometry.h>
 #include <shapespace/metric/metric.h>
 
 namespace shapespace {
@@ -24,10 +25,8 @@ Measures Measure(const Connectivity& connectivity, const std::vector<Shape>& pos
   result.squared_length = Eigen::VectorXd::Zero(connectivity.NumEdges());
   for (const Shape& pose : poses) {
     for (int f = 0; f < connectivity.NumTriangles(); ++f) {
-      const Eigen::Vector3i t = connectivity.Triangles().col(f);
-      const Eigen::Vector3d a = pose.col(t(0));
       result.triangle_area(f) +=
-          0.5 * (pose.col(t(1)) - a).cross(pose.col(t(2)) - a).norm() / poses.size();
+          internal::TriangleArea(pose, connectivity.Triangles().col(f)) / poses.size();
     }
     for (int e = 0; e < connectivity.NumEdges(); ++e) {
       const Eigen::Vector2i v = connectivity.Edges().col(e);
@@ -35,22 +34,6 @@ Measures Measure(const Connectivity& connectivity, const std::vector<Shape>& pos
     }
   }
   return result;
-}
-
-// The index of a side of a triangle among the edges.
-int FindSide(const Connectivity& connectivity, int a, int b) {
-  const Eigen::Matrix2Xi& edges = connectivity.Edges();
-  const std::pair<int, int> side = std::minmax(a, b);
-  int low = 0, high = connectivity.NumTriangleEdges();
-  while (low < high) {
-    const int middle = (low + high) / 2;
-    if (std::pair<int, int>(edges(0, middle), edges(1, middle)) < side) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low;
 }
 
 // Computes A_e of every edge and A_p of every vertex, each with sum 1 if the mesh is a plain
@@ -70,10 +53,11 @@ void AssignAreas(const Connectivity& connectivity, const Measures& measures,
   } else {
     for (int f = 0; f < connectivity.NumTriangles(); ++f) {
       const Eigen::Vector3i t = connectivity.Triangles().col(f);
-      for (int k = 0; k < 3; ++k) {
-        const int a = t(k), b = t((k + 1) % 3);
-        (*vertex_area)(a) += measures.triangle_area(f) / 3;
-        if (a != b) (*edge_area)(FindSide(connectivity, a, b)) += measures.triangle_area(f) / 3;
+      for (const int v : t) (*vertex_area)(v) += measures.triangle_area(f) / 3;
+    }
+    for (int e = 0; e < num_sides; ++e) {
+      for (const int f : connectivity.TrianglesOfEdges()[e]) {
+        (*edge_area)(e) += measures.triangle_area(f) / 3;
       }
     }
     // A stiffener has no triangle; it gets a share of the areas at its ends.
@@ -127,6 +111,22 @@ void CheckStiffness(const Eigen::VectorXd& field, const char* name,
   throw InvalidOptions(std::string(name) + ": has " + std::to_string(field.size()) +
                        " numbers; the mesh has " + std::to_string(connectivity.NumVertices()) +
                        " vertices and " + std::to_string(connectivity.NumEdges()) + " edges");
+}
+
+// The index of a side of a triangle among the edges.
+int FindSide(const Connectivity& connectivity, int a, int b) {
+  const Eigen::Matrix2Xi& edges = connectivity.Edges();
+  const std::pair<int, int> side = std::minmax(a, b);
+  int low = 0, high = connectivity.NumTriangleEdges();
+  while (low < high) {
+    const int middle = (low + high) / 2;
+    if (std::pair<int, int>(edges(0, middle), edges(1, middle)) < side) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
 }
 
 void AssignStiffness(const MetricOptions& options, MetricBasis* basis) {

@@ -24,15 +24,6 @@ int PaddedLength(int inner) { return inner <= internal::kFewShapes ? inner : (in
 // that memory is accessed sequentially and elements use few blocks.
 std::vector<int> BreadthFirstOrder(const Connectivity& connectivity) {
   const int num_vertices = connectivity.NumVertices();
-  std::vector<int> begin(num_vertices + 1, 0);
-  for (int v : connectivity.Edges().reshaped()) ++begin[v + 1];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<int> neighbours(begin.back()), fill(begin.begin(), begin.end() - 1);
-  for (int e = 0; e < connectivity.NumEdges(); ++e) {
-    const int a = connectivity.Edges()(0, e), b = connectivity.Edges()(1, e);
-    neighbours[fill[a]++] = b;
-    neighbours[fill[b]++] = a;
-  }
   std::vector<char> seen(num_vertices, 0);
   std::vector<int> order;
   order.reserve(num_vertices);
@@ -42,10 +33,11 @@ std::vector<int> BreadthFirstOrder(const Connectivity& connectivity) {
     (*mark)[root] = 1;
     for (; next < visited->size(); ++next) {
       const int v = (*visited)[next];
-      for (int k = begin[v]; k < begin[v + 1]; ++k) {
-        if (!(*mark)[neighbours[k]]) {
-          (*mark)[neighbours[k]] = 1;
-          visited->push_back(neighbours[k]);
+      for (const int e : connectivity.EdgesOfVertices()[v]) {
+        const int neighbour = connectivity.OtherEnd(e, v);
+        if (!(*mark)[neighbour]) {
+          (*mark)[neighbour] = 1;
+          visited->push_back(neighbour);
         }
       }
     }

@@ -5,7 +5,6 @@
 #include <complex>
 #include <limits>
 #include <utility>
-#include <variant>
 
 namespace shapespace::internal {
 

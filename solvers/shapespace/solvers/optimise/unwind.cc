@@ -93,16 +93,13 @@ class Mover {
   std::vector<Shape>& shapes_;
   std::vector<int> index_;  // of a vertex of the mesh in the lists below, or -1
   std::vector<std::vector<Element>> elements_;
-  std::vector<std::vector<int>> neighbours_;
 };
 
 Mover::Mover(const Metric& metric, const std::vector<int>& vertices, std::vector<Shape>* shapes)
     : metric_(metric),
       shapes_(*shapes),
       index_(metric.connectivity->NumVertices(), -1),
-      elements_(vertices.size()),
-      neighbours_(vertices.size()) {
-  const Connectivity& connectivity = *metric_.connectivity;
+      elements_(vertices.size()) {
   for (size_t i = 0; i < vertices.size(); ++i) index_[vertices[i]] = static_cast<int>(i);
   for (size_t f = 0; f < metric_.features.size(); ++f) {
     const Feature& feature = *metric_.features[f];
@@ -114,19 +111,16 @@ Mover::Mover(const Metric& metric, const std::vector<int>& vertices, std::vector
       }
     }
   }
-  for (int e = 0; e < connectivity.NumEdges(); ++e) {
-    const int a = connectivity.Edges()(0, e), b = connectivity.Edges()(1, e);
-    if (index_[a] >= 0) neighbours_[index_[a]].push_back(b);
-    if (index_[b] >= 0) neighbours_[index_[b]].push_back(a);
-  }
 }
 
 void Mover::Move(const std::vector<int>& group) {
+  const Connectivity& connectivity = *metric_.connectivity;
   std::vector<int> around;
   std::vector<Element> elements;
   for (int v : group) {
     const int i = index_[v];
-    for (int neighbour : neighbours_[i]) {
+    for (const int edge : connectivity.EdgesOfVertices()[v]) {
+      const int neighbour = connectivity.OtherEnd(edge, v);
       if (std::find(group.begin(), group.end(), neighbour) == group.end()) {
         around.push_back(neighbour);
       }
