@@ -47,18 +47,19 @@ TEST_F(HelpTest, FitsTheTerminalAndSucceeds) {
 
 TEST_F(HelpTest, ListsOurFlagsOnly) {
   EXPECT_EQ(Listed("shape-body"),
-            (std::set<std::string>{"at", "help", "output", "pose", "proportions", "threads",
-                                   "triangles", "version"}));
-  EXPECT_EQ(Listed("shape-view"), (std::set<std::string>{"help", "output", "threads", "version"}));
+            (std::set<std::string>{"at", "help", "output", "pose", "progress", "proportions",
+                                   "threads", "triangles", "version"}));
+  EXPECT_EQ(Listed("shape-view"),
+            (std::set<std::string>{"help", "output", "progress", "threads", "version"}));
   EXPECT_EQ(
       Listed("shape-correspond"),
       (std::set<std::string>{"allow_nonmanifold", "help", "hold_all_markers", "markers", "output",
-                             "proportions", "report", "strict", "threads", "version"}));
+                             "progress", "proportions", "report", "strict", "threads", "version"}));
   const std::set<std::string> metric = {"bending", "discretization", "isometric", "lambda",
                                         "metric",  "rigid",          "stiffness", "strain",
                                         "volume",  "weights"};
   std::set<std::string> wanted = metric;
-  wanted.insert({"allow_nonmanifold", "help", "mirror", "threads", "version"});
+  wanted.insert({"allow_nonmanifold", "help", "mirror", "progress", "threads", "version"});
   EXPECT_EQ(Listed("shape-inspect"), wanted);
   wanted.insert({"color", "ease", "fps", "loop", "max_iterations", "memory_limit", "once", "output",
                  "report", "seconds", "shapes", "solver", "stiffeners", "strict", "tolerance"});

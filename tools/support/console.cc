@@ -12,8 +12,8 @@
 namespace shapespace::tools {
 namespace {
 
-// Seconds between two lines of progress, on a terminal and otherwise.
-constexpr double kTerminalPause = 0.05, kPause = 10;
+// Seconds between two lines of progress: on a terminal, otherwise, and for a program.
+constexpr double kTerminalPause = 0.05, kPause = 10, kProgramPause = 0.1;
 
 struct Console {
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -22,6 +22,7 @@ struct Console {
   std::string line;                              // the last line of progress
   std::atomic<bool> shown{false};                // it is visible on the terminal
   bool results_to_stderr = false;
+  bool for_programs = false;
   bool has_complained = false;
   std::string name;
 };
@@ -62,13 +63,25 @@ void SetProgramName(const std::string& name) { TheConsole().name = name; }
 
 bool HasComplained() { return TheConsole().has_complained; }
 
-void ShowProgress(const std::string& line) {
+void ProgressForPrograms() {
+  TheConsole().for_programs = true;
+  TheConsole().last = -kProgramPause;
+}
+
+void ShowProgress(const std::string& line, std::optional<double> share) {
   Console& console = TheConsole();
   const double now = console.stopwatch.Seconds();
-  if (now - console.last < (console.terminal ? kTerminalPause : kPause)) return;
+  const double pause = console.for_programs ? kProgramPause
+                       : console.terminal   ? kTerminalPause
+                                            : kPause;
+  if (now - console.last < pause) return;
   if (console.shown && line == console.line) return;
   console.last = now;
   console.line = line;
+  if (console.for_programs) {
+    Err() << "progress " + (share ? std::to_string(*share) : "-") + " " + line + '\n';
+    return;
+  }
   if (!console.terminal) {
     Err() << console.name + ": " + line + '\n';
     return;

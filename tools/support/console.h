@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_TOOLS_SUPPORT_CONSOLE_H_
 #define SHAPESPACE_TOOLS_SUPPORT_CONSOLE_H_
 
+#include <optional>
 #include <ostream>
 #include <string>
 
@@ -21,7 +22,11 @@ bool HasComplained();
 
 /// Shows one line of progress: on a terminal it replaces the one before, and is removed when `Out`
 /// or `Err` is called; otherwise a line after the program's name, at most every ten seconds.
-void ShowProgress(const std::string& line);
+/// `share` is the part of the work that is done, from 0 to 1, if known.
+void ShowProgress(const std::string& line, std::optional<double> share = {});
+/// From now on progress is written for a program that reads it: lines "progress SHARE LINE", ten
+/// a second at most, with "-" for an unknown share.
+void ProgressForPrograms();
 void ClearProgress();
 
 }  // namespace shapespace::tools

@@ -46,7 +46,7 @@ bool SolveProgress::Report(const std::string& stage, int done, int total) {
   } else if (done > 0) {
     line += ": iteration " + std::to_string(done);
   }
-  ShowProgress(line + TimeLeft());
+  ShowProgress(line + TimeLeft(), working_ ? std::optional(share_) : std::nullopt);
   return !Interrupted();
 }
 

@@ -16,6 +16,9 @@
 #include "support/interrupt.h"
 
 DEFINE_int32(threads, 0, "number of threads; 0: all cores (results do not depend on it)");
+DEFINE_string(progress, "text",
+              "on stderr: text, for people, or lines, for programs that show the progress of this "
+              "one: 'progress SHARE TEXT', with a share from 0 to 1, or '-' if it is not known");
 
 // gflags ends the process itself on an invalid flag, with its own exit code.
 namespace GFLAGS_NAMESPACE {
@@ -161,6 +164,10 @@ int RunTool(int argc, char** argv, const Program& program,
   try {
     NamingFlags({}, [&] {
       SetThreads(FLAGS_threads);
+      if (FLAGS_progress != "text" && FLAGS_progress != "lines") {
+        throw UsageError("--progress " + FLAGS_progress + ": must be text or lines");
+      }
+      if (FLAGS_progress == "lines") ProgressForPrograms();
       body({argv + 1, argv + argc});
     });
     if (!std::cout.flush() || std::fflush(stdout) != 0) {
