@@ -2,9 +2,9 @@
 
 #include <gflags/gflags.h>
 
-#include <shapespace/base/extension.h>
 #include <shapespace/bodies/body.h>
 #include <shapespace/bodies/skinned.h>
+#include <shapespace/mesh/write.h>
 #include <shapespace/output/frames.h>
 
 #include "support/frames.h"
@@ -16,7 +16,8 @@ DEFINE_string(at, "", "parameter values, separated by commas; default: both ends
 DEFINE_string(pose, "",
               "names of poses, separated by commas, of a body with bones; instead of --at");
 DEFINE_string(proportions, "", "name of the proportions of a body with bones, for --pose");
-DEFINE_string(output, "body%d.obj", "one file per value, numbered from 0: .obj or .ply");
+DEFINE_string(output, "body%d.obj",
+              "one file per value, numbered from 0: .obj, .ply, .off or .stl");
 
 namespace shapespace::tools {
 namespace {
@@ -28,9 +29,8 @@ std::string Join(const std::vector<std::string>& parts) {
 }
 
 void CheckOutput() {
-  const std::string extension = FileExtension(FLAGS_output);
-  if (extension != ".obj" && extension != ".ply") {
-    throw UsageError("--output " + FLAGS_output + ": must end in .obj or .ply");
+  if (!IsWritableMesh(FLAGS_output)) {
+    throw UsageError("--output " + FLAGS_output + ": must end in .obj, .ply, .off or .stl");
   }
   CheckFramePattern("output", FLAGS_output);
 }

@@ -4,6 +4,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/extension.h>
+#include <shapespace/mesh/write.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/solvers/correspondence.h>
 #include <shapespace/solvers/correspondence_picture.h>
@@ -17,7 +18,8 @@
 #include "support/tool.h"
 
 DEFINE_string(output, "fitted.obj,map.txt,check.png",
-              "files to write, separated by commas: .obj or .ply (the fitted template), .txt (the "
+              "files to write, separated by commas: .obj, .ply, .off or .stl (the fitted "
+              "template), .txt (the "
               "map in both directions), .png (a picture for judging it)");
 DEFINE_bool(allow_nonmanifold, false,
             "accept meshes with non-manifold edges or vertices, or inconsistent winding");
@@ -30,8 +32,8 @@ std::vector<std::string> Outputs() {
   for (const std::string& output : Split(FLAGS_output)) {
     if (output.empty()) continue;
     const std::string extension = FileExtension(output);
-    if (extension != ".obj" && extension != ".ply" && extension != ".txt" && extension != ".png") {
-      throw UsageError("--output " + output + ": must end in .obj, .ply, .txt or .png");
+    if (!IsWritableMesh(output) && extension != ".txt" && extension != ".png") {
+      throw UsageError("--output " + output + ": must end in .obj, .ply, .off, .stl, .txt or .png");
     }
     CheckCanBeWritten(output);
     outputs.push_back(output);
@@ -43,7 +45,7 @@ std::vector<std::string> Outputs() {
 Poses ReadMesh(const std::string& file) {
   ReadOptions options;
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
-  Poses mesh = ReadPoses({file}, options);
+  Poses mesh = MakePoses({ReadSoup(file)}, options);
   for (const std::string& warning : mesh.warnings) Err() << "warning: " << warning << '\n';
   for (const std::string& dropped : mesh.soup.dropped) Err() << "note: " << dropped << '\n';
   return mesh;

@@ -123,7 +123,7 @@ void Run(const std::vector<std::string>& files) {
     WriteReport(summary.FullReport(), summary.ToJson());
   };
   if (FLAGS_repair.empty()) {
-    const Poses poses = ReadPosesFromFlags(files);
+    const Poses poses = ReadMeshesFromFlags(files);
     const DeformationOptions options = DeformationFromFlags({}, *poses.connectivity);
     const std::vector<Handle> handles =
         ReadHandles(FLAGS_handles, poses.shapes[0], *poses.connectivity, poses.soup.appearance);
@@ -132,7 +132,7 @@ void Run(const std::vector<std::string>& files) {
     finish(std::move(result.path), result.summary, result.summary, poses.soup.appearance,
            Marks(handles, poses.connectivity->NumVertices()));
   } else {
-    const Poses poses = ReadPosesFromFlags({FLAGS_repair, files[0]});
+    const Poses poses = ReadMeshesFromFlags({FLAGS_repair, files[0]});
     RepairOptions options;
     options.deformation = DeformationFromFlags(RepairOptions::Defaults(), *poses.connectivity);
     options.vertices = SoundVertices(poses);

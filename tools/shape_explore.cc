@@ -63,15 +63,17 @@ ExploreOptions ExploreFromFlags(const std::string& records) {
   return options;
 }
 
-// Names of poses: the parts in which the names of their files differ.
-std::vector<std::string> NamesOf(const std::vector<std::string>& files) {
+// Names of poses: those that their files give them, or the parts in which the files' names differ.
+std::vector<std::string> NamesOf(const Poses& poses, const std::vector<std::string>& files) {
   std::vector<std::string> names;
-  for (const std::string& file : files)
-    names.push_back(std::filesystem::path(file).stem().string());
+  for (const std::string& name : poses.names) {
+    const bool is_file = std::find(files.begin(), files.end(), name) != files.end();
+    names.push_back(is_file ? std::filesystem::path(name).stem().string() : name);
+  }
   std::vector<std::string> sorted = names;
   std::sort(sorted.begin(), sorted.end());
   const bool differ = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
-  return differ ? names : files;
+  return differ ? names : poses.names;
 }
 
 void Measure(const Space& space, const ExploreOptions& options, Crew* crew) {
@@ -84,7 +86,7 @@ void Measure(const Space& space, const ExploreOptions& options, Crew* crew) {
 }
 
 void MakeSpace(const std::vector<std::string>& files, Crew* crew) {
-  if (files.size() < 2) throw UsageError("name at least two poses of one mesh, or a .space file");
+  if (files.empty()) throw UsageError("name at least two poses of one mesh, or a .space file");
   if (!IsSpaceFile(FLAGS_output)) {
     throw UsageError("--output " + FLAGS_output + ": must end in .space");
   }
@@ -92,7 +94,7 @@ void MakeSpace(const std::vector<std::string>& files, Crew* crew) {
   CheckNothingIsOverwritten(WithStiffeners(files), {{"output", {FLAGS_output}}, ReportFromFlag()});
   CheckCanBeWritten(FLAGS_output);
   const Poses poses = ReadPosesFromFlags(files);
-  ExploreResult result = Explore(poses.connectivity, poses.shapes, NamesOf(files), options,
+  ExploreResult result = Explore(poses.connectivity, poses.shapes, NamesOf(poses, files), options,
                                  SolveProgress({}).get(), crew);
   const ExploreSummary& summary = result.summary;
   result.space.provenance = Provenance("shape-explore", files);

@@ -101,8 +101,8 @@ Path OriginFromPath(const std::string& file, const std::vector<std::string>& out
 
 Path OriginFromPoses(const std::vector<std::string>& files, const GeodesicOptions& options,
                      const std::vector<std::string>& outputs, Anchorage* anchorage) {
-  CheckFlags(files, NumShapes(files.size(), options), outputs);
   const Poses poses = ReadPosesFromFlags(files);
+  CheckFlags(files, NumShapes(poses.shapes.size(), options), outputs);
   anchorage->Select(poses.shapes[0], *poses.connectivity, poses.soup.appearance);
   GeodesicResult result = Interpolate(
       poses, options, SolveProgress(outputs, std::to_string(FLAGS_steps) + " steps").get());

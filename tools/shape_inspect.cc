@@ -61,9 +61,13 @@ bool Print(const std::vector<Finding>& findings) {
   return good;
 }
 
+std::string NameOf(const Soup& soup) {
+  return soup.pose.empty() ? soup.file : soup.file + ":" + soup.pose;
+}
+
 void PrintContent(const Soup& soup) {
-  std::printf("%s\n  %d vertices, %d polygons, %zu segments", soup.file.c_str(), soup.NumVertices(),
-              soup.NumPolygons(), soup.segments.size());
+  std::printf("%s\n  %d vertices, %d polygons, %zu segments", NameOf(soup).c_str(),
+              soup.NumVertices(), soup.NumPolygons(), soup.segments.size());
   if (soup.NumVertices() > 0) {
     const Eigen::Vector3d size =
         soup.vertices.rowwise().maxCoeff() - soup.vertices.rowwise().minCoeff();
@@ -103,7 +107,7 @@ void PrintDistance(const Soup& reference, const Soup& pose) {
   }
   if (stretch.empty()) return;
   std::sort(stretch.begin(), stretch.end());
-  std::printf("%s against %s\n", pose.file.c_str(), reference.file.c_str());
+  std::printf("%s against %s\n", NameOf(pose).c_str(), NameOf(reference).c_str());
   std::printf("  turned by            %.4g degrees\n",
               Eigen::AngleAxisd(aligned.motions[1].rotation).angle() * 180 / M_PI);
   std::printf(
@@ -215,9 +219,9 @@ void PrintSpace(const std::string& file) {
   }
 }
 
-// Reads and prints a mesh, and compares it with the first one. Returns whether it is usable.
-bool PrintMesh(const std::string& file, std::vector<Soup>* soups) {
-  soups->push_back(ReadSoup(file));
+// Prints a pose, and compares it with the first one. Returns whether it is usable.
+bool PrintMesh(Soup read, std::vector<Soup>* soups) {
+  soups->push_back(std::move(read));
   Soup& soup = soups->back();
   PrintContent(soup);
   const bool usable = Print(CheckSoup(soup));
@@ -242,7 +246,9 @@ void Run(const std::vector<std::string>& files) {
       if ((extension != ".path" && extension != ".space") != meshes) continue;
       try {
         if (meshes) {
-          usable = PrintMesh(file, &soups) && usable;
+          for (Soup& pose : ReadSoups(file)) {
+            usable = PrintMesh(std::move(pose), &soups) && usable;
+          }
         } else if (extension == ".path") {
           PrintPath(file);
         } else {

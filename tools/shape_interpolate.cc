@@ -14,15 +14,14 @@ namespace shapespace::tools {
 namespace {
 
 void Run(const std::vector<std::string>& files) {
-  if (files.size() < 2) throw UsageError("name at least two poses of one mesh");
+  if (files.empty()) throw UsageError("name at least two poses of one mesh");
   const GeodesicOptions options = GeodesicFromFlags();
   Anchorage anchorage = Anchorage::FromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
+  const Poses poses = ReadPosesFromFlags(files);
   CheckNothingIsOverwritten(
       WithStiffeners(files),
-      {{"output", outputs, NumShapes(files.size(), options)}, ReportFromFlag()});
-
-  const Poses poses = ReadPosesFromFlags(files);
+      {{"output", outputs, NumShapes(poses.shapes.size(), options)}, ReportFromFlag()});
   anchorage.Select(poses.shapes[0], *poses.connectivity, poses.soup.appearance);
   GeodesicResult result = Interpolate(poses, options, SolveProgress(outputs).get());
   const GeodesicSummary& summary = result.summary;
@@ -46,9 +45,10 @@ int main(int argc, char** argv) {
        std::string(
            "  shape-interpolate a.obj b.obj [c.obj ...] --shapes 15 --output "
            "walk.png,walk.path,frames/%03d.obj\n\n"
-           "Poses are OBJ, PLY or OFF files with the same faces in the same order. With 15 "
-           "shapes inserted\nbetween two poses 17 frames are written, numbered from 000, the "
-           "poses included.") +
+           "Poses are OBJ, PLY, OFF, STL or glTF files with the same faces in the same order. With "
+           "15 "
+           "shapes\ninserted between two poses 17 frames are written, numbered from 000, the "
+           "poses included. The morph\ntargets of a glTF file are poses too.") +
            kHowASolveEnds,
        {"support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
         "support/anchor_flags.cc", "support/metric_flags.cc", "support/poses.cc",

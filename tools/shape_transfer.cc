@@ -86,7 +86,7 @@ class OtherMesh {
  public:
   // `source` is a mesh of the source's connectivity, in its first pose.
   explicit OtherMesh(const Poses& source)
-      : target_(ReadPosesFromFlags({FLAGS_target})),
+      : target_(ReadMeshesFromFlags({FLAGS_target})),
         fit_(Correspond(source.connectivity, source.shapes[0], target_.connectivity,
                         target_.shapes[0], ReadMarkers(FLAGS_markers, source, target_),
                         CorrespondenceFromFlags(), SolveProgress({}, "transferring").get())) {
@@ -117,7 +117,7 @@ Poses FirstShapeOf(const Path& path, const std::string& file) {
 
 // The target, as a pose of the path's mesh.
 Poses ReadTargetOf(const Path& path, const std::string& file) {
-  Poses target = ReadPosesFromFlags({FLAGS_target});
+  Poses target = ReadMeshesFromFlags({FLAGS_target});
   Soup reference = FrameSoup(*path.metric->connectivity), pose = target.soup;
   reference.file = file;
   reference.vertices = path.Placed(0);
@@ -132,6 +132,19 @@ Poses ReadTargetOf(const Path& path, const std::string& file) {
     Err() << "warning: " << finding.message << '\n';
   }
   return target;
+}
+
+// The poses of the files, and after them the target.
+Poses ReadWithTarget(const std::vector<std::string>& files) {
+  std::vector<Soup> soups;
+  for (const std::string& file : files) {
+    for (Soup& pose : ReadSoups(file)) soups.push_back(std::move(pose));
+  }
+  if (soups.size() < 2) {
+    throw UsageError(files[0] + " has one pose; name at least two poses of one mesh");
+  }
+  soups.push_back(ReadSoup(FLAGS_target));
+  return MakePosesFromFlags(std::move(soups));
 }
 
 void Run(const std::vector<std::string>& files) {
@@ -185,8 +198,8 @@ void Run(const std::vector<std::string>& files) {
     const std::vector<std::string> warnings = result.summary.warnings;
     finish(std::move(result), warnings, target.soup.appearance);
   } else {
-    check(static_cast<std::int64_t>(files.size()));
-    Poses poses = ReadPosesFromFlags(FLAGS_markers.empty() ? all : files);
+    Poses poses = FLAGS_markers.empty() ? ReadWithTarget(files) : ReadPosesFromFlags(files);
+    check(static_cast<std::int64_t>(poses.shapes.size()));
     Shape target;
     Appearance appearance;
     if (FLAGS_markers.empty()) {

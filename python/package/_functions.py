@@ -162,7 +162,8 @@ def read(*files, stiffeners=None, allow_nonmanifold=False, mirror=None):
     Parameters
     ----------
     *files : str or path-like
-        One or more OBJ, PLY or OFF files, with the same faces in the same order.
+        One or more OBJ, PLY, OFF, STL or glTF (.glb, .gltf) files, with the same faces in the same
+        order. The morph targets of a glTF file are poses too.
     stiffeners : str or path-like, optional
         File of further edges that the metric is to hold: two vertex numbers a line, from 1.
     allow_nonmanifold : bool, optional
@@ -194,7 +195,8 @@ def write(file, vertices, faces):
     Parameters
     ----------
     file : str or path-like
-        An .obj or a .ply file. Coordinates read back as they were, to the last bit.
+        An .obj, .ply, .off or .stl file. Except for .stl, which has single precision, coordinates
+        read back as they were, to the last bit.
     vertices : array_like
         n x 3.
     faces : array_like, or an object with a mesh

@@ -14,10 +14,14 @@
 #include <shapespace/analysis/shape_error.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/extension.h>
+#include <shapespace/mesh/write.h>
 #include <shapespace/metric/feature_map.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/gltf.h>
 #include <shapespace/output/picture.h>
+#include <shapespace/output/point_cache.h>
+#include <shapespace/output/vertex_colours.h>
+#include <shapespace/output/vtk.h>
 #include <shapespace/path/anchor.h>
 #include <shapespace/path/path_file.h>
 #include <shapespace/solvers/exponential.h>
@@ -211,22 +215,40 @@ InvalidOptions
 
 // Paths. ---------------------------------------------------------------------------------------
 
-enum class Kind { kPath, kPicture, kGltf, kFrames };
+enum class Kind { kPath, kPicture, kGltf, kPointCache, kFrames, kVtk };
 
 Kind KindOf(const std::string& file) {
   const std::string extension = FileExtension(file);
   if (extension == ".path") return Kind::kPath;
   if (extension == ".png") return Kind::kPicture;
   if (extension == ".glb") return Kind::kGltf;
-  if (extension == ".obj" || extension == ".ply") return Kind::kFrames;
-  throw FileError(file + ": must end in .path, .png, .glb, .obj or .ply");
+  if (extension == ".vtp") return Kind::kVtk;
+  if (IsPointCache(file)) return Kind::kPointCache;
+  if (IsWritableMesh(file)) return Kind::kFrames;
+  throw FileError(file +
+                  ": must end in .path, .png, .glb, .pc2, .mdd, .obj, .ply, .off, .stl or .vtp");
+}
+
+// Sets `value` to the one keyword, `known`, that a kind of file takes, if it is given.
+template <typename T>
+void OnlyKeyword(const py::dict& given, const std::string& known, T* value) {
+  for (const auto& [key, keyword] : given) {
+    const auto name = py::cast<std::string>(key);
+    if (name != known) RefuseKeyword(name, {known});
+    Value<T>::Set(value, keyword, name);
+  }
+}
+
+std::vector<Eigen::MatrixXd> FrameColours(const Path& path, const std::string& color) {
+  const py::gil_scoped_release unlocked;
+  if (color == "deviation") return ColourByDeviation(path).of_shapes;
+  if (color == "parts") return {path.shapes.size(), ColourByGroup(FindRigidParts(path).of_vertex)};
+  if (color == "plain") return {};
+  throw InvalidOptions("color: must be plain, deviation or parts, not '" + color + "'");
 }
 
 void Write(const Path& path, const std::string& file, const py::dict& given) {
   const Kind kind = KindOf(file);
-  if ((kind == Kind::kPath || kind == Kind::kFrames) && !given.empty()) {
-    RefuseKeyword(py::cast<std::string>(given.begin()->first), {});
-  }
   if (kind == Kind::kPicture) {
     const FilmStripOptions options = StripOptions(path, given);
     WritePng(file, Draw(*path.metric->connectivity, path.Placed(), options));
@@ -239,13 +261,23 @@ void Write(const Path& path, const std::string& file, const py::dict& given) {
       summary = WriteGltf(file, path, options);
     }
     Warn(summary.warnings);
-  } else {
+  } else if (kind == Kind::kFrames) {
+    std::string color = "plain";
+    OnlyKeyword(given, "color", &color);
+    const std::vector<Eigen::MatrixXd> colours = FrameColours(path, color);
     const py::gil_scoped_release unlocked;
-    if (kind == Kind::kPath) {
-      WritePath(file, path);
-    } else {
-      WriteFrames(file, path.Placed(), FrameSoup(*path.metric->connectivity, path.appearance));
-    }
+    WriteFrames(file, path.Placed(), FrameSoup(*path.metric->connectivity, path.appearance),
+                colours);
+  } else if (kind == Kind::kPointCache) {
+    double fps = 0;
+    OnlyKeyword(given, "fps", &fps);
+    const py::gil_scoped_release unlocked;
+    given.empty() ? WritePointCache(file, path.Placed())
+                  : WritePointCache(file, path.Placed(), fps);
+  } else {
+    if (!given.empty()) RefuseKeyword(py::cast<std::string>(given.begin()->first), {});
+    const py::gil_scoped_release unlocked;
+    kind == Kind::kPath ? WritePath(file, path) : WriteVtkSeries(file, path);
   }
 }
 
@@ -339,10 +371,14 @@ parameters : array_like, optional
 Parameters
 ----------
 file : str or path-like
-    What is written is told by its end: .path (everything, to go on from), .png (film strip), .glb
-    (animated, for browsers and Blender), or numbered meshes such as frames/%03d.obj or .ply.
+    Its extension is the format: .path (everything, to continue from), .png (film strip), .glb
+    (animation for browsers and Blender), .pc2 or .mdd (point cache for Blender, Maya, Houdini,
+    3ds Max), numbered meshes such as frames/%03d.obj, .ply, .off or .stl, or frames/%03d.vtp with
+    deviation and energy at every point, for ParaView.
 **options
-    Of `film_strip` for .png; of `GltfOptions` for .glb; none else.
+    Of `film_strip` for .png; of `GltfOptions` for .glb; for meshes `color`, which is 'plain',
+    'deviation' or 'parts' (colours of vertices in .obj and .ply); for .mdd `fps`, shapes per
+    second. The others take none.
 )")
       .def("__len__", &Path::NumShapes)
       .def("__getitem__",

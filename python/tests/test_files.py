@@ -39,10 +39,52 @@ def test_a_path_is_written_in_every_form(path, tmp_path):
     (tmp_path / "frames").mkdir()
     path.write(tmp_path / "frames" / "%03d.ply")
     assert len(list((tmp_path / "frames").iterdir())) == len(path)
+    path.write(tmp_path / "frames" / "%03d.ply", color="deviation")
+    first = (tmp_path / "frames" / "000.ply").read_bytes()
+    assert b"property uchar red" in first
+    with pytest.raises(ValueError, match="color"):
+        path.write(tmp_path / "frames" / "%03d.ply", color="gold")
+    with pytest.raises(TypeError, match="'colour'.*did you mean 'color'"):
+        path.write(tmp_path / "frames" / "%03d.ply", colour="parts")
     with pytest.raises(shapespace.FileError, match="must end in"):
         path.write(tmp_path / "walk.mp4")
     with pytest.raises(TypeError, match="'title'"):
         path.write(tmp_path / "walk.path", title="a walk")
+
+
+def test_point_caches_hold_every_shape(path, tmp_path):
+    path.write(tmp_path / "walk.pc2")
+    cache = np.frombuffer((tmp_path / "walk.pc2").read_bytes()[32:], "<f4")
+    np.testing.assert_array_equal(cache.reshape(path.vertices.shape), path.vertices.astype("f4"))
+    path.write(tmp_path / "walk.mdd", fps=50)
+    mdd = (tmp_path / "walk.mdd").read_bytes()
+    frames, points = np.frombuffer(mdd[:8], ">i4")
+    assert (frames, points) == path.vertices.shape[:2]
+    times = np.frombuffer(mdd[8 : 8 + 4 * frames], ">f4")
+    np.testing.assert_allclose(times, np.arange(frames) / 50, rtol=1e-6)
+    with pytest.raises(TypeError, match="fps"):
+        path.write(tmp_path / "walk.mdd", fps="fast")
+    with pytest.raises(ValueError, match="fps"):
+        path.write(tmp_path / "walk.mdd", fps=0)
+
+
+def test_morph_targets_are_poses(path, tmp_path):
+    path.write(tmp_path / "walk.glb")
+    poses = shapespace.read(tmp_path / "walk.glb")
+    assert len(poses) == len(path)
+    assert poses.names[1] == "target 1"
+    np.testing.assert_allclose(np.array(list(poses)), path.vertices, atol=1e-6)
+
+
+def test_meshes_for_other_programs(animal, tmp_path):
+    vertices = animal.pose("rear") / 3
+    shapespace.write(tmp_path / "a.off", vertices, animal.faces)
+    np.testing.assert_array_equal(shapespace.read(tmp_path / "a.off")[0], vertices)
+    shapespace.write(tmp_path / "a.stl", vertices, animal.faces)
+    again = shapespace.read(tmp_path / "a.stl")
+    np.testing.assert_array_equal(
+        again[0][again.faces], vertices.astype("f4")[animal.faces].astype(float)
+    )
 
 
 def test_what_cannot_be_read_is_named(tmp_path):

@@ -31,6 +31,36 @@ def test_meshes_of_meshio(animal, tmp_path):
     assert len(meshio.read(tmp_path / "middle.stl").cells_dict["triangle"]) == len(animal.faces)
 
 
+def test_files_for_meshio(path, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    for extension in ("off", "stl", "ply", "obj"):
+        path.write(tmp_path / f"%d.{extension}")
+        mesh = meshio.read(tmp_path / f"3.{extension}")
+        corners = np.asarray(mesh.points)[mesh.cells_dict["triangle"]]
+        np.testing.assert_allclose(corners, path[3][path.faces], atol=1e-6)
+
+
+def test_series_of_vtk(path, tmp_path):
+    """As ParaView reads them."""
+    vtk = pytest.importorskip("vtk")
+    arrays = pytest.importorskip("vtk.util.numpy_support")
+    path.write(tmp_path / "%03d.vtp")
+    for i in (0, 3):
+        reader = vtk.vtkXMLPolyDataReader()
+        reader.SetFileName(str(tmp_path / f"{i:03}.vtp"))
+        reader.Update()
+        mesh = reader.GetOutput()
+        points = arrays.vtk_to_numpy(mesh.GetPoints().GetData())
+        np.testing.assert_array_equal(points, path[i])
+        corners = arrays.vtk_to_numpy(mesh.GetPolys().GetConnectivityArray())
+        np.testing.assert_array_equal(corners.reshape(-1, 3), path.faces)
+        data = mesh.GetPointData()
+        deviation = arrays.vtk_to_numpy(data.GetArray("deviation"))
+        np.testing.assert_array_equal(deviation, path.edge_deviation()[i])
+        assert arrays.vtk_to_numpy(data.GetArray("energy")).min() >= 0
+        assert mesh.GetFieldData().GetArray("TimeValue").GetTuple1(0) == path.parameters[i]
+
+
 def test_matrices_of_scipy(animal):
     linalg = pytest.importorskip("scipy.sparse.linalg")
     shape = animal.pose("stand")

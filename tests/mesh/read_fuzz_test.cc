@@ -97,5 +97,34 @@ TEST_F(ReadFuzzTest, BinaryPly) {
   Damage(".ply", testing::Content(Path("cube.ply")), 3000);
 }
 
+TEST_F(ReadFuzzTest, TextStl) {
+  Damage(".stl",
+         "solid a b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0.5\n"
+         "endloop\nendfacet\nfacet normal 0 0 1\n outer loop\nvertex 0 0 0\nvertex 1 1 .5\n"
+         "vertex 0 1 0\nendloop\nendfacet\nendsolid a b\n",
+         3000);
+}
+
+TEST_F(ReadFuzzTest, BinaryStl) {
+  const Soup cube = testing::Cube();
+  WriteMesh(Path("cube.stl"), cube.vertices, cube);
+  Damage(".stl", testing::Content(Path("cube.stl")), 3000);
+}
+
+// With an embedded buffer: eight vertices, a target that moves one of them, and indices of bytes.
+TEST_F(ReadFuzzTest, Gltf) {
+  Damage(".gltf",
+         R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0,"scale":[1,2,3],"children":[1]},{}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":2,"targets":[{"POSITION":1}]}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":4,"min":[0,0,0],"max":[1,1,1]},
+{"componentType":5126,"type":"VEC3","count":4,"min":[0,0,0],"max":[1,1,1],
+"sparse":{"count":1,"indices":{"bufferView":1,"componentType":5121},"values":{"bufferView":0}}},
+{"bufferView":1,"byteOffset":1,"componentType":5121,"type":"SCALAR","count":6}],
+"bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":8}],
+"buffers":[{"byteLength":56,"uri":"data:application/octet-stream;base64,)"
+         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAgD8AAAAAAAAAAAAAgD8AAAAAAwABAgACAwA=\"}]}",
+         3000);
+}
+
 }  // namespace
 }  // namespace shapespace

@@ -174,8 +174,8 @@ TEST_F(ReadObjTest, RefusesWhatIsNoMesh) {
                          {"none.obj: cannot be opened: No such file"});
   std::filesystem::create_directory(Path("folder.obj"));
   ExpectError<FileError>([&] { ReadSoup(Path("folder.obj")); }, {"folder.obj: is a folder"});
-  ExpectError<FileError>([&] { ReadSoup(File("a.stl", "solid")); },
-                         {"a.stl", "'.stl' is not one of .obj, .ply, .off"});
+  ExpectError<FileError>([&] { ReadSoup(File("a.dae", "<xml>")); },
+                         {"a.dae", "'.dae' is not one of .obj, .ply, .off, .stl, .glb, .gltf"});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/mesh/read.h>
+#include <shapespace/mesh/triangulate.h>
 #include <shapespace/mesh/write.h>
 
 #include "mesh/bodies.h"
@@ -181,6 +182,63 @@ TEST_F(WriteTest, LongPolygonsAndPureGraphsSurvivePly) {
   EXPECT_EQ(ReadSoup(Path("graph.ply")).NumPolygons(), 0);
 }
 
+TEST_F(WriteTest, OffIsExact) {
+  soup_.segments.clear();
+  WriteMesh(Path("a.off"), soup_.vertices, soup_);
+  const Soup read = ReadSoup(Path("a.off"));
+  EXPECT_EQ(read.vertices, soup_.vertices);
+  EXPECT_EQ(read.polygon_begin, soup_.polygon_begin);
+  EXPECT_EQ(read.corners, soup_.corners);
+}
+
+// A polygon with a notch that points in another direction in each frame, so that frames would be
+// cut into different triangles if each were cut alone.
+TEST_F(WriteTest, StlFramesHaveTheSameTriangles) {
+  Shape first(3, 5), last(3, 5);
+  first << 0, 1, 2, 2, 0, 0, 0.9, 0, 2, 2, 0, 0, 0, 0, 0;
+  last << 0, 1, 2, 2, 0, 0, 0, 0, 2, 2, 0, 0, 0, 0, 0;
+  last.col(4) << 1.1, 1, 0;
+  Soup soup = testing::MakeSoup(first, {{0, 1, 2, 3, 4}});
+  soup.triangles = Triangulate(soup.polygon_begin, soup.corners, {first, last});
+  WriteMesh(Path("0.stl"), first, soup);
+  WriteMesh(Path("1.stl"), last, soup);
+  const Poses poses = ReadPoses({Path("0.stl"), Path("1.stl")});
+  EXPECT_EQ(poses.soup.NumPolygons(), 3);
+  soup.triangles.resize(3, 0);
+  WriteMesh(Path("alone.stl"), last, soup);
+  EXPECT_NE(ReadSoup(Path("alone.stl")).corners, poses.soup.corners);
+}
+
+TEST_F(WriteTest, StlIsRefusedWhereSinglePrecisionIsTooCoarse) {
+  const Shape cube = testing::Cube().vertices;
+  soup_.segments.clear();
+  // A cube whose corners are no round numbers, at some distances and in some units.
+  const auto write = [&](double unit, double distance) {
+    WriteMesh(Path("a.stl"), unit * ((cube / 3).array() + distance), soup_);
+  };
+  for (const double unit : {1.0, 1e-20, 1e20}) {
+    EXPECT_NO_THROW(write(unit, 100)) << unit;
+    ExpectError<MeshError>([&] { write(unit, 1e5); }, {"a.stl", "single precision", "origin"});
+  }
+  ExpectError<MeshError>([&] { write(1e40, 0); }, {"a.stl", "choose another unit"});
+  ExpectError<MeshError>([&] { write(1e-50, 0); }, {"a.stl", "choose another unit"});
+}
+
+TEST_F(WriteTest, OffAndStlTellWhatTheyCannotStore) {
+  soup_.appearance.vertex_colours.setOnes(3, 8);
+  soup_.appearance.groups = {{"head"}, std::vector<int>(6, 0)};
+  for (const char* file : {"a.off", "a.stl"}) {
+    EXPECT_EQ(
+        NotKept(file, soup_),
+        (std::vector<std::string>{"groups, vertex colours, segments are dropped; OBJ keeps them"}));
+    Soup graph;
+    graph.vertices = soup_.vertices;
+    graph.segments = soup_.segments;
+    ExpectError<MeshError>([&] { WriteMesh(Path(file), graph.vertices, graph); },
+                           {file, "no polygons", "write .obj or .ply"});
+  }
+}
+
 TEST_F(WriteTest, RefusesAndLeavesTheOldFileAlone) {
   const std::string old = File("old.obj", "v 0 0 0\n");
   Shape broken = soup_.vertices;
@@ -190,8 +248,8 @@ TEST_F(WriteTest, RefusesAndLeavesTheOldFileAlone) {
   ExpectError<MeshError>([&] { WriteMesh(old, Shape::Zero(3, 7), soup_); },
                          {"old.obj: 7 vertices", "of 8"});
   EXPECT_EQ(testing::Content(old), "v 0 0 0\n");
-  ExpectError<FileError>([&] { WriteMesh(Path("a.stl"), soup_.vertices, soup_); },
-                         {"a.stl", "'.stl' is neither .obj nor .ply"});
+  ExpectError<FileError>([&] { WriteMesh(Path("a.dae"), soup_.vertices, soup_); },
+                         {"a.dae", "'.dae' is not one of .obj, .ply, .off, .stl"});
   ExpectError<FileError>([&] { WriteMesh(old + "/a.obj", soup_.vertices, soup_); }, {"a.obj"});
 }
 

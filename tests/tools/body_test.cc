@@ -72,7 +72,7 @@ TEST_F(BodyToolTest, RefusesWhatItCannotMake) {
       {{"tube", "--at", "200"}, "--at 200: 200 is outside 0 .. 150"},
       {{"tube", "--triangles=-5"}, "--triangles -5: -5 is outside"},
       {{"tube", "--output", "tube.obj"}, "needs one number"},
-      {{"tube", "--output", "tube%d.stl"}, "must end in .obj or .ply"},
+      {{"tube", "--output", "tube%d.glb"}, "must end in .obj, .ply, .off or .stl"},
   };
   for (const auto& [arguments, message] : cases) {
     const Outcome outcome = Run("shape-body", arguments);

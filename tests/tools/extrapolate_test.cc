@@ -257,7 +257,7 @@ TEST_F(ExtrapolateTest, WrongCommandLines) {
     const char* message;
   } cases[] = {
       {{}, "name at least two poses of one mesh, or one .path file alone"},
-      {{"tube0.obj"}, "name at least two poses of one mesh, or one .path file alone"},
+      {{"tube0.obj"}, "tube0.obj has one pose; name at least two poses of one mesh"},
       {{"walk.path", "tube1.obj"}, "or one .path file alone"},
       {{"walk.path", "walk.path"}, "or one .path file alone"},
       {{"walk.path", "--steps", "0"}, "--steps must be 1 or more"},

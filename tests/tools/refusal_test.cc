@@ -66,16 +66,16 @@ TEST_F(RefusalTest, WrongCommandLines) {
       {{"--memory_limit", "0"}, "--memory_limit 0: must be positive"},
       {{"--isometric", "0", "--lambda", "0"},
        "--isometric 0, --strain, --rigid, --lambda 0: all zero"},
-      {{"--output", "walk.gif"}, "walk.gif: must end in .path, .png, .glb, .obj or .ply"},
+      {{"--output", "walk.gif"},
+       "walk.gif: must end in .path, .png, .glb, .pc2, .mdd, .obj, .ply, .off, .stl or .vtp"},
       {{"--output", ","}, "--output: names no file"},
       {{"--output", "frame.obj"}, "frame.obj: a name for frames needs one number"},
       {{"--output", "%d%d.obj"}, "needs one number"},
       {{"--output", "w.path,%s.ply"}, "%s.ply: a name for frames needs one number"},
       {{"--report", "r.html"}, "--report r.html: must end in .json or .txt, or be -"},
-      {{"--output", "w.path,z%d.png"},
-       "--output z%d.png: only frames, .obj and .ply, are numbered"},
-      {{"--output", "z%03d.GLB"}, "--output z%03d.GLB: only frames"},
-      {{"--output", "%d/w.path"}, "--output %d/w.path: only frames"},
+      {{"--output", "w.path,z%d.png"}, "--output z%d.png: only meshes and .vtp are numbered"},
+      {{"--output", "z%03d.GLB"}, "--output z%03d.GLB: only meshes"},
+      {{"--output", "%d/w.path"}, "--output %d/w.path: only meshes"},
       {{"--seconds", "0"}, "--seconds 0: must be from 0.1 to 3600"},
       {{"--seconds", "1e-9"}, "--seconds 1e-9: must be"},
       {{"--unit", "nan"}, "--unit nan: must be from 1e-12 to 1e+12"},
@@ -115,7 +115,7 @@ TEST_F(RefusalTest, FilesThatCannotBeRead) {
   ExpectRefusal(1, {"none.obj", "none.obj"}, {"none.obj: cannot be opened"});
   ExpectRefusal(1, {".", "."}, {"not one of .obj, .ply, .off"});
   ExpectBadFile("empty.obj", "", {"empty.obj: is empty"});
-  ExpectBadFile("mesh.stl", "solid\n", {"mesh.stl: the extension '.stl' is not one of .obj"});
+  ExpectBadFile("mesh.dae", "<xml>\n", {"mesh.dae: the extension '.dae' is not one of .obj"});
   ExpectBadFile("cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1\n",
                 {"cut.obj:3: vertex 3: coordinate z is missing"});
   ExpectBadFile("cut.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", {"cut.off:4: the file ends before"});

@@ -204,7 +204,7 @@ TEST_F(TransferTest, WrongCommandLines) {
     const char* message;
   } cases[] = {
       {{}, "at least two poses of one mesh, or one .path file alone"},
-      {{"tube0.obj"}, "at least two poses of one mesh, or one .path file alone"},
+      {{"tube0.obj"}, "tube0.obj has one pose; name at least two poses of one mesh"},
       {{"walk.path", "tube1.obj"}, "at least two poses of one mesh, or one .path file alone"},
       {{"tube0.obj", "tube1.obj", "--target", ""}, "--target: name the body to move"},
       {{"walk.path", "--lambda", "0.001"}, "--lambda: goes with poses"},

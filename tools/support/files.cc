@@ -10,6 +10,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/extension.h>
+#include <shapespace/mesh/write.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/path/path_file.h>
 
@@ -20,8 +21,7 @@ namespace shapespace::tools {
 namespace {
 
 bool IsFramePattern(const std::string& file) {
-  const std::string extension = FileExtension(file);
-  return (extension == ".obj" || extension == ".ply") && file.find('%') != file.npos;
+  return (IsWritableMesh(file) || FileExtension(file) == ".vtp") && file.find('%') != file.npos;
 }
 
 }  // namespace

@@ -31,10 +31,13 @@ void WriteMeshAndTell(const std::string& file, const Shape& shape, const Soup& s
 }
 
 void WriteFramesAndTell(const std::string& pattern, const std::vector<Shape>& shapes,
-                        const Soup& soup) {
-  TellWhatIsNotKept(pattern, soup);
-  WriteFrames(pattern, shapes, soup);
-  const int count = static_cast<int>(shapes.size());
+                        const Soup& soup, const std::vector<Eigen::MatrixXd>& colours) {
+  TellWhatIsNotKept(pattern, colours.empty() ? soup : Coloured(soup, colours[0]));
+  WriteFrames(pattern, shapes, soup, colours);
+  TellFrames(pattern, static_cast<int>(shapes.size()));
+}
+
+void TellFrames(const std::string& pattern, int count) {
   Out() << "wrote " << FirstToLast(pattern, 0, count - 1) << '\n';
   int end = count;
   while (std::filesystem::exists(FrameName(pattern, end))) ++end;

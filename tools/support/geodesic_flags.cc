@@ -59,7 +59,7 @@ std::int64_t NumShapes(size_t poses, const GeodesicOptions& options) {
 
 bool IsOnePath(const std::vector<std::string>& files) {
   const bool is_path = std::any_of(files.begin(), files.end(), IsPathFile);
-  if (is_path ? files.size() != 1 : files.size() < 2) {
+  if (is_path ? files.size() != 1 : files.empty()) {
     throw UsageError("name at least two poses of one mesh, or one .path file alone");
   }
   if (!is_path) return false;

@@ -17,7 +17,8 @@ GeodesicOptions GeodesicFromFlags();
 std::int64_t NumShapes(size_t poses, const GeodesicOptions& options);
 
 /// Whether the argument is a .path file instead of poses to interpolate.
-/// \throw UsageError if it is neither that nor two or more poses, or if a flag was given that would
+/// \throw UsageError if there is no argument, if a .path is not the only one, or if a flag was
+/// given that would
 ///        have no effect on a .path.
 bool IsOnePath(const std::vector<std::string>& files);
 

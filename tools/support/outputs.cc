@@ -13,9 +13,13 @@
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/extension.h>
+#include <shapespace/mesh/write.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/gltf.h>
 #include <shapespace/output/picture.h>
+#include <shapespace/output/point_cache.h>
+#include <shapespace/output/vertex_colours.h>
+#include <shapespace/output/vtk.h>
 #include <shapespace/path/path_file.h>
 
 #include "support/frames.h"
@@ -25,18 +29,21 @@
 
 DEFINE_string(output, "path.png",
               "files to write, separated by commas: .path (the complete result, for other tools), "
-              ".png (film strip), .glb (animation, for browsers and Blender), frames/%03d.obj or "
-              ".ply (one mesh per shape). Names must not contain commas");
+              ".png (film strip), .glb (animation, for browsers and Blender), .pc2 or .mdd (point "
+              "cache, for Blender, Maya, Houdini, 3ds Max), frames/%03d.obj, .ply, .off or .stl "
+              "(one mesh per shape), frames/%03d.vtp (with deviation and energy, for ParaView). "
+              "Names must not contain commas");
 DEFINE_string(color, "plain",
-              "film strip and glb: plain, deviation (of edge lengths from the first pose), or "
-              "parts (regions that move nearly rigidly)");
+              "film strip, glb, and frames in OBJ or PLY: plain, deviation (of edge lengths from "
+              "the first pose), or parts (regions that move nearly rigidly)");
 
 DEFINE_string(up, "",
               "the axis of the poses that points up, y or z; without, film strips choose, and glb "
               "takes y");
 DEFINE_double(unit, 1, "glb: metres in one unit of the poses; 0.001 for millimetres");
 DEFINE_double(seconds, 4, "glb: duration");
-DEFINE_double(fps, 0, "glb: shapes of the path per second, instead of --seconds");
+DEFINE_double(
+    fps, 0, "glb: shapes of the path per second, instead of --seconds; mdd: the same, 24 without");
 DEFINE_bool(loop, false,
             "glb: from the first shape to the last and again from the first, for motions that end "
             "where they begin; default: forward and back");
@@ -49,29 +56,36 @@ DEFINE_string(title, "", "film strip: a line above it");
 namespace shapespace::tools {
 namespace {
 
-enum class Kind { kPath, kPicture, kGltf, kFrames, kLastShape };
+enum class Kind { kPath, kPicture, kGltf, kPointCache, kFrames, kVtk, kLastShape };
 
 bool writes_last_shape_alone = false;
 
 Kind KindOf(const std::string& output, const std::string& flag = "output") {
   const std::string extension = FileExtension(output);
-  if (extension == ".obj" || extension == ".ply") {
+  if (IsWritableMesh(output)) {
     if (writes_last_shape_alone && output.find('%') == output.npos) return Kind::kLastShape;
     CheckFramePattern(flag, output);
     return Kind::kFrames;
   }
-  for (const auto& [known, kind] :
-       {std::make_pair(".path", Kind::kPath), {".png", Kind::kPicture}, {".glb", Kind::kGltf}}) {
+  if (extension == ".vtp") {
+    CheckFramePattern(flag, output);
+    return Kind::kVtk;
+  }
+  for (const auto& [known, kind] : {std::make_pair(".path", Kind::kPath),
+                                    {".png", Kind::kPicture},
+                                    {".glb", Kind::kGltf},
+                                    {".pc2", Kind::kPointCache},
+                                    {".mdd", Kind::kPointCache}}) {
     if (extension != known) continue;
     static const std::regex number("%0?[1-9]?d");
     if (std::regex_search(output, number)) {
-      throw UsageError("--" + flag + " " + output +
-                       ": only frames, .obj and .ply, are numbered; one " + extension +
-                       " contains the whole path");
+      throw UsageError("--" + flag + " " + output + ": only meshes and .vtp are numbered; one " +
+                       extension + " contains the whole path");
     }
     return kind;
   }
-  throw UsageError("--" + flag + " " + output + ": must end in .path, .png, .glb, .obj or .ply");
+  throw UsageError("--" + flag + " " + output +
+                   ": must end in .path, .png, .glb, .pc2, .mdd, .obj, .ply, .off, .stl or .vtp");
 }
 
 GltfOptions GltfOptionsFromFlags() {
@@ -145,25 +159,49 @@ void WritePicture(const std::string& output, const Path& path, const Shape& refe
   WritePng(output, RenderFilmStrip(*path.metric->connectivity, path.Placed(), options));
 }
 
+// The colours of frames according to --color, if any; one for each shape.
+std::vector<Eigen::MatrixXd> FrameColours(const std::string& output, const Path& path,
+                                          const Shape& reference, const Eigen::VectorXi& parts) {
+  if (FLAGS_color == "deviation") {
+    DeviationColours colours = ColourByDeviation(path, reference);
+    Err() << "note: " << output << ": the last colour stands for a deviation of "
+          << 100 * colours.scale_end << "%\n";
+    return std::move(colours.of_shapes);
+  }
+  if (FLAGS_color == "plain") return {};
+  return {path.shapes.size(), ColourByGroup(parts)};
+}
+
 // `parts` are computed when first needed.
 void Write(const std::string& output, const Path& path, const Path& whole,
            const Eigen::VectorXi& marks, Eigen::VectorXi* parts) {
   const Kind kind = KindOf(output);
-  if (kind == Kind::kFrames) {
-    WriteFramesAndTell(output, path.Placed(),
-                       FrameSoup(*path.metric->connectivity, path.appearance));
-    return;
-  }
   if (kind != Kind::kPath && FLAGS_color == "parts" && parts->size() == 0) {
     *parts = FindRigidParts(whole).of_vertex;
   }
-  if (kind == Kind::kLastShape) {
-    WriteMeshAndTell(output, path.Placed(path.NumShapes() - 1),
-                     FrameSoup(*path.metric->connectivity, path.appearance));
+  if (kind == Kind::kFrames || kind == Kind::kLastShape) {
+    const Soup soup = FrameSoup(*path.metric->connectivity, path.appearance);
+    const std::vector<Eigen::MatrixXd> colours =
+        FrameColours(output, path, whole.shapes[0], *parts);
+    if (kind == Kind::kFrames) {
+      WriteFramesAndTell(output, path.Placed(), soup, colours);
+    } else {
+      WriteMeshAndTell(output, path.Placed(path.NumShapes() - 1),
+                       colours.empty() ? soup : Coloured(soup, colours.back()));
+    }
+    return;
+  }
+  if (kind == Kind::kVtk) {
+    WriteVtkSeries(output, path, whole.shapes[0]);
+    TellFrames(output, path.NumShapes());
     return;
   }
   if (kind == Kind::kPath) WritePath(output, path);
   if (kind == Kind::kPicture) WritePicture(output, path, whole.shapes[0], *parts, marks);
+  if (kind == Kind::kPointCache) {
+    FLAGS_fps > 0 ? WritePointCache(output, path.Placed(), FLAGS_fps)
+                  : WritePointCache(output, path.Placed());
+  }
   if (kind == Kind::kGltf) WriteGltfAndTell(output, path, whole.shapes[0], *parts);
   Out() << "wrote " << output << '\n';
 }

@@ -1,10 +1,13 @@
 #include "support/poses.h"
 
+#include <utility>
+
 #include <gflags/gflags.h>
 
 #include "support/console.h"
 #include "support/mesh_flags.h"
 #include "support/metric_flags.h"
+#include "support/tool.h"
 
 DEFINE_string(stiffeners, "",
               "text file of additional edges (stiffeners): two vertex numbers per line, from 1");
@@ -16,18 +19,43 @@ std::vector<std::string> WithStiffeners(std::vector<std::string> files) {
   return files;
 }
 
-Poses ReadPosesFromFlags(const std::vector<std::string>& files) {
+namespace {
+
+ReadOptions OptionsFromFlags() {
   ReadOptions options;
   options.stiffeners = FLAGS_stiffeners;
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
   options.mirror = MirrorFromFlags();
-  Poses poses = ReadPoses(files, options);
+  return options;
+}
+
+Poses CheckedAndTold(Poses poses) {
   CheckMetricFlags(*poses.connectivity);
   for (const std::string& warning : poses.warnings) Err() << "warning: " << warning << '\n';
   for (const std::string& dropped : poses.soup.dropped) {
     Err() << "note: " << dropped << '\n';
   }
   return poses;
+}
+
+}  // namespace
+
+Poses ReadPosesFromFlags(const std::vector<std::string>& files) {
+  Poses poses = ReadPoses(files, OptionsFromFlags());
+  if (poses.shapes.size() < 2) {
+    throw UsageError(files[0] + " has one pose; name at least two poses of one mesh");
+  }
+  return CheckedAndTold(std::move(poses));
+}
+
+Poses ReadMeshesFromFlags(const std::vector<std::string>& files) {
+  std::vector<Soup> soups;
+  for (const std::string& file : files) soups.push_back(ReadSoup(file));
+  return MakePosesFromFlags(std::move(soups));
+}
+
+Poses MakePosesFromFlags(std::vector<Soup> soups) {
+  return CheckedAndTold(MakePoses(std::move(soups), OptionsFromFlags()));
 }
 
 }  // namespace shapespace::tools

@@ -8,10 +8,17 @@
 
 namespace shapespace::tools {
 
-/// Reads pose files according to --stiffeners, --allow_nonmanifold and --mirror; prints warnings,
-/// and notes on content that outputs will not have.
-/// \throw UsageError if a flag of the metric cannot be applied to the mesh.
+/// Reads files with two or more poses in all, according to --stiffeners, --allow_nonmanifold and
+/// --mirror; prints warnings, and notes on content that outputs will not have.
+/// \throw UsageError if there are fewer poses, or if a flag of the metric cannot be applied to the
+///        mesh.
 Poses ReadPosesFromFlags(const std::vector<std::string>& files);
+
+/// The same for one mesh of each file: of a file of several poses the first.
+Poses ReadMeshesFromFlags(const std::vector<std::string>& files);
+
+/// The same for soups that were read.
+Poses MakePosesFromFlags(std::vector<Soup> soups);
 
 /// These files, and that of --stiffeners if it was given: all inputs.
 std::vector<std::string> WithStiffeners(std::vector<std::string> files);

@@ -12,7 +12,9 @@
 
 namespace shapespace::internal {
 
-inline std::string FileName(const Soup& soup) { return soup.file.empty() ? "mesh" : soup.file; }
+inline std::string FileName(const Soup& soup) {
+  return (soup.file.empty() ? "mesh" : soup.file) + (soup.pose.empty() ? "" : ":" + soup.pose);
+}
 
 inline std::string Name(const char* what, int i, const std::vector<int>& lines) {
   const std::string name = std::string(what) + " " + std::to_string(i + 1);

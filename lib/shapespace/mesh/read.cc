@@ -25,16 +25,44 @@ constexpr int kMostBytes = std::numeric_limits<int>::max();
 
 std::string Content(const std::string& file) { return ReadFile(file, kMostBytes); }
 
-Soup Parse(const std::string& name, std::string content, MeshFormat format) {
+std::vector<Soup> Parse(const std::string& name, std::string content, MeshFormat format) {
   switch (format) {
     case MeshFormat::kObj:
-      return internal::ReadObj(name, std::move(content));
+      return {internal::ReadObj(name, std::move(content))};
     case MeshFormat::kPly:
-      return internal::ReadPly(name, content);
+      return {internal::ReadPly(name, content)};
     case MeshFormat::kOff:
+      return {internal::ReadOff(name, content)};
+    case MeshFormat::kStl:
+      return {internal::ReadStl(name, content)};
+    case MeshFormat::kGltf:
       break;
   }
-  return internal::ReadOff(name, content);
+  return internal::ReadGltf(name, content);
+}
+
+MeshFormat FormatOf(const std::string& file) {
+  const std::string extension = FileExtension(file);
+  for (const auto& [known, format] : {std::make_pair(".obj", MeshFormat::kObj),
+                                      {".ply", MeshFormat::kPly},
+                                      {".off", MeshFormat::kOff},
+                                      {".stl", MeshFormat::kStl},
+                                      {".glb", MeshFormat::kGltf},
+                                      {".gltf", MeshFormat::kGltf}}) {
+    if (extension == known) return format;
+  }
+  throw FileError(file + ": the extension " + internal::Quoted(extension) +
+                  " is not one of .obj, .ply, .off, .stl, .glb, .gltf; convert the mesh to one of "
+                  "these");
+}
+
+// The first of a file's poses, with a sentence about the others.
+Soup First(std::vector<Soup> poses) {
+  if (poses.size() > 1) {
+    poses[0].dropped.push_back(std::to_string(poses.size() - 1) +
+                               " morph targets not read, since one mesh is wanted");
+  }
+  return std::move(poses[0]);
 }
 
 /// Sorts findings into warnings and errors. If several are fatal, the first three are reported,
@@ -68,20 +96,21 @@ class Judge {
   std::vector<std::string>* warnings_;
 };
 
-// Poses from `count` soups, the i-th of which is next(i). They are made one after the other,
-// because of all but the first only the positions are kept.
+// Poses from `count` sources, the i-th of which gives the soups next(i), one or more. They are made
+// one after the other, because of all but the first only the positions are kept.
 template <typename Next>
 Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
   Poses poses;
   Judge judge(options, &poses.warnings);
-  poses.soup = next(0);
   const Soup& first = poses.soup;
-  poses.names.push_back(first.file);
-  judge.Hear<MeshError>(CheckSoup(first));
-  poses.shapes.push_back(first.vertices);
-  for (size_t i = 1; i < count; ++i) {
-    Soup pose = next(i);
-    poses.names.push_back(pose.file);
+  const auto add = [&](Soup pose) {
+    poses.names.push_back(pose.pose.empty() ? pose.file : pose.pose);
+    if (poses.shapes.empty()) {
+      poses.soup = std::move(pose);
+      judge.Hear<MeshError>(CheckSoup(first));
+      poses.shapes.push_back(first.vertices);
+      return;
+    }
     if (options.mirror != 0 && MirrorBack(first, options.mirror, &pose)) {
       poses.warnings.push_back(internal::FileName(pose) + ": is a mirror image of " +
                                internal::FileName(first) + "; its " + options.mirror +
@@ -91,6 +120,9 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
     // From here on only its positions are used, with the polygons of the first one.
     judge.Hear<MeshError>(internal::CheckPositions(pose));
     poses.shapes.push_back(std::move(pose.vertices));
+  };
+  for (size_t i = 0; i < count; ++i) {
+    for (Soup& pose : next(i)) add(std::move(pose));
   }
   std::vector<std::pair<int, int>> stiffeners;
   if (!options.stiffeners.empty()) {
@@ -102,13 +134,11 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
 
 }  // namespace
 
-Soup ReadSoup(const std::string& file) {
-  const std::string extension = FileExtension(file);
-  if (extension == ".obj") return Parse(file, Content(file), MeshFormat::kObj);
-  if (extension == ".ply") return Parse(file, Content(file), MeshFormat::kPly);
-  if (extension == ".off") return Parse(file, Content(file), MeshFormat::kOff);
-  throw FileError(file + ": the extension " + internal::Quoted(extension) +
-                  " is not one of .obj, .ply, .off; convert the mesh to one of these");
+Soup ReadSoup(const std::string& file) { return First(ReadSoups(file)); }
+
+std::vector<Soup> ReadSoups(const std::string& file) {
+  const MeshFormat format = FormatOf(file);
+  return Parse(file, Content(file), format);
 }
 
 Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format) {
@@ -119,7 +149,7 @@ Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format) 
     throw FileError(name + ": is larger than the " + std::to_string(kMostBytes) +
                     " bytes that such a file may have");
   }
-  return Parse(name, std::move(content), format);
+  return First(Parse(name, std::move(content), format));
 }
 
 bool MirrorBack(const Soup& reference, char axis, Soup* pose) {
@@ -179,13 +209,13 @@ std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num
 Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& options) {
   if (files.empty()) throw FileError("no mesh file is named; at least one is needed");
   return Collect(
-      files.size(), [&](size_t i) { return ReadSoup(files[i]); }, options);
+      files.size(), [&](size_t i) { return ReadSoups(files[i]); }, options);
 }
 
 Poses MakePoses(std::vector<Soup> soups, const ReadOptions& options) {
   if (soups.empty()) throw MeshError("there is no pose; at least one is needed");
   return Collect(
-      soups.size(), [&](size_t i) { return std::move(soups[i]); }, options);
+      soups.size(), [&](size_t i) { return std::vector<Soup>{std::move(soups[i])}; }, options);
 }
 
 }  // namespace shapespace

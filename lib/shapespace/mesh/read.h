@@ -13,18 +13,27 @@
 
 namespace shapespace {
 
-/// Reads an OBJ, PLY (text, or binary of either byte order) or OFF file, according to its
-/// extension. Coordinates are doubles and all elements remain in the file's order; nothing is
-/// repaired.
+/// Reads a mesh file, according to its extension: OBJ, PLY (text, or binary of either byte order),
+/// OFF, STL (text or binary), or glTF 2.0 (.glb, .gltf). Coordinates are doubles and all elements
+/// remain in the file's order; nothing is repaired. STL and glTF store a vertex once for each of
+/// its triangles, normals or texture coordinates: vertices with exactly equal coordinates, in glTF
+/// in all poses, become one, in the order of their first occurrence.
+///
+/// A glTF file must have one mesh. It is transformed as its node says, and read as the first of
+/// several poses if it has morph targets (`ReadSoups`); `Soup::dropped` tells that there are more.
 /// \throw FileError naming file, line and element: unreadable, empty or truncated file, an invalid
 ///        number, an index out of range, an unknown extension.
 Soup ReadSoup(const std::string& file);
 
-enum class MeshFormat { kObj, kPly, kOff };
+/// All poses of a file: of glTF the mesh and then each morph target, fully applied and with its
+/// name as `Soup::pose`; of the other formats one. They have the same polygons.
+std::vector<Soup> ReadSoups(const std::string& file);
 
-/// The same for a stream, from its current position to its end; binary formats need a binary
-/// stream. `name` is used in messages and as the soup's `file`. Material libraries of an OBJ are
-/// searched in the folder of that name.
+enum class MeshFormat { kObj, kPly, kOff, kStl, kGltf };
+
+/// `ReadSoup` for a stream, from its current position to its end; binary formats need a binary
+/// stream. `name` is used in messages and as the soup's `file`. Material libraries of an OBJ, and
+/// buffers of a .gltf, are searched in the folder of that name.
 /// \throw FileError as above, and if the stream fails or is empty.
 Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format);
 
@@ -51,7 +60,7 @@ std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num
 struct Poses {
   std::shared_ptr<const Connectivity> connectivity;
   std::vector<Shape> shapes;          ///< one per soup, in its unit
-  std::vector<std::string> names;     ///< `Soup::file` of each
+  std::vector<std::string> names;     ///< of each: `Soup::pose` or, without, `Soup::file`
   Soup soup;                          ///< the first: polygons, appearance
   std::vector<std::string> warnings;  ///< from `CheckSoup` and `CheckCorrespondence`
 };
@@ -66,7 +75,8 @@ struct ReadOptions {
   char mirror = 0;
 };
 
-/// Reads one or more files as poses of the first one's connectivity.
+/// Reads one or more files, with all poses that they have, as poses of the first one's
+/// connectivity.
 /// \throw FileError, MeshError (fatal findings of `CheckSoup`), CorrespondenceError (fatal findings
 ///        of `CheckCorrespondence`, naming the first difference).
 Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& options = {});

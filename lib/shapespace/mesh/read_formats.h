@@ -2,6 +2,7 @@
 #define SHAPESPACE_MESH_READ_FORMATS_H_
 
 #include <string>
+#include <vector>
 
 #include <shapespace/mesh/soup.h>
 
@@ -13,6 +14,9 @@ namespace shapespace::internal {
 Soup ReadObj(const std::string& file, std::string text);
 Soup ReadPly(const std::string& file, const std::string& text);
 Soup ReadOff(const std::string& file, const std::string& text);
+Soup ReadStl(const std::string& file, const std::string& bytes);
+/// All poses: the mesh, and each of its morph targets.
+std::vector<Soup> ReadGltf(const std::string& file, const std::string& bytes);
 
 /// A property of the vertices of a PLY file; any but a list.
 Eigen::VectorXd ReadPlyProperty(const std::string& file, const std::string& text,

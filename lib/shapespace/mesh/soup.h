@@ -13,12 +13,17 @@ namespace shapespace {
 /// The content of a mesh file, with nothing merged, dropped or reordered.
 struct Soup {
   std::string file;  ///< from which it was read; empty if made in code
+  std::string pose;  ///< its name, for all but the first pose of a file of several
   Shape vertices;    ///< 3 x m, in the file's order and units
 
   /// Polygons (three or more corners each), concatenated: polygon i has the vertex indices
   /// corners[polygon_begin[i]] ... corners[polygon_begin[i + 1] - 1], counted from 0.
   std::vector<int> polygon_begin = {0};
   std::vector<int> corners;
+
+  /// How the polygons are cut into triangles, 3 x T, if that has been decided, as by a
+  /// `Connectivity`; otherwise empty. Used by formats that store triangles only.
+  Eigen::Matrix3Xi triangles;
 
   /// Straight lines (OBJ `l`), as their consecutive segments.
   std::vector<std::pair<int, int>> segments;

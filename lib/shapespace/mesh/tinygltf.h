@@ -1,13 +1,14 @@
-#ifndef SHAPESPACE_OUTPUT_TINYGLTF_H_
-#define SHAPESPACE_OUTPUT_TINYGLTF_H_
+#ifndef SHAPESPACE_MESH_TINYGLTF_H_
+#define SHAPESPACE_MESH_TINYGLTF_H_
 
 // The glTF library without its image support. The macros defined here change its classes, so it
 // must not be included in any other way.
 #define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_EXTERNAL_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_INCLUDE_JSON
 #include <nlohmann/json.hpp>
 
 #include <tiny_gltf.h>
 
-#endif  // SHAPESPACE_OUTPUT_TINYGLTF_H_
+#endif  // SHAPESPACE_MESH_TINYGLTF_H_

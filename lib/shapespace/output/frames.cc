@@ -22,10 +22,26 @@ std::string FrameName(const std::string& pattern, int number) {
   return match[1].str() + digits + match[4].str();
 }
 
-void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes, const Soup& soup) {
+void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes, const Soup& soup,
+                 const std::vector<Eigen::MatrixXd>& colours) {
   FrameName(pattern, 0);  // throws before anything is written
-  ParallelFor(static_cast<int>(shapes.size()),
-              [&](int i) { WriteMesh(FrameName(pattern, i), shapes[i], soup); });
+  if (!colours.empty() && colours.size() != shapes.size()) {
+    throw InvalidOptions("colours: there must be as many as shapes");
+  }
+  ParallelFor(static_cast<int>(shapes.size()), [&](int i) {
+    WriteMesh(FrameName(pattern, i), shapes[i],
+              colours.empty() ? soup : Coloured(soup, colours[i]));
+  });
+}
+
+Soup Coloured(Soup soup, const Eigen::MatrixXd& colours) {
+  Appearance& appearance = soup.appearance;
+  appearance.vertex_colours = colours;
+  appearance.texture_coordinates.resize(2, 0);
+  appearance.corner_texture.clear();
+  appearance.material_libraries.clear();
+  appearance.materials = {};
+  return soup;
 }
 
 Soup FrameSoup(const Connectivity& connectivity, const Appearance& appearance) {
@@ -33,6 +49,7 @@ Soup FrameSoup(const Connectivity& connectivity, const Appearance& appearance) {
   soup.vertices.setZero(3, connectivity.NumVertices());
   soup.polygon_begin = connectivity.PolygonBegin();
   soup.corners = connectivity.Corners();
+  soup.triangles = connectivity.Triangles();
   soup.segments = connectivity.Segments();
   soup.appearance = appearance;
   return soup;

@@ -15,9 +15,15 @@ namespace shapespace {
 std::string FrameName(const std::string& pattern, int number);
 
 /// Writes one mesh file per shape, numbered from 000, in the format of the pattern's extension
-/// (`WriteMesh`). `soup` provides polygons, segments and appearance.
-/// \throw FileError, MeshError.
-void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes, const Soup& soup);
+/// (`WriteMesh`). `soup` provides polygons, segments and appearance. `colours`, if given, are those
+/// of each shape's vertices (vertex_colours.h) and replace the soup's colours, materials and
+/// texture coordinates, behind which programs would hide them.
+/// \throw FileError, MeshError, InvalidOptions (not as many colours as shapes).
+void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes, const Soup& soup,
+                 const std::vector<Eigen::MatrixXd>& colours = {});
+
+/// `soup` with such colours.
+Soup Coloured(Soup soup, const Eigen::MatrixXd& colours);
 
 /// The content of frames besides positions: polygons, segments and appearance of a path or a body.
 /// Its vertices are zero.

@@ -20,12 +20,12 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/read_file.h>
 #include <shapespace/mesh/geometry.h>
+#include <shapespace/mesh/tinygltf.h>
 #include <shapespace/output/colour.h>
 #include <shapespace/output/key_shapes.h>
 #include <shapespace/output/legend.h>
 #include <shapespace/output/materials.h>
 #include <shapespace/output/seams.h>
-#include <shapespace/output/tinygltf.h>
 
 namespace shapespace {
 namespace {

@@ -1,0 +1,376 @@
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <shapespace/base/bytes.h>
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/merge.h>
+#include <shapespace/mesh/read_formats.h>
+#include <shapespace/mesh/text.h>
+#include <shapespace/mesh/tinygltf.h>
+
+namespace shapespace::internal {
+namespace {
+
+using tinygltf::Accessor;
+using tinygltf::Model;
+using tinygltf::Node;
+using tinygltf::Primitive;
+
+class GltfReader {
+ public:
+  GltfReader(const std::string& file, const std::string& bytes) : file_(file) { Parse(bytes); }
+
+  std::vector<Soup> Read() {
+    const int node = MeshNode();
+    const tinygltf::Mesh& mesh = At(model_.meshes, model_.nodes[node].mesh, "mesh");
+    for (const Primitive& primitive : mesh.primitives) AddPrimitive(primitive);
+    if (shapes_.empty() || shapes_[0].cols() == 0) Fail("the mesh has no vertices");
+    const bool skinned = model_.nodes[node].skin >= 0;
+    // Vertices of a skinned mesh are placed by its skeleton, not by its node.
+    return Soups(skinned ? Eigen::Affine3d::Identity() : Placement(node), Names(mesh));
+  }
+
+ private:
+  [[noreturn]] void Fail(const std::string& what) const { FailAt(file_, 0, what); }
+
+  void Parse(const std::string& bytes) {
+    tinygltf::TinyGLTF library;
+    // Images are not needed.
+    library.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
+                              const unsigned char*, int, void*) { return true; },
+                           nullptr);
+    const std::string folder = std::filesystem::path(file_).parent_path().string();
+    const auto size = static_cast<unsigned>(bytes.size());
+    std::string error, warning;
+    bool read = false;
+    try {
+      read =
+          bytes.compare(0, 4, "glTF") == 0
+              ? library.LoadBinaryFromMemory(&model_, &error, &warning,
+                                             reinterpret_cast<const unsigned char*>(bytes.data()),
+                                             size, folder)
+              : library.LoadASCIIFromString(&model_, &error, &warning, bytes.data(), size, folder);
+    } catch (const std::exception& exception) {
+      error += exception.what();
+    }
+    if (!read) {
+      Fail("is not valid glTF 2.0: " + error.substr(0, error.find_last_not_of("\r\n") + 1) +
+           kReexport);
+    }
+    for (const std::string& extension : model_.extensionsRequired) {
+      // Those that compress, or round, positions.
+      if (extension.find("mesh") != extension.npos) {
+        Fail("needs the extension " + extension +
+             ", which is not read; export the file without compression");
+      }
+    }
+  }
+
+  template <typename T>
+  const T& At(const std::vector<T>& items, int index, const char* what) const {
+    if (index < 0 || static_cast<size_t>(index) >= items.size()) {
+      Fail(std::string("refers to a ") + what + " that does not exist" + kReexport);
+    }
+    return items[index];
+  }
+
+  // The one node that has a mesh.
+  int MeshNode() const {
+    std::vector<int> found;
+    std::string names;
+    for (size_t i = 0; i < model_.nodes.size(); ++i) {
+      if (model_.nodes[i].mesh < 0) continue;
+      found.push_back(static_cast<int>(i));
+      names += (names.empty() ? "" : ", ") + Quoted(model_.nodes[i].name);
+    }
+    if (found.empty()) Fail("has no mesh");
+    if (found.size() > 1) {
+      Fail("has " + std::to_string(found.size()) + " meshes, " + names +
+           "; join them, or export the one that is meant");
+    }
+    return found[0];
+  }
+
+  Eigen::Affine3d OwnPlacement(const Node& node) const {
+    Eigen::Affine3d placement = Eigen::Affine3d::Identity();
+    if (node.matrix.size() == 16) {
+      placement.matrix() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());
+    } else {
+      if (node.translation.size() == 3) {
+        placement.translate(Eigen::Map<const Eigen::Vector3d>(node.translation.data()));
+      }
+      if (node.rotation.size() == 4) {
+        placement.rotate(Eigen::Map<const Eigen::Quaterniond>(node.rotation.data()).normalized());
+      }
+      if (node.scale.size() == 3) {
+        placement.scale(Eigen::Map<const Eigen::Vector3d>(node.scale.data()).eval());
+      }
+    }
+    if (!placement.matrix().allFinite()) {
+      Fail("node " + Quoted(node.name) + ": its transformation is not finite" + kReexport);
+    }
+    return placement;
+  }
+
+  // From the mesh's coordinates to those of the scene.
+  Eigen::Affine3d Placement(int node) const {
+    std::vector<int> parent(model_.nodes.size(), -1);
+    for (size_t i = 0; i < model_.nodes.size(); ++i) {
+      for (const int child : model_.nodes[i].children) {
+        At(model_.nodes, child, "node");
+        parent[child] = static_cast<int>(i);
+      }
+    }
+    Eigen::Affine3d placement = Eigen::Affine3d::Identity();
+    size_t steps = 0;
+    for (int i = node; i >= 0; i = parent[i]) {
+      if (++steps > parent.size()) Fail(std::string("a node is its own parent") + kReexport);
+      placement = OwnPlacement(model_.nodes[i]) * placement;
+    }
+    return placement;
+  }
+
+  // Where an element of an accessor's numbers, of `size` bytes each, is stored.
+  // \throw FileError if not all `count` of them lie in the buffer.
+  std::pair<const unsigned char*, size_t> Elements(int view_index, size_t offset, size_t size,
+                                                   size_t count) const {
+    const tinygltf::BufferView& view = At(model_.bufferViews, view_index, "buffer view");
+    const std::vector<unsigned char>& data = At(model_.buffers, view.buffer, "buffer").data;
+    const size_t stride = view.byteStride > 0 ? view.byteStride : size;
+    const size_t length = view.byteLength;
+    const bool fits =
+        view.byteOffset <= data.size() && length <= data.size() - view.byteOffset &&
+        offset <= length &&
+        (count == 0 || (length - offset >= size && (length - offset - size) / stride >= count - 1));
+    if (!fits) Fail(std::string("a list of numbers is longer than its bytes") + kReexport);
+    return {data.data() + view.byteOffset + offset, stride};
+  }
+
+  // The numbers of an accessor of `count` vertices, one column each.
+  Eigen::MatrixXd Floats(const Accessor& accessor, int type, size_t count, const char* what) const {
+    if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT || accessor.type != type) {
+      Fail(std::string(what) + " are not floating-point numbers; export them without compression");
+    }
+    const int rows = tinygltf::GetNumComponentsInType(type);
+    const size_t size = rows * sizeof(float);
+    if (accessor.count != count) {
+      Fail(std::string(what) + " are not as many as the vertices" + kReexport);
+    }
+    const auto read = [rows](const unsigned char* bytes, double* numbers) {
+      for (int row = 0; row < rows; ++row) {
+        numbers[row] =
+            ReadLittleEndian<float>(reinterpret_cast<const char*>(bytes + row * sizeof(float)));
+      }
+    };
+    // Without a buffer view all numbers are 0, but for the sparse ones.
+    Eigen::MatrixXd numbers;
+    if (accessor.bufferView >= 0) {
+      const auto [begin, stride] = Elements(accessor.bufferView, accessor.byteOffset, size, count);
+      numbers.resize(rows, static_cast<Eigen::Index>(count));
+      for (size_t i = 0; i < count; ++i) {
+        read(begin + i * stride, numbers.col(static_cast<Eigen::Index>(i)).data());
+      }
+    } else {
+      numbers.setZero(rows, static_cast<Eigen::Index>(count));
+    }
+    if (accessor.sparse.isSparse) {
+      const auto& sparse = accessor.sparse;
+      const std::vector<int> columns =
+          Integers(sparse.indices.bufferView, sparse.indices.byteOffset,
+                   sparse.indices.componentType, sparse.count, count);
+      const auto [begin, stride] =
+          Elements(sparse.values.bufferView, sparse.values.byteOffset, size, columns.size());
+      for (size_t i = 0; i < columns.size(); ++i) {
+        read(begin + i * stride, numbers.col(columns[i]).data());
+      }
+    }
+    if (!numbers.allFinite()) Fail(std::string(what) + " are not all finite" + kReexport);
+    return numbers;
+  }
+
+  std::vector<int> Integers(int view, size_t offset, int component_type, size_t count,
+                            size_t end) const {
+    const int size = tinygltf::GetComponentSizeInBytes(component_type);
+    if (component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+        component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+        component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+      Fail(std::string("indices are not unsigned integers") + kReexport);
+    }
+    const auto [begin, stride] = Elements(view, offset, size, count);
+    std::vector<int> integers(count);
+    for (size_t i = 0; i < count; ++i) {
+      const char* const bytes = reinterpret_cast<const char*>(begin + i * stride);
+      const std::uint32_t index = size == 1   ? ReadLittleEndian<std::uint8_t>(bytes)
+                                  : size == 2 ? ReadLittleEndian<std::uint16_t>(bytes)
+                                              : ReadLittleEndian<std::uint32_t>(bytes);
+      if (index >= end) {
+        Fail("has the index " + std::to_string(index) + " where there are " + std::to_string(end) +
+             " vertices" + kReexport);
+      }
+      integers[i] = static_cast<int>(index);
+    }
+    return integers;
+  }
+
+  // The accessors of the positions of a primitive and of its targets.
+  std::vector<int> PositionAccessors(const Primitive& primitive) const {
+    std::vector<int> accessors;
+    const auto add = [&](const std::map<std::string, int>& attributes) {
+      const auto position = attributes.find("POSITION");
+      accessors.push_back(position == attributes.end() ? -1 : position->second);
+    };
+    add(primitive.attributes);
+    for (const std::map<std::string, int>& target : primitive.targets) add(target);
+    if (accessors[0] < 0) Fail(std::string("a part of the mesh has no positions") + kReexport);
+    return accessors;
+  }
+
+  // Appends the vertices of a primitive to all poses, unless another primitive had the same.
+  // Returns the index of the first of them.
+  int AddVertices(const Primitive& primitive) {
+    const std::vector<int> accessors = PositionAccessors(primitive);
+    const auto [found, is_new] =
+        begin_of_.try_emplace(accessors, shapes_.empty() ? 0 : static_cast<int>(shapes_[0].cols()));
+    const int begin = found->second;
+    if (!is_new) return begin;
+    if (!shapes_.empty() && shapes_.size() != accessors.size()) {
+      Fail("parts of the mesh have different numbers of morph targets");
+    }
+    shapes_.resize(accessors.size());
+    Eigen::MatrixXd base;
+    for (size_t k = 0; k < accessors.size(); ++k) {
+      if (k > 0 && accessors[k] < 0) {
+        Append(base, &shapes_[k]);
+        continue;
+      }
+      const Accessor& accessor = At(model_.accessors, accessors[k], "list of numbers");
+      // Only targets may leave out the buffer, where all numbers but a few are 0.
+      if (k == 0 && accessor.bufferView < 0) Fail(std::string("has no positions") + kReexport);
+      const Eigen::MatrixXd numbers =
+          Floats(accessor, TINYGLTF_TYPE_VEC3, k == 0 ? accessor.count : base.cols(), "positions");
+      if (k == 0) base = numbers;
+      Append(k == 0 ? base : Eigen::MatrixXd(base + numbers), &shapes_[k]);
+    }
+    AddTexture(primitive, base.cols());
+    return begin;
+  }
+
+  static void Append(const Eigen::MatrixXd& columns, Shape* shape) {
+    const Eigen::Index old = shape->cols();
+    shape->conservativeResize(3, old + columns.cols());
+    shape->rightCols(columns.cols()) = columns;
+  }
+
+  void AddTexture(const Primitive& primitive, Eigen::Index vertices) {
+    const auto found = primitive.attributes.find("TEXCOORD_0");
+    texture_of_.resize(texture_of_.size() + vertices, -1);
+    if (found == primitive.attributes.end()) return;
+    const Accessor& accessor = At(model_.accessors, found->second, "list of numbers");
+    if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
+    const Eigen::MatrixXd numbers =
+        Floats(accessor, TINYGLTF_TYPE_VEC2, vertices, "texture coordinates");
+    const Eigen::Index known = texture_.cols();
+    texture_.conservativeResize(2, known + vertices);
+    // glTF's v points down.
+    texture_.rightCols(vertices).row(0) = numbers.row(0);
+    texture_.rightCols(vertices).row(1) = 1 - numbers.row(1).array();
+    for (Eigen::Index v = 0; v < vertices; ++v) {
+      texture_of_[texture_of_.size() - vertices + v] = static_cast<int>(known + v);
+    }
+  }
+
+  void AddPrimitive(const Primitive& primitive) {
+    const int begin = AddVertices(primitive);
+    const auto vertices = static_cast<size_t>(
+        At(model_.accessors, primitive.attributes.at("POSITION"), "list of numbers").count);
+    std::vector<int> indices(primitive.indices < 0 ? vertices : 0);
+    for (size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<int>(i);
+    if (primitive.indices >= 0) {
+      const Accessor& accessor = At(model_.accessors, primitive.indices, "list of indices");
+      indices = Integers(accessor.bufferView, accessor.byteOffset, accessor.componentType,
+                         accessor.count, vertices);
+    }
+    const bool lines = primitive.mode == TINYGLTF_MODE_LINE;
+    if (!lines && primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1) {
+      Fail("has strips, fans or points; export it as triangles");
+    }
+    if (indices.size() % (lines ? 2 : 3) != 0) {
+      Fail(std::string("the last triangle is not complete") + kReexport);
+    }
+    std::vector<int>& all = lines ? ends_ : corners_;
+    for (const int index : indices) all.push_back(begin + index);
+    if (primitive.material >= 0) has_materials_ = true;
+    if (primitive.attributes.count("COLOR_0") > 0) has_colours_ = true;
+  }
+
+  // The names of the poses: those of the morph targets, and none for the mesh itself.
+  std::vector<std::string> Names(const tinygltf::Mesh& mesh) const {
+    std::vector<std::string> names(shapes_.size());
+    const bool named = mesh.extras.Has("targetNames") && mesh.extras.Get("targetNames").IsArray();
+    for (size_t k = 1; k < names.size(); ++k) {
+      names[k] = "target " + std::to_string(k);
+      if (!named) continue;
+      const tinygltf::Value& name = mesh.extras.Get("targetNames").Get(static_cast<int>(k - 1));
+      if (name.IsString() && !name.Get<std::string>().empty()) names[k] = name.Get<std::string>();
+    }
+    return names;
+  }
+
+  std::vector<Soup> Soups(const Eigen::Affine3d& placement, const std::vector<std::string>& names) {
+    const Merged merged = MergeEqual(shapes_);
+    Soup soup;
+    soup.file = file_;
+    for (size_t corner = 0; corner < corners_.size(); ++corner) {
+      soup.corners.push_back(merged.index[corners_[corner]]);
+      if (corner % 3 == 2) soup.polygon_begin.push_back(static_cast<int>(corner) + 1);
+      if (texture_.cols() > 0) {
+        soup.appearance.corner_texture.push_back(texture_of_[corners_[corner]]);
+      }
+    }
+    for (size_t end = 0; end < ends_.size(); end += 2) {
+      soup.segments.emplace_back(merged.index[ends_[end]], merged.index[ends_[end + 1]]);
+    }
+    if (!soup.appearance.corner_texture.empty()) soup.appearance.texture_coordinates = texture_;
+    const auto tell = [&](bool is, const std::string& what) {
+      if (is) soup.dropped.push_back(what);
+    };
+    const size_t copies = merged.index.size() - merged.first.size();
+    tell(copies > 0, std::to_string(copies) +
+                         " vertices merged with others that are in the same place in all poses");
+    tell(has_materials_, "materials and textures not kept");
+    tell(has_colours_, "vertex colours not kept");
+    tell(!model_.skins.empty(), "the skeleton is not applied: the mesh is in its bind pose");
+    std::vector<Soup> soups;
+    for (size_t k = 0; k < shapes_.size(); ++k) {
+      soups.push_back(soup);
+      soups[k].pose = names[k];
+      soups[k].vertices = placement * shapes_[k](Eigen::all, merged.first).colwise().homogeneous();
+      if (!soups[k].vertices.allFinite()) Fail(std::string("positions are not finite") + kReexport);
+    }
+    return soups;
+  }
+
+  const std::string& file_;
+  Model model_;
+  std::vector<Shape> shapes_;                 // the mesh and its targets
+  std::map<std::vector<int>, int> begin_of_;  // by accessors of positions: index of first vertex
+  std::vector<int> corners_, ends_;           // of triangles, and of segments
+  Eigen::Matrix2Xd texture_{2, 0};
+  std::vector<int> texture_of_;  // of each vertex: its texture coordinates, or -1
+  bool has_materials_ = false, has_colours_ = false;
+};
+
+}  // namespace
+
+std::vector<Soup> ReadGltf(const std::string& file, const std::string& bytes) {
+  return GltfReader(file, bytes).Read();
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,246 @@
+#include <cstdint>
+#include <cstring>
+
+#include <nlohmann/json.hpp>
+
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/read.h>
+
+#include "mesh/files.h"
+
+namespace shapespace {
+namespace {
+
+using Json = nlohmann::json;
+using testing::ExpectError;
+
+/// Files that are put together by hand, as exporters other than the library's own write them.
+class ReadGltfTest : public testing::FilesTest {
+ protected:
+  /// A square of two triangles with one morph target, as separate triangles: six vertices.
+  ReadGltfTest() {
+    const std::vector<float> square = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0};
+    std::vector<float> lifted(18, 0.0f);
+    lifted[8] = lifted[14] = 2;  // both copies of the corner (1, 1)
+    json_ = {{"asset", {{"version", "2.0"}}}, {"scene", 0},
+             {"scenes", {{{"nodes", {0}}}}},  {"nodes", {{{"mesh", 0}, {"name", "square"}}}},
+             {"accessors", Json::array()},    {"bufferViews", Json::array()}};
+    Json primitive = {{"attributes", {{"POSITION", Add(square, "VEC3")}}},
+                      {"targets", {{{"POSITION", Add(lifted, "VEC3")}}}}};
+    json_["meshes"] = {{{"primitives", {primitive}}}};
+  }
+
+  Json& Primitive() { return json_["meshes"][0]["primitives"][0]; }
+
+  /// Appends bytes and returns their buffer view.
+  template <typename Number>
+  int View(const std::vector<Number>& numbers) {
+    bytes_.resize((bytes_.size() + 3) / 4 * 4);
+    const size_t begin = bytes_.size(), size = numbers.size() * sizeof(Number);
+    bytes_.resize(begin + size);
+    std::memcpy(&bytes_[begin], numbers.data(), size);
+    json_["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", begin}, {"byteLength", size}});
+    return static_cast<int>(json_["bufferViews"].size()) - 1;
+  }
+
+  template <typename Number>
+  int Add(const std::vector<Number>& numbers, const std::string& type) {
+    const int component = sizeof(Number) == 1 ? 5121 : sizeof(Number) == 2 ? 5123 : 5126;
+    const int per = type == "VEC3" ? 3 : type == "VEC2" ? 2 : 1;
+    Json accessor = {{"bufferView", View(numbers)},
+                     {"componentType", component},
+                     {"type", type},
+                     {"count", numbers.size() / per}};
+    if (type == "VEC3") {  // required by the format, and not used
+      accessor["min"] = {0, 0, 0};
+      accessor["max"] = {1, 1, 1};
+    }
+    json_["accessors"].push_back(accessor);
+    return static_cast<int>(json_["accessors"].size()) - 1;
+  }
+
+  /// The file as .gltf with a buffer beside it.
+  std::string Gltf() {
+    File("square.bin", bytes_);
+    json_["buffers"] = {{{"byteLength", bytes_.size()}, {"uri", "square.bin"}}};
+    return File("square.gltf", json_.dump());
+  }
+
+  /// The file as .glb.
+  std::string Glb() {
+    json_["buffers"] = {{{"byteLength", bytes_.size()}}};
+    std::string text = json_.dump(), data = bytes_;
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    data.resize((data.size() + 3) / 4 * 4);
+    std::string file = "glTF" + Word(2) + Word(28 + text.size() + data.size());
+    file += Word(text.size()) + "JSON" + text + Word(data.size()) + std::string("BIN\0", 4) + data;
+    return File("square.glb", file);
+  }
+
+  void ExpectRefused(const std::vector<std::string>& parts) {
+    ExpectError<FileError>([&] { ReadSoups(Glb()); }, parts);
+  }
+
+  Json json_;
+  std::string bytes_;
+
+ private:
+  static std::string Word(size_t number) {
+    std::string bytes(4, '\0');
+    for (int i = 0; i < 4; ++i) bytes[i] = static_cast<char>(number >> (8 * i) & 0xff);
+    return bytes;
+  }
+};
+
+TEST_F(ReadGltfTest, CopiesOfAVertexBecomeOneIfAllPosesAgree) {
+  for (const std::string& file : {Glb(), Gltf()}) {
+    const std::vector<Soup> soups = ReadSoups(file);
+    ASSERT_EQ(soups.size(), 2u);
+    Shape square(3, 4);
+    square << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
+    EXPECT_EQ(soups[0].vertices, square);
+    square(2, 2) = 2;
+    EXPECT_EQ(soups[1].vertices, square);
+    for (const Soup& soup : soups) {
+      EXPECT_EQ(soup.corners, (std::vector<int>{0, 1, 2, 0, 2, 3}));
+      ASSERT_EQ(soup.dropped.size(), 1u);
+      EXPECT_EQ(soup.dropped[0].find("2 vertices merged"), 0u);
+    }
+    EXPECT_EQ(soups[0].pose, "");
+    EXPECT_EQ(soups[1].pose, "target 1");
+  }
+  // Where the copies part in one pose, they stay two vertices.
+  std::memset(&bytes_[bytes_.size() - 4 * 4], 0, 4);
+  EXPECT_EQ(ReadSoup(Glb()).NumVertices(), 5);
+}
+
+TEST_F(ReadGltfTest, PosesAreNamedAsTheFileSays) {
+  json_["meshes"][0]["extras"]["targetNames"] = {"sit.001"};
+  const Poses poses = ReadPoses({Glb(), Gltf()});
+  EXPECT_EQ(poses.names, (std::vector<std::string>{Path("square.glb"), "sit.001",
+                                                   Path("square.gltf"), "sit.001"}));
+  EXPECT_EQ(poses.shapes[3], poses.shapes[1]);
+  // One mesh is asked for: the others are mentioned.
+  const Soup soup = ReadSoup(Glb());
+  EXPECT_EQ(soup.dropped.back().find("1 morph targets not read"), 0u);
+  for (const std::string names : {"3", "[]", "[7]", "[\"\"]", "{}"}) {
+    json_["meshes"][0]["extras"]["targetNames"] = Json::parse(names);
+    EXPECT_EQ(ReadSoups(Glb())[1].pose, "target 1") << names;
+  }
+}
+
+TEST_F(ReadGltfTest, NodesPlaceTheMesh) {
+  json_["nodes"][0]["scale"] = {2, 3, 4};
+  json_["nodes"][0]["rotation"] = {0, 0, std::sqrt(0.5), std::sqrt(0.5)};  // x to y
+  json_["nodes"].push_back({{"children", {0}}, {"translation", {10, 20, 30}}});
+  json_["scenes"][0]["nodes"] = {1};
+  const std::vector<Soup> soups = ReadSoups(Glb());
+  EXPECT_LT((soups[1].vertices.col(2) - Eigen::Vector3d(10 - 3, 20 + 2, 30 + 8)).norm(), 1e-12);
+  json_["nodes"][1] = {{"children", {0}},
+                       {"matrix", {0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 5, 6, 7, 1}}};
+  EXPECT_LT((ReadSoups(Glb())[1].vertices.col(2) - Eigen::Vector3d(5 + 2, 6 + 8, 7 - 3)).norm(),
+            1e-12);
+  json_["nodes"][0]["children"] = {1};
+  ExpectRefused({"a node is its own parent"});
+}
+
+// As Blender writes targets that move a few vertices only.
+TEST_F(ReadGltfTest, SparseTargetsMoveTheVerticesThatTheyName) {
+  const int indices = View(std::vector<std::uint8_t>{2, 4});
+  const int values = View(std::vector<float>{0, 0, 2, 0, 0, 2});
+  const std::vector<Soup> full = ReadSoups(Glb());
+  Json& accessor = json_["accessors"][1];
+  accessor.erase("bufferView");
+  accessor["sparse"] = {{"count", 2},
+                        {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
+                        {"values", {{"bufferView", values}}}};
+  EXPECT_EQ(ReadSoups(Glb())[1].vertices, full[1].vertices);
+  accessor["sparse"]["count"] = 3;
+  ExpectRefused({"square.glb", "a list of numbers is longer than its bytes"});
+}
+
+// One primitive per material: with vertices of its own, or shared with the first.
+TEST_F(ReadGltfTest, PrimitivesFormOneMesh) {
+  Primitive()["indices"] = Add(std::vector<std::uint8_t>{0, 1, 2}, "SCALAR");
+  Json second = Primitive();
+  second["indices"] = Add(std::vector<std::uint16_t>{3, 4, 5}, "SCALAR");
+  second["material"] = 0;
+  json_["materials"] = {{{"name", "red"}}};
+  json_["meshes"][0]["primitives"].push_back(second);
+  const Soup shared = ReadSoup(Glb());
+  EXPECT_EQ(shared.NumVertices(), 4);
+  EXPECT_EQ(shared.corners, (std::vector<int>{0, 1, 2, 0, 2, 3}));
+  EXPECT_EQ(shared.dropped[1], "materials and textures not kept");
+
+  const std::vector<float> numbers = {5, 0, 0, 6, 0, 0, 5, 1, 0};
+  Json third = {{"attributes", {{"POSITION", Add(numbers, "VEC3")}}},
+                {"targets", {{{"POSITION", Add(std::vector<float>(9, 1.0f), "VEC3")}}}}};
+  json_["meshes"][0]["primitives"].push_back(third);
+  const std::vector<Soup> soups = ReadSoups(Glb());
+  EXPECT_EQ(soups[0].NumVertices(), 7);
+  EXPECT_EQ(soups[1].vertices.col(5), Eigen::Vector3d(7, 1, 1));
+  EXPECT_EQ(soups[1].corners, (std::vector<int>{0, 1, 2, 0, 2, 3, 4, 5, 6}));
+
+  json_["meshes"][0]["primitives"][2].erase("targets");
+  ExpectRefused({"parts of the mesh have different numbers of morph targets"});
+}
+
+TEST_F(ReadGltfTest, TextureCoordinatesPointUp) {
+  Primitive()["attributes"]["TEXCOORD_0"] =
+      Add(std::vector<float>{0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 0.25f}, "VEC2");
+  const Appearance appearance = ReadSoup(Glb()).appearance;
+  ASSERT_EQ(appearance.corner_texture.size(), 6u);
+  EXPECT_EQ(appearance.texture_coordinates.col(appearance.corner_texture[5]),
+            Eigen::Vector2d(0, 0.75));
+}
+
+TEST_F(ReadGltfTest, LinesAreSegments) {
+  Primitive()["mode"] = 1;
+  const Soup soup = ReadSoup(Glb());
+  EXPECT_EQ(soup.NumPolygons(), 0);
+  EXPECT_EQ(soup.segments, (std::vector<std::pair<int, int>>{{0, 1}, {2, 0}, {2, 3}}));
+}
+
+TEST_F(ReadGltfTest, WhatIsNotReadIsNamed) {
+  const Json good = json_;
+  const auto refuse = [&](const std::function<void()>& change, const std::string& message) {
+    json_ = good;
+    change();
+    ExpectRefused({"square.glb: ", message});
+  };
+  refuse(
+      [&] {
+        json_["nodes"].push_back({{"mesh", 0}, {"name", "copy"}});
+      },
+      "has 2 meshes, 'square', 'copy'; join them");
+  refuse([&] { json_["nodes"][0].erase("mesh"); }, "has no mesh");
+  refuse([&] { json_["nodes"][0]["mesh"] = 1; }, "a mesh that does not exist");
+  refuse([&] { json_["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
+         "needs the extension KHR_draco_mesh_compression");
+  refuse([&] { Primitive()["mode"] = 5; }, "has strips, fans or points");
+  refuse([&] { Primitive()["attributes"].erase("POSITION"); }, "has no positions");
+  refuse([&] { json_["accessors"][0]["componentType"] = 5122; }, "positions are not floating");
+  refuse([&] { json_["accessors"][0]["count"] = 7; }, "a list of numbers is longer than its bytes");
+  refuse([&] { json_["accessors"][1]["count"] = 5; }, "positions are not as many as the vertices");
+  refuse([&] { json_["bufferViews"][0]["byteOffset"] = 100000; }, "a list of numbers is longer");
+  refuse(
+      [&] {
+        Primitive()["indices"] = Add(std::vector<std::uint8_t>{0, 1, 9}, "SCALAR");
+      },
+      "has the index 9 where there are 6 vertices");
+  refuse(
+      [&] {
+        Primitive()["indices"] = Add(std::vector<std::uint8_t>{0, 1}, "SCALAR");
+      },
+      "the last triangle is not complete");
+  ExpectError<FileError>([&] { ReadSoup(File("bad.gltf", "{]")); },
+                         {"bad.gltf: is not valid glTF"});
+  ExpectError<FileError>([&] { ReadSoup(File("bad.glb", "glTF")); },
+                         {"bad.glb: is not valid glTF"});
+  const float nan = std::nanf("");
+  std::memcpy(bytes_.data(), &nan, 4);
+  refuse([] {}, "positions are not all finite");
+}
+
+}  // namespace
+}  // namespace shapespace
