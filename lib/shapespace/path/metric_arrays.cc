@@ -54,12 +54,12 @@ constexpr const char* kBending = "bending_stiffness";
 std::shared_ptr<const Feature> ReadFeature(const std::string& name, const Json& constants,
                                            const std::string& prefix, const ArrayReader& arrays,
                                            int num_vertices) {
-  if (!IsRegistered(name)) {
-    throw FileError("its metric has the feature " + name +
-                    ", which this program does not know; a program that defines it calls "
-                    "RegisterFeature first (shapespace/metric/define_feature.h)");
+  FeatureKind kind;
+  try {
+    kind = FindFeature(name);
+  } catch (const InvalidOptions& error) {
+    throw FileError(std::string("its metric: ") + error.what());
   }
-  const FeatureKind kind = FindFeature(name);
   const auto stencils =
       arrays.Get<Eigen::MatrixXi>(prefix + "stencils", kind.vertices, Eigen::Dynamic);
   const auto weights = arrays.Get<Eigen::VectorXd>(prefix + "weights", Eigen::Dynamic, 1);

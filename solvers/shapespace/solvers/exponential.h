@@ -81,8 +81,8 @@ struct ExponentialSummary {
     double momentum_drift = 0;  ///< change of linear and angular momentum since the first step, as
                                 ///< a share
     double edge_rms = 0, edge_max = 0;  ///< | |e| / |e_first| - 1 |; rms weighted by A_e
-    double inverted =
-        0;  ///< share of the area whose triangles turned over relative to their neighbourhood
+    /// Share of the area whose triangles turned over relative to their neighbourhood.
+    double inverted = 0;
     double seconds = 0;
   };
 
