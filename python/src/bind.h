@@ -23,6 +23,7 @@ struct FrozenMetric {
 };
 
 void BindErrors(py::module_* module);
+void BindProgress();
 void BindMeshes(py::module_* module);
 void BindSummaries(py::module_* module);
 void BindPaths(py::module_* module);

@@ -81,17 +81,19 @@ void BindCorrespondence(py::module_* module) {
       .def_readonly("summary", &CorrespondenceResult::summary)
       .def("carry",
            [](const CorrespondenceResult& result, const Path& path, const Poses& target) {
-             const py::gil_scoped_release unlocked;
-             Path carried = CarryPath(result, path, target.connectivity, target.shapes[0]);
+             Path carried = WithoutLock(py::none(), [=](Progress*) {
+               return CarryPath(result, path, target.connectivity, target.shapes[0]);
+             });
              carried.appearance = target.soup.appearance;
              return carried;
            })
       .def("picture", [](const CorrespondenceResult& result, const Poses& source,
                          const Poses& target, py::handle markers) {
         const std::vector<Marker> pairs = ToMarkers(markers, source, target);
-        const py::gil_scoped_release unlocked;
-        return RenderCorrespondence(*source.connectivity, source.shapes[0], *target.connectivity,
-                                    target.shapes[0], pairs, result);
+        return WithoutLock(py::none(), [=](Progress*) {
+          return RenderCorrespondence(*source.connectivity, source.shapes[0], *target.connectivity,
+                                      target.shapes[0], pairs, result);
+        });
       });
   module->def("correspond", [](const Poses& source, const Poses& target, py::handle markers,
                                const py::dict& given, const py::object& progress) {
@@ -99,7 +101,7 @@ void BindCorrespondence(py::module_* module) {
     CorrespondenceOptions options;
     Set(given, &options);
     options.Validate();
-    return WithoutLock(progress, [&](Progress* told) {
+    return WithoutLock(progress, [=](Progress* told) {
       return Correspond(source.connectivity, source.shapes[0], target.connectivity,
                         target.shapes[0], pairs, options, told);
     });

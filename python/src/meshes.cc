@@ -13,6 +13,7 @@
 
 #include "arrays.h"
 #include "bind.h"
+#include "progress.h"
 
 namespace shapespace::python {
 namespace {
@@ -165,10 +166,7 @@ CorrespondenceError
          bool allow_nonmanifold, const py::object& mirror) {
         ReadOptions options = ReadingOptions(allow_nonmanifold, mirror);
         options.stiffeners = stiffeners;
-        Poses poses = [&] {
-          const py::gil_scoped_release unlocked;
-          return ReadPoses(files, options);
-        }();
+        Poses poses = WithoutLock(py::none(), [=](Progress*) { return ReadPoses(files, options); });
         Warn(poses.warnings);
         return poses;
       },
@@ -232,10 +230,11 @@ void BindBodies(py::module_* module) {
       });
   module->def("body",
               [](const std::string& name, int triangles) { return MakeBody(name, triangles); });
-  module->def("skinned_body",
-              [](const std::string& name, int triangles, const std::string& proportions) {
-                return MakeSkinnedBody(name, triangles, proportions);
-              });
+  module->def(
+      "skinned_body", [](const std::string& name, int triangles, const std::string& proportions) {
+        return WithoutLock(
+            py::none(), [=](Progress*) { return MakeSkinnedBody(name, triangles, proportions); });
+      });
 }
 
 }  // namespace

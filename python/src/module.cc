@@ -10,6 +10,7 @@ PYBIND11_MODULE(_core, module) {
   using namespace shapespace::python;
   module.attr("__version__") = SHAPESPACE_VERSION;
   BindErrors(&module);
+  BindProgress();
   BindSummaries(&module);
   BindMeshes(&module);
   BindPaths(&module);

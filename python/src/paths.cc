@@ -29,6 +29,7 @@
 #include "arrays.h"
 #include "bind.h"
 #include "options.h"
+#include "progress.h"
 
 namespace shapespace::python {
 namespace {
@@ -81,10 +82,10 @@ void BindImage(py::module_* module) {
       });
 }
 
-RgbImage Draw(const Connectivity& connectivity, const std::vector<Shape>& shapes,
-              const FilmStripOptions& options) {
-  const py::gil_scoped_release unlocked;
-  return RenderFilmStrip(connectivity, shapes, options);
+RgbImage Draw(const std::shared_ptr<const Connectivity>& connectivity,
+              const std::vector<Shape>& shapes, const FilmStripOptions& options) {
+  return WithoutLock(py::none(),
+                     [=](Progress*) { return RenderFilmStrip(*connectivity, shapes, options); });
 }
 
 FilmStripOptions StripOptions(const Path& path, const py::dict& given) {
@@ -107,16 +108,15 @@ FilmStripOptions StripOptions(const Path& path, const py::dict& given) {
 // Both triangles of the metric's matrix, for tangents of shapes in the user's unit: data, row of
 // each, where columns begin.
 py::tuple FullMatrix(const FrozenMetric& self, const Shape& shape) {
-  const Metric& metric = *self.metric;
-  Eigen::SparseMatrix<double> full;
-  {
-    const py::gil_scoped_release unlocked;
+  const auto full = WithoutLock(py::none(), [=](Progress*) {
+    const double unit = self.metric->unit;
     const Eigen::SparseMatrix<double> lower =
-        FeatureMap(self.metric).Derivative(shape / metric.unit).MetricMatrix();
-    full = lower.selfadjointView<Eigen::Lower>();
-    full /= metric.unit * metric.unit;
-    full.makeCompressed();
-  }
+        FeatureMap(self.metric).Derivative(shape / unit).MetricMatrix();
+    Eigen::SparseMatrix<double> both = lower.selfadjointView<Eigen::Lower>();
+    both /= unit * unit;
+    both.makeCompressed();
+    return both;
+  });
   const Eigen::Map<const Eigen::VectorXd> values(full.valuePtr(), full.nonZeros());
   const Eigen::Map<const Eigen::VectorXi> rows(full.innerIndexPtr(), full.nonZeros());
   const Eigen::Map<const Eigen::VectorXi> begin(full.outerIndexPtr(), full.cols() + 1);
@@ -183,9 +183,10 @@ void BindMetric(py::module_* module) {
           [](const FrozenMetric& self, py::handle shape, py::handle tangent) {
             const int n = self.metric->connectivity->NumVertices();
             const Shape p = ToShape(shape, "shape", n), x = ToShape(tangent, "tangent", n);
-            const py::gil_scoped_release unlocked;
-            const double unit = self.metric->unit;
-            return FeatureMap(self.metric).Derivative(p / unit).Times(x / unit).norm();
+            return WithoutLock(py::none(), [=](Progress*) {
+              const double unit = self.metric->unit;
+              return FeatureMap(self.metric).Derivative(p / unit).Times(x / unit).norm();
+            });
           },
           py::arg("shape"), py::arg("tangent"), R"(Length of a tangent at a shape: a pure number.
 
@@ -251,7 +252,7 @@ void Write(const Path& path, const std::string& file, const py::dict& given) {
   const Kind kind = KindOf(file);
   if (kind == Kind::kPicture) {
     const FilmStripOptions options = StripOptions(path, given);
-    WritePng(file, Draw(*path.metric->connectivity, path.Placed(), options));
+    WritePng(file, Draw(path.metric->connectivity, path.Placed(), options));
   } else if (kind == Kind::kGltf) {
     GltfOptions options;
     Set(given, &options);
@@ -472,28 +473,22 @@ Path
       .def(
           "initial_velocity",
           [](const Path& path) {
-            const Tangent velocity = [&] {
-              const py::gil_scoped_release unlocked;
-              return InitialVelocity(path);
-            }();
-            return FromShape(velocity);
+            return FromShape(
+                WithoutLock(py::none(), [=](Progress*) { return InitialVelocity(path); }));
           },
           "The velocity, n x 3, with which the path sets out, per unit of its parameter.")
       .def(
           "quality",
           [](const Path& path) {
-            const py::gil_scoped_release unlocked;
-            return MeasureQuality(path);
+            return WithoutLock(py::none(), [=](Progress*) { return MeasureQuality(path); });
           },
           "Figures of how far edges are from the lengths that they should have, of wrinkles and of "
           "folds.")
       .def(
           "intersections",
           [](const Path& path) {
-            const PathIntersections found = [&] {
-              const py::gil_scoped_release unlocked;
-              return MeasureIntersections(path);
-            }();
+            const PathIntersections found =
+                WithoutLock(py::none(), [=](Progress*) { return MeasureIntersections(path); });
             return py::array_t<std::int64_t>(static_cast<py::ssize_t>(found.pairs.size()),
                                              found.pairs.data());
           },
@@ -513,22 +508,20 @@ Path
       .def(
           "rigid_parts",
           [](const Path& path) {
-            const RigidParts parts = [&] {
-              const py::gil_scoped_release unlocked;
-              return FindRigidParts(path);
-            }();
+            const RigidParts parts =
+                WithoutLock(py::none(), [=](Progress*) { return FindRigidParts(path); });
             return FromMatrix(parts.of_vertex);
           },
           "Of every vertex the near-rigid part of the body that it belongs to, the largest being "
           "0; -1 in joints.")
       .def("_film_strip",
            [](const Path& path, const py::dict& given) {
-             return Draw(*path.metric->connectivity, path.Placed(), StripOptions(path, given));
+             return Draw(path.metric->connectivity, path.Placed(), StripOptions(path, given));
            })
       .def("_repr_html_",
            [](const Path& path) {
              const py::object strip =
-                 py::cast(Draw(*path.metric->connectivity, path.Placed(), StripOptions(path, {})));
+                 py::cast(Draw(path.metric->connectivity, path.Placed(), StripOptions(path, {})));
              return strip.attr("_repr_html_")();
            })
       .def("__repr__",
@@ -555,7 +548,7 @@ void BindPaths(py::module_* module) {
   module->def("film_strip", [](const Poses& poses, const py::dict& given) {
     FilmStripOptions options;
     Set(given, &options);
-    return Draw(*poses.connectivity, poses.shapes, options);
+    return Draw(poses.connectivity, poses.shapes, options);
   });
   module->def("compare_shapes",
               [](const FrozenMetric& metric, py::handle reference, py::handle shape) {

@@ -1,41 +1,168 @@
 #include "progress.h"
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include <pybind11/stl.h>
+
+#include "bind.h"
 
 namespace shapespace::python {
 namespace {
 
-// Taking the interpreter's lock more often than that would cost more than anybody notices.
-constexpr std::chrono::milliseconds kBetweenLooks(50);
+using std::chrono::milliseconds;
+
+// How long a signal waits at most; Ctrl-C is to stop a call within .2 s.
+constexpr milliseconds kBetweenLooks(50);
+
+// Thrown through the library in an abandoned thread. It is no std::exception, so that nothing on
+// the way takes it for an error of its own.
+struct Abandoned {};
+
+// What the thread that works and the one that waits for it tell each other.
+class Call final : public Progress {
+ public:
+  struct Told {
+    std::string stage;
+    int done, total;
+    std::optional<double> share;
+  };
+
+  explicit Call(bool has_callback) : has_callback_(has_callback) {}
+
+  // For the thread that works.
+  bool Report(const std::string& stage, int done, int total) override {
+    if (has_callback_) {
+      std::unique_lock<std::mutex> lock(mutex_);
+      told_ = Told{stage, done, total, share_};
+      changed_.notify_all();
+      changed_.wait(lock, [this] { return !told_ || abandoned_; });
+    }
+    if (abandoned_) throw Abandoned();
+    return goes_on_;
+  }
+  void ReportShare(double share) override { share_ = share; }
+  bool IsAbandoned() const { return abandoned_; }
+  void End() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ended_ = true;
+    changed_.notify_all();
+  }
+
+  // For the one that waits: until there is a report or the end, or it is time to look for signals.
+  // False at the end. Where the interpreter ends meanwhile, a daemon thread, which must not come
+  // back then, stays here.
+  bool Wait(std::optional<Told>* told) {
+    const py::gil_scoped_release unlocked;
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait_for(lock, kBetweenLooks, [this] { return told_ || ended_; });
+    changed_.wait(lock, [this] { return !abandoned_; });
+    *told = told_;
+    return !ended_;
+  }
+  void Answer(bool goes_on) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    goes_on_ = goes_on;
+    told_.reset();
+    changed_.notify_all();
+  }
+  void Abandon() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    abandoned_ = true;
+    changed_.notify_all();
+  }
+
+ private:
+  const bool has_callback_;
+  std::optional<double> share_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<Told> told_;  // a report without an answer
+  bool goes_on_ = true, ended_ = false;
+  std::atomic<bool> abandoned_ = false;
+};
+
+using Worker = std::shared_future<void>;
+struct Running {
+  std::shared_ptr<Call> call;
+  Worker worker;
+};
+
+// Calls that have begun; guarded by the interpreter's lock.
+std::vector<Running> calls;
+
+void ForgetThoseThatAreOver() {
+  const auto over = [](const Running& running) {
+    return running.worker.wait_for(milliseconds(0)) == std::future_status::ready;
+  };
+  calls.erase(std::remove_if(calls.begin(), calls.end(), over), calls.end());
+}
+
+std::vector<Worker> AbandonedWorkers() {
+  ForgetThoseThatAreOver();
+  std::vector<Worker> workers;
+  for (const Running& running : calls) {
+    if (running.call->IsAbandoned()) workers.push_back(running.worker);
+  }
+  return workers;
+}
+
+// Before a fork: the child would have the locks that they hold, but not their threads.
+void WaitForAbandoned() {
+  for (auto workers = AbandonedWorkers(); !workers.empty(); workers = AbandonedWorkers()) {
+    const py::gil_scoped_release unlocked;
+    for (const Worker& worker : workers) worker.wait();
+  }
+}
+
+// Before the interpreter ends, and the process destroys what the workers use.
+void AbandonAll() {
+  for (ForgetThoseThatAreOver(); !calls.empty(); ForgetThoseThatAreOver()) {
+    for (const Running& running : calls) running.call->Abandon();
+    WaitForAbandoned();
+  }
+}
 
 }  // namespace
 
-void PythonProgress::Keep() {
-  raised_.emplace();
-  throw Raised();
-}
-
-void PythonProgress::Raise() {
-  const py::error_already_set raised = *std::move(raised_);
-  raised_.reset();
-  throw py::error_already_set(raised);
-}
-
-bool PythonProgress::Report(const std::string& stage, int done, int total) {
-  const bool looks = Clock::now() - looked_ > kBetweenLooks;
-  if (callback_.is_none() && !looks) return true;
-  const py::gil_scoped_acquire locked;
-  if (looks) {
-    looked_ = Clock::now();
-    if (PyErr_CheckSignals() != 0) Keep();
-  }
-  if (callback_.is_none()) return true;
+void RunInWorker(const py::object& callback, std::function<void(Progress*)> work) {
+  const auto call = std::make_shared<Call>(!callback.is_none());
+  const Worker worker = std::async(
+      std::launch::async, [call, work = std::move(work), earlier = AbandonedWorkers()]() mutable {
+        // Two solves at a time would need the memory of two. Besides, the call may be of the same
+        // Deformer, which has state.
+        for (const Worker& other : earlier) other.wait();
+        earlier.clear();
+        if (!call->IsAbandoned()) work(call.get());
+        work = nullptr;  // frees the memory even if the future is kept
+        call->End();
+      });
+  calls.push_back({call, worker});
   try {
-    return !callback_(stage, done, total, share_).is(py::bool_(false));
-  } catch (py::error_already_set& raised) {
-    raised_.emplace(std::move(raised));
-    throw Raised();
+    std::optional<Call::Told> told;
+    while (call->Wait(&told)) {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (!told) continue;
+      const py::object answer = callback(told->stage, told->done, told->total, told->share);
+      call->Answer(!answer.is(py::bool_(false)));
+    }
+  } catch (...) {
+    call->Abandon();
+    throw;
   }
+  worker.wait();  // for the thread's very end, lest a fork meets it
+}
+
+void BindProgress() {
+  py::module_::import("atexit").attr("register")(py::cpp_function(&AbandonAll));
+  py::module_::import("os").attr("register_at_fork")(py::arg("before") =
+                                                         py::cpp_function(&WaitForAbandoned));
 }
 
 }  // namespace shapespace::python

@@ -1,9 +1,10 @@
 #ifndef SHAPESPACE_PYTHON_PROGRESS_H_
 #define SHAPESPACE_PYTHON_PROGRESS_H_
 
-#include <chrono>
-#include <optional>
-#include <string>
+#include <functional>
+#include <future>
+#include <memory>
+#include <type_traits>
 #include <utility>
 
 #include <pybind11/pybind11.h>
@@ -14,46 +15,26 @@ namespace shapespace::python {
 
 namespace py = pybind11;
 
-/// Lets Python in while a long call runs without the interpreter's lock: tells a callable how far
-/// it is, and looks for Ctrl-C.
-class PythonProgress final : public Progress {
- public:
-  /// Thrown through the library where Python has raised an exception. It is no std::exception, so
-  /// that nothing on the way takes it for an error of its own.
-  struct Raised {};
+/// Calls work(Progress*) in a thread of its own, and returns when it is over. The calling thread
+/// waits without the interpreter's lock. It runs handlers of signals, and, where `callback` is not
+/// None, callback(stage, done, total, share) for every report; the work is told to stop where that
+/// returns False. `work` throws nothing.
+///
+/// \throw py::error_already_set at once, with what the callback or a handler raises. The work is
+///        then abandoned: it goes on until its next report, or its end. So `work` must own
+///        everything that it uses, and nothing of Python's. Calls that begin later start when it is
+///        over; forks and the end of the interpreter wait for it too.
+void RunInWorker(const py::object& callback, std::function<void(Progress*)> work);
 
-  /// `callback` is None, or is called as callback(stage, done, total, share).
-  explicit PythonProgress(py::object callback) : callback_(std::move(callback)) {}
-
-  /// False if the callback returned False. \throw Raised.
-  bool Report(const std::string& stage, int done, int total) override;
-  void ReportShare(double share) override { share_ = share; }
-
-  /// Raises what Python has raised; with the interpreter's lock.
-  [[noreturn]] void Raise();
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  [[noreturn]] void Keep();
-
-  const py::object callback_;
-  std::optional<py::error_already_set> raised_;
-  std::optional<double> share_;
-  Clock::time_point looked_ = Clock::now();
-};
-
-/// body(Progress*), without the interpreter's lock. \throw as the body, and what `callback` and
-/// handlers of signals raise.
+/// What body(Progress*) returns, which runs as above. Its captures are copies: Python may change or
+/// delete the arguments of a call that was abandoned. \throw also as the body.
 template <typename Body>
-auto WithoutLock(py::object callback, Body&& body) {
-  PythonProgress progress(std::move(callback));
-  try {
-    const py::gil_scoped_release unlocked;
-    return body(&progress);
-  } catch (const PythonProgress::Raised&) {
-    progress.Raise();
-  }
+auto WithoutLock(const py::object& callback, Body body) {
+  using Result = std::invoke_result_t<Body&, Progress*>;
+  const auto task = std::make_shared<std::packaged_task<Result(Progress*)>>(std::move(body));
+  std::future<Result> result = task->get_future();
+  RunInWorker(callback, [task](Progress* progress) { (*task)(progress); });
+  return result.get();
 }
 
 }  // namespace shapespace::python

@@ -1,4 +1,5 @@
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -41,7 +42,7 @@ py::tuple InterpolatePoses(const Poses& poses, const py::dict& given, const py::
   if (frozen && frozen->metric->connectivity->NumVertices() != poses.connectivity->NumVertices()) {
     throw MeshError("metric: is of another mesh than the poses");
   }
-  GeodesicResult result = WithoutLock(progress, [&](Progress* told) {
+  GeodesicResult result = WithoutLock(progress, [=](Progress* told) {
     return frozen ? Interpolate(frozen->metric, poses.shapes, options, told)
                   : Interpolate(poses, options, told);
   });
@@ -133,26 +134,28 @@ DeformationOptions DeformationFromKeywords(const Poses& mesh, const py::dict& gi
 }
 
 void BindDeformer(py::module_* module) {
-  py::class_<Deformer>(*module, "_Deformer")
+  // Shared with the last call, in case that is abandoned; the next call waits for it.
+  py::class_<Deformer, std::shared_ptr<Deformer>>(*module, "_Deformer")
       .def(py::init([](const Poses& mesh, const py::dict& given) {
         const DeformationOptions options = DeformationFromKeywords(mesh, given);
-        const py::gil_scoped_release unlocked;
-        return Deformer(mesh.connectivity, mesh.shapes[0], options);
+        return WithoutLock(py::none(), [=](Progress*) {
+          return Deformer(mesh.connectivity, mesh.shapes[0], options);
+        });
       }))
-      .def("deform",
-           [](Deformer& deformer, const std::vector<Handle>& handles, const py::object& progress) {
-             DeformationResult result = WithoutLock(
-                 progress, [&](Progress* told) { return deformer.Deform(handles, told); });
-             Sign("deform", &result.path);
-             return py::make_tuple(std::move(result.path), std::move(result.summary));
-           });
+      .def("deform", [](const std::shared_ptr<Deformer>& deformer,
+                        const std::vector<Handle>& handles, const py::object& progress) {
+        DeformationResult result =
+            WithoutLock(progress, [=](Progress* told) { return deformer->Deform(handles, told); });
+        Sign("deform", &result.path);
+        return py::make_tuple(std::move(result.path), std::move(result.summary));
+      });
 }
 
 void BindShooting(py::module_* module) {
   module->def("extrapolate",
               [](const Path& path, int steps, const py::dict& given, const py::object& progress) {
                 const auto options = FromKeywords<ExponentialOptions>(given);
-                ExponentialResult result = WithoutLock(progress, [&](Progress* told) {
+                ExponentialResult result = WithoutLock(progress, [=](Progress* told) {
                   return Extrapolate(path, steps, options, told);
                 });
                 Sign("extrapolate", &result.path);
@@ -163,7 +166,7 @@ void BindShooting(py::module_* module) {
     const int n = metric.metric->connectivity->NumVertices();
     const Shape from = ToShape(shape, "shape", n), along = ToShape(velocity, "velocity", n);
     const auto options = FromKeywords<ExponentialOptions>(given);
-    ExponentialResult result = WithoutLock(progress, [&](Progress* told) {
+    ExponentialResult result = WithoutLock(progress, [=](Progress* told) {
       return Extrapolate(metric.metric, from, along, steps, options, told);
     });
     Sign("shoot", &result.path);
@@ -174,7 +177,7 @@ void BindShooting(py::module_* module) {
     const int n = metric.metric->connectivity->NumVertices();
     const Shape from = ToShape(shape, "shape", n), along = ToShape(velocity, "velocity", n);
     const auto options = FromKeywords<ExponentialOptions>(given);
-    return FromShape(WithoutLock(progress, [&](Progress* told) {
+    return FromShape(WithoutLock(progress, [=](Progress* told) {
       return Exponential(metric.metric, from, along, steps, options, told);
     }));
   });
@@ -183,7 +186,7 @@ void BindShooting(py::module_* module) {
     const int n = metric.metric->connectivity->NumVertices();
     const Shape first = ToShape(from, "shape", n), last = ToShape(to, "end", n);
     const auto options = FromKeywords<LogarithmOptions>(given);
-    return FromShape(WithoutLock(progress, [&](Progress* told) {
+    return FromShape(WithoutLock(progress, [=](Progress* told) {
       return Logarithm(metric.metric, first, last, options, told);
     }));
   });
@@ -193,14 +196,14 @@ void BindShooting(py::module_* module) {
         ToShapes(tangents, "tangents", path.metric->connectivity->NumVertices());
     const auto options = FromKeywords<TransportOptions>(given);
     TransportResult result = WithoutLock(
-        progress, [&](Progress* told) { return Transport(path, carried, options, told); });
+        progress, [=](Progress* told) { return Transport(path, carried, options, told); });
     return py::make_tuple(FromShapes(result.tangents), std::move(result.summary));
   });
   module->def(
       "correct_path", [](const Path& path, const py::dict& given, const py::object& progress) {
         const auto options = FromKeywords<CorrectionOptions>(given);
         CorrectionResult result =
-            WithoutLock(progress, [&](Progress* told) { return CorrectPath(path, options, told); });
+            WithoutLock(progress, [=](Progress* told) { return CorrectPath(path, options, told); });
         Sign("correct_path", &result.path);
         return py::make_tuple(std::move(result.path), std::move(result.summary));
       });
@@ -221,7 +224,7 @@ void BindTransfer(py::module_* module) {
                              const py::object& progress) {
     const Shape shape = ToShape(target, "target", source.metric->connectivity->NumVertices());
     const auto options = FromKeywords<TransferOptions>(given);
-    return FinishTransfer("transfer", source.appearance, WithoutLock(progress, [&](Progress* told) {
+    return FinishTransfer("transfer", source.appearance, WithoutLock(progress, [=](Progress* told) {
                             return Transfer(source, shape, options, told);
                           }));
   });
@@ -234,7 +237,7 @@ void BindTransfer(py::module_* module) {
     on_the_way.Validate();
     const auto options = FromKeywords<TransferOptions>(given);
     return FinishTransfer(
-        "transfer_poses", poses.soup.appearance, WithoutLock(progress, [&](Progress* told) {
+        "transfer_poses", poses.soup.appearance, WithoutLock(progress, [=](Progress* told) {
           return TransferPoses(poses.connectivity, poses.shapes, shape, on_the_way, options, told);
         }));
   });
@@ -251,7 +254,7 @@ void BindSolvers(py::module_* module) {
   module->def("deform", [](const Poses& mesh, const std::vector<Handle>& handles,
                            const py::dict& given, const py::object& progress) {
     const DeformationOptions options = DeformationFromKeywords(mesh, given);
-    DeformationResult result = WithoutLock(progress, [&](Progress* told) {
+    DeformationResult result = WithoutLock(progress, [=](Progress* told) {
       return Deform(mesh.connectivity, mesh.shapes[0], handles, options, told);
     });
     result.path.appearance = mesh.soup.appearance;
@@ -267,7 +270,7 @@ void BindSolvers(py::module_* module) {
     Set(given, &options);
     options.deformation.Validate();
     if (!vertices.is_none()) options.vertices = ToVertices(vertices, "vertices", n);
-    RepairResult result = WithoutLock(progress, [&](Progress* told) {
+    RepairResult result = WithoutLock(progress, [=](Progress* told) {
       return Repair(reference.connectivity, reference.shapes[0], shape, options, told);
     });
     result.path.appearance = reference.soup.appearance;

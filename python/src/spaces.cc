@@ -94,8 +94,8 @@ poses, then the shapes found half way between nodes. `explore` makes it.
           [](const Space& space, py::handle points, int frames) {
             std::vector<Eigen::Vector2d> polyline;
             for (py::handle point : points) polyline.push_back(ToPoint(point, "points"));
-            const py::gil_scoped_release unlocked;
-            return WalkAlong(space, polyline, frames).path;
+            return WithoutLock(py::none(),
+                               [=](Progress*) { return WalkAlong(space, polyline, frames).path; });
           },
           py::arg("points"), py::arg("frames"),
           "The shapes along a polyline of the plane, k x 2, as a path of so many.")
@@ -107,10 +107,10 @@ poses, then the shapes found half way between nodes. `explore` makes it.
                poses.push_back(space.Placed(i));
                options.labels.push_back(std::to_string(i));
              }
-             const RgbImage image = [&] {
-               const py::gil_scoped_release unlocked;
-               return RenderFilmStrip(*space.metric->connectivity, poses, options);
-             }();
+             const auto connectivity = space.metric->connectivity;
+             const RgbImage image = WithoutLock(py::none(), [=](Progress*) {
+               return RenderFilmStrip(*connectivity, poses, options);
+             });
              return py::cast(image).attr("_repr_html_")();
            })
       .def("__repr__", [](const Space& space) {
@@ -126,14 +126,14 @@ void BindSpaces(py::module_* module) {
   module->def("distance_matrix",
               [](const Poses& poses, const py::dict& given, const py::object& progress) {
                 const ExploreOptions options = FromKeywords(given);
-                return FromMatrix(WithoutLock(progress, [&](Progress* told) {
+                return FromMatrix(WithoutLock(progress, [=](Progress* told) {
                   return DistanceMatrix(poses.connectivity, poses.shapes, options, told);
                 }));
               });
   module->def("explore", [](const Poses& poses, const std::vector<std::string>& names,
                             const py::dict& given, const py::object& progress) {
     const ExploreOptions options = FromKeywords(given);
-    ExploreResult result = WithoutLock(progress, [&](Progress* told) {
+    ExploreResult result = WithoutLock(progress, [=](Progress* told) {
       return Explore(poses.connectivity, poses.shapes, names, options, told);
     });
     result.space.appearance = poses.soup.appearance;
