@@ -25,8 +25,9 @@ class SHAPESPACE_PT_panel(bpy.types.Panel):
         column.prop(settings, "result", expand=True)
         if settings.result == "CACHE":
             column.prop(settings, "cache_folder")
-        column.prop(settings, "frame_start")
-        column.prop(settings, "frame_step")
+        frames = column.column(align=True)
+        frames.prop(settings, "frame_start")
+        frames.prop(settings, "frame_step", text="Step")
         column.separator()
         _button(column, "shapespace.inbetweens", "IPO_EASE_IN_OUT", settings)
         column.separator()

@@ -41,10 +41,10 @@ class MotionSettings:
         ],
     )
     frame_start: IntProperty(
-        name="Start", description="Frame at which the first pose is shown", default=1
+        name="Frame Start", description="Frame at which the first pose is shown", default=1
     )
     frame_step: IntProperty(
-        name="Frames per Shape",
+        name="Frame Step",
         description="Frames from one shape to the next",
         default=1,
         min=1,
@@ -59,7 +59,7 @@ class MotionSettings:
 
 class ExtrapolationSettings:
     steps: IntProperty(
-        name="Steps",
+        name="Beyond",
         description="Shapes to add beyond the last pose",
         default=8,
         min=1,

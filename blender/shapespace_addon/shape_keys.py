@@ -5,7 +5,7 @@ import numpy as np
 from . import animation, record
 from .problem import Problem
 
-_PREFIX = "shapespace"  # of the in-betweens' names
+_PREFIX = "geo"  # of the in-betweens' names
 
 
 def require_editable(item) -> None:

@@ -4,12 +4,9 @@ In background there is no window that would call modal(); these are the calls th
 import os
 import pathlib
 import time
-from types import SimpleNamespace
 
 import bpy
-import numpy as np
 from shapespace_addon.problem import Problem
-from shapespace_addon.work import InBetweens
 from support import (
     CUBE,
     CUBE_FACES,
@@ -30,15 +27,6 @@ class Runs(Case):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())
         return cube
-
-    def begin(self, **changes):
-        settings = {
-            "shapes": 3, "metric": "DEFAULT", "use_basis": True, "result": "KEYS",
-            "frame_start": 1, "frame_step": 1, "cache_folder": "//",
-        }  # fmt: skip
-        return InBetweens(
-            bpy.context, SimpleNamespace(**{**settings, **changes}), preferences()
-        )
 
     def stand_in(self, script):
         """Has a script take the place of the tools; `$tool` is the one that was called."""

@@ -101,13 +101,13 @@ class ShapeKeys(Case):
     def test_keys_of_the_user_stay_as_they_are(self):
         cube = add_object("cube", CUBE, CUBE_FACES)
         bent = add_key(cube, "bent", bent_cube())
-        muted = add_key(cube, "shapespace 001", np.array(CUBE) * 1.5)
+        muted = add_key(cube, "geo 001", np.array(CUBE) * 1.5)
         muted.mute = True
         muted.value = 0.25
         shapes = {name: key_shape(cube, name) for name in key_names(cube)}
         for count in (3, 2):
             bpy.ops.shapespace.inbetweens(shapes=count)
-            self.assertEqual(key_names(cube)[:3], ["Basis", "bent", "shapespace 001"])
+            self.assertEqual(key_names(cube)[:3], ["Basis", "bent", "geo 001"])
             self.assertEqual(len(key_names(cube)), 3 + count)
             for name, shape in shapes.items():
                 self.near(key_shape(cube, name), shape, 0)
@@ -129,7 +129,7 @@ class ShapeKeys(Case):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())
         bpy.ops.shapespace.inbetweens(shapes=1)
-        key = cube.data.shape_keys.key_blocks["shapespace 001"]
+        key = cube.data.shape_keys.key_blocks["geo 001"]
         key.name = "half"
         half = key_shape(cube, "half")
         bpy.ops.shapespace.inbetweens(shapes=1)

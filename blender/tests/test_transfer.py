@@ -65,7 +65,7 @@ class Transfer(Case):
         self.near(seen(target, 2), frames[1])
         select(target)
         bpy.ops.shapespace.inbetweens(shapes=1)
-        self.assertEqual(key_names(target), ["Basis", "rear", "shapespace 001"])
+        self.assertEqual(key_names(target), ["Basis", "rear", "geo 001"])
         self.near(seen(target, 3), frames[1])
 
     def test_a_second_run_replaces_the_first(self):
