@@ -1,11 +1,12 @@
 """Called by blender_pictures.sh."""
 
 import os
+import shutil
 import sys
 import traceback
 
 import bpy
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 addon, tools, animals, pictures = sys.argv[-4:]
 
@@ -42,46 +43,70 @@ def view():
     return bpy.context.temp_override(window=window, area=area, region=region)
 
 
-def look(scene, target, distance, width):
-    """A camera that looks at the side of what stands at the target."""
+FACING = Matrix.Rotation(1.05, 4, "Z") @ Matrix.Rotation(1.35, 4, "X")  # of the camera
+BLUE, GREEN, ORANGE, BLACK = (
+    (0.25, 0.45, 0.8, 1), (0.35, 0.65, 0.4, 1), (0.85, 0.5, 0.25, 1), (0, 0, 0, 1),
+)  # fmt: skip
+
+
+def add(scene, data, right, up, color):
+    """Something at a place of the picture, in metres from its middle."""
+    item = bpy.data.objects.new("shown", data)
+    item.matrix_world = Matrix.Translation(FACING.to_3x3() @ Vector((right, up, 0)))
+    item.color = color
+    scene.collection.objects.link(item)
+    return item
+
+
+def add_text(scene, text, right, up):
+    curve = bpy.data.curves.new("text", "FONT")
+    curve.body = text
+    curve.size = 0.22
+    item = add(scene, curve, right, up, BLACK)
+    item.matrix_world = item.matrix_world @ FACING
+
+
+def blend(animal, share):
+    """What Blender makes of the two keys alone."""
+    mesh = bpy.data.meshes.new_from_object(animal)
+    basis, stretch = (key.data for key in animal.data.shape_keys.key_blocks[:2])
+    for vertex, a, b in zip(mesh.vertices, basis, stretch):
+        vertex.co = a.co.lerp(b.co, share)
+    return mesh
+
+
+def in_between(animal, frame):
+    bpy.context.scene.frame_set(frame)
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    return bpy.data.meshes.new_from_object(animal.evaluated_get(depsgraph))
+
+
+def render_rows(animal, file):
+    """Blender's blend of the two keys above, and the in-betweens below."""
+    scene = bpy.data.scenes.new("rows")
+    frames, gap, row = (1, 5, 9, 13, 17), 1.75, 2.45
+    for i, frame in enumerate(frames):
+        right = gap * (i - 2)
+        pose = frame in (frames[0], frames[-1])
+        add(scene, blend(animal, (frame - 1) / 16), right, row / 2, BLUE if pose else ORANGE)
+        add(scene, in_between(animal, frame), right, -row / 2, BLUE if pose else GREEN)
+    add_text(scene, "Blender's blend of the two keys", -1.4, row / 2 - 0.45)
+    add_text(scene, "In-betweens", -0.6, -row / 2 - 0.45)
+
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
     camera.data.type = "ORTHO"
-    camera.data.ortho_scale = width
-    camera.matrix_world = (
-        Matrix.Translation(target)
-        @ Matrix.Rotation(1.05, 4, "Z")
-        @ Matrix.Rotation(1.35, 4, "X")
-        @ Matrix.Translation((0, 0, distance))
-    )
+    camera.data.ortho_scale = 9.2
+    camera.matrix_world = Matrix.Translation((0, 0, 0.7)) @ FACING @ Matrix.Translation((0, 0, 20))
     scene.collection.objects.link(camera)
     scene.camera = camera
-
-
-def render_strip(animal, frames, file):
-    """The object at some frames, beside each other; those at poses are blue."""
-    scene = bpy.data.scenes.new("strip")
-    gap = 1.75
-    along = Matrix.Rotation(1.05, 3, "Z")
-    for i, frame in enumerate(frames):
-        bpy.context.scene.frame_set(frame)
-        depsgraph = bpy.context.evaluated_depsgraph_get()
-        mesh = bpy.data.meshes.new_from_object(animal.evaluated_get(depsgraph))
-        item = bpy.data.objects.new(f"frame {frame}", mesh)
-        item.location = along.col[0] * gap * (i - (len(frames) - 1) / 2)
-        item.color = (0.25, 0.45, 0.8, 1) if frame in (frames[0], frames[-1]) else (0.35, 0.65, 0.4, 1)
-        scene.collection.objects.link(item)
-    look(scene, (0, 0, 0.83), 20, gap * len(frames) + 0.3)
     scene.render.engine = "BLENDER_WORKBENCH"
-    scene.display.shading.light = "STUDIO"
     scene.display.shading.color_type = "OBJECT"
     scene.display.shading.show_cavity = True
-    scene.display.shading.show_shadows = False
     scene.display.render_aa = "16"
     scene.view_settings.view_transform = "Standard"
     scene.world = bpy.data.worlds.new("paper")
     scene.world.color = (1, 1, 1)
-    scene.render.resolution_x, scene.render.resolution_y = 1600, 390
-    scene.render.resolution_percentage = 100
+    scene.render.resolution_x, scene.render.resolution_y = 1400, 760
     scene.render.filepath = file
     bpy.ops.render.render(write_still=True, scene=scene.name)
 
@@ -97,7 +122,6 @@ def click(x, y):
 
 
 def steps():
-    bpy.context.preferences.view.show_splash = False
     bpy.ops.preferences.addon_install(filepath=addon)
     bpy.ops.preferences.addon_enable(module="shapespace_addon")
     settings = bpy.context.preferences.addons["shapespace_addon"].preferences
@@ -134,7 +158,7 @@ def steps():
     with view():
         bpy.ops.screen.screenshot(filepath=os.path.join(pictures, "blender-window.png"))
     yield
-    render_strip(animal, (1, 5, 9, 13, 17), os.path.join(pictures, "blender-inbetweens.png"))
+    render_rows(animal, os.path.join(pictures, "blender-inbetweens.png"))
 
 
 todo = steps()
@@ -149,6 +173,7 @@ def step():
     except BaseException:
         traceback.print_exc()
         code = 1
+    shutil.rmtree(bpy.app.tempdir)  # which os._exit leaves
     os._exit(code)
 
 

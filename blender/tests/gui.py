@@ -7,6 +7,7 @@ A generator does one step each time that Blender waits for events. Ends Blender 
 
 import os
 import pathlib
+import shutil
 import sys
 import tempfile
 import time
@@ -174,7 +175,6 @@ def steps(folder):
 
 
 def main():
-    bpy.context.preferences.view.show_splash = False
     bpy.ops.preferences.addon_install(filepath=sys.argv[-1])
     bpy.ops.preferences.addon_enable(module=support.ADDON)
     folder = tempfile.TemporaryDirectory()
@@ -191,6 +191,7 @@ def main():
             traceback.print_exc()
             code = 1
         folder.cleanup()
+        shutil.rmtree(bpy.app.tempdir)  # which os._exit leaves
         os._exit(code)
 
     bpy.app.timers.register(step, first_interval=1, persistent=True)
