@@ -44,7 +44,7 @@ class ModuleRun:
         if self._thread.is_alive():
             return False
         if isinstance(self._error, self._module.Error):
-            raise Problem(str(self._error))
+            raise Problem(self._named(str(self._error)))
         if self._error is not None:
             raise self._error
         return True
@@ -54,7 +54,13 @@ class ModuleRun:
         self._thread.join()
 
     def result(self) -> Result:
-        return Result(self._motions, self._notes)
+        return Result(self._motions, [self._named(note) for note in dict.fromkeys(self._notes)])
+
+    def _named(self, text: str) -> str:
+        """With the poses' names, where the module has their numbers."""
+        for i, name in enumerate(self._task.poses.names):
+            text = text.replace(f"shapes[{i}]", f"'{name}'")
+        return text
 
     def _run(self) -> None:
         try:
