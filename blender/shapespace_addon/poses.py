@@ -55,6 +55,7 @@ def poses_of_keys(context, item, with_basis: bool) -> Poses:
     Muted keys are no poses, and neither are in-betweens of an earlier run.
     """
     require_object_mode(item)
+    _require_vertices(item.name, item.data)
     shape_keys = item.data.shape_keys
     if shape_keys is None:
         raise Problem(
@@ -91,6 +92,7 @@ def poses_of_objects(context, items) -> Poses:
     for item in items:
         evaluated = item.evaluated_get(depsgraph)
         mesh = evaluated.to_mesh()
+        _require_vertices(item.name, mesh)
         shapes.append(_coordinates(mesh.vertices))
         topologies.append(topology_of(mesh))
         evaluated.to_mesh_clear()
@@ -109,6 +111,7 @@ def poses_of_objects(context, items) -> Poses:
 def pose_of_target(context, item) -> Poses:
     """A body at rest: the Basis of an object that has shape keys, else its mesh."""
     require_object_mode(item)
+    _require_vertices(item.name, item.data)
     shape_keys = item.data.shape_keys
     points = item.data.vertices if shape_keys is None else shape_keys.reference_key.data
     return _poses(
@@ -116,10 +119,14 @@ def pose_of_target(context, item) -> Poses:
     )
 
 
+def _require_vertices(name: str, mesh) -> None:
+    """Shape keys without points have arbitrary numbers of them in Blender 4.3."""
+    if not mesh.vertices:
+        raise Problem(f"'{name}' has no vertices: add a mesh to it")
+
+
 def _poses(names, own, matrices, topology) -> Poses:
     for name, shape in zip(names, own):
-        if not len(shape):
-            raise Problem(f"'{name}' has no vertices")
         wrong = np.flatnonzero(~np.isfinite(shape).all(axis=1))
         if len(wrong):
             raise Problem(f"Vertex {wrong[0]} of '{name}' is at no finite place: move or delete it")

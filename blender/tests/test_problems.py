@@ -34,10 +34,15 @@ class Problems(Case):
         self.refused("'cube' has no pose", bpy.ops.shapespace.inbetweens, use_basis=False)
 
     def test_no_vertices(self):
-        nothing = add_object("nothing", [], [])
-        nothing.shape_key_add(name="Basis")
-        nothing.shape_key_add(name="other")
-        self.all_refused("'Basis' has no vertices")
+        for name in ("nothing", "more of it"):
+            nothing = add_object(name, [], [])
+            nothing.shape_key_add(name="Basis")
+            nothing.shape_key_add(name="other")
+        self.all_refused("'more of it' has no vertices")
+        select(nothing, bpy.data.objects["nothing"])
+        self.all_refused("'more of it' has no vertices")
+        select(nothing, self.cube())
+        self.refused("'more of it' has no vertices", bpy.ops.shapespace.transfer)
 
     def test_absolute_keys(self):
         self.cube().data.shape_keys.use_relative = False

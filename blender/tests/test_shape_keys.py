@@ -155,6 +155,14 @@ class ShapeKeys(Case):
         self.assertEqual(values, [key.value for key in cube.data.shape_keys.key_blocks])
         self.assertIn(1, values)
 
+    def test_the_motion_is_seen_though_one_key_was_pinned(self):
+        cube = add_object("cube", CUBE, CUBE_FACES)
+        add_key(cube, "bent", bent_cube())
+        cube.show_only_shape_key = True
+        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.near(seen(cube, 1), CUBE)
+        self.near(seen(cube, 3), bent_cube())
+
     def test_poses_are_what_a_key_shows_alone(self):
         """Keys relative to another key, and keys with a vertex group."""
         cube = add_object("cube", CUBE, CUBE_FACES)
