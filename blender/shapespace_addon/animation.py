@@ -36,12 +36,10 @@ def require_free(key) -> None:
 
 def remove_keyframes(key) -> bool:
     """Whether there were any."""
-    curves = curves_of(key.id_data)
-    path = key.path_from_id("value")
-    found = [curve for curve in curves if curve.data_path == path]
-    for curve in found:
-        curves.remove(curve)
-    return bool(found)
+    curve = _curve(key)
+    if curve is not None:
+        curves_of(key.id_data).remove(curve)
+    return curve is not None
 
 
 def peak(key, index: int, count: int, start: int, step: int) -> None:
@@ -50,16 +48,16 @@ def peak(key, index: int, count: int, start: int, step: int) -> None:
         if 0 <= at < count:
             key.value = value
             key.keyframe_insert("value", frame=start + at * step)
-    path = key.path_from_id("value")
-    for curve in curves_of(key.id_data):
-        if curve.data_path == path:
-            for point in curve.keyframe_points:
-                point.interpolation = "LINEAR"
+    for point in _curve(key).keyframe_points:
+        point.interpolation = "LINEAR"
 
 
 def show(key, frame: float) -> None:
     """Gives a key the value that its keyframes have at a frame."""
-    path = key.path_from_id("value")
-    for curve in curves_of(key.id_data):
-        if curve.data_path == path:
-            key.value = curve.evaluate(frame)
+    key.value = _curve(key).evaluate(frame)
+
+
+def _curve(key):
+    """The F-curve of a key's value, or None."""
+    curves = curves_of(key.id_data)
+    return curves.find(key.path_from_id("value")) if curves else None

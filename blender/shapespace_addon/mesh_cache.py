@@ -48,8 +48,9 @@ def add_motion(context, item, shapes, file: str, timing) -> None:
     modifier = _modifier(item)
     if modifier is None:
         modifier = item.modifiers.new(_MODIFIER, "MESH_CACHE")
-        with context.temp_override(object=item, active_object=item):
-            bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=0)
+        if len(item.modifiers) > 1:
+            with context.temp_override(object=item, active_object=item):
+                bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=0)
     modifier.cache_format = "PC2"
     modifier.filepath = bpy.path.relpath(file) if bpy.data.filepath else file
     # The cache's shape at a frame is its number `frame * frame_scale - frame_start`.

@@ -9,12 +9,7 @@ import bpy
 from mathutils import Matrix
 
 from . import engine, mesh_cache, record, shape_keys
-from .poses import (
-    pose_of_target,
-    poses_of_keys,
-    poses_of_objects,
-    selected_meshes,
-)
+from .poses import pose_of_target, poses_of_keys, poses_of_objects, selected_meshes
 from .problem import Problem
 from .settings import Timing
 from .task import Body, Task
@@ -61,11 +56,11 @@ class Work:
     def finish(self, context) -> list:
         """Writes the result into the scene. Returns what is worth saying about it."""
         result = self._run.result()
-        for before, now in zip(self._bodies, self._read(context)):
+        for name, before, now in zip(self._objects, self._bodies, self._read(context)):
             if not before.same(now):
                 raise Problem(
-                    f"'{now.names[0]}' has changed since the run began: the result does not fit it,"
-                    " and is dropped. Start again"
+                    f"'{name}' has changed since the run began: the result does not fit it, and is"
+                    " dropped. Start again"
                 )
         self._check_places()
         notes = list(result.notes)
@@ -151,39 +146,44 @@ class InBetweens(Work):
         )
 
     def _place(self, context, i: int, motion) -> list:
+        first, *others = self._items()
         (poses,) = self._bodies
         motion = poses.frame.to_object(motion)
-        spacing = self._settings.shapes + 1
-        items = self._items()
-        names = poses.names
-        if len(items) > 1:
-            item = self._new_object(context, items[0])
-            if self._settings.result == "KEYS":
-                own = [poses.frame.to_object(shape) for shape in poses.shapes]
-                names = shape_keys.add_poses(item, names, own)
-        else:
-            (item,) = items
-        return self._put(
-            context, item, motion, {pose * spacing: name for pose, name in enumerate(names)}
-        )
+        if others:
+            return self._place_new(context, first, poses, motion)
+        return self._put(context, first, motion, self._at(poses.names))
 
-    def _new_name(self) -> str:
-        return f"{self._objects[0]} in-betweens"
-
-    def _new_object(self, context, first):
-        """A copy of the first object as it is seen, alone selected, so that settings can be changed
-        and the operator be run again, on it."""
+    def _place_new(self, context, first, poses, motion) -> list:
+        """A copy of the first object as it is seen moves. It is alone selected, so that settings can
+        be changed and the operator be run again, on it."""
         depsgraph = context.evaluated_depsgraph_get()
         mesh = bpy.data.meshes.new_from_object(first.evaluated_get(depsgraph), depsgraph=depsgraph)
         item = bpy.data.objects.new(self._new_name(), mesh)
+        try:
+            names = []
+            if self._settings.result == "KEYS":
+                own = [poses.frame.to_object(shape) for shape in poses.shapes]
+                names = shape_keys.add_poses(item, poses.names, own)
+            notes = self._put(context, item, motion, self._at(names))
+        except Problem:
+            bpy.data.objects.remove(item)
+            bpy.data.meshes.remove(mesh)
+            raise
         for collection in first.users_collection:
             collection.objects.link(item)
-        item.matrix_world = Matrix(self._bodies[0].frame.matrix.tolist())
+        item.matrix_world = Matrix(poses.frame.matrix.tolist())
         for selected in context.selected_objects:
             selected.select_set(False)
         item.select_set(True)
         context.view_layer.objects.active = item
-        return item
+        return notes
+
+    def _at(self, names: list) -> dict:
+        """The poses' names by their numbers in the motion."""
+        return {pose * (self._settings.shapes + 1): name for pose, name in enumerate(names)}
+
+    def _new_name(self) -> str:
+        return f"{self._objects[0]} in-betweens"
 
 
 class Transfer(Work):

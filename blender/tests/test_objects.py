@@ -66,6 +66,18 @@ class Objects(Case):
             self.near(placed(item, seen(item, 1 + i)), frame)
         self.assertTrue((self.folder / "pose 9 in-betweens.pc2").is_file())
 
+    def test_a_cache_that_cannot_be_written_leaves_no_object(self):
+        self.two()
+        (self.folder / "pose 9 in-betweens.pc2").mkdir()
+        meshes = len(bpy.data.meshes)
+        self.refused(
+            "cannot be written",
+            bpy.ops.shapespace.inbetweens,
+            result="CACHE",
+            cache_folder=str(self.folder),
+        )
+        self.assertEqual(len(bpy.data.meshes), meshes)
+
     def test_objects_count_as_they_are_seen(self):
         """With modifiers, those that add vertices too, and with values of shape keys."""
         first = add_object("a", CUBE, CUBE_FACES)

@@ -67,7 +67,7 @@ class Runs(Case):
         """The share never falls, and is told often enough for a bar."""
         (sit, stretch), faces = self.quadruped("sit", "stretch", triangles=20000)
         add_key(add_object("animal", sit, faces), "stretch", stretch)
-        work = self.begin(shapes=15)
+        work = self.begin(shapes=31)
         shares = []
         while not work.poll():
             if work.share is not None:
@@ -75,7 +75,7 @@ class Runs(Case):
             time.sleep(0.01)
         work.finish(bpy.context)
         self.assertEqual(shares, sorted(shares))
-        self.assertGreater(len(set(shares)), 3)
+        self.assertGreater(len(set(shares)), 2)
         self.assertLessEqual(shares[-1], 1)
 
     def test_cancelling_leaves_nothing(self):
@@ -117,7 +117,7 @@ class Runs(Case):
         def edit():
             cube.data.shape_keys.key_blocks["bent"].data[0].co.x += 0.1
 
-        self.assertIn("'Basis' has changed since the run began", self.finish_after(edit))
+        self.assertIn("'cube' has changed since the run began", self.finish_after(edit))
 
     def test_a_vertex_is_added_meanwhile(self):
         self.cube()
