@@ -140,8 +140,8 @@ def steps():
         bpy.ops.view3d.view_selected()
         bpy.ops.view3d.zoom(delta=-2)
         bpy.context.area.spaces.active.overlay.show_stats = False
-    # The splash screen of a first start goes away by a click. The fourth tab of the sidebar is ours,
-    # after Item, Tool and View.
+    # The splash screen of a first start goes away by a click. The fourth tab of the sidebar is
+    # ours, after Item, Tool and View.
     yield from click(100, 300)
     yield from click(sidebar.x + sidebar.width - 10, sidebar.y + sidebar.height - 180)
     for area in bpy.context.window_manager.windows[0].screen.areas:

@@ -52,11 +52,6 @@ def peak(key, index: int, count: int, start: int, step: int) -> None:
         point.interpolation = "LINEAR"
 
 
-def show(key, frame: float) -> None:
-    """Gives a key the value that its keyframes have at a frame."""
-    key.value = _curve(key).evaluate(frame)
-
-
 def _curve(key):
     """The F-curve of a key's value, or None."""
     curves = curves_of(key.id_data)

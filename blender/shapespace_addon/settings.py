@@ -82,8 +82,7 @@ class SHAPESPACE_settings(
 
 @dataclass
 class Timing:
-    """When the shapes of a motion are shown, and the scene's present frame."""
+    """The frame of a motion's first shape, and the frames from one shape to the next."""
 
     start: int
     step: int
-    now: float

@@ -61,7 +61,6 @@ def add_motion(item, shapes: np.ndarray, poses: dict, timing, transferred=()) ->
         if animation.remove_keyframes(blocks[name]) and not earlier:
             replaced.append(f"'{name}'")
         animation.peak(blocks[name], index, len(shapes), timing.start, timing.step)
-        animation.show(blocks[name], timing.now)
     record.write(
         shape_keys, list(made.values()), list(transferred) or record.transferred(shape_keys)
     )

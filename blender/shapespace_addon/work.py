@@ -104,9 +104,7 @@ class Work:
             shape_keys.require_editable(item)
 
     def _put(self, context, item, motion, poses: dict, transferred=()) -> list:
-        timing = Timing(
-            self._settings.frame_start, self._settings.frame_step, context.scene.frame_current
-        )
+        timing = Timing(self._settings.frame_start, self._settings.frame_step)
         if self._settings.result == "CACHE":
             file = mesh_cache.file_for(item.name, self._settings.cache_folder)
             mesh_cache.add_motion(context, item, motion, file, timing)
@@ -154,8 +152,8 @@ class InBetweens(Work):
         return self._put(context, first, motion, self._at(poses.names))
 
     def _place_new(self, context, first, poses, motion) -> list:
-        """A copy of the first object as it is seen moves. It is alone selected, so that settings can
-        be changed and the operator be run again, on it."""
+        """A copy of the first object as it is seen moves. It is alone selected, so that settings
+        can be changed and the operator be run again, on it."""
         depsgraph = context.evaluated_depsgraph_get()
         mesh = bpy.data.meshes.new_from_object(first.evaluated_get(depsgraph), depsgraph=depsgraph)
         item = bpy.data.objects.new(self._new_name(), mesh)

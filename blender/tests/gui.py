@@ -2,7 +2,8 @@
 
 blender --factory-startup --enable-event-simulate --python blender/tests/gui.py -- shapespace.zip
 
-A generator does one step each time that Blender waits for events. Ends Blender with exit code 0 or 1.
+A generator does one step each time that Blender waits for events. Ends Blender with exit code 0
+or 1.
 """
 
 import os
@@ -106,7 +107,9 @@ def steps(folder):
         yield
     assert waited > 2, waited
     assert True in drawn, "the panel did not show the run"
+    yield  # in which Blender gives shape keys the values of the present frame
     after = support.state()
+    assert support.key_names(bpy.data.objects["animal"])[-1] == "geo 007"
     assert len(support.key_names(bpy.data.objects["animal"])) == 9
     assert support.temporary_folders() == []
 

@@ -23,7 +23,7 @@ def preferences():
 def tool(name, *arguments, cwd):
     program = shutil.which(name, path=str(_BIN))
     if program is None:
-        raise FileNotFoundError(f"no {name} in {_BIN}: name the folder of the tools in SHAPESPACE_BIN")
+        raise FileNotFoundError(f"no {name} in {_BIN}: name the tools' folder in SHAPESPACE_BIN")
     subprocess.run([program, *map(str, arguments)], cwd=cwd, check=True, stdout=subprocess.DEVNULL)
 
 
@@ -200,8 +200,8 @@ class Case(unittest.TestCase):
         return [read_obj(file)[0] for file in sorted(out.iterdir())]
 
 
-# Coordinates are exact in single precision. No two diagonals of a face are equally long: which of them
-# a face is cut by would depend on how coordinates are rounded.
+# Coordinates are exact in single precision. No two diagonals of a face are equally long: which of
+# them a face is cut by would depend on how coordinates are rounded.
 CUBE = [
     [x + 0.125 * y * z, y + 0.25 * x * z + 0.0625 * z, z + 0.1875 * x * y]
     for x in (-1, 1)

@@ -93,7 +93,7 @@ class NoModule(Case):
         add_key(cube, "bent", bent_cube())
         preferences().engine = "MODULE"
         self.refused(
-            "shapespace cannot be imported .*: install it for Blender's Python, or choose the tools",
+            "shapespace cannot be imported .*: install it for Blender's Python, or choose",
             bpy.ops.shapespace.inbetweens,
         )
         preferences().engine = "AUTOMATIC"

@@ -121,4 +121,4 @@ class Objects(Case):
         second = add_object("second", np.array(bent_cube()), CUBE_FACES)
         second.scale = (-1, 1, 1)
         select(first, second)
-        self.refused("'first' or 'second' is mirrored.*positive scale", bpy.ops.shapespace.inbetweens)
+        self.refused("'first' or 'second' is mirrored.*positive", bpy.ops.shapespace.inbetweens)

@@ -5,7 +5,17 @@ import pathlib
 
 import bpy
 import numpy as np
-from support import CUBE, CUBE_FACES, Case, add_key, add_object, bent_cube, preferences, seen, select
+from support import (
+    CUBE,
+    CUBE_FACES,
+    Case,
+    add_key,
+    add_object,
+    bent_cube,
+    preferences,
+    seen,
+    select,
+)
 
 
 class Problems(Case):
@@ -142,14 +152,17 @@ class Problems(Case):
 
     def test_a_tool_that_does_not_know_a_flag(self):
         self.cube()
-        self.stand_in("#!/bin/sh\necho \"ERROR: unknown command line flag 'progress'\" >&2\nexit 2\n")
+        said = "ERROR: unknown command line flag 'progress'"
+        self.stand_in(f'#!/bin/sh\necho "{said}" >&2\nexit 2\n')
         self.refused("unknown command line flag 'progress'", bpy.ops.shapespace.inbetweens)
 
     def test_the_tools_own_words_name_poses_as_blender_does(self):
         """A body that is inside out in its second pose, which the tool finds."""
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "inside out", np.array(CUBE) * [-1, 1, 1])
-        self.refused("shape-interpolate: 'inside out' against 'Basis': ", bpy.ops.shapespace.inbetweens)
+        self.refused(
+            "shape-interpolate: 'inside out' against 'Basis': ", bpy.ops.shapespace.inbetweens
+        )
 
     def test_three_faces_at_an_edge_are_no_problem(self):
         fin = add_object("fin", [*CUBE, [0, 0, 3]], [*CUBE_FACES, [1, 3, 8]])

@@ -78,7 +78,9 @@ class ShapeKeys(Case):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())
         cube.matrix_world = (
-            Matrix.Translation((3, -2, 5)) @ Matrix.Rotation(0.7, 4, "X") @ Matrix.Diagonal((1, 1, 3, 1))
+            Matrix.Translation((3, -2, 5))
+            @ Matrix.Rotation(0.7, 4, "X")
+            @ Matrix.Diagonal((1, 1, 3, 1))
         )
         bpy.context.view_layer.update()
         scene = [placed(cube, np.array(shape)) for shape in (CUBE, bent_cube())]
