@@ -1,0 +1,70 @@
+"""Motions as point caches, which a modifier plays."""
+
+import os
+
+import bpy
+
+from .files import write_pc2
+from .problem import Problem
+
+_MODIFIER = "shapespace"
+
+
+def file_for(item_name: str, folder: str) -> str:
+    """The cache of an object. Its name begins with that of the .blend, since scenes in one folder
+    may have objects of one name. Raises a Problem if it cannot be written there."""
+    if folder.startswith("//") and not bpy.data.filepath:
+        raise Problem(
+            "The point cache belongs beside the .blend, which is not saved yet: save it, or choose"
+            " a folder for caches"
+        )
+    scene = os.path.splitext(bpy.path.basename(bpy.data.filepath))[0]
+    name = "-".join(filter(None, (scene, item_name)))
+    for sign in '/\\:*?"<>|':
+        name = name.replace(sign, "_")
+    where = os.path.abspath(bpy.path.abspath(folder))
+    existing = where
+    while not os.path.exists(existing):
+        existing = os.path.dirname(existing)
+    if not os.path.isdir(existing) or not os.access(existing, os.W_OK):
+        raise Problem(f"Nothing can be written to {where}: choose another folder for caches")
+    return os.path.join(where, name + ".pc2")
+
+
+def require_editable(item) -> None:
+    if item.library is not None:
+        raise Problem(
+            f"'{item.name}' is linked from another file: make it local first (Object > Relations >"
+            " Make Local > Selected Objects)"
+        )
+
+
+def add_motion(context, item, shapes, file: str, timing) -> None:
+    """Writes the cache, and gives the object a modifier that plays it, before all others.
+
+    The modifier of an earlier run is used again.
+    """
+    write_pc2(file, shapes)
+    modifier = _modifier(item)
+    if modifier is None:
+        modifier = item.modifiers.new(_MODIFIER, "MESH_CACHE")
+        if len(item.modifiers) > 1:
+            with context.temp_override(object=item, active_object=item):
+                bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=0)
+    modifier.cache_format = "PC2"
+    modifier.filepath = bpy.path.relpath(file) if bpy.data.filepath else file
+    # The cache's shape at a frame is its number `frame * frame_scale - frame_start`.
+    modifier.frame_scale = 1 / timing.step
+    modifier.frame_start = timing.start / timing.step
+
+
+def remove(item) -> None:
+    """Removes the modifier of an earlier run, which would hide shape keys."""
+    modifier = _modifier(item)
+    if modifier is not None:
+        item.modifiers.remove(modifier)
+
+
+def _modifier(item):
+    modifier = item.modifiers.get(_MODIFIER)
+    return modifier if modifier is not None and modifier.type == "MESH_CACHE" else None

@@ -1,0 +1,178 @@
+"""Poses, as a scene has them: shape keys of one object, or several objects."""
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import record
+from .frame import Frame
+from .problem import Problem
+from .topology import Topology, require_same, topology_of
+
+
+@dataclass
+class Poses:
+    """Poses of one mesh, ready to be computed with."""
+
+    names: list
+    shapes: list  # n x 3 each, in scene coordinates of `frame`
+    own: list  # n x 3 each, in coordinates of the pose's object
+    topology: Topology
+    frame: Frame  # of the first pose's object
+
+    def same(self, other: "Poses") -> bool:
+        """Whether the meshes are; where their objects stand does not matter."""
+        return (
+            self.names == other.names
+            and all(map(np.array_equal, self.own, other.own))
+            and np.array_equal(self.topology.corners, other.topology.corners)
+        )
+
+
+def selected_meshes(context) -> list:
+    """The selected meshes, or else the active one."""
+    meshes = [item for item in context.selected_objects if item.type == "MESH"]
+    active = context.active_object
+    if not meshes and active is not None and active.type == "MESH":
+        meshes = [active]
+    if not meshes:
+        raise Problem(
+            "No mesh is selected: select one with shape keys, or several that are poses of one mesh"
+        )
+    return sorted(meshes, key=lambda item: _natural(item.name))
+
+
+def require_object_mode(item) -> None:
+    if item.mode != "OBJECT":
+        mode = item.mode.replace("_", " ").title()
+        raise Problem(f"'{item.name}' is in {mode} Mode: change to Object Mode first")
+
+
+def poses_of_keys(context, item, with_basis: bool) -> Poses:
+    """The shapes of an object's shape keys, each at value 1 while all others are 0.
+
+    Muted keys are no poses, and neither are in-betweens of an earlier run.
+    """
+    require_object_mode(item)
+    _require_vertices(item.name, item.data)
+    shape_keys = item.data.shape_keys
+    if shape_keys is None:
+        raise Problem(
+            f"'{item.name}' has no shape keys: add one for each pose, or select several meshes"
+            " that are poses of one"
+        )
+    if not shape_keys.use_relative:
+        raise Problem(f"The shape keys of '{item.name}' are absolute: tick Relative above them")
+    made = set(record.in_betweens(shape_keys))
+    basis = shape_keys.reference_key
+    keys = [
+        key
+        for key in shape_keys.key_blocks
+        if key.name not in made and (with_basis if key == basis else not key.mute)
+    ]
+    if len(keys) < 2:
+        only = f"one pose only, '{keys[0].name}'" if keys else "no pose"
+        raise Problem(f"'{item.name}' has {only}: add shape keys, or unmute those that are muted")
+    return _poses(
+        [key.name for key in keys],
+        [_shape_of_key(item, key) for key in keys],
+        [_matrix(context, item)] * len(keys),
+        topology_of(item.data),
+    )
+
+
+def poses_of_objects(context, items) -> Poses:
+    """Objects as they are seen, that is, with their modifiers, and where they stand."""
+    for item in items:
+        require_object_mode(item)
+    depsgraph = context.evaluated_depsgraph_get()
+    names = [item.name for item in items]
+    shapes, topologies = [], []
+    for item in items:
+        evaluated = item.evaluated_get(depsgraph)
+        mesh = evaluated.to_mesh()
+        _require_vertices(item.name, mesh)
+        shapes.append(_coordinates(mesh.vertices))
+        topologies.append(topology_of(mesh))
+        evaluated.to_mesh_clear()
+    for name, topology in zip(names, topologies):
+        require_same(topologies[0], names[0], topology, name)
+    matrices = [_matrix(context, item) for item in items]
+    for name, matrix in zip(names, matrices):
+        if np.linalg.det(matrix[:3, :3]) * np.linalg.det(matrices[0][:3, :3]) < 0:
+            raise Problem(
+                f"Either '{names[0]}' or '{name}' is mirrored, since its scale is negative: give"
+                " both a positive scale"
+            )
+    return _poses(names, shapes, matrices, topologies[0])
+
+
+def pose_of_target(context, item) -> Poses:
+    """A body at rest: the Basis of an object that has shape keys, else its mesh."""
+    require_object_mode(item)
+    _require_vertices(item.name, item.data)
+    shape_keys = item.data.shape_keys
+    points = item.data.vertices if shape_keys is None else shape_keys.reference_key.data
+    return _poses(
+        [item.name], [_coordinates(points)], [_matrix(context, item)], topology_of(item.data)
+    )
+
+
+def _require_vertices(name: str, mesh) -> None:
+    """Shape keys without points have arbitrary numbers of them in Blender 4.3."""
+    if not mesh.vertices:
+        raise Problem(f"'{name}' has no vertices: add a mesh to it")
+
+
+def _poses(names, own, matrices, topology) -> Poses:
+    for name, shape in zip(names, own):
+        wrong = np.flatnonzero(~np.isfinite(shape).all(axis=1))
+        if len(wrong):
+            raise Problem(f"Vertex {wrong[0]} of '{name}' is at no finite place: move or delete it")
+    centre = Frame(matrices[0]).to_scene(own[0]).mean(axis=0)
+    frames = [Frame(matrix, centre) for matrix in matrices]
+    shapes = [frame.to_scene(shape) for frame, shape in zip(frames, own)]
+    return Poses(names, shapes, own, topology, frames[0])
+
+
+def _shape_of_key(item, key) -> np.ndarray:
+    basis = item.data.shape_keys.reference_key
+    shape = _coordinates(key.data)
+    if key == basis:
+        return shape
+    offsets = shape - _coordinates(key.relative_key.data)
+    if key.vertex_group in item.vertex_groups:
+        offsets *= _weights(item, item.vertex_groups[key.vertex_group].index)[:, np.newaxis]
+    return _coordinates(basis.data) + offsets
+
+
+def _weights(item, group: int) -> np.ndarray:
+    return np.array(
+        [
+            next((of.weight for of in vertex.groups if of.group == group), 0.0)
+            for vertex in item.data.vertices
+        ]
+    )
+
+
+def _coordinates(points) -> np.ndarray:
+    flat = np.empty(3 * len(points), np.float32)
+    points.foreach_get("co", flat)
+    return flat.reshape(-1, 3).astype(np.float64)
+
+
+def _matrix(context, item) -> np.ndarray:
+    evaluated = item.evaluated_get(context.evaluated_depsgraph_get())
+    matrix = np.array(evaluated.matrix_world, np.float64)
+    lengths = np.linalg.norm(matrix[:3, :3], axis=0)
+    if not abs(np.linalg.det(matrix[:3, :3])) > 1e-9 * np.prod(lengths):
+        raise Problem(
+            f"'{item.name}' is scaled to zero along some direction: give it another scale"
+        )
+    return matrix
+
+
+def _natural(name: str) -> list:
+    """So that 'pose 2' comes before 'pose 10'."""
+    return [int(part) if part.isdigit() else part.lower() for part in re.split(r"(\d+)", name)]

@@ -1,0 +1,6 @@
+"""What a person can put right."""
+
+
+class Problem(Exception):
+    """Something that does not work as asked; the text says what, and the remedy. Operators show it
+    as a report."""

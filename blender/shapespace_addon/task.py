@@ -1,0 +1,33 @@
+"""What is to be computed, and what comes of it, whoever computes it."""
+
+from dataclasses import dataclass, field
+
+from .topology import Topology
+
+
+@dataclass
+class Body:
+    """Poses of one mesh, with names for messages."""
+
+    names: list
+    shapes: list  # n x 3 each
+    topology: Topology
+
+
+@dataclass
+class Task:
+    """A motion through poses, perhaps continued, perhaps transferred to other bodies."""
+
+    poses: Body
+    shapes: int  # between neighbouring poses; 0, which only a transfer may have: poses alone
+    metric: str  # a preset of the metric, or "" for the solver's own choice
+    steps: int = 0  # beyond the last pose
+    targets: list = field(default_factory=list)  # bodies of one pose each
+
+
+@dataclass
+class Result:
+    """Motions, and what is worth saying about them."""
+
+    motions: list  # k x n x 3 each: one of the poses' body, or one of each target
+    notes: list

@@ -1,0 +1,156 @@
+"""Runs the command-line tools as processes of their own."""
+
+import os
+import shutil
+import subprocess
+import tempfile
+import threading
+
+from .files import read_pc2, write_ply
+from .problem import Problem
+from .task import Result, Task
+
+_NEEDED = ("shape-interpolate", "shape-extrapolate", "shape-transfer")
+# Artists' meshes may have fins and inner faces.
+_ALWAYS = ("--allow_nonmanifold", "--progress", "lines")
+_SOURCE = "source.path"  # the motion that is transferred
+_SECONDS_TO_END = 2  # that a process is given to end by itself
+
+
+def find(folder: str) -> dict:
+    """The programs, from a folder or, if that is "", from PATH. Raises Problem."""
+    found = {name: shutil.which(name, path=folder or None) for name in _NEEDED}
+    missing = [name for name, program in found.items() if program is None]
+    if missing:
+        raise Problem(
+            f"{missing[0]} was not found in {folder or 'any folder of PATH'}: build shapespace, and"
+            " name the folder of its tools in the preferences of this add-on"
+        )
+    return found
+
+
+class ToolsRun:
+    """Commands one after the other, in a temporary folder that is gone when the run is over."""
+
+    def __init__(self, task: Task, programs: dict, temporary: str):
+        self.share = None
+        self.text = ""
+        self._notes = []
+        self._errors = []
+        self._process = None
+        self._folder = tempfile.TemporaryDirectory(prefix="shapespace-", dir=temporary)
+        self._names = {_SOURCE: "the source's motion"}  # of files, as a person knows them
+        try:
+            poses = self._write(task.poses, "pose")
+            targets = [
+                self._write(body, f"target{i}-")[0] for i, body in enumerate(task.targets)
+            ]
+            self._commands = _commands(task, poses, targets, programs)
+            self._done = 0
+            self._outputs = [f"motion{i}.pc2" for i in range(max(1, len(targets)))]
+            self._start()
+        except BaseException:
+            self._folder.cleanup()
+            raise
+
+    def poll(self) -> bool:
+        """Whether the run is over. Raises Problem if it failed."""
+        if self._reader.is_alive():
+            return False
+        if self._process.wait() != 0:
+            self._folder.cleanup()
+            program = os.path.basename(self._commands[self._done][0])
+            said = "; ".join(self._errors) or f"ended with code {self._process.returncode}"
+            raise Problem(f"{program}: {said}")
+        self._done += 1
+        if self._done < len(self._commands):
+            self._start()
+            return False
+        return True
+
+    def cancel(self) -> None:
+        """Ends the process and removes the files."""
+        self._process.terminate()
+        try:
+            self._process.wait(_SECONDS_TO_END)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._reader.join()
+        self._folder.cleanup()
+
+    def result(self) -> Result:
+        try:
+            files = [os.path.join(self._folder.name, name) for name in self._outputs]
+            return Result([read_pc2(file) for file in files], list(dict.fromkeys(self._notes)))
+        finally:
+            self._folder.cleanup()
+
+    def _write(self, body, prefix: str) -> list:
+        files = [f"{prefix}{i}.ply" for i in range(len(body.shapes))]
+        for file, name, shape in zip(files, body.names, body.shapes):
+            write_ply(os.path.join(self._folder.name, file), shape, body.topology)
+            self._names[file] = f"'{name}'"
+        return files
+
+    def _start(self) -> None:
+        command = self._commands[self._done]
+        try:
+            self._process = subprocess.Popen(
+                [*command, *_ALWAYS],
+                cwd=self._folder.name,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+                errors="replace",
+            )
+        except OSError as error:
+            raise Problem(f"{command[0]} cannot be run: {error.strerror}") from None
+        self._reader = threading.Thread(target=self._read, args=[self._process], daemon=True)
+        self._reader.start()
+
+    def _read(self, process) -> None:
+        program = os.path.basename(process.args[0])
+        with process.stdout:
+            for line in process.stdout:
+                self._hear(program, line.rstrip("\n"))
+
+    def _hear(self, program: str, line: str) -> None:
+        kind, _, rest = line.partition(" ")
+        if kind == "progress":
+            share, _, self.text = rest.partition(" ")
+            if share != "-":
+                self.share = (self._done + float(share)) / len(self._commands)
+            return
+        for file, name in self._names.items():
+            rest = rest.replace(file, name)
+        if kind in (f"{program}:", "ERROR:"):
+            self._errors.append(rest)
+        elif kind == "warning:":
+            self._notes.append(rest)
+        elif "NOT CONVERGED" in line or "STOPPED EARLY" in line:
+            self._notes.append(line)
+
+
+def _commands(task: Task, poses: list, targets: list, programs: dict) -> list:
+    metric = ["--metric", task.metric] if task.metric else []
+    inserted = ["--shapes", str(task.shapes), *metric]
+    if not targets:
+        output = ["--output", "motion0.pc2"]
+        if task.steps:
+            steps = ["--steps", str(task.steps)]
+            return [[programs["shape-extrapolate"], *poses, *inserted, *steps, *output]]
+        return [[programs["shape-interpolate"], *poses, *inserted, *output]]
+    commands = []
+    if task.shapes:
+        commands.append([programs["shape-interpolate"], *poses, *inserted, "--output", _SOURCE])
+        source = [_SOURCE]
+    else:
+        source = poses
+    for i, target in enumerate(targets):
+        output = f"motion{i}.pc2"
+        commands.append(
+            [programs["shape-transfer"], *source, "--target", target, "--output", output]
+        )
+    return commands

@@ -1,0 +1,255 @@
+"""One run of an operator, from reading the scene to writing the result into it.
+
+Data-blocks may come and go while it computes, so only their names are kept.
+"""
+
+import time
+
+import bpy
+from mathutils import Matrix
+
+from . import engine, mesh_cache, record, shape_keys
+from .poses import pose_of_target, poses_of_keys, poses_of_objects, selected_meshes
+from .problem import Problem
+from .settings import Timing
+from .task import Body, Task
+from .topology import require_same
+
+_SECONDS_BETWEEN_POLLS = 0.02
+
+
+class Work:
+    """Begins to compute when it is constructed. Every method may raise a Problem."""
+
+    def __init__(self, context, settings, preferences):
+        self._settings = settings
+        self._objects = self._choose(context)
+        self._bodies = self._read(context)
+        self._check_places()
+        self._run = engine.begin(self._task(), preferences)
+
+    @property
+    def share(self):
+        """From 0 to 1, or None while it is not known."""
+        return self._run.share
+
+    @property
+    def text(self) -> str:
+        return self._run.text
+
+    def poll(self) -> bool:
+        """Whether the computation is over."""
+        return self._run.poll()
+
+    def wait(self) -> None:
+        try:
+            while not self.poll():
+                time.sleep(_SECONDS_BETWEEN_POLLS)
+        except KeyboardInterrupt:
+            self.cancel()
+            raise
+
+    def cancel(self) -> None:
+        """Leaves nothing behind."""
+        self._run.cancel()
+
+    def finish(self, context) -> list:
+        """Writes the result into the scene. Returns what is worth saying about it."""
+        result = self._run.result()
+        for name, before, now in zip(self._objects, self._bodies, self._read(context)):
+            if not before.same(now):
+                raise Problem(
+                    f"'{name}' has changed since the run began: the result does not fit it, and is"
+                    " dropped. Start again"
+                )
+        self._check_places()
+        notes = list(result.notes)
+        for i, motion in enumerate(result.motions):
+            notes += self._place(context, i, motion)
+        return notes
+
+    def _choose(self, context) -> list:
+        """Names of the objects to read."""
+        raise NotImplementedError
+
+    def _read(self, context) -> list:
+        """The poses of these objects."""
+        raise NotImplementedError
+
+    def _check_places(self) -> None:
+        """Raises a Problem if the result cannot be written."""
+        raise NotImplementedError
+
+    def _task(self) -> Task:
+        raise NotImplementedError
+
+    def _place(self, context, i: int, motion) -> list:
+        """Writes one motion into the scene. Returns what is worth saying about it."""
+        raise NotImplementedError
+
+    def _items(self) -> list:
+        for name in self._objects:
+            if name not in bpy.data.objects:
+                raise Problem(f"'{name}' is gone: the motion that was computed for it is dropped")
+        return [bpy.data.objects[name] for name in self._objects]
+
+    def _metric(self) -> str:
+        return "" if self._settings.metric == "DEFAULT" else self._settings.metric
+
+    def _check_place(self, item) -> None:
+        if self._settings.result == "CACHE":
+            mesh_cache.require_editable(item)
+            mesh_cache.file_for(item.name, self._settings.cache_folder)
+        else:
+            shape_keys.require_editable(item)
+
+    def _put(self, context, item, motion, poses: dict, transferred=()) -> list:
+        timing = Timing(self._settings.frame_start, self._settings.frame_step)
+        if self._settings.result == "CACHE":
+            file = mesh_cache.file_for(item.name, self._settings.cache_folder)
+            mesh_cache.add_motion(context, item, motion, file, timing)
+            return []
+        mesh_cache.remove(item)
+        return shape_keys.add_motion(item, motion, poses, timing, transferred)
+
+
+class InBetweens(Work):
+    """A motion through the shape keys of one object, or through several objects."""
+
+    def _choose(self, context) -> list:
+        return [item.name for item in selected_meshes(context)]
+
+    def _read(self, context) -> list:
+        items = self._items()
+        if len(items) > 1:
+            return [poses_of_objects(context, items)]
+        return [poses_of_keys(context, items[0], self._settings.use_basis)]
+
+    def _check_places(self) -> None:
+        if len(self._objects) > 1:
+            if self._settings.result == "CACHE":
+                mesh_cache.file_for(self._new_name(), self._settings.cache_folder)
+            return
+        (item,) = self._items()
+        self._check_place(item)
+        if self._settings.result == "KEYS":
+            shape_keys.require_free(item, self._bodies[0].names)
+
+    def _task(self) -> Task:
+        return Task(
+            _body(self._bodies[0]),
+            self._settings.shapes,
+            self._metric(),
+            steps=getattr(self._settings, "steps", 0),
+        )
+
+    def _place(self, context, i: int, motion) -> list:
+        first, *others = self._items()
+        (poses,) = self._bodies
+        motion = poses.frame.to_object(motion)
+        if others:
+            return self._place_new(context, first, poses, motion)
+        return self._put(context, first, motion, self._at(poses.names))
+
+    def _place_new(self, context, first, poses, motion) -> list:
+        """A copy of the first object as it is seen moves. It is alone selected, so that settings
+        can be changed and the operator be run again, on it."""
+        depsgraph = context.evaluated_depsgraph_get()
+        mesh = bpy.data.meshes.new_from_object(first.evaluated_get(depsgraph), depsgraph=depsgraph)
+        item = bpy.data.objects.new(self._new_name(), mesh)
+        try:
+            names = []
+            if self._settings.result == "KEYS":
+                own = [poses.frame.to_object(shape) for shape in poses.shapes]
+                names = shape_keys.add_poses(item, poses.names, own)
+            notes = self._put(context, item, motion, self._at(names))
+        except Problem:
+            bpy.data.objects.remove(item)
+            bpy.data.meshes.remove(mesh)
+            raise
+        for collection in first.users_collection:
+            collection.objects.link(item)
+        item.matrix_world = Matrix(poses.frame.matrix.tolist())
+        for selected in context.selected_objects:
+            selected.select_set(False)
+        item.select_set(True)
+        context.view_layer.objects.active = item
+        return notes
+
+    def _at(self, names: list) -> dict:
+        """The poses' names by their numbers in the motion."""
+        return {pose * (self._settings.shapes + 1): name for pose, name in enumerate(names)}
+
+    def _new_name(self) -> str:
+        return f"{self._objects[0]} in-betweens"
+
+
+class Transfer(Work):
+    """The motion of the active object for the other selected ones."""
+
+    def _choose(self, context) -> list:
+        source = context.active_object
+        if source is None or source.type != "MESH":
+            raise Problem("The active object is no mesh: select the targets, and the source last")
+        targets = [item.name for item in selected_meshes(context) if item != source]
+        if not targets:
+            raise Problem(
+                f"No target is selected: select bodies with the mesh of '{source.name}', and"
+                f" '{source.name}' last"
+            )
+        return [source.name, *targets]
+
+    def _read(self, context) -> list:
+        source, *targets = self._items()
+        poses = poses_of_keys(context, source, self._settings.use_basis)
+        rest = [pose_of_target(context, item) for item in targets]
+        for body in rest:
+            require_same(poses.topology, source.name, body.topology, body.names[0])
+        return [poses, *rest]
+
+    def _check_places(self) -> None:
+        items = self._items()
+        for i, item in enumerate(items):
+            if item.data in [other.data for other in items[:i]]:
+                raise Problem(
+                    f"'{item.name}' shares its mesh with another of the selected objects: make it"
+                    " single user first (Object > Relations > Make Single User > Object & Data)"
+                )
+        for item in items[1:]:
+            self._check_place(item)
+
+    def _task(self) -> Task:
+        poses, *targets = self._bodies
+        return Task(
+            _body(poses),
+            self._inserted(),
+            self._metric(),
+            targets=[_body(target) for target in targets],
+        )
+
+    def _place(self, context, i: int, motion) -> list:
+        target = self._items()[1 + i]
+        poses, body = self._bodies[0], self._bodies[1 + i]
+        motion = body.frame.to_object(motion)
+        spacing = self._inserted() + 1
+        if self._settings.result == "CACHE":
+            return self._put(context, target, motion, {})
+        if target.data.shape_keys is None:
+            target.shape_key_add(name="Basis", from_mix=False)
+        shape_keys.remove(target, record.transferred(target.data.shape_keys))
+        names = shape_keys.add_poses(target, poses.names[1:], motion[spacing::spacing])
+        reached = [target.data.shape_keys.reference_key.name, *names]
+        return self._put(
+            context,
+            target,
+            motion,
+            {pose * spacing: name for pose, name in enumerate(reached)},
+            transferred=names,
+        )
+
+    def _inserted(self) -> int:
+        return 0 if self._settings.poses_only else self._settings.shapes
+
+
+def _body(poses) -> Body:
+    return Body(poses.names, poses.shapes, poses.topology)

@@ -1,0 +1,101 @@
+"""The Python module in place of the tools. Skipped where it cannot be imported."""
+
+import importlib.util
+import time
+import unittest
+
+import bpy
+import numpy as np
+from support import (
+    CUBE,
+    CUBE_FACES,
+    Case,
+    add_key,
+    add_object,
+    bent_cube,
+    children,
+    key_names,
+    key_shape,
+    preferences,
+    select,
+    state,
+)
+
+MODULE = importlib.util.find_spec("shapespace")
+
+
+@unittest.skipIf(MODULE is None, "the Python module is not there: ./dev python builds it")
+class Module(Case):
+    def both(self, item, operator, **settings):
+        """The shape keys that an object gets from the tools, and from the module."""
+        found = []
+        for engine in ("TOOLS", "MODULE"):
+            preferences().engine = engine
+            operator(**settings)
+            found.append([key_shape(item, name) for name in key_names(item)])
+        return found
+
+    def test_makes_what_the_tools_make(self):
+        (stand, rear), faces = self.quadruped("stand", "rear")
+        (long,), _ = self.quadruped("stand", proportions="long")
+        animal = add_object("animal", stand, faces)
+        add_key(animal, "rear", rear)
+        for operator, settings in (
+            (bpy.ops.shapespace.inbetweens, {"shapes": 3}),
+            (bpy.ops.shapespace.inbetweens, {"shapes": 3, "metric": "rigid"}),
+            (bpy.ops.shapespace.extrapolate, {"shapes": 3, "steps": 2}),
+        ):
+            self.near(*self.both(animal, operator, **settings))
+        target = add_object("target", long, faces)
+        select(target, animal)
+        for poses_only in (False, True):
+            shapes = self.both(
+                target, bpy.ops.shapespace.transfer, shapes=3, poses_only=poses_only
+            )
+            self.near(*shapes)
+
+    def test_quadrilaterals_and_edges(self):
+        cube = add_object("cube", [*CUBE, [0, 0, 3]], CUBE_FACES, [(1, 8)])
+        add_key(cube, "bent", [*bent_cube(), [0, 1, 3]])
+        self.near(*self.both(cube, bpy.ops.shapespace.inbetweens, shapes=2))
+
+    def test_a_rope_of_edges(self):
+        rope = add_object("rope", [[i, 0, 0] for i in range(4)], [], [(0, 1), (1, 2), (2, 3)])
+        add_key(rope, "curled", [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+        self.near(*self.both(rope, bpy.ops.shapespace.inbetweens, shapes=1))
+
+    def test_runs_while_blender_waits_and_is_cancelled(self):
+        (sit, stretch), faces = self.quadruped("sit", "stretch", triangles=20000)
+        add_key(add_object("animal", sit, faces), "stretch", stretch)
+        preferences().engine = "MODULE"
+        before = state()
+        work = self.begin(shapes=63)
+        self.assertEqual(children(), [])
+        while not work.share:
+            self.assertFalse(work.poll())
+            time.sleep(0.01)
+        began = time.monotonic()
+        work.cancel()
+        self.assertLess(time.monotonic() - began, 2)
+        self.assertEqual(state(), before)
+
+    def test_its_errors_are_reports(self):
+        cube = add_object("cube", CUBE, CUBE_FACES)
+        add_key(cube, "inside out", np.array(CUBE) * [-1, 1, 1])
+        preferences().engine = "MODULE"
+        self.refused("'inside out' against 'Basis'.* mirror", bpy.ops.shapespace.inbetweens)
+
+
+class NoModule(Case):
+    @unittest.skipIf(MODULE, "the Python module is there")
+    def test_is_said_if_it_was_asked_for(self):
+        cube = add_object("cube", CUBE, CUBE_FACES)
+        add_key(cube, "bent", bent_cube())
+        preferences().engine = "MODULE"
+        self.refused(
+            "shapespace cannot be imported .*: install it for Blender's Python, or choose",
+            bpy.ops.shapespace.inbetweens,
+        )
+        preferences().engine = "AUTOMATIC"
+        bpy.ops.shapespace.inbetweens(shapes=1)
+        self.assertEqual(len(key_names(cube)), 3)
