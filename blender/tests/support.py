@@ -156,17 +156,16 @@ class Case(unittest.TestCase):
     def tearDown(self):
         self.assertEqual(temporary_folders(), [])
 
-    def begin(self, **changes):
-        """The work of In-betweens, begun as its button does."""
-        from shapespace_addon.work import InBetweens  # which is installed by now
+    def begin(self, kind="InBetweens", **changes):
+        """The work of an operator, begun as its button does."""
+        from shapespace_addon import work  # which is installed by now
 
         settings = {
             "shapes": 3, "metric": "DEFAULT", "use_basis": True, "result": "KEYS",
             "frame_start": 1, "frame_step": 1, "cache_folder": "//",
         }  # fmt: skip
-        return InBetweens(
-            bpy.context, SimpleNamespace(**{**settings, **changes}), preferences()
-        )
+        given = SimpleNamespace(**{**settings, **changes})
+        return getattr(work, kind)(bpy.context, given, preferences())
 
     def near(self, a, b, tolerance=1e-5):
         self.assertEqual(np.shape(a), np.shape(b))

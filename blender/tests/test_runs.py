@@ -63,6 +63,22 @@ class Runs(Case):
         work.wait()
         self.assertEqual(work.finish(bpy.context), [])
 
+    def test_progress_of_two_tools_in_turn(self):
+        target = add_object("target", CUBE, CUBE_FACES)
+        select(target, self.cube())
+        self.stand_in(
+            'name=$(basename $tool); echo "progress 0.5 $name" >&2\n'
+            f"while ! [ -e {self.folder}/go-$name ]; do sleep .01; done\n"
+            'exec $tool "$@" 2>/dev/null'
+        )
+        work = self.begin("Transfer", poses_only=False)
+        for name, share in (("shape-interpolate", 0.25), ("shape-transfer", 0.75)):
+            self.wait_for(lambda: work.poll() or work.text == name)
+            self.assertEqual(work.share, share)
+            (self.folder / f"go-{name}").touch()
+        work.wait()
+        work.finish(bpy.context)
+
     def test_progress_of_the_tools(self):
         """The share never falls, and is told often enough for a bar."""
         (sit, stretch), faces = self.quadruped("sit", "stretch", triangles=20000)
@@ -159,13 +175,15 @@ class Runs(Case):
         self.assertEqual(len(cube.data.shape_keys.key_blocks), 5)
         self.assertEqual(bpy.context.active_object.name, "other")
 
-    def test_what_did_not_converge_is_said(self):
-        self.cube()
+    def test_what_did_not_converge_is_said_once(self):
+        (sit, stretch), faces = self.quadruped("sit", "stretch")
+        add_key(add_object("animal", sit, faces), "stretch", stretch)
         self.stand_in('exec $tool --max_iterations 1 "$@"')
         work = self.begin()
         work.wait()
         notes = work.finish(bpy.context)
         self.assertTrue(any("NOT CONVERGED" in note for note in notes), notes)
+        self.assertTrue(any("ran out of iterations" in note for note in notes), notes)
         self.assertEqual(len(notes), len(set(notes)))
 
     def test_keyframes_of_the_user_that_are_replaced_are_named_once(self):
