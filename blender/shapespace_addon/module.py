@@ -50,8 +50,8 @@ class ModuleRun:
         return True
 
     def cancel(self) -> None:
+        """The solver stops at its next report of progress, for which nobody waits."""
         self._cancelled = True
-        self._thread.join()
 
     def result(self) -> Result:
         return Result(self._motions, [self._named(note) for note in dict.fromkeys(self._notes)])
