@@ -65,7 +65,7 @@ class TextReader {
         AddCorner(words);
       } else if (word == "endfacet") {
         CheckFacet();
-      } else if (word != "" && word != "solid" && word != "facet" && word != "outer" &&
+      } else if (!word.empty() && word != "solid" && word != "facet" && word != "outer" &&
                  word != "endloop" && word != "endsolid") {
         FailAt(file_, lines_.Number(), Quoted(word) + " is no word of STL" + kReexport);
       }

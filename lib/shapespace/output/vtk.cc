@@ -21,9 +21,9 @@ class Arrays {
   template <typename Array>
   std::string Add(const char* type, const std::string& name, const Array& numbers,
                   const std::string& attributes = "") {
-    const std::string tag = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\"" +
-                            attributes + " format=\"appended\" offset=\"" +
-                            std::to_string(bytes_.size()) + "\"/>\n";
+    std::string tag = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\"" +
+                      attributes + " format=\"appended\" offset=\"" +
+                      std::to_string(bytes_.size()) + "\"/>\n";
     using Number = std::decay_t<decltype(*std::begin(numbers))>;
     internal::AppendLittleEndian(std::uint64_t{std::size(numbers) * sizeof(Number)}, &bytes_);
     for (const Number number : numbers) internal::AppendLittleEndian(number, &bytes_);
