@@ -144,6 +144,18 @@ TEST_F(ReadGltfTest, NodesPlaceTheMesh) {
   ExpectRefused({"a node is its own parent"});
 }
 
+// Both sides of a surface stay what they were.
+TEST_F(ReadGltfTest, MirroringNodesKeepTrianglesFacingTheSameWay) {
+  json_["nodes"][0]["scale"] = {-2, 1, 1};
+  const Soup soup = ReadSoup(Glb());
+  ASSERT_EQ(soup.corners.size(), 6u);
+  for (size_t k = 0; k < 6; k += 3) {
+    const auto corner = [&](size_t i) { return soup.vertices.col(soup.corners[k + i]); };
+    const Eigen::Vector3d along = corner(1) - corner(0), across = corner(2) - corner(0);
+    EXPECT_EQ(along.x() * across.y() - along.y() * across.x(), 2);
+  }
+}
+
 // As Blender writes targets that move a few vertices only.
 TEST_F(ReadGltfTest, SparseTargetsMoveTheVerticesThatTheyName) {
   const int indices = View(std::vector<std::uint8_t>{2, 4});
@@ -192,6 +204,22 @@ TEST_F(ReadGltfTest, TextureCoordinatesPointUp) {
   ASSERT_EQ(appearance.corner_texture.size(), 6u);
   EXPECT_EQ(appearance.texture_coordinates.col(appearance.corner_texture[5]),
             Eigen::Vector2d(0, 0.75));
+
+  // A second primitive with the same positions and other texture coordinates.
+  Json second = Primitive();
+  second["attributes"]["TEXCOORD_0"] = Add(std::vector<float>(12, 0.5f), "VEC2");
+  json_["meshes"][0]["primitives"].push_back(second);
+  const Soup both = ReadSoup(Glb());
+  EXPECT_EQ(both.NumVertices(), 4);
+  EXPECT_EQ(both.appearance.texture_coordinates.col(both.appearance.corner_texture[5]),
+            Eigen::Vector2d(0, 0.75));
+  EXPECT_EQ(both.appearance.texture_coordinates.col(both.appearance.corner_texture[11]),
+            Eigen::Vector2d(0.5, 0.5));
+
+  json_["accessors"].back()["componentType"] = 5123;
+  EXPECT_EQ(ReadSoup(Glb()).dropped.back(), "1 morph targets not read, since one mesh is wanted");
+  EXPECT_EQ(ReadSoups(Glb())[0].dropped.back(),
+            "texture coordinates that are not floating-point numbers not kept");
 }
 
 TEST_F(ReadGltfTest, LinesAreSegments) {

@@ -232,12 +232,19 @@ class GltfReader {
     return accessors;
   }
 
+  // -1 if there is none.
+  static int TextureAccessor(const Primitive& primitive) {
+    const auto found = primitive.attributes.find("TEXCOORD_0");
+    return found == primitive.attributes.end() ? -1 : found->second;
+  }
+
   // Appends the vertices of a primitive to all poses, unless another primitive had the same.
   // Returns the index of the first of them.
   int AddVertices(const Primitive& primitive) {
     const std::vector<int> accessors = PositionAccessors(primitive);
     const auto [found, is_new] =
-        begin_of_.try_emplace(accessors, shapes_.empty() ? 0 : static_cast<int>(shapes_[0].cols()));
+        begin_of_.try_emplace({accessors, TextureAccessor(primitive)},
+                              shapes_.empty() ? 0 : static_cast<int>(shapes_[0].cols()));
     const int begin = found->second;
     if (!is_new) return begin;
     if (!shapes_.empty() && shapes_.size() != accessors.size()) {
@@ -269,11 +276,14 @@ class GltfReader {
   }
 
   void AddTexture(const Primitive& primitive, Eigen::Index vertices) {
-    const auto found = primitive.attributes.find("TEXCOORD_0");
+    const int index = TextureAccessor(primitive);
     texture_of_.resize(texture_of_.size() + vertices, -1);
-    if (found == primitive.attributes.end()) return;
-    const Accessor& accessor = At(model_.accessors, found->second, "list of numbers");
-    if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
+    if (index < 0) return;
+    const Accessor& accessor = At(model_.accessors, index, "list of numbers");
+    if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+      has_rounded_texture_ = true;
+      return;
+    }
     const Eigen::MatrixXd numbers =
         Floats(accessor, TINYGLTF_TYPE_VEC2, vertices, "texture coordinates");
     const Eigen::Index known = texture_.cols();
@@ -324,6 +334,12 @@ class GltfReader {
   }
 
   std::vector<Soup> Soups(const Eigen::Affine3d& placement, const std::vector<std::string>& names) {
+    // Where the node mirrors the mesh, the order of corners is that of the mirror image.
+    if (placement.linear().determinant() < 0) {
+      for (size_t corner = 0; corner < corners_.size(); corner += 3) {
+        std::swap(corners_[corner + 1], corners_[corner + 2]);
+      }
+    }
     const Merged merged = MergeEqual(shapes_);
     Soup soup;
     soup.file = file_;
@@ -346,6 +362,7 @@ class GltfReader {
                          " vertices merged with others that are in the same place in all poses");
     tell(has_materials_, "materials and textures not kept");
     tell(has_colours_, "vertex colours not kept");
+    tell(has_rounded_texture_, "texture coordinates that are not floating-point numbers not kept");
     tell(!model_.skins.empty(), "the skeleton is not applied: the mesh is in its bind pose");
     std::vector<Soup> soups;
     for (size_t k = 0; k < shapes_.size(); ++k) {
@@ -359,12 +376,13 @@ class GltfReader {
 
   const std::string& file_;
   Model model_;
-  std::vector<Shape> shapes_;                 // the mesh and its targets
-  std::map<std::vector<int>, int> begin_of_;  // by accessors of positions: index of first vertex
-  std::vector<int> corners_, ends_;           // of triangles, and of segments
+  std::vector<Shape> shapes_;  // the mesh and its targets
+  // By accessors of positions and of texture coordinates: the index of the first vertex.
+  std::map<std::pair<std::vector<int>, int>, int> begin_of_;
+  std::vector<int> corners_, ends_;  // of triangles, and of segments
   Eigen::Matrix2Xd texture_{2, 0};
   std::vector<int> texture_of_;  // of each vertex: its texture coordinates, or -1
-  bool has_materials_ = false, has_colours_ = false;
+  bool has_materials_ = false, has_colours_ = false, has_rounded_texture_ = false;
 };
 
 }  // namespace
