@@ -1,0 +1,22 @@
+"""The calls that docs/guide/blender.md shows."""
+
+import re
+
+import bpy
+from support import CUBE, CUBE_FACES, PROJECT, Case, add_key, add_object, bent_cube, select
+
+
+class Guide(Case):
+    def test_calls_from_scripts(self):
+        page = (PROJECT / "docs/guide/blender.md").read_text(encoding="utf-8")
+        (script,) = re.findall(r"^```python\n(.*?)^```", page, re.M | re.S)
+        calls = [line for line in script.splitlines() if line.startswith("bpy.ops.")]
+        self.assertEqual(len(calls), 3)
+        twin = add_object("twin", CUBE, CUBE_FACES)
+        cube = add_object("cube", CUBE, CUBE_FACES)
+        add_key(cube, "bent", bent_cube())
+        bpy.ops.wm.save_as_mainfile(filepath=str(self.folder / "scene.blend"))
+        for call in calls:
+            select(*([twin] if "transfer" in call else []), cube)
+            with self.subTest(call):
+                self.assertEqual(eval(call), {"FINISHED"})
