@@ -75,10 +75,8 @@ class Module(Case):
         while not work.share:
             self.assertFalse(work.poll())
             time.sleep(0.01)
-        began = time.monotonic()
         work.cancel()
-        self.assertLess(time.monotonic() - began, 0.1)
-        end = began + 20
+        end = time.monotonic() + 20
         while threading.active_count() > threads:
             self.assertLess(time.monotonic(), end)
             time.sleep(0.01)

@@ -101,12 +101,20 @@ class Runs(Case):
         before = state()
         work = self.begin(shapes=63)
         self.assertEqual((len(children()), len(temporary_folders())), (1, 1))
-        time.sleep(0.3)
-        self.assertFalse(work.poll())
-        began = time.monotonic()
+        self.wait_for(lambda: work.share is not None)
         work.cancel()
-        self.assertLess(time.monotonic() - began, 1)
         self.assertEqual((children(), temporary_folders(), state()), ([], [], before))
+
+    def test_cancelling_lets_a_process_end_by_itself(self):
+        self.cube()
+        self.stand_in(
+            f"trap 'touch {self.folder}/ended; exit' TERM\n"
+            "echo 'progress 0 listening' >&2; while :; do sleep .1; done"
+        )
+        work = self.begin()
+        self.wait_for(lambda: work.text == "listening")
+        work.cancel()
+        self.assertTrue((self.folder / "ended").exists())
 
     def test_cancelling_a_process_that_does_not_listen(self):
         self.cube()
