@@ -19,8 +19,7 @@
 
 DEFINE_string(output, "fitted.obj,map.txt,check.png",
               "files to write, separated by commas: .obj, .ply, .off or .stl (the fitted "
-              "template), .txt (the "
-              "map in both directions), .png (a picture for judging it)");
+              "template), .txt (the map in both directions), .png (a picture for judging it)");
 DEFINE_bool(allow_nonmanifold, false,
             "accept meshes with non-manifold edges or vertices, or inconsistent winding");
 

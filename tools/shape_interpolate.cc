@@ -46,8 +46,7 @@ int main(int argc, char** argv) {
            "  shape-interpolate a.obj b.obj [c.obj ...] --shapes 15 --output "
            "walk.png,walk.path,frames/%03d.obj\n\n"
            "Poses are OBJ, PLY, OFF, STL or glTF files with the same faces in the same order. With "
-           "15 "
-           "shapes\ninserted between two poses 17 frames are written, numbered from 000, the "
+           "15 shapes\ninserted between two poses 17 frames are written, numbered from 000, the "
            "poses included. The morph\ntargets of a glTF file are poses too.") +
            kHowASolveEnds,
        {"support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",

@@ -18,8 +18,7 @@ std::int64_t NumShapes(size_t poses, const GeodesicOptions& options);
 
 /// Whether the argument is a .path file instead of poses to interpolate.
 /// \throw UsageError if there is no argument, if a .path is not the only one, or if a flag was
-/// given that would
-///        have no effect on a .path.
+///        given that would have no effect on a .path.
 bool IsOnePath(const std::vector<std::string>& files);
 
 }  // namespace shapespace::tools

@@ -71,8 +71,9 @@ class TextReader {
       }
       ended_ = word == "endsolid" || (ended_ && word.empty());
     }
-    if (!ended_)
+    if (!ended_) {
       FailAt(file_, lines_.Number(), std::string("the file ends before endsolid") + kReexport);
+    }
     return std::move(corners_);
   }
 
