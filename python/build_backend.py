@@ -65,6 +65,7 @@ def _build_module(settings, target):
     if not (build / "CMakeCache.txt").exists():
         command += ["-DCMAKE_BUILD_TYPE=Release"]
         command += ["-DSHAPESPACE_BUILD_TOOLS=OFF", "-DSHAPESPACE_BUILD_TESTS=OFF"]
+        command += ["-DCMAKE_UNITY_BUILD=ON"]  # is faster
     # FindPython and, before CMake 3.27, pybind11's own search go by these.
     command += [f"-DPython_EXECUTABLE={sys.executable}", f"-DPYTHON_EXECUTABLE={sys.executable}"]
     _run(command)

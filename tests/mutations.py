@@ -101,7 +101,7 @@ MUTATIONS = [
     ("optimise/line_search.cc", "return low.step > 0 ? evaluate(low.step) : start;", "return start;",
      MINIMISING),
     ("optimise/preconditioner.cc", "constexpr double kLeastLambda = 1e-6;", "constexpr double kLeastLambda = 0;", MINIMISING),
-    ("optimise/nearest_shape.cc", "constexpr int kHalvings = 8;", "constexpr int kHalvings = 0;", CARRYING),
+    ("optimise/nearest_shape.cc", "constexpr int kMostHalvings = 8;", "constexpr int kMostHalvings = 0;", CARRYING),
     # Transport and transfer.
     ("transport.cc", "x = nearest - 0.5 * Solve(to, from->derivative.Times(there_and_back), size, row);",
      "x = nearest;", CARRYING),

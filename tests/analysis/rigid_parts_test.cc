@@ -16,16 +16,14 @@
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
 
+#include "support/motions.h"
 #include "support/path_of.h"
 
 namespace shapespace {
 namespace {
 
 using testing::PathOf;
-
-Eigen::Matrix3d Turn(double degrees, const Eigen::Vector3d& axis) {
-  return Eigen::AngleAxisd(degrees * M_PI / 180, axis.normalized()).toRotationMatrix();
-}
+using testing::Rotation;
 
 // A shape whose part at x > 0 is rotated about the y axis, with a bend distributed over [-width /
 // 2, width / 2].
@@ -73,8 +71,8 @@ TEST(FindRigidParts, ARigidCopyIsOnePart) {
   const SkinnedBody body = MakeQuadruped(2000);
   const Shape rest = body.pose("stride");
   const std::vector<Shape> shapes = {
-      rest, (Turn(50, {1, 2, 3}) * rest).colwise() + Eigen::Vector3d(1, 2, 3),
-      (Turn(120, {3, 1, 0}) * rest).colwise() + Eigen::Vector3d(-4, 2, 0)};
+      rest, (Rotation(50, {1, 2, 3}) * rest).colwise() + Eigen::Vector3d(1, 2, 3),
+      (Rotation(120, {3, 1, 0}) * rest).colwise() + Eigen::Vector3d(-4, 2, 0)};
   const Path path = PathOf(body.connectivity, shapes);
   const RigidParts result = FindRigidParts(path);
   ASSERT_EQ(result.parts.size(), 1u);
@@ -93,7 +91,7 @@ TEST(FindRigidParts, AFoldIsTwoPartsThoughNoEdgeChanges) {
   std::vector<Shape> shapes = {flat, flat, flat};
   for (int i = 0; i < 3; ++i) {
     for (auto p : shapes[i].colwise()) {
-      if (p.x() > 0) p = Turn(-35 * i, Eigen::Vector3d::UnitY()) * p;
+      if (p.x() > 0) p = Rotation(-35 * i, Eigen::Vector3d::UnitY()) * p;
     }
   }
   const Path path = PathOf(sheet.connectivity, shapes);
@@ -219,13 +217,13 @@ TEST(FindRigidParts, DoesNotDependOnScaleOrPlace) {
   for (const double scale : {1e-4, 1e4}) {
     std::vector<Shape> moved;
     for (size_t i = 0; i < shapes.size(); ++i) {
-      moved.push_back((scale * Turn(40. * i, {1, 1, 2}) * shapes[i]).colwise() +
+      moved.push_back((scale * Rotation(40. * i, {1, 1, 2}) * shapes[i]).colwise() +
                       scale * Eigen::Vector3d(i, 3, -5));
     }
     Path path = PathOf(tube.connectivity, moved);
     // Nor on the rigid motions that the path stores.
     for (size_t i = 0; i < path.shapes.size(); ++i) {
-      path.shapes[i] = Turn(70. * i, {0, 1, 3}) * path.shapes[i];
+      path.shapes[i] = Rotation(70. * i, {0, 1, 3}) * path.shapes[i];
     }
     const RigidParts result = FindRigidParts(path);
     ASSERT_EQ(result.parts.size(), plain.parts.size());

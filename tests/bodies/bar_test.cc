@@ -25,7 +25,7 @@ TEST(BarTest, RestsAsABoxWoundOutwards) {
   const Shape rest = bar.pose(bar.begin);
   EXPECT_EQ(rest.rowwise().maxCoeff(), Eigen::Vector3d(1.5, 1, 0.25));
   EXPECT_EQ(rest.rowwise().minCoeff(), Eigen::Vector3d(-1.5, -1, -0.25));
-  EXPECT_NEAR(Volume(*bar.connectivity, rest), 3, 1e-14);
+  EXPECT_NEAR(VolumeOf(*bar.connectivity, rest), 3, 1e-14);
   EXPECT_NEAR(Area(*bar.connectivity, rest), 2 * (3 * 2 + 2 * 0.5 + 0.5 * 3), 1e-13);
 }
 
@@ -60,7 +60,7 @@ TEST(BarTest, KeepsItsVolumeToSecondOrder) {
   double previous = 0;
   for (int n : {8, 16, 32}) {
     const Body bar = MakeBar(4, 1, 0.8, 2 * n, n / 2, n / 2);
-    const double lost = 4 * 0.8 - Volume(*bar.connectivity, bar.pose(240));
+    const double lost = 4 * 0.8 - VolumeOf(*bar.connectivity, bar.pose(240));
     EXPECT_GT(lost, 0);
     if (previous > 0) {
       EXPECT_NEAR(previous / lost, 4, 0.1);
@@ -73,7 +73,7 @@ TEST(BarTest, KeepsItsVolumeToSecondOrder) {
 TEST(BarTest, RangeEndsBeforeTheInnerFaceVanishes) {
   const Body thick = MakeBar(1, 1, 1, 40, 40, 40);
   EXPECT_LT(thick.end, 2 * kDegrees);
-  EXPECT_GT(Volume(*thick.connectivity, thick.pose(thick.end)), 0.99);
+  EXPECT_GT(VolumeOf(*thick.connectivity, thick.pose(thick.end)), 0.99);
   EXPECT_EQ(MakeBar(4, 1, 1, 8, 2, 2).end, 360);
 }
 

@@ -61,7 +61,7 @@ TEST(BricardTest, ParameterIsTheAngleToThePlaneOfSymmetry) {
 TEST(BricardTest, EnclosesNoVolumeAsSymmetryDemands) {
   const Body body = MakeBricard();
   for (double angle : {-35.0, -10.0, 15.0, 50.0}) {
-    EXPECT_NEAR(Volume(*body.connectivity, body.pose(angle)), 0, 1e-14);
+    EXPECT_NEAR(VolumeOf(*body.connectivity, body.pose(angle)), 0, 1e-14);
   }
 }
 

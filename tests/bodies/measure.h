@@ -21,7 +21,7 @@ namespace shapespace {
 constexpr double kDegrees = 180 / 3.14159265358979323846;  ///< degrees in a radian
 
 /// Signed volume; positive where closed meshes are wound outwards.
-inline double Volume(const Connectivity& connectivity, const Shape& shape) {
+inline double VolumeOf(const Connectivity& connectivity, const Shape& shape) {
   double sum = 0;
   for (const auto& t : connectivity.Triangles().colwise()) {
     sum += shape.col(t(0)).dot(shape.col(t(1)).cross(shape.col(t(2)))) / 6;

@@ -15,7 +15,7 @@ TEST(MiuraTest, RestsFlatFacingUpAsParallelograms) {
   const Shape rest = body.pose(0);
   EXPECT_EQ(rest.row(2).cwiseAbs().maxCoeff(), 0);
   EXPECT_NEAR(Area(*body.connectivity, rest), 12 * 2 * std::sin(60 / kDegrees), 1e-13);
-  EXPECT_GT(Volume(*body.connectivity, rest.colwise() + Eigen::Vector3d::UnitZ()), 0);
+  EXPECT_GT(VolumeOf(*body.connectivity, rest.colwise() + Eigen::Vector3d::UnitZ()), 0);
 }
 
 TEST(MiuraTest, KeepsSidesDiagonalsAndFlatnessOfEveryParallelogram) {

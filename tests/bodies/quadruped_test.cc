@@ -25,7 +25,7 @@ TEST(QuadrupedTest, IsOneClosedSurfaceWithoutHandlesAtEverySize) {
     EXPECT_EQ(topology.components, 1);
     EXPECT_TRUE(topology.boundary_loops.empty());
     EXPECT_EQ(topology.genus, 0);
-    EXPECT_GT(Volume(*body.connectivity, body.pose("stand")), 0.2);
+    EXPECT_GT(VolumeOf(*body.connectivity, body.pose("stand")), 0.2);
   }
 }
 
@@ -79,7 +79,8 @@ TEST(QuadrupedTest, PosesKeepTheVolumeAndMostEdges) {
   const Eigen::ArrayXd before = EdgeLengths(*body.connectivity, rest);
   for (const std::string& name : body.pose_names) {
     const Shape shape = body.pose(name);
-    EXPECT_NEAR(Volume(*body.connectivity, shape), Volume(*body.connectivity, rest), 0.02) << name;
+    EXPECT_NEAR(VolumeOf(*body.connectivity, shape), VolumeOf(*body.connectivity, rest), 0.02)
+        << name;
     const Eigen::ArrayXd strain = EdgeLengths(*body.connectivity, shape).array() / before - 1;
     EXPECT_LT((strain.abs() > 0.2).count(), 0.15 * strain.size()) << name;
     if (name != "stand") {
@@ -113,7 +114,7 @@ TEST(QuadrupedTest, ProportionsKeepTheConnectivityAndTheAnglesFair) {
     const Shape shape = body.pose("stand");
     EXPECT_GT(SmallestAngle(*body.connectivity, shape), 15) << form;
     sizes[form] = shape.rowwise().maxCoeff() - shape.rowwise().minCoeff();
-    sizes[form].x() = Volume(*body.connectivity, shape);
+    sizes[form].x() = VolumeOf(*body.connectivity, shape);
   }
   EXPECT_GT(sizes["long"].y(), 1.25 * sizes["normal"].y());
   EXPECT_LT(sizes["short"].y(), 0.85 * sizes["normal"].y());

@@ -17,7 +17,7 @@ TEST(SheetTest, RestsFlatFacingUp) {
   EXPECT_EQ(rest.row(2).cwiseAbs().maxCoeff(), 0);
   EXPECT_NEAR(Area(*sheet.connectivity, rest), 6, 1e-14);
   // The volume between an upward facing sheet at height 1 and the origin is a third of its area.
-  EXPECT_NEAR(Volume(*sheet.connectivity, rest.colwise() + Eigen::Vector3d::UnitZ()), 2, 1e-14);
+  EXPECT_NEAR(VolumeOf(*sheet.connectivity, rest.colwise() + Eigen::Vector3d::UnitZ()), 2, 1e-14);
 }
 
 TEST(SheetTest, RollsOntoACylinderUntilItsEndsMeet) {
@@ -55,7 +55,7 @@ TEST(StripTest, RestsFlatFacingUp) {
   EXPECT_EQ(strip.connectivity->NumHinges(), 6);
   EXPECT_EQ(rest.row(2).cwiseAbs().maxCoeff(), 0);
   EXPECT_NEAR(Area(*strip.connectivity, rest), 7 * 0.8 / 2, 1e-15);
-  EXPECT_NEAR(Volume(*strip.connectivity, rest.colwise() + Eigen::Vector3d::UnitZ()),
+  EXPECT_NEAR(VolumeOf(*strip.connectivity, rest.colwise() + Eigen::Vector3d::UnitZ()),
               7 * 0.8 / 2 / 3, 1e-15);
 }
 

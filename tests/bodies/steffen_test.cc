@@ -47,7 +47,7 @@ TEST(SteffenTest, IsAClosedSurfaceOfFourteenTriangles) {
 TEST(SteffenTest, KeepsEdgesAndVolumeWhileItMoves) {
   const Body body = MakeSteffen();
   const Shape rest = body.pose(0);
-  const double volume = Volume(*body.connectivity, rest);
+  const double volume = VolumeOf(*body.connectivity, rest);
   EXPECT_GT(volume, 100);
   const Eigen::VectorXd rest_angles = HingeAngles(*body.connectivity, rest);
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(rest_angles.size());
@@ -57,7 +57,7 @@ TEST(SteffenTest, KeepsEdgesAndVolumeWhileItMoves) {
     for (double length : lengths) {
       EXPECT_NEAR(length, std::round(length), 1e-13 * length);  // all are whole numbers
     }
-    EXPECT_NEAR(Volume(*body.connectivity, shape), volume, 1e-12 * volume);
+    EXPECT_NEAR(VolumeOf(*body.connectivity, shape), volume, 1e-12 * volume);
     const Eigen::VectorXd angles = HingeAngles(*body.connectivity, shape);
     for (int h = 0; h < moved.size(); ++h) {
       moved(h) = std::max(moved(h), std::abs(std::remainder(angles(h) - rest_angles(h), 360)));

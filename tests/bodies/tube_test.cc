@@ -33,7 +33,7 @@ TEST(TubeTest, VolumeOfAPlainOneApproachesACapsules) {
   double previous = 0;
   for (int triangles : {1000, 4000, 16000}) {
     const Body tube = MakeTube(triangles, capsule);
-    const double lost = exact - Volume(*tube.connectivity, tube.pose(0));
+    const double lost = exact - VolumeOf(*tube.connectivity, tube.pose(0));
     EXPECT_GT(lost, 0);
     if (previous > 0) {
       EXPECT_NEAR(previous / lost, 4, 0.5);
@@ -47,8 +47,8 @@ TEST(TubeTest, KeepsItsVolumeToSecondOrder) {
   double previous = 0;
   for (int triangles : {1000, 4000, 16000}) {
     const Body tube = MakeTube(triangles);
-    const double rest = Volume(*tube.connectivity, tube.pose(tube.begin));
-    const double lost = 1 - Volume(*tube.connectivity, tube.pose(tube.end)) / rest;
+    const double rest = VolumeOf(*tube.connectivity, tube.pose(tube.begin));
+    const double lost = 1 - VolumeOf(*tube.connectivity, tube.pose(tube.end)) / rest;
     if (previous > 0) {
       EXPECT_NEAR(previous / lost, 4, 0.8);
     }

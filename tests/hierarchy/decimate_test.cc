@@ -145,7 +145,7 @@ TEST(PlanCollapses, KeepsWhatIsFlat) {
   const Shape box = bar.pose(0);
   const std::vector<Collapse> plan = PlanCollapses(*bar.connectivity, {box}, 60);
   EXPECT_LE(plan.back().triangles, 60);
-  EXPECT_NEAR(Volume(*After(*bar.connectivity, plan), box), 6, 1e-10);
+  EXPECT_NEAR(VolumeOf(*After(*bar.connectivity, plan), box), 6, 1e-10);
 }
 
 TEST(PlanCollapses, KeepsACreaseThatOnlyOnePoseHas) {
@@ -279,7 +279,7 @@ TEST(PlanCollapses, CopesWithVerticesOfManyTriangles) {
   const auto connectivity = TrianglesOf(kAround + 2, triangles);
   const std::vector<Collapse> collapses = PlanCollapses(*connectivity, {vertices}, 40);
   EXPECT_EQ(collapses.back().triangles, 40);
-  EXPECT_NEAR(Volume(*After(*connectivity, collapses), vertices), 2 * M_PI / 3, 0.2);
+  EXPECT_NEAR(VolumeOf(*After(*connectivity, collapses), vertices), 2 * M_PI / 3, 0.2);
 }
 
 TEST(PlanCollapses, TakesAnyTriangles) {

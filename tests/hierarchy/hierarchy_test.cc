@@ -123,9 +123,9 @@ TEST(Hierarchy, KeepsTheVolumeInEveryPose) {
   const PosedMesh animal = testing::Animal(8000);
   const Hierarchy hierarchy(animal.connectivity, animal.poses, Coarsest(1000));
   for (const Shape& pose : animal.poses) {
-    const double volume = Volume(*animal.connectivity, pose);
+    const double volume = VolumeOf(*animal.connectivity, pose);
     for (int level = 0; level < hierarchy.NumLevels(); ++level) {
-      EXPECT_NEAR(Volume(*hierarchy.LevelConnectivity(level), hierarchy.Restrict(pose, level)),
+      EXPECT_NEAR(VolumeOf(*hierarchy.LevelConnectivity(level), hierarchy.Restrict(pose, level)),
                   volume, 0.07 * volume)
           << level;
     }

@@ -71,7 +71,8 @@ c++ -std=c++17 -O1 "$here/main.cc" $(pkg-config --cflags --libs shapespace) -o "
   fail "built by pkg-config the README's program does not converge"
 
 cmake -S "$here/subproject" -B "$work/parent" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-  -DFETCHCONTENT_FULLY_DISCONNECTED=ON -DSHAPESPACE_SOURCE="$root" >"$work/configure.log" ||
+  -DCMAKE_UNITY_BUILD=ON -DFETCHCONTENT_FULLY_DISCONNECTED=ON -DSHAPESPACE_SOURCE="$root" \
+  >"$work/configure.log" ||
   fail "another project cannot take shapespace in by FetchContent"
 cmake --build "$work/parent" --target core_in_parent
 "$work/parent/core_in_parent" pose0.obj pose1.obj

@@ -12,18 +12,18 @@
 #include <shapespace/base/error.h>
 #include <shapespace/output/picture.h>
 
+#include "support/temporary_file.h"
+
 namespace shapespace {
 namespace {
 
-std::string Temporary(const std::string& name) {
-  return (std::filesystem::path(testing::TempDir()) / name).string();
-}
+using testing::TemporaryFile;
 
 TEST(WritePngTest, RoundTrips) {
   RgbImage image{37, 11, std::vector<unsigned char>(3 * 37 * 11)};
   unsigned state = 1;
   for (unsigned char& byte : image.pixels) byte = (state = 1664525 * state + 1013904223) >> 24;
-  const std::string file = Temporary("round_trip.png");
+  const std::string file = TemporaryFile("round_trip.png");
   WritePng(file, image);
   int width, height, channels;
   const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(
@@ -37,14 +37,14 @@ TEST(WritePngTest, RoundTrips) {
 }
 
 TEST(WritePngTest, RefusesAnImageThatIsNone) {
-  const std::string file = Temporary("none.png");
+  const std::string file = TemporaryFile("none.png");
   EXPECT_THROW(WritePng(file, RgbImage()), InvalidOptions);
   EXPECT_THROW(WritePng(file, RgbImage{2, 2, std::vector<unsigned char>(11)}), InvalidOptions);
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST(WritePngTest, NamesAFileThatCannotBeWritten) {
-  const std::string blocker = Temporary("blocker");
+  const std::string blocker = TemporaryFile("blocker");
   std::ofstream(blocker) << "a file where a folder should be";
   try {
     WritePng(blocker + "/picture.png", RgbImage{1, 1, {0, 0, 0}});

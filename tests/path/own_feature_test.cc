@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,23 +16,24 @@
 #include "support/message_of.h"
 #include "support/own_features.h"
 #include "support/paths.h"
+#include "support/temporary_file.h"
 
 namespace shapespace {
 namespace {
 
-struct Evaluated {
+struct KernelEnergy {
   double energy;
   std::vector<double> gradient;
 };
 
-Evaluated Evaluate(const MetricOptions& options, const Body& bar, int inner) {
+KernelEnergy Evaluate(const MetricOptions& options, const Body& bar, int inner) {
   const auto metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(60)});
   const std::vector<Shape> shapes =
       testing::NoisyBlend(bar.pose(0) / metric->unit, bar.pose(60) / metric->unit, inner, 0.01);
   PathEnergy energy(metric, inner);
   std::vector<double> unknowns(energy.Size());
   energy.Load(shapes, unknowns.data());
-  Evaluated result{0, std::vector<double>(energy.Size())};
+  KernelEnergy result{0, std::vector<double>(energy.Size())};
   result.energy = energy.Evaluate(unknowns.data(), result.gradient.data());
   return result;
 }
@@ -41,8 +41,8 @@ Evaluated Evaluate(const MetricOptions& options, const Body& bar, int inner) {
 TEST(OwnFeature, HasTheEnergyOfTheLibrarysKernels) {
   const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
   for (const int inner : {1, 3, 7}) {
-    const Evaluated expected = Evaluate(testing::LibraryBlend(), bar, inner);
-    const Evaluated own = Evaluate(testing::OwnBlend(), bar, inner);
+    const KernelEnergy expected = Evaluate(testing::LibraryBlend(), bar, inner);
+    const KernelEnergy own = Evaluate(testing::OwnBlend(), bar, inner);
     EXPECT_NEAR(own.energy, expected.energy, 1e-12 * expected.energy);
     // Rows of up to four shapes have no padding, others have undefined padding.
     const auto row = [inner](size_t i) { return inner <= 4 ? true : i % 8 < 7; };
@@ -67,10 +67,6 @@ TEST(OwnFeature, HasTheBoundOfTheLibrarysFeature) {
   EXPECT_NEAR(bound(*own), bound(*library), 1e-12 * bound(*library));
 }
 
-std::string TemporaryFile(const std::string& name) {
-  return (std::filesystem::path(::testing::TempDir()) / name).string();
-}
-
 Path WithOwnFeatures() {
   const Body bar = MakeBar(4, 1, 1, 4, 1, 1);
   MetricOptions options = testing::OwnBlend();
@@ -82,7 +78,7 @@ Path WithOwnFeatures() {
 
 TEST(PathFile, KeepsOwnFeaturesAndStiffness) {
   const Path path = WithOwnFeatures();
-  const std::string file = TemporaryFile("own.path");
+  const std::string file = testing::TemporaryFile("own.path");
   WritePath(file, path);
   const Path read = ReadPath(file);
   std::remove(file.c_str());
@@ -113,7 +109,7 @@ TEST(PathFile, SaysWhichFeatureIsNotRegistered) {
   feature.weights = Eigen::VectorXd::Ones(feature.stencils.cols());
   metric->features.push_back(MakeFeature(feature));
   path.metric = metric;
-  const std::string file = TemporaryFile("unheard.path");
+  const std::string file = testing::TemporaryFile("unheard.path");
   WritePath(file, path);
   const std::string message = testing::MessageOf<FileError>([&] { ReadPath(file); });
   std::remove(file.c_str());

@@ -20,13 +20,12 @@
 #include "support/message_of.h"
 #include "support/paths.h"
 #include "support/same_appearance.h"
+#include "support/temporary_file.h"
 
 namespace shapespace {
 namespace {
 
-std::string TemporaryFile(const std::string& name) {
-  return (std::filesystem::path(::testing::TempDir()) / name).string();
-}
+using testing::TemporaryFile;
 
 std::string Slurp(const std::string& file) {
   std::ifstream in(file, std::ios::binary);

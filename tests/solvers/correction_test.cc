@@ -61,7 +61,7 @@ CorrectionOptions Options(double mu, double tolerance = 1e-10) {
 constexpr double kClose = 3e-6;
 
 // Largest distance between corresponding vertices, over the body's size: both are in its unit.
-double Difference(const Path& a, const Path& b) {
+double ShapeDifference(const Path& a, const Path& b) {
   double largest = 0;
   for (int i = 0; i < a.NumShapes(); ++i) {
     largest = std::max(largest, (a.shapes[i] - b.shapes[i]).colwise().norm().maxCoeff());
@@ -155,7 +155,7 @@ TEST(CorrectPath, LeavesAnIsometricPathAlone) {
   const Path given = PathOf(body.connectivity, shapes);
   const auto [path, summary] = CorrectPath(given);
   EXPECT_TRUE(summary.converged);
-  EXPECT_LT(Difference(path, given), 1e-12);
+  EXPECT_LT(ShapeDifference(path, given), 1e-12);
   EXPECT_NEAR(summary.deformation_left, 1, 1e-10);
 }
 
@@ -169,7 +169,7 @@ TEST(CorrectPath, LeavesAPathThatOnlyTurnsAlone) {
     options.mode = mode;
     const auto [path, summary] = CorrectPath(given, options);
     EXPECT_TRUE(summary.converged);
-    EXPECT_LT(Difference(path, given), 1e-12);
+    EXPECT_LT(ShapeDifference(path, given), 1e-12);
     EXPECT_EQ(summary.deformation_left, 1);
     EXPECT_TRUE(summary.warnings.empty());
   }

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -13,10 +12,13 @@
 #include <shapespace/solvers/deformation.h>
 #include <shapespace/solvers/repair.h>
 
+#include "support/motions.h"
+
 namespace shapespace {
 namespace {
 
 using Eigen::Vector3d;
+using testing::Where;
 
 class RealDeformation : public ::testing::Test {
  protected:
@@ -34,14 +36,6 @@ class RealDeformation : public ::testing::Test {
     return ReadPoses(files, options);
   }
 };
-
-std::vector<int> Where(const Shape& shape, const std::function<bool(const Vector3d&)>& holds) {
-  std::vector<int> vertices;
-  for (int v = 0; v < shape.cols(); ++v) {
-    if (holds(shape.col(v))) vertices.push_back(v);
-  }
-  return vertices;
-}
 
 Vector3d Size(const Shape& shape) {
   return shape.rowwise().maxCoeff() - shape.rowwise().minCoeff();

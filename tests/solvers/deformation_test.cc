@@ -28,15 +28,7 @@ using testing::Diameter;
 using testing::Listener;
 using testing::MessageOf;
 using testing::Rotation;
-
-std::vector<int> Where(const Shape& shape,
-                       const std::function<bool(const Eigen::Vector3d&)>& holds) {
-  std::vector<int> vertices;
-  for (int v = 0; v < shape.cols(); ++v) {
-    if (holds(shape.col(v))) vertices.push_back(v);
-  }
-  return vertices;
-}
+using testing::Where;
 
 Handle Fixed(std::vector<int> vertices) {
   Handle handle;

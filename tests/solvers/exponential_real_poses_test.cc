@@ -15,18 +15,20 @@
 namespace shapespace {
 namespace {
 
-struct RealPair {
+struct RoundTripPair {
   const char *first, *last;
   double error = 0;  // bound of a round trip, as a share of the diameter
 };
 
-void PrintTo(const RealPair& pair, std::ostream* out) { *out << pair.first << ' ' << pair.last; }
+void PrintTo(const RoundTripPair& pair, std::ostream* out) {
+  *out << pair.first << ' ' << pair.last;
+}
 
-std::string NameOf(const ::testing::TestParamInfo<RealPair>& info) {
+std::string NameOf(const ::testing::TestParamInfo<RoundTripPair>& info) {
   return std::filesystem::path(info.param.first).parent_path().string();
 }
 
-class ExponentialRealPoses : public ::testing::TestWithParam<RealPair> {
+class ExponentialRealPoses : public ::testing::TestWithParam<RoundTripPair> {
  protected:
   void SetUp() override {
     const std::filesystem::path folder = SHAPESPACE_DATA_DIR;
@@ -61,10 +63,10 @@ TEST_P(RoundTrip, ReturnsThePath) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, RoundTrip,
-                         ::testing::Values(RealPair{"finger/0.obj", "finger/1.obj", 1e-6},
-                                           RealPair{"horse_lowpoly/base.obj",
-                                                    "horse_lowpoly/m03.obj", 3e-6},
-                                           RealPair{"hand/rest.obj", "hand/curl30.obj", 1e-6}),
+                         ::testing::Values(RoundTripPair{"finger/0.obj", "finger/1.obj", 1e-6},
+                                           RoundTripPair{"horse_lowpoly/base.obj",
+                                                         "horse_lowpoly/m03.obj", 3e-6},
+                                           RoundTripPair{"hand/rest.obj", "hand/curl30.obj", 1e-6}),
                          NameOf);
 
 using Inverse = ExponentialRealPoses;
@@ -78,10 +80,10 @@ TEST_P(Inverse, TheExponentialMapUndoesTheLogarithm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Inverse,
-                         ::testing::Values(RealPair{"finger/0.obj", "finger/1.obj", 1e-5},
-                                           RealPair{"horse_lowpoly/base.obj",
-                                                    "horse_lowpoly/m03.obj", 1e-5},
-                                           RealPair{"hand/rest.obj", "hand/curl30.obj", 1e-5}),
+                         ::testing::Values(RoundTripPair{"finger/0.obj", "finger/1.obj", 1e-5},
+                                           RoundTripPair{"horse_lowpoly/base.obj",
+                                                         "horse_lowpoly/m03.obj", 1e-5},
+                                           RoundTripPair{"hand/rest.obj", "hand/curl30.obj", 1e-5}),
                          NameOf);
 
 using Continuation = ExponentialRealPoses;
@@ -102,8 +104,8 @@ TEST_P(Continuation, KeepsGoing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Continuation,
-                         ::testing::Values(RealPair{"finger/0.obj", "finger/1.obj"},
-                                           RealPair{"hand/rest.obj", "hand/curl30.obj"}),
+                         ::testing::Values(RoundTripPair{"finger/0.obj", "finger/1.obj"},
+                                           RoundTripPair{"hand/rest.obj", "hand/curl30.obj"}),
                          NameOf);
 
 using StrainContinuation = ExponentialRealPoses;
@@ -123,8 +125,8 @@ TEST_P(StrainContinuation, StaysOnTheMesh) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, StrainContinuation,
-                         ::testing::Values(RealPair{"human/000.obj", "human/007.obj"},
-                                           RealPair{"cat/reference.obj", "cat/01.obj"}),
+                         ::testing::Values(RoundTripPair{"human/000.obj", "human/007.obj"},
+                                           RoundTripPair{"cat/reference.obj", "cat/01.obj"}),
                          NameOf);
 
 }  // namespace

@@ -291,12 +291,12 @@ LogarithmOptions Exactly(int shapes) {
   return options;
 }
 
-struct Pair {
+struct BodyPair {
   Body body;
   double first, last;
 };
 
-std::vector<Pair> Pairs() {
+std::vector<BodyPair> BodyPairs() {
   return {{MakeBar(6, 1, 1, 6, 1, 1), 0, 90},
           {MakeSheet(2, 1, 8, 4), 0, 90},
           {MakeBricard(), 0, 25},
@@ -305,7 +305,7 @@ std::vector<Pair> Pairs() {
 }
 
 TEST(Exponential, UndoesTheLogarithm) {
-  for (const auto& [body, first, last] : Pairs()) {
+  for (const auto& [body, first, last] : BodyPairs()) {
     SCOPED_TRACE(body.name);
     const Shape from = body.pose(first).colwise() + Eigen::Vector3d(5, 6, 7);
     const Shape to = Rotation(30, {1, 2, 3}) * body.pose(last);
@@ -321,7 +321,7 @@ TEST(Exponential, UndoesTheLogarithm) {
 }
 
 TEST(Extrapolate, FromTheFirstTwoShapesReturnsTheOthers) {
-  for (const auto& [body, first, last] : Pairs()) {
+  for (const auto& [body, first, last] : BodyPairs()) {
     SCOPED_TRACE(body.name);
     for (int shapes : {3, 7}) {
       const Path path =
@@ -341,7 +341,7 @@ TEST(Extrapolate, FromTheFirstTwoShapesReturnsTheOthers) {
 // On the path and on its continuation to three times its length.
 TEST(Extrapolate, KeepsTheEnergyToSecondOrder) {
   for (const auto& [body, first, last] :
-       {Pair{MakeBricard(), 0, 25}, Pair{MakeMiura(1, 1, 60, 3, 3), 20, 45}}) {
+       {BodyPair{MakeBricard(), 0, 25}, BodyPair{MakeMiura(1, 1, 60, 3, 3), 20, 45}}) {
     SCOPED_TRACE(body.name);
     double previous = 0;
     for (int segments : {8, 16}) {
@@ -633,7 +633,7 @@ TEST(Logarithm, RefusesPathsThatDidNotConverge) {
 
 // The default is stricter than for a path that is only viewed.
 TEST(Logarithm, IsUndoneByTheExponentialMapByDefault) {
-  for (const auto& [body, first, last] : Pairs()) {
+  for (const auto& [body, first, last] : BodyPairs()) {
     SCOPED_TRACE(body.name);
     const Shape from = body.pose(first), to = body.pose(last);
     const auto metric = FreezeMetric({}, body.connectivity, {from, to});

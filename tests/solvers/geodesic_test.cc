@@ -22,12 +22,15 @@
 
 #include "support/features.h"
 #include "support/listener.h"
+#include "support/motions.h"
 #include "support/paths.h"
 
 namespace shapespace {
 namespace {
 
+using testing::Diameter;
 using testing::Listener;
+using testing::Rotation;
 
 GeodesicOptions Options(int shapes, double tolerance) {
   GeodesicOptions options;
@@ -37,10 +40,6 @@ GeodesicOptions Options(int shapes, double tolerance) {
   return options;
 }
 
-double Diameter(const Shape& shape) {
-  return (shape.rowwise().maxCoeff() - shape.rowwise().minCoeff()).norm();
-}
-
 // Largest distance between corresponding vertices of two paths, as placed.
 double Difference(const Path& a, const Path& b) {
   double largest = 0;
@@ -48,10 +47,6 @@ double Difference(const Path& a, const Path& b) {
     largest = std::max(largest, (a.Placed(i) - b.Placed(i)).colwise().norm().maxCoeff());
   }
   return largest;
-}
-
-Eigen::Matrix3d Rotation(double angle, const Eigen::Vector3d& axis) {
-  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
 }
 
 TEST(Interpolate, TranslatesAlongAStraightLine) {
@@ -78,16 +73,15 @@ TEST(Interpolate, TurnsARigidCopyAtConstantSpeedAndKeepsItsShape) {
   const Shape first = bar.pose(50);
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 1, 0.2).normalized();
   for (double degrees : {60.0, 179.0}) {
-    const double angle = degrees * M_PI / 180;
     GeodesicOptions options = Options(5, 1e-8);
     options.metric.lambda = 0;
     const auto [path, summary] =
-        Interpolate(bar.connectivity, {first, Rotation(angle, axis) * first}, options);
+        Interpolate(bar.connectivity, {first, Rotation(degrees, axis) * first}, options);
     EXPECT_LT(summary.energy, 1e-20);
     EXPECT_LT(summary.quality.first_max, 1e-10);
     const Eigen::Vector3d centre = Centroid(first, path.metric->vertex_area);
     for (int i = 0; i <= 6; ++i) {
-      const Shape expected = Rotation(i / 6.0 * angle, axis) * (first.colwise() - centre);
+      const Shape expected = Rotation(i / 6.0 * degrees, axis) * (first.colwise() - centre);
       const Shape placed = path.Placed(i);
       const Shape centred = placed.colwise() - Centroid(placed, path.metric->vertex_area);
       EXPECT_LT((centred - expected).cwiseAbs().maxCoeff(), 1e-9);
@@ -252,7 +246,7 @@ TEST(Interpolate, CommutesWithRigidMotionAndRenumbering) {
   const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
   const auto reference =
       Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, Options(7, 1e-9));
-  const Eigen::Matrix3d turn = Rotation(2.5, {3, 1, 2});
+  const Eigen::Matrix3d turn = Rotation(140, {3, 1, 2});
   const auto move = [&](const Shape& shape) {
     return Shape((turn * shape).colwise() + Eigen::Vector3d(1, 2, 3));
   };
@@ -514,7 +508,7 @@ TEST(Interpolate, CopiesConvergeAndPosesThatAreHardlyApartMustBeSolved) {
       options.metric = metric;
       options.metric.bending = 0;
       options.max_iterations = 1;
-      const Shape turned = (Rotation(1.2, {1, 2, 3}) * shape).colwise() + Eigen::Vector3d(5, 6, 7);
+      const Shape turned = (Rotation(70, {1, 2, 3}) * shape).colwise() + Eigen::Vector3d(5, 6, 7);
       for (const Shape& copy : {shape, turned}) {
         const auto [path, summary] = Interpolate(connectivity, {shape, copy}, options);
         EXPECT_EQ(summary.termination, Termination::kConverged) << summary.FullReport();

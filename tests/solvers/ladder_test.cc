@@ -42,7 +42,7 @@ TEST(Ladder, AbsoluteLengthsAndThePapersTransportBendFalsely) {
   paper.ladder.connection = TransportConnection::kConstrainedProjection;
   paper.ladder.scale = paper.ladder.align = false;
   EXPECT_GT(BendOf(straight, Transfer(source, straight, paper).path.Placed(6)), 80);
-  const Shape turned = Turn(90, Vector3d::UnitZ()) * straight;
+  const Shape turned = Rotation(90, Vector3d::UnitZ()) * straight;
   EXPECT_LT(BendOf(straight, Transfer(source, turned, paper).path.Placed(6)), 20);
 }
 
@@ -61,11 +61,11 @@ TEST(Ladder, ACopyMovesAsTheSourceDoes) {
   std::vector<Shape> shapes;
   for (int i = 0; i <= 3; ++i) {
     // The path has a rigid motion and an oblique start.
-    shapes.push_back((Turn(40 + 30 * i, {1, 1, 0}) * ThickBar().pose(20 * i)).colwise() +
+    shapes.push_back((Rotation(40 + 30 * i, {1, 1, 0}) * ThickBar().pose(20 * i)).colwise() +
                      Vector3d(i, 7, -2 * i));
   }
   const Path source = PathOf(ThickBar().connectivity, shapes);
-  const Matrix3d turn = Turn(100, {3, -1, 2});
+  const Matrix3d turn = Rotation(100, {3, -1, 2});
   const double scale = 2.5;
   const auto copy = [&](const Shape& shape) -> Shape {
     return (scale * turn * shape).colwise() + Vector3d(-11, 4, 0.5);

@@ -39,7 +39,7 @@ TEST(Schedule, StepsFollowFromEarlierOnesAndEndWithEverything) {
         EXPECT_EQ(steps.back().shapes, shapes);
         std::set<std::pair<int, int>> done = {{steps[0].level, steps[0].shapes}};
         for (size_t i = 1; i < steps.size(); ++i) {
-          const auto [level, inner] = steps[i];
+          const int level = steps[i].level, inner = steps[i].shapes;
           const bool below = done.count({level - 1, inner}) > 0;
           const bool earlier = std::any_of(done.begin(), done.end(), [&](const auto& step) {
             return step.first == level && step.second < inner;

@@ -19,7 +19,7 @@
 namespace shapespace {
 namespace {
 
-const Body& Bar() {
+const Body& FineBar() {
   static const Body bar = MakeBar(6, 1, 1, 24, 3, 3);
   return bar;
 }
@@ -30,10 +30,10 @@ GeodesicResult Solve(const MetricOptions& metric, int shapes = 7) {
   options.shapes = shapes;
   options.tolerance = 1e-9;
   options.max_iterations = 2000;
-  return Interpolate(Bar().connectivity, {Bar().pose(0), Bar().pose(80)}, options);
+  return Interpolate(FineBar().connectivity, {FineBar().pose(0), FineBar().pose(80)}, options);
 }
 
-double Apart(const Path& a, const Path& b) {
+double PathsApart(const Path& a, const Path& b) {
   double apart = 0;
   for (int i = 0; i < a.NumShapes(); ++i) {
     apart = std::max(apart, (a.Placed(i) - b.Placed(i)).colwise().norm().maxCoeff());
@@ -49,7 +49,7 @@ TEST(OwnFeature, MakesTheSameGeodesicOnAllLevels) {
   EXPECT_NEAR(own.summary.energy, library.summary.energy, 1e-6 * library.summary.energy);
   EXPECT_NEAR(own.summary.lower_bound, library.summary.lower_bound,
               1e-9 * library.summary.lower_bound);
-  EXPECT_LT(Apart(own.path, library.path), 2e-3);
+  EXPECT_LT(PathsApart(own.path, library.path), 2e-3);
   // Every feature's part of the energy is listed by its name.
   double strain = -1;
   for (const auto& [name, part] : own.summary.parts) {
@@ -61,26 +61,27 @@ TEST(OwnFeature, MakesTheSameGeodesicOnAllLevels) {
 TEST(OwnFeature, GoesOnAndIsTransportedAlike) {
   const Path path = Solve(testing::LibraryBlend()).path;
   Path own = path;
-  own.metric =
-      FreezeMetric(testing::OwnBlend(), Bar().connectivity, {Bar().pose(0), Bar().pose(80)});
+  own.metric = FreezeMetric(testing::OwnBlend(), FineBar().connectivity,
+                            {FineBar().pose(0), FineBar().pose(80)});
   const ExponentialResult expected = Extrapolate(path, 3), longer = Extrapolate(own, 3);
   EXPECT_TRUE(longer.summary.Converged());
-  EXPECT_LT(Apart(longer.path, expected.path), 1e-8);
+  EXPECT_LT(PathsApart(longer.path, expected.path), 1e-8);
 
   ExponentialOptions runge_kutta;
   runge_kutta.integrator = Integrator::kRungeKutta4;
-  EXPECT_LT(Apart(Extrapolate(own, 1, runge_kutta).path, Extrapolate(path, 1, runge_kutta).path),
-            1e-8);
+  EXPECT_LT(
+      PathsApart(Extrapolate(own, 1, runge_kutta).path, Extrapolate(path, 1, runge_kutta).path),
+      1e-8);
 
-  const Tangent tangent = Bar().pose(1) - Bar().pose(0);
+  const Tangent tangent = FineBar().pose(1) - FineBar().pose(0);
   const Tangent there = Transport(path, {tangent}).tangents[0];
   EXPECT_LT((Transport(own, {tangent}).tangents[0] - there).norm(), 1e-8 * there.norm());
 }
 
 TEST(OwnFeature, TransfersAlike) {
-  const std::vector<Shape> poses = {Bar().pose(0), Bar().pose(40)};
-  const auto metric = FreezeMetric({}, Bar().connectivity, poses);
-  Shape target = Bar().pose(0);
+  const std::vector<Shape> poses = {FineBar().pose(0), FineBar().pose(40)};
+  const auto metric = FreezeMetric({}, FineBar().connectivity, poses);
+  Shape target = FineBar().pose(0);
   target.row(1) *= 1.5;
   TransferOptions library, own;
   library.metric.strain = 1;
@@ -89,23 +90,24 @@ TEST(OwnFeature, TransfersAlike) {
   testing::RegisterOwnFeatures();
   own.metric.features = {{"own strain", 1}};
   const Path path = MakePath(metric, poses);
-  EXPECT_LT(Apart(Transfer(path, target, own).path, Transfer(path, target, library).path), 1e-7);
+  EXPECT_LT(PathsApart(Transfer(path, target, own).path, Transfer(path, target, library).path),
+            1e-7);
 }
 
 TEST(OwnFeature, DeformsAlike) {
   Handle held, pulled;
-  const Shape rest = Bar().pose(0);
+  const Shape rest = FineBar().pose(0);
   for (int v = 0; v < rest.cols(); ++v) {
     if (rest(0, v) < rest.row(0).minCoeff() + 0.1) held.vertices.push_back(v);
     if (rest(0, v) > rest.row(0).maxCoeff() - 0.1) pulled.vertices.push_back(v);
   }
   held.positions = rest(Eigen::all, held.vertices);
-  pulled.positions = Bar().pose(50)(Eigen::all, pulled.vertices);
+  pulled.positions = FineBar().pose(50)(Eigen::all, pulled.vertices);
   const auto last = [&](const MetricOptions& metric) {
     DeformationOptions options;
     options.metric = metric;
     options.tolerance = 1e-9;
-    const Path path = Deform(Bar().connectivity, rest, {held, pulled}, options).path;
+    const Path path = Deform(FineBar().connectivity, rest, {held, pulled}, options).path;
     return path.Placed(path.NumShapes() - 1);
   };
   EXPECT_LT((last(testing::OwnBlend()) - last(testing::LibraryBlend())).cwiseAbs().maxCoeff(),
@@ -115,8 +117,8 @@ TEST(OwnFeature, DeformsAlike) {
 // A stiffness field that is large on one half moves the bending to the other half, on all levels.
 TEST(Stiffness, MovesStretchingToWhereItIsSoft) {
   MetricOptions options;
-  options.stretching_stiffness.setOnes(Bar().connectivity->NumVertices());
-  const Shape rest = Bar().pose(0);
+  options.stretching_stiffness.setOnes(FineBar().connectivity->NumVertices());
+  const Shape rest = FineBar().pose(0);
   const double middle = rest.row(0).mean();
   for (int v = 0; v < rest.cols(); ++v) {
     if (rest(0, v) < middle) options.stretching_stiffness(v) = 100;
@@ -133,12 +135,13 @@ TEST(Stiffness, MovesStretchingToWhereItIsSoft) {
   }
   left.positions = longer(Eigen::all, left.vertices);
   right.positions = longer(Eigen::all, right.vertices);
-  const Path path = Deform(Bar().connectivity, rest, {left, right}, deformation).path;
+  const Path path = Deform(FineBar().connectivity, rest, {left, right}, deformation).path;
   const Shape last = path.Placed(path.NumShapes() - 1);
   const auto stretch = [&](bool stiff) {
     double before = 0, after = 0;
-    for (int e = 0; e < Bar().connectivity->NumEdges(); ++e) {
-      const int a = Bar().connectivity->Edges()(0, e), b = Bar().connectivity->Edges()(1, e);
+    for (int e = 0; e < FineBar().connectivity->NumEdges(); ++e) {
+      const int a = FineBar().connectivity->Edges()(0, e),
+                b = FineBar().connectivity->Edges()(1, e);
       const double x = 0.5 * (rest(0, a) + rest(0, b)) - middle;
       if (std::abs(x) < 0.4 || (x < 0) != stiff) continue;
       before += std::abs(rest(0, a) - rest(0, b));

@@ -17,17 +17,17 @@ namespace {
 using testing::Diameter;
 using testing::Distance;
 
-const std::function<void()> kNeverCancelled = [] {};
+const std::function<void()> kNoCancel = [] {};
 
 // A metric, and a step that continues from two shapes (in the metric's unit).
-struct Case {
+struct StepCase {
   std::shared_ptr<const Metric> metric;
   Departure departure;
   FeatureMap map{metric};
   MetricSolver solver;
   ExponentialSummary::Step row;
 
-  Case(std::shared_ptr<const Metric> of, Departure from)
+  StepCase(std::shared_ptr<const Metric> of, Departure from)
       : metric(std::move(of)), departure(std::move(from)) {}
 
   double SpeedBefore() const {
@@ -36,10 +36,10 @@ struct Case {
   double SpeedTo(const Shape& shape) const {
     return (map.Values(shape) - map.Values(departure.shape)).norm();
   }
-  Step Make() { return Step(map, &solver, departure, kNeverCancelled); }
+  Step Make() { return Step(map, &solver, departure, kNoCancel); }
 };
 
-Case BendingBar() {
+StepCase BendingBar() {
   const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
   const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0)});
   return {metric, {bar.pose(10) / metric->unit, bar.pose(5) / metric->unit, {}, 0}};
@@ -47,7 +47,7 @@ Case BendingBar() {
 
 // A step beyond an animal's last pose, of half the distance between the poses: slivers rotate fast
 // there.
-Case LongStep(const MetricOptions& metric, int steps_before) {
+StepCase LongStep(const MetricOptions& metric, int steps_before) {
   const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
   GeodesicOptions options;
   options.metric = metric;
@@ -61,7 +61,7 @@ Case LongStep(const MetricOptions& metric, int steps_before) {
 }
 
 TEST(Step, KeepsTheSpeedOfTheSegmentBefore) {
-  Case bar = BendingBar();
+  StepCase bar = BendingBar();
   Shape root;
   ASSERT_TRUE(bar.Make().Solve({}, &bar.row, &root));
   EXPECT_TRUE(bar.row.converged);
@@ -74,7 +74,7 @@ TEST(Step, KeepsTheSpeedOfTheSegmentBefore) {
 TEST(Step, RefusesRootsThatAreATenthOffTheSpeedAtTheStart) {
   for (const double share : {0.85, 0.95, 1.05, 1.15}) {
     SCOPED_TRACE(share);
-    Case bar = BendingBar();
+    StepCase bar = BendingBar();
     bar.departure.speed = share * bar.SpeedBefore();
     Shape root;
     const bool expected = share > 0.9 && share < 1.1;
@@ -91,7 +91,7 @@ TEST(Step, RefusesTheRootOfAnotherGeodesic) {
   Shape edge = Shape::Zero(3, 2);
   edge.row(0) << -0.5, 0.5;
   const auto metric = FreezeMetric(lengths, testing::SingleEdge(), {edge});
-  Case step(metric, {edge, 0.999 * edge, {}, 0});
+  StepCase step(metric, {edge, 0.999 * edge, {}, 0});
   Shape root;
   ASSERT_TRUE(step.Make().Solve({}, &step.row, &root));
   EXPECT_LT(Distance(root, 1.001 * edge), 1e-4);
@@ -103,7 +103,7 @@ TEST(Step, RefusesTheRootOfAnotherGeodesic) {
 
 // Squared lengths and angles change linearly in sufficiently slow motions.
 TEST(Step, TakesStepsAThousandMillionthOfTheBodyLong) {
-  Case bar = BendingBar();
+  StepCase bar = BendingBar();
   const Shape velocity = bar.departure.shape - bar.departure.previous;
   bar.departure.previous = bar.departure.shape - 1e-9 * velocity;
   Shape root;
@@ -113,7 +113,7 @@ TEST(Step, TakesStepsAThousandMillionthOfTheBodyLong) {
 }
 
 TEST(Step, RestsWhereThereIsNoMotion) {
-  Case bar = BendingBar();
+  StepCase bar = BendingBar();
   bar.departure.previous = bar.departure.shape;
   Shape root;
   ASSERT_TRUE(bar.Make().Solve({}, &bar.row, &root));
@@ -122,7 +122,7 @@ TEST(Step, RestsWhereThereIsNoMotion) {
 }
 
 TEST(Step, ApproachesInIncrementsWhatNewtonsMethodDoesNotReachAtOnce) {
-  Case step = LongStep(MetricOptions::Strain(), 5);
+  StepCase step = LongStep(MetricOptions::Strain(), 5);
   const Step own = step.Make();
   Shape root;
   ASSERT_TRUE(own.Solve({}, &step.row, &root));
@@ -133,7 +133,7 @@ TEST(Step, ApproachesInIncrementsWhatNewtonsMethodDoesNotReachAtOnce) {
 }
 
 TEST(Step, TakesNoMoreIterationsThanItMay) {
-  Case step = LongStep(MetricOptions::Strain(), 5);
+  StepCase step = LongStep(MetricOptions::Strain(), 5);
   ExponentialOptions options;
   options.max_iterations = 6;
   Shape root;
@@ -144,7 +144,7 @@ TEST(Step, TakesNoMoreIterationsThanItMay) {
 
 // Squared lengths with a constant rate of change violate the triangle inequality.
 TEST(Step, SoonGivesUpWhereThereIsNoRoot) {
-  Case step = LongStep({}, 1);
+  StepCase step = LongStep({}, 1);
   Shape root;
   EXPECT_FALSE(step.Make().Solve({}, &step.row, &root));
   EXPECT_FALSE(step.row.converged);

@@ -35,7 +35,8 @@ TEST_F(RealTransfer, CopiesEndInExactCopies) {
     SCOPED_TRACE(pose);
     const Poses poses = ReadPoses({RealMesh(reference), RealMesh(pose)});
     const auto copy = [&](const Shape& shape) -> Shape {
-      return (0.01 * testing::Turn(100, {1, 2, 3}) * shape).colwise() + Eigen::Vector3d(7, 8, 9);
+      return (0.01 * testing::Rotation(100, {1, 2, 3}) * shape).colwise() +
+             Eigen::Vector3d(7, 8, 9);
     };
     const auto [path, hybrids, summary] =
         TransferPoses(poses.connectivity, poses.shapes, copy(poses.shapes[0]));

@@ -79,7 +79,7 @@ TEST(GradientTransfer, ComponentsAndVerticesWithoutTrianglesGoWhereTheSourcesGo)
   };
   const Shape thick = ThickBar().pose(0), thin = ThinBar();
   const Vector3d up(0, 3, 0);
-  const Matrix3d turn = Turn(90, Vector3d::UnitX());
+  const Matrix3d turn = Rotation(90, Vector3d::UnitX());
   const internal::GradientTransfer transfer(connectivity, both(thick, thick, {9, 9, 9}),
                                             both(thin, thin, {8, 8, 8}));
   const Shape result = transfer(both(thick.colwise() + up, turn * thick, {9, 9, 5}));
@@ -150,9 +150,9 @@ TEST_P(AnyTransfer, BendsAnotherBarAsSumnerAndPopovicDo) {
     Matrix3d turn;
     double scale;
   } places[] = {{Matrix3d::Identity(), 1},
-                {Turn(90, Vector3d::UnitZ()), 1},
-                {Turn(90, Vector3d::UnitY()), 1},
-                {Turn(130, {1, 2, 3}), 3},
+                {Rotation(90, Vector3d::UnitZ()), 1},
+                {Rotation(90, Vector3d::UnitY()), 1},
+                {Rotation(130, {1, 2, 3}), 3},
                 {Matrix3d::Identity(), 0.2}};
   TransferOptions options;
   options.method = GetParam();
@@ -181,7 +181,7 @@ TEST(Transfer, BodiesWithJointsTakeThePoseOver) {
                                       normal.pose("rear"), normal.pose("sit")};
     const auto [path, hybrids, summary] = TransferPoses(normal.connectivity, poses, stand);
     EXPECT_TRUE(summary.Converged());
-    const Eigen::VectorXd& area = path.metric->vertex_area;
+    const Eigen::VectorXd &area = path.metric->vertex_area, &hinge_area = path.metric->hinge_area;
     int i = 0;
     for (const char* pose : {"stride", "rear", "sit"}) {
       SCOPED_TRACE(std::string(proportions) + ", " + pose);
@@ -199,7 +199,7 @@ TEST(Transfer, BodiesWithJointsTakeThePoseOver) {
                  DihedralAngles(*normal.connectivity, from);
         };
         const Eigen::VectorXd off = change(stand, shape) - change(poses[0], poses[i]);
-        return off.unaryExpr(&WrapAngle).cwiseAbs2().dot(path.metric->hinge_area);
+        return off.unaryExpr(&WrapAngle).cwiseAbs2().dot(hinge_area);
       };
       EXPECT_LT(angles_off(made), 0.6 * angles_off(sumner_popovic));
     }
@@ -212,11 +212,11 @@ TEST(Transfer, ACopyMovesAsTheSourceDoes) {
   std::vector<Shape> shapes;
   for (int i = 0; i <= 3; ++i) {
     // The path has a rigid motion and an oblique start.
-    shapes.push_back((Turn(40 + 30 * i, {1, 1, 0}) * ThickBar().pose(20 * i)).colwise() +
+    shapes.push_back((Rotation(40 + 30 * i, {1, 1, 0}) * ThickBar().pose(20 * i)).colwise() +
                      Vector3d(i, 7, -2 * i));
   }
   const Path source = PathOf(ThickBar().connectivity, shapes);
-  const Matrix3d turn = Turn(100, {3, -1, 2});
+  const Matrix3d turn = Rotation(100, {3, -1, 2});
   const double scale = 2.5;
   const auto copy = [&](const Shape& shape) -> Shape {
     return (scale * turn * shape).colwise() + Vector3d(-11, 4, 0.5);
@@ -238,7 +238,9 @@ TEST(Transfer, CollapsedTrianglesAreNoObstacle) {
   for (Shape* shape : {&straight, &bent, &thin}) shape->col(7) = shape->col(8);
   bent.col(40) = bent.col(41);
   const Path source = PathOf(ThickBar().connectivity, {straight, bent});
-  const auto copy = [&](const Shape& shape) -> Shape { return 3 * Turn(50, {1, 2, 3}) * shape; };
+  const auto copy = [&](const Shape& shape) -> Shape {
+    return 3 * Rotation(50, {1, 2, 3}) * shape;
+  };
   const Path of_copy = Transfer(source, copy(straight)).path;
   EXPECT_LT(Apart(of_copy.Placed(1), copy(bent)), 1e-8);
   const auto [path, hybrids, summary] = Transfer(source, thin);
@@ -310,7 +312,7 @@ TEST_P(AnyTransfer, CommutesWithRotationAndScale) {
   const Shape straight = ThinBar();
   const TransferOptions options = WithHybrids(GetParam());
   const Path reference = Transfer(Bending(3), straight, options).path;
-  const Matrix3d turn = Turn(75, {1, 2, -1});
+  const Matrix3d turn = Rotation(75, {1, 2, -1});
   for (double scale : {1e-4, 1.0, 1e4}) {
     std::vector<Shape> shapes;
     for (int i = 0; i <= 3; ++i) shapes.push_back(scale * turn * ThickBar().pose(20 * i));
@@ -470,7 +472,7 @@ TEST_P(AnyTransfer, AnExactCopyConvergesAndMakesTheVeryMotion) {
   for (const auto& [connectivity, first, second] : bodies) {
     for (const double scale : {1.0, 3.0}) {
       const auto copy = [&, scale = scale](const Shape& shape) -> Shape {
-        return (scale * Turn(70, {1, 2, 3}) * shape).colwise() + Vector3d(5, 6, 7);
+        return (scale * Rotation(70, {1, 2, 3}) * shape).colwise() + Vector3d(5, 6, 7);
       };
       GeodesicOptions geodesic;
       geodesic.shapes = 3;

@@ -2,8 +2,10 @@
 #define SHAPESPACE_TESTS_SUPPORT_MOTIONS_H_
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -24,6 +26,16 @@ inline double Diameter(const Shape& shape) {
 /// Largest distance between corresponding vertices.
 inline double Distance(const Shape& a, const Shape& b) {
   return (a - b).colwise().norm().maxCoeff();
+}
+
+/// The vertices at which a condition on their position holds.
+inline std::vector<int> Where(const Shape& shape,
+                              const std::function<bool(const Eigen::Vector3d&)>& holds) {
+  std::vector<int> vertices;
+  for (int v = 0; v < shape.cols(); ++v) {
+    if (holds(shape.col(v))) vertices.push_back(v);
+  }
+  return vertices;
 }
 
 /// A shape with an initial velocity for shooting, in the user's unit per unit of time.

@@ -10,6 +10,7 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/path/rigid_motion.h>
 
+#include "support/motions.h"
 #include "support/path_of.h"
 
 namespace shapespace::testing {
@@ -32,16 +33,8 @@ inline Path Bending(int steps) {
   return PathOf(ThickBar().connectivity, shapes);
 }
 
-inline Matrix3d Turn(double degrees, const Vector3d& axis) {
-  return Eigen::AngleAxisd(degrees * M_PI / 180, axis.normalized()).toRotationMatrix();
-}
-
 inline double Degrees(const Matrix3d& rotation) {
   return std::abs(Eigen::AngleAxisd(rotation).angle()) * 180 / M_PI;
-}
-
-inline double Diameter(const Shape& shape) {
-  return (shape.rowwise().maxCoeff() - shape.rowwise().minCoeff()).norm();
 }
 
 // Largest distance between corresponding vertices, over the diameter.

@@ -13,7 +13,7 @@ namespace {
 
 using internal::kDegrees;
 
-constexpr double kShortestEdge = 1e-3;
+constexpr double kLeastLength = 1e-3;
 // Pieces slower than this, in the metric's pure numbers, are at rest up to rounding.
 constexpr double kNoSpeed = 1e-9;
 
@@ -55,7 +55,7 @@ double SquaredShortest(const Path& path) {
   for (int e = 0; e < edges.cols(); ++e) {
     mean_squared_length += SquaredLength(edges, e, path.shapes[0]) / edges.cols();
   }
-  return kShortestEdge * kShortestEdge * mean_squared_length;
+  return kLeastLength * kLeastLength * mean_squared_length;
 }
 
 // Deviations of shape `i` from the first; empty for the first itself.

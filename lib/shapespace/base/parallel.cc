@@ -18,17 +18,17 @@ namespace shapespace {
 namespace {
 
 // The threads used by ParallelFor.
-struct Pool {
+struct ThreadPool {
   // By default TBB creates no more threads than there are cores.
   std::unique_ptr<tbb::global_control> more_than_cores;
   tbb::task_arena arena;
 };
 
 std::mutex pool_mutex;
-std::shared_ptr<Pool> pool;
+std::shared_ptr<ThreadPool> pool;
 
-std::shared_ptr<Pool> NewPool(int threads) {
-  auto result = std::make_shared<Pool>();
+std::shared_ptr<ThreadPool> NewPool(int threads) {
+  auto result = std::make_shared<ThreadPool>();
   if (threads > tbb::info::default_concurrency()) {
     result->more_than_cores = std::make_unique<tbb::global_control>(
         tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
@@ -37,7 +37,7 @@ std::shared_ptr<Pool> NewPool(int threads) {
   return result;
 }
 
-std::shared_ptr<Pool> CurrentPool() {
+std::shared_ptr<ThreadPool> CurrentPool() {
   std::lock_guard<std::mutex> lock(pool_mutex);
   if (!pool) pool = NewPool(0);
   return pool;

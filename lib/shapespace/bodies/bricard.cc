@@ -22,7 +22,7 @@ constexpr double kEdge05 = 3, kEdge25 = 2.6;
 // to 2 at the angle `angle` to the x axis,
 //   a - b = kEdge02 sin(angle),  d = kEdge02 cos(angle),  (a + b)^2 + d^2 = kEdge03^2.
 // A vertex in the plane of symmetry is the intersection of two circles, about (0, 0) and (d, 0).
-Shape Pose(double angle) {
+Shape BricardPose(double angle) {
   const double d = kEdge02 * std::cos(angle);
   const double difference = kEdge02 * std::sin(angle);
   const double sum = std::sqrt(kEdge03 * kEdge03 - d * d);
@@ -52,7 +52,7 @@ Body MakeBricard() {
   body.isometric = true;
   body.begin = -35;
   body.end = 50;
-  body.pose = [](double angle) { return Pose(angle * internal::kRadians); };
+  body.pose = [](double angle) { return BricardPose(angle * internal::kRadians); };
   return internal::WithCheckedRange(std::move(body));
 }
 

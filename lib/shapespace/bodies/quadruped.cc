@@ -147,7 +147,7 @@ class Builder {
 
 using Turns = std::vector<internal::Turn>;
 
-const std::vector<std::pair<std::string, Turns>>& Poses() {
+const std::vector<std::pair<std::string, Turns>>& PoseTable() {
   const auto all = [](const auto& turns) { return Turns(std::begin(turns), std::end(turns)); };
   static const auto* const poses =
       new std::vector<std::pair<std::string, Turns>>{{"stand", {}},
@@ -257,7 +257,7 @@ QuadrupedForm NamedQuadrupedForm(const std::string& name) {
   return Lookup("proportions", Forms(), name);
 }
 
-std::vector<std::string> QuadrupedPoses() { return Names(Poses()); }
+std::vector<std::string> QuadrupedPoses() { return Names(PoseTable()); }
 
 SkinnedBody MakeQuadruped(int triangles, const QuadrupedForm& form) {
   form.Validate();
@@ -271,7 +271,7 @@ SkinnedBody MakeQuadruped(int triangles, const QuadrupedForm& form) {
       skeleton, Eigen::Map<const Eigen::Matrix3Xd>(mesh.points[0].data(), 3, num_vertices));
 
   const auto rotations = [skeleton](const std::string& name) {
-    return RotationsOf(skeleton, Lookup("pose", Poses(), name));
+    return RotationsOf(skeleton, Lookup("pose", PoseTable(), name));
   };
   SkinnedBody body;
   body.name = "quadruped";

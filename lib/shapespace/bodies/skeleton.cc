@@ -66,7 +66,7 @@ Eigen::Vector3d Scaled(const Bone& bone, const Eigen::Vector3d& vector) {
          (bone.length_scale - bone.girth_scale) * direction.dot(vector) * direction;
 }
 
-Eigen::Matrix3d Turn(const Eigen::Vector3d& rotation, double part) {
+Eigen::Matrix3d PartialTurn(const Eigen::Vector3d& rotation, double part) {
   const double angle = rotation.norm();
   if (angle == 0) return Eigen::Matrix3d::Identity();
   return Eigen::AngleAxisd(part * angle, rotation / angle).toRotationMatrix();
@@ -129,7 +129,7 @@ Shape Skin::Pose(const Rotations& rotations) const {
     Eigen::Vector3d point = rest_.col(v);
     for (int j : turned) {
       if (masks_(j, v) == 0) continue;
-      point = begins_.col(j) + Turn(rotations[j], masks_(j, v)) * (point - begins_.col(j));
+      point = begins_.col(j) + PartialTurn(rotations[j], masks_(j, v)) * (point - begins_.col(j));
     }
     shape.col(v) = point;
   });

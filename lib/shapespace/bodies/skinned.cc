@@ -6,17 +6,17 @@
 namespace shapespace {
 namespace {
 
-struct Entry {
+struct SkinnedEntry {
   SkinnedBodyInfo info;
   SkinnedBody (*make)(int triangles, const std::string& proportions);
 };
 
-const std::vector<Entry>& Registry() {
-  static const auto* const registry =
-      new std::vector<Entry>{{{"quadruped", QuadrupedPoses(), QuadrupedProportions(), 20000},
-                              [](int triangles, const std::string& proportions) {
-                                return MakeQuadruped(triangles, NamedQuadrupedForm(proportions));
-                              }}};
+const std::vector<SkinnedEntry>& SkinnedRegistry() {
+  static const auto* const registry = new std::vector<SkinnedEntry>{
+      {{"quadruped", QuadrupedPoses(), QuadrupedProportions(), 20000},
+       [](int triangles, const std::string& proportions) {
+         return MakeQuadruped(triangles, NamedQuadrupedForm(proportions));
+       }}};
   return *registry;
 }
 
@@ -24,14 +24,14 @@ const std::vector<Entry>& Registry() {
 
 std::vector<SkinnedBodyInfo> ListSkinnedBodies() {
   std::vector<SkinnedBodyInfo> infos;
-  for (const Entry& entry : Registry()) infos.push_back(entry.info);
+  for (const SkinnedEntry& entry : SkinnedRegistry()) infos.push_back(entry.info);
   return infos;
 }
 
 SkinnedBody MakeSkinnedBody(const std::string& name, int triangles,
                             const std::string& proportions) {
   std::string known;
-  for (const auto& [info, make] : Registry()) {
+  for (const auto& [info, make] : SkinnedRegistry()) {
     if (info.name == name) {
       return make(triangles == 0 ? info.default_triangles : triangles,
                   proportions.empty() ? info.proportions[0] : proportions);

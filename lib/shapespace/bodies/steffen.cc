@@ -31,7 +31,7 @@ Eigen::Vector3d Trilaterate(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
 // its faces, whose common edge is 2-3. So 0 to 3 form a rigid tetrahedron, about which the rest
 // moves. The condition for the octahedra to be flexible also implies that edges 4-6 and 5-7, which
 // are not used here, have length 11.
-Shape Pose(double angle) {
+Shape SteffenPose(double angle) {
   const double height = std::sqrt(12 * 12 - 8.5 * 8.5 - 5.5 * 5.5);
   const double radius = std::sqrt(10 * 10 - 5.5 * 5.5);
   const Eigen::Vector3d v0(-8.5, 0, 0), v1(8.5, 0, 0), v2(0, 5.5, height), v3(0, -5.5, height);
@@ -55,7 +55,7 @@ Body MakeSteffen() {
   body.isometric = true;
   body.begin = -12.5;
   body.end = 12.5;
-  body.pose = [](double angle) { return Pose(angle * internal::kRadians); };
+  body.pose = [](double angle) { return SteffenPose(angle * internal::kRadians); };
   return internal::WithCheckedRange(std::move(body));
 }
 

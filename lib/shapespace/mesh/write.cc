@@ -22,7 +22,7 @@ constexpr Format kFormats[] = {{".obj", &internal::ObjContent},
                                {".off", &internal::OffContent},
                                {".stl", &internal::StlContent}};
 
-const Format* FormatOf(const std::string& file) {
+const Format* WriterOf(const std::string& file) {
   const std::string extension = FileExtension(file);
   for (const Format& format : kFormats) {
     if (extension == format.extension) return &format;
@@ -32,7 +32,7 @@ const Format* FormatOf(const std::string& file) {
 
 }  // namespace
 
-bool IsWritableMesh(const std::string& file) { return FormatOf(file) != nullptr; }
+bool IsWritableMesh(const std::string& file) { return WriterOf(file) != nullptr; }
 
 std::vector<std::string> NotKept(const std::string& file, const Soup& soup) {
   const std::string extension = FileExtension(file);
@@ -69,7 +69,7 @@ std::vector<std::string> NotKept(const std::string& file, const Soup& soup) {
 }
 
 void WriteMesh(const std::string& file, const Shape& vertices, const Soup& soup) {
-  const Format* const format = FormatOf(file);
+  const Format* const format = WriterOf(file);
   if (format == nullptr) {
     throw FileError(file + ": the extension '" + FileExtension(file) +
                     "' is not one of .obj, .ply, .off, .stl; name the file as one of these");

@@ -19,10 +19,10 @@
 namespace shapespace::internal {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
-constexpr int kSteps = 65535;          // of a position, along the longest side of the box
+constexpr int kPositionSteps = 65535;  // of a position, along the longest side of the box
 constexpr float kTubeRadius = 0.005f;  // of a graph's edges, when a view is chosen
 constexpr int kShades = 255;           // of a deviation
 constexpr double kMostBytes = 1e9;     // before compression; more is slow or impossible in browsers
@@ -46,11 +46,11 @@ Box BoxAround(const std::vector<Shape>& shapes) {
 }
 
 Steps Quantise(const Shape& shape, const Box& box) {
-  const double scale = box.side > 0 ? kSteps / box.side : 0;
+  const double scale = box.side > 0 ? kPositionSteps / box.side : 0;
   Steps steps(shape.size());
   for (Eigen::Index i = 0; i < shape.size(); ++i) {
     const double place = (shape.data()[i] - box.low[i % 3]) * scale;
-    steps[i] = static_cast<uint16_t>(std::clamp<long>(std::lround(place), 0, kSteps));
+    steps[i] = static_cast<uint16_t>(std::clamp<long>(std::lround(place), 0, kPositionSteps));
   }
   return steps;
 }
@@ -127,7 +127,7 @@ void AppendIndices(const int* indices, size_t count, std::string* bytes) {
   *bytes += planes;
 }
 
-void AppendConnectivity(const Connectivity& connectivity, Json* header, std::string* bytes) {
+void AppendConnectivity(const Connectivity& connectivity, OrderedJson* header, std::string* bytes) {
   std::vector<int> segments;
   if (connectivity.IsGraph()) {
     for (const auto& [a, b] : connectivity.Segments()) segments.insert(segments.end(), {a, b});
@@ -139,7 +139,7 @@ void AppendConnectivity(const Connectivity& connectivity, Json* header, std::str
   AppendIndices(segments.data(), segments.size(), bytes);
 }
 
-std::vector<Steps> QuantiseAll(const std::vector<Shape>& shapes, Json* header) {
+std::vector<Steps> QuantiseAll(const std::vector<Shape>& shapes, OrderedJson* header) {
   const Box box = BoxAround(shapes);
   (*header)["shapes"] = shapes.size();
   (*header)["low"] = {box.low[0], box.low[1], box.low[2]};
@@ -150,7 +150,8 @@ std::vector<Steps> QuantiseAll(const std::vector<Shape>& shapes, Json* header) {
 }
 
 // The view direction of a film strip of `shapes`, and its upward direction.
-void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shapes, Json* header) {
+void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shapes,
+                OrderedJson* header) {
   const Box box = BoxAround(shapes);
   std::vector<Shape> small;
   for (const Shape& shape : shapes) {
@@ -167,7 +168,7 @@ void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shap
 }
 
 // Per vertex and shape, as differences from shape to shape.
-void AppendDeviations(const Path& path, Json* header, std::string* bytes) {
+void AppendDeviations(const Path& path, OrderedJson* header, std::string* bytes) {
   std::vector<Eigen::VectorXd> deviations(path.NumShapes());
   std::vector<RmsAndMax> edges(path.NumShapes());
   ParallelFor(path.NumShapes(), [&](int i) {
@@ -207,7 +208,7 @@ std::vector<double> SquaredSpeeds(const Path& path) {
   return speeds;
 }
 
-void AppendColours(const Eigen::MatrixXd& colours, Json* header, std::string* bytes) {
+void AppendColours(const Eigen::MatrixXd& colours, OrderedJson* header, std::string* bytes) {
   (*header)["colours"] = colours.size() > 0;
   for (Eigen::Index v = 0; v < colours.cols(); ++v) {
     for (int k = 0; k < 3; ++k) {
@@ -227,9 +228,9 @@ std::string Compress(const std::string& bytes) {
   return compressed;
 }
 
-std::string Pack(const Json& header, const std::string& arrays) {
+std::string Pack(const OrderedJson& header, const std::string& arrays) {
   // Names may contain any bytes; those that are not valid text are replaced.
-  const std::string text = header.dump(-1, ' ', true, Json::error_handler_t::replace);
+  const std::string text = header.dump(-1, ' ', true, OrderedJson::error_handler_t::replace);
   std::string all;
   for (int shift = 0; shift < 32; shift += 8)
     all.push_back(static_cast<char>(text.size() >> shift));
@@ -279,8 +280,8 @@ void CheckSpace(const PageSpace& space) {
 }
 
 template <typename Matrix>
-Json Columns(const Matrix& matrix) {
-  Json columns = Json::array();
+OrderedJson Columns(const Matrix& matrix) {
+  OrderedJson columns = OrderedJson::array();
   for (Eigen::Index c = 0; c < matrix.cols(); ++c) {
     columns.push_back(std::vector<typename Matrix::Scalar>(matrix.col(c).data(),
                                                            matrix.col(c).data() + matrix.rows()));
@@ -299,7 +300,7 @@ std::string EncodeScene(const PagePath& scene) {
   }
   const Connectivity& connectivity = *path.metric->connectivity;
   CheckSize(scene.name, path.shapes.size(), connectivity.NumVertices(), 7);
-  Json header = {{"version", kVersion}, {"kind", "path"}, {"name", scene.name}};
+  OrderedJson header = {{"version", kVersion}, {"kind", "path"}, {"name", scene.name}};
   std::string arrays;
   AppendConnectivity(connectivity, &header, &arrays);
   header["parameters"] = path.parameters;
@@ -318,7 +319,7 @@ std::string EncodeScene(const PagePath& scene) {
 std::string EncodeScene(const PageSpace& scene) {
   CheckSpace(scene);
   CheckSize(scene.name, scene.nodes.size(), scene.connectivity->NumVertices(), 6);
-  Json header = {{"version", kVersion}, {"kind", "space"}, {"name", scene.name}};
+  OrderedJson header = {{"version", kVersion}, {"kind", "space"}, {"name", scene.name}};
   std::string arrays;
   AppendConnectivity(*scene.connectivity, &header, &arrays);
   header["names"] = scene.names;

@@ -9,10 +9,8 @@
 namespace shapespace::internal {
 namespace {
 
-using Json = HeaderJson;
-
-Json OptionsToJson(const MetricOptions& options) {
-  Json features = Json::array();
+HeaderJson OptionsToJson(const MetricOptions& options) {
+  HeaderJson features = HeaderJson::array();
   for (const FeatureTerm& term : options.features) {
     features.push_back({{"name", term.name}, {"coefficient", term.coefficient}});
   }
@@ -28,7 +26,7 @@ Json OptionsToJson(const MetricOptions& options) {
            options.discretization == Discretization::kTrapezoid ? "trapezoid" : "midpoint"}};
 }
 
-MetricOptions OptionsFromJson(const Json& json) {
+MetricOptions OptionsFromJson(const HeaderJson& json) {
   MetricOptions options;
   json.at("isometric").get_to(options.isometric);
   json.at("strain").get_to(options.strain);
@@ -37,7 +35,7 @@ MetricOptions OptionsFromJson(const Json& json) {
   json.at("bending").get_to(options.bending);
   json.at("volume").get_to(options.volume);
   if (json.contains("features")) {
-    for (const Json& term : json.at("features")) {
+    for (const HeaderJson& term : json.at("features")) {
       options.features.push_back(
           {term.at("name").get<std::string>(), term.at("coefficient").get<double>()});
     }
@@ -51,7 +49,7 @@ MetricOptions OptionsFromJson(const Json& json) {
 constexpr const char* kStretching = "stretching_stiffness";
 constexpr const char* kBending = "bending_stiffness";
 
-std::shared_ptr<const Feature> ReadFeature(const std::string& name, const Json& constants,
+std::shared_ptr<const Feature> ReadFeature(const std::string& name, const HeaderJson& constants,
                                            const std::string& prefix, const ArrayReader& arrays,
                                            int num_vertices) {
   FeatureKind kind;
@@ -71,16 +69,16 @@ std::shared_ptr<const Feature> ReadFeature(const std::string& name, const Json& 
 }
 
 // JSON contains text in UTF-8 only; any other name becomes a list of its bytes.
-Json NameToJson(const std::string& name) {
+HeaderJson NameToJson(const std::string& name) {
   try {
-    (void)Json(name).dump();
+    (void)HeaderJson(name).dump();
     return name;
-  } catch (const Json::exception&) {
+  } catch (const HeaderJson::exception&) {
     return std::vector<uint8_t>(name.begin(), name.end());
   }
 }
 
-std::string NameFromJson(const Json& json) {
+std::string NameFromJson(const HeaderJson& json) {
   if (json.is_string()) return json.get<std::string>();
   const auto bytes = json.get<std::vector<uint8_t>>();
   return {bytes.begin(), bytes.end()};
@@ -88,19 +86,19 @@ std::string NameFromJson(const Json& json) {
 
 }  // namespace
 
-Json NamesToJson(const std::vector<std::string>& names) {
-  Json json = Json::array();
+HeaderJson NamesToJson(const std::vector<std::string>& names) {
+  HeaderJson json = HeaderJson::array();
   for (const std::string& name : names) json.push_back(NameToJson(name));
   return json;
 }
 
-std::vector<std::string> NamesFromJson(const Json& json) {
+std::vector<std::string> NamesFromJson(const HeaderJson& json) {
   std::vector<std::string> names;
-  for (const Json& name : json) names.push_back(NameFromJson(name));
+  for (const HeaderJson& name : json) names.push_back(NameFromJson(name));
   return names;
 }
 
-void AddMetric(const Metric& metric, Json* header, ArrayWriter* arrays) {
+void AddMetric(const Metric& metric, HeaderJson* header, ArrayWriter* arrays) {
   const Connectivity& connectivity = *metric.connectivity;
   arrays->Add("polygon_begin", connectivity.PolygonBegin().data(),
               connectivity.PolygonBegin().size(), 1);
@@ -116,10 +114,10 @@ void AddMetric(const Metric& metric, Json* header, ArrayWriter* arrays) {
   arrays->Add("vertex_area", metric.vertex_area);
   arrays->Add("edge_area", metric.edge_area);
   arrays->Add("hinge_area", metric.hinge_area);
-  Json features = Json::array();
+  HeaderJson features = HeaderJson::array();
   for (const auto& feature : metric.features) {
     const std::string prefix = "feature" + std::to_string(features.size()) + "_";
-    Json constants = Json::object();
+    HeaderJson constants = HeaderJson::object();
     for (const auto& [name, number] : feature->Constants()) constants[name] = number;
     features.push_back({{"name", feature->Name()}, {"constants", constants}});
     arrays->Add(prefix + "stencils", feature->Element(0), feature->VerticesPerElement(),
@@ -137,7 +135,7 @@ void AddMetric(const Metric& metric, Json* header, ArrayWriter* arrays) {
   (*header)["features"] = features;
 }
 
-std::shared_ptr<const Metric> ReadMetric(const Json& header, const ArrayReader& arrays) {
+std::shared_ptr<const Metric> ReadMetric(const HeaderJson& header, const ArrayReader& arrays) {
   const int num_vertices = header.at("vertices").get<int>();
   const auto begin = arrays.Get<Eigen::VectorXi>("polygon_begin", Eigen::Dynamic, 1);
   const auto corners = arrays.Get<Eigen::VectorXi>("corners", Eigen::Dynamic, 1);
@@ -166,9 +164,9 @@ std::shared_ptr<const Metric> ReadMetric(const Json& header, const ArrayReader& 
   metric->edge_area = arrays.Get<Eigen::VectorXd>("edge_area", connectivity.NumEdges(), 1);
   metric->hinge_area = arrays.Get<Eigen::VectorXd>("hinge_area", connectivity.NumHinges(), 1);
   int index = 0;
-  for (const Json& entry : header.at("features")) {
+  for (const HeaderJson& entry : header.at("features")) {
     const std::string name = entry.at("name").get<std::string>();
-    const Json& constants = entry.at("constants");
+    const HeaderJson& constants = entry.at("constants");
     const std::string prefix = "feature" + std::to_string(index++) + "_";
     metric->features.push_back(ReadFeature(name, constants, prefix, arrays, num_vertices));
   }
@@ -188,7 +186,7 @@ std::shared_ptr<const Metric> ReadMetric(const Json& header, const ArrayReader& 
   return metric;
 }
 
-void AddAppearance(const Appearance& appearance, const std::string& file, Json* header,
+void AddAppearance(const Appearance& appearance, const std::string& file, HeaderJson* header,
                    ArrayWriter* arrays) {
   const auto add_indices = [arrays](const std::string& name, const std::vector<int>& indices) {
     arrays->Add(name, indices.data(), indices.size(), 1);
@@ -211,8 +209,9 @@ void AddAppearance(const Appearance& appearance, const std::string& file, Json* 
                              {"objects", NamesToJson(appearance.objects.names)}};
 }
 
-Appearance ReadAppearance(const Json& header, const std::string& file, const ArrayReader& arrays) {
-  const Json& json = header.at("appearance");
+Appearance ReadAppearance(const HeaderJson& header, const std::string& file,
+                          const ArrayReader& arrays) {
+  const HeaderJson& json = header.at("appearance");
   const auto folder = std::filesystem::path(file).parent_path();
   Appearance appearance;
   appearance.texture_coordinates =

@@ -38,16 +38,16 @@ Eigen::Vector3d BoundedVector(const Json& json, const std::string& field) {
 }
 
 // The ways in which a handle can be moved; an entry must have exactly one of them.
-enum class Target { kFixed, kMotion, kPosition, kPositions };
+enum class TargetKind { kFixed, kMotion, kPosition, kPositions };
 
-Target TargetOf(const Json& entry) {
+TargetKind TargetOf(const Json& entry) {
   constexpr char kTargets[] = "fixed, translation, rotation, position, positions";
-  const std::pair<const char*, Target> keys[] = {{"fixed", Target::kFixed},
-                                                 {"translation", Target::kMotion},
-                                                 {"rotation", Target::kMotion},
-                                                 {"position", Target::kPosition},
-                                                 {"positions", Target::kPositions}};
-  const std::pair<const char*, Target>* found = nullptr;
+  const std::pair<const char*, TargetKind> keys[] = {{"fixed", TargetKind::kFixed},
+                                                     {"translation", TargetKind::kMotion},
+                                                     {"rotation", TargetKind::kMotion},
+                                                     {"position", TargetKind::kPosition},
+                                                     {"positions", TargetKind::kPositions}};
+  const std::pair<const char*, TargetKind>* found = nullptr;
   for (const auto& key : keys) {
     if (!entry.contains(key.first)) continue;
     if (found != nullptr && found->second != key.second) {
@@ -138,15 +138,15 @@ Handle HandleFrom(const Json& entry, const Shape& shape, const Connectivity& con
   }
   const Eigen::Vector3d centroid = shape(Eigen::all, handle.vertices).rowwise().mean();
   switch (TargetOf(entry)) {
-    case Target::kFixed:
+    case TargetKind::kFixed:
       if (!BoolFrom(entry["fixed"], "fixed")) {
         FailIn("fixed", "must be true; leave it out if the handle moves");
       }
       break;
-    case Target::kMotion:
+    case TargetKind::kMotion:
       handle.motion = MotionFrom(entry, centroid);
       break;
-    case Target::kPosition: {
+    case TargetKind::kPosition: {
       const Eigen::Vector3d position = BoundedVector(entry["position"], "position");
       if (handle.vertices.size() == 1) {
         handle.positions = position;
@@ -155,7 +155,7 @@ Handle HandleFrom(const Json& entry, const Shape& shape, const Connectivity& con
       }
       break;
     }
-    case Target::kPositions:
+    case TargetKind::kPositions:
       handle.positions = PositionsFrom(entry, selection, handle.vertices.size());
       break;
   }

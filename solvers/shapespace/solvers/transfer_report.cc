@@ -12,7 +12,7 @@ namespace {
 using internal::Format;
 using internal::JsonNumber;
 
-nlohmann::ordered_json Json(const TransferSummary& summary) {
+nlohmann::ordered_json JsonOf(const TransferSummary& summary) {
   nlohmann::ordered_json json;
   json["converged"] = summary.Converged();
   json["vertices"] = summary.vertices;
@@ -79,7 +79,7 @@ std::string TransferSummary::FullReport() const {
   return out.str();
 }
 
-std::string TransferSummary::ToJson() const { return Json(*this).dump(2) + "\n"; }
+std::string TransferSummary::ToJson() const { return JsonOf(*this).dump(2) + "\n"; }
 
 bool PoseTransferSummary::Converged() const {
   return !cancelled && std::all_of(geodesics.begin(), geodesics.end(), [](const auto& path) {
@@ -140,7 +140,7 @@ std::string PoseTransferSummary::ToJson() const {
   json["poses"] = nlohmann::ordered_json::array();
   for (size_t i = 0; i < transfers.size(); ++i) {
     json["poses"].push_back({{"geodesic", nlohmann::ordered_json::parse(geodesics[i].ToJson())},
-                             {"transfer", Json(transfers[i])}});
+                             {"transfer", JsonOf(transfers[i])}});
   }
   return json.dump(2) + "\n";
 }

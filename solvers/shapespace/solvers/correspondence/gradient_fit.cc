@@ -14,10 +14,10 @@ namespace shapespace::internal {
 namespace {
 
 // Keeps the system definite, for instance for vertices without triangles.
-constexpr double kPlace = 1e-9;
+constexpr double kRegularisation = 1e-9;
 // A triangle whose area is less than this share of its longest side's square is given less weight,
 // because its gradient is dominated by rounding.
-constexpr double kSliver = 1e-2;
+constexpr double kThin = 1e-2;
 
 // T_f is linear in four points: the triangle's corners and its fourth vertex.
 struct Element {
@@ -47,8 +47,8 @@ Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixX3d right = Eigen::MatrixX3d::Zero(num_unknowns, 3);
   for (int v = 0; v < num_vertices; ++v) {
-    entries.emplace_back(v, v, kPlace);
-    right.row(v) = kPlace * rest.col(v).transpose();
+    entries.emplace_back(v, v, kRegularisation);
+    right.row(v) = kRegularisation * rest.col(v).transpose();
   }
   for (int f = 0; f < triangles.cols(); ++f) {
     Element& element = elements[f];
@@ -62,7 +62,7 @@ Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
     element.gradients[0] = -(element.gradients[1] + element.gradients[2] + element.gradients[3]);
     const double longest = std::max({frame.col(0).squaredNorm(), frame.col(1).squaredNorm(),
                                      (frame.col(1) - frame.col(0)).squaredNorm()});
-    const double share = 0.5 * frame.col(2).squaredNorm() / (kSliver * longest);
+    const double share = 0.5 * frame.col(2).squaredNorm() / (kThin * longest);
     element.quality = share < 1 ? share * share : 1;
     if (!(element.quality > 0)) element.quality = 0;  // collapsed to a point
     const std::vector<int> unknowns(element.unknowns.begin(), element.unknowns.end());
@@ -73,7 +73,7 @@ Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
     for (int k = 0; k < 4; ++k) {
       right.row(unknowns[k]) += weight * gradients[k].transpose();
     }
-    entries.emplace_back(num_vertices + f, num_vertices + f, kPlace);
+    entries.emplace_back(num_vertices + f, num_vertices + f, kRegularisation);
   }
   const auto add_difference = [&](int f, int g) {
     // T_f - T_g, as a function of the six unknowns of both.

@@ -97,6 +97,9 @@ class CholeskyFactor {
   int work_rows_ = 0;
 };
 
+template <>
+void CholeskyFactor<double>::Update(const Eigen::SparseMatrix<double>& matrix);
+
 using Cholesky = CholeskyFactor<double>;
 
 }  // namespace shapespace::internal

@@ -48,10 +48,11 @@ std::vector<int> WoundHinges(const Dihedral& dihedral, const std::vector<Shape>&
   return result;
 }
 
-using Element = std::pair<int, int>;  // which of the metric's features, which of its elements
+// Which of the metric's features, and which of its elements.
+using FeatureElement = std::pair<int, int>;
 
 // The energy of an element, up to a factor that is common to all.
-double ElementEnergy(const Metric& metric, const Element& element,
+double ElementEnergy(const Metric& metric, const FeatureElement& element,
                      const std::vector<Shape>& shapes) {
   const Feature& feature = *metric.features[element.first];
   const int e = element.second, num_values = feature.ValuesPerElement();
@@ -87,12 +88,12 @@ class Mover {
   Shape Columns(const std::vector<int>& columns, size_t shape) const;
   void Place(const std::vector<int>& group, const std::vector<Shape>& places);
   // The sum over `elements`; stops when it exceeds `enough`.
-  double Energy(const std::vector<Element>& elements, double enough) const;
+  double Energy(const std::vector<FeatureElement>& elements, double enough) const;
 
   const Metric& metric_;
   std::vector<Shape>& shapes_;
   std::vector<int> index_;  // of a vertex of the mesh in the lists below, or -1
-  std::vector<std::vector<Element>> elements_;
+  std::vector<std::vector<FeatureElement>> elements_;
 };
 
 Mover::Mover(const Metric& metric, const std::vector<int>& vertices, std::vector<Shape>* shapes)
@@ -116,7 +117,7 @@ Mover::Mover(const Metric& metric, const std::vector<int>& vertices, std::vector
 void Mover::Move(const std::vector<int>& group) {
   const Connectivity& connectivity = *metric_.connectivity;
   std::vector<int> around;
-  std::vector<Element> elements;
+  std::vector<FeatureElement> elements;
   for (int v : group) {
     const int i = index_[v];
     for (const int edge : connectivity.EdgesOfVertices()[v]) {
@@ -164,9 +165,9 @@ void Mover::Place(const std::vector<int>& group, const std::vector<Shape>& place
   for (size_t i = 0; i < places.size(); ++i) shapes_[i + 1](Eigen::all, group) = places[i];
 }
 
-double Mover::Energy(const std::vector<Element>& elements, double enough) const {
+double Mover::Energy(const std::vector<FeatureElement>& elements, double enough) const {
   double energy = 0;
-  for (const Element& element : elements) {
+  for (const FeatureElement& element : elements) {
     energy += ElementEnergy(metric_, element, shapes_);
     if (energy > enough) break;
   }
