@@ -3,7 +3,7 @@
 #   tests/install/debian.sh bookworm|trixie
 # Makes that system in a temporary folder, from the mirror that apt uses here, clones what is
 # committed into it, and takes it away again. Needs root, debootstrap and 4 GB of disk; takes about
-# half an hour on two cores. By hand: .ci/run does not call it.
+# a quarter of an hour on two cores. By hand: .ci/run does not call it.
 set -euo pipefail
 
 fail() {

@@ -101,9 +101,11 @@ void CheckKeys(const Json& json, const std::string& field, const std::vector<std
   }
 }
 
-const Json& Required(const Json& json, const std::string& field, const std::string& key) {
-  const auto found = json.find(key);
-  if (found == json.end()) FailIn(Field(field, key), "is missing; add it");
+const Json& Required(const Json& json, std::string_view field, std::string_view key) {
+  const auto found = json.find(std::string(key));
+  if (found == json.end()) {
+    FailIn(Field(std::string(field), std::string(key)), "is missing; add it");
+  }
   return *found;
 }
 
@@ -122,9 +124,9 @@ std::string TextFrom(const Json& json, const std::string& field) {
   return json.get<std::string>();
 }
 
-const Json& ListFrom(const Json& json, const std::string& field) {
-  if (!json.is_array()) FailOfType(json, field, "a list, [ ]");
-  if (json.empty()) FailIn(field, "the list is empty");
+const Json& ListFrom(const Json& json, std::string_view field) {
+  if (!json.is_array()) FailOfType(json, std::string(field), "a list, [ ]");
+  if (json.empty()) FailIn(std::string(field), "the list is empty");
   return json;
 }
 

@@ -2,6 +2,7 @@
 #define SHAPESPACE_BASE_JSON_H_
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,14 +30,14 @@ std::string Field(const std::string& field, const std::string& key);
 void CheckKeys(const Json& json, const std::string& field, const std::vector<std::string>& keys);
 
 /// \throw InvalidOptions if the object `json` lacks `key`.
-const Json& Required(const Json& json, const std::string& field, const std::string& key);
+const Json& Required(const Json& json, std::string_view field, std::string_view key);
 
 double NumberFrom(const Json& json, const std::string& field);
 bool BoolFrom(const Json& json, const std::string& field);
 std::string TextFrom(const Json& json, const std::string& field);
 
 /// An array that is not empty.
-const Json& ListFrom(const Json& json, const std::string& field);
+const Json& ListFrom(const Json& json, std::string_view field);
 
 /// Three numbers.
 Eigen::Vector3d VectorFrom(const Json& json, const std::string& field);

@@ -118,7 +118,7 @@ void FramePainter::TracePixel(int row, int column) {
   Pixel& pixel = pixels_[static_cast<size_t>(row) * camera_.width + column];
   const int n = camera_.samples;
   Scene::Hit hit, first;
-  Eigen::Vector3f first_point;
+  Eigen::Vector3f first_point = Eigen::Vector3f::Zero();
   int hits = 0;
   for (int s = 0; s < n * n; ++s) {
     // A grid sheared in both directions: no two samples share a column or a row, so that nearly
