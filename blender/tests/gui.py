@@ -40,18 +40,6 @@ def press(key):
     window.event_simulate(type=key, value="RELEASE", x=400, y=400)
 
 
-def waiting_tools(folder):
-    """Tools that begin to work when there is a file `go` in the folder."""
-    for name in ("shape-interpolate", "shape-extrapolate", "shape-transfer"):
-        program = folder / name
-        real = os.path.join(os.environ["SHAPESPACE_BIN"], name)
-        program.write_text(
-            f"#!/bin/sh\nwhile [ ! -e '{folder}/go' ]; do sleep 0.05; done\n"
-            f"exec '{real}' \"$@\"\n"
-        )
-        program.chmod(0o755)
-
-
 def choose_tools(folder):
     support.preferences().engine = "TOOLS"
     support.preferences().tools = str(folder)
@@ -94,7 +82,9 @@ def steps(folder):
 
     case = support.Case()
     case.folder = folder
-    waiting_tools(folder)
+    # Tools that begin to work when there is a file `go`.
+    wait = f"while [ ! -e '{folder}/go' ]; do sleep 0.05; done"
+    support.stand_in(folder, wait + '\nexec "$tool" "$@"')
     choose_tools(folder)
     (sit, stretch), faces = case.quadruped("sit", "stretch")
     bpy.ops.object.select_all(action="SELECT")

@@ -5,6 +5,7 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 from types import SimpleNamespace
 
@@ -142,6 +143,15 @@ def children():
     return pathlib.Path(f"/proc/self/task/{os.getpid()}/children").read_text().split()
 
 
+def stand_in(folder, script):
+    """Writes, for each tool, a program of its name that runs a script, in which `$tool` is the tool
+    itself."""
+    for name in ("shape-interpolate", "shape-extrapolate", "shape-transfer"):
+        program = folder / name
+        program.write_text(f"#!/bin/sh\ntool='{_BIN / name}'\n{script}\n")
+        program.chmod(0o755)
+
+
 class Case(unittest.TestCase):
     """Begins with an empty scene and the tools, and has a folder for files."""
 
@@ -166,6 +176,12 @@ class Case(unittest.TestCase):
         }  # fmt: skip
         given = SimpleNamespace(**{**settings, **changes})
         return getattr(work, kind)(bpy.context, given, preferences())
+
+    def wait_for(self, condition):
+        end = time.monotonic() + 20
+        while not condition():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.01)
 
     def near(self, a, b, tolerance=1e-5):
         self.assertEqual(np.shape(a), np.shape(b))

@@ -76,10 +76,7 @@ class Module(Case):
             self.assertFalse(work.poll())
             time.sleep(0.01)
         work.cancel()
-        end = time.monotonic() + 20
-        while threading.active_count() > threads:
-            self.assertLess(time.monotonic(), end)
-            time.sleep(0.01)
+        self.wait_for(lambda: threading.active_count() <= threads)
         self.assertEqual(state(), before)
 
     def test_its_errors_are_reports(self):

@@ -1,8 +1,6 @@
 """What a button's run does step by step: progress, cancelling, and changes of the scene meanwhile.
 In background there is no window that would call modal(); these are the calls that it makes."""
 
-import os
-import pathlib
 import time
 
 import bpy
@@ -17,6 +15,7 @@ from support import (
     children,
     preferences,
     select,
+    stand_in,
     state,
     temporary_folders,
 )
@@ -30,18 +29,8 @@ class Runs(Case):
 
     def stand_in(self, script):
         """Has a script take the place of the tools; `$tool` is the one that was called."""
-        real = preferences().tools
-        for name in ("shape-interpolate", "shape-extrapolate", "shape-transfer"):
-            program = pathlib.Path(self.folder / name)
-            program.write_text(f"#!/bin/sh\ntool={os.path.join(real, name)}\n{script}\n")
-            program.chmod(0o755)
+        stand_in(self.folder, script)
         preferences().tools = str(self.folder)
-
-    def wait_for(self, condition):
-        end = time.monotonic() + 20
-        while not condition():
-            self.assertLess(time.monotonic(), end)
-            time.sleep(0.01)
 
     def test_progress(self):
         self.cube()

@@ -64,7 +64,7 @@ constexpr double kClose = 3e-6;
 double ShapeDifference(const Path& a, const Path& b) {
   double largest = 0;
   for (int i = 0; i < a.NumShapes(); ++i) {
-    largest = std::max(largest, (a.shapes[i] - b.shapes[i]).colwise().norm().maxCoeff());
+    largest = std::max(largest, testing::Distance(a.shapes[i], b.shapes[i]));
   }
   return largest;
 }

@@ -29,6 +29,7 @@ namespace shapespace {
 namespace {
 
 using testing::Diameter;
+using testing::Distance;
 using testing::Listener;
 using testing::Rotation;
 
@@ -38,15 +39,6 @@ GeodesicOptions Options(int shapes, double tolerance) {
   options.tolerance = tolerance;
   options.max_iterations = 3000;
   return options;
-}
-
-// Largest distance between corresponding vertices of two paths, as placed.
-double Difference(const Path& a, const Path& b) {
-  double largest = 0;
-  for (int i = 0; i < a.NumShapes(); ++i) {
-    largest = std::max(largest, (a.Placed(i) - b.Placed(i)).colwise().norm().maxCoeff());
-  }
-  return largest;
 }
 
 TEST(Interpolate, TranslatesAlongAStraightLine) {
@@ -223,7 +215,7 @@ TEST(Interpolate, BothSolversFindTheSameMinimum) {
     options.solver = GeodesicSolver::kTrustRegion;
     const auto region = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(70)}, options);
     EXPECT_NEAR(lbfgs.summary.energy, region.summary.energy, 1e-7 * region.summary.energy);
-    EXPECT_LT(Difference(lbfgs.path, region.path), 2e-3);
+    EXPECT_LT(Distance(lbfgs.path, region.path), 2e-3);
   }
 }
 

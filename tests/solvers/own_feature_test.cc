@@ -1,7 +1,6 @@
 // Solvers with user-defined features, compared with the same features of the library, which have
 // kernels, bounds and preconditioners of their own.
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include <shapespace/solvers/transfer.h>
 #include <shapespace/solvers/transport.h>
 
+#include "support/motions.h"
 #include "support/own_features.h"
 
 namespace shapespace {
@@ -33,14 +33,6 @@ GeodesicResult Solve(const MetricOptions& metric, int shapes = 7) {
   return Interpolate(FineBar().connectivity, {FineBar().pose(0), FineBar().pose(80)}, options);
 }
 
-double PathsApart(const Path& a, const Path& b) {
-  double apart = 0;
-  for (int i = 0; i < a.NumShapes(); ++i) {
-    apart = std::max(apart, (a.Placed(i) - b.Placed(i)).colwise().norm().maxCoeff());
-  }
-  return apart;
-}
-
 TEST(OwnFeature, MakesTheSameGeodesicOnAllLevels) {
   const GeodesicResult library = Solve(testing::LibraryBlend());
   const GeodesicResult own = Solve(testing::OwnBlend());
@@ -49,7 +41,7 @@ TEST(OwnFeature, MakesTheSameGeodesicOnAllLevels) {
   EXPECT_NEAR(own.summary.energy, library.summary.energy, 1e-6 * library.summary.energy);
   EXPECT_NEAR(own.summary.lower_bound, library.summary.lower_bound,
               1e-9 * library.summary.lower_bound);
-  EXPECT_LT(PathsApart(own.path, library.path), 2e-3);
+  EXPECT_LT(testing::Distance(own.path, library.path), 2e-3);
   // Every feature's part of the energy is listed by its name.
   double strain = -1;
   for (const auto& [name, part] : own.summary.parts) {
@@ -65,13 +57,13 @@ TEST(OwnFeature, GoesOnAndIsTransportedAlike) {
                             {FineBar().pose(0), FineBar().pose(80)});
   const ExponentialResult expected = Extrapolate(path, 3), longer = Extrapolate(own, 3);
   EXPECT_TRUE(longer.summary.Converged());
-  EXPECT_LT(PathsApart(longer.path, expected.path), 1e-8);
+  EXPECT_LT(testing::Distance(longer.path, expected.path), 1e-8);
 
   ExponentialOptions runge_kutta;
   runge_kutta.integrator = Integrator::kRungeKutta4;
-  EXPECT_LT(
-      PathsApart(Extrapolate(own, 1, runge_kutta).path, Extrapolate(path, 1, runge_kutta).path),
-      1e-8);
+  EXPECT_LT(testing::Distance(Extrapolate(own, 1, runge_kutta).path,
+                              Extrapolate(path, 1, runge_kutta).path),
+            1e-8);
 
   const Tangent tangent = FineBar().pose(1) - FineBar().pose(0);
   const Tangent there = Transport(path, {tangent}).tangents[0];
@@ -90,8 +82,9 @@ TEST(OwnFeature, TransfersAlike) {
   testing::RegisterOwnFeatures();
   own.metric.features = {{"own strain", 1}};
   const Path path = MakePath(metric, poses);
-  EXPECT_LT(PathsApart(Transfer(path, target, own).path, Transfer(path, target, library).path),
-            1e-7);
+  EXPECT_LT(
+      testing::Distance(Transfer(path, target, own).path, Transfer(path, target, library).path),
+      1e-7);
 }
 
 TEST(OwnFeature, DeformsAlike) {

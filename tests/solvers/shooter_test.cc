@@ -15,8 +15,7 @@ namespace {
 
 using testing::Diameter;
 using testing::Distance;
-
-const std::function<void()> kNeverCancelled = [] {};
+using testing::kNeverCancelled;
 
 // An animal that moves beyond its last pose, under a metric of edge lengths, for which the step has
 // no solution on the mesh itself.

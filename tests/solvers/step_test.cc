@@ -16,8 +16,7 @@ namespace {
 
 using testing::Diameter;
 using testing::Distance;
-
-const std::function<void()> kNoCancel = [] {};
+using testing::kNeverCancelled;
 
 // A metric, and a step that continues from two shapes (in the metric's unit).
 struct StepCase {
@@ -36,7 +35,7 @@ struct StepCase {
   double SpeedTo(const Shape& shape) const {
     return (map.Values(shape) - map.Values(departure.shape)).norm();
   }
-  Step Make() { return Step(map, &solver, departure, kNoCancel); }
+  Step Make() { return Step(map, &solver, departure, kNeverCancelled); }
 };
 
 StepCase BendingBar() {

@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_TESTS_SUPPORT_MOTIONS_H_
 #define SHAPESPACE_TESTS_SUPPORT_MOTIONS_H_
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -11,6 +12,7 @@
 
 #include <shapespace/bodies/body.h>
 #include <shapespace/metric/metric.h>
+#include <shapespace/path/path.h>
 #include <shapespace/path/rigid_motion.h>
 
 namespace shapespace::testing {
@@ -27,6 +29,18 @@ inline double Diameter(const Shape& shape) {
 inline double Distance(const Shape& a, const Shape& b) {
   return (a - b).colwise().norm().maxCoeff();
 }
+
+/// The same of two paths with equally many shapes, as placed.
+inline double Distance(const Path& a, const Path& b) {
+  double largest = 0;
+  for (int i = 0; i < a.NumShapes(); ++i) {
+    largest = std::max(largest, Distance(a.Placed(i), b.Placed(i)));
+  }
+  return largest;
+}
+
+/// For shooting that nothing cancels.
+inline const std::function<void()> kNeverCancelled = [] {};
 
 /// The vertices at which a condition on their position holds.
 inline std::vector<int> Where(const Shape& shape,

@@ -38,9 +38,7 @@ inline double Degrees(const Matrix3d& rotation) {
 }
 
 // Largest distance between corresponding vertices, over the diameter.
-inline double Apart(const Shape& a, const Shape& b) {
-  return (a - b).colwise().norm().maxCoeff() / Diameter(b);
-}
+inline double Apart(const Shape& a, const Shape& b) { return Distance(a, b) / Diameter(b); }
 
 // Root mean square distance of the surfaces after alignment, over the diameter.
 inline double ShapesApart(const Shape& a, const Shape& b, const Eigen::VectorXd& area) {
