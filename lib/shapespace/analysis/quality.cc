@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include <shapespace/analysis/straight_lengths.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/mesh/geometry.h>
 #include <shapespace/path/energy.h>
@@ -16,10 +17,6 @@ using internal::kDegrees;
 constexpr double kLeastLength = 1e-3;
 // Pieces slower than this, in the metric's pure numbers, are at rest up to rounding.
 constexpr double kNoSpeed = 1e-9;
-
-double SquaredLength(const Eigen::Matrix2Xi& edges, int e, const Shape& shape) {
-  return (shape.col(edges(1, e)) - shape.col(edges(0, e))).squaredNorm();
-}
 
 // Deviations of one shape's edges, to be combined with those of others.
 struct Deviations {
@@ -50,23 +47,20 @@ void Pool(const std::vector<Deviations>& shapes, double* rms, double* p99, doubl
 
 // The square of the length below which edges are not counted.
 double SquaredShortest(const Path& path) {
-  const Eigen::Matrix2Xi& edges = path.metric->connectivity->Edges();
-  double mean_squared_length = 0;
-  for (int e = 0; e < edges.cols(); ++e) {
-    mean_squared_length += SquaredLength(edges, e, path.shapes[0]) / edges.cols();
-  }
-  return kLeastLength * kLeastLength * mean_squared_length;
+  return kLeastLength * kLeastLength *
+         internal::SquaredLengths(*path.metric->connectivity, path.shapes[0]).mean();
 }
 
 // Deviations of shape `i` from the first; empty for the first itself.
 Deviations AgainstFirst(const Path& path, int i, double shortest) {
-  const Eigen::Matrix2Xi& edges = path.metric->connectivity->Edges();
   Deviations deviations;
-  for (int e = 0; i > 0 && e < edges.cols(); ++e) {
-    const double first = SquaredLength(edges, e, path.shapes[0]);
-    if (first > shortest) {
-      deviations.Add(std::sqrt(SquaredLength(edges, e, path.shapes[i]) / first),
-                     path.metric->edge_area(e));
+  if (i == 0) return deviations;
+  const Connectivity& connectivity = *path.metric->connectivity;
+  const Eigen::VectorXd first = internal::SquaredLengths(connectivity, path.shapes[0]);
+  const Eigen::VectorXd lengths = internal::SquaredLengths(connectivity, path.shapes[i]);
+  for (int e = 0; e < first.size(); ++e) {
+    if (first(e) > shortest) {
+      deviations.Add(std::sqrt(lengths(e) / first(e)), path.metric->edge_area(e));
     }
   }
   return deviations;
@@ -85,13 +79,18 @@ PathQuality MeasureQuality(const Path& path) {
   const Metric& metric = *path.metric;
   const Connectivity& connectivity = *metric.connectivity;
   const int num_shapes = path.NumShapes();
-  const Eigen::Matrix2Xi& edges = connectivity.Edges();
   const double shortest = SquaredShortest(path);
 
   std::vector<Eigen::VectorXd> pose_angles(path.poses.size());
   ParallelFor(static_cast<int>(path.poses.size()), [&](int i) {
     pose_angles[i] = DihedralAngles(connectivity, path.shapes[path.poses[i]]);
   });
+
+  std::vector<internal::StraightLengths> straight;  // of each piece
+  for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
+    straight.emplace_back(path.metric, path.shapes[path.poses[piece]],
+                          path.shapes[path.poses[piece + 1]]);
+  }
 
   std::vector<Deviations> between(num_shapes), against_first(num_shapes);
   std::vector<double> roughness(num_shapes, 0), folds(num_shapes, 0);
@@ -101,20 +100,20 @@ PathQuality MeasureQuality(const Path& path) {
     const auto next = std::lower_bound(path.poses.begin(), path.poses.end(), i);
     // Only shapes between two poses: not poses, and none before the first or after the last pose.
     if (next == path.poses.begin() || next == path.poses.end() || *next == i) return;
-    const Shape& m = path.shapes[*(next - 1)];
-    const Shape& n = path.shapes[*next];
+    const size_t piece = next - 1 - path.poses.begin();
     const double begin = path.parameters[*(next - 1)], end = path.parameters[*next];
     const double t = (path.parameters[i] - begin) / (end - begin);
-    for (int e = 0; e < edges.cols(); ++e) {
-      const double blend = (1 - t) * SquaredLength(edges, e, m) + t * SquaredLength(edges, e, n);
-      if (blend > shortest) {
-        between[i].Add(std::sqrt(SquaredLength(edges, e, shape) / blend), metric.edge_area(e));
+    const Eigen::VectorXd expected = straight[piece].SquaredAt(t);
+    const Eigen::VectorXd lengths = internal::SquaredLengths(connectivity, shape);
+    for (int e = 0; e < lengths.size(); ++e) {
+      if (expected(e) > shortest) {
+        between[i].Add(std::sqrt(lengths(e) / expected(e)), metric.edge_area(e));
       }
     }
     double squares = 0;
     const Eigen::VectorXd angles = DihedralAngles(connectivity, shape);
-    const Eigen::VectorXd& angles_m = pose_angles[next - 1 - path.poses.begin()];
-    const Eigen::VectorXd& angles_n = pose_angles[next - path.poses.begin()];
+    const Eigen::VectorXd& angles_m = pose_angles[piece];
+    const Eigen::VectorXd& angles_n = pose_angles[piece + 1];
     for (int h = 0; h < connectivity.NumHinges(); ++h) {
       const double angle_m = angles_m(h), angle_n = angles_n(h);
       const double angle = angles(h);
@@ -185,10 +184,11 @@ Eigen::VectorXd EdgeDeviation(const Metric& metric, const Shape& reference, cons
   const int num_vertices = metric.connectivity->NumVertices();
   Eigen::VectorXd deviation = Eigen::VectorXd::Zero(num_vertices);
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(num_vertices);
+  const Eigen::VectorXd first = internal::SquaredLengths(*metric.connectivity, reference);
+  const Eigen::VectorXd lengths = internal::SquaredLengths(*metric.connectivity, shape);
   for (int e = 0; e < edges.cols(); ++e) {
-    const double first = SquaredLength(edges, e, reference);
-    if (first == 0) continue;
-    const double value = std::abs(std::sqrt(SquaredLength(edges, e, shape) / first) - 1);
+    if (first(e) == 0) continue;
+    const double value = std::abs(std::sqrt(lengths(e) / first(e)) - 1);
     for (int k = 0; k < 2; ++k) {
       deviation(edges(k, e)) += metric.edge_area(e) * value;
       weight(edges(k, e)) += metric.edge_area(e);

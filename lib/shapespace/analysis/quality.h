@@ -14,10 +14,12 @@ namespace shapespace {
 struct PathQuality {
   /// Number of shapes between two poses. If 0, the figures of inner shapes are 0.
   int inner_shapes = 0;
-  /// |e| / sqrt((1-t) |e_M|^2 + t |e_N|^2) - 1, for the two poses M and N around a shape, over all
-  /// edges and inner shapes: root mean square weighted by A_e; 99th percentile and maximum of the
-  /// magnitude, unweighted. Edges shorter than a thousandth of the root mean square length are not
-  /// counted.
+  /// |e| / |e_straight| - 1 over all edges and inner shapes: root mean square weighted by A_e; 99th
+  /// percentile and maximum of the magnitude, unweighted. |e_straight| is the length that the edge
+  /// would have if every element of the metric moved on the straight line between its values in the
+  /// two poses around the shape: squared lengths under a cost of edge lengths, logarithmic strains
+  /// under a cost of strain (docs/mathematics.md, section 6). Edges shorter than a thousandth of the
+  /// root mean square length are not counted.
   double edge_rms = 0, edge_p99 = 0, edge_max = 0;
   /// The same for | |e| / |e_first| - 1 | relative to the first shape, over all shapes, including
   /// extrapolated ones.

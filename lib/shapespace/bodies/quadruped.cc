@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <random>
 #include <sstream>
 #include <utility>
 
@@ -180,6 +181,22 @@ internal::Rotations RotationsOf(const internal::Skeleton& skeleton, const Turns&
   return rotations;
 }
 
+/// Paws have random rotations like all joints, and do not remain level.
+internal::Rotations RandomRotations(const internal::Skeleton& skeleton, unsigned seed) {
+  std::mt19937_64 random(seed);
+  // The distributions of the standard library differ from one implementation to the next.
+  const auto between = [&](double least, double greatest) {
+    return least + (greatest - least) * (static_cast<double>(random() >> 11) * 0x1p-53);
+  };
+  internal::Rotations rotations(skeleton.bones.size(), Eigen::Vector3d::Zero());
+  for (const internal::TurnRange& range : internal::kRandomTurns) {
+    const double pitch = between(range.least_pitch, range.greatest_pitch);
+    const double yaw = between(-range.yaw, range.yaw), roll = between(-range.roll, range.roll);
+    rotations[skeleton.Find(range.bone)] = internal::kRadians * Eigen::Vector3d(roll, pitch, yaw);
+  }
+  return rotations;
+}
+
 /// From the bones' axes (x ahead, y to the left, z up) to those of glTF: z ahead, x to the left, y
 /// up.
 Shape Placed(const Shape& shape) {
@@ -284,6 +301,9 @@ SkinnedBody MakeQuadruped(int triangles, const QuadrupedForm& form) {
     const internal::Rotations goal = rotations(to);
     for (size_t j = 0; j < turned.size(); ++j) turned[j] += part * (goal[j] - turned[j]);
     return Placed(skin->Pose(turned));
+  };
+  body.random_pose = [=](unsigned seed) {
+    return Placed(skin->Pose(RandomRotations(skeleton, seed)));
   };
   return body;
 }

@@ -99,6 +99,41 @@ constexpr Turn kRear[] = {{"pelvis", -52},
                           {"hind right lower", 38},
                           {"hind right cannon", -18}};
 
+/// The angles that a joint may have in a random pose: pitch between two limits, yaw and roll up to
+/// a limit to either side. They reach about as far as the poses above.
+struct TurnRange {
+  const char* bone;
+  double least_pitch, greatest_pitch, yaw = 0, roll = 0;
+};
+
+constexpr TurnRange kRandomTurns[] = {{"pelvis", -50, 25},
+                                      {"loin", -8, 8, 10, 6},
+                                      {"chest", -8, 8, 10, 6},
+                                      {"neck", -18, 18, 14, 5},
+                                      {"nape", -18, 20, 16, 5},
+                                      {"head", -12, 18, 20, 12},
+                                      {"left ear", -20, 20, 0, 20},
+                                      {"right ear", -20, 20, 0, 20},
+                                      {"tail root", -10, 50, 20},
+                                      {"tail", -30, 40, 25},
+                                      {"tail tip", -30, 30, 25},
+                                      {"front left upper", -74, 42, 6},
+                                      {"front left lower", -14, 70},
+                                      {"front left cannon", 0, 30},
+                                      {"front left paw", -14, 50},
+                                      {"front right upper", -74, 42, 6},
+                                      {"front right lower", -14, 70},
+                                      {"front right cannon", 0, 30},
+                                      {"front right paw", -14, 50},
+                                      {"hind left upper", -42, 30, 12},
+                                      {"hind left lower", -20, 80},
+                                      {"hind left cannon", -58, 10},
+                                      {"hind left paw", -10, 54},
+                                      {"hind right upper", -42, 30, 12},
+                                      {"hind right lower", -20, 80},
+                                      {"hind right cannon", -58, 10},
+                                      {"hind right paw", -10, 54}};
+
 }  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_BODIES_QUADRUPED_POSES_H_

@@ -24,6 +24,10 @@ struct SkinnedBody {
   /// The shape with every joint rotated by `part`, in [0, 1], of the difference between two poses.
   /// \throw InvalidOptions as above, or if the part is out of its range.
   std::function<Shape(const std::string& from, const std::string& to, double part)> between;
+
+  /// A pose with random joint angles, each uniformly distributed in a range that is plausible for
+  /// the joint. The same for the same seed on every machine. Limbs may pass through each other.
+  std::function<Shape(unsigned seed)> random_pose;
 };
 
 /// A body that `MakeSkinnedBody` can make.

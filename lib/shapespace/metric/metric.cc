@@ -43,23 +43,23 @@ MetricOptions MetricOptions::Deformation(const Connectivity& connectivity) {
   return options;
 }
 
-MetricOptions MetricOptions::Strain() {
+MetricOptions MetricOptions::Isometric() {
   MetricOptions options;
-  options.isometric = 0;
-  options.strain = 1;
+  options.isometric = 1;
+  options.strain = 0;
   return options;
 }
 
 MetricOptions MetricOptions::Rigid() {
   MetricOptions options;
-  options.isometric = 0;
+  options.strain = 0;
   options.rigid = 1;
   options.bending = 0;
   return options;
 }
 
 MetricOptions MetricOptions::Paper() {
-  MetricOptions options;
+  MetricOptions options = Isometric();
   options.lambda = 1e-3;
   options.bending = 0;
   options.weights = Weighting::kUniform;

@@ -35,9 +35,9 @@ struct FeatureTerm {
 /// The coefficients of a metric, a blend of features; not negative. Pure numbers, for units in
 /// which the surface has area 1.
 struct MetricOptions {
-  double isometric = 1;   ///< change of edge lengths, the paper's (4)
-  double strain = 0;      ///< change of the triangles' logarithmic strains; paths can be continued
-                          ///< without limit
+  double isometric = 0;   ///< change of edge lengths, the paper's (4)
+  double strain = 1;      ///< change of the triangles' logarithmic strains, and of the logarithms of
+                          ///< the lengths of edges that are no sides of triangles
   double rigid = 0;       ///< deviation from rigid motion of the whole, the paper's (3)
   double lambda = 1e-4;   ///< motion of vertices, the paper's (5); harmless up to 1e-3
   double bending = 1e-5;  ///< change of dihedral angles: t^2 / 12 for a shell of thickness t
@@ -53,10 +53,11 @@ struct MetricOptions {
   /// vertex.
   Eigen::VectorXd stretching_stiffness, bending_stiffness;
 
-  static MetricOptions Isometric() { return {}; }
-  /// As isometric as possible, measured by strains: paths between poses are similar to those under
-  /// `Isometric`, and can be continued without limit.
-  static MetricOptions Strain();
+  /// The default: as isometric as possible, measured by strains. Paths can be continued without
+  /// limit, and fewer of them jump than under `Isometric` (docs/measurements.md, section 3).
+  static MetricOptions Strain() { return {}; }
+  /// As isometric as possible, measured by squared edge lengths as in the paper's (4).
+  static MetricOptions Isometric();
   /// For deformation by handles: stretching is measured partly by lengths and partly by strains,
   /// and there is no cost of position. A closed mesh is regarded as the surface of a solid body,
   /// stiff in bending, with a cost of volume (which keeps it within some per cent; a coefficient of
@@ -116,7 +117,7 @@ std::shared_ptr<const Metric> FreezeMetric(const MetricOptions& options,
                                            const std::vector<Shape>& poses, double unit = 0,
                                            PosePairs pairs = PosePairs::kConsecutive);
 
-/// The blend by name, for reports: e.g. "isometric 1, lambda 0.0001, bending 1e-05".
+/// The blend by name, for reports: e.g. "strain 1, lambda 0.0001, bending 1e-05".
 std::string Describe(const MetricOptions& options);
 
 }  // namespace shapespace

@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_METRIC_TRIANGLE_STRAIN_H_
 #define SHAPESPACE_METRIC_TRIANGLE_STRAIN_H_
 
+#include <array>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -64,6 +65,19 @@ struct TriangleStrain : ElementFeature<3, 3> {
     value[0] = 0.25 * log(determinant);
     value[1] = slope * d;
     value[2] = slope * o;
+  }
+
+  /// The inverse of `operator()`: the squares of the sides opposite to the first, second and third
+  /// corner of the triangle that has these values.
+  std::array<double, 3> SquaredSides(const double* value) const {
+    const double d = std::sqrt(2.0) * value[1], o = std::sqrt(2.0) * value[2];
+    const double r = std::hypot(d, o);
+    const double scale = std::exp(2 * value[0]);
+    const double mean = scale * std::cosh(2 * r);
+    const double slope = r > 0 ? scale * std::sinh(2 * r) / r : 0;
+    const double along = mean - epsilon_squared - 0.5 * slope * d;
+    const double across = std::sqrt(0.75) * slope * o;
+    return {along - across, along + across, mean - epsilon_squared + slope * d};
   }
 
   /// The strains of the three sides.

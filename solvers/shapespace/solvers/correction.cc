@@ -66,8 +66,7 @@ class Proximity {
 
 // A metric of edge lengths only, frozen on the path's shapes.
 std::shared_ptr<const Metric> FreezeLengths(const Path& path, CorrectionMode mode, double lambda) {
-  MetricOptions options;
-  options.isometric = 1;
+  MetricOptions options = MetricOptions::Isometric();
   options.lambda = lambda;
   options.bending = 0;
   if (mode == CorrectionMode::kPaper) {

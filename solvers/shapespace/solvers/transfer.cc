@@ -283,9 +283,7 @@ class TargetShapes {
 }  // namespace
 
 MetricOptions LadderOptions::Strains() {
-  MetricOptions metric;
-  metric.isometric = 0;
-  metric.strain = 1;
+  MetricOptions metric = MetricOptions::Strain();
   metric.bending = 0.02;
   return metric;
 }
@@ -299,9 +297,7 @@ void LadderOptions::Validate() const {
 }
 
 MetricOptions TransferOptions::Features() {
-  MetricOptions metric;
-  metric.isometric = 0;
-  metric.strain = 1;
+  MetricOptions metric = MetricOptions::Strain();
   metric.lambda = 1000;
   metric.bending = 1e-4;
   return metric;

@@ -17,9 +17,7 @@ constexpr double kMotion = 1e-6;
 constexpr int kHalvings = 8;
 
 MetricOptions ShellMetric(double bending) {
-  MetricOptions options;
-  options.isometric = 0;
-  options.strain = 1;
+  MetricOptions options = MetricOptions::Strain();
   options.lambda = kMotion;
   options.bending = bending;
   return options;
