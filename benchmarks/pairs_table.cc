@@ -11,6 +11,8 @@
 #include <cstdio>
 #include <functional>
 #include <iostream>
+#include <limits>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -25,6 +27,8 @@
 DEFINE_string(set, "real", "pairs: real, tuned or kept");
 DEFINE_string(name, "", "only the pairs whose names contain this");
 DEFINE_string(metric, "strain", "preset: strain or isometric");
+DEFINE_double(crumple, 0,
+              "made pairs: vertices are moved by up to this share of the mean edge length");
 DEFINE_int32(shapes, 15, "shapes between the two poses");
 DEFINE_string(coarsest, "200", "triangles of the coarsest level, separated by commas");
 
@@ -107,6 +111,21 @@ std::vector<Pair> BeyondPairs() {
   return pairs;
 }
 
+// Moves every vertex at random, so that the surface has folds as in a poor scan.
+Shape Crumple(const Connectivity& connectivity, const Shape& shape, unsigned seed) {
+  double length = 0;
+  for (const auto& edge : connectivity.Edges().colwise()) {
+    length += (shape.col(edge(0)) - shape.col(edge(1))).norm() / connectivity.NumEdges();
+  }
+  std::mt19937_64 random(seed);
+  const double reach = FLAGS_crumple * length;
+  Shape crumpled = shape;
+  for (double& x : crumpled.reshaped()) {
+    x += reach * (2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1);
+  }
+  return crumpled;
+}
+
 // Pairs with even numbers if `half` is 0, else those with odd numbers.
 std::vector<Pair> MadePairs(int half) {
   constexpr int kPairs = 300, kTriangles = 4000;
@@ -116,7 +135,10 @@ std::vector<Pair> MadePairs(int half) {
     pairs.push_back({"quadruped " + std::to_string(i), [=] {
                        Poses poses;
                        poses.connectivity = body.connectivity;
-                       poses.shapes = {body.random_pose(2 * i), body.random_pose(2 * i + 1)};
+                       for (int seed : {2 * i, 2 * i + 1}) {
+                         poses.shapes.push_back(
+                             Crumple(*body.connectivity, body.random_pose(seed), seed));
+                       }
                        return poses;
                      }});
   }

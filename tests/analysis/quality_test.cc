@@ -9,9 +9,10 @@
 namespace shapespace {
 namespace {
 
-Path MakePath(const Body& body, const std::vector<Shape>& shapes) {
+Path MakePath(const Body& body, const std::vector<Shape>& shapes,
+              const MetricOptions& options = {}) {
   Path path;
-  path.metric = FreezeMetric({}, body.connectivity, {shapes.front(), shapes.back()});
+  path.metric = FreezeMetric(options, body.connectivity, {shapes.front(), shapes.back()});
   path.shapes = shapes;
   for (size_t i = 0; i < shapes.size(); ++i) {
     path.parameters.push_back(static_cast<double>(i) / (shapes.size() - 1));
@@ -35,12 +36,55 @@ TEST(MeasureQuality, IsZeroOnAnExactIsometricFlex) {
 TEST(MeasureQuality, SeesAScaledShapeAsThatMuchDeviation) {
   const Body sheet = MakeSheet(1, 1, 6, 6);
   const Shape flat = sheet.pose(0);
-  const PathQuality quality = MeasureQuality(MakePath(sheet, {flat, 1.1 * flat, 2 * flat}));
+  const PathQuality quality =
+      MeasureQuality(MakePath(sheet, {flat, 1.1 * flat, 2 * flat}, MetricOptions::Isometric()));
   const double expected = std::sqrt(0.5 * 1 + 0.5 * 4);  // between |e|^2 and 4 |e|^2, half way
   EXPECT_NEAR(quality.edge_max, std::abs(1.1 / expected - 1), 1e-6);
   EXPECT_NEAR(quality.edge_rms, std::abs(1.1 / expected - 1), 1e-6);
   EXPECT_NEAR(quality.first_max, 1, 1e-6);                          // of the last shape
   EXPECT_NEAR(quality.first_rms, std::sqrt((1 + 0.01) / 2), 1e-6);  // of both
+}
+
+// Under a cost of strain, the logarithmic strains of equilateral triangles that are stretched along
+// two fixed directions change at a constant rate if the factors are powers of t, and so do the
+// logarithms of the lengths of segments along these directions. Under a cost of edge lengths,
+// squared lengths change at a constant rate if the squares of the factors do.
+TEST(MeasureQuality, IsZeroWhereEveryElementMovesOnItsStraightLine) {
+  const double high = std::sqrt(0.75);
+  Shape rest(3, 8);
+  rest << 0, 1, 0.5, 1.5, 1, 3, 4, 4,       //
+      0, 0, high, high, 2 * high, 0, 0, 1,  //
+      0, 0, 0, 0, 0, 0, 0, 0;
+  const auto connectivity =
+      Connectivity::Make(8, {0, 3, 6, 9}, {0, 1, 2, 1, 3, 2, 2, 3, 4}, {{5, 6}, {6, 7}});
+  const auto stretched = [&](double x, double y) -> Shape {
+    return Eigen::Vector3d(x, y, 1).asDiagonal() * rest;
+  };
+  const std::vector<double> times = {0, 0.3, 0.5, 1};
+  std::vector<Shape> by_strain, by_length, rigid(times.size(), rest);
+  for (const double t : times) {
+    by_strain.push_back(stretched(std::pow(2, t), std::pow(0.7, t)));
+    by_length.push_back(stretched(std::sqrt(1 + 3 * t), std::sqrt(1 - 0.51 * t)));
+  }
+  const auto edges_off = [&](const std::vector<Shape>& shapes, const MetricOptions& options) {
+    Path path;
+    path.metric = FreezeMetric(options, connectivity, {shapes.front(), shapes.back()});
+    for (const Shape& shape : shapes) path.shapes.push_back(shape / path.metric->unit);
+    path.parameters = times;
+    path.motions.resize(times.size());
+    path.poses = {0, 3};
+    return MeasureQuality(path).edge_max;
+  };
+  EXPECT_LT(edges_off(by_strain, MetricOptions::Strain()), 1e-7);
+  EXPECT_LT(edges_off(by_length, MetricOptions::Isometric()), 1e-12);
+  EXPECT_GT(edges_off(by_length, MetricOptions::Strain()), 0.02);
+  EXPECT_GT(edges_off(by_strain, MetricOptions::Isometric()), 0.02);
+  MetricOptions both;
+  both.isometric = 0.3;
+  both.strain = 0.7;
+  EXPECT_LT(edges_off(rigid, both), 1e-12);
+  EXPECT_GT(edges_off(by_strain, both), 1e-3);
+  EXPECT_LT(edges_off(by_strain, both), 0.5 * edges_off(by_strain, MetricOptions::Isometric()));
 }
 
 TEST(MeasureQuality, FiguresOfInnerShapesAreOfThoseBetweenPosesOnly) {
@@ -80,7 +124,7 @@ TEST(GreatestSpeed, IsTheFastestSegmentOverTheMean) {
   const Body sheet = MakeSheet(1, 1, 6, 6);
   const Shape flat = sheet.pose(0);
   MetricOptions options;
-  options.isometric = options.bending = 0;
+  options.strain = options.bending = 0;
   const auto metric = FreezeMetric(options, sheet.connectivity, {flat});
   const auto at = [&](double x) -> Shape { return flat.colwise() + Eigen::Vector3d(x, 0, 0); };
   const std::vector<Shape> waits = {at(0), at(1), at(2), at(4)};

@@ -84,7 +84,7 @@ TEST(VertexEnergy, VolumeIsDividedByArea) {
   const Body bar = MakeBar(3, 1, 1, 6, 2, 2);
   const Shape larger = 1.1 * bar.pose(0);
   MetricOptions options;
-  options.isometric = options.bending = 0;
+  options.strain = options.bending = 0;
   options.lambda = 1e-15;  // a metric needs one part that is no sum
   options.volume = 1;
   const Path path = MakePath(FreezeMetric(options, bar.connectivity, {bar.pose(0), larger}),

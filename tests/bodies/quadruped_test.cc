@@ -131,6 +131,20 @@ TEST(QuadrupedTest, GoesFromPoseToPose) {
   EXPECT_LT((body.between("sit", "sit", 0.5) - body.pose("sit")).cwiseAbs().maxCoeff(), 1e-14);
 }
 
+TEST(QuadrupedTest, HasRandomPosesWithFewFolds) {
+  const SkinnedBody body = MakeQuadruped(4000);
+  const Shape rest = body.pose("stand");
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    const Shape shape = body.random_pose(seed);
+    EXPECT_EQ(shape, body.random_pose(seed));
+    EXPECT_EQ(shape.row(1).minCoeff(), 0);
+    EXPECT_GT((shape - rest).colwise().norm().maxCoeff(), 0.2);
+    EXPECT_GT((shape - body.random_pose(seed + 1)).colwise().norm().maxCoeff(), 0.2);
+    EXPECT_LT((HingeAngles(*body.connectivity, shape).array().abs() > 120).count(), 20);
+  }
+}
+
 TEST(QuadrupedTest, RefusesWhatItDoesNotKnow) {
   const SkinnedBody body = MakeQuadruped(500);
   EXPECT_EQ(Refusal([&] { body.pose("fly"); }),

@@ -40,6 +40,7 @@ Case Bent(const std::string& name, const Body& body, const MetricOptions& option
 // All features, on a closed bar with additional edges inside.
 Case AllFeatures() {
   MetricOptions options;
+  options.isometric = 1;
   options.strain = 0.2;
   options.volume = 0.3;
   return Bent("all features", testing::Stiffened(MakeBar(6, 1, 1, 6, 2, 2)), options);

@@ -68,6 +68,7 @@ TEST(FreezeMetric, WeightsDoNotDependOnTheUnitOfLength) {
   const Body bar = testing::Stiffened(MakeBar(6, 1, 1, 6, 2, 2));
   const std::vector<Shape> poses = {bar.pose(0), bar.pose(60)};
   MetricOptions options;
+  options.isometric = 1;
   options.volume = 0.3;
   options.strain = 0.1;
   const auto metric = FreezeMetric(options, bar.connectivity, poses);
@@ -117,7 +118,7 @@ TEST(FreezeMetric, RatioOfPartsSurvivesRefinementWithAreaWeightsOnly) {
     const std::vector<double> parts = energy.Parts(unknowns.data());
     return parts[0] / parts[1];
   };
-  MetricOptions area;
+  MetricOptions area = MetricOptions::Isometric();
   area.bending = 0;
   MetricOptions uniform = area;
   uniform.weights = Weighting::kUniform;
@@ -199,7 +200,7 @@ TEST(MetricOptions, ValidateNamesTheField) {
   options.lambda = std::nan("");
   EXPECT_EQ(message(options).rfind("lambda:", 0), 0u) << message(options);
   options = {};
-  options.isometric = options.lambda = 0;
+  options.strain = options.lambda = 0;
   EXPECT_EQ(message(options).rfind("isometric", 0), 0u) << message(options);
 }
 
@@ -232,9 +233,9 @@ TEST(FreezeMetric, SliversAndShortEdgesWeighNoMoreThanTheyHaveTo) {
   const auto is_inner = [&](int v) { return shape.col(v).head<2>().cwiseAbs().maxCoeff() < 0.3; };
   while (!is_inner(edges(0, inner)) || !is_inner(edges(1, inner))) ++inner;
   const int from = edges(0, inner), to = edges(1, inner);
-  const auto before = FreezeMetric({}, sheet.connectivity, {shape});
+  const auto before = FreezeMetric(MetricOptions::Isometric(), sheet.connectivity, {shape});
   shape.col(from) += (1 - 1e-5) * (shape.col(to) - shape.col(from));
-  const auto after = FreezeMetric({}, sheet.connectivity, {shape});
+  const auto after = FreezeMetric(MetricOptions::Isometric(), sheet.connectivity, {shape});
   const auto heaviest = [](const auto& feature) { return feature.weights.maxCoeff(); };
   // An edge of a thousandth of the others' length has a million times their weight.
   EXPECT_LT(heaviest(Get<EdgeLength>(*after)), 1e7 * heaviest(Get<EdgeLength>(*before)));

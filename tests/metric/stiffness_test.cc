@@ -19,6 +19,7 @@ using testing::MessageOf;
 
 MetricOptions All() {
   MetricOptions options;
+  options.isometric = 1;
   options.strain = 0.5;
   options.volume = 0.2;
   return options;

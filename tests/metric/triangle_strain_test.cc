@@ -56,6 +56,24 @@ TEST(TriangleStrain, EveryThreeNumbersAreTheValuesOfATriangle) {
   }
 }
 
+TEST(TriangleStrain, GivesTheSidesOfTheTriangleThatHasItsValues) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  TriangleStrain strain;
+  strain.epsilon_squared = 1e-3;
+  for (int i = 0; i < 20; ++i) {
+    Corners corners;
+    for (double& x : corners.reshaped()) x = normal(random);
+    Eigen::Vector3d value;
+    strain(corners.data(), value.data());
+    const auto squared = strain.SquaredSides(value.data());
+    for (int k = 0; k < 3; ++k) {
+      const double side = (corners.col((k + 1) % 3) - corners.col((k + 2) % 3)).squaredNorm();
+      EXPECT_NEAR(squared[k], side, 1e-10 * (1 + side));
+    }
+  }
+}
+
 TEST(TriangleStrain, ItsSquareIsTheMeanOverAllDirections) {
   const Eigen::Vector3d value(0.3, -0.2, 0.5);
   const Eigen::Matrix2d strain = StrainOf(value);
@@ -88,9 +106,8 @@ TEST(TriangleStrain, IsTheStrainOfEdgesWhereTrianglesAreEquilateralAndStrainsSma
   // directions.
   const auto triangle = Connectivity::Make(3, {0, 3}, {0, 1, 2});
   const Corners still = WithStrain(Eigen::Matrix2d::Zero());
-  MetricOptions edges, triangles;
-  edges.lambda = triangles.lambda = triangles.isometric = 0;
-  triangles.strain = 1;
+  MetricOptions edges = MetricOptions::Isometric(), triangles;
+  edges.lambda = triangles.lambda = 0;
   const auto cost = [&](const MetricOptions& options, const Corners& moved) {
     const auto metric = FreezeMetric(options, triangle, {Shape(still)});
     const FeatureMap map(metric);

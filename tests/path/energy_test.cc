@@ -309,7 +309,7 @@ TEST(PathEnergy, DoesNotDependOnTheCornerAtWhichPolygonsBegin) {
 
 // tests/solvers/lower_bound_test.cc compares minima with the bound.
 TEST(EnergyLowerBound, IsReachedByAnEdgeWhoseSquaredLengthGrowsEvenly) {
-  MetricOptions membrane;
+  MetricOptions membrane = MetricOptions::Isometric();
   membrane.bending = membrane.lambda = 0;
   std::vector<Shape> shapes;
   for (int i = 0; i <= 4; ++i) {

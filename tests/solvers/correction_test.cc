@@ -234,7 +234,7 @@ struct ProximityCost {
 // The same sum from automatically differentiated residual blocks, minimised by another optimiser.
 // Ceres' cost is a quarter of it.
 double SolveFromResidualBlocks(const Path& given, double mu, std::vector<Shape>* shapes) {
-  MetricOptions options;
+  MetricOptions options = MetricOptions::Isometric();
   options.lambda = options.bending = 0;
   const auto metric = FreezeMetric(options, given.metric->connectivity, {given.shapes.front()}, 1);
   const int segments = given.NumShapes() - 1;

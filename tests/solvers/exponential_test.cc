@@ -60,7 +60,7 @@ Shape End(const Motion& motion, int steps, Integrator integrator = Integrator::k
 }
 
 MetricOptions Membrane(double lambda) {
-  MetricOptions options;
+  MetricOptions options = MetricOptions::Isometric();
   options.bending = 0;
   options.lambda = lambda;
   return options;
@@ -114,7 +114,7 @@ TEST(Exponential, TranslatesExactly) {
 
 TEST(Exponential, IsAStraightLineInAFlatMetric) {
   MetricOptions flat;
-  flat.isometric = flat.bending = 0;
+  flat.strain = flat.bending = 0;
   flat.lambda = 1;
   for (const Body& body : {MakeBar(6, 1, 1, 6, 1, 1), MakeSheet(2, 1, 8, 4), MakeSteffen()}) {
     SCOPED_TRACE(body.name);
@@ -544,7 +544,7 @@ TEST(Exponential, DoesNotDependOnTheOrderOfVertices) {
 // A body that is compressed along z (or y), at a rate at which straight motion would make it flat
 // at time 1 / rate.
 Motion Crushed(const Body& body, double rate) {
-  Motion motion = Turning(body, body.begin, 0, {});
+  Motion motion = Turning(body, body.begin, 0, MetricOptions::Isometric());
   const int axis = body.name == "sheet" ? 1 : 2;
   motion.velocity.row(axis) = -rate * motion.shape.row(axis);
   return motion;
@@ -589,7 +589,9 @@ TEST(Exponential, NeverTakesACrushedBodyForASuccess) {
 // collapse, and there is no nearby shape to continue with. Resting there would be a wrong result.
 TEST(Extrapolate, EndsWhereTheMotionComesToAHalt) {
   const Body tube = MakeTube(100);
-  const Path path = Interpolate(tube.connectivity, {tube.pose(0), tube.pose(60)}, Exactly(7)).path;
+  LogarithmOptions options = Exactly(7);
+  options.metric = MetricOptions::Isometric();
+  const Path path = Interpolate(tube.connectivity, {tube.pose(0), tube.pose(60)}, options).path;
   const auto [longer, summary] = Extrapolate(path, 16);
   EXPECT_EQ(summary.ending, Ending::kDegenerate) << summary.FullReport();
   EXPECT_NE(summary.stopped.find("comes to a halt"), std::string::npos) << summary.stopped;
@@ -609,6 +611,7 @@ TEST(Exponential, ThrowsWhereTheGeodesicEndsEarly) {
 TEST(Exponential, RefusesEndsThatWereNotMadeOnTheMeshItself) {
   const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
   GeodesicOptions options;
+  options.metric = MetricOptions::Isometric();
   options.shapes = 7;
   const Path path =
       Interpolate(animal.connectivity, {animal.pose("stand"), animal.pose("rear")}, options).path;
@@ -723,7 +726,7 @@ TEST(Extrapolate, StopsWhereAnEdgeVanishes) {
 // Every vertex has its own velocity: after a few steps the Runge-Kutta scheme fails.
 TEST(Extrapolate, WarnsWhereTheEnergyRises) {
   const Body sheet = MakeSheet(1, 1, 4, 4);
-  const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});
+  const auto metric = FreezeMetric(MetricOptions::Isometric(), sheet.connectivity, {sheet.pose(0)});
   const Tangent velocity = testing::Noise(25, 0.05, 3);
   const auto warns = [&](Integrator integrator) {
     const ExponentialSummary summary =
@@ -922,6 +925,7 @@ TEST(Extrapolate, KeepsTheEnergyAcrossStepsOfCoarserMeshes) {
   for (const char* pose : {"rear", "stride"}) {
     SCOPED_TRACE(pose);
     GeodesicOptions options;
+    options.metric = MetricOptions::Isometric();
     options.shapes = 7;
     options.tolerance = 1e-6;
     const Path path =

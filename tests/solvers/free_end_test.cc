@@ -21,8 +21,7 @@ using shapespace::testing::Rotation;
 TEST(FreeEndPreconditioner, IsTheInverseOfAQuadraticEnergy) {
   const Body bar = MakeBar(3, 1, 1, 6, 2, 2);
   MetricOptions options;
-  options.isometric = 0;
-  options.bending = 0;
+  options.strain = options.bending = 0;
   options.lambda = 1;
   const auto metric = FreezeMetric(options, bar.connectivity, {bar.pose(0)});
   const Shape rest = bar.pose(0) / metric->unit;

@@ -84,7 +84,7 @@ TEST(Interpolate, TurnsARigidCopyAtConstantSpeedAndKeepsItsShape) {
 TEST(Interpolate, IsTheLinearBlendOfAlignedPosesInAFlatMetric) {
   const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
   GeodesicOptions options = Options(7, 1e-12);
-  options.metric.isometric = options.metric.bending = 0;
+  options.metric.strain = options.metric.bending = 0;
   options.metric.lambda = 1;
   const auto [path, summary] = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(90)}, options);
   for (int i = 0; i <= 8; ++i) {
@@ -104,6 +104,7 @@ TEST(Interpolate, StretchesASingleEdgeAsTheClosedFormSays) {
   double previous = 0;
   for (int shapes : {7, 15, 31}) {
     GeodesicOptions options = Options(shapes, 1e-15);
+    options.metric = MetricOptions::Isometric();
     options.metric.lambda = 3;  // of the magnitude of the other part, so that both matter
     const auto [path, summary] = Interpolate(testing::SingleEdge(), {first, last}, options);
     const double unit = path.metric->unit;
@@ -130,6 +131,7 @@ TEST(Interpolate, FollowsExactIsometricFlexes) {
   for (const Body& body : {MakeStrip(1, 1, 16), MakeBricard(), MakeSteffen()}) {
     SCOPED_TRACE(body.name);
     GeodesicOptions options = Options(15, 1e-10);
+    options.solver = GeodesicSolver::kTrustRegion;  // takes a tenth of the iterations of L-BFGS
     options.metric.bending = 0;
     double deviation[2];
     for (int i = 0; i < 2; ++i) {
@@ -150,6 +152,7 @@ TEST(Interpolate, FollowsExactIsometricFlexes) {
 TEST(Interpolate, FoldsAMiuraSheetWithItsParallelogramsNearlyFlat) {
   const Body body = MakeMiura(1, 1, 60, 3, 3);
   GeodesicOptions options = Options(15, 1e-10);
+  options.solver = GeodesicSolver::kTrustRegion;
   options.metric.bending = 0;
   double deviation[2];
   for (int i = 0; i < 2; ++i) {
@@ -197,16 +200,15 @@ TEST(Interpolate, ScaledEnergyConvergesWithTheSquareOfTheTimeStep) {
 
 TEST(Interpolate, BothSolversFindTheSameMinimum) {
   const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
-  MetricOptions volume, strains;
+  MetricOptions volume, stiff;
   volume.volume = 0.3;
-  strains.isometric = 0;
-  strains.strain = 1;
-  strains.bending = 1e-3;
+  stiff.bending = 1e-3;
   MetricOptions rigid = MetricOptions::Rigid();
   rigid.lambda = 1e-2;
   MetricOptions paper = MetricOptions::Paper();
   paper.bending = 1e-4;
-  for (const MetricOptions& metric : {MetricOptions(), volume, strains, rigid, paper}) {
+  for (const MetricOptions& metric :
+       {MetricOptions(), MetricOptions::Isometric(), volume, stiff, rigid, paper}) {
     SCOPED_TRACE(Describe(metric));
     GeodesicOptions options = Options(4, 1e-13);
     options.metric = metric;
@@ -510,7 +512,8 @@ TEST(Interpolate, CopiesConvergeAndPosesThatAreHardlyApartMustBeSolved) {
       Shape other = shape;
       for (int i = 0; i < other.size(); ++i) other.data()[i] += 1e-6 * std::sin(7.0 * i * i);
       const GeodesicSummary apart = Interpolate(connectivity, {shape, other}, options).summary;
-      EXPECT_EQ(apart.termination, Termination::kMaxIterations) << apart.FullReport();
+      EXPECT_NE(apart.levels.back().solver, "none") << apart.FullReport();
+      EXPECT_GT(apart.levels.back().iterations, 0) << apart.FullReport();
     }
   }
 }

@@ -138,7 +138,7 @@ TEST(Preconditioner, IsBothHalvesOfTheChangeOfVariables) {
 TEST(ChangeOfVariables, MakesTheHessianOfAFlatMetricTheIdentity) {
   const Body sheet = MakeSheet(1, 1, 6, 6);
   MetricOptions options;
-  options.isometric = options.bending = 0;
+  options.strain = options.bending = 0;
   options.lambda = 1;
   const auto metric = FreezeMetric(options, sheet.connectivity, {sheet.pose(0)});
   const Cholesky factor(ScalarMetric(*metric, {sheet.pose(0) / metric->unit}, 0));

@@ -151,7 +151,7 @@ TEST(SolveStepWithCeres, TranslatesAndRestsExactly) {
 
 TEST(SolveStepWithCeres, GoesStraightOnInAFlatMetric) {
   MetricOptions flat;
-  flat.isometric = flat.bending = 0;
+  flat.strain = flat.bending = 0;
   for (const Body& body : {MakeBar(6, 1, 1, 6, 1, 1), MakeSheet(2, 1, 6, 4)}) {
     const Case test = Moving("", body, flat, 20, 30);
     const FeatureMap map(test.metric);
@@ -267,7 +267,7 @@ TEST(SolveFirstIntegral, StaysWhereTheConstantsWereTaken) {
 // With diagonal G, (7) says x_j^2 = a_j / G_jj, and signs cannot change.
 TEST(SolveFirstIntegral, FindsTheRootOfTheSameSignsInAFlatMetric) {
   MetricOptions flat;
-  flat.isometric = flat.bending = 0;
+  flat.strain = flat.bending = 0;
   const Case test = Moving("", MakeSheet(2, 1, 6, 4), flat, 20, 30);
   const FeatureMap map(test.metric);
   const int num_vertices = static_cast<int>(test.at.cols());
@@ -289,8 +289,9 @@ TEST(SolveFirstIntegral, FindsTheRootOfTheSameSignsInAFlatMetric) {
 
 // If all coordinates move and the start is close, (7) has a root that is found.
 TEST(SolveFirstIntegral, FindsARootCloseBy) {
-  for (const Case& test : {Moving("sheet", MakeSheet(1, 1, 2, 2), {}, 30, 45),
-                           Moving("bricard", MakeBricard(), {}, 10, 14)}) {
+  for (const Case& test :
+       {Moving("sheet", MakeSheet(1, 1, 2, 2), MetricOptions::Isometric(), 30, 45),
+        Moving("bricard", MakeBricard(), MetricOptions::Isometric(), 10, 14)}) {
     SCOPED_TRACE(test.name);
     const FeatureMap map(test.metric);
     const int num_vertices = static_cast<int>(test.at.cols());

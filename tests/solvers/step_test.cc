@@ -85,7 +85,7 @@ TEST(Step, RefusesRootsThatAreATenthOffTheSpeedAtTheStart) {
 // A reversed edge has the same length: near it there is another root, which is much farther away in
 // the metric.
 TEST(Step, RefusesTheRootOfAnotherGeodesic) {
-  MetricOptions lengths;
+  MetricOptions lengths = MetricOptions::Isometric();
   lengths.bending = 0;
   Shape edge = Shape::Zero(3, 2);
   edge.row(0) << -0.5, 0.5;
@@ -143,7 +143,7 @@ TEST(Step, TakesNoMoreIterationsThanItMay) {
 
 // Squared lengths with a constant rate of change violate the triangle inequality.
 TEST(Step, SoonGivesUpWhereThereIsNoRoot) {
-  StepCase step = LongStep({}, 1);
+  StepCase step = LongStep(MetricOptions::Isometric(), 1);
   Shape root;
   EXPECT_FALSE(step.Make().Solve({}, &step.row, &root));
   EXPECT_FALSE(step.row.converged);

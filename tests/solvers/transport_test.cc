@@ -125,7 +125,7 @@ TEST(Transport, DoesNothingAlongATranslation) {
 
 TEST(Transport, DoesNothingInAFlatMetric) {
   MetricOptions flat;
-  flat.isometric = flat.bending = 0;
+  flat.strain = flat.bending = 0;
   flat.lambda = 1;
   for (const Path& path :
        {Deforming(Bar(), 0, 90, 4, flat), Turning(MakeBricard(), 0, 90, 4, flat)}) {

@@ -17,11 +17,12 @@ inline std::vector<Blend> AllBlends() {
   MetricOptions membrane, everything, paper_with_bending = MetricOptions::Paper();
   membrane.bending = 0;
   everything.volume = 0.3;
+  everything.isometric = 1;
   everything.strain = 0.3;
   paper_with_bending.bending = 1e-3;
   return {{"default", {}},
           {"membrane", membrane},
-          {"strain", MetricOptions::Strain()},
+          {"isometric", MetricOptions::Isometric()},
           {"everything", everything},
           {"paper", MetricOptions::Paper()},
           {"paper with bending", paper_with_bending}};

@@ -1,6 +1,8 @@
 #ifndef SHAPESPACE_ANALYSIS_STRAIGHT_LENGTHS_H_
 #define SHAPESPACE_ANALYSIS_STRAIGHT_LENGTHS_H_
 
+// Private.
+
 #include <memory>
 
 #include <Eigen/Core>

@@ -318,6 +318,8 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
   path.parameters = {0};
   path.motions = {motions[0]};
   Workload workload(progress, options_.tolerance, options_.max_iterations);
+  const bool more_shapes_allowed =
+      EstimateBytes(*metric_, pieces + 1, 2 * options_.shapes + 1) <= options_.memory_limit;
   for (int i = 0; i < pieces; ++i) {
     internal::Plan(schedule, resolutions_, options_.start, &workload);
   }
@@ -329,7 +331,7 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
     if (!workload.Stopped() &&
         (shapes.empty() || !IsSolved(i, shapes, options_, &resolutions_.back(), &summary))) {
       Piece piece(i, hierarchy_, &resolutions_, options_, &workload, &summary);
-      piece.Run(schedule);
+      piece.Run(schedule, more_shapes_allowed);
       shapes = std::move(piece).Result();
       if (workload.Stopped() && i + 1 < pieces) {
         summary.warnings.push_back("cancelled: the pieces from " + std::to_string(i + 1) +

@@ -20,7 +20,7 @@ class GeodesicLevels;
 
 /// The optimiser of each level.
 enum class GeodesicSolver {
-  kAutomatic,      ///< sparse trust region for the smallest problems, otherwise L-BFGS
+  kAutomatic,      ///< kLbfgs for small problems, kThreadedLbfgs for large ones
   kLbfgs,          ///< Ceres' L-BFGS, preconditioned, on hand-written kernels
   kThreadedLbfgs,  ///< this library's L-BFGS on the same kernels, on all threads
   kTrustRegion,    ///< Ceres' Levenberg-Marquardt on automatically differentiated residual blocks

@@ -1,9 +1,13 @@
 #include <shapespace/solvers/optimise/piece.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/path/energy.h>
+#include <shapespace/solvers/optimise/arc_length.h>
 #include <shapespace/solvers/optimise/unwind.h>
 
 namespace shapespace::internal {
@@ -19,6 +23,15 @@ constexpr int kTrialVertices = 1000;
 // The next level thus adds at least a 256th of the gain on this one; the limit is an eighth of
 // that.
 constexpr double kEnough = 1.0 / 2048;
+
+// In a path with a segment that is faster than this, relative to the mean, a part rests and then
+// turns over.
+constexpr double kJump = 1.1;
+
+// Cubics in time are a poor guess where parts turn far between the shapes. Where they have more
+// than this multiple of the energy of the path that they refine, the new shapes are solved for one
+// by one.
+constexpr double kPoorRefinement = 1.5;
 
 const char* Name(GeodesicStart start) {
   switch (start) {
@@ -84,7 +97,7 @@ Piece::Piece(int index, const Hierarchy& hierarchy, std::vector<Resolution>* res
       workload_(*workload),
       summary_(*summary) {}
 
-void Piece::Run(const std::vector<ScheduleStep>& schedule) {
+void Piece::Run(const std::vector<ScheduleStep>& schedule, bool more_shapes_allowed) {
   std::vector<Known> ends(resolutions_.size());
   for (size_t level = 0; level < ends.size(); ++level) {
     ends[level].shapes = {resolutions_[level].Pose(index_), resolutions_[level].Pose(index_ + 1)};
@@ -101,6 +114,25 @@ void Piece::Run(const std::vector<ScheduleStep>& schedule) {
     if (workload_.Stopped()) break;
   }
   known_ = TakeSteps(schedule, trial, schedule.size(), std::move(best)).known;
+  if (more_shapes_allowed && !workload_.Stopped()) RemoveJump(schedule.back());
+}
+
+void Piece::RemoveJump(const ScheduleStep& last) {
+  Known& known = known_[last.level];
+  const Metric& metric = *resolutions_[last.level].GetMetric();
+  if (!(GreatestSpeed(metric, known.shapes, UniformTimes(last.shapes)) > kJump)) return;
+  const std::vector<Shape> before = known.shapes;
+  const size_t row = summary_.levels.size();
+  const int more = 2 * last.shapes + 1;
+  workload_.Plan(before.front().cols(), more, false);
+  workload_.Plan(before.front().cols(), last.shapes, true);
+  TakeStep({last.level, more}, GeodesicStart::kBlend, false);
+  TakeStep(last, GeodesicStart::kBlend, true);
+  if (!workload_.Stopped() && summary_.levels.back().energy < summary_.levels[row - 1].energy) {
+    return;
+  }
+  known.shapes = before;
+  for (size_t k = row; k < summary_.levels.size(); ++k) summary_.levels[k].kept = false;
 }
 
 Piece::Attempt Piece::TakeSteps(const std::vector<ScheduleStep>& schedule, size_t begin, size_t end,
@@ -119,19 +151,38 @@ Piece::Attempt Piece::TakeSteps(const std::vector<ScheduleStep>& schedule, size_
 void Piece::TakeStep(const ScheduleStep& step, GeodesicStart start, bool last) {
   Known& known = known_[step.level];
   const Known* const coarser = step.level > 0 ? &known_[step.level - 1] : nullptr;
-  const int before = static_cast<int>(known.shapes.size()) - 2;
+  const int segments = static_cast<int>(known.shapes.size()) - 1;
 
+  Resolution& resolution = resolutions_[step.level];
+  const auto energy = [&](const std::vector<Shape>& path) {
+    return ScaledEnergy(resolution.Energy(path, options_), static_cast<int>(path.size()) - 1);
+  };
   std::vector<Shape> shapes;
   const char* name = nullptr;
-  Resolution& resolution = resolutions_[step.level];
-  if (coarser != nullptr && static_cast<int>(coarser->shapes.size()) - 2 == step.shapes) {
+  double least = std::numeric_limits<double>::infinity();
+  if (coarser != nullptr && static_cast<int>(coarser->shapes.size()) - 2 == step.shapes &&
+      known.base.size() == known.shapes.size()) {
     shapes = Lift(step);
     name = "lifted";
     known.base = coarser->shapes;
-  } else if (before > 0) {
-    shapes = Resample(known.shapes, UniformTimes(before), UniformTimes(step.shapes));
-    name = "refined";
-  } else {
+    if (segments > 1) least = energy(shapes);
+  }
+  if (segments > 1) {
+    const Metric& metric = *resolution.GetMetric();
+    std::vector<Shape> refined =
+        Resample(known.shapes, ArcLengthTimes(metric, known.shapes), UniformTimes(step.shapes));
+    const double reached = energy(refined);
+    if (reached < least) {
+      least = reached;
+      shapes = std::move(refined);
+      name = "refined";
+    }
+    if (step.shapes + 1 == 2 * segments && NumVertices(resolution) <= kTrialVertices &&
+        least > kPoorRefinement * energy(known.shapes)) {
+      shapes = InsertShapes(step.level, shapes);
+      name = "inserted";
+    }
+  } else if (name == nullptr) {
     shapes = OneInnerShape(start, step.level);
     name = Name(start);
   }
@@ -143,6 +194,25 @@ void Piece::TakeStep(const ScheduleStep& step, GeodesicStart start, bool last) {
     summary_.levels.push_back(row);
   }
   known.shapes = std::move(shapes);
+}
+
+std::vector<Shape> Piece::InsertShapes(int level, const std::vector<Shape>& guess) {
+  const std::vector<Shape>& known = known_[level].shapes;
+  Resolution& resolution = resolutions_[level];
+  std::vector<Shape> shapes = guess;
+  for (size_t i = 0; i + 1 < known.size() && !workload_.Stopped(); ++i) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Shape& start : {guess[2 * i + 1], known[i], known[i + 1]}) {
+      std::vector<Shape> three = {known[i], start, known[i + 1]};
+      workload_.Plan(NumVertices(resolution), 1, false);
+      const double energy = resolution.Relax(index_, kEnough, options_, &workload_, &three).energy;
+      if (energy >= least) continue;
+      least = energy;
+      shapes[2 * i + 1] = three[1];
+    }
+    shapes[2 * i] = known[i];
+  }
+  return shapes;
 }
 
 std::vector<Shape> Piece::OneInnerShape(GeodesicStart start, int level) {

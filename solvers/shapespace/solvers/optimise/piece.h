@@ -24,8 +24,10 @@ class Piece {
 
   /// Takes all steps. The first ones, with one inner shape on few vertices, select the valley
   /// (local minimum) of the path: they are solved from every start, and the best result is
-  /// continued. After `workload` was asked to stop, shapes are only lifted and refined.
-  void Run(const std::vector<ScheduleStep>& schedule);
+  /// continued. After `workload` was asked to stop, shapes are only lifted and refined. If a
+  /// segment of the result jumps, and `more_shapes_allowed` (there is memory for twice as many),
+  /// the jump is removed.
+  void Run(const std::vector<ScheduleStep>& schedule, bool more_shapes_allowed);
   /// The path found on the finest level.
   std::vector<Shape> Result() && { return std::move(known_.back().shapes); }
 
@@ -47,7 +49,17 @@ class Piece {
 
   Attempt TakeSteps(const std::vector<ScheduleStep>& schedule, size_t begin, size_t end,
                     Attempt attempt);
+  // If a segment is much faster than the mean, a part rests and then turns over within it. There
+  // the energy hardly depends on the shapes, because chords of half a circle are nearly equal, so
+  // that descent does not find the even motion. With more shapes, distributed by arc length, the
+  // turn takes several segments, and descent finds it. Solves with about twice as many shapes, then
+  // with the number of `last`, the schedule's last step, again; keeps the result if it has less
+  // energy.
+  void RemoveJump(const ScheduleStep& last);
   void TakeStep(const ScheduleStep& step, GeodesicStart start, bool last);
+  // The level's shapes with one more between each two, the best solution between these two from
+  // three initial guesses: either neighbour, and the corresponding one of `guess`.
+  std::vector<Shape> InsertShapes(int level, const std::vector<Shape>& guess);
   std::vector<Shape> OneInnerShape(GeodesicStart start, int level);
   // The coarser level's shapes with detail from this level's earlier shapes. The detail at a time
   // is taken from the earlier shapes around it, each relative to the coarse shape of its own time,

@@ -6,6 +6,7 @@
 #include <ceres/solver.h>
 
 #include <shapespace/solvers/optimise/keep_going.h>
+#include <shapespace/solvers/optimise/one_thread.h>
 
 namespace shapespace::internal {
 namespace {
@@ -52,6 +53,7 @@ MinimiseResult ResidualBlocks::Minimise(const MinimiseOptions& options) {
   KeepGoing keep_going(options.keep_going);
   ceres_options.callbacks.push_back(&keep_going);
   ceres::Solver::Summary summary;
+  const OneThread one_thread;
   ceres::Solve(ceres_options, &problem_, &summary);
 
   MinimiseResult result;

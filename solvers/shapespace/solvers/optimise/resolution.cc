@@ -12,9 +12,6 @@
 namespace shapespace::internal {
 namespace {
 
-// Up to this number of unknowns the trust region on residual blocks takes milliseconds and a few
-// iterations, where L-BFGS takes tens; above it is slower by large factors.
-constexpr int kTrustRegionUnknowns = 400;
 // From this number of unknowns on, this library's L-BFGS is at least 1.5 times faster than Ceres',
 // whose vector operations are serial.
 constexpr double kThreadedUnknowns = 2e4;
@@ -79,9 +76,7 @@ GeodesicSummary::Level Resolution::Relax(int piece, double enough, const Geodesi
   minimise.rank = HistoryRank(count);
   GeodesicSolver solver = options.solver;
   if (solver == GeodesicSolver::kAutomatic) {
-    solver = count <= kTrustRegionUnknowns ? GeodesicSolver::kTrustRegion
-             : count < kThreadedUnknowns   ? GeodesicSolver::kLbfgs
-                                           : GeodesicSolver::kThreadedLbfgs;
+    solver = count < kThreadedUnknowns ? GeodesicSolver::kLbfgs : GeodesicSolver::kThreadedLbfgs;
   }
   MinimiseResult result;
   if (solver == GeodesicSolver::kLbfgs) {

@@ -17,6 +17,7 @@
 #include <shapespace/solvers/cost/path_energy.h>
 #include <shapespace/solvers/cost/refuse_sums.h>
 #include <shapespace/solvers/cost/transport_constraint.h>
+#include <shapespace/solvers/optimise/one_thread.h>
 
 namespace shapespace::internal {
 namespace {
@@ -85,6 +86,7 @@ StepResult SolveStepWithCeres(const FeatureMap& map, const Shape& at, const Eige
   options.initial_trust_region_radius = options.max_trust_region_radius;
   options.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
+  const OneThread one_thread;
   ceres::Solve(options, &problem, &summary);
 
   result.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
@@ -135,6 +137,7 @@ StepResult SolveFirstIntegral(const FeatureMap& map, const Shape& at, const Tang
   }
   options.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;
+  const OneThread one_thread;
   ceres::Solve(options, &problem, &summary);
 
   result.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
@@ -177,6 +180,7 @@ Tangent ProjectOntoConstraint(const Tangent& x, const Tangent& normal, double co
   options.jacobi_scaling = false;
   options.initial_trust_region_radius = options.max_trust_region_radius;
   ceres::Solver::Summary summary;
+  const OneThread one_thread;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) {
     throw SolverError("the constraint cannot be met: " + summary.message);

@@ -7,8 +7,8 @@ namespace shapespace::internal {
 
 double Workload::Work(int vertices, int shapes, bool last) const {
   // Measured on bodies of 10 K to 40 K vertices: at a tolerance of 1e-4 all levels need the same
-  // number of iterations, at 1e-6 the last level needs twice as many.
-  const double accurate = last ? std::max(1.0, -std::log10(tolerance_) / 2 - 1) : 1;
+  // number of iterations, at 1e-6 the last level needs half as many again.
+  const double accurate = last ? std::max(1.0, -std::log10(tolerance_) / 4) : 1;
   return accurate * vertices * shapes;
 }
 
