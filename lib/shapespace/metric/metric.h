@@ -90,10 +90,14 @@ struct MetricOptions {
 struct Metric {
   MetricOptions options;  ///< as given, except that bending is 0 if the mesh has no hinge
   std::shared_ptr<const Connectivity> connectivity;
-  double unit = 1;              ///< length, in the user's unit, that has length 1 in the metric
-  Eigen::VectorXd vertex_area;  ///< A_p, with sum 1 (all positive, also for degenerate meshes)
-  Eigen::VectorXd edge_area;    ///< A_e, a third of the area of the triangles at the edge
-  Eigen::VectorXd hinge_area;   ///< A_f, a third of the area of the hinge's two triangles
+  double unit = 1;  ///< length, in the user's unit, that has length 1 in the metric
+  /// A_p, a third of the area of the triangles at the vertex; with sum 1 unless there are vertices
+  /// without triangles. All positive, also for degenerate meshes.
+  Eigen::VectorXd vertex_area;
+  /// A_e, a third of the area of the triangles at the edge; of edges that are no sides of triangles
+  /// a sixth of the areas at their two ends.
+  Eigen::VectorXd edge_area;
+  Eigen::VectorXd hinge_area;  ///< A_f, a third of the area of the hinge's two triangles
   std::vector<std::shared_ptr<const Feature>> features;
   RigidForm rigid;
 

@@ -12,7 +12,7 @@
 namespace shapespace {
 namespace {
 
-// A vertex without triangles, or with collapsed ones only, has this share of the mean area.
+// A vertex without elements, or with collapsed ones only, has this share of the mean area.
 constexpr double kLeastArea = 1e-3;
 
 struct Measures {
@@ -36,36 +36,54 @@ Measures Measure(const Connectivity& connectivity, const std::vector<Shape>& pos
   return result;
 }
 
-// Computes A_e of every edge and A_p of every vertex, each with sum 1 if the mesh is a plain
-// surface.
-void AssignAreas(const Connectivity& connectivity, const Measures& measures,
-                 Eigen::VectorXd* edge_area, Eigen::VectorXd* vertex_area) {
-  const int num_vertices = connectivity.NumVertices();
-  const int num_sides = connectivity.NumTriangleEdges();
-  *edge_area = Eigen::VectorXd::Zero(connectivity.NumEdges());
-  *vertex_area = Eigen::VectorXd::Zero(num_vertices);
-  const Eigen::Matrix2Xi& edges = connectivity.Edges();
-  if (connectivity.IsGraph()) {
-    *edge_area = measures.squared_length.cwiseSqrt();
-    for (int e = 0; e < connectivity.NumEdges(); ++e) {
-      for (int k = 0; k < 2; ++k) (*vertex_area)(edges(k, e)) += 0.5 * (*edge_area)(e);
-    }
-  } else {
-    for (int f = 0; f < connectivity.NumTriangles(); ++f) {
-      const Eigen::Vector3i t = connectivity.Triangles().col(f);
-      for (const int v : t) (*vertex_area)(v) += measures.triangle_area(f) / 3;
-    }
-    for (int e = 0; e < num_sides; ++e) {
-      for (const int f : connectivity.TrianglesOfEdges()[e]) {
-        (*edge_area)(e) += measures.triangle_area(f) / 3;
-      }
-    }
-    // A stiffener has no triangle; it gets a share of the areas at its ends.
-    for (int e = num_sides; e < connectivity.NumEdges(); ++e) {
-      (*edge_area)(e) = ((*vertex_area)(edges(0, e)) + (*vertex_area)(edges(1, e))) / 6;
+// Adds to every vertex half of the length of its edges, times `width`.
+void AddLengths(const Connectivity& connectivity, const Measures& measures, double width,
+                Eigen::VectorXd* vertex_area) {
+  for (int e = 0; e < connectivity.NumEdges(); ++e) {
+    for (const int v : connectivity.Edges().col(e)) {
+      (*vertex_area)(v) += 0.5 * width * std::sqrt(measures.squared_length(e));
     }
   }
-  *vertex_area = vertex_area->cwiseMax(kLeastArea * vertex_area->sum() / num_vertices);
+}
+
+// Computes A_p. Of a graph it is a length.
+Eigen::VectorXd VertexAreas(const Connectivity& connectivity, const Measures& measures) {
+  const int num_vertices = connectivity.NumVertices();
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(num_vertices);
+  if (connectivity.IsGraph()) {
+    AddLengths(connectivity, measures, 1, &area);
+  } else {
+    for (int f = 0; f < connectivity.NumTriangles(); ++f) {
+      for (const int v : connectivity.Triangles().col(f)) area(v) += measures.triangle_area(f) / 3;
+    }
+    // A segment without triangles is a strip as wide as a cell of the surface.
+    const auto on_surface = [&](int v) { return connectivity.TrianglesOfVertices()[v].size() > 0; };
+    int surface = 0;
+    for (int v = 0; v < num_vertices; ++v) surface += on_surface(v) ? 1 : 0;
+    Eigen::VectorXd strip = Eigen::VectorXd::Zero(num_vertices);
+    AddLengths(connectivity, measures, std::sqrt(area.sum() / surface), &strip);
+    for (int v = 0; v < num_vertices; ++v) {
+      if (!on_surface(v)) area(v) = strip(v);
+    }
+  }
+  return area.cwiseMax(kLeastArea * area.sum() / num_vertices);
+}
+
+// Computes A_e, of a graph a length.
+Eigen::VectorXd EdgeAreas(const Connectivity& connectivity, const Measures& measures,
+                          const Eigen::VectorXd& vertex_area) {
+  if (connectivity.IsGraph()) return measures.squared_length.cwiseSqrt();
+  const int num_sides = connectivity.NumTriangleEdges();
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(connectivity.NumEdges());
+  for (int e = 0; e < num_sides; ++e) {
+    for (const int f : connectivity.TrianglesOfEdges()[e]) area(e) += measures.triangle_area(f) / 3;
+  }
+  // A stiffener or a segment has no triangle; it gets a share of the areas at its ends.
+  for (int e = num_sides; e < connectivity.NumEdges(); ++e) {
+    const Eigen::Vector2i ends = connectivity.Edges().col(e);
+    area(e) = (vertex_area(ends(0)) + vertex_area(ends(1))) / 6;
+  }
+  return area;
 }
 
 Eigen::VectorXd HingeAreas(const Connectivity& connectivity, const std::vector<Shape>& poses) {
@@ -184,7 +202,8 @@ MetricBasis MakeMetricBasis(const MetricOptions& options,
   }
   for (const Shape& pose : poses) basis.poses.push_back(pose / basis.unit);
   measures = Measure(*connectivity, basis.poses);
-  AssignAreas(*connectivity, measures, &basis.edge_area, &basis.vertex_area);
+  basis.vertex_area = VertexAreas(*connectivity, measures);
+  basis.edge_area = EdgeAreas(*connectivity, measures, basis.vertex_area);
   basis.triangle_area = std::move(measures.triangle_area);
   basis.squared_length = std::move(measures.squared_length);
   basis.hinge_area = HingeAreas(*connectivity, basis.poses);

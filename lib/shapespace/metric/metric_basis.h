@@ -35,8 +35,8 @@ struct MetricBasis {
 
   double unit = 1;                 ///< length, in the user's unit, that has length 1 in the metric
   Eigen::VectorXd triangle_area;   ///< with sum 1 (for graphs, the sum of edge lengths is 1)
-  Eigen::VectorXd vertex_area;     ///< A_p, with sum 1; all positive, also for degenerate meshes
-  Eigen::VectorXd edge_area;       ///< A_e, a third of the area of the triangles at the edge
+  Eigen::VectorXd vertex_area;     ///< A_p, as in `Metric`
+  Eigen::VectorXd edge_area;       ///< A_e, as in `Metric`
   Eigen::VectorXd hinge_area;      ///< A_f, a third of the area of the hinge's two triangles
   Eigen::VectorXd squared_length;  ///< of edges
 
