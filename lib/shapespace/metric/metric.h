@@ -47,11 +47,12 @@ struct MetricOptions {
   Discretization discretization = Discretization::kMidpoint;
 
   /// Positive factors on the cost of stretching (isometric and strain) and of bending, for bodies
-  /// of varying stiffness: one number per vertex, or one per edge (Connectivity::Edges). Edges have
-  /// the mean of their two ends, triangles that of their three sides. Empty: 1 everywhere. On
-  /// coarser levels of a solver they are geometric means over the vertices that have collapsed to a
-  /// vertex.
+  /// of varying stiffness: one number per vertex or per edge, as `stiffness_on` says. Where they
+  /// are given on vertices, edges have the mean of their two ends; triangles have the mean of their
+  /// three sides. Empty: 1 everywhere. On coarser levels of a solver they are geometric means over
+  /// the vertices that have collapsed to a vertex.
   Eigen::VectorXd stretching_stiffness, bending_stiffness;
+  StiffnessOn stiffness_on = StiffnessOn::kVertices;  ///< of both
 
   static MetricOptions Isometric() { return {}; }
   /// As isometric as possible, measured by strains: paths between poses are similar to those under
@@ -112,9 +113,9 @@ struct Metric {
 /// levels of a mesh take from the finest one. If no two triangles share an edge, as in graphs,
 /// there is no bending, and `Metric::options.bending` is 0.
 /// \throw InvalidOptions if the options are invalid, name a feature that is not registered, have
-///        stiffness for another number of vertices or edges, or ask for volume and the mesh is not
-///        closed; MeshError if a shape has another number of vertices, is not finite, has no extent
-///        or lies beyond `kLargestCoordinate`.
+///        stiffness of another number than the mesh has vertices (or edges, `stiffness_on`), or ask
+///        for volume and the mesh is not closed; MeshError if a shape has another number of
+///        vertices, is not finite, has no extent or lies beyond `kLargestCoordinate`.
 std::shared_ptr<const Metric> FreezeMetric(const MetricOptions& options,
                                            const std::shared_ptr<const Connectivity>& connectivity,
                                            const std::vector<Shape>& poses, double unit = 0,

@@ -108,27 +108,19 @@ void CheckMagnitude(const Shape& pose) {
   }
 }
 
-// Stiffness per edge: as given for edges, the means over their ends, or 1.
-Eigen::VectorXd EdgeStiffness(const Eigen::VectorXd& field, const Connectivity& connectivity) {
-  const Eigen::Matrix2Xi& edges = connectivity.Edges();
-  Eigen::VectorXd result = Eigen::VectorXd::Ones(edges.cols());
-  for (int e = 0; e < edges.cols() && field.size() > 0; ++e) {
-    result(e) = field.size() == connectivity.NumVertices()
-                    ? 0.5 * (field(edges(0, e)) + field(edges(1, e)))
-                    : field(e);
+// Checks the stiffness called `name`, and returns it per edge; 1 where there is none.
+Eigen::VectorXd CheckedStiffness(const Eigen::VectorXd& field, StiffnessOn on, const char* name,
+                                 const Connectivity& connectivity) {
+  if (field.size() == 0) return Eigen::VectorXd::Ones(connectivity.NumEdges());
+  const bool on_vertices = on == StiffnessOn::kVertices;
+  if (field.size() != (on_vertices ? connectivity.NumVertices() : connectivity.NumEdges())) {
+    throw InvalidOptions(std::string(name) + ": has " + std::to_string(field.size()) +
+                         " numbers; the mesh has " + std::to_string(connectivity.NumVertices()) +
+                         " vertices and " + std::to_string(connectivity.NumEdges()) +
+                         " edges, and stiffness_on says that the numbers belong to " +
+                         (on_vertices ? "vertices" : "edges"));
   }
-  return result;
-}
-
-void CheckStiffness(const Eigen::VectorXd& field, const char* name,
-                    const Connectivity& connectivity) {
-  if (field.size() == 0 || field.size() == connectivity.NumVertices() ||
-      field.size() == connectivity.NumEdges()) {
-    return;
-  }
-  throw InvalidOptions(std::string(name) + ": has " + std::to_string(field.size()) +
-                       " numbers; the mesh has " + std::to_string(connectivity.NumVertices()) +
-                       " vertices and " + std::to_string(connectivity.NumEdges()) + " edges");
+  return EdgeStiffness(field, on, connectivity);
 }
 
 // The index of a side of a triangle among the edges.
@@ -149,9 +141,11 @@ int FindSide(const Connectivity& connectivity, int a, int b) {
 
 void AssignStiffness(const MetricOptions& options, MetricBasis* basis) {
   const Connectivity& connectivity = *basis->connectivity;
-  CheckStiffness(options.stretching_stiffness, "stretching_stiffness", connectivity);
-  CheckStiffness(options.bending_stiffness, "bending_stiffness", connectivity);
-  basis->edge_stiffness = EdgeStiffness(options.stretching_stiffness, connectivity);
+  const StiffnessOn on = options.stiffness_on;
+  basis->edge_stiffness =
+      CheckedStiffness(options.stretching_stiffness, on, "stretching_stiffness", connectivity);
+  const Eigen::VectorXd bending =
+      CheckedStiffness(options.bending_stiffness, on, "bending_stiffness", connectivity);
   basis->triangle_stiffness.setOnes(connectivity.NumTriangles());
   const bool stretches = options.stretching_stiffness.size() > 0;
   for (int f = 0; f < connectivity.NumTriangles() && stretches; ++f) {
@@ -164,7 +158,6 @@ void AssignStiffness(const MetricOptions& options, MetricBasis* basis) {
     basis->triangle_stiffness(f) = sum / 3;
   }
   const bool bends = options.bending_stiffness.size() > 0;
-  const Eigen::VectorXd bending = EdgeStiffness(options.bending_stiffness, connectivity);
   basis->hinge_stiffness.setOnes(connectivity.NumHinges());
   for (int h = 0; h < connectivity.NumHinges() && bends; ++h) {
     const Eigen::Vector4i hinge = connectivity.Hinges().col(h);
@@ -211,9 +204,10 @@ MetricBasis MakeMetricBasis(const MetricOptions& options,
   return basis;
 }
 
-Eigen::VectorXd VertexStiffness(const Eigen::VectorXd& field, const Connectivity& connectivity) {
+Eigen::VectorXd VertexStiffness(const Eigen::VectorXd& field, StiffnessOn on,
+                                const Connectivity& connectivity) {
+  if (on == StiffnessOn::kVertices) return field;
   const int num_vertices = connectivity.NumVertices();
-  if (field.size() == num_vertices) return field;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(num_vertices);
   Eigen::VectorXd count = Eigen::VectorXd::Zero(num_vertices);
   for (int e = 0; e < connectivity.NumEdges(); ++e) {
@@ -223,6 +217,13 @@ Eigen::VectorXd VertexStiffness(const Eigen::VectorXd& field, const Connectivity
     }
   }
   return (sum.array() / count.array().max(1)).exp();
+}
+
+Eigen::VectorXd EdgeStiffness(const Eigen::VectorXd& field, StiffnessOn on,
+                              const Connectivity& connectivity) {
+  if (on == StiffnessOn::kEdges) return field;
+  const Eigen::Matrix2Xi& edges = connectivity.Edges();
+  return 0.5 * (field(edges.row(0)) + field(edges.row(1)));
 }
 
 }  // namespace shapespace

@@ -18,6 +18,12 @@ enum class Weighting {
   kUniform,  ///< 1, as in the paper; the meaning depends on the mesh resolution
 };
 
+/// What the numbers of a stiffness (MetricOptions) belong to.
+enum class StiffnessOn {
+  kVertices,  ///< one number per vertex
+  kEdges,     ///< one number per edge, in the order of Connectivity::Edges
+};
+
 /// The pairs of poses for which the metric is intended. Hinges that turn by more than 90 degrees
 /// between the poses of a pair are down-weighted.
 enum class PosePairs {
@@ -57,9 +63,14 @@ MetricBasis MakeMetricBasis(const MetricOptions& options,
                             const std::shared_ptr<const Connectivity>& connectivity,
                             const std::vector<Shape>& poses, double unit, PosePairs pairs);
 
-/// The user's stiffness (MetricOptions), given per vertex or per edge, as one number per vertex: of
+/// The user's stiffness (MetricOptions), given `on` vertices or edges, as one number per vertex: of
 /// edges the geometric mean over those at the vertex.
-Eigen::VectorXd VertexStiffness(const Eigen::VectorXd& field, const Connectivity& connectivity);
+Eigen::VectorXd VertexStiffness(const Eigen::VectorXd& field, StiffnessOn on,
+                                const Connectivity& connectivity);
+
+/// The same as one number per edge: of vertices the mean of the edge's two ends.
+Eigen::VectorXd EdgeStiffness(const Eigen::VectorXd& field, StiffnessOn on,
+                              const Connectivity& connectivity);
 
 }  // namespace shapespace
 
