@@ -1,4 +1,6 @@
 // Segments without triangles that are attached to a surface.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <shapespace/solvers/deformation.h>
