@@ -141,9 +141,8 @@ void Sample(const std::string& file) {
 void MeasureSpace(const std::string& file, Crew* crew) {
   RefuseFlags({"support/metric_flags.cc"}, {"depth", "output", "report", "strict", "stiffeners"},
               "goes with poses; " + file + " contains its own metric");
-  ExploreOptions options = ExploreFromFlags(file + ".measure.records");
+  const ExploreOptions options = ExploreFromFlags(file + ".measure.records");
   const Space space = ReadSpace(file);
-  options.geodesic.metric = space.metric->options;
   Measure(space, options, crew);
   if (crew->Rank() == 0) RemoveRecords(options.records);
 }

@@ -28,6 +28,7 @@ class MetricOptions(TypedDict, total=False):
     discretization: Literal["midpoint", "trapezoid"]
     stretching_stiffness: ArrayLike | None
     bending_stiffness: ArrayLike | None
+    stiffness_on: Literal["vertices", "edges"]
 
 class GeodesicOptions(TypedDict, total=False):
     metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None
@@ -668,6 +669,7 @@ class Metric:
         discretization: Literal["midpoint", "trapezoid"] = ...,
         stretching_stiffness: ArrayLike | None = ...,
         bending_stiffness: ArrayLike | None = ...,
+        stiffness_on: Literal["vertices", "edges"] = ...,
     ) -> None: ...
     @property
     def unit(self) -> float: ...
@@ -751,6 +753,7 @@ class Space:
     @property
     def stress(self) -> float: ...
     def at(self, point: ArrayLike) -> Floats: ...
+    def contains(self, point: ArrayLike) -> bool: ...
     def along(self, points: ArrayLike, frames: int) -> Path: ...
 
 class Handle:

@@ -34,6 +34,12 @@ const Names<Discretization>& NamesOf() {
   return names;
 }
 template <>
+const Names<StiffnessOn>& NamesOf() {
+  static const Names<StiffnessOn> names = {{"vertices", StiffnessOn::kVertices},
+                                           {"edges", StiffnessOn::kEdges}};
+  return names;
+}
+template <>
 const Names<PosePairs>& NamesOf() {
   static const Names<PosePairs> names = {{"consecutive", PosePairs::kConsecutive},
                                          {"all", PosePairs::kAll}};
@@ -178,11 +184,12 @@ const Fields<MetricOptions>& FieldsOf() {
       Row("discretization", &O::discretization,
           "How the metric is integrated along a segment of a path."),
       Row("stretching_stiffness", &O::stretching_stiffness,
-          "Positive factors on the cost of stretching: one a vertex, or one an edge (`edges`). "
-          "None: "
-          "1 everywhere."),
+          "Positive factors on the cost of stretching, one number for each vertex or edge, as "
+          "`stiffness_on` says. None: 1 everywhere."),
       Row("bending_stiffness", &O::bending_stiffness,
           "Positive factors on the cost of bending, likewise."),
+      Row("stiffness_on", &O::stiffness_on,
+          "What the numbers of both stiffnesses belong to: the vertices, or the rows of `edges`."),
   };
   return fields;
 }

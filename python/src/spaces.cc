@@ -88,17 +88,31 @@ poses, then the shapes found half way between nodes. `explore` makes it.
             return FromShape(space.At(ToPoint(point, "point")));
           },
           py::arg("point"),
-          "The shape, n x 3, at a point of the plane; one outside is moved to the nearest inside.")
+          "The shape, n x 3, at a point of the plane. At a point outside of the poses' hull "
+          "(`contains`) it is the shape at the nearest point of the hull.")
+      .def(
+          "contains",
+          [](const Space& space, py::handle point) {
+            return space.Locate(ToPoint(point, "point")).inside;
+          },
+          py::arg("point"), "Whether a point of the plane lies in the hull of the poses.")
       .def(
           "along",
           [](const Space& space, py::handle points, int frames) {
             std::vector<Eigen::Vector2d> polyline;
             for (py::handle point : points) polyline.push_back(ToPoint(point, "points"));
-            return WithoutLock(py::none(),
-                               [=](Progress*) { return WalkAlong(space, polyline, frames).path; });
+            Walk walk = WithoutLock(py::none(),
+                                    [=](Progress*) { return WalkAlong(space, polyline, frames); });
+            if (walk.outside > 0) {
+              Warn({std::to_string(walk.outside) + " of the " + std::to_string(frames) +
+                    " points lie outside of the poses' hull and were replaced by the nearest "
+                    "points of the hull"});
+            }
+            return std::move(walk.path);
           },
           py::arg("points"), py::arg("frames"),
-          "The shapes along a polyline of the plane, k x 2, as a path of so many.")
+          "The shapes along a polyline of the plane, k x 2, as a path of so many. Points outside "
+          "of the poses' hull are replaced by the nearest points of the hull, with a warning.")
       .def("_repr_html_",
            [](const Space& space) {
              FilmStripOptions options;

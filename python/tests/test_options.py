@@ -116,8 +116,10 @@ def test_stiffness_multiplies_what_stretching_costs(poses, animal):
     tangent = poses[1] - poses[0]
     options = {"lambda_": 0.0, "bending": 0.0}
     plain = shapespace.Metric(mesh, **options).norm(poses[0], tangent)
-    for count in (len(poses[0]), len(mesh.edges)):
-        stiff = shapespace.Metric(mesh, stretching_stiffness=np.full(count, 4), **options)
+    for on, count in (("vertices", len(poses[0])), ("edges", len(mesh.edges))):
+        stiff = shapespace.Metric(
+            mesh, stretching_stiffness=np.full(count, 4), stiffness_on=on, **options
+        )
         np.testing.assert_allclose(stiff.norm(poses[0], tangent), 2 * plain, rtol=1e-12)
 
 

@@ -215,6 +215,14 @@ def test_distances_are_symmetric_and_obey_the_triangle_inequality(animal):
     np.testing.assert_allclose(middle, (space[0] + space[1]) / 2, atol=1e-9)
     assert len(space.along(space.points[[0, 1, 2]], 5)) == 5
 
+    # Points outside of the hull are told from those inside.
+    far = space.points.max(axis=0) + np.ptp(space.points)
+    assert space.contains(space.points[:2].mean(axis=0)) and not space.contains(far)
+    with pytest.warns(UserWarning, match="2 of the 3 points lie outside"):
+        space.along([space.points[0], far], 3)
+    with pytest.raises(shapespace.InvalidOptions, match="finite"):
+        space.at([np.nan, 0])
+
 
 def test_a_path_of_one_s_own(path, poses):
     mine = shapespace.Path(poses, path.metric, [0, 2])

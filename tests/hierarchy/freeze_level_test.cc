@@ -62,6 +62,7 @@ TEST(FreezeLevel, FreezesOwnFeaturesAndStiffnessOnEveryLevel) {
   const Levels levels;
   MetricOptions options = testing::OwnBlend();
   options.bending_stiffness.setConstant(levels.bar.connectivity->NumEdges(), 5);
+  options.stiffness_on = StiffnessOn::kEdges;
   const auto finest = FreezeMetric(options, levels.bar.connectivity, {levels.rest});
   const Shape coarse = levels.hierarchy.Restrict(levels.rest / finest->unit, 0);
   const auto metric = FreezeLevel(*finest, levels.hierarchy, 0, {coarse});

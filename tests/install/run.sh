@@ -57,12 +57,29 @@ grep -q 'log area' report.txt || fail "a feature of one's own has no part in the
   fail "the guide's problem of Ceres did not converge"
 [[ $(head -c 4 walk.glb) == glTF ]] || fail "walk.glb is no glTF"
 
+# The core without Ceres: each of its headers alone, but for the one that defines features.
+core_headers=$(cd "$work/prefix/include" &&
+  find shapespace/{base,mesh,metric,path,hierarchy,analysis} -name '*.h' |
+  grep -vx shapespace/metric/define_feature.h | sort | paste -sd ';')
 cmake -S "$here/core" -B "$work/core" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DHEADERS="$core_headers" \
   -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_DISABLE_FIND_PACKAGE_Ceres=ON \
   -DCMAKE_DISABLE_FIND_PACKAGE_CHOLMOD=ON >"$work/configure.log" ||
   fail "the component core is not found where Ceres is not"
 cmake --build "$work/core"
 "$work/core/core_consumer" pose0.obj pose1.obj
+# Ceres' headers may be where every compiler finds them, so what was included is read from the build.
+if ninja -C "$work/core" -t deps | grep /ceres/; then
+  fail "a header of the component core includes the headers of Ceres above"
+fi
+cmake -S "$here/features" -B "$work/features" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_PREFIX_PATH="$work/prefix" >"$work/configure.log" ||
+  fail "the component features is not found"
+cmake --build "$work/features"
+"$work/features/features_consumer" pose0.obj pose1.obj
+if ldd "$work/features/features_consumer" | grep -i ceres; then
+  fail "a program that only defines features links Ceres"
+fi
 
 export PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name shapespace.pc)")
 c++ -std=c++17 -O1 "$here/main.cc" $(pkg-config --cflags --libs shapespace) -o "$work/by_pkg_config" ||

@@ -136,6 +136,13 @@ TEST_F(ReadGltfTest, NodesPlaceTheMesh) {
   json_["scenes"][0]["nodes"] = {1};
   const std::vector<Soup> soups = ReadSoups(Glb());
   EXPECT_LT((soups[1].vertices.col(2) - Eigen::Vector3d(10 - 3, 20 + 2, 30 + 8)).norm(), 1e-12);
+  // The length of the quaternion does not matter.
+  for (const double length : {1e-170, 1e200}) {
+    json_["nodes"][0]["rotation"] = {0, 0, length, length};
+    const Eigen::Vector3d placed = ReadSoups(Glb())[1].vertices.col(2);
+    EXPECT_LT((placed - Eigen::Vector3d(10 - 3, 20 + 2, 30 + 8)).norm(), 1e-12) << length;
+  }
+  json_["nodes"][0]["rotation"] = {0, 0, std::sqrt(0.5), std::sqrt(0.5)};
   json_["nodes"][1] = {{"children", {0}},
                        {"matrix", {0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 5, 6, 7, 1}}};
   EXPECT_LT((ReadSoups(Glb())[1].vertices.col(2) - Eigen::Vector3d(5 + 2, 6 + 8, 7 - 3)).norm(),

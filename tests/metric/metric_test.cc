@@ -13,6 +13,7 @@
 #include "support/features.h"
 #include "support/paths.h"
 #include "support/stiffened.h"
+#include "support/whiskered.h"
 
 namespace shapespace {
 namespace {
@@ -102,6 +103,46 @@ TEST(FreezeMetric, GraphsHaveTotalLengthOne) {
   EXPECT_NEAR(metric->edge_area(0), 0.25, 1e-14);
   EXPECT_NEAR(metric->edge_area(1), 0.75, 1e-14);
   EXPECT_NEAR(metric->vertex_area(1), 0.5, 1e-14);
+}
+
+TEST(FreezeMetric, SegmentsWithoutTrianglesWeighAboutAsMuchAsEdgesOfTheSurface) {
+  const testing::WhiskeredBar bar(12, 3);  // cells of about the segments' length
+  const Shape pose = bar.Pose(0, {1, 0, 0});
+  const auto metric = FreezeMetric({}, bar.connectivity, {pose});
+  const int sides = bar.connectivity->NumTriangleEdges();
+  const double mean = metric->edge_area.head(sides).mean();
+  EXPECT_GT(metric->edge_area.tail(bar.kSegments).minCoeff(), mean / 4);
+  EXPECT_LT(metric->edge_area.tail(bar.kSegments).maxCoeff(), 4 * mean);
+
+  const auto scaled = FreezeMetric({}, bar.connectivity, {1e6 * pose});
+  EXPECT_TRUE(scaled->edge_area.isApprox(metric->edge_area, 1e-12));
+  EXPECT_TRUE(scaled->vertex_area.isApprox(metric->vertex_area, 1e-12));
+}
+
+// A chain between two triangles, and the same mesh with its vertices and elements in reverse.
+TEST(FreezeMetric, AreasOfSegmentsDoNotDependOnTheOrderOfVertices) {
+  const int count = 8;
+  const auto there =
+      Connectivity::Make(count, {0, 3, 6}, {0, 1, 2, 5, 6, 7}, {{2, 3}, {3, 4}, {4, 5}});
+  const auto back =
+      Connectivity::Make(count, {0, 3, 6}, {0, 1, 2, 5, 6, 7}, {{4, 5}, {3, 4}, {2, 3}});
+  Shape shape(3, count);
+  shape << 0, 0, 1, 2, 3.5, 4, 6, 6,  //
+      -1, 1, 0, 0, 0, 0, -2, 2,       //
+      0, 0, 0, 1, 0, 0, 0, 0;
+  const Shape reversed = shape.rowwise().reverse();
+  const auto metric = FreezeMetric({}, there, {shape});
+  const auto other = FreezeMetric({}, back, {reversed});
+  EXPECT_TRUE(other->vertex_area.isApprox(metric->vertex_area.reverse(), 1e-14));
+  for (int e = 0; e < there->NumEdges(); ++e) {
+    const Eigen::Vector2i edge = there->Edges().col(e);
+    int twin = 0;
+    while (back->Edges().col(twin) != Eigen::Vector2i(count - 1 - edge(1), count - 1 - edge(0))) {
+      ASSERT_LT(++twin, back->NumEdges());
+    }
+    EXPECT_NEAR(other->edge_area(twin), metric->edge_area(e), 1e-14) << e;
+    EXPECT_GT(metric->edge_area(e), 1e-3) << e;
+  }
 }
 
 // With the paper's w_e = 1 the meaning of lambda depends on the resolution; with area weights it

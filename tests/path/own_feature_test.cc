@@ -70,8 +70,9 @@ TEST(OwnFeature, HasTheBoundOfTheLibrarysFeature) {
 Path WithOwnFeatures() {
   const Body bar = MakeBar(4, 1, 1, 4, 1, 1);
   MetricOptions options = testing::OwnBlend();
-  options.stretching_stiffness.setLinSpaced(bar.connectivity->NumVertices(), 1, 2);
+  options.stretching_stiffness.setLinSpaced(bar.connectivity->NumEdges(), 1, 2);
   options.bending_stiffness.setLinSpaced(bar.connectivity->NumEdges(), 1, 3);
+  options.stiffness_on = StiffnessOn::kEdges;
   const auto metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(60)});
   return MakePath(metric, {bar.pose(0), bar.pose(30), bar.pose(60)});
 }
@@ -94,6 +95,7 @@ TEST(PathFile, KeepsOwnFeaturesAndStiffness) {
   EXPECT_EQ(read.metric->options.features[1].coefficient, 0.2);
   EXPECT_EQ(read.metric->options.stretching_stiffness, path.metric->options.stretching_stiffness);
   EXPECT_EQ(read.metric->options.bending_stiffness, path.metric->options.bending_stiffness);
+  EXPECT_EQ(read.metric->options.stiffness_on, StiffnessOn::kEdges);
 }
 
 struct Unheard : EdgeLength {

@@ -85,6 +85,17 @@ uint32_t Checksum(const std::string& bytes) {
   return ~sum;
 }
 
+// Replaces `entry` of the header in a file by `other`, which must not be longer.
+void ReplaceEntry(const std::string& file, const std::string& entry, std::string other) {
+  std::string bytes = Slurp(file);
+  ASSERT_NE(bytes.find(entry), std::string::npos) << entry;
+  other.resize(entry.size(), ' ');
+  bytes.replace(bytes.find(entry), entry.size(), other);
+  const uint32_t checksum = Checksum(bytes.substr(16));
+  std::memcpy(&bytes[12], &checksum, sizeof checksum);
+  Spill(file, bytes);
+}
+
 double Energy(const Path& path) {
   PathEnergy energy(path.metric, path.NumShapes() - 2);
   std::vector<double> unknowns(energy.Size());
@@ -226,15 +237,9 @@ TEST(PathFile, PathsAtOddsWithThemselvesAreNotWritten) {
 
 TEST(PathFile, FilesAtOddsWithThemselvesAreNotRead) {
   const std::string file = TemporaryFile("odd_file.path");
-  const auto message = [&](const std::string& entry, std::string other) {
+  const auto message = [&](const std::string& entry, const std::string& other) {
     WritePath(file, MakePath());
-    std::string bytes = Slurp(file);
-    EXPECT_NE(bytes.find(entry), std::string::npos) << entry;
-    other.resize(entry.size(), ' ');
-    bytes.replace(bytes.find(entry), entry.size(), other);
-    const uint32_t checksum = Checksum(bytes.substr(16));
-    std::memcpy(&bytes[12], &checksum, sizeof checksum);
-    Spill(file, bytes);
+    ReplaceEntry(file, entry, other);
     return testing::MessageOf<FileError>([&] { ReadPath(file); });
   };
   EXPECT_EQ(message("\"extrapolated\":2", "\"extrapolated\":5"),
@@ -244,6 +249,50 @@ TEST(PathFile, FilesAtOddsWithThemselvesAreNotRead) {
   EXPECT_EQ(message("{\"name\":\"triangles\"", "{\"name\":\"trianglez\""),
             file + ": it lacks the array triangles");
   EXPECT_NE(message("\"converged\":false,", "").find("converged"), std::string::npos);
+}
+
+// Three edges and three vertices: the numbers do not say what they belong to.
+TEST(PathFile, SaysWhatItsStiffnessBelongsTo) {
+  const auto triangle = Connectivity::Make(3, {0, 3}, {0, 1, 2});
+  Shape shape(3, 3);
+  shape << 0, 1, 0, 0, 0, 1, 0, 0, 0;
+  const std::string file = TemporaryFile("stiffness.path");
+  for (const StiffnessOn on : {StiffnessOn::kVertices, StiffnessOn::kEdges}) {
+    MetricOptions options;
+    options.stretching_stiffness = Eigen::Vector3d(1, 2, 5);
+    options.stiffness_on = on;
+    WritePath(file, shapespace::MakePath(FreezeMetric(options, triangle, {shape}), {shape, shape}));
+    const MetricOptions read = ReadPath(file).metric->options;
+    EXPECT_EQ(read.stretching_stiffness, options.stretching_stiffness);
+    EXPECT_EQ(read.stiffness_on, on);
+  }
+  ReplaceEntry(file, "\"stiffness_on\":\"edges\"", "\"stiffness_on\":\"faces\"");
+  const std::string message = testing::MessageOf<FileError>([&] { ReadPath(file); });
+  EXPECT_NE(message.find("neither vertices nor edges"), std::string::npos) << message;
+}
+
+// Older files do not say it. There each of the two could be on vertices or on edges.
+TEST(PathFile, ReadsTheStiffnessOfOlderFiles) {
+  const Body bar = MakeBar(4, 1, 1, 3, 1, 1);
+  const int vertices = bar.connectivity->NumVertices(), edges = bar.connectivity->NumEdges();
+  auto metric = std::make_shared<Metric>(*FreezeMetric({}, bar.connectivity, {bar.pose(0)}));
+  const auto read = [&](int stretching, int bending) {
+    metric->options.stretching_stiffness.setConstant(stretching, 2);
+    metric->options.bending_stiffness.setConstant(bending, 3);
+    const std::string file = TemporaryFile("old_stiffness.path");
+    WritePath(file, shapespace::MakePath(metric, {bar.pose(0), bar.pose(20)}));
+    ReplaceEntry(file, ",\"stiffness_on\":\"vertices\"", "");
+    return ReadPath(file).metric->options;
+  };
+  EXPECT_EQ(read(vertices, 0).stiffness_on, StiffnessOn::kVertices);
+  EXPECT_EQ(read(vertices, vertices).stiffness_on, StiffnessOn::kVertices);
+  EXPECT_EQ(read(edges, 0).stiffness_on, StiffnessOn::kEdges);
+  EXPECT_EQ(read(edges, edges).stretching_stiffness, Eigen::VectorXd::Constant(edges, 2));
+  const MetricOptions mixed = read(vertices, edges);
+  EXPECT_EQ(mixed.stiffness_on, StiffnessOn::kEdges);
+  EXPECT_EQ(mixed.stretching_stiffness, Eigen::VectorXd::Constant(edges, 2));
+  EXPECT_EQ(mixed.bending_stiffness, Eigen::VectorXd::Constant(edges, 3));
+  EXPECT_THROW(read(edges + 1, 0), FileError);
 }
 
 TEST(PathFile, NothingIsLeftBehindWhereItCannotBeWritten) {

@@ -41,6 +41,37 @@ GeodesicOptions Options(int shapes, double tolerance) {
   return options;
 }
 
+// A vertex of no element, without a cost of position, has no cost however it moves.
+TEST(Interpolate, VerticesThatCostNothingMoveStraight) {
+  const Body bar = MakeBar(6, 1, 1, 24, 4, 4);
+  const int count = bar.connectivity->NumVertices();
+  std::vector<int> begin, corners;
+  for (const auto& triangle : bar.connectivity->Triangles().colwise()) {
+    begin.push_back(static_cast<int>(corners.size()));
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  begin.push_back(static_cast<int>(corners.size()));
+  const auto mesh = Connectivity::Make(count + 1, begin, corners);
+  std::vector<Shape> poses;
+  for (const double bend : {0.0, 60.0, 20.0}) {
+    poses.emplace_back(3, count + 1);
+    poses.back() << bar.pose(bend), Eigen::Vector3d(bend / 10, 3, -bend / 5);
+  }
+  GeodesicOptions options = Options(7, 1e-6);
+  options.metric.lambda = 0;
+  for (const GeodesicStart start : {GeodesicStart::kBest, GeodesicStart::kFirst}) {
+    options.start = start;
+    const Path path = Interpolate(mesh, poses, options).path;
+    for (int i = 0; i < path.NumShapes(); ++i) {
+      const int piece = i < 8 ? 0 : 1;
+      const double t = i / 8.0 - piece;
+      const Eigen::Vector3d from = path.shapes[path.poses[piece]].col(count);
+      const Eigen::Vector3d to = path.shapes[path.poses[piece + 1]].col(count);
+      EXPECT_LT((path.shapes[i].col(count) - (1 - t) * from - t * to).norm(), 1e-12) << i;
+    }
+  }
+}
+
 TEST(Interpolate, TranslatesAlongAStraightLine) {
   const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
   const Shape first = bar.pose(50);

@@ -20,5 +20,16 @@ TEST(ScrewMotion, MovesByTheShareOfItsAngleAndItsTranslation) {
   EXPECT_TRUE(motion.At(1, x).isApprox(Eigen::Vector3d(1, -2, 9), 1e-14));
 }
 
+TEST(ScrewMotion, NeedsOnlyTheDirectionOfItsAxis) {
+  ScrewMotion motion;
+  motion.axis = {1, 2, -2};
+  motion.angle = 1;
+  const Eigen::Vector3d x(3, 0, 5), turned = motion.At(1, x);
+  for (const double length : {1e-300, 1e-170, 1e170, 1e200}) {
+    motion.axis = length * Eigen::Vector3d(1, 2, -2);
+    EXPECT_TRUE(motion.At(1, x).isApprox(turned, 1e-14)) << length;
+  }
+}
+
 }  // namespace
 }  // namespace shapespace

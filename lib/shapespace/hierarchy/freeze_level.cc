@@ -7,8 +7,10 @@ MetricOptions RestrictOptions(const MetricOptions& options, const Connectivity& 
   MetricOptions result = options;
   for (Eigen::VectorXd* field : {&result.stretching_stiffness, &result.bending_stiffness}) {
     if (field->size() == 0) continue;
-    *field = hierarchy.RestrictField(VertexStiffness(*field, connectivity), level);
+    *field =
+        hierarchy.RestrictField(VertexStiffness(*field, options.stiffness_on, connectivity), level);
   }
+  result.stiffness_on = StiffnessOn::kVertices;
   return result;
 }
 

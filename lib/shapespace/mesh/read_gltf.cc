@@ -107,7 +107,8 @@ class GltfReader {
         placement.translate(Eigen::Map<const Eigen::Vector3d>(node.translation.data()));
       }
       if (node.rotation.size() == 4) {
-        placement.rotate(Eigen::Map<const Eigen::Quaterniond>(node.rotation.data()).normalized());
+        const Eigen::Map<const Eigen::Vector4d> coefficients(node.rotation.data());
+        placement.rotate(Eigen::Quaterniond(coefficients.stableNormalized()));
       }
       if (node.scale.size() == 3) {
         placement.scale(Eigen::Map<const Eigen::Vector3d>(node.scale.data()).eval());

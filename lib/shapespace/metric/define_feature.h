@@ -9,6 +9,9 @@
 #include <utility>
 #include <vector>
 
+#if !__has_include(<ceres/jet.h>)
+#error "shapespace/metric/define_feature.h needs the headers of Ceres: link ShapeSpace::features"
+#endif
 #include <ceres/jet.h>
 #include <Eigen/Core>
 
@@ -18,7 +21,8 @@
 
 // Converts a struct that derives from `ElementFeature` to a `Feature`, and registers it by name. To
 // be included only where a feature is defined, because it includes ceres/jet.h for automatic
-// derivatives.
+// derivatives. It is the only header of ShapeSpace::core that needs Ceres; the target
+// ShapeSpace::features provides the headers of Ceres, and links none of its libraries.
 
 namespace shapespace {
 namespace internal {

@@ -47,11 +47,12 @@ struct MetricOptions {
   Discretization discretization = Discretization::kMidpoint;
 
   /// Positive factors on the cost of stretching (isometric and strain) and of bending, for bodies
-  /// of varying stiffness: one number per vertex, or one per edge (Connectivity::Edges). Edges have
-  /// the mean of their two ends, triangles that of their three sides. Empty: 1 everywhere. On
-  /// coarser levels of a solver they are geometric means over the vertices that have collapsed to a
-  /// vertex.
+  /// of varying stiffness: one number per vertex or per edge, as `stiffness_on` says. Where they
+  /// are given on vertices, edges have the mean of their two ends; triangles have the mean of their
+  /// three sides. Empty: 1 everywhere. On coarser levels of a solver they are geometric means over
+  /// the vertices that have collapsed to a vertex.
   Eigen::VectorXd stretching_stiffness, bending_stiffness;
+  StiffnessOn stiffness_on = StiffnessOn::kVertices;  ///< of both
 
   /// The default: as isometric as possible, measured by strains. Paths can be continued without
   /// limit, and fewer of them jump than under `Isometric` (docs/measurements.md, section 3).
@@ -91,10 +92,14 @@ struct MetricOptions {
 struct Metric {
   MetricOptions options;  ///< as given, except that bending is 0 if the mesh has no hinge
   std::shared_ptr<const Connectivity> connectivity;
-  double unit = 1;              ///< length, in the user's unit, that has length 1 in the metric
-  Eigen::VectorXd vertex_area;  ///< A_p, with sum 1 (all positive, also for degenerate meshes)
-  Eigen::VectorXd edge_area;    ///< A_e, a third of the area of the triangles at the edge
-  Eigen::VectorXd hinge_area;   ///< A_f, a third of the area of the hinge's two triangles
+  double unit = 1;  ///< length, in the user's unit, that has length 1 in the metric
+  /// A_p, a third of the area of the triangles at the vertex; with sum 1 unless there are vertices
+  /// without triangles. All positive, also for degenerate meshes.
+  Eigen::VectorXd vertex_area;
+  /// A_e, a third of the area of the triangles at the edge; of edges that are no sides of triangles
+  /// a sixth of the areas at their two ends.
+  Eigen::VectorXd edge_area;
+  Eigen::VectorXd hinge_area;  ///< A_f, a third of the area of the hinge's two triangles
   std::vector<std::shared_ptr<const Feature>> features;
   RigidForm rigid;
 
@@ -109,9 +114,9 @@ struct Metric {
 /// levels of a mesh take from the finest one. If no two triangles share an edge, as in graphs,
 /// there is no bending, and `Metric::options.bending` is 0.
 /// \throw InvalidOptions if the options are invalid, name a feature that is not registered, have
-///        stiffness for another number of vertices or edges, or ask for volume and the mesh is not
-///        closed; MeshError if a shape has another number of vertices, is not finite, has no extent
-///        or lies beyond `kLargestCoordinate`.
+///        stiffness of another number than the mesh has vertices (or edges, `stiffness_on`), or ask
+///        for volume and the mesh is not closed; MeshError if a shape has another number of
+///        vertices, is not finite, has no extent or lies beyond `kLargestCoordinate`.
 std::shared_ptr<const Metric> FreezeMetric(const MetricOptions& options,
                                            const std::shared_ptr<const Connectivity>& connectivity,
                                            const std::vector<Shape>& poses, double unit = 0,

@@ -12,7 +12,7 @@
 namespace shapespace {
 namespace {
 
-// A vertex without triangles, or with collapsed ones only, has this share of the mean area.
+// A vertex without elements, or with collapsed ones only, has this share of the mean area.
 constexpr double kLeastArea = 1e-3;
 
 struct Measures {
@@ -36,36 +36,54 @@ Measures Measure(const Connectivity& connectivity, const std::vector<Shape>& pos
   return result;
 }
 
-// Computes A_e of every edge and A_p of every vertex, each with sum 1 if the mesh is a plain
-// surface.
-void AssignAreas(const Connectivity& connectivity, const Measures& measures,
-                 Eigen::VectorXd* edge_area, Eigen::VectorXd* vertex_area) {
-  const int num_vertices = connectivity.NumVertices();
-  const int num_sides = connectivity.NumTriangleEdges();
-  *edge_area = Eigen::VectorXd::Zero(connectivity.NumEdges());
-  *vertex_area = Eigen::VectorXd::Zero(num_vertices);
-  const Eigen::Matrix2Xi& edges = connectivity.Edges();
-  if (connectivity.IsGraph()) {
-    *edge_area = measures.squared_length.cwiseSqrt();
-    for (int e = 0; e < connectivity.NumEdges(); ++e) {
-      for (int k = 0; k < 2; ++k) (*vertex_area)(edges(k, e)) += 0.5 * (*edge_area)(e);
-    }
-  } else {
-    for (int f = 0; f < connectivity.NumTriangles(); ++f) {
-      const Eigen::Vector3i t = connectivity.Triangles().col(f);
-      for (const int v : t) (*vertex_area)(v) += measures.triangle_area(f) / 3;
-    }
-    for (int e = 0; e < num_sides; ++e) {
-      for (const int f : connectivity.TrianglesOfEdges()[e]) {
-        (*edge_area)(e) += measures.triangle_area(f) / 3;
-      }
-    }
-    // A stiffener has no triangle; it gets a share of the areas at its ends.
-    for (int e = num_sides; e < connectivity.NumEdges(); ++e) {
-      (*edge_area)(e) = ((*vertex_area)(edges(0, e)) + (*vertex_area)(edges(1, e))) / 6;
+// Adds to every vertex half of the length of its edges, times `width`.
+void AddLengths(const Connectivity& connectivity, const Measures& measures, double width,
+                Eigen::VectorXd* vertex_area) {
+  for (int e = 0; e < connectivity.NumEdges(); ++e) {
+    for (const int v : connectivity.Edges().col(e)) {
+      (*vertex_area)(v) += 0.5 * width * std::sqrt(measures.squared_length(e));
     }
   }
-  *vertex_area = vertex_area->cwiseMax(kLeastArea * vertex_area->sum() / num_vertices);
+}
+
+// Computes A_p. Of a graph it is a length.
+Eigen::VectorXd VertexAreas(const Connectivity& connectivity, const Measures& measures) {
+  const int num_vertices = connectivity.NumVertices();
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(num_vertices);
+  if (connectivity.IsGraph()) {
+    AddLengths(connectivity, measures, 1, &area);
+  } else {
+    for (int f = 0; f < connectivity.NumTriangles(); ++f) {
+      for (const int v : connectivity.Triangles().col(f)) area(v) += measures.triangle_area(f) / 3;
+    }
+    // A segment without triangles is a strip as wide as a cell of the surface.
+    const auto on_surface = [&](int v) { return connectivity.TrianglesOfVertices()[v].size() > 0; };
+    int surface = 0;
+    for (int v = 0; v < num_vertices; ++v) surface += on_surface(v) ? 1 : 0;
+    Eigen::VectorXd strip = Eigen::VectorXd::Zero(num_vertices);
+    AddLengths(connectivity, measures, std::sqrt(area.sum() / surface), &strip);
+    for (int v = 0; v < num_vertices; ++v) {
+      if (!on_surface(v)) area(v) = strip(v);
+    }
+  }
+  return area.cwiseMax(kLeastArea * area.sum() / num_vertices);
+}
+
+// Computes A_e, of a graph a length.
+Eigen::VectorXd EdgeAreas(const Connectivity& connectivity, const Measures& measures,
+                          const Eigen::VectorXd& vertex_area) {
+  if (connectivity.IsGraph()) return measures.squared_length.cwiseSqrt();
+  const int num_sides = connectivity.NumTriangleEdges();
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(connectivity.NumEdges());
+  for (int e = 0; e < num_sides; ++e) {
+    for (const int f : connectivity.TrianglesOfEdges()[e]) area(e) += measures.triangle_area(f) / 3;
+  }
+  // A stiffener or a segment has no triangle; it gets a share of the areas at its ends.
+  for (int e = num_sides; e < connectivity.NumEdges(); ++e) {
+    const Eigen::Vector2i ends = connectivity.Edges().col(e);
+    area(e) = (vertex_area(ends(0)) + vertex_area(ends(1))) / 6;
+  }
+  return area;
 }
 
 Eigen::VectorXd HingeAreas(const Connectivity& connectivity, const std::vector<Shape>& poses) {
@@ -90,27 +108,19 @@ void CheckMagnitude(const Shape& pose) {
   }
 }
 
-// Stiffness per edge: as given for edges, the means over their ends, or 1.
-Eigen::VectorXd EdgeStiffness(const Eigen::VectorXd& field, const Connectivity& connectivity) {
-  const Eigen::Matrix2Xi& edges = connectivity.Edges();
-  Eigen::VectorXd result = Eigen::VectorXd::Ones(edges.cols());
-  for (int e = 0; e < edges.cols() && field.size() > 0; ++e) {
-    result(e) = field.size() == connectivity.NumVertices()
-                    ? 0.5 * (field(edges(0, e)) + field(edges(1, e)))
-                    : field(e);
+// Checks the stiffness called `name`, and returns it per edge; 1 where there is none.
+Eigen::VectorXd CheckedStiffness(const Eigen::VectorXd& field, StiffnessOn on, const char* name,
+                                 const Connectivity& connectivity) {
+  if (field.size() == 0) return Eigen::VectorXd::Ones(connectivity.NumEdges());
+  const bool on_vertices = on == StiffnessOn::kVertices;
+  if (field.size() != (on_vertices ? connectivity.NumVertices() : connectivity.NumEdges())) {
+    throw InvalidOptions(std::string(name) + ": has " + std::to_string(field.size()) +
+                         " numbers; the mesh has " + std::to_string(connectivity.NumVertices()) +
+                         " vertices and " + std::to_string(connectivity.NumEdges()) +
+                         " edges, and stiffness_on says that the numbers belong to " +
+                         (on_vertices ? "vertices" : "edges"));
   }
-  return result;
-}
-
-void CheckStiffness(const Eigen::VectorXd& field, const char* name,
-                    const Connectivity& connectivity) {
-  if (field.size() == 0 || field.size() == connectivity.NumVertices() ||
-      field.size() == connectivity.NumEdges()) {
-    return;
-  }
-  throw InvalidOptions(std::string(name) + ": has " + std::to_string(field.size()) +
-                       " numbers; the mesh has " + std::to_string(connectivity.NumVertices()) +
-                       " vertices and " + std::to_string(connectivity.NumEdges()) + " edges");
+  return EdgeStiffness(field, on, connectivity);
 }
 
 // The index of a side of a triangle among the edges.
@@ -131,9 +141,11 @@ int FindSide(const Connectivity& connectivity, int a, int b) {
 
 void AssignStiffness(const MetricOptions& options, MetricBasis* basis) {
   const Connectivity& connectivity = *basis->connectivity;
-  CheckStiffness(options.stretching_stiffness, "stretching_stiffness", connectivity);
-  CheckStiffness(options.bending_stiffness, "bending_stiffness", connectivity);
-  basis->edge_stiffness = EdgeStiffness(options.stretching_stiffness, connectivity);
+  const StiffnessOn on = options.stiffness_on;
+  basis->edge_stiffness =
+      CheckedStiffness(options.stretching_stiffness, on, "stretching_stiffness", connectivity);
+  const Eigen::VectorXd bending =
+      CheckedStiffness(options.bending_stiffness, on, "bending_stiffness", connectivity);
   basis->triangle_stiffness.setOnes(connectivity.NumTriangles());
   const bool stretches = options.stretching_stiffness.size() > 0;
   for (int f = 0; f < connectivity.NumTriangles() && stretches; ++f) {
@@ -146,7 +158,6 @@ void AssignStiffness(const MetricOptions& options, MetricBasis* basis) {
     basis->triangle_stiffness(f) = sum / 3;
   }
   const bool bends = options.bending_stiffness.size() > 0;
-  const Eigen::VectorXd bending = EdgeStiffness(options.bending_stiffness, connectivity);
   basis->hinge_stiffness.setOnes(connectivity.NumHinges());
   for (int h = 0; h < connectivity.NumHinges() && bends; ++h) {
     const Eigen::Vector4i hinge = connectivity.Hinges().col(h);
@@ -184,7 +195,8 @@ MetricBasis MakeMetricBasis(const MetricOptions& options,
   }
   for (const Shape& pose : poses) basis.poses.push_back(pose / basis.unit);
   measures = Measure(*connectivity, basis.poses);
-  AssignAreas(*connectivity, measures, &basis.edge_area, &basis.vertex_area);
+  basis.vertex_area = VertexAreas(*connectivity, measures);
+  basis.edge_area = EdgeAreas(*connectivity, measures, basis.vertex_area);
   basis.triangle_area = std::move(measures.triangle_area);
   basis.squared_length = std::move(measures.squared_length);
   basis.hinge_area = HingeAreas(*connectivity, basis.poses);
@@ -192,9 +204,10 @@ MetricBasis MakeMetricBasis(const MetricOptions& options,
   return basis;
 }
 
-Eigen::VectorXd VertexStiffness(const Eigen::VectorXd& field, const Connectivity& connectivity) {
+Eigen::VectorXd VertexStiffness(const Eigen::VectorXd& field, StiffnessOn on,
+                                const Connectivity& connectivity) {
+  if (on == StiffnessOn::kVertices) return field;
   const int num_vertices = connectivity.NumVertices();
-  if (field.size() == num_vertices) return field;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(num_vertices);
   Eigen::VectorXd count = Eigen::VectorXd::Zero(num_vertices);
   for (int e = 0; e < connectivity.NumEdges(); ++e) {
@@ -204,6 +217,13 @@ Eigen::VectorXd VertexStiffness(const Eigen::VectorXd& field, const Connectivity
     }
   }
   return (sum.array() / count.array().max(1)).exp();
+}
+
+Eigen::VectorXd EdgeStiffness(const Eigen::VectorXd& field, StiffnessOn on,
+                              const Connectivity& connectivity) {
+  if (on == StiffnessOn::kEdges) return field;
+  const Eigen::Matrix2Xi& edges = connectivity.Edges();
+  return 0.5 * (field(edges.row(0)) + field(edges.row(1)));
 }
 
 }  // namespace shapespace

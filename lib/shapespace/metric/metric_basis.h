@@ -18,6 +18,12 @@ enum class Weighting {
   kUniform,  ///< 1, as in the paper; the meaning depends on the mesh resolution
 };
 
+/// What the numbers of a stiffness (MetricOptions) belong to.
+enum class StiffnessOn {
+  kVertices,  ///< one number per vertex
+  kEdges,     ///< one number per edge, in the order of Connectivity::Edges
+};
+
 /// The pairs of poses for which the metric is intended. Hinges that turn by more than 90 degrees
 /// between the poses of a pair are down-weighted.
 enum class PosePairs {
@@ -35,8 +41,8 @@ struct MetricBasis {
 
   double unit = 1;                 ///< length, in the user's unit, that has length 1 in the metric
   Eigen::VectorXd triangle_area;   ///< with sum 1 (for graphs, the sum of edge lengths is 1)
-  Eigen::VectorXd vertex_area;     ///< A_p, with sum 1; all positive, also for degenerate meshes
-  Eigen::VectorXd edge_area;       ///< A_e, a third of the area of the triangles at the edge
+  Eigen::VectorXd vertex_area;     ///< A_p, as in `Metric`
+  Eigen::VectorXd edge_area;       ///< A_e, as in `Metric`
   Eigen::VectorXd hinge_area;      ///< A_f, a third of the area of the hinge's two triangles
   Eigen::VectorXd squared_length;  ///< of edges
 
@@ -57,9 +63,14 @@ MetricBasis MakeMetricBasis(const MetricOptions& options,
                             const std::shared_ptr<const Connectivity>& connectivity,
                             const std::vector<Shape>& poses, double unit, PosePairs pairs);
 
-/// The user's stiffness (MetricOptions), given per vertex or per edge, as one number per vertex: of
+/// The user's stiffness (MetricOptions), given `on` vertices or edges, as one number per vertex: of
 /// edges the geometric mean over those at the vertex.
-Eigen::VectorXd VertexStiffness(const Eigen::VectorXd& field, const Connectivity& connectivity);
+Eigen::VectorXd VertexStiffness(const Eigen::VectorXd& field, StiffnessOn on,
+                                const Connectivity& connectivity);
+
+/// The same as one number per edge: of vertices the mean of the edge's two ends.
+Eigen::VectorXd EdgeStiffness(const Eigen::VectorXd& field, StiffnessOn on,
+                              const Connectivity& connectivity);
 
 }  // namespace shapespace
 

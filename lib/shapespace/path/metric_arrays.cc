@@ -9,6 +9,11 @@
 namespace shapespace::internal {
 namespace {
 
+constexpr const char* kStretching = "stretching_stiffness";
+constexpr const char* kBending = "bending_stiffness";
+constexpr const char* kVertices = "vertices";
+constexpr const char* kEdges = "edges";
+
 HeaderJson OptionsToJson(const MetricOptions& options) {
   HeaderJson features = HeaderJson::array();
   for (const FeatureTerm& term : options.features) {
@@ -23,7 +28,8 @@ HeaderJson OptionsToJson(const MetricOptions& options) {
           {"features", features},
           {"weights", options.weights == Weighting::kUniform ? "uniform" : "area"},
           {"discretization",
-           options.discretization == Discretization::kTrapezoid ? "trapezoid" : "midpoint"}};
+           options.discretization == Discretization::kTrapezoid ? "trapezoid" : "midpoint"},
+          {"stiffness_on", options.stiffness_on == StiffnessOn::kEdges ? kEdges : kVertices}};
 }
 
 MetricOptions OptionsFromJson(const HeaderJson& json) {
@@ -46,8 +52,42 @@ MetricOptions OptionsFromJson(const HeaderJson& json) {
   return options;
 }
 
-constexpr const char* kStretching = "stretching_stiffness";
-constexpr const char* kBending = "bending_stiffness";
+// Reads the stiffness, which files may have on vertices or on edges.
+void ReadStiffness(const HeaderJson& json, const ArrayReader& arrays,
+                   const Connectivity& connectivity, MetricOptions* options) {
+  const std::pair<const char*, Eigen::VectorXd*> fields[] = {
+      {kStretching, &options->stretching_stiffness}, {kBending, &options->bending_stiffness}};
+  for (const auto& [name, field] : fields) {
+    if (arrays.Has(name)) *field = arrays.Get<Eigen::VectorXd>(name, Eigen::Dynamic, 1);
+  }
+  if (json.contains("stiffness_on")) {
+    const std::string on = json.at("stiffness_on").get<std::string>();
+    if (on != kVertices && on != kEdges) {
+      throw FileError("its stiffness is on \"" + on + "\", which is neither vertices nor edges");
+    }
+    options->stiffness_on = on == kEdges ? StiffnessOn::kEdges : StiffnessOn::kVertices;
+  } else {
+    // In older files the number of each field says it, vertices first, and the two may differ.
+    const auto on_vertices = [&](const Eigen::VectorXd& field) {
+      return field.size() == 0 || field.size() == connectivity.NumVertices();
+    };
+    if (!on_vertices(options->stretching_stiffness) || !on_vertices(options->bending_stiffness)) {
+      options->stiffness_on = StiffnessOn::kEdges;
+      for (const auto& [name, field] : fields) {
+        if (field->size() == connectivity.NumVertices()) {
+          *field = EdgeStiffness(*field, StiffnessOn::kVertices, connectivity);
+        }
+      }
+    }
+  }
+  const int count = options->stiffness_on == StiffnessOn::kEdges ? connectivity.NumEdges()
+                                                                 : connectivity.NumVertices();
+  for (const auto& [name, field] : fields) {
+    if (field->size() > 0 && field->size() != count) {
+      throw FileError(std::string("its array ") + name + " has the wrong size");
+    }
+  }
+}
 
 std::shared_ptr<const Feature> ReadFeature(const std::string& name, const HeaderJson& constants,
                                            const std::string& prefix, const ArrayReader& arrays,
@@ -153,10 +193,7 @@ std::shared_ptr<const Metric> ReadMetric(const HeaderJson& header, const ArrayRe
                          arrays.Get<Eigen::Matrix3Xi>("triangles", 3, Eigen::Dynamic));
   const Connectivity& connectivity = *metric->connectivity;
   metric->options = OptionsFromJson(header.at("metric"));
-  for (const auto& [name, field] : {std::pair(kStretching, &metric->options.stretching_stiffness),
-                                    std::pair(kBending, &metric->options.bending_stiffness)}) {
-    if (arrays.Has(name)) *field = arrays.Get<Eigen::VectorXd>(name, Eigen::Dynamic, 1);
-  }
+  ReadStiffness(header.at("metric"), arrays, connectivity, &metric->options);
   metric->options.Validate();
   metric->unit = header.at("unit").get<double>();
   if (!(metric->unit > 0)) throw FileError("its unit of length is not positive");

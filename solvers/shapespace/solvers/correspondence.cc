@@ -464,11 +464,13 @@ Path CarryPath(const CorrespondenceResult& result, const Path& path,
   MetricOptions options = path.metric->options;
   for (Eigen::VectorXd* field : {&options.stretching_stiffness, &options.bending_stiffness}) {
     if (field->size() == 0) continue;
-    const Eigen::VectorXd of_vertices = VertexStiffness(*field, *path.metric->connectivity);
+    const Eigen::VectorXd of_vertices =
+        VertexStiffness(*field, options.stiffness_on, *path.metric->connectivity);
     *field = PullBack(result.map.to_template, path.metric->connectivity->Triangles(),
                       of_vertices.transpose())
                  .transpose();
   }
+  options.stiffness_on = StiffnessOn::kVertices;
   Path own =
       MakePath(FreezeMetric(options, target_connectivity, carried), carried, path.parameters);
   own.poses = path.poses;

@@ -73,6 +73,33 @@ std::vector<Shape> Blend(const Shape& from, const Shape& to, int inner) {
   return shapes;
 }
 
+// The vertices whose motion has no cost: those of no element of any feature.
+std::vector<int> VerticesWithoutCost(const Metric& metric) {
+  const int num_vertices = metric.connectivity->NumVertices();
+  std::vector<char> has_cost(num_vertices, metric.rigid.Active() ? 1 : 0);
+  for (const auto& feature : metric.features) {
+    for (int e = 0; e < feature->NumElements(); ++e) {
+      for (int k = 0; k < feature->VerticesPerElement(); ++k) has_cost[feature->Element(e)[k]] = 1;
+    }
+  }
+  std::vector<int> vertices;
+  for (int v = 0; v < num_vertices; ++v) {
+    if (!has_cost[v]) vertices.push_back(v);
+  }
+  return vertices;
+}
+
+// Moves `vertices` on straight lines from the first shape to the last.
+void MoveStraight(const std::vector<int>& vertices, std::vector<Shape>* shapes) {
+  const int last = static_cast<int>(shapes->size()) - 1;
+  for (int k = 1; k < last; ++k) {
+    const double t = static_cast<double>(k) / last;
+    for (const int v : vertices) {
+      (*shapes)[k].col(v) = (1 - t) * shapes->front().col(v) + t * shapes->back().col(v);
+    }
+  }
+}
+
 // Whether poses differ so little that the path between them is dominated by rounding.
 bool AreNear(const Shape& a, const Shape& b) {
   constexpr double kNear = 1e-6;
@@ -241,7 +268,8 @@ class GeodesicLevels {
         options_(options),
         kind_(KindOfSchedule(*metric, options)),
         hierarchy_(metric->connectivity, aligned, MakeHierarchyOptions(), progress),
-        resolutions_(Resolve(hierarchy_, metric, aligned, pairs)) {}
+        resolutions_(Resolve(hierarchy_, metric, aligned, pairs)),
+        without_cost_(VerticesWithoutCost(*metric)) {}
 
   const std::shared_ptr<const Metric>& GetMetric() const { return metric_; }
   void SetPoses(const std::vector<Shape>& aligned);
@@ -264,6 +292,7 @@ class GeodesicLevels {
   const GeodesicSchedule kind_;
   const Hierarchy hierarchy_;
   std::vector<Resolution> resolutions_;
+  const std::vector<int> without_cost_;  // vertices of the mesh itself
 };
 
 void GeodesicLevels::SetPoses(const std::vector<Shape>& aligned) {
@@ -333,6 +362,7 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
       Piece piece(i, hierarchy_, &resolutions_, options_, &workload, &summary);
       piece.Run(schedule, more_shapes_allowed);
       shapes = std::move(piece).Result();
+      MoveStraight(without_cost_, &shapes);
       if (workload.Stopped() && i + 1 < pieces) {
         summary.warnings.push_back("cancelled: the pieces from " + std::to_string(i + 1) +
                                    " on are straight-line blends of their poses");

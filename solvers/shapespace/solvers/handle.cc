@@ -5,7 +5,8 @@
 namespace shapespace {
 
 Eigen::Vector3d ScrewMotion::At(double t, const Eigen::Vector3d& x) const {
-  return point + t * translation + Eigen::AngleAxisd(t * angle, axis.normalized()) * (x - point);
+  const Eigen::AngleAxisd turn(t * angle, axis.stableNormalized());
+  return point + t * translation + turn * (x - point);
 }
 
 Eigen::Vector3d Handle::Target(int place, double t, const Eigen::Vector3d& from) const {

@@ -91,6 +91,22 @@ TEST(RefinementTest, LowersTheErrorUntilItIsBelowTheThreshold) {
   }
 }
 
+TEST(MeasureBlends, MeasuresInTheMetricOfTheSpace) {
+  const Body tube = SmallTube();
+  ExploreOptions options;
+  options.depth = 0;
+  options.geodesic.metric.isometric = 0;
+  options.geodesic.metric.strain = 1;
+  options.geodesic.metric.bending = 1e-3;
+  const Space space = Explore(tube.connectivity, TubePoses(tube), {}, options).space;
+  const BlendErrors own = MeasureBlends(space, 10, options);
+  options.geodesic.metric = MetricOptions::Isometric();
+  options.geodesic.metric.bending = 0;
+  const BlendErrors other = MeasureBlends(space, 10, options);
+  EXPECT_EQ(other.mean, own.mean);
+  EXPECT_EQ(other.max, own.max);
+}
+
 TEST(RefinementTest, StopsWhereStraightLinesAreGoodEnough) {
   const Body tube = SmallTube();
   ExploreOptions options;

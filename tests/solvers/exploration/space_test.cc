@@ -1,5 +1,6 @@
 #include <shapespace/solvers/exploration/space.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -53,6 +54,16 @@ TEST(SpaceTest, PointsOutsideAreMovedToTheNearestOfTheHull) {
   EXPECT_EQ(space.At({7, 9}), space.Placed(2));
   EXPECT_TRUE(space.Locate({0.4, 0}).inside);
   EXPECT_TRUE(space.Locate({1, 1}).inside);
+}
+
+TEST(SpaceTest, APointThatIsNotFiniteHasNoShape) {
+  const Space space = MadeUpSpace(SmallTube());
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::nan(""), infinity, -infinity}) {
+    EXPECT_THROW(space.At({bad, 0.5}), InvalidOptions);
+    EXPECT_THROW(space.Locate({0.5, bad}), InvalidOptions);
+  }
+  EXPECT_FALSE(space.Locate({1e300, 0.5}).inside);
 }
 
 TEST(SpaceTest, ALineHasNoInside) {

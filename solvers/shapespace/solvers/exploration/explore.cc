@@ -287,8 +287,10 @@ ExploreResult Explore(const std::shared_ptr<const Connectivity>& connectivity,
 
 void RemoveRecords(const std::string& folder) { internal::Records(folder).Remove(); }
 
-BlendErrors MeasureBlends(const Space& space, int samples, const ExploreOptions& options,
+BlendErrors MeasureBlends(const Space& space, int samples, const ExploreOptions& given,
                           Progress* progress, Crew* crew) {
+  ExploreOptions options = given;
+  options.geodesic.metric = space.metric->options;
   options.Validate();
   if (samples < 1) throw InvalidOptions("samples: must be 1 or more");
   Crew alone;

@@ -130,8 +130,9 @@ struct BlendErrors {
 /// Compares Space::At with blends along geodesics at `samples` points, uniformly distributed over
 /// the plane (pseudo-random with a fixed seed). A blend of three nodes along geodesics is found in
 /// two steps: the shape on the geodesic between the two nodes of greatest weight, then the shape on
-/// the geodesic from there to the third node. Uses `geodesic`, `resolution`, `threshold` and
-/// `records` of the options. \throw as DistanceMatrix.
+/// the geodesic from there to the third node. Everything is measured in the metric of the space.
+/// Uses `geodesic` except for its metric, `resolution`, `threshold` and `records` of the options.
+/// \throw as DistanceMatrix.
 BlendErrors MeasureBlends(const Space& space, int samples, const ExploreOptions& options = {},
                           Progress* progress = nullptr, Crew* crew = nullptr);
 

@@ -16,9 +16,7 @@
 namespace shapespace::internal {
 namespace {
 
-// To be incremented when the same inputs and options give another result.
-constexpr uint32_t kVersion = 1;
-constexpr ArrayFileKind kKind = {"SHAPPAIR", kVersion, ".geodesic"};
+constexpr ArrayFileKind kKind = {"SHAPPAIR", 1, ".geodesic"};
 
 // A 128-bit hash of everything that is added.
 class Hasher {
@@ -52,6 +50,7 @@ class Hasher {
 std::string DigestOf(const Metric& frozen, const std::vector<Shape>& poses,
                      const GeodesicOptions& options) {
   Hasher hasher;
+  hasher.Add(kResultsVersion);
   const MetricOptions& metric = options.metric;
   for (double number :
        {metric.isometric, metric.strain, metric.rigid, metric.lambda, metric.bending, metric.volume,

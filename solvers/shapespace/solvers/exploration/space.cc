@@ -36,6 +36,7 @@ Shape BlendNodes(const std::vector<Shape>& nodes, const PlaneLocation& location,
 }
 
 PlaneLocation Space::Locate(const Eigen::Vector2d& point) const {
+  if (!point.allFinite()) throw InvalidOptions("point: must be two finite numbers");
   // Tolerance for negative barycentric coordinates due to rounding.
   constexpr double kRounding = 1e-12;
   PlaneLocation best;

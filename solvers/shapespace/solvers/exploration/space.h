@@ -59,14 +59,18 @@ struct Space {
   int NumPoses() const { return static_cast<int>(names.size()); }
   Shape Placed(int node) const { return Blend({{node, node, node}, {1, 0, 0}, {}, true}); }
 
-  /// O(triangles). A point outside is projected to the nearest point of the hull.
+  /// O(triangles). A point outside is projected to the nearest point of the hull, and
+  /// `PlaneLocation::inside` is then false.
+  /// \throw InvalidOptions if the point is not finite.
   PlaneLocation Locate(const Eigen::Vector2d& point) const;
 
   /// The blend of nodes, in the user's unit.
   Shape Blend(const PlaneLocation& location) const;
 
   /// The shape at a point of the plane, in the user's unit: continuous, linear within a triangle,
-  /// and equal to the node at a node's position.
+  /// and equal to the node at a node's position. Outside of the hull it is the shape at the nearest
+  /// point of it; `Locate` says whether a point is inside.
+  /// \throw InvalidOptions if the point is not finite.
   Shape At(const Eigen::Vector2d& point) const { return Blend(Locate(point)); }
 
   /// \throw MeshError if numbers of nodes, vertices or anything else do not fit together, an index
