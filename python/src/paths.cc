@@ -318,6 +318,7 @@ Path PathThrough(const Poses& poses, const FrozenMetric& metric, const py::objec
     const Eigen::VectorXd given = ToVector(parameters, "parameters");
     times.assign(given.data(), given.data() + given.size());
   }
+  CheckIsOfMesh(*metric.metric, *poses.connectivity);
   Path path = MakePath(metric.metric, poses.shapes, std::move(times));
   path.poses.resize(path.shapes.size());
   std::iota(path.poses.begin(), path.poses.end(), 0);

@@ -224,6 +224,24 @@ def test_a_path_of_one_s_own(path, poses):
         shapespace.Path(poses, path.metric, [0, 0])
 
 
+def test_a_frozen_metric_lends_its_faces_to_no_other_mesh(poses, animal):
+    metric = shapespace.Metric(poses, animal.faces, preset="strain")
+    turned = np.roll(animal.faces, 1, axis=0)
+    fewer = animal.faces[1:]
+    for faces, difference in ((turned, "face 0 has other corners"), (fewer, "faces, the poses have")):
+        with pytest.raises(shapespace.MeshError, match="frozen on another mesh.*" + difference):
+            shapespace.interpolate(poses, faces, metric=metric, shapes=1)
+        with pytest.raises(shapespace.MeshError, match="frozen on another mesh.*" + difference):
+            shapespace.Path(shapespace.Poses(poses, faces), metric)
+    # How polygons are cut depends on the poses, and is the metric's affair.
+    quads = [[0, 1, 2, 3]]
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+    dented = square * [[1, 1, 1], [0.3, 1, 1], [1, 1, 1], [1, 1, 1]]
+    dented[1, 1] = 0.7
+    frozen = shapespace.Metric([square, 2 * square], quads, preset="strain")
+    assert len(shapespace.interpolate([dented, square], quads, metric=frozen, shapes=1).path) == 3
+
+
 def test_a_path_at_other_times(path):
     again = path.at([0, 0.5, 1])
     np.testing.assert_array_equal(again[1], path.at([0.5])[0])
