@@ -163,14 +163,16 @@ CorrespondenceError
   module->def(
       "read",
       [](const std::vector<std::string>& files, const std::string& stiffeners,
-         bool allow_nonmanifold, const py::object& mirror) {
+         bool allow_nonmanifold, const py::object& mirror, bool allow_outside_files) {
         ReadOptions options = ReadingOptions(allow_nonmanifold, mirror);
         options.stiffeners = stiffeners;
+        options.allow_outside_files = allow_outside_files;
         Poses poses = WithoutLock(py::none(), [=](Progress*) { return ReadPoses(files, options); });
         Warn(poses.warnings);
         return poses;
       },
-      py::arg("files"), py::arg("stiffeners"), py::arg("allow_nonmanifold"), py::arg("mirror"));
+      py::arg("files"), py::arg("stiffeners"), py::arg("allow_nonmanifold"), py::arg("mirror"),
+      py::arg("allow_outside_files"));
 
   module->def("write", [](const std::string& file, py::handle vertices, py::handle faces) {
     const Shape shape = ToShape(vertices, "vertices");

@@ -281,3 +281,30 @@ def test_paths_can_be_pickled(path):
     copy = pickle.loads(pickle.dumps(path))
     np.testing.assert_array_equal(copy.vertices, path.vertices)
     assert repr(copy) == repr(path)
+
+
+def test_textures_are_taken_from_the_mesh_s_own_folder(tmp_path):
+    """By pickled paths too; from elsewhere on request only."""
+    home = tmp_path / "home"
+    home.mkdir()
+    for name, x in (("a.obj", 1), ("b.obj", 2)):
+        (home / name).write_text(
+            f"v 0 0 0\nv {x} 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+            "mtllib s.mtl\nusemtl s\nf 1/1 2/2 3/3\n"
+        )
+    (tmp_path / "skin.png").write_bytes(b"\x89PNG\r\n\x1a\n a picture of one's own")
+    (home / "skin.png").write_bytes((tmp_path / "skin.png").read_bytes())
+    poses = shapespace.read(home / "a.obj", home / "b.obj")
+    path = shapespace.interpolate(poses, metric="strain", shapes=1).path
+
+    def has_texture(path, **options):
+        path.write(tmp_path / "out" / "walk.glb", **options)
+        return b"a picture" in (tmp_path / "out" / "walk.glb").read_bytes()
+
+    (home / "s.mtl").write_text("newmtl s\nmap_Kd skin.png\n")
+    assert has_texture(path) and has_texture(pickle.loads(pickle.dumps(path)))
+    (home / "s.mtl").write_text("newmtl s\nmap_Kd ../skin.png\n")
+    for one in (path, pickle.loads(pickle.dumps(path))):
+        with pytest.warns(shapespace.MeshWarning, match="lies outside of the folder"):
+            assert not has_texture(one)
+        assert has_texture(one, allow_outside_files=True)

@@ -232,6 +232,7 @@ Appearance ReadAppearance(const HeaderJson& header, const std::string& file,
   appearance.corner_texture = IndicesFrom(arrays, "corner_texture");
   appearance.material_libraries = NamesFromJson(json.at("material_libraries"));
   appearance.folder = (folder / NameFromJson(json.at("folder"))).lexically_normal().string();
+  appearance.own_folder = folder.string();
   appearance.materials = {NamesFromJson(json.at("materials")),
                           IndicesFrom(arrays, "polygon_material")};
   appearance.groups = {NamesFromJson(json.at("groups")), IndicesFrom(arrays, "polygon_group")};
