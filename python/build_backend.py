@@ -90,7 +90,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
                 files[f"shapespace/{file.relative_to(package).as_posix()}"] = file.read_bytes()
     files[f"{info}/METADATA"] = _metadata().encode()
     files[f"{info}/WHEEL"] = _wheel_file().encode()
-    files[f"{info}/licenses/LICENSE"] = (PROJECT / "LICENSE").read_bytes()
+    for name in ("LICENSE", "NOTICES"):
+        files[f"{info}/licenses/{name}"] = (PROJECT / name).read_bytes()
     record = "".join(_record(name, content) for name, content in files.items())
     files[f"{info}/RECORD"] = (record + f"{info}/RECORD,,\n").encode()
 

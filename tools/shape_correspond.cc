@@ -13,6 +13,7 @@
 #include "support/correspondence_flags.h"
 #include "support/frames.h"
 #include "support/lists.h"
+#include "support/outside_files_flag.h"
 #include "support/report.h"
 #include "support/solve_progress.h"
 #include "support/tool.h"
@@ -44,7 +45,7 @@ std::vector<std::string> Outputs() {
 Poses ReadMesh(const std::string& file) {
   ReadOptions options;
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
-  Poses mesh = MakePoses({ReadSoup(file)}, options);
+  Poses mesh = MakePoses({ReadSoup(file, FLAGS_allow_outside_files)}, options);
   for (const std::string& warning : mesh.warnings) Err() << "warning: " << warning << '\n';
   for (const std::string& dropped : mesh.soup.dropped) Err() << "note: " << dropped << '\n';
   return mesh;
@@ -100,6 +101,7 @@ int main(int argc, char** argv) {
        "the template's poses. Check\nthe picture before you rely on the map.\n\nA fit that does "
        "not converge is reported; its outputs are written, and the exit code is 0, or 1\nwith "
        "--strict.",
-       {"shape_correspond.cc", "support/correspondence_flags.cc", "support/report.cc"}},
+       {"shape_correspond.cc", "support/correspondence_flags.cc", "support/report.cc",
+        "support/outside_files_flag.cc"}},
       Run);
 }

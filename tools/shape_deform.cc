@@ -164,6 +164,7 @@ int main(int argc, char** argv) {
            "30 keeps the volume within .3 %.") +
            kHowASolveEnds,
        {"shape_deform.cc", "support/report.cc", "support/outputs.cc", "support/metric_flags.cc",
-        "support/poses.cc", "support/mesh_flags.cc", "support/memory_flag.cc"}},
+        "support/poses.cc", "support/mesh_flags.cc", "support/memory_flag.cc",
+        "support/outside_files_flag.cc"}},
       Run);
 }

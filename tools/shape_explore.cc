@@ -1,12 +1,10 @@
 // Makes a space of poses, samples it along a curve, or measures it.
 
-#include <algorithm>
-#include <filesystem>
-
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/extension.h>
+#include <shapespace/mesh/display_names.h>
 #include <shapespace/solvers/exploration/explore.h>
 #include <shapespace/solvers/exploration/space_file.h>
 
@@ -63,19 +61,6 @@ ExploreOptions ExploreFromFlags(const std::string& records) {
   return options;
 }
 
-// Names of poses: those that their files give them, or the parts in which the files' names differ.
-std::vector<std::string> NamesOf(const Poses& poses, const std::vector<std::string>& files) {
-  std::vector<std::string> names;
-  for (const std::string& name : poses.names) {
-    const bool is_file = std::find(files.begin(), files.end(), name) != files.end();
-    names.push_back(is_file ? std::filesystem::path(name).stem().string() : name);
-  }
-  std::vector<std::string> sorted = names;
-  std::sort(sorted.begin(), sorted.end());
-  const bool differ = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
-  return differ ? names : poses.names;
-}
-
 void Measure(const Space& space, const ExploreOptions& options, Crew* crew) {
   const BlendErrors errors =
       MeasureBlends(space, FLAGS_measure, options, SolveProgress({}).get(), crew);
@@ -94,8 +79,8 @@ void MakeSpace(const std::vector<std::string>& files, Crew* crew) {
   CheckNothingIsOverwritten(WithStiffeners(files), {{"output", {FLAGS_output}}, ReportFromFlag()});
   CheckCanBeWritten(FLAGS_output);
   const Poses poses = ReadPosesFromFlags(files);
-  ExploreResult result = Explore(poses.connectivity, poses.shapes, NamesOf(poses, files), options,
-                                 SolveProgress({}).get(), crew);
+  ExploreResult result = Explore(poses.connectivity, poses.shapes, DisplayNames(poses.names),
+                                 options, SolveProgress({}).get(), crew);
   const ExploreSummary& summary = result.summary;
   result.space.provenance = Provenance("shape-explore", files);
   result.space.appearance = poses.soup.appearance;
@@ -193,6 +178,6 @@ int main(int argc, char** argv) {
        "geodesics (--threads is the\nnumber of threads of each process).",
        {"shape_explore.cc", "support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
         "support/metric_flags.cc", "support/poses.cc", "support/mesh_flags.cc",
-        "support/memory_flag.cc"}},
+        "support/memory_flag.cc", "support/outside_files_flag.cc"}},
       Run);
 }

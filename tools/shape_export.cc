@@ -90,6 +90,6 @@ int main(int argc, char** argv) {
                   "  shape-export walk.path --output walk.png,frames/%03d.obj --frames 40 --ease\n"
                   "  shape-export walk.path --output quarter%d.obj --at .25,.5,.75",
                   {"shape_export.cc", "support/outputs.cc", "support/anchor_flags.cc",
-                   "support/memory_flag.cc"}},
+                   "support/memory_flag.cc", "support/outside_files_flag.cc"}},
                  Run);
 }

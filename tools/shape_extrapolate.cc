@@ -186,6 +186,7 @@ int main(int argc, char** argv) {
            kHowASolveEnds,
        {"shape_extrapolate.cc", "support/geodesic_flags.cc", "support/report.cc",
         "support/outputs.cc", "support/metric_flags.cc", "support/poses.cc",
-        "support/mesh_flags.cc", "support/memory_flag.cc", "support/anchor_flags.cc"}},
+        "support/mesh_flags.cc", "support/memory_flag.cc", "support/anchor_flags.cc",
+        "support/outside_files_flag.cc"}},
       Run);
 }

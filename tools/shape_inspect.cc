@@ -14,6 +14,7 @@
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/extension.h>
+#include <shapespace/base/printable.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/read.h>
 #include <shapespace/metric/metric.h>
@@ -24,6 +25,7 @@
 
 #include "support/mesh_flags.h"
 #include "support/metric_flags.h"
+#include "support/outside_files_flag.h"
 #include "support/tool.h"
 
 namespace shapespace::tools {
@@ -55,14 +57,14 @@ bool Print(const std::vector<Finding>& findings) {
     if (severity == Severity::kNonManifold && FLAGS_allow_nonmanifold)
       severity = Severity::kWarning;
     std::printf("  %-12s %-24s %s\n", Name(severity), finding.kind.c_str(),
-                finding.message.c_str());
+                internal::Printable(finding.message).c_str());
     good = good && severity <= Severity::kWarning;
   }
   return good;
 }
 
 std::string NameOf(const Soup& soup) {
-  return soup.pose.empty() ? soup.file : soup.file + ":" + soup.pose;
+  return internal::Printable(soup.pose.empty() ? soup.file : soup.file + ":" + soup.pose);
 }
 
 void PrintContent(const Soup& soup) {
@@ -75,7 +77,8 @@ void PrintContent(const Soup& soup) {
   }
   std::printf("\n");
   for (const std::string& what : soup.dropped) {
-    std::printf("  %-12s %-24s %s\n", Name(Severity::kNote), "not-kept", what.c_str());
+    std::printf("  %-12s %-24s %s\n", Name(Severity::kNote), "not-kept",
+                internal::Printable(what).c_str());
   }
 }
 
@@ -169,12 +172,12 @@ void PrintPath(const std::string& file) {
   const PathQuality quality = MeasureQuality(path);
   const std::string beyond =
       path.extrapolated > 0 ? ", " + std::to_string(path.extrapolated) + " extrapolated" : "";
-  std::printf("%s\n  %d shapes, %zu of them given%s; %d vertices, %d triangles\n", file.c_str(),
-              path.NumShapes(), path.poses.size(), beyond.c_str(), connectivity.NumVertices(),
-              connectivity.NumTriangles());
-  std::printf("  made by      %s\n", path.provenance.c_str());
-  std::printf("  metric       %s; unit of length %.6g\n", Describe(path.metric->options).c_str(),
-              path.metric->unit);
+  std::printf("%s\n  %d shapes, %zu of them given%s; %d vertices, %d triangles\n",
+              internal::Printable(file).c_str(), path.NumShapes(), path.poses.size(),
+              beyond.c_str(), connectivity.NumVertices(), connectivity.NumTriangles());
+  std::printf("  made by      %s\n", internal::Printable(path.provenance).c_str());
+  std::printf("  metric       %s; unit of length %.6g\n",
+              internal::Printable(Describe(path.metric->options)).c_str(), path.metric->unit);
   if (!path.converged) std::printf("  solve        NOT CONVERGED, or stopped\n");
   if (quality.inner_shapes > 0) {
     std::printf(
@@ -201,13 +204,14 @@ void PrintPath(const std::string& file) {
 
 void PrintSpace(const std::string& file) {
   const Space space = ReadSpace(file);
-  std::printf("%s\n", file.c_str());
-  if (!space.provenance.empty()) std::printf("  made by      %s\n", space.provenance.c_str());
+  std::printf("%s\n", internal::Printable(file).c_str());
+  if (!space.provenance.empty())
+    std::printf("  made by      %s\n", internal::Printable(space.provenance).c_str());
   std::printf("  mesh         %d vertices, %d triangles\n",
               space.metric->connectivity->NumVertices(),
               space.metric->connectivity->NumTriangles());
-  std::printf("  metric       %s; unit of length %.6g\n", Describe(space.metric->options).c_str(),
-              space.metric->unit);
+  std::printf("  metric       %s; unit of length %.6g\n",
+              internal::Printable(Describe(space.metric->options)).c_str(), space.metric->unit);
   std::printf("  nodes        %d, of which %d are poses; %d triangles, %d segments\n",
               space.NumNodes(), space.NumPoses(), static_cast<int>(space.triangles.cols()),
               static_cast<int>(space.segments.cols()));
@@ -215,7 +219,7 @@ void PrintSpace(const std::string& file) {
               space.stress);
   for (int i = 0; i < space.NumPoses(); ++i) {
     std::printf("  pose         at %12.6g %12.6g  %s\n", space.points(0, i), space.points(1, i),
-                space.names[i].c_str());
+                internal::Printable(space.names[i]).c_str());
   }
 }
 
@@ -246,7 +250,7 @@ void Run(const std::vector<std::string>& files) {
       if ((extension != ".path" && extension != ".space") != meshes) continue;
       try {
         if (meshes) {
-          for (Soup& pose : ReadSoups(file)) {
+          for (Soup& pose : ReadSoups(file, FLAGS_allow_outside_files)) {
             usable = PrintMesh(std::move(pose), &soups) && usable;
           }
         } else if (extension == ".path") {
@@ -268,12 +272,13 @@ void Run(const std::vector<std::string>& files) {
 
 int main(int argc, char** argv) {
   using namespace shapespace::tools;
-  return RunTool(argc, argv,
-                 {"shape-inspect",
-                  "contents of files, correspondence of meshes, differences between poses",
-                  "  shape-inspect a.obj b.obj walk.path poses.space\n\n"
-                  "Exit code 1 if a file cannot be read, a mesh cannot be used as it is, or meshes "
-                  "do not\ncorrespond.",
-                  {"support/metric_flags.cc", "support/mesh_flags.cc"}},
-                 Run);
+  return RunTool(
+      argc, argv,
+      {"shape-inspect",
+       "contents of files, correspondence of meshes, differences between poses",
+       "  shape-inspect a.obj b.obj walk.path poses.space\n\n"
+       "Exit code 1 if a file cannot be read, a mesh cannot be used as it is, or meshes "
+       "do not\ncorrespond.",
+       {"support/metric_flags.cc", "support/mesh_flags.cc", "support/outside_files_flag.cc"}},
+      Run);
 }

@@ -51,6 +51,6 @@ int main(int argc, char** argv) {
            kHowASolveEnds,
        {"support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
         "support/anchor_flags.cc", "support/metric_flags.cc", "support/poses.cc",
-        "support/mesh_flags.cc", "support/memory_flag.cc"}},
+        "support/mesh_flags.cc", "support/memory_flag.cc", "support/outside_files_flag.cc"}},
       Run);
 }

@@ -17,6 +17,7 @@
 #include "support/geodesic_flags.h"
 #include "support/mesh_flags.h"
 #include "support/outputs.h"
+#include "support/outside_files_flag.h"
 #include "support/poses.h"
 #include "support/report.h"
 #include "support/solve_progress.h"
@@ -138,12 +139,12 @@ Poses ReadTargetOf(const Path& path, const std::string& file) {
 Poses ReadWithTarget(const std::vector<std::string>& files) {
   std::vector<Soup> soups;
   for (const std::string& file : files) {
-    for (Soup& pose : ReadSoups(file)) soups.push_back(std::move(pose));
+    for (Soup& pose : ReadSoups(file, FLAGS_allow_outside_files)) soups.push_back(std::move(pose));
   }
   if (soups.size() < 2) {
     throw UsageError(files[0] + " has one pose; name at least two poses of one mesh");
   }
-  soups.push_back(ReadSoup(FLAGS_target));
+  soups.push_back(ReadSoup(FLAGS_target, FLAGS_allow_outside_files));
   return MakePosesFromFlags(std::move(soups));
 }
 
@@ -205,7 +206,7 @@ void Run(const std::vector<std::string>& files) {
     if (FLAGS_markers.empty()) {
       target = poses.shapes.back();
       poses.shapes.pop_back();
-      appearance = ReadSoup(FLAGS_target).appearance;
+      appearance = ReadSoup(FLAGS_target, FLAGS_allow_outside_files).appearance;
       anchorage.Select(target, *poses.connectivity, appearance);
     } else {
       other.emplace(poses);
@@ -245,6 +246,7 @@ int main(int argc, char** argv) {
            kHowASolveEnds,
        {"shape_transfer.cc", "support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
         "support/metric_flags.cc", "support/poses.cc", "support/mesh_flags.cc",
-        "support/memory_flag.cc", "support/anchor_flags.cc", "support/correspondence_flags.cc"}},
+        "support/memory_flag.cc", "support/anchor_flags.cc", "support/correspondence_flags.cc",
+        "support/outside_files_flag.cc"}},
       Run);
 }

@@ -1,6 +1,7 @@
 """The two kinds of file that are exchanged with the tools: PLY out, point caches in and out."""
 
 import os
+import secrets
 import struct
 
 import numpy as np
@@ -53,11 +54,12 @@ def read_pc2(file: str) -> np.ndarray:
 def write_pc2(file: str, shapes: np.ndarray) -> None:
     """The file appears whole or not at all."""
     samples, points, _ = shapes.shape
-    unfinished = file + ".part"
+    # Nobody can foresee the name, and lay a link there that leads to another file.
+    unfinished = f"{file}.part{secrets.token_hex(8)}"
     try:
         os.makedirs(os.path.dirname(file), exist_ok=True)
         try:
-            with open(unfinished, "wb") as out:
+            with open(unfinished, "xb") as out:
                 out.write(_PC2.pack(b"POINTCACHE2\0", 1, points, 0.0, 1.0, samples))
                 out.write(shapes.astype("<f4").tobytes())
             os.replace(unfinished, file)

@@ -8,6 +8,7 @@ from .files import write_pc2
 from .problem import Problem
 
 _MODIFIER = "shapespace"
+_NOT_IN_FILE_NAMES = '/\\:*?"<>|'  # of some system
 
 
 def file_for(item_name: str, folder: str) -> str:
@@ -19,16 +20,24 @@ def file_for(item_name: str, folder: str) -> str:
             " a folder for caches"
         )
     scene = os.path.splitext(bpy.path.basename(bpy.data.filepath))[0]
-    name = "-".join(filter(None, (scene, item_name)))
-    for sign in '/\\:*?"<>|':
-        name = name.replace(sign, "_")
+    name = _as_file_name("-".join(filter(None, (scene, item_name))))
     where = os.path.abspath(bpy.path.abspath(folder))
     existing = where
-    while not os.path.exists(existing):
+    # The root of a Windows drive may be missing, and it is its own parent.
+    while not os.path.exists(existing) and existing != os.path.dirname(existing):
         existing = os.path.dirname(existing)
     if not os.path.isdir(existing) or not os.access(existing, os.W_OK):
         raise Problem(f"Nothing can be written to {where}: choose another folder for caches")
     return os.path.join(where, name + ".pc2")
+
+
+def _as_file_name(name: str) -> str:
+    """The name with signs that files cannot have as in web addresses: different names remain
+    different."""
+    return "".join(
+        f"%{ord(sign):02X}" if sign in _NOT_IN_FILE_NAMES + "%" or sign < " " else sign
+        for sign in name
+    )
 
 
 def require_editable(item) -> None:

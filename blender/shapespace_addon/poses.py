@@ -175,4 +175,4 @@ def _matrix(context, item) -> np.ndarray:
 
 def _natural(name: str) -> list:
     """So that 'pose 2' comes before 'pose 10'."""
-    return [int(part) if part.isdigit() else part.lower() for part in re.split(r"(\d+)", name)]
+    return [int(part) if part.isdecimal() else part.lower() for part in re.split(r"(\d+)", name)]

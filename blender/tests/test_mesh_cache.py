@@ -1,6 +1,7 @@
 """In-betweens as point caches."""
 
 import struct
+import unittest.mock
 
 import bpy
 import numpy as np
@@ -49,13 +50,32 @@ class MeshCache(Case):
         shown = seen(cube, 2)
         self.assertGreater(np.abs(shown - seen(cube, 1)).max(), 0.1)
         bpy.ops.wm.save_mainfile()
-        self.assertTrue((self.folder / "walk-a_b.pc2").is_file())
+        self.assertTrue((self.folder / "walk-a%2Fb.pc2").is_file())
         moved = self.folder / "moved"
         moved.mkdir()
-        for name in ("walk.blend", "walk-a_b.pc2"):
+        for name in ("walk.blend", "walk-a%2Fb.pc2"):
             (self.folder / name).rename(moved / name)
         bpy.ops.wm.open_mainfile(filepath=str(moved / "walk.blend"))
         self.near(seen(bpy.data.objects["a/b"], 2), shown)
+
+    def test_objects_of_different_names_have_different_caches(self):
+        names = ["a/b", "a:b", "a_b", "a%2Fb", "a\\b", "a\nb"]
+        for name in names:
+            self.cube(name)
+            bpy.ops.shapespace.inbetweens(shapes=1, result="CACHE", cache_folder=str(self.folder))
+        self.assertEqual(len(list(self.folder.iterdir())), len(names))
+
+    def test_a_drive_that_is_missing(self):
+        self.cube()
+        with unittest.mock.patch("os.path.exists", return_value=False), unittest.mock.patch(
+            "os.path.isdir", return_value=False
+        ):
+            self.refused(
+                "Nothing can be written to .*: choose another folder",
+                bpy.ops.shapespace.inbetweens,
+                result="CACHE",
+                cache_folder=str(self.folder / "away"),
+            )
 
     def test_comes_before_other_modifiers_and_is_used_again(self):
         cube = self.cube()

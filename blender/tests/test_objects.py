@@ -28,6 +28,15 @@ class Objects(Case):
         select(first, last)
         return first, last
 
+    def test_names_with_raised_digits(self):
+        for other in ("a1²", "a1\u2460", "a\u0663"):
+            first, last = self.two()
+            first.name, last.name = "a1", other
+            bpy.ops.shapespace.inbetweens(shapes=1)
+            self.assertEqual(key_names(bpy.context.active_object)[0], "a1")
+            for item in list(bpy.data.objects):
+                bpy.data.objects.remove(item)
+
     def expected(self, first, last):
         shapes = [placed(item, seen(item, 1)) for item in (first, last)]
         return self.frames(shapes, CUBE_FACES, "--shapes", 3)

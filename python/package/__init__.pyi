@@ -62,6 +62,7 @@ class GltfOptions(TypedDict, total=False):
     unit: float
     colour_by_deviation: bool
     groups: ArrayLike | None
+    allow_outside_files: bool
 
 class Error(Exception): ...
 class FileError(Error, OSError): ...
@@ -874,6 +875,7 @@ def read(
     stiffeners: File | None = ...,
     allow_nonmanifold: bool = ...,
     mirror: Literal["x", "y", "z"] | None = ...,
+    allow_outside_files: bool = ...,
 ) -> Poses: ...
 def write(
     file: File,

@@ -156,7 +156,9 @@ def _one(vertices, name):
     return [array]
 
 
-def read(*files, stiffeners=None, allow_nonmanifold=False, mirror=None):
+def read(
+    *files, stiffeners=None, allow_nonmanifold=False, mirror=None, allow_outside_files=False
+):
     """Read poses of one mesh.
 
     Parameters
@@ -170,6 +172,8 @@ def read(*files, stiffeners=None, allow_nonmanifold=False, mirror=None):
         Take non-manifold or inconsistently wound meshes, with a warning.
     mirror : {'x', 'y', 'z'}, optional
         Poses that are mirror images of the first have this coordinate's sign changed.
+    allow_outside_files : bool, optional
+        Read buffers of a .gltf file from outside of its folder too: for files that are trusted.
 
     Returns
     -------
@@ -186,7 +190,7 @@ def read(*files, stiffeners=None, allow_nonmanifold=False, mirror=None):
     """
     names = [os.fspath(file) for file in files]
     rest = "" if stiffeners is None else os.fspath(stiffeners)
-    return _core.read(names, rest, allow_nonmanifold, mirror)
+    return _core.read(names, rest, allow_nonmanifold, mirror, allow_outside_files)
 
 
 def write(file, vertices, faces):
@@ -775,7 +779,7 @@ def explore(poses, faces=None, *, names=(), progress=None, **options):
     faces : array_like, optional
         As for `Poses`.
     names : sequence of str, optional
-        Of the poses.
+        Of the poses. Without, those of `Poses.names`, without folders.
     progress : callable or bool, optional
         As for `interpolate`.
     {options}
@@ -786,9 +790,8 @@ def explore(poses, faces=None, *, names=(), progress=None, **options):
         The `Space` and a summary.
     """
     poses = _poses(poses, faces)
-    names = list(names) or list(poses.names)
     with told(progress) as report:
-        return ExploreResult(*_core.explore(poses, names, options, report))
+        return ExploreResult(*_core.explore(poses, list(names), options, report))
 
 
 def compare_shapes(metric, reference, shape):

@@ -37,6 +37,10 @@ void BindSolvers(py::module_* module);
 Poses MakePoses(std::vector<Shape> shapes, py::handle faces, const ReadOptions& options = {},
                 py::handle segments = py::none(), py::handle stiffeners = py::none());
 
+/// Whether polygons are cut in the same way, and stiffeners, do not matter: they are the metric's.
+/// \throw MeshError if the metric was frozen on another mesh: it would lend the poses its faces.
+void CheckIsOfMesh(const Metric& metric, const Connectivity& mesh);
+
 /// Says each through Python's warnings, as a MeshWarning.
 void Warn(const std::vector<std::string>& warnings);
 

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/printable.h>
 
 #include "bind.h"
 
@@ -26,8 +27,10 @@ PyObject* Make(py::module_* module, const char* name, const py::object& bases, c
   return made;
 }
 
-// The library's remedies name flags of the tools; here they are keyword arguments.
+// A message for Python's terminal. The library's remedies name flags of the tools; here they are
+// keyword arguments.
 std::string InPython(std::string text) {
+  text = internal::Printable(text, internal::kOfMessages);
   static const std::pair<const char*, const char*> words[] = {
       {"--allow_nonmanifold", "allow_nonmanifold=True"},
       {"--mirror x (y, z)", "mirror='x' ('y', 'z')"},

@@ -163,14 +163,16 @@ CorrespondenceError
   module->def(
       "read",
       [](const std::vector<std::string>& files, const std::string& stiffeners,
-         bool allow_nonmanifold, const py::object& mirror) {
+         bool allow_nonmanifold, const py::object& mirror, bool allow_outside_files) {
         ReadOptions options = ReadingOptions(allow_nonmanifold, mirror);
         options.stiffeners = stiffeners;
+        options.allow_outside_files = allow_outside_files;
         Poses poses = WithoutLock(py::none(), [=](Progress*) { return ReadPoses(files, options); });
         Warn(poses.warnings);
         return poses;
       },
-      py::arg("files"), py::arg("stiffeners"), py::arg("allow_nonmanifold"), py::arg("mirror"));
+      py::arg("files"), py::arg("stiffeners"), py::arg("allow_nonmanifold"), py::arg("mirror"),
+      py::arg("allow_outside_files"));
 
   module->def("write", [](const std::string& file, py::handle vertices, py::handle faces) {
     const Shape shape = ToShape(vertices, "vertices");
@@ -277,6 +279,34 @@ Poses MakePoses(std::vector<Shape> shapes, py::handle faces, const ReadOptions& 
         poses.soup, poses.shapes, ToPairs(stiffeners, "stiffeners", num_vertices, num_vertices));
   }
   return poses;
+}
+
+void CheckIsOfMesh(const Metric& metric, const Connectivity& mesh) {
+  const Connectivity& own = *metric.connectivity;
+  if (&own == &mesh) return;
+  const auto refuse = [](const std::string& difference) {
+    throw MeshError("metric: was frozen on another mesh than that of the poses: " + difference +
+                    "; freeze a metric on these poses, or name its options");
+  };
+  const auto compare = [&](const char* what, size_t metrics, size_t poses) {
+    if (metrics == poses) return;
+    refuse("the metric has " + std::to_string(metrics) + " " + what + ", the poses have " +
+           std::to_string(poses));
+  };
+  compare("vertices", own.NumVertices(), mesh.NumVertices());
+  compare("faces", own.NumPolygons(), mesh.NumPolygons());
+  compare("segments", own.Segments().size(), mesh.Segments().size());
+  for (int p = 0; p < own.NumPolygons(); ++p) {
+    const auto corners = [p](const Connectivity& connectivity) {
+      const auto begin = connectivity.Corners().begin();
+      return std::vector<int>(begin + connectivity.PolygonBegin()[p],
+                              begin + connectivity.PolygonBegin()[p + 1]);
+    };
+    if (corners(own) != corners(mesh)) {
+      refuse("face " + std::to_string(p) + " has other corners");
+    }
+  }
+  if (own.Segments() != mesh.Segments()) refuse("segments have other ends");
 }
 
 void BindMeshes(py::module_* module) {

@@ -447,6 +447,9 @@ const Fields<GltfOptions>& FieldsOf() {
       Row("colour_by_deviation", &O::colour_by_deviation,
           "Colour vertices by how far edges there are from their first lengths."),
       Row("groups", &O::groups, "Group of each vertex: a colour each; negative: none."),
+      Row("allow_outside_files", &O::allow_outside_files,
+          "Take material libraries and textures from outside of the folder of the file that names "
+          "them too: for files that are trusted."),
   };
   return fields;
 }

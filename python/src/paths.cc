@@ -306,10 +306,13 @@ py::object BytesOf(const Path& path) {
   return bytes;
 }
 
-Path PathOf(const py::bytes& bytes) {
+// `own_folder` is the appearance's, which is not the temporary one.
+Path PathOf(const py::bytes& bytes, const py::bytes& own_folder) {
   const TemporaryFile file("pickled.path");
   py::module_::import("pathlib").attr("Path")(file.Name()).attr("write_bytes")(bytes);
-  return ReadPath(file.Name());
+  Path path = ReadPath(file.Name());
+  path.appearance.own_folder = std::string(own_folder);
+  return path;
 }
 
 Path PathThrough(const Poses& poses, const FrozenMetric& metric, const py::object& parameters) {
@@ -318,6 +321,7 @@ Path PathThrough(const Poses& poses, const FrozenMetric& metric, const py::objec
     const Eigen::VectorXd given = ToVector(parameters, "parameters");
     times.assign(given.data(), given.data() + given.size());
   }
+  CheckIsOfMesh(*metric.metric, *poses.connectivity);
   Path path = MakePath(metric.metric, poses.shapes, std::move(times));
   path.poses.resize(path.shapes.size());
   std::iota(path.poses.begin(), path.poses.end(), 0);
@@ -535,8 +539,12 @@ Path
              text << ">";
              return text.str();
            })
-      .def(py::pickle([](const Path& path) { return py::make_tuple(BytesOf(path)); },
-                      [](const py::tuple& state) { return PathOf(py::bytes(state[0])); }));
+      .def(py::pickle(
+          [](const Path& path) {
+            const auto own_folder = std::filesystem::current_path() / path.appearance.own_folder;
+            return py::make_tuple(BytesOf(path), py::bytes(own_folder.string()));
+          },
+          [](const py::tuple& state) { return PathOf(py::bytes(state[0]), py::bytes(state[1])); }));
 }
 
 }  // namespace

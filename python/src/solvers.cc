@@ -39,9 +39,7 @@ std::optional<FrozenMetric> TakeFrozen(const py::dict& given) {
 py::tuple InterpolatePoses(const Poses& poses, const py::dict& given, const py::object& progress) {
   const std::optional<FrozenMetric> frozen = TakeFrozen(given);
   const auto options = FromKeywords<GeodesicOptions>(given);
-  if (frozen && frozen->metric->connectivity->NumVertices() != poses.connectivity->NumVertices()) {
-    throw MeshError("metric: is of another mesh than the poses");
-  }
+  if (frozen) CheckIsOfMesh(*frozen->metric, *poses.connectivity);
   GeodesicResult result = WithoutLock(progress, [=](Progress* told) {
     return frozen ? Interpolate(frozen->metric, poses.shapes, options, told)
                   : Interpolate(poses, options, told);

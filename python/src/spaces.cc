@@ -6,6 +6,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/mesh/display_names.h>
 #include <shapespace/output/picture.h>
 #include <shapespace/solvers/exploration/explore.h>
 #include <shapespace/solvers/exploration/space_file.h>
@@ -148,7 +149,8 @@ void BindSpaces(py::module_* module) {
                             const py::dict& given, const py::object& progress) {
     const ExploreOptions options = FromKeywords(given);
     ExploreResult result = WithoutLock(progress, [=](Progress* told) {
-      return Explore(poses.connectivity, poses.shapes, names, options, told);
+      return Explore(poses.connectivity, poses.shapes,
+                     names.empty() ? DisplayNames(poses.names) : names, options, told);
     });
     result.space.appearance = poses.soup.appearance;
     result.space.provenance = "shapespace " SHAPESPACE_VERSION " for Python: explore";

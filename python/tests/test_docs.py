@@ -1,5 +1,6 @@
 """The programs of the documentation run as they are printed."""
 
+import importlib.metadata
 import pathlib
 import re
 import subprocess
@@ -31,6 +32,20 @@ def test_snippets_of_a_page_run_one_after_the_other(page, tmp_path, monkeypatch)
     for snippet in snippets(page):
         exec(compile(snippet, page, "exec"), names)
     assert (tmp_path / "walk.png").exists()
+
+
+def test_the_wheel_has_the_notices_of_what_it_contains():
+    # Where the package is used from the build folder, there is no wheel.
+    try:
+        wheel = importlib.metadata.distribution("shapespace")
+    except importlib.metadata.PackageNotFoundError:
+        pytest.skip("not installed from a wheel")
+    assert "The shapespace authors" in wheel.read_text("licenses/LICENSE")
+    notices = wheel.read_text("licenses/NOTICES")
+    for owner in ("Niels Lohmann", "Syoyo Fujita", "Wenzel Jakob", "Google Inc.", "Yann Collet"):
+        assert owner in notices
+    for term in ("Permission is hereby granted", "Redistribution and use", "Mozilla Public"):
+        assert term in notices
 
 
 def test_the_example_draws_a_film_strip(animal, tmp_path):

@@ -232,6 +232,24 @@ def test_a_path_of_one_s_own(path, poses):
         shapespace.Path(poses, path.metric, [0, 0])
 
 
+def test_a_frozen_metric_lends_its_faces_to_no_other_mesh(poses, animal):
+    metric = shapespace.Metric(poses, animal.faces, preset="strain")
+    turned = np.roll(animal.faces, 1, axis=0)
+    fewer = animal.faces[1:]
+    for faces, difference in ((turned, "face 0 has other corners"), (fewer, "faces, the poses have")):
+        with pytest.raises(shapespace.MeshError, match="frozen on another mesh.*" + difference):
+            shapespace.interpolate(poses, faces, metric=metric, shapes=1)
+        with pytest.raises(shapespace.MeshError, match="frozen on another mesh.*" + difference):
+            shapespace.Path(shapespace.Poses(poses, faces), metric)
+    # How polygons are cut depends on the poses, and is the metric's affair.
+    quads = [[0, 1, 2, 3]]
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+    dented = square * [[1, 1, 1], [0.3, 1, 1], [1, 1, 1], [1, 1, 1]]
+    dented[1, 1] = 0.7
+    frozen = shapespace.Metric([square, 2 * square], quads, preset="strain")
+    assert len(shapespace.interpolate([dented, square], quads, metric=frozen, shapes=1).path) == 3
+
+
 def test_a_path_at_other_times(path):
     again = path.at([0, 0.5, 1])
     np.testing.assert_array_equal(again[1], path.at([0.5])[0])
@@ -271,3 +289,30 @@ def test_paths_can_be_pickled(path):
     copy = pickle.loads(pickle.dumps(path))
     np.testing.assert_array_equal(copy.vertices, path.vertices)
     assert repr(copy) == repr(path)
+
+
+def test_textures_are_taken_from_the_mesh_s_own_folder(tmp_path):
+    """By pickled paths too; from elsewhere on request only."""
+    home = tmp_path / "home"
+    home.mkdir()
+    for name, x in (("a.obj", 1), ("b.obj", 2)):
+        (home / name).write_text(
+            f"v 0 0 0\nv {x} 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+            "mtllib s.mtl\nusemtl s\nf 1/1 2/2 3/3\n"
+        )
+    (tmp_path / "skin.png").write_bytes(b"\x89PNG\r\n\x1a\n a picture of one's own")
+    (home / "skin.png").write_bytes((tmp_path / "skin.png").read_bytes())
+    poses = shapespace.read(home / "a.obj", home / "b.obj")
+    path = shapespace.interpolate(poses, metric="strain", shapes=1).path
+
+    def has_texture(path, **options):
+        path.write(tmp_path / "out" / "walk.glb", **options)
+        return b"a picture" in (tmp_path / "out" / "walk.glb").read_bytes()
+
+    (home / "s.mtl").write_text("newmtl s\nmap_Kd skin.png\n")
+    assert has_texture(path) and has_texture(pickle.loads(pickle.dumps(path)))
+    (home / "s.mtl").write_text("newmtl s\nmap_Kd ../skin.png\n")
+    for one in (path, pickle.loads(pickle.dumps(path))):
+        with pytest.warns(shapespace.MeshWarning, match="lies outside of the folder"):
+            assert not has_texture(one)
+        assert has_texture(one, allow_outside_files=True)

@@ -1,11 +1,15 @@
 #include <shapespace/base/atomic_file.h>
 
+#include <fcntl.h>
+
 #include <future>
+#include <set>
 #include <thread>
 
 #include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/file_buffer.h>
 
 #include "mesh/files.h"
 
@@ -41,6 +45,57 @@ TEST_F(AtomicFileTest, AFailureLeavesNothingBehind) {
                FileError);
   EXPECT_EQ(testing::Content(file), "before");
   EXPECT_EQ(Count(), 1);
+}
+
+// In a folder where others may write, they could lay links under names that they foresee, and have
+// the user's other files overwritten.
+TEST_F(AtomicFileTest, TemporariesHaveNamesThatNobodyForesees) {
+  const std::string file = Path("a.txt"), precious = File("precious.txt", "precious");
+  std::filesystem::create_symlink(precious, file + ".part" + std::to_string(getpid()));
+  std::filesystem::create_symlink(precious, file);
+  std::set<std::string> names;
+  for (int i = 0; i < 20; ++i) {
+    WriteFileAtomically(file, [&](std::ostream& out) {
+      out << "new" << std::flush;
+      for (const auto& entry : std::filesystem::directory_iterator(Path(""))) {
+        if (!entry.is_symlink()) names.insert(entry.path().filename().string());
+      }
+    });
+  }
+  EXPECT_EQ(names.size(), 22u) << "20 temporaries, precious.txt, and a.txt";
+  EXPECT_EQ(testing::Content(precious), "precious");
+  EXPECT_EQ(testing::Content(file), "new");
+  EXPECT_FALSE(std::filesystem::is_symlink(file));
+}
+
+TEST_F(AtomicFileTest, NewFilesHaveThePermissionsOfAllOthers) {
+  std::ofstream(Path("plain")) << "x";
+  WriteFileAtomically(Path("atomic"), [](std::ostream& out) { out << "x"; });
+  EXPECT_EQ(std::filesystem::status(Path("atomic")).permissions(),
+            std::filesystem::status(Path("plain")).permissions());
+}
+
+TEST_F(AtomicFileTest, ContentOfAnySizeIsWrittenAndItsPositionKnown) {
+  std::string content;
+  for (int i = 0; i < 100000; ++i) content += std::to_string(i);
+  WriteFileAtomically(Path("long"), [&](std::ostream& out) {
+    for (size_t k = 0; k < content.size();) {
+      const size_t count = std::min<size_t>(1 + k % 100001, content.size() - k);
+      out.write(&content[k], static_cast<std::streamsize>(count));
+      k += count;
+      ASSERT_EQ(out.tellp(), static_cast<std::streamoff>(k));
+    }
+    out.put('.');
+  });
+  EXPECT_EQ(testing::Content(Path("long")), content + ".");
+}
+
+TEST_F(AtomicFileTest, AFullDiskIsReported) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
+  internal::FileBuffer buffer(open("/dev/full", O_WRONLY));
+  std::ostream stream(&buffer);
+  stream << "x";
+  EXPECT_FALSE(buffer.Close());
 }
 
 TEST_F(AtomicFileTest, NothingIsLeftOfFilesThatAreAbandoned) {

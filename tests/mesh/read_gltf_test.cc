@@ -236,6 +236,78 @@ TEST_F(ReadGltfTest, LinesAreSegments) {
   EXPECT_EQ(soup.segments, (std::vector<std::pair<int, int>>{{0, 1}, {2, 0}, {2, 3}}));
 }
 
+// Readers that call themselves for every level overflow the stack.
+TEST_F(ReadGltfTest, DeepNestingIsRefused) {
+  const auto nested = [](int levels) {
+    return "{\"asset\":{\"version\":\"2.0\",\"extras\":" + std::string(levels, '[') +
+           std::string(levels, ']') + "}}";
+  };
+  ExpectError<FileError>([&] { ReadSoup(File("deep.gltf", nested(200000))); },
+                         {"deep.gltf: ", "nested more than 100 deep"});
+  json_["asset"]["extras"] = Json::parse(std::string(101, '[') + std::string(101, ']'));
+  ExpectRefused({"square.glb: ", "nested more than 100 deep"});
+  json_["asset"]["extras"] = Json::parse(std::string(50, '[') + std::string(50, ']'));
+  EXPECT_EQ(ReadSoups(Glb()).size(), 2u);
+}
+
+TEST_F(ReadGltfTest, AFewBytesCannotTakeAllMemory) {
+  const Json good = json_;
+  // Targets without content take three bytes each in the file.
+  json_["meshes"][0]["primitives"][0]["targets"] = Json::array();
+  for (int k = 0; k < 2000; ++k) Primitive()["targets"].push_back(Json::object());
+  EXPECT_EQ(ReadSoups(Glb()).size(), 2001u);
+  Primitive()["attributes"]["POSITION"] = Add(std::vector<float>(3 * 30000, 1.0f), "VEC3");
+  ExpectRefused({"square.glb: ", "has 2000 morph targets", "more memory than a file of this size"});
+  // As do corners that all poses repeat, and parts of the mesh that share their numbers.
+  json_ = good;
+  for (int k = 1; k < 2000; ++k) Primitive()["targets"].push_back(Json::object());
+  Primitive()["indices"] = Add(std::vector<std::uint8_t>(60000, 0), "SCALAR");
+  ExpectRefused({"more memory than a file of this size"});
+  json_["meshes"][0]["primitives"] = Json::array();
+  const int positions = Add(std::vector<float>(3 * 999, 1.0f), "VEC3");
+  for (int k = 0; k < 200; ++k) {
+    const Json view = json_["accessors"][positions];
+    json_["accessors"].push_back(view);
+    json_["meshes"][0]["primitives"].push_back(
+        {{"attributes", {{"POSITION", json_["accessors"].size() - 1}}},
+         {"targets", std::vector<Json>(300, Json::object())}});
+  }
+  ExpectRefused({"has 300 morph targets", "more memory than a file of this size"});
+  // And buffers, each of which would be a copy of the binary part.
+  json_ = good;
+  json_["buffers"] = {{{"byteLength", 4}}, {{"byteLength", 4}}};
+  ExpectError<FileError>([&] { ReadSoups(File("two.gltf", json_.dump())); },
+                         {"two.gltf: has more than one buffer without a file"});
+}
+
+TEST_F(ReadGltfTest, BuffersOutsideOfTheFolderAreReadOnRequestOnly) {
+  const std::string inside = Gltf();
+  std::filesystem::create_directories(Path("home/below"));
+  const auto naming = [&](const std::string& uri) {
+    json_["buffers"][0]["uri"] = uri;
+    return File("home/square.gltf", json_.dump());
+  };
+  for (const std::string& uri :
+       {std::string("../square.bin"), std::string("below/%2e%2e/../../square.bin"),
+        Path("square.bin")}) {
+    ExpectError<FileError>([&] { ReadSoups(naming(uri)); }, {"home/square.gltf: its buffer "});
+  }
+  std::filesystem::create_symlink(Path("square.bin"), Path("home/link.bin"));
+  for (const char* uri : {"../square.bin", "link.bin"}) {
+    const std::string file = naming(uri);
+    ExpectError<FileError>([&] { ReadSoups(file); },
+                           {"square.gltf: its buffer ", "lies outside of the folder"});
+    EXPECT_EQ(ReadSoups(file, /*allow_outside_files=*/true)[1].vertices,
+              ReadSoups(inside)[1].vertices);
+    ReadOptions options;
+    EXPECT_THROW(ReadPoses({file}, options), FileError);
+    options.allow_outside_files = true;
+    EXPECT_EQ(ReadPoses({file}, options).shapes.size(), 2u);
+  }
+  File("home/below/square.bin", bytes_);
+  EXPECT_EQ(ReadSoups(naming("below/square.bin")).size(), 2u);
+}
+
 TEST_F(ReadGltfTest, WhatIsNotReadIsNamed) {
   const Json good = json_;
   const auto refuse = [&](const std::function<void()>& change, const std::string& message) {

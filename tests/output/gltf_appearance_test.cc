@@ -26,7 +26,7 @@ class WriteGltfAppearanceTest : public testing::FilesTest {
     path_ = testing::PathOf(connectivity_, {cube.vertices, stretch.asDiagonal() * cube.vertices});
 
     Appearance& appearance = path_.appearance;
-    appearance.folder = Path("");
+    appearance.folder = appearance.own_folder = Path("");
     appearance.material_libraries = {"cube.mtl"};
     appearance.materials = {{"painted", "glass", "unknown"}, {0, 0, 1, 0, 2, -1}};
     appearance.texture_coordinates.resize(2, 24);
@@ -154,6 +154,39 @@ TEST_F(WriteGltfAppearanceTest, MissingLibrariesAndTexturesAreWarnedOf) {
   EXPECT_EQ(plain.warnings[0].find("material library " + Path("cube.mtl") + ": cannot be opened"),
             0u);
   EXPECT_TRUE(Glb(GlbFile("no-library")).Primitive()["attributes"].contains("TEXCOORD_0"));
+}
+
+// A mesh from a stranger must not carry pictures of its user into what the user passes on.
+TEST_F(WriteGltfAppearanceTest, WhatLiesOutsideOfTheFolderIsTakenOnRequestOnly) {
+  std::filesystem::create_directories(Path("home"));
+  std::filesystem::create_symlink(Path("cube.mtl"), Path("home/link.mtl"));
+  std::filesystem::create_symlink(Path("maps/checks.png"), Path("home/link.png"));
+  path_.appearance.folder = path_.appearance.own_folder = Path("home");
+  const std::string rest = "\nnewmtl glass\nnewmtl unknown\n";
+  File("home/by_link.mtl", "newmtl painted\nmap_Kd link.png" + rest);
+  File("home/by_dots.mtl", "newmtl painted\nmap_Kd ../maps/checks.png" + rest);
+  File("home/by_root.mtl", "newmtl painted\nmap_Kd " + Path("maps/checks.png") + rest);
+  for (const char* library :
+       {"../cube.mtl", "link.mtl", "by_link.mtl", "by_dots.mtl", "by_root.mtl"}) {
+    path_.appearance.material_libraries = {library};
+    const GltfSummary summary = WriteGltf(GlbFile("confined"), path_);
+    ASSERT_FALSE(summary.warnings.empty()) << library;
+    EXPECT_NE(summary.warnings[0].find("lies outside of the folder"), std::string::npos)
+        << summary.warnings[0];
+    EXPECT_FALSE(Glb(GlbFile("confined")).json.contains("images")) << library;
+    GltfOptions options;
+    options.allow_outside_files = true;
+    WriteGltf(GlbFile("trusted"), path_, options);
+    // A link's target is read as if it lay beside the link.
+    if (library != std::string("link.mtl")) {
+      EXPECT_TRUE(Glb(GlbFile("trusted")).json.contains("images")) << library;
+    }
+  }
+  // Below the folder, nothing needs to be allowed.
+  path_.appearance.own_folder = Path("");
+  path_.appearance.material_libraries = {"by_dots.mtl"};
+  EXPECT_TRUE(WriteGltf(GlbFile("below"), path_).warnings.empty());
+  EXPECT_TRUE(Glb(GlbFile("below")).json.contains("images"));
 }
 
 TEST_F(WriteGltfAppearanceTest, VertexColoursFollowTheirVerticesAcrossSeams) {

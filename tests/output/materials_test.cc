@@ -11,9 +11,9 @@ class ReadMaterialsTest : public testing::FilesTest {
                                                       const std::vector<std::string>& names) {
     Appearance appearance;
     appearance.material_libraries = libraries;
-    appearance.folder = Path("");
+    appearance.folder = appearance.own_folder = Path("");
     appearance.materials.names = names;
-    return internal::ReadMaterials(appearance, &warnings_);
+    return internal::ReadMaterials(appearance, /*allow_outside_files=*/false, &warnings_);
   }
 
   std::vector<std::string> warnings_;

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <new>
 #include <random>
 #include <utility>
 
@@ -15,6 +16,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
+#include <shapespace/path/array_file.h>
 #include <shapespace/path/energy.h>
 
 #include "support/message_of.h"
@@ -233,6 +235,67 @@ TEST(PathFile, PathsAtOddsWithThemselvesAreNotWritten) {
   EXPECT_EQ(message([](P* p) { p->appearance.corner_texture[2] = 7; }),
             file + ": texture coordinates of corners: index 7 is not in -1 .. 6");
   EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+/// The file with another header, and a checksum that fits.
+void ChangeHeader(const std::string& file,
+                  const std::function<void(internal::HeaderJson*)>& change) {
+  const std::string bytes = Slurp(file);
+  size_t begin;
+  internal::HeaderJson header = internal::UnpackHeader({"SHAPPATH", 2, ".path"}, bytes, &begin);
+  change(&header);
+  const std::string text = header.dump();
+  const uint64_t size = text.size();
+  std::string changed = bytes.substr(0, 16);
+  changed.append(reinterpret_cast<const char*>(&size), sizeof size);
+  changed += text + bytes.substr(begin);
+  const uint32_t checksum = Checksum(changed.substr(16));
+  std::memcpy(&changed[12], &checksum, sizeof checksum);
+  Spill(file, changed);
+}
+
+TEST(PathFile, MetricsThatAreNotKnownAreNotReadAsOthers) {
+  const std::string file = TemporaryFile("later.path");
+  for (const char* key : {"weights", "discretization"}) {
+    for (const internal::HeaderJson& value :
+         {internal::HeaderJson("cubic"), internal::HeaderJson(1)}) {
+      WritePath(file, MakePath());
+      ChangeHeader(file, [&](internal::HeaderJson* header) { (*header)["metric"][key] = value; });
+      const std::string message = testing::MessageOf<FileError>([&] { ReadPath(file); });
+      EXPECT_EQ(message.find(file + ": metric." + key + ": must be "), 0u) << message;
+    }
+  }
+}
+
+TEST(PathFile, SizesBeyondTheFileAreErrorsInIt) {
+  const std::string file = TemporaryFile("absurd.path");
+  const auto message = [&](const std::string& key, const internal::HeaderJson& value) {
+    WritePath(file, MakePath());
+    ChangeHeader(file, [&](internal::HeaderJson* header) { (*header)[key] = value; });
+    return testing::MessageOf<FileError>([&] { ReadPath(file); });
+  };
+  EXPECT_EQ(message("vertices", 2147483647),
+            file + ": its array vertex_area has the wrong type or size");
+  EXPECT_EQ(message("vertices", -1), file + ": vertices: must not be negative");
+  EXPECT_EQ(message("shapes", 2147483647),
+            file + ": its array parameters has the wrong type or size");
+  WritePath(file, MakePath());
+  ChangeHeader(file, [&](internal::HeaderJson* header) {
+    (*header)["arrays"][0]["rows"] = 2147483647;
+    (*header)["arrays"][0]["columns"] = 2147483647;
+  });
+  EXPECT_EQ(testing::MessageOf<FileError>([&] { ReadPath(file); }),
+            file + ": its arrays are longer than the file");
+}
+
+// The user would make a good file again, in vain.
+TEST(PathFile, MemoryThatIsShortIsNoDamage) {
+  const std::string file = TemporaryFile("good.path");
+  WritePath(file, MakePath());
+  const auto parse = [](const internal::HeaderJson&, const internal::ArrayReader&) -> int {
+    throw std::bad_alloc();
+  };
+  EXPECT_THROW(internal::ReadArrayFile(file, {"SHAPPATH", 2, ".path"}, parse), std::bad_alloc);
 }
 
 TEST(PathFile, FilesAtOddsWithThemselvesAreNotRead) {

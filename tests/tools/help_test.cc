@@ -51,15 +51,16 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                                    "threads", "triangles", "version"}));
   EXPECT_EQ(Listed("shape-view"),
             (std::set<std::string>{"help", "output", "progress", "threads", "version"}));
-  EXPECT_EQ(
-      Listed("shape-correspond"),
-      (std::set<std::string>{"allow_nonmanifold", "help", "hold_all_markers", "markers", "output",
-                             "progress", "proportions", "report", "strict", "threads", "version"}));
+  EXPECT_EQ(Listed("shape-correspond"),
+            (std::set<std::string>{"allow_nonmanifold", "allow_outside_files", "help",
+                                   "hold_all_markers", "markers", "output", "progress",
+                                   "proportions", "report", "strict", "threads", "version"}));
   const std::set<std::string> metric = {"bending", "discretization", "isometric", "lambda",
                                         "metric",  "rigid",          "stiffness", "strain",
                                         "volume",  "weights"};
   std::set<std::string> wanted = metric;
-  wanted.insert({"allow_nonmanifold", "help", "mirror", "progress", "threads", "version"});
+  wanted.insert({"allow_nonmanifold", "allow_outside_files", "help", "mirror", "progress",
+                 "threads", "version"});
   EXPECT_EQ(Listed("shape-inspect"), wanted);
   wanted.insert({"color", "ease", "fps", "loop", "max_iterations", "memory_limit", "once", "output",
                  "report", "seconds", "shapes", "solver", "stiffeners", "strict", "tolerance"});

@@ -56,6 +56,19 @@ TEST_F(ViewTest, MakesPagesOfPathsAndGlbs) {
   EXPECT_EQ(elements[1].bytes, Content(Path("walk.glb")));
 }
 
+// The licence of three.js asks for its notice wherever a copy of it goes, and so does the page's
+// own.
+TEST_F(ViewTest, PagesHaveTheNoticesOfWhatTheyContain) {
+  MakeWalk();
+  if (!HasPage()) GTEST_SKIP() << "built without the viewer's page";
+  Succeed("shape-view", {"walk.path", "--output", "walk.html"});
+  const std::string page = Content(Path("walk.html"));
+  for (const char* notice : {"three.js authors", "Permission is hereby granted, free of charge",
+                             "The shapespace authors", "Redistribution and use"}) {
+    ExpectContains(page, notice);
+  }
+}
+
 TEST_F(ViewTest, MakesPagesOfSpaces) {
   MakeWalk();
   if (!HasPage()) GTEST_SKIP() << "built without the viewer's page";

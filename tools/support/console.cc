@@ -6,7 +6,9 @@
 #include <atomic>
 #include <iostream>
 #include <limits>
+#include <streambuf>
 
+#include <shapespace/base/printable.h>
 #include <shapespace/base/stopwatch.h>
 
 namespace shapespace::tools {
@@ -32,6 +34,26 @@ Console& TheConsole() {
   return console;
 }
 
+// Passes text on to a stream, with control characters escaped.
+class EscapingBuffer : public std::streambuf {
+ public:
+  explicit EscapingBuffer(std::ostream& to) : to_(to) {}
+
+ protected:
+  std::streamsize xsputn(const char* text, std::streamsize size) override {
+    to_ << internal::Printable({text, static_cast<size_t>(size)}, internal::kOfMessages);
+    return to_ ? size : 0;
+  }
+  int_type overflow(int_type c) override {
+    const char character = traits_type::to_char_type(c);
+    return xsputn(&character, 1) == 1 ? traits_type::not_eof(c) : traits_type::eof();
+  }
+  int sync() override { return to_.flush() ? 0 : -1; }
+
+ private:
+  std::ostream& to_;
+};
+
 size_t TerminalWidth() {
   winsize size = {};
   constexpr size_t kUsual = 80;
@@ -43,7 +65,9 @@ size_t TerminalWidth() {
 std::ostream& Out() {
   if (TheConsole().results_to_stderr) return Err();
   ClearProgress();
-  return std::cout;
+  static EscapingBuffer buffer(std::cout);
+  static std::ostream stream(&buffer);
+  return stream;
 }
 
 void ResultsToStderr() { TheConsole().results_to_stderr = true; }
@@ -51,7 +75,9 @@ void ResultsToStderr() { TheConsole().results_to_stderr = true; }
 std::ostream& Err() {
   ClearProgress();
   std::cout << std::flush;  // keeps the order of lines if both go to the same place
-  return std::cerr;
+  static EscapingBuffer buffer(std::cerr);
+  static std::ostream stream(&buffer);
+  return stream;
 }
 
 void Complain(const std::string& message) {
@@ -87,7 +113,7 @@ void ShowProgress(const std::string& line, std::optional<double> share) {
     return;
   }
   // A line that wraps could not be cleared.
-  std::cerr << "\r\033[K" + line.substr(0, TerminalWidth() - 1) << std::flush;
+  std::cerr << "\r\033[K" + internal::Printable(line).substr(0, TerminalWidth() - 1) << std::flush;
   console.shown = true;
 }
 

@@ -7,7 +7,8 @@
 
 namespace shapespace::tools {
 
-/// The stream for results: stdout or, after `ResultsToStderr`, stderr.
+/// The stream for results: stdout or, after `ResultsToStderr`, stderr. This one and `Err` escape
+/// control characters other than tabs and ends of lines, which texts from files may contain.
 std::ostream& Out();
 void ResultsToStderr();
 

@@ -1,6 +1,7 @@
 #include "support/outputs.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iomanip>
 #include <new>
 #include <regex>
@@ -25,6 +26,7 @@
 #include "support/frames.h"
 #include "support/interrupt.h"
 #include "support/lists.h"
+#include "support/outside_files_flag.h"
 #include "support/tool.h"
 
 DEFINE_string(output, "path.png",
@@ -107,6 +109,7 @@ GltfOptions GltfOptionsFromFlags() {
   options.up = FLAGS_up == "z" ? 'z' : 'y';
   options.unit = FLAGS_unit;
   options.colour_by_deviation = FLAGS_color == "deviation";
+  options.allow_outside_files = FLAGS_allow_outside_files;
   return options;
 }
 
@@ -236,8 +239,9 @@ std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::str
 std::string Provenance(const char* program, const std::vector<std::string>& files) {
   std::string provenance = std::string(program) + " " SHAPESPACE_VERSION ":";
   for (const std::string& file : files) {
-    const bool has_blanks = file.find(' ') != file.npos;
-    provenance += has_blanks ? " '" + file + "'" : " " + file;
+    const std::string name = std::filesystem::path(file).filename().string();
+    const bool has_blanks = name.find(' ') != name.npos;
+    provenance += has_blanks ? " '" + name + "'" : " " + name;
   }
   return provenance;
 }

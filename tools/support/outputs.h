@@ -21,7 +21,8 @@ std::vector<std::string> OutputsFromFlags();
 /// The same for another flag with the value `list`.
 std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::string& list);
 
-/// The program, its version and the input files of a path: for `Path::provenance`.
+/// The program, its version and the names of the input files, without folders, because outputs are
+/// passed on to others: for `Path::provenance`.
 std::string Provenance(const char* program, const std::vector<std::string>& files);
 
 /// Writes each output, the `.path` files first, with messages: `.path`, `.png` film strip, `.glb`

@@ -7,6 +7,7 @@
 #include "support/console.h"
 #include "support/mesh_flags.h"
 #include "support/metric_flags.h"
+#include "support/outside_files_flag.h"
 #include "support/tool.h"
 
 DEFINE_string(stiffeners, "",
@@ -26,6 +27,7 @@ ReadOptions OptionsFromFlags() {
   options.stiffeners = FLAGS_stiffeners;
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
   options.mirror = MirrorFromFlags();
+  options.allow_outside_files = FLAGS_allow_outside_files;
   return options;
 }
 
@@ -50,7 +52,7 @@ Poses ReadPosesFromFlags(const std::vector<std::string>& files) {
 
 Poses ReadMeshesFromFlags(const std::vector<std::string>& files) {
   std::vector<Soup> soups;
-  for (const std::string& file : files) soups.push_back(ReadSoup(file));
+  for (const std::string& file : files) soups.push_back(ReadSoup(file, FLAGS_allow_outside_files));
   return MakePosesFromFlags(std::move(soups));
 }
 

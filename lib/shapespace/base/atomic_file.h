@@ -7,10 +7,11 @@
 
 namespace shapespace {
 
-/// Writes a file atomically: `body` fills a temporary file beside `file`, which is then renamed to
-/// it, so that an incomplete file is never visible. Missing folders are created. On failure the
-/// temporary is removed and an existing `file` remains unchanged.
-/// \throw FileError if the folder, the temporary or the rename fails, or the stream has an error.
+/// Writes a file atomically: `body` fills a new file beside `file`, whose name cannot be foreseen
+/// and which is then renamed to it, so that an incomplete file is never visible. A `file` that is a
+/// link is replaced, not followed. Missing folders are created. On failure the temporary is removed
+/// and an existing `file` remains unchanged. \throw FileError if the folder, the temporary or the
+/// rename fails, or the stream has an error.
 void WriteFileAtomically(const std::string& file, const std::function<void(std::ostream&)>& body);
 
 /// Removes the temporaries of all files that any thread is writing, and blocks all further calls of

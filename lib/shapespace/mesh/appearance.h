@@ -25,6 +25,8 @@ struct Appearance {
 
   std::vector<std::string> material_libraries;  ///< files, as in OBJ `mtllib`
   std::string folder;                           ///< to which names of libraries are relative
+  std::string own_folder;                       ///< of the file that named the libraries: they and
+                                                ///< their textures are read from there and below
   PolygonNames materials;                       ///< OBJ `usemtl`
   PolygonNames groups;                          ///< OBJ `g`, all names of a polygon as one text
   PolygonNames objects;                         ///< OBJ `o`

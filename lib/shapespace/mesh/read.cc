@@ -25,7 +25,8 @@ constexpr int kMostBytes = std::numeric_limits<int>::max();
 
 std::string Content(const std::string& file) { return ReadFile(file, kMostBytes); }
 
-std::vector<Soup> Parse(const std::string& name, std::string content, MeshFormat format) {
+std::vector<Soup> Parse(const std::string& name, std::string content, MeshFormat format,
+                        bool allow_outside_files) {
   switch (format) {
     case MeshFormat::kObj:
       return {internal::ReadObj(name, std::move(content))};
@@ -38,7 +39,7 @@ std::vector<Soup> Parse(const std::string& name, std::string content, MeshFormat
     case MeshFormat::kGltf:
       break;
   }
-  return internal::ReadGltf(name, content);
+  return internal::ReadGltf(name, content, allow_outside_files);
 }
 
 MeshFormat FormatOf(const std::string& file) {
@@ -134,11 +135,13 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
 
 }  // namespace
 
-Soup ReadSoup(const std::string& file) { return First(ReadSoups(file)); }
+Soup ReadSoup(const std::string& file, bool allow_outside_files) {
+  return First(ReadSoups(file, allow_outside_files));
+}
 
-std::vector<Soup> ReadSoups(const std::string& file) {
+std::vector<Soup> ReadSoups(const std::string& file, bool allow_outside_files) {
   const MeshFormat format = FormatOf(file);
-  return Parse(file, Content(file), format);
+  return Parse(file, Content(file), format, allow_outside_files);
 }
 
 Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format) {
@@ -149,7 +152,7 @@ Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format) 
     throw FileError(name + ": is larger than the " + std::to_string(kMostBytes) +
                     " bytes that such a file may have");
   }
-  return First(Parse(name, std::move(content), format));
+  return First(Parse(name, std::move(content), format, /*allow_outside_files=*/false));
 }
 
 bool MirrorBack(const Soup& reference, char axis, Soup* pose) {
@@ -209,7 +212,8 @@ std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num
 Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& options) {
   if (files.empty()) throw FileError("no mesh file is named; at least one is needed");
   return Collect(
-      files.size(), [&](size_t i) { return ReadSoups(files[i]); }, options);
+      files.size(), [&](size_t i) { return ReadSoups(files[i], options.allow_outside_files); },
+      options);
 }
 
 Poses MakePoses(std::vector<Soup> soups, const ReadOptions& options) {

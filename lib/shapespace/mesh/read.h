@@ -21,19 +21,21 @@ namespace shapespace {
 ///
 /// A glTF file must have one mesh. It is transformed as its node says, and read as the first of
 /// several poses if it has morph targets (`ReadSoups`); `Soup::dropped` tells that there are more.
+/// The buffers of a .gltf must lie in its folder or below it, links followed, unless
+/// `allow_outside_files`, for files that are trusted.
 /// \throw FileError naming file, line and element: unreadable, empty or truncated file, an invalid
-///        number, an index out of range, an unknown extension.
-Soup ReadSoup(const std::string& file);
+///        number, an index out of range, an unknown extension, a buffer outside of the folder.
+Soup ReadSoup(const std::string& file, bool allow_outside_files = false);
 
 /// All poses of a file: of glTF the mesh and then each morph target, fully applied and with its
 /// name as `Soup::pose`; of the other formats one. They have the same polygons.
-std::vector<Soup> ReadSoups(const std::string& file);
+std::vector<Soup> ReadSoups(const std::string& file, bool allow_outside_files = false);
 
 enum class MeshFormat { kObj, kPly, kOff, kStl, kGltf };
 
 /// `ReadSoup` for a stream, from its current position to its end; binary formats need a binary
 /// stream. `name` is used in messages and as the soup's `file`. Material libraries of an OBJ, and
-/// buffers of a .gltf, are searched in the folder of that name.
+/// buffers of a .gltf, are searched in the folder of that name and below it.
 /// \throw FileError as above, and if the stream fails or is empty.
 Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format);
 
@@ -67,8 +69,9 @@ struct Poses {
 
 /// Options for meshes that are used as poses.
 struct ReadOptions {
-  bool allow_nonmanifold = false;  ///< accept non-manifold or inconsistent meshes, with a warning
-  std::string stiffeners;          ///< file of additional edges; empty for none
+  bool allow_nonmanifold = false;    ///< accept non-manifold or inconsistent meshes, with a warning
+  std::string stiffeners;            ///< file of additional edges; empty for none
+  bool allow_outside_files = false;  ///< read buffers of a .gltf from outside of its folder too
 
   /// 'x', 'y' or 'z': change the sign of this coordinate in poses that are mirror images of the
   /// first (closed meshes only: `IsMirrored`). 0: they are refused.

@@ -15,8 +15,10 @@ Soup ReadObj(const std::string& file, std::string text);
 Soup ReadPly(const std::string& file, const std::string& text);
 Soup ReadOff(const std::string& file, const std::string& text);
 Soup ReadStl(const std::string& file, const std::string& bytes);
-/// All poses: the mesh, and each of its morph targets.
-std::vector<Soup> ReadGltf(const std::string& file, const std::string& bytes);
+/// All poses: the mesh, and each of its morph targets. Buffers are read from the file's folder and
+/// those below it, or from anywhere.
+std::vector<Soup> ReadGltf(const std::string& file, const std::string& bytes,
+                           bool allow_outside_files);
 
 /// A property of the vertices of a PLY file; any but a list.
 Eigen::VectorXd ReadPlyProperty(const std::string& file, const std::string& text,

@@ -1,8 +1,11 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <map>
+#include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -10,6 +13,8 @@
 
 #include <shapespace/base/bytes.h>
 #include <shapespace/base/error.h>
+#include <shapespace/base/read_file.h>
+#include <shapespace/base/within_folder.h>
 #include <shapespace/mesh/merge.h>
 #include <shapespace/mesh/read_formats.h>
 #include <shapespace/mesh/text.h>
@@ -22,10 +27,71 @@ using tinygltf::Accessor;
 using tinygltf::Model;
 using tinygltf::Node;
 using tinygltf::Primitive;
+using Json = nlohmann::json;
+
+// Objects and lists within each other. Exporters need ten; TinyGLTF calls itself for each, and the
+// stack holds some ten thousand.
+constexpr int kDeepest = 100;
+
+// Vertices and corners, of all poses together, for which there is always memory, and how many more
+// every byte of the file allows. A pose that is written in full has less than one a byte; files of
+// hundreds of poses, each of which moves a small part of the mesh, have up to thirty.
+constexpr double kAlwaysAllowed = 5e7, kAllowedPerByte = 100;
+
+constexpr std::int64_t kMostBytesOfBuffers = std::numeric_limits<int>::max();
+
+bool IsGlb(const std::string& bytes) { return bytes.compare(0, 4, "glTF") == 0; }
+
+// The part of the file that is text; empty if it is cut off.
+std::string_view TextOf(const std::string& bytes) {
+  constexpr size_t kHeader = 20, kLength = 12;
+  if (!IsGlb(bytes)) return bytes;
+  if (bytes.size() < kHeader) return {};
+  const size_t length = ReadLittleEndian<std::uint32_t>(bytes.data() + kLength);
+  return std::string_view(bytes).substr(kHeader, length);
+}
+
+// Reads buffers that are files of their own, for TinyGLTF.
+class BufferFiles {
+ public:
+  BufferFiles(const std::string& folder, bool allow_outside_files)
+      : folder_(folder), allow_outside_files_(allow_outside_files) {}
+
+  tinygltf::FsCallbacks Callbacks() {
+    return {
+        [](const std::string&, void*) { return true; },
+        [](const std::string& file, void*) { return file; },
+        [](std::vector<unsigned char>* bytes, std::string*, const std::string& file, void* self) {
+          *bytes = static_cast<BufferFiles*>(self)->Read(file);
+          return true;
+        },
+        nullptr, this};
+  }
+
+ private:
+  std::vector<unsigned char> Read(const std::string& file) {
+    if (!allow_outside_files_ && !IsWithinFolder(folder_, file)) {
+      throw FileError(file + kOutsideRemedy);
+    }
+    const std::string bytes = ReadFile(file, bytes_left_);
+    bytes_left_ -= static_cast<std::int64_t>(bytes.size());
+    return {bytes.begin(), bytes.end()};
+  }
+
+  const std::string& folder_;
+  const bool allow_outside_files_;
+  std::int64_t bytes_left_ = kMostBytesOfBuffers;  // of all buffers together
+};
 
 class GltfReader {
  public:
-  GltfReader(const std::string& file, const std::string& bytes) : file_(file) { Parse(bytes); }
+  GltfReader(const std::string& file, const std::string& bytes, bool allow_outside_files)
+      : file_(file) {
+    CheckText(TextOf(bytes));
+    Parse(bytes, allow_outside_files);
+    num_bytes_ = static_cast<double>(bytes.size());
+    for (const tinygltf::Buffer& buffer : model_.buffers) num_bytes_ += buffer.data.size();
+  }
 
   std::vector<Soup> Read() {
     const int node = MeshNode();
@@ -40,23 +106,49 @@ class GltfReader {
  private:
   [[noreturn]] void Fail(const std::string& what) const { FailAt(file_, 0, what); }
 
-  void Parse(const std::string& bytes) {
+  // Refuses what TinyGLTF would take without limits.
+  void CheckText(std::string_view text) const {
+    const auto watch = [this](int depth, Json::parse_event_t, Json&) {
+      if (depth > kDeepest) {
+        Fail("its lists and objects are nested more than " + std::to_string(kDeepest) + " deep" +
+             kReexport);
+      }
+      return true;
+    };
+    // What is not valid JSON is reported later.
+    const Json json = Json::parse(text.begin(), text.end(), watch, /*allow_exceptions=*/false);
+    if (!json.is_object() || !json.contains("buffers")) return;
+    int unnamed = 0;
+    for (const Json& buffer : json["buffers"]) {
+      unnamed += buffer.is_object() && !buffer.contains("uri");
+    }
+    // Each would be a copy of the binary part.
+    if (unnamed > 1) Fail(std::string("has more than one buffer without a file") + kReexport);
+  }
+
+  void Parse(const std::string& bytes, bool allow_outside_files) {
     tinygltf::TinyGLTF library;
     // Images are not needed.
     library.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
                               const unsigned char*, int, void*) { return true; },
                            nullptr);
     const std::string folder = std::filesystem::path(file_).parent_path().string();
+    BufferFiles files(folder, allow_outside_files);
+    library.SetFsCallbacks(files.Callbacks());
     const auto size = static_cast<unsigned>(bytes.size());
     std::string error, warning;
     bool read = false;
     try {
       read =
-          bytes.compare(0, 4, "glTF") == 0
+          IsGlb(bytes)
               ? library.LoadBinaryFromMemory(&model_, &error, &warning,
                                              reinterpret_cast<const unsigned char*>(bytes.data()),
                                              size, folder)
               : library.LoadASCIIFromString(&model_, &error, &warning, bytes.data(), size, folder);
+    } catch (const FileError& exception) {
+      Fail(std::string("its buffer ") + exception.what());
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& exception) {
       error += exception.what();
     }
@@ -136,6 +228,16 @@ class GltfReader {
       placement = OwnPlacement(model_.nodes[i]) * placement;
     }
     return placement;
+  }
+
+  // Counts further vertices or corners, before there is memory for them in all poses.
+  void Reserve(size_t more, size_t poses) {
+    elements_ += static_cast<double>(more);
+    if (elements_ * poses <= std::max(kAlwaysAllowed, kAllowedPerByte * num_bytes_)) return;
+    Fail("has " + std::to_string(poses - 1) +
+         " morph targets, which together would take far more memory than a file of this size "
+         "accounts for" +
+         kReexport);
   }
 
   // Where an element of an accessor's numbers, of `size` bytes each, is stored.
@@ -259,6 +361,7 @@ class GltfReader {
         continue;
       }
       const Accessor& accessor = At(model_.accessors, accessors[k], "list of numbers");
+      if (k == 0) Reserve(accessor.count, accessors.size());
       // Only targets may leave out the buffer, where all numbers but a few are 0.
       if (k == 0 && accessor.bufferView < 0) Fail(std::string("has no positions") + kReexport);
       const Eigen::MatrixXd numbers =
@@ -301,10 +404,14 @@ class GltfReader {
     const int begin = AddVertices(primitive);
     const auto vertices = static_cast<size_t>(
         At(model_.accessors, primitive.attributes.at("POSITION"), "list of numbers").count);
+    const size_t corners = primitive.indices < 0
+                               ? vertices
+                               : At(model_.accessors, primitive.indices, "list of indices").count;
+    Reserve(corners, shapes_.size());
     std::vector<int> indices(primitive.indices < 0 ? vertices : 0);
     for (size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<int>(i);
     if (primitive.indices >= 0) {
-      const Accessor& accessor = At(model_.accessors, primitive.indices, "list of indices");
+      const Accessor& accessor = model_.accessors[primitive.indices];
       indices = Integers(accessor.bufferView, accessor.byteOffset, accessor.componentType,
                          accessor.count, vertices);
     }
@@ -377,6 +484,8 @@ class GltfReader {
 
   const std::string& file_;
   Model model_;
+  double num_bytes_ = 0;       // of the file and its buffers
+  double elements_ = 0;        // vertices and corners that are read
   std::vector<Shape> shapes_;  // the mesh and its targets
   // By accessors of positions and of texture coordinates: the index of the first vertex.
   std::map<std::pair<std::vector<int>, int>, int> begin_of_;
@@ -388,8 +497,9 @@ class GltfReader {
 
 }  // namespace
 
-std::vector<Soup> ReadGltf(const std::string& file, const std::string& bytes) {
-  return GltfReader(file, bytes).Read();
+std::vector<Soup> ReadGltf(const std::string& file, const std::string& bytes,
+                           bool allow_outside_files) {
+  return GltfReader(file, bytes, allow_outside_files).Read();
 }
 
 }  // namespace shapespace::internal

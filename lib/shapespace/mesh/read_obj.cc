@@ -50,6 +50,7 @@ class ObjReader {
   ObjReader(const std::string& file, std::string text) : text_(std::move(text)) {
     soup_.file = file;
     soup_.appearance.folder = std::filesystem::path(file).parent_path().string();
+    soup_.appearance.own_folder = soup_.appearance.folder;
   }
 
   Soup Read() {

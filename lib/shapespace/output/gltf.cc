@@ -19,6 +19,7 @@
 #include <shapespace/base/atomic_file.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/read_file.h>
+#include <shapespace/base/within_folder.h>
 #include <shapespace/mesh/geometry.h>
 #include <shapespace/mesh/tinygltf.h>
 #include <shapespace/output/colour.h>
@@ -352,10 +353,16 @@ tinygltf::Material PlainMaterial(const internal::Colour& colour) {
   return material;
 }
 
-// Textures from image files, each of which is embedded once. -1, with a warning, if that fails.
+// Textures from image files in `folder` and below it, or anywhere, each of which is embedded once.
+// -1, with a warning, if that fails.
 class Textures {
  public:
-  Textures(Model* model, std::vector<std::string>* warnings) : model_(model), warnings_(warnings) {}
+  Textures(const std::string& folder, bool allow_outside_files, Model* model,
+           std::vector<std::string>* warnings)
+      : folder_(folder),
+        allow_outside_files_(allow_outside_files),
+        model_(model),
+        warnings_(warnings) {}
 
   int Add(const std::string& file) {
     const auto [found, is_new] = known_.try_emplace(file, -1);
@@ -365,6 +372,10 @@ class Textures {
 
  private:
   int AddNew(const std::string& file) {
+    if (!allow_outside_files_ && !internal::IsWithinFolder(folder_, file)) {
+      warnings_->push_back("texture " + file + internal::kOutsideRemedy);
+      return -1;
+    }
     tinygltf::Image image;
     std::string bytes;
     try {
@@ -392,6 +403,8 @@ class Textures {
     return static_cast<int>(model_->textures.size()) - 1;
   }
 
+  const std::string& folder_;
+  const bool allow_outside_files_;
   Model* model_;
   std::vector<std::string>* warnings_;
   std::map<std::string, int> known_;
@@ -419,7 +432,8 @@ struct Part {
 
 std::vector<Part> PartsByMaterial(const Connectivity& connectivity, const internal::CutMesh& mesh,
                                   const Appearance& appearance, const tinygltf::Material& plain,
-                                  Textures* textures, std::vector<std::string>* warnings) {
+                                  bool allow_outside_files, Textures* textures,
+                                  std::vector<std::string>* warnings) {
   if (connectivity.IsGraph()) {
     Part lines = {plain, {}};
     for (const auto& [a, b] : connectivity.Segments()) {
@@ -436,7 +450,7 @@ std::vector<Part> PartsByMaterial(const Connectivity& connectivity, const intern
     for (const int vertex : mesh.triangles.col(f)) part.push_back(vertex);
   }
   const std::vector<std::optional<internal::Material>> described =
-      internal::ReadMaterials(appearance, warnings);
+      internal::ReadMaterials(appearance, allow_outside_files, warnings);
   std::vector<Part> parts;
   for (size_t i = 0; i < indices.size(); ++i) {
     if (indices[i].empty()) continue;
@@ -511,9 +525,10 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   if (!cut.texture.allFinite()) {
     throw MeshError(file + ": single precision cannot hold a texture coordinate");
   }
-  Textures textures(&model, &summary.warnings);
+  Textures textures(appearance.own_folder, options.allow_outside_files, &model, &summary.warnings);
   std::vector<Part> parts =
-      PartsByMaterial(connectivity, cut, appearance, plain, &textures, &summary.warnings);
+      PartsByMaterial(connectivity, cut, appearance, plain, options.allow_outside_files, &textures,
+                      &summary.warnings);
   const double bytes = model.buffers[0].data.size() +
                        4.0 * ((6.0 * keys.size() + 6) * cut.source.size() +
                               3.0 * std::max(connectivity.NumTriangles(), connectivity.NumEdges()));

@@ -43,6 +43,11 @@ struct GltfOptions {
   /// Cannot be combined with the deviation.
   Eigen::VectorXi groups;
 
+  /// Read material libraries and textures from outside of the folder of the mesh, or `.path`, that
+  /// names them too (`Appearance::own_folder`): for files that are trusted, because the textures
+  /// become part of the glb. Otherwise those outside are left out, with a warning.
+  bool allow_outside_files = false;
+
   /// \throw InvalidOptions naming the field.
   void Validate() const;
 };
@@ -70,7 +75,7 @@ struct GltfSummary {
 /// the colours, opacities and textures (PNG and JPEG, embedded; the colour of a material with a
 /// texture is white) of its material libraries, with one primitive per material; and vertex
 /// colours, which are multiplied with the material's. Colours are interpreted as sRGB. There are
-/// warnings for libraries or textures that cannot be read.
+/// warnings for libraries or textures that cannot be read, or may not.
 ///
 /// Normals are smooth, weighted by area, also across single sharp edges, which would need further
 /// vertices. Polyhedra and folded paper, most of whose edges are sharp, have no normals and are

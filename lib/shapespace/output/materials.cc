@@ -8,6 +8,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/read_file.h>
+#include <shapespace/base/within_folder.h>
 #include <shapespace/mesh/text.h>
 
 namespace shapespace::internal {
@@ -96,12 +97,17 @@ std::vector<fs::path> Files(const fs::path& folder, const std::string& statement
 }  // namespace
 
 std::vector<std::optional<Material>> ReadMaterials(const Appearance& appearance,
+                                                   bool allow_outside_files,
                                                    std::vector<std::string>* warnings) {
   const std::vector<std::string>& names = appearance.materials.names;
   if (names.empty()) return {};
   std::map<std::string, Material> known;
   for (const std::string& library : appearance.material_libraries) {
     for (const fs::path& file : Files(appearance.folder, library)) {
+      if (!allow_outside_files && !IsWithinFolder(appearance.own_folder, file)) {
+        warnings->push_back("material library " + file.string() + kOutsideRemedy);
+        continue;
+      }
       try {
         LibraryReader(file, &known, warnings).Read();
       } catch (const FileError& error) {

@@ -17,13 +17,16 @@ namespace shapespace::internal {
 struct Material {
   Eigen::Vector3d colour = Eigen::Vector3d::Ones();  ///< `Kd`: red, green and blue in sRGB, 0 .. 1
   double opacity = 1;                                ///< `d`, or 1 - `Tr`
-  std::string texture;  ///< `map_Kd`: the image's file, which may not exist; empty for none
+  std::string texture;  ///< `map_Kd`: the image's file, which may not exist, or lie outside
+                        ///< of the folder; empty for none
 };
 
 /// Finds the materials of an appearance in its libraries, in the order of their names. Materials
-/// that no library contains are empty. Libraries that cannot be read, and statements in them that
-/// cannot be parsed, are reported as sentences in `warnings`.
+/// that no library contains are empty. Libraries that cannot be read, or lie outside of
+/// `Appearance::own_folder` unless `allow_outside_files`, and statements in them that cannot be
+/// parsed, are reported as sentences in `warnings`.
 std::vector<std::optional<Material>> ReadMaterials(const Appearance& appearance,
+                                                   bool allow_outside_files,
                                                    std::vector<std::string>* warnings);
 
 }  // namespace shapespace::internal

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <exception>
 #include <map>
+#include <new>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -105,7 +106,9 @@ void WriteArrayFile(const std::string& file, const ArrayFileKind& kind, HeaderJs
                     const ArrayWriter& arrays);
 
 /// Returns parse(header, arrays) for a file.
-/// \throw FileError naming the file, for any error in it.
+/// \throw FileError naming the file, for any error in it; std::bad_alloc, for which the file is not
+/// to
+///        blame, because no size in it is believed before the file is known to be as large.
 template <typename Parse>
 auto ReadArrayFile(const std::string& file, const ArrayFileKind& kind, const Parse& parse) {
   const std::string bytes = ReadFile(file);
@@ -113,6 +116,8 @@ auto ReadArrayFile(const std::string& file, const ArrayFileKind& kind, const Par
     size_t begin;
     const HeaderJson header = UnpackHeader(kind, bytes, &begin);
     return parse(header, ArrayReader(header.at("arrays"), bytes, begin));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw FileError(file + ": " + error.what());
   }

@@ -32,6 +32,15 @@ HeaderJson OptionsToJson(const MetricOptions& options) {
           {"stiffness_on", options.stiffness_on == StiffnessOn::kEdges ? kEdges : kVertices}};
 }
 
+// Whether `key` of the metric is `second` rather than `first`, the only other value that it may
+// have.
+bool IsSecond(const HeaderJson& json, const char* key, const char* first, const char* second) {
+  const HeaderJson& value = json.at(key);
+  if (value == first || value == second) return value == second;
+  throw FileError(std::string("metric.") + key + ": must be " + first + " or " + second +
+                  "; was the file made by a later version?");
+}
+
 MetricOptions OptionsFromJson(const HeaderJson& json) {
   MetricOptions options;
   json.at("isometric").get_to(options.isometric);
@@ -46,9 +55,11 @@ MetricOptions OptionsFromJson(const HeaderJson& json) {
           {term.at("name").get<std::string>(), term.at("coefficient").get<double>()});
     }
   }
-  options.weights = json.at("weights") == "uniform" ? Weighting::kUniform : Weighting::kArea;
-  options.discretization = json.at("discretization") == "trapezoid" ? Discretization::kTrapezoid
-                                                                    : Discretization::kMidpoint;
+  options.weights =
+      IsSecond(json, "weights", "area", "uniform") ? Weighting::kUniform : Weighting::kArea;
+  options.discretization = IsSecond(json, "discretization", "midpoint", "trapezoid")
+                               ? Discretization::kTrapezoid
+                               : Discretization::kMidpoint;
   return options;
 }
 
@@ -177,6 +188,10 @@ void AddMetric(const Metric& metric, HeaderJson* header, ArrayWriter* arrays) {
 
 std::shared_ptr<const Metric> ReadMetric(const HeaderJson& header, const ArrayReader& arrays) {
   const int num_vertices = header.at("vertices").get<int>();
+  if (num_vertices < 0) throw FileError("vertices: must not be negative");
+  const auto metric = std::make_shared<Metric>();
+  // First, because it shows that the file is large enough for so many vertices.
+  metric->vertex_area = arrays.Get<Eigen::VectorXd>("vertex_area", num_vertices, 1);
   const auto begin = arrays.Get<Eigen::VectorXi>("polygon_begin", Eigen::Dynamic, 1);
   const auto corners = arrays.Get<Eigen::VectorXi>("corners", Eigen::Dynamic, 1);
   const auto pairs = [&](const char* name) {
@@ -186,7 +201,6 @@ std::shared_ptr<const Metric> ReadMetric(const HeaderJson& header, const ArrayRe
     for (int i = 0; i < columns.cols(); ++i) result.emplace_back(columns(0, i), columns(1, i));
     return result;
   };
-  const auto metric = std::make_shared<Metric>();
   metric->connectivity =
       Connectivity::Make(num_vertices, {begin.begin(), begin.end()},
                          {corners.begin(), corners.end()}, pairs("segments"), pairs("extra_edges"),
@@ -197,7 +211,6 @@ std::shared_ptr<const Metric> ReadMetric(const HeaderJson& header, const ArrayRe
   metric->options.Validate();
   metric->unit = header.at("unit").get<double>();
   if (!(metric->unit > 0)) throw FileError("its unit of length is not positive");
-  metric->vertex_area = arrays.Get<Eigen::VectorXd>("vertex_area", num_vertices, 1);
   metric->edge_area = arrays.Get<Eigen::VectorXd>("edge_area", connectivity.NumEdges(), 1);
   metric->hinge_area = arrays.Get<Eigen::VectorXd>("hinge_area", connectivity.NumHinges(), 1);
   int index = 0;
@@ -256,6 +269,7 @@ Appearance ReadAppearance(const HeaderJson& header, const std::string& file,
   appearance.corner_texture = IndicesFrom(arrays, "corner_texture");
   appearance.material_libraries = NamesFromJson(json.at("material_libraries"));
   appearance.folder = (folder / NameFromJson(json.at("folder"))).lexically_normal().string();
+  appearance.own_folder = folder.string();
   appearance.materials = {NamesFromJson(json.at("materials")),
                           IndicesFrom(arrays, "polygon_material")};
   appearance.groups = {NamesFromJson(json.at("groups")), IndicesFrom(arrays, "polygon_group")};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <new>
 #include <optional>
 
 #define XXH_INLINE_ALL
@@ -99,6 +100,8 @@ std::optional<PairResult> Unpack(const std::string& digest, const std::string& b
     const auto lengths = arrays.Get<Eigen::Vector2d>("lengths", 2, 1);
     return PairResult{lengths(0), lengths(1), header.at("converged").get<bool>(),
                       arrays.Get<Shape>("shape", 3, Eigen::Dynamic)};
+  } catch (const std::bad_alloc&) {
+    throw;  // the record may be good
   } catch (const std::exception&) {
     return {};
   }

@@ -1,0 +1,8 @@
+#ifndef SHAPESPACE_TOOLS_SUPPORT_OUTSIDE_FILES_FLAG_H_
+#define SHAPESPACE_TOOLS_SUPPORT_OUTSIDE_FILES_FLAG_H_
+
+#include <gflags/gflags.h>
+
+DECLARE_bool(allow_outside_files);
+
+#endif  // SHAPESPACE_TOOLS_SUPPORT_OUTSIDE_FILES_FLAG_H_
