@@ -17,7 +17,7 @@ Mesh = Union[ArrayLike, Sequence[Sequence[int]], "Poses", "Path", "Metric", "Spa
 Shapes = Union["Poses", Sequence[ArrayLike], Floats]
 
 class MetricOptions(TypedDict, total=False):
-    preset: Literal["isometric", "strain", "rigid", "paper"]
+    preset: Literal["strain", "isometric", "rigid", "paper"]
     isometric: float
     strain: float
     rigid: float
@@ -31,7 +31,7 @@ class MetricOptions(TypedDict, total=False):
     stiffness_on: Literal["vertices", "edges"]
 
 class GeodesicOptions(TypedDict, total=False):
-    metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None
+    metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None
     shapes: int
     tolerance: float
     max_iterations: int
@@ -43,7 +43,7 @@ class GeodesicOptions(TypedDict, total=False):
     assess: bool
 
 class LadderOptions(TypedDict, total=False):
-    metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None
+    metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None
     rung_shapes: int
     scale: bool
     align: bool
@@ -658,7 +658,7 @@ class Metric:
         poses: Shapes,
         faces: Mesh | None = ...,
         *,
-        preset: Literal["isometric", "strain", "rigid", "paper"] = ...,
+        preset: Literal["strain", "isometric", "rigid", "paper"] = ...,
         pairs: Literal["consecutive", "all"] = ...,
         isometric: float = ...,
         strain: float = ...,
@@ -859,7 +859,7 @@ class Deformer:
         vertices: Poses | ArrayLike,
         faces: Mesh | None,
         *,
-        metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None = ...,
+        metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None = ...,
         shapes: int = ...,
         balance: float = ...,
         tolerance: float = ...,
@@ -916,7 +916,7 @@ def interpolate(
     faces: Mesh | None = ...,
     *,
     progress: Progress = ...,
-    metric: MetricOptions | Metric | Literal["isometric", "strain", "rigid", "paper"] | None = ...,
+    metric: MetricOptions | Metric | Literal["strain", "isometric", "rigid", "paper"] | None = ...,
     shapes: int = ...,
     tolerance: float = ...,
     max_iterations: int = ...,
@@ -1004,7 +1004,7 @@ def transfer(
     *,
     progress: Progress = ...,
     method: Literal["features", "ladder"] = ...,
-    metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None = ...,
+    metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None = ...,
     tolerance: float = ...,
     max_iterations: int = ...,
     hybrids: bool = ...,
@@ -1018,7 +1018,7 @@ def transfer_poses(
     geodesic: GeodesicOptions | None = ...,
     progress: Progress = ...,
     method: Literal["features", "ladder"] = ...,
-    metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None = ...,
+    metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None = ...,
     tolerance: float = ...,
     max_iterations: int = ...,
     hybrids: bool = ...,
@@ -1035,7 +1035,7 @@ def deform(
     handles: Sequence[Handle],
     *,
     progress: Progress = ...,
-    metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None = ...,
+    metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None = ...,
     shapes: int = ...,
     balance: float = ...,
     tolerance: float = ...,
@@ -1051,7 +1051,7 @@ def repair(
     *,
     vertices: ArrayLike | None = ...,
     progress: Progress = ...,
-    metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None = ...,
+    metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None = ...,
     shapes: int = ...,
     balance: float = ...,
     tolerance: float = ...,

@@ -147,7 +147,7 @@ MetricOptions PresetMetric(const std::string& preset) {
   if (preset == "rigid") return MetricOptions::Rigid();
   if (preset == "paper") return MetricOptions::Paper();
   throw py::value_error("metric: '" + preset +
-                        "' is no preset; there are 'isometric', 'strain', 'rigid' and 'paper'");
+                        "' is no preset; there are 'strain', 'isometric', 'rigid' and 'paper'");
 }
 
 void Value<MetricOptions>::Set(MetricOptions* value, py::handle given, const std::string& name) {
@@ -170,7 +170,7 @@ template <>
 const Fields<MetricOptions>& FieldsOf() {
   using O = MetricOptions;
   static const Fields<O> fields = {
-      Row("isometric", &O::isometric, "Cost of a change of edge lengths."),
+      Row("isometric", &O::isometric, "Cost of a change of edge lengths, measured by their squares."),
       Row("strain", &O::strain,
           "Cost of a change of the triangles' logarithmic strains: paths can always go on."),
       Row("rigid", &O::rigid, "Cost of deviation from rigid motion of the whole."),

@@ -9,15 +9,16 @@
 
 #include "support/tool.h"
 
-DEFINE_string(metric, "isometric",
-              "preset of the metric's other flags: isometric (the defaults shown here), strain "
-              "(isometric 0, strain 1), rigid (isometric 0, rigid 1, bending "
-              "0), or paper (bending 0, lambda 0.001, weights uniform, discretization trapezoid); "
-              "shape-deform has one of its own, deformation");
-DEFINE_double(isometric, 1, "cost of stretching edges; all costs are pure numbers, for area 1");
-DEFINE_double(strain, 0,
-              "cost of logarithmic strains of triangles: like --isometric, but paths can always be "
-              "continued");
+DEFINE_string(metric, "strain",
+              "preset of the metric's other flags: strain (the defaults shown here), isometric "
+              "(strain 0, isometric 1), rigid (strain 0, rigid 1, bending 0), or paper (strain 0, "
+              "isometric 1, bending 0, lambda 0.001, weights uniform, discretization trapezoid); "
+              "shape-deform has one of its own, deformation. Costs that are given as well replace "
+              "those of the preset");
+DEFINE_double(strain, 1,
+              "cost of logarithmic strains of triangles, with which paths can always be continued; "
+              "all costs are pure numbers, for area 1");
+DEFINE_double(isometric, 0, "cost of stretching edges, measured by their squared lengths");
 DEFINE_double(rigid, 0, "cost of deviation from rigid motion of the whole body");
 DEFINE_double(lambda, 1e-4, "cost of moving vertices; harmless up to 1e-3");
 DEFINE_double(bending, 1e-5, "cost of bending: t^2 / 12 for a shell of thickness t");
@@ -56,12 +57,12 @@ MetricOptions MetricFromFlags(const Connectivity* mesh) {
     options = MetricOptions::Deformation(*mesh);
   } else if (FLAGS_metric == "rigid") {
     options = MetricOptions::Rigid();
-  } else if (FLAGS_metric == "strain") {
-    options = MetricOptions::Strain();
+  } else if (FLAGS_metric == "isometric") {
+    options = MetricOptions::Isometric();
   } else if (FLAGS_metric == "paper") {
     options = MetricOptions::Paper();
-  } else if (FLAGS_metric != "isometric") {
-    throw UsageError("--metric " + FLAGS_metric + ": must be isometric, strain, rigid or paper" +
+  } else if (FLAGS_metric != "strain") {
+    throw UsageError("--metric " + FLAGS_metric + ": must be strain, isometric, rigid or paper" +
                      (mesh != nullptr ? ", or deformation" : ""));
   }
   if (IsGiven("isometric")) options.isometric = FLAGS_isometric;
