@@ -33,7 +33,7 @@ Pair Read(const char* name, const std::string& folder, const char* first, const 
 
 // 15 inner shapes under each of three metrics.
 void PrintBending() {
-  MetricOptions membrane;
+  MetricOptions membrane = MetricOptions::Isometric();
   membrane.bending = 0;
   std::printf(
       "\n| section 3: roughness in degrees; folds; edges off, rms; energy / bound | bending 0 | "
@@ -44,7 +44,8 @@ void PrintBending() {
                            Read("human 000-007", "human", "000", "007"),
                            Read("horse reference-01", "horse", "reference", "01")}) {
     std::printf("| %s |", pair.name);
-    for (const MetricOptions& metric : {membrane, MetricOptions(), MetricOptions::Paper()}) {
+    for (const MetricOptions& metric :
+         {membrane, MetricOptions::Isometric(), MetricOptions::Paper()}) {
       GeodesicOptions options;
       options.metric = metric;
       const GeodesicSummary summary = Interpolate(pair.poses, options).summary;
