@@ -170,7 +170,8 @@ template <>
 const Fields<MetricOptions>& FieldsOf() {
   using O = MetricOptions;
   static const Fields<O> fields = {
-      Row("isometric", &O::isometric, "Cost of a change of edge lengths, measured by their squares."),
+      Row("isometric", &O::isometric,
+          "Cost of a change of edge lengths, measured by their squares."),
       Row("strain", &O::strain,
           "Cost of a change of the triangles' logarithmic strains: paths can always go on."),
       Row("rigid", &O::rigid, "Cost of deviation from rigid motion of the whole."),

@@ -35,11 +35,11 @@ struct FeatureTerm {
 /// The coefficients of a metric, a blend of features; not negative. Pure numbers, for units in
 /// which the surface has area 1.
 struct MetricOptions {
-  double isometric = 0;   ///< change of edge lengths, the paper's (4)
-  double strain = 1;      ///< change of the triangles' logarithmic strains, and of the logarithms of
-                          ///< the lengths of edges that are no sides of triangles
-  double rigid = 0;       ///< deviation from rigid motion of the whole, the paper's (3)
-  double lambda = 1e-4;   ///< motion of vertices, the paper's (5); harmless up to 1e-3
+  double isometric = 0;  ///< change of edge lengths, the paper's (4)
+  double strain = 1;     ///< change of the triangles' logarithmic strains, and of the logarithms of
+                         ///< the lengths of edges that are no sides of triangles
+  double rigid = 0;      ///< deviation from rigid motion of the whole, the paper's (3)
+  double lambda = 1e-4;  ///< motion of vertices, the paper's (5); harmless up to 1e-3
   double bending = 1e-5;  ///< change of dihedral angles: t^2 / 12 for a shell of thickness t
   double volume = 0;      ///< change of enclosed volume, closed meshes only; start from 0.3
   std::vector<FeatureTerm> features;  ///< user-defined: docs/guide/features.md
