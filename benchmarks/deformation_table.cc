@@ -165,7 +165,7 @@ Shape PrintOurs(const Case& problem, const std::string& method,
 }
 
 void PrintWithAndWithoutVolume(const Case& problem) {
-  MetricOptions metric = MetricOptions::Deformation(*problem.connectivity);
+  MetricOptions metric = MetricOptions::Deformation(*problem.connectivity, problem.rest);
   DeformationOptions options;
   for (double volume : {0.0, metric.volume, 30.0}) {
     if (volume == 0 && metric.volume == 0) {

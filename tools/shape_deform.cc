@@ -62,10 +62,9 @@ void CheckFlags(const std::vector<std::string>& files) {
   if (FLAGS_repair.empty() && IsGiven("sound")) throw UsageError("--sound: goes with --repair");
 }
 
-DeformationOptions DeformationFromFlags(const DeformationOptions& defaults,
-                                        const Connectivity& connectivity) {
+DeformationOptions DeformationFromFlags(const DeformationOptions& defaults, const Poses& mesh) {
   DeformationOptions options = defaults;
-  options.metric = MetricFromFlags(&connectivity);
+  options.metric = MetricFromFlags(&mesh);
   if (IsGiven("shapes")) options.shapes = FLAGS_shapes;
   if (IsGiven("balance")) options.balance = FLAGS_balance;
   options.tolerance = FLAGS_tolerance;
@@ -124,7 +123,7 @@ void Run(const std::vector<std::string>& files) {
   };
   if (FLAGS_repair.empty()) {
     const Poses poses = ReadMeshesFromFlags(files);
-    const DeformationOptions options = DeformationFromFlags({}, *poses.connectivity);
+    const DeformationOptions options = DeformationFromFlags({}, poses);
     const std::vector<Handle> handles =
         ReadHandles(FLAGS_handles, poses.shapes[0], *poses.connectivity, poses.soup.appearance);
     DeformationResult result =
@@ -134,7 +133,7 @@ void Run(const std::vector<std::string>& files) {
   } else {
     const Poses poses = ReadMeshesFromFlags({FLAGS_repair, files[0]});
     RepairOptions options;
-    options.deformation = DeformationFromFlags(RepairOptions::Defaults(), *poses.connectivity);
+    options.deformation = DeformationFromFlags(RepairOptions::Defaults(), poses);
     options.vertices = SoundVertices(poses);
     RepairResult result = Repair(poses.connectivity, poses.shapes[0], poses.shapes[1], options,
                                  SolveProgress(outputs).get());

@@ -125,7 +125,7 @@ name : str, optional
 // The metric of the mesh is the default, of which options may say otherwise.
 DeformationOptions DeformationFromKeywords(const Poses& mesh, const py::dict& given) {
   DeformationOptions options;
-  options.metric = MetricOptions::Deformation(*mesh.connectivity);
+  options.metric = MetricOptions::Deformation(*mesh.connectivity, mesh.shapes[0]);
   Set(given, &options);
   options.Validate();
   return options;
@@ -264,7 +264,8 @@ void BindSolvers(py::module_* module) {
     const int n = reference.connectivity->NumVertices();
     const Shape shape = ToShape(distorted, "distorted", n);
     RepairOptions options;
-    options.deformation.metric = MetricOptions::Deformation(*reference.connectivity);
+    options.deformation.metric =
+        MetricOptions::Deformation(*reference.connectivity, reference.shapes[0]);
     Set(given, &options);
     options.deformation.Validate();
     if (!vertices.is_none()) options.vertices = ToVertices(vertices, "vertices", n);

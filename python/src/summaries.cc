@@ -195,6 +195,7 @@ void BindSummaries(py::module_* module) {
       .Read("mu", &CorrectionSummary::mu)
       .Read("vertices", &CorrectionSummary::vertices)
       .Read("shapes", &CorrectionSummary::shapes)
+      .Read("termination", &CorrectionSummary::termination)
       .Read("converged", &CorrectionSummary::converged)
       .Read("iterations", &CorrectionSummary::iterations)
       .Read("evaluations", &CorrectionSummary::evaluations)

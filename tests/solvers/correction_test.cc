@@ -373,6 +373,7 @@ TEST(CorrectionSummary, SaysThatIterationsRanOut) {
   EXPECT_NE(summary.BriefReport().find("NOT CONVERGED (proximal)"), std::string::npos);
   const auto json = nlohmann::json::parse(summary.ToJson());
   EXPECT_EQ(json["converged"], false);
+  EXPECT_EQ(json["termination"], "max_iterations");
   EXPECT_EQ(json["mode"], "proximal");
   EXPECT_EQ(json["mu"], 1);
   EXPECT_EQ(json["length_error"]["max"], summary.quality.first_max);

@@ -14,6 +14,7 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/solvers/correspondence/closest.h>
 #include <shapespace/solvers/correspondence_picture.h>
+#include <shapespace/solvers/deformation.h>
 #include <shapespace/solvers/transfer.h>
 
 #include "support/listener.h"
@@ -426,6 +427,36 @@ TEST(CarryPath, TakesATransferredPoseToTheTargetsOwnMesh) {
       FitRigidMotion(path.Placed(1), wanted, Eigen::VectorXd::Ones(wanted.cols()));
   const double off = (motion(path.Placed(1)) - wanted).colwise().norm().mean();
   EXPECT_LT(off, 0.5 * bodies.Edge());
+}
+
+// The template is closed and was deformed under a cost of volume, which an open scan cannot have.
+TEST(CarryPath, TakesADeformationOfAClosedTemplateToAnOpenScan) {
+  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const Shape rest = bar.pose(0);
+  const Eigen::Matrix3Xi& triangles = bar.connectivity->Triangles();
+  const int count = static_cast<int>(rest.cols());
+  const auto scan = Connectivity::FromTriangles(count, triangles.leftCols(triangles.cols() - 4));
+  CorrespondenceResult fit;
+  fit.fitted = rest;
+  fit.map.gap = Eigen::VectorXd::Zero(count);
+  fit.map.to_template.triangle.resize(count);
+  fit.map.to_template.barycentric.setZero(3, count);
+  for (int f = 0; f < triangles.cols(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      fit.map.to_template.triangle(triangles(k, f)) = f;
+      fit.map.to_template.barycentric.col(triangles(k, f)) = Eigen::Vector3d::Unit(k);
+    }
+  }
+  Handle left, right;
+  left.vertices = testing::Where(rest, [](const auto& p) { return p.x() < -2.7; });
+  right.vertices = testing::Where(rest, [](const auto& p) { return p.x() > 2.7; });
+  right.motion.angle = 0.5;
+  const Path path = Deform(bar.connectivity, rest, {left, right}).path;
+  ASSERT_GT(path.metric->options.volume, 0);
+  const Path carried = CarryPath(fit, path, scan, rest);
+  EXPECT_EQ(carried.metric->options.volume, 0);
+  EXPECT_EQ(carried.metric->options.bending, path.metric->options.bending);
+  EXPECT_LT(testing::Distance(carried, path), 1e-9);
 }
 
 // Parts of the target without a corresponding part of the template move with their neighbourhood.

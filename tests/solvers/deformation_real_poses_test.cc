@@ -67,7 +67,7 @@ Handle Limb(const Shape& rest, const Vector3d& way, double share, const Vector3d
 
 void ExpectFits(const Poses& poses, const std::vector<Handle>& handles, double edge_rms) {
   DeformationOptions options;
-  options.metric = MetricOptions::Deformation(*poses.connectivity);
+  options.metric = MetricOptions::Deformation(*poses.connectivity, poses.shapes[0]);
   options.metric->volume = 30;
   const DeformationSummary summary =
       Deform(poses.connectivity, poses.shapes[0], handles, options).summary;

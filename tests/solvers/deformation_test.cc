@@ -15,6 +15,7 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
+#include <shapespace/mesh/topology.h>
 #include <shapespace/path/rigid_motion.h>
 
 #include "support/listener.h"
@@ -350,10 +351,53 @@ TEST(Deform, OwnLbfgsAndCeresTrustRegionAgree) {
 TEST(Deform, KeepsTheVolumeThatIsAskedFor) {
   const HeldBar bar;
   DeformationOptions options;
-  options.metric = MetricOptions::Deformation(*bar.body.connectivity);
+  options.metric = MetricOptions::Deformation(*bar.body.connectivity, bar.rest);
   EXPECT_LT(bar.Solve(Twist(360), options).summary.error.volume, -0.1);
   options.metric->volume = 30;
   EXPECT_LT(std::abs(bar.Solve(Twist(360), options).summary.error.volume), 0.003);
+}
+
+// Two copies of a sheet, one on the other and sewn together along the border: a closed mesh that
+// encloses no volume.
+TEST(Deform, BendsAFlatPillowAsASheet) {
+  const Body sheet = MakeSheet(2, 1, 16, 8);
+  const Shape flat = sheet.pose(0);
+  int count = static_cast<int>(flat.cols());
+  std::vector<int> copy(count, -1), original;
+  for (int v : ComputeTopology(*sheet.connectivity).boundary_loops[0]) copy[v] = v;
+  for (int v = 0; v < flat.cols(); ++v) {
+    if (copy[v] >= 0) continue;
+    copy[v] = count++;
+    original.push_back(v);
+  }
+  const Eigen::Matrix3Xi& front = sheet.connectivity->Triangles();
+  Eigen::Matrix3Xi triangles(3, 2 * front.cols());
+  for (int f = 0; f < front.cols(); ++f) {
+    const Eigen::Vector3i t = front.col(f);
+    triangles.col(f) = t;
+    triangles.col(front.cols() + f) << copy[t(0)], copy[t(2)], copy[t(1)];
+  }
+  Shape rest(3, count);
+  rest << flat, flat(Eigen::all, original);
+  const auto pillow = Connectivity::FromTriangles(count, triangles);
+
+  const double least = rest.row(0).minCoeff(), most = rest.row(0).maxCoeff();
+  ScrewMotion bend;
+  bend.axis = Eigen::Vector3d::UnitY();
+  bend.angle = -0.5;
+  const std::vector<Handle> handles = {
+      Fixed(Where(rest, [&](const auto& p) { return p.x() < least + 0.2; })),
+      Moving(Where(rest, [&](const auto& p) { return p.x() > most - 0.2; }), bend)};
+  // Coordinates of files are rounded, so that the volume is seldom exactly zero.
+  for (double rounding : {0.0, 1e-7}) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> noise(-rounding, rounding);
+    const Shape given = rest.unaryExpr([&](double x) { return x + noise(random); });
+    const DeformationResult result = Deform(pillow, given, handles);
+    EXPECT_TRUE(result.summary.Converged());
+    EXPECT_EQ(result.summary.metric.find("volume"), std::string::npos) << result.summary.metric;
+    EXPECT_LT(result.summary.error.edge_rms, 0.05);
+  }
 }
 
 // A sheet whose edge is rotated: bending without stretching is possible, so lengths should not
@@ -413,6 +457,44 @@ TEST(Deformer, OtherHandlesAreSolvedAnew) {
   const DeformationResult again = deformer.Deform(handles);
   EXPECT_FALSE(again.summary.warm);
   EXPECT_EQ(Last(again), Last(Deform(bar.body.connectivity, bar.rest, handles)));
+}
+
+// Vertices that a hard handle holds are not pulled by soft ones.
+TEST(Deformer, ASoftHandleUnderHardOnesChangesNothing) {
+  const HeldBar bar;
+  Handle under = To(bar.rest, {bar.right[0]}, {0, 0, 1});
+  under.hard = false;
+  Deformer deformer(bar.body.connectivity, bar.rest);
+  const std::vector<Handle> handles = {Fixed(bar.left), Moving(bar.right, Twist(30))};
+  const DeformationResult first = deformer.Deform(handles);
+  const DeformationResult again = deformer.Deform({handles[0], handles[1], under});
+  EXPECT_TRUE(again.summary.warm);
+  EXPECT_LT(Largest(Last(again), Last(first)), 0.01);
+  EXPECT_TRUE(deformer.Deform(handles).summary.warm);
+}
+
+TEST(Deformer, StartsFromAGivenEnd) {
+  const HeldBar bar;
+  const DeformationOptions options = Tight();
+  const DeformationResult wanted = bar.Solve(Twist(60), options);
+  Deformer deformer(bar.body.connectivity, bar.rest, options);
+  const std::vector<Handle> handles = {Fixed(bar.left), Moving(bar.right, Twist(60))};
+  const DeformationResult found = deformer.DeformFrom(Last(wanted), handles);
+  EXPECT_EQ(found.summary.levels.front().start, "given");
+  EXPECT_NEAR(found.summary.energy, wanted.summary.energy, 1e-6 * wanted.summary.energy);
+}
+
+TEST(Deformer, RefusesAnEndThatIsNotAShapeOfTheMesh) {
+  const HeldBar bar;
+  Deformer deformer(bar.body.connectivity, bar.rest);
+  const std::vector<Handle> handles = {Fixed(bar.left), Moving(bar.right, Twist(30))};
+  const Shape half = bar.rest.leftCols(bar.rest.cols() / 2);
+  Shape infinite = bar.rest;
+  infinite(1, 2) = std::numeric_limits<double>::infinity();
+  for (const Shape& end : {half, infinite}) {
+    const std::string message = MessageOf<MeshError>([&] { deformer.DeformFrom(end, handles); });
+    EXPECT_EQ(message.find("the end "), 0u) << message;
+  }
 }
 
 TEST(Deform, ContradictoryHandlesMeetHalfWayAndAreToldOf) {
@@ -572,6 +654,49 @@ TEST(Deform, StopsWhenAskedTo) {
   EXPECT_LT(result.summary.handles[1].residual_max, 1e-12);
 }
 
+TEST(Deformer, StopsAtEveryReportWhenAskedTo) {
+  const HeldBar bar;
+  const std::vector<Handle> handles = {Fixed(bar.left), Moving(bar.right, Twist(60))};
+  const Shape end = Last(bar.Solve(Twist(50)));
+  const auto solve = [&](Progress* progress) {
+    return Deformer(bar.body.connectivity, bar.rest).DeformFrom(end, handles, progress);
+  };
+  Listener all;
+  solve(&all);
+  for (int last = 1; last < all.reports; ++last) {
+    Listener listener(last);  // counts it as a failure if there are further reports
+    try {
+      EXPECT_EQ(solve(&listener).summary.termination, Termination::kCancelled) << last;
+    } catch (const Cancelled&) {
+      continue;
+    }
+  }
+}
+
+// A path that was not finished is no start for the next one.
+TEST(Deformer, IsNotWarmFromACancelledSolve) {
+  const HeldBar bar;
+  const auto twisted = [&](double degrees) -> std::vector<Handle> {
+    return {Fixed(bar.left), Moving(bar.right, Twist(degrees))};
+  };
+  Listener all;
+  Deform(bar.body.connectivity, bar.rest, twisted(90), Tight(), &all);
+  Deformer deformer(bar.body.connectivity, bar.rest, Tight());
+  Listener late(all.reports - 2);
+  ASSERT_EQ(deformer.Deform(twisted(90), &late).summary.termination, Termination::kCancelled);
+  const DeformationResult next = deformer.Deform(twisted(91));
+  EXPECT_FALSE(next.summary.warm);
+  EXPECT_EQ(next.summary.factor_seconds, 0);  // hierarchy and factors are kept
+  EXPECT_EQ(Last(next), Last(bar.Solve(Twist(91), Tight())));
+
+  // The last path that was finished remains one.
+  Listener early(3);
+  const DeformationResult stopped = deformer.Deform(twisted(94), &early);
+  ASSERT_TRUE(stopped.summary.warm);
+  ASSERT_EQ(stopped.summary.termination, Termination::kCancelled);
+  EXPECT_FALSE(deformer.Deform(twisted(98)).summary.warm);  // 7 degrees from the finished one
+}
+
 // A single shape is compared with the first by the chord between them, which is short again after a
 // full turn.
 TEST(Deform, TooFewShapesForATurnAreToldOf) {
@@ -593,6 +718,9 @@ TEST(Deform, OutOfIterationsIsSaid) {
   EXPECT_EQ(result.summary.termination, Termination::kMaxIterations);
   EXPECT_FALSE(result.path.converged);
   EXPECT_EQ(result.summary.BriefReport().find("NOT CONVERGED"), 0u);
+  const auto json = nlohmann::json::parse(result.summary.ToJson());
+  EXPECT_EQ(json["termination"], "max_iterations");
+  EXPECT_EQ(json["levels"].back()["termination"], "max_iterations");
 }
 
 TEST(DeformationSummary, ReportsAreReadable) {

@@ -20,6 +20,7 @@
 #include <shapespace/bodies/steffen.h>
 #include <shapespace/bodies/tube.h>
 #include <shapespace/metric/feature_map.h>
+#include <shapespace/solvers/deformation.h>
 
 #include "support/features.h"
 #include "support/listener.h"
@@ -752,6 +753,7 @@ TEST(ExponentialSummary, ReportsTheSteps) {
   EXPECT_NE(summary.FullReport().find("variational"), std::string::npos);
   const auto json = nlohmann::json::parse(summary.ToJson());
   EXPECT_EQ(json["converged"], true);
+  EXPECT_EQ(json["termination"], "converged");
   EXPECT_EQ(json["steps"].size(), 3u);
 }
 
@@ -798,6 +800,63 @@ TEST(Extrapolate, RefusesRigidMetrics) {
   }
   EXPECT_THROW(InitialVelocity(path), InvalidOptions);
   EXPECT_THROW(Logarithm(path.metric, bar.pose(0), bar.pose(30)), InvalidOptions);
+}
+
+// Without a cost of position rigid motions cost nothing. Momentum is conserved nevertheless, so
+// that bodies fly on as under a small cost.
+TEST(Extrapolate, PathsWithoutCostOfPositionGoOnToo) {
+  for (const auto& [body, first, last] : BodyPairs()) {
+    SCOPED_TRACE(body.name);
+    const auto extrapolate = [&](double lambda) {
+      GeodesicOptions options = Exactly(7);
+      options.metric.lambda = lambda;
+      const Path path =
+          Interpolate(body.connectivity, {body.pose(first), body.pose(last)}, options).path;
+      return Extrapolate(FirstShapes(path, 5), 4);
+    };
+    const auto [without, summary] = extrapolate(0);
+    EXPECT_TRUE(summary.Converged()) << summary.FullReport();
+    EXPECT_EQ(without.metric->options.lambda, 0);
+    EXPECT_LT(Distance(without, extrapolate(1e-5).path), 1e-3 * Diameter(body.pose(first)));
+  }
+}
+
+TEST(Extrapolate, ContinuesADeformation) {
+  const Body bar = MakeBar(6, 1, 1, 18, 3, 3);
+  const Shape rest = bar.pose(0);
+  Handle left, right;
+  left.vertices = testing::Where(rest, [](const auto& p) { return p.x() < -2.7; });
+  right.vertices = testing::Where(rest, [](const auto& p) { return p.x() > 2.7; });
+  right.motion.axis = Eigen::Vector3d::UnitX();
+  right.motion.angle = M_PI / 3;
+  DeformationOptions options;
+  options.tolerance = 1e-9;
+  const Path path = Deform(bar.connectivity, rest, {left, right}, options).path;
+  const auto [longer, summary] = Extrapolate(path, 5);
+  EXPECT_TRUE(summary.Converged()) << summary.FullReport();
+  const auto twist = [&](const Shape& shape) {
+    const Shape ends = shape(Eigen::all, right.vertices);
+    const RigidMotion motion =
+        FitRigidMotion(rest(Eigen::all, left.vertices), shape(Eigen::all, left.vertices),
+                       Eigen::VectorXd::Ones(left.vertices.size()));
+    const RigidMotion end = FitRigidMotion(motion(rest(Eigen::all, right.vertices)), ends,
+                                           Eigen::VectorXd::Ones(right.vertices.size()));
+    return Eigen::AngleAxisd(end.rotation).angle() * 180 / M_PI;
+  };
+  EXPECT_NEAR(twist(longer.Placed(5)), 60, 0.1);
+  EXPECT_NEAR(twist(longer.Placed(10)), 120, 5);
+}
+
+TEST(Logarithm, WithoutCostOfPositionIsUndoneByTheExponentialMap) {
+  MetricOptions options;
+  options.lambda = 0;
+  for (const auto& [body, first, last] : BodyPairs()) {
+    SCOPED_TRACE(body.name);
+    const Shape from = body.pose(first), to = body.pose(last);
+    const auto metric = FreezeMetric(options, body.connectivity, {from, to});
+    const Shape end = Exponential(metric, from, Logarithm(metric, from, to, Exactly(7)), 8);
+    EXPECT_LT(Distance(end, FitRigidMotion(to, end, metric->vertex_area)(to)), 1e-5 * Diameter(to));
+  }
 }
 
 TEST(Extrapolate, SaysThatTrapezoidPathsGoOnInMidpointForm) {

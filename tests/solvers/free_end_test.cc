@@ -73,8 +73,9 @@ TEST(FreeEndPreconditioner, IsTheInverseOfAQuadraticEnergy) {
 
 struct Held {
   Body body = MakeBar(4, 1, 1, 12, 3, 3);
-  std::shared_ptr<const Metric> metric = FreezeMetric(
-      MetricOptions::Deformation(*body.connectivity), body.connectivity, {body.pose(0)});
+  std::shared_ptr<const Metric> metric =
+      FreezeMetric(MetricOptions::Deformation(*body.connectivity, body.pose(0)), body.connectivity,
+                   {body.pose(0)});
   Shape rest = body.pose(0) / metric->unit;
   Grip grip;
 

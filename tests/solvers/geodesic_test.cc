@@ -359,7 +359,10 @@ TEST(Interpolate, ReportsThatItDidNotConverge) {
   EXPECT_EQ(summary.termination, Termination::kMaxIterations);
   EXPECT_FALSE(summary.warnings.empty());
   EXPECT_NE(summary.BriefReport().find("NOT CONVERGED"), std::string::npos);
-  EXPECT_FALSE(nlohmann::json::parse(summary.ToJson())["converged"].get<bool>());
+  const auto json = nlohmann::json::parse(summary.ToJson());
+  EXPECT_EQ(json["converged"], false);
+  EXPECT_EQ(json["termination"], "max_iterations");
+  EXPECT_EQ(json["levels"].back()["termination"], "max_iterations");
 }
 
 TEST(Interpolate, SummaryAddsUp) {

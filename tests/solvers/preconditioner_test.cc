@@ -1,8 +1,14 @@
 #include <shapespace/solvers/optimise/preconditioner.h>
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <iostream>
 #include <numeric>
+#include <random>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -10,15 +16,35 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
 
+#include "support/message_of.h"
 #include "support/paths.h"
 
 namespace shapespace::internal {
 namespace {
 
+using testing::MessageOf;
+
 Eigen::SparseMatrix<double> Matrix(const Body& body) {
   const std::vector<Shape> poses = {body.pose(0), body.pose(40)};
   const auto metric = FreezeMetric({}, body.connectivity, poses);
   return ScalarMetric(*metric, {poses[0] / metric->unit, poses[1] / metric->unit}, 0);
+}
+
+// The matrix of a random graph with edges from each vertex to `degree` others. Such a graph has no
+// small separators, so that in any order of elimination most of the factor is dense.
+Eigen::SparseMatrix<double> SparseWithDenseFactor(int size, int degree) {
+  std::mt19937 random(1);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < size; ++i) {
+    entries.emplace_back(i, i, 2 * size);
+    for (int k = 0; k < degree / 2; ++k) {
+      const int j = static_cast<int>(random() % size);
+      if (j != i) entries.emplace_back(std::max(i, j), std::min(i, j), 1);
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
 }
 
 // A large matrix and few columns, for which branches are solved in parallel.
@@ -67,8 +93,27 @@ TEST(Cholesky, RefusesAnIndefiniteMatrix) {
   matrix.insert(0, 0) = 1;
   matrix.insert(1, 1) = -1;
   matrix.insert(2, 2) = 1;
-  EXPECT_THROW(Cholesky factor(matrix), SolverError);
+  matrix.makeCompressed();
+  const std::string message = MessageOf<SolverError>([&] { Cholesky factor(matrix); });
+  EXPECT_NE(message.find("not positive definite"), std::string::npos) << message;
 }
+
+// An allocation that fails, whatever the machine has.
+#ifndef __SANITIZE_ADDRESS__  // which reserves more address space than this
+TEST(Cholesky, SaysThatMemoryRanOut) {
+  const auto factor_without_memory = [] {
+    const Eigen::SparseMatrix<double> matrix = SparseWithDenseFactor(56000, 48);
+    rlimit limit = {};
+    limit.rlim_cur = limit.rlim_max = rlim_t{8} << 30;
+    setrlimit(RLIMIT_AS, &limit);
+    std::cerr << MessageOf<SolverError>([&] { Cholesky factor(matrix); });
+    std::exit(0);
+  };
+  // Its factor has more than 2^31 numbers of 8 bytes each.
+  EXPECT_EXIT(factor_without_memory(), ::testing::ExitedWithCode(0),
+              "memory ran out .* 56000 unknowns, which needs (1[7-9]|2[0-9])... MB");
+}
+#endif
 
 TEST(ScalarMetric, CostsNothingForTranslationsButForThePositionTerm) {
   const Body bar = MakeBar(6, 1, 1, 12, 2, 2);

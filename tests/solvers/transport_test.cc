@@ -420,6 +420,23 @@ TEST(Transport, CarriesTheVelocityOfAGeodesicToItsVelocity) {
 }
 
 // The paper's transport preserves the product with the path's velocity, and nothing else.
+TEST(Transport, WithoutCostOfPositionIsAsWithASmallOne) {
+  for (const Body& body : {Bar(), MakeSteffen(), MakeSheet(2, 1, 8, 4)}) {
+    SCOPED_TRACE(body.name);
+    const std::vector<Tangent> tangents = SomeTangents(body, 0);
+    const auto transport = [&](double lambda) {
+      MetricOptions metric;
+      metric.lambda = lambda;
+      return Transport(Deforming(body, 0, 5, 8, metric), tangents);
+    };
+    const auto [without, summary] = transport(0);
+    EXPECT_TRUE(summary.converged);
+    EXPECT_LT(NormChange(summary), 1e-3);
+    const std::vector<Tangent> with = transport(1e-5).tangents;
+    for (int k : {0, 1}) EXPECT_LT((without[k] - with[k]).norm(), 1e-2 * with[k].norm());
+  }
+}
+
 TEST(PapersTransport, KeepsTheProductWithTheVelocity) {
   for (const Body& body : {Bar(), MakeBricard()}) {
     SCOPED_TRACE(body.name);

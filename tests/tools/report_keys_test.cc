@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <regex>
 #include <set>
@@ -65,6 +66,11 @@ class ReportKeysTest : public ToolsTest {
   /// does not have; the content of `energy_parts` depends on the metric.
   static void Compare(const std::string& heading, nlohmann::json json, const Keys& sometimes = {}) {
     SCOPED_TRACE(heading);
+    const std::vector<std::pair<Keys, std::string>> words = Rows("Every report has `termination`");
+    const Keys ending = {json.value("termination", "")};
+    EXPECT_TRUE(std::any_of(words.begin(), words.end(), [&](const auto& row) {
+      return row.first == ending;
+    })) << *ending.begin();
     json["energy_parts"] = 0;
     Keys documented = sometimes;
     documented.insert("energy_parts");
@@ -121,7 +127,7 @@ TEST_F(ReportKeysTest, TheDocumentationHasThemAllAndNoOthers) {
   const nlohmann::json poses =
       Report("shape-transfer", {"tube0.obj", "tube1.obj", "--method", "ladder", "--shapes", "1",
                                 "--target", "tube0.obj", "--output", "t.path"});
-  EXPECT_EQ(KeysOf(poses), (Keys{"converged", "poses"}));
+  EXPECT_EQ(KeysOf(poses), (Keys{"termination", "converged", "poses"}));
   EXPECT_EQ(KeysOf(poses["poses"][0]), (Keys{"geodesic", "transfer"}));
   EXPECT_EQ(poses["poses"][0]["geodesic"].size(), geodesic.size());
   EXPECT_EQ(poses["poses"][0]["transfer"].size(), ladder.size());

@@ -51,10 +51,10 @@ const Eigen::VectorXd& Stiffness() {
 
 }  // namespace
 
-MetricOptions MetricFromFlags(const Connectivity* mesh) {
+MetricOptions MetricFromFlags(const Poses* mesh) {
   MetricOptions options;
   if (FLAGS_metric == "deformation" && mesh != nullptr) {
-    options = MetricOptions::Deformation(*mesh);
+    options = MetricOptions::Deformation(*mesh->connectivity, mesh->shapes[0]);
   } else if (FLAGS_metric == "rigid") {
     options = MetricOptions::Rigid();
   } else if (FLAGS_metric == "isometric") {

@@ -49,6 +49,11 @@ double EnclosedVolume(const Eigen::Matrix3Xi& triangles, const Shape& shape) {
   return volume;
 }
 
+bool EnclosesVolume(const Eigen::Matrix3Xi& triangles, const Shape& shape) {
+  constexpr double kLeastShare = 1e-6;
+  return IsClosed(triangles) && std::abs(ShareOfBall(triangles, shape)) > kLeastShare;
+}
+
 bool IsMirrored(const Eigen::Matrix3Xi& triangles, const Shape& reference, const Shape& pose) {
   // Bodies of people and animals have a fifth to a half of the ball's volume; a body thinner than a
   // leaf may turn over without being a mirror image.

@@ -18,6 +18,10 @@ bool IsClosed(const Eigen::Matrix3Xi& triangles);
 /// distance from the origin.
 double EnclosedVolume(const Eigen::Matrix3Xi& triangles, const Shape& shape);
 
+/// Whether the mesh is closed and its volume is not zero up to the rounding of coordinates in
+/// single precision, as that of two sheets that are joined along their border is.
+bool EnclosesVolume(const Eigen::Matrix3Xi& triangles, const Shape& shape);
+
 /// Whether the orientation of `pose` is reversed relative to `reference`, as for the mirror image
 /// of a closed body: both enclose volumes that are clearly not zero, of opposite signs. False if
 /// the mesh is open.

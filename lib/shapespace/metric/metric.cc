@@ -32,8 +32,12 @@ void CheckStiffness(const Eigen::VectorXd& field, const char* name) {
 // Chosen on bent and twisted bars and cylinders and a lifted plate (benchmarks/deformation_table).
 // With less bending the bodies kink and buckle, with more they stretch; with strains only, a few
 // triangles of the plate stretch strongly; with lengths only, the bar is compressed.
-MetricOptions MetricOptions::Deformation(const Connectivity& connectivity) {
-  const bool solid = IsClosed(connectivity.Triangles());
+MetricOptions MetricOptions::Deformation(const Connectivity& connectivity, const Shape& rest) {
+  if (rest.cols() != connectivity.NumVertices()) {
+    throw MeshError("the shape has " + std::to_string(rest.cols()) + " vertices, the mesh " +
+                    std::to_string(connectivity.NumVertices()));
+  }
+  const bool solid = EnclosesVolume(connectivity.Triangles(), rest);
   MetricOptions options;
   options.isometric = 0.3;
   options.strain = 0.7;

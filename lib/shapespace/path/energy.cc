@@ -323,10 +323,17 @@ double PathEnergy::EvaluateRigid(const double* unknowns, double* gradient) {
 }
 
 double PathEnergy::EstimateBytes(const Metric& metric, int inner) {
-  const Connectivity& connectivity = *metric.connectivity;
-  const double elements = 40.0 * connectivity.NumEdges() + 60.0 * connectivity.NumHinges();
-  const double rigid = metric.rigid.Active() ? 48.0 * (inner + 1) * connectivity.NumVertices() : 0;
-  return elements + rigid + 60.0 * connectivity.NumVertices();
+  // Of ElementGroup, with some capacity left over.
+  constexpr double kCapacity = 1.25;
+  double elements = 0;
+  for (const auto& feature : metric.features) {
+    const double integers = feature->VerticesPerElement();
+    const double numbers = 1 + 2.0 * feature->ValuesPerElement();
+    elements += kCapacity * feature->NumElements() * (4 * integers + 8 * numbers);
+  }
+  const double num_vertices = metric.connectivity->NumVertices();
+  const double rigid = metric.rigid.Active() ? 48.0 * (inner + 1) * num_vertices : 0;
+  return elements + rigid + 60 * num_vertices;
 }
 
 double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& last, int segments) {

@@ -64,7 +64,8 @@ class PathEnergy {
   /// is one; evaluates the energy again.
   std::vector<double> Parts(const double* unknowns);
 
-  /// Memory in bytes of an object for this number of vertices, edges, hinges and inner shapes.
+  /// Memory in bytes of an object for this metric, all of its features included, and this number of
+  /// inner shapes.
   static double EstimateBytes(const Metric& metric, int inner);
 
  private:

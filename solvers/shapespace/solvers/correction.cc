@@ -158,6 +158,7 @@ std::string CorrectionSummary::BriefReport() const {
 
 std::string CorrectionSummary::ToJson() const {
   nlohmann::ordered_json json;
+  json["termination"] = internal::Key(termination);
   json["mode"] = Name(mode);
   json["mu"] = mu;
   json["vertices"] = vertices;
@@ -221,7 +222,8 @@ CorrectionResult CorrectPath(const Path& path, const CorrectionOptions& options,
   result.path = path;
   energy.Store(unknowns.data(), &result.path.shapes);
   result.path.provenance += "; corrected";
-  summary.converged = minimised.stop == internal::Stop::kConverged;
+  summary.termination = internal::Translate(minimised.stop);
+  summary.converged = summary.termination == Termination::kConverged;
   result.path.converged = path.converged && summary.converged;
   summary.iterations = minimised.iterations;
   summary.evaluations = minimised.evaluations;

@@ -7,6 +7,7 @@
 #include <shapespace/analysis/quality.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/path/path.h>
+#include <shapespace/solvers/geodesic.h>
 
 namespace shapespace {
 
@@ -46,7 +47,8 @@ struct CorrectionSummary {
   double mu = 0;  ///< 0 for kPaper
   int vertices = 0;
   int shapes = 0;  ///< free to move: all but the first
-  bool converged = false;
+  Termination termination = Termination::kConverged;
+  bool converged = false;  ///< the same as kConverged
   int iterations = 0, evaluations = 0;
   /// Energy of the edge lengths (kPaper: with the quartic part of (6)), scaled: E n / 2 for n
   /// segments.

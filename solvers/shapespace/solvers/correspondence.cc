@@ -13,6 +13,7 @@
 #include <shapespace/hierarchy/hierarchy.h>
 #include <shapespace/mesh/geometry.h>
 #include <shapespace/mesh/topology.h>
+#include <shapespace/mesh/volume.h>
 #include <shapespace/path/align.h>
 #include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/correspondence/check_input.h>
@@ -462,6 +463,7 @@ Path CarryPath(const CorrespondenceResult& result, const Path& path,
         internal::FitGradients(*target_connectivity, frame.In(target_shape), covered, places, 0));
   }
   MetricOptions options = path.metric->options;
+  if (!EnclosesVolume(target_connectivity->Triangles(), target_shape)) options.volume = 0;
   for (Eigen::VectorXd* field : {&options.stretching_stiffness, &options.bending_stiffness}) {
     if (field->size() == 0) continue;
     const Eigen::VectorXd of_vertices =

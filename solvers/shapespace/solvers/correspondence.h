@@ -128,7 +128,8 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
                                 Progress* progress = nullptr);
 
 /// Converts a path of the fitted template, whose first shape is `result.fitted`, to a path of the
-/// target's own mesh, whose vertices move with the surface on which they lie (`CarryAlong`).
+/// target's own mesh, whose vertices move with the surface on which they lie (`CarryAlong`). The
+/// metric has the path's options; the cost of volume is left out if the target encloses none.
 /// \throw MeshError if the path, the result and the mesh do not belong together.
 Path CarryPath(const CorrespondenceResult& result, const Path& path,
                const std::shared_ptr<const Connectivity>& target_connectivity,

@@ -61,6 +61,7 @@ std::string CorrespondenceSummary::FullReport() const {
 
 std::string CorrespondenceSummary::ToJson() const {
   nlohmann::ordered_json json;
+  json["termination"] = internal::Key(converged, cancelled);
   json["converged"] = converged;
   json["cancelled"] = cancelled;
   json["template"] = {{"vertices", template_vertices}, {"triangles", template_triangles}};

@@ -89,6 +89,7 @@ class Deformer::Solver {
   DeformationResult Solve(const std::vector<Handle>& handles, const Shape* end, Progress* progress);
 
  private:
+  void CheckEnd(const Shape& end) const;
   void Prepare(const HandleTargets& targets, DeformationSummary* summary);
   std::vector<Shape> Cascade(const HandleTargets& targets, const std::vector<Shape>& places,
                              const Shape* end, Progress* progress, internal::Workload* workload,
@@ -111,7 +112,8 @@ class Deformer::Solver {
   std::vector<int> component_;
   std::optional<Hierarchy> hierarchy_;
   std::vector<HeldLevel> levels_;
-  // Results of the last solve.
+  // The targets and the path of the last solve that was not cancelled. If there is no path, the
+  // targets are those for which the levels were prepared.
   std::optional<HandleTargets> last_targets_;
   std::vector<Shape> last_shapes_;
 };
@@ -120,7 +122,7 @@ Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity
                          const DeformationOptions& options)
     : options_(options), connectivity_(connectivity), given_(rest) {
   options.Validate();
-  metric_ = FreezeMetric(options.metric.value_or(MetricOptions::Deformation(*connectivity)),
+  metric_ = FreezeMetric(options.metric.value_or(MetricOptions::Deformation(*connectivity, rest)),
                          connectivity, {rest});
   if (options.solver == DeformationOptions::Solver::kTrustRegion) cost::RefuseDenseRows(*metric_);
   const double bytes = EstimateBytes(*metric_, options.shapes);
@@ -145,12 +147,12 @@ DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, co
   for (int i = 0; i <= options_.shapes; ++i) {
     places.push_back(targets.At(static_cast<double>(i) / options_.shapes));
   }
-  const bool alike = last_targets_ && targets.HoldAlike(*last_targets_);
-  if (!alike) Prepare(targets, &summary);
+  if (end != nullptr) CheckEnd(*end);
+  if (!last_targets_ || !targets.HoldAlike(*last_targets_)) Prepare(targets, &summary);
 
   internal::Workload workload(progress, options_.tolerance, options_.max_iterations);
   const internal::Stopwatch solving;
-  summary.warm = alike && end == nullptr && targets.IsNear(*last_targets_, kLittle);
+  summary.warm = !last_shapes_.empty() && end == nullptr && targets.IsNear(*last_targets_, kLittle);
   std::vector<Shape> shapes;
   if (summary.warm) {
     workload.Plan(connectivity_->NumVertices(), options_.shapes, true);
@@ -164,15 +166,30 @@ DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, co
   summary.termination =
       workload.Stopped() ? Termination::kCancelled : summary.levels.back().termination;
   Assess(handles, targets, shapes, &result);
-  last_targets_.emplace(std::move(targets));
-  last_shapes_ = std::move(shapes);
+  if (summary.termination != Termination::kCancelled) {
+    last_targets_.emplace(std::move(targets));
+    last_shapes_ = std::move(shapes);
+  }
   summary.total_seconds = total.Seconds();
   return result;
+}
+
+void Deformer::Solver::CheckEnd(const Shape& end) const {
+  if (end.cols() != given_.cols()) {
+    throw MeshError("the end has " + std::to_string(end.cols()) + " vertices, the mesh " +
+                    std::to_string(given_.cols()));
+  }
+  for (int v = 0; v < end.cols(); ++v) {
+    if (end.col(v).allFinite()) continue;
+    throw MeshError("the end is not finite at vertex " + std::to_string(v + 1) +
+                    " (counted from 1)");
+  }
 }
 
 // Computes hierarchy and factors if handles hold other vertices than before, or in another way.
 void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary* summary) {
   last_targets_.reset();
+  last_shapes_.clear();
   levels_.clear();
   const internal::Stopwatch building;
   hierarchy_.emplace(connectivity_, std::vector<Shape>{rest_},
@@ -193,6 +210,7 @@ void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary*
                          strength);
   }
   summary->factor_seconds = factoring.Seconds();
+  last_targets_.emplace(targets);
 }
 
 std::vector<Shape> Deformer::Solver::Cascade(const HandleTargets& targets,
@@ -276,8 +294,10 @@ std::vector<Shape> Deformer::Solver::StartAt(const Shape& end, const Shape& plac
   GeodesicOptions geodesic;
   geodesic.shapes = options_.shapes - 1;
   geodesic.tolerance = options_.tolerance;
-  return Interpolate(level.Path().GetMetric()->connectivity, pair, geodesic, progress)
-      .path.Placed();
+  const GeodesicResult result =
+      Interpolate(level.Path().GetMetric()->connectivity, pair, geodesic, progress);
+  if (result.summary.termination == Termination::kCancelled) throw Cancelled();
+  return result.path.Placed();
 }
 
 void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char* start,

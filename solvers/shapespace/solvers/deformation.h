@@ -133,7 +133,8 @@ DeformationResult Deform(const std::shared_ptr<const Connectivity>& connectivity
 
 /// Deforms one mesh repeatedly: keeps its hierarchy, factors and the last path. If the next handles
 /// constrain the same vertices in the same way and move them only a little, the solve starts from
-/// that path on the finest level; otherwise it is the same as `Deform`.
+/// that path on the finest level; otherwise it is the same as `Deform`. A path that was cancelled
+/// is no such start: then it is the last one before that was not.
 class Deformer {
  public:
   /// \throw as Deform.
@@ -145,7 +146,8 @@ class Deformer {
 
   DeformationResult Deform(const std::vector<Handle>& handles, Progress* progress = nullptr);
   /// The same, but starts from a given last shape instead of following the handles from the mesh.
-  /// Hard handles need not be satisfied in `end`.
+  /// `end`, 3 x m in the user's unit, need not satisfy the hard handles.
+  /// \throw MeshError too, if `end` is not finite or has another number of vertices.
   DeformationResult DeformFrom(const Shape& end, const std::vector<Handle>& handles,
                                Progress* progress = nullptr);
 

@@ -63,7 +63,7 @@ std::string DeformationSummary::FullReport() const {
 
 std::string DeformationSummary::ToJson() const {
   nlohmann::ordered_json json;
-  json["termination"] = internal::Name(termination);
+  json["termination"] = internal::Key(termination);
   json["converged"] = Converged();
   json["vertices"] = vertices;
   json["triangles"] = triangles;
@@ -89,7 +89,7 @@ std::string DeformationSummary::ToJson() const {
     json["levels"].push_back({{"vertices", level.vertices},
                               {"shapes", level.shapes},
                               {"start", level.start},
-                              {"termination", internal::Name(level.termination)},
+                              {"termination", internal::Key(level.termination)},
                               {"iterations", level.iterations},
                               {"evaluations", level.evaluations},
                               {"initial_value", JsonNumber(level.initial_value)},

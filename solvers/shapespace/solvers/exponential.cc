@@ -13,6 +13,7 @@
 #include <shapespace/mesh/geometry.h>
 #include <shapespace/metric/feature_map.h>
 #include <shapespace/solvers/check_options.h>
+#include <shapespace/solvers/optimise/cost_of_position.h>
 #include <shapespace/solvers/optimise/shooter.h>
 #include <shapespace/solvers/optimise/step_ceres.h>
 #include <shapespace/solvers/report.h>
@@ -320,12 +321,12 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
   const internal::Stopwatch total;
   Path& path = result->path;
   ExponentialSummary& summary = result->summary;
-  const Metric& metric = *path.metric;
+  const std::shared_ptr<const Metric> metric = internal::WithCostOfPosition(path.metric);
   summary.integrator = options.integrator;
-  summary.vertices = metric.connectivity->NumVertices();
+  summary.vertices = metric->connectivity->NumVertices();
   summary.requested_steps = steps;
-  summary.metric = Describe(metric.options);
-  if (metric.options.discretization == Discretization::kTrapezoid) {
+  summary.metric = Describe(metric->options);
+  if (metric->options.discretization == Discretization::kTrapezoid) {
     summary.warnings.push_back(
         "the path was made in trapezoid form, in which geodesics cannot be shot: it is continued "
         "in "
@@ -335,10 +336,10 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
   const bool discrete = departure.previous.size() > 0;
   switch (options.integrator) {
     case Integrator::kVariational: {
-      internal::Shooter shooter(path.metric, {path.shapes.front(), departure.shape}, options, [&] {
+      internal::Shooter shooter(metric, {path.shapes.front(), departure.shape}, options, [&] {
         ReportProgress(progress, "shooting", static_cast<int>(summary.steps.size()), steps);
       });
-      const FeatureMap map(path.metric);
+      const FeatureMap map(metric);
       departure.speed = discrete
                             ? (map.Values(departure.shape) - map.Values(departure.previous)).norm()
                             : map.Derivative(departure.shape).Times(departure.velocity).norm();
@@ -358,10 +359,10 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
       break;
     }
     case Integrator::kRungeKutta4: {
-      RungeKutta4 scheme(path.metric, departure.shape,
-                         discrete ? SegmentVelocity(FeatureMap(path.metric), departure.previous,
-                                                    departure.shape, 1)
-                                  : departure.velocity);
+      RungeKutta4 scheme(
+          metric, departure.shape,
+          discrete ? SegmentVelocity(FeatureMap(metric), departure.previous, departure.shape, 1)
+                   : departure.velocity);
       March([&](ExponentialSummary::Step* row) { return scheme.Next(row); }, steps, step, progress,
             result);
       summary.factorisations = scheme.Solver().NumFactorisations();
@@ -369,7 +370,7 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
       break;
     }
     case Integrator::kFirstIntegral: {
-      FirstIntegral scheme(path.metric, discrete ? departure.previous : departure.shape,
+      FirstIntegral scheme(metric, discrete ? departure.previous : departure.shape,
                            discrete ? departure.shape - departure.previous : departure.velocity,
                            options);
       ExponentialSummary::Step unused;
@@ -381,7 +382,7 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
   }
   path.extrapolated += static_cast<int>(summary.steps.size());
   path.converged = path.converged && summary.Converged();
-  Warn(metric, &summary);
+  Warn(*metric, &summary);
   summary.total_seconds = total.Seconds();
 }
 
@@ -468,14 +469,13 @@ Tangent Logarithm(const std::shared_ptr<const Metric>& metric, const Shape& from
 
 Tangent InitialVelocity(const Path& path) {
   if (path.NumShapes() < 2) throw MeshError("a path needs at least two shapes to have a direction");
-  const Metric& metric = *path.metric;
+  const std::shared_ptr<const Metric> metric = internal::WithCostOfPosition(path.metric);
   const RigidMotion &first = path.motions[0], &second = path.motions[1];
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(second.rotation * first.rotation.transpose()));
   const Eigen::Vector3d spin = turn.angle() * turn.axis();
-  const Shape arms = metric.unit * (first.rotation * path.shapes[0]);
-  Tangent way =
-      metric.unit * (first.rotation *
-                     SegmentVelocity(FeatureMap(path.metric), path.shapes[1], path.shapes[0], -1));
+  const Shape arms = metric->unit * (first.rotation * path.shapes[0]);
+  Tangent way = metric->unit * (first.rotation * SegmentVelocity(FeatureMap(metric), path.shapes[1],
+                                                                 path.shapes[0], -1));
   for (int v = 0; v < way.cols(); ++v) {
     way.col(v) += spin.cross(arms.col(v)) + second.translation - first.translation;
   }

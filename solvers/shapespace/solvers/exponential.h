@@ -112,7 +112,9 @@ struct ExponentialResult {
 /// Continues a path (Kilian et al. 2007, section 4) by `steps` shapes along the geodesic through
 /// its last two shapes, with their spacing in time. The path's rigid motion continues too: the
 /// rotation at its angular velocity, the centroid on its straight line. The metric is the path's
-/// own; a path made in trapezoid form is continued in midpoint form, with a warning.
+/// own; a path made in trapezoid form is continued in midpoint form, with a warning. Under a metric
+/// without a cost of position (lambda 0) rigid motions cost nothing: all functions here then shoot
+/// under a lambda of 1e-6, with which linear and angular momentum are conserved.
 /// \throw InvalidOptions (also if the metric is rigid, or steps < 1), MeshError (fewer than two
 ///        shapes), SolverError, Cancelled (stopped before the first step was made; if stopped
 ///        later, the path so far is returned with Ending::kCancelled).

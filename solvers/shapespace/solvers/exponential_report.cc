@@ -74,6 +74,9 @@ std::string ExponentialSummary::FullReport() const {
 
 std::string ExponentialSummary::ToJson() const {
   nlohmann::ordered_json json;
+  json["termination"] = ending == Ending::kDegenerate
+                            ? "degenerate"
+                            : internal::Key(Converged(), ending == Ending::kCancelled);
   json["complete"] = ending == Ending::kComplete;
   json["converged"] = Converged();
   if (!stopped.empty()) json["stopped"] = stopped;

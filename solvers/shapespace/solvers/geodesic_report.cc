@@ -23,6 +23,20 @@ const char* Name(Termination termination) {
   return "NOT CONVERGED: cancelled";
 }
 
+const char* Key(Termination termination) {
+  switch (termination) {
+    case Termination::kConverged:
+      return "converged";
+    case Termination::kMaxIterations:
+      return "max_iterations";
+    case Termination::kStalled:
+      return "stalled";
+    case Termination::kCancelled:
+      break;
+  }
+  return "cancelled";
+}
+
 }  // namespace internal
 
 using internal::Format;
@@ -90,7 +104,7 @@ std::string GeodesicSummary::FullReport() const {
 
 std::string GeodesicSummary::ToJson() const {
   nlohmann::ordered_json json;
-  json["termination"] = Name(termination);
+  json["termination"] = internal::Key(termination);
   json["converged"] = termination == Termination::kConverged;
   json["vertices"] = vertices;
   json["triangles"] = triangles;
@@ -121,7 +135,7 @@ std::string GeodesicSummary::ToJson() const {
                               {"shapes", level.shapes},
                               {"start", level.start},
                               {"solver", level.solver},
-                              {"termination", Name(level.termination)},
+                              {"termination", internal::Key(level.termination)},
                               {"iterations", level.iterations},
                               {"evaluations", level.evaluations},
                               {"initial_energy", JsonNumber(level.initial_energy)},

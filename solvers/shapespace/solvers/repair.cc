@@ -39,6 +39,7 @@ std::string RepairSummary::FullReport() const {
 
 std::string RepairSummary::ToJson() const {
   nlohmann::ordered_json json;
+  json["termination"] = internal::Key(deformation.termination);
   json["converged"] = Converged();
   json["before"] = internal::ToJson(before);
   json["after"] = internal::ToJson(after);

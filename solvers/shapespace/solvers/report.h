@@ -29,6 +29,12 @@ inline nlohmann::ordered_json JsonNumber(double value) {
 
 /// How a solve ended, in words.
 const char* Name(Termination termination);
+/// The same as the value of `termination` in reports: a word that stays the same.
+const char* Key(Termination termination);
+/// The value for calls that consist of several solves.
+inline const char* Key(bool converged, bool cancelled) {
+  return cancelled ? "cancelled" : converged ? "converged" : "not_converged";
+}
 
 inline std::string VolumeText(const ShapeError& error) {
   return std::isfinite(error.volume) ? Format("volume %+.3g%%", 100 * error.volume)

@@ -14,6 +14,7 @@ using internal::JsonNumber;
 
 nlohmann::ordered_json JsonOf(const TransferSummary& summary) {
   nlohmann::ordered_json json;
+  json["termination"] = internal::Key(summary.Converged(), summary.cancelled);
   json["converged"] = summary.Converged();
   json["vertices"] = summary.vertices;
   json["metric"] = summary.metric;
@@ -136,6 +137,7 @@ std::string PoseTransferSummary::FullReport() const {
 std::string PoseTransferSummary::ToJson() const {
   if (geodesics.empty() && !transfers.empty()) return transfers[0].ToJson();
   nlohmann::ordered_json json;
+  json["termination"] = internal::Key(Converged(), cancelled);
   json["converged"] = Converged();
   json["poses"] = nlohmann::ordered_json::array();
   for (size_t i = 0; i < transfers.size(); ++i) {

@@ -10,6 +10,7 @@
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/metric/feature_map.h>
 #include <shapespace/solvers/check_options.h>
+#include <shapespace/solvers/optimise/cost_of_position.h>
 #include <shapespace/solvers/optimise/metric_solver.h>
 #include <shapespace/solvers/optimise/step_ceres.h>
 #include <shapespace/solvers/report.h>
@@ -26,10 +27,10 @@ using internal::MetricSolver;
 // the first step of the Newton-Schulz iteration for the isometry that is nearest to P_1.
 class MetricTransport {
  public:
-  MetricTransport(const Path& path, const TransportOptions& options)
+  MetricTransport(const Path& path, const FeatureMap& map, const TransportOptions& options)
       : path_(path),
         options_(options),
-        map_(path.metric),
+        map_(map),
         here_(std::make_unique<Place>(map_, path.shapes[0])) {}
 
   /// Transports from path.shapes[i] to the next shape. The tangents are rotated as `Turn` says.
@@ -87,7 +88,7 @@ class MetricTransport {
 
   const Path& path_;
   const TransportOptions& options_;
-  const FeatureMap map_;
+  const FeatureMap& map_;
   std::unique_ptr<Place> here_;
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();
 };
@@ -95,7 +96,7 @@ class MetricTransport {
 // The paper's transport: the tangent nearest to the previous one among those with <Y, gamma'> = C.
 class ConstrainedProjection {
  public:
-  explicit ConstrainedProjection(const Path& path) : path_(path), map_(path.metric) {}
+  ConstrainedProjection(const Path& path, const FeatureMap& map) : path_(path), map_(map) {}
 
   void Carry(int i, std::vector<Tangent>* tangents) {
     if (i == 0) {
@@ -120,13 +121,13 @@ class ConstrainedProjection {
   }
 
   const Path& path_;
-  const FeatureMap map_;
+  const FeatureMap& map_;
   std::vector<double> constants_;
 };
 
-std::vector<double> Norms(const Path& path, int shape, const std::vector<Tangent>& tangents) {
-  const FeatureMap map(path.metric);
-  const FeatureDerivative derivative = map.Derivative(path.shapes[shape]);
+std::vector<double> Norms(const FeatureMap& map, const Shape& shape,
+                          const std::vector<Tangent>& tangents) {
+  const FeatureDerivative derivative = map.Derivative(shape);
   std::vector<double> norms;
   for (const Tangent& x : tangents) norms.push_back(derivative.Times(x).norm());
   return norms;
@@ -165,14 +166,15 @@ TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents
     }
     result.tangents.push_back(path.motions.front().rotation.transpose() * x / metric.unit);
   }
-  result.summary.metric = Describe(metric.options);
-  result.summary.first_norm = Norms(path, 0, result.tangents);
+  const FeatureMap map(internal::WithCostOfPosition(path.metric));
+  result.summary.metric = Describe(map.GetMetric().options);
+  result.summary.first_norm = Norms(map, path.shapes.front(), result.tangents);
   std::optional<MetricTransport> metric_transport;
   std::optional<ConstrainedProjection> projection;
   if (options.connection == TransportConnection::kLeviCivita) {
-    metric_transport.emplace(path, options);
+    metric_transport.emplace(path, map, options);
   } else {
-    projection.emplace(path);
+    projection.emplace(path, map);
   }
   for (int i = 0; i < segments; ++i) {
     ReportProgress(progress, "transporting", i, segments);
@@ -190,7 +192,7 @@ TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents
   if (metric_transport) {
     for (Tangent& x : result.tangents) x = metric_transport->Turn() * x;
   }
-  result.summary.last_norm = Norms(path, segments, result.tangents);
+  result.summary.last_norm = Norms(map, path.shapes[segments], result.tangents);
   for (Tangent& x : result.tangents) {
     x = metric.unit * (path.motions.back().rotation * x).eval();
   }

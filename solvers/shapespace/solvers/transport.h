@@ -64,7 +64,8 @@ struct TransportResult {
 /// Transports `tangents` (3 x m each, at the path's first shape as placed, user's unit) along the
 /// path to its last shape as placed: parallel transport (Kilian et al. 2007, section 5). Each
 /// segment is factorised once for all tangents. The path's rigid motion rotates the tangents with
-/// the shapes.
+/// the shapes. Under a metric without a cost of position (lambda 0) a lambda of 1e-6 is added,
+/// because rigid motions would cost nothing.
 /// \throw InvalidOptions (also if the metric is rigid), MeshError (a tangent of the wrong size or
 ///        not finite, a path of one shape), SolverError (the metric is not definite; for
 ///        kConstrainedProjection, the path stands still), Cancelled.

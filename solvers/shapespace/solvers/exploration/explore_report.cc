@@ -55,7 +55,8 @@ std::string ExploreSummary::ToJson() const {
                      {"new_nodes", level.new_nodes},
                      {"seconds", level.seconds}});
   }
-  const nlohmann::ordered_json json = {{"converged", Converged()},
+  const nlohmann::ordered_json json = {{"termination", internal::Key(Converged(), false)},
+                                       {"converged", Converged()},
                                        {"vertices", vertices},
                                        {"triangles", triangles},
                                        {"distance_vertices", distance_vertices},

@@ -1,7 +1,9 @@
 #include <shapespace/solvers/optimise/cholesky.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <string>
 #include <type_traits>
 
 #include <cholmod.h>
@@ -190,72 +192,116 @@ void BackwardNode(const Supernode& node, const float* block, const int* rows, fl
   BackwardColumns(node, block, rows, x, stride, count);
 }
 
-cholmod_sparse View(const Eigen::SparseMatrix<double>& matrix) {
-  cholmod_sparse view = {};
-  view.nrow = matrix.rows();
-  view.ncol = matrix.cols();
-  view.nzmax = matrix.nonZeros();
-  view.p = const_cast<int*>(matrix.outerIndexPtr());
-  view.i = const_cast<int*>(matrix.innerIndexPtr());
-  view.x = const_cast<double*>(matrix.valuePtr());
-  view.stype = -1;
-  view.itype = CHOLMOD_INT;
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1;
-  view.packed = matrix.isCompressed() ? 1 : 0;
-  view.nz = const_cast<int*>(matrix.innerNonZeroPtr());
-  return view;
+// Throws unless CHOLMOD did what it was asked to do with `matrix`. `factor` may be null.
+void Check(const cholmod_common& common, const cholmod_sparse& matrix,
+           const cholmod_factor* factor) {
+  const std::string unknowns = "a matrix of " + std::to_string(matrix.nrow) + " unknowns";
+  switch (common.status) {
+    case CHOLMOD_OK:
+      return;
+    case CHOLMOD_NOT_POSDEF:
+      throw SolverError(
+          "the preconditioner's matrix is not positive definite: is a weight of the metric zero or "
+          "a coordinate enormous?");
+    case CHOLMOD_OUT_OF_MEMORY: {
+      const double bytes = factor == nullptr ? 0 : 8.0 * static_cast<double>(factor->xsize);
+      const std::string needs =
+          bytes > 0 ? ", which needs " + std::to_string(std::lround(bytes / 1e6)) + " MB" : "";
+      throw SolverError("memory ran out in factoring " + unknowns + needs +
+                        "; use a mesh of fewer vertices, or more memory");
+    }
+    case CHOLMOD_TOO_LARGE:
+      throw SolverError(unknowns +
+                        " is too large to be factored by CHOLMOD; use a mesh of fewer vertices");
+    default:
+      throw SolverError("CHOLMOD could not factor " + unknowns + ": its status is " +
+                        std::to_string(common.status));
+  }
 }
 
 }  // namespace
 
+// Indices have 64 bits, because a factor may have more than 2^31 numbers.
 template <typename Scalar>
 struct CholeskyFactor<Scalar>::Made {
+  using Index = SuiteSparse_long;
+
   cholmod_common common;
   cholmod_factor* factor = nullptr;
+  std::vector<Index> column_begin, rows;  // of the matrix
 
-  explicit Made(cholmod_sparse view) {
-    cholmod_start(&common);
+  explicit Made(const Eigen::SparseMatrix<double>& matrix)
+      : column_begin(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1),
+        rows(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros()) {
+    cholmod_l_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.final_ll = 1;
     common.print = 0;
     common.error_handler = nullptr;
-    factor = cholmod_analyze(&view, &common);
+    cholmod_sparse view = View(matrix);
+    factor = cholmod_l_analyze(&view, &common);
+    try {
+      Check(common, view, factor);
+      Factorize(matrix);
+    } catch (...) {
+      Free();
+      throw;
+    }
   }
   Made(const Made&) = delete;
-  ~Made() {
-    cholmod_free_factor(&factor, &common);
-    cholmod_finish(&common);
+  ~Made() { Free(); }
+
+  // The numbers may be others than before; their places must be the same.
+  void Factorize(const Eigen::SparseMatrix<double>& matrix) {
+    const OneThread one_thread;
+    cholmod_sparse view = View(matrix);
+    cholmod_l_factorize(&view, factor, &common);
+    Check(common, view, factor);
   }
 
-  void Factorize(cholmod_sparse view) {
-    const OneThread one_thread;
-    if (cholmod_factorize(&view, factor, &common) == 0 || common.status != CHOLMOD_OK) {
-      throw SolverError(
-          "the preconditioner's matrix is not positive definite: is a weight of the metric zero or "
-          "a coordinate enormous?");
-    }
+ private:
+  cholmod_sparse View(const Eigen::SparseMatrix<double>& matrix) {
+    cholmod_sparse view = {};
+    view.nrow = matrix.rows();
+    view.ncol = matrix.cols();
+    view.nzmax = rows.size();
+    view.p = column_begin.data();
+    view.i = rows.data();
+    view.x = const_cast<double*>(matrix.valuePtr());
+    view.stype = -1;
+    view.itype = CHOLMOD_LONG;
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    view.sorted = 1;
+    view.packed = 1;
+    return view;
+  }
+
+  void Free() {
+    cholmod_l_free_factor(&factor, &common);
+    cholmod_l_finish(&common);
   }
 };
 
 template <typename Scalar>
 CholeskyFactor<Scalar>::CholeskyFactor(const Eigen::SparseMatrix<double>& matrix)
-    : made_(std::make_shared<Made>(View(matrix))) {
-  if (made_->factor == nullptr) {
-    throw SolverError("the preconditioner's matrix cannot be analysed: is there memory left?");
-  }
-  made_->Factorize(View(matrix));
+    : made_(std::make_shared<Made>(matrix)) {
+  using Index = typename Made::Index;
   const cholmod_factor& factor = *made_->factor;
-  permutation_.assign(static_cast<int*>(factor.Perm), static_cast<int*>(factor.Perm) + factor.n);
-  const int* const super = static_cast<int*>(factor.super);
-  const int* const row_begin = static_cast<int*>(factor.pi);
-  const int* const value_begin = static_cast<int*>(factor.px);
+  const auto integers = [](const void* begin, size_t count) {
+    const Index* const from = static_cast<const Index*>(begin);
+    return std::vector<int>(from, from + count);
+  };
+  permutation_ = integers(factor.Perm, factor.n);
+  const std::vector<int> super = integers(factor.super, factor.nsuper + 1);
+  const Index* const row_begin = static_cast<Index*>(factor.pi);
+  const Index* const value_begin = static_cast<Index*>(factor.px);
   const double* const values = static_cast<double*>(factor.x);
-  rows_.assign(static_cast<int*>(factor.s), static_cast<int*>(factor.s) + factor.ssize);
+  rows_ = integers(factor.s, factor.ssize);
   num_values_ = factor.xsize;
   for (size_t s = 0; s < factor.nsuper; ++s) {
-    supernodes_.push_back({super[s], super[s + 1] - super[s], row_begin[s + 1] - row_begin[s],
+    supernodes_.push_back({super[s], super[s + 1] - super[s],
+                           static_cast<int>(row_begin[s + 1] - row_begin[s]),
                            static_cast<size_t>(row_begin[s]), static_cast<size_t>(value_begin[s])});
   }
   if constexpr (std::is_same_v<Scalar, double>) {
@@ -270,7 +316,7 @@ CholeskyFactor<Scalar>::CholeskyFactor(const Eigen::SparseMatrix<double>& matrix
 
 template <>
 void CholeskyFactor<double>::Update(const Eigen::SparseMatrix<double>& matrix) {
-  made_->Factorize(View(matrix));
+  made_->Factorize(matrix);
   values_ = static_cast<double*>(made_->factor->x);
 }
 

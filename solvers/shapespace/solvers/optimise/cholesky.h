@@ -30,8 +30,10 @@ struct Branch {
 template <typename Scalar>
 class CholeskyFactor {
  public:
-  /// `matrix` is symmetric positive definite; only its lower triangle is read.
-  /// \throw SolverError if it is not positive definite, or memory runs out.
+  /// `matrix` is symmetric positive definite and in compressed form; only its lower triangle is
+  /// read.
+  /// \throw SolverError, saying which, if it is not positive definite, or memory runs out, or it is
+  ///        too large for CHOLMOD.
   explicit CholeskyFactor(const Eigen::SparseMatrix<double>& matrix);
 
   /// The same factor, rounded.

@@ -166,9 +166,12 @@ bool HandleTargets::HoldAlike(const HandleTargets& other) const {
 }
 
 bool HandleTargets::IsNear(const HandleTargets& other, double most) const {
-  for (size_t h = 0; h < handles_.size(); ++h) {
-    // Angles that differ by a full turn have the same end but not the same course.
-    if (std::abs(handles_[h].motion.angle - other.handles_[h].motion.angle) > most) return false;
+  for (const std::vector<Part>& parts : parts_) {
+    for (const auto& [handle, place, weight] : parts) {
+      // Angles that differ by a full turn have the same end but not the same course.
+      const double angle = handles_[handle].motion.angle;
+      if (std::abs(angle - other.handles_[handle].motion.angle) > most) return false;
+    }
   }
   for (double t : {0.5, 1.0}) {
     if (((At(t) - other.At(t)).colwise().squaredNorm().array() > most * most).any()) return false;

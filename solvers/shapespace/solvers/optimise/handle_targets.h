@@ -46,7 +46,8 @@ class HandleTargets {
   /// on a coarse mesh.
   std::vector<int> Pins() const;
 
-  /// True if the same vertices are held in the same way, with whatever targets.
+  /// True if the same vertices are held in the same way, with whatever targets. The others may have
+  /// more or fewer handles, as long as these hold no vertex by themselves.
   bool HoldAlike(const HandleTargets& other) const;
   /// For targets that hold alike: true if no angle differs by more than `most` radians, and no
   /// target half way or at the end by more than `most`.

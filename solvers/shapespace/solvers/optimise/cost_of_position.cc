@@ -1,0 +1,20 @@
+#include <shapespace/solvers/optimise/cost_of_position.h>
+
+#include <shapespace/metric/feature_registry.h>
+
+namespace shapespace::internal {
+
+std::shared_ptr<const Metric> WithCostOfPosition(const std::shared_ptr<const Metric>& metric) {
+  // TODO measured
+  constexpr double kLambda = 1e-6;
+  if (metric->options.lambda > 0) return metric;
+  MetricBasis basis;
+  basis.connectivity = metric->connectivity;
+  basis.vertex_area = metric->vertex_area;
+  auto definite = std::make_shared<Metric>(*metric);
+  definite->options.lambda = kLambda;
+  definite->features.push_back(FindFeature(Position::kName).freeze(basis, kLambda));
+  return definite;
+}
+
+}  // namespace shapespace::internal
