@@ -60,11 +60,10 @@ struct MetricOptions {
   /// As isometric as possible, measured by squared edge lengths as in the paper's (4).
   static MetricOptions Isometric();
   /// For deformation by handles: stretching is measured partly by lengths and partly by strains,
-  /// and there is no cost of position. A mesh that encloses a volume in the shape `rest` (3 x m, any
-  /// unit) is regarded as the surface of a solid body, stiff in bending, with a cost of volume
-  /// (which keeps it within some per cent; a coefficient of 30 keeps it within .3 %); any other as a
-  /// sheet.
-  /// \throw MeshError if the shape has another number of vertices.
+  /// and there is no cost of position. A mesh that encloses a volume in the shape `rest` (3 x m,
+  /// any unit) is regarded as the surface of a solid body, stiff in bending, with a cost of volume
+  /// (which keeps it within some per cent; a coefficient of 30 keeps it within .3 %); any other as
+  /// a sheet. \throw MeshError if the shape has another number of vertices.
   static MetricOptions Deformation(const Connectivity& connectivity, const Shape& rest);
   /// As rigid as possible: (3) + lambda (5).
   static MetricOptions Rigid();
