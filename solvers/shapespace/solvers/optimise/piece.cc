@@ -28,10 +28,9 @@ constexpr double kEnough = 1.0 / 2048;
 // turns over.
 constexpr double kJump = 1.1;
 
-// Cubics in time are a poor guess where parts turn far between the shapes. Where they have more
-// than this multiple of the energy of the path that they refine, the new shapes are solved for one
-// by one.
-constexpr double kPoorRefinement = 1.5;
+// Where parts turn far between shapes, more shapes that are lifted, or on cubics in time, have much
+// more energy than the path through the fewer shapes. From this multiple on another guess is tried.
+constexpr double kPoorGuess = 1.5;
 
 const char* Name(GeodesicStart start) {
   switch (start) {
@@ -159,6 +158,8 @@ void Piece::TakeStep(const ScheduleStep& step, GeodesicStart start, bool last) {
   };
   std::vector<Shape> shapes;
   const char* name = nullptr;
+  // Energies of the guesses up to this one are good.
+  const double good = segments > 1 ? kPoorGuess * energy(known.shapes) : 0;
   double least = std::numeric_limits<double>::infinity();
   if (coarser != nullptr && static_cast<int>(coarser->shapes.size()) - 2 == step.shapes &&
       known.base.size() == known.shapes.size()) {
@@ -168,17 +169,19 @@ void Piece::TakeStep(const ScheduleStep& step, GeodesicStart start, bool last) {
     if (segments > 1) least = energy(shapes);
   }
   if (segments > 1) {
-    const Metric& metric = *resolution.GetMetric();
-    std::vector<Shape> refined =
-        Resample(known.shapes, ArcLengthTimes(metric, known.shapes), UniformTimes(step.shapes));
-    const double reached = energy(refined);
-    if (reached < least) {
-      least = reached;
-      shapes = std::move(refined);
-      name = "refined";
+    if (least > good) {
+      const Metric& metric = *resolution.GetMetric();
+      std::vector<Shape> refined =
+          Resample(known.shapes, ArcLengthTimes(metric, known.shapes), UniformTimes(step.shapes));
+      const double reached = energy(refined);
+      if (reached < least) {
+        least = reached;
+        shapes = std::move(refined);
+        name = "refined";
+      }
     }
-    if (step.shapes + 1 == 2 * segments && NumVertices(resolution) <= kTrialVertices &&
-        least > kPoorRefinement * energy(known.shapes)) {
+    if (least > good && step.shapes + 1 == 2 * segments &&
+        NumVertices(resolution) <= kTrialVertices) {
       shapes = InsertShapes(step.level, shapes);
       name = "inserted";
     }
