@@ -45,9 +45,6 @@ namespace {
 // errors in the two shapes from which a geodesic is shot grow with every step.
 constexpr char kTolerance[] = "1e-6";
 
-// The metric under which every step has a solution.
-constexpr char kMetric[] = "strain";
-
 ExponentialOptions ExponentialFromFlags() {
   ExponentialOptions options;
   options.integrator = Choose<Integrator>("integrator", FLAGS_integrator,
@@ -123,7 +120,7 @@ void Run(const std::vector<std::string>& files) {
   if (FLAGS_keep != 0 && FLAGS_keep < 2) throw UsageError("--keep must be 2 or more, or 0 for all");
   const GeodesicOptions geodesic = GeodesicFromFlags();
   if (geodesic.metric.rigid > 0) {  // before the interpolation, not after it
-    throw UsageError("--rigid: the rigid metric has no exponential map; use --metric isometric");
+    throw UsageError("--rigid: the rigid metric has no exponential map; use --metric strain");
   }
   const ExponentialOptions exponential = ExponentialFromFlags();
   const CorrectionOptions correction = CorrectionFromFlags();
@@ -167,7 +164,6 @@ void Run(const std::vector<std::string>& files) {
 int main(int argc, char** argv) {
   using namespace shapespace::tools;
   gflags::SetCommandLineOptionWithMode("tolerance", kTolerance, gflags::SET_FLAGS_DEFAULT);
-  gflags::SetCommandLineOptionWithMode("metric", kMetric, gflags::SET_FLAGS_DEFAULT);
   return RunTool(
       argc, argv,
       {"shape-extrapolate",
@@ -176,10 +172,9 @@ int main(int argc, char** argv) {
            "  shape-extrapolate a.obj b.obj [c.obj ...] --shapes 15 --steps 8 --output on.glb\n"
            "  shape-extrapolate walk.path --keep 2 --steps 7 --output on/%03d.obj\n\n"
            "Poses are interpolated first, as by shape-interpolate but more accurately "
-           "(--tolerance), because\nerrors grow from step to step, and under the strain metric, "
-           "under which every step has a solution\n(--metric). A .path may be given instead of "
-           "poses; it contains the metric with which it was made.\nOutputs contain the shapes kept "
-           "and the new ones; in a film strip poses are blue, shapes between\nthem green, "
+           "(--tolerance), because\nerrors grow from step to step. A .path may be given instead of "
+           "poses; it contains the metric with\nwhich it was made. Outputs contain the shapes kept "
+           "and the new ones; in a film strip poses are blue,\nshapes between them green, "
            "extrapolated ones purple.\n\nIf the shape degenerates, the outputs contain the shapes "
            "before that, and stderr says so: exit code\n0 if there are new shapes, 1 if there are "
            "none.") +

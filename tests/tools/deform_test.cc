@@ -385,7 +385,7 @@ TEST_F(DeformTest, WrongCommandLines) {
        "--discretization trapezoid: a deformation takes the midpoint form only"},
       {handles,
        {"--metric", "taxicab"},
-       "--metric taxicab: must be isometric, strain, rigid or paper, or deformation"},
+       "--metric taxicab: must be strain, isometric, rigid or paper, or deformation"},
   };
   for (const auto& [base, more, message] : cases) {
     Strings arguments = base;
@@ -395,7 +395,7 @@ TEST_F(DeformTest, WrongCommandLines) {
   const Outcome geodesic =
       Run("shape-interpolate", {"tube0.obj", "tube1.obj", "--metric", "deformation"});
   EXPECT_EQ(geodesic.code, 2);
-  ExpectContains(geodesic.err, "--metric deformation: must be isometric, strain, rigid or paper");
+  ExpectContains(geodesic.err, "--metric deformation: must be strain, isometric, rigid or paper");
 }
 
 TEST_F(DeformTest, FilesThatCannotServe) {

@@ -75,7 +75,7 @@ TEST_F(InspectTest, TellsWhatIsInAPath) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   ExpectContains(outcome.out, "9 shapes, 2 of them given; 152 vertices, 300 triangles");
   ExpectContains(outcome.out, "tube0.obj tube1.obj");
-  ExpectContains(outcome.out, "isometric 1, lambda 0.0001, bending 1e-05");
+  ExpectContains(outcome.out, "strain 1, lambda 0.0001, bending 1e-05");
 }
 
 TEST_F(InspectTest, TellsPartsJointsAndCrossings) {

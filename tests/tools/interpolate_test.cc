@@ -214,7 +214,9 @@ TEST_F(InterpolateTest, StiffenersHoldWhatTheyJoin) {
 
 TEST_F(InterpolateTest, PresetsSetDefaultsAndGivenFlagsWin) {
   MakeTubes();
-  EXPECT_EQ(Report({})["metric"], "isometric 1, lambda 0.0001, bending 1e-05");
+  EXPECT_EQ(Report({})["metric"], "strain 1, lambda 0.0001, bending 1e-05");
+  EXPECT_EQ(Report({"--metric", "isometric"})["metric"],
+            "isometric 1, lambda 0.0001, bending 1e-05");
   EXPECT_EQ(Report({"--metric", "paper"})["metric"],
             "isometric 1, lambda 0.001, uniform weights, trapezoid");
   // Given values override a preset, also if they are the defaults of another one.
@@ -223,8 +225,9 @@ TEST_F(InterpolateTest, PresetsSetDefaultsAndGivenFlagsWin) {
   const nlohmann::json rigid = Report({"--metric", "rigid"});
   EXPECT_EQ(rigid["metric"], "rigid 1, lambda 0.0001");
   EXPECT_TRUE(rigid["lower_bound"].is_null());
-  EXPECT_EQ(Report({"--bending", "0", "--volume", "0.3", "--strain", "2"})["metric"],
-            "isometric 1, strain 2, lambda 0.0001, volume 0.3");
+  // A coefficient is added to those of the preset.
+  EXPECT_EQ(Report({"--bending", "0", "--volume", "0.3", "--isometric", "2"})["metric"],
+            "isometric 2, strain 1, lambda 0.0001, volume 0.3");
 }
 
 TEST_F(InterpolateTest, ThreadsDoNotChangeAByte) {

@@ -9,13 +9,15 @@
 
 #include "support/tool.h"
 
-DEFINE_string(metric, "isometric",
-              "preset of the metric's other flags: isometric (the defaults shown here), strain "
-              "(isometric 0, strain 1), rigid (isometric 0, rigid 1, bending "
-              "0), or paper (bending 0, lambda 0.001, weights uniform, discretization trapezoid); "
-              "shape-deform has one of its own, deformation");
-DEFINE_double(isometric, 1, "cost of stretching edges; all costs are pure numbers, for area 1");
-DEFINE_double(strain, 0,
+DEFINE_string(metric, "strain",
+              "preset of the metric's other flags: strain (the defaults shown here), isometric "
+              "(isometric 1, strain 0: the paper's (4), with bending), rigid (strain 0, rigid 1, "
+              "bending 0), or paper (isometric 1, strain 0, bending 0, lambda 0.001, weights "
+              "uniform, discretization trapezoid); shape-deform has one of its own, deformation. A "
+              "flag given as well replaces only its own number: --isometric 1 adds a cost to that "
+              "of strain, and --isometric 1 --strain 0 is the preset isometric");
+DEFINE_double(isometric, 0, "cost of stretching edges; all costs are pure numbers, for area 1");
+DEFINE_double(strain, 1,
               "cost of logarithmic strains of triangles: like --isometric, but paths can always be "
               "continued");
 DEFINE_double(rigid, 0, "cost of deviation from rigid motion of the whole body");
@@ -56,12 +58,12 @@ MetricOptions MetricFromFlags(const Connectivity* mesh) {
     options = MetricOptions::Deformation(*mesh);
   } else if (FLAGS_metric == "rigid") {
     options = MetricOptions::Rigid();
-  } else if (FLAGS_metric == "strain") {
-    options = MetricOptions::Strain();
+  } else if (FLAGS_metric == "isometric") {
+    options = MetricOptions::Isometric();
   } else if (FLAGS_metric == "paper") {
     options = MetricOptions::Paper();
-  } else if (FLAGS_metric != "isometric") {
-    throw UsageError("--metric " + FLAGS_metric + ": must be isometric, strain, rigid or paper" +
+  } else if (FLAGS_metric != "strain") {
+    throw UsageError("--metric " + FLAGS_metric + ": must be strain, isometric, rigid or paper" +
                      (mesh != nullptr ? ", or deformation" : ""));
   }
   if (IsGiven("isometric")) options.isometric = FLAGS_isometric;
