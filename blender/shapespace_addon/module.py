@@ -6,7 +6,6 @@ from .problem import Problem
 from .task import Result, Task
 
 # What shape-extrapolate takes where nothing is said, so that both ways lead to one motion.
-_EXTRAPOLATION_METRIC = "strain"
 _EXTRAPOLATION_TOLERANCE = 1e-6
 
 
@@ -78,9 +77,8 @@ class ModuleRun:
             allow_nonmanifold=True,
         )
         self._notes += poses.warnings
-        options = {"metric": task.metric} if task.metric else {}
+        options = {"metric": task.metric}
         if task.steps:
-            options.setdefault("metric", _EXTRAPOLATION_METRIC)
             options["tolerance"] = _EXTRAPOLATION_TOLERANCE
         path = None
         if task.shapes:

@@ -17,7 +17,7 @@ Mesh = Union[ArrayLike, Sequence[Sequence[int]], "Poses", "Path", "Metric", "Spa
 Shapes = Union["Poses", Sequence[ArrayLike], Floats]
 
 class MetricOptions(TypedDict, total=False):
-    preset: Literal["isometric", "strain", "rigid", "paper"]
+    preset: Literal["strain", "isometric", "rigid", "paper"]
     isometric: float
     strain: float
     rigid: float
@@ -30,7 +30,7 @@ class MetricOptions(TypedDict, total=False):
     bending_stiffness: ArrayLike | None
 
 class GeodesicOptions(TypedDict, total=False):
-    metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None
+    metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None
     shapes: int
     tolerance: float
     max_iterations: int
@@ -42,7 +42,7 @@ class GeodesicOptions(TypedDict, total=False):
     assess: bool
 
 class LadderOptions(TypedDict, total=False):
-    metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None
+    metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None
     rung_shapes: int
     scale: bool
     align: bool
@@ -656,7 +656,7 @@ class Metric:
         poses: Shapes,
         faces: Mesh | None = ...,
         *,
-        preset: Literal["isometric", "strain", "rigid", "paper"] = ...,
+        preset: Literal["strain", "isometric", "rigid", "paper"] = ...,
         pairs: Literal["consecutive", "all"] = ...,
         isometric: float = ...,
         strain: float = ...,
@@ -855,7 +855,7 @@ class Deformer:
         vertices: Poses | ArrayLike,
         faces: Mesh | None,
         *,
-        metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None = ...,
+        metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None = ...,
         shapes: int = ...,
         balance: float = ...,
         tolerance: float = ...,
@@ -911,7 +911,7 @@ def interpolate(
     faces: Mesh | None = ...,
     *,
     progress: Progress = ...,
-    metric: MetricOptions | Metric | Literal["isometric", "strain", "rigid", "paper"] | None = ...,
+    metric: MetricOptions | Metric | Literal["strain", "isometric", "rigid", "paper"] | None = ...,
     shapes: int = ...,
     tolerance: float = ...,
     max_iterations: int = ...,
@@ -999,7 +999,7 @@ def transfer(
     *,
     progress: Progress = ...,
     method: Literal["features", "ladder"] = ...,
-    metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None = ...,
+    metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None = ...,
     tolerance: float = ...,
     max_iterations: int = ...,
     hybrids: bool = ...,
@@ -1013,7 +1013,7 @@ def transfer_poses(
     geodesic: GeodesicOptions | None = ...,
     progress: Progress = ...,
     method: Literal["features", "ladder"] = ...,
-    metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None = ...,
+    metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None = ...,
     tolerance: float = ...,
     max_iterations: int = ...,
     hybrids: bool = ...,
@@ -1030,7 +1030,7 @@ def deform(
     handles: Sequence[Handle],
     *,
     progress: Progress = ...,
-    metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None = ...,
+    metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None = ...,
     shapes: int = ...,
     balance: float = ...,
     tolerance: float = ...,
@@ -1046,7 +1046,7 @@ def repair(
     *,
     vertices: ArrayLike | None = ...,
     progress: Progress = ...,
-    metric: MetricOptions | Literal["isometric", "strain", "rigid", "paper"] | None = ...,
+    metric: MetricOptions | Literal["strain", "isometric", "rigid", "paper"] | None = ...,
     shapes: int = ...,
     balance: float = ...,
     tolerance: float = ...,

@@ -13,8 +13,8 @@ _ABOUT = """A metric, frozen on poses: immutable, so that paths under it are com
         Vertices of each pose, n x 3, on which all weights are frozen.
     faces : array_like, optional
         As for `Poses`.
-    preset : {'isometric', 'strain', 'rigid', 'paper'}, optional
-        Sets the defaults of the options below, which are those of 'isometric'.
+    preset : {'strain', 'isometric', 'rigid', 'paper'}, optional
+        Sets the defaults of the options below, which are those of 'strain'.
     pairs : {'consecutive', 'all'}, optional
         Between which of the poses it is to be good: hinges that jump from one to the other are
         damped. 'all' where their order does not matter.
@@ -23,7 +23,7 @@ _ABOUT = """A metric, frozen on poses: immutable, so that paths under it are com
 
 
 @takes("MetricOptions")
-def _construct(poses, faces=None, *, preset="isometric", pairs="consecutive", **options):
+def _construct(poses, faces=None, *, preset="strain", pairs="consecutive", **options):
     """."""
 
 

@@ -85,7 +85,7 @@ MetricOptions = _dict_of(
     "MetricOptions",
     "MetricOptions",
     "Which motions cost how much: a dict, of which what is left out has its default.\n\n"
-    "`preset`, the name of a preset ('isometric', 'strain', 'rigid' or 'paper'), sets the\n"
+    "`preset`, the name of a preset ('strain', 'isometric', 'rigid' or 'paper'), sets the\n"
     "defaults of all others, as --metric of the tools does.",
     {"preset": str},
 )

@@ -136,12 +136,12 @@ const Names<GltfPlayback>& NamesOf() {
 // Metrics. --------------------------------------------------------------------------------------
 
 MetricOptions PresetMetric(const std::string& preset) {
-  if (preset == "isometric") return MetricOptions::Isometric();
   if (preset == "strain") return MetricOptions::Strain();
+  if (preset == "isometric") return MetricOptions::Isometric();
   if (preset == "rigid") return MetricOptions::Rigid();
   if (preset == "paper") return MetricOptions::Paper();
   throw py::value_error("metric: '" + preset +
-                        "' is no preset; there are 'isometric', 'strain', 'rigid' and 'paper'");
+                        "' is no preset; there are 'strain', 'isometric', 'rigid' and 'paper'");
 }
 
 void Value<MetricOptions>::Set(MetricOptions* value, py::handle given, const std::string& name) {
@@ -164,7 +164,7 @@ template <>
 const Fields<MetricOptions>& FieldsOf() {
   using O = MetricOptions;
   static const Fields<O> fields = {
-      Row("isometric", &O::isometric, "Cost of a change of edge lengths."),
+      Row("isometric", &O::isometric, "Cost of a change of squared edge lengths, as in the paper."),
       Row("strain", &O::strain,
           "Cost of a change of the triangles' logarithmic strains: paths can always go on."),
       Row("rigid", &O::rigid, "Cost of deviation from rigid motion of the whole."),

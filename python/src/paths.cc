@@ -146,7 +146,7 @@ void BindMetric(py::module_* module) {
              return FrozenMetric{FreezeMetric(options, mesh.connectivity, mesh.shapes, 0, which)};
            }),
            py::arg("poses"), py::arg("faces") = py::none(), py::kw_only(),
-           py::arg("preset") = "isometric", py::arg("pairs") = "consecutive")
+           py::arg("preset") = "strain", py::arg("pairs") = "consecutive")
       .def_property_readonly(
           "unit", [](const FrozenMetric& self) { return self.metric->unit; },
           "The length, in the unit of the poses, that counts as 1.")

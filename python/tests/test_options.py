@@ -18,7 +18,7 @@ def test_signatures_and_docstrings_show_the_library_s_defaults():
         assert f"\n{name} : " in shapespace.interpolate.__doc__
         assert meaning.split()[0] in shapespace.interpolate.__doc__
     assert parameters["shapes"].default == 15
-    assert "isometric 1.0" in shapespace.interpolate.__doc__
+    assert "strain 1.0" in shapespace.interpolate.__doc__
 
 
 FUNCTIONS = [
