@@ -38,7 +38,7 @@ Motion Make(const char* name, const Body& body, double at, const Shape& before, 
 }
 
 std::vector<Motion> Motions() {
-  MetricOptions membrane;
+  MetricOptions membrane = MetricOptions::Isometric();
   membrane.bending = 0;
   membrane.lambda = 1e-3;
   constexpr double kTime = 2e-4;  // of the differences from which velocities are computed

@@ -69,7 +69,7 @@ void PrintBars() {
   const Shape onto = FitRigidMotion(thin, bending[0], source.metric->vertex_area)(thin);
   const Shape theirs = internal::GradientTransfer(thick.connectivity, bending[0], onto)(bending[6]);
   std::printf("Sumner and Popovic: %.1f degrees\n\n", BendOf(thin, theirs));
-  MetricOptions lengths;
+  MetricOptions lengths = MetricOptions::Isometric();
   lengths.bending = 0;
   const std::pair<const char*, TransferOptions> modes[] = {
       {"the paper's transport, metric (4)",
