@@ -14,7 +14,7 @@ cd "$work"
   --output "walk.path,$pictures/first-path.png"
 
 # guide/metrics.md: Figure 2 of the paper with a body of ours
-for metric in isometric rigid paper; do
+for metric in strain isometric rigid paper; do
   "$bin/shape-interpolate" animal0.obj animal1.obj --metric $metric --shapes 15 \
     --title "--metric $metric" --output $metric.path
   "$bin/shape-export" $metric.path --frames 7 --title "--metric $metric" \
@@ -76,10 +76,10 @@ awk '$1 == "v" { print ($2 > -1.2 && $2 < 1.2) ? 100 : 1 }' bar0.obj >stiff.txt
   --output "$pictures/stiffness.png"
 
 "$bin/shape-body" quadruped --pose stand,stretch,rear --output 'pose%d.obj'
-"$bin/shape-interpolate" pose1.obj pose2.obj --isometric 0 --bending 0 --lambda 1 --shapes 1 \
+"$bin/shape-interpolate" pose1.obj pose2.obj --strain 0 --bending 0 --lambda 1 --shapes 1 \
   --output 'mean%d.obj'
 "$bin/shape-deform" mean1.obj --repair pose0.obj --output mended.obj
-"$bin/shape-interpolate" pose0.obj mean1.obj mended.obj --isometric 0 --bending 0 --lambda 1 \
+"$bin/shape-interpolate" pose0.obj mean1.obj mended.obj --strain 0 --bending 0 --lambda 1 \
   --shapes 1 --output compare.path
 "$bin/shape-export" compare.path --at 0,0.5,1 --color deviation --up y \
   --title "sound, distorted, repaired" --output "$pictures/repair.png"
