@@ -14,7 +14,7 @@ cd "$work"
   --output "walk.path,$pictures/first-path.png"
 
 # guide/metrics.md: Figure 2 of the paper with a body of ours
-for metric in strain rigid paper; do
+for metric in strain isometric rigid paper; do
   "$bin/shape-interpolate" animal0.obj animal1.obj --metric $metric --shapes 15 \
     --title "--metric $metric" --output $metric.path
   "$bin/shape-export" $metric.path --frames 7 --title "--metric $metric" \

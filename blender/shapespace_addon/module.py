@@ -77,7 +77,7 @@ class ModuleRun:
             allow_nonmanifold=True,
         )
         self._notes += poses.warnings
-        options = {"metric": task.metric} if task.metric else {}
+        options = {"metric": task.metric}
         if task.steps:
             options["tolerance"] = _EXTRAPOLATION_TOLERANCE
         path = None

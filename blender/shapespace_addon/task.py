@@ -20,7 +20,7 @@ class Task:
 
     poses: Body
     shapes: int  # between neighbouring poses; 0, which only a transfer may have: poses alone
-    metric: str  # a preset of the metric, or "" for the solver's own choice
+    metric: str  # a preset of the metric
     steps: int = 0  # beyond the last pose
     targets: list = field(default_factory=list)  # bodies of one pose each
 

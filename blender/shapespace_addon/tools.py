@@ -134,8 +134,7 @@ class ToolsRun:
 
 
 def _commands(task: Task, poses: list, targets: list, programs: dict) -> list:
-    metric = ["--metric", task.metric] if task.metric else []
-    inserted = ["--shapes", str(task.shapes), *metric]
+    inserted = ["--shapes", str(task.shapes), "--metric", task.metric]
     if not targets:
         output = ["--output", "motion0.pc2"]
         if task.steps:

@@ -93,9 +93,6 @@ class Work:
                 raise Problem(f"'{name}' is gone: the motion that was computed for it is dropped")
         return [bpy.data.objects[name] for name in self._objects]
 
-    def _metric(self) -> str:
-        return "" if self._settings.metric == "DEFAULT" else self._settings.metric
-
     def _check_place(self, item) -> None:
         if self._settings.result == "CACHE":
             mesh_cache.require_editable(item)
@@ -139,7 +136,7 @@ class InBetweens(Work):
         return Task(
             _body(self._bodies[0]),
             self._settings.shapes,
-            self._metric(),
+            self._settings.metric,
             steps=getattr(self._settings, "steps", 0),
         )
 
@@ -223,7 +220,7 @@ class Transfer(Work):
         return Task(
             _body(poses),
             self._inserted(),
-            self._metric(),
+            self._settings.metric,
             targets=[_body(target) for target in targets],
         )
 

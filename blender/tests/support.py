@@ -171,7 +171,7 @@ class Case(unittest.TestCase):
         from shapespace_addon import work  # which is installed by now
 
         settings = {
-            "shapes": 3, "metric": "DEFAULT", "use_basis": True, "result": "KEYS",
+            "shapes": 3, "metric": "strain", "use_basis": True, "result": "KEYS",
             "frame_start": 1, "frame_step": 1, "cache_folder": "//",
         }  # fmt: skip
         given = SimpleNamespace(**{**settings, **changes})

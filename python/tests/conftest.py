@@ -23,7 +23,7 @@ def poses(animal):
 
 @pytest.fixture(scope="session")
 def path(poses, animal):
-    return shapespace.interpolate(poses, animal.faces, metric="strain", shapes=7).path
+    return shapespace.interpolate(poses, animal.faces, shapes=7).path
 
 
 @pytest.fixture(scope="session")

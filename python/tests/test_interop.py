@@ -64,7 +64,7 @@ def test_series_of_vtk(path, tmp_path):
 def test_matrices_of_scipy(animal):
     linalg = pytest.importorskip("scipy.sparse.linalg")
     shape = animal.pose("stand")
-    metric = shapespace.Metric([shape], animal.faces, preset="strain", bending=1e-3)
+    metric = shapespace.Metric([shape], animal.faces, bending=1e-3)
     softest, modes = linalg.eigsh(metric.matrix(shape), k=8, sigma=-1e-9)
     order = np.argsort(softest)
     # Rigid motions cost no more than the cost of position, other motions much more.

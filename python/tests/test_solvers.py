@@ -73,18 +73,19 @@ def test_threads_do_not_matter(poses, animal):
 
 
 def test_a_frozen_metric_serves_several_paths(poses, animal):
-    metric = shapespace.Metric(poses, animal.faces, preset="strain", bending=1e-4)
-    assert metric.options["bending"] == 1e-4 and metric.options["strain"] == 1
+    metric = shapespace.Metric(poses, animal.faces, preset="isometric", bending=1e-4)
+    assert metric.options["bending"] == 1e-4 and metric.options["isometric"] == 1
+    assert metric.options["strain"] == 0
     path = shapespace.interpolate(poses, animal.faces, metric=metric, shapes=1).path
     assert path.metric.unit == metric.unit
-    options = shapespace.MetricOptions(preset="strain", bending=1e-4)
+    options = shapespace.MetricOptions(preset="isometric", bending=1e-4)
     named = shapespace.interpolate(poses, animal.faces, metric=options, shapes=1).path
     np.testing.assert_array_equal(path.vertices, named.vertices)
 
 
 def test_the_exponential_inverts_the_logarithm(animal, poses):
     start, end = animal.pose("stand"), animal.pose("stride")
-    metric = shapespace.Metric([start, end], animal, preset="strain")
+    metric = shapespace.Metric([start, end], animal)
     velocity = shapespace.logarithm(metric, start, end, shapes=7)
     reached = shapespace.exponential(metric, start, velocity, 8)
     goal = shapespace.interpolate([start, end], animal, metric=metric, shapes=7).path

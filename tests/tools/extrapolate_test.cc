@@ -86,19 +86,6 @@ TEST_F(ExtrapolateTest, PosesAreInterpolatedAndGoneOnFrom) {
   EXPECT_EQ(outcome.err, "");
 }
 
-TEST_F(ExtrapolateTest, PosesAreInterpolatedUnderTheMetricThatCanGoOn) {
-  MakeTubes();
-  const auto metric_of = [&](const Strings& flags) {
-    Strings arguments = {"tube0.obj", "tube1.obj", "--shapes", "1",
-                         "--steps",   "1",         "--output", "on.path"};
-    arguments.insert(arguments.end(), flags.begin(), flags.end());
-    Succeed("shape-extrapolate", arguments);
-    return Describe(ReadPath(Path("on.path")).metric->options);
-  };
-  EXPECT_EQ(metric_of({}), "strain 1, lambda 0.0001, bending 1e-05");
-  EXPECT_EQ(metric_of({"--metric", "isometric"}), "isometric 1, lambda 0.0001, bending 1e-05");
-}
-
 TEST_F(ExtrapolateTest, APathGoesOnWithAllThatItIs) {
   MakeWalk();
   Succeed("shape-extrapolate", {"walk.path", "--steps", "3", "--output", "on.path"});

@@ -160,7 +160,7 @@ TEST_F(TransferTest, FlagsOfTheTransferReachIt) {
   EXPECT_EQ(report({"--ladder_bending", "0.1"})["transfer"]["metric"],
             "strain 1, lambda 0.0001, bending 0.1");
   EXPECT_EQ(report({"--bending", "1e-3"})["geodesic"]["metric"],
-            "isometric 1, lambda 0.0001, bending 0.001");
+            "strain 1, lambda 0.0001, bending 0.001");
   Succeed("shape-transfer",
           {"tube0.obj", "tube1.obj", "--shapes", "1", "--target", "thin.obj", "--method", "ladder",
            "--noalign", "--output", "on.path", "--report", "r.txt"});
