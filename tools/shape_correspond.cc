@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
        "the template's poses. Check\nthe picture before you rely on the map.\n\nA fit that does "
        "not converge is reported; its outputs are written, and the exit code is 0, or 1\nwith "
        "--strict.",
-       {"shape_correspond.cc", "support/correspondence_flags.cc", "support/report.cc",
-        "support/outside_files_flag.cc"}},
+       {"shape_correspond.cc", "support/correspondence_flags.cc", "support/memory_flag.cc",
+        "support/report.cc", "support/outside_files_flag.cc"}},
       Run);
 }

@@ -15,6 +15,7 @@
 #include "support/choose.h"
 #include "support/correspondence_flags.h"
 #include "support/geodesic_flags.h"
+#include "support/memory_flag.h"
 #include "support/mesh_flags.h"
 #include "support/outputs.h"
 #include "support/outside_files_flag.h"
@@ -55,8 +56,8 @@ constexpr char kShapes[] = "7";
 // Refuses flags that would have no effect.
 void CheckFlagsOfTheLadder(bool climbs) {
   if (climbs) return;
-  RefuseFlags({"support/geodesic_flags.cc", "support/metric_flags.cc"},
-              {"memory_limit", "connection"}, "goes with --method ladder");
+  RefuseFlags({"support/geodesic_flags.cc", "support/metric_flags.cc"}, {"connection"},
+              "goes with --method ladder");
   if (FLAGS_hybrids.empty()) {
     RefuseFlags({}, {"ladder_bending", "rung_shapes", "scale", "align"},
                 "goes with --method ladder or --hybrids");
@@ -78,6 +79,7 @@ TransferOptions TransferFromFlags() {
                                   {{"levi_civita", TransportConnection::kLeviCivita},
                                    {"projection", TransportConnection::kConstrainedProjection}});
   options.ladder.metric.bending = FLAGS_ladder_bending;
+  options.memory_limit = 1e9 * FLAGS_memory_limit;
   NamingFlags({{"bending", "ladder_bending"}}, [&] { options.Validate(); });
   return options;
 }

@@ -304,6 +304,8 @@ class TransportSummary:
     @property
     def last_norm(self) -> list[float]: ...
     @property
+    def estimated_bytes(self) -> float: ...
+    @property
     def total_seconds(self) -> float: ...
 
 class TransferStep:
@@ -343,6 +345,8 @@ class TransferSummary:
     def cancelled(self) -> bool: ...
     @property
     def warnings(self) -> list[str]: ...
+    @property
+    def estimated_bytes(self) -> float: ...
     @property
     def total_seconds(self) -> float: ...
     @property
@@ -432,6 +436,8 @@ class DeformationSummary:
     @property
     def solve_seconds(self) -> float: ...
     @property
+    def estimated_bytes(self) -> float: ...
+    @property
     def total_seconds(self) -> float: ...
     @property
     def threads(self) -> int: ...
@@ -513,6 +519,8 @@ class CorrespondenceSummary:
     def uncovered(self) -> float: ...
     @property
     def warnings(self) -> list[str]: ...
+    @property
+    def estimated_bytes(self) -> float: ...
     @property
     def total_seconds(self) -> float: ...
     @property
@@ -990,6 +998,7 @@ def transport(
     align: bool = ...,
     tolerance: float = ...,
     max_iterations: int = ...,
+    memory_limit: float = ...,
 ) -> TransportResult: ...
 def correct_path(
     path: Path,
@@ -1011,6 +1020,7 @@ def transfer(
     max_iterations: int = ...,
     hybrids: bool = ...,
     ladder: LadderOptions | None = ...,
+    memory_limit: float = ...,
 ) -> TransferResult: ...
 def transfer_poses(
     poses: Shapes,
@@ -1025,6 +1035,7 @@ def transfer_poses(
     max_iterations: int = ...,
     hybrids: bool = ...,
     ladder: LadderOptions | None = ...,
+    memory_limit: float = ...,
 ) -> PoseTransferResult: ...
 def read_handles(
     file: File,
@@ -1076,6 +1087,7 @@ def correspond(
     tolerance: float = ...,
     max_iterations: int = ...,
     coarsest: int = ...,
+    memory_limit: float = ...,
 ) -> Correspondence: ...
 def read_markers(
     file: File,

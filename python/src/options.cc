@@ -293,6 +293,8 @@ const Fields<TransportOptions>& FieldsOf() {
       Row("tolerance", &O::tolerance,
           "Error of a step's linear systems, as a share of the tangent's norm."),
       Row("max_iterations", &O::max_iterations, "Of the linear solver, a step and tangent."),
+      Row("memory_limit", &O::memory_limit,
+          "Bytes that the call may take; an estimate above it is refused at once."),
   };
   return fields;
 }
@@ -325,6 +327,8 @@ const Fields<TransferOptions>& FieldsOf() {
       Row("max_iterations", &O::max_iterations, "Of the method 'features', a shape."),
       Row("hybrids", &O::hybrids, "Make the bodies half way between source and target too."),
       Row("ladder", &O::ladder, "Of the ladder, and of hybrids."),
+      Row("memory_limit", &O::memory_limit,
+          "Bytes that the transfer may take; an estimate above it is refused at once."),
   };
   return fields;
 }
@@ -382,6 +386,8 @@ const Fields<CorrespondenceOptions>& FieldsOf() {
           "area."),
       Row("max_iterations", &O::max_iterations, "Rounds that these last may take."),
       Row("coarsest", &O::coarsest, "Triangles of the coarsest level of the hierarchy."),
+      Row("memory_limit", &O::memory_limit,
+          "Bytes that the fit may take; an estimate above it is refused at once."),
   };
   return fields;
 }

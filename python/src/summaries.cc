@@ -220,6 +220,7 @@ void BindSummaries(py::module_* module) {
       .Read("steps", &TransportSummary::steps)
       .Read("first_norm", &TransportSummary::first_norm)
       .Read("last_norm", &TransportSummary::last_norm)
+      .Read("estimated_bytes", &TransportSummary::estimated_bytes)
       .Read("total_seconds", &TransportSummary::total_seconds)
       .Reports<false, false>();
 
@@ -244,6 +245,7 @@ void BindSummaries(py::module_* module) {
       .Read("angle_rms", &TransferSummary::angle_rms)
       .Read("cancelled", &TransferSummary::cancelled)
       .Read("warnings", &TransferSummary::warnings)
+      .Read("estimated_bytes", &TransferSummary::estimated_bytes)
       .Read("total_seconds", &TransferSummary::total_seconds)
       .Property("converged", &TransferSummary::Converged)
       .Reports<true, true>();
@@ -292,6 +294,7 @@ void BindSummaries(py::module_* module) {
       .Read("hierarchy", &DeformationSummary::hierarchy)
       .Read("warm", &DeformationSummary::warm)
       .Read("warnings", &DeformationSummary::warnings)
+      .Read("estimated_bytes", &DeformationSummary::estimated_bytes)
       .Read("hierarchy_seconds", &DeformationSummary::hierarchy_seconds)
       .Read("factor_seconds", &DeformationSummary::factor_seconds)
       .Read("solve_seconds", &DeformationSummary::solve_seconds)
@@ -344,6 +347,7 @@ void BindSummaries(py::module_* module) {
       .Read("turned", &CorrespondenceSummary::turned)
       .Read("uncovered", &CorrespondenceSummary::uncovered)
       .Read("warnings", &CorrespondenceSummary::warnings)
+      .Read("estimated_bytes", &CorrespondenceSummary::estimated_bytes)
       .Read("total_seconds", &CorrespondenceSummary::total_seconds)
       .Read("marker_seconds", &CorrespondenceSummary::marker_seconds)
       .Read("hierarchy_seconds", &CorrespondenceSummary::hierarchy_seconds)

@@ -328,6 +328,27 @@ TEST(EnergyLowerBound, IsNotKnownForTheRigidMetric) {
   EXPECT_TRUE(std::isnan(EnergyLowerBound(*metric, bar.pose(0), bar.pose(10), 3)));
 }
 
+// At least their stencils and weights.
+TEST(PathEnergy, EstimateOfMemoryCountsTheElementsOfAllFeatures) {
+  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  MetricOptions options = MetricOptions::Isometric();
+  const auto freeze = [&] { return FreezeMetric(options, bar.connectivity, {bar.pose(0)}); };
+  const double without = PathEnergy::EstimateBytes(*freeze(), 7);
+  options.strain = options.volume = 1;
+  const auto metric = freeze();
+  double least = 0;
+  for (const auto& feature : metric->features) {
+    if (feature->As<TriangleStrain>() == nullptr && feature->As<LogLength>() == nullptr &&
+        feature->As<Volume>() == nullptr) {
+      continue;
+    }
+    least +=
+        feature->NumElements() * (sizeof(int) * feature->VerticesPerElement() + sizeof(double));
+  }
+  EXPECT_GT(least, 0);
+  EXPECT_GE(PathEnergy::EstimateBytes(*metric, 7) - without, least);
+}
+
 TEST(PathEnergy, StoreGivesBackWhatLoadTook) {
   const Body sheet = MakeSheet(1, 1, 5, 3);
   const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});

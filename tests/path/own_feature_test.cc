@@ -38,6 +38,14 @@ KernelEnergy Evaluate(const MetricOptions& options, const Body& bar, int inner) 
   return result;
 }
 
+TEST(OwnFeature, NeedsTheMemoryOfTheLibrarysOwn) {
+  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const auto estimate = [&](const MetricOptions& options) {
+    return PathEnergy::EstimateBytes(*FreezeMetric(options, bar.connectivity, {bar.pose(0)}), 7);
+  };
+  EXPECT_EQ(estimate(testing::OwnBlend()), estimate(testing::LibraryBlend()));
+}
+
 TEST(OwnFeature, HasTheEnergyOfTheLibrarysKernels) {
   const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
   for (const int inner : {1, 3, 7}) {

@@ -364,7 +364,8 @@ TEST(Deform, BendsAFlatPillowAsASheet) {
   const Shape flat = sheet.pose(0);
   int count = static_cast<int>(flat.cols());
   std::vector<int> copy(count, -1), original;
-  for (int v : ComputeTopology(*sheet.connectivity).boundary_loops[0]) copy[v] = v;
+  const Topology topology = ComputeTopology(*sheet.connectivity);
+  for (int v : topology.boundary_loops[0]) copy[v] = v;
   for (int v = 0; v < flat.cols(); ++v) {
     if (copy[v] >= 0) continue;
     copy[v] = count++;

@@ -809,6 +809,7 @@ TEST(Extrapolate, PathsWithoutCostOfPositionGoOnToo) {
     SCOPED_TRACE(body.name);
     const auto extrapolate = [&](double lambda) {
       GeodesicOptions options = Exactly(7);
+      options.metric = MetricOptions::Isometric();
       options.metric.lambda = lambda;
       const Path path =
           Interpolate(body.connectivity, {body.pose(first), body.pose(last)}, options).path;
@@ -848,7 +849,7 @@ TEST(Extrapolate, ContinuesADeformation) {
 }
 
 TEST(Logarithm, WithoutCostOfPositionIsUndoneByTheExponentialMap) {
-  MetricOptions options;
+  MetricOptions options = MetricOptions::Isometric();
   options.lambda = 0;
   for (const auto& [body, first, last] : BodyPairs()) {
     SCOPED_TRACE(body.name);

@@ -289,6 +289,19 @@ TEST_F(RefusalTest, SolvesBeyondTheMemoryLimit) {
   MakeTubes();
   ExpectRefusal(1, {"tube0.obj", "tube1.obj", "--memory_limit", "0.001", "--output", "w.path"},
                 {"MB, more than the memory limit", "fewer shapes"});
+  Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--output", "w.path"});
+  for (const char* method : {"features", "ladder"}) {
+    const Strings transfer = {"w.path",   "--target", "tube0.obj",      "--output", "t.path",
+                              "--method", method,     "--memory_limit", "0.001"};
+    const Outcome outcome = Run("shape-transfer", transfer);
+    EXPECT_EQ(outcome.code, 1);
+    ExpectContains(outcome.err, "this transfer needs about ");
+  }
+  File("markers.txt", "1 1\n20 20\n300 300\n");
+  const Outcome fit = Run("shape-correspond", {"tube0.obj", "tube0.obj", "--markers", "markers.txt",
+                                               "--memory_limit", "0.001", "--output", "m.txt"});
+  EXPECT_EQ(fit.code, 1);
+  ExpectContains(fit.err, "this fit needs about ");
 }
 
 TEST_F(RefusalTest, OutputsThatCannotBeWrittenAreFoundBeforeAnythingIs) {

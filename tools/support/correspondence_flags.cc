@@ -1,5 +1,6 @@
 #include "support/correspondence_flags.h"
 
+#include "support/memory_flag.h"
 #include "support/tool.h"
 
 DEFINE_string(markers, "",
@@ -16,6 +17,7 @@ CorrespondenceOptions CorrespondenceFromFlags() {
   CorrespondenceOptions options;
   options.drop_doubtful = !FLAGS_hold_all_markers;
   options.proportions = FLAGS_proportions;
+  options.memory_limit = 1e9 * FLAGS_memory_limit;
   NamingFlags({}, [&] { options.Validate(); });
   return options;
 }

@@ -63,8 +63,7 @@ bool IsOnePath(const std::vector<std::string>& files) {
     throw UsageError("name at least two poses of one mesh, or one .path file alone");
   }
   if (!is_path) return false;
-  RefuseFlags({"support/geodesic_flags.cc", "support/metric_flags.cc"},
-              {"memory_limit", "stiffeners"},
+  RefuseFlags({"support/geodesic_flags.cc", "support/metric_flags.cc"}, {"stiffeners"},
               "goes with poses; " + files[0] + " is solved already and contains its metric");
   return true;
 }

@@ -24,6 +24,7 @@
 #include <shapespace/solvers/correspondence/shell_fit.h>
 #include <shapespace/solvers/correspondence/similarity.h>
 #include <shapespace/solvers/correspondence/unfold.h>
+#include <shapespace/solvers/memory.h>
 
 namespace shapespace {
 namespace {
@@ -349,6 +350,7 @@ void CorrespondenceOptions::Validate() const {
   internal::CheckTolerance(tolerance);
   internal::CheckMaxIterations(max_iterations);
   if (coarsest < 1) throw InvalidOptions("coarsest: must be 1 or more");
+  internal::CheckMemoryLimit(memory_limit);
 }
 
 CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& template_connectivity,
@@ -361,10 +363,13 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
   internal::CheckBody("template", *template_connectivity, template_shape);
   internal::CheckBody("target", *target_connectivity, target_shape);
   internal::CheckMarkers(all_markers, *template_connectivity, *target_connectivity);
-  ReportProgress(progress, "checking markers", 0, 0);
-
   CorrespondenceResult result;
   CorrespondenceSummary& summary = result.summary;
+  summary.estimated_bytes = internal::CorrespondenceBytes(
+      *template_connectivity, *target_connectivity, static_cast<int>(all_markers.size()));
+  internal::CheckMemory("this fit", summary.estimated_bytes, options.memory_limit,
+                        "use meshes of fewer vertices");
+  ReportProgress(progress, "checking markers", 0, 0);
   summary.template_vertices = template_connectivity->NumVertices();
   summary.template_triangles = template_connectivity->NumTriangles();
   summary.target_vertices = target_connectivity->NumVertices();

@@ -46,6 +46,10 @@ struct CorrespondenceOptions {
   /// Triangles of the coarsest level of the hierarchy, on which the template's pose is found.
   int coarsest = 2000;
 
+  /// Memory limit in bytes; if the estimate exceeds it, the call is refused before anything is
+  /// allocated.
+  double memory_limit = 8e9;
+
   /// \throw InvalidOptions naming the field.
   void Validate() const;
 };
@@ -89,6 +93,7 @@ struct CorrespondenceSummary {
   double turned = 0;     ///< share of triangles whose normal is opposite to the target's
   double uncovered = 0;  ///< share of the target's area that no part of the template is near
   std::vector<std::string> warnings;
+  double estimated_bytes = 0;  ///< of memory, before the call
   /// fit_seconds includes unfold_seconds.
   double total_seconds = 0, marker_seconds = 0, hierarchy_seconds = 0, fit_seconds = 0,
          unfold_seconds = 0, map_seconds = 0;
@@ -117,8 +122,8 @@ struct CorrespondenceResult {
 ///        or has another number of vertices than its connectivity; fewer than three markers,
 ///        markers on one line, out of range, repeated or on a vertex without triangle; a component
 ///        of the template without a marker; markers that only fit a mirror image; a body that is
-///        inside out), naming the marker, counted from 1; SolverError; Cancelled (stopped before a
-///        fit was found; if stopped later, the fit so far is mapped, see
+///        inside out), naming the marker, counted from 1; SolverError (memory limit); Cancelled
+///        (stopped before a fit was found; if stopped later, the fit so far is mapped, see
 ///        CorrespondenceSummary::cancelled).
 CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& template_connectivity,
                                 const Shape& template_shape,

@@ -94,6 +94,7 @@ std::string CorrespondenceSummary::ToJson() const {
   json["seconds"] = {{"total", total_seconds},         {"markers", marker_seconds},
                      {"hierarchy", hierarchy_seconds}, {"fit", fit_seconds},
                      {"unfolding", unfold_seconds},    {"map", map_seconds}};
+  json["estimated_bytes"] = estimated_bytes;
   json["warnings"] = warnings;
   return json.dump(2) + "\n";
 }

@@ -17,6 +17,7 @@
 #include <shapespace/path/align.h>
 #include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/cost/refuse_sums.h>
+#include <shapespace/solvers/memory.h>
 #include <shapespace/solvers/optimise/handle_targets.h>
 #include <shapespace/solvers/optimise/held_level.h>
 #include <shapespace/solvers/optimise/resolution.h>
@@ -47,17 +48,6 @@ constexpr double kFarthestTurn = 2 * internal::kPi / 3;
 // allows for rounding far from the origin; a handle without conflict is met.
 constexpr double kContradiction = 1e-9;
 
-// Memory of a solve on the finest level: the vectors of L-BFGS, shapes and data derived from them,
-// two factors in single precision, and one in double while they are computed.
-double EstimateBytes(const Metric& metric, int shapes) {
-  const double vertices = metric.connectivity->NumVertices();
-  const double unknowns = 3 * vertices * shapes;
-  const double vectors = internal::HistoryRank(unknowns) + 18.0;
-  constexpr double kFactor = 300;  // numbers per vertex, as measured for geodesics
-  return 8 * (vectors * unknowns + 2 * kFactor * vertices) +
-         PathEnergy::EstimateBytes(metric, shapes);
-}
-
 }  // namespace
 
 void DeformationOptions::Validate() const {
@@ -75,7 +65,7 @@ void DeformationOptions::Validate() const {
   internal::CheckTolerance(tolerance);
   internal::CheckMaxIterations(max_iterations);
   HierarchyOptions{coarsest, {}}.Validate();
-  if (!(memory_limit > 0)) throw InvalidOptions("memory_limit: must be positive");
+  internal::CheckMemoryLimit(memory_limit);
 }
 
 // Stores the data of a solve that the next one can reuse.
@@ -107,6 +97,7 @@ class Deformer::Solver {
   const std::shared_ptr<const Connectivity> connectivity_;
   const Shape given_;  // the mesh, in the user's unit
   std::shared_ptr<const Metric> metric_;
+  double estimated_bytes_ = 0;
   Eigen::Vector3d origin_;  // in the user's unit; subtracted from all shapes below
   Shape rest_;              // the mesh, in the metric's unit
   std::vector<int> component_;
@@ -125,12 +116,9 @@ Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity
   metric_ = FreezeMetric(options.metric.value_or(MetricOptions::Deformation(*connectivity, rest)),
                          connectivity, {rest});
   if (options.solver == DeformationOptions::Solver::kTrustRegion) cost::RefuseDenseRows(*metric_);
-  const double bytes = EstimateBytes(*metric_, options.shapes);
-  if (bytes > options.memory_limit) {
-    throw SolverError(
-        "this deformation needs about " + std::to_string(std::lround(bytes / 1e6)) +
-        " MB, more than the memory limit; ask for fewer shapes or raise memory_limit");
-  }
+  estimated_bytes_ = internal::DeformationBytes(*metric_, options.shapes);
+  internal::CheckMemory("this deformation", estimated_bytes_, options.memory_limit,
+                        "ask for fewer shapes");
   origin_ = Centroid(rest, metric_->vertex_area);
   rest_ = (rest.colwise() - origin_) / metric_->unit;
   component_ = ComputeTopology(*connectivity).component;
@@ -343,6 +331,7 @@ void Deformer::Solver::Assess(const std::vector<Handle>& handles, const HandleTa
   summary.metric = Describe(metric_->options);
   summary.unit = metric_->unit;
   summary.balance = options_.balance;
+  summary.estimated_bytes = estimated_bytes_;
   summary.threads = Threads();
   summary.energy = ScaledEnergy(levels_.back().Path().Energy(shapes), options_.shapes);
   summary.error = CompareShapes(metric_, shapes.front(), shapes.back());

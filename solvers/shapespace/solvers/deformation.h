@@ -99,6 +99,7 @@ struct DeformationSummary {
   std::vector<int> hierarchy;         ///< vertices of its levels, the coarsest first
   bool warm = false;                  ///< started from the last solution of the same `Deformer`
   std::vector<std::string> warnings;  ///< to be checked by the user
+  double estimated_bytes = 0;         ///< of memory, before the solve
   double hierarchy_seconds = 0, factor_seconds = 0, solve_seconds = 0, total_seconds = 0;
   int threads = 1;
 

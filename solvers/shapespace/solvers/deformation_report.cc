@@ -100,6 +100,7 @@ std::string DeformationSummary::ToJson() const {
                      {"hierarchy", hierarchy_seconds},
                      {"factors", factor_seconds},
                      {"solves", solve_seconds}};
+  json["estimated_bytes"] = estimated_bytes;
   json["threads"] = threads;
   json["warnings"] = warnings;
   return json.dump(2) + "\n";

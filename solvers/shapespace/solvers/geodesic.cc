@@ -14,29 +14,16 @@
 #include <shapespace/path/energy.h>
 #include <shapespace/solvers/check_options.h>
 #include <shapespace/solvers/cost/refuse_sums.h>
+#include <shapespace/solvers/memory.h>
 #include <shapespace/solvers/optimise/piece.h>
 
 namespace shapespace {
 namespace {
 
-// Memory of the solve on its largest level. The size of the factor is an estimate from meshes of 2
-// K to 40 K vertices (120 to 250 numbers per vertex with bending, a seventh of it without).
-double EstimateBytes(const Metric& metric, int poses, int shapes) {
-  const double vertices = metric.connectivity->NumVertices();
-  const double unknowns = 3 * vertices * shapes;
-  const double vectors = internal::HistoryRank(unknowns) + 10.0;
-  const double factor = metric.options.bending > 0 ? 300 : 45;
-  const double all_shapes = 3 * vertices * (poses + (poses - 1.0) * shapes);
-  return 8 * (vectors * unknowns + factor * vertices + 2 * all_shapes) +
-         PathEnergy::EstimateBytes(metric, shapes);
-}
-
 // Fails early if the finest level cannot be solved.
 void CheckFinest(const Metric& metric, double bytes, const GeodesicOptions& options) {
   if (options.solver == GeodesicSolver::kTrustRegion) cost::RefuseDenseRows(metric);
-  if (bytes <= options.memory_limit) return;
-  throw SolverError("this solve needs about " + std::to_string(std::lround(bytes / 1e6)) +
-                    " MB, more than the memory limit; insert fewer shapes or raise memory_limit");
+  internal::CheckMemory("this solve", bytes, options.memory_limit, "insert fewer shapes");
 }
 
 // Restricts all `shapes` to a level.
@@ -239,7 +226,7 @@ void GeodesicOptions::Validate() const {
   if (shapes < 1) throw InvalidOptions("shapes: must be 1 or more");
   internal::CheckTolerance(tolerance);
   internal::CheckMaxIterations(max_iterations);
-  if (!(memory_limit > 0)) throw InvalidOptions("memory_limit: must be positive");
+  internal::CheckMemoryLimit(memory_limit);
 }
 
 GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivity,
@@ -404,7 +391,8 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
   options.Validate();
   if (poses.size() < 2) throw MeshError("a geodesic needs at least two poses");
   for (const Shape& pose : poses) CheckShape(pose, *metric);
-  const double bytes = EstimateBytes(*metric, static_cast<int>(poses.size()), options.shapes);
+  const double bytes =
+      internal::GeodesicBytes(*metric, static_cast<int>(poses.size()), options.shapes);
   CheckFinest(*metric, bytes, options);
   const internal::Stopwatch total;
   ReportProgress(progress, "decimating", 0, 0);
@@ -424,10 +412,9 @@ Interpolator::Interpolator(const std::shared_ptr<const Connectivity>& connectivi
   options.Validate();
   const auto metric = FreezeMetric(options.metric, connectivity, poses, 0, PosePairs::kAll);
   // One path is solved at a time, but all poses are stored on all levels.
-  CheckFinest(*metric,
-              EstimateBytes(*metric, 2, options.shapes) +
-                  2.0 * sizeof(double) * poses.size() * poses.front().size(),
-              options);
+  estimated_bytes_ = internal::GeodesicBytes(*metric, 2, options.shapes) +
+                     2.0 * sizeof(double) * poses.size() * poses.front().size();
+  CheckFinest(*metric, estimated_bytes_, options);
   levels_ = std::make_unique<internal::GeodesicLevels>(metric, AlignPoses(*metric, poses).shapes,
                                                        PosePairs::kAll, options);
 }
@@ -447,6 +434,7 @@ GeodesicResult Interpolator::Between(const Shape& from, const Shape& to, Progres
   const AlignedPoses aligned = AlignPoses(*GetMetric(), {from, to});
   levels_->SetPoses(aligned.shapes);
   GeodesicResult result = levels_->Solve(aligned, progress);
+  result.summary.estimated_bytes = estimated_bytes_;
   result.summary.total_seconds = total.Seconds();
   return result;
 }

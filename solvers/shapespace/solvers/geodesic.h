@@ -134,7 +134,7 @@ struct GeodesicSummary {
   bool hierarchy_stopped_early = false;  ///< because no further edge could be collapsed
   std::vector<Level> levels;
   std::vector<std::string> warnings;  ///< to be checked by the user
-  double estimated_bytes = 0;
+  double estimated_bytes = 0;         ///< of memory, before the solve
   double freeze_seconds = 0, hierarchy_seconds = 0, factor_seconds = 0, solve_seconds = 0,
          total_seconds = 0;
   size_t factor_nonzeros = 0;
@@ -198,6 +198,7 @@ class Interpolator {
 
  private:
   std::unique_ptr<internal::GeodesicLevels> levels_;
+  double estimated_bytes_ = 0;  // of a path, and of all poses on all levels
 };
 
 }  // namespace shapespace

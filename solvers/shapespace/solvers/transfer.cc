@@ -12,6 +12,7 @@
 #include <shapespace/path/align.h>
 #include <shapespace/path/rigid_motion.h>
 #include <shapespace/solvers/check_options.h>
+#include <shapespace/solvers/memory.h>
 #include <shapespace/solvers/optimise/feature_transfer.h>
 #include <shapespace/solvers/optimise/ladder.h>
 
@@ -211,16 +212,27 @@ class TargetShapes {
       return FreezeMetric(metric, source.metric->connectivity, poses);
     };
     metric_ = freeze(climbs_ ? options.ladder.metric : MetricOptions::Strain());
+    const int count = source.NumShapes();
+    std::shared_ptr<const Metric> rungs, features;
     if (climbs_ || options.hybrids) {
-      ladder_.emplace(climbs_ ? metric_ : freeze(options.ladder.metric), options.ladder);
+      rungs = climbs_ ? metric_ : freeze(options.ladder.metric);
+      estimated_bytes_ += internal::LadderBytes(*rungs, count, options.ladder.rung_shapes);
     }
     if (!climbs_) {
-      features_.emplace(freeze(options.metric), comparison_.Shapes()[0] / metric_->unit,
+      features = freeze(options.metric);
+      estimated_bytes_ += internal::FeatureTransferBytes(*features, count);
+    }
+    internal::CheckMemory("this transfer", estimated_bytes_, options.memory_limit,
+                          "use meshes of fewer vertices");
+    if (rungs) ladder_.emplace(rungs, options.ladder);
+    if (features) {
+      features_.emplace(features, comparison_.Shapes()[0] / metric_->unit,
                         shapes_[0] / metric_->unit);
     }
   }
 
   const std::shared_ptr<const Metric>& GetMetric() const { return metric_; }
+  double EstimatedBytes() const { return estimated_bytes_; }
 
   void MakeNext(TransferSummary::Step* row, Progress* within) {
     const int i = static_cast<int>(shapes_.size());
@@ -274,6 +286,7 @@ class TargetShapes {
   const Comparison comparison_;
   std::vector<Shape> shapes_;
   std::shared_ptr<const Metric> metric_;
+  double estimated_bytes_ = 0;
   std::optional<internal::Ladder> ladder_;
   std::optional<internal::FeatureTransfer> features_;
   std::optional<internal::Ladder::Rung> rung_;
@@ -308,6 +321,7 @@ void TransferOptions::Validate() const {
   internal::CheckTolerance(tolerance);
   internal::CheckMaxIterations(max_iterations);
   ladder.Validate();
+  internal::CheckMemoryLimit(memory_limit);
 }
 
 TransferResult Transfer(const Path& source, const Shape& target, const TransferOptions& options,
@@ -323,6 +337,7 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
   summary.metric = Describe(climbs ? options.ladder.metric : options.metric);
   summary.scale = ScaleOf(source, target);
   TargetShapes shapes(source, target, summary.scale, options);
+  summary.estimated_bytes = shapes.EstimatedBytes();
   const int count = source.NumShapes();
   std::vector<Shape> placed, hybrids;
   try {

@@ -81,6 +81,9 @@ struct TransferOptions {
 
   LadderOptions ladder;
 
+  /// Memory limit in bytes; if the estimate exceeds it, the transfer is refused before it begins.
+  double memory_limit = 8e9;
+
   /// \throw InvalidOptions naming the field.
   void Validate() const;
 };
@@ -108,6 +111,7 @@ struct TransferSummary {
   double strain_rms = 0, strain_max = 0, angle_rms = 0;
   bool cancelled = false;  ///< `progress` asked to stop: the path has the shapes made before
   std::vector<std::string> warnings;
+  double estimated_bytes = 0;  ///< of memory, before the transfer
   double total_seconds = 0;
 
   /// All shapes were made, and converged on the mesh itself.
@@ -134,9 +138,9 @@ struct TransferResult {
 /// translated, rotated and scaled motion. After Sumner and Popovic (SIGGRAPH 2004) in feature
 /// space, or Kilian et al. 2007, section 5, Figure 11.
 /// \throw InvalidOptions, MeshError (the source has one shape only; the target has another number
-///        of vertices, is not finite, or has no extent), SolverError (a shape degenerates),
-///        Cancelled (stopped before the target's second shape was made; if stopped later, the path
-///        so far is returned, see TransferSummary::cancelled).
+///        of vertices, is not finite, or has no extent), SolverError (memory limit; a shape
+///        degenerates), Cancelled (stopped before the target's second shape was made; if stopped
+///        later, the path so far is returned, see TransferSummary::cancelled).
 TransferResult Transfer(const Path& source, const Shape& target,
                         const TransferOptions& options = {}, Progress* progress = nullptr);
 

@@ -33,6 +33,7 @@ nlohmann::ordered_json JsonOf(const TransferSummary& summary) {
   }
   json["strain_off"] = {{"rms", summary.strain_rms}, {"max", summary.strain_max}};
   json["angle_off_degrees"] = summary.angle_rms;
+  json["estimated_bytes"] = summary.estimated_bytes;
   json["seconds"] = summary.total_seconds;
   json["warnings"] = summary.warnings;
   return json;

@@ -10,6 +10,7 @@
 #include <shapespace/base/stopwatch.h>
 #include <shapespace/metric/feature_map.h>
 #include <shapespace/solvers/check_options.h>
+#include <shapespace/solvers/memory.h>
 #include <shapespace/solvers/optimise/cost_of_position.h>
 #include <shapespace/solvers/optimise/metric_solver.h>
 #include <shapespace/solvers/optimise/step_ceres.h>
@@ -138,6 +139,7 @@ std::vector<double> Norms(const FeatureMap& map, const Shape& shape,
 void TransportOptions::Validate() const {
   internal::CheckTolerance(tolerance);
   internal::CheckMaxIterations(max_iterations);
+  internal::CheckMemoryLimit(memory_limit);
 }
 
 std::string TransportSummary::BriefReport() const {
@@ -167,6 +169,10 @@ TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents
     result.tangents.push_back(path.motions.front().rotation.transpose() * x / metric.unit);
   }
   const FeatureMap map(internal::WithCostOfPosition(path.metric));
+  result.summary.estimated_bytes =
+      internal::TransportBytes(map.GetMetric(), static_cast<int>(tangents.size()));
+  internal::CheckMemory("this transport", result.summary.estimated_bytes, options.memory_limit,
+                        "use a mesh of fewer vertices");
   result.summary.metric = Describe(map.GetMetric().options);
   result.summary.first_norm = Norms(map, path.shapes.front(), result.tangents);
   std::optional<MetricTransport> metric_transport;

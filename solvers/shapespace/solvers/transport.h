@@ -33,6 +33,10 @@ struct TransportOptions {
   /// reported.
   int max_iterations = 200;
 
+  /// Memory limit in bytes; if the estimate exceeds it, the call is refused before anything is
+  /// allocated.
+  double memory_limit = 8e9;
+
   /// \throw InvalidOptions naming the field.
   void Validate() const;
 };
@@ -51,6 +55,7 @@ struct TransportSummary {
   /// Norms of each tangent under the metric, before and after. With kLeviCivita, the loss of norm
   /// shows how coarse the path is.
   std::vector<double> first_norm, last_norm;
+  double estimated_bytes = 0;  ///< of memory, before the call
   double total_seconds = 0;
 
   std::string BriefReport() const;  ///< one line
@@ -67,8 +72,8 @@ struct TransportResult {
 /// the shapes. Under a metric without a cost of position (lambda 0) a lambda of 1e-6 is added,
 /// because rigid motions would cost nothing.
 /// \throw InvalidOptions (also if the metric is rigid), MeshError (a tangent of the wrong size or
-///        not finite, a path of one shape), SolverError (the metric is not definite; for
-///        kConstrainedProjection, the path stands still), Cancelled.
+///        not finite, a path of one shape), SolverError (memory limit; the metric is not definite;
+///        for kConstrainedProjection, the path stands still), Cancelled.
 TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents,
                           const TransportOptions& options = {}, Progress* progress = nullptr);
 

@@ -1,6 +1,7 @@
 #include <shapespace/solvers/optimise/ladder.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,8 @@ namespace {
 
 // Small enough that a copy of the source reproduces its motion to ten digits.
 constexpr double kStepTolerance = 1e-12;
+// The transfer has estimated its memory as a whole.
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 Path TwoShapes(const std::shared_ptr<const Metric>& metric, const Shape& from, const Shape& to) {
   Path path;
@@ -57,6 +60,7 @@ Ladder::Rung Ladder::Lay(const Shape& source, const Shape& next, const Shape& ta
   GeodesicOptions geodesic;
   geodesic.shapes = options_.rung_shapes;
   geodesic.tolerance = options_.tolerance;
+  geodesic.memory_limit = kUnlimited;
   rung.geodesic = Interpolate(metric_, {rung.from, target}, geodesic, progress);
   if (rung.geodesic.summary.termination == Termination::kCancelled) throw Cancelled();
   if (!options_.align) TurnShapes(&rung.geodesic.path);
@@ -77,6 +81,7 @@ Shape Ladder::Climb(const Rung& rung, const Shape& target, TransferSummary::Step
   TransportOptions transport;
   transport.connection = options_.connection;
   transport.align = options_.align;
+  transport.memory_limit = kUnlimited;
   const Tangent velocity = InitialVelocity(TwoShapes(metric_, rung.from, rung.next));
   const TransportResult carried = Transport(rung.geodesic.path, {velocity}, transport, progress);
   const double before = carried.summary.first_norm[0], after = carried.summary.last_norm[0];
