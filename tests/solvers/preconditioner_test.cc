@@ -98,9 +98,11 @@ TEST(Cholesky, RefusesAnIndefiniteMatrix) {
   EXPECT_NE(message.find("not positive definite"), std::string::npos) << message;
 }
 
-// An allocation that fails, whatever the machine has.
-#ifndef __SANITIZE_ADDRESS__  // which reserves more address space than this
+// An allocation that fails, whatever the machine has. Sanitizers reserve more address space than
+// this.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST(Cholesky, SaysThatMemoryRanOut) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto factor_without_memory = [] {
     const Eigen::SparseMatrix<double> matrix = SparseWithDenseFactor(56000, 48);
     rlimit limit = {};

@@ -335,7 +335,7 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
   path.motions = {motions[0]};
   Workload workload(progress, options_.tolerance, options_.max_iterations);
   const bool more_shapes_allowed =
-      EstimateBytes(*metric_, pieces + 1, 2 * options_.shapes + 1) <= options_.memory_limit;
+      GeodesicBytes(*metric_, pieces + 1, 2 * options_.shapes + 1) <= options_.memory_limit;
   for (int i = 0; i < pieces; ++i) {
     internal::Plan(schedule, resolutions_, options_.start, &workload);
   }
