@@ -174,9 +174,8 @@ int main(int argc, char** argv) {
            "  shape-extrapolate walk.path --keep 2 --steps 7 --output on/%03d.obj\n\n"
            "Poses are interpolated first, as by shape-interpolate but more accurately "
            "(--tolerance), because\nerrors grow from step to step. A .path may be given instead of "
-           "poses; "
-           "it contains the metric with\nwhich it was made. Outputs contain the shapes kept "
-           "and the new ones; in a film strip poses are blue, shapes between\nthem green, "
+           "poses; it contains the metric with\nwhich it was made. Outputs contain the shapes kept "
+           "and the new ones; in a film strip poses are\nblue, shapes between them green, "
            "extrapolated ones purple.\n\nIf the shape degenerates, the outputs contain the shapes "
            "before that, and stderr says so: exit code\n0 if there are new shapes, 1 if there are "
            "none.") +
