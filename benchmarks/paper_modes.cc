@@ -93,7 +93,7 @@ void PrintExponentials() {
 void PrintTransports() {
   const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
   const Shape shape = bar.pose(5);
-  const auto metric = FreezeMetric({}, bar.connectivity, {shape});
+  const auto metric = FreezeMetric(MetricOptions::Isometric(), bar.connectivity, {shape});
   const Tangent bend = 100 * (bar.pose(5.01) - shape);
   const Tangent stretch = 0.1 * Eigen::Vector3d(1, 0, 0).asDiagonal() * shape;
   const auto turning = [&](int segments) {

@@ -59,6 +59,9 @@ TEST_F(RefusalTest, WrongCommandLines) {
       {{"--metric", "taxicab"}, "--metric taxicab: must be strain, isometric, rigid or paper"},
       {{"--weights", "heavy"}, "--weights heavy: must be area or uniform"},
       {{"--discretization", "fine"}, "--discretization fine: must be midpoint or trapezoid"},
+      {{"--discretization", "trapezoid"},
+       "--discretization trapezoid: is a form of the cost of edge lengths, which this metric has "
+       "not; add --metric isometric"},
       {{"--solver", "magic"},
        "--solver magic: must be one of automatic, lbfgs, threaded_lbfgs, trust_region"},
       {{"--color", "pink"}, "--color pink: must be plain, deviation or parts"},

@@ -24,8 +24,9 @@ DEFINE_double(lambda, 1e-4, "cost of moving vertices; harmless up to 1e-3");
 DEFINE_double(bending, 1e-5, "cost of bending: t^2 / 12 for a shell of thickness t");
 DEFINE_double(volume, 0, "cost of changing the enclosed volume; start from 0.3");
 DEFINE_string(weights, "area", "weights of edges: area, or uniform as in the paper");
-DEFINE_string(discretization, "midpoint",
-              "discretisation along a segment: midpoint, or trapezoid as in the paper");
+DEFINE_string(
+    discretization, "midpoint",
+    "discretisation of --isometric along a segment: midpoint, or trapezoid as in the paper");
 
 DEFINE_string(
     stiffness, "",
@@ -84,6 +85,11 @@ MetricOptions MetricFromFlags(const Poses* mesh) {
     }
     options.discretization =
         FLAGS_discretization == "midpoint" ? Discretization::kMidpoint : Discretization::kTrapezoid;
+    if (options.discretization == Discretization::kTrapezoid && options.isometric == 0) {
+      throw UsageError(AsTyped("discretization") +
+                       ": is a form of the cost of edge lengths, which this metric has not; add "
+                       "--metric isometric");
+    }
   }
   if (!FLAGS_stiffness.empty()) {
     options.stretching_stiffness = options.bending_stiffness = Stiffness();
