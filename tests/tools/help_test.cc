@@ -51,11 +51,11 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                                    "threads", "triangles", "version"}));
   EXPECT_EQ(Listed("shape-view"),
             (std::set<std::string>{"help", "output", "progress", "threads", "version"}));
-  EXPECT_EQ(Listed("shape-correspond"),
-            (std::set<std::string>{"allow_nonmanifold", "allow_outside_files", "help",
-                                   "hold_all_markers", "markers", "memory_limit", "output",
-                                   "progress", "proportions", "report", "strict", "threads",
-                                   "version"}));
+  EXPECT_EQ(
+      Listed("shape-correspond"),
+      (std::set<std::string>{"allow_nonmanifold", "allow_outside_files", "help", "hold_all_markers",
+                             "markers", "memory_limit", "output", "progress", "proportions",
+                             "report", "strict", "threads", "version"}));
   const std::set<std::string> metric = {"bending", "discretization", "isometric", "lambda",
                                         "metric",  "rigid",          "stiffness", "strain",
                                         "volume",  "weights"};
