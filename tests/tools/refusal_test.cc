@@ -300,7 +300,7 @@ TEST_F(RefusalTest, SolvesBeyondTheMemoryLimit) {
     EXPECT_EQ(outcome.code, 1);
     ExpectContains(outcome.err, "this transfer needs about ");
   }
-  File("markers.txt", "1 1\n20 20\n300 300\n");
+  File("markers.txt", "1 1\n70 70\n150 150\n");
   const Outcome fit = Run("shape-correspond", {"tube0.obj", "tube0.obj", "--markers", "markers.txt",
                                                "--memory_limit", "0.001", "--output", "m.txt"});
   EXPECT_EQ(fit.code, 1);
