@@ -20,9 +20,8 @@ class MotionSettings:
         name="Metric",
         description="What is kept as far as possible between the poses",
         items=[
-            ("DEFAULT", "Default", "Strain"),
             ("strain", "Strain", "Strains of triangles; such a motion can always be continued"),
-            ("isometric", "Isometric", "Lengths of edges"),
+            ("isometric", "Isometric", "Squared lengths of edges"),
             ("rigid", "Rigid", "The body as a whole moves rigidly as far as it can"),
             ("paper", "Paper", "Lengths of edges, weighted as in the paper of the method"),
         ],
