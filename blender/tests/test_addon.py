@@ -75,8 +75,8 @@ class Manifest(unittest.TestCase):
         """Beside the standard library and numpy; the module is optional."""
         allowed = {"bpy", "mathutils", "numpy", "shapespace"}
         standard = {
-            "dataclasses", "os", "re", "shutil", "struct", "subprocess", "tempfile", "threading",
-            "time", "types",
+            "dataclasses", "os", "re", "secrets", "shutil", "struct", "subprocess", "tempfile",
+            "threading", "time", "types",
         }  # fmt: skip
         for file in FOLDER.glob("*.py"):
             for name in re.findall(r"^\s*(?:import|from) (\w+)", file.read_text(), re.M):
