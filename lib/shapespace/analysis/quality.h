@@ -18,7 +18,7 @@ struct PathQuality {
   /// percentile and maximum of the magnitude, unweighted. |e_straight| is the length that the edge
   /// would have if every element of the metric moved on the straight line between its values in the
   /// two poses around the shape: squared lengths under a cost of edge lengths, logarithmic strains
-  /// under a cost of strain (docs/mathematics.md, section 6). Edges shorter than a thousandth of
+  /// under a cost of strain (docs/mathematics.md, section 7). Edges shorter than a thousandth of
   /// the root mean square length are not counted.
   double edge_rms = 0, edge_p99 = 0, edge_max = 0;
   /// The same for | |e| / |e_first| - 1 | relative to the first shape, over all shapes, including
