@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include <shapespace/deformation/handle.h>
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
-#include <shapespace/solvers/handle.h>
 
 namespace shapespace::benchmarks {
 

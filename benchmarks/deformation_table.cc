@@ -15,16 +15,16 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/stopwatch.h>
+#include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
-#include <shapespace/mesh/read.h>
-#include <shapespace/mesh/write.h>
+#include <shapespace/deformation/deformation.h>
+#include <shapespace/deformation/repair.h>
+#include <shapespace/files/read.h>
+#include <shapespace/files/write.h>
+#include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/output/frames.h>
-#include <shapespace/path/rigid_motion.h>
-#include <shapespace/solvers/deformation.h>
-#include <shapespace/solvers/repair.h>
 
 #ifdef SHAPESPACE_HAS_CGAL
 #include "arap.h"

@@ -10,8 +10,8 @@
 #include <benchmark/benchmark.h>
 
 #include <shapespace/base/parallel.h>
+#include <shapespace/numerics/internal/preconditioner.h>
 #include <shapespace/path/energy.h>
-#include <shapespace/solvers/optimise/preconditioner.h>
 
 #include "measure.h"
 #include "quadruped.h"

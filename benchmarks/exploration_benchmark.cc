@@ -7,7 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include <shapespace/bodies/tube.h>
-#include <shapespace/solvers/exploration/space.h>
+#include <shapespace/exploration/space.h>
 
 namespace shapespace {
 namespace {

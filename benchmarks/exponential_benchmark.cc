@@ -6,9 +6,9 @@
 #include <benchmark/benchmark.h>
 
 #include <shapespace/bodies/tube.h>
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/geodesic/geodesic.h>
 #include <shapespace/path/align.h>
-#include <shapespace/solvers/exponential.h>
-#include <shapespace/solvers/geodesic.h>
 
 #include "measure.h"
 #include "quadruped.h"

@@ -11,9 +11,9 @@
 #include <benchmark/benchmark.h>
 
 #include <shapespace/base/parallel.h>
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
+#include <shapespace/geodesic/geodesic.h>
 #include <shapespace/path/energy.h>
-#include <shapespace/solvers/geodesic.h>
 
 #include "measure.h"
 #include "quadruped.h"

@@ -12,11 +12,11 @@
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
-#include <shapespace/mesh/read.h>
+#include <shapespace/exponential/correction.h>
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/files/read.h>
+#include <shapespace/geodesic/geodesic.h>
 #include <shapespace/path/align.h>
-#include <shapespace/solvers/correction.h>
-#include <shapespace/solvers/exponential.h>
-#include <shapespace/solvers/geodesic.h>
 
 namespace shapespace {
 namespace {

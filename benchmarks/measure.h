@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <shapespace/base/stopwatch.h>
+#include <shapespace/base/internal/stopwatch.h>
 
 namespace shapespace {
 

@@ -11,9 +11,9 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
+#include <shapespace/cost/path_energy.h>
+#include <shapespace/geodesic/geodesic.h>
 #include <shapespace/path/energy.h>
-#include <shapespace/solvers/cost/path_energy.h>
-#include <shapespace/solvers/geodesic.h>
 
 #include "measure.h"
 #include "quadruped.h"

@@ -20,9 +20,9 @@
 #include <gflags/gflags.h>
 
 #include <shapespace/bodies/quadruped.h>
-#include <shapespace/mesh/read.h>
-#include <shapespace/solvers/exponential.h>
-#include <shapespace/solvers/geodesic.h>
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/files/read.h>
+#include <shapespace/geodesic/geodesic.h>
 
 DEFINE_string(set, "real", "pairs: real, tuned or kept");
 DEFINE_string(name, "", "only the pairs whose names contain this");

@@ -12,9 +12,9 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/bricard.h>
 #include <shapespace/bodies/sheet.h>
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/exponential/transport.h>
 #include <shapespace/path/align.h>
-#include <shapespace/solvers/exponential.h>
-#include <shapespace/solvers/transport.h>
 
 namespace shapespace {
 namespace {

@@ -11,13 +11,13 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/analysis/quality.h>
-#include <shapespace/base/stopwatch.h>
+#include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/skinned.h>
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 #include <shapespace/path/align.h>
-#include <shapespace/solvers/optimise/gradient_transfer.h>
-#include <shapespace/solvers/transfer.h>
+#include <shapespace/transfer/internal/gradient_transfer.h>
+#include <shapespace/transfer/transfer.h>
 
 namespace shapespace {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <shapespace/bodies/body.h>
 #include <shapespace/bodies/skinned.h>
-#include <shapespace/mesh/write.h>
+#include <shapespace/files/write.h>
 #include <shapespace/output/frames.h>
 
 #include "support/frames.h"

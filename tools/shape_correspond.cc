@@ -3,12 +3,12 @@
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/extension.h>
-#include <shapespace/mesh/write.h>
+#include <shapespace/base/internal/extension.h>
+#include <shapespace/correspondence/correspondence.h>
+#include <shapespace/correspondence/correspondence_picture.h>
+#include <shapespace/correspondence/marker_file.h>
+#include <shapespace/files/write.h>
 #include <shapespace/output/frames.h>
-#include <shapespace/solvers/correspondence.h>
-#include <shapespace/solvers/correspondence_picture.h>
-#include <shapespace/solvers/marker_file.h>
 
 #include "support/correspondence_flags.h"
 #include "support/frames.h"
@@ -31,7 +31,7 @@ std::vector<std::string> Outputs() {
   std::vector<std::string> outputs;
   for (const std::string& output : Split(FLAGS_output)) {
     if (output.empty()) continue;
-    const std::string extension = FileExtension(output);
+    const std::string extension = internal::FileExtension(output);
     if (!IsWritableMesh(output) && extension != ".txt" && extension != ".png") {
       throw UsageError("--output " + output + ": must end in .obj, .ply, .off, .stl, .txt or .png");
     }
@@ -67,7 +67,7 @@ void Run(const std::vector<std::string>& files) {
                  markers, options, SolveProgress(outputs).get());
   PrintSummary(result.summary.BriefReport(), result.summary.warnings, result.summary.Converged());
   for (const std::string& output : outputs) {
-    const std::string extension = FileExtension(output);
+    const std::string extension = internal::FileExtension(output);
     if (extension == ".txt") {
       WriteSurfaceMap(output, result.map);
     } else if (extension == ".png") {

@@ -5,10 +5,10 @@
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/deformation/deformation.h>
+#include <shapespace/deformation/handle_file.h>
+#include <shapespace/deformation/repair.h>
 #include <shapespace/mesh/selection.h>
-#include <shapespace/solvers/deformation.h>
-#include <shapespace/solvers/handle_file.h>
-#include <shapespace/solvers/repair.h>
 
 #include "support/choose.h"
 #include "support/memory_flag.h"

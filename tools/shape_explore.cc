@@ -3,10 +3,10 @@
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/extension.h>
-#include <shapespace/mesh/display_names.h>
-#include <shapespace/solvers/exploration/explore.h>
-#include <shapespace/solvers/exploration/space_file.h>
+#include <shapespace/base/internal/extension.h>
+#include <shapespace/exploration/explore.h>
+#include <shapespace/exploration/space_file.h>
+#include <shapespace/files/display_names.h>
 
 #include "support/geodesic_flags.h"
 #include "support/lists.h"
@@ -37,7 +37,7 @@ DECLARE_string(output);
 namespace shapespace::tools {
 namespace {
 
-bool IsSpaceFile(const std::string& file) { return FileExtension(file) == ".space"; }
+bool IsSpaceFile(const std::string& file) { return internal::FileExtension(file) == ".space"; }
 
 double ThresholdFromFlag() {
   std::string text = FLAGS_threshold;

@@ -6,7 +6,7 @@
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/extension.h>
+#include <shapespace/base/internal/extension.h>
 
 #include "support/anchor_flags.h"
 #include "support/lists.h"
@@ -60,7 +60,7 @@ void Run(const std::vector<std::string>& files) {
     }
   }
   const bool makes_glb = std::any_of(outputs.begin(), outputs.end(), [](const auto& output) {
-    return FileExtension(output) == ".glb";
+    return internal::FileExtension(output) == ".glb";
   });
   if (FLAGS_ease && FLAGS_frames == 0 && !makes_glb) {
     throw UsageError("--ease goes with --frames, or with a .glb");

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
-#include <shapespace/solvers/correction.h>
-#include <shapespace/solvers/exponential.h>
-#include <shapespace/solvers/geodesic.h>
+#include <shapespace/exponential/correction.h>
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/geodesic/geodesic.h>
 
 #include "support/anchor_flags.h"
 #include "support/choose.h"

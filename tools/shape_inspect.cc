@@ -13,15 +13,15 @@
 #include <shapespace/analysis/quality.h>
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
-#include <shapespace/base/extension.h>
-#include <shapespace/base/printable.h>
+#include <shapespace/base/internal/extension.h>
+#include <shapespace/base/internal/printable.h>
+#include <shapespace/exploration/space_file.h>
+#include <shapespace/files/read.h>
 #include <shapespace/mesh/check.h>
-#include <shapespace/mesh/read.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/path_file.h>
-#include <shapespace/solvers/exploration/space_file.h>
 
 #include "support/mesh_flags.h"
 #include "support/metric_flags.h"
@@ -246,7 +246,7 @@ void Run(const std::vector<std::string>& files) {
   // Meshes last, because the comparison of poses follows after them.
   for (const bool meshes : {false, true}) {
     for (const std::string& file : files) {
-      const std::string extension = FileExtension(file);
+      const std::string extension = internal::FileExtension(file);
       if ((extension != ".path" && extension != ".space") != meshes) continue;
       try {
         if (meshes) {

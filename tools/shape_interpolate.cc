@@ -1,6 +1,6 @@
 // Computes a geodesic between poses of a mesh.
 
-#include <shapespace/solvers/geodesic.h>
+#include <shapespace/geodesic/geodesic.h>
 
 #include "support/anchor_flags.h"
 #include "support/geodesic_flags.h"

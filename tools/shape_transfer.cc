@@ -5,11 +5,11 @@
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/correspondence/correspondence.h>
+#include <shapespace/correspondence/marker_file.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/output/frames.h>
-#include <shapespace/solvers/correspondence.h>
-#include <shapespace/solvers/marker_file.h>
-#include <shapespace/solvers/transfer.h>
+#include <shapespace/transfer/transfer.h>
 
 #include "support/anchor_flags.h"
 #include "support/choose.h"

@@ -7,10 +7,10 @@
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/extension.h>
-#include <shapespace/base/read_file.h>
+#include <shapespace/base/internal/extension.h>
+#include <shapespace/base/internal/read_file.h>
+#include <shapespace/exploration/space_file.h>
 #include <shapespace/output/page.h>
-#include <shapespace/solvers/exploration/space_file.h>
 
 #include "support/console.h"
 #include "support/files.h"
@@ -26,7 +26,7 @@ namespace {
 void CheckKinds(const std::vector<std::string>& files) {
   if (files.empty() || files.size() > 2) throw UsageError("name one file, or two to compare");
   for (const std::string& file : files) {
-    const std::string extension = FileExtension(file);
+    const std::string extension = internal::FileExtension(file);
     if (extension != ".path" && extension != ".glb" && extension != ".space") {
       throw UsageError(file + ": must be a .path, .glb or .space");
     }
@@ -34,7 +34,7 @@ void CheckKinds(const std::vector<std::string>& files) {
       throw UsageError(file + ": a space is shown alone");
     }
   }
-  const std::string extension = FileExtension(FLAGS_output);
+  const std::string extension = internal::FileExtension(FLAGS_output);
   if (extension != ".html" && extension != ".htm") {
     throw UsageError("--output " + FLAGS_output + ": must end in .html");
   }
@@ -82,13 +82,13 @@ void Run(const std::vector<std::string>& files) {
   std::vector<PageScene> scenes;
   for (const std::string& file : files) {
     const std::string name = std::filesystem::path(file).filename().string();
-    if (FileExtension(file) == ".path") {
+    if (internal::FileExtension(file) == ".path") {
       paths.push_back(ReadPathAndTell(file));
       scenes.push_back(PagePath{&paths.back(), name});
-    } else if (FileExtension(file) == ".space") {
+    } else if (internal::FileExtension(file) == ".space") {
       scenes.push_back(ToPage(ReadSpace(file), name));
     } else {
-      scenes.push_back(PageGlb{ReadFile(file), name});
+      scenes.push_back(PageGlb{internal::ReadFile(file), name});
       CheckIsGlb(file, std::get<PageGlb>(scenes.back()).bytes);
     }
   }

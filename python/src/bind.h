@@ -7,7 +7,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/path.h>
 

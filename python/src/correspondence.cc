@@ -5,9 +5,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/solvers/correspondence.h>
-#include <shapespace/solvers/correspondence_picture.h>
-#include <shapespace/solvers/marker_file.h>
+#include <shapespace/correspondence/correspondence.h>
+#include <shapespace/correspondence/correspondence_picture.h>
+#include <shapespace/correspondence/marker_file.h>
 
 #include "arrays.h"
 #include "bind.h"

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/printable.h>
+#include <shapespace/base/internal/printable.h>
 
 #include "bind.h"
 

@@ -6,10 +6,10 @@
 #include <shapespace/base/parallel.h>
 #include <shapespace/bodies/body.h>
 #include <shapespace/bodies/skinned.h>
+#include <shapespace/exploration/space.h>
+#include <shapespace/files/write.h>
 #include <shapespace/mesh/check.h>
-#include <shapespace/mesh/write.h>
 #include <shapespace/output/frames.h>
-#include <shapespace/solvers/exploration/space.h>
 
 #include "arrays.h"
 #include "bind.h"

@@ -11,18 +11,18 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <shapespace/correspondence/correspondence.h>
+#include <shapespace/deformation/deformation.h>
+#include <shapespace/deformation/repair.h>
+#include <shapespace/exploration/explore.h>
+#include <shapespace/exponential/correction.h>
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/exponential/transport.h>
+#include <shapespace/geodesic/geodesic.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/output/gltf.h>
 #include <shapespace/output/picture.h>
-#include <shapespace/solvers/correction.h>
-#include <shapespace/solvers/correspondence.h>
-#include <shapespace/solvers/deformation.h>
-#include <shapespace/solvers/exploration/explore.h>
-#include <shapespace/solvers/exponential.h>
-#include <shapespace/solvers/geodesic.h>
-#include <shapespace/solvers/repair.h>
-#include <shapespace/solvers/transfer.h>
-#include <shapespace/solvers/transport.h>
+#include <shapespace/transfer/transfer.h>
 
 #include "arrays.h"
 

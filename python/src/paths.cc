@@ -13,8 +13,9 @@
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/analysis/shape_error.h>
 #include <shapespace/base/error.h>
-#include <shapespace/base/extension.h>
-#include <shapespace/mesh/write.h>
+#include <shapespace/base/internal/extension.h>
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/files/write.h>
 #include <shapespace/metric/feature_map.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/gltf.h>
@@ -24,7 +25,6 @@
 #include <shapespace/output/vtk.h>
 #include <shapespace/path/anchor.h>
 #include <shapespace/path/path_file.h>
-#include <shapespace/solvers/exponential.h>
 
 #include "arrays.h"
 #include "bind.h"
@@ -70,7 +70,7 @@ void BindImage(py::module_* module) {
       .def(
           "write",
           [](const RgbImage& image, const std::filesystem::path& file) {
-            if (FileExtension(file) != ".png") {
+            if (internal::FileExtension(file) != ".png") {
               throw FileError(file.string() + ": a picture is written as .png only");
             }
             WritePng(file, image);
@@ -219,7 +219,7 @@ InvalidOptions
 enum class Kind { kPath, kPicture, kGltf, kPointCache, kFrames, kVtk };
 
 Kind KindOf(const std::string& file) {
-  const std::string extension = FileExtension(file);
+  const std::string extension = internal::FileExtension(file);
   if (extension == ".path") return Kind::kPath;
   if (extension == ".png") return Kind::kPicture;
   if (extension == ".glb") return Kind::kGltf;

@@ -6,8 +6,8 @@
 #include <pybind11/stl.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/solvers/handle.h>
-#include <shapespace/solvers/handle_file.h>
+#include <shapespace/deformation/handle.h>
+#include <shapespace/deformation/handle_file.h>
 
 #include "arrays.h"
 #include "bind.h"

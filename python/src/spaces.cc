@@ -6,10 +6,10 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/display_names.h>
+#include <shapespace/exploration/explore.h>
+#include <shapespace/exploration/space_file.h>
+#include <shapespace/files/display_names.h>
 #include <shapespace/output/picture.h>
-#include <shapespace/solvers/exploration/explore.h>
-#include <shapespace/solvers/exploration/space_file.h>
 
 #include "arrays.h"
 #include "bind.h"

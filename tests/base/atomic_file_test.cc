@@ -1,4 +1,4 @@
-#include <shapespace/base/atomic_file.h>
+#include <shapespace/base/internal/atomic_file.h>
 
 #include <fcntl.h>
 
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/file_buffer.h>
+#include <shapespace/base/internal/file_buffer.h>
 
 #include "mesh/files.h"
 
@@ -30,7 +30,7 @@ class AtomicFileTest : public testing::FilesTest {
 
 TEST_F(AtomicFileTest, ReplacesWhatStoodThereAtTheEndOnly) {
   const std::string file = File("a.txt", "before");
-  WriteFileAtomically(file, [&](std::ostream& out) {
+  internal::WriteFileAtomically(file, [&](std::ostream& out) {
     out << "after" << std::flush;
     EXPECT_EQ(testing::Content(file), "before");
   });
@@ -40,8 +40,10 @@ TEST_F(AtomicFileTest, ReplacesWhatStoodThereAtTheEndOnly) {
 
 TEST_F(AtomicFileTest, AFailureLeavesNothingBehind) {
   const std::string file = File("a.txt", "before");
-  EXPECT_THROW(WriteFileAtomically(file, [](std::ostream&) { throw MeshError("no"); }), MeshError);
-  EXPECT_THROW(WriteFileAtomically(file, [](std::ostream& out) { out.setstate(std::ios::badbit); }),
+  EXPECT_THROW(internal::WriteFileAtomically(file, [](std::ostream&) { throw MeshError("no"); }),
+               MeshError);
+  EXPECT_THROW(internal::WriteFileAtomically(
+                   file, [](std::ostream& out) { out.setstate(std::ios::badbit); }),
                FileError);
   EXPECT_EQ(testing::Content(file), "before");
   EXPECT_EQ(Count(), 1);
@@ -55,7 +57,7 @@ TEST_F(AtomicFileTest, TemporariesHaveNamesThatNobodyForesees) {
   std::filesystem::create_symlink(precious, file);
   std::set<std::string> names;
   for (int i = 0; i < 20; ++i) {
-    WriteFileAtomically(file, [&](std::ostream& out) {
+    internal::WriteFileAtomically(file, [&](std::ostream& out) {
       out << "new" << std::flush;
       for (const auto& entry : std::filesystem::directory_iterator(Path(""))) {
         if (!entry.is_symlink()) names.insert(entry.path().filename().string());
@@ -70,7 +72,7 @@ TEST_F(AtomicFileTest, TemporariesHaveNamesThatNobodyForesees) {
 
 TEST_F(AtomicFileTest, NewFilesHaveThePermissionsOfAllOthers) {
   std::ofstream(Path("plain")) << "x";
-  WriteFileAtomically(Path("atomic"), [](std::ostream& out) { out << "x"; });
+  internal::WriteFileAtomically(Path("atomic"), [](std::ostream& out) { out << "x"; });
   EXPECT_EQ(std::filesystem::status(Path("atomic")).permissions(),
             std::filesystem::status(Path("plain")).permissions());
 }
@@ -78,7 +80,7 @@ TEST_F(AtomicFileTest, NewFilesHaveThePermissionsOfAllOthers) {
 TEST_F(AtomicFileTest, ContentOfAnySizeIsWrittenAndItsPositionKnown) {
   std::string content;
   for (int i = 0; i < 100000; ++i) content += std::to_string(i);
-  WriteFileAtomically(Path("long"), [&](std::ostream& out) {
+  internal::WriteFileAtomically(Path("long"), [&](std::ostream& out) {
     for (size_t k = 0; k < content.size();) {
       const size_t count = std::min<size_t>(1 + k % 100001, content.size() - k);
       out.write(&content[k], static_cast<std::streamsize>(count));
@@ -104,7 +106,7 @@ TEST_F(AtomicFileTest, NothingIsLeftOfFilesThatAreAbandoned) {
   const auto abandon = [&] {
     std::promise<void> begun;
     std::thread([&] {
-      WriteFileAtomically(half, [&](std::ostream& out) {
+      internal::WriteFileAtomically(half, [&](std::ostream& out) {
         out << "half" << std::flush;
         begun.set_value();
         std::promise<void>().get_future().wait();
@@ -112,9 +114,9 @@ TEST_F(AtomicFileTest, NothingIsLeftOfFilesThatAreAbandoned) {
     }).detach();
     begun.get_future().wait();
     if (Count() != 2) std::_Exit(1);  // the file, and its temporary
-    AbandonUnfinishedFiles();
+    internal::AbandonUnfinishedFiles();
     std::thread([&] {
-      WriteFileAtomically(late, [](std::ostream& out) { out << "late"; });
+      internal::WriteFileAtomically(late, [](std::ostream& out) { out << "late"; });
     }).detach();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     std::_Exit(Count() == 1 ? 0 : 2);

@@ -1,4 +1,4 @@
-#include <shapespace/base/printable.h>
+#include <shapespace/base/internal/printable.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <shapespace/base/within_folder.h>
+#include <shapespace/base/internal/within_folder.h>
 
 #include "mesh/files.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 #include <shapespace/mesh/topology.h>
 
 #include "bodies/measure.h"

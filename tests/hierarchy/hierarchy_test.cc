@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 
 #include "bodies/measure.h"
 #include "hierarchy/meshes.h"

@@ -1,8 +1,8 @@
 #include <iostream>
 
 #include <shapespace/bodies/body.h>
+#include <shapespace/geodesic/geodesic.h>
 #include <shapespace/output/picture.h>
-#include <shapespace/solvers/geodesic.h>
 
 int main() {
   const shapespace::Body tube = shapespace::MakeBody("tube");

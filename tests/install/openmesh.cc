@@ -1,8 +1,8 @@
 // Converts an OpenMesh mesh to poses, and a pose back to an OpenMesh mesh.
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 
+#include <shapespace/files/read.h>
 #include <shapespace/mesh/openmesh.h>
-#include <shapespace/mesh/read.h>
 
 int main() {
   using Mesh = OpenMesh::PolyMesh_ArrayKernelT<>;

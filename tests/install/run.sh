@@ -25,7 +25,7 @@ done
 
 cmake --install "$build" --prefix "$work/prefix" >"$work/install.log"
 headers=$(cd "$work/prefix/include" && find shapespace -name '*.h' | sort | paste -sd ';')
-[[ $headers == *shapespace/solvers/geodesic.h* ]] || fail "headers are missing: $headers"
+[[ $headers == *shapespace/geodesic/geodesic.h* ]] || fail "headers are missing: $headers"
 
 flags=(-march=native -fsanitize=address)
 if grep -qw avx2 /proc/cpuinfo; then flags+=(-mavx2); fi
@@ -59,7 +59,7 @@ grep -q 'log area' report.txt || fail "a feature of one's own has no part in the
 
 # The core without Ceres: each of its headers alone, but for the one that defines features.
 core_headers=$(cd "$work/prefix/include" &&
-  find shapespace/{base,mesh,metric,path,hierarchy,analysis} -name '*.h' |
+  find shapespace/{base,mesh,files,metric,path,hierarchy,analysis} -name '*.h' |
   grep -vx shapespace/metric/define_feature.h | sort | paste -sd ';')
 cmake -S "$here/core" -B "$work/core" -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DHEADERS="$core_headers" \

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 
 #include "mesh/bodies.h"
 #include "mesh/files.h"

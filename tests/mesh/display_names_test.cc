@@ -1,4 +1,4 @@
-#include <shapespace/mesh/display_names.h>
+#include <shapespace/files/display_names.h>
 
 #include <gtest/gtest.h>
 

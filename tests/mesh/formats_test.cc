@@ -1,4 +1,4 @@
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 
 #include "mesh/files.h"
 

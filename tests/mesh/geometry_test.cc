@@ -1,4 +1,4 @@
-#include <shapespace/mesh/geometry.h>
+#include <shapespace/mesh/internal/geometry.h>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 
 #include "mesh/bodies.h"
 #include "mesh/files.h"

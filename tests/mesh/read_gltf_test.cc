@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 
 #include "mesh/files.h"
 

@@ -1,5 +1,5 @@
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 
 #include "mesh/files.h"
 

@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 
 #include "mesh/files.h"
 

@@ -2,8 +2,8 @@
 #include <sstream>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/read.h>
-#include <shapespace/mesh/write.h>
+#include <shapespace/files/read.h>
+#include <shapespace/files/write.h>
 
 #include "mesh/bodies.h"
 #include "mesh/files.h"

@@ -2,8 +2,8 @@
 #include <filesystem>
 
 #include <shapespace/base/error.h>
+#include <shapespace/files/read.h>
 #include <shapespace/mesh/check.h>
-#include <shapespace/mesh/read.h>
 #include <shapespace/mesh/topology.h>
 
 #include "mesh/files.h"

@@ -1,4 +1,4 @@
-#include <shapespace/mesh/vertex_field.h>
+#include <shapespace/files/vertex_field.h>
 
 #include <gtest/gtest.h>
 

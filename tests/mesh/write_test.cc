@@ -6,9 +6,9 @@
 #include <random>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
+#include <shapespace/files/write.h>
 #include <shapespace/mesh/triangulate.h>
-#include <shapespace/mesh/write.h>
 
 #include "mesh/bodies.h"
 #include "mesh/files.h"

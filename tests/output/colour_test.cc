@@ -1,4 +1,4 @@
-#include <shapespace/output/colour.h>
+#include <shapespace/output/internal/colour.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <shapespace/output/frames.h>
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 #include <shapespace/path/path_file.h>
 
 #include "mesh/files.h"

@@ -1,8 +1,8 @@
 #include <set>
 #include <tuple>
 
-#include <shapespace/output/colour.h>
 #include <shapespace/output/gltf.h>
+#include <shapespace/output/internal/colour.h>
 #include <shapespace/output/picture.h>
 
 #include "mesh/bodies.h"

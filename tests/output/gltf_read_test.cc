@@ -1,4 +1,4 @@
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/gltf.h>
 

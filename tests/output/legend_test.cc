@@ -1,8 +1,8 @@
-#include <shapespace/output/legend.h>
+#include <shapespace/output/internal/legend.h>
 
 #include <gtest/gtest.h>
 
-#include <shapespace/output/colour.h>
+#include <shapespace/output/internal/colour.h>
 
 namespace shapespace {
 namespace {

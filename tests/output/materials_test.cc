@@ -1,4 +1,4 @@
-#include <shapespace/output/materials.h>
+#include <shapespace/output/internal/materials.h>
 
 #include "mesh/files.h"
 

@@ -1,4 +1,4 @@
-#include <shapespace/output/normals.h>
+#include <shapespace/output/internal/normals.h>
 
 #include <gtest/gtest.h>
 

@@ -258,7 +258,7 @@ TEST_F(PageTest, WritesSpacesForOtherTests) {
   const char* const folder = std::getenv("SHAPESPACE_PAGE_DIR");
   const char* const page = std::getenv("SHAPESPACE_PAGE_TEMPLATE");
   if (folder == nullptr || page == nullptr) GTEST_SKIP() << "SHAPESPACE_PAGE_DIR is not set";
-  const std::string viewer = ReadFile(page);
+  const std::string viewer = internal::ReadFile(page);
   WritePage(std::string(folder) + "/space.html", viewer, {TubeSpace(2000)});
   PageSpace line = TubeSpace(500);
   line.names.pop_back();
@@ -271,7 +271,7 @@ TEST_F(PageTest, WritesSpacesForOtherTests) {
   line.name = "line.space";
   WritePage(std::string(folder) + "/line.html", viewer, {line});
   for (const char* name : {"/space.html", "/line.html"}) {
-    EXPECT_GT(ReadFile(folder + std::string(name)).size(), viewer.size()) << name;
+    EXPECT_GT(internal::ReadFile(folder + std::string(name)).size(), viewer.size()) << name;
   }
 }
 

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-#include <shapespace/base/read_file.h>
+#include <shapespace/base/internal/read_file.h>
 
 namespace shapespace {
 
@@ -34,7 +34,7 @@ inline std::string FromBase64(const std::string& text) {
 }
 
 inline std::vector<PageElement> ReadPage(const std::string& file) {
-  const std::string page = ReadFile(file);
+  const std::string page = internal::ReadFile(file);
   std::vector<PageElement> elements;
   const auto between = [&](const std::string& begin, const std::string& end, size_t* at) {
     const size_t from = page.find(begin, *at) + begin.size();

@@ -2,7 +2,7 @@
 
 #include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 #include <shapespace/output/frames.h>
 
 #include "mesh/bodies.h"

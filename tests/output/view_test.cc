@@ -1,4 +1,4 @@
-#include <shapespace/output/view.h>
+#include <shapespace/output/internal/view.h>
 
 #include <filesystem>
 #include <string>
@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 
 #include "output/bodies.h"
 

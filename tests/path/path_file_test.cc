@@ -16,8 +16,8 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
-#include <shapespace/path/array_file.h>
 #include <shapespace/path/energy.h>
+#include <shapespace/path/internal/array_file.h>
 
 #include "support/message_of.h"
 #include "support/paths.h"

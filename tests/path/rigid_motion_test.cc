@@ -1,4 +1,4 @@
-#include <shapespace/path/rigid_motion.h>
+#include <shapespace/mesh/rigid_motion.h>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

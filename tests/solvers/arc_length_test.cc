@@ -1,4 +1,4 @@
-#include <shapespace/solvers/optimise/arc_length.h>
+#include <shapespace/geodesic/internal/arc_length.h>
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include <shapespace/solvers/correction.h>
+#include <shapespace/exponential/correction.h>
 
 #include <cmath>
 #include <limits>
@@ -14,8 +14,8 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/bricard.h>
 #include <shapespace/bodies/sheet.h>
+#include <shapespace/cost/path_energy.h>
 #include <shapespace/path/energy.h>
-#include <shapespace/solvers/cost/path_energy.h>
 
 #include "support/listener.h"
 #include "support/message_of.h"

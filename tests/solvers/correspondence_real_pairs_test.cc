@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include <shapespace/mesh/read.h>
-#include <shapespace/solvers/correspondence.h>
-#include <shapespace/solvers/correspondence/marker_distances.h>
-#include <shapespace/solvers/marker_file.h>
+#include <shapespace/correspondence/correspondence.h>
+#include <shapespace/correspondence/internal/marker_distances.h>
+#include <shapespace/correspondence/marker_file.h>
+#include <shapespace/files/read.h>
 
 #include "bodies/measure.h"
 

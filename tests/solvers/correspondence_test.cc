@@ -1,4 +1,4 @@
-#include <shapespace/solvers/correspondence.h>
+#include <shapespace/correspondence/correspondence.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,10 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
-#include <shapespace/solvers/correspondence/closest.h>
-#include <shapespace/solvers/correspondence_picture.h>
-#include <shapespace/solvers/deformation.h>
-#include <shapespace/solvers/transfer.h>
+#include <shapespace/correspondence/correspondence_picture.h>
+#include <shapespace/correspondence/internal/closest.h>
+#include <shapespace/deformation/deformation.h>
+#include <shapespace/transfer/transfer.h>
 
 #include "support/listener.h"
 #include "support/message_of.h"

@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include <shapespace/mesh/read.h>
-#include <shapespace/path/rigid_motion.h>
-#include <shapespace/solvers/deformation.h>
-#include <shapespace/solvers/repair.h>
+#include <shapespace/deformation/deformation.h>
+#include <shapespace/deformation/repair.h>
+#include <shapespace/files/read.h>
+#include <shapespace/mesh/rigid_motion.h>
 
 #include "support/motions.h"
 

@@ -1,4 +1,4 @@
-#include <shapespace/solvers/deformation.h>
+#include <shapespace/deformation/deformation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +15,8 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
+#include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/mesh/topology.h>
-#include <shapespace/path/rigid_motion.h>
 
 #include "support/listener.h"
 #include "support/message_of.h"

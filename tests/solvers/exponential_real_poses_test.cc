@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include <shapespace/mesh/read.h>
-#include <shapespace/solvers/exponential.h>
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/files/read.h>
 
 #include "support/motions.h"
 

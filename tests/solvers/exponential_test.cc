@@ -1,4 +1,4 @@
-#include <shapespace/solvers/exponential.h>
+#include <shapespace/exponential/exponential.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@
 #include <shapespace/bodies/skinned.h>
 #include <shapespace/bodies/steffen.h>
 #include <shapespace/bodies/tube.h>
+#include <shapespace/deformation/deformation.h>
 #include <shapespace/metric/feature_map.h>
-#include <shapespace/solvers/deformation.h>
 
 #include "support/features.h"
 #include "support/listener.h"

@@ -1,4 +1,4 @@
-#include <shapespace/solvers/optimise/free_end_preconditioner.h>
+#include <shapespace/deformation/internal/free_end_preconditioner.h>
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include <shapespace/solvers/geodesic.h>
+#include <shapespace/geodesic/geodesic.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <shapespace/solvers/handle_file.h>
+#include <shapespace/deformation/handle_file.h>
 
 #include <set>
 

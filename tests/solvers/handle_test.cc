@@ -1,4 +1,4 @@
-#include <shapespace/solvers/handle.h>
+#include <shapespace/deformation/handle.h>
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include <shapespace/solvers/transfer.h>
+#include <shapespace/transfer/transfer.h>
 
 #include <algorithm>
 

@@ -5,8 +5,8 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
-#include <shapespace/solvers/optimise/line_search.h>
-#include <shapespace/solvers/optimise/minimise.h>
+#include <shapespace/numerics/internal/line_search.h>
+#include <shapespace/numerics/internal/minimise.h>
 
 #include "support/paths.h"
 
@@ -64,7 +64,7 @@ TEST(Minimise, AllThreeReachTheSameMinimum) {
     const MinimiseResult b =
         MinimiseLbfgs(ObjectiveOf(&problem.energy), &problem.variables, options, &ceres);
     const MinimiseResult c = MinimiseTrustRegion(*problem.metric, 1, options, &problem.shapes);
-    EXPECT_EQ(a.stop, Stop::kConverged);
+    EXPECT_EQ(a.termination, Termination::kConverged);
     EXPECT_NEAR(a.energy, b.energy, 1e-7 * b.energy);
     EXPECT_NEAR(a.energy, c.energy, 1e-7 * c.energy);
     EXPECT_EQ(a.initial_energy, b.initial_energy);
@@ -79,7 +79,7 @@ TEST(ThreadedLbfgs, ReachesTinyTolerancesWithAShortHistoryToo) {
     options.rank = rank;
     std::vector<double> unknowns = problem.start;
     const MinimiseResult result = problem.Ours(options, &unknowns);
-    EXPECT_EQ(result.stop, Stop::kConverged);
+    EXPECT_EQ(result.termination, Termination::kConverged);
     EXPECT_LT(result.remaining, 1e-8);
     EXPECT_NEAR(result.remaining,
                 RemainingDecrease(ObjectiveOf(&problem.energy), &problem.variables, unknowns),
@@ -104,7 +104,7 @@ TEST(ThreadedLbfgs, FindsTheScaleOfThePreconditioner) {
           for (size_t k = 0; k < problem.start.size(); ++k) step[k] *= factor;
         },
         Tolerance(1e-8), &unknowns);
-    EXPECT_EQ(result.stop, Stop::kConverged);
+    EXPECT_EQ(result.termination, Termination::kConverged);
     EXPECT_LT(result.evaluations, 1.2 * result.iterations + 8);
     if (factor == 1) evaluations = result.evaluations;
     EXPECT_LT(result.evaluations, 1.3 * evaluations + 8);
@@ -117,7 +117,7 @@ TEST(ThreadedLbfgs, DoesNothingAtAMinimum) {
   const MinimiseResult result = problem.Ours(Tolerance(1e-13), &unknowns);
   const std::vector<double> minimum = unknowns;
   const MinimiseResult again = problem.Ours(Tolerance(1e-4), &unknowns);
-  EXPECT_EQ(again.stop, Stop::kConverged);
+  EXPECT_EQ(again.termination, Termination::kConverged);
   EXPECT_EQ(again.iterations, 0);
   EXPECT_EQ(again.evaluations, 1);
   EXPECT_EQ(again.energy, result.energy);
@@ -131,7 +131,7 @@ TEST(ThreadedLbfgs, AcceptsAnEnergyOfRounding) {
   problem.energy.Load(std::vector<Shape>(5, shape), problem.start.data());
   std::vector<double> unknowns = problem.start;
   const MinimiseResult result = problem.Ours({}, &unknowns);
-  EXPECT_EQ(result.stop, Stop::kConverged);
+  EXPECT_EQ(result.termination, Termination::kConverged);
   EXPECT_LT(result.energy, 1e-30);
   EXPECT_TRUE(unknowns == problem.start);
 }
@@ -151,7 +151,7 @@ TEST(Minimise, EnoughEndsASolveThatHasGainedMostOfWhatThereIs) {
     std::vector<double> unknowns;
     const MinimiseResult full = solve(0, &unknowns);
     const MinimiseResult some = solve(1e-2, &unknowns);
-    EXPECT_EQ(some.stop, Stop::kConverged);
+    EXPECT_EQ(some.termination, Termination::kConverged);
     EXPECT_LT(some.iterations, full.iterations);
     EXPECT_LT(some.initial_energy - full.energy, 1.1 * (some.initial_energy - some.energy));
     EXPECT_EQ(some.energy, problem.energy.Evaluate(unknowns.data(), nullptr));
@@ -168,7 +168,7 @@ TEST(ThreadedLbfgs, KeepsItsLimitsAndCanBeCancelled) {
   options.max_iterations = 4;
   std::vector<double> unknowns = problem.start;
   const MinimiseResult result = problem.Ours(options, &unknowns);
-  EXPECT_EQ(result.stop, Stop::kMaxIterations);
+  EXPECT_EQ(result.termination, Termination::kMaxIterations);
   EXPECT_EQ(result.iterations, 4);
   for (int last : {0, 2}) {
     options.keep_going = [&](int iteration, double) { return iteration < last; };
@@ -177,7 +177,7 @@ TEST(ThreadedLbfgs, KeepsItsLimitsAndCanBeCancelled) {
       const MinimiseResult stopped = ours ? problem.Ours(options, &unknowns)
                                           : MinimiseLbfgs(ObjectiveOf(&problem.energy),
                                                           &problem.variables, options, &unknowns);
-      EXPECT_EQ(stopped.stop, Stop::kCancelled);
+      EXPECT_EQ(stopped.termination, Termination::kCancelled);
       EXPECT_EQ(stopped.iterations, last);
       EXPECT_EQ(stopped.energy<stopped.initial_energy, last> 0);
       EXPECT_NEAR(problem.energy.Evaluate(unknowns.data(), nullptr), stopped.energy,

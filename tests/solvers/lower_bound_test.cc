@@ -8,7 +8,7 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
-#include <shapespace/solvers/geodesic.h>
+#include <shapespace/geodesic/geodesic.h>
 
 #include "support/blends.h"
 #include "support/motions.h"

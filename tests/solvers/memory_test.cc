@@ -8,11 +8,11 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
-#include <shapespace/solvers/correspondence.h>
-#include <shapespace/solvers/deformation.h>
-#include <shapespace/solvers/geodesic.h>
-#include <shapespace/solvers/transfer.h>
-#include <shapespace/solvers/transport.h>
+#include <shapespace/correspondence/correspondence.h>
+#include <shapespace/deformation/deformation.h>
+#include <shapespace/exponential/transport.h>
+#include <shapespace/geodesic/geodesic.h>
+#include <shapespace/transfer/transfer.h>
 
 #include "support/listener.h"
 #include "support/message_of.h"

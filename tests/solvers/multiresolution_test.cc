@@ -13,9 +13,9 @@
 #include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
+#include <shapespace/geodesic/geodesic.h>
+#include <shapespace/geodesic/internal/schedule.h>
 #include <shapespace/hierarchy/hierarchy.h>
-#include <shapespace/solvers/geodesic.h>
-#include <shapespace/solvers/optimise/schedule.h>
 #include "support/paths.h"
 
 namespace shapespace {

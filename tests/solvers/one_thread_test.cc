@@ -1,4 +1,4 @@
-#include <shapespace/solvers/optimise/one_thread.h>
+#include <shapespace/numerics/internal/one_thread.h>
 
 #include <dlfcn.h>
 
@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/bodies/bar.h>
-#include <shapespace/solvers/exponential.h>
-#include <shapespace/solvers/geodesic.h>
-#include <shapespace/solvers/transport.h>
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/exponential/transport.h>
+#include <shapespace/geodesic/geodesic.h>
 
 #include "support/paths.h"
 

@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/bodies/bar.h>
-#include <shapespace/solvers/deformation.h>
-#include <shapespace/solvers/exponential.h>
-#include <shapespace/solvers/geodesic.h>
-#include <shapespace/solvers/transfer.h>
-#include <shapespace/solvers/transport.h>
+#include <shapespace/deformation/deformation.h>
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/exponential/transport.h>
+#include <shapespace/geodesic/geodesic.h>
+#include <shapespace/transfer/transfer.h>
 
 #include "support/motions.h"
 #include "support/own_features.h"

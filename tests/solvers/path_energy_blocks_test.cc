@@ -7,10 +7,10 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
-#include <shapespace/mesh/read.h>
+#include <shapespace/cost/path_energy.h>
+#include <shapespace/files/read.h>
+#include <shapespace/geodesic/geodesic.h>
 #include <shapespace/path/energy.h>
-#include <shapespace/solvers/cost/path_energy.h>
-#include <shapespace/solvers/geodesic.h>
 
 #include "support/message_of.h"
 #include "support/motions.h"

@@ -1,4 +1,4 @@
-#include <shapespace/solvers/optimise/preconditioner.h>
+#include <shapespace/numerics/internal/preconditioner.h>
 
 #include <sys/resource.h>
 

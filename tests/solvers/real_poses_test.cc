@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <shapespace/mesh/read.h>
-#include <shapespace/solvers/geodesic.h>
+#include <shapespace/files/read.h>
+#include <shapespace/geodesic/geodesic.h>
 
 namespace shapespace {
 namespace {

@@ -1,4 +1,4 @@
-#include <shapespace/solvers/repair.h>
+#include <shapespace/deformation/repair.h>
 
 #include <cmath>
 

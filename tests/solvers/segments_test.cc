@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <shapespace/solvers/deformation.h>
-#include <shapespace/solvers/geodesic.h>
+#include <shapespace/deformation/deformation.h>
+#include <shapespace/geodesic/geodesic.h>
 
 #include "support/motions.h"
 #include "support/whiskered.h"

@@ -1,4 +1,4 @@
-#include <shapespace/solvers/optimise/shooter.h>
+#include <shapespace/exponential/internal/shooter.h>
 
 #include <memory>
 
@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/bodies/skinned.h>
-#include <shapespace/solvers/geodesic.h>
+#include <shapespace/geodesic/geodesic.h>
 
 #include "support/motions.h"
 

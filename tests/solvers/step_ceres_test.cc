@@ -1,4 +1,4 @@
-#include <shapespace/solvers/optimise/step_ceres.h>
+#include <shapespace/exponential/internal/step_ceres.h>
 
 #include <cmath>
 #include <string>
@@ -10,7 +10,7 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/bricard.h>
 #include <shapespace/bodies/sheet.h>
-#include <shapespace/solvers/cost/path_energy.h>
+#include <shapespace/cost/path_energy.h>
 
 #include "support/message_of.h"
 #include "support/paths.h"

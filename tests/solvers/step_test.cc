@@ -1,4 +1,4 @@
-#include <shapespace/solvers/optimise/step.h>
+#include <shapespace/exponential/internal/step.h>
 
 #include <memory>
 
@@ -6,7 +6,7 @@
 
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/skinned.h>
-#include <shapespace/solvers/geodesic.h>
+#include <shapespace/geodesic/geodesic.h>
 
 #include "support/motions.h"
 #include "support/paths.h"

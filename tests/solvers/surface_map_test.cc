@@ -1,10 +1,10 @@
-#include <shapespace/solvers/surface_map.h>
+#include <shapespace/correspondence/surface_map.h>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
-#include <shapespace/solvers/marker_file.h>
+#include <shapespace/correspondence/marker_file.h>
 
 #include "mesh/files.h"
 #include "support/motions.h"

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include <shapespace/mesh/read.h>
-#include <shapespace/solvers/transfer.h>
+#include <shapespace/files/read.h>
+#include <shapespace/transfer/transfer.h>
 
 #include "support/transfer_cases.h"
 

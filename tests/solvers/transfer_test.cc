@@ -1,4 +1,4 @@
-#include <shapespace/solvers/transfer.h>
+#include <shapespace/transfer/transfer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/skinned.h>
-#include <shapespace/solvers/optimise/feature_transfer.h>
+#include <shapespace/transfer/internal/feature_transfer.h>
 
 #include "support/listener.h"
 #include "support/message_of.h"

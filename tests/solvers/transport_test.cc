@@ -1,4 +1,4 @@
-#include <shapespace/solvers/transport.h>
+#include <shapespace/exponential/transport.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@
 #include <shapespace/bodies/miura.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/steffen.h>
+#include <shapespace/exponential/exponential.h>
 #include <shapespace/metric/feature_map.h>
-#include <shapespace/solvers/exponential.h>
 
 #include "support/message_of.h"
 #include "support/motions.h"

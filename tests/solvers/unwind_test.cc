@@ -1,4 +1,4 @@
-#include <shapespace/solvers/optimise/unwind.h>
+#include <shapespace/geodesic/internal/unwind.h>
 
 #include <algorithm>
 #include <cmath>

@@ -11,9 +11,9 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/bodies/body.h>
+#include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/path.h>
-#include <shapespace/path/rigid_motion.h>
 
 namespace shapespace::testing {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <shapespace/bodies/quadruped.h>
-#include <shapespace/solvers/correspondence.h>
+#include <shapespace/correspondence/correspondence.h>
 
 namespace shapespace::testing {
 

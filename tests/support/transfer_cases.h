@@ -8,7 +8,7 @@
 #include <Eigen/SparseCholesky>
 
 #include <shapespace/bodies/bar.h>
-#include <shapespace/path/rigid_motion.h>
+#include <shapespace/mesh/rigid_motion.h>
 
 #include "support/motions.h"
 #include "support/path_of.h"

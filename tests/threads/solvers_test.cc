@@ -5,16 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/bodies/bar.h>
+#include <shapespace/correspondence/correspondence.h>
+#include <shapespace/deformation/deformation.h>
+#include <shapespace/exploration/explore.h>
+#include <shapespace/exponential/correction.h>
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/exponential/transport.h>
+#include <shapespace/geodesic/geodesic.h>
+#include <shapespace/numerics/internal/minimise.h>
 #include <shapespace/path/energy.h>
-#include <shapespace/solvers/correction.h>
-#include <shapespace/solvers/correspondence.h>
-#include <shapespace/solvers/deformation.h>
-#include <shapespace/solvers/exploration/explore.h>
-#include <shapespace/solvers/exponential.h>
-#include <shapespace/solvers/geodesic.h>
-#include <shapespace/solvers/optimise/minimise.h>
-#include <shapespace/solvers/transfer.h>
-#include <shapespace/solvers/transport.h>
+#include <shapespace/transfer/transfer.h>
 
 #include "solvers/exploration/spaces.h"
 #include "support/motions.h"

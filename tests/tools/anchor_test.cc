@@ -1,5 +1,5 @@
-#include <shapespace/mesh/read.h>
-#include <shapespace/mesh/write.h>
+#include <shapespace/files/read.h>
+#include <shapespace/files/write.h>
 #include <shapespace/path/path_file.h>
 
 #include "tools/run.h"

@@ -1,6 +1,6 @@
 #include <shapespace/bodies/body.h>
 #include <shapespace/bodies/skinned.h>
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 
 #include "tools/run.h"
 

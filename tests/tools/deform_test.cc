@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
+#include <shapespace/files/write.h>
 #include <shapespace/mesh/volume.h>
-#include <shapespace/mesh/write.h>
 #include <shapespace/path/path_file.h>
 
 #include "output/read_glb.h"

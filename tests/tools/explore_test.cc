@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 
 #include "tools/run.h"
 

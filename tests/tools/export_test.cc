@@ -1,4 +1,4 @@
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 #include <shapespace/path/path_file.h>
 
 #include "tools/run.h"

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/analysis/quality.h>
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 #include <shapespace/path/path_file.h>
 
 #include "tools/run.h"

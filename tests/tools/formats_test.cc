@@ -1,7 +1,7 @@
 #include <regex>
 #include <sstream>
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 #include <shapespace/path/path_file.h>
 
 #include "tools/run.h"

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 #include <shapespace/output/picture.h>
 #include <shapespace/path/path_file.h>
 

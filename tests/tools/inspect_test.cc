@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 
-#include <shapespace/mesh/read.h>
-#include <shapespace/mesh/write.h>
+#include <shapespace/files/read.h>
+#include <shapespace/files/write.h>
 
 #include "mesh/bodies.h"
 #include "tools/run.h"

@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
-#include <shapespace/mesh/read.h>
-#include <shapespace/mesh/write.h>
+#include <shapespace/files/read.h>
+#include <shapespace/files/write.h>
 #include <shapespace/path/path_file.h>
 
 #include "mesh/bodies.h"

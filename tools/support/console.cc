@@ -8,8 +8,8 @@
 #include <limits>
 #include <streambuf>
 
-#include <shapespace/base/printable.h>
-#include <shapespace/base/stopwatch.h>
+#include <shapespace/base/internal/printable.h>
+#include <shapespace/base/internal/stopwatch.h>
 
 namespace shapespace::tools {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gflags/gflags.h>
 
-#include <shapespace/mesh/read.h>
-#include <shapespace/solvers/correspondence.h>
+#include <shapespace/correspondence/correspondence.h>
+#include <shapespace/files/read.h>
 
 DECLARE_string(markers);
 

@@ -9,8 +9,8 @@
 #include <map>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/extension.h>
-#include <shapespace/mesh/write.h>
+#include <shapespace/base/internal/extension.h>
+#include <shapespace/files/write.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/path/path_file.h>
 
@@ -21,7 +21,8 @@ namespace shapespace::tools {
 namespace {
 
 bool IsFramePattern(const std::string& file) {
-  return (IsWritableMesh(file) || FileExtension(file) == ".vtp") && file.find('%') != file.npos;
+  return (IsWritableMesh(file) || internal::FileExtension(file) == ".vtp") &&
+         file.find('%') != file.npos;
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ void CheckCanBeWritten(const std::string& file) {
   }
 }
 
-bool IsPathFile(const std::string& file) { return FileExtension(file) == ".path"; }
+bool IsPathFile(const std::string& file) { return internal::FileExtension(file) == ".path"; }
 
 Path ReadPathAndTell(const std::string& file) {
   Path path = ReadPath(file);

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/write.h>
+#include <shapespace/files/write.h>
 #include <shapespace/output/frames.h>
 
 #include "support/tool.h"

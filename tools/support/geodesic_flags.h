@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <shapespace/solvers/geodesic.h>
+#include <shapespace/geodesic/geodesic.h>
 
 namespace shapespace::tools {
 

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include <shapespace/base/atomic_file.h>
+#include <shapespace/base/internal/atomic_file.h>
 
 namespace shapespace::tools {
 namespace {
@@ -37,7 +37,7 @@ void Receive(int signal) {
 
 [[noreturn]] void EndBy(int signal) {
   TheState().before_the_end();
-  AbandonUnfinishedFiles();
+  internal::AbandonUnfinishedFiles();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
   std::_Exit(128 + signal);

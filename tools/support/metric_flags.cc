@@ -5,7 +5,7 @@
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/vertex_field.h>
+#include <shapespace/files/vertex_field.h>
 
 #include "support/tool.h"
 

@@ -1,7 +1,7 @@
 #ifndef SHAPESPACE_TOOLS_SUPPORT_METRIC_FLAGS_H_
 #define SHAPESPACE_TOOLS_SUPPORT_METRIC_FLAGS_H_
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 #include <shapespace/metric/metric.h>
 
 namespace shapespace::tools {

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include <shapespace/solvers/exploration/crew.h>
+#include <shapespace/exploration/crew.h>
 
 namespace shapespace::tools {
 

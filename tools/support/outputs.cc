@@ -13,8 +13,8 @@
 #include <shapespace/analysis/quality.h>
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
-#include <shapespace/base/extension.h>
-#include <shapespace/mesh/write.h>
+#include <shapespace/base/internal/extension.h>
+#include <shapespace/files/write.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/gltf.h>
 #include <shapespace/output/picture.h>
@@ -63,7 +63,7 @@ enum class Kind { kPath, kPicture, kGltf, kPointCache, kFrames, kVtk, kLastShape
 bool writes_last_shape_alone = false;
 
 Kind KindOf(const std::string& output, const std::string& flag = "output") {
-  const std::string extension = FileExtension(output);
+  const std::string extension = internal::FileExtension(output);
   if (IsWritableMesh(output)) {
     if (writes_last_shape_alone && output.find('%') == output.npos) return Kind::kLastShape;
     CheckFramePattern(flag, output);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 
 namespace shapespace::tools {
 

@@ -4,9 +4,9 @@
 
 #include <gflags/gflags.h>
 
-#include <shapespace/base/atomic_file.h>
 #include <shapespace/base/error.h>
-#include <shapespace/base/extension.h>
+#include <shapespace/base/internal/atomic_file.h>
+#include <shapespace/base/internal/extension.h>
 
 #include "support/interrupt.h"
 #include "support/tool.h"
@@ -23,7 +23,7 @@ namespace shapespace::tools {
 FlagOutputs ReportFromFlag() {
   if (FLAGS_report == "-") ResultsToStderr();
   if (FLAGS_report.empty() || FLAGS_report == "-") return {"report", {}};
-  const std::string extension = FileExtension(FLAGS_report);
+  const std::string extension = internal::FileExtension(FLAGS_report);
   if (extension != ".json" && extension != ".txt") {
     throw UsageError("--report " + FLAGS_report + ": must end in .json or .txt, or be -");
   }
@@ -45,8 +45,8 @@ void WriteReport(const std::string& text, const std::string& json) {
     return;
   }
   try {
-    WriteFileAtomically(FLAGS_report, [&](std::ostream& out) {
-      out << (FileExtension(FLAGS_report) == ".txt" ? text : json);
+    internal::WriteFileAtomically(FLAGS_report, [&](std::ostream& out) {
+      out << (internal::FileExtension(FLAGS_report) == ".txt" ? text : json);
     });
     Out() << "wrote " << FLAGS_report << '\n';
   } catch (const Error& error) {

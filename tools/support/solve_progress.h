@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/progress.h>
-#include <shapespace/base/stopwatch.h>
 
 #include "support/interrupt.h"
 

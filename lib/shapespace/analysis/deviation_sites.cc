@@ -6,7 +6,7 @@
 
 #include <shapespace/analysis/quality.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/mesh/sides.h>
+#include <shapespace/mesh/internal/sides.h>
 
 namespace shapespace {
 namespace {

@@ -11,11 +11,11 @@
 
 #include <Eigen/Geometry>
 
-#include <shapespace/base/embree.h>
 #include <shapespace/base/error.h>
-#include <shapespace/base/fork_join.h>
+#include <shapespace/base/internal/embree.h>
+#include <shapespace/base/internal/fork_join.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/mesh/geometry.h>
+#include <shapespace/mesh/internal/geometry.h>
 
 namespace shapespace {
 namespace {

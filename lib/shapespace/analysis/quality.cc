@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include <shapespace/analysis/straight_lengths.h>
+#include <shapespace/analysis/internal/straight_lengths.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/mesh/geometry.h>
+#include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/path/energy.h>
 
 namespace shapespace {

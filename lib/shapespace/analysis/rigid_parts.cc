@@ -7,11 +7,11 @@
 
 #include <Eigen/Geometry>
 
-#include <shapespace/analysis/region_merger.h>
+#include <shapespace/analysis/internal/region_merger.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/mesh/geometry.h>
-#include <shapespace/path/rigid_motion.h>
+#include <shapespace/mesh/internal/geometry.h>
+#include <shapespace/mesh/rigid_motion.h>
 
 namespace shapespace {
 namespace {

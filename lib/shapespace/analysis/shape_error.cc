@@ -4,7 +4,7 @@
 #include <limits>
 
 #include <shapespace/analysis/quality.h>
-#include <shapespace/mesh/geometry.h>
+#include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/volume.h>
 
 namespace shapespace {

@@ -12,7 +12,7 @@
 #include <tbb/task_arena.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/fork_join.h>
+#include <shapespace/base/internal/fork_join.h>
 
 namespace shapespace {
 namespace {

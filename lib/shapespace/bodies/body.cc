@@ -5,17 +5,17 @@
 #include <utility>
 
 #include <shapespace/bodies/bar.h>
-#include <shapespace/bodies/bend.h>
 #include <shapespace/bodies/bricard.h>
 #include <shapespace/bodies/catenoid.h>
-#include <shapespace/bodies/checks.h>
-#include <shapespace/bodies/grid.h>
+#include <shapespace/bodies/internal/bend.h>
+#include <shapespace/bodies/internal/checks.h>
+#include <shapespace/bodies/internal/grid.h>
 #include <shapespace/bodies/miura.h>
 #include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/steffen.h>
 #include <shapespace/bodies/tube.h>
-#include <shapespace/mesh/geometry.h>
+#include <shapespace/mesh/internal/geometry.h>
 
 namespace shapespace {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <utility>
 
-#include <shapespace/bodies/bend.h>
-#include <shapespace/bodies/checks.h>
-#include <shapespace/bodies/grid.h>
-#include <shapespace/mesh/geometry.h>
+#include <shapespace/bodies/internal/bend.h>
+#include <shapespace/bodies/internal/checks.h>
+#include <shapespace/bodies/internal/grid.h>
+#include <shapespace/mesh/internal/geometry.h>
 
 namespace shapespace {
 namespace {

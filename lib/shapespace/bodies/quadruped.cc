@@ -8,12 +8,12 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
-#include <shapespace/bodies/bend.h>
-#include <shapespace/bodies/checks.h>
-#include <shapespace/bodies/polygonise.h>
-#include <shapespace/bodies/quadruped_poses.h>
-#include <shapespace/bodies/skeleton.h>
-#include <shapespace/mesh/geometry.h>
+#include <shapespace/bodies/internal/bend.h>
+#include <shapespace/bodies/internal/checks.h>
+#include <shapespace/bodies/internal/polygonise.h>
+#include <shapespace/bodies/internal/quadruped_poses.h>
+#include <shapespace/bodies/internal/skeleton.h>
+#include <shapespace/mesh/internal/geometry.h>
 
 namespace shapespace {
 namespace {

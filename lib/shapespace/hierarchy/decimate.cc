@@ -9,8 +9,8 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
-#include <shapespace/hierarchy/quadric.h>
-#include <shapespace/mesh/geometry.h>
+#include <shapespace/hierarchy/internal/quadric.h>
+#include <shapespace/mesh/internal/geometry.h>
 
 namespace shapespace {
 namespace {

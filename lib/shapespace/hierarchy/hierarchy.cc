@@ -6,7 +6,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/hierarchy/decimate.h>
-#include <shapespace/hierarchy/detail.h>
+#include <shapespace/hierarchy/internal/detail.h>
 
 namespace shapespace {
 namespace {

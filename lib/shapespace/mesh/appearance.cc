@@ -1,7 +1,7 @@
 #include <shapespace/mesh/appearance.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/text.h>
+#include <shapespace/base/internal/text.h>
 
 namespace shapespace {
 namespace {

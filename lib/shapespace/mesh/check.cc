@@ -7,12 +7,12 @@
 
 #include <Eigen/Geometry>
 
-#include <shapespace/mesh/check_positions.h>
-#include <shapespace/mesh/check_structure.h>
-#include <shapespace/mesh/check_words.h>
 #include <shapespace/mesh/connectivity.h>
-#include <shapespace/mesh/sides.h>
-#include <shapespace/mesh/sorted_polygons.h>
+#include <shapespace/mesh/internal/check_positions.h>
+#include <shapespace/mesh/internal/check_structure.h>
+#include <shapespace/mesh/internal/check_words.h>
+#include <shapespace/mesh/internal/sides.h>
+#include <shapespace/mesh/internal/sorted_polygons.h>
 #include <shapespace/mesh/topology.h>
 
 namespace shapespace {

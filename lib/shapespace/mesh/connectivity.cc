@@ -6,7 +6,7 @@
 #include <string>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/polygons.h>
+#include <shapespace/mesh/internal/polygons.h>
 
 namespace shapespace {
 namespace {

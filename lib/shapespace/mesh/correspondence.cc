@@ -7,11 +7,11 @@
 #include <Eigen/Core>
 
 #include <shapespace/mesh/check.h>
-#include <shapespace/mesh/check_structure.h>
-#include <shapespace/mesh/check_words.h>
-#include <shapespace/mesh/polygons.h>
-#include <shapespace/mesh/sides.h>
-#include <shapespace/mesh/sorted_polygons.h>
+#include <shapespace/mesh/internal/check_structure.h>
+#include <shapespace/mesh/internal/check_words.h>
+#include <shapespace/mesh/internal/polygons.h>
+#include <shapespace/mesh/internal/sides.h>
+#include <shapespace/mesh/internal/sorted_polygons.h>
 #include <shapespace/mesh/volume.h>
 
 namespace shapespace {

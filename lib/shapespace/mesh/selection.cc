@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/quoted.h>
-#include <shapespace/mesh/selection_json.h>
-#include <shapespace/mesh/text.h>
+#include <shapespace/base/internal/quoted.h>
+#include <shapespace/base/internal/text.h>
+#include <shapespace/mesh/internal/selection_json.h>
 
 namespace shapespace {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 
-#include <shapespace/mesh/sides.h>
+#include <shapespace/mesh/internal/sides.h>
 
 namespace shapespace {
 namespace {

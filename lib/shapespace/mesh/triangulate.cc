@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/polygons.h>
+#include <shapespace/mesh/internal/polygons.h>
 
 namespace shapespace {
 namespace {

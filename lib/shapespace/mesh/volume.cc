@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include <shapespace/mesh/geometry.h>
+#include <shapespace/mesh/internal/geometry.h>
 
 namespace shapespace {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include <shapespace/mesh/geometry.h>
+#include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/metric/metric_basis.h>
 
 namespace shapespace {

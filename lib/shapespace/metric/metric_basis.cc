@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
-#include <shapespace/mesh/geometry.h>
+#include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/metric/metric.h>
 
 namespace shapespace {

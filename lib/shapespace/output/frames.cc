@@ -4,7 +4,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/mesh/write.h>
+#include <shapespace/files/write.h>
 
 namespace shapespace {
 

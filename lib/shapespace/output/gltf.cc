@@ -16,17 +16,17 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/analysis/quality.h>
-#include <shapespace/base/atomic_file.h>
 #include <shapespace/base/error.h>
-#include <shapespace/base/read_file.h>
-#include <shapespace/base/within_folder.h>
-#include <shapespace/mesh/geometry.h>
-#include <shapespace/mesh/tinygltf.h>
-#include <shapespace/output/colour.h>
-#include <shapespace/output/key_shapes.h>
-#include <shapespace/output/legend.h>
-#include <shapespace/output/materials.h>
-#include <shapespace/output/seams.h>
+#include <shapespace/base/internal/atomic_file.h>
+#include <shapespace/base/internal/read_file.h>
+#include <shapespace/base/internal/within_folder.h>
+#include <shapespace/files/internal/tinygltf.h>
+#include <shapespace/mesh/internal/geometry.h>
+#include <shapespace/output/internal/colour.h>
+#include <shapespace/output/internal/key_shapes.h>
+#include <shapespace/output/internal/legend.h>
+#include <shapespace/output/internal/materials.h>
+#include <shapespace/output/internal/seams.h>
 
 namespace shapespace {
 namespace {
@@ -379,7 +379,7 @@ class Textures {
     tinygltf::Image image;
     std::string bytes;
     try {
-      bytes = ReadFile(file);
+      bytes = internal::ReadFile(file);
     } catch (const FileError& error) {
       warnings_->push_back("texture " + std::string(error.what()) + "; it is left out");
       return -1;
@@ -581,7 +581,7 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   if (options.colour_by_deviation) extras["last_colour_deviation"] = Value(summary.colour_end);
   model.asset.extras = Value(extras);
 
-  WriteFileAtomically(file, [&](std::ostream& stream) {
+  internal::WriteFileAtomically(file, [&](std::ostream& stream) {
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
     summary.bytes = static_cast<size_t>(stream.tellp());
   });

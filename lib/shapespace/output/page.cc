@@ -2,9 +2,9 @@
 
 #include <ostream>
 
-#include <shapespace/base/atomic_file.h>
 #include <shapespace/base/error.h>
-#include <shapespace/output/page_scene.h>
+#include <shapespace/base/internal/atomic_file.h>
+#include <shapespace/output/internal/page_scene.h>
 
 namespace shapespace {
 namespace {
@@ -76,7 +76,7 @@ void WritePage(const std::string& file, const std::string& page_template,
   }
   std::string elements;
   for (const PageScene& scene : scenes) elements += std::visit(MakeElement(), scene);
-  WriteFileAtomically(file, [&](std::ostream& out) {
+  internal::WriteFileAtomically(file, [&](std::ostream& out) {
     out << page_template.substr(0, mark) << elements
         << page_template.substr(mark + sizeof kMark - 1);
   });

@@ -9,12 +9,12 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/output/frame.h>
-#include <shapespace/output/key_shapes.h>
-#include <shapespace/output/legend.h>
-#include <shapespace/output/scene.h>
-#include <shapespace/output/text.h>
-#include <shapespace/output/view.h>
+#include <shapespace/output/internal/frame.h>
+#include <shapespace/output/internal/key_shapes.h>
+#include <shapespace/output/internal/legend.h>
+#include <shapespace/output/internal/scene.h>
+#include <shapespace/output/internal/text.h>
+#include <shapespace/output/internal/view.h>
 
 namespace shapespace {
 namespace {

@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <ostream>
 
-#include <shapespace/base/atomic_file.h>
-#include <shapespace/base/bytes.h>
 #include <shapespace/base/error.h>
-#include <shapespace/base/extension.h>
-#include <shapespace/mesh/storable.h>
+#include <shapespace/base/internal/atomic_file.h>
+#include <shapespace/base/internal/bytes.h>
+#include <shapespace/base/internal/extension.h>
+#include <shapespace/files/internal/storable.h>
 
 namespace shapespace {
 namespace {
@@ -36,7 +36,7 @@ std::string MddHeader(std::int32_t shapes, std::int32_t vertices, double fps) {
 }  // namespace
 
 bool IsPointCache(const std::string& file) {
-  const std::string extension = FileExtension(file);
+  const std::string extension = internal::FileExtension(file);
   return extension == ".pc2" || extension == ".mdd";
 }
 
@@ -54,10 +54,10 @@ void WritePointCache(const std::string& file, const std::vector<Shape>& shapes, 
     internal::CheckFinite(file, shape);
     internal::CheckSinglePrecision(file, shape);
   }
-  const bool is_pc2 = FileExtension(file) == ".pc2";
+  const bool is_pc2 = internal::FileExtension(file) == ".pc2";
   const auto count = static_cast<std::int32_t>(shapes.size());
   const auto vertices = static_cast<std::int32_t>(shapes[0].cols());
-  WriteFileAtomically(file, [&](std::ostream& stream) {
+  internal::WriteFileAtomically(file, [&](std::ostream& stream) {
     stream << (is_pc2 ? Pc2Header(count, vertices) : MddHeader(count, vertices, fps));
     std::string bytes;
     for (const Shape& shape : shapes) {

@@ -7,8 +7,8 @@
 
 #include <shapespace/analysis/quality.h>
 #include <shapespace/analysis/vertex_energy.h>
-#include <shapespace/base/atomic_file.h>
-#include <shapespace/base/bytes.h>
+#include <shapespace/base/internal/atomic_file.h>
+#include <shapespace/base/internal/bytes.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/output/frames.h>
 
@@ -85,7 +85,8 @@ void WriteVtkSeries(const std::string& pattern, const Path& path, const Shape& r
     if (!energies.empty()) data.emplace_back("energy", energies[i]);
     const std::string content =
         Content(path.Placed(i), *path.metric->connectivity, path.parameters[i], data);
-    WriteFileAtomically(FrameName(pattern, i), [&](std::ostream& stream) { stream << content; });
+    internal::WriteFileAtomically(FrameName(pattern, i),
+                                  [&](std::ostream& stream) { stream << content; });
   });
 }
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/metric/metric.h>
-#include <shapespace/path/rigid_motion.h>
 
 namespace shapespace {
 

@@ -10,8 +10,8 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/path/energy_kernels.h>
-#include <shapespace/path/energy_term.h>
+#include <shapespace/path/internal/energy_kernels.h>
+#include <shapespace/path/internal/energy_term.h>
 
 namespace shapespace {
 namespace {

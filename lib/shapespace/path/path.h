@@ -6,9 +6,9 @@
 #include <vector>
 
 #include <shapespace/mesh/appearance.h>
+#include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/metric/metric.h>
-#include <shapespace/path/rigid_motion.h>
 
 namespace shapespace {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
-#include <shapespace/path/metric_arrays.h>
+#include <shapespace/path/internal/metric_arrays.h>
 
 namespace shapespace {
 namespace {

@@ -1,7 +1,7 @@
 // Computes the lower bound of the energy between two poses, which are read from files.
 #include <cstdio>
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/energy.h>
 

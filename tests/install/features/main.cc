@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include <shapespace/mesh/read.h>
+#include <shapespace/files/read.h>
 #include <shapespace/metric/define_feature.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/energy.h>

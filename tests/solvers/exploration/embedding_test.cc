@@ -1,4 +1,4 @@
-#include <shapespace/solvers/exploration/embedding.h>
+#include <shapespace/exploration/embedding.h>
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include <shapespace/solvers/exploration/explore.h>
+#include <shapespace/exploration/explore.h>
 
 #include <algorithm>
 #include <limits>

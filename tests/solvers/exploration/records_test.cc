@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <shapespace/solvers/exploration/explore.h>
+#include <shapespace/exploration/explore.h>
 
 #include "mesh/files.h"
 #include "solvers/exploration/spaces.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <shapespace/solvers/exploration/explore.h>
+#include <shapespace/exploration/explore.h>
 
 #include "solvers/exploration/spaces.h"
 

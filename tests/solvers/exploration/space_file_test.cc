@@ -1,4 +1,4 @@
-#include <shapespace/solvers/exploration/space_file.h>
+#include <shapespace/exploration/space_file.h>
 
 #include <gtest/gtest.h>
 

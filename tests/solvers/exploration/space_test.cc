@@ -1,4 +1,4 @@
-#include <shapespace/solvers/exploration/space.h>
+#include <shapespace/exploration/space.h>
 
 #include <cmath>
 #include <limits>

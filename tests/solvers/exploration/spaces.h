@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/bodies/tube.h>
-#include <shapespace/solvers/exploration/space.h>
+#include <shapespace/exploration/space.h>
 
 namespace shapespace::testing {
 

@@ -1,4 +1,4 @@
-#include <shapespace/solvers/exploration/triangulation.h>
+#include <shapespace/exploration/triangulation.h>
 
 #include <cmath>
 #include <limits>

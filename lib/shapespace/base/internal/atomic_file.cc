@@ -1,0 +1,99 @@
+#include <shapespace/base/internal/atomic_file.h>
+
+#include <fcntl.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <random>
+#include <set>
+#include <string>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/internal/file_buffer.h>
+
+namespace shapespace::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The existing temporaries. They are created, renamed and removed only under the lock.
+struct Unfinished {
+  std::mutex mutex;
+  std::set<std::string> temporaries;
+};
+
+Unfinished& TheUnfinished() {
+  static Unfinished* const unfinished = new Unfinished;  // other threads may outlive it
+  return *unfinished;
+}
+
+// A name beside `file` that nobody can foresee.
+std::string RandomName(const std::string& file) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  constexpr int kLength = 16;
+  std::random_device random;
+  std::string name = file + ".part";
+  for (int i = 0; i < kLength; ++i) name += kDigits[random() % 16];
+  return name;
+}
+
+// Creates a file beside `file` and opens it for writing. Whatever has its name already, a link in
+// particular, is left alone: in a folder where others may write, it could lead anywhere.
+// \throw FileError
+std::unique_ptr<internal::FileBuffer> CreateBeside(const std::string& file, std::string* name) {
+  constexpr int kMostAttempts = 100;
+  constexpr mode_t kPermissions = 0666;  // less those of the umask, as for all new files
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    *name = RandomName(file);
+    const int descriptor =
+        open(name->c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kPermissions);
+    if (descriptor >= 0) return std::make_unique<internal::FileBuffer>(descriptor);
+    if (errno != EEXIST) break;
+  }
+  throw FileError(file + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace
+
+void WriteFileAtomically(const std::string& file, const std::function<void(std::ostream&)>& body) {
+  const fs::path target(file);
+  std::error_code error;
+  if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
+  if (error) throw FileError(file + ": cannot make its folder: " + error.message());
+
+  auto& [mutex, temporaries] = TheUnfinished();
+  std::string temporary;
+  std::unique_ptr<internal::FileBuffer> buffer;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    buffer = CreateBeside(file, &temporary);
+    temporaries.insert(temporary);
+  }
+  try {
+    std::ostream stream(buffer.get());
+    body(stream);
+    if (!buffer->Close()) stream.setstate(std::ios::badbit);
+    if (!stream) throw FileError(file + ": writing failed (is the disk full?)");
+    const std::lock_guard<std::mutex> lock(mutex);
+    fs::rename(temporary, target, error);
+    if (error) throw FileError(file + ": cannot be replaced: " + error.message());
+    temporaries.erase(temporary);
+  } catch (...) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    fs::remove(temporary, error);
+    temporaries.erase(temporary);
+    throw;
+  }
+}
+
+void AbandonUnfinishedFiles() {
+  auto& [mutex, temporaries] = TheUnfinished();
+  mutex.lock();  // never unlocked
+  std::error_code error;
+  for (const std::string& temporary : temporaries) fs::remove(temporary, error);
+}
+
+}  // namespace shapespace::internal

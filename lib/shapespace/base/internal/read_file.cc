@@ -1,0 +1,33 @@
+#include <shapespace/base/internal/read_file.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include <shapespace/base/error.h>
+
+namespace shapespace::internal {
+
+std::string ReadFile(const std::string& file, std::int64_t most_bytes) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    throw FileError(file + ": is a folder; name a file");
+  }
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  if (!stream) throw FileError(file + ": cannot be opened: " + std::strerror(errno));
+  const std::streamoff size = stream.tellg();
+  if (size < 0) throw FileError(file + ": is not a regular file");
+  if (size == 0) throw FileError(file + ": is empty");
+  if (size > most_bytes) {
+    throw FileError(file + ": is larger than the " + std::to_string(most_bytes) +
+                    " bytes that such a file may have");
+  }
+  std::string content(static_cast<size_t>(size), '\0');
+  stream.seekg(0);
+  stream.read(content.data(), size);
+  if (stream.gcount() != size) throw FileError(file + ": cannot be read to its end");
+  return content;
+}
+
+}  // namespace shapespace::internal

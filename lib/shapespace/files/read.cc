@@ -1,0 +1,225 @@
+#include <shapespace/files/read.h>
+
+#include <istream>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/internal/extension.h>
+#include <shapespace/base/internal/read_file.h>
+#include <shapespace/base/internal/text.h>
+#include <shapespace/files/internal/read_formats.h>
+#include <shapespace/mesh/check.h>
+#include <shapespace/mesh/internal/check_positions.h>
+#include <shapespace/mesh/internal/check_words.h>
+#include <shapespace/mesh/internal/polygons.h>
+#include <shapespace/mesh/triangulate.h>
+#include <shapespace/mesh/volume.h>
+
+namespace shapespace {
+namespace {
+
+// The limit of size keeps all indices and counts in a file within the range of int.
+constexpr int kMostBytes = std::numeric_limits<int>::max();
+
+std::string Content(const std::string& file) { return internal::ReadFile(file, kMostBytes); }
+
+std::vector<Soup> Parse(const std::string& name, std::string content, MeshFormat format,
+                        bool allow_outside_files) {
+  switch (format) {
+    case MeshFormat::kObj:
+      return {internal::ReadObj(name, std::move(content))};
+    case MeshFormat::kPly:
+      return {internal::ReadPly(name, content)};
+    case MeshFormat::kOff:
+      return {internal::ReadOff(name, content)};
+    case MeshFormat::kStl:
+      return {internal::ReadStl(name, content)};
+    case MeshFormat::kGltf:
+      break;
+  }
+  return internal::ReadGltf(name, content, allow_outside_files);
+}
+
+MeshFormat FormatOf(const std::string& file) {
+  const std::string extension = internal::FileExtension(file);
+  for (const auto& [known, format] : {std::make_pair(".obj", MeshFormat::kObj),
+                                      {".ply", MeshFormat::kPly},
+                                      {".off", MeshFormat::kOff},
+                                      {".stl", MeshFormat::kStl},
+                                      {".glb", MeshFormat::kGltf},
+                                      {".gltf", MeshFormat::kGltf}}) {
+    if (extension == known) return format;
+  }
+  throw FileError(file + ": the extension " + internal::Quoted(extension) +
+                  " is not one of .obj, .ply, .off, .stl, .glb, .gltf; convert the mesh to one of "
+                  "these");
+}
+
+// The first of a file's poses, with a sentence about the others.
+Soup First(std::vector<Soup> poses) {
+  if (poses.size() > 1) {
+    poses[0].dropped.push_back(std::to_string(poses.size() - 1) +
+                               " morph targets not read, since one mesh is wanted");
+  }
+  return std::move(poses[0]);
+}
+
+/// Sorts findings into warnings and errors. If several are fatal, the first three are reported,
+/// because the others mostly follow from them.
+class Judge {
+ public:
+  Judge(const ReadOptions& options, std::vector<std::string>* warnings)
+      : options_(options), warnings_(warnings) {}
+
+  /// \throw E if a finding is fatal.
+  template <typename E>
+  void Hear(const std::vector<Finding>& findings) {
+    constexpr int kMostTold = 3;
+    std::string refusal;
+    int told = 0;
+    for (const Finding& finding : findings) {
+      const bool fatal =
+          finding.severity == Severity::kFatal ||
+          (finding.severity == Severity::kNonManifold && !options_.allow_nonmanifold);
+      if (fatal && told++ < kMostTold) {
+        refusal += (refusal.empty() ? "" : "\n") + finding.message;
+      } else if (!fatal && finding.severity != Severity::kNote) {
+        warnings_->push_back(finding.message);
+      }
+    }
+    if (!refusal.empty()) throw E(refusal);
+  }
+
+ private:
+  const ReadOptions& options_;
+  std::vector<std::string>* warnings_;
+};
+
+// Poses from `count` sources, the i-th of which gives the soups next(i), one or more. They are made
+// one after the other, because of all but the first only the positions are kept.
+template <typename Next>
+Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
+  Poses poses;
+  Judge judge(options, &poses.warnings);
+  const Soup& first = poses.soup;
+  const auto add = [&](Soup pose) {
+    poses.names.push_back(pose.pose.empty() ? pose.file : pose.pose);
+    if (poses.shapes.empty()) {
+      poses.soup = std::move(pose);
+      judge.Hear<MeshError>(CheckSoup(first));
+      poses.shapes.push_back(first.vertices);
+      return;
+    }
+    if (options.mirror != 0 && MirrorBack(first, options.mirror, &pose)) {
+      poses.warnings.push_back(internal::FileName(pose) + ": is a mirror image of " +
+                               internal::FileName(first) + "; its " + options.mirror +
+                               " has changed sign");
+    }
+    judge.Hear<CorrespondenceError>(CheckCorrespondence(first, pose));
+    // From here on only its positions are used, with the polygons of the first one.
+    judge.Hear<MeshError>(internal::CheckPositions(pose));
+    poses.shapes.push_back(std::move(pose.vertices));
+  };
+  for (size_t i = 0; i < count; ++i) {
+    for (Soup& pose : next(i)) add(std::move(pose));
+  }
+  std::vector<std::pair<int, int>> stiffeners;
+  if (!options.stiffeners.empty()) {
+    stiffeners = ReadStiffeners(options.stiffeners, first.NumVertices());
+  }
+  poses.connectivity = ConnectivityOf(first, poses.shapes, stiffeners);
+  return poses;
+}
+
+}  // namespace
+
+Soup ReadSoup(const std::string& file, bool allow_outside_files) {
+  return First(ReadSoups(file, allow_outside_files));
+}
+
+std::vector<Soup> ReadSoups(const std::string& file, bool allow_outside_files) {
+  const MeshFormat format = FormatOf(file);
+  return Parse(file, Content(file), format, allow_outside_files);
+}
+
+Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format) {
+  std::string content{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) throw FileError(name + ": cannot be read to its end");
+  if (content.empty()) throw FileError(name + ": is empty");
+  if (content.size() > static_cast<size_t>(kMostBytes)) {
+    throw FileError(name + ": is larger than the " + std::to_string(kMostBytes) +
+                    " bytes that such a file may have");
+  }
+  return First(Parse(name, std::move(content), format, /*allow_outside_files=*/false));
+}
+
+bool MirrorBack(const Soup& reference, char axis, Soup* pose) {
+  if (axis < 'x' || axis > 'z') {
+    throw InvalidOptions(std::string("mirror: '") + axis + "' is not one of x, y and z");
+  }
+  if (pose->NumVertices() != reference.NumVertices()) return false;
+  internal::CheckPolygons(reference.NumVertices(), reference.polygon_begin, reference.corners);
+  const Eigen::Matrix3Xi triangles = internal::Fans(reference.polygon_begin, reference.corners);
+  if (!IsMirrored(triangles, reference.vertices, pose->vertices)) return false;
+  pose->vertices.row(axis - 'x') *= -1;
+  return true;
+}
+
+std::shared_ptr<const Connectivity> ConnectivityOf(
+    const Soup& soup, const std::vector<Shape>& poses,
+    const std::vector<std::pair<int, int>>& stiffeners) {
+  return Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments,
+                            stiffeners, Triangulate(soup.polygon_begin, soup.corners, poses));
+}
+
+std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num_vertices) {
+  const std::string content = Content(file);
+  std::vector<std::pair<int, int>> pairs;
+  internal::Lines lines(content);
+  std::string_view line;
+  while (lines.Next(&line)) {
+    internal::Words words(internal::WithoutComment(line));
+    if (words.Done()) continue;
+    const std::string element = "stiffener " + std::to_string(pairs.size() + 1) + ": ";
+    int ends[2];
+    for (int& end : ends) {
+      const std::string_view word = words.Next();
+      const std::optional<std::int64_t> number = internal::ParseInteger(word);
+      if (!number || *number < 1 || *number > num_vertices) {
+        internal::FailAt(file, lines.Number(),
+                         element + internal::Quoted(word) + " is not a vertex number from 1 to " +
+                             std::to_string(num_vertices) + "; a line holds two of them");
+      }
+      end = static_cast<int>(*number) - 1;
+    }
+    if (!words.Done()) {
+      internal::FailAt(file, lines.Number(),
+                       element + internal::Quoted(words.Next()) +
+                           " is too much; a line holds two vertex numbers");
+    }
+    if (ends[0] == ends[1]) {
+      internal::FailAt(file, lines.Number(),
+                       element + "joins vertex " + std::to_string(ends[0] + 1) +
+                           " to itself; name two different vertices");
+    }
+    pairs.emplace_back(ends[0], ends[1]);
+  }
+  return pairs;
+}
+
+Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& options) {
+  if (files.empty()) throw FileError("no mesh file is named; at least one is needed");
+  return Collect(
+      files.size(), [&](size_t i) { return ReadSoups(files[i], options.allow_outside_files); },
+      options);
+}
+
+Poses MakePoses(std::vector<Soup> soups, const ReadOptions& options) {
+  if (soups.empty()) throw MeshError("there is no pose; at least one is needed");
+  return Collect(
+      soups.size(), [&](size_t i) { return std::vector<Soup>{std::move(soups[i])}; }, options);
+}
+
+}  // namespace shapespace

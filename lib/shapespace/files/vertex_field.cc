@@ -1,0 +1,54 @@
+#include <shapespace/files/vertex_field.h>
+
+#include <string_view>
+#include <vector>
+
+#include <shapespace/base/internal/extension.h>
+#include <shapespace/base/internal/read_file.h>
+#include <shapespace/base/internal/text.h>
+#include <shapespace/files/internal/read_formats.h>
+
+namespace shapespace {
+namespace {
+
+bool IsPly(const std::string& file) { return internal::FileExtension(file) == ".ply"; }
+
+}  // namespace
+
+Eigen::VectorXd ReadVertexField(const std::string& source) {
+  const size_t colon = source.rfind(':');
+  if (colon != std::string::npos && IsPly(source.substr(0, colon))) {
+    const std::string file = source.substr(0, colon), property = source.substr(colon + 1);
+    if (property.empty()) throw FileError(source + ": name a property behind the colon");
+    Eigen::VectorXd field = internal::ReadPlyProperty(file, internal::ReadFile(file), property);
+    for (int v = 0; v < field.size(); ++v) {
+      if (!std::isfinite(field(v))) {
+        throw FileError(file + ": property " + property + " of vertex " + std::to_string(v + 1) +
+                        " is not a finite number");
+      }
+    }
+    return field;
+  }
+  if (IsPly(source)) {
+    throw FileError(source + ": name the property of the vertices to read, as " + source + ":name");
+  }
+  std::string text = internal::ReadFile(source);
+  internal::BlankByteOrderMark(&text);
+  std::vector<double> numbers;
+  internal::Lines lines(text);
+  std::string_view line;
+  while (lines.Next(&line)) {
+    internal::Words words(internal::WithoutComment(line));
+    if (words.Done()) continue;
+    const internal::ElementName vertex = {"vertex", numbers.size() + 1};
+    numbers.push_back(
+        internal::FiniteNumber(words.Next(), "number", source, lines.Number(), vertex));
+    if (!words.Done()) {
+      internal::FailAt(source, lines.Number(), vertex.Text() + ": more than one number");
+    }
+  }
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
+                                           static_cast<Eigen::Index>(numbers.size()));
+}
+
+}  // namespace shapespace

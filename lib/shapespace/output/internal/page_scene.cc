@@ -1,0 +1,339 @@
+#include <shapespace/output/internal/page_scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <zlib.h>
+#include <nlohmann/json.hpp>
+
+#include <shapespace/analysis/quality.h>
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/output/internal/legend.h>
+#include <shapespace/output/internal/scene.h>
+#include <shapespace/output/internal/view.h>
+#include <shapespace/path/energy.h>
+
+namespace shapespace::internal {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+constexpr int kVersion = 1;
+constexpr int kPositionSteps = 65535;  // of a position, along the longest side of the box
+constexpr float kTubeRadius = 0.005f;  // of a graph's edges, when a view is chosen
+constexpr int kShades = 255;           // of a deviation
+constexpr double kMostBytes = 1e9;     // before compression; more is slow or impossible in browsers
+
+// Positions of one shape in quantisation steps, three per vertex.
+using Steps = std::vector<uint16_t>;
+
+// The cube that contains all shapes.
+struct Box {
+  Eigen::Vector3d low;
+  double side;
+};
+
+Box BoxAround(const std::vector<Shape>& shapes) {
+  Eigen::Vector3d low = shapes[0].rowwise().minCoeff(), high = shapes[0].rowwise().maxCoeff();
+  for (const Shape& shape : shapes) {
+    low = low.cwiseMin(shape.rowwise().minCoeff());
+    high = high.cwiseMax(shape.rowwise().maxCoeff());
+  }
+  return {low, (high - low).maxCoeff()};
+}
+
+Steps Quantise(const Shape& shape, const Box& box) {
+  const double scale = box.side > 0 ? kPositionSteps / box.side : 0;
+  Steps steps(shape.size());
+  for (Eigen::Index i = 0; i < shape.size(); ++i) {
+    const double place = (shape.data()[i] - box.low[i % 3]) * scale;
+    steps[i] = static_cast<uint16_t>(std::clamp<long>(std::lround(place), 0, kPositionSteps));
+  }
+  return steps;
+}
+
+// Maps numbers of small magnitude to small numbers, whatever their sign.
+uint16_t ZigZag(uint16_t difference) {
+  const auto x = static_cast<int16_t>(difference);
+  return static_cast<uint16_t>(2 * x ^ (x >> 15));
+}
+
+uint32_t ZigZag(uint32_t difference) {
+  const auto x = static_cast<int32_t>(difference);
+  return static_cast<uint32_t>(2 * int64_t{x}) ^ static_cast<uint32_t>(x >> 31);
+}
+
+// A prediction of shape i from those before it.
+std::vector<Steps> PredictAlongPath(const std::vector<Steps>& shapes) {
+  std::vector<Steps> predicted(shapes.size(), Steps(shapes[0].size(), 0));
+  for (size_t i = 1; i < shapes.size(); ++i) {
+    for (size_t k = 0; k < shapes[i].size(); ++k) {
+      const int before = shapes[i - 1][k];
+      predicted[i][k] = static_cast<uint16_t>(i == 1 ? before : 2 * before - shapes[i - 2][k]);
+    }
+  }
+  return predicted;
+}
+
+std::vector<Steps> PredictFromParents(const std::vector<Steps>& shapes,
+                                      const std::vector<std::array<int, 2>>& parents) {
+  std::vector<Steps> predicted(shapes.size(), Steps(shapes[0].size(), 0));
+  const size_t poses = shapes.size() - parents.size();
+  for (size_t i = 1; i < shapes.size(); ++i) {
+    const bool is_pose = i < poses;
+    const Steps& a = shapes[is_pose ? i - 1 : parents[i - poses][0]];
+    const Steps& b = is_pose ? a : shapes[parents[i - poses][1]];
+    for (size_t k = 0; k < a.size(); ++k)
+      predicted[i][k] = static_cast<uint16_t>((a[k] + b[k]) / 2);
+  }
+  return predicted;
+}
+
+// The differences from the prediction, as differences from vertex to vertex; low and high bytes of
+// each axis separately, which compresses best.
+void AppendPositions(const std::vector<Steps>& shapes, const std::vector<Steps>& predicted,
+                     std::string* bytes) {
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      std::string low, high;
+      uint16_t last = 0;
+      for (size_t k = axis; k < shapes[i].size(); k += 3) {
+        const auto off = static_cast<uint16_t>(shapes[i][k] - predicted[i][k]);
+        const uint16_t code = ZigZag(static_cast<uint16_t>(off - last));
+        last = off;
+        low.push_back(static_cast<char>(code & 255));
+        high.push_back(static_cast<char>(code >> 8));
+      }
+      *bytes += low + high;
+    }
+  }
+}
+
+// Differences between consecutive indices, ordered by bytes of equal significance.
+void AppendIndices(const int* indices, size_t count, std::string* bytes) {
+  std::string planes(4 * count, 0);
+  uint32_t last = 0;
+  for (size_t k = 0; k < count; ++k) {
+    const auto index = static_cast<uint32_t>(indices[k]);
+    const uint32_t code = ZigZag(index - last);
+    last = index;
+    for (int plane = 0; plane < 4; ++plane) {
+      planes[plane * count + k] = static_cast<char>(code >> (8 * plane) & 255);
+    }
+  }
+  *bytes += planes;
+}
+
+void AppendConnectivity(const Connectivity& connectivity, OrderedJson* header, std::string* bytes) {
+  std::vector<int> segments;
+  if (connectivity.IsGraph()) {
+    for (const auto& [a, b] : connectivity.Segments()) segments.insert(segments.end(), {a, b});
+  }
+  (*header)["vertices"] = connectivity.NumVertices();
+  (*header)["triangles"] = connectivity.NumTriangles();
+  (*header)["segments"] = segments.size() / 2;
+  AppendIndices(connectivity.Triangles().data(), connectivity.Triangles().size(), bytes);
+  AppendIndices(segments.data(), segments.size(), bytes);
+}
+
+std::vector<Steps> QuantiseAll(const std::vector<Shape>& shapes, OrderedJson* header) {
+  const Box box = BoxAround(shapes);
+  (*header)["shapes"] = shapes.size();
+  (*header)["low"] = {box.low[0], box.low[1], box.low[2]};
+  (*header)["side"] = box.side;
+  std::vector<Steps> steps(shapes.size());
+  ParallelFor(static_cast<int>(shapes.size()), [&](int i) { steps[i] = Quantise(shapes[i], box); });
+  return steps;
+}
+
+// The view direction of a film strip of `shapes`, and its upward direction.
+void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shapes,
+                OrderedJson* header) {
+  const Box box = BoxAround(shapes);
+  std::vector<Shape> small;
+  for (const Shape& shape : shapes) {
+    small.push_back((shape.colwise() - box.low).array() / std::max(box.side, 1e-300) /
+                    std::sqrt(3.0));
+  }
+  const RayTracer tracer(connectivity, kTubeRadius);
+  std::vector<Scene> scenes;
+  for (const Shape& shape : small) scenes.emplace_back(tracer, shape, Eigen::VectorXf());
+  const Eigen::Vector3d up = ChooseUp(connectivity, small);
+  const Eigen::Vector3d eye = ChooseView(small, scenes, up).col(2);
+  (*header)["up"] = {up[0], up[1], up[2]};
+  (*header)["eye"] = {eye[0], eye[1], eye[2]};
+}
+
+// Per vertex and shape, as differences from shape to shape.
+void AppendDeviations(const Path& path, OrderedJson* header, std::string* bytes) {
+  std::vector<Eigen::VectorXd> deviations(path.NumShapes());
+  std::vector<RmsAndMax> edges(path.NumShapes());
+  ParallelFor(path.NumShapes(), [&](int i) {
+    deviations[i] = EdgeDeviation(path, i);
+    edges[i] = DeviationFromFirst(path, i);
+  });
+  const double end = EndOfScale(deviations);
+  (*header)["scaleEnd"] = end;
+  for (const RmsAndMax& edge : edges) {
+    (*header)["rms"].push_back(edge.rms);
+    (*header)["max"].push_back(edge.max);
+  }
+  std::string last(deviations[0].size(), 0);
+  for (const Eigen::VectorXd& deviation : deviations) {
+    for (Eigen::Index v = 0; v < deviation.size(); ++v) {
+      const auto shade =
+          static_cast<char>(std::lround(kShades * std::min(1.0, deviation[v] / end)));
+      bytes->push_back(static_cast<char>(shade - last[v]));
+      last[v] = shade;
+    }
+  }
+}
+
+// The squared speed in every segment.
+std::vector<double> SquaredSpeeds(const Path& path) {
+  std::vector<double> speeds;
+  if (path.NumShapes() < 2) return speeds;
+  // For three shapes of which the last two are equal, the first segment has all of the energy,
+  // which is twice the squared distance, whatever the metric.
+  PathEnergy energy(path.metric, 1);
+  std::vector<double> unknowns(energy.Size());
+  for (int i = 0; i + 1 < path.NumShapes(); ++i) {
+    energy.Load({path.shapes[i], path.shapes[i + 1], path.shapes[i + 1]}, unknowns.data());
+    const double time = path.parameters[i + 1] - path.parameters[i];
+    speeds.push_back(energy.Evaluate(unknowns.data(), nullptr) / (2 * time * time));
+  }
+  return speeds;
+}
+
+void AppendColours(const Eigen::MatrixXd& colours, OrderedJson* header, std::string* bytes) {
+  (*header)["colours"] = colours.size() > 0;
+  for (Eigen::Index v = 0; v < colours.cols(); ++v) {
+    for (int k = 0; k < 3; ++k) {
+      bytes->push_back(static_cast<char>(std::lround(255 * colours(k, v))));
+    }
+  }
+}
+
+std::string Compress(const std::string& bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string compressed(size, 0);
+  if (compress(reinterpret_cast<Bytef*>(compressed.data()), &size,
+               reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()) != Z_OK) {
+    throw std::bad_alloc();
+  }
+  compressed.resize(size);
+  return compressed;
+}
+
+std::string Pack(const OrderedJson& header, const std::string& arrays) {
+  // Names may contain any bytes; those that are not valid text are replaced.
+  const std::string text = header.dump(-1, ' ', true, OrderedJson::error_handler_t::replace);
+  std::string all;
+  for (int shift = 0; shift < 32; shift += 8)
+    all.push_back(static_cast<char>(text.size() >> shift));
+  return Compress(all + text + arrays);
+}
+
+void CheckSize(const std::string& name, size_t shapes, int vertices, int bytes_a_vertex) {
+  const double bytes = static_cast<double>(shapes) * vertices * bytes_a_vertex;
+  if (bytes <= kMostBytes) return;
+  throw MeshError(name + ": " + std::to_string(shapes) + " shapes of " + std::to_string(vertices) +
+                  " vertices are too many for a page; use fewer shapes or a smaller mesh");
+}
+
+void CheckNodes(const std::string& name, const char* what, const int* nodes, Eigen::Index count,
+                size_t num_nodes) {
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (nodes[k] < 0 || static_cast<size_t>(nodes[k]) >= num_nodes) {
+      throw MeshError(name + ": " + what + " refer to a node that does not exist");
+    }
+  }
+}
+
+void CheckSpace(const PageSpace& space) {
+  const size_t num_nodes = space.nodes.size();
+  if (space.connectivity == nullptr || num_nodes == 0) throw MeshError(space.name + ": no shape");
+  if (static_cast<size_t>(space.points.cols()) != num_nodes ||
+      space.names.size() + space.parents.size() != num_nodes || space.names.empty()) {
+    throw MeshError(space.name + ": numbers of nodes, points, names and parents do not fit");
+  }
+  for (const Shape& shape : space.nodes) {
+    if (shape.cols() != space.connectivity->NumVertices() || !shape.allFinite()) {
+      throw MeshError(space.name +
+                      ": a node's shape has another number of vertices, or is not finite");
+    }
+  }
+  const Eigen::MatrixXd& colours = space.vertex_colours;
+  if (colours.size() > 0 && (colours.rows() < 3 || colours.cols() != space.nodes[0].cols() ||
+                             !(colours.array() >= 0 && colours.array() <= 1).all())) {
+    throw MeshError(space.name + ": vertex colours do not fit");
+  }
+  if (!space.points.allFinite()) throw MeshError(space.name + ": a point is not finite");
+  CheckNodes(space.name, "triangles", space.triangles.data(), space.triangles.size(), num_nodes);
+  CheckNodes(space.name, "segments", space.segments.data(), space.segments.size(), num_nodes);
+  for (size_t i = 0; i < space.parents.size(); ++i) {
+    CheckNodes(space.name, "parents", space.parents[i].data(), 2, space.names.size() + i);
+  }
+}
+
+template <typename Matrix>
+OrderedJson Columns(const Matrix& matrix) {
+  OrderedJson columns = OrderedJson::array();
+  for (Eigen::Index c = 0; c < matrix.cols(); ++c) {
+    columns.push_back(std::vector<typename Matrix::Scalar>(matrix.col(c).data(),
+                                                           matrix.col(c).data() + matrix.rows()));
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::string EncodeScene(const PagePath& scene) {
+  const Path& path = *scene.path;
+  try {
+    path.Validate();
+  } catch (const MeshError& error) {
+    throw MeshError(scene.name + ": " + error.what());
+  }
+  const Connectivity& connectivity = *path.metric->connectivity;
+  CheckSize(scene.name, path.shapes.size(), connectivity.NumVertices(), 7);
+  OrderedJson header = {{"version", kVersion}, {"kind", "path"}, {"name", scene.name}};
+  std::string arrays;
+  AppendConnectivity(connectivity, &header, &arrays);
+  header["parameters"] = path.parameters;
+  header["poses"] = path.poses;
+  header["metric"] = Describe(path.metric->options);
+  header["speeds"] = SquaredSpeeds(path);
+  const std::vector<Shape> shapes = path.Placed();
+  AppendView(connectivity, {shapes.front(), shapes.back()}, &header);
+  const std::vector<Steps> steps = QuantiseAll(shapes, &header);
+  AppendPositions(steps, PredictAlongPath(steps), &arrays);
+  AppendDeviations(path, &header, &arrays);
+  AppendColours(path.appearance.vertex_colours, &header, &arrays);
+  return Pack(header, arrays);
+}
+
+std::string EncodeScene(const PageSpace& scene) {
+  CheckSpace(scene);
+  CheckSize(scene.name, scene.nodes.size(), scene.connectivity->NumVertices(), 6);
+  OrderedJson header = {{"version", kVersion}, {"kind", "space"}, {"name", scene.name}};
+  std::string arrays;
+  AppendConnectivity(*scene.connectivity, &header, &arrays);
+  header["names"] = scene.names;
+  header["points"] = Columns(scene.points);
+  header["planeTriangles"] = Columns(scene.triangles);
+  header["planeSegments"] = Columns(scene.segments);
+  header["parents"] = scene.parents;
+  AppendView(*scene.connectivity,
+             {scene.nodes.begin(), scene.nodes.begin() + std::min<size_t>(scene.names.size(), 3)},
+             &header);
+  const std::vector<Steps> steps = QuantiseAll(scene.nodes, &header);
+  AppendPositions(steps, PredictFromParents(steps, scene.parents), &arrays);
+  AppendColours(scene.vertex_colours, &header, &arrays);
+  return Pack(header, arrays);
+}
+
+}  // namespace shapespace::internal

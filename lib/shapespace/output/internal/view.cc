@@ -1,0 +1,151 @@
+#include <shapespace/output/internal/view.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include <shapespace/base/parallel.h>
+#include <shapespace/mesh/internal/geometry.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Height of the part of a shape that touches the floor, as a share of its bounding box's diagonal.
+constexpr double kFloorSlab = 0.04;
+
+// Rays per axis for the evaluation of a candidate view.
+constexpr int kGrid = 64;
+
+// Weight of back faces relative to front faces, so that a sheet is seen from its front.
+constexpr double kBackWorth = 0.6;
+
+struct Candidate {
+  double azimuth, elevation;  // degrees; from the front, positive to the right
+  double weight;              // preference
+};
+
+std::vector<Candidate> Candidates() {
+  // Low views look natural; high ones are for flat shapes.
+  constexpr struct { double degrees, weight; } kElevations[] = {{15, 1}, {35, 0.8}, {60, 0.7}};
+  // Seen from the left and the front, a body that faces the front faces right, the direction of
+  // reading.
+  constexpr struct {
+    double degrees, weight;
+  } kAzimuths[] = {{-30, 1},    {-60, 1},    {30, 0.88}, {60, 0.88},
+                   {-120, 0.8}, {-150, 0.8}, {120, 0.7}, {150, 0.7}};
+  std::vector<Candidate> candidates;
+  for (const auto& elevation : kElevations) {
+    for (const auto& azimuth : kAzimuths) {
+      candidates.push_back({azimuth.degrees, elevation.degrees, azimuth.weight * elevation.weight});
+    }
+  }
+  return candidates;
+}
+
+Eigen::Vector3d CentreOfArea(const Connectivity& connectivity, const Shape& shape) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double total = 0;
+  const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
+  for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
+    const Eigen::Vector3d a = shape.col(triangles(0, f)), b = shape.col(triangles(1, f)),
+                          c = shape.col(triangles(2, f));
+    const double area = TriangleArea(a, b, c);
+    sum += area / 3 * (a + b + c);
+    total += area;
+  }
+  return total > 0 ? Eigen::Vector3d(sum / total) : Eigen::Vector3d(shape.rowwise().mean());
+}
+
+// Whether the centre of area is above the part that touches a floor perpendicular to `axis`.
+bool Stands(const Connectivity& connectivity, const Shape& shape, int axis) {
+  const Eigen::Vector3d low = shape.rowwise().minCoeff();
+  const double slab = kFloorSlab * (shape.rowwise().maxCoeff() - low).norm();
+  Eigen::AlignedBox3d support;
+  for (Eigen::Index v = 0; v < shape.cols(); ++v) {
+    if (shape(axis, v) <= low[axis] + slab) support.extend(Eigen::Vector3d(shape.col(v)));
+  }
+  Eigen::Vector3d centre = CentreOfArea(connectivity, shape);
+  centre[axis] = low[axis];
+  return support.squaredExteriorDistance(centre) <= slab * slab;
+}
+
+double VisibleArea(const Scene& scene, const Axes& axes) {
+  const Eigen::Matrix3f a = axes.cast<float>();
+  double area = 0;
+  Scene::Hit hit;
+  for (int i = 0; i < kGrid * kGrid; ++i) {
+    const int column = i % kGrid, row = i / kGrid;
+    const Eigen::Vector3f position((column + 0.5f) * 2 / kGrid - 1, (row + 0.5f) * 2 / kGrid - 1,
+                                   2);
+    if (scene.Trace(a * position, -a.col(2), &hit)) area += hit.back ? kBackWorth : 1;
+  }
+  return area;
+}
+
+// Area of the ellipse, up to a constant, of the vertices' projection.
+double Spread(const Eigen::Matrix3d& covariance, const Axes& axes) {
+  const Eigen::Matrix2d flat = axes.leftCols<2>().transpose() * covariance * axes.leftCols<2>();
+  // A straight line has no area, but should still be judged by what is visible.
+  constexpr double kLine = 1e-6;
+  return kLine + std::sqrt(std::max(0.0, flat.determinant()));
+}
+
+// The horizontal direction that faces the viewer in a front view: +z if y is up (as in glTF), -y if
+// z is.
+Eigen::Vector3d Front(const Eigen::Vector3d& up) {
+  const bool z_up = std::abs(up.z()) > std::abs(up.y());
+  const Eigen::Vector3d front(0, z_up ? -1 : 0, z_up ? 0 : 1);
+  return (front - front.dot(up) * up).normalized();
+}
+
+}  // namespace
+
+Eigen::Vector3d ChooseUp(const Connectivity& connectivity, const std::vector<Shape>& shapes) {
+  int balance = 0;
+  for (const Shape& shape : shapes) {
+    balance += Stands(connectivity, shape, 2) - Stands(connectivity, shape, 1);
+  }
+  return balance > 0 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
+}
+
+Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up) {
+  Axes axes;
+  axes.col(2) = eye.stableNormalized();
+  axes.col(0) = up.stableNormalized().cross(axes.col(2)).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return axes;
+}
+
+Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<Scene>& scenes,
+                const Eigen::Vector3d& up) {
+  const Eigen::Vector3d pole = up.stableNormalized();
+  const Axes front = LookFrom(Front(pole), pole);
+  const std::vector<Candidate> candidates = Candidates();
+  std::vector<Axes> views(candidates.size());
+  std::vector<double> scores(candidates.size(), 0);
+  std::vector<Eigen::Matrix3d> covariances;
+  for (const Shape& shape : shapes) {
+    const Shape centred = shape.colwise() - shape.rowwise().mean();
+    covariances.push_back(centred * centred.transpose() / shape.cols());
+  }
+  ParallelFor(static_cast<int>(candidates.size()), [&](int i) {
+    const double azimuth = candidates[i].azimuth * EIGEN_PI / 180;
+    const double elevation = candidates[i].elevation * EIGEN_PI / 180;
+    views[i] = LookFrom(
+        front * Eigen::Vector3d(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                                std::cos(elevation) * std::cos(azimuth)),
+        pole);
+    for (size_t k = 0; k < scenes.size(); ++k) {
+      scores[i] += candidates[i].weight * VisibleArea(scenes[k], views[i]) *
+                   Spread(covariances[k], views[i]);
+    }
+  });
+  size_t best = 0;
+  for (size_t i = 1; i < scores.size(); ++i) {
+    if (scores[i] > scores[best]) best = i;
+  }
+  return views[best];
+}
+
+}  // namespace shapespace::internal

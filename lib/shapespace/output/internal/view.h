@@ -1,0 +1,33 @@
+#ifndef SHAPESPACE_OUTPUT_INTERNAL_VIEW_H_
+#define SHAPESPACE_OUTPUT_INTERNAL_VIEW_H_
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <shapespace/mesh/connectivity.h>
+#include <shapespace/mesh/shape.h>
+#include <shapespace/output/internal/scene.h>
+
+namespace shapespace::internal {
+
+/// An orthographic camera's axes as columns: right and up in the picture, and towards the eye.
+using Axes = Eigen::Matrix3d;
+
+/// The upward axis: +z if more of the shapes can stand on it than on +y, else +y; both are common
+/// in mesh files.
+Eigen::Vector3d ChooseUp(const Connectivity& connectivity, const std::vector<Shape>& shapes);
+
+/// Looks from `eye` (any length). `up` must not be parallel to it.
+Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up);
+
+/// A three-quarter view: the one of a few directions around and above the shapes in which most of
+/// their surface is visible, preferably its front side, and their projection is largest, so that a
+/// plate is not seen from its edge, nor a finger in the plane in which it bends. Between equal
+/// views the one from the front and the left is preferred. `scenes[i]` contains `shapes[i]`.
+Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<Scene>& scenes,
+                const Eigen::Vector3d& up);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_OUTPUT_INTERNAL_VIEW_H_

@@ -1,0 +1,103 @@
+#include <shapespace/path/internal/array_file.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <zlib.h>
+
+#include <shapespace/base/internal/atomic_file.h>
+
+namespace shapespace::internal {
+namespace {
+
+constexpr size_t kMagicSize = 8;
+// Magic, version, checksum, length of the header.
+constexpr size_t kPreamble = kMagicSize + 2 * sizeof(uint32_t) + sizeof(uint64_t);
+
+uint32_t Checksum(const std::string& bytes, size_t from) {
+  uLong sum = crc32(0, nullptr, 0);
+  while (from < bytes.size()) {
+    const size_t count = std::min<size_t>(bytes.size() - from, 1 << 30);
+    sum = crc32(sum, reinterpret_cast<const Bytef*>(bytes.data() + from), static_cast<uInt>(count));
+    from += count;
+  }
+  return static_cast<uint32_t>(sum);
+}
+
+}  // namespace
+
+ArrayReader::ArrayReader(const HeaderJson& table, const std::string& bytes, size_t begin)
+    : bytes_(bytes) {
+  for (const HeaderJson& entry : table) {
+    Array array;
+    array.type = entry.at("type").get<std::string>();
+    array.rows = entry.at("rows").get<size_t>();
+    array.columns = entry.at("columns").get<size_t>();
+    array.begin = begin;
+    const size_t size = array.type == "f8" ? 8 : 4;
+    constexpr size_t kMost = std::numeric_limits<int>::max();
+    if (array.rows > kMost || array.columns > kMost) {
+      throw FileError("its arrays have sizes out of range");
+    }
+    if (array.columns != 0 && array.rows > (bytes.size() - begin) / size / array.columns) {
+      throw FileError("its arrays are longer than the file");
+    }
+    begin += array.rows * array.columns * size;
+    arrays_[entry.at("name").get<std::string>()] = array;
+  }
+  if (begin != bytes.size()) throw FileError("it is longer than its arrays");
+}
+
+std::string PackArrayFile(const ArrayFileKind& kind, HeaderJson header, const ArrayWriter& arrays) {
+  header["arrays"] = arrays.Table();
+  // A header may contain names of files that are not valid UTF-8; invalid bytes are replaced.
+  std::string text = header.dump(-1, ' ', false, HeaderJson::error_handler_t::replace);
+  text.resize((text.size() + 7) / 8 * 8, ' ');  // aligns arrays to 8 bytes
+  const uint64_t header_size = text.size();
+  std::string bytes(kind.magic, kMagicSize);
+  bytes.append(reinterpret_cast<const char*>(&kind.version), sizeof kind.version);
+  bytes.append(sizeof(uint32_t), '\0');
+  bytes.append(reinterpret_cast<const char*>(&header_size), sizeof header_size);
+  bytes += text;
+  bytes += arrays.Bytes();
+  const uint32_t checksum = Checksum(bytes, kMagicSize + 2 * sizeof(uint32_t));
+  std::memcpy(&bytes[kMagicSize + sizeof kind.version], &checksum, sizeof checksum);
+  return bytes;
+}
+
+HeaderJson UnpackHeader(const ArrayFileKind& kind, const std::string& bytes, size_t* arrays_begin) {
+  if (bytes.size() < kPreamble || std::memcmp(bytes.data(), kind.magic, kMagicSize) != 0) {
+    throw FileError(std::string("this is not a ") + kind.name + " file");
+  }
+  uint32_t version, checksum;
+  uint64_t header_size;
+  std::memcpy(&version, bytes.data() + 8, sizeof version);
+  std::memcpy(&checksum, bytes.data() + 12, sizeof checksum);
+  std::memcpy(&header_size, bytes.data() + 16, sizeof header_size);
+  if (version != kind.version) {
+    throw FileError("version " + std::to_string(version) + " of the format is not read, only " +
+                    std::to_string(kind.version) +
+                    " is; use the shapespace that wrote it, or make it again with this one");
+  }
+  if (Checksum(bytes, 16) != checksum || header_size > bytes.size() - kPreamble) {
+    throw FileError("it is damaged or was cut off (its checksum does not fit); make it again");
+  }
+  *arrays_begin = kPreamble + header_size;
+  return HeaderJson::parse(bytes.substr(kPreamble, header_size));
+}
+
+void WriteArrayFile(const std::string& file, const ArrayFileKind& kind, HeaderJson header,
+                    const ArrayWriter& arrays) {
+  const std::string bytes = PackArrayFile(kind, std::move(header), arrays);
+  WriteFileAtomically(file, [&](std::ostream& out) {
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  });
+}
+
+std::vector<int> IndicesFrom(const ArrayReader& arrays, const std::string& name) {
+  const auto column = arrays.Get<Eigen::VectorXi>(name, Eigen::Dynamic, 1);
+  return {column.begin(), column.end()};
+}
+
+}  // namespace shapespace::internal

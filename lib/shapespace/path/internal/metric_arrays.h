@@ -1,0 +1,36 @@
+#ifndef SHAPESPACE_PATH_INTERNAL_METRIC_ARRAYS_H_
+#define SHAPESPACE_PATH_INTERNAL_METRIC_ARRAYS_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <shapespace/mesh/appearance.h>
+#include <shapespace/metric/metric.h>
+#include <shapespace/path/internal/array_file.h>
+
+// A metric with its connectivity, and an appearance, as components of files.
+
+namespace shapespace::internal {
+
+/// Adds a metric to a file.
+void AddMetric(const Metric& metric, HeaderJson* header, ArrayWriter* arrays);
+
+/// Reads it back.
+/// \throw FileError, or another exception if the header is inconsistent.
+std::shared_ptr<const Metric> ReadMetric(const HeaderJson& header, const ArrayReader& arrays);
+
+/// Names may contain any bytes, but JSON only text in UTF-8; other names become a list of bytes.
+HeaderJson NamesToJson(const std::vector<std::string>& names);
+std::vector<std::string> NamesFromJson(const HeaderJson& json);
+
+/// The same for an appearance. Paths of libraries are relative to `file`, the file that is written
+/// or read, so that all can be moved together.
+void AddAppearance(const Appearance& appearance, const std::string& file, HeaderJson* header,
+                   ArrayWriter* arrays);
+Appearance ReadAppearance(const HeaderJson& header, const std::string& file,
+                          const ArrayReader& arrays);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_PATH_INTERNAL_METRIC_ARRAYS_H_

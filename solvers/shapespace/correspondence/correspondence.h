@@ -1,0 +1,145 @@
+#ifndef SHAPESPACE_CORRESPONDENCE_CORRESPONDENCE_H_
+#define SHAPESPACE_CORRESPONDENCE_CORRESPONDENCE_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <shapespace/base/progress.h>
+#include <shapespace/correspondence/surface_map.h>
+#include <shapespace/mesh/connectivity.h>
+#include <shapespace/mesh/shape.h>
+#include <shapespace/path/path.h>
+
+namespace shapespace {
+
+/// Two corresponding vertices, one of the template and one of the target (a landmark).
+struct Marker {
+  int template_vertex = -1, target_vertex = -1;
+};
+
+/// How a template is fitted onto another body (docs/mathematics.md, section 14).
+struct CorrespondenceOptions {
+  /// Ignore markers that contradict the others (CorrespondenceSummary::doubtful). If false, all
+  /// markers are met exactly, even where this distorts the fit.
+  bool drop_doubtful = true;
+
+  /// Length over which the ratio of the two bodies' proportions may change, as a share of the
+  /// square root of the area: longer for bodies that are alike, shorter where, say, one has a
+  /// larger head and shorter arms. Insensitive: 0.05 to 0.15 give nearly the same result on all
+  /// pairs measured.
+  double proportions = 0.1;
+
+  /// MetricOptions::bending of the fitted template. Larger values keep it from following detail
+  /// that the template does not have; with smaller ones it may fold.
+  double bending = 3e-5;
+
+  /// The final rounds end when vertices move by less than this: root mean square, as a share of the
+  /// square root of the area. The figures of docs/measurements.md do not change below 1e-3.
+  double tolerance = 1e-3;
+
+  /// Greatest number of final rounds. A fit that needs more is reported as not converged.
+  int max_iterations = 10;
+
+  /// Triangles of the coarsest level of the hierarchy, on which the template's pose is found.
+  int coarsest = 2000;
+
+  /// Memory limit in bytes; if the estimate exceeds it, the call is refused before anything is
+  /// allocated.
+  double memory_limit = 8e9;
+
+  /// \throw InvalidOptions naming the field.
+  void Validate() const;
+};
+
+struct CorrespondenceSummary {
+  /// Rounds of closest-point fitting on one level.
+  struct Stage {
+    int vertices = 0;
+    std::string name;   ///< "gradients" (Sumner and Popovic's method) or "shell" (strain and
+                        ///< bending)
+    double weight = 0;  ///< of the closest-point terms
+    int rounds = 0;
+    /// Root mean square distance from the target before the last round, over the vertices that are
+    /// near it.
+    double distance = 0;
+    /// Root mean square distance of the vertices from the solution of the last round, as a share of
+    /// the square root of the template's area. The round may have moved them only part of the way.
+    double motion = 0;
+    double seconds = 0;
+  };
+
+  /// A marker that is inconsistent with the others.
+  struct Doubt {
+    int marker = 0;     ///< index, from 0
+    double off = 0;     ///< distance of its target vertex from the one that the others predict
+    int expected = -1;  ///< the target vertex that the others predict
+    int swapped = -1;   ///< the marker with which it seems to be exchanged; -1: none
+  };
+
+  bool converged = false;
+  bool cancelled = false;
+  int template_vertices = 0, template_triangles = 0, target_vertices = 0, target_triangles = 0;
+  int markers = 0;  ///< that constrain the fit
+  std::vector<Doubt> doubtful;
+  double scale = 1;  ///< size of the target, as a multiple of the template's
+  std::vector<Stage> stages;
+  /// Lengths of this summary are shares of the square root of the target's area unless stated
+  /// otherwise.
+  double distance_rms = 0, distance_max = 0;       ///< from the fitted template to the target
+  double round_trip_mean = 0, round_trip_p95 = 0;  ///< of SurfaceMap::round_trip of the template
+  double turned = 0;     ///< share of triangles whose normal is opposite to the target's
+  double uncovered = 0;  ///< share of the target's area that no part of the template is near
+  std::vector<std::string> warnings;
+  double estimated_bytes = 0;  ///< of memory, before the call
+  /// fit_seconds includes unfold_seconds.
+  double total_seconds = 0, marker_seconds = 0, hierarchy_seconds = 0, fit_seconds = 0,
+         unfold_seconds = 0, map_seconds = 0;
+
+  bool Converged() const { return converged; }
+  std::string BriefReport() const;  ///< one line
+  std::string FullReport() const;   ///< a page
+  std::string ToJson() const;
+};
+
+struct CorrespondenceResult {
+  /// The template's vertices on the target's surface, 3 x m, in the target's frame and unit.
+  /// Markers that were not dropped coincide with their target vertices exactly.
+  Shape fitted;
+  SurfaceMap map;
+  CorrespondenceSummary summary;
+};
+
+/// Fits a template onto another body of any connectivity, guided by a few pairs of vertices, and
+/// maps the two surfaces onto each other. Position, orientation and size of the two bodies are
+/// arbitrary. Their poses may differ, if there are markers that tell where the limbs are. The
+/// method begins with section 5 of R. Sumner and J. Popovic, "Deformation Transfer for Triangle
+/// Meshes" (SIGGRAPH 2004) and continues with a fit under strain and bending (docs/mathematics.md,
+/// section 14).
+/// \throw InvalidOptions; MeshError (a mesh without triangles or extent, a shape that is not finite
+///        or has another number of vertices than its connectivity; fewer than three markers,
+///        markers on one line, out of range, repeated or on a vertex without triangle; a component
+///        of the template without a marker; markers that only fit a mirror image; a body that is
+///        inside out), naming the marker, counted from 1; SolverError (memory limit); Cancelled
+///        (stopped before a fit was found; if stopped later, the fit so far is mapped, see
+///        CorrespondenceSummary::cancelled).
+CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& template_connectivity,
+                                const Shape& template_shape,
+                                const std::shared_ptr<const Connectivity>& target_connectivity,
+                                const Shape& target_shape, const std::vector<Marker>& markers,
+                                const CorrespondenceOptions& options = {},
+                                Progress* progress = nullptr);
+
+/// Converts a path of the fitted template, whose first shape is `result.fitted`, to a path of the
+/// target's own mesh, whose vertices move with the surface on which they lie (`CarryAlong`). The
+/// metric has the path's options; the cost of volume is left out if the target encloses none.
+/// \throw MeshError if the path, the result and the mesh do not belong together.
+Path CarryPath(const CorrespondenceResult& result, const Path& path,
+               const std::shared_ptr<const Connectivity>& target_connectivity,
+               const Shape& target_shape);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_CORRESPONDENCE_CORRESPONDENCE_H_

@@ -1,0 +1,102 @@
+#include <sstream>
+
+#include <shapespace/correspondence/correspondence.h>
+#include <shapespace/numerics/internal/report.h>
+
+namespace shapespace {
+
+using internal::Format;
+using internal::JsonNumber;
+
+std::string CorrespondenceSummary::BriefReport() const {
+  return Format(
+      "%s: %d vertices on %d, %d markers, %.3g%% off the target (rms), %.3g%% turned over, "
+      "%.2f s",
+      cancelled   ? "cancelled"
+      : converged ? "converged"
+                  : "not converged",
+      template_vertices, target_vertices, markers, 100 * distance_rms, 100 * turned, total_seconds);
+}
+
+std::string CorrespondenceSummary::FullReport() const {
+  std::ostringstream out;
+  out << "Termination       "
+      << (cancelled   ? "cancelled"
+          : converged ? "converged"
+                      : "not converged")
+      << '\n'
+      << Format("Template          %d vertices, %d triangles\n", template_vertices,
+                template_triangles)
+      << Format("Target            %d vertices, %d triangles; %.6g times as large\n",
+                target_vertices, target_triangles, scale)
+      << Format("Markers           %d held, %d doubtful\n", markers,
+                static_cast<int>(doubtful.size()))
+      << "\nIn per cent of the square root of the target's area:\n"
+      << Format("From the target   rms %.4g%%, max %.4g%%\n", 100 * distance_rms,
+                100 * distance_max)
+      << Format("Round trip        mean %.4g%%, 95th percentile %.4g%%\n", 100 * round_trip_mean,
+                100 * round_trip_p95)
+      << Format("\nTurned over       %.4g%% of triangles\n", 100 * turned)
+      << Format("Not covered       %.4g%% of the target's area\n", 100 * uncovered)
+      << "\nvertices stage         weight  rounds  distance %  last motion %  seconds\n";
+  for (const Stage& stage : stages) {
+    out << Format("%8d %-10s %9.4g %7d %11.4g %14.4g %8.3f\n", stage.vertices, stage.name.c_str(),
+                  stage.weight, stage.rounds, 100 * stage.distance, 100 * stage.motion,
+                  stage.seconds);
+  }
+  for (const Doubt& doubt : doubtful) {
+    out << Format(
+        "\nmarker %d is %.3g%% from the position that the others predict: vertex %d of the target",
+        doubt.marker + 1, 100 * doubt.off, doubt.expected + 1);
+    if (doubt.swapped >= 0) out << Format(" (swapped with marker %d?)", doubt.swapped + 1);
+  }
+  out << Format(
+      "%s\nTime              %.3f s: markers %.3f, hierarchy %.3f, fit %.3f (unfolding %.3f), "
+      "map %.3f\n",
+      doubtful.empty() ? "" : "\n", total_seconds, marker_seconds, hierarchy_seconds, fit_seconds,
+      unfold_seconds, map_seconds);
+  for (const std::string& warning : warnings) out << "Warning: " << warning << '\n';
+  return out.str();
+}
+
+std::string CorrespondenceSummary::ToJson() const {
+  nlohmann::ordered_json json;
+  json["termination"] = internal::Key(converged, cancelled);
+  json["converged"] = converged;
+  json["cancelled"] = cancelled;
+  json["template"] = {{"vertices", template_vertices}, {"triangles", template_triangles}};
+  json["target"] = {{"vertices", target_vertices}, {"triangles", target_triangles}};
+  json["markers"] = markers;
+  json["doubtful"] = nlohmann::ordered_json::array();
+  for (const Doubt& doubt : doubtful) {
+    json["doubtful"].push_back({{"marker", doubt.marker + 1},
+                                {"off", JsonNumber(doubt.off)},
+                                {"expected_vertex", doubt.expected + 1},
+                                {"swapped_with", doubt.swapped + 1}});
+  }
+  json["scale"] = scale;
+  json["distance_rms"] = JsonNumber(distance_rms);
+  json["distance_max"] = JsonNumber(distance_max);
+  json["round_trip_mean"] = JsonNumber(round_trip_mean);
+  json["round_trip_p95"] = JsonNumber(round_trip_p95);
+  json["turned"] = turned;
+  json["uncovered"] = uncovered;
+  json["stages"] = nlohmann::ordered_json::array();
+  for (const Stage& stage : stages) {
+    json["stages"].push_back({{"vertices", stage.vertices},
+                              {"name", stage.name},
+                              {"weight", stage.weight},
+                              {"rounds", stage.rounds},
+                              {"distance", JsonNumber(stage.distance)},
+                              {"motion", JsonNumber(stage.motion)},
+                              {"seconds", stage.seconds}});
+  }
+  json["seconds"] = {{"total", total_seconds},         {"markers", marker_seconds},
+                     {"hierarchy", hierarchy_seconds}, {"fit", fit_seconds},
+                     {"unfolding", unfold_seconds},    {"map", map_seconds}};
+  json["estimated_bytes"] = estimated_bytes;
+  json["warnings"] = warnings;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace shapespace

@@ -1,0 +1,128 @@
+#include <shapespace/correspondence/internal/gradient_fit.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+
+#include <shapespace/numerics/internal/solve.h>
+#include <shapespace/transfer/internal/frames.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Keeps the system definite, for instance for vertices without triangles.
+constexpr double kRegularisation = 1e-9;
+// A triangle whose area is less than this share of its longest side's square is given less weight,
+// because its gradient is dominated by rounding.
+constexpr double kThin = 1e-2;
+
+// T_f is linear in four points: the triangle's corners and its fourth vertex.
+struct Element {
+  std::array<int, 4> unknowns;
+  std::array<Eigen::Vector3d, 4> gradients;
+  double quality;
+};
+
+void AddSquare(const std::vector<int>& unknowns, const std::vector<Eigen::Vector3d>& gradients,
+               double weight, std::vector<Eigen::Triplet<double>>* entries) {
+  for (size_t i = 0; i < unknowns.size(); ++i) {
+    for (size_t j = 0; j < unknowns.size(); ++j) {
+      if (unknowns[i] < unknowns[j]) continue;
+      entries->emplace_back(unknowns[i], unknowns[j], weight * gradients[i].dot(gradients[j]));
+    }
+  }
+}
+
+}  // namespace
+
+Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
+                   const std::vector<int>& held, const Shape& places, double identity) {
+  const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
+  const int num_vertices = connectivity.NumVertices();
+  const int num_unknowns = num_vertices + connectivity.NumTriangles();
+  std::vector<Element> elements(connectivity.NumTriangles());
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::MatrixX3d right = Eigen::MatrixX3d::Zero(num_unknowns, 3);
+  for (int v = 0; v < num_vertices; ++v) {
+    entries.emplace_back(v, v, kRegularisation);
+    right.row(v) = kRegularisation * rest.col(v).transpose();
+  }
+  for (int f = 0; f < triangles.cols(); ++f) {
+    Element& element = elements[f];
+    const Eigen::Matrix3d frame = Frame(rest, triangles.col(f));
+    const Eigen::Matrix3d inverse = InverseFrame(frame);
+    for (int k = 0; k < 3; ++k) {
+      element.unknowns[k] = triangles(k, f);
+      element.gradients[k + 1] = inverse.row(k);
+    }
+    element.unknowns[3] = num_vertices + f;
+    element.gradients[0] = -(element.gradients[1] + element.gradients[2] + element.gradients[3]);
+    const double longest = std::max({frame.col(0).squaredNorm(), frame.col(1).squaredNorm(),
+                                     (frame.col(1) - frame.col(0)).squaredNorm()});
+    const double share = 0.5 * frame.col(2).squaredNorm() / (kThin * longest);
+    element.quality = share < 1 ? share * share : 1;
+    if (!(element.quality > 0)) element.quality = 0;  // collapsed to a point
+    const std::vector<int> unknowns(element.unknowns.begin(), element.unknowns.end());
+    const std::vector<Eigen::Vector3d> gradients(element.gradients.begin(),
+                                                 element.gradients.end());
+    const double weight = identity * element.quality;
+    AddSquare(unknowns, gradients, weight, &entries);
+    for (int k = 0; k < 4; ++k) {
+      right.row(unknowns[k]) += weight * gradients[k].transpose();
+    }
+    entries.emplace_back(num_vertices + f, num_vertices + f, kRegularisation);
+  }
+  const auto add_difference = [&](int f, int g) {
+    // T_f - T_g, as a function of the six unknowns of both.
+    std::vector<int> unknowns(elements[f].unknowns.begin(), elements[f].unknowns.end());
+    std::vector<Eigen::Vector3d> gradients(elements[f].gradients.begin(),
+                                           elements[f].gradients.end());
+    for (int k = 0; k < 4; ++k) {
+      const int unknown = elements[g].unknowns[k];
+      const auto found = std::find(unknowns.begin(), unknowns.end(), unknown);
+      if (found == unknowns.end()) {
+        unknowns.push_back(unknown);
+        gradients.emplace_back(-elements[g].gradients[k]);
+      } else {
+        gradients[found - unknowns.begin()] -= elements[g].gradients[k];
+      }
+    }
+    AddSquare(unknowns, gradients, std::min(elements[f].quality, elements[g].quality), &entries);
+  };
+  for (int e = 0; e < connectivity.NumTriangleEdges(); ++e) {
+    const IndexLists::Row around = connectivity.TrianglesOfEdges()[e];
+    for (int i = 1; i < around.size(); ++i) add_difference(around[i - 1], around[i]);
+  }
+  Eigen::SparseMatrix<double> matrix(num_unknowns, num_unknowns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+
+  // Held vertices go to the right-hand side; their equations become x = place.
+  std::vector<bool> is_held(num_unknowns, false);
+  Eigen::MatrixX3d known = Eigen::MatrixX3d::Zero(num_unknowns, 3);
+  for (size_t i = 0; i < held.size(); ++i) {
+    is_held[held[i]] = true;
+    known.row(held[i]) = places.col(static_cast<Eigen::Index>(i)).transpose();
+  }
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
+      const int row = static_cast<int>(entry.row());
+      if (!is_held[row] && !is_held[column]) continue;
+      if (row == column) {
+        entry.valueRef() = 1;
+        continue;
+      }
+      if (!is_held[row]) right.row(row) -= entry.value() * known.row(column);
+      if (!is_held[column]) right.row(column) -= entry.value() * known.row(row);
+      entry.valueRef() = 0;
+    }
+  }
+  for (int v = 0; v < num_vertices; ++v) {
+    if (is_held[v]) right.row(v) = known.row(v);
+  }
+  return Solve(Cholesky(matrix), right).topRows(num_vertices).transpose();
+}
+
+}  // namespace shapespace::internal

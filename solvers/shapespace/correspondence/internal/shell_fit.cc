@@ -1,0 +1,149 @@
+#include <shapespace/correspondence/internal/shell_fit.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <shapespace/numerics/internal/solve.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Weight of the distance from a point relative to that from its tangent plane. It is small, so that
+// the body can slide along the target to reduce strain.
+constexpr double kAlong = 0.02;
+// Penalty on the motion of vertices in an iteration; keeps the system definite.
+constexpr double kMotion = 1e-6;
+constexpr int kHalvings = 8;
+
+MetricOptions ShellMetric(double bending) {
+  MetricOptions options = MetricOptions::Strain();
+  options.lambda = kMotion;
+  options.bending = bending;
+  return options;
+}
+
+Eigen::Vector3d Offset(const Pull& pull, const Shape& shape) {
+  Eigen::Vector3d offset = -pull.point;
+  for (int k = 0; k < 3; ++k) offset += pull.barycentric(k) * shape.col(pull.vertices(k));
+  return offset;
+}
+
+}  // namespace
+
+ShellFit::ShellFit(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
+                   const std::vector<int>& held, double bending, double proportions)
+    : metric_(FreezeMetric(ShellMetric(bending), connectivity, {rest})),
+      map_(metric_),
+      stretch_(connectivity, rest / metric_->unit, proportions),
+      is_held_(rest.cols(), false),
+      wanted_(map_.Values(rest / metric_->unit)) {
+  for (const int v : held) is_held_[v] = true;
+}
+
+void ShellFit::SetWanted(const Shape& shape) {
+  for (size_t i = 0; i < metric_->features.size(); ++i) {
+    const int begin = map_.FirstValue(i);
+    if (const auto* positions = metric_->features[i]->As<Position>()) {
+      for (int v = 0; v < shape.cols(); ++v) {
+        wanted_.segment<3>(begin + 3 * v) = std::sqrt(positions->weights(v)) * shape.col(v);
+      }
+    } else if (const auto* strains = metric_->features[i]->As<TriangleStrain>()) {
+      const auto triangles = stretch_.StretchedTriangles(shape);
+      for (int f = 0; f < triangles.cols(); ++f) {
+        Eigen::Vector3d strain;
+        (*strains)(triangles.col(f).data(), strain.data());
+        wanted_.segment<3>(begin + 3 * f) = std::sqrt(strains->weights(f)) * strain;
+      }
+    }
+  }
+}
+
+double ShellFit::PullEnergy(const std::vector<Pull>& pulls, const Shape& shape) const {
+  double energy = 0;
+  for (const Pull& pull : pulls) {
+    const Eigen::Vector3d offset = Offset(pull, shape);
+    const double across = pull.normal.dot(offset);
+    energy += pull.weight * (across * across + kAlong * offset.squaredNorm());
+  }
+  return energy;
+}
+
+void ShellFit::AddPulls(const std::vector<Pull>& pulls, const Shape& shape, Tangent* gradient) {
+  double* const values = matrix_.valuePtr();
+  const int* const rows = matrix_.innerIndexPtr();
+  const int* const begins = matrix_.outerIndexPtr();
+  for (const Pull& pull : pulls) {
+    const Eigen::Matrix3d stiffness = pull.weight * (pull.normal * pull.normal.transpose() +
+                                                     kAlong * Eigen::Matrix3d::Identity());
+    const Eigen::Vector3d force = stiffness * Offset(pull, shape);
+    for (int i = 0; i < 3; ++i) {
+      if (pull.barycentric(i) == 0) continue;
+      gradient->col(pull.vertices(i)) += pull.barycentric(i) * force;
+      for (int j = 0; j < 3; ++j) {
+        const int p = pull.vertices(i), q = pull.vertices(j);
+        if (p < q || pull.barycentric(j) == 0) continue;
+        const double factor = pull.barycentric(i) * pull.barycentric(j);
+        for (int b = 0; b < 3; ++b) {
+          const int column = 3 * q + b;
+          const int first = p == q ? column : 3 * p;
+          double* entry =
+              values +
+              (std::lower_bound(rows + begins[column], rows + begins[column + 1], first) - rows);
+          for (int a = first - 3 * p; a < 3; ++a, ++entry) *entry += factor * stiffness(a, b);
+        }
+      }
+    }
+  }
+}
+
+double ShellFit::Step(const std::vector<Pull>& user_pulls, Shape* user_shape) {
+  const double unit = metric_->unit;
+  const Shape shape = *user_shape / unit;
+  std::vector<Pull> pulls = user_pulls;
+  for (Pull& pull : pulls) pull.point /= unit;
+
+  SetWanted(shape);
+  const Eigen::VectorXd off = map_.Values(shape) - wanted_;
+  const double energy = off.squaredNorm() + PullEnergy(pulls, shape);
+  const FeatureDerivative derivative = map_.Derivative(shape);
+  if (matrix_.rows() == 0) {
+    matrix_ = derivative.MetricMatrix();
+  } else {
+    derivative.UpdateMetricMatrix(&matrix_);
+  }
+  Tangent gradient = derivative.TransposeTimes(off);
+  AddPulls(pulls, shape, &gradient);
+  for (int column = 0; column < matrix_.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix_, column); entry; ++entry) {
+      const auto row = static_cast<int>(entry.row());
+      if (is_held_[row / 3] || is_held_[column / 3]) entry.valueRef() = row == column ? 1 : 0;
+    }
+  }
+  for (int v = 0; v < shape.cols(); ++v) {
+    if (is_held_[v]) gradient.col(v).setZero();
+  }
+  if (factor_ == nullptr) {
+    factor_ = std::make_unique<Cholesky>(matrix_);
+  } else {
+    factor_->Update(matrix_);
+  }
+  const Eigen::VectorXd solution = Solve(*factor_, gradient.reshaped());
+  const Eigen::Map<const Shape> step(solution.data(), 3, shape.cols());
+  const double motion = std::sqrt(metric_->vertex_area.dot(step.colwise().squaredNorm()));
+
+  double factor = 1;
+  for (int halving = 0; halving <= kHalvings; ++halving, factor *= 0.5) {
+    const Shape trial = shape - factor * step;
+    if ((map_.Values(trial) - wanted_).squaredNorm() + PullEnergy(pulls, trial) < energy) {
+      *user_shape = unit * trial;
+      for (int v = 0; v < shape.cols(); ++v) {
+        if (is_held_[v]) user_shape->col(v) = unit * shape.col(v);
+      }
+      break;
+    }
+  }
+  return motion;
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,217 @@
+#include <shapespace/correspondence/internal/unfold.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <shapespace/base/parallel.h>
+#include <shapespace/mesh/internal/geometry.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Number of rounds, in each of which patches grow by a ring of vertices, and of averagings per
+// round.
+constexpr int kRings = 6, kAverages = 8;
+// Number of passes; three passes leave a fifth fewer folds than one.
+constexpr int kPasses = 3;
+
+// Neighbours of each vertex, with M. Floater's mean value weights ("Mean value coordinates", 2003).
+// They are positive, so that no folds arise, and approximately preserve the triangles' shapes.
+class Neighbours {
+ public:
+  Neighbours(const Connectivity& connectivity, const Shape& rest);
+
+  // Calls use(neighbour, weight) for each.
+  template <typename Use>
+  void ForEach(int v, const Use& use) const {
+    for (const int e : connectivity_.EdgesOfVertices()[v]) {
+      const double weight = weights_[e][v == connectivity_.Edges()(0, e) ? 0 : 1];
+      if (weight > 0) use(connectivity_.OtherEnd(e, v), weight);
+    }
+  }
+
+ private:
+  const Connectivity& connectivity_;
+  std::vector<std::array<double, 2>> weights_;  // per edge: for its first vertex and its second
+};
+
+Neighbours::Neighbours(const Connectivity& connectivity, const Shape& rest)
+    : connectivity_(connectivity), weights_(connectivity.NumEdges(), {0, 0}) {
+  const auto add = [&](int from, int to, double weight) {
+    for (const int e : connectivity.EdgesOfVertices()[from]) {
+      if (connectivity.OtherEnd(e, from) == to) weights_[e][from < to ? 0 : 1] += weight;
+    }
+  };
+  for (const Eigen::Vector3i triangle : connectivity.Triangles().colwise()) {
+    for (int k = 0; k < 3; ++k) {
+      const int v = triangle(k), a = triangle((k + 1) % 3), b = triangle((k + 2) % 3);
+      const Eigen::Vector3d p = rest.col(a) - rest.col(v), q = rest.col(b) - rest.col(v);
+      const double lengths = p.norm() * q.norm();
+      // The tangent of half the angle, at least kLeast for collapsed triangles.
+      constexpr double kLeast = 1e-3;
+      const double tangent = std::max(kLeast * lengths, p.cross(q).norm()) /
+                             std::max(kLeast * lengths, lengths + p.dot(q));
+      if (!(lengths > 0)) continue;
+      add(v, a, tangent / p.norm());
+      add(v, b, tangent / q.norm());
+    }
+  }
+}
+
+// Labels the connected patches of `inside` from 0; -1 outside.
+std::vector<int> PatchesOf(const std::vector<bool>& inside, const Neighbours& neighbours,
+                           int* count) {
+  std::vector<int> patch(inside.size(), -1);
+  *count = 0;
+  std::vector<int> open;
+  for (size_t seed = 0; seed < inside.size(); ++seed) {
+    if (!inside[seed] || patch[seed] >= 0) continue;
+    open.assign(1, static_cast<int>(seed));
+    patch[seed] = *count;
+    while (!open.empty()) {
+      const int v = open.back();
+      open.pop_back();
+      neighbours.ForEach(v, [&](int w, double) {
+        if (!inside[w] || patch[w] >= 0) return;
+        patch[w] = *count;
+        open.push_back(w);
+      });
+    }
+    ++*count;
+  }
+  return patch;
+}
+
+// The number of turned triangles with a corner in each patch.
+std::vector<int> CountTurned(const std::vector<bool>& turned, const Eigen::Matrix3Xi& triangles,
+                             const std::vector<int>& patch, int num_patches) {
+  std::vector<int> counts(num_patches, 0);
+  for (int f = 0; f < triangles.cols(); ++f) {
+    if (!turned[f]) continue;
+    for (int k = 0; k < 3; ++k) {
+      const int p = patch[triangles(k, f)];
+      // A triangle with several corners in a patch counts once.
+      const bool counted =
+          (k > 0 && patch[triangles(0, f)] == p) || (k > 1 && patch[triangles(1, f)] == p);
+      if (p >= 0 && !counted) ++counts[p];
+    }
+  }
+  return counts;
+}
+
+Foot MapVertex(const Level& level, const Shape& shape, const Shape& normals, const Target& target,
+               int v) {
+  const int vertex = level.vertices[v];
+  Foot foot = target.Nearest(shape.col(v), normals.col(v), vertex);
+  if (foot.triangle >= 0) return foot;
+  Foot other = target.GetSurface().Nearest(shape.col(v), [&](int f) {
+    return target.Distances().MayMatch(vertex, target.GetConnectivity().Triangles()(0, f));
+  });
+  return other.triangle >= 0 ? other : target.GetSurface().Nearest(shape.col(v));
+}
+
+// Updates the result `feet` of MapVertices for a shape in which only the vertices `moved` have
+// changed; the normals of their neighbours have changed too.
+std::vector<Foot> MapAnew(const Level& level, const Shape& shape, const Target& target,
+                          const std::vector<bool>& moved, const Neighbours& neighbours,
+                          std::vector<Foot> feet) {
+  const Shape normals = VertexNormals(*level.connectivity, shape);
+  ParallelFor(static_cast<int>(shape.cols()), [&](int v) {
+    bool is_affected = moved[v];
+    neighbours.ForEach(v, [&](int w, double) { is_affected = is_affected || moved[w]; });
+    if (is_affected) feet[v] = MapVertex(level, shape, normals, target, v);
+  });
+  return feet;
+}
+
+}  // namespace
+
+std::vector<bool> TurnedTriangles(const Level& level, const Shape& shape, const Target& target,
+                                  const std::vector<Foot>& feet) {
+  const Eigen::Matrix3Xi& triangles = level.connectivity->Triangles();
+  const Eigen::Matrix3Xi& others = target.GetConnectivity().Triangles();
+  const Shape& place = target.GetShape();
+  std::vector<bool> turned(triangles.cols());
+  for (int f = 0; f < triangles.cols(); ++f) {
+    Eigen::Vector3d there = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      there += AreaNormal(place, others.col(feet[triangles(k, f)].triangle));
+    }
+    turned[f] = AreaNormal(shape, triangles.col(f)).dot(there) < 0;
+  }
+  return turned;
+}
+
+std::vector<Foot> MapVertices(const Level& level, const Shape& shape, const Target& target) {
+  const Shape normals = VertexNormals(*level.connectivity, shape);
+  std::vector<Foot> feet(shape.cols());
+  ParallelFor(static_cast<int>(shape.cols()),
+              [&](int v) { feet[v] = MapVertex(level, shape, normals, target, v); });
+  return feet;
+}
+
+void Unfold(const Level& level, const Shape& rest, const Target& target,
+            const std::vector<int>& held, Shape* shape) {
+  const Eigen::Matrix3Xi& triangles = level.connectivity->Triangles();
+  const Neighbours neighbours(*level.connectivity, rest);
+  std::vector<bool> is_held(shape->cols(), false);
+  for (const int v : held) is_held[v] = true;
+  std::vector<Foot> feet = MapVertices(level, *shape, target);
+  for (int round = 0; round < kPasses * kRings; ++round) {
+    const int rings = 1 + round % kRings;
+    const std::vector<bool> turned = TurnedTriangles(level, *shape, target, feet);
+    std::vector<bool> inside(shape->cols(), false);
+    for (int f = 0; f < triangles.cols(); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        if (turned[f] && !is_held[triangles(k, f)]) inside[triangles(k, f)] = true;
+      }
+    }
+    for (int ring = 1; ring < rings; ++ring) {
+      const std::vector<bool> before = inside;
+      for (size_t v = 0; v < before.size(); ++v) {
+        if (!before[v]) continue;
+        neighbours.ForEach(static_cast<int>(v),
+                           [&](int w, double) { inside[w] = inside[w] || !is_held[w]; });
+      }
+    }
+    int num_patches = 0;
+    const std::vector<int> patch = PatchesOf(inside, neighbours, &num_patches);
+    if (num_patches == 0) return;
+    // The mean is projected onto the target where its normal agrees with those of the neighbours'
+    // feet.
+    Shape flat = *shape;
+    Shape facing(3, flat.cols());
+    for (int v = 0; v < flat.cols(); ++v) facing.col(v) = target.NormalAt(feet[v]);
+    for (int average = 0; average < kAverages; ++average) {
+      for (int v = 0; v < flat.cols(); ++v) {
+        if (!inside[v]) continue;
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+        double weights = 0;
+        neighbours.ForEach(v, [&](int w, double weight) {
+          sum += weight * flat.col(w);
+          normal += weight * facing.col(w);
+          weights += weight;
+        });
+        const Eigen::Vector3d mean = sum / weights;
+        const Foot foot = target.Nearest(mean, normal.stableNormalized(), level.vertices[v]);
+        if (foot.triangle < 0) continue;
+        flat.col(v) = foot.point;
+        facing.col(v) = target.NormalAt(foot);
+      }
+    }
+    const std::vector<bool> still = TurnedTriangles(
+        level, flat, target, MapAnew(level, flat, target, inside, neighbours, feet));
+    const std::vector<int> before = CountTurned(turned, triangles, patch, num_patches);
+    const std::vector<int> after = CountTurned(still, triangles, patch, num_patches);
+    std::vector<bool> moved(flat.cols(), false);
+    for (int v = 0; v < flat.cols(); ++v) {
+      moved[v] = inside[v] && after[patch[v]] < before[patch[v]];
+      if (moved[v]) shape->col(v) = flat.col(v);
+    }
+    feet = MapAnew(level, *shape, target, moved, neighbours, std::move(feet));
+  }
+}
+
+}  // namespace shapespace::internal

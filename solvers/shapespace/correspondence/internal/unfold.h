@@ -1,0 +1,30 @@
+#ifndef SHAPESPACE_CORRESPONDENCE_INTERNAL_UNFOLD_H_
+#define SHAPESPACE_CORRESPONDENCE_INTERNAL_UNFOLD_H_
+
+#include <vector>
+
+#include <shapespace/correspondence/internal/closest.h>
+
+namespace shapespace::internal {
+
+/// Which triangles have normals opposite to the target's: the comparison is with the sum of the
+/// normals of the target's triangles on which the corners lie.
+std::vector<bool> TurnedTriangles(const Level& level, const Shape& shape, const Target& target,
+                                  const std::vector<Foot>& feet);
+
+/// The points of the target that correspond to the vertices of `shape`: the nearest point that is
+/// compatible by normal and by distances from the markers; if there is none, the nearest that is
+/// compatible by distances; otherwise the nearest.
+std::vector<Foot> MapVertices(const Level& level, const Shape& shape, const Target& target);
+
+/// Removes folds. Around triangles whose normals are opposite to the target's, vertices other than
+/// `held` move to a weighted mean of their neighbours, as in W. Tutte's embedding ("How to draw a
+/// graph", 1963), and are projected back onto the target. Patches grow ring by ring until the fold
+/// is gone, in several passes; a patch without success is restored. Parts of the template that the
+/// target does not have, such as the inside of a mouth, become flat.
+void Unfold(const Level& level, const Shape& rest, const Target& target,
+            const std::vector<int>& held, Shape* shape);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_CORRESPONDENCE_INTERNAL_UNFOLD_H_

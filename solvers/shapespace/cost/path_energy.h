@@ -1,0 +1,37 @@
+#ifndef SHAPESPACE_COST_PATH_ENERGY_H_
+#define SHAPESPACE_COST_PATH_ENERGY_H_
+
+#include <vector>
+
+#include <ceres/problem.h>
+#include <Eigen/Core>
+
+#include <shapespace/mesh/shape.h>
+#include <shapespace/metric/metric.h>
+
+namespace shapespace::cost {
+
+/// Metrics with a sum feature, whose rows are dense, are refused above this number of vertices.
+inline constexpr int kMaxDenseVertices = 2000;
+
+/// The rigid metric's (c, c_bar), a parameter block of six numbers for each segment of a path.
+using RigidMotions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// Adds the energy of a path to `problem` as automatically differentiated residual blocks: one for
+/// every element of every feature in every segment (segment_cost.h). Every vertex of every shape is
+/// a parameter block of three numbers, (*shapes)[i].col(v).data(); the caller sets blocks constant,
+/// such as those of the ends. Ceres' cost is a quarter of `PathEnergy`'s energy: the scaled energy,
+/// E n / 2 for n segments, is 2 n times the cost.
+///
+/// `shapes` are in the metric's unit (Metric::unit). They and `motions` must outlive the problem,
+/// and must not be resized while it exists. `motions` is used for the rigid metric only and is
+/// resized here. `quartic_weight` as in PathEnergy::SetQuarticWeight.
+/// \throw MeshError if there are fewer than two shapes, or one has another number of vertices than
+///        the metric; InvalidOptions if the metric has a sum feature (volume) and more than
+///        kMaxDenseVertices vertices, or a rigid part and there are no `motions`.
+void AddPathEnergy(const Metric& metric, std::vector<Shape>* shapes, ceres::Problem* problem,
+                   RigidMotions* motions = nullptr, double quartic_weight = 1);
+
+}  // namespace shapespace::cost
+
+#endif  // SHAPESPACE_COST_PATH_ENERGY_H_

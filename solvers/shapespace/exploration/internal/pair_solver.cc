@@ -1,0 +1,207 @@
+#include <shapespace/exploration/internal/pair_solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <new>
+#include <optional>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/rigid_motion.h>
+#include <shapespace/path/energy.h>
+#include <shapespace/path/internal/array_file.h>
+
+namespace shapespace::internal {
+namespace {
+
+constexpr ArrayFileKind kKind = {"SHAPPAIR", 1, ".geodesic"};
+
+// A 128-bit hash of everything that is added.
+class Hasher {
+ public:
+  Hasher() { XXH3_128bits_reset(&state_); }
+  template <typename Number>
+  void Add(const Number* data, size_t count) {
+    const uint64_t size = count * sizeof(Number);
+    XXH3_128bits_update(&state_, &size, sizeof size);
+    XXH3_128bits_update(&state_, data, size);
+  }
+  void Add(double number) { Add(&number, 1); }
+  template <typename Matrix>
+  void AddAll(const Matrix& matrix) {
+    Add(matrix.data(), matrix.size());
+  }
+  std::string Digest() const {
+    const XXH128_hash_t hash = XXH3_128bits_digest(&state_);
+    char text[33];
+    std::snprintf(text, sizeof text, "%016llx%016llx",
+                  static_cast<unsigned long long>(hash.high64),  // NOLINT(google-runtime-int)
+                  static_cast<unsigned long long>(hash.low64));  // NOLINT(google-runtime-int)
+    return text;
+  }
+
+ private:
+  XXH3_state_t state_;
+};
+
+// Digest of everything that a geodesic depends on except its two shapes.
+std::string DigestOf(const Metric& frozen, const std::vector<Shape>& poses,
+                     const GeodesicOptions& options) {
+  Hasher hasher;
+  hasher.Add(kResultsVersion);
+  const MetricOptions& metric = options.metric;
+  for (double number :
+       {metric.isometric, metric.strain, metric.rigid, metric.lambda, metric.bending, metric.volume,
+        static_cast<double>(metric.weights), static_cast<double>(metric.discretization),
+        static_cast<double>(options.shapes), options.tolerance,
+        static_cast<double>(options.max_iterations), static_cast<double>(options.solver),
+        static_cast<double>(options.schedule), static_cast<double>(options.start),
+        static_cast<double>(options.coarsest)}) {
+    hasher.Add(number);
+  }
+  for (const auto& feature : frozen.features) {
+    hasher.Add(feature->Name().data(), feature->Name().size());
+    hasher.Add(feature->Element(0), feature->NumElements() * feature->VerticesPerElement());
+    hasher.AddAll(feature->Weights());
+    for (const auto& constant : feature->Constants()) hasher.Add(constant.second);
+  }
+  hasher.AddAll(frozen.connectivity->Triangles());
+  hasher.AddAll(frozen.connectivity->Edges());
+  for (const Shape& pose : poses) hasher.AddAll(pose);
+  return hasher.Digest();
+}
+
+double Length(const Metric& metric, const std::vector<Shape>& shapes) {
+  double length = 0;
+  for (size_t i = 0; i + 1 < shapes.size(); ++i) {
+    length += std::sqrt(ScaledEnergy(EnergyLowerBound(metric, shapes[i], shapes[i + 1], 1), 1));
+  }
+  return length;
+}
+
+std::string Pack(const std::string& digest, const PairResult& result) {
+  HeaderJson header = {{"digest", digest}, {"converged", result.converged}};
+  ArrayWriter arrays;
+  arrays.Add("lengths", Eigen::Vector2d(result.length, result.blend_length));
+  arrays.Add("shape", result.shape);
+  return PackArrayFile(kKind, std::move(header), arrays);
+}
+
+// Empty if the bytes are not a complete record with this digest.
+std::optional<PairResult> Unpack(const std::string& digest, const std::string& bytes) {
+  try {
+    size_t begin;
+    const HeaderJson header = UnpackHeader(kKind, bytes, &begin);
+    if (header.at("digest") != digest) return {};
+    const ArrayReader arrays(header.at("arrays"), bytes, begin);
+    const auto lengths = arrays.Get<Eigen::Vector2d>("lengths", 2, 1);
+    return PairResult{lengths(0), lengths(1), header.at("converged").get<bool>(),
+                      arrays.Get<Shape>("shape", 3, Eigen::Dynamic)};
+  } catch (const std::bad_alloc&) {
+    throw;  // the record may be good
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+// Progress of one solve as a part of the progress of many.
+class OneOfMany : public Progress {
+ public:
+  OneOfMany(Progress* progress, std::string stage, int done, int total)
+      : progress_(progress), stage_(std::move(stage)), done_(done), total_(total) {}
+  bool Report(const std::string& /*stage*/, int /*done*/, int /*total*/) override {
+    return progress_ == nullptr || progress_->Report(stage_, done_, total_);
+  }
+
+ private:
+  Progress* const progress_;
+  const std::string stage_;
+  const int done_, total_;
+};
+
+}  // namespace
+
+PairSolver::PairSolver(const std::shared_ptr<const Connectivity>& connectivity,
+                       const std::vector<Shape>& poses, const GeodesicOptions& options, Crew* crew,
+                       const std::string& records)
+    : interpolator_(connectivity, poses, options),
+      crew_(*crew),
+      records_(records),
+      digest_(DigestOf(*GetMetric(), poses, options)) {}
+
+std::string PairSolver::Digest(const Pair& pair) const {
+  Hasher hasher;
+  hasher.AddAll(digest_);
+  hasher.AddAll(*pair.from);
+  hasher.AddAll(*pair.to);
+  hasher.Add(pair.t);
+  return hasher.Digest();
+}
+
+std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const std::string& stage,
+                                          Progress* progress) {
+  // The first process reads the records, so that all processes have the same.
+  std::vector<std::string> digests, records;
+  std::vector<int> missing;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    digests.push_back(Digest(pairs[i]));
+    std::string record;
+    if (crew_.Rank() == 0) {
+      record = records_.Find(digests[i]).value_or("");
+      if (!record.empty() && !Unpack(digests[i], record)) {
+        ++counts_.damaged;
+        record.clear();
+      }
+    }
+    records.push_back(crew_.FromFirst(record));
+    if (records[i].empty()) missing.push_back(static_cast<int>(i));
+  }
+  const int total = static_cast<int>(missing.size());
+  counts_.found += static_cast<int>(pairs.size()) - total;
+  counts_.solved += total;
+  if (progress != nullptr) progress->ReportShare(0);
+  std::vector<std::string> solved = crew_.ForEach(total, [&](int i) {
+    OneOfMany one(progress, stage, i, total);
+    const PairResult result = SolveOne(pairs[missing[i]], &one);
+    std::string bytes = Pack(digests[missing[i]], result);
+    records_.Keep(digests[missing[i]], bytes);
+    if (progress != nullptr) progress->ReportShare((i + 1.0) / total);
+    return bytes;
+  });
+  for (int i = 0; i < total; ++i) records[missing[i]] = std::move(solved[i]);
+
+  std::vector<PairResult> results;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    auto result = Unpack(digests[i], records[i]);
+    if (!result) throw SolverError("the result of another process is damaged");
+    if (!result->converged) ++counts_.not_converged;
+    results.push_back(*std::move(result));
+    records[i].clear();
+  }
+  return results;
+}
+
+PairResult PairSolver::SolveOne(const Pair& pair, Progress* progress) {
+  const Metric& metric = *GetMetric();
+  ReportProgress(progress, {}, 0, 0);
+  const GeodesicResult found =
+      interpolator_.Between(metric.unit * *pair.from, metric.unit * *pair.to, progress);
+  if (found.summary.termination == Termination::kCancelled) throw Cancelled();
+  PairResult result;
+  result.length = Length(metric, found.path.shapes);
+  result.blend_length =
+      Length(metric, Resample({*pair.from, *pair.to}, {0, 1}, found.path.parameters));
+  result.converged = found.path.converged;
+  result.shape.resize(3, 0);
+  if (pair.t >= 0) {
+    const Shape shape = Resample(found.path.shapes, found.path.parameters, {pair.t}).front();
+    const Shape blend = (1 - pair.t) * *pair.from + pair.t * *pair.to;
+    result.shape = FitRigidMotion(shape, blend, metric.vertex_area)(shape);
+  }
+  return result;
+}
+
+}  // namespace shapespace::internal

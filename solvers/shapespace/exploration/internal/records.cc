@@ -1,0 +1,49 @@
+#include <shapespace/exploration/internal/records.h>
+
+#include <filesystem>
+#include <system_error>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/internal/atomic_file.h>
+#include <shapespace/base/internal/read_file.h>
+
+namespace shapespace::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kExtension[] = ".geodesic";
+
+}  // namespace
+
+std::string Records::File(const std::string& digest) const {
+  return (fs::path(folder_) / (digest + kExtension)).string();
+}
+
+std::optional<std::string> Records::Find(const std::string& digest) const {
+  std::error_code error;
+  if (folder_.empty() || !fs::exists(File(digest), error)) return {};
+  try {
+    return ReadFile(File(digest));
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
+void Records::Keep(const std::string& digest, const std::string& bytes) const {
+  if (folder_.empty()) return;
+  WriteFileAtomically(File(digest), [&](std::ostream& out) { out << bytes; });
+}
+
+void Records::Remove() const {
+  std::error_code error;
+  if (folder_.empty() || !fs::is_directory(folder_, error)) return;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    // Temporary files have a suffix after the extension (WriteFileAtomically).
+    const std::string name = entry.path().filename().string();
+    if (name.find(kExtension) != std::string::npos) fs::remove(entry.path(), error);
+  }
+  fs::remove(folder_, error);  // fails if it is not empty
+}
+
+}  // namespace shapespace::internal

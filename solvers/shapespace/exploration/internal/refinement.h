@@ -1,0 +1,19 @@
+#ifndef SHAPESPACE_EXPLORATION_INTERNAL_REFINEMENT_H_
+#define SHAPESPACE_EXPLORATION_INTERNAL_REFINEMENT_H_
+
+#include <shapespace/exploration/explore.h>
+#include <shapespace/exploration/internal/pair_solver.h>
+
+// Inserts midpoints of geodesics between nodes.
+
+namespace shapespace::internal {
+
+/// Splits triangles or segments of a space whose edges differ too much from geodesics, as described
+/// at `Explore`; adds the rounds to the summary.
+/// \throw as PairSolver::Solve.
+void Refine(const ExploreOptions& options, PairSolver* solver, Progress* progress, Space* space,
+            ExploreSummary* summary);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_EXPLORATION_INTERNAL_REFINEMENT_H_

@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/numerics/internal/report.h>
+
+namespace shapespace {
+namespace {
+
+using internal::Format;
+using internal::JsonNumber;
+
+const char* Name(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::kVariational:
+      return "variational";
+    case Integrator::kRungeKutta4:
+      return "Runge-Kutta 4";
+    case Integrator::kFirstIntegral:
+      break;
+  }
+  return "first integral (7)";
+}
+
+}  // namespace
+
+bool ExponentialSummary::Converged() const {
+  return ending == Ending::kComplete &&
+         std::all_of(steps.begin(), steps.end(),
+                     [&](const Step& step) { return step.converged && step.vertices == vertices; });
+}
+
+std::string ExponentialSummary::BriefReport() const {
+  const int open =
+      static_cast<int>(std::count_if(steps.begin(), steps.end(), [&](const Step& step) {
+        return !step.converged || step.vertices < vertices;
+      }));
+  std::string text = Converged() ? "converged"
+                     : ending != Ending::kComplete
+                         ? "STOPPED EARLY"
+                         : Format("%d steps NOT CONVERGED on the mesh itself", open);
+  text += Format(": %d vertices, %zu of %d steps", vertices, steps.size(), requested_steps);
+  if (!steps.empty()) {
+    text += Format("; energy %.6g to %.6g, edges off by %.3g%% rms from the first shape",
+                   steps.front().energy, steps.back().energy, 100 * steps.back().edge_rms);
+  }
+  return text + Format("; %.2f s", total_seconds);
+}
+
+std::string ExponentialSummary::FullReport() const {
+  std::ostringstream out;
+  out << "Ending            "
+      << (ending == Ending::kComplete ? Converged() ? "complete, converged" : "complete"
+                                      : "STOPPED EARLY: " + stopped)
+      << "\nIntegrator        " << Name(integrator) << "\nMetric            " << metric
+      << Format("\nMesh              %d vertices\n\n", vertices)
+      << "       t  solved on  increments  iterations  Krylov   residual        energy  "
+         "momentum drift  edges rms   edges max  inverted  seconds\n";
+  for (const Step& step : steps) {
+    out << Format(
+        "%8.4g %10d %11d %11d %7d %10.1e %13.6g %15.1e %9.3g%% %10.3g%% %8.2g%% %8.3f%s\n", step.t,
+        step.vertices, step.increments, step.iterations, step.krylov_iterations, step.residual,
+        step.energy, step.momentum_drift, 100 * step.edge_rms, 100 * step.edge_max,
+        100 * step.inverted, step.seconds, step.converged ? "" : "  (not converged)");
+  }
+  out << Format("\nTime              %.3f s, of which %d factorisations %.3f\n", total_seconds,
+                factorisations, factor_seconds);
+  for (const std::string& warning : warnings) out << "Warning: " << warning << '\n';
+  return out.str();
+}
+
+std::string ExponentialSummary::ToJson() const {
+  nlohmann::ordered_json json;
+  json["termination"] = ending == Ending::kDegenerate
+                            ? "degenerate"
+                            : internal::Key(Converged(), ending == Ending::kCancelled);
+  json["complete"] = ending == Ending::kComplete;
+  json["converged"] = Converged();
+  if (!stopped.empty()) json["stopped"] = stopped;
+  json["integrator"] = Name(integrator);
+  json["metric"] = metric;
+  json["vertices"] = vertices;
+  json["requested_steps"] = requested_steps;
+  json["steps"] = nlohmann::ordered_json::array();
+  for (const Step& step : steps) {
+    json["steps"].push_back({{"t", step.t},
+                             {"converged", step.converged},
+                             {"vertices", step.vertices},
+                             {"increments", step.increments},
+                             {"iterations", step.iterations},
+                             {"krylov_iterations", step.krylov_iterations},
+                             {"residual", JsonNumber(step.residual)},
+                             {"energy", JsonNumber(step.energy)},
+                             {"momentum_drift", JsonNumber(step.momentum_drift)},
+                             {"edge_rms", step.edge_rms},
+                             {"edge_max", step.edge_max},
+                             {"inverted", step.inverted},
+                             {"seconds", step.seconds}});
+  }
+  json["seconds"] = {{"total", total_seconds}, {"factorisation", factor_seconds}};
+  json["factorisations"] = factorisations;
+  json["warnings"] = warnings;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace shapespace

@@ -1,0 +1,56 @@
+#ifndef SHAPESPACE_EXPONENTIAL_INTERNAL_METRIC_SOLVER_H_
+#define SHAPESPACE_EXPONENTIAL_INTERNAL_METRIC_SOLVER_H_
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+#include <shapespace/mesh/shape.h>
+#include <shapespace/metric/feature_map.h>
+#include <shapespace/numerics/internal/cholesky.h>
+
+namespace shapespace::internal {
+
+/// Solves linear systems with the metric's matrix J^T J, or with J_a^T J_b for two neighbouring
+/// shapes of a path, which is not symmetric. GMRES (Saad and Schultz, 1986) is preconditioned by a
+/// sparse factor of the metric at one of the shapes. With a factor at the same shape it takes two
+/// or three iterations for two digits; with the previous step's factor, on real meshes, a hundred,
+/// because soft motions depend on the surface's orientation. Therefore every step factors again;
+/// the elimination order is computed once.
+class MetricSolver {
+ public:
+  /// Takes the matrix of the metric at a shape, given by the derivative there.
+  /// \throw SolverError if it is not definite (lambda 0, or a shape that has degenerated).
+  void Factor(const FeatureDerivative& at);
+
+  /// Solves left^T right x = b until the residual is at most `tolerance` times |b|, both measured
+  /// in the factored metric. The initial guess is zero.
+  struct Result {
+    int iterations = 0;
+    double residual = 0;  ///< relative to |b|
+  };
+  Result Solve(const FeatureDerivative& left, const FeatureDerivative& right, const Tangent& b,
+               double tolerance, int max_iterations, Tangent* x) const;
+
+  /// The norm of a tangent whose image under G is `b`: sqrt(<b, G^{-1} b>).
+  double DualNorm(const Tangent& b) const;
+
+  int NumFactorisations() const { return factorisations_; }
+  double FactorSeconds() const { return factor_seconds_; }
+
+ private:
+  // x <- C^{-1} x, or C^{-T} x, for one right-hand side, in the factor's order.
+  void HalfSolve(bool transposed, Eigen::VectorXd* x) const;
+  Eigen::VectorXd Permuted(const Tangent& b) const;
+  Tangent Unpermuted(const Eigen::VectorXd& x) const;
+
+  Eigen::SparseMatrix<double> matrix_;
+  std::optional<Cholesky> factor_;
+  int factorisations_ = 0;
+  double factor_seconds_ = 0;
+};
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_EXPONENTIAL_INTERNAL_METRIC_SOLVER_H_

@@ -1,0 +1,54 @@
+#include <shapespace/exponential/internal/nearest_shape.h>
+
+#include <utility>
+
+#include <shapespace/exponential/internal/step.h>
+
+namespace shapespace::internal {
+namespace {
+
+// A step is shortened until it gains this share of its predicted decrease.
+constexpr double kSufficient = 1e-4;
+constexpr int kMostHalvings = 8;
+
+}  // namespace
+
+NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& target,
+                              const Shape& start, const NearestShapeOptions& options,
+                              const std::function<void()>& check_cancelled, MetricSolver* solver) {
+  NearestShape result;
+  result.shape = start;
+  Eigen::VectorXd distance = map.Values(start) - target;
+  result.squared_distance = distance.squaredNorm();
+  result.converged = result.squared_distance <= options.tolerance;
+  while (!result.converged && result.iterations < options.max_iterations) {
+    check_cancelled();
+    ++result.iterations;
+    const FeatureDerivative derivative = map.Derivative(result.shape);
+    solver->Factor(derivative);
+    const Tangent gradient = derivative.TransposeTimes(distance);
+    const Tangent step = SolveMetric(*solver, derivative, gradient);
+    const double promise = step.cwiseProduct(gradient).sum();
+    if (promise <= options.tolerance) {
+      result.converged = true;
+      break;
+    }
+    bool lowered = false;
+    double factor = 1;
+    for (int halving = 0; !lowered && halving <= kMostHalvings; ++halving, factor *= 0.5) {
+      Shape trial = result.shape - factor * step;
+      Eigen::VectorXd left = map.Values(trial) - target;
+      const double gain = result.squared_distance - left.squaredNorm();
+      if (!(gain >= kSufficient * factor * promise)) continue;
+      lowered = true;
+      result.converged = halving == 0 && gain <= options.tolerance;
+      result.shape = std::move(trial);
+      distance = std::move(left);
+      result.squared_distance = distance.squaredNorm();
+    }
+    if (!lowered) break;
+  }
+  return result;
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,448 @@
+#include <shapespace/geodesic/geodesic.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <shapespace/analysis/path_intersections.h>
+#include <shapespace/base/error.h>
+#include <shapespace/base/internal/stopwatch.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/cost/internal/refuse_sums.h>
+#include <shapespace/geodesic/internal/piece.h>
+#include <shapespace/hierarchy/freeze_level.h>
+#include <shapespace/numerics/internal/check_options.h>
+#include <shapespace/numerics/internal/memory.h>
+#include <shapespace/path/align.h>
+#include <shapespace/path/energy.h>
+
+namespace shapespace {
+namespace {
+
+// Fails early if the finest level cannot be solved.
+void CheckFinest(const Metric& metric, double bytes, const GeodesicOptions& options) {
+  if (options.solver == GeodesicSolver::kTrustRegion) cost::RefuseDenseRows(metric);
+  internal::CheckMemory("this solve", bytes, options.memory_limit, "insert fewer shapes");
+}
+
+// Restricts all `shapes` to a level.
+std::vector<Shape> Restrict(const Hierarchy& hierarchy, const std::vector<Shape>& shapes,
+                            int level) {
+  std::vector<Shape> restricted;
+  for (const Shape& shape : shapes) restricted.push_back(hierarchy.Restrict(shape, level));
+  return restricted;
+}
+
+// Prepares all levels, each with a metric of its own in the mesh's unit.
+std::vector<internal::Resolution> Resolve(const Hierarchy& hierarchy,
+                                          const std::shared_ptr<const Metric>& metric,
+                                          const std::vector<Shape>& aligned, PosePairs pairs) {
+  std::vector<internal::Resolution> resolutions;
+  for (int level = 0; level < hierarchy.NumLevels(); ++level) {
+    std::vector<Shape> poses = Restrict(hierarchy, aligned, level);
+    auto own = metric;
+    if (level + 1 < hierarchy.NumLevels()) {
+      own = FreezeLevel(*metric, hierarchy, level, poses, pairs);
+    }
+    resolutions.emplace_back(std::move(own), std::move(poses));
+  }
+  return resolutions;
+}
+
+// Linear interpolation from one pose to another.
+std::vector<Shape> Blend(const Shape& from, const Shape& to, int inner) {
+  std::vector<Shape> shapes;
+  for (int k = 0; k <= inner + 1; ++k) {
+    const double t = static_cast<double>(k) / (inner + 1);
+    shapes.push_back((1 - t) * from + t * to);
+  }
+  return shapes;
+}
+
+// The vertices whose motion has no cost: those of no element of any feature.
+std::vector<int> VerticesWithoutCost(const Metric& metric) {
+  const int num_vertices = metric.connectivity->NumVertices();
+  std::vector<char> has_cost(num_vertices, metric.rigid.Active() ? 1 : 0);
+  for (const auto& feature : metric.features) {
+    for (int e = 0; e < feature->NumElements(); ++e) {
+      for (int k = 0; k < feature->VerticesPerElement(); ++k) has_cost[feature->Element(e)[k]] = 1;
+    }
+  }
+  std::vector<int> vertices;
+  for (int v = 0; v < num_vertices; ++v) {
+    if (!has_cost[v]) vertices.push_back(v);
+  }
+  return vertices;
+}
+
+// Moves `vertices` on straight lines from the first shape to the last.
+void MoveStraight(const std::vector<int>& vertices, std::vector<Shape>* shapes) {
+  const int last = static_cast<int>(shapes->size()) - 1;
+  for (int k = 1; k < last; ++k) {
+    const double t = static_cast<double>(k) / last;
+    for (const int v : vertices) {
+      (*shapes)[k].col(v) = (1 - t) * shapes->front().col(v) + t * shapes->back().col(v);
+    }
+  }
+}
+
+// Whether poses differ so little that the path between them is dominated by rounding.
+bool AreNear(const Shape& a, const Shape& b) {
+  constexpr double kNear = 1e-6;
+  return (b - a).cwiseAbs().maxCoeff() <= kNear * a.cwiseAbs().maxCoeff();
+}
+
+// If the poses are so near that the energy is dominated by rounding, the blend is the solution,
+// because curvature is of second order, and a relative tolerance on the energy has no meaning. Adds
+// a row to the summary in that case.
+bool IsSolved(int piece, const std::vector<Shape>& blend, const GeodesicOptions& options,
+              internal::Resolution* finest, GeodesicSummary* summary) {
+  const int segments = static_cast<int>(blend.size()) - 1;
+  const double energy = ScaledEnergy(finest->Energy(blend, options), segments);
+  if (!(energy < GeodesicSummary::kZeroEnergy)) return false;
+  GeodesicSummary::Level row;
+  row.piece = piece;
+  row.vertices = static_cast<int>(blend.front().cols());
+  row.shapes = segments - 1;
+  row.start = "blend";
+  row.solver = "none";
+  row.initial_energy = row.energy = energy;
+  summary->levels.push_back(row);
+  return true;
+}
+
+// Measures the energy of the finished path by feature, and the lower bound, over all pieces.
+void MeasureEnergy(const Path& path, GeodesicSummary* summary) {
+  const Metric& metric = *path.metric;
+  for (const auto& feature : metric.features) summary->parts.emplace_back(feature->Name(), 0.0);
+  if (metric.rigid.Active()) summary->parts.emplace_back("rigid", 0.0);
+  for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
+    const std::vector<Shape> shapes(path.shapes.begin() + path.poses[piece],
+                                    path.shapes.begin() + path.poses[piece + 1] + 1);
+    const int segments = static_cast<int>(shapes.size()) - 1;
+    PathEnergy energy(path.metric, segments - 1);
+    std::vector<double> unknowns(energy.Size());
+    energy.Load(shapes, unknowns.data());
+    const std::vector<double> parts = energy.Parts(unknowns.data());
+    for (size_t i = 0; i < parts.size(); ++i) {
+      summary->parts[i].second += ScaledEnergy(parts[i], segments);
+    }
+    summary->lower_bound +=
+        ScaledEnergy(EnergyLowerBound(metric, shapes.front(), shapes.back(), segments), segments);
+  }
+  for (const auto& part : summary->parts) summary->energy += part.second;
+}
+
+PathQuality NotMeasured() {
+  PathQuality quality;
+  for (double* figure : {&quality.edge_rms, &quality.edge_p99, &quality.edge_max,
+                         &quality.first_rms, &quality.first_p99, &quality.first_max,
+                         &quality.roughness, &quality.folds, &quality.speed_max}) {
+    *figure = std::numeric_limits<double>::quiet_NaN();
+  }
+  return quality;
+}
+
+// Measures what is visible in the finished path.
+void Assess(const Path& path, GeodesicSummary* summary) {
+  summary->quality = MeasureQuality(path);
+
+  // A few shapes suffice to find out whether the body intersects itself.
+  std::vector<double> times = {0};
+  for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
+    const double begin = path.parameters[path.poses[piece]];
+    const double end = path.parameters[path.poses[piece + 1]];
+    for (double t : {.25, .5, .75}) times.push_back(begin + t * (end - begin));
+    times.push_back(end);
+  }
+  try {
+    summary->intersections = MeasureIntersections(Resample(path, times)).beyond_poses;
+  } catch (const Error& error) {  // no reason to discard the path
+    summary->warnings.push_back(std::string("not counted: ") + error.what());
+  }
+}
+
+void CheckShape(const Shape& shape, const Metric& metric) {
+  if (shape.cols() != metric.connectivity->NumVertices() || !shape.allFinite()) {
+    throw MeshError("a pose is not finite, or has another number of vertices than the metric");
+  }
+}
+
+GeodesicSchedule KindOfSchedule(const Metric& metric, const GeodesicOptions& options) {
+  if (options.schedule != GeodesicSchedule::kAutomatic || metric.options.bending > 0) {
+    return options.schedule;
+  }
+  return GeodesicSchedule::kFlat;
+}
+
+// Appends warnings about results that are valid but probably not wanted.
+void Warn(GeodesicSummary* summary) {
+  for (const GeodesicSummary::Level& level : summary->levels) {
+    if (level.kept && level.termination != Termination::kConverged &&
+        level.termination != Termination::kCancelled) {
+      summary->warnings.push_back(
+          "the level of " + std::to_string(level.shapes) + " shapes of piece " +
+          std::to_string(level.piece) +
+          (level.termination == Termination::kMaxIterations
+               ? " ran out of iterations; raise max_iterations or the tolerance"
+               : " stalled: its line search found no better point"));
+    }
+  }
+  if (summary->termination == Termination::kCancelled) {
+    summary->warnings.push_back(
+        "cancelled: the path is the best so far; shapes that were not solved yet are lifted or "
+        "refined from others");
+    return;  // further warnings would only follow from the cancellation
+  }
+  constexpr double kManyIntersections = 5;
+  if (summary->intersections > kManyIntersections) {
+    summary->warnings.push_back("the body intersects itself: inner shapes have " +
+                                std::to_string(std::lround(summary->intersections)) +
+                                " more pairs of intersecting triangles than the poses; no metric "
+                                "prevents this, but an additional pose in between may");
+  }
+  constexpr double kPoorRatio = 1.5, kManyFolds = 1e-3, kUneven = 1.15;
+  if (summary->Ratio() > kPoorRatio) {
+    summary->warnings.push_back("the energy is " + std::to_string(summary->Ratio()) +
+                                " times its lower bound: the path may be a poor local minimum");
+  }
+  if (summary->quality.speed_max > kUneven) {
+    summary->warnings.push_back(
+        "some segment is " + std::to_string(summary->quality.speed_max) +
+        " times as fast as the mean: a part may rest and then jump; check the pictures");
+  }
+  if (summary->quality.folds > kManyFolds * summary->hinges) {
+    summary->warnings.push_back("inner shapes have " +
+                                std::to_string(std::lround(summary->quality.folds)) +
+                                " folds that the poses do not have: check the pictures");
+  }
+}
+
+}  // namespace
+
+void GeodesicOptions::Validate() const {
+  metric.Validate();
+  if (shapes < 1) throw InvalidOptions("shapes: must be 1 or more");
+  internal::CheckTolerance(tolerance);
+  internal::CheckMaxIterations(max_iterations);
+  internal::CheckMemoryLimit(memory_limit);
+}
+
+GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivity,
+                           const std::vector<Shape>& poses, const GeodesicOptions& options,
+                           Progress* progress) {
+  options.Validate();
+  if (poses.size() < 2) throw MeshError("a geodesic needs at least two poses");
+  const internal::Stopwatch freezing;
+  ReportProgress(progress, "freezing the metric", 0, 0);
+  const auto metric = FreezeMetric(options.metric, connectivity, poses);
+  const double freeze_seconds = freezing.Seconds();
+  GeodesicResult result = Interpolate(metric, poses, options, progress);
+  result.summary.freeze_seconds = freeze_seconds;
+  result.summary.total_seconds += freeze_seconds;
+  return result;
+}
+
+namespace internal {
+
+// The data shared by all solves between poses of one mesh.
+class GeodesicLevels {
+ public:
+  GeodesicLevels(const std::shared_ptr<const Metric>& metric, const std::vector<Shape>& aligned,
+                 PosePairs pairs, const GeodesicOptions& options, Progress* progress = nullptr)
+      : metric_(metric),
+        options_(options),
+        kind_(KindOfSchedule(*metric, options)),
+        hierarchy_(metric->connectivity, aligned, MakeHierarchyOptions(), progress),
+        resolutions_(Resolve(hierarchy_, metric, aligned, pairs)),
+        without_cost_(VerticesWithoutCost(*metric)) {}
+
+  const std::shared_ptr<const Metric>& GetMetric() const { return metric_; }
+  void SetPoses(const std::vector<Shape>& aligned);
+  /// The path through `poses`, which are those that were set last.
+  GeodesicResult Solve(const AlignedPoses& poses, Progress* progress);
+
+ private:
+  HierarchyOptions MakeHierarchyOptions() const {
+    HierarchyOptions result;
+    result.coarsest = kind_ == GeodesicSchedule::kFlat
+                          ? std::max(options_.coarsest, metric_->connectivity->NumTriangles())
+                          : options_.coarsest;
+    return result;
+  }
+  void SolvePieces(const AlignedPoses& poses, Progress* progress, GeodesicResult* result);
+  void Describe(GeodesicSummary* summary) const;
+
+  const std::shared_ptr<const Metric> metric_;
+  const GeodesicOptions options_;
+  const GeodesicSchedule kind_;
+  const Hierarchy hierarchy_;
+  std::vector<Resolution> resolutions_;
+  const std::vector<int> without_cost_;  // vertices of the mesh itself
+};
+
+void GeodesicLevels::SetPoses(const std::vector<Shape>& aligned) {
+  for (int level = 0; level < hierarchy_.NumLevels(); ++level) {
+    resolutions_[level].SetPoses(Restrict(hierarchy_, aligned, level));
+  }
+}
+
+GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progress) {
+  GeodesicResult result;
+  const internal::Stopwatch solving;
+  double factored = 0;
+  for (const auto& resolution : resolutions_) factored += resolution.FactorSeconds();
+  SolvePieces(poses, progress, &result);
+  GeodesicSummary& summary = result.summary;
+  summary.solve_seconds = solving.Seconds();
+  for (const Resolution& resolution : resolutions_) {
+    summary.factor_seconds += resolution.FactorSeconds();
+    summary.factor_nonzeros += resolution.FactorNonzeros();
+  }
+  summary.factor_seconds -= factored;
+  Describe(&summary);
+  summary.poses = static_cast<int>(poses.shapes.size());
+  for (const GeodesicSummary::Level& level : summary.levels) {
+    if (level.kept) summary.termination = std::max(summary.termination, level.termination);
+  }
+  result.path.converged = summary.termination == Termination::kConverged;
+  MeasureEnergy(result.path, &summary);
+  if (options_.assess) {
+    Assess(result.path, &summary);
+  } else {
+    summary.quality = NotMeasured();
+    summary.intersections = std::numeric_limits<double>::quiet_NaN();
+  }
+  Warn(&summary);
+  return result;
+}
+
+// Solves piece by piece, from coarse to fine.
+void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
+                                 GeodesicResult* result) {
+  const std::vector<Shape>& aligned = poses.shapes;
+  const std::vector<RigidMotion>& motions = poses.motions;
+  GeodesicSummary& summary = result->summary;
+  Path& path = result->path;
+  const int pieces = static_cast<int>(aligned.size()) - 1;
+  const std::vector<ScheduleStep> schedule =
+      MakeSchedule(kind_, hierarchy_.NumLevels(), options_.shapes);
+  path.metric = metric_;
+  path.poses = {0};
+  path.shapes = {aligned[0]};
+  path.parameters = {0};
+  path.motions = {motions[0]};
+  Workload workload(progress, options_.tolerance, options_.max_iterations);
+  const bool more_shapes_allowed =
+      GeodesicBytes(*metric_, pieces + 1, 2 * options_.shapes + 1) <= options_.memory_limit;
+  for (int i = 0; i < pieces; ++i) {
+    internal::Plan(schedule, resolutions_, options_.start, &workload);
+  }
+  for (int i = 0; i < pieces; ++i) {
+    std::vector<Shape> shapes;
+    if (workload.Stopped() || AreNear(aligned[i], aligned[i + 1])) {
+      shapes = Blend(aligned[i], aligned[i + 1], options_.shapes);
+    }
+    if (!workload.Stopped() &&
+        (shapes.empty() || !IsSolved(i, shapes, options_, &resolutions_.back(), &summary))) {
+      Piece piece(i, hierarchy_, &resolutions_, options_, &workload, &summary);
+      piece.Run(schedule, more_shapes_allowed);
+      shapes = std::move(piece).Result();
+      MoveStraight(without_cost_, &shapes);
+      if (workload.Stopped() && i + 1 < pieces) {
+        summary.warnings.push_back("cancelled: the pieces from " + std::to_string(i + 1) +
+                                   " on are straight-line blends of their poses");
+      }
+    }
+    for (int k = 1; k <= options_.shapes + 1; ++k) {
+      const double t = static_cast<double>(k) / (options_.shapes + 1);
+      path.shapes.push_back(std::move(shapes[k]));
+      path.parameters.push_back((i + t) / pieces);
+      path.motions.push_back(InterpolateMotion(motions[i], motions[i + 1], t));
+    }
+    path.poses.push_back(path.NumShapes() - 1);
+  }
+  if (workload.Stopped()) summary.termination = Termination::kCancelled;
+}
+
+// Fills in the fields of the summary that are the same for all paths.
+void GeodesicLevels::Describe(GeodesicSummary* summary) const {
+  const Connectivity& connectivity = *metric_->connectivity;
+  for (const Resolution& resolution : resolutions_) {
+    summary->hierarchy.push_back(resolution.GetMetric()->connectivity->NumVertices());
+  }
+  summary->hierarchy_stopped_early = hierarchy_.StoppedEarly();
+  summary->metric = shapespace::Describe(metric_->options);
+  summary->vertices = connectivity.NumVertices();
+  summary->triangles = connectivity.NumTriangles();
+  summary->edges = connectivity.NumEdges();
+  summary->hinges = connectivity.NumHinges();
+  summary->shapes = options_.shapes;
+  summary->unit = metric_->unit;
+  summary->threads = Threads();
+}
+
+}  // namespace internal
+
+GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
+                           const std::vector<Shape>& poses, const GeodesicOptions& options,
+                           Progress* progress) {
+  options.Validate();
+  if (poses.size() < 2) throw MeshError("a geodesic needs at least two poses");
+  for (const Shape& pose : poses) CheckShape(pose, *metric);
+  const double bytes =
+      internal::GeodesicBytes(*metric, static_cast<int>(poses.size()), options.shapes);
+  CheckFinest(*metric, bytes, options);
+  const internal::Stopwatch total;
+  ReportProgress(progress, "decimating", 0, 0);
+  const AlignedPoses aligned = AlignPoses(*metric, poses);
+  internal::GeodesicLevels levels(metric, aligned.shapes, PosePairs::kConsecutive, options,
+                                  progress);
+  const double hierarchy_seconds = total.Seconds();
+  GeodesicResult result = levels.Solve(aligned, progress);
+  result.summary.hierarchy_seconds = hierarchy_seconds;
+  result.summary.estimated_bytes = bytes;
+  result.summary.total_seconds = total.Seconds();
+  return result;
+}
+
+Interpolator::Interpolator(const std::shared_ptr<const Connectivity>& connectivity,
+                           const std::vector<Shape>& poses, const GeodesicOptions& options) {
+  options.Validate();
+  const auto metric = FreezeMetric(options.metric, connectivity, poses, 0, PosePairs::kAll);
+  // One path is solved at a time, but all poses are stored on all levels.
+  estimated_bytes_ = internal::GeodesicBytes(*metric, 2, options.shapes) +
+                     2.0 * sizeof(double) * poses.size() * poses.front().size();
+  CheckFinest(*metric, estimated_bytes_, options);
+  levels_ = std::make_unique<internal::GeodesicLevels>(metric, AlignPoses(*metric, poses).shapes,
+                                                       PosePairs::kAll, options);
+}
+
+Interpolator::~Interpolator() = default;
+Interpolator::Interpolator(Interpolator&&) noexcept = default;
+Interpolator& Interpolator::operator=(Interpolator&&) noexcept = default;
+
+const std::shared_ptr<const Metric>& Interpolator::GetMetric() const {
+  return levels_->GetMetric();
+}
+
+GeodesicResult Interpolator::Between(const Shape& from, const Shape& to, Progress* progress) {
+  CheckShape(from, *GetMetric());
+  CheckShape(to, *GetMetric());
+  const internal::Stopwatch total;
+  const AlignedPoses aligned = AlignPoses(*GetMetric(), {from, to});
+  levels_->SetPoses(aligned.shapes);
+  GeodesicResult result = levels_->Solve(aligned, progress);
+  result.summary.estimated_bytes = estimated_bytes_;
+  result.summary.total_seconds = total.Seconds();
+  return result;
+}
+
+GeodesicResult Interpolate(const Poses& poses, const GeodesicOptions& options, Progress* progress) {
+  GeodesicResult result = Interpolate(poses.connectivity, poses.shapes, options, progress);
+  result.path.appearance = poses.soup.appearance;
+  return result;
+}
+
+}  // namespace shapespace

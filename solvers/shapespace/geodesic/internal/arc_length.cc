@@ -1,0 +1,30 @@
+#include <shapespace/geodesic/internal/arc_length.h>
+
+#include <cmath>
+
+#include <shapespace/base/parallel.h>
+#include <shapespace/path/energy.h>
+
+namespace shapespace::internal {
+
+std::vector<double> ArcLengthTimes(const Metric& metric, const std::vector<Shape>& shapes) {
+  constexpr double kUniformShare = 0.01;
+  const int segments = static_cast<int>(shapes.size()) - 1;
+  std::vector<double> lengths(segments);
+  ParallelFor(segments, [&](int i) {
+    lengths[i] = std::sqrt(EnergyLowerBound(metric, shapes[i], shapes[i + 1], 1));
+  });
+  double total = 0;
+  for (const double length : lengths) total += length;
+  const double share = total > 0 ? 1 - kUniformShare : 0;  // not a number under the rigid metric
+  std::vector<double> times(segments + 1, 0.0);
+  double way = 0;
+  for (int i = 1; i <= segments; ++i) {
+    way += lengths[i - 1];
+    times[i] = static_cast<double>(i) / segments;
+    if (share > 0 && i < segments) times[i] += share * (way / total - times[i]);
+  }
+  return times;
+}
+
+}  // namespace shapespace::internal

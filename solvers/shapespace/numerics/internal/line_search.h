@@ -1,0 +1,23 @@
+#ifndef SHAPESPACE_NUMERICS_INTERNAL_LINE_SEARCH_H_
+#define SHAPESPACE_NUMERICS_INTERNAL_LINE_SEARCH_H_
+
+#include <functional>
+
+namespace shapespace::internal {
+
+/// Value and slope of a function along a direction, at `step` times the direction.
+struct LinePoint {
+  double step, value, slope;
+};
+
+/// Finds a step that satisfies the Wolfe conditions (Nocedal and Wright, Numerical Optimization,
+/// section 3.1): 1 if it does, otherwise by bracketing and cubic interpolation. `start` is at step
+/// 0 and has a negative slope. Values that are not finite count as too large. Near the minimum,
+/// where values differ only by rounding, slopes are compared instead (Hager and Zhang 2005,
+/// approximate Wolfe conditions). \return the last point for which `evaluate` was called; if no
+/// point satisfies both conditions, one lower than the start, or else `start`.
+LinePoint SearchLine(const LinePoint& start, const std::function<LinePoint(double step)>& evaluate);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_NUMERICS_INTERNAL_LINE_SEARCH_H_

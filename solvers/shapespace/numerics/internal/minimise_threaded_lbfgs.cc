@@ -1,0 +1,324 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <shapespace/base/error.h>
+#include <shapespace/numerics/internal/chunks.h>
+#include <shapespace/numerics/internal/line_search.h>
+#include <shapespace/numerics/internal/minimise.h>
+
+namespace shapespace::internal {
+namespace {
+
+// A pair of step and change of gradient enters the history if the slope along the step has
+// increased by at least this share of its initial absolute value.
+constexpr double kLeastCurvature = 1e-3;
+
+// If the estimated gain is less than this share of the tolerance, the start is a minimum, or a line
+// search without decrease has converged to rounding.
+constexpr double kNothingLeft = 1e-3;
+
+// Uninitialised memory, so that all threads take part in its first write.
+template <typename Number>
+using Buffer = std::unique_ptr<Number[]>;
+template <typename Number = double>
+Buffer<Number> MakeBuffer(size_t size) {
+  return Buffer<Number>(new Number[size]);
+}
+
+// The usual algorithm traverses the history twice, backward and forward, and each scalar product
+// depends on the previous one. Here the vectors' scalar products with each other are stored, so
+// that all linear combinations of a traversal take one pass over memory, and all its scalar
+// products another.
+class ThreadedLbfgs {
+ public:
+  ThreadedLbfgs(const Objective& energy, const Precondition& precondition,
+                const MinimiseOptions& options, std::vector<double>* unknowns)
+      : energy_(energy),
+        precondition_(precondition),
+        options_(options),
+        unknowns_(*unknowns),
+        size_(unknowns->size()),
+        x_(MakeBuffer(size_)),
+        work_(MakeBuffer(size_)),
+        preconditioned_(MakeBuffer(size_)),
+        change_(MakeBuffer(size_)),
+        gradient_(MakeBuffer(size_)),
+        trial_gradient_(MakeBuffer(size_)) {}
+
+  MinimiseResult Run() {
+    Copy(unknowns_.data(), x_.get());
+    value_ = Evaluate(x_, gradient_.get());
+    if (!std::isfinite(value_)) {
+      throw SolverError("the energy of the path to start from is not finite");
+    }
+    result_.initial_energy = value_;
+    unit_ = std::sqrt(value_);
+    result_.termination = value_ == 0 ? Termination::kConverged : Iterate();
+    result_.energy = value_;
+    if (value_ > 0) result_.remaining = SteepestDecrease() / value_;
+    if (result_.termination == Termination::kStalled &&
+        result_.remaining < kNothingLeft * options_.tolerance) {
+      result_.termination = Termination::kConverged;
+    }
+    Copy(x_.get(), unknowns_.data());
+    return result_;
+  }
+
+ private:
+  // The vectors are in single precision, which causes no inconsistency: a step is taken along the
+  // rounded `direction`, and the preconditioner works in single precision anyway.
+  struct Pair {
+    Buffer<float> direction;   // of the unknowns, not scaled by `length`
+    Buffer<float> change;      // of the gradient, preconditioned
+    double length = 0;         // the step is `length` times `direction`
+    double curvature = 0;      // step . change of the gradient
+    double step_gradient = 0;  // step . gradient at the current point
+    // For this pair and each later one: step . change of the gradient, and the product of the
+    // change of the gradient with the preconditioned one.
+    std::vector<double> step_change, change_change;
+  };
+
+  void Copy(const double* from, double* to) {
+    ForChunks(size_, 0, [&](size_t begin, size_t count, double*) {
+      std::copy_n(from + begin, count, to + begin);
+    });
+  }
+
+  double Evaluate(const Buffer<double>& unknowns, double* gradient) {
+    ++result_.evaluations;
+    return energy_(unknowns.get(), gradient);
+  }
+
+  // Half the product of the gradient and the preconditioned gradient.
+  double SteepestDecrease() {
+    precondition_(gradient_.get(), unit_, work_.get());
+    return 0.5 * ForChunks(size_, 1, [&](size_t begin, size_t count, double* sums) {
+             sums[0] += Dot(&gradient_[begin], &work_[begin], count);
+           })[0];
+  }
+
+  Termination Iterate() {
+    // One short step of the line search is no sign of convergence; two small decreases in a row end
+    // the solve.
+    int small = 0;
+    for (;; ++result_.iterations) {
+      if (options_.keep_going && !options_.keep_going(result_.iterations, value_)) {
+        return Termination::kCancelled;
+      }
+      if (small >= 2) return Termination::kConverged;
+      if (result_.iterations >= options_.max_iterations) return Termination::kMaxIterations;
+      const double before = value_;
+      double slope = FindDirection();
+      const double promise = -0.5 * slope;  // gain predicted by the model
+      // If rounding makes the direction lead upwards, the predicted gain has no meaning.
+      if (promise >= 0 &&
+          promise <= std::max(kNothingLeft * options_.tolerance * value_,
+                              options_.enough * (result_.initial_energy - value_))) {
+        return Termination::kConverged;
+      }
+      if (!Search(slope)) {
+        if (fresh_) return Termination::kStalled;
+        history_.clear();
+        slope = FindDirection();
+        if (!Search(slope)) return Termination::kStalled;
+      }
+      small = before - value_ < options_.tolerance * value_ ? small + 1 : 0;
+    }
+  }
+
+  // Preconditions the gradient and thereby its last change, and computes the products of the latter
+  // with all changes. Returns the products of the gradient with each preconditioned change. The
+  // preconditioner's scale is adapted to the last step's curvature (Nocedal and Wright, equation
+  // 7.20).
+  std::vector<double> PreconditionGradient() {
+    precondition_(gradient_.get(), unit_, work_.get());
+    const int pairs = static_cast<int>(history_.size());
+    std::vector<double> products =
+        ForChunks(size_, 2 * pairs, [&](size_t begin, size_t count, double* sums) {
+          if (fresh_change_) {
+            Combine(&work_[begin], -1, &preconditioned_[begin], &history_.back().change[begin],
+                    count);
+          }
+          for (int i = 0; i < pairs; ++i) {
+            const float* const change = &history_[i].change[begin];
+            sums[i] += Dot(change, &gradient_[begin], count);
+            if (fresh_change_) sums[pairs + i] += Dot(change, &change_[begin], count);
+          }
+        });
+    if (fresh_change_) {
+      for (int i = 0; i < pairs; ++i) history_[i].change_change.push_back(products[pairs + i]);
+      const double product = products.back();
+      if (product > 0) scale_ = history_.back().curvature / product;
+    }
+    fresh_change_ = false;
+    preconditioned_.swap(work_);
+    products.resize(pairs);
+    return products;
+  }
+
+  // The coefficients of minus the direction as a linear combination of the (preconditioned) changes
+  // and steps of the pairs, from the two traversals of the history, on scalar products alone.
+  struct Weights {
+    std::vector<double> changes, steps;
+  };
+  Weights WalkThroughHistory(const std::vector<double>& products) const {
+    const int pairs = static_cast<int>(history_.size());
+    std::vector<double> back(pairs), forth(pairs);
+    for (int i = pairs - 1; i >= 0; --i) {
+      const Pair& pair = history_[i];
+      double sum = pair.step_gradient;
+      for (int j = i + 1; j < pairs; ++j) sum -= back[j] * pair.step_change[j - i];
+      back[i] = sum / pair.curvature;
+    }
+    for (int i = 0; i < pairs; ++i) {
+      double sum = products[i];
+      for (int j = 0; j < pairs; ++j) {
+        sum -= back[j] * history_[std::min(i, j)].change_change[std::abs(i - j)];
+      }
+      sum *= scale_;
+      for (int j = 0; j < i; ++j) sum += forth[j] * history_[j].step_change[i - j];
+      forth[i] = back[i] - sum / history_[i].curvature;
+    }
+    Weights weights;
+    for (int i = 0; i < pairs; ++i) {
+      weights.changes.push_back(-scale_ * back[i]);
+      weights.steps.push_back(forth[i] * history_[i].length);
+    }
+    return weights;
+  }
+
+  // Appends a pair whose direction is minus the quasi-Newton approximation times the gradient, and
+  // stores the end of a full step in `work_`. Returns the slope.
+  double FindDirection() {
+    const int pairs = static_cast<int>(history_.size());
+    fresh_ = pairs == 0;
+    const Weights weights = WalkThroughHistory(PreconditionGradient());
+    Pair next;
+    const bool full = pairs == options_.rank;
+    if (full) {  // the oldest pair's memory is overwritten chunk by chunk
+      next.direction.swap(history_.front().direction);
+    } else {
+      next.direction = MakeBuffer<float>(size_);
+    }
+    const double slope = ForChunks(size_, 1, [&](size_t begin, size_t count, double* sums) {
+      double* const z = &work_[begin];
+      for (size_t k = 0; k < count; ++k) z[k] = scale_ * preconditioned_[begin + k];
+      for (int i = 0; i < pairs; ++i) {
+        Add(weights.changes[i], &history_[i].change[begin], z, count);
+        const Buffer<float>& direction = i == 0 && full ? next.direction : history_[i].direction;
+        Add(weights.steps[i], &direction[begin], z, count);
+      }
+      float* const d = &next.direction[begin];
+      for (size_t k = 0; k < count; ++k) d[k] = static_cast<float>(-z[k]);
+      sums[0] += Dot(d, &gradient_[begin], count);
+      Combine(&x_[begin], 1, d, z, count);
+    })[0];
+    if (full) {
+      next.change.swap(history_.front().change);
+      history_.erase(history_.begin());
+    } else {
+      next.change = MakeBuffer<float>(size_);
+    }
+    history_.push_back(std::move(next));
+    return slope;
+  }
+
+  // Searches along the last pair's direction and completes the pair, or drops it. Returns false if
+  // no lower point was found.
+  bool Search(double slope) {
+    Pair& last = history_.back();
+    const Buffer<float>& direction = last.direction;
+    bool whole = true;  // `work_` contains the end of a full step
+    const LinePoint start = {0, value_, slope};
+    const LinePoint end = !(slope < 0) ? start : SearchLine(start, [&](double step) {
+      if (!whole || step != 1) {
+        ForChunks(size_, 0, [&](size_t begin, size_t count, double*) {
+          Combine(&x_[begin], step, &direction[begin], &work_[begin], count);
+        });
+        whole = step == 1;
+      }
+      const double value = Evaluate(work_, trial_gradient_.get());
+      const double trial_slope = ForChunks(size_, 1, [&](size_t begin, size_t count, double* sums) {
+        sums[0] += Dot(&direction[begin], &trial_gradient_[begin], count);
+      })[0];
+      return LinePoint{step, value, trial_slope};
+    });
+    if (end.step == 0) {
+      history_.pop_back();
+      return false;
+    }
+    x_.swap(work_);
+    value_ = end.value;
+    const int pairs = static_cast<int>(history_.size());
+    last.length = end.step;
+    last.curvature = end.step * (end.slope - slope);
+    // The change overwrites the old gradient.
+    const std::vector<double> products =
+        ForChunks(size_, pairs, [&](size_t begin, size_t count, double* sums) {
+          Combine(&trial_gradient_[begin], -1, &gradient_[begin], &gradient_[begin], count);
+          for (int i = 0; i + 1 < pairs; ++i) {
+            sums[i] += Dot(&history_[i].direction[begin], &trial_gradient_[begin], count);
+          }
+        });
+    change_.swap(gradient_);
+    gradient_.swap(trial_gradient_);
+    for (int i = 0; i + 1 < pairs; ++i) {
+      Pair& pair = history_[i];
+      const double product = pair.length * products[i];
+      pair.step_change.push_back(product - pair.step_gradient);
+      pair.step_gradient = product;
+    }
+    last.step_gradient = end.step * end.slope;
+    last.step_change = {last.curvature};
+    fresh_change_ = end.slope - slope >= -kLeastCurvature * slope;
+    if (!fresh_change_) {
+      history_.pop_back();
+      for (Pair& pair : history_) pair.step_change.pop_back();
+    }
+    return true;
+  }
+
+  const Objective& energy_;
+  const Precondition& precondition_;
+  const MinimiseOptions& options_;
+  std::vector<double>& unknowns_;
+  const size_t size_;
+  Buffer<double> x_, work_, preconditioned_, change_, gradient_, trial_gradient_;
+  double value_ = 0, unit_ = 1, scale_ = 1;
+  bool fresh_ = true;          // no history influences the direction
+  bool fresh_change_ = false;  // the last pair's change has not been preconditioned yet
+  std::vector<Pair> history_;  // oldest first
+  MinimiseResult result_;
+};
+
+}  // namespace
+
+double RemainingDecrease(PathEnergy* energy, Preconditioner* preconditioner,
+                         const std::vector<double>& unknowns) {
+  std::vector<double> gradient(unknowns.size()), step(unknowns.size());
+  const double value = energy->Evaluate(unknowns.data(), gradient.data());
+  if (value == 0) return 0;
+  preconditioner->Apply(gradient.data(), std::sqrt(value), step.data());
+  return 0.5 * Dot(gradient.data(), step.data(), step.size()) / value;
+}
+
+MinimiseResult MinimiseThreadedLbfgs(const Objective& energy, const Precondition& precondition,
+                                     const MinimiseOptions& options,
+                                     std::vector<double>* unknowns) {
+  return ThreadedLbfgs(energy, precondition, options, unknowns).Run();
+}
+
+MinimiseResult MinimiseThreadedLbfgs(PathEnergy* energy, Preconditioner* preconditioner,
+                                     const MinimiseOptions& options,
+                                     std::vector<double>* unknowns) {
+  return MinimiseThreadedLbfgs(
+      ObjectiveOf(energy),
+      [&](const double* gradient, double unit, double* result) {
+        preconditioner->Apply(gradient, unit, result);
+      },
+      options, unknowns);
+}
+
+}  // namespace shapespace::internal

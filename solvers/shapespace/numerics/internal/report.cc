@@ -1,0 +1,33 @@
+#include <shapespace/numerics/internal/report.h>
+
+namespace shapespace::internal {
+
+const char* Name(Termination termination) {
+  switch (termination) {
+    case Termination::kConverged:
+      return "converged";
+    case Termination::kMaxIterations:
+      return "NOT CONVERGED: out of iterations";
+    case Termination::kStalled:
+      return "NOT CONVERGED: stalled";
+    case Termination::kCancelled:
+      break;
+  }
+  return "NOT CONVERGED: cancelled";
+}
+
+const char* Key(Termination termination) {
+  switch (termination) {
+    case Termination::kConverged:
+      return "converged";
+    case Termination::kMaxIterations:
+      return "max_iterations";
+    case Termination::kStalled:
+      return "stalled";
+    case Termination::kCancelled:
+      break;
+  }
+  return "cancelled";
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,54 @@
+#ifndef SHAPESPACE_NUMERICS_INTERNAL_REPORT_H_
+#define SHAPESPACE_NUMERICS_INTERNAL_REPORT_H_
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <shapespace/analysis/shape_error.h>
+#include <shapespace/numerics/termination.h>
+
+// Helpers for the reports of all solvers.
+
+namespace shapespace::internal {
+
+/// printf into a string; the result is truncated after 511 characters.
+template <typename... Arguments>
+std::string Format(const char* format, Arguments... arguments) {
+  char text[512];
+  std::snprintf(text, sizeof text, format, arguments...);
+  return text;
+}
+
+/// JSON has no NaN: a value that is not finite becomes null.
+inline nlohmann::ordered_json JsonNumber(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+/// How a solve ended, in words.
+const char* Name(Termination termination);
+/// The same as the value of `termination` in reports: a word that stays the same.
+const char* Key(Termination termination);
+/// The value for calls that consist of several solves.
+inline const char* Key(bool converged, bool cancelled) {
+  return cancelled ? "cancelled" : converged ? "converged" : "not_converged";
+}
+
+inline std::string VolumeText(const ShapeError& error) {
+  return std::isfinite(error.volume) ? Format("volume %+.3g%%", 100 * error.volume)
+                                     : "volume n/a (the mesh is not closed)";
+}
+
+inline nlohmann::ordered_json ToJson(const ShapeError& error) {
+  return {{"edge_rms", error.edge_rms},
+          {"edge_p99", error.edge_p99},
+          {"edge_max", error.edge_max},
+          {"volume", JsonNumber(error.volume)},
+          {"inverted_hinges", error.inverted_hinges}};
+}
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_NUMERICS_INTERNAL_REPORT_H_
