@@ -14,7 +14,7 @@ using Deformation =
     CGAL::Surface_mesh_deformation<Mesh, CGAL::Default, CGAL::Default, CGAL::SRE_ARAP>;
 
 Shape DeformByArap(const Connectivity& connectivity, const Shape& rest,
-                   const std::vector<Handle>& handles, int steps, int iterations) {
+                   const std::vector<DeformationHandle>& handles, int steps, int iterations) {
   Mesh mesh;
   std::vector<Mesh::Vertex_index> vertices;
   for (int v = 0; v < rest.cols(); ++v) {
@@ -26,13 +26,13 @@ Shape DeformByArap(const Connectivity& connectivity, const Shape& rest,
   }
   Deformation deformation(mesh);
   deformation.insert_roi_vertices(vertices.begin(), vertices.end());
-  for (const Handle& handle : handles) {
+  for (const DeformationHandle& handle : handles) {
     for (int v : handle.vertices) deformation.insert_control_vertex(vertices[v]);
   }
   if (!deformation.preprocess()) throw SolverError("CGAL's deformation cannot start");
   for (int step = 1; step <= steps; ++step) {
     const double t = static_cast<double>(step) / steps;
-    for (const Handle& handle : handles) {
+    for (const DeformationHandle& handle : handles) {
       for (size_t k = 0; k < handle.vertices.size(); ++k) {
         const int v = handle.vertices[k];
         const Eigen::Vector3d at = handle.Target(static_cast<int>(k), t, rest.col(v));

@@ -13,7 +13,7 @@ namespace shapespace::benchmarks {
 /// smooth rotations of Levi and Gotsman 2015), with all vertices in its region. The handles move in
 /// `steps` steps of `iterations` iterations each, which end early at a change of 1e-6.
 Shape DeformByArap(const Connectivity& connectivity, const Shape& rest,
-                   const std::vector<Handle>& handles, int steps, int iterations);
+                   const std::vector<DeformationHandle>& handles, int steps, int iterations);
 
 }  // namespace shapespace::benchmarks
 

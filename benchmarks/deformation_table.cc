@@ -43,7 +43,7 @@ struct Case {
   std::string name;
   std::shared_ptr<const Connectivity> connectivity;
   Shape rest;
-  std::vector<Handle> handles;
+  std::vector<DeformationHandle> handles;
 };
 
 std::vector<int> Where(const Shape& shape, const std::function<bool(const Vector3d&)>& holds) {
@@ -54,8 +54,8 @@ std::vector<int> Where(const Shape& shape, const std::function<bool(const Vector
   return vertices;
 }
 
-Handle Moving(std::vector<int> vertices, const ScrewMotion& motion = {}) {
-  Handle handle;
+DeformationHandle Moving(std::vector<int> vertices, const ScrewMotion& motion = {}) {
+  DeformationHandle handle;
   handle.vertices = std::move(vertices);
   handle.motion = motion;
   return handle;
@@ -77,7 +77,7 @@ ScrewMotion AlongAnArc(double begin, double length, double degrees) {
 
 std::vector<Case> SurveyCases(int cells) {
   std::vector<Case> cases;
-  const Body bar = MakeBar(6, 1, 1, 6 * cells, cells, cells);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6 * cells, cells, cells);
   const Shape straight = bar.pose(0);
   const auto left = Where(straight, [](const auto& p) { return p.x() < -2.7 + 1e-9; });
   const auto right = Where(straight, [](const auto& p) { return p.x() > 2.7 - 1e-9; });
@@ -97,7 +97,7 @@ std::vector<Case> SurveyCases(int cells) {
   form.length = 8;
   form.base_radius = form.tip_radius = 0.6;
   form.knuckle = 0;
-  const Body tube = MakeTube(40 * cells * cells, form);
+  const ShapeFamily tube = MakeTube(40 * cells * cells, form);
   const Shape rest = tube.pose(0);
   cases.push_back({"cylinder bent by 120",
                    tube.connectivity,
@@ -106,7 +106,7 @@ std::vector<Case> SurveyCases(int cells) {
                     Moving(Where(rest, [](const auto& p) { return p.x() > 7.8; }),
                            AlongAnArc(0.2, 7.6, 120))}});
 
-  const Body sheet = MakeSheet(2, 2, 5 * cells, 5 * cells);
+  const ShapeFamily sheet = MakeSheet(2, 2, 5 * cells, 5 * cells);
   Shape plate = sheet.pose(0);
   for (int v = 0; v < plate.cols(); ++v) {
     const double x = plate(0, v), y = plate(1, v);
@@ -219,7 +219,7 @@ Case RealCase(const std::string& name, const std::string& file, double feet, con
   int tip = 0;
   (limb.way.transpose() * rest).maxCoeff(&tip);
   const double size = Size(rest).norm();
-  Handle moved = Moving(
+  DeformationHandle moved = Moving(
       Where(rest, [&](const auto& p) { return (p - rest.col(tip)).norm() < limb.share * size; }));
   moved.motion.axis = limb.axis;
   moved.motion.angle = limb.degrees * kRadians;
@@ -254,8 +254,8 @@ void PrintSeconds() {
     Case problem = SurveyCases(cells)[1];
     for (bool single : {false, true}) {
       if (single) {
-        std::vector<Handle> few;
-        for (const Handle& handle : problem.handles) {
+        std::vector<DeformationHandle> few;
+        for (const DeformationHandle& handle : problem.handles) {
           const size_t stride = handle.vertices.size() / 5;
           for (int k = 0; k < 5; ++k) {
             const int v = handle.vertices[k * stride];
@@ -267,7 +267,7 @@ void PrintSeconds() {
       }
       Deformer deformer(problem.connectivity, problem.rest);
       const double cold = deformer.Deform(problem.handles).summary.total_seconds;
-      for (Handle& handle : problem.handles) {
+      for (DeformationHandle& handle : problem.handles) {
         if (handle.motion.angle == 0) continue;
         handle.motion.angle += 2 * kRadians;
         if (handle.positions) {

@@ -13,10 +13,10 @@ namespace shapespace {
 namespace {
 
 // A triangle between three bends of a tube, without solving.
-Space SpaceOfTubes(int triangles) {
-  const Body tube = MakeTube(triangles);
+PoseSpace SpaceOfTubes(int triangles) {
+  const ShapeFamily tube = MakeTube(triangles);
   const std::vector<Shape> poses = {tube.pose(0), tube.pose(40), tube.pose(80)};
-  Space space;
+  PoseSpace space;
   space.metric = FreezeMetric({}, tube.connectivity, poses);
   for (const Shape& pose : poses) space.nodes.emplace_back(pose / space.metric->unit);
   space.points.resize(2, 3);
@@ -27,12 +27,12 @@ Space SpaceOfTubes(int triangles) {
 }
 
 void At(benchmark::State& state) {
-  const Space space = SpaceOfTubes(static_cast<int>(state.range(0)));
+  const PoseSpace space = SpaceOfTubes(static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(space.At({0.3, 0.3}));
 }
 
 void CopyOfAShape(benchmark::State& state) {
-  const Space space = SpaceOfTubes(static_cast<int>(state.range(0)));
+  const PoseSpace space = SpaceOfTubes(static_cast<int>(state.range(0)));
   Shape shape = space.nodes[0];
   for (auto _ : state) {
     shape = space.nodes[1];

@@ -40,7 +40,7 @@ void Measure(const Path& path, benchmark::State* state) {
 // A finger that continues to bend from 30 degrees, 4 degrees per step: all steps are solved on the
 // mesh itself.
 void Finger(benchmark::State& state) {
-  const Body tube = MakeTube(static_cast<int>(state.range(0)));
+  const ShapeFamily tube = MakeTube(static_cast<int>(state.range(0)));
   const std::vector<Shape> poses = {tube.pose(26), tube.pose(30)};
   Path path;
   path.metric = FreezeMetric({}, tube.connectivity, poses);

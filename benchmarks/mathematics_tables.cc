@@ -141,7 +141,7 @@ void PrintCorrection(const char* name, const std::shared_ptr<const Connectivity>
 int main() {
   using namespace shapespace;
   std::printf("| section 9: edges off, rms | straight on | corrected, mu = 1 |\n|---|---:|---:|\n");
-  const Body strip = MakeStrip(1, 0.9, 16), bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const ShapeFamily strip = MakeStrip(1, 0.9, 16), bar = MakeBar(6, 1, 1, 6, 2, 2);
   PrintCorrection("strip", strip.connectivity, strip.pose(0), strip.pose(2.5), 8);
   PrintCorrection("bar", bar.connectivity, bar.pose(0), bar.pose(10), 8);
   if (std::string(SHAPESPACE_DATA_DIR).empty()) {

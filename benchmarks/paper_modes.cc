@@ -31,8 +31,8 @@ Eigen::Matrix3d Rotation(double degrees) {
       .toRotationMatrix();
 }
 
-Motion Make(const char* name, const Body& body, double at, const Shape& before, const Shape& after,
-            double time, const MetricOptions& options) {
+Motion Make(const char* name, const ShapeFamily& body, double at, const Shape& before,
+            const Shape& after, double time, const MetricOptions& options) {
   const Shape shape = body.pose(at);
   return {name, FreezeMetric(options, body.connectivity, {shape}), shape, (after - before) / time};
 }
@@ -42,9 +42,9 @@ std::vector<Motion> Motions() {
   membrane.bending = 0;
   membrane.lambda = 1e-3;
   constexpr double kTime = 2e-4;  // of the differences from which velocities are computed
-  const Body bar = MakeBar(6, 1, 1, 6, 1, 1), strip = MakeStrip(1, 0.9, 16),
-             bricard = MakeBricard();
-  const auto deforming = [&](const char* name, const Body& body, double at, double rate) {
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 1, 1), strip = MakeStrip(1, 0.9, 16),
+                    bricard = MakeBricard();
+  const auto deforming = [&](const char* name, const ShapeFamily& body, double at, double rate) {
     return Make(name, body, at, body.pose(at - rate * kTime / 2), body.pose(at + rate * kTime / 2),
                 kTime, membrane);
   };
@@ -66,8 +66,8 @@ void PrintExponentials() {
       return Extrapolate(motion.metric, motion.shape, motion.velocity, steps, options);
     };
     ExponentialOptions variational, runge_kutta, lbfgs, levenberg_marquardt;
-    runge_kutta.integrator = Integrator::kRungeKutta4;
-    lbfgs.integrator = levenberg_marquardt.integrator = Integrator::kFirstIntegral;
+    runge_kutta.integrator = GeodesicIntegrator::kRungeKutta4;
+    lbfgs.integrator = levenberg_marquardt.integrator = GeodesicIntegrator::kFirstIntegral;
     lbfgs.max_iterations = levenberg_marquardt.max_iterations = 1000;
     lbfgs.first_integral_solver = FirstIntegralSolver::kLbfgs;
     levenberg_marquardt.first_integral_solver = FirstIntegralSolver::kLevenbergMarquardt;
@@ -77,7 +77,7 @@ void PrintExponentials() {
       for (const auto& options : {variational, runge_kutta, lbfgs, levenberg_marquardt}) {
         const auto [path, summary] = shoot(steps, options);
         std::printf(" %.1e", (path.Placed(steps) - exact).norm() / (exact - motion.shape).norm());
-        if (options.integrator == Integrator::kFirstIntegral) {
+        if (options.integrator == GeodesicIntegrator::kFirstIntegral) {
           const auto solved =
               std::count_if(summary.steps.begin(), summary.steps.end(),
                             [](const ExponentialSummary::Step& step) { return step.converged; });
@@ -91,7 +91,7 @@ void PrintExponentials() {
 }
 
 void PrintTransports() {
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
   const Shape shape = bar.pose(5);
   const auto metric = FreezeMetric(MetricOptions::Isometric(), bar.connectivity, {shape});
   const Tangent bend = 100 * (bar.pose(5.01) - shape);

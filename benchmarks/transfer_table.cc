@@ -56,7 +56,7 @@ TransferOptions ByLadder(const MetricOptions& metric, TransportConnection connec
 }
 
 void PrintBars() {
-  const Body thick = MakeBar(6, 1, 1, 12, 2, 2);
+  const ShapeFamily thick = MakeBar(6, 1, 1, 12, 2, 2);
   const Shape thin = MakeBar(8, 1.6, 0.6, 12, 2, 2).pose(0);
   std::vector<Shape> bending;
   for (int i = 0; i <= 6; ++i) bending.push_back(thick.pose(10.0 * i));

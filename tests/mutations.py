@@ -31,7 +31,7 @@ FREEZE_LEVEL = "lib/shapespace/hierarchy/freeze_level.cc"
 
 # The tests that each part of the solvers has, as filters of GoogleTest's.
 GOING = "Exponential*:Extrapolate*:FirstIntegral*:Logarithm*:InitialVelocity*:Shooter*:Step*:*Continuation*:RoundTrip*:Inverse*"
-GEODESICS = "Interpolate*:Schedule*:Unwind*:EnergyLowerBound*:Minimise*"
+GEODESICS = "Interpolate*:Schedule*:UnwrapHinges*:EnergyLowerBound*:Minimise*"
 MINIMISING = "Minimise*:ThreadedLbfgs*:SearchLine*:ScalarMetric*:*Precond*:Cholesky*:ChangeOf*:Deform*:Repair*:Interpolate*"
 CARRYING = "*Transport*:*Transfer*:Ladder*:FindNearest*:Step*"
 CORRECTING = "Correct*"
@@ -42,15 +42,15 @@ WEIGHTS = "MetricOptions*:FreezeMetric*:Interpolate*:EnergyLowerBound*"
 # File, text (which must stand there once), what takes its place, and the tests that are to notice.
 MUTATIONS = [
     # Going on from a path.
-    ("exponential/internal/shooter.cc", "coarse.previous = restrict(departure.previous);",
-     "if (departure.previous.size() > 0) coarse.previous = coarse.shape;", GOING),
+    ("exponential/internal/shooter.cc", "coarse.previous = restrict(initial_state.previous);",
+     "if (initial_state.previous.size() > 0) coarse.previous = coarse.shape;", GOING),
     ("exponential/internal/step.cc", "if (speed_ <= rounding_) {", "if (speed_ <= 1e9 * rounding_) {", GOING),
     ("exponential/internal/step.cc", "if (speed_ <= rounding_) {", "if (speed_ < 0) {", GOING),
     ("exponential/internal/step.cc", "constexpr double kContraction = 0.5;",
      "constexpr double kContraction = 1e9;", GOING),
-    ("exponential/internal/step.cc", "constexpr double kLeastIncrement = 1.0 / 64;",
-     "constexpr double kLeastIncrement = 1;", GOING),
-    ("exponential/internal/step.cc", "return agrees(speed_) && (departure_.speed == 0 || agrees(departure_.speed));",
+    ("exponential/internal/step.cc", "constexpr double kMinIncrement = 1.0 / 64;",
+     "constexpr double kMinIncrement = 1;", GOING),
+    ("exponential/internal/step.cc", "return agrees(speed_) && (initial_state_.speed == 0 || agrees(initial_state_.speed));",
      "return agrees(speed_) || true;", GOING),
     ("exponential/internal/step.cc", "Shape root = reached + expansion(next) - expansion(load);",
      "Shape root = expansion(next);", GOING),
@@ -61,8 +61,8 @@ MUTATIONS = [
     ("exponential/exponential.cc", "if (now < kVanishedEdge * before) {", "if (now < 0 * before) {", GOING),
     ("exponential/exponential.cc", "constexpr double kRisen = 2;", "constexpr double kRisen = 1e9;", GOING),
     ("exponential/exponential.cc", "if (found > 0) velocity *= speed / found;", "if (found < 0) velocity *= speed;", GOING),
-    ("exponential/exponential.cc", "departure = Restart(map, departure.shape, shape, departure.speed);",
-     "departure.previous = std::exchange(departure.shape, shape);", GOING),
+    ("exponential/exponential.cc", "initial_state = Restart(map, initial_state.shape, shape, initial_state.speed);",
+     "initial_state.previous = std::exchange(initial_state.shape, shape);", GOING),
     ("exponential/exponential.cc", "if (discrete) scheme.Next(&unused);", "if (!discrete) scheme.Next(&unused);", GOING),
     # Geodesics.
     (FREEZE_LEVEL, "hierarchy.LevelConnectivity(level), poses, 1, pairs)",
@@ -75,31 +75,31 @@ MUTATIONS = [
      "return inner + options.shapes > 0 ? 1 : 0;", GEODESICS),
     ("geodesic/internal/resolution.cc", "if (metric_->RigidInvariantButForPosition()) RemoveRigidDrift(shapes, metric_->vertex_area);\n\n",
      "\n", GEODESICS),
-    ("geodesic/internal/piece.cc", "constexpr double kEnough = 1.0 / 2048;", "constexpr double kEnough = 1;", GEODESICS),
-    ("geodesic/internal/piece.cc", "Unwind(*resolution.GetMetric(), &shapes);", "", GEODESICS),
-    ("geodesic/internal/piece.cc", "return {GeodesicStart::kBlend, GeodesicStart::kFirst, GeodesicStart::kLast};",
+    ("geodesic/internal/geodesic_piece.cc", "constexpr double kEnough = 1.0 / 2048;", "constexpr double kEnough = 1;", GEODESICS),
+    ("geodesic/internal/geodesic_piece.cc", "UnwrapHinges(*resolution.GetMetric(), &shapes);", "", GEODESICS),
+    ("geodesic/internal/geodesic_piece.cc", "return {GeodesicStart::kBlend, GeodesicStart::kFirst, GeodesicStart::kLast};",
      "return {GeodesicStart::kBlend};", GEODESICS),
-    ("geodesic/internal/piece.cc", "attempt.energy < best.energy && !workload_.Stopped()",
+    ("geodesic/internal/geodesic_piece.cc", "attempt.energy < best.energy && !workload_.Stopped()",
      "attempt.energy > best.energy && !workload_.Stopped()", GEODESICS),
     ("geodesic/internal/schedule.cc", "constexpr int kShapesOnAllLevels = 7;", "constexpr int kShapesOnAllLevels = 1;", GEODESICS),
-    ("geodesic/internal/unwind.cc", "for (int v : vertices) mover.Move({v});", "", GEODESICS),
-    ("geodesic/internal/unwind.cc", "mover.Move({stencil(0), stencil(1), stencil(2), stencil(3)});", "", GEODESICS),
-    ("geodesic/internal/unwind.cc", "|| fastest > 2 * M_PI / segments;", "|| fastest > 7;", GEODESICS),
-    ("geodesic/internal/unwind.cc", "std::abs(WrapAngle(before - first)) + M_PI ||", "1e9 ||", GEODESICS),
+    ("geodesic/internal/unwrap_hinges.cc", "for (int v : vertices) mover.Move({v});", "", GEODESICS),
+    ("geodesic/internal/unwrap_hinges.cc", "mover.Move({stencil(0), stencil(1), stencil(2), stencil(3)});", "", GEODESICS),
+    ("geodesic/internal/unwrap_hinges.cc", "|| fastest > 2 * M_PI / segments;", "|| fastest > 7;", GEODESICS),
+    ("geodesic/internal/unwrap_hinges.cc", "std::abs(WrapAngle(before - first)) + M_PI ||", "1e9 ||", GEODESICS),
     # Minimising.
-    ("numerics/internal/minimise_threaded_lbfgs.cc", "fresh_change_ = end.slope - slope >= -kLeastCurvature * slope;",
+    ("numerics/internal/minimise_threaded_lbfgs.cc", "fresh_change_ = end.slope - slope >= -kMinCurvature * slope;",
      "fresh_change_ = true;", MINIMISING),
     ("numerics/internal/minimise_threaded_lbfgs.cc", "if (small >= 2) return Termination::kConverged;",
      "if (small >= 1) return Termination::kConverged;", MINIMISING),
     ("numerics/internal/minimise_threaded_lbfgs.cc", "if (fresh_) return Termination::kStalled;", "return Termination::kStalled;", MINIMISING),
-    ("numerics/internal/minimise_threaded_lbfgs.cc", "if (result_.termination == Termination::kStalled && result_.remaining < kNothingLeft * options_.tolerance) {",
-     "if (result_.termination == Termination::kStalled && result_.remaining < 0) {", MINIMISING),
+    ("numerics/internal/minimise_threaded_lbfgs.cc", "result_.remaining < kNothingLeft * options_.tolerance) {",
+     "result_.remaining < 0) {", MINIMISING),
     ("numerics/internal/line_search.cc", "if ((decreases || equal) && std::isfinite(point.slope)) {",
      "if (decreases && std::isfinite(point.slope)) {", MINIMISING),
     ("numerics/internal/line_search.cc", "return low.step > 0 ? evaluate(low.step) : start;", "return start;",
      MINIMISING),
-    ("numerics/internal/preconditioner.cc", "constexpr double kLeastLambda = 1e-6;", "constexpr double kLeastLambda = 0;", MINIMISING),
-    ("exponential/internal/nearest_shape.cc", "constexpr int kMostHalvings = 8;", "constexpr int kMostHalvings = 0;", CARRYING),
+    ("numerics/internal/preconditioner.cc", "constexpr double kMinLambda = 1e-6;", "constexpr double kMinLambda = 0;", MINIMISING),
+    ("exponential/internal/nearest_shape.cc", "constexpr int kMaxHalvings = 8;", "constexpr int kMaxHalvings = 0;", CARRYING),
     # Transport and transfer.
     ("exponential/transport.cc", "x = nearest - 0.5 * Solve(to, from->derivative.Times(there_and_back), size, row);",
      "x = nearest;", CARRYING),

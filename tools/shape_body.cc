@@ -58,7 +58,7 @@ void WritePoses(const std::string& name) {
 }
 
 void WriteValues(const std::string& name) {
-  const Body body = MakeBody(name, FLAGS_triangles);
+  const ShapeFamily body = MakeBody(name, FLAGS_triangles);
   std::vector<Shape> shapes;
   std::vector<double> values = {body.begin, body.end};
   if (!FLAGS_at.empty()) values = NumbersFromFlag("at", FLAGS_at);

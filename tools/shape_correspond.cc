@@ -61,7 +61,7 @@ void Run(const std::vector<std::string>& files) {
   CheckNothingIsOverwritten({files[0], files[1], FLAGS_markers},
                             {{"output", outputs}, ReportFromFlag()});
   const Poses first = ReadMesh(files[0]), second = ReadMesh(files[1]);
-  const std::vector<Marker> markers = ReadMarkers(FLAGS_markers, first, second);
+  const std::vector<CorrespondenceMarker> markers = ReadMarkers(FLAGS_markers, first, second);
   const CorrespondenceResult result =
       Correspond(first.connectivity, first.shapes[0], second.connectivity, second.shapes[0],
                  markers, options, SolveProgress(outputs).get());

@@ -85,17 +85,17 @@ DeformationOptions DeformationFromFlags(const DeformationOptions& defaults, cons
 std::vector<int> SoundVertices(const Poses& poses) {
   if (FLAGS_sound.empty()) return {};
   try {
-    return Select(ReadSelection(FLAGS_sound), poses.shapes[1], *poses.connectivity,
-                  poses.soup.appearance);
+    return SelectVertices(ReadSelection(FLAGS_sound), poses.shapes[1], *poses.connectivity,
+                          poses.soup.appearance);
   } catch (const InvalidOptions& error) {
     throw UsageError("--sound: " + std::string(error.what()));
   }
 }
 
 // 1 for vertices that stay, 2 for those that move.
-Eigen::VectorXi Marks(const std::vector<Handle>& handles, int num_vertices) {
+Eigen::VectorXi Marks(const std::vector<DeformationHandle>& handles, int num_vertices) {
   Eigen::VectorXi marks = Eigen::VectorXi::Zero(num_vertices);
-  for (const Handle& handle : handles) {
+  for (const DeformationHandle& handle : handles) {
     const bool stays =
         !handle.positions && handle.motion.angle == 0 && handle.motion.translation.isZero(0);
     for (int v : handle.vertices) marks(v) = std::max(marks(v), stays ? 1 : 2);
@@ -124,7 +124,7 @@ void Run(const std::vector<std::string>& files) {
   if (FLAGS_repair.empty()) {
     const Poses poses = ReadMeshesFromFlags(files);
     const DeformationOptions options = DeformationFromFlags({}, poses);
-    const std::vector<Handle> handles =
+    const std::vector<DeformationHandle> handles =
         ReadHandles(FLAGS_handles, poses.shapes[0], *poses.connectivity, poses.soup.appearance);
     DeformationResult result =
         Deform(poses.connectivity, poses.shapes[0], handles, options, SolveProgress(outputs).get());

@@ -61,7 +61,7 @@ ExploreOptions ExploreFromFlags(const std::string& records) {
   return options;
 }
 
-void Measure(const Space& space, const ExploreOptions& options, Crew* crew) {
+void Measure(const PoseSpace& space, const ExploreOptions& options, ProcessPool* crew) {
   const BlendErrors errors =
       MeasureBlends(space, FLAGS_measure, options, SolveProgress({}).get(), crew);
   Out() << "at " << errors.samples << " points, on " << errors.vertices
@@ -70,7 +70,7 @@ void Measure(const Space& space, const ExploreOptions& options, Crew* crew) {
         << 100 * errors.within << "% of them by at most " << 100 * options.threshold << "%\n";
 }
 
-void MakeSpace(const std::vector<std::string>& files, Crew* crew) {
+void MakeSpace(const std::vector<std::string>& files, ProcessPool* crew) {
   if (files.empty()) throw UsageError("name at least two poses of one mesh, or a .space file");
   if (!IsSpaceFile(FLAGS_output)) {
     throw UsageError("--output " + FLAGS_output + ": must end in .space");
@@ -112,8 +112,8 @@ void Sample(const std::string& file) {
   }
   if (FLAGS_frames < 1) throw UsageError(AsTyped("frames") + ": must be 1 or more");
   CheckNothingIsOverwritten({file, FLAGS_sample}, {{"output", outputs, FLAGS_frames}});
-  const Space space = ReadSpace(file);
-  Walk walk = WalkAlong(space, ReadCurve(FLAGS_sample, space), FLAGS_frames);
+  const PoseSpace space = ReadSpace(file);
+  PlaneWalk walk = WalkAlong(space, ReadCurve(FLAGS_sample, space), FLAGS_frames);
   if (walk.outside > 0) {
     Err() << "warning: " << walk.outside << " of the " << FLAGS_frames
           << " points lie outside the poses' hull and were replaced by the nearest points of the "
@@ -123,11 +123,11 @@ void Sample(const std::string& file) {
   WriteOutputs(outputs, walk.path, walk.path);
 }
 
-void MeasureSpace(const std::string& file, Crew* crew) {
+void MeasureSpace(const std::string& file, ProcessPool* crew) {
   RefuseFlags({"support/metric_flags.cc"}, {"depth", "output", "report", "strict", "stiffeners"},
               "goes with poses; " + file + " contains its own metric");
   const ExploreOptions options = ExploreFromFlags(file + ".measure.records");
-  const Space space = ReadSpace(file);
+  const PoseSpace space = ReadSpace(file);
   Measure(space, options, crew);
   if (crew->Rank() == 0) RemoveRecords(options.records);
 }
@@ -147,7 +147,7 @@ void Run(const std::vector<std::string>& files) {
   if (is_space && FLAGS_measure == 0) {
     throw UsageError(files[0] + ": give --sample or --measure; shape-view shows it");
   }
-  WithCrew([&](Crew* crew) {
+  WithCrew([&](ProcessPool* crew) {
     NamingFlags({}, [&] {
       if (is_space) {
         MeasureSpace(files[0], crew);

@@ -65,7 +65,7 @@ void Run(const std::vector<std::string>& files) {
   if (FLAGS_ease && FLAGS_frames == 0 && !makes_glb) {
     throw UsageError("--ease goes with --frames, or with a .glb");
   }
-  Anchorage anchorage = Anchorage::FromFlags();
+  AnchorFlags anchorage = AnchorFlags::FromFlags();
   const Path path = ReadPathAndTell(files[0]);
   anchorage.Select(path.Placed(0), *path.metric->connectivity, path.appearance);
   const std::vector<double> times = TimesFromFlags(path);

@@ -47,10 +47,11 @@ constexpr char kTolerance[] = "1e-6";
 
 ExponentialOptions ExponentialFromFlags() {
   ExponentialOptions options;
-  options.integrator = Choose<Integrator>("integrator", FLAGS_integrator,
-                                          {{"variational", Integrator::kVariational},
-                                           {"runge_kutta4", Integrator::kRungeKutta4},
-                                           {"first_integral", Integrator::kFirstIntegral}});
+  options.integrator =
+      Choose<GeodesicIntegrator>("integrator", FLAGS_integrator,
+                                 {{"variational", GeodesicIntegrator::kVariational},
+                                  {"runge_kutta4", GeodesicIntegrator::kRungeKutta4},
+                                  {"first_integral", GeodesicIntegrator::kFirstIntegral}});
   options.solver = Choose<StepSolver>(
       "step_solver", FLAGS_step_solver,
       {{"newton_krylov", StepSolver::kNewtonKrylov}, {"ceres", StepSolver::kCeres}});
@@ -84,7 +85,7 @@ void CheckFlags(const std::vector<std::string>& files, std::int64_t shapes,
 }
 
 Path OriginFromPath(const std::string& file, const std::vector<std::string>& outputs,
-                    Anchorage* anchorage) {
+                    AnchorFlags* anchorage) {
   Path path = ReadPathAndTell(file);
   if (path.metric->rigid.Active()) {
     throw SolverError(file +
@@ -97,7 +98,7 @@ Path OriginFromPath(const std::string& file, const std::vector<std::string>& out
 }
 
 Path OriginFromPoses(const std::vector<std::string>& files, const GeodesicOptions& options,
-                     const std::vector<std::string>& outputs, Anchorage* anchorage) {
+                     const std::vector<std::string>& outputs, AnchorFlags* anchorage) {
   const Poses poses = ReadPosesFromFlags(files);
   CheckFlags(files, NumShapes(poses.shapes.size(), options), outputs);
   anchorage->Select(poses.shapes[0], *poses.connectivity, poses.soup.appearance);
@@ -126,7 +127,7 @@ void Run(const std::vector<std::string>& files) {
   const ExponentialOptions exponential = ExponentialFromFlags();
   const CorrectionOptions correction = CorrectionFromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
-  Anchorage anchorage = Anchorage::FromFlags();
+  AnchorFlags anchorage = AnchorFlags::FromFlags();
 
   Path origin = from_path ? OriginFromPath(files[0], outputs, &anchorage)
                           : OriginFromPoses(files, geodesic, outputs, &anchorage);

@@ -32,8 +32,8 @@ namespace shapespace::tools {
 namespace {
 
 // Limits of printed lists.
-constexpr size_t kMostSites = 8, kMostParts = 4;
-constexpr double kLeastSite = 0.001;  // as a share of all deviation
+constexpr size_t kMaxSites = 8, kMaxParts = 4;
+constexpr double kMinSite = 0.001;  // as a share of all deviation
 
 const char* Name(Severity severity) {
   switch (severity) {
@@ -64,7 +64,7 @@ bool Print(const std::vector<Finding>& findings) {
 }
 
 std::string NameOf(const Soup& soup) {
-  return internal::Printable(soup.pose.empty() ? soup.file : soup.file + ":" + soup.pose);
+  return internal::Printable(soup.name.empty() ? soup.file : soup.file + ":" + soup.name);
 }
 
 void PrintContent(const Soup& soup) {
@@ -123,7 +123,7 @@ void PrintDistance(const Soup& reference, const Soup& pose) {
   const double bound = ScaledEnergy(EnergyLowerBound(*metric, first, other, 1000), 1000);
   if (std::isfinite(bound)) {
     std::printf("  distance             at least %.6g (%s)\n", std::sqrt(bound),
-                Describe(metric->options).c_str());
+                DescribeMetric(metric->options).c_str());
   }
 }
 
@@ -150,14 +150,14 @@ void PrintDeviation(const Path& path, const RigidParts& parts) {
   }
   std::printf("  deviation    of edge lengths from the first pose: where most of its square is\n");
   std::printf("    share  of area   up to    vertex  at                              parts\n");
-  for (size_t i = 0; i < std::min(sites.size(), kMostSites); ++i) {
+  for (size_t i = 0; i < std::min(sites.size(), kMaxSites); ++i) {
     const DeviationSite& site = sites[i];
-    if (site.share < kLeastSite) break;
+    if (site.share < kMinSite) break;
     char position[80];
     std::snprintf(position, sizeof(position), "%.4g, %.4g, %.4g", site.position.x(),
                   site.position.y(), site.position.z());
     std::string touched;
-    for (size_t k = 0; k < std::min(site.parts.size(), kMostParts); ++k) {
+    for (size_t k = 0; k < std::min(site.parts.size(), kMaxParts); ++k) {
       touched += (k == 0 ? "" : ", ") + std::to_string(site.parts[k] + 1);
     }
     std::printf("    %4.1f%%   %5.2f%%  %5.1f%%  %8d  %-30s  %s\n", 100 * site.share,
@@ -177,7 +177,7 @@ void PrintPath(const std::string& file) {
               beyond.c_str(), connectivity.NumVertices(), connectivity.NumTriangles());
   std::printf("  made by      %s\n", internal::Printable(path.provenance).c_str());
   std::printf("  metric       %s; unit of length %.6g\n",
-              internal::Printable(Describe(path.metric->options)).c_str(), path.metric->unit);
+              internal::Printable(DescribeMetric(path.metric->options)).c_str(), path.metric->unit);
   if (!path.converged) std::printf("  solve        NOT CONVERGED, or stopped\n");
   if (quality.inner_shapes > 0) {
     std::printf(
@@ -203,7 +203,7 @@ void PrintPath(const std::string& file) {
 }
 
 void PrintSpace(const std::string& file) {
-  const Space space = ReadSpace(file);
+  const PoseSpace space = ReadSpace(file);
   std::printf("%s\n", internal::Printable(file).c_str());
   if (!space.provenance.empty())
     std::printf("  made by      %s\n", internal::Printable(space.provenance).c_str());
@@ -211,7 +211,8 @@ void PrintSpace(const std::string& file) {
               space.metric->connectivity->NumVertices(),
               space.metric->connectivity->NumTriangles());
   std::printf("  metric       %s; unit of length %.6g\n",
-              internal::Printable(Describe(space.metric->options)).c_str(), space.metric->unit);
+              internal::Printable(DescribeMetric(space.metric->options)).c_str(),
+              space.metric->unit);
   std::printf("  nodes        %d, of which %d are poses; %d triangles, %d segments\n",
               space.NumNodes(), space.NumPoses(), static_cast<int>(space.triangles.cols()),
               static_cast<int>(space.segments.cols()));
@@ -235,7 +236,7 @@ bool PrintMesh(Soup read, std::vector<Soup>* soups) {
     std::printf("  %-12s %-24s mirrored; its %c has changed sign\n", Name(Severity::kNote),
                 "mirrored", axis);
   }
-  const bool corresponds = soups->size() == 1 || Print(CheckCorrespondence(soups->front(), soup));
+  const bool corresponds = soups->size() == 1 || Print(CheckSameMesh(soups->front(), soup));
   return usable && corresponds;
 }
 

@@ -16,7 +16,7 @@ namespace {
 void Run(const std::vector<std::string>& files) {
   if (files.empty()) throw UsageError("name at least two poses of one mesh");
   const GeodesicOptions options = GeodesicFromFlags();
-  Anchorage anchorage = Anchorage::FromFlags();
+  AnchorFlags anchorage = AnchorFlags::FromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
   const Poses poses = ReadPosesFromFlags(files);
   CheckNothingIsOverwritten(

@@ -130,8 +130,8 @@ Poses ReadTargetOf(const Path& path, const std::string& file) {
           << axis << " has changed sign\n";
     target.shapes[0] = pose.vertices;
   }
-  for (const Finding& finding : CheckCorrespondence(reference, pose)) {
-    if (finding.severity == Severity::kFatal) throw CorrespondenceError(finding.message);
+  for (const Finding& finding : CheckSameMesh(reference, pose)) {
+    if (finding.severity == Severity::kFatal) throw MismatchError(finding.message);
     Err() << "warning: " << finding.message << '\n';
   }
   return target;
@@ -156,7 +156,7 @@ void Run(const std::vector<std::string>& files) {
   const GeodesicOptions geodesic = GeodesicFromFlags();
   const TransferOptions options = TransferFromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
-  Anchorage anchorage = Anchorage::FromFlags();
+  AnchorFlags anchorage = AnchorFlags::FromFlags();
   std::vector<std::string> hybrid_outputs;
   if (!FLAGS_hybrids.empty()) hybrid_outputs = OutputsFromFlag("hybrids", FLAGS_hybrids);
   if (FLAGS_markers.empty()) {

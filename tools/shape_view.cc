@@ -40,7 +40,7 @@ void CheckKinds(const std::vector<std::string>& files) {
   }
 }
 
-PageSpace ToPage(const Space& space, const std::string& name) {
+PageSpace ToPage(const PoseSpace& space, const std::string& name) {
   PageSpace page;
   page.connectivity = space.metric->connectivity;
   for (int i = 0; i < space.NumNodes(); ++i) page.nodes.push_back(space.Placed(i));

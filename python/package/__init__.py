@@ -9,7 +9,7 @@ from ._core import (
     Body,
     Cancelled,
     CorrectionSummary,
-    CorrespondenceError,
+    MismatchError,
     CorrespondenceStage,
     CorrespondenceSummary,
     DeformationLevel,

@@ -185,7 +185,7 @@ def read(
         A file cannot be read or understood.
     MeshError
         A mesh cannot serve.
-    CorrespondenceError
+    MismatchError
         The meshes are not poses of one; the message names the first difference.
     """
     names = [os.fspath(file) for file in files]
@@ -315,7 +315,7 @@ def interpolate(poses, faces=None, *, progress=None, **options):
 
     Raises
     ------
-    MeshError, CorrespondenceError, InvalidOptions
+    MeshError, MismatchError, InvalidOptions
         The arguments cannot serve.
     SolverError
         The memory limit, or poses that turn too far for a rigid metric.

@@ -33,7 +33,7 @@ void BindSolvers(py::module_* module);
 
 /// The mesh that `faces` stands for: of a Poses, Path, Metric, Space or Body; or triangles or
 /// polygons as in `SetPolygons`, on the vertices of `shapes`, which are checked as files are.
-/// \throw py::type_error, py::value_error, MeshError, CorrespondenceError.
+/// \throw py::type_error, py::value_error, MeshError, MismatchError.
 Poses MakePoses(std::vector<Shape> shapes, py::handle faces, const ReadOptions& options = {},
                 py::handle segments = py::none(), py::handle stiffeners = py::none());
 

@@ -17,8 +17,9 @@
 namespace shapespace::python {
 namespace {
 
-std::vector<Marker> ToMarkers(py::handle value, const Poses& source, const Poses& target) {
-  std::vector<Marker> markers;
+std::vector<CorrespondenceMarker> ToMarkers(py::handle value, const Poses& source,
+                                            const Poses& target) {
+  std::vector<CorrespondenceMarker> markers;
   for (const auto& [first, second] : ToPairs(value, "markers", source.connectivity->NumVertices(),
                                              target.connectivity->NumVertices())) {
     markers.push_back({first, second});
@@ -89,7 +90,7 @@ void BindCorrespondence(py::module_* module) {
            })
       .def("picture", [](const CorrespondenceResult& result, const Poses& source,
                          const Poses& target, py::handle markers) {
-        const std::vector<Marker> pairs = ToMarkers(markers, source, target);
+        const std::vector<CorrespondenceMarker> pairs = ToMarkers(markers, source, target);
         return WithoutLock(py::none(), [=](Progress*) {
           return RenderCorrespondence(*source.connectivity, source.shapes[0], *target.connectivity,
                                       target.shapes[0], pairs, result);
@@ -97,7 +98,7 @@ void BindCorrespondence(py::module_* module) {
       });
   module->def("correspond", [](const Poses& source, const Poses& target, py::handle markers,
                                const py::dict& given, const py::object& progress) {
-    const std::vector<Marker> pairs = ToMarkers(markers, source, target);
+    const std::vector<CorrespondenceMarker> pairs = ToMarkers(markers, source, target);
     CorrespondenceOptions options;
     Set(given, &options);
     options.Validate();
@@ -108,7 +109,7 @@ void BindCorrespondence(py::module_* module) {
   });
   module->def("read_markers",
               [](const std::string& file, const Poses& source, const Poses& target) {
-                const std::vector<Marker> markers = ReadMarkers(file, source, target);
+                const std::vector<CorrespondenceMarker> markers = ReadMarkers(file, source, target);
                 Eigen::Matrix2Xi pairs(2, markers.size());
                 for (size_t i = 0; i < markers.size(); ++i) {
                   pairs.col(i) << markers[i].template_vertex, markers[i].target_vertex;

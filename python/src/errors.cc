@@ -13,7 +13,7 @@ namespace {
 PyObject* error = nullptr;
 PyObject* file_error = nullptr;
 PyObject* mesh_error = nullptr;
-PyObject* correspondence_error = nullptr;
+PyObject* mismatch_error = nullptr;
 PyObject* invalid_options = nullptr;
 PyObject* solver_error = nullptr;
 PyObject* cancelled = nullptr;
@@ -52,8 +52,8 @@ void Translate(std::exception_ptr thrown) {
     Raise(file_error, e);
   } catch (const MeshError& e) {
     Raise(mesh_error, e);
-  } catch (const CorrespondenceError& e) {
-    Raise(correspondence_error, e);
+  } catch (const MismatchError& e) {
+    Raise(mismatch_error, e);
   } catch (const InvalidOptions& e) {
     Raise(invalid_options, e);
   } catch (const SolverError& e) {
@@ -76,8 +76,8 @@ void BindErrors(py::module_* module) {
   file_error = Make(module, "FileError", with(PyExc_OSError),
                     "A file cannot be opened, read to its end, understood or written.");
   mesh_error = Make(module, "MeshError", with(PyExc_ValueError), "A mesh cannot serve.");
-  correspondence_error = Make(module, "CorrespondenceError", with(PyExc_ValueError),
-                              "Meshes that should be poses of one connectivity are not.");
+  mismatch_error = Make(module, "MismatchError", with(PyExc_ValueError),
+                        "Meshes that should be poses of one connectivity are not.");
   invalid_options = Make(module, "InvalidOptions", with(PyExc_ValueError),
                          "An option is outside its range; the message begins with its name.");
   solver_error = Make(module, "SolverError", with(PyExc_RuntimeError),

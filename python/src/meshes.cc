@@ -43,12 +43,12 @@ std::shared_ptr<const Connectivity> ConnectivityIn(py::handle mesh, Appearance* 
     *appearance = path.appearance;
     return path.metric->connectivity;
   }
-  if (py::isinstance<Space>(mesh)) {
-    const auto& space = py::cast<const Space&>(mesh);
+  if (py::isinstance<PoseSpace>(mesh)) {
+    const auto& space = py::cast<const PoseSpace&>(mesh);
     *appearance = space.appearance;
     return space.metric->connectivity;
   }
-  if (py::isinstance<Body>(mesh)) return py::cast<const Body&>(mesh).connectivity;
+  if (py::isinstance<ShapeFamily>(mesh)) return py::cast<const ShapeFamily&>(mesh).connectivity;
   if (py::isinstance<SkinnedBody>(mesh)) return py::cast<const SkinnedBody&>(mesh).connectivity;
   return nullptr;
 }
@@ -97,7 +97,7 @@ shapes : sequence of array_like
     memory.
 faces : array_like, or an object with a mesh
     The polygons that all poses share: m x 3 integers counted from 0, or a list of polygons of any
-    numbers of corners. A `Poses`, `Path`, `Metric`, `Space` or body stands for its own. None, of a
+    numbers of corners. A `Poses`, `Path`, `Metric`, `PoseSpace` or body stands for its own. None, of a
     graph, which has segments only.
 segments : array_like, optional
     Edges of a straight-line graph, k x 2.
@@ -112,7 +112,7 @@ Raises
 ------
 MeshError
     The mesh cannot serve: an index out of range, a vertex that is not finite.
-CorrespondenceError
+MismatchError
     The shapes are no poses of one mesh.
 )")
       .def(py::init([](py::handle shapes, py::handle faces, py::handle segments,
@@ -196,18 +196,19 @@ CorrespondenceError
 }
 
 void BindBodies(py::module_* module) {
-  py::class_<Body>(*module, "Body", "A body made in code, in poses along one parameter.")
-      .def_readonly("name", &Body::name)
-      .def_readonly("begin", &Body::begin, "The parameter's value at rest.")
-      .def_readonly("end", &Body::end, "The parameter's last value.")
-      .def_readonly("parameter", &Body::parameter, "What the parameter is, with its unit.")
+  py::class_<ShapeFamily>(*module, "Body", "A body made in code, in poses along one parameter.")
+      .def_readonly("name", &ShapeFamily::name)
+      .def_readonly("begin", &ShapeFamily::begin, "The parameter's value at rest.")
+      .def_readonly("end", &ShapeFamily::end, "The parameter's last value.")
+      .def_readonly("parameter", &ShapeFamily::parameter, "What the parameter is, with its unit.")
       .def_property_readonly(
-          "faces", [](const Body& body) { return FromMatrix(body.connectivity->Triangles()); },
+          "faces",
+          [](const ShapeFamily& body) { return FromMatrix(body.connectivity->Triangles()); },
           "The triangles, m x 3.")
       .def(
-          "pose", [](const Body& body, double value) { return FromShape(body.pose(value)); },
+          "pose", [](const ShapeFamily& body, double value) { return FromShape(body.pose(value)); },
           py::arg("value"), "The vertices, n x 3, at a value of the parameter.")
-      .def("__repr__", [](const Body& body) {
+      .def("__repr__", [](const ShapeFamily& body) {
         return "<shapespace.Body: " + body.name + ", " +
                std::to_string(body.connectivity->NumVertices()) + " vertices, " + body.parameter +
                ">";
@@ -313,7 +314,7 @@ void BindMeshes(py::module_* module) {
   BindPoses(module);
   BindBodies(module);
   module->def("set_threads", &SetThreads);
-  module->def("threads", &Threads);
+  module->def("threads", &NumThreads);
 }
 
 }  // namespace shapespace::python

@@ -78,10 +78,11 @@ const Names<Termination>& NamesOf() {
   return names;
 }
 template <>
-const Names<Integrator>& NamesOf() {
-  static const Names<Integrator> names = {{"variational", Integrator::kVariational},
-                                          {"runge_kutta_4", Integrator::kRungeKutta4},
-                                          {"first_integral", Integrator::kFirstIntegral}};
+const Names<GeodesicIntegrator>& NamesOf() {
+  static const Names<GeodesicIntegrator> names = {
+      {"variational", GeodesicIntegrator::kVariational},
+      {"runge_kutta_4", GeodesicIntegrator::kRungeKutta4},
+      {"first_integral", GeodesicIntegrator::kFirstIntegral}};
   return names;
 }
 template <>

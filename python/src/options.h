@@ -98,7 +98,7 @@ const Names<GeodesicStart>& NamesOf();
 template <>
 const Names<Termination>& NamesOf();
 template <>
-const Names<Integrator>& NamesOf();
+const Names<GeodesicIntegrator>& NamesOf();
 template <>
 const Names<StepSolver>& NamesOf();
 template <>

@@ -207,7 +207,7 @@ InvalidOptions
            })
       .def("__repr__", [](const FrozenMetric& self) {
         std::ostringstream text;
-        text << "<shapespace.Metric: " << Describe(self.metric->options) << "; unit "
+        text << "<shapespace.Metric: " << DescribeMetric(self.metric->options) << "; unit "
              << self.metric->unit << ", " << self.metric->connectivity->NumVertices()
              << " vertices>";
         return text.str();

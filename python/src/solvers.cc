@@ -50,10 +50,10 @@ py::tuple InterpolatePoses(const Poses& poses, const py::dict& given, const py::
 }
 
 // A handle as Python has it: vertices, and where they are to be.
-Handle MakeHandle(py::handle vertices, const py::object& positions, py::handle axis, double angle,
-                  py::handle point, py::handle translation, bool hard, double weight,
-                  const std::string& name) {
-  Handle handle;
+DeformationHandle MakeHandle(py::handle vertices, const py::object& positions, py::handle axis,
+                             double angle, py::handle point, py::handle translation, bool hard,
+                             double weight, const std::string& name) {
+  DeformationHandle handle;
   handle.name = name;
   // Whether they exist is for the solver to say, which has the mesh.
   const py::array given = py::array::ensure(vertices);
@@ -76,11 +76,12 @@ Handle MakeHandle(py::handle vertices, const py::object& positions, py::handle a
 }
 
 void BindHandle(py::module_* module) {
-  const Handle none;
+  const DeformationHandle none;
   const auto vector = [](const Eigen::Vector3d& value) {
     return Value<Eigen::Vector3d>::Get(value);
   };
-  py::class_<Handle>(*module, "Handle", R"(Some vertices, and where they are to be in the end.
+  py::class_<DeformationHandle>(*module, "Handle",
+                                R"(Some vertices, and where they are to be in the end.
 
 Parameters
 ----------
@@ -108,11 +109,11 @@ name : str, optional
            py::arg("angle") = none.motion.angle, py::arg("point") = vector(none.motion.point),
            py::arg("translation") = vector(none.motion.translation), py::arg("hard") = none.hard,
            py::arg("weight") = none.weight, py::arg("name") = none.name)
-      .def_readonly("name", &Handle::name)
-      .def_readonly("vertices", &Handle::vertices)
-      .def_readonly("hard", &Handle::hard)
-      .def_readonly("weight", &Handle::weight)
-      .def("__repr__", [](const Handle& handle) {
+      .def_readonly("name", &DeformationHandle::name)
+      .def_readonly("vertices", &DeformationHandle::vertices)
+      .def_readonly("hard", &DeformationHandle::hard)
+      .def_readonly("weight", &DeformationHandle::weight)
+      .def("__repr__", [](const DeformationHandle& handle) {
         return "<shapespace.Handle: " + (handle.name.empty() ? "" : "'" + handle.name + "', ") +
                std::to_string(handle.vertices.size()) + " vertices, " +
                (handle.hard ? "hard" : "soft") + ">";
@@ -141,7 +142,7 @@ void BindDeformer(py::module_* module) {
         });
       }))
       .def("deform", [](const std::shared_ptr<Deformer>& deformer,
-                        const std::vector<Handle>& handles, const py::object& progress) {
+                        const std::vector<DeformationHandle>& handles, const py::object& progress) {
         DeformationResult result =
             WithoutLock(progress, [=](Progress* told) { return deformer->Deform(handles, told); });
         Sign("deform", &result.path);
@@ -249,7 +250,7 @@ void BindSolvers(py::module_* module) {
   BindTransfer(module);
   BindHandle(module);
   BindDeformer(module);
-  module->def("deform", [](const Poses& mesh, const std::vector<Handle>& handles,
+  module->def("deform", [](const Poses& mesh, const std::vector<DeformationHandle>& handles,
                            const py::dict& given, const py::object& progress) {
     const DeformationOptions options = DeformationFromKeywords(mesh, given);
     DeformationResult result = WithoutLock(progress, [=](Progress* told) {

@@ -33,7 +33,7 @@ ExploreOptions FromKeywords(const py::dict& given) {
 }
 
 void BindSpace(py::module_* module) {
-  py::class_<Space>(*module, "Space", R"(Poses of a mesh and shapes between them, on a plane.
+  py::class_<PoseSpace>(*module, "Space", R"(Poses of a mesh and shapes between them, on a plane.
 
 Distances on the plane are about the lengths of geodesics. A sequence of nodes, n x 3 each: the
 poses, then the shapes found half way between nodes. `explore` makes it.
@@ -47,11 +47,13 @@ poses, then the shapes found half way between nodes. `explore` makes it.
           py::arg("file"), "Reads a .space file.")
       .def(
           "write",
-          [](const Space& space, const std::filesystem::path& file) { WriteSpace(file, space); },
+          [](const PoseSpace& space, const std::filesystem::path& file) {
+            WriteSpace(file, space);
+          },
           py::arg("file"), "Writes a .space file.")
-      .def("__len__", &Space::NumNodes)
+      .def("__len__", &PoseSpace::NumNodes)
       .def("__getitem__",
-           [](const Space& space, int node) {
+           [](const PoseSpace& space, int node) {
              const int count = space.NumNodes();
              if (node < -count || node >= count) {
                throw py::index_error("node " + std::to_string(node) + " of " +
@@ -59,33 +61,36 @@ poses, then the shapes found half way between nodes. `explore` makes it.
              }
              return FromShape(space.Placed(node < 0 ? node + count : node));
            })
-      .def_readonly("names", &Space::names, "Of the poses.")
+      .def_readonly("names", &PoseSpace::names, "Of the poses.")
       .def_property_readonly(
-          "metric", [](const Space& space) { return FrozenMetric{space.metric}; },
+          "metric", [](const PoseSpace& space) { return FrozenMetric{space.metric}; },
           "Frozen on all poses.")
       .def_property_readonly(
           "faces",
-          [](const Space& space) { return FromMatrix(space.metric->connectivity->Triangles()); },
+          [](const PoseSpace& space) {
+            return FromMatrix(space.metric->connectivity->Triangles());
+          },
           "The triangles, m x 3.")
       .def_property_readonly(
-          "points", [](const Space& space) { return FromMatrix(space.points); },
+          "points", [](const PoseSpace& space) { return FromMatrix(space.points); },
           "Each node's place on the plane, k x 2, in the unit of lengths.")
       .def_property_readonly(
-          "triangles", [](const Space& space) { return FromMatrix(space.triangles); },
+          "triangles", [](const PoseSpace& space) { return FromMatrix(space.triangles); },
           "Nodes of the triangles that tile the plane, k x 3.")
       .def_property_readonly(
-          "segments", [](const Space& space) { return FromMatrix(space.segments); },
+          "segments", [](const PoseSpace& space) { return FromMatrix(space.segments); },
           "In their place, where all poses lie on a line, k x 2.")
       .def_property_readonly(
-          "parents", [](const Space& space) { return space.parents; },
+          "parents", [](const PoseSpace& space) { return space.parents; },
           "Of each node after the poses the two nodes that it lies half way between.")
       .def_property_readonly(
-          "distances", [](const Space& space) { return FromMatrix(space.distances); },
+          "distances", [](const PoseSpace& space) { return FromMatrix(space.distances); },
           "Lengths of the geodesics between every two poses.")
-      .def_readonly("stress", &Space::stress, "How far the plane is from holding all distances.")
+      .def_readonly("stress", &PoseSpace::stress,
+                    "How far the plane is from holding all distances.")
       .def(
           "at",
-          [](const Space& space, py::handle point) {
+          [](const PoseSpace& space, py::handle point) {
             return FromShape(space.At(ToPoint(point, "point")));
           },
           py::arg("point"),
@@ -93,17 +98,17 @@ poses, then the shapes found half way between nodes. `explore` makes it.
           "(`contains`) it is the shape at the nearest point of the hull.")
       .def(
           "contains",
-          [](const Space& space, py::handle point) {
+          [](const PoseSpace& space, py::handle point) {
             return space.Locate(ToPoint(point, "point")).inside;
           },
           py::arg("point"), "Whether a point of the plane lies in the hull of the poses.")
       .def(
           "along",
-          [](const Space& space, py::handle points, int frames) {
+          [](const PoseSpace& space, py::handle points, int frames) {
             std::vector<Eigen::Vector2d> polyline;
             for (py::handle point : points) polyline.push_back(ToPoint(point, "points"));
-            Walk walk = WithoutLock(py::none(),
-                                    [=](Progress*) { return WalkAlong(space, polyline, frames); });
+            PlaneWalk walk = WithoutLock(
+                py::none(), [=](Progress*) { return WalkAlong(space, polyline, frames); });
             if (walk.outside > 0) {
               Warn({std::to_string(walk.outside) + " of the " + std::to_string(frames) +
                     " points lie outside of the poses' hull and were replaced by the nearest "
@@ -115,7 +120,7 @@ poses, then the shapes found half way between nodes. `explore` makes it.
           "The shapes along a polyline of the plane, k x 2, as a path of so many. Points outside "
           "of the poses' hull are replaced by the nearest points of the hull, with a warning.")
       .def("_repr_html_",
-           [](const Space& space) {
+           [](const PoseSpace& space) {
              FilmStripOptions options;
              std::vector<Shape> poses;
              for (int i = 0; i < space.NumPoses(); ++i) {
@@ -128,7 +133,7 @@ poses, then the shapes found half way between nodes. `explore` makes it.
              });
              return py::cast(image).attr("_repr_html_")();
            })
-      .def("__repr__", [](const Space& space) {
+      .def("__repr__", [](const PoseSpace& space) {
         return "<shapespace.Space: " + std::to_string(space.NumPoses()) + " poses, " +
                std::to_string(space.NumNodes()) + " nodes>";
       });

@@ -83,7 +83,7 @@ def test_exceptions_are_the_library_s_and_python_s():
     for name, base in [
         ("FileError", OSError),
         ("MeshError", ValueError),
-        ("CorrespondenceError", ValueError),
+        ("MismatchError", ValueError),
         ("InvalidOptions", ValueError),
         ("SolverError", RuntimeError),
         ("Cancelled", Exception),

@@ -82,7 +82,7 @@ Mesh WoundTube(double turns, double rise) {
   TubeForm form;
   form.base_radius = form.tip_radius = 0.3;
   form.knuckle = 0;
-  const Body tube = MakeTube(1500, form);
+  const ShapeFamily tube = MakeTube(1500, form);
   Mesh mesh{tube.connectivity, tube.pose(0)};
   const double radius = form.length / (2 * M_PI * turns);
   for (auto p : mesh.shape.colwise()) {
@@ -94,7 +94,7 @@ Mesh WoundTube(double turns, double rise) {
 }
 
 TEST(CountIntersections, FindsNoneOnBodiesThatHaveNone) {
-  const Body steffen = MakeSteffen();
+  const ShapeFamily steffen = MakeSteffen();
   for (const double angle : {steffen.begin, 0.0, steffen.end}) {
     EXPECT_EQ(CountIntersections(*steffen.connectivity, steffen.pose(angle)), 0) << angle;
   }
@@ -191,7 +191,7 @@ TEST(CountIntersections, OfAGraphOrAPointAreNone) {
 }
 
 TEST(CountIntersections, RefusesWhatIsNoShapeOfTheMesh) {
-  const Body steffen = MakeSteffen();
+  const ShapeFamily steffen = MakeSteffen();
   EXPECT_THROW(CountIntersections(*steffen.connectivity, Shape::Zero(3, 8)), MeshError);
   Shape broken = steffen.pose(0);
   broken(1, 4) = std::numeric_limits<double>::quiet_NaN();

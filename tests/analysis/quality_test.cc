@@ -9,7 +9,7 @@
 namespace shapespace {
 namespace {
 
-Path MakePath(const Body& body, const std::vector<Shape>& shapes,
+Path MakePath(const ShapeFamily& body, const std::vector<Shape>& shapes,
               const MetricOptions& options = {}) {
   Path path;
   path.metric = FreezeMetric(options, body.connectivity, {shapes.front(), shapes.back()});
@@ -23,7 +23,7 @@ Path MakePath(const Body& body, const std::vector<Shape>& shapes,
 }
 
 TEST(MeasureQuality, IsZeroOnAnExactIsometricFlex) {
-  const Body strip = MakeStrip(1, 1, 20);
+  const ShapeFamily strip = MakeStrip(1, 1, 20);
   std::vector<Shape> shapes;
   for (int i = 0; i <= 4; ++i) shapes.push_back(strip.pose(strip.end * i / 4));
   const PathQuality quality = MeasureQuality(MakePath(strip, shapes));
@@ -34,7 +34,7 @@ TEST(MeasureQuality, IsZeroOnAnExactIsometricFlex) {
 }
 
 TEST(MeasureQuality, SeesAScaledShapeAsThatMuchDeviation) {
-  const Body sheet = MakeSheet(1, 1, 6, 6);
+  const ShapeFamily sheet = MakeSheet(1, 1, 6, 6);
   const Shape flat = sheet.pose(0);
   const PathQuality quality =
       MeasureQuality(MakePath(sheet, {flat, 1.1 * flat, 2 * flat}, MetricOptions::Isometric()));
@@ -88,7 +88,7 @@ TEST(MeasureQuality, IsZeroWhereEveryElementMovesOnItsStraightLine) {
 }
 
 TEST(MeasureQuality, FiguresOfInnerShapesAreOfThoseBetweenPosesOnly) {
-  const Body sheet = MakeSheet(1, 1, 6, 6);
+  const ShapeFamily sheet = MakeSheet(1, 1, 6, 6);
   const Shape flat = sheet.pose(0), rolled = sheet.pose(20);
   const Path between = MakePath(sheet, {flat, 1.1 * rolled, 2 * flat});
   const PathQuality inner = MeasureQuality(between);
@@ -121,7 +121,7 @@ TEST(MeasureQuality, FiguresOfInnerShapesAreOfThoseBetweenPosesOnly) {
 
 // With a metric of positions alone, the speed of a rigid motion is the body's speed.
 TEST(GreatestSpeed, IsTheFastestSegmentOverTheMean) {
-  const Body sheet = MakeSheet(1, 1, 6, 6);
+  const ShapeFamily sheet = MakeSheet(1, 1, 6, 6);
   const Shape flat = sheet.pose(0);
   MetricOptions options;
   options.strain = options.bending = 0;
@@ -136,7 +136,7 @@ TEST(GreatestSpeed, IsTheFastestSegmentOverTheMean) {
 }
 
 TEST(MeasureQuality, CountsFoldsThatThePosesDoNotHave) {
-  const Body sheet = MakeSheet(1, 1, 1, 1);  // two triangles, one hinge
+  const ShapeFamily sheet = MakeSheet(1, 1, 1, 1);  // two triangles, one hinge
   ASSERT_EQ(sheet.connectivity->NumHinges(), 1);
   const Shape flat = sheet.pose(0);
   const Eigen::Vector4i hinge = sheet.connectivity->Hinges().col(0);
@@ -150,7 +150,7 @@ TEST(MeasureQuality, CountsFoldsThatThePosesDoNotHave) {
 }
 
 TEST(EdgeDeviation, IsLocal) {
-  const Body sheet = MakeSheet(1, 1, 10, 10);
+  const ShapeFamily sheet = MakeSheet(1, 1, 10, 10);
   const Shape flat = sheet.pose(0);
   Shape bumped = flat;
   bumped.col(0) += Eigen::Vector3d(0, 0, 0.1);

@@ -45,7 +45,7 @@ Shape BentAtOrigin(const Shape& rest, double degrees, double width) {
 }
 
 struct BentBar {
-  Body body = MakeBar(6, 1, 1, 48, 8, 8);
+  ShapeFamily body = MakeBar(6, 1, 1, 48, 8, 8);
   Shape rest = body.pose(0);
   std::vector<Shape> shapes;
 
@@ -56,7 +56,7 @@ struct BentBar {
   }
 };
 
-std::vector<Shape> BendTube(const Body& tube, double degrees) {
+std::vector<Shape> BendTube(const ShapeFamily& tube, double degrees) {
   std::vector<Shape> shapes;
   for (int i = 0; i < 6; ++i) shapes.push_back(tube.pose(degrees * i / 5));
   return shapes;
@@ -86,7 +86,7 @@ TEST(FindRigidParts, ARigidCopyIsOnePart) {
 }
 
 TEST(FindRigidParts, AFoldIsTwoPartsThoughNoEdgeChanges) {
-  const Body sheet = MakeSheet(2, 1, 20, 10);
+  const ShapeFamily sheet = MakeSheet(2, 1, 20, 10);
   const Shape flat = sheet.pose(0);
   std::vector<Shape> shapes = {flat, flat, flat};
   for (int i = 0; i < 3; ++i) {
@@ -137,7 +137,7 @@ TEST(FindRigidParts, ABarBentAtOneJointIsTwoPartsAndTheJoint) {
 TEST(FindRigidParts, TheResidualIsWhatABestMotionLeaves) {
   // With all of the bar as one part that is scaled by 1 + s about its centre, the residual is s
   // times the root mean square distance from the centre.
-  const Body bar = MakeBar(2, 2, 2, 6, 6, 6);
+  const ShapeFamily bar = MakeBar(2, 2, 2, 6, 6, 6);
   const Shape rest = bar.pose(0);
   const Path path = PathOf(bar.connectivity, {rest, 1.01 * rest});
   const RigidParts result = FindRigidParts(path);
@@ -150,7 +150,7 @@ TEST(FindRigidParts, TheResidualIsWhatABestMotionLeaves) {
 }
 
 TEST(FindRigidParts, AFingerHasThreeBones) {
-  const Body tube = MakeTube(3000);
+  const ShapeFamily tube = MakeTube(3000);
   const Path path = PathOf(tube.connectivity, BendTube(tube, 110));
   const RigidParts result = FindRigidParts(path);
   // The joints are wide: parts of them may be nearly rigid too, but are smaller.
@@ -211,7 +211,7 @@ TEST(FindRigidParts, FindsTheLimbsOfAnAnimal) {
 }
 
 TEST(FindRigidParts, DoesNotDependOnScaleOrPlace) {
-  const Body tube = MakeTube(2000);
+  const ShapeFamily tube = MakeTube(2000);
   const std::vector<Shape> shapes = BendTube(tube, 90);
   const RigidParts plain = FindRigidParts(PathOf(tube.connectivity, shapes));
   for (const double scale : {1e-4, 1e4}) {
@@ -236,7 +236,7 @@ TEST(FindRigidParts, DoesNotDependOnScaleOrPlace) {
 }
 
 TEST(FindRigidParts, DoesNotDependOnNumbering) {
-  const Body tube = MakeTube(2000);
+  const ShapeFamily tube = MakeTube(2000);
   const std::vector<Shape> shapes = BendTube(tube, 90);
   const RigidParts plain = FindRigidParts(PathOf(tube.connectivity, shapes));
   const int count = tube.connectivity->NumVertices();
@@ -265,7 +265,7 @@ TEST(FindRigidParts, TheToleranceDecidesWhatABendIs) {
 }
 
 TEST(FindRigidParts, WhatIsTooSmallOrTooStrainedIsNoPart) {
-  const Body bar = MakeBar(2, 2, 2, 6, 6, 6);
+  const ShapeFamily bar = MakeBar(2, 2, 2, 6, 6, 6);
   const Shape rest = bar.pose(0);
   const RigidParts strained = FindRigidParts(
       PathOf(bar.connectivity, {rest, Eigen::Vector3d(2, 0.5, 1).asDiagonal() * rest}));

@@ -11,7 +11,7 @@ namespace shapespace {
 namespace {
 
 TEST(CompareShapes, SeesScale) {
-  const Body bar = MakeBar(3, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(3, 1, 1, 6, 2, 2);
   const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0)});
   const ShapeError error = CompareShapes(metric, bar.pose(0), 0.9 * bar.pose(0));
   EXPECT_NEAR(error.edge_rms, 0.1, 1e-12);
@@ -21,7 +21,7 @@ TEST(CompareShapes, SeesScale) {
 }
 
 TEST(CompareShapes, CountsHingesThatAreTurnedOver) {
-  const Body sheet = MakeSheet(2, 1, 2, 1);
+  const ShapeFamily sheet = MakeSheet(2, 1, 2, 1);
   const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});
   Shape folded = sheet.pose(0);
   folded.row(0) = folded.row(0).cwiseAbs();

@@ -16,7 +16,7 @@ namespace {
 
 // A tube that is bent, at uneven times.
 Path BentTube(const MetricOptions& options) {
-  const Body tube = MakeBody("tube", 600);
+  const ShapeFamily tube = MakeBody("tube", 600);
   std::vector<Shape> shapes;
   for (const double angle : {0.0, 10.0, 40.0, 60.0}) shapes.push_back(tube.pose(angle));
   return MakePath(FreezeMetric(options, tube.connectivity, shapes), shapes, {0, 0.3, 0.6, 1});
@@ -46,7 +46,7 @@ TEST(VertexEnergy, SumsToTheSquaredSpeed) {
 }
 
 TEST(VertexEnergy, IsWhereTheBodyBends) {
-  const Body bar = MakeBar(10, 1, 1, 40, 4, 4);
+  const ShapeFamily bar = MakeBar(10, 1, 1, 40, 4, 4);
   Shape bent = bar.pose(0);
   // The part beyond the middle is turned about it.
   const double middle = (bent.row(0).minCoeff() + bent.row(0).maxCoeff()) / 2;
@@ -69,7 +69,7 @@ TEST(VertexEnergy, IsWhereTheBodyBends) {
 }
 
 TEST(VertexEnergy, RigidMotionHasNone) {
-  const Body tube = MakeBody("tube", 600);
+  const ShapeFamily tube = MakeBody("tube", 600);
   const Shape shape = tube.pose(30);
   const Shape moved =
       (testing::Rotation(50, {1, 2, 3}) * shape).colwise() + Eigen::Vector3d(3, 1, 2);
@@ -81,7 +81,7 @@ TEST(VertexEnergy, RigidMotionHasNone) {
 }
 
 TEST(VertexEnergy, VolumeIsDividedByArea) {
-  const Body bar = MakeBar(3, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(3, 1, 1, 6, 2, 2);
   const Shape larger = 1.1 * bar.pose(0);
   MetricOptions options;
   options.strain = options.bending = 0;

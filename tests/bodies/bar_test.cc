@@ -12,7 +12,7 @@ namespace {
 TEST(BarTest, IsAClosedSphereOfDistinctVertices) {
   for (const auto& [nx, ny, nz] :
        {std::array{1, 1, 1}, std::array{1, 3, 2}, std::array{2, 1, 1}, std::array{7, 3, 2}}) {
-    const Body bar = MakeBar(3, 2, 1, nx, ny, nz);
+    const ShapeFamily bar = MakeBar(3, 2, 1, nx, ny, nz);
     EXPECT_EQ(bar.connectivity->NumTriangles(), 4 * (nx * ny + ny * nz + nz * nx));
     EXPECT_EQ(UnmatchedSides(*bar.connectivity), 0);
     EXPECT_EQ(EulerCharacteristic(*bar.connectivity), 2);
@@ -21,7 +21,7 @@ TEST(BarTest, IsAClosedSphereOfDistinctVertices) {
 }
 
 TEST(BarTest, RestsAsABoxWoundOutwards) {
-  const Body bar = MakeBar(3, 2, 0.5, 6, 4, 2);
+  const ShapeFamily bar = MakeBar(3, 2, 0.5, 6, 4, 2);
   const Shape rest = bar.pose(bar.begin);
   EXPECT_EQ(rest.rowwise().maxCoeff(), Eigen::Vector3d(1.5, 1, 0.25));
   EXPECT_EQ(rest.rowwise().minCoeff(), Eigen::Vector3d(-1.5, -1, -0.25));
@@ -31,7 +31,7 @@ TEST(BarTest, RestsAsABoxWoundOutwards) {
 
 TEST(BarTest, BendsItsMiddleLineToAnArcOfTheSameLength) {
   const double length = 4, angle = 200;
-  const Body bar = MakeBar(length, 1, 1, 50, 2, 2);
+  const ShapeFamily bar = MakeBar(length, 1, 1, 50, 2, 2);
   const Shape rest = bar.pose(0), bent = bar.pose(angle);
   const double radius = length / (angle / kDegrees);
   int on_middle = 0;
@@ -49,7 +49,7 @@ TEST(BarTest, BendsItsMiddleLineToAnArcOfTheSameLength) {
 }
 
 TEST(BarTest, SmallBendsAreContinuousAtRest) {
-  const Body bar = MakeBar(4, 1, 1, 8, 2, 2);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 8, 2, 2);
   const double angle = 1e-6;
   const double moved = (bar.pose(angle) - bar.pose(0)).cwiseAbs().maxCoeff();
   // The ends rise by length * angle / 8, their corners slide by height * angle / 4.
@@ -59,7 +59,7 @@ TEST(BarTest, SmallBendsAreContinuousAtRest) {
 TEST(BarTest, KeepsItsVolumeToSecondOrder) {
   double previous = 0;
   for (int n : {8, 16, 32}) {
-    const Body bar = MakeBar(4, 1, 0.8, 2 * n, n / 2, n / 2);
+    const ShapeFamily bar = MakeBar(4, 1, 0.8, 2 * n, n / 2, n / 2);
     const double lost = 4 * 0.8 - VolumeOf(*bar.connectivity, bar.pose(240));
     EXPECT_GT(lost, 0);
     if (previous > 0) {
@@ -71,7 +71,7 @@ TEST(BarTest, KeepsItsVolumeToSecondOrder) {
 }
 
 TEST(BarTest, RangeEndsBeforeTheInnerFaceVanishes) {
-  const Body thick = MakeBar(1, 1, 1, 40, 40, 40);
+  const ShapeFamily thick = MakeBar(1, 1, 1, 40, 40, 40);
   EXPECT_LT(thick.end, 2 * kDegrees);
   EXPECT_GT(VolumeOf(*thick.connectivity, thick.pose(thick.end)), 0.99);
   EXPECT_EQ(MakeBar(4, 1, 1, 8, 2, 2).end, 360);

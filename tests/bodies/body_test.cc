@@ -12,7 +12,7 @@ namespace {
 TEST(BodyTest, MakesEveryListedBodyAtItsDefaultSize) {
   std::set<std::string> names;
   for (const BodyInfo& info : ListBodies()) {
-    const Body body = MakeBody(info.name);
+    const ShapeFamily body = MakeBody(info.name);
     EXPECT_EQ(body.name, info.name);
     EXPECT_FALSE(info.description.empty());
     EXPECT_FALSE(body.parameter.empty());
@@ -40,7 +40,7 @@ TEST(BodyTest, SizesComeNearToWhatIsAsked) {
 TEST(BodyTest, PosesAreFiniteAndMoveWithoutJumps) {
   for (const BodyInfo& info : ListBodies()) {
     for (int triangles : {1, 300}) {
-      const Body body = MakeBody(info.name, triangles);
+      const ShapeFamily body = MakeBody(info.name, triangles);
       const Shape first = body.pose(body.begin);
       ASSERT_EQ(first.cols(), body.connectivity->NumVertices()) << info.name;
       const double size = (first.rowwise().maxCoeff() - first.rowwise().minCoeff()).norm();
@@ -59,7 +59,7 @@ TEST(BodyTest, PosesAreFiniteAndMoveWithoutJumps) {
 
 TEST(BodyTest, ThoseSaidToBeIsometricAreAndOthersAreNot) {
   for (const BodyInfo& info : ListBodies()) {
-    const Body body = MakeBody(info.name);
+    const ShapeFamily body = MakeBody(info.name);
     const double middle = (body.begin + body.end) / 2;
     const double strain =
         LargestStrain(*body.connectivity, body.pose(body.begin), body.pose(middle));
@@ -94,7 +94,7 @@ TEST(BodyTest, RefusesAbsurdSizes) {
 
 TEST(BodyTest, RefusesParametersOutsideTheRange) {
   for (const BodyInfo& info : ListBodies()) {
-    const Body body = MakeBody(info.name, 100);
+    const ShapeFamily body = MakeBody(info.name, 100);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (double value : {body.begin - 1e-6, body.end + 1e-6, nan}) {
       const std::string refusal = Refusal([&] { body.pose(value); });

@@ -10,7 +10,7 @@ namespace shapespace {
 namespace {
 
 TEST(BricardTest, IsAnOctahedron) {
-  const Body body = MakeBricard();
+  const ShapeFamily body = MakeBricard();
   const Connectivity& connectivity = *body.connectivity;
   EXPECT_EQ(connectivity.NumVertices(), 6);
   EXPECT_EQ(connectivity.NumEdges(), 12);
@@ -22,7 +22,7 @@ TEST(BricardTest, IsAnOctahedron) {
 }
 
 TEST(BricardTest, KeepsAllEdgesWhileEveryHingeMoves) {
-  const Body body = MakeBricard();
+  const ShapeFamily body = MakeBricard();
   const Shape rest = body.pose(body.begin);
   const Eigen::VectorXd rest_angles = HingeAngles(*body.connectivity, rest);
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(rest_angles.size());
@@ -40,7 +40,7 @@ TEST(BricardTest, KeepsAllEdgesWhileEveryHingeMoves) {
 }
 
 TEST(BricardTest, OppositeVerticesChangeTheirDistances) {
-  const Body body = MakeBricard();
+  const ShapeFamily body = MakeBricard();
   const Shape first = body.pose(body.begin), last = body.pose(body.end);
   for (int v : {0, 2, 4}) {
     const double before = (first.col(v) - first.col(v + 1)).norm();
@@ -50,7 +50,7 @@ TEST(BricardTest, OppositeVerticesChangeTheirDistances) {
 }
 
 TEST(BricardTest, ParameterIsTheAngleToThePlaneOfSymmetry) {
-  const Body body = MakeBricard();
+  const ShapeFamily body = MakeBricard();
   for (double angle : {-35.0, 0.0, 20.0, 50.0}) {
     const Shape shape = body.pose(angle);
     const Eigen::Vector3d edge = shape.col(0) - shape.col(2);
@@ -59,14 +59,14 @@ TEST(BricardTest, ParameterIsTheAngleToThePlaneOfSymmetry) {
 }
 
 TEST(BricardTest, EnclosesNoVolumeAsSymmetryDemands) {
-  const Body body = MakeBricard();
+  const ShapeFamily body = MakeBricard();
   for (double angle : {-35.0, -10.0, 15.0, 50.0}) {
     EXPECT_NEAR(VolumeOf(*body.connectivity, body.pose(angle)), 0, 1e-14);
   }
 }
 
 TEST(BricardTest, NeverComesNearADegenerateTriangleOrAFlatPose) {
-  const Body body = MakeBricard();
+  const ShapeFamily body = MakeBricard();
   for (int i = 0; i <= 100; ++i) {
     const Shape shape = body.pose(body.begin + (body.end - body.begin) * i / 100);
     EXPECT_GT(SmallestAngle(*body.connectivity, shape), 40);

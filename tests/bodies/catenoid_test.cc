@@ -10,7 +10,7 @@ namespace shapespace {
 namespace {
 
 TEST(CatenoidTest, BeginsAtTheCatenoidAndEndsAtTheHelicoid) {
-  const Body body = MakeCatenoid(1.2, 24, 8);
+  const ShapeFamily body = MakeCatenoid(1.2, 24, 8);
   const Shape catenoid = body.pose(body.begin), helicoid = body.pose(body.end);
   for (int v = 0; v < catenoid.cols(); ++v) {
     const auto p = catenoid.col(v), q = helicoid.col(v);
@@ -25,7 +25,7 @@ TEST(CatenoidTest, BeginsAtTheCatenoidAndEndsAtTheHelicoid) {
 TEST(CatenoidTest, AreaApproachesTheCatenoids) {
   // Area of the catenoid between -h and h: pi (2 h + sinh 2 h), constant along the family.
   const double exact = 180 / kDegrees * (2 + std::sinh(2.0));
-  const Body body = MakeCatenoid(1, 160, 50);
+  const ShapeFamily body = MakeCatenoid(1, 160, 50);
   for (double angle : {0.0, 45.0, 90.0}) {
     EXPECT_NEAR(Area(*body.connectivity, body.pose(angle)) / exact, 1, 1e-3);
   }
@@ -34,7 +34,7 @@ TEST(CatenoidTest, AreaApproachesTheCatenoids) {
 TEST(CatenoidTest, EdgesAreKeptToSecondOrder) {
   double previous = 0;
   for (int n : {8, 16, 32, 64}) {
-    const Body body = MakeCatenoid(1, 3 * n, n);
+    const ShapeFamily body = MakeCatenoid(1, 3 * n, n);
     const double strain = LargestStrain(*body.connectivity, body.pose(0), body.pose(90));
     if (previous > 0) {
       EXPECT_NEAR(previous / strain, 4, 0.2);
@@ -46,7 +46,7 @@ TEST(CatenoidTest, EdgesAreKeptToSecondOrder) {
 }
 
 TEST(CatenoidTest, TangentPlanesKeepTheirDirections) {
-  const Body body = MakeCatenoid(1, 150, 50);
+  const ShapeFamily body = MakeCatenoid(1, 150, 50);
   const Shape first = body.pose(0), last = body.pose(90);
   for (const auto& t : body.connectivity->Triangles().colwise()) {
     const auto normal = [&t](const Shape& shape) {

@@ -8,7 +8,7 @@ namespace shapespace {
 namespace {
 
 TEST(MiuraTest, RestsFlatFacingUpAsParallelograms) {
-  const Body body = MakeMiura(1, 2, 60, 4, 3);
+  const ShapeFamily body = MakeMiura(1, 2, 60, 4, 3);
   EXPECT_EQ(body.connectivity->NumPolygons(), 12);
   EXPECT_EQ(body.connectivity->NumTriangles(), 24);
   EXPECT_EQ(UnmatchedSides(*body.connectivity), 2 * (4 + 3));
@@ -20,7 +20,7 @@ TEST(MiuraTest, RestsFlatFacingUpAsParallelograms) {
 
 TEST(MiuraTest, KeepsSidesDiagonalsAndFlatnessOfEveryParallelogram) {
   for (double corner : {10.0, 45.0, 60.0, 80.0}) {
-    const Body body = MakeMiura(1, 1.5, corner, 5, 4);
+    const ShapeFamily body = MakeMiura(1, 1.5, corner, 5, 4);
     const Shape rest = body.pose(0);
     for (double angle : {1e-6, 10.0, 45.0, 85.0}) {
       const Shape folded = body.pose(angle);
@@ -40,7 +40,7 @@ TEST(MiuraTest, KeepsSidesDiagonalsAndFlatnessOfEveryParallelogram) {
 }
 
 TEST(MiuraTest, ShrinksBothWaysAsItFolds) {
-  const Body body = MakeMiura(1, 1, 60, 10, 10);
+  const ShapeFamily body = MakeMiura(1, 1, 60, 10, 10);
   Eigen::Vector3d previous(100, 100, -1);
   for (double angle : {0.0, 20.0, 40.0, 60.0, 80.0}) {
     const Shape shape = body.pose(angle);

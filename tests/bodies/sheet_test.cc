@@ -10,7 +10,7 @@ namespace shapespace {
 namespace {
 
 TEST(SheetTest, RestsFlatFacingUp) {
-  const Body sheet = MakeSheet(3, 2, 6, 5);
+  const ShapeFamily sheet = MakeSheet(3, 2, 6, 5);
   const Shape rest = sheet.pose(sheet.begin);
   EXPECT_EQ(sheet.connectivity->NumTriangles(), 60);
   EXPECT_EQ(UnmatchedSides(*sheet.connectivity), 2 * (6 + 5));
@@ -21,7 +21,7 @@ TEST(SheetTest, RestsFlatFacingUp) {
 }
 
 TEST(SheetTest, RollsOntoACylinderUntilItsEndsMeet) {
-  const Body sheet = MakeSheet(3, 2, 12, 4);
+  const ShapeFamily sheet = MakeSheet(3, 2, 12, 4);
   const Shape rolled = sheet.pose(sheet.end);
   const double radius = 3 / (360 / kDegrees);
   for (int v = 0; v < rolled.cols(); ++v) {
@@ -33,7 +33,7 @@ TEST(SheetTest, RollsOntoACylinderUntilItsEndsMeet) {
 TEST(SheetTest, EdgesShortenByTheDocumentedPart) {
   const double angle = 180;
   for (int nx : {10, 40}) {
-    const Body sheet = MakeSheet(3, 2, nx, 8);
+    const ShapeFamily sheet = MakeSheet(3, 2, nx, 8);
     const double expected = std::pow(angle / kDegrees / nx, 2) / 24;
     const double strain = LargestStrain(*sheet.connectivity, sheet.pose(0), sheet.pose(angle));
     EXPECT_NEAR(strain / expected, 1, 0.01);
@@ -49,7 +49,7 @@ TEST(SheetTest, RefusesBadArguments) {
 }
 
 TEST(StripTest, RestsFlatFacingUp) {
-  const Body strip = MakeStrip(1, 0.8, 7);
+  const ShapeFamily strip = MakeStrip(1, 0.8, 7);
   const Shape rest = strip.pose(strip.begin);
   EXPECT_EQ(strip.connectivity->NumTriangles(), 7);
   EXPECT_EQ(strip.connectivity->NumHinges(), 6);
@@ -63,7 +63,7 @@ TEST(StripTest, FoldsEveryHingeByTheAngleAndKeepsEveryEdge) {
   for (const auto& [side, width, triangles] :
        {std::tuple(1.0, 0.8, 40), std::tuple(2.0, 0.1, 40), std::tuple(0.1, 5.0, 7),
         std::tuple(1e4, 1.0, 5), std::tuple(1.0, 1.0, 2), std::tuple(20.0, 1.0, 3)}) {
-    const Body strip = MakeStrip(side, width, triangles);
+    const ShapeFamily strip = MakeStrip(side, width, triangles);
     ASSERT_TRUE(strip.isometric);
     for (double part : {1e-9, 0.01, 0.5, 1.0}) {
       const double angle = part * strip.end;
@@ -76,12 +76,12 @@ TEST(StripTest, FoldsEveryHingeByTheAngleAndKeepsEveryEdge) {
 }
 
 TEST(StripTest, ClosesToAnAntiprism) {
-  const Body strip = MakeStrip(1, 1.5, 12);
+  const ShapeFamily strip = MakeStrip(1, 1.5, 12);
   const Shape ring = strip.pose(strip.end);
   EXPECT_LT((ring.leftCols(2) - ring.rightCols(2)).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_GT(SmallestDistance(ring.leftCols(12)), 0.5);
 
-  const Body long_strip = MakeStrip(1, 1.5, 100000);
+  const ShapeFamily long_strip = MakeStrip(1, 1.5, 100000);
   const Shape long_ring = long_strip.pose(long_strip.end);
   EXPECT_LT((long_ring.leftCols(2) - long_ring.rightCols(2)).cwiseAbs().maxCoeff(), 1e-9);
 }

@@ -36,7 +36,7 @@ int Crossings(const Connectivity& connectivity, const Shape& shape) {
 }
 
 TEST(SteffenTest, IsAClosedSurfaceOfFourteenTriangles) {
-  const Body body = MakeSteffen();
+  const ShapeFamily body = MakeSteffen();
   EXPECT_EQ(body.connectivity->NumVertices(), 9);
   EXPECT_EQ(body.connectivity->NumEdges(), 21);
   EXPECT_EQ(body.connectivity->NumTriangles(), 14);
@@ -45,7 +45,7 @@ TEST(SteffenTest, IsAClosedSurfaceOfFourteenTriangles) {
 }
 
 TEST(SteffenTest, KeepsEdgesAndVolumeWhileItMoves) {
-  const Body body = MakeSteffen();
+  const ShapeFamily body = MakeSteffen();
   const Shape rest = body.pose(0);
   const double volume = VolumeOf(*body.connectivity, rest);
   EXPECT_GT(volume, 100);
@@ -69,7 +69,7 @@ TEST(SteffenTest, KeepsEdgesAndVolumeWhileItMoves) {
 }
 
 TEST(SteffenTest, DoesNotCrossItselfWithinItsRange) {
-  const Body body = MakeSteffen();
+  const ShapeFamily body = MakeSteffen();
   for (int i = 0; i <= 200; ++i) {
     const double angle = body.begin + (body.end - body.begin) * i / 200;
     EXPECT_EQ(Crossings(*body.connectivity, body.pose(angle)), 0) << angle;
@@ -77,7 +77,7 @@ TEST(SteffenTest, DoesNotCrossItselfWithinItsRange) {
 }
 
 TEST(SteffenTest, HasAHalfTurnThatReversesTheFlex) {
-  const Body body = MakeSteffen();
+  const ShapeFamily body = MakeSteffen();
   const int image[] = {1, 0, 3, 2, 5, 4, 7, 6, 8};
   for (double angle : {0.0, 3.0, 12.5}) {
     const Shape shape = body.pose(angle), other = body.pose(-angle);
@@ -92,7 +92,7 @@ TEST(SteffenTest, HasTheEdgesOfTheMeshInCirculation) {
   const std::string folder = SHAPESPACE_DATA_DIR;
   if (folder.empty()) GTEST_SKIP() << "no real meshes";
   const Soup soup = ReadSoup(folder + "/steffen/steffen_polyhedron.obj");
-  const Body body = MakeSteffen();
+  const ShapeFamily body = MakeSteffen();
   ASSERT_EQ(soup.NumVertices(), 9);
   const auto other = Connectivity::Make(9, soup.polygon_begin, soup.corners);
   ASSERT_EQ(other->Edges(), body.connectivity->Edges());

@@ -11,7 +11,7 @@ namespace {
 
 TEST(TubeTest, IsAClosedSphereOfAboutTheTrianglesAskedFor) {
   for (int triangles : {50, 200, 201, 500, 1000, 5000, 20000, 200000}) {
-    const Body tube = MakeTube(triangles);
+    const ShapeFamily tube = MakeTube(triangles);
     EXPECT_NEAR(tube.connectivity->NumTriangles(), triangles, std::max(5.0, 0.04 * triangles));
     EXPECT_EQ(UnmatchedSides(*tube.connectivity), 0);
     EXPECT_EQ(EulerCharacteristic(*tube.connectivity), 2);
@@ -21,7 +21,7 @@ TEST(TubeTest, IsAClosedSphereOfAboutTheTrianglesAskedFor) {
 
 TEST(TubeTest, HasRoundishTrianglesAtRest) {
   for (int triangles : {200, 1000, 5000, 20000, 200000}) {
-    const Body tube = MakeTube(triangles);
+    const ShapeFamily tube = MakeTube(triangles);
     EXPECT_GT(SmallestAngle(*tube.connectivity, tube.pose(0)), 38) << triangles;
   }
 }
@@ -32,7 +32,7 @@ TEST(TubeTest, VolumeOfAPlainOneApproachesACapsules) {
   const double exact = pi * 0.25 * 3 + 4.0 / 3 * pi * 0.125;
   double previous = 0;
   for (int triangles : {1000, 4000, 16000}) {
-    const Body tube = MakeTube(triangles, capsule);
+    const ShapeFamily tube = MakeTube(triangles, capsule);
     const double lost = exact - VolumeOf(*tube.connectivity, tube.pose(0));
     EXPECT_GT(lost, 0);
     if (previous > 0) {
@@ -46,7 +46,7 @@ TEST(TubeTest, VolumeOfAPlainOneApproachesACapsules) {
 TEST(TubeTest, KeepsItsVolumeToSecondOrder) {
   double previous = 0;
   for (int triangles : {1000, 4000, 16000}) {
-    const Body tube = MakeTube(triangles);
+    const ShapeFamily tube = MakeTube(triangles);
     const double rest = VolumeOf(*tube.connectivity, tube.pose(tube.begin));
     const double lost = 1 - VolumeOf(*tube.connectivity, tube.pose(tube.end)) / rest;
     if (previous > 0) {
@@ -59,7 +59,7 @@ TEST(TubeTest, KeepsItsVolumeToSecondOrder) {
 
 TEST(TubeTest, BaseStaysAndTipTurnsByTheAngle) {
   const TubeForm form;
-  const Body tube = MakeTube(5000, form);
+  const ShapeFamily tube = MakeTube(5000, form);
   const int last = tube.connectivity->NumVertices() - 1;
   for (double angle : {0.0, 1e-3, 60.0, 150.0}) {
     const Shape bent = tube.pose(angle);
@@ -79,7 +79,7 @@ TEST(TubeTest, CentreLineDoesNotDependOnResolution) {
 
 TEST(TubeTest, BentToTheEndHasNoFolds) {
   for (const TubeForm& form : {TubeForm(), TubeForm{2, 0.8, 0.8, 0.1}, TubeForm{3, 0.3, 0.9, 0}}) {
-    const Body tube = MakeTube(20000, form);
+    const ShapeFamily tube = MakeTube(20000, form);
     const Eigen::ArrayXd angles = HingeAngles(*tube.connectivity, tube.pose(tube.end));
     EXPECT_LT(angles.abs().maxCoeff(), 60) << "a fold has nearly 180";
   }
@@ -105,7 +105,7 @@ TEST(TubeTest, RefusesBadArguments) {
 TEST(TubeTest, ExtremeFormsGiveFiniteShapes) {
   for (const TubeForm& form : {TubeForm{1e84, 1e80, 1e80, 0}, TubeForm{1e-80, 1e-76, 1e-76, 1e-80},
                                TubeForm{1, 1e-2, 1e2, 1}, TubeForm{100, 0.01, 100, 0}}) {
-    const Body tube = MakeTube(1000, form);
+    const ShapeFamily tube = MakeTube(1000, form);
     const Shape bent = tube.pose(tube.end);
     EXPECT_TRUE(bent.allFinite());
     EXPECT_GT(SmallestAngle(*tube.connectivity, bent), 0);

@@ -34,7 +34,7 @@ void ExpectSameCollapses(const std::vector<Collapse>& first, const std::vector<C
   }
 }
 
-class PlanCollapsesOfSurfaces : public ::testing::TestWithParam<testing::Surface> {};
+class PlanCollapsesOfSurfaces : public ::testing::TestWithParam<testing::MeshSurface> {};
 
 TEST_P(PlanCollapsesOfSurfaces, KeepTheTopology) {
   const PosedMesh mesh = GetParam().make();
@@ -141,7 +141,7 @@ TEST(PlanCollapses, KeepsWhatIsFlat) {
   EXPECT_LE(collapses.back().triangles, 12);
   EXPECT_NEAR(Area(*After(*flat.connectivity, collapses), grid.vertices), 108, 1e-10);
 
-  const Body bar = MakeBar(3, 2, 1, 18, 12, 6);
+  const ShapeFamily bar = MakeBar(3, 2, 1, 18, 12, 6);
   const Shape box = bar.pose(0);
   const std::vector<Collapse> plan = PlanCollapses(*bar.connectivity, {box}, 60);
   EXPECT_LE(plan.back().triangles, 60);
@@ -193,7 +193,7 @@ TEST(PlanCollapses, LeavesTheLeastSurfaces) {
 }
 
 TEST(PlanCollapses, TakesABallToATetrahedron) {
-  const Body cube = MakeBar(1, 1, 1, 8, 8, 8);
+  const ShapeFamily cube = MakeBar(1, 1, 1, 8, 8, 8);
   Shape ball = cube.pose(0);
   ball.colwise().normalize();
   const std::vector<Collapse> collapses = PlanCollapses(*cube.connectivity, {ball}, 0);

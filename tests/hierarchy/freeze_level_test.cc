@@ -13,7 +13,7 @@ namespace shapespace {
 namespace {
 
 struct Levels {
-  Body bar = MakeBar(8, 1, 1, 32, 4, 4);
+  ShapeFamily bar = MakeBar(8, 1, 1, 32, 4, 4);
   Shape rest = bar.pose(0);
   Hierarchy hierarchy{bar.connectivity, {rest}};
 };

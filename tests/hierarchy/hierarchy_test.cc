@@ -60,7 +60,7 @@ void ExpectSoundLevels(const PosedMesh& mesh, const Hierarchy& hierarchy, double
   }
 }
 
-class HierarchyOfSurfaces : public ::testing::TestWithParam<testing::Surface> {};
+class HierarchyOfSurfaces : public ::testing::TestWithParam<testing::MeshSurface> {};
 
 TEST_P(HierarchyOfSurfaces, HasSoundLevels) {
   const PosedMesh mesh = GetParam().make();
@@ -135,7 +135,7 @@ TEST(Hierarchy, KeepsTheVolumeInEveryPose) {
 // A shape between the poses, lifted with the poses' detail, is nearly the true shape. Bounds are a
 // fifth above the measured values.
 TEST(Hierarchy, LiftsShapesBetweenThePoses) {
-  const Body tube = MakeTube(6000);
+  const ShapeFamily tube = MakeTube(6000);
   const std::vector<Shape> poses = {tube.pose(0), tube.pose(90)};
   const Hierarchy hierarchy(tube.connectivity, poses);
   ASSERT_EQ(hierarchy.NumLevels(), 3);

@@ -99,25 +99,25 @@ inline Soup Ring(int n, int m) {
 }
 
 inline PosedMesh BentTube(int triangles) {
-  const Body tube = MakeTube(triangles);
+  const ShapeFamily tube = MakeTube(triangles);
   return {"tube", tube.connectivity, {tube.pose(0), tube.pose(90)}};
 }
 
 inline PosedMesh RolledSheet() {
-  const Body sheet = MakeSheet(3, 2, 30, 20);
+  const ShapeFamily sheet = MakeSheet(3, 2, 30, 20);
   return {"sheet", sheet.connectivity, {sheet.pose(0), sheet.pose(100), sheet.pose(200)}};
 }
 
 /// A mesh, made on demand.
-struct Surface {
+struct MeshSurface {
   const char* name;
   PosedMesh (*make)();
 };
 
-inline void PrintTo(const Surface& surface, std::ostream* out) { *out << surface.name; }
+inline void PrintTo(const MeshSurface& surface, std::ostream* out) { *out << surface.name; }
 
 /// Surfaces of every kind: with and without boundary, handles, several components, quadrilaterals.
-inline constexpr Surface kSurfaces[] = {
+inline constexpr MeshSurface kSurfaces[] = {
     {"tube", [] { return BentTube(2000); }},
     {"sheet", RolledSheet},
     {"animal", [] { return Animal(2500); }},

@@ -5,7 +5,7 @@
 #include <shapespace/output/picture.h>
 
 int main() {
-  const shapespace::Body tube = shapespace::MakeBody("tube");
+  const shapespace::ShapeFamily tube = shapespace::MakeBody("tube");
   const auto [path, summary] =
       shapespace::Interpolate(tube.connectivity, {tube.pose(0), tube.pose(110)});
   std::cout << summary.FullReport();

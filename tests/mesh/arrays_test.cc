@@ -80,7 +80,7 @@ TEST(ArraysTest, PosesOfArraysPassTheChecksOfFiles) {
         MakePoses({soup(stretched, corners, "rest"), soup(broken, corners, "broken")});
       },
       {"broken", "vertex 4"});
-  ExpectError<CorrespondenceError>(
+  ExpectError<MismatchError>(
       [&] {
         MakePoses(
             {soup(stretched, corners, "rest"), soup(stretched, corners.leftCols(5), "other")});

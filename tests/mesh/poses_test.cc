@@ -63,14 +63,14 @@ TEST_F(PosesTest, WarningsAboutPositionsNameTheirPose) {
 }
 
 TEST_F(PosesTest, OtherMeshesAreRefused) {
-  ExpectError<CorrespondenceError>(
+  ExpectError<MismatchError>(
       [&] {
         ReadPoses({File("a.obj", square_), File("b.obj", book_)});
       },
       {"b.obj", "against", "a.obj", "5 vertices instead of 4"});
   std::string other = square_;
   other.replace(other.find("1 2 3 4"), 7, "1 3 2 4");
-  ExpectError<CorrespondenceError>(
+  ExpectError<MismatchError>(
       [&] {
         ReadPoses({File("a.obj", square_), File("c.obj", other)});
       },
@@ -83,7 +83,7 @@ TEST_F(PosesTest, MirrorImagesAreTurnedBackIfAsked) {
       File("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" + faces),
       File("b.obj", "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 1\n" + faces),
       File("c.obj", "v 0 0 0\nv 1 0 0\nv 0 -1 0\nv 0 0 1\n" + faces)};
-  ExpectError<CorrespondenceError>([&] { ReadPoses(files); }, {"c.obj", "mirror image"});
+  ExpectError<MismatchError>([&] { ReadPoses(files); }, {"c.obj", "mirror image"});
   ReadOptions options;
   options.mirror = 'y';
   const Poses poses = ReadPoses(files, options);

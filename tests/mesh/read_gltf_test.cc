@@ -106,8 +106,8 @@ TEST_F(ReadGltfTest, CopiesOfAVertexBecomeOneIfAllPosesAgree) {
       ASSERT_EQ(soup.dropped.size(), 1u);
       EXPECT_EQ(soup.dropped[0].find("2 vertices merged"), 0u);
     }
-    EXPECT_EQ(soups[0].pose, "");
-    EXPECT_EQ(soups[1].pose, "target 1");
+    EXPECT_EQ(soups[0].name, "");
+    EXPECT_EQ(soups[1].name, "target 1");
   }
   // Where the copies part in one pose, they stay two vertices.
   std::memset(&bytes_[bytes_.size() - 4 * 4], 0, 4);
@@ -125,7 +125,7 @@ TEST_F(ReadGltfTest, PosesAreNamedAsTheFileSays) {
   EXPECT_EQ(soup.dropped.back().find("1 morph targets not read"), 0u);
   for (const std::string names : {"3", "[]", "[7]", "[\"\"]", "{}"}) {
     json_["meshes"][0]["extras"]["targetNames"] = Json::parse(names);
-    EXPECT_EQ(ReadSoups(Glb())[1].pose, "target 1") << names;
+    EXPECT_EQ(ReadSoups(Glb())[1].name, "target 1") << names;
   }
 }
 

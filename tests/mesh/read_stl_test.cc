@@ -85,7 +85,7 @@ TEST_F(ReadStlTest, PosesWhoseCornersFallTogetherDifferentlyAreRefused) {
   const Poses poses = ReadPoses({first, File("moved.stl", Text(moved))});
   EXPECT_EQ(poses.shapes[1].row(2), Eigen::RowVector4d::Ones());
   moved[5] = moved[1];
-  ExpectError<CorrespondenceError>(
+  ExpectError<MismatchError>(
       [&] {
         ReadPoses({first, File("folded.stl", Text(moved))});
       },

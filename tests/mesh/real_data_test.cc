@@ -89,7 +89,7 @@ TEST_F(RealDataTest, WrongCorrespondenceThatCountsDoNotShow) {
 }
 
 TEST_F(RealDataTest, DifferentAnimalsAreRefused) {
-  ExpectError<CorrespondenceError>(
+  ExpectError<MismatchError>(
       [&] {
         ReadPoses({Files("cat", {"reference"})[0], Files("lion", {"reference"})[0]});
       },

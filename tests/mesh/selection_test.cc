@@ -26,7 +26,7 @@ class SelectionTest : public ::testing::Test {
   }
 
   Vertices In(const std::string& text) const {
-    return Select(ReadSelection(text), cube_.vertices, *connectivity_, appearance_);
+    return SelectVertices(ReadSelection(text), cube_.vertices, *connectivity_, appearance_);
   }
 
   void ExpectError(const std::string& text, const std::string& part) const {
@@ -60,7 +60,8 @@ TEST_F(SelectionTest, RoundingPushesNothingOverABoundary) {
                            R"({"halfspace": {"point": [0, 0, 0], "normal": [0, -1, 0]}})",
                            R"({"ball": {"centre": [0, 0, 0], "radius": 1}})",
                            R"({"box": {"low": [0, 0, 0], "high": [1, 0, 1]}})"}) {
-    EXPECT_EQ(Select(ReadSelection(text), rounded, *connectivity_, appearance_), In(text)) << text;
+    EXPECT_EQ(SelectVertices(ReadSelection(text), rounded, *connectivity_, appearance_), In(text))
+        << text;
   }
 }
 
@@ -73,7 +74,8 @@ TEST_F(SelectionTest, GroupsAndObjectsAreFoundByAllTheirNamesOrByOne) {
               "group: no polygon has the group or object 'bott'; this mesh has 'body bottom', "
               "'left ear', 'wall'");
   EXPECT_NE(MessageOf<InvalidOptions>([&] {
-              Select(ReadSelection(R"({"group": "ear"})"), cube_.vertices, *connectivity_, {});
+              SelectVertices(ReadSelection(R"({"group": "ear"})"), cube_.vertices, *connectivity_,
+                             {});
             }).find("this mesh has none at all"),
             std::string::npos);
 }
@@ -184,10 +186,10 @@ TEST_F(SelectionTest, ASelectionMadeInCodeIsCheckedToo) {
 
 TEST_F(SelectionTest, ArgumentsMustBeOfOneMesh) {
   const Selection selection = ReadSelection(R"({"vertices": [1]})");
-  EXPECT_THROW(Select(selection, cube_.vertices.leftCols(7), *connectivity_, appearance_),
+  EXPECT_THROW(SelectVertices(selection, cube_.vertices.leftCols(7), *connectivity_, appearance_),
                MeshError);
   appearance_.groups.of_polygon.pop_back();
-  EXPECT_THROW(Select(selection, cube_.vertices, *connectivity_, appearance_), MeshError);
+  EXPECT_THROW(SelectVertices(selection, cube_.vertices, *connectivity_, appearance_), MeshError);
 }
 
 }  // namespace

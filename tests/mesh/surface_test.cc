@@ -43,13 +43,13 @@ double LeastOnGrids(const Connectivity& connectivity, const Shape& shape, const 
   return least;
 }
 
-TEST(Surface, FindsTheNearestPoint) {
+TEST(MeshSurface, FindsTheNearestPoint) {
   const SkinnedBody body = MakeQuadruped(600);
   const Shape shape = body.pose("stand");
-  const Surface surface(body.connectivity, shape);
+  const MeshSurface surface(body.connectivity, shape);
   const Shape points = PointsAround(shape, 60);
   for (const auto& point : points.colwise()) {
-    const Foot foot = surface.Nearest(point);
+    const ClosestPoint foot = surface.Nearest(point);
     ASSERT_GE(foot.triangle, 0);
     EXPECT_GE(foot.barycentric.minCoeff(), 0);
     EXPECT_NEAR(foot.barycentric.sum(), 1, 1e-12);
@@ -66,41 +66,42 @@ TEST(Surface, FindsTheNearestPoint) {
 }
 
 // Embree's single precision alone would have errors of a hundred times the body's size here.
-TEST(Surface, FindsTheSamePointsFarFromTheOrigin) {
+TEST(MeshSurface, FindsTheSamePointsFarFromTheOrigin) {
   const SkinnedBody body = MakeQuadruped(600);
   const Shape shape = body.pose("stand");
   const Vector3d far(1e8, -2e8, 3e8);
-  const Surface surface(body.connectivity, shape), moved(body.connectivity, shape.colwise() + far);
+  const MeshSurface surface(body.connectivity, shape),
+      moved(body.connectivity, shape.colwise() + far);
   const Shape points = PointsAround(shape, 60);
   for (const auto& point : points.colwise()) {
-    const Foot here = surface.Nearest(point), there = moved.Nearest(point + far);
+    const ClosestPoint here = surface.Nearest(point), there = moved.Nearest(point + far);
     EXPECT_LT((here.point + far - there.point).norm(), 1e-6);
     EXPECT_NEAR(here.distance, there.distance, 1e-6);
   }
 }
 
-TEST(Surface, LooksNoFartherThanAsked) {
+TEST(MeshSurface, LooksNoFartherThanAsked) {
   const SkinnedBody body = MakeQuadruped(600);
   const Shape shape = body.pose("stand");
-  const Surface surface(body.connectivity, shape);
+  const MeshSurface surface(body.connectivity, shape);
   const Shape points = PointsAround(shape, 60);
   for (const auto& point : points.colwise()) {
-    const Foot foot = surface.Nearest(point);
-    const Foot same = surface.Nearest(point, nullptr, 1.0001 * foot.distance);
+    const ClosestPoint foot = surface.Nearest(point);
+    const ClosestPoint same = surface.Nearest(point, nullptr, 1.0001 * foot.distance);
     EXPECT_EQ(same.triangle, foot.triangle);
     EXPECT_EQ(same.distance, foot.distance);
     EXPECT_EQ(surface.Nearest(point, nullptr, 0.9999 * foot.distance).triangle, -1);
   }
 }
 
-TEST(Surface, AsksOnlyTrianglesThatAreAdmitted) {
+TEST(MeshSurface, AsksOnlyTrianglesThatAreAdmitted) {
   const SkinnedBody body = MakeQuadruped(600);
   const Shape shape = body.pose("stand");
-  const Surface surface(body.connectivity, shape);
+  const MeshSurface surface(body.connectivity, shape);
   const auto upwards = [&](int f) { return surface.GetTriangleNormals()(1, f) > 0.5; };
   const Shape points = PointsAround(shape, 60);
   for (const auto& point : points.colwise()) {
-    const Foot any = surface.Nearest(point), up = surface.Nearest(point, upwards);
+    const ClosestPoint any = surface.Nearest(point), up = surface.Nearest(point, upwards);
     ASSERT_GE(up.triangle, 0);
     EXPECT_TRUE(upwards(up.triangle));
     EXPECT_GE(up.distance, any.distance);

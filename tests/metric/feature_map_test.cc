@@ -31,7 +31,7 @@ struct Case {
   Shape shape;  // in the metric's unit, with some noise, so that nothing is symmetric
 };
 
-Case Bent(const std::string& name, const Body& body, const MetricOptions& options) {
+Case Bent(const std::string& name, const ShapeFamily& body, const MetricOptions& options) {
   const auto metric = FreezeMetric(options, body.connectivity, {body.pose(0), body.pose(60)});
   const Shape pose = body.pose(30) / metric->unit;
   return {name, body.connectivity, metric, pose + Noise(static_cast<int>(pose.cols()), 0.01, 1)};
@@ -137,7 +137,7 @@ TEST(FeatureMap, ValuesAreThoseOfTheGeometryTimesTheRootOfTheWeight) {
       }
     } else {
       double volume = 0, reference = 0;
-      const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+      const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
       for (int f = 0; f < mesh.NumTriangles(); ++f) {
         const Eigen::Vector3i t = mesh.Triangles().col(f);
         const auto of = [&](const Shape& p) {
@@ -241,7 +241,7 @@ TEST(FeatureDerivative, MetricMatrixIsTheProductButForSums) {
 }
 
 TEST(FeatureMap, RefusesTheRigidMetric) {
-  const Body bar = MakeBar(4, 1, 1, 3, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 3, 1, 1);
   const auto metric = FreezeMetric(MetricOptions::Rigid(), bar.connectivity, {bar.pose(0)});
   const std::string message = testing::MessageOf<InvalidOptions>([&] { FeatureMap map(metric); });
   EXPECT_EQ(message.rfind("rigid:", 0), 0u) << message;

@@ -20,7 +20,7 @@ namespace {
 using testing::MessageOf;
 
 TEST(RegisterFeature, MakesFeaturesKnownByName) {
-  const Body bar = MakeBar(4, 1, 1, 4, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 4, 1, 1);
   MetricOptions options;
   options.features = {{"no such feature", 1}};
   EXPECT_NE(MessageOf<InvalidOptions>([&] {
@@ -56,7 +56,7 @@ struct Damaged : ElementFeature<2, 1> {
 };
 
 TEST(FreezeMetric, RefusesFeaturesThatDoNotFitTheMesh) {
-  const Body bar = MakeBar(4, 1, 1, 4, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 4, 1, 1);
   MetricOptions options;
   options.features = {{"damaged", 1}};
   const auto freeze = [&](const std::function<void(Damaged*)>& damage) {
@@ -91,7 +91,7 @@ TEST(MetricOptions, RefuseCoefficientsThatAreNoneOrNegative) {
 
 TEST(Metric, KnowsWhetherItsOwnFeaturesAreRigidInvariant) {
   testing::RegisterOwnFeatures();
-  const Body bar = MakeBar(4, 1, 1, 4, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 4, 1, 1);
   MetricOptions options;
   options.features = {{"own strain", 1}};
   EXPECT_TRUE(

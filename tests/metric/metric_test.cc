@@ -66,7 +66,7 @@ TEST(Dihedral, LeastChangeIsThatOfEqualAnglesAcrossTheWrap) {
 }
 
 TEST(FreezeMetric, WeightsDoNotDependOnTheUnitOfLength) {
-  const Body bar = testing::Stiffened(MakeBar(6, 1, 1, 6, 2, 2));
+  const ShapeFamily bar = testing::Stiffened(MakeBar(6, 1, 1, 6, 2, 2));
   const std::vector<Shape> poses = {bar.pose(0), bar.pose(60)};
   MetricOptions options;
   options.isometric = 1;
@@ -80,14 +80,16 @@ TEST(FreezeMetric, WeightsDoNotDependOnTheUnitOfLength) {
     ASSERT_EQ(scaled->features.size(), metric->features.size());
     EXPECT_TRUE(Get<EdgeLength>(*scaled).weights.isApprox(Get<EdgeLength>(*metric).weights, 1e-12));
     EXPECT_TRUE(Get<LogLength>(*scaled).weights.isApprox(Get<LogLength>(*metric).weights, 1e-12));
-    EXPECT_TRUE(Get<Position>(*scaled).weights.isApprox(Get<Position>(*metric).weights, 1e-12));
+    EXPECT_TRUE(Get<PositionFeature>(*scaled).weights.isApprox(
+        Get<PositionFeature>(*metric).weights, 1e-12));
     EXPECT_TRUE(Get<Dihedral>(*scaled).weights.isApprox(Get<Dihedral>(*metric).weights, 1e-12));
-    EXPECT_NEAR(Get<Volume>(*scaled).reference, Get<Volume>(*metric).reference, 1e-12);
+    EXPECT_NEAR(Get<VolumeFeature>(*scaled).reference, Get<VolumeFeature>(*metric).reference,
+                1e-12);
   }
 }
 
 TEST(FreezeMetric, AreasAddUpToOne) {
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
   const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0)});
   EXPECT_NEAR(metric->vertex_area.sum(), 1, 1e-12);
   EXPECT_NEAR(metric->edge_area.sum(), 1, 1e-12);   // three edges a triangle, a third each
@@ -149,7 +151,7 @@ TEST(FreezeMetric, AreasOfSegmentsDoNotDependOnTheOrderOfVertices) {
 // does not.
 TEST(FreezeMetric, RatioOfPartsSurvivesRefinementWithAreaWeightsOnly) {
   const auto ratio = [](int n, const MetricOptions& options) {
-    const Body bar = MakeBar(6, 1, 1, 6 * n, n, n);
+    const ShapeFamily bar = MakeBar(6, 1, 1, 6 * n, n, n);
     const auto metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(90)});
     std::vector<Shape> shapes;
     for (int i = 0; i <= 8; ++i) shapes.push_back(bar.pose(90 * i / 8.0) / metric->unit);
@@ -183,13 +185,13 @@ TEST(FreezeMetric, HingesFoldedOrJumpingInThePosesAreLetGo) {
 }
 
 TEST(FreezeMetric, TheEnclosedVolumeIsThatOfTheBodyFarFromTheOrigin) {
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
   MetricOptions options;
   options.volume = 1;
   const Shape near = bar.pose(30);
   const Shape far = near.colwise() + 1e6 * Eigen::Vector3d(1, -2, 3);
-  EXPECT_NEAR(Get<Volume>(*FreezeMetric(options, bar.connectivity, {far})).reference,
-              Get<Volume>(*FreezeMetric(options, bar.connectivity, {near})).reference, 1e-9);
+  EXPECT_NEAR(Get<VolumeFeature>(*FreezeMetric(options, bar.connectivity, {far})).reference,
+              Get<VolumeFeature>(*FreezeMetric(options, bar.connectivity, {near})).reference, 1e-9);
 }
 
 TEST(FreezeMetric, SaysThatNothingBendsWhereNoTrianglesShareAnEdge) {
@@ -201,12 +203,12 @@ TEST(FreezeMetric, SaysThatNothingBendsWhereNoTrianglesShareAnEdge) {
   EXPECT_EQ(FreezeMetric(options, graph, {points})->options.bending, 0);
   const auto triangle = Connectivity::Make(3, {0, 3}, {0, 1, 2});
   EXPECT_EQ(FreezeMetric(options, triangle, {points})->options.bending, 0);
-  const Body sheet = MakeSheet(1, 1, 3, 3);
+  const ShapeFamily sheet = MakeSheet(1, 1, 3, 3);
   EXPECT_EQ(FreezeMetric(options, sheet.connectivity, {sheet.pose(0)})->options.bending, 1e-3);
 }
 
 TEST(FreezeMetric, RefusesWhatItCannotFreeze) {
-  const Body sheet = MakeSheet(1, 1, 3, 3);
+  const ShapeFamily sheet = MakeSheet(1, 1, 3, 3);
   const Shape flat = sheet.pose(0);
   EXPECT_THROW(FreezeMetric({}, sheet.connectivity, {}), MeshError);
   EXPECT_THROW(FreezeMetric({}, sheet.connectivity, {flat.leftCols(4)}), MeshError);
@@ -267,7 +269,7 @@ TEST(AngularVelocity, SolvesTheNormalEquationsAndLeavesOutTheAxisOfALine) {
 // hundred-thousandth of the others' length, and the two triangles at it are slivers. None of them
 // may make its neighbourhood rigid.
 TEST(FreezeMetric, SliversAndShortEdgesWeighNoMoreThanTheyHaveTo) {
-  const Body sheet = MakeSheet(1, 1, 6, 6);
+  const ShapeFamily sheet = MakeSheet(1, 1, 6, 6);
   Shape shape = sheet.pose(0);
   const Eigen::Matrix2Xi& edges = sheet.connectivity->Edges();
   int inner = 0;
@@ -285,7 +287,7 @@ TEST(FreezeMetric, SliversAndShortEdgesWeighNoMoreThanTheyHaveTo) {
 // The weight of a hinge along thin triangles grows with their aspect ratio.
 TEST(FreezeMetric, HingesOfSliversWeighNoMoreThanThoseOfThinTriangles) {
   const auto heaviest = [](double width) {
-    const Body sheet = MakeSheet(1, width, 4, 4);
+    const ShapeFamily sheet = MakeSheet(1, width, 4, 4);
     const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});
     return Get<Dihedral>(*metric).weights.maxCoeff();
   };

@@ -26,7 +26,7 @@ MetricOptions All() {
 }
 
 TEST(Stiffness, ThatIsTheSameEverywhereIsACoefficient) {
-  const Body bar = testing::Stiffened(MakeBar(4, 1, 1, 4, 2, 2));
+  const ShapeFamily bar = testing::Stiffened(MakeBar(4, 1, 1, 4, 2, 2));
   const std::vector<Shape> poses = {bar.pose(0), bar.pose(50)};
   MetricOptions scaled = All(), placed = All();
   scaled.isometric *= 3;
@@ -49,7 +49,7 @@ TEST(Stiffness, ThatIsTheSameEverywhereIsACoefficient) {
 }
 
 TEST(Stiffness, WeighsWhatLiesThere) {
-  const Body bar = MakeBar(4, 1, 1, 4, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 4, 1, 1);
   const Connectivity& mesh = *bar.connectivity;
   MetricOptions options = All();
   const auto soft = FreezeMetric(options, bar.connectivity, {bar.pose(0)});
@@ -81,7 +81,7 @@ TEST(Stiffness, WeighsWhatLiesThere) {
 }
 
 TEST(Stiffness, MustFitTheMeshAndBePositive) {
-  const Body bar = MakeBar(4, 1, 1, 4, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 4, 1, 1);
   MetricOptions options;
   const auto message = [&] {
     return MessageOf<InvalidOptions>(

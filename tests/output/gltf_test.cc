@@ -524,7 +524,7 @@ TEST(WriteGltfTest, SaysWhatItIsAndWhereItIsFrom) {
   EXPECT_EQ(glb.json["asset"]["version"], "2.0");
   EXPECT_EQ(glb.json["asset"]["generator"].get<std::string>().substr(0, 11), "shapespace ");
   const auto& extras = glb.json["asset"]["extras"];
-  EXPECT_EQ(extras["metric"], Describe(path.metric->options));
+  EXPECT_EQ(extras["metric"], DescribeMetric(path.metric->options));
   EXPECT_EQ(extras["shapes"], 2);
   EXPECT_EQ(extras["provenance"], "from \"a\xef\xbf\xbd.obj\" and \xc3\xa9.obj");
 }

@@ -26,7 +26,7 @@ constexpr char kTemplate[] = "<body><!-- scenes --></body>";
 
 // A tube that bends, in `count` shapes.
 Path BendingTube(int triangles, int count) {
-  const Body tube = MakeBody("tube", triangles);
+  const ShapeFamily tube = MakeBody("tube", triangles);
   std::vector<Shape> shapes;
   for (int i = 0; i < count; ++i) shapes.push_back(tube.pose(90.0 * i / (count - 1)));
   return PathOf(tube.connectivity, shapes);
@@ -34,7 +34,7 @@ Path BendingTube(int triangles, int count) {
 
 // Three poses of a tube in the plane, with the midpoints of its sides. The shapes there are blends.
 PageSpace TubeSpace(int triangles = 300) {
-  const Body tube = MakeBody("tube", triangles);
+  const ShapeFamily tube = MakeBody("tube", triangles);
   PageSpace space;
   space.connectivity = tube.connectivity;
   space.nodes = {tube.pose(0), tube.pose(120), tube.pose(0)};
@@ -124,7 +124,7 @@ TEST_F(PageTest, SmoothMotionTakesAQuarterOfItsBytes) {
 }
 
 TEST_F(PageTest, NothingIsLostFarFromTheOriginNorAtAnyScale) {
-  const Body tube = MakeBody("tube", 600);
+  const ShapeFamily tube = MakeBody("tube", 600);
   const std::vector<Shape> shapes = {tube.pose(0), tube.pose(40), tube.pose(80)};
   const shapespace::Path path = PathOf(tube.connectivity, shapes);
   const DecodedScene here = Write(PagePath{&path, ""});

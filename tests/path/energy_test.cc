@@ -48,8 +48,8 @@ Evaluated FromDefinition(const Metric& metric, const std::vector<Shape>& shapes,
         };
         const auto evaluate = [&](int e, Jet* change, Jet* from, Jet* to) {
           double x[2 * kSize];
-          Gather(feature, e, shapes[i], x);
-          Gather(feature, e, shapes[i + 1], x + kSize);
+          GatherCoordinates(feature, e, shapes[i], x);
+          GatherCoordinates(feature, e, shapes[i + 1], x + kSize);
           for (int k = 0; k < kSize; ++k) {
             from[k] = Jet(x[k], k);
             to[k] = Jet(x[kSize + k], kSize + k);
@@ -126,7 +126,7 @@ void ExpectSame(const Evaluated& a, const Evaluated& b, double tolerance) {
 
 // Noise of 8e-3 on edges of length .1 makes creases of tens of degrees.
 TEST(PathEnergy, KernelsEqualTheAutomaticDerivativesOfTheFunctors) {
-  const Body bar = testing::Stiffened(MakeBar(6, 1, 1, 12, 2, 2));
+  const ShapeFamily bar = testing::Stiffened(MakeBar(6, 1, 1, 12, 2, 2));
   for (const testing::Blend& test : testing::AllBlends()) {
     const auto metric = FreezeMetric(test.options, bar.connectivity, {bar.pose(0), bar.pose(80)});
     for (int inner : {1, 2, 3, 4, 5, 7, 8, 17}) {
@@ -140,7 +140,7 @@ TEST(PathEnergy, KernelsEqualTheAutomaticDerivativesOfTheFunctors) {
 
 // The kernels process them in windows of 128 shapes.
 TEST(PathEnergy, KernelsEqualTheFunctorsOnLongPaths) {
-  const Body bar = testing::Stiffened(MakeBar(2, 1, 1, 2, 1, 1));
+  const ShapeFamily bar = testing::Stiffened(MakeBar(2, 1, 1, 2, 1, 1));
   for (const testing::Blend& test : testing::AllBlends()) {
     const auto metric = FreezeMetric(test.options, bar.connectivity, {bar.pose(0), bar.pose(80)});
     for (int inner : {128, 129, 300}) {
@@ -153,7 +153,7 @@ TEST(PathEnergy, KernelsEqualTheFunctorsOnLongPaths) {
 }
 
 TEST(PathEnergy, KernelsEqualTheFunctorsOnManyBlocksOfRows) {
-  const Body sheet = MakeSheet(2, 1, 60, 40);  // 2501 vertices: nine blocks
+  const ShapeFamily sheet = MakeSheet(2, 1, 60, 40);  // 2501 vertices: nine blocks
   const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0), sheet.pose(90)});
   const std::vector<Shape> shapes =
       NoisyBlend(sheet.pose(0) / metric->unit, sheet.pose(90) / metric->unit, 4, 2e-3);
@@ -161,7 +161,7 @@ TEST(PathEnergy, KernelsEqualTheFunctorsOnManyBlocksOfRows) {
 }
 
 TEST(PathEnergy, CollapsedTrianglesMakeNoNan) {
-  const Body sheet = MakeSheet(1, 1, 4, 4);
+  const ShapeFamily sheet = MakeSheet(1, 1, 4, 4);
   const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});
   const Shape flat = sheet.pose(0) / metric->unit;
   const Evaluated result = FromPathEnergy(metric, {flat, 0 * flat, flat}, 1);
@@ -170,7 +170,7 @@ TEST(PathEnergy, CollapsedTrianglesMakeNoNan) {
 }
 
 TEST(PathEnergy, PaperEnergyIsTheMidpointFormAndAQuarticPart) {
-  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 1, 1);
   MetricOptions options = MetricOptions::Paper();
   const auto paper = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(90)});
   options.discretization = Discretization::kMidpoint;
@@ -191,7 +191,7 @@ TEST(PathEnergy, PaperEnergyIsTheMidpointFormAndAQuarticPart) {
 }
 
 TEST(PathEnergy, RigidMetricVanishesOnFiniteRigidMotions) {
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
   MetricOptions options = MetricOptions::Rigid();
   options.lambda = 0;
   const auto metric = FreezeMetric(options, bar.connectivity, {bar.pose(40)});
@@ -207,7 +207,7 @@ TEST(PathEnergy, RigidMetricVanishesOnFiniteRigidMotions) {
 }
 
 TEST(PathEnergy, RigidMetricHasTheGradientOfCentralDifferences) {
-  const Body bar = MakeBar(4, 1, 1, 3, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 3, 1, 1);
   for (Weighting weights : {Weighting::kArea, Weighting::kUniform}) {
     MetricOptions options = MetricOptions::Rigid();
     options.weights = weights;
@@ -235,7 +235,7 @@ TEST(PathEnergy, RigidMetricHasTheGradientOfCentralDifferences) {
 }
 
 TEST(PathEnergy, DoesNotDependOnFrameOrNumberingOfVertices) {
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
   const int num_vertices = bar.connectivity->NumVertices();
   std::vector<int> number(num_vertices);
   std::iota(number.begin(), number.end(), 0);
@@ -323,14 +323,14 @@ TEST(EnergyLowerBound, IsReachedByAnEdgeWhoseSquaredLengthGrowsEvenly) {
 }
 
 TEST(EnergyLowerBound, IsNotKnownForTheRigidMetric) {
-  const Body bar = MakeBar(4, 1, 1, 3, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 3, 1, 1);
   const auto metric = FreezeMetric(MetricOptions::Rigid(), bar.connectivity, {bar.pose(0)});
   EXPECT_TRUE(std::isnan(EnergyLowerBound(*metric, bar.pose(0), bar.pose(10), 3)));
 }
 
 // At least their stencils and weights.
 TEST(PathEnergy, EstimateOfMemoryCountsTheElementsOfAllFeatures) {
-  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   MetricOptions options = MetricOptions::Isometric();
   const auto freeze = [&] { return FreezeMetric(options, bar.connectivity, {bar.pose(0)}); };
   const double without = PathEnergy::EstimateBytes(*freeze(), 7);
@@ -339,7 +339,7 @@ TEST(PathEnergy, EstimateOfMemoryCountsTheElementsOfAllFeatures) {
   double least = 0;
   for (const auto& feature : metric->features) {
     if (feature->As<TriangleStrain>() == nullptr && feature->As<LogLength>() == nullptr &&
-        feature->As<Volume>() == nullptr) {
+        feature->As<VolumeFeature>() == nullptr) {
       continue;
     }
     least +=
@@ -350,7 +350,7 @@ TEST(PathEnergy, EstimateOfMemoryCountsTheElementsOfAllFeatures) {
 }
 
 TEST(PathEnergy, StoreGivesBackWhatLoadTook) {
-  const Body sheet = MakeSheet(1, 1, 5, 3);
+  const ShapeFamily sheet = MakeSheet(1, 1, 5, 3);
   const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});
   const std::vector<Shape> shapes = NoisyBlend(sheet.pose(0), sheet.pose(90), 3, 0.1);
   PathEnergy energy(metric, 3);
@@ -362,7 +362,7 @@ TEST(PathEnergy, StoreGivesBackWhatLoadTook) {
 }
 
 TEST(PathEnergy, RefusesWrongSizes) {
-  const Body sheet = MakeSheet(1, 1, 2, 2);
+  const ShapeFamily sheet = MakeSheet(1, 1, 2, 2);
   const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});
   EXPECT_THROW(PathEnergy(metric, 0), InvalidOptions);
   PathEnergy energy(metric, 2);

@@ -26,7 +26,7 @@ struct KernelEnergy {
   std::vector<double> gradient;
 };
 
-KernelEnergy Evaluate(const MetricOptions& options, const Body& bar, int inner) {
+KernelEnergy Evaluate(const MetricOptions& options, const ShapeFamily& bar, int inner) {
   const auto metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(60)});
   const std::vector<Shape> shapes =
       testing::NoisyBlend(bar.pose(0) / metric->unit, bar.pose(60) / metric->unit, inner, 0.01);
@@ -39,7 +39,7 @@ KernelEnergy Evaluate(const MetricOptions& options, const Body& bar, int inner) 
 }
 
 TEST(OwnFeature, NeedsTheMemoryOfTheLibrarysOwn) {
-  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   const auto estimate = [&](const MetricOptions& options) {
     return PathEnergy::EstimateBytes(*FreezeMetric(options, bar.connectivity, {bar.pose(0)}), 7);
   };
@@ -47,7 +47,7 @@ TEST(OwnFeature, NeedsTheMemoryOfTheLibrarysOwn) {
 }
 
 TEST(OwnFeature, HasTheEnergyOfTheLibrarysKernels) {
-  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   for (const int inner : {1, 3, 7}) {
     const KernelEnergy expected = Evaluate(testing::LibraryBlend(), bar, inner);
     const KernelEnergy own = Evaluate(testing::OwnBlend(), bar, inner);
@@ -65,7 +65,7 @@ TEST(OwnFeature, HasTheEnergyOfTheLibrarysKernels) {
 }
 
 TEST(OwnFeature, HasTheBoundOfTheLibrarysFeature) {
-  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   const std::vector<Shape> poses = {bar.pose(0), bar.pose(60)};
   const auto library = FreezeMetric(testing::LibraryBlend(), bar.connectivity, poses);
   const auto own = FreezeMetric(testing::OwnBlend(), bar.connectivity, poses);
@@ -76,7 +76,7 @@ TEST(OwnFeature, HasTheBoundOfTheLibrarysFeature) {
 }
 
 Path WithOwnFeatures() {
-  const Body bar = MakeBar(4, 1, 1, 4, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 4, 1, 1);
   MetricOptions options = testing::OwnBlend();
   options.stretching_stiffness.setLinSpaced(bar.connectivity->NumEdges(), 1, 2);
   options.bending_stiffness.setLinSpaced(bar.connectivity->NumEdges(), 1, 3);
@@ -128,7 +128,7 @@ TEST(PathFile, SaysWhichFeatureIsNotRegistered) {
 }
 
 TEST(MakePath, PutsShapesBackWhereTheyAre) {
-  const Body bar = MakeBar(4, 1, 1, 4, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 4, 1, 1);
   std::vector<Shape> placed;
   for (double angle : {0.0, 20.0, 60.0}) {
     placed.push_back(bar.pose(angle).colwise() + Eigen::Vector3d(1e3 * angle, 2, 3));

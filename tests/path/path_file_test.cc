@@ -40,7 +40,7 @@ void Spill(const std::string& file, const std::string& bytes) {
 
 // A path with every kind of feature, a quadrilateral, a stiffener and a complete appearance.
 Path MakePath() {
-  const Body bar = MakeBar(4, 1, 1, 3, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 3, 1, 1);
   MetricOptions options;
   options.strain = 0.2;
   options.volume = 0.3;
@@ -123,7 +123,7 @@ TEST(PathFile, RoundTripKeepsEveryBit) {
   testing::ExpectSame(read.appearance, path.appearance);
   EXPECT_EQ(read.metric->connectivity->Corners(), path.metric->connectivity->Corners());
   EXPECT_TRUE(read.metric->connectivity->Edges() == path.metric->connectivity->Edges());
-  EXPECT_EQ(Describe(read.metric->options), Describe(path.metric->options));
+  EXPECT_EQ(DescribeMetric(read.metric->options), DescribeMetric(path.metric->options));
   // The frozen metric is the same: the energies are equal to the last bit.
   EXPECT_EQ(Energy(read), Energy(path));
   // Writing what was read gives an identical file.
@@ -336,7 +336,7 @@ TEST(PathFile, SaysWhatItsStiffnessBelongsTo) {
 
 // Older files do not say it. There each of the two could be on vertices or on edges.
 TEST(PathFile, ReadsTheStiffnessOfOlderFiles) {
-  const Body bar = MakeBar(4, 1, 1, 3, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 3, 1, 1);
   const int vertices = bar.connectivity->NumVertices(), edges = bar.connectivity->NumEdges();
   auto metric = std::make_shared<Metric>(*FreezeMetric({}, bar.connectivity, {bar.pose(0)}));
   const auto read = [&](int stretching, int bending) {

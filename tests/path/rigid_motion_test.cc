@@ -45,7 +45,7 @@ double Travel(const std::vector<Shape>& shapes) {
 }
 
 TEST(RemoveRigidDrift, FindsTheBestMotionsAndKeepsTheShapes) {
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
   const Eigen::VectorXd weights = Eigen::VectorXd::Ones(bar.connectivity->NumVertices());
   std::vector<Shape> shapes;
   for (int i = 0; i <= 8; ++i) {

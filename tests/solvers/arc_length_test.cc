@@ -12,7 +12,7 @@ namespace {
 // Shapes that are moved by these distances, under a metric of positions alone, in which the length
 // of a motion is its distance.
 std::vector<double> TimesOf(const std::vector<double>& places, const MetricOptions& options) {
-  const Body sheet = MakeSheet(1, 1, 4, 4);
+  const ShapeFamily sheet = MakeSheet(1, 1, 4, 4);
   const auto metric = FreezeMetric(options, sheet.connectivity, {sheet.pose(0)});
   std::vector<Shape> shapes;
   for (const double place : places) {

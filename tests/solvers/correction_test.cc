@@ -32,7 +32,7 @@ using testing::PathOf;
 
 // From the body's pose at `begin` on a straight line towards the one at `step`, to `reach` times
 // the distance: an isometric motion without its curvature.
-Path StraightOn(const Body& body, double begin, double step, double reach, int segments) {
+Path StraightOn(const ShapeFamily& body, double begin, double step, double reach, int segments) {
   const Shape first = body.pose(begin);
   const Tangent way = reach * (body.pose(step) - first);
   std::vector<Shape> shapes;
@@ -149,7 +149,7 @@ TEST(CorrectPath, LeavesShapesAlignedWithTheGivenOnes) {
 }
 
 TEST(CorrectPath, LeavesAnIsometricPathAlone) {
-  const Body body = MakeBricard();
+  const ShapeFamily body = MakeBricard();
   std::vector<Shape> shapes;
   for (int i = 0; i <= 8; ++i) shapes.push_back(body.pose(4 * i));
   const Path given = PathOf(body.connectivity, shapes);
@@ -203,8 +203,8 @@ TEST(CorrectPath, ThePapersEnergyCollapsesAndSaysSo) {
 }
 
 TEST(CorrectPath, CommutesWithRotationAndScale) {
-  const Body body = MakeBricard();
-  Body moved = body;
+  const ShapeFamily body = MakeBricard();
+  ShapeFamily moved = body;
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   for (double scale : {1e-4, 1.0, 1e4}) {
@@ -286,7 +286,7 @@ TEST(CorrectPath, AgreesWithResidualBlocks) {
 // The gradient at a free end is that of a sum with no segment after it, for every feature; for the
 // last shape it is compared with differences of the energy.
 TEST(PathEnergy, AFreeEndFollowsItsGradient) {
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
   MetricOptions everything, paper = MetricOptions::Paper();
   everything.volume = 0.3;
   everything.rigid = 0.1;

@@ -42,7 +42,7 @@ TEST_P(RealPairs, MapIsAsGoodAsMeasured) {
   }
   const Poses source = ReadPoses({(folder / "source.obj").string()});
   const Poses target = ReadPoses({(folder / "target.obj").string()});
-  const std::vector<Marker> markers = ReadMarkers(
+  const std::vector<CorrespondenceMarker> markers = ReadMarkers(
       (folder / ("markers" + std::to_string(pair.markers) + ".txt")).string(), source, target);
   const auto [fitted, map, summary] = Correspond(source.connectivity, source.shapes[0],
                                                  target.connectivity, target.shapes[0], markers);

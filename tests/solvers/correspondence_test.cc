@@ -74,7 +74,7 @@ TEST(Correspond, IsExactAtMarkers) {
       PullBack(result.map.to_target, bodies.second.connectivity->Triangles(), bodies.target);
   const Shape back =
       PullBack(result.map.to_template, bodies.first.connectivity->Triangles(), bodies.rest);
-  for (const Marker& marker : bodies.markers) {
+  for (const CorrespondenceMarker& marker : bodies.markers) {
     EXPECT_EQ(result.fitted.col(marker.template_vertex), bodies.target.col(marker.target_vertex));
     EXPECT_EQ(landed.col(marker.template_vertex), bodies.target.col(marker.target_vertex));
     EXPECT_EQ(back.col(marker.target_vertex), bodies.rest.col(marker.template_vertex));
@@ -111,8 +111,8 @@ TEST(Correspond, DoesNotCareWhereTheTemplateIs) {
 TEST(Correspond, ThereAndBackIsNearTheIdentity) {
   const Remeshed bodies("sit");
   const CorrespondenceResult there = bodies.Fit();
-  std::vector<Marker> reversed;
-  for (const Marker& marker : bodies.markers) {
+  std::vector<CorrespondenceMarker> reversed;
+  for (const CorrespondenceMarker& marker : bodies.markers) {
     reversed.push_back({marker.target_vertex, marker.template_vertex});
   }
   const CorrespondenceResult back = Correspond(bodies.second.connectivity, bodies.target,
@@ -134,8 +134,8 @@ TEST(Correspond, TrustsItselfLessWhereTheTargetHasNothing) {
   }
   Eigen::Matrix3Xi triangles(3, kept.size());
   for (size_t f = 0; f < kept.size(); ++f) triangles.col(static_cast<Eigen::Index>(f)) = kept[f];
-  std::vector<Marker> markers;
-  for (const Marker& marker : bodies.markers) {
+  std::vector<CorrespondenceMarker> markers;
+  for (const CorrespondenceMarker& marker : bodies.markers) {
     if (bodies.target(1, marker.target_vertex) < cut - 0.2) markers.push_back(marker);
   }
   const CorrespondenceResult result =
@@ -180,7 +180,7 @@ TEST(Target, KnowsTheBorderAtCornersOfAnyTriangle) {
   const internal::Target target(Connectivity::FromTriangles(9, triangles), square, distances);
   for (int f = 0; f < 8; ++f) {
     for (int k = 0; k < 3; ++k) {
-      Foot foot;
+      ClosestPoint foot;
       foot.triangle = f;
       foot.barycentric = Eigen::Vector3d::Unit(k);
       EXPECT_EQ(target.IsOnBorder(foot), triangles(k, f) != 4) << f << ' ' << k;
@@ -197,7 +197,7 @@ TEST(Correspond, NamesAWrongMarkerAndLeavesItOut) {
   Remeshed bodies("sit");
   const double right = bodies.Errors(bodies.Fit().map).mean();
   // At the position of the last marker, which is ignored.
-  const Marker last = bodies.markers.back();
+  const CorrespondenceMarker last = bodies.markers.back();
   bodies.markers.pop_back();
   bodies.markers[2].target_vertex = last.target_vertex;
   const CorrespondenceResult result = bodies.Fit();
@@ -230,7 +230,7 @@ TEST(Correspond, NamesMarkersThatHaveChangedPlaces) {
 
 TEST(Correspond, RefusesMarkersThatCannotDo) {
   const Remeshed bodies;
-  const auto message = [&](const std::function<void(std::vector<Marker>*)>& change) {
+  const auto message = [&](const std::function<void(std::vector<CorrespondenceMarker>*)>& change) {
     Remeshed changed = bodies;
     change(&changed.markers);
     return MessageOf<MeshError>([&] { changed.Fit(); });
@@ -245,9 +245,9 @@ TEST(Correspond, RefusesMarkersThatCannotDo) {
          "marker 4: the target has no vertex 100001");
   expect(message([](auto* m) { (*m)[3].template_vertex = -1; }),
          "marker 4: the template has no vertex 0");
-  const Body bar = MakeBar(6, 1, 1, 24, 4, 4);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 24, 4, 4);
   const Shape rest = bar.pose(0);
-  std::vector<Marker> line;  // a long edge of the bar
+  std::vector<CorrespondenceMarker> line;  // a long edge of the bar
   for (int v = 0; v < rest.cols(); ++v) {
     if (rest(1, v) == rest.row(1).maxCoeff() && rest(2, v) == rest.row(2).maxCoeff()) {
       line.push_back({v, v});
@@ -431,7 +431,7 @@ TEST(CarryPath, TakesATransferredPoseToTheTargetsOwnMesh) {
 
 // The template is closed and was deformed under a cost of volume, which an open scan cannot have.
 TEST(CarryPath, TakesADeformationOfAClosedTemplateToAnOpenScan) {
-  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   const Shape rest = bar.pose(0);
   const Eigen::Matrix3Xi& triangles = bar.connectivity->Triangles();
   const int count = static_cast<int>(rest.cols());
@@ -447,7 +447,7 @@ TEST(CarryPath, TakesADeformationOfAClosedTemplateToAnOpenScan) {
       fit.map.to_template.barycentric.col(triangles(k, f)) = Eigen::Vector3d::Unit(k);
     }
   }
-  Handle left, right;
+  DeformationHandle left, right;
   left.vertices = testing::Where(rest, [](const auto& p) { return p.x() < -2.7; });
   right.vertices = testing::Where(rest, [](const auto& p) { return p.x() > 2.7; });
   right.motion.angle = 0.5;
@@ -470,8 +470,8 @@ TEST(CarryPath, KeepsTogetherWhatTheTemplateDoesNotHave) {
   }
   const auto headless =
       Connectivity::FromTriangles(bodies.first.connectivity->NumVertices(), all(Eigen::all, kept));
-  std::vector<Marker> markers;
-  for (const Marker& marker : bodies.markers) {
+  std::vector<CorrespondenceMarker> markers;
+  for (const CorrespondenceMarker& marker : bodies.markers) {
     if (bodies.rest(1, marker.template_vertex) < cut - 0.1) markers.push_back(marker);
   }
   const CorrespondenceResult fit =

@@ -42,8 +42,8 @@ Vector3d Size(const Shape& shape) {
 }
 
 // The vertices near the ground, y up, within a share of the height.
-Handle Feet(const Shape& rest, double share) {
-  Handle feet;
+DeformationHandle Feet(const Shape& rest, double share) {
+  DeformationHandle feet;
   const double top = rest.row(1).minCoeff() + share * Size(rest).y();
   feet.vertices = Where(rest, [&](const auto& p) { return p.y() < top; });
   return feet;
@@ -51,12 +51,12 @@ Handle Feet(const Shape& rest, double share) {
 
 // The vertices within a share of the body's size from the one that is farthest in the direction
 // `way`, rotated about a point at `arm` sizes from the body's centre.
-Handle Limb(const Shape& rest, const Vector3d& way, double share, const Vector3d& axis,
-            double degrees, const Vector3d& arm) {
+DeformationHandle Limb(const Shape& rest, const Vector3d& way, double share, const Vector3d& axis,
+                       double degrees, const Vector3d& arm) {
   int tip = 0;
   (way.transpose() * rest).maxCoeff(&tip);
   const double size = Size(rest).norm();
-  Handle limb;
+  DeformationHandle limb;
   limb.vertices =
       Where(rest, [&](const auto& p) { return (p - rest.col(tip)).norm() < share * size; });
   limb.motion.axis = axis;
@@ -65,7 +65,8 @@ Handle Limb(const Shape& rest, const Vector3d& way, double share, const Vector3d
   return limb;
 }
 
-void ExpectFits(const Poses& poses, const std::vector<Handle>& handles, double edge_rms) {
+void ExpectFits(const Poses& poses, const std::vector<DeformationHandle>& handles,
+                double edge_rms) {
   DeformationOptions options;
   options.metric = MetricOptions::Deformation(*poses.connectivity, poses.shapes[0]);
   options.metric->volume = 30;
@@ -113,7 +114,8 @@ TEST_F(RealDeformation, ANonManifoldMeshIsTaken) {
   options.allow_nonmanifold = true;
   const Poses poses = Read({"camel_nonmanifold/reference"}, options);
   const Shape& rest = poses.shapes[0];
-  Handle head = Limb(rest, Vector3d(0, 0.3, 1), 0.1, Vector3d::UnitY(), 30, Vector3d(0, 0, -0.1));
+  DeformationHandle head =
+      Limb(rest, Vector3d(0, 0.3, 1), 0.1, Vector3d::UnitY(), 30, Vector3d(0, 0, -0.1));
   const DeformationSummary summary =
       Deform(poses.connectivity, rest, {Feet(rest, 0.1), head}).summary;
   EXPECT_TRUE(summary.Converged()) << summary.BriefReport();

@@ -31,20 +31,20 @@ using testing::MessageOf;
 using testing::Rotation;
 using testing::Where;
 
-Handle Fixed(std::vector<int> vertices) {
-  Handle handle;
+DeformationHandle Fixed(std::vector<int> vertices) {
+  DeformationHandle handle;
   handle.vertices = std::move(vertices);
   return handle;
 }
 
-Handle Moving(std::vector<int> vertices, const ScrewMotion& motion) {
-  Handle handle = Fixed(std::move(vertices));
+DeformationHandle Moving(std::vector<int> vertices, const ScrewMotion& motion) {
+  DeformationHandle handle = Fixed(std::move(vertices));
   handle.motion = motion;
   return handle;
 }
 
-Handle To(const Shape& rest, std::vector<int> vertices, const Eigen::Vector3d& way) {
-  Handle handle = Fixed(std::move(vertices));
+DeformationHandle To(const Shape& rest, std::vector<int> vertices, const Eigen::Vector3d& way) {
+  DeformationHandle handle = Fixed(std::move(vertices));
   handle.positions = rest(Eigen::all, handle.vertices).colwise() + way;
   return handle;
 }
@@ -58,7 +58,7 @@ ScrewMotion Twist(double degrees) {
 
 // A bar along x whose ends are handles.
 struct HeldBar {
-  Body body = MakeBar(6, 1, 1, 24, 4, 4);
+  ShapeFamily body = MakeBar(6, 1, 1, 24, 4, 4);
   Shape rest = body.pose(0);
   std::vector<int> left = Where(rest, [](const auto& p) { return p.x() < -2.7; });
   std::vector<int> right = Where(rest, [](const auto& p) { return p.x() > 2.7; });
@@ -111,8 +111,8 @@ TEST(Deform, ARigidMotionOfAllHandlesMovesTheBodySo) {
   motion.point = {0, 3, 0};
   motion.translation = {5, 0, 1};
   for (bool hard : {true, false}) {
-    std::vector<Handle> handles = {Moving(bar.left, motion), Moving(bar.right, motion)};
-    for (Handle& handle : handles) handle.hard = hard;
+    std::vector<DeformationHandle> handles = {Moving(bar.left, motion), Moving(bar.right, motion)};
+    for (DeformationHandle& handle : handles) handle.hard = hard;
     const DeformationResult result = Deform(bar.body.connectivity, bar.rest, handles);
     EXPECT_TRUE(result.summary.Converged());
     EXPECT_LT(result.summary.energy, 1e-18);
@@ -138,8 +138,8 @@ TEST(Deform, HardHandlesAreMetExactly) {
   const HeldBar bar;
   ScrewMotion motion = Twist(100);
   motion.translation = {0.5, 0, 0};
-  const std::vector<Handle> handles = {To(bar.rest, bar.left, {0, 0.3, 0.4}),
-                                       Moving(bar.right, motion)};
+  const std::vector<DeformationHandle> handles = {To(bar.rest, bar.left, {0, 0.3, 0.4}),
+                                                  Moving(bar.right, motion)};
   const DeformationResult result = Deform(bar.body.connectivity, bar.rest, handles);
   const std::vector<Shape> placed = result.path.Placed();
   for (int i = 0; i <= 5; ++i) {
@@ -182,7 +182,7 @@ TEST(Deform, ATurnBy270DegreesIsNoTurnBy90) {
 
 TEST(Deform, ASoftHandleFollowsALargeTurnToo) {
   const HeldBar bar;
-  Handle handle = Moving(bar.right, Twist(270));
+  DeformationHandle handle = Moving(bar.right, Twist(270));
   handle.hard = false;
   DeformationOptions options;
   options.balance = 1e-4;
@@ -193,7 +193,7 @@ TEST(Deform, ASoftHandleFollowsALargeTurnToo) {
 
 TEST(Deform, TheBalanceLeadsFromTheHandlesToTheRestShape) {
   const HeldBar bar;
-  Handle soft = To(bar.rest, bar.right, {0, 0, 1});
+  DeformationHandle soft = To(bar.rest, bar.right, {0, 0, 1});
   soft.hard = false;
   double before = 0;
   for (double balance : {1e-6, 1e-3, 0.1, 0.9}) {
@@ -218,7 +218,7 @@ TEST(Deform, TheBalanceLeadsFromTheHandlesToTheRestShape) {
 // The meaning of the balance does not depend on equivalent ways to specify the same penalty.
 TEST(Deform, TheBalanceMeansTheSameForAnyNumberOfHandlesOrShapes) {
   const HeldBar bar;
-  Handle soft = To(bar.rest, bar.right, {0, 0, 1});
+  DeformationHandle soft = To(bar.rest, bar.right, {0, 0, 1});
   soft.hard = false;
   DeformationOptions options = Tight();
   options.balance = 0.2;
@@ -238,12 +238,12 @@ TEST(Deform, TheBalanceMeansTheSameForAnyNumberOfHandlesOrShapes) {
 TEST(Deform, TheBalanceMeansTheSameAtAnyResolution) {
   double residuals[2];
   for (int fine : {0, 1}) {
-    const Body body = MakeBar(6, 1, 1, fine ? 36 : 18, fine ? 6 : 3, fine ? 6 : 3);
+    const ShapeFamily body = MakeBar(6, 1, 1, fine ? 36 : 18, fine ? 6 : 3, fine ? 6 : 3);
     const Shape rest = body.pose(0);
     const auto at = [&](double from, double to) {
       return Where(rest, [&](const auto& p) { return p.x() > from - 1e-9 && p.x() < to + 1e-9; });
     };
-    Handle soft = To(rest, at(2, 3), {0, 0, 1});
+    DeformationHandle soft = To(rest, at(2, 3), {0, 0, 1});
     soft.hard = false;
     DeformationOptions options;
     options.balance = 0.2;
@@ -256,7 +256,7 @@ TEST(Deform, TheBalanceMeansTheSameAtAnyResolution) {
 
 TEST(Deform, HardHandlesAreTheLimitOfSoftOnes) {
   const HeldBar bar;
-  Handle hard = To(bar.rest, bar.right, {0, 0, 1}), soft = hard;
+  DeformationHandle hard = To(bar.rest, bar.right, {0, 0, 1}), soft = hard;
   soft.hard = false;
   const Shape limit =
       Last(Deform(bar.body.connectivity, bar.rest, {Fixed(bar.left), hard}, Tight()));
@@ -273,7 +273,7 @@ TEST(Deform, HardHandlesAreTheLimitOfSoftOnes) {
 
 TEST(Deform, IsTheSameInAnyFrameAndUnitAndFarAway) {
   const HeldBar bar;
-  Handle left = To(bar.rest, bar.left, {0, 0, 0.2});
+  DeformationHandle left = To(bar.rest, bar.left, {0, 0, 0.2});
   left.hard = false;
   ScrewMotion motion = Twist(70);
   motion.translation = {0.2, 0.1, 0};
@@ -286,7 +286,7 @@ TEST(Deform, IsTheSameInAnyFrameAndUnitAndFarAway) {
     const auto moved = [&, s = scale](const Shape& shape) -> Shape {
       return (s * turn * shape).colwise() + shift;
     };
-    Handle there = left;
+    DeformationHandle there = left;
     there.positions = moved(*left.positions);
     ScrewMotion turned = motion;
     turned.axis = turn * motion.axis;
@@ -299,7 +299,7 @@ TEST(Deform, IsTheSameInAnyFrameAndUnitAndFarAway) {
 }
 
 TEST(Deform, IsTheSameForAnyOrderOfVertices) {
-  const Body body = MakeBar(6, 1, 1, 12, 2, 2);
+  const ShapeFamily body = MakeBar(6, 1, 1, 12, 2, 2);
   const Shape rest = body.pose(0);
   const int count = static_cast<int>(rest.cols());
   std::vector<int> to(count);
@@ -326,12 +326,12 @@ TEST(Deform, IsTheSameForAnyOrderOfVertices) {
 }
 
 TEST(Deform, OwnLbfgsAndCeresTrustRegionAgree) {
-  const Body body = MakeBar(6, 1, 1, 8, 2, 2);
+  const ShapeFamily body = MakeBar(6, 1, 1, 8, 2, 2);
   const Shape rest = body.pose(0);
-  Handle soft =
+  DeformationHandle soft =
       To(rest, Where(rest, [](const auto& p) { return std::abs(p.x()) < 0.1; }), {0, 0, 0.4});
   soft.hard = false;
-  const std::vector<Handle> handles = {
+  const std::vector<DeformationHandle> handles = {
       Fixed(Where(rest, [](const auto& p) { return p.x() < -2.9; })),
       To(rest, Where(rest, [](const auto& p) { return p.x() > 2.9; }), {0, 0.5, 0.3}), soft};
   DeformationOptions options = Tight(1e-13);
@@ -360,7 +360,7 @@ TEST(Deform, KeepsTheVolumeThatIsAskedFor) {
 // Two copies of a sheet, one on the other and sewn together along the border: a closed mesh that
 // encloses no volume.
 TEST(Deform, BendsAFlatPillowAsASheet) {
-  const Body sheet = MakeSheet(2, 1, 16, 8);
+  const ShapeFamily sheet = MakeSheet(2, 1, 16, 8);
   const Shape flat = sheet.pose(0);
   int count = static_cast<int>(flat.cols());
   std::vector<int> copy(count, -1), original;
@@ -386,7 +386,7 @@ TEST(Deform, BendsAFlatPillowAsASheet) {
   ScrewMotion bend;
   bend.axis = Eigen::Vector3d::UnitY();
   bend.angle = -0.5;
-  const std::vector<Handle> handles = {
+  const std::vector<DeformationHandle> handles = {
       Fixed(Where(rest, [&](const auto& p) { return p.x() < least + 0.2; })),
       Moving(Where(rest, [&](const auto& p) { return p.x() > most - 0.2; }), bend)};
   // Coordinates of files are rounded, so that the volume is seldom exactly zero.
@@ -404,12 +404,12 @@ TEST(Deform, BendsAFlatPillowAsASheet) {
 // A sheet whose edge is rotated: bending without stretching is possible, so lengths should not
 // change.
 TEST(Deform, ASheetBentByItsEdgesStaysIsometric) {
-  const Body sheet = MakeSheet(2, 1, 32, 16);
+  const ShapeFamily sheet = MakeSheet(2, 1, 32, 16);
   const Shape rest = sheet.pose(0), rolled = sheet.pose(150);
   const auto end = [&](double from, double to) {
     return Where(rest, [&](const auto& p) { return p.x() > from && p.x() < to; });
   };
-  std::vector<Handle> handles;
+  std::vector<DeformationHandle> handles;
   for (const auto& [from, to] : {std::make_pair(-2.0, -0.9), {0.9, 2.0}}) {
     handles.push_back(Fixed(end(from, to)));
     handles.back().positions = rolled(Eigen::all, handles.back().vertices);
@@ -454,7 +454,8 @@ TEST(Deformer, OtherHandlesAreSolvedAnew) {
   const HeldBar bar;
   Deformer deformer(bar.body.connectivity, bar.rest);
   deformer.Deform({Fixed(bar.left), Moving(bar.right, Twist(30))});
-  const std::vector<Handle> handles = {Fixed(bar.right), To(bar.rest, {bar.left[0]}, {0, 0, 0.1})};
+  const std::vector<DeformationHandle> handles = {Fixed(bar.right),
+                                                  To(bar.rest, {bar.left[0]}, {0, 0, 0.1})};
   const DeformationResult again = deformer.Deform(handles);
   EXPECT_FALSE(again.summary.warm);
   EXPECT_EQ(Last(again), Last(Deform(bar.body.connectivity, bar.rest, handles)));
@@ -463,10 +464,10 @@ TEST(Deformer, OtherHandlesAreSolvedAnew) {
 // Vertices that a hard handle holds are not pulled by soft ones.
 TEST(Deformer, ASoftHandleUnderHardOnesChangesNothing) {
   const HeldBar bar;
-  Handle under = To(bar.rest, {bar.right[0]}, {0, 0, 1});
+  DeformationHandle under = To(bar.rest, {bar.right[0]}, {0, 0, 1});
   under.hard = false;
   Deformer deformer(bar.body.connectivity, bar.rest);
-  const std::vector<Handle> handles = {Fixed(bar.left), Moving(bar.right, Twist(30))};
+  const std::vector<DeformationHandle> handles = {Fixed(bar.left), Moving(bar.right, Twist(30))};
   const DeformationResult first = deformer.Deform(handles);
   const DeformationResult again = deformer.Deform({handles[0], handles[1], under});
   EXPECT_TRUE(again.summary.warm);
@@ -479,7 +480,7 @@ TEST(Deformer, StartsFromAGivenEnd) {
   const DeformationOptions options = Tight();
   const DeformationResult wanted = bar.Solve(Twist(60), options);
   Deformer deformer(bar.body.connectivity, bar.rest, options);
-  const std::vector<Handle> handles = {Fixed(bar.left), Moving(bar.right, Twist(60))};
+  const std::vector<DeformationHandle> handles = {Fixed(bar.left), Moving(bar.right, Twist(60))};
   const DeformationResult found = deformer.DeformFrom(Last(wanted), handles);
   EXPECT_EQ(found.summary.levels.front().start, "given");
   EXPECT_NEAR(found.summary.energy, wanted.summary.energy, 1e-6 * wanted.summary.energy);
@@ -488,7 +489,7 @@ TEST(Deformer, StartsFromAGivenEnd) {
 TEST(Deformer, RefusesAnEndThatIsNotAShapeOfTheMesh) {
   const HeldBar bar;
   Deformer deformer(bar.body.connectivity, bar.rest);
-  const std::vector<Handle> handles = {Fixed(bar.left), Moving(bar.right, Twist(30))};
+  const std::vector<DeformationHandle> handles = {Fixed(bar.left), Moving(bar.right, Twist(30))};
   const Shape half = bar.rest.leftCols(bar.rest.cols() / 2);
   Shape infinite = bar.rest;
   infinite(1, 2) = std::numeric_limits<double>::infinity();
@@ -500,7 +501,8 @@ TEST(Deformer, RefusesAnEndThatIsNotAShapeOfTheMesh) {
 
 TEST(Deform, ContradictoryHandlesMeetHalfWayAndAreToldOf) {
   const HeldBar bar;
-  Handle up = To(bar.rest, bar.right, {0, 0, 1}), down = To(bar.rest, bar.right, {0, 0, -1});
+  DeformationHandle up = To(bar.rest, bar.right, {0, 0, 1}),
+                    down = To(bar.rest, bar.right, {0, 0, -1});
   up.name = "up";
   const DeformationResult result =
       Deform(bar.body.connectivity, bar.rest, {Fixed(bar.left), up, down});
@@ -548,9 +550,9 @@ TEST(Deform, TakesCollapsedAndRepeatedTriangles) {
 }
 
 TEST(Deform, TakesHundredsOfHandles) {
-  const Body tube = MakeTube(4000);
+  const ShapeFamily tube = MakeTube(4000);
   const Shape rest = tube.pose(0), bent = tube.pose(60);
-  std::vector<Handle> handles;
+  std::vector<DeformationHandle> handles;
   for (int k = 0; k < 300; ++k) {
     const int v = static_cast<int>(k * rest.cols() / 300);
     handles.push_back(Fixed({v}));
@@ -582,8 +584,8 @@ TEST(Deform, TakesAGraph) {
 
 TEST(Deform, RefusesWhatMakesNoSense) {
   const HeldBar bar;
-  const auto of_handle = [&](const std::function<void(Handle*)>& change) {
-    Handle handle = To(bar.rest, {3, 4}, {0, 0, 1});
+  const auto of_handle = [&](const std::function<void(DeformationHandle*)>& change) {
+    DeformationHandle handle = To(bar.rest, {3, 4}, {0, 0, 1});
     handle.name = "tip";
     change(&handle);
     return MessageOf<InvalidOptions>([&] {
@@ -592,21 +594,21 @@ TEST(Deform, RefusesWhatMakesNoSense) {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const auto& [change, what] :
-       std::vector<std::pair<std::function<void(Handle*)>, std::string>>{
-           {[](Handle* h) { h->vertices = {}; }, "has no vertex"},
-           {[](Handle* h) {
+       std::vector<std::pair<std::function<void(DeformationHandle*)>, std::string>>{
+           {[](DeformationHandle* h) { h->vertices = {}; }, "has no vertex"},
+           {[](DeformationHandle* h) {
               h->vertices = {3, 100000};
             },
             "vertex 100000"},
-           {[](Handle* h) {
+           {[](DeformationHandle* h) {
               h->vertices = {3, 3};
             },
             "listed twice"},
-           {[](Handle* h) { h->vertices = {3}; }, "2 positions for 1"},
-           {[&](Handle* h) { (*h->positions)(0, 0) = nan; }, "position"},
-           {[](Handle* h) { h->motion.axis.setZero(); }, "axis"},
-           {[&](Handle* h) { h->motion.angle = nan; }, "angle"},
-           {[](Handle* h) { h->hard = false, h->weight = 0; }, "weight"}}) {
+           {[](DeformationHandle* h) { h->vertices = {3}; }, "2 positions for 1"},
+           {[&](DeformationHandle* h) { (*h->positions)(0, 0) = nan; }, "position"},
+           {[](DeformationHandle* h) { h->motion.axis.setZero(); }, "axis"},
+           {[&](DeformationHandle* h) { h->motion.angle = nan; }, "angle"},
+           {[](DeformationHandle* h) { h->hard = false, h->weight = 0; }, "weight"}}) {
     const std::string message = of_handle(change);
     EXPECT_NE(message.find("handles: 1 (\"tip\")"), std::string::npos) << message;
     EXPECT_NE(message.find(what), std::string::npos) << message;
@@ -634,7 +636,7 @@ TEST(Deform, RefusesWhatIsTooLarge) {
   DeformationOptions options;
   options.memory_limit = 1e5;
   EXPECT_THROW(bar.Solve(Twist(30), options), SolverError);
-  const Body large = MakeBar(6, 1, 1, 60, 20, 20);
+  const ShapeFamily large = MakeBar(6, 1, 1, 60, 20, 20);
   options = {};
   options.solver = DeformationOptions::Solver::kTrustRegion;  // its rows would be dense
   EXPECT_THROW(Deformer(large.connectivity, large.pose(0), options), InvalidOptions);
@@ -642,7 +644,7 @@ TEST(Deform, RefusesWhatIsTooLarge) {
 
 TEST(Deform, StopsWhenAskedTo) {
   const HeldBar bar;
-  const std::vector<Handle> handles = {Fixed(bar.left), Moving(bar.right, Twist(90))};
+  const std::vector<DeformationHandle> handles = {Fixed(bar.left), Moving(bar.right, Twist(90))};
   Listener first(1);
   EXPECT_THROW(Deform(bar.body.connectivity, bar.rest, handles, {}, &first), Cancelled);
   Listener all;
@@ -657,7 +659,7 @@ TEST(Deform, StopsWhenAskedTo) {
 
 TEST(Deformer, StopsAtEveryReportWhenAskedTo) {
   const HeldBar bar;
-  const std::vector<Handle> handles = {Fixed(bar.left), Moving(bar.right, Twist(60))};
+  const std::vector<DeformationHandle> handles = {Fixed(bar.left), Moving(bar.right, Twist(60))};
   const Shape end = Last(bar.Solve(Twist(50)));
   const auto solve = [&](Progress* progress) {
     return Deformer(bar.body.connectivity, bar.rest).DeformFrom(end, handles, progress);
@@ -677,7 +679,7 @@ TEST(Deformer, StopsAtEveryReportWhenAskedTo) {
 // A path that was not finished is no start for the next one.
 TEST(Deformer, IsNotWarmFromACancelledSolve) {
   const HeldBar bar;
-  const auto twisted = [&](double degrees) -> std::vector<Handle> {
+  const auto twisted = [&](double degrees) -> std::vector<DeformationHandle> {
     return {Fixed(bar.left), Moving(bar.right, Twist(degrees))};
   };
   Listener all;

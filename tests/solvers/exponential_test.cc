@@ -41,22 +41,25 @@ using testing::Rotation;
 using testing::Turning;
 using Ending = ExponentialSummary::Ending;
 
-constexpr Integrator kAllIntegrators[] = {Integrator::kVariational, Integrator::kRungeKutta4,
-                                          Integrator::kFirstIntegral};
+constexpr GeodesicIntegrator kAllIntegrators[] = {GeodesicIntegrator::kVariational,
+                                                  GeodesicIntegrator::kRungeKutta4,
+                                                  GeodesicIntegrator::kFirstIntegral};
 
-ExponentialOptions Options(Integrator integrator, double tolerance = 1e-9) {
+ExponentialOptions Options(GeodesicIntegrator integrator, double tolerance = 1e-9) {
   ExponentialOptions options;
   options.integrator = integrator;
   options.tolerance = tolerance;
   return options;
 }
 
-ExponentialResult Shoot(const Motion& motion, int steps,
-                        const ExponentialOptions& options = Options(Integrator::kVariational)) {
+ExponentialResult Shoot(
+    const Motion& motion, int steps,
+    const ExponentialOptions& options = Options(GeodesicIntegrator::kVariational)) {
   return Extrapolate(motion.metric, motion.shape, motion.velocity, steps, options);
 }
 
-Shape End(const Motion& motion, int steps, Integrator integrator = Integrator::kVariational) {
+Shape End(const Motion& motion, int steps,
+          GeodesicIntegrator integrator = GeodesicIntegrator::kVariational) {
   return Exponential(motion.metric, motion.shape, motion.velocity, steps, Options(integrator));
 }
 
@@ -100,8 +103,9 @@ TEST(Exponential, TranslatesExactly) {
     SCOPED_TRACE(motion.name);
     const Eigen::Vector3d way(3, -4, 0.5);
     motion.velocity.colwise() += way;
-    for (const Integrator integrator : kAllIntegrators) {
-      if (integrator == Integrator::kFirstIntegral && motion.metric->options.volume > 0) continue;
+    for (const GeodesicIntegrator integrator : kAllIntegrators) {
+      if (integrator == GeodesicIntegrator::kFirstIntegral && motion.metric->options.volume > 0)
+        continue;
       const auto [path, summary] = Shoot(motion, 4, Options(integrator));
       EXPECT_TRUE(summary.Converged()) << summary.FullReport();
       for (int i = 0; i <= 4; ++i) {
@@ -117,13 +121,14 @@ TEST(Exponential, IsAStraightLineInAFlatMetric) {
   MetricOptions flat;
   flat.strain = flat.bending = 0;
   flat.lambda = 1;
-  for (const Body& body : {MakeBar(6, 1, 1, 6, 1, 1), MakeSheet(2, 1, 8, 4), MakeSteffen()}) {
+  for (const ShapeFamily& body :
+       {MakeBar(6, 1, 1, 6, 1, 1), MakeSheet(2, 1, 8, 4), MakeSteffen()}) {
     SCOPED_TRACE(body.name);
     Motion motion = Turning(body, body.begin, 0, flat);
     // A short motion only, so that no edge vanishes.
     const double size = Diameter(motion.shape);
     motion.velocity = testing::Noise(static_cast<int>(motion.shape.cols()), 0.01 * size, 1);
-    for (const Integrator integrator : kAllIntegrators) {
+    for (const GeodesicIntegrator integrator : kAllIntegrators) {
       const auto [path, summary] = Shoot(motion, 5, Options(integrator));
       EXPECT_TRUE(summary.Converged()) << summary.FullReport();
       for (int i = 0; i <= 5; ++i) {
@@ -134,7 +139,7 @@ TEST(Exponential, IsAStraightLineInAFlatMetric) {
 }
 
 TEST(Exponential, StaysWhereThereIsNoVelocity) {
-  for (const Integrator integrator : kAllIntegrators) {
+  for (const GeodesicIntegrator integrator : kAllIntegrators) {
     const Motion motion = Turning(MakeBricard(), 10, 0, {});
     const auto [path, summary] = Shoot(motion, 3, Options(integrator));
     EXPECT_TRUE(summary.Converged());
@@ -148,20 +153,20 @@ TEST(Exponential, StaysWhereThereIsNoVelocity) {
 TEST(Exponential, IntegratorsConvergeWithTheirOrdersToOneGeodesic) {
   for (const Motion& motion : AllMotions()) {
     SCOPED_TRACE(motion.name);
-    const Shape exact = End(motion, 128, Integrator::kRungeKutta4);
+    const Shape exact = End(motion, 128, GeodesicIntegrator::kRungeKutta4);
     const double way = Distance(exact, motion.shape);
-    const auto error = [&](int steps, Integrator integrator) {
+    const auto error = [&](int steps, GeodesicIntegrator integrator) {
       return Distance(End(motion, steps, integrator), exact) / way;
     };
-    const double coarse = error(8, Integrator::kVariational);
+    const double coarse = error(8, GeodesicIntegrator::kVariational);
     EXPECT_LT(coarse, 1e-2);
-    const double middle = error(16, Integrator::kVariational);
-    const double fine = error(32, Integrator::kVariational);
+    const double middle = error(16, GeodesicIntegrator::kVariational);
+    const double fine = error(32, GeodesicIntegrator::kVariational);
     EXPECT_NEAR(std::log2(coarse / middle), 2, 0.1);
     EXPECT_NEAR(std::log2(middle / fine), 2, 0.1);
 
-    const double coarse_4 = error(8, Integrator::kRungeKutta4);
-    const double fine_4 = error(16, Integrator::kRungeKutta4);
+    const double coarse_4 = error(8, GeodesicIntegrator::kRungeKutta4);
+    const double fine_4 = error(16, GeodesicIntegrator::kRungeKutta4);
     EXPECT_LT(coarse_4, 0.1 * coarse);
     EXPECT_NEAR(std::log2(coarse_4 / fine_4), 4, 0.3);
   }
@@ -175,7 +180,7 @@ TEST(Exponential, SetsOutWithAnErrorOfThirdOrder) {
     for (double time : {1 / 8.0, 1 / 16.0, 1 / 32.0}) {
       const Motion short_one = motion.Times(time);
       const double error =
-          Distance(End(short_one, 1), End(short_one, 16, Integrator::kRungeKutta4));
+          Distance(End(short_one, 1), End(short_one, 16, GeodesicIntegrator::kRungeKutta4));
       if (previous > 0) {
         EXPECT_NEAR(std::log2(previous / error), 3, 0.25);
       }
@@ -249,7 +254,8 @@ TEST(Exponential, MovesASingleEdgeAsClairautSays) {
       previous[k] = errors[k];
     }
   }
-  const Shape last = Shoot(motion, 64, Options(Integrator::kRungeKutta4)).path.shapes.back();
+  const Shape last =
+      Shoot(motion, 64, Options(GeodesicIntegrator::kRungeKutta4)).path.shapes.back();
   EXPECT_NEAR(exact.Time((last.col(1) - last.col(0)).norm()), 1, 1e-7);
 }
 
@@ -293,7 +299,7 @@ LogarithmOptions Exactly(int shapes) {
 }
 
 struct BodyPair {
-  Body body;
+  ShapeFamily body;
   double first, last;
 };
 
@@ -374,7 +380,7 @@ TEST(Extrapolate, KeepsTheEnergyToSecondOrder) {
 
 // For a path that is a rigid motion only, and for one that also deforms.
 TEST(Extrapolate, GoesOnWithTheRigidMotionAsAScrew) {
-  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 1, 1);
   const Eigen::Vector3d axis(1, 2, 0.5), way(4, 5, 6);
   for (double last : {20.0, 20.0001, 50.0}) {
     GeodesicOptions geodesic;
@@ -406,7 +412,7 @@ TEST(Extrapolate, GoesOnWithTheRigidMotionAsAScrew) {
 // If only lengths have a cost and they permit a single motion of the body, that motion is the
 // geodesic.
 TEST(Exponential, FollowsExactIsometricFlexes) {
-  for (const Body& body : {MakeStrip(1, 0.9, 16), MakeBricard(), MakeSteffen()}) {
+  for (const ShapeFamily& body : {MakeStrip(1, 0.9, 16), MakeBricard(), MakeSteffen()}) {
     SCOPED_TRACE(body.name);
     double previous = 0;
     for (double lambda : {1e-2, 1e-3, 1e-4}) {
@@ -459,10 +465,10 @@ TEST(FirstIntegral, IsNoneOfTheGeodesicEquation) {
 TEST(FirstIntegral, DoesNotConverge) {
   for (const Motion& motion : {TurningBodies()[0], TurningBodies()[1]}) {
     SCOPED_TRACE(motion.name);
-    const Shape exact = End(motion, 64, Integrator::kRungeKutta4);
+    const Shape exact = End(motion, 64, GeodesicIntegrator::kRungeKutta4);
     for (const FirstIntegralSolver solver :
          {FirstIntegralSolver::kLbfgs, FirstIntegralSolver::kLevenbergMarquardt}) {
-      ExponentialOptions options = Options(Integrator::kFirstIntegral);
+      ExponentialOptions options = Options(GeodesicIntegrator::kFirstIntegral);
       options.first_integral_solver = solver;
       for (int steps : {8, 16, 32}) {
         const auto [path, summary] = Shoot(motion, steps, options);
@@ -480,7 +486,7 @@ TEST(Exponential, BothSolversOfStepsAgree) {
   for (const Motion& motion : {TurningBodies()[0], TurningBodies()[1], DeformingBodies()[1],
                                Deforming(MakeTube(100), 30, 60, {})}) {
     SCOPED_TRACE(motion.name);
-    ExponentialOptions options = Options(Integrator::kVariational, 1e-10);
+    ExponentialOptions options = Options(GeodesicIntegrator::kVariational, 1e-10);
     options.solver = StepSolver::kNewtonKrylov;
     const ExponentialResult newton = Shoot(motion, 8, options);
     options.solver = StepSolver::kCeres;
@@ -499,7 +505,8 @@ TEST(Exponential, CommutesWithRotationTranslationAndScale) {
   const Eigen::Matrix3d turn = Rotation(70, {1, 2, -1});
   for (const Motion& motion : {TurningBodies()[0], DeformingBodies()[3], DeformingBodies()[4]}) {
     SCOPED_TRACE(motion.name);
-    for (const Integrator integrator : {Integrator::kVariational, Integrator::kRungeKutta4}) {
+    for (const GeodesicIntegrator integrator :
+         {GeodesicIntegrator::kVariational, GeodesicIntegrator::kRungeKutta4}) {
       const Shape end = End(motion, 8, integrator);
       for (double scale : {1e-4, 1.0, 1e4}) {
         const Eigen::Vector3d way = scale * Eigen::Vector3d(3, -8, 5);
@@ -535,7 +542,8 @@ TEST(Exponential, DoesNotDependOnTheOrderOfVertices) {
     other.metric = FreezeMetric(motion.metric->options,
                                 Connectivity::FromTriangles(static_cast<int>(to.size()), triangles),
                                 {other.shape});
-    for (const Integrator integrator : {Integrator::kVariational, Integrator::kRungeKutta4}) {
+    for (const GeodesicIntegrator integrator :
+         {GeodesicIntegrator::kVariational, GeodesicIntegrator::kRungeKutta4}) {
       EXPECT_LT(Distance(End(other, 8, integrator), renumber(End(motion, 8, integrator))),
                 1e-9 * Diameter(motion.shape));
     }
@@ -544,7 +552,7 @@ TEST(Exponential, DoesNotDependOnTheOrderOfVertices) {
 
 // A body that is compressed along z (or y), at a rate at which straight motion would make it flat
 // at time 1 / rate.
-Motion Crushed(const Body& body, double rate) {
+Motion Crushed(const ShapeFamily& body, double rate) {
   Motion motion = Turning(body, body.begin, 0, MetricOptions::Isometric());
   const int axis = body.name == "sheet" ? 1 : 2;
   motion.velocity.row(axis) = -rate * motion.shape.row(axis);
@@ -554,10 +562,11 @@ Motion Crushed(const Body& body, double rate) {
 // Either it ends with an explanation, or its shapes have warnings.
 TEST(Exponential, NeverTakesACrushedBodyForASuccess) {
   int stopped = 0, flagged = 0;
-  for (const Body& body :
+  for (const ShapeFamily& body :
        {MakeBar(6, 1, 1, 6, 1, 1), MakeSheet(2, 1, 8, 4), MakeSteffen(), MakeTube(100)}) {
     for (double rate : {2.0, 10.0, 100.0}) {
-      for (const Integrator integrator : {Integrator::kVariational, Integrator::kRungeKutta4}) {
+      for (const GeodesicIntegrator integrator :
+           {GeodesicIntegrator::kVariational, GeodesicIntegrator::kRungeKutta4}) {
         for (int steps : {1, 2, 8}) {
           SCOPED_TRACE(::testing::Message() << body.name << ", rate " << rate << ", integrator "
                                             << static_cast<int>(integrator) << ", steps " << steps);
@@ -589,7 +598,7 @@ TEST(Exponential, NeverTakesACrushedBodyForASuccess) {
 // This path, continued to three times its length, ends where further bending would make triangles
 // collapse, and there is no nearby shape to continue with. Resting there would be a wrong result.
 TEST(Extrapolate, EndsWhereTheMotionComesToAHalt) {
-  const Body tube = MakeTube(100);
+  const ShapeFamily tube = MakeTube(100);
   LogarithmOptions options = Exactly(7);
   options.metric = MetricOptions::Isometric();
   const Path path = Interpolate(tube.connectivity, {tube.pose(0), tube.pose(60)}, options).path;
@@ -626,7 +635,7 @@ TEST(Exponential, RefusesEndsThatWereNotMadeOnTheMeshItself) {
 }
 
 TEST(Logarithm, RefusesPathsThatDidNotConverge) {
-  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 1, 1);
   const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(60)});
   LogarithmOptions options;
   options.max_iterations = 1;
@@ -648,7 +657,7 @@ TEST(Logarithm, IsUndoneByTheExponentialMapByDefault) {
 }
 
 // A path to a deformed copy of a body in another position and orientation.
-Path Moving(const Body& body, double first, double last, double degrees, int shapes) {
+Path Moving(const ShapeFamily& body, double first, double last, double degrees, int shapes) {
   const Shape from = Rotation(50, {2, 0, 1}) * body.pose(first);
   const Shape turned = Rotation(degrees, {1, 2, 0.5}) * (Rotation(50, {2, 0, 1}) * body.pose(last));
   const Shape to = turned.colwise() + Eigen::Vector3d(4, 5, 6);
@@ -656,7 +665,7 @@ Path Moving(const Body& body, double first, double last, double degrees, int sha
 }
 
 TEST(InitialVelocity, OfAScrewMotionIsTheScrews) {
-  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 1, 1);
   const Path path = Moving(bar, 20, 20, 40, 3);
   const Shape first = path.Placed(0);
   const Eigen::VectorXd& area = path.metric->vertex_area;
@@ -668,7 +677,7 @@ TEST(InitialVelocity, OfAScrewMotionIsTheScrews) {
 // A geodesic's rotation slows down when the body extends farther from the axis, and its discrete
 // steps rotate by the sine of the angle; a path's rigid motion does neither.
 TEST(InitialVelocity, LeadsToTheSecondShape) {
-  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 1, 1);
   const auto error = [](const Path& path) {
     const Tangent velocity = path.parameters[1] * InitialVelocity(path);
     return Distance(Exponential(path.metric, path.Placed(0), velocity, 1), path.Placed(1)) /
@@ -698,14 +707,14 @@ TEST(InitialVelocity, TurnsWithThePath) {
 // A sheet of 5 x 5 vertices, of which only the centre moves, by `way` cells to the side. One step
 // of the paper's scheme moves it exactly that far.
 ExponentialResult PushMiddle(double way) {
-  const Body sheet = MakeSheet(1, 1, 4, 4);
+  const ShapeFamily sheet = MakeSheet(1, 1, 4, 4);
   const Shape flat = sheet.pose(0);
   int middle = 0;
   (flat.colwise() - flat.rowwise().mean()).colwise().norm().minCoeff(&middle);
   Tangent velocity = Tangent::Zero(3, flat.cols());
   velocity(0, middle) = 0.25 * way;
   const auto metric = FreezeMetric({}, sheet.connectivity, {flat});
-  return Extrapolate(metric, flat, velocity, 1, Options(Integrator::kFirstIntegral));
+  return Extrapolate(metric, flat, velocity, 1, Options(GeodesicIntegrator::kFirstIntegral));
 }
 
 TEST(Extrapolate, StopsWhereTheSurfaceTurnsInsideOut) {
@@ -726,10 +735,10 @@ TEST(Extrapolate, StopsWhereAnEdgeVanishes) {
 
 // Every vertex has its own velocity: after a few steps the Runge-Kutta scheme fails.
 TEST(Extrapolate, WarnsWhereTheEnergyRises) {
-  const Body sheet = MakeSheet(1, 1, 4, 4);
+  const ShapeFamily sheet = MakeSheet(1, 1, 4, 4);
   const auto metric = FreezeMetric(MetricOptions::Isometric(), sheet.connectivity, {sheet.pose(0)});
   const Tangent velocity = testing::Noise(25, 0.05, 3);
-  const auto warns = [&](Integrator integrator) {
+  const auto warns = [&](GeodesicIntegrator integrator) {
     const ExponentialSummary summary =
         Extrapolate(metric, sheet.pose(0), velocity, 16, Options(integrator)).summary;
     double greatest = 0;
@@ -742,8 +751,8 @@ TEST(Extrapolate, WarnsWhereTheEnergyRises) {
     EXPECT_EQ(warned, rises);
     return warned;
   };
-  EXPECT_TRUE(warns(Integrator::kRungeKutta4));
-  EXPECT_FALSE(warns(Integrator::kVariational));
+  EXPECT_TRUE(warns(GeodesicIntegrator::kRungeKutta4));
+  EXPECT_FALSE(warns(GeodesicIntegrator::kVariational));
 }
 
 TEST(ExponentialSummary, ReportsTheSteps) {
@@ -788,12 +797,12 @@ TEST(Extrapolate, RefusesWhatCannotBeShot) {
 }
 
 TEST(Extrapolate, RefusesRigidMetrics) {
-  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 1, 1);
   GeodesicOptions options;
   options.shapes = 3;
   options.metric = MetricOptions::Rigid();
   const Path path = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(30)}, options).path;
-  for (const Integrator integrator : kAllIntegrators) {
+  for (const GeodesicIntegrator integrator : kAllIntegrators) {
     const std::string message =
         MessageOf<InvalidOptions>([&] { Extrapolate(path, 2, Options(integrator)); });
     EXPECT_NE(message.find("rigid"), std::string::npos) << message;
@@ -823,9 +832,9 @@ TEST(Extrapolate, PathsWithoutCostOfPositionGoOnToo) {
 }
 
 TEST(Extrapolate, ContinuesADeformation) {
-  const Body bar = MakeBar(6, 1, 1, 18, 3, 3);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 18, 3, 3);
   const Shape rest = bar.pose(0);
-  Handle left, right;
+  DeformationHandle left, right;
   left.vertices = testing::Where(rest, [](const auto& p) { return p.x() < -2.7; });
   right.vertices = testing::Where(rest, [](const auto& p) { return p.x() > 2.7; });
   right.motion.axis = Eigen::Vector3d::UnitX();
@@ -861,7 +870,7 @@ TEST(Logarithm, WithoutCostOfPositionIsUndoneByTheExponentialMap) {
 }
 
 TEST(Extrapolate, SaysThatTrapezoidPathsGoOnInMidpointForm) {
-  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 1, 1);
   GeodesicOptions options;
   options.shapes = 3;
   options.metric.discretization = Discretization::kTrapezoid;
@@ -920,7 +929,7 @@ TEST(Exponential, CanBeCancelledAtAnyStep) {
 }
 
 TEST(Logarithm, CanBeCancelled) {
-  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 1, 1);
   const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(60)});
   for (const int last : {1, 4}) {
     Listener progress(last);

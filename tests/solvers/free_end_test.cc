@@ -19,7 +19,7 @@ using shapespace::testing::Rotation;
 // step of Newton's method with the preconditioner reaches the minimum, for any constraints and
 // penalties.
 TEST(FreeEndPreconditioner, IsTheInverseOfAQuadraticEnergy) {
-  const Body bar = MakeBar(3, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(3, 1, 1, 6, 2, 2);
   MetricOptions options;
   options.strain = options.bending = 0;
   options.lambda = 1;
@@ -27,13 +27,13 @@ TEST(FreeEndPreconditioner, IsTheInverseOfAQuadraticEnergy) {
   const Shape rest = bar.pose(0) / metric->unit;
   const int count = static_cast<int>(rest.cols());
   for (int n : {1, 2, 5}) {
-    Grip grip;
-    grip.carried = {0, 3, 8};
-    grip.landed = {1, 5};
-    grip.pull = Eigen::VectorXd::Zero(count);
-    grip.pull(7) = 0.3;
-    grip.pull(20) = 2;
-    const FreeEndFactors factors(metric, rest, grip);
+    PositionConstraints constraints;
+    constraints.prescribed = {0, 3, 8};
+    constraints.prescribed_last = {1, 5};
+    constraints.penalty = Eigen::VectorXd::Zero(count);
+    constraints.penalty(7) = 0.3;
+    constraints.penalty(20) = 2;
+    const FreeEndFactors factors(metric, rest, constraints);
     std::vector<Shape> shapes = {rest};
     for (int t = 1; t <= n; ++t) shapes.push_back(rest + Noise(count, 0.1, t));
     const Shape target = rest + Noise(count, 0.2, 77);
@@ -51,7 +51,7 @@ TEST(FreeEndPreconditioner, IsTheInverseOfAQuadraticEnergy) {
       for (int v = 0; v < count; ++v) {
         for (int axis = 0; axis < 3; ++axis) {
           gradient[at(v, axis, n - 1)] +=
-              2 * grip.pull(v) / n * (x[at(v, axis, n - 1)] - target(axis, v));
+              2 * constraints.penalty(v) / n * (x[at(v, axis, n - 1)] - target(axis, v));
           for (int t = 0; t < n; ++t) {
             const bool given = v == 0 || v == 3 || v == 8 || (t == n - 1 && (v == 1 || v == 5));
             if (given) gradient[at(v, axis, t)] = 0;
@@ -72,25 +72,25 @@ TEST(FreeEndPreconditioner, IsTheInverseOfAQuadraticEnergy) {
 }
 
 struct Held {
-  Body body = MakeBar(4, 1, 1, 12, 3, 3);
+  ShapeFamily body = MakeBar(4, 1, 1, 12, 3, 3);
   std::shared_ptr<const Metric> metric =
       FreezeMetric(MetricOptions::Deformation(*body.connectivity, body.pose(0)), body.connectivity,
                    {body.pose(0)});
   Shape rest = body.pose(0) / metric->unit;
-  Grip grip;
+  PositionConstraints constraints;
 
   Held() {
-    grip.pull = Eigen::VectorXd::Zero(rest.cols());
-    for (int v = 0; v < rest.cols(); v += 9) grip.carried.push_back(v);
+    constraints.penalty = Eigen::VectorXd::Zero(rest.cols());
+    for (int v = 0; v < rest.cols(); v += 9) constraints.prescribed.push_back(v);
   }
 };
 
 TEST(FreeEndFactors, ATranslationOfWhatIsGivenTakesTheWholeAlong) {
   const Held held;
-  const FreeEndFactors factors(held.metric, held.rest, held.grip);
+  const FreeEndFactors factors(held.metric, held.rest, held.constraints);
   Tangent way = Tangent::Zero(3, held.rest.cols());
-  for (int v : held.grip.carried) way.col(v) << 0.1, -0.2, 0.3;
-  const Tangent result = factors.Spread({way})[0];
+  for (int v : held.constraints.prescribed) way.col(v) << 0.1, -0.2, 0.3;
+  const Tangent result = factors.Extend({way})[0];
   for (int v = 0; v < result.cols(); ++v) {
     EXPECT_LT((result.col(v) - Eigen::Vector3d(0.1, -0.2, 0.3)).norm(), 1e-4);
   }
@@ -100,11 +100,11 @@ TEST(FreeEndFactors, ATranslationOfWhatIsGivenTakesTheWholeAlong) {
 // initial positions of the free vertices.
 TEST(FreeEndFactors, IntegratesARotation) {
   const Held held;
-  const FreeEndFactors factors(held.metric, held.rest, held.grip);
+  const FreeEndFactors factors(held.metric, held.rest, held.constraints);
   const Eigen::Matrix3d turn = Rotation(130, {1, 2, 3});
   const Shape expected = turn * held.rest;
   std::vector<Shape> shapes = {held.rest};
-  for (int v : held.grip.carried) shapes[0].col(v) = expected.col(v);
+  for (int v : held.constraints.prescribed) shapes[0].col(v) = expected.col(v);
   factors.Integrate({std::vector<Eigen::Matrix3d>(held.rest.cols(), turn)}, &shapes);
   EXPECT_LT((shapes[0] - expected).cwiseAbs().maxCoeff(), 1e-4);
 }

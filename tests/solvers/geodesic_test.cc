@@ -43,7 +43,7 @@ GeodesicOptions Options(int shapes, double tolerance) {
 
 // A vertex of no element, without a cost of position, has no cost however it moves.
 TEST(Interpolate, VerticesThatCostNothingMoveStraight) {
-  const Body bar = MakeBar(6, 1, 1, 24, 4, 4);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 24, 4, 4);
   const int count = bar.connectivity->NumVertices();
   std::vector<int> begin, corners;
   for (const auto& triangle : bar.connectivity->Triangles().colwise()) {
@@ -73,7 +73,7 @@ TEST(Interpolate, VerticesThatCostNothingMoveStraight) {
 }
 
 TEST(Interpolate, TranslatesAlongAStraightLine) {
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
   const Shape first = bar.pose(50);
   const Eigen::Vector3d way(3, -40, 7);
   for (const MetricOptions& metric :
@@ -92,7 +92,7 @@ TEST(Interpolate, TranslatesAlongAStraightLine) {
 
 // Also by 179 degrees, for which the linear blend of the poses without alignment would collapse.
 TEST(Interpolate, TurnsARigidCopyAtConstantSpeedAndKeepsItsShape) {
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
   const Shape first = bar.pose(50);
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 1, 0.2).normalized();
   for (double degrees : {60.0, 179.0}) {
@@ -113,7 +113,7 @@ TEST(Interpolate, TurnsARigidCopyAtConstantSpeedAndKeepsItsShape) {
 }
 
 TEST(Interpolate, IsTheLinearBlendOfAlignedPosesInAFlatMetric) {
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
   GeodesicOptions options = Options(7, 1e-12);
   options.metric.strain = options.metric.bending = 0;
   options.metric.lambda = 1;
@@ -159,7 +159,7 @@ TEST(Interpolate, StretchesASingleEdgeAsTheClosedFormSays) {
 }
 
 TEST(Interpolate, FollowsExactIsometricFlexes) {
-  for (const Body& body : {MakeStrip(1, 1, 16), MakeBricard(), MakeSteffen()}) {
+  for (const ShapeFamily& body : {MakeStrip(1, 1, 16), MakeBricard(), MakeSteffen()}) {
     SCOPED_TRACE(body.name);
     GeodesicOptions options = Options(15, 1e-10);
     options.solver = GeodesicSolver::kTrustRegion;  // takes a tenth of the iterations of L-BFGS
@@ -181,7 +181,7 @@ TEST(Interpolate, FollowsExactIsometricFlexes) {
 // lengths change by x^2 only. The gain is proportional to lambda x and the cost to x^4, so the
 // deviation x^2 is proportional to lambda^(2/3).
 TEST(Interpolate, FoldsAMiuraSheetWithItsParallelogramsNearlyFlat) {
-  const Body body = MakeMiura(1, 1, 60, 3, 3);
+  const ShapeFamily body = MakeMiura(1, 1, 60, 3, 3);
   GeodesicOptions options = Options(15, 1e-10);
   options.solver = GeodesicSolver::kTrustRegion;
   options.metric.bending = 0;
@@ -199,7 +199,7 @@ TEST(Interpolate, FoldsAMiuraSheetWithItsParallelogramsNearlyFlat) {
 
 // The associate family of the catenoid is isometric and short, so the geodesic is near it.
 TEST(Interpolate, BendsTheCatenoidToTheHelicoidWithoutStretchingIt) {
-  const Body catenoid = MakeCatenoid(1, 32, 12);
+  const ShapeFamily catenoid = MakeCatenoid(1, 32, 12);
   const auto [path, summary] =
       Interpolate(catenoid.connectivity, {catenoid.pose(0), catenoid.pose(90)}, Options(7, 1e-7));
   EXPECT_EQ(summary.termination, Termination::kConverged);
@@ -208,7 +208,7 @@ TEST(Interpolate, BendsTheCatenoidToTheHelicoidWithoutStretchingIt) {
 }
 
 TEST(Interpolate, BendsABarEvenly) {
-  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   const auto [path, summary] =
       Interpolate(bar.connectivity, {bar.pose(0), bar.pose(90)}, Options(3, 1e-9));
   const Shape half = bar.pose(45) / path.metric->unit;
@@ -217,7 +217,7 @@ TEST(Interpolate, BendsABarEvenly) {
 }
 
 TEST(Interpolate, ScaledEnergyConvergesWithTheSquareOfTheTimeStep) {
-  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 8, 2, 2);
   double energy[4];
   for (int i = 0; i < 4; ++i) {
     const auto [path, summary] =
@@ -230,7 +230,7 @@ TEST(Interpolate, ScaledEnergyConvergesWithTheSquareOfTheTimeStep) {
 }
 
 TEST(Interpolate, BothSolversFindTheSameMinimum) {
-  const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 6, 1, 1);
   MetricOptions volume, stiff;
   volume.volume = 0.3;
   stiff.bending = 1e-3;
@@ -240,7 +240,7 @@ TEST(Interpolate, BothSolversFindTheSameMinimum) {
   paper.bending = 1e-4;
   for (const MetricOptions& metric :
        {MetricOptions(), MetricOptions::Isometric(), volume, stiff, rigid, paper}) {
-    SCOPED_TRACE(Describe(metric));
+    SCOPED_TRACE(DescribeMetric(metric));
     GeodesicOptions options = Options(4, 1e-13);
     options.metric = metric;
     options.solver = GeodesicSolver::kLbfgs;
@@ -253,7 +253,7 @@ TEST(Interpolate, BothSolversFindTheSameMinimum) {
 }
 
 TEST(Interpolate, CommutesWithScaling) {
-  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 8, 2, 2);
   const auto reference =
       Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, Options(7, 1e-9));
   for (double scale : {1e-4, 1e4}) {
@@ -268,7 +268,7 @@ TEST(Interpolate, CommutesWithScaling) {
 }
 
 TEST(Interpolate, CommutesWithRigidMotionAndRenumbering) {
-  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 8, 2, 2);
   const auto reference =
       Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, Options(7, 1e-9));
   const Eigen::Matrix3d turn = Rotation(140, {3, 1, 2});
@@ -302,7 +302,7 @@ TEST(Interpolate, CommutesWithRigidMotionAndRenumbering) {
 }
 
 TEST(Interpolate, IsTheSameBackwards) {
-  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 8, 2, 2);
   const auto there = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(80)}, Options(7, 1e-10));
   const auto back = Interpolate(bar.connectivity, {bar.pose(80), bar.pose(0)}, Options(7, 1e-10));
   EXPECT_NEAR(there.summary.energy, back.summary.energy, 1e-8 * back.summary.energy);
@@ -312,7 +312,7 @@ TEST(Interpolate, IsTheSameBackwards) {
 }
 
 TEST(Interpolate, PassesThroughAllPosesAtEvenTimes) {
-  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 8, 2, 2);
   const std::vector<Shape> poses = {bar.pose(0), bar.pose(70), bar.pose(20)};
   const auto [path, summary] = Interpolate(bar.connectivity, poses, Options(4, 1e-6));
   ASSERT_EQ(path.NumShapes(), 11);
@@ -326,7 +326,7 @@ TEST(Interpolate, PassesThroughAllPosesAtEvenTimes) {
 }
 
 TEST(Interpolate, VolumeTermKeepsTheVolumeOnTheWay) {
-  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 8, 2, 2);
   const auto least_volume = [&](double volume) {
     GeodesicOptions options = Options(7, 1e-8);
     options.metric.bending = 0;
@@ -352,7 +352,7 @@ TEST(Interpolate, VolumeTermKeepsTheVolumeOnTheWay) {
 }
 
 TEST(Interpolate, ReportsThatItDidNotConverge) {
-  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 8, 2, 2);
   GeodesicOptions options = Options(7, 1e-12);
   options.max_iterations = 2;
   const auto [path, summary] = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(90)}, options);
@@ -366,7 +366,7 @@ TEST(Interpolate, ReportsThatItDidNotConverge) {
 }
 
 TEST(Interpolate, SummaryAddsUp) {
-  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 8, 2, 2);
   const auto [path, summary] =
       Interpolate(bar.connectivity, {bar.pose(0), bar.pose(90)}, Options(6, 1e-6));
   double parts = 0;
@@ -385,7 +385,7 @@ TEST(Interpolate, SummaryAddsUp) {
 }
 
 TEST(Interpolate, RefusesWhatCannotWork) {
-  const Body bar = MakeBar(6, 1, 1, 8, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 8, 2, 2);
   EXPECT_THROW(Interpolate(bar.connectivity, {bar.pose(0)}), MeshError);
   GeodesicOptions options;
   options.shapes = 0;
@@ -393,7 +393,7 @@ TEST(Interpolate, RefusesWhatCannotWork) {
   options = {};
   options.memory_limit = 1e4;
   EXPECT_THROW(Interpolate(bar.connectivity, {bar.pose(0), bar.pose(9)}, options), SolverError);
-  const Body large = MakeBar(6, 1, 1, 60, 20, 20);
+  const ShapeFamily large = MakeBar(6, 1, 1, 60, 20, 20);
   options = {};
   options.metric.volume = 0.3;
   options.solver = GeodesicSolver::kTrustRegion;  // its rows would be dense
@@ -404,8 +404,8 @@ TEST(Interpolate, RefusesWhatCannotWork) {
 }
 
 // A tube with several levels, solved on all of them by all three optimisers.
-const Body& Tube() {
-  static const Body tube = MakeBody("tube", 4000);
+const ShapeFamily& Tube() {
+  static const ShapeFamily tube = MakeBody("tube", 4000);
   return tube;
 }
 
@@ -527,7 +527,7 @@ TEST(Interpolate, CopiesConvergeAndPosesThatAreHardlyApartMustBeSolved) {
     if (i > 0) segments.emplace_back(i - 1, i);
   }
   const auto stick = Connectivity::Make(11, {0}, {}, segments);
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
   for (const auto& [connectivity, shape] :
        {std::make_pair(stick, straight), {bar.connectivity, bar.pose(50)}}) {
     for (const MetricOptions& metric :

@@ -19,12 +19,12 @@ using Vertices = std::vector<int>;
 /// Handles of the unit cube; vertex x + 2 y + 4 z lies at (x, y, z).
 class HandleFileTest : public testing::FilesTest {
  protected:
-  std::vector<Handle> Read(const std::string& text) const {
+  std::vector<DeformationHandle> Read(const std::string& text) const {
     return ReadHandles(File("h.json", text), cube_.vertices, *testing::Connected(cube_), {});
   }
 
   /// The only handle of a file, an object with these keys.
-  Handle ReadOne(const std::string& keys) const {
+  DeformationHandle ReadOne(const std::string& keys) const {
     return Read(R"({"handles": [{)" + keys + "}]}").at(0);
   }
 
@@ -41,7 +41,7 @@ class HandleFileTest : public testing::FilesTest {
 constexpr char kTop[] = R"("select": {"vertices": [[5, 8]]})";
 
 TEST_F(HandleFileTest, WithoutWeightAHandleIsHardAndMayStay) {
-  const Handle handle = ReadOne(std::string(R"("name": "top", "fixed": true, )") + kTop);
+  const DeformationHandle handle = ReadOne(std::string(R"("name": "top", "fixed": true, )") + kTop);
   EXPECT_EQ(handle.name, "top");
   EXPECT_EQ(handle.vertices, (Vertices{4, 5, 6, 7}));
   EXPECT_FALSE(handle.positions);
@@ -53,14 +53,15 @@ TEST_F(HandleFileTest, WithoutWeightAHandleIsHardAndMayStay) {
 
 TEST_F(HandleFileTest, WeightsMakeHandlesSoft) {
   for (const char* more : {"", R"("hard": false, )"}) {
-    const Handle handle = ReadOne(std::string(R"("fixed": true, "weight": 2.5, )") + more + kTop);
+    const DeformationHandle handle =
+        ReadOne(std::string(R"("fixed": true, "weight": 2.5, )") + more + kTop);
     EXPECT_FALSE(handle.hard);
     EXPECT_EQ(handle.weight, 2.5);
   }
 }
 
 TEST_F(HandleFileTest, MotionsTurnAboutTheMeanOfTheVerticesAndThenMove) {
-  Handle handle = ReadOne(std::string(R"("translation": [1, 2, 3], )") + kTop);
+  DeformationHandle handle = ReadOne(std::string(R"("translation": [1, 2, 3], )") + kTop);
   EXPECT_EQ(handle.motion.angle, 0);
   EXPECT_TRUE(handle.motion.translation == Eigen::Vector3d(1, 2, 3));
   handle = ReadOne(
@@ -77,16 +78,16 @@ TEST_F(HandleFileTest, MotionsTurnAboutTheMeanOfTheVerticesAndThenMove) {
 }
 
 TEST_F(HandleFileTest, APositionIsThatOfTheMean) {
-  const Handle top = ReadOne(std::string(R"("position": [2, 2, 2], )") + kTop);
+  const DeformationHandle top = ReadOne(std::string(R"("position": [2, 2, 2], )") + kTop);
   EXPECT_FALSE(top.positions);
   EXPECT_TRUE(top.motion.translation.isApprox(Eigen::Vector3d(1.5, 1.5, 1), 1e-15));
-  const Handle corner = ReadOne(R"("position": [1, 2, 3], "select": {"vertices": [8]})");
+  const DeformationHandle corner = ReadOne(R"("position": [1, 2, 3], "select": {"vertices": [8]})");
   ASSERT_TRUE(corner.positions);
   EXPECT_TRUE(*corner.positions == Shape(Eigen::Vector3d(1, 2, 3)));
 }
 
 TEST_F(HandleFileTest, PositionsStandInTheOrderOfTheVertices) {
-  const Handle handle = ReadOne(
+  const DeformationHandle handle = ReadOne(
       R"("positions": [[1, 2, 3], [4, 5, 6], [7, 8, 9]], "select": {"vertices": [1, [3, 4]]})");
   EXPECT_EQ(handle.vertices, (Vertices{0, 2, 3}));
   ASSERT_TRUE(handle.positions);
@@ -170,7 +171,7 @@ TEST_F(HandleFileTest, TheExampleOfTheDocumentationIsRead) {
   const size_t begin = text.find("```json\n", text.find("## Handles")) + 8;
   const std::string example = text.substr(begin, text.find("```", begin) - begin);
   const SkinnedBody body = MakeQuadruped(0);
-  const std::vector<Handle> handles =
+  const std::vector<DeformationHandle> handles =
       ReadHandles(File("example.json", example), body.pose("stand"), *body.connectivity, {});
   ASSERT_EQ(handles.size(), 4u);
   EXPECT_EQ(handles[0].name, "hind feet");
@@ -179,7 +180,7 @@ TEST_F(HandleFileTest, TheExampleOfTheDocumentationIsRead) {
   EXPECT_EQ(handles[3].positions->cols(), 2);
   std::set<int> vertices;
   size_t count = 0;
-  for (const Handle& handle : handles) {
+  for (const DeformationHandle& handle : handles) {
     vertices.insert(handle.vertices.begin(), handle.vertices.end());
     count += handle.vertices.size();
   }

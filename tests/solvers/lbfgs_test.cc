@@ -5,6 +5,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
+#include <shapespace/geodesic/internal/residual_blocks.h>
 #include <shapespace/numerics/internal/line_search.h>
 #include <shapespace/numerics/internal/minimise.h>
 
@@ -15,7 +16,7 @@ namespace {
 
 // A bent bar between two poses, and the data with which an optimiser relaxes the path between them.
 struct Problem {
-  Problem(const Body& body, int inner, const MetricOptions& options = {})
+  Problem(const ShapeFamily& body, int inner, const MetricOptions& options = {})
       : metric(FreezeMetric(options, body.connectivity, {body.pose(0), body.pose(70)})),
         shapes(testing::NoisyBlend(body.pose(0) / metric->unit, body.pose(70) / metric->unit, inner,
                                    2e-3)),
@@ -55,7 +56,7 @@ TEST(Minimise, AllThreeReachTheSameMinimum) {
   paper.bending = 1e-4;
   for (const MetricOptions& metric :
        {MetricOptions(), MetricOptions::Isometric(), with_volume, stiff, paper}) {
-    SCOPED_TRACE(Describe(metric));
+    SCOPED_TRACE(DescribeMetric(metric));
     Problem problem(MakeBar(4, 1, 1, 6, 1, 1), 3, metric);
     // The minimum is flat: hundreds of iterations lead to 1e-13 and gain 3e-8.
     const MinimiseOptions options = Tolerance(1e-11);
@@ -125,7 +126,7 @@ TEST(ThreadedLbfgs, DoesNothingAtAMinimum) {
 }
 
 TEST(ThreadedLbfgs, AcceptsAnEnergyOfRounding) {
-  const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 6, 1, 1);
   Problem problem(bar, 3, MetricOptions::Isometric());
   const Shape shape = bar.pose(0) / problem.metric->unit;
   problem.energy.Load(std::vector<Shape>(5, shape), problem.start.data());

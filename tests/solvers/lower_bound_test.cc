@@ -37,7 +37,7 @@ MetricOptions Only(double isometric, double strain, double bending) {
 }
 
 TEST(EnergyLowerBound, IsBelowTheMinimaOfEveryBlend) {
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2), tube = MakeTube(150);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2), tube = MakeTube(150);
   struct Pair {
     std::string name;
     std::shared_ptr<const Connectivity> connectivity;
@@ -71,10 +71,10 @@ TEST(EnergyLowerBound, IsBelowTheMinimaOfEveryBlend) {
 
 // If all elements can follow their own shortest paths at once, the minimum equals the bound.
 TEST(EnergyLowerBound, IsReachedByGrowthUnderOneMeasureOfLength) {
-  const Body tube = MakeTube(150);
+  const ShapeFamily tube = MakeTube(150);
   for (int shapes : {1, 7}) {
     for (const MetricOptions& metric : {Only(1, 0, 1e-3), Only(0, 1, 1e-3)}) {
-      SCOPED_TRACE(Describe(metric) + ", " + std::to_string(shapes));
+      SCOPED_TRACE(DescribeMetric(metric) + ", " + std::to_string(shapes));
       const GeodesicSummary summary =
           Solved(tube.connectivity, tube.pose(60), 2 * tube.pose(60), shapes, metric);
       EXPECT_NEAR(summary.energy, summary.lower_bound, 1e-7 * summary.energy);
@@ -83,7 +83,7 @@ TEST(EnergyLowerBound, IsReachedByGrowthUnderOneMeasureOfLength) {
 }
 
 TEST(EnergyLowerBound, IsReachedByIsometricMotionThatFoldsEvenly) {
-  const Body strip = MakeStrip(1, 1, 12);
+  const ShapeFamily strip = MakeStrip(1, 1, 12);
   for (int shapes : {1, 2, 7}) {
     SCOPED_TRACE(shapes);
     const GeodesicSummary summary = Solved(strip.connectivity, strip.pose(0),
@@ -131,7 +131,7 @@ TEST(EnergyLowerBound, IsOneWhereAPoseHoldsACollapsedTriangle) {
 }
 
 TEST(EnergyLowerBound, IsReachedByStraightLinesUnderPositionAlone) {
-  const Body bar = MakeBar(6, 1, 1, 6, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
   MetricOptions metric = Only(0, 0, 0);
   metric.lambda = 1;
   const GeodesicSummary summary = Solved(bar.connectivity, bar.pose(0), bar.pose(80), 7, metric);
@@ -140,7 +140,7 @@ TEST(EnergyLowerBound, IsReachedByStraightLinesUnderPositionAlone) {
 }
 
 TEST(EnergyLowerBound, IsZeroAndReachedBetweenRigidCopies) {
-  const Body tube = MakeTube(150);
+  const ShapeFamily tube = MakeTube(150);
   const Shape copy =
       (testing::Rotation(70, {1, 2, 3}) * tube.pose(30)).colwise() + Eigen::Vector3d(4, 5, 6);
   for (const testing::Blend& blend : testing::AllBlends()) {

@@ -27,7 +27,7 @@ using testing::MessageOf;
 using Call = std::function<double(double memory_limit, Progress* progress)>;
 
 struct Calls {
-  Body bar = MakeBar(6, 1, 1, 24, 4, 4);
+  ShapeFamily bar = MakeBar(6, 1, 1, 24, 4, 4);
   Shape straight = bar.pose(0), bent = bar.pose(30);
   std::shared_ptr<const Metric> metric = FreezeMetric({}, bar.connectivity, {straight, bent});
   Path path = MakePath(metric, {straight, bent}, {0, 1});
@@ -53,7 +53,8 @@ struct Calls {
       CorrespondenceOptions options;
       options.memory_limit = limit;
       const int last = static_cast<int>(straight.cols()) - 1;
-      const std::vector<Marker> markers = {{0, 0}, {4, 4}, {last / 2, last / 2}, {last, last}};
+      const std::vector<CorrespondenceMarker> markers = {
+          {0, 0}, {4, 4}, {last / 2, last / 2}, {last, last}};
       return Correspond(bar.connectivity, straight, bar.connectivity, straight, markers, options,
                         progress)
           .summary.estimated_bytes;
@@ -63,7 +64,7 @@ struct Calls {
     return [this](double limit, Progress* progress) {
       DeformationOptions options;
       options.memory_limit = limit;
-      Handle handle;
+      DeformationHandle handle;
       handle.vertices = {0};
       return Deform(bar.connectivity, straight, {handle}, options, progress)
           .summary.estimated_bytes;

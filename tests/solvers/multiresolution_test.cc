@@ -105,8 +105,8 @@ Pair Twice(const Pair& pair, const Eigen::Vector3d& offset) {
 }
 
 std::vector<Pair> Pairs() {
-  const Body tube = MakeTube(1600);
-  const Body sheet = MakeSheet(4, 1, 40, 10);
+  const ShapeFamily tube = MakeTube(1600);
+  const ShapeFamily sheet = MakeSheet(4, 1, 40, 10);
   std::vector<Pair> pairs = {
       {"tube", tube.connectivity, tube.pose(0), tube.pose(120)},
       {"sheet", sheet.connectivity, sheet.pose(0), sheet.pose(150)},
@@ -156,7 +156,7 @@ TEST(Interpolate, MovesAtConstantSpeed) {
 // Poses with random folds everywhere, as in bad scans: hinges could turn the wrong way, or rest and
 // jump.
 TEST(Interpolate, CrumpledPosesMoveAtConstantSpeedToo) {
-  const Body tube = MakeTube(1600);
+  const ShapeFamily tube = MakeTube(1600);
   const Shape first = tube.pose(0), last = tube.pose(90);
   const Eigen::Vector2i edge = tube.connectivity->Edges().col(0);
   const double deviation = 0.5 * (first.col(edge(0)) - first.col(edge(1))).norm();
@@ -177,7 +177,7 @@ TEST(Interpolate, CrumpledPosesMoveAtConstantSpeedToo) {
 // time through few shapes, or shapes lifted from a coarse level, are no sheets between shapes that
 // turn far.
 TEST(Interpolate, LeavesAStartThatEndsInAPoorValley) {
-  const Body sheet = MakeSheet(4, 1, 40, 10);
+  const ShapeFamily sheet = MakeSheet(4, 1, 40, 10);
   const Shape up = sheet.pose(180);
   const Shape down = up.array().colwise() * Eigen::Array3d(1, 1, -1);
   for (const GeodesicStart start : {GeodesicStart::kBest, GeodesicStart::kBlend}) {
@@ -186,8 +186,8 @@ TEST(Interpolate, LeavesAStartThatEndsInAPoorValley) {
       options.start = start;
       options.metric = metric;
       const GeodesicSummary summary = Interpolate(sheet.connectivity, {up, down}, options).summary;
-      EXPECT_LT(summary.Ratio(), 1.3) << Describe(metric);
-      EXPECT_LT(summary.quality.speed_max, 1.1) << Describe(metric);
+      EXPECT_LT(summary.Ratio(), 1.3) << DescribeMetric(metric);
+      EXPECT_LT(summary.quality.speed_max, 1.1) << DescribeMetric(metric);
     }
   }
 }
@@ -196,7 +196,7 @@ TEST(Interpolate, LeavesAStartThatEndsInAPoorValley) {
 // proportional to areas. Coarse surfaces, which cut corners, have smaller areas, measured in the
 // mesh's unit.
 TEST(Interpolate, MeasuresAllLevelsInOneUnit) {
-  const Body tube = MakeTube(2000);
+  const ShapeFamily tube = MakeTube(2000);
   const Shape small = tube.pose(0);
   GeodesicOptions options;
   options.shapes = 3;
@@ -227,7 +227,7 @@ TEST(Interpolate, MeasuresAllLevelsInOneUnit) {
 // In trapezoid form the cost of a rotation is proportional to the fourth power of its angle: two
 // segments of 40 degrees each would cost much more than sixteen of 5.
 TEST(Interpolate, FewShapesCostWhatManyDoInTrapezoidForm) {
-  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   GeodesicOptions options;
   options.metric = MetricOptions::Paper();
   options.shapes = 15;

@@ -22,7 +22,7 @@ const auto set = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_s
 
 // Shapes and tangents from every solver that factorises matrices.
 std::vector<Shape> SolveWithEverything() {
-  const Body bar = MakeBar(6, 1, 1, 24, 6, 6);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 24, 6, 6);
   const std::vector<Shape> poses = {bar.pose(bar.begin), bar.pose(40)};
   GeodesicOptions options;
   options.shapes = 3;

@@ -19,8 +19,8 @@
 namespace shapespace {
 namespace {
 
-const Body& FineBar() {
-  static const Body bar = MakeBar(6, 1, 1, 24, 3, 3);
+const ShapeFamily& FineBar() {
+  static const ShapeFamily bar = MakeBar(6, 1, 1, 24, 3, 3);
   return bar;
 }
 
@@ -60,7 +60,7 @@ TEST(OwnFeature, GoesOnAndIsTransportedAlike) {
   EXPECT_LT(testing::Distance(longer.path, expected.path), 1e-8);
 
   ExponentialOptions runge_kutta;
-  runge_kutta.integrator = Integrator::kRungeKutta4;
+  runge_kutta.integrator = GeodesicIntegrator::kRungeKutta4;
   EXPECT_LT(testing::Distance(Extrapolate(own, 1, runge_kutta).path,
                               Extrapolate(path, 1, runge_kutta).path),
             1e-8);
@@ -88,7 +88,7 @@ TEST(OwnFeature, TransfersAlike) {
 }
 
 TEST(OwnFeature, DeformsAlike) {
-  Handle held, pulled;
+  DeformationHandle held, pulled;
   const Shape rest = FineBar().pose(0);
   for (int v = 0; v < rest.cols(); ++v) {
     if (rest(0, v) < rest.row(0).minCoeff() + 0.1) held.vertices.push_back(v);
@@ -121,7 +121,7 @@ TEST(Stiffness, MovesStretchingToWhereItIsSoft) {
   longer.row(0) *= 1.4;
   DeformationOptions deformation;
   deformation.metric = options;
-  Handle left, right;
+  DeformationHandle left, right;
   for (int v = 0; v < rest.cols(); ++v) {
     if (rest(0, v) < rest.row(0).minCoeff() + 0.1) left.vertices.push_back(v);
     if (rest(0, v) > rest.row(0).maxCoeff() - 0.1) right.vertices.push_back(v);

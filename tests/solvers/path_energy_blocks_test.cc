@@ -34,8 +34,8 @@ TEST(PathEnergyBlocks, AreAQuarterOfTheEnergy) {
   all.volume = 0.3;
   paper.bending = 1e-4;
   for (const MetricOptions& options : {MetricOptions(), all, paper, testing::OwnBlend()}) {
-    SCOPED_TRACE(Describe(options));
-    const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
+    SCOPED_TRACE(DescribeMetric(options));
+    const ShapeFamily bar = MakeBar(4, 1, 1, 6, 1, 1);
     const std::vector<Shape> ends = {bar.pose(0), bar.pose(80)};
     const auto metric = FreezeMetric(options, bar.connectivity, ends);
     std::vector<Shape> shapes = NoisyBlend(ends[0] / metric->unit, ends[1] / metric->unit, 3, 0.01);
@@ -71,7 +71,7 @@ TEST(PathEnergyBlocks, AreAQuarterOfTheEnergy) {
 }
 
 TEST(PathEnergyBlocks, OfTheRigidMetricAreItsEnergyOnceTheMotionsAreSolvedFor) {
-  const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 6, 1, 1);
   const std::vector<Shape> ends = {bar.pose(0), bar.pose(80)};
   const auto metric = FreezeMetric(MetricOptions::Rigid(), bar.connectivity, ends);
   std::vector<Shape> shapes = NoisyBlend(ends[0] / metric->unit, ends[1] / metric->unit, 2, 0.01);
@@ -95,7 +95,7 @@ TEST(PathEnergyBlocks, OfTheRigidMetricAreItsEnergyOnceTheMotionsAreSolvedFor) {
 // A user's spring as additional residual: the stiffer it is, the nearer its vertex is to the
 // target.
 TEST(PathEnergyBlocks, TakeResidualsOfTheUser) {
-  const Body bar = MakeBar(4, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 6, 1, 1);
   GeodesicOptions options;
   options.shapes = 3;
   options.tolerance = 1e-10;
@@ -142,7 +142,7 @@ TEST(PathEnergyBlocks, TakeResidualsOfTheUser) {
 }
 
 TEST(PathEnergyBlocks, RefuseWhatTheyCannotTake) {
-  const Body bar = MakeBar(4, 1, 1, 40, 15, 15);
+  const ShapeFamily bar = MakeBar(4, 1, 1, 40, 15, 15);
   std::vector<Shape> shapes = {bar.pose(0), bar.pose(0)};
   ASSERT_GT(shapes[0].cols(), cost::kMaxDenseVertices);
   MetricOptions volume;

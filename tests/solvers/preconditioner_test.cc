@@ -24,7 +24,7 @@ namespace {
 
 using testing::MessageOf;
 
-Eigen::SparseMatrix<double> Matrix(const Body& body) {
+Eigen::SparseMatrix<double> Matrix(const ShapeFamily& body) {
   const std::vector<Shape> poses = {body.pose(0), body.pose(40)};
   const auto metric = FreezeMetric({}, body.connectivity, poses);
   return ScalarMetric(*metric, {poses[0] / metric->unit, poses[1] / metric->unit}, 0);
@@ -118,7 +118,7 @@ TEST(Cholesky, SaysThatMemoryRanOut) {
 #endif
 
 TEST(ScalarMetric, CostsNothingForTranslationsButForThePositionTerm) {
-  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0)});
   const Eigen::SparseMatrix<double> matrix = ScalarMetric(*metric, {bar.pose(0) / metric->unit}, 0);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(matrix.rows());
@@ -127,7 +127,7 @@ TEST(ScalarMetric, CostsNothingForTranslationsButForThePositionTerm) {
 }
 
 TEST(ChangeOfVariables, TransposeIsTheTranspose) {
-  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(40)});
   const Cholesky factor(ScalarMetric(*metric, {bar.pose(0) / metric->unit}, 0));
   for (int inner : {1, 4, 15}) {
@@ -149,7 +149,7 @@ TEST(ChangeOfVariables, TransposeIsTheTranspose) {
 }
 
 TEST(Preconditioner, IsBothHalvesOfTheChangeOfVariables) {
-  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(40)});
   const Cholesky factor(ScalarMetric(*metric, {bar.pose(0) / metric->unit}, 0));
   const CholeskyFactor<float> single(factor);
@@ -183,7 +183,7 @@ TEST(Preconditioner, IsBothHalvesOfTheChangeOfVariables) {
 // In a flat metric the preconditioner is the inverse Hessian: one step from anywhere reaches the
 // minimum.
 TEST(ChangeOfVariables, MakesTheHessianOfAFlatMetricTheIdentity) {
-  const Body sheet = MakeSheet(1, 1, 6, 6);
+  const ShapeFamily sheet = MakeSheet(1, 1, 6, 6);
   MetricOptions options;
   options.strain = options.bending = 0;
   options.lambda = 1;

@@ -20,7 +20,7 @@ using testing::Rotation;
 
 // Half way on straight lines between two poses of a finger, with dents.
 struct Finger {
-  Body body = MakeTube(3000);
+  ShapeFamily body = MakeTube(3000);
   Shape rest = body.pose(0);
   Shape bent = body.pose(140);
   Shape distorted = 0.5 * (rest + bent);

@@ -43,7 +43,7 @@ TEST(Segments, KeepTheirLengthsBetweenPoses) {
           bar.connectivity,
           {bar.Pose(0, {1, 0, 0}), bar.Pose(30, Eigen::Vector3d(-1, 3, 1).normalized())}, options);
       EXPECT_TRUE(result.path.converged);
-      EXPECT_LT(GreatestChange(bar, result.path), 0.05) << Describe(metric);
+      EXPECT_LT(GreatestChange(bar, result.path), 0.05) << DescribeMetric(metric);
     }
   }
 }
@@ -51,7 +51,7 @@ TEST(Segments, KeepTheirLengthsBetweenPoses) {
 TEST(Segments, KeepTheirLengthsUnderHandles) {
   const WhiskeredBar bar(8, 2);
   const Shape rest = bar.Pose(0, {1, 0, 0});
-  Handle foot, tip;
+  DeformationHandle foot, tip;
   foot.vertices = Where(rest, [](const auto& p) { return p.x() < -1.9; });
   tip.vertices = {bar.first + WhiskeredBar::kSegments - 1};
   tip.positions = rest.col(tip.vertices[0]) + Eigen::Vector3d(-0.4, 0.6, 0.3);

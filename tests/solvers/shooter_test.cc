@@ -21,7 +21,7 @@ using testing::kNeverCancelled;
 // no solution on the mesh itself.
 struct Beyond {
   Path path;
-  Departure from_previous, with_velocity;
+  InitialState from_previous, with_velocity;
 
   Beyond() {
     const SkinnedBody animal = MakeSkinnedBody("quadruped", 1000);
@@ -46,7 +46,7 @@ struct Beyond {
     with_velocity = {path.shapes[last], {}, velocity, 0};
   }
 
-  Shape Next(const Departure& departure, ExponentialSummary::Step* row) const {
+  Shape Next(const InitialState& departure, ExponentialSummary::Step* row) const {
     return Shooter(path.metric, {path.shapes.front(), path.shapes.back()}, {}, kNeverCancelled)
         .Next(departure, row);
   }
@@ -65,7 +65,7 @@ TEST(Shooter, TakesTheStepOfTheCoarserMeshAndLiftsTheDetail) {
   const auto metric = FreezeMetric(beyond.path.metric->options, hierarchy.LevelConnectivity(coarse),
                                    {restrict(known[0]), restrict(known[1])}, 1);
   const FeatureMap map(metric);
-  for (const Departure* departure : {&beyond.from_previous, &beyond.with_velocity}) {
+  for (const InitialState* departure : {&beyond.from_previous, &beyond.with_velocity}) {
     SCOPED_TRACE(departure == &beyond.from_previous ? "from two shapes" : "with a velocity");
     ExponentialSummary::Step row;
     const Shape shape = beyond.Next(*departure, &row);
@@ -73,8 +73,8 @@ TEST(Shooter, TakesTheStepOfTheCoarserMeshAndLiftsTheDetail) {
     EXPECT_FALSE(row.converged);
     EXPECT_GT(row.residual, 1e-3);
 
-    const Departure restricted = {restrict(departure->shape), restrict(departure->previous),
-                                  restrict(departure->velocity), 0};
+    const InitialState restricted = {restrict(departure->shape), restrict(departure->previous),
+                                     restrict(departure->velocity), 0};
     MetricSolver solver;
     ExponentialSummary::Step coarse_row;
     Shape root;
@@ -90,8 +90,8 @@ TEST(Shooter, TakesTheStepOfTheCoarserMeshAndLiftsTheDetail) {
 TEST(Shooter, TurnsWithTheBody) {
   const Beyond beyond;
   const Eigen::Matrix3d turn = testing::Rotation(70, {1, 2, -1});
-  for (const Departure* departure : {&beyond.from_previous, &beyond.with_velocity}) {
-    Departure turned = *departure;
+  for (const InitialState* departure : {&beyond.from_previous, &beyond.with_velocity}) {
+    InitialState turned = *departure;
     for (Eigen::Matrix3Xd* x : {&turned.shape, &turned.previous, &turned.velocity}) {
       *x = turn * *x;
     }

@@ -34,8 +34,8 @@ struct Case {
   }
 };
 
-Case Moving(const std::string& name, const Body& body, const MetricOptions& options, double from,
-            double to) {
+Case Moving(const std::string& name, const ShapeFamily& body, const MetricOptions& options,
+            double from, double to) {
   const auto metric =
       FreezeMetric(options, body.connectivity, {body.pose(body.begin), body.pose(to)});
   return {name, metric, body.pose(from) / metric->unit, body.pose(to) / metric->unit};
@@ -99,7 +99,7 @@ TEST(SolveStepWithCeres, FindsTheShapeWhoseFeaturesAreTheTarget) {
 }
 
 TEST(SolveStepWithCeres, IsIndifferentToTheSizeOfTheStep) {
-  const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   // The solution departs from the straight line by the square of the step.
   double departure = 0;
   for (double angle : {1.0, 1e-1, 1e-2}) {
@@ -152,7 +152,7 @@ TEST(SolveStepWithCeres, TranslatesAndRestsExactly) {
 TEST(SolveStepWithCeres, GoesStraightOnInAFlatMetric) {
   MetricOptions flat;
   flat.strain = flat.bending = 0;
-  for (const Body& body : {MakeBar(6, 1, 1, 6, 1, 1), MakeSheet(2, 1, 6, 4)}) {
+  for (const ShapeFamily& body : {MakeBar(6, 1, 1, 6, 1, 1), MakeSheet(2, 1, 6, 4)}) {
     const Case test = Moving("", body, flat, 20, 30);
     const FeatureMap map(test.metric);
     Shape shape = test.Predicted();
@@ -167,7 +167,7 @@ TEST(SolveStepWithCeres, GoesStraightOnInAFlatMetric) {
 }
 
 TEST(SolveStepWithCeres, SumFeaturesPullTheirShare) {
-  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 1, 1);
   MetricOptions stiff;
   stiff.volume = 30;
   const auto volume_error = [&](const MetricOptions& options) {

@@ -21,12 +21,12 @@ using testing::kNeverCancelled;
 // A metric, and a step that continues from two shapes (in the metric's unit).
 struct StepCase {
   std::shared_ptr<const Metric> metric;
-  Departure departure;
+  InitialState departure;
   FeatureMap map{metric};
   MetricSolver solver;
   ExponentialSummary::Step row;
 
-  StepCase(std::shared_ptr<const Metric> of, Departure from)
+  StepCase(std::shared_ptr<const Metric> of, InitialState from)
       : metric(std::move(of)), departure(std::move(from)) {}
 
   double SpeedBefore() const {
@@ -39,7 +39,7 @@ struct StepCase {
 };
 
 StepCase BendingBar() {
-  const Body bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 1, 1);
   const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0)});
   return {metric, {bar.pose(10) / metric->unit, bar.pose(5) / metric->unit, {}, 0}};
 }

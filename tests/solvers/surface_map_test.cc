@@ -107,7 +107,7 @@ class MarkerFileTest : public testing::FilesTest {
 };
 
 TEST_F(MarkerFileTest, ReadsNumbersAndNamesOfGroups) {
-  const std::vector<Marker> markers = ReadMarkers(
+  const std::vector<CorrespondenceMarker> markers = ReadMarkers(
       File("m.txt", "# two columns\n1 2\n\n 3 4  # corners\nnose nose\n"), mesh_, mesh_);
   ASSERT_EQ(markers.size(), 3u);
   EXPECT_EQ(markers[0].template_vertex, 0);

@@ -303,7 +303,7 @@ TEST(Transfer, SaysWhatItsPathsAre) {
   EXPECT_EQ(json["strain_off"]["rms"], summary.strain_rms);
   EXPECT_EQ(json["angle_off_degrees"], summary.angle_rms);
 
-  EXPECT_EQ(Describe(path.metric->options), Describe(MetricOptions::Strain()));
+  EXPECT_EQ(DescribeMetric(path.metric->options), DescribeMetric(MetricOptions::Strain()));
   EXPECT_TRUE(Transfer(source, ThinBar()).hybrids.shapes.empty());
 }
 

@@ -57,7 +57,7 @@ Path AsTheyAre(const std::shared_ptr<const Connectivity>& connectivity,
 }
 
 // From the body's pose at `first` to that at `last`.
-Path Deforming(const Body& body, double first, double last, int segments,
+Path Deforming(const ShapeFamily& body, double first, double last, int segments,
                const MetricOptions& options = {}) {
   std::vector<Shape> shapes;
   for (int i = 0; i <= segments; ++i) {
@@ -69,7 +69,7 @@ Path Deforming(const Body& body, double first, double last, int segments,
 const Eigen::Vector3d kAxis(1, 2, -0.5);
 
 // The body's shape at `at`, rotated by an angle in degrees about an axis through the origin.
-Path Turning(const Body& body, double at, double degrees, int segments,
+Path Turning(const ShapeFamily& body, double at, double degrees, int segments,
              const MetricOptions& options = {}, const Eigen::Vector3d& axis = kAxis) {
   std::vector<Shape> shapes;
   for (int i = 0; i <= segments; ++i) {
@@ -78,10 +78,10 @@ Path Turning(const Body& body, double at, double degrees, int segments,
   return AsTheyAre(body.connectivity, shapes, options);
 }
 
-Body Bar() { return MakeBar(6, 1, 1, 6, 1, 1); }
+ShapeFamily Bar() { return MakeBar(6, 1, 1, 6, 1, 1); }
 
 // One tangent along the body's own deformation, and one arbitrary.
-std::vector<Tangent> SomeTangents(const Body& body, double at) {
+std::vector<Tangent> SomeTangents(const ShapeFamily& body, double at) {
   const Shape shape = body.pose(at);
   const double size = testing::Diameter(shape);
   return {100 * (body.pose(at + 0.01) - shape) + Tangent::Constant(3, shape.cols(), 0.03 * size),
@@ -99,7 +99,7 @@ double NormChange(const TransportSummary& summary) {
 
 // At constant speed, but with segments of different length: the paper's transport depends on time.
 TEST(Transport, DoesNothingAlongATranslation) {
-  for (const Body& body : {Bar(), MakeSteffen(), MakeSheet(2, 1, 8, 4)}) {
+  for (const ShapeFamily& body : {Bar(), MakeSteffen(), MakeSheet(2, 1, 8, 4)}) {
     SCOPED_TRACE(body.name);
     std::vector<Shape> shapes;
     for (int i = 0; i < 4; ++i) {
@@ -136,7 +136,7 @@ TEST(Transport, DoesNothingInAFlatMetric) {
 }
 
 TEST(Transport, TurnsTangentsWithBodiesThatTurn) {
-  for (const Body& body : {Bar(), MakeBricard(), MakeSheet(2, 1, 8, 4)}) {
+  for (const ShapeFamily& body : {Bar(), MakeBricard(), MakeSheet(2, 1, 8, 4)}) {
     SCOPED_TRACE(body.name);
     const std::vector<Tangent> tangents = SomeTangents(body, 5);
     for (int segments : {1, 4}) {
@@ -153,7 +153,7 @@ TEST(Transport, TurnsTangentsWithBodiesThatTurn) {
 
 // The same if the path's shapes rest and its motions rotate.
 TEST(Transport, TurnsTangentsWithTheRigidMotionThatThePathCarries) {
-  const Body body = MakeBricard();
+  const ShapeFamily body = MakeBricard();
   Path path = Turning(body, 5, 0, 3);
   for (int i = 0; i <= 3; ++i) {
     path.motions[i] = {Rotation(20 + 30 * i, kAxis), Eigen::Vector3d(i, 2, -i)};
@@ -168,7 +168,7 @@ TEST(Transport, TurnsTangentsWithTheRigidMotionThatThePathCarries) {
 // Without alignment, the connection itself must rotate the tangent. It does not rotate its rigid
 // part, so there is no closed form; but norms are preserved, and the order is two.
 TEST(Transport, IsOfSecondOrderAtLeastOnBodiesThatTurn) {
-  for (const Body& body : {Bar(), MakeBricard()}) {
+  for (const ShapeFamily& body : {Bar(), MakeBricard()}) {
     SCOPED_TRACE(body.name);
     for (const Tangent& x : SomeTangents(body, 5)) {
       const Tangent exact = Transport(Turning(body, 5, 90, 256), {x}, Unaligned()).tangents[0];
@@ -187,10 +187,10 @@ TEST(Transport, IsOfSecondOrderAtLeastOnBodiesThatTurn) {
 }
 
 TEST(Transport, IsOfSecondOrderAtLeastOnBodiesThatBend) {
-  const std::pair<Body, double> cases[] = {{Bar(), 90},
-                                           {MakeSheet(2, 1, 8, 4), 120},
-                                           {MakeBricard(), 40},
-                                           {MakeMiura(1, 1, 60, 3, 3), 35}};
+  const std::pair<ShapeFamily, double> cases[] = {{Bar(), 90},
+                                                  {MakeSheet(2, 1, 8, 4), 120},
+                                                  {MakeBricard(), 40},
+                                                  {MakeMiura(1, 1, 60, 3, 3), 35}};
   for (const auto& [body, last] : cases) {
     SCOPED_TRACE(body.name);
     for (const TransportOptions& options : {TransportOptions(), Unaligned()}) {
@@ -218,7 +218,7 @@ TEST(Transport, IsOfSecondOrderAtLeastOnBodiesThatBend) {
 // For any number of segments and any rotation; the loss is of fourth order per segment, so of third
 // order for the path.
 TEST(Transport, NeverLengthensAndHardlyShortens) {
-  const std::pair<Body, double> cases[] = {
+  const std::pair<ShapeFamily, double> cases[] = {
       {Bar(), 90}, {MakeSheet(2, 1, 8, 4), 120}, {MakeBricard(), 40}};
   for (const auto& [body, last] : cases) {
     SCOPED_TRACE(body.name);
@@ -244,7 +244,7 @@ TEST(Transport, NeverLengthensAndHardlyShortens) {
 // fields of coordinates satisfy the ordinary differential equation G Y' = -J^T (dJ/dt) Y. It is
 // solved by the Runge-Kutta method of fourth order, with the derivative of J from central
 // differences.
-Tangent FromItsEquation(const Body& body, double first, double last,
+Tangent FromItsEquation(const ShapeFamily& body, double first, double last,
                         const std::shared_ptr<const Metric>& metric, Tangent y, int steps) {
   const FeatureMap map(metric);
   const auto shape = [&](double t) -> Shape {
@@ -273,7 +273,7 @@ Tangent FromItsEquation(const Body& body, double first, double last,
 }
 
 TEST(Transport, SolvesTheEquationOfTheLeviCivitaConnection) {
-  const std::pair<Body, double> cases[] = {{Bar(), 90}, {MakeBricard(), 40}};
+  const std::pair<ShapeFamily, double> cases[] = {{Bar(), 90}, {MakeBricard(), 40}};
   for (const auto& [body, last] : cases) {
     SCOPED_TRACE(body.name);
     const Path path = Deforming(body, 10, last, 64);
@@ -366,7 +366,7 @@ TEST(Transport, TurnsByARightAngleRoundAnOctant) {
 }
 
 TEST(Transport, CommutesWithRotationTranslationAndScale) {
-  const Body body = MakeBricard();
+  const ShapeFamily body = MakeBricard();
   const Eigen::Matrix3d turn = Rotation(70, {1, -2, 1});
   const std::vector<Tangent> tangents = SomeTangents(body, -20);
   const Path path = Deforming(body, -20, 40, 4);
@@ -393,7 +393,7 @@ TEST(Transport, CarriesTheVelocityOfAGeodesicToItsVelocity) {
        {testing::Turning(Bar(), 30, 60, {}), testing::Deforming(MakeBricard(), 0, 25, {})}) {
     SCOPED_TRACE(motion.name);
     ExponentialOptions fine;
-    fine.integrator = Integrator::kRungeKutta4;
+    fine.integrator = GeodesicIntegrator::kRungeKutta4;
     const Path exact = Extrapolate(motion.metric, motion.shape, motion.velocity, 256, fine).path;
     Path back = exact;
     std::reverse(back.shapes.begin(), back.shapes.end());
@@ -421,7 +421,7 @@ TEST(Transport, CarriesTheVelocityOfAGeodesicToItsVelocity) {
 
 // The paper's transport preserves the product with the path's velocity, and nothing else.
 TEST(Transport, WithoutCostOfPositionIsAsWithASmallOne) {
-  for (const Body& body : {Bar(), MakeSteffen(), MakeSheet(2, 1, 8, 4)}) {
+  for (const ShapeFamily& body : {Bar(), MakeSteffen(), MakeSheet(2, 1, 8, 4)}) {
     SCOPED_TRACE(body.name);
     const std::vector<Tangent> tangents = SomeTangents(body, 0);
     const auto transport = [&](double lambda) {
@@ -438,7 +438,7 @@ TEST(Transport, WithoutCostOfPositionIsAsWithASmallOne) {
 }
 
 TEST(PapersTransport, KeepsTheProductWithTheVelocity) {
-  for (const Body& body : {Bar(), MakeBricard()}) {
+  for (const ShapeFamily& body : {Bar(), MakeBricard()}) {
     SCOPED_TRACE(body.name);
     const int segments = 8;
     const Path path = Deforming(body, 10, 40, segments);
@@ -460,7 +460,7 @@ TEST(PapersTransport, KeepsTheProductWithTheVelocity) {
 
 TEST(PapersTransport, DoesNotKeepNormsNorConverge) {
   const Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
-  for (const Body& body : {Bar(), MakeSheet(2, 1, 8, 4)}) {
+  for (const ShapeFamily& body : {Bar(), MakeSheet(2, 1, 8, 4)}) {
     SCOPED_TRACE(body.name);
     // A tangent that bends the body in its first position. It does not rotate with the body, so
     // later it stretches it.
@@ -486,7 +486,7 @@ TEST(PapersTransport, DoesNotKeepNormsNorConverge) {
 }
 
 TEST(Transport, RefusesWhatCannotBeTransported) {
-  const Body body = MakeBricard();
+  const ShapeFamily body = MakeBricard();
   const Path path = Deforming(body, -20, 40, 3);
   const Tangent x = SomeTangents(body, -20)[0];
   const auto refusal = [&](void (*change)(TransportOptions*)) {
@@ -535,7 +535,7 @@ class Stop final : public Progress {
 };
 
 TEST(Transport, CanBeCancelled) {
-  const Body body = MakeBricard();
+  const ShapeFamily body = MakeBricard();
   Stop progress;
   EXPECT_THROW(Transport(Deforming(body, -20, 40, 3), SomeTangents(body, -20), {}, &progress),
                Cancelled);

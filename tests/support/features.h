@@ -18,15 +18,15 @@ const Struct& Get(const Metric& metric) {
 
 /// Calls body(struct) with the struct of a library feature, for tests that differentiate it
 /// independently.
-template <typename Body>
-void WithStruct(const Feature& feature, const Body& body) {
+template <typename ShapeFamily>
+void WithStruct(const Feature& feature, const ShapeFamily& body) {
   const auto with = [&](const auto* of_type) {
     if (of_type != nullptr) body(*of_type);
     return of_type != nullptr;
   };
   if (!with(feature.As<EdgeLength>()) && !with(feature.As<LogLength>()) &&
-      !with(feature.As<TriangleStrain>()) && !with(feature.As<Position>()) &&
-      !with(feature.As<Dihedral>()) && !with(feature.As<Volume>())) {
+      !with(feature.As<TriangleStrain>()) && !with(feature.As<PositionFeature>()) &&
+      !with(feature.As<Dihedral>()) && !with(feature.As<VolumeFeature>())) {
     throw std::runtime_error("the feature is not one of the library's");
   }
 }

@@ -77,7 +77,8 @@ inline Tangent Spin(const Metric& metric, const Shape& shape, double degrees,
 }
 
 /// A rotating body, in its shape at parameter `at`.
-inline Motion Turning(const Body& body, double at, double degrees, const MetricOptions& options) {
+inline Motion Turning(const ShapeFamily& body, double at, double degrees,
+                      const MetricOptions& options) {
   const Shape shape = body.pose(at);
   const auto metric = FreezeMetric(options, body.connectivity, {shape});
   return {body.name + ", turning", metric, shape, Spin(*metric, shape, degrees, {0.3, 1, 0.5})};
@@ -85,7 +86,8 @@ inline Motion Turning(const Body& body, double at, double degrees, const MetricO
 
 /// A body that deforms along its own family at parameter `at`, by `rate` parameter values per unit
 /// of time.
-inline Motion Deforming(const Body& body, double at, double rate, const MetricOptions& options) {
+inline Motion Deforming(const ShapeFamily& body, double at, double rate,
+                        const MetricOptions& options) {
   // By central differences, for which edges of an isometric family grow by less than h^2.
   const double h = 1e-5 * (body.end - body.begin);
   const Shape shape = body.pose(at);

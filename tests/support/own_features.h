@@ -35,7 +35,7 @@ struct CopyOf : ElementFeature<Struct::kVertices, Struct::kValues> {
 struct OwnStrain : CopyOf<TriangleStrain, OwnStrain> {
   static constexpr const char* kName = "own strain";
 };
-struct OwnVolume : CopyOf<Volume, OwnVolume> {
+struct OwnVolume : CopyOf<VolumeFeature, OwnVolume> {
   static constexpr const char* kName = "own volume";
 };
 

@@ -15,7 +15,7 @@ struct Remeshed {
   SkinnedBody first, second;
   Shape rest, other_rest;  ///< both standing: near points correspond
   Shape target;
-  std::vector<Marker> markers;
+  std::vector<CorrespondenceMarker> markers;
 
   explicit Remeshed(const std::string& pose = "stand", int first_triangles = 2400,
                     int second_triangles = 3300, int num_markers = 16,

@@ -9,7 +9,7 @@
 namespace shapespace::testing {
 
 /// The body with a few inner edges that are not sides of triangles.
-inline Body Stiffened(Body body) {
+inline ShapeFamily Stiffened(ShapeFamily body) {
   const Connectivity& surface = *body.connectivity;
   std::vector<int> begin, corners;
   for (const auto& triangle : surface.Triangles().colwise()) {

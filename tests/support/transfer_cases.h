@@ -18,8 +18,8 @@ namespace shapespace::testing {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-inline const Body& ThickBar() {
-  static const Body bar = MakeBar(6, 1, 1, 12, 2, 2);
+inline const ShapeFamily& ThickBar() {
+  static const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   return bar;
 }
 

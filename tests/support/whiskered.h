@@ -50,7 +50,7 @@ struct WhiskeredBar {
     return lengths;
   }
 
-  Body body;
+  ShapeFamily body;
   Eigen::Index root = 0;  ///< the bar's vertex at which the whisker begins
   int first = 0;          ///< the whisker's first vertex; the others follow it
   std::shared_ptr<const Connectivity> connectivity;

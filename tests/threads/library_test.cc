@@ -36,7 +36,7 @@ TEST(QuadrupedTest, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(CountIntersections, IsTheSameForAnyNumberOfThreads) {
-  const Body tube = MakeTube(1500);
+  const ShapeFamily tube = MakeTube(1500);
   Shape flat = tube.pose(0);
   flat.row(2) *= flat.row(0).array().sin().matrix().asDiagonal();  // turns inside out now and then
   const std::int64_t count = CountIntersections(*tube.connectivity, flat);
@@ -66,7 +66,7 @@ TEST(Hierarchy, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(FeatureMap, IsTheSameForAnyNumberOfThreads) {
-  const Body bar = MakeBar(6, 1, 1, 60, 4, 4);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 60, 4, 4);
   ASSERT_GT(bar.connectivity->NumVertices(), 512);  // several tasks a feature
   MetricOptions options;
   options.volume = 0.3;
@@ -99,7 +99,7 @@ TEST(FeatureMap, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(PathEnergy, IsTheSameForAnyNumberOfThreads) {
-  const Body bar = testing::Stiffened(MakeBar(6, 1, 1, 120, 20, 20));
+  const ShapeFamily bar = testing::Stiffened(MakeBar(6, 1, 1, 120, 20, 20));
   MetricOptions options;
   options.volume = 0.3;
   options.strain = 0.1;
@@ -120,7 +120,7 @@ TEST(PathEnergy, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(FindRigidParts, IsTheSameForAnyNumberOfThreads) {
-  const Body tube = MakeTube(3000);
+  const ShapeFamily tube = MakeTube(3000);
   const Path path =
       testing::PathOf(tube.connectivity, {tube.pose(0), tube.pose(30), tube.pose(60)});
   const auto results = testing::OnThreads([&] { return FindRigidParts(path); });

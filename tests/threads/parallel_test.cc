@@ -38,11 +38,11 @@ int AtTheSameTime(int threads) {
 TEST(SetThreads, GivesAsManyThreadsAsAskedFor) {
   for (int threads : {3, 8, 2, 64, 1}) {
     SetThreads(threads);
-    EXPECT_EQ(Threads(), threads);
+    EXPECT_EQ(NumThreads(), threads);
     EXPECT_EQ(AtTheSameTime(threads), threads);
   }
   SetThreads(0);
-  EXPECT_EQ(AtTheSameTime(Threads()), Threads());
+  EXPECT_EQ(AtTheSameTime(NumThreads()), NumThreads());
 }
 
 TEST(SetThreads, RefusesNumbersThatNoMachineHas) {

@@ -27,10 +27,10 @@ namespace shapespace {
 namespace {
 
 // With more than 1024 vertices, which are several blocks of rows and of elements.
-Body Bar() { return MakeBar(6, 1, 1, 48, 8, 8); }
+ShapeFamily Bar() { return MakeBar(6, 1, 1, 48, 8, 8); }
 
 TEST(ThreadedLbfgs, IsTheSameForAnyNumberOfThreads) {
-  const Body bar = MakeBar(6, 1, 1, 60, 10, 10);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 60, 10, 10);
   const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(70)});
   const std::vector<Shape> shapes =
       testing::NoisyBlend(bar.pose(0) / metric->unit, bar.pose(70) / metric->unit, 5, 2e-3);
@@ -64,7 +64,7 @@ TEST(Correspond, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Interpolate, IsTheSameForAnyNumberOfThreads) {
-  const Body bar = MakeBar(6, 1, 1, 60, 10, 10);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 60, 10, 10);
   GeodesicOptions options;
   options.shapes = 7;
   const auto paths = testing::OnThreads([&] {
@@ -74,9 +74,9 @@ TEST(Interpolate, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Deform, IsTheSameForAnyNumberOfThreads) {
-  const Body bar = MakeBar(6, 1, 1, 24, 4, 4);
+  const ShapeFamily bar = MakeBar(6, 1, 1, 24, 4, 4);
   const Shape rest = bar.pose(0);
-  Handle left, right;
+  DeformationHandle left, right;
   for (int v = 0; v < rest.cols(); ++v) {
     if (rest(0, v) < -2.7) left.vertices.push_back(v);
     if (rest(0, v) > 2.7) right.vertices.push_back(v);
@@ -99,7 +99,7 @@ TEST(Exponential, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Transport, IsTheSameForAnyNumberOfThreads) {
-  const Body bar = Bar();
+  const ShapeFamily bar = Bar();
   const Path path = testing::PathOf(bar.connectivity, {bar.pose(10), bar.pose(25), bar.pose(40)});
   const int num_vertices = bar.connectivity->NumVertices();
   const std::vector<Tangent> tangents = {Tangent::Constant(3, num_vertices, 0.1),
@@ -109,7 +109,7 @@ TEST(Transport, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(CorrectPath, IsTheSameForAnyNumberOfThreads) {
-  const Body bar = Bar();
+  const ShapeFamily bar = Bar();
   const Tangent way = bar.pose(10) - bar.pose(0);
   std::vector<Shape> shapes;  // on a straight line, which stretches the bar
   for (int i = 0; i <= 8; ++i) shapes.push_back(bar.pose(0) + i * way);
@@ -123,7 +123,7 @@ TEST(CorrectPath, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Transfer, IsTheSameForAnyNumberOfThreads) {
-  const Body thick = MakeBar(6, 1, 1, 40, 7, 7);
+  const ShapeFamily thick = MakeBar(6, 1, 1, 40, 7, 7);
   const Path source = testing::PathOf(thick.connectivity, {thick.pose(0), thick.pose(20)});
   const Shape thin = MakeBar(8, 1.6, 0.6, 40, 7, 7).pose(0);
   ASSERT_GT(thin.cols(), 1024);  // several blocks of rows
@@ -142,7 +142,7 @@ TEST(Transfer, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Explore, IsTheSameForAnyNumberOfThreads) {
-  const Body tube = testing::SmallTube();
+  const ShapeFamily tube = testing::SmallTube();
   const std::vector<Shape> poses = testing::TubePoses(tube);
   const auto results =
       testing::OnThreads([&] { return Explore(tube.connectivity, poses).space.nodes; });

@@ -24,7 +24,7 @@ TEST_F(BodyToolTest, ListsEveryBody) {
 TEST_F(BodyToolTest, WritesBothEndsByDefault) {
   ASSERT_EQ(Run("shape-body", {"bricard"}).code, 0);
   EXPECT_EQ(Files(), (std::vector<std::string>{"body0.obj", "body1.obj"}));
-  const Body body = MakeBody("bricard");
+  const ShapeFamily body = MakeBody("bricard");
   EXPECT_LE((ReadSoup(Path("body0.obj")).vertices - body.pose(body.begin)).cwiseAbs().maxCoeff(),
             1e-8);
   EXPECT_LE((ReadSoup(Path("body1.obj")).vertices - body.pose(body.end)).cwiseAbs().maxCoeff(),

@@ -94,7 +94,7 @@ TEST_F(ExtrapolateTest, APathGoesOnWithAllThatItIs) {
   EXPECT_EQ(on.poses, walk.poses);
   EXPECT_EQ(on.extrapolated, 3);
   EXPECT_EQ(on.metric->unit, walk.metric->unit);
-  EXPECT_EQ(Describe(on.metric->options), Describe(walk.metric->options));
+  EXPECT_EQ(DescribeMetric(on.metric->options), DescribeMetric(walk.metric->options));
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(on.Placed(i) == walk.Placed(i)) << i;
   EXPECT_EQ(on.provenance.rfind(walk.provenance + "; shape-extrapolate ", 0), 0u);
   ExpectContains(on.provenance, ": walk.path");

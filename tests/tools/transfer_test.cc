@@ -54,7 +54,7 @@ TEST_F(TransferTest, TheLadderMakesAFrameOfEveryPose) {
   ASSERT_EQ(path.NumShapes(), 3);
   EXPECT_EQ(path.poses, std::vector<int>{0});
   EXPECT_EQ(path.extrapolated, 2);
-  EXPECT_EQ(Describe(path.metric->options), "strain 1, lambda 0.0001, bending 0.02");
+  EXPECT_EQ(DescribeMetric(path.metric->options), "strain 1, lambda 0.0001, bending 0.02");
   ExpectContains(path.provenance, "shape-transfer ");
   ExpectContains(path.provenance, ": tube0.obj tube1.obj tube2.obj thin.obj");
   const shapespace::Path hybrids = ReadPath(Path("mid.path"));

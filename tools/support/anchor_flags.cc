@@ -37,8 +37,8 @@ std::pair<int, double> GroundFromFlag() {
 
 }  // namespace
 
-Anchorage Anchorage::FromFlags() {
-  Anchorage anchorage;
+AnchorFlags AnchorFlags::FromFlags() {
+  AnchorFlags anchorage;
   if (IsGiven("ground")) anchorage.ground_ = GroundFromFlag();
   if (!IsGiven("anchor")) return anchorage;
   try {
@@ -49,17 +49,17 @@ Anchorage Anchorage::FromFlags() {
   return anchorage;
 }
 
-void Anchorage::Select(const Shape& shape, const Connectivity& connectivity,
-                       const Appearance& appearance) {
+void AnchorFlags::Select(const Shape& shape, const Connectivity& connectivity,
+                         const Appearance& appearance) {
   if (!anchor_) return;
   try {
-    vertices_ = shapespace::Select(*anchor_, shape, connectivity, appearance);
+    vertices_ = SelectVertices(*anchor_, shape, connectivity, appearance);
   } catch (const InvalidOptions& error) {
     throw UsageError("--anchor " + FLAGS_anchor + ": " + error.what());
   }
 }
 
-void Anchorage::Apply(const Path& whole, Path* path) const {
+void AnchorFlags::Apply(const Path& whole, Path* path) const {
   if (anchor_) {
     Anchor(whole, vertices_, path);
     path->provenance += "; anchored";

@@ -12,10 +12,10 @@
 namespace shapespace::tools {
 
 /// The rigid motion of a path's shapes according to --anchor and --ground.
-class Anchorage {
+class AnchorFlags {
  public:
   /// \throw UsageError if a flag's value is invalid.
-  static Anchorage FromFlags();
+  static AnchorFlags FromFlags();
 
   /// Selects the vertices of --anchor in the first shape, before the solve.
   /// \throw UsageError if there are none.

@@ -31,7 +31,7 @@ void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
                                const std::vector<FlagOutputs>& outputs) {
   namespace fs = std::filesystem;
   // Number of frame names that are checked; inputs are assumed to have lower numbers.
-  constexpr std::int64_t kMostNames = 20000;
+  constexpr std::int64_t kMaxNames = 20000;
   const auto key = [](const std::string& file) {
     std::error_code error;  // such as a cycle of links; opening the file will report it
     const fs::path path = fs::weakly_canonical(fs::absolute(file), error);
@@ -43,7 +43,7 @@ void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
     for (const std::string& file : files) {
       const bool is_pattern = frames > 0 && IsFramePattern(file);
       const std::string whole = "--" + flag + " " + file;
-      for (std::int64_t i = 0; i < (is_pattern ? std::min(frames, kMostNames) : 1); ++i) {
+      for (std::int64_t i = 0; i < (is_pattern ? std::min(frames, kMaxNames) : 1); ++i) {
         const std::string name = is_pattern ? FrameName(file, static_cast<int>(i)) : file;
         const std::string makes = is_pattern ? whole + ": " + name : whole;
         if (const auto input = read.find(key(name)); input != read.end()) {

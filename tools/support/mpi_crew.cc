@@ -37,7 +37,7 @@ bool IsLaunched() {
 
 constexpr int kRequest = 1, kTask = 2;
 
-class MpiCrew final : public Crew {
+class MpiCrew final : public ProcessPool {
  public:
   MpiCrew() {
     int provided;
@@ -148,7 +148,7 @@ class Silence {
   const int stderr_;
 };
 
-void WithRanks(const std::function<void(Crew*)>& body) {
+void WithRanks(const std::function<void(ProcessPool*)>& body) {
   MpiCrew crew;
   try {
     std::optional<Silence> silence;
@@ -166,7 +166,7 @@ void WithRanks(const std::function<void(Crew*)>& body) {
 
 }  // namespace
 
-void WithCrew(const std::function<void(Crew*)>& body) {
+void WithCrew(const std::function<void(ProcessPool*)>& body) {
   if (IsLaunched()) {
 #ifdef SHAPESPACE_HAS_MPI
     WithRanks(body);
@@ -177,7 +177,7 @@ void WithCrew(const std::function<void(Crew*)>& body) {
         "mpirun, or build it where CMake finds MPI");
 #endif
   }
-  Crew alone;
+  ProcessPool alone;
   body(&alone);
 }
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include <shapespace/exploration/crew.h>
+#include <shapespace/exploration/process_pool.h>
 
 namespace shapespace::tools {
 
@@ -11,7 +11,7 @@ namespace shapespace::tools {
 /// Other ranks than the first print nothing unless they fail; then all ranks end with exit code 1.
 /// A usage error, which occurs on all ranks, is thrown on the first only.
 /// \throw UsageError if mpirun has started several processes of a program without MPI.
-void WithCrew(const std::function<void(Crew*)>& body);
+void WithCrew(const std::function<void(ProcessPool*)>& body);
 
 }  // namespace shapespace::tools
 

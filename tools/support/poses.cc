@@ -31,7 +31,7 @@ ReadOptions OptionsFromFlags() {
   return options;
 }
 
-Poses CheckedAndTold(Poses poses) {
+Poses CheckedWithWarnings(Poses poses) {
   CheckMetricFlags(*poses.connectivity);
   for (const std::string& warning : poses.warnings) Err() << "warning: " << warning << '\n';
   for (const std::string& dropped : poses.soup.dropped) {
@@ -47,7 +47,7 @@ Poses ReadPosesFromFlags(const std::vector<std::string>& files) {
   if (poses.shapes.size() < 2) {
     throw UsageError(files[0] + " has one pose; name at least two poses of one mesh");
   }
-  return CheckedAndTold(std::move(poses));
+  return CheckedWithWarnings(std::move(poses));
 }
 
 Poses ReadMeshesFromFlags(const std::vector<std::string>& files) {
@@ -57,7 +57,7 @@ Poses ReadMeshesFromFlags(const std::vector<std::string>& files) {
 }
 
 Poses MakePosesFromFlags(std::vector<Soup> soups) {
-  return CheckedAndTold(MakePoses(std::move(soups), OptionsFromFlags()));
+  return CheckedWithWarnings(MakePoses(std::move(soups), OptionsFromFlags()));
 }
 
 }  // namespace shapespace::tools

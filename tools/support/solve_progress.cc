@@ -11,7 +11,7 @@ namespace shapespace::tools {
 namespace {
 
 // No estimate is shown before this time and this share of the work.
-constexpr double kLeastSeconds = 2, kLeastShare = 0.05;
+constexpr double kMinSeconds = 2, kMinShare = 0.05;
 
 // Rounded to the precision of such an estimate.
 std::string InWords(double seconds) {
@@ -55,7 +55,7 @@ void SolveProgress::ReportShare(double share) {
   if (share == share_ || !working_) return;  // the estimated end does not change
   share_ = share;
   const double now = working_->Seconds();
-  end_ = now < kLeastSeconds || share < kLeastShare ? 0 : now / share;
+  end_ = now < kMinSeconds || share < kMinShare ? 0 : now / share;
 }
 
 std::string SolveProgress::TimeLeft() const {

@@ -14,7 +14,7 @@ namespace {
 
 using internal::kDegrees;
 
-constexpr double kLeastLength = 1e-3;
+constexpr double kMinLength = 1e-3;
 // Pieces slower than this, in the metric's pure numbers, are at rest up to rounding.
 constexpr double kNoSpeed = 1e-9;
 
@@ -47,7 +47,7 @@ void Pool(const std::vector<Deviations>& shapes, double* rms, double* p99, doubl
 
 // The square of the length below which edges are not counted.
 double SquaredShortest(const Path& path) {
-  return kLeastLength * kLeastLength *
+  return kMinLength * kMinLength *
          internal::SquaredLengths(*path.metric->connectivity, path.shapes[0]).mean();
 }
 
@@ -156,7 +156,7 @@ Eigen::VectorXd DihedralAngles(const Connectivity& connectivity, const Shape& sh
   Eigen::VectorXd angles(connectivity.NumHinges());
   for (int h = 0; h < angles.size(); ++h) {
     double x[3 * Dihedral::kVertices];
-    Gather(dihedral, h, shape, x);
+    GatherCoordinates(dihedral, h, shape, x);
     angles(h) = dihedral.Angle(x);
   }
   return angles;

@@ -26,7 +26,7 @@ class MeshError : public Error {
 };
 
 /// Meshes that should be poses of one connectivity are not.
-class CorrespondenceError : public Error {
+class MismatchError : public Error {
  public:
   using Error::Error;
 };

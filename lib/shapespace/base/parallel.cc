@@ -48,14 +48,14 @@ std::shared_ptr<ThreadPool> CurrentPool() {
 void SetThreads(int threads) {
   const int most = std::max(256, tbb::info::default_concurrency());
   if (threads < 0 || threads > most) {
-    throw InvalidOptions("threads: must be 0 (all cores) to " + std::to_string(most));
+    throw InvalidOptions("threads", "must be 0 (all cores) to " + std::to_string(most));
   }
   std::lock_guard<std::mutex> lock(pool_mutex);
   pool.reset();  // because TBB uses the smallest of several global_controls
   pool = NewPool(threads);
 }
 
-int Threads() { return CurrentPool()->arena.max_concurrency(); }
+int NumThreads() { return CurrentPool()->arena.max_concurrency(); }
 
 void ParallelFor(int count, const std::function<void(int)>& body) {
   const auto current = CurrentPool();

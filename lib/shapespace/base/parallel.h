@@ -12,7 +12,7 @@ namespace shapespace {
 void SetThreads(int threads);
 
 /// Threads in use, at least 1.
-int Threads();
+int NumThreads();
 
 /// Calls `body(i)` once for every i in [0, count), in any order and on several threads.
 /// Bodies must write to disjoint memory. There is no reduction, so results do not depend on the

@@ -40,7 +40,7 @@ class BoxNodes {
 
 }  // namespace
 
-Body MakeBar(double length, double width, double height, int nx, int ny, int nz) {
+ShapeFamily MakeBar(double length, double width, double height, int nx, int ny, int nz) {
   internal::CheckLength("length", length);
   internal::CheckLength("width", width);
   internal::CheckLength("height", height);
@@ -78,7 +78,7 @@ Body MakeBar(double length, double width, double height, int nx, int ny, int nz)
     }
   }
 
-  Body body;
+  ShapeFamily body;
   body.name = "bar";
   body.connectivity = internal::ConnectivityOf(node.Count(), triangles);
   body.parameter = "bend angle, degrees";

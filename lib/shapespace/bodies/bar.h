@@ -14,7 +14,7 @@ namespace shapespace {
 /// tenth of its length.
 /// \throw InvalidOptions if a length is not positive and finite, a count is below 1, or there would
 ///        be more than 20 million triangles.
-Body MakeBar(double length, double width, double height, int nx, int ny, int nz);
+ShapeFamily MakeBar(double length, double width, double height, int nx, int ny, int nz);
 
 }  // namespace shapespace
 

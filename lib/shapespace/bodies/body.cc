@@ -22,7 +22,7 @@ namespace {
 
 // Each of these divides its body into cells that are as square as the number of triangles allows.
 
-Body Bar(int triangles) {
+ShapeFamily Bar(int triangles) {
   const double length = 5, width = 1, height = 1;
   const double area = 2 * (length * width + width * height + height * length);
   const double cell = std::sqrt(2 * area / triangles);
@@ -30,37 +30,37 @@ Body Bar(int triangles) {
                  internal::CellsAlong(width, cell), internal::CellsAlong(height, cell));
 }
 
-Body Sheet(int triangles) {
+ShapeFamily Sheet(int triangles) {
   const double length = 3, width = 2;
   const double cell = std::sqrt(2 * length * width / triangles);
   return MakeSheet(length, width, internal::CellsAlong(length, cell),
                    internal::CellsAlong(width, cell));
 }
 
-Body Strip(int triangles) { return MakeStrip(1, 1.5, std::max(2, triangles)); }
+ShapeFamily Strip(int triangles) { return MakeStrip(1, 1.5, std::max(2, triangles)); }
 
-Body Bricard(int) { return MakeBricard(); }
+ShapeFamily Bricard(int) { return MakeBricard(); }
 
-Body Catenoid(int triangles) {
+ShapeFamily Catenoid(int triangles) {
   const double half_height = 1;
   const double cell = std::sqrt(2 * 2 * internal::kPi * 2 * half_height / triangles);
   return MakeCatenoid(half_height, std::max(3, internal::CellsAlong(2 * internal::kPi, cell)),
                       internal::CellsAlong(2 * half_height, cell));
 }
 
-Body Tube(int triangles) { return MakeTube(triangles); }
+ShapeFamily Tube(int triangles) { return MakeTube(triangles); }
 
-Body Steffen(int) { return MakeSteffen(); }
+ShapeFamily Steffen(int) { return MakeSteffen(); }
 
-Body Miura(int triangles) {
+ShapeFamily Miura(int triangles) {
   const int nx = std::max<int>(1, std::lround(std::sqrt(triangles / 2.0)));
   return MakeMiura(1, 1, 60, nx, std::max<int>(1, std::lround(triangles / 2.0 / nx)));
 }
 
 // From its rest pose to the one that is farthest from it.
-Body Quadruped(int triangles) {
+ShapeFamily Quadruped(int triangles) {
   SkinnedBody animal = MakeQuadruped(std::min(triangles, 1'000'000));
-  Body body;
+  ShapeFamily body;
   body.name = animal.name;
   body.connectivity = animal.connectivity;
   body.parameter = "part of the way from standing to stretching";
@@ -73,7 +73,7 @@ Body Quadruped(int triangles) {
 
 struct Entry {
   BodyInfo info;
-  Body (*make)(int triangles);
+  ShapeFamily (*make)(int triangles);
 };
 
 const std::vector<Entry>& Registry() {
@@ -98,7 +98,7 @@ std::vector<BodyInfo> ListBodies() {
   return infos;
 }
 
-Body MakeBody(const std::string& name, int triangles) {
+ShapeFamily MakeBody(const std::string& name, int triangles) {
   std::string known;
   for (const Entry& entry : Registry()) {
     if (entry.info.name == name) {

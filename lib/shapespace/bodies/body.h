@@ -14,7 +14,7 @@ namespace shapespace {
 /// A one-parameter family of shapes of one connectivity, given by formulas, as reference for tests,
 /// benchmarks and demonstrations. Lengths have the unit of the arguments from which the body was
 /// made.
-struct Body {
+struct ShapeFamily {
   std::string name;
   std::shared_ptr<const Connectivity> connectivity;
 
@@ -44,7 +44,7 @@ std::vector<BodyInfo> ListBodies();
 /// folder make bodies of any proportions.
 /// \throw InvalidOptions if the name is unknown (the message lists the known ones), or the number
 ///        is negative or above 10 million.
-Body MakeBody(const std::string& name, int triangles = 0);
+ShapeFamily MakeBody(const std::string& name, int triangles = 0);
 
 }  // namespace shapespace
 

@@ -42,10 +42,10 @@ Shape BricardPose(double angle) {
 
 }  // namespace
 
-Body MakeBricard() {
+ShapeFamily MakeBricard() {
   const internal::TriangleList triangles = {{0, 4, 2}, {2, 4, 1}, {1, 4, 3}, {3, 4, 0},
                                             {2, 5, 0}, {1, 5, 2}, {3, 5, 1}, {0, 5, 3}};
-  Body body;
+  ShapeFamily body;
   body.name = "bricard";
   body.connectivity = internal::ConnectivityOf(6, triangles);
   body.parameter = "angle of edge 0-2 to the plane of symmetry, degrees";

@@ -12,7 +12,7 @@ namespace shapespace {
 /// `pose(angle)` the edge from 0 to 2 has this angle, in degrees from -35 to 50, to the plane of
 /// symmetry. Its signed volume is always zero.
 /// R. Bricard, "Mémoire sur la théorie de l'octaèdre articulé", 1897.
-Body MakeBricard();
+ShapeFamily MakeBricard();
 
 }  // namespace shapespace
 

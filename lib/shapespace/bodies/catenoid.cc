@@ -10,7 +10,7 @@
 
 namespace shapespace {
 
-Body MakeCatenoid(double half_height, int around, int along) {
+ShapeFamily MakeCatenoid(double half_height, int around, int along) {
   internal::CheckLength("half_height", half_height);
   // The rim's radius is cosh(half_height).
   if (half_height > 20) throw InvalidOptions("half_height: above 20, in units of the waist radius");
@@ -23,7 +23,7 @@ Body MakeCatenoid(double half_height, int around, int along) {
   internal::AddGrid(around, along, node, &triangles);
   const int num_vertices = node(around, along) + 1;
 
-  Body body;
+  ShapeFamily body;
   body.name = "catenoid";
   body.connectivity = internal::ConnectivityOf(num_vertices, triangles);
   body.parameter = "angle of association, degrees";

@@ -13,7 +13,7 @@ namespace shapespace {
 /// Edges are chords, whose lengths change by an amount proportional to the square of the cell size.
 /// \throw InvalidOptions if half_height is not in (0, 20], a count is below 3 (around) or 1
 ///        (along), or there would be more than 20 million triangles.
-Body MakeCatenoid(double half_height, int around, int along);
+ShapeFamily MakeCatenoid(double half_height, int around, int along);
 
 }  // namespace shapespace
 

@@ -10,7 +10,7 @@
 
 namespace shapespace {
 
-Body MakeMiura(double a, double b, double corner, int nx, int ny) {
+ShapeFamily MakeMiura(double a, double b, double corner, int nx, int ny) {
   internal::CheckLength("a", a);
   internal::CheckLength("b", b);
   if (!(corner >= 10 && corner <= 80)) throw InvalidOptions("corner: must be in [10, 80] degrees");
@@ -26,7 +26,7 @@ Body MakeMiura(double a, double b, double corner, int nx, int ny) {
       begin.push_back(static_cast<int>(corners.size()));
     }
   }
-  Body body;
+  ShapeFamily body;
   body.name = "miura";
   body.connectivity = Connectivity::Make((nx + 1) * (ny + 1), begin, corners);
   body.parameter = "fold angle, degrees";

@@ -13,7 +13,7 @@ namespace shapespace {
 /// "Geometry of Miura-folded metamaterials", PNAS 2013, equations 1 to 4.
 /// \throw InvalidOptions if a length is not positive and finite, the corner is not in [10, 80], a
 ///        count is below 1, or there would be more than 20 million triangles.
-Body MakeMiura(double a, double b, double corner, int nx, int ny);
+ShapeFamily MakeMiura(double a, double b, double corner, int nx, int ny);
 
 }  // namespace shapespace
 

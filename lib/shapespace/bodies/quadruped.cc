@@ -18,8 +18,8 @@
 namespace shapespace {
 namespace {
 
-constexpr int kLeastTriangles = 500;
-constexpr int kMostTriangles = 1'000'000;
+constexpr int kMinTriangles = 500;
+constexpr int kMaxTriangles = 1'000'000;
 /// Cell size of the grid for the surface: the thinnest parts, the ears, are twice as thick.
 constexpr double kCell = 0.035;
 
@@ -278,11 +278,11 @@ std::vector<std::string> QuadrupedPoses() { return Names(PoseTable()); }
 
 SkinnedBody MakeQuadruped(int triangles, const QuadrupedForm& form) {
   form.Validate();
-  internal::CheckTriangles(triangles, kMostTriangles);
+  internal::CheckTriangles(triangles, kMaxTriangles);
   const internal::Skeleton skeleton = Builder(form).Build();
   const std::vector<internal::RoundCone> cones = skeleton.Cones();
   const internal::TriangleMesh mesh =
-      internal::Remesh(internal::March(cones, kCell), cones, std::max(kLeastTriangles, triangles));
+      internal::Remesh(internal::March(cones, kCell), cones, std::max(kMinTriangles, triangles));
   const int num_vertices = static_cast<int>(mesh.points.size());
   const auto skin = std::make_shared<const internal::Skin>(
       skeleton, Eigen::Map<const Eigen::Matrix3Xd>(mesh.points[0].data(), 3, num_vertices));

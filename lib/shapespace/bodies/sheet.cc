@@ -11,7 +11,7 @@
 
 namespace shapespace {
 
-Body MakeSheet(double length, double width, int nx, int ny) {
+ShapeFamily MakeSheet(double length, double width, int nx, int ny) {
   internal::CheckLength("length", length);
   internal::CheckLength("width", width);
   internal::CheckCount("nx", nx, 1);
@@ -28,7 +28,7 @@ Body MakeSheet(double length, double width, int nx, int ny) {
     }
   }
 
-  Body body;
+  ShapeFamily body;
   body.name = "sheet";
   body.connectivity = internal::ConnectivityOf(static_cast<int>(rest.cols()), triangles);
   body.parameter = "roll angle, degrees";
@@ -49,7 +49,7 @@ Body MakeSheet(double length, double width, int nx, int ny) {
 // neighbours give
 //   cos(hinge) = (1 - (1 + 2 k) t^2) / (1 + t^2),  so  sin(hinge / 2)^2 = (1 + k) t^2 / (1 + t^2).
 // Both directions of this equation are used below.
-Body MakeStrip(double side, double width, int triangles) {
+ShapeFamily MakeStrip(double side, double width, int triangles) {
   internal::CheckLength("side", side);
   internal::CheckLength("width", width);
   if (side > 1e4 * width) throw InvalidOptions("side: must be at most 10000 times the width");
@@ -70,7 +70,7 @@ Body MakeStrip(double side, double width, int triangles) {
       std::min(std::tan(internal::kPi / std::max(4, triangles)), std::sqrt(0.9 / k));
   const double sin_half_end = std::sqrt((1 + k) / (1 + t_end * t_end)) * t_end;
 
-  Body body;
+  ShapeFamily body;
   body.name = "strip";
   body.connectivity = internal::ConnectivityOf(num_vertices, list);
   body.parameter = "hinge angle, degrees";

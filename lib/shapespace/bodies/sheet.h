@@ -13,7 +13,7 @@ namespace shapespace {
 /// (angle in radians), others by less, those along y not at all.
 /// \throw InvalidOptions if a length is not positive and finite, a count is below 1, or there would
 ///        be more than 20 million triangles.
-Body MakeSheet(double length, double width, int nx, int ny);
+ShapeFamily MakeSheet(double length, double width, int nx, int ny);
 
 /// A zigzag strip of equal isosceles triangles, whose motion is exactly isometric. At rest it lies
 /// in the xy plane along x; its vertices alternate between the sides y = width / 2 and y = -width /
@@ -23,7 +23,7 @@ Body MakeSheet(double length, double width, int nx, int ny);
 /// triangles, shortly before the hinges are closed.
 /// \throw InvalidOptions if a length is not positive and finite, side is above 10000 widths, or
 ///        there are fewer than 2 triangles or more than 20 million.
-Body MakeStrip(double side, double width, int triangles);
+ShapeFamily MakeStrip(double side, double width, int triangles);
 
 }  // namespace shapespace
 

@@ -44,11 +44,11 @@ Shape SteffenPose(double angle) {
 
 }  // namespace
 
-Body MakeSteffen() {
+ShapeFamily MakeSteffen() {
   const internal::TriangleList triangles = {{0, 1, 3}, {3, 4, 0}, {2, 8, 5}, {6, 0, 4}, {6, 2, 0},
                                             {6, 4, 8}, {7, 3, 1}, {7, 8, 3}, {7, 1, 5}, {8, 4, 3},
                                             {0, 2, 1}, {2, 5, 1}, {7, 5, 8}, {8, 2, 6}};
-  Body body;
+  ShapeFamily body;
   body.name = "steffen";
   body.connectivity = internal::ConnectivityOf(9, triangles);
   body.parameter = "angle of vertex 8 about the line from 2 to 3, degrees";

@@ -14,7 +14,7 @@ namespace shapespace {
 /// Beyond 12.8 degrees faces cross.
 /// K. Steffen, "A symmetric flexible Connelly sphere with only nine vertices", IHES, 1978; the edge
 /// lengths are also in P. R. Cromwell, "Polyhedra", 1997, chapter 6.
-Body MakeSteffen();
+ShapeFamily MakeSteffen();
 
 }  // namespace shapespace
 

@@ -203,14 +203,14 @@ void TubeForm::Validate() const {
   }
 }
 
-Body MakeTube(int triangles, const TubeForm& form) {
+ShapeFamily MakeTube(int triangles, const TubeForm& form) {
   form.Validate();
   internal::CheckTriangles(triangles);
   std::vector<Ring> rings = MakeRings(std::max(50, triangles), form);
   internal::TriangleList list;
   for (size_t k = 0; k + 1 < rings.size(); ++k) Stitch(rings[k], rings[k + 1], &list);
 
-  Body body;
+  ShapeFamily body;
   body.name = "tube";
   body.connectivity = internal::ConnectivityOf(rings.back().first + 1, list);
   body.parameter = "bend angle, degrees";

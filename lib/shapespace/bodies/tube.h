@@ -26,7 +26,7 @@ struct TubeForm {
 /// earlier in thick short tubes: the inner side of a joint keeps at least a tenth of its length.
 /// \throw InvalidOptions if the form is not valid, or `triangles` is negative or above 20 million.
 ///        Fewer than 50 are taken as 50.
-Body MakeTube(int triangles, const TubeForm& form = {});
+ShapeFamily MakeTube(int triangles, const TubeForm& form = {});
 
 }  // namespace shapespace
 

@@ -21,9 +21,9 @@ namespace shapespace {
 namespace {
 
 // The limit of size keeps all indices and counts in a file within the range of int.
-constexpr int kMostBytes = std::numeric_limits<int>::max();
+constexpr int kMaxBytes = std::numeric_limits<int>::max();
 
-std::string Content(const std::string& file) { return internal::ReadFile(file, kMostBytes); }
+std::string Content(const std::string& file) { return internal::ReadFile(file, kMaxBytes); }
 
 std::vector<Soup> Parse(const std::string& name, std::string content, MeshFormat format,
                         bool allow_outside_files) {
@@ -68,22 +68,22 @@ Soup First(std::vector<Soup> poses) {
 
 /// Sorts findings into warnings and errors. If several are fatal, the first three are reported,
 /// because the others mostly follow from them.
-class Judge {
+class FindingPolicy {
  public:
-  Judge(const ReadOptions& options, std::vector<std::string>* warnings)
+  FindingPolicy(const ReadOptions& options, std::vector<std::string>* warnings)
       : options_(options), warnings_(warnings) {}
 
   /// \throw E if a finding is fatal.
   template <typename E>
-  void Hear(const std::vector<Finding>& findings) {
-    constexpr int kMostTold = 3;
+  void Enforce(const std::vector<Finding>& findings) {
+    constexpr int kMaxReported = 3;
     std::string refusal;
-    int told = 0;
+    int reported = 0;
     for (const Finding& finding : findings) {
       const bool fatal =
           finding.severity == Severity::kFatal ||
           (finding.severity == Severity::kNonManifold && !options_.allow_nonmanifold);
-      if (fatal && told++ < kMostTold) {
+      if (fatal && reported++ < kMaxReported) {
         refusal += (refusal.empty() ? "" : "\n") + finding.message;
       } else if (!fatal && finding.severity != Severity::kNote) {
         warnings_->push_back(finding.message);
@@ -102,13 +102,13 @@ class Judge {
 template <typename Next>
 Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
   Poses poses;
-  Judge judge(options, &poses.warnings);
+  FindingPolicy policy(options, &poses.warnings);
   const Soup& first = poses.soup;
   const auto add = [&](Soup pose) {
-    poses.names.push_back(pose.pose.empty() ? pose.file : pose.pose);
+    poses.names.push_back(pose.name.empty() ? pose.file : pose.name);
     if (poses.shapes.empty()) {
       poses.soup = std::move(pose);
-      judge.Hear<MeshError>(CheckSoup(first));
+      policy.Enforce<MeshError>(CheckSoup(first));
       poses.shapes.push_back(first.vertices);
       return;
     }
@@ -117,9 +117,9 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
                                internal::FileName(first) + "; its " + options.mirror +
                                " has changed sign");
     }
-    judge.Hear<CorrespondenceError>(CheckCorrespondence(first, pose));
+    policy.Enforce<MismatchError>(CheckSameMesh(first, pose));
     // From here on only its positions are used, with the polygons of the first one.
-    judge.Hear<MeshError>(internal::CheckPositions(pose));
+    policy.Enforce<MeshError>(internal::CheckPositions(pose));
     poses.shapes.push_back(std::move(pose.vertices));
   };
   for (size_t i = 0; i < count; ++i) {
@@ -148,8 +148,8 @@ Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format) 
   std::string content{std::istreambuf_iterator<char>(stream), {}};
   if (stream.bad()) throw FileError(name + ": cannot be read to its end");
   if (content.empty()) throw FileError(name + ": is empty");
-  if (content.size() > static_cast<size_t>(kMostBytes)) {
-    throw FileError(name + ": is larger than the " + std::to_string(kMostBytes) +
+  if (content.size() > static_cast<size_t>(kMaxBytes)) {
+    throw FileError(name + ": is larger than the " + std::to_string(kMaxBytes) +
                     " bytes that such a file may have");
   }
   return First(Parse(name, std::move(content), format, /*allow_outside_files=*/false));

@@ -28,7 +28,7 @@ namespace shapespace {
 Soup ReadSoup(const std::string& file, bool allow_outside_files = false);
 
 /// All poses of a file: of glTF the mesh and then each morph target, fully applied and with its
-/// name as `Soup::pose`; of the other formats one. They have the same polygons.
+/// name as `Soup::name`; of the other formats one. They have the same polygons.
 std::vector<Soup> ReadSoups(const std::string& file, bool allow_outside_files = false);
 
 enum class MeshFormat { kObj, kPly, kOff, kStl, kGltf };
@@ -62,9 +62,9 @@ std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num
 struct Poses {
   std::shared_ptr<const Connectivity> connectivity;
   std::vector<Shape> shapes;          ///< one per soup, in its unit
-  std::vector<std::string> names;     ///< of each: `Soup::pose` or, without, `Soup::file`
+  std::vector<std::string> names;     ///< of each: `Soup::name` or, without, `Soup::file`
   Soup soup;                          ///< the first: polygons, appearance
-  std::vector<std::string> warnings;  ///< from `CheckSoup` and `CheckCorrespondence`
+  std::vector<std::string> warnings;  ///< from `CheckSoup` and `CheckSameMesh`
 };
 
 /// Options for meshes that are used as poses.
@@ -80,8 +80,8 @@ struct ReadOptions {
 
 /// Reads one or more files, with all poses that they have, as poses of the first one's
 /// connectivity.
-/// \throw FileError, MeshError (fatal findings of `CheckSoup`), CorrespondenceError (fatal findings
-///        of `CheckCorrespondence`, naming the first difference).
+/// \throw FileError, MeshError (fatal findings of `CheckSoup`), MismatchError (fatal findings
+///        of `CheckSameMesh`, naming the first difference).
 Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& options = {});
 
 /// The same for soups from other sources: `ReadSoup` makes them from streams, `MakeSoup`

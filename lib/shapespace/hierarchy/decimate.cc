@@ -24,10 +24,10 @@ constexpr double kBoundaryWeight = 10;
 // the surface is flat and the quadrics are zero.
 constexpr double kLengthWeight = 1e-2;
 // Least cosine of the angle by which a triangle's normal may turn in one collapse.
-constexpr double kLeastCosine = 0.5;
+constexpr double kMinCosine = 0.5;
 // The quality of a triangle, 4 sqrt(3) area / sum of squared sides, is 1 if it is equilateral. No
 // triangle may become worse than this, or than the worst that it replaces.
-constexpr double kLeastQuality = 0.2;
+constexpr double kMinQuality = 0.2;
 // Vertices of more triangles, such as the poles of a globe, are kept until collapses of their
 // neighbours have reduced the number, and no vertex collapses onto them: otherwise, after every
 // collapse nearby, each neighbour would be tested against all triangles again, in time cubic in
@@ -115,8 +115,8 @@ class Decimator {
   Eigen::Vector3d At(int v, int pose) const { return position_.col(v * num_poses_ + pose); }
 
   // Calls body(a, b) for every triangle (v, a, b) of v, and removes collapsed ones from its list.
-  template <typename Body>
-  void ForFan(int v, const Body& body) {
+  template <typename ShapeFamily>
+  void ForFan(int v, const ShapeFamily& body) {
     int* link = &head_[v];
     while (*link >= 0) {
       const int corner = *link, f = corner / 3, k = corner % 3;
@@ -280,9 +280,9 @@ class Decimator {
         const Eigen::Vector3d before = internal::AreaNormal(old_place, xa, xb);
         const Eigen::Vector3d after = internal::AreaNormal(new_place, xa, xb);
         // `<` on purpose: a triangle without area before has no orientation.
-        flips = before.dot(after) < kLeastCosine * before.norm() * after.norm();
+        flips = before.dot(after) < kMinCosine * before.norm() * after.norm();
       });
-      if (flips || worst_after < std::min(kLeastQuality, worst_before)) return false;
+      if (flips || worst_after < std::min(kMinQuality, worst_before)) return false;
     }
     return true;
   }

@@ -34,7 +34,7 @@ Soup MakeSoup(const Eigen::DenseBase<Vertices>& vertices,
   static_assert(std::is_floating_point_v<typename Vertices::Scalar>,
                 "coordinates are floating-point numbers");
   static_assert(std::is_integral_v<typename Polygons::Scalar>, "indices are integers");
-  constexpr int kMost = std::numeric_limits<int>::max();
+  constexpr int kMax = std::numeric_limits<int>::max();
   const bool rows = layout == Layout::kRows;
   const Eigen::Index num_vertices = rows ? vertices.rows() : vertices.cols();
   const Eigen::Index num_polygons = rows ? polygons.rows() : polygons.cols();
@@ -50,7 +50,7 @@ Soup MakeSoup(const Eigen::DenseBase<Vertices>& vertices,
     throw MeshError(name + ": polygons are a matrix of " + size(polygons) +
                     " indices, a polygon needs three; the other layout?");
   }
-  if (num_vertices > kMost || num_polygons * corners > kMost) {
+  if (num_vertices > kMax || num_polygons * corners > kMax) {
     throw MeshError(name + ": has more vertices or corners than an int counts");
   }
   Soup soup;
@@ -67,7 +67,7 @@ Soup MakeSoup(const Eigen::DenseBase<Vertices>& vertices,
     for (Eigen::Index k = 0; k < corners; ++k) {
       const auto index = rows ? polygons.derived()(p, k) : polygons.derived()(k, p);
       const auto wide = static_cast<std::int64_t>(index);
-      if (wide < 0 || wide >= kMost) {
+      if (wide < 0 || wide >= kMax) {
         throw MeshError(name + ": polygon " + std::to_string(p + 1) + " has the index " +
                         std::to_string(index) + " at a corner; it must be from 0 to " +
                         std::to_string(num_vertices - 1));

@@ -78,12 +78,12 @@ void CheckManifold(const Soup& soup, const Sides& sides, Findings* findings) {
     auto name = [&] {
       const auto [a, b] = sides.Ends(e);
       std::string result = "edge " + std::to_string(a + 1) + "-" + std::to_string(b + 1) + " of ";
-      constexpr int kMostNamed = 4;
-      for (int i = 0; i < std::min(sides.Count(e), kMostNamed); ++i) {
+      constexpr int kMaxNamed = 4;
+      for (int i = 0; i < std::min(sides.Count(e), kMaxNamed); ++i) {
         if (i > 0) result += i + 1 == sides.Count(e) ? " and " : ", ";
         result += PolygonName(soup, sides.sides[sides.begin[e] + i].polygon);
       }
-      return result + (sides.Count(e) > kMostNamed ? ", ..." : "");
+      return result + (sides.Count(e) > kMaxNamed ? ", ..." : "");
     };
     if (sides.Count(e) > 2) edges.Add(name);
     if (sides.WoundAlike(e)) winding.Add(name);
@@ -126,13 +126,13 @@ void DescribeTopology(const Soup& soup, Findings* findings) {
   for (int c : topology.component) {
     if (c >= 0) ++sizes[c];
   }
-  static constexpr size_t kMostNamed = 3;
+  static constexpr size_t kMaxNamed = 3;
   auto list = [](const std::vector<std::string>& parts) {
     std::string result;
-    for (size_t i = 0; i < std::min(parts.size(), kMostNamed); ++i) {
+    for (size_t i = 0; i < std::min(parts.size(), kMaxNamed); ++i) {
       result += (i > 0 ? ", " : "") + parts[i];
     }
-    return result + (parts.size() > kMostNamed ? ", ..." : "");
+    return result + (parts.size() > kMaxNamed ? ", ..." : "");
   };
   std::sort(sizes.rbegin(), sizes.rend());
   std::vector<std::string> parts;

@@ -29,7 +29,7 @@ std::vector<Finding> CheckSoup(const Soup& soup);
 /// finds the first polygon that differs (and whether only the order differs), and finds groups of
 /// vertices whose edges have stretched by orders of magnitude, which shows wrong orders of vertices
 /// that counts do not show.
-std::vector<Finding> CheckCorrespondence(const Soup& reference, const Soup& pose);
+std::vector<Finding> CheckSameMesh(const Soup& reference, const Soup& pose);
 
 }  // namespace shapespace
 

@@ -201,8 +201,8 @@ class Selector {
 
 void Selection::Validate() const { ValidateNested(*this, ""); }
 
-std::vector<int> Select(const Selection& selection, const Shape& shape,
-                        const Connectivity& connectivity, const Appearance& appearance) {
+std::vector<int> SelectVertices(const Selection& selection, const Shape& shape,
+                                const Connectivity& connectivity, const Appearance& appearance) {
   selection.Validate();
   if (shape.cols() != connectivity.NumVertices()) {
     throw MeshError("a shape of " + std::to_string(shape.cols()) +

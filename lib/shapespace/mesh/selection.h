@@ -61,8 +61,8 @@ std::string ToText(const Selection& selection);
 /// \throw InvalidOptions as `Validate`; also if a vertex does not exist, no polygon has the group,
 ///        or the selection, or one of those in an `any`, has no vertex. MeshError if the arguments
 ///        do not belong to one mesh.
-std::vector<int> Select(const Selection& selection, const Shape& shape,
-                        const Connectivity& connectivity, const Appearance& appearance);
+std::vector<int> SelectVertices(const Selection& selection, const Shape& shape,
+                                const Connectivity& connectivity, const Appearance& appearance);
 
 }  // namespace shapespace
 

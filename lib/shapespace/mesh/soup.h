@@ -13,7 +13,7 @@ namespace shapespace {
 /// The content of a mesh file, with nothing merged, dropped or reordered.
 struct Soup {
   std::string file;  ///< from which it was read; empty if made in code
-  std::string pose;  ///< its name, for all but the first pose of a file of several
+  std::string name;  ///< its name, for all but the first pose of a file of several
   Shape vertices;    ///< 3 x m, in the file's order and units
 
   /// Polygons (three or more corners each), concatenated: polygon i has the vertex indices

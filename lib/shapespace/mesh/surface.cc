@@ -62,7 +62,7 @@ Shape VertexNormals(const Connectivity& connectivity, const Shape& shape) {
   return normals;
 }
 
-struct Surface::Scene {
+struct MeshSurface::Scene {
   const std::shared_ptr<const Connectivity> connectivity;
   const Shape shape, normals;
   // Boxes are in single precision, relative to the centre, in units of half the extent.
@@ -111,7 +111,7 @@ struct Surface::Scene {
     const std::function<bool(int)>* admits;
     Eigen::Vector3d point;
     double slack, within;
-    Foot foot;
+    ClosestPoint closest;
   };
 
   // The point query's radius, in these units, that includes everything within `distance`.
@@ -129,20 +129,20 @@ struct Surface::Scene {
     const Eigen::Vector3d barycentric = NearestOnTriangle(query->point, a, b, c);
     const Eigen::Vector3d point = barycentric(0) * a + barycentric(1) * b + barycentric(2) * c;
     const double distance = (point - query->point).norm();
-    Foot& foot = query->foot;
+    ClosestPoint& closest = query->closest;
     if (!(distance <= query->within)) return false;
-    if (foot.triangle >= 0 &&
-        (distance > foot.distance || (distance == foot.distance && number > foot.triangle))) {
+    if (closest.triangle >= 0 && (distance > closest.distance ||
+                                  (distance == closest.distance && number > closest.triangle))) {
       return false;
     }
     if (*query->admits && !(*query->admits)(number)) return false;
-    foot = {number, barycentric, point, distance};
+    closest = {number, barycentric, point, distance};
     arguments->query->radius = Radius(distance / self.unit, query->slack);
     return true;
   }
 };
 
-Surface::Surface(std::shared_ptr<const Connectivity> connectivity, const Shape& shape)
+MeshSurface::MeshSurface(std::shared_ptr<const Connectivity> connectivity, const Shape& shape)
     : scene_(std::make_unique<Scene>(std::move(connectivity), shape)) {
   Scene& self = *scene_;
   self.device = rtcNewDevice(nullptr);
@@ -161,11 +161,12 @@ Surface::Surface(std::shared_ptr<const Connectivity> connectivity, const Shape& 
   if (rtcGetDeviceError(self.device) != RTC_ERROR_NONE) throw Error("Embree ran out of memory");
 }
 
-Surface::Surface(Surface&&) noexcept = default;
-Surface::~Surface() = default;
+MeshSurface::MeshSurface(MeshSurface&&) noexcept = default;
+MeshSurface::~MeshSurface() = default;
 
-Foot Surface::Nearest(const Eigen::Vector3d& point, const std::function<bool(int triangle)>& admits,
-                      double within) const {
+ClosestPoint MeshSurface::Nearest(const Eigen::Vector3d& point,
+                                  const std::function<bool(int triangle)>& admits,
+                                  double within) const {
   const Scene& self = *scene_;
   const Eigen::Vector3d local = (point - self.centre) / self.unit;
   // The slack is a bound of the point's displacement by rounding to float.
@@ -180,11 +181,11 @@ Foot Surface::Nearest(const Eigen::Vector3d& point, const std::function<bool(int
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(self.scene, &at, &context, nullptr, &query);
-  return query.foot;
+  return query.closest;
 }
 
-const Connectivity& Surface::GetConnectivity() const { return *scene_->connectivity; }
-const Shape& Surface::GetShape() const { return scene_->shape; }
-const Shape& Surface::GetTriangleNormals() const { return scene_->normals; }
+const Connectivity& MeshSurface::GetConnectivity() const { return *scene_->connectivity; }
+const Shape& MeshSurface::GetShape() const { return scene_->shape; }
+const Shape& MeshSurface::GetTriangleNormals() const { return scene_->normals; }
 
 }  // namespace shapespace

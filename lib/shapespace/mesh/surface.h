@@ -13,7 +13,7 @@
 namespace shapespace {
 
 /// A point of a triangle mesh.
-struct Foot {
+struct ClosestPoint {
   int triangle = -1;  ///< index into Connectivity::Triangles(); -1: none
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -29,20 +29,20 @@ Shape TriangleNormals(const Connectivity& connectivity, const Shape& shape);
 /// A shape of a mesh, prepared for queries of the nearest point. Candidates are found by Embree's
 /// bounding volume hierarchy, distances are computed in double precision. Nearest() may be called
 /// from several threads at once.
-class Surface {
+class MeshSurface {
  public:
   /// The shape must be finite and have an extent; triangles without area are never found.
   /// \throw Error if Embree cannot start or runs out of memory.
-  Surface(std::shared_ptr<const Connectivity> connectivity, const Shape& shape);
-  Surface(Surface&&) noexcept;
-  ~Surface();
+  MeshSurface(std::shared_ptr<const Connectivity> connectivity, const Shape& shape);
+  MeshSurface(MeshSurface&&) noexcept;
+  ~MeshSurface();
 
   /// The nearest point on the triangles for which `admits(triangle)` is true (all, if it is null),
   /// not farther than `within`. Of equally near points the one on the triangle with the smallest
   /// index.
-  Foot Nearest(const Eigen::Vector3d& point,
-               const std::function<bool(int triangle)>& admits = nullptr,
-               double within = std::numeric_limits<double>::infinity()) const;
+  ClosestPoint Nearest(const Eigen::Vector3d& point,
+                       const std::function<bool(int triangle)>& admits = nullptr,
+                       double within = std::numeric_limits<double>::infinity()) const;
 
   const Connectivity& GetConnectivity() const;
   const Shape& GetShape() const;

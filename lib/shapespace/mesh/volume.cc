@@ -50,18 +50,18 @@ double EnclosedVolume(const Eigen::Matrix3Xi& triangles, const Shape& shape) {
 }
 
 bool EnclosesVolume(const Eigen::Matrix3Xi& triangles, const Shape& shape) {
-  constexpr double kLeastShare = 1e-6;
-  return IsClosed(triangles) && std::abs(ShareOfBall(triangles, shape)) > kLeastShare;
+  constexpr double kMinShare = 1e-6;
+  return IsClosed(triangles) && std::abs(ShareOfBall(triangles, shape)) > kMinShare;
 }
 
 bool IsMirrored(const Eigen::Matrix3Xi& triangles, const Shape& reference, const Shape& pose) {
   // Bodies of people and animals have a fifth to a half of the ball's volume; a body thinner than a
   // leaf may turn over without being a mirror image.
-  constexpr double kLeastShare = 0.01;
+  constexpr double kMinShare = 0.01;
   const double before = ShareOfBall(triangles, reference);
   const double after = ShareOfBall(triangles, pose);
   // The test for a closed mesh is last because it is the slowest and rarely needed.
-  return before * after < 0 && std::min(std::abs(before), std::abs(after)) > kLeastShare &&
+  return before * after < 0 && std::min(std::abs(before), std::abs(after)) > kMinShare &&
          IsClosed(triangles);
 }
 

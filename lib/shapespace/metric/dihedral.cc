@@ -31,7 +31,7 @@ Dihedral Dihedral::Freeze(const MetricBasis& basis) {
   for (int h = 0; h < connectivity.NumHinges(); ++h) {
     double squared_length = 0, jump = 0, fold = 0;
     for (size_t i = 0; i < basis.poses.size(); ++i) {
-      Gather(feature, h, basis.poses[i], x);
+      GatherCoordinates(feature, h, basis.poses[i], x);
       const Eigen::Map<Eigen::Vector3d> a(x), b(x + 3);
       squared_length += (b - a).squaredNorm() / basis.poses.size();
       angles[i] = feature.Angle(x);

@@ -66,7 +66,7 @@ struct ElementFeature {
 
 /// Copies the coordinates of `element`'s vertices from a shape, vertex after vertex.
 template <typename Struct>
-void Gather(const Struct& feature, int element, const Shape& shape, double* x) {
+void GatherCoordinates(const Struct& feature, int element, const Shape& shape, double* x) {
   for (int k = 0; k < Struct::kVertices; ++k) {
     Eigen::Map<Eigen::Vector3d>(x + 3 * k) = shape.col(feature.stencils(k, element));
   }
@@ -101,7 +101,7 @@ class Feature {
   int NumValues() const { return is_sum_ ? 1 : values_ * num_elements_; }
 
   /// The coordinates of elements [begin, end), 3 VerticesPerElement() numbers each.
-  void Gather(int begin, int end, const Shape& shape, double* x) const;
+  void GatherCoordinates(int begin, int end, const Shape& shape, double* x) const;
 
   /// The values, without weights, of `count` elements at coordinates x, and, unless null, their
   /// derivatives: by element, by vertex, by value, three numbers each.

@@ -31,8 +31,8 @@ constexpr int kChunk = 16;
 constexpr int kMaxCoordinates = 3 * Feature::kMaxVertices;
 
 // Calls body(begin, end) for ranges of [0, count).
-template <typename Body>
-void ForRanges(int count, const Body& body) {
+template <typename ShapeFamily>
+void ForRanges(int count, const ShapeFamily& body) {
   ParallelFor((count + kPerTask - 1) / kPerTask,
               [&](int task) { body(task * kPerTask, std::min(count, (task + 1) * kPerTask)); });
 }
@@ -115,7 +115,7 @@ Eigen::VectorXd FeatureMap::Values(const Shape& shape) const {
     const Feature& feature = *metric_->features[i];
     FillValues(feature, result.data() + FirstValue(i), [&](int begin, int end, double* out) {
       double x[kChunk * kMaxCoordinates];
-      feature.Gather(begin, end, shape, x);
+      feature.GatherCoordinates(begin, end, shape, x);
       feature.Evaluate(end - begin, x, out);
     });
   }
@@ -130,8 +130,8 @@ Eigen::VectorXd FeatureMap::SecondDerivative(const Shape& shape, const Tangent& 
     const Feature& feature = *metric_->features[i];
     FillValues(feature, result.data() + FirstValue(i), [&](int begin, int end, double* out) {
       double at[kChunk * kMaxCoordinates], along[kChunk * kMaxCoordinates];
-      feature.Gather(begin, end, shape, at);
-      feature.Gather(begin, end, x, along);
+      feature.GatherCoordinates(begin, end, shape, at);
+      feature.GatherCoordinates(begin, end, x, along);
       feature.SecondDerivatives(end - begin, at, along, out);
     });
   }
@@ -149,7 +149,7 @@ FeatureDerivative FeatureMap::Derivative(const Shape& shape) const {
       for (int first = begin; first < end; first += kChunk) {
         const int last = std::min(first + kChunk, end);
         double x[kChunk * kMaxCoordinates], values[kChunk * Feature::kMaxValues];
-        feature->Gather(first, last, shape, x);
+        feature->GatherCoordinates(first, last, shape, x);
         double* out = &blocks[first * size];
         feature->Evaluate(last - first, x, values, out);
         for (int e = first; e < last; ++e) {

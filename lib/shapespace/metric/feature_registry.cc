@@ -30,8 +30,8 @@ std::pair<const std::string, Entry> BuiltIn() {
 struct Registry {
   std::mutex mutex;
   std::map<std::string, Entry> entries = {BuiltIn<EdgeLength>(),     BuiltIn<LogLength>(),
-                                          BuiltIn<TriangleStrain>(), BuiltIn<Position>(),
-                                          BuiltIn<Dihedral>(),       BuiltIn<Volume>()};
+                                          BuiltIn<TriangleStrain>(), BuiltIn<PositionFeature>(),
+                                          BuiltIn<Dihedral>(),       BuiltIn<VolumeFeature>()};
 };
 
 Registry& TheRegistry() {

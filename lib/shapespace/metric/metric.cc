@@ -93,7 +93,7 @@ void MetricOptions::Validate() const {
 
 bool Metric::RigidInvariantButForPosition() const {
   const bool features_are = std::all_of(features.begin(), features.end(), [](const auto& feature) {
-    return feature->IsRigidInvariant() || feature->template As<Position>() != nullptr;
+    return feature->IsRigidInvariant() || feature->template As<PositionFeature>() != nullptr;
   });
   return features_are && !rigid.Active() && options.discretization == Discretization::kMidpoint;
 }
@@ -110,8 +110,8 @@ std::shared_ptr<const Metric> FreezeMetric(const MetricOptions& options,
 
   std::vector<FeatureTerm> terms = {
       {EdgeLength::kName, options.isometric}, {TriangleStrain::kName, options.strain},
-      {LogLength::kName, options.strain},     {Position::kName, options.lambda},
-      {Dihedral::kName, options.bending},     {Volume::kName, options.volume}};
+      {LogLength::kName, options.strain},     {PositionFeature::kName, options.lambda},
+      {Dihedral::kName, options.bending},     {VolumeFeature::kName, options.volume}};
   terms.insert(terms.end(), options.features.begin(), options.features.end());
   for (const FeatureTerm& term : terms) {
     const internal::FeatureKind kind = internal::FindFeature(term.name);
@@ -132,7 +132,7 @@ std::shared_ptr<const Metric> FreezeMetric(const MetricOptions& options,
   return metric;
 }
 
-std::string Describe(const MetricOptions& options) {
+std::string DescribeMetric(const MetricOptions& options) {
   std::ostringstream text;
   const auto add = [&](const char* name, double value) {
     if (value > 0) text << (text.tellp() > 0 ? ", " : "") << name << ' ' << value;

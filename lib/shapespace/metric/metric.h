@@ -124,7 +124,7 @@ std::shared_ptr<const Metric> FreezeMetric(const MetricOptions& options,
                                            PosePairs pairs = PosePairs::kConsecutive);
 
 /// The blend by name, for reports: e.g. "strain 1, lambda 0.0001, bending 1e-05".
-std::string Describe(const MetricOptions& options);
+std::string DescribeMetric(const MetricOptions& options);
 
 }  // namespace shapespace
 

@@ -13,7 +13,7 @@ namespace shapespace {
 namespace {
 
 // A vertex without elements, or with collapsed ones only, has this share of the mean area.
-constexpr double kLeastArea = 1e-3;
+constexpr double kMinArea = 1e-3;
 
 struct Measures {
   Eigen::VectorXd triangle_area, squared_length;  // means over the poses
@@ -66,7 +66,7 @@ Eigen::VectorXd VertexAreas(const Connectivity& connectivity, const Measures& me
       if (!on_surface(v)) area(v) = strip(v);
     }
   }
-  return area.cwiseMax(kLeastArea * area.sum() / num_vertices);
+  return area.cwiseMax(kMinArea * area.sum() / num_vertices);
 }
 
 // Computes A_e, of a graph a length.

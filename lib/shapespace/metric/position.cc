@@ -4,9 +4,9 @@
 
 namespace shapespace {
 
-Position Position::Freeze(const MetricBasis& basis) {
+PositionFeature PositionFeature::Freeze(const MetricBasis& basis) {
   const int num_vertices = basis.connectivity->NumVertices();
-  Position feature;
+  PositionFeature feature;
   feature.stencils.setLinSpaced(num_vertices, 0, num_vertices - 1);
   feature.weights = basis.vertex_area;
   return feature;

@@ -10,12 +10,12 @@ namespace shapespace {
 struct MetricBasis;
 
 /// The position of a vertex: the paper's regularising L2 metric (5), weights lambda A_p.
-struct Position : ElementFeature<1, 3> {
+struct PositionFeature : ElementFeature<1, 3> {
   static constexpr bool kRigidInvariant = false;
   static constexpr int kScalarRows = 1;
   static constexpr const char* kName = "position";
 
-  static Position Freeze(const MetricBasis& basis);
+  static PositionFeature Freeze(const MetricBasis& basis);
 
   template <typename T>
   void operator()(const T* x, T* value) const {

@@ -8,14 +8,14 @@
 
 namespace shapespace {
 
-Volume Volume::Freeze(const MetricBasis& basis) {
+VolumeFeature VolumeFeature::Freeze(const MetricBasis& basis) {
   const Eigen::Matrix3Xi& triangles = basis.connectivity->Triangles();
   if (!IsClosed(triangles)) {
     throw InvalidOptions(
         "volume: the mesh is not closed, so it encloses no volume; use volume 0, or fill its "
         "holes");
   }
-  Volume feature;
+  VolumeFeature feature;
   feature.stencils = triangles;
   double volume = 0;
   for (const Shape& pose : basis.poses) {

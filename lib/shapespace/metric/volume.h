@@ -11,14 +11,14 @@ struct MetricBasis;
 
 /// The volume enclosed by a closed mesh, relative to the mean over the poses: one number, the sum
 /// of det(p, q, r) / (6 V_ref) over the triangles.
-struct Volume : ElementFeature<3, 1> {
+struct VolumeFeature : ElementFeature<3, 1> {
   static constexpr bool kSum = true;
   static constexpr const char* kName = "volume";
 
   double reference = 1;  ///< V_ref
 
   /// \throw InvalidOptions if the mesh is not closed.
-  static Volume Freeze(const MetricBasis& basis);
+  static VolumeFeature Freeze(const MetricBasis& basis);
 
   template <typename Self, typename Visit>
   static void ForConstants(Self* self, const Visit& visit) {

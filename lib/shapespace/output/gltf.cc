@@ -35,7 +35,7 @@ using tinygltf::Model;
 using tinygltf::Value;
 
 // More morph targets are slow in browsers, without a visible improvement.
-constexpr int kMostKeys = 32;
+constexpr int kMaxKeys = 32;
 
 // Share of the duration for which the shapes rest at each end.
 constexpr double kRest = 0.1;
@@ -53,7 +53,7 @@ constexpr double kBentCosine = 0.9998477, kSharpCosine = 0.6946584;
 constexpr double kSmallest = 1e-15, kLargest = 1e15;
 
 // The limit of the format, with a margin for the header.
-constexpr double kMostBytes = 4.2e9;
+constexpr double kMaxBytes = 4.2e9;
 
 // The largest 16-bit index for viewers; the next one has a special meaning for GPUs.
 constexpr int kLargestShortIndex = 65534;
@@ -495,7 +495,7 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   };
   check_count("reference", options.reference.cols());
   check_count("groups", options.groups.size());
-  const std::vector<int> keys = internal::KeyShapes(path.NumShapes(), path.poses, kMostKeys);
+  const std::vector<int> keys = internal::KeyShapes(path.NumShapes(), path.poses, kMaxKeys);
   std::vector<Shape> shapes;
   shapes.reserve(keys.size());
   for (const int key : keys) shapes.push_back(path.Placed(key));
@@ -532,7 +532,7 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   const double bytes = model.buffers[0].data.size() +
                        4.0 * ((6.0 * keys.size() + 6) * cut.source.size() +
                               3.0 * std::max(connectivity.NumTriangles(), connectivity.NumEdges()));
-  if (bytes > kMostBytes) {
+  if (bytes > kMaxBytes) {
     throw MeshError(file + ": " + std::to_string(keys.size()) +
                     " shapes of so many vertices need more than the 4 GB that the format can "
                     "hold; resample the path to fewer");
@@ -575,7 +575,7 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   model.defaultScene = 0;
 
   model.asset.generator = "shapespace " SHAPESPACE_VERSION;
-  Value::Object extras = {{"metric", Value(Describe(path.metric->options))},
+  Value::Object extras = {{"metric", Value(DescribeMetric(path.metric->options))},
                           {"shapes", Value(path.NumShapes())},
                           {"provenance", Value(AsUtf8(path.provenance))}};
   if (options.colour_by_deviation) extras["last_colour_deviation"] = Value(summary.colour_end);

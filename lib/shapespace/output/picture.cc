@@ -24,7 +24,7 @@ constexpr int kWidestStrip = 6;
 constexpr int kTextMargin = 8;
 
 // Larger pictures are not practical, and exceed the range of the PNG writer.
-constexpr double kMostPixels = 1e8;
+constexpr double kMaxPixels = 1e8;
 
 // Radius of a graph's tubes, in radii of the largest shape and in lengths of edges.
 constexpr double kTubeRadius = 0.01;
@@ -297,7 +297,7 @@ RgbImage RenderFilmStrip(const Connectivity& connectivity, const std::vector<Sha
   const int title_width = internal::TextWidth(options.title) + 2 * kTextMargin;
   const int width = std::max({columns * camera.width, legend.width, title_width});
   const int height = strip_height + legend.height;
-  if (static_cast<double>(width) * height > kMostPixels) {
+  if (static_cast<double>(width) * height > kMaxPixels) {
     throw InvalidOptions("frame_width: " + std::to_string(frames) + " frames of " +
                          std::to_string(options.frame_width) +
                          " pixels make a picture of more than 100 million pixels; lower it or "

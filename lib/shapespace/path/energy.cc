@@ -353,9 +353,9 @@ double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& l
         const int count = std::min(kChunk, end - e);
         double x[kChunk * 3 * Feature::kMaxVertices];
         double a[kChunk * Feature::kMaxValues], b[kChunk * Feature::kMaxValues];
-        feature->Gather(e, e + count, first, x);
+        feature->GatherCoordinates(e, e + count, first, x);
         feature->Evaluate(count, x, a);
-        feature->Gather(e, e + count, last, x);
+        feature->GatherCoordinates(e, e + count, last, x);
         feature->Evaluate(count, x, b);
         if (feature->IsSum()) {
           sums.first += std::accumulate(a, a + count, 0.0);

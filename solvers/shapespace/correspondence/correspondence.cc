@@ -196,9 +196,9 @@ class Fit {
     const int stride = std::max(1, target_.GetConnectivity().NumVertices() / (2 * stage.vertices));
     bool at_rest = false;
     while (!at_rest && stage.rounds < rounds && !Stops()) {
-      const std::vector<internal::Pull> pulls = internal::FindPulls(
+      const std::vector<internal::PointToPlaneTerm> terms = internal::FindTerms(
           level, *shape, fit->VertexAreas(), target_, stride, weight, &stage.distance);
-      stage.motion = fit->Step(pulls, shape);
+      stage.motion = fit->Step(terms, shape);
       ++stage.rounds;
       at_rest = stage.motion < options_.tolerance;
     }
@@ -217,37 +217,37 @@ class Fit {
   bool is_last_ = false;
 };
 
-SurfacePoints PointsOf(const std::vector<Foot>& feet) {
+SurfacePoints PointsOf(const std::vector<ClosestPoint>& closest) {
   SurfacePoints points;
-  points.triangle.resize(static_cast<Eigen::Index>(feet.size()));
-  points.barycentric.resize(3, static_cast<Eigen::Index>(feet.size()));
+  points.triangle.resize(static_cast<Eigen::Index>(closest.size()));
+  points.barycentric.resize(3, static_cast<Eigen::Index>(closest.size()));
   for (Eigen::Index i = 0; i < points.triangle.size(); ++i) {
-    points.triangle(i) = feet[i].triangle;
-    points.barycentric.col(i) = feet[i].barycentric;
+    points.triangle(i) = closest[i].triangle;
+    points.barycentric.col(i) = closest[i].barycentric;
   }
   return points;
 }
 
 // Computes both directions of the map, and their figures of quality.
 SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, const Target& target,
-                   const std::vector<Marker>& held, CorrespondenceSummary* summary) {
+                   const std::vector<CorrespondenceMarker>& held, CorrespondenceSummary* summary) {
   SurfaceMap map;
-  const std::vector<Foot> feet = internal::MapVertices(level, fitted, target);
-  map.to_target = PointsOf(feet);
+  const std::vector<ClosestPoint> closest = internal::MapVertices(level, fitted, target);
+  map.to_target = PointsOf(closest);
   const Eigen::VectorXd areas = internal::VertexAreas(*level.connectivity, fitted);
   double squares = 0;
   for (int v = 0; v < fitted.cols(); ++v) {
-    squares += areas(v) * feet[v].distance * feet[v].distance;
-    summary->distance_max = std::max(summary->distance_max, feet[v].distance);
+    squares += areas(v) * closest[v].distance * closest[v].distance;
+    summary->distance_max = std::max(summary->distance_max, closest[v].distance);
   }
   summary->distance_rms = std::sqrt(squares);
-  const std::vector<bool> turned = internal::TurnedTriangles(level, fitted, target, feet);
+  const std::vector<bool> turned = internal::TurnedTriangles(level, fitted, target, closest);
   summary->turned = static_cast<double>(std::count(turned.begin(), turned.end(), true)) /
                     static_cast<double>(turned.size());
 
-  const Surface surface(level.connectivity, fitted);
+  const MeshSurface surface(level.connectivity, fitted);
   const int num_others = target.GetConnectivity().NumVertices();
-  std::vector<Foot> others(num_others);
+  std::vector<ClosestPoint> others(num_others);
   map.gap.resize(num_others);
   ParallelFor(num_others, [&](int y) {
     others[y] = internal::NearestOnTemplate(surface, level, target, y);
@@ -271,7 +271,7 @@ SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, c
   }
   map.to_template = PointsOf(others);
 
-  for (const Marker& marker : held) {
+  for (const CorrespondenceMarker& marker : held) {
     // A vertex lies in several triangles, so the nearest point may differ from it by rounding.
     const auto snap = [](SurfacePoints* points, int from, const Eigen::Matrix3Xi& triangles,
                          int to) {
@@ -306,10 +306,10 @@ std::string Percent(double share) {
   return text;
 }
 
-void Warn(const CorrespondenceOptions& options, const std::vector<Marker>& markers,
+void Warn(const CorrespondenceOptions& options, const std::vector<CorrespondenceMarker>& markers,
           CorrespondenceSummary* summary) {
   for (const auto& doubt : summary->doubtful) {
-    const Marker& marker = markers[doubt.marker];
+    const CorrespondenceMarker& marker = markers[doubt.marker];
     std::string text = "marker " + std::to_string(doubt.marker + 1) + " (vertices " +
                        std::to_string(marker.template_vertex + 1) + " and " +
                        std::to_string(marker.target_vertex + 1) + ") contradicts the others";
@@ -356,7 +356,8 @@ void CorrespondenceOptions::Validate() const {
 CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& template_connectivity,
                                 const Shape& template_shape,
                                 const std::shared_ptr<const Connectivity>& target_connectivity,
-                                const Shape& target_shape, const std::vector<Marker>& all_markers,
+                                const Shape& target_shape,
+                                const std::vector<CorrespondenceMarker>& all_markers,
                                 const CorrespondenceOptions& options, Progress* progress) {
   const internal::Stopwatch total;
   options.Validate();
@@ -379,9 +380,9 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
   const OwnFrame target_frame(*target_connectivity, target_shape);
   Shape rest = template_frame.In(template_shape);
   const Shape goal = target_frame.In(target_shape);
-  const auto distances = [&](const std::vector<Marker>& markers, double* size) {
+  const auto distances = [&](const std::vector<CorrespondenceMarker>& markers, double* size) {
     std::vector<int> on_template, on_target;
-    for (const Marker& marker : markers) {
+    for (const CorrespondenceMarker& marker : markers) {
       on_template.push_back(marker.template_vertex);
       on_target.push_back(marker.target_vertex);
     }
@@ -394,7 +395,7 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
   };
   double size = 1;
   std::optional<MarkerDistances> marker_distances = distances(all_markers, &size);
-  std::vector<Marker> markers = all_markers;
+  std::vector<CorrespondenceMarker> markers = all_markers;
   if (options.drop_doubtful && !summary.doubtful.empty()) {
     markers = internal::Without(all_markers, summary.doubtful);
     internal::CheckMarkers(markers, *template_connectivity, *target_connectivity);
@@ -410,7 +411,9 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
 
   // In ascending order of the template's vertices, which is their order in the levels.
   std::sort(markers.begin(), markers.end(),
-            [](const Marker& a, const Marker& b) { return a.template_vertex < b.template_vertex; });
+            [](const CorrespondenceMarker& a, const CorrespondenceMarker& b) {
+              return a.template_vertex < b.template_vertex;
+            });
   std::vector<int> held;
   Shape from(3, markers.size()), places(3, markers.size());
   for (size_t k = 0; k < markers.size(); ++k) {
@@ -431,7 +434,7 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
   for (int v = 0; v < template_connectivity->NumVertices(); ++v) all.vertices.push_back(v);
   result.map = MakeMap(all, fitted, rest / size, target, markers, &summary);
   result.fitted = target_frame.Out(fitted);
-  for (const Marker& marker : markers) {
+  for (const CorrespondenceMarker& marker : markers) {
     result.fitted.col(marker.template_vertex) = target_shape.col(marker.target_vertex);
   }
   summary.map_seconds = map_stopwatch.Seconds();

@@ -16,7 +16,7 @@
 namespace shapespace {
 
 /// Two corresponding vertices, one of the template and one of the target (a landmark).
-struct Marker {
+struct CorrespondenceMarker {
   int template_vertex = -1, target_vertex = -1;
 };
 
@@ -128,7 +128,8 @@ struct CorrespondenceResult {
 CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& template_connectivity,
                                 const Shape& template_shape,
                                 const std::shared_ptr<const Connectivity>& target_connectivity,
-                                const Shape& target_shape, const std::vector<Marker>& markers,
+                                const Shape& target_shape,
+                                const std::vector<CorrespondenceMarker>& markers,
                                 const CorrespondenceOptions& options = {},
                                 Progress* progress = nullptr);
 

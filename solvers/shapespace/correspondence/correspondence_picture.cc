@@ -93,7 +93,8 @@ void PasteBelow(const RgbImage& part, RgbImage* image) {
 
 RgbImage RenderCorrespondence(const Connectivity& template_connectivity,
                               const Shape& template_shape, const Connectivity& target_connectivity,
-                              const Shape& target_shape, const std::vector<Marker>& markers,
+                              const Shape& target_shape,
+                              const std::vector<CorrespondenceMarker>& markers,
                               const CorrespondenceResult& result) {
   if (template_shape.cols() != result.fitted.cols() ||
       target_shape.cols() != result.map.to_template.NumVertices()) {
@@ -119,7 +120,7 @@ RgbImage RenderCorrespondence(const Connectivity& template_connectivity,
   FilmStripOptions with_markers = options, with_patches = options, with_values = options;
   with_markers.groups.resize(both.first + both.second);
   std::vector<int> on_template, on_target;
-  for (const Marker& marker : markers) {
+  for (const CorrespondenceMarker& marker : markers) {
     on_template.push_back(marker.template_vertex);
     on_target.push_back(marker.target_vertex);
   }

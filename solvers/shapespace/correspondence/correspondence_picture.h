@@ -16,7 +16,8 @@ namespace shapespace {
 /// \throw MeshError if the arguments do not belong together.
 RgbImage RenderCorrespondence(const Connectivity& template_connectivity,
                               const Shape& template_shape, const Connectivity& target_connectivity,
-                              const Shape& target_shape, const std::vector<Marker>& markers,
+                              const Shape& target_shape,
+                              const std::vector<CorrespondenceMarker>& markers,
                               const CorrespondenceResult& result);
 
 }  // namespace shapespace

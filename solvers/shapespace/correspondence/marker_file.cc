@@ -29,7 +29,7 @@ int VertexFrom(std::string_view word, const Poses& mesh, const std::string& file
   selection.group = std::string(word);
   std::vector<int> vertices;
   try {
-    vertices = Select(selection, mesh.shapes[0], *mesh.connectivity, mesh.soup.appearance);
+    vertices = SelectVertices(selection, mesh.shapes[0], *mesh.connectivity, mesh.soup.appearance);
   } catch (const InvalidOptions&) {
     internal::FailAt(file, line, internal::Quoted(word) + wanted);
   }
@@ -41,11 +41,11 @@ int VertexFrom(std::string_view word, const Poses& mesh, const std::string& file
 
 }  // namespace
 
-std::vector<Marker> ReadMarkers(const std::string& file, const Poses& template_mesh,
-                                const Poses& target) {
+std::vector<CorrespondenceMarker> ReadMarkers(const std::string& file, const Poses& template_mesh,
+                                              const Poses& target) {
   std::string text = internal::ReadFile(file);
   internal::BlankByteOrderMark(&text);
-  std::vector<Marker> markers;
+  std::vector<CorrespondenceMarker> markers;
   internal::Lines lines(text);
   std::string_view line;
   while (lines.Next(&line)) {
@@ -61,8 +61,8 @@ std::vector<Marker> ReadMarkers(const std::string& file, const Poses& template_m
       internal::FailAt(file, lines.Number(),
                        internal::Quoted(words.Next()) + " is too much" + kWhatALineHolds);
     }
-    const Marker marker = {VertexFrom(first, template_mesh, file, lines.Number()),
-                           VertexFrom(second, target, file, lines.Number())};
+    const CorrespondenceMarker marker = {VertexFrom(first, template_mesh, file, lines.Number()),
+                                         VertexFrom(second, target, file, lines.Number())};
     for (size_t k = 0; k < markers.size(); ++k) {
       if (markers[k].template_vertex != marker.template_vertex &&
           markers[k].target_vertex != marker.target_vertex) {

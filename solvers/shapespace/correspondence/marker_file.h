@@ -14,8 +14,8 @@ namespace shapespace {
 /// a number a vertex may be given by the name of a group of its mesh, which stands for the group's
 /// vertex that is nearest to the group's centroid.
 /// \throw FileError naming file and line.
-std::vector<Marker> ReadMarkers(const std::string& file, const Poses& template_mesh,
-                                const Poses& target);
+std::vector<CorrespondenceMarker> ReadMarkers(const std::string& file, const Poses& template_mesh,
+                                              const Poses& target);
 
 }  // namespace shapespace
 

@@ -37,8 +37,8 @@ struct SurfaceMap {
 
 /// Evaluates a function at `points`. The function is given on the vertices of the mesh on which the
 /// points lie, as d x n values: positions (d = 3), colours, a scalar field; the result is d x m.
-/// `triangles` are those of that mesh. So `to_target` pulls a function on the target back to the
-/// template, and `to_template` pulls one on the template back to the target.
+/// `triangles` are those of that mesh. So `to_target` terms a function on the target back to the
+/// template, and `to_template` terms one on the template back to the target.
 /// \throw MeshError if `function` has no column for a corner of the triangles, or if a point lies
 ///        on a triangle that does not exist.
 Eigen::MatrixXd PullBack(const SurfacePoints& points, const Eigen::Matrix3Xi& triangles,

@@ -82,7 +82,7 @@ const double* EulerLagrange::Add(const std::shared_ptr<const Feature>& feature, 
   };
   for (int e = 0; e < feature->NumElements(); ++e) {
     const int* const vertices = feature->Element(e);
-    feature->Gather(e, e + 1, at, x);
+    feature->GatherCoordinates(e, e + 1, at, x);
     feature->Evaluate(1, x, values, derivatives);
     const double root = std::sqrt(feature->Weight(e));
     double rounded[Feature::kMaxValues];  // magnitudes of the terms of values

@@ -76,7 +76,8 @@ class Deformer::Solver {
 
   // `end` is the initial guess of the last shape, in the user's unit; if null, it is found by
   // following the handles.
-  DeformationResult Solve(const std::vector<Handle>& handles, const Shape* end, Progress* progress);
+  DeformationResult Solve(const std::vector<DeformationHandle>& handles, const Shape* end,
+                          Progress* progress);
 
  private:
   void CheckEnd(const Shape& end) const;
@@ -88,7 +89,7 @@ class Deformer::Solver {
   std::vector<Shape> StartAt(const Shape& end, const Shape& places, Progress* progress);
   void Relax(const Shape& places, size_t level, const char* start, internal::Workload* workload,
              std::vector<Shape>* shapes, DeformationSummary* summary);
-  void Assess(const std::vector<Handle>& handles, const HandleTargets& targets,
+  void Assess(const std::vector<DeformationHandle>& handles, const HandleTargets& targets,
               const std::vector<Shape>& shapes, DeformationResult* result);
   void Warn(const HandleTargets& targets, DeformationSummary* summary) const;
   internal::MinimiseOptions Minimise() const;
@@ -124,8 +125,8 @@ Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity
   component_ = ComputeTopology(*connectivity).component;
 }
 
-DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, const Shape* end,
-                                          Progress* progress) {
+DeformationResult Deformer::Solver::Solve(const std::vector<DeformationHandle>& handles,
+                                          const Shape* end, Progress* progress) {
   const internal::Stopwatch total;
   ReportProgress(progress, "deforming", 0, 0);
   DeformationResult result;
@@ -145,7 +146,7 @@ DeformationResult Deformer::Solver::Solve(const std::vector<Handle>& handles, co
   if (summary.warm) {
     workload.Plan(connectivity_->NumVertices(), options_.shapes, true);
     shapes = last_shapes_;
-    levels_.back().GoAlong(places, &shapes);
+    levels_.back().MoveHandlesTo(places, &shapes);
     Relax(places.back(), levels_.size() - 1, "warm", &workload, &shapes, &summary);
   } else {
     shapes = Cascade(targets, places, end, progress, &workload, &summary);
@@ -257,7 +258,7 @@ std::vector<Shape> Deformer::Solver::Follow(const HandleTargets& targets, Progre
     const Shape places = targets.At(static_cast<double>(step) / steps);
     std::vector<Shape> last = {way.back(), way.back()};
     level.MoveComponents(places, &last.back());
-    level.GoAlong({{}, places}, &last);
+    level.MoveHandlesTo({{}, places}, &last);
     way.push_back(std::move(last.back()));
     level.Path().Relax(level.Target(places), minimise, &way);
   }
@@ -322,17 +323,18 @@ void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char
   summary->levels.push_back(row);
 }
 
-void Deformer::Solver::Assess(const std::vector<Handle>& handles, const HandleTargets& targets,
-                              const std::vector<Shape>& shapes, DeformationResult* result) {
+void Deformer::Solver::Assess(const std::vector<DeformationHandle>& handles,
+                              const HandleTargets& targets, const std::vector<Shape>& shapes,
+                              DeformationResult* result) {
   DeformationSummary& summary = result->summary;
   summary.vertices = connectivity_->NumVertices();
   summary.triangles = connectivity_->NumTriangles();
   summary.shapes = options_.shapes;
-  summary.metric = Describe(metric_->options);
+  summary.metric = DescribeMetric(metric_->options);
   summary.unit = metric_->unit;
   summary.balance = options_.balance;
   summary.estimated_bytes = estimated_bytes_;
-  summary.threads = Threads();
+  summary.threads = NumThreads();
   summary.energy = ScaledEnergy(levels_.back().Path().Energy(shapes), options_.shapes);
   summary.error = CompareShapes(metric_, shapes.front(), shapes.back());
   for (int i = 0; i < hierarchy_->NumLevels(); ++i) {
@@ -340,7 +342,7 @@ void Deformer::Solver::Assess(const std::vector<Handle>& handles, const HandleTa
   }
   std::vector<Shape> placed;
   for (const Shape& shape : shapes) placed.push_back((metric_->unit * shape).colwise() + origin_);
-  for (const Handle& handle : handles) {
+  for (const DeformationHandle& handle : handles) {
     DeformationSummary::HandleResult row;
     row.name = handle.name;
     row.vertices = static_cast<int>(handle.vertices.size());
@@ -426,18 +428,20 @@ Deformer::~Deformer() = default;
 Deformer::Deformer(Deformer&&) noexcept = default;
 Deformer& Deformer::operator=(Deformer&&) noexcept = default;
 
-DeformationResult Deformer::Deform(const std::vector<Handle>& handles, Progress* progress) {
+DeformationResult Deformer::Deform(const std::vector<DeformationHandle>& handles,
+                                   Progress* progress) {
   return solver_->Solve(handles, nullptr, progress);
 }
 
-DeformationResult Deformer::DeformFrom(const Shape& end, const std::vector<Handle>& handles,
+DeformationResult Deformer::DeformFrom(const Shape& end,
+                                       const std::vector<DeformationHandle>& handles,
                                        Progress* progress) {
   return solver_->Solve(handles, &end, progress);
 }
 
 DeformationResult Deform(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
-                         const std::vector<Handle>& handles, const DeformationOptions& options,
-                         Progress* progress) {
+                         const std::vector<DeformationHandle>& handles,
+                         const DeformationOptions& options, Progress* progress) {
   return Deformer(connectivity, rest, options).Deform(handles, progress);
 }
 

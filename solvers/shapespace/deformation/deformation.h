@@ -129,8 +129,8 @@ struct DeformationResult {
 ///        SolverError (memory limit), Cancelled (stopped by `progress` before there was a path; if
 ///        stopped later, the best path so far is returned with Termination::kCancelled).
 DeformationResult Deform(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
-                         const std::vector<Handle>& handles, const DeformationOptions& options = {},
-                         Progress* progress = nullptr);
+                         const std::vector<DeformationHandle>& handles,
+                         const DeformationOptions& options = {}, Progress* progress = nullptr);
 
 /// Deforms one mesh repeatedly: keeps its hierarchy, factors and the last path. If the next handles
 /// constrain the same vertices in the same way and move them only a little, the solve starts from
@@ -145,11 +145,12 @@ class Deformer {
   Deformer(Deformer&&) noexcept;
   Deformer& operator=(Deformer&&) noexcept;
 
-  DeformationResult Deform(const std::vector<Handle>& handles, Progress* progress = nullptr);
+  DeformationResult Deform(const std::vector<DeformationHandle>& handles,
+                           Progress* progress = nullptr);
   /// The same, but starts from a given last shape instead of following the handles from the mesh.
   /// `end`, 3 x m in the user's unit, need not satisfy the hard handles.
   /// \throw MeshError too, if `end` is not finite or has another number of vertices.
-  DeformationResult DeformFrom(const Shape& end, const std::vector<Handle>& handles,
+  DeformationResult DeformFrom(const Shape& end, const std::vector<DeformationHandle>& handles,
                                Progress* progress = nullptr);
 
  private:

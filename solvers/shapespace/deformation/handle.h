@@ -27,7 +27,7 @@ struct ScrewMotion {
 
 /// Some vertices of a mesh and their target positions. All lengths are in the user's unit and
 /// frame.
-struct Handle {
+struct DeformationHandle {
   std::string name;           ///< for messages and reports; may be empty
   std::vector<int> vertices;  ///< counted from 0; at least one, no repetitions
 

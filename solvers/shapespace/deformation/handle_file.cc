@@ -60,7 +60,7 @@ TargetKind TargetOf(const Json& entry) {
 }
 
 ScrewMotion MotionFrom(const Json& entry, const Eigen::Vector3d& centroid) {
-  constexpr double kMostDegrees = 36000;  // a larger value is taken for a typing error
+  constexpr double kMaxDegrees = 36000;  // a larger value is taken for a typing error
   ScrewMotion motion;
   motion.point = centroid;
   if (entry.contains("translation")) {
@@ -74,7 +74,7 @@ ScrewMotion MotionFrom(const Json& entry, const Eigen::Vector3d& centroid) {
   if (motion.axis.isZero(0)) FailIn(Field(field, "axis"), "must not be zero: it is a direction");
   motion.axis.stableNormalize();
   motion.angle =
-      BoundedNumber(Required(rotation, field, "degrees"), Field(field, "degrees"), kMostDegrees) *
+      BoundedNumber(Required(rotation, field, "degrees"), Field(field, "degrees"), kMaxDegrees) *
       internal::kPi / 180;
   if (rotation.contains("point")) {
     motion.point = BoundedVector(rotation["point"], Field(field, "point"));
@@ -107,7 +107,7 @@ Shape PositionsFrom(const Json& entry, const Selection& selection, size_t count)
   return positions;
 }
 
-void SetWeight(const Json& entry, Handle* handle) {
+void SetWeight(const Json& entry, DeformationHandle* handle) {
   const bool is_soft = entry.contains("weight");
   if (entry.contains("hard") && BoolFrom(entry["hard"], "hard") == is_soft) {
     FailIn("hard", is_soft ? "true excludes weight, which makes a handle soft; leave one out"
@@ -121,18 +121,18 @@ void SetWeight(const Json& entry, Handle* handle) {
   }
 }
 
-Handle HandleFrom(const Json& entry, const Shape& shape, const Connectivity& connectivity,
-                  const Appearance& appearance) {
+DeformationHandle HandleFrom(const Json& entry, const Shape& shape,
+                             const Connectivity& connectivity, const Appearance& appearance) {
   CheckKeys(entry, "",
             {"name", "select", "fixed", "translation", "rotation", "position", "positions",
              "weight", "hard"});
-  Handle handle;
+  DeformationHandle handle;
   if (entry.contains("name")) handle.name = internal::TextFrom(entry["name"], "name");
   const Json& select = Required(entry, "", "select");
   Selection selection;
   try {
     selection = internal::ParseSelection(select);
-    handle.vertices = Select(selection, shape, connectivity, appearance);
+    handle.vertices = SelectVertices(selection, shape, connectivity, appearance);
   } catch (const InvalidOptions& error) {
     FailIn("select", error.what());
   }
@@ -172,11 +172,12 @@ std::string NameOf(const Json& entry, size_t i) {
   return name;
 }
 
-std::vector<Handle> HandlesFrom(const Json& json, const Shape& shape,
-                                const Connectivity& connectivity, const Appearance& appearance) {
+std::vector<DeformationHandle> HandlesFrom(const Json& json, const Shape& shape,
+                                           const Connectivity& connectivity,
+                                           const Appearance& appearance) {
   CheckKeys(json, "", {"handles", "$schema"});
   const Json& entries = ListFrom(Required(json, "", "handles"), "handles");
-  std::vector<Handle> handles;
+  std::vector<DeformationHandle> handles;
   for (size_t i = 0; i < entries.size(); ++i) {
     try {
       handles.push_back(HandleFrom(entries[i], shape, connectivity, appearance));
@@ -189,8 +190,9 @@ std::vector<Handle> HandlesFrom(const Json& json, const Shape& shape,
 
 }  // namespace
 
-std::vector<Handle> ReadHandles(const std::string& file, const Shape& shape,
-                                const Connectivity& connectivity, const Appearance& appearance) {
+std::vector<DeformationHandle> ReadHandles(const std::string& file, const Shape& shape,
+                                           const Connectivity& connectivity,
+                                           const Appearance& appearance) {
   const std::string text = internal::ReadFile(file);
   try {
     return HandlesFrom(internal::ParseJson(text), shape, connectivity, appearance);

@@ -15,8 +15,9 @@ namespace shapespace {
 /// \throw FileError naming the file, the handle (its number, from 1, and its name) and the field,
 ///        or the line if the file is not valid JSON. MeshError if the arguments do not belong to
 ///        one mesh.
-std::vector<Handle> ReadHandles(const std::string& file, const Shape& shape,
-                                const Connectivity& connectivity, const Appearance& appearance);
+std::vector<DeformationHandle> ReadHandles(const std::string& file, const Shape& shape,
+                                           const Connectivity& connectivity,
+                                           const Appearance& appearance);
 
 }  // namespace shapespace
 

@@ -54,7 +54,7 @@ RepairResult Repair(const std::shared_ptr<const Connectivity>& connectivity, con
   const auto metric =
       FreezeMetric(MetricOptions::Isometric(), connectivity, {reference, distorted});
   const Shape placed = FitRigidMotion(reference, distorted, metric->vertex_area)(reference);
-  Handle pose;
+  DeformationHandle pose;
   pose.name = "distorted shape";
   pose.vertices = options.vertices;
   if (pose.vertices.empty()) {

@@ -41,7 +41,7 @@ GeodesicOptions WithoutAssessment(GeodesicOptions options) {
 // The poses at the resolution on which distances are measured, and the solver there.
 struct Measuring {
   Measuring(const std::shared_ptr<const Connectivity>& connectivity,
-            const std::vector<Shape>& poses, const ExploreOptions& options, Crew* crew);
+            const std::vector<Shape>& poses, const ExploreOptions& options, ProcessPool* crew);
 
   // Restricts a shape of the mesh itself to that resolution.
   Shape Restrict(const Shape& shape) const {
@@ -55,7 +55,7 @@ struct Measuring {
 
 Measuring::Measuring(const std::shared_ptr<const Connectivity>& connectivity,
                      const std::vector<Shape>& all_poses, const ExploreOptions& options,
-                     Crew* crew) {
+                     ProcessPool* crew) {
   std::shared_ptr<const Connectivity> coarse = connectivity;
   std::vector<Shape> restricted = all_poses;
   GeodesicOptions geodesic = WithoutAssessment(options.geodesic);
@@ -102,7 +102,7 @@ void CheckPoses(const Connectivity& connectivity, const std::vector<Shape>& pose
 }
 
 // Computes the positions of the poses on the plane.
-void Spread(const ExploreOptions& options, Space* space, ExploreSummary* summary) {
+void EmbedPoses(const ExploreOptions& options, PoseSpace* space, ExploreSummary* summary) {
   // Distances below this are due to rounding; the metric's distances are pure numbers.
   constexpr double kNoDistance = 1e-9;
   if (space->distances.maxCoeff() < kNoDistance) {
@@ -113,7 +113,7 @@ void Spread(const ExploreOptions& options, Space* space, ExploreSummary* summary
   space->stress = summary->stress = embedding.stress;
   summary->stress_iterations = static_cast<int>(embedding.stresses.size()) - 1;
   summary->embedded = embedding.converged;
-  const Triangulation triangulation = Triangulate(space->points);
+  const Triangulation triangulation = DelaunayTriangulation(space->points);
   space->triangles = triangulation.triangles;
   space->segments = triangulation.segments;
   for (int i : triangulation.left_out) {
@@ -151,7 +151,7 @@ void Warn(ExploreSummary* summary) {
 // A random number in [0, 1) that is the same with every standard library.
 double Uniform(std::mt19937_64* random) { return static_cast<double>((*random)() >> 11) * 0x1p-53; }
 
-std::vector<PlaneLocation> RandomLocations(const Space& space, int samples) {
+std::vector<PlaneLocation> RandomLocations(const PoseSpace& space, int samples) {
   const bool is_line = space.triangles.cols() == 0;
   const Eigen::Index cells = is_line ? space.segments.cols() : space.triangles.cols();
   std::vector<double> up_to;  // cumulative lengths or areas
@@ -220,28 +220,28 @@ void ExploreOptions::Validate() const {
 
 Eigen::MatrixXd DistanceMatrix(const std::shared_ptr<const Connectivity>& connectivity,
                                const std::vector<Shape>& poses, const ExploreOptions& options,
-                               Progress* progress, Crew* crew) {
+                               Progress* progress, ProcessPool* crew) {
   options.Validate();
   CheckPoses(*connectivity, poses);
-  Crew alone;
+  ProcessPool alone;
   Measuring measuring(connectivity, poses, options, crew != nullptr ? crew : &alone);
   return MeasureDistances(&measuring, progress);
 }
 
 ExploreResult Explore(const std::shared_ptr<const Connectivity>& connectivity,
                       const std::vector<Shape>& poses, std::vector<std::string> names,
-                      const ExploreOptions& options, Progress* progress, Crew* crew) {
+                      const ExploreOptions& options, Progress* progress, ProcessPool* crew) {
   options.Validate();
   CheckPoses(*connectivity, poses);
   if (names.empty()) {
     for (size_t i = 0; i < poses.size(); ++i) names.push_back("pose " + std::to_string(i));
   }
   if (names.size() != poses.size()) throw InvalidOptions("names: must be one for each pose");
-  Crew alone;
+  ProcessPool alone;
   if (crew == nullptr) crew = &alone;
   const internal::Stopwatch total;
   ExploreResult result;
-  Space& space = result.space;
+  PoseSpace& space = result.space;
   ExploreSummary& summary = result.summary;
   space.names = std::move(names);
 
@@ -252,7 +252,7 @@ ExploreResult Explore(const std::shared_ptr<const Connectivity>& connectivity,
   summary.distance_seconds = total.Seconds();
 
   const internal::Stopwatch embedding;
-  Spread(options, &space, &summary);
+  EmbedPoses(options, &space, &summary);
   summary.embedding_seconds = embedding.Seconds();
 
   // Midpoints are solved on the mesh itself.
@@ -275,10 +275,10 @@ ExploreResult Explore(const std::shared_ptr<const Connectivity>& connectivity,
   summary.poses = space.NumPoses();
   summary.nodes = space.NumNodes();
   summary.cells = static_cast<int>(space.triangles.cols() + space.segments.cols());
-  summary.metric = Describe(space.metric->options);
+  summary.metric = DescribeMetric(space.metric->options);
   summary.unit = space.metric->unit;
   summary.threshold = options.threshold;
-  summary.threads = Threads();
+  summary.threads = NumThreads();
   summary.processes = crew->Size();
   Warn(&summary);
   summary.total_seconds = total.Seconds();
@@ -287,13 +287,13 @@ ExploreResult Explore(const std::shared_ptr<const Connectivity>& connectivity,
 
 void RemoveRecords(const std::string& folder) { internal::Records(folder).Remove(); }
 
-BlendErrors MeasureBlends(const Space& space, int samples, const ExploreOptions& given,
-                          Progress* progress, Crew* crew) {
+BlendErrors MeasureBlends(const PoseSpace& space, int samples, const ExploreOptions& given,
+                          Progress* progress, ProcessPool* crew) {
   ExploreOptions options = given;
   options.geodesic.metric = space.metric->options;
   options.Validate();
   if (samples < 1) throw InvalidOptions("samples: must be 1 or more");
-  Crew alone;
+  ProcessPool alone;
   std::vector<Shape> poses;
   for (int i = 0; i < space.NumPoses(); ++i) poses.push_back(space.metric->unit * space.nodes[i]);
   Measuring measuring(space.metric->connectivity, poses, options, crew != nullptr ? crew : &alone);

@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 
 #include <shapespace/base/progress.h>
-#include <shapespace/exploration/crew.h>
 #include <shapespace/exploration/embedding.h>
+#include <shapespace/exploration/process_pool.h>
 #include <shapespace/exploration/space.h>
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/mesh/connectivity.h>
@@ -88,7 +88,7 @@ struct ExploreSummary {
 };
 
 struct ExploreResult {
-  Space space;
+  PoseSpace space;
   ExploreSummary summary;
 };
 
@@ -98,12 +98,12 @@ struct ExploreResult {
 ///        Cancelled, FileError (records).
 Eigen::MatrixXd DistanceMatrix(const std::shared_ptr<const Connectivity>& connectivity,
                                const std::vector<Shape>& poses, const ExploreOptions& options = {},
-                               Progress* progress = nullptr, Crew* crew = nullptr);
+                               Progress* progress = nullptr, ProcessPool* crew = nullptr);
 
 /// The space of some poses (Kilian et al. 2007, section 5): their distances, their positions on the
-/// plane (`Embed`), a triangulation of these (`Triangulate`), and midpoints of geodesics as
-/// additional nodes where the straight line between two nodes is too long. If a triangle has such a
-/// side, all its sides are halved; so are those of a neighbour with two halved sides, and a
+/// plane (`Embed`), a triangulation of these (`DelaunayTriangulation`), and midpoints of geodesics
+/// as additional nodes where the straight line between two nodes is too long. If a triangle has
+/// such a side, all its sides are halved; so are those of a neighbour with two halved sides, and a
 /// neighbour with one halved side is cut in two, so that no node lies inside a side. `names` are
 /// those of the poses and may be empty.
 ///
@@ -113,7 +113,7 @@ Eigen::MatrixXd DistanceMatrix(const std::shared_ptr<const Connectivity>& connec
 ExploreResult Explore(const std::shared_ptr<const Connectivity>& connectivity,
                       const std::vector<Shape>& poses, std::vector<std::string> names = {},
                       const ExploreOptions& options = {}, Progress* progress = nullptr,
-                      Crew* crew = nullptr);
+                      ProcessPool* crew = nullptr);
 
 /// Removes the geodesics that a run stored in `folder`, and the folder if it is then empty.
 void RemoveRecords(const std::string& folder);
@@ -133,8 +133,8 @@ struct BlendErrors {
 /// the geodesic from there to the third node. Everything is measured in the metric of the space.
 /// Uses `geodesic` except for its metric, `resolution`, `threshold` and `records` of the options.
 /// \throw as DistanceMatrix.
-BlendErrors MeasureBlends(const Space& space, int samples, const ExploreOptions& options = {},
-                          Progress* progress = nullptr, Crew* crew = nullptr);
+BlendErrors MeasureBlends(const PoseSpace& space, int samples, const ExploreOptions& options = {},
+                          Progress* progress = nullptr, ProcessPool* crew = nullptr);
 
 }  // namespace shapespace
 

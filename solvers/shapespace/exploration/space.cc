@@ -35,7 +35,7 @@ Shape BlendNodes(const std::vector<Shape>& nodes, const PlaneLocation& location,
   return scale * u * nodes[a] + scale * v * nodes[b] + scale * w * nodes[c];
 }
 
-PlaneLocation Space::Locate(const Eigen::Vector2d& point) const {
+PlaneLocation PoseSpace::Locate(const Eigen::Vector2d& point) const {
   if (!point.allFinite()) throw InvalidOptions("point: must be two finite numbers");
   // Tolerance for negative barycentric coordinates due to rounding.
   constexpr double kRounding = 1e-12;
@@ -80,11 +80,11 @@ PlaneLocation Space::Locate(const Eigen::Vector2d& point) const {
   return best;
 }
 
-Shape Space::Blend(const PlaneLocation& location) const {
+Shape PoseSpace::Blend(const PlaneLocation& location) const {
   return BlendNodes(nodes, location, metric->unit).colwise() + translation;
 }
 
-void Space::Validate() const {
+void PoseSpace::Validate() const {
   const auto fail = [](const std::string& what) { throw MeshError("the space: " + what); };
   const Eigen::Index vertices = metric->connectivity->NumVertices();
   const int count = NumNodes(), poses = NumPoses();
@@ -120,7 +120,8 @@ void Space::Validate() const {
                       static_cast<int>(metric->connectivity->Corners().size()));
 }
 
-Walk WalkAlong(const Space& space, const std::vector<Eigen::Vector2d>& polyline, int frames) {
+PlaneWalk WalkAlong(const PoseSpace& space, const std::vector<Eigen::Vector2d>& polyline,
+                    int frames) {
   if (polyline.empty()) throw InvalidOptions("points: the curve has none");
   if (frames < 1) throw InvalidOptions("frames: must be 1 or more");
   std::vector<double> length = {0};  // cumulative, at each point
@@ -129,7 +130,7 @@ Walk WalkAlong(const Space& space, const std::vector<Eigen::Vector2d>& polyline,
     if (i > 0) length.push_back(length.back() + (polyline[i] - polyline[i - 1]).stableNorm());
   }
   if (!std::isfinite(length.back())) throw InvalidOptions("points: the curve has no finite length");
-  Walk walk;
+  PlaneWalk walk;
   walk.path.metric = space.metric;
   walk.path.appearance = space.appearance;
   size_t i = 0;

@@ -31,7 +31,7 @@ Shape BlendNodes(const std::vector<Shape>& nodes, const PlaneLocation& location,
 /// Poses of a mesh and shapes between them, arranged on a plane such that distances on the plane
 /// approximate the lengths of geodesics (Kilian et al. 2007, section 5 and Figures 7 and 8).
 /// Between nodes shapes are blended linearly, over the triangles of the plane.
-struct Space {
+struct PoseSpace {
   std::shared_ptr<const Metric> metric;  ///< frozen on all poses; has the connectivity
 
   /// The poses, followed by the midpoints of geodesics: all aligned with the first pose, centred,
@@ -79,7 +79,7 @@ struct Space {
 };
 
 /// The motion that belongs to a curve on the plane.
-struct Walk {
+struct PlaneWalk {
   Path path;  ///< not a geodesic but a sequence of blends; `poses` are those reached exactly
   std::vector<PlaneLocation> locations;  ///< of its shapes
   int outside = 0;                       ///< number of points projected onto the hull
@@ -87,7 +87,8 @@ struct Walk {
 
 /// The shapes along a polyline of the plane, at `frames` points evenly spaced along it.
 /// \throw InvalidOptions if there is no point, one is not finite, or frames is less than 1.
-Walk WalkAlong(const Space& space, const std::vector<Eigen::Vector2d>& polyline, int frames);
+PlaneWalk WalkAlong(const PoseSpace& space, const std::vector<Eigen::Vector2d>& polyline,
+                    int frames);
 
 }  // namespace shapespace
 

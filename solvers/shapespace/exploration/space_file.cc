@@ -18,8 +18,8 @@ using internal::HeaderJson;
 
 constexpr internal::ArrayFileKind kKind = {"SHAPPLAN", 1, ".space"};
 
-Space Parse(const std::string& file, const HeaderJson& header, const ArrayReader& arrays) {
-  Space space;
+PoseSpace Parse(const std::string& file, const HeaderJson& header, const ArrayReader& arrays) {
+  PoseSpace space;
   space.metric = internal::ReadMetric(header, arrays);
   space.appearance = internal::ReadAppearance(header, file, arrays);
   const int count = header.at("nodes").get<int>();
@@ -41,7 +41,7 @@ Space Parse(const std::string& file, const HeaderJson& header, const ArrayReader
   return space;
 }
 
-Eigen::Vector2d PointFrom(const internal::Json& entry, const Space& space,
+Eigen::Vector2d PointFrom(const internal::Json& entry, const PoseSpace& space,
                           const std::string& field) {
   if (entry.is_string()) {
     const std::string name = entry.get<std::string>();
@@ -59,7 +59,7 @@ Eigen::Vector2d PointFrom(const internal::Json& entry, const Space& space,
 
 }  // namespace
 
-void WriteSpace(const std::string& file, const Space& space) {
+void WriteSpace(const std::string& file, const PoseSpace& space) {
   try {
     space.Validate();
   } catch (const MeshError& error) {
@@ -89,14 +89,14 @@ void WriteSpace(const std::string& file, const Space& space) {
   internal::WriteArrayFile(file, kKind, std::move(header), arrays);
 }
 
-Space ReadSpace(const std::string& file) {
+PoseSpace ReadSpace(const std::string& file) {
   return internal::ReadArrayFile(file, kKind,
                                  [&](const HeaderJson& header, const ArrayReader& arrays) {
                                    return Parse(file, header, arrays);
                                  });
 }
 
-std::vector<Eigen::Vector2d> ReadCurve(const std::string& file, const Space& space) {
+std::vector<Eigen::Vector2d> ReadCurve(const std::string& file, const PoseSpace& space) {
   const std::string text = internal::ReadFile(file);
   try {
     const internal::Json json = internal::ParseJson(text);

@@ -50,7 +50,7 @@ Eigen::Matrix3Xi Delaunay(const Eigen::Matrix2Xd& points, const std::vector<int>
 
 }  // namespace
 
-Triangulation Triangulate(const Eigen::Matrix2Xd& points) {
+Triangulation DelaunayTriangulation(const Eigen::Matrix2Xd& points) {
   if (!points.allFinite()) throw InvalidOptions("points: one is not finite");
   Triangulation result;
   const int count = static_cast<int>(points.cols());

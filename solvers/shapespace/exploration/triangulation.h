@@ -22,7 +22,7 @@ inline constexpr double kFlatSpread = 1e-2;
 /// The Delaunay triangulation of points of the plane, by Qhull.
 /// \throw InvalidOptions if a point is not finite, or if fewer than two differ; SolverError if
 ///        Qhull fails.
-Triangulation Triangulate(const Eigen::Matrix2Xd& points);
+Triangulation DelaunayTriangulation(const Eigen::Matrix2Xd& points);
 
 }  // namespace shapespace
 

@@ -21,7 +21,7 @@
 namespace shapespace {
 namespace {
 
-using internal::Departure;
+using internal::InitialState;
 using internal::MetricSolver;
 
 // Computes the next shape and fills in the fields of the summary's row that concern the solve.
@@ -304,19 +304,19 @@ Tangent SegmentVelocity(const FeatureMap& map, const Shape& other, const Shape& 
                      derivative.TransposeTimes(sign * (map.Values(at) - map.Values(other))));
 }
 
-// The departure from a `shape` that was not solved on the mesh itself. Its lifted detail did not
-// move as on a geodesic; used as a momentum, this motion would grow from step to step. Therefore
-// only the projection of the change onto the velocities at the new shape is kept, scaled to the
-// speed of the geodesic.
-Departure Restart(const FeatureMap& map, const Shape& before, const Shape& shape, double speed) {
+// The initial state from a `shape` that was not solved on the mesh itself. Its lifted detail did
+// not move as on a geodesic; used as a momentum, this motion would grow from step to step.
+// Therefore only the projection of the change onto the velocities at the new shape is kept, scaled
+// to the speed of the geodesic.
+InitialState Restart(const FeatureMap& map, const Shape& before, const Shape& shape, double speed) {
   Tangent velocity = SegmentVelocity(map, before, shape, 1);
   const double found = map.Derivative(shape).Times(velocity).norm();
   if (found > 0) velocity *= speed / found;
   return {shape, {}, std::move(velocity), speed};
 }
 
-// Continues the result's path, whose last shape is that of `departure`.
-void Shoot(Departure departure, int steps, double step, const ExponentialOptions& options,
+// Continues the result's path, whose last shape is that of `initial_state`.
+void Shoot(InitialState initial_state, int steps, double step, const ExponentialOptions& options,
            Progress* progress, ExponentialResult* result) {
   const internal::Stopwatch total;
   Path& path = result->path;
@@ -325,7 +325,7 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
   summary.integrator = options.integrator;
   summary.vertices = metric->connectivity->NumVertices();
   summary.requested_steps = steps;
-  summary.metric = Describe(metric->options);
+  summary.metric = DescribeMetric(metric->options);
   if (metric->options.discretization == Discretization::kTrapezoid) {
     summary.warnings.push_back(
         "the path was made in trapezoid form, in which geodesics cannot be shot: it is continued "
@@ -333,23 +333,23 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
         "midpoint form");
   }
 
-  const bool discrete = departure.previous.size() > 0;
+  const bool discrete = initial_state.previous.size() > 0;
   switch (options.integrator) {
-    case Integrator::kVariational: {
-      internal::Shooter shooter(metric, {path.shapes.front(), departure.shape}, options, [&] {
+    case GeodesicIntegrator::kVariational: {
+      internal::Shooter shooter(metric, {path.shapes.front(), initial_state.shape}, options, [&] {
         ReportProgress(progress, "shooting", static_cast<int>(summary.steps.size()), steps);
       });
       const FeatureMap map(metric);
-      departure.speed = discrete
-                            ? (map.Values(departure.shape) - map.Values(departure.previous)).norm()
-                            : map.Derivative(departure.shape).Times(departure.velocity).norm();
+      initial_state.speed =
+          discrete ? (map.Values(initial_state.shape) - map.Values(initial_state.previous)).norm()
+                   : map.Derivative(initial_state.shape).Times(initial_state.velocity).norm();
       const auto next = [&](ExponentialSummary::Step* row) {
-        Shape shape = shooter.Next(departure, row);
+        Shape shape = shooter.Next(initial_state, row);
         if (row->vertices == summary.vertices) {
-          departure.velocity.resize(3, 0);
-          departure.previous = std::exchange(departure.shape, shape);
+          initial_state.velocity.resize(3, 0);
+          initial_state.previous = std::exchange(initial_state.shape, shape);
         } else {
-          departure = Restart(map, departure.shape, shape, departure.speed);
+          initial_state = Restart(map, initial_state.shape, shape, initial_state.speed);
         }
         return shape;
       };
@@ -358,21 +358,22 @@ void Shoot(Departure departure, int steps, double step, const ExponentialOptions
       summary.factor_seconds = shooter.FactorSeconds();
       break;
     }
-    case Integrator::kRungeKutta4: {
-      RungeKutta4 scheme(
-          metric, departure.shape,
-          discrete ? SegmentVelocity(FeatureMap(metric), departure.previous, departure.shape, 1)
-                   : departure.velocity);
+    case GeodesicIntegrator::kRungeKutta4: {
+      RungeKutta4 scheme(metric, initial_state.shape,
+                         discrete ? SegmentVelocity(FeatureMap(metric), initial_state.previous,
+                                                    initial_state.shape, 1)
+                                  : initial_state.velocity);
       March([&](ExponentialSummary::Step* row) { return scheme.Next(row); }, steps, step, progress,
             result);
       summary.factorisations = scheme.Solver().NumFactorisations();
       summary.factor_seconds = scheme.Solver().FactorSeconds();
       break;
     }
-    case Integrator::kFirstIntegral: {
-      FirstIntegral scheme(metric, discrete ? departure.previous : departure.shape,
-                           discrete ? departure.shape - departure.previous : departure.velocity,
-                           options);
+    case GeodesicIntegrator::kFirstIntegral: {
+      FirstIntegral scheme(
+          metric, discrete ? initial_state.previous : initial_state.shape,
+          discrete ? initial_state.shape - initial_state.previous : initial_state.velocity,
+          options);
       ExponentialSummary::Step unused;
       if (discrete) scheme.Next(&unused);  // its first step is the last segment of the path
       March([&](ExponentialSummary::Step* row) { return scheme.Next(row); }, steps, step, progress,

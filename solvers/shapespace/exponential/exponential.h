@@ -14,7 +14,7 @@
 namespace shapespace {
 
 /// How a geodesic is continued (docs/mathematics.md, section 8).
-enum class Integrator {
+enum class GeodesicIntegrator {
   kVariational,    ///< discrete Euler-Lagrange equation: order 2, momenta conserved up to rounding
   kRungeKutta4,    ///< fourth-order Runge-Kutta on the geodesic equation, unstable for large steps
   kFirstIntegral,  ///< the paper's (7), which does not converge: for comparison only
@@ -37,7 +37,7 @@ enum class FirstIntegralSolver {
 
 /// Options of shooting.
 struct ExponentialOptions {
-  Integrator integrator = Integrator::kVariational;
+  GeodesicIntegrator integrator = GeodesicIntegrator::kVariational;
   StepSolver solver = StepSolver::kNewtonKrylov;                            ///< kVariational only
   FirstIntegralSolver first_integral_solver = FirstIntegralSolver::kLbfgs;  ///< kFirstIntegral only
 
@@ -88,7 +88,7 @@ struct ExponentialSummary {
 
   Ending ending = Ending::kComplete;
   std::string stopped;  ///< a sentence, if the path ended early
-  Integrator integrator = Integrator::kVariational;
+  GeodesicIntegrator integrator = GeodesicIntegrator::kVariational;
   int vertices = 0;
   int requested_steps = 0;
   std::string metric;

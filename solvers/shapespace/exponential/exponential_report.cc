@@ -13,13 +13,13 @@ namespace {
 using internal::Format;
 using internal::JsonNumber;
 
-const char* Name(Integrator integrator) {
+const char* Name(GeodesicIntegrator integrator) {
   switch (integrator) {
-    case Integrator::kVariational:
+    case GeodesicIntegrator::kVariational:
       return "variational";
-    case Integrator::kRungeKutta4:
+    case GeodesicIntegrator::kRungeKutta4:
       return "Runge-Kutta 4";
-    case Integrator::kFirstIntegral:
+    case GeodesicIntegrator::kFirstIntegral:
       break;
   }
   return "first integral (7)";

@@ -173,7 +173,7 @@ TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents
       internal::TransportBytes(map.GetMetric(), static_cast<int>(tangents.size()));
   internal::CheckMemory("this transport", result.summary.estimated_bytes, options.memory_limit,
                         "use a mesh of fewer vertices");
-  result.summary.metric = Describe(map.GetMetric().options);
+  result.summary.metric = DescribeMetric(map.GetMetric().options);
   result.summary.first_norm = Norms(map, path.shapes.front(), result.tangents);
   std::optional<MetricTransport> metric_transport;
   std::optional<ConstrainedProjection> projection;

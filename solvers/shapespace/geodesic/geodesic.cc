@@ -10,7 +10,7 @@
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/cost/internal/refuse_sums.h>
-#include <shapespace/geodesic/internal/piece.h>
+#include <shapespace/geodesic/internal/geodesic_piece.h>
 #include <shapespace/hierarchy/freeze_level.h>
 #include <shapespace/numerics/internal/check_options.h>
 #include <shapespace/numerics/internal/memory.h>
@@ -346,7 +346,7 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
     }
     if (!workload.Stopped() &&
         (shapes.empty() || !IsSolved(i, shapes, options_, &resolutions_.back(), &summary))) {
-      Piece piece(i, hierarchy_, &resolutions_, options_, &workload, &summary);
+      GeodesicPiece piece(i, hierarchy_, &resolutions_, options_, &workload, &summary);
       piece.Run(schedule, more_shapes_allowed);
       shapes = std::move(piece).Result();
       MoveStraight(without_cost_, &shapes);
@@ -373,14 +373,14 @@ void GeodesicLevels::Describe(GeodesicSummary* summary) const {
     summary->hierarchy.push_back(resolution.GetMetric()->connectivity->NumVertices());
   }
   summary->hierarchy_stopped_early = hierarchy_.StoppedEarly();
-  summary->metric = shapespace::Describe(metric_->options);
+  summary->metric = DescribeMetric(metric_->options);
   summary->vertices = connectivity.NumVertices();
   summary->triangles = connectivity.NumTriangles();
   summary->edges = connectivity.NumEdges();
   summary->hinges = connectivity.NumHinges();
   summary->shapes = options_.shapes;
   summary->unit = metric_->unit;
-  summary->threads = Threads();
+  summary->threads = NumThreads();
 }
 
 }  // namespace internal

@@ -69,8 +69,8 @@ class Within final : public Progress {
 };
 
 // Measures the difference between the changes of target and source since their first shapes.
-void MeasureWhatIsOff(const Metric& metric, const Path& source, const Path& target,
-                      TransferSummary* summary) {
+void MeasureTransferErrors(const Metric& metric, const Path& source, const Path& target,
+                           TransferSummary* summary) {
   const auto change = [](const Path& path, const auto& value) {
     const auto first = value(path.shapes.front());
     auto last = value(path.shapes.back());
@@ -334,7 +334,7 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
   const bool climbs = options.method == TransferMethod::kLadder;
   summary.method = options.method;
   summary.vertices = source.metric->connectivity->NumVertices();
-  summary.metric = Describe(climbs ? options.ladder.metric : options.metric);
+  summary.metric = DescribeMetric(climbs ? options.ladder.metric : options.metric);
   summary.scale = ScaleOf(source, target);
   TargetShapes shapes(source, target, summary.scale, options);
   summary.estimated_bytes = shapes.EstimatedBytes();
@@ -367,7 +367,7 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
   }
   result.path.appearance = result.hybrids.appearance = source.appearance;
   result.path.converged = result.hybrids.converged = source.converged && summary.Converged();
-  MeasureWhatIsOff(*metric, made, result.path, &summary);
+  MeasureTransferErrors(*metric, made, result.path, &summary);
   Warn(&summary);
   summary.total_seconds = total.Seconds();
   return result;

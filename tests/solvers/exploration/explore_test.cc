@@ -26,7 +26,7 @@ using testing::SmallTube;
 using testing::TubePoses;
 
 // Processes tasks in reverse order, as if other processes had been faster.
-class LastFirst : public Crew {
+class LastFirst : public ProcessPool {
  public:
   std::vector<std::string> ForEach(int count,
                                    const std::function<std::string(int)>& body) override {
@@ -37,7 +37,7 @@ class LastFirst : public Crew {
 };
 
 TEST(InterpolatorTest, FindsWhatInterpolateFindsWhateverItFoundBefore) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   const std::vector<Shape> poses = TubePoses(tube);
   GeodesicOptions options;
   options.shapes = 3;
@@ -54,7 +54,7 @@ TEST(InterpolatorTest, FindsWhatInterpolateFindsWhateverItFoundBefore) {
 }
 
 TEST(InterpolatorTest, UnderTheTrapezoidToo) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   const std::vector<Shape> poses = TubePoses(tube);
   GeodesicOptions options;
   options.metric.discretization = Discretization::kTrapezoid;
@@ -66,7 +66,7 @@ TEST(InterpolatorTest, UnderTheTrapezoidToo) {
 }
 
 TEST(InterpolatorTest, WithoutAssessmentWhatWasNotMeasuredIsNoNumber) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   GeodesicOptions options;
   options.assess = false;
   const GeodesicSummary summary =
@@ -78,7 +78,7 @@ TEST(InterpolatorTest, WithoutAssessmentWhatWasNotMeasuredIsNoNumber) {
 }
 
 TEST(MetricTest, FrozenOnAllPairsDoesNotDependOnTheOrderOfPoses) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   std::vector<Shape> poses = {tube.pose(0), tube.pose(75), tube.pose(150)};
   const auto weights = [&](PosePairs pairs) {
     const auto metric = FreezeMetric({}, tube.connectivity, poses, 0, pairs);
@@ -92,7 +92,7 @@ TEST(MetricTest, FrozenOnAllPairsDoesNotDependOnTheOrderOfPoses) {
 }
 
 TEST(DistanceMatrixTest, IsAMetric) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   std::vector<Shape> poses = TubePoses(tube);
   poses.push_back(poses[1]);
   const Eigen::MatrixXd d = DistanceMatrix(tube.connectivity, poses);
@@ -108,7 +108,7 @@ TEST(DistanceMatrixTest, IsAMetric) {
 }
 
 TEST(DistanceMatrixTest, NeitherRigidMotionNorScaleChangesIt) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   std::vector<Shape> poses = TubePoses(tube);
   const Eigen::MatrixXd d = DistanceMatrix(tube.connectivity, poses);
   for (double scale : {1e-3, 1.0, 1e3}) {
@@ -123,7 +123,7 @@ TEST(DistanceMatrixTest, NeitherRigidMotionNorScaleChangesIt) {
 }
 
 TEST(DistanceMatrixTest, OnACoarserMeshIsNearlyTheSameUpToAFactor) {
-  const Body tube = MakeTube(12000);
+  const ShapeFamily tube = MakeTube(12000);
   const std::vector<Shape> poses = TubePoses(tube);
   const Eigen::MatrixXd fine = DistanceMatrix(tube.connectivity, poses);
   ExploreOptions options;
@@ -136,14 +136,14 @@ TEST(DistanceMatrixTest, OnACoarserMeshIsNearlyTheSameUpToAFactor) {
 }
 
 TEST(ExploreTest, ShapesOfAGeodesicLieOnALine) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   GeodesicOptions geodesic;
   geodesic.tolerance = 1e-8;
   const std::vector<Shape> path =
       Interpolate(tube.connectivity, {tube.pose(0), tube.pose(90)}, geodesic).path.Placed();
   ExploreOptions options;
   options.depth = 0;
-  const Space space =
+  const PoseSpace space =
       Explore(tube.connectivity, {path[0], path[16], path[4], path[12]}, {}, options).space;
   EXPECT_EQ(space.triangles.cols(), 0);
   ASSERT_EQ(space.segments.cols(), 3);
@@ -159,9 +159,9 @@ TEST(ExploreTest, ShapesOfAGeodesicLieOnALine) {
 }
 
 TEST(ExploreTest, TwoPosesAreALineThatIsRefined) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   const ExploreResult result = Explore(tube.connectivity, {tube.pose(0), tube.pose(100)});
-  const Space& space = result.space;
+  const PoseSpace& space = result.space;
   EXPECT_EQ(space.triangles.cols(), 0);
   EXPECT_EQ(space.segments.cols(), space.NumNodes() - 1);
   ASSERT_GT(space.NumNodes(), 2);
@@ -180,7 +180,7 @@ TEST(ExploreTest, TwoPosesAreALineThatIsRefined) {
 }
 
 TEST(ExploreTest, CopiesAreToldOfAndNothingButCopiesIsRefused) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   std::vector<Shape> poses = TubePoses(tube);
   poses.push_back(Rotation(70, {1, 1, 0}) * poses[2]);
   const ExploreResult result = Explore(tube.connectivity, poses, {"a", "b", "c", "d", "copy"});
@@ -195,11 +195,11 @@ TEST(ExploreTest, CopiesAreToldOfAndNothingButCopiesIsRefused) {
 }
 
 TEST(ExploreTest, ThePosesAreAtTheirPlacesUpToRigidMotion) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   std::vector<Shape> poses = TubePoses(tube);
   for (Shape& pose : poses) pose.colwise() += Eigen::Vector3d(1e6, 0, 0);
   poses[1] = Rotation(100, {0, 1, 1}) * poses[1];
-  const Space space = Explore(tube.connectivity, poses).space;
+  const PoseSpace space = Explore(tube.connectivity, poses).space;
   EXPECT_LT(Distance(space.Placed(0), poses[0]), 1e-8);  // in a frame a million units away
   for (int i = 1; i < 4; ++i) {
     const Shape shape = space.At(space.points.col(i));
@@ -209,7 +209,7 @@ TEST(ExploreTest, ThePosesAreAtTheirPlacesUpToRigidMotion) {
 }
 
 TEST(ExploreTest, TheOrderOfWorkDoesNotMatter) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   const std::vector<Shape> poses = TubePoses(tube);
   LastFirst crew;
   EXPECT_EQ(Explore(tube.connectivity, poses, {}, {}, nullptr, &crew).space.nodes,
@@ -217,7 +217,7 @@ TEST(ExploreTest, TheOrderOfWorkDoesNotMatter) {
 }
 
 TEST(ExploreTest, TellsHowFarItIsAndStopsWhenAsked) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   const std::vector<Shape> poses = TubePoses(tube);
   Listener listener;
   Explore(tube.connectivity, poses, {}, {}, &listener);
@@ -231,7 +231,7 @@ TEST(ExploreTest, TellsHowFarItIsAndStopsWhenAsked) {
 }
 
 TEST(ExploreTest, WhatDoesNotConvergeIsToldOf) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   ExploreOptions options;
   options.geodesic.max_iterations = 1;
   const ExploreSummary summary = Explore(tube.connectivity, TubePoses(tube), {}, options).summary;
@@ -244,7 +244,7 @@ TEST(ExploreTest, WhatDoesNotConvergeIsToldOf) {
 }
 
 TEST(ExploreTest, BadCallsNameTheirField) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   const std::vector<Shape> poses = TubePoses(tube);
   const auto message = [&](const std::function<void(ExploreOptions*)>& spoil) {
     ExploreOptions options;

@@ -28,7 +28,7 @@ class RecordsTest : public FilesTest {
     return files;
   }
 
-  const Body tube_ = SmallTube();
+  const ShapeFamily tube_ = SmallTube();
   std::vector<Shape> poses_ = TubePoses(tube_);
   ExploreOptions options_;
 };

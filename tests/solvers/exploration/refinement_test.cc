@@ -13,15 +13,15 @@ namespace {
 using testing::SmallTube;
 using testing::TubePoses;
 
-Space Explored(int depth, double threshold = 0.05) {
-  const Body tube = SmallTube();
+PoseSpace Explored(int depth, double threshold = 0.05) {
+  const ShapeFamily tube = SmallTube();
   ExploreOptions options;
   options.depth = depth;
   options.threshold = threshold;
   return Explore(tube.connectivity, TubePoses(tube), {}, options).space;
 }
 
-double AreaOf(const Space& space) {
+double AreaOf(const PoseSpace& space) {
   double area = 0;
   for (int t = 0; t < space.triangles.cols(); ++t) {
     const Eigen::Vector2d a = space.points.col(space.triangles(0, t));
@@ -36,7 +36,7 @@ double AreaOf(const Space& space) {
 class RefinementTo : public ::testing::TestWithParam<double> {};
 
 TEST_P(RefinementTo, TilesTheHullWithoutHangingNodes) {
-  const Space coarse = Explored(0), fine = Explored(3, GetParam());
+  const PoseSpace coarse = Explored(0), fine = Explored(3, GetParam());
   ASSERT_GT(fine.NumNodes(), coarse.NumNodes());
   EXPECT_NEAR(AreaOf(fine), AreaOf(coarse), 1e-12 * AreaOf(coarse));
   // Each side belongs to one triangle, on the hull, or to two with opposite directions; and no node
@@ -61,7 +61,7 @@ TEST_P(RefinementTo, TilesTheHullWithoutHangingNodes) {
 INSTANTIATE_TEST_SUITE_P(Thresholds, RefinementTo, ::testing::Values(0.01, 0.02, 0.05, 0.1, 0.2));
 
 TEST(RefinementTest, EachNodeIsThereOnceHalfWayBetweenItsParents) {
-  const Space space = Explored(3);
+  const PoseSpace space = Explored(3);
   std::set<std::array<int, 2>> pairs;
   for (size_t i = 0; i < space.parents.size(); ++i) {
     const auto& parents = space.parents[i];
@@ -73,12 +73,12 @@ TEST(RefinementTest, EachNodeIsThereOnceHalfWayBetweenItsParents) {
 }
 
 TEST(RefinementTest, LowersTheErrorUntilItIsBelowTheThreshold) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   ExploreOptions options;
   double before = 1;
   for (int depth : {0, 1, 3}) {
     options.depth = depth;
-    const Space space = Explore(tube.connectivity, TubePoses(tube), {}, options).space;
+    const PoseSpace space = Explore(tube.connectivity, TubePoses(tube), {}, options).space;
     const BlendErrors errors = MeasureBlends(space, 100, options);
     EXPECT_EQ(errors.samples, 100);
     EXPECT_LT(errors.max, 0.7 * before) << depth;
@@ -92,13 +92,13 @@ TEST(RefinementTest, LowersTheErrorUntilItIsBelowTheThreshold) {
 }
 
 TEST(MeasureBlends, MeasuresInTheMetricOfTheSpace) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   ExploreOptions options;
   options.depth = 0;
   options.geodesic.metric.isometric = 0;
   options.geodesic.metric.strain = 1;
   options.geodesic.metric.bending = 1e-3;
-  const Space space = Explore(tube.connectivity, TubePoses(tube), {}, options).space;
+  const PoseSpace space = Explore(tube.connectivity, TubePoses(tube), {}, options).space;
   const BlendErrors own = MeasureBlends(space, 10, options);
   options.geodesic.metric = MetricOptions::Isometric();
   options.geodesic.metric.bending = 0;
@@ -108,7 +108,7 @@ TEST(MeasureBlends, MeasuresInTheMetricOfTheSpace) {
 }
 
 TEST(RefinementTest, StopsWhereStraightLinesAreGoodEnough) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   ExploreOptions options;
   options.threshold = 100;
   const ExploreResult all = Explore(tube.connectivity, TubePoses(tube), {}, options);
@@ -132,7 +132,7 @@ TEST(RefinementTest, StopsWhereStraightLinesAreGoodEnough) {
 // Poses close to each other and one far away: only the triangles at the latter are split, so that
 // triangles with one and with two halved sides occur.
 TEST(RefinementTest, NeighboursOfWhatIsSplitFollow) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   std::vector<Shape> poses = {tube.pose(100)};
   for (const auto& [bend, twist] : {std::make_pair(0, 0), {8, 0}, {0, 20}, {9, 22}, {4, -15}}) {
     poses.push_back(testing::BentAndTwisted(tube, bend, twist));
@@ -147,12 +147,12 @@ TEST(RefinementTest, NeighboursOfWhatIsSplitFollow) {
   EXPECT_LT(level.new_nodes, level.edges);
   EXPECT_LT(result.summary.cells, 4 * level.cells);
   options.depth = 0;
-  const Space before = Explore(tube.connectivity, poses, {}, options).space;
+  const PoseSpace before = Explore(tube.connectivity, poses, {}, options).space;
   EXPECT_NEAR(AreaOf(result.space), AreaOf(before), 1e-12 * AreaOf(before));
 }
 
 TEST(RefinementTest, NodesArePosesAndNewOnesKeepTheirSize) {
-  const Space space = Explored(2);
+  const PoseSpace space = Explored(2);
   const auto area = [&](const Shape& shape) {
     double sum = 0;
     const Eigen::Matrix3Xi& triangles = space.metric->connectivity->Triangles();

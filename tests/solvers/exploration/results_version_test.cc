@@ -58,7 +58,7 @@ GeodesicOptions Options(double isometric, double strain, int coarsest, GeodesicS
   return options;
 }
 
-std::vector<Case> Cases(const Body& tube) {
+std::vector<Case> Cases(const ShapeFamily& tube) {
   const std::vector<Shape> poses = testing::TubePoses(tube);
   constexpr auto kDefault = GeodesicSolver::kAutomatic;
   return {{"lengths", poses[0], poses[3], Options(1, 0, 200, kDefault)},
@@ -68,8 +68,8 @@ std::vector<Case> Cases(const Body& tube) {
           {"threaded", poses[0], poses[3], Options(1, 0, 200, GeodesicSolver::kThreadedLbfgs)}};
 }
 
-Numbers Solve(const Body& body, const Case& given) {
-  Crew alone;
+Numbers Solve(const ShapeFamily& body, const Case& given) {
+  ProcessPool alone;
   PairSolver solver(body.connectivity, {given.from, given.to}, given.options, &alone, "");
   const double unit = solver.GetMetric()->unit;
   const Shape from = given.from / unit, to = given.to / unit;
@@ -79,7 +79,7 @@ Numbers Solve(const Body& body, const Case& given) {
 }
 
 TEST(ResultsVersion, IsRaisedWhenResultsChange) {
-  const Body tube = testing::SmallTube();
+  const ShapeFamily tube = testing::SmallTube();
   const std::vector<Case> cases = Cases(tube);
   std::ostringstream now, changed;
   now << std::setprecision(10);

@@ -19,12 +19,12 @@ using testing::SmallTube;
 
 class SpaceFileTest : public FilesTest {
  protected:
-  const Space space_ = MadeUpSpace(SmallTube());
+  const PoseSpace space_ = MadeUpSpace(SmallTube());
 };
 
 TEST_F(SpaceFileTest, EverythingComesBack) {
   WriteSpace(Path("a.space"), space_);
-  const Space read = ReadSpace(Path("a.space"));
+  const PoseSpace read = ReadSpace(Path("a.space"));
   EXPECT_EQ(read.nodes, space_.nodes);
   EXPECT_EQ(read.names, space_.names);
   EXPECT_EQ(read.translation, space_.translation);
@@ -64,14 +64,14 @@ TEST_F(SpaceFileTest, OtherFilesAreNamed) {
 }
 
 TEST_F(SpaceFileTest, ASpaceThatIsNotValidIsNotWritten) {
-  Space space = space_;
+  PoseSpace space = space_;
   space.names.clear();
   ExpectError<MeshError>([&] { WriteSpace(Path("a.space"), space); }, {"a.space", "poses"});
   EXPECT_FALSE(std::filesystem::exists(Path("a.space")));
 }
 
 TEST_F(SpaceFileTest, NamesMayBeOfAnyBytes) {
-  Space space = space_;
+  PoseSpace space = space_;
   space.names[1] = "k\xf6rper";
   WriteSpace(Path("a.space"), space);
   EXPECT_EQ(ReadSpace(Path("a.space")).names, space.names);

@@ -22,8 +22,8 @@ using testing::MessageOf;
 using testing::SmallTube;
 
 TEST(SpaceTest, NodesAreMetExactly) {
-  const Body tube = SmallTube();
-  const Space space = MadeUpSpace(tube);
+  const ShapeFamily tube = SmallTube();
+  const PoseSpace space = MadeUpSpace(tube);
   space.Validate();
   for (int i = 0; i < 4; ++i) EXPECT_EQ(space.At(space.points.col(i)), space.Placed(i)) << i;
   const Shape first = tube.pose(0).colwise() + Eigen::Vector3d(1, 2, 3);
@@ -31,7 +31,7 @@ TEST(SpaceTest, NodesAreMetExactly) {
 }
 
 TEST(SpaceTest, IsLinearInsideATriangleAndContinuousAcrossItsSides) {
-  const Space space = MadeUpSpace(SmallTube());
+  const PoseSpace space = MadeUpSpace(SmallTube());
   const Shape expected = .5 * space.Placed(0) + .3 * space.Placed(1) + .2 * space.Placed(2);
   EXPECT_LT(Distance(space.At({.5, .2}), expected), 1e-12);
   std::mt19937 random(5);
@@ -46,7 +46,7 @@ TEST(SpaceTest, IsLinearInsideATriangleAndContinuousAcrossItsSides) {
 }
 
 TEST(SpaceTest, PointsOutsideAreMovedToTheNearestOfTheHull) {
-  const Space space = MadeUpSpace(SmallTube());
+  const PoseSpace space = MadeUpSpace(SmallTube());
   const PlaneLocation aside = space.Locate({0.4, -2});
   EXPECT_FALSE(aside.inside);
   EXPECT_LT((aside.point - Eigen::Vector2d(0.4, 0)).norm(), 1e-15);
@@ -57,7 +57,7 @@ TEST(SpaceTest, PointsOutsideAreMovedToTheNearestOfTheHull) {
 }
 
 TEST(SpaceTest, APointThatIsNotFiniteHasNoShape) {
-  const Space space = MadeUpSpace(SmallTube());
+  const PoseSpace space = MadeUpSpace(SmallTube());
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {std::nan(""), infinity, -infinity}) {
     EXPECT_THROW(space.At({bad, 0.5}), InvalidOptions);
@@ -67,7 +67,7 @@ TEST(SpaceTest, APointThatIsNotFiniteHasNoShape) {
 }
 
 TEST(SpaceTest, ALineHasNoInside) {
-  Space space = MadeUpSpace(SmallTube());
+  PoseSpace space = MadeUpSpace(SmallTube());
   space.triangles.resize(3, 0);
   space.segments.resize(2, 2);
   space.segments << 0, 1, 1, 2;
@@ -82,17 +82,17 @@ TEST(SpaceTest, ALineHasNoInside) {
 }
 
 TEST(SpaceTest, FarFromTheOriginShapesKeepTheirForm) {
-  const Body tube = SmallTube();
-  const Space near = MadeUpSpace(tube, Eigen::Vector3d::Zero());
-  const Space far = MadeUpSpace(tube, Eigen::Vector3d(1e6, -1e6, 1e6));
+  const ShapeFamily tube = SmallTube();
+  const PoseSpace near = MadeUpSpace(tube, Eigen::Vector3d::Zero());
+  const PoseSpace far = MadeUpSpace(tube, Eigen::Vector3d(1e6, -1e6, 1e6));
   Shape difference = far.At({.3, .2}) - near.At({.3, .2});
   difference.colwise() -= far.translation;
   EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST(SpaceTest, ACurveIsWalkedAtEvenSteps) {
-  const Space space = MadeUpSpace(SmallTube());
-  const Walk walk = WalkAlong(space, {{0, 0}, {1, 0}, {1, 0}, {1, 1}, {0, 1}}, 7);
+  const PoseSpace space = MadeUpSpace(SmallTube());
+  const PlaneWalk walk = WalkAlong(space, {{0, 0}, {1, 0}, {1, 0}, {1, 1}, {0, 1}}, 7);
   walk.path.Validate();
   ASSERT_EQ(walk.path.NumShapes(), 7);
   EXPECT_EQ(walk.outside, 0);
@@ -106,15 +106,15 @@ TEST(SpaceTest, ACurveIsWalkedAtEvenSteps) {
 }
 
 TEST(SpaceTest, ACurveThatLeavesTheHullSaysSo) {
-  const Space space = MadeUpSpace(SmallTube());
-  const Walk walk = WalkAlong(space, {{.5, .5}, {.5, 1.5}}, 5);
+  const PoseSpace space = MadeUpSpace(SmallTube());
+  const PlaneWalk walk = WalkAlong(space, {{.5, .5}, {.5, 1.5}}, 5);
   EXPECT_EQ(walk.outside, 2);
   EXPECT_EQ(WalkAlong(space, {{.5, .2}}, 1).path.NumShapes(), 1);
   EXPECT_EQ(WalkAlong(space, {{.5, .2}}, 3).path.NumShapes(), 3);
 }
 
 TEST(SpaceTest, WhatIsNoCurveIsRefused) {
-  const Space space = MadeUpSpace(SmallTube());
+  const PoseSpace space = MadeUpSpace(SmallTube());
   EXPECT_THROW(WalkAlong(space, {}, 3), InvalidOptions);
   EXPECT_THROW(WalkAlong(space, {{0, 0}}, 0), InvalidOptions);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -124,27 +124,27 @@ TEST(SpaceTest, WhatIsNoCurveIsRefused) {
 }
 
 TEST(SpaceTest, ASpaceAtOddsWithItselfIsRefused) {
-  const Body tube = SmallTube();
+  const ShapeFamily tube = SmallTube();
   const auto message = [&](const auto& spoil) {
-    Space space = MadeUpSpace(tube);
+    PoseSpace space = MadeUpSpace(tube);
     spoil(&space);
     return MessageOf<MeshError>([&] { space.Validate(); });
   };
   const auto contains = [](const std::string& text, const char* part) {
     return text.find(part) != std::string::npos;
   };
-  EXPECT_TRUE(contains(message([](Space* s) { s->names.resize(1); }), "two poses"));
-  EXPECT_TRUE(contains(message([](Space* s) { s->parents.clear(); }), "differ in number"));
-  EXPECT_TRUE(contains(message([](Space* s) { s->points.resize(2, 1); }), "differ in number"));
-  EXPECT_TRUE(contains(message([](Space* s) { s->nodes[1].resize(3, 2); }), "a node"));
-  EXPECT_TRUE(contains(message([](Space* s) { s->triangles(0, 0) = 5; }), "out of range"));
-  EXPECT_TRUE(contains(message([](Space* s) { s->triangles.resize(3, 0); }), "neither"));
-  EXPECT_TRUE(contains(message([](Space* s) { s->distances.setZero(); }), "distances"));
-  EXPECT_TRUE(contains(message([](Space* s) { s->distances(0, 1) = 2; }), "symmetric"));
-  EXPECT_TRUE(contains(message([](Space* s) { s->parents[0] = {0, 4}; }), "parents"));
-  EXPECT_TRUE(
-      contains(message([](Space* s) { s->points(0, 0) = std::numeric_limits<double>::infinity(); }),
-               "not finite"));
+  EXPECT_TRUE(contains(message([](PoseSpace* s) { s->names.resize(1); }), "two poses"));
+  EXPECT_TRUE(contains(message([](PoseSpace* s) { s->parents.clear(); }), "differ in number"));
+  EXPECT_TRUE(contains(message([](PoseSpace* s) { s->points.resize(2, 1); }), "differ in number"));
+  EXPECT_TRUE(contains(message([](PoseSpace* s) { s->nodes[1].resize(3, 2); }), "a node"));
+  EXPECT_TRUE(contains(message([](PoseSpace* s) { s->triangles(0, 0) = 5; }), "out of range"));
+  EXPECT_TRUE(contains(message([](PoseSpace* s) { s->triangles.resize(3, 0); }), "neither"));
+  EXPECT_TRUE(contains(message([](PoseSpace* s) { s->distances.setZero(); }), "distances"));
+  EXPECT_TRUE(contains(message([](PoseSpace* s) { s->distances(0, 1) = 2; }), "symmetric"));
+  EXPECT_TRUE(contains(message([](PoseSpace* s) { s->parents[0] = {0, 4}; }), "parents"));
+  EXPECT_TRUE(contains(
+      message([](PoseSpace* s) { s->points(0, 0) = std::numeric_limits<double>::infinity(); }),
+      "not finite"));
 }
 
 }  // namespace

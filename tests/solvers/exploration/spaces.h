@@ -12,10 +12,10 @@
 
 namespace shapespace::testing {
 
-inline Body SmallTube() { return MakeTube(300); }
+inline ShapeFamily SmallTube() { return MakeTube(300); }
 
 /// A tube bent by an angle, then twisted along x by another, in degrees.
-inline Shape BentAndTwisted(const Body& tube, double bend, double twist) {
+inline Shape BentAndTwisted(const ShapeFamily& tube, double bend, double twist) {
   Shape shape = tube.pose(bend);
   for (int v = 0; v < shape.cols(); ++v) {
     const double turn = twist * M_PI / 180 * shape(0, v) / 6;
@@ -25,15 +25,16 @@ inline Shape BentAndTwisted(const Body& tube, double bend, double twist) {
 }
 
 /// Four poses that vary in two parameters.
-inline std::vector<Shape> TubePoses(const Body& tube) {
+inline std::vector<Shape> TubePoses(const ShapeFamily& tube) {
   return {BentAndTwisted(tube, 0, 0), BentAndTwisted(tube, 70, 0), BentAndTwisted(tube, 0, 120),
           BentAndTwisted(tube, 50, 90)};
 }
 
 /// A space without solved geodesics: the unit square, cut in two, with the four poses at its
 /// corners and the centre of its diagonal as a fifth node that belongs to no triangle.
-inline Space MadeUpSpace(const Body& tube, const Eigen::Vector3d& translation = {1, 2, 3}) {
-  Space space;
+inline PoseSpace MadeUpSpace(const ShapeFamily& tube,
+                             const Eigen::Vector3d& translation = {1, 2, 3}) {
+  PoseSpace space;
   const std::vector<Shape> poses = TubePoses(tube);
   auto metric = FreezeMetric({}, tube.connectivity, poses);
   space.metric = metric;

@@ -38,7 +38,7 @@ Eigen::Matrix2Xd RandomPoints(int count) {
 TEST(TriangulationTest, NoPointLiesInsideACircleThroughATrianglesCorners) {
   Eigen::Matrix2Xd points = RandomPoints(40);
   points.leftCols<4>() << 0, 1, 1, 0, 0, 0, 1, 1;  // the hull is the unit square
-  const Triangulation triangulation = Triangulate(points);
+  const Triangulation triangulation = DelaunayTriangulation(points);
   double area = 0;
   for (int t = 0; t < triangulation.triangles.cols(); ++t) {
     const Eigen::Vector3i v = triangulation.triangles.col(t);
@@ -58,7 +58,7 @@ TEST(TriangulationTest, FourPointsOfACircleAreTwoTriangles) {
   Eigen::Matrix2Xd square(2, 4);
   square << 0, 1, 1, 0, 0, 0, 1, 1;
   for (double scale : {1e-100, 1e-6, 1.0, 1e6, 1e100}) {
-    const Triangulation triangulation = Triangulate(scale * square);
+    const Triangulation triangulation = DelaunayTriangulation(scale * square);
     ASSERT_EQ(triangulation.triangles.cols(), 2);
     EXPECT_NEAR(Area(scale * square, triangulation.triangles.col(0)), scale * scale / 2,
                 1e-9 * scale * scale);
@@ -68,7 +68,7 @@ TEST(TriangulationTest, FourPointsOfACircleAreTwoTriangles) {
 TEST(TriangulationTest, ThreePointsAreATriangle) {
   Eigen::Matrix2Xd points(2, 3);
   points << 0, 0, 1, 0, 1, 0;  // clockwise
-  const Triangulation triangulation = Triangulate(points);
+  const Triangulation triangulation = DelaunayTriangulation(points);
   ASSERT_EQ(triangulation.triangles.cols(), 1);
   EXPECT_GT(Area(points, triangulation.triangles.col(0)), 0);
 }
@@ -76,7 +76,7 @@ TEST(TriangulationTest, ThreePointsAreATriangle) {
 TEST(TriangulationTest, PointsOfALineAreJoinedInTheirOrder) {
   Eigen::Matrix2Xd points(2, 4);
   points << 0, 3, 1, 2, 0, 3.001, 1, 2;
-  const Triangulation triangulation = Triangulate(points);
+  const Triangulation triangulation = DelaunayTriangulation(points);
   EXPECT_EQ(triangulation.triangles.cols(), 0);
   ASSERT_EQ(triangulation.segments.cols(), 3);
   std::vector<int> order = {triangulation.segments(0, 0)};
@@ -89,13 +89,13 @@ TEST(TriangulationTest, PointsOfALineAreJoinedInTheirOrder) {
 }
 
 TEST(TriangulationTest, TwoPointsAreASegment) {
-  EXPECT_EQ(Triangulate(RandomPoints(2)).segments.cols(), 1);
+  EXPECT_EQ(DelaunayTriangulation(RandomPoints(2)).segments.cols(), 1);
 }
 
 TEST(TriangulationTest, ACopyOfAPointIsLeftOut) {
   Eigen::Matrix2Xd points = RandomPoints(6);
   points.col(4) = points.col(1);
-  const Triangulation triangulation = Triangulate(points);
+  const Triangulation triangulation = DelaunayTriangulation(points);
   EXPECT_EQ(triangulation.left_out, std::vector<int>{4});
   std::set<int> corners(triangulation.triangles.data(),
                         triangulation.triangles.data() + triangulation.triangles.size());
@@ -103,11 +103,11 @@ TEST(TriangulationTest, ACopyOfAPointIsLeftOut) {
 }
 
 TEST(TriangulationTest, WhatHasNoExtentIsRefused) {
-  EXPECT_THROW(Triangulate(Eigen::Matrix2Xd::Zero(2, 3)), InvalidOptions);
-  EXPECT_THROW(Triangulate(Eigen::Matrix2Xd(2, 0)), InvalidOptions);
+  EXPECT_THROW(DelaunayTriangulation(Eigen::Matrix2Xd::Zero(2, 3)), InvalidOptions);
+  EXPECT_THROW(DelaunayTriangulation(Eigen::Matrix2Xd(2, 0)), InvalidOptions);
   Eigen::Matrix2Xd points = RandomPoints(3);
   points(0, 0) = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(Triangulate(points), InvalidOptions);
+  EXPECT_THROW(DelaunayTriangulation(points), InvalidOptions);
 }
 
 }  // namespace

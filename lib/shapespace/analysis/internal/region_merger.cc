@@ -17,7 +17,7 @@ namespace {
 
 // Number of shapes, besides the first, that determine the parts: motion along a path is smooth, and
 // memory is proportional to triangles times shapes.
-constexpr int kMostShapes = 8;
+constexpr int kMaxShapes = 8;
 
 // Displacements below this, as a share of a region's size, count as no motion; in regions without
 // motion, small regions are merged first, so that all grow at the same rate.
@@ -62,7 +62,7 @@ std::uint64_t Mix(const RegionPair& pair) {
 }  // namespace
 
 std::vector<int> DecidingShapes(int num_shapes) {
-  const int count = std::min(kMostShapes, num_shapes - 1);
+  const int count = std::min(kMaxShapes, num_shapes - 1);
   std::vector<int> chosen;
   for (int k = 1; k <= count; ++k) {
     chosen.push_back(static_cast<int>(static_cast<std::int64_t>(num_shapes - 1) * k / count));

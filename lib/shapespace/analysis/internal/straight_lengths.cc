@@ -22,7 +22,7 @@ Eigen::MatrixXd ValuesOf(const Struct& feature, const Shape& shape) {
   Eigen::MatrixXd values(Struct::kValues, feature.stencils.cols());
   for (int i = 0; i < values.cols(); ++i) {
     double x[3 * Struct::kVertices];
-    Gather(feature, i, shape, x);
+    GatherCoordinates(feature, i, shape, x);
     feature(x, values.col(i).data());
   }
   return values;

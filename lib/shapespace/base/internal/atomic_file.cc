@@ -44,9 +44,9 @@ std::string RandomName(const std::string& file) {
 // particular, is left alone: in a folder where others may write, it could lead anywhere.
 // \throw FileError
 std::unique_ptr<internal::FileBuffer> CreateBeside(const std::string& file, std::string* name) {
-  constexpr int kMostAttempts = 100;
+  constexpr int kMaxAttempts = 100;
   constexpr mode_t kPermissions = 0666;  // less those of the umask, as for all new files
-  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     *name = RandomName(file);
     const int descriptor =
         open(name->c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kPermissions);

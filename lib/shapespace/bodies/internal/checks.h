@@ -42,7 +42,7 @@ inline void CheckTriangles(std::int64_t triangles, std::int64_t most = kMaxBodyT
 
 /// `body` with a `pose` that rejects values outside of [begin, end]. Values outside by rounding
 /// only, as in steps computed from the ends, are replaced by the ends.
-inline Body WithCheckedRange(Body body) {
+inline ShapeFamily WithCheckedRange(ShapeFamily body) {
   body.pose = [pose = std::move(body.pose), begin = body.begin, end = body.end, name = body.name,
                parameter = body.parameter](double value) {
     const double rounding = 1e-12 * (end - begin);

@@ -21,7 +21,7 @@ using OpenMesh::VertexHandle;
 /// coarse mesh would become too coarse; with power 0, its thin parts would.
 constexpr double kSizePower = 0.65;
 /// Greatest edge length in units of the local radius, which leaves three edges around a limb.
-constexpr double kMostPerRadius = 2;
+constexpr double kMaxPerRadius = 2;
 /// Edge lengths may grow by this share of the distance along the surface.
 constexpr double kGradation = 0.35;
 /// Botsch and Kobbelt's limits, relative to the target length.
@@ -31,7 +31,7 @@ constexpr double kLongest = 4.0 / 3, kShortest = 4.0 / 5;
 constexpr double kDeepest = 0.25;
 /// Least cosine of the angle between a triangle's normal and the surface's; a larger angle would be
 /// a fold.
-constexpr double kLeastCosine = 0.3;
+constexpr double kMinCosine = 0.3;
 /// Rounds until the number of triangles is near the requested one, and final rounds, which adjust
 /// the number and improve the angles.
 constexpr int kRounds = 4, kLastRounds = 3;
@@ -90,7 +90,7 @@ class Remesher {
   /// Whether a triangle's normal is close to the surface's at its corners.
   bool Faces(VertexHandle a, VertexHandle b, VertexHandle c) const {
     const Eigen::Vector3d normal = Normal(a, b, c);
-    const double least = kLeastCosine * normal.norm();
+    const double least = kMinCosine * normal.norm();
     for (VertexHandle v : {a, b, c}) {
       if (normal.dot(normals_[v.idx()]) <= least) return false;
     }
@@ -147,7 +147,7 @@ class Remesher {
     sizes_.resize(points_.size());
     for (int pass = 0; pass < 3; ++pass) {
       for (size_t v = 0; v < points_.size(); ++v) {
-        sizes_[v] = std::min(scale_ * std::pow(radii_[v], kSizePower), kMostPerRadius * radii_[v]);
+        sizes_[v] = std::min(scale_ * std::pow(radii_[v], kSizePower), kMaxPerRadius * radii_[v]);
       }
       for (int sweep = 0; sweep < 3; ++sweep) {
         for (EdgeHandle e : mesh_.all_edges()) {

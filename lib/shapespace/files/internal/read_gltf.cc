@@ -38,7 +38,7 @@ constexpr int kDeepest = 100;
 // hundreds of poses, each of which moves a small part of the mesh, have up to thirty.
 constexpr double kAlwaysAllowed = 5e7, kAllowedPerByte = 100;
 
-constexpr std::int64_t kMostBytesOfBuffers = std::numeric_limits<int>::max();
+constexpr std::int64_t kMaxBytesOfBuffers = std::numeric_limits<int>::max();
 
 bool IsGlb(const std::string& bytes) { return bytes.compare(0, 4, "glTF") == 0; }
 
@@ -80,7 +80,7 @@ class BufferFiles {
 
   const std::string& folder_;
   const bool allow_outside_files_;
-  std::int64_t bytes_left_ = kMostBytesOfBuffers;  // of all buffers together
+  std::int64_t bytes_left_ = kMaxBytesOfBuffers;  // of all buffers together
 };
 
 class GltfReader {
@@ -475,7 +475,7 @@ class GltfReader {
     std::vector<Soup> soups;
     for (size_t k = 0; k < shapes_.size(); ++k) {
       soups.push_back(soup);
-      soups[k].pose = names[k];
+      soups[k].name = names[k];
       soups[k].vertices = placement * shapes_[k](Eigen::all, merged.first).colwise().homogeneous();
       if (!soups[k].vertices.allFinite()) Fail(std::string("positions are not finite") + kReexport);
     }

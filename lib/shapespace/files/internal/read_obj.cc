@@ -272,18 +272,18 @@ class ObjReader {
     Tell(object_.Finish(), "object names (o) that no polygon has");
     static const std::map<std::string, std::string> kKnown = {
         {"vn", "normals (vn)"}, {"s", "smoothing groups (s)"}, {"p", "points (p)"}};
-    constexpr int kMostUnknown = 5;
+    constexpr int kMaxUnknown = 5;
     int unknown = 0;
     for (const auto& [keyword, seen] : dropped_) {
       const auto known = kKnown.find(keyword);
       if (known != kKnown.end()) {
         Tell(seen.first, known->second);
-      } else if (++unknown <= kMostUnknown) {
+      } else if (++unknown <= kMaxUnknown) {
         Tell(seen.first, "statements " + Quoted(keyword) + " (the first on line " +
                              std::to_string(seen.second) + ")");
       }
     }
-    Tell(unknown - kMostUnknown, "further kinds of statement");
+    Tell(unknown - kMaxUnknown, "further kinds of statement");
   }
 
   static constexpr size_t kLongestKeyword = 40;

@@ -16,7 +16,7 @@ namespace shapespace::internal {
 
 /// Share of a shape's diagonal by which its coordinates may change when they are rounded: less than
 /// the thirtieth part of an edge in a mesh of 200,000 triangles.
-inline constexpr double kMostRounding = 1e-4;
+inline constexpr double kMaxRounding = 1e-4;
 
 /// \throw MeshError naming `file` and vertex if a coordinate is not finite.
 inline void CheckFinite(const std::string& file, const Shape& shape) {
@@ -38,7 +38,7 @@ inline void CheckSinglePrecision(const std::string& file, const Shape& shape) {
     rounding = std::max(rounding, fits ? std::abs(x - static_cast<float>(x)) : std::abs(x));
   }
   const double diagonal = (shape.rowwise().maxCoeff() - shape.rowwise().minCoeff()).stableNorm();
-  if (rounding <= kMostRounding * diagonal) return;
+  if (rounding <= kMaxRounding * diagonal) return;
   std::ostringstream message;
   message << file << ": the format has single precision, in which coordinates of this mesh, which "
           << "is " << diagonal << " across, would change by " << rounding

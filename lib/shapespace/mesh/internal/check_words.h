@@ -13,7 +13,7 @@
 namespace shapespace::internal {
 
 inline std::string FileName(const Soup& soup) {
-  return (soup.file.empty() ? "mesh" : soup.file) + (soup.pose.empty() ? "" : ":" + soup.pose);
+  return (soup.file.empty() ? "mesh" : soup.file) + (soup.name.empty() ? "" : ":" + soup.name);
 }
 
 inline std::string Name(const char* what, int i, const std::vector<int>& lines) {
@@ -46,8 +46,8 @@ class Named {
   /// `name()` returns the element's name; it is called only if the name is stored.
   template <typename MakeName>
   void Add(const MakeName& name) {
-    constexpr int kMostNamed = 3;
-    if (++count_ > kMostNamed) return;
+    constexpr int kMaxNamed = 3;
+    if (++count_ > kMaxNamed) return;
     named_ = count_;
     names_ += (names_.empty() ? "" : ", ") + name();
   }

@@ -8,16 +8,16 @@ namespace internal {
 namespace {
 
 // More nested selections are not plausible, and each needs space on the stack.
-constexpr int kMostNested = 50;
+constexpr int kMaxNested = 50;
 
 // A vertex number, counted from 1, as an index from 0.
 int VertexFrom(const Json& json, const std::string& field) {
-  constexpr std::uint64_t kMost = std::numeric_limits<int>::max();
+  constexpr std::uint64_t kMax = std::numeric_limits<int>::max();
   if (!json.is_number_integer()) {
     FailIn(field, "must hold vertex numbers and ranges of them, such as [1, 2, [10, 20]]");
   }
   const auto number = json.is_number_unsigned() ? json.get<std::uint64_t>() : 0;
-  if (number < 1 || number > kMost) {
+  if (number < 1 || number > kMax) {
     FailIn(field, json.dump() + " is not a vertex number; the first vertex has the number 1");
   }
   return static_cast<int>(number - 1);
@@ -39,8 +39,8 @@ std::vector<std::pair<int, int>> RangesFrom(const Json& json, const std::string&
 }
 
 Selection ParseNested(const Json& json, const std::string& field, int depth) {
-  if (depth > kMostNested) {
-    FailIn(field, "more than " + std::to_string(kMostNested) + " selections inside each other");
+  if (depth > kMaxNested) {
+    FailIn(field, "more than " + std::to_string(kMaxNested) + " selections inside each other");
   }
   CheckKeys(json, field, {"vertices", "ball", "box", "halfspace", "group", "any"});
   Selection selection;

@@ -14,7 +14,7 @@ namespace {
 constexpr int kBarWidth = 240, kBarHeight = 14, kGap = 16;
 constexpr int kMargin = 12;
 constexpr int kNumbersTop = kMargin + kBarHeight + 6;
-constexpr int kSwatchWidth = 34, kMostSwatches = 24;
+constexpr int kSwatchWidth = 34, kMaxSwatches = 24;
 
 // Relative values below this are rounding errors, and are shown as 0.
 constexpr double kNoise = 1e-12;
@@ -79,7 +79,7 @@ RgbImage DrawLegend(double end_of_scale, double largest, const std::string& titl
 }
 
 RgbImage DrawGroupLegend(int groups, const std::string& title) {
-  const int swatches = std::min(groups, kMostSwatches);
+  const int swatches = std::min(groups, kMaxSwatches);
   const int after_swatches = kMargin + swatches * kSwatchWidth;
   RgbImage image = BlankLegend(after_swatches + kGap + TextWidth(title) + kMargin);
   for (int group = 0; group < swatches; ++group) {

@@ -25,7 +25,7 @@ constexpr int kVersion = 1;
 constexpr int kPositionSteps = 65535;  // of a position, along the longest side of the box
 constexpr float kTubeRadius = 0.005f;  // of a graph's edges, when a view is chosen
 constexpr int kShades = 255;           // of a deviation
-constexpr double kMostBytes = 1e9;     // before compression; more is slow or impossible in browsers
+constexpr double kMaxBytes = 1e9;      // before compression; more is slow or impossible in browsers
 
 // Positions of one shape in quantisation steps, three per vertex.
 using Steps = std::vector<uint16_t>;
@@ -239,7 +239,7 @@ std::string Pack(const OrderedJson& header, const std::string& arrays) {
 
 void CheckSize(const std::string& name, size_t shapes, int vertices, int bytes_a_vertex) {
   const double bytes = static_cast<double>(shapes) * vertices * bytes_a_vertex;
-  if (bytes <= kMostBytes) return;
+  if (bytes <= kMaxBytes) return;
   throw MeshError(name + ": " + std::to_string(shapes) + " shapes of " + std::to_string(vertices) +
                   " vertices are too many for a page; use fewer shapes or a smaller mesh");
 }
@@ -305,7 +305,7 @@ std::string EncodeScene(const PagePath& scene) {
   AppendConnectivity(connectivity, &header, &arrays);
   header["parameters"] = path.parameters;
   header["poses"] = path.poses;
-  header["metric"] = Describe(path.metric->options);
+  header["metric"] = DescribeMetric(path.metric->options);
   header["speeds"] = SquaredSpeeds(path);
   const std::vector<Shape> shapes = path.Placed();
   AppendView(connectivity, {shapes.front(), shapes.back()}, &header);

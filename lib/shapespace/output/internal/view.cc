@@ -84,7 +84,7 @@ double VisibleArea(const Scene& scene, const Axes& axes) {
 }
 
 // Area of the ellipse, up to a constant, of the vertices' projection.
-double Spread(const Eigen::Matrix3d& covariance, const Axes& axes) {
+double ProjectedArea(const Eigen::Matrix3d& covariance, const Axes& axes) {
   const Eigen::Matrix2d flat = axes.leftCols<2>().transpose() * covariance * axes.leftCols<2>();
   // A straight line has no area, but should still be judged by what is visible.
   constexpr double kLine = 1e-6;
@@ -138,7 +138,7 @@ Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<Scene>& scen
         pole);
     for (size_t k = 0; k < scenes.size(); ++k) {
       scores[i] += candidates[i].weight * VisibleArea(scenes[k], views[i]) *
-                   Spread(covariances[k], views[i]);
+                   ProjectedArea(covariances[k], views[i]);
     }
   });
   size_t best = 0;

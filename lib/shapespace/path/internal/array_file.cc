@@ -36,8 +36,8 @@ ArrayReader::ArrayReader(const HeaderJson& table, const std::string& bytes, size
     array.columns = entry.at("columns").get<size_t>();
     array.begin = begin;
     const size_t size = array.type == "f8" ? 8 : 4;
-    constexpr size_t kMost = std::numeric_limits<int>::max();
-    if (array.rows > kMost || array.columns > kMost) {
+    constexpr size_t kMax = std::numeric_limits<int>::max();
+    if (array.rows > kMax || array.columns > kMax) {
       throw FileError("its arrays have sizes out of range");
     }
     if (array.columns != 0 && array.rows > (bytes.size() - begin) / size / array.columns) {

@@ -86,7 +86,7 @@ TermKernel KernelOf(std::shared_ptr<const Feature> feature) {
                               quartic);
     }};
   }
-  if (feature->As<Position>() != nullptr) {
+  if (feature->As<PositionFeature>() != nullptr) {
     return {[](const PathRows& rows, const ElementGroup& group, double) {
       return PositionKernel(rows, group.stencils.data(), group.weights.data(), group.Count());
     }};
@@ -113,7 +113,7 @@ TermKernel KernelOf(std::shared_ptr<const Feature> feature) {
 }
 
 SumKernel SumKernelOf(const std::shared_ptr<const Feature>& feature) {
-  if (const auto* volume = feature->As<Volume>()) {
+  if (const auto* volume = feature->As<VolumeFeature>()) {
     const double reference = volume->reference;
     return {[reference](const PathRows& rows, const ElementGroup& group, double* values) {
               AddVolumes(rows, group.stencils.data(), group.Count(), reference, values);

@@ -60,7 +60,8 @@ void CheckBody(const std::string& name, const Connectivity& connectivity, const 
   if (!(area > 0)) throw MeshError("the " + name + " has no area");
 }
 
-void CheckMarkers(const std::vector<Marker>& markers, const Connectivity& template_connectivity,
+void CheckMarkers(const std::vector<CorrespondenceMarker>& markers,
+                  const Connectivity& template_connectivity,
                   const Connectivity& target_connectivity) {
   if (markers.size() < 3) {
     throw MeshError(Count(static_cast<int>(markers.size()), "marker") +
@@ -69,7 +70,7 @@ void CheckMarkers(const std::vector<Marker>& markers, const Connectivity& templa
                     "end of every limb and a few on the trunk");
   }
   const auto check = [&](const std::string& name, const Connectivity& connectivity,
-                         int Marker::*vertex) {
+                         int CorrespondenceMarker::*vertex) {
     const std::vector<bool> in_triangles = InTriangles(connectivity);
     std::map<int, size_t> seen;
     for (size_t k = 0; k < markers.size(); ++k) {
@@ -91,12 +92,12 @@ void CheckMarkers(const std::vector<Marker>& markers, const Connectivity& templa
       }
     }
   };
-  check("template", template_connectivity, &Marker::template_vertex);
-  check("target", target_connectivity, &Marker::target_vertex);
+  check("template", template_connectivity, &CorrespondenceMarker::template_vertex);
+  check("target", target_connectivity, &CorrespondenceMarker::target_vertex);
 
   const Topology topology = ComputeTopology(template_connectivity);
   std::vector<bool> has_marker(topology.components, false);
-  for (const Marker& marker : markers) {
+  for (const CorrespondenceMarker& marker : markers) {
     has_marker[topology.component[marker.template_vertex]] = true;
   }
   for (size_t v = 0; v < topology.component.size(); ++v) {
@@ -130,13 +131,14 @@ void CheckPlacement(const Shape& on_template, const Shape& on_target) {
 
 void CheckHandedness(const Connectivity& template_connectivity, const Shape& template_shape,
                      const Connectivity& target_connectivity, const Shape& target_shape,
-                     const std::vector<Marker>& markers, const Eigen::MatrixXf& distances) {
+                     const std::vector<CorrespondenceMarker>& markers,
+                     const Eigen::MatrixXf& distances) {
   // The threshold is a hundredth of a ball's volume: the orientation of thinner bodies is not
   // reliable.
-  constexpr double kLeastVolume = 1e-3;
+  constexpr double kMinVolume = 1e-3;
   const double first = EnclosedVolume(template_connectivity.Triangles(), template_shape);
   const double second = EnclosedVolume(target_connectivity.Triangles(), target_shape);
-  if (first * second < 0 && std::min(std::abs(first), std::abs(second)) > kLeastVolume &&
+  if (first * second < 0 && std::min(std::abs(first), std::abs(second)) > kMinVolume &&
       IsClosed(template_connectivity.Triangles()) && IsClosed(target_connectivity.Triangles())) {
     throw MeshError(std::string("the ") + (first < 0 ? "template" : "target") +
                     " is inside out: reverse the vertices of each of its faces; or is it a mirror "
@@ -144,14 +146,14 @@ void CheckHandedness(const Connectivity& template_connectivity, const Shape& tem
   }
   // On six real pairs, correct markers have a correlation of .2 to .9, and any twelve of them at
   // least -.2; fewer markers do not suffice for a decision.
-  constexpr int kLeastMarkers = 12, kNeighbours = 4;
+  constexpr int kMinMarkers = 12, kNeighbours = 4;
   constexpr double kOpposite = -0.5;
   const auto num_markers = static_cast<int>(markers.size());
-  if (num_markers < kLeastMarkers) return;
+  if (num_markers < kMinMarkers) return;
   const Shape template_normals = VertexNormals(template_connectivity, template_shape);
   const Shape target_normals = VertexNormals(target_connectivity, target_shape);
   double both = 0, on_template = 0, on_target = 0;
-  for (const Marker& a : markers) {
+  for (const CorrespondenceMarker& a : markers) {
     std::vector<int> near(num_markers);
     std::iota(near.begin(), near.end(), 0);
     // The first one is `a` itself.
@@ -160,8 +162,8 @@ void CheckHandedness(const Connectivity& template_connectivity, const Shape& tem
     });
     for (int i = 1; i <= kNeighbours; ++i) {
       for (int j = 1; j < i; ++j) {
-        const Marker& b = markers[near[i]];
-        const Marker& c = markers[near[j]];
+        const CorrespondenceMarker& b = markers[near[i]];
+        const CorrespondenceMarker& c = markers[near[j]];
         const double from = SineAround(template_shape, template_normals, a.template_vertex,
                                        b.template_vertex, c.template_vertex);
         const double to = SineAround(target_shape, target_normals, a.target_vertex, b.target_vertex,
@@ -180,9 +182,10 @@ void CheckHandedness(const Connectivity& template_connectivity, const Shape& tem
   }
 }
 
-std::vector<Marker> Without(const std::vector<Marker>& markers,
-                            const std::vector<CorrespondenceSummary::Doubt>& doubtful) {
-  std::vector<Marker> kept;
+std::vector<CorrespondenceMarker> Without(
+    const std::vector<CorrespondenceMarker>& markers,
+    const std::vector<CorrespondenceSummary::Doubt>& doubtful) {
+  std::vector<CorrespondenceMarker> kept;
   for (size_t k = 0; k < markers.size(); ++k) {
     const bool is_doubtful = std::any_of(doubtful.begin(), doubtful.end(), [&](const auto& doubt) {
       return doubt.marker == static_cast<int>(k);
@@ -193,12 +196,14 @@ std::vector<Marker> Without(const std::vector<Marker>& markers,
 }
 
 void WarnOfTopology(const Connectivity& template_connectivity,
-                    const Connectivity& target_connectivity, const std::vector<Marker>& markers,
+                    const Connectivity& target_connectivity,
+                    const std::vector<CorrespondenceMarker>& markers,
                     std::vector<std::string>* warnings) {
   const Topology first = ComputeTopology(template_connectivity);
   const Topology second = ComputeTopology(target_connectivity);
   std::vector<bool> has_marker(second.components, false);
-  for (const Marker& marker : markers) has_marker[second.component[marker.target_vertex]] = true;
+  for (const CorrespondenceMarker& marker : markers)
+    has_marker[second.component[marker.target_vertex]] = true;
   const auto without = static_cast<int>(std::count(has_marker.begin(), has_marker.end(), false));
   if (without > 0) {
     warnings->push_back("the target has " + Count(second.components, "component") + ", " +

@@ -16,7 +16,8 @@ namespace shapespace::internal {
 void CheckBody(const std::string& name, const Connectivity& connectivity, const Shape& shape);
 
 /// \throw MeshError naming the marker, from 1, and what to do about it.
-void CheckMarkers(const std::vector<Marker>& markers, const Connectivity& template_connectivity,
+void CheckMarkers(const std::vector<CorrespondenceMarker>& markers,
+                  const Connectivity& template_connectivity,
                   const Connectivity& target_connectivity);
 
 /// `on_template` and `on_target` are the markers' positions.
@@ -30,15 +31,18 @@ void CheckPlacement(const Shape& on_template, const Shape& on_target);
 ///        so this detects mirror images also in other poses.
 void CheckHandedness(const Connectivity& template_connectivity, const Shape& template_shape,
                      const Connectivity& target_connectivity, const Shape& target_shape,
-                     const std::vector<Marker>& markers, const Eigen::MatrixXf& distances);
+                     const std::vector<CorrespondenceMarker>& markers,
+                     const Eigen::MatrixXf& distances);
 
 /// The markers that are not doubtful.
-std::vector<Marker> Without(const std::vector<Marker>& markers,
-                            const std::vector<CorrespondenceSummary::Doubt>& doubtful);
+std::vector<CorrespondenceMarker> Without(
+    const std::vector<CorrespondenceMarker>& markers,
+    const std::vector<CorrespondenceSummary::Doubt>& doubtful);
 
 /// Warns of differences in topology that no fit can remove: components, genus, borders.
 void WarnOfTopology(const Connectivity& template_connectivity,
-                    const Connectivity& target_connectivity, const std::vector<Marker>& markers,
+                    const Connectivity& target_connectivity,
+                    const std::vector<CorrespondenceMarker>& markers,
                     std::vector<std::string>* warnings);
 
 }  // namespace shapespace::internal

@@ -10,7 +10,7 @@ namespace shapespace::internal {
 namespace {
 
 // Least cosine of the angle between corresponding normals.
-constexpr double kLeastCosine = 0.3;
+constexpr double kMinCosine = 0.3;
 // Points farther apart than this share of the square root of the area are not matched.
 constexpr double kFar = 0.05;
 
@@ -46,10 +46,11 @@ Border BorderOf(const Connectivity& connectivity) {
 namespace {
 
 // A point on a corner lies on the border if a side of any triangle there does.
-bool IsOnBorder(const Foot& foot, const Eigen::Matrix3Xi& triangles, const Border& border) {
+bool IsOnBorder(const ClosestPoint& closest, const Eigen::Matrix3Xi& triangles,
+                const Border& border) {
   for (int k = 0; k < 3; ++k) {
-    if (foot.barycentric(k) == 0 && border.sides[foot.triangle][k]) return true;
-    if (foot.barycentric(k) == 1 && border.vertices[triangles(k, foot.triangle)]) return true;
+    if (closest.barycentric(k) == 0 && border.sides[closest.triangle][k]) return true;
+    if (closest.barycentric(k) == 1 && border.vertices[triangles(k, closest.triangle)]) return true;
   }
   return false;
 }
@@ -65,64 +66,65 @@ Target::Target(std::shared_ptr<const Connectivity> connectivity, const Shape& sh
       border_(BorderOf(*connectivity_)),
       distances_(distances) {}
 
-Eigen::Vector3d Target::NormalAt(const Foot& foot) const {
-  const auto triangle = connectivity_->Triangles().col(foot.triangle);
+Eigen::Vector3d Target::NormalAt(const ClosestPoint& closest) const {
+  const auto triangle = connectivity_->Triangles().col(closest.triangle);
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 3; ++k) normal += foot.barycentric(k) * normals_.col(triangle(k));
+  for (int k = 0; k < 3; ++k) normal += closest.barycentric(k) * normals_.col(triangle(k));
   return normal.stableNormalized();
 }
 
-Foot Target::Nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
-                     int template_vertex, double within) const {
+ClosestPoint Target::Nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
+                             int template_vertex, double within) const {
   return surface_.Nearest(
       point,
       [&](int f) {
-        return surface_.GetTriangleNormals().col(f).dot(normal) > kLeastCosine &&
+        return surface_.GetTriangleNormals().col(f).dot(normal) > kMinCosine &&
                distances_.MayMatch(template_vertex, connectivity_->Triangles()(0, f));
       },
       within);
 }
 
-bool Target::IsOnBorder(const Foot& foot) const {
-  return internal::IsOnBorder(foot, connectivity_->Triangles(), border_);
+bool Target::IsOnBorder(const ClosestPoint& closest) const {
+  return internal::IsOnBorder(closest, connectivity_->Triangles(), border_);
 }
 
-Foot NearestOnTemplate(const Surface& fitted, const Level& level, const Target& target,
-                       int target_vertex) {
+ClosestPoint NearestOnTemplate(const MeshSurface& fitted, const Level& level, const Target& target,
+                               int target_vertex) {
   const auto normal = target.GetVertexNormals().col(target_vertex);
   return fitted.Nearest(
       target.GetShape().col(target_vertex),
       [&](int f) {
         const int vertex = level.vertices[level.connectivity->Triangles()(0, f)];
-        return fitted.GetTriangleNormals().col(f).dot(normal) > kLeastCosine &&
+        return fitted.GetTriangleNormals().col(f).dot(normal) > kMinCosine &&
                target.Distances().MayMatch(vertex, target_vertex);
       },
       kFar);
 }
 
-std::vector<Pull> FindPulls(const Level& level, const Shape& shape, const Eigen::VectorXd& areas,
-                            const Target& target, int stride, double weight, double* distance) {
+std::vector<PointToPlaneTerm> FindTerms(const Level& level, const Shape& shape,
+                                        const Eigen::VectorXd& areas, const Target& target,
+                                        int stride, double weight, double* distance) {
   const auto num_vertices = static_cast<int>(shape.cols());
   const Shape normals = VertexNormals(*level.connectivity, shape);
-  std::vector<Foot> feet(num_vertices);
+  std::vector<ClosestPoint> closest(num_vertices);
   ParallelFor(num_vertices, [&](int v) {
-    feet[v] = target.Nearest(shape.col(v), normals.col(v), level.vertices[v], kFar);
+    closest[v] = target.Nearest(shape.col(v), normals.col(v), level.vertices[v], kFar);
   });
-  std::vector<Pull> pulls;
+  std::vector<PointToPlaneTerm> terms;
   double squares = 0, sum = 0;
   for (int v = 0; v < num_vertices; ++v) {
-    if (feet[v].triangle < 0) continue;
-    squares += areas(v) * feet[v].distance * feet[v].distance;
+    if (closest[v].triangle < 0) continue;
+    squares += areas(v) * closest[v].distance * closest[v].distance;
     sum += areas(v);
-    if (target.IsOnBorder(feet[v])) continue;
-    pulls.push_back(
-        {{v, v, v}, {1, 0, 0}, feet[v].point, target.NormalAt(feet[v]), weight * areas(v)});
+    if (target.IsOnBorder(closest[v])) continue;
+    terms.push_back(
+        {{v, v, v}, {1, 0, 0}, closest[v].point, target.NormalAt(closest[v]), weight * areas(v)});
   }
   *distance = sum > 0 ? std::sqrt(squares / sum) : 0;
 
-  const Surface fitted(level.connectivity, shape);
+  const MeshSurface fitted(level.connectivity, shape);
   const int num_others = (target.GetConnectivity().NumVertices() + stride - 1) / stride;
-  std::vector<Foot> others(num_others);
+  std::vector<ClosestPoint> others(num_others);
   ParallelFor(num_others,
               [&](int i) { others[i] = NearestOnTemplate(fitted, level, target, stride * i); });
   double areas_of_others = 0;
@@ -133,11 +135,11 @@ std::vector<Pull> FindPulls(const Level& level, const Shape& shape, const Eigen:
       continue;
     }
     const int y = stride * i;
-    pulls.push_back({level.connectivity->Triangles().col(others[i].triangle), others[i].barycentric,
+    terms.push_back({level.connectivity->Triangles().col(others[i].triangle), others[i].barycentric,
                      target.GetShape().col(y), target.GetVertexNormals().col(y),
                      weight * target.VertexAreas()(y) / areas_of_others});
   }
-  return pulls;
+  return terms;
 }
 
 }  // namespace shapespace::internal

@@ -31,7 +31,7 @@ class Target {
   Target(std::shared_ptr<const Connectivity> connectivity, const Shape& shape,
          const MarkerDistances& distances);
 
-  const Surface& GetSurface() const { return surface_; }
+  const MeshSurface& GetSurface() const { return surface_; }
   const Connectivity& GetConnectivity() const { return *connectivity_; }
   const Shape& GetShape() const { return surface_.GetShape(); }
   const Shape& GetVertexNormals() const { return normals_; }
@@ -39,18 +39,19 @@ class Target {
   const MarkerDistances& Distances() const { return distances_; }
 
   /// The normal at a point, interpolated.
-  Eigen::Vector3d NormalAt(const Foot& foot) const;
+  Eigen::Vector3d NormalAt(const ClosestPoint& closest) const;
   /// The nearest point to `point` at which the normal is within 70 degrees of `normal`, and which
   /// according to the distances from the markers may correspond to `template_vertex`.
-  Foot Nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, int template_vertex,
-               double within = std::numeric_limits<double>::infinity()) const;
+  ClosestPoint Nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
+                       int template_vertex,
+                       double within = std::numeric_limits<double>::infinity()) const;
   /// Whether a point lies on the border of an open target. A template vertex with such a nearest
   /// point may belong to the missing part of the target.
-  bool IsOnBorder(const Foot& foot) const;
+  bool IsOnBorder(const ClosestPoint& closest) const;
 
  private:
   const std::shared_ptr<const Connectivity> connectivity_;
-  const Surface surface_;
+  const MeshSurface surface_;
   const Shape normals_;
   const Eigen::VectorXd areas_;
   const Border border_;
@@ -68,15 +69,16 @@ struct Level {
 };
 
 /// The point of the fitted template that corresponds to a vertex of the target, if one is near.
-Foot NearestOnTemplate(const Surface& fitted, const Level& level, const Target& target,
-                       int target_vertex);
+ClosestPoint NearestOnTemplate(const MeshSurface& fitted, const Level& level, const Target& target,
+                               int target_vertex);
 
 /// The closest-point terms between `shape`, which is of a level, and the target: from each of its
 /// vertices to the nearest point of the target, and from every `stride`-th vertex of the target to
 /// the nearest point of `shape`. Only points nearer than a twentieth of the square root of the area
 /// count. `distance` becomes the root mean square distance of the former.
-std::vector<Pull> FindPulls(const Level& level, const Shape& shape, const Eigen::VectorXd& areas,
-                            const Target& target, int stride, double weight, double* distance);
+std::vector<PointToPlaneTerm> FindTerms(const Level& level, const Shape& shape,
+                                        const Eigen::VectorXd& areas, const Target& target,
+                                        int stride, double weight, double* distance);
 
 }  // namespace shapespace::internal
 

@@ -14,13 +14,13 @@ namespace {
 // sum of differences is larger by this factor than at the predicted position. On six real pairs,
 // with 20 to 55 markers, correct markers have up to 5 times the median (where proportions differ
 // most), exchanged ones at least 14 times.
-constexpr double kMuchFarther = 8, kLeastOff = 0.15, kMuchWorse = 1.5;
+constexpr double kMuchFarther = 8, kMinOff = 0.15, kMuchWorse = 1.5;
 // Differences are weighted by the inverse distance plus this constant, because proportions affect
 // long distances more.
 constexpr float kNear = 0.1F;
 // Fewer other markers do not suffice: three distances determine a point of the plane only up to
 // reflection.
-constexpr int kLeastOthers = 4;
+constexpr int kMinOthers = 4;
 
 struct Prediction {
   int expected = -1;
@@ -38,7 +38,7 @@ Prediction Predict(int marker, const std::vector<bool>& is_out, const Eigen::Mat
     ++others;
     cost += (on_target.col(k).array() - distance).abs().matrix() / (distance + kNear);
   }
-  if (others < kLeastOthers) return {};
+  if (others < kMinOthers) return {};
   Prediction prediction;
   const float least = cost.minCoeff(&prediction.expected);
   prediction.off = on_target(prediction.expected, marker);
@@ -50,7 +50,7 @@ Prediction Predict(int marker, const std::vector<bool>& is_out, const Eigen::Mat
 // Whether marker `a` is predicted near `b`, and `b` near `a`.
 bool AreSwapped(const CorrespondenceSummary::Doubt& a, const CorrespondenceSummary::Doubt& b,
                 const Eigen::MatrixXf& on_target) {
-  return on_target(a.expected, b.marker) < kLeastOff && on_target(b.expected, a.marker) < kLeastOff;
+  return on_target(a.expected, b.marker) < kMinOff && on_target(b.expected, a.marker) < kMinOff;
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ std::vector<CorrespondenceSummary::Doubt> FindDoubtfulMarkers(
     if (offs.empty()) break;
     const auto middle = offs.begin() + static_cast<std::ptrdiff_t>(offs.size() / 2);
     std::nth_element(offs.begin(), middle, offs.end());
-    const double most_off = std::max(kLeastOff, kMuchFarther * *middle);
+    const double most_off = std::max(kMinOff, kMuchFarther * *middle);
     int worst = -1;
     for (int k = 0; k < num_markers; ++k) {
       const Prediction& prediction = predictions[k];

@@ -23,9 +23,9 @@ MetricOptions ShellMetric(double bending) {
   return options;
 }
 
-Eigen::Vector3d Offset(const Pull& pull, const Shape& shape) {
-  Eigen::Vector3d offset = -pull.point;
-  for (int k = 0; k < 3; ++k) offset += pull.barycentric(k) * shape.col(pull.vertices(k));
+Eigen::Vector3d Offset(const PointToPlaneTerm& term, const Shape& shape) {
+  Eigen::Vector3d offset = -term.point;
+  for (int k = 0; k < 3; ++k) offset += term.barycentric(k) * shape.col(term.vertices(k));
   return offset;
 }
 
@@ -44,7 +44,7 @@ ShellFit::ShellFit(const std::shared_ptr<const Connectivity>& connectivity, cons
 void ShellFit::SetWanted(const Shape& shape) {
   for (size_t i = 0; i < metric_->features.size(); ++i) {
     const int begin = map_.FirstValue(i);
-    if (const auto* positions = metric_->features[i]->As<Position>()) {
+    if (const auto* positions = metric_->features[i]->As<PositionFeature>()) {
       for (int v = 0; v < shape.cols(); ++v) {
         wanted_.segment<3>(begin + 3 * v) = std::sqrt(positions->weights(v)) * shape.col(v);
       }
@@ -59,31 +59,32 @@ void ShellFit::SetWanted(const Shape& shape) {
   }
 }
 
-double ShellFit::PullEnergy(const std::vector<Pull>& pulls, const Shape& shape) const {
+double ShellFit::TermEnergy(const std::vector<PointToPlaneTerm>& terms, const Shape& shape) const {
   double energy = 0;
-  for (const Pull& pull : pulls) {
-    const Eigen::Vector3d offset = Offset(pull, shape);
-    const double across = pull.normal.dot(offset);
-    energy += pull.weight * (across * across + kAlong * offset.squaredNorm());
+  for (const PointToPlaneTerm& term : terms) {
+    const Eigen::Vector3d offset = Offset(term, shape);
+    const double across = term.normal.dot(offset);
+    energy += term.weight * (across * across + kAlong * offset.squaredNorm());
   }
   return energy;
 }
 
-void ShellFit::AddPulls(const std::vector<Pull>& pulls, const Shape& shape, Tangent* gradient) {
+void ShellFit::AddTerms(const std::vector<PointToPlaneTerm>& terms, const Shape& shape,
+                        Tangent* gradient) {
   double* const values = matrix_.valuePtr();
   const int* const rows = matrix_.innerIndexPtr();
   const int* const begins = matrix_.outerIndexPtr();
-  for (const Pull& pull : pulls) {
-    const Eigen::Matrix3d stiffness = pull.weight * (pull.normal * pull.normal.transpose() +
+  for (const PointToPlaneTerm& term : terms) {
+    const Eigen::Matrix3d stiffness = term.weight * (term.normal * term.normal.transpose() +
                                                      kAlong * Eigen::Matrix3d::Identity());
-    const Eigen::Vector3d force = stiffness * Offset(pull, shape);
+    const Eigen::Vector3d force = stiffness * Offset(term, shape);
     for (int i = 0; i < 3; ++i) {
-      if (pull.barycentric(i) == 0) continue;
-      gradient->col(pull.vertices(i)) += pull.barycentric(i) * force;
+      if (term.barycentric(i) == 0) continue;
+      gradient->col(term.vertices(i)) += term.barycentric(i) * force;
       for (int j = 0; j < 3; ++j) {
-        const int p = pull.vertices(i), q = pull.vertices(j);
-        if (p < q || pull.barycentric(j) == 0) continue;
-        const double factor = pull.barycentric(i) * pull.barycentric(j);
+        const int p = term.vertices(i), q = term.vertices(j);
+        if (p < q || term.barycentric(j) == 0) continue;
+        const double factor = term.barycentric(i) * term.barycentric(j);
         for (int b = 0; b < 3; ++b) {
           const int column = 3 * q + b;
           const int first = p == q ? column : 3 * p;
@@ -97,15 +98,15 @@ void ShellFit::AddPulls(const std::vector<Pull>& pulls, const Shape& shape, Tang
   }
 }
 
-double ShellFit::Step(const std::vector<Pull>& user_pulls, Shape* user_shape) {
+double ShellFit::Step(const std::vector<PointToPlaneTerm>& user_terms, Shape* user_shape) {
   const double unit = metric_->unit;
   const Shape shape = *user_shape / unit;
-  std::vector<Pull> pulls = user_pulls;
-  for (Pull& pull : pulls) pull.point /= unit;
+  std::vector<PointToPlaneTerm> terms = user_terms;
+  for (PointToPlaneTerm& term : terms) term.point /= unit;
 
   SetWanted(shape);
   const Eigen::VectorXd off = map_.Values(shape) - wanted_;
-  const double energy = off.squaredNorm() + PullEnergy(pulls, shape);
+  const double energy = off.squaredNorm() + TermEnergy(terms, shape);
   const FeatureDerivative derivative = map_.Derivative(shape);
   if (matrix_.rows() == 0) {
     matrix_ = derivative.MetricMatrix();
@@ -113,7 +114,7 @@ double ShellFit::Step(const std::vector<Pull>& user_pulls, Shape* user_shape) {
     derivative.UpdateMetricMatrix(&matrix_);
   }
   Tangent gradient = derivative.TransposeTimes(off);
-  AddPulls(pulls, shape, &gradient);
+  AddTerms(terms, shape, &gradient);
   for (int column = 0; column < matrix_.outerSize(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix_, column); entry; ++entry) {
       const auto row = static_cast<int>(entry.row());
@@ -135,7 +136,7 @@ double ShellFit::Step(const std::vector<Pull>& user_pulls, Shape* user_shape) {
   double factor = 1;
   for (int halving = 0; halving <= kHalvings; ++halving, factor *= 0.5) {
     const Shape trial = shape - factor * step;
-    if ((map_.Values(trial) - wanted_).squaredNorm() + PullEnergy(pulls, trial) < energy) {
+    if ((map_.Values(trial) - wanted_).squaredNorm() + TermEnergy(terms, trial) < energy) {
       *user_shape = unit * trial;
       for (int v = 0; v < shape.cols(); ++v) {
         if (is_held_[v]) user_shape->col(v) = unit * shape.col(v);

@@ -19,7 +19,7 @@ namespace shapespace::internal {
 /// A closest-point term: the penalty of a point of a body, given by barycentric coordinates in a
 /// triangle, and a point of the target. It is `weight` times the squared distance from the tangent
 /// plane at the target's point, plus a small multiple of the squared distance from that point.
-struct Pull {
+struct PointToPlaneTerm {
   Eigen::Vector3i vertices;
   Eigen::Vector3d barycentric;
   Eigen::Vector3d point, normal;  ///< unit
@@ -44,12 +44,12 @@ class ShellFit {
   /// sum; `*shape` is unchanged if there is none. \return the root mean square motion of the
   /// vertices in a full step, as a share of the square root of the area; a full step, so that a
   /// shortened step is not mistaken for convergence.
-  double Step(const std::vector<Pull>& pulls, Shape* shape);
+  double Step(const std::vector<PointToPlaneTerm>& terms, Shape* shape);
 
  private:
-  double PullEnergy(const std::vector<Pull>& pulls, const Shape& shape) const;
+  double TermEnergy(const std::vector<PointToPlaneTerm>& terms, const Shape& shape) const;
   // Adds them to the matrix and the gradient.
-  void AddPulls(const std::vector<Pull>& pulls, const Shape& shape, Tangent* gradient);
+  void AddTerms(const std::vector<PointToPlaneTerm>& terms, const Shape& shape, Tangent* gradient);
   void SetWanted(const Shape& shape);
 
   const std::shared_ptr<const Metric> metric_;

@@ -15,10 +15,10 @@ namespace {
 
 // Logarithms of stretches are clamped to this. Larger ones belong to collapsed triangles or wrong
 // closest points; proportions of bodies differ by less than a factor of four.
-constexpr double kMostStretch = 1.4;
+constexpr double kMaxStretch = 1.4;
 // Cotangents are at least this. Obtuse triangles and slivers have smaller ones, which would let
 // smoothed values leave the range of the values around them.
-constexpr double kLeastCotangent = 1e-3;
+constexpr double kMinCotangent = 1e-3;
 
 using Sixfold = Eigen::Matrix<double, 6, 1>;
 
@@ -50,17 +50,16 @@ SmoothStretch::SmoothStretch(std::shared_ptr<const Connectivity> connectivity, S
   }
   const double total = areas_.sum();
   areas_ /= total;
-  constexpr double kLeastArea = 1e-12;  // for a vertex without triangles
+  constexpr double kMinArea = 1e-12;  // for a vertex without triangles
   std::vector<Eigen::Triplet<double>> entries;
-  for (int v = 0; v < num_vertices; ++v) entries.emplace_back(v, v, kLeastArea);
+  for (int v = 0; v < num_vertices; ++v) entries.emplace_back(v, v, kMinArea);
   for (int f = 0; f < triangles.cols(); ++f) {
     for (int k = 0; k < 3; ++k) {
       const int a = triangles(k, f), b = triangles((k + 1) % 3, f), c = triangles((k + 2) % 3, f);
       const Eigen::Vector3d p = rest_.col(a) - rest_.col(c), q = rest_.col(b) - rest_.col(c);
       const double sine = p.cross(q).norm();
-      const double cotangent =
-          sine > 0 ? std::max(kLeastCotangent, p.dot(q) / sine) : kLeastCotangent;
-      const double weight = 0.5 * length * length * std::min(cotangent, 1 / kLeastCotangent);
+      const double cotangent = sine > 0 ? std::max(kMinCotangent, p.dot(q) / sine) : kMinCotangent;
+      const double weight = 0.5 * length * length * std::min(cotangent, 1 / kMinCotangent);
       entries.emplace_back(a, a, weight + areas_(f) / 3);
       entries.emplace_back(b, b, weight);
       entries.emplace_back(std::max(a, b), std::min(a, b), -weight);
@@ -80,7 +79,7 @@ Eigen::Matrix<double, 9, Eigen::Dynamic> SmoothStretch::StretchedTriangles(
     const Eigen::Matrix3d gradient = Frame(shape, triangles.col(f)) * inverses_[f];
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squared(gradient.transpose() * gradient);
     const Eigen::Vector3d logarithm =
-        (0.5 * squared.eigenvalues().array().max(1e-12).log()).max(-kMostStretch).min(kMostStretch);
+        (0.5 * squared.eigenvalues().array().max(1e-12).log()).max(-kMaxStretch).min(kMaxStretch);
     raw.col(f) =
         Pack(squared.eigenvectors() * logarithm.asDiagonal() * squared.eigenvectors().transpose());
   });

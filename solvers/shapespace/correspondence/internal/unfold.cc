@@ -49,10 +49,10 @@ Neighbours::Neighbours(const Connectivity& connectivity, const Shape& rest)
       const int v = triangle(k), a = triangle((k + 1) % 3), b = triangle((k + 2) % 3);
       const Eigen::Vector3d p = rest.col(a) - rest.col(v), q = rest.col(b) - rest.col(v);
       const double lengths = p.norm() * q.norm();
-      // The tangent of half the angle, at least kLeast for collapsed triangles.
-      constexpr double kLeast = 1e-3;
-      const double tangent = std::max(kLeast * lengths, p.cross(q).norm()) /
-                             std::max(kLeast * lengths, lengths + p.dot(q));
+      // The tangent of half the angle, at least kMin for collapsed triangles.
+      constexpr double kMin = 1e-3;
+      const double tangent = std::max(kMin * lengths, p.cross(q).norm()) /
+                             std::max(kMin * lengths, lengths + p.dot(q));
       if (!(lengths > 0)) continue;
       add(v, a, tangent / p.norm());
       add(v, b, tangent / q.norm());
@@ -101,35 +101,35 @@ std::vector<int> CountTurned(const std::vector<bool>& turned, const Eigen::Matri
   return counts;
 }
 
-Foot MapVertex(const Level& level, const Shape& shape, const Shape& normals, const Target& target,
-               int v) {
+ClosestPoint MapVertex(const Level& level, const Shape& shape, const Shape& normals,
+                       const Target& target, int v) {
   const int vertex = level.vertices[v];
-  Foot foot = target.Nearest(shape.col(v), normals.col(v), vertex);
-  if (foot.triangle >= 0) return foot;
-  Foot other = target.GetSurface().Nearest(shape.col(v), [&](int f) {
+  ClosestPoint closest = target.Nearest(shape.col(v), normals.col(v), vertex);
+  if (closest.triangle >= 0) return closest;
+  ClosestPoint other = target.GetSurface().Nearest(shape.col(v), [&](int f) {
     return target.Distances().MayMatch(vertex, target.GetConnectivity().Triangles()(0, f));
   });
   return other.triangle >= 0 ? other : target.GetSurface().Nearest(shape.col(v));
 }
 
-// Updates the result `feet` of MapVertices for a shape in which only the vertices `moved` have
+// Updates the result `closest` of MapVertices for a shape in which only the vertices `moved` have
 // changed; the normals of their neighbours have changed too.
-std::vector<Foot> MapAnew(const Level& level, const Shape& shape, const Target& target,
-                          const std::vector<bool>& moved, const Neighbours& neighbours,
-                          std::vector<Foot> feet) {
+std::vector<ClosestPoint> MapAnew(const Level& level, const Shape& shape, const Target& target,
+                                  const std::vector<bool>& moved, const Neighbours& neighbours,
+                                  std::vector<ClosestPoint> closest) {
   const Shape normals = VertexNormals(*level.connectivity, shape);
   ParallelFor(static_cast<int>(shape.cols()), [&](int v) {
     bool is_affected = moved[v];
     neighbours.ForEach(v, [&](int w, double) { is_affected = is_affected || moved[w]; });
-    if (is_affected) feet[v] = MapVertex(level, shape, normals, target, v);
+    if (is_affected) closest[v] = MapVertex(level, shape, normals, target, v);
   });
-  return feet;
+  return closest;
 }
 
 }  // namespace
 
 std::vector<bool> TurnedTriangles(const Level& level, const Shape& shape, const Target& target,
-                                  const std::vector<Foot>& feet) {
+                                  const std::vector<ClosestPoint>& closest) {
   const Eigen::Matrix3Xi& triangles = level.connectivity->Triangles();
   const Eigen::Matrix3Xi& others = target.GetConnectivity().Triangles();
   const Shape& place = target.GetShape();
@@ -137,19 +137,20 @@ std::vector<bool> TurnedTriangles(const Level& level, const Shape& shape, const 
   for (int f = 0; f < triangles.cols(); ++f) {
     Eigen::Vector3d there = Eigen::Vector3d::Zero();
     for (int k = 0; k < 3; ++k) {
-      there += AreaNormal(place, others.col(feet[triangles(k, f)].triangle));
+      there += AreaNormal(place, others.col(closest[triangles(k, f)].triangle));
     }
     turned[f] = AreaNormal(shape, triangles.col(f)).dot(there) < 0;
   }
   return turned;
 }
 
-std::vector<Foot> MapVertices(const Level& level, const Shape& shape, const Target& target) {
+std::vector<ClosestPoint> MapVertices(const Level& level, const Shape& shape,
+                                      const Target& target) {
   const Shape normals = VertexNormals(*level.connectivity, shape);
-  std::vector<Foot> feet(shape.cols());
+  std::vector<ClosestPoint> closest(shape.cols());
   ParallelFor(static_cast<int>(shape.cols()),
-              [&](int v) { feet[v] = MapVertex(level, shape, normals, target, v); });
-  return feet;
+              [&](int v) { closest[v] = MapVertex(level, shape, normals, target, v); });
+  return closest;
 }
 
 void Unfold(const Level& level, const Shape& rest, const Target& target,
@@ -158,10 +159,10 @@ void Unfold(const Level& level, const Shape& rest, const Target& target,
   const Neighbours neighbours(*level.connectivity, rest);
   std::vector<bool> is_held(shape->cols(), false);
   for (const int v : held) is_held[v] = true;
-  std::vector<Foot> feet = MapVertices(level, *shape, target);
+  std::vector<ClosestPoint> closest = MapVertices(level, *shape, target);
   for (int round = 0; round < kPasses * kRings; ++round) {
     const int rings = 1 + round % kRings;
-    const std::vector<bool> turned = TurnedTriangles(level, *shape, target, feet);
+    const std::vector<bool> turned = TurnedTriangles(level, *shape, target, closest);
     std::vector<bool> inside(shape->cols(), false);
     for (int f = 0; f < triangles.cols(); ++f) {
       for (int k = 0; k < 3; ++k) {
@@ -179,11 +180,11 @@ void Unfold(const Level& level, const Shape& rest, const Target& target,
     int num_patches = 0;
     const std::vector<int> patch = PatchesOf(inside, neighbours, &num_patches);
     if (num_patches == 0) return;
-    // The mean is projected onto the target where its normal agrees with those of the neighbours'
-    // feet.
+    // The mean is projected onto the target where its normal agrees with those at the
+    // neighbours' closest points.
     Shape flat = *shape;
     Shape facing(3, flat.cols());
-    for (int v = 0; v < flat.cols(); ++v) facing.col(v) = target.NormalAt(feet[v]);
+    for (int v = 0; v < flat.cols(); ++v) facing.col(v) = target.NormalAt(closest[v]);
     for (int average = 0; average < kAverages; ++average) {
       for (int v = 0; v < flat.cols(); ++v) {
         if (!inside[v]) continue;
@@ -195,14 +196,15 @@ void Unfold(const Level& level, const Shape& rest, const Target& target,
           weights += weight;
         });
         const Eigen::Vector3d mean = sum / weights;
-        const Foot foot = target.Nearest(mean, normal.stableNormalized(), level.vertices[v]);
-        if (foot.triangle < 0) continue;
-        flat.col(v) = foot.point;
-        facing.col(v) = target.NormalAt(foot);
+        const ClosestPoint closest =
+            target.Nearest(mean, normal.stableNormalized(), level.vertices[v]);
+        if (closest.triangle < 0) continue;
+        flat.col(v) = closest.point;
+        facing.col(v) = target.NormalAt(closest);
       }
     }
     const std::vector<bool> still = TurnedTriangles(
-        level, flat, target, MapAnew(level, flat, target, inside, neighbours, feet));
+        level, flat, target, MapAnew(level, flat, target, inside, neighbours, closest));
     const std::vector<int> before = CountTurned(turned, triangles, patch, num_patches);
     const std::vector<int> after = CountTurned(still, triangles, patch, num_patches);
     std::vector<bool> moved(flat.cols(), false);
@@ -210,7 +212,7 @@ void Unfold(const Level& level, const Shape& rest, const Target& target,
       moved[v] = inside[v] && after[patch[v]] < before[patch[v]];
       if (moved[v]) shape->col(v) = flat.col(v);
     }
-    feet = MapAnew(level, *shape, target, moved, neighbours, std::move(feet));
+    closest = MapAnew(level, *shape, target, moved, neighbours, std::move(closest));
   }
 }
 

@@ -10,12 +10,12 @@ namespace shapespace::internal {
 /// Which triangles have normals opposite to the target's: the comparison is with the sum of the
 /// normals of the target's triangles on which the corners lie.
 std::vector<bool> TurnedTriangles(const Level& level, const Shape& shape, const Target& target,
-                                  const std::vector<Foot>& feet);
+                                  const std::vector<ClosestPoint>& closest);
 
 /// The points of the target that correspond to the vertices of `shape`: the nearest point that is
 /// compatible by normal and by distances from the markers; if there is none, the nearest that is
 /// compatible by distances; otherwise the nearest.
-std::vector<Foot> MapVertices(const Level& level, const Shape& shape, const Target& target);
+std::vector<ClosestPoint> MapVertices(const Level& level, const Shape& shape, const Target& target);
 
 /// Removes folds. Around triangles whose normals are opposite to the target's, vertices other than
 /// `held` move to a weighted mean of their neighbours, as in W. Tutte's embedding ("How to draw a

@@ -45,17 +45,18 @@ std::vector<int> Places(const CholeskyFactor<float>& factor) {
 
 }  // namespace
 
-FreeEndFactors::FreeEndFactors(std::shared_ptr<const Metric> metric, Shape rest, Grip grip)
+FreeEndFactors::FreeEndFactors(std::shared_ptr<const Metric> metric, Shape rest,
+                               PositionConstraints constraints)
     : metric_(std::move(metric)),
       rest_(std::move(rest)),
-      grip_(std::move(grip)),
+      constraints_(std::move(constraints)),
       scalar_(ScalarMetric(*metric_, {rest_}, 0)) {
   const int num_vertices = static_cast<int>(rest_.cols());
-  given_ = Marks(num_vertices, grip_.carried);
+  given_ = Marks(num_vertices, constraints_.prescribed);
   between_ = FactorOf(scalar_, Eigen::VectorXd::Zero(num_vertices), given_);
-  for (int v : grip_.landed) given_[v] = 1;
-  const bool same = grip_.landed.empty() && grip_.pull.isZero(0);
-  end_ = same ? between_ : FactorOf(scalar_, 2 * grip_.pull, given_);
+  for (int v : constraints_.prescribed_last) given_[v] = 1;
+  const bool same = constraints_.prescribed_last.empty() && constraints_.penalty.isZero(0);
+  end_ = same ? between_ : FactorOf(scalar_, 2 * constraints_.penalty, given_);
 }
 
 void FreeEndFactors::SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights,
@@ -86,7 +87,7 @@ void FreeEndFactors::SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights,
   });
 }
 
-std::vector<Tangent> FreeEndFactors::Spread(const std::vector<Tangent>& ways) const {
+std::vector<Tangent> FreeEndFactors::Extend(const std::vector<Tangent>& ways) const {
   const int size = end_->Size();
   std::vector<Tangent> result(ways.size(), Tangent::Zero(3, size));
   std::vector<Eigen::MatrixXd> rights;
@@ -95,7 +96,7 @@ std::vector<Tangent> FreeEndFactors::Spread(const std::vector<Tangent>& ways) co
       if (given_[v]) result[i].col(v) = ways[i].col(v);
     }
     rights.push_back(-(scalar_.selfadjointView<Eigen::Lower>() * result[i].transpose()));
-    rights.back() += 2 * grip_.pull.asDiagonal() * ways[i].transpose();
+    rights.back() += 2 * constraints_.penalty.asDiagonal() * ways[i].transpose();
   }
   SolveAndAdd(rights, &result);
   return result;
@@ -114,8 +115,8 @@ void FreeEndFactors::Integrate(const std::vector<std::vector<Eigen::Matrix3d>>& 
       for (int e = 0; e < feature->NumElements(); ++e) {
         const int* const vertices = feature->Element(e);
         Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-        feature->Gather(e, e + 1, rest_, before.data());
-        feature->Gather(e, e + 1, shape, after.data());
+        feature->GatherCoordinates(e, e + 1, rest_, before.data());
+        feature->GatherCoordinates(e, e + 1, shape, after.data());
         for (int c = 0; c < corners; ++c) gradient += gradients[i][vertices[c]] / corners;
         feature->ScalarRows(1, before.data(), k.data());
         after = gradient.lazyProduct(before) - after;
@@ -137,7 +138,7 @@ FreeEndPreconditioner::FreeEndPreconditioner(const FreeEndFactors& factors,
       end_width_(PaddedWidth<float>(3)),
       between_place_(Places(*factors.between_)),
       end_place_(Places(*factors.end_)),
-      carried_(Marks(factors.end_->Size(), factors.grip_.carried)),
+      prescribed_(Marks(factors.end_->Size(), factors.constraints_.prescribed)),
       between_work_(static_cast<size_t>(factors.between_->WorkRows()) * between_width_),
       end_work_(static_cast<size_t>(factors.end_->WorkRows()) * end_width_) {}
 
@@ -153,7 +154,7 @@ void FreeEndPreconditioner::Apply(const double* gradient, double unit, double* r
     float* const between = &between_work_[static_cast<size_t>(between_place_[v]) * between_width_];
     std::fill(end, end + end_width_, 0.0f);
     std::fill(between, between + between_width_, 0.0f);
-    if (carried_[v]) return;
+    if (prescribed_[v]) return;
     for (int axis = 0; axis < 3; ++axis) {
       double later = 0, sum = 0;
       for (int t = n - 1; t >= 0; --t) {
@@ -180,7 +181,7 @@ void FreeEndPreconditioner::Apply(const double* gradient, double unit, double* r
     const float* const between =
         &between_work_[static_cast<size_t>(between_place_[v]) * between_width_];
     std::fill(out, out + 3 * stride, 0.0);
-    if (carried_[v]) return;
+    if (prescribed_[v]) return;
     for (int axis = 0; axis < 3; ++axis) {
       const double share = factors_.given_[v] ? 0 : end[axis] * root;
       double sum = 0;

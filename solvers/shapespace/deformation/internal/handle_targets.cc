@@ -13,7 +13,7 @@ namespace {
 // Number of a handle's vertices that are kept on every level of a hierarchy.
 constexpr int kPins = 12;
 
-void CheckHandle(const Handle& handle, int number, int num_vertices) {
+void CheckHandle(const DeformationHandle& handle, int number, int num_vertices) {
   const auto fail = [&](const std::string& what) {
     throw InvalidOptions("handles: " + std::to_string(number) +
                          (handle.name.empty() ? "" : " (\"" + handle.name + "\")") + ": " + what);
@@ -49,7 +49,7 @@ void CheckHandle(const Handle& handle, int number, int num_vertices) {
 
 }  // namespace
 
-HandleTargets::HandleTargets(const std::vector<Handle>& handles, const Shape& rest,
+HandleTargets::HandleTargets(const std::vector<DeformationHandle>& handles, const Shape& rest,
                              const Eigen::Vector3d& origin, double unit)
     : handles_(handles), rest_(rest), origin_(origin), unit_(unit) {
   std::vector<std::vector<Part>> parts(rest.cols());
@@ -71,7 +71,7 @@ HandleTargets::HandleTargets(const std::vector<Handle>& handles, const Shape& re
       const bool moves_freely =
           std::any_of(parts[v].begin(), parts[v].end(),
                       [&](const Part& part) { return handles_[part.handle].positions; });
-      hold = moves_freely ? Hold::kLanded : Hold::kCarried;
+      hold = moves_freely ? Hold::kPrescribedLast : Hold::kPrescribed;
     }
     held_.push_back(v);
     hold_.push_back(hold);
@@ -80,7 +80,7 @@ HandleTargets::HandleTargets(const std::vector<Handle>& handles, const Shape& re
 }
 
 Eigen::Vector3d HandleTargets::Target(const Part& part, double t) const {
-  const Handle& handle = handles_[part.handle];
+  const DeformationHandle& handle = handles_[part.handle];
   const Eigen::Vector3d from = rest_.col(handle.vertices[part.place]);
   return (handle.Target(part.place, t, from) - origin_) / unit_;
 }
@@ -98,8 +98,8 @@ Shape HandleTargets::At(double t) const {
   return result;
 }
 
-Grip HandleTargets::Restrict(const std::vector<int>& vertices, const Eigen::VectorXd& areas,
-                             double strength) const {
+PositionConstraints HandleTargets::Restrict(const std::vector<int>& vertices,
+                                            const Eigen::VectorXd& areas, double strength) const {
   // Area of each handle on this mesh, and the number of soft handles with any.
   std::vector<double> area(handles_.size(), 0.0);
   const auto for_held = [&](const auto& body) {
@@ -115,22 +115,22 @@ Grip HandleTargets::Restrict(const std::vector<int>& vertices, const Eigen::Vect
   });
   const double pulling = static_cast<double>(
       std::count_if(area.begin(), area.end(), [](double sum) { return sum > 0; }));
-  Grip grip;
-  grip.pull = Eigen::VectorXd::Zero(vertices.size());
+  PositionConstraints constraints;
+  constraints.penalty = Eigen::VectorXd::Zero(vertices.size());
   for_held([&](int v, size_t i) {
-    if (hold_[i] == Hold::kCarried) grip.carried.push_back(v);
-    if (hold_[i] == Hold::kLanded) grip.landed.push_back(v);
+    if (hold_[i] == Hold::kPrescribed) constraints.prescribed.push_back(v);
+    if (hold_[i] == Hold::kPrescribedLast) constraints.prescribed_last.push_back(v);
     if (hold_[i] != Hold::kSoft) return;
     for (const Part& part : parts_[i]) {
-      grip.pull(v) += strength / pulling * part.weight * areas(v) / area[part.handle];
+      constraints.penalty(v) += strength / pulling * part.weight * areas(v) / area[part.handle];
     }
   });
-  return grip;
+  return constraints;
 }
 
 double HandleTargets::GreatestTurn() const {
   double greatest = 0;
-  for (const Handle& handle : handles_) {
+  for (const DeformationHandle& handle : handles_) {
     if (!handle.positions) greatest = std::max(greatest, std::abs(handle.motion.angle));
   }
   return greatest;
@@ -138,7 +138,7 @@ double HandleTargets::GreatestTurn() const {
 
 std::vector<int> HandleTargets::Pins() const {
   std::vector<int> pins;
-  for (const Handle& handle : handles_) {
+  for (const DeformationHandle& handle : handles_) {
     const Shape places = rest_(Eigen::all, handle.vertices);
     Eigen::VectorXd distance =
         Eigen::VectorXd::Constant(places.cols(), std::numeric_limits<double>::infinity());

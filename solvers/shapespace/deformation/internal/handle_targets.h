@@ -19,13 +19,13 @@ class HandleTargets {
   /// `rest` is the mesh to deform, in the user's unit; targets are relative to `origin`, in units
   /// of `unit`.
   /// \throw InvalidOptions naming the handle and the error in it.
-  HandleTargets(const std::vector<Handle>& handles, const Shape& rest,
+  HandleTargets(const std::vector<DeformationHandle>& handles, const Shape& rest,
                 const Eigen::Vector3d& origin, double unit);
 
   /// The vertices that belong to a handle, in ascending order.
   const std::vector<int>& Held() const { return held_; }
   /// Whether the position of Held()[i] is prescribed in all shapes, or in the last.
-  bool IsCarried(size_t i) const { return hold_[i] == Hold::kCarried; }
+  bool IsCarried(size_t i) const { return hold_[i] == Hold::kPrescribed; }
   bool IsGiven(size_t i) const { return hold_[i] != Hold::kSoft; }
   /// Targets of these vertices at time t: 3 x Held(). For positions that are not prescribed at t,
   /// the target lies on the straight line or on the motion to the final target.
@@ -36,8 +36,8 @@ class HandleTargets {
   /// independent of its number of vertices; the penalties of several handles are averaged, so that
   /// the total is independent of their number: sum_p pull_p |p - target|^2 = strength * mean over
   /// soft handles of weight * mean squared distance.
-  Grip Restrict(const std::vector<int>& vertices, const Eigen::VectorXd& areas,
-                double strength) const;
+  PositionConstraints Restrict(const std::vector<int>& vertices, const Eigen::VectorXd& areas,
+                               double strength) const;
 
   /// The largest angle by which a handle turns, in radians.
   double GreatestTurn() const;
@@ -54,7 +54,7 @@ class HandleTargets {
   bool IsNear(const HandleTargets& other, double most) const;
 
  private:
-  enum class Hold { kSoft, kLanded, kCarried };
+  enum class Hold { kSoft, kPrescribedLast, kPrescribed };
   struct Part {  // of a handle that holds a vertex
     int handle, place;
     double weight;
@@ -62,7 +62,7 @@ class HandleTargets {
 
   Eigen::Vector3d Target(const Part& part, double t) const;
 
-  std::vector<Handle> handles_;
+  std::vector<DeformationHandle> handles_;
   Shape rest_;  // in the user's unit
   Eigen::Vector3d origin_;
   double unit_;

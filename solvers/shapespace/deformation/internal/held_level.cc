@@ -12,9 +12,10 @@ namespace {
 
 // The constraints on a level. All vertices of components without a handle are prescribed, because a
 // cost of volume could move them.
-Grip GripOf(const HandleTargets& targets, const std::vector<int>& vertices,
-            const std::vector<int>& component, const Eigen::VectorXd& areas, double strength) {
-  Grip grip = targets.Restrict(vertices, areas, strength);
+PositionConstraints ConstraintsOf(const HandleTargets& targets, const std::vector<int>& vertices,
+                                  const std::vector<int>& component, const Eigen::VectorXd& areas,
+                                  double strength) {
+  PositionConstraints constraints = targets.Restrict(vertices, areas, strength);
   std::set<int> held;
   for (int v : targets.Held()) {
     const auto found = std::lower_bound(vertices.begin(), vertices.end(), v);
@@ -24,9 +25,10 @@ Grip GripOf(const HandleTargets& targets, const std::vector<int>& vertices,
   for (size_t v = 0; v < vertices.size(); ++v) {
     const bool is_held =
         std::binary_search(targets.Held().begin(), targets.Held().end(), vertices[v]);
-    if (held.count(component[v]) == 0 && !is_held) grip.carried.push_back(static_cast<int>(v));
+    if (held.count(component[v]) == 0 && !is_held)
+      constraints.prescribed.push_back(static_cast<int>(v));
   }
-  return grip;
+  return constraints;
 }
 
 }  // namespace
@@ -36,7 +38,7 @@ HeldLevel::HeldLevel(const std::shared_ptr<const Metric>& metric, Shape rest,
                      const HandleTargets& targets, double strength)
     : component_(std::move(component)),
       path_(metric, std::move(rest),
-            GripOf(targets, vertices, component_, metric->vertex_area, strength)) {
+            ConstraintsOf(targets, vertices, component_, metric->vertex_area, strength)) {
   for (size_t k = 0; k < targets.Held().size(); ++k) {
     const auto found = std::lower_bound(vertices.begin(), vertices.end(), targets.Held()[k]);
     if (found == vertices.end() || *found != targets.Held()[k]) continue;
@@ -65,7 +67,7 @@ void HeldLevel::MoveComponents(const Shape& places, Shape* shape) const {
   }
 }
 
-void HeldLevel::GoAlong(const std::vector<Shape>& places, std::vector<Shape>* shapes) const {
+void HeldLevel::MoveHandlesTo(const std::vector<Shape>& places, std::vector<Shape>* shapes) const {
   const size_t last = shapes->size() - 1;
   std::vector<Tangent> ways(last, Tangent::Zero(3, component_.size()));
   for (size_t i = 1; i <= last; ++i) {
@@ -73,7 +75,7 @@ void HeldLevel::GoAlong(const std::vector<Shape>& places, std::vector<Shape>* sh
       ways[i - 1].col(held.vertex) = places[i].col(held.column) - (*shapes)[i].col(held.vertex);
     }
   }
-  const std::vector<Tangent> steps = path_.Factors().Spread(ways);
+  const std::vector<Tangent> steps = path_.Factors().Extend(ways);
   for (size_t i = 1; i <= last; ++i) {
     (*shapes)[i] += steps[i - 1];
     Place(places[i], i == last, &(*shapes)[i]);
@@ -82,7 +84,7 @@ void HeldLevel::GoAlong(const std::vector<Shape>& places, std::vector<Shape>* sh
 
 void HeldLevel::Place(const Shape& places, bool last, Shape* shape) const {
   for (const Held& held : held_) {
-    if (held.carried || (held.given && last)) shape->col(held.vertex) = places.col(held.column);
+    if (held.prescribed || (held.given && last)) shape->col(held.vertex) = places.col(held.column);
   }
 }
 

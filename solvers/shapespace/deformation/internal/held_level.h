@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include <shapespace/deformation/internal/constrained_path.h>
 #include <shapespace/deformation/internal/handle_targets.h>
-#include <shapespace/deformation/internal/pulled_path.h>
 #include <shapespace/metric/metric.h>
 
 namespace shapespace::internal {
@@ -20,8 +20,8 @@ class HeldLevel {
             const std::vector<int>& vertices, std::vector<int> component,
             const HandleTargets& targets, double strength);
 
-  PulledPath& Path() { return path_; }
-  const PulledPath& Path() const { return path_; }
+  ConstrainedPath& Path() { return path_; }
+  const ConstrainedPath& Path() const { return path_; }
   const Shape& Rest() const { return path_.Rest(); }
   int NumVertices() const { return static_cast<int>(component_.size()); }
 
@@ -29,7 +29,7 @@ class HeldLevel {
   void MoveComponents(const Shape& places, Shape* shape) const;
   /// Moves the held vertices of all shapes but the first to their targets `places`, one matrix per
   /// shape, and all other vertices with them.
-  void GoAlong(const std::vector<Shape>& places, std::vector<Shape>* shapes) const;
+  void MoveHandlesTo(const std::vector<Shape>& places, std::vector<Shape>* shapes) const;
   /// Sets the prescribed vertices, of the `last` shape or of any shape, to their targets.
   void Place(const Shape& places, bool last, Shape* shape) const;
   /// The targets by vertex; 0 for vertices that are not held.
@@ -37,13 +37,13 @@ class HeldLevel {
 
  private:
   struct Held {
-    int column;           // of `places`
-    int vertex;           // of the level
-    bool carried, given;  // as in HandleTargets
+    int column;              // of `places`
+    int vertex;              // of the level
+    bool prescribed, given;  // as in HandleTargets
   };
 
   std::vector<int> component_;
-  PulledPath path_;
+  ConstrainedPath path_;
   std::vector<Held> held_;
 };
 

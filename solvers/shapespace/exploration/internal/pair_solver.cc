@@ -125,8 +125,8 @@ class OneOfMany : public Progress {
 }  // namespace
 
 PairSolver::PairSolver(const std::shared_ptr<const Connectivity>& connectivity,
-                       const std::vector<Shape>& poses, const GeodesicOptions& options, Crew* crew,
-                       const std::string& records)
+                       const std::vector<Shape>& poses, const GeodesicOptions& options,
+                       ProcessPool* crew, const std::string& records)
     : interpolator_(connectivity, poses, options),
       crew_(*crew),
       records_(records),

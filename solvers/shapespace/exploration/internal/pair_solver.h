@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <shapespace/base/progress.h>
-#include <shapespace/exploration/crew.h>
 #include <shapespace/exploration/internal/records.h>
+#include <shapespace/exploration/process_pool.h>
 #include <shapespace/geodesic/geodesic.h>
 
 // The geodesics from which a space is computed.
@@ -44,7 +44,7 @@ class PairSolver {
  public:
   /// `crew` must outlive it. \throw as Interpolator.
   PairSolver(const std::shared_ptr<const Connectivity>& connectivity,
-             const std::vector<Shape>& poses, const GeodesicOptions& options, Crew* crew,
+             const std::vector<Shape>& poses, const GeodesicOptions& options, ProcessPool* crew,
              const std::string& records);
 
   const std::shared_ptr<const Metric>& GetMetric() const { return interpolator_.GetMetric(); }
@@ -61,7 +61,7 @@ class PairSolver {
   PairResult SolveOne(const Pair& pair, Progress* progress);
 
   Interpolator interpolator_;
-  Crew& crew_;
+  ProcessPool& crew_;
   const Records records_;
   std::string digest_;  // of the data that all pairs share
   PairCounts counts_;

@@ -16,7 +16,7 @@ Edge MakeEdge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 class Refinement {
  public:
-  Refinement(const ExploreOptions& options, PairSolver* solver, Space* space)
+  Refinement(const ExploreOptions& options, PairSolver* solver, PoseSpace* space)
       : options_(options), solver_(*solver), space_(*space) {}
 
   // Measures all new edges. Returns false if none is too long.
@@ -40,7 +40,7 @@ class Refinement {
 
   const ExploreOptions& options_;
   PairSolver& solver_;
-  Space& space_;
+  PoseSpace& space_;
   std::map<Edge, Side> sides_;  // all measured edges
 };
 
@@ -173,7 +173,7 @@ void Refinement::SplitSegments() {
 
 }  // namespace
 
-void Refine(const ExploreOptions& options, PairSolver* solver, Progress* progress, Space* space,
+void Refine(const ExploreOptions& options, PairSolver* solver, Progress* progress, PoseSpace* space,
             ExploreSummary* summary) {
   Refinement refinement(options, solver, space);
   for (int depth = 0; depth < options.depth; ++depth) {

@@ -11,7 +11,7 @@ namespace shapespace::internal {
 /// Splits triangles or segments of a space whose edges differ too much from geodesics, as described
 /// at `Explore`; adds the rounds to the summary.
 /// \throw as PairSolver::Solve.
-void Refine(const ExploreOptions& options, PairSolver* solver, Progress* progress, Space* space,
+void Refine(const ExploreOptions& options, PairSolver* solver, Progress* progress, PoseSpace* space,
             ExploreSummary* summary);
 
 }  // namespace shapespace::internal

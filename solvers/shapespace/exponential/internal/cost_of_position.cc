@@ -14,7 +14,7 @@ std::shared_ptr<const Metric> WithCostOfPosition(const std::shared_ptr<const Met
   basis.vertex_area = metric->vertex_area;
   auto definite = std::make_shared<Metric>(*metric);
   definite->options.lambda = kLambda;
-  definite->features.push_back(FindFeature(Position::kName).freeze(basis, kLambda));
+  definite->features.push_back(FindFeature(PositionFeature::kName).freeze(basis, kLambda));
   return definite;
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 // A step is shortened until it gains this share of its predicted decrease.
 constexpr double kSufficient = 1e-4;
-constexpr int kMostHalvings = 8;
+constexpr int kMaxHalvings = 8;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& targ
     }
     bool lowered = false;
     double factor = 1;
-    for (int halving = 0; !lowered && halving <= kMostHalvings; ++halving, factor *= 0.5) {
+    for (int halving = 0; !lowered && halving <= kMaxHalvings; ++halving, factor *= 0.5) {
       Shape trial = result.shape - factor * step;
       Eigen::VectorXd left = map.Values(trial) - target;
       const double gain = result.squared_distance - left.squaredNorm();

@@ -12,8 +12,8 @@ Shooter::Shooter(std::shared_ptr<const Metric> metric, std::vector<Shape> known,
   levels_.push_back(std::make_unique<Level>(std::move(metric)));
 }
 
-Shape Shooter::Next(const Departure& departure, ExponentialSummary::Step* row) {
-  return NextOn(static_cast<int>(levels_.size()) - 1, departure, row);
+Shape Shooter::Next(const InitialState& initial_state, ExponentialSummary::Step* row) {
+  return NextOn(static_cast<int>(levels_.size()) - 1, initial_state, row);
 }
 
 void Shooter::Decimate() {
@@ -27,9 +27,9 @@ void Shooter::Decimate() {
   }
 }
 
-Shape Shooter::NextOn(int level, const Departure& departure, ExponentialSummary::Step* row) {
+Shape Shooter::NextOn(int level, const InitialState& initial_state, ExponentialSummary::Step* row) {
   Level& own = *levels_[level];
-  const Step step(own.map, &own.solver, departure, check_cancelled_);
+  const Step step(own.map, &own.solver, initial_state, check_cancelled_);
   Shape shape;
   if (step.Solve(options_, row, &shape)) {
     row->vertices = static_cast<int>(shape.cols());
@@ -45,16 +45,16 @@ Shape Shooter::NextOn(int level, const Departure& departure, ExponentialSummary:
     row->residual = step.Residual(shape);
     return shape;
   }
-  Departure coarse;
+  InitialState coarse;
   const auto restrict = [&](const Shape& fine) {
     return fine.size() > 0 ? hierarchy_->RestrictOnce(fine, level) : fine;
   };
-  coarse.shape = restrict(departure.shape);
-  coarse.previous = restrict(departure.previous);
-  coarse.velocity = restrict(departure.velocity);
+  coarse.shape = restrict(initial_state.shape);
+  coarse.previous = restrict(initial_state.previous);
+  coarse.velocity = restrict(initial_state.velocity);
   ExponentialSummary::Step coarse_row;
   const Shape base = NextOn(level - 1, coarse, &coarse_row);
-  shape = hierarchy_->Lift(base, level - 1, departure.shape, departure.shape, 0);
+  shape = hierarchy_->Lift(base, level - 1, initial_state.shape, initial_state.shape, 0);
   row->vertices = coarse_row.vertices;
   row->residual = step.Residual(shape);
   return shape;

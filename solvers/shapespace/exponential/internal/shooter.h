@@ -29,9 +29,9 @@ class Shooter {
   Shooter(std::shared_ptr<const Metric> metric, std::vector<Shape> known,
           const ExponentialOptions& options, std::function<void()> check_cancelled);
 
-  /// The shape after the departure.
+  /// The shape after the initial state.
   /// \throw SolverError if there is no solution on any resolution.
-  Shape Next(const Departure& departure, ExponentialSummary::Step* row);
+  Shape Next(const InitialState& initial_state, ExponentialSummary::Step* row);
 
   int NumFactorisations() const;
   double FactorSeconds() const;
@@ -44,7 +44,7 @@ class Shooter {
     MetricSolver solver;
   };
 
-  Shape NextOn(int level, const Departure& departure, ExponentialSummary::Step* row);
+  Shape NextOn(int level, const InitialState& initial_state, ExponentialSummary::Step* row);
   void Decimate();
 
   const ExponentialOptions options_;

@@ -16,7 +16,7 @@ namespace {
 // geodesic, on which a thin triangle has turned over.
 constexpr double kContraction = 0.5;
 // Least increment of the load.
-constexpr double kLeastIncrement = 1.0 / 64;
+constexpr double kMinIncrement = 1.0 / 64;
 // Linear systems are solved to two digits, so that an iteration of Newton's method gains two
 // digits. Near a root that takes up to eight iterations.
 constexpr double kForcing = 1e-2;
@@ -48,26 +48,26 @@ Tangent SolveMetric(const MetricSolver& solver, const FeatureDerivative& derivat
   return x;
 }
 
-Step::Step(const FeatureMap& map, MetricSolver* solver, const Departure& departure,
+Step::Step(const FeatureMap& map, MetricSolver* solver, const InitialState& initial_state,
            const std::function<void()>& check_cancelled)
     : map_(map),
       solver_(*solver),
-      departure_(departure),
+      initial_state_(initial_state),
       check_cancelled_(check_cancelled),
-      current_(map.Values(departure.shape)),
-      derivative_(map.Derivative(departure.shape)) {
-  change_ = departure.previous.size() > 0
-                ? Eigen::VectorXd(current_ - map.Values(departure.previous))
-                : derivative_.Times(departure.velocity);
+      current_(map.Values(initial_state.shape)),
+      derivative_(map.Derivative(initial_state.shape)) {
+  change_ = initial_state.previous.size() > 0
+                ? Eigen::VectorXd(current_ - map.Values(initial_state.previous))
+                : derivative_.Times(initial_state.velocity);
   speed_ = change_.norm();
-  rounding_ = RoundingOf(departure.shape, derivative_);
+  rounding_ = RoundingOf(initial_state.shape, derivative_);
   solver_.Factor(derivative_);
 }
 
 bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* row,
                  Shape* shape) const {
   if (speed_ <= rounding_) {  // a path that rests, or moves rigidly
-    *shape = departure_.shape;
+    *shape = initial_state_.shape;
     row->converged = true;
     return true;
   }
@@ -79,13 +79,13 @@ bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* ro
     return x;
   };
   const Tangent velocity = solve_metric(change_);
-  const Tangent acceleration = -solve_metric(map_.SecondDerivative(departure_.shape, velocity));
+  const Tangent acceleration = -solve_metric(map_.SecondDerivative(initial_state_.shape, velocity));
   const auto expansion = [&](double load) -> Shape {
-    return departure_.shape + load * velocity + 0.5 * load * load * acceleration;
+    return initial_state_.shape + load * velocity + 0.5 * load * load * acceleration;
   };
 
   const int last_iteration = row->iterations + options.max_iterations;
-  Shape reached = departure_.shape;
+  Shape reached = initial_state_.shape;
   double load = 0, increment = 1;
   while (load < 1) {
     if (row->iterations == last_iteration) return false;
@@ -98,7 +98,7 @@ bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* ro
       load = next;
     } else {
       increment = 0.5 * (next - load);
-      if (increment < kLeastIncrement) return false;
+      if (increment < kMinIncrement) return false;
     }
   }
   *shape = reached;
@@ -111,8 +111,9 @@ bool Step::FindRoot(double load, int iterations, const ExponentialOptions& optio
   Shape root = *shape;
   bool found = false;
   if (options.solver == StepSolver::kCeres) {
-    const StepResult result = SolveStepWithCeres(map_, departure_.shape, current_ + load * change_,
-                                                 options.tolerance, iterations, &root);
+    const StepResult result =
+        SolveStepWithCeres(map_, initial_state_.shape, current_ + load * change_, options.tolerance,
+                           iterations, &root);
     row->iterations += result.iterations;
     row->residual = result.residual;
     found = result.converged;
@@ -129,7 +130,7 @@ bool Step::FindRoot(double load, int iterations, const ExponentialOptions& optio
 bool Step::HasTheGeodesicsSpeed(const Shape& shape, double load) const {
   const double speed = (map_.Values(shape) - current_).norm() / load;
   const auto agrees = [&](double other) { return std::abs(speed / other - 1) < kSpeedChange; };
-  return agrees(speed_) && (departure_.speed == 0 || agrees(departure_.speed));
+  return agrees(speed_) && (initial_state_.speed == 0 || agrees(initial_state_.speed));
 }
 
 bool Step::SolveWithNewton(double load, int iterations, double tolerance,
@@ -158,12 +159,12 @@ bool Step::SolveWithNewton(double load, int iterations, double tolerance,
 
 Shape Step::Nearest(ExponentialSummary::Step* row) const {
   const NearestShape nearest = FindNearestShape(
-      map_, current_ + change_, departure_.shape,
+      map_, current_ + change_, initial_state_.shape,
       {kNearestTolerance * speed_ * speed_, kMaxGaussNewton}, check_cancelled_, &solver_);
   row->iterations += nearest.iterations;
   const Shape& shape = nearest.shape;
   solver_.Factor(derivative_);  // by which residuals are measured
-  if (shape == departure_.shape) {
+  if (shape == initial_state_.shape) {
     throw SolverError(
         "no nearby shape is closer to the one that the step requires: the motion comes to a halt");
   }

@@ -18,7 +18,7 @@ inline constexpr double kSpeedChange = 0.1;
 
 /// The data from which a step starts: a shape, and either the shape before it, one step earlier,
 /// or, at the beginning of a geodesic, its velocity per step.
-struct Departure {
+struct InitialState {
   Shape shape;
   Shape previous;    ///< empty if there is a velocity
   Tangent velocity;  ///< empty if there is a previous shape
@@ -32,17 +32,17 @@ struct Departure {
 /// discrete Legendre transform; the logarithm is its inverse.
 class Step {
  public:
-  /// `map` and `solver` are kept by reference; the solver factors the metric at the departure.
+  /// `map` and `solver` are kept by reference; the solver factors the metric at the initial state.
   /// `check_cancelled` is called before every iteration, and may throw to end the step. \throw
   /// SolverError if the metric is not definite there.
-  Step(const FeatureMap& map, MetricSolver* solver, const Departure& departure,
+  Step(const FeatureMap& map, MetricSolver* solver, const InitialState& initial_state,
        const std::function<void()>& check_cancelled);
 
-  /// Finds the root that belongs to the departure: the end of the curve of roots P(load), for load
-  /// from 0 to 1, of the same equation with load * change in place of change. Newton's method first
-  /// tries load 1 directly; if it does not converge well, the load is increased in stages, whose
-  /// number is row->increments. A root whose segment is much longer or shorter in the metric than
-  /// the geodesic's segments belongs to another geodesic and is rejected. \return false, with
+  /// Finds the root that belongs to the initial state: the end of the curve of roots P(load), for
+  /// load from 0 to 1, of the same equation with load * change in place of change. Newton's method
+  /// first tries load 1 directly; if it does not converge well, the load is increased in stages,
+  /// whose number is row->increments. A root whose segment is much longer or shorter in the metric
+  /// than the geodesic's segments belongs to another geodesic and is rejected. \return false, with
   /// `*shape` unchanged, if there is no such root; otherwise row->converged is true.
   bool Solve(const ExponentialOptions& options, ExponentialSummary::Step* row, Shape* shape) const;
 
@@ -57,8 +57,9 @@ class Step {
   bool HasTheGeodesicsSpeed(const Shape& root, double load) const;
 
   /// The shape whose features are nearest to those that the step requires: argmin |Phi(P) -
-  /// Phi(P_i) - change|^2, by Gauss-Newton from the departure. Of first order only.
-  /// \throw SolverError if that is the departure's own shape, because all further steps would then
+  /// Phi(P_i) - change|^2, by Gauss-Newton from the initial state. Of first order only.
+  /// \throw SolverError if that is the initial state's own shape, because all further steps would
+  /// then
   ///        be zero.
   Shape Nearest(ExponentialSummary::Step* row) const;
 
@@ -71,7 +72,7 @@ class Step {
 
   const FeatureMap& map_;
   MetricSolver& solver_;
-  const Departure& departure_;
+  const InitialState& initial_state_;
   const std::function<void()>& check_cancelled_;
   Eigen::VectorXd current_;  // Phi(P_i)
   Eigen::VectorXd change_;

@@ -12,7 +12,7 @@ namespace shapespace::internal {
 namespace {
 
 // The residual root_weight (p - target).
-struct PullResidual {
+struct PenaltyResidual {
   double root_weight;
   Eigen::Vector3d target;
 
@@ -30,9 +30,9 @@ void ResidualBlocks::AddPathEnergy(const Metric& metric, double quartic_weight,
   cost::AddPathEnergy(metric, shapes, &problem_, &motions_, quartic_weight);
 }
 
-void ResidualBlocks::AddPull(double weight, const Eigen::Vector3d& target, double* vertex) {
-  problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<PullResidual, 3, 3>(
-                                new PullResidual{std::sqrt(0.5 * weight), target}),
+void ResidualBlocks::AddPenalty(double weight, const Eigen::Vector3d& target, double* vertex) {
+  problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<PenaltyResidual, 3, 3>(
+                                new PenaltyResidual{std::sqrt(0.5 * weight), target}),
                             nullptr, vertex);
 }
 

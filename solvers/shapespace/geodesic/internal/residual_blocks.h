@@ -23,7 +23,7 @@ class ResidualBlocks {
   ///        cost::kMaxDenseVertices vertices.
   void AddPathEnergy(const Metric& metric, double quartic_weight, std::vector<Shape>* shapes);
   /// Adds weight |vertex - target|^2.
-  void AddPull(double weight, const Eigen::Vector3d& target, double* vertex);
+  void AddPenalty(double weight, const Eigen::Vector3d& target, double* vertex);
 
   /// Keeps vertices constant.
   void Fix(double* vertex);

@@ -13,7 +13,7 @@ namespace {
 
 // A pair of step and change of gradient enters the history if the slope along the step has
 // increased by at least this share of its initial absolute value.
-constexpr double kLeastCurvature = 1e-3;
+constexpr double kMinCurvature = 1e-3;
 
 // If the estimated gain is less than this share of the tolerance, the start is a minimum, or a line
 // search without decrease has converged to rounding.
@@ -272,7 +272,7 @@ class ThreadedLbfgs {
     }
     last.step_gradient = end.step * end.slope;
     last.step_change = {last.curvature};
-    fresh_change_ = end.slope - slope >= -kLeastCurvature * slope;
+    fresh_change_ = end.slope - slope >= -kMinCurvature * slope;
     if (!fresh_change_) {
       history_.pop_back();
       for (Pair& pair : history_) pair.step_change.pop_back();

@@ -9,7 +9,7 @@ namespace shapespace::internal {
 namespace {
 
 // Without a position term translations have no cost; this share of one keeps the matrix definite.
-constexpr double kLeastLambda = 1e-6;
+constexpr double kMinLambda = 1e-6;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ Eigen::SparseMatrix<double> ScalarMetric(const Metric& metric, const std::vector
       const double factor = 4 * feature->Weight(e) / static_cast<double>(poses.size());
       std::fill_n(block, corners * corners, 0.0);
       for (const Shape& pose : poses) {
-        feature->Gather(e, e + 1, pose, x);
+        feature->GatherCoordinates(e, e + 1, pose, x);
         feature->ScalarRows(1, x, rows);
         for (const double* k = rows; k != rows + corners * num_rows; k += corners) {
           for (int i = 0; i < corners; ++i) {
@@ -57,7 +57,7 @@ Eigen::SparseMatrix<double> ScalarMetric(const Metric& metric, const std::vector
   }
   const int num_vertices = metric.connectivity->NumVertices();
   for (int v = 0; v < num_vertices; ++v) {
-    double diagonal = 4 * kLeastLambda * metric.vertex_area(v);
+    double diagonal = 4 * kMinLambda * metric.vertex_area(v);
     if (metric.rigid.Active()) diagonal += 4 * metric.rigid.weights(v);
     add(v, v, diagonal);
   }

@@ -24,7 +24,7 @@ NearestShape FeatureTransfer::operator()(const Shape& deformed, double tolerance
   // The change of strains and angles only, because the weight of positions is arbitrary.
   Eigen::VectorXd change = wanted - target_;
   for (size_t i = 0; i < metric_->features.size(); ++i) {
-    if (metric_->features[i]->As<Position>() != nullptr) {
+    if (metric_->features[i]->As<PositionFeature>() != nullptr) {
       change.segment(map_.FirstValue(i), placed.size()).setZero();
     }
   }
@@ -51,7 +51,7 @@ Eigen::VectorXd FeatureTransfer::Wanted(const Shape& deformed, const Shape& plac
         wanted(begin + 2 * e) = turned.real();
         wanted(begin + 2 * e + 1) = turned.imag();
       }
-    } else if (const auto* positions = metric_->features[i]->As<Position>()) {
+    } else if (const auto* positions = metric_->features[i]->As<PositionFeature>()) {
       for (int v = 0; v < placed.cols(); ++v) {
         wanted.segment<3>(begin + 3 * v) = std::sqrt(positions->weights(v)) * placed.col(v);
       }

@@ -83,20 +83,21 @@ Shape Ladder::Climb(const Rung& rung, const Shape& target, TransferSummary::Step
   transport.align = options_.align;
   transport.memory_limit = kUnlimited;
   const Tangent velocity = InitialVelocity(TwoShapes(metric_, rung.from, rung.next));
-  const TransportResult carried = Transport(rung.geodesic.path, {velocity}, transport, progress);
-  const double before = carried.summary.first_norm[0], after = carried.summary.last_norm[0];
+  const TransportResult transported =
+      Transport(rung.geodesic.path, {velocity}, transport, progress);
+  const double before = transported.summary.first_norm[0], after = transported.summary.last_norm[0];
   row->norm_change = before > 0 ? after / before - 1 : 0;
   ExponentialOptions exponential;
   exponential.tolerance = kStepTolerance;
   const ExponentialResult step =
-      Extrapolate(metric_, target, carried.tangents[0], 1, exponential, progress);
+      Extrapolate(metric_, target, transported.tangents[0], 1, exponential, progress);
   if (step.summary.ending != ExponentialSummary::Ending::kComplete) {
     throw SolverError(step.summary.stopped);
   }
   row->iterations = step.summary.steps[0].iterations;
   row->on_mesh = step.summary.steps[0].vertices == step.summary.vertices;
-  row->converged = geodesic.termination == Termination::kConverged && carried.summary.converged &&
-                   (!row->on_mesh || step.summary.Converged());
+  row->converged = geodesic.termination == Termination::kConverged &&
+                   transported.summary.converged && (!row->on_mesh || step.summary.Converged());
   return step.path.Placed(1);
 }
 

@@ -1,4 +1,4 @@
-#include <shapespace/geodesic/internal/piece.h>
+#include <shapespace/geodesic/internal/geodesic_piece.h>
 
 #include <algorithm>
 #include <limits>
@@ -7,7 +7,7 @@
 #include <shapespace/analysis/quality.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/geodesic/internal/arc_length.h>
-#include <shapespace/geodesic/internal/unwind.h>
+#include <shapespace/geodesic/internal/unwrap_hinges.h>
 #include <shapespace/path/energy.h>
 
 namespace shapespace::internal {
@@ -87,8 +87,9 @@ void Plan(const std::vector<ScheduleStep>& schedule, const std::vector<Resolutio
   }
 }
 
-Piece::Piece(int index, const Hierarchy& hierarchy, std::vector<Resolution>* resolutions,
-             const GeodesicOptions& options, Workload* workload, GeodesicSummary* summary)
+GeodesicPiece::GeodesicPiece(int index, const Hierarchy& hierarchy,
+                             std::vector<Resolution>* resolutions, const GeodesicOptions& options,
+                             Workload* workload, GeodesicSummary* summary)
     : index_(index),
       hierarchy_(hierarchy),
       resolutions_(*resolutions),
@@ -96,7 +97,7 @@ Piece::Piece(int index, const Hierarchy& hierarchy, std::vector<Resolution>* res
       workload_(*workload),
       summary_(*summary) {}
 
-void Piece::Run(const std::vector<ScheduleStep>& schedule, bool more_shapes_allowed) {
+void GeodesicPiece::Run(const std::vector<ScheduleStep>& schedule, bool more_shapes_allowed) {
   std::vector<Known> ends(resolutions_.size());
   for (size_t level = 0; level < ends.size(); ++level) {
     ends[level].shapes = {resolutions_[level].Pose(index_), resolutions_[level].Pose(index_ + 1)};
@@ -116,7 +117,7 @@ void Piece::Run(const std::vector<ScheduleStep>& schedule, bool more_shapes_allo
   if (more_shapes_allowed && !workload_.Stopped()) RemoveJump(schedule.back());
 }
 
-void Piece::RemoveJump(const ScheduleStep& last) {
+void GeodesicPiece::RemoveJump(const ScheduleStep& last) {
   Known& known = known_[last.level];
   const Metric& metric = *resolutions_[last.level].GetMetric();
   if (!(GreatestSpeed(metric, known.shapes, UniformTimes(last.shapes)) > kJump)) return;
@@ -134,8 +135,8 @@ void Piece::RemoveJump(const ScheduleStep& last) {
   for (size_t k = row; k < summary_.levels.size(); ++k) summary_.levels[k].kept = false;
 }
 
-Piece::Attempt Piece::TakeSteps(const std::vector<ScheduleStep>& schedule, size_t begin, size_t end,
-                                Attempt attempt) {
+GeodesicPiece::Attempt GeodesicPiece::TakeSteps(const std::vector<ScheduleStep>& schedule,
+                                                size_t begin, size_t end, Attempt attempt) {
   known_ = std::move(attempt.known);
   for (size_t i = begin; i < end; ++i) {
     const size_t row = summary_.levels.size();
@@ -147,7 +148,7 @@ Piece::Attempt Piece::TakeSteps(const std::vector<ScheduleStep>& schedule, size_
   return attempt;
 }
 
-void Piece::TakeStep(const ScheduleStep& step, GeodesicStart start, bool last) {
+void GeodesicPiece::TakeStep(const ScheduleStep& step, GeodesicStart start, bool last) {
   Known& known = known_[step.level];
   const Known* const coarser = step.level > 0 ? &known_[step.level - 1] : nullptr;
   const int segments = static_cast<int>(known.shapes.size()) - 1;
@@ -190,7 +191,7 @@ void Piece::TakeStep(const ScheduleStep& step, GeodesicStart start, bool last) {
     name = Name(start);
   }
   if (!workload_.Stopped()) {
-    Unwind(*resolution.GetMetric(), &shapes);
+    UnwrapHinges(*resolution.GetMetric(), &shapes);
     GeodesicSummary::Level row =
         resolution.Relax(index_, last ? 0 : kEnough, options_, &workload_, &shapes);
     row.start = name;
@@ -199,7 +200,7 @@ void Piece::TakeStep(const ScheduleStep& step, GeodesicStart start, bool last) {
   known.shapes = std::move(shapes);
 }
 
-std::vector<Shape> Piece::InsertShapes(int level, const std::vector<Shape>& guess) {
+std::vector<Shape> GeodesicPiece::InsertShapes(int level, const std::vector<Shape>& guess) {
   const std::vector<Shape>& known = known_[level].shapes;
   Resolution& resolution = resolutions_[level];
   std::vector<Shape> shapes = guess;
@@ -218,7 +219,7 @@ std::vector<Shape> Piece::InsertShapes(int level, const std::vector<Shape>& gues
   return shapes;
 }
 
-std::vector<Shape> Piece::OneInnerShape(GeodesicStart start, int level) {
+std::vector<Shape> GeodesicPiece::OneInnerShape(GeodesicStart start, int level) {
   const std::vector<Shape>& ends = known_[level].shapes;
   const Shape blend = 0.5 * (ends[0] + ends[1]);
   switch (start) {
@@ -247,7 +248,7 @@ std::vector<Shape> Piece::OneInnerShape(GeodesicStart start, int level) {
   return {ends[0], blend, ends[1]};
 }
 
-std::vector<Shape> Piece::Lift(const ScheduleStep& step) const {
+std::vector<Shape> GeodesicPiece::Lift(const ScheduleStep& step) const {
   const std::vector<Shape>& coarse = known_[step.level - 1].shapes;
   const Known& known = known_[step.level];
   const int segments = static_cast<int>(known.shapes.size()) - 1;

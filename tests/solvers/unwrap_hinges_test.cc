@@ -1,4 +1,4 @@
-#include <shapespace/geodesic/internal/unwind.h>
+#include <shapespace/geodesic/internal/unwrap_hinges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace shapespace {
 namespace {
 
-using internal::Unwind;
+using internal::UnwrapHinges;
 
 // A sheet with a hinge far from its boundary, and checks for paths between two of its poses.
 struct Sheet {
@@ -51,7 +51,7 @@ struct Sheet {
     return energy.Evaluate(unknowns.data(), nullptr);
   }
 
-  const Body body;
+  const ShapeFamily body;
   std::shared_ptr<const Metric> metric;
   const Shape rest;
   Eigen::Vector4i hinge;
@@ -67,36 +67,36 @@ std::vector<Shape> FullTurn(const Sheet& sheet) {
   return shapes;
 }
 
-TEST(Unwind, AFullTurnIsTakenBack) {
+TEST(UnwrapHinges, AFullTurnIsTakenBack) {
   const Sheet sheet;
   std::vector<Shape> shapes = FullTurn(sheet);
-  Unwind(*sheet.metric, &shapes);
+  UnwrapHinges(*sheet.metric, &shapes);
   for (const Shape& shape : shapes) EXPECT_LT((shape - sheet.rest).norm(), 1e-12);
 }
 
-TEST(Unwind, AJumpIsSpreadOverAllSegments) {
+TEST(UnwrapHinges, AJumpIsSpreadOverAllSegments) {
   const Sheet sheet;
   std::vector<Shape> shapes(Sheet::kSegments, sheet.rest);
   shapes.push_back(sheet.Turned(1.5));
   const std::vector<Shape> before = shapes;
-  Unwind(*sheet.metric, &shapes);
+  UnwrapHinges(*sheet.metric, &shapes);
   EXPECT_EQ(shapes.front(), before.front());
   EXPECT_EQ(shapes.back(), before.back());
   EXPECT_LT(sheet.Energy(shapes), 0.3 * sheet.Energy(before));
 }
 
-TEST(Unwind, WhatTurnsEvenlyTheShortWayStaysAsItIs) {
+TEST(UnwrapHinges, WhatTurnsEvenlyTheShortWayStaysAsItIs) {
   const Sheet sheet;
   std::vector<Shape> shapes;
   for (int i = 0; i <= Sheet::kSegments; ++i) {
     shapes.push_back(sheet.Turned(0.9 * M_PI * i / Sheet::kSegments));
   }
   const std::vector<Shape> before = shapes;
-  Unwind(*sheet.metric, &shapes);
+  UnwrapHinges(*sheet.metric, &shapes);
   EXPECT_EQ(shapes, before);
 }
 
-TEST(Unwind, NothingMovesThatWouldCostMore) {
+TEST(UnwrapHinges, NothingMovesThatWouldCostMore) {
   const Sheet sheet;
   for (int seed : {1, 2, 3}) {
     std::vector<Shape> shapes = testing::NoisyBlend(sheet.rest, sheet.rest, 7, 0.1);
@@ -104,32 +104,32 @@ TEST(Unwind, NothingMovesThatWouldCostMore) {
       *end += testing::Noise(static_cast<int>(end->cols()), 0.1, 10 * seed + (end == &shapes[0]));
     }
     const double before = sheet.Energy(shapes);
-    Unwind(*sheet.metric, &shapes);
+    UnwrapHinges(*sheet.metric, &shapes);
     EXPECT_LT(sheet.Energy(shapes), before);
   }
 }
 
-TEST(Unwind, MovesWithTheBody) {
+TEST(UnwrapHinges, MovesWithTheBody) {
   const Sheet sheet;
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   std::vector<Shape> shapes = testing::NoisyBlend(sheet.rest, sheet.Turned(2), 7, 0.1);
   std::vector<Shape> turned;
   for (const Shape& shape : shapes) turned.push_back(turn * shape);
-  Unwind(*sheet.metric, &shapes);
-  Unwind(*sheet.metric, &turned);
+  UnwrapHinges(*sheet.metric, &shapes);
+  UnwrapHinges(*sheet.metric, &turned);
   for (size_t i = 0; i < shapes.size(); ++i) {
     EXPECT_LT((turn * shapes[i] - turned[i]).norm(), 1e-9 * shapes[i].norm());
   }
 }
 
-TEST(Unwind, AMetricThatSeesNoHingesHasNoneToUnwind) {
+TEST(UnwrapHinges, AMetricThatSeesNoHingesHasNoneToUnwind) {
   MetricOptions options;
   options.bending = 0;
   const Sheet sheet(options);
   std::vector<Shape> shapes = FullTurn(sheet);
   const std::vector<Shape> before = shapes;
-  Unwind(*sheet.metric, &shapes);
+  UnwrapHinges(*sheet.metric, &shapes);
   EXPECT_EQ(shapes, before);
 }
 

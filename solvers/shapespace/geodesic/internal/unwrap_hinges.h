@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_GEODESIC_INTERNAL_UNWIND_H_
-#define SHAPESPACE_GEODESIC_INTERNAL_UNWIND_H_
+#ifndef SHAPESPACE_GEODESIC_INTERNAL_UNWRAP_HINGES_H_
+#define SHAPESPACE_GEODESIC_INTERNAL_UNWRAP_HINGES_H_
 
 #include <vector>
 
@@ -18,8 +18,8 @@ namespace shapespace::internal {
 ///
 /// `shapes` are in the metric's unit, including the ends, which stay. O(elements) if no hinge needs
 /// correction. Does nothing if the metric has no dihedral angles.
-void Unwind(const Metric& metric, std::vector<Shape>* shapes);
+void UnwrapHinges(const Metric& metric, std::vector<Shape>* shapes);
 
 }  // namespace shapespace::internal
 
-#endif  // SHAPESPACE_GEODESIC_INTERNAL_UNWIND_H_
+#endif  // SHAPESPACE_GEODESIC_INTERNAL_UNWRAP_HINGES_H_

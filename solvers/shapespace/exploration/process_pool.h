@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_EXPLORATION_CREW_H_
-#define SHAPESPACE_EXPLORATION_CREW_H_
+#ifndef SHAPESPACE_EXPLORATION_PROCESS_POOL_H_
+#define SHAPESPACE_EXPLORATION_PROCESS_POOL_H_
 
 #include <functional>
 #include <string>
@@ -10,9 +10,9 @@ namespace shapespace {
 /// Processes that share work (a process pool). All of them run the same program and make the same
 /// calls in the same order. This implementation is for a single process; tools/support/mpi_crew.h
 /// implements it for MPI ranks.
-class Crew {
+class ProcessPool {
  public:
-  virtual ~Crew() = default;
+  virtual ~ProcessPool() = default;
 
   virtual int Rank() const { return 0; }  ///< of this process, from 0
   virtual int Size() const { return 1; }
@@ -31,4 +31,4 @@ class Crew {
 
 }  // namespace shapespace
 
-#endif  // SHAPESPACE_EXPLORATION_CREW_H_
+#endif  // SHAPESPACE_EXPLORATION_PROCESS_POOL_H_

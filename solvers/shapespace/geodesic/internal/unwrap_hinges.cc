@@ -1,4 +1,4 @@
-#include <shapespace/geodesic/internal/unwind.h>
+#include <shapespace/geodesic/internal/unwrap_hinges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ bool IsWound(const Dihedral& dihedral, int hinge, const std::vector<Shape>& shap
   double first = 0, before = 0, turned = 0, fastest = 0;
   for (int i = 0; i <= segments; ++i) {
     double x[12];
-    Gather(dihedral, hinge, shapes[i], x);
+    GatherCoordinates(dihedral, hinge, shapes[i], x);
     const double angle = dihedral.Angle(x);
     if (i == 0) {
       first = angle;
@@ -58,7 +58,7 @@ double ElementEnergy(const Metric& metric, const FeatureElement& element,
   const int e = element.second, num_values = feature.ValuesPerElement();
   double x[3 * Feature::kMaxVertices], values[2][Feature::kMaxValues], sum = 0;
   for (size_t i = 0; i < shapes.size(); ++i) {
-    feature.Gather(e, e + 1, shapes[i], x);
+    feature.GatherCoordinates(e, e + 1, shapes[i], x);
     double* const value = values[i % 2];
     feature.Evaluate(1, x, value);
     for (int k = 0; i > 0 && k < num_values; ++k) {
@@ -176,7 +176,7 @@ double Mover::Energy(const std::vector<FeatureElement>& elements, double enough)
 
 }  // namespace
 
-void Unwind(const Metric& metric, std::vector<Shape>* shapes) {
+void UnwrapHinges(const Metric& metric, std::vector<Shape>* shapes) {
   for (const auto& feature : metric.features) {
     const auto* const dihedral = feature->As<Dihedral>();
     if (dihedral == nullptr) continue;

@@ -134,13 +134,13 @@ class Comparison {
   }
 
   static std::string Corners(const Soup& soup, int p) {
-    constexpr int kMostNamed = 8;
+    constexpr int kMaxNamed = 8;
     const int begin = soup.polygon_begin[p], end = soup.polygon_begin[p + 1];
     std::string result;
-    for (int k = begin; k < std::min(end, begin + kMostNamed); ++k) {
+    for (int k = begin; k < std::min(end, begin + kMaxNamed); ++k) {
       result += (k > begin ? " " : "") + std::to_string(soup.corners[k] + 1);
     }
-    return result + (end - begin > kMostNamed ? " ..." : "");
+    return result + (end - begin > kMaxNamed ? " ..." : "");
   }
 
   std::string WhyPolygonsDiffer() const {
@@ -282,7 +282,7 @@ class Comparison {
   void CheckGroups(const std::vector<std::pair<int, int>>& edges,
                    const std::vector<double>& stretch, const std::vector<int>& vertices) {
     constexpr double kFar = 5.0;
-    constexpr int kLeastVertices = 8;
+    constexpr int kMinVertices = 8;
     const int n = reference_.NumVertices();
     std::vector<std::vector<double>> around(n);
     for (size_t e = 0; e < edges.size(); ++e) {
@@ -302,7 +302,7 @@ class Comparison {
     Named members;
     for (int v : vertices) {
       const int root = groups.Find(v);
-      if (size[root] < kLeastVertices) continue;
+      if (size[root] < kMinVertices) continue;
       count += v == root;
       largest = std::max(largest, factor[v]);
       members.Add([&] { return VertexName(pose_, v); });
@@ -324,7 +324,7 @@ class Comparison {
 
 }  // namespace
 
-Findings CheckCorrespondence(const Soup& reference, const Soup& pose) {
+Findings CheckSameMesh(const Soup& reference, const Soup& pose) {
   for (const Soup* soup : {&reference, &pose}) {
     Findings findings = internal::CheckStructure(*soup);
     if (!findings.empty()) return findings;

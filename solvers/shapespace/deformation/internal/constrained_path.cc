@@ -1,4 +1,4 @@
-#include <shapespace/deformation/internal/pulled_path.h>
+#include <shapespace/deformation/internal/constrained_path.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,44 +7,45 @@
 #include <shapespace/geodesic/internal/resolution.h>
 
 namespace shapespace::internal {
-PathEnergy& PulledPath::EnergyOf(int segments) {
+PathEnergy& ConstrainedPath::EnergyOf(int segments) {
   if (!energy_ || energy_->Inner() != segments) {
     energy_.emplace(metric_, segments, PathEnergy::End::kFree);
   }
   return *energy_;
 }
 
-double PulledPath::Energy(const std::vector<Shape>& shapes) {
+double ConstrainedPath::Energy(const std::vector<Shape>& shapes) {
   PathEnergy& energy = EnergyOf(static_cast<int>(shapes.size()) - 1);
   std::vector<double> unknowns(energy.Size());
   energy.Load(shapes, unknowns.data());
   return energy.Evaluate(unknowns.data(), nullptr);
 }
 
-MinimiseResult PulledPath::Relax(const Shape& target, const MinimiseOptions& options,
-                                 std::vector<Shape>* shapes) {
+MinimiseResult ConstrainedPath::Relax(const Shape& target, const MinimiseOptions& options,
+                                      std::vector<Shape>* shapes) {
   const int n = static_cast<int>(shapes->size()) - 1;
   PathEnergy& energy = EnergyOf(n);
   std::vector<double> unknowns(energy.Size());
   energy.Load(*shapes, unknowns.data());
   const size_t stride = energy.Stride();
-  const Grip& grip = factors_.GetGrip();
+  const PositionConstraints& constraints = factors_.Constraints();
   const auto last = [&](int v, int axis) {
     return (3 * static_cast<size_t>(energy.Row(v)) + axis) * stride + n - 1;
   };
   const Objective objective = [&](const double* x, double* gradient) {
     double value = energy.Evaluate(x, gradient);
-    for (int v = 0; v < grip.pull.size(); ++v) {
-      if (grip.pull(v) == 0) continue;
+    for (int v = 0; v < constraints.penalty.size(); ++v) {
+      if (constraints.penalty(v) == 0) continue;
       for (int axis = 0; axis < 3; ++axis) {
         const double way = x[last(v, axis)] - target(axis, v);
-        value += grip.pull(v) / n * way * way;
-        if (gradient != nullptr) gradient[last(v, axis)] += 2 * grip.pull(v) / n * way;
+        value += constraints.penalty(v) / n * way * way;
+        if (gradient != nullptr) gradient[last(v, axis)] += 2 * constraints.penalty(v) / n * way;
       }
     }
     if (gradient != nullptr) {
-      for (int v : grip.carried) std::fill_n(gradient + last(v, 0) - (n - 1), 3 * stride, 0.0);
-      for (int v : grip.landed) {
+      for (int v : constraints.prescribed)
+        std::fill_n(gradient + last(v, 0) - (n - 1), 3 * stride, 0.0);
+      for (int v : constraints.prescribed_last) {
         for (int axis = 0; axis < 3; ++axis) gradient[last(v, axis)] = 0;
       }
     }
@@ -63,22 +64,23 @@ MinimiseResult PulledPath::Relax(const Shape& target, const MinimiseOptions& opt
   return result;
 }
 
-MinimiseResult PulledPath::RelaxByTrustRegion(const Shape& target, const MinimiseOptions& options,
-                                              std::vector<Shape>* shapes) const {
-  const Grip& grip = factors_.GetGrip();
+MinimiseResult ConstrainedPath::RelaxByTrustRegion(const Shape& target,
+                                                   const MinimiseOptions& options,
+                                                   std::vector<Shape>* shapes) const {
+  const PositionConstraints& constraints = factors_.Constraints();
   const int n = static_cast<int>(shapes->size()) - 1;
   ResidualBlocks blocks;
   blocks.AddPathEnergy(*metric_, 1, shapes);
-  for (int v = 0; v < grip.pull.size(); ++v) {
-    if (grip.pull(v) > 0) {
-      blocks.AddPull(grip.pull(v) / n, target.col(v), shapes->back().col(v).data());
+  for (int v = 0; v < constraints.penalty.size(); ++v) {
+    if (constraints.penalty(v) > 0) {
+      blocks.AddPenalty(constraints.penalty(v) / n, target.col(v), shapes->back().col(v).data());
     }
   }
   blocks.Fix(&shapes->front());
   for (size_t t = 1; t < shapes->size(); ++t) {
-    for (int v : grip.carried) blocks.Fix((*shapes)[t].col(v).data());
+    for (int v : constraints.prescribed) blocks.Fix((*shapes)[t].col(v).data());
   }
-  for (int v : grip.landed) blocks.Fix(shapes->back().col(v).data());
+  for (int v : constraints.prescribed_last) blocks.Fix(shapes->back().col(v).data());
   return blocks.Minimise(options);
 }
 

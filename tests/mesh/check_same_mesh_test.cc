@@ -24,7 +24,7 @@ Soup Named(Soup soup, const std::string& file, int first_line) {
 /// Expects exactly one finding, with these words in it.
 void ExpectOnly(const Soup& reference, const Soup& pose, const std::string& kind, Severity severity,
                 const std::vector<std::string>& parts) {
-  const std::vector<Finding> findings = CheckCorrespondence(reference, pose);
+  const std::vector<Finding> findings = CheckSameMesh(reference, pose);
   ASSERT_EQ(findings.size(), 1u) << kind;
   EXPECT_EQ(findings[0].kind, kind);
   EXPECT_EQ(findings[0].severity, severity);
@@ -54,17 +54,17 @@ TEST(CorrespondenceTest, MotionsAndBendsAreFine) {
   Soup pose = grid;
   const Eigen::Matrix3d turn(Eigen::AngleAxisd(1.0, Eigen::Vector3d(1, 2, 3).normalized()));
   pose.vertices = turn * grid.vertices;
-  EXPECT_TRUE(CheckCorrespondence(grid, pose).empty());
+  EXPECT_TRUE(CheckSameMesh(grid, pose).empty());
   for (int v = 0; v < grid.NumVertices(); ++v) {  // rolled up three times
     const double angle = 0.9 * grid.vertices(0, v);
     pose.vertices.col(v) << std::sin(angle) / 0.9, grid.vertices(1, v), std::cos(angle) / 0.9;
   }
-  EXPECT_TRUE(CheckCorrespondence(grid, pose).empty());
+  EXPECT_TRUE(CheckSameMesh(grid, pose).empty());
 }
 
 TEST(CorrespondenceTest, CountsThatDiffer) {
   const std::vector<Finding> findings =
-      CheckCorrespondence(Named(Grid(2, 2), "a.obj", 1), Named(Grid(3, 2), "b.obj", 1));
+      CheckSameMesh(Named(Grid(2, 2), "a.obj", 1), Named(Grid(3, 2), "b.obj", 1));
   ASSERT_EQ(findings.size(), 2u);
   EXPECT_EQ(findings[0].kind, "vertex-count");
   EXPECT_EQ(findings[0].severity, Severity::kFatal);
@@ -136,7 +136,7 @@ TEST(CorrespondenceTest, MirrorImagesOfClosedBodiesAreRefused) {
   }
   Soup turned = torus;
   turned.vertices.topRows(2) *= -1;  // by 180 degrees
-  EXPECT_TRUE(CheckCorrespondence(torus, turned).empty());
+  EXPECT_TRUE(CheckSameMesh(torus, turned).empty());
 }
 
 TEST(CorrespondenceTest, Segments) {
@@ -145,7 +145,7 @@ TEST(CorrespondenceTest, Segments) {
   a.segments = {{0, 1}, {1, 2}, {2, 3}};
   Soup b = a;
   b.segments = {{2, 1}, {0, 1}, {3, 2}};
-  EXPECT_TRUE(CheckCorrespondence(a, b).empty());
+  EXPECT_TRUE(CheckSameMesh(a, b).empty());
   b.segments[1] = {0, 2};
   ExpectOnly(a, b, "segments-differ", Severity::kFatal, {"segment 1"});
   b.segments.pop_back();
@@ -169,7 +169,7 @@ TEST(CorrespondenceTest, PositionsInAnotherOrderAreFoundInAnyUnits) {
     for (int v = 0; v < grid.NumVertices(); ++v) {
       pose.vertices.col(order[v]) = scale * grid.vertices.col(v);
     }
-    const std::vector<Finding> findings = CheckCorrespondence(grid, pose);
+    const std::vector<Finding> findings = CheckSameMesh(grid, pose);
     ASSERT_EQ(findings.size(), scale == 1.0 ? 1u : 2u);
     EXPECT_EQ(findings.back().kind, "vertex-order");
     EXPECT_EQ(findings.back().severity, Severity::kWarning);
@@ -193,7 +193,7 @@ TEST(CorrespondenceTest, SingleSliversAreNoGroup) {
   Soup pose = grid;
   pose.vertices.col(400) += Eigen::Vector3d(0, 0, 20);  // six edges 20 times as long
   pose.vertices.col(600) = pose.vertices.col(601);
-  EXPECT_TRUE(CheckCorrespondence(grid, pose).empty());
+  EXPECT_TRUE(CheckSameMesh(grid, pose).empty());
 }
 
 TEST(CorrespondenceTest, BrokenSoupsAreReportedNotRead) {
@@ -202,7 +202,7 @@ TEST(CorrespondenceTest, BrokenSoupsAreReportedNotRead) {
   ExpectOnly(Grid(2, 2), broken, "index-out-of-range", Severity::kFatal, {"polygon 1"});
   Soup flat = Grid(2, 2);
   flat.vertices.setZero();
-  EXPECT_TRUE(CheckCorrespondence(Grid(2, 2), flat).empty());
+  EXPECT_TRUE(CheckSameMesh(Grid(2, 2), flat).empty());
 }
 
 }  // namespace

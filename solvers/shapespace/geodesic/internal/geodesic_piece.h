@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_GEODESIC_INTERNAL_PIECE_H_
-#define SHAPESPACE_GEODESIC_INTERNAL_PIECE_H_
+#ifndef SHAPESPACE_GEODESIC_INTERNAL_GEODESIC_PIECE_H_
+#define SHAPESPACE_GEODESIC_INTERNAL_GEODESIC_PIECE_H_
 
 #include <vector>
 
@@ -10,17 +10,17 @@
 
 namespace shapespace::internal {
 
-/// Adds all steps that a `Piece` will take to `workload`.
+/// Adds all steps that a `GeodesicPiece` will take to `workload`.
 void Plan(const std::vector<ScheduleStep>& schedule, const std::vector<Resolution>& resolutions,
           GeodesicStart start, Workload* workload);
 
 /// The solve between two neighbouring poses, coarse to fine in space and time.
-class Piece {
+class GeodesicPiece {
  public:
   /// For the piece between pose `index` and the next. `resolutions` has one entry for each level of
   /// `hierarchy`; `workload` contains the piece's steps (`Plan`).
-  Piece(int index, const Hierarchy& hierarchy, std::vector<Resolution>* resolutions,
-        const GeodesicOptions& options, Workload* workload, GeodesicSummary* summary);
+  GeodesicPiece(int index, const Hierarchy& hierarchy, std::vector<Resolution>* resolutions,
+                const GeodesicOptions& options, Workload* workload, GeodesicSummary* summary);
 
   /// Takes all steps. The first ones, with one inner shape on few vertices, select the valley
   /// (local minimum) of the path: they are solved from every start, and the best result is
@@ -77,4 +77,4 @@ class Piece {
 
 }  // namespace shapespace::internal
 
-#endif  // SHAPESPACE_GEODESIC_INTERNAL_PIECE_H_
+#endif  // SHAPESPACE_GEODESIC_INTERNAL_GEODESIC_PIECE_H_

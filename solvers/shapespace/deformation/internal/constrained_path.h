@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_DEFORMATION_INTERNAL_PULLED_PATH_H_
-#define SHAPESPACE_DEFORMATION_INTERNAL_PULLED_PATH_H_
+#ifndef SHAPESPACE_DEFORMATION_INTERNAL_CONSTRAINED_PATH_H_
+#define SHAPESPACE_DEFORMATION_INTERNAL_CONSTRAINED_PATH_H_
 
 #include <memory>
 #include <optional>
@@ -13,15 +13,15 @@
 
 namespace shapespace::internal {
 
-/// Paths on one mesh from a given shape to a last shape with constraints and penalties (Grip):
-/// minimises
+/// Paths on one mesh from a given shape to a last shape with constraints and penalties
+/// (PositionConstraints): minimises
 ///   E(P) + (1 / n) sum_p pull_p |p_n - target_p|^2
 /// over all of its n + 1 shapes but the first.
-class PulledPath {
+class ConstrainedPath {
  public:
   /// In the metric's unit; `rest` is the first shape of all paths.
-  PulledPath(std::shared_ptr<const Metric> metric, Shape rest, Grip grip)
-      : metric_(std::move(metric)), factors_(metric_, std::move(rest), std::move(grip)) {}
+  ConstrainedPath(std::shared_ptr<const Metric> metric, Shape rest, PositionConstraints constraints)
+      : metric_(std::move(metric)), factors_(metric_, std::move(rest), std::move(constraints)) {}
 
   const std::shared_ptr<const Metric>& GetMetric() const { return metric_; }
   const Shape& Rest() const { return factors_.Rest(); }
@@ -51,4 +51,4 @@ class PulledPath {
 
 }  // namespace shapespace::internal
 
-#endif  // SHAPESPACE_DEFORMATION_INTERNAL_PULLED_PATH_H_
+#endif  // SHAPESPACE_DEFORMATION_INTERNAL_CONSTRAINED_PATH_H_
