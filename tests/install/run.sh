@@ -19,7 +19,7 @@ fail() {
 program_in() { sed -n '/^```cpp$/,/^```$/p' "$1" | sed '/^```/d'; }
 diff "$here/main.cc" <(program_in "$root/README.md") ||
   fail "the README's program is not tests/install/main.cc"
-for page in ceres deforming exploring features library; do
+for page in ceres deforming exploring features levels library; do
   program_in "$root/docs/guide/$page.md" >"$work/$page.cc"
 done
 
@@ -55,6 +55,10 @@ grep -q 'log area' report.txt || fail "a feature of one's own has no part in the
 "$work/prefix/bin/shape-body" tube --triangles 300 --at 0,90 --output 'pose%d.obj'
 "$work/build/guide_ceres" pose0.obj pose1.obj | grep -q 'Termination: CONVERGENCE' ||
   fail "the guide's problem of Ceres did not converge"
+"$work/prefix/bin/shape-body" quadruped --triangles 4000 --pose sit,stretch --output 'animal%d.obj'
+"$work/build/guide_levels" animal0.obj animal1.obj | tee report.txt
+awk '/^share/ { share = $NF } END { exit !(share > .99 && share < 1.01) }' report.txt ||
+  fail "the guide's loop over levels does not end at Interpolate's energy"
 [[ $(head -c 4 walk.glb) == glTF ]] || fail "walk.glb is no glTF"
 
 # The core without Ceres: each of its headers alone, but for the one that defines features.

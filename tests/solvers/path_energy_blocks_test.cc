@@ -1,6 +1,8 @@
 #include <filesystem>
 
 #include <ceres/autodiff_cost_function.h>
+#include <ceres/gradient_problem.h>
+#include <ceres/gradient_problem_solver.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <gtest/gtest.h>
@@ -8,6 +10,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/cost/path_energy.h>
+#include <shapespace/cost/path_energy_function.h>
 #include <shapespace/files/read.h>
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/path/energy.h>
@@ -22,10 +25,6 @@ namespace {
 
 using testing::MessageOf;
 using testing::NoisyBlend;
-
-void Fix(Shape* shape, ceres::Problem* problem) {
-  for (int v = 0; v < shape->cols(); ++v) problem->SetParameterBlockConstant(shape->col(v).data());
-}
 
 // Values and gradients, compared with the kernels, which are independent of Ceres.
 TEST(PathEnergyBlocks, AreAQuarterOfTheEnergy) {
@@ -81,7 +80,7 @@ TEST(PathEnergyBlocks, OfTheRigidMetricAreItsEnergyOnceTheMotionsAreSolvedFor) {
   ceres::Problem problem;
   cost::RigidMotions motions;
   cost::AddPathEnergy(*metric, &shapes, &problem, &motions);
-  for (Shape& shape : shapes) Fix(&shape, &problem);
+  for (Shape& shape : shapes) cost::SetConstant(&shape, &problem);
   ceres::Solver::Options options;
   options.logging_type = ceres::SILENT;
   options.function_tolerance = options.gradient_tolerance = options.parameter_tolerance = 0;
@@ -90,6 +89,57 @@ TEST(PathEnergyBlocks, OfTheRigidMetricAreItsEnergyOnceTheMotionsAreSolvedFor) {
   ceres::Solve(options, &problem, &summary);
   EXPECT_NEAR(4 * summary.final_cost, energy.Evaluate(unknowns.data(), nullptr),
               1e-9 * summary.final_cost);
+}
+
+// Ceres' L-BFGS on the function and its trust region on residual blocks find the same path.
+TEST(PathEnergyFunction, LeadsToTheMinimumOfTheResidualBlocks) {
+  for (const MetricOptions& options : {MetricOptions(), MetricOptions::Paper()}) {
+    SCOPED_TRACE(DescribeMetric(options));
+    const ShapeFamily bar = MakeBar(4, 1, 1, 6, 1, 1);
+    const std::vector<Shape> ends = {bar.pose(0), bar.pose(60)};
+    const auto metric = FreezeMetric(options, bar.connectivity, ends);
+    std::vector<Shape> shapes = NoisyBlend(ends[0] / metric->unit, ends[1] / metric->unit, 3, 0.01);
+
+    auto* const function = new cost::PathEnergyFunction(metric, shapes);
+    const ceres::GradientProblem problem(function);
+    std::vector<double> y(problem.NumParameters(), 0.0);
+    const std::vector<Shape> start = function->PathAt(y.data());
+    for (size_t i = 0; i < shapes.size(); ++i) EXPECT_LT((start[i] - shapes[i]).norm(), 1e-14);
+    ceres::GradientProblemSolver::Options gradient_options;
+    gradient_options.max_num_iterations = 2000;
+    gradient_options.function_tolerance = 1e-12;
+    gradient_options.gradient_tolerance = gradient_options.parameter_tolerance = 0;
+    ceres::GradientProblemSolver::Summary summary;
+    ceres::Solve(gradient_options, problem, y.data(), &summary);
+    const double energy = summary.final_cost * function->InitialEnergy();
+    const std::vector<Shape> found = function->PathAt(y.data());
+    EXPECT_EQ(found.front(), shapes.front());
+    EXPECT_EQ(found.back(), shapes.back());
+
+    ceres::Problem blocks;
+    cost::AddPathEnergy(*metric, &shapes, &blocks);
+    cost::SetConstant(&shapes.front(), &blocks);
+    cost::SetConstant(&shapes.back(), &blocks);
+    ceres::Solver::Options solver_options;
+    solver_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+    solver_options.logging_type = ceres::SILENT;
+    solver_options.function_tolerance = 1e-12;
+    solver_options.gradient_tolerance = solver_options.parameter_tolerance = 0;
+    solver_options.max_num_iterations = 500;
+    ceres::Solver::Summary expected;
+    ceres::Solve(solver_options, &blocks, &expected);
+    EXPECT_NEAR(energy, 2 * 4 * expected.final_cost, 1e-5 * energy);
+    EXPECT_LT(energy, 0.9 * function->InitialEnergy());
+  }
+}
+
+TEST(PathEnergyFunction, RefusesPathsWithoutUnknownsOrEnergy) {
+  const ShapeFamily bar = MakeBar(4, 1, 1, 6, 1, 1);
+  const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(60)});
+  const Shape shape = bar.pose(0) / metric->unit, other = bar.pose(60) / metric->unit;
+  EXPECT_THROW(cost::PathEnergyFunction(metric, {shape, other}), MeshError);
+  EXPECT_THROW(cost::PathEnergyFunction(metric, {shape, shape.array() / 0, other}), SolverError);
+  EXPECT_THROW(cost::PathEnergyFunction(metric, {shape, Shape::Zero(3, 2), other}), MeshError);
 }
 
 // A user's spring as additional residual: the stiffer it is, the nearer its vertex is to the
@@ -119,8 +169,8 @@ TEST(PathEnergyBlocks, TakeResidualsOfTheUser) {
     std::vector<Shape> shapes = path.shapes;
     ceres::Problem problem;
     cost::AddPathEnergy(*path.metric, &shapes, &problem);
-    Fix(&shapes.front(), &problem);
-    Fix(&shapes.back(), &problem);
+    cost::SetConstant(&shapes.front(), &problem);
+    cost::SetConstant(&shapes.back(), &problem);
     problem.AddResidualBlock(
         new ceres::AutoDiffCostFunction<Spring, 3, 3>(new Spring{target, stiffness}), nullptr,
         shapes[2].col(5).data());
@@ -174,7 +224,7 @@ TEST(PathEnergyBlocks, KnowEveryVertex) {
   const auto metric = FreezeMetric(options, Connectivity::Make(4, {0, 3}, {0, 1, 2}, {}), shapes);
   ceres::Problem problem;
   cost::AddPathEnergy(*metric, &shapes, &problem);
-  for (Shape& each : shapes) Fix(&each, &problem);
+  for (Shape& each : shapes) cost::SetConstant(&each, &problem);
   EXPECT_EQ(problem.NumParameterBlocks(), 8);
 }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <tuple>
 
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
@@ -14,6 +16,7 @@
 #include <shapespace/bodies/miura.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/steffen.h>
+#include <shapespace/cost/tangent_projection.h>
 #include <shapespace/exponential/exponential.h>
 #include <shapespace/metric/feature_map.h>
 
@@ -284,6 +287,46 @@ TEST(Transport, SolvesTheEquationOfTheLeviCivitaConnection) {
       EXPECT_GT((x - expected).norm(), 0.01 * expected.norm());  // and is a significant change
     }
   }
+}
+
+// The tangent at a shape whose change of the features is nearest to a given one, by Ceres.
+Tangent Nearest(const Metric& metric, const Shape& at, const Eigen::VectorXd& change) {
+  Tangent y = Tangent::Zero(3, at.cols());
+  ceres::Problem problem;
+  cost::AddTangentProjection(metric, at, change, &y, &problem);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.logging_type = ceres::SILENT;
+  options.function_tolerance = options.gradient_tolerance = options.parameter_tolerance = 0;
+  options.initial_trust_region_radius = 1e16;  // the problem is linear
+  options.max_num_iterations = 3;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return y;
+}
+
+TEST(TangentProjection, MakesStepsOfLeviCivitaTransport) {
+  const ShapeFamily body = MakeBar(4, 1, 1, 6, 1, 1);
+  const Path path = Deforming(body, 10, 40, 1);
+  const FeatureMap map(path.metric);
+  const Tangent x = SomeTangents(body, 10)[0] / path.metric->unit;
+  const Shape &from = path.shapes[0], &to = path.shapes[1];
+  const Eigen::VectorXd change = map.Derivative(from).Times(x);
+  const auto onto = [&](const Shape& at, const Eigen::VectorXd& y) {
+    return Eigen::VectorXd(map.Derivative(at).Times(Nearest(*path.metric, at, y)));
+  };
+  const Eigen::VectorXd there_and_back = onto(from, onto(to, change));
+  const Tangent y = Nearest(*path.metric, to, 1.5 * change - 0.5 * there_and_back);
+  const Tangent expected =
+      Transport(path, {path.metric->unit * x}, Unaligned()).tangents[0] / path.metric->unit;
+  EXPECT_LT((y - expected).norm(), 1e-6 * expected.norm());
+  EXPECT_GT((x - expected).norm(), 1e-3 * expected.norm());  // there is something to transport
+
+  Tangent any = x;
+  ceres::Problem problem;
+  EXPECT_THROW(
+      cost::AddTangentProjection(*path.metric, to, Eigen::VectorXd::Zero(3), &any, &problem),
+      MeshError);
 }
 
 TEST(Transport, IsLinearAndComesBackToSecondOrder) {

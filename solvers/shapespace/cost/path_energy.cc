@@ -51,7 +51,7 @@ void Check(const Metric& metric, const std::vector<Shape>& shapes, const RigidMo
     }
   }
   if (metric.rigid.Active() && motions == nullptr) {
-    throw InvalidOptions("motions: the rigid metric needs them");
+    throw InvalidOptions("motions", "the rigid metric needs them");
   }
   RefuseDenseRows(metric);
 }
@@ -80,6 +80,10 @@ void AddPathEnergy(const Metric& metric, std::vector<Shape>* shapes, ceres::Prob
                                 motions->col(i).data());
     }
   }
+}
+
+void SetConstant(Shape* shape, ceres::Problem* problem) {
+  for (int v = 0; v < shape->cols(); ++v) problem->SetParameterBlockConstant(shape->col(v).data());
 }
 
 }  // namespace shapespace::cost

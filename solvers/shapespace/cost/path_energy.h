@@ -32,6 +32,9 @@ using RigidMotions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 void AddPathEnergy(const Metric& metric, std::vector<Shape>* shapes, ceres::Problem* problem,
                    RigidMotions* motions = nullptr, double quartic_weight = 1);
 
+/// Sets all vertices of `shape`, which are parameter blocks of `problem`, constant.
+void SetConstant(Shape* shape, ceres::Problem* problem);
+
 }  // namespace shapespace::cost
 
 #endif  // SHAPESPACE_COST_PATH_ENERGY_H_

@@ -1,5 +1,6 @@
 #include <shapespace/cost/transport_constraint.h>
 
+#include <utility>
 #include <vector>
 
 #include <ceres/autodiff_cost_function.h>
@@ -9,7 +10,7 @@
 
 namespace shapespace::cost {
 
-void AddTransportConstraint(const Tangent& normal, double weight, double* bound, Tangent* y,
+void AddTransportConstraint(Tangent normal, double weight, double* bound, Tangent* y,
                             ceres::Problem* problem) {
   std::vector<double*> blocks;
   for (int v = 0; v < y->cols(); ++v) {
@@ -21,7 +22,7 @@ void AddTransportConstraint(const Tangent& normal, double weight, double* bound,
   blocks.push_back(bound);
   problem->AddResidualBlock(
       new SumCost(
-          [&normal](const double* const* at, double scale, double** jacobians) {
+          [normal = std::move(normal)](const double* const* at, double scale, double** jacobians) {
             return AddInnerProduct(normal, at, scale, jacobians);
           },
           static_cast<int>(y->cols()), weight),

@@ -10,8 +10,8 @@ namespace shapespace::cost {
 /// Adds the paper's transport (section 5) to `problem`: |Y - x|^2, where x is the current value of
 /// `y`, and the constraint <Y, normal> = bound as a residual of weight `weight`, because Ceres has
 /// no constraints. The parameter blocks are y->col(v).data() and `bound`, one number, which is set
-/// constant. `y`, `normal` and `bound` must outlive the problem.
-void AddTransportConstraint(const Tangent& normal, double weight, double* bound, Tangent* y,
+/// constant. `y` and `bound` must outlive the problem; `normal` is copied.
+void AddTransportConstraint(Tangent normal, double weight, double* bound, Tangent* y,
                             ceres::Problem* problem);
 
 }  // namespace shapespace::cost

@@ -223,7 +223,7 @@ void Warn(GeodesicSummary* summary) {
 
 void GeodesicOptions::Validate() const {
   metric.Validate();
-  if (shapes < 1) throw InvalidOptions("shapes: must be 1 or more");
+  if (shapes < 1) throw InvalidOptions("shapes", "must be 1 or more");
   internal::CheckTolerance(tolerance);
   internal::CheckMaxIterations(max_iterations);
   internal::CheckMemoryLimit(memory_limit);

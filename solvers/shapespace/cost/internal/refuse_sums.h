@@ -17,7 +17,7 @@ inline void RefuseSums(const Metric& metric, int max_vertices, const std::string
   if (metric.connectivity->NumVertices() <= max_vertices) return;
   for (const auto& feature : metric.features) {
     if (feature->IsSum()) {
-      throw InvalidOptions(feature->Name() + ": couples all vertices; " + remedy);
+      throw InvalidOptions(feature->Name(), "couples all vertices; " + remedy);
     }
   }
 }

@@ -38,10 +38,6 @@ void ResidualBlocks::AddPenalty(double weight, const Eigen::Vector3d& target, do
 
 void ResidualBlocks::Fix(double* vertex) { problem_.SetParameterBlockConstant(vertex); }
 
-void ResidualBlocks::Fix(Shape* shape) {
-  for (int v = 0; v < shape->cols(); ++v) Fix(shape->col(v).data());
-}
-
 MinimiseResult ResidualBlocks::Minimise(const MinimiseOptions& options) {
   ceres::Solver::Options ceres_options;
   ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;

@@ -27,7 +27,7 @@ class ResidualBlocks {
 
   /// Keeps vertices constant.
   void Fix(double* vertex);
-  void Fix(Shape* shape);
+  void Fix(Shape* shape) { cost::SetConstant(shape, &problem_); }
 
   /// Minimises by the Levenberg-Marquardt method with sparse Cholesky factors; the result is in
   /// `shapes`.

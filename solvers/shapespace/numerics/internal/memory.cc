@@ -45,7 +45,7 @@ double MetricSolverBytes(const Metric& metric) {
 }  // namespace
 
 void CheckMemoryLimit(double memory_limit) {
-  if (!(memory_limit > 0)) throw InvalidOptions("memory_limit: must be positive");
+  if (!(memory_limit > 0)) throw InvalidOptions("memory_limit", "must be positive");
 }
 
 void CheckMemory(const std::string& call, double bytes, double memory_limit,

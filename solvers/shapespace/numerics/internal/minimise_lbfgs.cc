@@ -2,51 +2,16 @@
 #include <cmath>
 #include <numeric>
 
-#include <ceres/first_order_function.h>
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>
 
 #include <shapespace/base/error.h>
 #include <shapespace/numerics/internal/keep_going.h>
 #include <shapespace/numerics/internal/minimise.h>
+#include <shapespace/numerics/internal/preconditioned_energy.h>
 
 namespace shapespace::internal {
 namespace {
-
-// The energy as a function of y, in units of its value at the start; y is scaled so that the
-// Hessian still approximates the identity. Ceres' absolute tolerances then have the same meaning
-// for any input.
-class PreconditionedEnergy final : public ceres::FirstOrderFunction {
- public:
-  PreconditionedEnergy(const Objective& energy, ChangeOfVariables* variables,
-                       const std::vector<double>& origin, double unit, int* evaluations)
-      : energy_(energy),
-        variables_(*variables),
-        origin_(origin),
-        unit_(unit),
-        evaluations_(*evaluations),
-        unknowns_(origin.size()),
-        gradient_(origin.size()) {}
-
-  bool Evaluate(const double* y, double* cost, double* gradient) const override {
-    ++evaluations_;
-    variables_.Apply(y, origin_.data(), std::sqrt(unit_), unknowns_.data());
-    *cost = energy_(unknowns_.data(), gradient_.data()) / unit_;
-    if (gradient != nullptr) {
-      variables_.ApplyTranspose(gradient_.data(), 1 / std::sqrt(unit_), gradient);
-    }
-    return std::isfinite(*cost);
-  }
-  int NumParameters() const override { return variables_.Size(); }
-
- private:
-  const Objective& energy_;
-  ChangeOfVariables& variables_;
-  const std::vector<double>& origin_;
-  const double unit_;
-  int& evaluations_;
-  mutable std::vector<double> unknowns_, gradient_;
-};
 
 // Ends the solve when the remaining gain is small relative to the gain so far (MinimiseOptions).
 class EnoughGained final : public ceres::IterationCallback {
@@ -106,8 +71,7 @@ MinimiseResult MinimiseLbfgs(const Objective& energy, ChangeOfVariables* variabl
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(ceres_options, problem, y.data(), &summary);
 
-  const std::vector<double> origin = *unknowns;
-  variables->Apply(y.data(), origin.data(), std::sqrt(unit), unknowns->data());
+  *unknowns = function->Unknowns(y.data());
   result.energy = summary.final_cost * unit;
   result.iterations = static_cast<int>(summary.iterations.size()) - 1;
   result.remaining = RemainingDecrease(energy, variables, *unknowns);
