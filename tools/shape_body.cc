@@ -7,6 +7,7 @@
 #include <shapespace/files/write.h>
 #include <shapespace/output/frames.h>
 
+#include "support/flag_group.h"
 #include "support/frames.h"
 #include "support/lists.h"
 #include "support/tool.h"
@@ -18,6 +19,7 @@ DEFINE_string(pose, "",
 DEFINE_string(proportions, "", "name of the proportions of a body with bones, for --pose");
 DEFINE_string(output, "body%d.obj",
               "one file per value, numbered from 0: .obj, .ply, .off or .stl");
+FLAG_GROUP(body, "Body");
 
 namespace shapespace::tools {
 namespace {
@@ -94,6 +96,6 @@ int main(int argc, char** argv) {
        "  shape-body                                      lists the bodies\n"
        "  shape-body tube --at 0,90 --output tube%d.obj   writes tube0.obj and tube1.obj\n"
        "  shape-body quadruped --pose stand,sit --proportions long --output animal%d.obj",
-       {"shape_body.cc"}},
+       {"body"}},
       Run);
 }

@@ -11,6 +11,7 @@
 #include <shapespace/output/frames.h>
 
 #include "support/correspondence_flags.h"
+#include "support/flag_group.h"
 #include "support/frames.h"
 #include "support/lists.h"
 #include "support/outside_files_flag.h"
@@ -23,6 +24,7 @@ DEFINE_string(output, "fitted.obj,map.txt,check.png",
               "template), .txt (the map in both directions), .png (a picture for judging it)");
 DEFINE_bool(allow_nonmanifold, false,
             "accept meshes with non-manifold edges or vertices, or inconsistent winding");
+FLAG_GROUP(correspond, "Files");
 
 namespace shapespace::tools {
 namespace {
@@ -101,7 +103,6 @@ int main(int argc, char** argv) {
        "the template's poses. Check\nthe picture before you rely on the map.\n\nA fit that does "
        "not converge is reported; its outputs are written, and the exit code is 0, or 1\nwith "
        "--strict.",
-       {"shape_correspond.cc", "support/correspondence_flags.cc", "support/memory_flag.cc",
-        "support/report.cc", "support/outside_files_flag.cc"}},
+       {"correspond", "correspondence", "memory", "report", "outside_files"}},
       Run);
 }

@@ -11,6 +11,7 @@
 #include <shapespace/mesh/selection.h>
 
 #include "support/choose.h"
+#include "support/flag_group.h"
 #include "support/memory_flag.h"
 #include "support/metric_flags.h"
 #include "support/outputs.h"
@@ -42,6 +43,7 @@ DEFINE_string(solver, "threaded_lbfgs",
               "threaded_lbfgs, or trust_region (Ceres, for small meshes)");
 DEFINE_int32(coarsest, shapespace::DeformationOptions().coarsest,
              "triangles of the coarsest level of the hierarchy");
+FLAG_GROUP(deform, "Handles");
 
 namespace shapespace::tools {
 namespace {
@@ -162,8 +164,6 @@ int main(int argc, char** argv) {
            "closed (stiffer, with a cost of volume) or\nopen; --metric selects another; --volume "
            "30 keeps the volume within .3 %.") +
            kHowASolveEnds,
-       {"shape_deform.cc", "support/report.cc", "support/outputs.cc", "support/metric_flags.cc",
-        "support/poses.cc", "support/mesh_flags.cc", "support/memory_flag.cc",
-        "support/outside_files_flag.cc"}},
+       {"deform", "report", "outputs", "metric", "poses", "mesh", "memory", "outside_files"}},
       Run);
 }

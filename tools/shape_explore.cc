@@ -8,6 +8,7 @@
 #include <shapespace/exploration/space_file.h>
 #include <shapespace/files/display_names.h>
 
+#include "support/flag_group.h"
 #include "support/geodesic_flags.h"
 #include "support/lists.h"
 #include "support/mpi_crew.h"
@@ -32,6 +33,7 @@ DEFINE_string(
     sample, "",
     "JSON file of a curve on the plane (docs/file-formats.md): writes the shapes along it");
 DEFINE_int32(frames, 32, "with --sample: number of shapes, evenly spaced along the curve");
+FLAG_GROUP(explore, "Space");
 DECLARE_string(output);
 
 namespace shapespace::tools {
@@ -124,7 +126,7 @@ void Sample(const std::string& file) {
 }
 
 void MeasureSpace(const std::string& file, ProcessPool* crew) {
-  RefuseFlags({"support/metric_flags.cc"}, {"depth", "output", "report", "strict", "stiffeners"},
+  RefuseFlags({"metric"}, {"depth", "output", "report", "strict", "stiffeners"},
               "goes with poses; " + file + " contains its own metric");
   const ExploreOptions options = ExploreFromFlags(file + ".measure.records");
   const PoseSpace space = ReadSpace(file);
@@ -137,7 +139,7 @@ void Run(const std::vector<std::string>& files) {
   if (!FLAGS_sample.empty()) {
     if (!is_space) throw UsageError("--sample: goes with one .space file");
     if (!IsGiven("output")) throw UsageError("--sample: needs --output, a .glb for example");
-    RefuseFlags({"support/metric_flags.cc", "support/geodesic_flags.cc"},
+    RefuseFlags({"metric", "geodesic"},
                 {"depth", "measure", "resolution", "threshold", "report", "strict"},
                 "has no effect with --sample");
     Sample(files[0]);
@@ -176,8 +178,7 @@ int main(int argc, char** argv) {
        "An\ninterrupted run can be continued: finished geodesics are stored in poses.space.records "
        "until the\nspace is complete. With mpirun -n 4 in front, four processes share the "
        "geodesics (--threads is the\nnumber of threads of each process).",
-       {"shape_explore.cc", "support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
-        "support/metric_flags.cc", "support/poses.cc", "support/mesh_flags.cc",
-        "support/memory_flag.cc", "support/outside_files_flag.cc"}},
+       {"explore", "geodesic", "report", "outputs", "metric", "poses", "mesh", "memory",
+        "outside_files"}},
       Run);
 }

@@ -9,6 +9,7 @@
 #include <shapespace/base/internal/extension.h>
 
 #include "support/anchor_flags.h"
+#include "support/flag_group.h"
 #include "support/lists.h"
 #include "support/memory_flag.h"
 #include "support/outputs.h"
@@ -21,6 +22,7 @@ DEFINE_string(at, "",
 DEFINE_int32(
     frames, 0,
     "write this number of shapes at evenly spaced times instead of the path's own; 2 or more");
+FLAG_GROUP(export, "Frames");
 DECLARE_bool(ease);
 
 namespace shapespace::tools {
@@ -89,7 +91,6 @@ int main(int argc, char** argv) {
                   "meshes and pictures of a path, without solving again",
                   "  shape-export walk.path --output walk.png,frames/%03d.obj --frames 40 --ease\n"
                   "  shape-export walk.path --output quarter%d.obj --at .25,.5,.75",
-                  {"shape_export.cc", "support/outputs.cc", "support/anchor_flags.cc",
-                   "support/memory_flag.cc", "support/outside_files_flag.cc"}},
+                  {"export", "outputs", "anchor", "memory", "outside_files"}},
                  Run);
 }

@@ -10,6 +10,7 @@
 
 #include "support/anchor_flags.h"
 #include "support/choose.h"
+#include "support/flag_group.h"
 #include "support/geodesic_flags.h"
 #include "support/interrupt.h"
 #include "support/outputs.h"
@@ -37,6 +38,7 @@ DEFINE_double(
     correct, 0,
     "afterwards correct all shapes but the first towards its edge lengths: weight of the distance "
     "from the uncorrected shapes; start from 1, less for more accurate lengths; 0: off");
+FLAG_GROUP(extrapolate, "Extrapolation");
 
 namespace shapespace::tools {
 namespace {
@@ -181,9 +183,7 @@ int main(int argc, char** argv) {
            "before that, and stderr says so: exit code\n0 if there are new shapes, 1 if there are "
            "none.") +
            kHowASolveEnds,
-       {"shape_extrapolate.cc", "support/geodesic_flags.cc", "support/report.cc",
-        "support/outputs.cc", "support/metric_flags.cc", "support/poses.cc",
-        "support/mesh_flags.cc", "support/memory_flag.cc", "support/anchor_flags.cc",
-        "support/outside_files_flag.cc"}},
+       {"extrapolate", "geodesic", "report", "outputs", "metric", "poses", "mesh", "memory",
+        "anchor", "outside_files"}},
       Run);
 }

@@ -56,9 +56,11 @@ bool Print(const std::vector<Finding>& findings) {
     Severity severity = finding.severity;
     if (severity == Severity::kNonManifold && FLAGS_allow_nonmanifold)
       severity = Severity::kWarning;
-    std::printf("  %-12s %-24s %s\n", Name(severity), finding.kind.c_str(),
-                internal::Printable(finding.message).c_str());
-    good = good && severity <= Severity::kWarning;
+    const bool acceptable = severity <= Severity::kWarning;
+    std::printf("  %-12s %-24s %s%s\n", Name(severity), finding.kind.c_str(),
+                internal::Printable(finding.message).c_str(),
+                acceptable ? "" : InFlags(finding.option).c_str());
+    good = good && acceptable;
   }
   return good;
 }
@@ -260,7 +262,7 @@ void Run(const std::vector<std::string>& files) {
           PrintSpace(file);
         }
       } catch (const Error& error) {
-        Complain(error.what());
+        Complain(error.what() + InFlags(error.option()));
       }
     }
   }
@@ -273,13 +275,12 @@ void Run(const std::vector<std::string>& files) {
 
 int main(int argc, char** argv) {
   using namespace shapespace::tools;
-  return RunTool(
-      argc, argv,
-      {"shape-inspect",
-       "contents of files, correspondence of meshes, differences between poses",
-       "  shape-inspect a.obj b.obj walk.path poses.space\n\n"
-       "Exit code 1 if a file cannot be read, a mesh cannot be used as it is, or meshes "
-       "do not\ncorrespond.",
-       {"support/metric_flags.cc", "support/mesh_flags.cc", "support/outside_files_flag.cc"}},
-      Run);
+  return RunTool(argc, argv,
+                 {"shape-inspect",
+                  "contents of files, correspondence of meshes, differences between poses",
+                  "  shape-inspect a.obj b.obj walk.path poses.space\n\n"
+                  "Exit code 1 if a file cannot be read, a mesh cannot be used as it is, or meshes "
+                  "do not\ncorrespond.",
+                  {"metric", "mesh", "outside_files"}},
+                 Run);
 }

@@ -49,8 +49,7 @@ int main(int argc, char** argv) {
            "15 shapes\ninserted between two poses 17 frames are written, numbered from 000, the "
            "poses included. The morph\ntargets of a glTF file are poses too.") +
            kHowASolveEnds,
-       {"support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
-        "support/anchor_flags.cc", "support/metric_flags.cc", "support/poses.cc",
-        "support/mesh_flags.cc", "support/memory_flag.cc", "support/outside_files_flag.cc"}},
+       {"geodesic", "report", "outputs", "anchor", "metric", "poses", "mesh", "memory",
+        "outside_files"}},
       Run);
 }

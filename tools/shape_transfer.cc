@@ -14,6 +14,7 @@
 #include "support/anchor_flags.h"
 #include "support/choose.h"
 #include "support/correspondence_flags.h"
+#include "support/flag_group.h"
 #include "support/geodesic_flags.h"
 #include "support/memory_flag.h"
 #include "support/mesh_flags.h"
@@ -46,6 +47,7 @@ DEFINE_bool(
 DEFINE_bool(
     align, true,
     "for the ladder and hybrids: align the source with the target; --noalign keeps orientations");
+FLAG_GROUP(transfer, "Transfer");
 
 namespace shapespace::tools {
 namespace {
@@ -56,8 +58,7 @@ constexpr char kShapes[] = "7";
 // Refuses flags that would have no effect.
 void CheckFlagsOfTheLadder(bool climbs) {
   if (climbs) return;
-  RefuseFlags({"support/geodesic_flags.cc", "support/metric_flags.cc"}, {"connection"},
-              "goes with --method ladder");
+  RefuseFlags({"geodesic", "metric"}, {"connection"}, "goes with --method ladder");
   if (FLAGS_hybrids.empty()) {
     RefuseFlags({}, {"ladder_bending", "rung_shapes", "scale", "align"},
                 "goes with --method ladder or --hybrids");
@@ -131,7 +132,7 @@ Poses ReadTargetOf(const Path& path, const std::string& file) {
     target.shapes[0] = pose.vertices;
   }
   for (const Finding& finding : CheckSameMesh(reference, pose)) {
-    if (finding.severity == Severity::kFatal) throw MismatchError(finding.message);
+    if (finding.severity == Severity::kFatal) throw MismatchError(finding.message, finding.option);
     Err() << "warning: " << finding.message << '\n';
   }
   return target;
@@ -160,7 +161,7 @@ void Run(const std::vector<std::string>& files) {
   std::vector<std::string> hybrid_outputs;
   if (!FLAGS_hybrids.empty()) hybrid_outputs = OutputsFromFlag("hybrids", FLAGS_hybrids);
   if (FLAGS_markers.empty()) {
-    RefuseFlags({"support/correspondence_flags.cc"}, {}, "goes with --markers");
+    RefuseFlags({"correspondence"}, {}, "goes with --markers");
   } else {
     RefuseFlags({}, {"hybrids", "stiffeners"}, "does not go with --markers");
     CorrespondenceFromFlags();
@@ -246,9 +247,7 @@ int main(int argc, char** argv) {
            "of which is transferred; the flags of the metric are those of these\ngeodesics. In a "
            "film strip the target is blue, its other shapes are purple, hybrids are green.") +
            kHowASolveEnds,
-       {"shape_transfer.cc", "support/geodesic_flags.cc", "support/report.cc", "support/outputs.cc",
-        "support/metric_flags.cc", "support/poses.cc", "support/mesh_flags.cc",
-        "support/memory_flag.cc", "support/anchor_flags.cc", "support/correspondence_flags.cc",
-        "support/outside_files_flag.cc"}},
+       {"transfer", "geodesic", "report", "outputs", "metric", "poses", "mesh", "memory", "anchor",
+        "correspondence", "outside_files"}},
       Run);
 }

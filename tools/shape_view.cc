@@ -14,10 +14,12 @@
 
 #include "support/console.h"
 #include "support/files.h"
+#include "support/flag_group.h"
 #include "support/tool.h"
 #include "viewer/page.h"
 
 DEFINE_string(output, "page.html", "the page to write: .html");
+FLAG_GROUP(view, "Page");
 
 namespace shapespace::tools {
 namespace {
@@ -109,6 +111,6 @@ int main(int argc, char** argv) {
        "  shape-view before.path after.path --output compare.html   side by side\n"
        "  shape-view walk.glb --output walk.html\n"
        "  shape-view poses.space --output poses.html                shapes at points of a plane",
-       {"shape_view.cc"}},
+       {"view"}},
       Run);
 }

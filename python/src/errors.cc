@@ -27,23 +27,15 @@ PyObject* Make(py::module_* module, const char* name, const py::object& bases, c
   return made;
 }
 
-// A message for Python's terminal. The library's remedies name flags of the tools; here they are
-// keyword arguments.
-std::string InPython(std::string text) {
-  text = internal::Printable(text, internal::kOfMessages);
-  static const std::pair<const char*, const char*> words[] = {
-      {"--allow_nonmanifold", "allow_nonmanifold=True"},
-      {"--mirror x (y, z)", "mirror='x' ('y', 'z')"},
-      {"--metric strain", "metric='strain'"},
-  };
-  for (const auto& [flag, argument] : words) {
-    const size_t at = text.find(flag);
-    if (at != text.npos) text.replace(at, std::string(flag).size(), argument);
-  }
-  return text;
+// A message for Python's terminal.
+std::string InPython(const std::string& text) {
+  return internal::Printable(text, internal::kOfMessages);
 }
 
-void Raise(PyObject* type, const Error& e) { PyErr_SetString(type, InPython(e.what()).c_str()); }
+void Raise(PyObject* type, const Error& e) {
+  const std::string argument = e.option().empty() ? "" : " (argument " + e.option() + ")";
+  PyErr_SetString(type, InPython(e.what() + argument).c_str());
+}
 
 void Translate(std::exception_ptr thrown) {
   try {

@@ -245,7 +245,7 @@ std::vector<Eigen::MatrixXd> FrameColours(const Path& path, const std::string& c
   if (color == "deviation") return ColourByDeviation(path).of_shapes;
   if (color == "parts") return {path.shapes.size(), ColourByGroup(FindRigidParts(path).of_vertex)};
   if (color == "plain") return {};
-  throw InvalidOptions("color: must be plain, deviation or parts, not '" + color + "'");
+  throw InvalidOptions("color", "must be plain, deviation or parts, not '" + color + "'");
 }
 
 void Write(const Path& path, const std::string& file, const py::dict& given) {

@@ -120,7 +120,7 @@ def test_a_vertex_that_is_not_finite_is_named(bad):
 def test_a_mesh_that_a_file_would_be_refused_for_is_refused():
     fan = np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]])
     vertices = np.vstack([TETRAHEDRON, [[0.5, -1, -1]]])
-    with pytest.raises(shapespace.MeshError, match="allow_nonmanifold=True"):
+    with pytest.raises(shapespace.MeshError, match="allow_nonmanifold"):
         shapespace.Poses([vertices], fan)
     with pytest.warns(shapespace.MeshWarning):
         assert shapespace.Poses([vertices], fan, allow_nonmanifold=True).warnings

@@ -14,7 +14,7 @@ using testing::MakeSoup;
 
 /// The one finding of this kind; fails if there is none, or more than one.
 Finding Only(const std::vector<Finding>& findings, const std::string& kind) {
-  Finding result{Severity::kNote, "", ""};
+  Finding result{Severity::kNote, "", "", ""};
   int count = 0;
   for (const Finding& finding : findings) {
     if (finding.kind != kind) continue;
@@ -29,6 +29,7 @@ void ExpectFinding(const Soup& soup, const std::string& kind, Severity severity,
                    const std::vector<std::string>& parts) {
   const Finding finding = Only(CheckSoup(soup), kind);
   EXPECT_EQ(finding.severity, severity);
+  EXPECT_EQ(finding.option, severity == Severity::kNonManifold ? "allow_nonmanifold" : "");
   for (const std::string& part : parts) {
     EXPECT_NE(finding.message.find(part), std::string::npos)
         << "no '" << part << "' in: " << finding.message;
@@ -125,7 +126,7 @@ TEST(CheckTest, DegeneratePolygons) {
   const Soup repeated =
       WithLines(MakeSoup(Shape::Random(3, 5), {{0, 1, 2}, {2, 1, 3, 3}, {3, 1, 4}}));
   ExpectFinding(repeated, "repeated-corner", Severity::kNonManifold,
-                {"(1): polygon 2 (line 201)", "--allow_nonmanifold"});
+                {"(1): polygon 2 (line 201)", "or allow it"});
 }
 
 TEST(CheckTest, RepeatedPolygonsWhateverTheirWinding) {
@@ -134,7 +135,7 @@ TEST(CheckTest, RepeatedPolygonsWhateverTheirWinding) {
   ExpectFinding(soup, "repeated-polygon", Severity::kNonManifold,
                 {"(2): polygon 3 (line 202) repeats polygon 1 (line 200), polygon 4 (line 203) "
                  "repeats polygon 2 (line 201)",
-                 "--allow_nonmanifold"});
+                 "or allow it"});
 }
 
 TEST(CheckTest, NonManifoldEdge) {
@@ -142,13 +143,13 @@ TEST(CheckTest, NonManifoldEdge) {
   ExpectFinding(soup, "non-manifold-edge", Severity::kNonManifold,
                 {"(1): edge 1-2 of polygon 1 (line 200), polygon 2 (line 201) and polygon 3 "
                  "(line 202)",
-                 "--allow_nonmanifold"});
+                 "or allow it"});
 }
 
 TEST(CheckTest, NonManifoldVertex) {
   const Soup soup = WithLines(MakeSoup(Shape::Random(3, 5), {{0, 1, 2}, {0, 3, 4}}));
   ExpectFinding(soup, "non-manifold-vertex", Severity::kNonManifold,
-                {"(1): vertex 1 (line 100)", "--allow_nonmanifold"});
+                {"(1): vertex 1 (line 100)", "or allow it"});
 }
 
 TEST(CheckTest, InconsistentWinding) {
@@ -156,7 +157,7 @@ TEST(CheckTest, InconsistentWinding) {
   std::swap(soup.corners[1], soup.corners[3]);
   ExpectFinding(soup, "inconsistent-winding", Severity::kNonManifold,
                 {"(4): edge 1-2 of polygon 1 (line 200) and polygon 3 (line 202)", "and 1 more",
-                 "--allow_nonmanifold"});
+                 "or allow it"});
 }
 
 TEST(CheckTest, UnreferencedVertices) {

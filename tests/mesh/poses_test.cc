@@ -44,7 +44,7 @@ TEST_F(PosesTest, OneFileIsEnoughAndNoneIsNot) {
 TEST_F(PosesTest, NonManifoldMeshesNeedPermission) {
   const std::vector<std::string> files = {File("book.obj", book_), File("again.obj", book_)};
   ExpectError<MeshError>([&] { ReadPoses(files); },
-                         {"book.obj", "edge 1-2", "line 6", "--allow_nonmanifold"});
+                         {"book.obj", "edge 1-2", "line 6", "or allow it"});
   ReadOptions options;
   options.allow_nonmanifold = true;
   const Poses poses = ReadPoses(files, options);

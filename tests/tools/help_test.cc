@@ -45,6 +45,19 @@ TEST_F(HelpTest, FitsTheTerminalAndSucceeds) {
   }
 }
 
+TEST_F(HelpTest, HasHeadings) {
+  const std::string text = Run("shape-transfer", {"--help"}).out;
+  size_t last = 0;
+  for (const char* heading : {"Transfer:\n", "Correspondence:\n", "Input:\n", "Path:\n",
+                              "Metric:\n", "Output:\n", "Run:\n"}) {
+    const size_t at = text.find(heading);
+    ASSERT_NE(at, std::string::npos) << heading;
+    EXPECT_GT(at, last) << heading;
+    EXPECT_EQ(text.find(heading, at + 1), std::string::npos) << heading;
+    last = at;
+  }
+}
+
 TEST_F(HelpTest, ListsOurFlagsOnly) {
   EXPECT_EQ(Listed("shape-body"),
             (std::set<std::string>{"at", "help", "output", "pose", "progress", "proportions",

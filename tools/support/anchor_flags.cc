@@ -8,6 +8,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/path/anchor.h>
 
+#include "support/flag_group.h"
 #include "support/tool.h"
 
 DEFINE_string(anchor, "",
@@ -18,6 +19,7 @@ DEFINE_string(anchor, "",
 DEFINE_string(ground, "",
               "move the shapes such that the lowest vertex of each is at this height: axis and "
               "height, such as y=0");
+FLAG_GROUP(anchor, "Path");
 
 namespace shapespace::tools {
 namespace {

@@ -1,5 +1,6 @@
 #include "support/correspondence_flags.h"
 
+#include "support/flag_group.h"
 #include "support/memory_flag.h"
 #include "support/tool.h"
 
@@ -10,6 +11,7 @@ DEFINE_bool(hold_all_markers, false, "use all markers, including those that cont
 DEFINE_double(proportions, shapespace::CorrespondenceOptions().proportions,
               "length over which the ratio of the bodies' proportions may change, as a share of "
               "the square root of the area");
+FLAG_GROUP(correspondence, "Correspondence");
 
 namespace shapespace::tools {
 

@@ -5,6 +5,7 @@
 #include <gflags/gflags.h>
 
 #include "support/choose.h"
+#include "support/flag_group.h"
 #include "support/memory_flag.h"
 #include "support/metric_flags.h"
 #include "support/outputs.h"
@@ -23,6 +24,7 @@ DEFINE_string(
     start, "best",
     "initial guess of the first solve: blend, first, last, rigid, or the best of the first three");
 DEFINE_int32(coarsest, 200, "triangles of the coarsest level of the hierarchy");
+FLAG_GROUP(geodesic, "Path");
 
 namespace shapespace::tools {
 
@@ -63,7 +65,7 @@ bool IsOnePath(const std::vector<std::string>& files) {
     throw UsageError("name at least two poses of one mesh, or one .path file alone");
   }
   if (!is_path) return false;
-  RefuseFlags({"support/geodesic_flags.cc", "support/metric_flags.cc"}, {"stiffeners"},
+  RefuseFlags({"geodesic", "metric"}, {"stiffeners"},
               "goes with poses; " + files[0] + " is solved already and contains its metric");
   return true;
 }

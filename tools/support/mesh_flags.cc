@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "support/flag_group.h"
 #include "support/tool.h"
 
 DEFINE_bool(allow_nonmanifold, false,
@@ -10,6 +11,7 @@ DEFINE_string(
     mirror, "",
     "x, y or z: change the sign of this coordinate in poses that are mirror images of the first "
     "(these are detected for closed meshes only, and refused without this flag)");
+FLAG_GROUP(mesh, "Input");
 
 namespace shapespace::tools {
 

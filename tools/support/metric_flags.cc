@@ -7,6 +7,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/files/vertex_field.h>
 
+#include "support/flag_group.h"
 #include "support/tool.h"
 
 DEFINE_string(metric, "strain",
@@ -32,6 +33,7 @@ DEFINE_string(
     stiffness, "",
     "file of factors on the cost of stretching and bending, one positive number per "
     "vertex: a text with one number per line, or a property of a PLY file, as body.ply:name");
+FLAG_GROUP(metric, "Metric");
 
 namespace shapespace::tools {
 namespace {

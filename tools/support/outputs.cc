@@ -23,6 +23,7 @@
 #include <shapespace/output/vtk.h>
 #include <shapespace/path/path_file.h>
 
+#include "support/flag_group.h"
 #include "support/frames.h"
 #include "support/interrupt.h"
 #include "support/lists.h"
@@ -54,6 +55,7 @@ DEFINE_bool(ease, false,
             "glb, and frames of shape-export --frames: slow at both ends, as an animator would "
             "have it");
 DEFINE_string(title, "", "film strip: a line above it");
+FLAG_GROUP(outputs, "Output");
 
 namespace shapespace::tools {
 namespace {

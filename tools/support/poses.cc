@@ -5,6 +5,7 @@
 #include <gflags/gflags.h>
 
 #include "support/console.h"
+#include "support/flag_group.h"
 #include "support/mesh_flags.h"
 #include "support/metric_flags.h"
 #include "support/outside_files_flag.h"
@@ -12,6 +13,7 @@
 
 DEFINE_string(stiffeners, "",
               "text file of additional edges (stiffeners): two vertex numbers per line, from 1");
+FLAG_GROUP(poses, "Input");
 
 namespace shapespace::tools {
 

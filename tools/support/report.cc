@@ -8,6 +8,7 @@
 #include <shapespace/base/internal/atomic_file.h>
 #include <shapespace/base/internal/extension.h>
 
+#include "support/flag_group.h"
 #include "support/interrupt.h"
 #include "support/tool.h"
 
@@ -17,6 +18,7 @@ DEFINE_string(
     "stderr");
 DEFINE_bool(strict, false,
             "exit with code 1 if a solve did not converge; outputs are written nevertheless");
+FLAG_GROUP(report, "Output");
 
 namespace shapespace::tools {
 

@@ -1,7 +1,6 @@
 #include "support/tool.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -13,12 +12,14 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 
+#include "support/flag_group.h"
 #include "support/interrupt.h"
 
 DEFINE_int32(threads, 0, "number of threads; 0: all cores (results do not depend on it)");
 DEFINE_string(progress, "text",
               "on stderr: text, for people, or lines, for programs that show the progress of this "
               "one: 'progress SHARE TEXT', with a share from 0 to 1, or '-' if it is not known");
+FLAG_GROUP(tool, "Run");
 
 // gflags ends the process itself on an invalid flag, with its own exit code.
 namespace GFLAGS_NAMESPACE {
@@ -34,53 +35,16 @@ std::vector<std::string>& Typed() {
   return typed;
 }
 
-std::vector<gflags::CommandLineFlagInfo> FlagsOf(const std::string& source) {
-  std::vector<gflags::CommandLineFlagInfo> all, flags;
-  gflags::GetAllFlags(&all);
-  for (const gflags::CommandLineFlagInfo& flag : all) {
-    if (flag.filename.find(source) != std::string::npos) flags.push_back(flag);
-  }
-  return flags;
-}
-
-// The shortest text that represents the number: gflags prints 1.0000000000000001e-05.
-std::string DefaultValue(const gflags::CommandLineFlagInfo& flag) {
-  if (flag.type != "double") return flag.default_value;
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, std::stod(flag.default_value)).ptr};
-}
-
-// One flag of --help: name and default in the left column, the description beside it.
-void PrintFlag(std::string left, const std::string& description) {
-  constexpr size_t kLeft = 30, kLine = 100;
-  left.resize(std::max(left.size() + 1, kLeft), ' ');
-  std::string line = left;
-  std::istringstream words(description);
-  for (std::string word; words >> word;) {
-    if (line.size() + word.size() > kLine) {
-      std::cout << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
-      line = std::string(kLeft, ' ');
-    }
-    line += word + ' ';
-  }
-  std::cout << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
+// Those that it takes, and what every tool has.
+std::vector<std::string> GroupsOf(const Program& program) {
+  std::vector<std::string> groups = program.flag_groups;
+  groups.push_back("tool");
+  return groups;
 }
 
 void PrintHelp(const Program& program) {
-  std::cout << program.name << ": " << program.summary << "\n\n" << program.usage << "\n\nFlags:\n";
-  std::vector<std::string> sources = program.flag_sources;
-  sources.push_back("support/tool.cc");
-  for (const std::string& source : sources) {
-    for (const gflags::CommandLineFlagInfo& flag : FlagsOf(source)) {
-      std::string left = "  --" + flag.name;
-      if (flag.type != "bool") {
-        left += " " + (flag.default_value.empty() ? "..." : DefaultValue(flag));
-      }
-      PrintFlag(left, flag.description);
-    }
-  }
-  PrintFlag("  --help", "this text");
-  PrintFlag("  --version", "version of shapespace");
+  std::cout << program.name << ": " << program.summary << "\n\n" << program.usage << '\n';
+  PrintFlags(GroupsOf(program));
   std::cout << "\nExit codes: 0 done, 1 something failed, 2 the command line is wrong.\n";
 }
 
@@ -88,10 +52,10 @@ void PrintHelp(const Program& program) {
 
 bool IsGiven(const char* flag) { return !gflags::GetCommandLineFlagInfoOrDie(flag).is_default; }
 
-void RefuseFlags(const std::vector<std::string>& sources, const std::vector<std::string>& flags,
+void RefuseFlags(const std::vector<std::string>& groups, const std::vector<std::string>& flags,
                  const std::string& reason) {
-  for (const std::string& source : sources) {
-    for (const gflags::CommandLineFlagInfo& flag : FlagsOf(source)) {
+  for (const std::string& group : groups) {
+    for (const gflags::CommandLineFlagInfo& flag : FlagsOf(group)) {
       if (!flag.is_default) throw UsageError("--" + flag.name + ": " + reason);
     }
   }
@@ -119,15 +83,16 @@ std::string AsTyped(const std::string& flag) {
   return text;
 }
 
+std::string InFlags(const std::string& option) {
+  return option.empty() ? "" : " (--" + option + ")";
+}
+
 void NamingFlags(const FlagNames& names, const std::function<void()>& body) {
   try {
     body();
   } catch (const InvalidOptions& error) {
-    const std::string message = error.what();
-    const size_t colon = std::min(message.find(':'), message.size());
     std::string flags;
-    std::istringstream fields(message.substr(0, colon));
-    for (std::string field; std::getline(fields >> std::ws, field, ',');) {
+    for (std::string field : error.fields()) {
       for (const auto& [own, flag] : names) {
         if (own == field) field = flag;
       }
@@ -135,7 +100,7 @@ void NamingFlags(const FlagNames& names, const std::function<void()>& body) {
       const bool is_flag = gflags::GetCommandLineFlagInfo(field.c_str(), &info);
       flags += (flags.empty() ? "" : ", ") + (is_flag ? AsTyped(field) : field);
     }
-    throw UsageError(flags + message.substr(colon));
+    throw UsageError(flags.empty() ? error.problem() : flags + ": " + error.problem());
   }
 }
 
@@ -181,6 +146,8 @@ int RunTool(int argc, char** argv, const Program& program,
     Err() << program.name << ": interrupted before there was a result\n";
   } catch (const std::bad_alloc&) {
     Complain("out of memory");
+  } catch (const Error& error) {
+    Complain(error.what() + InFlags(error.option()));
   } catch (const std::exception& error) {
     Complain(error.what());
   }

@@ -19,10 +19,9 @@ class UsageError : public std::runtime_error {
 
 struct Program {
   const char* name;
-  const char* summary;  ///< one line
-  std::string usage;    ///< arguments and an example
-  /// Folders or files of this project whose flags the program takes, e.g. "tools/support/metric".
-  std::vector<std::string> flag_sources;
+  const char* summary;                   ///< one line
+  std::string usage;                     ///< arguments and an example
+  std::vector<std::string> flag_groups;  ///< of its flags, by name (`FLAG_GROUP`)
 };
 
 /// Implements main() of every tool: parses gflags, handles --help and --version, and runs `body`
@@ -34,10 +33,9 @@ int RunTool(int argc, char** argv, const Program& program,
 /// Whether this flag was given on the command line.
 bool IsGiven(const char* flag);
 
-/// Refuses flags without effect: `flags`, and all of `sources`, which are some of `flag_sources`,
-/// have no effect here, for `reason`.
+/// Refuses flags without effect: `flags`, and all of some `groups`, for `reason`.
 /// \throw UsageError "--flag: reason" if the command line gave one of them.
-void RefuseFlags(const std::vector<std::string>& sources, const std::vector<std::string>& flags,
+void RefuseFlags(const std::vector<std::string>& groups, const std::vector<std::string>& flags,
                  const std::string& reason);
 
 /// A flag in messages, with its value as typed: "--unit 1e-3"; without value if it was not given.
@@ -46,9 +44,12 @@ std::string AsTyped(const std::string& flag);
 /// Names of flags that set fields of an options struct with other names: field, flag.
 using FlagNames = std::vector<std::pair<std::string, std::string>>;
 
-/// Runs `body` and converts InvalidOptions, whose messages begin with a field's name, to
-/// UsageErrors that begin with the flag `AsTyped`. A field that is not in `names` has the name of
-/// its flag.
+/// The flag of an option that `Error::option` or `Finding::option` names, as the end of a message:
+/// " (--allow_nonmanifold)". Empty if there is none.
+std::string InFlags(const std::string& option);
+
+/// Runs `body` and converts InvalidOptions to UsageErrors that begin with the flags `AsTyped`
+/// instead of the fields. A field that is not in `names` has the name of its flag.
 void NamingFlags(const FlagNames& names, const std::function<void()>& body);
 
 }  // namespace shapespace::tools

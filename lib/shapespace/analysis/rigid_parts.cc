@@ -172,11 +172,11 @@ void CountAndPlaceParts(const Path& path, const Eigen::VectorXd& area, RigidPart
 }  // namespace
 
 void RigidPartsOptions::Validate() const {
-  if (!(tolerance > 0 && tolerance <= 1)) throw InvalidOptions("tolerance: must be in (0, 1]");
+  if (!(tolerance > 0 && tolerance <= 1)) throw InvalidOptions("tolerance", "must be in (0, 1]");
   if (!(least_share > 0 && least_share <= 1)) {
-    throw InvalidOptions("least_share: must be in (0, 1]");
+    throw InvalidOptions("least_share", "must be in (0, 1]");
   }
-  if (!(most_deviation > 0)) throw InvalidOptions("most_deviation: must be positive");
+  if (!(most_deviation > 0)) throw InvalidOptions("most_deviation", "must be positive");
 }
 
 RigidParts FindRigidParts(const Path& path, const RigidPartsOptions& options) {

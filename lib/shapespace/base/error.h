@@ -3,6 +3,8 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace shapespace {
 
@@ -10,7 +12,16 @@ namespace shapespace {
 /// file, the element and the remedy if there are any.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Error(const std::string& message, std::string option = {})
+      : std::runtime_error(message), option_(std::move(option)) {}
+
+  /// The option with which the call would do what it has refused, by the name that it has in an
+  /// options struct, such as "allow_nonmanifold"; empty if there is none. `what()` says what the
+  /// option does, and does not name it.
+  const std::string& option() const { return option_; }
+
+ private:
+  std::string option_;
 };
 
 /// A file cannot be opened, read to its end, understood or written.
@@ -31,10 +42,27 @@ class MismatchError : public Error {
   using Error::Error;
 };
 
-/// An options struct holds a value outside its range; the message begins with the field's name.
+/// A field of an options struct, or an argument, has a value outside its range. `what()` is
+/// "fields: problem", the fields separated by commas, or the problem alone if there is no field.
 class InvalidOptions : public Error {
  public:
-  using Error::Error;
+  InvalidOptions(std::vector<std::string> fields, const std::string& problem)
+      : Error(Joined(fields) + problem), fields_(std::move(fields)), problem_(problem) {}
+  InvalidOptions(const std::string& field, const std::string& problem)
+      : InvalidOptions(std::vector<std::string>(field.empty() ? 0 : 1, field), problem) {}
+
+  const std::vector<std::string>& fields() const { return fields_; }
+  const std::string& problem() const { return problem_; }
+
+ private:
+  static std::string Joined(const std::vector<std::string>& fields) {
+    std::string text;
+    for (const std::string& field : fields) text += (text.empty() ? "" : ", ") + field;
+    return text.empty() ? text : text + ": ";
+  }
+
+  std::vector<std::string> fields_;
+  std::string problem_;
 };
 
 /// A solver cannot start or continue: a singular matrix, an estimate above the memory limit. (A

@@ -108,7 +108,7 @@ ShapeFamily MakeBody(const std::string& name, int triangles) {
     }
     known += (known.empty() ? "" : ", ") + entry.info.name;
   }
-  throw InvalidOptions("name: no body is called '" + name + "'; known are " + known);
+  throw InvalidOptions("name", "no body is called '" + name + "'; known are " + known);
 }
 
 }  // namespace shapespace

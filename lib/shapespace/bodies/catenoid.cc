@@ -13,7 +13,8 @@ namespace shapespace {
 ShapeFamily MakeCatenoid(double half_height, int around, int along) {
   internal::CheckLength("half_height", half_height);
   // The rim's radius is cosh(half_height).
-  if (half_height > 20) throw InvalidOptions("half_height: above 20, in units of the waist radius");
+  if (half_height > 20)
+    throw InvalidOptions("half_height", "above 20, in units of the waist radius");
   internal::CheckCount("around", around, 3);
   internal::CheckCount("along", along, 1);
   internal::CheckTriangles(2 * std::int64_t{around} * along);

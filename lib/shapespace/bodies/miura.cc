@@ -13,7 +13,8 @@ namespace shapespace {
 ShapeFamily MakeMiura(double a, double b, double corner, int nx, int ny) {
   internal::CheckLength("a", a);
   internal::CheckLength("b", b);
-  if (!(corner >= 10 && corner <= 80)) throw InvalidOptions("corner: must be in [10, 80] degrees");
+  if (!(corner >= 10 && corner <= 80))
+    throw InvalidOptions("corner", "must be in [10, 80] degrees");
   internal::CheckCount("nx", nx, 1);
   internal::CheckCount("ny", ny, 1);
   internal::CheckTriangles(2 * std::int64_t{nx} * ny);

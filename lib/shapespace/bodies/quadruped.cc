@@ -249,7 +249,7 @@ const Value& Lookup(const char* what, const std::vector<std::pair<std::string, V
     if (each == name) return value;
     known += (known.empty() ? "" : ", ") + each;
   }
-  throw InvalidOptions(std::string(what) + ": none is called '" + name + "'; known are " + known);
+  throw InvalidOptions(what, "none is called '" + name + "'; known are " + known);
 }
 
 }  // namespace
@@ -263,8 +263,8 @@ void QuadrupedForm::Validate() const {
         std::pair("tail_length", tail_length)}) {
     if (value >= 0.3 && value <= 3) continue;
     std::ostringstream message;
-    message << field << ": " << value << " is outside 0.3 .. 3";
-    throw InvalidOptions(message.str());
+    message << value << " is outside 0.3 .. 3";
+    throw InvalidOptions(field, message.str());
   }
 }
 
@@ -296,7 +296,7 @@ SkinnedBody MakeQuadruped(int triangles, const QuadrupedForm& form) {
   body.pose_names = QuadrupedPoses();
   body.pose = [=](const std::string& name) { return Placed(skin->Pose(rotations(name))); };
   body.between = [=](const std::string& from, const std::string& to, double part) {
-    if (!(part >= 0 && part <= 1)) throw InvalidOptions("part: must be in [0, 1]");
+    if (!(part >= 0 && part <= 1)) throw InvalidOptions("part", "must be in [0, 1]");
     internal::Rotations turned = rotations(from);
     const internal::Rotations goal = rotations(to);
     for (size_t j = 0; j < turned.size(); ++j) turned[j] += part * (goal[j] - turned[j]);

@@ -52,7 +52,7 @@ ShapeFamily MakeSheet(double length, double width, int nx, int ny) {
 ShapeFamily MakeStrip(double side, double width, int triangles) {
   internal::CheckLength("side", side);
   internal::CheckLength("width", width);
-  if (side > 1e4 * width) throw InvalidOptions("side: must be at most 10000 times the width");
+  if (side > 1e4 * width) throw InvalidOptions("side", "must be at most 10000 times the width");
   internal::CheckCount("triangles", triangles, 2);
   internal::CheckTriangles(triangles);
 

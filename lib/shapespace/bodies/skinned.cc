@@ -38,7 +38,7 @@ SkinnedBody MakeSkinnedBody(const std::string& name, int triangles,
     }
     known += (known.empty() ? "" : ", ") + info.name;
   }
-  throw InvalidOptions("name: no body with bones is called '" + name + "'; known are " + known);
+  throw InvalidOptions("name", "no body with bones is called '" + name + "'; known are " + known);
 }
 
 }  // namespace shapespace

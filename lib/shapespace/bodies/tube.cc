@@ -196,10 +196,10 @@ void TubeForm::Validate() const {
   const auto [least, most] = std::minmax({length, base_radius, tip_radius});
   // Larger ratios are useless and near the limit where cumulated lengths lose small ones.
   if (most > 1e4 * least) {
-    throw InvalidOptions("length: the length and the radii may differ by a factor of 10000");
+    throw InvalidOptions("length", "the length and the radii may differ by a factor of 10000");
   }
   if (!(knuckle >= 0 && knuckle <= most)) {
-    throw InvalidOptions("knuckle: must be in [0, the largest of length and radii]");
+    throw InvalidOptions("knuckle", "must be in [0, the largest of length and radii]");
   }
 }
 

@@ -77,7 +77,7 @@ class FindingPolicy {
   template <typename E>
   void Enforce(const std::vector<Finding>& findings) {
     constexpr int kMaxReported = 3;
-    std::string refusal;
+    std::string refusal, option;
     int reported = 0;
     for (const Finding& finding : findings) {
       const bool fatal =
@@ -85,11 +85,12 @@ class FindingPolicy {
           (finding.severity == Severity::kNonManifold && !options_.allow_nonmanifold);
       if (fatal && reported++ < kMaxReported) {
         refusal += (refusal.empty() ? "" : "\n") + finding.message;
+        option = finding.option;
       } else if (!fatal && finding.severity != Severity::kNote) {
         warnings_->push_back(finding.message);
       }
     }
-    if (!refusal.empty()) throw E(refusal);
+    if (!refusal.empty()) throw E(refusal, option);
   }
 
  private:
@@ -157,7 +158,7 @@ Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format) 
 
 bool MirrorBack(const Soup& reference, char axis, Soup* pose) {
   if (axis < 'x' || axis > 'z') {
-    throw InvalidOptions(std::string("mirror: '") + axis + "' is not one of x, y and z");
+    throw InvalidOptions("mirror", std::string("'") + axis + "' is not one of x, y and z");
   }
   if (pose->NumVertices() != reference.NumVertices()) return false;
   internal::CheckPolygons(reference.NumVertices(), reference.polygon_begin, reference.corners);

@@ -375,7 +375,7 @@ std::vector<Collapse> PlanCollapses(const Connectivity& connectivity,
   }
   for (int v : pinned) {
     if (v < 0 || v >= connectivity.NumVertices()) {
-      throw InvalidOptions("pinned: " + std::to_string(v) + " is not a vertex of the mesh");
+      throw InvalidOptions("pinned", std::to_string(v) + " is not a vertex of the mesh");
     }
   }
   if (triangles >= connectivity.NumTriangles()) return {};

@@ -52,7 +52,7 @@ std::shared_ptr<const Connectivity> Collapsed(const Connectivity& mesh,
 }  // namespace
 
 void HierarchyOptions::Validate() const {
-  if (coarsest < 4) throw InvalidOptions("coarsest: must be 4 triangles or more");
+  if (coarsest < 4) throw InvalidOptions("coarsest", "must be 4 triangles or more");
 }
 
 Hierarchy::Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,

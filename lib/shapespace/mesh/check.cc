@@ -29,7 +29,7 @@ using internal::VertexName;
 
 using Findings = std::vector<Finding>;
 
-constexpr char kAllow[] = "repair the mesh, or pass --allow_nonmanifold";
+constexpr char kAllow[] = "repair the mesh, or allow it";
 
 void CheckDegenerate(const Soup& soup, Findings* findings) {
   Named repeated, points;
@@ -97,7 +97,7 @@ void CheckManifold(const Soup& soup, const Sides& sides, Findings* findings) {
              kAllow, findings);
   winding.Tell(soup, Severity::kNonManifold, "inconsistent-winding",
                "edges whose two polygons have inconsistent orientation",
-               "recompute the orientation of the polygons, or pass --allow_nonmanifold", findings);
+               "recompute the orientation of the polygons, or allow it", findings);
   vertices.Tell(soup, Severity::kNonManifold, "non-manifold-vertex",
                 "vertices at which separate parts of the surface touch", kAllow, findings);
 }

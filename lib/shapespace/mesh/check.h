@@ -20,6 +20,8 @@ struct Finding {
   Severity severity;
   std::string kind;     ///< a stable key, e.g. "non-manifold-edge"; docs/checks.md lists them all
   std::string message;  ///< file, line, element, count and remedy
+  /// The field of `ReadOptions` that accepts or mends this; empty if there is none.
+  std::string option = {};
 };
 
 /// All findings about one mesh, in order of descending severity.

@@ -53,9 +53,11 @@ class Comparison {
   }
 
  private:
-  void Tell(Severity severity, const char* kind, const std::string& what) {
-    findings_->push_back(
-        {severity, kind, FileName(pose_) + " against " + FileName(reference_) + ": " + what});
+  void Tell(Severity severity, const char* kind, const std::string& what,
+            const std::string& option = {}) {
+    findings_->push_back({severity, kind,
+                          FileName(pose_) + " against " + FileName(reference_) + ": " + what,
+                          option});
   }
 
   bool CountsAgree() {
@@ -201,8 +203,8 @@ class Comparison {
     if (!IsMirrored(triangles, reference_.vertices, pose_.vertices)) return;
     Tell(Severity::kFatal, "mirrored",
          "the body is a mirror image of the reference: what is inside there is outside here; "
-         "export both in the same coordinate system, or pass --mirror x (y, z) to flip that "
-         "coordinate");
+         "export both in the same coordinate system, or have one coordinate flipped",
+         "mirror");
   }
 
   /// Root mean square distance from the centroid, over the vertices that have edges.

@@ -86,7 +86,8 @@ void FillValues(const Feature& feature, double* result, const Evaluate& evaluate
 FeatureMap::FeatureMap(std::shared_ptr<const Metric> metric) : metric_(std::move(metric)) {
   if (metric_->rigid.Active()) {
     throw InvalidOptions(
-        "rigid: the rigid metric is no feature map, so it has no exponential map, parallel "
+        "rigid",
+        "the rigid metric is no feature map, so it has no exponential map, parallel "
         "transport or deformation transfer; use rigid 0");
   }
   auto layout =

@@ -54,8 +54,8 @@ void Register(const std::string& name, const std::type_info& type, FeatureKind k
   const std::lock_guard<std::mutex> lock(registry.mutex);
   const auto found = registry.entries.find(name);
   if (found != registry.entries.end() && found->second.type != std::type_index(type)) {
-    throw InvalidOptions("feature " + name +
-                         ": a feature of another type has that name; choose another kName");
+    throw InvalidOptions("feature " + name,
+                         "a feature of another type has that name; choose another kName");
   }
   registry.entries.insert_or_assign(name, Entry{type, std::move(kind)});
 }
@@ -65,36 +65,36 @@ FeatureKind FindFeature(const std::string& name) {
   const std::lock_guard<std::mutex> lock(registry.mutex);
   const auto found = registry.entries.find(name);
   if (found == registry.entries.end()) {
-    throw InvalidOptions("feature " + name +
-                         ": is not known to this program; a program that defines it calls "
+    throw InvalidOptions("feature " + name,
+                         "is not known to this program; a program that defines it calls "
                          "RegisterFeature first (shapespace/metric/define_feature.h)");
   }
   return found->second.kind;
 }
 
 void CheckFeature(const Feature& feature, int num_vertices) {
-  const std::string name = "feature " + feature.Name() + ": ";
+  const std::string name = "feature " + feature.Name();
   for (int e = 0; e < feature.NumElements(); ++e) {
     for (int k = 0; k < feature.VerticesPerElement(); ++k) {
       const int v = feature.Element(e)[k];
       if (v < 0 || v >= num_vertices) {
-        throw InvalidOptions(name + "element " + std::to_string(e) + " has vertex " +
-                             std::to_string(v) + ", which is not one of the mesh's " +
-                             std::to_string(num_vertices));
+        throw InvalidOptions(name, "element " + std::to_string(e) + " has vertex " +
+                                       std::to_string(v) + ", which is not one of the mesh's " +
+                                       std::to_string(num_vertices));
       }
     }
   }
   const Eigen::VectorXd& weights = feature.Weights();
   const int wanted = feature.IsSum() ? 1 : feature.NumElements();
   if (weights.size() != wanted) {
-    throw InvalidOptions(name + "has " + std::to_string(weights.size()) + " weights, its " +
-                         (feature.IsSum() ? "sum needs " : "elements need ") +
-                         std::to_string(wanted));
+    throw InvalidOptions(name, "has " + std::to_string(weights.size()) + " weights, its " +
+                                   (feature.IsSum() ? "sum needs " : "elements need ") +
+                                   std::to_string(wanted));
   }
   for (int e = 0; e < weights.size(); ++e) {
     if (!(weights(e) >= 0) || !std::isfinite(weights(e))) {
-      throw InvalidOptions(name + "weight " + std::to_string(e) +
-                           " is not a number of zero or more");
+      throw InvalidOptions(name,
+                           "weight " + std::to_string(e) + " is not a number of zero or more");
     }
   }
 }

@@ -14,15 +14,14 @@ namespace {
 
 void CheckNonNegative(double value, const char* field) {
   if (!(value >= 0) || !std::isfinite(value)) {
-    throw InvalidOptions(std::string(field) + ": must be a number, zero or more");
+    throw InvalidOptions(field, "must be a number, zero or more");
   }
 }
 
 void CheckStiffness(const Eigen::VectorXd& field, const char* name) {
   for (int i = 0; i < field.size(); ++i) {
     if (!(field(i) > 0) || !std::isfinite(field(i))) {
-      throw InvalidOptions(std::string(name) + ": entry " + std::to_string(i) +
-                           " is not a positive number");
+      throw InvalidOptions(name, "entry " + std::to_string(i) + " is not a positive number");
     }
   }
 }
@@ -84,8 +83,8 @@ void MetricOptions::Validate() const {
     own += term.coefficient;
   }
   if (isometric + strain + rigid + lambda + own == 0) {
-    throw InvalidOptions(
-        "isometric, strain, rigid, lambda: all zero, so motion costs nothing; set one");
+    throw InvalidOptions({"isometric", "strain", "rigid", "lambda"},
+                         "all zero, so motion costs nothing; set one");
   }
   CheckStiffness(stretching_stiffness, "stretching_stiffness");
   CheckStiffness(bending_stiffness, "bending_stiffness");

@@ -114,11 +114,11 @@ Eigen::VectorXd CheckedStiffness(const Eigen::VectorXd& field, StiffnessOn on, c
   if (field.size() == 0) return Eigen::VectorXd::Ones(connectivity.NumEdges());
   const bool on_vertices = on == StiffnessOn::kVertices;
   if (field.size() != (on_vertices ? connectivity.NumVertices() : connectivity.NumEdges())) {
-    throw InvalidOptions(std::string(name) + ": has " + std::to_string(field.size()) +
-                         " numbers; the mesh has " + std::to_string(connectivity.NumVertices()) +
-                         " vertices and " + std::to_string(connectivity.NumEdges()) +
-                         " edges, and stiffness_on says that the numbers belong to " +
-                         (on_vertices ? "vertices" : "edges"));
+    throw InvalidOptions(name, "has " + std::to_string(field.size()) + " numbers; the mesh has " +
+                                   std::to_string(connectivity.NumVertices()) + " vertices and " +
+                                   std::to_string(connectivity.NumEdges()) +
+                                   " edges, and stiffness_on says that the numbers belong to " +
+                                   (on_vertices ? "vertices" : "edges"));
   }
   return EdgeStiffness(field, on, connectivity);
 }

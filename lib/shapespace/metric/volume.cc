@@ -12,7 +12,8 @@ VolumeFeature VolumeFeature::Freeze(const MetricBasis& basis) {
   const Eigen::Matrix3Xi& triangles = basis.connectivity->Triangles();
   if (!IsClosed(triangles)) {
     throw InvalidOptions(
-        "volume: the mesh is not closed, so it encloses no volume; use volume 0, or fill its "
+        "volume",
+        "the mesh is not closed, so it encloses no volume; use volume 0, or fill its "
         "holes");
   }
   VolumeFeature feature;
@@ -22,7 +23,7 @@ VolumeFeature VolumeFeature::Freeze(const MetricBasis& basis) {
     volume += EnclosedVolume(triangles, pose) / basis.poses.size();
   }
   if (std::abs(volume) < MetricBasis::kCollapsed) {
-    throw InvalidOptions("volume: the mesh encloses no volume; use volume 0");
+    throw InvalidOptions("volume", "the mesh encloses no volume; use volume 0");
   }
   feature.reference = std::abs(volume);
   feature.weights = Eigen::VectorXd::Ones(1);

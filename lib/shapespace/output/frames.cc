@@ -26,7 +26,7 @@ void WriteFrames(const std::string& pattern, const std::vector<Shape>& shapes, c
                  const std::vector<Eigen::MatrixXd>& colours) {
   FrameName(pattern, 0);  // throws before anything is written
   if (!colours.empty() && colours.size() != shapes.size()) {
-    throw InvalidOptions("colours: there must be as many as shapes");
+    throw InvalidOptions("colours", "there must be as many as shapes");
   }
   ParallelFor(static_cast<int>(shapes.size()), [&](int i) {
     WriteMesh(FrameName(pattern, i), shapes[i],

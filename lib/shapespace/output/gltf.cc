@@ -18,10 +18,12 @@
 #include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/atomic_file.h>
+#include <shapespace/base/internal/check_range.h>
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/base/internal/within_folder.h>
 #include <shapespace/files/internal/tinygltf.h>
 #include <shapespace/mesh/internal/geometry.h>
+#include <shapespace/mesh/surface.h>
 #include <shapespace/output/internal/colour.h>
 #include <shapespace/output/internal/key_shapes.h>
 #include <shapespace/output/internal/legend.h>
@@ -57,13 +59,6 @@ constexpr double kMaxBytes = 4.2e9;
 
 // The largest 16-bit index for viewers; the next one has a special meaning for GPUs.
 constexpr int kLargestShortIndex = 65534;
-
-void CheckRange(const char* field, double value, double least, double most) {
-  if (value >= least && value <= most) return;
-  std::ostringstream message;
-  message << field << ": must be from " << least << " to " << most;
-  throw InvalidOptions(message.str());
-}
 
 void CheckPath(const std::string& file, const Path& path) {
   try {
@@ -104,19 +99,11 @@ bool IsFaceted(const Connectivity& connectivity, const std::vector<Shape>& shape
   return 2 * sharp > bent;
 }
 
+// The normals of vertices without area are arbitrary unit vectors, because the format requires one.
 Eigen::Matrix3Xd SmoothNormals(const Connectivity& connectivity, const Shape& shape) {
-  const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
-  Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, shape.cols());
-  for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
-    const auto corner = [&](int k) { return shape.col(triangles(k, f)); };
-    const Eigen::Vector3d normal = internal::AreaNormal(corner(0), corner(1), corner(2));
-    for (int k = 0; k < 3; ++k) normals.col(triangles(k, f)) += normal;
-  }
-  for (Eigen::Index v = 0; v < normals.cols(); ++v) {
-    // If no triangle has an area, an arbitrary unit vector, because the format requires one.
-    const double length = normals.col(v).stableNorm();
-    normals.col(v) =
-        length > 0 ? Eigen::Vector3d(normals.col(v) / length) : Eigen::Vector3d::UnitY();
+  Eigen::Matrix3Xd normals = VertexNormals(connectivity, shape);
+  for (auto normal : normals.colwise()) {
+    if (normal.isZero(0)) normal = Eigen::Vector3d::UnitY();
   }
   return normals;
 }
@@ -470,14 +457,14 @@ std::vector<Part> PartsByMaterial(const Connectivity& connectivity, const intern
 }  // namespace
 
 void GltfOptions::Validate() const {
-  CheckRange("duration", duration, 0.1, 3600);
-  if (fps != 0) CheckRange("fps", fps, 0.01, 1000);
+  internal::CheckRange("duration", duration, 0.1, 3600.0);
+  if (fps != 0) internal::CheckRange("fps", fps, 0.01, 1000.0);
   if (up != 'y' && up != 'z') {
-    throw InvalidOptions(std::string("up: '") + up + "' is neither 'y' nor 'z'");
+    throw InvalidOptions("up", std::string("'") + up + "' is neither 'y' nor 'z'");
   }
-  CheckRange("unit", unit, 1e-12, 1e12);
+  internal::CheckRange("unit", unit, 1e-12, 1e12);
   if (colour_by_deviation && groups.size() != 0) {
-    throw InvalidOptions("groups: not together with colour_by_deviation");
+    throw InvalidOptions("groups", "not together with colour_by_deviation");
   }
 }
 
@@ -488,9 +475,9 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   const bool by_group = options.groups.size() != 0;
   const auto check_count = [&](const char* field, Eigen::Index count) {
     if (count != 0 && count != connectivity.NumVertices()) {
-      throw InvalidOptions(std::string(field) + ": given for " + std::to_string(count) +
-                           " vertices, but there are " +
-                           std::to_string(connectivity.NumVertices()));
+      throw InvalidOptions(field, "given for " + std::to_string(count) +
+                                      " vertices, but there are " +
+                                      std::to_string(connectivity.NumVertices()));
     }
   };
   check_count("reference", options.reference.cols());

@@ -64,15 +64,16 @@ struct MakeElement {
 
 void WritePage(const std::string& file, const std::string& page_template,
                const std::vector<PageScene>& scenes) {
-  if (scenes.empty() || scenes.size() > 2) throw InvalidOptions("scenes: there must be one or two");
+  if (scenes.empty() || scenes.size() > 2)
+    throw InvalidOptions("scenes", "there must be one or two");
   for (const PageScene& scene : scenes) {
     if (scenes.size() == 2 && std::holds_alternative<PageSpace>(scene)) {
-      throw InvalidOptions("scenes: a space is shown alone");
+      throw InvalidOptions("scenes", "a space is shown alone");
     }
   }
   const size_t mark = page_template.find(kMark);
   if (mark == std::string::npos || page_template.find(kMark, mark + 1) != std::string::npos) {
-    throw InvalidOptions("page_template: is not the viewer that ./dev viewer builds");
+    throw InvalidOptions("page_template", "is not the viewer that ./dev viewer builds");
   }
   std::string elements;
   for (const PageScene& scene : scenes) elements += std::visit(MakeElement(), scene);

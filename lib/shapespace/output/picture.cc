@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/check_range.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/output/internal/frame.h>
 #include <shapespace/output/internal/key_shapes.h>
@@ -39,13 +40,6 @@ constexpr double kLargestValue = 1e6;
 // Directions nearer to each other than this (sine of the angle) do not define a picture plane.
 constexpr double kParallel = 1e-6;
 
-void CheckRange(const char* field, int value, int least, int most) {
-  if (value < least || value > most) {
-    throw InvalidOptions(std::string(field) + ": " + std::to_string(value) + " is not in " +
-                         std::to_string(least) + " .. " + std::to_string(most));
-  }
-}
-
 bool Parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return a.stableNormalized().cross(b.stableNormalized()).norm() < kParallel;
 }
@@ -71,8 +65,8 @@ void CheckInput(const Connectivity& connectivity, const std::vector<Shape>& shap
   }
   const auto check_count = [&](const char* field, size_t count) {
     if (count != 0 && count != shapes.size()) {
-      throw InvalidOptions(std::string(field) + ": given for " + std::to_string(count) +
-                           " shapes, but there are " + std::to_string(shapes.size()));
+      throw InvalidOptions(field, "given for " + std::to_string(count) + " shapes, but there are " +
+                                      std::to_string(shapes.size()));
     }
   };
   check_count("roles", options.roles.size());
@@ -80,34 +74,34 @@ void CheckInput(const Connectivity& connectivity, const std::vector<Shape>& shap
   check_count("values", options.values.size());
   if (options.marks.size() != 0) {
     if (options.marks.size() != connectivity.NumVertices()) {
-      throw InvalidOptions("marks: given for " + std::to_string(options.marks.size()) +
-                           " vertices, but there are " +
-                           std::to_string(connectivity.NumVertices()));
+      throw InvalidOptions("marks", "given for " + std::to_string(options.marks.size()) +
+                                        " vertices, but there are " +
+                                        std::to_string(connectivity.NumVertices()));
     }
     if ((options.marks.array() < 0).any() || (options.marks.array() > 2).any()) {
-      throw InvalidOptions("marks: must be 0, 1 or 2");
+      throw InvalidOptions("marks", "must be 0, 1 or 2");
     }
   }
   if (options.groups.size() != 0) {
-    if (!options.values.empty()) throw InvalidOptions("groups: not together with values");
+    if (!options.values.empty()) throw InvalidOptions("groups", "not together with values");
     if (options.groups.size() != connectivity.NumVertices()) {
-      throw InvalidOptions("groups: given for " + std::to_string(options.groups.size()) +
-                           " vertices, but there are " +
-                           std::to_string(connectivity.NumVertices()));
+      throw InvalidOptions("groups", "given for " + std::to_string(options.groups.size()) +
+                                         " vertices, but there are " +
+                                         std::to_string(connectivity.NumVertices()));
     }
   }
   if (options.values.empty()) return;
   for (size_t i = 0; i < shapes.size(); ++i) {
     const Eigen::VectorXd& values = options.values[i];
     if (values.size() != connectivity.NumVertices()) {
-      throw InvalidOptions("values: " + std::to_string(values.size()) + " for shape " +
-                           std::to_string(i) + ", which has " +
-                           std::to_string(connectivity.NumVertices()) + " vertices");
+      throw InvalidOptions("values", std::to_string(values.size()) + " for shape " +
+                                         std::to_string(i) + ", which has " +
+                                         std::to_string(connectivity.NumVertices()) + " vertices");
     }
     for (Eigen::Index v = 0; v < values.size(); ++v) {
       if (!std::isfinite(values[v])) {
-        throw InvalidOptions("values: not finite for shape " + std::to_string(i) + ", vertex " +
-                             std::to_string(v));
+        throw InvalidOptions("values", "not finite for shape " + std::to_string(i) + ", vertex " +
+                                           std::to_string(v));
       }
     }
   }
@@ -241,13 +235,13 @@ RgbImage Blank(int width, int height) {
 }  // namespace
 
 void FilmStripOptions::Validate() const {
-  CheckRange("frame_width", frame_width, 16, 2048);
-  CheckRange("max_frames", max_frames, 2, 1000);
-  CheckRange("samples", samples, 1, 16);
-  if (!view.allFinite()) throw InvalidOptions("view: not finite");
-  if (!up.allFinite()) throw InvalidOptions("up: not finite");
+  internal::CheckRange("frame_width", frame_width, 16, 2048);
+  internal::CheckRange("max_frames", max_frames, 2, 1000);
+  internal::CheckRange("samples", samples, 1, 16);
+  if (!view.allFinite()) throw InvalidOptions("view", "not finite");
+  if (!up.allFinite()) throw InvalidOptions("up", "not finite");
   if (!view.isZero(0) && !up.isZero(0) && Parallel(view, up)) {
-    throw InvalidOptions("up: parallel to view; give another, or none");
+    throw InvalidOptions("up", "parallel to view; give another, or none");
   }
   internal::CheckText("legend", legend);
   internal::CheckText("title", title);
@@ -298,10 +292,11 @@ RgbImage RenderFilmStrip(const Connectivity& connectivity, const std::vector<Sha
   const int width = std::max({columns * camera.width, legend.width, title_width});
   const int height = strip_height + legend.height;
   if (static_cast<double>(width) * height > kMaxPixels) {
-    throw InvalidOptions("frame_width: " + std::to_string(frames) + " frames of " +
-                         std::to_string(options.frame_width) +
-                         " pixels make a picture of more than 100 million pixels; lower it or "
-                         "max_frames");
+    throw InvalidOptions("frame_width",
+                         std::to_string(frames) + " frames of " +
+                             std::to_string(options.frame_width) +
+                             " pixels make a picture of more than 100 million pixels; lower it or "
+                             "max_frames");
   }
   RgbImage image = Blank(width, height);
   internal::DrawText(&image, kTextMargin, kTextMargin, options.title);

@@ -41,7 +41,7 @@ bool IsPointCache(const std::string& file) {
 }
 
 void WritePointCache(const std::string& file, const std::vector<Shape>& shapes, double fps) {
-  if (!(fps >= 0.01 && fps <= 1000)) throw InvalidOptions("fps: must be from 0.01 to 1000");
+  if (!(fps >= 0.01 && fps <= 1000)) throw InvalidOptions("fps", "must be from 0.01 to 1000");
   if (!IsPointCache(file)) {
     throw FileError(file + ": a point cache must end in .pc2 or .mdd; rename it");
   }

@@ -98,11 +98,11 @@ PlacedPart WantedAt(double parameter, const std::vector<PlacedPart>& poses,
 }
 
 void CheckVertices(const std::vector<int>& vertices, int count) {
-  if (vertices.empty()) throw InvalidOptions("vertices: at least one is needed");
+  if (vertices.empty()) throw InvalidOptions("vertices", "at least one is needed");
   for (const int v : vertices) {
     if (v >= 0 && v < count) continue;
-    throw InvalidOptions("vertices: " + std::to_string(v) + " is not in 0 .. " +
-                         std::to_string(count - 1));
+    throw InvalidOptions("vertices",
+                         "" + std::to_string(v) + " is not in 0 .. " + std::to_string(count - 1));
   }
 }
 
@@ -133,9 +133,9 @@ void Anchor(const Path& whole, const std::vector<int>& vertices, Path* path) {
 }
 
 void Ground(Path* path, int axis, double height) {
-  if (axis < 0 || axis > 2) throw InvalidOptions("axis: must be 0, 1 or 2, for x, y or z");
+  if (axis < 0 || axis > 2) throw InvalidOptions("axis", "must be 0, 1 or 2, for x, y or z");
   if (!(std::abs(height) <= kLargestCoordinate)) {
-    throw InvalidOptions("height: must be a number of magnitude 1e60 at most");
+    throw InvalidOptions("height", "must be a number of magnitude 1e60 at most");
   }
   const Connectivity& connectivity = *path->metric->connectivity;
   std::vector<bool> is_used(connectivity.NumVertices(), false);

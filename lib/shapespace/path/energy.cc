@@ -65,7 +65,7 @@ struct PathEnergy::Term {
 
 PathEnergy::PathEnergy(std::shared_ptr<const Metric> metric, int inner, End end)
     : metric_(std::move(metric)), end_(end), inner_(inner), stride_(PaddedLength(inner)) {
-  if (inner < 1) throw InvalidOptions("inner: a path energy needs at least one inner shape");
+  if (inner < 1) throw InvalidOptions("inner", "a path energy needs at least one inner shape");
   vertex_of_row_ = BreadthFirstOrder(*metric_->connectivity);
   const int num_vertices = static_cast<int>(vertex_of_row_.size());
   row_of_vertex_.resize(num_vertices);

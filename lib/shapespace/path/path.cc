@@ -26,11 +26,11 @@ void CheckTimes(const std::vector<double>& times, double first, double last) {
     const bool inside = times[k] >= first && times[k] <= last;
     if (inside && (k == 0 || times[k] > times[k - 1])) continue;
     std::ostringstream message;
-    message << "times: " << times[k]
+    message << times[k]
             << (inside ? " does not rise above the one before" : " is not on the path, which runs")
             << (inside ? "" : " from ");
     if (!inside) message << first << " to " << last;
-    throw InvalidOptions(message.str());
+    throw InvalidOptions("times", message.str());
   }
 }
 
@@ -108,7 +108,7 @@ Path MakePath(const std::shared_ptr<const Metric>& metric, const std::vector<Sha
 std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<double>& parameters,
                             const std::vector<double>& times) {
   if (shapes.empty() || parameters.size() != shapes.size() || !Rise(parameters)) {
-    throw InvalidOptions("parameters: must rise, one for each shape, of which there must be one");
+    throw InvalidOptions("parameters", "must rise, one for each shape, of which there must be one");
   }
   CheckTimes(times, parameters.front(), parameters.back());
   const int count = static_cast<int>(shapes.size());
@@ -136,7 +136,7 @@ std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<
 }
 
 Path Resample(const Path& path, const std::vector<double>& times) {
-  if (times.empty()) throw InvalidOptions("times: at least one is needed");
+  if (times.empty()) throw InvalidOptions("times", "at least one is needed");
   CheckTimes(times, path.parameters.front(), path.parameters.back());
   Path result;
   result.metric = path.metric;
@@ -182,8 +182,8 @@ Path Resample(const Path& path, const std::vector<double>& times) {
 
 Path FirstShapes(const Path& path, int count) {
   if (count < 1 || count > path.NumShapes()) {
-    throw InvalidOptions("count: must be 1 to " + std::to_string(path.NumShapes()) +
-                         ", the number of shapes");
+    throw InvalidOptions(
+        "count", "must be 1 to " + std::to_string(path.NumShapes()) + ", the number of shapes");
   }
   Path result = path;
   result.shapes.resize(count);

@@ -342,14 +342,14 @@ void Warn(const CorrespondenceOptions& options, const std::vector<Correspondence
 
 void CorrespondenceOptions::Validate() const {
   if (!(proportions > 0) || !(proportions <= 10)) {
-    throw InvalidOptions("proportions: must be above 0 and at most 10");
+    throw InvalidOptions("proportions", "must be above 0 and at most 10");
   }
   if (!(bending >= 0) || !(bending <= 1e6)) {
-    throw InvalidOptions("bending: must be from 0 to 1e6");
+    throw InvalidOptions("bending", "must be from 0 to 1e6");
   }
   internal::CheckTolerance(tolerance);
   internal::CheckMaxIterations(max_iterations);
-  if (coarsest < 1) throw InvalidOptions("coarsest: must be 1 or more");
+  if (coarsest < 1) throw InvalidOptions("coarsest", "must be 1 or more");
   internal::CheckMemoryLimit(memory_limit);
 }
 

@@ -54,14 +54,14 @@ void DeformationOptions::Validate() const {
   if (metric) {
     metric->Validate();
     if (metric->rigid > 0) {
-      throw InvalidOptions("rigid: a deformation takes no rigid metric; use rigid 0");
+      throw InvalidOptions("rigid", "a deformation takes no rigid metric; use rigid 0");
     }
     if (metric->discretization != Discretization::kMidpoint) {
-      throw InvalidOptions("discretization: a deformation takes the midpoint form only");
+      throw InvalidOptions("discretization", "a deformation takes the midpoint form only");
     }
   }
-  if (shapes < 1) throw InvalidOptions("shapes: must be 1 or more");
-  if (!(balance > 0) || !(balance <= 1)) throw InvalidOptions("balance: must be in (0, 1]");
+  if (shapes < 1) throw InvalidOptions("shapes", "must be 1 or more");
+  if (!(balance > 0) || !(balance <= 1)) throw InvalidOptions("balance", "must be in (0, 1]");
   internal::CheckTolerance(tolerance);
   internal::CheckMaxIterations(max_iterations);
   HierarchyOptions{coarsest, {}}.Validate();

@@ -63,8 +63,8 @@ RepairResult Repair(const std::shared_ptr<const Connectivity>& connectivity, con
   }
   for (int v : pose.vertices) {
     if (v < 0 || v >= connectivity->NumVertices()) {
-      throw InvalidOptions("vertices: " + std::to_string(v) + " is not in 0 .. " +
-                           std::to_string(connectivity->NumVertices() - 1));
+      throw InvalidOptions("vertices", "" + std::to_string(v) + " is not in 0 .. " +
+                                           std::to_string(connectivity->NumVertices() - 1));
     }
   }
   pose.positions = distorted(Eigen::all, pose.vertices);

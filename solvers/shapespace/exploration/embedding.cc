@@ -15,9 +15,9 @@ void CheckDistances(const Eigen::MatrixXd& distances) {
                     distances.allFinite() && distances.minCoeff() >= 0 &&
                     distances.diagonal().isZero(0) && distances == distances.transpose();
   if (!fits) {
-    throw InvalidOptions(
-        "distances: must be a square matrix, symmetric, finite, not negative and zero on its "
-        "diagonal");
+    throw InvalidOptions("distances",
+                         "must be a square matrix, symmetric, finite, not negative and zero on its "
+                         "diagonal");
   }
 }
 

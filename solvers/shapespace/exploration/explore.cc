@@ -207,15 +207,15 @@ GeodesicOptions ExploreOptions::Defaults() {
 void ExploreOptions::Validate() const {
   geodesic.Validate();
   embedding.Validate();
-  if (geodesic.shapes % 2 == 0) throw InvalidOptions("shapes: must be odd, to have one half way");
+  if (geodesic.shapes % 2 == 0) throw InvalidOptions("shapes", "must be odd, to have one half way");
   if (geodesic.metric.rigid > 0) {
-    throw InvalidOptions("rigid: under the rigid metric paths have no length; use 0");
+    throw InvalidOptions("rigid", "under the rigid metric paths have no length; use 0");
   }
-  if (resolution < 0) throw InvalidOptions("resolution: must be 0 or more triangles");
+  if (resolution < 0) throw InvalidOptions("resolution", "must be 0 or more triangles");
   if (!(threshold > 0) || !std::isfinite(threshold)) {
-    throw InvalidOptions("threshold: must be a positive share");
+    throw InvalidOptions("threshold", "must be a positive share");
   }
-  if (depth < 0 || depth > 10) throw InvalidOptions("depth: must be from 0 to 10");
+  if (depth < 0 || depth > 10) throw InvalidOptions("depth", "must be from 0 to 10");
 }
 
 Eigen::MatrixXd DistanceMatrix(const std::shared_ptr<const Connectivity>& connectivity,
@@ -236,7 +236,7 @@ ExploreResult Explore(const std::shared_ptr<const Connectivity>& connectivity,
   if (names.empty()) {
     for (size_t i = 0; i < poses.size(); ++i) names.push_back("pose " + std::to_string(i));
   }
-  if (names.size() != poses.size()) throw InvalidOptions("names: must be one for each pose");
+  if (names.size() != poses.size()) throw InvalidOptions("names", "must be one for each pose");
   ProcessPool alone;
   if (crew == nullptr) crew = &alone;
   const internal::Stopwatch total;
@@ -292,7 +292,7 @@ BlendErrors MeasureBlends(const PoseSpace& space, int samples, const ExploreOpti
   ExploreOptions options = given;
   options.geodesic.metric = space.metric->options;
   options.Validate();
-  if (samples < 1) throw InvalidOptions("samples: must be 1 or more");
+  if (samples < 1) throw InvalidOptions("samples", "must be 1 or more");
   ProcessPool alone;
   std::vector<Shape> poses;
   for (int i = 0; i < space.NumPoses(); ++i) poses.push_back(space.metric->unit * space.nodes[i]);

@@ -36,7 +36,7 @@ Shape BlendNodes(const std::vector<Shape>& nodes, const PlaneLocation& location,
 }
 
 PlaneLocation PoseSpace::Locate(const Eigen::Vector2d& point) const {
-  if (!point.allFinite()) throw InvalidOptions("point: must be two finite numbers");
+  if (!point.allFinite()) throw InvalidOptions("point", "must be two finite numbers");
   // Tolerance for negative barycentric coordinates due to rounding.
   constexpr double kRounding = 1e-12;
   PlaneLocation best;
@@ -122,14 +122,15 @@ void PoseSpace::Validate() const {
 
 PlaneWalk WalkAlong(const PoseSpace& space, const std::vector<Eigen::Vector2d>& polyline,
                     int frames) {
-  if (polyline.empty()) throw InvalidOptions("points: the curve has none");
-  if (frames < 1) throw InvalidOptions("frames: must be 1 or more");
+  if (polyline.empty()) throw InvalidOptions("points", "the curve has none");
+  if (frames < 1) throw InvalidOptions("frames", "must be 1 or more");
   std::vector<double> length = {0};  // cumulative, at each point
   for (size_t i = 0; i < polyline.size(); ++i) {
-    if (!polyline[i].allFinite()) throw InvalidOptions("points: one is not finite");
+    if (!polyline[i].allFinite()) throw InvalidOptions("points", "one is not finite");
     if (i > 0) length.push_back(length.back() + (polyline[i] - polyline[i - 1]).stableNorm());
   }
-  if (!std::isfinite(length.back())) throw InvalidOptions("points: the curve has no finite length");
+  if (!std::isfinite(length.back()))
+    throw InvalidOptions("points", "the curve has no finite length");
   PlaneWalk walk;
   walk.path.metric = space.metric;
   walk.path.appearance = space.appearance;

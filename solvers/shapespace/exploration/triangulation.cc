@@ -51,10 +51,10 @@ Eigen::Matrix3Xi Delaunay(const Eigen::Matrix2Xd& points, const std::vector<int>
 }  // namespace
 
 Triangulation DelaunayTriangulation(const Eigen::Matrix2Xd& points) {
-  if (!points.allFinite()) throw InvalidOptions("points: one is not finite");
+  if (!points.allFinite()) throw InvalidOptions("points", "one is not finite");
   Triangulation result;
   const int count = static_cast<int>(points.cols());
-  if (count == 0) throw InvalidOptions("points: at least two must differ");
+  if (count == 0) throw InvalidOptions("points", "at least two must differ");
   const double extent = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
   std::vector<int> kept;
   for (int i = 0; i < count; ++i) {
@@ -63,7 +63,7 @@ Triangulation DelaunayTriangulation(const Eigen::Matrix2Xd& points) {
     });
     (coincides ? result.left_out : kept).push_back(i);
   }
-  if (kept.size() < 2) throw InvalidOptions("points: at least two must differ");
+  if (kept.size() < 2) throw InvalidOptions("points", "at least two must differ");
 
   const Eigen::Matrix2Xd centred =
       points(Eigen::all, kept).colwise() - points(Eigen::all, kept).rowwise().mean();

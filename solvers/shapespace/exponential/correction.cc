@@ -16,6 +16,7 @@
 #include <shapespace/numerics/internal/minimise.h>
 #include <shapespace/numerics/internal/preconditioner.h>
 #include <shapespace/numerics/internal/report.h>
+#include <shapespace/numerics/internal/rows.h>
 #include <shapespace/path/energy.h>
 
 namespace shapespace {
@@ -25,8 +26,7 @@ namespace {
 // was left of all paths tried; the paper's energy left 0.06 at most at a tolerance of 1e-3.
 constexpr double kCollapsed = 1.0 / 3;
 
-// Rows per task of a thread.
-constexpr int kRowsPerTask = 512;
+using internal::kRowsPerTask;
 
 // weight * sum_i sum_p A_p |P_i - P_i^given|^2, on the arrays of a path energy.
 class Proximity {
@@ -142,7 +142,7 @@ nlohmann::ordered_json Lengths(const PathQuality& quality) {
 }  // namespace
 
 void CorrectionOptions::Validate() const {
-  if (!(mu >= 0) || !std::isfinite(mu)) throw InvalidOptions("mu: must be 0 or more, and finite");
+  if (!(mu >= 0) || !std::isfinite(mu)) throw InvalidOptions("mu", "must be 0 or more, and finite");
   internal::CheckTolerance(tolerance);
   internal::CheckMaxIterations(max_iterations);
 }

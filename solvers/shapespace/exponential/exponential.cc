@@ -239,7 +239,7 @@ void March(const NextShape& next, int steps, double step, Progress* progress,
 }
 
 void CheckSteps(int steps) {
-  if (steps < 1) throw InvalidOptions("steps: must be 1 or more");
+  if (steps < 1) throw InvalidOptions("steps", "must be 1 or more");
 }
 
 // The energy of segments is constant along a geodesic. If it grows by this factor, the steps are
@@ -268,9 +268,9 @@ void Warn(const Metric& metric, ExponentialSummary* summary) {
         std::to_string(coarse) + of +
         "have no solution on the mesh itself, because some triangles cannot continue their motion: "
         "they were solved on a coarser mesh and lifted with its detail" +
-        (metric.options.strain > 0 ? ""
-                                   : "; under the strain metric (--metric strain where poses are "
-                                     "interpolated) every triangle can continue"));
+        (metric.options.strain > 0
+             ? ""
+             : "; on paths under the metric strain every triangle can continue"));
   }
   if (nearest > 0) {
     warn(std::to_string(nearest) + of +

@@ -127,11 +127,11 @@ void Warn(TransferSummary* summary) {
 void CheckMetric(const MetricOptions& metric) {
   metric.Validate();
   if (metric.rigid > 0) {
-    throw InvalidOptions("metric.rigid: the rigid metric knows no transfer; use 0");
+    throw InvalidOptions("metric.rigid", "the rigid metric knows no transfer; use 0");
   }
   if (metric.discretization != Discretization::kMidpoint) {
-    throw InvalidOptions(
-        "metric.discretization: in trapezoid form nothing can be transferred; use kMidpoint");
+    throw InvalidOptions("metric.discretization",
+                         "in trapezoid form nothing can be transferred; use kMidpoint");
   }
 }
 
@@ -304,7 +304,7 @@ MetricOptions LadderOptions::Strains() {
 void LadderOptions::Validate() const {
   CheckMetric(metric);
   if (rung_shapes < 1 || rung_shapes % 2 == 0) {
-    throw InvalidOptions("rung_shapes: must be odd, 1 or more");
+    throw InvalidOptions("rung_shapes", "must be odd, 1 or more");
   }
   internal::CheckTolerance(tolerance);
 }

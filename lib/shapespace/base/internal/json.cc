@@ -63,7 +63,7 @@ Json ParseJson(const std::string& text) {
   const auto error_here = [&](const std::string& problem) {
     // The parser may have read one byte beyond the error.
     const auto lines = std::count(begin, std::max(begin, reached - 1), '\n');
-    return InvalidOptions("line " + std::to_string(lines + 1) + ": " + problem);
+    return InvalidOptions("line " + std::to_string(lines + 1), problem);
   };
   std::vector<std::set<std::string>> keys;  // of the objects that are being parsed
   const auto look_for_repetitions = [&](int, Json::parse_event_t event, const Json& parsed) {
@@ -89,7 +89,7 @@ std::string Field(const std::string& field, const std::string& key) {
 }
 
 void FailIn(const std::string& field, const std::string& problem) {
-  throw InvalidOptions(field.empty() ? problem : field + ": " + problem);
+  throw InvalidOptions(field, problem);
 }
 
 void CheckKeys(const Json& json, const std::string& field, const std::vector<std::string>& keys) {

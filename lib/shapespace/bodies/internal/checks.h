@@ -20,24 +20,24 @@ constexpr std::int64_t kMaxBodyTriangles = 20'000'000;
 inline void CheckLength(const char* field, double value) {
   if (value >= 1e-100 && value <= 1e100) return;
   std::ostringstream message;
-  message << field << ": " << value << " is not a length; it must be positive and finite";
-  throw InvalidOptions(message.str());
+  message << value << " is not a length; it must be positive and finite";
+  throw InvalidOptions(field, message.str());
 }
 
 /// \throw InvalidOptions if `value` is below `least`.
 inline void CheckCount(const char* field, int value, int least) {
   if (value >= least) return;
   std::ostringstream message;
-  message << field << ": " << value << " is too few; at least " << least << " are needed";
-  throw InvalidOptions(message.str());
+  message << value << " is too few; at least " << least << " are needed";
+  throw InvalidOptions(field, message.str());
 }
 
 /// \throw InvalidOptions if `triangles` is more than `most`.
 inline void CheckTriangles(std::int64_t triangles, std::int64_t most = kMaxBodyTriangles) {
   if (triangles >= 0 && triangles <= most) return;
   std::ostringstream message;
-  message << "triangles: " << triangles << " is outside 0 .. " << most;
-  throw InvalidOptions(message.str());
+  message << triangles << " is outside 0 .. " << most;
+  throw InvalidOptions("triangles", message.str());
 }
 
 /// `body` with a `pose` that rejects values outside of [begin, end]. Values outside by rounding
@@ -48,9 +48,9 @@ inline ShapeFamily WithCheckedRange(ShapeFamily body) {
     const double rounding = 1e-12 * (end - begin);
     if (!(value >= begin - rounding && value <= end + rounding)) {
       std::ostringstream message;
-      message << "parameter: " << value << " is outside " << begin << " .. " << end << ", the "
-              << parameter << ", of body '" << name << "'";
-      throw InvalidOptions(message.str());
+      message << value << " is outside " << begin << " .. " << end << ", the " << parameter
+              << ", of body '" << name << "'";
+      throw InvalidOptions("parameter", message.str());
     }
     return pose(value < begin ? begin : value > end ? end : value);
   };

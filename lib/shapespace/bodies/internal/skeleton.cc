@@ -78,7 +78,7 @@ int Skeleton::Find(const std::string& name) const {
   for (size_t j = 0; j < bones.size(); ++j) {
     if (bones[j].name == name) return static_cast<int>(j);
   }
-  throw InvalidOptions("bone: none is called '" + name + "'");
+  throw InvalidOptions("bone", "none is called '" + name + "'");
 }
 
 std::vector<RoundCone> Skeleton::Cones() const {

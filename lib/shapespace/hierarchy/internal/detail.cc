@@ -18,8 +18,8 @@ constexpr int kVerticesPerTask = 256;
 constexpr double kTurnNothing = 1e-9;
 
 // Barycentric coordinates of the point of triangle (a, b, c) that is closest to p.
-Eigen::Vector3d ClosestPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
-                             const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+Eigen::Vector3d ClosestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                                  const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   // Inside, by the normal equations; else on the nearest side.
   const Eigen::Vector3d e = b - a, f = c - a, d = p - a;
   const double ee = e.squaredNorm(), ef = e.dot(f), ff = f.squaredNorm();
@@ -106,7 +106,7 @@ Carriers FindCarriers(const Connectivity& coarse, const std::vector<int>& kept,
             Eigen::Matrix3d corners;
             for (int k = 0; k < 3; ++k) corners.col(k) = pose.col(kept[triangle(k)]);
             const Eigen::Vector3d weights =
-                ClosestPoint(pose.col(v), corners.col(0), corners.col(1), corners.col(2));
+                ClosestOnTriangle(pose.col(v), corners.col(0), corners.col(1), corners.col(2));
             distance += (corners * weights - pose.col(v)).squaredNorm();
             mean += weights / poses.size();
           }

@@ -64,7 +64,8 @@ class Named {
     if (count_ == 0) return;
     findings->push_back({severity, kind,
                          FileName(soup) + ": " + what + " (" + std::to_string(count_) +
-                             "): " + Names() + "; " + remedy});
+                             "): " + Names() + "; " + remedy,
+                         severity == Severity::kNonManifold ? "allow_nonmanifold" : ""});
   }
 
  private:

@@ -15,13 +15,13 @@ namespace shapespace {
 std::string EncodePng(const RgbImage& image) {
   // The encoder stores sizes in an int.
   if (image.pixels.size() >= static_cast<size_t>(std::numeric_limits<int>::max())) {
-    throw InvalidOptions("image: too large for a PNG");
+    throw InvalidOptions("image", "too large for a PNG");
   }
   if (image.width <= 0 || image.height <= 0 ||
       image.pixels.size() != 3 * static_cast<size_t>(image.width) * image.height) {
-    throw InvalidOptions("image: " + std::to_string(image.pixels.size()) + " bytes are not " +
-                         std::to_string(image.width) + " x " + std::to_string(image.height) +
-                         " pixels of three");
+    throw InvalidOptions("image", std::to_string(image.pixels.size()) + " bytes are not " +
+                                      std::to_string(image.width) + " x " +
+                                      std::to_string(image.height) + " pixels of three");
   }
   std::string bytes;
   const auto append = [](void* out, void* data, int size) {
@@ -29,7 +29,7 @@ std::string EncodePng(const RgbImage& image) {
   };
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.pixels.data(),
                              3 * image.width) == 0) {
-    throw InvalidOptions("image: could not be encoded (out of memory?)");
+    throw InvalidOptions("image", "could not be encoded (out of memory?)");
   }
   return bytes;
 }

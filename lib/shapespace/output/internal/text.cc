@@ -45,11 +45,10 @@ std::vector<unsigned char> Ink(std::string text, int width) {
 
 void CheckText(const char* field, const std::string& text) {
   if (text.size() > kLongestText) {
-    throw InvalidOptions(std::string(field) + ": longer than " + std::to_string(kLongestText) +
-                         " characters");
+    throw InvalidOptions(field, "longer than " + std::to_string(kLongestText) + " characters");
   }
   if (std::any_of(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; })) {
-    throw InvalidOptions(std::string(field) + ": only printable ASCII characters can be drawn");
+    throw InvalidOptions(field, "only printable ASCII characters can be drawn");
   }
 }
 

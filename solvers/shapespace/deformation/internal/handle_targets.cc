@@ -15,8 +15,9 @@ constexpr int kPins = 12;
 
 void CheckHandle(const DeformationHandle& handle, int number, int num_vertices) {
   const auto fail = [&](const std::string& what) {
-    throw InvalidOptions("handles: " + std::to_string(number) +
-                         (handle.name.empty() ? "" : " (\"" + handle.name + "\")") + ": " + what);
+    throw InvalidOptions("handles", "" + std::to_string(number) +
+                                        (handle.name.empty() ? "" : " (\"" + handle.name + "\")") +
+                                        ": " + what);
   };
   if (handle.vertices.empty()) fail("has no vertex");
   std::vector<int> sorted = handle.vertices;
