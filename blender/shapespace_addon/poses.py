@@ -13,7 +13,7 @@ from .topology import Topology, require_same, topology_of
 
 @dataclass
 class Poses:
-    """Poses of one mesh, ready to be computed with."""
+    """Poses of one mesh as arrays, in the form that the engines take."""
 
     names: list
     shapes: list  # n x 3 each, in scene coordinates of `frame`
@@ -22,7 +22,7 @@ class Poses:
     frame: Frame  # of the first pose's object
 
     def same(self, other: "Poses") -> bool:
-        """Whether the meshes are; where their objects stand does not matter."""
+        """Whether names, positions within the objects and polygons are equal."""
         return (
             self.names == other.names
             and all(map(np.array_equal, self.own, other.own))

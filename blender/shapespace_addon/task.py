@@ -1,4 +1,4 @@
-"""What is to be computed, and what comes of it, whoever computes it."""
+"""Input and result of a computation, the same for all engines."""
 
 from dataclasses import dataclass, field
 

@@ -67,18 +67,19 @@ void BindErrors(py::module_* module) {
   const auto with = [](PyObject* builtin) { return py::make_tuple(Class(error), Class(builtin)); };
   file_error = Make(module, "FileError", with(PyExc_OSError),
                     "A file cannot be opened, read to its end, understood or written.");
-  mesh_error = Make(module, "MeshError", with(PyExc_ValueError), "A mesh cannot serve.");
+  mesh_error = Make(module, "MeshError", with(PyExc_ValueError), "A mesh cannot be used.");
   mismatch_error = Make(module, "MismatchError", with(PyExc_ValueError),
                         "Meshes that should be poses of one connectivity are not.");
-  invalid_options = Make(module, "InvalidOptions", with(PyExc_ValueError),
-                         "An option is outside its range; the message begins with its name.");
+  invalid_options =
+      Make(module, "InvalidOptions", with(PyExc_ValueError),
+           "An option has a value outside its range; the message begins with the option's name.");
   solver_error = Make(module, "SolverError", with(PyExc_RuntimeError),
-                      "A solver cannot start or go on. One that merely did not converge says so in "
-                      "its summary.");
+                      "A solver cannot start or continue. If it only did not converge, its summary "
+                      "says so and nothing is raised.");
   cancelled = Make(module, "Cancelled", Class(error),
-                   "`progress` asked to stop before there was anything worth returning.");
-  mesh_warning =
-      Make(module, "MeshWarning", Class(PyExc_UserWarning), "A mesh is usable, but look at it.");
+                   "`progress` asked to stop before there was any result.");
+  mesh_warning = Make(module, "MeshWarning", Class(PyExc_UserWarning),
+                      "A mesh can be used, but should be checked.");
   py::register_exception_translator(Translate);
 }
 

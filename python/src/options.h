@@ -158,8 +158,8 @@ py::dict Get(const Options& options) {
   return values;
 }
 
-/// How a field of this type is converted. Structs of options are dicts, of which what is left out
-/// stays as it is; None leaves all of it.
+/// How a field of this type is converted from and to Python. A struct of options is a dict in
+/// Python; fields that the dict does not have keep their values, and None changes no field.
 template <typename T, typename = void>
 struct Value {
   static std::string Type() { return "dict"; }
@@ -282,8 +282,8 @@ struct Value<MetricOptions> {
   static py::object Get(const MetricOptions& value) { return python::Get(value); }
 };
 
-/// Nothing stands for the metric of the mesh, which the function that takes the options puts there
-/// before it sets them.
+/// A metric that may be left out. The function that takes the options sets it to the metric of its
+/// mesh first, and a dict from Python then changes fields of that.
 template <>
 struct Value<std::optional<MetricOptions>> {
   static std::string Type() { return Value<MetricOptions>::Type(); }
@@ -294,8 +294,9 @@ struct Value<std::optional<MetricOptions>> {
   static py::object Get(const std::optional<MetricOptions>&) { return py::none(); }
 };
 
-/// The preset that sets the defaults of a metric's other options, as --metric of the tools does.
-/// "deformation" depends on the mesh: that of functions that deform, which is their default.
+/// A preset by its name: the values of a metric's options that are not given one by one.
+/// \throw py::value_error if there is none of that name. "deformation" is refused too, because it
+///        depends on the mesh; functions that deform have it as their default.
 MetricOptions PresetMetric(const std::string& preset);
 
 /// A table's row for a member of the struct.

@@ -55,9 +55,9 @@ class Call final : public Progress {
     changed_.notify_all();
   }
 
-  // For the one that waits: until there is a report or the end, or it is time to look for signals.
-  // False at the end. Where the interpreter ends meanwhile, a daemon thread, which must not come
-  // back then, stays here.
+  // Called by the waiting thread: returns when there is a report, or the call has ended, or it is
+  // time to look for signals. False if the call has ended. If the interpreter ends meanwhile, a
+  // daemon thread must not run Python any more, so it waits here forever.
   bool Wait(std::optional<Told>* told) {
     const py::gil_scoped_release unlocked;
     std::unique_lock<std::mutex> lock(mutex_);
@@ -156,7 +156,7 @@ void RunInWorker(const py::object& callback, std::function<void(Progress*)> work
     call->Abandon();
     throw;
   }
-  worker.wait();  // for the thread's very end, lest a fork meets it
+  worker.wait();  // until the thread has ended, because a fork must not copy it half way
 }
 
 void BindProgress() {

@@ -1,4 +1,4 @@
-#include <shapespace/hierarchy/decimate.h>
+#include <shapespace/hierarchy/internal/decimate.h>
 
 #include <algorithm>
 #include <numeric>
@@ -17,6 +17,8 @@
 namespace shapespace {
 namespace {
 
+using internal::Collapse;
+using internal::PlanCollapses;
 using testing::After;
 using testing::ExpectSameTopology;
 using testing::PosedMesh;
@@ -34,7 +36,7 @@ void ExpectSameCollapses(const std::vector<Collapse>& first, const std::vector<C
   }
 }
 
-class PlanCollapsesOfSurfaces : public ::testing::TestWithParam<testing::MeshSurface> {};
+class PlanCollapsesOfSurfaces : public ::testing::TestWithParam<testing::SurfaceCase> {};
 
 TEST_P(PlanCollapsesOfSurfaces, KeepTheTopology) {
   const PosedMesh mesh = GetParam().make();

@@ -60,7 +60,7 @@ void ExpectSoundLevels(const PosedMesh& mesh, const Hierarchy& hierarchy, double
   }
 }
 
-class HierarchyOfSurfaces : public ::testing::TestWithParam<testing::MeshSurface> {};
+class HierarchyOfSurfaces : public ::testing::TestWithParam<testing::SurfaceCase> {};
 
 TEST_P(HierarchyOfSurfaces, HasSoundLevels) {
   const PosedMesh mesh = GetParam().make();

@@ -15,7 +15,7 @@
 #include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
-#include <shapespace/hierarchy/decimate.h>
+#include <shapespace/hierarchy/internal/decimate.h>
 #include <shapespace/mesh/topology.h>
 
 #include "mesh/bodies.h"
@@ -109,15 +109,15 @@ inline PosedMesh RolledSheet() {
 }
 
 /// A mesh, made on demand.
-struct MeshSurface {
+struct SurfaceCase {
   const char* name;
   PosedMesh (*make)();
 };
 
-inline void PrintTo(const MeshSurface& surface, std::ostream* out) { *out << surface.name; }
+inline void PrintTo(const SurfaceCase& surface, std::ostream* out) { *out << surface.name; }
 
 /// Surfaces of every kind: with and without boundary, handles, several components, quadrilaterals.
-inline constexpr MeshSurface kSurfaces[] = {
+inline constexpr SurfaceCase kSurfaces[] = {
     {"tube", [] { return BentTube(2000); }},
     {"sheet", RolledSheet},
     {"animal", [] { return Animal(2500); }},
@@ -136,7 +136,7 @@ inline void ExpectSameTopology(const Connectivity& first, const Connectivity& se
 
 /// The mesh after collapses, with all its vertices.
 inline std::shared_ptr<const Connectivity> After(const Connectivity& mesh,
-                                                 const std::vector<Collapse>& collapses) {
+                                                 const std::vector<internal::Collapse>& collapses) {
   std::vector<int> place(mesh.NumVertices());
   for (int v = 0; v < mesh.NumVertices(); ++v) place[v] = v;
   for (size_t i = collapses.size(); i-- > 0;) place[collapses[i].from] = place[collapses[i].to];

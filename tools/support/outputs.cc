@@ -52,8 +52,7 @@ DEFINE_bool(loop, false,
             "where they begin; default: forward and back");
 DEFINE_bool(once, false, "glb: from the first shape to the last, which is then held");
 DEFINE_bool(ease, false,
-            "glb, and frames of shape-export --frames: slow at both ends, as an animator would "
-            "have it");
+            "glb, and frames of shape-export --frames: the motion begins and ends slowly");
 DEFINE_string(title, "", "film strip: a line above it");
 FLAG_GROUP(outputs, "Output");
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
-#include <shapespace/hierarchy/decimate.h>
+#include <shapespace/hierarchy/internal/decimate.h>
 #include <shapespace/hierarchy/internal/detail.h>
 
 namespace shapespace {
@@ -70,8 +70,8 @@ Hierarchy::Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
   const int num_triangles = connectivity->NumTriangles();
   const std::vector<int> targets = Targets(num_triangles, options.coarsest);
   const int fewest = targets.empty() ? num_triangles : targets.back();
-  const std::vector<Collapse> collapses =
-      PlanCollapses(*connectivity, poses, fewest, options.pinned, progress);
+  const std::vector<internal::Collapse> collapses =
+      internal::PlanCollapses(*connectivity, poses, fewest, options.pinned, progress);
   stopped_early_ = !targets.empty() && (collapses.empty() || collapses.back().triangles > fewest);
 
   std::vector<int> place = levels_[0].vertices;  // to which every vertex of the mesh has collapsed

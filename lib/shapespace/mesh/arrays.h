@@ -13,8 +13,8 @@
 
 namespace shapespace {
 
-/// Whether elements are rows or columns of the matrices, for vertices and polygons alike. It does
-/// not concern the storage order, which Eigen handles.
+/// Whether each vertex, and each polygon, is a row or a column of its matrix. The storage order of
+/// the matrix may be any.
 enum class Layout {
   kRows,     ///< a vertex is a row of n x 3, a polygon a row of p x k: libigl, NumPy
   kColumns,  ///< a vertex is a column of 3 x n, a polygon a column of k x p: as in `Shape`

@@ -1,4 +1,4 @@
-#include <shapespace/hierarchy/decimate.h>
+#include <shapespace/hierarchy/internal/decimate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,8 @@
 #include <shapespace/hierarchy/internal/quadric.h>
 #include <shapespace/mesh/internal/geometry.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 namespace {
-
-using internal::Quadric;
 
 // Weight of the plane through a boundary edge, perpendicular to the surface, relative to a triangle
 // with the edge's length.
@@ -382,4 +380,4 @@ std::vector<Collapse> PlanCollapses(const Connectivity& connectivity,
   return Decimator(connectivity, poses, pinned).Run(triangles, progress);
 }
 
-}  // namespace shapespace
+}  // namespace shapespace::internal

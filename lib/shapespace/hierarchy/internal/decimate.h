@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_HIERARCHY_DECIMATE_H_
-#define SHAPESPACE_HIERARCHY_DECIMATE_H_
+#ifndef SHAPESPACE_HIERARCHY_INTERNAL_DECIMATE_H_
+#define SHAPESPACE_HIERARCHY_INTERNAL_DECIMATE_H_
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
 
-namespace shapespace {
+namespace shapespace::internal {
 
 /// Vertex `from` moves onto its neighbour `to` and disappears, with the triangles at their edge.
 struct Collapse {
@@ -30,6 +30,6 @@ std::vector<Collapse> PlanCollapses(const Connectivity& connectivity,
                                     const std::vector<int>& pinned = {},
                                     Progress* progress = nullptr);
 
-}  // namespace shapespace
+}  // namespace shapespace::internal
 
-#endif  // SHAPESPACE_HIERARCHY_DECIMATE_H_
+#endif  // SHAPESPACE_HIERARCHY_INTERNAL_DECIMATE_H_
