@@ -3,7 +3,8 @@
 
 namespace shapespace {
 
-/// Why a solve ended. If it consists of several (levels, pieces of a path), the worst of their ends.
+/// Why a solve ended. If it consists of several (levels, pieces of a path), the worst of their
+/// ends.
 enum class Termination {
   kConverged,      ///< every solve reached the tolerance
   kMaxIterations,  ///< one ran out of iterations; the result is the best so far
