@@ -98,6 +98,10 @@ def test_summaries_say_what_they_hold(poses, animal):
     assert repr(summary).startswith("<GeodesicSummary: converged: ")
     assert "Lower bound" in str(summary)
     assert summary.to_dict()["energy"] == summary.energy
+    # The JSON of reports and the attributes are made of one list of fields.
+    attributes = {name for name in dir(summary) if not name.startswith("_")} - {"to_dict"}
+    assert set(summary.to_dict()) == attributes
+    assert summary.to_dict()["quality"]["edge_rms"] == summary.quality.edge_rms
     assert "iterations=" in repr(summary.levels[0])
     with pytest.raises(AttributeError):
         summary.energy = 0

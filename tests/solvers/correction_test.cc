@@ -376,8 +376,8 @@ TEST(CorrectionSummary, SaysThatIterationsRanOut) {
   EXPECT_EQ(json["termination"], "max_iterations");
   EXPECT_EQ(json["mode"], "proximal");
   EXPECT_EQ(json["mu"], 1);
-  EXPECT_EQ(json["length_error"]["max"], summary.quality.first_max);
-  EXPECT_EQ(json["initial_length_error"]["rms"], summary.initial_quality.first_rms);
+  EXPECT_EQ(json["quality"]["first_max"], summary.quality.first_max);
+  EXPECT_EQ(json["initial_quality"]["first_rms"], summary.initial_quality.first_rms);
 }
 
 }  // namespace

@@ -400,7 +400,7 @@ TEST(Correspond, ReportsAreWhole) {
   const CorrespondenceResult result = bodies.Fit();
   const auto json = nlohmann::json::parse(result.summary.ToJson());
   EXPECT_EQ(json["markers"], 16);
-  EXPECT_EQ(json["template"]["vertices"], bodies.rest.cols());
+  EXPECT_EQ(json["template_vertices"], bodies.rest.cols());
   EXPECT_GE(json["stages"].size(), 3u);
   EXPECT_NE(result.summary.FullReport().find("Round trip"), std::string::npos);
   const RgbImage image =

@@ -300,8 +300,8 @@ TEST(Transfer, SaysWhatItsPathsAre) {
   EXPECT_EQ(json["method"], "features");
   EXPECT_EQ(json["steps"].size(), 3u);
   EXPECT_EQ(json["scale"], summary.scale);
-  EXPECT_EQ(json["strain_off"]["rms"], summary.strain_rms);
-  EXPECT_EQ(json["angle_off_degrees"], summary.angle_rms);
+  EXPECT_EQ(json["strain_rms"], summary.strain_rms);
+  EXPECT_EQ(json["angle_rms"], summary.angle_rms);
 
   EXPECT_EQ(DescribeMetric(path.metric->options), DescribeMetric(MetricOptions::Strain()));
   EXPECT_TRUE(Transfer(source, ThinBar()).hybrids.shapes.empty());

@@ -232,7 +232,7 @@ TEST_F(ExtrapolateTest, CorrectionBringsEdgesBackToTheFirstShapesLengths) {
   EXPECT_TRUE(corrected.Placed(0) == on.Placed(0));
   EXPECT_LT(MeasureQuality(corrected).first_rms, 0.9 * MeasureQuality(on).first_rms);
   const auto report = nlohmann::json::parse(Content(Path("corrected.json")));
-  EXPECT_NEAR(report["correction"]["length_error"]["rms"].get<double>(),
+  EXPECT_NEAR(report["correction"]["quality"]["first_rms"].get<double>(),
               MeasureQuality(corrected).first_rms, 1e-9);
 }
 
@@ -301,7 +301,7 @@ TEST_F(ExtrapolateTest, WhatIsMadeBeforeAShapeDegeneratesIsWritten) {
   ExpectContains(none.err, "no shape could be added");
   EXPECT_EQ(ReadPath(Path("none.path")).NumShapes(), 3);
   EXPECT_EQ(ReadPath(Path("none.path")).extrapolated, 0);
-  EXPECT_EQ(nlohmann::json::parse(Content(Path("r.json")))["complete"], false);
+  EXPECT_EQ(nlohmann::json::parse(Content(Path("r.json")))["ending"], "degenerate");
 }
 
 TEST_F(ExtrapolateTest, RigidMetricsAreRefused) {

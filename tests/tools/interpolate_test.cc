@@ -87,7 +87,7 @@ TEST_F(InterpolateTest, MainJob) {
   EXPECT_EQ(report["converged"], true);
   EXPECT_EQ(report["vertices"], 152);
   EXPECT_EQ(report["shapes"], 15);
-  EXPECT_GE(report["energy_over_bound"], 1.0);
+  EXPECT_GE(report["ratio"], 1.0);
   ExpectContains(outcome.err, "converged: 152 vertices, 2 poses, 15 shapes inserted");
 }
 
@@ -155,7 +155,7 @@ TEST_F(InterpolateTest, GraphsStayGraphs) {
   const nlohmann::json report = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(report["triangles"], 0);
   EXPECT_EQ(report["edges"], 10);
-  EXPECT_LE(report["edge_deviation"]["max"], 0.01);
+  EXPECT_LE(report["quality"]["edge_max"], 0.01);
 }
 
 TEST_F(InterpolateTest, QuadsStayQuads) {

@@ -1,12 +1,13 @@
 #include <sstream>
 
 #include <shapespace/correspondence/correspondence.h>
+#include <shapespace/correspondence/internal/summary_fields.h>
+#include <shapespace/numerics/internal/json_of.h>
 #include <shapespace/numerics/internal/report.h>
 
 namespace shapespace {
 
 using internal::Format;
-using internal::JsonNumber;
 
 std::string CorrespondenceSummary::BriefReport() const {
   return Format(
@@ -60,43 +61,13 @@ std::string CorrespondenceSummary::FullReport() const {
 }
 
 std::string CorrespondenceSummary::ToJson() const {
-  nlohmann::ordered_json json;
-  json["termination"] = internal::Key(converged, cancelled);
-  json["converged"] = converged;
-  json["cancelled"] = cancelled;
-  json["template"] = {{"vertices", template_vertices}, {"triangles", template_triangles}};
-  json["target"] = {{"vertices", target_vertices}, {"triangles", target_triangles}};
-  json["markers"] = markers;
-  json["doubtful"] = nlohmann::ordered_json::array();
-  for (const Doubt& doubt : doubtful) {
-    json["doubtful"].push_back({{"marker", doubt.marker + 1},
-                                {"off", JsonNumber(doubt.off)},
-                                {"expected_vertex", doubt.expected + 1},
-                                {"swapped_with", doubt.swapped + 1}});
+  auto json = internal::JsonOf(*this);
+  // Files count from 1; markers that have not changed places with another have 0.
+  for (auto& doubt : json["doubtful"]) {
+    for (const char* key : {"marker", "expected", "swapped"})
+      doubt[key] = doubt[key].get<int>() + 1;
   }
-  json["scale"] = scale;
-  json["distance_rms"] = JsonNumber(distance_rms);
-  json["distance_max"] = JsonNumber(distance_max);
-  json["round_trip_mean"] = JsonNumber(round_trip_mean);
-  json["round_trip_p95"] = JsonNumber(round_trip_p95);
-  json["turned"] = turned;
-  json["uncovered"] = uncovered;
-  json["stages"] = nlohmann::ordered_json::array();
-  for (const Stage& stage : stages) {
-    json["stages"].push_back({{"vertices", stage.vertices},
-                              {"name", stage.name},
-                              {"weight", stage.weight},
-                              {"rounds", stage.rounds},
-                              {"distance", JsonNumber(stage.distance)},
-                              {"motion", JsonNumber(stage.motion)},
-                              {"seconds", stage.seconds}});
-  }
-  json["seconds"] = {{"total", total_seconds},         {"markers", marker_seconds},
-                     {"hierarchy", hierarchy_seconds}, {"fit", fit_seconds},
-                     {"unfolding", unfold_seconds},    {"map", map_seconds}};
-  json["estimated_bytes"] = estimated_bytes;
-  json["warnings"] = warnings;
-  return json.dump(2) + "\n";
+  return internal::TextOf(json);
 }
 
 }  // namespace shapespace

@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <sstream>
 
-#include <nlohmann/json.hpp>
-
 #include <shapespace/deformation/deformation.h>
+#include <shapespace/deformation/internal/summary_fields.h>
+#include <shapespace/numerics/internal/json_of.h>
 #include <shapespace/numerics/internal/report.h>
 
 namespace shapespace {
 using internal::Format;
-using internal::JsonNumber;
 using internal::VolumeText;
 
 std::string DeformationSummary::BriefReport() const {
@@ -61,49 +60,6 @@ std::string DeformationSummary::FullReport() const {
   return out.str();
 }
 
-std::string DeformationSummary::ToJson() const {
-  nlohmann::ordered_json json;
-  json["termination"] = internal::Key(termination);
-  json["converged"] = Converged();
-  json["vertices"] = vertices;
-  json["triangles"] = triangles;
-  json["shapes"] = shapes;
-  json["metric"] = metric;
-  json["unit"] = unit;
-  json["balance"] = balance;
-  json["energy"] = JsonNumber(energy);
-  json["error"] = internal::ToJson(error);
-  json["handles"] = nlohmann::ordered_json::array();
-  for (const HandleResult& handle : handles) {
-    json["handles"].push_back({{"name", handle.name},
-                               {"vertices", handle.vertices},
-                               {"hard", handle.hard},
-                               {"residual_rms", handle.residual_rms},
-                               {"residual_max", handle.residual_max}});
-  }
-  json["free_components"] = free_components;
-  json["warm"] = warm;
-  json["hierarchy_vertices"] = hierarchy;
-  json["levels"] = nlohmann::ordered_json::array();
-  for (const Level& level : levels) {
-    json["levels"].push_back({{"vertices", level.vertices},
-                              {"shapes", level.shapes},
-                              {"start", level.start},
-                              {"termination", internal::Key(level.termination)},
-                              {"iterations", level.iterations},
-                              {"evaluations", level.evaluations},
-                              {"initial_value", JsonNumber(level.initial_value)},
-                              {"value", JsonNumber(level.value)},
-                              {"seconds", level.seconds}});
-  }
-  json["seconds"] = {{"total", total_seconds},
-                     {"hierarchy", hierarchy_seconds},
-                     {"factors", factor_seconds},
-                     {"solves", solve_seconds}};
-  json["estimated_bytes"] = estimated_bytes;
-  json["threads"] = threads;
-  json["warnings"] = warnings;
-  return json.dump(2) + "\n";
-}
+std::string DeformationSummary::ToJson() const { return internal::TextOf(internal::JsonOf(*this)); }
 
 }  // namespace shapespace

@@ -5,10 +5,10 @@
 #include <sstream>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include <shapespace/base/error.h>
+#include <shapespace/deformation/internal/summary_fields.h>
 #include <shapespace/mesh/rigid_motion.h>
+#include <shapespace/numerics/internal/json_of.h>
 #include <shapespace/numerics/internal/report.h>
 
 namespace shapespace {
@@ -37,16 +37,7 @@ std::string RepairSummary::FullReport() const {
   return out.str();
 }
 
-std::string RepairSummary::ToJson() const {
-  nlohmann::ordered_json json;
-  json["termination"] = internal::Key(deformation.termination);
-  json["converged"] = Converged();
-  json["before"] = internal::ToJson(before);
-  json["after"] = internal::ToJson(after);
-  json["moved"] = moved;
-  json["deformation"] = nlohmann::ordered_json::parse(deformation.ToJson());
-  return json.dump(2) + "\n";
-}
+std::string RepairSummary::ToJson() const { return internal::TextOf(internal::JsonOf(*this)); }
 
 RepairResult Repair(const std::shared_ptr<const Connectivity>& connectivity, const Shape& reference,
                     const Shape& distorted, const RepairOptions& options, Progress* progress) {

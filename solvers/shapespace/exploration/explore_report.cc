@@ -1,8 +1,8 @@
 #include <sstream>
 
-#include <nlohmann/json.hpp>
-
 #include <shapespace/exploration/explore.h>
+#include <shapespace/exploration/internal/summary_fields.h>
+#include <shapespace/numerics/internal/json_of.h>
 #include <shapespace/numerics/internal/report.h>
 
 namespace shapespace {
@@ -45,46 +45,6 @@ std::string ExploreSummary::FullReport() const {
   return out.str();
 }
 
-std::string ExploreSummary::ToJson() const {
-  nlohmann::ordered_json looks = nlohmann::ordered_json::array();
-  for (const Level& level : levels) {
-    looks.push_back({{"cells", level.cells},
-                     {"edges", level.edges},
-                     {"marked", level.marked},
-                     {"greatest_excess", level.greatest_excess},
-                     {"new_nodes", level.new_nodes},
-                     {"seconds", level.seconds}});
-  }
-  const nlohmann::ordered_json json = {{"termination", internal::Key(Converged(), false)},
-                                       {"converged", Converged()},
-                                       {"vertices", vertices},
-                                       {"triangles", triangles},
-                                       {"distance_vertices", distance_vertices},
-                                       {"poses", poses},
-                                       {"nodes", nodes},
-                                       {"cells", cells},
-                                       {"metric", metric},
-                                       {"unit", unit},
-                                       {"threshold", threshold},
-                                       {"solved", solved},
-                                       {"found", found},
-                                       {"damaged", damaged},
-                                       {"not_converged", not_converged},
-                                       {"stress", stress},
-                                       {"stress_iterations", stress_iterations},
-                                       {"embedded", embedded},
-                                       {"levels", looks},
-                                       {"edges_not_measured", edges_not_measured},
-                                       {"seconds",
-                                        {{"total", total_seconds},
-                                         {"distances", distance_seconds},
-                                         {"embedding", embedding_seconds},
-                                         {"refinement", refinement_seconds}}},
-                                       {"threads", threads},
-                                       {"processes", processes},
-                                       {"warnings", warnings}};
-  // Names of files need not be valid UTF-8.
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
+std::string ExploreSummary::ToJson() const { return internal::TextOf(internal::JsonOf(*this)); }
 
 }  // namespace shapespace

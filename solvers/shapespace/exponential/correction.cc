@@ -4,15 +4,15 @@
 #include <cmath>
 #include <numeric>
 
-#include <nlohmann/json.hpp>
-
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/exponential/internal/summary_fields.h>
 #include <shapespace/geodesic/internal/resolution.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/numerics/internal/check_options.h>
+#include <shapespace/numerics/internal/json_of.h>
 #include <shapespace/numerics/internal/minimise.h>
 #include <shapespace/numerics/internal/preconditioner.h>
 #include <shapespace/numerics/internal/report.h>
@@ -131,14 +131,6 @@ void Warn(Termination termination, CorrectionSummary* summary) {
   }
 }
 
-const char* Name(CorrectionMode mode) {
-  return mode == CorrectionMode::kPaper ? "paper" : "proximal";
-}
-
-nlohmann::ordered_json Lengths(const PathQuality& quality) {
-  return {{"rms", quality.first_rms}, {"p99", quality.first_p99}, {"max", quality.first_max}};
-}
-
 }  // namespace
 
 void CorrectionOptions::Validate() const {
@@ -151,31 +143,13 @@ std::string CorrectionSummary::BriefReport() const {
   return internal::Format(
       "%s (%s): %d vertices, %d shapes corrected; lengths off by %.3g%% rms, before %.3g%%; %.3g%% "
       "of the deformation left; %d iterations, %.2f s",
-      converged ? "converged" : "NOT CONVERGED", Name(mode), vertices, shapes,
+      converged ? "converged" : "NOT CONVERGED",
+      internal::WordOf(internal::Of<CorrectionMode>(), mode), vertices, shapes,
       100 * quality.first_rms, 100 * initial_quality.first_rms, 100 * deformation_left, iterations,
       total_seconds);
 }
 
-std::string CorrectionSummary::ToJson() const {
-  nlohmann::ordered_json json;
-  json["termination"] = internal::Key(termination);
-  json["mode"] = Name(mode);
-  json["mu"] = mu;
-  json["vertices"] = vertices;
-  json["shapes"] = shapes;
-  json["converged"] = converged;
-  json["iterations"] = iterations;
-  json["evaluations"] = evaluations;
-  json["initial_energy"] = initial_energy;
-  json["energy"] = energy;
-  json["initial_length_error"] = Lengths(initial_quality);
-  json["length_error"] = Lengths(quality);
-  json["distance"] = distance;
-  json["deformation_left"] = deformation_left;
-  json["seconds"] = total_seconds;
-  json["warnings"] = warnings;
-  return json.dump(2) + "\n";
-}
+std::string CorrectionSummary::ToJson() const { return internal::TextOf(internal::JsonOf(*this)); }
 
 CorrectionResult CorrectPath(const Path& path, const CorrectionOptions& options,
                              Progress* progress) {

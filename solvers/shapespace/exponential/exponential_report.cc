@@ -2,16 +2,15 @@
 #include <cmath>
 #include <sstream>
 
-#include <nlohmann/json.hpp>
-
 #include <shapespace/exponential/exponential.h>
+#include <shapespace/exponential/internal/summary_fields.h>
+#include <shapespace/numerics/internal/json_of.h>
 #include <shapespace/numerics/internal/report.h>
 
 namespace shapespace {
 namespace {
 
 using internal::Format;
-using internal::JsonNumber;
 
 const char* Name(GeodesicIntegrator integrator) {
   switch (integrator) {
@@ -72,38 +71,6 @@ std::string ExponentialSummary::FullReport() const {
   return out.str();
 }
 
-std::string ExponentialSummary::ToJson() const {
-  nlohmann::ordered_json json;
-  json["termination"] = ending == Ending::kDegenerate
-                            ? "degenerate"
-                            : internal::Key(Converged(), ending == Ending::kCancelled);
-  json["complete"] = ending == Ending::kComplete;
-  json["converged"] = Converged();
-  if (!stopped.empty()) json["stopped"] = stopped;
-  json["integrator"] = Name(integrator);
-  json["metric"] = metric;
-  json["vertices"] = vertices;
-  json["requested_steps"] = requested_steps;
-  json["steps"] = nlohmann::ordered_json::array();
-  for (const Step& step : steps) {
-    json["steps"].push_back({{"t", step.t},
-                             {"converged", step.converged},
-                             {"vertices", step.vertices},
-                             {"increments", step.increments},
-                             {"iterations", step.iterations},
-                             {"krylov_iterations", step.krylov_iterations},
-                             {"residual", JsonNumber(step.residual)},
-                             {"energy", JsonNumber(step.energy)},
-                             {"momentum_drift", JsonNumber(step.momentum_drift)},
-                             {"edge_rms", step.edge_rms},
-                             {"edge_max", step.edge_max},
-                             {"inverted", step.inverted},
-                             {"seconds", step.seconds}});
-  }
-  json["seconds"] = {{"total", total_seconds}, {"factorisation", factor_seconds}};
-  json["factorisations"] = factorisations;
-  json["warnings"] = warnings;
-  return json.dump(2) + "\n";
-}
+std::string ExponentialSummary::ToJson() const { return internal::TextOf(internal::JsonOf(*this)); }
 
 }  // namespace shapespace

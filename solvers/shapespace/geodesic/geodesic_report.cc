@@ -1,14 +1,13 @@
 #include <cmath>
 #include <sstream>
 
-#include <nlohmann/json.hpp>
-
 #include <shapespace/geodesic/geodesic.h>
+#include <shapespace/geodesic/internal/summary_fields.h>
+#include <shapespace/numerics/internal/json_of.h>
 #include <shapespace/numerics/internal/report.h>
 
 namespace shapespace {
 using internal::Format;
-using internal::JsonNumber;
 using internal::Name;
 
 std::string GeodesicSummary::BriefReport() const {
@@ -70,58 +69,6 @@ std::string GeodesicSummary::FullReport() const {
   return out.str();
 }
 
-std::string GeodesicSummary::ToJson() const {
-  nlohmann::ordered_json json;
-  json["termination"] = internal::Key(termination);
-  json["converged"] = termination == Termination::kConverged;
-  json["vertices"] = vertices;
-  json["triangles"] = triangles;
-  json["edges"] = edges;
-  json["hinges"] = hinges;
-  json["poses"] = poses;
-  json["shapes"] = shapes;
-  json["metric"] = metric;
-  json["unit"] = unit;
-  json["energy"] = JsonNumber(energy);
-  json["lower_bound"] = JsonNumber(lower_bound);
-  json["energy_over_bound"] = JsonNumber(Ratio());
-  for (const auto& [name, value] : parts) json["energy_parts"][name] = JsonNumber(value);
-  json["edge_deviation"] = {
-      {"rms", quality.edge_rms}, {"p99", quality.edge_p99}, {"max", quality.edge_max}};
-  json["first_pose_deviation"] = {
-      {"rms", quality.first_rms}, {"p99", quality.first_p99}, {"max", quality.first_max}};
-  json["roughness_degrees"] = quality.roughness;
-  json["folds_per_shape"] = quality.folds;
-  json["greatest_speed"] = JsonNumber(quality.speed_max);
-  json["intersections_per_shape"] = intersections;
-  json["hierarchy_vertices"] = hierarchy;
-  json["hierarchy_stopped_early"] = hierarchy_stopped_early;
-  json["levels"] = nlohmann::ordered_json::array();
-  for (const Level& level : levels) {
-    json["levels"].push_back({{"piece", level.piece},
-                              {"vertices", level.vertices},
-                              {"shapes", level.shapes},
-                              {"start", level.start},
-                              {"solver", level.solver},
-                              {"termination", internal::Key(level.termination)},
-                              {"iterations", level.iterations},
-                              {"evaluations", level.evaluations},
-                              {"initial_energy", JsonNumber(level.initial_energy)},
-                              {"energy", JsonNumber(level.energy)},
-                              {"remaining", JsonNumber(level.remaining)},
-                              {"kept", level.kept},
-                              {"seconds", level.seconds}});
-  }
-  json["seconds"] = {{"total", total_seconds},
-                     {"metric", freeze_seconds},
-                     {"hierarchy", hierarchy_seconds},
-                     {"solves", solve_seconds},
-                     {"factorisation", factor_seconds}};
-  json["factor_nonzeros"] = factor_nonzeros;
-  json["estimated_bytes"] = estimated_bytes;
-  json["threads"] = threads;
-  json["warnings"] = warnings;
-  return json.dump(2) + "\n";
-}
+std::string GeodesicSummary::ToJson() const { return internal::TextOf(internal::JsonOf(*this)); }
 
 }  // namespace shapespace

@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include <nlohmann/json.hpp>
+#include <shapespace/numerics/internal/json_of.h>
+#include <shapespace/transfer/internal/summary_fields.h>
 
 #include <shapespace/numerics/internal/report.h>
 #include <shapespace/transfer/transfer.h>
@@ -10,34 +11,6 @@ namespace shapespace {
 namespace {
 
 using internal::Format;
-using internal::JsonNumber;
-
-nlohmann::ordered_json JsonOf(const TransferSummary& summary) {
-  nlohmann::ordered_json json;
-  json["termination"] = internal::Key(summary.Converged(), summary.cancelled);
-  json["converged"] = summary.Converged();
-  json["vertices"] = summary.vertices;
-  json["metric"] = summary.metric;
-  json["scale"] = summary.scale;
-  const bool ladder = summary.method == TransferMethod::kLadder;
-  json["method"] = ladder ? "ladder" : "features";
-  json["steps"] = nlohmann::ordered_json::array();
-  for (const TransferSummary::Step& step : summary.steps) {
-    json["steps"].push_back({{"converged", step.converged}, {"iterations", step.iterations}});
-    if (ladder) {
-      json["steps"].back()["on_mesh"] = step.on_mesh;
-      json["steps"].back()["energy_over_bound"] = JsonNumber(step.ratio);
-      json["steps"].back()["norm_change"] = JsonNumber(step.norm_change);
-    }
-    json["steps"].back()["seconds"] = step.seconds;
-  }
-  json["strain_off"] = {{"rms", summary.strain_rms}, {"max", summary.strain_max}};
-  json["angle_off_degrees"] = summary.angle_rms;
-  json["estimated_bytes"] = summary.estimated_bytes;
-  json["seconds"] = summary.total_seconds;
-  json["warnings"] = summary.warnings;
-  return json;
-}
 
 const char* Ending(bool converged) { return converged ? "converged" : "NOT CONVERGED"; }
 
@@ -81,7 +54,7 @@ std::string TransferSummary::FullReport() const {
   return out.str();
 }
 
-std::string TransferSummary::ToJson() const { return JsonOf(*this).dump(2) + "\n"; }
+std::string TransferSummary::ToJson() const { return internal::TextOf(internal::JsonOf(*this)); }
 
 bool PoseTransferSummary::Converged() const {
   return !cancelled && std::all_of(geodesics.begin(), geodesics.end(), [](const auto& path) {
@@ -137,15 +110,7 @@ std::string PoseTransferSummary::FullReport() const {
 
 std::string PoseTransferSummary::ToJson() const {
   if (geodesics.empty() && !transfers.empty()) return transfers[0].ToJson();
-  nlohmann::ordered_json json;
-  json["termination"] = internal::Key(Converged(), cancelled);
-  json["converged"] = Converged();
-  json["poses"] = nlohmann::ordered_json::array();
-  for (size_t i = 0; i < transfers.size(); ++i) {
-    json["poses"].push_back({{"geodesic", nlohmann::ordered_json::parse(geodesics[i].ToJson())},
-                             {"transfer", JsonOf(transfers[i])}});
-  }
-  return json.dump(2) + "\n";
+  return internal::TextOf(internal::JsonOf(*this));
 }
 
 }  // namespace shapespace

@@ -74,7 +74,7 @@ TEST(InterpolatorTest, WithoutAssessmentWhatWasNotMeasuredIsNoNumber) {
   EXPECT_TRUE(std::isnan(summary.quality.edge_rms));
   EXPECT_TRUE(std::isnan(summary.intersections));
   EXPECT_NEAR(summary.Ratio(), 1, 0.1);
-  EXPECT_TRUE(nlohmann::json::parse(summary.ToJson())["intersections_per_shape"].is_null());
+  EXPECT_TRUE(nlohmann::json::parse(summary.ToJson())["intersections"].is_null());
 }
 
 TEST(MetricTest, FrozenOnAllPairsDoesNotDependOnTheOrderOfPoses) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/analysis/shape_error.h>
+#include <shapespace/base/internal/fields.h>
 #include <shapespace/numerics/termination.h>
 
 // Helpers for the reports of all solvers.
@@ -31,6 +32,7 @@ inline nlohmann::ordered_json JsonNumber(double value) {
 const char* Name(Termination termination);
 /// The same as the value of `termination` in reports: a word that stays the same.
 const char* Key(Termination termination);
+inline const char* WordOf(Of<Termination>, Termination termination) { return Key(termination); }
 /// The value for calls that consist of several solves.
 inline const char* Key(bool converged, bool cancelled) {
   return cancelled ? "cancelled" : converged ? "converged" : "not_converged";
@@ -39,14 +41,6 @@ inline const char* Key(bool converged, bool cancelled) {
 inline std::string VolumeText(const ShapeError& error) {
   return std::isfinite(error.volume) ? Format("volume %+.3g%%", 100 * error.volume)
                                      : "volume n/a (the mesh is not closed)";
-}
-
-inline nlohmann::ordered_json ToJson(const ShapeError& error) {
-  return {{"edge_rms", error.edge_rms},
-          {"edge_p99", error.edge_p99},
-          {"edge_max", error.edge_max},
-          {"volume", JsonNumber(error.volume)},
-          {"inverted_hinges", error.inverted_hinges}};
 }
 
 }  // namespace shapespace::internal
