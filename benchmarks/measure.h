@@ -15,8 +15,8 @@ namespace shapespace {
 
 /// Median time of one call of `body` during a fifth of a second, with at least five calls after one
 /// for warming up.
-template <typename ShapeFamily>
-double MedianSeconds(const ShapeFamily& body) {
+template <typename Body>
+double MedianSeconds(const Body& body) {
   body();
   std::vector<double> seconds;
   const internal::Stopwatch total;

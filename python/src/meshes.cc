@@ -97,7 +97,7 @@ shapes : sequence of array_like
     memory.
 faces : array_like, or an object with a mesh
     The polygons that all poses share: m x 3 integers counted from 0, or a list of polygons of any
-    numbers of corners. A `Poses`, `Path`, `Metric`, `PoseSpace` or body stands for its own. None, of a
+    numbers of corners. A `Poses`, `Path`, `Metric`, `Space` or body stands for its own. None, of a
     graph, which has segments only.
 segments : array_like, optional
     Edges of a straight-line graph, k x 2.

@@ -28,9 +28,9 @@ void RunInWorker(const py::object& callback, std::function<void(Progress*)> work
 
 /// What body(Progress*) returns, which runs as above. Its captures are copies: Python may change or
 /// delete the arguments of a call that was abandoned. \throw also as the body.
-template <typename ShapeFamily>
-auto WithoutLock(const py::object& callback, ShapeFamily body) {
-  using Result = std::invoke_result_t<ShapeFamily&, Progress*>;
+template <typename Body>
+auto WithoutLock(const py::object& callback, Body body) {
+  using Result = std::invoke_result_t<Body&, Progress*>;
   const auto task = std::make_shared<std::packaged_task<Result(Progress*)>>(std::move(body));
   std::future<Result> result = task->get_future();
   RunInWorker(callback, [task](Progress* progress) { (*task)(progress); });

@@ -18,8 +18,8 @@ const Struct& Get(const Metric& metric) {
 
 /// Calls body(struct) with the struct of a library feature, for tests that differentiate it
 /// independently.
-template <typename ShapeFamily>
-void WithStruct(const Feature& feature, const ShapeFamily& body) {
+template <typename Body>
+void WithStruct(const Feature& feature, const Body& body) {
   const auto with = [&](const auto* of_type) {
     if (of_type != nullptr) body(*of_type);
     return of_type != nullptr;

@@ -31,8 +31,8 @@ constexpr int kChunk = 16;
 constexpr int kMaxCoordinates = 3 * Feature::kMaxVertices;
 
 // Calls body(begin, end) for ranges of [0, count).
-template <typename ShapeFamily>
-void ForRanges(int count, const ShapeFamily& body) {
+template <typename Body>
+void ForRanges(int count, const Body& body) {
   ParallelFor((count + kPerTask - 1) / kPerTask,
               [&](int task) { body(task * kPerTask, std::min(count, (task + 1) * kPerTask)); });
 }

@@ -113,8 +113,8 @@ class Decimator {
   Eigen::Vector3d At(int v, int pose) const { return position_.col(v * num_poses_ + pose); }
 
   // Calls body(a, b) for every triangle (v, a, b) of v, and removes collapsed ones from its list.
-  template <typename ShapeFamily>
-  void ForFan(int v, const ShapeFamily& body) {
+  template <typename Body>
+  void ForFan(int v, const Body& body) {
     int* link = &head_[v];
     while (*link >= 0) {
       const int corner = *link, f = corner / 3, k = corner % 3;

@@ -17,8 +17,8 @@ inline constexpr size_t kChunkSize = 2048;
 /// Calls body(begin, count, sums) for every chunk of [0, size), where `sums` are `num_sums`
 /// accumulators of the chunk, initially zero. \return the sums over all chunks, added in their
 /// order.
-template <typename ShapeFamily>
-std::vector<double> ForChunks(size_t size, int num_sums, const ShapeFamily& body) {
+template <typename Body>
+std::vector<double> ForChunks(size_t size, int num_sums, const Body& body) {
   const int chunks = static_cast<int>((size + kChunkSize - 1) / kChunkSize);
   std::vector<double> partial(static_cast<size_t>(chunks) * num_sums, 0.0);
   ParallelFor(chunks, [&](int chunk) {

@@ -12,8 +12,8 @@ namespace shapespace::internal {
 inline constexpr int kRowsPerTask = 512;
 
 /// Calls body(i) for every i in [0, num_rows), on all threads.
-template <typename ShapeFamily>
-void ForRows(int num_rows, const ShapeFamily& body) {
+template <typename Body>
+void ForRows(int num_rows, const Body& body) {
   ParallelFor((num_rows + kRowsPerTask - 1) / kRowsPerTask, [&](int task) {
     const int end = std::min(num_rows, (task + 1) * kRowsPerTask);
     for (int i = task * kRowsPerTask; i < end; ++i) body(i);
