@@ -51,6 +51,17 @@ std::string_view TextOf(const std::string& bytes) {
   return std::string_view(bytes).substr(kHeader, length);
 }
 
+// TinyGLTF 2.9 asks for the size of a file first, and demands that all callbacks are set; 2.7 has
+// no callback for the size. Any size will do, because BufferFiles has a limit of its own.
+template <typename Callbacks>
+auto AcceptAnySize(Callbacks* callbacks) -> decltype(callbacks->GetFileSizeInBytes, void()) {
+  callbacks->GetFileSizeInBytes = [](size_t* size, std::string*, const std::string&, void*) {
+    *size = 0;
+    return true;
+  };
+}
+inline void AcceptAnySize(...) {}
+
 // Reads buffers that are files of their own, for TinyGLTF.
 class BufferFiles {
  public:
@@ -58,14 +69,19 @@ class BufferFiles {
       : folder_(folder), allow_outside_files_(allow_outside_files) {}
 
   tinygltf::FsCallbacks Callbacks() {
-    return {
-        [](const std::string&, void*) { return true; },
-        [](const std::string& file, void*) { return file; },
-        [](std::vector<unsigned char>* bytes, std::string*, const std::string& file, void* self) {
-          *bytes = static_cast<BufferFiles*>(self)->Read(file);
-          return true;
-        },
-        nullptr, this};
+    tinygltf::FsCallbacks callbacks;
+    callbacks.FileExists = [](const std::string&, void*) { return true; };
+    callbacks.ExpandFilePath = [](const std::string& file, void*) { return file; };
+    callbacks.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string*,
+                                 const std::string& file, void* self) {
+      *bytes = static_cast<BufferFiles*>(self)->Read(file);
+      return true;
+    };
+    callbacks.WriteWholeFile = [](std::string*, const std::string&,
+                                  const std::vector<unsigned char>&, void*) { return false; };
+    AcceptAnySize(&callbacks);
+    callbacks.user_data = this;
+    return callbacks;
   }
 
  private:
