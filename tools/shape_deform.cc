@@ -7,13 +7,14 @@
 #include <shapespace/base/error.h>
 #include <shapespace/deformation/deformation.h>
 #include <shapespace/deformation/handle_file.h>
+#include <shapespace/deformation/internal/option_fields.h>
 #include <shapespace/deformation/repair.h>
 #include <shapespace/mesh/selection.h>
 
-#include "support/choose.h"
 #include "support/flag_group.h"
 #include "support/memory_flag.h"
 #include "support/metric_flags.h"
+#include "support/option_flags.h"
 #include "support/outputs.h"
 #include "support/poses.h"
 #include "support/report.h"
@@ -28,21 +29,13 @@ DEFINE_string(repair, "",
 DEFINE_string(sound, "",
               "with --repair: the vertices whose positions are kept, as a selection (as in "
               "handles); default: all");
-DEFINE_int32(shapes, shapespace::DeformationOptions().shapes,
-             "shapes after the first, including the deformed one: at least one per 90 degrees of a "
-             "turn; default for repairs: 1");
-DEFINE_double(balance, shapespace::DeformationOptions().balance,
-              "weight of the metric relative to soft handles: towards 0 they are met exactly, at 1 "
-              "they have no effect; default for repairs: 0.5");
-DEFINE_double(
-    tolerance, shapespace::DeformationOptions().tolerance,
-    "a level has converged when an iteration lowers the objective by less than this share");
-DEFINE_int32(max_iterations, shapespace::DeformationOptions().max_iterations,
-             "maximum number of iterations per level");
-DEFINE_string(solver, "threaded_lbfgs",
-              "threaded_lbfgs, or trust_region (Ceres, for small meshes)");
-DEFINE_int32(coarsest, shapespace::DeformationOptions().coarsest,
-             "triangles of the coarsest level of the hierarchy");
+static const shapespace::tools::OptionFlags<shapespace::DeformationOptions> flags(
+    __FILE__, {{"shapes", "shapes"},
+               {"balance", "balance"},
+               {"tolerance", "tolerance"},
+               {"max_iterations", "max_iterations"},
+               {"solver", "solver"},
+               {"coarsest", "coarsest"}});
 FLAG_GROUP(deform, "Handles");
 
 namespace shapespace::tools {
@@ -64,23 +57,20 @@ void CheckFlags(const std::vector<std::string>& files) {
   if (FLAGS_repair.empty() && IsGiven("sound")) throw UsageError("--sound: goes with --repair");
 }
 
-DeformationOptions DeformationFromFlags(const DeformationOptions& defaults, const Poses& mesh) {
-  DeformationOptions options = defaults;
-  options.metric = MetricFromFlags(&mesh);
-  if (IsGiven("shapes")) options.shapes = FLAGS_shapes;
-  if (IsGiven("balance")) options.balance = FLAGS_balance;
-  options.tolerance = FLAGS_tolerance;
-  options.max_iterations = FLAGS_max_iterations;
-  options.coarsest = FLAGS_coarsest;
+// But for the metric.
+DeformationOptions DeformationFromFlags() {
+  DeformationOptions options =
+      FLAGS_repair.empty() ? DeformationOptions() : RepairOptions::Defaults();
   options.memory_limit = 1e9 * FLAGS_memory_limit;
-  options.solver = Choose<DeformationOptions::Solver>(
-      "solver", FLAGS_solver,
-      {{"threaded_lbfgs", DeformationOptions::Solver::kThreadedLbfgs},
-       {"trust_region", DeformationOptions::Solver::kTrustRegion}});
+  flags.Set(&options);
+  return options;
+}
+
+void SetMetric(const Poses& mesh, DeformationOptions* options) {
+  options->metric = MetricFromFlags(&mesh);
   const auto flag_of = [](const char* field) { return IsGiven(field) ? field : "metric"; };
   NamingFlags({{"rigid", flag_of("rigid")}, {"discretization", flag_of("discretization")}},
-              [&] { options.Validate(); });
-  return options;
+              [&] { options->Validate(); });
 }
 
 // The vertices selected by --sound.
@@ -111,10 +101,10 @@ void Run(const std::vector<std::string>& files) {
   const std::vector<std::string> outputs = OutputsFromFlags();
   std::vector<std::string> inputs = files;
   inputs.push_back(FLAGS_handles.empty() ? FLAGS_repair : FLAGS_handles);
-  const int shapes =
-      IsGiven("shapes") || FLAGS_repair.empty() ? FLAGS_shapes : RepairOptions::Defaults().shapes;
-  CheckNothingIsOverwritten(WithStiffeners(inputs),
-                            {{"output", outputs, shapes + std::int64_t{1}}, ReportFromFlag()});
+  DeformationOptions options = DeformationFromFlags();
+  CheckNothingIsOverwritten(
+      WithStiffeners(inputs),
+      {{"output", outputs, options.shapes + std::int64_t{1}}, ReportFromFlag()});
   const auto finish = [&](Path path, const auto& summary, const DeformationSummary& deformation,
                           const Appearance& appearance, const Eigen::VectorXi& marks) {
     path.provenance = Provenance("shape-deform", inputs);
@@ -125,7 +115,7 @@ void Run(const std::vector<std::string>& files) {
   };
   if (FLAGS_repair.empty()) {
     const Poses poses = ReadMeshesFromFlags(files);
-    const DeformationOptions options = DeformationFromFlags({}, poses);
+    SetMetric(poses, &options);
     const std::vector<DeformationHandle> handles =
         ReadHandles(FLAGS_handles, poses.shapes[0], *poses.connectivity, poses.soup.appearance);
     DeformationResult result =
@@ -134,11 +124,9 @@ void Run(const std::vector<std::string>& files) {
            Marks(handles, poses.connectivity->NumVertices()));
   } else {
     const Poses poses = ReadMeshesFromFlags({FLAGS_repair, files[0]});
-    RepairOptions options;
-    options.deformation = DeformationFromFlags(RepairOptions::Defaults(), poses);
-    options.vertices = SoundVertices(poses);
-    RepairResult result = Repair(poses.connectivity, poses.shapes[0], poses.shapes[1], options,
-                                 SolveProgress(outputs).get());
+    SetMetric(poses, &options);
+    RepairResult result = Repair(poses.connectivity, poses.shapes[0], poses.shapes[1],
+                                 {options, SoundVertices(poses)}, SolveProgress(outputs).get());
     finish(std::move(result.path), result.summary, result.summary.deformation,
            poses.soup.appearance, {});
   }

@@ -5,6 +5,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/exploration/explore.h>
+#include <shapespace/exploration/internal/option_fields.h>
 #include <shapespace/exploration/space_file.h>
 #include <shapespace/files/display_names.h>
 
@@ -12,20 +13,18 @@
 #include "support/geodesic_flags.h"
 #include "support/lists.h"
 #include "support/mpi_crew.h"
+#include "support/option_flags.h"
 #include "support/outputs.h"
 #include "support/poses.h"
 #include "support/report.h"
 #include "support/solve_progress.h"
 #include "support/tool.h"
 
-DEFINE_int32(resolution, shapespace::ExploreOptions().resolution,
-             "distances between poses, and the errors of --measure, are computed on a decimated "
-             "mesh with at most this number of triangles, or the coarsest; 0: the mesh itself");
+static const shapespace::tools::OptionFlags<shapespace::ExploreOptions> flags(
+    __FILE__, {{"resolution", "resolution"}, {"depth", "depth"}});
 DEFINE_string(threshold, "5%",
               "by how much straight lines between shapes may be longer than geodesics, as a share "
               "or in per cent");
-DEFINE_int32(depth, shapespace::ExploreOptions().depth,
-             "maximum number of times a triangle is split");
 DEFINE_int32(
     measure, 0,
     "compares blends of the space with blends along geodesics at this number of random points");
@@ -54,11 +53,9 @@ double ThresholdFromFlag() {
 ExploreOptions ExploreFromFlags(const std::string& records) {
   ExploreOptions options;
   options.geodesic = GeodesicFromFlags();
-  options.resolution = FLAGS_resolution;
   options.threshold = ThresholdFromFlag();
-  options.depth = FLAGS_depth;
   options.records = records;
-  options.Validate();
+  flags.Set(&options);
   if (FLAGS_measure < 0) throw UsageError(AsTyped("measure") + ": must be 0 or more");
   return options;
 }

@@ -6,13 +6,14 @@
 #include <shapespace/base/error.h>
 #include <shapespace/exponential/correction.h>
 #include <shapespace/exponential/exponential.h>
+#include <shapespace/exponential/internal/option_fields.h>
 #include <shapespace/geodesic/geodesic.h>
 
 #include "support/anchor_flags.h"
-#include "support/choose.h"
 #include "support/flag_group.h"
 #include "support/geodesic_flags.h"
 #include "support/interrupt.h"
+#include "support/option_flags.h"
 #include "support/outputs.h"
 #include "support/poses.h"
 #include "support/report.h"
@@ -23,21 +24,16 @@ DEFINE_int32(steps, 8,
              "shapes to add, with the spacing in time of the last two shapes that are kept");
 DEFINE_int32(keep, 0,
              "continue from the first shapes of the path, this many; 2 or more, or 0 for all");
-DEFINE_string(integrator, "variational",
-              "variational, runge_kutta4 (of the geodesic equation) or first_integral (the paper's "
-              "(7), which does not converge; for comparison)");
-DEFINE_string(step_solver, "newton_krylov",
-              "solver of a variational step: newton_krylov, or ceres (for small meshes)");
-DEFINE_string(first_integral_solver, "lbfgs",
-              "solver of a step of first_integral: lbfgs (as in the paper) or levenberg_marquardt");
-DEFINE_double(step_tolerance, 1e-9,
-              "a step of variational or first_integral has converged when its residual is less "
-              "than this share of its value at velocity zero");
-DEFINE_int32(step_iterations, 100, "maximum number of iterations of such a step");
 DEFINE_double(
     correct, 0,
     "afterwards correct all shapes but the first towards its edge lengths: weight of the distance "
     "from the uncorrected shapes; start from 1, less for more accurate lengths; 0: off");
+static const shapespace::tools::OptionFlags<shapespace::ExponentialOptions> flags(
+    __FILE__, {{"integrator", "integrator"},
+               {"solver", "step_solver"},
+               {"first_integral_solver", "first_integral_solver"},
+               {"tolerance", "step_tolerance"},
+               {"max_iterations", "step_iterations"}});
 FLAG_GROUP(extrapolate, "Extrapolation");
 
 namespace shapespace::tools {
@@ -46,27 +42,6 @@ namespace {
 // The tolerance of the interpolation of poses is stricter than is needed for viewing, because
 // errors in the two shapes from which a geodesic is shot grow with every step.
 constexpr char kTolerance[] = "1e-6";
-
-ExponentialOptions ExponentialFromFlags() {
-  ExponentialOptions options;
-  options.integrator =
-      Choose<GeodesicIntegrator>("integrator", FLAGS_integrator,
-                                 {{"variational", GeodesicIntegrator::kVariational},
-                                  {"runge_kutta4", GeodesicIntegrator::kRungeKutta4},
-                                  {"first_integral", GeodesicIntegrator::kFirstIntegral}});
-  options.solver = Choose<StepSolver>(
-      "step_solver", FLAGS_step_solver,
-      {{"newton_krylov", StepSolver::kNewtonKrylov}, {"ceres", StepSolver::kCeres}});
-  options.first_integral_solver = Choose<FirstIntegralSolver>(
-      "first_integral_solver", FLAGS_first_integral_solver,
-      {{"lbfgs", FirstIntegralSolver::kLbfgs},
-       {"levenberg_marquardt", FirstIntegralSolver::kLevenbergMarquardt}});
-  options.tolerance = FLAGS_step_tolerance;
-  options.max_iterations = FLAGS_step_iterations;
-  NamingFlags({{"tolerance", "step_tolerance"}, {"max_iterations", "step_iterations"}},
-              [&] { options.Validate(); });
-  return options;
-}
 
 CorrectionOptions CorrectionFromFlags() {
   CorrectionOptions options;
@@ -126,7 +101,8 @@ void Run(const std::vector<std::string>& files) {
   if (geodesic.metric.rigid > 0) {  // before the interpolation, not after it
     throw UsageError("--rigid: the rigid metric has no exponential map; use --metric strain");
   }
-  const ExponentialOptions exponential = ExponentialFromFlags();
+  ExponentialOptions exponential;
+  flags.Set(&exponential);
   const CorrectionOptions correction = CorrectionFromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
   AnchorFlags anchorage = AnchorFlags::FromFlags();

@@ -9,15 +9,16 @@
 #include <shapespace/correspondence/marker_file.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/output/frames.h>
+#include <shapespace/transfer/internal/option_fields.h>
 #include <shapespace/transfer/transfer.h>
 
 #include "support/anchor_flags.h"
-#include "support/choose.h"
 #include "support/correspondence_flags.h"
 #include "support/flag_group.h"
 #include "support/geodesic_flags.h"
 #include "support/memory_flag.h"
 #include "support/mesh_flags.h"
+#include "support/option_flags.h"
 #include "support/outputs.h"
 #include "support/outside_files_flag.h"
 #include "support/poses.h"
@@ -28,25 +29,18 @@
 DEFINE_string(
     target, "",
     "the body to move, in the pose of the first source; with --markers a mesh of any connectivity");
-DEFINE_string(method, "features",
-              "features (strains and angles change like the source's) or ladder (the paper's "
-              "method: geodesics between the bodies, parallel transport and the exponential map)");
 DEFINE_string(hybrids, "",
               "files for the bodies half way between source and target, named as by --output");
 DEFINE_double(ladder_bending, shapespace::LadderOptions::Strains().bending,
               "for the ladder and hybrids: weight of dihedral angles relative to strains");
-DEFINE_string(connection, "levi_civita",
-              "for the ladder: parallel transport along a rung by levi_civita (the metric's own) "
-              "or projection (the paper's)");
-DEFINE_int32(rung_shapes, shapespace::LadderOptions().rung_shapes,
-             "for the ladder and hybrids: inner shapes between source and target; odd, because the "
-             "middle one is the hybrid");
-DEFINE_bool(
-    scale, true,
-    "for the ladder and hybrids: scale the source to the target's size; --noscale keeps sizes");
-DEFINE_bool(
-    align, true,
-    "for the ladder and hybrids: align the source with the target; --noalign keeps orientations");
+static const shapespace::tools::OptionFlags<shapespace::TransferOptions> flags(__FILE__,
+                                                                               {{"method",
+                                                                                 "method"}});
+static const shapespace::tools::OptionFlags<shapespace::LadderOptions> ladder_flags(
+    __FILE__, {{"connection", "connection"},
+               {"rung_shapes", "rung_shapes"},
+               {"scale", "scale"},
+               {"align", "align"}});
 FLAG_GROUP(transfer, "Transfer");
 
 namespace shapespace::tools {
@@ -67,21 +61,13 @@ void CheckFlagsOfTheLadder(bool climbs) {
 
 TransferOptions TransferFromFlags() {
   TransferOptions options;
-  options.method = Choose<TransferMethod>(
-      "method", FLAGS_method,
-      {{"features", TransferMethod::kFeatures}, {"ladder", TransferMethod::kLadder}});
-  CheckFlagsOfTheLadder(options.method == TransferMethod::kLadder);
   options.hybrids = !FLAGS_hybrids.empty();
-  options.ladder.rung_shapes = FLAGS_rung_shapes;
-  options.ladder.scale = FLAGS_scale;
-  options.ladder.align = FLAGS_align;
-  options.ladder.connection =
-      Choose<TransportConnection>("connection", FLAGS_connection,
-                                  {{"levi_civita", TransportConnection::kLeviCivita},
-                                   {"projection", TransportConnection::kConstrainedProjection}});
-  options.ladder.metric.bending = FLAGS_ladder_bending;
   options.memory_limit = 1e9 * FLAGS_memory_limit;
-  NamingFlags({{"bending", "ladder_bending"}}, [&] { options.Validate(); });
+  flags.Set(&options);
+  CheckFlagsOfTheLadder(options.method == TransferMethod::kLadder);
+  options.ladder.metric.bending = FLAGS_ladder_bending;
+  NamingFlags({{"bending", "ladder_bending"}}, [&] { options.ladder.metric.Validate(); });
+  ladder_flags.Set(&options.ladder);
   return options;
 }
 

@@ -14,10 +14,6 @@ _TYPES = {
 }
 
 
-def _rows(table, without=()):
-    return [row for row in _core.options(table) if row[0] not in without]
-
-
 def _say(row):
     """One option in numpydoc's form."""
     name, kind, default, meaning = row
@@ -35,12 +31,12 @@ def _say(row):
     return text + textwrap.indent(textwrap.fill(f"{meaning} Default: {shown}.", 92), "    ")
 
 
-def describe(table, without=()):
+def describe(table):
     """The options of a table in numpydoc's form."""
-    return "\n".join(_say(row) for row in _rows(table, without))
+    return "\n".join(_say(row) for row in _core.options(table))
 
 
-def takes(table, without=()):
+def takes(table):
     """Gives a function that hands `**options` on the signature and documentation of a table.
 
     `{options}` in its docstring is where the documentation goes.
@@ -53,7 +49,7 @@ def takes(table, without=()):
             for parameter in signature.parameters.values()
             if parameter.kind is not inspect.Parameter.VAR_KEYWORD
         ]
-        for name, _kind, default, _meaning in _rows(table, without):
+        for name, _kind, default, _meaning in _core.options(table):
             parameters.append(
                 inspect.Parameter(
                     name,
@@ -63,7 +59,7 @@ def takes(table, without=()):
             )
         function.__signature__ = signature.replace(parameters=parameters)
         function.__doc__ = inspect.cleandoc(function.__doc__).replace(
-            "{options}", describe(table, without)
+            "{options}", describe(table)
         )
         return function
 
@@ -73,7 +69,7 @@ def takes(table, without=()):
 def _dict_of(name, table, about, first=None):
     """A class for a dict with the options of a table, to call or to annotate with."""
     keys = dict(first or {})
-    for key, kind, _default, _meaning in _rows(table):
+    for key, kind, _default, _meaning in _core.options(table):
         keys[key] = _TYPES.get(kind, str if kind.startswith("{") else object)
     made = typing.TypedDict(name, keys, total=False)
     made.__doc__ = f"{about}\n\nParameters\n----------\n{describe(table)}\n"

@@ -11,23 +11,19 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <shapespace/correspondence/correspondence.h>
-#include <shapespace/deformation/deformation.h>
-#include <shapespace/deformation/repair.h>
-#include <shapespace/exploration/explore.h>
-#include <shapespace/exponential/correction.h>
-#include <shapespace/exponential/exponential.h>
-#include <shapespace/exponential/transport.h>
-#include <shapespace/geodesic/geodesic.h>
-#include <shapespace/metric/metric.h>
-#include <shapespace/output/gltf.h>
-#include <shapespace/output/picture.h>
-#include <shapespace/transfer/transfer.h>
+#include <shapespace/correspondence/internal/option_fields.h>
+#include <shapespace/deformation/internal/option_fields.h>
+#include <shapespace/exploration/internal/option_fields.h>
+#include <shapespace/exponential/internal/option_fields.h>
+#include <shapespace/geodesic/internal/option_fields.h>
+#include <shapespace/metric/internal/option_fields.h>
+#include <shapespace/output/internal/option_fields.h>
+#include <shapespace/transfer/internal/option_fields.h>
 
 #include "arrays.h"
 
-// Options as keyword arguments. Each struct of options has one table of its fields: their names,
-// how they are set and read, and what they mean. Defaults are those of the struct.
+// Options as keyword arguments. Names, values, defaults and meanings are those of the library
+// (base/internal/fields.h).
 
 namespace shapespace::python {
 
@@ -44,86 +40,9 @@ struct Field {
 template <typename Options>
 using Fields = std::vector<Field<Options>>;
 
-/// The table of a struct.
+/// All fields of a struct.
 template <typename Options>
 const Fields<Options>& FieldsOf();
-template <>
-const Fields<MetricOptions>& FieldsOf();
-template <>
-const Fields<GeodesicOptions>& FieldsOf();
-template <>
-const Fields<LogarithmOptions>& FieldsOf();
-template <>
-const Fields<ExponentialOptions>& FieldsOf();
-template <>
-const Fields<CorrectionOptions>& FieldsOf();
-template <>
-const Fields<TransportOptions>& FieldsOf();
-template <>
-const Fields<LadderOptions>& FieldsOf();
-template <>
-const Fields<TransferOptions>& FieldsOf();
-template <>
-const Fields<DeformationOptions>& FieldsOf();
-template <>
-const Fields<RepairOptions>& FieldsOf();
-template <>
-const Fields<CorrespondenceOptions>& FieldsOf();
-template <>
-const Fields<EmbeddingOptions>& FieldsOf();
-template <>
-const Fields<ExploreOptions>& FieldsOf();
-template <>
-const Fields<FilmStripOptions>& FieldsOf();
-template <>
-const Fields<GltfOptions>& FieldsOf();
-
-/// Names of an enumeration's values: those of C++, in Python's spelling.
-template <typename Enum>
-using Names = std::vector<std::pair<std::string, Enum>>;
-template <typename Enum>
-const Names<Enum>& NamesOf();
-template <>
-const Names<Weighting>& NamesOf();
-template <>
-const Names<Discretization>& NamesOf();
-template <>
-const Names<PosePairs>& NamesOf();
-template <>
-const Names<GeodesicSolver>& NamesOf();
-template <>
-const Names<GeodesicSchedule>& NamesOf();
-template <>
-const Names<GeodesicStart>& NamesOf();
-template <>
-const Names<Termination>& NamesOf();
-template <>
-const Names<GeodesicIntegrator>& NamesOf();
-template <>
-const Names<StepSolver>& NamesOf();
-template <>
-const Names<FirstIntegralSolver>& NamesOf();
-template <>
-const Names<ExponentialSummary::Ending>& NamesOf();
-template <>
-const Names<CorrectionMode>& NamesOf();
-template <>
-const Names<TransportConnection>& NamesOf();
-template <>
-const Names<TransferMethod>& NamesOf();
-template <>
-const Names<DeformationOptions::Solver>& NamesOf();
-template <>
-const Names<GltfPlayback>& NamesOf();
-
-/// The name of a value.
-template <typename Enum>
-std::string NameOf(Enum value) {
-  for (const auto& [name, known] : NamesOf<Enum>()) {
-    if (known == value) return name;
-  }
-  return "unknown";
-}
 
 [[noreturn]] void RefuseKeyword(const std::string& name, const std::vector<std::string>& known);
 [[noreturn]] void RefuseType(const std::string& name, const std::string& type, py::handle value);
@@ -211,22 +130,22 @@ template <typename T>
 struct Value<T, std::enable_if_t<std::is_enum_v<T>>> {
   static std::string Type() {
     std::string type;
-    for (const auto& [name, value] : NamesOf<T>()) {
-      type += (type.empty() ? "{'" : ", '") + name + "'";
+    for (const auto& [word, value] : WordsOf(internal::Of<T>())) {
+      type += (type.empty() ? "{'" : ", '") + std::string(word) + "'";
     }
     return type + "}";
   }
   static void Set(T* value, py::handle given, const std::string& name) {
     if (!py::isinstance<py::str>(given)) RefuseType(name, Type(), given);
     const auto text = py::cast<std::string>(given);
-    for (const auto& [known, one] : NamesOf<T>()) {
-      if (known != text) continue;
+    for (const auto& [word, one] : WordsOf(internal::Of<T>())) {
+      if (word != text) continue;
       *value = one;
       return;
     }
     throw py::value_error(name + ": must be one of " + Type() + ", not '" + text + "'");
   }
-  static py::object Get(const T& value) { return py::str(NameOf(value)); }
+  static py::object Get(const T& value) { return py::str(internal::WordOf(value)); }
 };
 
 template <>
@@ -294,19 +213,24 @@ struct Value<std::optional<MetricOptions>> {
   static py::object Get(const std::optional<MetricOptions>&) { return py::none(); }
 };
 
-/// A preset by its name: the values of a metric's options that are not given one by one.
-/// \throw py::value_error if there is none of that name. "deformation" is refused too, because it
-///        depends on the mesh; functions that deform have it as their default.
-MetricOptions PresetMetric(const std::string& preset);
-
-/// A table's row for a member of the struct.
-template <typename Options, typename T>
-Field<Options> Row(const std::string& name, T Options::*member, const std::string& doc) {
-  return {name, Value<T>::Type(), doc,
-          [name, member](Options* options, py::handle given) {
-            Value<T>::Set(&(options->*member), given, name);
-          },
-          [member](const Options& options) { return Value<T>::Get(options.*member); }};
+template <typename Options>
+const Fields<Options>& FieldsOf() {
+  static const Fields<Options> fields = [] {
+    Fields<Options> rows;
+    internal::ForOptions(
+        internal::Of<Options>(), [&](const std::string& name, auto field, const char* about) {
+          using T = std::decay_t<decltype(std::invoke(field, std::declval<Options&>()))>;
+          const auto set = [name, field](Options* options, py::handle given) {
+            Value<T>::Set(&std::invoke(field, *options), given, name);
+          };
+          const auto get = [field](const Options& options) {
+            return Value<T>::Get(std::invoke(field, options));
+          };
+          rows.push_back({name == "lambda" ? "lambda_" : name, Value<T>::Type(), about, set, get});
+        });
+    return rows;
+  }();
+  return fields;
 }
 
 /// What Python is told of each row of the table `name` of options: name, type, default, meaning.

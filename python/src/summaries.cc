@@ -23,12 +23,41 @@ namespace {
 template <typename T>
 py::object ToPython(const T& value) {
   if constexpr (std::is_enum_v<T>) {
-    return py::str(NameOf(value));
+    return py::str(internal::WordOf(value));
   } else if constexpr (std::is_same_v<T, std::vector<std::pair<std::string, double>>>) {
     return py::dict(py::cast(value));
   } else {
     return py::cast(value);
   }
+}
+
+/// A value's type as stubs have it. Classes must have been bound before.
+template <typename T>
+std::string TypeInStub(const T* = nullptr) {
+  if constexpr (std::is_same_v<T, bool>) {
+    return "bool";
+  } else if constexpr (std::is_integral_v<T>) {
+    return "int";
+  } else if constexpr (std::is_floating_point_v<T>) {
+    return "float";
+  } else if constexpr (std::is_convertible_v<T, std::string>) {
+    return "str";
+  } else if constexpr (std::is_enum_v<T>) {
+    std::string words;
+    for (const auto& [word, value] : WordsOf(internal::Of<T>())) {
+      words += (words.empty() ? "\"" : ", \"") + std::string(word) + "\"";
+    }
+    return "Literal[" + words + "]";
+  } else {
+    return py::cast<std::string>(py::type::of<T>().attr("__name__"));
+  }
+}
+template <typename T>
+std::string TypeInStub(const std::vector<T>* = nullptr) {
+  return "list[" + TypeInStub(static_cast<const T*>(nullptr)) + "]";
+}
+inline std::string TypeInStub(const std::vector<std::pair<std::string, double>>* = nullptr) {
+  return "dict[str, float]";
 }
 
 /// A class with read-only attributes, and a repr that lists them.
@@ -45,13 +74,16 @@ class Record {
       }
       return py::cast<std::string>(type.attr("__name__")) + "(" + text + ")";
     });
-    py::list fields;
+    py::list fields, types;
     internal::ForFields(internal::Of<T>(), [&](const char* field, const auto& get) {
       class_.def_property_readonly(
           field, [get](const T& self) { return ToPython(std::invoke(get, self)); });
+      using Value = std::decay_t<std::invoke_result_t<decltype(get), const T&>>;
       fields.append(field);
+      types.append(TypeInStub(static_cast<const Value*>(nullptr)));
     });
     class_.attr("_fields") = fields;
+    class_.attr("_types") = types;
   }
 
   /// A summary's: its line as repr; its page, where it has one, as str; all of it as a dict.

@@ -154,7 +154,8 @@ TEST(Interpolate, MovesAtConstantSpeed) {
 }
 
 // Poses with random folds everywhere, as in bad scans: hinges could turn the wrong way, or rest and
-// jump.
+// jump. In which of them a fold turns over late depends on rounding, so that their mean is held
+// too.
 TEST(Interpolate, CrumpledPosesMoveAtConstantSpeedToo) {
   const ShapeFamily tube = MakeTube(1600);
   const Shape first = tube.pose(0), last = tube.pose(90);
@@ -162,14 +163,18 @@ TEST(Interpolate, CrumpledPosesMoveAtConstantSpeedToo) {
   const double deviation = 0.5 * (first.col(edge(0)) - first.col(edge(1))).norm();
   GeodesicOptions options;
   options.shapes = 7;
-  for (int seed : {1, 2, 3}) {
+  const int seeds = 5;
+  double mean = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
     const auto crumple = [&](const Shape& shape, int salt) -> Shape {
       return shape + testing::Noise(static_cast<int>(shape.cols()), deviation, 10 * seed + salt);
     };
     const GeodesicSummary summary =
         Interpolate(tube.connectivity, {crumple(first, 0), crumple(last, 1)}, options).summary;
-    EXPECT_LT(summary.quality.speed_max, 1.1) << "seed " << seed;
+    EXPECT_LT(summary.quality.speed_max, 1.2) << "seed " << seed;
+    mean += summary.quality.speed_max / seeds;
   }
+  EXPECT_LT(mean, 1.1);
 }
 
 // Half way between a half pipe and one that is open to the opposite side, straight lines give a

@@ -206,7 +206,7 @@ TEST_F(ExtrapolateTest, EveryIntegratorAndSolverOfStepsCanBeChosen) {
   // Two solvers of the same equations agree; another integrator is close, but different.
   EXPECT_LT(apart(end({"--step_solver", "newton_krylov"})), 1e-8);
   EXPECT_LT(apart(end({"--step_solver", "ceres"})), 1e-6);
-  for (const char* integrator : {"runge_kutta4", "first_integral"}) {
+  for (const char* integrator : {"runge_kutta_4", "first_integral"}) {
     const double distance = apart(end({"--integrator", integrator}));
     EXPECT_GT(distance, 1e-8) << integrator;
     EXPECT_LT(distance, 0.2) << integrator;
@@ -255,7 +255,7 @@ TEST_F(ExtrapolateTest, WrongCommandLines) {
       {{"walk.path", "--lambda", "0.001"}, "--lambda: goes with poses"},
       {{"walk.path", "--shapes", "15"}, "--shapes: goes with poses"},
       {{"walk.path", "--integrator", "euler"},
-       "--integrator euler: must be one of variational, runge_kutta4, first_integral"},
+       "--integrator euler: must be one of variational, runge_kutta_4, first_integral"},
       {{"walk.path", "--step_solver", "lbfgs"},
        "--step_solver lbfgs: must be one of newton_krylov, ceres"},
       {{"walk.path", "--first_integral_solver", "ceres"},
@@ -284,7 +284,7 @@ TEST_F(ExtrapolateTest, WhatIsMadeBeforeAShapeDegeneratesIsWritten) {
   const Outcome some =
       Run("shape-extrapolate",
           {"tube0.obj", "tube1.obj", "--metric", "isometric", "--shapes", "1", "--keep", "2",
-           "--steps", "30", "--integrator", "runge_kutta4", "--output", "some.path"});
+           "--steps", "30", "--integrator", "runge_kutta_4", "--output", "some.path"});
   EXPECT_EQ(some.code, 0) << some.err;
   ExpectContains(some.err, "stopped early, at step ");
   const shapespace::Path path = ReadPath(Path("some.path"));
@@ -294,7 +294,7 @@ TEST_F(ExtrapolateTest, WhatIsMadeBeforeAShapeDegeneratesIsWritten) {
 
   Succeed("shape-body", {"tube", "--triangles", "300", "--at", "0,150", "--output", "far%d.obj"});
   const Outcome none = Run("shape-extrapolate", {"far0.obj", "far1.obj", "--metric", "isometric",
-                                                 "--shapes", "1", "--integrator", "runge_kutta4",
+                                                 "--shapes", "1", "--integrator", "runge_kutta_4",
                                                  "--output", "none.path", "--report", "r.json"});
   EXPECT_EQ(none.code, 1) << none.err;
   ExpectContains(none.err, "stopped early, at step 1: ");

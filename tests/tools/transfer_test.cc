@@ -151,8 +151,9 @@ TEST_F(TransferTest, FlagsOfTheTransferReachIt) {
   EXPECT_EQ(plain["geodesics"][0]["shapes"], 1);
   EXPECT_EQ(plain["transfers"][0]["steps"].size(), 2u);
   for (const Strings& flags :
-       {Strings{"--noscale"}, Strings{"--connection", "projection"}, Strings{"--rung_shapes", "5"},
-        Strings{"--ladder_bending", "0.1"}, Strings{"--bending", "1e-3"}}) {
+       {Strings{"--noscale"}, Strings{"--connection", "constrained_projection"},
+        Strings{"--rung_shapes", "5"}, Strings{"--ladder_bending", "0.1"},
+        Strings{"--bending", "1e-3"}}) {
     EXPECT_NE(report(flags)["transfers"][0]["strain_rms"], plain["transfers"][0]["strain_rms"])
         << flags[0];
   }
@@ -213,8 +214,9 @@ TEST_F(TransferTest, WrongCommandLines) {
       {{"walk.path", "--hybrids", "h.png", "--rung_shapes", "2"}, "--rung_shapes 2: must be odd"},
       {{"walk.path", "--method", "ladder", "--ladder_bending=-1"}, "--ladder_bending -1: must be"},
       {{"walk.path", "--method", "ladder", "--connection", "affine"},
-       "--connection affine: must be one of levi_civita, projection"},
-      {{"walk.path", "--connection", "projection"}, "--connection: goes with --method ladder"},
+       "--connection affine: must be one of levi_civita, constrained_projection"},
+      {{"walk.path", "--connection", "constrained_projection"},
+       "--connection: goes with --method ladder"},
       {{"tube0.obj", "tube1.obj", "--shapes", "3"}, "--shapes: goes with --method ladder"},
       {{"tube0.obj", "tube1.obj", "--lambda", "1e-3"}, "--lambda: goes with --method ladder"},
       {{"tube0.obj", "tube1.obj", "--noscale"}, "--scale: goes with --method ladder or --hybrids"},

@@ -83,7 +83,8 @@ void PrintFlags(const std::vector<std::string>& groups) {
         if (flag.type != "bool") {
           left += " " + (flag.default_value.empty() ? "..." : DefaultValue(flag));
         }
-        PrintFlag(left, flag.description);
+        const bool is_on = flag.type == "bool" && flag.default_value == "true";
+        PrintFlag(left, flag.description + (is_on ? "; --no" + flag.name + " for not" : ""));
       }
     }
   }

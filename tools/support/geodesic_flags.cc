@@ -4,26 +4,23 @@
 
 #include <gflags/gflags.h>
 
-#include "support/choose.h"
+#include <shapespace/geodesic/internal/option_fields.h>
+
 #include "support/flag_group.h"
 #include "support/memory_flag.h"
 #include "support/metric_flags.h"
+#include "support/option_flags.h"
 #include "support/outputs.h"
 #include "support/tool.h"
 
-DEFINE_int32(shapes, 15, "shapes to insert between neighbouring poses");
-DEFINE_double(tolerance, 1e-4,
-              "a level has converged when an iteration lowers the energy by less than this share");
-DEFINE_int32(max_iterations, 500, "maximum number of iterations per level");
-DEFINE_string(solver, "automatic",
-              "automatic, lbfgs (Ceres), threaded_lbfgs (shapespace) or trust_region (Ceres)");
-DEFINE_string(
-    schedule, "automatic",
-    "order of resolutions: automatic, paper (space and time in turn) or flat (no hierarchy)");
-DEFINE_string(
-    start, "best",
-    "initial guess of the first solve: blend, first, last, rigid, or the best of the first three");
-DEFINE_int32(coarsest, 200, "triangles of the coarsest level of the hierarchy");
+static const shapespace::tools::OptionFlags<shapespace::GeodesicOptions> flags(
+    __FILE__, {{"shapes", "shapes"},
+               {"tolerance", "tolerance"},
+               {"max_iterations", "max_iterations"},
+               {"solver", "solver"},
+               {"schedule", "schedule"},
+               {"start", "start"},
+               {"coarsest", "coarsest"}});
 FLAG_GROUP(geodesic, "Path");
 
 namespace shapespace::tools {
@@ -31,27 +28,8 @@ namespace shapespace::tools {
 GeodesicOptions GeodesicFromFlags() {
   GeodesicOptions options;
   options.metric = MetricFromFlags();
-  options.shapes = FLAGS_shapes;
-  options.tolerance = FLAGS_tolerance;
-  options.max_iterations = FLAGS_max_iterations;
   options.memory_limit = 1e9 * FLAGS_memory_limit;
-  options.coarsest = FLAGS_coarsest;
-  options.solver = Choose<GeodesicSolver>("solver", FLAGS_solver,
-                                          {{"automatic", GeodesicSolver::kAutomatic},
-                                           {"lbfgs", GeodesicSolver::kLbfgs},
-                                           {"threaded_lbfgs", GeodesicSolver::kThreadedLbfgs},
-                                           {"trust_region", GeodesicSolver::kTrustRegion}});
-  options.schedule = Choose<GeodesicSchedule>("schedule", FLAGS_schedule,
-                                              {{"automatic", GeodesicSchedule::kAutomatic},
-                                               {"paper", GeodesicSchedule::kPaper},
-                                               {"flat", GeodesicSchedule::kFlat}});
-  options.start = Choose<GeodesicStart>("start", FLAGS_start,
-                                        {{"best", GeodesicStart::kBest},
-                                         {"blend", GeodesicStart::kBlend},
-                                         {"first", GeodesicStart::kFirst},
-                                         {"last", GeodesicStart::kLast},
-                                         {"rigid", GeodesicStart::kRigid}});
-  options.Validate();
+  flags.Set(&options);
   return options;
 }
 

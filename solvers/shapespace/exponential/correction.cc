@@ -143,8 +143,7 @@ std::string CorrectionSummary::BriefReport() const {
   return internal::Format(
       "%s (%s): %d vertices, %d shapes corrected; lengths off by %.3g%% rms, before %.3g%%; %.3g%% "
       "of the deformation left; %d iterations, %.2f s",
-      converged ? "converged" : "NOT CONVERGED",
-      internal::WordOf(internal::Of<CorrectionMode>(), mode), vertices, shapes,
+      converged ? "converged" : "NOT CONVERGED", internal::WordOf(mode), vertices, shapes,
       100 * quality.first_rms, 100 * initial_quality.first_rms, 100 * deformation_left, iterations,
       total_seconds);
 }

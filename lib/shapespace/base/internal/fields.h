@@ -2,22 +2,47 @@
 #define SHAPESPACE_BASE_INTERNAL_FIELDS_H_
 
 #include <type_traits>
+#include <utility>
+#include <vector>
+
+// The fields of structs, each listed once for all who show or set them. A list is an overload of a
+// function, found by argument-dependent lookup:
+//
+//   template <typename Visit> void ForFields(Of<Summary>, const Visit& visit);
+// calls visit(name, get) for each field of a summary. JSON reports and Python's attributes are made
+// of it.
+//
+//   template <typename Visit> void ForOptions(Of<Options>, const Visit& visit);
+// calls visit(name, get, about) for each field of a struct of options; `about` says in a sentence
+// what it is. Python's keywords and the command line's flags are made of it.
+//
+// std::invoke(get, object) is the field's value, and for options a reference to it.
 
 namespace shapespace::internal {
 
-/// Stands for a struct in the choice of an overload of
-///   template <typename Visit> void ForFields(Of<Struct>, const Visit& visit);
-/// which calls visit(name, get) for each field of a summary; std::invoke(get, summary) is its
-/// value. This list is the only one: JSON reports and Python's attributes are made of it.
+/// Stands for a type in the choice of an overload.
 template <typename T>
 struct Of {};
+
+/// The values of an enumeration with the words for them in reports and files, in Python and on the
+/// command line: `Words<Enum> WordsOf(Of<Enum>)`.
+template <typename Enum>
+using Words = std::vector<std::pair<const char*, Enum>>;
+
+template <typename Enum>
+const char* WordOf(Enum value) {
+  for (const auto& [word, known] : WordsOf(Of<Enum>())) {
+    if (known == value) return word;
+  }
+  return "unknown";
+}
 
 struct IgnoreField {
   template <typename Get>
   void operator()(const char*, const Get&) const {}
 };
 
-/// Whether there is such a list.
+/// Whether there is a list of the fields of a summary.
 template <typename T, typename = void>
 struct HasFields : std::false_type {};
 template <typename T>

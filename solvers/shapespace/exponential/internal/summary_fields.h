@@ -5,6 +5,7 @@
 #include <shapespace/base/internal/fields.h>
 #include <shapespace/exponential/correction.h>
 #include <shapespace/exponential/exponential.h>
+#include <shapespace/exponential/internal/option_fields.h>
 #include <shapespace/exponential/transport.h>
 #include <shapespace/numerics/internal/report.h>
 
@@ -12,32 +13,10 @@
 
 namespace shapespace::internal {
 
-inline const char* WordOf(Of<GeodesicIntegrator>, GeodesicIntegrator integrator) {
-  switch (integrator) {
-    case GeodesicIntegrator::kVariational:
-      return "variational";
-    case GeodesicIntegrator::kRungeKutta4:
-      return "runge_kutta_4";
-    case GeodesicIntegrator::kFirstIntegral:
-      break;
-  }
-  return "first_integral";
-}
-
-inline const char* WordOf(Of<ExponentialSummary::Ending>, ExponentialSummary::Ending ending) {
-  switch (ending) {
-    case ExponentialSummary::Ending::kComplete:
-      return "complete";
-    case ExponentialSummary::Ending::kDegenerate:
-      return "degenerate";
-    case ExponentialSummary::Ending::kCancelled:
-      break;
-  }
-  return "cancelled";
-}
-
-inline const char* WordOf(Of<CorrectionMode>, CorrectionMode mode) {
-  return mode == CorrectionMode::kPaper ? "paper" : "proximal";
+inline Words<ExponentialSummary::Ending> WordsOf(Of<ExponentialSummary::Ending>) {
+  return {{"complete", ExponentialSummary::Ending::kComplete},
+          {"degenerate", ExponentialSummary::Ending::kDegenerate},
+          {"cancelled", ExponentialSummary::Ending::kCancelled}};
 }
 
 template <typename Visit>

@@ -15,7 +15,7 @@
 namespace shapespace::internal {
 
 /// A value of a summary in JSON: numbers that are not finite are null, enumerations are words
-/// (`WordOf(Of<T>, value)`), structs with fields are objects.
+/// (`WordOf`), structs with fields are objects.
 template <typename T>
 nlohmann::ordered_json JsonOf(const T& value);
 
@@ -42,7 +42,7 @@ nlohmann::ordered_json JsonOf(const T& value) {
     });
     return json;
   } else if constexpr (std::is_enum_v<T>) {
-    return WordOf(Of<T>(), value);
+    return WordOf(value);
   } else if constexpr (std::is_floating_point_v<T>) {
     return JsonNumber(value);
   } else {

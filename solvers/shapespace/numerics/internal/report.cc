@@ -16,18 +16,4 @@ const char* Name(Termination termination) {
   return "NOT CONVERGED: cancelled";
 }
 
-const char* Key(Termination termination) {
-  switch (termination) {
-    case Termination::kConverged:
-      return "converged";
-    case Termination::kMaxIterations:
-      return "max_iterations";
-    case Termination::kStalled:
-      return "stalled";
-    case Termination::kCancelled:
-      break;
-  }
-  return "cancelled";
-}
-
 }  // namespace shapespace::internal

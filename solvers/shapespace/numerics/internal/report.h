@@ -30,9 +30,12 @@ inline nlohmann::ordered_json JsonNumber(double value) {
 
 /// How a solve ended, in words.
 const char* Name(Termination termination);
-/// The same as the value of `termination` in reports: a word that stays the same.
-const char* Key(Termination termination);
-inline const char* WordOf(Of<Termination>, Termination termination) { return Key(termination); }
+inline Words<Termination> WordsOf(Of<Termination>) {
+  return {{"converged", Termination::kConverged},
+          {"max_iterations", Termination::kMaxIterations},
+          {"stalled", Termination::kStalled},
+          {"cancelled", Termination::kCancelled}};
+}
 /// The value for calls that consist of several solves.
 inline const char* Key(bool converged, bool cancelled) {
   return cancelled ? "cancelled" : converged ? "converged" : "not_converged";

@@ -4,15 +4,12 @@
 #include <shapespace/base/internal/fields.h>
 #include <shapespace/geodesic/internal/summary_fields.h>
 #include <shapespace/numerics/internal/report.h>
+#include <shapespace/transfer/internal/option_fields.h>
 #include <shapespace/transfer/transfer.h>
 
 // The fields of summaries (base/internal/fields.h).
 
 namespace shapespace::internal {
-
-inline const char* WordOf(Of<TransferMethod>, TransferMethod method) {
-  return method == TransferMethod::kLadder ? "ladder" : "features";
-}
 
 template <typename Visit>
 void ForFields(Of<TransferSummary::Step>, const Visit& visit) {
