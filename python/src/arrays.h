@@ -71,6 +71,15 @@ py::array_t<Scalar> Contiguous(py::handle value) {
   return array;
 }
 
+/// The place in a sequence that `i` stands for, which may be counted from the end.
+/// \throw py::index_error "`what` i of count".
+inline int PositionIn(py::ssize_t i, int count, const std::string& what) {
+  if (i < -count || i >= count) {
+    throw py::index_error(what + " " + std::to_string(i) + " of " + std::to_string(count));
+  }
+  return static_cast<int>(i < 0 ? i + count : i);
+}
+
 }  // namespace shapespace::python
 
 #endif  // SHAPESPACE_PYTHON_ARRAYS_H_

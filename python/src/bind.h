@@ -9,6 +9,7 @@
 
 #include <shapespace/files/read.h>
 #include <shapespace/metric/metric.h>
+#include <shapespace/output/picture.h>
 #include <shapespace/path/path.h>
 
 // What the parts of the module share.
@@ -26,6 +27,8 @@ void BindErrors(py::module_* module);
 void BindProgress();
 void BindMeshes(py::module_* module);
 void BindSummaries(py::module_* module);
+void BindPictures(py::module_* module);
+void BindMetrics(py::module_* module);
 void BindPaths(py::module_* module);
 void BindSpaces(py::module_* module);
 void BindCorrespondence(py::module_* module);
@@ -40,6 +43,10 @@ Poses MakePoses(std::vector<Shape> shapes, py::handle faces, const ReadOptions& 
 /// Whether polygons are cut in the same way, and stiffeners, do not matter: they are the metric's.
 /// \throw MeshError if the metric was frozen on another mesh: it would lend the poses its faces.
 void CheckIsOfMesh(const Metric& metric, const Connectivity& mesh);
+
+/// A film strip, drawn in a thread of its own.
+RgbImage Draw(const std::shared_ptr<const Connectivity>& connectivity,
+              const std::vector<Shape>& shapes, const FilmStripOptions& options);
 
 /// Says each through Python's warnings, as a MeshWarning.
 void Warn(const std::vector<std::string>& warnings);

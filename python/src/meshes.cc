@@ -77,14 +77,6 @@ py::list Polygons(const Connectivity& connectivity) {
   return polygons;
 }
 
-size_t Position(py::ssize_t i, size_t count, const std::string& what) {
-  const auto size = static_cast<py::ssize_t>(count);
-  if (i < -size || i >= size) {
-    throw py::index_error(what + " " + std::to_string(i) + " of " + std::to_string(count));
-  }
-  return static_cast<size_t>(i < 0 ? i + size : i);
-}
-
 void BindPoses(py::module_* module) {
   py::class_<Poses>(*module, "Poses", R"(Poses of one mesh: what `read` returns and solvers take.
 
@@ -130,7 +122,8 @@ MismatchError
       .def("__len__", [](const Poses& poses) { return poses.shapes.size(); })
       .def("__getitem__",
            [](const Poses& poses, py::ssize_t i) {
-             return FromShape(poses.shapes[Position(i, poses.shapes.size(), "pose")]);
+             return FromShape(
+                 poses.shapes[PositionIn(i, static_cast<int>(poses.shapes.size()), "pose")]);
            })
       .def("__getitem__",
            [](const Poses& poses, const py::slice& which) {

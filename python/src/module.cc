@@ -13,6 +13,8 @@ PYBIND11_MODULE(_core, module) {
   BindProgress();
   BindSummaries(&module);
   BindMeshes(&module);
+  BindPictures(&module);
+  BindMetrics(&module);
   BindPaths(&module);
   BindSpaces(&module);
   BindCorrespondence(&module);

@@ -53,13 +53,8 @@ poses, then the shapes found half way between nodes. `explore` makes it.
           py::arg("file"), "Writes a .space file.")
       .def("__len__", &PoseSpace::NumNodes)
       .def("__getitem__",
-           [](const PoseSpace& space, int node) {
-             const int count = space.NumNodes();
-             if (node < -count || node >= count) {
-               throw py::index_error("node " + std::to_string(node) + " of " +
-                                     std::to_string(count));
-             }
-             return FromShape(space.Placed(node < 0 ? node + count : node));
+           [](const PoseSpace& space, py::ssize_t node) {
+             return FromShape(space.Placed(PositionIn(node, space.NumNodes(), "node")));
            })
       .def_readonly("names", &PoseSpace::names, "Of the poses.")
       .def_property_readonly(
@@ -128,10 +123,7 @@ poses, then the shapes found half way between nodes. `explore` makes it.
                options.labels.push_back(std::to_string(i));
              }
              const auto connectivity = space.metric->connectivity;
-             const RgbImage image = WithoutLock(py::none(), [=](Progress*) {
-               return RenderFilmStrip(*connectivity, poses, options);
-             });
-             return py::cast(image).attr("_repr_html_")();
+             return py::cast(Draw(connectivity, poses, options)).attr("_repr_html_")();
            })
       .def("__repr__", [](const PoseSpace& space) {
         return "<shapespace.Space: " + std::to_string(space.NumPoses()) + " poses, " +

@@ -31,9 +31,9 @@ void WriteMeshAndTell(const std::string& file, const Shape& shape, const Soup& s
 }
 
 void WriteFramesAndTell(const std::string& pattern, const std::vector<Shape>& shapes,
-                        const Soup& soup, const std::vector<Eigen::MatrixXd>& colours) {
-  TellWhatIsNotKept(pattern, colours.empty() ? soup : Coloured(soup, colours[0]));
-  WriteFrames(pattern, shapes, soup, colours);
+                        const Soup& soup) {
+  TellWhatIsNotKept(pattern, soup);
+  WriteFrames(pattern, shapes, soup);
   TellFrames(pattern, static_cast<int>(shapes.size()));
 }
 

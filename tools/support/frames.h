@@ -13,7 +13,7 @@ namespace shapespace::tools {
 /// and which frames of an earlier run follow after them, which could be mistaken for a part of the
 /// same motion.
 void WriteFramesAndTell(const std::string& pattern, const std::vector<Shape>& shapes,
-                        const Soup& soup, const std::vector<Eigen::MatrixXd>& colours = {});
+                        const Soup& soup);
 
 /// Prints the messages about numbered files that were written.
 void TellFrames(const std::string& pattern, int count);

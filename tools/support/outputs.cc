@@ -2,26 +2,14 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iomanip>
 #include <new>
-#include <regex>
-#include <sstream>
 #include <utility>
 
 #include <gflags/gflags.h>
 
-#include <shapespace/analysis/quality.h>
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
-#include <shapespace/base/internal/extension.h>
-#include <shapespace/files/write.h>
-#include <shapespace/output/frames.h>
-#include <shapespace/output/gltf.h>
-#include <shapespace/output/picture.h>
-#include <shapespace/output/point_cache.h>
-#include <shapespace/output/vertex_colours.h>
-#include <shapespace/output/vtk.h>
-#include <shapespace/path/path_file.h>
+#include <shapespace/output/path_output.h>
 
 #include "support/flag_group.h"
 #include "support/frames.h"
@@ -59,36 +47,14 @@ FLAG_GROUP(outputs, "Output");
 namespace shapespace::tools {
 namespace {
 
-enum class Kind { kPath, kPicture, kGltf, kPointCache, kFrames, kVtk, kLastShape };
-
 bool writes_last_shape_alone = false;
 
-Kind KindOf(const std::string& output, const std::string& flag = "output") {
-  const std::string extension = internal::FileExtension(output);
-  if (IsWritableMesh(output)) {
-    if (writes_last_shape_alone && output.find('%') == output.npos) return Kind::kLastShape;
-    CheckFramePattern(flag, output);
-    return Kind::kFrames;
+PathOutput OutputOf(const std::string& name, const std::string& flag = "output") {
+  try {
+    return PathOutput::Of(name, writes_last_shape_alone);
+  } catch (const FileError& error) {
+    throw UsageError("--" + flag + " " + error.what());
   }
-  if (extension == ".vtp") {
-    CheckFramePattern(flag, output);
-    return Kind::kVtk;
-  }
-  for (const auto& [known, kind] : {std::make_pair(".path", Kind::kPath),
-                                    {".png", Kind::kPicture},
-                                    {".glb", Kind::kGltf},
-                                    {".pc2", Kind::kPointCache},
-                                    {".mdd", Kind::kPointCache}}) {
-    if (extension != known) continue;
-    static const std::regex number("%0?[1-9]?d");
-    if (std::regex_search(output, number)) {
-      throw UsageError("--" + flag + " " + output + ": only meshes and .vtp are numbered; one " +
-                       extension + " contains the whole path");
-    }
-    return kind;
-  }
-  throw UsageError("--" + flag + " " + output +
-                   ": must end in .path, .png, .glb, .pc2, .mdd, .obj, .ply, .off, .stl or .vtp");
 }
 
 GltfOptions GltfOptionsFromFlags() {
@@ -109,105 +75,42 @@ GltfOptions GltfOptionsFromFlags() {
   options.ease = FLAGS_ease;
   options.up = FLAGS_up == "z" ? 'z' : 'y';
   options.unit = FLAGS_unit;
-  options.colour_by_deviation = FLAGS_color == "deviation";
   options.allow_outside_files = FLAGS_allow_outside_files;
   return options;
 }
 
-ShapeRole RoleOf(const Path& path, int i) {
-  if (std::binary_search(path.poses.begin(), path.poses.end(), i)) return ShapeRole::kPose;
-  return i < path.NumShapes() - path.extrapolated ? ShapeRole::kInserted : ShapeRole::kExtrapolated;
+PathOutputOptions OptionsFromFlags() {
+  PathOutputOptions options;
+  if (FLAGS_color == "deviation") options.colours = PathColours::kDeviation;
+  if (FLAGS_color == "parts") options.colours = PathColours::kParts;
+  options.film_strip.title = FLAGS_title;
+  if (FLAGS_up == "y") options.film_strip.up = Eigen::Vector3d::UnitY();
+  if (FLAGS_up == "z") options.film_strip.up = Eigen::Vector3d::UnitZ();
+  options.gltf = GltfOptionsFromFlags();
+  if (FLAGS_fps > 0) options.point_cache_fps = FLAGS_fps;
+  return options;
 }
 
-void WriteGltfAndTell(const std::string& output, const Path& path, const Shape& reference,
-                      const Eigen::VectorXi& parts) {
-  GltfOptions options = GltfOptionsFromFlags();
-  options.reference = reference;
-  options.groups = parts;
-  const GltfSummary summary = WriteGltf(output, path, options);
+void Write(const PathOutput& output, const Path& path, const PathOutputOptions& options) {
+  using Kind = PathOutput::Kind;
+  const PathOutputSummary summary = WritePathOutput(output, path, options);
   for (const std::string& warning : summary.warnings) {
-    Err() << "warning: " << output << ": " << warning << '\n';
+    Err() << (output.kind == Kind::kGltf ? "warning: " : "note: ") << output.file << ": " << warning
+          << '\n';
   }
-  if (summary.subsampled) {
-    Err() << "note: " << output << ": " << summary.keys << " of the " << path.NumShapes()
+  if (summary.gltf.subsampled) {
+    Err() << "note: " << output.file << ": " << summary.gltf.keys << " of the " << path.NumShapes()
           << " shapes, evenly spaced, because players do not support more\n";
   }
-  if (FLAGS_color == "deviation") {
-    Err() << "note: " << output << ": the last colour stands for a deviation of "
+  if (summary.colour_end > 0) {
+    Err() << "note: " << output.file << ": the last colour stands for a deviation of "
           << 100 * summary.colour_end << "%\n";
   }
-}
-
-void WritePicture(const std::string& output, const Path& path, const Shape& reference,
-                  const Eigen::VectorXi& parts, const Eigen::VectorXi& marks) {
-  FilmStripOptions options;
-  options.marks = marks;
-  options.title = FLAGS_title;
-  if (FLAGS_up == "y") options.up = Eigen::Vector3d::UnitY();
-  if (FLAGS_up == "z") options.up = Eigen::Vector3d::UnitZ();
-  for (int i = 0; i < path.NumShapes(); ++i) {
-    options.roles.push_back(RoleOf(path, i));
-    std::ostringstream label;
-    label << "t = " << std::setprecision(3) << path.parameters[i];
-    options.labels.push_back(label.str());
+  if (output.kind == Kind::kFrames || output.kind == Kind::kVtk) {
+    TellFrames(output.file, path.NumShapes());
+  } else {
+    Out() << "wrote " << output.file << '\n';
   }
-  if (FLAGS_color == "deviation") {
-    for (int i = 0; i < path.NumShapes(); ++i) {
-      options.values.push_back(EdgeDeviation(*path.metric, reference, path.shapes[i]));
-    }
-    options.legend = "edge length, deviation from the first pose";
-  } else if (FLAGS_color == "parts") {
-    options.groups = parts;
-    options.legend = "near-rigid parts, by size";
-  }
-  WritePng(output, RenderFilmStrip(*path.metric->connectivity, path.Placed(), options));
-}
-
-// The colours of frames according to --color, if any; one for each shape.
-std::vector<Eigen::MatrixXd> FrameColours(const std::string& output, const Path& path,
-                                          const Shape& reference, const Eigen::VectorXi& parts) {
-  if (FLAGS_color == "deviation") {
-    DeviationColours colours = ColourByDeviation(path, reference);
-    Err() << "note: " << output << ": the last colour stands for a deviation of "
-          << 100 * colours.scale_end << "%\n";
-    return std::move(colours.of_shapes);
-  }
-  if (FLAGS_color == "plain") return {};
-  return {path.shapes.size(), ColourByGroup(parts)};
-}
-
-// `parts` are computed when first needed.
-void Write(const std::string& output, const Path& path, const Path& whole,
-           const Eigen::VectorXi& marks, Eigen::VectorXi* parts) {
-  const Kind kind = KindOf(output);
-  if (kind != Kind::kPath && FLAGS_color == "parts" && parts->size() == 0) {
-    *parts = FindRigidParts(whole).of_vertex;
-  }
-  if (kind == Kind::kFrames || kind == Kind::kLastShape) {
-    const Soup soup = FrameSoup(*path.metric->connectivity, path.appearance);
-    const std::vector<Eigen::MatrixXd> colours =
-        FrameColours(output, path, whole.shapes[0], *parts);
-    if (kind == Kind::kFrames) {
-      WriteFramesAndTell(output, path.Placed(), soup, colours);
-    } else {
-      WriteMeshAndTell(output, path.Placed(path.NumShapes() - 1),
-                       colours.empty() ? soup : Coloured(soup, colours.back()));
-    }
-    return;
-  }
-  if (kind == Kind::kVtk) {
-    WriteVtkSeries(output, path, whole.shapes[0]);
-    TellFrames(output, path.NumShapes());
-    return;
-  }
-  if (kind == Kind::kPath) WritePath(output, path);
-  if (kind == Kind::kPicture) WritePicture(output, path, whole.shapes[0], *parts, marks);
-  if (kind == Kind::kPointCache) {
-    FLAGS_fps > 0 ? WritePointCache(output, path.Placed(), FLAGS_fps)
-                  : WritePointCache(output, path.Placed());
-  }
-  if (kind == Kind::kGltf) WriteGltfAndTell(output, path, whole.shapes[0], *parts);
-  Out() << "wrote " << output << '\n';
 }
 
 }  // namespace
@@ -229,7 +132,7 @@ std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::str
   std::vector<std::string> outputs;
   for (const std::string& output : Split(list)) {
     if (output.empty()) continue;
-    KindOf(output, flag);
+    OutputOf(output, flag);
     CheckCanBeWritten(output);
     outputs.push_back(output);
   }
@@ -251,12 +154,17 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
                   const Eigen::VectorXi& marks) {
   std::vector<std::string> paths_first = outputs;
   std::stable_partition(paths_first.begin(), paths_first.end(), IsPathFile);
-  Eigen::VectorXi parts;
+  PathOutputOptions options = OptionsFromFlags();
+  options.reference = whole.shapes[0];
+  options.film_strip.marks = marks;
   for (const std::string& output : paths_first) {
     if (Interrupted() && !IsPathFile(output)) continue;
     ShowProgress("writing " + output);
     try {
-      Write(output, path, whole, marks, &parts);
+      if (!IsPathFile(output) && FLAGS_color == "parts" && options.parts.size() == 0) {
+        options.parts = FindRigidParts(whole).of_vertex;
+      }
+      Write(OutputOf(output), path, options);
     } catch (const Error& error) {
       Complain(error.what());
     } catch (const std::bad_alloc&) {

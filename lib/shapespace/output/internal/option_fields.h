@@ -3,6 +3,7 @@
 
 #include <shapespace/base/internal/fields.h>
 #include <shapespace/output/gltf.h>
+#include <shapespace/output/path_output.h>
 #include <shapespace/output/picture.h>
 
 // The fields of options, and the words of enumerations (base/internal/fields.h).
@@ -13,6 +14,12 @@ inline Words<GltfPlayback> WordsOf(Of<GltfPlayback>) {
   return {{"there_and_back", GltfPlayback::kThereAndBack},
           {"loop", GltfPlayback::kLoop},
           {"once", GltfPlayback::kOnce}};
+}
+
+inline Words<PathColours> WordsOf(Of<PathColours>) {
+  return {{"plain", PathColours::kPlain},
+          {"deviation", PathColours::kDeviation},
+          {"parts", PathColours::kParts}};
 }
 
 template <typename Visit>

@@ -1,0 +1,165 @@
+#include <shapespace/output/path_output.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <utility>
+
+#include <shapespace/analysis/quality.h>
+#include <shapespace/analysis/rigid_parts.h>
+#include <shapespace/base/error.h>
+#include <shapespace/base/internal/extension.h>
+#include <shapespace/files/write.h>
+#include <shapespace/output/frames.h>
+#include <shapespace/output/point_cache.h>
+#include <shapespace/output/vertex_colours.h>
+#include <shapespace/output/vtk.h>
+#include <shapespace/path/path_file.h>
+
+namespace shapespace {
+namespace {
+
+ShapeRole RoleOf(const Path& path, int i) {
+  if (std::binary_search(path.poses.begin(), path.poses.end(), i)) return ShapeRole::kPose;
+  return i < path.NumShapes() - path.extrapolated ? ShapeRole::kInserted : ShapeRole::kExtrapolated;
+}
+
+class Writer {
+ public:
+  Writer(std::string file, const Path& path, const PathOutputOptions& options)
+      : file_(std::move(file)), path_(path), options_(options) {}
+
+  PathOutputSummary Write(PathOutput::Kind kind) {
+    switch (kind) {
+      case PathOutput::Kind::kPath:
+        WritePath(file_, path_);
+        break;
+      case PathOutput::Kind::kFilmStrip:
+        WriteFilmStrip();
+        break;
+      case PathOutput::Kind::kGltf:
+        WriteGlb();
+        break;
+      case PathOutput::Kind::kPointCache:
+        WritePointCache(file_, path_.Placed(), options_.point_cache_fps);
+        break;
+      case PathOutput::Kind::kFrames:
+        WriteMeshes(false);
+        break;
+      case PathOutput::Kind::kLastShape:
+        WriteMeshes(true);
+        break;
+      case PathOutput::Kind::kVtk:
+        WriteVtkSeries(file_, path_, options_.reference);
+        break;
+    }
+    return std::move(summary_);
+  }
+
+ private:
+  bool ByDeviation() const { return options_.colours == PathColours::kDeviation; }
+
+  // Empty if vertices are not coloured by parts.
+  Eigen::VectorXi Parts() const {
+    if (options_.colours != PathColours::kParts) return {};
+    return options_.parts.size() > 0 ? options_.parts : FindRigidParts(path_).of_vertex;
+  }
+
+  void WriteFilmStrip() const {
+    FilmStripOptions options = options_.film_strip;
+    FilmStripOptions own = FilmStripOf(path_);
+    if (options.roles.empty()) options.roles = std::move(own.roles);
+    if (options.labels.empty()) options.labels = std::move(own.labels);
+    if (ByDeviation()) {
+      const Shape& reference = options_.reference.size() > 0 ? options_.reference : path_.shapes[0];
+      for (const Shape& shape : path_.shapes) {
+        options.values.push_back(EdgeDeviation(*path_.metric, reference, shape));
+      }
+      options.legend = "edge length, deviation from the first pose";
+    } else if (options_.colours == PathColours::kParts) {
+      options.groups = Parts();
+      options.legend = "near-rigid parts, by size";
+    }
+    WritePng(file_, RenderFilmStrip(*path_.metric->connectivity, path_.Placed(), options));
+  }
+
+  void WriteGlb() {
+    GltfOptions options = options_.gltf;
+    if (ByDeviation()) {
+      options.colour_by_deviation = true;
+      options.reference = options_.reference;
+    }
+    if (options_.colours == PathColours::kParts) options.groups = Parts();
+    summary_.gltf = WriteGltf(file_, path_, options);
+    summary_.colour_end = summary_.gltf.colour_end;
+    summary_.warnings = summary_.gltf.warnings;
+  }
+
+  void WriteMeshes(bool last_alone) {
+    const Soup soup = FrameSoup(*path_.metric->connectivity, path_.appearance);
+    std::vector<Eigen::MatrixXd> colours;
+    if (ByDeviation()) {
+      DeviationColours deviation = ColourByDeviation(path_, options_.reference);
+      colours = std::move(deviation.of_shapes);
+      summary_.colour_end = deviation.scale_end;
+    } else if (options_.colours == PathColours::kParts) {
+      colours.assign(path_.shapes.size(), ColourByGroup(Parts()));
+    }
+    const Soup last = colours.empty() ? soup : Coloured(soup, colours.back());
+    summary_.warnings = NotKept(file_, last);
+    if (last_alone) {
+      WriteMesh(file_, path_.Placed(path_.NumShapes() - 1), last);
+    } else {
+      WriteFrames(file_, path_.Placed(), soup, colours);
+    }
+  }
+
+  const std::string file_;
+  const Path& path_;
+  const PathOutputOptions& options_;
+  PathOutputSummary summary_;
+};
+
+}  // namespace
+
+PathOutput PathOutput::Of(const std::string& file, bool last_shape_alone) {
+  static const std::map<std::string, Kind> kinds = {
+      {".path", Kind::kPath},      {".png", Kind::kFilmStrip},  {".glb", Kind::kGltf},
+      {".pc2", Kind::kPointCache}, {".mdd", Kind::kPointCache}, {".vtp", Kind::kVtk}};
+  const std::string extension = internal::FileExtension(file);
+  const auto known = kinds.find(extension);
+  const bool is_mesh = IsWritableMesh(file);
+  if (known == kinds.end() && !is_mesh) {
+    throw FileError(file +
+                    ": must end in .path, .png, .glb, .pc2, .mdd, .obj, .ply, .off, .stl or .vtp");
+  }
+  if (is_mesh && last_shape_alone && file.find('%') == file.npos) return {file, Kind::kLastShape};
+  const Kind kind = is_mesh ? Kind::kFrames : known->second;
+  if (kind == Kind::kFrames || kind == Kind::kVtk) {
+    FrameName(file, 0);
+  } else if (static const std::regex number("%0?[1-9]?d"); std::regex_search(file, number)) {
+    throw FileError(file + ": only meshes and .vtp are numbered; one " + extension +
+                    " contains the whole path");
+  }
+  return {file, kind};
+}
+
+FilmStripOptions FilmStripOf(const Path& path) {
+  FilmStripOptions options;
+  for (int i = 0; i < path.NumShapes(); ++i) {
+    options.roles.push_back(RoleOf(path, i));
+    std::ostringstream label;
+    label << "t = " << std::setprecision(3) << path.parameters[i];
+    options.labels.push_back(label.str());
+  }
+  return options;
+}
+
+PathOutputSummary WritePathOutput(const PathOutput& output, const Path& path,
+                                  const PathOutputOptions& options) {
+  return Writer(output.file, path, options).Write(output.kind);
+}
+
+}  // namespace shapespace

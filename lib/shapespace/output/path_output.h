@@ -1,0 +1,72 @@
+#ifndef SHAPESPACE_OUTPUT_PATH_OUTPUT_H_
+#define SHAPESPACE_OUTPUT_PATH_OUTPUT_H_
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <shapespace/mesh/shape.h>
+#include <shapespace/output/gltf.h>
+#include <shapespace/output/picture.h>
+#include <shapespace/path/path.h>
+
+namespace shapespace {
+
+/// A file for a path, or a pattern of names for one file per shape.
+struct PathOutput {
+  enum class Kind {
+    kPath,        ///< .path: the complete result
+    kFilmStrip,   ///< .png
+    kGltf,        ///< .glb, an animation
+    kPointCache,  ///< .pc2 or .mdd
+    kFrames,      ///< a pattern of meshes (`FrameName`): .obj, .ply, .off or .stl
+    kLastShape,   ///< one such mesh
+    kVtk,         ///< a pattern of .vtp, for ParaView
+  };
+
+  std::string file;
+  Kind kind;
+
+  /// The kind is that of the name's extension. A name of a mesh without '%' stands for the last
+  /// shape if `last_shape_alone`, and is refused otherwise.
+  /// \throw FileError for another extension, or if '%d' is missing or where it does not belong.
+  static PathOutput Of(const std::string& file, bool last_shape_alone = false);
+};
+
+/// What vertices are coloured by, in film strips, glTF and frames.
+enum class PathColours {
+  kPlain,      ///< the path's own appearance; in film strips, the roles of shapes
+  kDeviation,  ///< of edge lengths (`EdgeDeviation`)
+  kParts,      ///< regions that move nearly rigidly
+};
+
+struct PathOutputOptions {
+  PathColours colours = PathColours::kPlain;
+  Shape reference;        ///< for deviations, in the metric's unit; empty: the path's first shape
+  Eigen::VectorXi parts;  ///< of each vertex, for `kParts`; empty: `FindRigidParts` of the path
+
+  /// Of film strips. Roles and labels that are empty are those of the path: given, inserted or
+  /// extrapolated, and the parameter.
+  FilmStripOptions film_strip;
+  GltfOptions gltf;
+  double point_cache_fps = 24;
+};
+
+struct PathOutputSummary {
+  GltfSummary gltf;       ///< of a .glb
+  double colour_end = 0;  ///< the deviation that has the last colour, in frames and glTF
+  std::vector<std::string> warnings;  ///< sentences: what of the appearance the file does not hold
+};
+
+/// Options of the film strip of a path: roles and labels of its shapes.
+FilmStripOptions FilmStripOf(const Path& path);
+
+/// Writes the path. Each file is written completely or not at all.
+/// \throw InvalidOptions, FileError, MeshError as the functions that write each kind.
+PathOutputSummary WritePathOutput(const PathOutput& output, const Path& path,
+                                  const PathOutputOptions& options = {});
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_OUTPUT_PATH_OUTPUT_H_

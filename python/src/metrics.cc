@@ -1,0 +1,135 @@
+#include <sstream>
+
+#include <shapespace/analysis/shape_error.h>
+#include <shapespace/metric/feature_map.h>
+
+#include "arrays.h"
+#include "bind.h"
+#include "options.h"
+#include "progress.h"
+
+namespace shapespace::python {
+namespace {
+
+// Both triangles of the metric's matrix, for tangents of shapes in the user's unit: data, row of
+// each, where columns begin.
+py::tuple FullMatrix(const FrozenMetric& self, const Shape& shape) {
+  const auto full = WithoutLock(py::none(), [=](Progress*) {
+    const double unit = self.metric->unit;
+    const Eigen::SparseMatrix<double> lower =
+        FeatureMap(self.metric).Derivative(shape / unit).MetricMatrix();
+    Eigen::SparseMatrix<double> both = lower.selfadjointView<Eigen::Lower>();
+    both /= unit * unit;
+    both.makeCompressed();
+    return both;
+  });
+  const Eigen::Map<const Eigen::VectorXd> values(full.valuePtr(), full.nonZeros());
+  const Eigen::Map<const Eigen::VectorXi> rows(full.innerIndexPtr(), full.nonZeros());
+  const Eigen::Map<const Eigen::VectorXi> begin(full.outerIndexPtr(), full.cols() + 1);
+  return py::make_tuple(FromMatrix(values), FromMatrix(rows), FromMatrix(begin));
+}
+
+void BindMetric(py::module_* module) {
+  py::class_<FrozenMetric>(*module, "Metric")
+      .def(py::init([](py::handle poses, py::handle faces, const py::object& preset,
+                       const py::object& pairs, const py::kwargs& given) {
+             MetricOptions options;
+             Value<MetricOptions>::Set(&options, preset, "preset");
+             Set(given, &options);
+             PosePairs which = PosePairs::kConsecutive;
+             Value<PosePairs>::Set(&which, pairs, "pairs");
+             Poses mesh;
+             if (py::isinstance<Poses>(poses)) {
+               if (!faces.is_none()) {
+                 throw py::type_error("faces: leave them out, since the poses have a mesh already");
+               }
+               mesh = py::cast<const Poses&>(poses);
+             } else {
+               mesh = MakePoses(ToShapes(poses, "poses"), faces);
+               Warn(mesh.warnings);
+             }
+             const py::gil_scoped_release unlocked;
+             return FrozenMetric{FreezeMetric(options, mesh.connectivity, mesh.shapes, 0, which)};
+           }),
+           py::arg("poses"), py::arg("faces") = py::none(), py::kw_only(),
+           py::arg("preset") = "strain", py::arg("pairs") = "consecutive")
+      .def_property_readonly(
+          "unit", [](const FrozenMetric& self) { return self.metric->unit; },
+          "The length, in the unit of the poses, that counts as 1.")
+      .def_property_readonly(
+          "options", [](const FrozenMetric& self) { return Get(self.metric->options); },
+          "The options that it was made with, as a dict.")
+      .def_property_readonly(
+          "faces",
+          [](const FrozenMetric& self) {
+            return FromMatrix(self.metric->connectivity->Triangles());
+          },
+          "The triangles, m x 3.")
+      .def_property_readonly(
+          "edges",
+          [](const FrozenMetric& self) { return FromMatrix(self.metric->connectivity->Edges()); },
+          "The edges, k x 2.")
+      .def_property_readonly(
+          "hinges",
+          [](const FrozenMetric& self) { return FromMatrix(self.metric->connectivity->Hinges()); },
+          "The hinges, k x 4: an edge, and the vertices opposite to it.")
+      .def_property_readonly(
+          "vertex_area",
+          [](const FrozenMetric& self) { return FromMatrix(self.metric->vertex_area); },
+          "The share of the surface that each vertex stands for.")
+      .def_property_readonly(
+          "edge_area", [](const FrozenMetric& self) { return FromMatrix(self.metric->edge_area); },
+          "Of each edge: a third of the triangles at it; the surface's area is 1.")
+      .def_property_readonly(
+          "hinge_area",
+          [](const FrozenMetric& self) { return FromMatrix(self.metric->hinge_area); },
+          "Of each hinge: a third of its two triangles.")
+      .def(
+          "norm",
+          [](const FrozenMetric& self, py::handle shape, py::handle tangent) {
+            const int n = self.metric->connectivity->NumVertices();
+            const Shape p = ToShape(shape, "shape", n), x = ToShape(tangent, "tangent", n);
+            return WithoutLock(py::none(), [=](Progress*) {
+              const double unit = self.metric->unit;
+              return FeatureMap(self.metric).Derivative(p / unit).Times(x / unit).norm();
+            });
+          },
+          py::arg("shape"), py::arg("tangent"), R"(Length of a tangent at a shape: a pure number.
+
+Parameters
+----------
+shape, tangent : array_like
+    n x 3, in the unit of the poses.
+
+Raises
+------
+InvalidOptions
+    The metric has a rigid part.
+)")
+      .def("_matrix",
+           [](const FrozenMetric& self, py::handle shape) {
+             return FullMatrix(self,
+                               ToShape(shape, "shape", self.metric->connectivity->NumVertices()));
+           })
+      .def("__repr__", [](const FrozenMetric& self) {
+        std::ostringstream text;
+        text << "<shapespace.Metric: " << DescribeMetric(self.metric->options) << "; unit "
+             << self.metric->unit << ", " << self.metric->connectivity->NumVertices()
+             << " vertices>";
+        return text.str();
+      });
+}
+
+}  // namespace
+
+void BindMetrics(py::module_* module) {
+  BindMetric(module);
+  module->def("compare_shapes",
+              [](const FrozenMetric& metric, py::handle reference, py::handle shape) {
+                const int n = metric.metric->connectivity->NumVertices();
+                return CompareShapes(metric.metric, ToShape(reference, "reference", n),
+                                     ToShape(shape, "shape", n));
+              });
+}
+
+}  // namespace shapespace::python

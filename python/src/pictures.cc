@@ -1,0 +1,78 @@
+#include <filesystem>
+
+#include <pybind11/stl/filesystem.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/internal/extension.h>
+
+#include "bind.h"
+#include "options.h"
+#include "progress.h"
+
+namespace shapespace::python {
+namespace {
+
+py::array_t<unsigned char> Pixels(const RgbImage& image) {
+  py::array_t<unsigned char> pixels(std::vector<py::ssize_t>{image.height, image.width, 3});
+  std::copy(image.pixels.begin(), image.pixels.end(), pixels.mutable_data());
+  return pixels;
+}
+
+void BindImage(py::module_* module) {
+  py::class_<RgbImage>(
+      *module, "Image",
+      "A picture, such as a film strip; notebooks show it. `numpy.asarray` gives its "
+      "pixels.")
+      .def_property_readonly("pixels", &Pixels, "The pixels, height x width x 3 bytes, sRGB.")
+      .def(
+          "__array__",
+          [](const RgbImage& image, const py::object& dtype, const py::object& /*copy*/) {
+            return py::object(dtype.is_none() ? py::object(Pixels(image))
+                                              : Pixels(image).attr("astype")(dtype));
+          },
+          py::arg("dtype") = py::none(), py::arg("copy") = py::none())
+      .def(
+          "png", [](const RgbImage& image) { return py::bytes(EncodePng(image)); },
+          "The bytes of a PNG file.")
+      .def("_repr_png_", [](const RgbImage& image) { return py::bytes(EncodePng(image)); })
+      .def("_repr_html_",
+           [](const RgbImage& image) {
+             const auto text = py::module_::import("base64")
+                                   .attr("b64encode")(py::bytes(EncodePng(image)))
+                                   .attr("decode")("ascii");
+             return "<img style=\"max-width: 100%\" src=\"data:image/png;base64," +
+                    py::cast<std::string>(text) + "\"/>";
+           })
+      .def(
+          "write",
+          [](const RgbImage& image, const std::filesystem::path& file) {
+            if (internal::FileExtension(file) != ".png") {
+              throw FileError(file.string() + ": a picture is written as .png only");
+            }
+            WritePng(file, image);
+          },
+          py::arg("file"), "Writes a PNG file.")
+      .def("__repr__", [](const RgbImage& image) {
+        return "<shapespace.Image: " + std::to_string(image.width) + " x " +
+               std::to_string(image.height) + " pixels>";
+      });
+}
+
+}  // namespace
+
+RgbImage Draw(const std::shared_ptr<const Connectivity>& connectivity,
+              const std::vector<Shape>& shapes, const FilmStripOptions& options) {
+  return WithoutLock(py::none(),
+                     [=](Progress*) { return RenderFilmStrip(*connectivity, shapes, options); });
+}
+
+void BindPictures(py::module_* module) {
+  BindImage(module);
+  module->def("film_strip", [](const Poses& poses, const py::dict& given) {
+    FilmStripOptions options;
+    Set(given, &options);
+    return Draw(poses.connectivity, poses.shapes, options);
+  });
+}
+
+}  // namespace shapespace::python
