@@ -435,9 +435,7 @@ TEST(Transport, CarriesTheVelocityOfAGeodesicToItsVelocity) {
   for (const testing::Motion& motion :
        {testing::Turning(Bar(), 30, 60, {}), testing::Deforming(MakeBricard(), 0, 25, {})}) {
     SCOPED_TRACE(motion.name);
-    ExponentialOptions fine;
-    fine.integrator = GeodesicIntegrator::kRungeKutta4;
-    const Path exact = Extrapolate(motion.metric, motion.shape, motion.velocity, 256, fine).path;
+    const Path exact = Extrapolate(motion.metric, motion.shape, motion.velocity, 256).path;
     Path back = exact;
     std::reverse(back.shapes.begin(), back.shapes.end());
     const Tangent last = -InitialVelocity(back);

@@ -31,44 +31,6 @@ using NextShape = std::function<Shape(ExponentialSummary::Step*)>;
 // shrinks to less than this share of its length in the first shape.
 constexpr double kInvertedShare = 1e-2, kVanishedEdge = 1e-5;
 
-// Runge-Kutta 4 for the geodesic equation G(P) P'' = -J^T Phi''(P', P'), with a step as the unit of
-// time.
-class RungeKutta4 {
- public:
-  RungeKutta4(const std::shared_ptr<const Metric>& metric, Shape shape, Tangent velocity)
-      : map_(metric), shape_(std::move(shape)), velocity_(std::move(velocity)), speed_(Speed()) {}
-
-  Shape Next(ExponentialSummary::Step* row) {
-    const Tangent v1 = velocity_, a1 = Acceleration(shape_, v1);
-    const Tangent v2 = velocity_ + 0.5 * a1, a2 = Acceleration(shape_ + 0.5 * v1, v2);
-    const Tangent v3 = velocity_ + 0.5 * a2, a3 = Acceleration(shape_ + 0.5 * v2, v3);
-    const Tangent v4 = velocity_ + a3, a4 = Acceleration(shape_ + v3, v4);
-    shape_ += (v1 + 2 * v2 + 2 * v3 + v4) / 6;
-    velocity_ += (a1 + 2 * a2 + 2 * a3 + a4) / 6;
-    row->converged = std::abs(Speed() - speed_) <= internal::kSpeedChange * speed_;
-    row->vertices = static_cast<int>(shape_.cols());
-    return shape_;
-  }
-
-  const MetricSolver& Solver() const { return solver_; }
-
- private:
-  Tangent Acceleration(const Shape& shape, const Tangent& velocity) {
-    const FeatureDerivative derivative = map_.Derivative(shape);
-    solver_.Factor(derivative);
-    return -SolveMetric(solver_, derivative,
-                        derivative.TransposeTimes(map_.SecondDerivative(shape, velocity)));
-  }
-
-  double Speed() const { return map_.Derivative(shape_).Times(velocity_).norm(); }
-
-  FeatureMap map_;
-  MetricSolver solver_;
-  Shape shape_;
-  Tangent velocity_;
-  const double speed_;
-};
-
 // The paper's scheme: Euler steps, after each of which the velocity is found from (7) at the new
 // shape.
 class FirstIntegral {
@@ -356,17 +318,6 @@ void Shoot(InitialState initial_state, int steps, double step, const Exponential
       March(next, steps, step, progress, result);
       summary.factorisations = shooter.NumFactorisations();
       summary.factor_seconds = shooter.FactorSeconds();
-      break;
-    }
-    case GeodesicIntegrator::kRungeKutta4: {
-      RungeKutta4 scheme(metric, initial_state.shape,
-                         discrete ? SegmentVelocity(FeatureMap(metric), initial_state.previous,
-                                                    initial_state.shape, 1)
-                                  : initial_state.velocity);
-      March([&](ExponentialSummary::Step* row) { return scheme.Next(row); }, steps, step, progress,
-            result);
-      summary.factorisations = scheme.Solver().NumFactorisations();
-      summary.factor_seconds = scheme.Solver().FactorSeconds();
       break;
     }
     case GeodesicIntegrator::kFirstIntegral: {

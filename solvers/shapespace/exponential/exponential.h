@@ -16,7 +16,6 @@ namespace shapespace {
 /// How a geodesic is continued (docs/mathematics.md, section 8).
 enum class GeodesicIntegrator {
   kVariational,    ///< discrete Euler-Lagrange equation: order 2, momenta conserved up to rounding
-  kRungeKutta4,    ///< fourth-order Runge-Kutta on the geodesic equation, unstable for large steps
   kFirstIntegral,  ///< the paper's (7), which does not converge: for comparison only
 };
 

@@ -13,15 +13,7 @@ namespace {
 using internal::Format;
 
 const char* Name(GeodesicIntegrator integrator) {
-  switch (integrator) {
-    case GeodesicIntegrator::kVariational:
-      return "variational";
-    case GeodesicIntegrator::kRungeKutta4:
-      return "Runge-Kutta 4";
-    case GeodesicIntegrator::kFirstIntegral:
-      break;
-  }
-  return "first integral (7)";
+  return integrator == GeodesicIntegrator::kVariational ? "variational" : "first integral (7)";
 }
 
 }  // namespace

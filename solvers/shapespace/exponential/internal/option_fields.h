@@ -14,7 +14,6 @@ namespace shapespace::internal {
 
 inline Words<GeodesicIntegrator> WordsOf(Of<GeodesicIntegrator>) {
   return {{"variational", GeodesicIntegrator::kVariational},
-          {"runge_kutta_4", GeodesicIntegrator::kRungeKutta4},
           {"first_integral", GeodesicIntegrator::kFirstIntegral}};
 }
 
@@ -47,8 +46,8 @@ void ForOptions(Of<LogarithmOptions>, const Visit& visit) {
 template <typename Visit>
 void ForOptions(Of<ExponentialOptions>, const Visit& visit) {
   visit("integrator", &ExponentialOptions::integrator,
-        "The discrete Euler-Lagrange equation (order 2), Runge-Kutta (order 4), or the paper's "
-        "first integral, which does not converge.");
+        "The discrete Euler-Lagrange equation, or the paper's first integral, which does not "
+        "converge.");
   visit("solver", &ExponentialOptions::solver,
         "What solves a step of the variational integrator; ceres is for small meshes.");
   visit("first_integral_solver", &ExponentialOptions::first_integral_solver,
