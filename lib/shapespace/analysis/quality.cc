@@ -66,6 +66,61 @@ Deviations AgainstFirst(const Path& path, int i, double shortest) {
   return deviations;
 }
 
+// What an inner shape adds to the figures of its path.
+struct InnerFigures {
+  Deviations edges;
+  double roughness = 0;  // squared deviations of dihedral angles, weighted by area
+  int folds = 0;
+};
+
+// Compares shapes between two poses with what lies between these: edge lengths on the straight line
+// in the metric's values, and dihedral angles between those of the poses.
+class BetweenPoses {
+ public:
+  explicit BetweenPoses(const Path& path) : path_(path), angles_(path.poses.size()) {
+    ParallelFor(static_cast<int>(path.poses.size()), [&](int i) {
+      angles_[i] = DihedralAngles(*path.metric->connectivity, path.shapes[path.poses[i]]);
+    });
+    for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
+      straight_.emplace_back(path.metric, path.shapes[path.poses[piece]],
+                             path.shapes[path.poses[piece + 1]]);
+    }
+  }
+
+  // Nothing for poses, and for shapes before the first or after the last pose. Edges are counted
+  // whose squared length is above `shortest`.
+  InnerFigures Of(int i, double shortest) const {
+    InnerFigures figures;
+    const auto next = std::lower_bound(path_.poses.begin(), path_.poses.end(), i);
+    if (next == path_.poses.begin() || next == path_.poses.end() || *next == i) return figures;
+    const size_t piece = next - 1 - path_.poses.begin();
+    const double begin = path_.parameters[*(next - 1)], end = path_.parameters[*next];
+    const double t = (path_.parameters[i] - begin) / (end - begin);
+    const Metric& metric = *path_.metric;
+    const Eigen::VectorXd expected = straight_[piece].SquaredAt(t);
+    const Eigen::VectorXd lengths = internal::SquaredLengths(*metric.connectivity, path_.shapes[i]);
+    for (int e = 0; e < lengths.size(); ++e) {
+      if (expected(e) > shortest) {
+        figures.edges.Add(std::sqrt(lengths(e) / expected(e)), metric.edge_area(e));
+      }
+    }
+    const Eigen::VectorXd angles = DihedralAngles(*metric.connectivity, path_.shapes[i]);
+    for (int h = 0; h < angles.size(); ++h) {
+      const double angle_m = angles_[piece](h), angle_n = angles_[piece + 1](h);
+      const double off = WrapAngle(angles(h) - (angle_m + t * WrapAngle(angle_n - angle_m)));
+      figures.roughness += metric.hinge_area(h) * off * off;
+      const double beyond = std::abs(angles(h)) - std::max(std::abs(angle_m), std::abs(angle_n));
+      if (std::abs(angles(h)) * kDegrees > 120 && beyond * kDegrees > 40) ++figures.folds;
+    }
+    return figures;
+  }
+
+ private:
+  const Path& path_;
+  std::vector<Eigen::VectorXd> angles_;              // of each pose
+  std::vector<internal::StraightLengths> straight_;  // of each pair of them
+};
+
 }  // namespace
 
 RmsAndMax DeviationFromFirst(const Path& path, int i) {
@@ -77,52 +132,17 @@ RmsAndMax DeviationFromFirst(const Path& path, int i) {
 
 PathQuality MeasureQuality(const Path& path) {
   const Metric& metric = *path.metric;
-  const Connectivity& connectivity = *metric.connectivity;
   const int num_shapes = path.NumShapes();
   const double shortest = SquaredShortest(path);
-
-  std::vector<Eigen::VectorXd> pose_angles(path.poses.size());
-  ParallelFor(static_cast<int>(path.poses.size()), [&](int i) {
-    pose_angles[i] = DihedralAngles(connectivity, path.shapes[path.poses[i]]);
-  });
-
-  std::vector<internal::StraightLengths> straight;  // of each piece
-  for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
-    straight.emplace_back(path.metric, path.shapes[path.poses[piece]],
-                          path.shapes[path.poses[piece + 1]]);
-  }
-
+  const BetweenPoses poses(path);
   std::vector<Deviations> between(num_shapes), against_first(num_shapes);
   std::vector<double> roughness(num_shapes, 0), folds(num_shapes, 0);
   ParallelFor(num_shapes, [&](int i) {
-    const Shape& shape = path.shapes[i];
     against_first[i] = AgainstFirst(path, i, shortest);
-    const auto next = std::lower_bound(path.poses.begin(), path.poses.end(), i);
-    // Only shapes between two poses: not poses, and none before the first or after the last pose.
-    if (next == path.poses.begin() || next == path.poses.end() || *next == i) return;
-    const size_t piece = next - 1 - path.poses.begin();
-    const double begin = path.parameters[*(next - 1)], end = path.parameters[*next];
-    const double t = (path.parameters[i] - begin) / (end - begin);
-    const Eigen::VectorXd expected = straight[piece].SquaredAt(t);
-    const Eigen::VectorXd lengths = internal::SquaredLengths(connectivity, shape);
-    for (int e = 0; e < lengths.size(); ++e) {
-      if (expected(e) > shortest) {
-        between[i].Add(std::sqrt(lengths(e) / expected(e)), metric.edge_area(e));
-      }
-    }
-    double squares = 0;
-    const Eigen::VectorXd angles = DihedralAngles(connectivity, shape);
-    const Eigen::VectorXd& angles_m = pose_angles[piece];
-    const Eigen::VectorXd& angles_n = pose_angles[piece + 1];
-    for (int h = 0; h < connectivity.NumHinges(); ++h) {
-      const double angle_m = angles_m(h), angle_n = angles_n(h);
-      const double angle = angles(h);
-      const double off = WrapAngle(angle - (angle_m + t * WrapAngle(angle_n - angle_m)));
-      squares += metric.hinge_area(h) * off * off;
-      const double beyond = std::abs(angle) - std::max(std::abs(angle_m), std::abs(angle_n));
-      if (std::abs(angle) * kDegrees > 120 && beyond * kDegrees > 40) ++folds[i];
-    }
-    roughness[i] = squares;
+    InnerFigures figures = poses.Of(i, shortest);
+    between[i] = std::move(figures.edges);
+    roughness[i] = figures.roughness;
+    folds[i] = figures.folds;
   });
 
   PathQuality quality;

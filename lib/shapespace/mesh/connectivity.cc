@@ -72,6 +72,74 @@ IndexLists ListsByVertex(int num_vertices, const Elements& elements) {
   return {std::move(begin), std::move(items)};
 }
 
+// Between corners of polygons with more than three corners that have one corner between them.
+std::vector<Edge> Diagonals(const std::vector<int>& polygon_begin,
+                            const std::vector<int>& corners) {
+  std::vector<Edge> diagonals;
+  for (size_t p = 0; p + 1 < polygon_begin.size(); ++p) {
+    const int* corner = corners.data() + polygon_begin[p];
+    const int size = polygon_begin[p + 1] - polygon_begin[p];
+    for (int k = 0; k < size && size > 3; ++k) {
+      const int a = corner[k], b = corner[(k + 2) % size];
+      if (a != b) diagonals.push_back(Sorted(a, b));
+    }
+  }
+  return diagonals;
+}
+
+// The sides of all triangles, sorted by edge.
+std::vector<Side> SortedSides(const Eigen::Matrix3Xi& triangles) {
+  std::vector<Side> sides;
+  sides.reserve(triangles.size());
+  for (int f = 0; f < triangles.cols(); ++f) {
+    const auto t = triangles.col(f);
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      // A side of a degenerate triangle from a vertex to itself is not an edge.
+      if (a != b) sides.push_back({Sorted(a, b), f, t[(k + 2) % 3], a < b});
+    }
+  }
+  std::stable_sort(sides.begin(), sides.end(),
+                   [](const Side& s, const Side& t) { return s.edge < t.edge; });
+  return sides;
+}
+
+// The edges, each once; the triangles at each, as a list and where it begins; and the hinges.
+std::vector<Edge> EdgesOfTriangles(const Eigen::Matrix3Xi& triangles, std::vector<int>* begin,
+                                   std::vector<int>* list,
+                                   std::vector<std::array<int, 4>>* hinges) {
+  const std::vector<Side> sides = SortedSides(triangles);
+  std::vector<Edge> edges;
+  *begin = {0};
+  for (size_t i = 0, j = 0; i < sides.size(); i = j) {
+    for (j = i; j < sides.size() && sides[j].edge == sides[i].edge; ++j) {
+      const int f = sides[j].triangle;  // once, also if two of its sides are the same edge
+      if (j == i || f != list->back()) list->push_back(f);
+    }
+    edges.push_back(sides[i].edge);
+    begin->push_back(static_cast<int>(list->size()));
+    if (j - i == 2 && sides[i].ascending != sides[i + 1].ascending) {
+      const Side& up = sides[i].ascending ? sides[i] : sides[i + 1];
+      const Side& down = sides[i].ascending ? sides[i + 1] : sides[i];
+      const auto [a, b] = up.edge;
+      const bool distinct = up.opposite != down.opposite && up.opposite != a && up.opposite != b &&
+                            down.opposite != a && down.opposite != b;
+      if (distinct) hinges->push_back({a, b, up.opposite, down.opposite});
+    }
+  }
+  return edges;
+}
+
+// Appends those of `others` that are not among the sorted `edges`, in order and each once.
+void AddOtherEdges(std::vector<Edge> others, std::vector<Edge>* edges) {
+  std::sort(others.begin(), others.end());
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  const size_t sorted = edges->size();
+  for (const Edge& e : others) {
+    if (!std::binary_search(edges->begin(), edges->begin() + sorted, e)) edges->push_back(e);
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
@@ -95,60 +163,15 @@ std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
     result->triangles_ = triangles;
   }
 
-  std::vector<Edge> extra;
-  for (size_t p = 0; p + 1 < polygon_begin.size(); ++p) {
-    const int* corner = corners.data() + polygon_begin[p];
-    const int size = polygon_begin[p + 1] - polygon_begin[p];
-    for (int k = 0; k < size && size > 3; ++k) {
-      const int a = corner[k], b = corner[(k + 2) % size];
-      if (a != b) extra.push_back(Sorted(a, b));
-    }
-  }
+  std::vector<std::array<int, 4>> hinges;
+  std::vector<int> edge_begin, edge_triangles;
+  std::vector<Edge> edges =
+      EdgesOfTriangles(result->triangles_, &edge_begin, &edge_triangles, &hinges);
+  result->num_triangle_edges_ = static_cast<int>(edges.size());
+  std::vector<Edge> extra = Diagonals(polygon_begin, corners);
   for (const auto& [a, b] : segments) extra.push_back(Sorted(a, b));
   for (const auto& [a, b] : stiffeners) extra.push_back(Sorted(a, b));
-
-  std::vector<Side> sides;
-  sides.reserve(result->triangles_.size());
-  for (int f = 0; f < result->NumTriangles(); ++f) {
-    const auto t = result->triangles_.col(f);
-    for (int k = 0; k < 3; ++k) {
-      const int a = t[k], b = t[(k + 1) % 3];
-      // A side of a degenerate triangle from a vertex to itself is not an edge.
-      if (a != b) sides.push_back({Sorted(a, b), f, t[(k + 2) % 3], a < b});
-    }
-  }
-  std::stable_sort(sides.begin(), sides.end(),
-                   [](const Side& s, const Side& t) { return s.edge < t.edge; });
-
-  std::vector<Edge> edges;
-  std::vector<std::array<int, 4>> hinges;
-  std::vector<int> edge_begin = {0}, edge_triangles;
-  for (size_t i = 0, j = 0; i < sides.size(); i = j) {
-    for (j = i; j < sides.size() && sides[j].edge == sides[i].edge; ++j) {
-      const int f = sides[j].triangle;  // once, also if two of its sides are the same edge
-      if (j == i || f != edge_triangles.back()) edge_triangles.push_back(f);
-    }
-    edges.push_back(sides[i].edge);
-    edge_begin.push_back(static_cast<int>(edge_triangles.size()));
-    if (j - i == 2 && sides[i].ascending != sides[i + 1].ascending) {
-      const Side& up = sides[i].ascending ? sides[i] : sides[i + 1];
-      const Side& down = sides[i].ascending ? sides[i + 1] : sides[i];
-      const auto [a, b] = up.edge;
-      const bool distinct = up.opposite != down.opposite && up.opposite != a && up.opposite != b &&
-                            down.opposite != a && down.opposite != b;
-      if (distinct) hinges.push_back({a, b, up.opposite, down.opposite});
-    }
-  }
-  result->num_triangle_edges_ = static_cast<int>(edges.size());
-
-  std::sort(extra.begin(), extra.end());
-  extra.erase(std::unique(extra.begin(), extra.end()), extra.end());
-  const auto triangle_edges_end = edges.size();
-  for (const Edge& e : extra) {
-    if (!std::binary_search(edges.begin(), edges.begin() + triangle_edges_end, e)) {
-      edges.push_back(e);
-    }
-  }
+  AddOtherEdges(std::move(extra), &edges);
   result->edges_.resize(2, edges.size());
   for (size_t e = 0; e < edges.size(); ++e) {
     result->edges_.col(e) << edges[e].first, edges[e].second;

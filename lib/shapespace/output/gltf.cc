@@ -454,6 +454,57 @@ std::vector<Part> PartsByMaterial(const Connectivity& connectivity, const intern
   return parts;
 }
 
+// The mesh with one primitive and material for each part.
+void AddMesh(const std::vector<Part>& parts, const tinygltf::Primitive& vertices, bool opaque,
+             int num_vertices, int num_keys, Model* model) {
+  tinygltf::Mesh mesh;
+  mesh.name = "shape";
+  for (const Part& part : parts) {
+    tinygltf::Primitive primitive = vertices;
+    primitive.indices =
+        AddIndices(Eigen::Map<const Eigen::VectorXi>(part.indices.data(), part.indices.size()),
+                   num_vertices, model);
+    primitive.material = static_cast<int>(model->materials.size());
+    mesh.primitives.push_back(std::move(primitive));
+    model->materials.push_back(part.material);
+    if (!opaque) model->materials.back().alphaMode = "BLEND";
+  }
+  mesh.weights.assign(num_keys - 1, 0);
+  model->meshes = {mesh};
+}
+
+// The times of the keys, from 0 to 1.
+std::vector<double> KeyTimes(const Path& path, const std::vector<int>& keys) {
+  std::vector<double> times;
+  times.reserve(keys.size());
+  const double first = path.parameters.front(), last = path.parameters.back();
+  for (const int key : keys) times.push_back((path.parameters[key] - first) / (last - first));
+  return times;
+}
+
+// Red, green, blue (and opacity) of each vertex; none if they have no colours of their own.
+Eigen::MatrixXf VertexColours(const Path& path, const GltfOptions& options, double* colour_end) {
+  if (options.colour_by_deviation) {
+    const Shape& reference = options.reference.cols() > 0 ? options.reference : path.shapes[0];
+    return DeviationColours(path, reference, colour_end);
+  }
+  if (options.groups.size() != 0) return GroupColours(options.groups);
+  return LinearColours(path.appearance.vertex_colours);
+}
+
+void CheckBytes(const std::string& file, double bytes, size_t num_keys) {
+  if (bytes <= kMaxBytes) return;
+  throw MeshError(file + ": " + std::to_string(num_keys) +
+                  " shapes of so many vertices need more than the 4 GB that the format can hold; "
+                  "resample the path to fewer");
+}
+
+void CheckCount(const char* field, Eigen::Index count, const Connectivity& connectivity) {
+  if (count == 0 || count == connectivity.NumVertices()) return;
+  throw InvalidOptions(field, "given for " + std::to_string(count) + " vertices, but there are " +
+                                  std::to_string(connectivity.NumVertices()));
+}
+
 }  // namespace
 
 void GltfOptions::Validate() const {
@@ -472,16 +523,8 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   options.Validate();
   CheckPath(file, path);
   const Connectivity& connectivity = *path.metric->connectivity;
-  const bool by_group = options.groups.size() != 0;
-  const auto check_count = [&](const char* field, Eigen::Index count) {
-    if (count != 0 && count != connectivity.NumVertices()) {
-      throw InvalidOptions(field, "given for " + std::to_string(count) +
-                                      " vertices, but there are " +
-                                      std::to_string(connectivity.NumVertices()));
-    }
-  };
-  check_count("reference", options.reference.cols());
-  check_count("groups", options.groups.size());
+  CheckCount("reference", options.reference.cols(), connectivity);
+  CheckCount("groups", options.groups.size(), connectivity);
   const std::vector<int> keys = internal::KeyShapes(path.NumShapes(), path.poses, kMaxKeys);
   std::vector<Shape> shapes;
   shapes.reserve(keys.size());
@@ -495,14 +538,9 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   summary.subsampled = summary.keys < path.NumShapes();
 
   const Appearance none;
-  const Appearance& appearance = options.colour_by_deviation || by_group ? none : path.appearance;
-  Eigen::MatrixXf colours = LinearColours(appearance.vertex_colours);
-  if (options.colour_by_deviation) {
-    const Shape& reference = options.reference.cols() > 0 ? options.reference : path.shapes[0];
-    colours = DeviationColours(path, reference, &summary.colour_end);
-  } else if (by_group) {
-    colours = GroupColours(options.groups);
-  }
+  const Appearance& appearance =
+      options.colour_by_deviation || options.groups.size() != 0 ? none : path.appearance;
+  const Eigen::MatrixXf colours = VertexColours(path, options, &summary.colour_end);
   const tinygltf::Material plain = PlainMaterial(
       colours.size() > 0 ? internal::Colour::Ones().eval() : internal::FromHex(internal::kPoseHex));
 
@@ -513,17 +551,14 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
     throw MeshError(file + ": single precision cannot hold a texture coordinate");
   }
   Textures textures(appearance.own_folder, options.allow_outside_files, &model, &summary.warnings);
-  std::vector<Part> parts =
+  const std::vector<Part> parts =
       PartsByMaterial(connectivity, cut, appearance, plain, options.allow_outside_files, &textures,
                       &summary.warnings);
-  const double bytes = model.buffers[0].data.size() +
-                       4.0 * ((6.0 * keys.size() + 6) * cut.source.size() +
-                              3.0 * std::max(connectivity.NumTriangles(), connectivity.NumEdges()));
-  if (bytes > kMaxBytes) {
-    throw MeshError(file + ": " + std::to_string(keys.size()) +
-                    " shapes of so many vertices need more than the 4 GB that the format can "
-                    "hold; resample the path to fewer");
-  }
+  CheckBytes(file,
+             model.buffers[0].data.size() +
+                 4.0 * ((6.0 * keys.size() + 6) * cut.source.size() +
+                        3.0 * std::max(connectivity.NumTriangles(), connectivity.NumEdges())),
+             keys.size());
 
   tinygltf::Primitive vertices = AddVertices(connectivity, shapes, origin, cut.source, &model);
   if (cut.texture.cols() > 0) {
@@ -532,29 +567,10 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   }
   if (colours.size() > 0) AddColours(colours, cut.source, &vertices, &model);
   const bool opaque = colours.rows() < 4 || (colours.row(3).array() == 1).all();
-  tinygltf::Mesh mesh;
-  mesh.name = "shape";
-  for (Part& part : parts) {
-    if (!opaque) part.material.alphaMode = "BLEND";
-    tinygltf::Primitive primitive = vertices;
-    primitive.indices =
-        AddIndices(Eigen::Map<const Eigen::VectorXi>(part.indices.data(), part.indices.size()),
-                   cut.source.size(), &model);
-    primitive.material = static_cast<int>(model.materials.size());
-    mesh.primitives.push_back(std::move(primitive));
-    model.materials.push_back(std::move(part.material));
-  }
-  mesh.weights.assign(keys.size() - 1, 0);
-  model.meshes = {mesh};
+  AddMesh(parts, vertices, opaque, static_cast<int>(cut.source.size()), summary.keys, &model);
   model.nodes = {PlacedNode(origin, options)};
   if (keys.size() > 1) {
-    std::vector<double> parameters;
-    parameters.reserve(keys.size());
-    const double first = path.parameters.front(), last = path.parameters.back();
-    for (const int key : keys) {
-      parameters.push_back((path.parameters[key] - first) / (last - first));
-    }
-    model.animations = {AddAnimation(parameters, path.NumShapes(), options, &model)};
+    model.animations = {AddAnimation(KeyTimes(path, keys), path.NumShapes(), options, &model)};
   }
   tinygltf::Scene scene;
   scene.nodes = {0};

@@ -149,10 +149,7 @@ bool RegionMerger::Fits(const RegionPair& pair) const {
   return pair.loss <= options_.tolerance * options_.tolerance * size_squared * area;
 }
 
-// Merges all pairs of regions that are mutual nearest neighbours, by the loss as distance. As long
-// as merging two regions does not reduce the distance to a third one, the result is the same as
-// that of always merging the pair with the least loss.
-bool RegionMerger::Pass() {
+void RegionMerger::MeasureLosses() {
   const int batches = (static_cast<int>(pairs_.size()) + kBatch - 1) / kBatch;
   ParallelFor(batches, [&](int batch) {
     const size_t end = std::min(pairs_.size(), static_cast<size_t>(batch + 1) * kBatch);
@@ -160,15 +157,18 @@ bool RegionMerger::Pass() {
       if (pairs_[i].loss < 0) pairs_[i].loss = Loss(pairs_[i]);
     }
   });
+}
+
+// The nearest neighbour of each region, by the loss as distance; -1 if none fits.
+std::vector<int> RegionMerger::NearestNeighbours() const {
   const auto cost = [&](const RegionPair& pair) {
     const double area = rest_[pair.first].area + rest_[pair.second].area;
     return std::make_pair(pair.loss + kNoMotion * kNoMotion * area * area, Mix(pair));
   };
-  const int count = static_cast<int>(rest_.size());
   constexpr std::uint64_t kLast = std::numeric_limits<std::uint64_t>::max();
   std::vector<std::pair<double, std::uint64_t>> best(
-      count, {std::numeric_limits<double>::infinity(), kLast});
-  std::vector<int> partner(count, -1);
+      rest_.size(), {std::numeric_limits<double>::infinity(), kLast});
+  std::vector<int> nearest(rest_.size(), -1);
   for (const RegionPair& pair : pairs_) {
     if (!Fits(pair)) continue;
     const auto value = cost(pair);
@@ -176,30 +176,29 @@ bool RegionMerger::Pass() {
          {std::pair(pair.first, pair.second), std::pair(pair.second, pair.first)}) {
       if (value < best[self]) {
         best[self] = value;
-        partner[self] = other;
+        nearest[self] = other;
       }
     }
   }
-  bool joined = false;
-  std::vector<int> target(count);
-  std::vector<bool> changed(count, false);
-  for (int r = 0; r < count; ++r) {
-    target[r] = r;
-    const int other = partner[r];
-    if (other < 0 || other > r || partner[other] != r) continue;
-    target[r] = other;
-    changed[other] = joined = true;
-    rest_[other].Add(rest_[r]);
-    for (int k = 0; k < shapes_; ++k) {
-      const size_t at = static_cast<size_t>(other) * shapes_ + k;
-      moved_[at].Add(moved_[static_cast<size_t>(r) * shapes_ + k]);
-      residual_[at] = SquaredResidual(rest_[other], moved_[at]);
-    }
+  return nearest;
+}
+
+// Adds the sums of `region` to those of `other`.
+void RegionMerger::Join(int region, int other) {
+  rest_[other].Add(rest_[region]);
+  for (int k = 0; k < shapes_; ++k) {
+    const size_t at = static_cast<size_t>(other) * shapes_ + k;
+    moved_[at].Add(moved_[static_cast<size_t>(region) * shapes_ + k]);
+    residual_[at] = SquaredResidual(rest_[other], moved_[at]);
   }
-  if (!joined) return false;
-  std::vector<int> renumbered(count);
+}
+
+// Leaves out the regions that were joined to others, of smaller numbers: `target` is what each
+// belongs to. Returns the new numbers.
+std::vector<int> RegionMerger::Renumber(const std::vector<int>& target) {
+  std::vector<int> renumbered(target.size());
   int next = 0;
-  for (int r = 0; r < count; ++r) {
+  for (int r = 0; r < static_cast<int>(target.size()); ++r) {
     if (target[r] != r) {
       renumbered[r] = renumbered[target[r]];
       continue;
@@ -211,18 +210,25 @@ bool RegionMerger::Pass() {
       moved_[to] = moved_[from];
       residual_[to] = residual_[from];
     }
-    changed[next] = changed[r];
     renumbered[r] = next++;
   }
   rest_.resize(next);
   moved_.resize(static_cast<size_t>(next) * shapes_);
   residual_.resize(moved_.size());
   for (int& r : region_) r = renumbered[r];
+  return renumbered;
+}
+
+// Lists the pairs of regions under their new numbers, each once. The losses of those that `changed`
+// (by old numbers) have to be computed again.
+void RegionMerger::UpdatePairs(const std::vector<int>& renumbered,
+                               const std::vector<bool>& changed) {
   size_t kept = 0;
   for (const RegionPair& pair : pairs_) {
     const auto [low, high] = std::minmax(renumbered[pair.first], renumbered[pair.second]);
     if (low == high) continue;
-    pairs_[kept++] = {low, high, changed[low] || changed[high] ? -1 : pair.loss};
+    const bool again = changed[pair.first] || changed[pair.second];
+    pairs_[kept++] = {low, high, again ? -1 : pair.loss};
   }
   pairs_.resize(kept);
   std::sort(pairs_.begin(), pairs_.end(), [](const RegionPair& a, const RegionPair& b) {
@@ -232,7 +238,27 @@ bool RegionMerger::Pass() {
     return a.first == b.first && a.second == b.second;
   };
   pairs_.erase(std::unique(pairs_.begin(), pairs_.end(), same), pairs_.end());
-  return true;
+}
+
+// Merges all pairs of regions that are mutual nearest neighbours, by the loss as distance. As long
+// as merging two regions does not reduce the distance to a third one, the result is the same as
+// that of always merging the pair with the least loss.
+bool RegionMerger::Pass() {
+  MeasureLosses();
+  const std::vector<int> nearest = NearestNeighbours();
+  bool joined = false;
+  std::vector<int> target(nearest.size());
+  std::iota(target.begin(), target.end(), 0);
+  std::vector<bool> changed(nearest.size(), false);
+  for (int r = 0; r < static_cast<int>(nearest.size()); ++r) {
+    const int other = nearest[r];
+    if (other < 0 || other > r || nearest[other] != r) continue;
+    Join(r, other);
+    target[r] = other;
+    changed[r] = changed[other] = joined = true;
+  }
+  if (joined) UpdatePairs(Renumber(target), changed);
+  return joined;
 }
 
 std::vector<int> RegionMerger::Run(int* count) {

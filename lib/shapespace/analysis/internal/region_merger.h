@@ -64,6 +64,11 @@ class RegionMerger {
  private:
   double Loss(const RegionPair& pair) const;
   bool Fits(const RegionPair& pair) const;
+  void MeasureLosses();
+  std::vector<int> NearestNeighbours() const;
+  void Join(int region, int other);
+  std::vector<int> Renumber(const std::vector<int>& target);
+  void UpdatePairs(const std::vector<int>& renumbered, const std::vector<bool>& changed);
   bool Pass();
 
   const RigidPartsOptions options_;

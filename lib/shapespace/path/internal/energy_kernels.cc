@@ -314,6 +314,64 @@ SHAPESPACE_INLINE double Positions(const PathRows& path, const int* stencils, co
   return scratch.Sum(sums);
 }
 
+// Differences of the inner shapes' points from the first of them: the rows from `row` on, three for
+// each of the others.
+template <int kInner, int kPoints>
+SHAPESPACE_INLINE void SubtractFirstPoint(const Scratch<kInner>& scratch,
+                                          const Tile<kInner, kPoints>& tile, double* const* row) {
+  const int begin = scratch.BeginOfInner(), end = scratch.EndOfInner();
+  for (int k = 1; k < kPoints; ++k) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double* const from = tile.X(0) + axis * tile.Step();
+      const double* const to = tile.X(k) + axis * tile.Step();
+      double* const d = row[3 * (k - 1) + axis];
+      SHAPESPACE_INDEPENDENT
+      for (int l = begin; l < end; ++l) d[l] = to[l] - from[l];
+    }
+  }
+}
+
+// Sets the rows of `kValues` values at the two ends of the path, which `ends` has for each element.
+// Where the last shape is free, its values are those of the shape before.
+template <int kValues, int kInner>
+SHAPESPACE_INLINE void SetEnds(const PathRows& path, const Scratch<kInner>& scratch,
+                               const double* ends, int element, int count,
+                               double* const (&values)[kValues]) {
+  constexpr int kElements = Scratch<kInner>::kElements;
+  const int last = scratch.Last();
+  for (int i = 0; i < kElements; ++i) {
+    const double* const at = ends + 2 * kValues * std::min(element + i, count - 1);
+    for (int k = 0; k < kValues; ++k) {
+      double* const v = values[k];
+      if (scratch.AtFirst()) v[i] = at[k];
+      if (scratch.AtLast()) v[last + i] = path.free_end ? v[last + i - kElements] : at[kValues + k];
+    }
+  }
+}
+
+// F(R) = atanh(sqrt R) / sqrt R and F'(R) for R = (length / m)^2, where 1 - R = determinant / m^2
+// and root is the square root of the determinant; for small R by their series.
+SHAPESPACE_INLINE void AtanhRatio(double r, double m, double length, double determinant,
+                                  double root, double* f, double* slope) {
+  constexpr double kSmall = 0.01;
+  const double safe = r < kSmall ? m : length;
+  const double general = m / safe * Log((m + length) / root);
+  const double one_less = m * m / determinant;  // 1 / (1 - R)
+  const double general_slope = 0.5 * (one_less - general) * (m * m) / (safe * safe);
+  const double series =
+      1 +
+      r * (1.0 / 3 +
+           r * (1.0 / 5 +
+                r * (1.0 / 7 + r * (1.0 / 9 + r * (1.0 / 11 + r * (1.0 / 13 + r * (1.0 / 15)))))));
+  const double series_slope =
+      1.0 / 3 +
+      r * (2.0 / 5 +
+           r * (3.0 / 7 +
+                r * (4.0 / 9 + r * (5.0 / 11 + r * (6.0 / 13 + r * (7.0 / 15 + r * (8.0 / 17)))))));
+  *f = r < kSmall ? series : general;
+  *slope = r < kSmall ? series_slope : general_slope;
+}
+
 // With normals n1 = e x u, n2 = v x e of the two triangles (e = b - a, u = c - a, v = d - a) and n1
 // x n2 = -(n1 . v) e, the functor's values are
 //   cos = R n1 . n2,  sin = -R H n1 . v,  R = 1 / (|n1| |n2|),  H = |e|^2 / |e|,
@@ -325,7 +383,7 @@ SHAPESPACE_INLINE double Dihedrals(const PathRows& path, const int* stencils, co
                                    double edge_epsilon_squared, int begin) {
   constexpr int kElements = Scratch<kInner>::kElements;
   Scratch<kInner> scratch(path, begin);
-  const int last = scratch.Last(), end = scratch.End(), end_of_segments = scratch.EndOfSegments();
+  const int end = scratch.End(), end_of_segments = scratch.EndOfSegments();
   const int begin_of_inner = scratch.BeginOfInner(), end_of_inner = scratch.EndOfInner();
   double* row[25];
   for (int i = 0; i < 25; ++i) row[i] = scratch.Row(i);
@@ -343,15 +401,7 @@ SHAPESPACE_INLINE double Dihedrals(const PathRows& path, const int* stencils, co
   Tile<kInner, 4> tile(path, &scratch, 24);
   for (int element = 0; element < count; element += kElements) {
     tile.Load(stencils + 4 * element, weights + element, count - element);
-    for (int k = 1; k < 4; ++k) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const double *const from = tile.X(0) + axis * tile.Step(), *const to = tile.X(k) +
-                                                                               axis * tile.Step();
-        double* const d = row[3 * (k - 1) + axis];
-        SHAPESPACE_INDEPENDENT
-        for (int l = begin_of_inner; l < end_of_inner; ++l) d[l] = to[l] - from[l];
-      }
-    }
+    SubtractFirstPoint(scratch, tile, row);
     SHAPESPACE_INDEPENDENT
     for (int l = begin_of_inner; l < end_of_inner; ++l) {
       const double nx = ey[l] * uz[l] - ez[l] * uy[l];
@@ -373,13 +423,7 @@ SHAPESPACE_INLINE double Dihedrals(const PathRows& path, const int* stencils, co
       cosine[l] = r * (nx * mx + ny * my + nz * mz);
       sine[l] = -r * length * over * volume;
     }
-    for (int i = 0; i < kElements; ++i) {
-      const double* const at = ends + 4 * std::min(element + i, count - 1);
-      if (scratch.AtFirst()) cosine[i] = at[0], sine[i] = at[1];
-      if (!scratch.AtLast()) continue;
-      cosine[last + i] = path.free_end ? cosine[last + i - kElements] : at[2];
-      sine[last + i] = path.free_end ? sine[last + i - kElements] : at[3];
-    }
+    SetEnds<2>(path, scratch, ends, element, count, {cosine, sine});
     SHAPESPACE_INDEPENDENT
     for (int l = kElements; l < end_of_segments; ++l) {
       const double w = tile.Weight(l);
@@ -442,7 +486,7 @@ SHAPESPACE_INLINE double TriangleStrains(const PathRows& path, const int* stenci
                                          double epsilon_squared, int begin) {
   constexpr int kElements = Scratch<kInner>::kElements;
   Scratch<kInner> scratch(path, begin);
-  const int last = scratch.Last(), end = scratch.End(), end_of_segments = scratch.EndOfSegments();
+  const int end = scratch.End(), end_of_segments = scratch.EndOfSegments();
   const int begin_of_inner = scratch.BeginOfInner(), end_of_inner = scratch.EndOfInner();
   double* row[20];
   for (int i = 0; i < 20; ++i) row[i] = scratch.Row(i);
@@ -456,20 +500,11 @@ SHAPESPACE_INLINE double TriangleStrains(const PathRows& path, const int* stenci
   double *const v0 = row[16], *const v1 = row[17], *const v2 = row[18];
   double* const sums = row[19];
   constexpr double kThird = 1.0 / 3, kRoot3 = 0.57735026918962576451;
-  constexpr double kSmall = 0.01;  // the series of atanh(r) / r is used for smaller ratios
   std::fill(sums, sums + end_of_segments, 0.0);
   Tile<kInner, 3> tile(path, &scratch, 20);
   for (int element = 0; element < count; element += kElements) {
     tile.Load(stencils + 3 * element, weights + element, count - element);
-    for (int k = 1; k < 3; ++k) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const double *const from = tile.X(0) + axis * tile.Step(), *const to = tile.X(k) +
-                                                                               axis * tile.Step();
-        double* const difference = row[3 * (k - 1) + axis];
-        SHAPESPACE_INDEPENDENT
-        for (int l = begin_of_inner; l < end_of_inner; ++l) difference[l] = to[l] - from[l];
-      }
-    }
+    SubtractFirstPoint(scratch, tile, row);
     SHAPESPACE_INDEPENDENT
     for (int l = begin_of_inner; l < end_of_inner; ++l) {
       const double aa = ax[l] * ax[l] + ay[l] * ay[l] + az[l] * az[l];
@@ -486,24 +521,8 @@ SHAPESPACE_INLINE double TriangleStrains(const PathRows& path, const int* stenci
       const double squared = d * d + o * o, reciprocal = 1 / m;
       const double r = squared * reciprocal * reciprocal;
       const double length = std::sqrt(squared), root = std::sqrt(determinant);
-      // F = atanh(sqrt R) / sqrt R and F', for small R by their series.
-      const double safe = r < kSmall ? m : length;
-      const double general = m / safe * Log((m + length) / root);
-      const double one_less = m * m / determinant;  // 1 / (1 - R)
-      const double general_slope = 0.5 * (one_less - general) * (m * m) / (safe * safe);
-      const double series =
-          1 + r * (1.0 / 3 +
-                   r * (1.0 / 5 +
-                        r * (1.0 / 7 +
-                             r * (1.0 / 9 + r * (1.0 / 11 + r * (1.0 / 13 + r * (1.0 / 15)))))));
-      const double series_slope =
-          1.0 / 3 +
-          r * (2.0 / 5 +
-               r * (3.0 / 7 +
-                    r * (4.0 / 9 +
-                         r * (5.0 / 11 + r * (6.0 / 13 + r * (7.0 / 15 + r * (8.0 / 17)))))));
-      const double f = r < kSmall ? series : general;
-      const double f_slope = r < kSmall ? series_slope : general_slope;
+      double f, f_slope;
+      AtanhRatio(r, m, length, determinant, root, &f, &f_slope);
       const double s = 0.5 * M_SQRT1_2 * f * reciprocal;
       saa[l] = aa, sab[l] = ab, sbb[l] = bb;
       sd[l] = d, so[l] = o, sm[l] = reciprocal;
@@ -515,15 +534,7 @@ SHAPESPACE_INLINE double TriangleStrains(const PathRows& path, const int* stenci
       v1[l] = s * d;
       v2[l] = s * o;
     }
-    for (int i = 0; i < kElements; ++i) {
-      const double* const at = ends + 6 * std::min(element + i, count - 1);
-      double* const values[3] = {v0, v1, v2};
-      for (int k = 0; k < 3; ++k) {
-        double* const v = values[k];
-        if (scratch.AtFirst()) v[i] = at[k];
-        if (scratch.AtLast()) v[last + i] = path.free_end ? v[last + i - kElements] : at[3 + k];
-      }
-    }
+    SetEnds<3>(path, scratch, ends, element, count, {v0, v1, v2});
     SHAPESPACE_INDEPENDENT
     for (int l = kElements; l < end_of_segments; ++l) {
       const double w = tile.Weight(l);

@@ -36,6 +36,66 @@ void AddSquare(const std::vector<int>& unknowns, const std::vector<Eigen::Vector
   }
 }
 
+Element MakeElement(const Shape& rest, const Eigen::Vector3i& triangle, int fourth) {
+  Element element;
+  const Eigen::Matrix3d frame = Frame(rest, triangle);
+  const Eigen::Matrix3d inverse = InverseFrame(frame);
+  for (int k = 0; k < 3; ++k) {
+    element.unknowns[k] = triangle(k);
+    element.gradients[k + 1] = inverse.row(k);
+  }
+  element.unknowns[3] = fourth;
+  element.gradients[0] = -(element.gradients[1] + element.gradients[2] + element.gradients[3]);
+  const double longest = std::max({frame.col(0).squaredNorm(), frame.col(1).squaredNorm(),
+                                   (frame.col(1) - frame.col(0)).squaredNorm()});
+  const double share = 0.5 * frame.col(2).squaredNorm() / (kThin * longest);
+  element.quality = share < 1 ? share * share : 1;
+  if (!(element.quality > 0)) element.quality = 0;  // collapsed to a point
+  return element;
+}
+
+// The square of T_f - T_g, as a function of the six unknowns of both.
+void AddDifference(const Element& f, const Element& g,
+                   std::vector<Eigen::Triplet<double>>* entries) {
+  std::vector<int> unknowns(f.unknowns.begin(), f.unknowns.end());
+  std::vector<Eigen::Vector3d> gradients(f.gradients.begin(), f.gradients.end());
+  for (int k = 0; k < 4; ++k) {
+    const auto found = std::find(unknowns.begin(), unknowns.end(), g.unknowns[k]);
+    if (found == unknowns.end()) {
+      unknowns.push_back(g.unknowns[k]);
+      gradients.emplace_back(-g.gradients[k]);
+    } else {
+      gradients[found - unknowns.begin()] -= g.gradients[k];
+    }
+  }
+  AddSquare(unknowns, gradients, std::min(f.quality, g.quality), entries);
+}
+
+// Held vertices go to the right-hand side; their equations become x = place.
+void Hold(const std::vector<int>& held, const Shape& places, Eigen::SparseMatrix<double>* matrix,
+          Eigen::MatrixX3d* right) {
+  std::vector<bool> is_held(right->rows(), false);
+  Eigen::MatrixX3d known = Eigen::MatrixX3d::Zero(right->rows(), 3);
+  for (size_t i = 0; i < held.size(); ++i) {
+    is_held[held[i]] = true;
+    known.row(held[i]) = places.col(static_cast<Eigen::Index>(i)).transpose();
+  }
+  for (int column = 0; column < matrix->outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(*matrix, column); entry; ++entry) {
+      const int row = static_cast<int>(entry.row());
+      if (!is_held[row] && !is_held[column]) continue;
+      if (row == column) {
+        entry.valueRef() = 1;
+        continue;
+      }
+      if (!is_held[row]) right->row(row) -= entry.value() * known.row(column);
+      if (!is_held[column]) right->row(column) -= entry.value() * known.row(row);
+      entry.valueRef() = 0;
+    }
+  }
+  for (const int v : held) right->row(v) = known.row(v);
+}
+
 }  // namespace
 
 Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
@@ -51,77 +111,23 @@ Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
     right.row(v) = kRegularisation * rest.col(v).transpose();
   }
   for (int f = 0; f < triangles.cols(); ++f) {
-    Element& element = elements[f];
-    const Eigen::Matrix3d frame = Frame(rest, triangles.col(f));
-    const Eigen::Matrix3d inverse = InverseFrame(frame);
-    for (int k = 0; k < 3; ++k) {
-      element.unknowns[k] = triangles(k, f);
-      element.gradients[k + 1] = inverse.row(k);
-    }
-    element.unknowns[3] = num_vertices + f;
-    element.gradients[0] = -(element.gradients[1] + element.gradients[2] + element.gradients[3]);
-    const double longest = std::max({frame.col(0).squaredNorm(), frame.col(1).squaredNorm(),
-                                     (frame.col(1) - frame.col(0)).squaredNorm()});
-    const double share = 0.5 * frame.col(2).squaredNorm() / (kThin * longest);
-    element.quality = share < 1 ? share * share : 1;
-    if (!(element.quality > 0)) element.quality = 0;  // collapsed to a point
-    const std::vector<int> unknowns(element.unknowns.begin(), element.unknowns.end());
-    const std::vector<Eigen::Vector3d> gradients(element.gradients.begin(),
-                                                 element.gradients.end());
-    const double weight = identity * element.quality;
-    AddSquare(unknowns, gradients, weight, &entries);
-    for (int k = 0; k < 4; ++k) {
-      right.row(unknowns[k]) += weight * gradients[k].transpose();
-    }
+    elements[f] = MakeElement(rest, triangles.col(f), num_vertices + f);
+    const auto& [unknowns, gradients, quality] = elements[f];
+    const double weight = identity * quality;
+    AddSquare({unknowns.begin(), unknowns.end()}, {gradients.begin(), gradients.end()}, weight,
+              &entries);
+    for (int k = 0; k < 4; ++k) right.row(unknowns[k]) += weight * gradients[k].transpose();
     entries.emplace_back(num_vertices + f, num_vertices + f, kRegularisation);
   }
-  const auto add_difference = [&](int f, int g) {
-    // T_f - T_g, as a function of the six unknowns of both.
-    std::vector<int> unknowns(elements[f].unknowns.begin(), elements[f].unknowns.end());
-    std::vector<Eigen::Vector3d> gradients(elements[f].gradients.begin(),
-                                           elements[f].gradients.end());
-    for (int k = 0; k < 4; ++k) {
-      const int unknown = elements[g].unknowns[k];
-      const auto found = std::find(unknowns.begin(), unknowns.end(), unknown);
-      if (found == unknowns.end()) {
-        unknowns.push_back(unknown);
-        gradients.emplace_back(-elements[g].gradients[k]);
-      } else {
-        gradients[found - unknowns.begin()] -= elements[g].gradients[k];
-      }
-    }
-    AddSquare(unknowns, gradients, std::min(elements[f].quality, elements[g].quality), &entries);
-  };
   for (int e = 0; e < connectivity.NumTriangleEdges(); ++e) {
     const IndexLists::Row around = connectivity.TrianglesOfEdges()[e];
-    for (int i = 1; i < around.size(); ++i) add_difference(around[i - 1], around[i]);
+    for (int i = 1; i < around.size(); ++i) {
+      AddDifference(elements[around[i - 1]], elements[around[i]], &entries);
+    }
   }
   Eigen::SparseMatrix<double> matrix(num_unknowns, num_unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());
-
-  // Held vertices go to the right-hand side; their equations become x = place.
-  std::vector<bool> is_held(num_unknowns, false);
-  Eigen::MatrixX3d known = Eigen::MatrixX3d::Zero(num_unknowns, 3);
-  for (size_t i = 0; i < held.size(); ++i) {
-    is_held[held[i]] = true;
-    known.row(held[i]) = places.col(static_cast<Eigen::Index>(i)).transpose();
-  }
-  for (int column = 0; column < matrix.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
-      const int row = static_cast<int>(entry.row());
-      if (!is_held[row] && !is_held[column]) continue;
-      if (row == column) {
-        entry.valueRef() = 1;
-        continue;
-      }
-      if (!is_held[row]) right.row(row) -= entry.value() * known.row(column);
-      if (!is_held[column]) right.row(column) -= entry.value() * known.row(row);
-      entry.valueRef() = 0;
-    }
-  }
-  for (int v = 0; v < num_vertices; ++v) {
-    if (is_held[v]) right.row(v) = known.row(v);
-  }
+  Hold(held, places, &matrix, &right);
   return Solve(Cholesky(matrix), right).topRows(num_vertices).transpose();
 }
 
