@@ -35,7 +35,7 @@ def require_free(key) -> None:
 
 
 def remove_keyframes(key) -> bool:
-    """Whether there were any."""
+    """Returns whether there were any."""
     curve = _curve(key)
     if curve is not None:
         curves_of(key.id_data).remove(curve)

@@ -1,5 +1,6 @@
-"""Chooses who computes. Both have the same four methods: `poll`, `cancel`, `result`, and the
-attributes `share` (from 0 to 1, or None while unknown) and `text`, which say how far they are."""
+"""Chooses what computes: the command-line tools or the Python module. A run of either has the
+methods `poll`, `cancel` and `result`, and the attributes `share` (what is done, from 0 to 1,
+or None while it is unknown) and `text` (the same in words)."""
 
 import bpy
 

@@ -52,9 +52,9 @@ def read_pc2(file: str) -> np.ndarray:
 
 
 def write_pc2(file: str, shapes: np.ndarray) -> None:
-    """The file appears whole or not at all."""
+    """Writes under another name and then renames, so that no incomplete file is ever seen."""
     samples, points, _ = shapes.shape
-    # Nobody can foresee the name, and lay a link there that leads to another file.
+    # The name is random, so that nobody can put a link there that leads to another file.
     unfinished = f"{file}.part{secrets.token_hex(8)}"
     try:
         os.makedirs(os.path.dirname(file), exist_ok=True)

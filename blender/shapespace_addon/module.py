@@ -5,7 +5,7 @@ import threading
 from .problem import Problem
 from .task import Result, Task
 
-# What shape-extrapolate takes where nothing is said, so that both ways lead to one motion.
+# The default of shape-extrapolate, so that tools and module compute the same motion.
 _EXTRAPOLATION_TOLERANCE = 1e-6
 
 
@@ -49,7 +49,7 @@ class ModuleRun:
         return True
 
     def cancel(self) -> None:
-        """The solver stops at its next report of progress, for which nobody waits."""
+        """Asks the solver to stop at its next report of progress, and does not wait for that."""
         self._cancelled = True
 
     def result(self) -> Result:

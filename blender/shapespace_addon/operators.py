@@ -1,5 +1,5 @@
-"""The operators. Called by a button they run beside Blender's window until Esc; called by a script
-they return when the result is there."""
+"""The operators. If a button calls them, they compute while Blender can be used, until they are done
+or Esc is pressed. If a script calls them, they return when the result is there."""
 
 from types import SimpleNamespace
 
@@ -56,7 +56,7 @@ class _Operation(MotionSettings):
         return {"RUNNING_MODAL"}
 
     def _step(self, context):
-        """One tick of the timer."""
+        """Called by the timer while the operator runs."""
         try:
             if not self._begun.poll():
                 progress.show(context, self.bl_label, self._begun)

@@ -1,4 +1,4 @@
-"""What a person can put right."""
+"""Errors that the user can correct."""
 
 
 class Problem(Exception):

@@ -1,4 +1,4 @@
-"""Which shape keys were made here, as a custom property of an object's shape keys."""
+"""Records which shape keys the add-on made, in a custom property of an object's shape keys."""
 
 _NAME = "shapespace"
 

@@ -11,7 +11,7 @@ from .problem import Problem
 from .task import Result, Task
 
 _NEEDED = ("shape-interpolate", "shape-extrapolate", "shape-transfer")
-# Artists' meshes may have fins and inner faces.
+# Meshes from modelling often have non-manifold edges, such as those of inner faces.
 _ALWAYS = ("--allow_nonmanifold", "--progress", "lines")
 _SOURCE = "source.path"  # the motion that is transferred
 _SECONDS_TO_END = 2  # that a process is given to end by itself

@@ -85,6 +85,35 @@ if ldd "$work/features/features_consumer" | grep -i ceres; then
   fail "a program that only defines features links Ceres"
 fi
 
+# Shared libraries export what is public, and of the rest only what they, the tools and a program that
+# defines a feature call. Both work with them.
+shared=$root/build/shared
+cmake -S "$root" -B "$shared" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
+  -DBUILD_SHARED_LIBS=ON >"$work/configure.log" || fail "shared libraries cannot be configured"
+cmake --build "$shared" && cmake --install "$shared" --prefix "$work/shared" >"$work/install.log"
+mapfile -t libraries < <(find "$work/shared" -name 'libshapespace_*.so')
+((${#libraries[@]} == 4)) || fail "these are not the four shared libraries: ${libraries[*]}"
+cmake -S "$here/features" -B "$work/features_shared" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_PREFIX_PATH="$work/shared" >"$work/configure.log" ||
+  fail "the package of shared libraries is not found"
+cmake --build "$work/features_shared"
+"$work/features_shared/features_consumer" pose0.obj pose1.obj
+nm -DC --defined-only "${libraries[@]}" | sed -nE 's/^[0-9a-f]{16} . //p' | sort -u >exported.txt
+grep -q '^shapespace::Interpolate(' exported.txt || fail "Interpolate is not exported"
+nm -DC --undefined-only "${libraries[@]}" "$work"/shared/bin/* \
+  "$work/features_shared/features_consumer" | sed -nE 's/^ +U //p' | sort -u >called.txt
+if grep -vE '^((typeinfo|typeinfo name|vtable) for )?shapespace::(cost::|k?[A-Z])' exported.txt |
+  comm -23 - called.txt | grep .; then
+  fail "the shared libraries export the names above, which are not public and not needed"
+fi
+"$work/shared/bin/shape-interpolate" --shapes 3 --output shared.path pose0.obj pose1.obj
+"$work/prefix/bin/shape-interpolate" --shapes 3 --output static.path pose0.obj pose1.obj
+cmp shared.path static.path || fail "shared and static libraries do not give the same path"
+if "$work/shared/bin/shape-interpolate" --output none.path pose0.obj missing.obj 2>error.txt; then
+  fail "with shared libraries a missing file is no error"
+fi
+grep -q missing.obj error.txt || fail "with shared libraries this is said: $(cat error.txt)"
+
 export PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name shapespace.pc)")
 c++ -std=c++17 -O1 "$here/main.cc" $(pkg-config --cflags --libs shapespace) -o "$work/by_pkg_config" ||
   fail "what pkg-config says of shapespace does not build the README's program"

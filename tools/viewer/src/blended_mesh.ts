@@ -1,4 +1,4 @@
-// A body on the GPU: three of its shapes, and how much of each.
+// Draws a body as a weighted blend of three of its shapes, which the GPU computes.
 import {
   BufferAttribute,
   BufferGeometry,
@@ -56,9 +56,9 @@ export interface Blend {
 }
 
 /**
- * A body whose geometry has the positions of three shapes. The blend happens on the GPU, by two
- * uniforms. The arrays of a shape go to the GPU when it is first needed, and stay there: to show
- * another shape is to point at other arrays.
+ * A body whose geometry has the positions of three shapes as attributes. The GPU blends them, and
+ * takes the weights of the second and the third as uniforms. The arrays of a shape are sent to the
+ * GPU when it is first shown, and stay there, so that showing it again only exchanges attributes.
  *
  * The body is scaled to the cube of side 1 with its lowest corner in the origin.
  */
@@ -126,13 +126,13 @@ export class BlendedMesh extends Group {
       this.geometry.setAttribute(`shape${letter}`, this.positionsOf(node));
       if (!this.isGraph) this.geometry.setAttribute(`normal${letter}`, this.normalsOf(node));
     });
-    // three.js counts vertices by this one.
+    // three.js takes the number of vertices from the attribute `position`.
     this.geometry.setAttribute('position', this.positionsOf(blend.nodes[0]));
     this.uniforms.weightB.value = blend.weights[1];
     this.uniforms.weightC.value = blend.weights[2];
   }
 
-  /** Makes what some shape will need before it is shown; false once there is nothing to do. */
+  /** Prepares the arrays of one more shape. Returns false if those of all shapes are ready. */
   prepareNext(): boolean {
     const next = this.body.shapes.findIndex((_, node) => !this.positions[node]);
     if (next < 0) return false;
@@ -144,8 +144,8 @@ export class BlendedMesh extends Group {
   set wireframe(on: boolean) {
     if (!this.wires) return;
     this.wires.visible = on;
-    // Lets the surface recede behind its edges. Without edges it must not: at the outline the back
-    // would come through.
+    // While edges are drawn, the surface is moved back a little, so that it does not hide them. It
+    // is not moved otherwise, because at the outline the back of the body would show through.
     (this.surface.material as Material).polygonOffset = on;
   }
 

@@ -61,7 +61,7 @@ function readIndices(reader: Reader, count: number, vertices: number): Uint32Arr
   return indices;
 }
 
-/** What a coordinate is likely to be, given the shapes before: as the program predicted it. */
+/** Predicts a coordinate from earlier shapes, as shape-view did; the file has the differences. */
 type Predict = (shape: number, index: number) => number;
 
 function readPositions(reader: Reader, shapes: Uint16Array[], vertices: number, predict: Predict) {

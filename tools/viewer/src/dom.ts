@@ -32,7 +32,7 @@ export function perCent(value: number): string {
   return `${shortNumber(100 * value)}\u2009%`;
 }
 
-/** A sentence for the user, read aloud too. */
+/** Shows a sentence to the user, which screen readers read too. */
 export function tell(text: string): void {
   byId('status').textContent = text;
 }

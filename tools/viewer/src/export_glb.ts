@@ -15,7 +15,7 @@ import type { Blend } from './blended_mesh';
 import { vertexNormals } from './normals';
 import type { Body } from './scene_data';
 
-/** Blends per second: between two of them viewers blend evenly. */
+/** Keyframes per second; programs that show the file interpolate linearly between two of them. */
 const rate = 30;
 
 /** The weight of every node at one moment. */
@@ -42,7 +42,7 @@ function normals(body: Body, node: number): Float32Array {
   for (let v = 0; v < body.vertices; ++v) {
     const [x, y, z] = bytes.subarray(4 * v, 4 * v + 3);
     const length = Math.hypot(x, y, z);
-    // Where no triangle has an area any unit vector will do; the format allows no other.
+    // glTF requires unit vectors, also where all triangles have area 0; any is right there.
     values.set(length > 0 ? [x / length, y / length, z / length] : [0, 1, 0], 3 * v);
   }
   return values;

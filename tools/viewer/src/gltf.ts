@@ -1,4 +1,4 @@
-// A glb becomes a path: its first animation, sampled at its keys.
+// Makes a path of a glb file: its first animation, sampled at its keyframes.
 import {
   AnimationMixer,
   Color,
@@ -14,7 +14,7 @@ import { bytesFromBase64 } from './decode';
 import { measureDeviations } from './deviation';
 import { Damaged, type Body, type PathScene } from './scene_data';
 
-/** Of animations with more keys so many moments are taken, evenly. */
+/** An animation with more keyframes is sampled at this number of evenly spaced moments. */
 const mostShapes = 64;
 
 type Drawn = Mesh | LineSegments;
@@ -40,7 +40,7 @@ function momentsOf(clip: AnimationClip | undefined): number[] {
 function positionsNow(drawn: Drawn[], vertices: number): Float64Array {
   const positions = new Float64Array(3 * vertices);
   const point = new Vector3();
-  // Lines lack this method, but have all that it asks for.
+  // LineSegments does not have the method getVertexPosition, but all the members that it reads.
   const { getVertexPosition } = Mesh.prototype;
   let at = 0;
   for (const object of drawn) {
@@ -87,7 +87,7 @@ function coloursOf(drawn: Drawn[], vertices: number): Uint8Array | null {
   return isWhite ? null : colours;
 }
 
-/** The smallest cube with its corner at the least coordinates that holds all. */
+/** The smallest cube that contains all points and has its corner at their least coordinates. */
 function cubeAround(shapes: Float64Array[]): Pick<Body, 'low' | 'side'> {
   const low: Body['low'] = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
@@ -118,7 +118,7 @@ function toPath(name: string, { scene, animations }: GLTF): PathScene {
   if (animations.length > 0) mixer.clipAction(animations[0]).play();
   const moments = momentsOf(animations[0]);
   const shapes = moments.map((moment) => {
-    // Just before the end: at the end itself a clip that repeats has begun anew.
+    // Not quite the end of the animation, at which a clip that repeats is at its start again.
     mixer.setTime(Math.min(moment, (animations[0]?.duration ?? 0) * (1 - 1e-6)));
     scene.updateMatrixWorld(true);
     return positionsNow(drawn, vertices);

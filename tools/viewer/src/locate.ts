@@ -1,4 +1,4 @@
-// Where a point of the plane lies among the nodes.
+// Finds the triangle or segment of nodes in which a point of the plane lies.
 import type { Blend } from './blended_mesh';
 import type { SpaceScene } from './scene_data';
 

@@ -14,7 +14,7 @@ function showMessage(text: string): void {
   byId('layout').hidden = true;
 }
 
-/** What this browser lacks, in a sentence; null if nothing. */
+/** A sentence that says what this browser cannot do; null if it can show the page. */
 function missing(): string | null {
   if (typeof DecompressionStream === 'undefined') {
     return 'This browser is too old for this page: it cannot decompress data.';

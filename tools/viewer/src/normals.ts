@@ -1,6 +1,6 @@
 import type { Body } from './scene_data';
 
-/** Sums of the triangles' normals, by area, at every vertex: three numbers each. */
+/** Sums of triangles' normals at every vertex, weighted by area; three numbers for each vertex. */
 function sums(body: Body, shape: Uint16Array): Float32Array {
   const normals = new Float32Array(3 * body.vertices);
   const { triangles } = body;
@@ -27,7 +27,7 @@ function sums(body: Body, shape: Uint16Array): Float32Array {
   return normals;
 }
 
-/** Unit normals for smooth shading, in 127ths; four numbers a vertex, as GPUs like them. */
+/** Unit normals for smooth shading, times 127; four bytes for each vertex, which GPUs need. */
 export function vertexNormals(body: Body, shape: Uint16Array): Int8Array {
   const from = sums(body, shape);
   const normals = new Int8Array(4 * body.vertices);
@@ -42,8 +42,8 @@ export function vertexNormals(body: Body, shape: Uint16Array): Int8Array {
 }
 
 /**
- * Whether a shape should be shaded flat, as polyhedra and folded paper should: whether where
- * triangles meet their normals cancel a good part of each other, by area.
+ * Whether a shape should be shaded flat, as polyhedra and folded paper should. It should if at
+ * vertices a large part of the triangles' normals, weighted by area, cancels out in the sum.
  */
 export function isFaceted(body: Body, shape: Uint16Array): boolean {
   const from = sums(body, shape);

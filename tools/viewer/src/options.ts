@@ -11,7 +11,7 @@ function box(id: string, checked: boolean, onChange: (on: boolean) => void): voi
   input.addEventListener('change', () => onChange(input.checked));
 }
 
-/** `name` begins the names of files; `mayFilm` says what is missing for a film, if anything. */
+/** File names begin with `name`. `mayFilm` returns why no film can be made, or null if one can. */
 export function startOptions(
   stage: Stage,
   meshes: BlendedMesh[],
@@ -51,7 +51,7 @@ export function startOptions(
   });
 }
 
-/** Prepares shapes while nothing else happens, so that playing need not wait for them. */
+/** Prepares shapes while the browser is idle, so that playing does not wait for them. */
 export function prepareWhenIdle(meshes: BlendedMesh[]): void {
   const next = () => {
     if (meshes.map((mesh) => mesh.prepareNext()).some(Boolean)) setTimeout(next, 10);

@@ -1,4 +1,4 @@
-// The plane in which poses lie, drawn: a point to move, and a curve to draw.
+// The plane of poses, in which the user moves a point or draws a curve.
 import { svg } from './dom';
 import { hullEdges, type Point } from './locate';
 import type { SpaceScene } from './scene_data';
@@ -16,7 +16,7 @@ const stroke = 4;
 
 export interface PlaneEvents {
   onMove(point: Point): void;
-  /** A curve is drawn: its first point, every further one, and its end. */
+  /** Called while the user draws a curve: at its first point, at each further one, and at its end. */
   onStroke(point: Point, isFirst: boolean): void;
   onStrokeEnd(): void;
   onEnter(): void;
@@ -62,7 +62,7 @@ export class PlaneView {
     new ResizeObserver(() => this.layOut()).observe(parent);
   }
 
-  /** Moves the point; `words` tell where it is. */
+  /** Moves the point; `words` describe the place for screen readers. */
   setPoint(point: Point, words: string): void {
     this.point = point;
     const [x, y] = this.toPixels(point);

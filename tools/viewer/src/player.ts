@@ -1,6 +1,6 @@
 export type Repeat = 'once' | 'loop' | 'swing';
 
-/** Goes along something that lasts `duration` seconds, from place 0 to place 1. */
+/** Plays a motion of `duration` seconds. A place in it is a number from 0 (start) to 1 (end). */
 export class Player {
   duration = 4;
   speed = 1;
@@ -9,7 +9,7 @@ export class Player {
   private direction = 1;
   private running = false;
 
-  /** `onMove` hears every new place, `onState` when playing begins or ends. */
+  /** `onMove` is called with every new place, `onState` when playing begins or ends. */
   constructor(
     private readonly onMove: (place: number) => void,
     private readonly onState: (playing: boolean) => void,
@@ -41,7 +41,7 @@ export class Player {
     this.move(Math.min(1, Math.max(0, place)));
   }
 
-  /** Lets time pass; whether more of it should. */
+  /** Advances by some seconds. Returns whether the player is still playing. */
   advance(seconds: number): boolean {
     if (!this.running) return false;
     const there = this.at + (this.direction * this.speed * seconds) / this.duration;

@@ -1,4 +1,4 @@
-// Lines over time, with a mark that follows the player.
+// Plots of numbers over time, with a mark at the place that the player shows.
 import { svg } from './dom';
 
 export interface Series {

@@ -1,22 +1,22 @@
-// What the page shows, however it came in.
+// The data of a page, whether they come from shape-view or from a glb file.
 
 /** What all shapes of a scene share, and the shapes. */
 export interface Body {
   name: string;
   vertices: number;
   triangles: Uint32Array;
-  /** Of a graph, which has no triangles: pairs of vertices. */
+  /** The edges of a graph, which has no triangles, as pairs of vertices. */
   segments: Uint32Array;
   /** Red, green and blue of every vertex in sRGB, if there are any. */
   colours: Uint8Array | null;
-  /** The cube that holds all shapes. */
+  /** The cube that contains all shapes: its corner with the least coordinates, and its side. */
   low: [number, number, number];
   side: number;
   up: [number, number, number];
   /** The direction to look from. */
   eye: [number, number, number];
-  /** Four numbers a vertex: place in the cube, 0 .. 65535 along its side, and deviation, 0 .. 65535
-   * of `scaleEnd`. */
+  /** Four numbers for each vertex: its position in the cube, where 65535 is the side, and the
+   * deviation of its edges, where 65535 is `scaleEnd`. */
   shapes: Uint16Array[];
 }
 
@@ -27,7 +27,7 @@ export interface PathScene extends Body {
   metric: string;
   /** Squared speed of every segment; null where it is not known. */
   speeds: (number | null)[];
-  /** Of every shape: deviation of edge lengths from the first shape. */
+  /** The deviation of edge lengths from those of the first shape, one number for each shape. */
   rms: number[];
   max: number[];
   scaleEnd: number;
@@ -35,7 +35,7 @@ export interface PathScene extends Body {
 
 export interface SpaceScene extends Body {
   kind: 'space';
-  /** Of the poses, which are the first nodes. */
+  /** The names of the poses, which are the first nodes. */
   names: string[];
   points: [number, number][];
   planeTriangles: [number, number, number][];
@@ -45,5 +45,5 @@ export interface SpaceScene extends Body {
 
 export type SceneData = PathScene | SpaceScene;
 
-/** What was read is not what was written. */
+/** Thrown if the data in the page are damaged. */
 export class Damaged extends Error {}

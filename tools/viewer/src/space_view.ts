@@ -23,7 +23,7 @@ function mean(points: Point[]): Point {
   return [0, 1].map((k) => points.reduce((sum, p) => sum + p[k], 0) / points.length) as Point;
 }
 
-/** Which poses the nodes of a blend are made of, and how much of each. */
+/** The poses of which the nodes of a blend are made, with their shares. */
 function poseWeights({ names, parents }: SpaceScene, { nodes, weights }: Located): number[] {
   const sums = new Array<number>(names.length + parents.length).fill(0);
   nodes.forEach((node, k) => (sums[node] += weights[k]));
@@ -86,7 +86,7 @@ export function showSpace(scene: SpaceScene): void {
         player.pause();
         tell('Draw a curve first, or add points to it.');
       }
-      // What changes with every frame is not read aloud.
+      // Screen readers do not read the text while it changes with every frame.
       status.setAttribute('aria-live', player.playing ? 'off' : 'polite');
       stage.draw();
     },

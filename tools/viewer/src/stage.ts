@@ -1,4 +1,4 @@
-// Where bodies are seen: one canvas, one camera, a part of the canvas for every body.
+// Draws bodies on one canvas with one camera. Each body has a part of the canvas.
 import {
   Color,
   DirectionalLight,
@@ -17,9 +17,9 @@ import type { BlendedMesh } from './blended_mesh';
 
 const fieldOfView = 30;
 const margin = 1.06;
-/** Bodies whose sizes differ more than that are drawn equally large. */
+/** Bodies whose sizes have a larger ratio than this are drawn in the same size. */
 const largestRatio = 3;
-/** So many vertices are enough to know how far away the camera has to be. */
+/** The number of vertices from which the distance of the camera is computed. */
 const mostSamples = 20000;
 
 interface Cell {
@@ -57,7 +57,7 @@ export class Stage {
   private wanted = false;
   private last = 0;
 
-  /** `advance` hears of the seconds that have passed, and tells whether to draw again. */
+  /** `advance` is called with the seconds that have passed, and returns whether to draw again. */
   constructor(
     readonly canvas: HTMLCanvasElement,
     meshes: BlendedMesh[],
@@ -97,7 +97,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Has the next frame drawn. */
+  /** Requests that the next frame is drawn. */
   draw(): void {
     if (this.wanted) return;
     this.wanted = true;
@@ -189,7 +189,8 @@ export class Stage {
     const right = up.cross(this.eye).normalize();
     const above = this.eye.clone().cross(right);
     const tangent = Math.tan((fieldOfView * Math.PI) / 360);
-    // What is near looks larger, so that the middle of the box is not that of the picture.
+    // In perspective the middle of the box is not the middle of the picture, because near parts
+    // look larger.
     const target = new Vector3();
     let distance = 10;
     for (let round = 0; round < 4; ++round) {
@@ -213,7 +214,7 @@ export class Stage {
     this.controls.update();
   }
 
-  /** How far the shapes reach along `axis` in a picture from `distance`, in tangents. */
+  /** The extent of the shapes along `axis` seen from `distance`, as tangents of angles of view. */
   private range(axis: Vector3, target: Vector3, distance: number) {
     let [low, high] = [Infinity, -Infinity];
     for (const point of this.samples) {

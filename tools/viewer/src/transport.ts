@@ -18,7 +18,7 @@ export function setRepeat(player: Player, repeat: Repeat): void {
   byId<HTMLSelectElement>('loop').value = repeat;
 }
 
-/** `clock` tells a place in words; `onMove` hears every new place. */
+/** `clock` returns a place as text; `onMove` is called with every new place. */
 export function startTransport(
   onMove: (place: number) => void,
   onState: () => void,
