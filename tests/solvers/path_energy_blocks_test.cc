@@ -11,6 +11,7 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/cost/path_energy.h>
 #include <shapespace/cost/path_energy_function.h>
+#include <shapespace/cost/shape_features.h>
 #include <shapespace/files/read.h>
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/path/energy.h>
@@ -67,6 +68,57 @@ TEST(PathEnergyBlocks, AreAQuarterOfTheEnergy) {
       }
     }
   }
+}
+
+// Solves with and without, by both of Ceres' minimisers, end in the same bits. The volume is a
+// feature that is not shared.
+TEST(PathEnergyBlocks, SharedFeaturesChangeNoBit) {
+  MetricOptions all;
+  all.isometric = all.volume = 0.3;
+  const ShapeFamily bar = MakeBar(4, 1, 1, 6, 1, 1);
+  const std::vector<Shape> ends = {bar.pose(0), bar.pose(80)};
+  for (const MetricOptions& metric_options : {all, MetricOptions::Paper(), testing::OwnBlend()}) {
+    const auto metric = FreezeMetric(metric_options, bar.connectivity, ends);
+    for (const ceres::MinimizerType minimizer : {ceres::TRUST_REGION, ceres::LINE_SEARCH}) {
+      const auto solve = [&](bool shared) {
+        std::vector<Shape> shapes =
+            NoisyBlend(ends[0] / metric->unit, ends[1] / metric->unit, 3, 0.01);
+        cost::ShapeFeatures features(metric, &shapes);
+        ceres::Problem::Options problem_options;
+        if (shared) problem_options.evaluation_callback = &features;
+        ceres::Problem problem(problem_options);
+        cost::AddPathEnergy(*metric, &shapes, &problem, nullptr, 1, shared ? &features : nullptr);
+        cost::SetConstant(&shapes.front(), &problem);
+        cost::SetConstant(&shapes.back(), &problem);
+        ceres::Solver::Options options;
+        options.minimizer_type = minimizer;
+        options.max_num_iterations = 10;
+        options.logging_type = ceres::SILENT;
+        ceres::Solver::Summary summary;
+        ceres::Solve(options, &problem, &summary);
+        EXPECT_LT(summary.final_cost, 0.9 * summary.initial_cost);
+        return shapes;
+      };
+      EXPECT_EQ(solve(true), solve(false)) << DescribeMetric(metric_options);
+    }
+  }
+}
+
+TEST(PathEnergyBlocks, SharedFeaturesAreEvaluatedAtNewPointsOnly) {
+  const ShapeFamily bar = MakeBar(4, 1, 1, 6, 1, 1);
+  const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0)});
+  std::vector<Shape> shapes = {bar.pose(0) / metric->unit, bar.pose(80) / metric->unit};
+  cost::ShapeFeatures features(metric, &shapes);
+  features.PrepareForEvaluation(true, true);
+  const std::vector<double> before = features.Of(0, 1).values;
+  shapes[1] *= 2;
+  features.PrepareForEvaluation(true, false);
+  EXPECT_EQ(features.Of(0, 1).values, before);
+  features.PrepareForEvaluation(false, true);
+  EXPECT_NE(features.Of(0, 1).values, before);
+  const std::vector<double> derivatives = features.Of(0, 1).derivatives;
+  features.PrepareForEvaluation(true, false);  // at the same point, for the first time with these
+  EXPECT_NE(features.Of(0, 1).derivatives, derivatives);
 }
 
 TEST(PathEnergyBlocks, OfTheRigidMetricAreItsEnergyOnceTheMotionsAreSolvedFor) {

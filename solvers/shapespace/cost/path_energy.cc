@@ -1,5 +1,6 @@
 #include <shapespace/cost/path_energy.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -11,9 +12,12 @@
 namespace shapespace::cost {
 namespace {
 
-// Adds the residual blocks of a segment for one feature.
+// Adds the residual blocks of a segment for one feature. `shared` are its values at both shapes, or
+// null.
 void AddFeature(const std::shared_ptr<const Feature>& feature, bool trapezoid,
-                double quartic_weight, Shape* from, Shape* to, ceres::Problem* problem) {
+                double quartic_weight, Shape* from, Shape* to,
+                const std::array<const ShapeFeatures::Values*, 2>& shared,
+                ceres::Problem* problem) {
   std::vector<double*> blocks;
   if (feature->IsSum()) {
     for (Shape* shape : {from, to}) {
@@ -35,6 +39,8 @@ void AddFeature(const std::shared_ptr<const Feature>& feature, bool trapezoid,
     if (quartic) {
       cost = new ceres::AutoDiffCostFunction<TrapezoidSegment, 2, 3, 3, 3, 3>(
           new TrapezoidSegment{std::sqrt(feature->Weight(e)), std::sqrt(quartic_weight)});
+    } else if (shared[0] != nullptr) {
+      cost = new SharedFeatureSegment(*feature, e, *shared[0], *shared[1]);
     } else {
       cost = new FeatureSegment(feature, e);
     }
@@ -59,15 +65,18 @@ void Check(const Metric& metric, const std::vector<Shape>& shapes, const RigidMo
 }  // namespace
 
 void AddPathEnergy(const Metric& metric, std::vector<Shape>* shapes, ceres::Problem* problem,
-                   RigidMotions* motions, double quartic_weight) {
+                   RigidMotions* motions, double quartic_weight, const ShapeFeatures* features) {
   Check(metric, *shapes, motions);
   for (Shape& shape : *shapes) {
     for (int v = 0; v < shape.cols(); ++v) problem->AddParameterBlock(shape.col(v).data(), 3);
   }
   const bool trapezoid = metric.options.discretization == Discretization::kTrapezoid;
-  for (const auto& feature : metric.features) {
-    for (size_t i = 0; i + 1 < shapes->size(); ++i) {
-      AddFeature(feature, trapezoid, quartic_weight, &(*shapes)[i], &(*shapes)[i + 1], problem);
+  for (int f = 0; f < static_cast<int>(metric.features.size()); ++f) {
+    for (int i = 0; i + 1 < static_cast<int>(shapes->size()); ++i) {
+      std::array<const ShapeFeatures::Values*, 2> shared = {};
+      if (features != nullptr) shared = {&features->Of(f, i), &features->Of(f, i + 1)};
+      AddFeature(metric.features[f], trapezoid, quartic_weight, &(*shapes)[i], &(*shapes)[i + 1],
+                 shared, problem);
     }
   }
   if (!metric.rigid.Active()) return;

@@ -6,6 +6,7 @@
 #include <ceres/problem.h>
 #include <Eigen/Core>
 
+#include <shapespace/cost/shape_features.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/metric/metric.h>
 
@@ -25,12 +26,14 @@ using RigidMotions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 ///
 /// `shapes` are in the metric's unit (Metric::unit). They and `motions` must outlive the problem,
 /// and must not be resized while it exists. `motions` is used for the rigid metric only and is
-/// resized here. `quartic_weight` as in PathEnergy::SetQuarticWeight.
-/// \throw MeshError if there are fewer than two shapes, or one has another number of vertices than
+/// resized here. `quartic_weight` as in PathEnergy::SetQuarticWeight. `features` may be those of
+/// the same metric and shapes that the problem evaluates; they must outlive it. \throw MeshError if
+/// there are fewer than two shapes, or one has another number of vertices than
 ///        the metric; InvalidOptions if the metric has a sum feature (volume) and more than
 ///        kMaxDenseVertices vertices, or a rigid part and there are no `motions`.
 void AddPathEnergy(const Metric& metric, std::vector<Shape>* shapes, ceres::Problem* problem,
-                   RigidMotions* motions = nullptr, double quartic_weight = 1);
+                   RigidMotions* motions = nullptr, double quartic_weight = 1,
+                   const ShapeFeatures* features = nullptr);
 
 /// Sets all vertices of `shape`, which are parameter blocks of `problem`, constant.
 void SetConstant(Shape* shape, ceres::Problem* problem);

@@ -9,6 +9,7 @@
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/cost_function.h>
 
+#include <shapespace/cost/shape_features.h>
 #include <shapespace/cost/sum_cost.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/metric/trapezoid.h>
@@ -53,6 +54,46 @@ class FeatureSegment final : public ceres::CostFunction {
  private:
   const std::shared_ptr<const Feature> feature_;
   const double root_weight_;
+};
+
+/// The same, from values that are evaluated once for both segments of a shape.
+class SharedFeatureSegment final : public ceres::CostFunction {
+ public:
+  /// `from` and `to` must outlive the cost function.
+  SharedFeatureSegment(const Feature& feature, int element, const ShapeFeatures::Values& from,
+                       const ShapeFeatures::Values& to)
+      : num_vertices_(feature.VerticesPerElement()),
+        num_values_(feature.ValuesPerElement()),
+        element_(element),
+        root_weight_(std::sqrt(feature.Weight(element))),
+        from_(from),
+        to_(to) {
+    set_num_residuals(num_values_);
+    mutable_parameter_block_sizes()->assign(2 * num_vertices_, 3);
+  }
+
+  bool Evaluate(const double* const* /*blocks*/, double* residual,
+                double** jacobians) const override {
+    const size_t first = static_cast<size_t>(element_) * num_values_;
+    for (int k = 0; k < num_values_; ++k) {
+      residual[k] = root_weight_ * (to_.values[first + k] - from_.values[first + k]);
+    }
+    for (int block = 0; jacobians != nullptr && block < 2 * num_vertices_; ++block) {
+      if (jacobians[block] == nullptr) continue;
+      const bool at_from = block < num_vertices_;
+      const double factor = at_from ? -root_weight_ : root_weight_;
+      const double* const of_block =
+          (at_from ? from_ : to_).derivatives.data() +
+          3 * (first * num_vertices_ + num_values_ * (block % num_vertices_));
+      for (int k = 0; k < 3 * num_values_; ++k) jacobians[block][k] = factor * of_block[k];
+    }
+    return true;
+  }
+
+ private:
+  const int num_vertices_, num_values_, element_;
+  const double root_weight_;
+  const ShapeFeatures::Values &from_, &to_;
 };
 
 /// The paper's (6) for one edge, with a weight for its quartic part (PathEnergy::SetQuarticWeight):
