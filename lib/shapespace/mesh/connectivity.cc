@@ -7,6 +7,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/mesh/internal/polygons.h>
+#include <shapespace/mesh/internal/sides.h>
 
 namespace shapespace {
 namespace {
@@ -14,13 +15,6 @@ namespace {
 using Edge = std::pair<int, int>;
 
 Edge Sorted(int a, int b) { return a < b ? Edge(a, b) : Edge(b, a); }
-
-struct Side {
-  Edge edge;       // smaller vertex first
-  int triangle;    // to which the side belongs
-  int opposite;    // third vertex of the triangle
-  bool ascending;  // the triangle runs from the smaller vertex to the larger
-};
 
 void CheckJoins(const std::vector<Edge>& joins, int num_vertices, const char* what) {
   for (const auto& [a, b] : joins) {
@@ -87,45 +81,34 @@ std::vector<Edge> Diagonals(const std::vector<int>& polygon_begin,
   return diagonals;
 }
 
-// The sides of all triangles, sorted by edge.
-std::vector<Side> SortedSides(const Eigen::Matrix3Xi& triangles) {
-  std::vector<Side> sides;
-  sides.reserve(triangles.size());
-  for (int f = 0; f < triangles.cols(); ++f) {
-    const auto t = triangles.col(f);
-    for (int k = 0; k < 3; ++k) {
-      const int a = t[k], b = t[(k + 1) % 3];
-      // A side of a degenerate triangle from a vertex to itself is not an edge.
-      if (a != b) sides.push_back({Sorted(a, b), f, t[(k + 2) % 3], a < b});
-    }
-  }
-  std::stable_sort(sides.begin(), sides.end(),
-                   [](const Side& s, const Side& t) { return s.edge < t.edge; });
-  return sides;
-}
-
-// The edges, each once; the triangles at each, as a list and where it begins; and the hinges.
-std::vector<Edge> EdgesOfTriangles(const Eigen::Matrix3Xi& triangles, std::vector<int>* begin,
-                                   std::vector<int>* list,
+// The edges, each once. Appends the triangles at each to `list` and where they begin to `begin`,
+// and the hinges.
+std::vector<Edge> EdgesOfTriangles(int num_vertices, const Eigen::Matrix3Xi& triangles,
+                                   std::vector<int>* begin, std::vector<int>* list,
                                    std::vector<std::array<int, 4>>* hinges) {
-  const std::vector<Side> sides = SortedSides(triangles);
+  std::vector<int> polygon_begin(triangles.cols() + 1);
+  for (size_t f = 0; f < polygon_begin.size(); ++f) polygon_begin[f] = static_cast<int>(3 * f);
+  const internal::Sides sides = internal::MakeSides(
+      num_vertices, polygon_begin, {triangles.data(), triangles.data() + triangles.size()});
+  // The third corner of the side's triangle.
+  const auto opposite = [&](const internal::Side& side) {
+    return triangles.data()[9 * side.polygon + 3 - side.at_low - side.at_high];
+  };
   std::vector<Edge> edges;
-  *begin = {0};
-  for (size_t i = 0, j = 0; i < sides.size(); i = j) {
-    for (j = i; j < sides.size() && sides[j].edge == sides[i].edge; ++j) {
-      const int f = sides[j].triangle;  // once, also if two of its sides are the same edge
-      if (j == i || f != list->back()) list->push_back(f);
+  begin->push_back(0);
+  for (int e = 0; e < sides.NumEdges(); ++e) {
+    for (int s = sides.begin[e]; s < sides.begin[e + 1]; ++s) {
+      const int f = sides.sides[s].polygon;  // once, also if two of its sides are the same edge
+      if (s == sides.begin[e] || f != list->back()) list->push_back(f);
     }
-    edges.push_back(sides[i].edge);
+    edges.push_back(sides.Ends(e));
     begin->push_back(static_cast<int>(list->size()));
-    if (j - i == 2 && sides[i].ascending != sides[i + 1].ascending) {
-      const Side& up = sides[i].ascending ? sides[i] : sides[i + 1];
-      const Side& down = sides[i].ascending ? sides[i + 1] : sides[i];
-      const auto [a, b] = up.edge;
-      const bool distinct = up.opposite != down.opposite && up.opposite != a && up.opposite != b &&
-                            down.opposite != a && down.opposite != b;
-      if (distinct) hinges->push_back({a, b, up.opposite, down.opposite});
-    }
+    if (sides.Count(e) != 2 || sides.WoundAlike(e)) continue;
+    const internal::Side* const pair = &sides.sides[sides.begin[e]];
+    const int c = opposite(pair[pair[0].ascending ? 0 : 1]);
+    const int d = opposite(pair[pair[0].ascending ? 1 : 0]);
+    const auto [a, b] = edges.back();
+    if (c != d && c != a && c != b && d != a && d != b) hinges->push_back({a, b, c, d});
   }
   return edges;
 }
@@ -166,7 +149,7 @@ std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
   std::vector<std::array<int, 4>> hinges;
   std::vector<int> edge_begin, edge_triangles;
   std::vector<Edge> edges =
-      EdgesOfTriangles(result->triangles_, &edge_begin, &edge_triangles, &hinges);
+      EdgesOfTriangles(num_vertices, result->triangles_, &edge_begin, &edge_triangles, &hinges);
   result->num_triangle_edges_ = static_cast<int>(edges.size());
   std::vector<Edge> extra = Diagonals(polygon_begin, corners);
   for (const auto& [a, b] : segments) extra.push_back(Sorted(a, b));

@@ -6,7 +6,8 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
-#include <shapespace/base/parallel.h>
+#include <shapespace/base/internal/ranges.h>
+#include <shapespace/metric/internal/lower_block.h>
 
 namespace shapespace {
 
@@ -24,18 +25,12 @@ struct FeatureDerivative::Layout {
 
 namespace {
 
-// Elements, or vertices, per task of a thread.
-constexpr int kPerTask = 512;
+using internal::ForRanges;
+using internal::kPerTask;
+
 // Elements whose values are evaluated in one call, into buffers on the stack.
 constexpr int kChunk = 16;
 constexpr int kMaxCoordinates = 3 * Feature::kMaxVertices;
-
-// Calls body(begin, end) for ranges of [0, count).
-template <typename Body>
-void ForRanges(int count, const Body& body) {
-  ParallelFor((count + kPerTask - 1) / kPerTask,
-              [&](int task) { body(task * kPerTask, std::min(count, (task + 1) * kPerTask)); });
-}
 
 // The sum of value(i) over all i, in an order that does not depend on the number of threads.
 template <typename Value>
@@ -261,10 +256,7 @@ Eigen::SparseMatrix<double> FeatureDerivative::MetricMatrix() const {
 }
 
 void FeatureDerivative::UpdateMetricMatrix(Eigen::SparseMatrix<double>* matrix) const {
-  double* const entries = matrix->valuePtr();
-  const int* const rows = matrix->innerIndexPtr();
-  const int* const begins = matrix->outerIndexPtr();
-  std::fill(entries, entries + matrix->nonZeros(), 0.0);
+  std::fill_n(matrix->valuePtr(), matrix->nonZeros(), 0.0);
   for (size_t i = 0; i < blocks_.size(); ++i) {
     const Feature& feature = *layout_->metric->features[i];
     if (feature.IsSum()) continue;
@@ -277,16 +269,9 @@ void FeatureDerivative::UpdateMetricMatrix(Eigen::SparseMatrix<double>* matrix) 
           if (p < q) continue;
           const double* const left = element + 3 * num_values * k;
           const double* const right = element + 3 * num_values * l;
-          for (int b = 0; b < 3; ++b) {
-            const int column = 3 * q + b;
-            const int first = p == q ? column : 3 * p;
-            double* entry =
-                entries +
-                (std::lower_bound(rows + begins[column], rows + begins[column + 1], first) - rows);
-            for (int a = first - 3 * p; a < 3; ++a, ++entry) {
-              for (int v = 0; v < num_values; ++v) *entry += left[3 * v + a] * right[3 * v + b];
-            }
-          }
+          internal::ForLowerBlock(p, q, matrix, [&](int a, int b, double* entry) {
+            for (int v = 0; v < num_values; ++v) *entry += left[3 * v + a] * right[3 * v + b];
+          });
         }
       }
     }

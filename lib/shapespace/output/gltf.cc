@@ -499,12 +499,6 @@ void CheckBytes(const std::string& file, double bytes, size_t num_keys) {
                   "resample the path to fewer");
 }
 
-void CheckCount(const char* field, Eigen::Index count, const Connectivity& connectivity) {
-  if (count == 0 || count == connectivity.NumVertices()) return;
-  throw InvalidOptions(field, "given for " + std::to_string(count) + " vertices, but there are " +
-                                  std::to_string(connectivity.NumVertices()));
-}
-
 }  // namespace
 
 void GltfOptions::Validate() const {
@@ -523,8 +517,9 @@ GltfSummary WriteGltf(const std::string& file, const Path& path, const GltfOptio
   options.Validate();
   CheckPath(file, path);
   const Connectivity& connectivity = *path.metric->connectivity;
-  CheckCount("reference", options.reference.cols(), connectivity);
-  CheckCount("groups", options.groups.size(), connectivity);
+  const int num_vertices = connectivity.NumVertices();
+  internal::CheckCount("reference", options.reference.cols(), num_vertices, "vertices");
+  internal::CheckCount("groups", options.groups.size(), num_vertices, "vertices");
   const std::vector<int> keys = internal::KeyShapes(path.NumShapes(), path.poses, kMaxKeys);
   std::vector<Shape> shapes;
   shapes.reserve(keys.size());

@@ -63,33 +63,17 @@ void CheckInput(const Connectivity& connectivity, const std::vector<Shape>& shap
       throw MeshError(name + " is too large for numbers of double precision; scale it down");
     }
   }
-  const auto check_count = [&](const char* field, size_t count) {
-    if (count != 0 && count != shapes.size()) {
-      throw InvalidOptions(field, "given for " + std::to_string(count) + " shapes, but there are " +
-                                      std::to_string(shapes.size()));
-    }
-  };
-  check_count("roles", options.roles.size());
-  check_count("labels", options.labels.size());
-  check_count("values", options.values.size());
-  if (options.marks.size() != 0) {
-    if (options.marks.size() != connectivity.NumVertices()) {
-      throw InvalidOptions("marks", "given for " + std::to_string(options.marks.size()) +
-                                        " vertices, but there are " +
-                                        std::to_string(connectivity.NumVertices()));
-    }
-    if ((options.marks.array() < 0).any() || (options.marks.array() > 2).any()) {
-      throw InvalidOptions("marks", "must be 0, 1 or 2");
-    }
+  internal::CheckCount("roles", options.roles.size(), shapes.size(), "shapes");
+  internal::CheckCount("labels", options.labels.size(), shapes.size(), "shapes");
+  internal::CheckCount("values", options.values.size(), shapes.size(), "shapes");
+  internal::CheckCount("marks", options.marks.size(), connectivity.NumVertices(), "vertices");
+  if ((options.marks.array() < 0).any() || (options.marks.array() > 2).any()) {
+    throw InvalidOptions("marks", "must be 0, 1 or 2");
   }
-  if (options.groups.size() != 0) {
-    if (!options.values.empty()) throw InvalidOptions("groups", "not together with values");
-    if (options.groups.size() != connectivity.NumVertices()) {
-      throw InvalidOptions("groups", "given for " + std::to_string(options.groups.size()) +
-                                         " vertices, but there are " +
-                                         std::to_string(connectivity.NumVertices()));
-    }
+  if (options.groups.size() != 0 && !options.values.empty()) {
+    throw InvalidOptions("groups", "not together with values");
   }
+  internal::CheckCount("groups", options.groups.size(), connectivity.NumVertices(), "vertices");
   if (options.values.empty()) return;
   for (size_t i = 0; i < shapes.size(); ++i) {
     const Eigen::VectorXd& values = options.values[i];

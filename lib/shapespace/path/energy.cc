@@ -82,6 +82,19 @@ PathEnergy::PathEnergy(std::shared_ptr<const Metric> metric, int inner, End end)
 PathEnergy::PathEnergy(PathEnergy&&) noexcept = default;
 PathEnergy::~PathEnergy() = default;
 
+// The groups of elements whose lowest and highest rows lie in the blocks `low` and `high`. Groups
+// of one phase have no rows in common, so that threads may add to the gradient at the same time:
+//   phase 0: elements within one block; a group for each block. These come first, and set their
+//            rows of the gradient to zero before they add to them
+//   phase 1: elements across the border of an even block and the next one; a group for each border
+//   phase 2: the same of odd blocks
+//   phase 3: all others, such as long stiffeners, in one group
+PathEnergy::GroupPlace PathEnergy::PlaceOf(int low, int high) {
+  if (low == high) return {0, low};
+  if (high > low + 1) return {3, 0};
+  return {1 + low % 2, low / 2};
+}
+
 int PathEnergy::NumGroups(int phase) const {
   const int groups[kPhases] = {blocks_, (blocks_ + 1) / 2, blocks_ / 2, 1};
   return groups[phase];
@@ -122,8 +135,8 @@ PathEnergy::Term PathEnergy::MakeTerm(const std::shared_ptr<const Feature>& feat
       high_row = std::max(high_row, row_of_vertex_[feature->Element(e)[k]]);
     }
     const int low = block_of[low_row], high = block_of[high_row];
-    const int phase = low == high ? 0 : high > low + 1 ? 3 : 1 + low % 2;
-    internal::ElementGroup& group = term.groups[phase][phase == 0 ? low : phase == 3 ? 0 : low / 2];
+    const GroupPlace place = PlaceOf(low, high);
+    internal::ElementGroup& group = term.groups[place.phase][place.group];
     for (int k = 0; k < corners; ++k) {
       group.stencils.push_back(row_of_vertex_[feature->Element(e)[k]]);
     }
@@ -206,7 +219,7 @@ std::vector<double> PathEnergy::EvaluateParts(const double* unknowns, double* gr
     // All terms of a group one after the other, while its rows are in the cache.
     std::vector<double> partial(num_groups * num_terms, 0.0);
     ParallelFor(num_groups, [&](int g) {
-      if (phase == 0) {
+      if (phase == 0) {  // no other group has touched these rows yet
         if (end_ == End::kFree) {
           for (int row = 3 * FirstRow(g); row < 3 * FirstRow(g + 1); ++row) {
             last_[row] = unknowns[static_cast<size_t>(row) * stride_ + inner_ - 1];

@@ -75,7 +75,12 @@ class PathEnergy {
   static constexpr int kPhases = 4;
   struct Term;  // of the feature with the same index
 
+  struct GroupPlace {
+    int phase, group;
+  };
+
   void CheckNumber(const std::vector<Shape>& shapes) const;
+  static GroupPlace PlaceOf(int low, int high);
   int NumGroups(int phase) const;
   int FirstRow(int block) const;
   Term MakeTerm(const std::shared_ptr<const Feature>& feature) const;

@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/ranges.h>
 #include <shapespace/base/internal/stopwatch.h>
-#include <shapespace/base/parallel.h>
 #include <shapespace/exponential/internal/summary_fields.h>
 #include <shapespace/geodesic/internal/resolution.h>
 #include <shapespace/mesh/internal/geometry.h>
@@ -16,7 +16,6 @@
 #include <shapespace/numerics/internal/minimise.h>
 #include <shapespace/numerics/internal/preconditioner.h>
 #include <shapespace/numerics/internal/report.h>
-#include <shapespace/numerics/internal/rows.h>
 #include <shapespace/path/energy.h>
 
 namespace shapespace {
@@ -25,8 +24,6 @@ namespace {
 // A path with less than this share of its deformation left has collapsed. At mu = 1 at least half
 // was left of all paths tried; the paper's energy left 0.06 at most at a tolerance of 1e-3.
 constexpr double kCollapsed = 1.0 / 3;
-
-using internal::kRowsPerTask;
 
 // weight * sum_i sum_p A_p |P_i - P_i^given|^2, on the arrays of a path energy.
 class Proximity {
@@ -42,16 +39,14 @@ class Proximity {
   // Returns the value and, unless null, adds to `gradient`.
   double Add(const double* unknowns, double* gradient) const {
     const int num_rows = static_cast<int>(row_weights_.size());
-    const int tasks = (num_rows + kRowsPerTask - 1) / kRowsPerTask;
-    std::vector<double> partial(tasks, 0.0);
-    ParallelFor(tasks, [&](int task) {
-      const int end = std::min(num_rows, (task + 1) * kRowsPerTask);
-      for (int row = task * kRowsPerTask; row < end; ++row) {
+    std::vector<double> partial(num_rows / internal::kPerTask + 1, 0.0);
+    internal::ForRanges(num_rows, [&](int first, int end) {
+      for (int row = first; row < end; ++row) {
         const double weight = row_weights_[row];
         const size_t begin = 3 * static_cast<size_t>(row) * stride_;
         for (size_t k = begin; k < begin + 3 * stride_; ++k) {
           const double way = unknowns[k] - given_[k];
-          partial[task] += weight * way * way;
+          partial[first / internal::kPerTask] += weight * way * way;
           if (gradient != nullptr) gradient[k] += 2 * weight * way;
         }
       }

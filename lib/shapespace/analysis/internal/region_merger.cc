@@ -9,7 +9,7 @@
 
 #include <Eigen/LU>
 
-#include <shapespace/base/parallel.h>
+#include <shapespace/base/internal/ranges.h>
 #include <shapespace/mesh/internal/geometry.h>
 
 namespace shapespace::internal {
@@ -22,8 +22,6 @@ constexpr int kMaxShapes = 8;
 // Displacements below this, as a share of a region's size, count as no motion; in regions without
 // motion, small regions are merged first, so that all grow at the same rate.
 constexpr double kNoMotion = 1e-4;
-
-constexpr int kBatch = 512;  // pairs per task: about 100 microseconds
 
 // The squared distance from the best rigid motion, integrated over the area. It is G - 2 x, where x
 // is the largest root of a quartic whose coefficients are invariants of the covariance; x <= G / 2,
@@ -150,12 +148,8 @@ bool RegionMerger::Fits(const RegionPair& pair) const {
 }
 
 void RegionMerger::MeasureLosses() {
-  const int batches = (static_cast<int>(pairs_.size()) + kBatch - 1) / kBatch;
-  ParallelFor(batches, [&](int batch) {
-    const size_t end = std::min(pairs_.size(), static_cast<size_t>(batch + 1) * kBatch);
-    for (size_t i = static_cast<size_t>(batch) * kBatch; i < end; ++i) {
-      if (pairs_[i].loss < 0) pairs_[i].loss = Loss(pairs_[i]);
-    }
+  ForIndices(static_cast<int>(pairs_.size()), [&](int i) {
+    if (pairs_[i].loss < 0) pairs_[i].loss = Loss(pairs_[i]);
   });
 }
 

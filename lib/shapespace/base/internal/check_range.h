@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_BASE_INTERNAL_CHECK_RANGE_H_
 #define SHAPESPACE_BASE_INTERNAL_CHECK_RANGE_H_
 
+#include <cstddef>
 #include <sstream>
 #include <string>
 
@@ -15,6 +16,15 @@ void CheckRange(const std::string& field, Number value, Number least, Number mos
   std::ostringstream message;
   message << "must be from " << least << " to " << most;
   throw InvalidOptions(field, message.str());
+}
+
+/// \throw InvalidOptions unless a field that may be empty has one entry for each of `expected`
+///        `things`.
+inline void CheckCount(const std::string& field, size_t count, size_t expected,
+                       const std::string& things) {
+  if (count == 0 || count == expected) return;
+  throw InvalidOptions(field, "given for " + std::to_string(count) + " " + things +
+                                  ", but there are " + std::to_string(expected));
 }
 
 }  // namespace shapespace::internal

@@ -221,7 +221,9 @@ class Decimator {
   bool Legal(int from, int to) { return KeepsTopology(from, to) && KeepsGeometry(from, to); }
 
   // The link condition (Dey, Edelsbrunner, Guha and Nekhayev, "Topology Preserving Edge
-  // Contraction", 1999).
+  // Contraction", 1999): the only neighbours that the two vertices have in common are the third
+  // corners of the triangles at their edge. Neighbours of `to` are marked; those that are also
+  // neighbours of `from` are counted, and their marks removed, so that each counts once.
   bool KeepsTopology(int from, int to) {
     if (fan_size_[to] > kLargestFan) return false;
     const int stamp = ++stamp_;

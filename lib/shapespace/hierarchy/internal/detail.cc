@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include <shapespace/base/parallel.h>
+#include <shapespace/base/internal/ranges.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/rigid_motion.h>
 
@@ -121,10 +121,7 @@ Carriers FindCarriers(const Connectivity& coarse, const std::vector<int>& kept,
       from = result.vertices.col(v);
     }
   };
-  ParallelFor((num_fine + kVerticesPerTask - 1) / kVerticesPerTask, [&](int task) {
-    const int end = std::min(num_fine, (task + 1) * kVerticesPerTask);
-    for (int v = task * kVerticesPerTask; v < end; ++v) find(v);
-  });
+  ForIndices(num_fine, find, kVerticesPerTask);
   return result;
 }
 
@@ -149,21 +146,17 @@ std::vector<Eigen::Matrix3d> VertexRotations(const Connectivity& coarse, const S
       moved_normal.col(v) += m;
     }
   }
-  ParallelFor((num_vertices + kVerticesPerTask - 1) / kVerticesPerTask, [&](int task) {
-    const int end = std::min(num_vertices, (task + 1) * kVerticesPerTask);
-    for (int v = task * kVerticesPerTask; v < end; ++v) {
-      Eigen::Matrix3d& rotation = rotations[v];
-      // Edges of a flat fan do not distinguish rotations from reflections, but the normal does. Its
-      // length is twice an area, so that both terms are squared lengths.
-      const double norms = std::sqrt(rest_normal.col(v).norm() * moved_normal.col(v).norm());
-      if (norms > 0) {
-        rotation += moved_normal.col(v) * rest_normal.col(v).transpose() / norms;
-      }
-      // If neither determines the rotation (edges of a graph on one line), it is the identity.
-      rotation.diagonal().array() += kTurnNothing * rotation.norm();
-      rotation = NearestRotation(rotation);
-    }
-  });
+  const auto rotate = [&](int v) {
+    Eigen::Matrix3d& rotation = rotations[v];
+    // Edges of a flat fan do not distinguish rotations from reflections, but the normal does. Its
+    // length is twice an area, so that both terms are squared lengths.
+    const double norms = std::sqrt(rest_normal.col(v).norm() * moved_normal.col(v).norm());
+    if (norms > 0) rotation += moved_normal.col(v) * rest_normal.col(v).transpose() / norms;
+    // If neither determines the rotation (edges of a graph on one line), it is the identity.
+    rotation.diagonal().array() += kTurnNothing * rotation.norm();
+    rotation = NearestRotation(rotation);
+  };
+  ForIndices(num_vertices, rotate, kVerticesPerTask);
   return rotations;
 }
 

@@ -17,7 +17,17 @@ namespace {
 // kElements elements at all times, the same element at the next time is kElements slots further on.
 // Time 0 is the first shape, 1 .. inner are the inner ones, inner + 1 is the last. The slots after
 // those are finite but unused. kInner is the number of inner shapes if there are few, and otherwise
-// 0.
+// 0. A scratch row of a path with two inner shapes, and of one with many:
+//
+//   kElements 8:  |e0 e1 .. e7|e0 e1 .. e7|e0 e1 .. e7|e0 e1 .. e7|
+//                    time 0      time 1      time 2      time 3
+//   kElements 1:  |t0|t1|t2| .. |t inner|t inner + 1|       all of one element
+//                 0  |                  |           |
+//                    kElements          Last()      EndOfSegments()
+//
+// Slot l of a row of values belongs to a shape, slot l of a row of differences to the segment that
+// ends there; so `value[l] - value[l - kElements]` is the change on that segment, and a loop over
+// [kElements, EndOfSegments()) visits all segments.
 //
 // Long paths are divided into windows, so that rows are short and on the stack, where the
 // compiler's addressing is most efficient. A window's first shape is the last but one of the window

@@ -1,4 +1,5 @@
 #include <shapespace/correspondence/internal/shell_fit.h>
+#include <shapespace/metric/internal/lower_block.h>
 
 #include <algorithm>
 #include <cmath>
@@ -71,9 +72,6 @@ double ShellFit::TermEnergy(const std::vector<PointToPlaneTerm>& terms, const Sh
 
 void ShellFit::AddTerms(const std::vector<PointToPlaneTerm>& terms, const Shape& shape,
                         Tangent* gradient) {
-  double* const values = matrix_.valuePtr();
-  const int* const rows = matrix_.innerIndexPtr();
-  const int* const begins = matrix_.outerIndexPtr();
   for (const PointToPlaneTerm& term : terms) {
     const Eigen::Matrix3d stiffness = term.weight * (term.normal * term.normal.transpose() +
                                                      kAlong * Eigen::Matrix3d::Identity());
@@ -85,14 +83,8 @@ void ShellFit::AddTerms(const std::vector<PointToPlaneTerm>& terms, const Shape&
         const int p = term.vertices(i), q = term.vertices(j);
         if (p < q || term.barycentric(j) == 0) continue;
         const double factor = term.barycentric(i) * term.barycentric(j);
-        for (int b = 0; b < 3; ++b) {
-          const int column = 3 * q + b;
-          const int first = p == q ? column : 3 * p;
-          double* entry =
-              values +
-              (std::lower_bound(rows + begins[column], rows + begins[column + 1], first) - rows);
-          for (int a = first - 3 * p; a < 3; ++a, ++entry) *entry += factor * stiffness(a, b);
-        }
+        ForLowerBlock(p, q, &matrix_,
+                      [&](int a, int b, double* entry) { *entry += factor * stiffness(a, b); });
       }
     }
   }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include <shapespace/base/parallel.h>
+#include <shapespace/base/internal/ranges.h>
+#include <shapespace/numerics/internal/padded_width.h>
 #include <shapespace/numerics/internal/preconditioner.h>
-#include <shapespace/numerics/internal/rows.h>
 
 namespace shapespace::internal {
 namespace {
@@ -71,7 +71,7 @@ void FreeEndFactors::SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights,
     units[i] = rights[i].cwiseAbs().maxCoeff();
     if (units[i] == 0) units[i] = 1;
   }
-  ForRows(size, [&](int v) {
+  ForIndices(size, [&](int v) {
     if (given_[v]) return;
     float* const at = &work[static_cast<size_t>(places[v]) * width];
     for (int k = 0; k < 3 * count; ++k) {
@@ -80,7 +80,7 @@ void FreeEndFactors::SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights,
   });
   end_->SolveLower(work.data(), width);
   end_->SolveUpper(work.data(), width);
-  ForRows(size, [&](int v) {
+  ForIndices(size, [&](int v) {
     if (given_[v]) return;
     const float* const at = &work[static_cast<size_t>(places[v]) * width];
     for (int k = 0; k < 3 * count; ++k) (*shapes)[k / 3](k % 3, v) += units[k / 3] * at[k];
@@ -148,7 +148,7 @@ void FreeEndPreconditioner::Apply(const double* gradient, double unit, double* r
   // The derivative with respect to a difference y_t is the sum of the gradient over all later
   // times. Its mean over t, in the orthonormal direction (1, ..., 1) / sqrt n, is for the factor
   // `end_`; the rest for `between_`.
-  ForRows(size, [&](int v) {
+  ForIndices(size, [&](int v) {
     const double* const g = gradient + 3 * static_cast<size_t>(energy_.Row(v)) * stride;
     float* const end = &end_work_[static_cast<size_t>(end_place_[v]) * end_width_];
     float* const between = &between_work_[static_cast<size_t>(between_place_[v]) * between_width_];
@@ -175,7 +175,7 @@ void FreeEndPreconditioner::Apply(const double* gradient, double unit, double* r
     factors_.between_->SolveLower(between_work_.data(), between_width_);
     factors_.between_->SolveUpper(between_work_.data(), between_width_);
   }
-  ForRows(size, [&](int v) {
+  ForIndices(size, [&](int v) {
     double* const out = result + 3 * static_cast<size_t>(energy_.Row(v)) * stride;
     const float* const end = &end_work_[static_cast<size_t>(end_place_[v]) * end_width_];
     const float* const between =

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include <shapespace/base/parallel.h>
+#include <shapespace/base/internal/ranges.h>
 #include <shapespace/mesh/rigid_motion.h>
 
 namespace shapespace::internal {
@@ -37,10 +37,8 @@ bool IsWound(const Dihedral& dihedral, int hinge, const std::vector<Shape>& shap
 std::vector<int> WoundHinges(const Dihedral& dihedral, const std::vector<Shape>& shapes) {
   const int num_hinges = static_cast<int>(dihedral.stencils.cols());
   std::vector<char> wound(num_hinges);
-  ParallelFor((num_hinges + kHingesPerTask - 1) / kHingesPerTask, [&](int task) {
-    const int end = std::min(num_hinges, (task + 1) * kHingesPerTask);
-    for (int h = task * kHingesPerTask; h < end; ++h) wound[h] = IsWound(dihedral, h, shapes);
-  });
+  ForIndices(
+      num_hinges, [&](int h) { wound[h] = IsWound(dihedral, h, shapes); }, kHingesPerTask);
   std::vector<int> result;
   for (int h = 0; h < num_hinges; ++h) {
     if (wound[h]) result.push_back(h);

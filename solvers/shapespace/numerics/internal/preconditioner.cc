@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <shapespace/numerics/internal/rows.h>
+#include <shapespace/base/internal/ranges.h>
+#include <shapespace/numerics/internal/padded_width.h>
 
 namespace shapespace::internal {
 namespace {
@@ -86,13 +87,13 @@ ChangeOfVariables::ChangeOfVariables(const Cholesky& factor, const PathEnergy& e
 void ChangeOfVariables::Apply(const double* y, const double* origin, double scale,
                               double* unknowns) {
   const int count = 3 * inner_;
-  ForRows(factor_.Size(), [&](int i) {
+  ForIndices(factor_.Size(), [&](int i) {
     double* const z = &work_[static_cast<size_t>(i) * width_];
     std::copy_n(y + static_cast<size_t>(i) * count, count, z);
     std::fill(z + count, z + width_, 0.0);
   });
   factor_.SolveUpper(work_.data(), width_);
-  ForRows(factor_.Size(), [&](int i) {
+  ForIndices(factor_.Size(), [&](int i) {
     for (int axis = 0; axis < 3; ++axis) {
       const double* const z = &work_[static_cast<size_t>(i) * width_ + axis * inner_];
       const size_t offset = (3 * static_cast<size_t>(row_[i]) + axis) * stride_;
@@ -108,7 +109,7 @@ void ChangeOfVariables::Apply(const double* y, const double* origin, double scal
 
 void ChangeOfVariables::ApplyTranspose(const double* gradient, double scale, double* y) {
   const int count = 3 * inner_;
-  ForRows(factor_.Size(), [&](int i) {
+  ForIndices(factor_.Size(), [&](int i) {
     for (int axis = 0; axis < 3; ++axis) {
       double* const z = &work_[static_cast<size_t>(i) * width_ + axis * inner_];
       const double* const g = gradient + (3 * static_cast<size_t>(row_[i]) + axis) * stride_;
@@ -122,7 +123,7 @@ void ChangeOfVariables::ApplyTranspose(const double* gradient, double scale, dou
     std::fill(row + count, row + width_, 0.0);
   });
   factor_.SolveLower(work_.data(), width_);
-  ForRows(factor_.Size(), [&](int i) {
+  ForIndices(factor_.Size(), [&](int i) {
     std::copy_n(&work_[static_cast<size_t>(i) * width_], count, y + static_cast<size_t>(i) * count);
   });
 }
@@ -141,7 +142,7 @@ Preconditioner::Preconditioner(const CholeskyFactor<float>& factor, const PathEn
 void Preconditioner::Apply(const double* gradient, double unit, double* result) {
   const double scale = 1 / unit;
   // Both factors of T at once, because they commute with those of S.
-  ForRows(factor_.Size(), [&](int i) {
+  ForIndices(factor_.Size(), [&](int i) {
     const double* const g = gradient + 3 * static_cast<size_t>(row_[i]) * stride_;
     float* const z = &work_[static_cast<size_t>(i) * width_];
     double forward[3] = {0, 0, 0};
@@ -162,7 +163,7 @@ void Preconditioner::Apply(const double* gradient, double unit, double* result) 
   });
   factor_.SolveLower(work_.data(), width_);
   factor_.SolveUpper(work_.data(), width_);
-  ForRows(factor_.Size(), [&](int i) {
+  ForIndices(factor_.Size(), [&](int i) {
     const float* const z = &work_[static_cast<size_t>(i) * width_];
     double* const out = result + 3 * static_cast<size_t>(row_[i]) * stride_;
     for (int axis = 0; axis < 3; ++axis) {
