@@ -32,8 +32,8 @@ def file_for(item_name: str, folder: str) -> str:
 
 
 def _as_file_name(name: str) -> str:
-    """The name with signs that files cannot have as in web addresses: different names remain
-    different."""
+    """The name, with signs that names of files cannot have encoded as in web addresses, so that
+    different names remain different."""
     return "".join(
         f"%{ord(sign):02X}" if sign in _NOT_IN_FILE_NAMES + "%" or sign < " " else sign
         for sign in name

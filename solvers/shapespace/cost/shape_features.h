@@ -14,13 +14,13 @@ namespace shapespace::cost {
 /// The features of every shape of a path, evaluated once at each point at which Ceres evaluates a
 /// problem. Without it, residual blocks evaluate each inner shape twice, once for each of its two
 /// segments:
-///
+/// \code
 ///   cost::ShapeFeatures features(metric, &shapes);
 ///   ceres::Problem::Options options;
 ///   options.evaluation_callback = &features;
 ///   ceres::Problem problem(options);
 ///   cost::AddPathEnergy(*metric, &shapes, &problem, nullptr, 1, &features);
-///
+/// \endcode
 /// Results are the same to the last bit. Features that are sums (volume), the trapezoid form and
 /// the rigid metric are still evaluated by segment.
 class ShapeFeatures final : public ceres::EvaluationCallback {
