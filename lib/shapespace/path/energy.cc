@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/ranges.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/path/internal/energy_kernels.h>
 #include <shapespace/path/internal/energy_term.h>
@@ -359,10 +360,9 @@ double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& l
       double bound = 0, first = 0, last = 0;
     };
     std::vector<Sums> partial((num_elements + kElementsPerTask - 1) / kElementsPerTask);
-    ParallelFor(static_cast<int>(partial.size()), [&](int task) {
-      Sums& sums = partial[task];
-      const int end = std::min(num_elements, (task + 1) * kElementsPerTask);
-      for (int e = task * kElementsPerTask; e < end; e += kChunk) {
+    const auto add = [&](int begin, int end) {
+      Sums& sums = partial[begin / kElementsPerTask];
+      for (int e = begin; e < end; e += kChunk) {
         const int count = std::min(kChunk, end - e);
         double x[kChunk * 3 * Feature::kMaxVertices];
         double a[kChunk * Feature::kMaxValues], b[kChunk * Feature::kMaxValues];
@@ -378,7 +378,8 @@ double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& l
               2 * feature->LeastChange(count, a, b, feature->Weights().data() + e, segments);
         }
       }
-    });
+    };
+    internal::ForRanges(num_elements, add, kElementsPerTask);
     Sums sums;
     for (const Sums& part : partial) {
       sums.bound += part.bound;

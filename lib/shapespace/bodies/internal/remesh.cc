@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 
-#include <shapespace/base/parallel.h>
+#include <shapespace/base/internal/ranges.h>
 #include <shapespace/bodies/internal/polygonise.h>
 #include <shapespace/mesh/internal/geometry.h>
 
@@ -102,12 +102,8 @@ class Remesher {
   }
 
   void ForEachVertex(const std::function<void(VertexHandle)>& body) const {
-    constexpr int kBlock = 512;
-    const int count = static_cast<int>(mesh_.n_vertices());
-    ParallelFor((count + kBlock - 1) / kBlock, [&](int block) {
-      for (int v = block * kBlock; v < std::min(count, (block + 1) * kBlock); ++v) {
-        if (Exists(VertexHandle(v))) body(VertexHandle(v));
-      }
+    ForIndices(static_cast<int>(mesh_.n_vertices()), [&](int v) {
+      if (Exists(VertexHandle(v))) body(VertexHandle(v));
     });
   }
 

@@ -1,10 +1,10 @@
 #include <shapespace/correspondence/internal/shell_fit.h>
-#include <shapespace/metric/internal/lower_block.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include <shapespace/metric/internal/lower_block.h>
 #include <shapespace/numerics/internal/solve.h>
 
 namespace shapespace::internal {

@@ -5,14 +5,14 @@
 
 #include <Eigen/Core>
 
-#include <shapespace/numerics/internal/cholesky.h>
+#include <shapespace/numerics/internal/padded_width.h>
 
 namespace shapespace::internal {
 
 /// Solves the factored system for each column of `right`.
 inline Eigen::MatrixXd Solve(const Cholesky& factor, const Eigen::MatrixXd& right) {
   const auto columns = static_cast<int>(right.cols());
-  const int width = (columns + Cholesky::kColumns - 1) / Cholesky::kColumns * Cholesky::kColumns;
+  const int width = PaddedWidth<double>(columns);
   const std::vector<int>& permutation = factor.Permutation();
   std::vector<double> rows(static_cast<size_t>(width) * factor.WorkRows(), 0.0);
   for (int i = 0; i < factor.Size(); ++i) {
