@@ -14,7 +14,6 @@ namespace {
 
 using internal::kDegrees;
 
-constexpr double kMinLength = 1e-3;
 // Pieces slower than this, in the metric's pure numbers, are at rest up to rounding.
 constexpr double kNoSpeed = 1e-9;
 
@@ -47,8 +46,8 @@ void Pool(const std::vector<Deviations>& shapes, double* rms, double* p99, doubl
 
 // The square of the length below which edges are not counted.
 double SquaredShortest(const Path& path) {
-  return kMinLength * kMinLength *
-         internal::SquaredLengths(*path.metric->connectivity, path.shapes[0]).mean();
+  return internal::SquaredShortest(
+      internal::SquaredLengths(*path.metric->connectivity, path.shapes[0]));
 }
 
 // Deviations of shape `i` from the first; empty for the first itself.

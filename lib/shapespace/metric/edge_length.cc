@@ -1,23 +1,18 @@
 #include <shapespace/metric/edge_length.h>
 
+#include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/metric/metric_basis.h>
 
 namespace shapespace {
-namespace {
-
-// An edge far shorter than the others would have the weight A_e / |e|^4 and make its neighbourhood
-// rigid. Below this share of the root mean square length the weight is that of an edge of this
-// length.
-constexpr double kShortestEdge = 1e-3;
-
-}  // namespace
 
 EdgeLength EdgeLength::Freeze(const MetricBasis& basis) {
   EdgeLength feature;
   feature.stencils = basis.connectivity->Edges();
   feature.weights = basis.edge_stiffness;
   if (basis.weighting == Weighting::kArea) {
-    const double least = kShortestEdge * kShortestEdge * basis.squared_length.mean();
+    // An edge far shorter than the others would have the weight A_e / |e|^4 and make its
+    // neighbourhood rigid.
+    const double least = internal::SquaredShortest(basis.squared_length);
     feature.weights.array() *=
         basis.edge_area.array() / basis.squared_length.array().max(least).square();
   }

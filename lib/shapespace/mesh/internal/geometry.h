@@ -9,7 +9,7 @@
 
 #include <shapespace/mesh/shape.h>
 
-// Angles, and areas and normals of triangles.
+// Angles, lengths of edges, and areas and normals of triangles.
 
 namespace shapespace::internal {
 
@@ -49,6 +49,13 @@ inline Eigen::Vector3d UnitNormal(const Eigen::Vector3d& a, const Eigen::Vector3
 template <typename Triangle>
 Eigen::Vector3d UnitNormal(const Shape& shape, const Triangle& triangle) {
   return AreaNormal(shape, triangle).stableNormalized();
+}
+
+/// The square of the length below which an edge is too short for its relative change to mean
+/// anything: a thousandth of the root mean square length. `squared_lengths` are those of all edges.
+inline double SquaredShortest(const Eigen::VectorXd& squared_lengths) {
+  constexpr double kShare = 1e-3;
+  return kShare * kShare * squared_lengths.mean();
 }
 
 /// A smooth step: 0 for x <= 0, 1 for x >= 1, and between them the polynomial of degree 5 whose
