@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -67,6 +66,25 @@ struct OwnFrame {
   Shape Out(const Shape& shape) const { return (unit * shape).colwise() + centre; }
 };
 
+// Checks the arguments of `Correspond`, and says in the summary how large they are.
+void CheckInput(const Connectivity& template_connectivity, const Shape& template_shape,
+                const Connectivity& target_connectivity, const Shape& target_shape,
+                const std::vector<CorrespondenceMarker>& markers,
+                const CorrespondenceOptions& options, CorrespondenceSummary* summary) {
+  options.Validate();
+  internal::CheckBody("template", template_connectivity, template_shape);
+  internal::CheckBody("target", target_connectivity, target_shape);
+  internal::CheckMarkers(markers, template_connectivity, target_connectivity);
+  summary->estimated_bytes = internal::CorrespondenceBytes(
+      template_connectivity, target_connectivity, static_cast<int>(markers.size()));
+  internal::CheckMemory("this fit", summary->estimated_bytes, options.memory_limit,
+                        "use meshes of fewer vertices");
+  summary->template_vertices = template_connectivity.NumVertices();
+  summary->template_triangles = template_connectivity.NumTriangles();
+  summary->target_vertices = target_connectivity.NumVertices();
+  summary->target_triangles = target_connectivity.NumTriangles();
+}
+
 // Ratio of the bodies' sizes: the median ratio of the distances between markers along the surface,
 // which do not depend on poses or holes.
 double RelativeSize(const Eigen::MatrixXf& on_template, const Eigen::MatrixXf& on_target,
@@ -85,6 +103,30 @@ double RelativeSize(const Eigen::MatrixXf& on_template, const Eigen::MatrixXf& o
   const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
   std::nth_element(ratios.begin(), middle, ratios.end());
   return *middle;
+}
+
+// What the distances between markers along both surfaces say.
+struct MeasuredMarkers {
+  std::vector<CorrespondenceSummary::Doubt> doubtful;
+  double size;  // of the target relative to the template
+  MarkerDistances distances;
+};
+
+// `rest` and `goal`: template and target, each in its own frame.
+MeasuredMarkers Measure(const std::vector<CorrespondenceMarker>& markers,
+                        const Connectivity& template_connectivity, const Shape& rest,
+                        const Connectivity& target_connectivity, const Shape& goal) {
+  std::vector<int> on_template, on_target;
+  for (const CorrespondenceMarker& marker : markers) {
+    on_template.push_back(marker.template_vertex);
+    on_target.push_back(marker.target_vertex);
+  }
+  Eigen::MatrixXf first = internal::DistancesFrom(template_connectivity, rest, on_template);
+  Eigen::MatrixXf second = internal::DistancesFrom(target_connectivity, goal, on_target);
+  const double size = RelativeSize(first, second, on_template, on_target);
+  first *= static_cast<float>(size);
+  return {internal::FindDoubtfulMarkers(first, second, on_template, on_target), size,
+          MarkerDistances(std::move(first), std::move(second))};
 }
 
 // Fits the template level by level.
@@ -228,12 +270,11 @@ SurfacePoints PointsOf(const std::vector<ClosestPoint>& closest) {
   return points;
 }
 
-// Computes both directions of the map, and their figures of quality.
-SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, const Target& target,
-                   const std::vector<CorrespondenceMarker>& held, CorrespondenceSummary* summary) {
-  SurfaceMap map;
+// The template's vertices on the target, and how near the fitted template is to them.
+void MapToTarget(const Level& level, const Shape& fitted, const Target& target, SurfaceMap* map,
+                 CorrespondenceSummary* summary) {
   const std::vector<ClosestPoint> closest = internal::MapVertices(level, fitted, target);
-  map.to_target = PointsOf(closest);
+  map->to_target = PointsOf(closest);
   const Eigen::VectorXd areas = internal::VertexAreas(*level.connectivity, fitted);
   double squares = 0;
   for (int v = 0; v < fitted.cols(); ++v) {
@@ -244,52 +285,61 @@ SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, c
   const std::vector<bool> turned = internal::TurnedTriangles(level, fitted, target, closest);
   summary->turned = static_cast<double>(std::count(turned.begin(), turned.end(), true)) /
                     static_cast<double>(turned.size());
+}
 
+// The target's vertices on the template; those that it does not cover take the image of the nearest
+// covered one along the surface.
+void MapToTemplate(const Level& level, const Shape& fitted, const Target& target, SurfaceMap* map,
+                   CorrespondenceSummary* summary) {
   const MeshSurface surface(level.connectivity, fitted);
   const int num_others = target.GetConnectivity().NumVertices();
   std::vector<ClosestPoint> others(num_others);
-  map.gap.resize(num_others);
+  map->gap.resize(num_others);
   ParallelFor(num_others, [&](int y) {
     others[y] = internal::NearestOnTemplate(surface, level, target, y);
-    map.gap(y) = others[y].triangle >= 0 ? std::min(1.0, others[y].distance) : 1;
+    map->gap(y) = others[y].triangle >= 0 ? std::min(1.0, others[y].distance) : 1;
   });
   std::vector<int> covered;
   for (int y = 0; y < num_others; ++y) {
-    if (map.gap(y) < kCovered) {
+    if (map->gap(y) < kCovered) {
       covered.push_back(y);
     } else {
       summary->uncovered += target.VertexAreas()(y);
     }
   }
-  // A vertex that is not covered takes the image of the nearest covered one along the surface.
   const std::vector<int> nearest =
       internal::NearestOf(target.GetConnectivity(), target.GetShape(), covered);
   for (int y = 0; y < num_others; ++y) {
-    if (map.gap(y) < kCovered) continue;
-    map.gap(y) = 1;
+    if (map->gap(y) < kCovered) continue;
+    map->gap(y) = 1;
     others[y] = nearest[y] >= 0 ? others[nearest[y]] : surface.Nearest(target.GetShape().col(y));
   }
-  map.to_template = PointsOf(others);
+  map->to_template = PointsOf(others);
+}
 
-  for (const CorrespondenceMarker& marker : held) {
-    // A vertex lies in several triangles, so the nearest point may differ from it by rounding.
-    const auto snap = [](SurfacePoints* points, int from, const Eigen::Matrix3Xi& triangles,
-                         int to) {
-      for (int f = 0; f < triangles.cols(); ++f) {
-        for (int k = 0; k < 3; ++k) {
-          if (triangles(k, f) != to) continue;
-          points->triangle(from) = f;
-          points->barycentric.col(from) = Eigen::Vector3d::Unit(k);
-          return;
-        }
-      }
-    };
-    snap(&map.to_target, marker.template_vertex, target.GetConnectivity().Triangles(),
-         marker.target_vertex);
-    snap(&map.to_template, marker.target_vertex, level.connectivity->Triangles(),
-         marker.template_vertex);
+// Point `from` becomes the vertex `to`. A vertex lies in several triangles, so the nearest point
+// may differ from it by rounding.
+void Snap(const Eigen::Matrix3Xi& triangles, int from, int to, SurfacePoints* points) {
+  for (int f = 0; f < triangles.cols(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      if (triangles(k, f) != to) continue;
+      points->triangle(from) = f;
+      points->barycentric.col(from) = Eigen::Vector3d::Unit(k);
+      return;
+    }
   }
+}
 
+// Computes both directions of the map, and their figures of quality.
+SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, const Target& target,
+                   const std::vector<CorrespondenceMarker>& held, CorrespondenceSummary* summary) {
+  SurfaceMap map;
+  MapToTarget(level, fitted, target, &map, summary);
+  MapToTemplate(level, fitted, target, &map, summary);
+  for (const auto& [on_template, on_target] : held) {
+    Snap(target.GetConnectivity().Triangles(), on_template, on_target, &map.to_target);
+    Snap(level.connectivity->Triangles(), on_target, on_template, &map.to_template);
+  }
   const Shape back = PullBack(map.to_template, level.connectivity->Triangles(), rest);
   const Shape there_and_back = PullBack(map.to_target, target.GetConnectivity().Triangles(), back);
   map.round_trip = (there_and_back - rest).colwise().norm();
@@ -360,70 +410,46 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
                                 const std::vector<CorrespondenceMarker>& all_markers,
                                 const CorrespondenceOptions& options, Progress* progress) {
   const internal::Stopwatch total;
-  options.Validate();
-  internal::CheckBody("template", *template_connectivity, template_shape);
-  internal::CheckBody("target", *target_connectivity, target_shape);
-  internal::CheckMarkers(all_markers, *template_connectivity, *target_connectivity);
   CorrespondenceResult result;
   CorrespondenceSummary& summary = result.summary;
-  summary.estimated_bytes = internal::CorrespondenceBytes(
-      *template_connectivity, *target_connectivity, static_cast<int>(all_markers.size()));
-  internal::CheckMemory("this fit", summary.estimated_bytes, options.memory_limit,
-                        "use meshes of fewer vertices");
+  CheckInput(*template_connectivity, template_shape, *target_connectivity, target_shape,
+             all_markers, options, &summary);
   ReportProgress(progress, "checking markers", 0, 0);
-  summary.template_vertices = template_connectivity->NumVertices();
-  summary.template_triangles = template_connectivity->NumTriangles();
-  summary.target_vertices = target_connectivity->NumVertices();
-  summary.target_triangles = target_connectivity->NumTriangles();
 
   const OwnFrame template_frame(*template_connectivity, template_shape);
   const OwnFrame target_frame(*target_connectivity, target_shape);
   Shape rest = template_frame.In(template_shape);
   const Shape goal = target_frame.In(target_shape);
-  const auto distances = [&](const std::vector<CorrespondenceMarker>& markers, double* size) {
-    std::vector<int> on_template, on_target;
-    for (const CorrespondenceMarker& marker : markers) {
-      on_template.push_back(marker.template_vertex);
-      on_target.push_back(marker.target_vertex);
-    }
-    Eigen::MatrixXf first = internal::DistancesFrom(*template_connectivity, rest, on_template);
-    Eigen::MatrixXf second = internal::DistancesFrom(*target_connectivity, goal, on_target);
-    *size = RelativeSize(first, second, on_template, on_target);
-    first *= static_cast<float>(*size);
-    summary.doubtful = internal::FindDoubtfulMarkers(first, second, on_template, on_target);
-    return MarkerDistances(std::move(first), std::move(second));
-  };
-  double size = 1;
-  std::optional<MarkerDistances> marker_distances = distances(all_markers, &size);
+  MeasuredMarkers measured =
+      Measure(all_markers, *template_connectivity, rest, *target_connectivity, goal);
+  summary.doubtful = measured.doubtful;
   std::vector<CorrespondenceMarker> markers = all_markers;
   if (options.drop_doubtful && !summary.doubtful.empty()) {
     markers = internal::Without(all_markers, summary.doubtful);
     internal::CheckMarkers(markers, *template_connectivity, *target_connectivity);
-    const auto doubtful = summary.doubtful;
-    marker_distances = distances(markers, &size);
-    summary.doubtful = doubtful;
+    measured = Measure(markers, *template_connectivity, rest, *target_connectivity, goal);
   }
+  const double size = measured.size;
   summary.markers = static_cast<int>(markers.size());
   summary.scale = size * target_frame.unit / template_frame.unit;
 
   internal::CheckHandedness(*template_connectivity, rest, *target_connectivity, goal, markers,
-                            marker_distances->OnTemplate());
+                            measured.distances.OnTemplate());
 
   // In ascending order of the template's vertices, which is their order in the levels.
   std::sort(markers.begin(), markers.end(),
             [](const CorrespondenceMarker& a, const CorrespondenceMarker& b) {
               return a.template_vertex < b.template_vertex;
             });
-  std::vector<int> held;
-  Shape from(3, markers.size()), places(3, markers.size());
-  for (size_t k = 0; k < markers.size(); ++k) {
-    held.push_back(markers[k].template_vertex);
-    from.col(static_cast<Eigen::Index>(k)) = rest.col(markers[k].template_vertex);
-    places.col(static_cast<Eigen::Index>(k)) = goal.col(markers[k].target_vertex);
+  std::vector<int> held, images;
+  for (const auto& [on_template, on_target] : markers) {
+    held.push_back(on_template);
+    images.push_back(on_target);
   }
+  const Shape from = rest(Eigen::all, held), places = goal(Eigen::all, images);
   internal::CheckPlacement(from, places);
   rest = internal::MovedOnto(size * from, places, size * rest);
-  const Target target(target_connectivity, goal, *marker_distances);
+  const Target target(target_connectivity, goal, measured.distances);
   summary.marker_seconds = total.Seconds();
 
   Fit fit(options, target, held, places, progress, &summary);
@@ -434,9 +460,7 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
   for (int v = 0; v < template_connectivity->NumVertices(); ++v) all.vertices.push_back(v);
   result.map = MakeMap(all, fitted, rest / size, target, markers, &summary);
   result.fitted = target_frame.Out(fitted);
-  for (const CorrespondenceMarker& marker : markers) {
-    result.fitted.col(marker.template_vertex) = target_shape.col(marker.target_vertex);
-  }
+  result.fitted(Eigen::all, held) = target_shape(Eigen::all, images);
   summary.map_seconds = map_stopwatch.Seconds();
   internal::WarnOfTopology(*template_connectivity, *target_connectivity, markers,
                            &summary.warnings);

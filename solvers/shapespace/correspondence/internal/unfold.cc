@@ -101,6 +101,55 @@ std::vector<int> CountTurned(const std::vector<bool>& turned, const Eigen::Matri
   return counts;
 }
 
+// The vertices of turned triangles that are not held, with `rings` of neighbours around them.
+std::vector<bool> Around(const std::vector<bool>& turned, const Eigen::Matrix3Xi& triangles,
+                         const Neighbours& neighbours, const std::vector<bool>& is_held,
+                         int rings) {
+  std::vector<bool> inside(is_held.size(), false);
+  for (int f = 0; f < triangles.cols(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      if (turned[f] && !is_held[triangles(k, f)]) inside[triangles(k, f)] = true;
+    }
+  }
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<bool> before = inside;
+    for (size_t v = 0; v < before.size(); ++v) {
+      if (!before[v]) continue;
+      neighbours.ForEach(static_cast<int>(v),
+                         [&](int w, double) { inside[w] = inside[w] || !is_held[w]; });
+    }
+  }
+  return inside;
+}
+
+// Moves each vertex `inside` to the mean of its neighbours, several times. The mean is projected
+// onto the target where its normal agrees with those at the neighbours' closest points.
+Shape Averaged(const Level& level, const Neighbours& neighbours, const Target& target,
+               const std::vector<ClosestPoint>& closest, const std::vector<bool>& inside,
+               Shape shape) {
+  Shape facing(3, shape.cols());
+  for (int v = 0; v < shape.cols(); ++v) facing.col(v) = target.NormalAt(closest[v]);
+  for (int average = 0; average < kAverages; ++average) {
+    for (int v = 0; v < shape.cols(); ++v) {
+      if (!inside[v]) continue;
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+      double weights = 0;
+      neighbours.ForEach(v, [&](int w, double weight) {
+        sum += weight * shape.col(w);
+        normal += weight * facing.col(w);
+        weights += weight;
+      });
+      const Eigen::Vector3d mean = sum / weights;
+      const ClosestPoint on_target =
+          target.Nearest(mean, normal.stableNormalized(), level.vertices[v]);
+      if (on_target.triangle < 0) continue;
+      shape.col(v) = on_target.point;
+      facing.col(v) = target.NormalAt(on_target);
+    }
+  }
+  return shape;
+}
+
 ClosestPoint MapVertex(const Level& level, const Shape& shape, const Shape& normals,
                        const Target& target, int v) {
   const int vertex = level.vertices[v];
@@ -161,48 +210,12 @@ void Unfold(const Level& level, const Shape& rest, const Target& target,
   for (const int v : held) is_held[v] = true;
   std::vector<ClosestPoint> closest = MapVertices(level, *shape, target);
   for (int round = 0; round < kPasses * kRings; ++round) {
-    const int rings = 1 + round % kRings;
     const std::vector<bool> turned = TurnedTriangles(level, *shape, target, closest);
-    std::vector<bool> inside(shape->cols(), false);
-    for (int f = 0; f < triangles.cols(); ++f) {
-      for (int k = 0; k < 3; ++k) {
-        if (turned[f] && !is_held[triangles(k, f)]) inside[triangles(k, f)] = true;
-      }
-    }
-    for (int ring = 1; ring < rings; ++ring) {
-      const std::vector<bool> before = inside;
-      for (size_t v = 0; v < before.size(); ++v) {
-        if (!before[v]) continue;
-        neighbours.ForEach(static_cast<int>(v),
-                           [&](int w, double) { inside[w] = inside[w] || !is_held[w]; });
-      }
-    }
+    const std::vector<bool> inside = Around(turned, triangles, neighbours, is_held, round % kRings);
     int num_patches = 0;
     const std::vector<int> patch = PatchesOf(inside, neighbours, &num_patches);
     if (num_patches == 0) return;
-    // The mean is projected onto the target where its normal agrees with those at the
-    // neighbours' closest points.
-    Shape flat = *shape;
-    Shape facing(3, flat.cols());
-    for (int v = 0; v < flat.cols(); ++v) facing.col(v) = target.NormalAt(closest[v]);
-    for (int average = 0; average < kAverages; ++average) {
-      for (int v = 0; v < flat.cols(); ++v) {
-        if (!inside[v]) continue;
-        Eigen::Vector3d sum = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
-        double weights = 0;
-        neighbours.ForEach(v, [&](int w, double weight) {
-          sum += weight * flat.col(w);
-          normal += weight * facing.col(w);
-          weights += weight;
-        });
-        const Eigen::Vector3d mean = sum / weights;
-        const ClosestPoint closest =
-            target.Nearest(mean, normal.stableNormalized(), level.vertices[v]);
-        if (closest.triangle < 0) continue;
-        flat.col(v) = closest.point;
-        facing.col(v) = target.NormalAt(closest);
-      }
-    }
+    const Shape flat = Averaged(level, neighbours, target, closest, inside, *shape);
     const std::vector<bool> still = TurnedTriangles(
         level, flat, target, MapAnew(level, flat, target, inside, neighbours, closest));
     const std::vector<int> before = CountTurned(turned, triangles, patch, num_patches);
