@@ -25,6 +25,12 @@ done
 "$bin/shape-export" walk.path --frames 7 --color deviation --output "$pictures/deviation.png"
 "$bin/shape-export" walk.path --frames 4 --color parts --output "$pictures/parts.png"
 
+# guide/smooth-motion.md
+"$bin/shape-body" quadruped --pose stand,sit,stretch,rear --output 'cycle%d.obj'
+"$bin/shape-interpolate" cycle0.obj cycle1.obj cycle2.obj cycle3.obj --spline periodic --shapes 7 \
+  --output cycle.path
+"$bin/shape-export" cycle.path --frames 13 --output "$pictures/smooth-motion.png"
+
 # guide/going-on.md
 "$bin/shape-body" quadruped --pose stand,rear --output 'rise%d.obj'
 "$bin/shape-extrapolate" rise0.obj rise1.obj --shapes 7 --steps 8 --output "$pictures/going-on.png"

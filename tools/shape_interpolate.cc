@@ -1,4 +1,7 @@
-// Computes a geodesic between poses of a mesh.
+// Computes a geodesic between poses of a mesh, or a smooth motion through them.
+
+#include <optional>
+#include <utility>
 
 #include <shapespace/geodesic/geodesic.h>
 
@@ -8,6 +11,7 @@
 #include "support/poses.h"
 #include "support/report.h"
 #include "support/solve_progress.h"
+#include "support/spline_flags.h"
 #include "support/tool.h"
 
 namespace shapespace::tools {
@@ -19,18 +23,29 @@ void Run(const std::vector<std::string>& files) {
   AnchorFlags anchorage = AnchorFlags::FromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
   const Poses poses = ReadPosesFromFlags(files);
+  std::optional<SplineOptions> spline =
+      SplineFromFlags(static_cast<int>(poses.shapes.size()), poses.connectivity->NumVertices());
+  const bool returns = spline && spline->ends == SplineEnds::kPeriodic;
   CheckNothingIsOverwritten(
       WithStiffeners(files),
-      {{"output", outputs, NumShapes(poses.shapes.size(), options)}, ReportFromFlag()});
+      {{"output", outputs, NumShapes(poses.shapes.size() + returns, options)}, ReportFromFlag()});
   anchorage.Select(poses.shapes[0], *poses.connectivity, poses.soup.appearance);
-  GeodesicResult result = Interpolate(poses, options, SolveProgress(outputs).get());
-  const GeodesicSummary& summary = result.summary;
-  result.path.provenance = Provenance("shape-interpolate", files);
-  anchorage.Apply(&result.path);
-  PrintSummary(summary.BriefReport(), summary.warnings,
-               summary.termination == Termination::kConverged);
-  WriteOutputs(outputs, result.path, result.path);
-  WriteReport(summary.FullReport(), summary.ToJson());
+  const auto finish = [&](Path path, const auto& summary, bool converged) {
+    path.provenance = Provenance("shape-interpolate", files);
+    anchorage.Apply(&path);
+    PrintSummary(summary.BriefReport(), summary.warnings, converged);
+    WriteOutputs(outputs, path, path);
+    WriteReport(summary.FullReport(), summary.ToJson());
+  };
+  if (spline) {
+    spline->geodesic = options;
+    SplineResult result = Spline(poses, *spline, SolveProgress(outputs).get());
+    finish(std::move(result.path), result.summary, result.summary.Converged());
+  } else {
+    GeodesicResult result = Interpolate(poses, options, SolveProgress(outputs).get());
+    finish(std::move(result.path), result.summary,
+           result.summary.termination == Termination::kConverged);
+  }
 }
 
 }  // namespace
@@ -41,15 +56,18 @@ int main(int argc, char** argv) {
   return RunTool(
       argc, argv,
       {"shape-interpolate",
-       "a geodesic of shape space between poses of a mesh",
+       "a geodesic of shape space between poses of a mesh, or a smooth motion through them",
        std::string(
            "  shape-interpolate a.obj b.obj [c.obj ...] --shapes 15 --output "
            "walk.png,walk.path,frames/%03d.obj\n\n"
            "Poses are OBJ, PLY, OFF, STL or glTF files with the same faces in the same order. With "
            "15 shapes\ninserted between two poses 17 frames are written, numbered from 000, the "
-           "poses included. The morph\ntargets of a glTF file are poses too.") +
+           "poses included. The morph\ntargets of a glTF file are poses too.\n\nThrough three and "
+           "more poses the "
+           "path is a chain of geodesics: its velocity jumps at each pose, unless\n--spline is "
+           "given.") +
            kHowASolveEnds,
-       {"geodesic", "report", "outputs", "anchor", "metric", "poses", "mesh", "memory",
+       {"geodesic", "spline", "report", "outputs", "anchor", "metric", "poses", "mesh", "memory",
         "outside_files"}},
       Run);
 }

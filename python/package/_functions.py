@@ -23,6 +23,16 @@ class GeodesicResult(typing.NamedTuple):
         return _shown(self)
 
 
+class SplineResult(typing.NamedTuple):
+    """A smooth path and how it was found."""
+
+    path: Path
+    summary: _core.SplineSummary
+
+    def _repr_html_(self):
+        return _shown(self)
+
+
 class ExponentialResult(typing.NamedTuple):
     """A path that goes on, and how it was found."""
 
@@ -328,6 +338,42 @@ def interpolate(poses, faces=None, *, progress=None, **options):
     poses = _poses(poses, faces)
     with told(progress) as report:
         return GeodesicResult(*_core.interpolate(poses, options, report))
+
+
+@takes("SplineOptions")
+def spline(poses, faces=None, *, progress=None, **options):
+    """Find a smooth motion through several poses.
+
+    Parameters
+    ----------
+    poses : Poses, or sequence of array_like
+        Vertices of each pose, n x 3, in any unit; three or more, since two give the geodesic.
+    faces : array_like, optional
+        Triangles that all poses share, m x 3, or anything else that `Poses` takes.
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    SplineResult
+        The path, with the poses among its shapes, and a summary.
+
+    Raises
+    ------
+    MeshError, MismatchError, InvalidOptions
+        The arguments cannot serve.
+    SolverError
+        The memory limit.
+
+    Notes
+    -----
+    The geodesics between neighbouring poses are corrected such that the velocity does not jump at
+    the poses: rotations and stretches of triangles follow cubic splines.
+    """
+    poses = _poses(poses, faces)
+    with told(progress) as report:
+        return SplineResult(*_core.spline(poses, options, report))
 
 
 @takes("ExponentialOptions")

@@ -75,6 +75,7 @@ py::list DescribeOptions(const std::string& name) {
       {"CorrespondenceOptions", Describe<CorrespondenceOptions>},
       {"EmbeddingOptions", Describe<EmbeddingOptions>},
       {"ExploreOptions", Describe<ExploreOptions>},
+      {"SplineOptions", Describe<SplineOptions>},
       {"FilmStripOptions", Describe<FilmStripOptions>},
       {"GltfOptions", Describe<GltfOptions>},
   };

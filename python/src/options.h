@@ -18,6 +18,7 @@
 #include <shapespace/geodesic/internal/option_fields.h>
 #include <shapespace/metric/internal/option_fields.h>
 #include <shapespace/output/internal/option_fields.h>
+#include <shapespace/spline/internal/option_fields.h>
 #include <shapespace/transfer/internal/option_fields.h>
 
 #include "arrays.h"
@@ -170,6 +171,27 @@ struct Value<Eigen::VectorXd> {
   static py::object Get(const Eigen::VectorXd& value) {
     return value.size() == 0 ? py::object(py::none()) : FromMatrix(value);
   }
+};
+
+template <>
+struct Value<std::vector<double>> {
+  static std::string Type() { return "array of float"; }
+  static void Set(std::vector<double>* value, py::handle given, const std::string& name) {
+    value->clear();
+    if (given.is_none()) return;
+    const Eigen::VectorXd numbers = ToVector(given, name);
+    value->assign(numbers.begin(), numbers.end());
+  }
+  static py::object Get(const std::vector<double>&) { return py::none(); }
+};
+
+template <>
+struct Value<Eigen::Matrix3Xd> {
+  static std::string Type() { return "array of float, vertices x 3"; }
+  static void Set(Eigen::Matrix3Xd* value, py::handle given, const std::string& name) {
+    *value = given.is_none() ? Eigen::Matrix3Xd() : Eigen::Matrix3Xd(ToShape(given, name));
+  }
+  static py::object Get(const Eigen::Matrix3Xd&) { return py::none(); }
 };
 
 template <>

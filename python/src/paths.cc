@@ -184,6 +184,7 @@ void BindShapes(py::class_<Path>* path) {
       .def_readonly("extrapolated", &Path::extrapolated,
                     "How many of the last shapes were extrapolated.")
       .def_readonly("converged", &Path::converged, "False if a solve ended before it was done.")
+      .def_readonly("smooth", &Path::smooth, "Whether the velocity is continuous at inner poses.")
       .def_readwrite("provenance", &Path::provenance, "Who made the path, from what.");
 }
 

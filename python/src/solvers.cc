@@ -49,6 +49,14 @@ py::tuple InterpolatePoses(const Poses& poses, const py::dict& given, const py::
   return py::make_tuple(std::move(result.path), std::move(result.summary));
 }
 
+py::tuple SplineThrough(const Poses& poses, const py::dict& given, const py::object& progress) {
+  const auto options = FromKeywords<SplineOptions>(given);
+  SplineResult result =
+      WithoutLock(progress, [=](Progress* told) { return Spline(poses, options, told); });
+  Sign("spline", &result.path);
+  return py::make_tuple(std::move(result.path), std::move(result.summary));
+}
+
 // A handle as Python has it: vertices, and where they are to be.
 DeformationHandle MakeHandle(py::handle vertices, const py::object& positions, py::handle axis,
                              double angle, py::handle point, py::handle translation, bool hard,
@@ -246,6 +254,7 @@ void BindTransfer(py::module_* module) {
 
 void BindSolvers(py::module_* module) {
   module->def("interpolate", &InterpolatePoses);
+  module->def("spline", &SplineThrough);
   BindShooting(module);
   BindTransfer(module);
   BindHandle(module);

@@ -10,6 +10,7 @@
 #include <shapespace/deformation/internal/summary_fields.h>
 #include <shapespace/exploration/internal/summary_fields.h>
 #include <shapespace/exponential/internal/summary_fields.h>
+#include <shapespace/spline/internal/summary_fields.h>
 #include <shapespace/transfer/internal/summary_fields.h>
 
 #include "bind.h"
@@ -128,6 +129,8 @@ void BindSummaries(py::module_* module) {
       "One level and one number of inner shapes between one pair of poses.");
   Record<GeodesicSummary>(module, "GeodesicSummary",
                           "How a geodesic was solved, and how good it is.")
+      .Reports<true, true>();
+  Record<SplineSummary>(module, "SplineSummary", "How a spline was made, and how smooth it is.")
       .Reports<true, true>();
   Record<ExponentialSummary::Step>(module, "ExponentialStep", "A step beyond the path.");
   Record<ExponentialSummary>(module, "ExponentialSummary",

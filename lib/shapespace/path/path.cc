@@ -142,10 +142,12 @@ Path Resample(const Path& path, const std::vector<double>& times) {
   result.metric = path.metric;
   result.parameters = times;
   result.converged = path.converged;
+  result.smooth = path.smooth;
   result.provenance = path.provenance + "; resampled";
   result.appearance = path.appearance;
-  // Pieces end at poses and, if the path continues beyond them, at its ends.
-  std::vector<int> corners = path.poses;
+  // Pieces end at poses, where the path is not smooth, and at its ends.
+  std::vector<int> corners;
+  if (!path.smooth) corners = path.poses;
   corners.insert(corners.begin(), 0);
   corners.push_back(path.NumShapes() - 1);
   auto next = times.begin();

@@ -27,8 +27,9 @@ struct Path {
   std::vector<int> poses;            ///< indices of the given shapes, ascending
   int extrapolated = 0;              ///< number of shapes at the end that were extrapolated
   bool converged = true;             ///< false if a solve did not converge
-  std::string provenance;            ///< the program and the inputs from which it was made
-  Appearance appearance;             ///< of the connectivity's polygons: for outputs
+  bool smooth = false;     ///< whether the velocity is continuous at inner poses (`Spline`)
+  std::string provenance;  ///< the program and the inputs from which it was made
+  Appearance appearance;   ///< of the connectivity's polygons: for outputs
 
   int NumShapes() const { return static_cast<int>(shapes.size()); }
 
@@ -56,9 +57,10 @@ std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<
                             const std::vector<double>& times);
 
 /// The path at other times, ascending between its first and its last: interpolated as above, but
-/// never across a pose, where a path may have a corner. `poses` are those at whose parameter there
-/// is a time, `extrapolated` counts the times after the last shape that was not extrapolated.
-/// \throw InvalidOptions if there is no time, or times do not ascend, are not finite or lie outside
+/// never across a pose, where a path may have a corner, unless it is smooth. `poses` are those at
+/// whose parameter there is a time, `extrapolated` counts the times after the last shape that was
+/// not extrapolated. \throw InvalidOptions if there is no time, or times do not ascend, are not
+/// finite or lie outside
 ///        of the path.
 Path Resample(const Path& path, const std::vector<double>& times);
 

@@ -24,6 +24,7 @@ Path Parse(const std::string& file, const HeaderJson& header, const ArrayReader&
   path.poses = internal::IndicesFrom(arrays, "poses");
   path.extrapolated = header.at("extrapolated").get<int>();
   path.converged = header.at("converged").get<bool>();
+  path.smooth = header.value("smooth", false);
   const auto rotations = arrays.Get<Eigen::Matrix3Xd>("rotations", 3, 3 * num_shapes);
   const auto translations = arrays.Get<Eigen::Matrix3Xd>("translations", 3, num_shapes);
   for (int i = 0; i < num_shapes; ++i) {
@@ -63,6 +64,7 @@ void WritePath(const std::string& file, const Path& path) {
   header["shapes"] = path.NumShapes();
   header["extrapolated"] = path.extrapolated;
   header["converged"] = path.converged;
+  if (path.smooth) header["smooth"] = true;
   header["provenance"] = path.provenance;
   internal::WriteArrayFile(file, kKind, std::move(header), arrays);
 }

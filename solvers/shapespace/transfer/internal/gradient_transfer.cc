@@ -4,9 +4,7 @@
 #include <utility>
 
 #include <Eigen/Geometry>
-#include <Eigen/SparseCore>
 
-#include <shapespace/numerics/internal/solve.h>
 #include <shapespace/transfer/internal/frames.h>
 
 namespace shapespace::internal {
@@ -41,6 +39,8 @@ GradientTransfer::GradientTransfer(std::shared_ptr<const Connectivity> connectiv
     quality(f) = source_area < sliver ? source_area / sliver : 1;
     inverses_.push_back(InverseFrame(Frame(source_, triangles.col(f))));
   }
+  // Three per triangle, then the edges without triangles.
+  std::vector<GradientIntegrator::Side> sides;
   const double mean_area = num_triangles > 0 ? area.mean() : 0;
   for (int f = 0; f < num_triangles; ++f) {
     // |F - S|^2 as a sum over the sides, weighted by the scalar product of the other two sides
@@ -49,34 +49,25 @@ GradientTransfer::GradientTransfer(std::shared_ptr<const Connectivity> connectiv
     for (int k = 0; k < 3; ++k) {
       const int a = triangles(k, f), b = triangles((k + 1) % 3, f), c = triangles((k + 2) % 3, f);
       const double product = (target_.col(a) - target_.col(c)).dot(target_.col(b) - target_.col(c));
-      sides_.push_back({a, b, mean_area * product / (4 * counted * counted)});
+      sides.push_back({a, b, mean_area * product / (4 * counted * counted)});
     }
   }
   std::vector<bool> in_triangle(num_vertices, false);
   for (const int v : triangles.reshaped()) in_triangle[v] = true;
   for (int e = connectivity_->NumTriangleEdges(); e < connectivity_->NumEdges(); ++e) {
     const int a = connectivity_->Edges()(0, e), b = connectivity_->Edges()(1, e);
-    if (!in_triangle[a] || !in_triangle[b]) sides_.push_back({a, b, 1});
+    if (!in_triangle[a] || !in_triangle[b]) sides.push_back({a, b, 1});
   }
-  place_ = kPlace / num_vertices;
-
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int v = 0; v < num_vertices; ++v) entries.emplace_back(v, v, place_);
-  for (const auto& [a, b, weight] : sides_) {
-    entries.emplace_back(a, a, weight);
-    entries.emplace_back(b, b, weight);
-    entries.emplace_back(std::max(a, b), std::min(a, b), -weight);
-  }
-  Eigen::SparseMatrix<double> matrix(num_vertices, num_vertices);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  factor_ = std::make_unique<Cholesky>(matrix);
+  integrator_ =
+      std::make_unique<GradientIntegrator>(num_vertices, std::move(sides), kPlace / num_vertices);
 }
 
 Shape GradientTransfer::operator()(const Shape& deformed) const {
   const Eigen::Matrix3Xi& triangles = connectivity_->Triangles();
-  Shape right = place_ * (target_ + deformed - source_);
-  for (size_t i = 0; i < sides_.size(); ++i) {
-    const auto& [a, b, weight] = sides_[i];
+  const std::vector<GradientIntegrator::Side>& sides = integrator_->Sides();
+  Eigen::Matrix3Xd wanted(3, sides.size());
+  for (size_t i = 0; i < sides.size(); ++i) {
+    const auto& [a, b, weight] = sides[i];
     const int f = static_cast<int>(i) / 3;
     Eigen::Vector3d side = target_.col(b) - target_.col(a);
     if (f < triangles.cols()) {
@@ -84,10 +75,9 @@ Shape GradientTransfer::operator()(const Shape& deformed) const {
     } else {
       side += (deformed.col(b) - deformed.col(a)) - (source_.col(b) - source_.col(a));
     }
-    right.col(b) += weight * side;
-    right.col(a) -= weight * side;
+    wanted.col(static_cast<Eigen::Index>(i)) = side;
   }
-  return Solve(*factor_, right.transpose()).transpose();
+  return integrator_->Integrate(wanted, target_ + deformed - source_);
 }
 
 }  // namespace shapespace::internal

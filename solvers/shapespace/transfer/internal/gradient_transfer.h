@@ -8,7 +8,7 @@
 
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
-#include <shapespace/numerics/internal/cholesky.h>
+#include <shapespace/numerics/internal/gradient_integrator.h>
 
 namespace shapespace::internal {
 
@@ -31,18 +31,10 @@ class GradientTransfer {
   Shape operator()(const Shape& deformed) const;
 
  private:
-  // An edge of a triangle on the target, with its weight.
-  struct Side {
-    int from, to;
-    double weight;
-  };
-
   const std::shared_ptr<const Connectivity> connectivity_;
   const Shape source_, target_;
-  std::vector<Side> sides_;                // three per triangle, then the edges without triangles
   std::vector<Eigen::Matrix3d> inverses_;  // of the source's frames, per triangle
-  double place_ = 0;                       // weight of positions
-  std::unique_ptr<Cholesky> factor_;
+  std::unique_ptr<GradientIntegrator> integrator_;
 };
 
 }  // namespace shapespace::internal

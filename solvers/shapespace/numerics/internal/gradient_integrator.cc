@@ -1,0 +1,44 @@
+#include <shapespace/numerics/internal/gradient_integrator.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <Eigen/SparseCore>
+
+#include <shapespace/numerics/internal/solve.h>
+
+namespace shapespace::internal {
+namespace {
+
+Eigen::SparseMatrix<double> Matrix(int num_vertices,
+                                   const std::vector<GradientIntegrator::Side>& sides,
+                                   double place) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int v = 0; v < num_vertices; ++v) entries.emplace_back(v, v, place);
+  for (const auto& [a, b, weight] : sides) {
+    entries.emplace_back(a, a, weight);
+    entries.emplace_back(b, b, weight);
+    entries.emplace_back(std::max(a, b), std::min(a, b), -weight);
+  }
+  Eigen::SparseMatrix<double> matrix(num_vertices, num_vertices);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace
+
+GradientIntegrator::GradientIntegrator(int num_vertices, std::vector<Side> sides, double place)
+    : sides_(std::move(sides)), place_(place), factor_(Matrix(num_vertices, sides_, place)) {}
+
+Shape GradientIntegrator::Integrate(const Eigen::Matrix3Xd& wanted, const Shape& places) const {
+  Shape right = place_ * places;
+  for (size_t i = 0; i < sides_.size(); ++i) {
+    const auto& [a, b, weight] = sides_[i];
+    const Eigen::Vector3d side = wanted.col(static_cast<Eigen::Index>(i));
+    right.col(b) += weight * side;
+    right.col(a) -= weight * side;
+  }
+  return Solve(factor_, right.transpose()).transpose();
+}
+
+}  // namespace shapespace::internal

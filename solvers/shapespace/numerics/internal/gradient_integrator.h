@@ -1,0 +1,39 @@
+#ifndef SHAPESPACE_NUMERICS_INTERNAL_GRADIENT_INTEGRATOR_H_
+#define SHAPESPACE_NUMERICS_INTERNAL_GRADIENT_INTEGRATOR_H_
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <shapespace/mesh/shape.h>
+#include <shapespace/numerics/internal/cholesky.h>
+
+namespace shapespace::internal {
+
+/// The shape whose sides are nearest to given vectors: the minimum of
+///   sum_i w_i |p_b - p_a - side_i|^2 + place sum_v |p_v - q_v|^2
+/// over all sides i from a to b. Its matrix is the same for all vectors and is factored once.
+class GradientIntegrator {
+ public:
+  struct Side {
+    int from, to;
+    double weight;
+  };
+
+  /// `place` is the weight of the vertices' wanted positions q; it must be positive.
+  GradientIntegrator(int num_vertices, std::vector<Side> sides, double place);
+
+  const std::vector<Side>& Sides() const { return sides_; }
+
+  /// `wanted` has a column for each side, `places` one for each vertex.
+  Shape Integrate(const Eigen::Matrix3Xd& wanted, const Shape& places) const;
+
+ private:
+  const std::vector<Side> sides_;
+  const double place_;
+  const Cholesky factor_;
+};
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_NUMERICS_INTERNAL_GRADIENT_INTEGRATOR_H_

@@ -1,0 +1,251 @@
+#include <shapespace/spline/internal/smooth_chain.h>
+
+#include <cmath>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include <shapespace/base/internal/ranges.h>
+#include <shapespace/numerics/internal/gradient_integrator.h>
+#include <shapespace/spline/internal/corrections.h>
+#include <shapespace/spline/internal/triangle_pose.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Triangles whose area is less than this share of their longest side's square, in any shape, keep
+// the chain's rotation and stretch.
+constexpr double kThin = 1e-6;
+// Weight of positions: it only determines where components are.
+constexpr double kPlace = 1e-4;
+
+// How far a quantity goes in an interval, and how fast at its ends, from its `segments` steps.
+class Course {
+ public:
+  explicit Course(int segments) : segments_(segments) {}
+
+  void Add(const Eigen::Vector3d& step) {
+    way_ += step;
+    if (count_ == 0) first_ = 1.5 * step;
+    if (count_ == 1) first_ -= 0.5 * step;
+    if (count_ == segments_ - 2) last_ = -0.5 * step;
+    if (count_ == segments_ - 1) last_ += 1.5 * step;
+    ++count_;
+  }
+
+  void Write(Eigen::Index column, Interval* interval) const {
+    interval->way.col(column) = way_;
+    interval->first_velocity.col(column) = segments_ * first_;
+    interval->last_velocity.col(column) = segments_ * last_;
+  }
+
+ private:
+  const int segments_;
+  int count_ = 0;
+  Eigen::Vector3d way_ = Eigen::Vector3d::Zero(), first_ = way_, last_ = way_;
+};
+
+// The quantities that are corrected, a column each: rotations of triangles, logarithms of their
+// stretches, positions of vertices, and the rigid motion's rotation and translation.
+class Smoother {
+ public:
+  Smoother(const SplineOptions& options, const std::vector<double>& times, const Path& path)
+      : path_(path),
+        triangles_(path.metric->connectivity->Triangles()),
+        num_triangles_(static_cast<int>(triangles_.cols())),
+        num_vertices_(path.metric->connectivity->NumVertices()),
+        reference_(num_triangles_, Eigen::Matrix2d::Zero()),
+        integrator_(num_vertices_, MakeSides(), kPlace / num_vertices_),
+        corrections_(MakeCorrections(options, times)) {}
+
+  // Shape `k` of the path, at `s` of an interval, corrected.
+  Shape ShapeAt(int k, int interval, double s, RigidMotion* motion) const {
+    const Shape& chain = path_.shapes[k];
+    const Eigen::Matrix3Xd change = corrections_.At(interval, s);
+    const Shape places = chain + change.middleCols(FirstPlace(), num_vertices_);
+    Eigen::Matrix3Xd wanted(3, integrator_.Sides().size());
+    ForIndices(num_triangles_, [&](int f) {
+      const Eigen::Matrix3d turn = Turn(chain, f, change);
+      for (int side = 0; side < 3; ++side) {
+        const int a = triangles_(side, f), b = triangles_((side + 1) % 3, f);
+        wanted.col(3 * f + side) = turn * (chain.col(b) - chain.col(a));
+      }
+    });
+    for (Eigen::Index i = 3 * num_triangles_; i < wanted.cols(); ++i) {
+      const auto& side = integrator_.Sides()[i];
+      wanted.col(i) = places.col(side.to) - places.col(side.from);
+    }
+    Shape shape = integrator_.Integrate(wanted, places);
+    shape.colwise() -= Centroid(shape, path_.metric->vertex_area);
+    motion->rotation = path_.motions[k].rotation * Exp(Eigen::Vector3d(change.col(FirstMotion())));
+    motion->translation = path_.motions[k].translation + change.col(FirstMotion() + 1);
+    return shape;
+  }
+
+ private:
+  Eigen::Index FirstPlace() const { return 2 * num_triangles_; }
+  Eigen::Index FirstMotion() const { return FirstPlace() + num_vertices_; }
+  Eigen::Index NumColumns() const { return FirstMotion() + 2; }
+
+  TriangleFrame FrameOf(const Shape& shape, int f) const {
+    return {shape.col(triangles_(0, f)), shape.col(triangles_(1, f)), shape.col(triangles_(2, f))};
+  }
+  TrianglePose PoseOf(const Shape& shape, int f) const {
+    return {FrameOf(shape, f), reference_[f]};
+  }
+  // Thin triangles have no reference.
+  bool IsThin(int f) const { return reference_[f](0, 0) == 0; }
+
+  // What turns and stretches the chain's triangle into the spline's.
+  Eigen::Matrix3d Turn(const Shape& chain, int f, const Eigen::Matrix3Xd& change) const {
+    if (IsThin(f)) return Eigen::Matrix3d::Identity();
+    const TrianglePose pose = PoseOf(chain, f);
+    const Symmetric log = Log(pose.stretch);
+    const Symmetric more = Symmetric::FromVector(change.col(num_triangles_ + f));
+    const Symmetric stretch = Exp(Symmetric{log.xx + more.xx, log.xy + more.xy, log.yy + more.yy});
+    Eigen::Matrix3d stretches = Eigen::Matrix3d::Identity();
+    stretches.topLeftCorner<2, 2>() = stretch.Matrix() * pose.stretch.Matrix().inverse();
+    const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
+    return rotation * Exp(Eigen::Vector3d(change.col(f))) * stretches * rotation.transpose();
+  }
+
+  std::vector<GradientIntegrator::Side> MakeSides() const {
+    const Shape& first = path_.shapes.front();
+    const Connectivity& connectivity = *path_.metric->connectivity;
+    std::vector<GradientIntegrator::Side> sides;
+    std::vector<bool> in_triangle(num_vertices_, false);
+    for (int f = 0; f < num_triangles_; ++f) {
+      const double area = 0.5 * std::abs(FrameOf(first, f).edges.determinant());
+      for (int k = 0; k < 3; ++k) {
+        const int a = triangles_(k, f), b = triangles_((k + 1) % 3, f);
+        const double squared = (first.col(b) - first.col(a)).squaredNorm();
+        sides.push_back({a, b, area > 0 ? area / squared : 0});
+        in_triangle[a] = true;
+      }
+    }
+    for (int e = connectivity.NumTriangleEdges(); e < connectivity.NumEdges(); ++e) {
+      const int a = connectivity.Edges()(0, e), b = connectivity.Edges()(1, e);
+      if (!in_triangle[a] || !in_triangle[b]) sides.push_back({a, b, 1});
+    }
+    return sides;
+  }
+
+  void SetReference(int f) {
+    for (const Shape& shape : path_.shapes) {
+      const Eigen::Matrix2d edges = FrameOf(shape, f).edges;
+      const double longest = std::max(edges.col(0).squaredNorm(), edges.col(1).squaredNorm());
+      if (!(edges.determinant() > kThin * longest)) return;
+    }
+    reference_[f] = FrameOf(path_.shapes.front(), f).edges.inverse();
+  }
+
+  Corrections MakeCorrections(const SplineOptions& options, const std::vector<double>& times) {
+    std::vector<Interval> intervals(times.size() - 1);
+    for (size_t i = 0; i < intervals.size(); ++i) {
+      intervals[i].length = times[i + 1] - times[i];
+      intervals[i].way.setZero(3, NumColumns());
+      intervals[i].first_velocity = intervals[i].last_velocity = intervals[i].way;
+    }
+    ForIndices(num_triangles_, [&](int f) {
+      SetReference(f);
+      if (!IsThin(f)) FollowTriangle(f, &intervals);
+    });
+    ForIndices(num_vertices_, [&](int v) {
+      Follow(FirstPlace() + v, &intervals, [&](int k) -> Eigen::Vector3d {
+        return path_.shapes[k + 1].col(v) - path_.shapes[k].col(v);
+      });
+    });
+    Follow(FirstMotion(), &intervals, [&](int k) {
+      return Log(Eigen::Quaterniond(
+          Eigen::Matrix3d(path_.motions[k].rotation.transpose() * path_.motions[k + 1].rotation)));
+    });
+    Follow(FirstMotion() + 1, &intervals, [&](int k) -> Eigen::Vector3d {
+      return path_.motions[k + 1].translation - path_.motions[k].translation;
+    });
+    Eigen::Matrix3Xd first = Eigen::Matrix3Xd::Zero(3, NumColumns()), last = first;
+    if (options.ends == SplineEnds::kClamped) {
+      const double length =
+          options.times.empty() ? times.size() - 1.0 : options.times.back() - options.times.front();
+      first = length * ColumnVelocities(0, options.first_velocity);
+      last = length * ColumnVelocities(path_.NumShapes() - 1, options.last_velocity);
+    }
+    return {std::move(intervals), options.ends, options.hold_limit, first, last};
+  }
+
+  // Follows the quantity of a column, whose step from shape k to the next is step(k).
+  template <typename Step>
+  void Follow(Eigen::Index column, std::vector<Interval>* intervals, const Step& step) const {
+    for (size_t i = 0; i < intervals->size(); ++i) {
+      Course course(path_.poses[i + 1] - path_.poses[i]);
+      for (int k = path_.poses[i]; k < path_.poses[i + 1]; ++k) course.Add(step(k));
+      course.Write(column, &(*intervals)[i]);
+    }
+  }
+
+  void FollowTriangle(int f, std::vector<Interval>* intervals) const {
+    TrianglePose pose = PoseOf(path_.shapes.front(), f);
+    for (size_t i = 0; i < intervals->size(); ++i) {
+      const int segments = path_.poses[i + 1] - path_.poses[i];
+      Course turn(segments), stretch(segments);
+      for (int k = path_.poses[i]; k < path_.poses[i + 1]; ++k) {
+        const TrianglePose next = PoseOf(path_.shapes[k + 1], f);
+        turn.Add(Log(pose.rotation.conjugate() * next.rotation));
+        stretch.Add(Log(next.stretch).Vector() - Log(pose.stretch).Vector());
+        pose = next;
+      }
+      turn.Write(f, &(*intervals)[i]);
+      stretch.Write(num_triangles_ + f, &(*intervals)[i]);
+    }
+  }
+
+  // The velocities of all columns that belong to a velocity of the vertices at shape k, in the
+  // user's frame and unit, by central differences.
+  Eigen::Matrix3Xd ColumnVelocities(int k, const Tangent& velocity) const {
+    const Eigen::Vector3d translation = Centroid(velocity, path_.metric->vertex_area);
+    const Tangent own = path_.motions[k].rotation.transpose() *
+                        (velocity.colwise() - translation).eval() / path_.metric->unit;
+    Eigen::Matrix3Xd columns = Eigen::Matrix3Xd::Zero(3, NumColumns());
+    columns.middleCols(FirstPlace(), num_vertices_) = own;
+    columns.col(FirstMotion() + 1) = translation;
+    const double largest = own.cwiseAbs().maxCoeff();
+    if (largest == 0) return columns;
+    const double step = 1e-5 / largest;
+    const Shape before = path_.shapes[k] - step * own, after = path_.shapes[k] + step * own;
+    for (int f = 0; f < num_triangles_; ++f) {
+      if (IsThin(f)) continue;
+      const TrianglePose a = PoseOf(before, f), b = PoseOf(after, f);
+      columns.col(f) = Log(a.rotation.conjugate() * b.rotation) / (2 * step);
+      columns.col(num_triangles_ + f) =
+          (Log(b.stretch).Vector() - Log(a.stretch).Vector()) / (2 * step);
+    }
+    return columns;
+  }
+
+  const Path& path_;
+  const Eigen::Matrix3Xi& triangles_;
+  const int num_triangles_, num_vertices_;
+  std::vector<Eigen::Matrix2d> reference_;  // inverses of the edges in the first shape
+  const GradientIntegrator integrator_;
+  const Corrections corrections_;
+};
+
+}  // namespace
+
+void SmoothChain(const SplineOptions& options, const std::vector<double>& times, Progress* progress,
+                 Path* path) {
+  const Smoother smoother(options, times, *path);
+  std::vector<Shape> shapes = path->shapes;
+  std::vector<RigidMotion> motions = path->motions;
+  for (size_t i = 0; i + 1 < path->poses.size(); ++i) {
+    const int begin = path->poses[i], end = path->poses[i + 1];
+    for (int k = begin + 1; k < end; ++k) {
+      ReportProgress(progress, "smoothing", k, path->NumShapes());
+      const double s = static_cast<double>(k - begin) / (end - begin);
+      shapes[k] = smoother.ShapeAt(k, static_cast<int>(i), s, &motions[k]);
+    }
+  }
+  path->shapes = std::move(shapes);
+  path->motions = std::move(motions);
+}
+
+}  // namespace shapespace::internal

@@ -1,0 +1,150 @@
+#include <shapespace/spline/spline.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/internal/stopwatch.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/spline/internal/smooth_chain.h>
+
+namespace shapespace {
+namespace {
+
+// The times of the poses, from 0 to 1.
+std::vector<double> PoseTimes(const SplineOptions& options, int count) {
+  std::vector<double> times = options.times;
+  if (times.empty()) {
+    for (int i = 0; i < count; ++i) times.push_back(i);
+  }
+  if (static_cast<int>(times.size()) != count) {
+    throw InvalidOptions(
+        "times", "must be " + std::to_string(count) + ", not " + std::to_string(times.size()));
+  }
+  const double first = times.front(), length = times.back() - first;
+  for (double& t : times) t = (t - first) / length;
+  return times;
+}
+
+// Gives the chain's shapes, which are evenly spaced between its poses, these times.
+void SetTimes(const std::vector<double>& times, Path* chain) {
+  for (size_t piece = 0; piece + 1 < chain->poses.size(); ++piece) {
+    const int begin = chain->poses[piece], end = chain->poses[piece + 1];
+    for (int k = begin; k <= end; ++k) {
+      const double s = static_cast<double>(k - begin) / (end - begin);
+      chain->parameters[k] = times[piece] + s * (times[piece + 1] - times[piece]);
+    }
+  }
+  chain->parameters.back() = 1;
+}
+
+// The velocity beside shape `at` in the direction of `step`, -1 or 1; of second order.
+Shape OneSidedVelocity(const Path& path, int at, int step) {
+  const double dt = path.parameters[at + step] - path.parameters[at];
+  return (4 * path.Placed(at + step) - 3 * path.Placed(at) - path.Placed(at + 2 * step)) / (2 * dt);
+}
+
+// The greatest jump of velocity at a pose, as a share of the mean speed.
+double GreatestJump(const Path& path, bool periodic) {
+  const Eigen::VectorXd& area = path.metric->vertex_area;
+  const auto norm = [&](const Shape& x) {
+    return std::sqrt(area.dot(x.colwise().squaredNorm().transpose()) / area.sum());
+  };
+  double way = 0;
+  for (int k = 0; k + 1 < path.NumShapes(); ++k) way += norm(path.Placed(k + 1) - path.Placed(k));
+  if (way == 0) return 0;
+  double greatest = 0;
+  for (size_t i = 1; i + 1 < path.poses.size(); ++i) {
+    const int at = path.poses[i];
+    greatest =
+        std::max(greatest, norm(OneSidedVelocity(path, at, 1) - OneSidedVelocity(path, at, -1)));
+  }
+  if (periodic) {
+    greatest = std::max(greatest, norm(OneSidedVelocity(path, 0, 1) -
+                                       OneSidedVelocity(path, path.NumShapes() - 1, -1)));
+  }
+  return greatest / way * path.parameters.back();
+}
+
+}  // namespace
+
+void SplineOptions::Validate() const {
+  geodesic.Validate();
+  for (size_t i = 0; i < times.size(); ++i) {
+    if (!std::isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
+      throw InvalidOptions("times", "must be finite numbers in ascending order");
+    }
+  }
+  if (!(hold_limit >= 0) || !std::isfinite(hold_limit)) {
+    throw InvalidOptions("hold_limit", "must be a number, zero or more");
+  }
+  const bool has_velocities = first_velocity.size() > 0 && last_velocity.size() > 0;
+  if (ends == SplineEnds::kClamped && !has_velocities) {
+    throw InvalidOptions("first_velocity, last_velocity", "are needed for clamped ends");
+  }
+  if (ends != SplineEnds::kClamped && (first_velocity.size() > 0 || last_velocity.size() > 0)) {
+    throw InvalidOptions("first_velocity, last_velocity", "go with clamped ends only");
+  }
+}
+
+SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
+                    const std::vector<Shape>& given, const SplineOptions& options,
+                    Progress* progress) {
+  const internal::Stopwatch total;
+  options.Validate();
+  const bool periodic = options.ends == SplineEnds::kPeriodic;
+  std::vector<Shape> poses = given;
+  if (periodic && !given.empty()) {
+    if (given.size() > 1 && given.front() == given.back()) {
+      throw MeshError(
+          "the last pose is the first: leave it out, since a periodic spline returns there");
+    }
+    poses.push_back(given.front());
+  }
+  const std::vector<double> times = PoseTimes(options, static_cast<int>(poses.size()));
+  for (const Tangent* velocity : {&options.first_velocity, &options.last_velocity}) {
+    if (velocity->size() == 0) continue;
+    if (velocity->cols() != connectivity->NumVertices() || !velocity->allFinite()) {
+      throw InvalidOptions("first_velocity, last_velocity",
+                           "must be finite, with a column for each vertex");
+    }
+  }
+  GeodesicResult chain = Interpolate(connectivity, poses, options.geodesic, progress);
+  SplineResult result{std::move(chain.path), {}};
+  SplineSummary& summary = result.summary;
+  summary.geodesic = std::move(chain.summary);
+  summary.ends = options.ends;
+  summary.warnings = summary.geodesic.warnings;
+  SetTimes(times, &result.path);
+  summary.jump_before = summary.jump_after = GreatestJump(result.path, periodic);
+  const bool straight = poses.size() == 2 && options.ends != SplineEnds::kClamped;
+  if (straight) {
+    summary.warnings.push_back("there are only two poses: the motion is the geodesic between them");
+  } else if (summary.geodesic.termination != Termination::kCancelled) {
+    const internal::Stopwatch stopwatch;
+    try {
+      internal::SmoothChain(options, times, progress, &result.path);
+      result.path.smooth = summary.smooth = true;
+      summary.jump_after = GreatestJump(result.path, periodic);
+    } catch (const Cancelled&) {
+      summary.geodesic.termination = Termination::kCancelled;
+    }
+    summary.spline_seconds = stopwatch.Seconds();
+  }
+  if (!summary.smooth && !straight) {
+    summary.warnings.push_back("stopped: the motion is the chain of geodesics, with corners");
+  }
+  result.path.converged = result.path.converged && summary.Converged();
+  if (options.geodesic.assess) summary.quality = MeasureQuality(result.path);
+  summary.total_seconds = total.Seconds();
+  return result;
+}
+
+SplineResult Spline(const Poses& poses, const SplineOptions& options, Progress* progress) {
+  SplineResult result = Spline(poses.connectivity, poses.shapes, options, progress);
+  result.path.appearance = poses.soup.appearance;
+  return result;
+}
+
+}  // namespace shapespace

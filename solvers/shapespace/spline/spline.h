@@ -1,0 +1,86 @@
+#ifndef SHAPESPACE_SPLINE_SPLINE_H_
+#define SHAPESPACE_SPLINE_SPLINE_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <shapespace/geodesic/geodesic.h>
+
+namespace shapespace {
+
+/// What determines the velocity at the ends of a spline.
+enum class SplineEnds {
+  kNatural,   ///< no acceleration at the ends
+  kClamped,   ///< SplineOptions::first_velocity and last_velocity
+  kNotAKnot,  ///< the first two intervals are one cubic, and so are the last two: exact for motions
+              ///< that are cubic in time, but it swings further on sparse data
+  kPeriodic,  ///< the motion goes on from the last pose to the first, as a walk cycle does
+};
+
+struct SplineOptions {
+  SplineEnds ends = SplineEnds::kNatural;
+
+  /// When the poses are met: ascending, in any unit of time, one for each pose, and for periodic
+  /// splines one more, when the first pose is met again. Empty: evenly spaced.
+  std::vector<double> times;
+
+  /// For kClamped, 3 x m, in the user's unit per unit of `times` (per interval, if these are
+  /// empty).
+  Tangent first_velocity, last_velocity;
+
+  /// Velocities at a pose are at most this number times the slower of the two mean velocities
+  /// beside it, part by part, so that a pose that is held is held; 0: no limit.
+  double hold_limit = 3;
+
+  /// Of the geodesics between neighbouring poses. Fewer than seven shapes make the spline less
+  /// smooth, because velocities are measured on them.
+  GeodesicOptions geodesic;
+
+  /// \throw InvalidOptions naming the field.
+  void Validate() const;
+};
+
+/// Outcome of a spline.
+struct SplineSummary {
+  GeodesicSummary geodesic;  ///< of the chain of geodesics from which the spline is made
+  SplineEnds ends = SplineEnds::kNatural;
+  /// Whether the path is smooth. False if the call was stopped, or if there are only two poses: the
+  /// path is then the chain.
+  bool smooth = false;
+  /// Greatest jump of velocity at a pose, as a share of the mean speed: of the chain, and of the
+  /// spline. Measured on the shapes, so that it falls by 4 if their number doubles.
+  double jump_before = 0, jump_after = 0;
+  PathQuality quality;  ///< of the path returned
+  std::vector<std::string> warnings;
+  double spline_seconds = 0, total_seconds = 0;
+
+  bool Converged() const { return geodesic.termination == Termination::kConverged; }
+  std::string BriefReport() const;  ///< one line
+  std::string FullReport() const;   ///< a page
+  std::string ToJson() const;
+};
+
+struct SplineResult {
+  Path path;
+  SplineSummary summary;
+};
+
+/// A smooth motion through poses. The geodesics between neighbouring poses (`Interpolate`), in
+/// which the velocity jumps at every pose, are corrected: in each triangle, the rotation and the
+/// logarithm of the stretch relative to the first pose follow cubic splines through the poses, and
+/// the shape is the one whose triangles are nearest to these (docs/mathematics.md, section 15). The
+/// path meets the poses, and its velocity is continuous. Two poses give the geodesic. Vertices
+/// without triangles follow cubic splines in space. If `progress` asks to stop after the first
+/// solve has begun, the chain is returned, as far as it was found, and the summary says so. \throw
+/// as Interpolate; InvalidOptions (times that do not ascend or are not one for each pose;
+///        kClamped without velocities), MeshError (kPeriodic if the last pose is the first).
+SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
+                    const std::vector<Shape>& poses, const SplineOptions& options = {},
+                    Progress* progress = nullptr);
+SplineResult Spline(const Poses& poses, const SplineOptions& options = {},
+                    Progress* progress = nullptr);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_SPLINE_SPLINE_H_

@@ -1,0 +1,55 @@
+#include "support/spline_flags.h"
+
+#include <string>
+
+#include <gflags/gflags.h>
+
+#include <shapespace/spline/internal/option_fields.h>
+
+#include "support/flag_group.h"
+#include "support/lists.h"
+#include "support/option_flags.h"
+#include "support/tool.h"
+
+DEFINE_string(spline, "",
+              "move smoothly through three or more poses, without jumps of velocity: natural, "
+              "not_a_knot, clamped (beginning and ending at rest) or periodic (the motion goes on "
+              "from the last pose to the first)");
+DEFINE_string(
+    times, "",
+    "with --spline: when the poses are met, ascending and separated by commas; for "
+    "periodic splines one more, when the first pose is met again; default: evenly spaced");
+static const shapespace::tools::OptionFlags<shapespace::SplineOptions> flags(__FILE__,
+                                                                             {{"hold_limit",
+                                                                               "hold_limit"}});
+FLAG_GROUP(spline, "Path");
+
+namespace shapespace::tools {
+
+std::optional<SplineOptions> SplineFromFlags(int num_poses, int num_vertices) {
+  if (FLAGS_spline.empty()) {
+    RefuseFlags({}, {"times", "hold_limit"}, "goes with --spline");
+    return {};
+  }
+  SplineOptions options;
+  std::string words;
+  bool known = false;
+  for (const auto& [word, value] : WordsOf(internal::Of<SplineEnds>())) {
+    words += (words.empty() ? "" : ", ") + std::string(word);
+    if (word != FLAGS_spline) continue;
+    options.ends = value;
+    known = true;
+  }
+  if (!known) throw UsageError("--spline " + FLAGS_spline + ": must be one of " + words);
+  if (num_poses < 3 && options.ends != SplineEnds::kClamped) {
+    throw UsageError("--spline: needs three or more poses; two give the geodesic, without it");
+  }
+  if (!FLAGS_times.empty()) options.times = NumbersFromFlag("times", FLAGS_times);
+  if (options.ends == SplineEnds::kClamped) {
+    options.first_velocity = options.last_velocity = Tangent::Zero(3, num_vertices);
+  }
+  flags.Set(&options);
+  return options;
+}
+
+}  // namespace shapespace::tools
