@@ -80,12 +80,17 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                  "report", "seconds", "shapes", "solver", "stiffeners", "strict", "tolerance"});
   const std::set<std::string> listed = Listed("shape-interpolate");
   for (const std::string& flag : wanted) EXPECT_EQ(listed.count(flag), 1u) << flag;
-  // Tools that begin with an interpolation of poses have the same flags, and their own.
-  std::set<std::string> extrapolate = Listed("shape-interpolate");
+  // Tools that begin with an interpolation of poses have the same flags but for those of smooth
+  // motion, and their own.
+  std::set<std::string> geodesic = listed;
+  for (const char* flag : {"hold_limit", "spline", "times"}) {
+    EXPECT_EQ(geodesic.erase(flag), 1u) << flag;
+  }
+  std::set<std::string> extrapolate = geodesic;
   extrapolate.insert({"correct", "first_integral_solver", "integrator", "keep", "step_iterations",
                       "step_solver", "step_tolerance", "steps"});
   EXPECT_EQ(Listed("shape-extrapolate"), extrapolate);
-  std::set<std::string> transfer = Listed("shape-interpolate");
+  std::set<std::string> transfer = geodesic;
   transfer.insert({"align", "connection", "hold_all_markers", "hybrids", "ladder_bending",
                    "markers", "method", "proportions", "rung_shapes", "scale", "target"});
   EXPECT_EQ(Listed("shape-transfer"), transfer);
