@@ -129,22 +129,13 @@ struct Value<std::vector<std::string>> : SimpleValue<std::vector<std::string>> {
 
 template <typename T>
 struct Value<T, std::enable_if_t<std::is_enum_v<T>>> {
-  static std::string Type() {
-    std::string type;
-    for (const auto& [word, value] : WordsOf(internal::Of<T>())) {
-      type += (type.empty() ? "{'" : ", '") + std::string(word) + "'";
-    }
-    return type + "}";
-  }
+  static std::string Type() { return "{" + internal::ListWords<T>("'") + "}"; }
   static void Set(T* value, py::handle given, const std::string& name) {
     if (!py::isinstance<py::str>(given)) RefuseType(name, Type(), given);
     const auto text = py::cast<std::string>(given);
-    for (const auto& [word, one] : WordsOf(internal::Of<T>())) {
-      if (word != text) continue;
-      *value = one;
-      return;
-    }
-    throw py::value_error(name + ": must be one of " + Type() + ", not '" + text + "'");
+    const std::optional<T> one = internal::FromWord<T>(text);
+    if (!one) throw py::value_error(name + ": must be one of " + Type() + ", not '" + text + "'");
+    *value = *one;
   }
   static py::object Get(const T& value) { return py::str(internal::WordOf(value)); }
 };

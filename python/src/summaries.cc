@@ -44,11 +44,7 @@ std::string TypeInStub(const T* = nullptr) {
   } else if constexpr (std::is_convertible_v<T, std::string>) {
     return "str";
   } else if constexpr (std::is_enum_v<T>) {
-    std::string words;
-    for (const auto& [word, value] : WordsOf(internal::Of<T>())) {
-      words += (words.empty() ? "\"" : ", \"") + std::string(word) + "\"";
-    }
-    return "Literal[" + words + "]";
+    return "Literal[" + internal::ListWords<T>("\"") + "]";
   } else {
     return py::cast<std::string>(py::type::of<T>().attr("__name__"));
   }

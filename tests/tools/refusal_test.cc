@@ -64,7 +64,7 @@ TEST_F(RefusalTest, WrongCommandLines) {
        "not; add --metric isometric"},
       {{"--solver", "magic"},
        "--solver magic: must be one of automatic, lbfgs, threaded_lbfgs, trust_region"},
-      {{"--color", "pink"}, "--color pink: must be plain, deviation or parts"},
+      {{"--color", "pink"}, "--color pink: must be one of plain, deviation, parts"},
       {{"--threads=-1"}, "--threads -1: must be 0 (all cores) to 256"},
       {{"--memory_limit", "0"}, "--memory_limit 0: must be positive"},
       {{"--strain", "0", "--lambda", "0"},

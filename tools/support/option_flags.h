@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -17,6 +18,15 @@
 #include "support/tool.h"
 
 namespace shapespace::tools {
+
+/// What the word `text` of a flag stands for.
+/// \throw UsageError listing the words if it is none of the enumeration.
+template <typename Enum>
+Enum EnumFromFlag(const std::string& flag, const std::string& text) {
+  const std::optional<Enum> value = internal::FromWord<Enum>(text);
+  if (value) return *value;
+  throw UsageError("--" + flag + " " + text + ": must be one of " + internal::ListWords<Enum>());
+}
 
 /// Command-line flags that set fields of a struct of options, with the defaults, descriptions and
 /// words of enumerations that the library lists (base/internal/fields.h). An object of this class
@@ -60,19 +70,10 @@ class OptionFlags {
     const Options defaults;
     using T = std::decay_t<decltype(std::invoke(get, defaults))>;
     if constexpr (std::is_enum_v<T>) {
-      std::string words;
-      for (const auto& word : WordsOf(internal::Of<T>())) {
-        words += (words.empty() ? "" : ", ") + std::string(word.first);
-      }
-      const auto text = Register<std::string>(name, about + " (" + words + ")",
+      const auto text = Register<std::string>(name, about + " (" + internal::ListWords<T>() + ")",
                                               internal::WordOf(std::invoke(get, defaults)));
-      flags_.back().set = [name, get, words, text](Options* options) {
-        for (const auto& [word, value] : WordsOf(internal::Of<T>())) {
-          if (word != *text) continue;
-          std::invoke(get, *options) = value;
-          return;
-        }
-        throw UsageError("--" + name + " " + *text + ": must be one of " + words);
+      flags_.back().set = [name, get, text](Options* options) {
+        std::invoke(get, *options) = EnumFromFlag<T>(name, *text);
       };
     } else if constexpr (std::is_arithmetic_v<T>) {
       const auto value = Register<T>(name, about, std::invoke(get, defaults));

@@ -9,12 +9,14 @@
 
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
+#include <shapespace/output/internal/option_fields.h>
 #include <shapespace/output/path_output.h>
 
 #include "support/flag_group.h"
 #include "support/frames.h"
 #include "support/interrupt.h"
 #include "support/lists.h"
+#include "support/option_flags.h"
 #include "support/outside_files_flag.h"
 #include "support/tool.h"
 
@@ -81,8 +83,7 @@ GltfOptions GltfOptionsFromFlags() {
 
 PathOutputOptions OptionsFromFlags() {
   PathOutputOptions options;
-  if (FLAGS_color == "deviation") options.colours = PathColours::kDeviation;
-  if (FLAGS_color == "parts") options.colours = PathColours::kParts;
+  options.colours = EnumFromFlag<PathColours>("color", FLAGS_color);
   options.film_strip.title = FLAGS_title;
   if (FLAGS_up == "y") options.film_strip.up = Eigen::Vector3d::UnitY();
   if (FLAGS_up == "z") options.film_strip.up = Eigen::Vector3d::UnitZ();
@@ -118,9 +119,7 @@ void Write(const PathOutput& output, const Path& path, const PathOutputOptions& 
 void WriteLastShapeAlone() { writes_last_shape_alone = true; }
 
 std::vector<std::string> OutputsFromFlags() {
-  if (FLAGS_color != "plain" && FLAGS_color != "deviation" && FLAGS_color != "parts") {
-    throw UsageError("--color " + FLAGS_color + ": must be plain, deviation or parts");
-  }
+  EnumFromFlag<PathColours>("color", FLAGS_color);
   FilmStripOptions strip;
   strip.title = FLAGS_title;
   strip.Validate();  // checks the title before the solve, not after it

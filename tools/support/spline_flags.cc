@@ -32,15 +32,7 @@ std::optional<SplineOptions> SplineFromFlags(int num_poses, int num_vertices) {
     return {};
   }
   SplineOptions options;
-  std::string words;
-  bool known = false;
-  for (const auto& [word, value] : WordsOf(internal::Of<SplineEnds>())) {
-    words += (words.empty() ? "" : ", ") + std::string(word);
-    if (word != FLAGS_spline) continue;
-    options.ends = value;
-    known = true;
-  }
-  if (!known) throw UsageError("--spline " + FLAGS_spline + ": must be one of " + words);
+  options.ends = EnumFromFlag<SplineEnds>("spline", FLAGS_spline);
   if (num_poses < 3 && options.ends != SplineEnds::kClamped) {
     throw UsageError("--spline: needs three or more poses; two give the geodesic, without it");
   }

@@ -81,15 +81,21 @@ std::vector<Edge> Diagonals(const std::vector<int>& polygon_begin,
   return diagonals;
 }
 
+// Where the corners of each triangle begin, and where the last ones end.
+std::vector<int> TriangleBegins(const Eigen::Matrix3Xi& triangles) {
+  std::vector<int> begin(triangles.cols() + 1);
+  for (size_t f = 0; f < begin.size(); ++f) begin[f] = static_cast<int>(3 * f);
+  return begin;
+}
+
 // The edges, each once. Appends the triangles at each to `list` and where they begin to `begin`,
 // and the hinges.
 std::vector<Edge> EdgesOfTriangles(int num_vertices, const Eigen::Matrix3Xi& triangles,
                                    std::vector<int>* begin, std::vector<int>* list,
                                    std::vector<std::array<int, 4>>* hinges) {
-  std::vector<int> polygon_begin(triangles.cols() + 1);
-  for (size_t f = 0; f < polygon_begin.size(); ++f) polygon_begin[f] = static_cast<int>(3 * f);
-  const internal::Sides sides = internal::MakeSides(
-      num_vertices, polygon_begin, {triangles.data(), triangles.data() + triangles.size()});
+  const internal::Sides sides =
+      internal::MakeSides(num_vertices, TriangleBegins(triangles),
+                          {triangles.data(), triangles.data() + triangles.size()});
   // The third corner of the side's triangle.
   const auto opposite = [&](const internal::Side& side) {
     return triangles.data()[9 * side.polygon + 3 - side.at_low - side.at_high];
@@ -174,9 +180,7 @@ std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
 
 std::shared_ptr<const Connectivity> Connectivity::FromTriangles(int num_vertices,
                                                                 const Eigen::Matrix3Xi& triangles) {
-  std::vector<int> begin(triangles.cols() + 1);
-  for (size_t i = 0; i < begin.size(); ++i) begin[i] = static_cast<int>(3 * i);
-  return Make(num_vertices, std::move(begin),
+  return Make(num_vertices, TriangleBegins(triangles),
               std::vector<int>(triangles.data(), triangles.data() + triangles.size()));
 }
 

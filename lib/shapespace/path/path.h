@@ -59,8 +59,8 @@ std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<
 /// The path at other times, ascending between its first and its last: interpolated as above, but
 /// never across a pose, where a path may have a corner, unless it is smooth. `poses` are those at
 /// whose parameter there is a time, `extrapolated` counts the times after the last shape that was
-/// not extrapolated. \throw InvalidOptions if there is no time, or times do not ascend, are not
-/// finite or lie outside
+/// not extrapolated.
+/// \throw InvalidOptions if there is no time, or times do not ascend, are not finite or lie outside
 ///        of the path.
 Path Resample(const Path& path, const std::vector<double>& times);
 

@@ -27,9 +27,9 @@ using RigidMotions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 /// `shapes` are in the metric's unit (Metric::unit). They and `motions` must outlive the problem,
 /// and must not be resized while it exists. `motions` is used for the rigid metric only and is
 /// resized here. `quartic_weight` as in PathEnergy::SetQuarticWeight. `features` may be those of
-/// the same metric and shapes that the problem evaluates; they must outlive it. \throw MeshError if
-/// there are fewer than two shapes, or one has another number of vertices than
-///        the metric; InvalidOptions if the metric has a sum feature (volume) and more than
+/// the same metric and shapes that the problem evaluates; they must outlive it.
+/// \throw MeshError if there are fewer than two shapes, or one has another number of vertices
+///        than the metric; InvalidOptions if the metric has a sum feature (volume) and more than
 ///        kMaxDenseVertices vertices, or a rigid part and there are no `motions`.
 void AddPathEnergy(const Metric& metric, std::vector<Shape>* shapes, ceres::Problem* problem,
                    RigidMotions* motions = nullptr, double quartic_weight = 1,

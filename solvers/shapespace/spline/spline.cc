@@ -52,7 +52,12 @@ double GreatestJump(const Path& path, bool periodic) {
     return std::sqrt(area.dot(x.colwise().squaredNorm().transpose()) / area.sum());
   };
   double way = 0;
-  for (int k = 0; k + 1 < path.NumShapes(); ++k) way += norm(path.Placed(k + 1) - path.Placed(k));
+  Shape before = path.Placed(0);
+  for (int k = 1; k < path.NumShapes(); ++k) {
+    Shape shape = path.Placed(k);
+    way += norm(shape - before);
+    before = std::move(shape);
+  }
   if (way == 0) return 0;
   double greatest = 0;
   for (size_t i = 1; i + 1 < path.poses.size(); ++i) {

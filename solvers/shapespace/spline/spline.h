@@ -72,8 +72,8 @@ struct SplineResult {
 /// the shape is the one whose triangles are nearest to these (docs/mathematics.md, section 15). The
 /// path meets the poses, and its velocity is continuous. Two poses give the geodesic. Vertices
 /// without triangles follow cubic splines in space. If `progress` asks to stop after the first
-/// solve has begun, the chain is returned, as far as it was found, and the summary says so. \throw
-/// as Interpolate; InvalidOptions (times that do not ascend or are not one for each pose;
+/// solve has begun, the chain is returned, as far as it was found, and the summary says so.
+/// \throw as Interpolate; InvalidOptions (times that do not ascend or are not one for each pose;
 ///        kClamped without velocities), MeshError (kPeriodic if the last pose is the first).
 SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
                     const std::vector<Shape>& poses, const SplineOptions& options = {},

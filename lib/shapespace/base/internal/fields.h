@@ -1,6 +1,9 @@
 #ifndef SHAPESPACE_BASE_INTERNAL_FIELDS_H_
 #define SHAPESPACE_BASE_INTERNAL_FIELDS_H_
 
+#include <functional>
+#include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -35,6 +38,36 @@ const char* WordOf(Enum value) {
     if (known == value) return word;
   }
   return "unknown";
+}
+
+/// What `text` stands for; none if it is no word of the enumeration.
+template <typename Enum>
+std::optional<Enum> FromWord(const std::string& text) {
+  for (const auto& [word, value] : WordsOf(Of<Enum>())) {
+    if (word == text) return value;
+  }
+  return {};
+}
+
+/// All words of an enumeration, separated by commas, each in `quotes`.
+template <typename Enum>
+std::string ListWords(const std::string& quotes = "") {
+  std::string list;
+  for (const auto& [word, value] : WordsOf(Of<Enum>())) {
+    list += (list.empty() ? "" : ", ") + quotes + word + quotes;
+  }
+  return list;
+}
+
+/// Visits the options of a part of a struct as options of the whole.
+template <typename Part, typename Whole, typename Visit>
+void ForOptionsOfPart(Part Whole::*part, const Visit& visit) {
+  ForOptions(Of<Part>(), [&](const char* name, auto field, const char* about) {
+    const auto of_whole = [ part, field ](auto& whole) -> auto& {
+      return std::invoke(field, whole.*part);
+    };
+    visit(name, of_whole, about);
+  });
 }
 
 struct IgnoreField {

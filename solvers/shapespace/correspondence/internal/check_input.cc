@@ -17,12 +17,6 @@
 namespace shapespace::internal {
 namespace {
 
-std::vector<bool> InTriangles(const Connectivity& connectivity) {
-  std::vector<bool> inside(connectivity.NumVertices(), false);
-  for (const int v : connectivity.Triangles().reshaped()) inside[v] = true;
-  return inside;
-}
-
 std::string MarkerName(size_t marker) { return "marker " + std::to_string(marker + 1); }
 
 std::string Count(int count, const std::string& what) {
@@ -71,7 +65,6 @@ void CheckMarkers(const std::vector<CorrespondenceMarker>& markers,
   }
   const auto check = [&](const std::string& name, const Connectivity& connectivity,
                          int CorrespondenceMarker::*vertex) {
-    const std::vector<bool> in_triangles = InTriangles(connectivity);
     std::map<int, size_t> seen;
     for (size_t k = 0; k < markers.size(); ++k) {
       const int v = markers[k].*vertex;
@@ -80,7 +73,7 @@ void CheckMarkers(const std::vector<CorrespondenceMarker>& markers,
                         std::to_string(v + 1) + "; it has " +
                         std::to_string(connectivity.NumVertices()));
       }
-      if (!in_triangles[v]) {
+      if (connectivity.TrianglesOfVertices()[v].size() == 0) {
         throw MeshError(MarkerName(k) + ": no triangle of the " + name + " uses vertex " +
                         std::to_string(v + 1) + "; name one on the surface");
       }

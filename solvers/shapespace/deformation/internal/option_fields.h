@@ -42,12 +42,7 @@ void ForOptions(Of<DeformationOptions>, const Visit& visit) {
 
 template <typename Visit>
 void ForOptions(Of<RepairOptions>, const Visit& visit) {
-  ForOptions(Of<DeformationOptions>(), [&](const char* name, auto field, const char* about) {
-    const auto of_repair = [field](auto& repair) -> auto& {
-      return std::invoke(field, repair.deformation);
-    };
-    visit(name, of_repair, about);
-  });
+  ForOptionsOfPart(&RepairOptions::deformation, visit);
 }
 
 }  // namespace shapespace::internal

@@ -30,6 +30,17 @@ Eigen::SparseMatrix<double> Matrix(int num_vertices,
 GradientIntegrator::GradientIntegrator(int num_vertices, std::vector<Side> sides, double place)
     : sides_(std::move(sides)), place_(place), factor_(Matrix(num_vertices, sides_, place)) {}
 
+std::vector<GradientIntegrator::Side> GradientIntegrator::SidesWithoutTriangles(
+    const Connectivity& connectivity) {
+  const auto is_loose = [&](int v) { return connectivity.TrianglesOfVertices()[v].size() == 0; };
+  std::vector<Side> sides;
+  for (int e = connectivity.NumTriangleEdges(); e < connectivity.NumEdges(); ++e) {
+    const int a = connectivity.Edges()(0, e), b = connectivity.Edges()(1, e);
+    if (is_loose(a) || is_loose(b)) sides.push_back({a, b, 1});
+  }
+  return sides;
+}
+
 Shape GradientIntegrator::Integrate(const Eigen::Matrix3Xd& wanted, const Shape& places) const {
   Shape right = place_ * places;
   for (size_t i = 0; i < sides_.size(); ++i) {

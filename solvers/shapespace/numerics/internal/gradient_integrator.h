@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/numerics/internal/cholesky.h>
 
@@ -22,6 +23,9 @@ class GradientIntegrator {
 
   /// `place` is the weight of the vertices' wanted positions q; it must be positive.
   GradientIntegrator(int num_vertices, std::vector<Side> sides, double place);
+
+  /// The edges with an end in no triangle, with weight 1.
+  static std::vector<Side> SidesWithoutTriangles(const Connectivity& connectivity);
 
   const std::vector<Side>& Sides() const { return sides_; }
 

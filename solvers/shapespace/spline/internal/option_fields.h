@@ -32,12 +32,7 @@ void ForOptions(Of<SplineOptions>, const Visit& visit) {
   visit("hold_limit", &SplineOptions::hold_limit,
         "Velocities at a pose are at most this number times the slower mean velocity beside it, so "
         "that a pose that is held is held; 0: no limit.");
-  ForOptions(Of<GeodesicOptions>(), [&](const char* name, auto field, const char* about) {
-    const auto of_spline = [field](auto& spline) -> auto& {
-      return std::invoke(field, spline.geodesic);
-    };
-    visit(name, of_spline, about);
-  });
+  ForOptionsOfPart(&SplineOptions::geodesic, visit);
 }
 
 }  // namespace shapespace::internal

@@ -111,21 +111,18 @@ class Smoother {
 
   std::vector<GradientIntegrator::Side> MakeSides() const {
     const Shape& first = path_.shapes.front();
-    const Connectivity& connectivity = *path_.metric->connectivity;
     std::vector<GradientIntegrator::Side> sides;
-    std::vector<bool> in_triangle(num_vertices_, false);
     for (int f = 0; f < num_triangles_; ++f) {
       const double area = 0.5 * std::abs(FrameOf(first, f).edges.determinant());
       for (int k = 0; k < 3; ++k) {
         const int a = triangles_(k, f), b = triangles_((k + 1) % 3, f);
         const double squared = (first.col(b) - first.col(a)).squaredNorm();
         sides.push_back({a, b, area > 0 ? area / squared : 0});
-        in_triangle[a] = true;
       }
     }
-    for (int e = connectivity.NumTriangleEdges(); e < connectivity.NumEdges(); ++e) {
-      const int a = connectivity.Edges()(0, e), b = connectivity.Edges()(1, e);
-      if (!in_triangle[a] || !in_triangle[b]) sides.push_back({a, b, 1});
+    for (const auto& side :
+         GradientIntegrator::SidesWithoutTriangles(*path_.metric->connectivity)) {
+      sides.push_back(side);
     }
     return sides;
   }

@@ -52,11 +52,8 @@ GradientTransfer::GradientTransfer(std::shared_ptr<const Connectivity> connectiv
       sides.push_back({a, b, mean_area * product / (4 * counted * counted)});
     }
   }
-  std::vector<bool> in_triangle(num_vertices, false);
-  for (const int v : triangles.reshaped()) in_triangle[v] = true;
-  for (int e = connectivity_->NumTriangleEdges(); e < connectivity_->NumEdges(); ++e) {
-    const int a = connectivity_->Edges()(0, e), b = connectivity_->Edges()(1, e);
-    if (!in_triangle[a] || !in_triangle[b]) sides.push_back({a, b, 1});
+  for (const auto& side : GradientIntegrator::SidesWithoutTriangles(*connectivity_)) {
+    sides.push_back(side);
   }
   integrator_ =
       std::make_unique<GradientIntegrator>(num_vertices, std::move(sides), kPlace / num_vertices);
