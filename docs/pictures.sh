@@ -26,9 +26,8 @@ done
 "$bin/shape-export" walk.path --frames 4 --color parts --output "$pictures/parts.png"
 
 # guide/smooth-motion.md
-"$bin/shape-body" quadruped --pose stand,sit,stretch,rear --output 'cycle%d.obj'
-"$bin/shape-interpolate" cycle0.obj cycle1.obj cycle2.obj cycle3.obj --spline periodic --shapes 7 \
-  --output cycle.path
+"$bin/shape-body" quadruped --pose stride,pass,other_stride,other_pass --output 'step%d.obj'
+"$bin/shape-interpolate" step0.obj step1.obj step2.obj step3.obj --spline periodic --output cycle.path
 "$bin/shape-export" cycle.path --frames 13 --output "$pictures/smooth-motion.png"
 
 # guide/going-on.md

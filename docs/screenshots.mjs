@@ -33,6 +33,9 @@ await shoot('two', { width: 1000, height: 760, colorScheme: 'dark' }, async (pag
   await page.locator('#wireframe').check();
   await setTime(page, 0.5);
 });
+await shoot('smooth', { width: 1000, height: 760, colorScheme: 'light' }, async (page) => {
+  await setTime(page, 0.3);
+});
 await shoot('space', { width: 1000, height: 640, colorScheme: 'light' }, async (page) => {
   await page.locator('#draw').click();
   const { x, y, width, height } = await page.locator('#plane').boundingBox();

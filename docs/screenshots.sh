@@ -18,6 +18,11 @@ cd "$work"
 "$bin/shape-view" walk.path --output walk.html
 "$bin/shape-view" walk.path rigid.path --output two.html
 
+"$bin/shape-body" quadruped --pose stride,pass,other_stride,other_pass --output 'step%d.obj'
+"$bin/shape-interpolate" step?.obj step0.obj --output chain.path
+"$bin/shape-interpolate" step?.obj --spline periodic --output spline.path
+"$bin/shape-view" chain.path spline.path --output smooth.html
+
 "$bin/shape-body" quadruped --pose stand,stride,sit,stretch,rear --output 'pose%d.obj'
 "$bin/shape-explore" pose?.obj --output poses.space
 "$bin/shape-view" poses.space --output space.html

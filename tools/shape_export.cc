@@ -69,7 +69,7 @@ void Run(const std::vector<std::string>& files) {
   }
   AnchorFlags anchorage = AnchorFlags::FromFlags();
   const Path path = ReadPathAndTell(files[0]);
-  anchorage.Select(path.Placed(0), *path.metric->connectivity, path.appearance);
+  anchorage.Select(path.Placed(0), *path.metric->connectivity, path.appearance, path.poses.size());
   const std::vector<double> times = TimesFromFlags(path);
   CheckNothingIsOverwritten(files, {{"output", outputs, static_cast<std::int64_t>(times.size())}});
   Path shown = path;

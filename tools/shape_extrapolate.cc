@@ -70,7 +70,7 @@ Path OriginFromPath(const std::string& file, const std::vector<std::string>& out
                       "interpolate its poses under another one");
   }
   CheckFlags({file}, path.NumShapes(), outputs);
-  anchorage->Select(path.Placed(0), *path.metric->connectivity, path.appearance);
+  anchorage->Select(path.Placed(0), *path.metric->connectivity, path.appearance, path.poses.size());
   return path;
 }
 
@@ -78,7 +78,8 @@ Path OriginFromPoses(const std::vector<std::string>& files, const GeodesicOption
                      const std::vector<std::string>& outputs, AnchorFlags* anchorage) {
   const Poses poses = ReadPosesFromFlags(files);
   CheckFlags(files, NumShapes(poses.shapes.size(), options), outputs);
-  anchorage->Select(poses.shapes[0], *poses.connectivity, poses.soup.appearance);
+  anchorage->Select(poses.shapes[0], *poses.connectivity, poses.soup.appearance,
+                    poses.shapes.size());
   GeodesicResult result = Interpolate(
       poses, options, SolveProgress(outputs, std::to_string(FLAGS_steps) + " steps").get());
   PrintSummary(result.summary.BriefReport(), result.summary.warnings,

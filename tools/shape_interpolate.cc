@@ -29,17 +29,20 @@ void Run(const std::vector<std::string>& files) {
   CheckNothingIsOverwritten(
       WithStiffeners(files),
       {{"output", outputs, NumShapes(poses.shapes.size() + returns, options)}, ReportFromFlag()});
-  anchorage.Select(poses.shapes[0], *poses.connectivity, poses.soup.appearance);
+  anchorage.Select(poses.shapes[0], *poses.connectivity, poses.soup.appearance,
+                   poses.shapes.size() + returns);
   const auto finish = [&](Path path, const auto& summary, bool converged) {
     path.provenance = Provenance("shape-interpolate", files);
-    anchorage.Apply(&path);
     PrintSummary(summary.BriefReport(), summary.warnings, converged);
+    anchorage.Apply(&path);
     WriteOutputs(outputs, path, path);
     WriteReport(summary.FullReport(), summary.ToJson());
   };
   if (spline) {
     spline->geodesic = options;
-    SplineResult result = Spline(poses, *spline, SolveProgress(outputs).get());
+    SplineResult result;
+    NamingFlags({{"by_length", "times"}},
+                [&] { result = Spline(poses, *spline, SolveProgress(outputs).get()); });
     finish(std::move(result.path), result.summary, result.summary.Converged());
   } else {
     GeodesicResult result = Interpolate(poses, options, SolveProgress(outputs).get());

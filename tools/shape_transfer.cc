@@ -182,7 +182,8 @@ void Run(const std::vector<std::string>& files) {
     check(source.NumShapes());
     if (!FLAGS_markers.empty()) other.emplace(FirstShapeOf(source, files[0]));
     const Poses target = other ? other->Target() : ReadTargetOf(source, files[0]);
-    anchorage.Select(target.shapes[0], *target.connectivity, target.soup.appearance);
+    anchorage.Select(target.shapes[0], *target.connectivity, target.soup.appearance,
+                     source.poses.size());
     TransferResult result = Transfer(source, other ? other->Fitted() : target.shapes[0], options,
                                      SolveProgress(all_outputs).get());
     const std::vector<std::string> warnings = result.summary.warnings;
@@ -196,12 +197,13 @@ void Run(const std::vector<std::string>& files) {
       target = poses.shapes.back();
       poses.shapes.pop_back();
       appearance = ReadSoup(FLAGS_target, FLAGS_allow_outside_files).appearance;
-      anchorage.Select(target, *poses.connectivity, appearance);
+      anchorage.Select(target, *poses.connectivity, appearance, poses.shapes.size());
     } else {
       other.emplace(poses);
       target = other->Fitted();
       appearance = other->Target().soup.appearance;
-      anchorage.Select(other->Target().shapes[0], *other->Target().connectivity, appearance);
+      anchorage.Select(other->Target().shapes[0], *other->Target().connectivity, appearance,
+                       poses.shapes.size());
     }
     PoseTransferResult result = TransferPoses(poses.connectivity, poses.shapes, target, geodesic,
                                               options, SolveProgress(all_outputs).get());

@@ -33,6 +33,16 @@ class SplineResult(typing.NamedTuple):
         return _shown(self)
 
 
+class StandingResult(typing.NamedTuple):
+    """A path whose parts stand, and how they were held."""
+
+    path: Path
+    summary: _core.StandingSummary
+
+    def _repr_html_(self):
+        return _shown(self)
+
+
 class ExponentialResult(typing.NamedTuple):
     """A path that goes on, and how it was found."""
 
@@ -374,6 +384,39 @@ def spline(poses, faces=None, *, progress=None, **options):
     poses = _poses(poses, faces)
     with told(progress) as report:
         return SplineResult(*_core.spline(poses, options, report))
+
+
+def stand(path, parts, *, progress=None):
+    """Deform the shapes between the poses of a path such that parts stand, as feet do.
+
+    Parameters
+    ----------
+    path : Path
+        With two poses or more.
+    parts : sequence of (vertices, poses)
+        `vertices` are the part: numbers of vertices, or a truth value for each. `poses` are the
+        first and the last pose between which it stands, counted from 0, or a list of such pairs.
+    progress : callable or bool, optional
+        As for `interpolate`.
+
+    Returns
+    -------
+    StandingResult
+        The path and a summary. Poses are as they were. While a part stands, its vertices are where
+        the poses have them; a smooth path remains smooth.
+
+    Raises
+    ------
+    InvalidOptions
+        A part has no vertex, or one of another part, or poses that the path does not have.
+    """
+    path = _as(Path, path, "path")
+    standing = []
+    for vertices, poses in parts:
+        single = np.ndim(poses) == 1
+        standing.append((vertices, [tuple(pair) for pair in ([poses] if single else poses)]))
+    with told(progress) as report:
+        return StandingResult(*_core.stand(path, standing, report))
 
 
 @takes("ExponentialOptions")

@@ -8,6 +8,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/deformation/handle.h>
 #include <shapespace/deformation/handle_file.h>
+#include <shapespace/deformation/standing.h>
 
 #include "arrays.h"
 #include "bind.h"
@@ -55,6 +56,21 @@ py::tuple SplineThrough(const Poses& poses, const py::dict& given, const py::obj
       WithoutLock(progress, [=](Progress* told) { return Spline(poses, options, told); });
   Sign("spline", &result.path);
   return py::make_tuple(std::move(result.path), std::move(result.summary));
+}
+
+// Parts are pairs of vertices and poses, as `shapespace.stand` has them.
+py::tuple Stand(Path path, const py::list& parts, const py::object& progress) {
+  std::vector<StandingPart> standing;
+  for (py::handle part : parts) {
+    const auto& [vertices, poses] =
+        py::cast<std::pair<py::object, std::vector<std::pair<int, int>>>>(part);
+    standing.push_back(
+        {"", ToVertices(vertices, "vertices", path.metric->connectivity->NumVertices()), poses});
+  }
+  StandingSummary summary = WithoutLock(progress, [&](Progress* told) {
+    return HoldStandingParts(path, standing, StandingDefaults(), &path, told);
+  });
+  return py::make_tuple(std::move(path), std::move(summary));
 }
 
 // A handle as Python has it: vertices, and where they are to be.
@@ -255,6 +271,7 @@ void BindTransfer(py::module_* module) {
 void BindSolvers(py::module_* module) {
   module->def("interpolate", &InterpolatePoses);
   module->def("spline", &SplineThrough);
+  module->def("stand", &Stand);
   BindShooting(module);
   BindTransfer(module);
   BindHandle(module);

@@ -128,6 +128,9 @@ void BindSummaries(py::module_* module) {
       .Reports<true, true>();
   Record<SplineSummary>(module, "SplineSummary", "How a spline was made, and how smooth it is.")
       .Reports<true, true>();
+  Record<StandingSummary>(module, "StandingSummary",
+                          "How parts of a body that stand were held in the shapes of a path.")
+      .Reports<false, true>();
   Record<ExponentialSummary::Step>(module, "ExponentialStep", "A step beyond the path.");
   Record<ExponentialSummary>(module, "ExponentialSummary",
                              "What happened on the way, and how far it can be trusted.")

@@ -317,3 +317,42 @@ def test_textures_are_taken_from_the_mesh_s_own_folder(tmp_path):
         with pytest.warns(shapespace.MeshWarning, match="lies outside of the folder"):
             assert not has_texture(one)
         assert has_texture(one, allow_outside_files=True)
+
+
+def jump(path):
+    """The greatest jump of velocity at an inner pose, over the mean speed."""
+    shapes, step = path.vertices, 1 / (len(path) - 1)
+    way = sum(rms(b - a) for a, b in itertools.pairwise(shapes))
+    after = [4 * shapes[k + 1] - 3 * shapes[k] - shapes[k + 2] for k in path.poses[1:-1]]
+    before = [3 * shapes[k] - 4 * shapes[k - 1] + shapes[k - 2] for k in path.poses[1:-1]]
+    return max(rms(a - b) for a, b in zip(after, before)) / (2 * step * way)
+
+
+def test_a_spline_is_smooth_at_the_poses(poses, animal):
+    three = [*poses, animal.pose("stretch")]
+    options = {"shapes": 7, "tolerance": 1e-6}
+    path, summary = shapespace.spline(three, animal.faces, **options)
+    assert summary.converged and summary.smooth and path.smooth and summary.ends == "natural"
+    assert jump(shapespace.interpolate(three, animal.faces, **options).path) > 0.5
+    assert jump(path) < 0.1
+    np.testing.assert_allclose(jump(path), summary.jump_after, rtol=0.2)
+    for pose, k in zip(three, path.poses, strict=True):
+        np.testing.assert_allclose(path[k], pose, atol=1e-9)
+    cycle = shapespace.spline(three, animal.faces, ends="periodic", shapes=3).path
+    np.testing.assert_allclose(cycle[-1], cycle[0], atol=1e-9)
+    with pytest.raises(shapespace.InvalidOptions, match="times"):
+        shapespace.spline(three, animal.faces, times=[0, 2, 1])
+
+
+def test_parts_stand_where_the_poses_have_them(poses, animal):
+    path = shapespace.spline([poses[0], poses[1], poses[0]], animal.faces, shapes=3).path
+    foot = poses[0][:, 1] < 0.05
+    top = [int(np.argmax(poses[0][:, 1]))]
+    held, summary = shapespace.stand(path, [(foot, (0, 1)), (top, [(1, 2)])])
+    assert summary.converged and summary.parts == 2 and summary.slide < 1e-12
+    half = (path[0][foot] + path[4][foot]) / 2
+    np.testing.assert_allclose(held[2][foot], half, atol=1e-9)
+    assert rms(held[2] - path[2]) > 1e-4
+    np.testing.assert_array_equal(held[4], path[4])
+    with pytest.raises(shapespace.InvalidOptions, match="part 1: its intervals of poses"):
+        shapespace.stand(path, [(foot, (0, 3))])

@@ -48,8 +48,8 @@ TEST(QuadrupedTest, KeepsItsExtremitiesWhenCoarse) {
 
 TEST(QuadrupedTest, StandsUprightOnTheFloorInEveryPose) {
   const SkinnedBody body = MakeQuadruped(2000);
-  EXPECT_EQ(body.pose_names,
-            (std::vector<std::string>{"stand", "stride", "sit", "stretch", "rear"}));
+  EXPECT_EQ(body.pose_names, (std::vector<std::string>{"stand", "stride", "sit", "stretch", "rear",
+                                                       "pass", "other_stride", "other_pass"}));
   for (const std::string& name : body.pose_names) {
     EXPECT_EQ(body.pose(name).row(1).minCoeff(), 0) << name;
   }
@@ -148,7 +148,8 @@ TEST(QuadrupedTest, HasRandomPosesWithFewFolds) {
 TEST(QuadrupedTest, RefusesWhatItDoesNotKnow) {
   const SkinnedBody body = MakeQuadruped(500);
   EXPECT_EQ(Refusal([&] { body.pose("fly"); }),
-            "pose: none is called 'fly'; known are stand, stride, sit, stretch, rear");
+            "pose: none is called 'fly'; known are stand, stride, sit, stretch, rear, pass, "
+            "other_stride, other_pass");
   EXPECT_EQ(Refusal([&] { body.between("stand", "sit", 1.5); }), "part: must be in [0, 1]");
   EXPECT_EQ(Refusal([] { NamedQuadrupedForm("huge"); }),
             "proportions: none is called 'huge'; known are normal, long, short, heavy");

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
+#include <shapespace/path/internal/velocity.h>
 
 #include "mesh/bodies.h"
 #include "support/motions.h"
@@ -164,6 +165,47 @@ TEST(Anchor, ThreeVerticesInALineAreALineToo) {
     const Eigen::AngleAxisd turn(
         Eigen::Matrix3d(path.motions[i].rotation * before.motions[i].rotation.transpose()));
     EXPECT_NEAR(turn.angle(), std::atan2(a.cross(b).norm(), a.dot(b)), 1e-9) << i;
+  }
+}
+
+// The greatest jump of the part's velocity at an inner pose, as a share of the mean speed.
+double GreatestJump(const Path& path, const Vertices& part) {
+  double way = 0, greatest = 0;
+  for (int i = 1; i < path.NumShapes(); ++i) {
+    way += (PartOf(path.Placed(i), part) - PartOf(path.Placed(i - 1), part)).norm();
+  }
+  for (size_t i = 1; i + 1 < path.poses.size(); ++i) {
+    const Shape jump = internal::OneSidedVelocity(path, path.poses[i], 1) -
+                       internal::OneSidedVelocity(path, path.poses[i], -1);
+    greatest = std::max(greatest, PartOf(jump, part).norm());
+  }
+  return greatest / way;
+}
+
+TEST(Anchor, OnASmoothPathThePartMovesSmoothlyAndStillStands) {
+  // The body turns and moves with a velocity that is zero at none of its poses; in the second and
+  // the third pose it is at the same place.
+  const Soup grid = Grid(4, 4);
+  for (const int segments : {48, 96}) {
+    std::vector<Shape> shapes;
+    for (int i = 0; i <= segments; ++i) {
+      const double t = static_cast<double>(i) / segments;
+      const double at = 10 * t * (t - 1.0 / 3) * (t - 2.0 / 3);
+      shapes.push_back((Rotation(40 * at, {1, 2, 3}) * grid.vertices).colwise() +
+                       at * Eigen::Vector3d(1, -2, 1));
+    }
+    Path path = PathOf(Connected(grid), shapes);
+    path.poses = {0, segments / 3, 2 * segments / 3, segments};
+    Path corners = path;
+    Anchor(&corners, kPart);
+    EXPECT_GT(GreatestJump(corners, kPart), 0.5);
+    path.smooth = true;
+    Anchor(&path, kPart);
+    EXPECT_LT(GreatestJump(path, kPart), segments == 48 ? 0.03 : 0.0075);
+    for (int i = path.poses[1]; i <= path.poses[2]; ++i) {
+      EXPECT_LT(Distance(PartOf(path.Placed(i), kPart), PartOf(shapes[path.poses[1]], kPart)), 1e-9)
+          << i;
+    }
   }
 }
 

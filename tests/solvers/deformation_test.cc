@@ -486,6 +486,21 @@ TEST(Deformer, StartsFromAGivenEnd) {
   EXPECT_NEAR(found.summary.energy, wanted.summary.energy, 1e-6 * wanted.summary.energy);
 }
 
+TEST(Deformer, MeetsHardHandlesFromAnEndThatDoesNot) {
+  const HeldBar bar;
+  const std::vector<DeformationHandle> handles = {Fixed(bar.left), Moving(bar.right, Twist(10))};
+  for (const int coarsest : {100, 100000}) {  // several levels, and one alone
+    DeformationOptions options = Tight();
+    options.coarsest = coarsest;
+    Deformer deformer(bar.body.connectivity, bar.rest, options);
+    const DeformationResult found = deformer.DeformFrom(bar.rest, handles);
+    for (const auto& handle : found.summary.handles) {
+      EXPECT_LT(handle.residual_max, 1e-12) << coarsest;
+    }
+    EXPECT_GT(found.summary.energy, 0) << coarsest;
+  }
+}
+
 TEST(Deformer, RefusesAnEndThatIsNotAShapeOfTheMesh) {
   const HeldBar bar;
   Deformer deformer(bar.body.connectivity, bar.rest);

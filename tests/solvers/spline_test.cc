@@ -106,6 +106,44 @@ TEST(Spline, MeetsThePosesAtTheirTimes) {
   }
 }
 
+// The mean speed is then the same between all poses.
+TEST(Spline, MeetsPosesAtTimesByLength) {
+  SplineOptions options = Fine(SplineEnds::kNatural, 7);
+  options.by_length = true;
+  const std::vector<Shape> poses = PosesAt(Tube(), {0, 60, 80, 120});
+  const auto [path, summary] = Spline(Tube().connectivity, poses, options);
+  EXPECT_LT(summary.jump_after, 0.02);
+  std::vector<double> lengths;
+  for (size_t i = 0; i + 1 < poses.size(); ++i) {
+    lengths.push_back(
+        std::sqrt(Interpolate(Tube().connectivity, {poses[i], poses[i + 1]}, options.geodesic)
+                      .summary.energy));
+  }
+  const double all = lengths[0] + lengths[1] + lengths[2];
+  // Lengths are in the unit of each metric, and metrics depend a little on the poses.
+  EXPECT_NEAR(path.parameters[path.poses[1]], lengths[0] / all, 0.02);
+  EXPECT_NEAR(path.parameters[path.poses[2]], (lengths[0] + lengths[1]) / all, 0.02);
+  options.times = {0, 1, 2, 3};
+  EXPECT_THROW(options.Validate(), InvalidOptions);
+  options.times.clear();
+  EXPECT_NE(MessageOf<InvalidOptions>([&] {
+              Spline(Tube().connectivity, PosesAt(Tube(), {0, 60, 60, 30}), options);
+            }).find("by_length: poses 2 and 3 are the same"),
+            std::string::npos);
+}
+
+// The chain has the least energy of all paths through the poses at evenly spaced times.
+TEST(Spline, TellsItsEnergy) {
+  const std::vector<Shape> poses = PosesAt(Tube(), {0, 60, 70, 120});
+  const SplineSummary smooth =
+      Spline(Tube().connectivity, poses, Fine(SplineEnds::kNatural, 15)).summary;
+  EXPECT_GT(smooth.energy, 1.01 * smooth.geodesic.energy);
+  EXPECT_LT(smooth.energy, 4 * smooth.geodesic.energy);
+  const SplineSummary chain =
+      Spline(Tube().connectivity, PosesAt(Tube(), {0, 60}), Fine(SplineEnds::kNatural, 7)).summary;
+  EXPECT_NEAR(chain.energy, chain.geodesic.energy, 1e-9 * chain.energy);
+}
+
 TEST(Spline, OfTwoPosesIsTheGeodesic) {
   const std::vector<Shape> poses = PosesAt(Tube(), {0, 90});
   const SplineOptions options = Fine(SplineEnds::kNatural);
@@ -232,7 +270,7 @@ TEST(Spline, RefusesWhatItCannotDo) {
   options.times = {0, 2, 1};
   EXPECT_NE(message(options).find("times: must be finite numbers in ascending"), std::string::npos);
   options.times = {0, 1};
-  EXPECT_NE(message(options).find("times: must be 3, not 2"), std::string::npos);
+  EXPECT_NE(message(options).find("times: must be 3, one for each pose, not 2"), std::string::npos);
   options = {};
   options.ends = SplineEnds::kClamped;
   EXPECT_NE(message(options).find("are needed for clamped ends"), std::string::npos);

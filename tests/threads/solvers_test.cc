@@ -1,12 +1,15 @@
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/tube.h>
 #include <shapespace/correspondence/correspondence.h>
 #include <shapespace/deformation/deformation.h>
+#include <shapespace/deformation/standing.h>
 #include <shapespace/exploration/explore.h>
 #include <shapespace/exponential/correction.h>
 #include <shapespace/exponential/exponential.h>
@@ -14,6 +17,7 @@
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/numerics/internal/minimise.h>
 #include <shapespace/path/energy.h>
+#include <shapespace/spline/spline.h>
 #include <shapespace/transfer/transfer.h>
 
 #include "solvers/exploration/spaces.h"
@@ -138,6 +142,23 @@ TEST(Transfer, IsTheSameForAnyNumberOfThreads) {
       EXPECT_TRUE(result.path.shapes == results[0].path.shapes);
       EXPECT_TRUE(result.hybrids.shapes == results[0].hybrids.shapes);
     }
+  }
+}
+
+TEST(Spline, IsTheSameForAnyNumberOfThreads) {
+  const ShapeFamily tube = MakeTube(3000);
+  const std::vector<Shape> poses = {tube.pose(0), tube.pose(40), tube.pose(20)};
+  std::vector<int> end(40);
+  std::iota(end.begin(), end.end(), 0);
+  SplineOptions options;
+  options.geodesic.shapes = 3;
+  const auto paths = testing::OnThreads([&] {
+    Path path = Spline(tube.connectivity, poses, options).path;
+    HoldStandingParts(path, {{"", end, {{0, 1}}}}, StandingDefaults(), &path);
+    return path;
+  });
+  for (const Path& path : paths) {
+    for (int i = 0; i < path.NumShapes(); ++i) EXPECT_EQ(path.Placed(i), paths[0].Placed(i)) << i;
   }
 }
 

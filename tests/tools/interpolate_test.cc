@@ -132,6 +132,61 @@ TEST_F(InterpolateTest, ThreePosesArePassedThrough) {
   }
 }
 
+TEST_F(InterpolateTest, SplinesAreSmoothAtThePoses) {
+  Succeed("shape-body",
+          {"tube", "--triangles", "300", "--at", "0,60,30,90", "--output", "tube%d.obj"});
+  const Strings poses = {"tube0.obj", "tube1.obj", "tube2.obj", "tube3.obj", "--shapes", "7"};
+  const auto run = [&](Strings flags) {
+    flags.insert(flags.begin(), poses.begin(), poses.end());
+    flags.insert(flags.end(), {"--output", "w.path", "--report", "-"});
+    const Outcome outcome = Run("shape-interpolate", flags);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out, nullptr, false);
+  };
+  for (const std::string ends : {"natural", "clamped", "not_a_knot", "periodic"}) {
+    const nlohmann::json report = run({"--spline", ends});
+    EXPECT_EQ(report["ends"], ends);
+    EXPECT_EQ(report["smooth"], true);
+    EXPECT_GT(report["jump_before"], 1.0);
+    EXPECT_LT(report["jump_after"], 0.2) << ends;
+    const shapespace::Path path = ReadPath(Path("w.path"));
+    EXPECT_TRUE(path.smooth);
+    const Strings names = {"tube0.obj", "tube1.obj", "tube2.obj", "tube3.obj", "tube0.obj"};
+    ASSERT_EQ(path.poses.size(), ends == "periodic" ? 5u : 4u);
+    for (size_t i = 0; i < path.poses.size(); ++i) {
+      EXPECT_LE(Apart(path.Placed(path.poses[i]), Vertices(names[i])), 1e-9) << ends << i;
+    }
+  }
+  run({"--spline", "natural", "--times", "0,1,3,8"});
+  EXPECT_NEAR(ReadPath(Path("w.path")).parameters[8], 0.125, 1e-12);
+  run({"--spline", "natural", "--times", "length"});
+  const std::vector<double> times = ReadPath(Path("w.path")).parameters;
+  EXPECT_GT(times[8] - times[0], 1.8 * (times[16] - times[8]));
+}
+
+TEST_F(InterpolateTest, PartsThatStandAreHeldInAllShapes) {
+  Succeed("shape-body",
+          {"tube", "--triangles", "300", "--at", "0,60,30", "--output", "tube%d.obj"});
+  const std::string parts =
+      R"([{"name": "root", "select": {"vertices": [[1, 12]]}, "poses": [1, 3]},
+          {"select": {"vertices": [[100, 110]]}, "poses": [[2, 3]]}])";
+  const Strings run = {"tube0.obj", "tube1.obj", "tube2.obj", "--shapes", "3",     "--spline",
+                       "natural",   "--anchor",  parts,       "--output", "w.path"};
+  const Outcome outcome = Run("shape-interpolate", run);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.out, "2 standing parts held in 6 shapes");
+  const shapespace::Path path = ReadPath(Path("w.path"));
+  ExpectContains(path.provenance, "; standing parts held");
+  // Half way from pose to pose the parts are half way between their places there.
+  const auto half = [&](int pose) -> Shape {
+    return (path.Placed(4 * pose) + path.Placed(4 * pose + 4)) / 2 - path.Placed(4 * pose + 2);
+  };
+  EXPECT_LT(half(0).middleCols(0, 12).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(half(1).middleCols(0, 12).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(half(1).middleCols(99, 11).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_GT(half(0).middleCols(99, 11).cwiseAbs().maxCoeff(), 1e-3);
+}
+
 TEST_F(InterpolateTest, GraphsStayGraphs) {
   // A straight stick of ten edges becomes an arc.
   std::string straight, bent, lines;

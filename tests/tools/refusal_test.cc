@@ -97,6 +97,23 @@ TEST_F(RefusalTest, WrongCommandLines) {
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     ExpectRefusal(2, arguments, {message});
   }
+  ExpectRefusal(2, {"tube0.obj", "tube1.obj", "--spline", "natural"},
+                {"--spline: needs three or more poses"});
+  ExpectRefusal(2, {"tube0.obj", "tube1.obj", "--times", "0,1"}, {"--times: goes with --spline"});
+  ExpectRefusal(2, {"tube0.obj", "tube1.obj", "--hold_limit", "2"},
+                {"--hold_limit: goes with --spline"});
+  const auto refuse_spline = [&](Strings flags, const char* message) {
+    flags.insert(flags.begin(), {"tube0.obj", "tube1.obj", "tube0.obj"});
+    ExpectRefusal(2, flags, {message});
+  };
+  refuse_spline({"--spline", "wavy"},
+                "--spline wavy: must be one of natural, clamped, not_a_knot, periodic");
+  refuse_spline({"--spline", "natural", "--times", "0,2,1"}, "--times 0,2,1: must be finite");
+  refuse_spline({"--spline", "natural", "--times", "0,2"}, "--times 0,2: must be 3, one for each pose, not 2");
+  refuse_spline({"--spline", "natural", "--times", "0,soon"}, "'soon' is not a number");
+  refuse_spline({"--spline", "natural", "--hold_limit=-1"}, "--hold_limit -1: must be");
+  refuse_spline({"--anchor", R"([{"select": {"vertices": [1]}, "poses": [1, 4]}])"},
+                "part 1: its intervals of poses must ascend, and there are 3 poses");
   ExpectRefusal(2, {"tube0.obj"}, {"name at least two poses"});
   ExpectRefusal(2, {}, {"name at least two poses"});
 }

@@ -254,6 +254,22 @@ describe('a path', () => {
     });
   });
 
+  test('energy jumps at the poses of a chain, and not on a smooth path', async () => {
+    await open('smooth', {}, async (page) => {
+      const plot = page.locator('.plot').first();
+      const heights = (series) =>
+        plot.locator(`.series-${series}`).evaluate((line) => [...line.points].map(({ y }) => y));
+      const steps = (values) => values.slice(1).map((y, i) => Math.abs(y - values[i]));
+      const [chain, spline] = [await heights(1), await heights(2)];
+      assert.equal(chain.length, 2 * 17 - 1);
+      assert.equal(spline.length, 16 + 2);
+      const sum = (values) => values.reduce((a, b) => a + b, 0);
+      const share = (values) => Math.max(...values) / sum(values);
+      assert.ok(share(steps(chain)) > 0.5, 'one step is most of the way');
+      assert.ok(share(steps(spline)) < 0.3, 'no step is much of the way');
+    });
+  });
+
   test('two stand side by side, seen by one camera', async () => {
     await open('two', {}, async (page) => {
       await page.locator('#canvas').focus();

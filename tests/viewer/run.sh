@@ -35,6 +35,10 @@ cd "$work/pages"
     "$bin/shape-view" $file --output "${file/./-}.html"
   done
   "$bin/shape-view" walk.path rigid.path --output two.html
+  "$bin/shape-body" quadruped --pose stand,sit,stretch --triangles 1000 --output 'step%d.obj'
+  "$bin/shape-interpolate" step?.obj --shapes 7 --output chain.path
+  "$bin/shape-interpolate" step?.obj --shapes 7 --spline natural --output spline.path
+  "$bin/shape-view" chain.path spline.path --output smooth.html
   "$bin/shape-body" quadruped --pose stand,sit,stretch,rear --triangles 1000 --output 'pose%d.obj'
   "$bin/shape-explore" pose?.obj --depth 1 --output poses.space
   "$bin/shape-view" poses.space --output poses.html

@@ -18,7 +18,8 @@ DEFINE_string(spline, "",
 DEFINE_string(
     times, "",
     "with --spline: when the poses are met, ascending and separated by commas; for "
-    "periodic splines one more, when the first pose is met again; default: evenly spaced");
+    "periodic splines one more, when the first pose is met again; or 'length', for times in "
+    "proportion to the lengths of the geodesics between the poses; default: evenly spaced");
 static const shapespace::tools::OptionFlags<shapespace::SplineOptions> flags(__FILE__,
                                                                              {{"hold_limit",
                                                                                "hold_limit"}});
@@ -36,7 +37,10 @@ std::optional<SplineOptions> SplineFromFlags(int num_poses, int num_vertices) {
   if (num_poses < 3 && options.ends != SplineEnds::kClamped) {
     throw UsageError("--spline: needs three or more poses; two give the geodesic, without it");
   }
-  if (!FLAGS_times.empty()) options.times = NumbersFromFlag("times", FLAGS_times);
+  options.by_length = FLAGS_times == "length";
+  if (!FLAGS_times.empty() && !options.by_length) {
+    options.times = NumbersFromFlag("times", FLAGS_times);
+  }
   if (options.ends == SplineEnds::kClamped) {
     options.first_velocity = options.last_velocity = Tangent::Zero(3, num_vertices);
   }

@@ -146,17 +146,32 @@ class Builder {
   internal::Skeleton skeleton_;
 };
 
-using Turns = std::vector<internal::Turn>;
+struct NamedPose {
+  std::vector<internal::Turn> turns;
+  bool mirrored = false;  // left and right are exchanged
+};
 
-const std::vector<std::pair<std::string, Turns>>& PoseTable() {
-  const auto all = [](const auto& turns) { return Turns(std::begin(turns), std::end(turns)); };
-  static const auto* const poses =
-      new std::vector<std::pair<std::string, Turns>>{{"stand", {}},
-                                                     {"stride", all(internal::kStride)},
-                                                     {"sit", all(internal::kSit)},
-                                                     {"stretch", all(internal::kStretch)},
-                                                     {"rear", all(internal::kRear)}};
+const std::vector<std::pair<std::string, NamedPose>>& PoseTable() {
+  const auto all = [](const auto& turns, bool mirrored = false) {
+    return NamedPose{{std::begin(turns), std::end(turns)}, mirrored};
+  };
+  static const auto* const poses = new std::vector<std::pair<std::string, NamedPose>>{
+      {"stand", {}},
+      {"stride", all(internal::kStride)},
+      {"sit", all(internal::kSit)},
+      {"stretch", all(internal::kStretch)},
+      {"rear", all(internal::kRear)},
+      {"pass", all(internal::kPass)},
+      {"other_stride", all(internal::kStride, true)},
+      {"other_pass", all(internal::kPass, true)}};
   return *poses;
+}
+
+std::string OnOtherSide(std::string bone) {
+  const size_t left = bone.find("left"), right = bone.find("right");
+  if (left != std::string::npos) return bone.replace(left, 4, "right");
+  if (right != std::string::npos) return bone.replace(right, 5, "left");
+  return bone;
 }
 
 bool IsPaw(const internal::Bone& bone) {
@@ -164,12 +179,14 @@ bool IsPaw(const internal::Bone& bone) {
 }
 
 /// A paw without a rotation in the pose remains level.
-internal::Rotations RotationsOf(const internal::Skeleton& skeleton, const Turns& turns) {
+internal::Rotations RotationsOf(const internal::Skeleton& skeleton, const NamedPose& pose) {
   internal::Rotations rotations(skeleton.bones.size(), Eigen::Vector3d::Zero());
   std::vector<bool> named(rotations.size(), false);
-  for (const internal::Turn& turn : turns) {
-    const int j = skeleton.Find(turn.bone);
-    rotations[j] = internal::kRadians * Eigen::Vector3d(turn.roll, turn.pitch, turn.yaw);
+  const int sideways = pose.mirrored ? -1 : 1;
+  for (const internal::Turn& turn : pose.turns) {
+    const int j = skeleton.Find(pose.mirrored ? OnOtherSide(turn.bone) : turn.bone);
+    rotations[j] =
+        internal::kRadians * Eigen::Vector3d(sideways * turn.roll, turn.pitch, sideways * turn.yaw);
     named[j] = true;
   }
   for (size_t j = 0; j < rotations.size(); ++j) {

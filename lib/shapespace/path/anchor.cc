@@ -4,12 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/path/internal/velocity.h>
 
 namespace shapespace {
 namespace {
@@ -60,32 +62,95 @@ Eigen::Matrix3d RotationOnto(const Shape& from, const Shape& to, const Eigen::Ve
   return svd.matrixV() * sign.asDiagonal() * svd.matrixU().transpose();
 }
 
-// The motion of a part from one pose to the next.
+// A rotation vector: the axis times the angle.
+Eigen::Vector3d Log(const Eigen::Matrix3d& rotation) {
+  const Eigen::AngleAxisd turn(rotation);
+  return turn.angle() * turn.axis();
+}
+
+Eigen::Matrix3d Exp(const Eigen::Vector3d& turn) {
+  const double angle = turn.norm();
+  if (angle == 0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+}
+
+// How fast a part moves at a pose, per unit of the path's parameter.
+struct PartVelocity {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
+};
+
+// The motion of a part from one pose to the next: at constant velocity, or on cubics.
 class PartMotion {
  public:
   PartMotion(const PlacedPart& first, const PlacedPart& last, const Eigen::VectorXd& weights)
-      : first_(first), last_(last), turn_(RotationOnto(first.points, last.points, weights)) {}
+      : first_(first),
+        last_(last),
+        length_(last.parameter - first.parameter),
+        turn_(Log(RotationOnto(first.points, last.points, weights))),
+        mean_{(last.centre - first.centre) / length_, turn_ / length_},
+        velocities_{mean_, mean_} {}
 
-  // The part at a time, which may lie beyond either pose. Its shape is interpolated between those
-  // in the two poses.
+  const PartVelocity& Mean() const { return mean_; }
+  void SetVelocities(const PartVelocity& first, const PartVelocity& last) {
+    velocities_ = {first, last};
+  }
+
+  // The part at a time, which may lie beyond either pose; it then goes on at constant velocity. Its
+  // shape is interpolated between those in the two poses.
   PlacedPart At(double parameter) const {
-    const double t = (parameter - first_.parameter) / (last_.parameter - first_.parameter);
-    const double share = std::clamp(t, 0.0, 1.0);
+    const double t = (parameter - first_.parameter) / length_;
+    const double share = std::clamp(t, 0.0, 1.0), beyond = (t - share) * length_;
+    const auto& [first, last] = velocities_;
+    const internal::EndSlopes slopes(share);
+    // What the velocities at the ends differ by from the mean velocity, in the part's own frame.
+    const Eigen::Vector3d slope = length_ * (slopes.first * (first.turn - mean_.turn) +
+                                             slopes.last * (Exp(-turn_) * last.turn - mean_.turn));
+    const PartVelocity& end = t > 1 ? last : first;
+    const Eigen::Matrix3d turned = Exp(beyond * end.turn) * Exp(share * turn_) * Exp(slope);
     PlacedPart part;
-    part.points =
-        (1 - share) * (Turned(t) * first_.points) + share * (Turned(t - 1) * last_.points);
-    part.centre = (1 - t) * first_.centre + t * last_.centre;
+    part.points = turned * ((1 - share) * first_.points + share * (Exp(-turn_) * last_.points));
+    part.centre = (1 - share) * first_.centre + share * last_.centre +
+                  length_ * (slopes.first * (first.centre - mean_.centre) +
+                             slopes.last * (last.centre - mean_.centre)) +
+                  beyond * end.centre;
     return part;
   }
 
  private:
-  Eigen::Matrix3d Turned(double t) const {
-    return Eigen::AngleAxisd(t * turn_.angle(), turn_.axis()).toRotationMatrix();
-  }
-
   const PlacedPart &first_, &last_;
-  const Eigen::AngleAxisd turn_;
+  const double length_;
+  const Eigen::Vector3d turn_;
+  const PartVelocity mean_;
+  std::pair<PartVelocity, PartVelocity> velocities_;  // at the two poses
 };
+
+// Shortens a velocity at a pose to three times the slower mean velocity beside it.
+Eigen::Vector3d Limited(const Eigen::Vector3d& velocity, double before, double after) {
+  const double most = 3 * std::min(before, after), speed = velocity.norm();
+  return speed > most ? Eigen::Vector3d(most / speed * velocity) : velocity;
+}
+
+// The velocity of the part at shape k of a smooth path, between the mean velocities beside it.
+PartVelocity VelocityAt(const Path& path, int k, const Part& part, const PartVelocity& before,
+                        const PartVelocity& after) {
+  const PlacedPart from = PartOf(path, std::max(0, k - 1), part);
+  const PlacedPart to = PartOf(path, std::min(path.NumShapes() - 1, k + 1), part);
+  const double length = to.parameter - from.parameter;
+  const Eigen::Vector3d turn = Log(RotationOnto(from.points, to.points, part.weights));
+  return {Limited((to.centre - from.centre) / length, before.centre.norm(), after.centre.norm()),
+          Limited(turn / length, before.turn.norm(), after.turn.norm())};
+}
+
+void SetVelocities(const Path& whole, const Part& part, std::vector<PartMotion>* motions) {
+  std::vector<PartVelocity> velocities;
+  const size_t count = motions->size();
+  for (size_t i = 0; i <= count; ++i) {
+    const PartVelocity& before = (*motions)[i > 0 ? i - 1 : 0].Mean();
+    const PartVelocity& after = (*motions)[i < count ? i : count - 1].Mean();
+    velocities.push_back(VelocityAt(whole, whole.poses[i], part, before, after));
+  }
+  for (size_t i = 0; i < count; ++i) (*motions)[i].SetVelocities(velocities[i], velocities[i + 1]);
+}
 
 // The required position of the part at a time, from its positions in the poses and the motions
 // between them.
@@ -122,6 +187,7 @@ void Anchor(const Path& whole, const std::vector<int>& vertices, Path* path) {
   for (size_t k = 0; k + 1 < poses.size(); ++k) {
     motions.emplace_back(poses[k], poses[k + 1], part.weights);
   }
+  if (whole.smooth && !motions.empty()) SetVelocities(whole, part, &motions);
   ParallelFor(path->NumShapes(), [&](int i) {
     if (std::binary_search(path->poses.begin(), path->poses.end(), i)) return;
     const PlacedPart now = PartOf(*path, i, part);

@@ -10,7 +10,10 @@ namespace shapespace {
 /// Moves each shape of a path rigidly so that the part made up of `vertices` (at least one, no
 /// repetitions) moves rigidly from its position in one pose to that in the next: its centroid on a
 /// straight line, with a rotation at constant speed about it. Where two poses have the part in the
-/// same position, it stands still between them. If the part is not rigid, this holds in the
+/// same position, it stands still between them. If the path is smooth, the part goes on cubics
+/// instead, with the path's own velocities at the poses, of which each is at most three times the
+/// slower mean velocity beside it, so that it also stands still between two poses that have it in
+/// the same position. If the part is not rigid, this holds in the
 /// area-weighted L2 sense (Procrustes). Motion that the part does not determine, such as the
 /// rotation about a single vertex, is unchanged. The poses do not move. Beyond the last of several
 /// poses the part continues its previous motion; with one pose it stays as in that pose, without

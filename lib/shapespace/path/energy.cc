@@ -395,4 +395,18 @@ double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& l
   return bound;
 }
 
+std::vector<double> SquaredLengths(const std::shared_ptr<const Metric>& metric,
+                                   const std::vector<Shape>& shapes) {
+  std::vector<double> lengths;
+  if (shapes.size() < 2) return lengths;
+  // For three shapes of which the last two are equal, the first segment has all of the energy.
+  PathEnergy energy(metric, 1);
+  std::vector<double> unknowns(energy.Size());
+  for (size_t i = 0; i + 1 < shapes.size(); ++i) {
+    energy.Load({shapes[i], shapes[i + 1], shapes[i + 1]}, unknowns.data());
+    lengths.push_back(energy.Evaluate(unknowns.data(), nullptr) / 2);
+  }
+  return lengths;
+}
+
 }  // namespace shapespace

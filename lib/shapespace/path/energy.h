@@ -112,6 +112,12 @@ class PathEnergy {
 /// bound is valid for the trapezoid too, which is never less than the midpoint form.
 double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& last, int segments);
 
+/// The squared length of each segment between consecutive `shapes` (metric's unit), in the form in
+/// which the metric has it; the energy is twice their sum.
+/// \throw MeshError on wrong sizes.
+std::vector<double> SquaredLengths(const std::shared_ptr<const Metric>& metric,
+                                   const std::vector<Shape>& shapes);
+
 /// An energy E of n segments is reported as E n / 2, which converges, as shapes are inserted, to
 /// the integral of the squared speed over the unit interval.
 inline double ScaledEnergy(double energy, int segments) { return 0.5 * segments * energy; }

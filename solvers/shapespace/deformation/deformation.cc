@@ -278,6 +278,7 @@ std::vector<Shape> Deformer::Solver::StartAt(const Shape& end, const Shape& plac
     ReportProgress(progress, "deforming", 0, 0);
     return true;
   };
+  level.MoveHandlesTo({{}, places}, &pair);
   level.Path().Relax(level.Target(places), minimise, &pair);
   if (options_.shapes == 1) return pair;
   GeodesicOptions geodesic;

@@ -7,21 +7,53 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/path/energy.h>
+#include <shapespace/path/internal/velocity.h>
 #include <shapespace/spline/internal/smooth_chain.h>
 
 namespace shapespace {
 namespace {
 
-// The times of the poses, from 0 to 1.
-std::vector<double> PoseTimes(const SplineOptions& options, int count) {
+// Of geodesics, as a share of the chain's length, up to which their ends are one pose.
+constexpr double kNoLength = 1e-6;
+
+// A path between two neighbouring poses.
+struct PieceMeasures {
+  double length = 0, energy = 0;
+};
+
+std::vector<PieceMeasures> MeasurePieces(const Path& path) {
+  const std::vector<double> squared = SquaredLengths(path.metric, path.shapes);
+  std::vector<PieceMeasures> pieces;
+  for (size_t i = 0; i + 1 < path.poses.size(); ++i) {
+    PieceMeasures& piece = pieces.emplace_back();
+    for (int k = path.poses[i]; k < path.poses[i + 1]; ++k) {
+      piece.length += std::sqrt(squared[k]);
+      piece.energy += squared[k] * (path.poses[i + 1] - path.poses[i]);
+    }
+  }
+  return pieces;
+}
+
+// The times of the chain's poses, from 0 to 1.
+std::vector<double> PoseTimes(const SplineOptions& options, const Path& chain) {
   std::vector<double> times = options.times;
-  if (times.empty()) {
-    for (int i = 0; i < count; ++i) times.push_back(i);
+  if (times.empty()) times.push_back(0);
+  if (options.by_length) {
+    const std::vector<PieceMeasures> pieces = MeasurePieces(chain);
+    double length = 0;
+    for (const PieceMeasures& piece : pieces) length += piece.length;
+    for (size_t i = 0; i < pieces.size(); ++i) {
+      if (!(pieces[i].length > kNoLength * length)) {
+        throw InvalidOptions("by_length", "poses " + std::to_string(i + 1) + " and " +
+                                              std::to_string(i + 2) +
+                                              " are the same up to a rigid motion, so that no time "
+                                              "is between them; give times");
+      }
+      times.push_back(times.back() + pieces[i].length);
+    }
   }
-  if (static_cast<int>(times.size()) != count) {
-    throw InvalidOptions(
-        "times", "must be " + std::to_string(count) + ", not " + std::to_string(times.size()));
-  }
+  while (times.size() < chain.poses.size()) times.push_back(times.back() + 1);
   const double first = times.front(), length = times.back() - first;
   for (double& t : times) t = (t - first) / length;
   return times;
@@ -37,12 +69,6 @@ void SetTimes(const std::vector<double>& times, Path* chain) {
     }
   }
   chain->parameters.back() = 1;
-}
-
-// The velocity beside shape `at` in the direction of `step`, -1 or 1; of second order.
-Shape OneSidedVelocity(const Path& path, int at, int step) {
-  const double dt = path.parameters[at + step] - path.parameters[at];
-  return (4 * path.Placed(at + step) - 3 * path.Placed(at) - path.Placed(at + 2 * step)) / (2 * dt);
 }
 
 // The greatest jump of velocity at a pose, as a share of the mean speed.
@@ -62,12 +88,12 @@ double GreatestJump(const Path& path, bool periodic) {
   double greatest = 0;
   for (size_t i = 1; i + 1 < path.poses.size(); ++i) {
     const int at = path.poses[i];
-    greatest =
-        std::max(greatest, norm(OneSidedVelocity(path, at, 1) - OneSidedVelocity(path, at, -1)));
+    greatest = std::max(greatest, norm(internal::OneSidedVelocity(path, at, 1) -
+                                       internal::OneSidedVelocity(path, at, -1)));
   }
   if (periodic) {
-    greatest = std::max(greatest, norm(OneSidedVelocity(path, 0, 1) -
-                                       OneSidedVelocity(path, path.NumShapes() - 1, -1)));
+    greatest = std::max(greatest, norm(internal::OneSidedVelocity(path, 0, 1) -
+                                       internal::OneSidedVelocity(path, path.NumShapes() - 1, -1)));
   }
   return greatest / way * path.parameters.back();
 }
@@ -81,6 +107,7 @@ void SplineOptions::Validate() const {
       throw InvalidOptions("times", "must be finite numbers in ascending order");
     }
   }
+  if (by_length && !times.empty()) throw InvalidOptions("by_length", "goes without times");
   if (!(hold_limit >= 0) || !std::isfinite(hold_limit)) {
     throw InvalidOptions("hold_limit", "must be a number, zero or more");
   }
@@ -107,7 +134,11 @@ SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
     }
     poses.push_back(given.front());
   }
-  const std::vector<double> times = PoseTimes(options, static_cast<int>(poses.size()));
+  if (!options.times.empty() && options.times.size() != poses.size()) {
+    throw InvalidOptions("times", "must be " + std::to_string(poses.size()) +
+                                      ", one for each pose, not " +
+                                      std::to_string(options.times.size()));
+  }
   for (const Tangent* velocity : {&options.first_velocity, &options.last_velocity}) {
     if (velocity->size() == 0) continue;
     if (velocity->cols() != connectivity->NumVertices() || !velocity->allFinite()) {
@@ -121,6 +152,7 @@ SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
   summary.geodesic = std::move(chain.summary);
   summary.ends = options.ends;
   summary.warnings = summary.geodesic.warnings;
+  const std::vector<double> times = PoseTimes(options, result.path);
   SetTimes(times, &result.path);
   summary.jump_before = summary.jump_after = GreatestJump(result.path, periodic);
   const bool straight = poses.size() == 2 && options.ends != SplineEnds::kClamped;
@@ -141,6 +173,7 @@ SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
     summary.warnings.push_back("stopped: the motion is the chain of geodesics, with corners");
   }
   result.path.converged = result.path.converged && summary.Converged();
+  for (const PieceMeasures& piece : MeasurePieces(result.path)) summary.energy += piece.energy;
   if (options.geodesic.assess) summary.quality = MeasureQuality(result.path);
   summary.total_seconds = total.Seconds();
   return result;

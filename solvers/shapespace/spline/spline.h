@@ -22,8 +22,12 @@ struct SplineOptions {
   SplineEnds ends = SplineEnds::kNatural;
 
   /// When the poses are met: ascending, in any unit of time, one for each pose, and for periodic
-  /// splines one more, when the first pose is met again. Empty: evenly spaced.
+  /// splines one more, when the first pose is met again. Empty: evenly spaced, or `by_length`.
   std::vector<double> times;
+
+  /// Without `times`, the time between two poses is in proportion to the length of the geodesic
+  /// between them, so that the mean speed is the same everywhere.
+  bool by_length = false;
 
   /// For kClamped, 3 x m, in the user's unit per unit of `times` (per interval, if these are
   /// empty).
@@ -51,6 +55,7 @@ struct SplineSummary {
   /// Greatest jump of velocity at a pose, as a share of the mean speed: of the chain, and of the
   /// spline. Measured on the shapes, so that it falls by 4 if their number doubles.
   double jump_before = 0, jump_after = 0;
+  double energy = 0;    ///< of the path returned, in the sense of `geodesic.energy`, the least
   PathQuality quality;  ///< of the path returned
   std::vector<std::string> warnings;
   double spline_seconds = 0, total_seconds = 0;
@@ -74,7 +79,8 @@ struct SplineResult {
 /// without triangles follow cubic splines in space. If `progress` asks to stop after the first
 /// solve has begun, the chain is returned, as far as it was found, and the summary says so.
 /// \throw as Interpolate; InvalidOptions (times that do not ascend or are not one for each pose;
-///        kClamped without velocities), MeshError (kPeriodic if the last pose is the first).
+///        kClamped without velocities; `by_length`, and two neighbouring poses are the same),
+///        MeshError (kPeriodic if the last pose is the first).
 SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
                     const std::vector<Shape>& poses, const SplineOptions& options = {},
                     Progress* progress = nullptr);

@@ -144,6 +144,7 @@ function toPath(name: string, { scene, animations }: GLTF): PathScene {
     ...measureDeviations(body),
     parameters: moments.map((moment) => moment / (moments[moments.length - 1] || 1)),
     poses: [],
+    smooth: false,
     metric: '',
     speeds: moments.slice(1).map(() => null),
   };

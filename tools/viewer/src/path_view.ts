@@ -52,6 +52,18 @@ function showColours(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): 
   });
 }
 
+/** The squared speed: of a smooth path in the middle of every segment, of another one where it begins. */
+function energyPoints(scene: PathScene): [number, number][] {
+  const speeds = scene.speeds as number[];
+  const [first, last] = [speeds[0], speeds[speeds.length - 1]];
+  if (!scene.smooth) return [...speeds, last].map((speed, k) => [placeOf(scene, k), speed]);
+  const inner = speeds.map((speed, k): [number, number] => [
+    (placeOf(scene, k) + placeOf(scene, k + 1)) / 2,
+    speed,
+  ]);
+  return [[0, first], ...inner, [1, last]];
+}
+
 function showPlots(scenes: PathScene[], onSeek: (place: number) => void): Plot[] {
   const parent = byId('plots');
   const plots: Plot[] = [];
@@ -63,12 +75,9 @@ function showPlots(scenes: PathScene[], onSeek: (place: number) => void): Plot[]
     .filter(({ scene }) => scene.speeds.every((speed) => speed !== null))
     .map(({ scene, i }) => ({
       name: `${prefix(i)}energy`,
-      points: [...scene.speeds, scene.speeds[scene.speeds.length - 1]].map((speed, k) => [
-        placeOf(scene, k),
-        speed!,
-      ]),
+      points: energyPoints(scene),
       colour: colour(i),
-      steps: true,
+      steps: !scene.smooth,
     }));
   if (energies.length > 0) {
     plots.push(new Plot(parent, 'Energy (squared speed)', energies, poses, shortNumber, onSeek));

@@ -24,6 +24,8 @@ export interface PathScene extends Body {
   kind: 'path';
   parameters: number[];
   poses: number[];
+  /** Whether the velocity does not jump at the poses. */
+  smooth: boolean;
   metric: string;
   /** Squared speed of every segment; null where it is not known. */
   speeds: (number | null)[];

@@ -33,6 +33,25 @@ constexpr Turn kStride[] = {{"neck", 6},
                             {"hind right lower", 14},
                             {"hind right cannon", -10}};
 
+// Half way from a stride to its mirror image: one front leg and the other hind leg swing.
+constexpr Turn kPass[] = {{"neck", 4},
+                          {"nape", 4},
+                          {"head", -4},
+                          {"tail root", 26},
+                          {"tail", 10},
+                          {"tail tip", 16},
+                          {"front left upper", -4},
+                          {"front right upper", -26},
+                          {"front right lower", 52},
+                          {"front right cannon", 24},
+                          {"front right paw", 16},
+                          {"hind left upper", -16},
+                          {"hind left lower", 40},
+                          {"hind left cannon", -36},
+                          {"hind left paw", 20},
+                          {"hind right upper", 2},
+                          {"hind right lower", 4}};
+
 constexpr Turn kSit[] = {{"pelvis", -46},
                          {"loin", 4},
                          {"chest", 4},

@@ -194,16 +194,10 @@ void AppendDeviations(const Path& path, OrderedJson* header, std::string* bytes)
 
 // The squared speed in every segment.
 std::vector<double> SquaredSpeeds(const Path& path) {
-  std::vector<double> speeds;
-  if (path.NumShapes() < 2) return speeds;
-  // For three shapes of which the last two are equal, the first segment has all of the energy,
-  // which is twice the squared distance, whatever the metric.
-  PathEnergy energy(path.metric, 1);
-  std::vector<double> unknowns(energy.Size());
-  for (int i = 0; i + 1 < path.NumShapes(); ++i) {
-    energy.Load({path.shapes[i], path.shapes[i + 1], path.shapes[i + 1]}, unknowns.data());
+  std::vector<double> speeds = SquaredLengths(path.metric, path.shapes);
+  for (size_t i = 0; i < speeds.size(); ++i) {
     const double time = path.parameters[i + 1] - path.parameters[i];
-    speeds.push_back(energy.Evaluate(unknowns.data(), nullptr) / (2 * time * time));
+    speeds[i] /= time * time;
   }
   return speeds;
 }
@@ -305,6 +299,7 @@ std::string EncodeScene(const PagePath& scene) {
   AppendConnectivity(connectivity, &header, &arrays);
   header["parameters"] = path.parameters;
   header["poses"] = path.poses;
+  header["smooth"] = path.smooth;
   header["metric"] = DescribeMetric(path.metric->options);
   header["speeds"] = SquaredSpeeds(path);
   const std::vector<Shape> shapes = path.Placed();

@@ -5,6 +5,7 @@
 #include <shapespace/base/internal/fields.h>
 #include <shapespace/deformation/deformation.h>
 #include <shapespace/deformation/repair.h>
+#include <shapespace/deformation/standing.h>
 #include <shapespace/numerics/internal/report.h>
 
 // The fields of summaries (base/internal/fields.h).
@@ -67,6 +68,20 @@ void ForFields(Of<RepairSummary>, const Visit& visit) {
   visit("before", &RepairSummary::before);
   visit("after", &RepairSummary::after);
   visit("moved", &RepairSummary::moved);
+}
+
+template <typename Visit>
+void ForFields(Of<StandingSummary>, const Visit& visit) {
+  visit("termination", &StandingSummary::termination);
+  visit("converged", &StandingSummary::Converged);
+  visit("parts", &StandingSummary::parts);
+  visit("shapes", &StandingSummary::shapes);
+  visit("slide_before", &StandingSummary::slide_before);
+  visit("slide", &StandingSummary::slide);
+  visit("drift", &StandingSummary::drift);
+  visit("edge_rms", &StandingSummary::edge_rms);
+  visit("warnings", &StandingSummary::warnings);
+  visit("seconds", &StandingSummary::seconds);
 }
 
 }  // namespace shapespace::internal

@@ -10,6 +10,8 @@
 namespace shapespace::internal {
 namespace {
 
+constexpr double kPlace = 1e-4;
+
 Eigen::SparseMatrix<double> Matrix(int num_vertices,
                                    const std::vector<GradientIntegrator::Side>& sides,
                                    double place) {
@@ -27,8 +29,10 @@ Eigen::SparseMatrix<double> Matrix(int num_vertices,
 
 }  // namespace
 
-GradientIntegrator::GradientIntegrator(int num_vertices, std::vector<Side> sides, double place)
-    : sides_(std::move(sides)), place_(place), factor_(Matrix(num_vertices, sides_, place)) {}
+GradientIntegrator::GradientIntegrator(int num_vertices, std::vector<Side> sides)
+    : sides_(std::move(sides)),
+      place_(kPlace / num_vertices),
+      factor_(Matrix(num_vertices, sides_, place_)) {}
 
 std::vector<GradientIntegrator::Side> GradientIntegrator::SidesWithoutTriangles(
     const Connectivity& connectivity) {

@@ -12,8 +12,10 @@
 namespace shapespace::internal {
 
 /// The shape whose sides are nearest to given vectors: the minimum of
-///   sum_i w_i |p_b - p_a - side_i|^2 + place sum_v |p_v - q_v|^2
-/// over all sides i from a to b. Its matrix is the same for all vectors and is factored once.
+///   sum_i w_i |p_b - p_a - side_i|^2 + e / n sum_v |p_v - q_v|^2
+/// over all sides i from a to b and all n vertices, with an e (1e-4) so small that the wanted
+/// positions q determine where components are, and have no visible effect otherwise. Its matrix is
+/// the same for all vectors and is factored once.
 class GradientIntegrator {
  public:
   struct Side {
@@ -21,8 +23,7 @@ class GradientIntegrator {
     double weight;
   };
 
-  /// `place` is the weight of the vertices' wanted positions q; it must be positive.
-  GradientIntegrator(int num_vertices, std::vector<Side> sides, double place);
+  GradientIntegrator(int num_vertices, std::vector<Side> sides);
 
   /// The edges with an end in no triangle, with weight 1.
   static std::vector<Side> SidesWithoutTriangles(const Connectivity& connectivity);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <shapespace/path/internal/velocity.h>
+
 namespace shapespace::internal {
 namespace {
 
@@ -146,8 +148,9 @@ Corrections::Corrections(std::vector<Interval> intervals, SplineEnds ends, doubl
 
 Columns Corrections::At(int interval, double s) const {
   const Interval& i = intervals_[interval];
-  return s * (1 - s) * (1 - s) * (i.length * velocities_[interval] - i.first_velocity) -
-         s * s * (1 - s) * (i.length * velocities_[interval + 1] - i.last_velocity);
+  const EndSlopes slopes(s);
+  return slopes.first * (i.length * velocities_[interval] - i.first_velocity) +
+         slopes.last * (i.length * velocities_[interval + 1] - i.last_velocity);
 }
 
 }  // namespace shapespace::internal

@@ -26,6 +26,9 @@ void ForOptions(Of<SplineOptions>, const Visit& visit) {
   visit("times", &SplineOptions::times,
         "When the poses are met, in ascending order and any unit; for periodic splines one more "
         "than there are poses. None: evenly spaced.");
+  visit("by_length", &SplineOptions::by_length,
+        "Without times, the time between two poses is in proportion to the length of the geodesic "
+        "between them, so that the mean speed is the same everywhere.");
   visit("first_velocity", &SplineOptions::first_velocity,
         "Of the vertices, for clamped ends, per unit of time; without times, per interval.");
   visit("last_velocity", &SplineOptions::last_velocity, "Likewise, at the last pose.");

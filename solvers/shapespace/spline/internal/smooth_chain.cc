@@ -16,8 +16,6 @@ namespace {
 // Triangles whose area is less than this share of their longest side's square, in any shape, keep
 // the chain's rotation and stretch.
 constexpr double kThin = 1e-6;
-// Weight of positions: it only determines where components are.
-constexpr double kPlace = 1e-4;
 
 // How far a quantity goes in an interval, and how fast at its ends, from its `segments` steps.
 class Course {
@@ -55,7 +53,7 @@ class Smoother {
         num_triangles_(static_cast<int>(triangles_.cols())),
         num_vertices_(path.metric->connectivity->NumVertices()),
         reference_(num_triangles_, Eigen::Matrix2d::Zero()),
-        integrator_(num_vertices_, MakeSides(), kPlace / num_vertices_),
+        integrator_(num_vertices_, MakeSides()),
         corrections_(MakeCorrections(options, times)) {}
 
   // Shape `k` of the path, at `s` of an interval, corrected.

@@ -16,6 +16,7 @@ void ForFields(Of<SplineSummary>, const Visit& visit) {
   visit("smooth", &SplineSummary::smooth);
   visit("jump_before", &SplineSummary::jump_before);
   visit("jump_after", &SplineSummary::jump_after);
+  visit("energy", &SplineSummary::energy);
   visit("quality", &SplineSummary::quality);
   visit("geodesic", &SplineSummary::geodesic);
   visit("spline_seconds", &SplineSummary::spline_seconds);

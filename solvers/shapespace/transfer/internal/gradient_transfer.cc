@@ -13,9 +13,6 @@ namespace {
 // Lower limits of a triangle's area: this share of its longest side's square, and of the mean area.
 // Thinner triangles, on either body, and smaller ones are less reliable.
 constexpr double kSliver = 1e-2, kSmall = 1e-3;
-// Weight of the vertices' positions relative to the deformation gradients. It only determines the
-// position of components, and is too small to have a visible effect otherwise.
-constexpr double kPlace = 1e-4;
 
 }  // namespace
 
@@ -55,8 +52,7 @@ GradientTransfer::GradientTransfer(std::shared_ptr<const Connectivity> connectiv
   for (const auto& side : GradientIntegrator::SidesWithoutTriangles(*connectivity_)) {
     sides.push_back(side);
   }
-  integrator_ =
-      std::make_unique<GradientIntegrator>(num_vertices, std::move(sides), kPlace / num_vertices);
+  integrator_ = std::make_unique<GradientIntegrator>(num_vertices, std::move(sides));
 }
 
 Shape GradientTransfer::operator()(const Shape& deformed) const {
