@@ -80,11 +80,12 @@ class ModuleRun:
         options = {"metric": task.metric}
         if task.steps:
             options["tolerance"] = _EXTRAPOLATION_TOLERANCE
+        if task.ends:
+            options["ends"] = task.ends
+        solve = module.spline if task.ends else module.interpolate
         path = None
         if task.shapes:
-            path = self._take(
-                module.interpolate(poses, shapes=task.shapes, progress=self._hear, **options)
-            )
+            path = self._take(solve(poses, shapes=task.shapes, progress=self._hear, **options))
             if task.steps:
                 path = self._take(module.extrapolate(path, task.steps, progress=self._hear))
         for target in task.targets:

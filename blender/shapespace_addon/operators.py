@@ -7,7 +7,7 @@ import bpy
 
 from . import progress
 from .problem import Problem
-from .settings import ExtrapolationSettings, MotionSettings, TransferSettings
+from .settings import ExtrapolationSettings, MotionSettings, SmoothSettings, TransferSettings
 from .work import InBetweens, Transfer
 
 _SECONDS_BETWEEN_POLLS = 0.1
@@ -89,7 +89,7 @@ class _Operation(MotionSettings):
             return {"CANCELLED"}
 
 
-class SHAPESPACE_OT_inbetweens(_Operation, bpy.types.Operator):
+class SHAPESPACE_OT_inbetweens(_Operation, SmoothSettings, bpy.types.Operator):
     """Insert shapes between poses, such that the mesh is distorted least on the way. The poses are
     the shape keys of the active object, or the selected objects in the order of their names"""
 

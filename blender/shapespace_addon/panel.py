@@ -29,6 +29,10 @@ class SHAPESPACE_PT_panel(bpy.types.Panel):
         frames.prop(settings, "frame_start")
         frames.prop(settings, "frame_step", text="Step")
         column.separator()
+        column.prop(settings, "smooth")
+        cyclic = column.row()
+        cyclic.enabled = settings.smooth
+        cyclic.prop(settings, "cyclic")
         _button(column, "shapespace.inbetweens", "IPO_EASE_IN_OUT", settings)
         column.separator()
         column.prop(settings, "steps")

@@ -56,6 +56,18 @@ class MotionSettings:
     )
 
 
+class SmoothSettings:
+    smooth: BoolProperty(
+        name="Smooth",
+        description="Pass through the poses without changing the velocity suddenly. Needs three or"
+        " more poses",
+    )
+    cyclic: BoolProperty(
+        name="Cyclic",
+        description="With Smooth: go on from the last pose to the first, as a walk does",
+    )
+
+
 class ExtrapolationSettings:
     steps: IntProperty(
         name="Beyond",
@@ -74,7 +86,11 @@ class TransferSettings:
 
 
 class SHAPESPACE_settings(
-    MotionSettings, ExtrapolationSettings, TransferSettings, bpy.types.PropertyGroup
+    MotionSettings,
+    SmoothSettings,
+    ExtrapolationSettings,
+    TransferSettings,
+    bpy.types.PropertyGroup,
 ):
     """All settings of a scene."""
 

@@ -41,7 +41,7 @@ def add_poses(item, names: list, shapes) -> list:
 def add_motion(item, shapes: np.ndarray, poses: dict, timing, transferred=()) -> list:
     """Shape keys for the shapes of a motion that are no poses, and keyframes for all.
 
-    `poses` has the names of the keys of those that are. What an earlier run added is replaced;
+    `poses` has the names of the keys of those that are, which may be the same. What an earlier run added is replaced;
     poses that were transferred stay, unless these are others. Returns what is worth saying.
     """
     shape_keys = item.data.shape_keys
@@ -54,12 +54,12 @@ def add_motion(item, shapes: np.ndarray, poses: dict, timing, transferred=()) ->
         for index, shape in enumerate(shapes)
         if index not in poses
     }
+    shown = [(index, name) for index, name in sorted({**poses, **made}.items()) if name != basis]
     replaced = []
-    for index, name in sorted({**poses, **made}.items()):
-        if name == basis:
-            continue
+    for name in dict.fromkeys(name for _, name in shown):
         if animation.remove_keyframes(blocks[name]) and not earlier:
             replaced.append(f"'{name}'")
+    for index, name in shown:
         animation.peak(blocks[name], index, len(shapes), timing.start, timing.step)
     record.write(
         shape_keys, list(made.values()), list(transferred) or record.transferred(shape_keys)

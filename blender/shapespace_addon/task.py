@@ -22,6 +22,7 @@ class Task:
     shapes: int  # between neighbouring poses; 0, which only a transfer may have: poses alone
     metric: str  # a preset of the metric
     steps: int = 0  # beyond the last pose
+    ends: str = ""  # of a spline, "natural" or "periodic"; else a chain of geodesics
     targets: list = field(default_factory=list)  # bodies of one pose each
 
 

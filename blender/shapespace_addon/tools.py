@@ -140,7 +140,8 @@ def _commands(task: Task, poses: list, targets: list, programs: dict) -> list:
         if task.steps:
             steps = ["--steps", str(task.steps)]
             return [[programs["shape-extrapolate"], *poses, *inserted, *steps, *output]]
-        return [[programs["shape-interpolate"], *poses, *inserted, *output]]
+        spline = ["--spline", task.ends] if task.ends else []
+        return [[programs["shape-interpolate"], *poses, *inserted, *spline, *output]]
     commands = []
     if task.shapes:
         commands.append([programs["shape-interpolate"], *poses, *inserted, "--output", _SOURCE])

@@ -133,12 +133,22 @@ class InBetweens(Work):
             shape_keys.require_free(item, self._bodies[0].names)
 
     def _task(self) -> Task:
+        (poses,) = self._bodies
+        ends = self._ends()
+        if ends == "natural" and len(poses.shapes) < 3:
+            raise Problem("Smooth needs three or more poses: turn it off, or add a pose")
         return Task(
-            _body(self._bodies[0]),
+            _body(poses),
             self._settings.shapes,
             self._settings.metric,
             steps=getattr(self._settings, "steps", 0),
+            ends=ends,
         )
+
+    def _ends(self) -> str:
+        if not getattr(self._settings, "smooth", False):
+            return ""
+        return "periodic" if self._settings.cyclic else "natural"
 
     def _place(self, context, i: int, motion) -> list:
         first, *others = self._items()
@@ -174,7 +184,9 @@ class InBetweens(Work):
         return notes
 
     def _at(self, names: list) -> dict:
-        """The poses' names by their numbers in the motion."""
+        """The poses' names by their numbers in the motion, which may end with the first."""
+        if names and self._ends() == "periodic":
+            names = [*names, names[0]]
         return {pose * (self._settings.shapes + 1): name for pose, name in enumerate(names)}
 
     def _new_name(self) -> str:

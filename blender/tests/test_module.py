@@ -44,6 +44,7 @@ class Module(Case):
         for operator, settings in (
             (bpy.ops.shapespace.inbetweens, {"shapes": 3}),
             (bpy.ops.shapespace.inbetweens, {"shapes": 3, "metric": "rigid"}),
+            (bpy.ops.shapespace.inbetweens, {"shapes": 3, "smooth": True, "cyclic": True}),
             (bpy.ops.shapespace.extrapolate, {"shapes": 3, "steps": 2}),
         ):
             self.near(*self.both(animal, operator, **settings))

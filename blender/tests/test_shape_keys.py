@@ -198,6 +198,56 @@ class ShapeKeys(Case):
             self.near(seen(cube, 1 + i), frame)
         self.near(seen(cube, -5), bent_cube())
 
+    def walk(self, **settings):
+        """Stand, sit and stretch with in-betweens, the poses, and what is seen at each frame."""
+        poses, faces = self.quadruped("stand", "sit", "stretch")
+        animal = add_object("animal", poses[0], faces)
+        for name, pose in zip(("sit", "stretch"), poses[1:]):
+            add_key(animal, name, pose)
+        bpy.ops.shapespace.inbetweens(shapes=7, **settings)
+        last = 24 if settings.get("cyclic") else 16
+        return poses, [seen(animal, 1 + i) for i in range(last + 1)]
+
+    def jump(self, frames, before, after):
+        """The jump of velocity between two frames that show one pose, over the mean speed."""
+        arriving = 3 * frames[before] - 4 * frames[before - 1] + frames[before - 2]
+        leaving = 4 * frames[after + 1] - 3 * frames[after] - frames[after + 2]
+        way = sum(np.linalg.norm(b - a) for a, b in zip(frames, frames[1:]))
+        return np.linalg.norm(leaving - arriving) / 2 / (way / (len(frames) - 1))
+
+    def test_smooth_motion_does_not_jump_at_the_poses(self):
+        _, frames = self.walk()
+        self.assertGreater(self.jump(frames, 8, 8), 0.5)
+        poses, frames = self.walk(smooth=True)
+        self.assertLess(self.jump(frames, 8, 8), 0.2)
+        for i, pose in enumerate(poses):
+            self.near(frames[8 * i], pose)
+
+    def test_cyclic_motion_ends_as_it_begins(self):
+        poses, frames = self.walk(smooth=True, cyclic=True)
+        self.near(frames[24], poses[0])
+        for end in ((8, 8), (16, 16), (24, 0)):
+            self.assertLess(self.jump(frames, *end), 0.3)
+
+    def test_cyclic_motion_may_begin_with_a_key(self):
+        poses, faces = self.quadruped("stand", "sit", "stretch")
+        animal = add_object("animal", np.zeros_like(poses[0]) + poses[1], faces)
+        for name, pose in zip(("a", "b", "c"), poses):
+            add_key(animal, name, pose)
+        bpy.ops.shapespace.inbetweens(shapes=3, use_basis=False, smooth=True, cyclic=True)
+        for frame, pose in ((1, 0), (5, 1), (9, 2), (13, 0)):
+            self.near(seen(animal, frame), poses[pose])
+        self.assertGreater(np.abs(seen(animal, 7) - poses[0]).max(), 0.01)
+
+    def test_smooth_motion_needs_three_poses(self):
+        cube = add_object("cube", CUBE, CUBE_FACES)
+        add_key(cube, "bent", bent_cube())
+        operator = bpy.ops.shapespace.inbetweens
+        self.refused("Smooth needs three or more poses", operator, shapes=3, smooth=True)
+        operator(shapes=3, smooth=True, cyclic=True)
+        for frame, shape in ((1, CUBE), (5, bent_cube()), (9, CUBE)):
+            self.near(seen(cube, frame), shape)
+
     def test_extrapolation_goes_on_as_the_tool_does(self):
         (stand, rear), faces = self.quadruped("stand", "rear")
         animal = add_object("animal", stand, faces)

@@ -34,7 +34,9 @@ std::optional<SplineOptions> SplineFromFlags(int num_poses, int num_vertices) {
   }
   SplineOptions options;
   options.ends = EnumFromFlag<SplineEnds>("spline", FLAGS_spline);
-  if (num_poses < 3 && options.ends != SplineEnds::kClamped) {
+  const bool needs_three =
+      options.ends == SplineEnds::kNatural || options.ends == SplineEnds::kNotAKnot;
+  if (num_poses < 3 && needs_three) {
     throw UsageError("--spline: needs three or more poses; two give the geodesic, without it");
   }
   options.by_length = FLAGS_times == "length";
