@@ -12,6 +12,7 @@
 #include <shapespace/deformation/deformation.h>
 #include <shapespace/exponential/transport.h>
 #include <shapespace/geodesic/geodesic.h>
+#include <shapespace/spline/spline.h>
 #include <shapespace/transfer/transfer.h>
 
 #include "support/listener.h"
@@ -77,6 +78,15 @@ struct Calls {
       return Interpolate(metric, {straight, bent}, options, progress).summary.estimated_bytes;
     };
   }
+  Call Smoothing() const {
+    return [this](double limit, Progress* progress) {
+      SplineOptions options;
+      options.geodesic.shapes = 1;
+      options.geodesic.memory_limit = limit;
+      return Spline(bar.connectivity, {straight, bent, straight}, options, progress)
+          .summary.estimated_bytes;
+    };
+  }
   Call InterpolatingBetween() const {
     return [this](double limit, Progress* progress) {
       GeodesicOptions options;
@@ -98,6 +108,7 @@ TEST(MemoryLimit, IsKeptByAllSolvers) {
            {"correspondence", calls.Corresponding()},
            {"deformation", calls.Deforming()},
            {"geodesic", calls.Interpolating()},
+           {"spline", calls.Smoothing()},
            {"geodesic between", calls.InterpolatingBetween()}}) {
     SCOPED_TRACE(name);
     const double needed = call(std::numeric_limits<double>::infinity(), nullptr);

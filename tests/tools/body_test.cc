@@ -40,7 +40,9 @@ TEST_F(BodyToolTest, WritesOneFileAValue) {
 
 TEST_F(BodyToolTest, ListsPosesAndProportions) {
   const Outcome outcome = Run("shape-body", {});
-  ExpectContains(outcome.out, "poses of quadruped: stand, stride, sit, stretch, rear\n");
+  ExpectContains(outcome.out,
+                 "poses of quadruped: stand, stride, sit, stretch, rear, pass, "
+                 "other_stride, other_pass\n");
   ExpectContains(outcome.out, "proportions of quadruped: normal, long, short, heavy\n");
 }
 
@@ -62,7 +64,7 @@ TEST_F(BodyToolTest, RefusesWhatItCannotMake) {
   } cases[] = {
       {{"spoon"}, "no body is called 'spoon'; known are tube"},
       {{"tube", "bar"}, "name one body"},
-      {{"quadruped", "--pose", "fly"}, "'fly'; known are stand, stride, sit, stretch, rear"},
+      {{"quadruped", "--pose", "fly"}, "'fly'; known are stand, stride, sit, stretch, rear, pass,"},
       {{"quadruped", "--pose", "sit", "--proportions", "huge"},
        "'huge'; known are normal, long, short, heavy"},
       {{"quadruped", "--proportions", "long"}, "--proportions needs --pose"},

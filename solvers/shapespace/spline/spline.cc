@@ -7,6 +7,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/numerics/internal/memory.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/internal/velocity.h>
 #include <shapespace/spline/internal/smooth_chain.h>
@@ -146,11 +147,15 @@ SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
                            "must be finite, with a column for each vertex");
     }
   }
+  const double bytes =
+      internal::SplineBytes(*connectivity, static_cast<int>(poses.size()), options.geodesic.shapes);
+  internal::CheckMemory("this spline", bytes, options.geodesic.memory_limit, "insert fewer shapes");
   GeodesicResult chain = Interpolate(connectivity, poses, options.geodesic, progress);
   SplineResult result{std::move(chain.path), {}};
   SplineSummary& summary = result.summary;
   summary.geodesic = std::move(chain.summary);
   summary.ends = options.ends;
+  summary.estimated_bytes = std::max(bytes, summary.geodesic.estimated_bytes);
   summary.warnings = summary.geodesic.warnings;
   const std::vector<double> times = PoseTimes(options, result.path);
   SetTimes(times, &result.path);

@@ -58,6 +58,7 @@ struct SplineSummary {
   double energy = 0;    ///< of the path returned, in the sense of `geodesic.energy`, the least
   PathQuality quality;  ///< of the path returned
   std::vector<std::string> warnings;
+  double estimated_bytes = 0;  ///< of memory, before the solve
   double spline_seconds = 0, total_seconds = 0;
 
   bool Converged() const { return geodesic.termination == Termination::kConverged; }

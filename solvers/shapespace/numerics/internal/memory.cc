@@ -64,6 +64,15 @@ double GeodesicBytes(const Metric& metric, int poses, int shapes) {
          PathEnergy::EstimateBytes(metric, shapes);
 }
 
+double SplineBytes(const Connectivity& connectivity, int poses, int shapes) {
+  constexpr double kIntegrator = 3000;  // matrix and factor, per vertex, and sides
+  const double vertices = connectivity.NumVertices();
+  const double quantities = 2.0 * connectivity.NumTriangles() + vertices;
+  const double all_shapes = poses + (poses - 1.0) * shapes;
+  // Of each quantity its way and velocities in every interval, and the system for its velocities.
+  return kShape * (6.0 * poses * quantities + 2 * all_shapes * vertices) + kIntegrator * vertices;
+}
+
 double DeformationBytes(const Metric& metric, int shapes) {
   const double unknowns = 3.0 * metric.connectivity->NumVertices() * shapes;
   const double vectors = HistoryRank(unknowns) + 18.0;  // with shapes and data derived from them

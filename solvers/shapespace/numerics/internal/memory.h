@@ -25,6 +25,9 @@ void CheckMemory(const std::string& call, double bytes, double memory_limit,
 /// A geodesic through `poses` poses, with `shapes` between two of them.
 double GeodesicBytes(const Metric& metric, int poses, int shapes);
 
+/// The correction of a chain of geodesics to a spline; the chain itself is `GeodesicBytes`.
+double SplineBytes(const Connectivity& connectivity, int poses, int shapes);
+
 /// A deformation with `shapes` shapes after the first.
 double DeformationBytes(const Metric& metric, int shapes);
 

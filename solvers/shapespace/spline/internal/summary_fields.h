@@ -19,6 +19,7 @@ void ForFields(Of<SplineSummary>, const Visit& visit) {
   visit("energy", &SplineSummary::energy);
   visit("quality", &SplineSummary::quality);
   visit("geodesic", &SplineSummary::geodesic);
+  visit("estimated_bytes", &SplineSummary::estimated_bytes);
   visit("spline_seconds", &SplineSummary::spline_seconds);
   visit("total_seconds", &SplineSummary::total_seconds);
   visit("warnings", &SplineSummary::warnings);
