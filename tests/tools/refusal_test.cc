@@ -109,7 +109,8 @@ TEST_F(RefusalTest, WrongCommandLines) {
   refuse_spline({"--spline", "wavy"},
                 "--spline wavy: must be one of natural, clamped, not_a_knot, periodic");
   refuse_spline({"--spline", "natural", "--times", "0,2,1"}, "--times 0,2,1: must be finite");
-  refuse_spline({"--spline", "natural", "--times", "0,2"}, "--times 0,2: must be 3, one for each pose, not 2");
+  refuse_spline({"--spline", "natural", "--times", "0,2"},
+                "--times 0,2: must be 3, one for each pose, not 2");
   refuse_spline({"--spline", "natural", "--times", "0,soon"}, "'soon' is not a number");
   refuse_spline({"--spline", "natural", "--hold_limit=-1"}, "--hold_limit -1: must be");
   refuse_spline({"--anchor", R"([{"select": {"vertices": [1]}, "poses": [1, 4]}])"},
