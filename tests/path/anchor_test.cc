@@ -209,6 +209,25 @@ TEST(Anchor, OnASmoothPathThePartMovesSmoothlyAndStillStands) {
   }
 }
 
+TEST(Anchor, OnASmoothCycleThePartMovesSmoothlyWhereTheCycleCloses) {
+  const Soup grid = Grid(4, 4);
+  const int segments = 96;
+  std::vector<Shape> shapes;
+  for (int i = 0; i <= segments; ++i) {
+    const double t = 2 * M_PI * i / segments;
+    shapes.push_back((Rotation(30 * std::sin(t + 1), {1, 2, 3}) * grid.vertices).colwise() +
+                     Eigen::Vector3d(std::cos(t), std::sin(t), std::sin(2 * t)));
+  }
+  Path path = PathOf(Connected(grid), shapes);
+  path.poses = {0, segments / 3, 2 * segments / 3, segments};
+  path.smooth = true;
+  Anchor(&path, kPart);
+  const Shape jump =
+      internal::OneSidedVelocity(path, 0, 1) - internal::OneSidedVelocity(path, segments, -1);
+  const Shape before = internal::OneSidedVelocity(path, segments, -1);
+  EXPECT_LT(PartOf(jump, kPart).norm(), 0.01 * PartOf(before, kPart).norm());
+}
+
 TEST(Anchor, DoesTheSameInAnyFrameAndUnit) {
   const Path path = PathWithRigidPart(kPart, {0, 4});
   Path anchored = path;

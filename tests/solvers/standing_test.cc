@@ -130,7 +130,7 @@ TEST(Standing, ASmoothCycleStaysSmooth) {
     Path path = bridge.Motion(true, shapes);
     // The right foot is at rest when the cycle begins, because it stood until its end.
     const std::vector<StandingPart> parts = {{"left", bridge.left, {{0, 4}}},
-                                             {"right", bridge.right, {{3, 4}}}};
+                                             {"right", {bridge.right[0]}, {{3, 4}}}};
     HoldStandingParts(path, parts, StandingDefaults(), &path);
     const double jump = GreatestJump(path);
     if (before > 0) {
@@ -176,6 +176,17 @@ TEST(Standing, HoldsAtOtherTimes) {
       EXPECT_LT(Distance(PartOf(shown.Placed(k), part), PartOf(bridge.poses[0], part)), 1e-12) << k;
     }
   }
+}
+
+// A path that was resampled may have nothing but poses.
+TEST(Standing, TakesAPathOfPosesAlone) {
+  const Bridge& bridge = TheBridge();
+  const Path path = bridge.Motion(true, 7);
+  Path whole = Resample(path, {0, 1});
+  ASSERT_TRUE(whole.smooth);
+  Path shown = Resample(whole, {0.25, 0.5});
+  const std::vector<StandingPart> parts = {{"", bridge.left, {{0, 1}}}};
+  EXPECT_EQ(HoldStandingParts(whole, parts, StandingDefaults(), &shown).shapes, 2);
 }
 
 TEST(Standing, CommutesWithScaleAndPlace) {

@@ -130,24 +130,35 @@ Eigen::Vector3d Limited(const Eigen::Vector3d& velocity, double before, double a
   return speed > most ? Eigen::Vector3d(most / speed * velocity) : velocity;
 }
 
-// The velocity of the part at shape k of a smooth path, between the mean velocities beside it.
-PartVelocity VelocityAt(const Path& path, int k, const Part& part, const PartVelocity& before,
-                        const PartVelocity& after) {
-  const PlacedPart from = PartOf(path, std::max(0, k - 1), part);
-  const PlacedPart to = PartOf(path, std::min(path.NumShapes() - 1, k + 1), part);
-  const double length = to.parameter - from.parameter;
-  const Eigen::Vector3d turn = Log(RotationOnto(from.points, to.points, part.weights));
-  return {Limited((to.centre - from.centre) / length, before.centre.norm(), after.centre.norm()),
-          Limited(turn / length, before.turn.norm(), after.turn.norm())};
+// The velocity from the part in one shape to that in another, a time `length` later.
+PartVelocity Velocity(const PlacedPart& from, const PlacedPart& to, double length,
+                      const Eigen::VectorXd& weights) {
+  return {(to.centre - from.centre) / length,
+          Log(RotationOnto(from.points, to.points, weights)) / length};
 }
 
+// The velocities at the poses are those of the path, limited.
 void SetVelocities(const Path& whole, const Part& part, std::vector<PartMotion>* motions) {
-  std::vector<PartVelocity> velocities;
   const size_t count = motions->size();
+  const bool is_cycle = internal::IsCycle(whole);
+  const int last_shape = whole.NumShapes() - 1;
+  std::vector<PartVelocity> velocities;
   for (size_t i = 0; i <= count; ++i) {
-    const PartVelocity& before = (*motions)[i > 0 ? i - 1 : 0].Mean();
-    const PartVelocity& after = (*motions)[i < count ? i : count - 1].Mean();
-    velocities.push_back(VelocityAt(whole, whole.poses[i], part, before, after));
+    const int k = whole.poses[i];
+    // The shapes beside the pose; in a cycle the last but one is also before the first.
+    const bool wraps = is_cycle && (i == 0 || i == count);
+    const int from = wraps ? whole.poses[count] - 1 : std::max(0, k - 1);
+    const int to = wraps ? whole.poses[0] + 1 : std::min(last_shape, k + 1);
+    const double turn_round =
+        wraps ? whole.parameters[whole.poses[count]] - whole.parameters[whole.poses[0]] : 0;
+    PartVelocity velocity =
+        Velocity(PartOf(whole, from, part), PartOf(whole, to, part),
+                 whole.parameters[to] - whole.parameters[from] + turn_round, part.weights);
+    const PartVelocity& before = (*motions)[i > 0 ? i - 1 : wraps ? count - 1 : 0].Mean();
+    const PartVelocity& after = (*motions)[i < count ? i : wraps ? 0 : count - 1].Mean();
+    velocity.centre = Limited(velocity.centre, before.centre.norm(), after.centre.norm());
+    velocity.turn = Limited(velocity.turn, before.turn.norm(), after.turn.norm());
+    velocities.push_back(velocity);
   }
   for (size_t i = 0; i < count; ++i) (*motions)[i].SetVelocities(velocities[i], velocities[i + 1]);
 }

@@ -16,8 +16,8 @@ namespace {
 // The poses of a path, and when a part is at them.
 class Course {
  public:
-  Course(const Path& whole, const StandingPart& part)
-      : whole_(whole), part_(part), stands_(whole.poses.size() - 1, false) {
+  Course(const Path& whole, const StandingPart& part, bool is_cycle)
+      : whole_(whole), part_(part), is_cycle_(is_cycle), stands_(whole.poses.size() - 1, false) {
     for (const auto& [first, last] : part.poses) {
       std::fill(stands_.begin() + first, stands_.begin() + last, true);
     }
@@ -29,11 +29,11 @@ class Course {
 
   bool Stands(size_t interval) const { return stands_[interval]; }
 
-  // Whether the part is at rest at a pose. A path whose last pose is the first is a cycle.
+  // Whether the part is at rest at a pose. The first pose of a cycle is the last, too.
   bool Rests(size_t pose) const {
     const size_t last = stands_.size();
     const bool at_end = pose == 0 || pose == last;
-    if (at_end && IsCycle()) return stands_[0] || stands_[last - 1];
+    if (at_end && is_cycle_) return stands_[0] || stands_[last - 1];
     return (pose > 0 && stands_[pose - 1]) || (pose < last && stands_[pose]);
   }
 
@@ -65,11 +65,6 @@ class Course {
     Shape first, last;  // per interval
   };
 
-  bool IsCycle() const {
-    const Shape& first = places_.front();
-    return (places_.back() - first).norm() <= 1e-9 * (first.colwise() - first.col(0)).norm();
-  }
-
   void FindVelocities() {
     for (size_t i = 0; i < stands_.size(); ++i) {
       const int begin = whole_.poses[i], end = whole_.poses[i + 1];
@@ -83,6 +78,7 @@ class Course {
 
   const Path& whole_;
   const StandingPart& part_;
+  const bool is_cycle_;
   std::vector<bool> stands_;            // in each interval between two poses
   std::vector<Shape> places_;           // at the poses
   std::vector<Velocities> velocities_;  // of a smooth path, in each interval
@@ -108,8 +104,9 @@ class Holder {
   Holder(const Path& whole, const std::vector<StandingPart>& parts,
          const DeformationOptions& options)
       : whole_(whole), options_(options) {
+    const bool is_cycle = internal::IsCycle(whole);
     for (const StandingPart& part : parts) {
-      courses_.emplace_back(whole, part);
+      courses_.emplace_back(whole, part, is_cycle);
       DeformationHandle& handle = handles_.emplace_back();
       handle.name = part.name;
       handle.vertices = part.vertices;

@@ -6,13 +6,21 @@
 namespace shapespace::internal {
 
 /// The velocity of the placed vertices at shape `at`, seen from one side of it (`step` is -1 or 1),
-/// by differences of second order over the two next shapes.
+/// by differences of second order over the two next shapes; of first order if there is only one.
 inline Shape OneSidedVelocity(const Path& path, int at, int step) {
+  const Shape here = path.Placed(at), near = path.Placed(at + step) - here;
   const double a = path.parameters[at + step] - path.parameters[at];
-  const double b = path.parameters[at + 2 * step] - path.parameters[at];
-  const Shape here = path.Placed(at);
-  const Shape near = path.Placed(at + step) - here, far = path.Placed(at + 2 * step) - here;
+  const int next = at + 2 * step;
+  if (next < 0 || next >= path.NumShapes()) return near / a;
+  const double b = path.parameters[next] - path.parameters[at];
+  const Shape far = path.Placed(next) - here;
   return (b / a * near - a / b * far) / (b - a);
+}
+
+/// Whether the path ends where it begins, in its first pose.
+inline bool IsCycle(const Path& path) {
+  const Shape first = path.Placed(path.poses.front()), last = path.Placed(path.poses.back());
+  return (last - first).norm() <= 1e-9 * (first.colwise() - first.col(0)).norm();
 }
 
 /// The cubics on [0, 1] that vanish at both ends and have the slope 1 at one end and 0 at the
