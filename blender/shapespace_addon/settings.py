@@ -60,7 +60,7 @@ class SmoothSettings:
     smooth: BoolProperty(
         name="Smooth",
         description="Pass through the poses without changing the velocity suddenly. Needs three or"
-        " more poses",
+        " more poses, or two with Cyclic",
     )
     cyclic: BoolProperty(
         name="Cyclic",

@@ -41,8 +41,9 @@ def add_poses(item, names: list, shapes) -> list:
 def add_motion(item, shapes: np.ndarray, poses: dict, timing, transferred=()) -> list:
     """Shape keys for the shapes of a motion that are no poses, and keyframes for all.
 
-    `poses` has the names of the keys of those that are, which may be the same. What an earlier run added is replaced;
-    poses that were transferred stay, unless these are others. Returns what is worth saying.
+    `poses` has the names of the keys of those that are; a key may be there twice. What an earlier
+    run added is replaced; poses that were transferred stay, unless these are others. Returns what
+    is worth saying.
     """
     shape_keys = item.data.shape_keys
     blocks = shape_keys.key_blocks

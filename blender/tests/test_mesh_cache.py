@@ -31,6 +31,14 @@ class MeshCache(Case):
         self.near(seen(animal, -20), sit)
         self.near(seen(animal, 90), stretch)
 
+    def test_cyclic_motion_ends_as_it_begins(self):
+        cube = self.cube()
+        bpy.ops.shapespace.inbetweens(
+            shapes=3, result="CACHE", cache_folder=str(self.folder), smooth=True, cyclic=True
+        )
+        for frame, shape in ((1, CUBE), (5, bent_cube()), (9, CUBE)):
+            self.near(seen(cube, frame), shape)
+
     def test_the_file_is_a_point_cache_in_coordinates_of_the_object(self):
         cube = self.cube()
         cube.location = (10, 0, 0)

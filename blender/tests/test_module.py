@@ -56,6 +56,19 @@ class Module(Case):
             )
             self.near(*shapes)
 
+    def test_smooth_motion(self):
+        cube = add_object("cube", CUBE, CUBE_FACES)
+        add_key(cube, "bent", bent_cube())
+        add_key(cube, "wide", np.array(CUBE) * [2, 1, 1])
+        operator = bpy.ops.shapespace.inbetweens
+        chain, _ = self.both(cube, operator, shapes=3)
+        for cyclic in (False, True):
+            tools, module = self.both(cube, operator, shapes=3, smooth=True, cyclic=cyclic)
+            self.near(tools, module)
+            self.assertGreater(np.abs(tools[3] - chain[3]).max(), 1e-3)
+        add_key(cube, "again", CUBE)
+        self.refused("the last pose is the first: leave it out", operator, smooth=True, cyclic=True)
+
     def test_quadrilaterals_and_edges(self):
         cube = add_object("cube", [*CUBE, [0, 0, 3]], CUBE_FACES, [(1, 8)])
         add_key(cube, "bent", [*bent_cube(), [0, 1, 3]])

@@ -65,6 +65,15 @@ class Objects(Case):
         bpy.ops.shapespace.inbetweens(shapes=1)
         self.assertEqual((len(key_names(item)), len(bpy.data.objects)), (3, objects))
 
+    def test_cyclic_motion_ends_as_it_begins(self):
+        first, last = self.two()
+        shapes = [placed(item, seen(item, 1)) for item in (first, last)]
+        bpy.ops.shapespace.inbetweens(shapes=3, smooth=True, cyclic=True)
+        item = bpy.context.active_object
+        self.assertEqual(len(key_names(item)), 8)  # two poses, three shapes in each of two gaps
+        for frame, shape in ((1, shapes[0]), (5, shapes[1]), (9, shapes[0])):
+            self.near(placed(item, seen(item, frame)), shape)
+
     def test_as_a_cache(self):
         first, last = self.two()
         frames = self.expected(first, last)

@@ -231,13 +231,44 @@ class ShapeKeys(Case):
 
     def test_cyclic_motion_may_begin_with_a_key(self):
         poses, faces = self.quadruped("stand", "sit", "stretch")
-        animal = add_object("animal", np.zeros_like(poses[0]) + poses[1], faces)
+        animal = add_object("animal", poses[1], faces)
         for name, pose in zip(("a", "b", "c"), poses):
             add_key(animal, name, pose)
         bpy.ops.shapespace.inbetweens(shapes=3, use_basis=False, smooth=True, cyclic=True)
         for frame, pose in ((1, 0), (5, 1), (9, 2), (13, 0)):
             self.near(seen(animal, frame), poses[pose])
         self.assertGreater(np.abs(seen(animal, 7) - poses[0]).max(), 0.01)
+
+    def test_cyclic_motion_repeats_as_a_strip(self):
+        cube = add_object("cube", CUBE, CUBE_FACES)
+        add_key(cube, "bent", bent_cube())
+        add_key(cube, "wide", np.array(CUBE) * [2, 1, 1])
+        for use_basis in (True, False):
+            bpy.ops.shapespace.inbetweens(
+                shapes=3, frame_step=2, use_basis=use_basis, smooth=True, cyclic=True
+            )
+            period = 2 * 4 * (3 if use_basis else 2)
+            once = [seen(cube, 1 + i) for i in range(period)]
+            animation = cube.data.shape_keys.animation_data
+            action = animation.action
+            track = animation.nla_tracks.new()
+            track.strips.new("strip", 1, action).repeat = 2
+            animation.action = None
+            for i in range(2 * period):
+                self.near(seen(cube, 1 + i), once[i % period])
+            animation.nla_tracks.remove(track)
+            animation.action = action
+
+    def test_cyclic_motion_that_already_returns(self):
+        cube = add_object("cube", CUBE, CUBE_FACES)
+        add_key(cube, "bent", bent_cube())
+        add_key(cube, "again", CUBE)
+        self.refused(
+            "the last pose is the first: leave it out",
+            bpy.ops.shapespace.inbetweens,
+            smooth=True,
+            cyclic=True,
+        )
 
     def test_smooth_motion_needs_three_poses(self):
         cube = add_object("cube", CUBE, CUBE_FACES)
