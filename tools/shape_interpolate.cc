@@ -23,8 +23,7 @@ void Run(const std::vector<std::string>& files) {
   AnchorFlags anchorage = AnchorFlags::FromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
   const Poses poses = ReadPosesFromFlags(files);
-  std::optional<SplineOptions> spline =
-      SplineFromFlags(static_cast<int>(poses.shapes.size()), poses.connectivity->NumVertices());
+  std::optional<SplineOptions> spline = SplineFromFlags(poses.connectivity->NumVertices());
   const bool returns = spline && spline->ends == SplineEnds::kPeriodic;
   CheckNothingIsOverwritten(
       WithStiffeners(files),

@@ -134,15 +134,12 @@ class InBetweens(Work):
 
     def _task(self) -> Task:
         (poses,) = self._bodies
-        ends = self._ends()
-        if ends == "natural" and len(poses.shapes) < 3:
-            raise Problem("Smooth needs three or more poses: turn it off, or add a pose")
         return Task(
             _body(poses),
             self._settings.shapes,
             self._settings.metric,
             steps=getattr(self._settings, "steps", 0),
-            ends=ends,
+            ends=self._ends(),
         )
 
     def _ends(self) -> str:

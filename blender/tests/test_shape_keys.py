@@ -270,12 +270,16 @@ class ShapeKeys(Case):
             cyclic=True,
         )
 
-    def test_smooth_motion_needs_three_poses(self):
+    def test_smooth_motion_through_two_poses_is_the_geodesic_and_says_so(self):
         cube = add_object("cube", CUBE, CUBE_FACES)
         add_key(cube, "bent", bent_cube())
-        operator = bpy.ops.shapespace.inbetweens
-        self.refused("Smooth needs three or more poses", operator, shapes=3, smooth=True)
-        operator(shapes=3, smooth=True, cyclic=True)
+        work = self.begin(smooth=True, cyclic=False)
+        work.wait()
+        (note,) = work.finish(bpy.context)
+        self.assertIn("only two poses", note)
+        for i, frame in enumerate(self.frames([CUBE, bent_cube()], CUBE_FACES, "--shapes", 3)):
+            self.near(seen(cube, 1 + i), frame)
+        bpy.ops.shapespace.inbetweens(shapes=3, smooth=True, cyclic=True)
         for frame, shape in ((1, CUBE), (5, bent_cube()), (9, CUBE)):
             self.near(seen(cube, frame), shape)
 

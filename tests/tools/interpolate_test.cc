@@ -157,6 +157,11 @@ TEST_F(InterpolateTest, SplinesAreSmoothAtThePoses) {
       EXPECT_LE(Apart(path.Placed(path.poses[i]), Vertices(names[i])), 1e-9) << ends << i;
     }
   }
+  const Outcome two = Run("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "7",
+                                                "--spline", "natural", "--output", "w.path"});
+  EXPECT_EQ(two.code, 0);
+  ExpectContains(two.err, "only two poses: the motion is the geodesic");
+  EXPECT_FALSE(ReadPath(Path("w.path")).smooth);
   run({"--spline", "natural", "--times", "0,1,3,8"});
   EXPECT_NEAR(ReadPath(Path("w.path")).parameters[8], 0.125, 1e-12);
   run({"--spline", "natural", "--times", "length"});

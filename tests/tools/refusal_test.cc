@@ -97,8 +97,6 @@ TEST_F(RefusalTest, WrongCommandLines) {
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     ExpectRefusal(2, arguments, {message});
   }
-  ExpectRefusal(2, {"tube0.obj", "tube1.obj", "--spline", "natural"},
-                {"--spline: needs three or more poses"});
   ExpectRefusal(2, {"tube0.obj", "tube1.obj", "--times", "0,1"}, {"--times: goes with --spline"});
   ExpectRefusal(2, {"tube0.obj", "tube1.obj", "--hold_limit", "2"},
                 {"--hold_limit: goes with --spline"});

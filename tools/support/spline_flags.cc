@@ -27,18 +27,13 @@ FLAG_GROUP(spline, "Path");
 
 namespace shapespace::tools {
 
-std::optional<SplineOptions> SplineFromFlags(int num_poses, int num_vertices) {
+std::optional<SplineOptions> SplineFromFlags(int num_vertices) {
   if (FLAGS_spline.empty()) {
     RefuseFlags({}, {"times", "hold_limit"}, "goes with --spline");
     return {};
   }
   SplineOptions options;
   options.ends = EnumFromFlag<SplineEnds>("spline", FLAGS_spline);
-  const bool needs_three =
-      options.ends == SplineEnds::kNatural || options.ends == SplineEnds::kNotAKnot;
-  if (num_poses < 3 && needs_three) {
-    throw UsageError("--spline: needs three or more poses; two give the geodesic, without it");
-  }
   options.by_length = FLAGS_times == "length";
   if (!FLAGS_times.empty() && !options.by_length) {
     options.times = NumbersFromFlag("times", FLAGS_times);

@@ -7,10 +7,10 @@
 
 namespace shapespace::tools {
 
-/// The options of a spline through `num_poses` poses of a mesh of `num_vertices` according to the
-/// flags, but for those of the geodesics; none without --spline.
+/// The options of a spline through poses of a mesh with `num_vertices` according to the flags, but
+/// for those of the geodesics; none without --spline.
 /// \throw UsageError.
-std::optional<SplineOptions> SplineFromFlags(int num_poses, int num_vertices);
+std::optional<SplineOptions> SplineFromFlags(int num_vertices);
 
 }  // namespace shapespace::tools
 
