@@ -87,6 +87,13 @@ double TransportBytes(const Metric& metric, int tangents) {
          (kVectors + 2.0 * tangents) * kShape * metric.connectivity->NumVertices();
 }
 
+double AverageBytes(const Metric& metric, int poses) {
+  double values = 0;
+  for (const auto& feature : metric.features) values += feature->NumValues();
+  return MetricSolverBytes(metric) + kNumber * (2.0 * poses + 6) * values +
+         2 * kShape * poses * metric.connectivity->NumVertices();
+}
+
 double FeatureTransferBytes(const Metric& metric, int shapes) {
   constexpr double kGradients = 3000;  // of Sumner and Popovic's method, per vertex
   return MetricSolverBytes(metric) +

@@ -28,6 +28,9 @@ double GeodesicBytes(const Metric& metric, int poses, int shapes);
 /// The correction of a chain of geodesics to a spline; the chain itself is `GeodesicBytes`.
 double SplineBytes(const Connectivity& connectivity, int poses, int shapes);
 
+/// The average of so many poses; its certificate is `GeodesicBytes`.
+double AverageBytes(const Metric& metric, int poses);
+
 /// A deformation with `shapes` shapes after the first.
 double DeformationBytes(const Metric& metric, int shapes);
 

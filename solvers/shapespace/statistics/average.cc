@@ -1,0 +1,176 @@
+#include <shapespace/statistics/average.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/internal/stopwatch.h>
+#include <shapespace/exponential/internal/nearest_shape.h>
+#include <shapespace/numerics/internal/check_options.h>
+#include <shapespace/numerics/internal/memory.h>
+#include <shapespace/statistics/internal/feature_statistics.h>
+#include <shapespace/statistics/internal/procrustes.h>
+
+namespace shapespace {
+namespace {
+
+// Above it a warning is given: the poses are so different that a mean says little.
+constexpr double kFar = 1.1;
+
+Eigen::VectorXd Normalised(const std::vector<double>& given, size_t poses) {
+  if (given.empty()) return Eigen::VectorXd::Constant(poses, 1.0 / poses);
+  if (given.size() != poses) {
+    throw InvalidOptions("weights", "must be " + std::to_string(poses) +
+                                        ", one for each pose, not " + std::to_string(given.size()));
+  }
+  const Eigen::Map<const Eigen::VectorXd> weights(given.data(), given.size());
+  return weights / weights.sum();
+}
+
+// The features of the blend of the poses, or of the pose, that is nearest to the mean features.
+Shape Start(const FeatureMap& map, const std::vector<Shape>& poses, const Eigen::VectorXd& weights,
+            const Eigen::VectorXd& wanted) {
+  Shape blend = Shape::Zero(3, poses[0].cols());
+  for (size_t i = 0; i < poses.size(); ++i) blend += weights(i) * poses[i];
+  Shape best = blend;
+  double least = (map.Values(blend) - wanted).squaredNorm();
+  for (const Shape& pose : poses) {
+    const double distance = (map.Values(pose) - wanted).squaredNorm();
+    if (distance >= least) continue;
+    least = distance;
+    best = pose;
+  }
+  return best;
+}
+
+// Of log edge lengths, from their means over the poses; edges without length do not count.
+double EdgesOff(const Metric& metric, const std::vector<Shape>& poses,
+                const Eigen::VectorXd& weights, const Shape& shape) {
+  const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
+  const auto length = [&](const Shape& x, Eigen::Index e) {
+    return (x.col(edges(1, e)) - x.col(edges(0, e))).norm();
+  };
+  double sum = 0, area = 0;
+  for (Eigen::Index e = 0; e < edges.cols(); ++e) {
+    double mean = 0;
+    for (size_t i = 0; i < poses.size(); ++i) mean += weights(i) * std::log(length(poses[i], e));
+    const double off = std::log(length(shape, e)) - mean;
+    if (!std::isfinite(off)) continue;
+    sum += metric.edge_area(e) * off * off;
+    area += metric.edge_area(e);
+  }
+  return area > 0 ? std::sqrt(sum / area) : 0;
+}
+
+// The poses of weight above zero, whose geodesics from the average are solved.
+double StarEnergy(Interpolator* interpolator, const Shape& centre, const std::vector<Shape>& poses,
+                  const Eigen::VectorXd& weights, Progress* progress) {
+  double energy = 0;
+  for (size_t i = 0; i < poses.size(); ++i) {
+    ReportProgress(progress, "comparing with the lower bound", static_cast<int>(i),
+                   static_cast<int>(poses.size()));
+    if (weights(i) > 0)
+      energy += weights(i) * interpolator->Between(centre, poses[i]).summary.energy;
+  }
+  return energy;
+}
+
+}  // namespace
+
+void AverageOptions::Validate() const {
+  geodesic.Validate();
+  double sum = 0;
+  for (const double weight : weights) {
+    if (!(weight >= 0) || !std::isfinite(weight)) {
+      throw InvalidOptions("weights", "must be finite and not negative");
+    }
+    sum += weight;
+  }
+  if (!weights.empty() && !(sum > 0 && std::isfinite(sum))) {
+    throw InvalidOptions("weights", "must not all be zero");
+  }
+  internal::CheckTolerance(tolerance);
+  internal::CheckMaxIterations(max_iterations);
+  if (geodesic.metric.discretization == Discretization::kTrapezoid) {
+    throw InvalidOptions("discretization", "an average takes the midpoint form only");
+  }
+  if (geodesic.metric.rigid > 0) {
+    throw InvalidOptions("rigid", "is no feature, of which a mean could be taken");
+  }
+}
+
+AverageResult Average(const std::shared_ptr<const Connectivity>& connectivity,
+                      const std::vector<Shape>& poses, const AverageOptions& options,
+                      Progress* progress) {
+  const internal::Stopwatch total;
+  options.Validate();
+  if (poses.empty()) throw MeshError("there is no pose of which to take the average");
+  const Eigen::VectorXd weights = Normalised(options.weights, poses.size());
+  const auto metric =
+      FreezeMetric(options.geodesic.metric, connectivity, poses, 0, PosePairs::kAll);
+  AverageResult result;
+  AverageSummary& summary = result.summary;
+  summary.vertices = connectivity->NumVertices();
+  summary.triangles = connectivity->NumTriangles();
+  summary.poses = static_cast<int>(poses.size());
+  summary.metric = DescribeMetric(metric->options);
+  summary.unit = metric->unit;
+  summary.estimated_bytes = internal::AverageBytes(*metric, summary.poses);
+  internal::CheckMemory("this average", summary.estimated_bytes, options.geodesic.memory_limit,
+                        "name fewer poses");
+  ReportProgress(progress, "averaging", 0, 0);
+
+  const AlignedPoses aligned = internal::AlignToMean(*metric, poses, weights);
+  const FeatureMap map(metric);
+  const internal::FeatureStatistics statistics(map, aligned.shapes, weights);
+  summary.variance = statistics.Variance();
+  summary.ambiguous_hinges = statistics.AmbiguousHinges();
+  const double rounding = 1e3 * std::numeric_limits<double>::epsilon() * statistics.Mean().norm();
+  const double least = std::max(options.tolerance * summary.variance, rounding * rounding);
+  internal::MetricSolver solver;
+  const internal::NearestShape nearest = internal::FindNearestShape(
+      map, statistics.Mean(), Start(map, aligned.shapes, weights, statistics.Mean()),
+      {least, options.max_iterations}, [&] { ReportProgress(progress, "averaging", 0, 0); },
+      &solver);
+  summary.iterations = nearest.iterations;
+  if (!nearest.converged) summary.termination = Termination::kMaxIterations;
+  if (summary.variance > rounding * rounding) {
+    summary.residual = nearest.squared_distance / summary.variance;
+  }
+  summary.edge_rms = EdgesOff(*metric, aligned.shapes, weights, nearest.shape);
+  const RigidMotion place = internal::MeanMotion(aligned, weights);
+  result.shape = place(metric->unit * nearest.shape);
+
+  if (options.certify && summary.variance > rounding * rounding) {
+    const internal::Stopwatch stopwatch;
+    try {
+      Interpolator interpolator(connectivity, poses, options.geodesic);
+      summary.energy = StarEnergy(&interpolator, result.shape, poses, weights, progress);
+      summary.lower_bound = statistics.LowerBound(options.geodesic.shapes + 1);
+    } catch (const Cancelled&) {
+      summary.termination = Termination::kCancelled;
+      summary.energy = 0;
+    }
+    summary.certificate_seconds = stopwatch.Seconds();
+  }
+  if (summary.Ratio() > kFar) {
+    summary.warnings.push_back(
+        "the poses are so different that the average says little: its distances from them are " +
+        std::to_string(std::lround(100 * (summary.Ratio() - 1))) + " % above the lower bound");
+  }
+  if (summary.ambiguous_hinges > 0) {
+    summary.warnings.push_back(std::to_string(summary.ambiguous_hinges) +
+                               " hinges are bent in so different ways that their mean angle is not "
+                               "determined");
+  }
+  summary.total_seconds = total.Seconds();
+  return result;
+}
+
+AverageResult Average(const Poses& poses, const AverageOptions& options, Progress* progress) {
+  return Average(poses.connectivity, poses.shapes, options, progress);
+}
+
+}  // namespace shapespace

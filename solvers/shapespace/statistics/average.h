@@ -1,0 +1,96 @@
+#ifndef SHAPESPACE_STATISTICS_AVERAGE_H_
+#define SHAPESPACE_STATISTICS_AVERAGE_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <shapespace/geodesic/geodesic.h>
+#include <shapespace/mesh/shape.h>
+
+namespace shapespace {
+
+struct AverageOptions {
+  /// One per pose, not negative, not all zero; any sum. Empty: all equal.
+  std::vector<double> weights;
+
+  /// Whether the mean is compared with a lower bound, which takes a geodesic from it to each pose.
+  bool certify = true;
+
+  /// Converged when an iteration lowers the squared distance from the mean features by less than
+  /// this share of the poses' variance.
+  double tolerance = 1e-10;
+
+  int max_iterations = 200;
+
+  /// The metric, and how geodesics of the certificate are solved. The default of their number of
+  /// shapes is 7.
+  GeodesicOptions geodesic = Defaults();
+
+  static GeodesicOptions Defaults() {
+    GeodesicOptions options;
+    options.shapes = 7;
+    return options;
+  }
+
+  /// \throw InvalidOptions naming the field.
+  void Validate() const;
+};
+
+/// Outcome of an average.
+struct AverageSummary {
+  Termination termination = Termination::kConverged;
+  int vertices = 0, triangles = 0, poses = 0;
+  std::string metric;
+  double unit = 1;  ///< length in the user's unit that has length 1 in the metric
+  /// Weighted mean of the squared distances of the poses' features from their mean, in the metric.
+  double variance = 0;
+  /// Squared distance of the average's features from that mean, as a share of the variance: 0 if
+  /// there is a shape whose lengths and angles are exactly the means.
+  double residual = 0;
+  /// The weighted mean of the squared lengths of the geodesics from the average to the poses, and a
+  /// lower bound of it for any shape in place of the average. Zero without `certify`.
+  double energy = 0, lower_bound = 0;
+  /// Of the logarithms of edge lengths, the rms of their difference from the weighted means over
+  /// the poses, weighted by area.
+  double edge_rms = 0;
+  /// Hinges that are bent in so different ways that their mean angle is not determined: no half
+  /// circle contains their angles in all poses.
+  int ambiguous_hinges = 0;
+  int iterations = 0;
+  std::vector<std::string> warnings;
+  double estimated_bytes = 0;  ///< of memory, before the solve
+  double certificate_seconds = 0, total_seconds = 0;
+
+  bool Converged() const { return termination == Termination::kConverged; }
+  /// energy / lower_bound: 1 is a proof that no shape is a better mean.
+  double Ratio() const { return lower_bound > 0 ? energy / lower_bound : 1; }
+  std::string BriefReport() const;  ///< one line
+  std::string FullReport() const;   ///< a page
+  std::string ToJson() const;
+};
+
+struct AverageResult {
+  Shape shape;  ///< in the user's unit and frame, at the mean of the poses' places
+  AverageSummary summary;
+};
+
+/// The weighted mean of poses of a mesh: the shape whose features (strains, dihedral angles,
+/// positions) are nearest to the means of the poses' features. In a pull-back metric this is the
+/// shape with the least sum of squared one-segment distances to the poses; it is near to their
+/// Frechet mean, and `AverageSummary::Ratio` says how near (docs/mathematics.md, section 16).
+/// Angles are averaged on the circle. Poses are aligned to each other first (generalised
+/// Procrustes). \throw InvalidOptions (options; a metric with a rigid part or in trapezoid form;
+/// weights that are
+///        not one for each pose), MeshError (no pose; see FreezeMetric), SolverError (memory
+///        limit), Cancelled (stopped by `progress` before there was an average; if stopped while it
+///        is certified, the summary has no bound and says kCancelled).
+AverageResult Average(const std::shared_ptr<const Connectivity>& connectivity,
+                      const std::vector<Shape>& poses, const AverageOptions& options = {},
+                      Progress* progress = nullptr);
+AverageResult Average(const Poses& poses, const AverageOptions& options = {},
+                      Progress* progress = nullptr);
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_STATISTICS_AVERAGE_H_
