@@ -8,6 +8,7 @@ from . import _core
 from ._core import (
     Body,
     Cancelled,
+    AverageSummary,
     CorrectionSummary,
     MismatchError,
     CorrespondenceStage,
@@ -50,6 +51,7 @@ from ._core import (
     __version__,
 )
 from ._functions import (
+    AverageResult,
     Correspondence,
     CorrectionResult,
     Deformer,
@@ -64,6 +66,7 @@ from ._functions import (
     StandingResult,
     TransferResult,
     TransportResult,
+    average,
     body,
     check,
     compare_shapes,

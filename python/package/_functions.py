@@ -43,6 +43,13 @@ class StandingResult(typing.NamedTuple):
         return _shown(self)
 
 
+class AverageResult(typing.NamedTuple):
+    """The mean of poses, n x 3, and how good it is."""
+
+    shape: np.ndarray
+    summary: _core.AverageSummary
+
+
 class ExponentialResult(typing.NamedTuple):
     """A path that goes on, and how it was found."""
 
@@ -384,6 +391,38 @@ def spline(poses, faces=None, *, progress=None, **options):
     poses = _poses(poses, faces)
     with told(progress) as report:
         return SplineResult(*_core.spline(poses, options, report))
+
+
+@takes("AverageOptions")
+def average(poses, faces=None, *, progress=None, **options):
+    """Find the mean of poses: the shape whose strains and angles are nearest to their means.
+
+    Parameters
+    ----------
+    poses : Poses, or sequence of array_like
+        Vertices of each pose, n x 3, in any unit.
+    faces : array_like, optional
+        Triangles that all poses share, m x 3, or anything else that `Poses` takes.
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    AverageResult
+        The shape, and a summary. `summary.ratio` says how far it can be from the best: 1 is a proof
+        that no shape is a better mean.
+
+    Raises
+    ------
+    MeshError, MismatchError, InvalidOptions
+        The arguments cannot serve.
+    SolverError
+        The memory limit.
+    """
+    poses = _poses(poses, faces)
+    with told(progress) as report:
+        return AverageResult(*_core.average(poses, options, report))
 
 
 def stand(path, parts, *, progress=None):

@@ -76,6 +76,7 @@ py::list DescribeOptions(const std::string& name) {
       {"EmbeddingOptions", Describe<EmbeddingOptions>},
       {"ExploreOptions", Describe<ExploreOptions>},
       {"SplineOptions", Describe<SplineOptions>},
+      {"AverageOptions", Describe<AverageOptions>},
       {"FilmStripOptions", Describe<FilmStripOptions>},
       {"GltfOptions", Describe<GltfOptions>},
   };

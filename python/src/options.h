@@ -19,6 +19,7 @@
 #include <shapespace/metric/internal/option_fields.h>
 #include <shapespace/output/internal/option_fields.h>
 #include <shapespace/spline/internal/option_fields.h>
+#include <shapespace/statistics/internal/option_fields.h>
 #include <shapespace/transfer/internal/option_fields.h>
 
 #include "arrays.h"

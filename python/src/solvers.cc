@@ -58,6 +58,13 @@ py::tuple SplineThrough(const Poses& poses, const py::dict& given, const py::obj
   return py::make_tuple(std::move(result.path), std::move(result.summary));
 }
 
+py::tuple AverageOf(const Poses& poses, const py::dict& given, const py::object& progress) {
+  const auto options = FromKeywords<AverageOptions>(given);
+  AverageResult result =
+      WithoutLock(progress, [=](Progress* told) { return Average(poses, options, told); });
+  return py::make_tuple(FromShape(result.shape), std::move(result.summary));
+}
+
 // Parts are pairs of vertices and poses, as `shapespace.stand` has them.
 py::tuple Stand(Path path, const py::list& parts, const py::object& progress) {
   std::vector<StandingPart> standing;
@@ -272,6 +279,7 @@ void BindSolvers(py::module_* module) {
   module->def("interpolate", &InterpolatePoses);
   module->def("spline", &SplineThrough);
   module->def("stand", &Stand);
+  module->def("average", &AverageOf);
   BindShooting(module);
   BindTransfer(module);
   BindHandle(module);

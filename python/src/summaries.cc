@@ -11,6 +11,7 @@
 #include <shapespace/exploration/internal/summary_fields.h>
 #include <shapespace/exponential/internal/summary_fields.h>
 #include <shapespace/spline/internal/summary_fields.h>
+#include <shapespace/statistics/internal/summary_fields.h>
 #include <shapespace/transfer/internal/summary_fields.h>
 
 #include "bind.h"
@@ -127,6 +128,8 @@ void BindSummaries(py::module_* module) {
                           "How a geodesic was solved, and how good it is.")
       .Reports<true, true>();
   Record<SplineSummary>(module, "SplineSummary", "How a spline was made, and how smooth it is.")
+      .Reports<true, true>();
+  Record<AverageSummary>(module, "AverageSummary", "How good the mean of poses is.")
       .Reports<true, true>();
   Record<StandingSummary>(module, "StandingSummary",
                           "How parts of a body that stand were held in the shapes of a path.")

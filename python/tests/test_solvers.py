@@ -356,3 +356,17 @@ def test_parts_stand_where_the_poses_have_them(poses, animal):
     np.testing.assert_array_equal(held[4], path[4])
     with pytest.raises(shapespace.InvalidOptions, match="part 1: its intervals of poses"):
         shapespace.stand(path, [(foot, (0, 3))])
+
+
+def test_an_average_keeps_lengths_and_says_how_good_it_is(poses, animal):
+    mean, summary = shapespace.average(poses, animal.faces)
+    assert summary.converged and summary.poses == 2 and summary.ambiguous_hinges == 0
+    assert 1 <= summary.ratio < 1.1 and summary.edge_rms < 0.02
+    weighted = shapespace.average(poses, animal.faces, weights=[0, 3], certify=False).shape
+    np.testing.assert_allclose(weighted, poses[1], atol=1e-6)
+    # Nearly the middle of the geodesic.
+    middle = shapespace.interpolate(poses, animal.faces, shapes=1).path[1]
+    metric = shapespace.Metric(poses, animal.faces)
+    assert shapespace.compare_shapes(metric, middle, mean).edge_rms < 0.02
+    with pytest.raises(shapespace.InvalidOptions, match="weights: must be 2, one for each pose"):
+        shapespace.average(poses, animal.faces, weights=[1])

@@ -18,6 +18,7 @@
 #include <shapespace/numerics/internal/minimise.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/spline/spline.h>
+#include <shapespace/statistics/average.h>
 #include <shapespace/transfer/transfer.h>
 
 #include "solvers/exploration/spaces.h"
@@ -160,6 +161,14 @@ TEST(Spline, IsTheSameForAnyNumberOfThreads) {
   for (const Path& path : paths) {
     for (int i = 0; i < path.NumShapes(); ++i) EXPECT_EQ(path.Placed(i), paths[0].Placed(i)) << i;
   }
+}
+
+TEST(Average, IsTheSameForAnyNumberOfThreads) {
+  const ShapeFamily tube = MakeTube(3000);
+  const auto shapes = testing::OnThreads([&] {
+    return Average(tube.connectivity, {tube.pose(0), tube.pose(40), tube.pose(90)}).shape;
+  });
+  for (const Shape& shape : shapes) EXPECT_EQ(shape, shapes[0]);
 }
 
 TEST(Explore, IsTheSameForAnyNumberOfThreads) {

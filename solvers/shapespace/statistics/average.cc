@@ -19,15 +19,28 @@ namespace {
 // Above it a warning is given: the poses are so different that a mean says little.
 constexpr double kFar = 1.1;
 
-Eigen::VectorXd Normalised(const std::vector<double>& given, size_t poses) {
-  if (given.empty()) return Eigen::VectorXd::Constant(poses, 1.0 / poses);
-  if (given.size() != poses) {
-    throw InvalidOptions("weights", "must be " + std::to_string(poses) +
-                                        ", one for each pose, not " + std::to_string(given.size()));
+// Those of positive weight; the weights then have sum 1.
+struct WeightedPoses {
+  std::vector<Shape> poses;
+  Eigen::VectorXd weights;
+
+  WeightedPoses(const std::vector<Shape>& all, std::vector<double> given) {
+    if (given.empty()) given.assign(all.size(), 1);
+    if (given.size() != all.size()) {
+      throw InvalidOptions("weights", "must be " + std::to_string(all.size()) +
+                                          ", one for each pose, not " +
+                                          std::to_string(given.size()));
+    }
+    std::vector<double> kept;
+    for (size_t i = 0; i < all.size(); ++i) {
+      if (given[i] == 0) continue;
+      poses.push_back(all[i]);
+      kept.push_back(given[i]);
+    }
+    weights = Eigen::Map<Eigen::VectorXd>(kept.data(), kept.size());
+    weights /= weights.sum();
   }
-  const Eigen::Map<const Eigen::VectorXd> weights(given.data(), given.size());
-  return weights / weights.sum();
-}
+};
 
 // The features of the blend of the poses, or of the pose, that is nearest to the mean features.
 Shape Start(const FeatureMap& map, const std::vector<Shape>& poses, const Eigen::VectorXd& weights,
@@ -64,15 +77,14 @@ double EdgesOff(const Metric& metric, const std::vector<Shape>& poses,
   return area > 0 ? std::sqrt(sum / area) : 0;
 }
 
-// The poses of weight above zero, whose geodesics from the average are solved.
+// The weighted mean of the squared lengths of the geodesics from `centre` to the poses.
 double StarEnergy(Interpolator* interpolator, const Shape& centre, const std::vector<Shape>& poses,
                   const Eigen::VectorXd& weights, Progress* progress) {
   double energy = 0;
   for (size_t i = 0; i < poses.size(); ++i) {
     ReportProgress(progress, "comparing with the lower bound", static_cast<int>(i),
                    static_cast<int>(poses.size()));
-    if (weights(i) > 0)
-      energy += weights(i) * interpolator->Between(centre, poses[i]).summary.energy;
+    energy += weights(i) * interpolator->Between(centre, poses[i]).summary.energy;
   }
   return energy;
 }
@@ -102,12 +114,12 @@ void AverageOptions::Validate() const {
 }
 
 AverageResult Average(const std::shared_ptr<const Connectivity>& connectivity,
-                      const std::vector<Shape>& poses, const AverageOptions& options,
+                      const std::vector<Shape>& given, const AverageOptions& options,
                       Progress* progress) {
   const internal::Stopwatch total;
   options.Validate();
-  if (poses.empty()) throw MeshError("there is no pose of which to take the average");
-  const Eigen::VectorXd weights = Normalised(options.weights, poses.size());
+  if (given.empty()) throw MeshError("there is no pose of which to take the average");
+  const auto [poses, weights] = WeightedPoses(given, options.weights);
   const auto metric =
       FreezeMetric(options.geodesic.metric, connectivity, poses, 0, PosePairs::kAll);
   AverageResult result;

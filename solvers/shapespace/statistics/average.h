@@ -11,7 +11,8 @@
 namespace shapespace {
 
 struct AverageOptions {
-  /// One per pose, not negative, not all zero; any sum. Empty: all equal.
+  /// One per pose, not negative, not all zero; any sum. Poses of weight zero are left out. Empty:
+  /// all equal.
   std::vector<double> weights;
 
   /// Whether the mean is compared with a lower bound, which takes a geodesic from it to each pose.

@@ -5,7 +5,7 @@
 #include <complex>
 #include <numeric>
 
-#include <shapespace/base/parallel.h>
+#include <shapespace/base/internal/ranges.h>
 #include <shapespace/metric/dihedral.h>
 
 namespace shapespace::internal {
@@ -21,9 +21,12 @@ void ForDihedrals(const FeatureMap& map, const Visit& visit) {
 }
 
 // 2 K^2 (1 - |sum_i w_i exp(i theta_i / K)|), the least over all ways to unwrap the angles: each is
-// given by the point at which the circle is cut.
-double LeastOnCircle(std::vector<double> angles, const Eigen::VectorXd& weights, int segments) {
-  std::vector<int> order(angles.size());
+// given by the point at which the circle is cut. Changes `given`.
+double LeastOnCircle(const Eigen::VectorXd& weights, int segments, std::vector<double>* given,
+                     std::vector<int>* scratch) {
+  std::vector<double>& angles = *given;
+  std::vector<int>& order = *scratch;
+  order.resize(angles.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return angles[a] < angles[b]; });
   const auto term = [&](int i) { return weights(i) * std::polar(1.0, angles[i] / segments); };
@@ -51,30 +54,31 @@ FeatureStatistics::FeatureStatistics(const FeatureMap& map, const std::vector<Sh
   }
   mean_ = values_ * weights_;
   ForDihedrals(map_, [&](int begin, const Dihedral& hinges) {
-    ParallelFor(static_cast<int>(hinges.stencils.cols()),
-                [&](int e) { SetMeanAngle(begin + 2 * e, std::sqrt(hinges.weights(e))); });
+    ForRanges(static_cast<int>(hinges.stencils.cols()), [&](int first, int last) {
+      std::vector<double> angles;
+      for (int e = first; e < last; ++e) {
+        auto mean = mean_.segment<2>(begin + 2 * e);
+        if (!GetAngles(begin + 2 * e, &angles) || mean.isZero(0)) continue;
+        // The mean of the angles as they are seen from the direction of the mean point.
+        const double middle = std::atan2(mean(1), mean(0));
+        double angle = middle;
+        for (size_t i = 0; i < angles.size(); ++i) {
+          angle += weights_(i) * WrapAngle(angles[i] - middle);
+        }
+        mean = std::sqrt(hinges.weights(e)) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      }
+    });
   });
 }
 
-std::vector<double> FeatureStatistics::Angles(Eigen::Index at) const {
-  std::vector<double> angles;
+bool FeatureStatistics::GetAngles(Eigen::Index at, std::vector<double>* angles) const {
+  angles->clear();
   for (Eigen::Index i = 0; i < values_.cols(); ++i) {
     const auto value = values_.col(i).segment<2>(at);
-    if (value.isZero(0)) return {};
-    angles.push_back(std::atan2(value(1), value(0)));
+    if (value.isZero(0)) return false;
+    angles->push_back(std::atan2(value(1), value(0)));
   }
-  return angles;
-}
-
-// The mean of the angles as they are seen from the direction of the mean point.
-void FeatureStatistics::SetMeanAngle(Eigen::Index at, double radius) {
-  const std::vector<double> angles = Angles(at);
-  auto mean = mean_.segment<2>(at);
-  if (angles.empty() || mean.isZero(0)) return;
-  const double middle = std::atan2(mean(1), mean(0));
-  double angle = middle;
-  for (size_t i = 0; i < angles.size(); ++i) angle += weights_(i) * WrapAngle(angles[i] - middle);
-  mean << radius * std::cos(angle), radius * std::sin(angle);
+  return true;
 }
 
 double FeatureStatistics::Variance() const {
@@ -86,15 +90,18 @@ double FeatureStatistics::LowerBound(int segments) const {
   const Eigen::VectorXd means = values_ * weights_;
   Eigen::VectorXd least = (values_.colwise() - means).array().square().matrix() * weights_;
   ForDihedrals(map_, [&](int begin, const Dihedral& hinges) {
-    ParallelFor(static_cast<int>(hinges.stencils.cols()), [&](int e) {
-      const Eigen::Index at = begin + 2 * e;
-      const std::vector<double> angles = Angles(at);
-      // Points inside the circle, of collapsed triangles, may move straight.
-      const Eigen::RowVectorXd squares =
-          values_.middleRows<2>(at).colwise().squaredNorm() / hinges.weights(e);
-      if (angles.empty() || squares.minCoeff() < 1 - 1e-6) return;
-      least(at) = hinges.weights(e) * LeastOnCircle(angles, weights_, segments);
-      least(at + 1) = 0;
+    ForRanges(static_cast<int>(hinges.stencils.cols()), [&](int first, int last) {
+      std::vector<double> angles;
+      std::vector<int> order;
+      for (int e = first; e < last; ++e) {
+        const Eigen::Index at = begin + 2 * e;
+        // Points inside the circle, of collapsed triangles, may move straight.
+        const double inside =
+            values_.middleRows<2>(at).colwise().squaredNorm().minCoeff() / hinges.weights(e);
+        if (!GetAngles(at, &angles) || inside < 1 - 1e-6) continue;
+        least(at) = hinges.weights(e) * LeastOnCircle(weights_, segments, &angles, &order);
+        least(at + 1) = 0;
+      }
     });
   });
   return least.sum();
@@ -102,10 +109,10 @@ double FeatureStatistics::LowerBound(int segments) const {
 
 int FeatureStatistics::AmbiguousHinges() const {
   int count = 0;
+  std::vector<double> angles;
   ForDihedrals(map_, [&](int begin, const Dihedral& hinges) {
     for (Eigen::Index e = 0; e < hinges.stencils.cols(); ++e) {
-      std::vector<double> angles = Angles(begin + 2 * e);
-      if (angles.empty()) continue;
+      if (!GetAngles(begin + 2 * e, &angles)) continue;
       std::sort(angles.begin(), angles.end());
       double gap = angles.front() + 2 * M_PI - angles.back();
       for (size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);

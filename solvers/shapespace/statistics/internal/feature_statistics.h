@@ -36,9 +36,8 @@ class FeatureStatistics {
   int AmbiguousHinges() const;
 
  private:
-  // Angles of a hinge in all poses, or none if it has collapsed in one.
-  std::vector<double> Angles(Eigen::Index at) const;
-  void SetMeanAngle(Eigen::Index at, double radius);
+  // Angles in all poses of the hinge whose first value is `at`. False if it has collapsed in one.
+  bool GetAngles(Eigen::Index at, std::vector<double>* angles) const;
 
   const FeatureMap& map_;
   const Eigen::VectorXd weights_;
