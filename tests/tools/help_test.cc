@@ -71,7 +71,7 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                              "report", "strict", "threads", "version"}));
   const std::set<std::string> metric = {"bending", "discretization", "isometric", "lambda",
                                         "metric",  "rigid",          "stiffness", "strain",
-                                        "volume",  "weights"};
+                                        "volume",  "weighting"};
   std::set<std::string> wanted = metric;
   wanted.insert({"allow_nonmanifold", "allow_outside_files", "help", "mirror", "progress",
                  "threads", "version"});

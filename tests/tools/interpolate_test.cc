@@ -280,7 +280,7 @@ TEST_F(InterpolateTest, PresetsSetDefaultsAndGivenFlagsWin) {
   EXPECT_EQ(Report({"--metric", "paper"})["metric"],
             "isometric 1, lambda 0.001, uniform weights, trapezoid");
   // Given values override a preset, also if they are the defaults of another one.
-  EXPECT_EQ(Report({"--metric", "paper", "--lambda", "1e-4", "--weights", "area"})["metric"],
+  EXPECT_EQ(Report({"--metric", "paper", "--lambda", "1e-4", "--weighting", "area"})["metric"],
             "isometric 1, lambda 0.0001, trapezoid");
   const nlohmann::json rigid = Report({"--metric", "rigid"});
   EXPECT_EQ(rigid["metric"], "rigid 1, lambda 0.0001");

@@ -57,7 +57,7 @@ TEST_F(RefusalTest, WrongCommandLines) {
       {{"--lambda=-1"}, "--lambda -1: must be a number, zero or more"},
       {{"--lambda", "nan"}, "--lambda nan: must be a number, zero or more"},
       {{"--metric", "taxicab"}, "--metric taxicab: must be strain, isometric, rigid or paper"},
-      {{"--weights", "heavy"}, "--weights heavy: must be one of area, uniform"},
+      {{"--weighting", "heavy"}, "--weighting heavy: must be one of area, uniform"},
       {{"--discretization", "fine"}, "--discretization fine: must be one of midpoint, trapezoid"},
       {{"--discretization", "trapezoid"},
        "--discretization trapezoid: is a form of the cost of edge lengths, which this metric has "

@@ -83,4 +83,14 @@ Path ReadPathAndTell(const std::string& file) {
   return path;
 }
 
+std::string Provenance(const char* program, const std::vector<std::string>& files) {
+  std::string provenance = std::string(program) + " " SHAPESPACE_VERSION ":";
+  for (const std::string& file : files) {
+    const std::string name = std::filesystem::path(file).filename().string();
+    const bool has_blanks = name.find(' ') != name.npos;
+    provenance += has_blanks ? " '" + name + "'" : " " + name;
+  }
+  return provenance;
+}
+
 }  // namespace shapespace::tools

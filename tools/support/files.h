@@ -34,6 +34,10 @@ bool IsPathFile(const std::string& file);
 /// \throw FileError.
 Path ReadPathAndTell(const std::string& file);
 
+/// The program, its version and the names of the input files, without folders, because outputs are
+/// passed on to others: for `Path::provenance`.
+std::string Provenance(const char* program, const std::vector<std::string>& files);
+
 }  // namespace shapespace::tools
 
 #endif  // SHAPESPACE_TOOLS_SUPPORT_FILES_H_

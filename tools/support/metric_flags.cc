@@ -15,7 +15,7 @@
 DEFINE_string(metric, "strain",
               "preset of the metric's other flags: strain (the defaults shown here), isometric "
               "(strain 0, isometric 1), rigid (strain 0, rigid 1, bending 0), or paper (strain 0, "
-              "isometric 1, bending 0, lambda 0.001, weights uniform, discretization trapezoid); "
+              "isometric 1, bending 0, lambda 0.001, weighting uniform, discretization trapezoid); "
               "shape-deform has one of its own, deformation. Costs that are given as well replace "
               "those of the preset");
 DEFINE_string(
@@ -30,7 +30,7 @@ static const shapespace::tools::OptionFlags<shapespace::MetricOptions> costs(
                {"lambda", "lambda"},
                {"bending", "bending"},
                {"volume", "volume"},
-               {"weights", "weights"},
+               {"weights", "weighting"},
                {"discretization", "discretization"}});
 
 namespace shapespace::tools {

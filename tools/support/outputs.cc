@@ -139,16 +139,6 @@ std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::str
   return outputs;
 }
 
-std::string Provenance(const char* program, const std::vector<std::string>& files) {
-  std::string provenance = std::string(program) + " " SHAPESPACE_VERSION ":";
-  for (const std::string& file : files) {
-    const std::string name = std::filesystem::path(file).filename().string();
-    const bool has_blanks = name.find(' ') != name.npos;
-    provenance += has_blanks ? " '" + name + "'" : " " + name;
-  }
-  return provenance;
-}
-
 void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, const Path& whole,
                   const Eigen::VectorXi& marks) {
   std::vector<std::string> paths_first = outputs;

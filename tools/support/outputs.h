@@ -21,10 +21,6 @@ std::vector<std::string> OutputsFromFlags();
 /// The same for another flag with the value `list`.
 std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::string& list);
 
-/// The program, its version and the names of the input files, without folders, because outputs are
-/// passed on to others: for `Path::provenance`.
-std::string Provenance(const char* program, const std::vector<std::string>& files);
-
 /// Writes each output, the `.path` files first, with messages: `.path`, `.png` film strip, `.glb`
 /// animation, or frames (`frames/%03d.obj`, `.ply`). If one fails, an error is printed and the
 /// others are written. After `Interrupted`, only `.path` files are. Notes on stderr tell which

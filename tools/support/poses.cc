@@ -44,9 +44,9 @@ Poses CheckedWithWarnings(Poses poses) {
 
 }  // namespace
 
-Poses ReadPosesFromFlags(const std::vector<std::string>& files) {
+Poses ReadPosesFromFlags(const std::vector<std::string>& files, size_t least) {
   Poses poses = ReadPoses(files, OptionsFromFlags());
-  if (poses.shapes.size() < 2) {
+  if (poses.shapes.size() < least) {
     throw UsageError(files[0] + " has one pose; name at least two poses of one mesh");
   }
   return CheckedWithWarnings(std::move(poses));

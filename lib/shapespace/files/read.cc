@@ -181,7 +181,7 @@ std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num
   internal::Lines lines(content);
   std::string_view line;
   while (lines.Next(&line)) {
-    internal::Words words(internal::WithoutComment(line));
+    internal::LineWords words(internal::WithoutComment(line));
     if (words.Done()) continue;
     const std::string element = "stiffener " + std::to_string(pairs.size() + 1) + ": ";
     int ends[2];

@@ -38,7 +38,7 @@ Eigen::VectorXd ReadVertexField(const std::string& source) {
   internal::Lines lines(text);
   std::string_view line;
   while (lines.Next(&line)) {
-    internal::Words words(internal::WithoutComment(line));
+    internal::LineWords words(internal::WithoutComment(line));
     if (words.Done()) continue;
     const internal::ElementName vertex = {"vertex", numbers.size() + 1};
     numbers.push_back(

@@ -71,7 +71,7 @@ void ValidateNested(const Selection& selection, const std::string& field) {
 }
 
 bool HasWord(const std::string& names, const std::string& name) {
-  for (internal::Words words(names); !words.Done();) {
+  for (internal::LineWords words(names); !words.Done();) {
     if (words.Next() == name) return true;
   }
   return false;

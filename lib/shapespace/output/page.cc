@@ -55,6 +55,9 @@ struct MakeElement {
   std::string operator()(const PageSpace& space) const {
     return Element("application/x-shapespace", space.name, internal::EncodeScene(space));
   }
+  std::string operator()(const PageModes& modes) const {
+    return Element("application/x-shapespace", modes.name, internal::EncodeScene(modes));
+  }
   std::string operator()(const PageGlb& glb) const {
     return Element("model/gltf-binary", glb.name, glb.bytes);
   }
@@ -67,8 +70,9 @@ void WritePage(const std::string& file, const std::string& page_template,
   if (scenes.empty() || scenes.size() > 2)
     throw InvalidOptions("scenes", "there must be one or two");
   for (const PageScene& scene : scenes) {
-    if (scenes.size() == 2 && std::holds_alternative<PageSpace>(scene)) {
-      throw InvalidOptions("scenes", "a space is shown alone");
+    if (scenes.size() == 2 &&
+        (std::holds_alternative<PageSpace>(scene) || std::holds_alternative<PageModes>(scene))) {
+      throw InvalidOptions("scenes", "a space or a model is shown alone");
     }
   }
   const size_t mark = page_template.find(kMark);

@@ -44,7 +44,41 @@ struct PageSpace {
   std::string name;
 };
 
-using PageScene = std::variant<PagePath, PageGlb, PageSpace>;
+/// Shapes at coordinates, one for each mode, which sliders set; what is shown is made of keys: with
+/// the mean M, the shape of mode k at coordinate p_j K_kj, and that of two modes k < l P_kl,
+///   M + sum_kj L_j(c_k) (K_kj - M) + sum_kl c_k c_l / p^2 (P_kl - M),
+/// where L_j is the polynomial that is 1 at p_j and 0 at the other places and at 0.
+struct PageModes {
+  std::shared_ptr<const Connectivity> connectivity;
+  std::vector<double> places;  ///< p_j, in ascending order, without 0; the sliders' ends are the
+                               ///< first and the last
+  double pair_place = 1;       ///< p
+  /// M, then all K of the first mode, of the second ..., then all P: of modes 1 and 2, 1 and 3,
+  /// ..., 2 and 3, ... In the user's unit.
+  std::vector<Shape> keys;
+  double error = 0;            ///< distance of what is shown from exact shapes, as a share of the
+                               ///< mean's diagonal
+  std::vector<double> shares;  ///< of the variance, one for each mode
+  std::vector<std::string> names;  ///< of the poses
+  Eigen::MatrixXd coordinates;     ///< a row for each pose, a column for each mode
+
+  /// Coordinates are intercept + slopes * values of scalars, if there are any.
+  struct Scalar {
+    std::string name;
+    double least = 0, most = 0, value = 0;  ///< the range of its slider, and where it starts
+  };
+  std::vector<Scalar> scalars;
+  Eigen::VectorXd intercept;
+  Eigen::MatrixXd slopes;
+
+  std::string command;  ///< to which "--at 1,2 --output shape.obj" is added for the exact shape
+  Eigen::MatrixXd vertex_colours;  ///< as in an Appearance; may be empty
+  std::string name;
+
+  int NumModes() const { return static_cast<int>(shares.size()); }
+};
+
+using PageScene = std::variant<PagePath, PageGlb, PageSpace, PageModes>;
 
 /// Writes a self-contained HTML page that shows `scenes` without a server or a network. There may
 /// be one scene, or two paths or glb files, which are shown side by side.

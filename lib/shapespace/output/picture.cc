@@ -221,6 +221,7 @@ RgbImage Blank(int width, int height) {
 void FilmStripOptions::Validate() const {
   internal::CheckRange("frame_width", frame_width, 16, 2048);
   internal::CheckRange("max_frames", max_frames, 2, 1000);
+  internal::CheckRange("columns", columns, 0, 1000);
   internal::CheckRange("samples", samples, 1, 16);
   if (!view.allFinite()) throw InvalidOptions("view", "not finite");
   if (!up.allFinite()) throw InvalidOptions("up", "not finite");
@@ -267,7 +268,8 @@ RgbImage RenderFilmStrip(const Connectivity& connectivity, const std::vector<Sha
 
   const int widest = kWidestStrip * options.frame_width;
   const int rows = (frames * camera.width + widest - 1) / widest;
-  const int columns = (frames + rows - 1) / rows;
+  const int columns =
+      options.columns > 0 ? std::min(options.columns, frames) : (frames + rows - 1) / rows;
   const int title_height = options.title.empty() ? 0 : internal::kTextHeight + 2 * kTextMargin;
   const int cell_height =
       camera.height + (options.labels.empty() ? 0 : internal::kTextHeight + kTextMargin);

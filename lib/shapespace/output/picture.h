@@ -26,6 +26,8 @@ struct FilmStripOptions {
   /// 2 .. 1000; of longer paths evenly spaced shapes are drawn, including both ends and the shapes
   /// of role kPose.
   int max_frames = 9;
+  /// Shapes in a row, 0 .. 1000; 0: as many as such a strip holds.
+  int columns = 0;
   int samples = 3;  ///< per pixel and axis, 1 .. 16
 
   /// Direction from the body to the eye: (0, 0, 1) looks at it from +z. Zero: a three-quarter view

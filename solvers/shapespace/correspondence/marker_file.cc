@@ -49,7 +49,7 @@ std::vector<CorrespondenceMarker> ReadMarkers(const std::string& file, const Pos
   internal::Lines lines(text);
   std::string_view line;
   while (lines.Next(&line)) {
-    internal::Words words(internal::WithoutComment(line));
+    internal::LineWords words(internal::WithoutComment(line));
     if (words.Done()) continue;
     const std::string_view first = words.Next();
     if (words.Done()) {

@@ -59,7 +59,7 @@ class MapReader {
 
   void ReadPoints(const std::string& name, int num_triangles, SurfacePoints* points,
                   Eigen::VectorXd* last) {
-    internal::Words header = NextLine(name);
+    internal::LineWords header = NextLine(name);
     const std::string_view word = header.Next();
     if (word != name) Fail("expected '" + name + "' and the number of its lines");
     const std::optional<std::int64_t> count = internal::ParseInteger(header.Next());
@@ -72,7 +72,7 @@ class MapReader {
     points->barycentric.resize(3, size);
     last->resize(size);
     for (int v = 0; v < size; ++v) {
-      internal::Words words = NextLine(name);
+      internal::LineWords words = NextLine(name);
       const std::optional<std::int64_t> triangle = internal::ParseInteger(words.Next());
       if (!triangle || *triangle < 1 || *triangle > num_triangles) {
         Fail("a line begins with a triangle from 1 to " + std::to_string(num_triangles));
@@ -94,16 +94,16 @@ class MapReader {
     internal::FailAt(file_, lines_.Number(), what);
   }
 
-  double Number(internal::Words* words) const {
+  double Number(internal::LineWords* words) const {
     const std::optional<double> number = internal::ParseDouble(words->Next());
     if (!number || !std::isfinite(*number)) Fail("a number is missing or invalid");
     return *number;
   }
 
-  internal::Words NextLine(const std::string& name) {
+  internal::LineWords NextLine(const std::string& name) {
     std::string_view line;
     while (lines_.Next(&line)) {
-      internal::Words words(internal::WithoutComment(line));
+      internal::LineWords words(internal::WithoutComment(line));
       if (!words.Done()) return words;
     }
     Fail("the file ends before all of '" + name + "' was read; was it cut off?");

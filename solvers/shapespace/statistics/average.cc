@@ -4,12 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/exponential/internal/nearest_shape.h>
 #include <shapespace/numerics/internal/check_options.h>
 #include <shapespace/numerics/internal/memory.h>
+#include <shapespace/statistics/internal/feature_chart.h>
 #include <shapespace/statistics/internal/feature_statistics.h>
 #include <shapespace/statistics/internal/procrustes.h>
 
@@ -18,6 +20,10 @@ namespace {
 
 // Above it a warning is given: the poses are so different that a mean says little.
 constexpr double kFar = 1.1;
+
+// A refinement that lowers the energy by less than this share is the last.
+constexpr double kLeastRefinement = 1e-5;
+constexpr int kMaxRefinements = 20;
 
 // Those of positive weight; the weights then have sum 1.
 struct WeightedPoses {
@@ -77,17 +83,54 @@ double EdgesOff(const Metric& metric, const std::vector<Shape>& poses,
   return area > 0 ? std::sqrt(sum / area) : 0;
 }
 
-// The weighted mean of the squared lengths of the geodesics from `centre` to the poses.
-double StarEnergy(Interpolator* interpolator, const Shape& centre, const std::vector<Shape>& poses,
-                  const Eigen::VectorXd& weights, Progress* progress) {
-  double energy = 0;
-  for (size_t i = 0; i < poses.size(); ++i) {
-    ReportProgress(progress, "comparing with the lower bound", static_cast<int>(i),
-                   static_cast<int>(poses.size()));
-    energy += weights(i) * interpolator->Between(centre, poses[i]).summary.energy;
+// A shape with geodesics to all poses.
+struct Star {
+  Shape centre;       // in the user's unit
+  double energy = 0;  // the weighted mean of the squared lengths
+  // The features of the centre moved by the weighted mean of the geodesics' velocities.
+  Eigen::VectorXd mean_of_ends;
+};
+
+class Stars {
+ public:
+  Stars(const FeatureMap& map, const std::shared_ptr<const Connectivity>& connectivity,
+        const std::vector<Shape>& poses, const Eigen::VectorXd& weights,
+        const GeodesicOptions& options, Progress* progress)
+      : map_(map),
+        poses_(poses),
+        weights_(weights),
+        segments_(options.shapes + 1),
+        progress_(progress),
+        interpolator_(connectivity, poses, options) {}
+
+  Star From(const Shape& centre) {
+    Star star;
+    star.centre = centre;
+    std::optional<internal::FeatureChart> chart;
+    Eigen::VectorXd velocity;
+    for (size_t i = 0; i < poses_.size(); ++i) {
+      ReportProgress(progress_, "comparing with the lower bound", static_cast<int>(i),
+                     static_cast<int>(poses_.size()));
+      const GeodesicResult arm = interpolator_.Between(centre, poses_[i]);
+      if (!chart) {
+        chart.emplace(map_, map_.Values(arm.path.shapes[0]));
+        velocity = Eigen::VectorXd::Zero(chart->Centre().size());
+      }
+      star.energy += weights_(i) * arm.summary.energy;
+      velocity += weights_(i) * segments_ * chart->Log(map_.Values(arm.path.shapes[1]));
+    }
+    star.mean_of_ends = chart->Exp(velocity);
+    return star;
   }
-  return energy;
-}
+
+ private:
+  const FeatureMap& map_;
+  const std::vector<Shape>& poses_;
+  const Eigen::VectorXd& weights_;
+  const int segments_;
+  Progress* const progress_;
+  Interpolator interpolator_;
+};
 
 }  // namespace
 
@@ -151,15 +194,32 @@ AverageResult Average(const std::shared_ptr<const Connectivity>& connectivity,
   if (summary.variance > rounding * rounding) {
     summary.residual = nearest.squared_distance / summary.variance;
   }
-  summary.edge_rms = EdgesOff(*metric, aligned.shapes, weights, nearest.shape);
   const RigidMotion place = internal::MeanMotion(aligned, weights);
   result.shape = place(metric->unit * nearest.shape);
 
-  if (options.certify && summary.variance > rounding * rounding) {
+  if ((options.certify || options.refine) && summary.variance > rounding * rounding) {
     const internal::Stopwatch stopwatch;
     try {
-      Interpolator interpolator(connectivity, poses, options.geodesic);
-      summary.energy = StarEnergy(&interpolator, result.shape, poses, weights, progress);
+      Stars stars(map, connectivity, poses, weights, options.geodesic, progress);
+      Star star = stars.From(result.shape);
+      const double before = star.energy;
+      // Karcher's iteration: the centre moves by the mean of the velocities towards the poses.
+      while (options.refine && summary.refinements < kMaxRefinements) {
+        const Eigen::Vector3d place = Centroid(star.centre, metric->vertex_area);
+        const internal::NearestShape moved = internal::FindNearestShape(
+            map, star.mean_of_ends, (star.centre.colwise() - place) / metric->unit,
+            {least, options.max_iterations}, [&] { ReportProgress(progress, "averaging", 0, 0); },
+            &solver);
+        Star next = stars.From((metric->unit * moved.shape).colwise() + place);
+        ++summary.refinements;
+        if (!(next.energy < star.energy)) break;
+        const bool last = next.energy > (1 - kLeastRefinement) * star.energy;
+        star = std::move(next);
+        if (last) break;
+      }
+      result.shape = star.centre;
+      summary.energy = star.energy;
+      summary.refined_by = 1 - star.energy / before;
       summary.lower_bound = statistics.LowerBound(options.geodesic.shapes + 1);
     } catch (const Cancelled&) {
       summary.termination = Termination::kCancelled;
@@ -167,6 +227,7 @@ AverageResult Average(const std::shared_ptr<const Connectivity>& connectivity,
     }
     summary.certificate_seconds = stopwatch.Seconds();
   }
+  summary.edge_rms = EdgesOff(*metric, aligned.shapes, weights, result.shape / metric->unit);
   if (summary.Ratio() > kFar) {
     summary.warnings.push_back(
         "the poses are so different that the average says little: its distances from them are " +

@@ -18,6 +18,10 @@ struct AverageOptions {
   /// Whether the mean is compared with a lower bound, which takes a geodesic from it to each pose.
   bool certify = true;
 
+  /// Whether the mean of the features is only the start, from which the sum of squared lengths of
+  /// geodesics is lowered: the Frechet mean. Implies `certify`, and takes several times its time.
+  bool refine = false;
+
   /// Converged when an iteration lowers the squared distance from the mean features by less than
   /// this share of the poses' variance.
   double tolerance = 1e-10;
@@ -59,6 +63,8 @@ struct AverageSummary {
   /// circle contains their angles in all poses.
   int ambiguous_hinges = 0;
   int iterations = 0;
+  int refinements = 0;    ///< rounds of `refine`
+  double refined_by = 0;  ///< by which share these lowered `energy`
   std::vector<std::string> warnings;
   double estimated_bytes = 0;  ///< of memory, before the solve
   double certificate_seconds = 0, total_seconds = 0;

@@ -33,6 +33,10 @@ std::string AverageSummary::FullReport() const {
         "Lower bound       %.6g for any shape; ratio %.4f\n",
         energy, lower_bound, Ratio());
   }
+  if (refinements > 0) {
+    out << internal::Format("Refined           in %d rounds, by %.3g%% of the squared distances\n",
+                            refinements, 100 * refined_by);
+  }
   out << internal::Format("Edges             %.4g%% rms off the poses' means\n", 100 * edge_rms)
       << internal::Format("Hinges            %d without a mean angle\n", ambiguous_hinges)
       << internal::Format("Seconds           %.3f for the lower bound, %.3f in all\n",

@@ -58,9 +58,9 @@ class Lines {
 };
 
 /// Iterates over the words of a line, separated by blanks and tabs.
-class Words {
+class LineWords {
  public:
-  explicit Words(std::string_view line) : rest_(line) { SkipBlanks(); }
+  explicit LineWords(std::string_view line) : rest_(line) { SkipBlanks(); }
 
   bool Done() const { return rest_.empty(); }
 

@@ -100,13 +100,13 @@ class ObjReader {
   }
 
   void ReadStatement(std::string_view line) {
-    Words words(line);
+    LineWords words(line);
     const std::string_view keyword = words.Next();
     if (keyword.empty() || keyword[0] == '#') return;
-    if (keyword == "v") return ReadVertex(Words(WithoutComment(words.Rest())));
-    if (keyword == "vt") return ReadTexture(Words(WithoutComment(words.Rest())));
-    if (keyword == "f") return ReadPolygon(Words(WithoutComment(words.Rest())));
-    if (keyword == "l") return ReadPolyline(Words(WithoutComment(words.Rest())));
+    if (keyword == "v") return ReadVertex(LineWords(WithoutComment(words.Rest())));
+    if (keyword == "vt") return ReadTexture(LineWords(WithoutComment(words.Rest())));
+    if (keyword == "f") return ReadPolygon(LineWords(WithoutComment(words.Rest())));
+    if (keyword == "l") return ReadPolyline(LineWords(WithoutComment(words.Rest())));
     if (keyword == "usemtl") return material_.Set(words.Rest());
     if (keyword == "g") return group_.Set(words.Rest());
     if (keyword == "o") return object_.Set(words.Rest());
@@ -122,7 +122,7 @@ class ObjReader {
     return FiniteNumber(word, what, soup_.file, line_, element);
   }
 
-  void ReadVertex(Words words) {
+  void ReadVertex(LineWords words) {
     soup_.vertex_line.push_back(line_);
     const ElementName element{"vertex", soup_.vertex_line.size()};
     for (const char* axis : {"coordinate x", "coordinate y", "coordinate z"}) {
@@ -146,7 +146,7 @@ class ObjReader {
     }
   }
 
-  void ReadTexture(Words words) {
+  void ReadTexture(LineWords words) {
     const ElementName element{"texture coordinate", texture_.size() / 2 + 1};
     texture_.push_back(Number(words.Next(), "u", element));
     texture_.push_back(words.Done() ? 0.0 : Number(words.Next(), "v", element));
@@ -154,7 +154,7 @@ class ObjReader {
     if (!words.Done()) Fail(element.Text() + ": more than three numbers" + kReexport);
   }
 
-  void ReadPolygon(Words words) {
+  void ReadPolygon(LineWords words) {
     soup_.polygon_line.push_back(line_);
     const ElementName element{"polygon", soup_.polygon_line.size()};
     int count = 0;
@@ -172,7 +172,7 @@ class ObjReader {
     for (CurrentName* name : {&material_, &group_, &object_}) name->AddPolygon();
   }
 
-  void ReadPolyline(Words words) {
+  void ReadPolyline(LineWords words) {
     const ElementName element{"polyline on this line"};
     std::vector<int> vertices;
     while (!words.Done()) vertices.push_back(Corner(words.Next(), element).first);

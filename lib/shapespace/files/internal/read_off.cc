@@ -19,7 +19,7 @@ class OffReader {
     ReadVertices();
     ReadPolygons();
     while (lines_.Next(&line_)) {
-      if (!Words(WithoutComment(line_)).Done()) {
+      if (!LineWords(WithoutComment(line_)).Done()) {
         Fail("something follows the last polygon; the counts of the header do not fit" +
              std::string(kReexport));
       }
@@ -40,9 +40,9 @@ class OffReader {
 
   /// The words of the next line that is not empty.
   /// \throw FileError at the end of the file.
-  Words NextWords(const ElementName& wanted, int of = 0) {
+  LineWords NextWords(const ElementName& wanted, int of = 0) {
     while (lines_.Next(&line_)) {
-      const Words words(WithoutComment(line_));
+      const LineWords words(WithoutComment(line_));
       if (!words.Done()) return words;
     }
     Fail("the file ends before " + wanted.Text() + (of > 0 ? " of " + std::to_string(of) : "") +
@@ -50,8 +50,8 @@ class OffReader {
   }
 
   void ReadHeader() {
-    Words words = NextWords({"its header"});
-    if (!ParseInteger(Words(words).Next())) CheckKeyword(words.Next(), words);
+    LineWords words = NextWords({"its header"});
+    if (!ParseInteger(LineWords(words).Next())) CheckKeyword(words.Next(), words);
     if (words.Done()) words = NextWords({"the numbers of vertices and polygons"});
     num_vertices_ = Count(words.Next(), "vertices");
     num_polygons_ = Count(words.Next(), "polygons");
@@ -59,7 +59,7 @@ class OffReader {
   }
 
   /// [ST][C][N]OFF: x y z is followed by the data that the letters stand for, which is not stored.
-  void CheckKeyword(std::string_view keyword, Words rest) {
+  void CheckKeyword(std::string_view keyword, LineWords rest) {
     std::string_view prefix = keyword;
     if (prefix.substr(0, 2) == "ST") prefix.remove_prefix(2);
     if (prefix.substr(0, 1) == "C") prefix.remove_prefix(1);
@@ -88,7 +88,7 @@ class OffReader {
     soup_.vertices.resize(3, num_vertices_);
     for (int v = 0; v < num_vertices_; ++v) {
       const ElementName element{"vertex", static_cast<size_t>(v + 1)};
-      Words words = NextWords(element, num_vertices_);
+      LineWords words = NextWords(element, num_vertices_);
       static constexpr const char* kAxes[3] = {"coordinate x", "coordinate y", "coordinate z"};
       for (int axis = 0; axis < 3; ++axis) {
         soup_.vertices(axis, v) =
@@ -105,7 +105,7 @@ class OffReader {
   void ReadPolygons() {
     for (int p = 0; p < num_polygons_; ++p) {
       const ElementName element{"polygon", static_cast<size_t>(p + 1)};
-      Words words = NextWords(element, num_polygons_);
+      LineWords words = NextWords(element, num_polygons_);
       const std::string_view word = words.Next();
       const std::optional<std::int64_t> size = ParseInteger(word);
       if (!size || *size < 3) {

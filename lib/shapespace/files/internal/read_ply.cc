@@ -136,13 +136,13 @@ class PlyReader {
 
   void ReadHeader() {
     std::string_view line;
-    if (!lines_.Next(&line) || Words(line).Next() != "ply") {
+    if (!lines_.Next(&line) || LineWords(line).Next() != "ply") {
       Fail("does not begin with 'ply'; is this a PLY file?");
     }
     bool has_format = false;
     while (true) {
       if (!lines_.Next(&line)) Fail("the file ends inside its header" + std::string(kReexport));
-      Words words(line);
+      LineWords words(line);
       const std::string_view keyword = words.Next();
       if (keyword == "end_header") break;
       if (keyword == "format") {
@@ -189,7 +189,7 @@ class PlyReader {
     }
   }
 
-  void ReadElement(Words words) {
+  void ReadElement(LineWords words) {
     Element element;
     element.name = words.Next();
     for (const Element& other : elements_) {
@@ -204,7 +204,7 @@ class PlyReader {
     elements_.push_back(std::move(element));
   }
 
-  void ReadProperty(Words words) {
+  void ReadProperty(LineWords words) {
     if (elements_.empty()) Fail("a property precedes any element" + std::string(kReexport));
     Property property;
     std::string_view word = words.Next();
@@ -255,7 +255,7 @@ class PlyReader {
     std::string_view line;
     do {
       if (!lines_.Next(&line)) Fail("the file ends before " + label_ + kReexport);
-      words_ = Words(line);
+      words_ = LineWords(line);
     } while (words_.Done());
   }
 
@@ -554,7 +554,7 @@ class PlyReader {
     }
     std::string_view line;
     while (lines_.Next(&line)) {
-      if (!Words(line).Done()) {
+      if (!LineWords(line).Done()) {
         Fail("something follows the last element; the counts of the header do not fit" +
              std::string(kReexport));
       }
@@ -587,7 +587,7 @@ class PlyReader {
   Format format_ = Format::kText;
   std::vector<Element> elements_;
   std::string label_;  // of the current instance
-  Words words_{std::string_view()};
+  LineWords words_{std::string_view()};
   std::vector<double> polygon_texture_;                     // of the current polygon
   std::vector<double> texture_;                             // u, v, u, v, ...
   std::map<std::pair<double, double>, int> texture_index_;  // of those

@@ -59,7 +59,7 @@ class TextReader {
   Corners Read() {
     std::string_view line;
     while (lines_.Next(&line)) {
-      Words words(line);
+      LineWords words(line);
       const std::string_view word = words.Next();
       if (word == "vertex") {
         AddCorner(words);
@@ -78,7 +78,7 @@ class TextReader {
   }
 
  private:
-  void AddCorner(Words words) {
+  void AddCorner(LineWords words) {
     static constexpr const char* kAxes[3] = {"coordinate x", "coordinate y", "coordinate z"};
     const ElementName element{"corner", corners_.positions.size() % 3 + 1};
     Eigen::Vector3d position;

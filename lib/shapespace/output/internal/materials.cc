@@ -30,7 +30,7 @@ class LibraryReader {
     std::string_view line;
     Material* material = nullptr;  // to which the statements belong
     while (lines.Next(&line)) {
-      Words words(line);
+      LineWords words(line);
       const std::string_view keyword = words.Next();
       if (keyword == "newmtl") {
         material = &(*materials_)[std::string(words.Rest())];
@@ -45,7 +45,7 @@ class LibraryReader {
 
  private:
   /// Returns the problem with the statement, or null.
-  const char* ReadStatement(std::string_view keyword, Words words, Material* material) {
+  const char* ReadStatement(std::string_view keyword, LineWords words, Material* material) {
     static constexpr char kNotUnderstood[] = "is not understood";
     if (keyword == "Kd") {
       Eigen::Vector3d colour;
@@ -89,7 +89,7 @@ class LibraryReader {
 std::vector<fs::path> Files(const fs::path& folder, const std::string& statement) {
   std::error_code ignored;
   std::vector<fs::path> files;
-  for (Words words(statement); !words.Done();) files.push_back(folder / words.Next());
+  for (LineWords words(statement); !words.Done();) files.push_back(folder / words.Next());
   if (files.size() < 2 || fs::exists(folder / statement, ignored)) return {folder / statement};
   return files;
 }

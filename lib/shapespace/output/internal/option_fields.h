@@ -27,6 +27,8 @@ void ForOptions(Of<FilmStripOptions>, const Visit& visit) {
   visit("frame_width", &FilmStripOptions::frame_width,
         "Longer side of the largest shape's cell, in pixels.");
   visit("max_frames", &FilmStripOptions::max_frames, "Longer paths are subsampled, evenly.");
+  visit("columns", &FilmStripOptions::columns,
+        "Shapes in a row; 0: as many as fit into six times the width.");
   visit("samples", &FilmStripOptions::samples, "Per pixel and axis.");
   visit("view", &FilmStripOptions::view, "Where the eye is, seen from the body; zero: chosen.");
   visit("up", &FilmStripOptions::up, "What points up in the picture; zero: +y or +z.");

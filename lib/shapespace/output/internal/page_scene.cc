@@ -247,6 +247,38 @@ void CheckNodes(const std::string& name, const char* what, const int* nodes, Eig
   }
 }
 
+void CheckColours(const std::string& name, const Eigen::MatrixXd& colours, Eigen::Index vertices) {
+  if (colours.size() > 0 && (colours.rows() < 3 || colours.cols() != vertices ||
+                             !(colours.array() >= 0 && colours.array() <= 1).all())) {
+    throw MeshError(name + ": vertex colours do not fit");
+  }
+}
+
+void CheckShapes(const std::string& name, const Connectivity& connectivity,
+                 const std::vector<Shape>& shapes) {
+  for (const Shape& shape : shapes) {
+    if (shape.cols() != connectivity.NumVertices() || !shape.allFinite()) {
+      throw MeshError(name + ": a shape has another number of vertices, or is not finite");
+    }
+  }
+}
+
+void CheckModes(const PageModes& modes) {
+  const size_t count = modes.shares.size();
+  const auto poses = static_cast<Eigen::Index>(modes.names.size());
+  const auto scalars = static_cast<Eigen::Index>(modes.scalars.size());
+  const auto fail = [&] { throw MeshError(modes.name + ": numbers of keys or modes do not fit"); };
+  if (modes.connectivity == nullptr || count == 0 || modes.places.empty()) fail();
+  if (modes.keys.size() != 1 + count * modes.places.size() + count * (count - 1) / 2) fail();
+  if (modes.coordinates.rows() != poses || modes.coordinates.cols() != modes.NumModes()) fail();
+  if (scalars > 0 && (modes.intercept.size() != modes.NumModes() ||
+                      modes.slopes.rows() != modes.NumModes() || modes.slopes.cols() != scalars)) {
+    fail();
+  }
+  CheckShapes(modes.name, *modes.connectivity, modes.keys);
+  CheckColours(modes.name, modes.vertex_colours, modes.keys[0].cols());
+}
+
 void CheckSpace(const PageSpace& space) {
   const size_t num_nodes = space.nodes.size();
   if (space.connectivity == nullptr || num_nodes == 0) throw MeshError(space.name + ": no shape");
@@ -254,17 +286,8 @@ void CheckSpace(const PageSpace& space) {
       space.names.size() + space.parents.size() != num_nodes || space.names.empty()) {
     throw MeshError(space.name + ": numbers of nodes, points, names and parents do not fit");
   }
-  for (const Shape& shape : space.nodes) {
-    if (shape.cols() != space.connectivity->NumVertices() || !shape.allFinite()) {
-      throw MeshError(space.name +
-                      ": a node's shape has another number of vertices, or is not finite");
-    }
-  }
-  const Eigen::MatrixXd& colours = space.vertex_colours;
-  if (colours.size() > 0 && (colours.rows() < 3 || colours.cols() != space.nodes[0].cols() ||
-                             !(colours.array() >= 0 && colours.array() <= 1).all())) {
-    throw MeshError(space.name + ": vertex colours do not fit");
-  }
+  CheckShapes(space.name, *space.connectivity, space.nodes);
+  CheckColours(space.name, space.vertex_colours, space.nodes[0].cols());
   if (!space.points.allFinite()) throw MeshError(space.name + ": a point is not finite");
   CheckNodes(space.name, "triangles", space.triangles.data(), space.triangles.size(), num_nodes);
   CheckNodes(space.name, "segments", space.segments.data(), space.segments.size(), num_nodes);
@@ -327,6 +350,38 @@ std::string EncodeScene(const PageSpace& scene) {
              &header);
   const std::vector<Steps> steps = QuantiseAll(scene.nodes, &header);
   AppendPositions(steps, PredictFromParents(steps, scene.parents), &arrays);
+  AppendColours(scene.vertex_colours, &header, &arrays);
+  return Pack(header, arrays);
+}
+
+std::string EncodeScene(const PageModes& scene) {
+  CheckModes(scene);
+  CheckSize(scene.name, scene.keys.size(), scene.connectivity->NumVertices(), 6);
+  OrderedJson header = {{"version", kVersion}, {"kind", "modes"}, {"name", scene.name}};
+  std::string arrays;
+  AppendConnectivity(*scene.connectivity, &header, &arrays);
+  header["places"] = scene.places;
+  header["pairPlace"] = scene.pair_place;
+  header["error"] = scene.error;
+  header["shares"] = scene.shares;
+  header["names"] = scene.names;
+  header["coordinates"] = Columns(scene.coordinates.transpose().eval());
+  header["scalars"] = OrderedJson::array();
+  for (const PageModes::Scalar& scalar : scene.scalars) {
+    header["scalars"].push_back({{"name", scalar.name},
+                                 {"least", scalar.least},
+                                 {"most", scalar.most},
+                                 {"value", scalar.value}});
+  }
+  header["intercept"] = std::vector<double>(scene.intercept.begin(), scene.intercept.end());
+  header["slopes"] = Columns(scene.slopes);
+  header["command"] = scene.command;
+  AppendView(*scene.connectivity, {scene.keys[0]}, &header);
+  const std::vector<Steps> steps = QuantiseAll(scene.keys, &header);
+  // Every key is predicted to be the mean.
+  std::vector<Steps> predicted(steps.size(), steps[0]);
+  predicted[0].assign(steps[0].size(), 0);
+  AppendPositions(steps, predicted, &arrays);
   AppendColours(scene.vertex_colours, &header, &arrays);
   return Pack(header, arrays);
 }

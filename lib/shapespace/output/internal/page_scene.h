@@ -13,6 +13,7 @@ namespace shapespace::internal {
 /// \throw MeshError if the scene is not valid.
 std::string EncodeScene(const PagePath& scene);
 std::string EncodeScene(const PageSpace& scene);
+std::string EncodeScene(const PageModes& scene);
 
 }  // namespace shapespace::internal
 

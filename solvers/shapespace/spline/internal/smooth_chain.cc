@@ -7,8 +7,8 @@
 
 #include <shapespace/base/internal/ranges.h>
 #include <shapespace/numerics/internal/gradient_integrator.h>
+#include <shapespace/numerics/internal/triangle_pose.h>
 #include <shapespace/spline/internal/corrections.h>
-#include <shapespace/spline/internal/triangle_pose.h>
 
 namespace shapespace::internal {
 namespace {

@@ -59,11 +59,15 @@ FeatureStatistics::FeatureStatistics(const FeatureMap& map, const std::vector<Sh
       for (int e = first; e < last; ++e) {
         auto mean = mean_.segment<2>(begin + 2 * e);
         if (!GetAngles(begin + 2 * e, &angles) || mean.isZero(0)) continue;
-        // The mean of the angles as they are seen from the direction of the mean point.
-        const double middle = std::atan2(mean(1), mean(0));
-        double angle = middle;
-        for (size_t i = 0; i < angles.size(); ++i) {
-          angle += weights_(i) * WrapAngle(angles[i] - middle);
+        // The angles are unwrapped around the direction of the mean point, and then around their
+        // mean, until that stays: their variance on the circle falls each time.
+        double angle = std::atan2(mean(1), mean(0));
+        for (double turned = 1; std::abs(turned) > 1e-14;) {
+          turned = 0;
+          for (size_t i = 0; i < angles.size(); ++i) {
+            turned += weights_(i) * WrapAngle(angles[i] - angle);
+          }
+          angle += turned;
         }
         mean = std::sqrt(hinges.weights(e)) * Eigen::Vector2d(std::cos(angle), std::sin(angle));
       }

@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_SPLINE_INTERNAL_TRIANGLE_POSE_H_
-#define SHAPESPACE_SPLINE_INTERNAL_TRIANGLE_POSE_H_
+#ifndef SHAPESPACE_NUMERICS_INTERNAL_TRIANGLE_POSE_H_
+#define SHAPESPACE_NUMERICS_INTERNAL_TRIANGLE_POSE_H_
 
 #include <cmath>
 
@@ -82,4 +82,4 @@ inline Eigen::Quaterniond Exp(const Eigen::Vector3d& turn) {
 
 }  // namespace shapespace::internal
 
-#endif  // SHAPESPACE_SPLINE_INTERNAL_TRIANGLE_POSE_H_
+#endif  // SHAPESPACE_NUMERICS_INTERNAL_TRIANGLE_POSE_H_

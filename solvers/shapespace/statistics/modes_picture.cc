@@ -1,0 +1,92 @@
+#include <shapespace/statistics/modes_picture.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <shapespace/base/error.h>
+#include <shapespace/numerics/internal/report.h>
+#include <shapespace/output/internal/colour.h>
+#include <shapespace/output/internal/text.h>
+
+namespace shapespace {
+namespace {
+
+constexpr int kSteps = 2;  // standard deviations to each side of the mean
+constexpr int kChartHeight = 120, kChartMargin = 10, kWidestBar = 40;
+
+// A bar for each mode, with its share of the variance; below them the modes' numbers.
+void AddChart(const PoseModes& modes, RgbImage* image) {
+  const int height = kChartHeight + 2 * internal::kTextHeight + 4 * kChartMargin;
+  const int top = image->height + 2 * kChartMargin + internal::kTextHeight;
+  image->height += height;
+  const std::array<unsigned char, 3> paper = {image->pixels[0], image->pixels[1], image->pixels[2]};
+  for (int i = 0; i < height * image->width; ++i) {
+    image->pixels.insert(image->pixels.end(), paper.begin(), paper.end());
+  }
+  internal::DrawText(image, kChartMargin, top - kChartMargin - internal::kTextHeight,
+                     "share of the variance, in per cent");
+  const int bars = modes.NumModes();
+  const int pitch = std::min(2 * kWidestBar, (image->width - 2 * kChartMargin) / bars);
+  // Numbers are written where they fit.
+  const bool is_labelled = pitch >= kWidestBar;
+  for (int k = 0; k < bars; ++k) {
+    const double share = modes.variances(k) / modes.total_variance;
+    const int left = kChartMargin + k * pitch, width = std::max(1, pitch / 2);
+    const int length = static_cast<int>(std::lround(share * (kChartHeight - 24)));
+    const int foot = top + kChartHeight;
+    internal::Fill(image, left, foot - std::max(1, length), left + width, foot,
+                   internal::TextColour());
+    if (!is_labelled) continue;
+    internal::DrawText(image, left, foot - length - internal::kTextHeight - 2,
+                       internal::Format(share < 0.095 ? "%.1f" : "%.0f", 100 * share));
+    internal::DrawText(image, left, foot + kChartMargin / 2, std::to_string(k + 1));
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd DistanceFromMean(const PoseModes& modes, const Shape& shape) {
+  const Metric& metric = *modes.metric;
+  const Shape own = shape / metric.unit;
+  const Shape moved = FitRigidMotion(own, modes.mean, metric.vertex_area)(own);
+  const double diagonal =
+      (modes.mean.rowwise().maxCoeff() - modes.mean.rowwise().minCoeff()).norm();
+  return (moved - modes.mean).colwise().norm().transpose() / diagonal;
+}
+
+RgbImage RenderModes(const ShapeModel& model, int modes, const FilmStripOptions& given,
+                     Progress* progress) {
+  const PoseModes& content = model.Modes();
+  if (modes < 1 || modes > content.NumModes()) {
+    throw InvalidOptions("modes", "must be from 1 to " + std::to_string(content.NumModes()) +
+                                      ", of which there are pictures");
+  }
+  FilmStripOptions options = given;
+  options.columns = 2 * kSteps + 1;
+  options.max_frames = 1000;
+  options.legend = "distance from the mean, per cent of its diagonal";
+  options.roles.clear();
+  options.labels.clear();
+  options.values.clear();
+  std::vector<Shape> shapes;
+  for (int k = 0; k < modes; ++k) {
+    for (int step = -kSteps; step <= kSteps; ++step) {
+      Eigen::VectorXd coordinates = Eigen::VectorXd::Zero(k + 1);
+      coordinates(k) = step;
+      const Shape shape = model.At(coordinates, progress).shape;
+      // Turned to the mean, so that the motion of the parts is seen and not that of the whole.
+      shapes.push_back(FitRigidMotion(shape / content.metric->unit, content.mean,
+                                      content.metric->vertex_area)(shape / content.metric->unit));
+      options.values.push_back(DistanceFromMean(content, shape));
+      options.labels.push_back(internal::Format("mode %d: %+d", k + 1, step));
+      if (step == 0) options.labels.back() = "mean";
+    }
+  }
+  RgbImage image = RenderFilmStrip(*content.metric->connectivity, shapes, options);
+  AddChart(content, &image);
+  return image;
+}
+
+}  // namespace shapespace
