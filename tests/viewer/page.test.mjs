@@ -115,18 +115,19 @@ async function saved(page, button) {
 }
 
 describe('every page', () => {
-  for (const name of ['walk-path', 'two', 'space']) {
+  for (const name of ['walk-path', 'two', 'space', 'herd']) {
     for (const width of [360, 768, 1280]) {
       for (const colorScheme of ['light', 'dark']) {
         test(`${name}, ${width} px, ${colorScheme}`, async () => {
           const viewport = { width, height: width < 500 ? 740 : 800 };
           await open(name, { viewport, colorScheme }, async (page) => {
-            if (name !== 'space') await page.locator('#deviation').check();
+            const isPath = name !== 'space' && name !== 'herd';
+            if (isPath) await page.locator('#deviation').check();
             assert.deepEqual(await page.evaluate(contrastFaults), []);
             assert.deepEqual(await page.evaluate(layoutFaults), []);
             assert.deepEqual(await page.evaluate(namelessControls), []);
             if (name === 'space') await drawCurve(page);
-            else await setTime(page, 0.6);
+            else if (isPath) await setTime(page, 0.6);
             await look(page);
             if (!pictures) return;
             const path = `${pictures}/${name}-${width}-${colorScheme}.png`;
@@ -469,6 +470,77 @@ describe('a space', () => {
       const box = await planeBox(page);
       await assertChanges(page, () => page.mouse.click(box.x + 0.3 * box.width, box.y + 10));
       assert.match(await page.locator('#plane-status').textContent(), /straight.*bent.*outside/);
+    });
+  });
+});
+
+describe('a model', () => {
+  const sliders = (page, part) => page.locator(`#${part} input`);
+  const values = (page) =>
+    sliders(page, 'modes').evaluateAll((inputs) => inputs.map((input) => Number(input.value)));
+  const setSlider = (slider, value) =>
+    slider.evaluate((input, to) => {
+      input.value = to;
+      input.dispatchEvent(new Event('input'));
+    }, value);
+
+  test('has a slider for each mode, which moves the shape', async () => {
+    await open('herd', {}, async (page) => {
+      assert.equal(await sliders(page, 'modes').count(), 3);
+      assert.match(await page.locator('#modes').textContent(), /Mode 1, [\d.]+\u2009% of the/);
+      for (let k = 0; k < 3; ++k) {
+        await assertChanges(page, () => setSlider(sliders(page, 'modes').nth(k), 1.5));
+      }
+      await assertChanges(page, () => page.locator('#to-mean').click());
+      assert.deepEqual(await values(page), [0, 0, 0]);
+    });
+  });
+  test('says the command line of the exact shape, and copies it', async () => {
+    await open('herd', { permissions: ['clipboard-read', 'clipboard-write'] }, async (page) => {
+      await setSlider(sliders(page, 'modes').nth(0), 1.5);
+      await setSlider(sliders(page, 'modes').nth(2), -0.5);
+      const wanted = 'shape-statistics herd.modes --at 1.5,0,-0.5 --output shape.obj';
+      assert.equal(await page.locator('#command').inputValue(), wanted);
+      await page.locator('#copy').click();
+      await page.locator('#status', { hasText: /copied|selected/ }).waitFor();
+    });
+  });
+  test('goes to a pose that is clicked, or chosen by keys', async () => {
+    await open('herd', {}, async (page) => {
+      const poses = page.locator('.scatter .pose');
+      assert.equal(await poses.count(), 5);
+      await assertChanges(page, () => poses.nth(3).click({ force: true }));
+      const first = await values(page);
+      assert.match(await page.locator('#pose').textContent(), /herd3/);
+      await poses.nth(1).focus();
+      await page.keyboard.press('Enter');
+      assert.notDeepEqual(await values(page), first);
+      await page.locator('#across').selectOption('2');
+      assert.match(await page.locator('.scatter').textContent(), /mode 3/);
+    });
+  });
+  test('follows a scalar, if there are any', async () => {
+    await open('herd', {}, async (page) => {
+      await setSlider(sliders(page, 'scalars').first(), 1);
+      const young = await values(page);
+      await assertChanges(page, () => setSlider(sliders(page, 'scalars').first(), 6));
+      const old = await values(page);
+      assert.ok(young.some((value, k) => Math.abs(value - old[k]) > 0.1));
+    });
+    await open('plain', {}, async (page) => {
+      assert.equal(await sliders(page, 'scalars').count(), 0);
+    });
+  });
+  test('plays the mode that was moved last', async () => {
+    await open('herd', {}, async (page) => {
+      await setSlider(sliders(page, 'modes').nth(1), 0.5);
+      const [first] = await values(page);
+      await page.locator('#play').click();
+      await page.waitForTimeout(700);
+      await page.locator('#play').click();
+      const after = await values(page);
+      assert.equal(after[0], first);
+      assert.notEqual(after[1], 0.5);
     });
   });
 });

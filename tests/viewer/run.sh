@@ -42,6 +42,11 @@ cd "$work/pages"
   "$bin/shape-body" quadruped --pose stand,sit,stretch,rear --triangles 1000 --output 'pose%d.obj'
   "$bin/shape-explore" pose?.obj --depth 1 --output poses.space
   "$bin/shape-view" poses.space --output poses.html
+  "$bin/shape-body" quadruped --pose stand,sit,stretch,rear,stride --triangles 1000 --output 'herd%d.obj'
+  printf 'file,age\nherd0.obj,1\nherd1.obj,2\nherd2.obj,3\nherd3.obj,4\nherd4.obj,6\n' >ages.csv
+  "$bin/shape-statistics" herd?.obj --modes 3 --output herd.modes
+  "$bin/shape-statistics" herd.modes --scalars ages.csv --output herd.html
+  "$bin/shape-statistics" herd.modes --output plain.html
   SHAPESPACE_PAGE_DIR=$PWD SHAPESPACE_PAGE_TEMPLATE=$root/tools/viewer/dist/viewer.html \
     "$root/build/release/tests/output/output_test" --gtest_filter='PageTest.WritesSpaces*'
   cp "$root/tools/viewer/dist/viewer.html" empty.html

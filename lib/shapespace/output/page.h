@@ -56,6 +56,7 @@ struct PageModes {
   /// M, then all K of the first mode, of the second ..., then all P: of modes 1 and 2, 1 and 3,
   /// ..., 2 and 3, ... In the user's unit.
   std::vector<Shape> keys;
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< what points up; zero: chosen from the keys
   double error = 0;            ///< distance of what is shown from exact shapes, as a share of the
                                ///< mean's diagonal
   std::vector<double> shares;  ///< of the variance, one for each mode

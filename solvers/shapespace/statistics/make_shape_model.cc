@@ -147,8 +147,11 @@ ShapeModelResult MakeShapeModel(const std::shared_ptr<const Connectivity>& conne
   modes.place.translation = Centroid(average.shape, metric.vertex_area);
   modes.mean = (average.shape.colwise() - modes.place.translation) / metric.unit;
   for (const Shape& pose : poses) {
-    modes.poses.push_back(
-        FitRigidMotion(pose / metric.unit, modes.mean, metric.vertex_area)(pose / metric.unit));
+    const Shape own = pose / metric.unit;
+    const RigidMotion motion = FitRigidMotion(own, modes.mean, metric.vertex_area);
+    modes.poses.push_back(motion(own));
+    const Eigen::Matrix3d back = motion.rotation.transpose();
+    modes.motions.push_back({back, -metric.unit * back * motion.translation});
   }
 
   const FeatureMap map(modes.metric);

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include <shapespace/base/error.h>
+#include <shapespace/statistics/modes_picture.h>
 
 namespace shapespace {
 namespace {
@@ -90,6 +91,7 @@ PageModes PageOf(const ShapeModel& model, const std::string& file, const Regress
       page.keys.push_back(page.keys[0] + MixedTerm(model, k, l));
     }
   }
+  page.up = UpOf(modes);
   page.error = MeanError(model, page, progress);
   page.names = modes.names;
   page.coordinates = modes.Coordinates();

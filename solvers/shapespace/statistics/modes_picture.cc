@@ -9,6 +9,7 @@
 #include <shapespace/numerics/internal/report.h>
 #include <shapespace/output/internal/colour.h>
 #include <shapespace/output/internal/text.h>
+#include <shapespace/output/internal/view.h>
 
 namespace shapespace {
 namespace {
@@ -56,6 +57,15 @@ Eigen::VectorXd DistanceFromMean(const PoseModes& modes, const Shape& shape) {
   return (moved - modes.mean).colwise().norm().transpose() / diagonal;
 }
 
+Eigen::Vector3d UpOf(const PoseModes& modes) {
+  std::vector<Shape> poses;
+  for (int i = 0; i < modes.NumPoses(); ++i) {
+    const Shape pose = modes.PlacedPose(i) / modes.metric->unit;
+    poses.push_back(pose.colwise() - Centroid(pose, modes.metric->vertex_area));
+  }
+  return internal::ChooseUp(*modes.metric->connectivity, poses);
+}
+
 RgbImage RenderModes(const ShapeModel& model, int modes, const FilmStripOptions& given,
                      Progress* progress) {
   const PoseModes& content = model.Modes();
@@ -65,6 +75,7 @@ RgbImage RenderModes(const ShapeModel& model, int modes, const FilmStripOptions&
   }
   FilmStripOptions options = given;
   options.columns = 2 * kSteps + 1;
+  if (options.up.isZero(0)) options.up = UpOf(content);
   options.max_frames = 1000;
   options.legend = "distance from the mean, per cent of its diagonal";
   options.roles.clear();

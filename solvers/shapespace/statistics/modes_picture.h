@@ -12,6 +12,9 @@ namespace shapespace {
 /// diagonal of the mean's bounding box. `shape` is in the user's unit.
 Eigen::VectorXd DistanceFromMean(const PoseModes& modes, const Shape& shape);
 
+/// The axis, y or z, that points up in the poses, as film strips choose it.
+Eigen::Vector3d UpOf(const PoseModes& modes);
+
 /// A row for each of the first `modes` modes: its shapes at -2, -1, 0, 1 and 2 standard deviations,
 /// coloured by their distance from the mean; and below, as bars, the modes' shares of the variance.
 /// Of `options`, the width of frames, samples, view, up and title are used.

@@ -18,8 +18,8 @@ void PoseModes::Validate() const {
   const auto fail = [](const std::string& what) { throw MeshError("the modes: " + what); };
   const int vertices = metric->connectivity->NumVertices();
   if (poses.empty()) fail("there is no pose");
-  if (static_cast<int>(names.size()) != NumPoses() || weights.size() != NumPoses() ||
-      coefficients.rows() != NumPoses()) {
+  if (static_cast<int>(names.size()) != NumPoses() || motions.size() != poses.size() ||
+      weights.size() != NumPoses() || coefficients.rows() != NumPoses()) {
     fail("poses, names, weights and coefficients differ in number");
   }
   if (coefficients.cols() != NumModes() || variances.size() != NumModes()) {
@@ -33,6 +33,11 @@ void PoseModes::Validate() const {
   check_shape(mean, "the mean");
   for (const Shape& pose : poses) check_shape(pose, "a pose");
   for (const Tangent& mode : modes) check_shape(mode, "a mode");
+  for (const RigidMotion& motion : motions) {
+    if (!motion.rotation.allFinite() || !motion.translation.allFinite()) {
+      fail("the place of a pose is not finite");
+    }
+  }
   if (!coefficients.allFinite() || !place.rotation.allFinite() || !place.translation.allFinite()) {
     fail("a number is not finite");
   }

@@ -26,6 +26,7 @@ enum class PoseSize {
 struct PoseModes {
   std::shared_ptr<const Metric> metric;  ///< frozen on all poses; has the connectivity
   std::vector<Shape> poses;              ///< rotated onto the mean
+  std::vector<RigidMotion> motions;      ///< of the poses: from unit * pose to the user's frame
   std::vector<std::string> names;        ///< of the poses
   Eigen::VectorXd weights;               ///< of the poses, positive, with sum 1
   PoseSize size = PoseSize::kKeep;
@@ -44,6 +45,8 @@ struct PoseModes {
   std::string provenance;  ///< the program and the inputs from which it was made
   Appearance appearance;   ///< of the connectivity's polygons: for outputs
 
+  /// A pose in the user's unit and frame; of the size that all have if size is removed.
+  Shape PlacedPose(int i) const { return motions[i](metric->unit * poses[i]); }
   int NumPoses() const { return static_cast<int>(poses.size()); }
   int NumModes() const { return static_cast<int>(modes.size()); }
   /// The coordinates of the poses, a row for each: of mean 0 and variance 1.

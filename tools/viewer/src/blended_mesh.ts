@@ -132,6 +132,15 @@ export class BlendedMesh extends Group {
     this.uniforms.weightC.value = blend.weights[2];
   }
 
+  /** Shows the first shape again, after its array has changed. */
+  refresh(): void {
+    this.positionsOf(0).needsUpdate = true;
+    if (this.isGraph) return;
+    const normals = this.normalsOf(0);
+    normals.array.set(vertexNormals(this.body, this.body.shapes[0]));
+    normals.needsUpdate = true;
+  }
+
   /** Prepares the arrays of one more shape. Returns false if those of all shapes are ready. */
   prepareNext(): boolean {
     const next = this.body.shapes.findIndex((_, node) => !this.positions[node]);

@@ -108,6 +108,11 @@ function betweenParents(shapes: Uint16Array[], parents: [number, number][]): Pre
   };
 }
 
+/** Every key is predicted to be the mean, which is the first. */
+function likeFirst(shapes: Uint16Array[]): Predict {
+  return (s, index) => (s === 0 ? 0 : shapes[0][index]);
+}
+
 function check(condition: boolean) {
   if (!condition) throw new Damaged('its header does not fit its content');
 }
@@ -122,8 +127,12 @@ function areNodes(lists: number[][], size: number, nodes: number): boolean {
   );
 }
 
+function areRows(rows: number[][], size: number): boolean {
+  return rows.every((row) => row.length === size && row.every(Number.isFinite));
+}
+
 function checkHeader(header: any) {
-  check(header.kind === 'path' || header.kind === 'space');
+  check(['path', 'space', 'modes'].includes(header.kind));
   check([header.vertices, header.triangles, header.segments, header.shapes].every(isCount));
   check(header.vertices > 0 && header.shapes > 0 && header.side >= 0);
   check([header.low, header.up, header.eye].every((vector) => vector.length === 3));
@@ -131,6 +140,14 @@ function checkHeader(header: any) {
     check(header.parameters.length === header.shapes && header.rms.length === header.shapes);
     check(header.max.length === header.shapes && header.scaleEnd > 0);
     check(header.speeds.length === header.shapes - 1);
+  } else if (header.kind === 'modes') {
+    const modes = header.shares.length;
+    check(modes > 0 && header.places.length > 0 && header.pairPlace > 0);
+    check(header.shapes === 1 + modes * header.places.length + (modes * (modes - 1)) / 2);
+    check(header.coordinates.length === header.names.length);
+    check(areRows(header.coordinates, modes) && areRows(header.slopes, modes));
+    check(header.slopes.length === header.scalars.length);
+    check(header.scalars.length === 0 || header.intercept.length === modes);
   } else {
     check(header.names.length > 0 && header.points.length === header.shapes);
     check(header.names.length + header.parents.length === header.shapes);
@@ -158,7 +175,12 @@ export async function decodeScene(text: string): Promise<SceneData> {
   if (6 * vertices * header.shapes > 2 ** 31) throw new Damaged('its header does not fit its content');
   const shapes: Uint16Array[] = [];
   for (let s = 0; s < header.shapes; ++s) shapes.push(new Uint16Array(4 * vertices));
-  const predict = header.kind === 'path' ? along(shapes) : betweenParents(shapes, header.parents);
+  const predictions: Record<string, () => Predict> = {
+    path: () => along(shapes),
+    space: () => betweenParents(shapes, header.parents),
+    modes: () => likeFirst(shapes),
+  };
+  const predict = predictions[header.kind]();
   readPositions(reader, shapes, vertices, predict);
   if (header.kind === 'path') readDeviations(reader, shapes, vertices);
   const colours = header.colours ? reader.take(3 * vertices) : null;

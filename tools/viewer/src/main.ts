@@ -2,6 +2,7 @@ import './style.css';
 import { decodeScene } from './decode';
 import { byId } from './dom';
 import { decodeGlb } from './gltf';
+import { showModes } from './modes_view';
 import { showPaths } from './path_view';
 import { Damaged, type SceneData } from './scene_data';
 import { showSpace } from './space_view';
@@ -59,6 +60,7 @@ async function start(): Promise<void> {
   document.title = scenes.map(({ name }) => name).join(' and ');
   const [first] = scenes;
   if (first.kind === 'space') showSpace(first);
+  else if (first.kind === 'modes') showModes(first);
   else showPaths(scenes.filter((scene) => scene.kind === 'path'));
 }
 

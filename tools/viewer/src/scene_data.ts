@@ -45,7 +45,26 @@ export interface SpaceScene extends Body {
   parents: [number, number][];
 }
 
-export type SceneData = PathScene | SpaceScene;
+export interface ModesScene extends Body {
+  kind: 'modes';
+  /** The shapes are keys, of which others are made: docs/file-formats.md. */
+  places: number[];
+  pairPlace: number;
+  /** Of what is shown from exact shapes, as a share of the diagonal of the mean. */
+  error: number;
+  /** Shares of the variance, one for each mode. */
+  shares: number[];
+  /** Of the poses; and their coordinates. */
+  names: string[];
+  coordinates: number[][];
+  scalars: { name: string; least: number; most: number; value: number }[];
+  intercept: number[];
+  /** For each scalar, one number for each mode. */
+  slopes: number[][];
+  command: string;
+}
+
+export type SceneData = PathScene | SpaceScene | ModesScene;
 
 /** Thrown if the data in the page are damaged. */
 export class Damaged extends Error {}

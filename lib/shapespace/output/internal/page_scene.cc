@@ -149,9 +149,9 @@ std::vector<Steps> QuantiseAll(const std::vector<Shape>& shapes, OrderedJson* he
   return steps;
 }
 
-// The view direction of a film strip of `shapes`, and its upward direction.
+// The view direction of a film strip of `shapes`, and its upward direction, chosen if zero.
 void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shapes,
-                OrderedJson* header) {
+                const Eigen::Vector3d& wanted_up, OrderedJson* header) {
   const Box box = BoxAround(shapes);
   std::vector<Shape> small;
   for (const Shape& shape : shapes) {
@@ -161,7 +161,7 @@ void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shap
   const RayTracer tracer(connectivity, kTubeRadius);
   std::vector<Scene> scenes;
   for (const Shape& shape : small) scenes.emplace_back(tracer, shape, Eigen::VectorXf());
-  const Eigen::Vector3d up = ChooseUp(connectivity, small);
+  const Eigen::Vector3d up = wanted_up.isZero(0) ? ChooseUp(connectivity, small) : wanted_up;
   const Eigen::Vector3d eye = ChooseView(small, scenes, up).col(2);
   (*header)["up"] = {up[0], up[1], up[2]};
   (*header)["eye"] = {eye[0], eye[1], eye[2]};
@@ -326,7 +326,7 @@ std::string EncodeScene(const PagePath& scene) {
   header["metric"] = DescribeMetric(path.metric->options);
   header["speeds"] = SquaredSpeeds(path);
   const std::vector<Shape> shapes = path.Placed();
-  AppendView(connectivity, {shapes.front(), shapes.back()}, &header);
+  AppendView(connectivity, {shapes.front(), shapes.back()}, Eigen::Vector3d::Zero(), &header);
   const std::vector<Steps> steps = QuantiseAll(shapes, &header);
   AppendPositions(steps, PredictAlongPath(steps), &arrays);
   AppendDeviations(path, &header, &arrays);
@@ -347,7 +347,7 @@ std::string EncodeScene(const PageSpace& scene) {
   header["parents"] = scene.parents;
   AppendView(*scene.connectivity,
              {scene.nodes.begin(), scene.nodes.begin() + std::min<size_t>(scene.names.size(), 3)},
-             &header);
+             Eigen::Vector3d::Zero(), &header);
   const std::vector<Steps> steps = QuantiseAll(scene.nodes, &header);
   AppendPositions(steps, PredictFromParents(steps, scene.parents), &arrays);
   AppendColours(scene.vertex_colours, &header, &arrays);
@@ -376,7 +376,7 @@ std::string EncodeScene(const PageModes& scene) {
   header["intercept"] = std::vector<double>(scene.intercept.begin(), scene.intercept.end());
   header["slopes"] = Columns(scene.slopes);
   header["command"] = scene.command;
-  AppendView(*scene.connectivity, {scene.keys[0]}, &header);
+  AppendView(*scene.connectivity, {scene.keys[0]}, scene.up, &header);
   const std::vector<Steps> steps = QuantiseAll(scene.keys, &header);
   // Every key is predicted to be the mean.
   std::vector<Steps> predicted(steps.size(), steps[0]);
