@@ -433,7 +433,7 @@ int main(int argc, char** argv) {
   return RunTool(
       argc, argv,
       {"shape-statistics",
-       "the mean and the modes of poses of a mesh, and how shapes depend on scalars and groups",
+       "the mean and the modes of poses, and how shapes depend on scalars and groups",
        "  shape-statistics *.obj --modes 6 --output herd.modes,modes.png,mode%d.glb,herd.html\n"
        "  shape-statistics herd.modes --coordinates new.obj --fit --output new.csv\n"
        "  shape-statistics herd.modes --at 1.5,-.5 --output shape.obj\n"

@@ -12,9 +12,10 @@ using testing::ExpectLacks;
 using testing::Outcome;
 using testing::ToolsTest;
 
-constexpr const char* kTools[] = {"shape-body",        "shape-correspond",  "shape-deform",
-                                  "shape-export",      "shape-extrapolate", "shape-inspect",
-                                  "shape-interpolate", "shape-transfer",    "shape-view"};
+constexpr const char* kTools[] = {"shape-average",     "shape-body",     "shape-correspond",
+                                  "shape-deform",      "shape-export",   "shape-explore",
+                                  "shape-extrapolate", "shape-inspect",  "shape-interpolate",
+                                  "shape-statistics",  "shape-transfer", "shape-view"};
 
 class HelpTest : public ToolsTest {
  protected:
