@@ -125,6 +125,13 @@ awk '
 "$bin/shape-interpolate" fold0.obj fold1.obj --bending 0 --shapes 7 --output fold.path
 "$bin/shape-export" fold.path --frames 6 --output "$pictures/frames.png"
 
+# guide/statistics.md
+for build in long heavy; do
+  "$bin/shape-body" quadruped --proportions $build --triangles 3000 --output "$build%d.obj" \
+    --pose stand,stride,sit,stretch,rear,pass,other_stride,other_pass
+done
+"$bin/shape-statistics" long?.obj heavy?.obj --modes 2 --output "$pictures/modes.png"
+
 # guide/library.md: what the program there draws
 "$bin/shape-body" tube --at 0,110 --output 'tube%d.obj'
 "$bin/shape-interpolate" tube0.obj tube1.obj --output "$pictures/library.png"

@@ -37,6 +37,7 @@ from ._core import (
     PoseTransferSummary,
     RepairSummary,
     ShapeError,
+    ShapeModelSummary,
     SkinnedBody,
     SolverError,
     SplineSummary,
@@ -95,6 +96,7 @@ from ._functions import (
     transport,
     write,
 )
+from ._model import ShapeModel
 from . import _metric
 from ._options import (
     EmbeddingOptions,

@@ -33,6 +33,7 @@ void BindPaths(py::module_* module);
 void BindSpaces(py::module_* module);
 void BindCorrespondence(py::module_* module);
 void BindSolvers(py::module_* module);
+void BindModels(py::module_* module);
 
 /// The mesh that `faces` stands for: of a Poses, Path, Metric, Space or Body; or triangles or
 /// polygons as in `SetPolygons`, on the vertices of `shapes`, which are checked as files are.

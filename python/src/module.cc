@@ -19,5 +19,6 @@ PYBIND11_MODULE(_core, module) {
   BindSpaces(&module);
   BindCorrespondence(&module);
   BindSolvers(&module);
+  BindModels(&module);
   module.def("options", &DescribeOptions);
 }

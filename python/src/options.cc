@@ -77,6 +77,7 @@ py::list DescribeOptions(const std::string& name) {
       {"ExploreOptions", Describe<ExploreOptions>},
       {"SplineOptions", Describe<SplineOptions>},
       {"AverageOptions", Describe<AverageOptions>},
+      {"ShapeModelOptions", Describe<ShapeModelOptions>},
       {"FilmStripOptions", Describe<FilmStripOptions>},
       {"GltfOptions", Describe<GltfOptions>},
   };

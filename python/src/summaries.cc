@@ -131,6 +131,8 @@ void BindSummaries(py::module_* module) {
       .Reports<true, true>();
   Record<AverageSummary>(module, "AverageSummary", "How good the mean of poses is.")
       .Reports<true, true>();
+  Record<ShapeModelSummary>(module, "ShapeModelSummary", "The modes of poses.")
+      .Reports<true, true>();
   Record<StandingSummary>(module, "StandingSummary",
                           "How parts of a body that stand were held in the shapes of a path.")
       .Reports<false, true>();

@@ -1,0 +1,175 @@
+"""A statistical model of the shapes of a body."""
+
+import os
+import tempfile
+import warnings
+
+import numpy as np
+
+from . import _core
+from ._functions import _poses
+from ._options import takes
+from ._progress import told
+
+
+class ShapeModel:
+    """The mean of poses and their principal modes; coordinates are in standard deviations.
+
+    Used as the transformers of scikit-learn are: `fit`, `transform`, `inverse_transform`.
+
+    Parameters
+    ----------
+    {options}
+
+    Attributes
+    ----------
+    mean : ndarray
+        The mean of the poses, n x 3.
+    modes : ndarray
+        Displacements of the mean by one standard deviation of each mode, k x n x 3.
+    explained_variance_ratio : ndarray
+        The modes' shares of the variance, k.
+    coordinates : ndarray
+        Of the poses, a row for each.
+    names : list of str
+        Of the poses, if they were files; otherwise their numbers.
+    faces : ndarray
+        Triangles, m x 3.
+    summary : ShapeModelSummary
+        How good the mean is, and what the modes are; None in a model that was read.
+    """
+
+    def __init__(self, **options):
+        self._options = options
+        self._summary = None
+        self._model = None
+
+    def fit(self, poses, faces=None, *, progress=None):
+        """Find the mean and the modes of poses.
+
+        `poses` are Poses or arrays of vertices, n x 3 each, with `faces`. Returns the model.
+        """
+        poses = _poses(poses, faces)
+        names = [os.path.splitext(os.path.basename(name))[0] for name in poses.names]
+        if len(set(names)) < len(names) or not all(names):
+            names = []
+        with told(progress) as report:
+            self._model, self._summary = _core.make_shape_model(
+                poses, names, self._options, report
+            )
+        return self
+
+    def transform(self, shapes, *, fit=False, progress=None):
+        """Coordinates of shapes, a row for each; with `fit`, of the shapes of the model that are
+        nearest to them, vertex by vertex."""
+        model = self._fitted()
+        with told(progress) as report:
+            return np.array(
+                [model.coordinates_of(shape, fit, report)[0] for shape in _sequence(shapes, 3)]
+            )
+
+    def inverse_transform(self, coordinates, *, progress=None):
+        """The shapes at coordinates, k x n x 3. Rows may have fewer coordinates than there are
+        modes; the others are then zero."""
+        model = self._fitted()
+        shapes = []
+        with told(progress) as report:
+            for row in _sequence(coordinates, 2):
+                shape, converged = model.at(row, report)
+                if not converged:
+                    warnings.warn(
+                        f"the shape at {row} was not found to the tolerance", stacklevel=2
+                    )
+                shapes.append(shape)
+        return np.array(shapes)
+
+    def fit_transform(self, poses, faces=None, *, progress=None):
+        """`fit`, and the coordinates of the poses."""
+        return self.fit(poses, faces, progress=progress).coordinates
+
+    def preview(self, coordinates):
+        """A shape that is near to the one at coordinates, n x 3, in milliseconds."""
+        return self._fitted().preview(coordinates)
+
+    def sample(self, count=1, *, seed=1):
+        """Coordinates of random shapes, a row for each; the same ones for a seed."""
+        model = self._fitted()
+        return np.array([model.sample(seed + i) for i in range(count)])
+
+    def write(self, file):
+        """Write a .modes file, which contains the poses."""
+        self._fitted().write(file)
+
+    @classmethod
+    def read(cls, file):
+        """Read a .modes file."""
+        model = cls()
+        model._model = _core._ShapeModel.read(file)
+        return model
+
+    @property
+    def summary(self):
+        return self._summary
+
+    @property
+    def mean(self):
+        return self._fitted().mean
+
+    @property
+    def modes(self):
+        return self._fitted().modes
+
+    @property
+    def explained_variance_ratio(self):
+        return self._fitted().variance_ratio
+
+    @property
+    def coordinates(self):
+        return self._fitted().coordinates
+
+    @property
+    def names(self):
+        return self._fitted().names
+
+    @property
+    def faces(self):
+        return self._fitted().faces
+
+    def _fitted(self):
+        if self._model is None:
+            raise AttributeError("this ShapeModel has no poses yet; call fit first")
+        return self._model
+
+    def __repr__(self):
+        if self._model is None:
+            return "<shapespace.ShapeModel, not fitted>"
+        poses, modes = self.coordinates.shape
+        return f"<shapespace.ShapeModel: {poses} poses, {modes} modes>"
+
+    def __getstate__(self):
+        content = None
+        if self._model is not None:
+            with tempfile.TemporaryDirectory() as folder:
+                file = os.path.join(folder, "pickled.modes")
+                self._model.write(file)
+                with open(file, "rb") as stream:
+                    content = stream.read()
+        return {"options": self._options, "content": content}
+
+    def __setstate__(self, state):
+        self._options, self._summary, self._model = state["options"], None, None
+        if state["content"] is not None:
+            with tempfile.TemporaryDirectory() as folder:
+                file = os.path.join(folder, "pickled.modes")
+                with open(file, "wb") as stream:
+                    stream.write(state["content"])
+                self._model = _core._ShapeModel.read(file)
+
+
+takes("ShapeModelOptions")(ShapeModel)
+
+
+def _sequence(values, dimensions):
+    """The values as a sequence, also if there is one alone."""
+    values = np.asarray(values, dtype=float)
+    return values[np.newaxis] if values.ndim == dimensions - 1 else values
