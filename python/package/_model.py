@@ -100,10 +100,10 @@ class ShapeModel:
         """Write a .modes file, which contains the poses."""
         self._fitted().write(file)
 
-    @classmethod
-    def read(cls, file):
+    @staticmethod
+    def read(file):
         """Read a .modes file."""
-        model = cls()
+        model = ShapeModel()
         model._model = _core._ShapeModel.read(file)
         return model
 
