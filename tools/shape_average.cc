@@ -9,6 +9,7 @@
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/output/picture.h>
+#include <shapespace/output/point_cache.h>
 #include <shapespace/statistics/average.h>
 #include <shapespace/statistics/internal/option_fields.h>
 
@@ -24,9 +25,10 @@
 #include "support/solve_progress.h"
 #include "support/tool.h"
 
-DEFINE_string(output, "mean.obj,mean.png",
-              "files to write, separated by commas: .obj, .ply, .off or .stl (the average), .png "
-              "(the poses and their average, which is green)");
+DEFINE_string(
+    output, "mean.obj,mean.png",
+    "files to write, separated by commas: .obj, .ply, .off or .stl (the average), .pc2 or "
+    ".mdd (the same as a point cache), .png (the poses and their average, which is green)");
 static const shapespace::tools::OptionFlags<shapespace::AverageOptions> flags(
     __FILE__, {{"certify", "certify"}, {"refine", "refine"}, {"shapes", "shapes"}});
 DEFINE_string(weights, "", "one number per pose, separated by commas; default: all equal");
@@ -39,8 +41,10 @@ std::vector<std::string> Outputs() {
   std::vector<std::string> outputs;
   for (const std::string& output : Split(FLAGS_output)) {
     if (output.empty()) continue;
-    if (!IsWritableMesh(output) && internal::FileExtension(output) != ".png") {
-      throw UsageError("--output " + output + ": must end in .obj, .ply, .off, .stl or .png");
+    if (!IsWritableMesh(output) && !IsPointCache(output) &&
+        internal::FileExtension(output) != ".png") {
+      throw UsageError("--output " + output +
+                       ": must end in .obj, .ply, .off, .stl, .png, .pc2 or .mdd");
     }
     CheckCanBeWritten(output);
     outputs.push_back(output);
@@ -87,6 +91,9 @@ void Run(const std::vector<std::string>& files) {
   for (const std::string& output : outputs) {
     if (internal::FileExtension(output) == ".png") {
       WritePng(output, Picture(poses, result.shape));
+      Out() << "wrote " << output << '\n';
+    } else if (IsPointCache(output)) {
+      WritePointCache(output, {result.shape});
       Out() << "wrote " << output << '\n';
     } else {
       WriteMeshAndTell(output, result.shape, FrameSoup(*poses.connectivity, poses.soup.appearance));

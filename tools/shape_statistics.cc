@@ -12,6 +12,7 @@
 #include <shapespace/output/frames.h>
 #include <shapespace/output/page.h>
 #include <shapespace/output/path_output.h>
+#include <shapespace/output/point_cache.h>
 #include <shapespace/statistics/assess.h>
 #include <shapespace/statistics/internal/option_fields.h>
 #include <shapespace/statistics/modes_file.h>
@@ -40,8 +41,9 @@ DEFINE_string(
     "files to write, separated by commas. Of the modes: .modes (all, for this program), .png "
     "(their "
     "shapes and variances), mode%d.glb (an animation of each), .html (a page with sliders), .csv "
-    "(coordinates of the poses). Of shapes at coordinates: .obj, .ply, .off or .stl, for --sample "
-    "with a number, such as s%02d.obj");
+    "(coordinates of the poses), .pc2 or .mdd (a point cache: the mean, then each mode at 1, for "
+    "shape keys). Of shapes at coordinates: .obj, .ply, .off or .stl, for --sample with a number, "
+    "such as s%02d.obj");
 static const shapespace::tools::OptionFlags<shapespace::ShapeModelOptions> model_flags(
     __FILE__, {{"modes", "modes"}, {"size", "size"}, {"certify", "certify"}, {"refine", "refine"}});
 FLAG_GROUP(model, "Modes");
@@ -125,8 +127,9 @@ std::vector<std::string> Outputs(const std::string& question) {
     } else if (extension == ".glb") {
       CheckFramePattern("output", output);
     } else {
-      check(extension == ".modes" || extension == ".png" || extension == ".csv" || IsPage(output),
-            ".modes, .png, .glb, .html or .csv");
+      check(extension == ".modes" || extension == ".png" || extension == ".csv" || IsPage(output) ||
+                IsPointCache(output),
+            ".modes, .png, .glb, .html, .csv, .pc2 or .mdd");
     }
     if (IsPage(output) && ViewerPage().empty()) {
       throw Error(
@@ -357,6 +360,16 @@ Path AlongMode(const ShapeModel& model, int mode, Progress* progress) {
   return path;
 }
 
+// The mean, and the shape of each mode one standard deviation from it.
+std::vector<Shape> MeanAndModes(const ShapeModel& model) {
+  SolveProgress progress({});
+  std::vector<Shape> shapes = {model.At(Eigen::VectorXd(), progress.get()).shape};
+  for (int k = 0; k < model.Modes().NumModes(); ++k) {
+    shapes.push_back(model.At(Eigen::VectorXd::Unit(k + 1, k), progress.get()).shape);
+  }
+  return shapes;
+}
+
 void WriteModesOutputs(const ShapeModel& model, const std::string& source,
                        const std::vector<std::string>& outputs) {
   const PoseModes& modes = model.Modes();
@@ -366,6 +379,8 @@ void WriteModesOutputs(const ShapeModel& model, const std::string& source,
       WriteModes(output, modes);
     } else if (extension == ".csv") {
       WritePoseTable(output, modes.names, Columns(modes.NumModes()), modes.Coordinates());
+    } else if (IsPointCache(output)) {
+      WritePointCache(output, MeanAndModes(model));
     } else if (modes.NumModes() == 0) {
       Complain(output + ": there are no modes to show");
       continue;

@@ -77,6 +77,9 @@ class ModuleRun:
             allow_nonmanifold=True,
         )
         self._notes += poses.warnings
+        if task.modes is not None:
+            self._average(poses)
+            return
         options = {"metric": task.metric}
         if task.steps:
             options["tolerance"] = _EXTRAPOLATION_TOLERANCE
@@ -98,6 +101,21 @@ class ModuleRun:
             self._motions.append(self._take(moved).vertices)
         if not task.targets:
             self._motions.append(path.vertices)
+
+    def _average(self, poses) -> None:
+        task = self._task
+        if task.modes == 0:
+            shape, summary = self._module.average(
+                poses, metric=task.metric, certify=False, progress=self._hear
+            )
+            self._notes += summary.warnings
+            self._motions.append(shape[None])
+            return
+        model = self._module.ShapeModel(modes=task.modes, metric=task.metric)
+        model.fit(poses, progress=self._hear)
+        self._notes += model.summary.warnings
+        rows = [[0.0] * k + [1.0] for k in range(task.modes)]
+        self._motions.append(model.inverse_transform([[0.0], *rows], progress=self._hear))
 
     def _take(self, result):
         self._notes += result.summary.warnings

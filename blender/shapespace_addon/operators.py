@@ -7,14 +7,21 @@ import bpy
 
 from . import progress
 from .problem import Problem
-from .settings import ExtrapolationSettings, MotionSettings, SmoothSettings, TransferSettings
-from .work import InBetweens, Transfer
+from .settings import (
+    AverageSettings,
+    ExtrapolationSettings,
+    MotionSettings,
+    PoseSettings,
+    SmoothSettings,
+    TransferSettings,
+)
+from .work import Average, InBetweens, Transfer
 
 _SECONDS_BETWEEN_POLLS = 0.1
 _running = []  # the operator that runs beside the window, if there is one
 
 
-class _Operation(MotionSettings):
+class _Operation:
     bl_options = {"REGISTER", "UNDO"}
     work = None  # the class of its Work
 
@@ -89,7 +96,7 @@ class _Operation(MotionSettings):
             return {"CANCELLED"}
 
 
-class SHAPESPACE_OT_inbetweens(_Operation, SmoothSettings, bpy.types.Operator):
+class SHAPESPACE_OT_inbetweens(_Operation, MotionSettings, SmoothSettings, bpy.types.Operator):
     """Insert shapes between poses, such that the mesh is distorted least on the way. The poses are
     the shape keys of the active object, or the selected objects in the order of their names"""
 
@@ -98,7 +105,7 @@ class SHAPESPACE_OT_inbetweens(_Operation, SmoothSettings, bpy.types.Operator):
     work = InBetweens
 
 
-class SHAPESPACE_OT_extrapolate(_Operation, ExtrapolationSettings, bpy.types.Operator):
+class SHAPESPACE_OT_extrapolate(_Operation, MotionSettings, ExtrapolationSettings, bpy.types.Operator):
     """Insert shapes between poses, as In-betweens does, and continue the motion beyond the last"""
 
     bl_idname = "shapespace.extrapolate"
@@ -106,7 +113,7 @@ class SHAPESPACE_OT_extrapolate(_Operation, ExtrapolationSettings, bpy.types.Ope
     work = InBetweens
 
 
-class SHAPESPACE_OT_transfer(_Operation, TransferSettings, bpy.types.Operator):
+class SHAPESPACE_OT_transfer(_Operation, MotionSettings, TransferSettings, bpy.types.Operator):
     """Give the other selected objects the motion of the active one through its shape keys. Their
     faces must be the same as its, and they must be in the pose with which its motion begins"""
 
@@ -115,7 +122,21 @@ class SHAPESPACE_OT_transfer(_Operation, TransferSettings, bpy.types.Operator):
     work = Transfer
 
 
-CLASSES = (SHAPESPACE_OT_inbetweens, SHAPESPACE_OT_extrapolate, SHAPESPACE_OT_transfer)
+class SHAPESPACE_OT_average(_Operation, PoseSettings, AverageSettings, bpy.types.Operator):
+    """Add an object with the average of poses: the shape keys of the active object, or the selected
+    objects. With Modes, its shape keys are the directions in which the poses vary most"""
+
+    bl_idname = "shapespace.average"
+    bl_label = "Average"
+    work = Average
+
+
+CLASSES = (
+    SHAPESPACE_OT_inbetweens,
+    SHAPESPACE_OT_extrapolate,
+    SHAPESPACE_OT_transfer,
+    SHAPESPACE_OT_average,
+)
 
 
 def cancel_running() -> None:

@@ -40,6 +40,9 @@ class SHAPESPACE_PT_panel(bpy.types.Panel):
         column.separator()
         column.prop(settings, "poses_only")
         _button(column, "shapespace.transfer", "MOD_DATA_TRANSFER", settings)
+        column.separator()
+        column.prop(settings, "modes")
+        _button(column, "shapespace.average", "MOD_SMOOTH", settings)
 
         if shown.text:
             box = layout.box()

@@ -6,16 +6,9 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 
-class MotionSettings:
-    """What the three operators have in common. The numbers are the tools' defaults."""
+class PoseSettings:
+    """What all operators have in common."""
 
-    shapes: IntProperty(
-        name="Shapes",
-        description="Shapes to insert between neighbouring poses",
-        default=15,
-        min=1,
-        soft_max=100,
-    )
     metric: EnumProperty(
         name="Metric",
         description="What is kept as far as possible between the poses",
@@ -30,6 +23,18 @@ class MotionSettings:
         name="Basis Is a Pose",
         description="The motion begins with the Basis. Otherwise it begins with the next shape key",
         default=True,
+    )
+
+
+class MotionSettings(PoseSettings):
+    """What the operators that make motions have in common. The numbers are the tools' defaults."""
+
+    shapes: IntProperty(
+        name="Shapes",
+        description="Shapes to insert between neighbouring poses",
+        default=15,
+        min=1,
+        soft_max=100,
     )
     result: EnumProperty(
         name="Result",
@@ -85,11 +90,23 @@ class TransferSettings:
     )
 
 
+class AverageSettings:
+    modes: IntProperty(
+        name="Modes",
+        description="Shape keys of the average for the directions in which the poses vary most. At"
+        " value 1 each is one standard deviation away from the average",
+        default=0,
+        min=0,
+        soft_max=10,
+    )
+
+
 class SHAPESPACE_settings(
     MotionSettings,
     SmoothSettings,
     ExtrapolationSettings,
     TransferSettings,
+    AverageSettings,
     bpy.types.PropertyGroup,
 ):
     """All settings of a scene."""

@@ -23,6 +23,7 @@ class Task:
     metric: str  # a preset of the metric
     steps: int = 0  # beyond the last pose
     ends: str = ""  # of a spline, "natural" or "periodic"; else a chain of geodesics
+    modes: int | None = None  # instead of a motion: the average and this number of modes
     targets: list = field(default_factory=list)  # bodies of one pose each
 
 

@@ -11,6 +11,7 @@ from .problem import Problem
 from .task import Result, Task
 
 _NEEDED = ("shape-interpolate", "shape-extrapolate", "shape-transfer")
+_FOR_AVERAGES = ("shape-average", "shape-statistics")  # which older tools do not have
 # Meshes from modelling often have non-manifold edges, such as those of inner faces.
 _ALWAYS = ("--allow_nonmanifold", "--progress", "lines")
 _SOURCE = "source.path"  # the motion that is transferred
@@ -19,8 +20,8 @@ _SECONDS_TO_END = 2  # that a process is given to end by itself
 
 def find(folder: str) -> dict:
     """The programs, from a folder or, if that is "", from PATH. Raises Problem."""
-    found = {name: shutil.which(name, path=folder or None) for name in _NEEDED}
-    missing = [name for name, program in found.items() if program is None]
+    found = {name: shutil.which(name, path=folder or None) for name in _NEEDED + _FOR_AVERAGES}
+    missing = [name for name in _NEEDED if found[name] is None]
     if missing:
         raise Problem(
             f"{missing[0]} was not found in {folder or 'any folder of PATH'}: build shapespace, and"
@@ -134,6 +135,13 @@ class ToolsRun:
 
 
 def _commands(task: Task, poses: list, targets: list, programs: dict) -> list:
+    if task.modes is not None:
+        name = "shape-statistics" if task.modes else "shape-average"
+        if programs[name] is None:
+            raise Problem(f"{name} was not found where shape-interpolate is: build shapespace again")
+        how = ["--modes", str(task.modes)] if task.modes else ["--nocertify"]
+        what = ["--metric", task.metric, "--output", "motion0.pc2"]
+        return [[programs[name], *poses, *what, *how]]
     inserted = ["--shapes", str(task.shapes), "--metric", task.metric]
     if not targets:
         output = ["--output", "motion0.pc2"]

@@ -158,27 +158,15 @@ class InBetweens(Work):
     def _place_new(self, context, first, poses, motion) -> list:
         """A copy of the first object as it is seen moves. It is alone selected, so that settings
         can be changed and the operator be run again, on it."""
-        depsgraph = context.evaluated_depsgraph_get()
-        mesh = bpy.data.meshes.new_from_object(first.evaluated_get(depsgraph), depsgraph=depsgraph)
-        item = bpy.data.objects.new(self._new_name(), mesh)
-        try:
+
+        def fill(item):
             names = []
             if self._settings.result == "KEYS":
                 own = [poses.frame.to_object(shape) for shape in poses.shapes]
                 names = shape_keys.add_poses(item, poses.names, own)
-            notes = self._put(context, item, motion, self._at(names))
-        except Problem:
-            bpy.data.objects.remove(item)
-            bpy.data.meshes.remove(mesh)
-            raise
-        for collection in first.users_collection:
-            collection.objects.link(item)
-        item.matrix_world = Matrix(poses.frame.matrix.tolist())
-        for selected in context.selected_objects:
-            selected.select_set(False)
-        item.select_set(True)
-        context.view_layer.objects.active = item
-        return notes
+            return self._put(context, item, motion, self._at(names))
+
+        return _add_copy(context, first, poses, self._new_name(), fill)
 
     def _at(self, names: list) -> dict:
         """The poses' names by their numbers in the motion, which may end with the first."""
@@ -188,6 +176,45 @@ class InBetweens(Work):
 
     def _new_name(self) -> str:
         return f"{self._objects[0]} in-betweens"
+
+
+class Average(Work):
+    """A new object with the average of the shape keys of one object, or of several objects."""
+
+    def _choose(self, context) -> list:
+        return [item.name for item in selected_meshes(context)]
+
+    def _read(self, context) -> list:
+        items = self._items()
+        if len(items) > 1:
+            return [poses_of_objects(context, items)]
+        return [poses_of_keys(context, items[0], self._settings.use_basis)]
+
+    def _check_places(self) -> None:
+        pass  # a new object can always be added
+
+    def _task(self) -> Task:
+        (poses,) = self._bodies
+        return Task(_body(poses), 0, self._settings.metric, modes=self._settings.modes)
+
+    def _place(self, context, i: int, motion) -> list:
+        first = self._items()[0]
+        (poses,) = self._bodies
+        mean, *modes = poses.frame.to_object(motion)
+
+        def fill(item):
+            if item.data.shape_keys is not None:
+                item.shape_key_clear()
+            item.data.vertices.foreach_set("co", mean.astype("f4").reshape(-1))
+            if modes:
+                names = [f"Mode {k + 1}" for k in range(len(modes))]
+                for name in shape_keys.add_poses(item, ["Basis", *names], [mean, *modes])[1:]:
+                    key = item.data.shape_keys.key_blocks[name]
+                    key.slider_min, key.slider_max = -3, 3
+            item.data.update()
+            return []
+
+        return _add_copy(context, first, poses, f"{self._objects[0]} average", fill)
 
 
 class Transfer(Work):
@@ -255,6 +282,28 @@ class Transfer(Work):
 
     def _inserted(self) -> int:
         return 0 if self._settings.poses_only else self._settings.shapes
+
+
+def _add_copy(context, first, poses, name: str, fill) -> list:
+    """Adds a copy of an object as it is seen, which fill(item) changes, and selects it alone.
+    Returns what `fill` does."""
+    depsgraph = context.evaluated_depsgraph_get()
+    mesh = bpy.data.meshes.new_from_object(first.evaluated_get(depsgraph), depsgraph=depsgraph)
+    item = bpy.data.objects.new(name, mesh)
+    try:
+        notes = fill(item)
+    except Problem:
+        bpy.data.objects.remove(item)
+        bpy.data.meshes.remove(mesh)
+        raise
+    for collection in first.users_collection:
+        collection.objects.link(item)
+    item.matrix_world = Matrix(poses.frame.matrix.tolist())
+    for selected in context.selected_objects:
+        selected.select_set(False)
+    item.select_set(True)
+    context.view_layer.objects.active = item
+    return notes
 
 
 def _body(poses) -> Body:
