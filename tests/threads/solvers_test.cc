@@ -19,6 +19,7 @@
 #include <shapespace/path/energy.h>
 #include <shapespace/spline/spline.h>
 #include <shapespace/statistics/average.h>
+#include <shapespace/statistics/shape_model.h>
 #include <shapespace/transfer/transfer.h>
 
 #include "solvers/exploration/spaces.h"
@@ -169,6 +170,18 @@ TEST(Average, IsTheSameForAnyNumberOfThreads) {
     return Average(tube.connectivity, {tube.pose(0), tube.pose(40), tube.pose(90)}).shape;
   });
   for (const Shape& shape : shapes) EXPECT_EQ(shape, shapes[0]);
+}
+
+TEST(ShapeModel, IsTheSameForAnyNumberOfThreads) {
+  const ShapeFamily tube = MakeTube(3000);
+  const auto shapes = testing::OnThreads([&] {
+    const ShapeModel model(
+        MakeShapeModel(tube.connectivity, {tube.pose(0), tube.pose(40), tube.pose(90)}, {}).modes);
+    const Eigen::Vector2d at(1.5, -0.5);
+    return std::vector<Shape>{model.At(at).shape, model.Preview(at),
+                              model.Coordinates(tube.pose(60), true).shape};
+  });
+  for (const std::vector<Shape>& each : shapes) EXPECT_EQ(each, shapes[0]);
 }
 
 TEST(Explore, IsTheSameForAnyNumberOfThreads) {

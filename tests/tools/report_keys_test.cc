@@ -131,6 +131,13 @@ TEST_F(ReportKeysTest, TheDocumentationHasThemAllAndNoOthers) {
   EXPECT_EQ(poses["geodesics"][0].size(), geodesic.size());
   EXPECT_EQ(poses["transfers"][0].size(), ladder.size());
 
+  Compare("Of `shape-average`:",
+          Report("shape-average", {"tube0.obj", "tube1.obj", "--output", "m.obj"}));
+  nlohmann::json modes =
+      Report("shape-statistics", {"tube0.obj", "tube1.obj", "--output", "m.modes"});
+  modes["average"] = 0;  // the one above
+  Compare("Of `shape-statistics`, when it makes modes:", modes);
+
   Compare("Of `shape-explore`:",
           Report("shape-explore", {"tube0.obj", "tube1.obj", "--output", "t.space"}));
 

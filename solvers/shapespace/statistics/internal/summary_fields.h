@@ -37,6 +37,7 @@ void ForFields(Of<AverageSummary>, const Visit& visit) {
 
 template <typename Visit>
 void ForFields(Of<ShapeModelSummary>, const Visit& visit) {
+  visit("termination", [](const ShapeModelSummary& s) { return s.average.termination; });
   visit("converged", &ShapeModelSummary::Converged);
   visit("average", &ShapeModelSummary::average);
   visit("modes", &ShapeModelSummary::modes);
