@@ -48,4 +48,18 @@ await shoot('space', { width: 1000, height: 640, colorScheme: 'light' }, async (
   await page.mouse.up();
   await setTime(page, 0.3);
 });
+await shoot('modes', { width: 1000, height: 760, colorScheme: 'light' }, async (page) => {
+  for (const [mode, value] of [
+    [0, -1.2],
+    [1, 0.8],
+  ]) {
+    await page
+      .locator('#modes input')
+      .nth(mode)
+      .evaluate((input, to) => {
+        input.value = to;
+        input.dispatchEvent(new Event('input'));
+      }, value);
+  }
+});
 await browser.close();

@@ -27,4 +27,13 @@ cd "$work"
 "$bin/shape-explore" pose?.obj --output poses.space
 "$bin/shape-view" poses.space --output space.html
 
+# guide/statistics.md
+for build in long heavy; do
+  "$bin/shape-body" quadruped --proportions $build --triangles 3000 --output "$build%d.obj" \
+    --pose stand,stride,sit,stretch,rear,pass,other_stride,other_pass
+done
+(echo file,girth && for i in 0 1 2 3 4 5 6 7; do echo "long$i,0.9" && echo "heavy$i,1.4"; done) >girth.csv
+"$bin/shape-statistics" long?.obj heavy?.obj --modes 4 --output herd.modes
+"$bin/shape-statistics" herd.modes --scalars girth.csv --output modes.html
+
 node screenshots.mjs "$root/docs/pictures"
