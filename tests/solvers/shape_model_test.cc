@@ -1,6 +1,7 @@
 #include <shapespace/statistics/shape_model.h>
 
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -239,6 +240,38 @@ TEST(ShapeModel, OfCopiesOfOneShapeHasNoModes) {
     EXPECT_NE(summary.warnings[0].find("no modes"), std::string::npos);
     EXPECT_LT(Distant(ShapeModel(modes).At(Eigen::VectorXd()).shape, pose), 1e-6);
   }
+}
+
+std::string Warnings(const std::shared_ptr<const Connectivity>& connectivity,
+                     const std::vector<Shape>& poses, const ShapeModelOptions& options = {}) {
+  std::string all;
+  for (const std::string& each :
+       MakeShapeModel(connectivity, poses, {}, options).summary.warnings) {
+    all += each + '\n';
+  }
+  return all;
+}
+
+TEST(ShapeModel, WarnsWhereModesSayLittle) {
+  const std::vector<Shape> poses = AnimalPoses(3);
+  EXPECT_EQ(Warnings(Animal().connectivity, poses), "");
+  ShapeModelOptions isometric;
+  isometric.average.geodesic.metric = MetricOptions::Isometric();
+  EXPECT_NE(Warnings(Animal().connectivity, poses, isometric).find("isometric metric"),
+            std::string::npos);
+  // Crumpled in different ways.
+  std::mt19937_64 random(1);
+  std::vector<Shape> crumpled = poses;
+  for (Shape& pose : crumpled) {
+    const double size = 0.06 * Diameter(pose);
+    for (double& x : pose.reshaped())
+      x += size * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5);
+  }
+  EXPECT_NE(Warnings(Animal().connectivity, crumpled).find("so different"), std::string::npos);
+  const AverageSummary summary = Average(Animal().connectivity, crumpled).summary;
+  EXPECT_GT(summary.Ratio(), 1.1);
+  ASSERT_FALSE(summary.warnings.empty());
+  EXPECT_NE(summary.warnings[0].find("so different"), std::string::npos);
 }
 
 TEST(ShapeModel, RefusesWhatItCannotDo) {
