@@ -126,10 +126,10 @@ awk '
 "$bin/shape-export" fold.path --frames 6 --output "$pictures/frames.png"
 
 # guide/statistics.md
-for build in long heavy; do
-  "$bin/shape-body" quadruped --proportions $build --triangles 3000 --output "$build%d.obj" \
-    --pose stand,stride,sit,stretch,rear,pass,other_stride,other_pass
-done
+"$bin/shape-body" quadruped --triangles 3000 --random 8 --seed 1 --proportions long \
+  --output 'long%d.obj' --table long.csv
+"$bin/shape-body" quadruped --triangles 3000 --random 8 --seed 9 --proportions heavy \
+  --output 'heavy%d.obj' --table heavy.csv
 "$bin/shape-statistics" long?.obj heavy?.obj --modes 2 --output "$pictures/modes.png"
 
 # guide/library.md: what the program there draws

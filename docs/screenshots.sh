@@ -28,12 +28,12 @@ cd "$work"
 "$bin/shape-view" poses.space --output space.html
 
 # guide/statistics.md
-for build in long heavy; do
-  "$bin/shape-body" quadruped --proportions $build --triangles 3000 --output "$build%d.obj" \
-    --pose stand,stride,sit,stretch,rear,pass,other_stride,other_pass
-done
-(echo file,girth && for i in 0 1 2 3 4 5 6 7; do echo "long$i,0.9" && echo "heavy$i,1.4"; done) >girth.csv
+"$bin/shape-body" quadruped --triangles 3000 --random 8 --seed 1 --proportions long \
+  --output 'long%d.obj' --table long.csv
+"$bin/shape-body" quadruped --triangles 3000 --random 8 --seed 9 --proportions heavy \
+  --output 'heavy%d.obj' --table heavy.csv
+(echo file,leg_length && cat long.csv heavy.csv | grep -v ^pose | cut -d, -f1,8) >legs.csv
 "$bin/shape-statistics" long?.obj heavy?.obj --modes 4 --output herd.modes
-"$bin/shape-statistics" herd.modes --scalars girth.csv --output modes.html
+"$bin/shape-statistics" herd.modes --scalars legs.csv --output modes.html
 
 node screenshots.mjs "$root/docs/pictures"

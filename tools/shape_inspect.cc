@@ -22,6 +22,7 @@
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/path_file.h>
+#include <shapespace/statistics/modes_file.h>
 
 #include "support/mesh_flags.h"
 #include "support/metric_flags.h"
@@ -33,6 +34,7 @@ namespace {
 
 // Limits of printed lists.
 constexpr size_t kMaxSites = 8, kMaxParts = 4;
+constexpr int kMaxModes = 6;
 constexpr double kMinSite = 0.001;  // as a share of all deviation
 
 const char* Name(Severity severity) {
@@ -226,6 +228,31 @@ void PrintSpace(const std::string& file) {
   }
 }
 
+void PrintModes(const std::string& file) {
+  const PoseModes modes = ReadModes(file);
+  std::printf("%s\n", internal::Printable(file).c_str());
+  std::printf("  made by      %s\n", internal::Printable(modes.provenance).c_str());
+  std::printf("  mesh         %d vertices, %d triangles\n",
+              modes.metric->connectivity->NumVertices(),
+              modes.metric->connectivity->NumTriangles());
+  std::printf("  metric       %s; unit of length %.6g\n",
+              internal::Printable(DescribeMetric(modes.metric->options)).c_str(),
+              modes.metric->unit);
+  std::printf("  poses        %d%s\n", modes.NumPoses(),
+              modes.size == PoseSize::kRemove ? ", scaled to the same area" : "");
+  std::printf("  modes        %d, with %.3g%% of the variance\n", modes.NumModes(),
+              100 * modes.Share(modes.NumModes()));
+  const Eigen::MatrixXd coordinates = modes.Coordinates();
+  for (int i = 0; i < modes.NumPoses(); ++i) {
+    std::printf("  pose         at");
+    for (int k = 0; k < std::min(modes.NumModes(), kMaxModes); ++k) {
+      std::printf(" %7.3f", coordinates(i, k));
+    }
+    std::printf("%s  %s\n", modes.NumModes() > kMaxModes ? " ..." : "",
+                internal::Printable(modes.names[i]).c_str());
+  }
+}
+
 // Prints a pose, and compares it with the first one. Returns whether it is usable.
 bool PrintMesh(Soup read, std::vector<Soup>* soups) {
   soups->push_back(std::move(read));
@@ -243,14 +270,15 @@ bool PrintMesh(Soup read, std::vector<Soup>* soups) {
 }
 
 void Run(const std::vector<std::string>& files) {
-  if (files.empty()) throw UsageError("name one or more files: meshes, .path or .space");
+  if (files.empty()) throw UsageError("name one or more files: meshes, .path, .space or .modes");
   bool usable = true;
   std::vector<Soup> soups;
   // Meshes last, because the comparison of poses follows after them.
   for (const bool meshes : {false, true}) {
     for (const std::string& file : files) {
       const std::string extension = internal::FileExtension(file);
-      if ((extension != ".path" && extension != ".space") != meshes) continue;
+      const bool mesh = extension != ".path" && extension != ".space" && extension != ".modes";
+      if (mesh != meshes) continue;
       try {
         if (meshes) {
           for (Soup& pose : ReadSoups(file, FLAGS_allow_outside_files)) {
@@ -258,8 +286,10 @@ void Run(const std::vector<std::string>& files) {
           }
         } else if (extension == ".path") {
           PrintPath(file);
-        } else {
+        } else if (extension == ".space") {
           PrintSpace(file);
+        } else {
+          PrintModes(file);
         }
       } catch (const Error& error) {
         Complain(error.what() + InFlags(error.option()));
@@ -278,7 +308,7 @@ int main(int argc, char** argv) {
   return RunTool(argc, argv,
                  {"shape-inspect",
                   "contents of files, correspondence of meshes, differences between poses",
-                  "  shape-inspect a.obj b.obj walk.path poses.space\n\n"
+                  "  shape-inspect a.obj b.obj walk.path poses.space herd.modes\n\n"
                   "Exit code 1 if a file cannot be read, a mesh cannot be used as it is, or meshes "
                   "do not\ncorrespond.",
                   {"metric", "mesh", "outside_files"}},

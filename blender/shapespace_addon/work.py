@@ -110,8 +110,8 @@ class Work:
         return shape_keys.add_motion(item, motion, poses, timing, transferred)
 
 
-class InBetweens(Work):
-    """A motion through the shape keys of one object, or through several objects."""
+class PosesOfSelection(Work):
+    """Something made of the shape keys of one object, or of several objects."""
 
     def _choose(self, context) -> list:
         return [item.name for item in selected_meshes(context)]
@@ -121,6 +121,10 @@ class InBetweens(Work):
         if len(items) > 1:
             return [poses_of_objects(context, items)]
         return [poses_of_keys(context, items[0], self._settings.use_basis)]
+
+
+class InBetweens(PosesOfSelection):
+    """A motion through the shape keys of one object, or through several objects."""
 
     def _check_places(self) -> None:
         if len(self._objects) > 1:
@@ -178,17 +182,8 @@ class InBetweens(Work):
         return f"{self._objects[0]} in-betweens"
 
 
-class Average(Work):
+class Average(PosesOfSelection):
     """A new object with the average of the shape keys of one object, or of several objects."""
-
-    def _choose(self, context) -> list:
-        return [item.name for item in selected_meshes(context)]
-
-    def _read(self, context) -> list:
-        items = self._items()
-        if len(items) > 1:
-            return [poses_of_objects(context, items)]
-        return [poses_of_keys(context, items[0], self._settings.use_basis)]
 
     def _check_places(self) -> None:
         pass  # a new object can always be added

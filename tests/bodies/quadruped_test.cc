@@ -1,5 +1,7 @@
 #include <shapespace/bodies/quadruped.h>
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <shapespace/bodies/body.h>
@@ -142,6 +144,36 @@ TEST(QuadrupedTest, HasRandomPosesWithFewFolds) {
     EXPECT_GT((shape - rest).colwise().norm().maxCoeff(), 0.2);
     EXPECT_GT((shape - body.random_pose(seed + 1)).colwise().norm().maxCoeff(), 0.2);
     EXPECT_LT((HingeAngles(*body.connectivity, shape).array().abs() > 120).count(), 20);
+  }
+}
+
+TEST(QuadrupedTest, HasRandomFormsAroundAForm) {
+  const QuadrupedForm slender = NamedQuadrupedForm("long");
+  double least = 1, greatest = 1, mean_of_logarithms = 0;
+  int count = 0;
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const QuadrupedForm form = RandomQuadrupedForm(slender, seed);
+    EXPECT_NO_THROW(form.Validate());
+    EXPECT_EQ(form.Measures(), RandomQuadrupedForm(slender, seed).Measures());
+    EXPECT_NE(form.neck_length, RandomQuadrupedForm(slender, seed + 1).neck_length);
+    for (size_t i = 0; i < form.Measures().size(); ++i) {
+      const double factor = form.Measures()[i].second / slender.Measures()[i].second;
+      least = std::min(least, factor);
+      greatest = std::max(greatest, factor);
+      mean_of_logarithms += std::log(factor);
+      ++count;
+    }
+  }
+  EXPECT_EQ(count, 450);
+  EXPECT_NEAR(mean_of_logarithms / count, 0, 0.02);
+  EXPECT_GE(least, 0.7499);
+  EXPECT_LE(greatest, 1.3334);
+  EXPECT_LT(least, 0.76);
+  EXPECT_GT(greatest, 1.31);
+  QuadrupedForm smallest;
+  smallest.leg_length = 0.3;
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    EXPECT_NO_THROW(RandomQuadrupedForm(smallest, seed).Validate());
   }
 }
 

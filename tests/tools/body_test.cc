@@ -1,6 +1,8 @@
 #include <shapespace/bodies/body.h>
+#include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/skinned.h>
 #include <shapespace/files/read.h>
+#include <shapespace/statistics/pose_table.h>
 
 #include "tools/run.h"
 
@@ -57,6 +59,29 @@ TEST_F(BodyToolTest, WritesNamedPosesInNamedProportions) {
             1e-8);
 }
 
+TEST_F(BodyToolTest, WritesAHerdOfRandomAnimals) {
+  const std::vector<std::string> herd = {"quadruped", "--triangles", "500", "--random",
+                                         "3",         "--seed",      "4",   "--table"};
+  std::vector<std::string> first = herd;
+  first.insert(first.end(), {"a.csv", "--output", "a%d.obj"});
+  Succeed("shape-body", first);
+  EXPECT_EQ(Files(), (std::vector<std::string>{"a.csv", "a0.obj", "a1.obj", "a2.obj"}));
+  const PoseTable table = ReadPoseTable(Path("a.csv"));
+  EXPECT_EQ(table.columns.size(), 9u);
+  const Eigen::MatrixXd measures = table.NumbersOf({"a0", "a1", "a2"});
+  // The table and the files are of the same animals, in poses of their own.
+  QuadrupedForm form;
+  form.body_length = measures(1, 0), form.body_girth = measures(1, 1);
+  form.neck_length = measures(1, 2), form.neck_girth = measures(1, 3);
+  form.head_size = measures(1, 4), form.ear_length = measures(1, 5);
+  form.leg_length = measures(1, 6), form.leg_girth = measures(1, 7);
+  form.tail_length = measures(1, 8);
+  const SkinnedBody body = MakeQuadruped(500, form);
+  const Shape second = ReadSoup(Path("a1.obj")).vertices;
+  EXPECT_LE((second - body.random_pose(5)).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_GT((ReadSoup(Path("a2.obj")).vertices - second).cwiseAbs().maxCoeff(), 0.1);
+}
+
 TEST_F(BodyToolTest, RefusesWhatItCannotMake) {
   const struct {
     std::vector<std::string> arguments;
@@ -67,7 +92,12 @@ TEST_F(BodyToolTest, RefusesWhatItCannotMake) {
       {{"quadruped", "--pose", "fly"}, "'fly'; known are stand, stride, sit, stretch, rear, pass,"},
       {{"quadruped", "--pose", "sit", "--proportions", "huge"},
        "'huge'; known are normal, long, short, heavy"},
-      {{"quadruped", "--proportions", "long"}, "--proportions needs --pose"},
+      {{"quadruped", "--proportions", "long"}, "--proportions needs --pose or --random"},
+      {{"quadruped", "--random=-1"}, "--random must be at least 1"},
+      {{"tube", "--random", "2"}, "--random is for quadruped alone"},
+      {{"quadruped", "--random", "2", "--pose", "sit"}, "--random excludes --at and --pose"},
+      {{"quadruped", "--table", "t.csv"}, "--table needs --random"},
+      {{"quadruped", "--random", "2", "--table", "t.txt"}, "--table t.txt: must end in .csv"},
       {{"quadruped", "--pose", "sit", "--at", "1"}, "--at and --pose exclude each other"},
       {{"tube", "--pose", "sit"}, "no body with bones is called 'tube'; known are quadruped"},
       {{"tube", "--at", "0,x"}, "--at 0,x: 'x' is not a number"},

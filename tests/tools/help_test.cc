@@ -62,7 +62,7 @@ TEST_F(HelpTest, HasHeadings) {
 TEST_F(HelpTest, ListsOurFlagsOnly) {
   EXPECT_EQ(Listed("shape-body"),
             (std::set<std::string>{"at", "help", "output", "pose", "progress", "proportions",
-                                   "threads", "triangles", "version"}));
+                                   "random", "seed", "table", "threads", "triangles", "version"}));
   EXPECT_EQ(Listed("shape-view"),
             (std::set<std::string>{"help", "output", "progress", "threads", "version"}));
   EXPECT_EQ(

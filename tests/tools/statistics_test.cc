@@ -1,9 +1,12 @@
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include <nlohmann/json.hpp>
 
 #include <shapespace/files/read.h>
 #include <shapespace/mesh/rigid_motion.h>
+#include <shapespace/statistics/pose_table.h>
 
 #include "tools/run.h"
 
@@ -156,6 +159,27 @@ TEST_F(StatisticsToolTest, RefusesWhatMakesNoSense) {
   const Outcome other = Run("shape-statistics", {"herd.modes", "--coordinates", "tube0.obj"});
   EXPECT_EQ(other.code, 1);
   ExpectContains(other.err, "tube0.obj");
+}
+
+TEST_F(StatisticsToolTest, InspectPrintsAModel) {
+  MakeModes();
+  Succeed("shape-statistics", {"herd.modes", "--output", "c.csv"});
+  const Outcome outcome = Run("shape-inspect", {"herd.modes"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.out, "herd.modes\n  made by ");
+  ExpectContains(outcome.out, "mesh         296 vertices");
+  ExpectContains(outcome.out, "poses        4\n  modes        2, with ");
+  // The coordinates are those of the table.
+  const Eigen::MatrixXd coordinates =
+      ReadPoseTable(Path("c.csv")).NumbersOf({"pose0", "pose1", "pose2", "pose3"});
+  char line[80];
+  std::snprintf(line, sizeof(line), "  pose         at %7.3f %7.3f  pose2\n", coordinates(2, 0),
+                coordinates(2, 1));
+  ExpectContains(outcome.out, line);
+  std::ofstream(Path("bad.modes")) << "nothing";
+  const Outcome bad = Run("shape-inspect", {"bad.modes"});
+  EXPECT_EQ(bad.code, 1);
+  ExpectContains(bad.err, "bad.modes");
 }
 
 }  // namespace

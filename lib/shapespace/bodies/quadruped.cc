@@ -1,6 +1,7 @@
 #include <shapespace/bodies/quadruped.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <memory>
 #include <random>
@@ -22,6 +23,16 @@ constexpr int kMinTriangles = 500;
 constexpr int kMaxTriangles = 1'000'000;
 /// Cell size of the grid for the surface: the thinnest parts, the ears, are twice as thick.
 constexpr double kCell = 0.035;
+constexpr double kLeastMeasure = 0.3, kGreatestMeasure = 3;
+/// The greatest factor of a random form.
+constexpr double kVariation = 4.0 / 3;
+
+constexpr std::pair<const char*, double QuadrupedForm::*> kMeasures[] = {
+    {"body_length", &QuadrupedForm::body_length}, {"body_girth", &QuadrupedForm::body_girth},
+    {"neck_length", &QuadrupedForm::neck_length}, {"neck_girth", &QuadrupedForm::neck_girth},
+    {"head_size", &QuadrupedForm::head_size},     {"ear_length", &QuadrupedForm::ear_length},
+    {"leg_length", &QuadrupedForm::leg_length},   {"leg_girth", &QuadrupedForm::leg_girth},
+    {"tail_length", &QuadrupedForm::tail_length}};
 
 /// Adds bones and their flesh.
 class Builder {
@@ -198,17 +209,28 @@ internal::Rotations RotationsOf(const internal::Skeleton& skeleton, const NamedP
   return rotations;
 }
 
+/// Uniformly distributed numbers, the same on every machine, which the distributions of the
+/// standard library are not.
+class RandomNumbers {
+ public:
+  explicit RandomNumbers(unsigned seed) : random_(seed) {}
+
+  double Between(double least, double greatest) {
+    return least + (greatest - least) * (static_cast<double>(random_() >> 11) * 0x1p-53);
+  }
+
+ private:
+  std::mt19937_64 random_;
+};
+
 /// Paws have random rotations like all joints, and do not remain level.
 internal::Rotations RandomRotations(const internal::Skeleton& skeleton, unsigned seed) {
-  std::mt19937_64 random(seed);
-  // The distributions of the standard library differ from one implementation to the next.
-  const auto between = [&](double least, double greatest) {
-    return least + (greatest - least) * (static_cast<double>(random() >> 11) * 0x1p-53);
-  };
+  RandomNumbers random(seed);
   internal::Rotations rotations(skeleton.bones.size(), Eigen::Vector3d::Zero());
   for (const internal::TurnRange& range : internal::kRandomTurns) {
-    const double pitch = between(range.least_pitch, range.greatest_pitch);
-    const double yaw = between(-range.yaw, range.yaw), roll = between(-range.roll, range.roll);
+    const double pitch = random.Between(range.least_pitch, range.greatest_pitch);
+    const double yaw = random.Between(-range.yaw, range.yaw),
+                 roll = random.Between(-range.roll, range.roll);
     rotations[skeleton.Find(range.bone)] = internal::kRadians * Eigen::Vector3d(roll, pitch, yaw);
   }
   return rotations;
@@ -271,18 +293,29 @@ const Value& Lookup(const char* what, const std::vector<std::pair<std::string, V
 
 }  // namespace
 
+std::vector<std::pair<std::string, double>> QuadrupedForm::Measures() const {
+  std::vector<std::pair<std::string, double>> measures;
+  for (const auto& [name, field] : kMeasures) measures.emplace_back(name, this->*field);
+  return measures;
+}
+
 void QuadrupedForm::Validate() const {
-  for (const auto& [field, value] :
-       {std::pair("body_length", body_length), std::pair("body_girth", body_girth),
-        std::pair("neck_length", neck_length), std::pair("neck_girth", neck_girth),
-        std::pair("head_size", head_size), std::pair("ear_length", ear_length),
-        std::pair("leg_length", leg_length), std::pair("leg_girth", leg_girth),
-        std::pair("tail_length", tail_length)}) {
-    if (value >= 0.3 && value <= 3) continue;
+  for (const auto& [field, value] : Measures()) {
+    if (value >= kLeastMeasure && value <= kGreatestMeasure) continue;
     std::ostringstream message;
-    message << value << " is outside 0.3 .. 3";
+    message << value << " is outside " << kLeastMeasure << " .. " << kGreatestMeasure;
     throw InvalidOptions(field, message.str());
   }
+}
+
+QuadrupedForm RandomQuadrupedForm(const QuadrupedForm& form, unsigned seed) {
+  RandomNumbers random(~seed);  // others than those of the random pose of the same seed
+  QuadrupedForm individual = form;
+  for (const auto& [name, field] : kMeasures) {
+    const double value = form.*field * std::exp(random.Between(-1, 1) * std::log(kVariation));
+    individual.*field = std::clamp(value, kLeastMeasure, kGreatestMeasure);
+  }
+  return individual;
 }
 
 std::vector<std::string> QuadrupedProportions() { return Names(Forms()); }

@@ -2,6 +2,7 @@
 #define SHAPESPACE_BODIES_QUADRUPED_H_
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <shapespace/bodies/skinned.h>
@@ -17,6 +18,9 @@ struct QuadrupedForm {
   double leg_length = 1, leg_girth = 1;
   double tail_length = 1;
 
+  /// The names of the fields and their values.
+  std::vector<std::pair<std::string, double>> Measures() const;
+
   /// \throw InvalidOptions naming the field.
   void Validate() const;
 };
@@ -27,6 +31,10 @@ std::vector<std::string> QuadrupedProportions();
 
 /// \throw InvalidOptions if the name is not known; the message lists those that are.
 QuadrupedForm NamedQuadrupedForm(const std::string& name);
+
+/// `form` with each measure multiplied by a random factor between 3/4 and 4/3, whose logarithm is
+/// uniformly distributed, within the limits of a form. The same for the same seed on every machine.
+QuadrupedForm RandomQuadrupedForm(const QuadrupedForm& form, unsigned seed);
 
 /// The names of its poses.
 std::vector<std::string> QuadrupedPoses();
