@@ -88,6 +88,34 @@ TEST(Cholesky, SolvesInSinglePrecisionToItsRounding) {
   }
 }
 
+// In branches of the elimination tree and without them, and with supernodes of all widths.
+TEST(Cholesky, SolvesOneVectorAsItSolvesSeveral) {
+  for (int cells : {1, 4, 16}) {
+    const Cholesky factor(Matrix(MakeBar(6, 1, 1, 6 * cells, cells, cells)));
+    const CholeskyFactor<float> single(factor);
+    const int rows = factor.WorkRows(), width = Cholesky::kColumns;
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    RowMajor several = RowMajor::Random(rows, width);
+    Eigen::VectorXd one = several.col(1);
+    Eigen::VectorXf rounded = one.cast<float>();
+    const auto check = [&] {
+      const Eigen::VectorXd expected = several.col(1).head(factor.Size());
+      const double scale = expected.cwiseAbs().maxCoeff();
+      EXPECT_LT((one.head(factor.Size()) - expected).cwiseAbs().maxCoeff(), 1e-10 * scale);
+      EXPECT_LT((rounded.head(factor.Size()).cast<double>() - expected).cwiseAbs().maxCoeff(),
+                1e-3 * scale);
+    };
+    factor.SolveLower(several.data(), width);
+    factor.SolveLower(one.data());
+    single.SolveLower(rounded.data());
+    check();
+    factor.SolveUpper(several.data(), width);
+    factor.SolveUpper(one.data());
+    single.SolveUpper(rounded.data());
+    check();
+  }
+}
+
 TEST(Cholesky, RefusesAnIndefiniteMatrix) {
   Eigen::SparseMatrix<double> matrix(3, 3);
   matrix.insert(0, 0) = 1;

@@ -23,16 +23,14 @@ void MetricSolver::Factor(const FeatureDerivative& at) {
 }
 
 void MetricSolver::HalfSolve(bool transposed, Eigen::VectorXd* x) const {
-  // The factor's kernels need several right-hand sides per row.
-  constexpr int kWidth = Cholesky::kColumns;
-  std::vector<double> rows(static_cast<size_t>(kWidth) * factor_->WorkRows(), 0.0);
-  for (int i = 0; i < x->size(); ++i) rows[kWidth * static_cast<size_t>(i)] = (*x)(i);
+  const Eigen::Index size = x->size();
+  x->conservativeResize(factor_->WorkRows());
   if (transposed) {
-    factor_->SolveUpper(rows.data(), kWidth);
+    factor_->SolveUpper(x->data());
   } else {
-    factor_->SolveLower(rows.data(), kWidth);
+    factor_->SolveLower(x->data());
   }
-  for (int i = 0; i < x->size(); ++i) (*x)(i) = rows[kWidth * static_cast<size_t>(i)];
+  x->conservativeResize(size);
 }
 
 Eigen::VectorXd MetricSolver::Permuted(const Tangent& b) const {

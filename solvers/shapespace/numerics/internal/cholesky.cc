@@ -167,7 +167,100 @@ SHAPESPACE_INLINE void BackwardColumns(const Supernode& node, const Scalar* bloc
   if (c < count) BackwardTile<Half, 1>(node, block, rows, x + c, stride);
 }
 
+// One right-hand side. Vectors extend along the columns of a block, four of which are taken
+// together. `below` is scratch memory for the block's rows below its square.
+template <typename Scalar>
+SHAPESPACE_INLINE void ForwardOne(const Supernode& node, const Scalar* block, const int* rows,
+                                  Scalar* x, Scalar* below) {
+  const int width = node.width, height = node.height;
+  const size_t stride = height;
+  Scalar* const own = x + node.begin;
+  std::fill_n(below, height - width, Scalar(0));
+  for (int first = 0; first < width; first += 4) {
+    const int last = std::min(first + 4, width);
+    const Scalar* const columns = block + first * stride;
+    for (int k = first; k < last; ++k) {
+      const Scalar* const column = block + k * stride;
+      own[k] /= column[k];
+      for (int i = k + 1; i < last; ++i) own[i] -= column[i] * own[k];
+    }
+    if (last == first + 4) {
+      const Scalar a = own[first], b = own[first + 1], c = own[first + 2], d = own[first + 3];
+      const auto product = [&](int i) {
+        return a * columns[i] + b * columns[i + stride] + c * columns[i + 2 * stride] +
+               d * columns[i + 3 * stride];
+      };
+      for (int i = last; i < width; ++i) own[i] -= product(i);
+      for (int i = width; i < height; ++i) below[i - width] += product(i);
+    } else {
+      for (int k = first; k < last; ++k) {
+        const Scalar* const column = block + k * stride;
+        for (int i = width; i < height; ++i) below[i - width] += own[k] * column[i];
+      }
+    }
+  }
+  for (int i = width; i < height; ++i) x[rows[i]] -= below[i - width];
+}
+
+// The sum of a[i] * x[i], in an order that suits vectors.
+template <typename Scalar>
+SHAPESPACE_INLINE Scalar DotOne(const Scalar* a, const Scalar* x, int count) {
+  using Full = typename Vectors<Scalar>::Full;
+  constexpr int kFull = 64 / sizeof(Scalar);
+  Full sums[2] = {};
+  int i = 0;
+  for (; i + 2 * kFull <= count; i += 2 * kFull) {
+    for (int k = 0; k < 2; ++k) {
+      sums[k] += *reinterpret_cast<const Full*>(a + i + k * kFull) *
+                 *reinterpret_cast<const Full*>(x + i + k * kFull);
+    }
+  }
+  Scalar sum = 0;
+  for (; i < count; ++i) sum += a[i] * x[i];
+  sums[0] += sums[1];
+  for (int k = 0; k < kFull; ++k) sum += sums[0][k];
+  return sum;
+}
+
+template <typename Scalar>
+SHAPESPACE_INLINE void BackwardOne(const Supernode& node, const Scalar* block, const int* rows,
+                                   Scalar* x, Scalar* below) {
+  const int width = node.width, height = node.height;
+  Scalar* const own = x + node.begin;
+  for (int i = width; i < height; ++i) below[i - width] = x[rows[i]];
+  for (int k = width - 1; k >= 0; --k) {
+    const Scalar* const column = block + k * static_cast<size_t>(height);
+    const Scalar sum = DotOne(column + k + 1, own + k + 1, width - 1 - k) +
+                       DotOne(column + width, below, height - width);
+    own[k] = (own[k] - sum) / column[k];
+  }
+}
+
 // Function multiversioning does not work for templates.
+SHAPESPACE_CLONES
+void ForwardNode(const Supernode& node, const double* block, const int* rows, double* x,
+                 double* below) {
+  ForwardOne(node, block, rows, x, below);
+}
+
+SHAPESPACE_CLONES
+void ForwardNode(const Supernode& node, const float* block, const int* rows, float* x,
+                 float* below) {
+  ForwardOne(node, block, rows, x, below);
+}
+
+SHAPESPACE_CLONES
+void BackwardNode(const Supernode& node, const double* block, const int* rows, double* x,
+                  double* below) {
+  BackwardOne(node, block, rows, x, below);
+}
+
+SHAPESPACE_CLONES
+void BackwardNode(const Supernode& node, const float* block, const int* rows, float* x,
+                  float* below) {
+  BackwardOne(node, block, rows, x, below);
+}
+
 SHAPESPACE_CLONES
 void ForwardNode(const Supernode& node, const double* block, const int* rows, double* x,
                  size_t stride, int count) {
@@ -332,6 +425,9 @@ void CholeskyFactor<Scalar>::GrowBranches() {
   for (int s = 0; s < num_nodes; ++s) {
     (branch_of[s] < 0 ? trunk_ : branches_[branch_of[s]].nodes).push_back(s);
   }
+  for (const Supernode& node : supernodes_) {
+    greatest_height_ = std::max(greatest_height_, node.height);
+  }
   work_rows_ = Size();
   branch_rows_ = rows_;
   for (size_t b = 0; b < branches_.size(); ++b) {
@@ -459,6 +555,41 @@ void CholeskyFactor<Scalar>::SolveUpper(Scalar* x, int width) const {
   ForChunks(1, width, [&](int, int begin, int count) { solve(trunk_, begin, count); });
   ForChunks(static_cast<int>(branches_.size()), width,
             [&](int b, int begin, int count) { solve(branches_[b].nodes, begin, count); });
+}
+
+template <typename Scalar>
+void CholeskyFactor<Scalar>::SolveLower(Scalar* x) const {
+  ParallelFor(static_cast<int>(branches_.size()), [&](int b) {
+    const Branch& branch = branches_[b];
+    std::vector<Scalar> below(greatest_height_);
+    std::fill_n(x + branch.gathered, branch.outside.size(), Scalar(0));
+    for (int s : branch.nodes) {
+      const Supernode& node = supernodes_[s];
+      ForwardNode(node, &values_[node.values], &branch_rows_[node.rows], x, below.data());
+    }
+  });
+  for (const Branch& branch : branches_) {
+    const Scalar* from = x + branch.gathered;
+    for (int row : branch.outside) x[row] += *from++;
+  }
+  std::vector<Scalar> below(greatest_height_);
+  for (int s : trunk_) {
+    const Supernode& node = supernodes_[s];
+    ForwardNode(node, &values_[node.values], &rows_[node.rows], x, below.data());
+  }
+}
+
+template <typename Scalar>
+void CholeskyFactor<Scalar>::SolveUpper(Scalar* x) const {
+  const auto solve = [&](const std::vector<int>& nodes) {
+    std::vector<Scalar> below(greatest_height_);
+    for (auto s = nodes.rbegin(); s != nodes.rend(); ++s) {
+      const Supernode& node = supernodes_[*s];
+      BackwardNode(node, &values_[node.values], &rows_[node.rows], x, below.data());
+    }
+  };
+  solve(trunk_);
+  ParallelFor(static_cast<int>(branches_.size()), [&](int b) { solve(branches_[b].nodes); });
 }
 
 template class CholeskyFactor<double>;

@@ -48,7 +48,8 @@ class CholeskyFactor {
         branches_(other.branches_),
         trunk_(other.trunk_),
         branch_rows_(other.branch_rows_),
-        work_rows_(other.work_rows_) {}
+        work_rows_(other.work_rows_),
+        greatest_height_(other.greatest_height_) {}
 
   CholeskyFactor(const CholeskyFactor&) = delete;
   CholeskyFactor(CholeskyFactor&&) noexcept = default;
@@ -72,6 +73,9 @@ class CholeskyFactor {
   void SolveLower(Scalar* x, int width) const;
   void SolveUpper(Scalar* x, int width) const;
   static constexpr int kColumns = 32 / sizeof(Scalar);
+  /// The same for one vector of WorkRows() numbers.
+  void SolveLower(Scalar* x) const;
+  void SolveUpper(Scalar* x) const;
 
  private:
   template <typename Other>
@@ -97,6 +101,7 @@ class CholeskyFactor {
   std::vector<int> trunk_;        // supernodes that belong to no branch
   std::vector<int> branch_rows_;  // rows_, with separate rows outside of a branch
   int work_rows_ = 0;
+  int greatest_height_ = 0;  // of a supernode
 };
 
 template <>
