@@ -1,5 +1,6 @@
 #include <shapespace/metric/metric.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -37,6 +38,27 @@ TEST(Dihedral, AngleIsThatOfTheNormalsPositiveWhenConvex) {
   dihedral.normal_epsilon_squared = dihedral.edge_epsilon_squared = 1e-30;
   for (double angle : {0.0, 0.3, 1.5, 3.0, -0.3, -1.5, -3.0}) {
     EXPECT_NEAR(dihedral.Angle(Hinge(angle).data()), angle, 1e-14);
+  }
+}
+
+// A hinge is weighted by the two poses that differ most, wherever they stand in the list.
+TEST(Dihedral, WeightOfAllPairsIsTheLeastOfAnyPair) {
+  const auto mesh = Connectivity::Make(4, {0, 3, 6}, {0, 1, 2, 1, 0, 3});
+  const auto weight = [&](const std::vector<double>& angles, PosePairs pairs) {
+    std::vector<Shape> poses;
+    for (const double angle : angles) poses.emplace_back(Hinge(angle));
+    return Get<Dihedral>(*FreezeMetric({}, mesh, poses, 0, pairs)).weights(0);
+  };
+  for (const std::vector<double>& angles :
+       {std::vector<double>{0.1, 1.2, -0.4}, std::vector<double>{-1.9, 0.3, 1.4, 0.2, -0.7},
+        std::vector<double>{1.0, 1.0, 1.0}, std::vector<double>{-1.5, -0.2, 0.9, 1.7, 2.0}}) {
+    double least = weight({angles[0], angles[0]}, PosePairs::kConsecutive);
+    for (const double a : angles) {
+      for (const double b : angles) {
+        least = std::min(least, weight({a, b}, PosePairs::kConsecutive));
+      }
+    }
+    EXPECT_NEAR(weight(angles, PosePairs::kAll), least, 1e-12 * least);
   }
 }
 

@@ -15,6 +15,23 @@ using internal::kRadians;
 // |f|^2 / A_f of a hinge is unbounded for slivers; 8 corresponds to a triangle of aspect ratio 4.
 constexpr double kGreatestHingeAspect = 8;
 
+// The greatest distance on the circle between two of the angles, which are in [-pi, pi]; sorts
+// them. The angle that is farthest from another one is next to its opposite.
+double GreatestDistance(std::vector<double>* angles) {
+  std::sort(angles->begin(), angles->end());
+  double greatest = 0;
+  for (const double angle : *angles) {
+    const double opposite = angle > 0 ? angle - M_PI : angle + M_PI;
+    const auto after = std::lower_bound(angles->begin(), angles->end(), opposite);
+    const double neighbours[] = {after == angles->end() ? angles->front() : *after,
+                                 after == angles->begin() ? angles->back() : *(after - 1)};
+    for (const double other : neighbours) {
+      greatest = std::max(greatest, std::abs(WrapAngle(angle - other)));
+    }
+  }
+  return greatest;
+}
+
 }  // namespace
 
 Dihedral Dihedral::Freeze(const MetricBasis& basis) {
@@ -36,10 +53,9 @@ Dihedral Dihedral::Freeze(const MetricBasis& basis) {
       squared_length += (b - a).squaredNorm() / basis.poses.size();
       angles[i] = feature.Angle(x);
       fold = std::max(fold, std::abs(angles[i]));
-      for (size_t j = basis.pairs == PosePairs::kAll || i == 0 ? 0 : i - 1; j < i; ++j) {
-        jump = std::max(jump, std::abs(WrapAngle(angles[i] - angles[j])));
-      }
+      if (i > 0) jump = std::max(jump, std::abs(WrapAngle(angles[i] - angles[i - 1])));
     }
+    if (basis.pairs == PosePairs::kAll) jump = GreatestDistance(&angles);
     // Hinges that are folded in a given pose, or that turn by more than 90 degrees from one pose to
     // the next, are weighted down, because the chord has no gradient there.
     const double ramp = std::clamp((fold - 120 * kRadians) / (15 * kRadians), 0.0, 1.0);
