@@ -361,6 +361,45 @@ TEST(PathEnergy, StoreGivesBackWhatLoadTook) {
   for (int i = 1; i <= 3; ++i) EXPECT_TRUE(stored[i] == shapes[i]);
 }
 
+TEST(PathEnergy, OfAnotherNumberOfShapesIsThatOfANewObject) {
+  const ShapeFamily sheet = MakeSheet(1, 1, 5, 3);
+  const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0), sheet.pose(90)});
+  PathEnergy kept(metric, 3);
+  for (int inner : {3, 17, 1}) {
+    const std::vector<Shape> shapes = NoisyBlend(sheet.pose(0), sheet.pose(90), inner, 0.1);
+    kept.SetInner(inner);
+    PathEnergy fresh(metric, inner);
+    ASSERT_EQ(kept.Size(), fresh.Size());
+    std::vector<double> unknowns(kept.Size()), gradient(kept.Size()), other(kept.Size());
+    fresh.Load(shapes, unknowns.data());
+    kept.Load(shapes, unknowns.data());
+    EXPECT_EQ(kept.Evaluate(unknowns.data(), gradient.data()),
+              fresh.Evaluate(unknowns.data(), other.data()));
+    EXPECT_EQ(gradient, other);
+  }
+  EXPECT_THROW(kept.SetInner(0), InvalidOptions);
+}
+
+// The energy is computed by kernels of its own.
+TEST(ChordLengths, TheirSquaresAddUpToTheEnergy) {
+  const ShapeFamily bar = MakeBar(4, 1, 1, 12, 3, 3);
+  for (MetricOptions options : {MetricOptions(), MetricOptions::Isometric()}) {
+    options.volume = 1;
+    const auto metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(90)});
+    const std::vector<Shape> shapes = NoisyBlend(bar.pose(0), bar.pose(90), 6, 0.1);
+    const std::vector<double> lengths = ChordLengths(*metric, shapes);
+    ASSERT_EQ(lengths.size(), 7u);
+    PathEnergy energy(metric, 6);
+    std::vector<double> unknowns(energy.Size());
+    energy.Load(shapes, unknowns.data());
+    double sum = 0;
+    for (const double length : lengths) sum += length * length;
+    EXPECT_NEAR(sum, energy.Evaluate(unknowns.data(), nullptr), 1e-12 * sum);
+  }
+  const auto rigid = FreezeMetric(MetricOptions::Rigid(), bar.connectivity, {bar.pose(0)});
+  EXPECT_TRUE(std::isnan(ChordLengths(*rigid, {bar.pose(0), bar.pose(9)})[0]));
+}
+
 TEST(PathEnergy, RefusesWrongSizes) {
   const ShapeFamily sheet = MakeSheet(1, 1, 2, 2);
   const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -70,6 +72,21 @@ TEST(Interpolate, VerticesThatCostNothingMoveStraight) {
       EXPECT_LT((path.shapes[i].col(count) - (1 - t) * from - t * to).norm(), 1e-12) << i;
     }
   }
+}
+
+// Where the first start comes near to the lower bound, the others have nothing to gain.
+TEST(Interpolate, TriesOtherStartsOnlyWhereTheFirstIsNotGood) {
+  const auto other_starts = [](const ShapeFamily& body, double from, double to) {
+    const GeodesicSummary summary =
+        Interpolate(body.connectivity, {body.pose(from), body.pose(to)}, Options(3, 1e-4)).summary;
+    std::set<std::string> names;
+    for (const GeodesicSummary::Level& level : summary.levels) names.insert(level.start);
+    EXPECT_EQ(names.count("blend"), 1u);
+    return names.count("first") + names.count("last");
+  };
+  EXPECT_EQ(other_starts(MakeBody("tube", 300), 0, 20), 0u);
+  const ShapeFamily fold = MakeBody("miura");
+  EXPECT_GT(other_starts(fold, fold.begin, fold.end), 0u);
 }
 
 TEST(Interpolate, TranslatesAlongAStraightLine) {

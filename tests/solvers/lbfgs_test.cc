@@ -112,6 +112,17 @@ TEST(ThreadedLbfgs, FindsTheScaleOfThePreconditioner) {
   }
 }
 
+// A solve that starts where little is left needs one iteration to see it: the next one promises
+// less than the tolerance.
+TEST(ThreadedLbfgs, EndsWhenTheNextIterationPromisesLittle) {
+  Problem problem(MakeBar(6, 1, 1, 24, 4, 4), 7);
+  std::vector<double> unknowns = problem.start;
+  problem.Ours(Tolerance(1e-5), &unknowns);
+  const MinimiseResult again = problem.Ours(Tolerance(1e-4), &unknowns);
+  EXPECT_EQ(again.termination, Termination::kConverged);
+  EXPECT_EQ(again.iterations, 1);
+}
+
 TEST(ThreadedLbfgs, DoesNothingAtAMinimum) {
   Problem problem(MakeBar(4, 1, 1, 6, 1, 1), 3);
   std::vector<double> unknowns = problem.start;

@@ -44,22 +44,25 @@ void Pool(const std::vector<Deviations>& shapes, double* rms, double* p99, doubl
   *max = *std::max_element(rank, all.magnitudes.end());
 }
 
-// The square of the length below which edges are not counted.
-double SquaredShortest(const Path& path) {
-  return internal::SquaredShortest(
-      internal::SquaredLengths(*path.metric->connectivity, path.shapes[0]));
-}
+// Squared lengths of edges in the first shape, and the square of the length below which edges are
+// not counted.
+struct FirstLengths {
+  explicit FirstLengths(const Path& path)
+      : squared(internal::SquaredLengths(*path.metric->connectivity, path.shapes[0])),
+        shortest(internal::SquaredShortest(squared)) {}
 
-// Deviations of shape `i` from the first; empty for the first itself.
-Deviations AgainstFirst(const Path& path, int i, double shortest) {
+  Eigen::VectorXd squared;
+  double shortest;
+};
+
+// Deviations from the first shape, of edges of these squared lengths.
+Deviations AgainstFirst(const Path& path, const FirstLengths& first,
+                        const Eigen::VectorXd& squared_lengths) {
   Deviations deviations;
-  if (i == 0) return deviations;
-  const Connectivity& connectivity = *path.metric->connectivity;
-  const Eigen::VectorXd first = internal::SquaredLengths(connectivity, path.shapes[0]);
-  const Eigen::VectorXd lengths = internal::SquaredLengths(connectivity, path.shapes[i]);
-  for (int e = 0; e < first.size(); ++e) {
-    if (first(e) > shortest) {
-      deviations.Add(std::sqrt(lengths(e) / first(e)), path.metric->edge_area(e));
+  deviations.magnitudes.reserve(squared_lengths.size());
+  for (int e = 0; e < squared_lengths.size(); ++e) {
+    if (first.squared(e) > first.shortest) {
+      deviations.Add(std::sqrt(squared_lengths(e) / first.squared(e)), path.metric->edge_area(e));
     }
   }
   return deviations;
@@ -86,9 +89,9 @@ class BetweenPoses {
     }
   }
 
-  // Nothing for poses, and for shapes before the first or after the last pose. Edges are counted
-  // whose squared length is above `shortest`.
-  InnerFigures Of(int i, double shortest) const {
+  // Nothing for poses, and for shapes before the first or after the last pose. Edges have these
+  // squared lengths in the shape; they are counted if it should be above `shortest`.
+  InnerFigures Of(int i, const Eigen::VectorXd& lengths, double shortest) const {
     InnerFigures figures;
     const auto next = std::lower_bound(path_.poses.begin(), path_.poses.end(), i);
     if (next == path_.poses.begin() || next == path_.poses.end() || *next == i) return figures;
@@ -97,7 +100,7 @@ class BetweenPoses {
     const double t = (path_.parameters[i] - begin) / (end - begin);
     const Metric& metric = *path_.metric;
     const Eigen::VectorXd expected = straight_[piece].SquaredAt(t);
-    const Eigen::VectorXd lengths = internal::SquaredLengths(*metric.connectivity, path_.shapes[i]);
+    figures.edges.magnitudes.reserve(lengths.size());
     for (int e = 0; e < lengths.size(); ++e) {
       if (expected(e) > shortest) {
         figures.edges.Add(std::sqrt(lengths(e) / expected(e)), metric.edge_area(e));
@@ -125,20 +128,25 @@ class BetweenPoses {
 RmsAndMax DeviationFromFirst(const Path& path, int i) {
   RmsAndMax figures;
   double p99 = 0;
-  Pool({AgainstFirst(path, i, SquaredShortest(path))}, &figures.rms, &p99, &figures.max);
+  if (i == 0) return figures;
+  const FirstLengths first(path);
+  Pool({AgainstFirst(path, first,
+                     internal::SquaredLengths(*path.metric->connectivity, path.shapes[i]))},
+       &figures.rms, &p99, &figures.max);
   return figures;
 }
 
 PathQuality MeasureQuality(const Path& path) {
   const Metric& metric = *path.metric;
   const int num_shapes = path.NumShapes();
-  const double shortest = SquaredShortest(path);
+  const FirstLengths first(path);
   const BetweenPoses poses(path);
   std::vector<Deviations> between(num_shapes), against_first(num_shapes);
   std::vector<double> roughness(num_shapes, 0), folds(num_shapes, 0);
   ParallelFor(num_shapes, [&](int i) {
-    against_first[i] = AgainstFirst(path, i, shortest);
-    InnerFigures figures = poses.Of(i, shortest);
+    const Eigen::VectorXd lengths = internal::SquaredLengths(*metric.connectivity, path.shapes[i]);
+    if (i > 0) against_first[i] = AgainstFirst(path, first, lengths);
+    InnerFigures figures = poses.Of(i, lengths, first.shortest);
     between[i] = std::move(figures.edges);
     roughness[i] = figures.roughness;
     folds[i] = figures.folds;
@@ -153,8 +161,13 @@ PathQuality MeasureQuality(const Path& path) {
                       {path.parameters.begin() + begin, path.parameters.begin() + end});
     if (!(speed <= quality.speed_max)) quality.speed_max = speed;
   }
-  Pool(between, &quality.edge_rms, &quality.edge_p99, &quality.edge_max);
-  Pool(against_first, &quality.first_rms, &quality.first_p99, &quality.first_max);
+  ParallelFor(2, [&](int which) {
+    if (which == 0) {
+      Pool(between, &quality.edge_rms, &quality.edge_p99, &quality.edge_max);
+    } else {
+      Pool(against_first, &quality.first_rms, &quality.first_p99, &quality.first_max);
+    }
+  });
   const double hinge_area = metric.hinge_area.sum();
   for (int i = 0; i < num_shapes; ++i) {
     quality.roughness += roughness[i];
@@ -184,10 +197,7 @@ Eigen::VectorXd DihedralAngles(const Connectivity& connectivity, const Shape& sh
 double GreatestSpeed(const Metric& metric, const std::vector<Shape>& shapes,
                      const std::vector<double>& times) {
   const int segments = static_cast<int>(shapes.size()) - 1;
-  std::vector<double> length(segments);
-  ParallelFor(segments, [&](int i) {
-    length[i] = std::sqrt(EnergyLowerBound(metric, shapes[i], shapes[i + 1], 1));
-  });
+  const std::vector<double> length = ChordLengths(metric, shapes);
   double sum = 0, greatest = 0;
   for (int i = 0; i < segments; ++i) {
     sum += length[i];

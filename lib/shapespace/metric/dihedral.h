@@ -14,7 +14,9 @@ namespace shapespace {
 struct MetricBasis;
 
 /// The angle difference b - a as a number in [-pi, pi].
-inline double WrapAngle(double angle) { return std::remainder(angle, 2 * M_PI); }
+inline double WrapAngle(double angle) {
+  return std::abs(angle) <= M_PI ? angle : std::remainder(angle, 2 * M_PI);
+}
 
 /// (cos theta, sin theta) of a hinge (Connectivity::Hinges): the bending of a thin shell. theta is
 /// the angle between the two normals, 0 if flat, positive if convex. The chord between two such

@@ -65,8 +65,8 @@ struct PathEnergy::Term {
 };
 
 PathEnergy::PathEnergy(std::shared_ptr<const Metric> metric, int inner, End end)
-    : metric_(std::move(metric)), end_(end), inner_(inner), stride_(PaddedLength(inner)) {
-  if (inner < 1) throw InvalidOptions("inner", "a path energy needs at least one inner shape");
+    : metric_(std::move(metric)), end_(end) {
+  SetInner(inner);
   vertex_of_row_ = BreadthFirstOrder(*metric_->connectivity);
   const int num_vertices = static_cast<int>(vertex_of_row_.size());
   row_of_vertex_.resize(num_vertices);
@@ -78,6 +78,12 @@ PathEnergy::PathEnergy(std::shared_ptr<const Metric> metric, int inner, End end)
   if (metric_->rigid.Active()) {
     for (int v : vertex_of_row_) rigid_weights_.push_back(metric_->rigid.weights(v));
   }
+}
+
+void PathEnergy::SetInner(int inner) {
+  if (inner < 1) throw InvalidOptions("inner", "a path energy needs at least one inner shape");
+  inner_ = inner;
+  stride_ = PaddedLength(inner);
 }
 
 PathEnergy::PathEnergy(PathEnergy&&) noexcept = default;
@@ -350,49 +356,66 @@ double PathEnergy::EstimateBytes(const Metric& metric, int inner) {
   return elements + rigid + 60 * num_vertices;
 }
 
-double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& last, int segments) {
-  if (metric.rigid.Active()) return std::numeric_limits<double>::quiet_NaN();
-  constexpr int kElementsPerTask = 4096, kChunk = 16;
-  double bound = 0;
+namespace {
+
+// For each two consecutive `shapes`, the least energy of a path of `segments` segments from one to
+// the other, feature by feature. Values of a shape are computed once.
+std::vector<double> LeastEnergies(const Metric& metric, const std::vector<const Shape*>& shapes,
+                                  int segments) {
+  constexpr int kElementsPerTask = 1024, kChunk = 16;
+  const size_t num_shapes = shapes.size(), pairs = num_shapes - 1;
+  std::vector<double> least(pairs,
+                            metric.rigid.Active() ? std::numeric_limits<double>::quiet_NaN() : 0);
+  if (metric.rigid.Active()) return least;
   for (const auto& feature : metric.features) {
-    const int num_elements = feature->NumElements();
-    struct Sums {
-      double bound = 0, first = 0, last = 0;
-    };
-    std::vector<Sums> partial((num_elements + kElementsPerTask - 1) / kElementsPerTask);
+    const int num_elements = feature->NumElements(), num_values = feature->ValuesPerElement();
+    const int tasks = (num_elements + kElementsPerTask - 1) / kElementsPerTask;
+    // Of a task, and of a pair; for sums, the value of a shape.
+    Eigen::MatrixXd partial = Eigen::MatrixXd::Zero(num_shapes, tasks);
     const auto add = [&](int begin, int end) {
-      Sums& sums = partial[begin / kElementsPerTask];
-      for (int e = begin; e < end; e += kChunk) {
-        const int count = std::min(kChunk, end - e);
-        double x[kChunk * 3 * Feature::kMaxVertices];
-        double a[kChunk * Feature::kMaxValues], b[kChunk * Feature::kMaxValues];
-        feature->GatherCoordinates(e, e + count, first, x);
-        feature->Evaluate(count, x, a);
-        feature->GatherCoordinates(e, e + count, last, x);
-        feature->Evaluate(count, x, b);
+      auto sums = partial.col(begin / kElementsPerTask);
+      std::vector<double> values[2];  // of a shape, and of the one before it
+      for (std::vector<double>& v : values) v.resize(num_values * (end - begin));
+      for (size_t i = 0; i < num_shapes; ++i) {
+        double* const here = values[i % 2].data();
+        for (int e = begin; e < end; e += kChunk) {
+          const int count = std::min(kChunk, end - e);
+          double x[kChunk * 3 * Feature::kMaxVertices];
+          feature->GatherCoordinates(e, e + count, *shapes[i], x);
+          feature->Evaluate(count, x, here + num_values * (e - begin));
+        }
         if (feature->IsSum()) {
-          sums.first += std::accumulate(a, a + count, 0.0);
-          sums.last += std::accumulate(b, b + count, 0.0);
-        } else {
-          sums.bound +=
-              2 * feature->LeastChange(count, a, b, feature->Weights().data() + e, segments);
+          sums(i) = std::accumulate(here, here + (end - begin), 0.0);
+        } else if (i > 0) {
+          sums(i - 1) = 2 * feature->LeastChange(end - begin, values[(i + 1) % 2].data(), here,
+                                                 feature->Weights().data() + begin, segments);
         }
       }
     };
     internal::ForRanges(num_elements, add, kElementsPerTask);
-    Sums sums;
-    for (const Sums& part : partial) {
-      sums.bound += part.bound;
-      sums.first += part.first;
-      sums.last += part.last;
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(num_shapes);
+    for (int task = 0; task < tasks; ++task) sums += partial.col(task);
+    for (size_t i = 0; i < pairs; ++i) {
+      least[i] += feature->IsSum() ? 2 * feature->LeastChange(1, &sums(i), &sums(i + 1),
+                                                              feature->Weights().data(), segments)
+                                   : sums(i);
     }
-    if (feature->IsSum()) {
-      sums.bound =
-          2 * feature->LeastChange(1, &sums.first, &sums.last, feature->Weights().data(), segments);
-    }
-    bound += sums.bound;
   }
-  return bound;
+  return least;
+}
+
+}  // namespace
+
+double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& last, int segments) {
+  return LeastEnergies(metric, {&first, &last}, segments)[0];
+}
+
+std::vector<double> ChordLengths(const Metric& metric, const std::vector<Shape>& shapes) {
+  std::vector<const Shape*> pointers;
+  for (const Shape& shape : shapes) pointers.push_back(&shape);
+  std::vector<double> lengths = LeastEnergies(metric, pointers, 1);
+  for (double& length : lengths) length = std::sqrt(length);
+  return lengths;
 }
 
 std::vector<double> SquaredLengths(const std::shared_ptr<const Metric>& metric,

@@ -45,6 +45,11 @@ class PathEnergy {
   size_t Size() const { return 3 * row_of_vertex_.size() * static_cast<size_t>(stride_); }
   int Row(int vertex) const { return row_of_vertex_[vertex]; }
 
+  /// Prepares for paths of another number of inner shapes; `Load` is to be called next. Faster than
+  /// a new object, because the order of vertices and elements is kept.
+  /// \throw InvalidOptions if `inner` < 1.
+  void SetInner(int inner);
+
   /// Weight of the quartic part that distinguishes the trapezoid from the midpoint; 1 is (6). A
   /// solve with fewer shapes that prepares another one needs less, otherwise its result is biased.
   void SetQuarticWeight(double weight) { quartic_weight_ = weight; }
@@ -96,7 +101,7 @@ class PathEnergy {
 
   std::shared_ptr<const Metric> metric_;
   const End end_;
-  int inner_, stride_, blocks_;
+  int inner_ = 0, stride_ = 0, blocks_ = 0;
   double quartic_weight_ = 1;
   std::vector<int> row_of_vertex_, vertex_of_row_;
   // The ends, by row. If the end is free, the last shape is repeated after itself: the segment
@@ -111,6 +116,11 @@ class PathEnergy {
 /// unit), computed by feature; NaN if the metric has a rigid part, for which no bound is known. The
 /// bound is valid for the trapezoid too, which is never less than the midpoint form.
 double EnergyLowerBound(const Metric& metric, const Shape& first, const Shape& last, int segments);
+
+/// The square root of the bound above for one segment, for each two consecutive `shapes` (metric's
+/// unit; two at least); NaN if the metric has a rigid part. The energy of a path in the midpoint
+/// form is the sum of their squares.
+std::vector<double> ChordLengths(const Metric& metric, const std::vector<Shape>& shapes);
 
 /// The squared length of each segment between consecutive `shapes` (metric's unit), in the form in
 /// which the metric has it; the energy is twice their sum.

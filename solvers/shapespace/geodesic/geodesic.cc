@@ -113,7 +113,8 @@ bool IsSolved(int piece, const std::vector<Shape>& blend, const GeodesicOptions&
 }
 
 // Measures the energy of the finished path by feature, and the lower bound, over all pieces.
-void MeasureEnergy(const Path& path, GeodesicSummary* summary) {
+void MeasureEnergy(const Path& path, const GeodesicOptions& options, internal::Resolution* finest,
+                   GeodesicSummary* summary) {
   const Metric& metric = *path.metric;
   for (const auto& feature : metric.features) summary->parts.emplace_back(feature->Name(), 0.0);
   if (metric.rigid.Active()) summary->parts.emplace_back("rigid", 0.0);
@@ -121,10 +122,7 @@ void MeasureEnergy(const Path& path, GeodesicSummary* summary) {
     const std::vector<Shape> shapes(path.shapes.begin() + path.poses[piece],
                                     path.shapes.begin() + path.poses[piece + 1] + 1);
     const int segments = static_cast<int>(shapes.size()) - 1;
-    PathEnergy energy(path.metric, segments - 1);
-    std::vector<double> unknowns(energy.Size());
-    energy.Load(shapes, unknowns.data());
-    const std::vector<double> parts = energy.Parts(unknowns.data());
+    const std::vector<double> parts = finest->EnergyParts(shapes, options);
     for (size_t i = 0; i < parts.size(); ++i) {
       summary->parts[i].second += ScaledEnergy(parts[i], segments);
     }
@@ -307,7 +305,7 @@ GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progre
     if (level.kept) summary.termination = std::max(summary.termination, level.termination);
   }
   result.path.converged = summary.termination == Termination::kConverged;
-  MeasureEnergy(result.path, &summary);
+  MeasureEnergy(result.path, options_, &resolutions_.back(), &summary);
   if (options_.assess) {
     Assess(result.path, &summary);
   } else {

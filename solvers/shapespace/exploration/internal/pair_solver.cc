@@ -75,11 +75,9 @@ std::string DigestOf(const Metric& frozen, const std::vector<Shape>& poses,
 }
 
 double Length(const Metric& metric, const std::vector<Shape>& shapes) {
-  double length = 0;
-  for (size_t i = 0; i + 1 < shapes.size(); ++i) {
-    length += std::sqrt(ScaledEnergy(EnergyLowerBound(metric, shapes[i], shapes[i + 1], 1), 1));
-  }
-  return length;
+  double sum = 0;
+  for (const double chord : ChordLengths(metric, shapes)) sum += chord;
+  return std::sqrt(0.5) * sum;
 }
 
 std::string Pack(const std::string& digest, const PairResult& result) {

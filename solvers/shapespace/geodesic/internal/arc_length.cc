@@ -1,8 +1,5 @@
 #include <shapespace/geodesic/internal/arc_length.h>
 
-#include <cmath>
-
-#include <shapespace/base/parallel.h>
 #include <shapespace/path/energy.h>
 
 namespace shapespace::internal {
@@ -10,10 +7,7 @@ namespace shapespace::internal {
 std::vector<double> ArcLengthTimes(const Metric& metric, const std::vector<Shape>& shapes) {
   constexpr double kUniformShare = 0.01;
   const int segments = static_cast<int>(shapes.size()) - 1;
-  std::vector<double> lengths(segments);
-  ParallelFor(segments, [&](int i) {
-    lengths[i] = std::sqrt(EnergyLowerBound(metric, shapes[i], shapes[i + 1], 1));
-  });
+  const std::vector<double> lengths = ChordLengths(metric, shapes);
   double total = 0;
   for (const double length : lengths) total += length;
   const double share = total > 0 ? 1 - kUniformShare : 0;  // not a number under the rigid metric

@@ -13,9 +13,13 @@
 namespace shapespace::internal {
 namespace {
 
-// Meshes up to this size are solved from every start: this takes milliseconds, and they have enough
-// detail to distinguish good local minima from bad ones.
+// Meshes up to this size are solved from several starts: this takes milliseconds, and they have
+// enough detail to distinguish good local minima from bad ones.
 constexpr int kTrialVertices = 1000;
+
+// A path whose energy is this multiple of its lower bound, or less, leaves other starts so little
+// to gain that they are not tried.
+constexpr double kGoodStart = 1.03;
 
 // If another level follows, a solve may stop when a further step is expected to gain less than this
 // share of the gain so far. Refinement in time by cubics has an error of fourth order, and the
@@ -111,7 +115,13 @@ void GeodesicPiece::Run(const std::vector<ScheduleStep>& schedule, bool more_sha
         best.known.empty() || (attempt.energy < best.energy && !workload_.Stopped());
     for (size_t row : (better ? best : attempt).rows) summary_.levels[row].kept = false;
     if (better) best = std::move(attempt);
-    if (workload_.Stopped()) break;
+    const ScheduleStep& last = schedule[trial - 1];
+    const Resolution& resolution = resolutions_[last.level];
+    const double bound =
+        ScaledEnergy(EnergyLowerBound(*resolution.GetMetric(), resolution.Pose(index_),
+                                      resolution.Pose(index_ + 1), last.shapes + 1),
+                     last.shapes + 1);
+    if (workload_.Stopped() || best.energy <= kGoodStart * bound) break;
   }
   known_ = TakeSteps(schedule, trial, schedule.size(), std::move(best)).known;
   if (more_shapes_allowed && !workload_.Stopped()) RemoveJump(schedule.back());

@@ -23,10 +23,10 @@ class GeodesicPiece {
                 const GeodesicOptions& options, Workload* workload, GeodesicSummary* summary);
 
   /// Takes all steps. The first ones, with one inner shape on few vertices, select the valley
-  /// (local minimum) of the path: they are solved from every start, and the best result is
-  /// continued. After `workload` was asked to stop, shapes are only lifted and refined. If a
-  /// segment of the result jumps, and `more_shapes_allowed` (there is memory for twice as many),
-  /// the jump is removed.
+  /// (local minimum) of the path: they are solved from one start after the other, until a result is
+  /// near to the lower bound, and the best is continued. After `workload` was asked to stop, shapes
+  /// are only lifted and refined. If a segment of the result jumps, and `more_shapes_allowed`
+  /// (there is memory for twice as many), the jump is removed.
   void Run(const std::vector<ScheduleStep>& schedule, bool more_shapes_allowed);
   /// The path found on the finest level.
   std::vector<Shape> Result() && { return std::move(known_.back().shapes); }

@@ -101,11 +101,18 @@ double Resolution::Energy(const std::vector<Shape>& shapes, const GeodesicOption
   return energy.Evaluate(unknowns.data(), nullptr);
 }
 
+std::vector<double> Resolution::EnergyParts(const std::vector<Shape>& shapes,
+                                            const GeodesicOptions& options) {
+  PathEnergy& energy = EnergyOf(static_cast<int>(shapes.size()) - 2, options);
+  std::vector<double> unknowns(energy.Size());
+  energy.Load(shapes, unknowns.data());
+  return energy.Parts(unknowns.data());
+}
+
 PathEnergy& Resolution::EnergyOf(int inner, const GeodesicOptions& options) {
-  if (!energy_ || energy_->Inner() != inner) {
-    energy_.emplace(metric_, inner);
-    energy_->SetQuarticWeight(QuarticWeight(inner, options));
-  }
+  if (!energy_) energy_.emplace(metric_, inner);
+  energy_->SetInner(inner);
+  energy_->SetQuarticWeight(QuarticWeight(inner, options));
   return *energy_;
 }
 

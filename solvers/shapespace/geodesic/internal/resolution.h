@@ -38,6 +38,9 @@ class Resolution {
   /// The energy of a path of any number of shapes, unscaled.
   double Energy(const std::vector<Shape>& shapes, const GeodesicOptions& options);
 
+  /// Its parts by feature, as PathEnergy::Parts.
+  std::vector<double> EnergyParts(const std::vector<Shape>& shapes, const GeodesicOptions& options);
+
   double FactorSeconds() const { return factor_seconds_; }
   size_t FactorNonzeros() const {
     return factor_ ? factor_->NumNonzeros() : single_factor_ ? single_factor_->NumNonzeros() : 0;
@@ -50,9 +53,9 @@ class Resolution {
   PathEnergy& EnergyOf(int inner, const GeodesicOptions& options);
 
   std::shared_ptr<const Metric> metric_;
-  std::vector<Shape> all_poses_;      // for which the factor is computed
-  std::vector<Shape> poses_;          // of the current path
-  std::optional<PathEnergy> energy_;  // for the number of inner shapes used last
+  std::vector<Shape> all_poses_;  // for which the factor is computed
+  std::vector<Shape> poses_;      // of the current path
+  std::optional<PathEnergy> energy_;
   // Of the scalar metric, in the precision of the optimiser.
   std::optional<CholeskyFactor<double>> factor_;
   std::optional<CholeskyFactor<float>> single_factor_;

@@ -34,11 +34,45 @@ bool IsWound(const Dihedral& dihedral, int hinge, const std::vector<Shape>& shap
   return turned > std::abs(WrapAngle(before - first)) + M_PI || fastest > 2 * M_PI / segments;
 }
 
+// Sets `wound` for hinges of a range. An angle is at most half of pi times its chord on the unit
+// circle, so that most hinges need no angles.
+void FindWound(const Dihedral& dihedral, const std::vector<Shape>& shapes, int begin, int end,
+               std::vector<char>* wound) {
+  const int segments = static_cast<int>(shapes.size()) - 1;
+  struct Bounds {
+    Eigen::Vector2d before;
+    double turned = 0, fastest = 0;
+  };
+  std::vector<Bounds> bounds(end - begin);
+  for (int i = 0; i <= segments; ++i) {
+    for (int h = begin; h < end; ++h) {
+      Bounds& bound = bounds[h - begin];
+      double x[3 * Dihedral::kVertices];
+      Eigen::Vector2d point;
+      GatherCoordinates(dihedral, h, shapes[i], x);
+      dihedral(x, point.data());
+      point.normalize();  // collapsed triangles are inside the circle
+      if (i > 0) {
+        const double turn = M_PI_2 * (point - bound.before).norm();
+        bound.turned += turn;
+        bound.fastest = std::max(bound.fastest, turn);
+      }
+      bound.before = point;
+    }
+  }
+  for (int h = begin; h < end; ++h) {
+    const Bounds& bound = bounds[h - begin];
+    const bool possible = !(bound.turned <= M_PI && bound.fastest <= 2 * M_PI / segments);
+    (*wound)[h] = possible && IsWound(dihedral, h, shapes);
+  }
+}
+
 std::vector<int> WoundHinges(const Dihedral& dihedral, const std::vector<Shape>& shapes) {
   const int num_hinges = static_cast<int>(dihedral.stencils.cols());
   std::vector<char> wound(num_hinges);
-  ForIndices(
-      num_hinges, [&](int h) { wound[h] = IsWound(dihedral, h, shapes); }, kHingesPerTask);
+  ForRanges(
+      num_hinges, [&](int begin, int end) { FindWound(dihedral, shapes, begin, end, &wound); },
+      kHingesPerTask);
   std::vector<int> result;
   for (int h = 0; h < num_hinges; ++h) {
     if (wound[h]) result.push_back(h);

@@ -19,6 +19,10 @@ constexpr double kMinCurvature = 1e-3;
 // search without decrease has converged to rounding.
 constexpr double kNothingLeft = 1e-3;
 
+// After a decrease below the tolerance, a promise of less than this share of it ends the solve.
+// With 1, elephants and cats lose up to 2 % of energy.
+constexpr double kLittle = 0.5;
+
 // Uninitialised memory, so that all threads take part in its first write.
 template <typename Number>
 using Buffer = std::unique_ptr<Number[]>;
@@ -101,7 +105,8 @@ class ThreadedLbfgs {
 
   Termination Iterate() {
     // One short step of the line search is no sign of convergence; two small decreases in a row end
-    // the solve.
+    // the solve. It is enough if the second is small in the model, whose promise alone is no sign
+    // of convergence either: on some meshes ten iterations gain more than it says.
     int small = 0;
     for (;; ++result_.iterations) {
       if (options_.keep_going && !options_.keep_going(result_.iterations, value_)) {
@@ -113,9 +118,9 @@ class ThreadedLbfgs {
       double slope = FindDirection();
       const double promise = -0.5 * slope;  // gain predicted by the model
       // If rounding makes the direction lead upwards, the predicted gain has no meaning.
+      const double least = (small >= 1 ? kLittle : kNothingLeft) * options_.tolerance * value_;
       if (promise >= 0 &&
-          promise <= std::max(kNothingLeft * options_.tolerance * value_,
-                              options_.enough * (result_.initial_energy - value_))) {
+          promise <= std::max(least, options_.enough * (result_.initial_energy - value_))) {
         return Termination::kConverged;
       }
       if (!Search(slope)) {
