@@ -1,8 +1,10 @@
 #include <shapespace/base/parallel.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include <tbb/blocked_range.h>
@@ -12,6 +14,7 @@
 #include <tbb/task_arena.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/core_quota.h>
 #include <shapespace/base/internal/fork_join.h>
 
 namespace shapespace {
@@ -27,13 +30,20 @@ struct ThreadPool {
 std::mutex pool_mutex;
 std::shared_ptr<ThreadPool> pool;
 
+// Those that the process may use: TBB knows its affinity, but no quota of a container.
+int NumCores() {
+  const int cores = tbb::info::default_concurrency();
+  const std::optional<double> quota = internal::CoreQuota();
+  return quota ? std::clamp(static_cast<int>(std::ceil(*quota)), 1, cores) : cores;
+}
+
 std::shared_ptr<ThreadPool> NewPool(int threads) {
   auto result = std::make_shared<ThreadPool>();
   if (threads > tbb::info::default_concurrency()) {
     result->more_than_cores = std::make_unique<tbb::global_control>(
         tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
   }
-  result->arena.initialize(threads == 0 ? tbb::task_arena::automatic : threads);
+  result->arena.initialize(threads == 0 ? NumCores() : threads);
   return result;
 }
 

@@ -6,8 +6,8 @@
 namespace shapespace {
 
 /// Sets the number of threads that `ParallelFor` uses from now on; 0 (the default) means one per
-/// core. Up to 256, which may be more than cores (useful in tests); TBB then uses as many in the
-/// rest of the process too.
+/// core that the process may use; quotas of containers (cgroup v2) count too. Up to 256, which may
+/// be more than cores (useful in tests); TBB then uses as many in the rest of the process too.
 /// \throw InvalidOptions if negative or too large.
 void SetThreads(int threads);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <new>
 #include <optional>
 
@@ -74,6 +75,12 @@ std::string DigestOf(const Metric& frozen, const std::vector<Shape>& poses,
   return hasher.Digest();
 }
 
+std::string DigestOf(const Shape& shape) {
+  Hasher hasher;
+  hasher.AddAll(shape);
+  return hasher.Digest();
+}
+
 double Length(const Metric& metric, const std::vector<Shape>& shapes) {
   double sum = 0;
   for (const double chord : ChordLengths(metric, shapes)) sum += chord;
@@ -130,22 +137,33 @@ PairSolver::PairSolver(const std::shared_ptr<const Connectivity>& connectivity,
       records_(records),
       digest_(DigestOf(*GetMetric(), poses, options)) {}
 
-std::string PairSolver::Digest(const Pair& pair) const {
-  Hasher hasher;
-  hasher.AddAll(digest_);
-  hasher.AddAll(*pair.from);
-  hasher.AddAll(*pair.to);
-  hasher.Add(pair.t);
-  return hasher.Digest();
+std::vector<std::string> PairSolver::Digests(const std::vector<Pair>& pairs) const {
+  std::map<const Shape*, std::string> of_shape;  // a shape belongs to many pairs
+  for (const Pair& pair : pairs) {
+    for (const Shape* shape : {pair.from, pair.to}) {
+      std::string& digest = of_shape[shape];
+      if (digest.empty()) digest = DigestOf(*shape);
+    }
+  }
+  std::vector<std::string> digests;
+  for (const Pair& pair : pairs) {
+    Hasher hasher;
+    hasher.AddAll(digest_);
+    hasher.AddAll(of_shape[pair.from]);
+    hasher.AddAll(of_shape[pair.to]);
+    hasher.Add(pair.t);
+    digests.push_back(hasher.Digest());
+  }
+  return digests;
 }
 
 std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const std::string& stage,
                                           Progress* progress) {
   // The first process reads the records, so that all processes have the same.
-  std::vector<std::string> digests, records;
+  const std::vector<std::string> digests = Digests(pairs);
+  std::vector<std::string> records;
   std::vector<int> missing;
   for (size_t i = 0; i < pairs.size(); ++i) {
-    digests.push_back(Digest(pairs[i]));
     std::string record;
     if (crew_.Rank() == 0) {
       record = records_.Find(digests[i]).value_or("");

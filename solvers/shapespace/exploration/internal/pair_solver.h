@@ -57,7 +57,7 @@ class PairSolver {
                                 Progress* progress);
 
  private:
-  std::string Digest(const Pair& pair) const;
+  std::vector<std::string> Digests(const std::vector<Pair>& pairs) const;
   PairResult SolveOne(const Pair& pair, Progress* progress);
 
   Interpolator interpolator_;

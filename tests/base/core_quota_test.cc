@@ -1,0 +1,61 @@
+#include <shapespace/base/internal/core_quota.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace shapespace::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CoreQuotaTest : public ::testing::Test {
+ protected:
+  CoreQuotaTest() : root_(fs::path(::testing::TempDir()) / "core_quota_test") {
+    fs::remove_all(root_);
+    fs::create_directories(root_ / "slice" / "job");
+  }
+  ~CoreQuotaTest() override { fs::remove_all(root_); }
+
+  void Limit(const std::string& group, const std::string& text) const {
+    std::ofstream(root_ / group / "cpu.max") << text;
+  }
+  std::optional<double> Quota(const std::string& group_file = "1:cpu:/x\n0::/slice/job\n") const {
+    std::ofstream(root_ / "cgroup") << group_file;
+    return CoreQuota((root_ / "cgroup").string(), root_.string());
+  }
+
+  const fs::path root_;
+};
+
+TEST_F(CoreQuotaTest, IsTheStrictestOfAllGroups) {
+  EXPECT_FALSE(Quota());
+  Limit("slice/job", "max 100000\n");
+  EXPECT_FALSE(Quota());
+  Limit("slice", "250000 100000\n");
+  EXPECT_EQ(Quota(), 2.5);
+  Limit("slice/job", "400000 100000\n");
+  EXPECT_EQ(Quota(), 2.5);
+  Limit("slice/job", "50000 100000\n");
+  EXPECT_EQ(Quota(), 0.5);
+}
+
+// In a container the group is the root itself.
+TEST_F(CoreQuotaTest, OfAContainerIsAtTheRoot) {
+  Limit("", "300000 100000\n");
+  EXPECT_EQ(Quota("0::/\n"), 3);
+  EXPECT_EQ(Quota("0::/../elsewhere\n"), 3);
+}
+
+TEST_F(CoreQuotaTest, IsNotKnownFromOtherFiles) {
+  EXPECT_FALSE(CoreQuota("/nowhere/cgroup", "/nowhere"));
+  for (const char* text : {"", "many 100000\n", "100000\n", "100000 0\n", "-1 100000\n"}) {
+    Limit("slice/job", text);
+    EXPECT_FALSE(Quota()) << text;
+  }
+}
+
+}  // namespace
+}  // namespace shapespace::internal
