@@ -58,7 +58,7 @@ void WritePath(const std::string& file, const Path& path) {
   arrays.Add("rotations", rotations);
   arrays.Add("translations", translations);
   for (int i = 0; i < path.NumShapes(); ++i) {
-    arrays.Add("shape" + std::to_string(i), path.shapes[i]);
+    arrays.AddReference("shape" + std::to_string(i), path.shapes[i]);
   }
   internal::AddAppearance(path.appearance, file, &header, &arrays);
   header["shapes"] = path.NumShapes();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include <zlib.h>
@@ -15,14 +16,34 @@ constexpr size_t kMagicSize = 8;
 // Magic, version, checksum, length of the header.
 constexpr size_t kPreamble = kMagicSize + 2 * sizeof(uint32_t) + sizeof(uint64_t);
 
-uint32_t Checksum(const std::string& bytes, size_t from) {
-  uLong sum = crc32(0, nullptr, 0);
-  while (from < bytes.size()) {
-    const size_t count = std::min<size_t>(bytes.size() - from, 1 << 30);
-    sum = crc32(sum, reinterpret_cast<const Bytef*>(bytes.data() + from), static_cast<uInt>(count));
-    from += count;
+// The checksum of what `sum` is of, followed by `bytes`.
+uint32_t Checksum(uint32_t sum, std::string_view bytes) {
+  uLong result = sum;
+  while (!bytes.empty()) {
+    const size_t count = std::min<size_t>(bytes.size(), 1 << 30);
+    result = crc32(result, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(count));
+    bytes.remove_prefix(count);
   }
-  return static_cast<uint32_t>(sum);
+  return static_cast<uint32_t>(result);
+}
+
+// All bytes in front of the arrays. The checksum is of what follows it, the arrays included.
+std::string Beginning(const ArrayFileKind& kind, HeaderJson header, const ArrayWriter& arrays) {
+  header["arrays"] = arrays.Table();
+  // A header may contain names of files that are not valid UTF-8; invalid bytes are replaced.
+  std::string text = header.dump(-1, ' ', false, HeaderJson::error_handler_t::replace);
+  text.resize((text.size() + 7) / 8 * 8, ' ');  // aligns arrays to 8 bytes
+  const uint64_t header_size = text.size();
+  std::string bytes(kind.magic, kMagicSize);
+  bytes.append(reinterpret_cast<const char*>(&kind.version), sizeof kind.version);
+  bytes.append(sizeof(uint32_t), '\0');
+  bytes.append(reinterpret_cast<const char*>(&header_size), sizeof header_size);
+  bytes += text;
+  uint32_t checksum =
+      Checksum(0, std::string_view(bytes).substr(kMagicSize + 2 * sizeof(uint32_t)));
+  arrays.ForBytes([&](std::string_view part) { checksum = Checksum(checksum, part); });
+  std::memcpy(&bytes[kMagicSize + sizeof kind.version], &checksum, sizeof checksum);
+  return bytes;
 }
 
 }  // namespace
@@ -50,19 +71,8 @@ ArrayReader::ArrayReader(const HeaderJson& table, const std::string& bytes, size
 }
 
 std::string PackArrayFile(const ArrayFileKind& kind, HeaderJson header, const ArrayWriter& arrays) {
-  header["arrays"] = arrays.Table();
-  // A header may contain names of files that are not valid UTF-8; invalid bytes are replaced.
-  std::string text = header.dump(-1, ' ', false, HeaderJson::error_handler_t::replace);
-  text.resize((text.size() + 7) / 8 * 8, ' ');  // aligns arrays to 8 bytes
-  const uint64_t header_size = text.size();
-  std::string bytes(kind.magic, kMagicSize);
-  bytes.append(reinterpret_cast<const char*>(&kind.version), sizeof kind.version);
-  bytes.append(sizeof(uint32_t), '\0');
-  bytes.append(reinterpret_cast<const char*>(&header_size), sizeof header_size);
-  bytes += text;
-  bytes += arrays.Bytes();
-  const uint32_t checksum = Checksum(bytes, kMagicSize + 2 * sizeof(uint32_t));
-  std::memcpy(&bytes[kMagicSize + sizeof kind.version], &checksum, sizeof checksum);
+  std::string bytes = Beginning(kind, std::move(header), arrays);
+  arrays.ForBytes([&](std::string_view part) { bytes += part; });
   return bytes;
 }
 
@@ -80,7 +90,8 @@ HeaderJson UnpackHeader(const ArrayFileKind& kind, const std::string& bytes, siz
                     std::to_string(kind.version) +
                     " is; use the shapespace that wrote it, or make it again with this one");
   }
-  if (Checksum(bytes, 16) != checksum || header_size > bytes.size() - kPreamble) {
+  if (Checksum(0, std::string_view(bytes).substr(16)) != checksum ||
+      header_size > bytes.size() - kPreamble) {
     throw FileError("it is damaged or was cut off (its checksum does not fit); make it again");
   }
   *arrays_begin = kPreamble + header_size;
@@ -89,9 +100,12 @@ HeaderJson UnpackHeader(const ArrayFileKind& kind, const std::string& bytes, siz
 
 void WriteArrayFile(const std::string& file, const ArrayFileKind& kind, HeaderJson header,
                     const ArrayWriter& arrays) {
-  const std::string bytes = PackArrayFile(kind, std::move(header), arrays);
+  const std::string beginning = Beginning(kind, std::move(header), arrays);
   WriteFileAtomically(file, [&](std::ostream& out) {
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    out << beginning;
+    arrays.ForBytes([&](std::string_view part) {
+      out.write(part.data(), static_cast<std::streamsize>(part.size()));
+    });
   });
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <new>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -35,21 +36,45 @@ class ArrayWriter {
  public:
   template <typename Scalar>
   void Add(const std::string& name, const Scalar* data, size_t rows, size_t columns) {
-    static_assert(std::is_same_v<Scalar, double> || std::is_same_v<Scalar, int>);
-    const char* const type = std::is_same_v<Scalar, double> ? "f8" : "i4";
-    table_.push_back({{"name", name}, {"type", type}, {"rows", rows}, {"columns", columns}});
-    bytes_.append(reinterpret_cast<const char*>(data), rows * columns * sizeof(Scalar));
+    AddToTable<Scalar>(name, rows, columns);
+    parts_.push_back({{reinterpret_cast<const char*>(data), rows * columns * sizeof(Scalar)}, {}});
   }
   template <typename Matrix>
   void Add(const std::string& name, const Matrix& matrix) {
     Add(name, matrix.data(), matrix.rows(), matrix.cols());
   }
+  /// As `Add`, without a copy: `matrix` must outlive this object.
+  template <typename Matrix>
+  void AddReference(const std::string& name, const Matrix& matrix) {
+    AddToTable<typename Matrix::Scalar>(name, matrix.rows(), matrix.cols());
+    parts_.push_back({{},
+                      {reinterpret_cast<const char*>(matrix.data()),
+                       matrix.size() * sizeof(typename Matrix::Scalar)}});
+  }
   const HeaderJson& Table() const { return table_; }
-  const std::string& Bytes() const { return bytes_; }
+  /// Calls visit(bytes) for all arrays, in order.
+  template <typename Visit>
+  void ForBytes(const Visit& visit) const {
+    for (const Part& part : parts_) {
+      visit(part.referred.data() != nullptr ? part.referred : std::string_view(part.own));
+    }
+  }
 
  private:
+  struct Part {
+    std::string own;
+    std::string_view referred;
+  };
+
+  template <typename Scalar>
+  void AddToTable(const std::string& name, size_t rows, size_t columns) {
+    static_assert(std::is_same_v<Scalar, double> || std::is_same_v<Scalar, int>);
+    const char* const type = std::is_same_v<Scalar, double> ? "f8" : "i4";
+    table_.push_back({{"name", name}, {"type", type}, {"rows", rows}, {"columns", columns}});
+  }
+
   HeaderJson table_ = HeaderJson::array();
-  std::string bytes_;
+  std::vector<Part> parts_;
 };
 
 class ArrayReader {
