@@ -32,7 +32,8 @@ class MetricTransport {
       : path_(path),
         options_(options),
         map_(map),
-        here_(std::make_unique<Place>(map_, path.shapes[0])) {}
+        here_(std::make_unique<Place>(map_, path.shapes[0], std::make_unique<MetricSolver>())),
+        unused_(std::make_unique<MetricSolver>()) {}
 
   /// Transports from path.shapes[i] to the next shape. The tangents are rotated as `Turn` says.
   void Carry(int i, std::vector<Tangent>* tangents, TransportSummary::Step* row) {
@@ -42,7 +43,8 @@ class MetricTransport {
       next = back(next);
       turn_ = back.rotation.transpose();
     }
-    const std::unique_ptr<Place> from = std::exchange(here_, std::make_unique<Place>(map_, next));
+    const std::unique_ptr<Place> from =
+        std::exchange(here_, std::make_unique<Place>(map_, next, std::move(unused_)));
     const Place& to = *here_;
     for (Tangent& x : *tangents) {
       const Eigen::VectorXd change = from->derivative.Times(x);
@@ -55,6 +57,7 @@ class MetricTransport {
           Solve(*from, to.derivative.Times(nearest) - change, size, row);  // P_0 P_1 J_0 X - J_0 X
       x = nearest - 0.5 * Solve(to, from->derivative.Times(there_and_back), size, row);
     }
+    unused_ = std::move(from->solver);
   }
 
   /// Rotation of the path's shape against the frame of the tangents.
@@ -63,25 +66,27 @@ class MetricTransport {
  private:
   // A shape and the data for projections onto the range of J there.
   struct Place {
-    Place(const FeatureMap& map, Shape at)
-        : shape(std::move(at)), derivative(map.Derivative(shape)) {
-      solver.Factor(derivative);
+    Place(const FeatureMap& map, Shape at, std::unique_ptr<MetricSolver> metric_solver)
+        : shape(std::move(at)),
+          derivative(map.Derivative(shape)),
+          solver(std::move(metric_solver)) {
+      solver->Factor(derivative);
     }
     Shape shape;
     FeatureDerivative derivative;
-    MetricSolver solver;
+    std::unique_ptr<MetricSolver> solver;
   };
 
   // The tangent whose image is nearest to `change`, to an error of options_.tolerance times `size`.
   Tangent Solve(const Place& place, const Eigen::VectorXd& change, double size,
                 TransportSummary::Step* row) const {
     const Tangent right = place.derivative.TransposeTimes(change);
-    const double length = place.solver.DualNorm(right);
+    const double length = place.solver->DualNorm(right);
     Tangent x = Tangent::Zero(3, right.cols());
     if (!(length > options_.tolerance * size)) return x;
     const MetricSolver::Result result =
-        place.solver.Solve(place.derivative, place.derivative, right,
-                           options_.tolerance * size / length, options_.max_iterations, &x);
+        place.solver->Solve(place.derivative, place.derivative, right,
+                            options_.tolerance * size / length, options_.max_iterations, &x);
     row->krylov_iterations = std::max(row->krylov_iterations, result.iterations);
     row->residual = std::max(row->residual, result.residual * length / size);
     return x;
@@ -91,6 +96,8 @@ class MetricTransport {
   const TransportOptions& options_;
   const FeatureMap& map_;
   std::unique_ptr<Place> here_;
+  // Of the shape before: it knows the elimination order, which is the same for all shapes.
+  std::unique_ptr<MetricSolver> unused_;
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();
 };
 
