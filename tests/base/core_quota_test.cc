@@ -49,6 +49,27 @@ TEST_F(CoreQuotaTest, OfAContainerIsAtTheRoot) {
   EXPECT_EQ(Quota("0::/../elsewhere\n"), 3);
 }
 
+// In version 1 every controller has a folder of its own, and a limit two files.
+TEST_F(CoreQuotaTest, IsReadFromVersion1Too) {
+  const auto limit = [&](const fs::path& group, const std::string& quota) {
+    fs::create_directories(root_ / group);
+    std::ofstream(root_ / group / "cpu.cfs_quota_us") << quota;
+    std::ofstream(root_ / group / "cpu.cfs_period_us") << "100000\n";
+  };
+  const std::string groups = "9:cpuset:/other\n4:cpuacct,cpu:/docker/job\n0::/\n";
+  limit("cpu", "-1\n");
+  limit("cpu/docker/job", "-1\n");
+  EXPECT_FALSE(Quota(groups));
+  limit("cpu/docker/job", "150000\n");
+  EXPECT_EQ(Quota(groups), 1.5);
+  limit("cpu/docker", "50000\n");
+  EXPECT_EQ(Quota(groups), 0.5);
+  // Seen from within a container, whose group is mounted as the root.
+  fs::remove_all(root_ / "cpu" / "docker");
+  limit("cpu", "300000\n");
+  EXPECT_EQ(Quota(groups), 3);
+}
+
 TEST_F(CoreQuotaTest, IsNotKnownFromOtherFiles) {
   EXPECT_FALSE(CoreQuota("/nowhere/cgroup", "/nowhere"));
   for (const char* text : {"", "many 100000\n", "100000\n", "100000 0\n", "-1 100000\n"}) {

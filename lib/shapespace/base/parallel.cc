@@ -1,11 +1,13 @@
 #include <shapespace/base/parallel.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -20,15 +22,21 @@
 namespace shapespace {
 namespace {
 
-// The threads used by ParallelFor.
+// The threads of all loops and tasks.
 struct ThreadPool {
+  int NumThreads() const { return arena.max_concurrency(); }
+
   // By default TBB creates no more threads than there are cores.
   std::unique_ptr<tbb::global_control> more_than_cores;
   tbb::task_arena arena;
+  std::atomic<int> tasks{0};  // bodies of ParallelTasks that are running
 };
 
 std::mutex pool_mutex;
 std::shared_ptr<ThreadPool> pool;
+
+// The pool to which the calling thread belongs, while it runs a body.
+thread_local ThreadPool* own_pool = nullptr;
 
 // Those that the process may use: TBB knows its affinity, but no quota of a container.
 int NumCores() {
@@ -53,6 +61,53 @@ std::shared_ptr<ThreadPool> CurrentPool() {
   return pool;
 }
 
+// The pool of a loop or of tasks.
+struct PoolForCall {
+  PoolForCall() : current(own_pool == nullptr ? CurrentPool() : nullptr) {}
+
+  // Whether no thread is idle. If the calling thread is not one of the pool, it does not wait for
+  // its threads either: tasks may be waiting for it.
+  bool IsSerial() const {
+    const int idle_from = own_pool == nullptr ? 1 : pool->NumThreads();
+    return pool->NumThreads() == 1 || pool->tasks >= idle_from;
+  }
+
+  const std::shared_ptr<ThreadPool> current;
+  ThreadPool* const pool = own_pool == nullptr ? current.get() : own_pool;
+};
+
+// Counts something while it exists.
+class Counted {
+ public:
+  explicit Counted(std::atomic<int>* count) : count_(*count) { ++count_; }
+  Counted(const Counted&) = delete;
+  ~Counted() { --count_; }
+
+ private:
+  std::atomic<int>& count_;
+};
+
+// Runs body(i) for every i in [0, count) on the threads of a pool. The caller may already be one of
+// them.
+template <typename Body>
+void RunInPool(ThreadPool* pool, int count, const Body& body) {
+  const internal::ForkJoin bodies{};
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, count, 1),
+      [&](const tbb::blocked_range<int>& range) {
+        const internal::ForkJoin::Piece piece(bodies);
+        ThreadPool* const outer = std::exchange(own_pool, pool);
+        try {
+          for (int i = range.begin(); i != range.end(); ++i) body(i);
+        } catch (...) {
+          own_pool = outer;
+          throw;
+        }
+        own_pool = outer;
+      },
+      tbb::simple_partitioner());
+}
+
 }  // namespace
 
 void SetThreads(int threads) {
@@ -65,24 +120,42 @@ void SetThreads(int threads) {
   pool = NewPool(threads);
 }
 
-int NumThreads() { return CurrentPool()->arena.max_concurrency(); }
+int NumThreads() { return CurrentPool()->NumThreads(); }
 
 void ParallelFor(int count, const std::function<void(int)>& body) {
-  const auto current = CurrentPool();
-  tbb::task_arena& arena = current->arena;
-  if (count <= 1 || arena.max_concurrency() == 1) {
+  const PoolForCall call;
+  if (count <= 1 || call.IsSerial()) {
     for (int i = 0; i < count; ++i) body(i);
     return;
   }
-  const internal::ForkJoin bodies{};
-  arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<int>(0, count, 1),
-        [&](const tbb::blocked_range<int>& r) {
-          const internal::ForkJoin::Piece piece(bodies);
-          for (int i = r.begin(); i != r.end(); ++i) body(i);
-        },
-        tbb::simple_partitioner());
+  // A thread that waits for the others must not begin with something else, which could be another
+  // solve that waits for this one.
+  call.pool->arena.execute(
+      [&] { tbb::this_task_arena::isolate([&] { RunInPool(call.pool, count, body); }); });
+}
+
+void ParallelTasks(int count, int at_once, const std::function<void(int)>& body) {
+  const PoolForCall call;
+  std::atomic<int> next{0};
+  const auto take_tasks = [&] {
+    try {
+      for (int i; (i = next++) < count;) body(i);
+    } catch (...) {
+      next = count;
+      throw;
+    }
+  };
+  const int workers = call.IsSerial() ? 1 : std::min({count, at_once, call.pool->NumThreads()});
+  if (workers <= 1) {
+    take_tasks();
+    return;
+  }
+  call.pool->arena.execute([&] {
+    RunInPool(call.pool, workers, [&](int) {
+      const Counted counted(&call.pool->tasks);
+      // A task that waits in a loop, also in one of a library, does not begin with another task.
+      tbb::this_task_arena::isolate(take_tasks);
+    });
   });
 }
 
