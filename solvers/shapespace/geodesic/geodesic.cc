@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <mutex>
 
 #include <shapespace/analysis/path_intersections.h>
 #include <shapespace/base/error.h>
@@ -26,6 +27,15 @@ void CheckFinest(const Metric& metric, double bytes, const GeodesicOptions& opti
   internal::CheckMemory("this solve", bytes, options.memory_limit, "insert fewer shapes");
 }
 
+// Between two neighbours of so many pieces: twice as many shapes as asked for, to remove a jump, if
+// there is memory for them.
+int MostShapes(const Metric& metric, int pieces, const GeodesicOptions& options) {
+  const int twice = 2 * options.shapes + 1;
+  return internal::GeodesicBytes(metric, pieces + 1, twice) <= options.memory_limit
+             ? twice
+             : options.shapes;
+}
+
 // Restricts all `shapes` to a level.
 std::vector<Shape> Restrict(const Hierarchy& hierarchy, const std::vector<Shape>& shapes,
                             int level) {
@@ -35,19 +45,20 @@ std::vector<Shape> Restrict(const Hierarchy& hierarchy, const std::vector<Shape>
 }
 
 // Prepares all levels, each with a metric of its own in the mesh's unit.
-std::vector<internal::Resolution> Resolve(const Hierarchy& hierarchy,
-                                          const std::shared_ptr<const Metric>& metric,
-                                          const std::vector<Shape>& aligned, PosePairs pairs) {
-  std::vector<internal::Resolution> resolutions;
+std::vector<internal::SharedLevel> PrepareLevels(const Hierarchy& hierarchy,
+                                                 const std::shared_ptr<const Metric>& metric,
+                                                 const std::vector<Shape>& aligned,
+                                                 PosePairs pairs) {
+  std::vector<internal::SharedLevel> levels;
   for (int level = 0; level < hierarchy.NumLevels(); ++level) {
     std::vector<Shape> poses = Restrict(hierarchy, aligned, level);
     auto own = metric;
     if (level + 1 < hierarchy.NumLevels()) {
       own = FreezeLevel(*metric, hierarchy, level, poses, pairs);
     }
-    resolutions.emplace_back(std::move(own), std::move(poses));
+    levels.emplace_back(std::move(own), std::move(poses));
   }
-  return resolutions;
+  return levels;
 }
 
 // Linear interpolation from one pose to another.
@@ -253,15 +264,17 @@ class GeodesicLevels {
         options_(options),
         kind_(KindOfSchedule(*metric, options)),
         hierarchy_(metric->connectivity, aligned, MakeHierarchyOptions(), progress),
-        resolutions_(Resolve(hierarchy_, metric, aligned, pairs)),
+        levels_(PrepareLevels(hierarchy_, metric, aligned, pairs)),
         without_cost_(VerticesWithoutCost(*metric)) {}
 
   const std::shared_ptr<const Metric>& GetMetric() const { return metric_; }
-  void SetPoses(const std::vector<Shape>& aligned);
-  /// The path through `poses`, which are those that were set last.
-  GeodesicResult Solve(const AlignedPoses& poses, Progress* progress);
+  /// The path through `poses`. Several threads may solve at a time.
+  GeodesicResult Solve(const AlignedPoses& poses, Progress* progress) const;
 
  private:
+  // What one solve at a time works on: each level.
+  using Workspace = std::vector<Resolution>;
+
   HierarchyOptions MakeHierarchyOptions() const {
     HierarchyOptions result;
     result.coarsest = kind_ == GeodesicSchedule::kFlat
@@ -269,32 +282,54 @@ class GeodesicLevels {
                           : options_.coarsest;
     return result;
   }
-  void SolvePieces(const AlignedPoses& poses, Progress* progress, GeodesicResult* result);
+  // A workspace for a path through these poses: one of an earlier solve, if any is idle.
+  Workspace TakeWorkspace(const std::vector<Shape>& aligned) const;
+  void GiveBack(Workspace workspace) const;
+  void SolvePieces(const AlignedPoses& poses, Progress* progress, Workspace* workspace,
+                   GeodesicResult* result) const;
   void Describe(GeodesicSummary* summary) const;
 
   const std::shared_ptr<const Metric> metric_;
   const GeodesicOptions options_;
   const GeodesicSchedule kind_;
   const Hierarchy hierarchy_;
-  std::vector<Resolution> resolutions_;
+  const std::vector<SharedLevel> levels_;
   const std::vector<int> without_cost_;  // vertices of the mesh itself
+  mutable std::mutex mutex_;
+  mutable std::vector<Workspace> idle_;  // guarded by mutex_
 };
 
-void GeodesicLevels::SetPoses(const std::vector<Shape>& aligned) {
-  for (int level = 0; level < hierarchy_.NumLevels(); ++level) {
-    resolutions_[level].SetPoses(Restrict(hierarchy_, aligned, level));
+GeodesicLevels::Workspace GeodesicLevels::TakeWorkspace(const std::vector<Shape>& aligned) const {
+  Workspace workspace;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!idle_.empty()) {
+      workspace = std::move(idle_.back());
+      idle_.pop_back();
+    }
   }
+  if (workspace.empty()) workspace = Workspace(levels_.begin(), levels_.end());
+  for (int level = 0; level < hierarchy_.NumLevels(); ++level) {
+    workspace[level].SetPoses(Restrict(hierarchy_, aligned, level));
+  }
+  return workspace;
 }
 
-GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progress) {
+void GeodesicLevels::GiveBack(Workspace workspace) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  idle_.push_back(std::move(workspace));
+}
+
+GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progress) const {
   GeodesicResult result;
   const internal::Stopwatch solving;
+  Workspace workspace = TakeWorkspace(poses.shapes);
   double factored = 0;
-  for (const auto& resolution : resolutions_) factored += resolution.FactorSeconds();
-  SolvePieces(poses, progress, &result);
+  for (const Resolution& resolution : workspace) factored += resolution.FactorSeconds();
+  SolvePieces(poses, progress, &workspace, &result);
   GeodesicSummary& summary = result.summary;
   summary.solve_seconds = solving.Seconds();
-  for (const Resolution& resolution : resolutions_) {
+  for (const Resolution& resolution : workspace) {
     summary.factor_seconds += resolution.FactorSeconds();
     summary.factor_nonzeros += resolution.FactorNonzeros();
   }
@@ -305,7 +340,8 @@ GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progre
     if (level.kept) summary.termination = std::max(summary.termination, level.termination);
   }
   result.path.converged = summary.termination == Termination::kConverged;
-  MeasureEnergy(result.path, options_, &resolutions_.back(), &summary);
+  MeasureEnergy(result.path, options_, &workspace.back(), &summary);
+  GiveBack(std::move(workspace));
   if (options_.assess) {
     Assess(result.path, &summary);
   } else {
@@ -318,7 +354,7 @@ GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progre
 
 // Solves piece by piece, from coarse to fine.
 void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
-                                 GeodesicResult* result) {
+                                 Workspace* workspace, GeodesicResult* result) const {
   const std::vector<Shape>& aligned = poses.shapes;
   const std::vector<RigidMotion>& motions = poses.motions;
   GeodesicSummary& summary = result->summary;
@@ -332,10 +368,9 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
   path.parameters = {0};
   path.motions = {motions[0]};
   Workload workload(progress, options_.tolerance, options_.max_iterations);
-  const bool more_shapes_allowed =
-      GeodesicBytes(*metric_, pieces + 1, 2 * options_.shapes + 1) <= options_.memory_limit;
+  const bool more_shapes_allowed = MostShapes(*metric_, pieces, options_) > options_.shapes;
   for (int i = 0; i < pieces; ++i) {
-    internal::Plan(schedule, resolutions_, options_.start, &workload);
+    internal::Plan(schedule, *workspace, options_.start, &workload);
   }
   for (int i = 0; i < pieces; ++i) {
     std::vector<Shape> shapes;
@@ -343,8 +378,8 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
       shapes = Blend(aligned[i], aligned[i + 1], options_.shapes);
     }
     if (!workload.Stopped() &&
-        (shapes.empty() || !IsSolved(i, shapes, options_, &resolutions_.back(), &summary))) {
-      GeodesicPiece piece(i, hierarchy_, &resolutions_, options_, &workload, &summary);
+        (shapes.empty() || !IsSolved(i, shapes, options_, &workspace->back(), &summary))) {
+      GeodesicPiece piece(i, hierarchy_, workspace, options_, &workload, &summary);
       piece.Run(schedule, more_shapes_allowed);
       shapes = std::move(piece).Result();
       MoveStraight(without_cost_, &shapes);
@@ -367,8 +402,8 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
 // Fills in the fields of the summary that are the same for all paths.
 void GeodesicLevels::Describe(GeodesicSummary* summary) const {
   const Connectivity& connectivity = *metric_->connectivity;
-  for (const Resolution& resolution : resolutions_) {
-    summary->hierarchy.push_back(resolution.GetMetric()->connectivity->NumVertices());
+  for (const SharedLevel& level : levels_) {
+    summary->hierarchy.push_back(level.metric->connectivity->NumVertices());
   }
   summary->hierarchy_stopped_early = hierarchy_.StoppedEarly();
   summary->metric = DescribeMetric(metric_->options);
@@ -395,8 +430,8 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
   const internal::Stopwatch total;
   ReportProgress(progress, "decimating", 0, 0);
   const AlignedPoses aligned = AlignPoses(*metric, poses);
-  internal::GeodesicLevels levels(metric, aligned.shapes, PosePairs::kConsecutive, options,
-                                  progress);
+  const internal::GeodesicLevels levels(metric, aligned.shapes, PosePairs::kConsecutive, options,
+                                        progress);
   const double hierarchy_seconds = total.Seconds();
   GeodesicResult result = levels.Solve(aligned, progress);
   result.summary.hierarchy_seconds = hierarchy_seconds;
@@ -409,10 +444,16 @@ Interpolator::Interpolator(const std::shared_ptr<const Connectivity>& connectivi
                            const std::vector<Shape>& poses, const GeodesicOptions& options) {
   options.Validate();
   const auto metric = FreezeMetric(options.metric, connectivity, poses, 0, PosePairs::kAll);
-  // One path is solved at a time, but all poses are stored on all levels.
-  estimated_bytes_ = internal::GeodesicBytes(*metric, 2, options.shapes) +
-                     2.0 * sizeof(double) * poses.size() * poses.front().size();
+  const double pose_bytes = 2.0 * sizeof(double) * poses.size() * poses.front().size();
+  estimated_bytes_ = internal::GeodesicBytes(*metric, 2, options.shapes) + pose_bytes;
   CheckFinest(*metric, estimated_bytes_, options);
+  const int most_shapes = MostShapes(*metric, 1, options);
+  const double left =
+      options.memory_limit - pose_bytes - internal::GeodesicBytes(*metric, 2, most_shapes);
+  constexpr double kMostThreads = 1e6;
+  most_at_once_ =
+      1 + static_cast<int>(std::clamp(left / internal::FurtherGeodesicBytes(*metric, most_shapes),
+                                      0.0, kMostThreads));
   levels_ = std::make_unique<internal::GeodesicLevels>(metric, AlignPoses(*metric, poses).shapes,
                                                        PosePairs::kAll, options);
 }
@@ -425,13 +466,13 @@ const std::shared_ptr<const Metric>& Interpolator::GetMetric() const {
   return levels_->GetMetric();
 }
 
-GeodesicResult Interpolator::Between(const Shape& from, const Shape& to, Progress* progress) {
+int Interpolator::MostAtOnce() const { return most_at_once_; }
+
+GeodesicResult Interpolator::Between(const Shape& from, const Shape& to, Progress* progress) const {
   CheckShape(from, *GetMetric());
   CheckShape(to, *GetMetric());
   const internal::Stopwatch total;
-  const AlignedPoses aligned = AlignPoses(*GetMetric(), {from, to});
-  levels_->SetPoses(aligned.shapes);
-  GeodesicResult result = levels_->Solve(aligned, progress);
+  GeodesicResult result = levels_->Solve(AlignPoses(*GetMetric(), {from, to}), progress);
   result.summary.estimated_bytes = estimated_bytes_;
   result.summary.total_seconds = total.Seconds();
   return result;

@@ -172,7 +172,14 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
 
 /// Computes geodesics between many pairs of shapes of one mesh, all under one metric: keeps the
 /// hierarchy, the metrics of its levels and their factors. The result for a pair does not depend on
-/// the pairs before it, bit by bit.
+/// the pairs before it or beside it, bit by bit.
+///
+/// Several threads may call one object at a time. Many pairs are solved fastest side by side, each
+/// on one thread:
+///
+///   ParallelTasks(count, interpolator.MostAtOnce(), [&](int i) {
+///     results[i] = interpolator.Between(*from[i], *to[i]);
+///   });
 class Interpolator {
  public:
   /// Freezes options.metric on all `poses` (user's unit), taking all pairs of them into account,
@@ -186,13 +193,18 @@ class Interpolator {
 
   const std::shared_ptr<const Metric>& GetMetric() const;
 
+  /// How many geodesics can be solved at the same time within `GeodesicOptions::memory_limit`, at
+  /// least 1. The memory that solves work on is kept for later ones.
+  int MostAtOnce() const;
+
   /// The geodesic from one shape to another (user's unit); both are poses or lie between poses.
   /// \throw as Interpolate.
-  GeodesicResult Between(const Shape& from, const Shape& to, Progress* progress = nullptr);
+  GeodesicResult Between(const Shape& from, const Shape& to, Progress* progress = nullptr) const;
 
  private:
-  std::unique_ptr<internal::GeodesicLevels> levels_;
+  std::unique_ptr<const internal::GeodesicLevels> levels_;
   double estimated_bytes_ = 0;  // of a path, and of all poses on all levels
+  int most_at_once_ = 1;
 };
 
 }  // namespace shapespace

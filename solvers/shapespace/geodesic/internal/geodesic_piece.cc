@@ -239,9 +239,10 @@ std::vector<Shape> GeodesicPiece::OneInnerShape(GeodesicStart start, int level) 
       return {ends[0], ends[1], ends[1]};
     case GeodesicStart::kRigid: {
       // The paper's advice for degenerate blends: a first solve that is as rigid as possible.
-      Resolution rigid(FreezeMetric(MetricOptions::Rigid(),
-                                    resolutions_[level].GetMetric()->connectivity, ends, 1),
-                       ends);
+      Resolution rigid({FreezeMetric(MetricOptions::Rigid(),
+                                     resolutions_[level].GetMetric()->connectivity, ends, 1),
+                        ends});
+      rigid.SetPoses(ends);
       std::vector<Shape> shapes = {ends[0], blend, ends[1]};
       workload_.Plan(static_cast<int>(blend.cols()), 1, true);
       GeodesicSummary::Level row = rigid.Relax(0, 0, options_, &workload_, &shapes);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include <shapespace/base/internal/stopwatch.h>
@@ -25,10 +24,18 @@ double QuarticWeight(int inner, const GeodesicOptions& options) {
 
 }  // namespace
 
+SharedLevel::SharedLevel(std::shared_ptr<const Metric> level_metric, std::vector<Shape> poses)
+    : metric(std::move(level_metric)),
+      factors(std::make_shared<LazyFactors>([metric = metric, poses = std::move(poses)] {
+        return ScalarMetric(*metric, poses, 0);
+      })) {}
+
+Resolution::Resolution(SharedLevel level)
+    : metric_(std::move(level.metric)), factors_(std::move(level.factors)) {}
+
 void Resolution::SetPoses(std::vector<Shape> poses) {
   poses_ = std::move(poses);
-  // The trapezoid's quartic part depends on the poses.
-  if (metric_->options.discretization == Discretization::kTrapezoid) factor_key_ = {-1, -1};
+  factors_key_ = {-1, -1};
 }
 
 GeodesicSummary::Level Resolution::Relax(int piece, double enough, const GeodesicOptions& options,
@@ -63,10 +70,10 @@ GeodesicSummary::Level Resolution::Relax(int piece, double enough, const Geodesi
   MinimiseResult result;
   if (solver == GeodesicSolver::kLbfgs) {
     row.solver = "L-BFGS";
-    ChangeOfVariables variables(Factor(&factor_, piece, inner), energy);
+    ChangeOfVariables variables(Factor<double>(piece, inner), energy);
     result = MinimiseLbfgs(ObjectiveOf(&energy), &variables, minimise, &unknowns);
   } else {
-    Preconditioner preconditioner(Factor(&single_factor_, piece, inner), energy);
+    Preconditioner preconditioner(Factor<float>(piece, inner), energy);
     if (solver == GeodesicSolver::kThreadedLbfgs) {
       row.solver = "own L-BFGS";
       result = MinimiseThreadedLbfgs(&energy, &preconditioner, minimise, &unknowns);
@@ -117,36 +124,20 @@ PathEnergy& Resolution::EnergyOf(int inner, const GeodesicOptions& options) {
 }
 
 template <typename Scalar>
-const CholeskyFactor<Scalar>& Resolution::Factor(std::optional<CholeskyFactor<Scalar>>* factor,
-                                                 int piece, int inner) {
+const CholeskyFactor<Scalar>& Resolution::Factor(int piece, int inner) {
   // Except for the trapezoid's quartic part, one factor is valid for all numbers of shapes and all
   // pieces; rounded to single precision it is equally good as a preconditioner.
-  const bool trapezoid = metric_->options.discretization == Discretization::kTrapezoid;
-  const std::pair<int, int> key = trapezoid ? std::make_pair(piece, inner) : std::make_pair(0, 0);
-  if (factor_key_ != key) {
-    factor_.reset();
-    single_factor_.reset();
-    factor_key_ = key;
+  const std::pair<int, int> key = {piece, inner};
+  if (metric_->options.discretization == Discretization::kTrapezoid && factors_key_ != key) {
+    factors_key_ = key;
+    const std::vector<Shape> ends = {poses_[piece], poses_[piece + 1]};
+    factors_ = std::make_shared<LazyFactors>(
+        [metric = metric_, ends, inner] { return ScalarMetric(*metric, ends, inner + 1); });
   }
-  if (!*factor) {
-    const Stopwatch stopwatch;
-    const auto& other = [&]() -> const auto& {
-      if constexpr (std::is_same_v<Scalar, double>)
-        return single_factor_;
-      else
-        return factor_;
-    }
-    ();
-    if (other) {
-      factor->emplace(*other);
-    } else {
-      factor->emplace(trapezoid
-                          ? ScalarMetric(*metric_, {poses_[piece], poses_[piece + 1]}, inner + 1)
-                          : ScalarMetric(*metric_, all_poses_, 0));
-    }
-    factor_seconds_ += stopwatch.Seconds();
-  }
-  return **factor;
+  const Stopwatch stopwatch;
+  const CholeskyFactor<Scalar>& factor = factors_->Get<Scalar>();
+  factor_seconds_ += stopwatch.Seconds();
+  return factor;
 }
 
 }  // namespace shapespace::internal

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <shapespace/geodesic/geodesic.h>
+#include <shapespace/geodesic/internal/lazy_factors.h>
 #include <shapespace/geodesic/internal/workload.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/numerics/internal/cholesky.h>
@@ -15,16 +16,23 @@
 
 namespace shapespace::internal {
 
-/// One level of a hierarchy, prepared for solving: its metric, the poses on it, and the factor of
-/// its preconditioner.
+/// One level of a hierarchy, prepared for solving: what all solves on it share.
+struct SharedLevel {
+  /// `poses` are aligned, in the metric's unit; those for which the factors are computed.
+  SharedLevel(std::shared_ptr<const Metric> metric, std::vector<Shape> poses);
+
+  std::shared_ptr<const Metric> metric;
+  /// Of the scalar metric without the trapezoid's quartic part.
+  std::shared_ptr<LazyFactors> factors;
+};
+
+/// A level in one solve: the poses of its path, and arrays that the solve works on. Its results
+/// depend on the shared level and the poses alone.
 class Resolution {
  public:
-  /// `poses` are aligned, in the metric's unit: the path's poses unless others are set.
-  Resolution(std::shared_ptr<const Metric> metric, std::vector<Shape> poses)
-      : metric_(std::move(metric)), all_poses_(std::move(poses)), poses_(all_poses_) {}
+  explicit Resolution(SharedLevel level);
 
-  /// Sets the poses of the next path. The preconditioner remains that of the poses given first, so
-  /// that a solve does not depend on earlier ones.
+  /// Sets the poses of the next path: aligned, in the metric's unit.
   void SetPoses(std::vector<Shape> poses);
 
   const std::shared_ptr<const Metric>& GetMetric() const { return metric_; }
@@ -41,25 +49,20 @@ class Resolution {
   /// Its parts by feature, as PathEnergy::Parts.
   std::vector<double> EnergyParts(const std::vector<Shape>& shapes, const GeodesicOptions& options);
 
+  /// Time in which solves computed factors, or waited for another one that did.
   double FactorSeconds() const { return factor_seconds_; }
-  size_t FactorNonzeros() const {
-    return factor_ ? factor_->NumNonzeros() : single_factor_ ? single_factor_->NumNonzeros() : 0;
-  }
+  size_t FactorNonzeros() const { return factors_->NumNonzeros(); }
 
  private:
   template <typename Scalar>
-  const CholeskyFactor<Scalar>& Factor(std::optional<CholeskyFactor<Scalar>>* factor, int piece,
-                                       int inner);
+  const CholeskyFactor<Scalar>& Factor(int piece, int inner);
   PathEnergy& EnergyOf(int inner, const GeodesicOptions& options);
 
   std::shared_ptr<const Metric> metric_;
-  std::vector<Shape> all_poses_;  // for which the factor is computed
-  std::vector<Shape> poses_;      // of the current path
+  std::vector<Shape> poses_;  // of the current path
   std::optional<PathEnergy> energy_;
-  // Of the scalar metric, in the precision of the optimiser.
-  std::optional<CholeskyFactor<double>> factor_;
-  std::optional<CholeskyFactor<float>> single_factor_;
-  std::pair<int, int> factor_key_ = {-1, -1};
+  std::shared_ptr<LazyFactors> factors_;  // for the trapezoid those of a piece
+  std::pair<int, int> factors_key_ = {-1, -1};
   double factor_seconds_ = 0;
 };
 

@@ -64,6 +64,13 @@ double GeodesicBytes(const Metric& metric, int poses, int shapes) {
          PathEnergy::EstimateBytes(metric, shapes);
 }
 
+double FurtherGeodesicBytes(const Metric& metric, int shapes) {
+  // Under the trapezoid every pair has a factor of its own.
+  const bool shares_factor = metric.options.discretization != Discretization::kTrapezoid;
+  return GeodesicBytes(metric, 2, shapes) -
+         (shares_factor ? kNumber * PreconditionerNumbers(metric) : 0);
+}
+
 double SplineBytes(const Connectivity& connectivity, int poses, int shapes) {
   constexpr double kIntegrator = 3000;  // matrix and factor, per vertex, and sides
   const double vertices = connectivity.NumVertices();

@@ -25,6 +25,9 @@ void CheckMemory(const std::string& call, double bytes, double memory_limit,
 /// A geodesic through `poses` poses, with `shapes` between two of them.
 double GeodesicBytes(const Metric& metric, int poses, int shapes);
 
+/// What each further geodesic between two of the poses needs that is solved at the same time.
+double FurtherGeodesicBytes(const Metric& metric, int shapes);
+
 /// The correction of a chain of geodesics to a spline; the chain itself is `GeodesicBytes`.
 double SplineBytes(const Connectivity& connectivity, int poses, int shapes);
 
