@@ -67,6 +67,19 @@ def test_a_callable_may_call_the_library(poses, animal):
     np.testing.assert_array_equal(inner[0].vertices, outer.vertices)
 
 
+def test_a_callable_may_call_the_library_while_all_threads_solve(poses, animal):
+    inner = []
+
+    def nested(stage, done, total, share):
+        inner.append(shapespace.interpolate(poses, animal.faces, shapes=1).summary.energy)
+        return len(inner) < 4
+
+    several = [*poses, 0.5 * (poses[0] + poses[1])]
+    with pytest.raises(shapespace.Cancelled):
+        shapespace.distance_matrix(several, animal.faces, progress=nested)
+    assert len(set(inner)) == 1
+
+
 def test_true_shows_a_bar(poses, animal, capsys):
     shapespace.interpolate(poses, animal.faces, shapes=1, progress=True)
     assert "%" in capsys.readouterr().err

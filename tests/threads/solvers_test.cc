@@ -187,9 +187,37 @@ TEST(ShapeModel, IsTheSameForAnyNumberOfThreads) {
 TEST(Explore, IsTheSameForAnyNumberOfThreads) {
   const ShapeFamily tube = testing::SmallTube();
   const std::vector<Shape> poses = testing::TubePoses(tube);
-  const auto results =
-      testing::OnThreads([&] { return Explore(tube.connectivity, poses).space.nodes; });
-  for (const std::vector<Shape>& nodes : results) EXPECT_EQ(nodes, results[0]);
+  for (const auto discretization : {Discretization::kMidpoint, Discretization::kTrapezoid}) {
+    ExploreOptions options;
+    options.geodesic.metric.discretization = discretization;
+    options.depth = 1;
+    const auto results = testing::OnThreads(
+        [&] { return Explore(tube.connectivity, poses, {}, options).space.nodes; });
+    for (const std::vector<Shape>& nodes : results) EXPECT_EQ(nodes, results[0]);
+  }
+}
+
+// Assessing a path uses a library with threads of its own.
+TEST(Interpolator, IsTheSameForAnyNumberOfThreads) {
+  const ShapeFamily tube = MakeTube(1500);
+  const std::vector<Shape> poses = testing::TubePoses(tube);
+  GeodesicOptions options;
+  options.shapes = 3;
+  const auto results = testing::OnThreads([&] {
+    const Interpolator interpolator(tube.connectivity, poses, options);
+    std::vector<GeodesicResult> paths(6);
+    ParallelTasks(6, interpolator.MostAtOnce(), [&](int i) {
+      paths[i] = interpolator.Between(poses[i % 4], poses[(i + 1 + i / 4) % 4]);
+    });
+    return paths;
+  });
+  for (const std::vector<GeodesicResult>& paths : results) {
+    for (int i = 0; i < 6; ++i) {
+      EXPECT_TRUE(paths[i].path.shapes == results[0][i].path.shapes);
+      EXPECT_EQ(paths[i].summary.energy, results[0][i].summary.energy);
+      EXPECT_EQ(paths[i].summary.intersections, results[0][i].summary.intersections);
+    }
+  }
 }
 
 }  // namespace

@@ -137,8 +137,11 @@ TEST_F(ExploreToolTest, AnyNumberOfRanksMakesTheSameFile) {
     return std::system(command.c_str());
   };
   Succeed("shape-explore", WithPoses({"--output", "alone.space"}));
-  for (int ranks : {1, 2, 4}) {
-    ASSERT_EQ(run(ranks, poses + "--threads 1 --output ranks.space"), 0) << Content(Path("err"));
+  for (const auto& [ranks, threads] :
+       std::vector<std::pair<int, int>>{{1, 1}, {2, 1}, {4, 1}, {2, 3}}) {
+    ASSERT_EQ(run(ranks, poses + "--threads " + std::to_string(threads) + " --output ranks.space"),
+              0)
+        << Content(Path("err"));
     EXPECT_TRUE(Content(Path("ranks.space")) == Content(Path("alone.space"))) << ranks;
     const std::string out = Content(Path("out"));
     EXPECT_EQ(out.find("converged"), out.rfind("converged")) << "said more than once: " << out;

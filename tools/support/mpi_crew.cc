@@ -15,10 +15,13 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include <shapespace/base/parallel.h>
 #endif
 
 namespace shapespace::tools {
@@ -53,18 +56,36 @@ class MpiCrew final : public ProcessPool {
   int Rank() const override { return rank_; }
   int Size() const override { return size_; }
 
-  std::vector<std::string> ForEach(int count,
+  std::vector<std::string> ForEach(int count, int at_once,
                                    const std::function<std::string(int)>& body) override {
     std::vector<std::string> results(count);
     std::vector<int> owner(count, -1);
-    const auto run = [&](int i) {
-      results[i] = body(i);
-      owner[i] = rank_;
+    // Each of this process's threads runs one task after the other, until there is none left.
+    const auto run_all = [&](const std::function<int()>& next) {
+      const int threads = std::min(at_once, NumThreads());
+      std::atomic<bool> failed = false;
+      ParallelTasks(threads, threads, [&](int) {
+        try {
+          for (int i; !failed && (i = next()) < count;) {
+            results[i] = body(i);
+            owner[i] = rank_;
+          }
+        } catch (...) {
+          failed = true;
+          throw;
+        }
+      });
     };
     if (rank_ == 0) {
-      HandOut(count, run);
+      HandOut(count, run_all);
     } else {
-      for (int i; (i = Ask()) < count;) run(i);
+      std::mutex asking;  // one thread at a time may call MPI
+      int task = 0;
+      run_all([&] {
+        const std::lock_guard<std::mutex> lock(asking);
+        if (task < count) task = Ask();  // each rank is told once that there is none left
+        return task;
+      });
     }
     MPI_Allreduce(MPI_IN_PLACE, owner.data(), count, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
     for (int i = 0; i < count; ++i) Broadcast(owner[i], &results[i]);
@@ -79,8 +100,8 @@ class MpiCrew final : public ProcessPool {
 
  private:
   // The first rank works too: a separate thread, which is mostly idle, replies to the other ranks.
-  // The first thread does not call MPI in the meantime.
-  void HandOut(int count, const std::function<void(int)>& run) {
+  // Its other threads do not call MPI in the meantime.
+  void HandOut(int count, const std::function<void(const std::function<int()>&)>& run_all) {
     std::atomic<int> next = 0;
     std::atomic<bool> failed = false;
     std::thread answering([&] {
@@ -100,7 +121,7 @@ class MpiCrew final : public ProcessPool {
       }
     });
     try {
-      for (int i; (i = next++) < count;) run(i);
+      run_all([&]() -> int { return next++; });
     } catch (...) {
       failed = true;
       answering.join();

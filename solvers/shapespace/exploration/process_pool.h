@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <shapespace/base/parallel.h>
+
 namespace shapespace {
 
 /// Processes that share work (a process pool). All of them run the same program and make the same
@@ -17,11 +19,13 @@ class ProcessPool {
   virtual int Rank() const { return 0; }  ///< of this process, from 0
   virtual int Size() const { return 1; }
 
-  /// Calls `body(i)` for every i in [0, count), each on the next free process, and returns all
-  /// results on all processes. The caller must end all processes if an exception is thrown.
-  virtual std::vector<std::string> ForEach(int count, const std::function<std::string(int)>& body) {
-    std::vector<std::string> results;
-    for (int i = 0; i < count; ++i) results.push_back(body(i));
+  /// Calls `body(i)` for every i in [0, count), each on the next free process, and there at most
+  /// `at_once` at a time, on several threads (`ParallelTasks`). Returns all results on all
+  /// processes. The caller must end all processes if an exception is thrown.
+  virtual std::vector<std::string> ForEach(int count, int at_once,
+                                           const std::function<std::string(int)>& body) {
+    std::vector<std::string> results(count);
+    ParallelTasks(count, at_once, [&](int i) { results[i] = body(i); });
     return results;
   }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include <shapespace/base/error.h>
@@ -11,6 +10,7 @@
 #include <shapespace/exponential/internal/nearest_shape.h>
 #include <shapespace/numerics/internal/check_options.h>
 #include <shapespace/numerics/internal/memory.h>
+#include <shapespace/numerics/internal/task_group.h>
 #include <shapespace/statistics/internal/feature_chart.h>
 #include <shapespace/statistics/internal/feature_statistics.h>
 #include <shapespace/statistics/internal/procrustes.h>
@@ -103,33 +103,40 @@ class Stars {
         progress_(progress),
         interpolator_(connectivity, poses, options) {}
 
-  Star From(const Shape& centre) {
+  Star From(const Shape& centre) const {
+    const int count = static_cast<int>(poses_.size());
+    std::vector<Arm> arms(count);
+    internal::TaskGroup group(progress_, "comparing with the lower bound", count);
+    group.RunAll(interpolator_.MostAtOnce(), [&](int i, Progress* progress) {
+      const GeodesicResult result = interpolator_.Between(centre, poses_[i], progress);
+      if (result.summary.termination == Termination::kCancelled) throw Cancelled();
+      arms[i] = {result.path.shapes[0], result.path.shapes[1], result.summary.energy};
+    });
+    const internal::FeatureChart chart(map_, map_.Values(arms[0].centre));
     Star star;
     star.centre = centre;
-    std::optional<internal::FeatureChart> chart;
-    Eigen::VectorXd velocity;
-    for (size_t i = 0; i < poses_.size(); ++i) {
-      ReportProgress(progress_, "comparing with the lower bound", static_cast<int>(i),
-                     static_cast<int>(poses_.size()));
-      const GeodesicResult arm = interpolator_.Between(centre, poses_[i]);
-      if (!chart) {
-        chart.emplace(map_, map_.Values(arm.path.shapes[0]));
-        velocity = Eigen::VectorXd::Zero(chart->Centre().size());
-      }
-      star.energy += weights_(i) * arm.summary.energy;
-      velocity += weights_(i) * segments_ * chart->Log(map_.Values(arm.path.shapes[1]));
+    Eigen::VectorXd velocity = Eigen::VectorXd::Zero(chart.Centre().size());
+    for (int i = 0; i < count; ++i) {
+      star.energy += weights_(i) * arms[i].energy;
+      velocity += weights_(i) * segments_ * chart.Log(map_.Values(arms[i].next));
     }
-    star.mean_of_ends = chart->Exp(velocity);
+    star.mean_of_ends = chart.Exp(velocity);
     return star;
   }
 
  private:
+  // The geodesic to a pose: its first shape, the centre, and the next (metric's unit).
+  struct Arm {
+    Shape centre, next;
+    double energy = 0;
+  };
+
   const FeatureMap& map_;
   const std::vector<Shape>& poses_;
   const Eigen::VectorXd& weights_;
   const int segments_;
   Progress* const progress_;
-  Interpolator interpolator_;
+  const Interpolator interpolator_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "support/listener.h"
 #include "support/message_of.h"
 #include "support/motions.h"
+#include "support/temporary_file.h"
 
 namespace shapespace {
 namespace {
@@ -28,7 +30,7 @@ using testing::TubePoses;
 // Processes tasks in reverse order, as if other processes had been faster.
 class LastFirst : public ProcessPool {
  public:
-  std::vector<std::string> ForEach(int count,
+  std::vector<std::string> ForEach(int count, int /*at_once*/,
                                    const std::function<std::string(int)>& body) override {
     std::vector<std::string> results(count);
     for (int i = count - 1; i >= 0; --i) results[i] = body(i);
@@ -63,6 +65,52 @@ TEST(InterpolatorTest, UnderTheTrapezoidToo) {
   used.Between(poses[3], poses[1]);
   EXPECT_EQ(used.Between(poses[1], poses[2]).path.shapes,
             fresh.Between(poses[1], poses[2]).path.shapes);
+}
+
+// Also from threads that are not the library's.
+TEST(InterpolatorTest, FindsTheSameOnSeveralThreads) {
+  const ShapeFamily tube = SmallTube();
+  const std::vector<Shape> poses = TubePoses(tube);
+  for (const auto discretization : {Discretization::kMidpoint, Discretization::kTrapezoid}) {
+    GeodesicOptions options;
+    options.metric.discretization = discretization;
+    options.shapes = 3;
+    const Interpolator alone(tube.connectivity, poses, options);
+    const Interpolator shared(tube.connectivity, poses, options);
+    std::vector<std::vector<Shape>> paths(8);
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i) {
+      threads.emplace_back([&, i] {
+        for (const int k : {i, i + 4}) {
+          paths[k] = shared.Between(poses[k % 4], poses[(k + 1 + k / 4) % 4]).path.shapes;
+        }
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (int k = 0; k < 8; ++k) {
+      EXPECT_EQ(paths[k], alone.Between(poses[k % 4], poses[(k + 1 + k / 4) % 4]).path.shapes) << k;
+    }
+  }
+}
+
+TEST(InterpolatorTest, SolvesAsManyAtOnceAsThereIsMemoryFor) {
+  const ShapeFamily tube = SmallTube();
+  const std::vector<Shape> poses = TubePoses(tube);
+  GeodesicOptions options;
+  const auto most_within = [&](double limit) {
+    options.memory_limit = limit;
+    return Interpolator(tube.connectivity, poses, options).MostAtOnce();
+  };
+  options.memory_limit = 8e9;
+  const Interpolator one(tube.connectivity, poses, options);
+  const double bytes = one.Between(poses[0], poses[1]).summary.estimated_bytes;
+  EXPECT_EQ(most_within(bytes), 1);
+  EXPECT_GE(most_within(std::numeric_limits<double>::infinity()), 256);
+  // In each of them shapes may be inserted to remove a jump.
+  for (const int count : {4, 16, 64}) {
+    EXPECT_LE(most_within(count * bytes), count);
+    EXPECT_GE(most_within(count * bytes), count / 2);
+  }
 }
 
 TEST(InterpolatorTest, WithoutAssessmentWhatWasNotMeasuredIsNoNumber) {
@@ -228,6 +276,23 @@ TEST(ExploreTest, TellsHowFarItIsAndStopsWhenAsked) {
     Listener stops(last);
     EXPECT_THROW(Explore(tube.connectivity, poses, {}, {}, &stops), Cancelled) << last;
   }
+}
+
+// Finished geodesics of a stopped run are stored, and the next run takes them.
+TEST(ExploreTest, StoppedItKeepsWhatIsFinished) {
+  const ShapeFamily tube = SmallTube();
+  const std::vector<Shape> poses = TubePoses(tube);
+  ExploreOptions options;
+  options.records = testing::TemporaryFile("records_of_a_stopped_run");
+  Listener whole;
+  const PoseSpace space = Explore(tube.connectivity, poses, {}, {}, &whole).space;
+  Listener stops(whole.reports / 2);
+  EXPECT_THROW(Explore(tube.connectivity, poses, {}, options, &stops), Cancelled);
+  const ExploreResult again = Explore(tube.connectivity, poses, {}, options);
+  EXPECT_GT(again.summary.found, 0);
+  EXPECT_GT(again.summary.solved, 0);
+  EXPECT_EQ(again.space.nodes, space.nodes);
+  RemoveRecords(options.records);
 }
 
 TEST(ExploreTest, WhatDoesNotConvergeIsToldOf) {

@@ -12,6 +12,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/mesh/rigid_motion.h>
+#include <shapespace/numerics/internal/task_group.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/internal/array_file.h>
 
@@ -112,21 +113,6 @@ std::optional<PairResult> Unpack(const std::string& digest, const std::string& b
   }
 }
 
-// Progress of one solve as a part of the progress of many.
-class OneOfMany : public Progress {
- public:
-  OneOfMany(Progress* progress, std::string stage, int done, int total)
-      : progress_(progress), stage_(std::move(stage)), done_(done), total_(total) {}
-  bool Report(const std::string& /*stage*/, int /*done*/, int /*total*/) override {
-    return progress_ == nullptr || progress_->Report(stage_, done_, total_);
-  }
-
- private:
-  Progress* const progress_;
-  const std::string stage_;
-  const int done_, total_;
-};
-
 }  // namespace
 
 PairSolver::PairSolver(const std::shared_ptr<const Connectivity>& connectivity,
@@ -178,14 +164,17 @@ std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const 
   const int total = static_cast<int>(missing.size());
   counts_.found += static_cast<int>(pairs.size()) - total;
   counts_.solved += total;
-  if (progress != nullptr) progress->ReportShare(0);
-  std::vector<std::string> solved = crew_.ForEach(total, [&](int i) {
-    OneOfMany one(progress, stage, i, total);
-    const PairResult result = SolveOne(pairs[missing[i]], &one);
-    std::string bytes = Pack(digests[missing[i]], result);
-    records_.Keep(digests[missing[i]], bytes);
-    if (progress != nullptr) progress->ReportShare((i + 1.0) / total);
-    return bytes;
+  TaskGroup group(progress, stage, total);
+  std::vector<std::string> solved;
+  group.Guard([&] {
+    solved = crew_.ForEach(total, interpolator_.MostAtOnce(), [&](int i) {
+      std::string bytes;
+      group.Run(i, [&](Progress* one) {
+        bytes = Pack(digests[missing[i]], SolveOne(pairs[missing[i]], one));
+        records_.Keep(digests[missing[i]], bytes);
+      });
+      return bytes;
+    });
   });
   for (int i = 0; i < total; ++i) records[missing[i]] = std::move(solved[i]);
 
@@ -200,9 +189,8 @@ std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const 
   return results;
 }
 
-PairResult PairSolver::SolveOne(const Pair& pair, Progress* progress) {
+PairResult PairSolver::SolveOne(const Pair& pair, Progress* progress) const {
   const Metric& metric = *GetMetric();
-  ReportProgress(progress, {}, 0, 0);
   const GeodesicResult found =
       interpolator_.Between(metric.unit * *pair.from, metric.unit * *pair.to, progress);
   if (found.summary.termination == Termination::kCancelled) throw Cancelled();

@@ -39,7 +39,8 @@ struct PairCounts {
   int solved = 0, found = 0, damaged = 0, not_converged = 0;
 };
 
-/// Solves pairs, each on one process of a crew, and stores the results on disk.
+/// Solves pairs, on all processes of a crew and all threads of each, and stores the results on
+/// disk.
 class PairSolver {
  public:
   /// `crew` must outlive it. \throw as Interpolator.
@@ -58,7 +59,7 @@ class PairSolver {
 
  private:
   std::vector<std::string> Digests(const std::vector<Pair>& pairs) const;
-  PairResult SolveOne(const Pair& pair, Progress* progress);
+  PairResult SolveOne(const Pair& pair, Progress* progress) const;
 
   Interpolator interpolator_;
   ProcessPool& crew_;
