@@ -1,11 +1,18 @@
 #ifndef SHAPESPACE_TESTS_SUPPORT_THREADS_H_
 #define SHAPESPACE_TESTS_SUPPORT_THREADS_H_
 
+#include <chrono>
 #include <vector>
 
 #include <shapespace/base/parallel.h>
 
 namespace shapespace::testing {
+
+/// Keeps the calling thread busy for so many microseconds.
+inline void Spin(int microseconds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(microseconds);
+  while (std::chrono::steady_clock::now() < end) continue;
+}
 
 /// Results of `compute` on one, two, three and eight threads, however few cores there are.
 template <class Compute>

@@ -49,7 +49,7 @@ void WaitUntil(const std::function<bool()>& is_true) {
       ADD_FAILURE() << "waited in vain";
       return;
     }
-    std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::microseconds(20));
   }
 }
 
@@ -122,7 +122,7 @@ TEST(ParallelTasks, BeginInOrderAtMostSoManyAtATime) {
              for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) continue;
              // Others may have begun between this one's beginning and here.
              if (std::abs(i - begun++) >= std::min(at_once, NumThreads())) in_order = false;
-             std::this_thread::sleep_for(std::chrono::microseconds(50));
+             testing::Spin(20);
              --running;
            });
            return std::make_pair(most.load(), in_order && begun == 50);
@@ -187,8 +187,7 @@ TEST(ParallelTasks, DoNotBeginWithinTheLoopOfAnother) {
              if (inside) overlapped = true;
              inside = true;
              for (int round = 0; round < 20; ++round) {
-               ParallelFor(8,
-                           [](int) { std::this_thread::sleep_for(std::chrono::microseconds(20)); });
+               ParallelFor(8, [](int) { testing::Spin(10); });
              }
              inside = false;
            };
@@ -227,7 +226,7 @@ TEST(ParallelTasks, EndWhenOneFailsWithWhatItThrows) {
            ParallelTasks(1000, 8, [&](int i) {
              if (i == 20) throw std::runtime_error("20");
              if (i > 20) ++later;
-             if (i > 20) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+             if (i > 20) testing::Spin(100);
            });
          });
          return std::make_pair(message, later.load());
