@@ -7,7 +7,7 @@
 
 namespace shapespace {
 
-/// Receives the progress of a long call, and can stop it. Called from the thread of that call.
+/// Receives the progress of a long call, and can stop it. Called by any thread, one at a time.
 class Progress {
  public:
   virtual ~Progress() = default;
