@@ -179,28 +179,51 @@ TEST(ParallelTasks, IdleThreadsHelpWithTheLoopsOfOthers) {
 // A thread that waits for its loop must not begin another task in the meantime: with a lock held,
 // it would wait for itself.
 TEST(ParallelTasks, DoNotBeginWithinTheLoopOfAnother) {
+  SetThreads(8);
   for (const bool nested : {false, true}) {
-    for (const bool overlapped : testing::OnThreads([&] {
-           std::atomic<bool> overlapped{false};
-           const auto task = [&](int) {
-             thread_local bool inside = false;
-             if (inside) overlapped = true;
-             inside = true;
-             for (int round = 0; round < 20; ++round) {
-               ParallelFor(8, [](int) { testing::Spin(10); });
-             }
-             inside = false;
-           };
-           if (nested) {
-             ParallelFor(9, task);
-           } else {
-             ParallelTasks(9, 9, task);
-           }
-           return overlapped.load();
-         })) {
-      EXPECT_FALSE(overlapped);
+    std::atomic<bool> overlapped{false};
+    const auto task = [&](int) {
+      thread_local bool inside = false;
+      if (inside) overlapped = true;
+      inside = true;
+      const std::thread::id owner = std::this_thread::get_id();
+      // Others take longer, so that the owner waits for them.
+      const auto body = [&](int) { testing::Spin(std::this_thread::get_id() == owner ? 5 : 200); };
+      for (int round = 0; round < 20; ++round) {
+        ParallelFor(8, body);
+      }
+      inside = false;
+    };
+    if (nested) {
+      ParallelFor(20, task);
+    } else {
+      ParallelTasks(20, 20, task);
     }
+    EXPECT_FALSE(overlapped);
   }
+  SetThreads(0);
+}
+
+// Otherwise a callback that waits for another thread could wait for a loop that waits for threads
+// whose tasks wait for the callback.
+TEST(ParallelTasks, DoNotLetOtherThreadsWaitForThem) {
+  SetThreads(3);
+  std::set<std::thread::id> threads;
+  std::mutex mutex;
+  ParallelTasks(2, 2, [&](int i) {
+    if (i > 0) return;
+    std::thread([&] {
+      const auto body = [&](int) {
+        testing::Spin(20);
+        const std::lock_guard<std::mutex> lock(mutex);
+        threads.insert(std::this_thread::get_id());
+      };
+      for (int round = 0; round < 50; ++round) ParallelFor(16, body);
+      ParallelTasks(16, 16, body);
+    }).join();
+  });
+  SetThreads(0);
+  EXPECT_EQ(threads.size(), 1u);
 }
 
 // As a callback in another thread does, which runs loops of its own.
@@ -223,7 +246,11 @@ TEST(ParallelTasks, EndWhenOneFailsWithWhatItThrows) {
   for (const auto& [message, later] : testing::OnThreads([] {
          std::atomic<int> later{0};
          const std::string message = testing::MessageOf<std::runtime_error>([&] {
+           std::atomic<int> begun{0};
+           const int workers = std::min(8, NumThreads());
            ParallelTasks(1000, 8, [&](int i) {
+             ++begun;
+             if (i < workers) WaitUntil([&] { return begun >= workers; });
              if (i == 20) throw std::runtime_error("20");
              if (i > 20) ++later;
              if (i > 20) testing::Spin(100);
