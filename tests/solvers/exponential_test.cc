@@ -240,7 +240,8 @@ TEST(Exponential, MovesASingleEdgeAsClairautSays) {
 
   double previous[2] = {0, 0};
   for (int steps : {8, 16, 32}) {
-    const auto [path, summary] = Shoot(motion, steps);
+    const auto [path, summary] =
+        Shoot(motion, steps, Options(GeodesicIntegrator::kVariational, 1e-13));
     const Eigen::Vector3d edge = path.shapes.back().col(1) - path.shapes.back().col(0);
     EXPECT_LT(std::abs(edge.dot(along.cross(across))), 1e-12);
     const double r = edge.norm(), angle = std::atan2(edge.dot(across), edge.dot(along));
@@ -267,7 +268,8 @@ TEST(Exponential, KeepsTheMomentaOfFreePoints) {
     motion.velocity.colwise() += 0.3 * Diameter(motion.shape) * Eigen::Vector3d(1, 2, -2) / 3;
     motion.velocity += testing::Spin(*motion.metric, motion.shape, 40, {1, 0.3, 0});
     const Eigen::VectorXd& mass = motion.metric->vertex_area;
-    const auto [path, summary] = Shoot(motion, 50);
+    const auto [path, summary] =
+        Shoot(motion, 50, Options(GeodesicIntegrator::kVariational, 1e-13));
     EXPECT_TRUE(summary.Converged()) << summary.FullReport();
     Eigen::Vector3d linear[2], angular[2];
     for (int i = 0; i < 50; ++i) {

@@ -116,6 +116,71 @@ TEST(Cholesky, SolvesOneVectorAsItSolvesSeveral) {
   }
 }
 
+// G^{-1} b by a factor, for one vector.
+template <typename Scalar>
+Eigen::VectorXd SolveWith(const CholeskyFactor<Scalar>& factor, const Eigen::VectorXd& b) {
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x(factor.WorkRows());
+  for (int i = 0; i < b.size(); ++i) x(i) = static_cast<Scalar>(b(factor.Permutation()[i]));
+  factor.SolveLower(x.data());
+  factor.SolveUpper(x.data());
+  Eigen::VectorXd result(b.size());
+  for (int i = 0; i < b.size(); ++i) {
+    result(factor.Permutation()[i]) = static_cast<double>(x(i));
+  }
+  return result;
+}
+
+// Fronts of several tiles, of which the last ones are narrower, in the trunk.
+TEST(Cholesky, FactorsLargeFronts) {
+  const Eigen::SparseMatrix<double> matrix = SparseWithDenseFactor(1500, 24);
+  const Cholesky factor(matrix);
+  EXPECT_GT(factor.NumNonzeros(), 500 * 500);
+  const Eigen::VectorXd x = Eigen::VectorXd::Random(1500);
+  const Eigen::VectorXd found = SolveWith(factor, matrix.selfadjointView<Eigen::Lower>() * x);
+  EXPECT_LT((found - x).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(Cholesky, UpdatesToAnotherMatrixOfItsPattern) {
+  Eigen::SparseMatrix<double> matrix = Matrix(MakeBar(6, 1, 1, 24, 4, 4));
+  Cholesky factor(matrix);
+  CholeskyFactor<float> single(matrix);
+  matrix.coeffs() *= 3;
+  matrix.diagonal() *= 2;
+  factor.Update(matrix);
+  single.Update(matrix);
+  const Eigen::VectorXd x = Eigen::VectorXd::Random(matrix.rows());
+  const Eigen::VectorXd b = matrix.selfadjointView<Eigen::Lower>() * x;
+  EXPECT_LT((SolveWith(factor, b) - x).cwiseAbs().maxCoeff(), 1e-10);
+  EXPECT_LT((SolveWith(single, b) - x).cwiseAbs().maxCoeff(), 1e-3);
+}
+
+// A factor in the order of groups of unknowns solves the same systems, and is not much larger.
+TEST(Cholesky, EliminatesGroupsOfUnknownsTogether) {
+  const Eigen::SparseMatrix<double> scalar = Matrix(MakeBar(6, 1, 1, 24, 4, 4));
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int column = 0; column < scalar.cols(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(scalar, column); it; ++it) {
+      for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) {
+          const int row = 3 * static_cast<int>(it.row()) + a;
+          if (row < 3 * column + b) continue;
+          entries.emplace_back(row, 3 * column + b, a == b ? it.value() : 0.1 * it.value());
+        }
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(3 * scalar.rows(), 3 * scalar.cols());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Cholesky grouped(matrix, 3), single(matrix);
+  EXPECT_LT(grouped.NumNonzeros(), 1.2 * single.NumNonzeros());
+  for (size_t i = 0; i < grouped.Permutation().size(); i += 3) {
+    EXPECT_EQ(grouped.Permutation()[i] / 3, grouped.Permutation()[i + 2] / 3);
+  }
+  const Eigen::VectorXd x = Eigen::VectorXd::Random(matrix.rows());
+  const Eigen::VectorXd b = matrix.selfadjointView<Eigen::Lower>() * x;
+  EXPECT_LT((SolveWith(grouped, b) - x).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST(Cholesky, RefusesAnIndefiniteMatrix) {
   Eigen::SparseMatrix<double> matrix(3, 3);
   matrix.insert(0, 0) = 1;

@@ -87,6 +87,28 @@ TEST(Shooter, TakesTheStepOfTheCoarserMeshAndLiftsTheDetail) {
   }
 }
 
+// The step after a restart uses the factor by which the restart found the velocity.
+TEST(Shooter, FactorsTheShapeOfARestartOnce) {
+  const Beyond beyond;
+  const auto make_shooter = [&] {
+    return Shooter(beyond.path.metric, {beyond.path.shapes.front(), beyond.path.shapes.back()}, {},
+                   kNeverCancelled);
+  };
+  Shooter shooter = make_shooter(), fresh = make_shooter();
+  const FeatureMap map(beyond.path.metric);
+  const double speed =
+      (map.Values(beyond.from_previous.shape) - map.Values(beyond.from_previous.previous)).norm();
+  ExponentialSummary::Step row;
+  const Shape shape = shooter.Next(beyond.from_previous, &row);
+  const InitialState state = shooter.Restart(beyond.from_previous.shape, shape, speed);
+  EXPECT_NEAR(map.Derivative(shape).Times(state.velocity).norm(), speed, 1e-9 * speed);
+  const int before = shooter.NumFactorisations();
+  const Shape next = shooter.Next(state, &row);
+  const Shape expected = fresh.Next(state, &row);
+  EXPECT_LT(Distance(next, expected), 1e-9 * Diameter(next));
+  EXPECT_EQ(shooter.NumFactorisations() - before, fresh.NumFactorisations() - 1);
+}
+
 TEST(Shooter, TurnsWithTheBody) {
   const Beyond beyond;
   const Eigen::Matrix3d turn = testing::Rotation(70, {1, 2, -1});

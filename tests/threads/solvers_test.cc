@@ -59,6 +59,30 @@ TEST(ThreadedLbfgs, IsTheSameForAnyNumberOfThreads) {
   for (const std::vector<double>& unknowns : results) EXPECT_TRUE(unknowns == results[0]);
 }
 
+// With branches, and with fronts of several tiles.
+TEST(Cholesky, IsTheSameForAnyNumberOfThreads) {
+  const ShapeFamily bar = MakeBar(6, 1, 1, 60, 10, 10);
+  const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(70)});
+  const Eigen::SparseMatrix<double> sparse =
+      internal::ScalarMetric(*metric, {bar.pose(0) / metric->unit}, 0);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < 700; ++i) {
+    for (int j = 0; j < i; ++j) entries.emplace_back(i, j, 1 / (1.0 + i + j));
+    entries.emplace_back(i, i, 700);
+  }
+  Eigen::SparseMatrix<double> dense(700, 700);
+  dense.setFromTriplets(entries.begin(), entries.end());
+  for (const Eigen::SparseMatrix<double>& matrix : {sparse, dense}) {
+    const auto results = testing::OnThreads([&] {
+      const internal::Cholesky factor(matrix);
+      Eigen::VectorXd x = Eigen::VectorXd::Ones(factor.WorkRows());
+      factor.SolveLower(x.data());
+      return x.head(factor.Size()).eval();
+    });
+    for (const Eigen::VectorXd& x : results) EXPECT_TRUE(x == results[0]);
+  }
+}
+
 TEST(Correspond, IsTheSameForAnyNumberOfThreads) {
   const testing::Remeshed bodies("sit");
   const auto results = testing::OnThreads([&] { return bodies.Fit(); });

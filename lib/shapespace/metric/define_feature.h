@@ -27,6 +27,23 @@
 namespace shapespace {
 namespace internal {
 
+/// The values of an element and their derivatives (as Feature::Evaluate) by Ceres' Jets.
+template <typename Struct>
+void DeriveAutomatically(const Struct& feature, const double* x, double* values,
+                         double* derivatives) {
+  constexpr int kSize = 3 * Struct::kVertices, kValues = Struct::kValues;
+  using Jet = ceres::Jet<double, kSize>;
+  Jet jet[kSize], value[kValues];
+  for (int k = 0; k < kSize; ++k) jet[k] = Jet(x[k], k);
+  feature(jet, value);
+  for (int k = 0; k < kValues; ++k) values[k] = value[k].a;
+  for (int corner = 0; corner < Struct::kVertices; ++corner) {
+    for (int k = 0; k < kValues; ++k) {
+      for (int axis = 0; axis < 3; ++axis) *derivatives++ = value[k].v[3 * corner + axis];
+    }
+  }
+}
+
 template <typename Struct>
 class FeatureOf final : public Feature {
  public:
@@ -51,15 +68,12 @@ class FeatureOf final : public Feature {
         feature_(x, values);
         continue;
       }
-      Jet jet[kSize], value[kValues];
-      for (int k = 0; k < kSize; ++k) jet[k] = Jet(x[k], k);
-      feature_(jet, value);
-      for (int k = 0; k < kValues; ++k) values[k] = value[k].a;
-      for (int corner = 0; corner < kVertices; ++corner) {
-        for (int k = 0; k < kValues; ++k) {
-          for (int axis = 0; axis < 3; ++axis) *derivatives++ = value[k].v[3 * corner + axis];
-        }
+      if constexpr (Struct::kHasDerivatives) {
+        feature_.Derivatives(x, values, derivatives);
+      } else {
+        DeriveAutomatically(feature_, x, values, derivatives);
       }
+      derivatives += kSize * kValues;
     }
   }
 
@@ -117,7 +131,6 @@ class FeatureOf final : public Feature {
   static constexpr int kVertices = Struct::kVertices, kValues = Struct::kValues;
   static constexpr int kSize = 3 * kVertices;
   static constexpr bool kHasRows = Struct::kScalarRows > 0;
-  using Jet = ceres::Jet<double, kSize>;
 
   const void* StructIf(const std::type_info& type) const override {
     return type == typeid(Struct) ? &feature_ : nullptr;

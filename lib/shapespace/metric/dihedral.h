@@ -22,6 +22,7 @@ inline double WrapAngle(double angle) {
 /// the angle between the two normals, 0 if flat, positive if convex. The chord between two such
 /// points needs no wrapping, is bounded, and gives the same Riemannian metric as theta itself.
 struct Dihedral : ElementFeature<4, 2> {
+  static constexpr bool kHasDerivatives = true;
   static constexpr int kScalarRows = 1;
   static constexpr const char* kName = "dihedral";
 
@@ -49,6 +50,33 @@ struct Dihedral : ElementFeature<4, 2> {
     const Vector m2 = n2 / sqrt(n2.squaredNorm() + normal_epsilon_squared);
     value[0] = m1.dot(m2);
     value[1] = m1.cross(m2).dot(e) / sqrt(e.squaredNorm() + edge_epsilon_squared);
+  }
+
+  void Derivatives(const double* x, double* value, double* derivative) const {
+    using Vector = Eigen::Vector3d;
+    const Eigen::Map<const Vector> a(x), b(x + 3), c(x + 6), d(x + 9);
+    const Vector e = b - a, to_c = c - a, to_d = d - a;
+    const Vector n1 = e.cross(to_c), n2 = to_d.cross(e);
+    const double inverse1 = 1 / std::sqrt(n1.squaredNorm() + normal_epsilon_squared);
+    const double inverse2 = 1 / std::sqrt(n2.squaredNorm() + normal_epsilon_squared);
+    const double inverse = 1 / std::sqrt(e.squaredNorm() + edge_epsilon_squared);
+    const Vector m1 = inverse1 * n1, m2 = inverse2 * n2, direction = inverse * e;
+    const Vector normals = m1.cross(m2);
+    value[0] = m1.dot(m2);
+    value[1] = normals.dot(direction);
+    // The gradients in m1, m2 and the direction, then in n1, n2 and e, then in the vertices.
+    const Vector by_m1[2] = {m2, m2.cross(direction)}, by_m2[2] = {m1, direction.cross(m1)};
+    for (int k = 0; k < 2; ++k) {
+      const Vector by_n1 = inverse1 * (by_m1[k] - by_m1[k].dot(m1) * m1);
+      const Vector by_n2 = inverse2 * (by_m2[k] - by_m2[k].dot(m2) * m2);
+      Vector by_b = to_c.cross(by_n1) + by_n2.cross(to_d);
+      if (k == 1) by_b += inverse * (normals - value[1] * direction);
+      const Vector by_c = by_n1.cross(e), by_d = e.cross(by_n2);
+      Eigen::Map<Vector>(derivative + 3 * k) = -by_b - by_c - by_d;
+      Eigen::Map<Vector>(derivative + 6 + 3 * k) = by_b;
+      Eigen::Map<Vector>(derivative + 12 + 3 * k) = by_c;
+      Eigen::Map<Vector>(derivative + 18 + 3 * k) = by_d;
+    }
   }
 
   /// theta in (-pi, pi] of a hinge's four vertices.

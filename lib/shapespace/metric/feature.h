@@ -38,6 +38,13 @@ struct ElementFeature {
   /// Whether the values of all elements are added before they are squared, as for the volume. Then
   /// kValues is 1, and `weights` has one entry.
   static constexpr bool kSum = false;
+  /// Whether the struct has, beside the automatic derivatives of its values, faster ones of its
+  /// own:
+  ///
+  ///      void Derivatives(const double* x, double* value, double* derivative) const
+  ///
+  /// computes the values and their derivatives: by vertex, by value, three numbers each.
+  static constexpr bool kHasDerivatives = false;
   /// Number of vectors of `ScalarRows`; 0 means that they are computed from the derivative.
   static constexpr int kScalarRows = 0;
 

@@ -2,25 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/ranges.h>
+#include <shapespace/base/parallel.h>
 #include <shapespace/metric/internal/lower_block.h>
 
 namespace shapespace {
 
 // The data shared by all derivatives of one map.
 struct FeatureDerivative::Layout {
-  struct Term {  // of the feature with the same index
-    int first_value = 0;
-    // Where each vertex occurs, in the order of the elements: kVertices * element + corner.
-    std::vector<int> begin, occurrences;
-  };
   std::shared_ptr<const Metric> metric;
   int num_values = 0;
-  std::vector<Term> terms;
+  std::vector<int> first_value;  // of each feature
 };
 
 namespace {
@@ -31,6 +28,10 @@ using internal::kPerTask;
 // Elements whose values are evaluated in one call, into buffers on the stack.
 constexpr int kChunk = 16;
 constexpr int kMaxCoordinates = 3 * Feature::kMaxVertices;
+
+// Parts of the elements that are summed side by side. More parts would take more memory, and more
+// time to add.
+constexpr int kParts = 8;
 
 // The sum of value(i) over all i, in an order that does not depend on the number of threads.
 template <typename Value>
@@ -87,20 +88,9 @@ FeatureMap::FeatureMap(std::shared_ptr<const Metric> metric) : metric_(std::move
   }
   auto layout =
       std::make_shared<FeatureDerivative::Layout>(FeatureDerivative::Layout{metric_, 0, {}});
-  const int num_vertices = metric_->connectivity->NumVertices();
   for (const auto& feature : metric_->features) {
-    FeatureDerivative::Layout::Term term;
-    term.first_value = layout->num_values;
+    layout->first_value.push_back(layout->num_values);
     layout->num_values += feature->NumValues();
-    const int num_places = feature->NumElements() * feature->VerticesPerElement();
-    const int* const vertices = feature->Element(0);
-    term.begin.assign(num_vertices + 1, 0);
-    for (int i = 0; i < num_places; ++i) ++term.begin[vertices[i] + 1];
-    std::partial_sum(term.begin.begin(), term.begin.end(), term.begin.begin());
-    term.occurrences.resize(term.begin.back());
-    std::vector<int> fill(term.begin.begin(), term.begin.end() - 1);
-    for (int i = 0; i < num_places; ++i) term.occurrences[fill[vertices[i]]++] = i;
-    layout->terms.push_back(std::move(term));
   }
   layout_ = std::move(layout);
 }
@@ -118,7 +108,7 @@ Eigen::VectorXd FeatureMap::Values(const Shape& shape) const {
   return result;
 }
 
-int FeatureMap::FirstValue(size_t feature) const { return layout_->terms[feature].first_value; }
+int FeatureMap::FirstValue(size_t feature) const { return layout_->first_value[feature]; }
 
 Eigen::VectorXd FeatureMap::SecondDerivative(const Shape& shape, const Tangent& x) const {
   Eigen::VectorXd result(layout_->num_values);
@@ -165,7 +155,7 @@ Eigen::VectorXd FeatureDerivative::Times(const Tangent& x) const {
     const Feature& feature = *layout_->metric->features[i];
     const int num_vertices = feature.VerticesPerElement(), num_values = feature.ValuesPerElement();
     const double* const blocks = blocks_[i].data();
-    double* const values = result.data() + layout_->terms[i].first_value;
+    double* const values = result.data() + layout_->first_value[i];
     const auto product = [&](int e, double* out) {
       const double* block = blocks + static_cast<size_t>(e) * 3 * num_vertices * num_values;
       std::fill(out, out + num_values, 0.0);
@@ -192,30 +182,40 @@ Eigen::VectorXd FeatureDerivative::Times(const Tangent& x) const {
 }
 
 Tangent FeatureDerivative::TransposeTimes(const Eigen::VectorXd& y) const {
-  // Gathered by vertex, so that no two threads add to the same entry.
-  Tangent result = Tangent::Zero(3, layout_->metric->connectivity->NumVertices());
-  for (size_t i = 0; i < blocks_.size(); ++i) {
-    const Feature& feature = *layout_->metric->features[i];
-    const int num_vertices = feature.VerticesPerElement(), num_values = feature.ValuesPerElement();
-    const bool is_sum = feature.IsSum();
-    const Layout::Term& term = layout_->terms[i];
-    const double* const blocks = blocks_[i].data();
-    const double* const values = y.data() + term.first_value;
-    ForRanges(static_cast<int>(result.cols()), [&](int begin, int end) {
-      for (int v = begin; v < end; ++v) {
-        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for (int k = term.begin[v]; k < term.begin[v + 1]; ++k) {
-          const int place = term.occurrences[k];
-          const double* block = blocks + static_cast<size_t>(place) * 3 * num_values;
-          const double* const at = is_sum ? values : values + place / num_vertices * num_values;
+  // Each part of the elements is summed by itself, and the sums are added in order.
+  const int num_vertices = layout_->metric->connectivity->NumVertices();
+  std::vector<Tangent> sums(kParts);
+  ParallelFor(kParts, [&](int part) {
+    Tangent& sum = sums[part];
+    sum = Tangent::Zero(3, num_vertices);
+    for (size_t i = 0; i < blocks_.size(); ++i) {
+      const Feature& feature = *layout_->metric->features[i];
+      const int corners = feature.VerticesPerElement(), num_values = feature.ValuesPerElement();
+      const double* const values = y.data() + layout_->first_value[i];
+      const auto part_begin = [&](int of) {
+        return static_cast<int>(static_cast<int64_t>(feature.NumElements()) * of / kParts);
+      };
+      const int begin = part_begin(part), end = part_begin(part + 1);
+      const double* block =
+          blocks_[i].data() + static_cast<size_t>(begin) * 3 * corners * num_values;
+      for (int e = begin; e < end; ++e) {
+        const double* const at =
+            feature.IsSum() ? values : values + static_cast<size_t>(num_values) * e;
+        for (int corner = 0; corner < corners; ++corner) {
+          double* const to = sum.col(feature.Element(e)[corner]).data();
           for (int value = 0; value < num_values; ++value, block += 3) {
-            sum += at[value] * Eigen::Map<const Eigen::Vector3d>(block);
+            for (int axis = 0; axis < 3; ++axis) to[axis] += at[value] * block[axis];
           }
         }
-        result.col(v) += sum;
       }
-    });
-  }
+    }
+  });
+  Tangent result(3, num_vertices);
+  ForRanges(num_vertices, [&](int begin, int end) {
+    auto range = result.middleCols(begin, end - begin);
+    range = sums[0].middleCols(begin, end - begin);
+    for (int part = 1; part < kParts; ++part) range += sums[part].middleCols(begin, end - begin);
+  });
   return result;
 }
 

@@ -21,8 +21,11 @@ struct MetricBasis;
 /// are the values of some triangle, so that geodesics under this feature can be continued without
 /// limit (docs/mathematics.md, section 1).
 struct TriangleStrain : ElementFeature<3, 3> {
+  static constexpr bool kHasDerivatives = true;
   static constexpr int kScalarRows = 3;
   static constexpr const char* kName = "triangle strain";
+  /// Below this square of the eigenvalues' ratio the logarithm is replaced by its series.
+  static constexpr double kSmallRatio = 1e-4;
 
   /// The square of a length far below those of the mesh, added to both eigenvalues of C to keep the
   /// logarithm of a collapsed triangle finite.
@@ -54,7 +57,7 @@ struct TriangleStrain : ElementFeature<3, 3> {
     const T squared = d * d + o * o;
     const T ratio_squared = squared / (m * m);  // of the eigenvalues; less than 1
     T factor;                                   // atanh(ratio) / ratio
-    if (ratio_squared < T(1e-4)) {
+    if (ratio_squared < T(kSmallRatio)) {
       factor =
           1.0 + ratio_squared * (1.0 / 3.0 + ratio_squared * (0.2 + ratio_squared * (1.0 / 7.0)));
     } else {
@@ -65,6 +68,55 @@ struct TriangleStrain : ElementFeature<3, 3> {
     value[0] = 0.25 * log(determinant);
     value[1] = slope * d;
     value[2] = slope * o;
+  }
+
+  void Derivatives(const double* x, double* value, double* derivative) const {
+    using Vector = Eigen::Vector3d;
+    (*this)(x, value);
+    const Eigen::Map<const Vector> p(x), q(x + 3), r(x + 6);
+    const Vector a = q - p, b = r - p, n = a.cross(b);
+    // The quantities of `operator()`, and their gradients in (aa, ab, bb).
+    const double aa = a.squaredNorm(), ab = a.dot(b), bb = b.squaredNorm();
+    const double mean = 2.0 / 3.0 * (aa + bb - ab), m = mean + epsilon_squared;
+    const double d = (aa + 2.0 * (ab - bb)) / 3.0, o = (2.0 * ab - aa) / std::sqrt(3.0);
+    const Vector of_m = Vector(2, -2, 2) / 3.0, of_d = Vector(1, 2, -2) / 3.0,
+                 of_o = Vector(-1, 2, 0) / std::sqrt(3.0);
+    const double determinant =
+        4.0 / 3.0 * n.squaredNorm() + (2.0 * mean + epsilon_squared) * epsilon_squared;
+    const double squared = d * d + o * o, ratio_squared = squared / (m * m);
+    const Vector half_of_squared = d * of_d + o * of_o;
+    // `factor`, and its gradient in (aa, ab, bb) and, through the determinant, in nn = |n|^2.
+    double factor, factor_by_determinant = 0;
+    Vector of_factor;
+    if (ratio_squared < kSmallRatio) {
+      const double s = ratio_squared;
+      factor = 1.0 + s * (1.0 / 3.0 + s * (0.2 + s * (1.0 / 7.0)));
+      of_factor = (1.0 / 3.0 + s * (0.4 + s * (3.0 / 7.0))) * 2.0 / (m * m) *
+                  (half_of_squared - squared / m * of_m);
+    } else {
+      const double length = std::sqrt(squared), outer = m / (length * (m + length));
+      factor = m / length * std::log((m + length) / std::sqrt(determinant));
+      factor_by_determinant = -0.5 * m / (length * determinant);
+      of_factor = (factor / m + outer) * of_m +
+                  (outer - factor / length) / length * half_of_squared +
+                  2.0 * epsilon_squared * factor_by_determinant * of_m;
+    }
+    const double scale = 1 / (2.0 * std::sqrt(2.0) * m), slope = scale * factor;
+    const Vector of_slope = scale * (of_factor - factor / m * of_m);
+    const double slope_by_nn = 4.0 / 3.0 * scale * factor_by_determinant;
+    const Vector nn_by_a = 2 * b.cross(n), nn_by_b = 2 * n.cross(a);
+    const double log_by_determinant = 0.25 / determinant;
+    const Vector by_squares[3] = {2.0 * epsilon_squared * log_by_determinant * of_m,
+                                  d * of_slope + slope * of_d, o * of_slope + slope * of_o};
+    const double by_nn[3] = {4.0 / 3.0 * log_by_determinant, d * slope_by_nn, o * slope_by_nn};
+    for (int k = 0; k < 3; ++k) {
+      const Vector& g = by_squares[k];
+      const Vector by_q = 2 * g(0) * a + g(1) * b + by_nn[k] * nn_by_a;
+      const Vector by_r = g(1) * a + 2 * g(2) * b + by_nn[k] * nn_by_b;
+      Eigen::Map<Vector>(derivative + 3 * k) = -by_q - by_r;
+      Eigen::Map<Vector>(derivative + 9 + 3 * k) = by_q;
+      Eigen::Map<Vector>(derivative + 18 + 3 * k) = by_r;
+    }
   }
 
   /// The inverse of `operator()`: the squares of the sides opposite to the first, second and third

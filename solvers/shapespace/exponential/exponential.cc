@@ -22,7 +22,6 @@ namespace shapespace {
 namespace {
 
 using internal::InitialState;
-using internal::MetricSolver;
 
 // Computes the next shape and fills in the fields of the summary's row that concern the solve.
 using NextShape = std::function<Shape(ExponentialSummary::Step*)>;
@@ -256,27 +255,6 @@ void Warn(const Metric& metric, ExponentialSummary* summary) {
   }
 }
 
-// G(P_1) V = J(P_1)^T [Phi(P_1) - Phi(P_0)]: the velocity per step at the end of a segment; with
-// the shapes exchanged and sign -1, the velocity at its beginning.
-Tangent SegmentVelocity(const FeatureMap& map, const Shape& other, const Shape& at, double sign) {
-  const FeatureDerivative derivative = map.Derivative(at);
-  MetricSolver solver;
-  solver.Factor(derivative);
-  return SolveMetric(solver, derivative,
-                     derivative.TransposeTimes(sign * (map.Values(at) - map.Values(other))));
-}
-
-// The initial state from a `shape` that was not solved on the mesh itself. Its lifted detail did
-// not move as on a geodesic; used as a momentum, this motion would grow from step to step.
-// Therefore only the projection of the change onto the velocities at the new shape is kept, scaled
-// to the speed of the geodesic.
-InitialState Restart(const FeatureMap& map, const Shape& before, const Shape& shape, double speed) {
-  Tangent velocity = SegmentVelocity(map, before, shape, 1);
-  const double found = map.Derivative(shape).Times(velocity).norm();
-  if (found > 0) velocity *= speed / found;
-  return {shape, {}, std::move(velocity), speed};
-}
-
 // Continues the result's path, whose last shape is that of `initial_state`.
 void Shoot(InitialState initial_state, int steps, double step, const ExponentialOptions& options,
            Progress* progress, ExponentialResult* result) {
@@ -311,7 +289,7 @@ void Shoot(InitialState initial_state, int steps, double step, const Exponential
           initial_state.velocity.resize(3, 0);
           initial_state.previous = std::exchange(initial_state.shape, shape);
         } else {
-          initial_state = Restart(map, initial_state.shape, shape, initial_state.speed);
+          initial_state = shooter.Restart(initial_state.shape, shape, initial_state.speed);
         }
         return shape;
       };
@@ -426,8 +404,10 @@ Tangent InitialVelocity(const Path& path) {
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(second.rotation * first.rotation.transpose()));
   const Eigen::Vector3d spin = turn.angle() * turn.axis();
   const Shape arms = metric->unit * (first.rotation * path.shapes[0]);
-  Tangent way = metric->unit * (first.rotation * SegmentVelocity(FeatureMap(metric), path.shapes[1],
-                                                                 path.shapes[0], -1));
+  internal::MetricSolver solver;
+  Tangent way =
+      metric->unit * (first.rotation * internal::SegmentVelocity(FeatureMap(metric), path.shapes[1],
+                                                                 path.shapes[0], -1, &solver));
   for (int v = 0; v < way.cols(); ++v) {
     way.col(v) += spin.cross(arms.col(v)) + second.translation - first.translation;
   }

@@ -8,12 +8,19 @@
 #include <shapespace/base/internal/stopwatch.h>
 
 namespace shapespace::internal {
+namespace {
+
+// The least tolerance of one run of GMRES with half solves in single precision.
+constexpr double kRough = 1e-4;
+
+}  // namespace
 
 void MetricSolver::Factor(const FeatureDerivative& at) {
   const Stopwatch stopwatch;
+  factored_.resize(3, 0);
   if (!factor_) {
     matrix_ = at.MetricMatrix();
-    factor_.emplace(matrix_);
+    factor_.emplace(matrix_, 3);
   } else {
     at.UpdateMetricMatrix(&matrix_);
     factor_->Update(matrix_);
@@ -22,62 +29,87 @@ void MetricSolver::Factor(const FeatureDerivative& at) {
   factor_seconds_ += stopwatch.Seconds();
 }
 
-void MetricSolver::HalfSolve(bool transposed, Eigen::VectorXd* x) const {
-  const Eigen::Index size = x->size();
-  x->conservativeResize(factor_->WorkRows());
-  if (transposed) {
-    factor_->SolveUpper(x->data());
-  } else {
-    factor_->SolveLower(x->data());
+void MetricSolver::FactorAt(const Shape& shape, const FeatureDerivative& at) {
+  if (factored_.cols() == shape.cols() && factored_ == shape) return;
+  Factor(at);
+  factored_ = shape;
+}
+
+Eigen::VectorXd MetricSolver::Dual(const Tangent& b) const {
+  const std::vector<int>& permutation = factor_->Permutation();
+  const double scale = b.cwiseAbs().maxCoeff();  // in single precision the range is small, too
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(b.size());
+  if (scale == 0) return y;
+  Eigen::VectorXf single(factor_->WorkRows());
+  for (int i = 0; i < b.size(); ++i) {
+    single(i) = static_cast<float>(b.data()[permutation[i]] / scale);
   }
-  x->conservativeResize(size);
+  factor_->SolveLower(single.data());
+  for (int i = 0; i < y.size(); ++i) y(i) = scale * static_cast<double>(single(i));
+  return y;
 }
 
-Eigen::VectorXd MetricSolver::Permuted(const Tangent& b) const {
+Tangent MetricSolver::FromDual(const Eigen::VectorXd& y) const {
   const std::vector<int>& permutation = factor_->Permutation();
-  Eigen::VectorXd x(b.size());
-  for (int i = 0; i < x.size(); ++i) x(i) = b.data()[permutation[i]];
+  const double scale = y.cwiseAbs().maxCoeff();
+  Tangent x = Tangent::Zero(3, y.size() / 3);
+  if (scale == 0) return x;
+  Eigen::VectorXf single(factor_->WorkRows());
+  for (int i = 0; i < y.size(); ++i) single(i) = static_cast<float>(y(i) / scale);
+  factor_->SolveUpper(single.data());
+  for (int i = 0; i < y.size(); ++i) {
+    x.data()[permutation[i]] = scale * static_cast<double>(single(i));
+  }
   return x;
-}
-
-Tangent MetricSolver::Unpermuted(const Eigen::VectorXd& x) const {
-  const std::vector<int>& permutation = factor_->Permutation();
-  Tangent b(3, x.size() / 3);
-  for (int i = 0; i < x.size(); ++i) b.data()[permutation[i]] = x(i);
-  return b;
-}
-
-double MetricSolver::DualNorm(const Tangent& b) const {
-  Eigen::VectorXd x = Permuted(b);
-  HalfSolve(false, &x);
-  return x.norm();
 }
 
 MetricSolver::Result MetricSolver::Solve(const FeatureDerivative& left,
                                          const FeatureDerivative& right, const Tangent& b,
                                          double tolerance, int max_iterations, Tangent* x) const {
-  // Preconditioned from both sides, C^{-1} left^T right C^{-T}, so that norms are those of the
-  // metric.
-  const auto apply = [&](Eigen::VectorXd y) {
-    HalfSolve(true, &y);
-    Eigen::VectorXd z = Permuted(left.TransposeTimes(right.Times(Unpermuted(y))));
-    HalfSolve(false, &z);
-    return z;
-  };
-  Eigen::VectorXd start = Permuted(b);
-  HalfSolve(false, &start);
-  const double length = start.norm();
   Result result;
   *x = Tangent::Zero(3, b.cols());
+  Eigen::VectorXd dual = Dual(b);
+  const double length = dual.norm();
   if (length == 0) return result;
+  // Iterative refinement: the residual of each rough solution is computed in double precision.
+  result.residual = 1;
+  while (result.residual > tolerance && result.iterations < max_iterations) {
+    Tangent correction;
+    const Result rough =
+        SolveRoughly(left, right, dual, std::max(tolerance / result.residual, kRough),
+                     max_iterations - result.iterations, &correction);
+    result.iterations += rough.iterations;
+    *x += correction;
+    if (result.residual == 1 && tolerance >= kRough) {
+      result.residual = rough.residual;
+      break;
+    }
+    dual = Dual(b - left.TransposeTimes(right.Times(*x)));
+    const double left_over = dual.norm() / length;
+    const bool stalled = !(left_over < 0.5 * result.residual);
+    result.residual = left_over;
+    if (stalled) break;
+  }
+  return result;
+}
 
-  std::vector<Eigen::VectorXd> basis = {start / length};
+MetricSolver::Result MetricSolver::SolveRoughly(const FeatureDerivative& left,
+                                                const FeatureDerivative& right,
+                                                const Eigen::VectorXd& dual, double tolerance,
+                                                int max_iterations, Tangent* x) const {
+  // Preconditioned from both sides, C^{-1} left^T right C^{-T}, so that norms are those of the
+  // metric.
+  const double length = dual.norm();
+  std::vector<Eigen::VectorXd> basis = {dual / length};
+  std::vector<Tangent> images;  // C^{-T} of the basis
   Eigen::MatrixXd hessenberg = Eigen::MatrixXd::Zero(max_iterations + 1, max_iterations);
   Eigen::VectorXd coefficients;
+  Result result;
   result.residual = 1;
   while (result.iterations < max_iterations && result.residual > tolerance) {
     const int k = result.iterations++;
-    Eigen::VectorXd next = apply(basis[k]);
+    images.push_back(FromDual(basis[k]));
+    Eigen::VectorXd next = Dual(left.TransposeTimes(right.Times(images[k])));
     // Orthogonalised twice, which keeps the basis orthogonal up to rounding.
     for (int round = 0; round < 2; ++round) {
       for (int i = 0; i <= k; ++i) {
@@ -95,10 +127,8 @@ MetricSolver::Result MetricSolver::Solve(const FeatureDerivative& left,
     result.residual = (small * coefficients - target).norm();
     basis.push_back(next / hessenberg(k + 1, k));
   }
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(start.size());
-  for (int i = 0; i < coefficients.size(); ++i) sum += length * coefficients(i) * basis[i];
-  HalfSolve(true, &sum);
-  *x = Unpermuted(sum);
+  *x = Tangent::Zero(3, dual.size() / 3);
+  for (int i = 0; i < coefficients.size(); ++i) *x += length * coefficients(i) * images[i];
   return result;
 }
 

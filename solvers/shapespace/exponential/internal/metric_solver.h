@@ -14,7 +14,8 @@ namespace shapespace::internal {
 
 /// Solves linear systems with the metric's matrix J^T J, or with J_a^T J_b for two neighbouring
 /// shapes of a path, which is not symmetric. GMRES (Saad and Schultz, 1986) is preconditioned by a
-/// sparse factor of the metric at one of the shapes. With a factor at the same shape it takes two
+/// sparse factor of the metric at one of the shapes, C C^T up to the rounding of single precision,
+/// in which the factor takes half the memory and time. With a factor at the same shape it takes two
 /// or three iterations for two digits; with the previous step's factor, on real meshes, a hundred,
 /// because soft motions depend on the surface's orientation. Therefore every step factors again;
 /// the elimination order is computed once.
@@ -23,6 +24,8 @@ class MetricSolver {
   /// Takes the matrix of the metric at a shape, given by the derivative there.
   /// \throw SolverError if it is not definite (lambda 0, or a shape that has degenerated).
   void Factor(const FeatureDerivative& at);
+  /// The same, unless the last factor is that of this `shape`, whose derivative is `at`.
+  void FactorAt(const Shape& shape, const FeatureDerivative& at);
 
   /// Solves left^T right x = b until the residual is at most `tolerance` times |b|, both measured
   /// in the factored metric. The initial guess is zero.
@@ -33,20 +36,30 @@ class MetricSolver {
   Result Solve(const FeatureDerivative& left, const FeatureDerivative& right, const Tangent& b,
                double tolerance, int max_iterations, Tangent* x) const;
 
-  /// The norm of a tangent whose image under G is `b`: sqrt(<b, G^{-1} b>).
-  double DualNorm(const Tangent& b) const;
+  /// The same for a given Dual(b), in one run of GMRES: to a tolerance that single precision can
+  /// reach, 1e-4 or more.
+  Result SolveRoughly(const FeatureDerivative& left, const FeatureDerivative& right,
+                      const Eigen::VectorXd& dual, double tolerance, int max_iterations,
+                      Tangent* x) const;
+
+  /// G^{-1} b at the factored shape, up to the rounding of the factor.
+  Tangent Approximate(const Tangent& b) const { return FromDual(Dual(b)); }
+
+  /// C^{-1} b, in the factor's order. Its norm is that of a tangent whose image under G is `b`:
+  /// sqrt(<b, G^{-1} b>).
+  Eigen::VectorXd Dual(const Tangent& b) const;
+  double DualNorm(const Tangent& b) const { return Dual(b).norm(); }
 
   int NumFactorisations() const { return factorisations_; }
   double FactorSeconds() const { return factor_seconds_; }
 
  private:
-  // x <- C^{-1} x, or C^{-T} x, for one right-hand side, in the factor's order.
-  void HalfSolve(bool transposed, Eigen::VectorXd* x) const;
-  Eigen::VectorXd Permuted(const Tangent& b) const;
-  Tangent Unpermuted(const Eigen::VectorXd& x) const;
+  // C^{-T} y.
+  Tangent FromDual(const Eigen::VectorXd& y) const;
 
   Eigen::SparseMatrix<double> matrix_;
-  std::optional<Cholesky> factor_;
+  std::optional<CholeskyFactor<float>> factor_;
+  Shape factored_;  // the shape of the factor; empty if it is not known
   int factorisations_ = 0;
   double factor_seconds_ = 0;
 };

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include <shapespace/exponential/internal/step.h>
-
 namespace shapespace::internal {
 namespace {
 
@@ -27,7 +25,7 @@ NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& targ
     const FeatureDerivative derivative = map.Derivative(result.shape);
     solver->Factor(derivative);
     const Tangent gradient = derivative.TransposeTimes(distance);
-    const Tangent step = SolveMetric(*solver, derivative, gradient);
+    const Tangent step = solver->Approximate(gradient);
     const double promise = step.cwiseProduct(gradient).sum();
     if (promise <= options.tolerance) {
       result.converged = true;

@@ -16,6 +16,14 @@ Shape Shooter::Next(const InitialState& initial_state, ExponentialSummary::Step*
   return NextOn(static_cast<int>(levels_.size()) - 1, initial_state, row);
 }
 
+InitialState Shooter::Restart(const Shape& before, const Shape& shape, double speed) {
+  Level& finest = *levels_.back();
+  Tangent velocity = SegmentVelocity(finest.map, before, shape, 1, &finest.solver);
+  const double found = finest.map.Derivative(shape).Times(velocity).norm();
+  if (found > 0) velocity *= speed / found;
+  return {shape, {}, std::move(velocity), speed};
+}
+
 void Shooter::Decimate() {
   const std::shared_ptr<const Metric> finest = levels_.back()->metric;
   hierarchy_.emplace(finest->connectivity, known_);

@@ -33,6 +33,12 @@ class Shooter {
   /// \throw SolverError if there is no solution on any resolution.
   Shape Next(const InitialState& initial_state, ExponentialSummary::Step* row);
 
+  /// The state from which a geodesic of this `speed` goes on after a `shape` that was not solved on
+  /// the mesh itself. Its lifted detail did not move as on a geodesic; used as a momentum, this
+  /// motion would grow from step to step. Therefore only the projection of the change since
+  /// `before` onto the velocities at the new shape is kept, scaled to the speed.
+  InitialState Restart(const Shape& before, const Shape& shape, double speed);
+
   int NumFactorisations() const;
   double FactorSeconds() const;
 

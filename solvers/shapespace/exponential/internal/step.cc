@@ -37,6 +37,14 @@ double RoundingOf(const Shape& shape, const FeatureDerivative& derivative) {
 
 }  // namespace
 
+Tangent SegmentVelocity(const FeatureMap& map, const Shape& other, const Shape& at, double sign,
+                        MetricSolver* solver) {
+  const FeatureDerivative derivative = map.Derivative(at);
+  solver->FactorAt(at, derivative);
+  return SolveMetric(*solver, derivative,
+                     derivative.TransposeTimes(sign * (map.Values(at) - map.Values(other))));
+}
+
 Tangent SolveMetric(const MetricSolver& solver, const FeatureDerivative& derivative,
                     const Tangent& b) {
   Tangent x;
@@ -61,7 +69,7 @@ Step::Step(const FeatureMap& map, MetricSolver* solver, const InitialState& init
                 : derivative_.Times(initial_state.velocity);
   speed_ = change_.norm();
   rounding_ = RoundingOf(initial_state.shape, derivative_);
-  solver_.Factor(derivative_);
+  solver_.FactorAt(initial_state.shape, derivative_);
 }
 
 bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* row,
@@ -71,15 +79,17 @@ bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* ro
     row->converged = true;
     return true;
   }
-  // P(load) to second order.
-  const auto solve_metric = [&](const Eigen::VectorXd& values) {
-    Tangent x;
-    solver_.Solve(derivative_, derivative_, derivative_.TransposeTimes(values), kExact, kMaxKrylov,
-                  &x);
-    return x;
-  };
-  const Tangent velocity = solve_metric(change_);
-  const Tangent acceleration = -solve_metric(map_.SecondDerivative(initial_state_.shape, velocity));
+  // P(load) to second order. The velocity is found as a correction of one that is known or near,
+  // because the factor's rounding along soft motions, such as translations, would hardly count in
+  // the residual and therefore remain.
+  Tangent velocity = initial_state_.velocity;
+  if (velocity.size() == 0) {
+    velocity = initial_state_.shape - initial_state_.previous;
+    velocity +=
+        solver_.Approximate(derivative_.TransposeTimes(change_ - derivative_.Times(velocity)));
+  }
+  const Tangent acceleration = -solver_.Approximate(
+      derivative_.TransposeTimes(map_.SecondDerivative(initial_state_.shape, velocity)));
   const auto expansion = [&](double load) -> Shape {
     return initial_state_.shape + load * velocity + 0.5 * load * load * acceleration;
   };
@@ -136,20 +146,23 @@ bool Step::HasTheGeodesicsSpeed(const Shape& shape, double load) const {
 bool Step::SolveWithNewton(double load, int iterations, double tolerance,
                            ExponentialSummary::Step* row, Shape* shape) const {
   const Eigen::VectorXd target = current_ + load * change_;
-  Tangent residual = derivative_.TransposeTimes(map_.Values(*shape) - target);
-  row->residual = solver_.DualNorm(residual) / speed_;
+  const auto dual_residual = [&](const Shape& at) {
+    return solver_.Dual(derivative_.TransposeTimes(map_.Values(at) - target));
+  };
+  Eigen::VectorXd residual = dual_residual(*shape);
+  row->residual = residual.norm() / speed_;
   for (; !(row->residual <= tolerance); --iterations) {
     if (iterations == 0) return false;
     check_cancelled_();
     ++row->iterations;
     Tangent step;
-    const MetricSolver::Result linear =
-        solver_.Solve(derivative_, map_.Derivative(*shape), residual, kForcing, kMaxKrylov, &step);
+    const MetricSolver::Result linear = solver_.SolveRoughly(derivative_, map_.Derivative(*shape),
+                                                             residual, kForcing, kMaxKrylov, &step);
     row->krylov_iterations += linear.iterations;
     if (!(linear.residual <= kForcing)) return false;
     const Shape next = *shape - step;
-    residual = derivative_.TransposeTimes(map_.Values(next) - target);
-    const double left = solver_.DualNorm(residual) / speed_;
+    residual = dual_residual(next);
+    const double left = residual.norm() / speed_;
     if (!(left < kContraction * row->residual || left <= tolerance)) return false;
     *shape = next;
     row->residual = left;
@@ -163,7 +176,7 @@ Shape Step::Nearest(ExponentialSummary::Step* row) const {
       {kNearestTolerance * speed_ * speed_, kMaxGaussNewton}, check_cancelled_, &solver_);
   row->iterations += nearest.iterations;
   const Shape& shape = nearest.shape;
-  solver_.Factor(derivative_);  // by which residuals are measured
+  solver_.FactorAt(initial_state_.shape, derivative_);  // by which residuals are measured
   if (shape == initial_state_.shape) {
     throw SolverError(
         "no nearby shape is closer to the one that the step requires: the motion comes to a halt");

@@ -86,6 +86,12 @@ class Step {
 Tangent SolveMetric(const MetricSolver& solver, const FeatureDerivative& derivative,
                     const Tangent& b);
 
+/// G(P_1) V = J(P_1)^T [Phi(P_1) - Phi(P_0)]: the velocity per step at the end of a segment from
+/// `other` to `at`; with sign -1, the velocity at the beginning of the segment from `at` to
+/// `other`. The solver factors the metric at `at`. \throw SolverError if it is not definite there.
+Tangent SegmentVelocity(const FeatureMap& map, const Shape& other, const Shape& at, double sign,
+                        MetricSolver* solver);
+
 }  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_EXPONENTIAL_INTERNAL_STEP_H_

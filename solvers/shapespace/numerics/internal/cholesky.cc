@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <string>
-#include <type_traits>
-
-#include <cholmod.h>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/clones.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/numerics/internal/one_thread.h>
+#include <shapespace/numerics/internal/multifrontal.h>
 
 namespace shapespace::internal {
 namespace {
@@ -19,9 +17,6 @@ namespace {
 // Number of columns that are solved together with one pass over the factor: large enough to
 // amortise reading it, and small enough to keep the rows of a supernode in the L1 cache.
 constexpr int kChunk = 48;
-// A branch of the elimination tree has at most this share of the total work. A factor has branches
-// only if it has at least this many numbers; smaller ones do not justify several threads.
-constexpr double kBranchShare = 1.0 / 16, kWorthBranches = 1e5;
 
 // Vectors of 32 and 64 bytes without alignment beyond that of a number.
 template <typename Scalar>
@@ -285,221 +280,32 @@ void BackwardNode(const Supernode& node, const float* block, const int* rows, fl
   BackwardColumns(node, block, rows, x, stride, count);
 }
 
-// Throws unless CHOLMOD did what it was asked to do with `matrix`. `factor` may be null.
-void Check(const cholmod_common& common, const cholmod_sparse& matrix,
-           const cholmod_factor* factor) {
-  const std::string unknowns = "a matrix of " + std::to_string(matrix.nrow) + " unknowns";
-  switch (common.status) {
-    case CHOLMOD_OK:
-      return;
-    case CHOLMOD_NOT_POSDEF:
-      throw SolverError(
-          "the preconditioner's matrix is not positive definite: is a weight of the metric zero or "
-          "a coordinate enormous?");
-    case CHOLMOD_OUT_OF_MEMORY: {
-      const double bytes = factor == nullptr ? 0 : 8.0 * static_cast<double>(factor->xsize);
-      const std::string needs =
-          bytes > 0 ? ", which needs " + std::to_string(std::lround(bytes / 1e6)) + " MB" : "";
-      throw SolverError("memory ran out in factoring " + unknowns + needs +
-                        "; use a mesh of fewer vertices, or more memory");
-    }
-    case CHOLMOD_TOO_LARGE:
-      throw SolverError(unknowns +
-                        " is too large to be factored by CHOLMOD; use a mesh of fewer vertices");
-    default:
-      throw SolverError("CHOLMOD could not factor " + unknowns + ": its status is " +
-                        std::to_string(common.status));
-  }
-}
-
 }  // namespace
 
-// Indices have 64 bits, because a factor may have more than 2^31 numbers.
 template <typename Scalar>
-struct CholeskyFactor<Scalar>::Made {
-  using Index = SuiteSparse_long;
-
-  cholmod_common common;
-  cholmod_factor* factor = nullptr;
-  std::vector<Index> column_begin, rows;  // of the matrix
-
-  explicit Made(const Eigen::SparseMatrix<double>& matrix)
-      : column_begin(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1),
-        rows(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros()) {
-    cholmod_l_start(&common);
-    common.supernodal = CHOLMOD_SUPERNODAL;
-    common.final_ll = 1;
-    common.print = 0;
-    common.error_handler = nullptr;
-    cholmod_sparse view = View(matrix);
-    factor = cholmod_l_analyze(&view, &common);
-    try {
-      Check(common, view, factor);
-      Factorize(matrix);
-    } catch (...) {
-      Free();
-      throw;
-    }
-  }
-  Made(const Made&) = delete;
-  ~Made() { Free(); }
-
-  // The numbers may be others than before; their places must be the same.
-  void Factorize(const Eigen::SparseMatrix<double>& matrix) {
-    const OneThread one_thread;
-    cholmod_sparse view = View(matrix);
-    cholmod_l_factorize(&view, factor, &common);
-    Check(common, view, factor);
-  }
-
- private:
-  cholmod_sparse View(const Eigen::SparseMatrix<double>& matrix) {
-    cholmod_sparse view = {};
-    view.nrow = matrix.rows();
-    view.ncol = matrix.cols();
-    view.nzmax = rows.size();
-    view.p = column_begin.data();
-    view.i = rows.data();
-    view.x = const_cast<double*>(matrix.valuePtr());
-    view.stype = -1;
-    view.itype = CHOLMOD_LONG;
-    view.xtype = CHOLMOD_REAL;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = 1;
-    view.packed = 1;
-    return view;
-  }
-
-  void Free() {
-    cholmod_l_free_factor(&factor, &common);
-    cholmod_l_finish(&common);
-  }
-};
-
-template <typename Scalar>
-CholeskyFactor<Scalar>::CholeskyFactor(const Eigen::SparseMatrix<double>& matrix)
-    : made_(std::make_shared<Made>(matrix)) {
-  using Index = typename Made::Index;
-  const cholmod_factor& factor = *made_->factor;
-  const auto integers = [](const void* begin, size_t count) {
-    const Index* const from = static_cast<const Index*>(begin);
-    return std::vector<int>(from, from + count);
-  };
-  permutation_ = integers(factor.Perm, factor.n);
-  const std::vector<int> super = integers(factor.super, factor.nsuper + 1);
-  const Index* const row_begin = static_cast<Index*>(factor.pi);
-  const Index* const value_begin = static_cast<Index*>(factor.px);
-  const double* const values = static_cast<double*>(factor.x);
-  rows_ = integers(factor.s, factor.ssize);
-  num_values_ = factor.xsize;
-  for (size_t s = 0; s < factor.nsuper; ++s) {
-    supernodes_.push_back({super[s], super[s + 1] - super[s],
-                           static_cast<int>(row_begin[s + 1] - row_begin[s]),
-                           static_cast<size_t>(row_begin[s]), static_cast<size_t>(value_begin[s])});
-  }
-  if constexpr (std::is_same_v<Scalar, double>) {
-    values_ = values;
-  } else {
-    own_values_.assign(values, values + num_values_);
-    values_ = own_values_.data();
-    made_.reset();
-  }
-  GrowBranches();
-}
-
-template <>
-void CholeskyFactor<double>::Update(const Eigen::SparseMatrix<double>& matrix) {
-  made_->Factorize(matrix);
-  values_ = static_cast<double*>(made_->factor->x);
+CholeskyFactor<Scalar>::CholeskyFactor(const Eigen::SparseMatrix<double>& matrix, int group)
+    : elimination_(std::make_shared<const Elimination>(matrix, group)) {
+  Update(matrix);
 }
 
 template <typename Scalar>
-void CholeskyFactor<Scalar>::GrowBranches() {
-  const int num_nodes = static_cast<int>(supernodes_.size());
-  std::vector<int> node_of_row(permutation_.size());
-  for (int s = 0; s < num_nodes; ++s) {
-    std::fill_n(node_of_row.begin() + supernodes_[s].begin, supernodes_[s].width, s);
+void CholeskyFactor<Scalar>::Update(const Eigen::SparseMatrix<double>& matrix) {
+  const size_t count = elimination_->num_values;
+  bool definite;
+  try {
+    if (!values_) values_.reset(new Scalar[count]);
+    definite = FactorMultifrontal(*elimination_, matrix, values_.get());
+  } catch (const std::bad_alloc&) {
+    throw SolverError("memory ran out in factoring a matrix of " + std::to_string(matrix.rows()) +
+                      " unknowns, which needs " +
+                      std::to_string(std::lround(sizeof(Scalar) * count / 1e6)) +
+                      " MB; use a mesh of fewer vertices, or more memory");
   }
-  const std::vector<int> branch_of = AssignBranches(node_of_row);
-  branches_.resize(*std::max_element(branch_of.begin(), branch_of.end()) + 1);
-  for (int s = 0; s < num_nodes; ++s) {
-    (branch_of[s] < 0 ? trunk_ : branches_[branch_of[s]].nodes).push_back(s);
+  if (!definite) {
+    throw SolverError(
+        "the preconditioner's matrix is not positive definite: is a weight of the metric zero or "
+        "a coordinate enormous?");
   }
-  for (const Supernode& node : supernodes_) {
-    greatest_height_ = std::max(greatest_height_, node.height);
-  }
-  work_rows_ = Size();
-  branch_rows_ = rows_;
-  for (size_t b = 0; b < branches_.size(); ++b) {
-    GatherOutsideRows([&](int row) { return branch_of[node_of_row[row]] != static_cast<int>(b); },
-                      &branches_[b]);
-  }
-}
-
-// Per supernode, the index of its branch, or -1 in the trunk.
-template <typename Scalar>
-std::vector<int> CholeskyFactor<Scalar>::AssignBranches(const std::vector<int>& node_of_row) const {
-  const int num_nodes = static_cast<int>(supernodes_.size());
-  // The parent of a supernode contains the first row below it, and has a larger index.
-  std::vector<int> parent(num_nodes, -1), branch_of(num_nodes, -1), open;
-  std::vector<std::vector<int>> children(num_nodes);
-  std::vector<double> work(num_nodes, 0);  // of the subtree
-  double total = 0;
-  for (int s = 0; s < num_nodes; ++s) {
-    const Supernode& node = supernodes_[s];
-    const double own = static_cast<double>(node.width) * node.height;
-    work[s] += own;
-    total += own;
-    if (node.height == node.width) {  // a root
-      open.push_back(s);
-      continue;
-    }
-    parent[s] = node_of_row[rows_[node.rows + node.width]];
-    children[parent[s]].push_back(s);
-    work[parent[s]] += work[s];
-  }
-  if (total <= kWorthBranches) return branch_of;
-  // Split subtrees until none is so large that other threads would wait for it.
-  int num_branches = 0;
-  while (!open.empty()) {
-    const int s = open.back();
-    open.pop_back();
-    if (work[s] > kBranchShare * total) {
-      open.insert(open.end(), children[s].begin(), children[s].end());
-    } else {
-      branch_of[s] = num_branches++;
-    }
-  }
-  for (int s = num_nodes - 1; s >= 0; --s) {
-    if (branch_of[s] < 0 && parent[s] >= 0) branch_of[s] = branch_of[parent[s]];
-  }
-  return branch_of;
-}
-
-// Assigns separate rows to a branch for its contributions to rows outside.
-template <typename Scalar>
-template <typename IsOutside>
-void CholeskyFactor<Scalar>::GatherOutsideRows(const IsOutside& is_outside, Branch* branch) {
-  const auto for_rows_below = [&](const auto& body) {
-    for (int s : branch->nodes) {
-      const Supernode& node = supernodes_[s];
-      for (int k = node.width; k < node.height; ++k) body(branch_rows_[node.rows + k]);
-    }
-  };
-  std::vector<int>& outside = branch->outside;
-  for_rows_below([&](int row) {
-    if (is_outside(row)) outside.push_back(row);
-  });
-  std::sort(outside.begin(), outside.end());
-  outside.erase(std::unique(outside.begin(), outside.end()), outside.end());
-  branch->gathered = work_rows_;
-  work_rows_ += static_cast<int>(outside.size());
-  for_rows_below([&](int& row) {
-    const auto found = std::lower_bound(outside.begin(), outside.end(), row);
-    if (found != outside.end() && *found == row) {
-      row = branch->gathered + static_cast<int>(found - outside.begin());
-    }
-  });
 }
 
 template <typename Scalar>
@@ -517,19 +323,21 @@ void CholeskyFactor<Scalar>::ForChunks(int tasks, int width, const Task& task) c
 
 template <typename Scalar>
 void CholeskyFactor<Scalar>::SolveLower(Scalar* x, int width) const {
-  const int num_branches = static_cast<int>(branches_.size());
+  const Elimination& elimination = *elimination_;
+  const int num_branches = static_cast<int>(elimination.branches.size());
   ForChunks(num_branches, width, [&](int b, int begin, int count) {
-    const Branch& branch = branches_[b];
+    const Branch& branch = elimination.branches[b];
     for (size_t row = 0; row < branch.outside.size(); ++row) {
       std::fill_n(x + (branch.gathered + row) * width + begin, count, Scalar(0));
     }
     for (int s : branch.nodes) {
-      const Supernode& node = supernodes_[s];
-      ForwardNode(node, &values_[node.values], &branch_rows_[node.rows], x + begin, width, count);
+      const Supernode& node = elimination.supernodes[s];
+      ForwardNode(node, &values_[node.values], &elimination.branch_rows[node.rows], x + begin,
+                  width, count);
     }
   });
   ForChunks(1, width, [&](int, int begin, int count) {
-    for (const Branch& branch : branches_) {
+    for (const Branch& branch : elimination.branches) {
       const Scalar* from = x + static_cast<size_t>(branch.gathered) * width + begin;
       for (int row : branch.outside) {
         Scalar* const to = x + static_cast<size_t>(row) * width + begin;
@@ -537,59 +345,67 @@ void CholeskyFactor<Scalar>::SolveLower(Scalar* x, int width) const {
         from += width;
       }
     }
-    for (int s : trunk_) {
-      const Supernode& node = supernodes_[s];
-      ForwardNode(node, &values_[node.values], &rows_[node.rows], x + begin, width, count);
+    for (int s : elimination.trunk) {
+      const Supernode& node = elimination.supernodes[s];
+      ForwardNode(node, &values_[node.values], &elimination.rows[node.rows], x + begin, width,
+                  count);
     }
   });
 }
 
 template <typename Scalar>
 void CholeskyFactor<Scalar>::SolveUpper(Scalar* x, int width) const {
+  const Elimination& elimination = *elimination_;
   const auto solve = [&](const std::vector<int>& nodes, int begin, int count) {
     for (auto s = nodes.rbegin(); s != nodes.rend(); ++s) {
-      const Supernode& node = supernodes_[*s];
-      BackwardNode(node, &values_[node.values], &rows_[node.rows], x + begin, width, count);
+      const Supernode& node = elimination.supernodes[*s];
+      BackwardNode(node, &values_[node.values], &elimination.rows[node.rows], x + begin, width,
+                   count);
     }
   };
-  ForChunks(1, width, [&](int, int begin, int count) { solve(trunk_, begin, count); });
-  ForChunks(static_cast<int>(branches_.size()), width,
-            [&](int b, int begin, int count) { solve(branches_[b].nodes, begin, count); });
+  ForChunks(1, width, [&](int, int begin, int count) { solve(elimination.trunk, begin, count); });
+  ForChunks(static_cast<int>(elimination.branches.size()), width, [&](int b, int begin, int count) {
+    solve(elimination.branches[b].nodes, begin, count);
+  });
 }
 
 template <typename Scalar>
 void CholeskyFactor<Scalar>::SolveLower(Scalar* x) const {
-  ParallelFor(static_cast<int>(branches_.size()), [&](int b) {
-    const Branch& branch = branches_[b];
-    std::vector<Scalar> below(greatest_height_);
+  const Elimination& elimination = *elimination_;
+  ParallelFor(static_cast<int>(elimination.branches.size()), [&](int b) {
+    const Branch& branch = elimination.branches[b];
+    std::vector<Scalar> below(elimination.greatest_height);
     std::fill_n(x + branch.gathered, branch.outside.size(), Scalar(0));
     for (int s : branch.nodes) {
-      const Supernode& node = supernodes_[s];
-      ForwardNode(node, &values_[node.values], &branch_rows_[node.rows], x, below.data());
+      const Supernode& node = elimination.supernodes[s];
+      ForwardNode(node, &values_[node.values], &elimination.branch_rows[node.rows], x,
+                  below.data());
     }
   });
-  for (const Branch& branch : branches_) {
+  for (const Branch& branch : elimination.branches) {
     const Scalar* from = x + branch.gathered;
     for (int row : branch.outside) x[row] += *from++;
   }
-  std::vector<Scalar> below(greatest_height_);
-  for (int s : trunk_) {
-    const Supernode& node = supernodes_[s];
-    ForwardNode(node, &values_[node.values], &rows_[node.rows], x, below.data());
+  std::vector<Scalar> below(elimination.greatest_height);
+  for (int s : elimination.trunk) {
+    const Supernode& node = elimination.supernodes[s];
+    ForwardNode(node, &values_[node.values], &elimination.rows[node.rows], x, below.data());
   }
 }
 
 template <typename Scalar>
 void CholeskyFactor<Scalar>::SolveUpper(Scalar* x) const {
+  const Elimination& elimination = *elimination_;
   const auto solve = [&](const std::vector<int>& nodes) {
-    std::vector<Scalar> below(greatest_height_);
+    std::vector<Scalar> below(elimination.greatest_height);
     for (auto s = nodes.rbegin(); s != nodes.rend(); ++s) {
-      const Supernode& node = supernodes_[*s];
-      BackwardNode(node, &values_[node.values], &rows_[node.rows], x, below.data());
+      const Supernode& node = elimination.supernodes[*s];
+      BackwardNode(node, &values_[node.values], &elimination.rows[node.rows], x, below.data());
     }
   };
-  solve(trunk_);
-  ParallelFor(static_cast<int>(branches_.size()), [&](int b) { solve(branches_[b].nodes); });
+  solve(elimination.trunk);
+  ParallelFor(static_cast<int>(elimination.branches.size()),
+              [&](int b) { solve(elimination.branches[b].nodes); });
 }
 
 template class CholeskyFactor<double>;
