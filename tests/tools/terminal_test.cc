@@ -228,6 +228,29 @@ TEST_F(TerminalTest, WithoutATerminalALineComesNowAndThen) {
       << text;
 }
 
+// The threads of OpenBLAS would only wait, in busy loops.
+TEST_F(TerminalTest, BlasHasNoThreads) {
+  const auto tasks = [&](const char* blas_threads) {
+    setenv("OPENBLAS_NUM_THREADS", blas_threads, 1);
+    int ends[2];
+    EXPECT_EQ(pipe(ends), 0);
+    const pid_t process =
+        Start("shape-interpolate", LongSolve({"--threads", "1", "--progress", "lines"}), ends[1]);
+    close(ends[1]);
+    std::string text;
+    for (char c; text.find(" inner shapes") == text.npos && read(ends[0], &c, 1) == 1;) text += c;
+    ExpectContains(text, " inner shapes");  // it has factorised a matrix
+    const std::filesystem::directory_iterator all("/proc/" + std::to_string(process) + "/task");
+    const auto count = std::distance(begin(all), end(all));
+    kill(process, SIGKILL);
+    Wait(process);
+    close(ends[0]);
+    unsetenv("OPENBLAS_NUM_THREADS");
+    return count;
+  };
+  EXPECT_EQ(tasks("8"), tasks("1"));
+}
+
 TEST_F(TerminalTest, AShortRunIsSilentWithoutATerminal) {
   MakeTubes();
   const testing::Outcome outcome =

@@ -1,5 +1,7 @@
 #include "support/tool.h"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -40,6 +42,18 @@ std::vector<std::string> GroupsOf(const Program& program) {
   std::vector<std::string> groups = program.flag_groups;
   groups.push_back("tool");
   return groups;
+}
+
+// OpenBLAS starts its threads when it is loaded, and they first wait for work in busy loops, for
+// longer than a small solve takes. The solvers keep BLAS to one thread (OneThread), so that these
+// are of no use. Without OpenBLAS, or if it is built with OpenMP, there is nothing to end.
+void EndThreadsOfBlas() {
+  const auto limit =
+      reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+  const auto end = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "blas_thread_shutdown_"));
+  if (limit == nullptr || end == nullptr) return;
+  limit(1);  // else the next call would start them again
+  end();
 }
 
 void PrintHelp(const Program& program) {
@@ -106,6 +120,7 @@ void NamingFlags(const FlagNames& names, const std::function<void()>& body) {
 
 int RunTool(int argc, char** argv, const Program& program,
             const std::function<void(const std::vector<std::string>& arguments)>& body) {
+  EndThreadsOfBlas();
   SetProgramName(program.name);
   HandleInterrupts(ClearProgress);
   google::InitGoogleLogging(argv[0]);

@@ -39,7 +39,8 @@ OneThread::OneThread() {
     const std::lock_guard<std::mutex> lock(blas_mutex);
     if (blas_users++ == 0) {
       blas_threads = BlasThreads().get();
-      BlasThreads().set(1);
+      // Where the program has ended the threads, any call would start them again.
+      if (blas_threads > 1) BlasThreads().set(1);
     }
   }
   if (Levels().Exists()) {
@@ -51,7 +52,7 @@ OneThread::OneThread() {
 OneThread::~OneThread() {
   if (BlasThreads().Exists()) {
     const std::lock_guard<std::mutex> lock(blas_mutex);
-    if (--blas_users == 0) BlasThreads().set(blas_threads);
+    if (--blas_users == 0 && blas_threads > 1) BlasThreads().set(blas_threads);
   }
   if (Levels().Exists()) Levels().set(levels_);
 }
