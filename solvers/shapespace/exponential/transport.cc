@@ -84,9 +84,9 @@ class MetricTransport {
     const double length = place.solver->DualNorm(right);
     Tangent x = Tangent::Zero(3, right.cols());
     if (!(length > options_.tolerance * size)) return x;
-    const MetricSolver::Result result =
-        place.solver->Solve(place.derivative, place.derivative, right,
-                            options_.tolerance * size / length, options_.max_iterations, &x);
+    const MetricSolver::Result result = place.solver->SolveInEitherPrecision(
+        place.derivative, place.derivative, right, options_.tolerance * size / length,
+        options_.max_iterations, &x);
     row->krylov_iterations = std::max(row->krylov_iterations, result.iterations);
     row->residual = std::max(row->residual, result.residual * length / size);
     return x;

@@ -102,8 +102,7 @@ class ShapeModel::Solver {
     std::vector<Tangent> derivatives;
     for (int k = 0; k < count; ++k) {
       derivatives.push_back(internal::SolveMetric(
-          *solver, derivative,
-          derivative.TransposeTimes(chart_.ChangeAt(values, changes_.col(k)))));
+          derivative, derivative.TransposeTimes(chart_.ChangeAt(values, changes_.col(k))), solver));
       internal::RemoveRigidPart(shape, modes_.metric->vertex_area, &derivatives.back());
     }
     return derivatives;

@@ -12,18 +12,20 @@ namespace {
 
 // The least tolerance of one run of GMRES with half solves in single precision.
 constexpr double kRough = 1e-4;
+// Residuals below this may be due to the rounding of the right-hand side.
+constexpr double kRounding = 1e-10;
 
 }  // namespace
 
 void MetricSolver::Factor(const FeatureDerivative& at) {
   const Stopwatch stopwatch;
   factored_.resize(3, 0);
-  if (!factor_) {
+  if (!single_ && !double_) {
     matrix_ = at.MetricMatrix();
-    factor_.emplace(matrix_, 3);
+    single_.emplace(matrix_, 3);
   } else {
     at.UpdateMetricMatrix(&matrix_);
-    factor_->Update(matrix_);
+    double_ ? double_->Update(matrix_) : single_->Update(matrix_);
   }
   ++factorisations_;
   factor_seconds_ += stopwatch.Seconds();
@@ -35,31 +37,49 @@ void MetricSolver::FactorAt(const Shape& shape, const FeatureDerivative& at) {
   factored_ = shape;
 }
 
-Eigen::VectorXd MetricSolver::Dual(const Tangent& b) const {
-  const std::vector<int>& permutation = factor_->Permutation();
-  const double scale = b.cwiseAbs().maxCoeff();  // in single precision the range is small, too
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(b.size());
-  if (scale == 0) return y;
-  Eigen::VectorXf single(factor_->WorkRows());
-  for (int i = 0; i < b.size(); ++i) {
-    single(i) = static_cast<float>(b.data()[permutation[i]] / scale);
+bool MetricSolver::UseDoublePrecision() {
+  if (double_) return false;
+  const Stopwatch stopwatch;
+  double_.emplace(*single_, matrix_);
+  single_.reset();
+  ++factorisations_;
+  factor_seconds_ += stopwatch.Seconds();
+  return true;
+}
+
+void MetricSolver::HalfSolve(bool transposed, Eigen::VectorXd* x) const {
+  const auto solve = [&](const auto& factor, auto* y) {
+    transposed ? factor.SolveUpper(y->data()) : factor.SolveLower(y->data());
+  };
+  const Eigen::Index size = x->size();
+  if (double_) {
+    x->conservativeResize(double_->WorkRows());
+    solve(*double_, x);
+    x->conservativeResize(size);
+    return;
   }
-  factor_->SolveLower(single.data());
-  for (int i = 0; i < y.size(); ++i) y(i) = scale * static_cast<double>(single(i));
+  const double scale = x->cwiseAbs().maxCoeff();  // the range of single precision is small, too
+  if (!(scale > 0)) return;
+  Eigen::VectorXf single(single_->WorkRows());
+  single.head(size) = (*x / scale).cast<float>();
+  solve(*single_, &single);
+  *x = scale * single.head(size).cast<double>();
+}
+
+Eigen::VectorXd MetricSolver::Dual(const Tangent& b) const {
+  const std::vector<int>& permutation = Permutation();
+  Eigen::VectorXd y(b.size());
+  for (int i = 0; i < y.size(); ++i) y(i) = b.data()[permutation[i]];
+  HalfSolve(false, &y);
   return y;
 }
 
 Tangent MetricSolver::FromDual(const Eigen::VectorXd& y) const {
-  const std::vector<int>& permutation = factor_->Permutation();
-  const double scale = y.cwiseAbs().maxCoeff();
-  Tangent x = Tangent::Zero(3, y.size() / 3);
-  if (scale == 0) return x;
-  Eigen::VectorXf single(factor_->WorkRows());
-  for (int i = 0; i < y.size(); ++i) single(i) = static_cast<float>(y(i) / scale);
-  factor_->SolveUpper(single.data());
-  for (int i = 0; i < y.size(); ++i) {
-    x.data()[permutation[i]] = scale * static_cast<double>(single(i));
-  }
+  const std::vector<int>& permutation = Permutation();
+  Eigen::VectorXd solved = y;
+  HalfSolve(true, &solved);
+  Tangent x(3, y.size() / 3);
+  for (int i = 0; i < y.size(); ++i) x.data()[permutation[i]] = solved(i);
   return x;
 }
 
@@ -91,6 +111,15 @@ MetricSolver::Result MetricSolver::Solve(const FeatureDerivative& left,
     if (stalled) break;
   }
   return result;
+}
+
+MetricSolver::Result MetricSolver::SolveInEitherPrecision(const FeatureDerivative& left,
+                                                          const FeatureDerivative& right,
+                                                          const Tangent& b, double tolerance,
+                                                          int max_iterations, Tangent* x) {
+  const Result result = Solve(left, right, b, tolerance, max_iterations, x);
+  if (result.residual <= std::max(tolerance, kRounding) || !UseDoublePrecision()) return result;
+  return Solve(left, right, b, tolerance, max_iterations, x);
 }
 
 MetricSolver::Result MetricSolver::SolveRoughly(const FeatureDerivative& left,

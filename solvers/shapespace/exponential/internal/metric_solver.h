@@ -14,11 +14,14 @@ namespace shapespace::internal {
 
 /// Solves linear systems with the metric's matrix J^T J, or with J_a^T J_b for two neighbouring
 /// shapes of a path, which is not symmetric. GMRES (Saad and Schultz, 1986) is preconditioned by a
-/// sparse factor of the metric at one of the shapes, C C^T up to the rounding of single precision,
-/// in which the factor takes half the memory and time. With a factor at the same shape it takes two
-/// or three iterations for two digits; with the previous step's factor, on real meshes, a hundred,
-/// because soft motions depend on the surface's orientation. Therefore every step factors again;
-/// the elimination order is computed once.
+/// sparse factor C C^T of the metric at one of the shapes. With a factor at the same shape it takes
+/// two or three iterations for two digits; with the previous step's factor, on real meshes, a
+/// hundred, because soft motions depend on the surface's orientation. Therefore every step factors
+/// again; the elimination order is computed once.
+///
+/// The factor is stored and applied in single precision, in half the memory and time. Where shapes
+/// are so distorted that this does not suffice, the caller may choose double precision from then
+/// on.
 class MetricSolver {
  public:
   /// Takes the matrix of the metric at a shape, given by the derivative there.
@@ -35,6 +38,12 @@ class MetricSolver {
   };
   Result Solve(const FeatureDerivative& left, const FeatureDerivative& right, const Tangent& b,
                double tolerance, int max_iterations, Tangent* x) const;
+  /// The same, in double precision if single precision does not suffice.
+  Result SolveInEitherPrecision(const FeatureDerivative& left, const FeatureDerivative& right,
+                                const Tangent& b, double tolerance, int max_iterations, Tangent* x);
+
+  /// Stores the factor in double precision from now on. \return false if it did so before.
+  bool UseDoublePrecision();
 
   /// The same for a given Dual(b), in one run of GMRES: to a tolerance that single precision can
   /// reach, 1e-4 or more.
@@ -54,11 +63,18 @@ class MetricSolver {
   double FactorSeconds() const { return factor_seconds_; }
 
  private:
+  const std::vector<int>& Permutation() const {
+    return double_ ? double_->Permutation() : single_->Permutation();
+  }
+  // x <- C^{-1} x, or C^{-T} x, in the factor's order.
+  void HalfSolve(bool transposed, Eigen::VectorXd* x) const;
   // C^{-T} y.
   Tangent FromDual(const Eigen::VectorXd& y) const;
 
   Eigen::SparseMatrix<double> matrix_;
-  std::optional<CholeskyFactor<float>> factor_;
+  // One of these at a time.
+  std::optional<CholeskyFactor<float>> single_;
+  std::optional<Cholesky> double_;
   Shape factored_;  // the shape of the factor; empty if it is not known
   int factorisations_ = 0;
   double factor_seconds_ = 0;

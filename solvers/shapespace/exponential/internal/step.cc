@@ -41,15 +41,14 @@ Tangent SegmentVelocity(const FeatureMap& map, const Shape& other, const Shape& 
                         MetricSolver* solver) {
   const FeatureDerivative derivative = map.Derivative(at);
   solver->FactorAt(at, derivative);
-  return SolveMetric(*solver, derivative,
-                     derivative.TransposeTimes(sign * (map.Values(at) - map.Values(other))));
+  return SolveMetric(
+      derivative, derivative.TransposeTimes(sign * (map.Values(at) - map.Values(other))), solver);
 }
 
-Tangent SolveMetric(const MetricSolver& solver, const FeatureDerivative& derivative,
-                    const Tangent& b) {
+Tangent SolveMetric(const FeatureDerivative& derivative, const Tangent& b, MetricSolver* solver) {
   Tangent x;
   const MetricSolver::Result result =
-      solver.Solve(derivative, derivative, b, kExact, 2 * kMaxKrylov, &x);
+      solver->SolveInEitherPrecision(derivative, derivative, b, kExact, 2 * kMaxKrylov, &x);
   if (!(result.residual < 1e-8)) {
     throw SolverError("a linear system in the metric could not be solved: the shape degenerates");
   }
@@ -82,14 +81,18 @@ bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* ro
   // P(load) to second order. The velocity is found as a correction of one that is known or near,
   // because the factor's rounding along soft motions, such as translations, would hardly count in
   // the residual and therefore remain.
-  Tangent velocity = initial_state_.velocity;
-  if (velocity.size() == 0) {
-    velocity = initial_state_.shape - initial_state_.previous;
-    velocity +=
-        solver_.Approximate(derivative_.TransposeTimes(change_ - derivative_.Times(velocity)));
-  }
-  const Tangent acceleration = -solver_.Approximate(
-      derivative_.TransposeTimes(map_.SecondDerivative(initial_state_.shape, velocity)));
+  Tangent velocity, acceleration;
+  const auto expand = [&] {
+    velocity = initial_state_.velocity;
+    if (velocity.size() == 0) {
+      velocity = initial_state_.shape - initial_state_.previous;
+      velocity +=
+          solver_.Approximate(derivative_.TransposeTimes(change_ - derivative_.Times(velocity)));
+    }
+    acceleration = -solver_.Approximate(
+        derivative_.TransposeTimes(map_.SecondDerivative(initial_state_.shape, velocity)));
+  };
+  expand();
   const auto expansion = [&](double load) -> Shape {
     return initial_state_.shape + load * velocity + 0.5 * load * load * acceleration;
   };
@@ -106,6 +109,9 @@ bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* ro
     if (FindRoot(next, last_iteration - row->iterations, options, row, &root)) {
       reached = root;
       load = next;
+    } else if (load == 0 && increment == 1 && solver_.UseDoublePrecision()) {
+      --row->increments;  // the same again
+      expand();
     } else {
       increment = 0.5 * (next - load);
       if (increment < kMinIncrement) return false;

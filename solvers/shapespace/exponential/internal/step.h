@@ -81,10 +81,10 @@ class Step {
   FeatureDerivative derivative_;
 };
 
-/// Solves G(P) x = b to rounding accuracy, where the solver's factor is that of G at P.
+/// Solves G(P) x = b to rounding accuracy, where the solver's factor is that of G at P, where the
+/// derivative is given.
 /// \throw SolverError if this fails.
-Tangent SolveMetric(const MetricSolver& solver, const FeatureDerivative& derivative,
-                    const Tangent& b);
+Tangent SolveMetric(const FeatureDerivative& derivative, const Tangent& b, MetricSolver* solver);
 
 /// G(P_1) V = J(P_1)^T [Phi(P_1) - Phi(P_0)]: the velocity per step at the end of a segment from
 /// `other` to `at`; with sign -1, the velocity at the beginning of the segment from `at` to

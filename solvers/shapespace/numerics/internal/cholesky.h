@@ -30,6 +30,13 @@ class CholeskyFactor {
     std::copy_n(other.values_.get(), other.NumNonzeros(), values_.get());
   }
 
+  /// Factors another matrix of the same pattern as that of `like`, with its elimination order.
+  template <typename Other>
+  CholeskyFactor(const CholeskyFactor<Other>& like, const Eigen::SparseMatrix<double>& matrix)
+      : elimination_(like.elimination_) {
+    Update(matrix);
+  }
+
   CholeskyFactor(const CholeskyFactor&) = delete;
   CholeskyFactor(CholeskyFactor&&) noexcept = default;
 

@@ -1,6 +1,5 @@
 #include <shapespace/statistics/internal/logarithms.h>
 
-#include <shapespace/exponential/internal/step.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/metric/rigid.h>
 
@@ -29,11 +28,12 @@ Logarithms::Logarithms(const FeatureMap& map, const FeatureChart& chart, const S
       vertex_area_(map.GetMetric().vertex_area),
       derivative_(map.Derivative(shape)) {
   solver_.Factor(derivative_);
+  solver_.UseDoublePrecision();
 }
 
 Tangent Logarithms::Of(const Eigen::VectorXd& relative) const {
-  Tangent displacement = SolveMetric(
-      solver_, derivative_, derivative_.TransposeTimes(chart_.ChangeAt(values_, relative)));
+  Tangent displacement =
+      solver_.Approximate(derivative_.TransposeTimes(chart_.ChangeAt(values_, relative)));
   RemoveRigidPart(shape_, vertex_area_, &displacement);
   return displacement;
 }
