@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
+#include <limits>
 #include <string>
-#include <tuple>
+#include <utility>
 
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/ranges.h>
+#include <shapespace/base/parallel.h>
 #include <shapespace/hierarchy/internal/quadric.h>
 #include <shapespace/mesh/internal/geometry.h>
 
@@ -32,335 +34,436 @@ constexpr double kMinQuality = 0.2;
 // their number. A flat fan of triangles that are not slivers has up to 54.
 constexpr int kLargestFan = 54;
 
+// In a round the cheapest collapses, one in so many, are made together, as far as they are
+// independent of each other.
+constexpr int kCandidateShare = 4;
+
+constexpr int kVerticesPerTask = 256;
+// Tasks between two reports, so that a person who wants to stop waits a few hundredths of a second.
+constexpr int kVerticesPerReport = 1 << 15;
+
+constexpr double kImpossible = std::numeric_limits<double>::infinity();
+
 class Decimator {
  public:
   Decimator(const Connectivity& connectivity, const std::vector<Shape>& poses,
             const std::vector<int>& pinned)
       : triangles_(connectivity.Triangles()),
-        alive_(triangles_.cols(), 1),
         num_alive_(static_cast<int>(triangles_.cols())),
+        num_vertices_(connectivity.NumVertices()),
         num_poses_(static_cast<int>(poses.size())),
-        head_(connectivity.NumVertices(), -1),
+        head_(num_vertices_, -1),
         next_(triangles_.size(), -1),
-        fan_size_(connectivity.NumVertices(), 0),
-        mark_(connectivity.NumVertices(), 0),
-        fixed_(connectivity.NumVertices(), 0),
-        boundary_(connectivity.NumVertices(), 0),
-        version_(connectivity.NumVertices(), 0) {
-    const int num_vertices = connectivity.NumVertices();
+        fixed_(num_vertices_, 0),
+        boundary_(num_vertices_, 0),
+        cost_(num_vertices_, 0),
+        target_(num_vertices_, -1),
+        stale_(num_vertices_, 1),
+        mark_(num_vertices_, 0),
+        touched_in_(num_vertices_, 0) {
     for (int corner = static_cast<int>(triangles_.size()) - 1; corner >= 0; --corner) {
       const int v = triangles_(corner % 3, corner / 3);
       next_[corner] = head_[v];
       head_[v] = corner;
-      ++fan_size_[v];
     }
     PlacePoses(poses);
     for (int v : pinned) fixed_[v] = 1;
-    for (int v = 0; v < num_vertices; ++v) ExamineFan(v);
-    BuildQuadrics();
+    ForRanges(
+        num_vertices_, [&](int begin, int end) { ExamineFans(begin, end); }, kVerticesPerTask);
+    quadrics_.resize(place_.cols());
+    ForIndices(
+        num_vertices_, [&](int v) { BuildQuadrics(v); }, kVerticesPerTask);
   }
 
   std::vector<Collapse> Run(int target, Progress* progress) {
-    // Often enough for a person who wants to stop: so many take a few hundredths of a second.
-    constexpr int kBetweenReports = 1000;
     const int total = num_alive_ - target;
-    int looks = 0;
     const auto report = [&] {
-      if (looks++ % kBetweenReports == 0) {
-        ReportProgress(progress, "decimating", total + target - num_alive_, total);
-      }
+      ReportProgress(progress, "decimating", total + target - num_alive_, total);
     };
-    for (size_t v = 0; v < head_.size(); ++v) {
-      report();
-      Push(static_cast<int>(v));
+    for (int v = 0; v < num_vertices_; ++v) {
+      if (!fixed_[v]) live_.push_back(v);
     }
     std::vector<Collapse> result;
-    while (num_alive_ > target && !queue_.empty()) {
-      report();
-      const auto [cost, from, to, version] = queue_.top();
-      queue_.pop();
-      if (version != version_[from]) continue;
-      if (!Legal(from, to)) {  // something changed nearby
-        Push(from);
-        continue;
+    while (true) {
+      FindCandidates(report);
+      if (live_costs_.empty()) return result;
+      ChooseIndependent();
+      removed_.resize(chosen_.size());
+      ForIndices(
+          static_cast<int>(chosen_.size()), [&](int i) { removed_[i] = Apply(chosen_[i]); },
+          kVerticesPerTask);
+      ForIndices(
+          static_cast<int>(touched_.size()), [&](int i) { RemoveDead(touched_[i]); },
+          kVerticesPerTask);
+      for (size_t i = 0; i < chosen_.size(); ++i) {
+        num_alive_ -= removed_[i];
+        result.push_back({chosen_[i], target_[chosen_[i]], num_alive_});
+        if (num_alive_ <= target) return result;
       }
-      Apply(from, to);
-      result.push_back({from, to, num_alive_});
     }
-    return result;
   }
 
  private:
-  using Entry = std::tuple<double, int, int, int>;  // cost, from, to, version of from
+  // The triangles (v, a[i], b[i]) of a vertex v.
+  struct Fan {
+    int size = 0;
+    int a[kLargestFan], b[kLargestFan];
+  };
 
-  // The poses' coordinates, scaled to area 1 and interleaved: pose p of vertex v is column v
-  // num_poses + p.
+  // The poses' coordinates, scaled to area 1 and interleaved, with the error of the surface there:
+  // pose p of vertex v is column v num_poses + p.
   void PlacePoses(const std::vector<Shape>& poses) {
-    position_.resize(3, static_cast<Eigen::Index>(head_.size()) * num_poses_);
-    for (int p = 0; p < num_poses_; ++p) {
+    place_.resize(4, static_cast<Eigen::Index>(num_vertices_) * num_poses_);
+    ParallelFor(num_poses_, [&](int p) {
       double area = 0;
       for (int f = 0; f < triangles_.cols(); ++f) {
-        area += internal::TriangleArea(poses[p], triangles_.col(f));
+        area += TriangleArea(poses[p], triangles_.col(f));
       }
       const double scale = area > 0 ? 1 / std::sqrt(area) : 1;
       const Eigen::Vector3d centre = poses[p].rowwise().mean();
-      for (size_t v = 0; v < head_.size(); ++v) {
-        position_.col(v * num_poses_ + p) = scale * (poses[p].col(v) - centre);
+      for (int v = 0; v < num_vertices_; ++v) {
+        place_.col(Column(v, p)) << scale * (poses[p].col(v) - centre), 0;
       }
+    });
+  }
+
+  Eigen::Index Column(int v, int pose) const {
+    return static_cast<Eigen::Index>(v) * num_poses_ + pose;
+  }
+  Eigen::Vector3d At(int v, int pose) const { return place_.col(Column(v, pose)).head<3>(); }
+
+  // Calls body(a, b) for every triangle (v, a, b) of v.
+  template <typename Body>
+  void ForFan(int v, const Body& body) const {
+    for (int corner = head_[v]; corner >= 0; corner = next_[corner]) {
+      const int f = corner / 3, k = corner % 3;
+      body(triangles_((k + 1) % 3, f), triangles_((k + 2) % 3, f));
     }
   }
 
-  Eigen::Vector3d At(int v, int pose) const { return position_.col(v * num_poses_ + pose); }
-
-  // Calls body(a, b) for every triangle (v, a, b) of v, and removes collapsed ones from its list.
-  template <typename Body>
-  void ForFan(int v, const Body& body) {
-    int* link = &head_[v];
-    while (*link >= 0) {
-      const int corner = *link, f = corner / 3, k = corner % 3;
-      if (alive_[f]) {
-        body(triangles_((k + 1) % 3, f), triangles_((k + 2) % 3, f));
-        link = &next_[corner];
-      } else {
-        *link = next_[corner];
-      }
+  // Returns false if there are more than kLargestFan.
+  bool GetFan(int v, Fan* fan) const {
+    fan->size = 0;
+    for (int corner = head_[v]; corner >= 0; corner = next_[corner]) {
+      if (fan->size == kLargestFan) return false;
+      const int f = corner / 3, k = corner % 3;
+      fan->a[fan->size] = triangles_((k + 1) % 3, f);
+      fan->b[fan->size++] = triangles_((k + 2) % 3, f);
     }
+    return true;
   }
 
   // Pins non-manifold vertices and vertices without triangles, and marks boundary vertices. In a
   // closed fan each neighbour is followed and preceded by a triangle; at a boundary one neighbour
   // has no triangle before it and another none after it.
-  void ExamineFan(int v) {
-    fan_.clear();
-    ring_.clear();
-    ForFan(v, [&](int a, int b) {
-      fan_.emplace_back(a, b);
-      ring_.push_back(b);
-    });
-    std::sort(fan_.begin(), fan_.end());
-    std::sort(ring_.begin(), ring_.end());
-    int begins = 0, start = fan_.empty() ? -1 : fan_[0].first;
-    bool manifold = !fan_.empty();
-    for (size_t i = 0; i < fan_.size(); ++i) {
-      const auto [a, b] = fan_[i];
-      if (a == b || a == v || b == v || (i > 0 && fan_[i - 1].first == a)) manifold = false;
-      if (!std::binary_search(ring_.begin(), ring_.end(), a)) {
-        ++begins;
-        start = a;
-      }
-    }
-    if (begins > 1) manifold = false;
-    if (manifold) {  // in a manifold a walk around the vertex visits every triangle once
-      size_t steps = 0;
-      int at = start;
-      do {
-        const auto found = std::lower_bound(fan_.begin(), fan_.end(), std::make_pair(at, -1));
-        if (found == fan_.end() || found->first != at) break;
-        at = found->second;
-        ++steps;
-      } while (at != start && steps <= fan_.size());
-      manifold = steps == fan_.size();
-    }
-    if (!manifold) fixed_[v] = 1;
-    boundary_[v] = begins > 0;
-  }
-
-  void BuildQuadrics() {
-    quadrics_.resize(position_.cols());
-    for (int f = 0; f < triangles_.cols(); ++f) {
-      for (int p = 0; p < num_poses_; ++p) {
-        Eigen::Vector3d x[3];
-        for (int k = 0; k < 3; ++k) x[k] = At(triangles_(k, f), p);
-        Eigen::Vector3d normal = internal::AreaNormal(x[0], x[1], x[2]);
-        const double twice_area = normal.norm();
-        if (!(twice_area > 0)) continue;
-        normal /= twice_area;
-        for (int k = 0; k < 3; ++k) {
-          Quadric(triangles_(k, f), p).AddPlane(normal, x[0], twice_area / 6);
-          const int a = triangles_(k, f), b = triangles_((k + 1) % 3, f);
-          if (!boundary_[a] || !boundary_[b] || SharedTriangles(a, b) != 1) continue;
-          const Eigen::Vector3d edge = x[(k + 1) % 3] - x[k];
-          const Eigen::Vector3d upright = edge.cross(normal);
-          const double length = edge.norm();
-          if (!(length > 0)) continue;
-          for (int v : {a, b}) {
-            Quadric(v, p).AddPlane(upright / length, x[k], kBoundaryWeight * length * length / 2);
-          }
+  void ExamineFans(int first, int last) {
+    std::vector<std::pair<int, int>> fan;
+    std::vector<int> ring;
+    for (int v = first; v < last; ++v) {
+      fan.clear();
+      ring.clear();
+      ForFan(v, [&](int a, int b) {
+        fan.emplace_back(a, b);
+        ring.push_back(b);
+      });
+      std::sort(fan.begin(), fan.end());
+      std::sort(ring.begin(), ring.end());
+      int begins = 0, start = fan.empty() ? -1 : fan[0].first;
+      bool manifold = !fan.empty();
+      for (size_t i = 0; i < fan.size(); ++i) {
+        const auto [a, b] = fan[i];
+        if (a == b || a == v || b == v || (i > 0 && fan[i - 1].first == a)) manifold = false;
+        if (!std::binary_search(ring.begin(), ring.end(), a)) {
+          ++begins;
+          start = a;
         }
       }
+      if (begins > 1) manifold = false;
+      if (manifold) {  // in a manifold a walk around the vertex visits every triangle once
+        size_t steps = 0;
+        int at = start;
+        do {
+          const auto found = std::lower_bound(fan.begin(), fan.end(), std::make_pair(at, -1));
+          if (found == fan.end() || found->first != at) break;
+          at = found->second;
+          ++steps;
+        } while (at != start && steps <= fan.size());
+        manifold = steps == fan.size();
+      }
+      if (!manifold) fixed_[v] = 1;
+      boundary_[v] = begins > 0;
     }
   }
 
-  internal::Quadric& Quadric(int v, int pose) { return quadrics_[v * num_poses_ + pose]; }
+  void BuildQuadrics(int v) {
+    for (int p = 0; p < num_poses_; ++p) {
+      const Eigen::Vector3d origin = At(v, p);
+      Quadric& quadric = quadrics_[Column(v, p)];
+      ForFan(v, [&](int a, int b) {
+        const Eigen::Vector3d xa = At(a, p) - origin, xb = At(b, p) - origin;
+        Eigen::Vector3d normal = xa.cross(xb);
+        const double twice_area = normal.norm();
+        if (!(twice_area > 0)) return;
+        normal /= twice_area;
+        quadric.AddPlane(normal, Eigen::Vector3d::Zero(), twice_area / 6);
+        for (const auto& [w, side] : {std::pair(a, xa), std::pair(b, xb)}) {
+          if (!boundary_[v] || !boundary_[w] || SharedTriangles(v, w) != 1) continue;
+          const double length = side.norm();
+          if (!(length > 0)) continue;
+          quadric.AddPlane(side.cross(normal) / length, Eigen::Vector3d::Zero(),
+                           kBoundaryWeight * length * length / 2);
+        }
+      });
+    }
+  }
 
-  int SharedTriangles(int a, int b) {
-    if (fan_size_[a] > fan_size_[b]) std::swap(a, b);
+  int SharedTriangles(int a, int b) const {
     int count = 0;
     ForFan(a, [&](int x, int y) { count += x == b || y == b; });
     return count;
   }
 
-  double Cost(int from, int to) {
-    double cost = 0;
-    for (int p = 0; p < num_poses_; ++p) {
-      const Eigen::Vector3d target = At(to, p);
-      internal::Quadric sum = Quadric(from, p);
-      sum += Quadric(to, p);
-      const double squared_length = (target - At(from, p)).squaredNorm();
-      cost += std::abs(sum(target)) + kLengthWeight * squared_length * squared_length;
+  // Costs rise as vertices collapse nearby, so that a cost from before is a lower bound, and only
+  // the cheapest have to be computed anew. Leaves in `candidates_` those that are possible and up
+  // to date, in the order of cost.
+  template <typename Report>
+  void FindCandidates(const Report& report) {
+    report();
+    live_.erase(std::remove_if(live_.begin(), live_.end(), [&](int v) { return head_[v] < 0; }),
+                live_.end());
+    live_costs_.clear();
+    for (int v : live_) {
+      if (cost_[v] < kImpossible) live_costs_.push_back(cost_[v]);
     }
-    return cost;
+    candidates_.clear();
+    if (live_costs_.empty()) return;
+    const auto rank = live_costs_.begin() + (live_costs_.size() - 1) / kCandidateShare;
+    std::nth_element(live_costs_.begin(), rank, live_costs_.end());
+    const double most = *rank;
+    stale_list_.clear();
+    for (int v : live_) {
+      if (!(cost_[v] <= most)) continue;
+      candidates_.push_back(v);
+      if (stale_[v]) stale_list_.push_back(v);
+    }
+    const int num_stale = static_cast<int>(stale_list_.size());
+    for (int begin = 0; begin < num_stale; begin += kVerticesPerReport) {
+      if (begin > 0) report();
+      ForIndices(
+          std::min(kVerticesPerReport, num_stale - begin),
+          [&](int i) { FindCheapest(stale_list_[begin + i]); }, kVerticesPerTask);
+    }
+    candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
+                                     [&](int v) { return !(cost_[v] <= most); }),
+                      candidates_.end());
+    std::sort(candidates_.begin(), candidates_.end(),
+              [&](int v, int w) { return cost_[v] < cost_[w] || (cost_[v] == cost_[w] && v < w); });
   }
 
-  static double Quality(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                        const Eigen::Vector3d& c) {
-    const double sides = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
-    return sides > 0 ? 4 * std::sqrt(3.0) * internal::TriangleArea(a, b, c) / sides : 0;
+  // Takes the candidates that are independent of cheaper ones. A collapse changes the fans of the
+  // neighbours of `from`, and reads those of `from` and `to`.
+  void ChooseIndependent() {
+    ++round_;
+    const int changed = 2 * round_, end = changed + 1;
+    chosen_.clear();
+    touched_.clear();
+    const auto touch = [&](int v) {
+      if (touched_in_[v] == round_) return;
+      touched_in_[v] = round_;
+      touched_.push_back(v);
+      stale_[v] = 1;
+      if (cost_[v] == kImpossible) cost_[v] = 0;
+    };
+    for (int from : candidates_) {
+      const int to = target_[from];
+      if (mark_[from] >= changed || mark_[to] >= changed) continue;
+      bool independent = true;
+      ForFan(from, [&](int a, int b) {
+        independent = independent && mark_[a] != end && mark_[b] != end;
+      });
+      if (!independent) continue;
+      chosen_.push_back(from);
+      ForFan(from, [&](int a, int b) {
+        mark_[a] = std::max(mark_[a], changed);
+        mark_[b] = std::max(mark_[b], changed);
+        touch(a);
+        touch(b);
+      });
+      mark_[from] = mark_[to] = end;
+      ForFan(to, [&](int a, int b) {
+        touch(a);
+        touch(b);
+      });
+    }
   }
 
-  bool Legal(int from, int to) { return KeepsTopology(from, to) && KeepsGeometry(from, to); }
+  // The cheapest possible collapse of `from`.
+  void FindCheapest(int from) {
+    stale_[from] = 0;
+    cost_[from] = kImpossible;
+    Fan fan;
+    if (!GetFan(from, &fan)) return;
+    int ring[2 * kLargestFan], size = 0;
+    double costs[2 * kLargestFan];
+    for (int i = 0; i < fan.size; ++i) ring[size++] = fan.a[i];
+    for (int i = 0; i < fan.size; ++i) {
+      if (std::find(fan.a, fan.a + fan.size, fan.b[i]) == fan.a + fan.size) ring[size++] = fan.b[i];
+    }
+    const int all = size;
+    std::fill_n(costs, size, 0.0);
+    for (int p = 0; p < num_poses_; ++p) {
+      const Quadric& quadric = quadrics_[Column(from, p)];
+      const Eigen::Vector3d origin = At(from, p);
+      for (int i = 0; i < size; ++i) {
+        const Eigen::Vector3d shift = At(ring[i], p) - origin;
+        const double squared_length = shift.squaredNorm();
+        costs[i] += std::abs(quadric(shift) + place_(3, Column(ring[i], p))) +
+                    kLengthWeight * squared_length * squared_length;
+      }
+    }
+    while (size > 0) {
+      int best = 0;
+      for (int i = 1; i < size; ++i) {
+        if (costs[i] < costs[best] || (costs[i] == costs[best] && ring[i] < ring[best])) best = i;
+      }
+      if (KeepsTopology(from, fan, ring, all, ring[best]) && KeepsGeometry(from, fan, ring[best])) {
+        cost_[from] = costs[best];
+        target_[from] = ring[best];
+        return;
+      }
+      --size;
+      std::swap(ring[best], ring[size]);
+      std::swap(costs[best], costs[size]);
+    }
+  }
 
   // The link condition (Dey, Edelsbrunner, Guha and Nekhayev, "Topology Preserving Edge
   // Contraction", 1999): the only neighbours that the two vertices have in common are the third
-  // corners of the triangles at their edge. Neighbours of `to` are marked; those that are also
-  // neighbours of `from` are counted, and their marks removed, so that each counts once.
-  bool KeepsTopology(int from, int to) {
-    if (fan_size_[to] > kLargestFan) return false;
-    const int stamp = ++stamp_;
+  // corners of the triangles at their edge. `ring` has the neighbours of `from`, in any order.
+  bool KeepsTopology(int from, const Fan& fan, const int* ring, int ring_size, int to) const {
+    Fan around;  // `to`
+    if (!GetFan(to, &around)) return false;
     int opposite[2], shared = 0;
-    ForFan(to, [&](int a, int b) {
-      mark_[a] = mark_[b] = stamp;
-      if (a == from || b == from) {
-        if (shared < 2) opposite[shared] = a == from ? b : a;
-        ++shared;
-      }
-    });
+    for (int j = 0; j < around.size; ++j) {
+      if (around.a[j] != from && around.b[j] != from) continue;
+      if (shared < 2) opposite[shared] = around.a[j] == from ? around.b[j] : around.a[j];
+      ++shared;
+    }
     if (shared < 1 || shared > 2) return false;
     // A boundary vertex may only move along its boundary.
     if (boundary_[from] && (shared != 1 || !boundary_[to])) return false;
     int common = 0;
-    bool closes = false;
-    ForFan(from, [&](int a, int b) {
-      for (int x : {a, b}) {
-        if (x != to && mark_[x] == stamp) {
-          mark_[x] = 0;
-          ++common;
-        }
+    for (int i = 0; i < ring_size; ++i) {
+      bool both = false;
+      for (int j = 0; j < around.size; ++j) {
+        both = both || around.a[j] == ring[i] || around.b[j] == ring[i];
       }
-      // A triangle that would coincide with another one of `to`.
-      if (shared == 2 && a != to && b != to && (a == opposite[0] || a == opposite[1]) &&
-          (b == opposite[0] || b == opposite[1])) {
-        ForFan(to, [&](int c, int d) {
-          closes = closes || ((c == a || c == b) && (d == a || d == b));
-        });
+      common += both && ring[i] != to;
+    }
+    if (common != shared) return false;
+    if (shared == 2) {  // no triangle would coincide with another one of `to`
+      const auto is_opposite = [&](int a, int b) {
+        return (a == opposite[0] && b == opposite[1]) || (a == opposite[1] && b == opposite[0]);
+      };
+      bool here = false, there = false;
+      for (int i = 0; i < fan.size; ++i) here = here || is_opposite(fan.a[i], fan.b[i]);
+      for (int j = 0; j < around.size && here; ++j) {
+        there = there || is_opposite(around.a[j], around.b[j]);
       }
-    });
-    if (common != shared || closes) return false;
-    if (fan_size_[from] > 1) return true;
+      if (there) return false;
+    }
+    if (fan.size > 1) return true;
     // The last triangle of `from` may only be removed if its third side is in the interior of a
     // surface; otherwise a component, a bridge between two components or a fin would be lost.
-    int first = 0, second = 0;
-    ForFan(to, [&](int a, int b) {
-      first += a == opposite[0];
-      second += b == opposite[0];
-    });
-    return first == 1 && second == 1;
+    return std::count(around.a, around.a + around.size, opposite[0]) == 1 &&
+           std::count(around.b, around.b + around.size, opposite[0]) == 1;
   }
 
-  bool KeepsGeometry(int from, int to) {
+  // The square of a triangle's quality, from its sides at one corner and its normal.
+  static double SquaredQuality(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                               const Eigen::Vector3d& normal) {
+    const double sides = a.squaredNorm() + b.squaredNorm() + (b - a).squaredNorm();
+    return sides > 0 ? 12 * normal.squaredNorm() / (sides * sides) : 0;
+  }
+
+  bool KeepsGeometry(int from, const Fan& fan, int to) const {
     for (int p = 0; p < num_poses_; ++p) {
       const Eigen::Vector3d old_place = At(from, p), new_place = At(to, p);
-      double worst_before = 1, worst_after = 1;
-      bool flips = false;
-      ForFan(from, [&](int a, int b) {
-        const Eigen::Vector3d xa = At(a, p), xb = At(b, p);
-        worst_before = std::min(worst_before, Quality(old_place, xa, xb));
-        if (a == to || b == to || flips) return;
-        worst_after = std::min(worst_after, Quality(new_place, xa, xb));
-        const Eigen::Vector3d before = internal::AreaNormal(old_place, xa, xb);
-        const Eigen::Vector3d after = internal::AreaNormal(new_place, xa, xb);
+      double worst_before = kMinQuality * kMinQuality, worst_after = worst_before;
+      for (int i = 0; i < fan.size; ++i) {
+        const Eigen::Vector3d xa = At(fan.a[i], p), xb = At(fan.b[i], p);
+        const Eigen::Vector3d a = xa - old_place, b = xb - old_place, before = a.cross(b);
+        worst_before = std::min(worst_before, SquaredQuality(a, b, before));
+        if (fan.a[i] == to || fan.b[i] == to) continue;
+        const Eigen::Vector3d c = xa - new_place, d = xb - new_place, after = c.cross(d);
+        worst_after = std::min(worst_after, SquaredQuality(c, d, after));
         // `<` on purpose: a triangle without area before has no orientation.
-        flips = before.dot(after) < kMinCosine * before.norm() * after.norm();
-      });
-      if (flips || worst_after < std::min(kMinQuality, worst_before)) return false;
+        if (before.dot(after) <
+            kMinCosine * std::sqrt(before.squaredNorm() * after.squaredNorm())) {
+          return false;
+        }
+      }
+      if (worst_after < worst_before) return false;
     }
     return true;
   }
 
-  // The neighbours of v.
-  void FindRing(int v, std::vector<int>* ring) {
-    ring->clear();
-    const int stamp = ++stamp_;
-    ForFan(v, [&](int a, int b) {
-      for (int x : {a, b}) {
-        if (mark_[x] != stamp) {
-          mark_[x] = stamp;
-          ring->push_back(x);
-        }
-      }
-    });
-  }
-
-  // Enqueues the cheapest possible collapse of `from`, if there is one.
-  void Push(int from) {
-    ++version_[from];
-    if (fixed_[from] || fan_size_[from] > kLargestFan) return;
-    FindRing(from, &ring_);
-    candidates_.clear();
-    for (int to : ring_) candidates_.emplace_back(Cost(from, to), to);
-    std::sort(candidates_.begin(), candidates_.end());
-    for (const auto& [cost, to] : candidates_) {
-      if (Legal(from, to)) {
-        queue_.emplace(cost, from, to, version_[from]);
-        return;
-      }
-    }
-  }
-
-  void Apply(int from, int to) {
-    // The triangles of `from` become triangles of `to`, except those at their edge.
-    int last = -1;
+  // Collapses a vertex, and returns how many triangles it removes. Only lists and quadrics of
+  // `from` and `to`, and triangles of `from`, are changed: chosen collapses are made at a time.
+  int Apply(int from) {
+    const int to = target_[from];
+    int last = -1, removed = 0;
     for (int corner = head_[from]; corner >= 0; corner = next_[corner]) {
-      const int f = corner / 3;
+      auto triangle = triangles_.col(corner / 3);
       last = corner;
-      if (!alive_[f]) continue;
-      if ((triangles_.col(f).array() == to).any()) {
-        alive_[f] = 0;
-        --num_alive_;
-        for (int v : triangles_.col(f)) --fan_size_[v];
+      if ((triangle.array() == to).any()) {
+        triangle(0) = kDead;
+        ++removed;
       } else {
-        triangles_(corner % 3, f) = to;
-        ++fan_size_[to];
+        triangle(corner % 3) = to;
       }
     }
-    if (last >= 0) {
-      next_[last] = head_[to];
-      head_[to] = head_[from];
-    }
+    next_[last] = head_[to];
+    head_[to] = head_[from];
     head_[from] = -1;
-    ++version_[from];
-    for (int p = 0; p < num_poses_; ++p) Quadric(to, p) += Quadric(from, p);
-
-    FindRing(to, &touched_);
-    Push(to);
-    for (int v : touched_) Push(v);
+    for (int p = 0; p < num_poses_; ++p) {
+      Quadric& quadric = quadrics_[Column(to, p)];
+      quadric += quadrics_[Column(from, p)].From(At(to, p) - At(from, p));
+      place_(3, Column(to, p)) = quadric.AtOrigin();
+    }
+    return removed;
   }
+
+  // Removes triangles from the list of a vertex that are no more.
+  void RemoveDead(int v) {
+    int* link = &head_[v];
+    while (*link >= 0) {
+      if (triangles_(0, *link / 3) == kDead) {
+        *link = next_[*link];
+      } else {
+        link = &next_[*link];
+      }
+    }
+  }
+
+  static constexpr int kDead = -1;
 
   Eigen::Matrix3Xi triangles_;
-  std::vector<char> alive_;
-  int num_alive_, num_poses_;
+  int num_alive_;
+  const int num_vertices_, num_poses_;
   std::vector<int> head_, next_;  // per vertex, its corners as a linked list
-  std::vector<int> fan_size_;     // per vertex, its number of triangles
-  Eigen::Matrix3Xd position_;
-  std::vector<internal::Quadric> quadrics_;  // like position_
-  std::vector<int> mark_;
-  int stamp_ = 0;
+  Eigen::Matrix4Xd place_;
+  std::vector<Quadric> quadrics_;  // like place_, with the place as origin
   std::vector<char> fixed_, boundary_;
-  std::vector<int> version_;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue_;
-  std::vector<std::pair<int, int>> fan_;
-  std::vector<int> ring_, touched_;
-  std::vector<std::pair<double, int>> candidates_;
+  // Per vertex its cheapest collapse, which is stale if something has changed since.
+  std::vector<double> cost_;
+  std::vector<int> target_;
+  std::vector<char> stale_;
+  std::vector<int> live_;  // vertices that may still collapse
+  // Of a round.
+  int round_ = 0;
+  std::vector<int> mark_, touched_in_, candidates_, stale_list_, chosen_, removed_, touched_;
+  std::vector<double> live_costs_;
 };
 
 }  // namespace

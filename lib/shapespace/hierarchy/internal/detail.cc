@@ -84,7 +84,7 @@ Carriers FindCarriers(const Connectivity& coarse, const std::vector<int>& kept,
   std::vector<int> coarse_of(num_fine, -1);
   for (size_t c = 0; c < kept.size(); ++c) coarse_of[kept[c]] = static_cast<int>(c);
 
-  const auto find = [&](int v) {
+  const auto find = [&](int v, std::vector<int>* seen) {
     result.weights.col(v) = Eigen::Vector3d::UnitX();
     if (coarse_of[v] >= 0) {
       result.vertices.col(v).setConstant(coarse_of[v]);
@@ -94,10 +94,13 @@ Carriers FindCarriers(const Connectivity& coarse, const std::vector<int>& kept,
     // The nearest triangle at `near`, then at the corners of the triangle found, as long as the
     // distance decreases.
     double best = std::numeric_limits<double>::infinity();
+    seen->clear();
     Eigen::Vector3i from = Eigen::Vector3i::Constant(near[v]);
     for (bool better = true; better;) {
       better = false;
       for (int corner : from) {
+        if (std::find(seen->begin(), seen->end(), corner) != seen->end()) continue;
+        seen->push_back(corner);
         for (const int f : coarse.TrianglesOfVertices()[corner]) {
           const Eigen::Vector3i triangle = coarse.Triangles().col(f);
           double distance = 0;
@@ -121,7 +124,13 @@ Carriers FindCarriers(const Connectivity& coarse, const std::vector<int>& kept,
       from = result.vertices.col(v);
     }
   };
-  ForIndices(num_fine, find, kVerticesPerTask);
+  ForRanges(
+      num_fine,
+      [&](int begin, int end) {
+        std::vector<int> seen;  // corners
+        for (int v = begin; v < end; ++v) find(v, &seen);
+      },
+      kVerticesPerTask);
   return result;
 }
 
