@@ -434,5 +434,35 @@ TEST(PathEnergy, RefusesWrongSizes) {
   EXPECT_THROW(energy.Load({shape, shape, shape.leftCols(3), shape}, unknowns.data()), MeshError);
 }
 
+// The values at the ends are kept from one path to the next.
+TEST(PathEnergy, ForgetsEarlierEnds) {
+  const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
+  const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(60)});
+  const auto shape = [&](double angle) -> Shape { return bar.pose(angle) / metric->unit; };
+  const Shape nothing = Shape::Zero(3, bar.connectivity->NumVertices());
+  const std::vector<std::vector<Shape>> paths = {
+      {nothing, shape(10), nothing},    {shape(0), shape(20), shape(50)},
+      {shape(0), shape(30), shape(50)}, {shape(0), shape(20), shape(60)},
+      {shape(5), shape(20), shape(60)}, {shape(5), shape(20), shape(60)}};
+  for (const PathEnergy::End end : {PathEnergy::End::kFixed, PathEnergy::End::kFree}) {
+    PathEnergy energy(metric, end == PathEnergy::End::kFixed ? 1 : 2, end);
+    std::vector<double> unknowns(energy.Size()), gradient(energy.Size()), expected(energy.Size());
+    for (size_t i = 0; i < paths.size(); ++i) {
+      PathEnergy fresh(metric, energy.Inner(), end);
+      fresh.Load(paths[i], expected.data());
+      const double right = fresh.Evaluate(expected.data(), gradient.data());
+      energy.Load(paths[i], unknowns.data());
+      EXPECT_EQ(unknowns, expected);
+      std::vector<double> own(energy.Size());
+      EXPECT_EQ(energy.Evaluate(unknowns.data(), own.data()), right) << i;
+      EXPECT_EQ(own, gradient) << i;
+      // At the end of the next path, if the end is free.
+      const std::vector<Shape>& next = paths[(i + 1) % paths.size()];
+      fresh.Load(next, expected.data());
+      energy.Evaluate(expected.data(), own.data());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace shapespace

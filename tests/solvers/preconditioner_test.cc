@@ -219,6 +219,52 @@ TEST(ScalarMetric, CostsNothingForTranslationsButForThePositionTerm) {
   EXPECT_NEAR(cost, 4 * 1e-4 * 1.01, 1e-10);  // 4 lambda, regularised
 }
 
+// On more elements than are computed at a time.
+TEST(ScalarMetric, IsTheSumOverAllElements) {
+  const ShapeFamily bar = MakeBar(6, 1, 1, 180, 20, 20);
+  ASSERT_GT(bar.connectivity->NumHinges(), 40000);
+  MetricOptions options;
+  options.isometric = 1;
+  options.rigid = 0.1;
+  const auto metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(40)});
+  const std::vector<Shape> poses = {bar.pose(0) / metric->unit, bar.pose(40) / metric->unit};
+  const Eigen::SparseMatrix<double> matrix = ScalarMetric(*metric, poses, 0);
+  const int num_vertices = bar.connectivity->NumVertices();
+  ASSERT_EQ(matrix.rows(), num_vertices);
+  std::srand(1);
+  const Eigen::VectorXd y = Eigen::VectorXd::Random(num_vertices);
+  double expected = 0;
+  for (int v = 0; v < num_vertices; ++v) {
+    expected += 4 * (1e-6 * metric->vertex_area(v) + metric->rigid.weights(v)) * y(v) * y(v);
+  }
+  for (const auto& feature : metric->features) {
+    const int corners = feature->VerticesPerElement();
+    for (int e = 0; e < feature->NumElements(); ++e) {
+      for (const Shape& pose : poses) {
+        double x[3 * Feature::kMaxVertices];
+        double rows[Feature::kMaxVertices * 3 * Feature::kMaxValues];
+        feature->GatherCoordinates(e, e + 1, pose, x);
+        feature->ScalarRows(1, x, rows);
+        for (int row = 0; row < feature->NumScalarRows(); ++row) {
+          double product = 0;
+          for (int k = 0; k < corners; ++k) {
+            product += rows[corners * row + k] * y(feature->Element(e)[k]);
+          }
+          expected += 4 * feature->Weight(e) / 2 * product * product;
+        }
+      }
+    }
+  }
+  EXPECT_NEAR(y.dot(matrix.selfadjointView<Eigen::Lower>() * y), expected, 1e-10 * expected);
+  for (int c = 0; c < matrix.outerSize(); ++c) {
+    int before = c - 1;  // rows of the lower triangle rise, and each occurs once
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, c); entry; ++entry) {
+      ASSERT_GT(entry.row(), before);
+      before = static_cast<int>(entry.row());
+    }
+  }
+}
+
 TEST(ChangeOfVariables, TransposeIsTheTranspose) {
   const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   const auto metric = FreezeMetric({}, bar.connectivity, {bar.pose(0), bar.pose(40)});

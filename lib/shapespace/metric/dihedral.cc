@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include <shapespace/base/internal/ranges.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/metric/metric_basis.h>
 
@@ -43,19 +44,18 @@ Dihedral Dihedral::Freeze(const MetricBasis& basis) {
   feature.normal_epsilon_squared =
       std::pow(MetricBasis::kCollapsed * 2 * basis.triangle_area.mean(), 2);
   feature.edge_epsilon_squared = basis.CollapsedSquared();
-  double x[12];
-  std::vector<double> angles(basis.poses.size());
-  for (int h = 0; h < connectivity.NumHinges(); ++h) {
+  const auto freeze = [&](int h, std::vector<double>* angles) {
+    double x[12];
     double squared_length = 0, jump = 0, fold = 0;
     for (size_t i = 0; i < basis.poses.size(); ++i) {
       GatherCoordinates(feature, h, basis.poses[i], x);
       const Eigen::Map<Eigen::Vector3d> a(x), b(x + 3);
       squared_length += (b - a).squaredNorm() / basis.poses.size();
-      angles[i] = feature.Angle(x);
-      fold = std::max(fold, std::abs(angles[i]));
-      if (i > 0) jump = std::max(jump, std::abs(WrapAngle(angles[i] - angles[i - 1])));
+      const double angle = (*angles)[i] = feature.Angle(x);
+      fold = std::max(fold, std::abs(angle));
+      if (i > 0) jump = std::max(jump, std::abs(WrapAngle(angle - (*angles)[i - 1])));
     }
-    if (basis.pairs == PosePairs::kAll) jump = GreatestDistance(&angles);
+    if (basis.pairs == PosePairs::kAll) jump = GreatestDistance(angles);
     // Hinges that are folded in a given pose, or that turn by more than 90 degrees from one pose to
     // the next, are weighted down, because the chord has no gradient there.
     const double ramp = std::clamp((fold - 120 * kRadians) / (15 * kRadians), 0.0, 1.0);
@@ -64,7 +64,11 @@ Dihedral Dihedral::Freeze(const MetricBasis& basis) {
     const double aspect =
         area * kGreatestHingeAspect > squared_length ? squared_length / area : kGreatestHingeAspect;
     feature.weights(h) = basis.hinge_stiffness(h) * aspect / (1 + u * u * u * u);
-  }
+  };
+  internal::ForRanges(connectivity.NumHinges(), [&](int begin, int end) {
+    std::vector<double> angles(basis.poses.size());
+    for (int h = begin; h < end; ++h) freeze(h, &angles);
+  });
   return feature;
 }
 

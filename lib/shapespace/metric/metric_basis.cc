@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/ranges.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/metric/metric.h>
 
@@ -24,14 +25,14 @@ Measures Measure(const Connectivity& connectivity, const std::vector<Shape>& pos
   result.triangle_area = Eigen::VectorXd::Zero(connectivity.NumTriangles());
   result.squared_length = Eigen::VectorXd::Zero(connectivity.NumEdges());
   for (const Shape& pose : poses) {
-    for (int f = 0; f < connectivity.NumTriangles(); ++f) {
+    internal::ForIndices(connectivity.NumTriangles(), [&](int f) {
       result.triangle_area(f) +=
           internal::TriangleArea(pose, connectivity.Triangles().col(f)) / poses.size();
-    }
-    for (int e = 0; e < connectivity.NumEdges(); ++e) {
+    });
+    internal::ForIndices(connectivity.NumEdges(), [&](int e) {
       const Eigen::Vector2i v = connectivity.Edges().col(e);
       result.squared_length(e) += (pose.col(v(1)) - pose.col(v(0))).squaredNorm() / poses.size();
-    }
+    });
   }
   return result;
 }
@@ -89,12 +90,12 @@ Eigen::VectorXd EdgeAreas(const Connectivity& connectivity, const Measures& meas
 Eigen::VectorXd HingeAreas(const Connectivity& connectivity, const std::vector<Shape>& poses) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(connectivity.NumHinges());
   for (const Shape& pose : poses) {
-    for (int h = 0; h < connectivity.NumHinges(); ++h) {
+    internal::ForIndices(connectivity.NumHinges(), [&](int h) {
       const Eigen::Vector4i v = connectivity.Hinges().col(h);
       const Eigen::Vector3d a = pose.col(v(0)), e = pose.col(v(1)) - a;
       result(h) += (e.cross(pose.col(v(2)) - a).norm() + e.cross(pose.col(v(3)) - a).norm()) /
                    (6 * poses.size());
-    }
+    });
   }
   return result;
 }

@@ -72,9 +72,8 @@ PathEnergy::PathEnergy(std::shared_ptr<const Metric> metric, int inner, End end)
   row_of_vertex_.resize(num_vertices);
   for (int r = 0; r < num_vertices; ++r) row_of_vertex_[vertex_of_row_[r]] = r;
   blocks_ = std::clamp(num_vertices / 256, 1, 64);
-  // Different from every number, so that the first `Load` evaluates the ends.
-  first_.assign(3 * num_vertices, std::numeric_limits<double>::quiet_NaN());
-  last_ = first_;
+  first_.resize(3 * num_vertices);
+  last_.resize(3 * num_vertices);
   for (const auto& feature : metric_->features) terms_.push_back(MakeTerm(feature));
   if (metric_->rigid.Active()) {
     for (int v : vertex_of_row_) rigid_weights_.push_back(metric_->rigid.weights(v));
@@ -166,32 +165,35 @@ void PathEnergy::Load(const std::vector<Shape>& shapes, double* unknowns) {
   for (const Shape& shape : shapes) {
     if (shape.cols() != num_vertices) throw MeshError("a shape has the wrong number of vertices");
   }
-  // A solve loads many paths between the same two shapes.
-  std::vector<char> ends_moved(blocks_, 0);
+  std::vector<char> moved(blocks_, 0);  // whether an end differs from the last one
+  const auto set = [&](double to, double* coordinate, char* differs) {
+    if (*coordinate == to) return;
+    *coordinate = to;
+    *differs = 1;
+  };
   ParallelFor(blocks_, [&](int block) {
-    const auto set = [&](double value, double* end) {
-      if (*end != value) ends_moved[block] = 1;
-      *end = value;
-    };
     for (int r = FirstRow(block); r < FirstRow(block + 1); ++r) {
       const int v = vertex_of_row_[r];
       for (int axis = 0; axis < 3; ++axis) {
         const size_t row = 3 * static_cast<size_t>(r) + axis;
-        set(shapes.front()(axis, v), &first_[row]);
-        set(shapes.back()(axis, v), &last_[row]);
+        set(shapes.front()(axis, v), &first_[row], &moved[block]);
+        set(shapes.back()(axis, v), &last_[row], &moved[block]);
         double* const out = unknowns + row * stride_;
         for (int t = 0; t < inner_; ++t) out[t] = shapes[t + 1](axis, v);
         std::fill(out + inner_, out + stride_, 0.0);
       }
     }
   });
-  // An end that is free has been moved by evaluations.
-  if (end_ == End::kFixed && std::count(ends_moved.begin(), ends_moved.end(), 1) == 0) return;
+  // Evaluations move a free end.
+  const bool same_ends =
+      end_ == End::kFixed && std::find(moved.begin(), moved.end(), 1) == moved.end();
   for (Term& term : terms_) {
     if (!term.kernel.takes_ends) continue;
     for (std::vector<internal::ElementGroup>& groups : term.groups) {
-      ParallelFor(static_cast<int>(groups.size()),
-                  [&](int g) { EvaluateEnds(*term.feature, first_, last_, &groups[g]); });
+      ParallelFor(static_cast<int>(groups.size()), [&](int g) {
+        if (same_ends && !groups[g].ends.empty()) return;
+        EvaluateEnds(*term.feature, first_, last_, &groups[g]);
+      });
     }
   }
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numeric>
+#include <utility>
 
 #include <shapespace/base/internal/ranges.h>
 #include <shapespace/numerics/internal/padded_width.h>
@@ -12,59 +15,138 @@ namespace {
 // Without a position term translations have no cost; this share of one keeps the matrix definite.
 constexpr double kMinLambda = 1e-6;
 
+// Elements whose blocks are computed at a time, on all threads, before they are added.
+constexpr int kElementsAtATime = 1 << 14;
+
+// The lower triangle of a matrix with a row for each vertex, as a sum of elements' blocks.
+class LowerTriangle {
+ public:
+  // With memory for the blocks of all features of a metric, and for the diagonal. A sum feature is
+  // a dense row, and is left to the quasi-Newton updates.
+  explicit LowerTriangle(const Metric& metric) : begin_(metric.connectivity->NumVertices() + 1, 1) {
+    begin_[0] = 0;
+    for (const auto& feature : metric.features) {
+      if (feature->IsSum()) continue;
+      const int corners = feature->VerticesPerElement();
+      for (int e = 0; e < feature->NumElements(); ++e) {
+        const int* const vertices = feature->Element(e);
+        for (int l = 0; l < corners; ++l) {
+          for (int i = 0; i < corners; ++i) begin_[vertices[l] + 1] += vertices[i] >= vertices[l];
+        }
+      }
+    }
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    end_.assign(begin_.begin(), begin_.end() - 1);
+    entries_ = std::unique_ptr<Entry[]>(new Entry[begin_.back()]);
+  }
+
+  void Add(int row, int column, double value) { entries_[end_[column]++] = {row, value}; }
+
+  void Add(const Feature& feature, int element, const double* block) {
+    const int corners = feature.VerticesPerElement();
+    const int* const vertices = feature.Element(element);
+    for (int i = 0; i < corners; ++i) {
+      for (int l = 0; l < corners; ++l) {
+        if (vertices[i] >= vertices[l]) Add(vertices[i], vertices[l], block[corners * i + l]);
+      }
+    }
+  }
+
+  // Entries of one place are added in the order in which they came.
+  Eigen::SparseMatrix<double> Matrix() && {
+    const int size = static_cast<int>(end_.size());
+    ForIndices(size, [&](int column) {
+      Entry* const first = &entries_[begin_[column]];
+      std::stable_sort(first, &entries_[end_[column]],
+                       [](const Entry& a, const Entry& b) { return a.row < b.row; });
+      Entry* last = first;
+      for (const Entry* entry = first + 1; entry < &entries_[end_[column]]; ++entry) {
+        if (entry->row == last->row) {
+          last->value += entry->value;
+        } else {
+          *++last = *entry;
+        }
+      }
+      end_[column] = last + 1 - entries_.get();
+    });
+    Eigen::SparseMatrix<double> matrix(size, size);
+    int* const outer = matrix.outerIndexPtr();
+    for (int c = 0; c < size; ++c) outer[c + 1] = outer[c] + static_cast<int>(end_[c] - begin_[c]);
+    matrix.resizeNonZeros(outer[size]);
+    ForIndices(size, [&](int column) {
+      int at = outer[column];
+      for (size_t k = begin_[column]; k < end_[column]; ++k, ++at) {
+        matrix.innerIndexPtr()[at] = entries_[k].row;
+        matrix.valuePtr()[at] = entries_[k].value;
+      }
+    });
+    return matrix;
+  }
+
+ private:
+  struct Entry {
+    int row;
+    double value;
+  };
+  std::vector<size_t> begin_, end_;  // of the entries of each column
+  std::unique_ptr<Entry[]> entries_;
+};
+
+// What an element adds to the matrix: for each two of its vertices a number, row by row.
+void ElementBlock(const Feature& feature, int e, const std::vector<Shape>& poses,
+                  int quartic_segments, double* block) {
+  const int corners = feature.VerticesPerElement(), num_rows = feature.NumScalarRows();
+  double x[3 * Feature::kMaxVertices];
+  double rows[Feature::kMaxVertices * 3 * Feature::kMaxValues];
+  const double factor = 4 * feature.Weight(e) / static_cast<double>(poses.size());
+  std::fill_n(block, corners * corners, 0.0);
+  for (const Shape& pose : poses) {
+    feature.GatherCoordinates(e, e + 1, pose, x);
+    feature.ScalarRows(1, x, rows);
+    for (const double* k = rows; k != rows + corners * num_rows; k += corners) {
+      for (int i = 0; i < corners; ++i) {
+        for (int l = 0; l < corners; ++l) block[corners * i + l] += factor * k[i] * k[l];
+      }
+    }
+  }
+  if (quartic_segments > 0 && feature.As<EdgeLength>() != nullptr) {
+    const int p = feature.Element(e)[0], q = feature.Element(e)[1];
+    const Eigen::Vector3d turn =
+        poses.back().col(q) - poses.back().col(p) - poses.front().col(q) + poses.front().col(p);
+    const double share = 2 * feature.Weight(e) * turn.squaredNorm() /
+                         (static_cast<double>(quartic_segments) * quartic_segments);
+    for (int k = 0; k < 4; ++k) block[k] += k % 3 == 0 ? share : -share;
+  }
+}
+
 }  // namespace
 
 Eigen::SparseMatrix<double> ScalarMetric(const Metric& metric, const std::vector<Shape>& poses,
                                          int quartic_segments) {
-  std::vector<Eigen::Triplet<double>> triplets;
-  // Elements of the lower triangle only.
-  const auto add = [&](int i, int j, double value) {
-    if (i >= j) triplets.emplace_back(i, j, value);
-  };
-  const bool quartic = quartic_segments > 0;
+  const int num_vertices = metric.connectivity->NumVertices();
+  LowerTriangle sums(metric);
+  std::vector<double> blocks;
   for (const auto& feature : metric.features) {
-    // A sum feature is a dense row, and is left to the quasi-Newton updates.
     if (feature->IsSum()) continue;
-    const int corners = feature->VerticesPerElement(), num_rows = feature->NumScalarRows();
-    const bool adds_quartic = quartic && feature->As<EdgeLength>() != nullptr;
-    double x[3 * Feature::kMaxVertices];
-    double rows[Feature::kMaxVertices * 3 * Feature::kMaxValues];
-    double block[Feature::kMaxVertices * Feature::kMaxVertices];
-    for (int e = 0; e < feature->NumElements(); ++e) {
-      const int* const vertices = feature->Element(e);
-      const double factor = 4 * feature->Weight(e) / static_cast<double>(poses.size());
-      std::fill_n(block, corners * corners, 0.0);
-      for (const Shape& pose : poses) {
-        feature->GatherCoordinates(e, e + 1, pose, x);
-        feature->ScalarRows(1, x, rows);
-        for (const double* k = rows; k != rows + corners * num_rows; k += corners) {
-          for (int i = 0; i < corners; ++i) {
-            for (int l = 0; l < corners; ++l) block[corners * i + l] += factor * k[i] * k[l];
-          }
-        }
-      }
-      if (adds_quartic) {
-        const int p = vertices[0], q = vertices[1];
-        const Eigen::Vector3d turn =
-            poses.back().col(q) - poses.back().col(p) - poses.front().col(q) + poses.front().col(p);
-        const double share = 2 * feature->Weight(e) * turn.squaredNorm() /
-                             (static_cast<double>(quartic_segments) * quartic_segments);
-        for (int k = 0; k < 4; ++k) block[k] += k % 3 == 0 ? share : -share;
-      }
-      for (int i = 0; i < corners; ++i) {
-        for (int l = 0; l < corners; ++l) add(vertices[i], vertices[l], block[corners * i + l]);
+    const int size = feature->VerticesPerElement() * feature->VerticesPerElement();
+    blocks.resize(static_cast<size_t>(kElementsAtATime) * size);
+    for (int first = 0; first < feature->NumElements(); first += kElementsAtATime) {
+      const int count = std::min(kElementsAtATime, feature->NumElements() - first);
+      ForIndices(count, [&](int i) {
+        ElementBlock(*feature, first + i, poses, quartic_segments,
+                     &blocks[static_cast<size_t>(i) * size]);
+      });
+      for (int i = 0; i < count; ++i) {
+        sums.Add(*feature, first + i, &blocks[static_cast<size_t>(i) * size]);
       }
     }
   }
-  const int num_vertices = metric.connectivity->NumVertices();
   for (int v = 0; v < num_vertices; ++v) {
     double diagonal = 4 * kMinLambda * metric.vertex_area(v);
     if (metric.rigid.Active()) diagonal += 4 * metric.rigid.weights(v);
-    add(v, v, diagonal);
+    sums.Add(v, v, diagonal);
   }
-  Eigen::SparseMatrix<double> matrix(num_vertices, num_vertices);
-  matrix.setFromTriplets(triplets.begin(), triplets.end());
-  return matrix;
+  return std::move(sums).Matrix();
 }
 
 ChangeOfVariables::ChangeOfVariables(const Cholesky& factor, const PathEnergy& energy)
