@@ -12,6 +12,7 @@
 #include <shapespace/files/internal/read_formats.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/internal/check_positions.h>
+#include <shapespace/mesh/internal/check_structure.h>
 #include <shapespace/mesh/internal/check_words.h>
 #include <shapespace/mesh/internal/polygons.h>
 #include <shapespace/mesh/triangulate.h>
@@ -109,7 +110,7 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
     poses.names.push_back(pose.name.empty() ? pose.file : pose.name);
     if (poses.shapes.empty()) {
       poses.soup = std::move(pose);
-      policy.Enforce<MeshError>(CheckSoup(first));
+      policy.Enforce<MeshError>(internal::CheckMesh(first));
       poses.shapes.push_back(first.vertices);
       return;
     }

@@ -260,18 +260,22 @@ Findings CheckPositions(const Soup& soup) {
   return findings;
 }
 
+Findings CheckMesh(const Soup& soup) {
+  Findings findings = CheckStructure(soup);
+  if (!findings.empty()) return findings;
+  findings = CheckPositions(soup);
+  CheckDegenerate(soup, &findings);
+  CheckRepeatedPolygons(soup, &findings);
+  CheckManifold(soup, MakeSides(soup.NumVertices(), soup.polygon_begin, soup.corners), &findings);
+  CheckUnreferenced(soup, &findings);
+  SortBySeverity(&findings);
+  return findings;
+}
+
 }  // namespace internal
 
 Findings CheckSoup(const Soup& soup) {
-  Findings findings = internal::CheckStructure(soup);
-  if (!findings.empty()) return findings;
-  findings = internal::CheckPositions(soup);
-  CheckDegenerate(soup, &findings);
-  CheckRepeatedPolygons(soup, &findings);
-  CheckManifold(soup, internal::MakeSides(soup.NumVertices(), soup.polygon_begin, soup.corners),
-                &findings);
-  CheckUnreferenced(soup, &findings);
-  internal::SortBySeverity(&findings);
+  Findings findings = internal::CheckMesh(soup);
   const bool fatal = !findings.empty() && findings.front().severity == Severity::kFatal;
   if (!fatal) DescribeTopology(soup, &findings);
   return findings;

@@ -11,6 +11,9 @@ namespace shapespace::internal {
 /// indices are in range. All findings are fatal.
 std::vector<Finding> CheckStructure(const Soup& soup);
 
+/// The findings of `CheckSoup` but its notes, which take as long as all others.
+std::vector<Finding> CheckMesh(const Soup& soup);
+
 }  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_MESH_INTERNAL_CHECK_STRUCTURE_H_
