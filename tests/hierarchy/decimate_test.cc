@@ -1,13 +1,17 @@
 #include <shapespace/hierarchy/internal/decimate.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <random>
 #include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
+#include <shapespace/hierarchy/internal/quadric.h>
 
 #include "bodies/measure.h"
 #include "hierarchy/meshes.h"
@@ -122,6 +126,16 @@ TEST(PlanCollapses, TellsHowFarItIsAndCanBeStopped) {
     testing::Listener stops(last);
     EXPECT_THROW(PlanCollapses(*mesh.connectivity, mesh.poses, 100, {}, &stops), Cancelled);
   }
+}
+
+// A large mesh takes a while before anything collapses.
+TEST(PlanCollapses, CanBeStoppedBeforeTheFirstCollapse) {
+  const PosedMesh mesh = testing::Animal(80000, {"stand"});
+  testing::Listener listener(2);
+  std::vector<int> done;
+  listener.on_report = [&](const std::string&, int so_far) { done.push_back(so_far); };
+  EXPECT_THROW(PlanCollapses(*mesh.connectivity, mesh.poses, 100, {}, &listener), Cancelled);
+  EXPECT_EQ(done, std::vector<int>(2, 0));
 }
 
 TEST(PlanCollapses, GoesOnWhereAShorterPlanEnds) {
@@ -282,6 +296,30 @@ TEST(PlanCollapses, CopesWithVerticesOfManyTriangles) {
   const std::vector<Collapse> collapses = PlanCollapses(*connectivity, {vertices}, 40);
   EXPECT_EQ(collapses.back().triangles, 40);
   EXPECT_NEAR(VolumeOf(*After(*connectivity, collapses), vertices), 2 * M_PI / 3, 0.2);
+}
+
+TEST(Quadric, IsTheSameFunctionFromAnotherOrigin) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  const auto any = [&] { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
+  internal::Quadric quadric;
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> planes;
+  for (int i = 0; i < 5; ++i) {
+    planes.emplace_back(any().normalized(), any());
+    quadric.AddPlane(planes.back().first, planes.back().second, i + 1);
+  }
+  const Eigen::Vector3d origin = any();
+  const internal::Quadric moved = quadric.From(origin);
+  for (int k = 0; k < 10; ++k) {
+    const Eigen::Vector3d point = any();
+    double expected = 0;
+    for (int i = 0; i < 5; ++i) {
+      expected += (i + 1) * std::pow(planes[i].first.dot(point - planes[i].second), 2);
+    }
+    EXPECT_NEAR(quadric(point), expected, 1e-12 * expected);
+    EXPECT_NEAR(moved(point - origin), expected, 1e-12 * expected);
+  }
+  EXPECT_EQ(moved.AtOrigin(), moved(Eigen::Vector3d::Zero()));
 }
 
 TEST(PlanCollapses, TakesAnyTriangles) {

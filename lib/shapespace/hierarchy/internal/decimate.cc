@@ -36,7 +36,7 @@ constexpr int kLargestFan = 54;
 
 // In a round the cheapest collapses, one in so many, are made together, as far as they are
 // independent of each other.
-constexpr int kCandidateShare = 4;
+constexpr int kCandidateShare = 8;
 
 constexpr int kVerticesPerTask = 256;
 // Tasks between two reports, so that a person who wants to stop waits a few hundredths of a second.
