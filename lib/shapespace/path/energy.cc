@@ -74,7 +74,9 @@ PathEnergy::PathEnergy(std::shared_ptr<const Metric> metric, int inner, End end)
   blocks_ = std::clamp(num_vertices / 256, 1, 64);
   first_.resize(3 * num_vertices);
   last_.resize(3 * num_vertices);
-  for (const auto& feature : metric_->features) terms_.push_back(MakeTerm(feature));
+  terms_.resize(metric_->features.size());
+  ParallelFor(static_cast<int>(terms_.size()),
+              [&](int i) { terms_[i] = MakeTerm(metric_->features[i]); });
   if (metric_->rigid.Active()) {
     for (int v : vertex_of_row_) rigid_weights_.push_back(metric_->rigid.weights(v));
   }
