@@ -34,12 +34,14 @@ constexpr double kMinQuality = 0.2;
 // their number. A flat fan of triangles that are not slivers has up to 54.
 constexpr int kLargestFan = 54;
 
-// In a round the cheapest collapses, one in so many, are made together, as far as they are
-// independent of each other.
+// In a round one vertex in so many, the cheapest, are candidates, and those of their collapses that
+// are independent of each other are made together. With 4, the order differs more from that of a
+// queue, and energies of paths are higher by another .05 % in the mean over 75 pairs of real poses.
 constexpr int kCandidateShare = 8;
 
-constexpr int kVerticesPerTask = 256;
-// Tasks between two reports, so that a person who wants to stop waits a few hundredths of a second.
+constexpr int kDecimatedPerTask = 256;
+// Vertices between two reports, so that a person who wants to stop waits a few hundredths of a
+// second.
 constexpr int kVerticesPerReport = 1 << 15;
 
 constexpr double kImpossible = std::numeric_limits<double>::infinity();
@@ -59,7 +61,7 @@ class Decimator {
         cost_(num_vertices_, 0),
         target_(num_vertices_, -1),
         stale_(num_vertices_, 1),
-        mark_(num_vertices_, 0),
+        end_in_(num_vertices_, 0),
         touched_in_(num_vertices_, 0) {
     for (int corner = static_cast<int>(triangles_.size()) - 1; corner >= 0; --corner) {
       const int v = triangles_(corner % 3, corner / 3);
@@ -69,10 +71,10 @@ class Decimator {
     PlacePoses(poses);
     for (int v : pinned) fixed_[v] = 1;
     ForRanges(
-        num_vertices_, [&](int begin, int end) { ExamineFans(begin, end); }, kVerticesPerTask);
+        num_vertices_, [&](int begin, int end) { ExamineFans(begin, end); }, kDecimatedPerTask);
     quadrics_.resize(place_.cols());
     ForIndices(
-        num_vertices_, [&](int v) { BuildQuadrics(v); }, kVerticesPerTask);
+        num_vertices_, [&](int v) { BuildQuadrics(v); }, kDecimatedPerTask);
   }
 
   std::vector<Collapse> Run(int target, Progress* progress) {
@@ -91,10 +93,10 @@ class Decimator {
       removed_.resize(chosen_.size());
       ForIndices(
           static_cast<int>(chosen_.size()), [&](int i) { removed_[i] = Apply(chosen_[i]); },
-          kVerticesPerTask);
+          kDecimatedPerTask);
       ForIndices(
           static_cast<int>(touched_.size()), [&](int i) { RemoveDead(touched_[i]); },
-          kVerticesPerTask);
+          kDecimatedPerTask);
       for (size_t i = 0; i < chosen_.size(); ++i) {
         num_alive_ -= removed_[i];
         result.push_back({chosen_[i], target_[chosen_[i]], num_alive_});
@@ -251,7 +253,7 @@ class Decimator {
       if (begin > 0) report();
       ForIndices(
           std::min(kVerticesPerReport, num_stale - begin),
-          [&](int i) { FindCheapest(stale_list_[begin + i]); }, kVerticesPerTask);
+          [&](int i) { FindCheapest(stale_list_[begin + i]); }, kDecimatedPerTask);
     }
     candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
                                      [&](int v) { return !(cost_[v] <= most); }),
@@ -260,11 +262,11 @@ class Decimator {
               [&](int v, int w) { return cost_[v] < cost_[w] || (cost_[v] == cost_[w] && v < w); });
   }
 
-  // Takes the candidates that are independent of cheaper ones. A collapse changes the fans of the
-  // neighbours of `from`, and reads those of `from` and `to`.
+  // Takes the candidates that are independent of cheaper ones. A collapse changes the triangles of
+  // `from`, and what belongs to `from` and `to`; whether another one is possible, and its cost,
+  // depend on these at neighbours of its own `from` only.
   void ChooseIndependent() {
     ++round_;
-    const int changed = 2 * round_, end = changed + 1;
     chosen_.clear();
     touched_.clear();
     const auto touch = [&](int v) {
@@ -275,25 +277,19 @@ class Decimator {
       if (cost_[v] == kImpossible) cost_[v] = 0;
     };
     for (int from : candidates_) {
-      const int to = target_[from];
-      if (mark_[from] >= changed || mark_[to] >= changed) continue;
       bool independent = true;
       ForFan(from, [&](int a, int b) {
-        independent = independent && mark_[a] != end && mark_[b] != end;
+        independent = independent && end_in_[a] != round_ && end_in_[b] != round_;
       });
       if (!independent) continue;
       chosen_.push_back(from);
-      ForFan(from, [&](int a, int b) {
-        mark_[a] = std::max(mark_[a], changed);
-        mark_[b] = std::max(mark_[b], changed);
-        touch(a);
-        touch(b);
-      });
-      mark_[from] = mark_[to] = end;
-      ForFan(to, [&](int a, int b) {
-        touch(a);
-        touch(b);
-      });
+      for (int end : {from, target_[from]}) {
+        end_in_[end] = round_;
+        ForFan(end, [&](int a, int b) {
+          touch(a);
+          touch(b);
+        });
+      }
     }
   }
 
@@ -462,7 +458,8 @@ class Decimator {
   std::vector<int> live_;  // vertices that may still collapse
   // Of a round.
   int round_ = 0;
-  std::vector<int> mark_, touched_in_, candidates_, stale_list_, chosen_, removed_, touched_;
+  std::vector<int> end_in_, touched_in_;  // the last round in which a vertex was an end, or touched
+  std::vector<int> candidates_, stale_list_, chosen_, removed_, touched_;
   std::vector<double> live_costs_;
 };
 

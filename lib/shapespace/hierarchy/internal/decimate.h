@@ -17,8 +17,9 @@ struct Collapse {
 
 /// Edge collapses, in order, that reduce a mesh to few triangles, the same for all `poses` (3 x m
 /// each, in any unit): paired progressive meshes (Hoppe, "Progressive Meshes", SIGGRAPH 1996;
-/// Kilian et al. 2007, section 3). The vertex whose removal costs least is removed first; the cost
-/// is the quadric error summed over the poses, each scaled to area 1, with additional planes along
+/// Kilian et al. 2007, section 3). The vertices whose removal costs least are removed first, in
+/// rounds of collapses that are independent of each other and made on all threads; the cost is the
+/// quadric error summed over the poses, each scaled to area 1, with additional planes along
 /// boundaries. No collapse changes the topology, flips a triangle or makes a sliver in any pose.
 /// Vertices of `pinned`, non-manifold vertices and vertices without triangles are kept, and so are
 /// vertices with more than 54 triangles as long as they have so many. Ends when `triangles` are
