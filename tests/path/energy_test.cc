@@ -380,29 +380,6 @@ TEST(PathEnergy, OfAnotherNumberOfShapesIsThatOfANewObject) {
   EXPECT_THROW(kept.SetInner(0), InvalidOptions);
 }
 
-TEST(PathEnergy, LoadedWithOtherEndsIsThatOfANewObject) {
-  const ShapeFamily sheet = MakeSheet(1, 1, 20, 20);  // more than one block of rows
-  const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0), sheet.pose(90)});
-  for (const PathEnergy::End end : {PathEnergy::End::kFixed, PathEnergy::End::kFree}) {
-    PathEnergy kept(metric, 3, end);
-    // The same ends, another first shape, another last one, and one vertex of it.
-    std::vector<std::vector<Shape>> paths(5, NoisyBlend(sheet.pose(0), sheet.pose(90), 3, 0.01));
-    for (int i = 2; i < 5; ++i) paths[i].front() = sheet.pose(10);
-    for (int i = 3; i < 5; ++i) paths[i].back() = sheet.pose(80);
-    paths[4].back().col(17) *= 1.01;
-    for (std::vector<Shape>& shapes : paths) {
-      shapes.resize(kept.NumShapes());
-      PathEnergy fresh(metric, 3, end);
-      std::vector<double> unknowns(kept.Size()), gradient(kept.Size()), other(kept.Size());
-      kept.Load(shapes, unknowns.data());
-      fresh.Load(shapes, unknowns.data());
-      EXPECT_EQ(kept.Evaluate(unknowns.data(), gradient.data()),
-                fresh.Evaluate(unknowns.data(), other.data()));
-      EXPECT_EQ(gradient, other);
-    }
-  }
-}
-
 // The energy is computed by kernels of its own.
 TEST(ChordLengths, TheirSquaresAddUpToTheEnergy) {
   const ShapeFamily bar = MakeBar(4, 1, 1, 12, 3, 3);
