@@ -13,7 +13,11 @@ namespace fs = std::filesystem;
 
 class CoreQuotaTest : public ::testing::Test {
  protected:
-  CoreQuotaTest() : root_(fs::path(::testing::TempDir()) / "core_quota_test") {
+  // Tests may run at a time.
+  CoreQuotaTest()
+      : root_(fs::path(::testing::TempDir()) /
+              (std::string("core_quota_test_") +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::remove_all(root_);
     fs::create_directories(root_ / "slice" / "job");
   }

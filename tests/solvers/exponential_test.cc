@@ -959,7 +959,7 @@ TEST(Extrapolate, LongStepsLeadBackToo) {
     options.metric = MetricOptions::Strain();
     const Path path =
         Interpolate(animal.connectivity, {animal.pose("stand"), animal.pose(pose)}, options).path;
-    const auto [longer, summary] = Extrapolate(path, 8);
+    const auto [longer, summary] = Extrapolate(path, 10);
     EXPECT_TRUE(summary.Converged()) << summary.FullReport();
     int increments = 0;
     for (const ExponentialSummary::Step& step : summary.steps) {

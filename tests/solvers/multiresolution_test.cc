@@ -205,10 +205,13 @@ TEST(Interpolate, MeasuresAllLevelsInOneUnit) {
   const Shape small = tube.pose(0);
   GeodesicOptions options;
   options.shapes = 3;
+  options.coarsest = 100;
   options.tolerance = 1e-7;
   options.metric.lambda = 0;
   const auto [path, summary] = Interpolate(tube.connectivity, {small, 2 * small}, options);
-  const Hierarchy hierarchy(tube.connectivity, {path.shapes.front(), path.shapes.back()});
+  HierarchyOptions levels;
+  levels.coarsest = options.coarsest;
+  const Hierarchy hierarchy(tube.connectivity, {path.shapes.front(), path.shapes.back()}, levels);
   const auto area = [&](int vertices) {
     int level = 0;
     while (hierarchy.LevelConnectivity(level)->NumVertices() != vertices) ++level;
