@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -197,8 +198,8 @@ class Fit {
   void FindPose(const Level& level, const Shape& rest, Shape* shape) {
     const internal::Stopwatch stopwatch;
     Stops();
-    *shape = internal::FitGradients(*level.connectivity, rest, HeldOn(level), places_,
-                                    internal::kIdentity);
+    *shape = internal::GradientFit(*level.connectivity, rest, HeldOn(level),
+                                   internal::kIdentity)(places_);
     CorrespondenceSummary::Stage stage;
     stage.vertices = static_cast<int>(shape->cols());
     stage.name = "gradients";
@@ -484,15 +485,18 @@ Path CarryPath(const CorrespondenceResult& result, const Path& path,
   for (int y = 0; y < result.map.gap.size(); ++y) {
     if (result.map.gap(y) < kCovered) covered.push_back(y);
   }
+  // Where the template has no corresponding part, the target moves as its nearest covered part.
+  std::optional<internal::GradientFit> fit;
+  if (static_cast<int>(covered.size()) < num_vertices) {
+    fit.emplace(*target_connectivity, frame.In(target_shape), covered, 0);
+  }
   std::vector<Shape> carried;
   for (int i = 0; i < path.NumShapes(); ++i) {
     carried.push_back(CarryAlong(result.map.to_template, *path.metric->connectivity, result.fitted,
                                  path.Placed(i), target_shape));
-    if (static_cast<int>(covered.size()) == num_vertices) continue;
-    // Where the template has no corresponding part, the target moves as its nearest covered part.
+    if (!fit) continue;
     const Shape places = frame.In(carried.back())(Eigen::all, covered);
-    carried.back() = frame.Out(
-        internal::FitGradients(*target_connectivity, frame.In(target_shape), covered, places, 0));
+    carried.back() = frame.Out((*fit)(places));
   }
   MetricOptions options = path.metric->options;
   if (!EnclosesVolume(target_connectivity->Triangles(), target_shape)) options.volume = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -71,53 +72,28 @@ void AddDifference(const Element& f, const Element& g,
   AddSquare(unknowns, gradients, std::min(f.quality, g.quality), entries);
 }
 
-// Held vertices go to the right-hand side; their equations become x = place.
-void Hold(const std::vector<int>& held, const Shape& places, Eigen::SparseMatrix<double>* matrix,
-          Eigen::MatrixX3d* right) {
-  std::vector<bool> is_held(right->rows(), false);
-  Eigen::MatrixX3d known = Eigen::MatrixX3d::Zero(right->rows(), 3);
-  for (size_t i = 0; i < held.size(); ++i) {
-    is_held[held[i]] = true;
-    known.row(held[i]) = places.col(static_cast<Eigen::Index>(i)).transpose();
-  }
-  for (int column = 0; column < matrix->outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(*matrix, column); entry; ++entry) {
-      const int row = static_cast<int>(entry.row());
-      if (!is_held[row] && !is_held[column]) continue;
-      if (row == column) {
-        entry.valueRef() = 1;
-        continue;
-      }
-      if (!is_held[row]) right->row(row) -= entry.value() * known.row(column);
-      if (!is_held[column]) right->row(column) -= entry.value() * known.row(row);
-      entry.valueRef() = 0;
-    }
-  }
-  for (const int v : held) right->row(v) = known.row(v);
-}
-
 }  // namespace
 
-Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
-                   const std::vector<int>& held, const Shape& places, double identity) {
+GradientFit::GradientFit(const Connectivity& connectivity, const Shape& rest, std::vector<int> held,
+                         double identity)
+    : num_vertices_(connectivity.NumVertices()), held_(std::move(held)) {
   const Eigen::Matrix3Xi& triangles = connectivity.Triangles();
-  const int num_vertices = connectivity.NumVertices();
-  const int num_unknowns = num_vertices + connectivity.NumTriangles();
+  const int num_unknowns = num_vertices_ + connectivity.NumTriangles();
   std::vector<Element> elements(connectivity.NumTriangles());
   std::vector<Eigen::Triplet<double>> entries;
-  Eigen::MatrixX3d right = Eigen::MatrixX3d::Zero(num_unknowns, 3);
-  for (int v = 0; v < num_vertices; ++v) {
+  right_ = Eigen::MatrixX3d::Zero(num_unknowns, 3);
+  for (int v = 0; v < num_vertices_; ++v) {
     entries.emplace_back(v, v, kRegularisation);
-    right.row(v) = kRegularisation * rest.col(v).transpose();
+    right_.row(v) = kRegularisation * rest.col(v).transpose();
   }
   for (int f = 0; f < triangles.cols(); ++f) {
-    elements[f] = MakeElement(rest, triangles.col(f), num_vertices + f);
+    elements[f] = MakeElement(rest, triangles.col(f), num_vertices_ + f);
     const auto& [unknowns, gradients, quality] = elements[f];
     const double weight = identity * quality;
     AddSquare({unknowns.begin(), unknowns.end()}, {gradients.begin(), gradients.end()}, weight,
               &entries);
-    for (int k = 0; k < 4; ++k) right.row(unknowns[k]) += weight * gradients[k].transpose();
-    entries.emplace_back(num_vertices + f, num_vertices + f, kRegularisation);
+    for (int k = 0; k < 4; ++k) right_.row(unknowns[k]) += weight * gradients[k].transpose();
+    entries.emplace_back(num_vertices_ + f, num_vertices_ + f, kRegularisation);
   }
   for (int e = 0; e < connectivity.NumTriangleEdges(); ++e) {
     const IndexLists::Row around = connectivity.TrianglesOfEdges()[e];
@@ -127,8 +103,35 @@ Shape FitGradients(const Connectivity& connectivity, const Shape& rest,
   }
   Eigen::SparseMatrix<double> matrix(num_unknowns, num_unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  Hold(held, places, &matrix, &right);
-  return Solve(Cholesky(matrix), right).topRows(num_vertices).transpose();
+
+  // The equations of held vertices become x = place, and their couplings go to the right-hand side.
+  std::vector<int> place_of(num_unknowns, -1);
+  for (size_t i = 0; i < held_.size(); ++i) place_of[held_[i]] = static_cast<int>(i);
+  std::vector<Eigen::Triplet<double>> couplings;
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
+      const int row = static_cast<int>(entry.row());
+      if (place_of[row] < 0 && place_of[column] < 0) continue;
+      if (row == column) {
+        entry.valueRef() = 1;
+        continue;
+      }
+      if (place_of[row] < 0) couplings.emplace_back(row, place_of[column], entry.value());
+      if (place_of[column] < 0) couplings.emplace_back(column, place_of[row], entry.value());
+      entry.valueRef() = 0;
+    }
+  }
+  couplings_.resize(num_unknowns, static_cast<Eigen::Index>(held_.size()));
+  couplings_.setFromTriplets(couplings.begin(), couplings.end());
+  factor_.emplace(matrix);
+}
+
+Shape GradientFit::operator()(const Shape& places) const {
+  Eigen::MatrixX3d right = right_ - couplings_ * places.transpose();
+  for (size_t i = 0; i < held_.size(); ++i) {
+    right.row(held_[i]) = places.col(static_cast<Eigen::Index>(i)).transpose();
+  }
+  return Solve(*factor_, right).topRows(num_vertices_).transpose();
 }
 
 }  // namespace shapespace::internal
