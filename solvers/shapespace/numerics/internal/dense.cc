@@ -3,32 +3,20 @@
 // The interface of Fortran, which every BLAS has.
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
-void spotrf_(const char* uplo, const int* n, float* a, const int* lda, int* info);
 void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m,
             const int* n, const double* alpha, const double* a, const int* lda, double* b,
             const int* ldb);
-void strsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m,
-            const int* n, const float* alpha, const float* a, const int* lda, float* b,
-            const int* ldb);
 void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
             const double* a, const int* lda, const double* beta, double* c, const int* ldc);
-void ssyrk_(const char* uplo, const char* trans, const int* n, const int* k, const float* alpha,
-            const float* a, const int* lda, const float* beta, float* c, const int* ldc);
 void dgemm_(const char* transa, const char* transb, const int* m, const int* n, const int* k,
             const double* alpha, const double* a, const int* lda, const double* b, const int* ldb,
             const double* beta, double* c, const int* ldc);
-void sgemm_(const char* transa, const char* transb, const int* m, const int* n, const int* k,
-            const float* alpha, const float* a, const int* lda, const float* b, const int* ldb,
-            const float* beta, float* c, const int* ldc);
 }
 
 namespace shapespace::internal {
 namespace {
 
-template <typename Scalar>
-constexpr Scalar kOne = 1;
-template <typename Scalar>
-constexpr Scalar kMinusOne = -1;
+constexpr double kOne = 1, kMinusOne = -1;
 
 }  // namespace
 
@@ -38,36 +26,17 @@ bool FactorDense(int n, double* a, int lda) {
   return info == 0;
 }
 
-bool FactorDense(int n, float* a, int lda) {
-  int info = 0;
-  spotrf_("L", &n, a, &lda, &info);
-  return info == 0;
-}
-
 void SolveDenseTransposed(int m, int n, const double* l, int ldl, double* b, int ldb) {
-  dtrsm_("R", "L", "T", "N", &m, &n, &kOne<double>, l, &ldl, b, &ldb);
-}
-
-void SolveDenseTransposed(int m, int n, const float* l, int ldl, float* b, int ldb) {
-  strsm_("R", "L", "T", "N", &m, &n, &kOne<float>, l, &ldl, b, &ldb);
+  dtrsm_("R", "L", "T", "N", &m, &n, &kOne, l, &ldl, b, &ldb);
 }
 
 void SubtractSquare(int n, int k, const double* a, int lda, double* c, int ldc) {
-  dsyrk_("L", "N", &n, &k, &kMinusOne<double>, a, &lda, &kOne<double>, c, &ldc);
-}
-
-void SubtractSquare(int n, int k, const float* a, int lda, float* c, int ldc) {
-  ssyrk_("L", "N", &n, &k, &kMinusOne<float>, a, &lda, &kOne<float>, c, &ldc);
+  dsyrk_("L", "N", &n, &k, &kMinusOne, a, &lda, &kOne, c, &ldc);
 }
 
 void SubtractProduct(int m, int n, int k, const double* a, int lda, const double* b, int ldb,
                      double* c, int ldc) {
-  dgemm_("N", "T", &m, &n, &k, &kMinusOne<double>, a, &lda, b, &ldb, &kOne<double>, c, &ldc);
-}
-
-void SubtractProduct(int m, int n, int k, const float* a, int lda, const float* b, int ldb,
-                     float* c, int ldc) {
-  sgemm_("N", "T", &m, &n, &k, &kMinusOne<float>, a, &lda, b, &ldb, &kOne<float>, c, &ldc);
+  dgemm_("N", "T", &m, &n, &k, &kMinusOne, a, &lda, b, &ldb, &kOne, c, &ldc);
 }
 
 }  // namespace shapespace::internal

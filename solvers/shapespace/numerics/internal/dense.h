@@ -1,28 +1,23 @@
 #ifndef SHAPESPACE_NUMERICS_INTERNAL_DENSE_H_
 #define SHAPESPACE_NUMERICS_INTERNAL_DENSE_H_
 
-// The dense kernels of BLAS and LAPACK that a sparse factorisation needs, overloaded for both
-// precisions. Matrices are stored by columns; the first number of column j of `a` is a + j * lda.
+// The dense kernels of BLAS and LAPACK that a sparse factorisation needs. Matrices are stored by
+// columns; the first number of column j of `a` is a + j * lda.
 
 namespace shapespace::internal {
 
 /// Lower triangle of `a` (n x n) <- its Cholesky factor. \return whether it is positive definite.
 bool FactorDense(int n, double* a, int lda);
-bool FactorDense(int n, float* a, int lda);
 
 /// b <- b l^{-T}: `l` (n x n) is lower triangular, `b` is m x n.
 void SolveDenseTransposed(int m, int n, const double* l, int ldl, double* b, int ldb);
-void SolveDenseTransposed(int m, int n, const float* l, int ldl, float* b, int ldb);
 
 /// Lower triangle of `c` (n x n) <- c - a a^T: `a` is n x k.
 void SubtractSquare(int n, int k, const double* a, int lda, double* c, int ldc);
-void SubtractSquare(int n, int k, const float* a, int lda, float* c, int ldc);
 
 /// c <- c - a b^T: `a` is m x k, `b` is n x k, `c` is m x n.
 void SubtractProduct(int m, int n, int k, const double* a, int lda, const double* b, int ldb,
                      double* c, int ldc);
-void SubtractProduct(int m, int n, int k, const float* a, int lda, const float* b, int ldb,
-                     float* c, int ldc);
 
 }  // namespace shapespace::internal
 

@@ -28,8 +28,9 @@ void ForTiles(int count, const Body& body) {
 
 int Tiles(int count) { return (count + kTile - 1) / kTile; }
 
-// Computed in the precision of `Scalar`, and rounded to `Stored`.
-template <typename Scalar, typename Stored>
+// Computed in double precision, because in single precision the matrices of large meshes are not
+// definite, and rounded to `Stored`.
+template <typename Stored>
 class Multifrontal {
  public:
   Multifrontal(const Elimination& elimination, const Eigen::SparseMatrix<double>& matrix,
@@ -58,7 +59,7 @@ class Multifrontal {
  private:
   struct Scratch {
     std::vector<int> places;
-    std::vector<Scalar> block;
+    std::vector<double> block;
   };
 
   void Factor(int s, Scratch* scratch) {
@@ -67,20 +68,19 @@ class Multifrontal {
     const size_t size = static_cast<size_t>(node.width) * node.height;
     const int below = node.height - node.width;
     scratch->block.assign(size, 0);
-    Scalar* const block = scratch->block.data();
+    double* const block = scratch->block.data();
     for (size_t e = elimination_.entry_begin[s]; e < elimination_.entry_begin[s + 1]; ++e) {
-      block[elimination_.entry_place[e]] +=
-          static_cast<Scalar>(matrix_[elimination_.entry_index[e]]);
+      block[elimination_.entry_place[e]] += matrix_[elimination_.entry_index[e]];
     }
-    Scalar* update = nullptr;
+    double* update = nullptr;
     if (below > 0) {
-      updates_[s].reset(new Scalar[static_cast<size_t>(below) * below]);
+      updates_[s].reset(new double[static_cast<size_t>(below) * below]);
       update = updates_[s].get();
       ForTiles(Tiles(below), [&](int tile) {
         const int end = std::min(below, (tile + 1) * kTile);
         for (int j = tile * kTile; j < end; ++j) {
           std::fill(update + static_cast<size_t>(j) * below + j,
-                    update + static_cast<size_t>(j + 1) * below, Scalar(0));
+                    update + static_cast<size_t>(j + 1) * below, 0.0);
         }
       });
     }
@@ -94,14 +94,14 @@ class Multifrontal {
     }
     std::copy_n(block, size, values_ + node.values);
     const int tiles = Tiles(below);
-    const Scalar* const lower = block + node.width;
+    const double* const lower = block + node.width;
     ForTiles(tiles * (tiles + 1) / 2, [&](int i) {
       int column = 0;
       for (; i >= tiles - column; ++column) i -= tiles - column;
       const int row = column + i;
       const int to_row = row * kTile, to_column = column * kTile;
       const int num_rows = std::min(kTile, below - to_row);
-      Scalar* const target = update + static_cast<size_t>(to_column) * below + to_row;
+      double* const target = update + static_cast<size_t>(to_column) * below + to_row;
       if (row == column) {
         SubtractSquare(num_rows, node.width, lower + to_row, node.height, target, below);
       } else {
@@ -112,7 +112,7 @@ class Multifrontal {
   }
 
   // Adds what `child` leaves to the front of its parent `node`.
-  void Add(int child, const Supernode& node, Scalar* block, Scalar* update,
+  void Add(int child, const Supernode& node, double* block, double* update,
            std::vector<int>* places) const {
     const Supernode& from = elimination_.supernodes[child];
     const int count = from.height - from.width, below = node.height - node.width;
@@ -124,27 +124,27 @@ class Multifrontal {
       (*places)[i] = at;
     }
     const int* const place = places->data();
-    const Scalar* const source = updates_[child].get();
+    const double* const source = updates_[child].get();
     ForTiles(Tiles(count), [&](int tile) {
       const int end = std::min(count, (tile + 1) * kTile);
       for (int j = tile * kTile; j < end; ++j) {
         const int column = place[j];
-        Scalar* const target =
+        double* const target =
             column < node.width
                 ? block + static_cast<size_t>(column) * node.height
                 : update + static_cast<size_t>(column - node.width) * below - node.width;
-        const Scalar* const source_column = source + static_cast<size_t>(j) * count;
+        const double* const source_column = source + static_cast<size_t>(j) * count;
         for (int i = j; i < count; ++i) target[place[i]] += source_column[i];
       }
     });
   }
 
   // Factors the columns of a supernode.
-  static bool FactorBlock(const Supernode& node, Scalar* block) {
+  static bool FactorBlock(const Supernode& node, double* block) {
     const int height = node.height;
     for (int begin = 0; begin < node.width; begin += kTile) {
       const int width = std::min(kTile, node.width - begin), end = begin + width;
-      Scalar* const columns = block + static_cast<size_t>(begin) * height;
+      double* const columns = block + static_cast<size_t>(begin) * height;
       if (!FactorDense(width, columns + begin, height)) return false;
       ForTiles(Tiles(height - end), [&](int tile) {
         const int row = end + tile * kTile;
@@ -155,7 +155,7 @@ class Multifrontal {
       ForTiles(right * down, [&](int i) {
         const int column = end + i % right * kTile, row = end + i / right * kTile;
         if (row < column) return;
-        Scalar* const target = block + static_cast<size_t>(column) * height + row;
+        double* const target = block + static_cast<size_t>(column) * height + row;
         SubtractProduct(std::min(kTile, height - row), std::min(kTile, node.width - column), width,
                         columns + row, height, columns + column, height, target, height);
       });
@@ -168,7 +168,7 @@ class Multifrontal {
   Stored* const values_;
   // Of every supernode whose parent has not been factored yet: what it adds to the parent's front,
   // the lower triangle of a square matrix.
-  std::vector<std::unique_ptr<Scalar[]>> updates_;
+  std::vector<std::unique_ptr<double[]>> updates_;
   std::vector<std::vector<int>> children_;
   std::atomic<bool> definite_ = true;
 };
@@ -179,7 +179,7 @@ template <typename Scalar>
 bool FactorMultifrontal(const Elimination& elimination, const Eigen::SparseMatrix<double>& matrix,
                         Scalar* values) {
   const OneThread one_thread;
-  return Multifrontal<double, Scalar>(elimination, matrix, values).Run();
+  return Multifrontal<Scalar>(elimination, matrix, values).Run();
 }
 
 template bool FactorMultifrontal(const Elimination&, const Eigen::SparseMatrix<double>&, double*);
