@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -50,25 +52,31 @@ INSTANTIATE_TEST_SUITE_P(
       return std::filesystem::path(info.param.first).parent_path().string();
     });
 
-// A part of the tail turns over. With 15 shapes alone this takes a single segment, which is 1.35
-// times as fast as the mean, at 6 % more energy.
+// A part of the tail turns over. With 15 shapes alone this takes a single segment on the way back,
+// which is 1.35 times as fast as the mean, at 4 % more energy.
 TEST(RealPosesThatTurnOver, MoveEvenly) {
   const std::filesystem::path folder = SHAPESPACE_DATA_DIR;
   const std::string first = (folder / "cat/02.obj").string();
+  const std::string last = (folder / "cat/04.obj").string();
   if (folder.empty() || !std::filesystem::exists(first)) {
     GTEST_SKIP() << "no real meshes: set the CMake cache path SHAPESPACE_DATA_DIR";
   }
-  const auto [path, summary] = Interpolate(ReadPoses({first, (folder / "cat/04.obj").string()}));
-  EXPECT_EQ(summary.termination, Termination::kConverged) << summary.FullReport();
-  EXPECT_LT(summary.quality.speed_max, 1.1) << summary.FullReport();
-  // The two solves that remove the jump are the last of the table: more shapes, then as many as
-  // were asked for.
-  ASSERT_GE(summary.levels.size(), 3u);
-  const GeodesicSummary::Level& before = summary.levels[summary.levels.size() - 3];
-  const GeodesicSummary::Level& last = summary.levels.back();
-  EXPECT_TRUE(last.kept);
-  EXPECT_EQ(before.shapes, last.shapes);
-  EXPECT_LT(last.energy, before.energy);
+  int removed = 0;
+  for (const std::vector<std::string>& pair :
+       {std::vector<std::string>{first, last}, std::vector<std::string>{last, first}}) {
+    const auto [path, summary] = Interpolate(ReadPoses(pair));
+    EXPECT_EQ(summary.termination, Termination::kConverged) << summary.FullReport();
+    EXPECT_LT(summary.quality.speed_max, 1.1) << summary.FullReport();
+    // Two solves remove a jump, the last of the table: more shapes, then as many as were asked for.
+    ASSERT_GE(summary.levels.size(), 3u);
+    const GeodesicSummary::Level* const end = &summary.levels.back();
+    if (end[-1].shapes < end->shapes) continue;
+    ++removed;
+    EXPECT_TRUE(end->kept);
+    EXPECT_EQ(end[-2].shapes, end->shapes);
+    EXPECT_LT(end->energy, end[-2].energy);
+  }
+  EXPECT_GE(removed, 1) << "neither path jumped at first: choose other poses for this test";
 }
 
 // The forearms pass through the body, from behind to the front.

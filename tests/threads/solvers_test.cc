@@ -1,6 +1,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -81,6 +82,29 @@ TEST(Cholesky, IsTheSameForAnyNumberOfThreads) {
     });
     for (const Eigen::VectorXd& x : results) EXPECT_TRUE(x == results[0]);
   }
+}
+
+// Blocks with this much fill are ordered by METIS, whose random numbers come from a generator that
+// all threads share.
+TEST(Cholesky, IsTheSameWhileOthersAreAnalysed) {
+  const int n = 32, size = n * n * n;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < size; ++i) {
+    entries.emplace_back(i, i, 7);
+    if (i % n < n - 1) entries.emplace_back(i + 1, i, -1);
+    if (i / n % n < n - 1) entries.emplace_back(i + n, i, -1);
+    if (i + n * n < size) entries.emplace_back(i + n * n, i, -1);
+  }
+  Eigen::SparseMatrix<double> block(size, size);
+  block.setFromTriplets(entries.begin(), entries.end());
+  const std::vector<int> alone = internal::Cholesky(block).Permutation();
+  std::vector<std::vector<int>> together(4);
+  std::vector<std::thread> threads;
+  for (std::vector<int>& order : together) {
+    threads.emplace_back([&] { order = internal::Cholesky(block).Permutation(); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const std::vector<int>& order : together) EXPECT_TRUE(order == alone);
 }
 
 TEST(Correspond, IsTheSameForAnyNumberOfThreads) {

@@ -40,7 +40,7 @@ constexpr int kLargestFan = 54;
 constexpr int kCandidateShare = 8;
 // The last vertices collapse in the order of a queue: it takes a few milliseconds, and paths on the
 // coarsest levels, which the order decides, end in poor local minima less often.
-constexpr int kInOrder = 300;
+constexpr int kInOrder = 200;
 
 constexpr int kDecimatedPerTask = 256;
 // Vertices between two reports, so that a person who wants to stop waits a few hundredths of a

@@ -43,8 +43,7 @@ class CholeskyFactor {
   /// Factors another matrix of the same pattern, with the same elimination order and the same
   /// memory.
   /// \throw SolverError if it is not positive definite, or memory runs out; then the object must
-  /// not
-  ///        be used until the next update.
+  ///        not be used until the next update.
   void Update(const Eigen::SparseMatrix<double>& matrix);
 
   int Size() const { return elimination_->Size(); }

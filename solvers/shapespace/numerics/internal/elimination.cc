@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <string>
 
 #include <cholmod.h>
@@ -46,8 +47,14 @@ class Analysis {
       common_.nmethods = 1;
       common_.method[0].ordering = CHOLMOD_GIVEN;
     }
-    factor_ = order.empty() ? cholmod_l_analyze(&view, &common_)
-                            : cholmod_l_analyze_p(&view, order.data(), nullptr, 0, &common_);
+    {
+      // METIS draws from rand(), which all threads share: two analyses at a time would change each
+      // other's order of elimination.
+      static std::mutex one_at_a_time;
+      const std::lock_guard<std::mutex> lock(one_at_a_time);
+      factor_ = order.empty() ? cholmod_l_analyze(&view, &common_)
+                              : cholmod_l_analyze_p(&view, order.data(), nullptr, 0, &common_);
+    }
     if (common_.status == CHOLMOD_OK) return;
     const std::string unknowns = "a matrix of " + std::to_string(matrix.rows()) + " unknowns";
     const int status = common_.status;
@@ -126,17 +133,20 @@ Elimination::Elimination(const Eigen::SparseMatrix<double>& matrix, int group) {
                           static_cast<int>(row_begin[s + 1] - row_begin[s]),
                           static_cast<size_t>(row_begin[s]), static_cast<size_t>(value_begin[s])});
   }
-  ListEntries(matrix);
-  GrowBranches();
+  std::vector<int> node_of_row(factor.n);
+  for (size_t s = 0; s < supernodes.size(); ++s) {
+    std::fill_n(node_of_row.begin() + supernodes[s].begin, supernodes[s].width,
+                static_cast<int>(s));
+  }
+  ListEntries(matrix, node_of_row);
+  GrowBranches(node_of_row);
 }
 
-void Elimination::ListEntries(const Eigen::SparseMatrix<double>& matrix) {
+void Elimination::ListEntries(const Eigen::SparseMatrix<double>& matrix,
+                              const std::vector<int>& node_of_row) {
   const int size = Size(), num_nodes = static_cast<int>(supernodes.size());
-  std::vector<int> inverse(size), node_of(size);
+  std::vector<int> inverse(size);
   for (int i = 0; i < size; ++i) inverse[permutation[i]] = i;
-  for (int s = 0; s < num_nodes; ++s) {
-    std::fill_n(node_of.begin() + supernodes[s].begin, supernodes[s].width, s);
-  }
   const int* const outer = matrix.outerIndexPtr();
   const int* const inner = matrix.innerIndexPtr();
   const auto for_entries = [&](const auto& body) {
@@ -149,17 +159,17 @@ void Elimination::ListEntries(const Eigen::SparseMatrix<double>& matrix) {
     }
   };
   entry_begin.assign(num_nodes + 1, 0);
-  for_entries([&](int, int column, int) { ++entry_begin[node_of[column] + 1]; });
+  for_entries([&](int, int column, int) { ++entry_begin[node_of_row[column] + 1]; });
   for (int s = 0; s < num_nodes; ++s) entry_begin[s + 1] += entry_begin[s];
   entry_index.resize(entry_begin.back());
   entry_place.resize(entry_begin.back());
   std::vector<size_t> next(entry_begin.begin(), entry_begin.end() - 1);
   for_entries([&](int i, int column, int row) {
-    const int s = node_of[column];
+    const int s = node_of_row[column];
     const Supernode& node = supernodes[s];
     const int* const first = &rows[node.rows];
     const int at =
-        node_of[row] == s
+        node_of_row[row] == s
             ? row - node.begin
             : static_cast<int>(std::lower_bound(first + node.width, first + node.height, row) -
                                first);
@@ -169,12 +179,8 @@ void Elimination::ListEntries(const Eigen::SparseMatrix<double>& matrix) {
   });
 }
 
-void Elimination::GrowBranches() {
+void Elimination::GrowBranches(const std::vector<int>& node_of_row) {
   const int num_nodes = static_cast<int>(supernodes.size());
-  std::vector<int> node_of_row(permutation.size());
-  for (int s = 0; s < num_nodes; ++s) {
-    std::fill_n(node_of_row.begin() + supernodes[s].begin, supernodes[s].width, s);
-  }
   // The parent of a supernode contains the first row below it.
   for (const Supernode& node : supernodes) {
     parent.push_back(node.height > node.width ? node_of_row[rows[node.rows + node.width]] : -1);

@@ -54,8 +54,8 @@ struct Elimination {
   std::vector<int> entry_index, entry_place;
 
  private:
-  void ListEntries(const Eigen::SparseMatrix<double>& matrix);
-  void GrowBranches();
+  void ListEntries(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& node_of_row);
+  void GrowBranches(const std::vector<int>& node_of_row);
   std::vector<int> AssignBranches() const;
   template <typename IsOutside>
   void GatherOutsideRows(const IsOutside& is_outside, Branch* branch);
