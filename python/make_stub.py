@@ -1,6 +1,6 @@
 """Makes the package's stub: make_stub.py FOLDER_OF_THE_MODULE TEMPLATE STUB.
 
-In the template, a line `**options: Table,` stands for the options of a table of the library, but
+In the template, a line `**options: TableOptions,` stands for the options of a table of the library, but
 for those that the lines before it in the same signature have, and a line `**summaries` for the
 classes of summaries.
 """
@@ -9,7 +9,7 @@ import re
 import sys
 
 _TYPES = {
-    "MetricOptions or str": "MetricOptions | Preset | None",
+    "MetricOptions, Metric or str": "MetricOptions | Metric | _Preset | None",
     "three floats": "ArrayLike",
     "list of str": "Sequence[str]",
 }
@@ -54,7 +54,7 @@ def make(core, template):
     for line in template.splitlines():
         if re.match(r" *(def|class) ", line):
             before = set()
-        options = re.fullmatch(r"( +)\*\*options: (\w+)(,?)", line)
+        options = re.fullmatch(r"( +)\*\*options: (\w+Options)(,?)", line)
         if options:
             indent, table, comma = options.groups()
             lines += _option_lines(core, table, indent, " = ...," if comma else "", before)

@@ -1,5 +1,6 @@
 """The functions of the package."""
 
+import json
 import operator
 import os
 import typing
@@ -534,7 +535,7 @@ def exponential(metric, shape, velocity, steps=16, *, progress=None, **options):
 
 
 @takes("LogarithmOptions")
-def logarithm(metric, shape, end, *, progress=None, **options):
+def logarithm(metric, shape, end, steps=16, *, progress=None, **options):
     """Find the initial velocity of the geodesic from one shape to another: log.
 
     Parameters
@@ -542,6 +543,8 @@ def logarithm(metric, shape, end, *, progress=None, **options):
     metric : Metric
     shape, end : array_like
         n x 3; `end` is first moved rigidly onto `shape`.
+    steps : int, optional
+        Of the geodesic, at least 2: as many as `exponential` is to make.
     progress : callable or bool, optional
         As for `interpolate`.
     {options}
@@ -549,10 +552,11 @@ def logarithm(metric, shape, end, *, progress=None, **options):
     Returns
     -------
     ndarray
-        n x 3, per unit of time: `exponential` with shapes + 1 steps leads to `end`.
+        n x 3, per unit of time: `exponential` with as many steps leads to `end`.
     """
     with told(progress) as report:
-        return _core.logarithm(_as(Metric, metric, "metric"), shape, end, options, report)
+        metric, steps = _as(Metric, metric, "metric"), _count(steps, "steps")
+        return _core.logarithm(metric, shape, end, steps, options, report)
 
 
 @takes("TransportOptions")
@@ -694,6 +698,59 @@ def deform(vertices, faces, handles, *, progress=None, **options):
         return DeformationResult(*_core.deform(mesh, _handles(handles), options, report))
 
 
+class Interpolator:
+    """Find geodesics between many pairs of shapes of one mesh, all under one metric.
+
+    A geodesic does not depend on those before it. What all of them need is computed once.
+
+    Parameters
+    ----------
+    poses : Poses, or sequence of array_like
+        On which the metric is frozen, and between which the shapes lie.
+    faces : array_like, optional
+        As for `Poses`.
+    {options}
+    """
+
+    def __init__(self, poses, faces=None, **options):
+        self._poses, self._options = _poses(poses, faces), options
+        self._solver = _core._Interpolator(self._poses, options)
+
+    @property
+    def metric(self):
+        """The metric that all geodesics have."""
+        return self._solver.metric
+
+    def between(self, first, last, *, progress=None):
+        """Find the geodesic between two shapes.
+
+        Parameters
+        ----------
+        first, last : array_like
+            n x 3.
+        progress : callable or bool, optional
+            As for `interpolate`.
+
+        Returns
+        -------
+        GeodesicResult
+        """
+        ends = Poses([first, last], self._poses)
+        with told(progress) as report:
+            return GeodesicResult(*self._solver.between(ends, report))
+
+    def __reduce__(self):
+        return _again, (Interpolator, (self._poses, None), self._options)
+
+
+takes("GeodesicOptions")(Interpolator)
+
+
+def _again(kind, arguments, options):
+    """An object as it was made, in another process."""
+    return kind(*arguments, **options)
+
+
 class Deformer:
     """Deform one mesh again and again, as `deform` does, each time from the last solution.
 
@@ -708,7 +765,8 @@ class Deformer:
     """
 
     def __init__(self, vertices, faces, **options):
-        self._solver = _core._Deformer(_mesh(vertices, faces), options)
+        self._mesh, self._options = _mesh(vertices, faces), options
+        self._solver = _core._Deformer(self._mesh, options)
 
     def deform(self, handles, *, progress=None):
         """Deform the mesh.
@@ -725,6 +783,9 @@ class Deformer:
         """
         with told(progress) as report:
             return DeformationResult(*self._solver.deform(_handles(handles), report))
+
+    def __reduce__(self):
+        return _again, (Deformer, (self._mesh, None), self._options)
 
 
 takes("DeformationOptions")(Deformer)
@@ -855,6 +916,22 @@ def correspond(
     return Correspondence(result, source, goal, markers)
 
 
+def read_surface_map(file, template, target):
+    """Read a map that `SurfaceMap.write` or shape-correspond wrote.
+
+    Parameters
+    ----------
+    file : str or path-like
+    template, target : Poses
+        The two meshes.
+
+    Returns
+    -------
+    SurfaceMap
+    """
+    return SurfaceMap._read(file, _as(Poses, template, "template"), _as(Poses, target, "target"))
+
+
 def read_markers(file, template, target):
     """Read a file of markers, as shape-correspond does.
 
@@ -870,6 +947,154 @@ def read_markers(file, template, target):
         k x 2, from 0.
     """
     return _core.read_markers(os.fspath(file), template, target)
+
+
+def read_vertex_field(source):
+    """Read one number a vertex, such as a stiffness.
+
+    Parameters
+    ----------
+    source : str or path-like
+        A text with a number a line, or "body.ply:name" for a property of a PLY file's vertices.
+
+    Returns
+    -------
+    ndarray
+        In the order of the mesh.
+    """
+    return _core.read_vertex_field(os.fspath(source))
+
+
+def select(vertices, faces, selection):
+    """Find the vertices that a selection names, as the files of handles have it.
+
+    Parameters
+    ----------
+    vertices : Poses or array_like
+        The mesh, n x 3.
+    faces : array_like, or an object with a mesh
+        As for `Poses`.
+    selection : dict or str
+        Such as ``{"ball": {"centre": [0, 0, 0], "radius": 2}}``, or that as JSON; 'vertices' in it
+        are counted from 1 (docs/file-formats.md).
+
+    Returns
+    -------
+    ndarray
+        Numbers of vertices, counted from 0.
+    """
+    text = selection if isinstance(selection, str) else json.dumps(selection)
+    return _core.select(_mesh(vertices, faces), text)
+
+
+def intersections(shapes, faces=None):
+    """Count the pairs of triangles of a body that pass through each other.
+
+    Parameters
+    ----------
+    shapes : Poses, or sequence of array_like
+        n x 3 each.
+    faces : array_like, optional
+        As for `Poses`.
+
+    Returns
+    -------
+    ndarray
+        Of each shape the number of pairs that have no vertex in common; triangles that only touch
+        do not count.
+    """
+    return _core.intersections(_poses(shapes, faces))
+
+
+class EmbeddingResult(typing.NamedTuple):
+    """Points of the plane, k x 2, and how well their distances are those that were given."""
+
+    points: np.ndarray
+    stress: float
+    converged: bool
+
+
+@takes("EmbeddingOptions")
+def embed(distances, **options):
+    """Place objects on the plane, of which only the distances are known.
+
+    Parameters
+    ----------
+    distances : array_like
+        k x k, symmetric: such as `distance_matrix` returns.
+    {options}
+
+    Returns
+    -------
+    EmbeddingResult
+        Kruskal's stress is 0 where the plane has all distances.
+    """
+    return EmbeddingResult(*_core.embed(distances, options))
+
+
+def triangulate(points):
+    """The Delaunay triangulation of points of the plane.
+
+    Parameters
+    ----------
+    points : array_like
+        k x 2.
+
+    Returns
+    -------
+    ndarray
+        Three numbers of points a row, counterclockwise; no row if all points lie on a line.
+    """
+    return _core.triangulate(points)
+
+
+class BlendErrors(typing.NamedTuple):
+    """How far blends of a space are from blends along geodesics.
+
+    `mean` and `max` are shares of the greatest distance between two poses; `within` is the share of
+    the samples that are within the threshold.
+    """
+
+    mean: float
+    max: float
+    within: float
+
+
+@takes("ExploreOptions")
+def measure_blends(space, samples=100, *, progress=None, **options):
+    """Compare shapes of a space with blends along geodesics, at random points of its plane.
+
+    Parameters
+    ----------
+    space : Space
+    samples : int, optional
+    progress : callable or bool, optional
+        As for `interpolate`.
+    {options}
+
+    Returns
+    -------
+    BlendErrors
+    """
+    space, samples = _as(_core.Space, space, "space"), _count(samples, "samples")
+    with told(progress) as report:
+        return BlendErrors(*space._measure_blends(samples, options, report))
+
+
+def read_curve(file, space):
+    """Read a curve on the plane of a space, as shape-explore does.
+
+    Parameters
+    ----------
+    file : str or path-like
+    space : Space
+
+    Returns
+    -------
+    ndarray
+        k x 2, for `Space.along`.
+    """
+    return _as(_core.Space, space, "space")._read_curve(file)
 
 
 @takes("ExploreOptions")

@@ -2,7 +2,8 @@
 
 import inspect
 
-from ._core import Metric
+from . import _functions
+from ._core import Metric, SolverError
 from ._options import describe, takes
 
 _ABOUT = """A metric, frozen on poses: immutable, so that paths under it are comparable.
@@ -56,4 +57,44 @@ def matrix(self, shape):
     return csc_matrix((data, rows, begin), shape=(len(begin) - 1, len(begin) - 1))
 
 
-Metric.matrix = matrix
+def exp(self, shape, velocity, steps=16, **options):
+    """The exponential map: `exponential` under this metric."""
+    return _functions.exponential(self, shape, velocity, steps, **options)
+
+
+def log(self, shape, end, steps=16, **options):
+    """The logarithm: `logarithm` under this metric."""
+    return _functions.logarithm(self, shape, end, steps, **options)
+
+
+def dist(self, first, last, **options):
+    """The length of the geodesic between two shapes, n x 3 each: a pure number.
+
+    Options are those of `interpolate`, which says more of the path.
+    """
+    summary = self._geodesic(first, last, options).summary
+    if not summary.converged:
+        raise SolverError(f"the geodesic was not found: {summary!r}")
+    return summary.energy**0.5
+
+
+def transport(self, tangents, first, last, **options):
+    """Carry tangents, n x 3 each, along the geodesic from one shape to another.
+
+    Options are those of `interpolate`; `transport` carries along any path.
+
+    Returns
+    -------
+    ndarray
+        k x n x 3, at `last`.
+    """
+    path = self._geodesic(first, last, options).path
+    return _functions.transport(path, tangents).tangents
+
+
+def _geodesic(self, first, last, options):
+    return _functions.interpolate([first, last], self, metric=self, **options)
+
+
+for _method in (matrix, exp, log, dist, transport, _geodesic):
+    setattr(Metric, _method.__name__, _method)

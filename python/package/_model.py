@@ -1,8 +1,6 @@
 """A statistical model of the shapes of a body."""
 
 import os
-import tempfile
-import warnings
 
 import numpy as np
 
@@ -10,6 +8,7 @@ from . import _core
 from ._functions import _poses
 from ._options import takes
 from ._progress import told
+from ._warn import warn
 
 
 class ShapeModel:
@@ -77,9 +76,7 @@ class ShapeModel:
             for row in _sequence(coordinates, 2):
                 shape, converged = model.at(row, report)
                 if not converged:
-                    warnings.warn(
-                        f"the shape at {row} was not found to the tolerance", stacklevel=2
-                    )
+                    warn(f"the shape at {row} was not found to the tolerance")
                 shapes.append(shape)
         return np.array(shapes)
 
@@ -145,25 +142,6 @@ class ShapeModel:
             return "<shapespace.ShapeModel, not fitted>"
         poses, modes = self.coordinates.shape
         return f"<shapespace.ShapeModel: {poses} poses, {modes} modes>"
-
-    def __getstate__(self):
-        content = None
-        if self._model is not None:
-            with tempfile.TemporaryDirectory() as folder:
-                file = os.path.join(folder, "pickled.modes")
-                self._model.write(file)
-                with open(file, "rb") as stream:
-                    content = stream.read()
-        return {"options": self._options, "content": content}
-
-    def __setstate__(self, state):
-        self._options, self._summary, self._model = state["options"], None, None
-        if state["content"] is not None:
-            with tempfile.TemporaryDirectory() as folder:
-                file = os.path.join(folder, "pickled.modes")
-                with open(file, "wb") as stream:
-                    stream.write(state["content"])
-                self._model = _core._ShapeModel.read(file)
 
 
 takes("ShapeModelOptions")(ShapeModel)

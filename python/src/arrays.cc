@@ -204,6 +204,17 @@ Eigen::VectorXd ToVector(py::handle value, const std::string& name) {
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
 }
 
+Eigen::MatrixXd ToMatrix(py::handle value, const std::string& name) {
+  const std::string what = "a two-dimensional array of numbers";
+  const py::array array = ToNumbers(value, name, kReal, what);
+  if (array.ndim() != 2) {
+    throw py::value_error(name + ": must be " + what + ", not " + ShapeOf(array));
+  }
+  const auto numbers = Contiguous<double>(array);
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const Rows>(numbers.data(), array.shape(0), array.shape(1));
+}
+
 py::array_t<double> FromShape(const Shape& shape) { return FromMatrix(shape); }
 
 py::array_t<double> FromShapes(const std::vector<Shape>& shapes) {

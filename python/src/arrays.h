@@ -44,6 +44,9 @@ std::vector<int> ToVertices(py::handle value, const std::string& name, int num_v
 /// A one-dimensional array of floats.
 Eigen::VectorXd ToVector(py::handle value, const std::string& name);
 
+/// A two-dimensional array of floats, of the same rows.
+Eigen::MatrixXd ToMatrix(py::handle value, const std::string& name);
+
 py::array_t<double> FromShape(const Shape& shape);                 ///< n x 3
 py::array_t<double> FromShapes(const std::vector<Shape>& shapes);  ///< k x n x 3
 

@@ -37,6 +37,14 @@ void BindSurfaceMap(py::module_* module) {
           "barycentric", [](const SurfacePoints& points) { return FromMatrix(points.barycentric); },
           "Of each vertex the weights, n x 3, of that triangle's corners.")
       .def("__len__", &SurfacePoints::NumVertices)
+      .def(py::pickle(
+          [](const SurfacePoints& points) {
+            return py::make_tuple(FromMatrix(points.triangle), FromMatrix(points.barycentric));
+          },
+          [](const py::tuple& state) {
+            return SurfacePoints{ToVector(state[0], "triangle").cast<int>(),
+                                 ToShape(state[1], "barycentric")};
+          }))
       .def("_pull", [](const SurfacePoints& points, const Poses& mesh, py::handle values) {
         const auto array = Contiguous<double>(values);
         if (array.ndim() != 2) throw py::value_error("values: must be n or n x d numbers");
@@ -63,12 +71,26 @@ void BindSurfaceMap(py::module_* module) {
       .def_property_readonly(
           "gap", [](const SurfaceMap& map) { return FromMatrix(map.gap); },
           "Of each vertex of the target how far the fitted template is from it, likewise.")
+      .def(py::pickle(
+          [](const SurfaceMap& map) {
+            return py::make_tuple(map.to_target, map.to_template, FromMatrix(map.round_trip),
+                                  FromMatrix(map.gap));
+          },
+          [](const py::tuple& state) {
+            return SurfaceMap{py::cast<SurfacePoints>(state[0]), py::cast<SurfacePoints>(state[1]),
+                              ToVector(state[2], "round_trip"), ToVector(state[3], "gap")};
+          }))
       .def(
           "write",
           [](const SurfaceMap& map, const std::filesystem::path& file) {
             WriteSurfaceMap(file, map);
           },
-          py::arg("file"), "Writes the map as text.");
+          py::arg("file"), "Writes the map as text.")
+      .def_static("_read",
+                  [](const std::filesystem::path& file, const Poses& source, const Poses& target) {
+                    return ReadSurfaceMap(file, source.connectivity->NumTriangles(),
+                                          target.connectivity->NumTriangles());
+                  });
 }
 
 }  // namespace
@@ -78,6 +100,14 @@ void BindCorrespondence(py::module_* module) {
   py::class_<CorrespondenceResult>(*module, "_Correspondence")
       .def_property_readonly(
           "fitted", [](const CorrespondenceResult& result) { return FromShape(result.fitted); })
+      .def(py::pickle(
+          [](const CorrespondenceResult& result) {
+            return py::make_tuple(FromShape(result.fitted), result.map, result.summary);
+          },
+          [](const py::tuple& state) {
+            return CorrespondenceResult{ToShape(state[0], "fitted"), py::cast<SurfaceMap>(state[1]),
+                                        py::cast<CorrespondenceSummary>(state[2])};
+          }))
       .def_readonly("map", &CorrespondenceResult::map)
       .def_readonly("summary", &CorrespondenceResult::summary)
       .def("carry",

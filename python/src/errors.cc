@@ -12,6 +12,9 @@ namespace {
 // The classes live as long as the interpreter.
 PyObject* error = nullptr;
 PyObject* file_error = nullptr;
+PyObject* no_such_file = nullptr;
+PyObject* file_not_permitted = nullptr;
+PyObject* file_is_folder = nullptr;
 PyObject* mesh_error = nullptr;
 PyObject* mismatch_error = nullptr;
 PyObject* invalid_options = nullptr;
@@ -32,16 +35,30 @@ std::string InPython(const std::string& text) {
   return internal::Printable(text, internal::kOfMessages);
 }
 
-void Raise(PyObject* type, const Error& e) {
-  const std::string argument = e.option().empty() ? "" : " (argument " + e.option() + ")";
-  PyErr_SetString(type, InPython(e.what() + argument).c_str());
+py::object Class(PyObject* type) { return py::reinterpret_borrow<py::object>(type); }
+
+std::string MessageOf(const Error& e) {
+  return InPython(e.what() + (e.option().empty() ? "" : " (argument " + e.option() + ")"));
+}
+
+void Raise(PyObject* type, const Error& e) { PyErr_SetString(type, MessageOf(e).c_str()); }
+
+// As what Python itself raises where the system refuses a file, with its number in `errno`.
+void RaiseFileError(const FileError& e) {
+  PyObject* type = file_error;
+  if (e.cause() == std::errc::no_such_file_or_directory) type = no_such_file;
+  if (e.cause() == std::errc::permission_denied) type = file_not_permitted;
+  if (e.cause() == std::errc::is_a_directory) type = file_is_folder;
+  const py::object made = Class(type)(MessageOf(e));
+  if (e.cause()) made.attr("errno") = e.cause().value();
+  PyErr_SetObject(type, made.ptr());
 }
 
 void Translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const FileError& e) {
-    Raise(file_error, e);
+    RaiseFileError(e);
   } catch (const MeshError& e) {
     Raise(mesh_error, e);
   } catch (const MismatchError& e) {
@@ -57,8 +74,6 @@ void Translate(std::exception_ptr thrown) {
   }
 }
 
-py::object Class(PyObject* type) { return py::reinterpret_borrow<py::object>(type); }
-
 }  // namespace
 
 void BindErrors(py::module_* module) {
@@ -67,6 +82,15 @@ void BindErrors(py::module_* module) {
   const auto with = [](PyObject* builtin) { return py::make_tuple(Class(error), Class(builtin)); };
   file_error = Make(module, "FileError", with(PyExc_OSError),
                     "A file cannot be opened, read to its end, understood or written.");
+  const auto refused = [](PyObject* builtin) {
+    return py::make_tuple(Class(file_error), Class(builtin));
+  };
+  no_such_file = Make(module, "NoSuchFile", refused(PyExc_FileNotFoundError),
+                      "A file that is to be read is not there.");
+  file_not_permitted = Make(module, "FileNotPermitted", refused(PyExc_PermissionError),
+                            "The system does not permit to read or write a file.");
+  file_is_folder = Make(module, "FileIsFolder", refused(PyExc_IsADirectoryError),
+                        "A folder is named where a file should be.");
   mesh_error = Make(module, "MeshError", with(PyExc_ValueError), "A mesh cannot be used.");
   mismatch_error = Make(module, "MismatchError", with(PyExc_ValueError),
                         "Meshes that should be poses of one connectivity are not.");
@@ -85,8 +109,7 @@ void BindErrors(py::module_* module) {
 
 void Warn(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
-    if (PyErr_WarnEx(mesh_warning, InPython(warning).c_str(), 1) != 0)
-      throw py::error_already_set();
+    py::module_::import("shapespace._warn").attr("warn")(InPython(warning), Class(mesh_warning));
   }
 }
 

@@ -2,17 +2,21 @@
 
 #include <pybind11/stl.h>
 
+#include <shapespace/analysis/intersections.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/bodies/body.h>
 #include <shapespace/bodies/skinned.h>
 #include <shapespace/exploration/space.h>
+#include <shapespace/files/vertex_field.h>
 #include <shapespace/files/write.h>
 #include <shapespace/mesh/check.h>
+#include <shapespace/mesh/selection.h>
 #include <shapespace/output/frames.h>
 
 #include "arrays.h"
 #include "bind.h"
+#include "pickling.h"
 #include "progress.h"
 
 namespace shapespace::python {
@@ -119,6 +123,7 @@ MismatchError
            py::arg("segments") = py::none(), py::arg("stiffeners") = py::none(),
            py::arg("allow_nonmanifold") = ReadOptions().allow_nonmanifold,
            py::arg("mirror") = py::none())
+      .def(Pickle<Poses>())
       .def("__len__", [](const Poses& poses) { return poses.shapes.size(); })
       .def("__getitem__",
            [](const Poses& poses, py::ssize_t i) {
@@ -173,6 +178,22 @@ MismatchError
     WriteMesh(file, shape, poses.soup);
     return NotKept(file, poses.soup);
   });
+
+  module->def("select", [](const Poses& mesh, const std::string& selection) {
+    const std::vector<int> found = SelectVertices(ReadSelection(selection), mesh.shapes[0],
+                                                  *mesh.connectivity, mesh.soup.appearance);
+    return py::array_t<int>(static_cast<py::ssize_t>(found.size()), found.data());
+  });
+
+  module->def("intersections", [](const Poses& poses) {
+    const std::vector<std::int64_t> found = WithoutLock(py::none(), [=](Progress*) {
+      return CountIntersections(*poses.connectivity, poses.shapes);
+    });
+    return py::array_t<std::int64_t>(static_cast<py::ssize_t>(found.size()), found.data());
+  });
+
+  module->def("read_vertex_field",
+              [](const std::string& source) { return FromMatrix(ReadVertexField(source)); });
 
   module->def("check", [](py::handle vertices, py::handle faces) {
     Soup soup;

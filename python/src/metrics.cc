@@ -2,10 +2,12 @@
 
 #include <shapespace/analysis/shape_error.h>
 #include <shapespace/metric/feature_map.h>
+#include <shapespace/path/energy.h>
 
 #include "arrays.h"
 #include "bind.h"
 #include "options.h"
+#include "pickling.h"
 #include "progress.h"
 
 namespace shapespace::python {
@@ -53,6 +55,7 @@ void BindMetric(py::module_* module) {
            }),
            py::arg("poses"), py::arg("faces") = py::none(), py::kw_only(),
            py::arg("preset") = "strain", py::arg("pairs") = "consecutive")
+      .def(Pickle<FrozenMetric>())
       .def_property_readonly(
           "unit", [](const FrozenMetric& self) { return self.metric->unit; },
           "The length, in the unit of the poses, that counts as 1.")
@@ -105,6 +108,58 @@ Raises
 ------
 InvalidOptions
     The metric has a rigid part.
+)")
+      .def(
+          "inner",
+          [](const FrozenMetric& self, py::handle shape, py::handle first, py::handle second) {
+            const int n = self.metric->connectivity->NumVertices();
+            const Shape p = ToShape(shape, "shape", n);
+            const Shape x = ToShape(first, "first", n), y = ToShape(second, "second", n);
+            return WithoutLock(py::none(), [=](Progress*) {
+              const double unit = self.metric->unit;
+              const FeatureDerivative derivative = FeatureMap(self.metric).Derivative(p / unit);
+              return derivative.Times(x / unit).dot(derivative.Times(y / unit));
+            });
+          },
+          py::arg("shape"), py::arg("first"), py::arg("second"),
+          R"(Inner product of two tangents at a shape: a pure number.
+
+Parameters
+----------
+shape, first, second : array_like
+    n x 3, in the unit of the poses.
+
+Raises
+------
+InvalidOptions
+    The metric has a rigid part.
+)")
+      .def(
+          "energy_lower_bound",
+          [](const FrozenMetric& self, py::handle first, py::handle last, int segments) {
+            const int n = self.metric->connectivity->NumVertices();
+            const Shape p = ToShape(first, "first", n), q = ToShape(last, "last", n);
+            if (segments < 1) throw py::value_error("segments: must be at least 1");
+            return WithoutLock(py::none(), [=](Progress*) {
+              const std::vector<Shape> ends = MakePath(self.metric, {p, q}).shapes;  // aligned
+              return ScaledEnergy(EnergyLowerBound(*self.metric, ends[0], ends[1], segments),
+                                  segments);
+            });
+          },
+          py::arg("first"), py::arg("last"), py::arg("segments") = 1,
+          R"(What no path between two shapes has less energy than.
+
+Parameters
+----------
+first, last : array_like
+    n x 3, in the unit of the poses.
+segments : int, optional
+    Of the path; the bound is that of `GeodesicSummary.lower_bound`.
+
+Returns
+-------
+float
+    In the unit of `GeodesicSummary.energy`.
 )")
       .def("_matrix",
            [](const FrozenMetric& self, py::handle shape) {

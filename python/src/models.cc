@@ -11,6 +11,7 @@
 #include "arrays.h"
 #include "bind.h"
 #include "options.h"
+#include "pickling.h"
 #include "progress.h"
 
 namespace shapespace::python {
@@ -52,6 +53,10 @@ void BindModels(py::module_* module) {
                   })
       .def("write", [](const ShapeModel& model,
                        const std::filesystem::path& file) { WriteModes(file, model.Modes()); })
+      .def(py::pickle([](const ShapeModel& model) { return Pack(model.Modes()); },
+                      [](const py::bytes& bytes) {
+                        return std::make_shared<ShapeModel>(Unpack<PoseModes>(bytes));
+                      }))
       .def_property_readonly("names", [](const ShapeModel& model) { return model.Modes().names; })
       .def_property_readonly("faces",
                              [](const ShapeModel& model) {

@@ -1,5 +1,7 @@
 #include "options.h"
 
+#include "bind.h"
+
 namespace shapespace::python {
 
 void RefuseKeyword(const std::string& name, const std::vector<std::string>& known) {
@@ -15,6 +17,11 @@ void RefuseKeyword(const std::string& name, const std::vector<std::string>& know
 void RefuseType(const std::string& name, const std::string& type, py::handle value) {
   throw py::type_error(name + ": must be " + type + ", not " +
                        py::cast<std::string>(py::repr(value)));
+}
+
+bool IsTruthValue(py::handle value) {
+  return py::isinstance<py::bool_>(value) ||
+         py::isinstance(value, py::module_::import("numpy").attr("bool_"));
 }
 
 namespace {
@@ -34,6 +41,10 @@ void Value<MetricOptions>::Set(MetricOptions* value, py::handle given, const std
   if (given.is_none()) return;
   if (py::isinstance<py::str>(given)) {
     *value = PresetMetric(py::cast<std::string>(given));
+    return;
+  }
+  if (py::isinstance<FrozenMetric>(given)) {
+    *value = py::cast<const FrozenMetric&>(given).metric->options;
     return;
   }
   if (!py::isinstance<py::dict>(given)) RefuseType(name, Type(), given);

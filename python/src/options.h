@@ -49,10 +49,13 @@ const Fields<Options>& FieldsOf();
 [[noreturn]] void RefuseKeyword(const std::string& name, const std::vector<std::string>& known);
 [[noreturn]] void RefuseType(const std::string& name, const std::string& type, py::handle value);
 
+/// Whether it is Python's or numpy's True or False.
+bool IsTruthValue(py::handle value);
+
 /// Sets the fields that `keywords` name. \throw py::type_error naming a keyword that is none or a
-/// value of another type; py::value_error.
+/// value of another type; py::value_error. Messages list `others`, which the caller takes, too.
 template <typename Options>
-void Set(const py::dict& keywords, Options* options) {
+void Set(const py::dict& keywords, Options* options, const std::vector<std::string>& others = {}) {
   for (const auto& [key, value] : keywords) {
     const auto name = py::cast<std::string>(key);
     const Fields<Options>& fields = FieldsOf<Options>();
@@ -63,7 +66,7 @@ void Set(const py::dict& keywords, Options* options) {
       found = true;
     }
     if (found) continue;
-    std::vector<std::string> known;
+    std::vector<std::string> known = others;
     for (const Field<Options>& field : fields) known.push_back(field.name);
     RefuseKeyword(name, known);
   }
@@ -97,10 +100,11 @@ template <typename T>
 struct SimpleValue {
   static void Set(T* value, py::handle given, const std::string& name) {
     // Truth values are integers to Python, and would be taken for numbers.
-    const bool truth = py::isinstance<py::bool_>(given);
+    const bool truth = IsTruthValue(given);
     if (truth != std::is_same_v<T, bool>) RefuseType(name, Value<T>::Type(), given);
+    const bool is_path = std::is_same_v<T, std::string> && py::hasattr(given, "__fspath__");
     try {
-      *value = py::cast<T>(given);
+      *value = py::cast<T>(is_path ? given.attr("__fspath__")() : given);
     } catch (const py::cast_error&) {
       RefuseType(name, Value<T>::Type(), given);
     }
@@ -210,7 +214,7 @@ struct Value<Eigen::VectorXi> {
 
 template <>
 struct Value<MetricOptions> {
-  static std::string Type() { return "MetricOptions or str"; }
+  static std::string Type() { return "MetricOptions, Metric or str"; }
   static void Set(MetricOptions* value, py::handle given, const std::string& name);
   static py::object Get(const MetricOptions& value) { return python::Get(value); }
 };

@@ -9,6 +9,7 @@
 #include <shapespace/analysis/path_intersections.h>
 #include <shapespace/analysis/quality.h>
 #include <shapespace/analysis/rigid_parts.h>
+#include <shapespace/analysis/vertex_energy.h>
 #include <shapespace/base/error.h>
 #include <shapespace/exponential/exponential.h>
 #include <shapespace/output/path_output.h>
@@ -18,6 +19,7 @@
 #include "arrays.h"
 #include "bind.h"
 #include "options.h"
+#include "pickling.h"
 #include "progress.h"
 
 namespace shapespace::python {
@@ -29,30 +31,39 @@ FilmStripOptions StripOptions(const Path& path, const py::dict& given) {
   return options;
 }
 
-// Sets `value` to the one keyword, `known`, that a kind of file takes, if it is given.
-template <typename T>
-void OnlyKeyword(const py::dict& given, const std::string& known, T* value) {
-  for (const auto& [key, keyword] : given) {
-    const auto name = py::cast<std::string>(key);
-    if (name != known) RefuseKeyword(name, {known});
-    Value<T>::Set(value, keyword, name);
-  }
+void RefuseOthers(const py::dict& given, const std::vector<std::string>& known) {
+  if (!given.empty()) RefuseKeyword(py::cast<std::string>(given.begin()->first), known);
 }
 
 void Write(const Path& path, const std::string& file, const py::dict& given) {
   using Kind = PathOutput::Kind;
   const PathOutput output = PathOutput::Of(file);
   PathOutputOptions options;
-  if (output.kind == Kind::kFilmStrip) {
-    Set(given, &options.film_strip);
-  } else if (output.kind == Kind::kGltf) {
-    Set(given, &options.gltf);
-  } else if (output.kind == Kind::kFrames) {
-    OnlyKeyword(given, "color", &options.colours);
-  } else if (output.kind == Kind::kPointCache) {
-    OnlyKeyword(given, "fps", &options.point_cache_fps);
-  } else if (!given.empty()) {
-    RefuseKeyword(py::cast<std::string>(given.begin()->first), {});
+  std::vector<std::string> taken;
+  const auto take = [&](const std::string& name, auto* value) {
+    taken.push_back(name);
+    if (!given.contains(name.c_str())) return;
+    Value<std::decay_t<decltype(*value)>>::Set(value, given.attr("pop")(name), name);
+  };
+  switch (output.kind) {
+    case Kind::kFilmStrip:
+      take("color", &options.colours);
+      Set(given, &options.film_strip, taken);
+      break;
+    case Kind::kGltf:
+      take("color", &options.colours);
+      Set(given, &options.gltf, taken);
+      break;
+    case Kind::kFrames:
+      take("color", &options.colours);
+      RefuseOthers(given, taken);
+      break;
+    case Kind::kPointCache:
+      take("fps", &options.point_cache_fps);
+      RefuseOthers(given, taken);
+      break;
+    default:
+      RefuseOthers(given, taken);
   }
   PathOutputSummary summary;
   {
@@ -60,39 +71,6 @@ void Write(const Path& path, const std::string& file, const py::dict& given) {
     summary = WritePathOutput(output, path, options);
   }
   Warn(summary.warnings);
-}
-
-// The file's bytes, through a temporary folder.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& name)
-      : folder_(py::module_::import("tempfile").attr("TemporaryDirectory")()),
-        file_(std::filesystem::path(py::cast<std::string>(folder_.attr("name"))) / name) {}
-  ~TemporaryFile() { folder_.attr("cleanup")(); }
-  TemporaryFile(const TemporaryFile&) = delete;
-
-  std::string Name() const { return file_; }
-
- private:
-  const py::object folder_;
-  const std::filesystem::path file_;
-};
-
-py::object BytesOf(const Path& path) {
-  const TemporaryFile file("pickled.path");
-  WritePath(file.Name(), path);
-  const py::object bytes =
-      py::module_::import("pathlib").attr("Path")(file.Name()).attr("read_bytes")();
-  return bytes;
-}
-
-// `own_folder` is the appearance's, which is not the temporary one.
-Path PathOf(const py::bytes& bytes, const py::bytes& own_folder) {
-  const TemporaryFile file("pickled.path");
-  py::module_::import("pathlib").attr("Path")(file.Name()).attr("write_bytes")(bytes);
-  Path path = ReadPath(file.Name());
-  path.appearance.own_folder = std::string(own_folder);
-  return path;
 }
 
 Path PathThrough(const Poses& poses, const FrozenMetric& metric, const py::object& parameters) {
@@ -107,6 +85,18 @@ Path PathThrough(const Poses& poses, const FrozenMetric& metric, const py::objec
   std::iota(path.poses.begin(), path.poses.end(), 0);
   path.appearance = poses.soup.appearance;
   return path;
+}
+
+// Where an object keeps its array of vertices.
+constexpr char kVertices[] = "_vertices";
+
+// The shapes that a slice of a path names.
+std::vector<int> IndicesOf(const py::slice& slice, int count) {
+  py::ssize_t begin, end, step, number;
+  if (!slice.compute(count, &begin, &end, &step, &number)) throw py::error_already_set();
+  std::vector<int> indices;
+  for (py::ssize_t k = 0; k < number; ++k) indices.push_back(static_cast<int>(begin + k * step));
+  return indices;
 }
 
 // Files, and copies in other processes.
@@ -134,16 +124,11 @@ file : str or path-like
     3ds Max), numbered meshes such as frames/%03d.obj, .ply, .off or .stl, or frames/%03d.vtp with
     deviation and energy at every point, for ParaView.
 **options
-    Of `film_strip` for .png; of `GltfOptions` for .glb; for meshes `color`, which is 'plain',
-    'deviation' or 'parts' (colours of vertices in .obj and .ply); for .mdd `fps`, shapes per
-    second. The others take none.
+    Of `film_strip` for .png; of `GltfOptions` for .glb; for both, and for meshes, `color`, which
+    is 'plain', 'deviation' or 'parts' (colours of vertices in .obj and .ply); for .mdd `fps`,
+    shapes per second. The others take none.
 )")
-      .def(py::pickle(
-          [](const Path& path) {
-            const auto own_folder = std::filesystem::current_path() / path.appearance.own_folder;
-            return py::make_tuple(BytesOf(path), py::bytes(own_folder.string()));
-          },
-          [](const py::tuple& state) { return PathOf(py::bytes(state[0]), py::bytes(state[1])); }));
+      .def(Pickle<Path>());
 }
 
 // What a path has.
@@ -157,11 +142,23 @@ void BindShapes(py::class_<Path>* path) {
            })
       .def("__getitem__",
            [](const Path& path, const py::slice& which) {
-             return py::object(FromShapes(path.Placed())[which]);
+             const std::vector<int> indices = IndicesOf(which, path.NumShapes());
+             if (indices.empty()) throw py::index_error("the slice has no shape");
+             return SelectShapes(path, indices);
            })
       .def_property_readonly(
-          "vertices", [](const Path& path) { return FromShapes(path.Placed()); },
-          "All shapes, k x n x 3, where, and as large as, the poses are.")
+          "vertices",
+          [](const py::object& self) {
+            const py::object own = self.attr("__dict__");
+            if (!own.contains(kVertices)) {
+              py::array_t<double> vertices = FromShapes(py::cast<const Path&>(self).Placed());
+              vertices.attr("setflags")(py::arg("write") = false);
+              own[kVertices] = vertices;
+            }
+            return py::object(own[kVertices]);
+          },
+          "All shapes, k x n x 3, where, and as large as, the poses are: read-only, and made when "
+          "it is first asked for. `path[i]` makes one shape alone.")
       .def_property_readonly(
           "aligned", [](const Path& path) { return FromShapes(path.shapes); },
           "All shapes, k x n x 3, aligned rigidly and centred, in the metric's unit: on these the "
@@ -193,25 +190,26 @@ void BindChanges(py::class_<Path>* path) {
   (*path)
       .def(
           "at",
-          [](const Path& path, py::handle times) {
+          [](const Path& path, py::handle times) -> py::object {
+            if (const py::array one = py::array::ensure(times); one && one.ndim() == 0) {
+              return FromShape(Resample(path, {py::cast<double>(py::float_(one))}).Placed(0));
+            }
             const Eigen::VectorXd numbers = ToVector(times, "times");
-            return Resample(path, {numbers.data(), numbers.data() + numbers.size()});
+            return py::cast(Resample(path, {numbers.data(), numbers.data() + numbers.size()}));
           },
           py::arg("times"), R"(The path seen at other times.
 
 Parameters
 ----------
-times : array_like
-    Rising, between the first and the last of `parameters`.
+times : float or array_like
+    Between the first and the last of `parameters`; several rise.
 
 Returns
 -------
-Path
-    With a shape at every time, by cubic interpolation between the shapes that there are.
+ndarray or Path
+    At one time the shape, n x 3. At several a path with a shape at every time. Both by cubic
+    interpolation between the shapes that there are.
 )")
-      .def(
-          "first", [](const Path& path, int count) { return FirstShapes(path, count); },
-          py::arg("count"), "The first `count` shapes as a path, to go on from.")
       .def(
           "anchor",
           [](const Path& path, py::handle vertices) {
@@ -287,13 +285,45 @@ void BindMeasures(py::class_<Path>* path) {
           "first shape (.01 is one per cent).")
       .def(
           "rigid_parts",
-          [](const Path& path) {
+          [](const Path& path, double tolerance, double least_share, double most_deviation) {
+            const RigidPartsOptions options = {tolerance, least_share, most_deviation};
             const RigidParts parts =
-                WithoutLock(py::none(), [=](Progress*) { return FindRigidParts(path); });
+                WithoutLock(py::none(), [=](Progress*) { return FindRigidParts(path, options); });
             return FromMatrix(parts.of_vertex);
           },
-          "Of every vertex the near-rigid part of the body that it belongs to, the largest being "
-          "0; -1 in joints.");
+          py::arg("tolerance") = RigidPartsOptions().tolerance,
+          py::arg("least_share") = RigidPartsOptions().least_share,
+          py::arg("most_deviation") = RigidPartsOptions().most_deviation,
+          R"(The near-rigid parts of the body.
+
+Parameters
+----------
+tolerance : float, optional
+    How far a part may be from moving rigidly, as a share of the root of its area.
+least_share : float, optional
+    Of the surface: what is smaller is no part.
+most_deviation : float, optional
+    What has edges that deviate by more from the first shape is no part.
+
+Returns
+-------
+ndarray
+    Of every vertex the part that it belongs to, the largest being 0; -1 in joints.
+)")
+      .def(
+          "vertex_energy",
+          [](const Path& path) {
+            const std::vector<Eigen::VectorXd> found =
+                WithoutLock(py::none(), [=](Progress*) { return VertexEnergy(path); });
+            const int n = path.metric->connectivity->NumVertices();
+            py::array_t<double> all(std::vector<py::ssize_t>{path.NumShapes(), n});
+            for (int i = 0; i < path.NumShapes(); ++i) {
+              Eigen::Map<Eigen::VectorXd>(all.mutable_data(i, 0), n) = found[i];
+            }
+            return all;
+          },
+          "Of every shape and vertex, k x n, what the motion costs there: squared speed per area, "
+          "so that the sum over `metric.vertex_area` is the squared speed of the shape.");
 }
 
 // How it is shown.
@@ -324,7 +354,8 @@ void BindDisplay(py::class_<Path>* path) {
 }  // namespace
 
 void BindPaths(py::module_* module) {
-  py::class_<Path> path(*module, "Path", R"(A path of shapes: what solvers return.
+  py::class_<Path> path(*module, "Path", py::dynamic_attr(),
+                        R"(A path of shapes: what solvers return.
 
 A sequence of shapes, n x 3 each, where, and as large as, the poses are.
 

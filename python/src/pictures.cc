@@ -23,6 +23,14 @@ void BindImage(py::module_* module) {
       *module, "Image",
       "A picture, such as a film strip; notebooks show it. `numpy.asarray` gives its "
       "pixels.")
+      .def(py::pickle([](const RgbImage& image) { return Pixels(image); },
+                      [](const py::array_t<unsigned char>& pixels) {
+                        RgbImage image;
+                        image.height = static_cast<int>(pixels.shape(0));
+                        image.width = static_cast<int>(pixels.shape(1));
+                        image.pixels.assign(pixels.data(), pixels.data() + pixels.size());
+                        return image;
+                      }))
       .def_property_readonly("pixels", &Pixels, "The pixels, height x width x 3 bytes, sRGB.")
       .def(
           "__array__",

@@ -140,6 +140,21 @@ name : str, optional
            py::arg("angle") = none.motion.angle, py::arg("point") = vector(none.motion.point),
            py::arg("translation") = vector(none.motion.translation), py::arg("hard") = none.hard,
            py::arg("weight") = none.weight, py::arg("name") = none.name)
+      .def(py::pickle(
+          [](const DeformationHandle& handle) {
+            const ScrewMotion& motion = handle.motion;
+            py::object positions = py::none();
+            if (handle.positions) positions = FromShape(*handle.positions);
+            const auto vector = &Value<Eigen::Vector3d>::Get;
+            return py::make_tuple(handle.vertices, positions, vector(motion.axis), motion.angle,
+                                  vector(motion.point), vector(motion.translation), handle.hard,
+                                  handle.weight, handle.name);
+          },
+          [](const py::tuple& state) {
+            return MakeHandle(state[0], state[1], state[2], py::cast<double>(state[3]), state[4],
+                              state[5], py::cast<bool>(state[6]), py::cast<double>(state[7]),
+                              py::cast<std::string>(state[8]));
+          }))
       .def_readonly("name", &DeformationHandle::name)
       .def_readonly("vertices", &DeformationHandle::vertices)
       .def_readonly("hard", &DeformationHandle::hard)
@@ -161,6 +176,28 @@ DeformationOptions DeformationFromKeywords(const Poses& mesh, const py::dict& gi
   Set(given, &options);
   options.Validate();
   return options;
+}
+
+void BindInterpolator(py::module_* module) {
+  py::class_<Interpolator, std::shared_ptr<Interpolator>>(*module, "_Interpolator")
+      .def(py::init([](const Poses& poses, const py::dict& given) {
+        const auto options = FromKeywords<GeodesicOptions>(given);
+        return WithoutLock(py::none(), [=](Progress*) {
+          return std::make_shared<Interpolator>(poses.connectivity, poses.shapes, options);
+        });
+      }))
+      .def_property_readonly(
+          "metric",
+          [](const Interpolator& interpolator) { return FrozenMetric{interpolator.GetMetric()}; })
+      .def("between", [](const std::shared_ptr<Interpolator>& interpolator, const Poses& ends,
+                         const py::object& progress) {
+        GeodesicResult result = WithoutLock(progress, [=](Progress* told) {
+          return interpolator->Between(ends.shapes[0], ends.shapes[1], told);
+        });
+        result.path.appearance = ends.soup.appearance;
+        Sign("interpolate", &result.path);
+        return py::make_tuple(std::move(result.path), std::move(result.summary));
+      });
 }
 
 void BindDeformer(py::module_* module) {
@@ -211,11 +248,15 @@ void BindShooting(py::module_* module) {
       return Exponential(metric.metric, from, along, steps, options, told);
     }));
   });
-  module->def("logarithm", [](const FrozenMetric& metric, py::handle from, py::handle to,
+  module->def("logarithm", [](const FrozenMetric& metric, py::handle from, py::handle to, int steps,
                               const py::dict& given, const py::object& progress) {
     const int n = metric.metric->connectivity->NumVertices();
     const Shape first = ToShape(from, "shape", n), last = ToShape(to, "end", n);
-    const auto options = FromKeywords<LogarithmOptions>(given);
+    if (steps < 2) throw py::value_error("steps: must be at least 2");
+    LogarithmOptions options;
+    Set(given, &options);
+    options.shapes = steps - 1;
+    options.Validate();
     return FromShape(WithoutLock(progress, [=](Progress* told) {
       return Logarithm(metric.metric, first, last, options, told);
     }));
@@ -284,6 +325,7 @@ void BindSolvers(py::module_* module) {
   BindTransfer(module);
   BindHandle(module);
   BindDeformer(module);
+  BindInterpolator(module);
   module->def("deform", [](const Poses& mesh, const std::vector<DeformationHandle>& handles,
                            const py::dict& given, const py::object& progress) {
     const DeformationOptions options = DeformationFromKeywords(mesh, given);

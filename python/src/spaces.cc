@@ -6,23 +6,34 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/exploration/embedding.h>
 #include <shapespace/exploration/explore.h>
 #include <shapespace/exploration/space_file.h>
+#include <shapespace/exploration/triangulation.h>
 #include <shapespace/files/display_names.h>
 #include <shapespace/output/picture.h>
 
 #include "arrays.h"
 #include "bind.h"
 #include "options.h"
+#include "pickling.h"
 #include "progress.h"
 
 namespace shapespace::python {
 namespace {
 
-Eigen::Vector2d ToPoint(py::handle value, const std::string& name) {
-  const Eigen::VectorXd point = ToVector(value, name);
-  if (point.size() != 2) throw py::value_error(name + ": must be two numbers, x and y");
-  return point;
+bool IsOnePoint(py::handle points) {
+  const py::array array = py::array::ensure(points);
+  return array && array.ndim() == 1;
+}
+
+// A point of the plane, or several, k x 2.
+Eigen::Matrix2Xd ToPoints(py::handle value) {
+  const Eigen::MatrixXd points = IsOnePoint(value)
+                                     ? Eigen::MatrixXd(ToVector(value, "points"))
+                                     : Eigen::MatrixXd(ToMatrix(value, "points").transpose());
+  if (points.rows() != 2) throw py::value_error("points: must be k x 2 numbers, x and y of each");
+  return points;
 }
 
 ExploreOptions FromKeywords(const py::dict& given) {
@@ -51,6 +62,7 @@ poses, then the shapes found half way between nodes. `explore` makes it.
             WriteSpace(file, space);
           },
           py::arg("file"), "Writes a .space file.")
+      .def(Pickle<PoseSpace>())
       .def("__len__", &PoseSpace::NumNodes)
       .def("__getitem__",
            [](const PoseSpace& space, py::ssize_t node) {
@@ -85,23 +97,51 @@ poses, then the shapes found half way between nodes. `explore` makes it.
                     "How far the plane is from holding all distances.")
       .def(
           "at",
-          [](const PoseSpace& space, py::handle point) {
-            return FromShape(space.At(ToPoint(point, "point")));
+          [](const PoseSpace& space, py::handle points) {
+            const Eigen::Matrix2Xd all = ToPoints(points);
+            if (IsOnePoint(points)) return FromShape(space.At(all.col(0)));
+            std::vector<Shape> shapes;
+            for (const auto& point : all.colwise()) shapes.push_back(space.At(point));
+            return FromShapes(shapes);
           },
-          py::arg("point"),
-          "The shape, n x 3, at a point of the plane. At a point outside of the poses' hull "
-          "(`contains`) it is the shape at the nearest point of the hull.")
+          py::arg("points"),
+          "The shape, n x 3, at a point of the plane, or the shapes, k x n x 3, at points, k x 2. "
+          "At a point outside of the poses' hull (`contains`) it is the shape at the nearest point "
+          "of the hull.")
       .def(
           "contains",
-          [](const PoseSpace& space, py::handle point) {
-            return space.Locate(ToPoint(point, "point")).inside;
+          [](const PoseSpace& space, py::handle points) -> py::object {
+            const Eigen::Matrix2Xd all = ToPoints(points);
+            if (IsOnePoint(points)) return py::bool_(space.Locate(all.col(0)).inside);
+            py::array_t<bool> inside(all.cols());
+            for (Eigen::Index i = 0; i < all.cols(); ++i) {
+              inside.mutable_data()[i] = space.Locate(all.col(i)).inside;
+            }
+            return inside;
           },
-          py::arg("point"), "Whether a point of the plane lies in the hull of the poses.")
+          py::arg("points"),
+          "Whether a point of the plane, or each of points, k x 2, lies in the hull of the poses.")
+      .def("_measure_blends",
+           [](const PoseSpace& space, int samples, const py::dict& given,
+              const py::object& progress) {
+             const ExploreOptions options = FromKeywords(given);
+             const BlendErrors errors = WithoutLock(progress, [=](Progress* told) {
+               return MeasureBlends(space, samples, options, told);
+             });
+             return py::make_tuple(errors.mean, errors.max, errors.within);
+           })
+      .def("_read_curve",
+           [](const PoseSpace& space, const std::filesystem::path& file) {
+             const std::vector<Eigen::Vector2d> curve = ReadCurve(file, space);
+             Eigen::Matrix2Xd points(2, curve.size());
+             for (size_t i = 0; i < curve.size(); ++i) points.col(i) = curve[i];
+             return FromMatrix(points);
+           })
       .def(
           "along",
           [](const PoseSpace& space, py::handle points, int frames) {
-            std::vector<Eigen::Vector2d> polyline;
-            for (py::handle point : points) polyline.push_back(ToPoint(point, "points"));
+            const Eigen::Matrix2Xd all = ToPoints(points);
+            const std::vector<Eigen::Vector2d> polyline(all.colwise().begin(), all.colwise().end());
             PlaneWalk walk = WithoutLock(
                 py::none(), [=](Progress*) { return WalkAlong(space, polyline, frames); });
             if (walk.outside > 0) {
@@ -135,6 +175,15 @@ poses, then the shapes found half way between nodes. `explore` makes it.
 
 void BindSpaces(py::module_* module) {
   BindSpace(module);
+  module->def("embed", [](py::handle distances, const py::dict& given) {
+    EmbeddingOptions options;
+    Set(given, &options);
+    const Embedding found = Embed(ToMatrix(distances, "distances"), options);
+    return py::make_tuple(FromMatrix(found.points), found.stress, found.converged);
+  });
+  module->def("triangulate", [](py::handle points) {
+    return FromMatrix(DelaunayTriangulation(ToPoints(points)).triangles);
+  });
   module->def("distance_matrix",
               [](const Poses& poses, const py::dict& given, const py::object& progress) {
                 const ExploreOptions options = FromKeywords(given);

@@ -33,6 +33,18 @@ py::object ToPython(const T& value) {
   }
 }
 
+/// The inverse.
+template <typename T>
+T FromPython(py::handle value) {
+  if constexpr (std::is_enum_v<T>) {
+    return internal::FromWord<T>(py::cast<std::string>(value)).value();
+  } else if constexpr (std::is_same_v<T, std::vector<std::pair<std::string, double>>>) {
+    return py::cast<T>(py::list(value.attr("items")()));
+  } else {
+    return py::cast<T>(value);
+  }
+}
+
 /// A value's type as stubs have it. Classes must have been bound before.
 template <typename T>
 std::string TypeInStub(const T* = nullptr) {
@@ -72,6 +84,26 @@ class Record {
       }
       return py::cast<std::string>(type.attr("__name__")) + "(" + text + ")";
     });
+    // Its own fields; others are computed of them.
+    class_.def(py::pickle(
+        [](const T& self) {
+          py::dict state;
+          internal::ForFields(internal::Of<T>(), [&](const char* field, const auto& get) {
+            if constexpr (std::is_member_object_pointer_v<std::decay_t<decltype(get)>>) {
+              state[field] = ToPython(self.*get);
+            }
+          });
+          return state;
+        },
+        [](const py::dict& state) {
+          T made;
+          internal::ForFields(internal::Of<T>(), [&](const char* field, const auto& get) {
+            if constexpr (std::is_member_object_pointer_v<std::decay_t<decltype(get)>>) {
+              made.*get = FromPython<std::decay_t<decltype(made.*get)>>(state[field]);
+            }
+          });
+          return made;
+        }));
     py::list fields, types;
     internal::ForFields(internal::Of<T>(), [&](const char* field, const auto& get) {
       class_.def_property_readonly(

@@ -145,9 +145,23 @@ def test_vertices_may_be_chosen_by_truth_values(path):
         path.anchor([len(low)])
 
 
-def test_slices_are_several_shapes(path):
-    np.testing.assert_array_equal(path[1:3], path.vertices[1:3])
-    np.testing.assert_array_equal(path[::-1][0], path[-1])
+def test_slices_of_poses_are_arrays_and_those_of_paths_are_paths(path, poses, animal):
+    np.testing.assert_array_equal(shapespace.Poses(poses, animal)[::-1], [poses[1], poses[0]])
+    np.testing.assert_array_equal(path[1:3].vertices, path.vertices[1:3])
+    back = path[::-1]
+    np.testing.assert_array_equal(back.vertices, path.vertices[::-1])
+    np.testing.assert_allclose(back.parameters, path.parameters)
+    assert back.poses == path.poses and path[:4].poses == [0] and path[4:].poses == [4]
+    assert path[2:5].parameters[0] == 0
+    with pytest.raises(IndexError):
+        path[3:3]
+
+
+def test_the_vertices_of_a_path_are_made_once_and_cannot_be_written(path):
+    assert path.vertices is path.vertices
+    np.testing.assert_array_equal(path.vertices[2], path[2])
+    with pytest.raises(ValueError, match="read-only"):
+        path.vertices[0, 0, 0] = 1
 
 
 @pytest.mark.parametrize(
@@ -155,7 +169,7 @@ def test_slices_are_several_shapes(path):
     [
         (lambda p, f: shapespace.extrapolate(list(p), 2), "path: must be a Path, not list"),
         (lambda p, f: shapespace.extrapolate(p, 2.5), "steps: must be int, not 2.5"),
-        (lambda p, f: shapespace.transfer(p[:], p[0]), "source: must be a Path"),
+        (lambda p, f: shapespace.transfer(p.vertices, p[0]), "source: must be a Path"),
         (lambda p, f: shapespace.logarithm(p, p[0], p[1]), "metric: must be a Metric"),
         (lambda p, f: shapespace.deform(p[0], f, [0]), r"handles\[0\]: must be a Handle"),
         (lambda p, f: shapespace.interpolate(shapespace.Poses(p[:2], f), f), "faces: leave them"),

@@ -1,5 +1,8 @@
 """Files in and out."""
 
+import errno
+import os
+
 import numpy as np
 import pytest
 
@@ -33,7 +36,11 @@ def test_a_path_is_written_in_every_form(path, tmp_path):
     assert "for Python: interpolate" in again.provenance
 
     path.write(tmp_path / "walk.png", title="a walk", frame_width=64)
-    path.write(tmp_path / "walk.glb", duration=2.0, playback="loop")
+    plain = (tmp_path / "walk.png").read_bytes()
+    path.write(tmp_path / "walk.png", title="a walk", frame_width=64, color="parts")
+    assert (tmp_path / "walk.png").read_bytes() != plain
+    path.write(tmp_path / "walk.glb", duration=2.0, playback="loop", color="deviation")
+    assert b"COLOR_0" in (tmp_path / "walk.glb").read_bytes()
     assert (tmp_path / "walk.png").read_bytes()[:4] == b"\x89PNG"
     assert (tmp_path / "walk.glb").read_bytes()[:4] == b"glTF"
     (tmp_path / "frames").mkdir()
@@ -44,8 +51,9 @@ def test_a_path_is_written_in_every_form(path, tmp_path):
     assert b"property uchar red" in first
     with pytest.raises(ValueError, match="color"):
         path.write(tmp_path / "frames" / "%03d.ply", color="gold")
-    with pytest.raises(TypeError, match="'colour'.*did you mean 'color'"):
-        path.write(tmp_path / "frames" / "%03d.ply", colour="parts")
+    for name in ("frames/%03d.ply", "walk.png", "walk.glb"):
+        with pytest.raises(TypeError, match="'colour'.*did you mean 'color'"):
+            path.write(tmp_path / name, colour="parts")
     with pytest.raises(shapespace.FileError, match="must end in"):
         path.write(tmp_path / "walk.mp4")
     with pytest.raises(TypeError, match="'title'"):
@@ -131,3 +139,28 @@ def test_notebooks_show_paths_and_pictures(path, animal):
     )
     assert coloured.shape != pixels.shape or (coloured != pixels).any()
     assert shapespace.film_strip([animal.pose("sit")], animal.faces).pixels.ndim == 3
+
+
+def test_files_that_the_system_refuses_raise_what_python_raises(animal, tmp_path):
+    with pytest.raises(FileNotFoundError, match="none.obj") as caught:
+        shapespace.read(tmp_path / "none.obj")
+    assert caught.value.errno == errno.ENOENT
+    assert isinstance(caught.value, shapespace.FileError)
+    assert isinstance(caught.value, shapespace.NoSuchFile)
+    with pytest.raises(FileNotFoundError):
+        shapespace.Path.read(tmp_path / "none.path")
+    with pytest.raises(IsADirectoryError):
+        shapespace.Path.read(tmp_path)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(shapespace.FileError) as caught:
+        shapespace.write(tmp_path / "file" / "a.obj", animal.pose("sit"), animal)
+    assert caught.value.errno == errno.ENOTDIR
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may read and write everything")
+def test_files_that_are_not_permitted(tmp_path):
+    (tmp_path / "a.path").write_text("x")
+    (tmp_path / "a.path").chmod(0)
+    with pytest.raises(PermissionError) as caught:
+        shapespace.Path.read(tmp_path / "a.path")
+    assert caught.value.errno == errno.EACCES

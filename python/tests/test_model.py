@@ -60,12 +60,13 @@ def test_samples_are_the_same_for_a_seed(model):
 
 def test_models_are_written_and_pickled(model, tmp_path):
     model.write(tmp_path / "herd.modes")
-    for copy in (ss.ShapeModel.read(tmp_path / "herd.modes"), pickle.loads(pickle.dumps(model))):
+    read, pickled = ss.ShapeModel.read(tmp_path / "herd.modes"), pickle.loads(pickle.dumps(model))
+    assert read.summary is None and str(pickled.summary) == str(model.summary)
+    for copy in (read, pickled):
         np.testing.assert_array_equal(copy.coordinates, model.coordinates)
         np.testing.assert_array_equal(
             copy.inverse_transform([1, -1]), model.inverse_transform([1, -1])
         )
-        assert copy.summary is None
     assert pickle.loads(pickle.dumps(ss.ShapeModel(modes=2)))._options == {"modes": 2}
 
 

@@ -45,6 +45,7 @@ def test_docstrings_document_every_parameter(function):
         ({"shapes": "3"}, TypeError, "shapes: must be int, not '3'"),
         ({"shapes": 2.5}, TypeError, "shapes: must be int, not 2.5"),
         ({"shapes": True}, TypeError, "shapes: must be int, not True"),
+        ({"shapes": np.True_}, TypeError, "shapes: must be int, not "),
         ({"assess": 1}, TypeError, "assess: must be bool, not 1"),
         ({"shapes": 0}, ValueError, "shapes: "),
         ({"tolerance": -1.0}, ValueError, "tolerance: "),
@@ -54,7 +55,7 @@ def test_docstrings_document_every_parameter(function):
         ({"metric": "elastic"}, ValueError, "'elastic' is no preset"),
         ({"metric": {"bend": 1}}, TypeError, "'bend' is no option here; did you mean 'bending'"),
         ({"metric": {"bending": -1.0}}, ValueError, "bending: "),
-        ({"metric": 3}, TypeError, "metric: must be MetricOptions or str, not 3"),
+        ({"metric": 3}, TypeError, "metric: must be MetricOptions, Metric or str, not 3"),
         ({"memory_limit": 1.0}, shapespace.SolverError, "memory"),
     ],
 )
@@ -152,3 +153,22 @@ def test_stiffness_of_another_mesh_is_refused(poses, animal):
         shapespace.Metric(poses, animal.faces, stretching_stiffness=[1, 2, 3])
     with pytest.raises(ValueError, match="bending_stiffness: must be a one-dimensional"):
         shapespace.Metric(poses, animal.faces, bending_stiffness=np.ones((2, 2)))
+
+
+def test_numbers_truth_values_and_names_may_be_numpy_s_and_pathlib_s(animal, poses, tmp_path):
+    options = {"shapes": np.int64(1), "tolerance": np.float32(1e-3), "assess": np.False_}
+    one = shapespace.interpolate(poses, animal, **options)
+    two = shapespace.interpolate(poses, animal, shapes=1, tolerance=float(np.float32(1e-3)))
+    np.testing.assert_array_equal(one.path.vertices, two.path.vertices)
+    assert np.isnan(one.summary.quality.edge_rms)
+    records = tmp_path / "records"
+    shapespace.distance_matrix(poses, animal, records=records, geodesic={"shapes": 1})
+    assert any(records.iterdir())
+
+
+def test_warnings_name_the_line_of_the_program():
+    vertices = [[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1]]
+    fan = [[0, 1, 2], [0, 1, 3], [0, 1, 4]]
+    with pytest.warns(shapespace.MeshWarning) as direct:
+        shapespace.Poses([vertices], fan, allow_nonmanifold=np.True_)
+    assert direct[0].filename == __file__

@@ -60,6 +60,9 @@ def test_the_stub_has_every_public_name_and_no_other():
         name for name in shapespace.__all__ if not inspect.ismodule(getattr(shapespace, name))
     } - {"__version__"}
     assert set(CLASSES) | set(FUNCTIONS) == public
+    assigned = [target.id for node in STUB.body if isinstance(node, ast.Assign)
+                for target in node.targets]  # fmt: skip
+    assert assigned and all(name.startswith("_") for name in assigned)
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)

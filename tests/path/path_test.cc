@@ -106,6 +106,35 @@ TEST(FirstShapes, KeepsThePosesAndExtrapolatedShapesThatAreAmongThem) {
   EXPECT_THROW(FirstShapes(path, 14), InvalidOptions);
 }
 
+TEST(SelectShapes, ReversesAMotion) {
+  const Path path = ContinuedPath();
+  const Path back = SelectShapes(path, {12, 8, 4, 0});
+  EXPECT_EQ(back.parameters, (std::vector<double>{0, 0.5, 1, 1.5}));
+  EXPECT_TRUE(back.shapes[1] == path.shapes[8] && back.shapes[3] == path.shapes[0]);
+  EXPECT_EQ(back.motions[1].translation, path.motions[8].translation);
+  EXPECT_EQ(back.poses, (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(back.extrapolated, 0);
+  EXPECT_EQ(SelectShapes(back, {3, 2, 1, 0}).parameters, (std::vector<double>{0, 0.5, 1, 1.5}));
+}
+
+TEST(SelectShapes, KeepsWhatIsExtrapolatedButForTheFirstShape) {
+  const Path path = ContinuedPath();
+  const Path middle = SelectShapes(path, {4, 8, 10, 12});
+  EXPECT_EQ(middle.parameters, (std::vector<double>{0, 0.5, 0.75, 1}));
+  EXPECT_EQ(middle.poses, (std::vector<int>{0, 1}));
+  EXPECT_EQ(middle.extrapolated, 2);
+  const Path end = SelectShapes(path, {10, 11, 12});
+  EXPECT_EQ(end.extrapolated, 2);
+}
+
+TEST(SelectShapes, RefusesIndicesThatAreNotOfThePathOrTurnBack) {
+  const Path path = ContinuedPath();
+  for (const std::vector<int>& bad :
+       {std::vector<int>{}, {13}, {-1, 0}, {0, 2, 1}, {5, 3, 4}, {1, 1}}) {
+    EXPECT_THROW(SelectShapes(path, bad), InvalidOptions) << bad.size();
+  }
+}
+
 TEST(ResamplePath, RefusesTimesThatFallOrLeaveThePath) {
   const Path path = CorneredPath();
   EXPECT_THROW(Resample(path, {}), InvalidOptions);

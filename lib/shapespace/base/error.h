@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,14 @@ class Error : public std::runtime_error {
 class FileError : public Error {
  public:
   using Error::Error;
+  FileError(const std::string& message, std::error_code cause) : Error(message), cause_(cause) {}
+
+  /// Why the system refused the file, such as `std::errc::no_such_file_or_directory`; zero if it
+  /// did not.
+  std::error_code cause() const { return cause_; }
+
+ private:
+  std::error_code cause_;
 };
 
 /// A mesh was read but is not usable: index out of range, non-manifold edge, empty.

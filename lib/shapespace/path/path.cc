@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <string>
 
@@ -182,19 +183,45 @@ Path Resample(const Path& path, const std::vector<double>& times) {
   return result;
 }
 
+Path SelectShapes(const Path& path, const std::vector<int>& indices) {
+  if (indices.empty()) throw InvalidOptions("indices", "at least one is needed");
+  const bool ascending = indices.back() >= indices.front();
+  Path result;
+  result.metric = path.metric;
+  const int inner = path.NumShapes() - path.extrapolated;
+  for (size_t k = 0; k < indices.size(); ++k) {
+    const int i = indices[k];
+    if (i < 0 || i >= path.NumShapes()) {
+      throw InvalidOptions("indices", std::to_string(i) + " is not one of the path's " +
+                                          std::to_string(path.NumShapes()) + " shapes");
+    }
+    if (k > 0 && (ascending ? i <= indices[k - 1] : i >= indices[k - 1])) {
+      throw InvalidOptions("indices", "must ascend or descend");
+    }
+    result.shapes.push_back(path.shapes[i]);
+    result.motions.push_back(path.motions[i]);
+    result.parameters.push_back(std::abs(path.parameters[i] - path.parameters[indices.front()]));
+    if (std::binary_search(path.poses.begin(), path.poses.end(), i)) {
+      result.poses.push_back(static_cast<int>(k));
+    }
+    // At least the first shape counts as given.
+    if (ascending && k > 0 && i >= inner) ++result.extrapolated;
+  }
+  result.converged = path.converged;
+  result.smooth = path.smooth;
+  result.provenance = path.provenance;
+  result.appearance = path.appearance;
+  return result;
+}
+
 Path FirstShapes(const Path& path, int count) {
   if (count < 1 || count > path.NumShapes()) {
     throw InvalidOptions(
         "count", "must be 1 to " + std::to_string(path.NumShapes()) + ", the number of shapes");
   }
-  Path result = path;
-  result.shapes.resize(count);
-  result.parameters.resize(count);
-  result.motions.resize(count);
-  result.poses.erase(std::lower_bound(result.poses.begin(), result.poses.end(), count),
-                     result.poses.end());
-  result.extrapolated = std::max(0, path.extrapolated - (path.NumShapes() - count));
-  return result;
+  std::vector<int> indices(count);
+  std::iota(indices.begin(), indices.end(), 0);
+  return SelectShapes(path, indices);
 }
 
 }  // namespace shapespace

@@ -64,8 +64,14 @@ std::vector<Shape> Resample(const std::vector<Shape>& shapes, const std::vector<
 ///        of the path.
 Path Resample(const Path& path, const std::vector<double>& times);
 
-/// The first `count` shapes of a path, for a continuation: the same metric and times, and the poses
-/// among them.
+/// Some shapes of a path, by their indices, which ascend or descend: the same metric, the poses
+/// among them, and times that begin at 0. Descending indices reverse the motion; none of its shapes
+/// then counts as extrapolated.
+/// \throw InvalidOptions if there is no index, one is not of the path, or they do not ascend or
+///        descend.
+Path SelectShapes(const Path& path, const std::vector<int>& indices);
+
+/// The first `count` shapes of a path, for a continuation.
 /// \throw InvalidOptions if `count` is not in 1 .. `path.NumShapes()`.
 Path FirstShapes(const Path& path, int count);
 

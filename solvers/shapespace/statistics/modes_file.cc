@@ -3,44 +3,12 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
-#include <shapespace/path/internal/metric_arrays.h>
+#include <shapespace/statistics/internal/modes_arrays.h>
 
 namespace shapespace {
 namespace {
 
 constexpr internal::ArrayFileKind kModesKind = {"SHAPMODE", 1, ".modes"};
-
-PoseModes Parse(const std::string& file, const internal::HeaderJson& header,
-                const internal::ArrayReader& arrays) {
-  PoseModes modes;
-  modes.metric = internal::ReadMetric(header, arrays);
-  modes.appearance = internal::ReadAppearance(header, file, arrays);
-  const int vertices = modes.metric->connectivity->NumVertices();
-  modes.names = internal::NamesFromJson(header.at("names"));
-  modes.size =
-      header.at("size").get<std::string>() == "removed" ? PoseSize::kRemove : PoseSize::kKeep;
-  header.at("total_variance").get_to(modes.total_variance);
-  header.at("provenance").get_to(modes.provenance);
-  const auto count = static_cast<Eigen::Index>(modes.names.size());
-  const int num_modes = header.at("modes").get<int>();
-  modes.weights = arrays.Get<Eigen::VectorXd>("weights", count, 1);
-  modes.variances = arrays.Get<Eigen::VectorXd>("variances", num_modes, 1);
-  modes.coefficients = arrays.Get<Eigen::MatrixXd>("coefficients", count, num_modes);
-  modes.place.rotation = arrays.Get<Eigen::Matrix3d>("rotation", 3, 3);
-  modes.place.translation = arrays.Get<Eigen::Vector3d>("translation", 3, 1);
-  modes.mean = arrays.Get<Shape>("mean", 3, vertices);
-  const auto rotations = arrays.Get<Eigen::Matrix3Xd>("rotations", 3, 3 * count);
-  const auto translations = arrays.Get<Eigen::Matrix3Xd>("translations", 3, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    modes.motions.push_back({rotations.middleCols<3>(3 * i), translations.col(i)});
-    modes.poses.push_back(arrays.Get<Shape>("pose" + std::to_string(i), 3, vertices));
-  }
-  for (int k = 0; k < num_modes; ++k) {
-    modes.modes.push_back(arrays.Get<Tangent>("mode" + std::to_string(k), 3, vertices));
-  }
-  modes.Validate();
-  return modes;
-}
 
 }  // namespace
 
@@ -52,32 +20,7 @@ void WriteModes(const std::string& file, const PoseModes& modes) {
   }
   internal::HeaderJson header;
   internal::ArrayWriter arrays;
-  internal::AddMetric(*modes.metric, &header, &arrays);
-  internal::AddAppearance(modes.appearance, file, &header, &arrays);
-  header["names"] = internal::NamesToJson(modes.names);
-  header["modes"] = modes.NumModes();
-  header["size"] = modes.size == PoseSize::kRemove ? "removed" : "kept";
-  header["total_variance"] = modes.total_variance;
-  header["provenance"] = modes.provenance;
-  arrays.Add("weights", modes.weights);
-  arrays.Add("variances", modes.variances);
-  arrays.Add("coefficients", modes.coefficients);
-  arrays.Add("rotation", modes.place.rotation);
-  arrays.Add("translation", modes.place.translation);
-  Eigen::Matrix3Xd rotations(3, 3 * modes.NumPoses()), translations(3, modes.NumPoses());
-  for (int i = 0; i < modes.NumPoses(); ++i) {
-    rotations.middleCols<3>(3 * i) = modes.motions[i].rotation;
-    translations.col(i) = modes.motions[i].translation;
-  }
-  arrays.Add("rotations", rotations);
-  arrays.Add("translations", translations);
-  arrays.Add("mean", modes.mean);
-  for (int i = 0; i < modes.NumPoses(); ++i) {
-    arrays.Add("pose" + std::to_string(i), modes.poses[i]);
-  }
-  for (int k = 0; k < modes.NumModes(); ++k) {
-    arrays.Add("mode" + std::to_string(k), modes.modes[k]);
-  }
+  internal::AddModes(modes, file, &header, &arrays);
   internal::WriteArrayFile(file, kModesKind, std::move(header), arrays);
 }
 
@@ -85,7 +28,7 @@ PoseModes ReadModes(const std::string& file) {
   return internal::ReadArrayFile(
       file, kModesKind,
       [&](const internal::HeaderJson& header, const internal::ArrayReader& arrays) {
-        return Parse(file, header, arrays);
+        return internal::ReadModes(file, header, arrays);
       });
 }
 

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -53,7 +52,8 @@ std::unique_ptr<internal::FileBuffer> CreateBeside(const std::string& file, std:
     if (descriptor >= 0) return std::make_unique<internal::FileBuffer>(descriptor);
     if (errno != EEXIST) break;
   }
-  throw FileError(file + ": cannot be written: " + std::strerror(errno));
+  const std::error_code cause(errno, std::generic_category());
+  throw FileError(file + ": cannot be written: " + cause.message(), cause);
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ void WriteFileAtomically(const std::string& file, const std::function<void(std::
   const fs::path target(file);
   std::error_code error;
   if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
-  if (error) throw FileError(file + ": cannot make its folder: " + error.message());
+  if (error) throw FileError(file + ": cannot make its folder: " + error.message(), error);
 
   auto& [mutex, temporaries] = TheUnfinished();
   std::string temporary;
@@ -79,7 +79,7 @@ void WriteFileAtomically(const std::string& file, const std::function<void(std::
     if (!stream) throw FileError(file + ": writing failed (is the disk full?)");
     const std::lock_guard<std::mutex> lock(mutex);
     fs::rename(temporary, target, error);
-    if (error) throw FileError(file + ": cannot be replaced: " + error.message());
+    if (error) throw FileError(file + ": cannot be replaced: " + error.message(), error);
     temporaries.erase(temporary);
   } catch (...) {
     const std::lock_guard<std::mutex> lock(mutex);

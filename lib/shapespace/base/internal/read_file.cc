@@ -1,7 +1,6 @@
 #include <shapespace/base/internal/read_file.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -12,10 +11,14 @@ namespace shapespace::internal {
 std::string ReadFile(const std::string& file, std::int64_t most_bytes) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
-    throw FileError(file + ": is a folder; name a file");
+    throw FileError(file + ": is a folder; name a file",
+                    std::make_error_code(std::errc::is_a_directory));
   }
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  if (!stream) throw FileError(file + ": cannot be opened: " + std::strerror(errno));
+  if (!stream) {
+    const std::error_code cause(errno, std::generic_category());
+    throw FileError(file + ": cannot be opened: " + cause.message(), cause);
+  }
   const std::streamoff size = stream.tellg();
   if (size < 0) throw FileError(file + ": is not a regular file");
   if (size == 0) throw FileError(file + ": is empty");

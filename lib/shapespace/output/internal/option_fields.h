@@ -49,8 +49,6 @@ void ForOptions(Of<GltfOptions>, const Visit& visit) {
   visit("playback", &GltfOptions::playback, "There and back, around, or once.");
   visit("ease", &GltfOptions::ease, "Slow at both ends.");
   visit("unit", &GltfOptions::unit, "Metres in one of the shapes' units; .001: millimetres.");
-  visit("colour_by_deviation", &GltfOptions::colour_by_deviation,
-        "Colour vertices by how far edges there are from their first lengths.");
   visit("groups", &GltfOptions::groups, "Group of each vertex: a colour each; negative: none.");
   visit("allow_outside_files", &GltfOptions::allow_outside_files,
         "Take material libraries and textures from outside of the folder of the file that names "

@@ -149,8 +149,7 @@ std::vector<std::string> NamesFromJson(const HeaderJson& json) {
   return names;
 }
 
-void AddMetric(const Metric& metric, HeaderJson* header, ArrayWriter* arrays) {
-  const Connectivity& connectivity = *metric.connectivity;
+void AddConnectivity(const Connectivity& connectivity, HeaderJson* header, ArrayWriter* arrays) {
   arrays->Add("polygon_begin", connectivity.PolygonBegin().data(),
               connectivity.PolygonBegin().size(), 1);
   arrays->Add("corners", connectivity.Corners().data(), connectivity.Corners().size(), 1);
@@ -162,6 +161,27 @@ void AddMetric(const Metric& metric, HeaderJson* header, ArrayWriter* arrays) {
   arrays->Add("segments", segments);
   arrays->Add("extra_edges", Eigen::Matrix2Xi(connectivity.Edges().rightCols(
                                  connectivity.NumEdges() - connectivity.NumTriangleEdges())));
+  (*header)["vertices"] = connectivity.NumVertices();
+}
+
+std::shared_ptr<const Connectivity> ReadConnectivity(int num_vertices, const ArrayReader& arrays) {
+  const auto begin = arrays.Get<Eigen::VectorXi>("polygon_begin", Eigen::Dynamic, 1);
+  const auto corners = arrays.Get<Eigen::VectorXi>("corners", Eigen::Dynamic, 1);
+  const auto pairs = [&](const char* name) {
+    const auto columns = arrays.Get<Eigen::Matrix2Xi>(name, 2, Eigen::Dynamic);
+    std::vector<std::pair<int, int>> result;
+    result.reserve(columns.cols());
+    for (int i = 0; i < columns.cols(); ++i) result.emplace_back(columns(0, i), columns(1, i));
+    return result;
+  };
+  return Connectivity::Make(num_vertices, {begin.begin(), begin.end()},
+                            {corners.begin(), corners.end()}, pairs("segments"),
+                            pairs("extra_edges"),
+                            arrays.Get<Eigen::Matrix3Xi>("triangles", 3, Eigen::Dynamic));
+}
+
+void AddMetric(const Metric& metric, HeaderJson* header, ArrayWriter* arrays) {
+  AddConnectivity(*metric.connectivity, header, arrays);
   arrays->Add("vertex_area", metric.vertex_area);
   arrays->Add("edge_area", metric.edge_area);
   arrays->Add("hinge_area", metric.hinge_area);
@@ -180,7 +200,6 @@ void AddMetric(const Metric& metric, HeaderJson* header, ArrayWriter* arrays) {
     if (field->size() > 0) arrays->Add(name, *field);
   }
   arrays->Add("rigid_weights", metric.rigid.weights);
-  (*header)["vertices"] = connectivity.NumVertices();
   (*header)["unit"] = metric.unit;
   (*header)["metric"] = OptionsToJson(metric.options);
   (*header)["features"] = features;
@@ -192,19 +211,7 @@ std::shared_ptr<const Metric> ReadMetric(const HeaderJson& header, const ArrayRe
   const auto metric = std::make_shared<Metric>();
   // First, because it shows that the file is large enough for so many vertices.
   metric->vertex_area = arrays.Get<Eigen::VectorXd>("vertex_area", num_vertices, 1);
-  const auto begin = arrays.Get<Eigen::VectorXi>("polygon_begin", Eigen::Dynamic, 1);
-  const auto corners = arrays.Get<Eigen::VectorXi>("corners", Eigen::Dynamic, 1);
-  const auto pairs = [&](const char* name) {
-    const auto columns = arrays.Get<Eigen::Matrix2Xi>(name, 2, Eigen::Dynamic);
-    std::vector<std::pair<int, int>> result;
-    result.reserve(columns.cols());
-    for (int i = 0; i < columns.cols(); ++i) result.emplace_back(columns(0, i), columns(1, i));
-    return result;
-  };
-  metric->connectivity =
-      Connectivity::Make(num_vertices, {begin.begin(), begin.end()},
-                         {corners.begin(), corners.end()}, pairs("segments"), pairs("extra_edges"),
-                         arrays.Get<Eigen::Matrix3Xi>("triangles", 3, Eigen::Dynamic));
+  metric->connectivity = ReadConnectivity(num_vertices, arrays);
   const Connectivity& connectivity = *metric->connectivity;
   metric->options = OptionsFromJson(header.at("metric"));
   ReadStiffness(header.at("metric"), arrays, connectivity, &metric->options);

@@ -9,11 +9,18 @@
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/internal/array_file.h>
 
-// A metric with its connectivity, and an appearance, as components of files.
+// A metric, a connectivity and an appearance as components of files.
 
 namespace shapespace::internal {
 
-/// Adds a metric to a file.
+/// Adds a connectivity to a file.
+void AddConnectivity(const Connectivity& connectivity, HeaderJson* header, ArrayWriter* arrays);
+
+/// Reads it back. The caller has checked that the file is large enough for so many vertices.
+/// \throw FileError, MeshError, or another exception if the header is inconsistent.
+std::shared_ptr<const Connectivity> ReadConnectivity(int num_vertices, const ArrayReader& arrays);
+
+/// Adds a metric with its connectivity to a file.
 void AddMetric(const Metric& metric, HeaderJson* header, ArrayWriter* arrays);
 
 /// Reads it back.

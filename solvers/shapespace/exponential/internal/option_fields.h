@@ -35,11 +35,12 @@ inline Words<TransportConnection> WordsOf(Of<TransportConnection>) {
           {"constrained_projection", TransportConnection::kConstrainedProjection}};
 }
 
-/// Those of the geodesic, but for the metric, which is an argument, and what only a path has.
+/// Those of the geodesic, but for the metric and the number of steps, which are arguments, and what
+/// only a path has.
 template <typename Visit>
 void ForOptions(Of<LogarithmOptions>, const Visit& visit) {
   ForOptions(Of<GeodesicOptions>(), [&](const std::string& name, auto field, const char* about) {
-    if (name != "metric" && name != "assess") visit(name.c_str(), field, about);
+    if (name != "metric" && name != "shapes" && name != "assess") visit(name.c_str(), field, about);
   });
 }
 

@@ -1,0 +1,52 @@
+#include <shapespace/path/internal/path_arrays.h>
+
+#include <string>
+
+namespace shapespace::internal {
+
+void AddPath(const Path& path, const std::string& file, HeaderJson* header, ArrayWriter* arrays) {
+  AddMetric(*path.metric, header, arrays);
+  arrays->Add("parameters", path.parameters.data(), path.parameters.size(), 1);
+  arrays->Add("poses", path.poses.data(), path.poses.size(), 1);
+  Eigen::Matrix3Xd rotations(3, 3 * path.NumShapes()), translations(3, path.NumShapes());
+  for (int i = 0; i < path.NumShapes(); ++i) {
+    rotations.middleCols<3>(3 * i) = path.motions[i].rotation;
+    translations.col(i) = path.motions[i].translation;
+  }
+  arrays->Add("rotations", rotations);
+  arrays->Add("translations", translations);
+  for (int i = 0; i < path.NumShapes(); ++i) {
+    arrays->AddReference("shape" + std::to_string(i), path.shapes[i]);
+  }
+  AddAppearance(path.appearance, file, header, arrays);
+  (*header)["shapes"] = path.NumShapes();
+  (*header)["extrapolated"] = path.extrapolated;
+  (*header)["converged"] = path.converged;
+  if (path.smooth) (*header)["smooth"] = true;
+  (*header)["provenance"] = path.provenance;
+}
+
+Path ReadPath(const std::string& file, const HeaderJson& header, const ArrayReader& arrays) {
+  Path path;
+  path.metric = ReadMetric(header, arrays);
+  const int num_vertices = path.metric->connectivity->NumVertices();
+  const int num_shapes = header.at("shapes").get<int>();
+  const auto parameters = arrays.Get<Eigen::VectorXd>("parameters", num_shapes, 1);
+  path.parameters.assign(parameters.begin(), parameters.end());
+  path.poses = IndicesFrom(arrays, "poses");
+  path.extrapolated = header.at("extrapolated").get<int>();
+  path.converged = header.at("converged").get<bool>();
+  path.smooth = header.value("smooth", false);
+  const auto rotations = arrays.Get<Eigen::Matrix3Xd>("rotations", 3, 3 * num_shapes);
+  const auto translations = arrays.Get<Eigen::Matrix3Xd>("translations", 3, num_shapes);
+  for (int i = 0; i < num_shapes; ++i) {
+    path.motions.push_back({rotations.middleCols<3>(3 * i), translations.col(i)});
+    path.shapes.push_back(arrays.Get<Shape>("shape" + std::to_string(i), 3, num_vertices));
+  }
+  path.provenance = header.at("provenance").get<std::string>();
+  path.appearance = ReadAppearance(header, file, arrays);
+  path.Validate();
+  return path;
+}
+
+}  // namespace shapespace::internal
