@@ -106,12 +106,12 @@ TEST(FindNearestShape, FindsAShapeByItsFeatures) {
         map, wanted, start, {tolerance, max_iterations}, [&] { ++asked; }, &solver);
   };
   const internal::NearestShape found = find(1e-20, 30);
-  EXPECT_TRUE(found.converged);
+  EXPECT_TRUE(found.Converged());
   EXPECT_LT(Apart(found.shape, bent), 1e-9);
   EXPECT_NEAR(found.squared_distance, (map.Values(found.shape) - wanted).squaredNorm(), 1e-22);
   EXPECT_EQ(asked, found.iterations);
   const internal::NearestShape early = find(1e-20, 1);
-  EXPECT_FALSE(early.converged);
+  EXPECT_FALSE(early.Converged());
   EXPECT_EQ(early.iterations, 1);
   EXPECT_LT(early.squared_distance, (map.Values(start) - wanted).squaredNorm());
 }
@@ -125,7 +125,7 @@ TEST(FindNearestShape, ShortensStepsThatLeadTooFar) {
   internal::MetricSolver solver;
   const internal::NearestShape found = internal::FindNearestShape(
       map, map.Values(bent), start, {1e-20, 100}, [] {}, &solver);
-  EXPECT_TRUE(found.converged);
+  EXPECT_TRUE(found.Converged());
   EXPECT_LT(Apart(found.shape, bent), 1e-6);
 }
 

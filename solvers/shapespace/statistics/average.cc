@@ -203,7 +203,7 @@ AverageResult Average(const std::shared_ptr<const Connectivity>& connectivity,
       {least, options.max_iterations}, [&] { ReportProgress(progress, "averaging", 0, 0); },
       &solver);
   summary.iterations = nearest.iterations;
-  if (!nearest.converged) summary.termination = Termination::kMaxIterations;
+  summary.termination = nearest.termination;
   if (summary.variance > rounding * rounding) {
     summary.residual = nearest.squared_distance / summary.variance;
   }

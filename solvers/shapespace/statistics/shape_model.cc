@@ -136,7 +136,7 @@ ModelShape ShapeModel::At(const Eigen::VectorXd& coordinates, Progress* progress
   ModelShape result;
   result.shape = Modes().place(Modes().metric->unit * nearest.shape);
   result.iterations = nearest.iterations;
-  if (!nearest.converged) result.termination = Termination::kMaxIterations;
+  result.termination = nearest.termination;
   return result;
 }
 

@@ -248,7 +248,7 @@ class TargetShapes {
     const internal::NearestShape nearest =
         (*features_)(comparison_.Shapes()[i] / metric_->unit, options_.tolerance,
                      options_.max_iterations, [&] { ReportProgress(within, "", i, 0); });
-    row->converged = nearest.converged;
+    row->converged = nearest.Converged();
     row->iterations = nearest.iterations;
     shapes_.push_back(metric_->unit * nearest.shape);
   }

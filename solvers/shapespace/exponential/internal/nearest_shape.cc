@@ -18,8 +18,8 @@ NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& targ
   result.shape = start;
   Eigen::VectorXd distance = map.Values(start) - target;
   result.squared_distance = distance.squaredNorm();
-  result.converged = result.squared_distance <= options.tolerance;
-  while (!result.converged && result.iterations < options.max_iterations) {
+  if (result.squared_distance <= options.tolerance) result.termination = Termination::kConverged;
+  while (!result.Converged() && result.iterations < options.max_iterations) {
     check_cancelled();
     ++result.iterations;
     const FeatureDerivative derivative = map.Derivative(result.shape);
@@ -28,7 +28,7 @@ NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& targ
     const Tangent step = solver->Approximate(gradient);
     const double promise = step.cwiseProduct(gradient).sum();
     if (promise <= options.tolerance) {
-      result.converged = true;
+      result.termination = Termination::kConverged;
       break;
     }
     bool lowered = false;
@@ -39,12 +39,15 @@ NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& targ
       const double gain = result.squared_distance - left.squaredNorm();
       if (!(gain >= kSufficient * factor * promise)) continue;
       lowered = true;
-      result.converged = halving == 0 && gain <= options.tolerance;
+      if (halving == 0 && gain <= options.tolerance) result.termination = Termination::kConverged;
       result.shape = std::move(trial);
       distance = std::move(left);
       result.squared_distance = distance.squaredNorm();
     }
-    if (!lowered) break;
+    if (!lowered && !solver->UseDoublePrecision()) {
+      result.termination = Termination::kStalled;
+      break;
+    }
   }
   return result;
 }

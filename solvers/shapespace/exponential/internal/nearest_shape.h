@@ -8,6 +8,7 @@
 #include <shapespace/exponential/internal/metric_solver.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/metric/feature_map.h>
+#include <shapespace/numerics/termination.h>
 
 namespace shapespace::internal {
 
@@ -23,12 +24,14 @@ struct NearestShape {
   Shape shape;
   double squared_distance = 0;  ///< |Phi(shape) - target|^2
   int iterations = 0;
-  bool converged = false;  ///< false if it ran out of iterations or found no decrease
+  Termination termination = Termination::kMaxIterations;  ///< kStalled: no step gained anything
+  bool Converged() const { return termination == Termination::kConverged; }
 };
 
 /// The shape whose features are nearest to `target`, argmin |Phi(P) - target|^2, by the
 /// Gauss-Newton method from `start`. `solver` factors the metric in each iteration and keeps the
-/// last factor. `check_cancelled` is called before every iteration, and may throw.
+/// last factor, in double precision from the first step on that gains nothing in single precision.
+/// `check_cancelled` is called before every iteration, and may throw.
 /// \throw SolverError if the metric is not definite at a shape on the way.
 NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& target,
                               const Shape& start, const NearestShapeOptions& options,
