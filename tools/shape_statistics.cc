@@ -131,11 +131,7 @@ std::vector<std::string> Outputs(const std::string& question) {
                 IsPointCache(output),
             ".modes, .png, .glb, .html, .csv, .pc2 or .mdd");
     }
-    if (IsPage(output) && ViewerPage().empty()) {
-      throw Error(
-          "this program was built without the viewer page. In the source folder, run ./dev viewer, "
-          "which needs npm, and then ./dev build");
-    }
+    if (IsPage(output)) CheckHasViewer();
     CheckCanBeWritten(output);
     outputs.push_back(output);
   }

@@ -10,6 +10,7 @@
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/exploration/space_file.h>
+#include <shapespace/exploration/space_page.h>
 #include <shapespace/output/page.h>
 
 #include "support/console.h"
@@ -42,20 +43,6 @@ void CheckKinds(const std::vector<std::string>& files) {
   }
 }
 
-PageSpace ToPage(const PoseSpace& space, const std::string& name) {
-  PageSpace page;
-  page.connectivity = space.metric->connectivity;
-  for (int i = 0; i < space.NumNodes(); ++i) page.nodes.push_back(space.Placed(i));
-  page.names = space.names;
-  page.points = space.points;
-  page.triangles = space.triangles;
-  page.segments = space.segments;
-  page.parents = space.parents;
-  page.vertex_colours = space.appearance.vertex_colours;
-  page.name = name;
-  return page;
-}
-
 void CheckIsGlb(const std::string& file, const std::string& bytes) {
   if (bytes.compare(0, 4, "glTF") != 0) {
     throw FileError(file + ": is not a binary glTF file: it does not begin with the letters glTF");
@@ -75,11 +62,7 @@ void Run(const std::vector<std::string>& files) {
   CheckKinds(files);
   CheckNothingIsOverwritten(files, {{"output", {FLAGS_output}}});
   CheckCanBeWritten(FLAGS_output);
-  if (ViewerPage().empty()) {
-    throw Error(
-        "this program was built without the viewer page. In the source folder, run ./dev viewer, "
-        "which needs npm, and then ./dev build");
-  }
+  CheckHasViewer();
   std::list<Path> paths;  // scenes contain pointers to them
   std::vector<PageScene> scenes;
   for (const std::string& file : files) {
@@ -88,7 +71,7 @@ void Run(const std::vector<std::string>& files) {
       paths.push_back(ReadPathAndTell(file));
       scenes.push_back(PagePath{&paths.back(), name});
     } else if (internal::FileExtension(file) == ".space") {
-      scenes.push_back(ToPage(ReadSpace(file), name));
+      scenes.push_back(PageOf(ReadSpace(file), name));
     } else {
       scenes.push_back(PageGlb{internal::ReadFile(file), name});
       CheckIsGlb(file, std::get<PageGlb>(scenes.back()).bytes);

@@ -112,6 +112,7 @@ from ._functions import (
 )
 from ._model import ShapeModel
 from . import _metric
+from ._page import Page
 from ._options import (
     EmbeddingOptions,
     GeodesicOptions,

@@ -49,6 +49,9 @@ void CheckIsOfMesh(const Metric& metric, const Connectivity& mesh);
 RgbImage Draw(const std::shared_ptr<const Connectivity>& connectivity,
               const std::vector<Shape>& shapes, const FilmStripOptions& options);
 
+/// The viewer that the package contains. \throw Error, of Python's, if it contains none.
+std::string PageTemplate();
+
 /// Says each through Python's warnings, as a MeshWarning.
 void Warn(const std::vector<std::string>& warnings);
 

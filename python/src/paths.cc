@@ -62,6 +62,10 @@ void Write(const Path& path, const std::string& file, const py::dict& given) {
       take("fps", &options.point_cache_fps);
       RefuseOthers(given, taken);
       break;
+    case Kind::kPage:
+      RefuseOthers(given, taken);
+      options.page_template = PageTemplate();
+      break;
     default:
       RefuseOthers(given, taken);
   }
@@ -120,9 +124,9 @@ Parameters
 ----------
 file : str or path-like
     Its extension is the format: .path (everything, to continue from), .png (film strip), .glb
-    (animation for browsers and Blender), .pc2 or .mdd (point cache for Blender, Maya, Houdini,
-    3ds Max), numbered meshes such as frames/%03d.obj, .ply, .off or .stl, or frames/%03d.vtp with
-    deviation and energy at every point, for ParaView.
+    (animation for browsers and Blender), .html (a page for browsers), .pc2 or .mdd (point cache
+    for Blender, Maya, Houdini, 3ds Max), numbered meshes such as frames/%03d.obj, .ply, .off or
+    .stl, or frames/%03d.vtp with deviation and energy at every point, for ParaView.
 **options
     Of `film_strip` for .png; of `GltfOptions` for .glb; for both, and for meshes, `color`, which
     is 'plain', 'deviation' or 'parts' (colours of vertices in .obj and .ply); for .mdd `fps`,

@@ -1,9 +1,14 @@
 #include <filesystem>
+#include <ostream>
 
+#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/atomic_file.h>
 #include <shapespace/base/internal/extension.h>
+#include <shapespace/exploration/space_page.h>
+#include <shapespace/output/page.h>
 
 #include "bind.h"
 #include "options.h"
@@ -74,8 +79,27 @@ RgbImage Draw(const std::shared_ptr<const Connectivity>& connectivity,
                      [=](Progress*) { return RenderFilmStrip(*connectivity, shapes, options); });
 }
 
+std::string PageTemplate() {
+  return py::cast<std::string>(py::module_::import("shapespace._page").attr("template")());
+}
+
 void BindPictures(py::module_* module) {
   BindImage(module);
+  module->def("write_text", [](const std::filesystem::path& file, const std::string& text) {
+    internal::WriteFileAtomically(file, [&](std::ostream& out) { out << text; });
+  });
+  // Scenes are paths, two at the most, or a space; and the name of each.
+  module->def("make_page", [](const py::list& things, const std::vector<std::string>& names) {
+    std::vector<PageScene> scenes;
+    for (size_t i = 0; i < names.size(); ++i) {
+      if (py::isinstance<PoseSpace>(things[i])) {
+        scenes.emplace_back(PageOf(py::cast<const PoseSpace&>(things[i]), names[i]));
+      } else {
+        scenes.emplace_back(PagePath{&py::cast<const Path&>(things[i]), names[i]});
+      }
+    }
+    return MakePage(PageTemplate(), scenes);
+  });
   module->def("film_strip", [](const Poses& poses, const py::dict& given) {
     FilmStripOptions options;
     Set(given, &options);

@@ -56,12 +56,8 @@ poses, then the shapes found half way between nodes. `explore` makes it.
             return ReadSpace(file);
           },
           py::arg("file"), "Reads a .space file.")
-      .def(
-          "write",
-          [](const PoseSpace& space, const std::filesystem::path& file) {
-            WriteSpace(file, space);
-          },
-          py::arg("file"), "Writes a .space file.")
+      .def("_write", [](const PoseSpace& space,
+                        const std::filesystem::path& file) { WriteSpace(file, space); })
       .def(Pickle<PoseSpace>())
       .def("__len__", &PoseSpace::NumNodes)
       .def("__getitem__",

@@ -56,6 +56,20 @@ TEST_F(ViewTest, MakesPagesOfPathsAndGlbs) {
   EXPECT_EQ(elements[1].bytes, Content(Path("walk.glb")));
 }
 
+TEST_F(ViewTest, EveryToolThatWritesAPathWritesItsPage) {
+  MakeWalk();
+  if (!HasPage()) {
+    const Outcome outcome = Run("shape-export", {"walk.path", "--output", "sub/moved.html"});
+    EXPECT_EQ(outcome.code, 1);
+    ExpectContains(outcome.err, "built without the viewer page");
+    return;
+  }
+  Succeed("shape-export", {"walk.path", "--output", "sub/moved.html,moved.png"});
+  const std::vector<PageElement> elements = ReadPage(Path("sub/moved.html"));
+  ASSERT_EQ(elements.size(), 1u);
+  EXPECT_EQ(DecodedScene(elements[0].bytes).header["name"], "moved");
+}
+
 // The licence of three.js asks for its notice wherever a copy of it goes, and so does the page's
 // own.
 TEST_F(ViewTest, PagesHaveTheNoticesOfWhatTheyContain) {

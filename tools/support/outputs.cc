@@ -19,11 +19,13 @@
 #include "support/option_flags.h"
 #include "support/outside_files_flag.h"
 #include "support/tool.h"
+#include "viewer/page.h"
 
 DEFINE_string(output, "path.png",
               "files to write, separated by commas: .path (the complete result, for other tools), "
               ".png (film strip), .glb (animation, for browsers and Blender), .pc2 or .mdd (point "
-              "cache, for Blender, Maya, Houdini, 3ds Max), frames/%03d.obj, .ply, .off or .stl "
+              "cache, for Blender, Maya, Houdini, 3ds Max), .html (a page for browsers), "
+              "frames/%03d.obj, .ply, .off or .stl "
               "(one mesh per shape), frames/%03d.vtp (with deviation and energy, for ParaView). "
               "Names must not contain commas");
 DEFINE_string(color, "plain",
@@ -89,6 +91,7 @@ PathOutputOptions OptionsFromFlags() {
   if (FLAGS_up == "z") options.film_strip.up = Eigen::Vector3d::UnitZ();
   options.gltf = GltfOptionsFromFlags();
   if (FLAGS_fps > 0) options.point_cache_fps = FLAGS_fps;
+  options.page_template = ViewerPage();
   return options;
 }
 
@@ -131,7 +134,7 @@ std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::str
   std::vector<std::string> outputs;
   for (const std::string& output : Split(list)) {
     if (output.empty()) continue;
-    OutputOf(output, flag);
+    if (OutputOf(output, flag).kind == PathOutput::Kind::kPage) CheckHasViewer();
     CheckCanBeWritten(output);
     outputs.push_back(output);
   }

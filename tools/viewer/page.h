@@ -9,6 +9,9 @@ namespace shapespace::tools {
 /// none.
 std::string_view ViewerPage();
 
+/// \throw Error, which says what to do, if there was none.
+void CheckHasViewer();
+
 }  // namespace shapespace::tools
 
 #endif  // SHAPESPACE_TOOLS_VIEWER_PAGE_H_

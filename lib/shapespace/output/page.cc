@@ -65,8 +65,7 @@ struct MakeElement {
 
 }  // namespace
 
-void WritePage(const std::string& file, const std::string& page_template,
-               const std::vector<PageScene>& scenes) {
+std::string MakePage(const std::string& page_template, const std::vector<PageScene>& scenes) {
   if (scenes.empty() || scenes.size() > 2)
     throw InvalidOptions("scenes", "there must be one or two");
   for (const PageScene& scene : scenes) {
@@ -79,12 +78,15 @@ void WritePage(const std::string& file, const std::string& page_template,
   if (mark == std::string::npos || page_template.find(kMark, mark + 1) != std::string::npos) {
     throw InvalidOptions("page_template", "is not the viewer that ./dev viewer builds");
   }
-  std::string elements;
-  for (const PageScene& scene : scenes) elements += std::visit(MakeElement(), scene);
-  internal::WriteFileAtomically(file, [&](std::ostream& out) {
-    out << page_template.substr(0, mark) << elements
-        << page_template.substr(mark + sizeof kMark - 1);
-  });
+  std::string page = page_template.substr(0, mark);
+  for (const PageScene& scene : scenes) page += std::visit(MakeElement(), scene);
+  return page + page_template.substr(mark + sizeof kMark - 1);
+}
+
+void WritePage(const std::string& file, const std::string& page_template,
+               const std::vector<PageScene>& scenes) {
+  const std::string page = MakePage(page_template, scenes);
+  internal::WriteFileAtomically(file, [&](std::ostream& out) { out << page; });
 }
 
 }  // namespace shapespace

@@ -81,8 +81,8 @@ struct PageModes {
 
 using PageScene = std::variant<PagePath, PageGlb, PageSpace, PageModes>;
 
-/// Writes a self-contained HTML page that shows `scenes` without a server or a network. There may
-/// be one scene, or two paths or glb files, which are shown side by side.
+/// A self-contained HTML page that shows `scenes` without a server or a network. There may be one
+/// scene, or two paths or glb files, which are shown side by side.
 ///
 /// `page_template` is the content of the viewer that `./dev viewer` builds,
 /// tools/viewer/dist/viewer.html, which is installed as share/shapespace/viewer.html. The tool
@@ -90,10 +90,13 @@ using PageScene = std::variant<PagePath, PageGlb, PageSpace, PageModes>;
 ///
 /// Positions are relative to the box around all shapes of a scene and rounded to 1/65535 of its
 /// longest side, so that accuracy does not depend on the distance from the origin;
-/// docs/file-formats.md describes the encoding. The file is written completely or not at all.
+/// docs/file-formats.md describes the encoding.
 /// \throw InvalidOptions if `page_template` is not such a viewer, or the number or kinds of scenes
-///        are not permitted; MeshError if a path or space is not valid, or too large for a page;
-///        FileError if the file cannot be written.
+///        are not permitted; MeshError if a path or space is not valid, or too large for a page.
+std::string MakePage(const std::string& page_template, const std::vector<PageScene>& scenes);
+
+/// Writes such a page, completely or not at all.
+/// \throw as above; FileError if the file cannot be written.
 void WritePage(const std::string& file, const std::string& page_template,
                const std::vector<PageScene>& scenes);
 

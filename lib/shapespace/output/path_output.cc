@@ -1,6 +1,7 @@
 #include <shapespace/output/path_output.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iomanip>
 #include <map>
 #include <regex>
@@ -13,6 +14,7 @@
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/files/write.h>
 #include <shapespace/output/frames.h>
+#include <shapespace/output/page.h>
 #include <shapespace/output/point_cache.h>
 #include <shapespace/output/vertex_colours.h>
 #include <shapespace/output/vtk.h>
@@ -53,6 +55,10 @@ class Writer {
         break;
       case PathOutput::Kind::kVtk:
         WriteVtkSeries(file_, path_, options_.reference);
+        break;
+      case PathOutput::Kind::kPage:
+        WritePage(file_, options_.page_template,
+                  {PagePath{&path_, std::filesystem::path(file_).stem().string()}});
         break;
     }
     return std::move(summary_);
@@ -127,13 +133,15 @@ class Writer {
 PathOutput PathOutput::Of(const std::string& file, bool last_shape_alone) {
   static const std::map<std::string, Kind> kinds = {
       {".path", Kind::kPath},      {".png", Kind::kFilmStrip},  {".glb", Kind::kGltf},
-      {".pc2", Kind::kPointCache}, {".mdd", Kind::kPointCache}, {".vtp", Kind::kVtk}};
+      {".pc2", Kind::kPointCache}, {".mdd", Kind::kPointCache}, {".vtp", Kind::kVtk},
+      {".html", Kind::kPage}};
   const std::string extension = internal::FileExtension(file);
   const auto known = kinds.find(extension);
   const bool is_mesh = IsWritableMesh(file);
   if (known == kinds.end() && !is_mesh) {
-    throw FileError(file +
-                    ": must end in .path, .png, .glb, .pc2, .mdd, .obj, .ply, .off, .stl or .vtp");
+    throw FileError(
+        file +
+        ": must end in .path, .png, .glb, .html, .pc2, .mdd, .obj, .ply, .off, .stl or .vtp");
   }
   if (is_mesh && last_shape_alone && file.find('%') == file.npos) return {file, Kind::kLastShape};
   const Kind kind = is_mesh ? Kind::kFrames : known->second;

@@ -23,6 +23,7 @@ struct PathOutput {
     kFrames,      ///< a pattern of meshes (`FrameName`): .obj, .ply, .off or .stl
     kLastShape,   ///< one such mesh
     kVtk,         ///< a pattern of .vtp, for ParaView
+    kPage,        ///< .html, for browsers
   };
 
   std::string file;
@@ -51,6 +52,7 @@ struct PathOutputOptions {
   FilmStripOptions film_strip;
   GltfOptions gltf;
   double point_cache_fps = 24;
+  std::string page_template;  ///< of pages, as in output/page.h
 };
 
 struct PathOutputSummary {
