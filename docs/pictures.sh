@@ -3,7 +3,8 @@
 set -eu
 cd "$(dirname "$0")/.."
 bin=$PWD/build/release/bin
-pictures=$PWD/docs/pictures
+docs=$PWD/docs
+pictures=$docs/pictures
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -96,25 +97,7 @@ awk '$1 == "v" { print ($2 > -1.2 && $2 < 1.2) ? 100 : 1 }' bar0.obj >stiff.txt
 "$bin/shape-body" quadruped --triangles 5000 --pose stand --proportions heavy --output 'heavy%d.obj'
 "$bin/shape-body" quadruped --triangles 5000 --pose stride --proportions heavy \
   --output 'target%d.obj'
-awk '
-  # Of the first file twenty vertices that are far from each other, and of the second the nearest.
-  $1 == "v" && FNR == NR { x[++n] = $2; y[n] = $3; z[n] = $4; d[n] = $2^2 + $4^2 + ($3 - 0.8)^2 }
-  $1 == "v" && FNR != NR { p[++m] = $2; q[m] = $3; r[m] = $4 }
-  END {
-    for (k = 0; k < 20; ++k) {
-      far = 1; for (i = 1; i <= n; ++i) if (d[i] > d[far]) far = i
-      near = 1; best = 1e9
-      for (j = 1; j <= m; ++j) {
-        e = (p[j] - x[far])^2 + (q[j] - y[far])^2 + (r[j] - z[far])^2
-        if (e < best) { best = e; near = j }
-      }
-      for (i = 1; i <= n; ++i) {
-        e = (x[i] - x[far])^2 + (y[i] - y[far])^2 + (z[i] - z[far])^2
-        if (e < d[i]) d[i] = e
-      }
-      print far, near
-    }
-  }' template0.obj plain0.obj > markers.txt
+awk -f "$docs/markers.awk" template0.obj plain0.obj > markers.txt
 "$bin/shape-correspond" template0.obj target0.obj --markers markers.txt \
   --output "$pictures/correspondence.png"
 "$bin/shape-transfer" template0.obj template1.obj template2.obj --target heavy0.obj \

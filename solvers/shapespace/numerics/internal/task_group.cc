@@ -25,6 +25,7 @@ TaskGroup::TaskGroup(Progress* progress, std::string stage, int total)
 }
 
 void TaskGroup::RunAll(int at_once, const std::function<void(int, Progress*)>& body) {
+  alone_ = true;
   Guard([&] {
     ParallelTasks(total_, at_once,
                   [&](int i) { Run(i, [&](Progress* progress) { body(i, progress); }); });
@@ -43,6 +44,7 @@ void TaskGroup::Run(int i, const Task& task) {
     task(&one);
     const std::lock_guard<std::mutex> lock(mutex_);
     --running_;
+    ++own_ended_;
     if (progress_ != nullptr && !stopped_) {
       progress_->ReportShare(static_cast<double>(NumEnded()) / total_);
     }
@@ -65,8 +67,8 @@ void TaskGroup::Guard(const std::function<void()>& run_all) {
 }
 
 int TaskGroup::NumEnded() {
-  // Less for a moment when two tasks have changed places since they were handed out.
-  ended_ = std::max(ended_, begun_ - running_);
+  // In other processes, tasks of smaller numbers have begun; how many have ended is estimated.
+  ended_ = std::max(ended_, alone_ ? own_ended_ : begun_ - running_);
   return ended_;
 }
 
