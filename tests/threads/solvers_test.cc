@@ -1,11 +1,11 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <shapespace/base/parallel.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/tube.h>
 #include <shapespace/correspondence/correspondence.h>
@@ -99,11 +99,7 @@ TEST(Cholesky, IsTheSameWhileOthersAreAnalysed) {
   block.setFromTriplets(entries.begin(), entries.end());
   const std::vector<int> alone = internal::Cholesky(block).Permutation();
   std::vector<std::vector<int>> together(4);
-  std::vector<std::thread> threads;
-  for (std::vector<int>& order : together) {
-    threads.emplace_back([&] { order = internal::Cholesky(block).Permutation(); });
-  }
-  for (std::thread& thread : threads) thread.join();
+  ParallelTasks(4, 4, [&](int i) { together[i] = internal::Cholesky(block).Permutation(); });
   for (const std::vector<int>& order : together) EXPECT_TRUE(order == alone);
 }
 
