@@ -1,7 +1,7 @@
 """Makes the package's stub: make_stub.py FOLDER_OF_THE_MODULE TEMPLATE STUB.
 
-In the template, a line `**options: TableOptions,` stands for the options of a table of the library, but
-for those that the lines before it in the same signature have, and a line `**summaries` for the
+In the template, a line `**options: TableOptions,` stands for the options of a table of the library,
+but for those that the lines before it in the same signature have, and a line `**summaries` for the
 classes of summaries.
 """
 

@@ -226,4 +226,13 @@ py::array_t<double> FromShapes(const std::vector<Shape>& shapes) {
   return array;
 }
 
+py::array_t<double> FromVectors(const std::vector<Eigen::VectorXd>& vectors) {
+  const py::ssize_t length = vectors.empty() ? 0 : vectors[0].size();
+  py::array_t<double> array(
+      std::vector<py::ssize_t>{static_cast<py::ssize_t>(vectors.size()), length});
+  double* out = array.mutable_data();
+  for (const Eigen::VectorXd& vector : vectors) out = std::copy_n(vector.data(), length, out);
+  return array;
+}
+
 }  // namespace shapespace::python

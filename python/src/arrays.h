@@ -50,6 +50,9 @@ Eigen::MatrixXd ToMatrix(py::handle value, const std::string& name);
 py::array_t<double> FromShape(const Shape& shape);                 ///< n x 3
 py::array_t<double> FromShapes(const std::vector<Shape>& shapes);  ///< k x n x 3
 
+/// k x n, from k vectors.
+py::array_t<double> FromVectors(const std::vector<Eigen::VectorXd>& vectors);
+
 /// The transpose of any matrix; a vector as one dimension.
 template <typename Derived>
 py::array_t<typename Derived::Scalar> FromMatrix(const Eigen::MatrixBase<Derived>& matrix) {

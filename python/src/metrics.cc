@@ -13,13 +13,17 @@
 namespace shapespace::python {
 namespace {
 
+// At a shape of the user's unit, for tangents of the metric's.
+FeatureDerivative DerivativeAt(const FrozenMetric& self, const Shape& shape) {
+  return FeatureMap(self.metric).Derivative(shape / self.metric->unit);
+}
+
 // Both triangles of the metric's matrix, for tangents of shapes in the user's unit: data, row of
 // each, where columns begin.
 py::tuple FullMatrix(const FrozenMetric& self, const Shape& shape) {
   const auto full = WithoutLock(py::none(), [=](Progress*) {
     const double unit = self.metric->unit;
-    const Eigen::SparseMatrix<double> lower =
-        FeatureMap(self.metric).Derivative(shape / unit).MetricMatrix();
+    const Eigen::SparseMatrix<double> lower = DerivativeAt(self, shape).MetricMatrix();
     Eigen::SparseMatrix<double> both = lower.selfadjointView<Eigen::Lower>();
     both /= unit * unit;
     both.makeCompressed();
@@ -93,8 +97,7 @@ void BindMetric(py::module_* module) {
             const int n = self.metric->connectivity->NumVertices();
             const Shape p = ToShape(shape, "shape", n), x = ToShape(tangent, "tangent", n);
             return WithoutLock(py::none(), [=](Progress*) {
-              const double unit = self.metric->unit;
-              return FeatureMap(self.metric).Derivative(p / unit).Times(x / unit).norm();
+              return DerivativeAt(self, p).Times(x / self.metric->unit).norm();
             });
           },
           py::arg("shape"), py::arg("tangent"), R"(Length of a tangent at a shape: a pure number.
@@ -117,7 +120,7 @@ InvalidOptions
             const Shape x = ToShape(first, "first", n), y = ToShape(second, "second", n);
             return WithoutLock(py::none(), [=](Progress*) {
               const double unit = self.metric->unit;
-              const FeatureDerivative derivative = FeatureMap(self.metric).Derivative(p / unit);
+              const FeatureDerivative derivative = DerivativeAt(self, p);
               return derivative.Times(x / unit).dot(derivative.Times(y / unit));
             });
           },

@@ -278,12 +278,9 @@ void BindMeasures(py::class_<Path>* path) {
       .def(
           "edge_deviation",
           [](const Path& path) {
-            const int n = path.metric->connectivity->NumVertices();
-            py::array_t<double> all(std::vector<py::ssize_t>{path.NumShapes(), n});
-            for (int i = 0; i < path.NumShapes(); ++i) {
-              Eigen::Map<Eigen::VectorXd>(all.mutable_data(i, 0), n) = EdgeDeviation(path, i);
-            }
-            return all;
+            std::vector<Eigen::VectorXd> all;
+            for (int i = 0; i < path.NumShapes(); ++i) all.push_back(EdgeDeviation(path, i));
+            return FromVectors(all);
           },
           "Of every shape and vertex, k x n, how far the edges there are from their lengths in the "
           "first shape (.01 is one per cent).")
@@ -317,14 +314,8 @@ ndarray
       .def(
           "vertex_energy",
           [](const Path& path) {
-            const std::vector<Eigen::VectorXd> found =
-                WithoutLock(py::none(), [=](Progress*) { return VertexEnergy(path); });
-            const int n = path.metric->connectivity->NumVertices();
-            py::array_t<double> all(std::vector<py::ssize_t>{path.NumShapes(), n});
-            for (int i = 0; i < path.NumShapes(); ++i) {
-              Eigen::Map<Eigen::VectorXd>(all.mutable_data(i, 0), n) = found[i];
-            }
-            return all;
+            return FromVectors(
+                WithoutLock(py::none(), [=](Progress*) { return VertexEnergy(path); }));
           },
           "Of every shape and vertex, k x n, what the motion costs there: squared speed per area, "
           "so that the sum over `metric.vertex_area` is the squared speed of the shape.");

@@ -80,7 +80,7 @@ std::string MakePage(const std::string& page_template, const std::vector<PageSce
   }
   std::string page = page_template.substr(0, mark);
   for (const PageScene& scene : scenes) page += std::visit(MakeElement(), scene);
-  return page + page_template.substr(mark + sizeof kMark - 1);
+  return page.append(page_template, mark + sizeof kMark - 1);
 }
 
 void WritePage(const std::string& file, const std::string& page_template,

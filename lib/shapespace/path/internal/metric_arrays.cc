@@ -243,6 +243,27 @@ std::shared_ptr<const Metric> ReadMetric(const HeaderJson& header, const ArrayRe
   return metric;
 }
 
+void AddMotions(const std::vector<RigidMotion>& motions, ArrayWriter* arrays) {
+  const auto count = static_cast<Eigen::Index>(motions.size());
+  Eigen::Matrix3Xd rotations(3, 3 * count), translations(3, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    rotations.middleCols<3>(3 * i) = motions[i].rotation;
+    translations.col(i) = motions[i].translation;
+  }
+  arrays->Add("rotations", rotations);
+  arrays->Add("translations", translations);
+}
+
+std::vector<RigidMotion> ReadMotions(const ArrayReader& arrays, Eigen::Index count) {
+  const auto rotations = arrays.Get<Eigen::Matrix3Xd>("rotations", 3, 3 * count);
+  const auto translations = arrays.Get<Eigen::Matrix3Xd>("translations", 3, count);
+  std::vector<RigidMotion> motions;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    motions.push_back({rotations.middleCols<3>(3 * i), translations.col(i)});
+  }
+  return motions;
+}
+
 void AddAppearance(const Appearance& appearance, const std::string& file, HeaderJson* header,
                    ArrayWriter* arrays) {
   const auto add_indices = [arrays](const std::string& name, const std::vector<int>& indices) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <shapespace/mesh/appearance.h>
+#include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/internal/array_file.h>
 
@@ -26,6 +27,12 @@ void AddMetric(const Metric& metric, HeaderJson* header, ArrayWriter* arrays);
 /// Reads it back.
 /// \throw FileError, or another exception if the header is inconsistent.
 std::shared_ptr<const Metric> ReadMetric(const HeaderJson& header, const ArrayReader& arrays);
+
+/// Adds rigid motions to a file, as two arrays.
+void AddMotions(const std::vector<RigidMotion>& motions, ArrayWriter* arrays);
+
+/// Reads them back. \throw FileError if there are not so many.
+std::vector<RigidMotion> ReadMotions(const ArrayReader& arrays, Eigen::Index count);
 
 /// Names may contain any bytes, but JSON only text in UTF-8; other names become a list of bytes.
 HeaderJson NamesToJson(const std::vector<std::string>& names);

@@ -8,13 +8,7 @@ void AddPath(const Path& path, const std::string& file, HeaderJson* header, Arra
   AddMetric(*path.metric, header, arrays);
   arrays->Add("parameters", path.parameters.data(), path.parameters.size(), 1);
   arrays->Add("poses", path.poses.data(), path.poses.size(), 1);
-  Eigen::Matrix3Xd rotations(3, 3 * path.NumShapes()), translations(3, path.NumShapes());
-  for (int i = 0; i < path.NumShapes(); ++i) {
-    rotations.middleCols<3>(3 * i) = path.motions[i].rotation;
-    translations.col(i) = path.motions[i].translation;
-  }
-  arrays->Add("rotations", rotations);
-  arrays->Add("translations", translations);
+  AddMotions(path.motions, arrays);
   for (int i = 0; i < path.NumShapes(); ++i) {
     arrays->AddReference("shape" + std::to_string(i), path.shapes[i]);
   }
@@ -37,10 +31,8 @@ Path ReadPath(const std::string& file, const HeaderJson& header, const ArrayRead
   path.extrapolated = header.at("extrapolated").get<int>();
   path.converged = header.at("converged").get<bool>();
   path.smooth = header.value("smooth", false);
-  const auto rotations = arrays.Get<Eigen::Matrix3Xd>("rotations", 3, 3 * num_shapes);
-  const auto translations = arrays.Get<Eigen::Matrix3Xd>("translations", 3, num_shapes);
+  path.motions = ReadMotions(arrays, num_shapes);
   for (int i = 0; i < num_shapes; ++i) {
-    path.motions.push_back({rotations.middleCols<3>(3 * i), translations.col(i)});
     path.shapes.push_back(arrays.Get<Shape>("shape" + std::to_string(i), 3, num_vertices));
   }
   path.provenance = header.at("provenance").get<std::string>();

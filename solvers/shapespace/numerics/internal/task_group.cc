@@ -37,14 +37,14 @@ void TaskGroup::Run(int i, const Task& task) {
   try {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      begun_ = std::max(begun_, i + 1);
+      // A smaller number may be that of a task of another process, which has begun there.
+      begun_ = alone_ ? begun_ + 1 : std::max(begun_, i + 1);
       ++running_;
     }
     ReportProgress(&one, {}, 0, 0);
     task(&one);
     const std::lock_guard<std::mutex> lock(mutex_);
     --running_;
-    ++own_ended_;
     if (progress_ != nullptr && !stopped_) {
       progress_->ReportShare(static_cast<double>(NumEnded()) / total_);
     }
@@ -67,8 +67,8 @@ void TaskGroup::Guard(const std::function<void()>& run_all) {
 }
 
 int TaskGroup::NumEnded() {
-  // In other processes, tasks of smaller numbers have begun; how many have ended is estimated.
-  ended_ = std::max(ended_, alone_ ? own_ended_ : begun_ - running_);
+  // Less for a moment when two tasks have changed places since they were handed out.
+  ended_ = std::max(ended_, begun_ - running_);
   return ended_;
 }
 

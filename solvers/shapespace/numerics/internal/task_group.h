@@ -42,7 +42,7 @@ class TaskGroup {
   const std::string stage_;
   const int total_;
   std::mutex mutex_;  // guards what follows, and calls of progress_
-  int begun_ = 0, running_ = 0, own_ended_ = 0, ended_ = 0;
+  int begun_ = 0, running_ = 0, ended_ = 0;
   bool alone_ = false;  // all tasks run in this process
   bool stopped_ = false;
   std::exception_ptr first_error_;

@@ -18,13 +18,7 @@ void AddModes(const PoseModes& modes, const std::string& file, HeaderJson* heade
   arrays->Add("coefficients", modes.coefficients);
   arrays->Add("rotation", modes.place.rotation);
   arrays->Add("translation", modes.place.translation);
-  Eigen::Matrix3Xd rotations(3, 3 * modes.NumPoses()), translations(3, modes.NumPoses());
-  for (int i = 0; i < modes.NumPoses(); ++i) {
-    rotations.middleCols<3>(3 * i) = modes.motions[i].rotation;
-    translations.col(i) = modes.motions[i].translation;
-  }
-  arrays->Add("rotations", rotations);
-  arrays->Add("translations", translations);
+  AddMotions(modes.motions, arrays);
   arrays->Add("mean", modes.mean);
   for (int i = 0; i < modes.NumPoses(); ++i) {
     arrays->Add("pose" + std::to_string(i), modes.poses[i]);
@@ -52,10 +46,8 @@ PoseModes ReadModes(const std::string& file, const HeaderJson& header, const Arr
   modes.place.rotation = arrays.Get<Eigen::Matrix3d>("rotation", 3, 3);
   modes.place.translation = arrays.Get<Eigen::Vector3d>("translation", 3, 1);
   modes.mean = arrays.Get<Shape>("mean", 3, vertices);
-  const auto rotations = arrays.Get<Eigen::Matrix3Xd>("rotations", 3, 3 * count);
-  const auto translations = arrays.Get<Eigen::Matrix3Xd>("translations", 3, count);
+  modes.motions = ReadMotions(arrays, count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    modes.motions.push_back({rotations.middleCols<3>(3 * i), translations.col(i)});
     modes.poses.push_back(arrays.Get<Shape>("pose" + std::to_string(i), 3, vertices));
   }
   for (int k = 0; k < num_modes; ++k) {
