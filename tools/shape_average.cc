@@ -23,12 +23,14 @@
 #include "support/poses.h"
 #include "support/report.h"
 #include "support/solve_progress.h"
+#include "support/summary.h"
 #include "support/tool.h"
 
 DEFINE_string(
     output, "mean.obj,mean.png",
     "files to write, separated by commas: .obj, .ply, .off or .stl (the average), .pc2 or "
-    ".mdd (the same as a point cache), .png (the poses and their average, which is green)");
+    ".mdd (the same as a point cache), .png (the poses and their average, which is green), - (the "
+    "average on stdout, as PLY)");
 static const shapespace::tools::OptionFlags<shapespace::AverageOptions> flags(
     __FILE__, {{"certify", "certify"}, {"refine", "refine"}, {"shapes", "shapes"}});
 DEFINE_string(weights, "", "one number per pose, separated by commas; default: all equal");
@@ -41,10 +43,10 @@ std::vector<std::string> Outputs() {
   std::vector<std::string> outputs;
   for (const std::string& output : Split(FLAGS_output)) {
     if (output.empty()) continue;
-    if (!IsWritableMesh(output) && !IsPointCache(output) &&
+    if (!IsMeshOrStdout(output) && !IsPointCache(output) &&
         internal::FileExtension(output) != ".png") {
       throw UsageError("--output " + output +
-                       ": must end in .obj, .ply, .off, .stl, .png, .pc2 or .mdd");
+                       ": must end in .obj, .ply, .off, .stl, .png, .pc2 or .mdd, or be -");
     }
     CheckCanBeWritten(output);
     outputs.push_back(output);
@@ -118,6 +120,6 @@ int main(int argc, char** argv) {
        "not\nshrink where parts turn. It is compared with a lower bound (--nocertify saves that "
        "time): above 1.1\nthere is a warning that the poses are too different for an average to "
        "say much. --refine lowers the\nsum of squared lengths of the geodesics to the poses.",
-       {"average", "report", "metric", "poses", "mesh", "memory", "outside_files"}},
+       {"average", "report", "summary", "metric", "poses", "mesh", "memory", "outside_files"}},
       Run);
 }

@@ -25,7 +25,8 @@ DEFINE_int32(random, 0, "number of quadrupeds of random proportions in random po
 DEFINE_int32(seed, 1, "of --random; the same animals for the same seed");
 DEFINE_string(table, "", "a .csv file with the proportions of the --random animals");
 DEFINE_string(output, "body%d.obj",
-              "one file per value, numbered from 0: .obj, .ply, .off or .stl");
+              "one file per value, numbered from 0: .obj, .ply, .off or .stl; or -: one shape to "
+              "stdout, as PLY");
 FLAG_GROUP(body, "Body");
 
 namespace shapespace::tools {
@@ -38,10 +39,22 @@ std::string Join(const std::vector<std::string>& parts) {
 }
 
 void CheckOutput() {
-  if (!IsWritableMesh(FLAGS_output)) {
-    throw UsageError("--output " + FLAGS_output + ": must end in .obj, .ply, .off or .stl");
+  if (!IsMeshOrStdout(FLAGS_output)) {
+    throw UsageError("--output " + FLAGS_output +
+                     ": must end in .obj, .ply, .off or .stl, or be -");
   }
+  if (FLAGS_output == "-") return;
   CheckFramePattern("output", FLAGS_output);
+}
+
+void Write(const std::vector<Shape>& shapes, const Connectivity& connectivity) {
+  const Soup soup = FrameSoup(connectivity);
+  if (FLAGS_output != "-") return WriteFramesAndTell(FLAGS_output, shapes, soup);
+  if (shapes.size() != 1) {
+    throw UsageError("--output -: is for one shape, and there are " +
+                     std::to_string(shapes.size()) + "; choose one by --at or --pose");
+  }
+  WriteMeshAndTell(FLAGS_output, shapes[0], soup);
 }
 
 void List() {
@@ -63,7 +76,7 @@ void WritePoses(const std::string& name) {
   Out() << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
         << body.connectivity->NumTriangles() << " triangles; poses are " << Join(body.pose_names)
         << '\n';
-  WriteFramesAndTell(FLAGS_output, shapes, FrameSoup(*body.connectivity));
+  Write(shapes, *body.connectivity);
 }
 
 void WriteRandomAnimals(const std::string& name) {
@@ -85,7 +98,7 @@ void WriteRandomAnimals(const std::string& name) {
     int column = 0;
     for (const auto& [measure, value] : individual.Measures()) measures(i, column++) = value;
   }
-  WriteFramesAndTell(FLAGS_output, shapes, FrameSoup(*connectivity));
+  Write(shapes, *connectivity);
   if (FLAGS_table.empty()) return;
   std::vector<std::string> files, columns;
   for (int i = 0; i < FLAGS_random; ++i) files.push_back(FrameName(FLAGS_output, i));
@@ -103,7 +116,7 @@ void WriteValues(const std::string& name) {
   Out() << body.name << ": " << body.connectivity->NumVertices() << " vertices, "
         << body.connectivity->NumTriangles() << " triangles; " << body.parameter << " from "
         << body.begin << " to " << body.end << '\n';
-  WriteFramesAndTell(FLAGS_output, shapes, FrameSoup(*body.connectivity));
+  Write(shapes, *body.connectivity);
 }
 
 void Run(const std::vector<std::string>& arguments) {

@@ -14,14 +14,17 @@
 #include "support/flag_group.h"
 #include "support/frames.h"
 #include "support/lists.h"
-#include "support/outside_files_flag.h"
 #include "support/report.h"
 #include "support/solve_progress.h"
+#include "support/stdin_mesh.h"
+#include "support/summary.h"
 #include "support/tool.h"
 
-DEFINE_string(output, "fitted.obj,map.txt,check.png",
-              "files to write, separated by commas: .obj, .ply, .off or .stl (the fitted "
-              "template), .txt (the map in both directions), .png (a picture for judging it)");
+DEFINE_string(
+    output, "fitted.obj,map.txt,check.png",
+    "files to write, separated by commas: .obj, .ply, .off or .stl (the fitted "
+    "template), .txt (the map in both directions), .png (a picture for judging it); - writes the "
+    "fitted template to stdout, as PLY");
 DEFINE_bool(allow_nonmanifold, false,
             "accept meshes with non-manifold edges or vertices, or inconsistent winding");
 FLAG_GROUP(correspond, "Files");
@@ -34,8 +37,9 @@ std::vector<std::string> Outputs() {
   for (const std::string& output : Split(FLAGS_output)) {
     if (output.empty()) continue;
     const std::string extension = internal::FileExtension(output);
-    if (!IsWritableMesh(output) && extension != ".txt" && extension != ".png") {
-      throw UsageError("--output " + output + ": must end in .obj, .ply, .off, .stl, .txt or .png");
+    if (!IsMeshOrStdout(output) && extension != ".txt" && extension != ".png") {
+      throw UsageError("--output " + output +
+                       ": must end in .obj, .ply, .off, .stl, .txt or .png, or be -");
     }
     CheckCanBeWritten(output);
     outputs.push_back(output);
@@ -47,9 +51,9 @@ std::vector<std::string> Outputs() {
 Poses ReadMesh(const std::string& file) {
   ReadOptions options;
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
-  Poses mesh = MakePoses({ReadSoup(file, FLAGS_allow_outside_files)}, options);
-  for (const std::string& warning : mesh.warnings) Err() << "warning: " << warning << '\n';
-  for (const std::string& dropped : mesh.soup.dropped) Err() << "note: " << dropped << '\n';
+  Poses mesh = MakePoses({ReadSoupOrStdin(file)}, options);
+  for (const std::string& warning : mesh.warnings) Warn(warning);
+  for (const std::string& dropped : mesh.soup.dropped) Note(dropped);
   return mesh;
 }
 
@@ -103,6 +107,6 @@ int main(int argc, char** argv) {
        "the template's poses. Check\nthe picture before you rely on the map.\n\nA fit that does "
        "not converge is reported; its outputs are written, and the exit code is 0, or 1\nwith "
        "--strict.",
-       {"correspond", "correspondence", "memory", "report", "outside_files"}},
+       {"correspond", "correspondence", "memory", "report", "summary", "outside_files"}},
       Run);
 }

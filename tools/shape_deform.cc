@@ -19,6 +19,7 @@
 #include "support/poses.h"
 #include "support/report.h"
 #include "support/solve_progress.h"
+#include "support/summary.h"
 #include "support/tool.h"
 
 DEFINE_string(handles, "",
@@ -147,11 +148,13 @@ int main(int argc, char** argv) {
            "  shape-deform dented.obj --repair sound.obj --output mended.obj\n\n"
            "Handles are vertices that stay, move or turn; the motion of the others has the least "
            "cost. The\noutput is a path: an .obj or .ply without a number in its name contains its "
-           "last shape, the\ndeformed mesh. In a film strip, vertices of handles are drawn dark if "
-           "they stay, and red if they\nmove. The default metric depends on whether the mesh is "
-           "closed (stiffer, with a cost of volume) or\nopen; --metric selects another; --volume "
-           "30 keeps the volume within .3 %.") +
+           "last shape, the\ndeformed mesh, and - writes that to stdout, as PLY. In a film strip, "
+           "vertices of handles are drawn\ndark if they stay, and red if they move. The default "
+           "metric depends on whether the mesh is closed\n(stiffer, with a cost of volume) or "
+           "open; "
+           "--metric selects another; --volume 30 keeps the volume\nwithin .3 %.") +
            kHowASolveEnds,
-       {"deform", "report", "outputs", "metric", "poses", "mesh", "memory", "outside_files"}},
+       {"deform", "report", "summary", "outputs", "metric", "poses", "mesh", "memory",
+        "outside_files"}},
       Run);
 }

@@ -8,7 +8,9 @@
 #include <shapespace/exploration/internal/option_fields.h>
 #include <shapespace/exploration/space_file.h>
 #include <shapespace/files/display_names.h>
+#include <shapespace/statistics/pose_table.h>
 
+#include "support/command_line.h"
 #include "support/flag_group.h"
 #include "support/geodesic_flags.h"
 #include "support/lists.h"
@@ -18,6 +20,7 @@
 #include "support/poses.h"
 #include "support/report.h"
 #include "support/solve_progress.h"
+#include "support/summary.h"
 #include "support/tool.h"
 
 static const shapespace::tools::OptionFlags<shapespace::ExploreOptions> flags(
@@ -69,27 +72,43 @@ void Measure(const PoseSpace& space, const ExploreOptions& options, ProcessPool*
         << 100 * errors.within << "% of them by at most " << 100 * options.threshold << "%\n";
 }
 
+// Writes the distances between every two poses as a table.
+void WriteDistances(const Poses& poses, const ExploreOptions& options, ProcessPool* crew) {
+  const Eigen::MatrixXd distances =
+      DistanceMatrix(poses.connectivity, poses.shapes, options, SolveProgress({}).get(), crew);
+  if (crew->Rank() != 0) return;
+  const std::vector<std::string> names = DisplayNames(poses.names);
+  WritePoseTable(FLAGS_output, names, names, distances);
+  Out() << "wrote " << FLAGS_output << '\n';
+  RemoveRecords(options.records);
+}
+
 void MakeSpace(const std::vector<std::string>& files, ProcessPool* crew) {
   if (files.empty()) throw UsageError("name at least two poses of one mesh, or a .space file");
-  if (!IsSpaceFile(FLAGS_output)) {
-    throw UsageError("--output " + FLAGS_output + ": must end in .space");
+  const bool is_table = internal::FileExtension(FLAGS_output) == ".csv";
+  if (!is_table && !IsSpaceFile(FLAGS_output)) {
+    throw UsageError("--output " + FLAGS_output + ": must end in .space or .csv");
+  }
+  if (is_table) {
+    RefuseFlags({}, {"depth", "measure", "threshold", "report", "strict"},
+                "goes with a .space, not with distances alone");
   }
   const ExploreOptions options = ExploreFromFlags(FLAGS_output + ".records");
   CheckNothingIsOverwritten(WithStiffeners(files), {{"output", {FLAGS_output}}, ReportFromFlag()});
   CheckCanBeWritten(FLAGS_output);
   const Poses poses = ReadPosesFromFlags(files);
+  if (is_table) return WriteDistances(poses, options, crew);
   ExploreResult result = Explore(poses.connectivity, poses.shapes, DisplayNames(poses.names),
                                  options, SolveProgress({}).get(), crew);
   const ExploreSummary& summary = result.summary;
   result.space.provenance = Provenance("shape-explore", files);
   result.space.appearance = poses.soup.appearance;
   if (summary.found + summary.damaged > 0) {
-    Err() << "note: of " << summary.found + summary.solved << " geodesics, " << summary.found
-          << " were taken from " << options.records << ", the records of an earlier run\n";
+    Note("of ", summary.found + summary.solved, " geodesics, ", summary.found, " were taken from ",
+         options.records, ", the records of an earlier run");
   }
   if (summary.damaged > 0) {
-    Err() << "note: " << summary.damaged
-          << " of its records were damaged and had to be solved again\n";
+    Note(summary.damaged, " of its records were damaged and had to be solved again");
   }
   PrintSummary(summary.BriefReport(), summary.warnings, summary.Converged());
   if (crew->Rank() == 0) {
@@ -114,9 +133,9 @@ void Sample(const std::string& file) {
   const PoseSpace space = ReadSpace(file);
   PlaneWalk walk = WalkAlong(space, ReadCurve(FLAGS_sample, space), FLAGS_frames);
   if (walk.outside > 0) {
-    Err() << "warning: " << walk.outside << " of the " << FLAGS_frames
-          << " points lie outside the poses' hull and were replaced by the nearest points of the "
-             "hull\n";
+    Warn(walk.outside, " of the ", FLAGS_frames,
+         " points lie outside the poses' hull and were replaced by the nearest points of the "
+         "hull");
   }
   walk.path.provenance = Provenance("shape-explore", {FLAGS_sample, file});
   WriteOutputs(outputs, walk.path, walk.path);
@@ -169,13 +188,15 @@ int main(int argc, char** argv) {
       {"shape-explore",
        "a space of poses on a plane, and the shapes along a curve through it",
        "  shape-explore a.obj b.obj c.obj [...] --output poses.space --threshold 5% --depth 2\n"
+       "  shape-explore a.obj b.obj c.obj [...] --output distances.csv\n"
        "  shape-explore --sample curve.json poses.space --output walk.glb --frames 32\n"
        "  shape-explore --measure 200 poses.space\n\n"
        "Similar poses are close to each other on the plane. shape-view shows it in a browser. "
+       "A .csv\nhas the lengths of the geodesics between every two poses, and no more. "
        "An\ninterrupted run can be continued: finished geodesics are stored in poses.space.records "
        "until the\nspace is complete. With mpirun -n 4 in front, four processes share the "
        "geodesics (--threads is the\nnumber of threads of each process).",
-       {"explore", "geodesic", "report", "outputs", "metric", "poses", "mesh", "memory",
+       {"explore", "geodesic", "report", "summary", "outputs", "metric", "poses", "mesh", "memory",
         "outside_files"}},
       Run);
 }

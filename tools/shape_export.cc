@@ -9,6 +9,7 @@
 #include <shapespace/base/internal/extension.h>
 
 #include "support/anchor_flags.h"
+#include "support/command_line.h"
 #include "support/flag_group.h"
 #include "support/lists.h"
 #include "support/memory_flag.h"

@@ -18,6 +18,7 @@
 #include "support/poses.h"
 #include "support/report.h"
 #include "support/solve_progress.h"
+#include "support/summary.h"
 #include "support/tool.h"
 
 DEFINE_int32(steps, 8,
@@ -160,7 +161,7 @@ int main(int argc, char** argv) {
            "before that, and stderr says so: exit code\n0 if there are new shapes, 1 if there are "
            "none.") +
            kHowASolveEnds,
-       {"extrapolate", "geodesic", "report", "outputs", "metric", "poses", "mesh", "memory",
-        "anchor", "outside_files"}},
+       {"extrapolate", "geodesic", "report", "summary", "outputs", "metric", "poses", "mesh",
+        "memory", "anchor", "outside_files"}},
       Run);
 }

@@ -12,6 +12,7 @@
 #include "support/report.h"
 #include "support/solve_progress.h"
 #include "support/spline_flags.h"
+#include "support/summary.h"
 #include "support/tool.h"
 
 namespace shapespace::tools {
@@ -68,7 +69,7 @@ int main(int argc, char** argv) {
            "Through three or more poses the path is a chain of geodesics, whose velocity jumps at "
            "each pose.\nWith --spline it is smooth there.") +
            kHowASolveEnds,
-       {"geodesic", "spline", "report", "outputs", "anchor", "metric", "poses", "mesh", "memory",
-        "outside_files"}},
+       {"geodesic", "spline", "report", "summary", "outputs", "anchor", "metric", "poses", "mesh",
+        "memory", "outside_files"}},
       Run);
 }

@@ -21,6 +21,7 @@
 #include <shapespace/statistics/pose_table.h>
 #include <shapespace/statistics/regression.h>
 
+#include "support/command_line.h"
 #include "support/files.h"
 #include "support/flag_group.h"
 #include "support/frames.h"
@@ -33,6 +34,7 @@
 #include "support/poses.h"
 #include "support/report.h"
 #include "support/solve_progress.h"
+#include "support/summary.h"
 #include "support/tool.h"
 #include "viewer/page.h"
 
@@ -189,8 +191,8 @@ void PrintRow(const std::string& name, const Eigen::VectorXd& coordinates) {
 void WarnIfFarOut(const Eigen::VectorXd& coordinates) {
   const double most = coordinates.size() > 0 ? coordinates.cwiseAbs().maxCoeff() : 0;
   if (most > kFarOut) {
-    Err() << "warning: a coordinate is " << most
-          << " standard deviations from the mean; the poses say little about shapes that far\n";
+    Warn("a coordinate is ", most,
+         " standard deviations from the mean; the poses say little about shapes that far");
   }
 }
 
@@ -298,9 +300,8 @@ void RegressScalars(const ShapeModel& model, const std::string& source,
   });
   for (size_t s = 0; s < values.size(); ++s) {
     if (values[s] >= regression.least(s) && values[s] <= regression.most(s)) continue;
-    Err() << "warning: " << regression.scalars[s] << " = " << values[s]
-          << " is outside of the poses' range, " << regression.least(s) << " to "
-          << regression.most(s) << "\n";
+    Warn(regression.scalars[s], " = ", values[s], " is outside of the poses' range, ",
+         regression.least(s), " to ", regression.most(s));
   }
   WriteShapeAt(model, coordinates, outputs);
 }
@@ -456,6 +457,7 @@ int main(int argc, char** argv) {
        "files in its\nfirst column and the names of the columns in its first line, as R and pandas "
        "write it. With several\nscalars, each is controlled for the others. A .modes file contains "
        "the poses.",
-       {"model", "questions", "report", "metric", "poses", "mesh", "memory", "outside_files"}},
+       {"model", "questions", "report", "summary", "metric", "poses", "mesh", "memory",
+        "outside_files"}},
       Run);
 }

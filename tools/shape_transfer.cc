@@ -20,10 +20,11 @@
 #include "support/mesh_flags.h"
 #include "support/option_flags.h"
 #include "support/outputs.h"
-#include "support/outside_files_flag.h"
 #include "support/poses.h"
 #include "support/report.h"
 #include "support/solve_progress.h"
+#include "support/stdin_mesh.h"
+#include "support/summary.h"
 #include "support/tool.h"
 
 DEFINE_string(
@@ -105,35 +106,16 @@ Poses FirstShapeOf(const Path& path, const std::string& file) {
   return poses;
 }
 
-// The target, as a pose of the path's mesh.
-Poses ReadTargetOf(const Path& path, const std::string& file) {
-  Poses target = ReadMeshesFromFlags({FLAGS_target});
-  Soup reference = FrameSoup(*path.metric->connectivity), pose = target.soup;
-  reference.file = file;
-  reference.vertices = path.Placed(0);
-  const char axis = MirrorFromFlags();
-  if (axis != 0 && MirrorBack(reference, axis, &pose)) {
-    Err() << "warning: " << FLAGS_target << ": is a mirror image of the path's first shape; its "
-          << axis << " has changed sign\n";
-    target.shapes[0] = pose.vertices;
-  }
-  for (const Finding& finding : CheckSameMesh(reference, pose)) {
-    if (finding.severity == Severity::kFatal) throw MismatchError(finding.message, finding.option);
-    Err() << "warning: " << finding.message << '\n';
-  }
-  return target;
-}
-
 // The poses of the files, and after them the target.
 Poses ReadWithTarget(const std::vector<std::string>& files) {
   std::vector<Soup> soups;
   for (const std::string& file : files) {
-    for (Soup& pose : ReadSoups(file, FLAGS_allow_outside_files)) soups.push_back(std::move(pose));
+    for (Soup& pose : ReadSoupsOrStdin(file)) soups.push_back(std::move(pose));
   }
   if (soups.size() < 2) {
     throw UsageError(files[0] + " has one pose; name at least two poses of one mesh");
   }
-  soups.push_back(ReadSoup(FLAGS_target, FLAGS_allow_outside_files));
+  soups.push_back(ReadSoupOrStdin(FLAGS_target));
   return MakePosesFromFlags(std::move(soups));
 }
 
@@ -181,7 +163,7 @@ void Run(const std::vector<std::string>& files) {
     const Path source = ReadPathAndTell(files[0]);
     check(source.NumShapes());
     if (!FLAGS_markers.empty()) other.emplace(FirstShapeOf(source, files[0]));
-    const Poses target = other ? other->Target() : ReadTargetOf(source, files[0]);
+    const Poses target = other ? other->Target() : ReadPoseOf(source, files[0], FLAGS_target);
     anchorage.Select(target.shapes[0], *target.connectivity, target.soup.appearance,
                      source.poses.size());
     TransferResult result = Transfer(source, other ? other->Fitted() : target.shapes[0], options,
@@ -196,7 +178,7 @@ void Run(const std::vector<std::string>& files) {
     if (FLAGS_markers.empty()) {
       target = poses.shapes.back();
       poses.shapes.pop_back();
-      appearance = ReadSoup(FLAGS_target, FLAGS_allow_outside_files).appearance;
+      appearance = ReadSoupOrStdin(FLAGS_target).appearance;
       anchorage.Select(target, *poses.connectivity, appearance, poses.shapes.size());
     } else {
       other.emplace(poses);
@@ -235,7 +217,7 @@ int main(int argc, char** argv) {
            "of which is transferred; the flags of the metric are those of these\ngeodesics. In a "
            "film strip the target is blue, its other shapes are purple, hybrids are green.") +
            kHowASolveEnds,
-       {"transfer", "geodesic", "report", "outputs", "metric", "poses", "mesh", "memory", "anchor",
-        "correspondence", "outside_files"}},
+       {"transfer", "geodesic", "report", "summary", "outputs", "metric", "poses", "mesh", "memory",
+        "anchor", "correspondence", "outside_files"}},
       Run);
 }

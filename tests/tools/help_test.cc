@@ -15,7 +15,8 @@ using testing::ToolsTest;
 constexpr const char* kTools[] = {"shape-average",     "shape-body",     "shape-correspond",
                                   "shape-deform",      "shape-export",   "shape-explore",
                                   "shape-extrapolate", "shape-inspect",  "shape-interpolate",
-                                  "shape-statistics",  "shape-transfer", "shape-view"};
+                                  "shape-statistics",  "shape-transfer", "shape-transport",
+                                  "shape-view"};
 
 class HelpTest : public ToolsTest {
  protected:
@@ -25,7 +26,7 @@ class HelpTest : public ToolsTest {
     std::istringstream text(Run(tool, {"--help"}).out);
     for (std::string line; std::getline(text, line);) {
       std::smatch match;
-      static const std::regex flag("^  --([a-z_]+).*");
+      static const std::regex flag("^  (?:-[a-z], )?--([a-z_]+).*");
       if (std::regex_match(line, match, flag)) flags.insert(match[1]);
     }
     return flags;

@@ -29,6 +29,7 @@ class RefusalTest : public ToolsTest {
     const Outcome outcome = Run("shape-interpolate", arguments);
     EXPECT_EQ(outcome.code, code) << outcome.err;
     EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err.rfind("shape-interpolate: ", 0), 0u) << outcome.err;
     for (const std::string& part : parts) ExpectContains(outcome.err, part);
     if (code == 2) ExpectContains(outcome.err, "--help");
     EXPECT_EQ(Files(), before) << outcome.err;
@@ -49,10 +50,19 @@ TEST_F(RefusalTest, WrongCommandLines) {
     Strings arguments;
     const char* message;
   } cases[] = {
-      {{"--spoon"}, "unknown command line flag 'spoon'"},
-      {{"--shapes", "many"}, "illegal value 'many'"},
+      {{"--spoon"}, "--spoon: there is no such flag"},
+      {{"--spoon=3"}, "--spoon: there is no such flag"},
+      {{"--noshapes"}, "--noshapes: there is no such flag"},
+      {{"---shapes=3"}, "---shapes: there is no such flag"},
+      {{"--helpxml"}, "--helpxml: there is no such flag"},
+      {{"--flagfile=tube0.obj"}, "--flagfile: there is no such flag"},
+      {{"--logtostderr"}, "--logtostderr: there is no such flag"},
+      {{"--shapes", "many"}, "--shapes many: must be an integer"},
+      {{"--shapes", "1.5"}, "--shapes 1.5: must be an integer"},
+      {{"--tolerance=small"}, "--tolerance small: must be a number"},
+      {{"--strict=perhaps"}, "--strict perhaps: must be true or false"},
       {{"--shapes", "0"}, "--shapes 0: must be 1 or more"},
-      {{"--shapes"}, "--shapes' is missing its argument"},
+      {{"--shapes"}, "--shapes: its value is missing"},
       {{"--tolerance", "2"}, "--tolerance 2: must be between 0 and 1"},
       {{"--lambda=-1"}, "--lambda -1: must be a number, zero or more"},
       {{"--lambda", "nan"}, "--lambda nan: must be a number, zero or more"},

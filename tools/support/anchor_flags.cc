@@ -9,8 +9,8 @@
 #include <shapespace/path/anchor.h>
 
 #include "support/flag_group.h"
-#include "support/report.h"
 #include "support/solve_progress.h"
+#include "support/summary.h"
 #include "support/tool.h"
 
 DEFINE_string(anchor, "",

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <iostream>
 #include <limits>
+#include <set>
 #include <streambuf>
 
 #include <shapespace/base/internal/printable.h>
@@ -26,6 +27,7 @@ struct Console {
   bool results_to_stderr = false;
   bool for_programs = false;
   bool has_complained = false;
+  std::set<std::string> told;  // warnings and notes
   std::string name;
 };
 
@@ -83,6 +85,10 @@ std::ostream& Err() {
 void Complain(const std::string& message) {
   TheConsole().has_complained = true;
   Err() << TheConsole().name + ": " + message + '\n';
+}
+
+void TellOnce(const std::string& line) {
+  if (TheConsole().told.insert(line).second) Err() << line + '\n';
 }
 
 void SetProgramName(const std::string& name) { TheConsole().name = name; }

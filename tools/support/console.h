@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <string>
 
 namespace shapespace::tools {
@@ -18,6 +19,24 @@ std::ostream& Err();
 /// Prints an error to stderr, after the program's name, without ending the program; the exit code
 /// will be 1.
 void Complain(const std::string& message);
+
+/// Prints a line to stderr, unless it was printed before.
+void TellOnce(const std::string& line);
+
+/// Prints a warning, or a note, once: "warning: " and what the parts are as text.
+template <typename... Parts>
+void Warn(const Parts&... parts) {
+  std::ostringstream text;
+  (text << "warning: " << ... << parts);
+  TellOnce(text.str());
+}
+template <typename... Parts>
+void Note(const Parts&... parts) {
+  std::ostringstream text;
+  (text << "note: " << ... << parts);
+  TellOnce(text.str());
+}
+
 void SetProgramName(const std::string& name);
 bool HasComplained();
 

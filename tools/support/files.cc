@@ -41,6 +41,7 @@ void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
   for (const std::string& input : inputs) read.emplace(key(input), input);
   for (const auto& [flag, files, frames] : outputs) {
     for (const std::string& file : files) {
+      if (file == "-") continue;
       const bool is_pattern = frames > 0 && IsFramePattern(file);
       const std::string whole = "--" + flag + " " + file;
       for (std::int64_t i = 0; i < (is_pattern ? std::min(frames, kMaxNames) : 1); ++i) {
@@ -61,6 +62,7 @@ void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
 
 void CheckCanBeWritten(const std::string& file) {
   namespace fs = std::filesystem;
+  if (file == "-") return;
   std::error_code error;
   if (fs::is_directory(file, error)) throw FileError(file + ": cannot be written: it is a folder");
   fs::path folder = fs::absolute(file).parent_path();
@@ -78,7 +80,7 @@ bool IsPathFile(const std::string& file) { return internal::FileExtension(file) 
 Path ReadPathAndTell(const std::string& file) {
   Path path = ReadPath(file);
   if (!path.converged) {
-    Err() << "warning: " << file << ": the solve that made it did not converge, or was stopped\n";
+    Warn(file, ": the solve that made it did not converge, or was stopped");
   }
   return path;
 }
@@ -86,7 +88,8 @@ Path ReadPathAndTell(const std::string& file) {
 std::string Provenance(const char* program, const std::vector<std::string>& files) {
   std::string provenance = std::string(program) + " " SHAPESPACE_VERSION ":";
   for (const std::string& file : files) {
-    const std::string name = std::filesystem::path(file).filename().string();
+    const std::string name =
+        file == "-" ? "stdin" : std::filesystem::path(file).filename().string();
     const bool has_blanks = name.find(' ') != name.npos;
     provenance += has_blanks ? " '" + name + "'" : " " + name;
   }

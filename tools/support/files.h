@@ -23,7 +23,7 @@ void CheckNothingIsOverwritten(const std::vector<std::string>& inputs,
                                const std::vector<FlagOutputs>& outputs);
 
 /// To be called before a solve, so that its result can be written: checks that `file`'s folder
-/// exists, or can probably be created, and is writable.
+/// exists, or can probably be created, and is writable. "-" is stdout, and can.
 /// \throw FileError.
 void CheckCanBeWritten(const std::string& file);
 

@@ -79,7 +79,7 @@ void PrintFlags(const std::vector<std::string>& groups) {
     for (const std::string& group : groups) {
       if (Find(group).heading != heading) continue;
       for (const gflags::CommandLineFlagInfo& flag : FlagsOf(group)) {
-        std::string left = "  --" + flag.name;
+        std::string left = (flag.name == "output" ? "  -o, --" : "  --") + flag.name;
         if (flag.type != "bool") {
           left += " " + (flag.default_value.empty() ? "..." : DefaultValue(flag));
         }
@@ -88,7 +88,7 @@ void PrintFlags(const std::vector<std::string>& groups) {
       }
     }
   }
-  PrintFlag("  --help", "this text");
+  PrintFlag("  -h, --help", "this text");
   PrintFlag("  --version", "version of shapespace");
 }
 

@@ -1,6 +1,7 @@
 #include "support/frames.h"
 
 #include <filesystem>
+#include <iostream>
 
 #include <shapespace/base/error.h>
 #include <shapespace/files/write.h>
@@ -18,13 +19,22 @@ std::string FirstToLast(const std::string& pattern, int first, int last) {
 
 void TellWhatIsNotKept(const std::string& file, const Soup& soup) {
   for (const std::string& sentence : NotKept(file, soup)) {
-    Err() << "note: " << file << ": " << sentence << '\n';
+    Note(file, ": ", sentence);
   }
 }
 
 }  // namespace
 
+bool IsMeshOrStdout(const std::string& output) {
+  if (output == "-") ClaimStdout("output");
+  return output == "-" || IsWritableMesh(output);
+}
+
 void WriteMeshAndTell(const std::string& file, const Shape& shape, const Soup& soup) {
+  if (file == "-") {
+    TellWhatIsNotKept("stdout.ply", soup);
+    return WritePly(std::cout, "stdout", shape, soup);
+  }
   TellWhatIsNotKept(file, soup);
   WriteMesh(file, shape, soup);
   Out() << "wrote " << file << '\n';
@@ -42,9 +52,9 @@ void TellFrames(const std::string& pattern, int count) {
   int end = count;
   while (std::filesystem::exists(FrameName(pattern, end))) ++end;
   if (end == count) return;
-  Err() << "note: " << FirstToLast(pattern, count, end - 1)
-        << (end - count == 1 ? " is of an earlier run, and stays\n"
-                             : " are of an earlier run, and stay\n");
+  Note(
+      FirstToLast(pattern, count, end - 1),
+      (end - count == 1 ? " is of an earlier run, and stays" : " are of an earlier run, and stay"));
 }
 
 void CheckFramePattern(const std::string& flag, const std::string& file) {

@@ -18,7 +18,12 @@ void WriteFramesAndTell(const std::string& pattern, const std::vector<Shape>& sh
 /// Prints the messages about numbered files that were written.
 void TellFrames(const std::string& pattern, int count);
 
-/// `WriteMesh`, with messages.
+/// Whether an output is a mesh by its name, or "-": stdout, for which all else that is printed
+/// there goes to stderr from now on. \throw UsageError if another flag's output goes to stdout
+/// already.
+bool IsMeshOrStdout(const std::string& output);
+
+/// `WriteMesh`, with messages; to stdout, as PLY, if `file` is "-".
 void WriteMeshAndTell(const std::string& file, const Shape& shape, const Soup& soup);
 
 /// Checks that `file`, a value of --`flag`, is a pattern for frames.

@@ -8,6 +8,7 @@
 #include <shapespace/files/vertex_field.h>
 #include <shapespace/metric/internal/option_fields.h>
 
+#include "support/command_line.h"
 #include "support/flag_group.h"
 #include "support/option_flags.h"
 #include "support/tool.h"

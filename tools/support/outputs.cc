@@ -9,9 +9,11 @@
 
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
+#include <shapespace/output/frames.h>
 #include <shapespace/output/internal/option_fields.h>
 #include <shapespace/output/path_output.h>
 
+#include "support/command_line.h"
 #include "support/flag_group.h"
 #include "support/frames.h"
 #include "support/interrupt.h"
@@ -54,6 +56,7 @@ namespace {
 bool writes_last_shape_alone = false;
 
 PathOutput OutputOf(const std::string& name, const std::string& flag = "output") {
+  if (name == "-" && writes_last_shape_alone) return {name, PathOutput::Kind::kLastShape};
   try {
     return PathOutput::Of(name, writes_last_shape_alone);
   } catch (const FileError& error) {
@@ -97,18 +100,25 @@ PathOutputOptions OptionsFromFlags() {
 
 void Write(const PathOutput& output, const Path& path, const PathOutputOptions& options) {
   using Kind = PathOutput::Kind;
+  if (output.file == "-") {
+    const Soup soup = FrameSoup(*path.metric->connectivity, path.appearance);
+    return WriteMeshAndTell(output.file, path.Placed(path.NumShapes() - 1), soup);
+  }
   const PathOutputSummary summary = WritePathOutput(output, path, options);
   for (const std::string& warning : summary.warnings) {
-    Err() << (output.kind == Kind::kGltf ? "warning: " : "note: ") << output.file << ": " << warning
-          << '\n';
+    if (output.kind == Kind::kGltf) {
+      Warn(output.file, ": ", warning);
+    } else {
+      Note(output.file, ": ", warning);
+    }
   }
   if (summary.gltf.subsampled) {
-    Err() << "note: " << output.file << ": " << summary.gltf.keys << " of the " << path.NumShapes()
-          << " shapes, evenly spaced, because players do not support more\n";
+    Note(output.file, ": ", summary.gltf.keys, " of the ", path.NumShapes(),
+         " shapes, evenly spaced, because players do not support more");
   }
   if (summary.colour_end > 0) {
-    Err() << "note: " << output.file << ": the last colour stands for a deviation of "
-          << 100 * summary.colour_end << "%\n";
+    Note(output.file, ": the last colour stands for a deviation of ", 100 * summary.colour_end,
+         "%");
   }
   if (output.kind == Kind::kFrames || output.kind == Kind::kVtk) {
     TellFrames(output.file, path.NumShapes());
@@ -135,6 +145,10 @@ std::vector<std::string> OutputsFromFlag(const std::string& flag, const std::str
   for (const std::string& output : Split(list)) {
     if (output.empty()) continue;
     if (OutputOf(output, flag).kind == PathOutput::Kind::kPage) CheckHasViewer();
+    if (output == "-") {
+      if (IsGiven("color")) throw UsageError("--color: has no effect on what goes to stdout");
+      ClaimStdout(flag);
+    }
     CheckCanBeWritten(output);
     outputs.push_back(output);
   }

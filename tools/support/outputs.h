@@ -10,8 +10,8 @@
 
 namespace shapespace::tools {
 
-/// From now on an .obj or .ply without a number in its name is a valid output: of the last shape
-/// alone.
+/// From now on an .obj or .ply without a number in its name is a valid output, of the last shape
+/// alone, and so is "-", which writes it to stdout.
 void WriteLastShapeAlone();
 
 /// The files named by --output, separated by commas.

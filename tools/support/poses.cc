@@ -1,14 +1,20 @@
 #include "support/poses.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <gflags/gflags.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/mesh/check.h>
+#include <shapespace/output/frames.h>
 
 #include "support/console.h"
 #include "support/flag_group.h"
 #include "support/mesh_flags.h"
 #include "support/metric_flags.h"
 #include "support/outside_files_flag.h"
+#include "support/stdin_mesh.h"
 #include "support/tool.h"
 
 DEFINE_string(stiffeners, "",
@@ -35,9 +41,9 @@ ReadOptions OptionsFromFlags() {
 
 Poses CheckedWithWarnings(Poses poses) {
   CheckMetricFlags(*poses.connectivity);
-  for (const std::string& warning : poses.warnings) Err() << "warning: " << warning << '\n';
+  for (const std::string& warning : poses.warnings) Warn(warning);
   for (const std::string& dropped : poses.soup.dropped) {
-    Err() << "note: " << dropped << '\n';
+    Note(dropped);
   }
   return poses;
 }
@@ -45,7 +51,14 @@ Poses CheckedWithWarnings(Poses poses) {
 }  // namespace
 
 Poses ReadPosesFromFlags(const std::vector<std::string>& files, size_t least) {
-  Poses poses = ReadPoses(files, OptionsFromFlags());
+  const bool from_stdin = std::find(files.begin(), files.end(), "-") != files.end();
+  std::vector<Soup> soups;
+  for (const std::string& file : files) {
+    if (!from_stdin) break;
+    for (Soup& soup : ReadSoupsOrStdin(file)) soups.push_back(std::move(soup));
+  }
+  Poses poses = from_stdin ? MakePoses(std::move(soups), OptionsFromFlags())
+                           : ReadPoses(files, OptionsFromFlags());
   if (poses.shapes.size() < least) {
     throw UsageError(files[0] + " has one pose; name at least two poses of one mesh");
   }
@@ -54,12 +67,29 @@ Poses ReadPosesFromFlags(const std::vector<std::string>& files, size_t least) {
 
 Poses ReadMeshesFromFlags(const std::vector<std::string>& files) {
   std::vector<Soup> soups;
-  for (const std::string& file : files) soups.push_back(ReadSoup(file, FLAGS_allow_outside_files));
+  for (const std::string& file : files) soups.push_back(ReadSoupOrStdin(file));
   return MakePosesFromFlags(std::move(soups));
 }
 
 Poses MakePosesFromFlags(std::vector<Soup> soups) {
   return CheckedWithWarnings(MakePoses(std::move(soups), OptionsFromFlags()));
+}
+
+Poses ReadPoseOf(const Path& path, const std::string& path_file, const std::string& file) {
+  Poses read = ReadMeshesFromFlags({file});
+  Soup reference = FrameSoup(*path.metric->connectivity), pose = read.soup;
+  reference.file = path_file;
+  reference.vertices = path.Placed(0);
+  const char axis = MirrorFromFlags();
+  if (axis != 0 && MirrorBack(reference, axis, &pose)) {
+    Warn(file, ": is a mirror image of the path's first shape; its ", axis, " has changed sign");
+    read.shapes[0] = pose.vertices;
+  }
+  for (const Finding& finding : CheckSameMesh(reference, pose)) {
+    if (finding.severity == Severity::kFatal) throw MismatchError(finding.message, finding.option);
+    Warn(finding.message);
+  }
+  return read;
 }
 
 }  // namespace shapespace::tools

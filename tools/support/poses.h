@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <shapespace/files/read.h>
+#include <shapespace/path/path.h>
 
 namespace shapespace::tools {
 
@@ -20,6 +21,10 @@ Poses ReadMeshesFromFlags(const std::vector<std::string>& files);
 
 /// The same for soups that were read.
 Poses MakePosesFromFlags(std::vector<Soup> soups);
+
+/// A mesh, as a pose of the mesh of a path that was read from `path_file`: the first pose of
+/// `file`. \throw MismatchError if it is another mesh.
+Poses ReadPoseOf(const Path& path, const std::string& path_file, const std::string& file);
 
 /// These files, and that of --stiffeners if it was given: all inputs.
 std::vector<std::string> WithStiffeners(std::vector<std::string> files);

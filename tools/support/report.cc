@@ -16,14 +16,12 @@ DEFINE_string(
     report, "",
     "write a report: .json, or .txt for reading; - prints JSON on stdout, and everything else on "
     "stderr");
-DEFINE_bool(strict, false,
-            "exit with code 1 if a solve did not converge; outputs are written nevertheless");
 FLAG_GROUP(report, "Output");
 
 namespace shapespace::tools {
 
 FlagOutputs ReportFromFlag() {
-  if (FLAGS_report == "-") ResultsToStderr();
+  if (FLAGS_report == "-") ClaimStdout("report");
   if (FLAGS_report.empty() || FLAGS_report == "-") return {"report", {}};
   const std::string extension = internal::FileExtension(FLAGS_report);
   if (extension != ".json" && extension != ".txt") {
@@ -31,13 +29,6 @@ FlagOutputs ReportFromFlag() {
   }
   CheckCanBeWritten(FLAGS_report);
   return {"report", {FLAGS_report}};
-}
-
-void PrintSummary(const std::string& brief, const std::vector<std::string>& warnings,
-                  bool converged) {
-  for (const std::string& warning : warnings) Err() << "warning: " << warning << '\n';
-  Out() << brief << '\n';
-  if (FLAGS_strict && !converged) Complain("not converged, which is a failure with --strict");
 }
 
 void WriteReport(const std::string& text, const std::string& json) {

@@ -2,11 +2,8 @@
 
 #include <dlfcn.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <iostream>
-#include <sstream>
 
 #include <gflags/gflags.h>
 #include <glog/logging.h>
@@ -14,6 +11,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 
+#include "support/command_line.h"
 #include "support/flag_group.h"
 #include "support/interrupt.h"
 
@@ -23,19 +21,8 @@ DEFINE_string(progress, "text",
               "one: 'progress SHARE TEXT', with a share from 0 to 1, or '-' if it is not known");
 FLAG_GROUP(tool, "Run");
 
-// gflags ends the process itself on an invalid flag, with its own exit code.
-namespace GFLAGS_NAMESPACE {
-extern void (*gflags_exitfunc)(int);
-}
-
 namespace shapespace::tools {
 namespace {
-
-// The command line before gflags modified it.
-std::vector<std::string>& Typed() {
-  static std::vector<std::string> typed;
-  return typed;
-}
 
 // Those that it takes, and what every tool has.
 std::vector<std::string> GroupsOf(const Program& program) {
@@ -66,6 +53,15 @@ void PrintHelp(const Program& program) {
 
 bool IsGiven(const char* flag) { return !gflags::GetCommandLineFlagInfoOrDie(flag).is_default; }
 
+void ClaimStdout(const std::string& flag) {
+  static std::string owner;
+  if (!owner.empty() && owner != flag) {
+    throw UsageError("--" + owner + " - and --" + flag + " -: only one of them can go to stdout");
+  }
+  owner = flag;
+  ResultsToStderr();
+}
+
 void RefuseFlags(const std::vector<std::string>& groups, const std::vector<std::string>& flags,
                  const std::string& reason) {
   for (const std::string& group : groups) {
@@ -76,25 +72,6 @@ void RefuseFlags(const std::vector<std::string>& groups, const std::vector<std::
   for (const std::string& flag : flags) {
     if (IsGiven(flag.c_str())) throw UsageError("--" + flag + ": " + reason);
   }
-}
-
-std::string AsTyped(const std::string& flag) {
-  std::string text = "--" + flag;
-  for (size_t i = 1; i < Typed().size() && Typed()[i] != "--"; ++i) {
-    const std::string& typed = Typed()[i];
-    const size_t begin = typed.find_first_not_of('-');
-    if (begin != 1 && begin != 2) continue;
-    const size_t equals = typed.find('=');
-    std::string name = typed.substr(begin, equals == typed.npos ? equals : equals - begin);
-    std::replace(name.begin(), name.end(), '-', '_');
-    if (name != flag) continue;
-    if (equals != typed.npos) {
-      text = "--" + flag + " " + typed.substr(equals + 1);
-    } else if (i + 1 < Typed().size()) {
-      text = "--" + flag + " " + Typed()[i + 1];
-    }
-  }
-  return text;
 }
 
 std::string InFlags(const std::string& option) {
@@ -126,29 +103,23 @@ int RunTool(int argc, char** argv, const Program& program,
   google::InitGoogleLogging(argv[0]);
   FLAGS_logtostderr = true;
   FLAGS_minloglevel = google::GLOG_FATAL;
-  GFLAGS_NAMESPACE::gflags_exitfunc = [](int) {
-    std::cerr << "Try --help\n";
-    std::_Exit(2);
-  };
-  gflags::SetVersionString(SHAPESPACE_VERSION);
-  Typed().assign(argv, argv + argc);
-  gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
-  if (IsGiven("help")) {
-    PrintHelp(program);
-    return 0;
-  }
-  if (IsGiven("version")) {
-    std::cout << program.name << " of shapespace " << SHAPESPACE_VERSION << '\n';
-    return 0;
-  }
   try {
+    const std::vector<std::string> arguments = ParseCommandLine(argc, argv, GroupsOf(program));
+    if (IsGiven("help")) {
+      PrintHelp(program);
+      return 0;
+    }
+    if (IsGiven("version")) {
+      std::cout << program.name << " of shapespace " << SHAPESPACE_VERSION << '\n';
+      return 0;
+    }
     NamingFlags({}, [&] {
       SetThreads(FLAGS_threads);
       if (FLAGS_progress != "text" && FLAGS_progress != "lines") {
         throw UsageError("--progress " + FLAGS_progress + ": must be text or lines");
       }
       if (FLAGS_progress == "lines") ProgressForPrograms();
-      body({argv + 1, argv + argc});
+      body(arguments);
     });
     if (!std::cout.flush() || std::fflush(stdout) != 0) {
       throw FileError("stdout: writing failed (is the disk full?)");

@@ -24,8 +24,8 @@ struct Program {
   std::vector<std::string> flag_groups;  ///< of its flags, by name (`FLAG_GROUP`)
 };
 
-/// Implements main() of every tool: parses gflags, handles --help and --version, and runs `body`
-/// with the arguments that are not flags. Returns the exit code: 0; 1 after an error or a
+/// Implements main() of every tool: parses the command line, handles --help and --version, and runs
+/// `body` with the arguments that are not flags. Returns the exit code: 0; 1 after an error or a
 /// `Complain`; 2 after a usage error. Ctrl-C ends the process by its signal. Messages go to stderr.
 int RunTool(int argc, char** argv, const Program& program,
             const std::function<void(const std::vector<std::string>& arguments)>& body);
@@ -33,13 +33,14 @@ int RunTool(int argc, char** argv, const Program& program,
 /// Whether this flag was given on the command line.
 bool IsGiven(const char* flag);
 
+/// Reserves stdout for what --`flag` - writes: results that would be printed there go to stderr.
+/// \throw UsageError if another flag has it.
+void ClaimStdout(const std::string& flag);
+
 /// Refuses flags without effect: `flags`, and all of some `groups`, for `reason`.
 /// \throw UsageError "--flag: reason" if the command line gave one of them.
 void RefuseFlags(const std::vector<std::string>& groups, const std::vector<std::string>& flags,
                  const std::string& reason);
-
-/// A flag in messages, with its value as typed: "--unit 1e-3"; without value if it was not given.
-std::string AsTyped(const std::string& flag);
 
 /// Names of flags that set fields of an options struct with other names: field, flag.
 using FlagNames = std::vector<std::pair<std::string, std::string>>;

@@ -30,6 +30,33 @@ const Format* WriterOf(const std::string& file) {
   return nullptr;
 }
 
+// The file's content. `name` is used in messages.
+std::string ContentOf(const std::string& name, const Format& format, const Shape& vertices,
+                      const Soup& soup) {
+  const std::string extension = format.extension;
+  if (vertices.cols() != soup.NumVertices()) {
+    throw MeshError(name + ": " + std::to_string(vertices.cols()) +
+                    " vertices for the polygons of a mesh of " +
+                    std::to_string(soup.NumVertices()));
+  }
+  internal::CheckFinite(name, vertices);
+  try {
+    soup.appearance.Validate(soup.NumVertices(), soup.NumPolygons(),
+                             static_cast<int>(soup.corners.size()));
+  } catch (const MeshError& error) {
+    throw MeshError(name + ": " + error.what());
+  }
+  if (extension == ".ply" && !soup.appearance.texture_coordinates.cast<float>().allFinite()) {
+    throw MeshError(name + ": a texture coordinate is too large for PLY's single precision");
+  }
+  if ((extension == ".off" || extension == ".stl") && soup.NumPolygons() == 0) {
+    throw MeshError(name + ": the mesh has no polygons, and the format stores no segments; " +
+                    "write .obj or .ply");
+  }
+  if (extension == ".stl") internal::CheckSinglePrecision(name, vertices);
+  return format.content(vertices, soup);
+}
+
 }  // namespace
 
 bool IsWritableMesh(const std::string& file) { return WriterOf(file) != nullptr; }
@@ -74,31 +101,17 @@ void WriteMesh(const std::string& file, const Shape& vertices, const Soup& soup)
     throw FileError(file + ": the extension '" + internal::FileExtension(file) +
                     "' is not one of .obj, .ply, .off, .stl; name the file as one of these");
   }
-  const std::string extension = format->extension;
-  if (vertices.cols() != soup.NumVertices()) {
-    throw MeshError(file + ": " + std::to_string(vertices.cols()) +
-                    " vertices for the polygons of a mesh of " +
-                    std::to_string(soup.NumVertices()));
-  }
-  internal::CheckFinite(file, vertices);
-  try {
-    soup.appearance.Validate(soup.NumVertices(), soup.NumPolygons(),
-                             static_cast<int>(soup.corners.size()));
-  } catch (const MeshError& error) {
-    throw MeshError(file + ": " + error.what());
-  }
-  if (extension == ".ply" && !soup.appearance.texture_coordinates.cast<float>().allFinite()) {
-    throw MeshError(file + ": a texture coordinate is too large for PLY's single precision");
-  }
-  if ((extension == ".off" || extension == ".stl") && soup.NumPolygons() == 0) {
-    throw MeshError(file + ": the mesh has no polygons, and the format stores no segments; " +
-                    "write .obj or .ply");
-  }
-  if (extension == ".stl") internal::CheckSinglePrecision(file, vertices);
-  const std::string content = format->content(vertices, soup);
+  const std::string content = ContentOf(file, *format, vertices, soup);
   internal::WriteFileAtomically(file, [&content](std::ostream& stream) {
     stream.write(content.data(), static_cast<std::streamsize>(content.size()));
   });
+}
+
+void WritePly(std::ostream& stream, const std::string& name, const Shape& vertices,
+              const Soup& soup) {
+  const std::string content = ContentOf(name, *WriterOf(".ply"), vertices, soup);
+  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+  if (!stream.flush()) throw FileError(name + ": writing failed (is the disk full?)");
 }
 
 }  // namespace shapespace

@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_FILES_WRITE_H_
 #define SHAPESPACE_FILES_WRITE_H_
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,11 @@ namespace shapespace {
 ///        valid, a graph is to be written as OFF or STL, or STL would change a coordinate by more
 ///        than a ten-thousandth of the shape's diagonal.
 void WriteMesh(const std::string& file, const Shape& vertices, const Soup& soup);
+
+/// The same into a stream, as PLY; binary, so the stream must be too. `name` is used in messages.
+/// \throw FileError if the stream fails.
+void WritePly(std::ostream& stream, const std::string& name, const Shape& vertices,
+              const Soup& soup);
 
 /// Whether the file's extension is one of these four.
 bool IsWritableMesh(const std::string& file);

@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_ANALYSIS_INTERNAL_SUMMARY_FIELDS_H_
 #define SHAPESPACE_ANALYSIS_INTERNAL_SUMMARY_FIELDS_H_
 
+#include <shapespace/analysis/path_intersections.h>
 #include <shapespace/analysis/quality.h>
 #include <shapespace/analysis/shape_error.h>
 #include <shapespace/base/internal/fields.h>
@@ -30,6 +31,15 @@ void ForFields(Of<ShapeError>, const Visit& visit) {
   visit("edge_max", &ShapeError::edge_max);
   visit("volume", &ShapeError::volume);
   visit("inverted_hinges", &ShapeError::inverted_hinges);
+}
+
+template <typename Visit>
+void ForFields(Of<PathIntersections>, const Visit& visit) {
+  visit("pairs", &PathIntersections::pairs);
+  visit("poses_max", &PathIntersections::poses_max);
+  visit("inner_max", &PathIntersections::inner_max);
+  visit("inner_mean", &PathIntersections::inner_mean);
+  visit("beyond_poses", &PathIntersections::beyond_poses);
 }
 
 }  // namespace shapespace::internal

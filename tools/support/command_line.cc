@@ -1,0 +1,103 @@
+#include "support/command_line.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <gflags/gflags.h>
+
+#include "support/flag_group.h"
+#include "support/tool.h"
+
+namespace shapespace::tools {
+namespace {
+
+// The values as typed, by flag.
+std::map<std::string, std::string>& Typed() {
+  static std::map<std::string, std::string> typed;
+  return typed;
+}
+
+// What a value of this type has to be.
+std::string Description(const std::string& type) {
+  if (type == "bool") return "true or false";
+  if (type == "double") return "a number";
+  return type[0] == 'u' ? "an integer that is not negative" : "an integer";
+}
+
+class Parser {
+ public:
+  Parser(int argc, char** argv, const std::vector<std::string>& groups)
+      : argv_(argv + 1, argv + argc), known_{"help", "version"} {
+    for (const std::string& group : groups) {
+      for (const gflags::CommandLineFlagInfo& flag : FlagsOf(group)) known_.insert(flag.name);
+    }
+  }
+
+  std::vector<std::string> Parse() {
+    std::vector<std::string> arguments;
+    while (next_ < argv_.size()) {
+      const std::string& argument = argv_[next_++];
+      if (argument == "--") {
+        arguments.insert(arguments.end(), argv_.begin() + next_, argv_.end());
+        break;
+      }
+      if (argument.size() < 2 || argument[0] != '-') {
+        arguments.push_back(argument);
+      } else {
+        ParseFlag(argument);
+      }
+    }
+    return arguments;
+  }
+
+ private:
+  void ParseFlag(const std::string& argument) {
+    const size_t begin = argument.find_first_not_of('-'), equals = argument.find('=');
+    const bool has_value = equals != argument.npos;
+    std::string name = begin == 1 || begin == 2 ? argument.substr(begin, equals - begin) : "";
+    std::replace(name.begin(), name.end(), '-', '_');
+    if (begin == 1 && name == "o") name = "output";
+    if (begin == 1 && name == "h") name = "help";
+    const bool negated = known_.count(name) == 0 && name.substr(0, 2) == "no" && !has_value;
+    if (negated) name.erase(0, 2);
+    const std::string shown = argument.substr(0, equals);
+    if (known_.count(name) == 0) throw UsageError(shown + ": there is no such flag");
+    const std::string type = gflags::GetCommandLineFlagInfoOrDie(name.c_str()).type;
+    if (negated && type != "bool") throw UsageError(shown + ": there is no such flag");
+    if (has_value) {
+      Set(name, argument.substr(equals + 1), type);
+    } else if (type == "bool") {
+      Set(name, negated ? "false" : "true", type);
+    } else if (next_ < argv_.size()) {
+      Set(name, argv_[next_++], type);
+    } else {
+      throw UsageError("--" + name + ": its value is missing");
+    }
+  }
+
+  static void Set(const std::string& name, const std::string& value, const std::string& type) {
+    if (gflags::SetCommandLineOption(name.c_str(), value.c_str()).empty()) {
+      throw UsageError("--" + name + " " + value + ": must be " + Description(type));
+    }
+    Typed()[name] = value;
+  }
+
+  const std::vector<std::string> argv_;
+  std::set<std::string> known_;
+  size_t next_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> ParseCommandLine(int argc, char** argv,
+                                          const std::vector<std::string>& groups) {
+  return Parser(argc, argv, groups).Parse();
+}
+
+std::string AsTyped(const std::string& flag) {
+  const auto typed = Typed().find(flag);
+  return "--" + flag + (typed == Typed().end() ? "" : " " + typed->second);
+}
+
+}  // namespace shapespace::tools
