@@ -192,8 +192,8 @@ def read(
     Parameters
     ----------
     *files : str or path-like
-        One or more OBJ, PLY, OFF, STL or glTF (.glb, .gltf) files, with the same faces in the same
-        order. The morph targets of a glTF file are poses too.
+        One or more OBJ, PLY, OFF, STL, glTF (.glb, .gltf) or VTK (.vtk, .vtp) files, with the same
+        faces in the same order. The morph targets of a glTF file are poses too.
     stiffeners : str or path-like, optional
         File of further edges that the metric is to hold: two vertex numbers a line, from 1.
     allow_nonmanifold : bool, optional
@@ -955,7 +955,8 @@ def read_vertex_field(source):
     Parameters
     ----------
     source : str or path-like
-        A text with a number a line, or "body.ply:name" for a property of a PLY file's vertices.
+        A text with a number a line, or "body.ply:name" for a property of a PLY file's vertices;
+        of "body.vtk:name" and "body.vtp:name" an array of the point data.
 
     Returns
     -------

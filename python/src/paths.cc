@@ -62,6 +62,17 @@ void Write(const Path& path, const std::string& file, const py::dict& given) {
       take("fps", &options.point_cache_fps);
       RefuseOthers(given, taken);
       break;
+    case Kind::kUsd: {
+      std::string up(1, options.usd.up);
+      take("color", &options.colours);
+      take("fps", &options.usd.fps);
+      take("up", &up);
+      take("unit", &options.usd.unit);
+      if (up.size() != 1) throw InvalidOptions("up", "must be 'y' or 'z'");
+      options.usd.up = up[0];
+      RefuseOthers(given, taken);
+      break;
+    }
     case Kind::kPage:
       RefuseOthers(given, taken);
       options.page_template = PageTemplate();
@@ -124,13 +135,14 @@ Parameters
 ----------
 file : str or path-like
     Its extension is the format: .path (everything, to continue from), .png (film strip), .glb
-    (animation for browsers and Blender), .html (a page for browsers), .pc2 or .mdd (point cache
+    (animation for browsers and Blender), .usda (animation, text of USD), .html (a page for browsers), .pc2 or .mdd (point cache
     for Blender, Maya, Houdini, 3ds Max), numbered meshes such as frames/%03d.obj, .ply, .off or
     .stl, or frames/%03d.vtp with deviation and energy at every point, for ParaView.
 **options
-    Of `film_strip` for .png; of `GltfOptions` for .glb; for both, and for meshes, `color`, which
-    is 'plain', 'deviation' or 'parts' (colours of vertices in .obj and .ply); for .mdd `fps`,
-    shapes per second. The others take none.
+    Of `film_strip` for .png; of `GltfOptions` for .glb; for these, .usda and meshes `color`, which
+    is 'plain', 'deviation' or 'parts' (colours of vertices in .obj and .ply); for .mdd and .usda
+    `fps`, shapes per second; for .usda also `up`, 'y' or 'z', and `unit`, metres in one of the
+    shapes' units. The others take none.
 )")
       .def(Pickle<Path>());
 }

@@ -1,6 +1,9 @@
 #include <random>
 
+#include <zlib.h>
+
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/bytes.h>
 #include <shapespace/files/read.h>
 #include <shapespace/files/write.h>
 #include <shapespace/mesh/check.h>
@@ -18,7 +21,7 @@ class ReadFuzzTest : public testing::FilesTest {
     std::mt19937 random(12345);
     auto below = [&random](size_t n) { return static_cast<size_t>(random() % n); };
     // Bytes with a meaning for one of the readers are inserted more often.
-    const std::string telling = "0123456789 \n\r\t-+.e/#\\vflOFply\xff";
+    const std::string telling = "0123456789 \n\r\t-+.e/#\\vflOFply<>\"=_A\xff";
     int accepted = 0, refused = 0;
     for (int i = 0; i < count; ++i) {
       std::string damaged = content;
@@ -109,6 +112,74 @@ TEST_F(ReadFuzzTest, BinaryStl) {
   const Soup cube = testing::Cube();
   WriteMesh(Path("cube.stl"), cube.vertices, cube);
   Damage(".stl", testing::Content(Path("cube.stl")), 3000);
+}
+
+TEST_F(ReadFuzzTest, TextVtk) {
+  Damage(".vtk",
+         "# vtk DataFile Version 5.1\nx\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n"
+         "0 0 0 1 0 0 1 1 .5 0 1 0\nMETADATA\nINFORMATION 0\n\nLINES 2 2\nOFFSETS int\n0 2\n"
+         "CONNECTIVITY int\n0 3\nTRIANGLE_STRIPS 2 4\nOFFSETS int\n0 4\nCONNECTIVITY int\n"
+         "0 1 3 2\nPOINT_DATA 4\nCOLOR_SCALARS c 3\n1 0 0 0 1 0 0 0 1 1 1 1\nSCALARS s int 1\n"
+         "LOOKUP_TABLE default\n1 2 3 4\nFIELD f 1\na%20b 2 4 float\n1 2 3 4 5 6 7 8\n"
+         "TEXTURE_COORDINATES t 2 float\n0 0 1 0 1 1 0 1\n",
+         3000);
+}
+
+TEST_F(ReadFuzzTest, BinaryVtk) {
+  std::string file =
+      "# vtk DataFile Version 3.0\nx\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 short\n";
+  const auto add = [&file](const std::vector<int>& numbers, auto type) {
+    for (const int number : numbers) {
+      internal::AppendBigEndian(static_cast<decltype(type)>(number), &file);
+    }
+  };
+  add({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 1}, std::int16_t{});
+  file += "\nCELLS 3 13\n";
+  add({4, 0, 1, 2, 3, 3, 0, 2, 1, 3, 0, 1, 3}, std::int32_t{});
+  file += "\nCELL_TYPES 3\n";
+  add({8, 5, 6}, std::int32_t{});
+  file += "\nPOINT_DATA 4\nSCALARS s unsigned_char 4\nLOOKUP_TABLE default\n";
+  add({1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 1, 2, 3, 4, 5, 6}, std::uint8_t{});
+  Damage(".vtk", file, 3000);
+}
+
+TEST_F(ReadFuzzTest, Vtp) {
+  Damage(".vtp",
+         "<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\"><PolyData><Piece "
+         "NumberOfPoints=\"4\" NumberOfPolys=\"2\" NumberOfLines=\"1\"><PointData "
+         "TCoords=\"t\"><DataArray type=\"UInt8\" Name=\"c\" NumberOfComponents=\"3\" "
+         "format=\"ascii\">1 2 3 4 5 6 7 8 9 0 1 2</DataArray></PointData><Points><DataArray "
+         "type=\"Float32\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/></Points>"
+         "<Polys><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 0 2 3"
+         "</DataArray><DataArray type=\"Int8\" Name=\"offsets\" format=\"binary\">AgAAAAMG"
+         "</DataArray></Polys><Lines><DataArray type=\"Int32\" Name=\"connectivity\" "
+         "format=\"ascii\">0 3</DataArray><DataArray type=\"Int32\" Name=\"offsets\" "
+         "format=\"ascii\">2</DataArray></Lines></Piece></PolyData><AppendedData "
+         "encoding=\"base64\">_MAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAIA/AAAAAAAAAAAAAIA/"
+         "AAAAAA==</AppendedData></VTKFile>",
+         3000);
+}
+
+// Blocks that zlib compressed.
+TEST_F(ReadFuzzTest, CompressedVtp) {
+  std::string points;
+  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) {
+    internal::AppendLittleEndian(x, &points);
+  }
+  std::string block(compressBound(points.size()), '\0'), appended;
+  uLongf size = block.size();
+  compress(reinterpret_cast<Bytef*>(block.data()), &size,
+           reinterpret_cast<const Bytef*>(points.data()), points.size());
+  for (const size_t number : {size_t{1}, points.size(), size_t{0}, size_t{size}}) {
+    internal::AppendLittleEndian(static_cast<std::uint32_t>(number), &appended);
+  }
+  Damage(".vtp",
+         "<VTKFile type=\"PolyData\" compressor=\"vtkZLibDataCompressor\"><!-- of which not "
+         "every byte matters, so that some of the damage is accepted --><PolyData><Piece "
+         "NumberOfPoints=\"3\"><Points><DataArray type=\"Float32\" format=\"appended\" "
+         "offset=\"0\"/></Points></Piece></PolyData><AppendedData encoding=\"raw\">_" +
+             appended + block.substr(0, size),
+         3000);
 }
 
 // With an embedded buffer: eight vertices, a target that moves one of them, and indices of bytes.

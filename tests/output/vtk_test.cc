@@ -7,6 +7,8 @@
 #include <shapespace/analysis/quality.h>
 #include <shapespace/analysis/vertex_energy.h>
 #include <shapespace/base/error.h>
+#include <shapespace/files/read.h>
+#include <shapespace/files/vertex_field.h>
 
 #include "mesh/bodies.h"
 #include "mesh/files.h"
@@ -80,6 +82,26 @@ TEST_F(VtkTest, EveryShapeHasItsPointsCellsAndData) {
     EXPECT_EQ(file.Attribute("NumberOfPoints"), "8");
     EXPECT_EQ(file.Attribute("NumberOfLines"), "1");
     EXPECT_EQ(file.Attribute("NumberOfPolys"), "6");
+  }
+}
+
+// The reader, which follows the format's description, reads what was written.
+TEST_F(VtkTest, SeriesAreReadBackExactly) {
+  Soup cube = testing::Cube();
+  cube.segments = {{0, 7}};
+  Shape bent = cube.vertices;
+  bent.col(7) << 1.3, 1.2, 2;
+  const shapespace::Path path =
+      testing::PathOf(testing::Connected(cube), {cube.vertices, bent.array() + 1e6});
+  WriteVtkSeries(Path("%d.vtp"), path);
+  for (int i = 0; i < 2; ++i) {
+    const std::string file = Path(std::to_string(i) + ".vtp");
+    const Soup read = ReadSoup(file);
+    EXPECT_EQ(read.vertices, path.Placed(i));
+    EXPECT_EQ(read.corners, cube.corners);
+    EXPECT_EQ(read.polygon_begin, cube.polygon_begin);
+    EXPECT_EQ(read.segments, cube.segments);
+    EXPECT_EQ(ReadVertexField(file + ":deviation"), EdgeDeviation(path, i));
   }
 }
 

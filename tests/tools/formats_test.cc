@@ -87,10 +87,41 @@ TEST_F(FormatsTest, FramesAreTheSameInAllFormats) {
   const Eigen::Vector3f vertex = shapes[4].rightCols<1>().cast<float>();
   EXPECT_EQ(last, std::string(reinterpret_cast<const char*>(vertex.data()), 12));
   EXPECT_EQ(ReadSoup(Path("3.off")).vertices, ReadSoup(Path("3.ply")).vertices);
+  EXPECT_EQ(ReadSoup(Path("3.vtp")).vertices, ReadSoup(Path("3.ply")).vertices);
   EXPECT_NO_THROW(ReadPoses({Path("0.stl"), Path("4.stl")}));
   const Outcome numbered = Run("shape-export", {"walk.path", "--output", "w%d.pc2"});
   EXPECT_EQ(numbered.code, 2);
   ExpectContains(numbered.err, "only meshes and .vtp are numbered");
+}
+
+// A series for ParaView can be worked on there, and its files taken as poses again.
+TEST_F(FormatsTest, FilesForParaViewArePosesAgain) {
+  MakeWalk(",%d.vtp");
+  const Outcome outcome = Run("shape-interpolate", {"0.vtp", "4.vtp", "--stiffness", "4.vtp:t",
+                                                    "--shapes", "1", "--output", "w.path"});
+  EXPECT_EQ(outcome.code, 1);
+  ExpectContains(outcome.err, "4.vtp: no point data has the name 't'");
+  const Outcome inspected = Run("shape-inspect", {"0.vtp", "4.vtp"});
+  EXPECT_EQ(inspected.code, 0);
+  ExpectContains(inspected.out, "point data not kept: deviation, energy");
+  Succeed("shape-interpolate", {"0.vtp", "4.vtp", "--shapes", "1", "--output", "w.path"});
+  EXPECT_LT((Shapes("w.path")[0] - Shapes("walk.path")[0]).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST_F(FormatsTest, UsdTakesTheFlagsOfAnimations) {
+  MakeWalk();
+  const Outcome outcome = Run("shape-export", {"walk.path", "--up", "z", "--unit", "0.01", "--fps",
+                                               "25", "--color", "parts", "--output", "w.usda"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.out, "wrote w.usda\n");
+  const std::string text = Content(Path("w.usda"));
+  for (const char* words : {"upAxis = \"Z\"", "metersPerUnit = 0.01\n", "timeCodesPerSecond = 25\n",
+                            "endTimeCode = 4\n", "primvars:displayColor = ["}) {
+    ExpectContains(text, words);
+  }
+  const Outcome numbered = Run("shape-export", {"walk.path", "--output", "w%d.usda"});
+  EXPECT_EQ(numbered.code, 2);
+  ExpectContains(numbered.err, "one .usda contains the whole path");
 }
 
 TEST_F(FormatsTest, FpsIsTheRateOfAnMdd) {

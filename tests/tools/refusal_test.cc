@@ -80,7 +80,8 @@ TEST_F(RefusalTest, WrongCommandLines) {
       {{"--strain", "0", "--lambda", "0"},
        "--isometric, --strain 0, --rigid, --lambda 0: all zero"},
       {{"--output", "walk.gif"},
-       "walk.gif: must end in .path, .png, .glb, .html, .pc2, .mdd, .obj, .ply, .off, .stl or "
+       "walk.gif: must end in .path, .png, .glb, .usda, .html, .pc2, .mdd, .obj, .ply, .off, .stl "
+       "or "
        ".vtp"},
       {{"--output", ","}, "--output: names no file"},
       {{"--output", "frame.obj"}, "frame.obj: a name for frames needs one number"},

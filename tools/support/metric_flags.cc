@@ -22,7 +22,8 @@ DEFINE_string(metric, "strain",
 DEFINE_string(
     stiffness, "",
     "file of factors on the cost of stretching and bending, one positive number per "
-    "vertex: a text with one number per line, or a property of a PLY file, as body.ply:name");
+    "vertex: a text with one number per line, or a property of a PLY file, as body.ply:name, "
+    "or point data of a VTK file, as body.vtp:name");
 FLAG_GROUP(metric, "Metric");
 static const shapespace::tools::OptionFlags<shapespace::MetricOptions> costs(
     __FILE__, {{"strain", "strain"},

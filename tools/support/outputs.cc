@@ -25,22 +25,26 @@
 
 DEFINE_string(output, "path.png",
               "files to write, separated by commas: .path (the complete result, for other tools), "
-              ".png (film strip), .glb (animation, for browsers and Blender), .pc2 or .mdd (point "
+              ".png (film strip), .glb (animation, for browsers and Blender), .usda (animation, "
+              "for programs that read USD), .pc2 or .mdd (point "
               "cache, for Blender, Maya, Houdini, 3ds Max), .html (a page for browsers), "
               "frames/%03d.obj, .ply, .off or .stl "
               "(one mesh per shape), frames/%03d.vtp (with deviation and energy, for ParaView). "
               "Names must not contain commas");
-DEFINE_string(color, "plain",
-              "film strip, glb, and frames in OBJ or PLY: plain, deviation (of edge lengths from "
-              "the first pose), or parts (regions that move nearly rigidly)");
+DEFINE_string(
+    color, "plain",
+    "film strip, glb, usda, and frames in OBJ or PLY: plain, deviation (of edge lengths from "
+    "the first pose), or parts (regions that move nearly rigidly)");
 
-DEFINE_string(up, "",
-              "the axis of the poses that points up, y or z; without, film strips choose, and glb "
-              "takes y");
-DEFINE_double(unit, 1, "glb: metres in one unit of the poses; 0.001 for millimetres");
+DEFINE_string(
+    up, "",
+    "the axis of the poses that points up, y or z; without, film strips choose, and glb and "
+    "usda take y");
+DEFINE_double(unit, 1, "glb, usda: metres in one unit of the poses; 0.001 for millimetres");
 DEFINE_double(seconds, 4, "glb: duration");
 DEFINE_double(
-    fps, 0, "glb: shapes of the path per second, instead of --seconds; mdd: the same, 24 without");
+    fps, 0,
+    "glb: shapes of the path per second, instead of --seconds; mdd, usda: the same, 24 without");
 DEFINE_bool(loop, false,
             "glb: from the first shape to the last and again from the first, for motions that end "
             "where they begin; default: forward and back");
@@ -93,7 +97,9 @@ PathOutputOptions OptionsFromFlags() {
   if (FLAGS_up == "y") options.film_strip.up = Eigen::Vector3d::UnitY();
   if (FLAGS_up == "z") options.film_strip.up = Eigen::Vector3d::UnitZ();
   options.gltf = GltfOptionsFromFlags();
-  if (FLAGS_fps > 0) options.point_cache_fps = FLAGS_fps;
+  if (FLAGS_fps > 0) options.point_cache_fps = options.usd.fps = FLAGS_fps;
+  options.usd.up = options.gltf.up;
+  options.usd.unit = options.gltf.unit;
   options.page_template = ViewerPage();
   return options;
 }

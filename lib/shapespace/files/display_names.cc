@@ -11,7 +11,7 @@ namespace {
 
 bool IsMeshFile(const std::string& name) {
   const std::string extension = internal::FileExtension(name);
-  const auto known = {".obj", ".ply", ".off", ".stl", ".glb", ".gltf"};
+  const auto known = {".obj", ".ply", ".off", ".stl", ".glb", ".gltf", ".vtk", ".vtp"};
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
 

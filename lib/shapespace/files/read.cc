@@ -2,7 +2,6 @@
 
 #include <istream>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include <shapespace/base/error.h>
@@ -21,10 +20,9 @@
 namespace shapespace {
 namespace {
 
-// The limit of size keeps all indices and counts in a file within the range of int.
-constexpr int kMaxBytes = std::numeric_limits<int>::max();
-
-std::string Content(const std::string& file) { return internal::ReadFile(file, kMaxBytes); }
+std::string Content(const std::string& file) {
+  return internal::ReadFile(file, internal::kMaxMeshBytes);
+}
 
 std::vector<Soup> Parse(const std::string& name, std::string content, MeshFormat format,
                         bool allow_outside_files) {
@@ -37,6 +35,10 @@ std::vector<Soup> Parse(const std::string& name, std::string content, MeshFormat
       return {internal::ReadOff(name, content)};
     case MeshFormat::kStl:
       return {internal::ReadStl(name, content)};
+    case MeshFormat::kVtk:
+      return {internal::ReadVtk(name, content)};
+    case MeshFormat::kVtp:
+      return {internal::ReadVtp(name, content)};
     case MeshFormat::kGltf:
       break;
   }
@@ -50,12 +52,15 @@ MeshFormat FormatOf(const std::string& file) {
                                       {".off", MeshFormat::kOff},
                                       {".stl", MeshFormat::kStl},
                                       {".glb", MeshFormat::kGltf},
-                                      {".gltf", MeshFormat::kGltf}}) {
+                                      {".gltf", MeshFormat::kGltf},
+                                      {".vtk", MeshFormat::kVtk},
+                                      {".vtp", MeshFormat::kVtp}}) {
     if (extension == known) return format;
   }
-  throw FileError(file + ": the extension " + internal::Quoted(extension) +
-                  " is not one of .obj, .ply, .off, .stl, .glb, .gltf; convert the mesh to one of "
-                  "these");
+  throw FileError(
+      file + ": the extension " + internal::Quoted(extension) +
+      " is not one of .obj, .ply, .off, .stl, .glb, .gltf, .vtk, .vtp; convert the mesh to "
+      "one of these");
 }
 
 // The first of a file's poses, with a sentence about the others.
@@ -150,8 +155,8 @@ Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format) 
   std::string content{std::istreambuf_iterator<char>(stream), {}};
   if (stream.bad()) throw FileError(name + ": cannot be read to its end");
   if (content.empty()) throw FileError(name + ": is empty");
-  if (content.size() > static_cast<size_t>(kMaxBytes)) {
-    throw FileError(name + ": is larger than the " + std::to_string(kMaxBytes) +
+  if (content.size() > static_cast<size_t>(internal::kMaxMeshBytes)) {
+    throw FileError(name + ": is larger than the " + std::to_string(internal::kMaxMeshBytes) +
                     " bytes that such a file may have");
   }
   return First(Parse(name, std::move(content), format, /*allow_outside_files=*/false));

@@ -14,10 +14,12 @@
 namespace shapespace {
 
 /// Reads a mesh file, according to its extension: OBJ, PLY (text, or binary of either byte order),
-/// OFF, STL (text or binary), or glTF 2.0 (.glb, .gltf). Coordinates are doubles and all elements
-/// remain in the file's order; nothing is repaired. STL and glTF store a vertex once for each of
-/// its triangles, normals or texture coordinates: vertices with exactly equal coordinates, in glTF
-/// in all poses, become one, in the order of their first occurrence.
+/// OFF, STL (text or binary), glTF 2.0 (.glb, .gltf), or VTK: legacy (.vtk, text or binary,
+/// polygonal data or the surface cells of an unstructured grid) or XML polygonal data (.vtp, also
+/// compressed by zlib). Coordinates are doubles and all elements remain in the file's order;
+/// nothing is repaired. STL and glTF store a vertex once for each of its triangles, normals or
+/// texture coordinates: vertices with exactly equal coordinates, in glTF in all poses, become one,
+/// in the order of their first occurrence.
 ///
 /// A glTF file must have one mesh. It is transformed as its node says, and read as the first of
 /// several poses if it has morph targets (`ReadSoups`); `Soup::dropped` tells that there are more.
@@ -31,7 +33,7 @@ Soup ReadSoup(const std::string& file, bool allow_outside_files = false);
 /// name as `Soup::name`; of the other formats one. They have the same polygons.
 std::vector<Soup> ReadSoups(const std::string& file, bool allow_outside_files = false);
 
-enum class MeshFormat { kObj, kPly, kOff, kStl, kGltf };
+enum class MeshFormat { kObj, kPly, kOff, kStl, kGltf, kVtk, kVtp };
 
 /// `ReadSoup` for a stream, from its current position to its end; binary formats need a binary
 /// stream. `name` is used in messages and as the soup's `file`. Material libraries of an OBJ, and

@@ -11,16 +11,28 @@
 namespace shapespace {
 namespace {
 
-bool IsPly(const std::string& file) { return internal::FileExtension(file) == ".ply"; }
+using FieldReader = Eigen::VectorXd (*)(const std::string& file, const std::string& text,
+                                        const std::string& name);
+
+/// The reader of a mesh format whose vertices can have numbers with names; null of other files.
+FieldReader FieldReaderOf(const std::string& file) {
+  const std::string extension = internal::FileExtension(file);
+  if (extension == ".ply") return internal::ReadPlyProperty;
+  if (extension == ".vtk") return internal::ReadVtkField;
+  if (extension == ".vtp") return internal::ReadVtpField;
+  return nullptr;
+}
 
 }  // namespace
 
 Eigen::VectorXd ReadVertexField(const std::string& source) {
   const size_t colon = source.rfind(':');
-  if (colon != std::string::npos && IsPly(source.substr(0, colon))) {
+  const FieldReader read =
+      colon == std::string::npos ? nullptr : FieldReaderOf(source.substr(0, colon));
+  if (read != nullptr) {
     const std::string file = source.substr(0, colon), property = source.substr(colon + 1);
     if (property.empty()) throw FileError(source + ": name a property behind the colon");
-    Eigen::VectorXd field = internal::ReadPlyProperty(file, internal::ReadFile(file), property);
+    Eigen::VectorXd field = read(file, internal::ReadFile(file, internal::kMaxMeshBytes), property);
     for (int v = 0; v < field.size(); ++v) {
       if (!std::isfinite(field(v))) {
         throw FileError(file + ": property " + property + " of vertex " + std::to_string(v + 1) +
@@ -29,7 +41,7 @@ Eigen::VectorXd ReadVertexField(const std::string& source) {
     }
     return field;
   }
-  if (IsPly(source)) {
+  if (FieldReaderOf(source) != nullptr) {
     throw FileError(source + ": name the property of the vertices to read, as " + source + ":name");
   }
   std::string text = internal::ReadFile(source);

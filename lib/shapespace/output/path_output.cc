@@ -56,6 +56,9 @@ class Writer {
       case PathOutput::Kind::kVtk:
         WriteVtkSeries(file_, path_, options_.reference);
         break;
+      case PathOutput::Kind::kUsd:
+        WriteUsdLayer();
+        break;
       case PathOutput::Kind::kPage:
         WritePage(file_, options_.page_template,
                   {PagePath{&path_, std::filesystem::path(file_).stem().string()}});
@@ -103,16 +106,27 @@ class Writer {
     summary_.warnings = summary_.gltf.warnings;
   }
 
-  void WriteMeshes(bool last_alone) {
-    const Soup soup = FrameSoup(*path_.metric->connectivity, path_.appearance);
-    std::vector<Eigen::MatrixXd> colours;
+  // Colours of vertices: of each shape, of all alike, or none.
+  std::vector<Eigen::MatrixXd> Colours() {
     if (ByDeviation()) {
       DeviationColours deviation = ColourByDeviation(path_, options_.reference);
-      colours = std::move(deviation.of_shapes);
       summary_.colour_end = deviation.scale_end;
-    } else if (options_.colours == PathColours::kParts) {
-      colours.assign(path_.shapes.size(), ColourByGroup(Parts()));
+      return std::move(deviation.of_shapes);
     }
+    if (options_.colours == PathColours::kParts) return {ColourByGroup(Parts())};
+    return {};
+  }
+
+  void WriteUsdLayer() {
+    UsdOptions options = options_.usd;
+    options.colours = Colours();
+    summary_.warnings = WriteUsd(file_, path_, options);
+  }
+
+  void WriteMeshes(bool last_alone) {
+    const Soup soup = FrameSoup(*path_.metric->connectivity, path_.appearance);
+    std::vector<Eigen::MatrixXd> colours = Colours();
+    if (colours.size() == 1) colours.resize(path_.shapes.size(), Eigen::MatrixXd(colours[0]));
     const Soup last = colours.empty() ? soup : Coloured(soup, colours.back());
     summary_.warnings = NotKept(file_, last);
     if (last_alone) {
@@ -134,14 +148,14 @@ PathOutput PathOutput::Of(const std::string& file, bool last_shape_alone) {
   static const std::map<std::string, Kind> kinds = {
       {".path", Kind::kPath},      {".png", Kind::kFilmStrip},  {".glb", Kind::kGltf},
       {".pc2", Kind::kPointCache}, {".mdd", Kind::kPointCache}, {".vtp", Kind::kVtk},
-      {".html", Kind::kPage}};
+      {".html", Kind::kPage},      {".usda", Kind::kUsd}};
   const std::string extension = internal::FileExtension(file);
   const auto known = kinds.find(extension);
   const bool is_mesh = IsWritableMesh(file);
   if (known == kinds.end() && !is_mesh) {
-    throw FileError(
-        file +
-        ": must end in .path, .png, .glb, .html, .pc2, .mdd, .obj, .ply, .off, .stl or .vtp");
+    throw FileError(file +
+                    ": must end in .path, .png, .glb, .usda, .html, .pc2, .mdd, .obj, .ply, .off, "
+                    ".stl or .vtp");
   }
   if (is_mesh && last_shape_alone && file.find('%') == file.npos) return {file, Kind::kLastShape};
   const Kind kind = is_mesh ? Kind::kFrames : known->second;

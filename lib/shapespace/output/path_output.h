@@ -9,6 +9,7 @@
 #include <shapespace/mesh/shape.h>
 #include <shapespace/output/gltf.h>
 #include <shapespace/output/picture.h>
+#include <shapespace/output/usd.h>
 #include <shapespace/path/path.h>
 
 namespace shapespace {
@@ -23,6 +24,7 @@ struct PathOutput {
     kFrames,      ///< a pattern of meshes (`FrameName`): .obj, .ply, .off or .stl
     kLastShape,   ///< one such mesh
     kVtk,         ///< a pattern of .vtp, for ParaView
+    kUsd,         ///< .usda, an animation
     kPage,        ///< .html, for browsers
   };
 
@@ -35,7 +37,7 @@ struct PathOutput {
   static PathOutput Of(const std::string& file, bool last_shape_alone = false);
 };
 
-/// What vertices are coloured by, in film strips, glTF and frames.
+/// What vertices are coloured by, in film strips, glTF, USD and frames.
 enum class PathColours {
   kPlain,      ///< the path's own appearance; in film strips, the roles of shapes
   kDeviation,  ///< of edge lengths (`EdgeDeviation`)
@@ -52,12 +54,13 @@ struct PathOutputOptions {
   FilmStripOptions film_strip;
   GltfOptions gltf;
   double point_cache_fps = 24;
+  UsdOptions usd;             ///< but colours, which are those of `colours`
   std::string page_template;  ///< of pages, as in output/page.h
 };
 
 struct PathOutputSummary {
-  GltfSummary gltf;       ///< of a .glb
-  double colour_end = 0;  ///< the deviation that has the last colour, in frames and glTF
+  GltfSummary gltf;                   ///< of a .glb
+  double colour_end = 0;              ///< the deviation that has the last colour: frames, glTF, USD
   std::vector<std::string> warnings;  ///< sentences: what of the appearance the file does not hold
 };
 

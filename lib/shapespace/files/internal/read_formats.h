@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_FILES_INTERNAL_READ_FORMATS_H_
 #define SHAPESPACE_FILES_INTERNAL_READ_FORMATS_H_
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,16 @@
 
 namespace shapespace::internal {
 
+/// The size of the largest file that is read: it keeps all indices and counts in a file within the
+/// range of int.
+inline constexpr int kMaxMeshBytes = std::numeric_limits<int>::max();
+
 Soup ReadObj(const std::string& file, std::string text);
 Soup ReadPly(const std::string& file, const std::string& text);
 Soup ReadOff(const std::string& file, const std::string& text);
 Soup ReadStl(const std::string& file, const std::string& bytes);
+Soup ReadVtk(const std::string& file, const std::string& text);
+Soup ReadVtp(const std::string& file, const std::string& text);
 /// All poses: the mesh, and each of its morph targets. Buffers are read from the file's folder and
 /// those below it, or from anywhere.
 std::vector<Soup> ReadGltf(const std::string& file, const std::string& bytes,
@@ -23,6 +30,11 @@ std::vector<Soup> ReadGltf(const std::string& file, const std::string& bytes,
 /// A property of the vertices of a PLY file; any but a list.
 Eigen::VectorXd ReadPlyProperty(const std::string& file, const std::string& text,
                                 const std::string& property);
+/// The array `name` of a VTK file's point data, which must have one number a point.
+Eigen::VectorXd ReadVtkField(const std::string& file, const std::string& text,
+                             const std::string& name);
+Eigen::VectorXd ReadVtpField(const std::string& file, const std::string& text,
+                             const std::string& name);
 
 }  // namespace shapespace::internal
 

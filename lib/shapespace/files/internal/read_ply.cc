@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <string>
@@ -10,35 +8,29 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/text.h>
+#include <shapespace/files/internal/number_type.h>
 #include <shapespace/files/internal/read_formats.h>
 
 namespace shapespace::internal {
 namespace {
 
 enum class Format { kText, kLittleEndian, kBigEndian };
-enum class Type { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
-
-bool IsInteger(Type type) { return type < Type::kFloat; }
+using Type = NumberType;
 
 std::optional<Type> ParseType(std::string_view word) {
-  static constexpr std::array<std::array<std::string_view, 2>, 8> kNames = {
-      {{"char", "int8"},
-       {"uchar", "uint8"},
-       {"short", "int16"},
-       {"ushort", "uint16"},
-       {"int", "int32"},
-       {"uint", "uint32"},
-       {"float", "float32"},
-       {"double", "float64"}}};
-  for (size_t i = 0; i < kNames.size(); ++i) {
-    if (word == kNames[i][0] || word == kNames[i][1]) return static_cast<Type>(i);
+  struct Name {
+    std::string_view name, with_size;
+    Type type;
+  };
+  static constexpr Name kNames[] = {
+      {"char", "int8", Type::kInt8},      {"uchar", "uint8", Type::kUint8},
+      {"short", "int16", Type::kInt16},   {"ushort", "uint16", Type::kUint16},
+      {"int", "int32", Type::kInt32},     {"uint", "uint32", Type::kUint32},
+      {"float", "float32", Type::kFloat}, {"double", "float64", Type::kDouble}};
+  for (const Name& known : kNames) {
+    if (word == known.name || word == known.with_size) return known.type;
   }
   return std::nullopt;
-}
-
-size_t Size(Type type) {
-  static constexpr size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<size_t>(type)];
 }
 
 struct Property {
@@ -52,45 +44,6 @@ struct Element {
   std::int64_t count = 0;
   std::vector<Property> properties;
 };
-
-template <typename T>
-double Decode(const char* bytes, bool swap) {
-  char copy[sizeof(T)];
-  std::memcpy(copy, bytes, sizeof(T));
-  if (swap) std::reverse(copy, copy + sizeof(T));
-  T value;
-  std::memcpy(&value, copy, sizeof(T));
-  return static_cast<double>(value);
-}
-
-double Decode(const char* bytes, Type type, bool swap) {
-  switch (type) {
-    case Type::kInt8:
-      return Decode<std::int8_t>(bytes, swap);
-    case Type::kUint8:
-      return Decode<std::uint8_t>(bytes, swap);
-    case Type::kInt16:
-      return Decode<std::int16_t>(bytes, swap);
-    case Type::kUint16:
-      return Decode<std::uint16_t>(bytes, swap);
-    case Type::kInt32:
-      return Decode<std::int32_t>(bytes, swap);
-    case Type::kUint32:
-      return Decode<std::uint32_t>(bytes, swap);
-    case Type::kFloat:
-      return Decode<float>(bytes, swap);
-    case Type::kDouble:
-      break;
-  }
-  return Decode<double>(bytes, swap);
-}
-
-bool MachineIsBigEndian() {
-  const std::uint16_t one = 1;
-  unsigned char first;
-  std::memcpy(&first, &one, 1);
-  return first == 0;
-}
 
 class PlyReader {
  public:
