@@ -6,7 +6,6 @@
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/correspondence/correspondence.h>
 #include <shapespace/correspondence/correspondence_picture.h>
-#include <shapespace/correspondence/marker_file.h>
 #include <shapespace/files/write.h>
 #include <shapespace/output/frames.h>
 
@@ -60,14 +59,15 @@ Poses ReadMesh(const std::string& file) {
 void Run(const std::vector<std::string>& files) {
   if (files.size() != 2) throw UsageError("name two meshes: the template and the target");
   if (FLAGS_markers.empty()) {
-    throw UsageError("--markers: name a file of corresponding vertices");
+    throw UsageError("--markers: name a file of corresponding vertices, or two of landmarks");
   }
+  std::vector<std::string> inputs = MarkerFilesFromFlag();
+  inputs.insert(inputs.end(), files.begin(), files.end());
   const CorrespondenceOptions options = CorrespondenceFromFlags();
   const std::vector<std::string> outputs = Outputs();
-  CheckNothingIsOverwritten({files[0], files[1], FLAGS_markers},
-                            {{"output", outputs}, ReportFromFlag()});
+  CheckNothingIsOverwritten(inputs, {{"output", outputs}, ReportFromFlag()});
   const Poses first = ReadMesh(files[0]), second = ReadMesh(files[1]);
-  const std::vector<CorrespondenceMarker> markers = ReadMarkers(FLAGS_markers, first, second);
+  const std::vector<CorrespondenceMarker> markers = ReadMarkersAndTell(first, second);
   const CorrespondenceResult result =
       Correspond(first.connectivity, first.shapes[0], second.connectivity, second.shapes[0],
                  markers, options, SolveProgress(outputs).get());
@@ -102,9 +102,11 @@ int main(int argc, char** argv) {
        "  shape-correspond cat.obj lion.obj --markers cat_lion.txt \\\n"
        "    --output fitted.obj,map.txt,check.png\n\n"
        "Each line of the markers' file names a vertex of the template and the corresponding one of "
-       "the\ntarget; twenty of them, at the ends of limbs and at joints, are a good start. The "
-       "fitted template\nhas the template's faces, so every other tool accepts it together with "
-       "the template's poses. Check\nthe picture before you rely on the map.\n\nA fit that does "
+       "the\ntarget; twenty of them, at the ends of limbs and at joints, are a good start. Two "
+       "files of\nlandmarks, as 3D Slicer saves them, serve as well: --markers cat.fcsv,lion.fcsv. "
+       "The fitted template\nhas the template's faces, so every other tool accepts it together "
+       "with the template's poses. Check\nthe picture before you rely on the map.\n\nA fit that "
+       "does "
        "not converge is reported; its outputs are written, and the exit code is 0, or 1\nwith "
        "--strict.",
        {"correspond", "correspondence", "memory", "report", "summary", "outside_files"}},

@@ -6,7 +6,6 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/correspondence/correspondence.h>
-#include <shapespace/correspondence/marker_file.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/output/frames.h>
 #include <shapespace/transfer/internal/option_fields.h>
@@ -79,7 +78,7 @@ class OtherMesh {
   explicit OtherMesh(const Poses& source)
       : target_(ReadMeshesFromFlags({FLAGS_target})),
         fit_(Correspond(source.connectivity, source.shapes[0], target_.connectivity,
-                        target_.shapes[0], ReadMarkers(FLAGS_markers, source, target_),
+                        target_.shapes[0], ReadMarkersAndTell(source, target_),
                         CorrespondenceFromFlags(), SolveProgress({}, "transferring").get())) {
     PrintSummary(fit_.summary.BriefReport(), fit_.summary.warnings, fit_.summary.Converged());
   }
@@ -133,13 +132,16 @@ void Run(const std::vector<std::string>& files) {
   } else {
     RefuseFlags({}, {"hybrids", "stiffeners"}, "does not go with --markers");
     CorrespondenceFromFlags();
+    MarkerFilesFromFlag();
   }
   std::optional<OtherMesh> other;
   std::vector<std::string> all = files;
   all.push_back(FLAGS_target);
   const auto check = [&](std::int64_t frames) {
     std::vector<std::string> inputs = WithStiffeners(all);
-    if (!FLAGS_markers.empty()) inputs.push_back(FLAGS_markers);
+    if (!FLAGS_markers.empty()) {
+      for (const std::string& markers : MarkerFilesFromFlag()) inputs.push_back(markers);
+    }
     CheckNothingIsOverwritten(
         inputs,
         {{"output", outputs, frames}, {"hybrids", hybrid_outputs, frames}, ReportFromFlag()});

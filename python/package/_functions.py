@@ -937,7 +937,9 @@ def read_markers(file, template, target):
 
     Parameters
     ----------
-    file : str or path-like
+    file : str or path-like, or two of them
+        Pairs of vertices; or two files of landmarks, the template's and the target's: .fcsv or
+        .mrk.json of 3D Slicer, or text with x y z in each line.
     template, target : Poses
         The two meshes.
 
@@ -946,6 +948,11 @@ def read_markers(file, template, target):
     ndarray
         k x 2, from 0.
     """
+    if isinstance(file, (tuple, list)):
+        if len(file) != 2:
+            raise ValueError("file: name one file of pairs of vertices, or two files of landmarks")
+        first, second = map(os.fspath, file)
+        return _core.match_landmarks(first, second, template, target)
     return _core.read_markers(os.fspath(file), template, target)
 
 

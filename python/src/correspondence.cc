@@ -7,6 +7,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/correspondence/correspondence.h>
 #include <shapespace/correspondence/correspondence_picture.h>
+#include <shapespace/correspondence/landmark_file.h>
 #include <shapespace/correspondence/marker_file.h>
 
 #include "arrays.h"
@@ -25,6 +26,14 @@ std::vector<CorrespondenceMarker> ToMarkers(py::handle value, const Poses& sourc
     markers.push_back({first, second});
   }
   return markers;
+}
+
+py::object PairsOf(const std::vector<CorrespondenceMarker>& markers) {
+  Eigen::Matrix2Xi pairs(2, markers.size());
+  for (size_t i = 0; i < markers.size(); ++i) {
+    pairs.col(i) << markers[i].template_vertex, markers[i].target_vertex;
+  }
+  return FromMatrix(pairs);
 }
 
 void BindSurfaceMap(py::module_* module) {
@@ -137,14 +146,15 @@ void BindCorrespondence(py::module_* module) {
                         target.shapes[0], pairs, options, told);
     });
   });
+  module->def("match_landmarks", [](const std::string& file, const std::string& other,
+                                    const Poses& source, const Poses& target) {
+    const MatchedLandmarks matched = MatchLandmarks(file, other, source, target);
+    Warn(matched.warnings);
+    return PairsOf(matched.markers);
+  });
   module->def("read_markers",
               [](const std::string& file, const Poses& source, const Poses& target) {
-                const std::vector<CorrespondenceMarker> markers = ReadMarkers(file, source, target);
-                Eigen::Matrix2Xi pairs(2, markers.size());
-                for (size_t i = 0; i < markers.size(); ++i) {
-                  pairs.col(i) << markers[i].template_vertex, markers[i].target_vertex;
-                }
-                return FromMatrix(pairs);
+                return PairsOf(ReadMarkers(file, source, target));
               });
 }
 

@@ -1,4 +1,6 @@
-"""Files of VTK and USD."""
+"""Files of VTK, USD and landmarks."""
+
+import json
 
 import numpy as np
 import pytest
@@ -84,3 +86,29 @@ def test_usd_takes_options_of_its_own(path, tmp_path):
         path.write(tmp_path / "walk.usda", up="north")
     with pytest.raises(TypeError, match="frames"):
         path.write(tmp_path / "walk.usda", frames=3)
+
+
+def test_landmarks_are_markers(animal, tmp_path):
+    poses = shapespace.Poses([animal.pose("stand")], animal.faces)
+    vertices = np.array([3, 100, 250, 400])
+    places = poses[0][vertices]
+    np.savetxt(tmp_path / "plain.txt", places)
+    points = [
+        {"label": f"L{i}", "position": list(place * (-1, -1, 1))} for i, place in enumerate(places)
+    ]
+    points.append({"label": "extra", "position": [0, 0, 0]})
+    markups = {"markups": [{"coordinateSystem": "RAS", "controlPoints": points[:4]}]}
+    (tmp_path / "ras.mrk.json").write_text(json.dumps(markups))
+    files = tmp_path / "plain.txt", str(tmp_path / "ras.mrk.json")
+    markers = shapespace.read_markers(files, poses, poses)
+    np.testing.assert_array_equal(markers, np.column_stack([vertices, vertices]))
+
+    markups["markups"][0]["controlPoints"] = points
+    (tmp_path / "more.mrk.json").write_text(json.dumps(markups))
+    with pytest.warns(UserWarning, match="'extra' was ignored"):
+        markers = shapespace.read_markers([files[1], tmp_path / "more.mrk.json"], poses, poses)
+    np.testing.assert_array_equal(markers[:, 1], vertices)
+    with pytest.raises(shapespace.FileError, match="landmarks"):
+        shapespace.read_markers([files[0], tmp_path / "more.mrk.json"], poses, poses)
+    with pytest.raises(ValueError, match="two files"):
+        shapespace.read_markers([files[0]], poses, poses)

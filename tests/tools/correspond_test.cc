@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <fstream>
+#include <iomanip>
 
 #include <nlohmann/json.hpp>
 
@@ -83,6 +85,52 @@ TEST_F(CorrespondTest, MovesABodyOfAnotherConnectivity) {
   Succeed("shape-transfer",
           {"a.path", "--target", "b0.obj", "--markers", "markers.txt", "--output", "b.path"});
   ExpectContains(Run("shape-inspect", {"b.path"}).out, std::to_string(target.NumVertices()));
+}
+
+// The vertices of the markers as landmarks: of the template in RAS, of the target in LPS.
+TEST_F(CorrespondTest, LandmarksAreMarkers) {
+  MakeBodies();
+  const Shape a = Vertices("a0.obj"), b = Vertices("b1.obj");
+  std::ifstream markers(Path("markers.txt"));
+  std::ofstream fcsv(Path("a.fcsv")), list(Path("b.mrk.json"));
+  fcsv << std::setprecision(17)
+       << "# CoordinateSystem = RAS\n# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc\n";
+  json points = json::array();
+  int from = 0, to = 0;
+  for (int k = 0; markers >> from >> to; ++k) {
+    const Eigen::Vector3d p = a.col(from - 1), q = b.col(to - 1);
+    const std::string label = "L" + std::to_string(k);
+    fcsv << k << ',' << -p.x() << ',' << -p.y() << ',' << p.z() << ",0,0,0,1,1,1,0," << label
+         << ",\n";
+    points.push_back({{"label", label}, {"position", {q.x(), q.y(), q.z()}}});
+  }
+  std::reverse(points.begin(), points.end());
+  points.push_back({{"label", "extra"}, {"position", {0, 0, 0}}});
+  list << json{{"markups", {{{"coordinateSystem", "LPS"}, {"controlPoints", points}}}}};
+  fcsv.close();
+  list.close();
+  const Outcome outcome = Run("shape-correspond", {"a0.obj", "b1.obj", "--markers",
+                                                   "a.fcsv,b.mrk.json", "--output", "f.obj"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.err, "warning: b.mrk.json: landmark 17 'extra' was ignored");
+  Succeed("shape-correspond",
+          {"a0.obj", "b1.obj", "--markers", "markers.txt", "--output", "other.obj"});
+  EXPECT_EQ(Content(Path("f.obj")), Content(Path("other.obj")));
+
+  const auto refused = [&](const std::string& files, int code, const std::string& words) {
+    const Outcome refusal = Run("shape-correspond", {"a0.obj", "b1.obj", "--markers", files});
+    EXPECT_EQ(refusal.code, code);
+    ExpectContains(refusal.err, words);
+  };
+  refused("a.fcsv", 1, "a.fcsv: has landmarks of one mesh");
+  refused(",a.fcsv", 2, "--markers");
+  refused("a.fcsv,b.mrk.json,c.txt", 2, "--markers");
+  refused("b.mrk.json,a.fcsv", 1, "exchange LPS and RAS");
+  const Outcome overwriting =
+      Run("shape-transfer", {"a0.obj", "a1.obj", "--target", "b1.obj", "--markers",
+                             "a.fcsv,b.mrk.json", "--report", "b.mrk.json"});
+  EXPECT_EQ(overwriting.code, 2);
+  ExpectContains(overwriting.err, "would overwrite b.mrk.json");
 }
 
 TEST_F(CorrespondTest, SaysWhatIsWrongAndWritesNothing) {

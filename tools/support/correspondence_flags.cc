@@ -1,20 +1,48 @@
 #include "support/correspondence_flags.h"
 
-#include <shapespace/correspondence/internal/option_fields.h>
+#include <algorithm>
+#include <utility>
 
+#include <shapespace/correspondence/internal/option_fields.h>
+#include <shapespace/correspondence/landmark_file.h>
+#include <shapespace/correspondence/marker_file.h>
+
+#include "support/console.h"
 #include "support/flag_group.h"
+#include "support/lists.h"
 #include "support/memory_flag.h"
 #include "support/option_flags.h"
+#include "support/tool.h"
 
 DEFINE_string(markers, "",
               "text file of corresponding vertices: in each line a vertex of the template (the "
-              "source) and one of the target, by number from 1 or by the name of a group");
+              "source) and one of the target, by number from 1 or by the name of a group. Or two "
+              "files of landmarks, the template's and the target's, separated by a comma: .fcsv or "
+              ".mrk.json of 3D Slicer, or text with x y z in each line");
 DEFINE_bool(hold_all_markers, false, "use all markers, including those that contradict the others");
 static const shapespace::tools::OptionFlags<shapespace::CorrespondenceOptions> flags(
     __FILE__, {{"proportions", "proportions"}});
 FLAG_GROUP(correspondence, "Correspondence");
 
 namespace shapespace::tools {
+
+std::vector<std::string> MarkerFilesFromFlag() {
+  std::vector<std::string> files = Split(FLAGS_markers);
+  const bool has_empty = std::find(files.begin(), files.end(), "") != files.end();
+  if (files.size() > 2 || (files.size() == 2 && has_empty)) {
+    throw UsageError("--markers: name one file of pairs of vertices, or two files of landmarks");
+  }
+  return files;
+}
+
+std::vector<CorrespondenceMarker> ReadMarkersAndTell(const Poses& template_mesh,
+                                                     const Poses& target) {
+  const std::vector<std::string> files = MarkerFilesFromFlag();
+  if (files.size() == 1) return ReadMarkers(files[0], template_mesh, target);
+  MatchedLandmarks matched = MatchLandmarks(files[0], files[1], template_mesh, target);
+  for (const std::string& warning : matched.warnings) Err() << "warning: " << warning << '\n';
+  return std::move(matched.markers);
+}
 
 CorrespondenceOptions CorrespondenceFromFlags() {
   CorrespondenceOptions options;

@@ -2,6 +2,7 @@
 #define SHAPESPACE_TOOLS_SUPPORT_CORRESPONDENCE_FLAGS_H_
 
 #include <string>
+#include <vector>
 
 #include <gflags/gflags.h>
 
@@ -11,6 +12,14 @@
 DECLARE_string(markers);
 
 namespace shapespace::tools {
+
+/// The files that --markers names: one with pairs of vertices, or two with landmarks of the
+/// template and of the target. \throw UsageError if there are more.
+std::vector<std::string> MarkerFilesFromFlag();
+
+/// The markers in these files, with warnings. \throw FileError.
+std::vector<CorrespondenceMarker> ReadMarkersAndTell(const Poses& template_mesh,
+                                                     const Poses& target);
 
 /// The options of a correspondence according to the flags.
 /// \throw UsageError.

@@ -6,6 +6,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/base/internal/text.h>
+#include <shapespace/correspondence/landmark_file.h>
 #include <shapespace/mesh/selection.h>
 
 namespace shapespace {
@@ -43,6 +44,9 @@ int VertexFrom(std::string_view word, const Poses& mesh, const std::string& file
 
 std::vector<CorrespondenceMarker> ReadMarkers(const std::string& file, const Poses& template_mesh,
                                               const Poses& target) {
+  if (IsSlicerLandmarks(file)) {
+    throw FileError(file + ": has landmarks of one mesh; name such a file for each of the two");
+  }
   std::string text = internal::ReadFile(file);
   internal::BlankByteOrderMark(&text);
   std::vector<CorrespondenceMarker> markers;

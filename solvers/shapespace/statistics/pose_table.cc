@@ -9,6 +9,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/atomic_file.h>
+#include <shapespace/base/internal/csv.h>
 #include <shapespace/base/internal/quoted.h>
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/base/internal/text.h>
@@ -18,43 +19,8 @@
 namespace shapespace {
 namespace {
 
-std::string_view WithoutBlanks(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
-  return text.substr(0, text.find_last_not_of(" \t") + 1);
-}
-
-// The cells of a line (RFC 4180, but for line breaks within quotes).
-std::vector<std::string> CellsOf(std::string_view line, const std::string& file, int number) {
-  std::vector<std::string> cells;
-  for (size_t at = 0; at <= line.size();) {
-    const size_t begin = std::min(line.find_first_not_of(" \t", at), line.size());
-    if (begin == line.size() || line[begin] != '"') {
-      const size_t end = std::min(line.find(',', at), line.size());
-      cells.emplace_back(WithoutBlanks(line.substr(at, end - at)));
-      at = end + 1;
-      continue;
-    }
-    std::string cell;
-    size_t end = begin + 1;
-    for (;; ++end) {
-      if (end >= line.size()) internal::FailAt(file, number, "a quote does not end on this line");
-      if (line[end] != '"') {
-        cell += line[end];
-      } else if (line.substr(end + 1, 1) == "\"") {
-        cell += line[end++];
-      } else {
-        break;
-      }
-    }
-    at = std::min(line.find(',', end), line.size());
-    if (!WithoutBlanks(line.substr(end + 1, at - end - 1)).empty()) {
-      internal::FailAt(file, number, "there is text between a quote and the next comma");
-    }
-    cells.push_back(std::move(cell));
-    ++at;
-  }
-  return cells;
-}
+using internal::CsvCells;
+using internal::WithoutBlanks;
 
 std::string PoseNamed(const std::string& cell) { return DisplayNames({cell})[0]; }
 
@@ -78,7 +44,7 @@ PoseTable ReadPoseTable(const std::string& file) {
   std::map<std::string, int> line_of;
   while (lines.Next(&line)) {
     if (WithoutBlanks(line).empty()) continue;
-    std::vector<std::string> cells = CellsOf(line, file, lines.Number());
+    std::vector<std::string> cells = CsvCells(line, file, lines.Number());
     if (table.columns.empty()) {
       if (cells.size() < 2) {
         internal::FailAt(file, lines.Number(),
