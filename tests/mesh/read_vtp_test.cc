@@ -283,6 +283,17 @@ TEST_F(ReadVtpTest, HostileFilesAreRefusedWithoutMuchMemory) {
   Refused(file(zlib, at_0, header({1, 24, 0, 4}) + "abcd"), {"'Points'", "decompressed"});
   Refused(file("", "format='binary'>A", ""), {"'Points'", "longer than the file"});
   Refused(file("", "format='binary'>AAAAA*AAAAAAAAAA", ""), {"'Points'", "not base64"});
+  // Many pieces whose points are the same bytes.
+  std::string pieces;
+  for (int i = 0; i < 300; ++i) {
+    pieces +=
+        "<Piece NumberOfPoints='20000'><Points><DataArray type='Int8' Name='Points' "
+        "format='appended' offset='0'/></Points></Piece>";
+  }
+  Refused("<VTKFile type='PolyData' header_type='UInt64'><PolyData>" + pieces +
+              "</PolyData><AppendedData encoding='raw'>_" + header({60000}) +
+              std::string(60000, '\0'),
+          {"'Points'", "memory"});
   std::string nested, many = "<VTKFile type='PolyData'>";
   for (int i = 0; i < 100; ++i) nested += "<VTKFile type='PolyData'>";
   for (int i = 0; i < 200000; ++i) many += "<a/>";

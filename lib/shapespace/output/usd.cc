@@ -12,8 +12,7 @@
 #include <shapespace/files/internal/storable.h>
 #include <shapespace/output/internal/colour.h>
 
-// The format: https://openusd.org/release/spec_usdpreviewsurface.html and, for meshes,
-// https://openusd.org/release/api/class_usd_geom_mesh.html
+// Meshes in USD: https://openusd.org/release/api/class_usd_geom_mesh.html
 
 namespace shapespace {
 namespace {

@@ -140,9 +140,7 @@ VtkMesh::Use VtkMesh::UseOf(const Array& array) {
   if (array.is_texture && array.components == 2 && texture_.size() == 2 * piece_begin_) {
     return Use::kTexture;
   }
-  if (std::find(not_kept_.begin(), not_kept_.end(), array.name) == not_kept_.end()) {
-    not_kept_.push_back(array.name);
-  }
+  if (not_kept_names_.insert(array.name).second) not_kept_.push_back(array.name);
   return Use::kNone;
 }
 
@@ -198,8 +196,14 @@ Soup VtkMesh::TakeSoup() {
     Drop("texture coordinates, which not all pieces have, not kept");
   }
   if (vertex_cells_ > 0) Drop(std::to_string(vertex_cells_) + " vertex cells not kept");
+  constexpr size_t kMaxNames = 20;
   std::string names;
-  for (const std::string& name : not_kept_) names += (names.empty() ? "" : ", ") + name;
+  for (size_t i = 0; i < std::min(not_kept_.size(), kMaxNames); ++i) {
+    names += (i == 0 ? "" : ", ") + not_kept_[i];
+  }
+  if (not_kept_.size() > kMaxNames) {
+    names += " and " + std::to_string(not_kept_.size() - kMaxNames) + " more";
+  }
   if (!names.empty()) Drop("point data not kept: " + names);
   return std::move(soup_);
 }

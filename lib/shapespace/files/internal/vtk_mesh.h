@@ -2,6 +2,7 @@
 #define SHAPESPACE_FILES_INTERNAL_VTK_MESH_H_
 
 #include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -78,7 +79,8 @@ class VtkMesh {
   int channels_ = 0;          // of colours
   double full_colour_ = 255;  // the number that stands for full colour
   size_t vertex_cells_ = 0, lines_ = 0, strips_ = 0;
-  std::vector<std::string> not_kept_;  // names of point data
+  std::vector<std::string> not_kept_;  // names of point data, each once
+  std::set<std::string> not_kept_names_;
 };
 
 }  // namespace shapespace::internal

@@ -12,6 +12,8 @@
 namespace shapespace::internal {
 namespace {
 
+constexpr char kTooMuch[] = "it would take far more memory than the file's size accounts for";
+
 int Base64Digit(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;
@@ -77,14 +79,18 @@ class VtpArrayDecoder {
 
   std::string Decode() {
     const size_t first = Header();
-    if (!encoding_.compressed) return source_.Take(first);
+    if (!encoding_.compressed) {
+      // Several arrays may have the same place in the file.
+      if (first > most_ && first <= source_.Left()) throw FileError(kTooMuch);
+      return source_.Take(first);
+    }
     const size_t blocks = first, block_size = Header(), last_size = Header();
     if (blocks == 0) return {};
     if (blocks > source_.Left() / encoding_.header_size) {
       throw FileError("it has more blocks than the file has room for");
     }
     if (block_size == 0 || block_size > most_ / blocks || last_size > block_size) {
-      throw FileError("its blocks would take far more memory than the file's size accounts for");
+      throw FileError(kTooMuch);
     }
     std::vector<size_t> sizes(blocks);
     for (size_t& size : sizes) size = Header();
