@@ -138,7 +138,9 @@ TEST_F(ReadFuzzTest, BinaryVtk) {
   add({4, 0, 1, 2, 3, 3, 0, 2, 1, 3, 0, 1, 3}, std::int32_t{});
   file += "\nCELL_TYPES 3\n";
   add({8, 5, 6}, std::int32_t{});
-  file += "\nPOINT_DATA 4\nSCALARS s unsigned_char 4\nLOOKUP_TABLE default\n";
+  file +=
+      "\nPOINT_DATA 4\nFIELD f 1\nt 1 2 string\n\xc1x\xc2xy\n"
+      "SCALARS s unsigned_char 4\nLOOKUP_TABLE default\n";
   add({1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 1, 2, 3, 4, 5, 6}, std::uint8_t{});
   Damage(".vtk", file, 3000);
 }

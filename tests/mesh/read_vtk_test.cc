@@ -126,6 +126,38 @@ TEST_F(ReadVtkTest, NumbersOfVerticesAreFoundByTheirName) {
                                       "point data not kept: bone, v, bone age, pair"}));
 }
 
+TEST_F(ReadVtkTest, TextsArePassed) {
+  const std::string rest = "POINTS 1 short\n";
+  EXPECT_EQ(
+      Read(kAscii + "FIELD f 2\nnames 1 3 string\na%20b\n\nc\nage 1 1 int\n7\n" + rest + "1 2 3\n")
+          .vertices.col(0),
+      Eigen::Vector3d(1, 2, 3));
+  // Lengths in one, two, four and eight bytes.
+  std::string texts(
+      "\xc3"
+      "abc"
+      "\x80\x03"
+      "abc",
+      9);
+  texts += std::string(
+      "\x40\0\0\x03"
+      "abc"
+      "\0\0\0\0\0\0\0\x03"
+      "abc",
+      18);
+  const std::string begin = "# vtk DataFile Version 5.1\n\nBINARY\nDATASET POLYDATA\nFIELD f 1\n";
+  const std::string point = BinaryInts<std::int16_t>({1, 2, 3});
+  EXPECT_EQ(Read(begin + "names 1 4 string\n" + texts + "\n" + rest + point).vertices.col(0),
+            Eigen::Vector3d(1, 2, 3));
+  Refused(begin + "names 1 99 string\n" + texts, {"'names'", "the file ends"});
+  Refused(begin +
+              "names 1 1 string\n\xff"
+              "abc",
+          {"'names'", "text 1", "longer"});
+  Refused(begin + std::string("names 1 1 string\n\x3f\xff\xff\xff\xff\xff\xff\xff", 25),
+          {"'names'", "text 1", "longer"});
+}
+
 TEST_F(ReadVtkTest, WhatIsWrongIsNamed) {
   Refused("solid x\n", {"m.vtk:1", "# vtk DataFile Version"});
   Refused("# vtk DataFile Version 6.0\n\nASCII\n", {"m.vtk:1", "version"});
@@ -147,7 +179,7 @@ TEST_F(ReadVtkTest, WhatIsWrongIsNamed) {
   Refused(points + "POLYGONS 1 5\n3 0 1 2 0\n", {"longer than its 1 cells"});
   Refused(points + "POINT_DATA 4\n", {"data of 4 points", "3"});
   Refused(points + "SPHERES 1 4\n", {"m.vtk:7", "'SPHERES'"});
-  Refused(points + "POINT_DATA 3\nSCALARS s string\n", {"'s'", "'string'", ".vtp"});
+  Refused(points + "POINT_DATA 3\nSCALARS s variant\n", {"'s'", "'variant'", ".vtp"});
 }
 
 TEST_F(ReadVtkTest, CountsBeyondTheFileAllocateNothing) {

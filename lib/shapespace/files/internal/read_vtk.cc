@@ -201,6 +201,32 @@ class LegacyVtkReader {
     return Numbers(count, TypeOf(type, what), what);
   }
 
+  /// Passes texts: in a text file one a line; in a binary one each with its length in front, whose
+  /// first two bits say in how many bytes it is.
+  void PassTexts(size_t count, const std::string& what) {
+    BeginNumbers();
+    if (!binary_) Line();
+    for (size_t i = 0; i < count; ++i) {
+      const size_t left = text_.size() - position_;
+      if (left == 0) Fail(what + ": the file ends before its last text" + kReexport);
+      if (!binary_) {
+        Line();
+        continue;
+      }
+      constexpr size_t kBytes[] = {8, 4, 2, 1};
+      const auto first = static_cast<unsigned char>(text_[position_]);
+      const size_t bytes = kBytes[first >> 6];
+      std::uint64_t length = first & 63;
+      for (size_t k = 1; k < bytes && k < left; ++k) {
+        length = length << 8 | static_cast<unsigned char>(text_[position_ + k]);
+      }
+      if (bytes > left || length > left - bytes) {
+        Fail(what + ": text " + std::to_string(i + 1) + " is longer than the file" + kReexport);
+      }
+      position_ += bytes + length;
+    }
+  }
+
   NumberType TypeOf(std::string_view name, const std::string& what) const {
     const std::optional<NumberType> type = VtkType(name);
     if (!type) {
@@ -432,8 +458,13 @@ class LegacyVtkReader {
 
   void ReadAttribute(VtkMesh::Array array, const std::string& type, size_t tuples,
                      const std::string& what) {
-    array.type = VtkType(type).value_or(NumberType::kUint8);
     const size_t count = Times(tuples, array.components, what);
+    if (type == "string" || type == "utf8_string") {
+      PassTexts(count, what);
+      if (in_data_ && of_points_) mesh_.UseOf(array);
+      return;
+    }
+    array.type = VtkType(type).value_or(NumberType::kDouble);
     const std::vector<double> numbers = NumbersOf(count, type, what);
     if (numbers.size() == count) Add(array, numbers);
   }
