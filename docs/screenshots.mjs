@@ -62,4 +62,19 @@ await shoot('modes', { width: 1000, height: 760, colorScheme: 'light' }, async (
       }, value);
   }
 });
+await shoot('markers', { width: 1000, height: 640, colorScheme: 'light' }, async (page) => {
+  const { x, y, width, height } = await page.locator('#canvas').boundingBox();
+  for (const [u, v] of [
+    [0.12, 0.45],
+    [0.2, 0.45],
+    [0.29, 0.45],
+    [0.28, 0.55],
+    [0.28, 0.67],
+    [0.36, 0.3],
+    [0.44, 0.33],
+  ]) {
+    await page.mouse.click(x + u * width, y + v * height);
+    await page.mouse.click(x + (u + 0.5) * width, y + v * height);
+  }
+});
 await browser.close();

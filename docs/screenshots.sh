@@ -27,6 +27,10 @@ cd "$work"
 "$bin/shape-explore" pose?.obj --output poses.space
 "$bin/shape-view" poses.space --output space.html
 
+"$bin/shape-body" quadruped --triangles 3000 --pose stand --output 'cat%d.obj'
+"$bin/shape-body" quadruped --triangles 5000 --pose stand --output 'lion%d.obj'
+"$bin/shape-view" cat0.obj lion0.obj --output markers.html
+
 # guide/statistics.md
 "$bin/shape-body" quadruped --triangles 3000 --random 8 --seed 1 --proportions long \
   --output 'long%d.obj' --table long.csv

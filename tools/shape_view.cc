@@ -1,4 +1,4 @@
-// Writes a page that shows paths, animations and spaces of poses in a browser.
+// Writes a page that shows paths, animations, spaces of poses and meshes in a browser.
 
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +11,7 @@
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/exploration/space_file.h>
 #include <shapespace/exploration/space_page.h>
+#include <shapespace/files/read.h>
 #include <shapespace/output/page.h>
 
 #include "support/console.h"
@@ -25,22 +26,41 @@ FLAG_GROUP(view, "Page");
 namespace shapespace::tools {
 namespace {
 
+bool IsMesh(const std::string& extension) {
+  return extension == ".obj" || extension == ".ply" || extension == ".off" || extension == ".stl";
+}
+
 // Checks by their names that `files` can be shown.
 void CheckKinds(const std::vector<std::string>& files) {
   if (files.empty() || files.size() > 2) throw UsageError("name one file, or two to compare");
   for (const std::string& file : files) {
     const std::string extension = internal::FileExtension(file);
-    if (extension != ".path" && extension != ".glb" && extension != ".space") {
-      throw UsageError(file + ": must be a .path, .glb or .space");
+    if (extension != ".path" && extension != ".glb" && extension != ".space" &&
+        !IsMesh(extension)) {
+      throw UsageError(file +
+                       ": must be a .path, .glb or .space, or a mesh: .obj, .ply, .off, .stl");
     }
     if (extension == ".space" && files.size() > 1) {
       throw UsageError(file + ": a space is shown alone");
+    }
+    if (IsMesh(extension) != IsMesh(internal::FileExtension(files[0]))) {
+      throw UsageError(file + ": a mesh is shown alone or beside another mesh");
     }
   }
   const std::string extension = internal::FileExtension(FLAGS_output);
   if (extension != ".html" && extension != ".htm") {
     throw UsageError("--output " + FLAGS_output + ": must end in .html");
   }
+}
+
+// Its vertices have the numbers that all tools give them. A mesh that a solver would refuse,
+// because it is no manifold, can be shown and picked all the same.
+PageMesh ReadPageMesh(const std::string& file, const std::string& name) {
+  ReadOptions options;
+  options.allow_nonmanifold = true;
+  const Poses mesh = MakePoses({ReadSoup(file)}, options);
+  for (const std::string& warning : mesh.warnings) Err() << "warning: " << warning << '\n';
+  return {mesh.connectivity, mesh.shapes[0], mesh.soup.appearance.vertex_colours, name};
 }
 
 void CheckIsGlb(const std::string& file, const std::string& bytes) {
@@ -72,6 +92,8 @@ void Run(const std::vector<std::string>& files) {
       scenes.push_back(PagePath{&paths.back(), name});
     } else if (internal::FileExtension(file) == ".space") {
       scenes.push_back(PageOf(ReadSpace(file), name));
+    } else if (IsMesh(internal::FileExtension(file))) {
+      scenes.push_back(ReadPageMesh(file, name));
     } else {
       scenes.push_back(PageGlb{internal::ReadFile(file), name});
       CheckIsGlb(file, std::get<PageGlb>(scenes.back()).bytes);
@@ -89,11 +111,13 @@ int main(int argc, char** argv) {
   return RunTool(
       argc, argv,
       {"shape-view",
-       "a page that shows paths and spaces in a browser, in one file, without network",
+       "a page that shows paths, spaces and meshes in a browser, in one file, without network",
        "  shape-view walk.path --output walk.html\n"
        "  shape-view before.path after.path --output compare.html   side by side\n"
        "  shape-view walk.glb --output walk.html\n"
-       "  shape-view poses.space --output poses.html                shapes at points of a plane",
+       "  shape-view poses.space --output poses.html                shapes at points of a plane\n"
+       "  shape-view cat.obj --output cat.html                      pick handles and selections\n"
+       "  shape-view cat.obj lion.obj --output markers.html         pick markers on both",
        {"view"}},
       Run);
 }

@@ -157,6 +157,15 @@ TEST_F(PageTest, KeepsASpace) {
   }
 }
 
+TEST_F(PageTest, KeepsAMesh) {
+  const ShapeFamily tube = MakeBody("tube", 300);
+  const PageMesh mesh{tube.connectivity, tube.pose(70), {}, "tube.obj"};
+  const DecodedScene scene = Write(mesh);
+  EXPECT_EQ(scene.header["kind"], "mesh");
+  ASSERT_EQ(scene.steps.size(), 1u);
+  EXPECT_LE((scene.Shape(0) - mesh.shape).cwiseAbs().maxCoeff(), 0.5001 * scene.Step());
+}
+
 TEST_F(PageTest, AShapeBetweenItsParentsTakesLittle) {
   PageSpace space = TubeSpace(8000);
   const auto bytes = [&] {
@@ -221,6 +230,7 @@ TEST_F(PageTest, RefusesWhatMakesNoPage) {
   EXPECT_EQ(Refusal(kTemplate, {}).find("scenes: "), 0u);
   EXPECT_EQ(Refusal(kTemplate, {glb, glb, glb}).find("scenes: "), 0u);
   EXPECT_EQ(Refusal(kTemplate, {glb, TubeSpace()}).find("scenes: "), 0u);
+  EXPECT_EQ(Refusal(kTemplate, {glb, PageMesh()}).find("scenes: "), 0u);
   EXPECT_FALSE(std::filesystem::exists(Path("no.html")));
 }
 
@@ -233,6 +243,8 @@ TEST_F(PageTest, RefusesWhatIsNotValid) {
     EXPECT_EQ(message.find("bad: "), 0u) << message;
   };
   refused(PagePath{&path, "bad"});
+  refused(PageMesh{nullptr, Shape(), {}, "bad"});
+  refused(PageMesh{path.metric->connectivity, Shape::Zero(3, 1), {}, "bad"});
   PageSpace space = TubeSpace();
   space.name = "bad";
   const PageSpace good = space;

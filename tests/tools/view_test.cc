@@ -98,12 +98,29 @@ TEST_F(ViewTest, MakesPagesOfSpaces) {
   EXPECT_EQ(scene.header["points"].size(), scene.steps.size());
 }
 
+TEST_F(ViewTest, PagesOfMeshesHaveTheNumbersOfTheirFiles) {
+  // The second vertex belongs to no face, and three faces share an edge.
+  File("fan.obj",
+       "v 0 0 0\nv 9 9 9\nv 0 1 0\nv 1 0 0\nv -1 0 0\nv 0 0 1\nf 1 3 4\nf 1 3 5\nf 3 1 6\n");
+  MakeWalk();
+  if (!HasPage()) GTEST_SKIP() << "built without the viewer's page";
+  Succeed("shape-view", {"fan.obj", "fan.obj", "--output", "fans.html"});
+  const std::vector<PageElement> elements = ReadPage(Path("fans.html"));
+  ASSERT_EQ(elements.size(), 2u);
+  const DecodedScene scene(elements[1].bytes);
+  EXPECT_EQ(scene.header["kind"], "mesh");
+  EXPECT_EQ(scene.header["name"], "fan.obj");
+  EXPECT_EQ(scene.triangles, (std::vector<int>{0, 2, 3, 0, 2, 4, 2, 0, 5}));
+  EXPECT_LT((scene.Shape(0).col(1) - Eigen::Vector3d(9, 9, 9)).norm(), 1e-3);
+}
+
 TEST_F(ViewTest, ExplainsWrongCommandLines) {
   MakeWalk();
   ExpectRefusal(2, {"walk.path", "tubes.space"}, "tubes.space: a space is shown alone");
   ExpectRefusal(2, {}, "name one file, or two to compare");
   ExpectRefusal(2, {"walk.path", "walk.path", "walk.glb"}, "name one file, or two to compare");
-  ExpectRefusal(2, {"tube0.obj"}, "tube0.obj: must be a .path");
+  ExpectRefusal(2, {"tube0.png"}, "tube0.png: must be a .path");
+  ExpectRefusal(2, {"walk.path", "tube0.obj"}, "tube0.obj: a mesh is shown alone");
   ExpectRefusal(2, {"walk.path", "--output", "walk.png"}, "--output walk.png: must end in .html");
   ExpectRefusal(1, {"walk.path", "--output", "walk.glb/x.html"}, "walk.glb is not a folder");
 }

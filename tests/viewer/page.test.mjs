@@ -1,5 +1,6 @@
 // What a person does with a page of shape-view, done by a program.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { after, before, describe, test } from 'node:test';
 import { deflateSync, inflateSync } from 'node:zlib';
@@ -115,13 +116,14 @@ async function saved(page, button) {
 }
 
 describe('every page', () => {
-  for (const name of ['walk-path', 'two', 'space', 'herd']) {
+  for (const name of ['walk-path', 'two', 'space', 'herd', 'markers', 'mesh']) {
     for (const width of [360, 768, 1280]) {
       for (const colorScheme of ['light', 'dark']) {
         test(`${name}, ${width} px, ${colorScheme}`, async () => {
           const viewport = { width, height: width < 500 ? 740 : 800 };
           await open(name, { viewport, colorScheme }, async (page) => {
-            const isPath = name !== 'space' && name !== 'herd';
+            const isPath = name === 'walk-path' || name === 'two';
+            if (name === 'mesh') await page.locator('#pick-mode').selectOption('handles');
             if (isPath) await page.locator('#deviation').check();
             assert.deepEqual(await page.evaluate(contrastFaults), []);
             assert.deepEqual(await page.evaluate(layoutFaults), []);
@@ -319,6 +321,34 @@ describe('a path', () => {
       assert.ok(film.bytes.length > 10000, `${film.bytes.length} bytes`);
       assert.equal(await page.locator('#loop').inputValue(), 'swing');
     });
+  });
+
+  test('is saved as MP4 where the browser writes no WebM', async () => {
+    await open('walk-path', { viewport: { width: 700, height: 700 } }, async (page) => {
+      await page.evaluate(() => {
+        const native = MediaRecorder.isTypeSupported.bind(MediaRecorder);
+        MediaRecorder.isTypeSupported = (type) => !type.includes('webm') && native(type);
+      });
+      await page.locator('#speed').selectOption('4');
+      const film = await saved(page, '#film');
+      assert.equal(film.name, 'walk.mp4');
+      assert.equal(film.bytes.toString('latin1', 4, 8), 'ftyp');
+    });
+  });
+
+  test('runs no script but its own, in a frame of a notebook too', async () => {
+    const page = readFileSync(`${folder}/walk-path.html`, 'utf8');
+    assert.doesNotMatch(page.match(/Content-Security-Policy[^>]*/)[0], /unsafe/);
+    const escaped = page.replaceAll('&', '&amp;').replaceAll('"', '&quot;');
+    writeFileSync(`${folder}/notebook.html`, `<iframe srcdoc="${escaped}"></iframe>`);
+    const context = await browser.newContext();
+    try {
+      const opened = await context.newPage();
+      await opened.goto(url('notebook'));
+      await opened.frameLocator('iframe').locator('#layout').waitFor();
+    } finally {
+      await context.close();
+    }
   });
 
   test('of a glb moves, and has its deviation', async () => {
@@ -545,6 +575,156 @@ describe('a model', () => {
   });
 });
 
+describe('picking', () => {
+  const run = (tool, ...args) =>
+    execFileSync(`${process.env.SHAPESPACE_PAGE_BIN}/${tool}`, args, { cwd: folder, stdio: 'pipe' });
+  const vertices = (name) =>
+    readFileSync(`${folder}/${name}`, 'utf8')
+      .split('\n')
+      .filter((line) => line.startsWith('v '))
+      .map((line) => line.split(/\s+/).slice(1, 4).map(Number));
+  const distance = (a, b) => Math.hypot(...a.map((x, k) => x - b[k]));
+  const rows = (page) => page.locator('#picked li');
+  const keep = async (page, file) => {
+    const { name, bytes } = await saved(page, '#pick-save');
+    assert.equal(name, file);
+    writeFileSync(`${folder}/${name}`, bytes);
+    return bytes.toString();
+  };
+  // All vertices of a selection, counted from 1.
+  const listed = ({ vertices: list }) =>
+    list.flatMap((item) =>
+      Array.isArray(item)
+        ? Array.from({ length: item[1] - item[0] + 1 }, (_, i) => item[0] + i)
+        : [item],
+    );
+  // Draws around a part of the canvas, given as shares of it.
+  const drawAround = async (page, [left, top, right, bottom]) => {
+    const { x, y, width, height } = await page.locator('#canvas').boundingBox();
+    const at = (u, v) => [x + u * width, y + v * height];
+    await page.mouse.move(...at(left, top));
+    await page.mouse.down();
+    await page.mouse.move(...at(right, top), { steps: 3 });
+    await page.mouse.move(...at(right, bottom), { steps: 3 });
+    await page.mouse.move(...at(left, bottom), { steps: 3 });
+    await page.mouse.up();
+  };
+
+  test('markers on two bodies are those that shape-correspond meets', async () => {
+    await open('markers', {}, async (page) => {
+      const { x, y, width, height } = await page.locator('#canvas').boundingBox();
+      await page.locator('#pick-save').click();
+      assert.match(await page.locator('#status').textContent(), /at least three/);
+      // Both have one outline and one camera, so the same place in both halves is the same on both.
+      for (const u of [0.12, 0.2, 0.28, 0.36, 0.44]) {
+        for (const v of [0.3, 0.45, 0.55, 0.68]) {
+          const before = await rows(page).count();
+          await page.mouse.click(x + u * width, y + v * height);
+          if ((await rows(page).count()) === before) continue; // beside the body
+          await page.mouse.click(x + (u + 0.5) * width, y + v * height);
+        }
+      }
+      // One that is not complete is not saved.
+      const count = await rows(page).count();
+      assert.ok(count >= 6, `only ${count} markers`);
+      await rows(page).first().getByRole('button').click();
+      assert.equal(await rows(page).count(), count - 1);
+      await page.locator('#pick-undo').click();
+      assert.equal(await rows(page).count(), count);
+      if (pictures) await page.screenshot({ path: `${pictures}/picking-markers.png` });
+      const text = await keep(page, 'markers.txt');
+      const pairs = text
+        .split('\n')
+        .filter((line) => /^\d/.test(line))
+        .map((line) => line.split(' ').map(Number));
+      const [template, target] = [vertices('template0.obj'), vertices('target0.obj')];
+      assert.ok(pairs.length >= count - 1);
+      for (const [a, b] of pairs) assert.ok(distance(template[a - 1], target[b - 1]) < 0.12);
+      run('shape-correspond', 'template0.obj', 'target0.obj', '--markers', 'markers.txt',
+        '--output', 'fitted.obj');
+      const fitted = vertices('fitted.obj');
+      for (const [a, b] of pairs) assert.ok(distance(fitted[a - 1], target[b - 1]) < 1e-6);
+    });
+  });
+
+  test('handles move the vertices that were picked, as far as was asked', async () => {
+    await open('mesh', {}, async (page) => {
+      await page.locator('#pick-mode').selectOption('handles');
+      await page.locator('#pick-tool').selectOption('lasso');
+      await drawAround(page, [0, 0.6, 1, 1]);
+      await page.locator('#pick-new').click();
+      await drawAround(page, [0.02, 0.02, 0.98, 0.25]);
+      const up = page.getByLabel('y', { exact: true }).nth(1);
+      await up.fill('0.125');
+      await up.blur();
+      const { handles } = JSON.parse(await keep(page, 'handles.json'));
+      assert.equal(handles[0].fixed, true);
+      assert.deepEqual(handles[1].translation, [0, 0.125, 0]);
+      const [low, high] = handles.map(({ select }) => listed(select));
+      const before = vertices('animal0.obj');
+      const heights = (list) => list.map((v) => before[v - 1][1]);
+      assert.ok(low.length > 5 && high.length > 5);
+      assert.ok(Math.max(...heights(low)) < Math.min(...heights(high)));
+      run('shape-deform', 'animal0.obj', '--handles', 'handles.json', '--output', 'deformed.obj');
+      const after = vertices('deformed.obj');
+      for (const v of low) assert.ok(distance(before[v - 1], after[v - 1]) < 1e-6);
+      for (const v of high) {
+        const [a, b] = [before[v - 1], after[v - 1]];
+        assert.ok(distance([a[0], a[1] + 0.125, a[2]], b) < 1e-6);
+      }
+    });
+  });
+
+  test('a selection and a standing part are held by --anchor', async () => {
+    await open('walk-path', {}, async (page) => {
+      await page.locator('#pick-mode').selectOption('selection');
+      await page.locator('#pick-tool').selectOption('lasso');
+      await drawAround(page, [0, 0.6, 1, 1]);
+      const all = listed(JSON.parse(await keep(page, 'selection.json')));
+      await page.locator('#pick-tool').selectOption('without');
+      await drawAround(page, [0.5, 0.6, 1, 1]);
+      const text = await keep(page, 'selection.json');
+      const fewer = listed(JSON.parse(text));
+      assert.ok(fewer.length > 0 && fewer.length < all.length);
+      assert.ok(fewer.every((v) => all.includes(v)));
+      run('shape-export', 'walk.path', '--anchor', text, '--output', 'held%02d.obj');
+      assert.equal(vertices('held06.obj').length, vertices('animal0.obj').length);
+      await page.locator('#pick-mode').selectOption('standing');
+      const parts = await keep(page, 'anchor.json');
+      assert.deepEqual(JSON.parse(parts)[0].poses, [1, 2]);
+      run('shape-export', 'walk.path', '--anchor', parts, '--output', 'standing%02d.obj');
+      const [first, last] = [vertices('standing00.obj'), vertices('standing06.obj')];
+      const [middle, from] = [vertices('standing03.obj'), vertices('animal0.obj')];
+      // A part that stands goes from its place in one pose straight to that in the other.
+      for (const v of fewer) {
+        assert.ok(distance(first[v - 1], from[v - 1]) < 1e-5);
+        const [a, b, c] = [first, middle, last].map((list) => list[v - 1]);
+        const detour = distance(a, b) + distance(b, c) - distance(a, c);
+        assert.ok(detour < 1e-3, `${detour} at vertex ${v}`);
+      }
+    });
+  });
+
+  test('a click takes a vertex, a second one leaves it out, and dragging takes none', async () => {
+    await open('mesh', {}, async (page) => {
+      await page.locator('#pick-mode').selectOption('selection');
+      const { x, y, width, height } = await page.locator('#canvas').boundingBox();
+      const middle = [x + width / 2, y + height / 2];
+      await page.mouse.click(...middle);
+      assert.match(await rows(page).textContent(), /1 vertex/);
+      await page.mouse.click(...middle);
+      assert.match(await rows(page).textContent(), /0 vertices/);
+      await page.locator('#pick-save').click();
+      assert.match(await page.locator('#status').textContent(), /has no vertex/);
+      await page.mouse.move(...middle);
+      await page.mouse.down();
+      await page.mouse.move(middle[0] + 60, middle[1], { steps: 3 });
+      await page.mouse.up();
+      assert.match(await rows(page).textContent(), /0 vertices/);
+    });
+  });
+});
+
 describe('keys alone', () => {
   // Elements by the order in which Tab reaches them.
   async function tabbed(page) {
@@ -566,7 +746,7 @@ describe('keys alone', () => {
   }
 
   test('reach every control, visibly', async () => {
-    for (const name of ['walk-path', 'space']) {
+    for (const name of ['walk-path', 'space', 'markers']) {
       await open(name, {}, async (page) => {
         const reached = await tabbed(page);
         const wanted = await page.evaluate(() =>
@@ -620,6 +800,37 @@ describe('keys alone', () => {
 });
 
 describe('a page that cannot be shown says so', () => {
+  test('where scripts are switched off', async () => {
+    const context = await browser.newContext({ javaScriptEnabled: false });
+    try {
+      const page = await context.newPage();
+      await page.goto(url('walk-path'));
+      assert.match(await page.locator('body').innerText(), /needs JavaScript/);
+      assert.doesNotMatch(await page.locator('body').innerText(), /Loading/);
+    } finally {
+      await context.close();
+    }
+  });
+
+  test('where showing it fails after its data were read', async () => {
+    const context = await browser.newContext();
+    try {
+      const page = await context.newPage();
+      await page.addInitScript(() => {
+        window.ResizeObserver = class {
+          constructor() {
+            throw new Error('no observer');
+          }
+        };
+      });
+      await page.goto(url('walk-path'));
+      await page.getByText(/cannot be shown: no observer/).waitFor();
+      assert.equal(await page.locator('#layout').isVisible(), false);
+    } finally {
+      await context.close();
+    }
+  });
+
   const whole = (name) => readFileSync(`${folder}/${name}.html`, 'utf8');
   // The page with the text of its data changed.
   async function damaged(name, change) {

@@ -47,6 +47,10 @@ cd "$work/pages"
   "$bin/shape-statistics" herd?.obj --modes 3 --output herd.modes
   "$bin/shape-statistics" herd.modes --scalars ages.csv --output herd.html
   "$bin/shape-statistics" herd.modes --output plain.html
+  "$bin/shape-body" quadruped --pose stand --triangles 3000 --output 'template%d.obj'
+  "$bin/shape-body" quadruped --pose stand --triangles 5000 --output 'target%d.obj'
+  "$bin/shape-view" template0.obj target0.obj --output markers.html
+  "$bin/shape-view" animal0.obj --output mesh.html
   SHAPESPACE_PAGE_DIR=$PWD SHAPESPACE_PAGE_TEMPLATE=$root/tools/viewer/dist/viewer.html \
     "$root/build/release/tests/output/output_test" --gtest_filter='PageTest.WritesSpaces*'
   cp "$root/tools/viewer/dist/viewer.html" empty.html
@@ -55,4 +59,4 @@ cd "$work/pages"
   exit 1
 }
 cd "$work"
-SHAPESPACE_PAGE_DIR=$work/pages node --test page.test.mjs
+SHAPESPACE_PAGE_DIR=$work/pages SHAPESPACE_PAGE_BIN=$bin node --test page.test.mjs

@@ -1,5 +1,6 @@
 // One file, dist/viewer.html, with script and style in it. ASCII only and without "</script", so that
 // it can stand in an HTML file and in a C++ string alike.
+import { createHash } from 'node:crypto';
 import { existsSync, readFileSync } from 'node:fs';
 import { defineConfig } from 'vite';
 
@@ -43,6 +44,11 @@ function inline() {
         page.source = page.source.replace(new RegExp(tag), () => element);
         delete bundle[file.fileName];
       }
+      page.source = page.source.replace(/SCRIPT-HASH|STYLE-HASH/g, (mark) => {
+        const tag = mark === 'SCRIPT-HASH' ? 'script' : 'style';
+        const [, content] = page.source.match(new RegExp(`<${tag}[^>]*>([^]*?)</${tag}>`));
+        return `sha256-${createHash('sha256').update(content).digest('base64')}`;
+      });
     },
   };
 }

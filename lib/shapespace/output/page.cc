@@ -58,6 +58,9 @@ struct MakeElement {
   std::string operator()(const PageModes& modes) const {
     return Element("application/x-shapespace", modes.name, internal::EncodeScene(modes));
   }
+  std::string operator()(const PageMesh& mesh) const {
+    return Element("application/x-shapespace", mesh.name, internal::EncodeScene(mesh));
+  }
   std::string operator()(const PageGlb& glb) const {
     return Element("model/gltf-binary", glb.name, glb.bytes);
   }
@@ -73,6 +76,10 @@ std::string MakePage(const std::string& page_template, const std::vector<PageSce
         (std::holds_alternative<PageSpace>(scene) || std::holds_alternative<PageModes>(scene))) {
       throw InvalidOptions("scenes", "a space or a model is shown alone");
     }
+  }
+  if (scenes.size() == 2 &&
+      std::holds_alternative<PageMesh>(scenes[0]) != std::holds_alternative<PageMesh>(scenes[1])) {
+    throw InvalidOptions("scenes", "beside a mesh there may only be another mesh");
   }
   const size_t mark = page_template.find(kMark);
   if (mark == std::string::npos || page_template.find(kMark, mark + 1) != std::string::npos) {

@@ -79,10 +79,20 @@ struct PageModes {
   int NumModes() const { return static_cast<int>(shares.size()); }
 };
 
-using PageScene = std::variant<PagePath, PageGlb, PageSpace, PageModes>;
+/// A mesh whose vertices are picked on the page, which saves them as files that the tools read:
+/// markers of two meshes, handles and selections of one. The page numbers vertices as the
+/// connectivity does.
+struct PageMesh {
+  std::shared_ptr<const Connectivity> connectivity;
+  Shape shape;                     ///< in the user's unit
+  Eigen::MatrixXd vertex_colours;  ///< as in an Appearance; may be empty
+  std::string name;                ///< the file's, for command lines on the page
+};
+
+using PageScene = std::variant<PagePath, PageGlb, PageSpace, PageModes, PageMesh>;
 
 /// A self-contained HTML page that shows `scenes` without a server or a network. There may be one
-/// scene, or two paths or glb files, which are shown side by side.
+/// scene, or two paths or glb files, or two meshes, which are shown side by side.
 ///
 /// `page_template` is the content of the viewer that `./dev viewer` builds,
 /// tools/viewer/dist/viewer.html, which is installed as share/shapespace/viewer.html. The tool

@@ -16,6 +16,8 @@ import {
   Vector3,
   type Material,
 } from 'three';
+import { declarations } from './blend_shader';
+import { Marks } from './marks';
 import { isFaceted, vertexNormals } from './normals';
 import { rampColour } from './ramp';
 import type { Body } from './scene_data';
@@ -31,15 +33,6 @@ function rampTexture(): DataTexture {
   texture.needsUpdate = true;
   return texture;
 }
-
-const declarations = /* glsl */ `
-attribute vec4 shapeA, shapeB, shapeC;
-uniform float weightB, weightC;
-varying float vDeviation;
-vec4 blendedShape() {
-  return shapeA + weightB * (shapeB - shapeA) + weightC * (shapeC - shapeA);
-}
-`;
 
 const normalDeclarations = /* glsl */ `
 attribute vec3 normalA, normalB, normalC;
@@ -77,6 +70,7 @@ export class BlendedMesh extends Group {
   private readonly isGraph: boolean;
   private readonly surface: Mesh | LineSegments;
   private readonly wires: Mesh | null = null;
+  private marks: Marks | null = null;
   private shown: Blend = { nodes: [0, 0, 0], weights: [1, 0, 0] };
 
   constructor(readonly body: Body) {
@@ -150,6 +144,29 @@ export class BlendedMesh extends Group {
     return true;
   }
 
+  /** Draws points at vertices: for each its colour, 0xrrggbb. */
+  mark(colours: Map<number, number>): void {
+    if (!this.marks) {
+      this.marks = new Marks(this.geometry, this.body.vertices, this.uniforms);
+      this.add(this.marks);
+    }
+    this.marks.show(colours);
+  }
+
+  /** The vertices' positions as they are shown, in the unit cube: three numbers for each. */
+  positionsShown(): Float32Array {
+    const { nodes, weights } = this.shown;
+    const positions = new Float32Array(3 * this.body.vertices);
+    nodes.forEach((node, k) => {
+      const shape = this.body.shapes[node];
+      for (let i = 0; i < positions.length; ++i) {
+        const at = 4 * Math.floor(i / 3) + (i % 3);
+        positions[i] += (weights[k] * shape[at]) / 65535;
+      }
+    });
+    return positions;
+  }
+
   set wireframe(on: boolean) {
     if (!this.wires) return;
     this.wires.visible = on;
@@ -195,7 +212,7 @@ export class BlendedMesh extends Group {
       shader.vertexShader = shader.vertexShader
         .replace(
           '#include <common>',
-          `#include <common>\n${declarations}${hasNormals ? normalDeclarations : ''}`,
+          `#include <common>\n${declarations}varying float vDeviation;\n${hasNormals ? normalDeclarations : ''}`,
         )
         .replace(
           '#include <begin_vertex>',

@@ -132,7 +132,7 @@ function areRows(rows: number[][], size: number): boolean {
 }
 
 function checkHeader(header: any) {
-  check(['path', 'space', 'modes'].includes(header.kind));
+  check(['path', 'space', 'modes', 'mesh'].includes(header.kind));
   check([header.vertices, header.triangles, header.segments, header.shapes].every(isCount));
   check(header.vertices > 0 && header.shapes > 0 && header.side >= 0);
   check([header.low, header.up, header.eye].every((vector) => vector.length === 3));
@@ -148,6 +148,8 @@ function checkHeader(header: any) {
     check(areRows(header.coordinates, modes) && areRows(header.slopes, modes));
     check(header.slopes.length === header.scalars.length);
     check(header.scalars.length === 0 || header.intercept.length === modes);
+  } else if (header.kind === 'mesh') {
+    check(header.shapes === 1);
   } else {
     check(header.names.length > 0 && header.points.length === header.shapes);
     check(header.names.length + header.parents.length === header.shapes);
@@ -179,6 +181,7 @@ export async function decodeScene(text: string): Promise<SceneData> {
     path: () => along(shapes),
     space: () => betweenParents(shapes, header.parents),
     modes: () => likeFirst(shapes),
+    mesh: () => likeFirst(shapes),
   };
   const predict = predictions[header.kind]();
   readPositions(reader, shapes, vertices, predict);

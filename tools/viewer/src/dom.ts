@@ -36,3 +36,16 @@ export function perCent(value: number): string {
 export function tell(text: string): void {
   byId('status').textContent = text;
 }
+
+/** The names of one or two scenes with facts about each; those of two also above their parts of the
+ * stage. */
+export function showNames(names: string[], facts: string[]): void {
+  byId('title').textContent = names.join(' and ');
+  byId('facts').textContent = facts.join('; ');
+  if (names.length === 1) return;
+  names.forEach((name, i) => {
+    const caption = document.createElement('span');
+    caption.textContent = `${'AB'[i]}: ${name}`;
+    byId('captions').append(caption);
+  });
+}

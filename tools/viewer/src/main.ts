@@ -1,7 +1,8 @@
 import './style.css';
 import { decodeScene } from './decode';
-import { byId } from './dom';
+import { byId, tell } from './dom';
 import { decodeGlb } from './gltf';
+import { showMeshes } from './mesh_view';
 import { showModes } from './modes_view';
 import { showPaths } from './path_view';
 import { Damaged, type SceneData } from './scene_data';
@@ -48,6 +49,9 @@ async function start(): Promise<void> {
     try {
       scenes.push(await read(element));
     } catch (error) {
+      if (error instanceof RangeError) {
+        return showMessage(`There is not enough memory to show ${element.dataset.name}.`);
+      }
       const why = error instanceof Damaged ? error.message : 'it cannot be read';
       return showMessage(
         `The data of ${element.dataset.name} in this page is damaged: ${why}. ` +
@@ -59,9 +63,20 @@ async function start(): Promise<void> {
   byId('layout').hidden = false;
   document.title = scenes.map(({ name }) => name).join(' and ');
   const [first] = scenes;
-  if (first.kind === 'space') showSpace(first);
-  else if (first.kind === 'modes') showModes(first);
-  else showPaths(scenes.filter((scene) => scene.kind === 'path'));
+  try {
+    if (first.kind === 'space') showSpace(first);
+    else if (first.kind === 'modes') showModes(first);
+    else if (first.kind === 'mesh') showMeshes(scenes.filter((scene) => scene.kind === 'mesh'));
+    else showPaths(scenes.filter((scene) => scene.kind === 'path'));
+  } catch (error) {
+    const why =
+      error instanceof RangeError ? 'there is not enough memory for it' : (error as Error).message;
+    return showMessage(`${document.title} cannot be shown: ${why}.`);
+  }
+  byId('canvas').addEventListener('webglcontextlost', () =>
+    showMessage('The graphics card has stopped drawing. Load the page again.'),
+  );
+  window.addEventListener('error', ({ message }) => tell(`That has failed: ${message}.`));
 }
 
 void start();

@@ -42,7 +42,7 @@ export function startOptions(
     if (missing) return tell(`No film: ${missing}.`);
     film.disabled = true;
     tell('Recording, from the start to the end\u2026');
-    saveFilm(stage, player, `${name}.webm`)
+    saveFilm(stage, player, name)
       .then(
         () => tell('The film is saved.'),
         (error: Error) => tell(`No film: ${error.message}.`),

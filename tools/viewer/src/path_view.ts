@@ -1,7 +1,8 @@
 // One path, or two side by side.
 import { BlendedMesh, type Blend } from './blended_mesh';
-import { byId, perCent, shortNumber, themeValue } from './dom';
+import { byId, perCent, shortNumber, showNames, themeValue } from './dom';
 import { prefersStillness, prepareWhenIdle, startOptions, stem } from './options';
+import { Picking } from './picking';
 import { Plot, type Series } from './plots';
 import { rampGradient } from './ramp';
 import type { PathScene } from './scene_data';
@@ -105,15 +106,7 @@ function isClosed({ shapes }: PathScene): boolean {
 
 export function showPaths(scenes: PathScene[]): void {
   const names = scenes.map(({ name }) => name);
-  byId('title').textContent = names.join(' and ');
-  byId('facts').textContent = scenes.map(facts).join('; ');
-  if (scenes.length > 1) {
-    names.forEach((name, i) => {
-      const caption = document.createElement('span');
-      caption.textContent = `${'AB'[i]}: ${name}`;
-      byId('captions').append(caption);
-    });
-  }
+  showNames(names, scenes.map(facts));
   const meshes = scenes.map((scene) => new BlendedMesh(scene));
   const stage: Stage = new Stage(byId<HTMLCanvasElement>('canvas'), meshes, (seconds) =>
     player.advance(seconds),
@@ -134,6 +127,12 @@ export function showPaths(scenes: PathScene[]): void {
   });
   startOptions(stage, meshes, player, names.map(stem).join('-'));
   showColours(scenes, meshes, stage);
+  // A glb has no poses, and its vertices are not those of the mesh it was made of; a click finds a
+  // triangle, which graphs do not have.
+  const [{ poses, triangles }] = scenes;
+  if (scenes.length === 1 && poses.length > 0 && triangles.length > 0) {
+    new Picking(stage, meshes, names, poses.length);
+  }
   onTheme(() => stage.setBackground(themeValue('--stage')));
   if (scenes.every(isClosed)) setRepeat(player, 'loop');
   player.seek(0);

@@ -27,14 +27,20 @@ export function canFilm(): boolean {
 }
 
 function filmType(): string | undefined {
-  return ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm'].find((type) =>
-    MediaRecorder.isTypeSupported(type),
-  );
+  return [
+    'video/webm;codecs=vp9',
+    'video/webm;codecs=vp8',
+    'video/webm',
+    'video/mp4;codecs=avc1.42E01E',
+    'video/mp4',
+  ].find((type) => MediaRecorder.isTypeSupported(type));
 }
 
-/** Plays once from the start to the end, as fast as it is set, and saves what is seen. */
+/** Plays once from the start to the end, as fast as it is set, and saves what is seen as WebM, or
+ * as MP4 where the browser writes no WebM. `name` is without extension. */
 export function saveFilm(stage: Stage, player: Player, name: string): Promise<void> {
   const stream = stage.canvas.captureStream(60);
+  const [type] = filmType()!.split(';');
   const recorder = new MediaRecorder(stream, {
     mimeType: filmType(),
     videoBitsPerSecond: 8_000_000,
@@ -58,7 +64,7 @@ export function saveFilm(stage: Stage, player: Player, name: string): Promise<vo
     });
     recorder.addEventListener('stop', () => {
       restore();
-      download(new Blob(parts, { type: 'video/webm' }), name);
+      download(new Blob(parts, { type }), `${name}.${type.slice('video/'.length)}`);
       resolve();
     });
     recorder.start();

@@ -64,7 +64,11 @@ export interface ModesScene extends Body {
   command: string;
 }
 
-export type SceneData = PathScene | SpaceScene | ModesScene;
+export interface MeshScene extends Body {
+  kind: 'mesh';
+}
+
+export type SceneData = PathScene | SpaceScene | ModesScene | MeshScene;
 
 /** Thrown if the data in the page are damaged. */
 export class Damaged extends Error {}

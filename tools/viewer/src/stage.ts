@@ -7,6 +7,7 @@ import {
   PerspectiveCamera,
   Scene,
   Quaternion,
+  Raycaster,
   Spherical,
   Vector2,
   Vector3,
@@ -56,6 +57,8 @@ export class Stage {
   private background = new Color();
   private wanted = false;
   private last = 0;
+  /** Called after every frame, to place what lies over the canvas. */
+  onDrawn: () => void = () => {};
 
   /** `advance` is called with the seconds that have passed, and returns whether to draw again. */
   constructor(
@@ -116,6 +119,48 @@ export class Stage {
       this.renderer.setScissor(x, y, width, height);
       this.renderer.render(scene, this.camera);
     });
+    this.onDrawn();
+  }
+
+  /** The body under a point of the window, and the ray through it in the body's unit cube. */
+  rayAt(clientX: number, clientY: number): { body: number; origin: Vector3; direction: Vector3 } | null {
+    const { left, top } = this.canvas.getBoundingClientRect();
+    const size = this.renderer.getSize(new Vector2());
+    const [px, py] = [clientX - left, size.y - (clientY - top)];
+    const body = this.areas(size.x, size.y).findIndex(
+      ({ x, y, width, height }) => px >= x && px < x + width && py >= y && py < y + height,
+    );
+    if (body < 0) return null;
+    const { x, y, width, height } = this.areas(size.x, size.y)[body];
+    const caster = new Raycaster();
+    caster.setFromCamera(
+      new Vector2((2 * (px - x)) / width - 1, (2 * (py - y)) / height - 1),
+      this.camera,
+    );
+    const toLocal = this.cells[body].mesh.matrixWorld.clone().invert();
+    const { origin, direction } = caster.ray.clone().applyMatrix4(toLocal);
+    return { body, origin, direction };
+  }
+
+  /** Where points of a body's unit cube are seen, in pixels of the canvas. */
+  projector(body: number): (point: Vector3) => [number, number] {
+    const size = this.renderer.getSize(new Vector2());
+    const { x, y, width, height } = this.areas(size.x, size.y)[body];
+    this.camera.updateMatrixWorld();
+    this.cells[body].mesh.updateMatrixWorld(true);
+    const matrix = this.camera.projectionMatrix
+      .clone()
+      .multiply(this.camera.matrixWorldInverse)
+      .multiply(this.cells[body].mesh.matrixWorld);
+    return (point) => {
+      const seen = point.clone().applyMatrix4(matrix);
+      return [x + ((seen.x + 1) / 2) * width, size.y - (y + ((seen.y + 1) / 2) * height)];
+    };
+  }
+
+  /** Whether dragging turns the view. */
+  set turnable(on: boolean) {
+    this.controls.enabled = on;
   }
 
   /** A small picture of the first body as it is now, without background. */

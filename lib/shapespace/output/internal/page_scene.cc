@@ -386,4 +386,19 @@ std::string EncodeScene(const PageModes& scene) {
   return Pack(header, arrays);
 }
 
+std::string EncodeScene(const PageMesh& scene) {
+  if (scene.connectivity == nullptr) throw MeshError(scene.name + ": no mesh");
+  CheckShapes(scene.name, *scene.connectivity, {scene.shape});
+  CheckColours(scene.name, scene.vertex_colours, scene.shape.cols());
+  CheckSize(scene.name, 1, scene.connectivity->NumVertices(), 6);
+  OrderedJson header = {{"version", kVersion}, {"kind", "mesh"}, {"name", scene.name}};
+  std::string arrays;
+  AppendConnectivity(*scene.connectivity, &header, &arrays);
+  AppendView(*scene.connectivity, {scene.shape}, Eigen::Vector3d::Zero(), &header);
+  const std::vector<Steps> steps = QuantiseAll({scene.shape}, &header);
+  AppendPositions(steps, {Steps(steps[0].size(), 0)}, &arrays);
+  AppendColours(scene.vertex_colours, &header, &arrays);
+  return Pack(header, arrays);
+}
+
 }  // namespace shapespace::internal

@@ -14,6 +14,7 @@ namespace shapespace::internal {
 std::string EncodeScene(const PagePath& scene);
 std::string EncodeScene(const PageSpace& scene);
 std::string EncodeScene(const PageModes& scene);
+std::string EncodeScene(const PageMesh& scene);
 
 }  // namespace shapespace::internal
 

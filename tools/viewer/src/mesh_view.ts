@@ -1,0 +1,36 @@
+// One mesh, or two side by side, whose vertices are picked.
+import { BlendedMesh } from './blended_mesh';
+import { byId, showNames, themeValue } from './dom';
+import { startOptions, stem } from './options';
+import { Picking } from './picking';
+import { Player } from './player';
+import type { MeshScene } from './scene_data';
+import { Stage } from './stage';
+import { onTheme } from './theme';
+
+function facts({ vertices, triangles }: MeshScene): string {
+  return (
+    `${vertices.toLocaleString('en')} vertices, ` +
+    `${(triangles.length / 3).toLocaleString('en')} triangles`
+  );
+}
+
+export function showMeshes(scenes: MeshScene[]): void {
+  const names = scenes.map(({ name }) => name);
+  showNames(names, scenes.map(facts));
+  for (const id of ['deviation-option', 'film', 'transport', 'playing-options']) {
+    byId(id).hidden = true;
+  }
+  const meshes = scenes.map((scene) => new BlendedMesh(scene));
+  const stage = new Stage(byId<HTMLCanvasElement>('canvas'), meshes, () => false);
+  onTheme(() => stage.setBackground(themeValue('--stage')));
+  const still = new Player(
+    () => {},
+    () => {},
+  );
+  startOptions(stage, meshes, still, names.map(stem).join('-'));
+  // A click finds a triangle, which graphs do not have.
+  if (scenes.every(({ triangles }) => triangles.length > 0)) {
+    new Picking(stage, meshes, names, 0);
+  }
+}
