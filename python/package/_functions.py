@@ -305,7 +305,7 @@ def film_strip(shapes, faces=None, **options):
     ----------
     shapes : Path, Poses, or sequence of array_like
         Of a path, given shapes are blue, those between them green, extrapolated ones purple, and
-        each has its time below it.
+        each has its number and time below it.
     faces : array_like, optional
         As for `Poses`.
     {options}

@@ -123,6 +123,16 @@ template <>
 struct Value<bool> : SimpleValue<bool> {
   static std::string Type() { return "bool"; }
 };
+/// A number that may be left out: None.
+template <>
+struct Value<std::optional<double>> {
+  static std::string Type() { return Value<double>::Type(); }
+  static void Set(std::optional<double>* value, py::handle given, const std::string& name) {
+    value->reset();
+    if (!given.is_none()) Value<double>::Set(&value->emplace(), given, name);
+  }
+  static py::object Get(const std::optional<double>& value) { return py::cast(value); }
+};
 template <>
 struct Value<std::string> : SimpleValue<std::string> {
   static std::string Type() { return "str"; }

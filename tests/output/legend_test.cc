@@ -33,24 +33,24 @@ TEST(EndOfScaleTest, IsOnePerCentWhereAllIsZeroOrRounding) {
 }
 
 TEST(DrawLegendTest, GrowsWithItsTitle) {
-  const RgbImage shorter = internal::DrawLegend(0.05, 0.05, "edge deviation");
-  const RgbImage longer = internal::DrawLegend(0.05, 0.05, "edge deviation of the second pose");
+  const RgbImage shorter = internal::DrawLegend(0.05, 0.05, "edge deviation", 20);
+  const RgbImage longer = internal::DrawLegend(0.05, 0.05, "edge deviation of the second pose", 20);
   EXPECT_GT(longer.width, shorter.width);
   EXPECT_EQ(longer.height, shorter.height);
 }
 
 TEST(DrawLegendTest, NamesTheLargestValueOnlyBeyondTheScale) {
-  const RgbImage within = internal::DrawLegend(0.05, 0.05, "edge deviation");
-  const RgbImage beyond = internal::DrawLegend(0.05, 0.31, "edge deviation");
+  const RgbImage within = internal::DrawLegend(0.05, 0.05, "edge deviation", 20);
+  const RgbImage beyond = internal::DrawLegend(0.05, 0.31, "edge deviation", 20);
   EXPECT_GT(beyond.width, within.width);
 }
 
 TEST(DrawGroupLegendTest, HasAColourForEachGroupUpTo24) {
-  const RgbImage two = internal::DrawGroupLegend(2, "parts"),
-                 five = internal::DrawGroupLegend(5, "parts");
+  const RgbImage two = internal::DrawGroupLegend(2, "parts", 20),
+                 five = internal::DrawGroupLegend(5, "parts", 20);
   EXPECT_GT(five.width, two.width);
-  EXPECT_EQ(internal::DrawGroupLegend(24, "parts").width,
-            internal::DrawGroupLegend(5000, "parts").width);
+  EXPECT_EQ(internal::DrawGroupLegend(24, "parts", 20).width,
+            internal::DrawGroupLegend(5000, "parts", 20).width);
   for (int group = 0; group < 5; ++group) {
     const internal::Colour colour = internal::GroupColour(group);
     int found = 0;
@@ -64,8 +64,8 @@ TEST(DrawGroupLegendTest, HasAColourForEachGroupUpTo24) {
 }
 
 TEST(DrawLegendTest, DrawsDarkTextOnALightGround) {
-  const RgbImage blank = internal::DrawLegend(0.05, 0.05, ""),
-                 titled = internal::DrawLegend(0.05, 0.05, "lilies");
+  const RgbImage blank = internal::DrawLegend(0.05, 0.05, "", 20),
+                 titled = internal::DrawLegend(0.05, 0.05, "lilies", 20);
   int ink = 0;
   for (int y = 0; y < titled.height; ++y) {
     for (int x = blank.width; x < titled.width; ++x) {

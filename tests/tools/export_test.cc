@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include <shapespace/files/read.h>
 #include <shapespace/path/path_file.h>
 
@@ -60,6 +62,44 @@ TEST_F(ExportTest, WritesPicturesAndAnimations) {
                            "--color", "deviation", "--title", "walk"});
   EXPECT_EQ(Content(Path("a.glb")).substr(0, 4), "glTF");
   EXPECT_EQ(Content(Path("a.png")).substr(1, 3), "PNG");
+}
+
+TEST_F(ExportTest, PicturesHaveTextsInUtf8AndLabelsOfShapesOrPoses) {
+  MakePath();
+  const auto picture = [&](const std::vector<std::string>& flags) {
+    std::vector<std::string> arguments = {"walk.path", "--output", "a.png"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    Succeed("shape-export", arguments);
+    return Content(Path("a.png"));
+  };
+  const std::string plain = picture({});
+  EXPECT_NE(picture({"--title", "B\xC3\xA4r"}), picture({"--title", "Bar"}));
+  // What is no UTF-8 is the replacement character.
+  EXPECT_EQ(picture({"--title", "B\xE4r"}), picture({"--title", "B\xEF\xBF\xBDr"}));
+  EXPECT_NE(picture({"--labels", "none"}), plain);
+  EXPECT_EQ(picture({"--labels", "a,,,,b"}), picture({"--labels", "a, b"}));
+  EXPECT_EQ(picture({"--labels", "0: t = 0,1: t = 0.25,2: t = 0.5,3: t = 0.75,4: t = 1"}), plain);
+  const Outcome outcome =
+      Run("shape-export", {"walk.path", "--labels", "a,b,c", "--output", "b.png,b.glb"});
+  EXPECT_EQ(outcome.code, 1);
+  ExpectContains(outcome.err, "--labels has 3 texts for 5 shapes, of which 2 are poses");
+  EXPECT_FALSE(std::filesystem::exists(Path("b.png")));
+  EXPECT_TRUE(std::filesystem::exists(Path("b.glb")));
+}
+
+TEST_F(ExportTest, DrawsAGroundLine) {
+  MakePath();
+  Succeed("shape-export", {"walk.path", "--output", "a.png"});
+  Succeed("shape-export", {"walk.path", "--ground_line", "-0.5", "--output", "b.png,same%d.ply"});
+  EXPECT_NE(Content(Path("a.png")), Content(Path("b.png")));
+  // It moves no shape.
+  EXPECT_EQ(Content(Path("same1.ply")), Content(Path("solved1.ply")));
+  for (const char* height : {"y=0", "", "0,1", "inf"}) {
+    const Outcome outcome =
+        Run("shape-export", {"walk.path", "--ground_line", height, "--output", "c.png"});
+    EXPECT_EQ(outcome.code, 2);
+    ExpectContains(outcome.err, "--ground_line ");
+  }
 }
 
 TEST_F(ExportTest, ColoursNearRigidParts) {

@@ -97,8 +97,8 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                    "markers", "method", "proportions", "rung_shapes", "scale", "target"});
   EXPECT_EQ(Listed("shape-transfer"), transfer);
   std::set<std::string> deform = wanted;
-  deform.insert(
-      {"balance", "coarsest", "fps", "handles", "repair", "sound", "title", "unit", "up"});
+  deform.insert({"balance", "coarsest", "fps", "ground_line", "handles", "labels", "repair",
+                 "sound", "title", "unit", "up"});
   EXPECT_EQ(Listed("shape-deform"), deform);
   for (const char* foreign : {"flagfile", "undefok", "logtostderr", "minloglevel", "v"}) {
     EXPECT_EQ(listed.count(foreign), 0u) << foreign;

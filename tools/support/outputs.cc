@@ -52,6 +52,13 @@ DEFINE_bool(once, false, "glb: from the first shape to the last, which is then h
 DEFINE_bool(ease, false,
             "glb, and frames of shape-export --frames: the motion begins and ends slowly");
 DEFINE_string(title, "", "film strip: a line above it");
+DEFINE_string(labels, "",
+              "film strip: texts under the shapes, separated by commas, one for each shape or one "
+              "for each pose; or none; default: the number of each shape, from 0, and its time");
+DEFINE_string(ground_line, "",
+              "film strip: draw a line on the ground at this height, seen from the side, and the "
+              "shapes where they are, so that feet that slide or sink are seen; without, each "
+              "shape is in the middle of its cell. Moves no shape, as --ground would");
 FLAG_GROUP(outputs, "Output");
 
 namespace shapespace::tools {
@@ -90,12 +97,40 @@ GltfOptions GltfOptionsFromFlags() {
   return options;
 }
 
+FilmStripOptions FilmStripOptionsFromFlags() {
+  FilmStripOptions options;
+  options.title = FLAGS_title;
+  if (FLAGS_up == "y") options.up = Eigen::Vector3d::UnitY();
+  if (FLAGS_up == "z") options.up = Eigen::Vector3d::UnitZ();
+  if (IsGiven("ground_line")) {
+    const std::vector<double> numbers = NumbersFromFlag("ground_line", FLAGS_ground_line);
+    if (numbers.size() != 1) throw UsageError(AsTyped("ground_line") + ": must be one height");
+    options.ground_line = numbers[0];
+  }
+  return options;
+}
+
+// One label for each shape of `path`; none stands for those that paths have by default.
+std::vector<std::string> LabelsFromFlag(const Path& path) {
+  if (!IsGiven("labels")) return {};
+  std::vector<std::string> labels(path.shapes.size());
+  if (FLAGS_labels == "none") return labels;
+  const std::vector<std::string> given = Split(FLAGS_labels);
+  if (given.size() == labels.size()) return given;
+  if (given.size() != path.poses.size()) {
+    throw Error("--labels has " + std::to_string(given.size()) + " texts for " +
+                std::to_string(labels.size()) + " shapes, of which " +
+                std::to_string(path.poses.size()) +
+                " are poses; give one for each shape or one for each pose");
+  }
+  for (size_t i = 0; i < given.size(); ++i) labels[path.poses[i]] = given[i];
+  return labels;
+}
+
 PathOutputOptions OptionsFromFlags() {
   PathOutputOptions options;
   options.colours = EnumFromFlag<PathColours>("color", FLAGS_color);
-  options.film_strip.title = FLAGS_title;
-  if (FLAGS_up == "y") options.film_strip.up = Eigen::Vector3d::UnitY();
-  if (FLAGS_up == "z") options.film_strip.up = Eigen::Vector3d::UnitZ();
+  options.film_strip = FilmStripOptionsFromFlags();
   options.gltf = GltfOptionsFromFlags();
   if (FLAGS_fps > 0) options.point_cache_fps = options.usd.fps = FLAGS_fps;
   options.usd.up = options.gltf.up;
@@ -139,9 +174,8 @@ void WriteLastShapeAlone() { writes_last_shape_alone = true; }
 
 std::vector<std::string> OutputsFromFlags() {
   EnumFromFlag<PathColours>("color", FLAGS_color);
-  FilmStripOptions strip;
-  strip.title = FLAGS_title;
-  strip.Validate();  // checks the title before the solve, not after it
+  // Before the solve, not after it.
+  NamingFlags({}, [] { FilmStripOptionsFromFlags().Validate(); });
   NamingFlags({{"duration", "seconds"}}, [] { GltfOptionsFromFlags().Validate(); });
   return OutputsFromFlag("output", FLAGS_output);
 }
@@ -175,6 +209,9 @@ void WriteOutputs(const std::vector<std::string>& outputs, const Path& path, con
     try {
       if (!IsPathFile(output) && FLAGS_color == "parts" && options.parts.size() == 0) {
         options.parts = FindRigidParts(whole).of_vertex;
+      }
+      if (OutputOf(output).kind == PathOutput::Kind::kFilmStrip) {
+        options.film_strip.labels = LabelsFromFlag(path);
       }
       Write(OutputOf(output), path, options);
     } catch (const Error& error) {

@@ -173,7 +173,7 @@ FilmStripOptions FilmStripOf(const Path& path) {
   for (int i = 0; i < path.NumShapes(); ++i) {
     options.roles.push_back(RoleOf(path, i));
     std::ostringstream label;
-    label << "t = " << std::setprecision(3) << path.parameters[i];
+    label << i << ": t = " << std::setprecision(3) << path.parameters[i];
     options.labels.push_back(label.str());
   }
   return options;

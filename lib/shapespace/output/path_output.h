@@ -50,7 +50,7 @@ struct PathOutputOptions {
   Eigen::VectorXi parts;  ///< of each vertex, for `kParts`; empty: `FindRigidParts` of the path
 
   /// Of film strips. Roles and labels that are empty are those of the path: given, inserted or
-  /// extrapolated, and the parameter.
+  /// extrapolated, and number and parameter.
   FilmStripOptions film_strip;
   GltfOptions gltf;
   double point_cache_fps = 24;

@@ -15,34 +15,36 @@ namespace shapespace {
 namespace {
 
 constexpr int kSteps = 2;  // standard deviations to each side of the mean
-constexpr int kChartHeight = 120, kChartMargin = 10, kWidestBar = 40;
 
-// A bar for each mode, with its share of the variance; below them the modes' numbers.
-void AddChart(const PoseModes& modes, RgbImage* image) {
-  const int height = kChartHeight + 2 * internal::kTextHeight + 4 * kChartMargin;
-  const int top = image->height + 2 * kChartMargin + internal::kTextHeight;
+// A bar for each mode, with its share of the variance; below them the modes' numbers. Lengths are in
+// proportion to the text.
+void AddChart(const PoseModes& modes, int text_size, RgbImage* image) {
+  const int line = internal::LineHeight(text_size), margin = text_size / 2;
+  const int chart_height = 6 * text_size, widest_bar = 2 * text_size;
+  const int height = chart_height + 2 * line + 4 * margin;
+  const int top = image->height + 2 * margin + line;
   image->height += height;
   const std::array<unsigned char, 3> paper = {image->pixels[0], image->pixels[1], image->pixels[2]};
   for (int i = 0; i < height * image->width; ++i) {
     image->pixels.insert(image->pixels.end(), paper.begin(), paper.end());
   }
-  internal::DrawText(image, kChartMargin, top - kChartMargin - internal::kTextHeight,
-                     "share of the variance, in per cent");
+  internal::DrawText(image, margin, top - margin - line, "share of the variance, in per cent",
+                     text_size);
   const int bars = modes.NumModes();
-  const int pitch = std::min(2 * kWidestBar, (image->width - 2 * kChartMargin) / bars);
+  const int pitch = std::min(2 * widest_bar, (image->width - 2 * margin) / bars);
   // Numbers are written where they fit.
-  const bool is_labelled = pitch >= kWidestBar;
+  const bool is_labelled = pitch >= widest_bar;
   for (int k = 0; k < bars; ++k) {
     const double share = modes.variances(k) / modes.total_variance;
-    const int left = kChartMargin + k * pitch, width = std::max(1, pitch / 2);
-    const int length = static_cast<int>(std::lround(share * (kChartHeight - 24)));
-    const int foot = top + kChartHeight;
+    const int left = margin + k * pitch, width = std::max(1, pitch / 2);
+    const int length = static_cast<int>(std::lround(share * (chart_height - line)));
+    const int foot = top + chart_height;
     internal::Fill(image, left, foot - std::max(1, length), left + width, foot,
                    internal::TextColour());
     if (!is_labelled) continue;
-    internal::DrawText(image, left, foot - length - internal::kTextHeight - 2,
-                       internal::Format(share < 0.095 ? "%.1f" : "%.0f", 100 * share));
-    internal::DrawText(image, left, foot + kChartMargin / 2, std::to_string(k + 1));
+    internal::DrawText(image, left, foot - length - line,
+                       internal::Format(share < 0.095 ? "%.1f" : "%.0f", 100 * share), text_size);
+    internal::DrawText(image, left, foot + margin / 2, std::to_string(k + 1), text_size);
   }
 }
 
@@ -96,7 +98,7 @@ RgbImage RenderModes(const ShapeModel& model, int modes, const FilmStripOptions&
     }
   }
   RgbImage image = RenderFilmStrip(*content.metric->connectivity, shapes, options);
-  AddChart(content, &image);
+  AddChart(content, internal::TextSize(options.frame_width), &image);
   return image;
 }
 

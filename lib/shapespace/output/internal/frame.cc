@@ -98,7 +98,12 @@ class FramePainter {
     for (int column = 0; column < camera_.width; ++column) TracePixel(row, column);
   }
 
-  Colour Finished(int row, int column) const;
+  // Of a pixel that the shape covers, at least in part, over the colour `behind` it.
+  Colour Finished(int row, int column, const Colour& behind) const;
+
+  bool IsCovered(int row, int column) const {
+    return pixels_[static_cast<size_t>(row) * camera_.width + column].coverage > 0;
+  }
 
  private:
   void TracePixel(int row, int column);
@@ -194,9 +199,8 @@ void FramePainter::TraceLight(const Scene::Hit& hit, const Eigen::Vector3f& poin
   pixel->open_key = static_cast<float>(open) / kKeyRays;
 }
 
-Colour FramePainter::Finished(int row, int column) const {
+Colour FramePainter::Finished(int row, int column, const Colour& behind) const {
   const Pixel& pixel = pixels_[static_cast<size_t>(row) * camera_.width + column];
-  if (pixel.coverage == 0) return Background();
   // The ends have half the weight, so that every position of the pattern has the same weight.
   constexpr float kWeights[] = {0.5f, 1, 1, 1, 0.5f};
   const float depth_range = 6 / static_cast<float>(camera_.pixels_per_unit);
@@ -215,7 +219,7 @@ Colour FramePainter::Finished(int row, int column) const {
     }
   }
   return pixel.sky * (sky / total) + pixel.key * (key / total) + pixel.rest +
-         (1 - pixel.coverage) * Background();
+         (1 - pixel.coverage) * behind;
 }
 
 }  // namespace
@@ -231,9 +235,12 @@ void DrawFrame(const Scene& scene, const Camera& camera, const Paint& paint, int
   ParallelFor(camera.height, [&](int row) { painter.Trace(row); });
   ParallelFor(camera.height, [&](int row) {
     unsigned char* out = &image->pixels[3 * (static_cast<size_t>(top + row) * image->width + left)];
-    for (int column = 0; column < camera.width; ++column) {
-      const Colour colour = painter.Finished(row, column);
-      for (int k = 0; k < 3; ++k) *out++ = ToByte(colour[k]);
+    for (int column = 0; column < camera.width; ++column, out += 3) {
+      if (!painter.IsCovered(row, column)) continue;
+      const Colour behind(ToLinear(out[0] / 255.0f), ToLinear(out[1] / 255.0f),
+                          ToLinear(out[2] / 255.0f));
+      const Colour colour = painter.Finished(row, column, behind);
+      for (int k = 0; k < 3; ++k) out[k] = ToByte(colour[k]);
     }
   });
 }

@@ -30,7 +30,7 @@ struct Paint {
   Eigen::VectorXi marks;              ///< mark of each vertex, as in FilmStripOptions; empty: none
 };
 
-/// Draws `scene` into the rectangle of `image` whose upper left pixel is (left, top).
+/// Draws `scene` over the rectangle of `image` whose upper left pixel is (left, top).
 void DrawFrame(const Scene& scene, const Camera& camera, const Paint& paint, int left, int top,
                RgbImage* image);
 

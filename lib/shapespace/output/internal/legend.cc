@@ -11,10 +11,22 @@
 namespace shapespace::internal {
 namespace {
 
-constexpr int kBarWidth = 240, kBarHeight = 14, kGap = 16;
-constexpr int kMargin = 12;
-constexpr int kNumbersTop = kMargin + kBarHeight + 6;
-constexpr int kSwatchWidth = 34, kMaxSwatches = 24;
+constexpr int kMaxSwatches = 24;
+
+// Lengths in pixels, in proportion to the text.
+struct Lengths {
+  explicit Lengths(int size)
+      : text(size),
+        bar_width(12 * size),
+        bar_height(7 * size / 10),
+        gap(4 * size / 5),
+        margin(3 * size / 5),
+        tick(size / 5),
+        swatch(17 * size / 10),
+        numbers_top(margin + bar_height + tick) {}
+
+  int text, bar_width, bar_height, gap, margin, tick, swatch, numbers_top;
+};
 
 // Relative values below this are rounding errors, and are shown as 0.
 constexpr double kNoise = 1e-12;
@@ -25,13 +37,18 @@ std::string PerCent(double value) {
   return text;
 }
 
-RgbImage BlankLegend(int width) {
+RgbImage BlankLegend(int width, const Lengths& lengths) {
   RgbImage image;
   image.width = width;
-  image.height = 2 * kMargin + kBarHeight + kTextHeight;
+  image.height = lengths.numbers_top + LineHeight(lengths.text) + lengths.margin / 2;
   image.pixels.resize(3 * static_cast<size_t>(image.width) * image.height);
   Fill(&image, 0, 0, image.width, image.height, Background());
   return image;
+}
+
+// Height at which a text stands beside a bar.
+int TextTop(const Lengths& lengths) {
+  return lengths.margin + (lengths.bar_height - LineHeight(lengths.text)) / 2;
 }
 
 double RoundUp(double value) {
@@ -55,40 +72,48 @@ double EndOfScale(const std::vector<Eigen::VectorXd>& values) {
   return end < kNoise ? 0.01 : RoundUp(end);
 }
 
-RgbImage DrawLegend(double end_of_scale, double largest, const std::string& title) {
+RgbImage DrawLegend(double end_of_scale, double largest, const std::string& title, int size) {
+  const Lengths lengths(size);
   std::string text = title;
   if (largest > end_of_scale) text += (text.empty() ? "" : ", ") + ("up to " + PerCent(largest));
   const std::string first = "0", middle = PerCent(end_of_scale / 2), last = PerCent(end_of_scale);
-  const int bar_left = kMargin + TextWidth(first) / 2;
-  const int after_bar = bar_left + kBarWidth + TextWidth(last) / 2;
+  const int bar_left = lengths.margin + TextWidth(first, size) / 2;
+  const int after_bar = bar_left + lengths.bar_width + TextWidth(last, size) / 2;
 
-  RgbImage image = BlankLegend(after_bar + kGap + TextWidth(text) + kMargin);
-  for (int x = 0; x < kBarWidth; ++x) {
-    Fill(&image, bar_left + x, kMargin, bar_left + x + 1, kMargin + kBarHeight,
-         ValueColour((x + 0.5f) / kBarWidth));
+  RgbImage image =
+      BlankLegend(after_bar + lengths.gap + TextWidth(text, size) + lengths.margin, lengths);
+  const int bar_bottom = lengths.margin + lengths.bar_height;
+  for (int x = 0; x < lengths.bar_width; ++x) {
+    Fill(&image, bar_left + x, lengths.margin, bar_left + x + 1, bar_bottom,
+         ValueColour((x + 0.5f) / static_cast<float>(lengths.bar_width)));
   }
   const auto number = [&](int x, const std::string& n) {
-    Fill(&image, x - 1, kMargin + kBarHeight, x + 1, kMargin + kBarHeight + 4, TextColour());
-    DrawText(&image, x - TextWidth(n) / 2, kNumbersTop, n);
+    Fill(&image, x - 1, bar_bottom, x + 1, bar_bottom + lengths.tick, TextColour());
+    DrawText(&image, x - TextWidth(n, size) / 2, lengths.numbers_top, n, size);
   };
   number(bar_left + 1, first);
-  number(bar_left + kBarWidth / 2, middle);
-  number(bar_left + kBarWidth - 1, last);
-  DrawText(&image, after_bar + kGap, kMargin, text);
+  number(bar_left + lengths.bar_width / 2, middle);
+  number(bar_left + lengths.bar_width - 1, last);
+  DrawText(&image, after_bar + lengths.gap, TextTop(lengths), text, size);
   return image;
 }
 
-RgbImage DrawGroupLegend(int groups, const std::string& title) {
+RgbImage DrawGroupLegend(int groups, const std::string& title, int size) {
+  const Lengths lengths(size);
   const int swatches = std::min(groups, kMaxSwatches);
-  const int after_swatches = kMargin + swatches * kSwatchWidth;
-  RgbImage image = BlankLegend(after_swatches + kGap + TextWidth(title) + kMargin);
+  const int after_swatches = lengths.margin + swatches * lengths.swatch;
+  RgbImage image =
+      BlankLegend(after_swatches + lengths.gap + TextWidth(title, size) + lengths.margin, lengths);
+  const int shown = lengths.swatch - lengths.tick;
   for (int group = 0; group < swatches; ++group) {
-    const int left = kMargin + group * kSwatchWidth;
-    Fill(&image, left, kMargin, left + kSwatchWidth - 4, kMargin + kBarHeight, GroupColour(group));
+    const int left = lengths.margin + group * lengths.swatch;
+    Fill(&image, left, lengths.margin, left + shown, lengths.margin + lengths.bar_height,
+         GroupColour(group));
     const std::string number = std::to_string(group + 1);
-    DrawText(&image, left + (kSwatchWidth - 4 - TextWidth(number)) / 2, kNumbersTop, number);
+    DrawText(&image, left + (shown - TextWidth(number, size)) / 2, lengths.numbers_top, number,
+             size);
   }
-  DrawText(&image, after_swatches + kGap, kMargin, title);
+  DrawText(&image, after_swatches + lengths.gap, TextTop(lengths), title, size);
   return image;
 }
 

@@ -15,11 +15,12 @@ namespace shapespace::internal {
 double EndOfScale(const std::vector<Eigen::VectorXd>& values);
 
 /// A bar of the value colours with numbers in per cent, and `title` beside it, as a separate
-/// picture on the strip's background. `largest` is stated if it exceeds the scale.
-RgbImage DrawLegend(double end_of_scale, double largest, const std::string& title);
+/// picture on the strip's background, with text of this size. `largest` is stated if it exceeds the
+/// scale.
+RgbImage DrawLegend(double end_of_scale, double largest, const std::string& title, int size);
 
 /// The same for groups: the colours of the first `groups`, at most 24, with numbers from 1.
-RgbImage DrawGroupLegend(int groups, const std::string& title);
+RgbImage DrawGroupLegend(int groups, const std::string& title, int size);
 
 }  // namespace shapespace::internal
 

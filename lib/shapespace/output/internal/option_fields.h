@@ -32,12 +32,17 @@ void ForOptions(Of<FilmStripOptions>, const Visit& visit) {
   visit("samples", &FilmStripOptions::samples, "Per pixel and axis.");
   visit("view", &FilmStripOptions::view, "Where the eye is, seen from the body; zero: chosen.");
   visit("up", &FilmStripOptions::up, "What points up in the picture; zero: +y or +z.");
+  visit("ground_line", &FilmStripOptions::ground_line,
+        "Height along `up` of a ground line, over which shapes are drawn where they are; none: each "
+        "is centred in its cell.");
   visit("values", &FilmStripOptions::values,
         "Values of every shape's vertices (.01 is one per cent), shown as colour.");
   visit("legend", &FilmStripOptions::legend, "What the values or groups are.");
   visit("groups", &FilmStripOptions::groups,
         "Group of each vertex, shown as a colour each; negative: none.");
   visit("marks", &FilmStripOptions::marks, "Mark of each vertex: 1 dark, 2 red, else none.");
+  visit("numbers", &FilmStripOptions::numbers,
+        "Number of each vertex, written beside it where it is seen; 0: none.");
   visit("labels", &FilmStripOptions::labels, "Written under each shape.");
   visit("title", &FilmStripOptions::title, "A line above all.");
 }

@@ -25,9 +25,14 @@ struct Candidate {
   double weight;              // preference
 };
 
-std::vector<Candidate> Candidates() {
+std::vector<Candidate> Candidates(bool are_horizontal) {
+  struct Elevation {
+    double degrees, weight;
+  };
   // Low views look natural; high ones are for flat shapes.
-  constexpr struct { double degrees, weight; } kElevations[] = {{15, 1}, {35, 0.8}, {60, 0.7}};
+  const std::vector<Elevation> elevations =
+      are_horizontal ? std::vector<Elevation>{{0, 1}}
+                     : std::vector<Elevation>{{15, 1}, {35, 0.8}, {60, 0.7}};
   // Seen from the left and the front, a body that faces the front faces right, the direction of
   // reading.
   constexpr struct {
@@ -35,7 +40,7 @@ std::vector<Candidate> Candidates() {
   } kAzimuths[] = {{-30, 1},    {-60, 1},    {30, 0.88}, {60, 0.88},
                    {-120, 0.8}, {-150, 0.8}, {120, 0.7}, {150, 0.7}};
   std::vector<Candidate> candidates;
-  for (const auto& elevation : kElevations) {
+  for (const Elevation& elevation : elevations) {
     for (const auto& azimuth : kAzimuths) {
       candidates.push_back({azimuth.degrees, elevation.degrees, azimuth.weight * elevation.weight});
     }
@@ -118,10 +123,10 @@ Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up) {
 }
 
 Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<Scene>& scenes,
-                const Eigen::Vector3d& up) {
+                const Eigen::Vector3d& up, bool must_be_horizontal) {
   const Eigen::Vector3d pole = up.stableNormalized();
   const Axes front = LookFrom(Front(pole), pole);
-  const std::vector<Candidate> candidates = Candidates();
+  const std::vector<Candidate> candidates = Candidates(must_be_horizontal);
   std::vector<Axes> views(candidates.size());
   std::vector<double> scores(candidates.size(), 0);
   std::vector<Eigen::Matrix3d> covariances;

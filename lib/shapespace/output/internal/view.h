@@ -24,9 +24,10 @@ Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up);
 /// A three-quarter view: the one of a few directions around and above the shapes in which most of
 /// their surface is visible, preferably its front side, and their projection is largest, so that a
 /// plate is not seen from its edge, nor a finger in the plane in which it bends. Between equal
-/// views the one from the front and the left is preferred. `scenes[i]` contains `shapes[i]`.
+/// views the one from the front and the left is preferred. `scenes[i]` contains `shapes[i]`. A view
+/// that must be horizontal looks from the height of the shapes, so that the ground is a line.
 Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<Scene>& scenes,
-                const Eigen::Vector3d& up);
+                const Eigen::Vector3d& up, bool must_be_horizontal = false);
 
 }  // namespace shapespace::internal
 
