@@ -14,6 +14,14 @@ cd "$work"
 "$bin/shape-interpolate" animal0.obj animal1.obj --shapes 15 \
   --output "walk.path,$pictures/first-path.png"
 
+"$bin/shape-body" quadruped --pose stride,rear --output 'step%d.obj'
+"$bin/shape-interpolate" step0.obj step1.obj --output rear.path
+"$bin/shape-export" rear.path --frames 5 --ground_line 0 --title "without --anchor" \
+  --output "$pictures/slides.png"
+"$bin/shape-export" rear.path --frames 5 --ground_line 0 --title "with --anchor" \
+  --anchor '{"box": {"low": [-1, 0, -0.5], "high": [0, 0.1, -0.05]}}' \
+  --output "$pictures/stands.png"
+
 # guide/metrics.md: Figure 2 of the paper with a body of ours
 for metric in strain isometric rigid paper; do
   "$bin/shape-interpolate" animal0.obj animal1.obj --metric $metric --shapes 15 \
@@ -56,6 +64,14 @@ cat > greet.json <<'EOF'
 ]}
 EOF
 "$bin/shape-deform" animal0.obj --handles greet.json --up y --output "$pictures/deforming.png"
+for balance in 0.001 0.01 0.1 0.5 1; do
+  "$bin/shape-deform" animal0.obj --handles greet.json --balance $balance \
+    --output "balance$balance.obj"
+done
+"$bin/shape-interpolate" balance0.001.obj balance0.01.obj balance0.1.obj balance0.5.obj \
+  balance1.obj --shapes 1 --output balance.path
+"$bin/shape-export" balance.path --at 0,.25,.5,.75,1 --up y \
+  --labels "--balance 0.001,0.01 (default),0.1,0.5,1" --output "$pictures/balance.png"
 "$bin/shape-body" bar --at 0 --output 'bar%d.obj'
 cat > twist.json <<'EOF'
 {"handles": [
@@ -88,7 +104,7 @@ awk '$1 == "v" { print ($2 > -1.2 && $2 < 1.2) ? 100 : 1 }' bar0.obj >stiff.txt
 "$bin/shape-interpolate" pose0.obj mean1.obj mended.obj --strain 0 --bending 0 --lambda 1 \
   --shapes 1 --output compare.path
 "$bin/shape-export" compare.path --at 0,0.5,1 --color deviation --up y \
-  --title "sound, distorted, repaired" --output "$pictures/repair.png"
+  --labels sound,distorted,repaired --output "$pictures/repair.png"
 
 # guide/correspondence.md: markers are vertices of both meshes that stand at one place in the usual
 # proportions, in which the two would be one animal.

@@ -55,6 +55,13 @@ Eigen::VectorXi PatchesOf(const Shape& shape) {
   return patch;
 }
 
+// The number of the marker at each vertex, from 1; 0 elsewhere.
+Eigen::VectorXi NumbersAt(const std::vector<int>& vertices, Eigen::Index count) {
+  Eigen::VectorXi numbers = Eigen::VectorXi::Zero(count);
+  for (size_t k = 0; k < vertices.size(); ++k) numbers(vertices[k]) = static_cast<int>(k) + 1;
+  return numbers;
+}
+
 // The nearest marker of every vertex that is near one, -1 elsewhere.
 Eigen::VectorXi SpotsAround(const std::vector<int>& vertices, const Shape& shape) {
   constexpr double kRadius = 0.012;  // of the body's diameter
@@ -126,6 +133,8 @@ RgbImage RenderCorrespondence(const Connectivity& template_connectivity,
   }
   with_markers.groups << SpotsAround(on_template, template_shape),
       SpotsAround(on_target, target_shape);
+  with_markers.numbers.resize(both.first + both.second);
+  with_markers.numbers << NumbersAt(on_template, both.first), NumbersAt(on_target, both.second);
   with_markers.legend = "markers";
   for (const auto& doubt : result.summary.doubtful) {
     with_markers.legend +=
@@ -133,7 +142,14 @@ RgbImage RenderCorrespondence(const Connectivity& template_connectivity,
         std::to_string(doubt.marker + 1);
   }
   with_markers.legend.resize(std::min<size_t>(with_markers.legend.size(), 120));
+  // Most markers are seen from one of two opposite sides.
+  FilmStripOptions other_side = with_markers;
+  const Eigen::Vector3d eye = FilmStripView(*both.connectivity, shapes, options);
+  const Eigen::Vector3d up = options.up.normalized();
+  other_side.view = 2 * eye.dot(up) * up - eye;
+  other_side.legend = "the same from the other side";
   RgbImage image = RenderFilmStrip(*both.connectivity, shapes, with_markers);
+  PasteBelow(RenderFilmStrip(*both.connectivity, shapes, other_side), &image);
 
   const Eigen::VectorXi patches = PatchesOf(template_shape);
   with_patches.groups.resize(both.first + both.second);

@@ -1,6 +1,7 @@
 #include <shapespace/output/internal/vertex_numbers.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -11,15 +12,22 @@
 namespace shapespace::internal {
 namespace {
 
-// How far before or behind a vertex the surface may be hit; the shape lies in the unit ball.
-constexpr float kNear = 0.01f;
+// How far beside a vertex, and before or behind it, the surface may be hit; the shape lies in the
+// unit ball. A ray at a vertex of the outline itself may miss the surface.
+constexpr double kBeside = 0.01;
+constexpr float kNear = 0.02f;
 
 bool IsVisible(const Scene& scene, const Camera& camera, const Eigen::Vector3d& vertex) {
   constexpr float kDistance = 3;  // outside of the ball
   const Eigen::Vector3f eye = camera.axes.col(2).cast<float>();
-  Scene::Hit hit;
-  return scene.Trace(vertex.cast<float>() + kDistance * eye, -eye, &hit) &&
-         std::abs(hit.distance - kDistance) < kNear;
+  const Eigen::Vector3d right = kBeside * camera.axes.col(0), up = kBeside * camera.axes.col(1);
+  for (const Eigen::Vector3d& beside :
+       {Eigen::Vector3d(0, 0, 0), right, up, Eigen::Vector3d(-right), Eigen::Vector3d(-up)}) {
+    const Eigen::Vector3f origin = (vertex + beside).cast<float>() + kDistance * eye;
+    Scene::Hit hit;
+    if (scene.Trace(origin, -eye, &hit) && std::abs(hit.distance - kDistance) < kNear) return true;
+  }
+  return false;
 }
 
 }  // namespace
