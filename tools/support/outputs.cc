@@ -115,7 +115,7 @@ std::vector<std::string> LabelsFromFlag(const Path& path) {
   if (!IsGiven("labels")) return {};
   std::vector<std::string> labels(path.shapes.size());
   if (FLAGS_labels == "none") return labels;
-  const std::vector<std::string> given = Split(FLAGS_labels);
+  std::vector<std::string> given = Split(FLAGS_labels);
   if (given.size() == labels.size()) return given;
   if (given.size() != path.poses.size()) {
     throw Error("--labels has " + std::to_string(given.size()) + " texts for " +

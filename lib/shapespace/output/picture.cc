@@ -28,8 +28,8 @@ constexpr int kWidestStrip = 6;
 // Numbers of vertices are smaller than other texts, because many stand close together.
 int NumberSize(int text_size) { return std::max(10, 3 * text_size / 4); }
 
-// A cell shows at most this part of the world, in radii of the largest shape, which is then about as
-// large as a pixel.
+// A cell shows at most this part of the world, in radii of the largest shape, which is then about
+// as large as a pixel.
 constexpr double kWidestWorld = 1000;
 
 // Larger pictures are not practical, and exceed the range of the PNG writer.

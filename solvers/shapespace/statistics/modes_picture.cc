@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kSteps = 2;  // standard deviations to each side of the mean
 
-// A bar for each mode, with its share of the variance; below them the modes' numbers. Lengths are in
-// proportion to the text.
+// A bar for each mode, with its share of the variance; below them the modes' numbers. Lengths are
+// in proportion to the text.
 void AddChart(const PoseModes& modes, int text_size, RgbImage* image) {
   const int line = internal::LineHeight(text_size), margin = text_size / 2;
   const int chart_height = 6 * text_size, widest_bar = 2 * text_size;

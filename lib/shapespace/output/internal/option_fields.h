@@ -32,9 +32,10 @@ void ForOptions(Of<FilmStripOptions>, const Visit& visit) {
   visit("samples", &FilmStripOptions::samples, "Per pixel and axis.");
   visit("view", &FilmStripOptions::view, "Where the eye is, seen from the body; zero: chosen.");
   visit("up", &FilmStripOptions::up, "What points up in the picture; zero: +y or +z.");
-  visit("ground_line", &FilmStripOptions::ground_line,
-        "Height along `up` of a ground line, over which shapes are drawn where they are; none: each "
-        "is centred in its cell.");
+  visit(
+      "ground_line", &FilmStripOptions::ground_line,
+      "Height along `up` of a ground line, over which shapes are drawn where they are; none: each "
+      "is centred in its cell.");
   visit("values", &FilmStripOptions::values,
         "Values of every shape's vertices (.01 is one per cent), shown as colour.");
   visit("legend", &FilmStripOptions::legend, "What the values or groups are.");
