@@ -1,14 +1,22 @@
-"""Called by blender_pictures.sh."""
+"""Called by blender_pictures.sh, once for each window that it pictures."""
 
 import os
+import pathlib
 import shutil
+import statistics
 import sys
+import time
 import traceback
 
 import bpy
 from mathutils import Matrix, Vector
 
-addon, tools, animals, pictures = sys.argv[-4:]
+window, addon, tools, animals, pictures = sys.argv[-5:]
+
+# The module as ./dev python installs it.
+version = f"python{sys.version_info.major}.{sys.version_info.minor}"
+project = pathlib.Path(__file__).resolve().parents[1]
+sys.path.append(str(project / f"build/python-venv/lib/{version}/site-packages"))
 
 
 def read_obj(file):
@@ -19,21 +27,39 @@ def read_obj(file):
     return vertices, faces
 
 
-def make_animal():
-    """An animal that sits, with a shape key for stretching, and the z axis up."""
-    (sit, faces), (stretch, _) = read_obj("animal0.obj"), read_obj("animal1.obj")
+def make_animal(file):
+    """An animal with the z axis up."""
+    vertices, faces = read_obj(file)
     mesh = bpy.data.meshes.new("animal")
-    mesh.from_pydata([(x, -z, y) for x, y, z in sit], [], faces)
+    mesh.from_pydata([(x, -z, y) for x, y, z in vertices], [], faces)
     for polygon in mesh.polygons:
         polygon.use_smooth = True
     animal = bpy.data.objects.new("animal", mesh)
     bpy.context.scene.collection.objects.link(animal)
-    animal.shape_key_add(name="Basis")
-    key = animal.shape_key_add(name="stretch")
-    key.data.foreach_set("co", [value for x, y, z in stretch for value in (x, -z, y)])
-    animal.select_set(True)
-    bpy.context.view_layer.objects.active = animal
+    select(animal)
     return animal
+
+
+def add_key(animal, name, file):
+    animal.shape_key_add(name="Basis")
+    key = animal.shape_key_add(name=name)
+    vertices, _ = read_obj(file)
+    key.data.foreach_set("co", [value for x, y, z in vertices for value in (x, -z, y)])
+
+
+def add_handle(animal, name, moves, chosen):
+    """A handle for the vertices whose coordinates pass a test."""
+    group = animal.vertex_groups.new(name=name)
+    group.add([v.index for v in animal.data.vertices if chosen(*v.co)], 1, "REPLACE")
+    animal.vertex_groups.active = group
+    bpy.ops.shapespace.handle_add(moves=moves)
+
+
+def select(item):
+    for other in bpy.context.selected_objects:
+        other.select_set(False)
+    item.select_set(True)
+    bpy.context.view_layer.objects.active = item
 
 
 def view():
@@ -111,63 +137,166 @@ def render_rows(animal, file):
     bpy.ops.render.render(write_still=True, scene=scene.name)
 
 
+def simulate(kind, value, x, y):
+    bpy.context.window_manager.windows[0].event_simulate(type=kind, value=value, x=x, y=y)
+
+
 def click(x, y):
     """In steps, since the pointer must have arrived before the button is pressed."""
-    window = bpy.context.window_manager.windows[0]
     for kind, value in (
         ("MOUSEMOVE", "NOTHING"), ("LEFTMOUSE", "PRESS"), ("LEFTMOUSE", "RELEASE"),
     ):  # fmt: skip
-        window.event_simulate(type=kind, value=value, x=x, y=y)
+        simulate(kind, value, x, y)
         yield
 
 
-def steps():
+def prepare():
+    """The add-on, an empty scene, and the tab of the add-on."""
     bpy.ops.preferences.addon_install(filepath=addon)
     bpy.ops.preferences.addon_enable(module="shapespace_addon")
     settings = bpy.context.preferences.addons["shapespace_addon"].preferences
-    settings.engine = "TOOLS"
+    settings.engine = "TOOLS" if window == "motion" else "MODULE"
     settings.tools = tools
     with view():
+        bpy.context.preferences.view.smooth_view = 0
         bpy.ops.object.select_all(action="SELECT")
         bpy.ops.object.delete()
-    animal = make_animal()
-    with view():
         bpy.context.area.spaces.active.show_region_ui = True
-    yield
+
+
+def look_from_the_right():
     with view():
         sidebar = next(r for r in bpy.context.area.regions if r.type == "UI")
         bpy.ops.view3d.view_axis(type="RIGHT")
         bpy.ops.view3d.view_selected()
-        bpy.ops.view3d.zoom(delta=-2)
+        bpy.context.region_data.view_distance *= 1.4
         bpy.context.area.spaces.active.overlay.show_stats = False
-    # The splash screen of a first start goes away by a click. The fourth tab of the sidebar is
-    # ours, after Item, Tool and View.
-    yield from click(100, 300)
+    # The splash screen of a first start goes away by Esc. The fourth tab of the sidebar is ours,
+    # after Item, Tool and View.
+    simulate("ESC", "PRESS", 100, 300)
+    simulate("ESC", "RELEASE", 100, 300)
+    yield
     yield from click(sidebar.x + sidebar.width - 10, sidebar.y + sidebar.height - 180)
     for area in bpy.context.window_manager.windows[0].screen.areas:
         if area.type == "PROPERTIES":
             area.spaces.active.context = "DATA"
+
+
+def screenshot(name):
+    with view():
+        bpy.ops.screen.screenshot(filepath=os.path.join(pictures, name))
+
+
+def motion():
+    """In-betweens: the window, and a picture that compares them with Blender's blend."""
+    prepare()
+    animal = make_animal("animal0.obj")
+    add_key(animal, "stretch", "animal1.obj")
+    yield
+    yield from look_from_the_right()
     with view():
         bpy.ops.shapespace.inbetweens("INVOKE_DEFAULT", True, shapes=15)
-    while bpy.context.window_manager.shapespace_progress.text:
+    while shown().text:
         yield
     bpy.context.scene.frame_end = 17
     bpy.context.scene.frame_set(9)
     for _ in range(5):
         yield
-    with view():
-        bpy.ops.screen.screenshot(filepath=os.path.join(pictures, "blender-window.png"))
+    screenshot("blender-window.png")
     yield
     render_rows(animal, os.path.join(pictures, "blender-inbetweens.png"))
 
 
-todo = steps()
+def shown():
+    """What the panel shows of a run."""
+    return bpy.context.window_manager.shapespace_progress
+
+
+def unfold(panel):
+    """Only this part of the tab."""
+    from shapespace_addon.panel import CLASSES
+
+    for kind in CLASSES:
+        if hasattr(kind, "bl_parent_id"):
+            bpy.utils.unregister_class(kind)
+            kind.bl_options = set() if kind.__name__ == panel else {"DEFAULT_CLOSED"}
+            bpy.utils.register_class(kind)
+
+
+def dragging():
+    """An empty is dragged by the key G and the pointer. Prints how long updates take."""
+    prepare()
+    unfold("SHAPESPACE_PT_deform")
+    animal = make_animal("standing0.obj")
+    add_handle(animal, "feet", "FIXED", lambda x, y, z: z < 0.1 and (y > -0.1 or x < 0))
+    add_handle(animal, "head", "FIXED", lambda x, y, z: z > 1.25 and y < -0.5)
+    add_handle(animal, "paw", "EMPTY", lambda x, y, z: z < 0.1 and y < -0.1 and x > 0)
+    paw = animal.shapespace_handles[2].target
+    yield
+    yield from look_from_the_right()
+    with view():
+        bpy.ops.shapespace.deform_live("INVOKE_DEFAULT", True, deform_shapes=5)
+    while "cold" not in shown().text:
+        yield
+    cold = shown().text
+    select(paw)
+    with view():
+        region = bpy.context.region
+    x, y = region.x + region.width // 3, region.y + region.height // 3
+    simulate("MOUSEMOVE", "NOTHING", x, y)
+    yield
+    for value in ("PRESS", "RELEASE"):
+        simulate("G", value, x, y)
+    yield
+    times, last = [], None
+    for step in range(1, 81):
+        simulate("MOUSEMOVE", "NOTHING", x - step, y + step)
+        if last is not live().last:
+            last = live().last
+            times.append((time.monotonic(), last.seconds, last.report["warm"]))
+        yield
+    for _ in range(10):
+        yield
+    screenshot("blender-dragging.png")
+    yield
+    simulate("LEFTMOUSE", "PRESS", x - 80, y + 80)
+    simulate("LEFTMOUSE", "RELEASE", x - 80, y + 80)
+    yield
+    bpy.ops.shapespace.accept()
+    while shown().text:
+        yield
+    solves = [seconds for _, seconds, warm in times if warm]
+    updates = [b[0] - a[0] for a, b in zip(times[1:], times[2:])]
+    idle = []
+    simulate("G", "PRESS", x, y)
+    for step in range(20):
+        began = time.monotonic()
+        simulate("MOUSEMOVE", "NOTHING", x - step, y + step)
+        yield
+        idle.append(time.monotonic() - began)
+    print(
+        f"{len(animal.data.polygons)} triangles, 5 shapes. {cold}. While dragged, {len(solves)} of"
+        f" {len(times)} solves were warm, and took {statistics.median(solves):.2f} s (median;"
+        f" {min(solves):.2f} to {max(solves):.2f}); the window was drawn with a new shape every"
+        f" {statistics.median(updates):.2f} s, and without solves every"
+        f" {statistics.median(idle):.2f} s"
+    )
+
+
+def live():
+    from shapespace_addon import running
+
+    (operator,) = running._running
+    return operator._live
+
+
+todo = motion() if window == "motion" else dragging()
 
 
 def step():
     try:
         next(todo)
-        return 0.2
+        return 0.2 if window == "motion" else 0.04
     except StopIteration:
         code = 0
     except BaseException:

@@ -1,12 +1,23 @@
-"""Blender add-on: geodesic in-betweens of the poses of a mesh."""
+"""Blender add-on: geodesic in-betweens of the poses of a mesh, and deformation by handles."""
 
 import bpy
 
-from . import operators, panel, preferences, progress, settings
+from . import (
+    handle_operators,
+    handles,
+    menus,
+    operators,
+    panel,
+    preferences,
+    progress,
+    report,
+    running,
+    settings,
+)
 
 bl_info = {
     "name": "shapespace",
-    "description": "In-betweens of poses along which a mesh is distorted least",
+    "description": "In-betweens of poses, and deformation by handles",
     "author": "shapespace contributors",
     "version": (0, 1, 0),
     "blender": (3, 4, 0),
@@ -16,10 +27,16 @@ bl_info = {
 
 _CLASSES = (
     settings.SHAPESPACE_settings,
+    handles.SHAPESPACE_handle,
     progress.SHAPESPACE_progress,
+    report.SHAPESPACE_figure,
+    report.SHAPESPACE_report,
     preferences.SHAPESPACE_preferences,
+    *handle_operators.CLASSES,
+    *running.CLASSES,
     *operators.CLASSES,
-    panel.SHAPESPACE_PT_panel,
+    *panel.CLASSES,
+    *menus.CLASSES,
 )
 
 
@@ -30,10 +47,24 @@ def register():
     bpy.types.WindowManager.shapespace_progress = bpy.props.PointerProperty(
         type=progress.SHAPESPACE_progress
     )
+    bpy.types.WindowManager.shapespace_report = bpy.props.PointerProperty(
+        type=report.SHAPESPACE_report
+    )
+    setattr(
+        bpy.types.Object,
+        handles.HANDLES,
+        bpy.props.CollectionProperty(type=handles.SHAPESPACE_handle),
+    )
+    setattr(bpy.types.Object, handles.ACTIVE, bpy.props.IntProperty())
+    menus.add()
 
 
 def unregister():
-    operators.cancel_running()
+    running.cancel_all(bpy.context)
+    menus.remove()
+    delattr(bpy.types.Object, handles.ACTIVE)
+    delattr(bpy.types.Object, handles.HANDLES)
+    del bpy.types.WindowManager.shapespace_report
     del bpy.types.WindowManager.shapespace_progress
     del bpy.types.Scene.shapespace
     for kind in reversed(_CLASSES):

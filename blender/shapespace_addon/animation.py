@@ -21,11 +21,20 @@ def curves_of(owner):
     return []
 
 
-def require_free(key) -> None:
-    """Raises a Problem if something other than keyframes decides on a key's value."""
+def has_driver(key) -> bool:
+    """Whether the value of a key is computed from something else."""
     animation = key.id_data.animation_data
     path = key.path_from_id("value")
-    if animation is not None and any(driver.data_path == path for driver in animation.drivers):
+    return animation is not None and any(driver.data_path == path for driver in animation.drivers)
+
+
+def has_keyframes(key) -> bool:
+    return _curve(key) is not None
+
+
+def require_free(key) -> None:
+    """Raises a Problem if something other than keyframes decides on a key's value."""
+    if has_driver(key):
         raise Problem(f"The value of '{key.name}' has a driver: remove it, or mute this shape key")
     if key.slider_min > 0 or key.slider_max < 1:
         raise Problem(

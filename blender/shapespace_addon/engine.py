@@ -6,10 +6,9 @@ import bpy
 
 from . import module, tools
 from .problem import Problem
-from .task import Task
 
 
-def begin(task: Task, preferences):
+def begin(task, preferences):
     """Starts a run according to the preferences. Raises Problem if nobody can compute."""
     if preferences.engine != "TOOLS":
         try:
@@ -32,3 +31,15 @@ def describe(preferences) -> str:
                 raise
     program = tools.find(bpy.path.abspath(preferences.tools))["shape-interpolate"]
     return f"Tools: {program}"
+
+
+def module_in_memory(preferences):
+    """The Python module, for what goes on from its last solution. Raises a Problem if the
+    preferences choose the tools, which begin anew each time, or if it is not there."""
+    if preferences.engine == "TOOLS":
+        raise Problem(
+            "While handles are dragged the Python module has to compute, since it goes on from its"
+            " last solution: choose Automatic or Python Module in the preferences of this add-on, or"
+            " press Deform after each move"
+        )
+    return module.find()

@@ -10,6 +10,7 @@ class Frame:
 
     def __init__(self, matrix: np.ndarray, centre=(0.0, 0.0, 0.0)):
         self.matrix = matrix  # of the object, 4 x 4
+        self.centre = np.asarray(centre)
         self._linear = matrix[:3, :3]
         self._offset = matrix[:3, 3] - centre
 

@@ -67,6 +67,16 @@ def add_motion(context, item, shapes, file: str, timing) -> None:
     modifier.frame_start = timing.start / timing.step
 
 
+def require_none(item) -> None:
+    """Raises a Problem if a cache that is seen hides the shape keys."""
+    modifier = _modifier(item)
+    if modifier is not None and modifier.show_viewport:
+        raise Problem(
+            f"The modifier '{modifier.name}' of '{item.name}' plays a point cache, which hides shape"
+            " keys: turn it off, or remove it"
+        )
+
+
 def remove(item) -> None:
     """Removes the modifier of an earlier run, which would hide shape keys."""
     modifier = _modifier(item)

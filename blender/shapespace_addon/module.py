@@ -2,8 +2,10 @@
 
 import threading
 
+import numpy as np
+
 from .problem import Problem
-from .task import Result, Task
+from .task import Deformation, Metric, Repair, Result
 
 # The default of shape-extrapolate, so that tools and module compute the same motion.
 _EXTRAPOLATION_TOLERANCE = 1e-6
@@ -21,17 +23,64 @@ def find():
     return shapespace
 
 
+def poses_of(module, body):
+    """The poses as the module takes them."""
+    return module.Poses(
+        body.shapes,
+        body.topology.polygons(),
+        segments=body.topology.segments,
+        allow_nonmanifold=True,
+    )
+
+
+def handles_of(module, handles: list) -> list:
+    """Handles as the module takes them."""
+    found = []
+    for handle in handles:
+        options = {"name": handle.name}
+        if handle.motion is not None:
+            options.update(vars(handle.motion))
+        if handle.weight is not None:
+            options.update(hard=False, weight=handle.weight)
+        found.append(module.Handle(handle.vertices, **options))
+    return found
+
+
+def options_of(task) -> dict:
+    """Options of a deformation, or those that all solves have."""
+    options = {"metric": _metric(task.metric)}
+    if task.tolerance is not None:
+        options["tolerance"] = task.tolerance
+    if isinstance(task, Deformation):
+        options["shapes"] = task.shapes
+    if isinstance(task, (Deformation, Repair)):
+        options["balance"] = task.balance
+    return options
+
+
+def _metric(metric: Metric) -> dict:
+    given = {
+        "preset": metric.preset or None,
+        "bending": metric.bending,
+        "volume": metric.volume,
+        "stretching_stiffness": metric.stiffness,
+        "bending_stiffness": metric.stiffness,
+    }
+    return {name: value for name, value in given.items() if value is not None}
+
+
 class ModuleRun:
     """A thread, which runs while Blender waits for events because solvers release Python's lock."""
 
-    def __init__(self, task: Task, module):
+    def __init__(self, task, module):
         self.share = None
         self.text = ""
         self._task = task
         self._module = module
         self._notes = []
         self._motions = []
-        self._stages = 1 + len(task.targets)
+        self._report = {}
+        self._stages = 1 + len(getattr(task, "targets", []))
         self._stage = 0
         self._cancelled = False
         self._error = None
@@ -53,7 +102,8 @@ class ModuleRun:
         self._cancelled = True
 
     def result(self) -> Result:
-        return Result(self._motions, [self._named(note) for note in dict.fromkeys(self._notes)])
+        notes = [self._named(note) for note in dict.fromkeys(self._notes)]
+        return Result(self._motions, notes, self._report)
 
     def _named(self, text: str) -> str:
         """With the poses' names, where the module has their numbers."""
@@ -68,21 +118,47 @@ class ModuleRun:
             self._error = error
 
     def _compute(self) -> None:
+        task = self._task
+        if isinstance(task, Deformation):
+            self._deform()
+        elif isinstance(task, Repair):
+            self._repair()
+        elif task.modes is not None:
+            self._average()
+        else:
+            self._move()
+
+    def _deform(self) -> None:
         module, task = self._module, self._task
-        body = task.poses
-        poses = module.Poses(
-            body.shapes,
-            body.topology.polygons(),
-            segments=body.topology.segments,
-            allow_nonmanifold=True,
+        path = self._take(
+            module.deform(
+                self._poses(),
+                None,
+                handles_of(module, task.handles),
+                progress=self._hear,
+                **options_of(task),
+            )
         )
-        self._notes += poses.warnings
-        if task.modes is not None:
-            self._average(poses)
-            return
-        options = {"metric": task.metric}
+        self._motions.append(path.vertices)
+
+    def _repair(self) -> None:
+        task = self._task
+        distorted, sound = task.poses.shapes
+        both = self._poses()
+        reference = self._module.Poses([sound], both)
+        path = self._take(
+            self._module.repair(
+                reference, distorted, vertices=task.kept, progress=self._hear, **options_of(task)
+            )
+        )
+        self._motions.append(path.vertices)
+
+    def _move(self) -> None:
+        module, task = self._module, self._task
+        poses = self._poses()
+        options = options_of(task)
         if task.steps:
-            options["tolerance"] = _EXTRAPOLATION_TOLERANCE
+            options.setdefault("tolerance", _EXTRAPOLATION_TOLERANCE)
         if task.ends:
             options["ends"] = task.ends
         solve = module.spline if task.ends else module.interpolate
@@ -100,27 +176,46 @@ class ModuleRun:
                 moved = module.transfer(path, shape, progress=self._hear)
             self._motions.append(self._take(moved).vertices)
         if not task.targets:
-            self._motions.append(path.vertices)
+            self._motions.append(self._placed(path).vertices)
 
-    def _average(self, poses) -> None:
+    def _placed(self, path):
+        """The path, anchored and on the ground as far as that was asked for."""
+        if self._task.anchor is not None:
+            path = path.anchor(self._task.anchor)
+        if self._task.ground is not None:
+            path = path.ground("z", self._task.ground)
+        return path
+
+    def _average(self) -> None:
         task = self._task
+        poses, metric = self._poses(), _metric(task.metric)
         if task.modes == 0:
             shape, summary = self._module.average(
-                poses, metric=task.metric, certify=False, progress=self._hear
+                poses, metric=metric, certify=False, progress=self._hear
             )
-            self._notes += summary.warnings
-            self._motions.append(shape[None])
+            self._note(summary)
+            self._motions.append(shape[np.newaxis])
             return
-        model = self._module.ShapeModel(modes=task.modes, metric=task.metric)
+        model = self._module.ShapeModel(modes=task.modes, metric=metric)
         model.fit(poses, progress=self._hear)
-        self._notes += model.summary.warnings
+        self._note(model.summary)
         rows = [[0.0] * k + [1.0] for k in range(task.modes)]
         self._motions.append(model.inverse_transform([[0.0], *rows], progress=self._hear))
 
+    def _poses(self):
+        poses = poses_of(self._module, self._task.poses)
+        self._notes += poses.warnings
+        return poses
+
+    def _note(self, summary) -> None:
+        self._report = summary.to_dict()
+        self._notes += getattr(summary, "deformation", summary).warnings
+
     def _take(self, result):
-        self._notes += result.summary.warnings
-        if not result.summary.converged:
-            brief = repr(result.summary)  # <GeodesicSummary: NOT CONVERGED ...>
+        summary = result.summary
+        self._note(summary)
+        if not summary.converged:
+            brief = repr(summary)  # <GeodesicSummary: NOT CONVERGED ...>
             self._notes.append(brief.partition(": ")[2].rstrip(">"))
         return result.path
 

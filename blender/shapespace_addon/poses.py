@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import record
+from . import record, vertex_groups
 from .frame import Frame
 from .problem import Problem
 from .topology import Topology, require_same, topology_of
@@ -43,10 +43,39 @@ def selected_meshes(context) -> list:
     return sorted(meshes, key=lambda item: _natural(item.name))
 
 
+def require_poses(context) -> None:
+    """Raises a Problem if it can be seen at once that there are no poses."""
+    items = selected_meshes(context)
+    for item in items:
+        require_object_mode(item)
+    if len(items) == 1:
+        require_shape_keys(items[0])
+
+
 def require_object_mode(item) -> None:
     if item.mode != "OBJECT":
         mode = item.mode.replace("_", " ").title()
         raise Problem(f"'{item.name}' is in {mode} Mode: change to Object Mode first")
+
+
+def active_mesh(context):
+    """The active object. Raises a Problem unless it is a mesh in Object Mode."""
+    item = context.active_object
+    if item is None or item.type != "MESH":
+        raise Problem("The active object is no mesh: make a mesh active, by a click on it")
+    require_object_mode(item)
+    return item
+
+
+def require_shape_keys(item) -> None:
+    shape_keys = item.data.shape_keys
+    if shape_keys is None:
+        raise Problem(
+            f"'{item.name}' has no shape keys: add one for each pose, or select several meshes"
+            " that are poses of one"
+        )
+    if not shape_keys.use_relative:
+        raise Problem(f"The shape keys of '{item.name}' are absolute: tick Relative above them")
 
 
 def poses_of_keys(context, item, with_basis: bool) -> Poses:
@@ -56,14 +85,8 @@ def poses_of_keys(context, item, with_basis: bool) -> Poses:
     """
     require_object_mode(item)
     _require_vertices(item.name, item.data)
+    require_shape_keys(item)
     shape_keys = item.data.shape_keys
-    if shape_keys is None:
-        raise Problem(
-            f"'{item.name}' has no shape keys: add one for each pose, or select several meshes"
-            " that are poses of one"
-        )
-    if not shape_keys.use_relative:
-        raise Problem(f"The shape keys of '{item.name}' are absolute: tick Relative above them")
     made = set(record.in_betweens(shape_keys))
     basis = shape_keys.reference_key
     keys = [
@@ -77,7 +100,7 @@ def poses_of_keys(context, item, with_basis: bool) -> Poses:
     return _poses(
         [key.name for key in keys],
         [_shape_of_key(item, key) for key in keys],
-        [_matrix(context, item)] * len(keys),
+        [matrix_of(context, item)] * len(keys),
         topology_of(item.data),
     )
 
@@ -98,13 +121,9 @@ def poses_of_objects(context, items) -> Poses:
         evaluated.to_mesh_clear()
     for name, topology in zip(names, topologies):
         require_same(topologies[0], names[0], topology, name)
-    matrices = [_matrix(context, item) for item in items]
+    matrices = [matrix_of(context, item) for item in items]
     for name, matrix in zip(names, matrices):
-        if np.linalg.det(matrix[:3, :3]) * np.linalg.det(matrices[0][:3, :3]) < 0:
-            raise Problem(
-                f"Either '{names[0]}' or '{name}' is mirrored, since its scale is negative: give"
-                " both a positive scale"
-            )
+        _require_same_side(names[0], matrices[0], name, matrix)
     return _poses(names, shapes, matrices, topologies[0])
 
 
@@ -115,8 +134,41 @@ def pose_of_target(context, item) -> Poses:
     shape_keys = item.data.shape_keys
     points = item.data.vertices if shape_keys is None else shape_keys.reference_key.data
     return _poses(
-        [item.name], [_coordinates(points)], [_matrix(context, item)], topology_of(item.data)
+        [item.name], [_coordinates(points)], [matrix_of(context, item)], topology_of(item.data)
     )
+
+
+def distorted_and_sound(context, item, other) -> Poses:
+    """The active shape key of an object and its Basis or, with another object, that one's mesh at
+    rest; then the object may have no shape keys."""
+    require_object_mode(item)
+    _require_vertices(item.name, item.data)
+    shape_keys = item.data.shape_keys
+    topology = topology_of(item.data)
+    key = item.active_shape_key
+    if shape_keys is None or (other is not None and key == shape_keys.reference_key):
+        name, distorted = item.name, pose_of_target(context, item).own[0]
+    else:
+        name, distorted = key.name, _shape_of_key(item, key)
+    matrix = matrix_of(context, item)
+    if other is None:
+        reference = shape_keys.reference_key
+        names, sound = [name, reference.name], _coordinates(reference.data)
+        return _poses(names, [distorted, sound], [matrix] * 2, topology)
+    body = pose_of_target(context, other)
+    require_same(topology, item.name, body.topology, other.name)
+    _require_same_side(item.name, matrix, other.name, body.frame.matrix)
+    return _poses(
+        [name, other.name], [distorted, body.own[0]], [matrix, body.frame.matrix], topology
+    )
+
+
+def _require_same_side(first: str, matrix: np.ndarray, other: str, matrix_of_other) -> None:
+    if np.linalg.det(matrix[:3, :3]) * np.linalg.det(matrix_of_other[:3, :3]) < 0:
+        raise Problem(
+            f"Either '{first}' or '{other}' is mirrored, since its scale is negative: give both a"
+            " positive scale"
+        )
 
 
 def _require_vertices(name: str, mesh) -> None:
@@ -143,17 +195,9 @@ def _shape_of_key(item, key) -> np.ndarray:
         return shape
     offsets = shape - _coordinates(key.relative_key.data)
     if key.vertex_group in item.vertex_groups:
-        offsets *= _weights(item, item.vertex_groups[key.vertex_group].index)[:, np.newaxis]
+        weights = vertex_groups.weights(item, key.vertex_group, item.data.vertices, "limits a key")
+        offsets *= weights[:, np.newaxis]
     return _coordinates(basis.data) + offsets
-
-
-def _weights(item, group: int) -> np.ndarray:
-    return np.array(
-        [
-            next((of.weight for of in vertex.groups if of.group == group), 0.0)
-            for vertex in item.data.vertices
-        ]
-    )
 
 
 def _coordinates(points) -> np.ndarray:
@@ -162,7 +206,8 @@ def _coordinates(points) -> np.ndarray:
     return flat.reshape(-1, 3).astype(np.float64)
 
 
-def _matrix(context, item) -> np.ndarray:
+def matrix_of(context, item) -> np.ndarray:
+    """The object's matrix in the scene, 4 x 4. Raises a Problem unless it can be inverted."""
     evaluated = item.evaluated_get(context.evaluated_depsgraph_get())
     matrix = np.array(evaluated.matrix_world, np.float64)
     lengths = np.linalg.norm(matrix[:3, :3], axis=0)

@@ -20,8 +20,8 @@ class SHAPESPACE_preferences(bpy.types.AddonPreferences):
     )
     tools: StringProperty(
         name="Folder of the Tools",
-        description="It contains shape-interpolate, shape-extrapolate and shape-transfer. If it is"
-        " empty, they are looked for in PATH",
+        description="It contains shape-interpolate, shape-deform and the others. If it is empty, they"
+        " are looked for in PATH",
         subtype="DIR_PATH",
     )
 

@@ -5,13 +5,20 @@ _NAME = "shapespace"
 
 def in_betweens(shape_keys) -> list:
     """Names of the in-betweens."""
-    return list(shape_keys.get(_NAME, {}).get("in_betweens", []))
+    return made(shape_keys, "in_betweens")
 
 
 def transferred(shape_keys) -> list:
     """Names of the poses that came from another body."""
-    return list(shape_keys.get(_NAME, {}).get("transferred", []))
+    return made(shape_keys, "transferred")
 
 
-def write(shape_keys, in_betweens: list, transferred: list) -> None:
-    shape_keys[_NAME] = {"in_betweens": in_betweens, "transferred": transferred}
+def made(shape_keys, kind: str) -> list:
+    """Names of the keys of one kind."""
+    return list(shape_keys.get(_NAME, {}).get(kind, []))
+
+
+def write(shape_keys, **names: list) -> None:
+    """Records the names of the kinds that are given; those of other kinds stay."""
+    before = shape_keys.get(_NAME)
+    shape_keys[_NAME] = {**(before.to_dict() if before is not None else {}), **names}

@@ -3,11 +3,70 @@
 from dataclasses import dataclass
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 
-class PoseSettings:
-    """What all operators have in common."""
+class MetricSettings:
+    """What the metric costs beside its preset. All operators have these."""
+
+    stiffness_group: StringProperty(
+        name="Stiffness",
+        description="Vertex group that is stiffer than the rest, or softer. Without, all is alike",
+    )
+    stiffness_factor: FloatProperty(
+        name="Factor",
+        description="By how much stretching and bending cost more where the group's weight is 1; less"
+        " than 1 is softer. A weight between 0 and 1 counts as that power of the factor",
+        default=100,
+        min=1e-3,
+        max=1e6,
+    )
+    custom_bending: BoolProperty(
+        name="Custom Bending",
+        description="Set the cost of bending. Otherwise it is the preset's, or for Deform and Repair"
+        " what suits the mesh",
+    )
+    bending: FloatProperty(
+        name="Bending",
+        description="Cost of bending, relative to stretching. With more, bends are wider",
+        default=7e-5,
+        min=0,
+        soft_max=1e-2,
+        precision=6,
+    )
+    custom_volume: BoolProperty(
+        name="Custom Volume",
+        description="Set the cost of changing the enclosed volume. Otherwise it is the preset's, or"
+        " for Deform and Repair what suits the mesh",
+    )
+    volume: FloatProperty(
+        name="Volume",
+        description="Cost of changing the enclosed volume, of closed meshes. At 30 Deform keeps it"
+        " within .3 %",
+        default=3,
+        min=0,
+        soft_max=30,
+    )
+
+
+class ToleranceSettings:
+    custom_tolerance: BoolProperty(
+        name="Custom Tolerance",
+        description="Set when a solve ends. Otherwise it ends where the tools' default is",
+    )
+    tolerance: FloatProperty(
+        name="Tolerance",
+        description="A solve ends when an iteration gains less than this share. With less, results"
+        " are more exact and take longer",
+        default=1e-5,
+        min=1e-12,
+        max=0.1,
+        precision=7,
+    )
+
+
+class PoseSettings(MetricSettings):
+    """What all operators on poses have in common."""
 
     metric: EnumProperty(
         name="Metric",
@@ -26,7 +85,7 @@ class PoseSettings:
     )
 
 
-class MotionSettings(PoseSettings):
+class MotionSettings(PoseSettings, ToleranceSettings):
     """What the operators that make motions have in common. The numbers are the tools' defaults."""
 
     shapes: IntProperty(
@@ -58,6 +117,26 @@ class MotionSettings(PoseSettings):
         description="Where point caches are written; // is the folder of the .blend",
         default="//",
         subtype="DIR_PATH",
+    )
+
+
+class PlacementSettings:
+    """Where the shapes of a motion are."""
+
+    anchor_group: StringProperty(
+        name="Anchor",
+        description="Vertex group that stands still between poses that have it in one place. Else"
+        " it moves rigidly from pose to pose. The shapes are moved as a whole for that",
+    )
+    ground: BoolProperty(
+        name="Ground",
+        description="Move each shape up or down so that its lowest vertex is at the given height. The"
+        " poses are shown there too, as shape keys of their own",
+    )
+    ground_height: FloatProperty(
+        name="Height",
+        description="Height of the ground in the scene",
+        unit="LENGTH",
     )
 
 
@@ -101,12 +180,49 @@ class AverageSettings:
     )
 
 
+class DeformSettings(MetricSettings, ToleranceSettings):
+    deform_shapes: IntProperty(
+        name="Steps",
+        description="Shapes on the way to the deformed one, itself included. They resolve how parts"
+        " turn: at least one for every 90 degrees",
+        default=5,
+        min=1,
+        soft_max=20,
+    )
+    balance: FloatProperty(
+        name="Balance",
+        description="Weight of the metric against soft handles. With more, they yield more",
+        default=0.01,
+        min=1e-6,
+        max=1,
+        precision=4,
+    )
+
+
+class RepairSettings(MetricSettings, ToleranceSettings):
+    repair_balance: FloatProperty(
+        name="Balance",
+        description="With more, more of the sound geometry is restored, and less of the pose is kept",
+        default=0.5,
+        min=1e-6,
+        max=1,
+    )
+    sound_group: StringProperty(
+        name="Keep",
+        description="Vertex group whose positions in the distorted pose are kept as far as possible."
+        " Those of other vertices are ignored. Without, all are kept",
+    )
+
+
 class SHAPESPACE_settings(
     MotionSettings,
+    PlacementSettings,
     SmoothSettings,
     ExtrapolationSettings,
     TransferSettings,
     AverageSettings,
+    DeformSettings,
+    RepairSettings,
     bpy.types.PropertyGroup,
 ):
     """All settings of a scene."""

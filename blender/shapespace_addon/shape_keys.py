@@ -1,8 +1,10 @@
 """Motions as shape keys with keyframes."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from . import animation, record
+from . import animation, mesh_cache, record
 from .problem import Problem
 
 _PREFIX = "geo"  # of the in-betweens' names
@@ -38,12 +40,14 @@ def add_poses(item, names: list, shapes) -> list:
     return [_add(item, name, shape).name for name, shape in zip(names, shapes)]
 
 
-def add_motion(item, shapes: np.ndarray, poses: dict, timing, transferred=()) -> list:
+def add_motion(
+    item, shapes: np.ndarray, poses: dict, timing, transferred=(), unseen=()
+) -> list:
     """Shape keys for the shapes of a motion that are no poses, and keyframes for all.
 
-    `poses` has the names of the keys of those that are; a key may be there twice. What an earlier
-    run added is replaced; poses that were transferred stay, unless these are others. Returns what
-    is worth saying.
+    `poses` has the names of the keys of those that are; a key may be there twice. Keys that are
+    `unseen` are off all the time. What an earlier run added is replaced; poses that were
+    transferred stay, unless these are others. Returns what is worth saying.
     """
     shape_keys = item.data.shape_keys
     blocks = shape_keys.key_blocks
@@ -57,16 +61,115 @@ def add_motion(item, shapes: np.ndarray, poses: dict, timing, transferred=()) ->
     }
     shown = [(index, name) for index, name in sorted({**poses, **made}.items()) if name != basis]
     replaced = []
-    for name in dict.fromkeys(name for _, name in shown):
+    for name in dict.fromkeys([*(name for _, name in shown), *unseen]):
         if animation.remove_keyframes(blocks[name]) and not earlier:
             replaced.append(f"'{name}'")
     for index, name in shown:
         animation.peak(blocks[name], index, len(shapes), timing.start, timing.step)
+    for name in unseen:
+        blocks[name].value = 0
     record.write(
-        shape_keys, list(made.values()), list(transferred) or record.transferred(shape_keys)
+        shape_keys,
+        in_betweens=list(made.values()),
+        transferred=list(transferred) or record.transferred(shape_keys),
     )
     item.show_only_shape_key = False
     return [f"Keyframes that {', '.join(replaced)} had were replaced"] if replaced else []
+
+
+def show_result(item, kind: str, shape: np.ndarray) -> None:
+    """Gives an object one shape as a shape key that is on and active.
+
+    The key of an earlier result of this kind is used again, unless it was renamed.
+    """
+    if item.data.shape_keys is None:
+        item.shape_key_add(name="Basis", from_mix=False)
+    shape_keys = item.data.shape_keys
+    key = result_key(item, kind)
+    if key is None:
+        key = _add(item, kind, shape)
+        record.write(shape_keys, **{kind: [key.name]})
+    else:
+        key.data.foreach_set("co", shape.astype(np.float32).reshape(-1))
+    if not animation.has_keyframes(key):
+        key.value = 1
+    item.active_shape_key_index = shape_keys.key_blocks.find(key.name)
+    item.data.update_tag()
+
+
+def result_key(item, kind: str):
+    """The key of an earlier result of this kind, or None."""
+    shape_keys = item.data.shape_keys
+    names = [] if shape_keys is None else record.made(shape_keys, kind)
+    return next((shape_keys.key_blocks[n] for n in names if n in shape_keys.key_blocks), None)
+
+
+def require_result_seen(item, kind: str) -> None:
+    """Raises a Problem if a result of this kind could not be seen as a shape key."""
+    require_editable(item)
+    mesh_cache.require_none(item)
+    key = result_key(item, kind)
+    if key is not None and (key.mute or animation.has_driver(key)):
+        raise Problem(
+            f"The shape key '{key.name}' is muted or has a driver: change that, or rename the key to"
+            " keep it"
+        )
+
+
+@dataclass
+class Before:
+    """What `show_result` changes, as it was."""
+
+    had_keys: bool
+    active: int
+    shape: np.ndarray | None  # of the result's key, if there was one
+    value: float
+
+
+def state_before(item, kind: str) -> Before:
+    key = result_key(item, kind)
+    shape = None
+    if key is not None:
+        shape = np.empty(3 * len(key.data), np.float32)
+        key.data.foreach_get("co", shape)
+    had_keys = item.data.shape_keys is not None
+    return Before(had_keys, item.active_shape_key_index, shape, 0 if key is None else key.value)
+
+
+def restore(item, kind: str, before: Before) -> None:
+    """Takes back what `show_result` has done, as far as it is still there."""
+    key = result_key(item, kind)
+    if before.shape is not None:
+        if key is not None and 3 * len(key.data) == len(before.shape):
+            key.data.foreach_set("co", before.shape)
+            key.value = before.value
+    elif key is not None:
+        record.write(item.data.shape_keys, **{kind: []})
+        item.shape_key_remove(key)
+        if not before.had_keys and len(item.data.shape_keys.key_blocks) == 1:
+            item.shape_key_clear()
+    item.active_shape_key_index = before.active
+    item.data.update_tag()
+
+
+def require_pose_active(item) -> None:
+    """Raises a Problem unless the active shape key is another one than the Basis."""
+    keys = item.data.shape_keys
+    if keys is None or item.active_shape_key == keys.reference_key:
+        raise Problem(
+            f"The active shape key of '{item.name}' is no distorted pose: choose one in the list of"
+            " shape keys, or select a sound mesh first and then the distorted one"
+        )
+    if not keys.use_relative:
+        raise Problem(f"The shape keys of '{item.name}' are absolute: tick Relative above them")
+
+
+def turn_off(item, name: str) -> None:
+    """Sets the value of a key of this name to 0, if there is one that has no keyframes."""
+    keys = item.data.shape_keys
+    key = None if keys is None else keys.key_blocks.get(name)
+    if key is not None and key != keys.reference_key and not animation.has_keyframes(key):
+        key.value = 0
 
 
 def remove(item, names) -> None:

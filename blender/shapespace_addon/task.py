@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from .topology import Topology
 
 
@@ -15,16 +17,73 @@ class Body:
 
 
 @dataclass
+class Metric:
+    """What motions cost. None stands for the preset's own, or without a preset for what suits the
+    mesh."""
+
+    preset: str = ""
+    bending: float | None = None
+    volume: float | None = None
+    stiffness: np.ndarray | None = None  # n factors
+
+
+@dataclass
 class Task:
     """A motion through poses, perhaps continued, perhaps transferred to other bodies."""
 
     poses: Body
     shapes: int  # between neighbouring poses; 0, which only a transfer may have: poses alone
-    metric: str  # a preset of the metric
+    metric: Metric
     steps: int = 0  # beyond the last pose
     ends: str = ""  # of a spline, "natural" or "periodic"; else a chain of geodesics
     modes: int | None = None  # instead of a motion: the average and this number of modes
     targets: list = field(default_factory=list)  # bodies of one pose each
+    tolerance: float | None = None
+    anchor: np.ndarray | None = None  # numbers of vertices
+    ground: float | None = None  # the third coordinate of each shape's lowest vertex
+
+
+@dataclass
+class Motion:
+    """A turn by `angle`, in radians, about an axis through a point, and then a translation."""
+
+    axis: np.ndarray
+    angle: float
+    point: np.ndarray
+    translation: np.ndarray
+
+
+@dataclass
+class Handle:
+    """Vertices that stay or, with a motion, are moved. Met exactly unless there is a weight."""
+
+    name: str
+    vertices: np.ndarray
+    motion: Motion | None
+    weight: float | None
+
+
+@dataclass
+class Deformation:
+    """A mesh to be deformed by handles."""
+
+    poses: Body  # one shape
+    handles: list
+    shapes: int  # on the way, the deformed one included
+    balance: float
+    metric: Metric
+    tolerance: float | None = None
+
+
+@dataclass
+class Repair:
+    """A distorted pose to be given the geometry of a sound one."""
+
+    poses: Body  # two shapes: the distorted, and the sound
+    kept: np.ndarray | None  # vertices whose positions count; None: all
+    balance: float
+    metric: Metric
+    tolerance: float | None = None
 
 
 @dataclass
@@ -33,3 +92,4 @@ class Result:
 
     motions: list  # k x n x 3 each: one of the poses' body, or one of each target
     notes: list
+    report: dict  # of the last solve, as --report report.json of the tools has it

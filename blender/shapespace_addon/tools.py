@@ -1,27 +1,27 @@
 """Runs the command-line tools as processes of their own."""
 
+import json
 import os
 import shutil
 import subprocess
 import tempfile
 import threading
 
+from . import commands
 from .files import read_pc2, write_ply
 from .problem import Problem
-from .task import Result, Task
+from .task import Result
 
-_NEEDED = ("shape-interpolate", "shape-extrapolate", "shape-transfer")
-_FOR_AVERAGES = ("shape-average", "shape-statistics")  # which older tools do not have
 # Meshes from modelling often have non-manifold edges, such as those of inner faces.
 _ALWAYS = ("--allow_nonmanifold", "--progress", "lines")
-_SOURCE = "source.path"  # the motion that is transferred
 _SECONDS_TO_END = 2  # that a process is given to end by itself
 
 
 def find(folder: str) -> dict:
     """The programs, from a folder or, if that is "", from PATH. Raises Problem."""
-    found = {name: shutil.which(name, path=folder or None) for name in _NEEDED + _FOR_AVERAGES}
-    missing = [name for name in _NEEDED if found[name] is None]
+    names = commands.NEEDED + commands.OPTIONAL
+    found = {name: shutil.which(name, path=folder or None) for name in names}
+    missing = [name for name in commands.NEEDED if found[name] is None]
     if missing:
         raise Problem(
             f"{missing[0]} was not found in {folder or 'any folder of PATH'}: build shapespace, and"
@@ -33,22 +33,23 @@ def find(folder: str) -> dict:
 class ToolsRun:
     """Commands one after the other, in a temporary folder that is gone when the run is over."""
 
-    def __init__(self, task: Task, programs: dict, temporary: str):
+    def __init__(self, task, programs: dict, temporary: str):
         self.share = None
         self.text = ""
         self._notes = []
         self._errors = []
         self._process = None
         self._folder = tempfile.TemporaryDirectory(prefix="shapespace-", dir=temporary)
-        self._names = {_SOURCE: "the source's motion"}  # of files, as a person knows them
+        self._names = {commands.SOURCE: "the source's motion"}  # of files, as a person knows them
         try:
             poses = self._write(task.poses, "pose")
             targets = [
-                self._write(body, f"target{i}-")[0] for i, body in enumerate(task.targets)
+                self._write(body, f"target{i}-")[0]
+                for i, body in enumerate(getattr(task, "targets", []))
             ]
-            self._commands = _commands(task, poses, targets, programs)
+            self._commands = commands.commands(task, poses, targets, programs, self._folder.name)
             self._done = 0
-            self._outputs = [f"motion{i}.pc2" for i in range(max(1, len(targets)))]
+            self._outputs = commands.outputs(task)
             self._start()
         except BaseException:
             self._folder.cleanup()
@@ -83,7 +84,10 @@ class ToolsRun:
     def result(self) -> Result:
         try:
             files = [os.path.join(self._folder.name, name) for name in self._outputs]
-            return Result([read_pc2(file) for file in files], list(dict.fromkeys(self._notes)))
+            with open(os.path.join(self._folder.name, commands.REPORT)) as source:
+                report = json.load(source)
+            motions = [read_pc2(file) for file in files]
+            return Result(motions, list(dict.fromkeys(self._notes)), report)
         finally:
             self._folder.cleanup()
 
@@ -132,33 +136,3 @@ class ToolsRun:
             self._notes.append(rest)
         elif "NOT CONVERGED" in line or "STOPPED EARLY" in line:
             self._notes.append(line)
-
-
-def _commands(task: Task, poses: list, targets: list, programs: dict) -> list:
-    if task.modes is not None:
-        name = "shape-statistics" if task.modes else "shape-average"
-        if programs[name] is None:
-            raise Problem(f"{name} was not found where shape-interpolate is: build shapespace again")
-        how = ["--modes", str(task.modes)] if task.modes else ["--nocertify"]
-        what = ["--metric", task.metric, "--output", "motion0.pc2"]
-        return [[programs[name], *poses, *what, *how]]
-    inserted = ["--shapes", str(task.shapes), "--metric", task.metric]
-    if not targets:
-        output = ["--output", "motion0.pc2"]
-        if task.steps:
-            steps = ["--steps", str(task.steps)]
-            return [[programs["shape-extrapolate"], *poses, *inserted, *steps, *output]]
-        spline = ["--spline", task.ends] if task.ends else []
-        return [[programs["shape-interpolate"], *poses, *inserted, *spline, *output]]
-    commands = []
-    if task.shapes:
-        commands.append([programs["shape-interpolate"], *poses, *inserted, "--output", _SOURCE])
-        source = [_SOURCE]
-    else:
-        source = poses
-    for i, target in enumerate(targets):
-        output = f"motion{i}.pc2"
-        commands.append(
-            [programs["shape-transfer"], *source, "--target", target, "--output", output]
-        )
-    return commands

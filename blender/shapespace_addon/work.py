@@ -3,12 +3,14 @@
 Data-blocks may come and go while it computes, so only their names are kept.
 """
 
+import contextlib
 import time
 
 import bpy
 from mathutils import Matrix
 
-from . import engine, mesh_cache, record, shape_keys
+from . import engine, mesh_cache, record, shape_keys, vertex_groups
+from .metric import metric_of, tolerance_of
 from .poses import pose_of_target, poses_of_keys, poses_of_objects, selected_meshes
 from .problem import Problem
 from .settings import Timing
@@ -26,7 +28,8 @@ class Work:
         self._objects = self._choose(context)
         self._bodies = self._read(context)
         self._check_places()
-        self._run = engine.begin(self._task(), preferences)
+        self._run = engine.begin(self._task(context), preferences)
+        self.report = {}  # of the solve, when the work is finished
 
     @property
     def share(self):
@@ -63,6 +66,7 @@ class Work:
                     " dropped. Start again"
                 )
         self._check_places()
+        self.report = result.report
         notes = list(result.notes)
         for i, motion in enumerate(result.motions):
             notes += self._place(context, i, motion)
@@ -80,7 +84,8 @@ class Work:
         """Raises a Problem if the result cannot be written."""
         raise NotImplementedError
 
-    def _task(self) -> Task:
+    def _task(self, context):
+        """What to compute: a task of any kind."""
         raise NotImplementedError
 
     def _place(self, context, i: int, motion) -> list:
@@ -90,7 +95,7 @@ class Work:
     def _items(self) -> list:
         for name in self._objects:
             if name not in bpy.data.objects:
-                raise Problem(f"'{name}' is gone: the motion that was computed for it is dropped")
+                raise Problem(f"'{name}' is gone: what was computed for it is dropped")
         return [bpy.data.objects[name] for name in self._objects]
 
     def _check_place(self, item) -> None:
@@ -100,14 +105,14 @@ class Work:
         else:
             shape_keys.require_editable(item)
 
-    def _put(self, context, item, motion, poses: dict, transferred=()) -> list:
+    def _put(self, context, item, motion, poses: dict, transferred=(), unseen=()) -> list:
         timing = Timing(self._settings.frame_start, self._settings.frame_step)
         if self._settings.result == "CACHE":
             file = mesh_cache.file_for(item.name, self._settings.cache_folder)
             mesh_cache.add_motion(context, item, motion, file, timing)
             return []
         mesh_cache.remove(item)
-        return shape_keys.add_motion(item, motion, poses, timing, transferred)
+        return shape_keys.add_motion(item, motion, poses, timing, transferred, unseen)
 
 
 class PosesOfSelection(Work):
@@ -121,6 +126,19 @@ class PosesOfSelection(Work):
         if len(items) > 1:
             return [poses_of_objects(context, items)]
         return [poses_of_keys(context, items[0], self._settings.use_basis)]
+
+    @contextlib.contextmanager
+    def _vertices(self, context):
+        """The first object's vertices that correspond to those of the poses."""
+        first, *others = self._items()
+        if not others:
+            yield first.data.vertices
+            return
+        evaluated = first.evaluated_get(context.evaluated_depsgraph_get())
+        try:
+            yield evaluated.to_mesh().vertices
+        finally:
+            evaluated.to_mesh_clear()
 
 
 class InBetweens(PosesOfSelection):
@@ -136,14 +154,25 @@ class InBetweens(PosesOfSelection):
         if self._settings.result == "KEYS":
             shape_keys.require_free(item, self._bodies[0].names)
 
-    def _task(self) -> Task:
+    def _task(self, context) -> Task:
         (poses,) = self._bodies
+        settings, first = self._settings, self._items()[0]
+        anchor = ground = None
+        if settings.ground:
+            ground = float(settings.ground_height - poses.frame.centre[2])
+        with self._vertices(context) as vertices:
+            metric = metric_of(settings, settings.metric, first, vertices)
+            if settings.anchor_group:
+                anchor = vertex_groups.members(first, settings.anchor_group, vertices, "is to stand")
         return Task(
-            _body(poses),
-            self._settings.shapes,
-            self._settings.metric,
-            steps=getattr(self._settings, "steps", 0),
+            body_of(poses),
+            settings.shapes,
+            metric,
+            steps=getattr(settings, "steps", 0),
             ends=self._ends(),
+            tolerance=tolerance_of(settings),
+            anchor=anchor,
+            ground=ground,
         )
 
     def _ends(self) -> str:
@@ -157,7 +186,7 @@ class InBetweens(PosesOfSelection):
         motion = poses.frame.to_object(motion)
         if others:
             return self._place_new(context, first, poses, motion)
-        return self._put(context, first, motion, self._at(poses.names))
+        return self._put_through(context, first, motion, poses.names)
 
     def _place_new(self, context, first, poses, motion) -> list:
         """A copy of the first object as it is seen moves. It is alone selected, so that settings
@@ -168,9 +197,17 @@ class InBetweens(PosesOfSelection):
             if self._settings.result == "KEYS":
                 own = [poses.frame.to_object(shape) for shape in poses.shapes]
                 names = shape_keys.add_poses(item, poses.names, own)
-            return self._put(context, item, motion, self._at(names))
+            return self._put_through(context, item, motion, names)
 
         return _add_copy(context, first, poses, self._new_name(), fill)
+
+    def _put_through(self, context, item, motion, names: list) -> list:
+        """Writes the motion. On the ground poses are elsewhere than the keys of these names."""
+        if self._settings.ground and self._settings.result == "KEYS":
+            basis = item.data.shape_keys.reference_key.name
+            unseen = [name for name in names if name != basis]
+            return self._put(context, item, motion, {}, unseen=unseen)
+        return self._put(context, item, motion, self._at(names))
 
     def _at(self, names: list) -> dict:
         """The poses' names by their numbers in the motion, which may end with the first."""
@@ -188,9 +225,11 @@ class Average(PosesOfSelection):
     def _check_places(self) -> None:
         pass  # a new object can always be added
 
-    def _task(self) -> Task:
+    def _task(self, context) -> Task:
         (poses,) = self._bodies
-        return Task(_body(poses), 0, self._settings.metric, modes=self._settings.modes)
+        with self._vertices(context) as vertices:
+            metric = metric_of(self._settings, self._settings.metric, self._items()[0], vertices)
+        return Task(body_of(poses), 0, metric, modes=self._settings.modes)
 
     def _place(self, context, i: int, motion) -> list:
         first = self._items()[0]
@@ -216,16 +255,7 @@ class Transfer(Work):
     """The motion of the active object for the other selected ones."""
 
     def _choose(self, context) -> list:
-        source = context.active_object
-        if source is None or source.type != "MESH":
-            raise Problem("The active object is no mesh: select the targets, and the source last")
-        targets = [item.name for item in selected_meshes(context) if item != source]
-        if not targets:
-            raise Problem(
-                f"No target is selected: select bodies with the mesh of '{source.name}', and"
-                f" '{source.name}' last"
-            )
-        return [source.name, *targets]
+        return [item.name for item in source_and_targets(context)]
 
     def _read(self, context) -> list:
         source, *targets = self._items()
@@ -246,13 +276,15 @@ class Transfer(Work):
         for item in items[1:]:
             self._check_place(item)
 
-    def _task(self) -> Task:
+    def _task(self, _context) -> Task:
         poses, *targets = self._bodies
+        source = self._items()[0]
         return Task(
-            _body(poses),
+            body_of(poses),
             self._inserted(),
-            self._settings.metric,
-            targets=[_body(target) for target in targets],
+            metric_of(self._settings, self._settings.metric, source, source.data.vertices),
+            targets=[body_of(target) for target in targets],
+            tolerance=tolerance_of(self._settings),
         )
 
     def _place(self, context, i: int, motion) -> list:
@@ -279,6 +311,20 @@ class Transfer(Work):
         return 0 if self._settings.poses_only else self._settings.shapes
 
 
+def source_and_targets(context) -> list:
+    """The active mesh, and then the other selected ones. Raises a Problem unless there are some."""
+    source = context.active_object
+    if source is None or source.type != "MESH":
+        raise Problem("The active object is no mesh: select the targets, and the source last")
+    targets = [item for item in selected_meshes(context) if item != source]
+    if not targets:
+        raise Problem(
+            f"No target is selected: select bodies with the mesh of '{source.name}', and"
+            f" '{source.name}' last"
+        )
+    return [source, *targets]
+
+
 def _add_copy(context, first, poses, name: str, fill) -> list:
     """Adds a copy of an object as it is seen, which fill(item) changes, and selects it alone.
     Returns what `fill` does."""
@@ -301,5 +347,5 @@ def _add_copy(context, first, poses, name: str, fill) -> list:
     return notes
 
 
-def _body(poses) -> Body:
+def body_of(poses) -> Body:
     return Body(poses.names, poses.shapes, poses.topology)

@@ -1,4 +1,4 @@
-"""What needs a window: the operators as the panel's buttons run them, and Esc.
+"""What needs a window: the operators as the panel's buttons run them, dragging, and Esc.
 
 blender --factory-startup --enable-event-simulate --python blender/tests/gui.py -- shapespace.zip
 
@@ -6,6 +6,7 @@ A generator does one step each time that Blender waits for events. Ends Blender 
 or 1.
 """
 
+import importlib.util
 import os
 import pathlib
 import shutil
@@ -22,11 +23,11 @@ import support  # noqa: E402
 SECONDS = 60  # after which a step has failed
 
 
-def view():
-    """The 3D view, for operators that are called as by a button in its sidebar."""
+def view(kind="UI"):
+    """The 3D view, for operators that are called as by a button in its sidebar, or in the view."""
     window = bpy.context.window_manager.windows[0]
     area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
-    region = next(region for region in area.regions if region.type == "UI")
+    region = next(region for region in area.regions if region.type == kind)
     return bpy.context.temp_override(window=window, area=area, region=region)
 
 
@@ -34,10 +35,15 @@ def running():
     return bool(bpy.context.window_manager.shapespace_progress.text)
 
 
-def press(key):
+def press(key, at=(400, 400)):
     window = bpy.context.window_manager.windows[0]
-    window.event_simulate(type=key, value="PRESS", x=400, y=400)
-    window.event_simulate(type=key, value="RELEASE", x=400, y=400)
+    for value in ("PRESS", "RELEASE"):
+        window.event_simulate(type=key, value=value, x=at[0], y=at[1])
+
+
+def move_pointer(at):
+    window = bpy.context.window_manager.windows[0]
+    window.event_simulate(type="MOUSEMOVE", value="NOTHING", x=at[0], y=at[1])
 
 
 def choose_tools(folder):
@@ -65,20 +71,31 @@ def count_draws(kind):
     return drawn
 
 
+def open_panels():
+    """Puts the add-on's panels into the tab of the sidebar that is open at first, all unfolded.
+    Returns of the first one what `count_draws` does, when all have been drawn."""
+    from shapespace_addon import panel
+
+    kinds = [kind for kind in panel.CLASSES if issubclass(kind, bpy.types.Panel)]
+    for kind in reversed(kinds):
+        bpy.utils.unregister_class(kind)
+    for kind in kinds:
+        kind.bl_category = "Item"
+        kind.bl_options = set()
+        bpy.utils.register_class(kind)
+    drawn = [count_draws(kind) for kind in kinds]
+    with view():
+        bpy.context.area.spaces.active.show_region_ui = True
+        bpy.context.scene.shapespace.result = "CACHE"
+    yield from until(lambda: all(drawn))
+    return drawn[0]
+
+
 def steps(folder):
     press("ESC")  # away with the splash screen
     yield
 
-    # The panel, in the tab of the sidebar that is open at first.
-    panel = bpy.types.SHAPESPACE_PT_panel
-    bpy.utils.unregister_class(panel)
-    panel.bl_category = "Item"
-    bpy.utils.register_class(panel)
-    drawn = count_draws(panel)
-    with view():
-        bpy.context.area.spaces.active.show_region_ui = True
-        bpy.context.scene.shapespace.result = "CACHE"
-    yield from until(lambda: drawn)
+    drawn = yield from open_panels()
 
     case = support.Case()
     case.folder = folder
@@ -137,6 +154,38 @@ def steps(folder):
     assert (support.children(), support.temporary_folders()) == ([], [])
     assert support.state() == before
 
+    # The button Cancel
+    with view():
+        bpy.ops.shapespace.inbetweens("INVOKE_DEFAULT", True, shapes=3)
+        yield
+        assert not bpy.ops.shapespace.accept.poll()
+        bpy.ops.shapespace.cancel()
+    yield from until(lambda: not running())
+    assert (support.children(), support.temporary_folders()) == ([], [])
+    assert support.state() == before
+    assert not bpy.ops.shapespace.cancel.poll()
+
+    # The menus, which draw what was appended last only if nothing before it fails.
+    drawn = count_draws(bpy.types.SHAPESPACE_MT_operators)
+    with view():
+        bpy.ops.wm.call_menu("INVOKE_DEFAULT", name="SHAPESPACE_MT_operators")
+    yield from until(lambda: drawn)
+    press("ESC")
+    yield
+    for menu in (bpy.types.MESH_MT_shape_key_context_menu, bpy.types.VIEW3D_MT_object):
+        ends = []
+
+        def end(*_):
+            ends.append(True)
+
+        menu.append(end)
+        with view():
+            bpy.ops.wm.call_menu("INVOKE_DEFAULT", name=menu.__name__)
+        yield from until(lambda: ends)
+        menu.remove(end)
+        press("ESC")
+        yield
+
     # The object is deleted meanwhile: a report, and no trace.
     with view():
         bpy.ops.shapespace.inbetweens("INVOKE_DEFAULT", True, shapes=3)
@@ -179,6 +228,162 @@ def steps(folder):
         bpy.ops.preferences.addon_enable(module=support.ADDON)
         choose_tools(folder)
         yield
+
+    if importlib.util.find_spec("shapespace") is None:
+        print("gui: dragging was not tested, for want of the Python module: ./dev python builds it")
+    else:
+        yield from live_steps(sit, faces)
+
+
+def start_live():
+    with view():
+        assert bpy.ops.shapespace.deform_live("INVOKE_DEFAULT", True) == {"RUNNING_MODAL"}
+    yield from until(lambda: shown_as("cold"))
+
+
+def shown_as(start):
+    return start in bpy.context.window_manager.shapespace_progress.text
+
+
+def drag(empty):
+    """Moves an empty as a person does, with the key G and the pointer, and yields meanwhile."""
+    support.select(empty)
+    with view("WINDOW"):
+        region = bpy.context.region
+    x, y = region.x + region.width // 3, region.y + region.height // 2
+    for way in (200, 100, 0):  # away from a report, which goes when the pointer does
+        move_pointer((x, y + way))
+        yield
+    press("G", (x, y))
+    yield
+    for step in range(1, 9):
+        move_pointer((x + 4 * step, y))
+        yield
+    return x + 32, y
+
+
+def live_steps(rest, faces):
+    """Dragging, and how it ends."""
+    support.preferences().engine = "MODULE"
+    made = support.add_object("animal", rest, faces)
+    support.assign(made, "feet", rest[:, 1] < 0.1)
+    support.assign(made, "head", rest[:, 1] > 1.2)
+    with view():
+        bpy.ops.object.select_all(action="DESELECT")
+        support.select(made)
+        made.vertex_groups.active_index = 0
+        bpy.ops.shapespace.handle_add(moves="FIXED")
+        made.vertex_groups.active_index = 1
+        bpy.ops.shapespace.handle_add(moves="EMPTY")
+        bpy.ops.ed.undo_push(message="handles")
+    with view("WINDOW"):
+        bpy.ops.view3d.view_selected()
+
+    def animal():
+        return bpy.data.objects["animal"]
+
+    def empty():
+        return animal().shapespace_handles[1].target
+
+    def head():
+        """Where the head is, in the middle."""
+        seen = support.seen(animal(), 1)
+        return seen[rest[:, 1] > 1.2].mean(axis=0)
+
+    def at_empty():
+        return abs(head() - list(empty().matrix_world.translation)).max() < 1e-4
+
+    # The mesh follows while the pointer moves, before the button is released; Enter accepts.
+    yield from start_live()
+    assert bpy.context.window_manager.shapespace_report.title == "Deform Live"
+    began = head()
+    pointer = yield from drag(empty())
+    yield from until(lambda: shown_as("warm") and at_empty())
+    assert abs(head() - began).max() > 0.01
+    press("LEFTMOUSE", pointer)
+    yield
+    assert running()
+    press("RET")
+    yield from until(lambda: not running())
+    assert at_empty() and support.key_names(animal()) == ["Basis", "deformed"]
+    after = support.key_shape(animal(), "deformed")
+    with view():
+        bpy.ops.ed.undo()
+    yield
+    with view():
+        bpy.ops.ed.redo()
+    yield
+    assert (support.key_shape(animal(), "deformed") == after).all()
+
+    # Undo and redo meanwhile
+    support.select(animal())
+    animal().shape_key_clear()
+    with view():
+        bpy.ops.ed.undo_push(message="again")
+    yield from start_live()
+    pointer = yield from drag(empty())
+    press("LEFTMOUSE", pointer)
+    yield from until(at_empty)
+    dragged = head()
+    with view():
+        bpy.ops.ed.undo()
+    yield from until(lambda: abs(head() - dragged).max() > 0.01 and at_empty())
+    with view():
+        bpy.ops.ed.redo()
+    yield from until(lambda: abs(head() - dragged).max() < 1e-3 and at_empty())
+
+    # Edit Mode meanwhile, in which Esc is Edit Mode's
+    support.select(animal())
+    with view():
+        bpy.ops.object.mode_set(mode="EDIT")
+    yield from until(lambda: shown_as("waiting"))
+    press("ESC")
+    yield
+    assert running()
+    with view():
+        bpy.ops.object.mode_set(mode="OBJECT")
+    yield from until(lambda: not shown_as("waiting"))
+
+    # Esc takes the shape key away.
+    press("ESC")
+    yield from until(lambda: not running())
+    assert animal().data.shape_keys is None
+
+    # The buttons
+    support.select(animal())
+    yield from start_live()
+    with view():
+        bpy.ops.shapespace.cancel()
+    yield from until(lambda: not running())
+    assert animal().data.shape_keys is None
+    support.select(animal())
+    yield from start_live()
+    with view():
+        bpy.ops.shapespace.accept()
+    yield from until(lambda: not running())
+    assert support.key_names(animal()) == ["Basis", "deformed"]
+
+    # An object that is deleted meanwhile ends it.
+    for gone in (empty, animal):
+        support.select(animal())
+        yield from start_live()
+        with view():
+            support.select(gone())
+            bpy.ops.object.delete()
+        yield from until(lambda: not running())
+        if "animal" in bpy.data.objects:
+            animal().shapespace_handles[1].moves = "FIXED"
+
+    # So does another file.
+    made = support.add_object("animal", rest, faces)
+    support.assign(made, "feet", rest[:, 1] < 0.1)
+    with view():
+        bpy.ops.shapespace.handle_add(moves="FIXED")
+    yield from start_live()
+    with view():
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=False)
+    yield from until(lambda: not running())
+    assert not bpy.app.handlers.undo_post
 
 
 def main():

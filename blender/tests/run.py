@@ -13,9 +13,7 @@ import bpy
 
 TESTS = pathlib.Path(__file__).parent
 sys.path.insert(0, str(TESTS))
-# The module as ./dev python installs it, if it was built for this Python.
-version = f"python{sys.version_info.major}.{sys.version_info.minor}"
-sys.path.append(str(TESTS.parents[1] / f"build/python-venv/lib/{version}/site-packages"))
+import support  # noqa: E402, F401: which knows where the Python module is
 
 bpy.ops.preferences.addon_install(filepath=sys.argv[-1])
 bpy.ops.preferences.addon_enable(module="shapespace_addon")

@@ -4,6 +4,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -15,6 +16,10 @@ import numpy as np
 ADDON = "shapespace_addon"
 PROJECT = pathlib.Path(__file__).resolve().parents[2]
 _BIN = pathlib.Path(os.environ.get("SHAPESPACE_BIN", PROJECT / "build/release/bin"))
+
+# The module as ./dev python installs it, if it was built for this Python.
+_PYTHON = f"python{sys.version_info.major}.{sys.version_info.minor}"
+sys.path.append(str(PROJECT / f"build/python-venv/lib/{_PYTHON}/site-packages"))
 
 
 def preferences():
@@ -64,8 +69,16 @@ def add_key(item, name, vertices):
     return key
 
 
+def assign(item, name, chosen):
+    """Gives a vertex group the chosen vertices, a truth value for each, which are returned."""
+    group = item.vertex_groups.get(name) or item.vertex_groups.new(name=name)
+    group.add(np.flatnonzero(chosen).tolist(), 1, "REPLACE")
+    return np.asarray(chosen)
+
+
 def select(*items):
     """The last one is active."""
+    bpy.context.view_layer.update()  # before which objects that were removed are None in it
     for item in bpy.context.view_layer.objects:
         item.select_set(item in items)
     bpy.context.view_layer.objects.active = items[-1]
@@ -172,7 +185,9 @@ class Case(unittest.TestCase):
 
         settings = {
             "shapes": 3, "metric": "strain", "use_basis": True, "result": "KEYS",
-            "frame_start": 1, "frame_step": 1, "cache_folder": "//",
+            "frame_start": 1, "frame_step": 1, "cache_folder": "//", "stiffness_group": "",
+            "custom_bending": False, "custom_volume": False, "custom_tolerance": False,
+            "anchor_group": "", "ground": False,
         }  # fmt: skip
         given = SimpleNamespace(**{**settings, **changes})
         return getattr(work, kind)(bpy.context, given, preferences())
@@ -188,10 +203,11 @@ class Case(unittest.TestCase):
         self.assertLessEqual(np.abs(np.asarray(a) - b).max(), tolerance)
 
     def refused(self, text, call, *arguments, **options):
-        """The call ends in an error report with this text, and changes nothing."""
+        """The call ends in an error report with this text, or Blender refuses it with this text as
+        the reason. Nothing changes."""
         bpy.context.view_layer.update()
         before = state()
-        with self.assertRaisesRegex(RuntimeError, f"(?s)^Error: .*{text}"):
+        with self.assertRaisesRegex(RuntimeError, f"(?s)^(Error: |Operator .*poll\\(\\) ).*{text}"):
             call(*arguments, **options)
         self.assertEqual(state(), before)
 

@@ -13,20 +13,37 @@ FOLDER = PROJECT / "blender" / ADDON
 
 class Addon(unittest.TestCase):
     def test_is_gone_after_it_is_disabled_and_there_again(self):
-        operators = {"inbetweens", "extrapolate", "transfer"}
+        operators = {"inbetweens", "extrapolate", "transfer", "deform", "deform_live", "repair"}
         for _ in range(2):
             self.assertLessEqual(operators, set(dir(bpy.ops.shapespace)))
             self.assertTrue(hasattr(bpy.context.scene, "shapespace"))
             self.assertTrue(hasattr(bpy.types, "SHAPESPACE_PT_panel"))
+            self.assertTrue(hasattr(bpy.types.Object, "shapespace_handles"))
+            self.assertEqual([len(menu) for menu in self.menus()], [1, 1])
             bpy.ops.preferences.addon_disable(module=ADDON)
             self.assertEqual(set(dir(bpy.ops.shapespace)) & operators, set())
             self.assertFalse(hasattr(bpy.context.scene, "shapespace"))
             self.assertFalse(hasattr(bpy.types, "SHAPESPACE_PT_panel"))
+            self.assertFalse(hasattr(bpy.types.Object, "shapespace_handles"))
+            self.assertEqual([len(menu) for menu in self.menus()], [0, 0])
             bpy.ops.preferences.addon_enable(module=ADDON)
+
+    def menus(self):
+        """What the add-on has appended to each of Blender's menus that it appends to."""
+        return [
+            [draw for draw in menu.draw._draw_funcs if "shapespace" in draw.__module__]
+            for menu in (bpy.types.MESH_MT_shape_key_context_menu, bpy.types.VIEW3D_MT_object)
+        ]
+
+    def test_nothing_is_computed_where_settings_are_changed_afterwards(self):
+        """There Blender stands still, and only operators with REGISTER are there."""
+        for name in ("inbetweens", "extrapolate", "transfer", "average", "deform", "repair"):
+            kind = getattr(bpy.types, f"SHAPESPACE_OT_{name}")
+            self.assertEqual(kind.bl_options, {"UNDO"})
 
     def test_the_panel_offers_every_setting_of_every_operator(self):
         settings = set(bpy.context.scene.shapespace.bl_rna.properties.keys())
-        for name in ("inbetweens", "extrapolate", "transfer"):
+        for name in ("inbetweens", "extrapolate", "transfer", "average", "deform", "repair"):
             operator = getattr(bpy.ops.shapespace, name).get_rna_type()
             self.assertLessEqual(set(operator.properties.keys()), settings)
 
@@ -75,8 +92,8 @@ class Manifest(unittest.TestCase):
         """Beside the standard library and numpy; the module is optional."""
         allowed = {"bpy", "mathutils", "numpy", "shapespace"}
         standard = {
-            "dataclasses", "os", "re", "secrets", "shutil", "struct", "subprocess", "tempfile",
-            "threading", "time", "types",
+            "contextlib", "dataclasses", "json", "math", "os", "re", "secrets", "shutil", "struct",
+            "subprocess", "tempfile", "threading", "time", "types",
         }  # fmt: skip
         for file in FOLDER.glob("*.py"):
             for name in re.findall(r"^\s*(?:import|from) (\w+)", file.read_text(), re.M):

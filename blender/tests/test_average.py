@@ -1,5 +1,8 @@
 """The average of poses, and its modes."""
 
+import importlib.util
+import unittest
+
 import bpy
 import numpy as np
 from support import (
@@ -57,6 +60,7 @@ class Average(Case):
             bpy.ops.shapespace.average(modes=2)
         self.assertEqual(bpy.context.active_object, item)
 
+    @unittest.skipIf(importlib.util.find_spec("shapespace") is None, "the Python module is not there")
     def test_the_module_makes_the_same(self):
         item = add_object("cube", CUBE, CUBE_FACES)
         add_key(item, "bent", bent_cube())

@@ -3,14 +3,27 @@
 import re
 
 import bpy
-from support import CUBE, CUBE_FACES, PROJECT, Case, add_key, add_object, bent_cube, select
+import numpy as np
+from support import (
+    CUBE,
+    CUBE_FACES,
+    PROJECT,
+    Case,
+    add_key,
+    add_object,
+    assign,
+    bent_cube,
+    key_names,
+    select,
+)
 
 
 class Guide(Case):
     def test_calls_from_scripts(self):
         page = (PROJECT / "docs/guide/blender.md").read_text(encoding="utf-8")
         (script,) = re.findall(r"^```python\n(.*?)^```", page, re.M | re.S)
-        calls = [line for line in script.splitlines() if line.startswith("bpy.ops.")]
+        motions, deforming = script.split("\n\nmesh = ")
+        calls = [line for line in motions.splitlines() if line.startswith("bpy.ops.")]
         self.assertEqual(len(calls), 3)
         twin = add_object("twin", CUBE, CUBE_FACES)
         cube = add_object("cube", CUBE, CUBE_FACES)
@@ -20,3 +33,8 @@ class Guide(Case):
             select(*([twin] if "transfer" in call else []), cube)
             with self.subTest(call):
                 self.assertEqual(eval(call), {"FINISHED"})
+        deformed = add_object("deformed", CUBE, CUBE_FACES)
+        for name, side in (("feet", -1), ("head", 1)):
+            assign(deformed, name, np.array(CUBE)[:, 2] * side > 0)
+        exec("mesh = " + deforming, {"bpy": bpy})
+        self.assertEqual(key_names(deformed), ["Basis", "deformed", "repaired"])

@@ -13,6 +13,7 @@ from support import (
     Case,
     add_key,
     add_object,
+    assign,
     bent_cube,
     children,
     key_names,
@@ -55,6 +56,46 @@ class Module(Case):
                 target, bpy.ops.shapespace.transfer, shapes=3, poses_only=poses_only
             )
             self.near(*shapes)
+
+    def test_deforms_and_repairs_as_the_tools_do(self):
+        (stand, rear), faces = self.quadruped("stand", "rear")
+        animal = add_object("animal", stand, faces)
+        feet = assign(animal, "feet", stand[:, 1] < 0.1)
+        bpy.ops.shapespace.handle_add(moves="FIXED")
+        assign(animal, "head", stand[:, 1] > 1.3)
+        animal.vertex_groups.active_index = 1
+        bpy.ops.shapespace.handle_add(moves="EMPTY")
+        head = animal.shapespace_handles[1]
+        head.target.location.x += 0.2
+        head.target.rotation_euler = (0.3, 0, 0)
+        options = {"custom_bending": True, "bending": 1e-4, "stiffness_group": "head"}
+        exact = {"custom_tolerance": True, "tolerance": 1e-8}  # for angles in degrees are rounded
+        for soft in (False, True):
+            head.soft = soft
+            for settings in ({}, {"deform_shapes": 2, "balance": 0.1, **options}):
+                self.near(*self.both(animal, bpy.ops.shapespace.deform, **settings, **exact))
+        add_key(animal, "blend", (stand + rear) / 2)
+        found = []
+        for engine in ("TOOLS", "MODULE"):
+            preferences().engine = engine
+            for settings in ({}, {"sound_group": "feet", "repair_balance": 0.8, **options}):
+                animal.active_shape_key_index = key_names(animal).index("blend")
+                bpy.ops.shapespace.repair(**settings)
+                found.append(key_shape(animal, "repaired"))
+        self.near(found[:2], found[2:])
+        self.assertGreater(np.abs(found[1] - found[0])[feet].max(), 1e-3)
+
+    def test_settings_of_motions(self):
+        cube = add_object("cube", CUBE, CUBE_FACES)
+        add_key(cube, "bent", bent_cube())
+        assign(cube, "foot", np.array(CUBE)[:, 2] < 0)
+        self.near(
+            *self.both(
+                cube, bpy.ops.shapespace.inbetweens, shapes=3, anchor_group="foot", ground=True,
+                ground_height=2, stiffness_group="foot", custom_volume=True, volume=1,
+                custom_tolerance=True, tolerance=1e-8,
+            )
+        )  # fmt: skip
 
     def test_smooth_motion(self):
         cube = add_object("cube", CUBE, CUBE_FACES)

@@ -72,7 +72,7 @@ class Runs(Case):
         """The share never falls, and is told often enough for a bar."""
         (sit, stretch), faces = self.quadruped("sit", "stretch", triangles=20000)
         add_key(add_object("animal", sit, faces), "stretch", stretch)
-        work = self.begin(shapes=31)
+        work = self.begin(shapes=127)
         shares = []
         while not work.poll():
             if work.share is not None:

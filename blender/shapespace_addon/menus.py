@@ -1,0 +1,50 @@
+"""The operators in Blender's menus, where its search finds them too."""
+
+import bpy
+
+from . import buttons
+
+_OPERATORS = (
+    ("shapespace.inbetweens", "IPO_EASE_IN_OUT"),
+    ("shapespace.extrapolate", "TRACKING_FORWARDS_SINGLE"),
+    ("shapespace.transfer", "MOD_DATA_TRANSFER"),
+    ("shapespace.average", "MOD_SMOOTH"),
+    ("shapespace.deform", "MOD_SIMPLEDEFORM"),
+    ("shapespace.deform_live", "PLAY"),
+    ("shapespace.repair", "TOOL_SETTINGS"),
+)
+
+
+class SHAPESPACE_MT_operators(bpy.types.Menu):
+    bl_label = "shapespace"
+    bl_idname = "SHAPESPACE_MT_operators"
+
+    def draw(self, context):
+        for operator, icon in _OPERATORS:
+            buttons.draw(self.layout, context, operator, icon)
+
+
+def _draw_in_keys(menu, context) -> None:
+    """In the menu of the shape keys."""
+    menu.layout.separator()
+    for operator, icon in _OPERATORS:
+        buttons.draw(menu.layout, context, operator, icon)
+
+
+def _draw_in_view(menu, _context) -> None:
+    """In the menu Object of the 3D view."""
+    menu.layout.separator()
+    menu.layout.menu(SHAPESPACE_MT_operators.bl_idname)
+
+
+def add() -> None:
+    bpy.types.MESH_MT_shape_key_context_menu.append(_draw_in_keys)
+    bpy.types.VIEW3D_MT_object.append(_draw_in_view)
+
+
+def remove() -> None:
+    bpy.types.MESH_MT_shape_key_context_menu.remove(_draw_in_keys)
+    bpy.types.VIEW3D_MT_object.remove(_draw_in_view)
+
+
+CLASSES = (SHAPESPACE_MT_operators,)
