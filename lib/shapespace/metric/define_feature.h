@@ -1,7 +1,6 @@
 #ifndef SHAPESPACE_METRIC_DEFINE_FEATURE_H_
 #define SHAPESPACE_METRIC_DEFINE_FEATURE_H_
 
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
@@ -97,25 +96,15 @@ class FeatureOf final : public Feature {
   }
 
   void ScalarRows(int count, const double* x, double* rows) const override {
-    for (int e = 0; e < count; ++e, x += kSize, rows += kVertices * scalar_rows_) {
-      if constexpr (kHasRows) {
+    if constexpr (kHasRows) {
+      for (int e = 0; e < count; ++e, x += kSize, rows += kVertices * scalar_rows_) {
         Eigen::Vector3d vertices[kVertices];
         for (int k = 0; k < kVertices; ++k)
           vertices[k] = Eigen::Map<const Eigen::Vector3d>(x + 3 * k);
         feature_.ScalarRows(vertices, rows);
-      } else {
-        // A derivative acts along one direction, but the scalar rows along all three. A third would
-        // be the mean over directions; with 0.6 the unit step of a quasi-Newton method is
-        // acceptable from the first iteration on, as measured with edge lengths.
-        double values[kValues], derivatives[kSize * kValues];
-        Evaluate(1, x, values, derivatives);
-        const double root = std::sqrt(0.6);
-        for (int corner = 0; corner < kVertices; ++corner) {
-          for (int row = 0; row < 3 * kValues; ++row) {
-            rows[kVertices * row + corner] = root * derivatives[3 * kValues * corner + row];
-          }
-        }
       }
+    } else {
+      Feature::ScalarRows(count, x, rows);
     }
   }
 

@@ -120,8 +120,9 @@ class Feature {
   /// The sum of weight * LeastChange over `count` elements with values a and b at the ends.
   virtual double LeastChange(int count, const double* a, const double* b, const double* weights,
                              int segments) const = 0;
-  /// ScalarRows of `count` elements, NumScalarRows() vectors each.
-  virtual void ScalarRows(int count, const double* x, double* rows) const = 0;
+  /// ScalarRows of `count` elements, NumScalarRows() vectors each. Unless overridden, they are
+  /// 3 ValuesPerElement() and computed from the derivative.
+  virtual void ScalarRows(int count, const double* x, double* rows) const;
   int NumScalarRows() const { return scalar_rows_; }
   /// The constants besides stencils and weights, by name.
   virtual std::vector<std::pair<std::string, double>> Constants() const = 0;

@@ -25,10 +25,6 @@ namespace {
 using internal::ForRanges;
 using internal::kPerTask;
 
-// Elements whose values are evaluated in one call, into buffers on the stack.
-constexpr int kChunk = 16;
-constexpr int kMaxCoordinates = 3 * Feature::kMaxVertices;
-
 // Parts of the elements that are summed side by side. More parts would take more memory, and more
 // time to add.
 constexpr int kParts = 8;
@@ -43,37 +39,36 @@ double Sum(int count, const Value& value) {
   return std::accumulate(partial.begin(), partial.end(), 0.0);
 }
 
+// The coordinates of elements [begin, end).
+std::vector<double> CoordinatesOf(const Feature& feature, int begin, int end, const Shape& shape) {
+  std::vector<double> x(3 * static_cast<size_t>(feature.VerticesPerElement()) * (end - begin));
+  feature.GatherCoordinates(begin, end, shape, x.data());
+  return x;
+}
+
 // Writes the values that `evaluate(begin, end, out)` computes, times the square roots of the
 // weights, into the feature's part of Phi; for a sum feature, whose elements share a weight, their
 // sum.
 template <typename Evaluate>
 void FillValues(const Feature& feature, double* result, const Evaluate& evaluate) {
   const int num_elements = feature.NumElements(), num_values = feature.ValuesPerElement();
-  const auto for_chunks = [&](int begin, int end, const auto& body) {
-    for (; begin < end; begin += kChunk) body(begin, std::min(begin + kChunk, end));
-  };
   if (feature.IsSum()) {
     std::vector<double> partial((num_elements + kPerTask - 1) / kPerTask, 0.0);
     ForRanges(num_elements, [&](int begin, int end) {
-      double& sum = partial[begin / kPerTask];
-      for_chunks(begin, end, [&](int first, int last) {
-        double out[kChunk];
-        evaluate(first, last, out);
-        for (int i = 0; i < last - first; ++i) sum += out[i];
-      });
+      std::vector<double> out(end - begin);
+      evaluate(begin, end, out.data());
+      partial[begin / kPerTask] = std::accumulate(out.begin(), out.end(), 0.0);
     });
     *result = std::sqrt(feature.Weight(0)) * std::accumulate(partial.begin(), partial.end(), 0.0);
     return;
   }
   ForRanges(num_elements, [&](int begin, int end) {
-    for_chunks(begin, end, [&](int first, int last) {
-      double* const out = result + static_cast<size_t>(num_values) * first;
-      evaluate(first, last, out);
-      for (int e = first; e < last; ++e) {
-        const double root = std::sqrt(feature.Weight(e));
-        for (int k = 0; k < num_values; ++k) out[num_values * (e - first) + k] *= root;
-      }
-    });
+    double* const out = result + static_cast<size_t>(num_values) * begin;
+    evaluate(begin, end, out);
+    for (int e = begin; e < end; ++e) {
+      const double root = std::sqrt(feature.Weight(e));
+      for (int k = 0; k < num_values; ++k) out[num_values * (e - begin) + k] *= root;
+    }
   });
 }
 
@@ -100,9 +95,7 @@ Eigen::VectorXd FeatureMap::Values(const Shape& shape) const {
   for (size_t i = 0; i < metric_->features.size(); ++i) {
     const Feature& feature = *metric_->features[i];
     FillValues(feature, result.data() + FirstValue(i), [&](int begin, int end, double* out) {
-      double x[kChunk * kMaxCoordinates];
-      feature.GatherCoordinates(begin, end, shape, x);
-      feature.Evaluate(end - begin, x, out);
+      feature.Evaluate(end - begin, CoordinatesOf(feature, begin, end, shape).data(), out);
     });
   }
   return result;
@@ -115,10 +108,8 @@ Eigen::VectorXd FeatureMap::SecondDerivative(const Shape& shape, const Tangent& 
   for (size_t i = 0; i < metric_->features.size(); ++i) {
     const Feature& feature = *metric_->features[i];
     FillValues(feature, result.data() + FirstValue(i), [&](int begin, int end, double* out) {
-      double at[kChunk * kMaxCoordinates], along[kChunk * kMaxCoordinates];
-      feature.GatherCoordinates(begin, end, shape, at);
-      feature.GatherCoordinates(begin, end, x, along);
-      feature.SecondDerivatives(end - begin, at, along, out);
+      feature.SecondDerivatives(end - begin, CoordinatesOf(feature, begin, end, shape).data(),
+                                CoordinatesOf(feature, begin, end, x).data(), out);
     });
   }
   return result;
@@ -132,16 +123,13 @@ FeatureDerivative FeatureMap::Derivative(const Shape& shape) const {
                         feature->ValuesPerElement();  // numbers of an element
     std::vector<double> blocks(feature->NumElements() * size);
     ForRanges(feature->NumElements(), [&](int begin, int end) {
-      for (int first = begin; first < end; first += kChunk) {
-        const int last = std::min(first + kChunk, end);
-        double x[kChunk * kMaxCoordinates], values[kChunk * Feature::kMaxValues];
-        feature->GatherCoordinates(first, last, shape, x);
-        double* out = &blocks[first * size];
-        feature->Evaluate(last - first, x, values, out);
-        for (int e = first; e < last; ++e) {
-          const double root = std::sqrt(feature->Weight(e));
-          for (size_t k = 0; k < size; ++k) *out++ *= root;
-        }
+      std::vector<double> values(static_cast<size_t>(feature->ValuesPerElement()) * (end - begin));
+      double* out = &blocks[begin * size];
+      feature->Evaluate(end - begin, CoordinatesOf(*feature, begin, end, shape).data(),
+                        values.data(), out);
+      for (int e = begin; e < end; ++e) {
+        const double root = std::sqrt(feature->Weight(e));
+        for (size_t k = 0; k < size; ++k) *out++ *= root;
       }
     });
     derivative.blocks_.push_back(std::move(blocks));

@@ -375,7 +375,7 @@ namespace {
 // the other, feature by feature. Values of a shape are computed once.
 std::vector<double> LeastEnergies(const Metric& metric, const std::vector<const Shape*>& shapes,
                                   int segments) {
-  constexpr int kElementsPerTask = 1024, kChunk = 16;
+  constexpr int kElementsPerTask = 1024;
   const size_t num_shapes = shapes.size(), pairs = num_shapes - 1;
   std::vector<double> least(pairs,
                             metric.rigid.Active() ? std::numeric_limits<double>::quiet_NaN() : 0);
@@ -389,14 +389,11 @@ std::vector<double> LeastEnergies(const Metric& metric, const std::vector<const 
       auto sums = partial.col(begin / kElementsPerTask);
       std::vector<double> values[2];  // of a shape, and of the one before it
       for (std::vector<double>& v : values) v.resize(num_values * (end - begin));
+      std::vector<double> x(3 * static_cast<size_t>(feature->VerticesPerElement()) * (end - begin));
       for (size_t i = 0; i < num_shapes; ++i) {
         double* const here = values[i % 2].data();
-        for (int e = begin; e < end; e += kChunk) {
-          const int count = std::min(kChunk, end - e);
-          double x[kChunk * 3 * Feature::kMaxVertices];
-          feature->GatherCoordinates(e, e + count, *shapes[i], x);
-          feature->Evaluate(count, x, here + num_values * (e - begin));
-        }
+        feature->GatherCoordinates(begin, end, *shapes[i], x.data());
+        feature->Evaluate(end - begin, x.data(), here);
         if (feature->IsSum()) {
           sums(i) = std::accumulate(here, here + (end - begin), 0.0);
         } else if (i > 0) {

@@ -7,73 +7,96 @@
 namespace shapespace::internal {
 namespace {
 
-// The elements of one feature at all times of a path, processed one by one.
-class ElementAtAllTimes {
+// Some elements of one feature at all times of a path, evaluated together: as many as have about
+// kNumbers derivatives, which fit into the cache.
+class ElementsAtAllTimes {
  public:
-  ElementAtAllTimes(const Feature& feature, const PathRows& rows)
+  ElementsAtAllTimes(const Feature& feature, const PathRows& rows)
       : feature_(feature),
         rows_(rows),
         size_(3 * feature.VerticesPerElement()),
         times_(rows.inner + 2),
-        x_(static_cast<size_t>(times_) * size_),
-        values_(static_cast<size_t>(times_) * feature.ValuesPerElement()),
-        derivatives_(values_.size() * size_) {}
+        most_(std::max(1, kNumbers / (times_ * size_ * feature.ValuesPerElement()))) {}
 
   int NumTimes() const { return times_; }
-  double Value(int time, int k) const { return values_[feature_.ValuesPerElement() * time + k]; }
+  // Of an element for which ForElements has called its body.
+  double Value(int element, int time, int k) const {
+    return values_[feature_.ValuesPerElement() * Place(element, time) + k];
+  }
 
-  void Evaluate(const ElementGroup& group, int element, bool with_derivatives) {
-    stencil_ = &group.stencils[static_cast<size_t>(feature_.VerticesPerElement()) * element];
-    for (int i = 0; i < size_; ++i) {
-      const size_t row = Row(i);
-      x_[i] = rows_.first[row];
-      for (int t = 0; t < rows_.inner; ++t) {
-        x_[static_cast<size_t>(t + 1) * size_ + i] = rows_.shapes[row * rows_.stride + t];
-      }
-      x_[static_cast<size_t>(times_ - 1) * size_ + i] = rows_.last[row];
+  // Calls body(element) for every element of the group, in order, when it has been evaluated.
+  template <typename Body>
+  void ForElements(const ElementGroup& group, bool with_derivatives, const Body& body) {
+    for (begin_ = 0; begin_ < group.Count(); begin_ += most_) {
+      const int end = std::min(begin_ + most_, group.Count());
+      Evaluate(group, end, with_derivatives);
+      for (int e = begin_; e < end; ++e) body(e);
     }
-    feature_.Evaluate(times_, x_.data(), values_.data(),
-                      with_derivatives ? derivatives_.data() : nullptr);
   }
 
   // Adds `slope` times the gradient of value k at an inner time.
-  void AddGradient(int time, int k, double slope) {
+  void AddGradient(const ElementGroup& group, int element, int time, int k, double slope) {
     const int num_values = feature_.ValuesPerElement();
-    const double* const at = &derivatives_[static_cast<size_t>(time) * size_ * num_values];
+    const double* const at = &derivatives_[Place(element, time) * size_ * num_values];
     for (int i = 0; i < size_; ++i) {
-      rows_.gradient[Row(i) * rows_.stride + time - 1] +=
+      rows_.gradient[Row(group, element, i) * rows_.stride + time - 1] +=
           slope * at[3 * (i / 3 * num_values + k) + i % 3];
     }
   }
 
  private:
-  size_t Row(int i) const { return 3 * static_cast<size_t>(stencil_[i / 3]) + i % 3; }
+  static constexpr int kNumbers = 1 << 14;
+
+  size_t Place(int element, int time) const {
+    return static_cast<size_t>(element - begin_) * times_ + time;
+  }
+  size_t Row(const ElementGroup& group, int element, int i) const {
+    const size_t first = static_cast<size_t>(feature_.VerticesPerElement()) * element;
+    return 3 * static_cast<size_t>(group.stencils[first + i / 3]) + i % 3;
+  }
+
+  void Evaluate(const ElementGroup& group, int end, bool with_derivatives) {
+    const size_t sites = static_cast<size_t>(end - begin_) * times_;
+    x_.resize(sites * size_);
+    values_.resize(sites * feature_.ValuesPerElement());
+    if (with_derivatives) derivatives_.resize(values_.size() * size_);
+    for (int e = begin_; e < end; ++e) {
+      for (int i = 0; i < size_; ++i) {
+        const size_t row = Row(group, e, i);
+        const auto at = [&](int time) -> double& { return x_[Place(e, time) * size_ + i]; };
+        at(0) = rows_.first[row];
+        for (int t = 0; t < rows_.inner; ++t) at(t + 1) = rows_.shapes[row * rows_.stride + t];
+        at(times_ - 1) = rows_.last[row];
+      }
+    }
+    feature_.Evaluate(static_cast<int>(sites), x_.data(), values_.data(),
+                      with_derivatives ? derivatives_.data() : nullptr);
+  }
 
   const Feature& feature_;
   const PathRows& rows_;
-  const int size_, times_;
-  const int* stencil_ = nullptr;
+  const int size_, times_, most_;
+  int begin_ = 0;  // of the elements that have been evaluated
   std::vector<double> x_, values_, derivatives_;
 };
 
 // 2 sum w |Phi_{i+1} - Phi_i|^2 for any feature.
 double GenericKernel(const Feature& feature, const PathRows& rows, const ElementGroup& group) {
-  ElementAtAllTimes element(feature, rows);
+  ElementsAtAllTimes elements(feature, rows);
   double energy = 0;
-  for (int e = 0; e < group.Count(); ++e) {
-    element.Evaluate(group, e, true);
+  elements.ForElements(group, true, [&](int e) {
     const double w = group.weights[e];
+    const auto value = [&](int time, int k) { return elements.Value(e, time, k); };
     for (int k = 0; k < feature.ValuesPerElement(); ++k) {
-      for (int t = 0; t + 1 < element.NumTimes(); ++t) {
-        energy += 2 * w * std::pow(element.Value(t + 1, k) - element.Value(t, k), 2);
+      for (int t = 0; t + 1 < elements.NumTimes(); ++t) {
+        energy += 2 * w * std::pow(value(t + 1, k) - value(t, k), 2);
       }
-      for (int t = 1; t + 1 < element.NumTimes(); ++t) {
-        element.AddGradient(
-            t, k,
-            4 * w * (2 * element.Value(t, k) - element.Value(t - 1, k) - element.Value(t + 1, k)));
+      for (int t = 1; t + 1 < elements.NumTimes(); ++t) {
+        elements.AddGradient(group, e, t, k,
+                             4 * w * (2 * value(t, k) - value(t - 1, k) - value(t + 1, k)));
       }
     }
-  }
+  });
   return energy;
 }
 
@@ -123,20 +146,18 @@ SumKernel SumKernelOf(const std::shared_ptr<const Feature>& feature) {
             }};
   }
   return {[feature](const PathRows& rows, const ElementGroup& group, double* values) {
-            ElementAtAllTimes element(*feature, rows);
-            for (int e = 0; e < group.Count(); ++e) {
-              element.Evaluate(group, e, false);
-              for (int t = 0; t < element.NumTimes(); ++t) values[t] += element.Value(t, 0);
-            }
+            ElementsAtAllTimes elements(*feature, rows);
+            elements.ForElements(group, false, [&](int e) {
+              for (int t = 0; t < elements.NumTimes(); ++t) values[t] += elements.Value(e, t, 0);
+            });
           },
           [feature](const PathRows& rows, const ElementGroup& group, const double* slopes) {
-            ElementAtAllTimes element(*feature, rows);
-            for (int e = 0; e < group.Count(); ++e) {
-              element.Evaluate(group, e, true);
-              for (int t = 1; t + 1 < element.NumTimes(); ++t) {
-                element.AddGradient(t, 0, slopes[t]);
+            ElementsAtAllTimes elements(*feature, rows);
+            elements.ForElements(group, true, [&](int e) {
+              for (int t = 1; t + 1 < elements.NumTimes(); ++t) {
+                elements.AddGradient(group, e, t, 0, slopes[t]);
               }
-            }
+            });
           }};
 }
 

@@ -105,28 +105,32 @@ std::vector<Tangent> FreeEndFactors::Extend(const std::vector<Tangent>& ways) co
 void FreeEndFactors::Integrate(const std::vector<std::vector<Eigen::Matrix3d>>& gradients,
                                std::vector<Shape>* shapes) const {
   std::vector<Eigen::MatrixXd> rights(shapes->size(), Eigen::MatrixXd::Zero(rest_.cols(), 3));
-  ParallelFor(static_cast<int>(shapes->size()), [&](int i) {
-    const Shape& shape = (*shapes)[i];
-    for (const auto& feature : metric_->features) {
-      if (!feature->IsRigidInvariant() || feature->IsSum()) continue;
-      const int corners = feature->VerticesPerElement(), num_rows = feature->NumScalarRows();
-      Eigen::Matrix3Xd before(3, corners), after(3, corners);
-      Eigen::MatrixXd k(corners, num_rows), off(num_rows, 3);
-      for (int e = 0; e < feature->NumElements(); ++e) {
+  for (const auto& feature : metric_->features) {
+    if (!feature->IsRigidInvariant() || feature->IsSum()) continue;
+    const int corners = feature->VerticesPerElement(), num_rows = feature->NumScalarRows();
+    const int num_elements = feature->NumElements();
+    // Of all elements, one after the other.
+    Eigen::Matrix3Xd before(3, corners * num_elements);
+    Eigen::MatrixXd k(corners, num_rows * num_elements);
+    feature->GatherCoordinates(0, num_elements, rest_, before.data());
+    feature->ScalarRows(num_elements, before.data(), k.data());
+    ParallelFor(static_cast<int>(shapes->size()), [&](int i) {
+      Eigen::Matrix3Xd after(3, corners);
+      Eigen::MatrixXd off(num_rows, 3);
+      for (int e = 0; e < num_elements; ++e) {
         const int* const vertices = feature->Element(e);
+        const auto own = k.middleCols(num_rows * e, num_rows);
         Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-        feature->GatherCoordinates(e, e + 1, rest_, before.data());
-        feature->GatherCoordinates(e, e + 1, shape, after.data());
+        feature->GatherCoordinates(e, e + 1, (*shapes)[i], after.data());
         for (int c = 0; c < corners; ++c) gradient += gradients[i][vertices[c]] / corners;
-        feature->ScalarRows(1, before.data(), k.data());
-        after = gradient.lazyProduct(before) - after;
-        off.noalias() = k.transpose().lazyProduct(after.transpose());
+        after = gradient.lazyProduct(before.middleCols(corners * e, corners)) - after;
+        off.noalias() = own.transpose().lazyProduct(after.transpose());
         for (int c = 0; c < corners; ++c) {
-          rights[i].row(vertices[c]) += 4 * feature->Weight(e) * k.row(c).lazyProduct(off);
+          rights[i].row(vertices[c]) += 4 * feature->Weight(e) * own.row(c).lazyProduct(off);
         }
       }
-    }
-  });
+    });
+  }
   SolveAndAdd(rights, shapes);
 }
 

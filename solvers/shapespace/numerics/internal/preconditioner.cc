@@ -92,30 +92,36 @@ class LowerTriangle {
   std::unique_ptr<Entry[]> entries_;
 };
 
-// What an element adds to the matrix: for each two of its vertices a number, row by row.
-void ElementBlock(const Feature& feature, int e, const std::vector<Shape>& poses,
-                  int quartic_segments, double* block) {
+// What elements [begin, end) add to the matrix: each a number for every two of its vertices, row by
+// row.
+void ElementBlocks(const Feature& feature, int begin, int end, const std::vector<Shape>& poses,
+                   int quartic_segments, double* blocks) {
   const int corners = feature.VerticesPerElement(), num_rows = feature.NumScalarRows();
-  double x[3 * Feature::kMaxVertices];
-  double rows[Feature::kMaxVertices * 3 * Feature::kMaxValues];
-  const double factor = 4 * feature.Weight(e) / static_cast<double>(poses.size());
-  std::fill_n(block, corners * corners, 0.0);
+  const size_t count = end - begin;
+  std::vector<double> x(3 * corners * count), rows(corners * num_rows * count);
+  std::fill_n(blocks, corners * corners * count, 0.0);
   for (const Shape& pose : poses) {
-    feature.GatherCoordinates(e, e + 1, pose, x);
-    feature.ScalarRows(1, x, rows);
-    for (const double* k = rows; k != rows + corners * num_rows; k += corners) {
-      for (int i = 0; i < corners; ++i) {
-        for (int l = 0; l < corners; ++l) block[corners * i + l] += factor * k[i] * k[l];
+    feature.GatherCoordinates(begin, end, pose, x.data());
+    feature.ScalarRows(end - begin, x.data(), rows.data());
+    const double* k = rows.data();
+    double* block = blocks;
+    for (int e = begin; e < end; ++e, block += corners * corners) {
+      const double factor = 4 * feature.Weight(e) / static_cast<double>(poses.size());
+      for (int row = 0; row < num_rows; ++row, k += corners) {
+        for (int i = 0; i < corners; ++i) {
+          for (int l = 0; l < corners; ++l) block[corners * i + l] += factor * k[i] * k[l];
+        }
       }
     }
   }
-  if (quartic_segments > 0 && feature.As<EdgeLength>() != nullptr) {
+  if (quartic_segments == 0 || feature.As<EdgeLength>() == nullptr) return;
+  for (int e = begin; e < end; ++e, blocks += 4) {
     const int p = feature.Element(e)[0], q = feature.Element(e)[1];
     const Eigen::Vector3d turn =
         poses.back().col(q) - poses.back().col(p) - poses.front().col(q) + poses.front().col(p);
     const double share = 2 * feature.Weight(e) * turn.squaredNorm() /
                          (static_cast<double>(quartic_segments) * quartic_segments);
-    for (int k = 0; k < 4; ++k) block[k] += k % 3 == 0 ? share : -share;
+    for (int k = 0; k < 4; ++k) blocks[k] += k % 3 == 0 ? share : -share;
   }
 }
 
@@ -132,9 +138,9 @@ Eigen::SparseMatrix<double> ScalarMetric(const Metric& metric, const std::vector
     blocks.resize(static_cast<size_t>(kElementsAtATime) * size);
     for (int first = 0; first < feature->NumElements(); first += kElementsAtATime) {
       const int count = std::min(kElementsAtATime, feature->NumElements() - first);
-      ForIndices(count, [&](int i) {
-        ElementBlock(*feature, first + i, poses, quartic_segments,
-                     &blocks[static_cast<size_t>(i) * size]);
+      ForRanges(count, [&](int begin, int end) {
+        ElementBlocks(*feature, first + begin, first + end, poses, quartic_segments,
+                      &blocks[static_cast<size_t>(begin) * size]);
       });
       for (int i = 0; i < count; ++i) {
         sums.Add(*feature, first + i, &blocks[static_cast<size_t>(i) * size]);
