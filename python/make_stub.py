@@ -12,6 +12,7 @@ _TYPES = {
     "MetricOptions, Metric or str": "MetricOptions | Metric | _Preset | None",
     "three floats": "ArrayLike",
     "list of str": "Sequence[str]",
+    "dict of str to float": "Mapping[str, float] | None",
 }
 
 

@@ -33,6 +33,7 @@ from ._core import (
     MeshError,
     MeshWarning,
     Metric,
+    MetricBasis,
     NoSuchFile,
     Path,
     PathQuality,
@@ -54,6 +55,7 @@ from ._core import (
     TransportSummary,
     __version__,
 )
+from ._features import define_feature
 from ._functions import (
     AverageResult,
     BlendErrors,

@@ -23,11 +23,19 @@ struct FrozenMetric {
   std::shared_ptr<const Metric> metric;
 };
 
+/// What a function of Python's has raised that the library calls. It passes through the library and
+/// the solvers, and is raised again where they return to Python. It is no std::exception, so that
+/// nothing on the way takes it for an error of its own.
+struct RaisedInPython {
+  std::shared_ptr<py::error_already_set> error;
+};
+
 void BindErrors(py::module_* module);
 void BindProgress();
 void BindMeshes(py::module_* module);
 void BindSummaries(py::module_* module);
 void BindPictures(py::module_* module);
+void BindFeatures(py::module_* module);
 void BindMetrics(py::module_* module);
 void BindPaths(py::module_* module);
 void BindSpaces(py::module_* module);

@@ -57,6 +57,8 @@ void RaiseFileError(const FileError& e) {
 void Translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
+  } catch (const RaisedInPython& raised) {
+    raised.error->restore();
   } catch (const FileError& e) {
     RaiseFileError(e);
   } catch (const MeshError& e) {

@@ -55,7 +55,9 @@ void BindModels(py::module_* module) {
                        const std::filesystem::path& file) { WriteModes(file, model.Modes()); })
       .def(py::pickle([](const ShapeModel& model) { return Pack(model.Modes()); },
                       [](const py::bytes& bytes) {
-                        return std::make_shared<ShapeModel>(Unpack<PoseModes>(bytes));
+                        auto modes = Unpack<PoseModes>(bytes);
+                        const py::gil_scoped_release unlocked;
+                        return std::make_shared<ShapeModel>(std::move(modes));
                       }))
       .def_property_readonly("names", [](const ShapeModel& model) { return model.Modes().names; })
       .def_property_readonly("faces",

@@ -14,6 +14,7 @@ PYBIND11_MODULE(_core, module) {
   BindSummaries(&module);
   BindMeshes(&module);
   BindPictures(&module);
+  BindFeatures(&module);
   BindMetrics(&module);
   BindPaths(&module);
   BindSpaces(&module);

@@ -57,6 +57,26 @@ void Value<MetricOptions>::Set(MetricOptions* value, py::handle given, const std
   python::Set(options, value);
 }
 
+void Value<std::vector<FeatureTerm>>::Set(std::vector<FeatureTerm>* value, py::handle given,
+                                          const std::string& name) {
+  value->clear();
+  if (given.is_none()) return;
+  if (!py::isinstance<py::dict>(given)) RefuseType(name, Type(), given);
+  for (const auto& [key, coefficient] : py::reinterpret_borrow<py::dict>(given)) {
+    FeatureTerm term;
+    Value<std::string>::Set(&term.name, key, name);
+    Value<double>::Set(&term.coefficient, coefficient, name + "['" + term.name + "']");
+    value->push_back(term);
+  }
+}
+
+py::object Value<std::vector<FeatureTerm>>::Get(const std::vector<FeatureTerm>& value) {
+  if (value.empty()) return py::none();
+  py::dict terms;
+  for (const FeatureTerm& term : value) terms[term.name.c_str()] = term.coefficient;
+  return std::move(terms);
+}
+
 namespace {
 
 template <typename Options>

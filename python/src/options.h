@@ -191,6 +191,14 @@ struct Value<std::vector<double>> {
   static py::object Get(const std::vector<double>&) { return py::none(); }
 };
 
+/// Features by name, in the order of the dict.
+template <>
+struct Value<std::vector<FeatureTerm>> {
+  static std::string Type() { return "dict of str to float"; }
+  static void Set(std::vector<FeatureTerm>* value, py::handle given, const std::string& name);
+  static py::object Get(const std::vector<FeatureTerm>& value);
+};
+
 template <>
 struct Value<Eigen::Matrix3Xd> {
   static std::string Type() { return "array of float, vertices x 3"; }

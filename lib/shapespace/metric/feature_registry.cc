@@ -67,7 +67,8 @@ FeatureKind FindFeature(const std::string& name) {
   if (found == registry.entries.end()) {
     throw InvalidOptions("feature " + name,
                          "is not known to this program; a program that defines it calls "
-                         "RegisterFeature first (shapespace/metric/define_feature.h)");
+                         "RegisterFeature (shapespace/metric/define_feature.h), or "
+                         "define_feature in Python, first");
   }
   return found->second.kind;
 }

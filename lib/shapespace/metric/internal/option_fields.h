@@ -41,6 +41,8 @@ void ForOptions(Of<MetricOptions>, const Visit& visit) {
         "Cost of a change of dihedral angles: t^2 / 12 for a shell of thickness t.");
   visit("volume", &MetricOptions::volume,
         "Cost of a change of the enclosed volume, closed meshes only; start from 0.3.");
+  visit("features", &MetricOptions::features,
+        "Features of one's own: the coefficient, zero or more, of each by its name.");
   visit("weights", &MetricOptions::weights,
         "Weights of edges and triangles: by the surface around them, or 1 as in the paper.");
   visit("discretization", &MetricOptions::discretization,
