@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/files/read.h>
+#include <shapespace/statistics/pose_table.h>
 
 #include "tools/run.h"
 
@@ -151,6 +152,24 @@ TEST_F(ExploreToolTest, AnyNumberOfRanksMakesTheSameFile) {
   EXPECT_NE(run(2, poses + "--depth x"), 0);
   EXPECT_EQ(WEXITSTATUS(run(2, poses + "--threshold 0")), 2);
   ExpectContains(Content(Path("err")), "--threshold 0:");
+}
+
+TEST_F(ExploreToolTest, DistancesAreLengthsOfGeodesics) {
+  Succeed("shape-body", {"tube", "--triangles", "300", "--at", "0,30,60", "-o", "tube%d.obj"});
+  Succeed("shape-explore", {"tube0.obj", "tube1.obj", "tube2.obj", "-o", "d.csv"});
+  const PoseTable table = ReadPoseTable(Path("d.csv"));
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"tube0", "tube1", "tube2"}));
+  const Eigen::MatrixXd distances = table.NumbersOf(table.poses);
+  EXPECT_EQ(distances, distances.transpose());
+  EXPECT_EQ(distances.diagonal().norm(), 0);
+  // The straight tube is bent along a geodesic, so that distances nearly add up.
+  EXPECT_NEAR(distances(0, 1) + distances(1, 2), distances(0, 2), 0.02 * distances(0, 2));
+  EXPECT_LE(distances(0, 2), distances(0, 1) + distances(1, 2));
+  const Outcome outcome =
+      Run("shape-explore", {"tube0.obj", "tube1.obj", "-o", "d.csv", "--depth", "1"});
+  EXPECT_EQ(outcome.code, 2);
+  ExpectContains(outcome.err, "--depth: goes with a .space");
+  EXPECT_FALSE(fs::exists(Path("d.csv.records")));
 }
 
 TEST_F(ExploreToolTest, WhatIsWrongIsNamed) {

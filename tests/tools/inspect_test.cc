@@ -2,6 +2,7 @@
 #include <regex>
 
 #include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
 
 #include <shapespace/files/read.h>
 #include <shapespace/files/write.h>
@@ -12,6 +13,7 @@
 namespace shapespace {
 namespace {
 
+using testing::Content;
 using testing::ExpectContains;
 using testing::ExpectLacks;
 using testing::Outcome;
@@ -176,6 +178,53 @@ TEST_F(InspectTest, AFileThatCannotBeReadDoesNotHideTheOthers) {
   ExpectContains(outcome.out, "tube0.obj\n  152 vertices");
   ExpectContains(outcome.out, "tube1.obj\n  152 vertices");
   ExpectContains(outcome.out, "tube1.obj against tube0.obj");
+}
+
+TEST_F(InspectTest, ReportsWhatItPrints) {
+  MakeTubes();
+  Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "5", "--output", "w.path"});
+  const Outcome printed = Run("shape-inspect", {"w.path", "tube0.obj", "tube1.obj"});
+  Succeed("shape-inspect", {"w.path", "tube0.obj", "tube1.obj", "--report", "r.txt"});
+  EXPECT_EQ(Content(Path("r.txt")), printed.out);
+  const Outcome outcome =
+      Run("shape-inspect", {"w.path", "tube0.obj", "tube1.obj", "none.obj", "--report", "-"});
+  EXPECT_EQ(outcome.code, 1);
+  ExpectContains(outcome.err, "7 shapes, 2 of them given");  // as stdout has the report alone
+  const auto report = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(report["files"].size(), 4u);
+  const auto& path = report["files"][0];
+  EXPECT_EQ(path["kind"], "path");
+  EXPECT_EQ(path["shapes"], 7);
+  EXPECT_EQ(path["intersections"]["pairs"].size(), 7u);
+  const int vertices = report["files"][1]["vertices"];
+  double area = path["joint_share"];
+  for (const auto& part : path["parts"]) area += part["area_share"].get<double>();
+  EXPECT_NEAR(area, 1, 1e-6);
+  for (const auto& site : path["deviation_sites"]) {
+    EXPECT_GE(site["vertex"], 1);
+    EXPECT_LE(site["vertex"], vertices);
+  }
+  EXPECT_EQ(report["files"][1]["usable"], true);
+  EXPECT_EQ(report["files"][1]["intersections"], 0);
+  EXPECT_EQ(report["files"][3]["file"], "none.obj");
+  ExpectContains(report["files"][3]["error"], "none.obj: ");
+  ASSERT_EQ(report["comparisons"].size(), 1u);
+  // The length of the path is no less than the bound.
+  EXPECT_GT(report["comparisons"][0]["distance_at_least"], 0);
+}
+
+TEST_F(InspectTest, ReportsMeshesThatCannotServe) {
+  File("fan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 2 1 5\n");
+  const Outcome outcome = Run("shape-inspect", {"fan.obj", "--report", "-"});
+  EXPECT_EQ(outcome.code, 1);
+  const auto file = nlohmann::json::parse(outcome.out)["files"][0];
+  EXPECT_EQ(file["usable"], false);
+  bool found = false;
+  for (const auto& finding : file["findings"]) {
+    found =
+        found || (finding["kind"] == "non-manifold-edge" && finding["severity"] == "non-manifold");
+  }
+  EXPECT_TRUE(found) << outcome.out;
 }
 
 TEST_F(InspectTest, NeedsAFile) {

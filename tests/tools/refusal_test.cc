@@ -29,7 +29,7 @@ class RefusalTest : public ToolsTest {
     const Outcome outcome = Run("shape-interpolate", arguments);
     EXPECT_EQ(outcome.code, code) << outcome.err;
     EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(outcome.err.rfind("shape-interpolate: ", 0), 0u) << outcome.err;
+    ExpectContains("\n" + outcome.err, "\nshape-interpolate: ");
     for (const std::string& part : parts) ExpectContains(outcome.err, part);
     if (code == 2) ExpectContains(outcome.err, "--help");
     EXPECT_EQ(Files(), before) << outcome.err;

@@ -69,6 +69,7 @@ class Parser {
       Set(name, argument.substr(equals + 1), type);
     } else if (type == "bool") {
       Set(name, negated ? "false" : "true", type);
+      Typed().erase(name);
     } else if (next_ < argv_.size()) {
       Set(name, argv_[next_++], type);
     } else {

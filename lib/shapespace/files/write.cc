@@ -17,8 +17,9 @@ struct Format {
   std::string (*content)(const Shape& vertices, const Soup& soup);
 };
 
+constexpr Format kPly = {".ply", &internal::PlyContent};
 constexpr Format kFormats[] = {{".obj", &internal::ObjContent},
-                               {".ply", &internal::PlyContent},
+                               kPly,
                                {".off", &internal::OffContent},
                                {".stl", &internal::StlContent}};
 
@@ -109,7 +110,7 @@ void WriteMesh(const std::string& file, const Shape& vertices, const Soup& soup)
 
 void WritePly(std::ostream& stream, const std::string& name, const Shape& vertices,
               const Soup& soup) {
-  const std::string content = ContentOf(name, *WriterOf(".ply"), vertices, soup);
+  const std::string content = ContentOf(name, kPly, vertices, soup);
   stream.write(content.data(), static_cast<std::streamsize>(content.size()));
   if (!stream.flush()) throw FileError(name + ": writing failed (is the disk full?)");
 }
