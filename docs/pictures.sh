@@ -48,6 +48,7 @@ done
 "$bin/shape-body" quadruped --pose stand --proportions long --output 'other%d.obj'
 "$bin/shape-transfer" pose0.obj pose1.obj pose2.obj --target other0.obj \
   --output "$pictures/transfer.png" --hybrids "$pictures/hybrids.png"
+"$bin/shape-transport" pose0.obj pose1.obj pose2.obj --output "$pictures/transport.png"
 
 # guide/deforming.md
 "$bin/shape-body" quadruped --pose stand --output 'animal%d.obj'

@@ -47,6 +47,9 @@ for flag in "${flags[@]}"; do
 done
 "$work/build/openmesh_consumer" || fail "the adaptor for OpenMesh ends with exit code $?"
 "$work/prefix/bin/shape-interpolate" --version
+grep -q 'shapes inserted between' "$work/prefix/share/man/man1/shape-interpolate.1" ||
+  fail "there is no manual page"
+[[ -s $work/prefix/share/bash-completion/completions/shape-view ]] || fail "nothing completes flags"
 "$work/prefix/bin/shape-body" tube --triangles 500 --at 0,90 --output 'pose%d.obj'
 "$work/build/guide_library" pose0.obj pose1.obj | grep -qx 'Termination  *converged' ||
   fail "the guide's program did not converge"

@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -7,6 +8,7 @@
 namespace shapespace {
 namespace {
 
+using testing::Content;
 using testing::ExpectContains;
 using testing::ExpectLacks;
 using testing::Outcome;
@@ -116,6 +118,20 @@ TEST_F(HelpTest, DefaultsReadAsTheyWouldBeTyped) {
   ExpectContains(Run("shape-deform", {"--help"}).out, "--metric deformation ");
   ExpectContains(Run("shape-deform", {"--help"}).out, "--balance 0.01 ");
   ExpectLacks(help, "00000");
+}
+
+TEST_F(HelpTest, BashCompletesTheFlags) {
+  File("complete.sh", "source '" SHAPESPACE_COMPLETION
+                      "'\n"
+                      "COMP_WORDS=(" SHAPESPACE_TOOLS_DIR
+                      "/shape-transfer a.obj --me)\n"
+                      "COMP_CWORD=2\n"
+                      "_shapespace \"${COMP_WORDS[0]}\"\n"
+                      "echo \"${COMPREPLY[@]}\" >replies\n"
+                      "complete -p shape-transfer >registered\n");
+  ASSERT_EQ(std::system(("cd '" + Path("") + "' && bash complete.sh").c_str()), 0);
+  EXPECT_EQ(Content(Path("replies")), "--method --metric --memory_limit\n");
+  ExpectContains(Content(Path("registered")), "-F _shapespace shape-transfer");
 }
 
 TEST_F(HelpTest, VersionIsOneLine) {

@@ -43,7 +43,12 @@ TEST_F(StreamsTest, StdinIsReadInEveryFormat) {
   }
   Succeed("shape-body", {"tube", "--triangles", "300", "--at", "60", "--output", "b%d.stl"});
   ExpectContains(Shell("shape-inspect - <b0.stl").out, "stdin\n  152 vertices, 300 polygons");
-  ASSERT_EQ(Shell("shape-interpolate tube0.obj tube1.obj --output w.glb").code, 0);
+  ASSERT_EQ(Shell("shape-interpolate tube0.obj tube1.obj --output w.glb,w%02d.vtp").code, 0);
+  ExpectContains(Shell("shape-inspect - <w16.vtp").out, "stdin\n  152 vertices, 300 polygons");
+  File("t.vtk",
+       "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n"
+       "0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n");
+  ExpectContains(Shell("shape-inspect - <t.vtk").out, "stdin\n  3 vertices, 1 polygons");
   ExpectContains(Shell("shape-inspect - <w.glb").out, "morph targets not read");
 }
 

@@ -27,13 +27,13 @@ void TellOnce(const std::string& line);
 template <typename... Parts>
 void Warn(const Parts&... parts) {
   std::ostringstream text;
-  (text << "warning: " << ... << parts);
+  ((text << "warning: ") << ... << parts);
   TellOnce(text.str());
 }
 template <typename... Parts>
 void Note(const Parts&... parts) {
   std::ostringstream text;
-  (text << "note: " << ... << parts);
+  ((text << "note: ") << ... << parts);
   TellOnce(text.str());
 }
 

@@ -27,6 +27,8 @@ MeshFormat FormatOfContent(const std::string& content) {
                              std::regex(pattern), std::regex_constants::match_continuous);
   };
   if (begins("ply\\s")) return MeshFormat::kPly;
+  if (begins("# vtk DataFile")) return MeshFormat::kVtk;
+  if (begins("(<\\?xml|<VTKFile)\\s")) return MeshFormat::kVtp;
   if (begins("glTF|\\s*\\{")) return MeshFormat::kGltf;
   if (begins("(ST)?C?N?4?n?OFF\\s")) return MeshFormat::kOff;
   // A binary STL has a header of 80 bytes, the number of triangles, and 50 bytes for each of them.
