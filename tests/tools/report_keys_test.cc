@@ -161,5 +161,35 @@ TEST_F(ReportKeysTest, TheDocumentationHasThemAllAndNoOthers) {
   EXPECT_EQ(KeysOf(repair["deformation"]), KeysOf(deformation));
 }
 
+TEST_F(ReportKeysTest, KeysOfInspectedFilesAreDocumented) {
+  MakeTubes();
+  Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "3", "--output", "w.path"});
+  Succeed("shape-explore", {"tube0.obj", "tube1.obj", "--depth", "0", "--output", "t.space"});
+  Succeed("shape-statistics", {"tube0.obj", "tube1.obj", "--output", "t.modes"});
+  Keys keys;
+  Collect(Report("shape-inspect", {"tube0.obj", "tube1.obj", "w.path", "t.space", "t.modes"}),
+          &keys);
+  const std::string text = Content(SHAPESPACE_DOCS_DIR "/file-formats.md");
+  const size_t begin = text.find("Of `shape-inspect`, in place of"),
+               end = text.find("Of `shape-transfer`:");
+  ASSERT_LT(begin, end);
+  Keys documented = KeysIn(text.substr(begin, end - begin));
+  for (const auto& [row, content] : Rows("Of `shape-interpolate`:")) {
+    if (row.count("quality") > 0) documented.merge(KeysIn(content));
+  }
+  for (const std::string& key : keys) EXPECT_EQ(documented.count(key), 1u) << key;
+}
+
+TEST_F(ReportKeysTest, KeysOfTransportAreDocumented) {
+  MakeTubes();
+  const nlohmann::json report =
+      Report("shape-transport", {"tube0.obj", "tube0.obj", "tube1.obj", "--output", "t.obj"});
+  Keys keys;
+  Collect(report["transport"], &keys);
+  Keys documented;
+  for (const auto& [row, content] : Rows("Of `shape-transport`,")) documented = KeysIn(content);
+  EXPECT_EQ(keys, documented);
+}
+
 }  // namespace
 }  // namespace shapespace
