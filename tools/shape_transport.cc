@@ -40,7 +40,6 @@ namespace {
 struct Problem {
   Path path;
   Shape changed;
-  Appearance appearance;
 };
 
 Path InterpolateFrom(const Poses& poses, const GeodesicOptions& options) {
@@ -56,7 +55,7 @@ Problem ReadProblem(const std::vector<std::string>& files) {
     RefuseFlags({"geodesic", "metric"}, {}, "goes with poses; a .path has its metric");
     Path path = ReadPathAndTell(files[0]);
     const Poses changed = ReadPoseOf(path, files[0], files[1]);
-    return {std::move(path), changed.shapes[0], path.appearance};
+    return {std::move(path), changed.shapes[0]};
   }
   if (files.size() != 3) {
     throw UsageError(
@@ -68,7 +67,7 @@ Problem ReadProblem(const std::vector<std::string>& files) {
   const Shape changed = poses.shapes[2];
   poses.shapes.pop_back();
   poses.names.pop_back();
-  return {InterpolateFrom(poses, options), changed, poses.soup.appearance};
+  return {InterpolateFrom(poses, options), changed};
 }
 
 // Tangents side by side, a row per vertex, numbered from 1.
@@ -123,7 +122,7 @@ void Run(const std::vector<std::string>& files) {
   const ExponentialSummary& summary = result.summary;
   PrintSummary(summary.BriefReport(), summary.warnings, summary.Converged());
   result.path.provenance = Provenance("shape-transport", files);
-  result.path.appearance = problem.appearance;
+  result.path.appearance = path.appearance;
   WriteOutputs(outputs, result.path, result.path);
   if (!FLAGS_tangents.empty() && !Interrupted()) WriteTangents(FLAGS_tangents, tangents);
   auto json = nlohmann::ordered_json::parse(summary.ToJson());

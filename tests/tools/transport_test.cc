@@ -76,6 +76,19 @@ TEST_F(TransportToolTest, APathGivesWhatItsPosesGive) {
               1, 1e-6);
 }
 
+TEST_F(TransportToolTest, GroupsAreKept) {
+  MakeTubes();
+  std::string grouped = Content(Path("tube0.obj"));
+  grouped.insert(grouped.find("\nf ") + 1, "g skin\n");
+  File("grouped.obj", grouped);
+  Succeed("shape-transport", {"grouped.obj", "tube0.obj", "tube1.obj", "-o", "poses.obj"});
+  Succeed("shape-interpolate", {"grouped.obj", "tube0.obj", "-o", "w.path"});
+  Succeed("shape-transport", {"w.path", "tube1.obj", "-o", "path.obj"});
+  for (const char* file : {"poses.obj", "path.obj"}) {
+    ExpectContains(Content(Path(file)), "\ng skin\n");
+  }
+}
+
 TEST_F(TransportToolTest, Refuses) {
   MakePoses();
   Succeed("shape-interpolate", {"a.ply", "b.ply", "-o", "w.path"});
