@@ -26,7 +26,7 @@ async function setTime(page, value) {
 }
 
 await shoot('walk', { width: 1000, height: 760, colorScheme: 'light' }, async (page) => {
-  await page.locator('#deviation').check();
+  await page.locator('#colour').selectOption('deviation');
   await setTime(page, 0.7);
 });
 await shoot('two', { width: 1000, height: 760, colorScheme: 'dark' }, async (page) => {

@@ -3,10 +3,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include <gtest/gtest.h>
 
 #include <shapespace/analysis/quality.h>
+#include <shapespace/analysis/rigid_parts.h>
+#include <shapespace/analysis/vertex_energy.h>
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/body.h>
 #include <shapespace/path/energy.h>
@@ -108,12 +111,40 @@ TEST_F(PageTest, TellsFiguresOfShapesAndSegments) {
   }
 }
 
+TEST_F(PageTest, HasEnergiesOfVerticesAndNearRigidParts) {
+  const shapespace::Path path = BendingTube(1000, 5);
+  const DecodedScene scene = Write(PagePath{&path, "tube.path"});
+  const double end = scene.header["energyEnd"];
+  const std::vector<Eigen::VectorXd> energies = VertexEnergy(path);
+  ASSERT_EQ(scene.energy_shades.size(), 5u);
+  int shown_at_end = 0;
+  for (int i = 0; i < 5; ++i) {
+    const Eigen::VectorXd shown = scene.energy_shades[i].cast<double>() * end / 255;
+    EXPECT_LE((shown - energies[i].cwiseMin(end)).cwiseAbs().maxCoeff(), 0.501 * end / 255) << i;
+    shown_at_end += (scene.energy_shades[i].array() == 255).count();
+  }
+  // The scale fits the values: some, but few, are beyond its end.
+  EXPECT_LE(shown_at_end, 0.011 * 5 * scene.vertices);
+
+  const RigidParts parts = FindRigidParts(path);
+  ASSERT_GE(parts.parts.size(), 2u);
+  EXPECT_EQ(scene.header["parts"], parts.parts.size());
+  const auto colour_of = [&](int v) { return scene.part_colours.substr(3 * v, 3); };
+  std::map<int, std::string> colours;
+  for (int v = 0; v < scene.vertices; ++v) {
+    const auto [known, is_new] = colours.emplace(parts.of_vertex[v], colour_of(v));
+    EXPECT_EQ(colour_of(v), known->second) << v;
+  }
+  EXPECT_NE(colours.at(0), colours.at(1));
+}
+
 TEST_F(PageTest, MetricsWithoutBoundHaveSpeedsToo) {
   shapespace::Path path = BendingTube(300, 3);
   path.metric = FreezeMetric(MetricOptions::Rigid(), path.metric->connectivity,
                              {path.Placed(0), path.Placed(2)});
   const DecodedScene scene = Write(PagePath{&path, "tube.path"});
   EXPECT_GT(scene.header["speeds"][0].get<double>(), 0);
+  EXPECT_TRUE(scene.header["energyEnd"].is_null());
 }
 
 TEST_F(PageTest, SmoothMotionTakesAQuarterOfItsBytes) {

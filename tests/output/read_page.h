@@ -72,14 +72,9 @@ class DecodedScene {
     segments = Indices(2 * header["segments"].get<int>());
     for (int s = 0; s < header["shapes"]; ++s) ReadShape(s);
     if (header["kind"] == "path") {
-      Eigen::VectorXi last = Eigen::VectorXi::Zero(vertices);
-      for (size_t s = 0; s < steps.size(); ++s) {
-        const std::string differences = Take(vertices);
-        for (int v = 0; v < vertices; ++v) {
-          last[v] = (last[v] + static_cast<unsigned char>(differences[v])) & 255;
-        }
-        shades.push_back(last);
-      }
+      shades = Shades();
+      if (!header["energyEnd"].is_null()) energy_shades = Shades();
+      if (header["parts"] > 0) part_colours = Take(3 * vertices);
     }
     if (header["colours"]) colours = Take(3 * vertices);
     if (at_ != bytes_.size()) throw std::runtime_error("bytes are left over");
@@ -97,8 +92,8 @@ class DecodedScene {
   int vertices = 0;
   std::vector<int> triangles, segments;
   std::vector<Eigen::Matrix3Xi> steps;
-  std::vector<Eigen::VectorXi> shades;
-  std::string colours;
+  std::vector<Eigen::VectorXi> shades, energy_shades;  ///< of deviations and energies
+  std::string colours, part_colours;
 
  private:
   unsigned Byte(size_t at) const { return static_cast<unsigned char>(bytes_.at(at)); }
@@ -109,6 +104,19 @@ class DecodedScene {
   }
   static std::int64_t UnZigZag(std::int64_t code) {
     return code % 2 == 0 ? code / 2 : -(code + 1) / 2;
+  }
+
+  std::vector<Eigen::VectorXi> Shades() {
+    std::vector<Eigen::VectorXi> read;
+    Eigen::VectorXi last = Eigen::VectorXi::Zero(vertices);
+    for (size_t s = 0; s < steps.size(); ++s) {
+      const std::string differences = Take(vertices);
+      for (int v = 0; v < vertices; ++v) {
+        last[v] = (last[v] + static_cast<unsigned char>(differences[v])) & 255;
+      }
+      read.push_back(last);
+    }
+    return read;
   }
 
   std::vector<int> Indices(int count) {

@@ -124,7 +124,7 @@ describe('every page', () => {
           await open(name, { viewport, colorScheme }, async (page) => {
             const isPath = name === 'walk-path' || name === 'two';
             if (name === 'mesh') await page.locator('#pick-mode').selectOption('handles');
-            if (isPath) await page.locator('#deviation').check();
+            if (isPath) await page.locator('#colour').selectOption('deviation');
             assert.deepEqual(await page.evaluate(contrastFaults), []);
             assert.deepEqual(await page.evaluate(layoutFaults), []);
             assert.deepEqual(await page.evaluate(namelessControls), []);
@@ -222,6 +222,24 @@ describe('a path', () => {
     });
   });
 
+  test('is coloured by energy and by near-rigid parts', async () => {
+    await open('walk-path', {}, async (page) => {
+      await setTime(page, 0.7);
+      const colour = page.locator('#colour');
+      await colour.selectOption('deviation');
+      const deviation = await look(page);
+      await colour.selectOption('energy');
+      assert.ok((await difference(page, deviation, await look(page))) > 0.02);
+      assert.match(await page.locator('#legend-title').textContent(), /^Energy/);
+      assert.doesNotMatch(await page.locator('#ramp-end').textContent(), /%/);
+      await assertChanges(page, () => colour.selectOption('parts'), 0.02);
+      assert.equal(await page.locator('#legend').isVisible(), false);
+      // The deviations are what they were, after energies were in their place.
+      await colour.selectOption('deviation');
+      assert.ok((await difference(page, deviation, await look(page))) < 0.001);
+    });
+  });
+
   test('shows wires, deviation and flat faces', async () => {
     await open('walk-path', {}, async (page) => {
       await setTime(page, 0.7);
@@ -229,7 +247,7 @@ describe('a path', () => {
       await assertChanges(page, () => page.locator('#wireframe').uncheck());
       await assertChanges(page, () => page.locator('#facets').check());
       assert.equal(await page.locator('#legend').isVisible(), false);
-      await assertChanges(page, () => page.locator('#deviation').check(), 0.02);
+      await assertChanges(page, () => page.locator('#colour').selectOption('deviation'), 0.02);
       assert.equal(await page.locator('#legend').isVisible(), true);
       assert.match(await page.locator('#ramp-end').textContent(), /[1-9].*%/);
       // The first shape deviates nowhere: it has one colour, and red is not in it.
@@ -354,7 +372,7 @@ describe('a path', () => {
   test('of a glb moves, and has its deviation', async () => {
     await open('walk-glb', {}, async (page) => {
       await assertChanges(page, () => setTime(page, 0.5));
-      await assertChanges(page, () => page.locator('#deviation').check());
+      await assertChanges(page, () => page.locator('#colour').selectOption('deviation'));
       assert.equal(await page.locator('.plot').count(), 2); // no energy
     });
   });

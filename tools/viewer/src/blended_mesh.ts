@@ -80,19 +80,14 @@ export class BlendedMesh extends Group {
       new BufferAttribute(this.isGraph ? body.segments : body.triangles, 1),
     );
     this.geometry.boundingSphere = new Sphere(new Vector3(0.5, 0.5, 0.5), Math.sqrt(3) / 2);
-    if (body.colours) this.geometry.setAttribute('color', linearColours(body.colours));
-    const vertexColors = body.colours !== null;
-    const color = vertexColors ? new Color(1, 1, 1) : clay;
     if (this.isGraph) {
-      const material = new LineBasicMaterial({ color, vertexColors });
+      const material = new LineBasicMaterial();
       this.surface = new LineSegments(this.geometry, this.patch(material));
     } else {
       const flatShading = [0, body.shapes.length >> 1, body.shapes.length - 1].some((shape) =>
         isFaceted(body, body.shapes[shape]),
       );
       const material = new MeshStandardMaterial({
-        color,
-        vertexColors,
         flatShading,
         side: DoubleSide,
         roughness: 0.75,
@@ -108,6 +103,7 @@ export class BlendedMesh extends Group {
       this.add(this.wires);
     }
     this.add(this.surface);
+    this.colourBy(body.colours);
     for (const child of this.children) child.frustumCulled = false;
     this.show(this.shown);
   }
@@ -185,10 +181,32 @@ export class BlendedMesh extends Group {
     material.needsUpdate = true;
   }
 
-  /** Colours by deviation: `end` has the last colour; null: plain. `own` has 65535. */
-  colourByDeviation(own: number, end: number | null): void {
-    this.uniforms.byDeviation.value = end === null ? 0 : 1;
-    if (end !== null) this.uniforms.deviationScale.value = own / end;
+  /** Colours by the fourth numbers of shapes: `end` has the last colour, and `own` is 65535. */
+  colourByValue(own: number, end: number): void {
+    this.uniforms.byDeviation.value = 1;
+    this.uniforms.deviationScale.value = own / end;
+  }
+
+  /** Colours by red, green and blue of every vertex in sRGB, or plain. */
+  colourBy(colours: Uint8Array | null): void {
+    this.uniforms.byDeviation.value = 0;
+    const material = this.surface.material as LineBasicMaterial | MeshStandardMaterial;
+    material.color.copy(colours ? new Color(1, 1, 1) : clay);
+    if (colours) this.geometry.setAttribute('color', linearColours(colours));
+    if (material.vertexColors === (colours !== null)) return;
+    material.vertexColors = colours !== null;
+    material.needsUpdate = true;
+  }
+
+  /** Exchanges the fourth numbers of all shapes with these, of each shape one a vertex. */
+  exchangeValues(values: Uint16Array[]): void {
+    values.forEach((of, s) => {
+      const shape = this.body.shapes[s];
+      for (let v = 0; v < of.length; ++v) {
+        [shape[4 * v + 3], of[v]] = [of[v], shape[4 * v + 3]];
+      }
+      if (this.positions[s]) this.positions[s].needsUpdate = true;
+    });
   }
 
   private positionsOf(node: number): BufferAttribute {

@@ -1,5 +1,5 @@
 // Reads the scenes that shape-view writes: docs/file-formats.md, HTML.
-import { Damaged, type Body, type SceneData } from './scene_data';
+import { Damaged, type Body, type PathScene, type SceneData } from './scene_data';
 
 export function bytesFromBase64(text: string): Uint8Array<ArrayBuffer> {
   let binary: string;
@@ -79,15 +79,24 @@ function readPositions(reader: Reader, shapes: Uint16Array[], vertices: number, 
   }
 }
 
-function readDeviations(reader: Reader, shapes: Uint16Array[], vertices: number) {
+/** Of each shape a number a vertex, with 65535 for the last colour. */
+function readShades(reader: Reader, shapes: number, vertices: number): Uint16Array[] {
   const last = new Uint8Array(vertices);
-  for (const shape of shapes) {
+  return Array.from({ length: shapes }, () => {
     const differences = reader.take(vertices);
+    const shades = new Uint16Array(vertices);
     for (let v = 0; v < vertices; ++v) {
       last[v] += differences[v];
-      shape[4 * v + 3] = 257 * last[v];
+      shades[v] = 257 * last[v];
     }
-  }
+    return shades;
+  });
+}
+
+function readDeviations(reader: Reader, shapes: Uint16Array[], vertices: number) {
+  readShades(reader, shapes.length, vertices).forEach((shades, s) =>
+    shades.forEach((shade, v) => (shapes[s][4 * v + 3] = shade)),
+  );
 }
 
 function along(shapes: Uint16Array[]): Predict {
@@ -140,6 +149,8 @@ function checkHeader(header: any) {
     check(header.parameters.length === header.shapes && header.rms.length === header.shapes);
     check(header.max.length === header.shapes && header.scaleEnd > 0);
     check(header.speeds.length === header.shapes - 1);
+    check(header.energyEnd === null || header.energyEnd > 0);
+    check(isCount(header.parts));
   } else if (header.kind === 'modes') {
     const modes = header.shares.length;
     check(modes > 0 && header.places.length > 0 && header.pairPlace > 0);
@@ -185,7 +196,14 @@ export async function decodeScene(text: string): Promise<SceneData> {
   };
   const predict = predictions[header.kind]();
   readPositions(reader, shapes, vertices, predict);
-  if (header.kind === 'path') readDeviations(reader, shapes, vertices);
+  let ofPath: Pick<PathScene, 'energies' | 'partColours'> | undefined;
+  if (header.kind === 'path') {
+    readDeviations(reader, shapes, vertices);
+    ofPath = {
+      energies: header.energyEnd === null ? [] : readShades(reader, header.shapes, vertices),
+      partColours: header.parts > 0 ? reader.take(3 * vertices) : null,
+    };
+  }
   const colours = header.colours ? reader.take(3 * vertices) : null;
   reader.end();
   const body: Omit<Body, 'name'> = {
@@ -199,5 +217,5 @@ export async function decodeScene(text: string): Promise<SceneData> {
     up: header.up,
     eye: header.eye,
   };
-  return { ...header, ...body };
+  return { ...header, ...body, ...ofPath };
 }

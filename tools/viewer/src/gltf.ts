@@ -147,6 +147,9 @@ function toPath(name: string, { scene, animations }: GLTF): PathScene {
     smooth: false,
     metric: '',
     speeds: moments.slice(1).map(() => null),
+    energyEnd: null,
+    energies: [],
+    partColours: null,
   };
 }
 

@@ -18,7 +18,7 @@ function facts({ vertices, triangles }: MeshScene): string {
 export function showMeshes(scenes: MeshScene[]): void {
   const names = scenes.map(({ name }) => name);
   showNames(names, scenes.map(facts));
-  for (const id of ['deviation-option', 'film', 'transport', 'playing-options']) {
+  for (const id of ['colour-option', 'film', 'transport', 'playing-options']) {
     byId(id).hidden = true;
   }
   const meshes = scenes.map((scene) => new BlendedMesh(scene));

@@ -57,7 +57,7 @@ export function showModes(scene: ModesScene): void {
   byId('title').textContent = scene.name;
   byId('facts').textContent = facts(scene);
   byId('modes-panel').hidden = false;
-  byId('deviation-option').hidden = true;
+  byId('colour-option').hidden = true;
   byId('film').hidden = true;
   byId('preview').textContent =
     `A preview: on the mean ${perCent(scene.error)} of the diagonal away from the exact shape.`;

@@ -39,16 +39,38 @@ function facts({ vertices, triangles, shapes, metric }: PathScene): string {
 }
 
 function showColours(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): void {
-  const end = Math.max(...scenes.map((scene) => scene.scaleEnd));
   byId('ramp').style.background = rampGradient();
-  byId('ramp-end').textContent = `${perCent(end)} and more`;
-  const input = byId<HTMLInputElement>('deviation');
-  input.checked = false;
-  input.addEventListener('change', () => {
-    byId('legend').hidden = !input.checked;
-    meshes.forEach((mesh, i) =>
-      mesh.colourByDeviation(scenes[i].scaleEnd, input.checked ? end : null),
-    );
+  const select = byId<HTMLSelectElement>('colour');
+  const hide = (value: string, hidden: boolean) => {
+    const option = select.querySelector<HTMLOptionElement>(`option[value=${value}]`);
+    if (option) option.hidden = option.disabled = hidden;
+  };
+  hide('energy', scenes.some(({ energyEnd }) => energyEnd === null));
+  hide('parts', scenes.some(({ partColours }) => partColours === null));
+  select.value = 'plain';
+  let energiesAreIn = false;
+  select.addEventListener('change', () => {
+    const byEnergy = select.value === 'energy';
+    const byValue = byEnergy || select.value === 'deviation';
+    byId('legend').hidden = !byValue;
+    if (byValue) {
+      if (byEnergy !== energiesAreIn) {
+        meshes.forEach((mesh, i) => mesh.exchangeValues(scenes[i].energies));
+        energiesAreIn = byEnergy;
+      }
+      const ends = scenes.map((scene) => (byEnergy ? (scene.energyEnd ?? 0) : scene.scaleEnd));
+      const end = Math.max(...ends);
+      meshes.forEach((mesh, i) => mesh.colourByValue(ends[i], end));
+      byId('legend-title').textContent = byEnergy
+        ? 'Energy at vertices (squared speed per area)'
+        : 'Deviation of edges from the first shape';
+      byId('ramp-end').textContent = `${byEnergy ? shortNumber(end) : perCent(end)} and more`;
+    } else {
+      const byParts = select.value === 'parts';
+      meshes.forEach((mesh, i) =>
+        mesh.colourBy(byParts ? scenes[i].partColours : scenes[i].colours),
+      );
+    }
     stage.draw();
   });
 }

@@ -48,7 +48,7 @@ export function showSpace(scene: SpaceScene): void {
   byId('facts').textContent = facts(scene);
   byId('layout').classList.add('with-plane');
   byId('plane-panel').hidden = false;
-  byId('deviation-option').hidden = true;
+  byId('colour-option').hidden = true;
   byId('glb').hidden = false;
 
   const mesh = new BlendedMesh(scene);

@@ -9,11 +9,14 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/analysis/quality.h>
+#include <shapespace/analysis/rigid_parts.h>
+#include <shapespace/analysis/vertex_energy.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/output/internal/legend.h>
 #include <shapespace/output/internal/scene.h>
 #include <shapespace/output/internal/view.h>
+#include <shapespace/output/vertex_colours.h>
 #include <shapespace/path/energy.h>
 
 namespace shapespace::internal {
@@ -167,7 +170,19 @@ void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shap
   (*header)["eye"] = {eye[0], eye[1], eye[2]};
 }
 
-// Per vertex and shape, as differences from shape to shape.
+// Values of every vertex and shape, of which `end` has the last shade, as differences from shape to
+// shape.
+void AppendShades(const std::vector<Eigen::VectorXd>& values, double end, std::string* bytes) {
+  std::string last(values[0].size(), 0);
+  for (const Eigen::VectorXd& of_shape : values) {
+    for (Eigen::Index v = 0; v < of_shape.size(); ++v) {
+      const auto shade = static_cast<char>(std::lround(kShades * std::min(1.0, of_shape[v] / end)));
+      bytes->push_back(static_cast<char>(shade - last[v]));
+      last[v] = shade;
+    }
+  }
+}
+
 void AppendDeviations(const Path& path, OrderedJson* header, std::string* bytes) {
   std::vector<Eigen::VectorXd> deviations(path.NumShapes());
   std::vector<RmsAndMax> edges(path.NumShapes());
@@ -181,15 +196,17 @@ void AppendDeviations(const Path& path, OrderedJson* header, std::string* bytes)
     (*header)["rms"].push_back(edge.rms);
     (*header)["max"].push_back(edge.max);
   }
-  std::string last(deviations[0].size(), 0);
-  for (const Eigen::VectorXd& deviation : deviations) {
-    for (Eigen::Index v = 0; v < deviation.size(); ++v) {
-      const auto shade =
-          static_cast<char>(std::lround(kShades * std::min(1.0, deviation[v] / end)));
-      bytes->push_back(static_cast<char>(shade - last[v]));
-      last[v] = shade;
-    }
-  }
+  AppendShades(deviations, end, bytes);
+}
+
+// Where the motion costs its energy, if the metric says so.
+void AppendEnergies(const Path& path, OrderedJson* header, std::string* bytes) {
+  (*header)["energyEnd"] = nullptr;
+  if (path.metric->rigid.Active() || path.NumShapes() < 2) return;
+  const std::vector<Eigen::VectorXd> energies = VertexEnergy(path);
+  const double end = EndOfScale(energies);
+  (*header)["energyEnd"] = end;
+  AppendShades(energies, end, bytes);
 }
 
 // The squared speed in every segment.
@@ -202,13 +219,26 @@ std::vector<double> SquaredSpeeds(const Path& path) {
   return speeds;
 }
 
-void AppendColours(const Eigen::MatrixXd& colours, OrderedJson* header, std::string* bytes) {
-  (*header)["colours"] = colours.size() > 0;
+// Red, green and blue of every vertex.
+void AppendColours(const Eigen::MatrixXd& colours, std::string* bytes) {
   for (Eigen::Index v = 0; v < colours.cols(); ++v) {
     for (int k = 0; k < 3; ++k) {
       bytes->push_back(static_cast<char>(std::lround(255 * colours(k, v))));
     }
   }
+}
+
+// Those of an appearance, which may have none.
+void AppendOwnColours(const Eigen::MatrixXd& colours, OrderedJson* header, std::string* bytes) {
+  (*header)["colours"] = colours.size() > 0;
+  AppendColours(colours, bytes);
+}
+
+// Colours of the near-rigid parts, if there are any.
+void AppendParts(const Path& path, OrderedJson* header, std::string* bytes) {
+  const RigidParts parts = FindRigidParts(path);
+  (*header)["parts"] = parts.parts.size();
+  if (!parts.parts.empty()) AppendColours(ColourByGroup(parts.of_vertex), bytes);
 }
 
 std::string Compress(const std::string& bytes) {
@@ -316,7 +346,7 @@ std::string EncodeScene(const PagePath& scene) {
     throw MeshError(scene.name + ": " + error.what());
   }
   const Connectivity& connectivity = *path.metric->connectivity;
-  CheckSize(scene.name, path.shapes.size(), connectivity.NumVertices(), 7);
+  CheckSize(scene.name, path.shapes.size(), connectivity.NumVertices(), 8);
   OrderedJson header = {{"version", kVersion}, {"kind", "path"}, {"name", scene.name}};
   std::string arrays;
   AppendConnectivity(connectivity, &header, &arrays);
@@ -330,7 +360,9 @@ std::string EncodeScene(const PagePath& scene) {
   const std::vector<Steps> steps = QuantiseAll(shapes, &header);
   AppendPositions(steps, PredictAlongPath(steps), &arrays);
   AppendDeviations(path, &header, &arrays);
-  AppendColours(path.appearance.vertex_colours, &header, &arrays);
+  AppendEnergies(path, &header, &arrays);
+  AppendParts(path, &header, &arrays);
+  AppendOwnColours(path.appearance.vertex_colours, &header, &arrays);
   return Pack(header, arrays);
 }
 
@@ -350,7 +382,7 @@ std::string EncodeScene(const PageSpace& scene) {
              Eigen::Vector3d::Zero(), &header);
   const std::vector<Steps> steps = QuantiseAll(scene.nodes, &header);
   AppendPositions(steps, PredictFromParents(steps, scene.parents), &arrays);
-  AppendColours(scene.vertex_colours, &header, &arrays);
+  AppendOwnColours(scene.vertex_colours, &header, &arrays);
   return Pack(header, arrays);
 }
 
@@ -382,7 +414,7 @@ std::string EncodeScene(const PageModes& scene) {
   std::vector<Steps> predicted(steps.size(), steps[0]);
   predicted[0].assign(steps[0].size(), 0);
   AppendPositions(steps, predicted, &arrays);
-  AppendColours(scene.vertex_colours, &header, &arrays);
+  AppendOwnColours(scene.vertex_colours, &header, &arrays);
   return Pack(header, arrays);
 }
 
@@ -397,7 +429,7 @@ std::string EncodeScene(const PageMesh& scene) {
   AppendView(*scene.connectivity, {scene.shape}, Eigen::Vector3d::Zero(), &header);
   const std::vector<Steps> steps = QuantiseAll({scene.shape}, &header);
   AppendPositions(steps, {Steps(steps[0].size(), 0)}, &arrays);
-  AppendColours(scene.vertex_colours, &header, &arrays);
+  AppendOwnColours(scene.vertex_colours, &header, &arrays);
   return Pack(header, arrays);
 }
 
