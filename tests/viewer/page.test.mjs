@@ -62,6 +62,28 @@ async function look(page, [from, to] = [0, 1]) {
   return (await page.screenshot({ clip })).toString('base64');
 }
 
+// The shares of pixels that are clearly red, and clearly blue.
+function redAndBlue(page, picture) {
+  return page.evaluate(async (data) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${data}`;
+    await image.decode();
+    const canvas = document.createElement('canvas');
+    canvas.width = image.width;
+    canvas.height = image.height;
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    const pixels = context.getImageData(0, 0, image.width, image.height).data;
+    const counts = [0, 0];
+    for (let i = 0; i < pixels.length; i += 4) {
+      const [red, green, blue] = pixels.slice(i, i + 3);
+      if (red > 2 * Math.max(green, blue) + 50) ++counts[0];
+      if (blue > 2 * Math.max(green, red) + 50) ++counts[1];
+    }
+    return counts.map((count) => (4 * count) / pixels.length);
+  }, picture);
+}
+
 // The share of pixels that differ visibly between two looks.
 function difference(page, one, other) {
   return page.evaluate(
@@ -367,6 +389,19 @@ describe('a path', () => {
     } finally {
       await context.close();
     }
+  });
+
+  test('of a glb has its textures', async () => {
+    await open('skin-glb', {}, async (page) => {
+      await setTime(page, 0.1);
+      const [red, blue] = await redAndBlue(page, await look(page));
+      assert.ok(red > 0.01 && blue > 0.01, `${red} of it is red, ${blue} blue`);
+      await page.locator('#colour').selectOption('deviation');
+      assert.equal((await redAndBlue(page, await look(page)))[1], 0);
+      await page.locator('#colour').selectOption('plain');
+      const again = await redAndBlue(page, await look(page));
+      assert.ok(Math.abs(again[0] - red) < 0.01 && Math.abs(again[1] - blue) < 0.01);
+    });
   });
 
   test('of a glb moves, and has its deviation', async () => {

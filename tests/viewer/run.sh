@@ -31,7 +31,17 @@ cd "$work/pages"
   printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nl 1 2 3 4\n' >graph0.obj
   printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 2 1 0\nl 1 2 3 4\n' >graph1.obj
   "$bin/shape-interpolate" graph0.obj graph1.obj --shapes 3 --output graph.path,graph.glb
-  for file in walk.path walk.glb graph.path graph.glb; do
+  # A square that is folded, red on the left and blue on the right by its texture.
+  for height in 0 1; do
+    printf 'mtllib skin.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 %s 1\n' $height
+    printf 'vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl skin\nf 3/3 2/2 1/1\nf 4/4 3/3 1/1\n'
+  done | split --lines=12 --numeric-suffixes --suffix-length=1 --additional-suffix=.obj - skin
+  printf 'newmtl skin\nmap_Kd skin.png\n' >skin.mtl
+  base64 -d >skin.png <<'EOF'
+iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAADUlEQVR4nGP4zwAE/wEHAAH/4iOeWQAAAABJRU5ErkJggg==
+EOF
+  "$bin/shape-interpolate" skin0.obj skin1.obj --shapes 3 --output skin.glb
+  for file in walk.path walk.glb graph.path graph.glb skin.glb; do
     "$bin/shape-view" $file --output "${file/./-}.html"
   done
   "$bin/shape-view" walk.path rigid.path --output two.html

@@ -15,6 +15,7 @@ import {
   SRGBColorSpace,
   Vector3,
   type Material,
+  type Texture,
 } from 'three';
 import { declarations } from './blend_shader';
 import { Marks } from './marks';
@@ -87,14 +88,20 @@ export class BlendedMesh extends Group {
       const flatShading = [0, body.shapes.length >> 1, body.shapes.length - 1].some((shape) =>
         isFaceted(body, body.shapes[shape]),
       );
-      const material = new MeshStandardMaterial({
-        flatShading,
-        side: DoubleSide,
-        roughness: 0.75,
-        polygonOffsetFactor: 1,
-        polygonOffsetUnits: 1,
+      const parts = body.skin?.parts ?? [{ start: 0, count: body.triangles.length }];
+      const materials = parts.map(({ start, count }, i) => {
+        this.geometry.addGroup(start, count, i);
+        const material = new MeshStandardMaterial({
+          flatShading,
+          side: DoubleSide,
+          roughness: 0.75,
+          polygonOffsetFactor: 1,
+          polygonOffsetUnits: 1,
+        });
+        return this.patch(material);
       });
-      this.surface = new Mesh(this.geometry, this.patch(material));
+      if (body.skin) this.geometry.setAttribute('uv', new BufferAttribute(body.skin.uv, 2));
+      this.surface = new Mesh(this.geometry, materials);
       const lines = new MeshBasicMaterial({ color: 0x1b2430, wireframe: true });
       lines.transparent = true;
       lines.opacity = 0.4;
@@ -103,7 +110,7 @@ export class BlendedMesh extends Group {
       this.add(this.wires);
     }
     this.add(this.surface);
-    this.colourBy(body.colours);
+    this.colourAsItIs();
     for (const child of this.children) child.frustumCulled = false;
     this.show(this.shown);
   }
@@ -168,17 +175,19 @@ export class BlendedMesh extends Group {
     this.wires.visible = on;
     // While edges are drawn, the surface is moved back a little, so that it does not hide them. It
     // is not moved otherwise, because at the outline the back of the body would show through.
-    (this.surface.material as Material).polygonOffset = on;
+    for (const material of this.materials()) material.polygonOffset = on;
   }
 
   get flat(): boolean {
-    return this.surface.material instanceof MeshStandardMaterial && this.surface.material.flatShading;
+    const [material] = this.materials();
+    return material instanceof MeshStandardMaterial && material.flatShading;
   }
   set flat(on: boolean) {
-    const { material } = this.surface;
-    if (!(material instanceof MeshStandardMaterial) || material.flatShading === on) return;
-    material.flatShading = on;
-    material.needsUpdate = true;
+    for (const material of this.materials()) {
+      if (!(material instanceof MeshStandardMaterial) || material.flatShading === on) continue;
+      material.flatShading = on;
+      material.needsUpdate = true;
+    }
   }
 
   /** Colours by the fourth numbers of shapes: `end` has the last colour, and `own` is 65535. */
@@ -187,15 +196,31 @@ export class BlendedMesh extends Group {
     this.uniforms.deviationScale.value = own / end;
   }
 
-  /** Colours by red, green and blue of every vertex in sRGB, or plain. */
-  colourBy(colours: Uint8Array | null): void {
+  /** Colours by red, green and blue of every vertex in sRGB. */
+  colourBy(colours: Uint8Array): void {
+    this.setColours(colours, []);
+  }
+
+  /** Shows the body's own colours and textures; plain if it has none. */
+  colourAsItIs(): void {
+    this.setColours(this.body.colours, this.body.skin?.parts.map(({ map }) => map) ?? []);
+  }
+
+  private setColours(colours: Uint8Array | null, maps: (Texture | null)[]): void {
     this.uniforms.byDeviation.value = 0;
-    const material = this.surface.material as LineBasicMaterial | MeshStandardMaterial;
-    material.color.copy(colours ? new Color(1, 1, 1) : clay);
     if (colours) this.geometry.setAttribute('color', linearColours(colours));
-    if (material.vertexColors === (colours !== null)) return;
-    material.vertexColors = colours !== null;
-    material.needsUpdate = true;
+    this.materials().forEach((material, i) => {
+      const map = maps[i] ?? null;
+      material.color.copy(colours || map ? new Color(1, 1, 1) : clay);
+      material.vertexColors = colours !== null;
+      material.map = map;
+      material.needsUpdate = true;
+    });
+  }
+
+  private materials(): (LineBasicMaterial | MeshStandardMaterial)[] {
+    const { material } = this.surface;
+    return (Array.isArray(material) ? material : [material]) as MeshStandardMaterial[];
   }
 
   /** Exchanges the fourth numbers of all shapes with these, of each shape one a vertex. */

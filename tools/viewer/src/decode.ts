@@ -211,6 +211,7 @@ export async function decodeScene(text: string): Promise<SceneData> {
     triangles,
     segments,
     colours,
+    skin: null,
     shapes,
     low: header.low,
     side: header.side,

@@ -12,7 +12,7 @@ import {
 import { GLTFLoader, type GLTF } from 'three/addons/loaders/GLTFLoader.js';
 import { bytesFromBase64 } from './decode';
 import { measureDeviations } from './deviation';
-import { Damaged, type Body, type PathScene } from './scene_data';
+import { Damaged, type Body, type PathScene, type Skin } from './scene_data';
 
 /** An animation with more keyframes is sampled at this number of evenly spaced moments. */
 const mostShapes = 64;
@@ -87,6 +87,25 @@ function coloursOf(drawn: Drawn[], vertices: number): Uint8Array | null {
   return isWhite ? null : colours;
 }
 
+/** Textures and where they are; null where there are none. */
+function skinOf(drawn: Drawn[], vertices: number): Skin | null {
+  const uv = new Float32Array(2 * vertices);
+  const parts: Skin['parts'] = [];
+  let at = 0;
+  let start = 0;
+  for (const { geometry, material } of drawn) {
+    const map = material instanceof MeshStandardMaterial ? material.map : null;
+    const own = geometry.getAttribute(map?.channel ? `uv${map.channel}` : 'uv');
+    const count = geometry.getAttribute('position').count;
+    for (let v = 0; own && v < count; ++v) uv.set([own.getX(v), own.getY(v)], at + 2 * v);
+    if (map) map.channel = 0;
+    parts.push({ start, count: geometry.getIndex()?.count ?? count, map: own ? map : null });
+    start += parts[parts.length - 1].count;
+    at += 2 * count;
+  }
+  return parts.some(({ map }) => map) ? { uv, parts } : null;
+}
+
 /** The smallest cube that contains all points and has its corner at their least coordinates. */
 function cubeAround(shapes: Float64Array[]): Pick<Body, 'low' | 'side'> {
   const low: Body['low'] = [Infinity, Infinity, Infinity];
@@ -132,6 +151,7 @@ function toPath(name: string, { scene, animations }: GLTF): PathScene {
     triangles: isGraph ? new Uint32Array() : indices,
     segments: isGraph ? indices : new Uint32Array(),
     colours: coloursOf(drawn, vertices),
+    skin: skinOf(drawn, vertices),
     low,
     side,
     up: [0, 1, 0],

@@ -66,10 +66,11 @@ function showColours(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): 
         : 'Deviation of edges from the first shape';
       byId('ramp-end').textContent = `${byEnergy ? shortNumber(end) : perCent(end)} and more`;
     } else {
-      const byParts = select.value === 'parts';
-      meshes.forEach((mesh, i) =>
-        mesh.colourBy(byParts ? scenes[i].partColours : scenes[i].colours),
-      );
+      meshes.forEach((mesh, i) => {
+        const { partColours } = scenes[i];
+        if (select.value === 'parts' && partColours) mesh.colourBy(partColours);
+        else mesh.colourAsItIs();
+      });
     }
     stage.draw();
   });

@@ -1,5 +1,15 @@
 // The data of a page, whether they come from shape-view or from a glb file.
 
+import type { Texture } from 'three';
+
+/** The textures of a body. */
+export interface Skin {
+  /** Texture coordinates, two of every vertex. */
+  uv: Float32Array;
+  /** Runs of `triangles`, from which number on and how many numbers, each with its texture. */
+  parts: { start: number; count: number; map: Texture | null }[];
+}
+
 /** What all shapes of a scene share, and the shapes. */
 export interface Body {
   name: string;
@@ -9,6 +19,8 @@ export interface Body {
   segments: Uint32Array;
   /** Red, green and blue of every vertex in sRGB, if there are any. */
   colours: Uint8Array | null;
+  /** The textures that a glb has. */
+  skin: Skin | null;
   /** The cube that contains all shapes: its corner with the least coordinates, and its side. */
   low: [number, number, number];
   side: number;
