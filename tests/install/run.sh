@@ -70,8 +70,7 @@ core_headers=$(cd "$work/prefix/include" &&
   grep -vx shapespace/metric/define_feature.h | sort | paste -sd ';')
 cmake -S "$here/core" -B "$work/core" -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DHEADERS="$core_headers" \
-  -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_DISABLE_FIND_PACKAGE_Ceres=ON \
-  -DCMAKE_DISABLE_FIND_PACKAGE_CHOLMOD=ON >"$work/configure.log" ||
+  -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_DISABLE_FIND_PACKAGE_Ceres=ON >"$work/configure.log" ||
   fail "the component core is not found where Ceres is not"
 cmake --build "$work/core"
 "$work/core/core_consumer" pose0.obj pose1.obj

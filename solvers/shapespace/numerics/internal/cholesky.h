@@ -19,8 +19,7 @@ class CholeskyFactor {
  public:
   /// `matrix` is symmetric positive definite and in compressed form; only its lower triangle is
   /// read. `group` as in Elimination.
-  /// \throw SolverError, saying which, if it is not positive definite, or memory runs out, or it is
-  ///        too large for CHOLMOD.
+  /// \throw SolverError, saying which, if it is not positive definite, or memory runs out.
   explicit CholeskyFactor(const Eigen::SparseMatrix<double>& matrix, int group = 1);
 
   /// The same factor, rounded.

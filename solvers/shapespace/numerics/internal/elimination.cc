@@ -1,14 +1,7 @@
 #include <shapespace/numerics/internal/elimination.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <mutex>
-#include <string>
-
-#include <cholmod.h>
-
-#include <shapespace/base/error.h>
+#include <utility>
 
 namespace shapespace::internal {
 namespace {
@@ -17,123 +10,15 @@ namespace {
 // only if it has at least this many numbers; smaller ones do not justify several threads.
 constexpr double kBranchShare = 1.0 / 16, kWorthBranches = 1e5;
 
-// Indices have 64 bits, because a factor may have more than 2^31 numbers.
-using Index = SuiteSparse_long;
-
-// CHOLMOD's analysis of a matrix.
-class Analysis {
- public:
-  // With a given order of elimination, unless `order` is empty.
-  Analysis(const Eigen::SparseMatrix<double>& matrix, std::vector<Index> order)
-      : column_begin_(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1),
-        rows_(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros()) {
-    cholmod_l_start(&common_);
-    common_.supernodal = CHOLMOD_SUPERNODAL;
-    common_.print = 0;
-    common_.error_handler = nullptr;
-    cholmod_sparse view = {};
-    view.nrow = matrix.rows();
-    view.ncol = matrix.cols();
-    view.nzmax = rows_.size();
-    view.p = column_begin_.data();
-    view.i = rows_.data();
-    view.stype = -1;
-    view.itype = CHOLMOD_LONG;
-    view.xtype = CHOLMOD_PATTERN;
-    view.dtype = CHOLMOD_DOUBLE;
-    view.sorted = 1;
-    view.packed = 1;
-    if (!order.empty()) {
-      common_.nmethods = 1;
-      common_.method[0].ordering = CHOLMOD_GIVEN;
-    }
-    {
-      // METIS draws from rand(), which all threads share: two analyses at a time would change each
-      // other's order of elimination.
-      static std::mutex one_at_a_time;
-      const std::lock_guard<std::mutex> lock(one_at_a_time);
-      factor_ = order.empty() ? cholmod_l_analyze(&view, &common_)
-                              : cholmod_l_analyze_p(&view, order.data(), nullptr, 0, &common_);
-    }
-    if (common_.status == CHOLMOD_OK) return;
-    const std::string unknowns = "a matrix of " + std::to_string(matrix.rows()) + " unknowns";
-    const int status = common_.status;
-    Free();
-    switch (status) {
-      case CHOLMOD_OUT_OF_MEMORY:
-        throw SolverError("memory ran out in factoring " + unknowns +
-                          "; use a mesh of fewer vertices, or more memory");
-      case CHOLMOD_TOO_LARGE:
-        throw SolverError(unknowns +
-                          " is too large to be factored by CHOLMOD; use a mesh of fewer vertices");
-      default:
-        throw SolverError("CHOLMOD could not factor " + unknowns + ": its status is " +
-                          std::to_string(status));
-    }
-  }
-  Analysis(const Analysis&) = delete;
-  ~Analysis() { Free(); }
-
-  const cholmod_factor& Factor() const { return *factor_; }
-
- private:
-  void Free() {
-    cholmod_l_free_factor(&factor_, &common_);
-    cholmod_l_finish(&common_);
-  }
-
-  cholmod_common common_;
-  cholmod_factor* factor_ = nullptr;
-  std::vector<Index> column_begin_, rows_;  // of the matrix
-};
-
-const Index* Indices(const void* begin) { return static_cast<const Index*>(begin); }
-
-// The order of elimination of groups of unknowns, written out for the unknowns.
-std::vector<Index> OrderOfGroups(const Eigen::SparseMatrix<double>& matrix, int group) {
-  const Eigen::Index num_groups = matrix.cols() / group;
-  Eigen::SparseMatrix<double> groups(num_groups, num_groups);
-  groups.reserve(matrix.nonZeros() / (group * group) + num_groups);
-  for (Eigen::Index column = 0; column < num_groups; ++column) {
-    groups.startVec(column);
-    Eigen::Index last = -1;
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, group * column); it; ++it) {
-      const Eigen::Index row = it.row() / group;
-      if (row < column || row == last) continue;
-      groups.insertBackByOuterInner(column, row) = 0;
-      last = row;
-    }
-  }
-  groups.finalize();
-  const Analysis analysis(groups, {});
-  const Index* const order = Indices(analysis.Factor().Perm);
-  std::vector<Index> result;
-  for (Eigen::Index i = 0; i < num_groups; ++i) {
-    for (int k = 0; k < group; ++k) result.push_back(group * order[i] + k);
-  }
-  return result;
-}
-
 }  // namespace
 
 Elimination::Elimination(const Eigen::SparseMatrix<double>& matrix, int group) {
-  const Analysis analysis(matrix, group > 1 ? OrderOfGroups(matrix, group) : std::vector<Index>());
-  const cholmod_factor& factor = analysis.Factor();
-  const auto integers = [](const void* begin, size_t count) {
-    return std::vector<int>(Indices(begin), Indices(begin) + count);
-  };
-  permutation = integers(factor.Perm, factor.n);
-  rows = integers(factor.s, factor.ssize);
-  num_values = factor.xsize;
-  const Index* const super = Indices(factor.super);
-  const Index* const row_begin = Indices(factor.pi);
-  const Index* const value_begin = Indices(factor.px);
-  for (size_t s = 0; s < factor.nsuper; ++s) {
-    supernodes.push_back({static_cast<int>(super[s]), static_cast<int>(super[s + 1] - super[s]),
-                          static_cast<int>(row_begin[s + 1] - row_begin[s]),
-                          static_cast<size_t>(row_begin[s]), static_cast<size_t>(value_begin[s])});
-  }
-  std::vector<int> node_of_row(factor.n);
+  SymbolicFactor factor = AnalysePattern(matrix, group);
+  permutation = std::move(factor.permutation);
+  supernodes = std::move(factor.supernodes);
+  rows = std::move(factor.rows);
+  num_values = factor.num_values;
+  std::vector<int> node_of_row(Size());
   for (size_t s = 0; s < supernodes.size(); ++s) {
     std::fill_n(node_of_row.begin() + supernodes[s].begin, supernodes[s].width,
                 static_cast<int>(s));

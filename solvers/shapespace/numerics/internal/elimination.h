@@ -6,15 +6,9 @@
 
 #include <Eigen/SparseCore>
 
-namespace shapespace::internal {
+#include <shapespace/numerics/internal/symbolic.h>
 
-/// Columns begin .. begin + width of a factor that share one sparsity pattern: a dense trapezoid,
-/// stored by columns of length `height`, whose first `width` rows are the columns' own.
-struct Supernode {
-  int begin, width, height;
-  size_t rows;    // index into the row list of its first row
-  size_t values;  // index of its first number
-};
+namespace shapespace::internal {
 
 /// A subtree of the elimination tree. Its columns do not depend on other branches. Its
 /// contributions to rows outside, in the trunk, are accumulated in separate rows and added later.
@@ -25,12 +19,12 @@ struct Branch {
 };
 
 /// The order in which a sparse symmetric matrix is eliminated, and where the numbers of its factor
-/// are: all of a factorisation that depends only on the pattern. Computed by CHOLMOD.
+/// are: all of a factorisation that depends only on the pattern.
 struct Elimination {
   /// `matrix` is in compressed form, and only its lower triangle is read. Unknowns are in groups of
   /// `group` consecutive ones with equal patterns, such as the coordinates of one vertex; the order
   /// of elimination is found for the groups, in less time.
-  /// \throw SolverError if memory runs out, or the matrix is too large for CHOLMOD.
+  /// \throw SolverError if memory runs out.
   Elimination(const Eigen::SparseMatrix<double>& matrix, int group);
 
   int Size() const { return static_cast<int>(permutation.size()); }

@@ -22,7 +22,7 @@ double PreconditionerNumbers(const Metric& metric) {
 
 // The metric's matrix, with three unknowns per vertex, and its factor. On the same meshes the
 // factor had 30 to 60 log2(vertices) numbers per vertex. The matrix has 60 entries per vertex, and
-// CHOLMOD has copies of it.
+// the analysis has copies of its pattern.
 double MetricFactorBytes(double vertices) {
   constexpr double kFactorNumbers = 65, kMatrix = 5000;
   return vertices * (kNumber * kFactorNumbers * std::log2(std::max(2.0, vertices)) + kMatrix);
