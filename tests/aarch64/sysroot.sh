@@ -27,12 +27,9 @@ apt-get indextargets --format '$(ORIGIN) $(SITE) $(CODENAME)' | sort -u |
   sed 's|$| main|' >"$work/sources.list"
 [[ -s $work/sources.list ]] || fail "apt knows no Debian mirror: apt-get update"
 
-# What no program of this project needs of what those packages depend on counts as installed: the
-# graphics under OpenMesh's viewers (90 MB), and a second BLAS.
-for package in libopenscenegraph-dev libatlas-base-dev libatlas3-base pkg-config pkgconf; do
-  printf '%s\n' "Package: $package" 'Status: install ok installed' 'Architecture: arm64' \
-    'Maintainer: none' 'Version: 99' 'Description: not needed' ''
-done >"$work/status"
+# The graphics under OpenMesh's viewers (90 MB), which nothing here needs, count as installed.
+printf '%s\n' 'Package: libopenscenegraph-dev' 'Status: install ok installed' 'Architecture: arm64' \
+  'Maintainer: none' 'Version: 99' 'Description: not needed' >"$work/status"
 
 apt() {
   apt-get -q -o APT::Architecture=arm64 -o APT::Architectures=arm64 -o APT::Sandbox::User=root \
@@ -58,4 +55,7 @@ done
 # Links to absolute paths would lead out of the folder.
 find "$root" -type l -lname '/*' -printf '%p %l\n' |
   while read -r link target; do ln -sfnr "$root$target" "$link"; done
+# So would the paths of libraries which the CMake package of Ceres says.
+find "$root/usr/lib/aarch64-linux-gnu/cmake" -name 'CeresTargets*.cmake' \
+  -exec sed -i "s|/usr/lib/aarch64-linux-gnu/lib|$root&|g" {} +
 echo "$made_of" >"$root/made-of"
