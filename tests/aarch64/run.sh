@@ -33,7 +33,7 @@ cmake -S tests/aarch64 -B "$build/kernels" -G Ninja --toolchain "$PWD/cmake/aarc
   -DCMAKE_SYSROOT="$build/sysroot" -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
   >"$build/configure.log" || fail "not configured, see $build/configure.log"
 
-programs=(metric_test path_test mesh_test numerics_test)
+programs=(metric_test numerics_test path_test mesh_test)
 cmake --build "$build/kernels" --target "${programs[@]}"
 ctest --test-dir "$build/kernels" --output-on-failure --no-tests=error \
   --parallel "${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}" \
