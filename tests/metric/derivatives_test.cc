@@ -11,15 +11,19 @@
 namespace shapespace {
 namespace {
 
-// Derivatives by hand and by Jets agree to rounding, relative to the largest of an element.
+// Values and derivatives by hand and by Jets agree to rounding, that of derivatives relative to the
+// largest of an element.
 template <typename Struct>
-void ExpectThoseOfJets(const Struct& feature, const double* x, double tolerance) {
+void ExpectThoseOfJets(const Struct& feature, const double* x, double tolerance,
+                       double tolerance_of_values = 1e-14) {
   constexpr int kCount = 3 * Struct::kVertices * Struct::kValues;
   double value[Struct::kValues], expected_value[Struct::kValues];
   Eigen::Matrix<double, kCount, 1> own, expected;
   feature.Derivatives(x, value, own.data());
   internal::DeriveAutomatically(feature, x, expected_value, expected.data());
-  for (int k = 0; k < Struct::kValues; ++k) EXPECT_NEAR(value[k], expected_value[k], 1e-14);
+  for (int k = 0; k < Struct::kValues; ++k) {
+    EXPECT_NEAR(value[k], expected_value[k], tolerance_of_values);
+  }
   EXPECT_TRUE(own.allFinite());
   EXPECT_LE((own - expected).cwiseAbs().maxCoeff(), tolerance * expected.cwiseAbs().maxCoeff());
 }
@@ -57,12 +61,15 @@ TEST(TriangleStrainDerivatives, AreThoseOfJetsWhereTrianglesAreNearlyEquilateral
   }
 }
 
+// The area of a sliver is a difference of products of which its height's share remains. Where the
+// compiler fuses products and sums, as on ARM, it rounds in one way in the one and otherwise in the
+// other.
 TEST(TriangleStrainDerivatives, AreThoseOfJetsForSlivers) {
   TriangleStrain feature;
   feature.epsilon_squared = 1e-16;
   for (const double height : {1e-2, 1e-4, 1e-6}) {
     const double x[9] = {0, 0, 0, 1, .2, .1, .4, .08 + height, .04};
-    ExpectThoseOfJets(feature, x, 1e-8);
+    ExpectThoseOfJets(feature, x, 1e-8, 1e-16 / height);
   }
 }
 
