@@ -1,0 +1,32 @@
+#!/bin/bash
+# What a public project needs besides its code: licences as REUSE asks for them, a valid citation,
+# well-formed workflows and templates, a site without broken links, and a software bill of materials.
+# Installs what is missing of debian-packages-home.txt; takes about half a minute.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+
+fail() {
+  echo "home.sh: $*" >&2
+  exit 1
+}
+
+mapfile -t needed < <(sed 's/ *#.*//; /^$/d' debian-packages-home.txt)
+if ! dpkg-query -W "${needed[@]}" >/dev/null 2>&1; then
+  apt-get -q update && apt-get -q install -y --no-install-recommends "${needed[@]}"
+fi
+
+reuse lint | tail -n 1
+reuse lint --quiet || fail "reuse lint says which files have no licence"
+cmp LICENSE LICENSES/BSD-3-Clause.txt || fail "the two copies of the project's licence differ"
+diff <(tail -n +3 lib/shapespace/output/fonts/LICENSE) LICENSES/LicenseRef-DejaVu.txt ||
+  fail "the two copies of the font's licence differ"
+
+tests/docs/citation.py || fail "CITATION.cff is not valid"
+yamllint --strict .github mkdocs.yml CITATION.cff || fail "yamllint found the above"
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+packaging/site.sh "$work/site" >"$work/site.log" || fail "the site: $(tail -n 20 "$work/site.log")"
+tail -n 1 "$work/site.log"
+packaging/sbom.py "$work/materials"
+echo "home.sh: passed"
