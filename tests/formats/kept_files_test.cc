@@ -60,7 +60,9 @@ TEST_P(KeptPath, WrittenByTodaysLibraryHoldsTheSame) {
   EXPECT_EQ(again.metric->options.stretching_stiffness, path.metric->options.stretching_stiffness);
 }
 
-INSTANTIATE_TEST_SUITE_P(Version2, KeptPath, ::testing::Values("path-2.path", "path-2-early.path"));
+INSTANTIATE_TEST_SUITE_P(Version2, KeptPath,
+                         ::testing::Values("path-2.path", "path-2-early.path",
+                                           "path-2-later.path"));
 
 TEST(KeptSpace, Version1HoldsItsPosesAndWhatIsBetween) {
   const PoseSpace space = ReadSpace(Kept("space-1.space"));
