@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Collects the pages of the site:
 
     packaging/site_pages.py FOLDER

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Whether CITATION.cff has the keys, and values of the types, of the Citation File Format 1.2.0.
 
     tests/docs/citation.py [CITATION.cff]

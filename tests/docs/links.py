@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Whether the links of a site lead somewhere: those within it to a file, and to a place in that file
 if they name one. Addresses of other sites are not asked.
 
