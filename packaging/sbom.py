@@ -5,8 +5,9 @@
 
 writes into FOLDER a bill of materials, shapespace-X.Y.Z.spdx.json (SPDX 2.3), and the notices of all
 that it names, shapespace-X.Y.Z-third-party.txt. Versions are those of the Debian packages of this
-system. Looks into the wheel and the tools of FOLDER, as far as they are there; a shared library in
-them that packaging/components.toml does not know is an error.
+system. Wheels and tools have a folder `licenses`, with a file for each library that is
+linked into them; those in FOLDER are looked into. What packaging/components.toml does not know is an
+error.
 """
 
 import hashlib
@@ -94,18 +95,14 @@ def names_in(archive):
 
 
 def libraries_in(archive, components):
-    """The components whose shared libraries an archive has inside."""
-    found = set()
-    for path in names_in(archive):
-        file = pathlib.PurePosixPath(path).name
-        if not re.fullmatch(r"lib.*\.so(\.[0-9.]+)?", file) or file.startswith("libshapespace"):
-            continue
-        owner = [name for name, component in components.items()
-                 for stem in component.get("files", ())
-                 if re.match(re.escape(stem) + "[-._0-9]", file)]
-        if not owner:
-            sys.exit(f"sbom.py: {archive.name} has {file} inside: enter it in components.toml")
-        found.add(owner[0])
+    """The components that an archive contains: those whose licences it has."""
+    paths = [pathlib.PurePosixPath(name) for name in names_in(archive)]
+    found = {path.name for path in paths if path.parent.name == "licenses"} - {"LICENSE", "NOTICES"}
+    unknown = found - set(components)
+    unknown |= {path.name for path in paths if re.match(r"lib.*\.so", path.name)}
+    if unknown:
+        sys.exit(f"sbom.py: {archive.name} has {', '.join(sorted(unknown))} inside, which "
+                 "packaging/components.toml does not know")
     return sorted(found)
 
 
@@ -122,7 +119,7 @@ def document(folder, version, components):
         packages.append(component_package(name, component))
         kind = "CONTAINS" if component["how"] == "contained" else "DYNAMIC_LINK"
         relations.append(relation(whole, kind, spdx_id(name)))
-    for archive in sorted(folder.glob("*.whl")) + sorted(folder.glob("*-tools-*.tar.xz")):
+    for archive in sorted(folder.glob("*.whl")) + sorted(folder.glob("*-linux-*.tar.xz")):
         digest = hashlib.sha256(archive.read_bytes()).hexdigest()
         packages.append(package(
             archive.name, version, "NOASSERTION", home, packageFileName=archive.name,

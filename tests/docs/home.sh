@@ -29,4 +29,5 @@ trap 'rm -rf "$work"' EXIT
 packaging/site.sh "$work/site" >"$work/site.log" || fail "the site: $(tail -n 20 "$work/site.log")"
 tail -n 1 "$work/site.log"
 packaging/sbom.py "$work/materials"
+tests/packages/materials.py "$work"/materials/*.spdx.json
 echo "home.sh: passed"
