@@ -28,6 +28,12 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 packaging/site.sh "$work/site" >"$work/site.log" || fail "the site: $(tail -n 20 "$work/site.log")"
 tail -n 1 "$work/site.log"
+
+# What comes before the tests in the list of packages is in programs or libraries.
+for package in $(sed -n '/^# The tests/q; s/^\([a-z0-9.-]*-dev\).*/\1/p' debian-packages.txt); do
+  grep -qF "debian = \"$package\"" packaging/components.toml ||
+    fail "packaging/components.toml has nothing about $package"
+done
 packaging/sbom.py "$work/materials"
 tests/packages/materials.py "$work"/materials/*.spdx.json
 echo "home.sh: passed"
