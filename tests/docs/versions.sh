@@ -1,5 +1,6 @@
 #!/bin/bash
-# The version of CMakeLists.txt is that of the add-on, of the viewer and of the citation.
+# The version of CMakeLists.txt is that of the add-on, of the viewer, of the citation and of the Debian
+# packages, and the number in the name of the Debian package of libraries is that of the libraries.
 set -euo pipefail
 cd "$1"
 version=$(sed -nE 's/^project\(ShapeSpace VERSION ([0-9.]+).*/\1/p' CMakeLists.txt)
@@ -14,4 +15,14 @@ expect() {
 expect blender/shapespace_addon/blender_manifest.toml "version = \"$version\""
 expect tools/viewer/package.json "\"version\": \"$version\""
 expect CITATION.cff "version: $version"
+abi=$(sed -nE 's/^set\(abi ([0-9]+)\)$/\1/p' CMakeLists.txt)
+if [[ -z $abi ]] || ! grep -qx "Package: libshapespace$abi" debian/control; then
+  echo "versions: CMakeLists.txt has abi '$abi', but debian/control has no libshapespace$abi" >&2
+  failed=1
+fi
+# The newest entry comes first.
+if [[ $(head -1 debian/changelog) != "shapespace ($version-"* ]]; then
+  echo "versions: debian/changelog begins with '$(head -1 debian/changelog)', not with $version" >&2
+  failed=1
+fi
 exit $failed
