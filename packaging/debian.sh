@@ -49,7 +49,7 @@ in_source() { inside "$root" "$1" "/build/shapespace-$version"; }
 in_source 'apt-get -q update && apt-get -q install -y --no-install-recommends build-essential lintian &&
   apt-get -q build-dep -y --no-install-recommends ./' >"$work/apt.log" ||
   fail "$release: $(tail -3 "$work/apt.log")"
-# Without network, and without the symbols for debuggers, whose packages would be ten times as large.
+# Without network, and without packages of symbols for debuggers, nor the symbols themselves.
 in_source 'DEB_BUILD_OPTIONS="nocheck noautodbgsym" DEB_CXXFLAGS_STRIP=-g unshare --net \
   dpkg-buildpackage -us -uc' >"$work/build.log" 2>&1 ||
   fail "$release: the build failed: $(tail -30 "$work/build.log")"
