@@ -2,8 +2,8 @@
 # Builds the Debian packages for one release of Debian, in a bare system of that release:
 #   packaging/debian.sh bookworm|trixie FOLDER
 # Takes what is committed, and the page of shape-view from tools/viewer/dist. Puts the packages and
-# their source into FOLDER. lintian must find no error or warning. The packages are the same, byte for byte, each time and in
-# every folder. Needs root, debootstrap and 5 GB of disk; takes ten minutes on two cores.
+# their source into FOLDER. lintian must find no error or warning. The packages are the same, byte for
+# byte, each time. Needs root, debootstrap and 5 GB of disk; takes ten minutes on two cores.
 set -euo pipefail
 
 fail() {
