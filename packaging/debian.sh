@@ -56,5 +56,5 @@ in_source 'DEB_BUILD_OPTIONS="nocheck noautodbgsym" DEB_CXXFLAGS_STRIP=-g unshar
 inside "$root" 'lintian --allow-root --fail-on error,warning *.changes' /build ||
   fail "$release: lintian has found the above"
 
-cp "$root"/build/shapespace_"$version"* "$root"/build/*.deb "$out"
+cp "$root"/build/*_"$version"[-.]* "$out"
 echo "debian.sh: Debian $(cat "$root/etc/debian_version") ($release): packages are in $out"
