@@ -87,11 +87,12 @@ if ldd "$work/features/features_consumer" | grep -i ceres; then
   fail "a program that only defines features links Ceres"
 fi
 
-# Shared libraries export what is public, and of the rest only what they, the tools and a program that
-# defines a feature call. Both work with them.
+# Shared libraries export what is public, and of the rest only what they, the tools, the Python module
+# and a program that defines a feature call. Tools and program work with them.
 shared=$root/build/shared
 cmake -S "$root" -B "$shared" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
-  -DBUILD_SHARED_LIBS=ON >"$work/configure.log" || fail "shared libraries cannot be configured"
+  -DBUILD_SHARED_LIBS=ON -DSHAPESPACE_BUILD_PYTHON=ON \
+  -DPython_EXECUTABLE=/usr/bin/python3 -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$work/configure.log" || fail "shared libraries cannot be configured"
 cmake --build "$shared" && cmake --install "$shared" --prefix "$work/shared" >"$work/install.log"
 mapfile -t libraries < <(find "$work/shared" -name 'libshapespace_*.so')
 ((${#libraries[@]} == 4)) || fail "these are not the four shared libraries: ${libraries[*]}"
@@ -102,7 +103,7 @@ cmake --build "$work/features_shared"
 "$work/features_shared/features_consumer" pose0.obj pose1.obj
 nm -DC --defined-only "${libraries[@]}" | sed -nE 's/^[0-9a-f]{16} . //p' | sort -u >exported.txt
 grep -q '^shapespace::Interpolate(' exported.txt || fail "Interpolate is not exported"
-nm -DC --undefined-only "${libraries[@]}" "$work"/shared/bin/* \
+nm -DC --undefined-only "${libraries[@]}" "$work"/shared/bin/* "$shared"/python/shapespace/_core*.so \
   "$work/features_shared/features_consumer" | sed -nE 's/^ +U //p' | sort -u >called.txt
 if grep -vE '^((typeinfo|typeinfo name|vtable) for )?shapespace::(cost::|k?[A-Z])' exported.txt |
   comm -23 - called.txt | grep .; then
