@@ -1,0 +1,106 @@
+#!/bin/bash
+# Builds the libraries that shapespace links, as static and position-independent ones:
+#   static_libraries.sh PREFIX
+# Runs inside the system in which the wheel and the tools are built (standalone.sh), whose apt knows the
+# sources of Debian 12 (deb-src). Debian's own packages do not serve: most have no static library that a
+# Python module can link, shared ones would meet Blender's Embree and TBB in one process, and Ceres links
+# SuiteSparse, parts of which are under the GPL. Here it has Eigen's sparse solver alone. zlib is
+# Debian's. What is built already is not built again. The licences go to PREFIX/licenses.
+set -euo pipefail
+
+prefix=${1:?static_libraries.sh: say the folder to install into}
+work=$prefix/src
+mkdir -p "$work" "$prefix/licenses"
+cp /usr/share/doc/zlib1g-dev/copyright "$prefix/licenses/zlib"
+cd "$work"
+
+# Debian's originals without Debian's changes, which are about shared libraries and documentation.
+sources=(ceres-solver embree expat gflags google-glog metis onetbb openblas openmesh qhull)
+if [[ ! -e fetched ]]; then
+  apt-get -q source --download-only --tar-only \
+    $(printf '%s/bookworm ' "${sources[@]}") || exit 1
+  touch fetched
+fi
+
+# unpack SOURCE: its archive, into the folder of that name.
+unpack() {
+  rm -rf "$1"
+  mkdir "$1"
+  tar -x --strip-components=1 -C "$1" -f "$1"_*.orig.tar.?z
+}
+
+# with_cmake SOURCE FOLDER OPTION...: builds and installs what CMake builds in that folder of a source.
+with_cmake() {
+  local source=$1 folder=$1/$2
+  shift 2
+  cmake -S "$folder" -B "$source/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_INSTALL_LIBDIR=lib \
+    -DBUILD_SHARED_LIBS=OFF -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DBUILD_TESTING=OFF \
+    -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_EXPORT_NO_PACKAGE_REGISTRY=ON \
+    "$@" &&
+    cmake --build "$source/build" && cmake --install "$source/build"
+}
+
+# Of each library, programs take the functions that they call, and no more (--gc-sections).
+flags="-ffunction-sections -fdata-sections -ffile-prefix-map=$work="
+
+build_expat() {
+  with_cmake expat expat -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_EXAMPLES=OFF \
+    -DEXPAT_BUILD_TESTS=OFF -DEXPAT_BUILD_DOCS=OFF
+}
+build_gflags() { with_cmake gflags . -DREGISTER_INSTALL_PREFIX=OFF; }
+build_google-glog() {
+  with_cmake google-glog . -DWITH_GFLAGS=OFF -DWITH_GTEST=OFF -DWITH_UNWIND=OFF
+}
+build_qhull() { with_cmake qhull .; }
+build_openmesh() {
+  # It would be shared as well, and its CMake package would name only that. The tools are not used.
+  sed -i 's/SHAREDANDSTATIC/STATIC/' openmesh/src/OpenMesh/Core/CMakeLists.txt &&
+    sed -i '/src\/OpenMesh\/Tools/d' openmesh/CMakeLists.txt &&
+  with_cmake openmesh . -DBUILD_APPS=OFF -DOPENMESH_DOCS=OFF
+}
+build_onetbb() {
+  with_cmake onetbb . -DTBB_TEST=OFF -DTBBMALLOC_BUILD=OFF -DTBB_STRICT=OFF -DTBB_ENABLE_IPO=OFF \
+    -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON
+}
+build_embree() {
+  # Of the geometries the two that shapespace has; for any processor, and for those since 2013.
+  with_cmake embree . -DEMBREE_STATIC_LIB=ON -DEMBREE_TUTORIALS=OFF -DEMBREE_ISPC_SUPPORT=OFF \
+    -DEMBREE_RAY_PACKETS=OFF -DEMBREE_GEOMETRY_QUAD=OFF -DEMBREE_GEOMETRY_CURVE=OFF \
+    -DEMBREE_GEOMETRY_SUBDIVISION=OFF -DEMBREE_GEOMETRY_INSTANCE=OFF -DEMBREE_GEOMETRY_GRID=OFF \
+    -DEMBREE_GEOMETRY_POINT=OFF -DEMBREE_MAX_ISA=NONE -DEMBREE_ISA_SSE2=ON -DEMBREE_ISA_SSE42=OFF \
+    -DEMBREE_ISA_AVX=OFF -DEMBREE_ISA_AVX2=ON -DEMBREE_ISA_AVX512=OFF
+}
+build_metis() {
+  # The two files of the GNU C library (LGPL) in it serve its programs alone, which are not built.
+  sed -i '/add_subdirectory("programs")/d' metis/CMakeLists.txt &&
+  rm metis/GKlib/getopt.c metis/GKlib/gkregex.c &&
+  with_cmake metis . -DGKLIB_PATH="$work/metis/GKlib"
+}
+build_openblas() {
+  # What shapespace calls is of doubles, and of one thread, while several threads call at once.
+  make -C openblas -j "$(nproc)" libs NOFORTRAN=1 NO_LAPACKE=1 NO_CBLAS=1 USE_THREAD=0 USE_LOCKING=1 \
+    BUILD_SINGLE=0 BUILD_DOUBLE=1 BUILD_COMPLEX=0 BUILD_COMPLEX16=0 DYNAMIC_ARCH=1 TARGET=NEHALEM \
+    DYNAMIC_LIST="NEHALEM SANDYBRIDGE HASWELL SKYLAKEX" COMMON_OPT="-O2 $flags" &&
+    cp openblas/libopenblas*-r*.a "$prefix/lib/libopenblas.a"
+}
+build_ceres-solver() {
+  with_cmake ceres-solver . -DSUITESPARSE=OFF -DCXSPARSE=OFF -DEIGENSPARSE=ON -DLAPACK=OFF -DCUDA=OFF \
+    -DGFLAGS=OFF -DSCHUR_SPECIALIZATIONS=OFF -DBUILD_EXAMPLES=OFF -DBUILD_BENCHMARKS=OFF \
+    -DPROVIDE_UNINSTALL_TARGET=OFF
+}
+
+# In this order, because Embree finds TBB, and Ceres glog.
+for library in expat gflags google-glog qhull openmesh onetbb embree metis openblas ceres-solver; do
+  [[ -e $library.built ]] && continue
+  echo "static_libraries.sh: $library ($SECONDS s)"
+  { unpack $library && "build_$library"; } >$library.log 2>&1 || {
+    tail -n 30 $library.log >&2
+    echo "static_libraries.sh: $library could not be built; all that was said is in $work/$library.log" >&2
+    exit 1
+  }
+  cp "$(find $library -maxdepth 2 -regex '.*/\(LICENSE\|COPYING\)\(\.txt\)?' | sort | head -1)" \
+    "$prefix/licenses/$library"
+  rm -rf "${library:?}/build"
+  touch $library.built
+done
