@@ -3,6 +3,8 @@
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 . "$here/root.sh"
+mkdir -p "$here/../build/standalone"
+systems=$(cd "$here/../build/standalone" && pwd)
 : "${SOURCE_DATE_EPOCH:=$(git -C "$here" log -1 --format=%ct)}"
 export SOURCE_DATE_EPOCH
 
@@ -12,32 +14,36 @@ build_packages=(cmake g++ make ninja-build ccache xz-utils help2man
   libeigen3-dev libstb-dev libtinygltf-dev libxxhash-dev nlohmann-json3-dev zlib1g-dev
   pybind11-dev python3-dev python3-numpy python3-pip)
 
-# standalone_system FOLDER RELEASE: Debian of that release with what is needed to build, in that folder.
-# There it is kept, because its libraries take a quarter of an hour to build.
+with_ccache="export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache"
+
+# standalone_system RELEASE: Debian of that release with what is needed to build, in
+# build/standalone/RELEASE, where it is kept.
 standalone_system() {
-  local root=$1 release=$2
-  if [[ ! -e $root/packages ]]; then
-    rm -rf --one-file-system "$root"
-    make_root "$release" "$root" || return 1
-    sed -n "s/^deb \([^ ]*\) $release \(.*\)/deb-src \1 bookworm \2/p" "$root/etc/apt/sources.list" \
-      >"$root/etc/apt/sources.list.d/sources.list"
-    inside "$root" "apt-get -q update && apt-get -q install -y --no-install-recommends \
-      ${build_packages[*]}" >"$root.log" 2>&1 ||
-      { echo "standalone.sh: apt-get: $(tail -1 "$root.log")" >&2; return 1; }
-    touch "$root/packages"
-  fi
-  cp "$here/static_libraries.sh" "$root/opt/"
-  inside "$root" 'PATH=/usr/lib/ccache:$PATH bash /opt/static_libraries.sh /opt/static'
+  local root=$systems/$1
+  [[ ! -e $root/packages ]] || return 0
+  rm -rf --one-file-system "$root"
+  make_root "$1" "$root" || return 1
+  inside "$root" "apt-get -q update && apt-get -q install -y --no-install-recommends \
+    ${build_packages[*]}" >>"$root.log" 2>&1 ||
+    { echo "standalone.sh: apt-get: $(tail -1 "$root.log")" >&2; return 1; }
+  touch "$root/packages"
 }
 
 # standalone_build RELEASE: builds module and tools in /root/build of the system `root`, which it sets as
-# well as `version`; does nothing if they are built from these sources.
+# well as `version`; does nothing if they are built from these sources. The libraries are built on
+# Debian 12, with a glibc that is old enough for both, and take a quarter of an hour the first time.
 standalone_build() {
   local new
-  root=$here/../build/standalone/$1
-  mkdir -p "$root"
-  root=$(cd "$root" && pwd)
-  standalone_system "$root" "$1" || return 1
+  root=$systems/$1
+  standalone_system bookworm && standalone_system "$1" || return 1
+  cp "$here/static_libraries.sh" "$systems/bookworm/opt/"
+  inside "$systems/bookworm" "$with_ccache && bash /opt/static_libraries.sh /opt/static" ||
+    return 1
+  if [[ $1 != bookworm ]]; then
+    rm -rf "$root/opt/static"
+    mkdir "$root/opt/static"
+    cp -a "$systems"/bookworm/opt/static/{include,lib,licenses} "$root/opt/static"
+  fi
   new=$(mktemp -d)
   PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$here/../python /usr/bin/python3 -c \
     'import sys, build_backend; build_backend.build_sdist(sys.argv[1])' "$new"
@@ -52,7 +58,7 @@ standalone_build() {
   mv "$new/$sdist" "$root/root/"
   rm -r "$new"
   tar -xm --strip-components=1 -C "$root/root/source" -f "$root/root/$sdist"
-  inside "$root" "export PATH=/usr/lib/ccache:\$PATH SOURCE_DATE_EPOCH=$SOURCE_DATE_EPOCH
+  inside "$root" "$with_ccache SOURCE_DATE_EPOCH=$SOURCE_DATE_EPOCH
     cmake -S source -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
       -DSHAPESPACE_SUITESPARSE=OFF -DSHAPESPACE_BUILD_PYTHON=ON -DSHAPESPACE_BUILD_TESTS=OFF \
       -DCMAKE_PREFIX_PATH=/opt/static -DPython_EXECUTABLE=/usr/bin/python3 \

@@ -1,26 +1,36 @@
 #!/bin/bash
 # Builds the libraries that shapespace links, as static and position-independent ones:
-#   static_libraries.sh PREFIX
-# Runs inside the system in which the wheel and the tools are built (standalone.sh), whose apt knows the
-# sources of Debian 12 (deb-src). Debian's own packages do not serve: most have no static library that a
+#   packaging/static_libraries.sh PREFIX [LIBRARY...]
+# installs them all, or those that are named, such as ceres-solver, and their licences into
+# PREFIX/licenses. Debian's own packages do not serve for a wheel: most have no static library that a
 # Python module can link, shared ones would meet Blender's Embree and TBB in one process, and Ceres links
-# SuiteSparse, parts of which are under the GPL. Here it has Eigen's sparse solver alone. zlib is
-# Debian's. What is built already is not built again. The licences go to PREFIX/licenses.
+# SuiteSparse, parts of which are under the GPL. Here it has Eigen's sparse solver alone. zlib is Debian's.
+# Needs g++, cmake, ninja-build, make, xz-utils, libeigen3-dev and zlib1g-dev, and network. What is built
+# already is not built again.
 set -euo pipefail
 
-prefix=${1:?static_libraries.sh: say the folder to install into}
+prefix=$(mkdir -p "${1:?static_libraries.sh: say the folder to install into}" && cd "$1" && pwd)
+shift
+# In this order, because Embree finds TBB, and Ceres glog.
+all=(expat gflags google-glog qhull openmesh onetbb embree openblas ceres-solver)
+libraries=("${@:-${all[@]}}")
 work=$prefix/src
 mkdir -p "$work" "$prefix/licenses"
 cp /usr/share/doc/zlib1g-dev/copyright "$prefix/licenses/zlib"
 cd "$work"
 
-# Debian's originals without Debian's changes, which are about shared libraries and documentation.
-sources=(ceres-solver embree expat gflags google-glog metis onetbb openblas openmesh qhull)
-if [[ ! -e fetched ]]; then
-  apt-get -q source --download-only --tar-only \
-    $(printf '%s/bookworm ' "${sources[@]}") || exit 1
-  touch fetched
-fi
+# Fetches Debian 12's sources on any Debian, without changing what apt knows of: the originals, without
+# Debian's changes, which are about shared libraries and documentation.
+fetch() {
+  local mirror apt
+  mirror=$(apt-get indextargets --format '$(ORIGIN) $(SITE)' | awk '$1 == "Debian" { print $2; exit }')
+  echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror bookworm main" \
+    >sources.list
+  mkdir -p lists/partial
+  apt=(apt-get -q -o Dir::Etc::SourceList="$work/sources.list" -o Dir::Etc::SourceParts=-
+    -o Dir::State::Lists="$work/lists" -o APT::Sandbox::User=root)
+  "${apt[@]}" update && "${apt[@]}" source --download-only --tar-only "$@"
+}
 
 # unpack SOURCE: its archive, into the folder of that name.
 unpack() {
@@ -52,30 +62,32 @@ build_gflags() { with_cmake gflags . -DREGISTER_INSTALL_PREFIX=OFF; }
 build_google-glog() {
   with_cmake google-glog . -DWITH_GFLAGS=OFF -DWITH_GTEST=OFF -DWITH_UNWIND=OFF
 }
-build_qhull() { with_cmake qhull .; }
+build_qhull() {
+  with_cmake qhull . &&
+    echo 'target_link_libraries(Qhull::qhullcpp INTERFACE Qhull::qhullstatic_r)' \
+      >>"$prefix/lib/cmake/Qhull/QhullConfig.cmake"
+}
 build_openmesh() {
   # It would be shared as well, and its CMake package would name only that. The tools are not used.
   sed -i 's/SHAREDANDSTATIC/STATIC/' openmesh/src/OpenMesh/Core/CMakeLists.txt &&
-    sed -i '/src\/OpenMesh\/Tools/d' openmesh/CMakeLists.txt &&
-  with_cmake openmesh . -DBUILD_APPS=OFF -DOPENMESH_DOCS=OFF
+    sed -i '/src\/OpenMesh\/Tools/d; /^export(/s/OpenMeshTools//' openmesh/CMakeLists.txt &&
+    with_cmake openmesh . -DBUILD_APPS=OFF -DOPENMESH_DOCS=OFF
 }
 build_onetbb() {
   with_cmake onetbb . -DTBB_TEST=OFF -DTBBMALLOC_BUILD=OFF -DTBB_STRICT=OFF -DTBB_ENABLE_IPO=OFF \
-    -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON
+    -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON &&
+    sed -i '1i find_package(Threads REQUIRED)  # which the static library needs' \
+      "$prefix/lib/cmake/TBB/TBBConfig.cmake"
 }
 build_embree() {
-  # Of the geometries the two that shapespace has; for any processor, and for those since 2013.
-  with_cmake embree . -DEMBREE_STATIC_LIB=ON -DEMBREE_TUTORIALS=OFF -DEMBREE_ISPC_SUPPORT=OFF \
-    -DEMBREE_RAY_PACKETS=OFF -DEMBREE_GEOMETRY_QUAD=OFF -DEMBREE_GEOMETRY_CURVE=OFF \
-    -DEMBREE_GEOMETRY_SUBDIVISION=OFF -DEMBREE_GEOMETRY_INSTANCE=OFF -DEMBREE_GEOMETRY_GRID=OFF \
-    -DEMBREE_GEOMETRY_POINT=OFF -DEMBREE_MAX_ISA=NONE -DEMBREE_ISA_SSE2=ON -DEMBREE_ISA_SSE42=OFF \
-    -DEMBREE_ISA_AVX=OFF -DEMBREE_ISA_AVX2=ON -DEMBREE_ISA_AVX512=OFF
-}
-build_metis() {
-  # The two files of the GNU C library (LGPL) in it serve its programs alone, which are not built.
-  sed -i '/add_subdirectory("programs")/d' metis/CMakeLists.txt &&
-  rm metis/GKlib/getopt.c metis/GKlib/gkregex.c &&
-  with_cmake metis . -DGKLIB_PATH="$work/metis/GKlib"
+  # A static Embree would install a target of an older TBB. Of the geometries it has the two that
+  # shapespace draws and searches; for any processor, and for those since 2013.
+  sed -i '/^IF (EMBREE_STATIC_LIB)/,/^ENDIF()/d' embree/common/cmake/installTBB.cmake &&
+    with_cmake embree . -DEMBREE_STATIC_LIB=ON -DEMBREE_TUTORIALS=OFF -DEMBREE_ISPC_SUPPORT=OFF \
+      -DEMBREE_RAY_PACKETS=OFF -DEMBREE_GEOMETRY_QUAD=OFF -DEMBREE_GEOMETRY_CURVE=OFF \
+      -DEMBREE_GEOMETRY_SUBDIVISION=OFF -DEMBREE_GEOMETRY_INSTANCE=OFF -DEMBREE_GEOMETRY_GRID=OFF \
+      -DEMBREE_GEOMETRY_POINT=OFF -DEMBREE_MAX_ISA=NONE -DEMBREE_ISA_SSE2=ON -DEMBREE_ISA_SSE42=OFF \
+      -DEMBREE_ISA_AVX=OFF -DEMBREE_ISA_AVX2=ON -DEMBREE_ISA_AVX512=OFF
 }
 build_openblas() {
   # What shapespace calls is of doubles, and of one thread, while several threads call at once.
@@ -90,17 +102,22 @@ build_ceres-solver() {
     -DPROVIDE_UNINSTALL_TARGET=OFF
 }
 
-# In this order, because Embree finds TBB, and Ceres glog.
-for library in expat gflags google-glog qhull openmesh onetbb embree metis openblas ceres-solver; do
-  [[ -e $library.built ]] && continue
+missing=()
+for library in "${libraries[@]}"; do
+  [[ -e $library.built ]] || missing+=("$library")
+done
+((${#missing[@]})) || exit 0
+fetch "${missing[@]}" >fetch.log 2>&1 ||
+  { echo "static_libraries.sh: $(tail -1 fetch.log)" >&2; exit 1; }
+for library in "${missing[@]}"; do
   echo "static_libraries.sh: $library ($SECONDS s)"
-  { unpack $library && "build_$library"; } >$library.log 2>&1 || {
-    tail -n 30 $library.log >&2
+  { unpack "$library" && "build_$library"; } >"$library.log" 2>&1 || {
+    tail -n 30 "$library.log" >&2
     echo "static_libraries.sh: $library could not be built; all that was said is in $work/$library.log" >&2
     exit 1
   }
-  cp "$(find $library -maxdepth 2 -regex '.*/\(LICENSE\|COPYING\)\(\.txt\)?' | sort | head -1)" \
+  cp "$(find "$library" -maxdepth 2 -regex '.*/\(LICENSE\|COPYING\)\(\.txt\)?' | sort | head -1)" \
     "$prefix/licenses/$library"
   rm -rf "${library:?}/build"
-  touch $library.built
+  touch "$library.built"
 done
