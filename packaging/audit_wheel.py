@@ -59,7 +59,7 @@ def audit_wheel(wheel):
     tag = re.search(r"-manylinux_(\d+)_(\d+)_x86_64\.whl$", wheel.name)
     if not tag:
         yield "is tagged for this system alone, not for manylinux_X_Y_x86_64"
-    glibc = (int(tag[1]), int(tag[2])) if tag else (2, 0)
+    glibc = (int(tag[1]), int(tag[2])) if tag else (3, 0)
     if wheel.stat().st_size > LARGEST_WHEEL:
         yield f"has {wheel.stat().st_size / 1e6:.1f} MB, more than {LARGEST_WHEEL / 1e6:.0f}"
     with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(wheel) as archive:

@@ -92,7 +92,7 @@ build_embree() {
 build_openblas() {
   # What shapespace calls is of doubles, and of one thread, while several threads call at once.
   make -C openblas -j "$(nproc)" libs NOFORTRAN=1 NO_LAPACKE=1 NO_CBLAS=1 USE_THREAD=0 USE_LOCKING=1 \
-    BUILD_SINGLE=0 BUILD_DOUBLE=1 BUILD_COMPLEX=0 BUILD_COMPLEX16=0 DYNAMIC_ARCH=1 TARGET=NEHALEM \
+    BUILD_SINGLE=1 BUILD_DOUBLE=1 DYNAMIC_ARCH=1 TARGET=NEHALEM \
     DYNAMIC_LIST="NEHALEM SANDYBRIDGE HASWELL SKYLAKEX" COMMON_OPT="-O2 $flags" &&
     cp openblas/libopenblas*-r*.a "$prefix/lib/libopenblas.a"
 }

@@ -12,7 +12,7 @@ output=$(mkdir -p "${2:?wheel.sh: say the output folder}" && cd "$2" && pwd)
 standalone_build "${1:?wheel.sh: say which release: bookworm or trixie}"
 inside "$root" "rm -rf wheel && export SOURCE_DATE_EPOCH=$SOURCE_DATE_EPOCH &&
   glibc=\$(getconf GNU_LIBC_VERSION | sed 's/glibc //; s/[.]/_/') &&
-  python3 -m pip wheel ./source/python --no-index --no-deps --wheel-dir wheel \
+  python3 -m pip wheel ./source --no-index --no-deps --wheel-dir wheel \
     --config-settings build-dir=/root/build --config-settings licenses=/opt/static/licenses \
     --config-settings platform=manylinux_\${glibc}_x86_64"
 wheel=$(echo "$root"/root/wheel/*.whl)
