@@ -3,9 +3,9 @@
 
 namespace shapespace::internal {
 
-/// While an object of this class exists, BLAS and the CHOLMOD of Ceres use the calling thread only, if they
-/// are built with OpenMP and OpenBLAS. Their own threads synchronise every few microseconds by
-/// busy-waiting: that gains little on an idle machine and is many times slower on a busy one
+/// While an object of this class exists, BLAS and the CHOLMOD of Ceres use the calling thread only,
+/// if they are built with OpenMP and OpenBLAS. Their own threads synchronise every few microseconds
+/// by busy-waiting: that gains little on an idle machine and is many times slower on a busy one
 /// (docs/performance.md). OpenBLAS has one number of threads for the whole program; it is restored
 /// when the last of several objects is destroyed.
 class OneThread {
