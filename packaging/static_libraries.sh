@@ -80,6 +80,8 @@ build_onetbb() {
       "$prefix/lib/cmake/TBB/TBBConfig.cmake"
 }
 build_embree() {
+  # Debian's archive lacks a file that would be installed.
+  touch embree/readme.pdf
   # A static Embree would install a target of an older TBB. Of the geometries it has the two that
   # shapespace draws and searches; for any processor, and for those since 2013.
   sed -i '/^IF (EMBREE_STATIC_LIB)/,/^ENDIF()/d' embree/common/cmake/installTBB.cmake &&
@@ -97,6 +99,9 @@ build_openblas() {
     cp openblas/libopenblas*-r*.a "$prefix/lib/libopenblas.a"
 }
 build_ceres-solver() {
+  # Its functions and those of shapespace share templates of Eigen, so both allocate in the same way
+  # (lib/CMakeLists.txt).
+  flags="$flags -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=0"
   with_cmake ceres-solver . -DSUITESPARSE=OFF -DCXSPARSE=OFF -DEIGENSPARSE=ON -DLAPACK=OFF -DCUDA=OFF \
     -DGFLAGS=OFF -DSCHUR_SPECIALIZATIONS=OFF -DBUILD_EXAMPLES=OFF -DBUILD_BENCHMARKS=OFF \
     -DPROVIDE_UNINSTALL_TARGET=OFF

@@ -18,7 +18,6 @@
 #include <shapespace/cost/path_energy.h>
 #include <shapespace/cost/transport_constraint.h>
 #include <shapespace/numerics/internal/one_thread.h>
-#include <shapespace/numerics/internal/sparse_cholesky.h>
 
 namespace shapespace::internal {
 namespace {
@@ -79,7 +78,7 @@ StepResult SolveStepWithCeres(const FeatureMap& map, const Shape& at, const Eige
   StopAtResidual stop(enough / std::sqrt(1.0 + sums.size()));
 
   ceres::Solver::Options options = SolverOptions(max_iterations);
-  UseSparseCholesky(&options);
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   // Newton's method without damping as long as it reduces the residual. The damping of a trust
   // region radius is relative to the squared derivative, which differs between soft and stiff
   // motions by up to 1e16. With the radius 1e12 convergence is linear (60 iterations are not enough
@@ -134,7 +133,7 @@ StepResult SolveFirstIntegral(const FeatureMap& map, const Shape& at, const Tang
     options.minimizer_type = ceres::LINE_SEARCH;
     options.line_search_direction_type = ceres::LBFGS;
   } else {
-    UseSparseCholesky(&options);
+    options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   }
   options.callbacks.push_back(&stop);
   ceres::Solver::Summary summary;

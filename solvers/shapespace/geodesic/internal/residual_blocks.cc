@@ -7,7 +7,6 @@
 
 #include <shapespace/numerics/internal/keep_going.h>
 #include <shapespace/numerics/internal/one_thread.h>
-#include <shapespace/numerics/internal/sparse_cholesky.h>
 
 namespace shapespace::internal {
 namespace {
@@ -41,7 +40,7 @@ void ResidualBlocks::Fix(double* vertex) { problem_.SetParameterBlockConstant(ve
 
 MinimiseResult ResidualBlocks::Minimise(const MinimiseOptions& options) {
   ceres::Solver::Options ceres_options;
-  UseSparseCholesky(&ceres_options);
+  ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   ceres_options.max_num_iterations = options.max_iterations;
   ceres_options.function_tolerance = options.tolerance;
   ceres_options.gradient_tolerance = 0;
