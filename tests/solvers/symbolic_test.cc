@@ -116,7 +116,7 @@ TEST(SymbolicTest, RowsAreThoseOfEliminationOneByOne) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const int nodes = 5 + 10 * static_cast<int>(seed);
     for (int group : {1, 3}) {
-      SCOPED_TRACE(testing::Message() << "seed " << seed << ", group " << group);
+      SCOPED_TRACE(::testing::Message() << "seed " << seed << ", group " << group);
       // The first graphs have few edges, so that they have several components and single nodes.
       const Edges edges = RandomForestAndCycles(nodes, nodes * (1 + seed % 3) / 2, seed);
       CheckFactor(MatrixOf(nodes, edges, group), group);
