@@ -31,7 +31,8 @@ standalone_system() {
 
 # standalone_build RELEASE: builds module and tools in /root/build of the system `root`, which it sets as
 # well as `version`; does nothing if they are built from these sources. The libraries are built on
-# Debian 12, with a glibc that is old enough for both, and take a quarter of an hour the first time.
+# Debian 12, with a glibc that is old enough for both, and take a quarter of an hour the first time. CMake
+# would look in LAPACK for a function of complex numbers, which this one lacks.
 standalone_build() {
   local new
   root=$systems/$1
@@ -63,7 +64,7 @@ standalone_build() {
       -DSHAPESPACE_SUITESPARSE=OFF -DSHAPESPACE_BUILD_PYTHON=ON -DSHAPESPACE_BUILD_TESTS=OFF \
       -DCMAKE_PREFIX_PATH=/opt/static -DPython_EXECUTABLE=/usr/bin/python3 \
       -DBLAS_blas_LIBRARY=/opt/static/lib/libopenblas.a \
-      -DLAPACK_lapack_LIBRARY=/opt/static/lib/libopenblas.a \
+      -DLAPACK_lapack_LIBRARY=/opt/static/lib/libopenblas.a -DLAPACK_lapack_WORKS=ON \
       -DZLIB_LIBRARY=/usr/lib/x86_64-linux-gnu/libz.a \
       -DCMAKE_CXX_FLAGS='-ffunction-sections -fdata-sections -ffile-prefix-map=/root/=' \
       -DCMAKE_MODULE_LINKER_FLAGS=-Wl,--gc-sections \

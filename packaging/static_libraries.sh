@@ -80,16 +80,14 @@ build_onetbb() {
       "$prefix/lib/cmake/TBB/TBBConfig.cmake"
 }
 build_embree() {
-  # Debian's archive lacks a file that would be installed.
-  touch embree/readme.pdf
-  # A static Embree would install a target of an older TBB. Of the geometries it has the two that
-  # shapespace draws and searches; for any processor, and for those since 2013.
+  # A static Embree would install a target of an older TBB, and a manual that Debian's archive lacks. Of
+  # the geometries it has the two that shapespace draws and searches; with instructions of any processor.
   sed -i '/^IF (EMBREE_STATIC_LIB)/,/^ENDIF()/d' embree/common/cmake/installTBB.cmake &&
+    sed -i '/readme\.pdf/d' embree/common/cmake/package.cmake &&
     with_cmake embree . -DEMBREE_STATIC_LIB=ON -DEMBREE_TUTORIALS=OFF -DEMBREE_ISPC_SUPPORT=OFF \
       -DEMBREE_RAY_PACKETS=OFF -DEMBREE_GEOMETRY_QUAD=OFF -DEMBREE_GEOMETRY_CURVE=OFF \
       -DEMBREE_GEOMETRY_SUBDIVISION=OFF -DEMBREE_GEOMETRY_INSTANCE=OFF -DEMBREE_GEOMETRY_GRID=OFF \
-      -DEMBREE_GEOMETRY_POINT=OFF -DEMBREE_MAX_ISA=NONE -DEMBREE_ISA_SSE2=ON -DEMBREE_ISA_SSE42=OFF \
-      -DEMBREE_ISA_AVX=OFF -DEMBREE_ISA_AVX2=ON -DEMBREE_ISA_AVX512=OFF
+      -DEMBREE_GEOMETRY_POINT=OFF -DEMBREE_MAX_ISA=SSE2
 }
 build_openblas() {
   # What shapespace calls is of doubles, and of one thread, while several threads call at once.
@@ -101,7 +99,7 @@ build_openblas() {
 build_ceres-solver() {
   # Its functions and those of shapespace share templates of Eigen, so both allocate in the same way
   # (lib/CMakeLists.txt).
-  flags="$flags -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=0"
+  local flags="$flags -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=0"
   with_cmake ceres-solver . -DSUITESPARSE=OFF -DCXSPARSE=OFF -DEIGENSPARSE=ON -DLAPACK=OFF -DCUDA=OFF \
     -DGFLAGS=OFF -DSCHUR_SPECIALIZATIONS=OFF -DBUILD_EXAMPLES=OFF -DBUILD_BENCHMARKS=OFF \
     -DPROVIDE_UNINSTALL_TARGET=OFF

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Whether two folders have the same files with the same bytes; names those that differ:
 #   tests/packages/reproducible.sh FOLDER FOLDER
+# but for .buildinfo and .changes of Debian packages, which have the time of the build.
 # For two runs of one script of packaging/, or of ./dev release:
 #   ./dev release && mv build/release-0.1.0 first && ./dev release &&
 #     tests/packages/reproducible.sh first build/release-0.1.0
@@ -12,7 +13,7 @@ fail() {
 }
 
 (($# == 2)) || fail "say which two folders"
-names() { (cd "$1" && find . -type f -printf '%P\n' | sort); }
+names() { (cd "$1" && find . -type f ! -name '*.buildinfo' ! -name '*.changes' -printf '%P\n' | sort); }
 first=$(names "$1")
 second=$(names "$2")
 [[ -n $first ]] || fail "$1 has no files"
