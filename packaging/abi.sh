@@ -9,7 +9,7 @@ out=$(out_folder "${1:-}")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# -O1 compiles faster and describes less than -O3; types and functions are the same. No folder of this
+# -O1 compiles faster than -O3; types and functions are the same. No folder of this
 # machine is in the libraries, so that they are the same wherever they are built.
 cmake -S "$project" -B "$project/build/abi" -G Ninja -DCMAKE_BUILD_TYPE=None \
   -DBUILD_SHARED_LIBS=ON -DSHAPESPACE_BUILD_TOOLS=OFF -DCMAKE_UNITY_BUILD=ON \
