@@ -1,7 +1,6 @@
 #include <shapespace/numerics/internal/elimination.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace shapespace::internal {
 namespace {
@@ -12,12 +11,8 @@ constexpr double kBranchShare = 1.0 / 16, kWorthBranches = 1e5;
 
 }  // namespace
 
-Elimination::Elimination(const Eigen::SparseMatrix<double>& matrix, int group) {
-  SymbolicFactor factor = AnalysePattern(matrix, group);
-  permutation = std::move(factor.permutation);
-  supernodes = std::move(factor.supernodes);
-  rows = std::move(factor.rows);
-  num_values = factor.num_values;
+Elimination::Elimination(const Eigen::SparseMatrix<double>& matrix, int group)
+    : SymbolicFactor(AnalysePattern(matrix, group)) {
   std::vector<int> node_of_row(Size());
   for (size_t s = 0; s < supernodes.size(); ++s) {
     std::fill_n(node_of_row.begin() + supernodes[s].begin, supernodes[s].width,

@@ -20,7 +20,7 @@ struct Branch {
 
 /// The order in which a sparse symmetric matrix is eliminated, and where the numbers of its factor
 /// are: all of a factorisation that depends only on the pattern.
-struct Elimination {
+struct Elimination : SymbolicFactor {
   /// `matrix` is in compressed form, and only its lower triangle is read. Unknowns are in groups of
   /// `group` consecutive ones with equal patterns, such as the coordinates of one vertex; the order
   /// of elimination is found for the groups, in less time.
@@ -29,12 +29,8 @@ struct Elimination {
 
   int Size() const { return static_cast<int>(permutation.size()); }
 
-  std::vector<int> permutation;  ///< row i of the factor belongs to unknown permutation[i]
-  std::vector<Supernode> supernodes;
-  std::vector<int> rows;    ///< of all supernodes, ascending in each
   std::vector<int> parent;  ///< of each supernode in the elimination tree, which has a larger
                             ///< index; -1 for a root
-  size_t num_values = 0;    ///< stored numbers, including those of dense blocks
   std::vector<Branch> branches;
   std::vector<int> trunk;        ///< supernodes that belong to no branch, in ascending order
   std::vector<int> branch_rows;  ///< rows, with separate rows outside of a branch

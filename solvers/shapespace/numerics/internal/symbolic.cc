@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <new>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -13,57 +12,39 @@
 namespace shapespace::internal {
 namespace {
 
-// The neighbours of every group of unknowns in the matrix, without itself, in ascending order.
-struct Graph {
-  std::vector<int> begin, neighbours;
-
-  int Size() const { return static_cast<int>(begin.size()) - 1; }
-  template <typename Body>
-  void ForNeighbours(int node, const Body& body) const {
-    for (int i = begin[node]; i < begin[node + 1]; ++i) body(neighbours[i]);
-  }
-};
+// Which groups of unknowns meet in the matrix: both triangles, with the diagonal. The values mean
+// nothing.
+using Graph = Eigen::SparseMatrix<char>;
 
 Graph GraphOf(const Eigen::SparseMatrix<double>& matrix, int group) {
-  const int size = static_cast<int>(matrix.cols() / group);
-  const auto for_edges = [&](const auto& body) {
-    for (int column = 0; column < size; ++column) {
-      int last = column;
-      for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, group * column); it; ++it) {
-        const int row = static_cast<int>(it.row() / group);
-        if (row <= last) continue;
-        body(column, row);
-        last = row;
-      }
+  const Eigen::Index size = matrix.cols() / group;
+  Graph lower(size, size);
+  lower.reserve(matrix.nonZeros() / (group * group) + size);
+  for (Eigen::Index column = 0; column < size; ++column) {
+    lower.startVec(column);
+    lower.insertBackByOuterInner(column, column) = 1;
+    Eigen::Index last = column;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, group * column); it; ++it) {
+      const Eigen::Index row = it.row() / group;
+      if (row <= last) continue;
+      lower.insertBackByOuterInner(column, row) = 1;
+      last = row;
     }
-  };
-  Graph graph;
-  graph.begin.assign(size + 1, 0);
-  for_edges([&](int a, int b) { ++graph.begin[a + 1], ++graph.begin[b + 1]; });
-  std::partial_sum(graph.begin.begin(), graph.begin.end(), graph.begin.begin());
-  graph.neighbours.resize(graph.begin.back());
-  std::vector<int> next(graph.begin.begin(), graph.begin.end() - 1);
-  for_edges([&](int a, int b) {
-    graph.neighbours[next[a]++] = b;
-    graph.neighbours[next[b]++] = a;
-  });
-  return graph;
+  }
+  lower.finalize();
+  return lower.selfadjointView<Eigen::Lower>();
 }
 
 std::vector<int> MinimumDegree(const Graph& graph) {
-  Eigen::SparseMatrix<double> lower(graph.Size(), graph.Size());
-  lower.reserve(graph.neighbours.size() / 2 + graph.Size());
-  for (int node = 0; node < graph.Size(); ++node) {
-    lower.startVec(node);
-    lower.insertBackByOuterInner(node, node) = 1;
-    graph.ForNeighbours(node, [&](int i) {
-      if (i > node) lower.insertBackByOuterInner(node, i) = 1;
-    });
-  }
-  lower.finalize();
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  Eigen::AMDOrdering<int>()(lower.selfadjointView<Eigen::Lower>(), order);
-  return std::vector<int>(order.indices().data(), order.indices().data() + graph.Size());
+  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), order);
+  return std::vector<int>(order.indices().data(), order.indices().data() + order.size());
+}
+
+std::vector<int> Inverse(const std::vector<int>& order) {
+  std::vector<int> inverse(order.size());
+  for (size_t i = 0; i < order.size(); ++i) inverse[order[i]] = static_cast<int>(i);
+  return inverse;
 }
 
 // The elimination tree, in postorder: each node comes after its descendants, whose numbers are
@@ -77,12 +58,11 @@ struct Tree {
 // Calls body(k, i) for the neighbours of all i that are eliminated before, ascending by i.
 template <typename Body>
 void ForEarlierNeighbours(const Graph& graph, const std::vector<int>& order, const Body& body) {
-  std::vector<int> inverse(order.size());
-  for (size_t i = 0; i < order.size(); ++i) inverse[order[i]] = static_cast<int>(i);
-  for (int i = 0; i < graph.Size(); ++i) {
-    graph.ForNeighbours(order[i], [&](int neighbour) {
-      if (inverse[neighbour] < i) body(inverse[neighbour], i);
-    });
+  const std::vector<int> inverse = Inverse(order);
+  for (int i = 0; i < graph.cols(); ++i) {
+    for (Graph::InnerIterator it(graph, order[i]); it; ++it) {
+      if (inverse[it.row()] < i) body(inverse[it.row()], i);
+    }
   }
 }
 
@@ -113,7 +93,7 @@ std::vector<int> Postorder(const std::vector<int>& parent) {
 
 // Liu, "The role of elimination trees in sparse factorization", 1990, sections 4 and 5.
 Tree EliminationTree(const Graph& graph, const std::vector<int>& order) {
-  const int size = graph.Size();
+  const int size = static_cast<int>(graph.cols());
   std::vector<int> parent(size, -1), ancestor(size, -1);
   ForEarlierNeighbours(graph, order, [&](int k, int i) {
     while (ancestor[k] >= 0 && ancestor[k] != i) k = std::exchange(ancestor[k], i);
@@ -143,11 +123,23 @@ Tree EliminationTree(const Graph& graph, const std::vector<int>& order) {
   return tree;
 }
 
-// The first nodes of the fundamental supernodes: each other node has the node before it as its only
+// The first nodes of supernodes, and behind them the number of nodes.
+using FirstNodes = std::vector<int>;
+
+std::vector<int> SupernodeOfNodes(const FirstNodes& first) {
+  std::vector<int> supernode(first.back());
+  for (size_t s = 0; s + 1 < first.size(); ++s) {
+    std::fill(supernode.begin() + first[s], supernode.begin() + first[s + 1], static_cast<int>(s));
+  }
+  return supernode;
+}
+
+// Fundamental supernodes: each of their nodes but the first has the node before it as its only
 // child, and the pattern of that less one number.
-std::vector<int> FundamentalSupernodes(const Tree& tree) {
+FirstNodes FundamentalSupernodes(const Tree& tree) {
   const int size = static_cast<int>(tree.parent.size());
-  std::vector<int> children(size, 0), first;
+  std::vector<int> children(size, 0);
+  FirstNodes first;
   for (int parent : tree.parent) {
     if (parent >= 0) ++children[parent];
   }
@@ -156,26 +148,25 @@ std::vector<int> FundamentalSupernodes(const Tree& tree) {
                            tree.count[i - 1] == tree.count[i] + 1;
     if (!continues) first.push_back(i);
   }
+  first.push_back(size);
   return first;
 }
 
 // Joins supernodes with the parent that follows directly, while the zeros that this stores are few.
 // The limits are the defaults of CHOLMOD, in columns of unknowns.
-std::vector<int> JoinSupernodes(const Tree& tree, const std::vector<int>& first, int group) {
-  const int size = static_cast<int>(tree.parent.size()), num_nodes = static_cast<int>(first.size());
-  std::vector<int> node_of(size);
+FirstNodes JoinSupernodes(const Tree& tree, const FirstNodes& first, int group) {
+  const int num_nodes = static_cast<int>(first.size()) - 1;
+  const std::vector<int> supernode = SupernodeOfNodes(first);
   std::vector<double> width(num_nodes), height(num_nodes), zeros(num_nodes, 0);
   for (int s = 0; s < num_nodes; ++s) {
-    const int end = s + 1 < num_nodes ? first[s + 1] : size;
-    std::fill(node_of.begin() + first[s], node_of.begin() + end, s);
-    width[s] = group * (end - first[s]);
+    width[s] = group * (first[s + 1] - first[s]);
     height[s] = group * tree.count[first[s]];
   }
   std::vector<int> joined_to(num_nodes, -1);
   for (int s = num_nodes - 2; s >= 0; --s) {
     int parent = tree.parent[first[s + 1] - 1];
     if (parent < 0) continue;
-    parent = node_of[parent];
+    parent = supernode[parent];
     while (joined_to[parent] >= 0) parent = joined_to[parent];
     if (parent != s + 1) continue;
     const double columns = width[s] + width[parent];
@@ -191,23 +182,19 @@ std::vector<int> JoinSupernodes(const Tree& tree, const std::vector<int>& first,
       width[s] = columns;
     }
   }
-  std::vector<int> result;
+  FirstNodes result;
   for (int s = 0; s < num_nodes; ++s) {
     if (joined_to[s] < 0) result.push_back(first[s]);
   }
+  result.push_back(first.back());
   return result;
 }
 
 // The pattern of the factor. The rows of a supernode are those of the matrix and of its children.
-SymbolicFactor ListRows(const Graph& graph, const Tree& tree, const std::vector<int>& first,
-                        int group) {
-  const int size = graph.Size(), num_nodes = static_cast<int>(first.size());
-  const auto end_of = [&](int s) { return s + 1 < num_nodes ? first[s + 1] : size; };
-  std::vector<int> inverse(size), node_of(size), seen_in_node(size, -1);
-  for (int i = 0; i < size; ++i) inverse[tree.order[i]] = i;
-  for (int s = 0; s < num_nodes; ++s) {
-    std::fill(node_of.begin() + first[s], node_of.begin() + end_of(s), s);
-  }
+SymbolicFactor ListRows(const Graph& graph, const Tree& tree, const FirstNodes& first, int group) {
+  const int num_nodes = static_cast<int>(first.size()) - 1;
+  const std::vector<int> inverse = Inverse(tree.order), supernode = SupernodeOfNodes(first);
+  std::vector<int> seen_in(first.back(), -1);
   SymbolicFactor result;
   for (int node : tree.order) {
     for (int k = 0; k < group; ++k) result.permutation.push_back(group * node + k);
@@ -216,25 +203,25 @@ SymbolicFactor ListRows(const Graph& graph, const Tree& tree, const std::vector<
   for (int s = 0; s < num_nodes; ++s) {
     std::vector<int>& rows = below[s];
     const auto add = [&](int row) {
-      if (row < end_of(s) || seen_in_node[row] == s) return;
-      seen_in_node[row] = s;
+      if (row < first[s + 1] || seen_in[row] == s) return;
+      seen_in[row] = s;
       rows.push_back(row);
     };
-    for (int i = first[s]; i < end_of(s); ++i) {
-      graph.ForNeighbours(tree.order[i], [&](int neighbour) { add(inverse[neighbour]); });
+    for (int i = first[s]; i < first[s + 1]; ++i) {
+      for (Graph::InnerIterator it(graph, tree.order[i]); it; ++it) add(inverse[it.row()]);
     }
     for (int child : children[s]) std::for_each(below[child].begin(), below[child].end(), add);
     std::sort(rows.begin(), rows.end());
-    if (!rows.empty()) children[node_of[rows.front()]].push_back(s);
+    if (!rows.empty()) children[supernode[rows.front()]].push_back(s);
 
-    const int width = end_of(s) - first[s], height = width + static_cast<int>(rows.size());
+    const int width = first[s + 1] - first[s], height = width + static_cast<int>(rows.size());
     result.supernodes.push_back(
         {group * first[s], group * width, group * height, result.rows.size(), result.num_values});
     result.num_values += static_cast<size_t>(group * width) * (group * height);
     const auto append = [&](int row) {
       for (int k = 0; k < group; ++k) result.rows.push_back(group * row + k);
     };
-    for (int i = first[s]; i < end_of(s); ++i) append(i);
+    for (int i = first[s]; i < first[s + 1]; ++i) append(i);
     std::for_each(rows.begin(), rows.end(), append);
   }
   return result;

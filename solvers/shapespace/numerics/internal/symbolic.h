@@ -33,7 +33,9 @@ struct SymbolicFactor {
 /// elimination tree and the pattern follow Liu, "The role of elimination trees in sparse
 /// factorization", 1990. Small supernodes are joined with their parents at the price of some zeros
 /// (Ashcraft, Grimes 1989). On meshes from 1 K to 1 M triangles the factor has within 4 % the
-/// numbers that CHOLMOD's has (docs/performance.md). \throw SolverError if memory runs out.
+/// numbers that CHOLMOD's has (docs/performance.md).
+///
+/// \throw SolverError if memory runs out.
 SymbolicFactor AnalysePattern(const Eigen::SparseMatrix<double>& matrix, int group);
 
 }  // namespace shapespace::internal
