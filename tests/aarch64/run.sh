@@ -15,16 +15,7 @@ fail() {
   exit 1
 }
 
-missing=()
-for package in $(sed 's/#.*//; /:arm64/d' debian-packages-aarch64.txt); do
-  [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) == installed ]] ||
-    missing+=("$package")
-done
-if ((${#missing[@]} > 0)); then
-  [[ $(id -u) == 0 ]] || fail "packages are missing. As root: apt-get install ${missing[*]}"
-  { apt-get -q update && apt-get -q install -y --no-install-recommends "${missing[@]}"; } ||
-    fail "packages could not be installed: ${missing[*]}"
-fi
+./dev packages <(sed '/:arm64/d' debian-packages-aarch64.txt)
 
 build=$PWD/build/aarch64
 tests/aarch64/sysroot.sh "$build/sysroot"

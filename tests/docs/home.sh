@@ -1,7 +1,8 @@
 #!/bin/bash
 # What a public project needs besides its code: licences as REUSE asks for them, a valid citation,
 # well-formed workflows and templates, a site without broken links, and a software bill of materials.
-# Installs what is missing of debian-packages-home.txt; takes about half a minute.
+# Installs what is missing of debian-packages-home.txt and of the lists that this names; takes about half
+# a minute.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -10,10 +11,7 @@ fail() {
   exit 1
 }
 
-mapfile -t needed < <(sed 's/ *#.*//; /^$/d' debian-packages-home.txt)
-if ! dpkg-query -W "${needed[@]}" >/dev/null 2>&1; then
-  apt-get -q update && apt-get -q install -y --no-install-recommends "${needed[@]}"
-fi
+./dev packages debian-packages.txt debian-packages-{docs,python,home}.txt
 
 reuse lint | tail -n 1
 reuse lint --quiet || fail "reuse lint says which files have no licence"

@@ -41,5 +41,5 @@ for library in "${libraries[@]}"; do
   ((status == 0)) || changed+=("$name")
 done
 ((${#changed[@]} == 0)) ||
-  fail "${changed[*]}: changed as said above; undo it, or raise the minor version in CMakeLists.txt"
+  fail "${changed[*]}: changed as said above; undo it, or raise abi in CMakeLists.txt"
 echo "abi.sh: ${#libraries[@]} libraries compared"

@@ -1,8 +1,9 @@
 #!/bin/bash
 # Whether abi.sh notices what breaks programs, and nothing else: with a small library in several
-# versions. Takes some seconds.
+# versions. Installs what is missing of debian-packages-home.txt; takes some seconds.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
+"$here/../../dev" packages debian-packages-home.txt
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
