@@ -19,6 +19,16 @@ make_root() {
     { echo "root.sh: debootstrap: $(tail -1 "$2.log")" >&2; return 1; }
 }
 
+# bare_system RELEASE: such a system for the script that calls this, in the folder `root`, and beside it the
+# folder `work` for its files. Both are taken away when the script ends.
+bare_system() {
+  work=$(mktemp -d)
+  trap 'rm -rf --one-file-system "$work"' EXIT
+  trap 'exit 1' HUP INT TERM
+  root=$work/system
+  make_root "$1" "$root"
+}
+
 # inside ROOT COMMAND [FOLDER]: runs a shell command in that system, in /root or the folder given, with
 # processes, mounts and terminals of its own that end with the command, and with nothing of this
 # environment.

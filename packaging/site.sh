@@ -20,3 +20,4 @@ grep -lr --include='class*.html' 'href="#nested-classes"' build/site-pages/refer
 mkdocs build --quiet --strict --site-dir "$out"
 rm -f "$out"/sitemap.xml*  # of no use without an address
 tests/docs/links.py "$out"
+if grep -rlF "$project" "$out"; then die "the pages above name the folder of the build"; fi

@@ -1,12 +1,9 @@
 # The build of which the wheel and the self-contained tools are taken; read by their scripts
 # (`. packaging/standalone.sh`). Needs root, debootstrap and 3 GB of disk.
 
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-. "$here/root.sh"
-mkdir -p "$here/../build/standalone"
-systems=$(cd "$here/../build/standalone" && pwd)
-: "${SOURCE_DATE_EPOCH:=$(git -C "$here" log -1 --format=%ct)}"
-export SOURCE_DATE_EPOCH
+. "$(dirname "${BASH_SOURCE[0]}")/release_common.sh"
+. "$project/packaging/root.sh"
+systems=$(out_folder "$project/build/standalone")
 
 # What is built needs nothing of these when it runs: they are tools, headers, and a zlib that is linked
 # statically. What else is linked comes from static_libraries.sh.
@@ -29,15 +26,15 @@ standalone_system() {
   touch "$root/packages"
 }
 
-# standalone_build RELEASE: builds module and tools in /root/build of the system `root`, which it sets as
-# well as `version`; does nothing if they are built from these sources. The libraries are built on
-# Debian 12, with a glibc that is old enough for both, and take a quarter of an hour the first time. CMake
-# would look in LAPACK for a function of complex numbers, which this one lacks.
+# standalone_build RELEASE: builds module and tools in /root/build of the system `root`, which it
+# sets; does nothing if they are built from these sources. The libraries are built on Debian 12, with a
+# glibc that is old enough for both, and take a quarter of an hour the first time. CMake would look in
+# LAPACK for a function of complex numbers, which this one lacks.
 standalone_build() {
-  local new
+  local new sdist=shapespace-$version.tar.gz
   root=$systems/$1
   standalone_system bookworm && standalone_system "$1" || return 1
-  cp "$here/static_libraries.sh" "$systems/bookworm/opt/"
+  cp "$project/packaging/static_libraries.sh" "$systems/bookworm/opt/"
   inside "$systems/bookworm" "$with_ccache && bash /opt/static_libraries.sh /opt/static" ||
     return 1
   if [[ $1 != bookworm ]]; then
@@ -46,10 +43,8 @@ standalone_build() {
     cp -a "$systems"/bookworm/opt/static/{include,lib,licenses} "$root/opt/static"
   fi
   new=$(mktemp -d)
-  PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$here/../python /usr/bin/python3 -c \
+  PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$project/python /usr/bin/python3 -c \
     'import sys, build_backend; build_backend.build_sdist(sys.argv[1])' "$new"
-  sdist=$(basename "$new"/*.tar.gz)
-  version=${sdist#shapespace-} version=${version%.tar.gz}
   if [[ -e $root/root/built ]] && cmp -s "$new/$sdist" "$root/root/$sdist"; then
     rm -r "$new"
     return

@@ -8,7 +8,7 @@
 set -euo pipefail
 . "$(dirname "$0")/standalone.sh"
 
-output=$(mkdir -p "${1:?tools.sh: say the output folder}" && cd "$1" && pwd)
+output=$(out_folder "${1:-}")
 standalone_build bookworm
 name=shapespace-$version-linux-x86_64
 inside "$root" "rm -rf installed $name && cmake --install build --strip --prefix /root/installed >install.log &&
@@ -28,7 +28,7 @@ to MANPATH, for completion in bash share to XDG_DATA_DIRS. For example:
 The licence of shapespace is share/doc/shapespace/LICENSE; those of the libraries that the programs
 contain are beside it in NOTICES and in licenses/.
 TEXT
-"$here/audit_wheel.py" --programs 2.36 "$root/root/$name/bin/"*
+"$project/packaging/audit_wheel.py" --programs 2.36 "$root/root/$name/bin/"*
 # The programs share most of their code: xz finds it again if it remembers all of them.
 tar -C "$root/root" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner \
   --mode=u+rw,go+r-w,a+X -c "$name" | xz -T1 --lzma2=preset=6,dict=256MiB >"$output/$name.tar.xz"

@@ -8,14 +8,14 @@
 set -euo pipefail
 . "$(dirname "$0")/standalone.sh"
 
-output=$(mkdir -p "${2:?wheel.sh: say the output folder}" && cd "$2" && pwd)
-standalone_build "${1:?wheel.sh: say which release: bookworm or trixie}"
+output=$(out_folder "${2:-}")
+standalone_build "${1:-}"
 inside "$root" "rm -rf wheel && export SOURCE_DATE_EPOCH=$SOURCE_DATE_EPOCH &&
   glibc=\$(getconf GNU_LIBC_VERSION | sed 's/glibc //; s/[.]/_/') &&
   python3 -m pip wheel ./source --no-index --no-deps --wheel-dir wheel \
     --config-settings build-dir=/root/build --config-settings licenses=/opt/static/licenses \
     --config-settings platform=manylinux_\${glibc}_x86_64"
 wheel=$(echo "$root"/root/wheel/*.whl)
-"$here/audit_wheel.py" "$wheel"
+"$project/packaging/audit_wheel.py" "$wheel"
 cp "$wheel" "$root/root/shapespace-$version.tar.gz" "$output"
 (cd "$output" && ls -l "$(basename "$wheel")" "shapespace-$version.tar.gz")

@@ -36,7 +36,7 @@ def _version():
 def _metadata(settings):
     # A wheel that comes with licences is linked without SuiteSparse.
     license_ = "BSD-3-Clause; the built module links GPL-2.0-or-later parts of SuiteSparse"
-    if settings and "licenses" in settings:
+    if "licenses" in settings:
         license_ = "BSD-3-Clause; libraries in the module are under other permissive licences"
     return (
         "Metadata-Version: 2.1\n"
@@ -54,7 +54,7 @@ def _metadata(settings):
 def _tag(settings):
     interpreter = "cp" + sysconfig.get_config_var("py_version_nodot")
     platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
-    platform = (settings or {}).get("platform", platform)
+    platform = settings.get("platform", platform)
     return f"{interpreter}-{interpreter}-{platform}"
 
 
@@ -72,7 +72,6 @@ def _run(command):
 
 def _build_module(settings, target):
     """Builds the module into the folder `target`."""
-    settings = settings or {}
     build = PROJECT / settings.get("build-dir", "build/python")
     command = ["cmake", "-S", PROJECT, "-B", build, "-DSHAPESPACE_BUILD_PYTHON=ON"]
     if not (build / "CMakeCache.txt").exists():
@@ -93,25 +92,26 @@ def _record(name, content):
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    settings = config_settings or {}
     info = f"shapespace-{_version()}.dist-info"
     files = {}
     with tempfile.TemporaryDirectory() as target:
-        _build_module(config_settings, target)
+        _build_module(settings, target)
         package = pathlib.Path(target) / "shapespace"
         for file in sorted(package.rglob("*")):
             if file.is_file():
                 files[f"shapespace/{file.relative_to(package).as_posix()}"] = file.read_bytes()
-    files[f"{info}/METADATA"] = _metadata(config_settings).encode()
-    files[f"{info}/WHEEL"] = _wheel_file(config_settings).encode()
+    files[f"{info}/METADATA"] = _metadata(settings).encode()
+    files[f"{info}/WHEEL"] = _wheel_file(settings).encode()
     for name in ("LICENSE", "NOTICES"):
         files[f"{info}/licenses/{name}"] = (PROJECT / name).read_bytes()
-    if config_settings and "licenses" in config_settings:
-        for file in sorted(pathlib.Path(config_settings["licenses"]).iterdir()):
+    if "licenses" in settings:
+        for file in sorted(pathlib.Path(settings["licenses"]).iterdir()):
             files[f"{info}/licenses/{file.name}"] = file.read_bytes()
     record = "".join(_record(name, content) for name, content in files.items())
     files[f"{info}/RECORD"] = (record + f"{info}/RECORD,,\n").encode()
 
-    name = f"shapespace-{_version()}-{_tag(config_settings)}.whl"
+    name = f"shapespace-{_version()}-{_tag(settings)}.whl"
     with zipfile.ZipFile(
         pathlib.Path(wheel_directory) / name, "w", zipfile.ZIP_DEFLATED
     ) as wheel:
@@ -124,10 +124,11 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    settings = config_settings or {}
     info = pathlib.Path(metadata_directory) / f"shapespace-{_version()}.dist-info"
     info.mkdir()
-    (info / "METADATA").write_text(_metadata(config_settings), encoding="utf-8")
-    (info / "WHEEL").write_text(_wheel_file(config_settings), encoding="utf-8")
+    (info / "METADATA").write_text(_metadata(settings), encoding="utf-8")
+    (info / "WHEEL").write_text(_wheel_file(settings), encoding="utf-8")
     return info.name
 
 
@@ -165,7 +166,7 @@ def build_sdist(sdist_directory, config_settings=None):
     with open(pathlib.Path(sdist_directory) / name, "wb") as file:
         with gzip.GzipFile(filename="", fileobj=file, mode="wb", mtime=time) as zipped:
             with tarfile.open(fileobj=zipped, mode="w", format=tarfile.PAX_FORMAT) as archive:
-                add(archive, "PKG-INFO", _metadata(None).encode(), 0o644)
+                add(archive, "PKG-INFO", _metadata({}).encode(), 0o644)
                 add(archive, "pyproject.toml", project.encode(), 0o644)
                 for source in _sources():
                     path = PROJECT / source

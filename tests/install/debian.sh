@@ -11,16 +11,10 @@ fail() {
   exit 1
 }
 
-[[ ${1:-} == bookworm || ${1:-} == trixie ]] || fail "say which release: bookworm or trixie"
-release=$1
+release=${1:-}
 source=$(cd "$(dirname "$0")/../.." && pwd)
 . "$source/packaging/root.sh"
-work=$(mktemp -d)
-trap 'rm -rf --one-file-system "$work"' EXIT
-trap 'exit 1' HUP INT TERM
-root=$work/system
-
-make_root "$release" "$root"
+bare_system "$release"
 git clone -q "$source" "$root/root/shapespace"
 
 inside "$root" './dev demo' /root/shapespace

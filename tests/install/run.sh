@@ -92,7 +92,8 @@ fi
 shared=$root/build/shared
 cmake -S "$root" -B "$shared" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
   -DBUILD_SHARED_LIBS=ON -DSHAPESPACE_BUILD_PYTHON=ON \
-  -DPython_EXECUTABLE=/usr/bin/python3 -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$work/configure.log" || fail "shared libraries cannot be configured"
+  -DPython_EXECUTABLE=/usr/bin/python3 -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$work/configure.log" ||
+  fail "shared libraries cannot be configured"
 cmake --build "$shared" && cmake --install "$shared" --prefix "$work/shared" >"$work/install.log"
 mapfile -t libraries < <(find "$work/shared" -name 'libshapespace_*.so')
 ((${#libraries[@]} == 4)) || fail "these are not the four shared libraries: ${libraries[*]}"

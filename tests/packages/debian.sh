@@ -10,17 +10,11 @@ fail() {
   exit 1
 }
 
-[[ ${1:-} == bookworm || ${1:-} == trixie ]] || fail "say which release: bookworm or trixie"
-release=$1
+release=${1:-}
 packages=${2:-}
 project=$(cd "$(dirname "$0")/../.." && pwd)
 . "$project/packaging/root.sh"
-work=$(mktemp -d)
-trap 'rm -rf --one-file-system "$work"' EXIT
-trap 'exit 1' HUP INT TERM
-root=$work/system
-
-make_root "$release" "$root"
+bare_system "$release"
 number=$(cut -d . -f 1 "$root/etc/debian_version")
 mkdir "$root/root/packages"
 for name in shapespace libshapespace0 libshapespace-dev python3-shapespace shapespace-doc; do

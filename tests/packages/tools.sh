@@ -14,12 +14,7 @@ release=${1:?tools.sh: say which release: bookworm or trixie}
 archive=${2:?tools.sh: say which archive}
 source=$(cd "$(dirname "$0")/../.." && pwd)
 . "$source/packaging/root.sh"
-work=$(mktemp -d)
-trap 'rm -rf --one-file-system "$work"' EXIT
-trap 'exit 1' HUP INT TERM
-root=$work/system
-
-make_root "$release" "$root"
+bare_system "$release"
 before=$(date +%s.%N)
 tar -x -C "$root/opt" -f "$archive"  # the bare system has no xz
 name=$(basename "$archive" .tar.xz)

@@ -15,12 +15,7 @@ release=${1:?wheel.sh: say which release: bookworm or trixie}
 wheel=${2:?wheel.sh: say which wheel}
 source=$(cd "$(dirname "$0")/../.." && pwd)
 . "$source/packaging/root.sh"
-work=$(mktemp -d)
-trap 'rm -rf --one-file-system "$work"' EXIT
-trap 'exit 1' HUP INT TERM
-root=$work/system
-
-make_root "$release" "$root"
+bare_system "$release"
 install() { inside "$root" "apt-get -q install -y --no-install-recommends $*" >"$work/apt.log" 2>&1 ||
   fail "apt-get: $(tail -1 "$work/apt.log")"; }
 inside "$root" 'apt-get -q update' >"$work/apt.log" 2>&1 || fail "apt-get: $(tail -1 "$work/apt.log")"
