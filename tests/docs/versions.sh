@@ -13,6 +13,7 @@ expect() {
   fi
 }
 expect blender/shapespace_addon/blender_manifest.toml "version = \"$version\""
+expect blender/shapespace_addon/__init__.py "\"version\": (${version//./, })"
 expect tools/viewer/package.json "\"version\": \"$version\""
 expect CITATION.cff "version: $version"
 abi=$(sed -nE 's/^set\(abi ([0-9]+)\)$/\1/p' CMakeLists.txt)
