@@ -50,6 +50,20 @@ done
   --output "$pictures/transfer.png" --hybrids "$pictures/hybrids.png"
 "$bin/shape-transport" pose0.obj pose1.obj pose2.obj --output "$pictures/transport.png"
 
+# guide/contact.md
+"$bin/shape-body" quadruped --pose stand --triangles 6000 --output 'animal%d.obj'
+cat > step.json <<'EOF'
+{"handles": [
+  {"name": "paws", "fixed": true, "select": {"box": {"low": [0, 0, -1], "high": [1, 0.1, 1]}}},
+  {"name": "head", "fixed": true, "select": {"box": {"low": [-1, 1.25, 0.5], "high": [1, 2, 2]}}},
+  {"name": "hind paw", "translation": [0, 0.15, 1.1],
+   "select": {"box": {"low": [-1, 0, -1], "high": [0, 0.1, 0]}}}
+]}
+EOF
+"$bin/shape-deform" animal0.obj --handles step.json --up y --output "$pictures/deform-through.png"
+"$bin/shape-deform" animal0.obj --handles step.json --up y --avoid_contact \
+  --output "$pictures/deform-contact.png"
+
 # guide/deforming.md
 "$bin/shape-body" quadruped --pose stand --output 'animal%d.obj'
 cat > greet.json <<'EOF'

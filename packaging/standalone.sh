@@ -40,7 +40,7 @@ standalone_build() {
   if [[ $1 != bookworm ]]; then
     rm -rf "$root/opt/static"
     mkdir "$root/opt/static"
-    cp -a "$systems"/bookworm/opt/static/{include,lib,licenses} "$root/opt/static"
+    tar -C "$systems/bookworm/opt/static" --exclude=./src -c . | tar -C "$root/opt/static" -x
   fi
   new=$(mktemp -d)
   PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$project/python /usr/bin/python3 -c \

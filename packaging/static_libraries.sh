@@ -99,7 +99,7 @@ build_openblas() {
 build_ceres-solver() {
   # Its functions and those of shapespace share templates of Eigen, so both allocate in the same way
   # (lib/CMakeLists.txt).
-  local flags="$flags -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=0"
+  local flags="$flags -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1"
   with_cmake ceres-solver . -DSUITESPARSE=OFF -DCXSPARSE=OFF -DEIGENSPARSE=ON -DLAPACK=OFF -DCUDA=OFF \
     -DGFLAGS=OFF -DSCHUR_SPECIALIZATIONS=OFF -DBUILD_EXAMPLES=OFF -DBUILD_BENCHMARKS=OFF \
     -DPROVIDE_UNINSTALL_TARGET=OFF

@@ -10,6 +10,7 @@ import sys
 
 _TYPES = {
     "MetricOptions, Metric or str": "MetricOptions | Metric | _Preset | None",
+    "Poses, or (vertices, faces)": "Poses | tuple[ArrayLike, _Mesh] | None",
     "three floats": "ArrayLike",
     "list of str": "Sequence[str]",
     "dict of str to float": "Mapping[str, float] | None",

@@ -36,7 +36,8 @@ static const shapespace::tools::OptionFlags<shapespace::DeformationOptions> flag
                {"tolerance", "tolerance"},
                {"max_iterations", "max_iterations"},
                {"solver", "solver"},
-               {"coarsest", "coarsest"}});
+               {"coarsest", "coarsest"},
+               {"avoid_contact", "avoid_contact"}});
 FLAG_GROUP(deform, "Handles");
 
 namespace shapespace::tools {

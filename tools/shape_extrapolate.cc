@@ -34,7 +34,9 @@ static const shapespace::tools::OptionFlags<shapespace::ExponentialOptions> flag
                {"solver", "step_solver"},
                {"first_integral_solver", "first_integral_solver"},
                {"tolerance", "step_tolerance"},
-               {"max_iterations", "step_iterations"}});
+               {"max_iterations", "step_iterations"},
+               {"stop_at_contact", "stop_at_contact"},
+               {"slide_at_contact", "slide_at_contact"}});
 FLAG_GROUP(extrapolate, "Extrapolation");
 
 namespace shapespace::tools {
@@ -137,7 +139,9 @@ void Run(const std::vector<std::string>& files) {
   anchorage.Apply(&result.path);
   WriteOutputs(outputs, result.path, result.path);
   WriteReport(text, json.dump(2) + '\n');
-  if (summary.steps.empty()) throw SolverError("no shape could be added");
+  if (summary.steps.empty()) {
+    throw SolverError("no shape could be added: " + summary.stopped);
+  }
 }
 
 }  // namespace

@@ -3,10 +3,14 @@
 #include <optional>
 #include <utility>
 
+#include <gflags/gflags.h>
+
 #include <shapespace/geodesic/geodesic.h>
 
 #include "support/anchor_flags.h"
+#include "support/flag_group.h"
 #include "support/geodesic_flags.h"
+#include "support/lists.h"
 #include "support/outputs.h"
 #include "support/poses.h"
 #include "support/report.h"
@@ -15,19 +19,59 @@
 #include "support/summary.h"
 #include "support/tool.h"
 
+DEFINE_string(
+    via, "",
+    "with --avoid_contact, between two poses: files of shapes near which the way round leads, "
+    "separated by commas, for bodies that do not find it");
+DEFINE_string(obstacle, "",
+              "with --avoid_contact: the file of a mesh that does not move and that the body must "
+              "not touch either; poses and path are where they are to be beside it");
+FLAG_GROUP(contact, "Path");
+
 namespace shapespace::tools {
 namespace {
 
+// Reads the shapes of --via, which have the faces of the file `pose`.
+std::vector<Shape> ReadVia(const std::string& pose, const std::vector<std::string>& files) {
+  std::vector<std::string> all = {pose};
+  all.insert(all.end(), files.begin(), files.end());
+  std::vector<Shape> shapes = ReadMeshesFromFlags(all).shapes;
+  shapes.erase(shapes.begin());
+  return shapes;
+}
+
 void Run(const std::vector<std::string>& files) {
   if (files.empty()) throw UsageError("name at least two poses of one mesh");
-  const GeodesicOptions options = GeodesicFromFlags();
+  GeodesicOptions options = GeodesicFromFlags();
+  const std::vector<std::string> via = Split(FLAGS_via);
+  if (!via.empty() && !options.avoid_contact) throw UsageError("--via goes with --avoid_contact");
+  if (!FLAGS_obstacle.empty() && !options.avoid_contact) {
+    throw UsageError("--obstacle goes with --avoid_contact");
+  }
+  for (const char* mover : {"anchor", "ground"}) {
+    if (!FLAGS_obstacle.empty() && IsGiven(mover)) {
+      throw UsageError(std::string("--") + mover +
+                       " moves the path, which --obstacle needs where the poses are");
+    }
+  }
   AnchorFlags anchorage = AnchorFlags::FromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
   const Poses poses = ReadPosesFromFlags(files);
+  if (!via.empty()) {
+    if (poses.shapes.size() != 2) throw UsageError("--via goes with two poses");
+    options.via = ReadVia(files[0], via);
+  }
+  if (!FLAGS_obstacle.empty()) {
+    const Poses obstacle = ReadMeshesFromFlags({FLAGS_obstacle});
+    options.obstacle = {obstacle.connectivity, obstacle.shapes[0]};
+  }
   std::optional<SplineOptions> spline = SplineFromFlags(poses.connectivity->NumVertices());
+  std::vector<std::string> inputs = files;
+  inputs.insert(inputs.end(), via.begin(), via.end());
+  if (!FLAGS_obstacle.empty()) inputs.push_back(FLAGS_obstacle);
   const bool returns = spline && spline->ends == SplineEnds::kPeriodic;
   CheckNothingIsOverwritten(
-      WithStiffeners(files),
+      WithStiffeners(inputs),
       {{"output", outputs, NumShapes(poses.shapes.size() + returns, options)}, ReportFromFlag()});
   anchorage.Select(poses.shapes[0], *poses.connectivity, poses.soup.appearance,
                    poses.shapes.size() + returns);
@@ -69,7 +113,7 @@ int main(int argc, char** argv) {
            "Through three or more poses the path is a chain of geodesics, whose velocity jumps at "
            "each pose.\nWith --spline it is smooth there.") +
            kHowASolveEnds,
-       {"geodesic", "spline", "report", "summary", "outputs", "anchor", "metric", "poses", "mesh",
-        "memory", "outside_files"}},
+       {"geodesic", "contact", "spline", "report", "summary", "outputs", "anchor", "metric",
+        "poses", "mesh", "memory", "outside_files"}},
       Run);
 }

@@ -52,7 +52,7 @@ constexpr char kShapes[] = "7";
 // Refuses flags that would have no effect.
 void CheckFlagsOfTheLadder(bool climbs) {
   if (climbs) return;
-  RefuseFlags({"geodesic", "metric"}, {"connection"}, "goes with --method ladder");
+  RefuseFlags({"geodesic", "metric"}, {"connection"}, "goes with --method ladder", "avoid_contact");
   if (FLAGS_hybrids.empty()) {
     RefuseFlags({}, {"ladder_bending", "rung_shapes", "scale", "align"},
                 "goes with --method ladder or --hybrids");
@@ -119,10 +119,11 @@ Poses ReadWithTarget(const std::vector<std::string>& files) {
 }
 
 void Run(const std::vector<std::string>& files) {
-  const bool from_path = IsOnePath(files);
+  const bool from_path = IsOnePath(files, "avoid_contact");
   if (FLAGS_target.empty()) throw UsageError("--target: name the body to move");
   const GeodesicOptions geodesic = GeodesicFromFlags();
-  const TransferOptions options = TransferFromFlags();
+  TransferOptions options = TransferFromFlags();
+  options.avoid_contact = geodesic.avoid_contact;
   const std::vector<std::string> outputs = OutputsFromFlags();
   AnchorFlags anchorage = AnchorFlags::FromFlags();
   std::vector<std::string> hybrid_outputs;

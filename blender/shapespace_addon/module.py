@@ -161,6 +161,8 @@ class ModuleRun:
             options.setdefault("tolerance", _EXTRAPOLATION_TOLERANCE)
         if task.ends:
             options["ends"] = task.ends
+        if task.avoid_contact:
+            options["avoid_contact"] = True
         solve = module.spline if task.ends else module.interpolate
         path = None
         if task.shapes:

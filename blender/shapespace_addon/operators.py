@@ -13,6 +13,7 @@ from . import deforming, engine, handles, live, poses, progress, report, running
 from .problem import Problem
 from .settings import (
     AverageSettings,
+    ContactSettings,
     DeformSettings,
     ExtrapolationSettings,
     MotionSettings,
@@ -134,7 +135,12 @@ class _OfPoses(_Run):
 
 
 class SHAPESPACE_OT_inbetweens(
-    _OfPoses, MotionSettings, PlacementSettings, SmoothSettings, bpy.types.Operator
+    _OfPoses,
+    MotionSettings,
+    PlacementSettings,
+    SmoothSettings,
+    ContactSettings,
+    bpy.types.Operator,
 ):
     """Insert shapes between poses, such that the mesh is distorted least on the way. The poses are
     the shape keys of the active object, or the selected objects in the order of their names"""

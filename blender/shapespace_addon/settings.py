@@ -152,6 +152,14 @@ class SmoothSettings:
     )
 
 
+class ContactSettings:
+    avoid_contact: BoolProperty(
+        name="Avoid Contact",
+        description="Lead the body round itself where its parts would pass through each other. Takes"
+        " several times as long where they do. Not with Smooth",
+    )
+
+
 class ExtrapolationSettings:
     steps: IntProperty(
         name="Beyond",
@@ -218,6 +226,7 @@ class SHAPESPACE_settings(
     MotionSettings,
     PlacementSettings,
     SmoothSettings,
+    ContactSettings,
     ExtrapolationSettings,
     TransferSettings,
     AverageSettings,

@@ -46,6 +46,7 @@ class Module(Case):
             (bpy.ops.shapespace.inbetweens, {"shapes": 3}),
             (bpy.ops.shapespace.inbetweens, {"shapes": 3, "metric": "rigid"}),
             (bpy.ops.shapespace.inbetweens, {"shapes": 3, "smooth": True, "cyclic": True}),
+            (bpy.ops.shapespace.inbetweens, {"shapes": 3, "avoid_contact": True}),
             (bpy.ops.shapespace.extrapolate, {"shapes": 3, "steps": 2}),
         ):
             self.near(*self.both(animal, operator, **settings))
@@ -110,6 +111,32 @@ class Module(Case):
             self.assertGreater(np.abs(tools[3] - chain[3]).max(), 1e-3)
         add_key(cube, "again", CUBE)
         self.refused("the last pose is the first: leave it out", operator, smooth=True, cyclic=True)
+
+    def test_motion_round_contact(self):
+        # A rope bent to a ring, whose ends overlap: one in front of the other, or behind it.
+        turns = np.linspace(0, 1.1, 61)
+        angle, poses = 2 * np.pi * turns, []
+        for side in (0.6, -0.6):
+            edges = []
+            for out, aside in ((0, -1), (1, 0), (0, 1), (-1, 0)):
+                radius = 1 + 0.15 * turns + 0.15 * out
+                along = side * turns + 0.15 * aside
+                edges.append(np.stack([radius * np.sin(angle), along, -radius * np.cos(angle)], 1))
+            poses.append(np.concatenate(edges))
+        n = len(turns)
+        faces = [
+            (row * n + i, row * n + i + 1, (row + 1) % 4 * n + i + 1, (row + 1) % 4 * n + i)
+            for row in range(4)
+            for i in range(n - 1)
+        ]
+        rope = add_object("rope", poses[0], faces)
+        add_key(rope, "behind", poses[1])
+        operator = bpy.ops.shapespace.inbetweens
+        found = self.both(rope, operator, shapes=5, avoid_contact=True)
+        through, _ = self.both(rope, operator, shapes=5)
+        for shapes in found:
+            self.assertGreater(np.abs(shapes[4] - through[4]).max(), 0.05)
+        self.refused("cannot avoid contact", operator, smooth=True, avoid_contact=True)
 
     def test_quadrilaterals_and_edges(self):
         cube = add_object("cube", [*CUBE, [0, 0, 3]], CUBE_FACES, [(1, 8)])

@@ -57,6 +57,22 @@ void Value<MetricOptions>::Set(MetricOptions* value, py::handle given, const std
   python::Set(options, value);
 }
 
+void Value<std::optional<Obstacle>>::Set(std::optional<Obstacle>* value, py::handle given,
+                                         const std::string& name) {
+  value->reset();
+  if (given.is_none()) return;
+  if (py::isinstance<Poses>(given)) {
+    const auto& poses = py::cast<const Poses&>(given);
+    *value = {poses.connectivity, poses.shapes.front()};
+    return;
+  }
+  if (!py::isinstance<py::sequence>(given) || py::len(given) != 2) {
+    RefuseType(name, Type(), given);
+  }
+  const Poses poses = MakePoses({ToShape(given[py::int_(0)], name + "[0]")}, given[py::int_(1)]);
+  *value = {poses.connectivity, poses.shapes.front()};
+}
+
 void Value<std::vector<FeatureTerm>>::Set(std::vector<FeatureTerm>* value, py::handle given,
                                           const std::string& name) {
   value->clear();

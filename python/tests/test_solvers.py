@@ -104,6 +104,9 @@ def test_an_extrapolated_path_goes_on(path):
     np.testing.assert_array_equal(longer.vertices[: len(path)], path.vertices)
     assert summary.ending == "complete" and summary.integrator == "variational"
     assert longer.parameters[-1] > 1
+    until, summary = shapespace.extrapolate(path, 2, stop_at_contact=True)
+    assert summary.ending in ("complete", "contact")
+    np.testing.assert_array_equal(until.vertices, longer.vertices[: len(until)])
 
 
 def test_transport_keeps_lengths_and_is_linear(path):
@@ -366,3 +369,55 @@ def test_an_average_keeps_lengths_and_says_how_good_it_is(poses, animal):
     assert shapespace.compare_shapes(metric, middle, mean).edge_rms < 0.02
     with pytest.raises(shapespace.InvalidOptions, match="weights: must be 2, one for each pose"):
         shapespace.average(poses, animal.faces, weights=[1])
+
+
+def test_a_path_without_contact_is_the_same_where_contact_is_avoided(poses, animal):
+    free = shapespace.interpolate(poses, animal.faces, shapes=3)
+    path, summary = shapespace.interpolate(poses, animal.faces, shapes=3, avoid_contact=True)
+    assert summary.uncertified_segments == 0 and free.summary.uncertified_segments == -1
+    np.testing.assert_array_equal(path.vertices, free.path.vertices)
+
+
+def test_a_leg_that_a_handle_moves_pushes_another_aside(animal):
+    rest = animal.pose("stand")
+    low = rest[:, 1] < 0.1
+    paw = np.flatnonzero(low & (rest[:, 0] < 0) & (rest[:, 2] < 0))
+    handles = [
+        shapespace.Handle(low & (rest[:, 0] > 0)),
+        shapespace.Handle(rest[:, 1] > 1.25),
+        shapespace.Handle(paw, rest[paw] + [0, 0.15, 1.1]),
+    ]
+    free = shapespace.deform(rest, animal.faces, handles)
+    path, summary = shapespace.deform(rest, animal.faces, handles, avoid_contact=True)
+    assert free.summary.uncertified_segments == -1 and summary.uncertified_segments == 0
+    assert summary.contact_distance > 0 and summary.energy > free.summary.energy
+    np.testing.assert_allclose(path[-1][paw], rest[paw] + [0, 0.15, 1.1], atol=1e-9)
+
+
+def test_a_way_round_contact_leads_near_shapes(poses, animal):
+    middle = shapespace.interpolate(poses, animal.faces, shapes=1).path.vertices[1]
+    options = {"shapes": 3, "via": [middle]}
+    with pytest.raises(shapespace.InvalidOptions, match="avoid_contact"):
+        shapespace.interpolate(poses, animal.faces, **options)
+    path, summary = shapespace.interpolate(poses, animal.faces, avoid_contact=True, **options)
+    assert summary.uncertified_segments == 0 and summary.poses == 2
+    assert path.vertices.shape == (5, *poses[0].shape)
+    assert summary.ratio < 1.1
+
+
+def test_a_body_moves_past_an_obstacle(poses, animal):
+    size = np.ptp(poses[0], axis=0).max()
+    way = np.array([0, 2 * size, 0])
+    low = poses[0].min(axis=0)[2] - size
+    floor = np.array([[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]]) * size + [0, 0, low]
+    options = {"shapes": 1, "avoid_contact": True}
+    faces = [[0, 1, 2, 3]]
+    ends = [poses[0], poses[0] + way]
+    for obstacle in ((floor, faces), shapespace.Poses([floor], faces)):
+        path, summary = shapespace.interpolate(ends, animal.faces, obstacle=obstacle, **options)
+        assert summary.uncertified_segments == 0
+        np.testing.assert_allclose(path.vertices[1], poses[0] + way / 2, atol=1e-9 * size)
+    with pytest.raises(TypeError, match="obstacle: must be Poses, or"):
+        shapespace.interpolate(ends, animal.faces, obstacle=3, **options)
+    with pytest.raises(shapespace.InvalidOptions, match="obstacle: is for"):
+        shapespace.interpolate(ends, animal.faces, obstacle=(floor, faces))

@@ -45,6 +45,27 @@ TEST(MeasureQuality, SeesAScaledShapeAsThatMuchDeviation) {
   EXPECT_NEAR(quality.first_rms, std::sqrt((1 + 0.01) / 2), 1e-6);  // of both
 }
 
+// Segments, of which each is longer than the one before by a thousandth of its first length; in the
+// last shape they have their first lengths again.
+TEST(MeasureQuality, OneInAHundredDeviatesMoreThanThe99thPercentile) {
+  constexpr int kSegments = 1001;
+  ShapeFamily chain;
+  std::vector<std::pair<int, int>> segments;
+  Shape first = Shape::Zero(3, 2 * kSegments), longer = first;
+  for (int e = 0; e < kSegments; ++e) {
+    segments.emplace_back(2 * e, 2 * e + 1);
+    first(0, 2 * e + 1) = 1;
+    longer(0, 2 * e + 1) = 1 + 1e-3 * (2 * e % kSegments);
+  }
+  chain.connectivity = Connectivity::Make(2 * kSegments, {0}, {}, segments);
+  const PathQuality quality =
+      MeasureQuality(MakePath(chain, {first, longer, first}, MetricOptions::Isometric()));
+  EXPECT_NEAR(quality.edge_max, 1, 1e-6);
+  EXPECT_NEAR(quality.edge_p99, 0.99, 0.0015);
+  EXPECT_NEAR(quality.first_max, 1, 1e-6);
+  EXPECT_NEAR(quality.first_p99, 0.98, 0.0015);  // of both shapes, of which one does not deviate
+}
+
 // Under a cost of strain, the logarithmic strains of equilateral triangles that are stretched along
 // two fixed directions change at a constant rate if the factors are powers of t, and so do the
 // logarithms of the lengths of segments along these directions. Under a cost of edge lengths,

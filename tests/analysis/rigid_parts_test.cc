@@ -134,6 +134,29 @@ TEST(FindRigidParts, ABarBentAtOneJointIsTwoPartsAndTheJoint) {
   EXPECT_LT(share, 1 + 1e-12);
 }
 
+TEST(FindDeviationSites, TheSitesComeInOrderOfTheirShare) {
+  const ShapeFamily sheet = MakeSheet(2, 1, 20, 10);
+  const Shape flat = sheet.pose(0);
+  Shape bumped = flat;
+  std::vector<int> bumps;  // by number; the middle one is the highest
+  for (const auto& [x, height] : {std::make_pair(-0.6, 0.06), {0.0, 0.15}, {0.6, 0.1}}) {
+    Eigen::Index v = 0;
+    (flat.colwise() - Eigen::Vector3d(x, 0, 0)).colwise().squaredNorm().minCoeff(&v);
+    bumped(2, v) += height;
+    bumps.push_back(static_cast<int>(v));
+  }
+  ASSERT_TRUE(std::is_sorted(bumps.begin(), bumps.end()));
+  const Path path = PathOf(sheet.connectivity, {flat, bumped});
+  std::vector<int> found;
+  std::vector<double> shares;
+  for (const DeviationSite& site : FindDeviationSites(path, FindRigidParts(path))) {
+    found.push_back(site.vertex);
+    shares.push_back(site.share);
+  }
+  EXPECT_EQ(found, (std::vector<int>{bumps[1], bumps[2], bumps[0]}));
+  EXPECT_TRUE(std::is_sorted(shares.rbegin(), shares.rend()));
+}
+
 TEST(FindRigidParts, TheResidualIsWhatABestMotionLeaves) {
   // With all of the bar as one part that is scaled by 1 + s about its centre, the residual is s
   // times the root mean square distance from the centre.

@@ -123,6 +123,15 @@ TEST(CheckTest, DegeneratePolygons) {
   vertices << 0, 1, .5, .5, 0, 0, 1e-8, -1, 0, 0, 0, 0;
   EXPECT_EQ(Kinds(CheckSoup(MakeSoup(vertices, {{0, 1, 2}, {1, 0, 3}}))), kNotes);
 
+  // So are much thinner ones; only rounding is no area.
+  for (const auto& [height, has_area] : {std::make_pair(1e-10, true), {1e-14, false}}) {
+    for (const double scale : {1e-6, 1.0, 1e6}) {
+      vertices(1, 2) = height;
+      const Soup thin = MakeSoup(scale * vertices, {{0, 1, 2}, {1, 0, 3}});
+      EXPECT_EQ(Kinds(CheckSoup(thin)) == kNotes, has_area) << height << " times " << scale;
+    }
+  }
+
   const Soup repeated =
       WithLines(MakeSoup(Shape::Random(3, 5), {{0, 1, 2}, {2, 1, 3, 3}, {3, 1, 4}}));
   ExpectFinding(repeated, "repeated-corner", Severity::kNonManifold,

@@ -1,5 +1,6 @@
 #include <shapespace/mesh/surface.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -7,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/bodies/quadruped.h>
+#include <shapespace/bodies/sheet.h>
 
 namespace shapespace {
 namespace {
@@ -91,6 +93,36 @@ TEST(MeshSurface, LooksNoFartherThanAsked) {
     EXPECT_EQ(same.triangle, foot.triangle);
     EXPECT_EQ(same.distance, foot.distance);
     EXPECT_EQ(surface.Nearest(point, nullptr, 0.9999 * foot.distance).triangle, -1);
+  }
+}
+
+// A query that admits one triangle only passes over no other. The nearest of these results is what
+// a query of all finds, also if it looks exactly so far: of points that are close to corners, by
+// any share of the body's size, and of points that are far away. Embree alone would round
+// coordinates.
+TEST(MeshSurface, FindsWhatQueriesOfSingleTrianglesFindNearAndFar) {
+  const ShapeFamily sheet = MakeSheet(2, 1, 6, 4);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> exponent(-12, 8), coordinate(-1, 1);
+  for (const double angle : {0, 20, 60, 140}) {
+    const Shape shape = sheet.pose(angle);
+    const MeshSurface surface(sheet.connectivity, shape);
+    for (int i = 0; i < 200; ++i) {
+      const Vector3d way(coordinate(random), coordinate(random), coordinate(random));
+      const Vector3d point = shape.col(i % shape.cols()) + std::pow(10, exponent(random)) * way;
+      ClosestPoint nearest;
+      for (int f = 0; f < sheet.connectivity->NumTriangles(); ++f) {
+        const ClosestPoint one = surface.Nearest(point, [&](int other) { return other == f; });
+        ASSERT_EQ(one.triangle, f);
+        if (f == 0 || one.distance < nearest.distance) nearest = one;
+      }
+      for (const double within : {std::numeric_limits<double>::infinity(), nearest.distance}) {
+        const ClosestPoint foot = surface.Nearest(point, nullptr, within);
+        EXPECT_EQ(foot.triangle, nearest.triangle) << i << " within " << within;
+        EXPECT_EQ(foot.distance, nearest.distance) << i << " within " << within;
+      }
+      EXPECT_EQ(surface.Nearest(point, nullptr, std::nextafter(nearest.distance, 0)).triangle, -1);
+    }
   }
 }
 

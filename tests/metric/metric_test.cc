@@ -11,6 +11,7 @@
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/path/energy.h>
 
+#include "mesh/bodies.h"
 #include "support/features.h"
 #include "support/paths.h"
 #include "support/stiffened.h"
@@ -141,6 +142,26 @@ TEST(FreezeMetric, SegmentsWithoutTrianglesWeighAboutAsMuchAsEdgesOfTheSurface) 
   const auto scaled = FreezeMetric({}, bar.connectivity, {1e6 * pose});
   EXPECT_TRUE(scaled->edge_area.isApprox(metric->edge_area, 1e-12));
   EXPECT_TRUE(scaled->vertex_area.isApprox(metric->vertex_area, 1e-12));
+}
+
+// In a regular mesh, inner vertices have one area and inner edges another. An edge that is no side
+// of a triangle has the area of its neighbours, whether it is a stiffener or a segment.
+TEST(FreezeMetric, EdgesWithoutTrianglesWeighAsThoseBesideThem) {
+  const Soup grid = testing::Grid(4, 4);
+  const std::vector<std::pair<int, int>> others = {{7, 11}, {6, 18}};
+  for (const bool stiffen : {true, false}) {
+    const auto connectivity = Connectivity::Make(
+        25, grid.polygon_begin, grid.corners, stiffen ? std::vector<std::pair<int, int>>() : others,
+        stiffen ? others : std::vector<std::pair<int, int>>());
+    const auto metric = FreezeMetric({}, connectivity, {grid.vertices});
+    const Eigen::Matrix2Xi& edges = connectivity->Edges();
+    int side = 0;
+    while (edges.col(side) != Eigen::Vector2i(7, 12)) ASSERT_LT(++side, edges.cols());
+    ASSERT_EQ(connectivity->NumEdges(), connectivity->NumTriangleEdges() + 2);
+    for (const double area : metric->edge_area.tail(2)) {
+      EXPECT_NEAR(area, metric->edge_area(side), 1e-14) << stiffen;
+    }
+  }
 }
 
 // A chain between two triangles, and the same mesh with its vertices and elements in reverse.

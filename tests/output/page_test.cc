@@ -15,14 +15,17 @@
 #include <shapespace/path/energy.h>
 
 #include "mesh/files.h"
+#include "output/bodies.h"
 #include "output/read_page.h"
 #include "support/message_of.h"
 #include "support/path_of.h"
+#include "support/threads.h"
 
 namespace shapespace {
 namespace {
 
 using testing::MessageOf;
+using testing::OnThreads;
 using testing::PathOf;
 
 constexpr char kTemplate[] = "<body><!-- scenes --></body>";
@@ -33,6 +36,19 @@ Path BendingTube(int triangles, int count) {
   std::vector<Shape> shapes;
   for (int i = 0; i < count; ++i) shapes.push_back(tube.pose(90.0 * i / (count - 1)));
   return PathOf(tube.connectivity, shapes);
+}
+
+// A large triangle, two small ones that pass through it or are above it, and one beside it.
+Shape PiercedTriangle(bool by_first, bool by_second) {
+  Shape shape(3, 12);
+  shape.leftCols<3>() << 0, 8, 0, 0, 0, 8, 0, 0, 0;
+  for (int k = 1; k < 4; ++k) {
+    shape.middleCols<3>(3 * k) << 0, 0.5, 0, 0, 0, 0.5, -1, 1, 1;
+  }
+  shape.middleCols<3>(3).colwise() += Eigen::Vector3d(1, 1, by_first ? 0 : 2);
+  shape.middleCols<3>(6).colwise() += Eigen::Vector3d(3, 2, by_second ? 0 : 2);
+  shape.middleCols<3>(9).colwise() += Eigen::Vector3d(8, 8, 0);
+  return shape;
 }
 
 // Three poses of a tube in the plane, with the midpoints of its sides. The shapes there are blends.
@@ -138,6 +154,51 @@ TEST_F(PageTest, HasEnergiesOfVerticesAndNearRigidParts) {
   EXPECT_NE(colours.at(0), colours.at(1));
 }
 
+TEST_F(PageTest, MarksTheVerticesOfTrianglesThatIntersect) {
+  Eigen::Matrix3Xi triangles(3, 4);
+  triangles << 0, 3, 6, 9, 1, 4, 7, 10, 2, 5, 8, 11;
+  const shapespace::Path path = PathOf(
+      Connectivity::FromTriangles(12, triangles),
+      {PiercedTriangle(true, false), PiercedTriangle(false, false), PiercedTriangle(true, true)});
+  const DecodedScene scene = Write(PagePath{&path, ""});
+  ASSERT_EQ(scene.intersecting.size(), 3u);
+  EXPECT_EQ(scene.header["intersections"][0]["pairs"], 1);
+  EXPECT_EQ(scene.intersecting[0], (std::vector<int>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(scene.header["intersections"][1]["pairs"], 0);
+  EXPECT_TRUE(scene.intersecting[1].empty());
+  EXPECT_EQ(scene.header["intersections"][2]["pairs"], 2);
+  EXPECT_EQ(scene.intersecting[2], (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7, 8}));
+}
+
+TEST_F(PageTest, SpheresIntersectOnTheirCommonCircleOnAnyNumberOfThreads) {
+  const SimpleBody sphere = Sphere(1, 30, 60);
+  const Eigen::Matrix3Xi& triangles = sphere.connectivity->Triangles();
+  const auto size = static_cast<int>(sphere.shape.cols());
+  Eigen::Matrix3Xi both(3, 2 * triangles.cols());
+  both << triangles, triangles.array() + size;
+  const double distances[] = {1.1, 1.3, 1.5, 1.7, 2.1};
+  const Eigen::Vector3d direction(0.8, 0.36, 0.48);
+  std::vector<Shape> shapes;
+  for (const double distance : distances) {
+    shapes.emplace_back(3, 2 * size);
+    shapes.back() << sphere.shape, sphere.shape.colwise() + distance * direction;
+  }
+  const shapespace::Path path = PathOf(Connectivity::FromTriangles(2 * size, both), shapes);
+  const std::vector<std::string> pages = OnThreads([&] {
+    return MakePage(kTemplate, {PagePath{&path, ""}});
+  });
+  for (const std::string& page : pages) EXPECT_EQ(page, pages[0]);
+  const DecodedScene scene = Write(PagePath{&path, ""});
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_GT(scene.intersecting[i].size(), 60u) << i;
+    for (const int v : scene.intersecting[i]) {
+      // Edges have a length of up to .11 times the square root of 2.
+      EXPECT_NEAR(direction.dot(shapes[i].col(v)), distances[i] / 2, 0.16) << i << ", " << v;
+    }
+  }
+  EXPECT_TRUE(scene.intersecting[4].empty());
+}
+
 TEST_F(PageTest, MetricsWithoutBoundHaveSpeedsToo) {
   shapespace::Path path = BendingTube(300, 3);
   path.metric = FreezeMetric(MetricOptions::Rigid(), path.metric->connectivity,
@@ -222,6 +283,7 @@ TEST_F(PageTest, GraphsKeepTheirSegments) {
   const DecodedScene scene = Write(PagePath{&path, ""});
   EXPECT_TRUE(scene.triangles.empty());
   EXPECT_EQ(scene.segments, (std::vector<int>{0, 1, 1, 2, 2, 3}));
+  EXPECT_TRUE(scene.header["intersections"].is_null());
 }
 
 TEST_F(PageTest, KeepsVertexColours) {

@@ -89,7 +89,9 @@ TEST_F(PointCacheTest, RefusesAndLeavesTheOldFileAlone) {
   Shape broken = shapes_[0];
   broken(2, 3) = std::nan("");
   refuse({shapes_[0], broken}, "vertex 4: a coordinate is not a finite number");
-  refuse({(shapes_[2].array() + 1e6).matrix()}, "nearer to the origin");
+  const Shape far = shapes_[2].array() + 1e6;
+  refuse({far}, "nearer to the origin");
+  refuse({shapes_[0], shapes_[1], far}, "nearer to the origin");
   EXPECT_EQ(testing::Content(old), "old");
   ExpectError<FileError>([&] { WritePointCache(Path("a.abc"), shapes_); }, {".pc2 or .mdd"});
   ExpectError<InvalidOptions>([&] { WritePointCache(Path("a.mdd"), shapes_, 0); }, {"fps: "});

@@ -75,6 +75,7 @@ class DecodedScene {
       shades = Shades();
       if (!header["energyEnd"].is_null()) energy_shades = Shades();
       if (header["parts"] > 0) part_colours = Take(3 * vertices);
+      if (!header["intersections"].is_null()) ReadIntersections();
     }
     if (header["colours"]) colours = Take(3 * vertices);
     if (at_ != bytes_.size()) throw std::runtime_error("bytes are left over");
@@ -94,6 +95,7 @@ class DecodedScene {
   std::vector<Eigen::Matrix3Xi> steps;
   std::vector<Eigen::VectorXi> shades, energy_shades;  ///< of deviations and energies
   std::string colours, part_colours;
+  std::vector<std::vector<int>> intersecting;  ///< vertices of each shape
 
  private:
   unsigned Byte(size_t at) const { return static_cast<unsigned char>(bytes_.at(at)); }
@@ -129,6 +131,20 @@ class DecodedScene {
     }
     at_ += 4 * static_cast<size_t>(count);
     return indices;
+  }
+
+  void ReadIntersections() {
+    int total = 0;
+    for (const nlohmann::json& shape : header["intersections"]) {
+      total += shape["vertices"].get<int>();
+    }
+    const std::vector<int> all = Indices(total);
+    auto end = all.begin();
+    for (const nlohmann::json& shape : header["intersections"]) {
+      const auto begin = end;
+      end += shape["vertices"].get<int>();
+      intersecting.emplace_back(begin, end);
+    }
   }
 
   int Predicted(int s, int axis, int v) const {

@@ -85,6 +85,21 @@ TEST_F(VtkTest, EveryShapeHasItsPointsCellsAndData) {
   }
 }
 
+TEST_F(VtkTest, DeviationsAreFromTheReference) {
+  const Soup cube = testing::Cube();
+  Shape bent = cube.vertices;
+  bent.col(7) << 1.3, 1.2, 2;
+  const shapespace::Path path = testing::PathOf(testing::Connected(cube), {cube.vertices, bent});
+  WriteVtkSeries(Path("%d.vtp"), path, path.shapes[1]);
+  const auto deviation = [&](const char* file) {
+    return Vtp(Path(file)).Array<double>("deviation");
+  };
+  EXPECT_EQ(deviation("0.vtp"),
+            Numbers(EdgeDeviation(*path.metric, path.shapes[1], path.shapes[0])));
+  EXPECT_GT(deviation("0.vtp")[7], 0.2);
+  EXPECT_EQ(deviation("1.vtp"), std::vector<double>(8, 0));
+}
+
 // The reader, which follows the format's description, reads what was written.
 TEST_F(VtkTest, SeriesAreReadBackExactly) {
   Soup cube = testing::Cube();

@@ -40,9 +40,10 @@ install python3-pytest
 git -C "$source" archive HEAD python docs README.md | tar -x -C "$root/root"
 inside "$root" 'venv/bin/python -m pytest -q -p no:cacheprovider python/tests'
 
-# In Blender, as docs/guide/blender.md says; Debian's has the system's Python.
+# In Blender, as docs/guide/blender.md says; Debian's has the system's Python. With --factory-startup it
+# would not look into the user's folder.
 install blender
 timed "pip install and a path in $(inside "$root" 'blender --version' | head -1)" \
   'venv/bin/pip install --no-index --no-deps --target scripts/modules ./*.whl &&
-  BLENDER_USER_SCRIPTS=/root/scripts blender --background --factory-startup --python-exit-code 1 \
+  BLENDER_USER_SCRIPTS=/root/scripts blender --background --python-exit-code 1 \
     --python interpolate.py'

@@ -118,6 +118,43 @@ TEST(Anchor, APartThatDeformsIsMetAtThePoses) {
   EXPECT_LT(Distance(path.Placed(2), last), 1e-8);
 }
 
+// The rotation is unique for a part in a plane, and so is a reflection that fits as well.
+TEST(Anchor, APartInAPlaneHoldsABodyWithoutMirroringIt) {
+  const Soup grid = Grid(4, 4);
+  for (int seed = 0; seed < 12; ++seed) {
+    Shape rest = grid.vertices + Noise(25, 0.4, seed);
+    for (const int v : kPart) rest(2, v) = 0;
+    rest = Rotation(25 * seed, {1, 2, seed + 1.0}) * rest;
+    Path path =
+        PathOf(Connected(grid), {rest, Moved(rest, 1), Moved(rest, 2), Moved(rest, 3), rest});
+    Anchor(&path, kPart);
+    for (int i = 0; i < path.NumShapes(); ++i) {
+      EXPECT_NEAR(path.motions[i].rotation.determinant(), 1, 1e-12) << seed << ", " << i;
+      EXPECT_LT(Distance(path.Placed(i), rest), 1e-12) << seed << ", " << i;
+    }
+  }
+}
+
+// In the plane, the best rotation from a part onto one that is scaled and turned is that turn.
+TEST(Anchor, BeyondThePosesAPartThatShrinksGoesOnAsInTheLastPose) {
+  const Soup grid = Grid(4, 4);
+  const Vertices part = {6, 7, 8, 11, 12, 13, 16, 17, 18};  // about the middle of the grid
+  const Eigen::Vector3d middle(2, 2, 0), way(1, -3, 2);
+  const auto at = [&](double t, double scale) -> Shape {
+    return (scale * Rotation(40 * t, {0, 0, 1}) * (grid.vertices.colwise() - middle)).colwise() +
+           (middle + t * way);
+  };
+  std::vector<Shape> shapes = {at(0, 1), Moved(at(0.5, 0.6), 1), at(1, 0.3)};
+  for (const int i : {3, 4}) shapes.push_back(Moved(at(1, 0.3), i));
+  Path path = PathOf(Connected(grid), shapes);
+  path.poses = {0, 2};
+  path.extrapolated = 2;
+  Anchor(&path, part);
+  for (const int i : {1, 2, 3, 4}) {
+    EXPECT_LT(Distance(path.Placed(i), at(0.5 * i, i == 1 ? 0.6 : 0.3)), 1e-12) << i;
+  }
+}
+
 TEST(Anchor, ASingleVertexIsHeldWithoutTurningAnything) {
   Path path = PathWithRigidPart({7}, {0, 6});
   const Path before = path;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/correspondence/correspondence_picture.h>
 #include <shapespace/correspondence/internal/closest.h>
+#include <shapespace/correspondence/internal/marker_check.h>
 #include <shapespace/deformation/deformation.h>
 #include <shapespace/transfer/transfer.h>
 
@@ -190,6 +192,94 @@ TEST(Target, KnowsTheBorderAtCornersOfAnyTriangle) {
           (middle.head<2>().array() == 0).any() || (middle.head<2>().array() == 2).any();
       EXPECT_EQ(target.IsOnBorder(foot), is_outside) << f << ' ' << k;
     }
+  }
+}
+
+// A template on one level, with distances from markers that permit every match.
+struct AnyMatch {
+  explicit AnyMatch(const std::shared_ptr<const Connectivity>& connectivity)
+      : level{connectivity, {}, internal::BorderOf(*connectivity)},
+        distances(Eigen::MatrixXf::Zero(connectivity->NumVertices(), 1),
+                  Eigen::MatrixXf::Zero(connectivity->NumVertices(), 1)) {
+    level.vertices.resize(connectivity->NumVertices());
+    std::iota(level.vertices.begin(), level.vertices.end(), 0);
+  }
+
+  std::vector<internal::PointToPlaneTerm> Terms(const Shape& shape, const Shape& target_shape,
+                                                int stride, double weight) const {
+    const internal::Target target(level.connectivity, target_shape, distances);
+    double distance = 0;
+    return internal::FindTerms(level, shape, internal::VertexAreas(*level.connectivity, shape),
+                               target, stride, weight, &distance);
+  }
+
+  internal::Level level;
+  internal::MarkerDistances distances;
+};
+
+// Bodies of area 1, one a little larger, so that each of their points has a near one on the other.
+TEST(FindTerms, TheTargetsVerticesPullAsStronglyAsTheTemplates) {
+  const ShapeFamily bar = MakeBar(2, 1, 1, 8, 4, 4);
+  const Shape target = bar.pose(0) / std::sqrt(10);
+  const AnyMatch match(bar.connectivity);
+  for (const int stride : {1, 2, 5}) {
+    double templates = 0, targets = 0;
+    for (const auto& term : match.Terms(1.01 * target, target, stride, 0.7)) {
+      const bool is_vertex = term.vertices(0) == term.vertices(1);
+      (is_vertex ? templates : targets) += term.weight;
+    }
+    EXPECT_NEAR(templates, 0.7, 1e-12) << stride;
+    EXPECT_NEAR(targets, 0.7, 1e-12) << stride;
+  }
+}
+
+// A square over a smaller one: all of its vertices but the one in the middle are nearest to the
+// border, also where the first triangle at a vertex of the border has no side there.
+TEST(FindTerms, WhatIsNearestToTheBorderIsNotPulled) {
+  Eigen::Matrix3Xi triangles(3, 8);
+  triangles << 1, 0, 0, 1, 3, 3, 4, 4, 5, 1, 4, 2, 4, 7, 5, 8, 4, 4, 3, 5, 7, 6, 8, 7;
+  Shape square(3, 9);
+  square << 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 0, 0, 1, 1, 1, 2, 2, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0;
+  square = 0.5 * (square.colwise() - square.col(4)).eval();
+  const Shape larger = (1.02 * square).colwise() + Eigen::Vector3d(0, 0, 0.01);
+  std::vector<int> pulled;
+  for (const auto& term :
+       AnyMatch(Connectivity::FromTriangles(9, triangles)).Terms(larger, square, 1, 1)) {
+    if (term.vertices(0) == term.vertices(1)) pulled.push_back(term.vertices(0));
+  }
+  EXPECT_EQ(pulled, std::vector<int>{4});
+}
+
+// Markers on a square grid, whose distances are those in the plane.
+TEST(FindDoubtfulMarkers, MarkersAreSwappedOnlyIfEachIsExpectedAtTheOther) {
+  constexpr int kGrid = 11;
+  const auto place = [](int v) -> Eigen::Vector2f {
+    return Eigen::Vector2f(v % kGrid, v / kGrid) / (kGrid - 1);
+  };
+  const auto distances = [&](const std::vector<int>& markers) {
+    return Eigen::MatrixXf::NullaryExpr(kGrid * kGrid, markers.size(), [&](int v, int k) {
+      return (place(v) - place(markers[k])).norm();
+    });
+  };
+  std::vector<int> right;
+  for (const int row : {0, 3, 7, 10}) {
+    for (const int column : {0, 4, 6, 10}) right.push_back(kGrid * row + column);
+  }
+  const auto doubts = [&](const std::vector<int>& placed) {
+    return internal::FindDoubtfulMarkers(distances(right), distances(placed), right, placed);
+  };
+  std::vector<int> swapped = right;
+  std::swap(swapped[0], swapped[10]);
+  ASSERT_EQ(doubts(swapped).size(), 2u);
+  for (const auto& doubt : doubts(swapped)) EXPECT_EQ(doubt.swapped, 10 - doubt.marker);
+  // The first marker is at the place of the other, which is at a third place.
+  std::vector<int> displaced = right;
+  displaced[0] = right[10];
+  displaced[10] = kGrid * 5 + 1;
+  ASSERT_EQ(doubts(displaced).size(), 2u);
+  for (const auto& doubt : doubts(displaced)) {
+    EXPECT_EQ(doubt.expected, right[doubt.marker]);
+    EXPECT_EQ(doubt.swapped, -1) << doubt.marker;
   }
 }
 

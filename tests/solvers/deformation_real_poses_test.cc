@@ -61,7 +61,8 @@ DeformationHandle Limb(const Shape& rest, const Vector3d& way, double share, con
       Where(rest, [&](const auto& p) { return (p - rest.col(tip)).norm() < share * size; });
   limb.motion.axis = axis;
   limb.motion.angle = degrees * M_PI / 180;
-  limb.motion.point = rest(Eigen::all, limb.vertices).rowwise().mean() + size * arm;
+  const Shape moved = rest(Eigen::all, limb.vertices);
+  limb.motion.point = moved.rowwise().mean() + size * arm;
   return limb;
 }
 

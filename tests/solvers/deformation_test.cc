@@ -461,6 +461,21 @@ TEST(Deformer, OtherHandlesAreSolvedAnew) {
   EXPECT_EQ(Last(again), Last(Deform(bar.body.connectivity, bar.rest, handles)));
 }
 
+TEST(Deformer, OtherWeightsOfSoftHandlesAreSolvedAnew) {
+  const HeldBar bar;
+  DeformationHandle up = To(bar.rest, bar.right, {0, 0, 0.05}), down = up;
+  *down.positions -= Eigen::Vector3d(0, 0, 0.1).replicate(1, bar.right.size());
+  up.hard = down.hard = false;
+  Deformer deformer(bar.body.connectivity, bar.rest);
+  const DeformationResult first = deformer.Deform({Fixed(bar.left), up, down});
+  up.weight = 9;
+  const std::vector<DeformationHandle> handles = {Fixed(bar.left), up, down};
+  const DeformationResult again = deformer.Deform(handles);
+  EXPECT_FALSE(again.summary.warm);
+  EXPECT_EQ(Last(again), Last(Deform(bar.body.connectivity, bar.rest, handles)));
+  EXPECT_LT(again.summary.handles[1].residual_rms, 0.5 * first.summary.handles[1].residual_rms);
+}
+
 // Vertices that a hard handle holds are not pulled by soft ones.
 TEST(Deformer, ASoftHandleUnderHardOnesChangesNothing) {
   const HeldBar bar;
@@ -484,6 +499,17 @@ TEST(Deformer, StartsFromAGivenEnd) {
   const DeformationResult found = deformer.DeformFrom(Last(wanted), handles);
   EXPECT_EQ(found.summary.levels.front().start, "given");
   EXPECT_NEAR(found.summary.energy, wanted.summary.energy, 1e-6 * wanted.summary.energy);
+}
+
+TEST(Deformer, StartsFromAGivenEndWhateverItSolvedBefore) {
+  const HeldBar bar;
+  const std::vector<DeformationHandle> handles = {Fixed(bar.left), Moving(bar.right, Twist(60))};
+  Deformer fresh(bar.body.connectivity, bar.rest), used(bar.body.connectivity, bar.rest);
+  const Shape end = Last(used.Deform(handles)).colwise() + Eigen::Vector3d(0.3, 0, 0);
+  const DeformationResult found = used.DeformFrom(end, handles);
+  EXPECT_FALSE(found.summary.warm);
+  EXPECT_EQ(found.summary.levels.front().start, "given");
+  EXPECT_EQ(Last(found), Last(fresh.DeformFrom(end, handles)));
 }
 
 TEST(Deformer, MeetsHardHandlesFromAnEndThatDoesNot) {

@@ -289,6 +289,27 @@ TEST(Exponential, KeepsTheMomentaOfFreePoints) {
   }
 }
 
+// By symmetry the edge's centroid rests, so that only its angular momentum can change. The forces
+// between its ends have no moment.
+TEST(FirstIntegral, SaysHowMuchAngularMomentumItLoses) {
+  const Eigen::Vector3d end = Eigen::Vector3d(1, 2, -2) / 3;
+  Shape edge(3, 2);
+  edge << -end, end;
+  const auto metric = FreezeMetric(Membrane(0.7), testing::SingleEdge(), {edge});
+  const Tangent spin = testing::Spin(*metric, edge, 90, {0.3, 1, 0.5});
+  const auto [path, summary] =
+      Extrapolate(metric, edge, spin, 8, Options(GeodesicIntegrator::kFirstIntegral));
+  ASSERT_EQ(summary.steps.size(), 8u);
+  const auto momentum = [&, &shapes = path.shapes](int i) {
+    const Eigen::Vector3d a = shapes[i].col(1), b = shapes[i + 1].col(1);
+    EXPECT_LT((shapes[i].col(0) + a).norm(), 1e-12);
+    return Eigen::Vector3d(a.cross(b));
+  };
+  EXPECT_LT(momentum(7).norm(), 0.6 * momentum(0).norm());
+  EXPECT_EQ(summary.steps.front().momentum_drift, 0);
+  EXPECT_GT(summary.steps.back().momentum_drift, 0.3);
+}
+
 // A path between two poses of a body. Its tolerance is a relative decrease of the energy; the
 // path's error is proportional to the tolerance's square root, and grows when shooting, so that
 // 1e-15 is necessary. With larger tolerances the round trip is inaccurate because of the path, not
@@ -808,12 +829,12 @@ TEST(Extrapolate, RefusesRigidMetrics) {
 TEST(Extrapolate, PathsWithoutCostOfPositionGoOnToo) {
   for (const auto& [body, first, last] : BodyPairs()) {
     SCOPED_TRACE(body.name);
-    const auto extrapolate = [&](double lambda) {
+    const std::vector<Shape> poses = {body.pose(first), body.pose(last)};
+    const auto extrapolate = [&, &connectivity = body.connectivity](double lambda) {
       GeodesicOptions options = Exactly(7);
       options.metric = MetricOptions::Isometric();
       options.metric.lambda = lambda;
-      const Path path =
-          Interpolate(body.connectivity, {body.pose(first), body.pose(last)}, options).path;
+      const Path path = Interpolate(connectivity, poses, options).path;
       return Extrapolate(FirstShapes(path, 5), 4);
     };
     const auto [without, summary] = extrapolate(0);

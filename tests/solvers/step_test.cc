@@ -131,6 +131,34 @@ TEST(Step, ApproachesInIncrementsWhatNewtonsMethodDoesNotReachAtOnce) {
   EXPECT_NEAR(step.SpeedTo(root) / step.SpeedBefore(), 1, 1e-2);
 }
 
+// An edge that is to grow to a multiple of its length in one step. Both solvers reach the end in
+// increments, which they choose differently.
+TEST(Step, CeresReachesInIncrementsTheRootOfNewtonsMethod) {
+  MetricOptions lengths = MetricOptions::Isometric();
+  lengths.bending = 0;
+  lengths.lambda = 0.3;
+  Shape edge = Shape::Zero(3, 2);
+  edge.row(0) << -0.5, 0.5;
+  Tangent velocity = 3.5 * edge;
+  velocity.row(1) << -0.5, 0.5;
+  const auto metric = FreezeMetric(lengths, testing::SingleEdge(), {edge});
+  StepCase step(metric, {edge / metric->unit, {}, velocity / metric->unit, 0});
+  const auto solved = [&](StepSolver solver) {
+    ExponentialOptions options;
+    options.solver = solver;
+    options.max_iterations = 500;
+    Shape root = edge;
+    step.row = {};
+    EXPECT_TRUE(step.Make().Solve(options, &step.row, &root));
+    EXPECT_TRUE(step.row.converged);
+    EXPECT_GT(step.row.increments, 1);
+    EXPECT_LT(step.Make().Residual(root), 1e-8);
+    return root;
+  };
+  const Shape newtons = solved(StepSolver::kNewtonKrylov);
+  EXPECT_LT(Distance(solved(StepSolver::kCeres), newtons), 1e-6 * Diameter(newtons));
+}
+
 TEST(Step, TakesNoMoreIterationsThanItMay) {
   StepCase step = LongStep(MetricOptions::Strain(), 5);
   ExponentialOptions options;

@@ -85,6 +85,8 @@ TEST_F(SurfaceMapTest, DamagedFilesAreRefusedByLine) {
   ExpectRefused("to_target 1\n3 1 0 0 0.5\n", "m.txt:2: a line begins with a triangle from 1 to 2");
   ExpectRefused("to_target 1\n1 1 0 x 0.5\n", "m.txt:2: a number is missing or invalid");
   ExpectRefused("to_target 1\n1 1 1 0 0.5\n", "m.txt:2: the three barycentric");
+  ExpectRefused("to_target 1\n1 1 0.0001 0 0.5\n", "m.txt:2: the three barycentric");
+  ExpectRefused("to_target 1\n1 1.0001 -0.0001 0 0.5\n", "m.txt:2: the three barycentric");
   ExpectRefused("to_target 1\n1 1 0 0 0.5 7\n", "m.txt:2: there are additional words");
   ExpectRefused("to_target 1\n1 1 0 0 0.5\n", "the file ends before all of 'to_template'");
 }

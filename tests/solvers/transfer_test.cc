@@ -249,6 +249,28 @@ TEST(Transfer, CollapsedTrianglesAreNoObstacle) {
   EXPECT_NEAR(BendOf(thin, path.Placed(1)), 41, 2);
 }
 
+// The source's hinge turns from 170 to 190 degrees, of which the latter is also -170; the target's
+// stays below 180.
+TEST(Transfer, AnglesThatPassHalfATurnAreNotOff) {
+  const auto hinge = Connectivity::Make(4, {0, 3, 6}, {0, 1, 2, 1, 0, 3});
+  const auto folded = [](double degrees) {
+    Shape shape(3, 4);
+    shape << 0, 0, 1, 0, -0.5, 0.5, 0, 0, 0, 0, 0, 0;
+    shape.col(3) = Rotation(180 - degrees, -Vector3d::UnitY()) * Vector3d::UnitX();
+    return shape;
+  };
+  const auto angle = [&](const Shape& shape) {
+    return DihedralAngles(*hinge, shape)(0) * 180 / M_PI;
+  };
+  std::vector<Shape> shapes;
+  for (const double degrees : {170, 175, 185, 190}) shapes.push_back(folded(degrees));
+  ASSERT_NEAR(angle(shapes.front()), 170, 1e-9);
+  ASSERT_NEAR(angle(shapes.back()), -170, 1e-9);
+  const auto [path, hybrids, summary] = Transfer(PathOf(hinge, shapes), folded(150));
+  EXPECT_NEAR(angle(path.Placed(3)), 170, 0.01);
+  EXPECT_LT(summary.angle_rms, 0.01);
+}
+
 TEST(Transfer, ASourceThatRestsLeavesTheTargetAsItIs) {
   const Shape rest = ThickBar().pose(0);
   const Path source = PathOf(ThickBar().connectivity, {rest, rest, rest});

@@ -570,6 +570,23 @@ TEST(Transport, SaysSoWhereTheSolverRunsOut) {
       << summary.BriefReport();
 }
 
+TEST(Transport, ConvergesIfEveryResidualIsWithinTheTolerance) {
+  MetricOptions metric;
+  metric.volume = 0.3;
+  TransportOptions options;
+  options.max_iterations = 1;
+  const Path path = Deforming(Bar(), 10, 40, 3, metric);
+  const std::vector<Tangent> tangents = SomeTangents(Bar(), 10);
+  double reached = 0;
+  for (const auto& step : Transport(path, tangents, options).summary.steps) {
+    reached = std::max(reached, step.residual);
+  }
+  for (const double share : {0.1, 0.9, 1.1}) {
+    options.tolerance = share * reached;
+    EXPECT_EQ(Transport(path, tangents, options).summary.converged, share > 1) << share;
+  }
+}
+
 class Stop final : public Progress {
  public:
   bool Report(const std::string&, int done, int) override { return done < 1; }

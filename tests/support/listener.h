@@ -34,6 +34,20 @@ class Listener final : public Progress {
   const int last_;
 };
 
+/// Numbers of reports at which to stop a call (`Listener`): at the first of a stage whose name
+/// contains `stage`, half way from there to the end, and shortly before the end.
+inline std::vector<int> StopsSince(const std::string& stage,
+                                   const std::function<void(Progress*)>& call) {
+  int first = 0;
+  Listener all;
+  all.on_report = [&](const std::string& now, int) {
+    if (first == 0 && now.find(stage) != std::string::npos) first = all.reports;
+  };
+  call(&all);
+  EXPECT_GT(first, 0) << stage;
+  return {first, (first + all.reports) / 2, all.reports - 1};
+}
+
 }  // namespace shapespace::testing
 
 #endif  // SHAPESPACE_TESTS_SUPPORT_LISTENER_H_

@@ -185,6 +185,22 @@ TEST_F(DeformTest, ASingleVertexAndASoftHandlePull) {
   EXPECT_LT((Vertices("still.obj") - Vertices("tube0.obj")).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+TEST_F(DeformTest, AHandlePushesOtherPartsAside) {
+  Succeed("shape-body",
+          {"quadruped", "--triangles", "1000", "--pose", "stand", "--output", "a%d.obj"});
+  Handles({Fixed(R"({"box": {"low": [0, 0, -1], "high": [1, 0.1, 1]}})"),
+           Fixed(R"({"box": {"low": [-1, 1.25, 0.5], "high": [1, 2, 2]}})"),
+           R"({"name": "hind paw", "translation": [0, 0.15, 1.1],
+               "select": {"box": {"low": [-1, 0, -1], "high": [0, 0.1, 0]}}})"});
+  const json through = Report("a0.obj", {}), aside = Report("a0.obj", {"--avoid_contact"});
+  EXPECT_EQ(through["uncertified_segments"], -1);
+  EXPECT_TRUE(through["contact_distance"].is_null());
+  EXPECT_EQ(aside["uncertified_segments"], 0);
+  EXPECT_GT(aside["contact_distance"], 0);
+  EXPECT_EQ(aside["levels"].back()["start"], "contact");
+  EXPECT_LT(aside["handles"][2]["residual_max"], 1e-12);
+}
+
 TEST_F(DeformTest, PicturesMarkWhatHandlesHold) {
   MakeCase();
   Succeed("shape-deform", {"tube0.obj", "--handles", "handles.json", "--output", "w.png,w.path"});

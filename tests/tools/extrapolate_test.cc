@@ -86,6 +86,21 @@ TEST_F(ExtrapolateTest, PosesAreInterpolatedAndGoneOnFrom) {
   EXPECT_EQ(outcome.err, "");
 }
 
+TEST_F(ExtrapolateTest, EndsBeforeContactIfAskedTo) {
+  MakeTubes();
+  const Outcome outcome =
+      Run("shape-extrapolate", {"tube0.obj", "tube1.obj", "--shapes", "1", "--steps", "12",
+                                "--stop_at_contact", "--output", "on.path", "--report", "on.json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.out, "ended before contact");
+  const auto report = nlohmann::json::parse(Content(Path("on.json")));
+  EXPECT_EQ(report["termination"], "contact");
+  EXPECT_EQ(report["converged"], true);
+  const shapespace::Path path = ReadPath(Path("on.path"));
+  EXPECT_GT(path.extrapolated, 1);
+  EXPECT_LT(path.extrapolated, 12);
+}
+
 TEST_F(ExtrapolateTest, APathGoesOnWithAllThatItIs) {
   MakeWalk();
   Succeed("shape-extrapolate", {"walk.path", "--steps", "3", "--output", "on.path"});

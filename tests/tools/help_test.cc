@@ -85,22 +85,23 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
   const std::set<std::string> listed = Listed("shape-interpolate");
   for (const std::string& flag : wanted) EXPECT_EQ(listed.count(flag), 1u) << flag;
   // Tools that begin with an interpolation of poses have the same flags but for those of smooth
-  // motion, and their own.
+  // motion and of a way between two poses, and their own.
   std::set<std::string> geodesic = listed;
-  for (const char* flag : {"hold_limit", "spline", "times"}) {
+  for (const char* flag : {"hold_limit", "obstacle", "spline", "times", "via"}) {
     EXPECT_EQ(geodesic.erase(flag), 1u) << flag;
   }
   std::set<std::string> extrapolate = geodesic;
   extrapolate.insert({"correct", "first_integral_solver", "integrator", "keep", "step_iterations",
-                      "step_solver", "step_tolerance", "steps"});
+                      "slide_at_contact", "step_solver", "step_tolerance", "steps",
+                      "stop_at_contact"});
   EXPECT_EQ(Listed("shape-extrapolate"), extrapolate);
   std::set<std::string> transfer = geodesic;
   transfer.insert({"align", "connection", "hold_all_markers", "hybrids", "ladder_bending",
                    "markers", "method", "proportions", "rung_shapes", "scale", "target"});
   EXPECT_EQ(Listed("shape-transfer"), transfer);
   std::set<std::string> deform = wanted;
-  deform.insert({"balance", "coarsest", "fps", "ground_line", "handles", "labels", "repair",
-                 "sound", "title", "unit", "up"});
+  deform.insert({"avoid_contact", "balance", "coarsest", "fps", "ground_line", "handles", "labels",
+                 "repair", "sound", "title", "unit", "up"});
   EXPECT_EQ(Listed("shape-deform"), deform);
   for (const char* foreign : {"flagfile", "undefok", "logtostderr", "minloglevel", "v"}) {
     EXPECT_EQ(listed.count(foreign), 0u) << foreign;

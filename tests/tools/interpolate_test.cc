@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
@@ -130,6 +131,31 @@ TEST_F(InterpolateTest, ThreePosesArePassedThrough) {
         Apart(Vertices(Numbered("f%d.obj", 4 * pose)), Vertices(Numbered("tube%d.obj", pose))),
         1e-9);
   }
+}
+
+TEST_F(InterpolateTest, AWayRoundContactLeadsNearOtherShapes) {
+  MakeTubes();
+  Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "1", "--output", "m%d.obj"});
+  const nlohmann::json free = Report({"--avoid_contact"});
+  EXPECT_EQ(free["uncertified_segments"], 0);
+  EXPECT_EQ(free["crossings_between"], 0);
+  const nlohmann::json via = Report({"--avoid_contact", "--via", "m1.obj,m1.obj"});
+  EXPECT_EQ(via["uncertified_segments"], 0);
+  EXPECT_EQ(via["poses"], 2);
+  EXPECT_NEAR(via["ratio"], free["ratio"], 0.02);
+  EXPECT_EQ(ReadPath(Path("w.path")).NumShapes(), 5);
+  EXPECT_EQ(Report({})["uncertified_segments"], -1);
+}
+
+TEST_F(InterpolateTest, APathAvoidsAnObstacle) {
+  MakeTubes();
+  std::ofstream(Path("floor.obj")) << "v -9 -9 -9\nv 9 -9 -9\nv 9 9 -9\nv -9 9 -9\nf 1 2 3 4\n";
+  const nlohmann::json past = Report({"--avoid_contact", "--obstacle", "floor.obj"});
+  EXPECT_EQ(past["uncertified_segments"], 0);
+  EXPECT_TRUE(past["warnings"].empty());
+  // Another tube, which stands within the way.
+  const nlohmann::json within = Report({"--avoid_contact", "--obstacle", "tube1.obj"});
+  EXPECT_FALSE(within["warnings"].empty());
 }
 
 TEST_F(InterpolateTest, SplinesAreSmoothAtThePoses) {

@@ -110,6 +110,19 @@ TEST_F(RefusalTest, WrongCommandLines) {
     ExpectRefusal(2, arguments, {message});
   }
   ExpectRefusal(2, {"tube0.obj", "tube1.obj", "--times", "0,1"}, {"--times: goes with --spline"});
+  ExpectRefusal(2, {"tube0.obj", "tube1.obj", "--via", "tube0.obj"},
+                {"--via goes with --avoid_contact"});
+  ExpectRefusal(2, {"tube0.obj", "tube1.obj", "tube0.obj", "--avoid_contact", "--via", "tube0.obj"},
+                {"--via goes with two poses"});
+  ExpectRefusal(2, {"tube0.obj", "tube1.obj", "--obstacle", "tube0.obj"},
+                {"--obstacle goes with --avoid_contact"});
+  ExpectRefusal(
+      2,
+      {"tube0.obj", "tube1.obj", "--avoid_contact", "--obstacle", "tube0.obj", "--ground", "y=0"},
+      {"--ground moves the path, which --obstacle needs where the poses are"});
+  ExpectRefusal(2,
+                {"tube0.obj", "tube1.obj", "tube0.obj", "--avoid_contact", "--spline", "natural"},
+                {"--avoid_contact: is for geodesics alone"});
   ExpectRefusal(2, {"tube0.obj", "tube1.obj", "--hold_limit", "2"},
                 {"--hold_limit: goes with --spline"});
   const auto refuse_spline = [&](Strings flags, const char* message) {

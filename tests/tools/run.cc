@@ -1,6 +1,7 @@
 #include "tools/run.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +18,8 @@ int OpenToWrite(const std::string& file) {
 }
 
 }  // namespace
+
+ToolsTest::ToolsTest() { signal(SIGINT, SIG_DFL); }
 
 pid_t ToolsTest::Start(const std::string& tool, const std::vector<std::string>& arguments,
                        int error, int out) const {

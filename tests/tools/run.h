@@ -21,6 +21,9 @@ struct Outcome {
 /// A test that runs the tools like a user, in a temporary folder.
 class ToolsTest : public FilesTest {
  protected:
+  /// Tools obey Ctrl-C even if these tests are run by nohup or in the background.
+  ToolsTest();
+
   /// Runs a tool in the test's folder, and waits for it.
   Outcome Run(const std::string& tool, const std::vector<std::string>& arguments) const;
 

@@ -136,6 +136,12 @@ TEST_F(TransferTest, OfAPathEveryShapeIsTransferred) {
   EXPECT_EQ(report["converged"], true);
   EXPECT_EQ(report["steps"].size(), 4u);
   ExpectContains(outcome.err, "converged: 152 vertices, 4 shapes");
+  EXPECT_EQ(report["uncertified_segments"], -1);
+
+  Succeed("shape-transfer", {"walk.path", "--target", "thin.obj", "--avoid_contact", "--output",
+                             "past.path", "--report", "past.json"});
+  EXPECT_EQ(nlohmann::json::parse(Content(Path("past.json")))["uncertified_segments"], 0);
+  EXPECT_EQ(ReadPath(Path("past.path")).shapes, on.shapes);
 }
 
 TEST_F(TransferTest, FlagsOfTheTransferReachIt) {

@@ -262,6 +262,43 @@ describe('a path', () => {
     });
   });
 
+  test('is coloured where it passes through itself', async () => {
+    await open('pierced-path', {}, async (page) => {
+      const colour = page.locator('#colour');
+      const figures = page.locator('#contacts');
+      await colour.selectOption('deviation');
+      assert.equal(await figures.isVisible(), false);
+      const deviation = await look(page);
+      await colour.selectOption('contacts');
+      assert.match(await page.locator('#legend-title').textContent(), /passes through itself/);
+      assert.match(await figures.textContent(), /: 1 in shape 1\. .*: 2 of 5\.$/);
+      assert.ok((await redAndBlue(page, await look(page)))[0] > 0.01);
+      assert.deepEqual(await page.evaluate(contrastFaults), []);
+      assert.deepEqual(await page.evaluate(layoutFaults), []);
+      await setTime(page, 0.9);
+      assert.match(await figures.textContent(), /: 0 in shape 5\./);
+      assert.equal((await redAndBlue(page, await look(page)))[0], 0);
+      await setTime(page, 0);
+      await colour.selectOption('deviation');
+      assert.equal(await figures.isVisible(), false);
+      assert.ok((await difference(page, deviation, await look(page))) < 0.001);
+    });
+    await open('walk-path', {}, async (page) => {
+      await page.locator('#colour').selectOption('contacts');
+      assert.match(await page.locator('#contacts').textContent(), /: 0 in shape 1\. .*: 0 of 9\.$/);
+    });
+    await open('two', {}, async (page) => {
+      await page.locator('#colour').selectOption('contacts');
+      assert.match(await page.locator('#contacts').textContent(), /^A: .* of 9\.\nB: .* of 5\.$/);
+    });
+    for (const name of ['graph-path', 'walk-glb']) {
+      await open(name, {}, async (page) => {
+        const option = page.locator('#colour option[value=contacts]');
+        assert.ok(await option.evaluate(({ disabled }) => disabled), name);
+      });
+    }
+  });
+
   test('shows wires, deviation and flat faces', async () => {
     await open('walk-path', {}, async (page) => {
       await setTime(page, 0.7);
@@ -918,7 +955,7 @@ describe('a page that cannot be shown says so', () => {
 
   test('where its header is at odds with the rest', async () => {
     const lies = {
-      'walk-path': [{ vertices: 9 }, { shapes: 10 }, { triangles: -1 }, { kind: 'space' }, { version: 2 }],
+      'walk-path': [{ vertices: 9 }, { shapes: 10 }, { triangles: -1 }, { kind: 'space' }, { version: 2 }, { intersections: [] }],
       space: [{ parents: [] }, { planeTriangles: [[0, 1, 6]] }, { names: null }],
     };
     for (const [name, list] of Object.entries(lies)) {

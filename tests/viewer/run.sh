@@ -41,7 +41,13 @@ cd "$work/pages"
 iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAADUlEQVR4nGP4zwAE/wEHAAH/4iOeWQAAAABJRU5ErkJggg==
 EOF
   "$bin/shape-interpolate" skin0.obj skin1.obj --shapes 3 --output skin.glb
-  for file in walk.path walk.glb graph.path graph.glb skin.glb; do
+  # A triangle that in one pose passes through another, and in the other pose is above it.
+  for height in 0 3; do
+    printf 'v 0 0 0\nv 4 0 0\nv 0 0 4\nv 1 %s 1\nv 2 %s 1\nv 1 %s 2\nf 1 3 2\nf 4 5 6\n' \
+      $((height - 1)) $((height + 1)) $((height + 1))
+  done | split --lines=8 --numeric-suffixes --suffix-length=1 --additional-suffix=.obj - pierced
+  "$bin/shape-interpolate" pierced0.obj pierced1.obj --shapes 3 --output pierced.path
+  for file in walk.path walk.glb pierced.path graph.path graph.glb skin.glb; do
     "$bin/shape-view" $file --output "${file/./-}.html"
   done
   "$bin/shape-view" walk.path rigid.path --output two.html

@@ -20,7 +20,8 @@ static const shapespace::tools::OptionFlags<shapespace::GeodesicOptions> flags(
                {"solver", "solver"},
                {"schedule", "schedule"},
                {"start", "start"},
-               {"coarsest", "coarsest"}});
+               {"coarsest", "coarsest"},
+               {"avoid_contact", "avoid_contact"}});
 FLAG_GROUP(geodesic, "Path");
 
 namespace shapespace::tools {
@@ -37,14 +38,14 @@ std::int64_t NumShapes(size_t poses, const GeodesicOptions& options) {
   return (static_cast<std::int64_t>(poses) - 1) * (options.shapes + std::int64_t{1}) + 1;
 }
 
-bool IsOnePath(const std::vector<std::string>& files) {
+bool IsOnePath(const std::vector<std::string>& files, const std::string& own) {
   const bool is_path = std::any_of(files.begin(), files.end(), IsPathFile);
   if (is_path ? files.size() != 1 : files.empty()) {
     throw UsageError("name at least two poses of one mesh, or one .path file alone");
   }
   if (!is_path) return false;
   RefuseFlags({"geodesic", "metric"}, {"stiffeners"},
-              "goes with poses; " + files[0] + " is solved already and contains its metric");
+              "goes with poses; " + files[0] + " is solved already and contains its metric", own);
   return true;
 }
 

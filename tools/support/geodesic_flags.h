@@ -18,8 +18,8 @@ std::int64_t NumShapes(size_t poses, const GeodesicOptions& options);
 
 /// Whether the argument is a .path file instead of poses to interpolate.
 /// \throw UsageError if there is no argument, if a .path is not the only one, or if a flag was
-///        given that would have no effect on a .path.
-bool IsOnePath(const std::vector<std::string>& files);
+///        given that would have no effect on a .path, which is not so of the tool's `own`.
+bool IsOnePath(const std::vector<std::string>& files, const std::string& own = "");
 
 }  // namespace shapespace::tools
 

@@ -63,10 +63,10 @@ void ClaimStdout(const std::string& flag) {
 }
 
 void RefuseFlags(const std::vector<std::string>& groups, const std::vector<std::string>& flags,
-                 const std::string& reason) {
+                 const std::string& reason, const std::string& but) {
   for (const std::string& group : groups) {
     for (const gflags::CommandLineFlagInfo& flag : FlagsOf(group)) {
-      if (!flag.is_default) throw UsageError("--" + flag.name + ": " + reason);
+      if (!flag.is_default && flag.name != but) throw UsageError("--" + flag.name + ": " + reason);
     }
   }
   for (const std::string& flag : flags) {

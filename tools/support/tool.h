@@ -37,10 +37,10 @@ bool IsGiven(const char* flag);
 /// \throw UsageError if another flag has it.
 void ClaimStdout(const std::string& flag);
 
-/// Refuses flags without effect: `flags`, and all of some `groups`, for `reason`.
+/// Refuses flags without effect: `flags`, and all of some `groups` `but` one, for `reason`.
 /// \throw UsageError "--flag: reason" if the command line gave one of them.
 void RefuseFlags(const std::vector<std::string>& groups, const std::vector<std::string>& flags,
-                 const std::string& reason);
+                 const std::string& reason, const std::string& but = "");
 
 /// Names of flags that set fields of an options struct with other names: field, flag.
 using FlagNames = std::vector<std::pair<std::string, std::string>>;

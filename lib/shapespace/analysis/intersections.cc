@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -77,7 +77,8 @@ bool Cross(const Corners& a, const Corners& b, double touching) {
 struct Triangles {
   const Eigen::Matrix3Xi* indices;
   Shape vertices;  // within the unit cube about the origin, where float boxes are accurate
-  std::atomic<std::int64_t> count{0};
+  std::mutex mutex;
+  std::vector<std::pair<int, int>>* pairs;  // guarded by mutex, read after callbacks' destruction
   internal::ForkJoin callbacks;
 
   Corners At(unsigned f) const {
@@ -116,7 +117,7 @@ void Bounds(const RTCBoundsFunctionArguments* arguments) {
 void OnPairs(void* user, RTCCollision* pairs, unsigned num_pairs) {
   auto* triangles = static_cast<Triangles*>(user);
   const internal::ForkJoin::Piece piece(triangles->callbacks);
-  std::int64_t found = 0;
+  std::vector<std::pair<int, int>> found;
   for (unsigned i = 0; i < num_pairs; ++i) {
     const unsigned first = pairs[i].primID0, second = pairs[i].primID1;
     if (first >= second) continue;
@@ -126,9 +127,10 @@ void OnPairs(void* user, RTCCollision* pairs, unsigned num_pairs) {
       continue;
     }
     const Corners a = triangles->At(first), b = triangles->At(second);
-    if (!BoxesApart(a, b) && Cross(a, b, kTouching)) ++found;
+    if (!BoxesApart(a, b) && Cross(a, b, kTouching)) found.emplace_back(first, second);
   }
-  triangles->count += found;
+  const std::lock_guard<std::mutex> lock(triangles->mutex);
+  triangles->pairs->insert(triangles->pairs->end(), found.begin(), found.end());
 }
 
 void Check(RTCDevice device) {
@@ -142,35 +144,57 @@ void Check(RTCDevice device) {
   }
 }
 
-std::int64_t CountOnDevice(RTCDevice device, const Connectivity& connectivity, const Shape& shape) {
+// All intersections, in any order.
+void Collide(RTCDevice device, Triangles* triangles) {
+  const std::unique_ptr<RTCSceneTy, void (*)(RTCScene)> scene(rtcNewScene(device), rtcReleaseScene);
+  const std::unique_ptr<RTCGeometryTy, void (*)(RTCGeometry)> geometry(
+      rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER), rtcReleaseGeometry);
+  Check(device);
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), triangles->indices->cols());
+  rtcSetGeometryUserData(geometry.get(), triangles);
+  rtcSetGeometryBoundsFunction(geometry.get(), Bounds, nullptr);
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometry(scene.get(), geometry.get());
+  rtcCommitScene(scene.get());
+  rtcCollide(scene.get(), scene.get(), OnPairs, triangles);
+  Check(device);
+}
+
+std::vector<std::pair<int, int>> FindOnDevice(RTCDevice device, const Connectivity& connectivity,
+                                              const Shape& shape) {
   if (shape.cols() != connectivity.NumVertices()) {
     throw MeshError("intersections: the shape has " + std::to_string(shape.cols()) +
                     " vertices, its connectivity " + std::to_string(connectivity.NumVertices()));
   }
   if (!shape.allFinite()) throw MeshError("intersections: the shape is not finite");
-  if (connectivity.NumTriangles() == 0) return 0;
+  if (connectivity.NumTriangles() == 0) return {};
   const Eigen::Vector3d low = shape.rowwise().minCoeff(), high = shape.rowwise().maxCoeff();
   const double extent = (high - low).maxCoeff();
-  if (!(extent > 0)) return 0;
-  Triangles triangles{
-      &connectivity.Triangles(), (shape.colwise() - (low + high) / 2) / extent, {}, {}};
+  if (!(extent > 0)) return {};
+  std::vector<std::pair<int, int>> pairs;
+  {
+    Triangles triangles{
+        &connectivity.Triangles(), (shape.colwise() - (low + high) / 2) / extent, {}, &pairs, {}};
+    Collide(device, &triangles);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
 
-  const std::unique_ptr<RTCSceneTy, void (*)(RTCScene)> scene(rtcNewScene(device), rtcReleaseScene);
-  const std::unique_ptr<RTCGeometryTy, void (*)(RTCGeometry)> geometry(
-      rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER), rtcReleaseGeometry);
-  Check(device);
-  rtcSetGeometryUserPrimitiveCount(geometry.get(), connectivity.NumTriangles());
-  rtcSetGeometryUserData(geometry.get(), &triangles);
-  rtcSetGeometryBoundsFunction(geometry.get(), Bounds, nullptr);
-  rtcCommitGeometry(geometry.get());
-  rtcAttachGeometry(scene.get(), geometry.get());
-  rtcCommitScene(scene.get());
-  rtcCollide(scene.get(), scene.get(), OnPairs, &triangles);
-  Check(device);
-  return triangles.count;
+using Device = std::unique_ptr<RTCDeviceTy, void (*)(RTCDevice)>;
+
+Device StartDevice() {
+  Device device(rtcNewDevice(nullptr), rtcReleaseDevice);
+  if (!device) throw Error("intersections: Embree cannot start on this machine");
+  return device;
 }
 
 }  // namespace
+
+std::vector<std::pair<int, int>> FindIntersections(const Connectivity& connectivity,
+                                                   const Shape& shape) {
+  return FindOnDevice(StartDevice().get(), connectivity, shape);
+}
 
 std::int64_t CountIntersections(const Connectivity& connectivity, const Shape& shape) {
   return CountIntersections(connectivity, std::vector<Shape>{shape}).front();
@@ -178,12 +202,12 @@ std::int64_t CountIntersections(const Connectivity& connectivity, const Shape& s
 
 std::vector<std::int64_t> CountIntersections(const Connectivity& connectivity,
                                              const std::vector<Shape>& shapes) {
-  const std::unique_ptr<RTCDeviceTy, void (*)(RTCDevice)> device(rtcNewDevice(nullptr),
-                                                                 rtcReleaseDevice);
-  if (!device) throw Error("intersections: Embree cannot start on this machine");
+  const Device device = StartDevice();
   std::vector<std::int64_t> counts(shapes.size());
-  ParallelFor(static_cast<int>(shapes.size()),
-              [&](int i) { counts[i] = CountOnDevice(device.get(), connectivity, shapes[i]); });
+  ParallelFor(static_cast<int>(shapes.size()), [&](int i) {
+    counts[i] =
+        static_cast<std::int64_t>(FindOnDevice(device.get(), connectivity, shapes[i]).size());
+  });
   return counts;
 }
 

@@ -110,13 +110,15 @@ struct MeshSurface::Scene {
     const Scene* scene;
     const std::function<bool(int)>* admits;
     Eigen::Vector3d point;
-    double slack, within;
+    double within;
     ClosestPoint closest;
   };
 
-  // The point query's radius, in these units, that includes everything within `distance`.
-  static float Radius(double distance, double slack) {
-    return static_cast<float>(distance * (1 + 4.0 * kRounding) + slack);
+  // The point query's radius, in these units, that includes everything within `distance`. Near the
+  // body, points are rounded by less than the boxes are widened; farther away, by a share of their
+  // distance.
+  static float Radius(double distance) {
+    return static_cast<float>(distance * (1 + 4.0 * kRounding));
   }
 
   static bool OnTriangle(RTCPointQueryFunctionArguments* arguments) {
@@ -137,7 +139,7 @@ struct MeshSurface::Scene {
     }
     if (*query->admits && !(*query->admits)(number)) return false;
     closest = {number, barycentric, point, distance};
-    arguments->query->radius = Radius(distance / self.unit, query->slack);
+    arguments->query->radius = Radius(distance / self.unit);
     return true;
   }
 };
@@ -169,15 +171,13 @@ ClosestPoint MeshSurface::Nearest(const Eigen::Vector3d& point,
                                   double within) const {
   const Scene& self = *scene_;
   const Eigen::Vector3d local = (point - self.centre) / self.unit;
-  // The slack is a bound of the point's displacement by rounding to float.
-  const double slack = 4.0 * kRounding * (1 + local.cwiseAbs().maxCoeff());
-  Scene::Query query = {&self, &admits, point, slack, within, {}};
+  Scene::Query query = {&self, &admits, point, within, {}};
   RTCPointQuery at;
   at.x = static_cast<float>(local.x());
   at.y = static_cast<float>(local.y());
   at.z = static_cast<float>(local.z());
   at.time = 0;
-  at.radius = Scene::Radius(within / self.unit, slack);
+  at.radius = Scene::Radius(within / self.unit);
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(self.scene, &at, &context, nullptr, &query);

@@ -16,8 +16,9 @@
 namespace shapespace {
 
 /// A path on a page: the shapes as placed by the path, the deviation of each shape's edges from the
-/// first shape, the energy of each segment and at each vertex, and near-rigid parts. Vertex colours
-/// are shown, materials and textures are not; transparent surfaces are drawn opaque.
+/// first shape, the energy of each segment and at each vertex, near-rigid parts, and the triangles
+/// that intersect. Vertex colours are shown, materials and textures are not; transparent surfaces
+/// are drawn opaque.
 struct PagePath {
   const Path* path = nullptr;  ///< must outlive the call
   std::string name;            ///< its name on the page, such as the file's

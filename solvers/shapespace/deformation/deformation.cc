@@ -10,7 +10,9 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/cost/internal/refuse_sums.h>
+#include <shapespace/deformation/internal/contact_deformation.h>
 #include <shapespace/deformation/internal/handle_targets.h>
 #include <shapespace/deformation/internal/held_level.h>
 #include <shapespace/geodesic/internal/resolution.h>
@@ -26,6 +28,7 @@
 namespace shapespace {
 namespace {
 
+using internal::ContactModel;
 using internal::HandleTargets;
 using internal::HeldLevel;
 
@@ -89,6 +92,18 @@ class Deformer::Solver {
   std::vector<Shape> StartAt(const Shape& end, const Shape& places, Progress* progress);
   void Relax(const Shape& places, size_t level, const char* start, internal::Workload* workload,
              std::vector<Shape>* shapes, DeformationSummary* summary);
+  std::vector<Shape> Lift(const std::vector<Shape>& path, size_t level,
+                          const std::vector<Shape>& places);
+  void AddRow(const char* start, int vertices, const internal::MinimiseResult& result,
+              double seconds, DeformationSummary* summary) const;
+  std::vector<Shape> AvoidContact(const HandleTargets& targets, const std::vector<Shape>& places,
+                                  const std::vector<Shape>& shapes, internal::Workload* workload,
+                                  DeformationSummary* summary);
+  ContactModel Model(size_t level) const;
+  size_t FirstLevelOfContact(int intersections) const;
+  std::vector<Shape> GiveWay(const ContactModel& model, const HandleTargets& targets,
+                             const std::vector<Shape>& guide, size_t level,
+                             internal::Workload* workload, DeformationSummary* summary);
   void Assess(const std::vector<DeformationHandle>& handles, const HandleTargets& targets,
               const std::vector<Shape>& shapes, DeformationResult* result);
   void Warn(const HandleTargets& targets, DeformationSummary* summary) const;
@@ -152,9 +167,13 @@ DeformationResult Deformer::Solver::Solve(const std::vector<DeformationHandle>& 
     shapes = Cascade(targets, places, end, progress, &workload, &summary);
   }
   summary.solve_seconds = solving.Seconds();
-  summary.termination =
-      workload.Stopped() ? Termination::kCancelled : summary.levels.back().termination;
-  Assess(handles, targets, shapes, &result);
+  summary.termination = summary.levels.back().termination;
+  std::vector<Shape> around;
+  if (options_.avoid_contact && !workload.Stopped()) {
+    around = AvoidContact(targets, places, shapes, &workload, &summary);
+  }
+  if (workload.Stopped()) summary.termination = Termination::kCancelled;
+  Assess(handles, targets, around.empty() ? shapes : around, &result);
   if (summary.termination != Termination::kCancelled) {
     last_targets_.emplace(std::move(targets));
     last_shapes_ = std::move(shapes);
@@ -214,24 +233,29 @@ std::vector<Shape> Deformer::Solver::Cascade(const HandleTargets& targets,
   const char* start = end == nullptr ? "handles" : "given";
   for (size_t i = 0; i < levels_.size(); ++i) {
     if (i > 0) {
-      const Shape& rest = levels_[i].Rest();
-      const Shape& coarse_rest = levels_[i - 1].Rest();
-      std::vector<Shape> lifted(options_.shapes);
-      std::vector<std::vector<Eigen::Matrix3d>> gradients(options_.shapes);
-      ParallelFor(options_.shapes, [&](int k) {
-        const int below = static_cast<int>(i) - 1;
-        lifted[k] = hierarchy_->Lift(shapes[k + 1], below, rest, rest, 0);
-        gradients[k] = hierarchy_->LiftGradients(shapes[k + 1], below, coarse_rest);
-        levels_[i].Place(places[k + 1], k + 1 == options_.shapes, &lifted[k]);
-      });
-      levels_[i].Path().Factors().Integrate(gradients, &lifted);
-      lifted.insert(lifted.begin(), rest);
-      shapes = std::move(lifted);
+      shapes = Lift(shapes, i, places);
       start = "lifted";
     }
     if (!workload->Stopped()) Relax(places.back(), i, start, workload, &shapes, summary);
   }
   return shapes;
+}
+
+// A path of the next coarser level on this one, with the detail of the mesh.
+std::vector<Shape> Deformer::Solver::Lift(const std::vector<Shape>& path, size_t level,
+                                          const std::vector<Shape>& places) {
+  const Shape &rest = levels_[level].Rest(), &coarse_rest = levels_[level - 1].Rest();
+  const int below = static_cast<int>(level) - 1;
+  std::vector<Shape> lifted(options_.shapes);
+  std::vector<std::vector<Eigen::Matrix3d>> gradients(options_.shapes);
+  ParallelFor(options_.shapes, [&](int k) {
+    lifted[k] = hierarchy_->Lift(path[k + 1], below, rest, rest, 0);
+    gradients[k] = hierarchy_->LiftGradients(path[k + 1], below, coarse_rest);
+    levels_[level].Place(places[k + 1], k + 1 == options_.shapes, &lifted[k]);
+  });
+  levels_[level].Path().Factors().Integrate(gradients, &lifted);
+  lifted.insert(lifted.begin(), rest);
+  return lifted;
 }
 
 internal::MinimiseOptions Deformer::Solver::Minimise() const {
@@ -311,6 +335,12 @@ void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char
           ? level.Path().RelaxByTrustRegion(target, minimise, shapes)
           : level.Path().Relax(target, minimise, shapes);
   workload->End();
+  AddRow(start, vertices, result, stopwatch.Seconds(), summary);
+}
+
+void Deformer::Solver::AddRow(const char* start, int vertices,
+                              const internal::MinimiseResult& result, double seconds,
+                              DeformationSummary* summary) const {
   DeformationSummary::Level row;
   row.vertices = vertices;
   row.shapes = options_.shapes;
@@ -320,8 +350,113 @@ void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char
   row.evaluations = result.evaluations;
   row.initial_value = ScaledEnergy(result.initial_energy, options_.shapes);
   row.value = ScaledEnergy(result.energy, options_.shapes);
-  row.seconds = stopwatch.Seconds();
+  row.seconds = seconds;
   summary->levels.push_back(row);
+}
+
+// The path without contact; empty if the given one has none, or, with a warning, if none is found.
+std::vector<Shape> Deformer::Solver::AvoidContact(const HandleTargets& targets,
+                                                  const std::vector<Shape>& places,
+                                                  const std::vector<Shape>& shapes,
+                                                  internal::Workload* workload,
+                                                  DeformationSummary* summary) {
+  const internal::Stopwatch stopwatch;
+  const ContactModel model = Model(levels_.size() - 1);
+  if (model.NumIntersections() > 0) {
+    summary->warnings.push_back("the mesh intersects itself (" +
+                                std::to_string(model.NumIntersections()) +
+                                " pairs of triangles); contact is not avoided there");
+  }
+  std::vector<int> touching = internal::SegmentsWithContact(model, shapes);
+  std::vector<Shape> path;
+  if (!touching.empty()) {
+    // A way that is not found on a coarse level is not found on finer ones either, in much more
+    // time.
+    size_t level = FirstLevelOfContact(model.NumIntersections());
+    std::vector<Shape> guide;
+    for (const Shape& shape : shapes) {
+      guide.push_back(hierarchy_->Restrict(shape, static_cast<int>(level)));
+    }
+    while (level + 1 < levels_.size()) {
+      path = GiveWay(Model(level), targets, guide, level, workload, summary);
+      if (path.empty() || workload->Stopped()) break;
+      guide = Lift(path, ++level, places);
+    }
+    path.clear();
+    if (level + 1 == levels_.size()) {
+      path = GiveWay(model, targets, guide, level, workload, summary);
+    }
+    if (!path.empty()) {
+      summary->termination = summary->levels.back().termination;
+      touching = internal::SegmentsWithContact(model, path);
+      if (!touching.empty()) {
+        summary->warnings.push_back(
+            std::to_string(touching.size()) +
+            " segments have not been shown to be free of contact; ask for more shapes");
+      }
+    }
+    const double distance =
+        metric_->unit * internal::LeastDistance(model, path.empty() ? shapes : path);
+    if (std::isfinite(distance)) summary->contact_distance = distance;
+  }
+  summary->uncertified_segments = static_cast<int>(touching.size());
+  summary->contact_seconds = stopwatch.Seconds();
+  return path;
+}
+
+ContactModel Deformer::Solver::Model(size_t level) const {
+  return {levels_[level].Path().GetMetric(),
+          {levels_[level].Rest()},
+          ContactModel::Intersections::kExempt};
+}
+
+// The coarsest level with enough detail on which the mesh intersects itself at no more than
+// `intersections` places, as many as on the finest.
+size_t Deformer::Solver::FirstLevelOfContact(int intersections) const {
+  size_t level = 0;
+  while (level + 1 < levels_.size() &&
+         (levels_[level].Path().GetMetric()->connectivity->NumTriangles() <
+              internal::kFewestTrianglesOfContact ||
+          Model(level).NumIntersections() > intersections)) {
+    ++level;
+  }
+  return level;
+}
+
+// The deformation of a level without contact, with a row in the summary; empty, with a warning, if
+// none is found.
+std::vector<Shape> Deformer::Solver::GiveWay(const ContactModel& model,
+                                             const HandleTargets& targets,
+                                             const std::vector<Shape>& guide, size_t level_index,
+                                             internal::Workload* workload,
+                                             DeformationSummary* summary) {
+  const internal::Stopwatch stopwatch;
+  HeldLevel& level = levels_[level_index];
+  const bool finest = level_index + 1 == levels_.size();
+  const int vertices = level.NumVertices();
+  workload->Plan(vertices, options_.shapes, finest);
+  workload->Begin(std::to_string(vertices) + " vertices, round contacts", vertices, options_.shapes,
+                  finest);
+  internal::MinimiseOptions minimise = Minimise();
+  minimise.enough = finest ? 0 : kEnough;
+  minimise.keep_going = [&](int iteration, double value) {
+    return workload->GoOn(iteration, value);
+  };
+  const double energy = ScaledEnergy(level.Path().Energy(guide), options_.shapes);
+  internal::ContactFreeDeformation found = internal::DeformWithoutContact(
+      model, targets, internal::kContactStiffness * energy, guide, minimise,
+      [&] { return workload->GoOn(0, energy); }, &level);
+  workload->End();
+  if (!found.shapes.empty()) {
+    AddRow("contact", vertices, found.result, stopwatch.Seconds(), summary);
+  } else if (!workload->Stopped()) {
+    summary->warnings.push_back(
+        "no deformation was found in which the body does not pass through itself: the handles "
+        "got " +
+        std::to_string(std::lround(100 * found.reached)) +
+        "% of their way; it passes through itself in the path that is returned");
+  }
+  return std::move(found.shapes);
 }
 
 void Deformer::Solver::Assess(const std::vector<DeformationHandle>& handles,

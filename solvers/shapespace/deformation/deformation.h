@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_DEFORMATION_DEFORMATION_H_
 #define SHAPESPACE_DEFORMATION_DEFORMATION_H_
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,6 +58,13 @@ struct DeformationOptions {
   /// Triangles of the coarsest level (HierarchyOptions::coarsest).
   int coarsest = 200;
 
+  /// Whether the body must not pass through itself. If the deformation without this option touches
+  /// itself, the handles are followed again in small steps in which parts give way to each other,
+  /// and the path is relaxed such that they do not touch. Otherwise it is the same as without.
+  /// Needs triangles. Not prevented are contacts of parts that are nearer to each other on the
+  /// surface than two edges.
+  bool avoid_contact = false;
+
   /// Memory limit of a solve in bytes; if the estimate exceeds it, the solve is refused before
   /// anything is allocated.
   double memory_limit = 8e9;
@@ -79,7 +87,8 @@ struct DeformationSummary {
   struct Level {
     int vertices = 0, shapes = 0;
     std::string start;  ///< "handles": by following the handles step by step; "given"; "lifted";
-                        ///< "warm": from the last solution
+                        ///< "warm": from the last solution; "contact": the path whose shapes do
+                        ///< not touch themselves
     Termination termination = Termination::kConverged;
     int iterations = 0, evaluations = 0;
     double initial_value = 0, value = 0;  ///< of the objective divided by the balance
@@ -96,11 +105,16 @@ struct DeformationSummary {
   std::vector<HandleResult> handles;
   int free_components = 0;  ///< connected components without a handle; they stay where they are
   std::vector<Level> levels;
-  std::vector<int> hierarchy;         ///< vertices of its levels, the coarsest first
+  std::vector<int> hierarchy;  ///< vertices of its levels, the coarsest first
+  /// With DeformationOptions::avoid_contact, as in GeodesicSummary: segments whose straight motion
+  /// has not been shown to be free of contact, and the least distance of two parts.
+  int uncertified_segments = -1;
+  double contact_distance = std::numeric_limits<double>::quiet_NaN();
   bool warm = false;                  ///< started from the last solution of the same `Deformer`
   std::vector<std::string> warnings;  ///< to be checked by the user
   double estimated_bytes = 0;         ///< of memory, before the solve
-  double hierarchy_seconds = 0, factor_seconds = 0, solve_seconds = 0, total_seconds = 0;
+  double hierarchy_seconds = 0, factor_seconds = 0, solve_seconds = 0, contact_seconds = 0,
+         total_seconds = 0;
   int threads = 1;
 
   bool Converged() const { return termination == Termination::kConverged; }

@@ -34,7 +34,7 @@ std::string DeformationSummary::FullReport() const {
                 100 * error.edge_rms, 100 * error.edge_p99, 100 * error.edge_max)
       << Format("Turned over       %d hinges; %s\n", error.inverted_hinges,
                 VolumeText(error).c_str())
-      << "Hierarchy        ";
+      << internal::ContactText(uncertified_segments, contact_distance) << "Hierarchy        ";
   for (size_t i = 0; i < hierarchy.size(); ++i) out << (i > 0 ? ", " : " ") << hierarchy[i];
   out << " vertices\n\nhandle                   vertices         off, rms         off, max\n";
   for (size_t i = 0; i < handles.size(); ++i) {

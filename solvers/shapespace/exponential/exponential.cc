@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
+#include <shapespace/contact/internal/contact_model.h>
+#include <shapespace/contact/internal/slide.h>
 #include <shapespace/exponential/internal/cost_of_position.h>
 #include <shapespace/exponential/internal/shooter.h>
 #include <shapespace/exponential/internal/step_ceres.h>
@@ -144,9 +147,10 @@ std::string WhyDegenerate(const Metric& metric, const Shape& start, const Shape&
   return {};
 }
 
-// Appends `steps` shapes after the last one of the result's path, `step` apart in time.
-void March(const NextShape& next, int steps, double step, Progress* progress,
-           ExponentialResult* result) {
+// Appends `steps` shapes after the last one of the result's path, `step` apart in time; ends before
+// a step with contact unless `contact` is null.
+void March(const NextShape& next, int steps, double step, const internal::ContactModel* contact,
+           Progress* progress, ExponentialResult* result) {
   Path& path = result->path;
   ExponentialSummary& summary = result->summary;
   const Metric& metric = *path.metric;
@@ -178,6 +182,11 @@ void March(const NextShape& next, int steps, double step, Progress* progress,
     if (!summary.stopped.empty()) {
       summary.ending = ExponentialSummary::Ending::kDegenerate;
       summary.stopped = "step " + std::to_string(i + 1) + ": " + summary.stopped;
+      return;
+    }
+    if (contact != nullptr && !contact->IsFree(current, shape)) {
+      summary.ending = ExponentialSummary::Ending::kContact;
+      summary.stopped = "step " + std::to_string(i + 1) + ": parts of the body touch";
       return;
     }
     const Eigen::VectorXd change = map.Values(shape) - map.Values(current);
@@ -250,8 +259,28 @@ void Warn(const Metric& metric, ExponentialSummary* summary) {
            internal::Format("%.3g", energy / first) + " times its first value");
     }
   }
-  if (summary->ending != ExponentialSummary::Ending::kComplete) {
+  using Ending = ExponentialSummary::Ending;
+  if (summary->ending != Ending::kComplete && summary->ending != Ending::kContact) {
     warn("stopped early, at " + summary->stopped);
+  }
+}
+
+// Lets the shapes of all steps slide where the body passes through itself.
+void Slide(const std::shared_ptr<const Metric>& metric, Progress* progress,
+           ExponentialResult* result) {
+  std::vector<Shape>& shapes = result->path.shapes;
+  ExponentialSummary& summary = result->summary;
+  const auto start = shapes.end() - static_cast<std::ptrdiff_t>(summary.steps.size()) - 1;
+  std::vector<Shape> made(start, shapes.end());
+  try {
+    internal::SlideResult slide = internal::SlideAtContact(metric, progress, &made);
+    std::move(made.begin(), made.end(), start);
+    summary.uncertified_segments = slide.uncertified_segments;
+    summary.contact_distance = slide.contact_distance;
+    for (std::string& warning : slide.warnings) summary.warnings.push_back(std::move(warning));
+  } catch (const Cancelled& cancelled) {
+    summary.ending = ExponentialSummary::Ending::kCancelled;
+    summary.stopped = std::string("contact: ") + cancelled.what();
   }
 }
 
@@ -273,6 +302,17 @@ void Shoot(InitialState initial_state, int steps, double step, const Exponential
         "midpoint form");
   }
 
+  std::optional<internal::ContactModel> model;
+  if (options.stop_at_contact) {
+    model.emplace(metric, std::vector<Shape>{path.shapes.back()},
+                  internal::ContactModel::Intersections::kExempt);
+    if (model->NumIntersections() > 0) {
+      summary.warnings.push_back("the body intersects itself where the path begins (" +
+                                 std::to_string(model->NumIntersections()) +
+                                 " pairs of triangles); contact is not looked for there");
+    }
+  }
+  const internal::ContactModel* const contact = model ? &*model : nullptr;
   const bool discrete = initial_state.previous.size() > 0;
   switch (options.integrator) {
     case GeodesicIntegrator::kVariational: {
@@ -293,7 +333,7 @@ void Shoot(InitialState initial_state, int steps, double step, const Exponential
         }
         return shape;
       };
-      March(next, steps, step, progress, result);
+      March(next, steps, step, contact, progress, result);
       summary.factorisations = shooter.NumFactorisations();
       summary.factor_seconds = shooter.FactorSeconds();
       break;
@@ -305,11 +345,12 @@ void Shoot(InitialState initial_state, int steps, double step, const Exponential
           options);
       ExponentialSummary::Step unused;
       if (discrete) scheme.Next(&unused);  // its first step is the last segment of the path
-      March([&](ExponentialSummary::Step* row) { return scheme.Next(row); }, steps, step, progress,
-            result);
+      March([&](ExponentialSummary::Step* row) { return scheme.Next(row); }, steps, step, contact,
+            progress, result);
       break;
     }
   }
+  if (options.slide_at_contact && !summary.steps.empty()) Slide(metric, progress, result);
   path.extrapolated += static_cast<int>(summary.steps.size());
   path.converged = path.converged && summary.Converged();
   Warn(*metric, &summary);
@@ -321,6 +362,9 @@ void Shoot(InitialState initial_state, int steps, double step, const Exponential
 void ExponentialOptions::Validate() const {
   internal::CheckTolerance(tolerance);
   internal::CheckMaxIterations(max_iterations);
+  if (stop_at_contact && slide_at_contact) {
+    throw InvalidOptions("slide_at_contact", "goes without stop_at_contact");
+  }
 }
 
 ExponentialResult Extrapolate(const Path& path, int steps, const ExponentialOptions& options,

@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_EXPONENTIAL_EXPONENTIAL_H_
 #define SHAPESPACE_EXPONENTIAL_EXPONENTIAL_H_
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,6 +52,16 @@ struct ExponentialOptions {
   /// as not converged; kFirstIntegral continues with its last iterate.
   int max_iterations = 100;
 
+  /// Whether the path ends before the first step during whose straight motion parts of the body
+  /// touch. Not seen are contacts of parts that are nearer to each other on the surface than two
+  /// edges, and of parts that intersect where the path begins. Needs triangles.
+  bool stop_at_contact = false;
+
+  /// In place of `stop_at_contact`: whether parts slide along each other from there on. Each shape
+  /// is the nearest one, in the metric, to that of the geodesic which can be reached from the one
+  /// before without contact. The figures of the steps are those of the geodesic.
+  bool slide_at_contact = false;
+
   /// \throw InvalidOptions naming the field.
   void Validate() const;
 };
@@ -60,6 +71,7 @@ struct ExponentialSummary {
   enum class Ending {
     kComplete,    ///< all steps were made
     kDegenerate,  ///< the shape degenerated: the path ends before it (`stopped` says where and why)
+    kContact,     ///< as asked for, the path ends before parts of the body touch (`stopped`)
     kCancelled,   ///< `progress` asked to stop: the path ends with the steps made before
   };
 
@@ -92,11 +104,15 @@ struct ExponentialSummary {
   int requested_steps = 0;
   std::string metric;
   std::vector<Step> steps;  ///< those that were made
+  /// With ExponentialOptions::slide_at_contact, as in GeodesicSummary: segments whose straight
+  /// motion has not been shown to be free of contact, and the least distance of two parts.
+  int uncertified_segments = -1;
+  double contact_distance = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::string> warnings;
   double total_seconds = 0, factor_seconds = 0;
   int factorisations = 0;
 
-  /// All steps were made, and all converged on the mesh itself.
+  /// All steps were made, or all before a contact, and all converged on the mesh itself.
   bool Converged() const;
   std::string BriefReport() const;  ///< one line
   std::string FullReport() const;   ///< a page

@@ -19,7 +19,7 @@ const char* Name(GeodesicIntegrator integrator) {
 }  // namespace
 
 bool ExponentialSummary::Converged() const {
-  return ending == Ending::kComplete &&
+  return (ending == Ending::kComplete || ending == Ending::kContact) &&
          std::all_of(steps.begin(), steps.end(),
                      [&](const Step& step) { return step.converged && step.vertices == vertices; });
 }
@@ -29,10 +29,16 @@ std::string ExponentialSummary::BriefReport() const {
       static_cast<int>(std::count_if(steps.begin(), steps.end(), [&](const Step& step) {
         return !step.converged || step.vertices < vertices;
       }));
-  std::string text = Converged() ? "converged"
-                     : ending != Ending::kComplete
-                         ? "STOPPED EARLY"
-                         : Format("%d steps NOT CONVERGED on the mesh itself", open);
+  const bool touches = ending == Ending::kContact;
+  std::string text;
+  if (Converged()) {
+    text = touches ? "ended before contact" : "converged";
+  } else if (ending == Ending::kComplete || touches) {
+    text = Format("%d steps NOT CONVERGED on the mesh itself%s", open,
+                  touches ? ", ended before contact" : "");
+  } else {
+    text = "STOPPED EARLY";
+  }
   text += Format(": %d vertices, %zu of %d steps", vertices, steps.size(), requested_steps);
   if (!steps.empty()) {
     text += Format("; energy %.6g to %.6g, edges off by %.3g%% rms from the first shape",
@@ -44,10 +50,12 @@ std::string ExponentialSummary::BriefReport() const {
 std::string ExponentialSummary::FullReport() const {
   std::ostringstream out;
   out << "Ending            "
-      << (ending == Ending::kComplete ? Converged() ? "complete, converged" : "complete"
-                                      : "STOPPED EARLY: " + stopped)
+      << (ending == Ending::kComplete  ? Converged() ? "complete, converged" : "complete"
+          : ending == Ending::kContact ? "before contact: " + stopped
+                                       : "STOPPED EARLY: " + stopped)
       << "\nIntegrator        " << Name(integrator) << "\nMetric            " << metric
-      << Format("\nMesh              %d vertices\n\n", vertices)
+      << Format("\nMesh              %d vertices\n", vertices)
+      << internal::ContactText(uncertified_segments, contact_distance) << '\n'
       << "       t  solved on  increments  iterations  Krylov   residual        energy  "
          "momentum drift  edges rms   edges max  inverted  seconds\n";
   for (const Step& step : steps) {

@@ -2,15 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <utility>
 
+#include <shapespace/analysis/intersections.h>
 #include <shapespace/analysis/path_intersections.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/cost/internal/refuse_sums.h>
+#include <shapespace/geodesic/internal/contact_piece.h>
 #include <shapespace/geodesic/internal/geodesic_piece.h>
 #include <shapespace/hierarchy/freeze_level.h>
 #include <shapespace/numerics/internal/check_options.h>
@@ -153,8 +158,31 @@ PathQuality NotMeasured() {
   return quality;
 }
 
+// Pairs of intersecting triangles in the middle of each segment, in excess of those in the poses
+// before and after it: the greatest number. With an obstacle, pairs of the body and the obstacle
+// count too.
+double CrossingsBetween(const Path& path, const std::optional<Obstacle>& obstacle) {
+  std::vector<Shape> shapes;
+  const std::vector<Shape> all = obstacle ? path.Placed() : path.shapes;
+  for (const int pose : path.poses) shapes.push_back(all[pose]);
+  for (int i = 0; i + 1 < path.NumShapes(); ++i) shapes.push_back(0.5 * (all[i] + all[i + 1]));
+  auto connectivity = path.metric->connectivity;
+  if (obstacle) {
+    connectivity = obstacle->Joined(connectivity);
+    for (Shape& shape : shapes) shape = obstacle->Joined(shape);
+  }
+  const std::vector<std::int64_t> pairs = CountIntersections(*connectivity, shapes);
+  std::int64_t most = 0;
+  size_t piece = 0;
+  for (int i = 0; i + 1 < path.NumShapes(); ++i) {
+    if (i == path.poses[piece + 1]) ++piece;
+    most = std::max(most, pairs[path.poses.size() + i] - std::max(pairs[piece], pairs[piece + 1]));
+  }
+  return static_cast<double>(most);
+}
+
 // Measures what is visible in the finished path.
-void Assess(const Path& path, GeodesicSummary* summary) {
+void Assess(const Path& path, const GeodesicOptions& options, GeodesicSummary* summary) {
   summary->quality = MeasureQuality(path);
 
   // A few shapes suffice to find out whether the body intersects itself.
@@ -167,6 +195,11 @@ void Assess(const Path& path, GeodesicSummary* summary) {
   }
   try {
     summary->intersections = MeasureIntersections(Resample(path, times)).beyond_poses;
+    if (options.avoid_contact) {
+      const bool is_free =
+          summary->uncertified_segments == 0 && std::isnan(summary->contact_distance);
+      summary->crossings_between = is_free ? 0 : CrossingsBetween(path, options.obstacle);
+    }
   } catch (const Error& error) {  // no reason to discard the path
     summary->warnings.push_back(std::string("not counted: ") + error.what());
   }
@@ -185,8 +218,9 @@ GeodesicSchedule KindOfSchedule(const Metric& metric, const GeodesicOptions& opt
   return GeodesicSchedule::kFlat;
 }
 
-// Appends warnings about results that are valid but probably not wanted.
-void Warn(GeodesicSummary* summary) {
+// Appends warnings about results that are valid but probably not wanted. Past an obstacle
+// neither the bound, which knows of none, nor an even speed is to be expected.
+void Warn(bool past_obstacle, GeodesicSummary* summary) {
   for (const GeodesicSummary::Level& level : summary->levels) {
     if (level.kept && level.termination != Termination::kConverged &&
         level.termination != Termination::kCancelled) {
@@ -205,18 +239,21 @@ void Warn(GeodesicSummary* summary) {
     return;  // further warnings would only follow from the cancellation
   }
   constexpr double kManyIntersections = 5;
-  if (summary->intersections > kManyIntersections) {
+  if (summary->uncertified_segments > 0) {
+    summary->warnings.push_back(std::to_string(summary->uncertified_segments) +
+                                " segments have not been shown to be free of contact");
+  } else if (summary->intersections > kManyIntersections) {
     summary->warnings.push_back("the body intersects itself: inner shapes have " +
                                 std::to_string(std::lround(summary->intersections)) +
-                                " more pairs of intersecting triangles than the poses; no metric "
-                                "prevents this, but an additional pose in between may");
+                                " more pairs of intersecting triangles than the poses; "
+                                "avoid_contact prevents this");
   }
   constexpr double kPoorRatio = 1.5, kManyFolds = 1e-3, kUneven = 1.15;
-  if (summary->Ratio() > kPoorRatio) {
+  if (!past_obstacle && summary->Ratio() > kPoorRatio) {
     summary->warnings.push_back("the energy is " + std::to_string(summary->Ratio()) +
                                 " times its lower bound: the path may be a poor local minimum");
   }
-  if (summary->quality.speed_max > kUneven) {
+  if (!past_obstacle && summary->quality.speed_max > kUneven) {
     summary->warnings.push_back(
         "some segment is " + std::to_string(summary->quality.speed_max) +
         " times as fast as the mean: a part may rest and then jump; check the pictures");
@@ -236,6 +273,14 @@ void GeodesicOptions::Validate() const {
   internal::CheckTolerance(tolerance);
   internal::CheckMaxIterations(max_iterations);
   internal::CheckMemoryLimit(memory_limit);
+  if (!via.empty() && !avoid_contact) {
+    throw InvalidOptions("via", "is for paths that avoid contact: set avoid_contact");
+  }
+  if (!obstacle) return;
+  if (!avoid_contact) {
+    throw InvalidOptions("obstacle", "is for paths that avoid contact: set avoid_contact");
+  }
+  obstacle->Validate();
 }
 
 GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivity,
@@ -287,6 +332,7 @@ class GeodesicLevels {
   void GiveBack(Workspace workspace) const;
   void SolvePieces(const AlignedPoses& poses, Progress* progress, Workspace* workspace,
                    GeodesicResult* result) const;
+  void AvoidContact(Workspace* workspace, Workload* workload, GeodesicResult* result) const;
   void Describe(GeodesicSummary* summary) const;
 
   const std::shared_ptr<const Metric> metric_;
@@ -335,7 +381,7 @@ GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progre
   }
   summary.factor_seconds -= factored;
   Describe(&summary);
-  summary.poses = static_cast<int>(poses.shapes.size());
+  summary.poses = static_cast<int>(result.path.poses.size());
   for (const GeodesicSummary::Level& level : summary.levels) {
     if (level.kept) summary.termination = std::max(summary.termination, level.termination);
   }
@@ -343,12 +389,12 @@ GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progre
   MeasureEnergy(result.path, options_, &workspace.back(), &summary);
   GiveBack(std::move(workspace));
   if (options_.assess) {
-    Assess(result.path, &summary);
+    Assess(result.path, options_, &summary);
   } else {
     summary.quality = NotMeasured();
     summary.intersections = std::numeric_limits<double>::quiet_NaN();
   }
-  Warn(&summary);
+  Warn(options_.obstacle.has_value(), &summary);
   return result;
 }
 
@@ -396,7 +442,55 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
     }
     path.poses.push_back(path.NumShapes() - 1);
   }
+  if (options_.avoid_contact) AvoidContact(workspace, &workload, result);
   if (workload.Stopped()) summary.termination = Termination::kCancelled;
+}
+
+// Replaces each piece of the path by one without contact; all of it if it leads near other shapes.
+void GeodesicLevels::AvoidContact(Workspace* workspace, Workload* workload,
+                                  GeodesicResult* result) const {
+  Path& path = result->path;
+  if (!options_.via.empty()) path.poses = {0, path.NumShapes() - 1};
+  std::vector<Shape> guide = path.shapes;
+  std::optional<Obstacle> obstacle = options_.obstacle;
+  const Eigen::Vector3d origin = path.motions.front().translation;
+  if (obstacle) {
+    obstacle->shape = (obstacle->shape.colwise() - origin) / metric_->unit;
+    for (int k = 0; k < path.NumShapes(); ++k) {
+      guide[k] = (path.Placed(k).colwise() - origin) / metric_->unit;
+    }
+  }
+  const int pieces = static_cast<int>(path.poses.size()) - 1, segments = options_.shapes + 1;
+  std::vector<Shape> shapes = {guide.front()};
+  std::vector<double> parameters = {0};
+  std::vector<RigidMotion> motions = {path.motions.front()};
+  std::vector<int> poses = {0};
+  for (int i = 0; i < pieces; ++i) {
+    const int from = path.poses[i], to = path.poses[i + 1];
+    const std::vector<Shape> piece =
+        ContactPiece(i, hierarchy_, workspace, options_, obstacle ? &*obstacle : nullptr, workload,
+                     &result->summary)
+            .Run({guide.begin() + from, guide.begin() + to + 1});
+    for (int k = 1; k <= segments; ++k) {
+      const double t = static_cast<double>(k) / segments;
+      shapes.push_back(piece[k]);
+      parameters.push_back((i + t) / pieces);
+      motions.push_back(to - from == segments
+                            ? path.motions[from + k]
+                            : InterpolateMotion(path.motions[from], path.motions[to], t));
+    }
+    poses.push_back(static_cast<int>(shapes.size()) - 1);
+  }
+  if (obstacle) {
+    for (Shape& shape : shapes) shape = (metric_->unit * shape).colwise() + origin;
+    AlignedPoses aligned = AlignPoses(*metric_, shapes);
+    shapes = std::move(aligned.shapes);
+    motions = std::move(aligned.motions);
+  }
+  path.shapes = std::move(shapes);
+  path.parameters = std::move(parameters);
+  path.motions = std::move(motions);
+  path.poses = std::move(poses);
 }
 
 // Fills in the fields of the summary that are the same for all paths.
@@ -423,13 +517,16 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
                            Progress* progress) {
   options.Validate();
   if (poses.size() < 2) throw MeshError("a geodesic needs at least two poses");
-  for (const Shape& pose : poses) CheckShape(pose, *metric);
+  if (!options.via.empty() && poses.size() > 2) throw InvalidOptions("via", "is for two poses");
+  std::vector<Shape> shapes = poses;
+  shapes.insert(shapes.end() - 1, options.via.begin(), options.via.end());
+  for (const Shape& shape : shapes) CheckShape(shape, *metric);
   const double bytes =
-      internal::GeodesicBytes(*metric, static_cast<int>(poses.size()), options.shapes);
+      internal::GeodesicBytes(*metric, static_cast<int>(shapes.size()), options.shapes);
   CheckFinest(*metric, bytes, options);
   const internal::Stopwatch total;
   ReportProgress(progress, "decimating", 0, 0);
-  const AlignedPoses aligned = AlignPoses(*metric, poses);
+  const AlignedPoses aligned = AlignPoses(*metric, shapes);
   const internal::GeodesicLevels levels(metric, aligned.shapes, PosePairs::kConsecutive, options,
                                         progress);
   const double hierarchy_seconds = total.Seconds();
@@ -443,6 +540,10 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
 Interpolator::Interpolator(const std::shared_ptr<const Connectivity>& connectivity,
                            const std::vector<Shape>& poses, const GeodesicOptions& options) {
   options.Validate();
+  if (!options.via.empty()) throw InvalidOptions("via", "is for one path between two poses");
+  if (options.obstacle) {
+    throw InvalidOptions("obstacle", "is for one path: shapes of an Interpolator have no place");
+  }
   const auto metric = FreezeMetric(options.metric, connectivity, poses, 0, PosePairs::kAll);
   const double pose_bytes = 2.0 * sizeof(double) * poses.size() * poses.front().size();
   estimated_bytes_ = internal::GeodesicBytes(*metric, 2, options.shapes) + pose_bytes;

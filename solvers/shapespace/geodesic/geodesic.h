@@ -1,13 +1,16 @@
 #ifndef SHAPESPACE_GEODESIC_GEODESIC_H_
 #define SHAPESPACE_GEODESIC_GEODESIC_H_
 
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <shapespace/analysis/quality.h>
 #include <shapespace/base/progress.h>
+#include <shapespace/contact/obstacle.h>
 #include <shapespace/files/read.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/numerics/termination.h>
@@ -90,7 +93,23 @@ struct GeodesicOptions {
   /// takes up to a fifth of the time; if false, they are NaN.
   bool assess = true;
 
-  /// \throw InvalidOptions naming the field.
+  /// Whether the path must not pass through itself, the limitation that the paper names. If parts
+  /// of the body would, the least way round is sought on which they do not (docs/mathematics.md,
+  /// section 18), which costs more energy and takes several times as long; otherwise the path is
+  /// the same as without. Needs triangles. Not prevented are contacts of parts that are nearer to
+  /// each other on the surface than two edges.
+  bool avoid_contact = false;
+
+  /// With `avoid_contact`, between two poses: shapes near which the way round leads, in this order,
+  /// for bodies that do not find it, such as one whose crossed legs are to be crossed the other way
+  /// round. The path does not contain them. In the user's unit and any position.
+  std::vector<Shape> via;
+
+  /// With `avoid_contact`: a surface that the body must not touch either. The poses then are where
+  /// they are to be, and the body moves from one to the next past the obstacle.
+  std::optional<Obstacle> obstacle;
+
+  /// \throw InvalidOptions naming the field; MeshError if the obstacle is not valid.
   void Validate() const;
 };
 
@@ -124,19 +143,33 @@ struct GeodesicSummary {
   /// Pairs of intersecting triangles (PathIntersections::beyond_poses): the mean over three shapes
   /// between neighbouring poses.
   double intersections = 0;
+  /// With GeodesicOptions::avoid_contact: the same in the middle between every two neighbouring
+  /// shapes, the greatest number; NaN without.
+  double crossings_between = std::numeric_limits<double>::quiet_NaN();
+  /// With GeodesicOptions::avoid_contact: segments whose straight motion has not been shown to be
+  /// free of contact at all times; without, -1.
+  int uncertified_segments = -1;
+  /// With GeodesicOptions::avoid_contact: the least distance of two parts during the path, in the
+  /// user's unit; NaN if no way round anything was necessary, or without that option.
+  double contact_distance = std::numeric_limits<double>::quiet_NaN();
   std::vector<int> hierarchy;            ///< vertices of its levels, the coarsest first
   bool hierarchy_stopped_early = false;  ///< because no further edge could be collapsed
   std::vector<Level> levels;
   std::vector<std::string> warnings;  ///< to be checked by the user
   double estimated_bytes = 0;         ///< of memory, before the solve
   double freeze_seconds = 0, hierarchy_seconds = 0, factor_seconds = 0, solve_seconds = 0,
-         total_seconds = 0;
+         contact_seconds = 0, total_seconds = 0;
   size_t factor_nonzeros = 0;
   int threads = 1;
 
   /// energy / lower_bound: 1 is optimal; 1.03 to 1.15 if poses contain folded hinges. For poses
-  /// that are rigid copies both are zero up to rounding, and the ratio is defined as 1.
-  double Ratio() const { return energy < kZeroEnergy ? 1 : energy / lower_bound; }
+  /// that are rigid copies both are zero up to rounding, and the ratio is defined as 1; it is
+  /// infinite if the way from one to the other leads past an obstacle that deforms the body.
+  double Ratio() const {
+    if (energy < kZeroEnergy) return 1;
+    if (lower_bound < kZeroEnergy) return std::numeric_limits<double>::infinity();
+    return energy / lower_bound;
+  }
   static constexpr double kZeroEnergy = 1e-18;
   std::string BriefReport() const;  ///< one line
   std::string FullReport() const;   ///< a page

@@ -11,7 +11,9 @@ using internal::Format;
 using internal::Name;
 
 std::string GeodesicSummary::BriefReport() const {
-  std::string ratio = std::isfinite(Ratio()) ? Format("%.4f", Ratio()) : "n/a";
+  // The bound of poses that are nearly rigid copies says nothing of a way past an obstacle.
+  constexpr double kLargest = 1e6;
+  std::string ratio = Ratio() < kLargest ? Format("%.4f", Ratio()) : "n/a";
   return Format(
       "%s: %d vertices, %d poses, %d shapes inserted; energy %.6g, %s of its lower bound; "
       "edges off by %.3g%% rms, roughness %.3g degrees, %.3g folds; %.2f s",
@@ -45,6 +47,12 @@ std::string GeodesicSummary::FullReport() const {
               ? Format("at most %.4g times the mean of the piece\n", quality.speed_max)
               : "n/a (the rigid metric)\n")
       << Format("Intersections     %.3g pairs of triangles more than in the poses\n", intersections)
+      << (uncertified_segments < 0
+              ? std::string()
+              : Format("Contact           %d segments not shown to be free of it; %.3g crossings "
+                       "at most "
+                       "between shapes; least distance %.4g; %.3f s\n",
+                       uncertified_segments, crossings_between, contact_distance, contact_seconds))
       << "Hierarchy        ";
   for (size_t i = 0; i < hierarchy.size(); ++i) out << (i > 0 ? ", " : " ") << hierarchy[i];
   out << " vertices" << (hierarchy_stopped_early ? " (no further edge could be collapsed)\n" : "\n")

@@ -103,6 +103,9 @@ double GreatestJump(const Path& path, bool periodic) {
 
 void SplineOptions::Validate() const {
   geodesic.Validate();
+  if (geodesic.avoid_contact) {
+    throw InvalidOptions("avoid_contact", "is for geodesics alone: smooth motion may have contact");
+  }
   for (size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
       throw InvalidOptions("times", "must be finite numbers in ascending order");

@@ -8,6 +8,7 @@
 #include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
+#include <shapespace/contact/internal/slide.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/numerics/internal/check_options.h>
@@ -324,6 +325,21 @@ void TransferOptions::Validate() const {
   internal::CheckMemoryLimit(memory_limit);
 }
 
+namespace {
+
+void AvoidContact(Progress* progress, Path* path, TransferSummary* summary) {
+  try {
+    internal::SlideResult slide = internal::SlideAtContact(path->metric, progress, &path->shapes);
+    summary->uncertified_segments = slide.uncertified_segments;
+    summary->contact_distance = slide.contact_distance;
+    summary->warnings = std::move(slide.warnings);
+  } catch (const Cancelled&) {
+    summary->cancelled = true;
+  }
+}
+
+}  // namespace
+
 TransferResult Transfer(const Path& source, const Shape& target, const TransferOptions& options,
                         Progress* progress) {
   options.Validate();
@@ -366,6 +382,7 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
     result.hybrids = PathOfPlaced(metric, hybrids, made.parameters, provenance + "hybrids");
   }
   result.path.appearance = result.hybrids.appearance = source.appearance;
+  if (options.avoid_contact && !summary.cancelled) AvoidContact(progress, &result.path, &summary);
   result.path.converged = result.hybrids.converged = source.converged && summary.Converged();
   MeasureTransferErrors(*metric, made, result.path, &summary);
   Warn(&summary);

@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_TRANSFER_TRANSFER_H_
 #define SHAPESPACE_TRANSFER_TRANSFER_H_
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -81,6 +82,12 @@ struct TransferOptions {
 
   LadderOptions ladder;
 
+  /// Whether the target must not pass through itself, such as a stout body to which the motion of a
+  /// slim one is transferred. If it would, each shape is the nearest one, in the metric of the
+  /// result, that can be reached from the one before without contact. Otherwise the result is the
+  /// same as without. Needs triangles; hybrids may have contact.
+  bool avoid_contact = false;
+
   /// Memory limit in bytes; if the estimate exceeds it, the transfer is refused before it begins.
   double memory_limit = 8e9;
 
@@ -109,6 +116,10 @@ struct TransferSummary {
   /// Difference between the changes of target and source, from their first to their last shapes:
   /// log |e| of edges, weighted by A_e, and dihedral angles of hinges in degrees, weighted by A_f.
   double strain_rms = 0, strain_max = 0, angle_rms = 0;
+  /// With TransferOptions::avoid_contact, as in GeodesicSummary: segments whose straight motion has
+  /// not been shown to be free of contact, and the least distance of two parts.
+  int uncertified_segments = -1;
+  double contact_distance = std::numeric_limits<double>::quiet_NaN();
   bool cancelled = false;  ///< `progress` asked to stop: the path has the shapes made before
   std::vector<std::string> warnings;
   double estimated_bytes = 0;  ///< of memory, before the transfer

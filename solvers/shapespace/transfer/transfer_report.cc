@@ -38,6 +38,7 @@ std::string TransferSummary::FullReport() const {
       << Format("Strains, last     off by %.4g%% rms, %.4g%% at most\n", 100 * strain_rms,
                 100 * strain_max)
       << Format("Angles, last      off by %.4g degrees rms\n", angle_rms)
+      << internal::ContactText(uncertified_segments, contact_distance)
       << "\nshape  iterations  seconds"
       << (method == TransferMethod::kLadder ? "  energy / bound  norm changes\n" : "\n");
   for (size_t i = 0; i < steps.size(); ++i) {

@@ -129,6 +129,20 @@ TEST(RefinementTest, StopsWhereStraightLinesAreGoodEnough) {
   EXPECT_EQ(whole.summary.edges_not_measured, 0);
 }
 
+// An edge is marked if its excess is above the threshold.
+TEST(RefinementTest, BelowTheGreatestExcessOneEdgeIsMarked) {
+  const ShapeFamily tube = SmallTube();
+  ExploreOptions options;
+  options.depth = 1;
+  const auto measured = [&](double threshold) {
+    options.threshold = threshold;
+    return Explore(tube.connectivity, TubePoses(tube), {}, options).summary.levels[0];
+  };
+  const double greatest = measured(100).greatest_excess;
+  EXPECT_EQ(measured(greatest).marked, 0);
+  EXPECT_EQ(measured(0.999 * greatest).marked, 1);
+}
+
 // Poses close to each other and one far away: only the triangles at the latter are split, so that
 // triangles with one and with two halved sides occur.
 TEST(RefinementTest, NeighboursOfWhatIsSplitFollow) {

@@ -105,6 +105,16 @@ TEST(SpaceTest, ACurveIsWalkedAtEvenSteps) {
   EXPECT_EQ(walk.path.poses, (std::vector<int>{0, 2, 4, 6}));
 }
 
+TEST(SpaceTest, AMidpointOnTheWayIsNoPose) {
+  PoseSpace space = MadeUpSpace(SmallTube());
+  space.triangles.resize(3, 0);
+  space.segments.resize(2, 2);
+  space.segments << 0, 4, 4, 2;
+  const PlaneWalk walk = WalkAlong(space, {{0, 0}, {1, 1}}, 3);
+  EXPECT_EQ(walk.path.Placed(1), space.Placed(4));
+  EXPECT_EQ(walk.path.poses, (std::vector<int>{0, 2}));
+}
+
 TEST(SpaceTest, ACurveThatLeavesTheHullSaysSo) {
   const PoseSpace space = MadeUpSpace(SmallTube());
   const PlaneWalk walk = WalkAlong(space, {{.5, .5}, {.5, 1.5}}, 5);

@@ -102,6 +102,19 @@ TEST(TriangulationTest, ACopyOfAPointIsLeftOut) {
   EXPECT_EQ(corners, (std::set<int>{0, 1, 2, 3, 5}));
 }
 
+TEST(TriangulationTest, PointsThatAreVeryNearAreBothKept) {
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    Eigen::Matrix2Xd points = scale * RandomPoints(6);
+    points.col(4) = points.col(1) + Eigen::Vector2d(1e-7 * scale, 0);
+    const Triangulation triangulation = DelaunayTriangulation(points);
+    EXPECT_TRUE(triangulation.left_out.empty()) << scale;
+    EXPECT_GT((triangulation.triangles.array() == 1).count(), 0);
+    EXPECT_GT((triangulation.triangles.array() == 4).count(), 0);
+    points(0, 4) = points(0, 1) + 1e-11 * scale;
+    EXPECT_EQ(DelaunayTriangulation(points).left_out, std::vector<int>{4}) << scale;
+  }
+}
+
 TEST(TriangulationTest, WhatHasNoExtentIsRefused) {
   EXPECT_THROW(DelaunayTriangulation(Eigen::Matrix2Xd::Zero(2, 3)), InvalidOptions);
   EXPECT_THROW(DelaunayTriangulation(Eigen::Matrix2Xd(2, 0)), InvalidOptions);

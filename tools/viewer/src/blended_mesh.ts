@@ -20,15 +20,15 @@ import {
 import { declarations } from './blend_shader';
 import { Marks } from './marks';
 import { isFaceted, vertexNormals } from './normals';
-import { rampColour } from './ramp';
+import { markColour, rampColour, type Triple } from './ramp';
 import type { Body } from './scene_data';
 
 const clay = new Color(0xbfae9a);
 const back = new Color(0xd9822b);
 
-function rampTexture(): DataTexture {
+function rampTexture(colourOf: (value: number) => Triple): DataTexture {
   const pixels = new Uint8Array(4 * 256);
-  for (let i = 0; i < 256; ++i) pixels.set([...rampColour(i / 255), 255], 4 * i);
+  for (let i = 0; i < 256; ++i) pixels.set([...colourOf(i / 255), 255], 4 * i);
   const texture = new DataTexture(pixels, 256, 1);
   texture.colorSpace = SRGBColorSpace;
   texture.needsUpdate = true;
@@ -60,12 +60,14 @@ export class BlendedMesh extends Group {
   private readonly geometry = new BufferGeometry();
   private readonly positions: BufferAttribute[] = [];
   private readonly normals: BufferAttribute[] = [];
+  private readonly manyColours = rampTexture(rampColour);
+  private readonly twoColours = rampTexture(markColour);
   private readonly uniforms = {
     weightB: { value: 0 },
     weightC: { value: 0 },
     byDeviation: { value: 0 },
     deviationScale: { value: 1 },
-    ramp: { value: rampTexture() },
+    ramp: { value: this.manyColours },
     backColour: { value: back },
   };
   private readonly isGraph: boolean;
@@ -127,6 +129,12 @@ export class BlendedMesh extends Group {
     this.geometry.setAttribute('position', this.positionsOf(blend.nodes[0]));
     this.uniforms.weightB.value = blend.weights[1];
     this.uniforms.weightC.value = blend.weights[2];
+  }
+
+  /** The shape of which the blend has most. */
+  get nearest(): number {
+    const { nodes, weights } = this.shown;
+    return nodes[weights.indexOf(Math.max(...weights))];
   }
 
   /** Shows the first shape again, after its array has changed. */
@@ -194,6 +202,13 @@ export class BlendedMesh extends Group {
   colourByValue(own: number, end: number): void {
     this.uniforms.byDeviation.value = 1;
     this.uniforms.deviationScale.value = own / end;
+    this.uniforms.ramp.value = this.manyColours;
+  }
+
+  /** Colours by the fourth numbers of shapes, which are 65535 at marked vertices and 0 elsewhere. */
+  colourByMark(): void {
+    this.colourByValue(1, 1);
+    this.uniforms.ramp.value = this.twoColours;
   }
 
   /** Colours by red, green and blue of every vertex in sRGB. */

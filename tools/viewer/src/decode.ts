@@ -99,6 +99,21 @@ function readDeviations(reader: Reader, shapes: Uint16Array[], vertices: number)
   );
 }
 
+function readIntersections(
+  reader: Reader,
+  counts: { pairs: number; vertices: number }[],
+  vertices: number,
+): PathScene['intersections'] {
+  const total = counts.reduce((sum, ofShape) => sum + ofShape.vertices, 0);
+  const all = readIndices(reader, total, vertices);
+  let end = 0;
+  return counts.map((ofShape) => {
+    const start = end;
+    end += ofShape.vertices;
+    return { pairs: ofShape.pairs, vertices: all.subarray(start, end) };
+  });
+}
+
 function along(shapes: Uint16Array[]): Predict {
   return (s, index) => {
     if (s === 0) return 0;
@@ -151,6 +166,10 @@ function checkHeader(header: any) {
     check(header.speeds.length === header.shapes - 1);
     check(header.energyEnd === null || header.energyEnd > 0);
     check(isCount(header.parts));
+    if (header.intersections !== null) {
+      check(header.intersections.length === header.shapes);
+      check(header.intersections.every(({ pairs, vertices }: any) => [pairs, vertices].every(isCount)));
+    }
   } else if (header.kind === 'modes') {
     const modes = header.shares.length;
     check(modes > 0 && header.places.length > 0 && header.pairPlace > 0);
@@ -196,12 +215,13 @@ export async function decodeScene(text: string): Promise<SceneData> {
   };
   const predict = predictions[header.kind]();
   readPositions(reader, shapes, vertices, predict);
-  let ofPath: Pick<PathScene, 'energies' | 'partColours'> | undefined;
+  let ofPath: Pick<PathScene, 'energies' | 'partColours' | 'intersections'> | undefined;
   if (header.kind === 'path') {
     readDeviations(reader, shapes, vertices);
     ofPath = {
       energies: header.energyEnd === null ? [] : readShades(reader, header.shapes, vertices),
       partColours: header.parts > 0 ? reader.take(3 * vertices) : null,
+      intersections: header.intersections && readIntersections(reader, header.intersections, vertices),
     };
   }
   const colours = header.colours ? reader.take(3 * vertices) : null;

@@ -170,6 +170,7 @@ function toPath(name: string, { scene, animations }: GLTF): PathScene {
     energyEnd: null,
     energies: [],
     partColours: null,
+    intersections: null,
   };
 }
 

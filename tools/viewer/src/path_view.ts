@@ -1,10 +1,11 @@
 // One path, or two side by side.
 import { BlendedMesh, type Blend } from './blended_mesh';
+import { contactFigures, contactValues } from './contacts';
 import { byId, perCent, shortNumber, showNames, themeValue } from './dom';
 import { prefersStillness, prepareWhenIdle, startOptions, stem } from './options';
 import { Picking } from './picking';
 import { Plot, type Series } from './plots';
-import { rampGradient } from './ramp';
+import { markGradient, rampGradient } from './ramp';
 import type { PathScene } from './scene_data';
 import { Stage } from './stage';
 import { onTheme } from './theme';
@@ -38,8 +39,15 @@ function facts({ vertices, triangles, shapes, metric }: PathScene): string {
   return `${shapes.length} shapes, ${vertices.toLocaleString('en')} vertices${faces}${by}`;
 }
 
-function showColours(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): void {
-  byId('ramp').style.background = rampGradient();
+function showLegend(title: string, colours: string, start: string, end: string): void {
+  byId('legend-title').textContent = title;
+  byId('ramp').style.background = colours;
+  byId('ramp-start').textContent = start;
+  byId('ramp-end').textContent = end;
+}
+
+/** Returns what is to be called when another shape is shown. */
+function showColours(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): () => void {
   const select = byId<HTMLSelectElement>('colour');
   const hide = (value: string, hidden: boolean) => {
     const option = select.querySelector<HTMLOptionElement>(`option[value=${value}]`);
@@ -47,24 +55,40 @@ function showColours(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): 
   };
   hide('energy', scenes.some(({ energyEnd }) => energyEnd === null));
   hide('parts', scenes.some(({ partColours }) => partColours === null));
+  hide('contacts', scenes.some(({ intersections }) => intersections === null));
   select.value = 'plain';
-  let energiesAreIn = false;
+  const showFigures = () => {
+    if (select.value !== 'contacts') return;
+    const figures = scenes.map((scene, i) => contactFigures(scene, meshes[i].nearest));
+    byId('contacts').textContent = figures
+      .map((text, i) => (scenes.length > 1 ? `${'AB'[i]}: ${text}` : text))
+      .join('\n');
+  };
+  const showScale = (title: string, ends: number[], format: (value: number) => string) => {
+    const end = Math.max(...ends);
+    meshes.forEach((mesh, i) => mesh.colourByValue(ends[i], end));
+    showLegend(title, rampGradient(), '0', `${format(end)} and more`);
+  };
+  const exchange = (values: Uint16Array[][]) =>
+    values.forEach((ofScene, i) => meshes[i].exchangeValues(ofScene));
+  let instead: Uint16Array[][] = []; // shown in place of the deviations, which it holds meanwhile
   select.addEventListener('change', () => {
-    const byEnergy = select.value === 'energy';
-    const byValue = byEnergy || select.value === 'deviation';
-    byId('legend').hidden = !byValue;
-    if (byValue) {
-      if (byEnergy !== energiesAreIn) {
-        meshes.forEach((mesh, i) => mesh.exchangeValues(scenes[i].energies));
-        energiesAreIn = byEnergy;
-      }
-      const ends = scenes.map((scene) => (byEnergy ? (scene.energyEnd ?? 0) : scene.scaleEnd));
-      const end = Math.max(...ends);
-      meshes.forEach((mesh, i) => mesh.colourByValue(ends[i], end));
-      byId('legend-title').textContent = byEnergy
-        ? 'Energy at vertices (squared speed per area)'
-        : 'Deviation of edges from the first shape';
-      byId('ramp-end').textContent = `${byEnergy ? shortNumber(end) : perCent(end)} and more`;
+    exchange(instead);
+    instead = [];
+    if (select.value === 'energy') instead = scenes.map(({ energies }) => energies);
+    if (select.value === 'contacts') instead = scenes.map(contactValues);
+    exchange(instead);
+    byId('legend').hidden = select.value === 'plain' || select.value === 'parts';
+    byId('contacts').hidden = select.value !== 'contacts';
+    if (select.value === 'deviation') {
+      const ends = scenes.map(({ scaleEnd }) => scaleEnd);
+      showScale('Deviation of edges from the first shape', ends, perCent);
+    } else if (select.value === 'energy') {
+      const ends = scenes.map(({ energyEnd }) => energyEnd ?? 0);
+      showScale('Energy at vertices (squared speed per area)', ends, shortNumber);
+    } else if (select.value === 'contacts') {
+      for (const mesh of meshes) mesh.colourByMark();
+      showLegend('Where the surface passes through itself', markGradient(), 'it does not', 'it does');
     } else {
       meshes.forEach((mesh, i) => {
         const { partColours } = scenes[i];
@@ -72,8 +96,10 @@ function showColours(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): 
         else mesh.colourAsItIs();
       });
     }
+    showFigures();
     stage.draw();
   });
+  return showFigures;
 }
 
 /** The squared speed: of a smooth path in the middle of every segment, of another one where it begins. */
@@ -134,11 +160,13 @@ export function showPaths(scenes: PathScene[]): void {
   const stage: Stage = new Stage(byId<HTMLCanvasElement>('canvas'), meshes, (seconds) =>
     player.advance(seconds),
   );
+  const showFigures = showColours(scenes, meshes, stage);
   let plots: Plot[] = [];
   const player = startTransport(
     (place) => {
       meshes.forEach((mesh, i) => mesh.show(blendAt(scenes[i], place)));
       for (const plot of plots) plot.show(place);
+      showFigures();
       stage.draw();
     },
     () => stage.draw(),
@@ -149,7 +177,6 @@ export function showPaths(scenes: PathScene[]): void {
     player.seek(place);
   });
   startOptions(stage, meshes, player, names.map(stem).join('-'));
-  showColours(scenes, meshes, stage);
   // A glb has no poses, and its vertices are not those of the mesh it was made of; a click finds a
   // triangle, which graphs do not have.
   const [{ poses, triangles }] = scenes;

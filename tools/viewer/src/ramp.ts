@@ -2,7 +2,7 @@
 // steps look equal.
 const stops = [0xb9cadc, 0xdfc18f, 0xe8923f, 0xcf3f2b, 0x861426];
 
-type Triple = [number, number, number];
+export type Triple = [number, number, number];
 
 function toLinear(srgb: number): number {
   return srgb <= 0.04045 ? srgb / 12.92 : ((srgb + 0.055) / 1.055) ** 2.4;
@@ -40,8 +40,22 @@ export function rampColour(value: number): Triple {
   return toRgb([0, 1, 2].map((k) => (1 - t) * a[k] + t * b[k]) as Triple);
 }
 
+// Less than a half, so that halfway between two shapes what is marked in either has the colour.
+const leastMarked = 0.45;
+
+/** The colour of what is marked, with the value 1, or not, with 0: one of two, also in between. */
+export function markColour(value: number): Triple {
+  return rampColour(value < leastMarked ? 0 : 0.75);
+}
+
 /** The whole scale, from left to right, for a style. */
 export function rampGradient(): string {
   const colours = Array.from({ length: 17 }, (_, i) => `rgb(${rampColour(i / 16).join(' ')})`);
   return `linear-gradient(to right, ${colours.join(', ')})`;
+}
+
+/** The two colours of marks, side by side, for a style. */
+export function markGradient(): string {
+  const [no, yes] = [0, 1].map((value) => `rgb(${markColour(value).join(' ')})`);
+  return `linear-gradient(to right, ${no} 50%, ${yes} 50%)`;
 }

@@ -48,10 +48,13 @@ export interface PathScene extends Body {
   /** The energy at vertices that has the last colour; null where it is not known. */
   energyEnd: number | null;
   /** Of each shape a number a vertex, where 65535 is `energyEnd`; exchanged with the deviations in
-   * `shapes` while it is shown. */
+   * `shapes` while they are shown. */
   energies: Uint16Array[];
   /** Red, green and blue of every vertex, by its near-rigid part; null if there are no parts. */
   partColours: Uint8Array | null;
+  /** For each shape the number of pairs of triangles that intersect, and the vertices of these
+   * triangles; null where it is not known. */
+  intersections: { pairs: number; vertices: Uint32Array }[] | null;
 }
 
 export interface SpaceScene extends Body {

@@ -1,6 +1,7 @@
 #include <shapespace/base/internal/atomic_file.h>
 
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <filesystem>
@@ -49,7 +50,15 @@ std::unique_ptr<internal::FileBuffer> CreateBeside(const std::string& file, std:
     *name = RandomName(file);
     const int descriptor =
         open(name->c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kPermissions);
-    if (descriptor >= 0) return std::make_unique<internal::FileBuffer>(descriptor);
+    if (descriptor >= 0) {
+      try {
+        return std::make_unique<internal::FileBuffer>(descriptor);
+      } catch (...) {  // no memory
+        close(descriptor);
+        unlink(name->c_str());
+        throw;
+      }
+    }
     if (errno != EEXIST) break;
   }
   const std::error_code cause(errno, std::generic_category());
@@ -70,7 +79,12 @@ void WriteFileAtomically(const std::string& file, const std::function<void(std::
   {
     const std::lock_guard<std::mutex> lock(mutex);
     buffer = CreateBeside(file, &temporary);
-    temporaries.insert(temporary);
+    try {
+      temporaries.insert(temporary);
+    } catch (...) {  // no memory
+      unlink(temporary.c_str());
+      throw;
+    }
   }
   try {
     std::ostream stream(buffer.get());
@@ -83,7 +97,7 @@ void WriteFileAtomically(const std::string& file, const std::function<void(std::
     temporaries.erase(temporary);
   } catch (...) {
     const std::lock_guard<std::mutex> lock(mutex);
-    fs::remove(temporary, error);
+    unlink(temporary.c_str());  // takes no memory, which may be what is missing
     temporaries.erase(temporary);
     throw;
   }

@@ -8,6 +8,7 @@
 #include <zlib.h>
 #include <nlohmann/json.hpp>
 
+#include <shapespace/analysis/intersections.h>
 #include <shapespace/analysis/quality.h>
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/analysis/vertex_energy.h>
@@ -241,6 +242,36 @@ void AppendParts(const Path& path, OrderedJson* header, std::string* bytes) {
   if (!parts.parts.empty()) AppendColours(ColourByGroup(parts.of_vertex), bytes);
 }
 
+// Where the surface passes through itself: of each shape the vertices of triangles that intersect.
+void AppendIntersections(const Path& path, OrderedJson* header, std::string* bytes) {
+  (*header)["intersections"] = nullptr;
+  const Connectivity& connectivity = *path.metric->connectivity;
+  if (connectivity.NumTriangles() == 0) return;
+  struct OfShape {
+    size_t pairs = 0;
+    std::vector<int> vertices;  // ascending
+  };
+  std::vector<OfShape> shapes(path.NumShapes());
+  ParallelFor(path.NumShapes(), [&](int i) {
+    auto& [pairs, vertices] = shapes[i];
+    for (const auto& [a, b] : FindIntersections(connectivity, path.shapes[i])) {
+      ++pairs;
+      for (const int f : {a, b}) {
+        const auto corners = connectivity.Triangles().col(f);
+        vertices.insert(vertices.end(), corners.begin(), corners.end());
+      }
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  });
+  std::vector<int> all;
+  for (const auto& [pairs, vertices] : shapes) {
+    (*header)["intersections"].push_back({{"pairs", pairs}, {"vertices", vertices.size()}});
+    all.insert(all.end(), vertices.begin(), vertices.end());
+  }
+  AppendIndices(all.data(), all.size(), bytes);
+}
+
 std::string Compress(const std::string& bytes) {
   uLongf size = compressBound(bytes.size());
   std::string compressed(size, 0);
@@ -362,6 +393,7 @@ std::string EncodeScene(const PagePath& scene) {
   AppendDeviations(path, &header, &arrays);
   AppendEnergies(path, &header, &arrays);
   AppendParts(path, &header, &arrays);
+  AppendIntersections(path, &header, &arrays);
   AppendOwnColours(path.appearance.vertex_colours, &header, &arrays);
   return Pack(header, arrays);
 }

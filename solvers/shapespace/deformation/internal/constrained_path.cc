@@ -22,7 +22,7 @@ double ConstrainedPath::Energy(const std::vector<Shape>& shapes) {
 }
 
 MinimiseResult ConstrainedPath::Relax(const Shape& target, const MinimiseOptions& options,
-                                      std::vector<Shape>* shapes) {
+                                      std::vector<Shape>* shapes, const Contact* contact) {
   const int n = static_cast<int>(shapes->size()) - 1;
   PathEnergy& energy = EnergyOf(n);
   std::vector<double> unknowns(energy.Size());
@@ -32,8 +32,13 @@ MinimiseResult ConstrainedPath::Relax(const Shape& target, const MinimiseOptions
   const auto last = [&](int v, int axis) {
     return (3 * static_cast<size_t>(energy.Row(v)) + axis) * stride + n - 1;
   };
+  std::optional<PathContact> potential;
+  if (contact != nullptr) {
+    potential.emplace(contact->model, energy, *shapes, contact->motions, contact->times);
+  }
   const Objective objective = [&](const double* x, double* gradient) {
     double value = energy.Evaluate(x, gradient);
+    if (potential) value += potential->Evaluate(x, contact->weight, gradient);
     for (int v = 0; v < constraints.penalty.size(); ++v) {
       if (constraints.penalty(v) == 0) continue;
       for (int axis = 0; axis < 3; ++axis) {
@@ -54,6 +59,7 @@ MinimiseResult ConstrainedPath::Relax(const Shape& target, const MinimiseOptions
   FreeEndPreconditioner preconditioner(factors_, energy);
   MinimiseOptions own = options;
   own.rank = HistoryRank(static_cast<double>(unknowns.size()));
+  if (potential) potential->Limit(&own);
   const MinimiseResult result = MinimiseThreadedLbfgs(
       objective,
       [&](const double* gradient, double unit, double* step) {

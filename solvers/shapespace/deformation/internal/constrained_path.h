@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <shapespace/contact/internal/path_contact.h>
 #include <shapespace/deformation/internal/free_end_preconditioner.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/numerics/internal/minimise.h>
@@ -30,11 +31,20 @@ class ConstrainedPath {
   /// The energy of a path of any number of shapes, unscaled.
   double Energy(const std::vector<Shape>& shapes);
 
-  /// Relaxes `shapes`, the first of which is `Rest`, by L-BFGS. Prescribed vertices keep their
+  /// How parts of the shapes repel each other.
+  struct Contact {
+    const ContactModel& model;
+    double weight;  ///< of the potential, which is the mean over `motions`
+    std::vector<PathContact::Motion> motions;
+    int times;  ///< of each motion, at first
+  };
+
+  /// Relaxes `shapes`, the first of which does not move, by L-BFGS. Prescribed vertices keep their
   /// positions in `shapes`. `target` contains the targets of the penalties for the last shape; its
-  /// other columns are not used.
+  /// other columns are not used. If `contact` is given, nothing touches during its motions, which
+  /// must be so at the beginning.
   MinimiseResult Relax(const Shape& target, const MinimiseOptions& options,
-                       std::vector<Shape>* shapes);
+                       std::vector<Shape>* shapes, const Contact* contact = nullptr);
   /// The same by Ceres' trust region on automatically differentiated residual blocks: for small
   /// meshes, and as an independent reference.
   /// \throw InvalidOptions as MinimiseTrustRegion.

@@ -82,6 +82,16 @@ void HeldLevel::MoveHandlesTo(const std::vector<Shape>& places, std::vector<Shap
   }
 }
 
+Shape HeldLevel::WithHardHandlesAt(const Shape& places, const Shape& shape) const {
+  Tangent way = Tangent::Zero(3, shape.cols());
+  for (const Held& held : held_) {
+    if (held.given) way.col(held.vertex) = places.col(held.column) - shape.col(held.vertex);
+  }
+  Shape moved = shape + path_.Factors().Extend({way}).front();
+  Place(places, true, &moved);
+  return moved;
+}
+
 void HeldLevel::Place(const Shape& places, bool last, Shape* shape) const {
   for (const Held& held : held_) {
     if (held.prescribed || (held.given && last)) shape->col(held.vertex) = places.col(held.column);

@@ -30,6 +30,9 @@ class HeldLevel {
   /// Moves the held vertices of all shapes but the first to their targets `places`, one matrix per
   /// shape, and all other vertices with them.
   void MoveHandlesTo(const std::vector<Shape>& places, std::vector<Shape>* shapes) const;
+  /// A shape with the vertices of hard handles at their targets, and all other vertices moved with
+  /// them, but for those of soft handles.
+  Shape WithHardHandlesAt(const Shape& places, const Shape& shape) const;
   /// Sets the prescribed vertices, of the `last` shape or of any shape, to their targets.
   void Place(const Shape& places, bool last, Shape* shape) const;
   /// The targets by vertex; 0 for vertices that are not held.

@@ -36,6 +36,8 @@ void ForOptions(Of<DeformationOptions>, const Visit& visit) {
         "The optimiser; trust_region, which is that of Ceres, is slow beyond a thousand vertices.");
   visit("coarsest", &DeformationOptions::coarsest,
         "Triangles of the coarsest level of the hierarchy.");
+  visit("avoid_contact", &DeformationOptions::avoid_contact,
+        "Whether the body must not pass through itself: parts give way to each other.");
   visit("memory_limit", &DeformationOptions::memory_limit,
         "Bytes that the solve may take; an estimate above it is refused at once.");
 }

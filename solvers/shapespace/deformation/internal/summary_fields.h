@@ -50,11 +50,14 @@ void ForFields(Of<DeformationSummary>, const Visit& visit) {
   visit("free_components", &DeformationSummary::free_components);
   visit("levels", &DeformationSummary::levels);
   visit("hierarchy", &DeformationSummary::hierarchy);
+  visit("uncertified_segments", &DeformationSummary::uncertified_segments);
+  visit("contact_distance", &DeformationSummary::contact_distance);
   visit("warm", &DeformationSummary::warm);
   visit("estimated_bytes", &DeformationSummary::estimated_bytes);
   visit("hierarchy_seconds", &DeformationSummary::hierarchy_seconds);
   visit("factor_seconds", &DeformationSummary::factor_seconds);
   visit("solve_seconds", &DeformationSummary::solve_seconds);
+  visit("contact_seconds", &DeformationSummary::contact_seconds);
   visit("total_seconds", &DeformationSummary::total_seconds);
   visit("threads", &DeformationSummary::threads);
   visit("warnings", &DeformationSummary::warnings);

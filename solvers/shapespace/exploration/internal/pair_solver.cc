@@ -64,6 +64,7 @@ std::string DigestOf(const Metric& frozen, const std::vector<Shape>& poses,
         static_cast<double>(options.coarsest)}) {
     hasher.Add(number);
   }
+  if (options.avoid_contact) hasher.Add(1.0);  // without it as before there was such an option
   for (const auto& feature : frozen.features) {
     hasher.Add(feature->Name().data(), feature->Name().size());
     hasher.Add(feature->Element(0), feature->NumElements() * feature->VerticesPerElement());

@@ -58,6 +58,10 @@ void ForOptions(Of<ExponentialOptions>, const Visit& visit) {
       "A step is solved when its residual is less than this share of its value at velocity zero.");
   visit("max_iterations", &ExponentialOptions::max_iterations,
         "Iterations that a step may take, of Newton's method or of Ceres.");
+  visit("stop_at_contact", &ExponentialOptions::stop_at_contact,
+        "Whether the path ends before the first step in which parts of the body touch.");
+  visit("slide_at_contact", &ExponentialOptions::slide_at_contact,
+        "Whether parts of the body that would pass through each other slide along each other.");
 }
 
 template <typename Visit>

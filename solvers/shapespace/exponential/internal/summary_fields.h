@@ -16,6 +16,7 @@ namespace shapespace::internal {
 inline Words<ExponentialSummary::Ending> WordsOf(Of<ExponentialSummary::Ending>) {
   return {{"complete", ExponentialSummary::Ending::kComplete},
           {"degenerate", ExponentialSummary::Ending::kDegenerate},
+          {"contact", ExponentialSummary::Ending::kContact},
           {"cancelled", ExponentialSummary::Ending::kCancelled}};
 }
 
@@ -39,8 +40,9 @@ void ForFields(Of<ExponentialSummary::Step>, const Visit& visit) {
 template <typename Visit>
 void ForFields(Of<ExponentialSummary>, const Visit& visit) {
   visit("termination", [](const ExponentialSummary& s) {
-    return s.ending == ExponentialSummary::Ending::kDegenerate
-               ? "degenerate"
+    return s.ending == ExponentialSummary::Ending::kDegenerate ? "degenerate"
+           : s.ending == ExponentialSummary::Ending::kContact && s.Converged()
+               ? "contact"
                : Key(s.Converged(), s.ending == ExponentialSummary::Ending::kCancelled);
   });
   visit("converged", &ExponentialSummary::Converged);
@@ -51,6 +53,8 @@ void ForFields(Of<ExponentialSummary>, const Visit& visit) {
   visit("requested_steps", &ExponentialSummary::requested_steps);
   visit("metric", &ExponentialSummary::metric);
   visit("steps", &ExponentialSummary::steps);
+  visit("uncertified_segments", &ExponentialSummary::uncertified_segments);
+  visit("contact_distance", &ExponentialSummary::contact_distance);
   visit("total_seconds", &ExponentialSummary::total_seconds);
   visit("factor_seconds", &ExponentialSummary::factor_seconds);
   visit("factorisations", &ExponentialSummary::factorisations);

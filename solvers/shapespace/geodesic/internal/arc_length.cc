@@ -21,4 +21,10 @@ std::vector<double> ArcLengthTimes(const Metric& metric, const std::vector<Shape
   return times;
 }
 
+std::vector<double> UniformTimes(int inner) {
+  std::vector<double> times(inner + 2);
+  for (int i = 0; i < inner + 2; ++i) times[i] = static_cast<double>(i) / (inner + 1);
+  return times;
+}
+
 }  // namespace shapespace::internal

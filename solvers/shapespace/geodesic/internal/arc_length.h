@@ -14,6 +14,9 @@ namespace shapespace::internal {
 /// metric has no lengths (MetricOptions::Rigid).
 std::vector<double> ArcLengthTimes(const Metric& metric, const std::vector<Shape>& shapes);
 
+/// Equidistant times from 0 to 1, with `inner` ones between the two.
+std::vector<double> UniformTimes(int inner);
+
 }  // namespace shapespace::internal
 
 #endif  // SHAPESPACE_GEODESIC_INTERNAL_ARC_LENGTH_H_

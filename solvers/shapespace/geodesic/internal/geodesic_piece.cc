@@ -72,12 +72,6 @@ size_t TrialSteps(const std::vector<ScheduleStep>& schedule,
   return trial;
 }
 
-std::vector<double> UniformTimes(int inner) {
-  std::vector<double> times(inner + 2);
-  for (int i = 0; i < inner + 2; ++i) times[i] = static_cast<double>(i) / (inner + 1);
-  return times;
-}
-
 }  // namespace
 
 void Plan(const std::vector<ScheduleStep>& schedule, const std::vector<Resolution>& resolutions,

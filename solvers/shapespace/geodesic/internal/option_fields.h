@@ -55,6 +55,14 @@ void ForOptions(Of<GeodesicOptions>, const Visit& visit) {
   visit("assess", &GeodesicOptions::assess,
         "Whether the path is measured for the summary's quality and intersections, which takes up "
         "to a fifth of the time.");
+  visit("avoid_contact", &GeodesicOptions::avoid_contact,
+        "Whether the path must not pass through itself: takes the least way round that it finds.");
+  visit("via", &GeodesicOptions::via,
+        "With avoid_contact, between two poses: shapes near which the way round leads, if it is "
+        "not found without.");
+  visit("obstacle", &GeodesicOptions::obstacle,
+        "With avoid_contact: a mesh that does not move and that the body must not touch either; "
+        "the poses are where they are to be beside it.");
 }
 
 }  // namespace shapespace::internal

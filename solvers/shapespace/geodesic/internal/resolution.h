@@ -49,6 +49,11 @@ class Resolution {
   /// Its parts by feature, as PathEnergy::Parts.
   std::vector<double> EnergyParts(const std::vector<Shape>& shapes, const GeodesicOptions& options);
 
+  /// The factor with which L-BFGS on all threads is preconditioned.
+  const CholeskyFactor<float>& SingleFactor(int piece, int inner) {
+    return Factor<float>(piece, inner);
+  }
+
   /// Time in which solves computed factors, or waited for another one that did.
   double FactorSeconds() const { return factor_seconds_; }
   size_t FactorNonzeros() const { return factors_->NumNonzeros(); }

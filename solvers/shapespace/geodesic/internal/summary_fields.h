@@ -44,6 +44,9 @@ void ForFields(Of<GeodesicSummary>, const Visit& visit) {
   visit("lower_bound", &GeodesicSummary::lower_bound);
   visit("quality", &GeodesicSummary::quality);
   visit("intersections", &GeodesicSummary::intersections);
+  visit("crossings_between", &GeodesicSummary::crossings_between);
+  visit("uncertified_segments", &GeodesicSummary::uncertified_segments);
+  visit("contact_distance", &GeodesicSummary::contact_distance);
   visit("hierarchy", &GeodesicSummary::hierarchy);
   visit("hierarchy_stopped_early", &GeodesicSummary::hierarchy_stopped_early);
   visit("levels", &GeodesicSummary::levels);
@@ -52,6 +55,7 @@ void ForFields(Of<GeodesicSummary>, const Visit& visit) {
   visit("hierarchy_seconds", &GeodesicSummary::hierarchy_seconds);
   visit("factor_seconds", &GeodesicSummary::factor_seconds);
   visit("solve_seconds", &GeodesicSummary::solve_seconds);
+  visit("contact_seconds", &GeodesicSummary::contact_seconds);
   visit("total_seconds", &GeodesicSummary::total_seconds);
   visit("factor_nonzeros", &GeodesicSummary::factor_nonzeros);
   visit("threads", &GeodesicSummary::threads);

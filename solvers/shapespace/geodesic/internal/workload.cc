@@ -20,7 +20,7 @@ void Workload::Begin(const std::string& stage, int vertices, int shapes, bool la
 }
 
 bool Workload::GoOn(int iteration, double energy) {
-  if (progress_ == nullptr) return true;
+  if (progress_ == nullptr || stopped_) return !stopped_;
   // Decreases of the energy fall from the first one to the tolerance, in L-BFGS more and more
   // slowly: measurements showed that when the logarithm has covered a share s of its range, s^2.5
   // of the iterations are done.

@@ -37,11 +37,11 @@ double Beyond(const LinePoint& before, const LinePoint& low) {
 
 }  // namespace
 
-LinePoint SearchLine(const LinePoint& start,
-                     const std::function<LinePoint(double step)>& evaluate) {
+LinePoint SearchLine(const LinePoint& start, const std::function<LinePoint(double step)>& evaluate,
+                     double longest) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   LinePoint low = start, high = {kInfinity, kInfinity, kInfinity};
-  double step = 1;
+  double step = std::min(1.0, longest);
   for (int trial = 0; trial < kMaxTrials; ++trial) {
     const LinePoint point = evaluate(step);
     const bool decreases = point.value <= start.value + kDecrease * step * start.slope;
@@ -52,13 +52,14 @@ LinePoint SearchLine(const LinePoint& start,
       // due to rounding.
       const bool lower = point.value < start.value && point.slope >= kFlatness * start.slope;
       if (lower || std::abs(point.slope) <= -kFlatness * start.slope) return point;
+      if (point.slope < 0 && step == longest) return point;
       if (point.slope > 0) {
         high = point;
         step = Between(low, high);
       } else {
         const LinePoint before = low;
         low = point;
-        step = high.step < kInfinity ? Between(low, high) : Beyond(before, low);
+        step = high.step < kInfinity ? Between(low, high) : std::min(Beyond(before, low), longest);
       }
     } else {
       high = point;

@@ -2,6 +2,7 @@
 #define SHAPESPACE_NUMERICS_INTERNAL_LINE_SEARCH_H_
 
 #include <functional>
+#include <limits>
 
 namespace shapespace::internal {
 
@@ -15,8 +16,10 @@ struct LinePoint {
 /// 0 and has a negative slope. Values that are not finite count as too large. Near the minimum,
 /// where values differ only by rounding, slopes are compared instead (Hager and Zhang 2005,
 /// approximate Wolfe conditions). \return the last point for which `evaluate` was called; if no
-/// point satisfies both conditions, one lower than the start, or else `start`.
-LinePoint SearchLine(const LinePoint& start, const std::function<LinePoint(double step)>& evaluate);
+/// point satisfies both conditions, one lower than the start, or else `start`. No step is longer
+/// than `longest`; at that step a sufficient decrease is enough.
+LinePoint SearchLine(const LinePoint& start, const std::function<LinePoint(double step)>& evaluate,
+                     double longest = std::numeric_limits<double>::infinity());
 
 }  // namespace shapespace::internal
 

@@ -29,6 +29,14 @@ struct MinimiseOptions {
   /// Called before the first and after every iteration, with the energy in some unit; false stops
   /// the solve. May be empty.
   std::function<bool(int iteration, double energy)> keep_going;
+
+  /// For MinimiseThreadedLbfgs alone. The longest step along `direction` from `unknowns` that is
+  /// allowed, above 0; arrays as the unknowns. If empty, there is no limit.
+  std::function<double(const double* unknowns, const float* direction)> longest_step;
+  /// For MinimiseThreadedLbfgs alone. Whether the point that a line search has found is allowed. If
+  /// not, the objective may have changed: it is evaluated again at the point before, and another
+  /// line search follows with half the step at most. May be empty.
+  std::function<bool(const double* unknowns)> allows;
 };
 
 struct MinimiseResult {
@@ -68,6 +76,13 @@ MinimiseResult MinimiseLbfgs(const Objective& energy, ChangeOfVariables* variabl
 /// result = (approximate inverse of the Hessian) gradient, in a PathEnergy's layout; the arrays may
 /// be identical. `unit` as in Preconditioner::Apply.
 using Precondition = std::function<void(const double* gradient, double unit, double* result)>;
+
+/// A preconditioner as such a function; it must outlive the result.
+inline Precondition PreconditionOf(Preconditioner* preconditioner) {
+  return [preconditioner](const double* gradient, double unit, double* result) {
+    preconditioner->Apply(gradient, unit, result);
+  };
+}
 
 /// This library's L-BFGS (Nocedal and Wright, Numerical Optimization, algorithm 7.4), for large
 /// problems. It stores twice the rank vectors in single precision and six in double; all vector

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -129,7 +130,9 @@ class ThreadedLbfgs {
         slope = FindDirection();
         if (!Search(slope)) return Termination::kStalled;
       }
-      small = before - value_ < options_.tolerance * value_ ? small + 1 : 0;
+      if (refused_) continue;
+      // A step that had to be short says nothing about what is left.
+      small = !cut_ && before - value_ < options_.tolerance * value_ ? small + 1 : 0;
     }
   }
 
@@ -237,7 +240,11 @@ class ThreadedLbfgs {
     const Buffer<float>& direction = last.direction;
     bool whole = true;  // `work_` contains the end of a full step
     const LinePoint start = {0, value_, slope};
-    const LinePoint end = !(slope < 0) ? start : SearchLine(start, [&](double step) {
+    double longest = std::numeric_limits<double>::infinity();
+    if (options_.longest_step) {
+      longest = shortening_ * options_.longest_step(x_.get(), direction.get());
+    }
+    const auto evaluate = [&](double step) {
       if (!whole || step != 1) {
         ForChunks(size_, 0, [&](size_t begin, size_t count, double*) {
           Combine(&x_[begin], step, &direction[begin], &work_[begin], count);
@@ -249,11 +256,19 @@ class ThreadedLbfgs {
         sums[0] += Dot(&direction[begin], &trial_gradient_[begin], count);
       })[0];
       return LinePoint{step, value, trial_slope};
-    });
+    };
+    const LinePoint end = slope < 0 ? SearchLine(start, evaluate, longest) : start;
     if (end.step == 0) {
       history_.pop_back();
       return false;
     }
+    refused_ = options_.allows && !options_.allows(work_.get());
+    if (refused_) {
+      StayHere();
+      return true;
+    }
+    cut_ = end.step == longest;
+    shortening_ = 1;
     x_.swap(work_);
     value_ = end.value;
     const int pairs = static_cast<int>(history_.size());
@@ -285,6 +300,21 @@ class ThreadedLbfgs {
     return true;
   }
 
+  // After a point was refused: the objective may be another one.
+  void StayHere() {
+    history_.pop_back();
+    shortening_ /= 2;
+    value_ = Evaluate(x_, gradient_.get());
+    const int pairs = static_cast<int>(history_.size());
+    const std::vector<double> products =
+        ForChunks(size_, pairs, [&](size_t begin, size_t count, double* sums) {
+          for (int i = 0; i < pairs; ++i) {
+            sums[i] += Dot(&history_[i].direction[begin], &gradient_[begin], count);
+          }
+        });
+    for (int i = 0; i < pairs; ++i) history_[i].step_gradient = history_[i].length * products[i];
+  }
+
   const Objective& energy_;
   const Precondition& precondition_;
   const MinimiseOptions& options_;
@@ -294,6 +324,9 @@ class ThreadedLbfgs {
   double value_ = 0, unit_ = 1, scale_ = 1;
   bool fresh_ = true;          // no history influences the direction
   bool fresh_change_ = false;  // the last pair's change has not been preconditioned yet
+  bool refused_ = false;       // the last search's point was not allowed
+  bool cut_ = false;           // the last step was as long as allowed
+  double shortening_ = 1;      // of the longest step, after points were refused
   std::vector<Pair> history_;  // oldest first
   MinimiseResult result_;
 };
@@ -318,12 +351,8 @@ MinimiseResult MinimiseThreadedLbfgs(const Objective& energy, const Precondition
 MinimiseResult MinimiseThreadedLbfgs(PathEnergy* energy, Preconditioner* preconditioner,
                                      const MinimiseOptions& options,
                                      std::vector<double>* unknowns) {
-  return MinimiseThreadedLbfgs(
-      ObjectiveOf(energy),
-      [&](const double* gradient, double unit, double* result) {
-        preconditioner->Apply(gradient, unit, result);
-      },
-      options, unknowns);
+  return MinimiseThreadedLbfgs(ObjectiveOf(energy), PreconditionOf(preconditioner), options,
+                               unknowns);
 }
 
 }  // namespace shapespace::internal

@@ -41,6 +41,15 @@ inline const char* Key(bool converged, bool cancelled) {
   return cancelled ? "cancelled" : converged ? "converged" : "not_converged";
 }
 
+/// A line of a report; empty if contact was not to be avoided (-1 segments).
+inline std::string ContactText(int uncertified_segments, double contact_distance) {
+  return uncertified_segments < 0 ? std::string()
+                                  : Format(
+                                        "Contact           %d segments not shown to be free of it; "
+                                        "least distance %.4g\n",
+                                        uncertified_segments, contact_distance);
+}
+
 inline std::string VolumeText(const ShapeError& error) {
   return std::isfinite(error.volume) ? Format("volume %+.3g%%", 100 * error.volume)
                                      : "volume n/a (the mesh is not closed)";

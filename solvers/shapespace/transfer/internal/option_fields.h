@@ -40,6 +40,8 @@ void ForOptions(Of<TransferOptions>, const Visit& visit) {
   visit("max_iterations", &TransferOptions::max_iterations, "Of the method 'features', a shape.");
   visit("hybrids", &TransferOptions::hybrids,
         "Make the bodies half way between source and target too.");
+  visit("avoid_contact", &TransferOptions::avoid_contact,
+        "Whether the target must not pass through itself: parts slide along each other.");
   visit("ladder", &TransferOptions::ladder, "Of the ladder, and of hybrids.");
   visit("memory_limit", &TransferOptions::memory_limit,
         "Bytes that the transfer may take; an estimate above it is refused at once.");

@@ -34,6 +34,8 @@ void ForFields(Of<TransferSummary>, const Visit& visit) {
   visit("strain_rms", &TransferSummary::strain_rms);
   visit("strain_max", &TransferSummary::strain_max);
   visit("angle_rms", &TransferSummary::angle_rms);
+  visit("uncertified_segments", &TransferSummary::uncertified_segments);
+  visit("contact_distance", &TransferSummary::contact_distance);
   visit("cancelled", &TransferSummary::cancelled);
   visit("estimated_bytes", &TransferSummary::estimated_bytes);
   visit("total_seconds", &TransferSummary::total_seconds);

@@ -1,0 +1,396 @@
+#include <shapespace/analysis/near_pairs.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/parallel.h>
+
+namespace shapespace {
+namespace {
+
+using Eigen::Vector3d;
+
+// The lengths of all edges, the mean of those in some shapes.
+Eigen::VectorXd MeanEdgeLengths(const Connectivity& connectivity,
+                                const std::vector<Shape>& shapes) {
+  Eigen::VectorXd lengths = Eigen::VectorXd::Zero(connectivity.NumEdges());
+  for (const Shape& shape : shapes) {
+    for (int e = 0; e < connectivity.NumEdges(); ++e) {
+      const auto edge = connectivity.Edges().col(e);
+      lengths(e) +=
+          (shape.col(edge(1)) - shape.col(edge(0))).norm() / static_cast<double>(shapes.size());
+    }
+  }
+  return lengths;
+}
+
+std::vector<double> LengthsAtVertices(const Connectivity& connectivity,
+                                      const Eigen::VectorXd& edges) {
+  std::vector<double> lengths(connectivity.NumVertices(), 0);
+  for (int v = 0; v < connectivity.NumVertices(); ++v) {
+    const auto around = connectivity.EdgesOfVertices()[v];
+    for (const int e : around) lengths[v] += edges(e) / around.size();
+  }
+  return lengths;
+}
+
+// The neighbours of a vertex on the surface as NearPairs defines them, but for symmetry.
+std::vector<int> NeighboursOf(int vertex, const Connectivity& connectivity,
+                              const Eigen::VectorXd& edges, double within) {
+  struct Reached {
+    int vertex, steps;
+    double distance;
+  };
+  std::vector<Reached> reached = {{vertex, 0, 0}};
+  // Whoever is reached in fewer steps or on a shorter way than before passes it on.
+  std::vector<size_t> queue = {0};
+  for (size_t next = 0; next < queue.size(); ++next) {
+    const Reached at = reached[queue[next]];
+    for (const int e : connectivity.EdgesOfVertices()[at.vertex]) {
+      const Reached end = {connectivity.OtherEnd(e, at.vertex), at.steps + 1,
+                           at.distance + edges(e)};
+      if (end.steps > 2 && end.distance > within) continue;
+      const size_t i = std::find_if(reached.begin(), reached.end(),
+                                    [&](const Reached& r) { return r.vertex == end.vertex; }) -
+                       reached.begin();
+      if (i == reached.size()) {
+        reached.push_back(end);
+      } else if (end.steps < reached[i].steps || end.distance < reached[i].distance) {
+        reached[i].steps = std::min(reached[i].steps, end.steps);
+        reached[i].distance = std::min(reached[i].distance, end.distance);
+      } else {
+        continue;
+      }
+      queue.push_back(i);
+    }
+  }
+  std::vector<int> found;
+  for (const Reached& r : reached) found.push_back(r.vertex);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+IndexLists ToLists(const std::vector<std::vector<int>>& rows) {
+  std::vector<int> begin = {0}, items;
+  for (const std::vector<int>& row : rows) {
+    items.insert(items.end(), row.begin(), row.end());
+    begin.push_back(static_cast<int>(items.size()));
+  }
+  return {std::move(begin), std::move(items)};
+}
+
+IndexLists Neighbours(const Connectivity& connectivity, const Eigen::VectorXd& edges,
+                      const std::vector<double>& lengths,
+                      const std::vector<std::pair<int, int>>& more) {
+  constexpr double kLengths = 2;
+  std::vector<std::vector<int>> rows(connectivity.NumVertices());
+  ParallelFor(connectivity.NumVertices(), [&](int v) {
+    rows[v] = NeighboursOf(v, connectivity, edges, kLengths * lengths[v]);
+  });
+  std::vector<std::vector<int>> both = rows;
+  for (int v = 0; v < connectivity.NumVertices(); ++v) {
+    for (const int w : rows[v]) {
+      if (!std::binary_search(rows[w].begin(), rows[w].end(), v)) both[w].push_back(v);
+    }
+  }
+  for (const auto& [v, w] : more) {
+    both[v].push_back(w);
+    both[w].push_back(v);
+  }
+  for (std::vector<int>& row : both) {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+  }
+  return ToLists(both);
+}
+
+// Row t: the elements whose first triangle is t.
+IndexLists OwnedBy(int num_triangles, const IndexLists& triangles_of_elements) {
+  std::vector<std::vector<int>> rows(num_triangles);
+  for (int i = 0; i < triangles_of_elements.NumRows(); ++i) {
+    if (triangles_of_elements[i].size() > 0) rows[triangles_of_elements[i][0]].push_back(i);
+  }
+  return ToLists(rows);
+}
+
+bool ShareCorner(const Eigen::Vector3i& s, const Eigen::Vector3i& t) {
+  return (s.array() == t(0)).any() || (s.array() == t(1)).any() || (s.array() == t(2)).any();
+}
+
+}  // namespace
+
+namespace internal {
+
+// A box at the beginning and at the end of a motion.
+struct MovingBox {
+  Vector3d low[2], high[2];
+};
+
+}  // namespace internal
+
+namespace {
+
+using internal::MovingBox;
+
+void Extend(MovingBox* box, const MovingBox& by) {
+  for (int end = 0; end < 2; ++end) {
+    box->low[end] = box->low[end].cwiseMin(by.low[end]);
+    box->high[end] = box->high[end].cwiseMax(by.high[end]);
+  }
+}
+
+// A part of the motion.
+struct Times {
+  double begin = 0, end = 1;
+};
+
+// Restricts `times` to those at which a gap that changes linearly is at most 0; returns whether
+// there are any.
+bool Restrict(double first, double last, Times* times) {
+  if (first <= 0 && last <= 0) return true;
+  if (first > 0 && last > 0) return false;
+  const double zero = first / (first - last);
+  (first > 0 ? times->begin : times->end) =
+      first > 0 ? std::max(times->begin, zero) : std::min(times->end, zero);
+  return times->begin <= times->end;
+}
+
+bool Meet(const MovingBox& a, const MovingBox& b, double reach, Times* times) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!Restrict(a.low[0](axis) - b.high[0](axis) - reach,
+                  a.low[1](axis) - b.high[1](axis) - reach, times) ||
+        !Restrict(b.low[0](axis) - a.high[0](axis) - reach,
+                  b.low[1](axis) - a.high[1](axis) - reach, times)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+// One search: the boxes of its motion, and what it finds. Searches within small parts of the tree
+// and between them are tasks, which run on all threads; what they find is joined in their order.
+class NearPairs::Search {
+ public:
+  Search(const NearPairs& pairs, const Shape& from, const Shape& to, double share, double margin)
+      : pairs_(pairs),
+        from_(from),
+        to_(to),
+        share_(share),
+        margin_(margin),
+        boxes_(pairs.nodes_.size()),
+        edge_boxes_(pairs.connectivity_->NumTriangleEdges()) {
+    const Connectivity& connectivity = *pairs.connectivity_;
+    for (int e = 0; e < connectivity.NumTriangleEdges(); ++e) {
+      edge_boxes_[e] = Around(connectivity.Edges()(0, e));
+      Extend(&edge_boxes_[e], Around(connectivity.Edges()(1, e)));
+    }
+    for (int i = static_cast<int>(boxes_.size()) - 1; i >= 0; --i) {
+      const Node& node = pairs.nodes_[i];
+      if (node.right < 0) {
+        const auto corners = connectivity.Triangles().col(node.left);
+        boxes_[i] = Around(corners(0));
+        Extend(&boxes_[i], Around(corners(1)));
+        Extend(&boxes_[i], Around(corners(2)));
+      } else {
+        boxes_[i] = boxes_[node.left];
+        Extend(&boxes_[i], boxes_[node.right]);
+      }
+    }
+  }
+
+  std::vector<NearPair> Run() {
+    Within(0, nullptr);
+    std::vector<std::vector<NearPair>> found(tasks_.size());
+    ParallelFor(static_cast<int>(tasks_.size()), [&](int i) {
+      const auto [a, b] = tasks_[i];
+      if (a == b) {
+        Within(a, &found[i]);
+      } else {
+        Between(a, b, &found[i]);
+      }
+    });
+    std::vector<NearPair> all;
+    for (const std::vector<NearPair>& part : found) all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }
+
+ private:
+  // Nodes with fewer triangles are searched in one task.
+  static constexpr int kTaskTriangles = 256;
+
+  MovingBox Around(int vertex) const {
+    return {{from_.col(vertex), to_.col(vertex)}, {from_.col(vertex), to_.col(vertex)}};
+  }
+
+  // All pairs within a node, and between two. What is small becomes a task if `found` is null.
+  void Within(int node, std::vector<NearPair>* found) {
+    const Node& n = pairs_.nodes_[node];
+    if (n.right < 0 || !n.moves) return;
+    if (found == nullptr && n.triangles < kTaskTriangles) {
+      tasks_.push_back({node, node});
+      return;
+    }
+    Within(n.left, found);
+    Within(n.right, found);
+    Between(n.left, n.right, found);
+  }
+
+  void Between(int a, int b, std::vector<NearPair>* found) {
+    const Node &first = pairs_.nodes_[a], &second = pairs_.nodes_[b];
+    if (!first.moves && !second.moves) return;
+    Times times;
+    if (!Meet(boxes_[a], boxes_[b], share_ * std::min(first.length, second.length) + margin_,
+              &times)) {
+      return;
+    }
+    if (found == nullptr && std::max(first.triangles, second.triangles) < kTaskTriangles) {
+      tasks_.push_back({a, b});
+    } else if (first.triangles == 1 && second.triangles == 1) {
+      AddElements(a, b, found);
+    } else if (first.triangles >= second.triangles) {
+      Between(first.left, b, found);
+      Between(first.right, b, found);
+    } else {
+      Between(a, second.left, found);
+      Between(a, second.right, found);
+    }
+  }
+
+  void AddElements(int a, int b, std::vector<NearPair>* found) const {
+    const int s = pairs_.nodes_[a].left, t = pairs_.nodes_[b].left;
+    const Connectivity& connectivity = *pairs_.connectivity_;
+    // All elements of triangles with a common corner are neighbours.
+    if (ShareCorner(connectivity.Triangles().col(s), connectivity.Triangles().col(t))) return;
+    for (const auto& [owner, other, box] :
+         {std::make_tuple(s, t, &boxes_[b]), {t, s, &boxes_[a]}}) {
+      const auto corners = connectivity.Triangles().col(other);
+      for (const int v : pairs_.vertices_of_triangles_[owner]) {
+        Add(PairKind::kVertexTriangle, {v, corners(0), corners(1), corners(2)}, Around(v), *box,
+            found);
+      }
+    }
+    for (const int i : pairs_.edges_of_triangles_[s]) {
+      for (const int j : pairs_.edges_of_triangles_[t]) {
+        const int e = std::min(i, j), f = std::max(i, j);
+        const auto first = connectivity.Edges().col(e), second = connectivity.Edges().col(f);
+        Add(PairKind::kEdgeEdge, {first(0), first(1), second(0), second(1)}, edge_boxes_[e],
+            edge_boxes_[f], found);
+      }
+    }
+  }
+
+  void Add(PairKind kind, const std::array<int, 4>& vertices, const MovingBox& first,
+           const MovingBox& second, std::vector<NearPair>* found) const {
+    NearPair pair = {kind, vertices, 0, 1};
+    Times times;
+    if (!Meet(first, second, share_ * pairs_.Length(pair) + margin_, &times)) return;
+    if (pairs_.AreNeighbours(pair)) return;
+    if (*std::min_element(vertices.begin(), vertices.end()) >= pairs_.num_moving_) return;
+    // Rounded outwards to single precision.
+    pair.begin = std::nextafter(static_cast<float>(times.begin), -1.f);
+    pair.end = std::nextafter(static_cast<float>(times.end), 2.f);
+    found->push_back(pair);
+  }
+
+  const NearPairs& pairs_;
+  const Shape &from_, &to_;
+  const double share_, margin_;
+  std::vector<MovingBox> boxes_;       // by node
+  std::vector<MovingBox> edge_boxes_;  // by edge
+  std::vector<std::pair<int, int>> tasks_;
+};
+
+NearPairs::NearPairs(std::shared_ptr<const Connectivity> connectivity,
+                     const std::vector<Shape>& shapes, int num_moving,
+                     const std::vector<std::pair<int, int>>& exempt)
+    : connectivity_(std::move(connectivity)), num_moving_(num_moving) {
+  const int num_triangles = connectivity_->NumTriangles();
+  if (num_triangles == 0) throw MeshError("contact: the mesh has no triangles");
+  for (const Shape& shape : shapes) {
+    if (shape.cols() != connectivity_->NumVertices() || !shape.allFinite()) {
+      throw MeshError(
+          "contact: a shape is not finite, or has another number of vertices than the mesh");
+    }
+  }
+  const Eigen::VectorXd edges = MeanEdgeLengths(*connectivity_, shapes);
+  lengths_ = LengthsAtVertices(*connectivity_, edges);
+  neighbours_ = Neighbours(*connectivity_, edges, lengths_, exempt);
+  vertices_of_triangles_ = OwnedBy(num_triangles, connectivity_->TrianglesOfVertices());
+  edges_of_triangles_ = OwnedBy(num_triangles, connectivity_->TrianglesOfEdges());
+  Shape centres(3, num_triangles);
+  for (int t = 0; t < num_triangles; ++t) {
+    const auto corners = connectivity_->Triangles().col(t);
+    centres.col(t) = shapes.front().col(corners(0)) + shapes.front().col(corners(1)) +
+                     shapes.front().col(corners(2));
+  }
+  std::vector<int> order(num_triangles);
+  std::iota(order.begin(), order.end(), 0);
+  nodes_.reserve(2 * static_cast<size_t>(num_triangles));
+  Build(centres, order.data(), order.data() + num_triangles);
+}
+
+// Halves the triangles along the longest side of the box of their centres; returns the node.
+int NearPairs::Build(const Shape& centres, int* begin, int* end) {
+  const int index = static_cast<int>(nodes_.size());
+  nodes_.emplace_back();
+  Node node = {*begin, -1, static_cast<int>(end - begin), 0, false};
+  if (end - begin == 1) {
+    for (int k = 0; k < 3; ++k) {
+      const int v = connectivity_->Triangles()(k, *begin);
+      node.length = std::max(node.length, lengths_[v]);
+      node.moves = node.moves || v < num_moving_;
+    }
+  } else {
+    Vector3d low = centres.col(*begin), high = low;
+    for (const int* t = begin; t != end; ++t) {
+      low = low.cwiseMin(centres.col(*t));
+      high = high.cwiseMax(centres.col(*t));
+    }
+    int axis;
+    (high - low).maxCoeff(&axis);
+    int* const middle = begin + (end - begin) / 2;
+    std::nth_element(begin, middle, end, [&](int s, int t) {
+      return std::make_pair(centres(axis, s), s) < std::make_pair(centres(axis, t), t);
+    });
+    node.left = Build(centres, begin, middle);
+    node.right = Build(centres, middle, end);
+    node.length = std::max(nodes_[node.left].length, nodes_[node.right].length);
+    node.moves = nodes_[node.left].moves || nodes_[node.right].moves;
+  }
+  nodes_[index] = node;
+  return index;
+}
+
+double NearPairs::Length(const NearPair& pair) const {
+  double least = lengths_[pair.vertices[0]];
+  for (const int v : pair.vertices) least = std::min(least, lengths_[v]);
+  return least;
+}
+
+bool NearPairs::AreNeighbours(int v, int w) const {
+  const auto row = neighbours_[v];
+  return std::binary_search(row.begin(), row.end(), w);
+}
+
+bool NearPairs::AreNeighbours(const NearPair& pair) const {
+  const int first = FirstElementSize(pair.kind);
+  for (int i = 0; i < first; ++i) {
+    for (int j = first; j < 4; ++j) {
+      if (AreNeighbours(pair.vertices[i], pair.vertices[j])) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<NearPair> NearPairs::Find(const Shape& from, const Shape& to, double share,
+                                      double margin) const {
+  return Search(*this, from, to, share, margin).Run();
+}
+
+}  // namespace shapespace

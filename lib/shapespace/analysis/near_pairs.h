@@ -1,0 +1,83 @@
+#ifndef SHAPESPACE_ANALYSIS_NEAR_PAIRS_H_
+#define SHAPESPACE_ANALYSIS_NEAR_PAIRS_H_
+
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <shapespace/analysis/distance.h>
+#include <shapespace/mesh/connectivity.h>
+#include <shapespace/mesh/shape.h>
+
+namespace shapespace {
+
+/// Two elements of a surface that may be near to each other during a part of a motion.
+struct NearPair {
+  PairKind kind;
+  std::array<int, 4> vertices;  ///< in the order of `PairKind`; of two edges the one with the
+                                ///< smaller index is first
+  float begin, end;             ///< the part of the motion, within 0 and 1
+
+  FourPoints At(const Shape& shape) const {
+    FourPoints points;
+    for (int k = 0; k < 4; ++k) points.col(k) = shape.col(vertices[k]);
+    return points;
+  }
+};
+
+/// Finds which parts of a surface come near to others while all vertices move on straight lines.
+/// Elements that are neighbours on the surface do not count: those with vertices that are joined by
+/// at most two edges, or by edges with a sum of at most twice the length at one of the vertices
+/// (the mean of its edges' lengths). Vertices that belong to no triangle do not count either.
+///
+/// The triangles are kept in a tree of boxes, which is made once. For each motion the boxes at both
+/// ends are computed, and boxes in between lie between these. Immutable, so several threads may
+/// search at once.
+class NearPairs {
+ public:
+  /// Lengths are the mean of those in `shapes`, at least one. The vertices from `num_moving` on
+  /// never move, and pairs of elements with no other vertices do not count. The vertices of each of
+  /// `exempt` count as neighbours too. \throw MeshError if there is no triangle, or a shape is not
+  /// finite or has another number of
+  ///        vertices.
+  NearPairs(std::shared_ptr<const Connectivity> connectivity, const std::vector<Shape>& shapes,
+            int num_moving, const std::vector<std::pair<int, int>>& exempt = {});
+
+  /// The length at a vertex.
+  double Length(int vertex) const { return lengths_[vertex]; }
+  /// The least of the lengths at a pair's vertices.
+  double Length(const NearPair& pair) const;
+
+  /// All pairs that, at some time of the motion, may be nearer to each other than `share` times
+  /// their length, plus `margin`. Those that are not are farther away at all times. In an order
+  /// that depends on nothing but the arguments.
+  std::vector<NearPair> Find(const Shape& from, const Shape& to, double share, double margin) const;
+
+ private:
+  struct Node {
+    int left, right;  // children; of a leaf: the triangle, and -1
+    int triangles;
+    double length;  // greatest at any vertex
+    bool moves;
+  };
+  class Search;
+
+  int Build(const Shape& centres, int* begin, int* end);
+  bool AreNeighbours(int v, int w) const;
+  bool AreNeighbours(const NearPair& pair) const;
+
+  std::shared_ptr<const Connectivity> connectivity_;
+  int num_moving_;
+  std::vector<double> lengths_;
+  IndexLists neighbours_;  // by vertex, ascending, itself included
+  IndexLists
+      neighbour_triangles_;  // by triangle, ascending: those all of whose elements are neighbours
+  std::vector<Node> nodes_;  // children after their parents
+  // Each vertex and each edge belongs to one of its triangles, so that pairs are found once.
+  IndexLists vertices_of_triangles_, edges_of_triangles_;
+};
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_ANALYSIS_NEAR_PAIRS_H_

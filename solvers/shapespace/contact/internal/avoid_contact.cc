@@ -1,0 +1,174 @@
+#include <shapespace/contact/internal/avoid_contact.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include <shapespace/base/parallel.h>
+#include <shapespace/contact/internal/follow.h>
+#include <shapespace/contact/internal/path_contact.h>
+#include <shapespace/mesh/rigid_motion.h>
+#include <shapespace/numerics/internal/preconditioner.h>
+#include <shapespace/path/energy.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Divides the straight ways between `states` into `segments` parts in all, so that the longest is
+// short.
+std::vector<Shape> Divide(const Metric& metric, const std::vector<Shape>& states, int segments) {
+  const std::vector<double> lengths = ChordLengths(metric, states);
+  std::vector<int> parts(lengths.size(), 1);
+  for (int rest = segments - static_cast<int>(parts.size()); rest > 0; --rest) {
+    size_t longest = 0;
+    for (size_t i = 0; i < parts.size(); ++i) {
+      if (lengths[i] / parts[i] > lengths[longest] / parts[longest]) longest = i;
+    }
+    ++parts[longest];
+  }
+  std::vector<Shape> shapes = {states.front()};
+  for (size_t i = 0; i < parts.size(); ++i) {
+    for (int k = 1; k <= parts[i]; ++k) {
+      const double t = static_cast<double>(k) / parts[i];
+      shapes.push_back((1 - t) * states[i] + t * states[i + 1]);
+    }
+  }
+  return shapes;
+}
+
+MinimiseResult Relax(const ContactModel& model, const CholeskyFactor<float>& factor,
+                     double stiffness, MinimiseOptions options, std::vector<Shape>* shapes) {
+  const int segments = static_cast<int>(shapes->size()) - 1;
+  PathEnergy energy(model.GetMetric(), segments - 1);
+  Preconditioner preconditioner(factor, energy);
+  std::vector<double> unknowns(energy.Size());
+  energy.Load(*shapes, unknowns.data());
+  PathContact contact(model, energy, *shapes, PathContact::Segments(segments + 1),
+                      PathContact::kTimes);
+  options.rank = HistoryRank(static_cast<double>(unknowns.size()));
+  contact.Limit(&options);
+  const MinimiseResult result = MinimiseThreadedLbfgs(
+      [&](const double* x, double* gradient) {
+        const double value = energy.Evaluate(x, gradient);
+        return value + contact.Evaluate(x, 2 * stiffness / segments, gradient);
+      },
+      PreconditionOf(&preconditioner), options, &unknowns);
+  energy.Store(unknowns.data(), shapes);
+  return result;
+}
+
+}  // namespace
+
+std::vector<int> SegmentsWithContact(const ContactModel& model, const std::vector<Shape>& shapes) {
+  const int segments = static_cast<int>(shapes.size()) - 1;
+  std::vector<char> free(segments);
+  ParallelFor(segments, [&](int i) { free[i] = model.IsFree(shapes[i], shapes[i + 1]) ? 1 : 0; });
+  std::vector<int> found;
+  for (int i = 0; i < segments; ++i) {
+    if (!free[i]) found.push_back(i);
+  }
+  return found;
+}
+
+double LeastDistance(const ContactModel& model, const std::vector<Shape>& shapes) {
+  const int segments = static_cast<int>(shapes.size()) - 1;
+  std::vector<double> least(segments, std::numeric_limits<double>::infinity());
+  ParallelFor(segments, [&](int i) {
+    const Shape &from = shapes[i], &to = shapes[i + 1];
+    for (const NearPair& pair : model.Find(from, to, ContactModel::kReach, 0)) {
+      for (int t = 0; t <= PathContact::kTimes; ++t) {
+        const double time = static_cast<double>(t) / PathContact::kTimes;
+        if (time < pair.begin || time > pair.end) continue;
+        const FourPoints points = (1 - time) * model.At(pair, from) + time * model.At(pair, to);
+        least[i] = std::min(least[i], NearestPoints(pair.kind, points).Distance());
+      }
+    }
+  });
+  return *std::min_element(least.begin(), least.end());
+}
+
+namespace {
+
+// Without the rigid motions of inner shapes that contact has caused, unless something touches then.
+std::vector<Shape> WithoutDrift(const ContactModel& model, const std::vector<Shape>& shapes) {
+  if (model.HasObstacle() || !model.GetMetric()->RigidInvariantButForPosition()) return shapes;
+  std::vector<Shape> moved = shapes;
+  RemoveRigidDrift(&moved, model.GetMetric()->vertex_area);
+  return SegmentsWithContact(model, moved).empty() ? moved : shapes;
+}
+
+// A way from the first shape of `guide` to the last, or else from the last to the first.
+FreeWay FollowFromEitherEnd(const ContactModel& model, const Draw& draw, double stiffness,
+                            std::vector<Shape> guide, const std::function<bool()>& go_on) {
+  FreeWay way = Follow(model, draw, stiffness, guide, go_on);
+  if (way.arrives) return way;
+  std::reverse(guide.begin(), guide.end());
+  way = Follow(model, draw, stiffness, guide, go_on);
+  std::reverse(way.shapes.begin(), way.shapes.end());
+  return way;
+}
+
+// With the position at a cost that draws a body through an opening in which it has to become
+// narrower, and keeps it from rigid motion in steps of the solver, which contact would cut short.
+std::shared_ptr<const Metric> WithCostOfPosition(const Metric& metric,
+                                                 const std::vector<Shape>& poses) {
+  constexpr double kCostOfPosition = 1;
+  MetricOptions options = metric.options;
+  options.lambda = std::max(options.lambda, kCostOfPosition);
+  return FreezeMetric(options, metric.connectivity, poses, 1);
+}
+
+}  // namespace
+
+double EnergyAlong(const Metric& metric, const std::vector<Shape>& shapes) {
+  const std::vector<double> lengths = ChordLengths(metric, shapes);
+  const double length = std::accumulate(lengths.begin(), lengths.end(), 0.);
+  return length * length / 2;
+}
+
+ContactFreePath AvoidContact(const ContactModel& model, const CholeskyFactor<float>& factor,
+                             double energy, const std::vector<Shape>& guide, int segments,
+                             const MinimiseOptions& options) {
+  ContactFreePath result;
+  const auto go_on = [&] { return !options.keep_going || options.keep_going(0, 0); };
+  const std::shared_ptr<const Metric>& metric = model.GetMetric();
+  std::optional<CholeskyFactor<float>> its_factor;
+  const CholeskyFactor<float>* preconditioner = &factor;
+  FreeWay way;
+  if (model.HasObstacle()) {
+    const std::vector<Shape> poses = {guide.front(), guide.back()};
+    const auto drawing = WithCostOfPosition(*metric, poses);
+    its_factor.emplace(ScalarMetric(*drawing, poses, 0));
+    preconditioner = &*its_factor;
+    // The distance is mainly one of position, of which a step gains a small share.
+    way = FollowFromEitherEnd(model, {drawing, *its_factor, 1e-4, 300},
+                              kContactStiffness * EnergyAlong(*drawing, guide), guide, go_on);
+    energy = EnergyAlong(*metric, way.shapes);
+  } else {
+    way = FollowFromEitherEnd(model, {metric, factor, 1e-2, 100}, kContactStiffness * energy, guide,
+                              go_on);
+  }
+  if (!way.arrives) return result;
+
+  std::vector<Shape> states = Shorten(model, std::move(way.shapes), segments);
+  // A way with more straight parts than that needs fewer of them once it is relaxed.
+  while (true) {
+    const int parts = static_cast<int>(states.size()) - 1;
+    const int multiple = (parts + segments - 1) / segments;
+    states = WithoutDrift(model, Divide(*metric, states, multiple * segments));
+    result.result = Relax(model, *preconditioner, kContactStiffness * energy, options, &states);
+    if (multiple == 1) {
+      result.shapes = WithoutDrift(model, states);
+      return result;
+    }
+    states = Shorten(model, std::move(states), segments);
+    result.parts = static_cast<int>(states.size()) - 1;
+    if (result.parts >= parts || !go_on()) return result;
+  }
+}
+
+}  // namespace shapespace::internal

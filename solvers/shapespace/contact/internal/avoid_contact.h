@@ -1,0 +1,52 @@
+#ifndef SHAPESPACE_CONTACT_INTERNAL_AVOID_CONTACT_H_
+#define SHAPESPACE_CONTACT_INTERNAL_AVOID_CONTACT_H_
+
+#include <vector>
+
+#include <shapespace/contact/internal/contact_model.h>
+#include <shapespace/numerics/internal/cholesky.h>
+#include <shapespace/numerics/internal/minimise.h>
+
+namespace shapespace::internal {
+
+/// The weight of contact, as a multiple of the energy of the path with contact. With a tenth of it
+/// parts come so near to each other that they touch between the times of the potential. Past an
+/// obstacle, which may be in the way of a rigid motion without energy, of that of the free way.
+constexpr double kContactStiffness = 3;
+
+/// Levels of a hierarchy with fewer triangles have too little detail for the way round to be the
+/// mesh's own.
+constexpr int kFewestTrianglesOfContact = 800;
+
+/// A path during which nothing touches, if one was found.
+struct ContactFreePath {
+  std::vector<Shape> shapes;  ///< empty if there is none
+  int parts = 0;              ///< if it needs more straight parts than there are to be segments
+  MinimiseResult result;      ///< of the energy with the contact potential
+};
+
+/// Half the squared length of a polyline, the energy of a path along it with constant speed.
+double EnergyAlong(const Metric& metric, const std::vector<Shape>& shapes);
+
+/// The segments during whose straight motion something touches.
+std::vector<int> SegmentsWithContact(const ContactModel& model, const std::vector<Shape>& shapes);
+
+/// The least distance of two parts at some times of each segment; infinite if none come nearer than
+/// the potential reaches.
+double LeastDistance(const ContactModel& model, const std::vector<Shape>& shapes);
+
+/// Finds a way from the first shape of `guide` to its last round whatever is touched in between,
+/// starting at one of the ends (`Follow`), shortens it, and minimises
+///   E(P) + (2 kappa / n^2) sum_i B_i
+/// over all paths of n segments without contact, with the potential B_i of segment i
+/// (motion_contact.h). `factor` is that of the scalar metric, `energy` that of the path with
+/// contact, to which kappa is proportional unless there is an obstacle. If the way has more than n
+/// straight parts, the path is relaxed with a multiple of n segments first, and then shortened
+/// again.
+ContactFreePath AvoidContact(const ContactModel& model, const CholeskyFactor<float>& factor,
+                             double energy, const std::vector<Shape>& guide, int segments,
+                             const MinimiseOptions& options);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_CONTACT_INTERNAL_AVOID_CONTACT_H_

@@ -1,0 +1,30 @@
+#include <shapespace/contact/obstacle.h>
+
+#include <shapespace/base/error.h>
+
+namespace shapespace {
+
+void Obstacle::Validate() const {
+  if (connectivity == nullptr || connectivity->NumTriangles() == 0) {
+    throw MeshError("obstacle: it has no triangles");
+  }
+  if (shape.cols() != connectivity->NumVertices() || !shape.allFinite()) {
+    throw MeshError("obstacle: its shape is not finite, or has another number of vertices");
+  }
+}
+
+std::shared_ptr<const Connectivity> Obstacle::Joined(
+    const std::shared_ptr<const Connectivity>& body) const {
+  Eigen::Matrix3Xi triangles(3, body->NumTriangles() + connectivity->NumTriangles());
+  triangles << body->Triangles(),
+      (connectivity->Triangles().array() + body->NumVertices()).matrix();
+  return Connectivity::FromTriangles(body->NumVertices() + connectivity->NumVertices(), triangles);
+}
+
+Shape Obstacle::Joined(const Shape& body) const {
+  Shape both(3, body.cols() + shape.cols());
+  both << body, shape;
+  return both;
+}
+
+}  // namespace shapespace

@@ -1,0 +1,28 @@
+#ifndef SHAPESPACE_CONTACT_OBSTACLE_H_
+#define SHAPESPACE_CONTACT_OBSTACLE_H_
+
+#include <memory>
+
+#include <shapespace/mesh/connectivity.h>
+#include <shapespace/mesh/shape.h>
+
+namespace shapespace {
+
+/// A surface that does not move, which a body is not to touch: a wall, a floor, a piece of
+/// furniture. It may be open and may consist of several parts.
+struct Obstacle {
+  std::shared_ptr<const Connectivity> connectivity;
+  Shape shape;  ///< in the frame and the unit of the body's poses
+
+  /// \throw MeshError if it has no triangle, or the shape is not finite or has another number of
+  ///        vertices.
+  void Validate() const;
+
+  /// The surface of a body, followed by that of the obstacle: its triangles, and a shape.
+  std::shared_ptr<const Connectivity> Joined(const std::shared_ptr<const Connectivity>& body) const;
+  Shape Joined(const Shape& body) const;
+};
+
+}  // namespace shapespace
+
+#endif  // SHAPESPACE_CONTACT_OBSTACLE_H_

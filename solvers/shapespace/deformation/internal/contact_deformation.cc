@@ -1,0 +1,112 @@
+#include <shapespace/deformation/internal/contact_deformation.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <shapespace/contact/internal/follow.h>
+#include <shapespace/contact/internal/path_contact.h>
+#include <shapespace/geodesic/internal/arc_length.h>
+#include <shapespace/path/path.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Steps in which the handles are followed, at least.
+constexpr int kSteps = 24;
+
+class HandleFollower {
+ public:
+  HandleFollower(const ContactModel& model, double stiffness, HeldLevel* level)
+      : model_(model), stiffness_(stiffness), level_(*level) {}
+
+  // Moves the handles of a shape to their targets, and the rest of it near to `guide`. Returns
+  // false if something is in the way of the handles.
+  bool Move(const Shape& places, Shape guide, Shape* shape) {
+    level_.Place(places, true, &guide);
+    if (model_.IsFree(*shape, guide)) {
+      *shape = std::move(guide);
+      return true;
+    }
+    // A share of the way in each move, because the body gives way in between.
+    constexpr int kMostMoves = 40;
+    constexpr double kLeastShare = 1. / 128;
+    for (int move = 0; move < kMostMoves; ++move) {
+      const Shape moved = level_.WithHardHandlesAt(places, *shape);
+      double share = 1;
+      while (!model_.IsFree(*shape, Between(*shape, moved, share))) {
+        share /= 2;
+        if (share < kLeastShare) return false;
+      }
+      *shape = Between(*shape, moved, share);
+      GiveWay(places, guide, shape);
+      if (share == 1) return true;
+    }
+    return false;
+  }
+
+ private:
+  static Shape Between(const Shape& from, const Shape& to, double share) {
+    return share == 1 ? to : (1 - share) * from + share * to;
+  }
+
+  void GiveWay(const Shape& places, const Shape& guide, Shape* shape) {
+    MinimiseOptions options;
+    options.tolerance = 1e-2;
+    options.max_iterations = 100;
+    options.keep_going = UntilLittleIsGained(options.tolerance);
+    const ConstrainedPath::Contact contact = {model_, stiffness_, {{1, 1}}, 1};
+    std::vector<Shape> pair = {guide, *shape};
+    level_.Path().Relax(level_.Target(places), options, &pair, &contact);
+    *shape = std::move(pair[1]);
+  }
+
+  const ContactModel& model_;
+  const double stiffness_;
+  HeldLevel& level_;
+};
+
+// Motions from each shape to the next where they are free of contact; elsewhere the shapes alone.
+std::vector<PathContact::Motion> FreeMotions(const ContactModel& model,
+                                             const std::vector<Shape>& shapes) {
+  std::vector<PathContact::Motion> motions;
+  for (int i = 0; i + 1 < static_cast<int>(shapes.size()); ++i) {
+    if (model.IsFree(shapes[i], shapes[i + 1])) {
+      motions.push_back({i, i + 1});
+    } else {
+      motions.push_back({i + 1, i + 1});
+      if (i > 0) motions.push_back({i, i});
+    }
+  }
+  return motions;
+}
+
+}  // namespace
+
+ContactFreeDeformation DeformWithoutContact(const ContactModel& model, const HandleTargets& targets,
+                                            double stiffness, const std::vector<Shape>& guide,
+                                            const MinimiseOptions& options,
+                                            const std::function<bool()>& go_on, HeldLevel* level) {
+  const int segments = static_cast<int>(guide.size()) - 1;
+  const int between = (kSteps + segments - 1) / segments, steps = between * segments;
+  const std::vector<Shape> guides =
+      Resample(guide, UniformTimes(segments - 1), UniformTimes(steps - 1));
+  HandleFollower follower(model, stiffness, level);
+  ContactFreeDeformation result;
+  std::vector<Shape> shapes = {guide.front()};
+  Shape shape = guide.front();
+  for (int step = 1; step <= steps; ++step) {
+    if (!go_on()) return result;
+    const double time = static_cast<double>(step) / steps;
+    const Shape places = targets.At(time);
+    if (!follower.Move(places, guides[step], &shape)) return result;
+    result.reached = time;
+    if (step % between == 0) shapes.push_back(shape);
+  }
+  const ConstrainedPath::Contact contact = {model, 2 * stiffness / segments,
+                                            FreeMotions(model, shapes), PathContact::kTimes};
+  result.result = level->Path().Relax(level->Target(targets.At(1)), options, &shapes, &contact);
+  result.shapes = std::move(shapes);
+  return result;
+}
+
+}  // namespace shapespace::internal

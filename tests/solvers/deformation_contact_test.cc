@@ -1,0 +1,177 @@
+// Deformations in which the body does not pass through itself.
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/bodies/tube.h>
+#include <shapespace/deformation/deformation.h>
+#include <shapespace/mesh/connectivity.h>
+
+#include "support/cut_ring.h"
+#include "support/listener.h"
+#include "support/message_of.h"
+#include "support/threads.h"
+
+namespace shapespace {
+namespace {
+
+using testing::MostIntersections;
+
+// A round rod bent to nine tenths of a circle about the z axis. Its middle is held; one of its ends
+// is moved past the other.
+struct OpenRing {
+  explicit OpenRing(double of_unit = 1) : unit(of_unit) {
+    TubeForm form;
+    form.length = 6.9;
+    form.base_radius = form.tip_radius = 0.15;
+    form.knuckle = 0;
+    const ShapeFamily tube = MakeTube(1000, form);
+    connectivity = tube.connectivity;
+    rest = tube.pose(0);
+    const double curvature = 0.9 * 2 * M_PI / 6.9;
+    for (int v = 0; v < rest.cols(); ++v) {
+      const double along = rest(0, v), aside = rest(1, v), radius = 1 / curvature - rest(2, v);
+      const double angle = curvature * (along - 3.45);
+      rest.col(v) << radius * std::sin(angle), -radius * std::cos(angle), aside;
+      if (along > 6.7) last.push_back(v);
+      if (along < 0.2) first.push_back(v);
+      if (std::abs(along - 3.45) < 0.3) middle.push_back(v);
+    }
+    rest *= unit;
+  }
+  DeformationHandle Held(const std::vector<int>& vertices) const {
+    DeformationHandle handle;
+    handle.vertices = vertices;
+    return handle;
+  }
+  // The last end moves along the ring and a little to a side, through the first end.
+  DeformationHandle Moved(double by) const {
+    DeformationHandle handle = Held(last);
+    handle.motion.translation = unit * Eigen::Vector3d(-by, 0, 0.05);
+    return handle;
+  }
+  DeformationResult Solve(const std::vector<DeformationHandle>& handles, bool avoid_contact,
+                          double balance = 0.01) const {
+    DeformationOptions options;
+    options.balance = balance;
+    options.avoid_contact = avoid_contact;
+    return Deform(connectivity, rest, handles, options);
+  }
+  double unit;
+  std::shared_ptr<const Connectivity> connectivity;
+  Shape rest;
+  std::vector<int> first, middle, last;
+};
+
+TEST(DeformationContactTest, AnEndPushesTheOtherAside) {
+  const OpenRing ring;
+  const std::vector<DeformationHandle> handles = {ring.Held(ring.middle), ring.Moved(1)};
+  const DeformationResult through = ring.Solve(handles, false);
+  EXPECT_GT(MostIntersections(through.path), 0);
+  EXPECT_EQ(through.summary.uncertified_segments, -1);
+  const DeformationResult past = ring.Solve(handles, true);
+  EXPECT_TRUE(past.summary.Converged()) << past.summary.FullReport();
+  EXPECT_EQ(past.summary.uncertified_segments, 0) << past.summary.FullReport();
+  EXPECT_EQ(MostIntersections(past.path), 0);
+  EXPECT_GT(past.summary.contact_distance, 0);
+  EXPECT_GT(past.summary.energy, through.summary.energy);
+  for (const auto& handle : past.summary.handles) EXPECT_LT(handle.residual_max, 1e-12);
+  for (int i = 0; i < past.path.NumShapes(); ++i) {
+    const Shape places = past.path.Placed(i)(Eigen::all, ring.last);
+    const Eigen::Vector3d way = handles[1].motion.translation * i / 5.;
+    EXPECT_LT((places.colwise() - way - ring.rest(Eigen::all, ring.last)).norm(), 1e-12) << i;
+  }
+}
+
+TEST(DeformationContactTest, ASoftHandleDrawsAsFarAsNothingTouches) {
+  const OpenRing ring;
+  DeformationHandle soft = ring.Moved(0.8);
+  soft.hard = false;
+  const std::vector<DeformationHandle> handles = {ring.Held(ring.middle), ring.Held(ring.first),
+                                                  soft};
+  const DeformationResult through = ring.Solve(handles, false, 0.3);
+  EXPECT_GT(MostIntersections(through.path), 0);
+  const DeformationResult past = ring.Solve(handles, true, 0.3);
+  EXPECT_EQ(past.summary.uncertified_segments, 0) << past.summary.FullReport();
+  EXPECT_EQ(MostIntersections(past.path), 0);
+  EXPECT_GT(past.summary.handles[2].residual_rms, 2 * through.summary.handles[2].residual_rms);
+}
+
+TEST(DeformationContactTest, WithoutContactItIsTheSame) {
+  const OpenRing ring;
+  const std::vector<DeformationHandle> handles = {ring.Held(ring.middle), ring.Moved(-0.3)};
+  const DeformationResult free = ring.Solve(handles, false), past = ring.Solve(handles, true);
+  EXPECT_EQ(past.path.shapes, free.path.shapes);
+  EXPECT_EQ(past.summary.uncertified_segments, 0);
+}
+
+TEST(DeformationContactTest, EndsWhenItIsStopped) {
+  const OpenRing ring;
+  const std::vector<DeformationHandle> handles = {ring.Held(ring.middle), ring.Moved(1)};
+  DeformationOptions options;
+  options.avoid_contact = true;
+  for (const int last : testing::StopsSince("round contacts", [&](Progress* all) {
+         Deform(ring.connectivity, ring.rest, handles, options, all);
+       })) {
+    testing::Listener listener(last);  // counts it as a failure if there are further reports
+    const DeformationResult result =
+        Deform(ring.connectivity, ring.rest, handles, options, &listener);
+    EXPECT_EQ(result.summary.termination, Termination::kCancelled) << last;
+    EXPECT_EQ(result.path.NumShapes(), 6);
+    for (const std::string& warning : result.summary.warnings) {
+      EXPECT_EQ(warning.find("no deformation"), std::string::npos) << warning;
+    }
+  }
+}
+
+TEST(DeformationContactTest, SaysThatHandlesMeet) {
+  const OpenRing ring;
+  // Both ends are held, the one in the way of the other.
+  const std::vector<DeformationHandle> handles = {ring.Held(ring.first), ring.Held(ring.middle),
+                                                  ring.Moved(0.8)};
+  const DeformationResult result = ring.Solve(handles, true);
+  EXPECT_GT(result.summary.uncertified_segments, 0);
+  ASSERT_FALSE(result.summary.warnings.empty());
+  EXPECT_NE(result.summary.warnings.front().find("of their way"), std::string::npos)
+      << result.summary.warnings.front();
+  EXPECT_EQ(result.path.shapes, ring.Solve(handles, false).path.shapes);
+}
+
+TEST(DeformationContactTest, ScalesWithTheBodyOnAnyThreads) {
+  const OpenRing ring, large(1024);
+  const auto solve = [](const OpenRing& of) {
+    return of.Solve({of.Held(of.middle), of.Moved(0.8)}, true);
+  };
+  const std::vector<Shape> placed = solve(ring).path.Placed();
+  const std::vector<Shape> scaled = solve(large).path.Placed();
+  for (size_t i = 0; i < placed.size(); ++i) {
+    EXPECT_LT((scaled[i] / 1024 - placed[i]).norm(), 1e-9) << i;
+  }
+  for (const auto& shapes : testing::OnThreads([&] { return solve(ring).path.Placed(); })) {
+    EXPECT_EQ(shapes, placed);
+  }
+}
+
+TEST(DeformationContactTest, NeedsTriangles) {
+  const auto chain = Connectivity::Make(3, {0}, {}, {{0, 1}, {1, 2}});
+  Shape rest(3, 3);
+  rest << 0, 1, 2, 0, 0, 0, 0, 0, 0;
+  DeformationHandle held, moved;
+  held.vertices = {0};
+  moved.vertices = {2};
+  moved.motion.translation.x() = 0.5;
+  DeformationOptions options;
+  options.avoid_contact = true;
+  EXPECT_NE(testing::MessageOf<MeshError>([&] {
+              Deform(chain, rest, {held, moved}, options);
+            }).find("no triangles"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace shapespace

@@ -1,0 +1,359 @@
+// Geodesics that do not pass through themselves.
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/analysis/intersections.h>
+#include <shapespace/base/error.h>
+#include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/tube.h>
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/files/read.h>
+#include <shapespace/geodesic/geodesic.h>
+
+#include "support/cut_ring.h"
+#include "support/listener.h"
+#include "support/message_of.h"
+#include "support/threads.h"
+
+namespace shapespace {
+namespace {
+
+using testing::CutRing;
+using testing::MostIntersections;
+
+GeodesicOptions AvoidingContact(int shapes) {
+  GeodesicOptions options;
+  options.shapes = shapes;
+  options.avoid_contact = true;
+  return options;
+}
+
+TEST(GeodesicContactTest, ACutRingOpensOnItsWay) {
+  const CutRing ring;
+  GeodesicOptions options = AvoidingContact(7);
+  const GeodesicResult around = Interpolate(ring.connectivity, ring.poses, options);
+  options.avoid_contact = false;
+  const GeodesicResult through = Interpolate(ring.connectivity, ring.poses, options);
+  EXPECT_GT(MostIntersections(through.path), 0);
+  EXPECT_EQ(through.summary.uncertified_segments, -1);
+  EXPECT_TRUE(std::isnan(through.summary.contact_distance));
+
+  EXPECT_EQ(around.summary.termination, Termination::kConverged) << around.summary.FullReport();
+  EXPECT_EQ(MostIntersections(around.path), 0);
+  EXPECT_EQ(around.summary.uncertified_segments, 0);
+  EXPECT_EQ(around.summary.crossings_between, 0);
+  EXPECT_GT(around.summary.contact_distance, 0);
+  EXPECT_EQ(around.path.NumShapes(), 9);
+  EXPECT_GT(around.summary.energy, through.summary.energy);
+  EXPECT_LT(around.summary.energy, 1.5 * through.summary.energy) << around.summary.FullReport();
+  EXPECT_LT(around.summary.quality.speed_max, 1.3);
+  // The poses are met.
+  EXPECT_LT((around.path.Placed(0) - ring.poses[0]).norm(), 1e-12);
+  EXPECT_LT((around.path.Placed(8) - ring.poses[1]).norm(), 1e-12);
+}
+
+TEST(GeodesicContactTest, EndsWhenItIsStopped) {
+  const CutRing ring;
+  for (const int last : testing::StopsSince("round contacts", [&](Progress* all) {
+         Interpolate(ring.connectivity, ring.poses, AvoidingContact(3), all);
+       })) {
+    testing::Listener listener(last);  // counts it as a failure if there are further reports
+    const GeodesicResult result =
+        Interpolate(ring.connectivity, ring.poses, AvoidingContact(3), &listener);
+    EXPECT_EQ(result.summary.termination, Termination::kCancelled) << last;
+    EXPECT_EQ(result.path.NumShapes(), 5);
+    for (const std::string& warning : result.summary.warnings) {
+      EXPECT_EQ(warning.find("no way"), std::string::npos) << warning;
+    }
+  }
+}
+
+TEST(GeodesicContactTest, IsTheSameOnAnyThreads) {
+  const CutRing ring;
+  const auto results = testing::OnThreads(
+      [&] { return Interpolate(ring.connectivity, ring.poses, AvoidingContact(3)).path.shapes; });
+  for (const std::vector<Shape>& shapes : results) EXPECT_EQ(shapes, results.front());
+}
+
+TEST(GeodesicContactTest, ScalesWithTheBody) {
+  const CutRing ring, large(1000);
+  const GeodesicOptions options = AvoidingContact(3);
+  const GeodesicResult a = Interpolate(ring.connectivity, ring.poses, options);
+  const GeodesicResult b = Interpolate(large.connectivity, large.poses, options);
+  EXPECT_EQ(b.summary.uncertified_segments, 0);
+  EXPECT_NEAR(b.summary.energy, a.summary.energy, 1e-2 * a.summary.energy);
+  EXPECT_NEAR(b.summary.contact_distance, 1000 * a.summary.contact_distance,
+              0.2 * b.summary.contact_distance);
+}
+
+TEST(GeodesicContactTest, WithoutContactThePathIsTheSameBitForBit) {
+  const ShapeFamily bar = MakeBar(4, 1, 1, 16, 4, 4);
+  const std::vector<Shape> poses = {bar.pose(0), bar.pose(70), bar.pose(20)};
+  GeodesicOptions options = AvoidingContact(3);
+  const GeodesicResult with = Interpolate(bar.connectivity, poses, options);
+  options.avoid_contact = false;
+  const GeodesicResult without = Interpolate(bar.connectivity, poses, options);
+  EXPECT_EQ(with.path.shapes, without.path.shapes);
+  EXPECT_EQ(with.path.Placed(), without.path.Placed());
+  EXPECT_EQ(with.path.parameters, without.path.parameters);
+  EXPECT_EQ(with.path.poses, without.path.poses);
+  EXPECT_EQ(with.summary.uncertified_segments, 0);
+  EXPECT_TRUE(with.summary.warnings.empty());
+}
+
+TEST(GeodesicContactTest, LeadsNearTheShapesThatAreNamed) {
+  const CutRing ring;
+  GeodesicOptions options = AvoidingContact(7);
+  Shape open = ring.Open();
+  open.colwise() += Eigen::Vector3d(5, 6, 7);
+  options.via = {open};
+  const GeodesicResult result = Interpolate(ring.connectivity, ring.poses, options);
+  EXPECT_EQ(result.summary.uncertified_segments, 0) << result.summary.FullReport();
+  EXPECT_EQ(MostIntersections(result.path), 0);
+  EXPECT_EQ(result.path.NumShapes(), 9);
+  EXPECT_EQ(result.path.poses, (std::vector<int>{0, 8}));
+  EXPECT_EQ(result.summary.poses, 2);
+  // That is another way than the one that is found without.
+  options.via.clear();
+  EXPECT_GT(result.summary.energy,
+            Interpolate(ring.connectivity, ring.poses, options).summary.energy);
+}
+
+TEST(GeodesicContactTest, RefusesWhatItCannotDo) {
+  const CutRing ring;
+  GeodesicOptions options;
+  options.via = {ring.poses[0]};
+  const auto message = [&](const std::vector<Shape>& poses) {
+    return testing::MessageOf<InvalidOptions>(
+        [&] { Interpolate(ring.connectivity, poses, options); });
+  };
+  EXPECT_NE(message(ring.poses).find("avoid_contact"), std::string::npos);
+  options.avoid_contact = true;
+  EXPECT_NE(message({ring.poses[0], ring.poses[1], ring.poses[0]}).find("two poses"),
+            std::string::npos);
+  options.via = {Shape::Zero(3, 5)};
+  EXPECT_THROW(Interpolate(ring.connectivity, ring.poses, options), MeshError);
+  EXPECT_THROW(Interpolator(ring.connectivity, ring.poses, options), InvalidOptions);
+  // A graph touches nothing.
+  const auto graph = Connectivity::Make(3, {0}, {}, {{0, 1}, {1, 2}});
+  const std::vector<Shape> ends = {Shape::Random(3, 3), Shape::Random(3, 3)};
+  options.via.clear();
+  EXPECT_NE(
+      testing::MessageOf<MeshError>([&] { Interpolate(graph, ends, options); }).find("triangles"),
+      std::string::npos);
+}
+
+TEST(GeodesicContactTest, PosesThatIntersectThemselvesAreSaidSo) {
+  const CutRing ring;
+  // The ends are within each other, and come apart.
+  const std::vector<Shape> poses = {ring.Wound(0.25, 0.15), ring.poses[0]};
+  const std::int64_t in_pose = CountIntersections(*ring.connectivity, poses[0]);
+  ASSERT_GT(in_pose, 0);
+  const GeodesicResult result = Interpolate(ring.connectivity, poses, AvoidingContact(3));
+  ASSERT_EQ(result.summary.warnings.size(), 1);
+  EXPECT_NE(result.summary.warnings[0].find("intersect themselves"), std::string::npos);
+  EXPECT_EQ(result.summary.uncertified_segments, 0);
+  EXPECT_LE(MostIntersections(result.path), in_pose);
+}
+
+TEST(GeodesicContactTest, WhereNoWayIsFoundThePathWithContactIsReturnedWithAWarning) {
+  const CutRing ring;
+  GeodesicOptions options = AvoidingContact(3);
+  // End to end they press against each other, and slide neither way.
+  const std::vector<Shape> poses = {ring.Wound(0.6, 0), ring.Wound(-0.6, 0)};
+  const GeodesicResult result = Interpolate(ring.connectivity, poses, options);
+  options.avoid_contact = false;
+  EXPECT_EQ(result.path.shapes, Interpolate(ring.connectivity, poses, options).path.shapes);
+  EXPECT_GT(result.summary.uncertified_segments, 0);
+  ASSERT_FALSE(result.summary.warnings.empty());
+  EXPECT_NE(result.summary.warnings[0].find("no way was found"), std::string::npos);
+}
+
+TEST(ContinuedPathTest, EndsBeforeContactIfAskedTo) {
+  const CutRing ring;
+  const Path path = testing::ClosingPath(ring);
+  constexpr int kSteps = 8;  // each of a twentieth of a turn: the ends meet in the sixth
+  const ExponentialResult on = Extrapolate(path, kSteps);
+  EXPECT_GT(CountIntersections(*ring.connectivity, on.path.Placed(10)), 0);
+
+  ExponentialOptions stop;
+  stop.stop_at_contact = true;
+  const ExponentialResult result = Extrapolate(path, kSteps, stop);
+  EXPECT_EQ(result.summary.ending, ExponentialSummary::Ending::kContact);
+  EXPECT_TRUE(result.summary.Converged());
+  EXPECT_NE(result.summary.stopped.find("step 6"), std::string::npos) << result.summary.stopped;
+  ASSERT_EQ(result.path.NumShapes(), 8);
+  EXPECT_EQ(MostIntersections(result.path), 0);
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(result.path.shapes[i], on.path.shapes[i]) << i;
+  EXPECT_EQ(Extrapolate(path, 5, stop).summary.ending, ExponentialSummary::Ending::kComplete);
+}
+
+// A ball of radius 1 on either side of a wall at x = 0 with a round hole.
+struct BallAndWall {
+  explicit BallAndWall(double hole, double of_unit = 1,
+                       const Eigen::Vector3d& of_origin = Eigen::Vector3d::Zero())
+      : unit(of_unit), origin(of_origin), cube(MakeBar(2, 2, 2, 5, 5, 5)) {
+    connectivity = cube.connectivity;
+    poses = {At(-2), At(2)};
+    constexpr int kAround = 16, kRings = 3;
+    Shape shape(3, kAround * (kRings + 1));
+    Eigen::Matrix3Xi triangles(3, 2 * kAround * kRings);
+    for (int ring = 0; ring <= kRings; ++ring) {
+      for (int i = 0; i < kAround; ++i) {
+        const double angle = 2 * M_PI * i / kAround, radius = hole + ring * (3 - hole) / kRings;
+        shape.col(ring * kAround + i) << 0, radius * std::cos(angle), radius * std::sin(angle);
+        if (ring == kRings) continue;
+        const int a = ring * kAround + i, b = ring * kAround + (i + 1) % kAround;
+        triangles.col(2 * a) << a, b, a + kAround;
+        triangles.col(2 * a + 1) << b, b + kAround, a + kAround;
+      }
+    }
+    wall = {Connectivity::FromTriangles(kAround * (kRings + 1), triangles), Moved(shape)};
+  }
+  Shape Moved(const Shape& shape) const { return (unit * shape).colwise() + origin; }
+  Shape At(double x) const {
+    Shape shape = cube.pose(0);
+    const Eigen::Vector3d middle = shape.rowwise().mean();
+    shape.colwise() -= middle;
+    shape.colwise().normalize();
+    shape.row(0).array() += x;
+    return Moved(shape);
+  }
+  GeodesicResult Solve(int shapes) const {
+    GeodesicOptions options = AvoidingContact(shapes);
+    options.obstacle = wall;
+    options.metric.lambda = 0.01;  // else it is almost free to fly up to the wall at once
+    return Interpolate(connectivity, poses, options);
+  }
+  // The most pairs of triangles of ball and wall that intersect at 40 times between two shapes.
+  std::int64_t MostIntersections(const Path& path) const {
+    const std::vector<Shape> placed = path.Placed();
+    std::vector<Shape> shapes;
+    for (size_t i = 0; i + 1 < placed.size(); ++i) {
+      for (int k = 0; k < 40; ++k) {
+        shapes.push_back(wall.Joined(Shape((1 - k / 40.) * placed[i] + k / 40. * placed[i + 1])));
+      }
+    }
+    const auto counts = CountIntersections(*wall.Joined(connectivity), shapes);
+    return *std::max_element(counts.begin(), counts.end());
+  }
+  double unit;
+  Eigen::Vector3d origin;
+  ShapeFamily cube;
+  std::shared_ptr<const Connectivity> connectivity;
+  std::vector<Shape> poses;
+  Obstacle wall;
+};
+
+TEST(ObstacleTest, ABallSqueezesThroughAHoleNarrowerThanItself) {
+  const BallAndWall narrow(0.9);
+  const GeodesicResult result = narrow.Solve(15);
+  EXPECT_EQ(result.summary.termination, Termination::kConverged) << result.summary.FullReport();
+  EXPECT_EQ(result.summary.uncertified_segments, 0);
+  EXPECT_EQ(result.summary.crossings_between, 0);
+  EXPECT_GT(result.summary.contact_distance, 0);
+  EXPECT_TRUE(result.summary.warnings.empty()) << result.summary.warnings[0];
+  EXPECT_EQ(narrow.MostIntersections(result.path), 0);
+  EXPECT_GT(result.summary.energy, 1e-3);
+  EXPECT_LT((result.path.Placed(0) - narrow.poses[0]).norm(), 1e-12);
+  EXPECT_LT((result.path.Placed(16) - narrow.poses[1]).norm(), 1e-12);
+  // It goes on from shape to shape, and does not spin.
+  double before = -3;
+  for (const Shape& shape : result.path.Placed()) {
+    EXPECT_GT(shape.row(0).mean(), before);
+    before = shape.row(0).mean();
+  }
+}
+
+TEST(ObstacleTest, PastAnObstacleThatIsNotInTheWayABodyMovesRigidly) {
+  const BallAndWall wide(1.2);
+  const GeodesicResult result = wide.Solve(3);
+  EXPECT_EQ(result.summary.uncertified_segments, 0);
+  EXPECT_LT(result.summary.energy, 1e-20);
+  for (int i = 0; i <= 4; ++i) {
+    EXPECT_LT((result.path.Placed(i) - wide.At(-2 + i)).norm(), 1e-12) << i;
+  }
+}
+
+TEST(ObstacleTest, ThroughAWallWithoutAHoleThereIsNoWay) {
+  const BallAndWall shut(0);
+  const GeodesicResult result = shut.Solve(3);
+  EXPECT_GT(result.summary.uncertified_segments, 0);
+  EXPECT_GT(result.summary.crossings_between, 0);
+  ASSERT_FALSE(result.summary.warnings.empty());
+  EXPECT_NE(result.summary.warnings[0].find("the obstacle"), std::string::npos);
+  EXPECT_LT((result.path.Placed(2) - shut.At(0)).norm(), 1e-12);
+}
+
+TEST(ObstacleTest, UnitAndPlaceDoNotMatter) {
+  const BallAndWall here(0.95), large(0.95, 1024);
+  const GeodesicResult a = here.Solve(7), b = large.Solve(7);
+  EXPECT_EQ(b.path.shapes, a.path.shapes);
+  EXPECT_DOUBLE_EQ(b.summary.contact_distance, 1024 * a.summary.contact_distance);
+  const BallAndWall far(0.95, 1, {1e6, -2e6, 3e6});
+  const GeodesicResult c = far.Solve(7);
+  EXPECT_EQ(c.summary.uncertified_segments, 0);
+  EXPECT_NEAR(c.summary.energy, a.summary.energy, 0.05 * a.summary.energy);
+}
+
+TEST(ObstacleTest, IsTheSameOnAnyThreads) {
+  const BallAndWall ball(0.95);
+  const auto results = testing::OnThreads([&] { return ball.Solve(3).path.shapes; });
+  for (const std::vector<Shape>& shapes : results) EXPECT_EQ(shapes, results.front());
+}
+
+TEST(ObstacleTest, PosesThatIntersectItAreSaidSo) {
+  BallAndWall ball(1.2);
+  // It begins within the wall, beside the hole.
+  ball.poses[0] = ball.At(-0.2);
+  ball.poses[0].row(1).array() += 1;
+  ball.poses[1].row(1).array() += 1;
+  const GeodesicResult result = ball.Solve(3);
+  ASSERT_FALSE(result.summary.warnings.empty());
+  EXPECT_NE(result.summary.warnings[0].find("themselves or the obstacle"), std::string::npos);
+}
+
+TEST(ObstacleTest, WhatIsNoObstacleIsRefused) {
+  const BallAndWall ball(1.2);
+  GeodesicOptions options;
+  options.obstacle = ball.wall;
+  EXPECT_NE(testing::MessageOf<InvalidOptions>([&] {
+              Interpolate(ball.connectivity, ball.poses, options);
+            }).find("avoid_contact"),
+            std::string::npos);
+  options.avoid_contact = true;
+  EXPECT_THROW(Interpolator(ball.connectivity, ball.poses, options), InvalidOptions);
+  options.obstacle->shape(0, 0) = std::nan("");
+  EXPECT_THROW(Interpolate(ball.connectivity, ball.poses, options), MeshError);
+  options.obstacle = {Connectivity::Make(2, {0}, {}, {{0, 1}}), Shape::Zero(3, 2)};
+  EXPECT_NE(testing::MessageOf<MeshError>([&] {
+              Interpolate(ball.connectivity, ball.poses, options);
+            }).find("no triangles"),
+            std::string::npos);
+}
+
+// Skipped if the real poses are missing.
+TEST(GeodesicContactTest, AnArmSlidesRoundTheBody) {
+  const std::filesystem::path folder = SHAPESPACE_DATA_DIR;
+  const std::string first = (folder / "scape/5.obj").string(),
+                    last = (folder / "scape/6.obj").string();
+  if (folder.empty() || !std::filesystem::exists(first)) {
+    GTEST_SKIP() << "no real meshes: set the CMake cache path SHAPESPACE_DATA_DIR";
+  }
+  const GeodesicResult result = Interpolate(ReadPoses({first, last}), AvoidingContact(7));
+  EXPECT_EQ(result.summary.termination, Termination::kConverged) << result.summary.FullReport();
+  EXPECT_EQ(result.summary.uncertified_segments, 0);
+  EXPECT_EQ(MostIntersections(result.path), 0);
+  EXPECT_LT(result.summary.Ratio(), 1.10) << result.summary.FullReport();
+  EXPECT_LT(result.summary.quality.roughness, 1.3);
+}
+
+}  // namespace
+}  // namespace shapespace
