@@ -43,7 +43,7 @@ def _motion(task: Task, poses: list, programs: dict) -> list:
         flags += ["--steps", str(task.steps)]
     elif task.ends:
         flags += ["--spline", task.ends]
-    elif task.avoid_contact:
+    if task.avoid_contact:
         flags += ["--avoid_contact"]
     if task.anchor is not None:
         flags += ["--anchor", json.dumps(_selection(task.anchor))]

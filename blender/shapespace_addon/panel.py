@@ -64,9 +64,7 @@ class SHAPESPACE_PT_motion(_Part, bpy.types.Panel):
         cyclic = column.row()
         cyclic.enabled = settings.smooth
         cyclic.prop(settings, "cyclic")
-        contact = column.row()
-        contact.enabled = not settings.smooth
-        contact.prop(settings, "avoid_contact")
+        column.prop(settings, "avoid_contact")
         buttons.draw(column, context, "shapespace.inbetweens", "IPO_EASE_IN_OUT")
         column.separator()
         column.prop(settings, "steps")

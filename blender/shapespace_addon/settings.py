@@ -156,7 +156,7 @@ class ContactSettings:
     avoid_contact: BoolProperty(
         name="Avoid Contact",
         description="Lead the body round itself where its parts would pass through each other. Takes"
-        " several times as long where they do. Not with Smooth",
+        " several times as long where they do",
     )
 
 

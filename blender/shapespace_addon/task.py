@@ -36,7 +36,7 @@ class Task:
     metric: Metric
     steps: int = 0  # beyond the last pose
     ends: str = ""  # of a spline, "natural" or "periodic"; else a chain of geodesics
-    avoid_contact: bool = False  # with no spline and no steps
+    avoid_contact: bool = False  # with no steps
     modes: int | None = None  # instead of a motion: the average and this number of modes
     targets: list = field(default_factory=list)  # bodies of one pose each
     tolerance: float | None = None

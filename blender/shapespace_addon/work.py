@@ -158,9 +158,6 @@ class InBetweens(PosesOfSelection):
         (poses,) = self._bodies
         settings, first = self._settings, self._items()[0]
         anchor = ground = None
-        avoid_contact = getattr(settings, "avoid_contact", False)
-        if avoid_contact and settings.smooth:
-            raise Problem("Smooth motion cannot avoid contact: switch off one of the two")
         if settings.ground:
             ground = float(settings.ground_height - poses.frame.centre[2])
         with self._vertices(context) as vertices:
@@ -173,7 +170,7 @@ class InBetweens(PosesOfSelection):
             metric,
             steps=getattr(settings, "steps", 0),
             ends=self._ends(),
-            avoid_contact=avoid_contact,
+            avoid_contact=getattr(settings, "avoid_contact", False),
             tolerance=tolerance_of(settings),
             anchor=anchor,
             ground=ground,

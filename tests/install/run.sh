@@ -91,6 +91,7 @@ fi
 # and a program that defines a feature call. Tools and program work with them.
 shared=$root/build/shared
 cmake -S "$root" -B "$shared" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
+  "-D$(grep '^SHAPESPACE_WERROR:' "$build/CMakeCache.txt")" \
   -DBUILD_SHARED_LIBS=ON -DSHAPESPACE_BUILD_PYTHON=ON -DSHAPESPACE_BUILD_TESTS=OFF \
   -DPython_EXECUTABLE=/usr/bin/python3 -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$work/configure.log" ||
   fail "shared libraries cannot be configured"

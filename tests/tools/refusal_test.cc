@@ -121,8 +121,9 @@ TEST_F(RefusalTest, WrongCommandLines) {
       {"tube0.obj", "tube1.obj", "--avoid_contact", "--obstacle", "tube0.obj", "--ground", "y=0"},
       {"--ground moves the path, which --obstacle needs where the poses are"});
   ExpectRefusal(2,
-                {"tube0.obj", "tube1.obj", "tube0.obj", "--avoid_contact", "--spline", "natural"},
-                {"--avoid_contact: is for geodesics alone"});
+                {"tube0.obj", "tube1.obj", "tube0.obj", "--avoid_contact", "--obstacle",
+                 "tube0.obj", "--spline", "natural"},
+                {"--obstacle: is for geodesics alone"});
   ExpectRefusal(2, {"tube0.obj", "tube1.obj", "--hold_limit", "2"},
                 {"--hold_limit: goes with --spline"});
   const auto refuse_spline = [&](Strings flags, const char* message) {

@@ -99,12 +99,25 @@ double GreatestJump(const Path& path, bool periodic) {
   return greatest / way * path.parameters.back();
 }
 
+void WarnOfContact(SplineSummary* summary) {
+  if (!summary->smooth) {
+    summary->uncertified_segments = summary->geodesic.uncertified_segments;
+    summary->contact_distance = summary->geodesic.contact_distance;
+    return;
+  }
+  if (summary->uncertified_segments > 0) {
+    summary->warnings.push_back(
+        std::to_string(summary->uncertified_segments) +
+        " segments of the smooth motion have not been shown to be free of contact");
+  }
+}
+
 }  // namespace
 
 void SplineOptions::Validate() const {
   geodesic.Validate();
-  if (geodesic.avoid_contact) {
-    throw InvalidOptions("avoid_contact", "is for geodesics alone: smooth motion may have contact");
+  if (geodesic.obstacle) {
+    throw InvalidOptions("obstacle", "is for geodesics alone: smooth motion may pass through it");
   }
   for (size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
@@ -169,7 +182,10 @@ SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
   } else if (summary.geodesic.termination != Termination::kCancelled) {
     const internal::Stopwatch stopwatch;
     try {
-      internal::SmoothChain(options, times, progress, &result.path);
+      const internal::SmoothContact contact =
+          internal::SmoothChain(options, times, progress, &result.path);
+      summary.uncertified_segments = contact.uncertified_segments;
+      summary.contact_distance = contact.contact_distance;
       result.path.smooth = summary.smooth = true;
       summary.jump_after = GreatestJump(result.path, periodic);
     } catch (const Cancelled&) {
@@ -180,6 +196,7 @@ SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
   if (!summary.smooth && !straight) {
     summary.warnings.push_back("stopped: the motion is the chain of geodesics, with corners");
   }
+  if (options.geodesic.avoid_contact) WarnOfContact(&summary);
   result.path.converged = result.path.converged && summary.Converged();
   for (const PieceMeasures& piece : MeasurePieces(result.path)) summary.energy += piece.energy;
   if (options.geodesic.assess) summary.quality = MeasureQuality(result.path);

@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_SPLINE_SPLINE_H_
 #define SHAPESPACE_SPLINE_SPLINE_H_
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -55,6 +56,9 @@ struct SplineSummary {
   /// Greatest jump of velocity at a pose, as a share of the mean speed: of the chain, and of the
   /// spline. Measured on the shapes, so that it falls by 4 if their number doubles.
   double jump_before = 0, jump_after = 0;
+  /// With GeodesicOptions::avoid_contact, as those of GeodesicSummary, of the path returned.
+  int uncertified_segments = -1;
+  double contact_distance = std::numeric_limits<double>::quiet_NaN();
   double energy = 0;    ///< of the path returned, in the sense of `geodesic.energy`, the least
   PathQuality quality;  ///< of the path returned
   std::vector<std::string> warnings;
@@ -77,10 +81,13 @@ struct SplineResult {
 /// logarithm of the stretch relative to the first pose follow cubic splines through the poses, and
 /// the shape is the one whose triangles are nearest to these (docs/mathematics.md, section 15). The
 /// path meets the poses, and its velocity is continuous. Two poses give the geodesic. Vertices
-/// without triangles follow cubic splines in space. If `progress` asks to stop after the first
-/// solve has begun, the chain is returned, as far as it was found, and the summary says so.
-/// \throw as Interpolate; InvalidOptions (times that do not ascend or are not one for each pose;
-///        kClamped without velocities; `by_length`, and two neighbouring poses are the same),
+/// without triangles follow cubic splines in space. With GeodesicOptions::avoid_contact, a
+/// motion between two poses that would pass through itself is led round. If `progress`
+/// asks to stop after the first solve has begun, the chain is returned, as far as it was found, and
+/// the summary says so. \throw as Interpolate; InvalidOptions (times that do not ascend or are not
+/// one for each pose;
+///        kClamped without velocities; `by_length`, and two neighbouring poses are the same; an
+///        obstacle, past which only geodesics lead),
 ///        MeshError (kPeriodic if the last pose is the first).
 SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
                     const std::vector<Shape>& poses, const SplineOptions& options = {},

@@ -22,6 +22,7 @@ std::string SplineSummary::FullReport() const {
       << (smooth ? internal::WordOf(ends) : "none: the path is the chain of geodesics") << '\n'
       << internal::Format("Velocity jumps    at most %.4g times the mean speed (chain: %.4g)\n",
                           jump_after, jump_before)
+      << internal::ContactText(uncertified_segments, contact_distance)
       << internal::Format("Energy            %.6g, that of the chain is %.6g\n", energy,
                           geodesic.energy)
       << internal::Format("Seconds           %.3f for the spline, %.3f in all\n", spline_seconds,

@@ -10,6 +10,7 @@
 
 #include <shapespace/base/parallel.h>
 #include <shapespace/contact/internal/follow.h>
+#include <shapespace/contact/internal/increments.h>
 #include <shapespace/contact/internal/path_contact.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/numerics/internal/preconditioner.h>
@@ -40,8 +41,10 @@ std::vector<Shape> Divide(const Metric& metric, const std::vector<Shape>& states
   return shapes;
 }
 
+// Relaxes the energy, or, unless `guide` is null, as KeepIncrements.
 MinimiseResult Relax(const ContactModel& model, const CholeskyFactor<float>& factor,
-                     double stiffness, MinimiseOptions options, std::vector<Shape>* shapes) {
+                     double stiffness, const std::vector<Shape>* guide, MinimiseOptions options,
+                     std::vector<Shape>* shapes) {
   const int segments = static_cast<int>(shapes->size()) - 1;
   PathEnergy energy(model.GetMetric(), segments - 1);
   Preconditioner preconditioner(factor, energy);
@@ -49,11 +52,14 @@ MinimiseResult Relax(const ContactModel& model, const CholeskyFactor<float>& fac
   energy.Load(*shapes, unknowns.data());
   PathContact contact(model, energy, *shapes, PathContact::Segments(segments + 1),
                       PathContact::kTimes);
+  std::optional<Increments> increments;
+  if (guide != nullptr) increments.emplace(model.GetMetric(), energy, *guide);
   options.rank = HistoryRank(static_cast<double>(unknowns.size()));
   contact.Limit(&options);
   const MinimiseResult result = MinimiseThreadedLbfgs(
       [&](const double* x, double* gradient) {
-        const double value = energy.Evaluate(x, gradient);
+        double value = energy.Evaluate(x, gradient);
+        if (increments) value += increments->Evaluate(x, gradient);
         return value + contact.Evaluate(x, 2 * stiffness / segments, gradient);
       },
       PreconditionOf(&preconditioner), options, &unknowns);
@@ -160,7 +166,8 @@ ContactFreePath AvoidContact(const ContactModel& model, const CholeskyFactor<flo
     const int parts = static_cast<int>(states.size()) - 1;
     const int multiple = (parts + segments - 1) / segments;
     states = WithoutDrift(model, Divide(*metric, states, multiple * segments));
-    result.result = Relax(model, *preconditioner, kContactStiffness * energy, options, &states);
+    result.result =
+        Relax(model, *preconditioner, kContactStiffness * energy, nullptr, options, &states);
     if (multiple == 1) {
       result.shapes = WithoutDrift(model, states);
       return result;
@@ -169,6 +176,13 @@ ContactFreePath AvoidContact(const ContactModel& model, const CholeskyFactor<flo
     result.parts = static_cast<int>(states.size()) - 1;
     if (result.parts >= parts || !go_on()) return result;
   }
+}
+
+MinimiseResult KeepIncrements(const ContactModel& model, const CholeskyFactor<float>& factor,
+                              const std::vector<Shape>& guide, const MinimiseOptions& options,
+                              std::vector<Shape>* shapes) {
+  const double stiffness = kContactStiffness * EnergyAlong(*model.GetMetric(), guide);
+  return Relax(model, factor, stiffness, &guide, options, shapes);
 }
 
 }  // namespace shapespace::internal

@@ -1,11 +1,14 @@
 #include <shapespace/spline/internal/smooth_chain.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <Eigen/LU>
 
 #include <shapespace/base/internal/ranges.h>
+#include <shapespace/contact/internal/avoid_contact.h>
+#include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/numerics/internal/gradient_integrator.h>
 #include <shapespace/numerics/internal/triangle_pose.h>
 #include <shapespace/spline/internal/corrections.h>
@@ -224,23 +227,116 @@ class Smoother {
   const Corrections corrections_;
 };
 
-}  // namespace
-
-void SmoothChain(const SplineOptions& options, const std::vector<double>& times, Progress* progress,
-                 Path* path) {
-  const Smoother smoother(options, times, *path);
-  std::vector<Shape> shapes = path->shapes;
-  std::vector<RigidMotion> motions = path->motions;
-  for (size_t i = 0; i + 1 < path->poses.size(); ++i) {
-    const int begin = path->poses[i], end = path->poses[i + 1];
-    for (int k = begin + 1; k < end; ++k) {
-      ReportProgress(progress, "smoothing", k, path->NumShapes());
-      const double s = static_cast<double>(k - begin) / (end - begin);
-      shapes[k] = smoother.ShapeAt(k, static_cast<int>(i), s, &motions[k]);
+// The contact between each two poses of a chain.
+class ChainContact {
+ public:
+  explicit ChainContact(const Path& chain) : poses_(chain.poses) {
+    for (size_t i = 0; i + 1 < poses_.size(); ++i) {
+      models_.emplace_back(chain.metric,
+                           std::vector<Shape>{chain.shapes[poses_[i]], chain.shapes[poses_[i + 1]]},
+                           ContactModel::Intersections::kExempt);
     }
   }
-  path->shapes = std::move(shapes);
-  path->motions = std::move(motions);
+
+  int NumIntervals() const { return static_cast<int>(models_.size()); }
+
+  // The number of segments of an interval during which something touches.
+  int Touching(const std::vector<Shape>& shapes, int interval) const {
+    return static_cast<int>(SegmentsWithContact(models_[interval], Part(shapes, interval)).size());
+  }
+
+  // In the user's unit; NaN if no parts come near each other.
+  double Distance(const std::vector<Shape>& shapes) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < NumIntervals(); ++i) {
+      least = std::min(least, LeastDistance(models_[i], Part(shapes, i)));
+    }
+    return std::isfinite(least) ? models_[0].GetMetric()->unit * least
+                                : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  // Replaces the smoothed shapes of an interval in which the chain has no contact.
+  void Relax(const Path& chain, int interval, const MinimiseOptions& options,
+             std::vector<Shape>* smoothed) const {
+    const ContactModel& model = models_[interval];
+    const Metric& metric = *model.GetMetric();
+    const std::vector<Shape> guide = Part(*smoothed, interval);
+    std::vector<Shape> shapes = Part(chain.shapes, interval);
+    const CholeskyFactor<float> factor(ScalarMetric(metric, {guide.front(), guide.back()}, 0));
+    KeepIncrements(model, factor, guide, options, &shapes);
+    for (size_t k = 1; k + 1 < shapes.size(); ++k) {
+      (*smoothed)[poses_[interval] + k] =
+          FitRigidMotion(shapes[k], guide[k], metric.vertex_area)(shapes[k]);
+    }
+  }
+
+ private:
+  std::vector<Shape> Part(const std::vector<Shape>& shapes, int interval) const {
+    return {shapes.begin() + poses_[interval], shapes.begin() + poses_[interval + 1] + 1};
+  }
+
+  const std::vector<int> poses_;
+  std::vector<ContactModel> models_;
+};
+
+// The inner shapes of a chain, smoothed, with the motions that place them.
+struct Smoothed {
+  std::vector<Shape> shapes;
+  std::vector<RigidMotion> motions;
+};
+
+Smoothed Smooth(const Smoother& smoother, const Path& chain, Progress* progress) {
+  Smoothed smoothed = {chain.shapes, chain.motions};
+  for (size_t i = 0; i + 1 < chain.poses.size(); ++i) {
+    const int begin = chain.poses[i], end = chain.poses[i + 1];
+    for (int k = begin + 1; k < end; ++k) {
+      ReportProgress(progress, "smoothing", k, chain.NumShapes());
+      const double s = static_cast<double>(k - begin) / (end - begin);
+      smoothed.shapes[k] = smoother.ShapeAt(k, static_cast<int>(i), s, &smoothed.motions[k]);
+    }
+  }
+  return smoothed;
+}
+
+// Leads a smoothed chain round its contacts, from the chain without contact.
+SmoothContact SmoothPastContact(const SplineOptions& options, const Path& chain, Progress* progress,
+                                Smoothed* smoothed) {
+  const ChainContact contact(chain);
+  SmoothContact result;
+  result.uncertified_segments = 0;
+  MinimiseOptions minimise;
+  minimise.tolerance = options.geodesic.tolerance;
+  minimise.max_iterations = options.geodesic.max_iterations;
+  minimise.keep_going = [&](int, double) {
+    ReportProgress(progress, "smoothing past contacts", 0, 0);
+    return true;
+  };
+  for (int i = 0; i < contact.NumIntervals(); ++i) {
+    int touching = contact.Touching(smoothed->shapes, i);
+    // Where the chain has contact itself, so has the smooth path.
+    if (touching > 0 && contact.Touching(chain.shapes, i) == 0) {
+      contact.Relax(chain, i, minimise, &smoothed->shapes);
+      touching = contact.Touching(smoothed->shapes, i);
+    }
+    result.uncertified_segments += touching;
+  }
+  result.contact_distance = contact.Distance(smoothed->shapes);
+  return result;
+}
+
+}  // namespace
+
+SmoothContact SmoothChain(const SplineOptions& options, const std::vector<double>& times,
+                          Progress* progress, Path* path) {
+  const Smoother smoother(options, times, *path);
+  Smoothed smoothed = Smooth(smoother, *path, progress);
+  SmoothContact contact;
+  if (options.geodesic.avoid_contact) {
+    contact = SmoothPastContact(options, *path, progress, &smoothed);
+  }
+  path->shapes = std::move(smoothed.shapes);
+  path->motions = std::move(smoothed.motions);
+  return contact;
 }
 
 }  // namespace shapespace::internal

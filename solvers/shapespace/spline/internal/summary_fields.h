@@ -16,6 +16,8 @@ void ForFields(Of<SplineSummary>, const Visit& visit) {
   visit("smooth", &SplineSummary::smooth);
   visit("jump_before", &SplineSummary::jump_before);
   visit("jump_after", &SplineSummary::jump_after);
+  visit("uncertified_segments", &SplineSummary::uncertified_segments);
+  visit("contact_distance", &SplineSummary::contact_distance);
   visit("energy", &SplineSummary::energy);
   visit("quality", &SplineSummary::quality);
   visit("geodesic", &SplineSummary::geodesic);
