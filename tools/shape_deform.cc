@@ -14,6 +14,7 @@
 #include "support/flag_group.h"
 #include "support/memory_flag.h"
 #include "support/metric_flags.h"
+#include "support/obstacle_flag.h"
 #include "support/option_flags.h"
 #include "support/outputs.h"
 #include "support/poses.h"
@@ -103,6 +104,7 @@ void Run(const std::vector<std::string>& files) {
   const std::vector<std::string> outputs = OutputsFromFlags();
   std::vector<std::string> inputs = files;
   inputs.push_back(FLAGS_handles.empty() ? FLAGS_repair : FLAGS_handles);
+  if (!FLAGS_obstacle.empty()) inputs.push_back(FLAGS_obstacle);
   DeformationOptions options = DeformationFromFlags();
   CheckNothingIsOverwritten(
       WithStiffeners(inputs),
@@ -115,6 +117,7 @@ void Run(const std::vector<std::string>& files) {
     WriteOutputs(outputs, path, path, marks);
     WriteReport(summary.FullReport(), summary.ToJson());
   };
+  options.obstacle = ObstacleFromFlag(options.avoid_contact);
   if (FLAGS_repair.empty()) {
     const Poses poses = ReadMeshesFromFlags(files);
     SetMetric(poses, &options);
@@ -155,7 +158,7 @@ int main(int argc, char** argv) {
            "open; "
            "--metric selects another; --volume 30 keeps the volume\nwithin .3 %.") +
            kHowASolveEnds,
-       {"deform", "report", "summary", "outputs", "metric", "poses", "mesh", "memory",
+       {"deform", "obstacle", "report", "summary", "outputs", "metric", "poses", "mesh", "memory",
         "outside_files"}},
       Run);
 }

@@ -11,6 +11,7 @@
 #include "support/flag_group.h"
 #include "support/geodesic_flags.h"
 #include "support/lists.h"
+#include "support/obstacle_flag.h"
 #include "support/outputs.h"
 #include "support/poses.h"
 #include "support/report.h"
@@ -23,9 +24,6 @@ DEFINE_string(
     via, "",
     "with --avoid_contact, between two poses: files of shapes near which the way round leads, "
     "separated by commas, for bodies that do not find it");
-DEFINE_string(obstacle, "",
-              "with --avoid_contact: the file of a mesh that does not move and that the body must "
-              "not touch either; poses and path are where they are to be beside it");
 FLAG_GROUP(contact, "Path");
 
 namespace shapespace::tools {
@@ -45,9 +43,6 @@ void Run(const std::vector<std::string>& files) {
   GeodesicOptions options = GeodesicFromFlags();
   const std::vector<std::string> via = Split(FLAGS_via);
   if (!via.empty() && !options.avoid_contact) throw UsageError("--via goes with --avoid_contact");
-  if (!FLAGS_obstacle.empty() && !options.avoid_contact) {
-    throw UsageError("--obstacle goes with --avoid_contact");
-  }
   for (const char* mover : {"anchor", "ground"}) {
     if (!FLAGS_obstacle.empty() && IsGiven(mover)) {
       throw UsageError(std::string("--") + mover +
@@ -56,14 +51,11 @@ void Run(const std::vector<std::string>& files) {
   }
   AnchorFlags anchorage = AnchorFlags::FromFlags();
   const std::vector<std::string> outputs = OutputsFromFlags();
+  options.obstacle = ObstacleFromFlag(options.avoid_contact);
   const Poses poses = ReadPosesFromFlags(files);
   if (!via.empty()) {
     if (poses.shapes.size() != 2) throw UsageError("--via goes with two poses");
     options.via = ReadVia(files[0], via);
-  }
-  if (!FLAGS_obstacle.empty()) {
-    const Poses obstacle = ReadMeshesFromFlags({FLAGS_obstacle});
-    options.obstacle = {obstacle.connectivity, obstacle.shapes[0]};
   }
   std::optional<SplineOptions> spline = SplineFromFlags(poses.connectivity->NumVertices());
   std::vector<std::string> inputs = files;
@@ -113,7 +105,7 @@ int main(int argc, char** argv) {
            "Through three or more poses the path is a chain of geodesics, whose velocity jumps at "
            "each pose.\nWith --spline it is smooth there.") +
            kHowASolveEnds,
-       {"geodesic", "contact", "spline", "report", "summary", "outputs", "anchor", "metric",
-        "poses", "mesh", "memory", "outside_files"}},
+       {"geodesic", "contact", "obstacle", "spline", "report", "summary", "outputs", "anchor",
+        "metric", "poses", "mesh", "memory", "outside_files"}},
       Run);
 }

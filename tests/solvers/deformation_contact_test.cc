@@ -157,6 +157,73 @@ TEST(DeformationContactTest, ScalesWithTheBodyOnAnyThreads) {
   }
 }
 
+// A rod that is held at one end, and a shelf below its middle.
+struct RodOverShelf {
+  explicit RodOverShelf(double of_unit = 1) : unit(of_unit) {
+    TubeForm form;
+    form.length = 6.9;
+    form.base_radius = form.tip_radius = 0.15;
+    form.knuckle = 0;
+    const ShapeFamily tube = MakeTube(1000, form);
+    connectivity = tube.connectivity;
+    rest = tube.pose(0);
+    DeformationHandle held, end;
+    for (int v = 0; v < rest.cols(); ++v) {
+      if (rest(0, v) < 0.2) held.vertices.push_back(v);
+      if (rest(0, v) > 6.7) end.vertices.push_back(v);
+    }
+    rest *= unit;
+    end.motion.translation = unit * Eigen::Vector3d(-0.5, 0, -2);
+    handles = {held, end};
+    Eigen::Matrix3Xi triangles(3, 2);
+    triangles << 0, 0, 1, 2, 2, 3;
+    shelf.connectivity = Connectivity::FromTriangles(4, triangles);
+    shelf.shape.resize(3, 4);
+    shelf.shape << 2.5, 3.5, 3.5, 2.5, -1, -1, 1, 1, -0.3, -0.3, -0.3, -0.3;
+    shelf.shape *= unit;
+  }
+  DeformationResult Solve(bool past_shelf) const {
+    DeformationOptions options;
+    options.avoid_contact = true;
+    if (past_shelf) options.obstacle = shelf;
+    return Deform(connectivity, rest, handles, options);
+  }
+  double unit;
+  std::shared_ptr<const Connectivity> connectivity;
+  Shape rest;
+  std::vector<DeformationHandle> handles;
+  Obstacle shelf;
+};
+
+TEST(DeformationContactTest, ARodIsBentOverAShelf) {
+  const RodOverShelf rod;
+  const DeformationResult through = rod.Solve(false);
+  EXPECT_GT(MostIntersections(through.path, rod.shelf), 0);
+  const DeformationResult over = rod.Solve(true);
+  EXPECT_EQ(MostIntersections(over.path, rod.shelf), 0) << over.summary.FullReport();
+  EXPECT_EQ(over.summary.uncertified_segments, 0);
+  EXPECT_GT(over.summary.contact_distance, 0);
+  EXPECT_GT(over.summary.energy, 1.01 * through.summary.energy);
+  EXPECT_LT(over.summary.handles[1].residual_max, 1e-12);
+  // In another unit too.
+  const RodOverShelf large(1024);
+  const std::vector<Shape> placed = over.path.Placed(), scaled = large.Solve(true).path.Placed();
+  for (size_t i = 0; i < placed.size(); ++i) {
+    EXPECT_LT((scaled[i] / 1024 - placed[i]).norm(), 1e-9) << i;
+  }
+}
+
+TEST(DeformationContactTest, ObstaclesAreForDeformationsThatAvoidContact) {
+  const RodOverShelf rod;
+  DeformationOptions options;
+  options.obstacle = rod.shelf;
+  EXPECT_THROW(options.Validate(), InvalidOptions);
+  options.avoid_contact = true;
+  options.Validate();
+  options.obstacle->shape(0, 0) = NAN;
+  EXPECT_THROW(options.Validate(), MeshError);
+}
+
 TEST(DeformationContactTest, NeedsTriangles) {
   const auto chain = Connectivity::Make(3, {0}, {}, {{0, 1}, {1, 2}});
   Shape rest(3, 3);

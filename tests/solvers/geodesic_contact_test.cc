@@ -232,18 +232,6 @@ struct BallAndWall {
     options.metric.lambda = 0.01;  // else it is almost free to fly up to the wall at once
     return Interpolate(connectivity, poses, options);
   }
-  // The most pairs of triangles of ball and wall that intersect at 40 times between two shapes.
-  std::int64_t MostIntersections(const Path& path) const {
-    const std::vector<Shape> placed = path.Placed();
-    std::vector<Shape> shapes;
-    for (size_t i = 0; i + 1 < placed.size(); ++i) {
-      for (int k = 0; k < 40; ++k) {
-        shapes.push_back(wall.Joined(Shape((1 - k / 40.) * placed[i] + k / 40. * placed[i + 1])));
-      }
-    }
-    const auto counts = CountIntersections(*wall.Joined(connectivity), shapes);
-    return *std::max_element(counts.begin(), counts.end());
-  }
   double unit;
   Eigen::Vector3d origin;
   ShapeFamily cube;
@@ -260,7 +248,7 @@ TEST(ObstacleTest, ABallSqueezesThroughAHoleNarrowerThanItself) {
   EXPECT_EQ(result.summary.crossings_between, 0);
   EXPECT_GT(result.summary.contact_distance, 0);
   EXPECT_TRUE(result.summary.warnings.empty()) << result.summary.warnings[0];
-  EXPECT_EQ(narrow.MostIntersections(result.path), 0);
+  EXPECT_EQ(MostIntersections(result.path, narrow.wall), 0);
   EXPECT_GT(result.summary.energy, 1e-3);
   EXPECT_LT((result.path.Placed(0) - narrow.poses[0]).norm(), 1e-12);
   EXPECT_LT((result.path.Placed(16) - narrow.poses[1]).norm(), 1e-12);

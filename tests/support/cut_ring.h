@@ -8,6 +8,7 @@
 
 #include <shapespace/analysis/intersections.h>
 #include <shapespace/bodies/tube.h>
+#include <shapespace/contact/obstacle.h>
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/path/path.h>
 
@@ -22,6 +23,19 @@ inline std::int64_t MostIntersections(const Path& path) {
     }
   }
   const auto counts = CountIntersections(*path.metric->connectivity, shapes);
+  return *std::max_element(counts.begin(), counts.end());
+}
+
+/// The same with an obstacle, where the path is placed.
+inline std::int64_t MostIntersections(const Path& path, const Obstacle& obstacle) {
+  const std::vector<Shape> placed = path.Placed();
+  std::vector<Shape> shapes;
+  for (int i = 0; i + 1 < path.NumShapes(); ++i) {
+    for (int k = 0; k <= 40; ++k) {
+      shapes.push_back(obstacle.Joined(Shape((1 - k / 40.) * placed[i] + k / 40. * placed[i + 1])));
+    }
+  }
+  const auto counts = CountIntersections(*obstacle.Joined(path.metric->connectivity), shapes);
   return *std::max_element(counts.begin(), counts.end());
 }
 

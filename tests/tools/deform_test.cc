@@ -199,6 +199,15 @@ TEST_F(DeformTest, AHandlePushesOtherPartsAside) {
   EXPECT_GT(aside["contact_distance"], 0);
   EXPECT_EQ(aside["levels"].back()["start"], "contact");
   EXPECT_LT(aside["handles"][2]["residual_max"], 1e-12);
+  // A floor, into which the other fore paw is to be pressed.
+  std::ofstream(Path("floor.obj")) << "v -9 -.1 -9\nv 9 -.1 -9\nv 9 -.1 9\nv -9 -.1 9\nf 1 2 3 4\n";
+  Handles({Fixed(R"({"box": {"low": [-1, 0, -1], "high": [1, 0.1, 0]}})"),
+           R"({"name": "fore paws", "translation": [0, -0.3, 0],
+               "select": {"box": {"low": [-1, 0, 0], "high": [1, 0.1, 1]}}})"});
+  const json stopped = Report("a0.obj", {"--avoid_contact", "--obstacle", "floor.obj"});
+  EXPECT_GT(stopped["uncertified_segments"], 0);
+  EXPECT_NE(stopped["warnings"][0].get<std::string>().find("or the obstacle: the handles got"),
+            std::string::npos);
 }
 
 TEST_F(DeformTest, PicturesMarkWhatHandlesHold) {

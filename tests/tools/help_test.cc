@@ -101,7 +101,7 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
   EXPECT_EQ(Listed("shape-transfer"), transfer);
   std::set<std::string> deform = wanted;
   deform.insert({"avoid_contact", "balance", "coarsest", "fps", "ground_line", "handles", "labels",
-                 "repair", "sound", "title", "unit", "up"});
+                 "obstacle", "repair", "sound", "title", "unit", "up"});
   EXPECT_EQ(Listed("shape-deform"), deform);
   for (const char* foreign : {"flagfile", "undefok", "logtostderr", "minloglevel", "v"}) {
     EXPECT_EQ(listed.count(foreign), 0u) << foreign;

@@ -27,4 +27,12 @@ Shape Obstacle::Joined(const Shape& body) const {
   return both;
 }
 
+void internal::CheckObstacle(const std::optional<Obstacle>& obstacle, bool avoid_contact) {
+  if (!obstacle) return;
+  if (!avoid_contact) {
+    throw InvalidOptions("obstacle", "is for paths that avoid contact: set avoid_contact");
+  }
+  obstacle->Validate();
+}
+
 }  // namespace shapespace

@@ -2,6 +2,7 @@
 #define SHAPESPACE_CONTACT_OBSTACLE_H_
 
 #include <memory>
+#include <optional>
 
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
@@ -23,6 +24,12 @@ struct Obstacle {
   Shape Joined(const Shape& body) const;
 };
 
+namespace internal {
+
+/// \throw InvalidOptions naming the field, MeshError; for options with `avoid_contact`.
+void CheckObstacle(const std::optional<Obstacle>& obstacle, bool avoid_contact);
+
+}  // namespace internal
 }  // namespace shapespace
 
 #endif  // SHAPESPACE_CONTACT_OBSTACLE_H_

@@ -69,6 +69,7 @@ void DeformationOptions::Validate() const {
   internal::CheckMaxIterations(max_iterations);
   HierarchyOptions{coarsest, {}}.Validate();
   internal::CheckMemoryLimit(memory_limit);
+  internal::CheckObstacle(obstacle, avoid_contact);
 }
 
 // Stores the data of a solve that the next one can reuse.
@@ -114,8 +115,9 @@ class Deformer::Solver {
   const Shape given_;  // the mesh, in the user's unit
   std::shared_ptr<const Metric> metric_;
   double estimated_bytes_ = 0;
-  Eigen::Vector3d origin_;  // in the user's unit; subtracted from all shapes below
-  Shape rest_;              // the mesh, in the metric's unit
+  Eigen::Vector3d origin_;            // in the user's unit; subtracted from all shapes below
+  Shape rest_;                        // the mesh, in the metric's unit
+  std::optional<Obstacle> obstacle_;  // likewise
   std::vector<int> component_;
   std::optional<Hierarchy> hierarchy_;
   std::vector<HeldLevel> levels_;
@@ -137,6 +139,8 @@ Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity
                         "ask for fewer shapes");
   origin_ = Centroid(rest, metric_->vertex_area);
   rest_ = (rest.colwise() - origin_) / metric_->unit;
+  obstacle_ = options.obstacle;
+  if (obstacle_) obstacle_->shape = (obstacle_->shape.colwise() - origin_) / metric_->unit;
   component_ = ComputeTopology(*connectivity).component;
 }
 
@@ -363,7 +367,8 @@ std::vector<Shape> Deformer::Solver::AvoidContact(const HandleTargets& targets,
   const internal::Stopwatch stopwatch;
   const ContactModel model = Model(levels_.size() - 1);
   if (model.NumIntersections() > 0) {
-    summary->warnings.push_back("the mesh intersects itself (" +
+    summary->warnings.push_back((obstacle_ ? "the mesh intersects itself or the obstacle ("
+                                           : "the mesh intersects itself (") +
                                 std::to_string(model.NumIntersections()) +
                                 " pairs of triangles); contact is not avoided there");
   }
@@ -407,7 +412,8 @@ std::vector<Shape> Deformer::Solver::AvoidContact(const HandleTargets& targets,
 ContactModel Deformer::Solver::Model(size_t level) const {
   return {levels_[level].Path().GetMetric(),
           {levels_[level].Rest()},
-          ContactModel::Intersections::kExempt};
+          ContactModel::Intersections::kExempt,
+          obstacle_ ? &*obstacle_ : nullptr};
 }
 
 // The coarsest level with enough detail on which the mesh intersects itself at no more than
@@ -451,10 +457,10 @@ std::vector<Shape> Deformer::Solver::GiveWay(const ContactModel& model,
     AddRow("contact", vertices, found.result, stopwatch.Seconds(), summary);
   } else if (!workload->Stopped()) {
     summary->warnings.push_back(
-        "no deformation was found in which the body does not pass through itself: the handles "
-        "got " +
+        std::string("no deformation was found in which the body does not pass through itself") +
+        (obstacle_ ? " or the obstacle" : "") + ": the handles got " +
         std::to_string(std::lround(100 * found.reached)) +
-        "% of their way; it passes through itself in the path that is returned");
+        "% of their way; it does in the path that is returned");
   }
   return std::move(found.shapes);
 }

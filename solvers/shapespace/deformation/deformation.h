@@ -9,6 +9,7 @@
 
 #include <shapespace/analysis/shape_error.h>
 #include <shapespace/base/progress.h>
+#include <shapespace/contact/obstacle.h>
 #include <shapespace/deformation/handle.h>
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/mesh/connectivity.h>
@@ -64,6 +65,10 @@ struct DeformationOptions {
   /// Needs triangles. Not prevented are contacts of parts that are nearer to each other on the
   /// surface than two edges.
   bool avoid_contact = false;
+
+  /// With `avoid_contact`: a surface that does not move, which the body is not to touch either. It
+  /// is in the frame and the unit of the mesh.
+  std::optional<Obstacle> obstacle;
 
   /// Memory limit of a solve in bytes; if the estimate exceeds it, the solve is refused before
   /// anything is allocated.

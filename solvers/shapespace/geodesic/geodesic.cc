@@ -276,11 +276,7 @@ void GeodesicOptions::Validate() const {
   if (!via.empty() && !avoid_contact) {
     throw InvalidOptions("via", "is for paths that avoid contact: set avoid_contact");
   }
-  if (!obstacle) return;
-  if (!avoid_contact) {
-    throw InvalidOptions("obstacle", "is for paths that avoid contact: set avoid_contact");
-  }
-  obstacle->Validate();
+  internal::CheckObstacle(obstacle, avoid_contact);
 }
 
 GeodesicResult Interpolate(const std::shared_ptr<const Connectivity>& connectivity,

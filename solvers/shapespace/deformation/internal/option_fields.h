@@ -38,6 +38,8 @@ void ForOptions(Of<DeformationOptions>, const Visit& visit) {
         "Triangles of the coarsest level of the hierarchy.");
   visit("avoid_contact", &DeformationOptions::avoid_contact,
         "Whether the body must not pass through itself: parts give way to each other.");
+  visit("obstacle", &DeformationOptions::obstacle,
+        "With avoid_contact: a mesh that does not move and that the body must not touch either.");
   visit("memory_limit", &DeformationOptions::memory_limit,
         "Bytes that the solve may take; an estimate above it is refused at once.");
 }
