@@ -123,7 +123,7 @@ TEST_F(RefusalTest, WrongCommandLines) {
   ExpectRefusal(2,
                 {"tube0.obj", "tube1.obj", "tube0.obj", "--avoid_contact", "--obstacle",
                  "tube0.obj", "--spline", "natural"},
-                {"--obstacle: is for geodesics alone"});
+                {"--obstacle tube0.obj: is for geodesics alone"});
   ExpectRefusal(2, {"tube0.obj", "tube1.obj", "--hold_limit", "2"},
                 {"--hold_limit: goes with --spline"});
   const auto refuse_spline = [&](Strings flags, const char* message) {

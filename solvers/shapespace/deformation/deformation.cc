@@ -101,7 +101,6 @@ class Deformer::Solver {
                                   const std::vector<Shape>& shapes, internal::Workload* workload,
                                   DeformationSummary* summary);
   ContactModel Model(size_t level) const;
-  size_t FirstLevelOfContact(int intersections) const;
   std::vector<Shape> GiveWay(const ContactModel& model, const HandleTargets& targets,
                              const std::vector<Shape>& guide, size_t level,
                              internal::Workload* workload, DeformationSummary* summary);
@@ -367,17 +366,18 @@ std::vector<Shape> Deformer::Solver::AvoidContact(const HandleTargets& targets,
   const internal::Stopwatch stopwatch;
   const ContactModel model = Model(levels_.size() - 1);
   if (model.NumIntersections() > 0) {
-    summary->warnings.push_back((obstacle_ ? "the mesh intersects itself or the obstacle ("
-                                           : "the mesh intersects itself (") +
-                                std::to_string(model.NumIntersections()) +
-                                " pairs of triangles); contact is not avoided there");
+    summary->warnings.push_back(internal::WarningOfIntersections(
+        obstacle_ ? "the mesh intersects itself or the obstacle" : "the mesh intersects itself",
+        model));
   }
   std::vector<int> touching = internal::SegmentsWithContact(model, shapes);
   std::vector<Shape> path;
   if (!touching.empty()) {
     // A way that is not found on a coarse level is not found on finer ones either, in much more
     // time.
-    size_t level = FirstLevelOfContact(model.NumIntersections());
+    size_t level =
+        internal::FirstLevelOfContact(static_cast<int>(levels_.size()) - 1,
+                                      model.NumIntersections(), [&](int i) { return Model(i); });
     std::vector<Shape> guide;
     for (const Shape& shape : shapes) {
       guide.push_back(hierarchy_->Restrict(shape, static_cast<int>(level)));
@@ -396,13 +396,11 @@ std::vector<Shape> Deformer::Solver::AvoidContact(const HandleTargets& targets,
       touching = internal::SegmentsWithContact(model, path);
       if (!touching.empty()) {
         summary->warnings.push_back(
-            std::to_string(touching.size()) +
-            " segments have not been shown to be free of contact; ask for more shapes");
+            internal::WarningOfUncertified(static_cast<int>(touching.size())) +
+            "; ask for more shapes");
       }
     }
-    const double distance =
-        metric_->unit * internal::LeastDistance(model, path.empty() ? shapes : path);
-    if (std::isfinite(distance)) summary->contact_distance = distance;
+    summary->contact_distance = internal::LeastDistance(model, path.empty() ? shapes : path);
   }
   summary->uncertified_segments = static_cast<int>(touching.size());
   summary->contact_seconds = stopwatch.Seconds();
@@ -414,19 +412,6 @@ ContactModel Deformer::Solver::Model(size_t level) const {
           {levels_[level].Rest()},
           ContactModel::Intersections::kExempt,
           obstacle_ ? &*obstacle_ : nullptr};
-}
-
-// The coarsest level with enough detail on which the mesh intersects itself at no more than
-// `intersections` places, as many as on the finest.
-size_t Deformer::Solver::FirstLevelOfContact(int intersections) const {
-  size_t level = 0;
-  while (level + 1 < levels_.size() &&
-         (levels_[level].Path().GetMetric()->connectivity->NumTriangles() <
-              internal::kFewestTrianglesOfContact ||
-          Model(level).NumIntersections() > intersections)) {
-    ++level;
-  }
-  return level;
 }
 
 // The deformation of a level without contact, with a row in the summary; empty, with a warning, if

@@ -14,6 +14,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/cost/internal/refuse_sums.h>
 #include <shapespace/geodesic/internal/contact_piece.h>
 #include <shapespace/geodesic/internal/geodesic_piece.h>
@@ -240,8 +241,7 @@ void Warn(bool past_obstacle, GeodesicSummary* summary) {
   }
   constexpr double kManyIntersections = 5;
   if (summary->uncertified_segments > 0) {
-    summary->warnings.push_back(std::to_string(summary->uncertified_segments) +
-                                " segments have not been shown to be free of contact");
+    summary->warnings.push_back(internal::WarningOfUncertified(summary->uncertified_segments));
   } else if (summary->intersections > kManyIntersections) {
     summary->warnings.push_back("the body intersects itself: inner shapes have " +
                                 std::to_string(std::lround(summary->intersections)) +

@@ -7,6 +7,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/numerics/internal/memory.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/internal/velocity.h>
@@ -106,9 +107,8 @@ void WarnOfContact(SplineSummary* summary) {
     return;
   }
   if (summary->uncertified_segments > 0) {
-    summary->warnings.push_back(
-        std::to_string(summary->uncertified_segments) +
-        " segments of the smooth motion have not been shown to be free of contact");
+    summary->warnings.push_back("of the smooth motion " +
+                                internal::WarningOfUncertified(summary->uncertified_segments));
   }
 }
 

@@ -1,6 +1,7 @@
 #include <shapespace/contact/internal/avoid_contact.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -94,7 +95,32 @@ double LeastDistance(const ContactModel& model, const std::vector<Shape>& shapes
       }
     }
   });
-  return *std::min_element(least.begin(), least.end());
+  const double distance = *std::min_element(least.begin(), least.end());
+  return std::isfinite(distance) ? model.GetMetric()->unit * distance
+                                 : std::numeric_limits<double>::quiet_NaN();
+}
+
+int FirstLevelOfContact(int finest, int intersections,
+                        const std::function<ContactModel(int)>& model) {
+  // With fewer triangles the way round is hardly the mesh's own.
+  constexpr int kFewestTriangles = 800;
+  for (int level = 0; level < finest; ++level) {
+    const ContactModel its_model = model(level);
+    if (its_model.GetMetric()->connectivity->NumTriangles() >= kFewestTriangles &&
+        its_model.NumIntersections() <= intersections) {
+      return level;
+    }
+  }
+  return finest;
+}
+
+std::string WarningOfIntersections(const std::string& what, const ContactModel& model) {
+  return what + " (" + std::to_string(model.NumIntersections()) +
+         " pairs of triangles); contact is not avoided there";
+}
+
+std::string WarningOfUncertified(int segments) {
+  return std::to_string(segments) + " segments have not been shown to be free of contact";
 }
 
 namespace {

@@ -1,6 +1,8 @@
 #ifndef SHAPESPACE_CONTACT_INTERNAL_AVOID_CONTACT_H_
 #define SHAPESPACE_CONTACT_INTERNAL_AVOID_CONTACT_H_
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include <shapespace/contact/internal/contact_model.h>
@@ -13,10 +15,6 @@ namespace shapespace::internal {
 /// parts come so near to each other that they touch between the times of the potential. Past an
 /// obstacle, which may be in the way of a rigid motion without energy, of that of the free way.
 constexpr double kContactStiffness = 3;
-
-/// Levels of a hierarchy with fewer triangles have too little detail for the way round to be the
-/// mesh's own.
-constexpr int kFewestTrianglesOfContact = 800;
 
 /// A path during which nothing touches, if one was found.
 struct ContactFreePath {
@@ -31,9 +29,19 @@ double EnergyAlong(const Metric& metric, const std::vector<Shape>& shapes);
 /// The segments during whose straight motion something touches.
 std::vector<int> SegmentsWithContact(const ContactModel& model, const std::vector<Shape>& shapes);
 
-/// The least distance of two parts at some times of each segment; infinite if none come nearer than
-/// the potential reaches.
+/// The least distance of two parts at some times of each segment, in the user's unit; NaN if none
+/// come nearer than the potential reaches.
 double LeastDistance(const ContactModel& model, const std::vector<Shape>& shapes);
+
+/// The coarsest level up to `finest` on which to begin: it has enough detail, and the poses of its
+/// model intersect at no more than `intersections` places, as many as those of the mesh.
+int FirstLevelOfContact(int finest, int intersections,
+                        const std::function<ContactModel(int level)>& model);
+
+/// Warnings: that contact is not avoided at the intersections of `model`, whose poses `what` names
+/// with a verb ("the mesh intersects itself"); that segments are not certified.
+std::string WarningOfIntersections(const std::string& what, const ContactModel& model);
+std::string WarningOfUncertified(int segments);
 
 /// Finds a way from the first shape of `guide` to its last round whatever is touched in between,
 /// starting at one of the ends (`Follow`), shortens it, and minimises

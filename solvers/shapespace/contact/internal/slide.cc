@@ -1,7 +1,5 @@
 #include <shapespace/contact/internal/slide.h>
 
-#include <cmath>
-
 #include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/contact/internal/follow.h>
 #include <shapespace/numerics/internal/preconditioner.h>
@@ -15,9 +13,7 @@ SlideResult SlideAtContact(const std::shared_ptr<const Metric>& metric, Progress
   SlideResult result;
   if (SegmentsWithContact(model, shapes).empty()) return result;
   if (model.NumIntersections() > 0) {
-    result.warnings.push_back("the first shape intersects itself (" +
-                              std::to_string(model.NumIntersections()) +
-                              " pairs of triangles); contact is not avoided there");
+    result.warnings.push_back(WarningOfIntersections("the first shape intersects itself", model));
   }
   const CholeskyFactor<float> factor(ScalarMetric(*metric, {shapes.front(), shapes.back()}, 0));
   const Draw draw = {metric, factor, 1e-4, 300};
@@ -29,11 +25,9 @@ SlideResult SlideAtContact(const std::shared_ptr<const Metric>& metric, Progress
   for (size_t i = 0; i < shapes.size(); ++i) shapes[i] = way.shapes[way.reached[i]];
   result.uncertified_segments = static_cast<int>(SegmentsWithContact(model, shapes).size());
   if (result.uncertified_segments > 0) {
-    result.warnings.push_back(std::to_string(result.uncertified_segments) +
-                              " segments have not been shown to be free of contact");
+    result.warnings.push_back(WarningOfUncertified(result.uncertified_segments));
   }
-  const double distance = metric->unit * LeastDistance(model, shapes);
-  if (std::isfinite(distance)) result.contact_distance = distance;
+  result.contact_distance = LeastDistance(model, shapes);
   return result;
 }
 

@@ -50,12 +50,9 @@ std::vector<Shape> ContactPiece::Run(const std::vector<Shape>& guide) {
   if (!touching.empty() || !options_.via.empty()) {
     const ContactModel model = Model(finest, guide, Intersections::kExempt);
     if (model.NumIntersections() > 0) {
-      summary_.warnings.push_back("piece " + std::to_string(index_) +
-                                  (obstacle_ == nullptr ? ": its poses intersect themselves ("
-                                                        : ": its poses intersect themselves or the "
-                                                          "obstacle (") +
-                                  std::to_string(model.NumIntersections()) +
-                                  " pairs of triangles); contact is not avoided there");
+      const std::string what = obstacle_ == nullptr ? "themselves" : "themselves or the obstacle";
+      summary_.warnings.push_back(WarningOfIntersections(
+          "piece " + std::to_string(index_) + ": its poses intersect " + what, model));
     }
     touching = AvoidOnAllLevels(model, guide, &result);
   }
@@ -76,7 +73,9 @@ std::vector<int> ContactPiece::AvoidOnAllLevels(const ContactModel& model,
     const std::vector<Shape> detail = *result;
     // A way that is not found on a coarse level is not found on finer ones either, in much more
     // time.
-    int level = FirstLevel(guide, model.NumIntersections());
+    int level = FirstLevelOfContact(finest, model.NumIntersections(), [&](int i) {
+      return Model(i, guide, ContactModel::Intersections::kExempt);
+    });
     std::vector<Shape> path = Avoid(level, energy, Restrict(followed, level));
     while (!path.empty() && level < finest && !workload_.Stopped()) {
       ++level;
@@ -97,7 +96,7 @@ std::vector<int> ContactPiece::AvoidOnAllLevels(const ContactModel& model,
                      std::to_string(parts_ - 1) + " shapes or more"));
     }
   }
-  const double distance = model.GetMetric()->unit * LeastDistance(model, *result);
+  const double distance = LeastDistance(model, *result);
   if (std::isfinite(distance) && !(distance >= summary_.contact_distance)) {
     summary_.contact_distance = distance;
   }
@@ -114,18 +113,6 @@ ContactModel ContactPiece::Model(int level, const std::vector<Shape>& guide,
                                  ContactModel::Intersections intersections) const {
   return {resolutions_[level].GetMetric(), Restrict({guide.front(), guide.back()}, level),
           intersections, obstacle_};
-}
-
-int ContactPiece::FirstLevel(const std::vector<Shape>& guide, int intersections) const {
-  const int finest = hierarchy_.NumLevels() - 1;
-  for (int level = 0; level < finest; ++level) {
-    if (hierarchy_.LevelConnectivity(level)->NumTriangles() >= kFewestTrianglesOfContact &&
-        Model(level, guide, ContactModel::Intersections::kExempt).NumIntersections() <=
-            intersections) {
-      return level;
-    }
-  }
-  return finest;
 }
 
 std::vector<Shape> ContactPiece::Avoid(int level, double energy, const std::vector<Shape>& guide) {

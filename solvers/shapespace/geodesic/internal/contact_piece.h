@@ -34,9 +34,6 @@ class ContactPiece {
   std::vector<Shape> Restrict(const std::vector<Shape>& shapes, int level) const;
   ContactModel Model(int level, const std::vector<Shape>& guide,
                      ContactModel::Intersections intersections) const;
-  // The coarsest level on which to begin: it has enough detail, and its poses intersect themselves
-  // and the obstacle at no more than `intersections` places, as many as those of the mesh.
-  int FirstLevel(const std::vector<Shape>& guide, int intersections) const;
   // The path round the contacts on a level, with a row in the summary; empty if there is none.
   std::vector<Shape> Avoid(int level, double energy, const std::vector<Shape>& guide);
   // A path of `level` on the next finer one, with the detail of `guide`, as many shapes of the mesh

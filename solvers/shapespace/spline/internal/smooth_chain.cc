@@ -247,12 +247,11 @@ class ChainContact {
 
   // In the user's unit; NaN if no parts come near each other.
   double Distance(const std::vector<Shape>& shapes) const {
-    double least = std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::quiet_NaN();
     for (int i = 0; i < NumIntervals(); ++i) {
-      least = std::min(least, LeastDistance(models_[i], Part(shapes, i)));
+      least = std::fmin(least, LeastDistance(models_[i], Part(shapes, i)));
     }
-    return std::isfinite(least) ? models_[0].GetMetric()->unit * least
-                                : std::numeric_limits<double>::quiet_NaN();
+    return least;
   }
 
   // Replaces the smoothed shapes of an interval in which the chain has no contact.
