@@ -1,215 +1,457 @@
 #!/usr/bin/env python3
-"""Changes one line of the solvers at a time and looks whether a test notices.
+"""Changes one line of the program at a time and looks whether a test notices.
 
-Every mutation below takes out, or puts out of order, one special case or one term. It is applied to
-a copy of the tree, which is built and tested; a mutation that no test notices is printed as
-SURVIVED: the line then either needs a test or can go. Run it by hand, from a shell (a mutation takes
-about a minute):
+All changes are compiled at once into a copy of the tree, in build/mutations: each looks at the
+environment variable SHAPESPACE_MUTATION, which has the number of the one that is in force. The
+build takes as long as any other; after it a mutation takes as long as the tests need to notice it.
+One that no test notices is printed as SURVIVED: the line then either needs a test or can go. Run it
+by hand, from a shell:
 
     tests/mutations.py            all mutations
     tests/mutations.py shooter    those whose file or text contains "shooter"
-    tests/mutations.py --list     only lists them
+    tests/mutations.py --list     only lists them, with their numbers
+    tests/mutations.py -j 1       one test program at a time, instead of two
 
 Lines that only make a solve faster (schedules, tolerances of inner solvers, preconditioners) are not
-in the list: no test is a stopwatch. Real meshes are not used: tests on bodies made in code are to
+in the lists: no test is a stopwatch. Real meshes are not used: tests on bodies made in code are to
 notice. Exit code 1 if more than one in twenty-five survives.
 """
 
-import filecmp
+import argparse
+import concurrent.futures
 import os
 import re
-import shutil
 import subprocess
 import sys
+import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 COPY = os.path.join(ROOT, "build", "mutations")
-SOLVERS = "solvers/shapespace/"
-EDGE_LENGTH = "lib/shapespace/metric/edge_length.cc"
-DIHEDRAL = "lib/shapespace/metric/dihedral.cc"
-FREEZE_LEVEL = "lib/shapespace/hierarchy/freeze_level.cc"
+BUILD = os.path.join(COPY, "build")
+# A program that takes longer than this, in seconds, is taken to hang.
+LIMIT = 1800
+
+HEADER = """\
+// Written by tests/mutations.py.
+#pragma once
+#include <cstdlib>
+
+inline bool MutationIs(int number) {
+  static const int chosen = [] {
+    const char* text = std::getenv("SHAPESPACE_MUTATION");
+    return text ? std::atoi(text) : 0;
+  }();
+  return number == chosen;
+}
+"""
+
+PROGRAMS = ["base/base_test", "mesh/mesh_test", "metric/metric_test", "path/path_test",
+            "hierarchy/hierarchy_test", "analysis/analysis_test", "bodies/bodies_test",
+            "output/output_test", "solvers/exploration/exploration_test", "formats/formats_test",
+            "tools/tools_test", "solvers/solvers_test"]
 
 # The tests that each part of the solvers has, as filters of GoogleTest's.
-GOING = "Exponential*:Extrapolate*:FirstIntegral*:Logarithm*:InitialVelocity*:Shooter*:Step*:*Continuation*:RoundTrip*:Inverse*"
+GOING = ("Exponential*:Extrapolate*:FirstIntegral*:Logarithm*:InitialVelocity*:Shooter*:Step*:"
+         "*Continuation*:RoundTrip*:Inverse*")
 GEODESICS = "Interpolate*:Schedule*:UnwrapHinges*:EnergyLowerBound*:Minimise*"
-MINIMISING = "Minimise*:ThreadedLbfgs*:SearchLine*:ScalarMetric*:*Precond*:Cholesky*:ChangeOf*:Deform*:Repair*:Interpolate*"
+MINIMISING = ("Minimise*:ThreadedLbfgs*:SearchLine*:ScalarMetric*:*Precond*:Cholesky*:ChangeOf*:"
+              "Deform*:Repair*:Interpolate*")
 CARRYING = "*Transport*:*Transfer*:Ladder*:FindNearest*:Step*"
 CORRECTING = "Correct*"
 HANDLES = "Deform*:Repair*:FreeEnd*:Screw*:Handle*"
 EXPLORING = "*Test.*:-HandleFileTest*"
 WEIGHTS = "MetricOptions*:FreezeMetric*:Interpolate*:EnergyLowerBound*"
+FILTERED = ["solvers/solvers_test", "solvers/exploration/exploration_test", "metric/metric_test"]
 
-# File, text (which must stand there once), what takes its place, and the tests that are to notice.
-MUTATIONS = [
+# A mutation is a file (the folder shapespace/ is left out), a text that must stand there once,
+# whatever its line breaks, and what takes its place. A text that ends in a semicolon is a whole
+# statement, one that begins with constexpr declares constants, and any other is an expression.
+
+# Special cases and terms of the solvers, each taken out or put out of order, and the tests that are
+# to notice.
+SPECIAL_CASES = [
     # Going on from a path.
-    ("exponential/internal/shooter.cc", "coarse.previous = restrict(initial_state.previous);",
+    ("solvers/exponential/internal/shooter.cc",
+     "coarse.previous = restrict(initial_state.previous);",
      "if (initial_state.previous.size() > 0) coarse.previous = coarse.shape;", GOING),
-    ("exponential/internal/step.cc", "if (speed_ <= rounding_) {", "if (speed_ <= 1e9 * rounding_) {", GOING),
-    ("exponential/internal/step.cc", "if (speed_ <= rounding_) {", "if (speed_ < 0) {", GOING),
-    ("exponential/internal/step.cc", "constexpr double kContraction = 0.5;",
-     "constexpr double kContraction = 1e9;", GOING),
-    ("exponential/internal/step.cc", "constexpr double kMinIncrement = 1.0 / 64;",
-     "constexpr double kMinIncrement = 1;", GOING),
-    ("exponential/internal/step.cc", "return agrees(speed_) && (initial_state_.speed == 0 || agrees(initial_state_.speed));",
+    ("solvers/exponential/internal/step.cc",
+     "speed_ <= rounding_", "speed_ <= 1e9 * rounding_", GOING),
+    ("solvers/exponential/internal/step.cc", "speed_ <= rounding_", "speed_ < 0", GOING),
+    ("solvers/exponential/internal/step.cc",
+     "constexpr double kContraction = 0.5;", "constexpr double kContraction = 1e9;", GOING),
+    ("solvers/exponential/internal/step.cc",
+     "constexpr double kMinIncrement = 1.0 / 64;", "constexpr double kMinIncrement = 1;", GOING),
+    ("solvers/exponential/internal/step.cc",
+     "return agrees(speed_) && (initial_state_.speed == 0 || agrees(initial_state_.speed));",
      "return agrees(speed_) || true;", GOING),
-    ("exponential/internal/step.cc", "Shape root = reached + expansion(next) - expansion(load);",
-     "Shape root = expansion(next);", GOING),
-    ("exponential/internal/step.cc", "std::max(options.tolerance, rounding_ / speed_)", "options.tolerance", GOING),
-    ("exponential/exponential.cc", "metric->unit * (first.rotation * SegmentVelocity(",
-     "metric->unit * (1.0 * SegmentVelocity(", GOING),
-    ("exponential/exponential.cc", "if (row.inverted > kInvertedShare) {", "if (row.inverted > 1) {", GOING),
-    ("exponential/exponential.cc", "if (now < kVanishedEdge * before) {", "if (now < 0 * before) {", GOING),
-    ("exponential/exponential.cc", "constexpr double kRisen = 2;", "constexpr double kRisen = 1e9;", GOING),
-    ("exponential/exponential.cc", "if (found > 0) velocity *= speed / found;", "if (found < 0) velocity *= speed;", GOING),
-    ("exponential/exponential.cc", "initial_state = Restart(map, initial_state.shape, shape, initial_state.speed);",
+    ("solvers/exponential/internal/step.cc",
+     "reached + expansion(next) - expansion(load)", "expansion(next)", GOING),
+    ("solvers/exponential/internal/step.cc",
+     "std::max(options.tolerance, rounding_ / speed_)", "options.tolerance", GOING),
+    ("solvers/exponential/exponential.cc",
+     "first.rotation * internal::SegmentVelocity(FeatureMap(metric), path.shapes[1], path.shapes[0], -1, &solver)",
+     "internal::SegmentVelocity(FeatureMap(metric), path.shapes[1], path.shapes[0], -1, &solver)",
+     GOING),
+    ("solvers/exponential/exponential.cc",
+     "row.inverted > kInvertedShare", "row.inverted > 1", GOING),
+    ("solvers/exponential/exponential.cc",
+     "now < kVanishedEdge * before", "now < 0 * before", GOING),
+    ("solvers/exponential/exponential.cc",
+     "constexpr double kRisen = 2;", "constexpr double kRisen = 1e9;", GOING),
+    ("solvers/exponential/internal/shooter.cc",
+     "if (found > 0) velocity *= speed / found;", "if (found < 0) velocity *= speed;", GOING),
+    ("solvers/exponential/exponential.cc",
+     "initial_state = shooter.Restart(initial_state.shape, shape, initial_state.speed);",
      "initial_state.previous = std::exchange(initial_state.shape, shape);", GOING),
-    ("exponential/exponential.cc", "if (discrete) scheme.Next(&unused);", "if (!discrete) scheme.Next(&unused);", GOING),
+    ("solvers/exponential/exponential.cc",
+     "if (discrete) scheme.Next(&unused);", "if (!discrete) scheme.Next(&unused);", GOING),
     # Geodesics.
-    (FREEZE_LEVEL, "hierarchy.LevelConnectivity(level), poses, 1, pairs)",
-     "hierarchy.LevelConnectivity(level), poses, 0, pairs)", GEODESICS),
-    ("geodesic/geodesic.cc", "if (!(energy < GeodesicSummary::kZeroEnergy)) return false;",
+    ("lib/hierarchy/freeze_level.cc",
+     "return FreezeMetric(RestrictOptions(finest.options, *finest.connectivity, hierarchy, level), hierarchy.LevelConnectivity(level), poses, 1, pairs);",
+     "return FreezeMetric(RestrictOptions(finest.options, *finest.connectivity, hierarchy, level), hierarchy.LevelConnectivity(level), poses, 0, pairs);",
+     GEODESICS),
+    ("solvers/geodesic/geodesic.cc",
+     "if (!(energy < GeodesicSummary::kZeroEnergy)) return false;",
      "if (energy >= 0) return false;", GEODESICS),
-    ("geodesic/geodesic.cc", "if (options.schedule != GeodesicSchedule::kAutomatic || metric.options.bending > 0) {",
-     "if (options.schedule != GeodesicSchedule::kAutomatic || metric.options.bending >= 0) {", GEODESICS),
-    ("geodesic/internal/resolution.cc", "return std::pow((inner + 1.0) / (options.shapes + 1.0), 2);",
+    ("solvers/geodesic/geodesic.cc",
+     "options.schedule != GeodesicSchedule::kAutomatic || metric.options.bending > 0",
+     "options.schedule != GeodesicSchedule::kAutomatic || metric.options.bending >= 0", GEODESICS),
+    ("solvers/geodesic/internal/resolution.cc",
+     "return std::pow((inner + 1.0) / (options.shapes + 1.0), 2);",
      "return inner + options.shapes > 0 ? 1 : 0;", GEODESICS),
-    ("geodesic/internal/resolution.cc", "if (metric_->RigidInvariantButForPosition()) RemoveRigidDrift(shapes, metric_->vertex_area);\n\n",
-     "\n", GEODESICS),
-    ("geodesic/internal/geodesic_piece.cc", "constexpr double kEnough = 1.0 / 2048;", "constexpr double kEnough = 1;", GEODESICS),
-    ("geodesic/internal/geodesic_piece.cc", "UnwrapHinges(*resolution.GetMetric(), &shapes);", "", GEODESICS),
-    ("geodesic/internal/geodesic_piece.cc", "return {GeodesicStart::kBlend, GeodesicStart::kFirst, GeodesicStart::kLast};",
+    ("solvers/geodesic/internal/resolution.cc",
+     "if (metric_->RigidInvariantButForPosition()) RemoveRigidDrift(shapes, metric_->vertex_area);",
+     ";", GEODESICS),
+    ("solvers/geodesic/internal/geodesic_piece.cc",
+     "constexpr double kEnough = 1.0 / 2048;", "constexpr double kEnough = 1;", GEODESICS),
+    ("solvers/geodesic/internal/geodesic_piece.cc",
+     "UnwrapHinges(*resolution.GetMetric(), &shapes);", ";", GEODESICS),
+    ("solvers/geodesic/internal/geodesic_piece.cc",
+     "return {GeodesicStart::kBlend, GeodesicStart::kFirst, GeodesicStart::kLast};",
      "return {GeodesicStart::kBlend};", GEODESICS),
-    ("geodesic/internal/geodesic_piece.cc", "attempt.energy < best.energy && !workload_.Stopped()",
+    ("solvers/geodesic/internal/geodesic_piece.cc",
+     "attempt.energy < best.energy && !workload_.Stopped()",
      "attempt.energy > best.energy && !workload_.Stopped()", GEODESICS),
-    ("geodesic/internal/schedule.cc", "constexpr int kShapesOnAllLevels = 7;", "constexpr int kShapesOnAllLevels = 1;", GEODESICS),
-    ("geodesic/internal/unwrap_hinges.cc", "for (int v : vertices) mover.Move({v});", "", GEODESICS),
-    ("geodesic/internal/unwrap_hinges.cc", "mover.Move({stencil(0), stencil(1), stencil(2), stencil(3)});", "", GEODESICS),
-    ("geodesic/internal/unwrap_hinges.cc", "|| fastest > 2 * M_PI / segments;", "|| fastest > 7;", GEODESICS),
-    ("geodesic/internal/unwrap_hinges.cc", "std::abs(WrapAngle(before - first)) + M_PI ||", "1e9 ||", GEODESICS),
+    ("solvers/geodesic/internal/schedule.cc",
+     "constexpr int kShapesOnAllLevels = 7;", "constexpr int kShapesOnAllLevels = 1;", GEODESICS),
+    ("solvers/geodesic/internal/unwrap_hinges.cc",
+     "for (int v : vertices) mover.Move({v});", ";", GEODESICS),
+    ("solvers/geodesic/internal/unwrap_hinges.cc",
+     "mover.Move({stencil(0), stencil(1), stencil(2), stencil(3)});", ";", GEODESICS),
+    ("solvers/geodesic/internal/unwrap_hinges.cc",
+     "fastest > 2 * M_PI / segments", "fastest > 7", GEODESICS),
+    ("solvers/geodesic/internal/unwrap_hinges.cc",
+     "std::abs(WrapAngle(before - first)) + M_PI", "1e9", GEODESICS),
     # Minimising.
-    ("numerics/internal/minimise_threaded_lbfgs.cc", "fresh_change_ = end.slope - slope >= -kMinCurvature * slope;",
-     "fresh_change_ = true;", MINIMISING),
-    ("numerics/internal/minimise_threaded_lbfgs.cc", "if (small >= 2) return Termination::kConverged;",
-     "if (small >= 1) return Termination::kConverged;", MINIMISING),
-    ("numerics/internal/minimise_threaded_lbfgs.cc", "if (fresh_) return Termination::kStalled;", "return Termination::kStalled;", MINIMISING),
-    ("numerics/internal/minimise_threaded_lbfgs.cc", "result_.remaining < kNothingLeft * options_.tolerance) {",
-     "result_.remaining < 0) {", MINIMISING),
-    ("numerics/internal/line_search.cc", "if ((decreases || equal) && std::isfinite(point.slope)) {",
-     "if (decreases && std::isfinite(point.slope)) {", MINIMISING),
-    ("numerics/internal/line_search.cc", "return low.step > 0 ? evaluate(low.step) : start;", "return start;",
+    ("solvers/numerics/internal/minimise_threaded_lbfgs.cc",
+     "fresh_change_ = end.slope - slope >= -kMinCurvature * slope;", "fresh_change_ = true;",
      MINIMISING),
-    ("numerics/internal/preconditioner.cc", "constexpr double kMinLambda = 1e-6;", "constexpr double kMinLambda = 0;", MINIMISING),
-    ("exponential/internal/nearest_shape.cc", "constexpr int kMaxHalvings = 8;", "constexpr int kMaxHalvings = 0;", CARRYING),
+    ("solvers/numerics/internal/minimise_threaded_lbfgs.cc",
+     "if (small >= 2) return Termination::kConverged;",
+     "if (small >= 1) return Termination::kConverged;", MINIMISING),
+    ("solvers/numerics/internal/minimise_threaded_lbfgs.cc",
+     "if (fresh_) return Termination::kStalled;", "return Termination::kStalled;", MINIMISING),
+    ("solvers/numerics/internal/minimise_threaded_lbfgs.cc",
+     "result_.remaining < kNothingLeft * options_.tolerance", "result_.remaining < 0", MINIMISING),
+    ("solvers/numerics/internal/line_search.cc",
+     "(decreases || equal) && std::isfinite(point.slope)",
+     "decreases && std::isfinite(point.slope)", MINIMISING),
+    ("solvers/numerics/internal/line_search.cc",
+     "return low.step > 0 ? evaluate(low.step) : start;", "return start;", MINIMISING),
+    ("solvers/numerics/internal/preconditioner.cc",
+     "constexpr double kMinLambda = 1e-6;", "constexpr double kMinLambda = 0;", MINIMISING),
+    ("solvers/exponential/internal/nearest_shape.cc",
+     "constexpr int kMaxHalvings = 8;", "constexpr int kMaxHalvings = 0;", CARRYING),
     # Transport and transfer.
-    ("exponential/transport.cc", "x = nearest - 0.5 * Solve(to, from->derivative.Times(there_and_back), size, row);",
+    ("solvers/exponential/transport.cc",
+     "x = nearest - 0.5 * Solve(to, from->derivative.Times(there_and_back), size, row);",
      "x = nearest;", CARRYING),
-    ("exponential/transport.cc", "for (Tangent& x : result.tangents) x = metric_transport->Turn() * x;", ";", CARRYING),
-    ("transfer/internal/ladder.cc", "if (HasNoLength(rung)) return", "if (false) return", CARRYING),
-    ("transfer/internal/ladder.cc", "if (!options_.align) TurnShapes(&rung.geodesic.path);", "", CARRYING),
-    ("transfer/internal/feature_transfer.cc", "const double rounding = 1e3 *", "const double rounding = 0 *", CARRYING),
-    ("transfer/internal/feature_transfer.cc", "if (std::abs(turn) == 0) continue;", "", CARRYING),
-    ("transfer/internal/feature_transfer.cc", "change.segment(map_.FirstValue(i), placed.size()).setZero();", "", CARRYING),
-    ("transfer/internal/gradient_transfer.cc", "constexpr double kSliver = 1e-2, kSmall = 1e-3;",
+    ("solvers/exponential/transport.cc",
+     "for (Tangent& x : result.tangents) x = metric_transport->Turn() * x;", ";", CARRYING),
+    ("solvers/transfer/internal/ladder.cc", "HasNoLength(rung)", "false", CARRYING),
+    ("solvers/transfer/internal/ladder.cc",
+     "if (!options_.align) TurnShapes(&rung.geodesic.path);", ";", CARRYING),
+    ("solvers/transfer/internal/feature_transfer.cc",
+     "1e3 * std::numeric_limits<double>::epsilon() * target_.norm()", "0", CARRYING),
+    ("solvers/transfer/internal/feature_transfer.cc",
+     "if (std::abs(turn) == 0) continue;", ";", CARRYING),
+    ("solvers/transfer/internal/feature_transfer.cc",
+     "change.segment(map_.FirstValue(i), placed.size()).setZero();", ";", CARRYING),
+    ("solvers/transfer/internal/gradient_transfer.cc",
+     "constexpr double kSliver = 1e-2, kSmall = 1e-3;",
      "constexpr double kSliver = 0, kSmall = 1e-3;", CARRYING),
-    ("transfer/internal/gradient_transfer.cc", "constexpr double kSliver = 1e-2, kSmall = 1e-3;",
+    ("solvers/transfer/internal/gradient_transfer.cc",
+     "constexpr double kSliver = 1e-2, kSmall = 1e-3;",
      "constexpr double kSliver = 1e-2, kSmall = 0;", CARRYING),
-    ("exponential/correction.cc", "options.mode == CorrectionMode::kPaper ? 3 : 2", "options.mode == CorrectionMode::kPaper ? 2 : 2", CORRECTING),
-    ("exponential/correction.cc", "options.mode == CorrectionMode::kPaper ? 3 : 2", "options.mode == CorrectionMode::kPaper ? 3 : 1", CORRECTING),
-    ("exponential/correction.cc", "if (before > kNoDeformation)", "if (before > 0)", CORRECTING),
+    ("solvers/exponential/correction.cc",
+     "options.mode == CorrectionMode::kPaper ? 3 : 2",
+     "options.mode == CorrectionMode::kPaper ? 2 : 2", CORRECTING),
+    ("solvers/exponential/correction.cc",
+     "options.mode == CorrectionMode::kPaper ? 3 : 2",
+     "options.mode == CorrectionMode::kPaper ? 3 : 1", CORRECTING),
+    ("solvers/exponential/correction.cc", "before > kNoDeformation", "before > 0", CORRECTING),
     # Handles and repair.
-    ("deformation/deformation.cc", "constexpr int kFollowSteps = 10;", "constexpr int kFollowSteps = 1;", HANDLES),
-    ("deformation/deformation.cc", "constexpr double kLittle = 0.1;", "constexpr double kLittle = 1e9;", HANDLES),
-    ("deformation/deformation.cc", "level.MoveComponents(places, &last.back());", "", HANDLES),
-    ("deformation/repair.cc", "FitRigidMotion(reference, distorted, metric->vertex_area)(reference)", "reference", HANDLES),
+    ("solvers/deformation/deformation.cc",
+     "constexpr int kFollowSteps = 10;", "constexpr int kFollowSteps = 1;", HANDLES),
+    ("solvers/deformation/deformation.cc",
+     "constexpr double kLittle = 0.1;", "constexpr double kLittle = 1e9;", HANDLES),
+    ("solvers/deformation/deformation.cc",
+     "level.MoveComponents(places, &last.back());", ";", HANDLES),
+    ("solvers/deformation/repair.cc",
+     "FitRigidMotion(reference, distorted, metric->vertex_area)(reference)", "reference", HANDLES),
     # Exploring.
-    ("exploration/embedding.cc", "if (points(axis, farthest) < 0) points.row(axis) *= -1;", "", EXPLORING),
-    ("exploration/internal/refinement.cc", "count_split(t) < 2) {", "true) {", EXPLORING),
-    ("exploration/internal/pair_solver.cc", 'if (header.at("digest") != digest) return {};', "", EXPLORING),
+    ("solvers/exploration/embedding.cc",
+     "if (points(axis, farthest) < 0) points.row(axis) *= -1;", ";", EXPLORING),
+    ("solvers/exploration/internal/refinement.cc", "count_split(t) < 2", "true", EXPLORING),
+    ("solvers/exploration/internal/pair_solver.cc",
+     'if (header.at("digest") != digest) return {};', ";", EXPLORING),
     # The weights that solvers rely on.
-    (DIHEDRAL, "area * kGreatestHingeAspect > squared_length ? squared_length / area : kGreatestHingeAspect;",
-     "squared_length / area;", WEIGHTS),
-    (EDGE_LENGTH, "basis.squared_length.array().max(least).square();",
-     "basis.squared_length.array().max(0 * least).square();", WEIGHTS),
-    (DIHEDRAL, "feature.weights(h) = basis.hinge_stiffness(h) * aspect / (1 + u * u * u * u);",
+    ("lib/metric/dihedral.cc",
+     "area * kGreatestHingeAspect > squared_length ? squared_length / area : kGreatestHingeAspect",
+     "squared_length / area", WEIGHTS),
+    ("lib/metric/edge_length.cc",
+     "feature.weights.array() *= basis.edge_area.array() / basis.squared_length.array().max(least).square();",
+     "feature.weights.array() *= basis.edge_area.array() / basis.squared_length.array().square();",
+     WEIGHTS),
+    ("lib/metric/dihedral.cc",
+     "feature.weights(h) = basis.hinge_stiffness(h) * aspect / (1 + u * u * u * u);",
      "feature.weights(h) = basis.hinge_stiffness(h) * aspect;", WEIGHTS),
 ]
 
+# Fifty wrong lines, spread over the folders in proportion to their lines, as someone could write them
+# by mistake. Any test may notice.
+LINES = [
+    ("lib/analysis/quality.cc", "t * WrapAngle(angle_n - angle_m)", "t * (angle_n - angle_m)"),
+    ("lib/analysis/rigid_parts.cc",
+     "result(v) == RigidParts::kJoint || of_triangle(f) < result(v)",
+     "result(v) == RigidParts::kJoint"),
+    ("lib/base/internal/json.cc", "std::max(begin, reached - 1)", "reached"),
+    ("lib/bodies/quadruped.cc", "std::clamp(value, kLeastMeasure, kGreatestMeasure)", "value"),
+    ("lib/bodies/tube.cc",
+     "std::max(form.base_radius, form.tip_radius) + form.knuckle",
+     "form.base_radius + form.knuckle"),
+    ("lib/files/internal/read_gltf.cc",
+     "placement = OwnPlacement(model_.nodes[i]) * placement;",
+     "placement = placement * OwnPlacement(model_.nodes[i]);"),
+    ("lib/files/internal/read_obj.cc",
+     "++lines_read_; end = EndOfLine(next);", "end = EndOfLine(next);"),
+    ("lib/files/internal/read_ply.cc", "return 65535;", "return 65536;"),
+    ("lib/files/internal/read_vtk.cc",
+     "std::swap(connectivity_[last - 1], connectivity_[last]);",
+     "std::swap(connectivity_[last - 2], connectivity_[last - 1]);"),
+    ("lib/hierarchy/internal/detail.cc", "s >= 0 && t >= 0 && s + t <= 1", "s >= 0 && t >= 0"),
+    ("lib/mesh/check_same_mesh.cc",
+     "std::abs(scale) < std::log(kOtherUnits)", "scale < std::log(kOtherUnits)"),
+    ("lib/mesh/selection.cc",
+     "(kind->names[index] != name && !HasWord(kind->names[index], name))",
+     "kind->names[index] != name"),
+    ("lib/mesh/volume.cc",
+     "std::min(std::abs(before), std::abs(after)) > kMinShare",
+     "std::max(std::abs(before), std::abs(after)) > kMinShare"),
+    ("lib/metric/metric.cc",
+     "if (options.weights == Weighting::kUniform) metric->rigid.weights.setConstant(options.rigid);",
+     ";"),
+    ("lib/metric/metric_basis.cc",
+     "(vertex_area(ends(0)) + vertex_area(ends(1))) / 6",
+     "(vertex_area(ends(0)) + vertex_area(ends(1))) / 3"),
+    ("lib/output/gltf.cc", "duration - moments[i].first", "duration - moments[i - 1].first"),
+    ("lib/output/gltf.cc",
+     "place = Eigen::Vector3d(place.x(), place.z(), -place.y());",
+     "place = Eigen::Vector3d(place.x(), place.z(), place.y());"),
+    ("lib/output/internal/page_scene.cc", "speeds[i] /= time * time;", "speeds[i] /= time;"),
+    ("lib/output/picture.cc",
+     "labels.push_back(options.labels[i]);", "labels.push_back(options.labels[labels.size()]);"),
+    ("lib/output/usd.cc",
+     "static_cast<int>(path_.appearance.texture_coordinates.cols())",
+     "static_cast<int>(path_.appearance.texture_coordinates.cols()) - 1"),
+    ("lib/path/anchor.cc", "3 * std::min(before, after)", "3 * std::max(before, after)"),
+    ("lib/path/path.cc", "ascending && k > 0 && i >= inner", "ascending && i >= inner"),
+    ("lib/path/path.cc", "if (!path.smooth) corners = path.poses;", "corners = path.poses;"),
+    ("solvers/contact/internal/motion_contact.cc",
+     "std::max(GreatestNorm(from - from_), GreatestNorm(to - to_))", "GreatestNorm(from - from_)"),
+    ("solvers/correspondence/correspondence.cc", "map->gap(y) = 1;", ";"),
+    ("solvers/correspondence/internal/marker_check.cc",
+     "k == marker || is_out[k] || !std::isfinite(distance)",
+     "k == marker || !std::isfinite(distance)"),
+    ("solvers/correspondence/surface_map.cc",
+     "covariance += points.barycentric(k, v) * turns[connectivity.Triangles()(k, points.triangle(v))];",
+     "covariance += turns[connectivity.Triangles()(k, points.triangle(v))];"),
+    ("solvers/cost/tangent_projection.cc", "std::sqrt(feature->Weight(e))", "feature->Weight(e)"),
+    ("solvers/deformation/handle_file.cc",
+     "selection.vertices[i].first > selection.vertices[i - 1].second",
+     "selection.vertices[i].first > selection.vertices[i - 1].first"),
+    ("solvers/deformation/internal/handle_targets.cc",
+     "std::abs(handle.motion.angle)", "handle.motion.angle"),
+    ("solvers/deformation/standing.cc", "stands_[0] || stands_[last - 1]", "stands_[0]"),
+    ("solvers/exploration/explore.cc",
+     "summary->damaged += counts.damaged;", "summary->damaged = counts.damaged;"),
+    ("solvers/exploration/space.cc",
+     "(triangles.cols() > 0 ? kRounding : kFlatSpread) * extent", "kRounding * extent"),
+    ("solvers/exponential/exponential.cc",
+     "MeasureEdges(metric, path.shapes.front(), shape, &row);",
+     "MeasureEdges(metric, start, shape, &row);"),
+    ("solvers/exponential/transport.cc", "Normal(i + 1)", "Normal(i)"),
+    ("solvers/geodesic/geodesic.cc", "MoveStraight(without_cost_, &shapes);", ";"),
+    ("solvers/geodesic/geodesic.cc",
+     "summary.termination = std::max(summary.termination, level.termination);",
+     "summary.termination = level.termination;"),
+    ("solvers/numerics/internal/gradient_integrator.cc",
+     "is_loose(a) || is_loose(b)", "is_loose(a) && is_loose(b)"),
+    ("solvers/numerics/internal/minimise_lbfgs.cc",
+     "summary.final_cost * unit", "summary.final_cost"),
+    ("solvers/numerics/internal/task_group.cc",
+     "if (!first_error_) first_error_ = std::current_exception();",
+     "first_error_ = std::current_exception();"),
+    ("solvers/spline/spline.cc", "times.back() - first", "times.back()"),
+    ("solvers/statistics/assess.cc",
+     "if (!weights.empty()) weights.erase(weights.begin() + pose);",
+     "if (!weights.empty()) weights.erase(weights.begin());"),
+    ("solvers/statistics/groups.cc",
+     "static_cast<double>(as_distant) / (permutation.permutations + 1)",
+     "static_cast<double>(as_distant - 1) / permutation.permutations"),
+    ("solvers/statistics/regression.cc",
+     "WithoutColumn(design, s + 1)", "WithoutColumn(design, s)"),
+    ("solvers/transfer/transfer.cc", "size_ * turn", "1.0 * turn"),
+    ("tools/shape_inspect.cc", "std::sort(stretch.begin(), stretch.end());", ";"),
+    ("tools/shape_statistics.cc", "model.Sample(FLAGS_seed + i)", "model.Sample(FLAGS_seed)"),
+    ("tools/support/files.cc", "FrameName(file, static_cast<int>(i))", "FrameName(file, 0)"),
+    ("tools/support/outputs.cc", "labels[path.poses[i]] = given[i];", "labels[i] = given[i];"),
+    ("tools/support/stdin_mesh.cc",
+     "(content.size() - kHeader) % kTriangle == 0", "(content.size() - 80) % kTriangle == 0"),
+]
 
-def run(command, **more):
-  return subprocess.run(command, cwd=COPY, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                        text=True, **more)
+# Their numbers, from 1, and the tests that are to notice; all of them if there is no filter.
+MUTATIONS = [(number, file, text, instead, filters[0] if filters else None)
+             for number, (file, text, instead, *filters) in enumerate(SPECIAL_CASES + LINES, 1)]
+
+
+def full_name(file):
+  return re.sub("^(lib|solvers)/", r"\1/shapespace/", file)
+
+
+def declared(text):
+  """The names and values of the constants that a text declares."""
+  return re.findall(r"(\w+) = ([^,;]+)", text)
+
+
+def switch(text, choices):
+  """The text, or what takes its place under the mutations with the numbers in `choices`."""
+  if text.startswith("constexpr"):
+    kind = text.split()[1]
+    values = [" ".join(f"MutationIs({number}) ? {declared(instead)[i][1]} :" for number, instead in choices)
+              + f" {value}" for i, (_, value) in enumerate(declared(text))]
+    return f"static const {kind} " + ", ".join(
+        f"{name} = {value}" for (name, _), value in zip(declared(text), values)) + ";"
+  if text.endswith(";"):
+    return "".join(f"if (MutationIs({number})) {{ {instead} }} else "
+                   for number, instead in choices) + f"{{ {text} }}"
+  return "(" + "".join(f"MutationIs({number}) ? ({instead}) : "
+                       for number, instead in choices) + f"({text}))"
+
+
+def mutated(name, source):
+  """The source with all mutations of its file."""
+  texts = {}
+  for number, file, text, instead, _ in MUTATIONS:
+    if full_name(file) == name:
+      texts.setdefault(text, []).append((number, instead))
+  for text, choices in texts.items():
+    pattern = r"\s+".join(map(re.escape, text.split()))
+    found = len(re.findall(pattern, source))
+    if found != 1:
+      sys.exit(f"{name}: this text stands there {found} times, not once: {text}")
+    source = re.sub(pattern, lambda match: switch(match.group(), choices), source)
+  return source
+
+
+def write_if_changed(name, content):
+  path = os.path.join(COPY, name)
+  if os.path.exists(path):
+    with open(path, "rb") as file:
+      if file.read() == content:
+        return
+  os.makedirs(os.path.dirname(path), exist_ok=True)
+  with open(path, "wb") as file:
+    file.write(content)
 
 
 def copy_tree():
-  tracked = subprocess.run(["git", "ls-files", "-z", "CMakeLists.txt", "cmake", "docs", "lib",
-                            "solvers", "tests"], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
-  for name in filter(None, tracked.split("\0")):
-    source, copy = os.path.join(ROOT, name), os.path.join(COPY, name)
-    if not os.path.exists(copy) or not filecmp.cmp(source, copy, shallow=False):
-      os.makedirs(os.path.dirname(copy), exist_ok=True)
-      shutil.copy(source, copy)
-  configured = run(["cmake", "-B", "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                    "-DSHAPESPACE_BUILD_TOOLS=OFF", "-DSHAPESPACE_DATA_DIR="])
-  if configured.returncode != 0:
-    sys.exit(configured.stdout)
-
-
-PROGRAMS = ["solvers/solvers_test", "solvers/exploration/exploration_test", "metric/metric_test"]
+  tracked = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, stdout=subprocess.PIPE,
+                           text=True).stdout.rstrip("\0").split("\0")
+  changed = {full_name(file) for _, file, *_ in MUTATIONS}
+  for name in tracked:
+    path = os.path.join(ROOT, name)
+    if os.path.isfile(path):  # not if it has been removed
+      with open(path, "rb") as file:
+        content = file.read()
+      write_if_changed(name, mutated(name, content.decode()).encode() if name in changed else content)
+  write_if_changed("mutation.h", HEADER.encode())
 
 
 def build():
-  return run(["cmake", "--build", "build", "--target"] + [os.path.basename(p) for p in PROGRAMS])
+  configure = ["cmake", "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+               "-DCMAKE_UNITY_BUILD=ON", "-DSHAPESPACE_BUILD_BENCHMARKS=OFF",
+               "-DSHAPESPACE_DATA_DIR=", f"-DCMAKE_CXX_FLAGS=-include {COPY}/mutation.h"]
+  targets = [os.path.basename(program) for program in PROGRAMS]
+  for command in configure, ["cmake", "--build", BUILD, "--target"] + targets:
+    done = subprocess.run(command, cwd=COPY, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode != 0:
+      sys.exit(done.stdout[-5000:])
 
 
-def failing_test(test_filter):
-  """The first test that fails, or None."""
-  for program in PROGRAMS:
-    try:
-      tested = run([os.path.join(COPY, "build", "tests", program), "--gtest_fail_fast",
-                    "--gtest_filter=" + test_filter], timeout=900)
-    except subprocess.TimeoutExpired:
-      return program + " (never ends)"
+def programs_for(file, tests):
+  """The test programs that are to notice a change of this file, the most likely one first."""
+  if tests:
+    return FILTERED
+  part, room = file.split("/")[:2]
+  own = ("exploration" if room == "exploration" else part if part != "lib" else
+         "mesh" if room == "files" else room) + "_test"
+  return sorted(PROGRAMS, key=lambda program: os.path.basename(program) != own)
+
+
+def failing_test(number, programs, tests):
+  """The first test that fails under a mutation, or None."""
+  for program in programs:
+    with tempfile.TemporaryDirectory() as folder:
+      environment = {**os.environ, "SHAPESPACE_MUTATION": str(number), "TMPDIR": folder,
+                     "TEST_TMPDIR": folder}
+      try:
+        tested = subprocess.run([os.path.join(BUILD, "tests", program), "--gtest_fail_fast",
+                                 "--gtest_filter=" + (tests or "*")], cwd=folder, env=environment,
+                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, errors="replace", timeout=LIMIT)
+      except subprocess.TimeoutExpired:
+        return program + " (never ends)"
     if tested.returncode != 0:
-      found = re.search(r"\[  FAILED  \] (\S+)", tested.stdout)
-      return found.group(1).rstrip(",") if found else program + " (crashes)"
+      found = re.search(r"\[  FAILED  \] ([\w./]+)", tested.stdout)
+      return found.group(1) if found else program + " (crashes)"
   return None
 
 
 def main():
-  wanted = sys.argv[1] if len(sys.argv) > 1 else ""
-  chosen = [m for m in MUTATIONS if wanted == "--list" or wanted in m[0] + m[1]]
-  if wanted == "--list":
-    for name, text, instead, tests in chosen:
-      print(f"{name}: {text.strip()}  ->  {instead.strip()}  [{tests}]")
+  parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+  parser.add_argument("wanted", nargs="?", default="", help="a part of the file or the text")
+  parser.add_argument("--list", action="store_true", help="only lists the mutations")
+  parser.add_argument("-j", type=int, default=2, help="test programs at a time")
+  options = parser.parse_args()
+  chosen = [m for m in MUTATIONS if options.wanted in m[1] + " " + m[2]]
+  if options.list:
+    for number, file, text, instead, tests in chosen:
+      print(f"{number:3}  {file}: {text}  ->  {instead}  [{tests or 'all tests'}]")
     return 0
   copy_tree()
-  built = build()
-  if built.returncode != 0:
-    sys.exit(built.stdout[-3000:])
-  for tests in sorted({m[3] for m in chosen}):
-    fails = failing_test(tests)
-    if fails:
-      sys.exit(f"without any change fails {fails}")
-  survived = 0
-  for name, text, instead, tests in chosen:
-    path = os.path.join(COPY, name if name.startswith("lib/") else SOLVERS + name)
-    with open(path) as file:
-      source = file.read()
-    if source.count(text) != 1:
-      sys.exit(f"{name}: this text stands there {source.count(text)} times, not once: {text}")
-    with open(path, "w") as file:
-      file.write(source.replace(text, instead))
-    try:
-      built = build()
-      if built.returncode != 0:
-        sys.exit(f"{name}: does not compile: {instead}\n" + built.stdout[-3000:])
-      by = failing_test(tests)
-    finally:
-      with open(path, "w") as file:
-        file.write(source)
-    survived += by is None
-    print(f"{'SURVIVED' if by is None else 'noticed '}  {name}: {instead.strip() or text.strip()}"
-          f"{'' if by is None else '  by ' + by}", flush=True)
+  build()
+  with concurrent.futures.ThreadPoolExecutor(options.j) as pool:
+    needed = sorted({program for m in chosen for program in programs_for(m[1], m[4])})
+    for fails in pool.map(lambda program: failing_test(0, [program], None), needed):
+      if fails:
+        sys.exit(f"without any change fails {fails}")
+    survived = 0
+    noticed = pool.map(lambda m: failing_test(m[0], programs_for(m[1], m[4]), m[4]), chosen)
+    for (number, file, text, instead, _), by in zip(chosen, noticed):
+      survived += by is None
+      print(f"{'SURVIVED' if by is None else 'noticed '}  {number:3}  {file}: {text}  ->  {instead}"
+            f"{'' if by is None else '  by ' + by}", flush=True)
   print(f"{len(chosen) - survived} of {len(chosen)} noticed")
   return survived * 25 > len(chosen)
 
