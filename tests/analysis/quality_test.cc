@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <shapespace/bodies/sheet.h>
 
@@ -168,6 +169,26 @@ TEST(MeasureQuality, CountsFoldsThatThePosesDoNotHave) {
   EXPECT_GT(quality.roughness, 170);
   // A fold that both ends have is not counted.
   EXPECT_EQ(MeasureQuality(MakePath(sheet, {folded, folded, folded})).folds, 0);
+}
+
+// A hinge is folded by 170 degrees to one side in the one pose and to the other side in the other.
+TEST(MeasureQuality, AnglesOfHingesGoTheShortWayRound) {
+  const ShapeFamily sheet = MakeSheet(1, 1, 1, 1);
+  const Shape flat = sheet.pose(0);
+  const Eigen::Vector4i hinge = sheet.connectivity->Hinges().col(0);
+  const auto folded = [&](double degrees) {
+    const Eigen::Vector3d from = flat.col(hinge(0)), along = flat.col(hinge(1)) - from;
+    Shape shape = flat;
+    shape.col(hinge(3)) = from + Eigen::AngleAxisd(degrees * M_PI / 180, along.normalized()) *
+                                     Eigen::Vector3d(flat.col(hinge(3)) - from);
+    return shape;
+  };
+  const auto roughness = [&](double degrees) {
+    return MeasureQuality(MakePath(sheet, {folded(170), folded(degrees), folded(190)})).roughness;
+  };
+  EXPECT_LT(roughness(180), 1e-6);
+  EXPECT_NEAR(roughness(177), 3, 1e-6);
+  EXPECT_NEAR(roughness(0), 180, 1e-6);
 }
 
 TEST(EdgeDeviation, IsLocal) {

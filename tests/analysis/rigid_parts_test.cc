@@ -106,6 +106,24 @@ TEST(FindRigidParts, AFoldIsTwoPartsThoughNoEdgeChanges) {
   EXPECT_TRUE(FindDeviationSites(path, result).empty());
 }
 
+TEST(FindRigidParts, AVertexOnTheCreaseIsOfTheLargerPart) {
+  const ShapeFamily sheet = MakeSheet(2, 1, 20, 10);
+  const Shape flat = sheet.pose(0);
+  for (const double crease : {-0.3, 0.3}) {
+    Shape folded = flat;
+    for (auto p : folded.colwise()) {
+      const Eigen::Vector3d from(crease, 0, 0);
+      if (p.x() > crease) p = from + Rotation(-70, Eigen::Vector3d::UnitY()) * (p - from).eval();
+    }
+    const RigidParts result = FindRigidParts(PathOf(sheet.connectivity, {flat, folded}));
+    ASSERT_EQ(result.parts.size(), 2u);
+    for (int v = 0; v < flat.cols(); ++v) {
+      const double to_larger = (flat(0, v) - crease) * (crease < 0 ? 1 : -1);
+      EXPECT_EQ(result.of_vertex(v), to_larger > -1e-9 ? 0 : 1) << crease << ", vertex " << v;
+    }
+  }
+}
+
 TEST(FindRigidParts, ABarBentAtOneJointIsTwoPartsAndTheJoint) {
   const BentBar bar(60);
   const Path path = PathOf(bar.body.connectivity, bar.shapes);

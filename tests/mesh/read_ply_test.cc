@@ -103,6 +103,28 @@ TEST_F(ReadPlyTest, ReadsColoursAndTextureCoordinates) {
                               "properties of element 'face' not kept: texnumber"}));
 }
 
+TEST_F(ReadPlyTest, FullColourIsOneInEveryTypeOfColours) {
+  for (const auto& [type, full, fifth] : {std::make_tuple("uchar", "255", "51"),
+                                          {"ushort", "65535", "13107"},
+                                          {"float", "1", "0.2"},
+                                          {"double", "1", "0.2"}}) {
+    std::string header =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+        "property float y\nproperty float z\n";
+    for (const char* channel : {"red", "green", "blue"}) {
+      header += std::string("property ") + type + " " + channel + "\n";
+    }
+    std::string vertices;
+    for (const char* place : {"0 0 0", "1 0 0", "0 1 0"}) {
+      vertices += std::string(place) + " 0 " + fifth + " " + full + "\n";
+    }
+    const Soup soup =
+        Read(header + "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+             vertices + "3 0 1 2\n");
+    EXPECT_EQ(soup.appearance.vertex_colours, Eigen::Vector3d(0, 0.2, 1).replicate(1, 3)) << type;
+  }
+}
+
 TEST_F(ReadPlyTest, SaysWhereColoursOrTextureCoordinatesAreNone) {
   const auto dropped = [this](const std::string& type, const std::string& vertices,
                               const std::string& texture) {

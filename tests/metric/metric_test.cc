@@ -213,6 +213,20 @@ TEST(FreezeMetric, RatioOfPartsSurvivesRefinementWithAreaWeightsOnly) {
   EXPECT_GT(ratio(2, uniform) / ratio(4, uniform), 3);
 }
 
+TEST(FreezeMetric, TheRigidMetricWeighsVerticesByAreaOrAlike) {
+  const ShapeFamily sheet = MakeSheet(1, 1, 4, 4);
+  MetricOptions options = MetricOptions::Rigid();
+  options.rigid = 2;
+  const auto weights = [&] {
+    return FreezeMetric(options, sheet.connectivity, {sheet.pose(0)})->rigid.weights;
+  };
+  EXPECT_NEAR(weights().sum(), 2, 1e-12);  // the area is 1 in the metric's unit
+  EXPECT_GT(weights().maxCoeff(), 2 * weights().minCoeff());
+  options.weights = Weighting::kUniform;
+  EXPECT_EQ(weights().minCoeff(), 2);
+  EXPECT_EQ(weights().maxCoeff(), 2);
+}
+
 TEST(FreezeMetric, HingesFoldedOrJumpingInThePosesAreLetGo) {
   const auto hinge = Connectivity::Make(4, {0, 3, 6}, {0, 1, 2, 1, 0, 3});
   const auto weight = [&](double first, double last) {

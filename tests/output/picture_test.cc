@@ -371,6 +371,18 @@ TEST(RenderFilmStripTest, LabelsStandUnderTheShapesAndTheTitleAboveAll) {
   EXPECT_EQ(Difference(below, labelled, 0), 0);
 }
 
+TEST(RenderFilmStripTest, ShapesThatAreLeftOutTakeTheirLabelsWithThem) {
+  const SimpleBody sphere = Sphere(1, 10, 20);
+  const std::vector<Shape> shapes(9, sphere.shape);
+  FilmStripOptions options = Small();
+  options.max_frames = 3;
+  options.labels = {"a", "b", "c", "d", "e", "f", "g", "h", "i"};
+  const RgbImage some = RenderFilmStrip(*sphere.connectivity, shapes, options);
+  options.labels = {"a", "e", "i"};
+  const std::vector<Shape> three(3, sphere.shape);
+  EXPECT_EQ(Difference(some, RenderFilmStrip(*sphere.connectivity, three, options), 0), 0);
+}
+
 TEST(RenderFilmStripTest, CellsAreAsWideAsLabelsUpToTheFramesWidth) {
   const SimpleBody tall = Box(0.5, 3, 0.5);
   FilmStripOptions options;

@@ -54,8 +54,31 @@ TEST(ResamplePath, DoesNotRoundTheCornersAtPoses) {
   EXPECT_EQ(result.poses, (std::vector<int>{0, 3, 6}));
 }
 
-// The same, continued beyond the last pose by four shapes, back along a line, so that there is a
-// corner.
+// Between two poses lie too few shapes for a cubic, so that it takes shapes beyond a pose to find
+// it.
+TEST(ResamplePath, TakesShapesBeyondAPoseWhereThePathIsSmooth) {
+  const Shape a = testing::Noise(4, 1, 7), b = testing::Noise(4, 1, 8);
+  const auto at = [&](double t) { return Shape(a + t * t * t * b); };
+  Path path = CorneredPath();
+  for (int i = 0; i <= 8; ++i) path.shapes[i] = at(path.parameters[i]);
+  path.poses = {0, 2, 4, 6, 8};
+  const std::vector<double> times = {0.1, 0.3, 0.4, 0.7, 0.95};
+  const auto error = [&] {
+    const Path result = Resample(path, times);
+    double most = 0;
+    for (size_t i = 0; i < times.size(); ++i) {
+      most = std::max(most, (result.shapes[i] - at(times[i])).norm());
+    }
+    return most;
+  };
+  path.smooth = true;
+  EXPECT_LT(error(), 1e-12);
+  path.smooth = false;
+  EXPECT_GT(error(), 1e-4);
+}
+
+// The cornered path, continued beyond the last pose by four shapes, back along a line, so that
+// there is a corner.
 Path ContinuedPath() {
   Path path = CorneredPath();
   const Shape end = path.shapes.back();

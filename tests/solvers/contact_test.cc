@@ -162,6 +162,7 @@ TEST(PathContactTest, AListOfNearPairsGivesTheSameAsANewOneWhileThereIsRoom) {
   const Tangent move = 0.9 * room / std::sqrt(3.) * Tangent::Random(3, from.cols());
   ASSERT_GE(contact.Room(from + move, to - move), 0);
   EXPECT_LT(contact.Room(from + 2 * move, to - move), 0);
+  EXPECT_LT(contact.Room(from + move, to - 2 * move), 0);
   MotionContact fresh(folding.model, 6);
   fresh.Prepare(from + move, to - move, 0);
   const double value = fresh.Evaluate(from + move, to - move, nullptr);

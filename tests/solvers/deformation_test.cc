@@ -747,10 +747,12 @@ TEST(Deform, TooFewShapesForATurnAreToldOf) {
   const HeldBar bar;
   DeformationOptions options;
   options.shapes = 1;
-  const DeformationSummary slipped = bar.Solve(Twist(360), options).summary;
-  ASSERT_EQ(slipped.warnings.size(), 1u);
-  EXPECT_NE(slipped.warnings[0].find("turns by 360 degrees"), std::string::npos);
-  EXPECT_NE(slipped.warnings[0].find("4 shapes or more"), std::string::npos);
+  for (const double degrees : {360, -360}) {
+    const DeformationSummary slipped = bar.Solve(Twist(degrees), options).summary;
+    ASSERT_EQ(slipped.warnings.size(), 1u) << degrees;
+    EXPECT_NE(slipped.warnings[0].find("turns by 360 degrees"), std::string::npos);
+    EXPECT_NE(slipped.warnings[0].find("4 shapes or more"), std::string::npos);
+  }
   EXPECT_TRUE(bar.Solve(Twist(360)).summary.warnings.empty());
 }
 

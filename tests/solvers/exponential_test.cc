@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/bricard.h>
@@ -369,6 +370,25 @@ TEST(Extrapolate, FromTheFirstTwoShapesReturnsTheOthers) {
 }
 
 // On the path and on its continuation to three times its length.
+// A bar that becomes longer at a constant rate.
+TEST(Extrapolate, EdgesAreComparedWithTheFirstShapeOfThePath) {
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 1, 1);
+  const Shape rest = bar.pose(0);
+  std::vector<Shape> shapes;
+  for (const double stretch : {1.0, 1.1, 1.2}) {
+    shapes.emplace_back(Eigen::Vector3d(stretch, 1, 1).asDiagonal() * rest);
+  }
+  const auto metric = FreezeMetric({}, bar.connectivity, {shapes.front(), shapes.back()});
+  const auto [longer, summary] = Extrapolate(MakePath(metric, shapes), 2);
+  ASSERT_EQ(summary.steps.size(), 2u);
+  for (int i : {0, 1}) {
+    const RmsAndMax deviation = DeviationFromFirst(longer, 3 + i);
+    EXPECT_GT(deviation.max, 0.25 + 0.1 * i);
+    EXPECT_NEAR(summary.steps[i].edge_max, deviation.max, 1e-6);
+    EXPECT_NEAR(summary.steps[i].edge_rms, deviation.rms, 1e-6);
+  }
+}
+
 TEST(Extrapolate, KeepsTheEnergyToSecondOrder) {
   for (const auto& [body, first, last] :
        {BodyPair{MakeBricard(), 0, 25}, BodyPair{MakeMiura(1, 1, 60, 3, 3), 20, 45}}) {

@@ -382,6 +382,22 @@ TEST(Interpolate, ReportsThatItDidNotConverge) {
   EXPECT_EQ(json["levels"].back()["termination"], "max_iterations");
 }
 
+// From the second pose to the third the body moves rigidly, for which there is nothing to solve.
+TEST(Interpolate, APathConvergesOnlyIfAllItsPiecesDo) {
+  const ShapeFamily bar = MakeBar(6, 1, 1, 8, 2, 2);
+  GeodesicOptions options = Options(7, 1e-12);
+  options.max_iterations = 2;
+  std::vector<Shape> poses = {bar.pose(0), bar.pose(90), Rotation(50, {1, 2, 3}) * bar.pose(90)};
+  for (const bool reversed : {false, true}) {
+    if (reversed) std::reverse(poses.begin(), poses.end());
+    const auto [path, summary] = Interpolate(bar.connectivity, poses, options);
+    const auto& last = summary.levels.back();
+    EXPECT_EQ(last.termination, reversed ? Termination::kMaxIterations : Termination::kConverged);
+    EXPECT_EQ(summary.termination, Termination::kMaxIterations);
+    EXPECT_FALSE(path.converged);
+  }
+}
+
 TEST(Interpolate, SummaryAddsUp) {
   const ShapeFamily bar = MakeBar(6, 1, 1, 8, 2, 2);
   const auto [path, summary] =

@@ -150,6 +150,8 @@ TEST_F(HandleFileTest, ErrorsNameTheHandleTheFieldAndTheRemedy) {
       {R"("select": {"vertices": [4, 3]}, "positions": [[0, 0, 0], [1, 1, 1]])",
        "positions: are assigned in the order of the vertices' numbers; select the vertices in this "
        "order"},
+      {R"("select": {"vertices": [[1, 3], [2, 4]]}, "positions": [[0, 0, 0], [1, 1, 1], [2, 2, 2], [3, 3, 3]])",
+       "positions: are assigned in the order of the vertices' numbers"},
       {R"("select": {"any": [{"vertices": [4]}, {"vertices": [3]}]}, "positions": [[0, 0, 0], [1, 1, 1]])",
        "positions: are assigned in the order of the vertices' numbers"},
       {vertex + R"("fixed": true, "weight": 0)", "weight: must be positive"},

@@ -70,6 +70,21 @@ TEST(Regress, OfACoordinateExplainsItsMode) {
   ASSERT_EQ(two.p_values.size(), 2u);
 }
 
+TEST(Regress, EachProbabilityIsOfItsOwnScalar) {
+  const PoseModes& herd = Herd();
+  const Eigen::MatrixXd coordinates = herd.Coordinates();
+  Eigen::MatrixXd values(8, 2), exchanged(8, 2);
+  values << coordinates.col(0), coordinates.col(4);
+  exchanged << coordinates.col(4), coordinates.col(0);
+  const Regression one = Regress(herd, {"first", "fifth"}, values);
+  const Regression other = Regress(herd, {"fifth", "first"}, exchanged);
+  ASSERT_EQ(one.p_values.size(), 2u);
+  ASSERT_EQ(other.p_values.size(), 2u);
+  EXPECT_LT(one.p_values[0], 0.9 * one.p_values[1]);  // the first mode varies more than the fifth
+  EXPECT_NEAR(one.p_values[0], other.p_values[1], 1e-3);
+  EXPECT_NEAR(one.p_values[1], other.p_values[0], 1e-3);
+}
+
 // With so few poses all orders can be counted: of 4! how many explain as much?
 TEST(Regress, TheProbabilityIsThatOfAllOrders) {
   const SkinnedBody body = MakeQuadruped(400);

@@ -5,6 +5,7 @@
 
 #include <shapespace/deformation/deformation.h>
 #include <shapespace/geodesic/geodesic.h>
+#include <shapespace/transfer/internal/gradient_transfer.h>
 
 #include "support/motions.h"
 #include "support/whiskered.h"
@@ -58,6 +59,17 @@ TEST(Segments, KeepTheirLengthsUnderHandles) {
   const DeformationResult result = Deform(bar.connectivity, rest, {foot, tip});
   EXPECT_TRUE(result.path.converged);
   EXPECT_LT(GreatestChange(bar, result.path), 0.05);
+}
+
+// The whisker keeps its direction while its bar bends.
+TEST(Segments, StayAttachedWhenABendIsTransferredToALargerBar) {
+  const WhiskeredBar bar(8, 2);
+  const Eigen::Vector3d along = Eigen::Vector3d::UnitX();
+  const Shape rest = bar.Pose(0, along), target = 2 * rest;
+  const Shape bent =
+      internal::GradientTransfer(bar.connectivity, rest, target)(bar.Pose(60, along));
+  EXPECT_GT((bent.col(bar.root) - target.col(bar.root)).norm(), 0.5);
+  EXPECT_LT((bar.Lengths(bent).array() - 2 * WhiskeredBar::kLength).abs().maxCoeff(), 0.01);
 }
 
 }  // namespace

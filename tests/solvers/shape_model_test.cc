@@ -1,5 +1,6 @@
 #include <shapespace/statistics/shape_model.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -312,6 +313,24 @@ TEST(AssessShapeModel, MoreModesDescribeMore) {
   }
   EXPECT_GT(assessment.rows[1].compactness, assessment.rows[0].compactness);
   EXPECT_THROW(AssessShapeModel(tube.connectivity, BentTubes(tube, {10, 90})), InvalidOptions);
+}
+
+TEST(AssessShapeModel, WeightsBelongToTheirPosesInAnyOrder) {
+  const SkinnedBody body = MakeQuadruped(500);
+  std::vector<Shape> poses;
+  for (int seed = 1; seed <= 4; ++seed) poses.push_back(body.random_pose(seed));
+  AssessmentOptions options;
+  options.samples = 1;
+  options.model.average.weights = {0, 1, 1, 1};  // the first is no pose of any model
+  const Assessment one = AssessShapeModel(body.connectivity, poses, options);
+  std::reverse(poses.begin(), poses.end());
+  options.model.average.weights = {1, 1, 1, 0};
+  const Assessment other = AssessShapeModel(body.connectivity, poses, options);
+  ASSERT_EQ(one.rows.size(), other.rows.size());
+  for (size_t k = 0; k < one.rows.size(); ++k) {
+    EXPECT_NEAR(one.rows[k].compactness, other.rows[k].compactness, 1e-3);
+    EXPECT_NEAR(one.rows[k].generalisation / other.rows[k].generalisation, 1, 1e-2);
+  }
 }
 
 TEST(PageOf, ShowsTheKeysWhereTheyAreExact) {

@@ -1,5 +1,7 @@
 #include <shapespace/correspondence/surface_map.h>
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
@@ -60,6 +62,20 @@ TEST_F(SurfaceMapTest, CarriesOffsetsAlongRigidly) {
       CarryAlong(points_, *connectivity_, square_, move(square_), own).isApprox(move(own), 1e-12));
   EXPECT_TRUE(CarryAlong(points_, *connectivity_, square_, square_, own).isApprox(own, 1e-14));
   EXPECT_THROW(CarryAlong(points_, *connectivity_, square_, square_, square_), MeshError);
+}
+
+TEST_F(SurfaceMapTest, AtACornerOnlyTheTrianglesThereTurnTheOffset) {
+  Shape folded = square_;  // the second triangle stands upright on the diagonal
+  folded.col(3) << 0.5, 0.5, std::sqrt(0.5);
+  SurfacePoints corner;
+  corner.triangle.setZero(1);
+  corner.barycentric = Eigen::Vector3d::UnitY();
+  const Shape above = Eigen::Vector3d(1, 0, 0.3);
+  EXPECT_TRUE(CarryAlong(corner, *connectivity_, square_, folded, above).isApprox(above, 1e-12));
+  // On the diagonal it leans over.
+  corner.barycentric = Eigen::Vector3d::UnitZ();
+  const Shape at_fold = Eigen::Vector3d(1, 1, 0.3);
+  EXPECT_GT((CarryAlong(corner, *connectivity_, square_, folded, at_fold) - at_fold).norm(), 0.1);
 }
 
 TEST_F(SurfaceMapTest, FilesKeepEveryBit) {

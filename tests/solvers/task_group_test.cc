@@ -1,6 +1,7 @@
 #include <shapespace/numerics/internal/task_group.h>
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -85,6 +86,25 @@ TEST(TaskGroup, ThrowsWhatFailedAndNotWhatItStopped) {
       return 0;
     });
   }
+}
+
+// Here another task certainly runs when the first one fails, and ends because of that.
+TEST(TaskGroup, WhatWasStoppedDoesNotTakeThePlaceOfWhatFailed) {
+  testing::OnThreads([] {
+    std::atomic<bool> other_runs = NumThreads() == 1;
+    EXPECT_EQ(testing::MessageOf<std::runtime_error>([&] {
+                TaskGroup(nullptr, "", 12).RunAll(5, [&](int i, Progress* progress) {
+                  if (i == 0) {
+                    while (!other_runs) testing::Spin(10);
+                    throw std::runtime_error("0 failed");
+                  }
+                  other_runs = true;
+                  for (;; testing::Spin(20)) ReportProgress(progress, "one task", 0, 0);
+                });
+              }),
+              "0 failed");
+    return 0;
+  });
 }
 
 TEST(TaskGroup, ThrowsWhatTheProgressThrows) {

@@ -70,6 +70,31 @@ TEST_F(InspectTest, PosesThatDoNotCorrespondFail) {
   ExpectContains(outcome.out, "other1.obj against tube0.obj");
 }
 
+TEST_F(InspectTest, MostEdgesMayKeepTheirLengthsAndTheFirstStretchMost) {
+  // A row of squares, of which the second pose stretches the first alone.
+  const auto row = [&](const char* name, double first) {
+    std::string text;
+    for (int i = 0; i < 20; ++i) {
+      for (const int y : {0, 1}) {
+        text += "v " + std::to_string(i == 0 ? first : i) + " " + std::to_string(y) + " 0\n";
+      }
+    }
+    for (int i = 1; i < 20; ++i) {
+      for (const int corner : {0, 2, 3, 1}) {
+        text += (corner == 0 ? "f " : " ") + std::to_string(2 * i - 1 + corner);
+      }
+      text += "\n";
+    }
+    File(name, text);
+  };
+  row("rest.obj", 0);
+  row("stretched.obj", -0.5);
+  Succeed("shape-inspect", {"rest.obj", "stretched.obj", "--report", "r.json"});
+  const auto comparison = nlohmann::json::parse(Content(Path("r.json")))["comparisons"][0];
+  EXPECT_NEAR(comparison["stretch_median"].get<double>(), 0, 1e-9);
+  EXPECT_NEAR(comparison["stretch_max"].get<double>(), 0.5, 1e-9);
+}
+
 TEST_F(InspectTest, TellsWhatIsInAPath) {
   MakeTubes();
   Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "7", "--output", "w.path"});

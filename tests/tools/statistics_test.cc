@@ -114,6 +114,10 @@ TEST_F(StatisticsToolTest, SamplesScalarsAndGroups) {
   MakeModes();
   Succeed("shape-statistics", {"herd.modes", "--sample", "2", "--output", "s%d.obj,s.csv"});
   EXPECT_TRUE(Exists("s1.obj"));
+  EXPECT_NE(Content(Path("s0.obj")), Content(Path("s1.obj")));
+  Succeed("shape-statistics",
+          {"herd.modes", "--sample", "1", "--seed", "2", "--output", "next%d.obj"});
+  EXPECT_EQ(Content(Path("next0.obj")), Content(Path("s1.obj")));
   File("ages.csv", "file,age\npose0.obj,1\npose1.obj,2\npose2.obj,3\npose3.obj,5\n");
   const Outcome scalars = Run("shape-statistics", {"herd.modes", "--scalars", "ages.csv",
                                                    "--predict", "7", "--output", "seven.obj"});

@@ -96,6 +96,22 @@ TEST_F(RecordsTest, WhatIsDamagedIsSolvedAgain) {
   EXPECT_EQ(second.space.distances, first.space.distances);
 }
 
+// Distances are measured on a coarser mesh, midpoints on the mesh itself.
+TEST_F(RecordsTest, DamageIsCountedOnBothMeshes) {
+  options_.resolution = 150;
+  options_.geodesic.coarsest = 100;
+  options_.threshold = 1e-3;
+  options_.depth = 1;
+  const ExploreSummary first = Run().summary;
+  ASSERT_LT(first.distance_vertices, first.vertices);
+  const int distances = 6;  // between four poses
+  ASSERT_GT(first.solved, distances);
+  for (const fs::path& record : Records()) fs::resize_file(record, 100);
+  const ExploreSummary second = Run().summary;
+  EXPECT_EQ(second.solved, first.solved);
+  EXPECT_EQ(second.damaged, first.solved);
+}
+
 TEST_F(RecordsTest, AreRemovedButNothingElse) {
   options_.depth = 0;
   Run();
