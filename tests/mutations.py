@@ -12,9 +12,9 @@ by hand, from a shell:
     tests/mutations.py --list     only lists them, with their numbers
     tests/mutations.py -j 1       one test program at a time, instead of two
 
-Lines that only make a solve faster (schedules, tolerances of inner solvers, preconditioners) are not
-in the lists: no test is a stopwatch. Real meshes are not used: tests on bodies made in code are to
-notice. Exit code 1 if more than one in twenty-five survives.
+Lines that only make a solve faster (schedules, tolerances of inner solvers, preconditioners) are
+not in the lists: no test is a stopwatch. Real meshes are not used: tests on bodies made in code
+are to notice. Exit code 1 if more than one in twenty-five survives.
 """
 
 import argparse
@@ -89,7 +89,8 @@ SPECIAL_CASES = [
     ("solvers/exponential/internal/step.cc",
      "std::max(options.tolerance, rounding_ / speed_)", "options.tolerance", GOING),
     ("solvers/exponential/exponential.cc",
-     "first.rotation * internal::SegmentVelocity(FeatureMap(metric), path.shapes[1], path.shapes[0], -1, &solver)",
+     "first.rotation * internal::SegmentVelocity(FeatureMap(metric), path.shapes[1], "
+     "path.shapes[0], -1, &solver)",
      "internal::SegmentVelocity(FeatureMap(metric), path.shapes[1], path.shapes[0], -1, &solver)",
      GOING),
     ("solvers/exponential/exponential.cc",
@@ -107,8 +108,10 @@ SPECIAL_CASES = [
      "if (discrete) scheme.Next(&unused);", "if (!discrete) scheme.Next(&unused);", GOING),
     # Geodesics.
     ("lib/hierarchy/freeze_level.cc",
-     "return FreezeMetric(RestrictOptions(finest.options, *finest.connectivity, hierarchy, level), hierarchy.LevelConnectivity(level), poses, 1, pairs);",
-     "return FreezeMetric(RestrictOptions(finest.options, *finest.connectivity, hierarchy, level), hierarchy.LevelConnectivity(level), poses, 0, pairs);",
+     "return FreezeMetric(RestrictOptions(finest.options, *finest.connectivity, hierarchy, level), "
+     "hierarchy.LevelConnectivity(level), poses, 1, pairs);",
+     "return FreezeMetric(RestrictOptions(finest.options, *finest.connectivity, hierarchy, level), "
+     "hierarchy.LevelConnectivity(level), poses, 0, pairs);",
      GEODESICS),
     ("solvers/geodesic/geodesic.cc",
      "if (!(energy < GeodesicSummary::kZeroEnergy)) return false;",
@@ -210,7 +213,8 @@ SPECIAL_CASES = [
      "area * kGreatestHingeAspect > squared_length ? squared_length / area : kGreatestHingeAspect",
      "squared_length / area", WEIGHTS),
     ("lib/metric/edge_length.cc",
-     "feature.weights.array() *= basis.edge_area.array() / basis.squared_length.array().max(least).square();",
+     "feature.weights.array() *= "
+     "basis.edge_area.array() / basis.squared_length.array().max(least).square();",
      "feature.weights.array() *= basis.edge_area.array() / basis.squared_length.array().square();",
      WEIGHTS),
     ("lib/metric/dihedral.cc",
@@ -218,8 +222,8 @@ SPECIAL_CASES = [
      "feature.weights(h) = basis.hinge_stiffness(h) * aspect;", WEIGHTS),
 ]
 
-# Fifty wrong lines, spread over the folders in proportion to their lines, as someone could write them
-# by mistake. Any test may notice.
+# Fifty wrong lines, as someone could write them by mistake, spread over the folders in proportion
+# to the folders' lines. Any test may notice.
 LINES = [
     ("lib/analysis/quality.cc", "t * WrapAngle(angle_n - angle_m)", "t * (angle_n - angle_m)"),
     ("lib/analysis/rigid_parts.cc",
@@ -249,7 +253,8 @@ LINES = [
      "std::min(std::abs(before), std::abs(after)) > kMinShare",
      "std::max(std::abs(before), std::abs(after)) > kMinShare"),
     ("lib/metric/metric.cc",
-     "if (options.weights == Weighting::kUniform) metric->rigid.weights.setConstant(options.rigid);",
+     "if (options.weights == Weighting::kUniform) "
+     "metric->rigid.weights.setConstant(options.rigid);",
      ";"),
     ("lib/metric/metric_basis.cc",
      "(vertex_area(ends(0)) + vertex_area(ends(1))) / 6",
@@ -274,7 +279,8 @@ LINES = [
      "k == marker || is_out[k] || !std::isfinite(distance)",
      "k == marker || !std::isfinite(distance)"),
     ("solvers/correspondence/surface_map.cc",
-     "covariance += points.barycentric(k, v) * turns[connectivity.Triangles()(k, points.triangle(v))];",
+     "covariance += "
+     "points.barycentric(k, v) * turns[connectivity.Triangles()(k, points.triangle(v))];",
      "covariance += turns[connectivity.Triangles()(k, points.triangle(v))];"),
     ("solvers/cost/tangent_projection.cc", "std::sqrt(feature->Weight(e))", "feature->Weight(e)"),
     ("solvers/deformation/handle_file.cc",
@@ -338,10 +344,12 @@ def switch(text, choices):
   """The text, or what takes its place under the mutations with the numbers in `choices`."""
   if text.startswith("constexpr"):
     kind = text.split()[1]
-    values = [" ".join(f"MutationIs({number}) ? {declared(instead)[i][1]} :" for number, instead in choices)
-              + f" {value}" for i, (_, value) in enumerate(declared(text))]
-    return f"static const {kind} " + ", ".join(
-        f"{name} = {value}" for (name, _), value in zip(declared(text), values)) + ";"
+    constants = []
+    for i, (name, value) in enumerate(declared(text)):
+      others = "".join(f"MutationIs({number}) ? {declared(instead)[i][1]} : "
+                       for number, instead in choices)
+      constants.append(f"{name} = {others}{value}")
+    return f"static const {kind} {', '.join(constants)};"
   if text.endswith(";"):
     return "".join(f"if (MutationIs({number})) {{ {instead} }} else "
                    for number, instead in choices) + f"{{ {text} }}"
@@ -384,7 +392,9 @@ def copy_tree():
     if os.path.isfile(path):  # not if it has been removed
       with open(path, "rb") as file:
         content = file.read()
-      write_if_changed(name, mutated(name, content.decode()).encode() if name in changed else content)
+      if name in changed:
+        content = mutated(name, content.decode()).encode()
+      write_if_changed(name, content)
   write_if_changed("mutation.h", HEADER.encode())
 
 
@@ -394,7 +404,8 @@ def build():
                "-DSHAPESPACE_DATA_DIR=", f"-DCMAKE_CXX_FLAGS=-include {COPY}/mutation.h"]
   targets = [os.path.basename(program) for program in PROGRAMS]
   for command in configure, ["cmake", "--build", BUILD, "--target"] + targets:
-    done = subprocess.run(command, cwd=COPY, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = subprocess.run(command, cwd=COPY, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True)
     if done.returncode != 0:
       sys.exit(done.stdout[-5000:])
 
