@@ -5,6 +5,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <type_traits>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/clones.h>
@@ -32,6 +33,21 @@ struct Vectors<float> {
   using Full = float __attribute__((vector_size(64), aligned(4), may_alias));
 };
 
+// The vector at an address. In templates, clang drops the attributes above, and would take the
+// vector to be aligned.
+#if defined(__clang__)
+template <typename Vector>
+struct __attribute__((packed, may_alias)) Packed {
+  Vector vector;
+};
+template <typename Vector>
+using InMemory = std::conditional_t<std::is_const_v<Vector>,
+                                    const Packed<std::remove_const_t<Vector>>, Packed<Vector>>;
+#define SHAPESPACE_VECTOR_AT(Vector, address) reinterpret_cast<InMemory<Vector>*>(address)->vector
+#else
+#define SHAPESPACE_VECTOR_AT(Vector, address) *reinterpret_cast<Vector*>(address)
+#endif
+
 // The solves below keep a tile of kRows x kVectors vectors in registers while they read the
 // factor's entries for it. `x` points at the tile's first column; its rows are `stride` apart.
 
@@ -43,7 +59,8 @@ SHAPESPACE_INLINE void Accumulate(Vector (&tile)[kRows][kVectors], int count, co
     const Vector* const from = reinterpret_cast<const Vector*>(source(k));
     for (int r = 0; r < kRows; ++r) {
       const auto f = factor(r, k);
-      for (int c = 0; c < kVectors; ++c) tile[r][c] -= f * from[c];
+      for (int c = 0; c < kVectors; ++c)
+        tile[r][c] -= f * SHAPESPACE_VECTOR_AT(const Vector, from + c);
     }
   }
 }
@@ -51,14 +68,19 @@ SHAPESPACE_INLINE void Accumulate(Vector (&tile)[kRows][kVectors], int count, co
 template <typename Vector, int kRows, int kVectors, typename Target>
 SHAPESPACE_INLINE void Load(Vector (&tile)[kRows][kVectors], const Target& target) {
   for (int r = 0; r < kRows; ++r) {
-    for (int c = 0; c < kVectors; ++c) tile[r][c] = reinterpret_cast<const Vector*>(target(r))[c];
+    for (int c = 0; c < kVectors; ++c) {
+      tile[r][c] =
+          SHAPESPACE_VECTOR_AT(const Vector, reinterpret_cast<const Vector*>(target(r)) + c);
+    }
   }
 }
 
 template <typename Vector, int kRows, int kVectors, typename Target>
 SHAPESPACE_INLINE void Store(const Vector (&tile)[kRows][kVectors], const Target& target) {
   for (int r = 0; r < kRows; ++r) {
-    for (int c = 0; c < kVectors; ++c) reinterpret_cast<Vector*>(target(r))[c] = tile[r][c];
+    for (int c = 0; c < kVectors; ++c) {
+      SHAPESPACE_VECTOR_AT(Vector, reinterpret_cast<Vector*>(target(r)) + c) = tile[r][c];
+    }
   }
 }
 
@@ -206,8 +228,8 @@ SHAPESPACE_INLINE Scalar DotOne(const Scalar* a, const Scalar* x, int count) {
   int i = 0;
   for (; i + 2 * kFull <= count; i += 2 * kFull) {
     for (int k = 0; k < 2; ++k) {
-      sums[k] += *reinterpret_cast<const Full*>(a + i + k * kFull) *
-                 *reinterpret_cast<const Full*>(x + i + k * kFull);
+      sums[k] += SHAPESPACE_VECTOR_AT(const Full, a + i + k * kFull) *
+                 SHAPESPACE_VECTOR_AT(const Full, x + i + k * kFull);
     }
   }
   Scalar sum = 0;
