@@ -139,6 +139,17 @@ TEST(TriangulateTest, PolygonsThatCannotBeCutWellAreCutAllTheSame) {
   EXPECT_EQ(Triangulate({0, 5}, {0, 1, 2, 1, 3}, {RandomPolygon(4, 1)}).cols(), 3);
 }
 
+// Such polygons are made up, but files may have them. When every cut looked at all corners again,
+// this one took minutes.
+TEST(TriangulateTest, PolygonsOfManyCornersDoNotTakeForEver) {
+  constexpr int kCorners = 10000;
+  std::mt19937 random(1);
+  Shape tangle(3, kCorners);
+  for (double& coordinate : tangle.reshaped()) coordinate = static_cast<double>(random() % 10007);
+  const Eigen::Matrix3Xi triangles = Triangulate({0, kCorners}, Counting(kCorners), {tangle});
+  EXPECT_EQ(AsSet(triangles).size(), static_cast<size_t>(kCorners - 2));
+}
+
 TEST(TriangulateTest, RefusesWhatIsNoPolygon) {
   const Shape flat = RandomPolygon(4, 1);
   testing::ExpectError<MeshError>(

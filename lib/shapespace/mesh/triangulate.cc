@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <set>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -67,11 +69,24 @@ std::vector<Point> MeanPolygon(const std::vector<int>& polygon, const std::vecto
   return mean;
 }
 
-/// Cuts ears off a planar polygon until a triangle is left.
+/// Cuts ears off a planar polygon until a triangle is left. What a cut does not change is
+/// remembered, so that polygons of many thousand corners take seconds.
 class EarClipper {
  public:
-  explicit EarClipper(std::vector<Point> points) : points_(std::move(points)) {
-    for (size_t k = 0; k < points_.size(); ++k) left_.push_back(static_cast<int>(k));
+  explicit EarClipper(std::vector<Point> points)
+      : points_(std::move(points)),
+        before_(points_.size()),
+        after_(points_.size()),
+        quality_(points_.size()),
+        blocker_(points_.size(), kNone),
+        place_(points_.size(), kNone),
+        waiting_(points_.size()) {
+    const int count = static_cast<int>(points_.size());
+    for (int k = 0; k < count; ++k) {
+      before_[k] = (k + count - 1) % count;
+      after_[k] = (k + 1) % count;
+    }
+    for (int k = 0; k < count; ++k) Enter(k);
   }
 
   /// Three corners each.
@@ -80,55 +95,103 @@ class EarClipper {
     while (left_.size() > 3) {
       const int ear = BestEar();
       triangles.push_back(TriangleAt(ear));
-      left_.erase(left_.begin() + ear);
+      CutOff(ear);
     }
-    triangles.push_back(TriangleAt(1));
+    int first = static_cast<int>(points_.size());
+    for (const Rank& rank : left_) first = std::min(first, rank.second);
+    triangles.push_back(TriangleAt(after_[first]));
     return triangles;
   }
 
  private:
-  /// The triangle of the i-th remaining corner and its two neighbours.
-  Eigen::Vector3i TriangleAt(int i) const {
-    const int count = static_cast<int>(left_.size());
-    return {left_[(i + count - 1) % count], left_[i], left_[(i + 1) % count]};
-  }
+  static constexpr int kNone = -1;
+  using Rank =
+      std::pair<double, int>;  // of a corner: the best triangle first, then the first corner
+
+  Rank RankOf(int corner) const { return {-quality_[corner], corner}; }
+
+  /// The triangle of a remaining corner and its two neighbours.
+  Eigen::Vector3i TriangleAt(int corner) const { return {before_[corner], corner, after_[corner]}; }
 
   /// The corner with the best triangle among those that can be cut off. A polygon that intersects
   /// itself may have none; then the corner with the best triangle of all.
   int BestEar() {
-    const int count = static_cast<int>(left_.size());
-    quality_.resize(count);
-    order_.resize(count);
-    for (int i = 0; i < count; ++i) {
-      const Eigen::Vector3i t = TriangleAt(i);
-      quality_[i] = Quality(points_[t[0]], points_[t[1]], points_[t[2]]);
-      order_[i] = i;
+    while (!candidates_.empty()) {
+      const int corner = candidates_.begin()->second;
+      const int blocker = Blocker(TriangleAt(corner));
+      if (blocker == kNone) return corner;
+      candidates_.erase(candidates_.begin());
+      blocker_[corner] = blocker;
+      waiting_[blocker].push_back(corner);
     }
-    std::stable_sort(order_.begin(), order_.end(),
-                     [this](int i, int j) { return quality_[i] > quality_[j]; });
-    for (const int i : order_) {
-      if (quality_[i] > 0 && IsFree(TriangleAt(i))) return i;
-    }
-    return order_.front();
+    return left_.begin()->second;
   }
 
-  /// Whether no other corner is in the triangle or on its sides. Only corners at which the polygon
-  /// turns right or is straight need to be tested.
-  bool IsFree(const Eigen::Vector3i& t) const {
+  /// Another corner in the triangle or on its sides, if there is one. Only corners at which the
+  /// polygon turns right or is straight need to be tested.
+  int Blocker(const Eigen::Vector3i& t) const {
     const Point a = points_[t[0]], b = points_[t[1]], c = points_[t[2]];
-    for (size_t i = 0; i < left_.size(); ++i) {
-      if (quality_[i] > 0) continue;
-      const Point p = points_[left_[i]];
+    for (const int corner : not_left_turns_) {
+      const Point p = points_[corner];
       if (p == a || p == b || p == c) continue;
-      if (Cross(a, b, p) >= 0 && Cross(b, c, p) >= 0 && Cross(c, a, p) >= 0) return false;
+      if (Cross(a, b, p) >= 0 && Cross(b, c, p) >= 0 && Cross(c, a, p) >= 0) return corner;
     }
-    return true;
+    return kNone;
+  }
+
+  void CutOff(int ear) {
+    const int before = before_[ear], after = after_[ear];
+    for (const int corner : {before, ear, after}) Leave(corner);
+    after_[before] = after;
+    before_[after] = before;
+    for (const int corner : {before, after}) Enter(corner);
+    for (const int corner : {before, ear, after}) Release(corner);
+  }
+
+  /// Enters a corner with its present neighbours into all lists.
+  void Enter(int corner) {
+    const Eigen::Vector3i t = TriangleAt(corner);
+    quality_[corner] = Quality(points_[t[0]], points_[t[1]], points_[t[2]]);
+    left_.insert(RankOf(corner));
+    if (quality_[corner] > 0) {
+      candidates_.insert(RankOf(corner));
+    } else {
+      place_[corner] = static_cast<int>(not_left_turns_.size());
+      not_left_turns_.push_back(corner);
+    }
+  }
+
+  void Leave(int corner) {
+    left_.erase(RankOf(corner));
+    candidates_.erase(RankOf(corner));
+    blocker_[corner] = kNone;
+    if (place_[corner] == kNone) return;
+    const int last = not_left_turns_.back();
+    not_left_turns_[place_[corner]] = last;
+    place_[last] = place_[corner];
+    not_left_turns_.pop_back();
+    place_[corner] = kNone;
+  }
+
+  /// Makes candidates again of the corners that only this one blocked, if it does not any more.
+  void Release(int corner) {
+    if (place_[corner] != kNone) return;
+    for (const int waiting : waiting_[corner]) {
+      if (blocker_[waiting] != corner) continue;
+      blocker_[waiting] = kNone;
+      candidates_.insert(RankOf(waiting));
+    }
+    waiting_[corner].clear();
   }
 
   const std::vector<Point> points_;
-  std::vector<int> left_;  // remaining corners, in order
-  std::vector<double> quality_;
-  std::vector<int> order_;
+  std::vector<int> before_, after_;        // the neighbours of each corner that is left
+  std::vector<double> quality_;            // of the triangle at each corner
+  std::set<Rank> left_, candidates_;       // those whose triangle may be free
+  std::vector<int> blocker_;               // a corner in the triangle of each that is no candidate
+  std::vector<int> not_left_turns_;        // corners that may block
+  std::vector<int> place_;                 // of each corner there; kNone: not in it
+  std::vector<std::vector<int>> waiting_;  // the corners that each blocks
 };
 
 }  // namespace
