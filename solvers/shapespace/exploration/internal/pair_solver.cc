@@ -97,16 +97,22 @@ std::string Pack(const std::string& digest, const PairResult& result) {
   return PackArrayFile(kKind, std::move(header), arrays);
 }
 
-// Empty if the bytes are not a complete record with this digest.
-std::optional<PairResult> Unpack(const std::string& digest, const std::string& bytes) {
+// Of the shape that is requested.
+Eigen::Index VerticesOf(const Pair& pair) { return pair.t >= 0 ? pair.from->cols() : 0; }
+
+// Empty if the bytes are not a complete record with this digest, of a shape of so many vertices: what
+// the record of another mesh would be that has been given this one's name.
+std::optional<PairResult> Unpack(const std::string& digest, Eigen::Index vertices,
+                                 const std::string& bytes) {
   try {
     size_t begin;
     const HeaderJson header = UnpackHeader(kKind, bytes, &begin);
     if (header.at("digest") != digest) return {};
     const ArrayReader arrays(header.at("arrays"), bytes, begin);
     const auto lengths = arrays.Get<Eigen::Vector2d>("lengths", 2, 1);
+    if (lengths.minCoeff() < 0) return {};
     return PairResult{lengths(0), lengths(1), header.at("converged").get<bool>(),
-                      arrays.Get<Shape>("shape", 3, Eigen::Dynamic)};
+                      arrays.Get<Shape>("shape", 3, vertices)};
   } catch (const std::bad_alloc&) {
     throw;  // the record may be good
   } catch (const std::exception&) {
@@ -154,7 +160,7 @@ std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const 
     std::string record;
     if (crew_.Rank() == 0) {
       record = records_.Find(digests[i]).value_or("");
-      if (!record.empty() && !Unpack(digests[i], record)) {
+      if (!record.empty() && !Unpack(digests[i], VerticesOf(pairs[i]), record)) {
         ++counts_.damaged;
         record.clear();
       }
@@ -181,7 +187,7 @@ std::vector<PairResult> PairSolver::Solve(const std::vector<Pair>& pairs, const 
 
   std::vector<PairResult> results;
   for (size_t i = 0; i < pairs.size(); ++i) {
-    auto result = Unpack(digests[i], records[i]);
+    auto result = Unpack(digests[i], VerticesOf(pairs[i]), records[i]);
     if (!result) throw SolverError("the result of another process is damaged");
     if (!result->converged) ++counts_.not_converged;
     results.push_back(*std::move(result));
