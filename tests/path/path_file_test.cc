@@ -220,6 +220,11 @@ TEST(PathFile, PathsAtOddsWithThemselvesAreNotWritten) {
             0u);
   EXPECT_EQ(message([](P* p) { p->motions[3].translation.x() = std::nan(""); }),
             file + ": shape 3: its motion is not finite");
+  EXPECT_EQ(message([](P* p) {
+              p->shapes[1](2, 5) = 1e200;
+              p->motions[1].rotation *= 1e200;
+            }),
+            file + ": shape 1 is not finite where its motion places it; make the path again");
   const std::string extrapolated = file + ": the path's number of extrapolated shapes, ";
   EXPECT_EQ(message([](P* p) { p->extrapolated = 5; }), extrapolated + "5, is not in 0 .. 4");
   EXPECT_EQ(message([](P* p) { p->extrapolated = -1; }), extrapolated + "-1, is not in 0 .. 4");

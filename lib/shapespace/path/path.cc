@@ -61,6 +61,9 @@ void Path::Validate() const {
         throw MeshError(shape + ": vertex " + text(v) + " is not finite");
       }
     }
+    if (!Placed(i).allFinite()) {
+      throw MeshError(shape + " is not finite where its motion places it; make the path again");
+    }
   }
   if (extrapolated < 0 || extrapolated >= count) {
     throw MeshError("the path's number of extrapolated shapes, " + text(extrapolated) +

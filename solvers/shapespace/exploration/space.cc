@@ -101,6 +101,9 @@ void PoseSpace::Validate() const {
   if (!points.allFinite() || !distances.allFinite() || !translation.allFinite()) {
     fail("a point or a distance is not finite");
   }
+  for (int i = 0; i < count; ++i) {
+    if (!Placed(i).allFinite()) fail("a node is not finite in the unit of the poses");
+  }
   if (distances.minCoeff() < 0 || distances.maxCoeff() == 0 || distances != distances.transpose()) {
     fail("its distances are negative, all zero, or not symmetric");
   }

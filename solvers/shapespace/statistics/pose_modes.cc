@@ -38,6 +38,10 @@ void PoseModes::Validate() const {
       fail("the place of a pose is not finite");
     }
   }
+  for (int i = 0; i < NumPoses(); ++i) {
+    if (!PlacedPose(i).allFinite()) fail("a pose is not finite where its motion places it");
+  }
+  if (!place(metric->unit * mean).allFinite()) fail("the mean is not finite where it is placed");
   if (!coefficients.allFinite() || !place.rotation.allFinite() || !place.translation.allFinite()) {
     fail("a number is not finite");
   }

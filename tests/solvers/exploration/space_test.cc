@@ -155,6 +155,11 @@ TEST(SpaceTest, ASpaceAtOddsWithItselfIsRefused) {
   EXPECT_TRUE(contains(
       message([](PoseSpace* s) { s->points(0, 0) = std::numeric_limits<double>::infinity(); }),
       "not finite"));
+  EXPECT_TRUE(contains(message([](PoseSpace* s) {
+                         s->nodes[1](0, 0) = 1e308;
+                         s->translation.x() = 1e308;
+                       }),
+                       "not finite in the unit"));
 }
 
 }  // namespace
