@@ -117,6 +117,25 @@ void CheckPath(const Path& path) {
   for (const Shape& shape : path.Placed()) Expect(shape.allFinite(), "a shape is not finite");
 }
 
+// Whether a path between two poses that is said to have converged has: no step against the gradient
+// of its energy lowers it by a notable share, a few hundred times the tolerance.
+void CheckConverged(const Path& path) {
+  constexpr double kNotable = 0.05, kNothing = 1e-9;
+  PathEnergy energy(path.metric, path.NumShapes() - 2);
+  std::vector<double> unknowns(energy.Size()), gradient(energy.Size());
+  energy.Load(path.shapes, unknowns.data());
+  const double before = energy.Evaluate(unknowns.data(), gradient.data());
+  double square = 0;
+  for (const double slope : gradient) square += slope * slope;
+  if (!(before > kNothing) || square == 0) return;
+  std::vector<double> moved(unknowns.size());
+  for (double step = before / square; step > 1e-12 * before / square; step /= 4) {
+    for (size_t i = 0; i < moved.size(); ++i) moved[i] = unknowns[i] - step * gradient[i];
+    Expect(!(energy.Evaluate(moved.data(), nullptr) < (1 - kNotable) * before),
+           "a path has converged, and a step lowers its energy");
+  }
+}
+
 // How far two shapes are apart, as a share of their size and their distance from the origin.
 double Apart(const Shape& a, const Shape& b) {
   return (a - b).cwiseAbs().maxCoeff() / std::max(1e-300, b.cwiseAbs().maxCoeff());
@@ -145,6 +164,12 @@ void FuzzInterpolate(const std::string& data) {
   if (options.metric.rigid == 0) {
     Expect(std::abs(energy - summary.energy) <= kRounding * (energy + 1e-9),
            "the energy that is reported is not that of the shapes");
+  }
+  Expect(result.path.converged == (summary.termination == Termination::kConverged),
+         "the path and its summary differ on whether it has converged");
+  if (result.path.converged && poses.shapes.size() == 2 && !options.avoid_contact &&
+      options.tolerance <= GeodesicOptions().tolerance) {
+    CheckConverged(result.path);
   }
 }
 
