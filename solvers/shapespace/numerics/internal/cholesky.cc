@@ -43,9 +43,9 @@ struct __attribute__((packed, may_alias)) Packed {
 template <typename Vector>
 using InMemory = std::conditional_t<std::is_const_v<Vector>,
                                     const Packed<std::remove_const_t<Vector>>, Packed<Vector>>;
-#define SHAPESPACE_VECTOR_AT(Vector, address) reinterpret_cast<InMemory<Vector>*>(address)->vector
+#define SHAPESPACE_VECTOR_AT(Vector, address) (reinterpret_cast<InMemory<Vector>*>(address)->vector)
 #else
-#define SHAPESPACE_VECTOR_AT(Vector, address) *reinterpret_cast<Vector*>(address)
+#define SHAPESPACE_VECTOR_AT(Vector, address) (*reinterpret_cast<Vector*>(address))
 #endif
 
 // The solves below keep a tile of kRows x kVectors vectors in registers while they read the
