@@ -46,6 +46,19 @@ TEST(MeasureQuality, SeesAScaledShapeAsThatMuchDeviation) {
   EXPECT_NEAR(quality.first_rms, std::sqrt((1 + 0.01) / 2), 1e-6);  // of both
 }
 
+// Such triangles are accepted with a warning, by --allow_nonmanifold.
+TEST(MeasureQuality, OfATriangleWithAVertexTwiceTakesItsSides) {
+  ShapeFamily body;
+  Eigen::Matrix3Xi triangles(3, 2);
+  triangles.col(0) << 0, 1, 2;
+  triangles.col(1) << 1, 2, 1;
+  body.connectivity = Connectivity::FromTriangles(3, triangles);
+  Shape shape(3, 3);
+  shape << 0, 1, 0, 0, 0, 1, 0, 0, 0;
+  const PathQuality quality = MeasureQuality(MakePath(body, {shape, shape, shape}));
+  EXPECT_NEAR(quality.edge_max, 0, 1e-6);
+}
+
 // Segments, of which each is longer than the one before by a thousandth of its first length; in the
 // last shape they have their first lengths again.
 TEST(MeasureQuality, OneInAHundredDeviatesMoreThanThe99thPercentile) {

@@ -289,9 +289,15 @@ void FuzzCorrespond(const std::string& data) {
   Bytes bytes(data);
   const RandomPoses poses(&bytes, 1), target(&bytes, 1);
   std::vector<CorrespondenceMarker> markers;
-  for (int k = bytes.Below(6); k >= 0; --k) {
-    markers.push_back({bytes.Below(poses.connectivity->NumVertices()),
-                       bytes.Below(target.connectivity->NumVertices())});
+  // Most often spread over both meshes: others are refused before anything is fitted.
+  const int count = 1 + bytes.Below(7), last = std::max(1, count - 1);
+  const bool spread = bytes.Below(8) > 0;
+  const auto vertex = [&](int k, int num_vertices) {
+    return spread ? k * (num_vertices - 1) / last : bytes.Below(num_vertices);
+  };
+  for (int k = 0; k < count; ++k) {
+    markers.push_back({vertex(k, poses.connectivity->NumVertices()),
+                       vertex(k, target.connectivity->NumVertices())});
   }
   const CorrespondenceResult result = Correspond(poses.connectivity, poses.shapes[0],
                                                  target.connectivity, target.shapes[0], markers);

@@ -293,6 +293,10 @@ TEST(ShapeModel, RefusesWhatItCannotDo) {
   EXPECT_THROW(model.Coordinates(poses[0], false, 6), InvalidOptions);
   EXPECT_THROW(FirstModes(model.Modes(), 9), InvalidOptions);
   EXPECT_THROW(RenderModes(model, 0), InvalidOptions);
+  PoseModes far = model.Modes();
+  far.motions[0].translation.setConstant(1e308);
+  far.poses[0].setConstant(1e308);
+  EXPECT_THROW(far.Validate(), MeshError);
 }
 
 TEST(AssessShapeModel, MoreModesDescribeMore) {

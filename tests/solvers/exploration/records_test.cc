@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/exploration/explore.h>
+#include <shapespace/path/internal/array_file.h>
 
 #include "mesh/files.h"
 #include "solvers/exploration/spaces.h"
@@ -110,6 +111,33 @@ TEST_F(RecordsTest, DamageIsCountedOnBothMeshes) {
   const ExploreSummary second = Run().summary;
   EXPECT_EQ(second.solved, first.solved);
   EXPECT_EQ(second.damaged, first.solved);
+}
+
+// Their names and checksums fit, but no geodesic of these poses has such a result.
+TEST_F(RecordsTest, OfOtherShapesOrNegativeLengthsAreSolvedAgain) {
+  const ExploreResult first = Run();
+  const auto forge = [&](const fs::path& file, double length, int vertices) {
+    internal::ArrayWriter arrays;
+    arrays.Add("lengths", Eigen::Vector2d(length, 2));
+    arrays.Add("shape", Shape(Shape::Zero(3, vertices)));
+    const std::string bytes =
+        internal::PackArrayFile({"SHAPPAIR", 1, ".geodesic"},
+                                {{"digest", file.stem().string()}, {"converged", true}}, arrays);
+    File("records/" + file.filename().string(), bytes);
+  };
+  for (const int vertices : {1, tube_.connectivity->NumVertices() + 1}) {
+    for (const fs::path& file : Records()) forge(file, 1, vertices);
+    const ExploreResult second = Run();
+    EXPECT_EQ(second.summary.damaged, first.summary.solved);
+    EXPECT_EQ(second.space.nodes, first.space.nodes);
+    EXPECT_EQ(second.space.distances, first.space.distances);
+  }
+  // Distances have no shape, midpoints one of the mesh's vertices: only the lengths are wrong.
+  for (const fs::path& file : Records()) {
+    const bool midpoint = fs::file_size(file) > 1000;
+    forge(file, -1, midpoint ? tube_.connectivity->NumVertices() : 0);
+  }
+  EXPECT_EQ(Run().summary.damaged, first.summary.solved);
 }
 
 TEST_F(RecordsTest, AreRemovedButNothingElse) {

@@ -75,9 +75,15 @@ Eigen::VectorXd StraightLengths::ByStrainAt(double t) const {
   Eigen::VectorXd squared = Eigen::VectorXd::Zero(connectivity.NumEdges());
   for (int e = 0; e < connectivity.NumTriangleEdges(); ++e) {
     const IndexLists::Row around = connectivity.TrianglesOfEdges()[e];
+    const int a = connectivity.Edges()(0, e), b = connectivity.Edges()(1, e);
     for (const int f : around) {
-      int opposite = 0;  // the corner that is no end of the edge
-      while ((connectivity.Edges().col(e).array() == triangles(opposite, f)).any()) ++opposite;
+      // The corner opposite to the edge, which in a triangle with a vertex twice is one of its
+      // ends.
+      const auto is_opposite = [&](int corner) {
+        const int next = triangles((corner + 1) % 3, f), last = triangles((corner + 2) % 3, f);
+        return (next == a && last == b) || (next == b && last == a);
+      };
+      const int opposite = is_opposite(0) ? 0 : is_opposite(1) ? 1 : 2;
       squared(e) += sides[f][opposite] / around.size();
     }
   }

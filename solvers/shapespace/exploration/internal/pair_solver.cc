@@ -100,8 +100,7 @@ std::string Pack(const std::string& digest, const PairResult& result) {
 // Of the shape that is requested.
 Eigen::Index VerticesOf(const Pair& pair) { return pair.t >= 0 ? pair.from->cols() : 0; }
 
-// Empty if the bytes are not a complete record with this digest, of a shape of so many vertices:
-// what the record of another mesh would be that has been given this one's name.
+// Empty if the bytes are not a complete record with this digest and a shape of so many vertices.
 std::optional<PairResult> Unpack(const std::string& digest, Eigen::Index vertices,
                                  const std::string& bytes) {
   try {
