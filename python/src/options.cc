@@ -88,9 +88,9 @@ void Value<std::vector<FeatureTerm>>::Set(std::vector<FeatureTerm>* value, py::h
 
 py::object Value<std::vector<FeatureTerm>>::Get(const std::vector<FeatureTerm>& value) {
   if (value.empty()) return py::none();
-  py::dict terms;
+  py::object terms = py::dict();
   for (const FeatureTerm& term : value) terms[term.name.c_str()] = term.coefficient;
-  return std::move(terms);
+  return terms;
 }
 
 namespace {
