@@ -73,6 +73,63 @@ TEST(SplineContactTest, ScalesWithTheBody) {
               0.1 * other.summary.contact_distance);
 }
 
+// A rod that comes down steeply, and rises slowly, bent: in between it would swing through the
+// floor.
+struct LandingRod {
+  explicit LandingRod(double unit = 1, const Eigen::Vector3d& of_origin = Eigen::Vector3d::Zero())
+      : ring(unit), origin(of_origin) {
+    poses = {At(ring.Rod(), 3), At(ring.Rod(), 0.1), At(ring.Bent(0.1), 0.2)};
+    Eigen::Matrix3Xi triangles(3, 2);
+    triangles << 0, 0, 1, 2, 2, 3;
+    floor.connectivity = Connectivity::FromTriangles(4, triangles);
+    floor.shape.resize(3, 4);
+    floor.shape << -20, 20, 20, -20, -20, -20, 20, 20, 0, 0, 0, 0;
+    floor.shape = (unit * floor.shape).colwise() + origin;
+  }
+  // With its lowest vertex so high above the floor.
+  Shape At(Shape shape, double height) const {
+    shape.row(2).array() += height * ring.unit - shape.row(2).minCoeff();
+    return shape.colwise() + origin;
+  }
+  SplineResult Land(bool past_floor) const {
+    SplineOptions options = Loose();
+    if (past_floor) {
+      options.geodesic.avoid_contact = true;
+      options.geodesic.obstacle = floor;
+    }
+    return Spline(ring.connectivity, poses, options);
+  }
+  CutRing ring;
+  Eigen::Vector3d origin;
+  std::vector<Shape> poses;
+  Obstacle floor;
+};
+
+TEST(SplineContactTest, IsLedPastAnObstacle) {
+  const LandingRod rod;
+  const SplineResult through = rod.Land(false);
+  EXPECT_GT(MostIntersections(through.path, rod.floor), 0);
+  const auto [path, summary] = rod.Land(true);
+  EXPECT_EQ(MostIntersections(path, rod.floor), 0);
+  EXPECT_EQ(summary.uncertified_segments, 0) << summary.FullReport();
+  EXPECT_GT(summary.contact_distance, 0);
+  EXPECT_LT(summary.jump_after, 0.3 * summary.jump_before);
+  for (int pose = 0; pose < 3; ++pose) {
+    EXPECT_LT((path.Placed(path.poses[pose]) - rod.poses[pose]).norm(), 1e-9);
+  }
+  // Where the floor is far, in the first half of the fall, it is the spline without one.
+  EXPECT_LT((path.Placed(3) - through.path.Placed(3)).colwise().norm().maxCoeff(), 0.05);
+}
+
+TEST(SplineContactTest, PastAnObstacleUnitAndPlaceDoNotMatter) {
+  const LandingRod rod, other(1000, {1e6, -2e6, 5e5});
+  const SplineResult one = rod.Land(true), two = other.Land(true);
+  for (int k = 0; k < one.path.NumShapes(); ++k) {
+    const Shape moved = (1000 * one.path.Placed(k)).colwise() + other.origin;
+    EXPECT_LT((moved - two.path.Placed(k)).colwise().norm().maxCoeff(), 10);
+  }
+}
+
 TEST(SplineContactTest, WhenStoppedItIsTheChain) {
   struct StopPastContacts : Progress {
     bool Report(const std::string& stage, int, int) override {

@@ -120,10 +120,6 @@ TEST_F(RefusalTest, WrongCommandLines) {
       2,
       {"tube0.obj", "tube1.obj", "--avoid_contact", "--obstacle", "tube0.obj", "--ground", "y=0"},
       {"--ground moves the path, which --obstacle needs where the poses are"});
-  ExpectRefusal(2,
-                {"tube0.obj", "tube1.obj", "tube0.obj", "--avoid_contact", "--obstacle",
-                 "tube0.obj", "--spline", "natural"},
-                {"--obstacle tube0.obj: is for geodesics alone"});
   ExpectRefusal(2, {"tube0.obj", "tube1.obj", "--hold_limit", "2"},
                 {"--hold_limit: goes with --spline"});
   const auto refuse_spline = [&](Strings flags, const char* message) {

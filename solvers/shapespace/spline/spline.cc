@@ -116,9 +116,6 @@ void WarnOfContact(SplineSummary* summary) {
 
 void SplineOptions::Validate() const {
   geodesic.Validate();
-  if (geodesic.obstacle) {
-    throw InvalidOptions("obstacle", "is for geodesics alone: smooth motion may pass through it");
-  }
   for (size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
       throw InvalidOptions("times", "must be finite numbers in ascending order");

@@ -43,18 +43,19 @@ std::vector<Shape> Divide(const Metric& metric, const std::vector<Shape>& states
 }
 
 // Relaxes the energy, or, unless `guide` is null, as KeepIncrements.
-MinimiseResult Relax(const ContactModel& model, const CholeskyFactor<float>& factor,
-                     double stiffness, const std::vector<Shape>* guide, MinimiseOptions options,
+MinimiseResult Relax(const ContactModel& model, const std::shared_ptr<const Metric>& metric,
+                     const CholeskyFactor<float>& factor, double stiffness,
+                     const std::vector<Shape>* guide, MinimiseOptions options,
                      std::vector<Shape>* shapes) {
   const int segments = static_cast<int>(shapes->size()) - 1;
-  PathEnergy energy(model.GetMetric(), segments - 1);
+  PathEnergy energy(metric, segments - 1);
   Preconditioner preconditioner(factor, energy);
   std::vector<double> unknowns(energy.Size());
   energy.Load(*shapes, unknowns.data());
   PathContact contact(model, energy, *shapes, PathContact::Segments(segments + 1),
                       PathContact::kTimes);
   std::optional<Increments> increments;
-  if (guide != nullptr) increments.emplace(model.GetMetric(), energy, *guide);
+  if (guide != nullptr) increments.emplace(metric, energy, *guide);
   options.rank = HistoryRank(static_cast<double>(unknowns.size()));
   contact.Limit(&options);
   const MinimiseResult result = MinimiseThreadedLbfgs(
@@ -192,8 +193,8 @@ ContactFreePath AvoidContact(const ContactModel& model, const CholeskyFactor<flo
     const int parts = static_cast<int>(states.size()) - 1;
     const int multiple = (parts + segments - 1) / segments;
     states = WithoutDrift(model, Divide(*metric, states, multiple * segments));
-    result.result =
-        Relax(model, *preconditioner, kContactStiffness * energy, nullptr, options, &states);
+    result.result = Relax(model, metric, *preconditioner, kContactStiffness * energy, nullptr,
+                          options, &states);
     if (multiple == 1) {
       result.shapes = WithoutDrift(model, states);
       return result;
@@ -204,11 +205,14 @@ ContactFreePath AvoidContact(const ContactModel& model, const CholeskyFactor<flo
   }
 }
 
-MinimiseResult KeepIncrements(const ContactModel& model, const CholeskyFactor<float>& factor,
-                              const std::vector<Shape>& guide, const MinimiseOptions& options,
-                              std::vector<Shape>* shapes) {
-  const double stiffness = kContactStiffness * EnergyAlong(*model.GetMetric(), guide);
-  return Relax(model, factor, stiffness, &guide, options, shapes);
+MinimiseResult KeepIncrements(const ContactModel& model, const std::vector<Shape>& guide,
+                              const MinimiseOptions& options, std::vector<Shape>* shapes) {
+  const std::vector<Shape> poses = {guide.front(), guide.back()};
+  const std::shared_ptr<const Metric> metric =
+      model.HasObstacle() ? WithCostOfPosition(*model.GetMetric(), poses) : model.GetMetric();
+  const CholeskyFactor<float> factor(ScalarMetric(*metric, poses, 0));
+  const double stiffness = kContactStiffness * EnergyAlong(*metric, guide);
+  return Relax(model, metric, factor, stiffness, &guide, options, shapes);
 }
 
 }  // namespace shapespace::internal

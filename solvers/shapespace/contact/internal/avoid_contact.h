@@ -58,10 +58,10 @@ ContactFreePath AvoidContact(const ContactModel& model, const CholeskyFactor<flo
 /// Moves the inner shapes of `shapes`, a path without contact, so that it has no contact and its
 /// increments are near those of `guide`, a path of as many shapes with the same ends:
 ///   sum_i |(Phi(P_{i+1}) - Phi(P_i)) - (Phi(Q_{i+1}) - Phi(Q_i))|^2
-/// and the contact potential are least, of all paths that can be reached without contact.
-MinimiseResult KeepIncrements(const ContactModel& model, const CholeskyFactor<float>& factor,
-                              const std::vector<Shape>& guide, const MinimiseOptions& options,
-                              std::vector<Shape>* shapes);
+/// and the contact potential are least, of all paths that can be reached without contact. Past an
+/// obstacle Phi has positions too, so that the body moves as smoothly as the guide.
+MinimiseResult KeepIncrements(const ContactModel& model, const std::vector<Shape>& guide,
+                              const MinimiseOptions& options, std::vector<Shape>* shapes);
 
 }  // namespace shapespace::internal
 

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <Eigen/LU>
 
 #include <shapespace/base/internal/ranges.h>
 #include <shapespace/contact/internal/avoid_contact.h>
+#include <shapespace/contact/obstacle.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/numerics/internal/gradient_integrator.h>
 #include <shapespace/numerics/internal/triangle_pose.h>
@@ -227,14 +229,15 @@ class Smoother {
   const Corrections corrections_;
 };
 
-// The contact between each two poses of a chain.
+// The contact between each two poses of a chain, whose shapes are `shapes`.
 class ChainContact {
  public:
-  explicit ChainContact(const Path& chain) : poses_(chain.poses) {
+  ChainContact(const Path& chain, const std::vector<Shape>& shapes, const Obstacle* obstacle)
+      : poses_(chain.poses) {
     for (size_t i = 0; i + 1 < poses_.size(); ++i) {
       models_.emplace_back(chain.metric,
-                           std::vector<Shape>{chain.shapes[poses_[i]], chain.shapes[poses_[i + 1]]},
-                           ContactModel::Intersections::kExempt);
+                           std::vector<Shape>{shapes[poses_[i]], shapes[poses_[i + 1]]},
+                           ContactModel::Intersections::kExempt, obstacle);
     }
   }
 
@@ -255,18 +258,11 @@ class ChainContact {
   }
 
   // Replaces the smoothed shapes of an interval in which the chain has no contact.
-  void Relax(const Path& chain, int interval, const MinimiseOptions& options,
+  void Relax(const std::vector<Shape>& chain, int interval, const MinimiseOptions& options,
              std::vector<Shape>* smoothed) const {
-    const ContactModel& model = models_[interval];
-    const Metric& metric = *model.GetMetric();
-    const std::vector<Shape> guide = Part(*smoothed, interval);
-    std::vector<Shape> shapes = Part(chain.shapes, interval);
-    const CholeskyFactor<float> factor(ScalarMetric(metric, {guide.front(), guide.back()}, 0));
-    KeepIncrements(model, factor, guide, options, &shapes);
-    for (size_t k = 1; k + 1 < shapes.size(); ++k) {
-      (*smoothed)[poses_[interval] + k] =
-          FitRigidMotion(shapes[k], guide[k], metric.vertex_area)(shapes[k]);
-    }
+    std::vector<Shape> shapes = Part(chain, interval);
+    KeepIncrements(models_[interval], Part(*smoothed, interval), options, &shapes);
+    std::move(shapes.begin() + 1, shapes.end() - 1, smoothed->begin() + poses_[interval] + 1);
   }
 
  private:
@@ -297,10 +293,51 @@ Smoothed Smooth(const Smoother& smoother, const Path& chain, Progress* progress)
   return smoothed;
 }
 
+// Where shapes and an obstacle are compared: where the shapes are placed, in the metric's unit and
+// from where the first one is; without an obstacle, the frame of the path.
+class Scene {
+ public:
+  Scene(const Path& chain, const std::optional<Obstacle>& obstacle)
+      : unit_(chain.metric->unit), weights_(chain.metric->vertex_area), obstacle_(obstacle) {
+    if (!obstacle_) return;
+    origin_ = chain.motions.front().translation;
+    obstacle_->shape = (obstacle_->shape.colwise() - origin_) / unit_;
+  }
+
+  const Obstacle* GetObstacle() const { return obstacle_ ? &*obstacle_ : nullptr; }
+
+  std::vector<Shape> Place(const std::vector<Shape>& shapes,
+                           const std::vector<RigidMotion>& motions) const {
+    std::vector<Shape> placed = shapes;
+    for (size_t k = 0; obstacle_ && k < placed.size(); ++k) {
+      placed[k] = (motions[k](unit_ * shapes[k]).colwise() - origin_) / unit_;
+    }
+    return placed;
+  }
+
+  // Replaces a shape, and its motion if there is an obstacle, by those of a placed one.
+  void TakeBack(const Shape& placed, Shape* shape, RigidMotion* motion) const {
+    const RigidMotion back = FitRigidMotion(placed, *shape, weights_);
+    *shape = back(placed);
+    if (!obstacle_) return;
+    motion->rotation = back.rotation.transpose();
+    motion->translation = origin_ - unit_ * (motion->rotation * back.translation);
+  }
+
+ private:
+  const double unit_;
+  const Eigen::VectorXd& weights_;
+  std::optional<Obstacle> obstacle_;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+};
+
 // Leads a smoothed chain round its contacts, from the chain without contact.
 SmoothContact SmoothPastContact(const SplineOptions& options, const Path& chain, Progress* progress,
                                 Smoothed* smoothed) {
-  const ChainContact contact(chain);
+  const Scene scene(chain, options.geodesic.obstacle);
+  const std::vector<Shape> cornered = scene.Place(chain.shapes, chain.motions);
+  std::vector<Shape> shapes = scene.Place(smoothed->shapes, smoothed->motions);
+  const ChainContact contact(chain, cornered, scene.GetObstacle());
   SmoothContact result;
   result.uncertified_segments = 0;
   MinimiseOptions minimise;
@@ -311,15 +348,18 @@ SmoothContact SmoothPastContact(const SplineOptions& options, const Path& chain,
     return true;
   };
   for (int i = 0; i < contact.NumIntervals(); ++i) {
-    int touching = contact.Touching(smoothed->shapes, i);
+    int touching = contact.Touching(shapes, i);
     // Where the chain has contact itself, so has the smooth path.
-    if (touching > 0 && contact.Touching(chain.shapes, i) == 0) {
-      contact.Relax(chain, i, minimise, &smoothed->shapes);
-      touching = contact.Touching(smoothed->shapes, i);
+    if (touching > 0 && contact.Touching(cornered, i) == 0) {
+      contact.Relax(cornered, i, minimise, &shapes);
+      for (int k = chain.poses[i] + 1; k < chain.poses[i + 1]; ++k) {
+        scene.TakeBack(shapes[k], &smoothed->shapes[k], &smoothed->motions[k]);
+      }
+      touching = contact.Touching(shapes, i);
     }
     result.uncertified_segments += touching;
   }
-  result.contact_distance = contact.Distance(smoothed->shapes);
+  result.contact_distance = contact.Distance(shapes);
   return result;
 }
 
