@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 
@@ -173,8 +175,8 @@ bool Meet(const MovingBox& a, const MovingBox& b, double reach, Times* times) {
 
 }  // namespace
 
-// One search: the boxes of its motion, and what it finds. Searches within small parts of the tree
-// and between them are tasks, which run on all threads; what they find is joined in their order.
+// One search: the boxes of its motion. What is found on all threads is joined in the order of the
+// pairs of nodes with which they begin.
 class NearPairs::Search {
  public:
   Search(const NearPairs& pairs, const Shape& from, const Shape& to, double share, double margin)
@@ -183,13 +185,8 @@ class NearPairs::Search {
         to_(to),
         share_(share),
         margin_(margin),
-        boxes_(pairs.nodes_.size()),
-        edge_boxes_(pairs.connectivity_->NumTriangleEdges()) {
+        boxes_(pairs.nodes_.size()) {
     const Connectivity& connectivity = *pairs.connectivity_;
-    for (int e = 0; e < connectivity.NumTriangleEdges(); ++e) {
-      edge_boxes_[e] = Around(connectivity.Edges()(0, e));
-      Extend(&edge_boxes_[e], Around(connectivity.Edges()(1, e)));
-    }
     for (int i = static_cast<int>(boxes_.size()) - 1; i >= 0; --i) {
       const Node& node = pairs.nodes_[i];
       if (node.right < 0) {
@@ -204,15 +201,14 @@ class NearPairs::Search {
     }
   }
 
-  std::vector<NearPair> Run() {
-    Within(0, nullptr);
-    std::vector<std::vector<NearPair>> found(tasks_.size());
-    ParallelFor(static_cast<int>(tasks_.size()), [&](int i) {
-      const auto [a, b] = tasks_[i];
-      if (a == b) {
-        Within(a, &found[i]);
-      } else {
-        Between(a, b, &found[i]);
+  std::vector<NearPair> Run() const {
+    constexpr int kPerTask = 256;
+    const int count = static_cast<int>(pairs_.fronts_.size());
+    std::vector<std::vector<NearPair>> found((count + kPerTask - 1) / kPerTask);
+    ParallelFor(static_cast<int>(found.size()), [&](int task) {
+      const int end = std::min(count, (task + 1) * kPerTask);
+      for (int i = task * kPerTask; i < end; ++i) {
+        Between(pairs_.fronts_[i].first, pairs_.fronts_[i].second, &found[task]);
       }
     });
     std::vector<NearPair> all;
@@ -221,27 +217,18 @@ class NearPairs::Search {
   }
 
  private:
-  // Nodes with fewer triangles are searched in one task.
-  static constexpr int kTaskTriangles = 256;
-
   MovingBox Around(int vertex) const {
     return {{from_.col(vertex), to_.col(vertex)}, {from_.col(vertex), to_.col(vertex)}};
   }
-
-  // All pairs within a node, and between two. What is small becomes a task if `found` is null.
-  void Within(int node, std::vector<NearPair>* found) {
-    const Node& n = pairs_.nodes_[node];
-    if (n.right < 0 || !n.moves) return;
-    if (found == nullptr && n.triangles < kTaskTriangles) {
-      tasks_.push_back({node, node});
-      return;
-    }
-    Within(n.left, found);
-    Within(n.right, found);
-    Between(n.left, n.right, found);
+  MovingBox AroundEdge(int edge) const {
+    const auto ends = pairs_.connectivity_->Edges().col(edge);
+    MovingBox box = Around(ends(0));
+    Extend(&box, Around(ends(1)));
+    return box;
   }
 
-  void Between(int a, int b, std::vector<NearPair>* found) {
+  // All pairs between two nodes.
+  void Between(int a, int b, std::vector<NearPair>* found) const {
     const Node &first = pairs_.nodes_[a], &second = pairs_.nodes_[b];
     if (!first.moves && !second.moves) return;
     Times times;
@@ -249,9 +236,7 @@ class NearPairs::Search {
               &times)) {
       return;
     }
-    if (found == nullptr && std::max(first.triangles, second.triangles) < kTaskTriangles) {
-      tasks_.push_back({a, b});
-    } else if (first.triangles == 1 && second.triangles == 1) {
+    if (first.triangles == 1 && second.triangles == 1) {
       AddElements(a, b, found);
     } else if (first.triangles >= second.triangles) {
       Between(first.left, b, found);
@@ -265,8 +250,6 @@ class NearPairs::Search {
   void AddElements(int a, int b, std::vector<NearPair>* found) const {
     const int s = pairs_.nodes_[a].left, t = pairs_.nodes_[b].left;
     const Connectivity& connectivity = *pairs_.connectivity_;
-    // All elements of triangles with a common corner are neighbours.
-    if (ShareCorner(connectivity.Triangles().col(s), connectivity.Triangles().col(t))) return;
     for (const auto& [owner, other, box] :
          {std::make_tuple(s, t, &boxes_[b]), {t, s, &boxes_[a]}}) {
       const auto corners = connectivity.Triangles().col(other);
@@ -279,8 +262,8 @@ class NearPairs::Search {
       for (const int j : pairs_.edges_of_triangles_[t]) {
         const int e = std::min(i, j), f = std::max(i, j);
         const auto first = connectivity.Edges().col(e), second = connectivity.Edges().col(f);
-        Add(PairKind::kEdgeEdge, {first(0), first(1), second(0), second(1)}, edge_boxes_[e],
-            edge_boxes_[f], found);
+        Add(PairKind::kEdgeEdge, {first(0), first(1), second(0), second(1)}, AroundEdge(e),
+            AroundEdge(f), found);
       }
     }
   }
@@ -301,9 +284,7 @@ class NearPairs::Search {
   const NearPairs& pairs_;
   const Shape &from_, &to_;
   const double share_, margin_;
-  std::vector<MovingBox> boxes_;       // by node
-  std::vector<MovingBox> edge_boxes_;  // by edge
-  std::vector<std::pair<int, int>> tasks_;
+  std::vector<MovingBox> boxes_;  // by node
 };
 
 NearPairs::NearPairs(std::shared_ptr<const Connectivity> connectivity,
@@ -333,6 +314,18 @@ NearPairs::NearPairs(std::shared_ptr<const Connectivity> connectivity,
   std::iota(order.begin(), order.end(), 0);
   nodes_.reserve(2 * static_cast<size_t>(num_triangles));
   Build(centres, order.data(), order.data() + num_triangles);
+  std::vector<Eigen::AlignedBox3d> boxes(nodes_.size());
+  for (int i = static_cast<int>(boxes.size()) - 1; i >= 0; --i) {
+    const Node& node = nodes_[i];
+    if (node.right < 0) {
+      for (const int v : connectivity_->Triangles().col(node.left)) {
+        boxes[i].extend(shapes.front().col(v));
+      }
+    } else {
+      boxes[i] = boxes[node.left].merged(boxes[node.right]);
+      FindFronts(node.left, node.right, boxes);
+    }
+  }
 }
 
 // Halves the triangles along the longest side of the box of their centres; returns the node.
@@ -365,6 +358,31 @@ int NearPairs::Build(const Shape& centres, int* begin, int* end) {
   }
   nodes_[index] = node;
   return index;
+}
+
+bool NearPairs::FindFronts(int a, int b, const std::vector<Eigen::AlignedBox3d>& boxes) {
+  const Node &first = nodes_[a], &second = nodes_[b];
+  if (!first.moves && !second.moves) return false;
+  const size_t begin = fronts_.size();
+  bool share = false;
+  if (first.triangles == 1 && second.triangles == 1) {
+    share = ShareCorner(connectivity_->Triangles().col(first.left),
+                        connectivity_->Triangles().col(second.left));
+    if (share) return true;
+  } else if (boxes[a].intersects(boxes[b])) {
+    if (first.triangles >= second.triangles) {
+      share = FindFronts(first.left, b, boxes);
+      share = FindFronts(first.right, b, boxes) || share;
+    } else {
+      share = FindFronts(a, second.left, boxes);
+      share = FindFronts(a, second.right, boxes) || share;
+    }
+  }
+  if (!share) {
+    fronts_.resize(begin);
+    fronts_.emplace_back(a, b);
+  }
+  return share;
 }
 
 double NearPairs::Length(const NearPair& pair) const {

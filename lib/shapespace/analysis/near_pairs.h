@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include <shapespace/analysis/distance.h>
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
@@ -32,8 +34,9 @@ struct NearPair {
 /// (the mean of its edges' lengths). Vertices that belong to no triangle do not count either.
 ///
 /// The triangles are kept in a tree of boxes, which is made once. For each motion the boxes at both
-/// ends are computed, and boxes in between lie between these. Immutable, so several threads may
-/// search at once.
+/// ends are computed, and boxes in between lie between these. A search begins at pairs of nodes
+/// that have no corner in common, which are found once too: nearly all triangles whose boxes meet
+/// share a corner. Immutable, so several threads may search at once.
 class NearPairs {
  public:
   /// Lengths are the mean of those in `shapes`, at least one. The vertices from `num_moving` on
@@ -64,16 +67,19 @@ class NearPairs {
   class Search;
 
   int Build(const Shape& centres, int* begin, int* end);
+  // Appends the largest pairs of nodes below these two that have no corner in common, or the two
+  // themselves; returns whether they have one. `boxes` are those of one shape.
+  bool FindFronts(int a, int b, const std::vector<Eigen::AlignedBox3d>& boxes);
   bool AreNeighbours(int v, int w) const;
   bool AreNeighbours(const NearPair& pair) const;
 
   std::shared_ptr<const Connectivity> connectivity_;
   int num_moving_;
   std::vector<double> lengths_;
-  IndexLists neighbours_;  // by vertex, ascending, itself included
-  IndexLists
-      neighbour_triangles_;  // by triangle, ascending: those all of whose elements are neighbours
+  IndexLists neighbours_;    // by vertex, ascending, itself included
   std::vector<Node> nodes_;  // children after their parents
+  // Triangles that share no corner, and of which one moves, are in one of these pairs of nodes.
+  std::vector<std::pair<int, int>> fronts_;
   // Each vertex and each edge belongs to one of its triangles, so that pairs are found once.
   IndexLists vertices_of_triangles_, edges_of_triangles_;
 };
