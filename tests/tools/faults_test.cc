@@ -47,7 +47,7 @@ class FaultsTest : public ToolsTest {
     getrlimit(RLIMIT_FSIZE, &limit);
     const rlimit small = {bytes, limit.rlim_max};
     setrlimit(RLIMIT_FSIZE, &small);
-    const Outcome outcome = Run(tool, arguments);
+    Outcome outcome = Run(tool, arguments);
     setrlimit(RLIMIT_FSIZE, &limit);
     return outcome;
   }
