@@ -221,7 +221,8 @@ class Campaign:
         elif names is not UNREADABLE:
             if names is None:
                 names = job.inputs() + job.outputs() + [".records"]
-            if not any(name in outcome.err for name in names):
+            said = outcome.err + outcome.out  # shape-inspect's findings are results
+            if not any(name in said for name in names):
                 wrong.append("the message names no file")
         if not before and not unknown:
             ending = "complete"
