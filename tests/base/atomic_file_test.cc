@@ -1,7 +1,9 @@
 #include <shapespace/base/internal/atomic_file.h>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <future>
 #include <set>
 #include <thread>
@@ -98,6 +100,31 @@ TEST_F(AtomicFileTest, AFullDiskIsReported) {
   std::ostream stream(&buffer);
   stream << "x";
   EXPECT_FALSE(buffer.Close());
+  EXPECT_EQ(buffer.Error(), ENOSPC);
+}
+
+// In place of a disk that is full after some bytes.
+TEST_F(AtomicFileTest, WhatDoesNotFitIsReportedAndLeavesTheOldFile) {
+  const std::string file = File("a.txt", "before");
+  rlimit limit;
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit small = {100000, limit.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string message;
+  std::error_code cause;
+  try {
+    internal::WriteFileAtomically(file, [](std::ostream& out) { out << std::string(200000, 'x'); });
+  } catch (const FileError& error) {
+    message = error.what();
+    cause = error.cause();
+  }
+  setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(message, file + ": writing failed: " + std::generic_category().message(EFBIG));
+  EXPECT_EQ(cause, std::errc::file_too_large);
+  EXPECT_EQ(testing::Content(file), "before");
+  EXPECT_EQ(Count(), 1);
 }
 
 TEST_F(AtomicFileTest, NothingIsLeftOfFilesThatAreAbandoned) {

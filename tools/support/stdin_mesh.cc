@@ -1,12 +1,14 @@
 #include "support/stdin_mesh.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <iterator>
 #include <regex>
 #include <sstream>
 #include <utility>
 
+#include <shapespace/base/error.h>
 #include <shapespace/files/read.h>
 
 #include "support/outside_files_flag.h"
@@ -14,9 +16,16 @@
 namespace shapespace::tools {
 namespace {
 
+// \throw FileError
+std::string ReadStdin() {
+  std::string content{std::istreambuf_iterator<char>(std::cin), {}};
+  if (std::ferror(stdin) != 0) throw FileError("stdin: cannot be read to its end");
+  return content;
+}
+
 // All of stdin, which a tool may ask for twice.
 const std::string& StdinContent() {
-  static const std::string content{std::istreambuf_iterator<char>(std::cin), {}};
+  static const std::string content = ReadStdin();
   return content;
 }
 

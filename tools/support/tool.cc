@@ -1,7 +1,9 @@
 #include "support/tool.h"
 
 #include <dlfcn.h>
+#include <fcntl.h>
 
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 
@@ -95,8 +97,49 @@ void NamingFlags(const FlagNames& names, const std::function<void()>& body) {
   }
 }
 
+namespace {
+
+// Opens those of stdin, stdout and stderr that are closed, such that every use fails as before. The
+// first file that is written would have their number otherwise, and get the messages.
+void KeepStandardStreams() {
+  for (const int stream : {0, 1, 2}) {
+    if (fcntl(stream, F_GETFD) >= 0) continue;
+    const int got =
+        open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);  // the lowest that is free
+    if (got < 0) return;
+  }
+}
+
+void FlushStdout() {
+  if (!std::cout.flush() || std::fflush(stdout) != 0) {
+    throw FileError("stdout: writing failed (is the disk full?)");
+  }
+}
+
+// What the command line asks for.
+void Perform(const Program& program, const std::vector<std::string>& arguments,
+             const std::function<void(const std::vector<std::string>& arguments)>& body) {
+  if (IsGiven("help")) return PrintHelp(program);
+  if (IsGiven("version")) {
+    std::cout << program.name << " of shapespace " << SHAPESPACE_VERSION << '\n';
+    return;
+  }
+  NamingFlags({}, [&] {
+    SetThreads(FLAGS_threads);
+    if (FLAGS_progress != "text" && FLAGS_progress != "lines") {
+      throw UsageError("--progress " + FLAGS_progress + ": must be text or lines");
+    }
+    if (FLAGS_progress == "lines") ProgressForPrograms();
+    body(arguments);
+  });
+}
+
+}  // namespace
+
 int RunTool(int argc, char** argv, const Program& program,
             const std::function<void(const std::vector<std::string>& arguments)>& body) {
+  KeepStandardStreams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond `ulimit -f` is an error as on a full disk
   EndThreadsOfBlas();
   SetProgramName(program.name);
   HandleInterrupts(ClearProgress);
@@ -104,26 +147,8 @@ int RunTool(int argc, char** argv, const Program& program,
   FLAGS_logtostderr = true;
   FLAGS_minloglevel = google::GLOG_FATAL;
   try {
-    const std::vector<std::string> arguments = ParseCommandLine(argc, argv, GroupsOf(program));
-    if (IsGiven("help")) {
-      PrintHelp(program);
-      return 0;
-    }
-    if (IsGiven("version")) {
-      std::cout << program.name << " of shapespace " << SHAPESPACE_VERSION << '\n';
-      return 0;
-    }
-    NamingFlags({}, [&] {
-      SetThreads(FLAGS_threads);
-      if (FLAGS_progress != "text" && FLAGS_progress != "lines") {
-        throw UsageError("--progress " + FLAGS_progress + ": must be text or lines");
-      }
-      if (FLAGS_progress == "lines") ProgressForPrograms();
-      body(arguments);
-    });
-    if (!std::cout.flush() || std::fflush(stdout) != 0) {
-      throw FileError("stdout: writing failed (is the disk full?)");
-    }
+    Perform(program, ParseCommandLine(argc, argv, GroupsOf(program)), body);
+    FlushStdout();
   } catch (const UsageError& error) {
     Complain(error.what());
     Err() << "Try " << program.name << " --help\n";

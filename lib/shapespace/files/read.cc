@@ -152,7 +152,11 @@ std::vector<Soup> ReadSoups(const std::string& file, bool allow_outside_files) {
 }
 
 Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format) {
-  std::string content{std::istreambuf_iterator<char>(stream), {}};
+  // By the stream, which notices errors, and not by iterators, which do not.
+  std::string content;
+  for (char part[1 << 16]; stream.read(part, sizeof part), stream.gcount() > 0;) {
+    content.append(part, static_cast<size_t>(stream.gcount()));
+  }
   if (stream.bad()) throw FileError(name + ": cannot be read to its end");
   if (content.empty()) throw FileError(name + ": is empty");
   if (content.size() > static_cast<size_t>(internal::kMaxMeshBytes)) {

@@ -1,8 +1,12 @@
+#include <atomic>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include <gtest/gtest.h>
 
 #include <shapespace/exploration/explore.h>
+#include <shapespace/exploration/internal/records.h>
 #include <shapespace/path/internal/array_file.h>
 
 #include "mesh/files.h"
@@ -95,6 +99,48 @@ TEST_F(RecordsTest, WhatIsDamagedIsSolvedAgain) {
   EXPECT_GE(second.summary.damaged, 3);
   EXPECT_EQ(second.space.nodes, first.space.nodes);
   EXPECT_EQ(second.space.distances, first.space.distances);
+}
+
+TEST_F(RecordsTest, DamageOfAnyByteIsNoticed) {
+  poses_.resize(2);
+  const auto distance = [&] { return DistanceMatrix(tube_.connectivity, poses_, options_)(0, 1); };
+  const double first = distance();
+  ASSERT_EQ(Records().size(), 1u);
+  const std::string name = "records/" + Records()[0].filename().string();
+  const std::string bytes = Content(Path(name));
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    std::string damaged = bytes;
+    damaged[i] = static_cast<char>(damaged[i] ^ (1 << i % 8));
+    File(name, damaged);
+    EXPECT_EQ(distance(), first) << "byte " << i;
+    // It was solved again, and stored.
+    ASSERT_EQ(Content(Path(name)), bytes) << "byte " << i;
+  }
+}
+
+// One run is done and removes the records while another one still makes some.
+TEST_F(RecordsTest, MayBeRemovedWhileOthersAreKept) {
+  const internal::Records records(options_.records);
+  std::atomic<bool> stop = false;
+  std::thread remover([&] {
+    while (!stop) {
+      records.Remove();
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+  });
+  std::string error;
+  for (int i = 0; i < 1000 && error.empty(); ++i) {
+    try {
+      records.Keep(std::to_string(i % 7), "bytes");
+    } catch (const std::exception& thrown) {
+      error = thrown.what();
+    }
+  }
+  stop = true;
+  remover.join();
+  EXPECT_EQ(error, "");
+  records.Keep("last", "bytes");
+  EXPECT_EQ(records.Find("last"), "bytes");
 }
 
 // Distances are measured on a coarser mesh, midpoints on the mesh itself.

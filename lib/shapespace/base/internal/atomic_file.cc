@@ -90,7 +90,11 @@ void WriteFileAtomically(const std::string& file, const std::function<void(std::
     std::ostream stream(buffer.get());
     body(stream);
     if (!buffer->Close()) stream.setstate(std::ios::badbit);
-    if (!stream) throw FileError(file + ": writing failed (is the disk full?)");
+    if (buffer->Error() != 0) {
+      const std::error_code cause(buffer->Error(), std::generic_category());
+      throw FileError(file + ": writing failed: " + cause.message(), cause);
+    }
+    if (!stream) throw FileError(file + ": writing failed");
     const std::lock_guard<std::mutex> lock(mutex);
     fs::rename(temporary, target, error);
     if (error) throw FileError(file + ": cannot be replaced: " + error.message(), error);

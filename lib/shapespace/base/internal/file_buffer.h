@@ -26,9 +26,13 @@ class FileBuffer : public std::streambuf {
     if (descriptor_ < 0) return true;
     const bool written = WriteBuffer();
     const bool closed = close(descriptor_) == 0;
+    if (!closed && error_ == 0) error_ = errno;
     descriptor_ = -1;
     return written && closed;
   }
+
+  /// Why writing or closing failed for the first time, such as ENOSPC; 0 if neither has.
+  int Error() const { return error_; }
 
  protected:
   int_type overflow(int_type c) override {
@@ -52,7 +56,10 @@ class FileBuffer : public std::streambuf {
     while (from < pptr()) {
       const ssize_t count = write(descriptor_, from, static_cast<size_t>(pptr() - from));
       if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) return false;
+      if (count <= 0) {
+        if (error_ == 0) error_ = count < 0 ? errno : EIO;
+        return false;
+      }
       from += count;
     }
     written_ += pptr() - pbase();
@@ -61,7 +68,7 @@ class FileBuffer : public std::streambuf {
   }
 
   std::array<char, 1 << 16> buffer_;
-  int descriptor_;
+  int descriptor_, error_ = 0;
   off_type written_ = 0;  // bytes, without those in the buffer
 };
 

@@ -30,6 +30,10 @@ std::string ReadFile(const std::string& file, std::int64_t most_bytes) {
   stream.seekg(0);
   stream.read(content.data(), size);
   if (stream.gcount() != size) throw FileError(file + ": cannot be read to its end");
+  // The part of a text that is there so far may look like a whole one.
+  if (stream.peek() != std::ifstream::traits_type::eof()) {
+    throw FileError(file + ": has grown while it was read; wait until it is written");
+  }
   return content;
 }
 

@@ -9,7 +9,7 @@ namespace shapespace::internal {
 
 /// All bytes of a file.
 /// \throw FileError naming it if it is a folder or not a regular file, is missing, empty, not
-///        permitted, larger than `most_bytes`, or cannot be read completely.
+///        permitted, larger than `most_bytes`, cannot be read completely, or grows meanwhile.
 std::string ReadFile(const std::string& file,
                      std::int64_t most_bytes = std::numeric_limits<std::int64_t>::max());
 

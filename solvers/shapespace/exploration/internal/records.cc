@@ -32,16 +32,28 @@ std::optional<std::string> Records::Find(const std::string& digest) const {
 
 void Records::Keep(const std::string& digest, const std::string& bytes) const {
   if (folder_.empty()) return;
-  WriteFileAtomically(File(digest), [&](std::ostream& out) { out << bytes; });
+  // Another run with the same folder, which is done before this one, removes the folder and what is
+  // being written there.
+  constexpr int kAttempts = 100;
+  for (int attempt = 1;; ++attempt) {
+    try {
+      return WriteFileAtomically(File(digest), [&](std::ostream& out) { out << bytes; });
+    } catch (const FileError& error) {
+      if (attempt == kAttempts || error.cause() != std::errc::no_such_file_or_directory) throw;
+    }
+  }
 }
 
 void Records::Remove() const {
   std::error_code error;
   if (folder_.empty() || !fs::is_directory(folder_, error)) return;
-  for (const auto& entry : fs::directory_iterator(folder_)) {
+  // Another run may remove them at the same time.
+  fs::directory_iterator entry(folder_, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     // Temporary files have a suffix after the extension (WriteFileAtomically).
-    const std::string name = entry.path().filename().string();
-    if (name.find(kExtension) != std::string::npos) fs::remove(entry.path(), error);
+    const std::string name = entry->path().filename().string();
+    std::error_code ignored;
+    if (name.find(kExtension) != std::string::npos) fs::remove(entry->path(), ignored);
   }
   fs::remove(folder_, error);  // fails if it is not empty
 }
