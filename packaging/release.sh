@@ -56,6 +56,7 @@ step "bill of materials, notices"
 packaging/sbom.py "$out"
 tests/packages/materials.py "$out/shapespace-$version.spdx.json"
 
+# Not of .buildinfo and .changes, which have the time of the build.
 step "checksums"
-(cd "$out" && find . -type f ! -name SHA256SUMS -printf '%P\0' | sort -z | xargs -0 sha256sum >SHA256SUMS)
+(cd "$out" && find . -type f ! -name SHA256SUMS ! -name '*.buildinfo' ! -name '*.changes' -printf '%P\0' | sort -z | xargs -0 sha256sum >SHA256SUMS)
 echo "release.sh: $(wc -l <"$out/SHA256SUMS") files in $out ($((SECONDS / 60)) min)"
