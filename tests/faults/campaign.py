@@ -1,19 +1,23 @@
 #!/usr/bin/env python3
-"""Runs the tools while something goes wrong, and says what became of their files.
+r"""Runs the tools while something goes wrong, and says what became of their files.
 
     tests/faults/campaign.py FOLDER [--times N] [--only FAULT,...] [--tools TOOL,...] [--seed S]
 
 FOLDER has the programs. Inputs are made by shape-body in a temporary folder. Each tool is first run
-undisturbed; what it writes then is what it is to write under every fault, or nothing. A run ends well
-if each of its files is complete, or is what stood there before; if the inputs are as before; if no
-temporary file is left; and if the exit code is right: 0 if all is done, 1 with a message that names
-the file if not, and after a signal that signal. Only SIGKILL may leave temporary files. The table
-counts how runs ended; those that ended otherwise are findings, each of which is printed when it is
-found, and the exit code is 1 if there are any.
+undisturbed; what it writes then is what it is to write under every fault, or nothing. A run ends
+well if each of its files is complete, or is what stood there before; if the inputs are as before;
+if no temporary file is left; and if the exit code is right: 0 if all is done, 1 with a message that
+names the file if not, and after a signal that signal. Only SIGKILL may leave temporary files. The
+table counts how runs ended; those that ended otherwise are findings, each of which is printed when
+it is found, and the exit code is 1 if there are any.
 
-With --times 1 --tools body,explore,interpolate it takes less than a minute, with --times 70 an hour. What needs root (a small disk, another
-user), strace (errors of single system calls) or mpirun is left out, with a line that says so, where
-this is missing.
+A short one, of less than a minute:
+
+    tests/faults/campaign.py FOLDER --times 1 --tools body,explore,interpolate \
+        --only signals,disk,size,stdout,readonly,inputs,two,records,ranks
+
+What needs root (a small disk, another user), strace (errors of single system calls) or mpirun is
+left out, with a line that says so, where this is missing.
 """
 
 import argparse
@@ -77,7 +81,7 @@ class Job:
         return sorted(set(names))
 
     def outputs(self):
-        """Names of which one is in a message: those of the files, and patterns as on the command line."""
+        """Names of which one is in a message: of the files, and as on the command line."""
         return ["out/" + name for name in self.expected] + re.findall(r"out/[\w.%]+",
                                                                       " ".join(self.arguments))
 
@@ -719,8 +723,8 @@ def name_of(pid):
 
 
 def main():
-    faults = {"signals": Campaign.signals, "disk": Campaign.full_disk, "size": Campaign.limited_size,
-              "stdout": Campaign.full_stdout, "closed": Campaign.closed_streams,
+    faults = {"signals": Campaign.signals, "disk": Campaign.full_disk,
+              "size": Campaign.limited_size, "stdout": Campaign.full_stdout, "closed": Campaign.closed_streams,
               "readonly": Campaign.read_only, "inputs": Campaign.changing_inputs,
               "two": Campaign.two_runs, "records": Campaign.damaged_records,
               "clock": Campaign.clock, "calls": Campaign.failing_calls, "ranks": Campaign.ranks}
