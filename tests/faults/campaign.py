@@ -724,7 +724,8 @@ def name_of(pid):
 
 def main():
     faults = {"signals": Campaign.signals, "disk": Campaign.full_disk,
-              "size": Campaign.limited_size, "stdout": Campaign.full_stdout, "closed": Campaign.closed_streams,
+              "size": Campaign.limited_size, "stdout": Campaign.full_stdout,
+              "closed": Campaign.closed_streams,
               "readonly": Campaign.read_only, "inputs": Campaign.changing_inputs,
               "two": Campaign.two_runs, "records": Campaign.damaged_records,
               "clock": Campaign.clock, "calls": Campaign.failing_calls, "ranks": Campaign.ranks}
