@@ -1,6 +1,7 @@
 #include "properties/compare.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <Eigen/Core>
 
@@ -10,20 +11,23 @@
 
 namespace shapespace::testing {
 
-::testing::AssertionResult AreNear(const std::vector<Shape>& shapes,
-                                   const std::vector<Shape>& expected, double tolerance) {
+double Off(const std::vector<Shape>& shapes, const std::vector<Shape>& expected) {
   if (shapes.empty() || shapes.size() != expected.size()) {
-    return ::testing::AssertionFailure() << shapes.size() << " shapes, not " << expected.size();
+    return std::numeric_limits<double>::infinity();
   }
   double largest = 0;
-  size_t at = 0;
   for (size_t i = 0; i < shapes.size(); ++i) {
-    if (!shapes[i].allFinite()) return ::testing::AssertionFailure() << "not finite: shape " << i;
-    const double off = Distance(shapes[i], expected[i]) / Diameter(expected[i]);
-    if (off > largest) at = i, largest = off;
+    if (!shapes[i].allFinite()) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, Distance(shapes[i], expected[i]) / Diameter(expected[i]));
   }
-  if (largest <= tolerance) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << "shape " << at << " is off by " << largest;
+  return largest;
+}
+
+::testing::AssertionResult AreNear(const std::vector<Shape>& shapes,
+                                   const std::vector<Shape>& expected, double tolerance) {
+  const double off = Off(shapes, expected);
+  if (off <= tolerance) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "off by " << off;
 }
 
 ::testing::AssertionResult AreCongruent(const std::vector<Shape>& shapes,

