@@ -40,8 +40,9 @@ std::vector<Shape> RunTransport(const RandomBody& body) {
   for (const double t : {0., 0.1, 0.2, 0.3}) {
     shapes.push_back((1 - t) * body.poses[0] + t * last);
   }
-  const Tangent tangent = FitRigidMotion(body.poses[2], body.poses[0],
-                                         metric->vertex_area)(body.poses[2]) - body.poses[0];
+  const Tangent tangent =
+      FitRigidMotion(body.poses[2], body.poses[0], metric->vertex_area)(body.poses[2]) -
+      body.poses[0];
   const Path path = MakePath(metric, shapes);
   const Tangent result = Transport(path, {tangent}).tangents[0];
   return {shapes.back() + result};
@@ -111,11 +112,14 @@ GeodesicOptions AccurateGeodesic(const RandomBody& body, int shapes) {
 }
 
 const std::vector<Method>& AllMethods() {
-  static const std::vector<Method> kMethods = {
-      {"Interpolate", 3, 1e-5, true, RunInterpolate}, {"Extrapolate", 2, 1e-7, true, RunExtrapolate},
-      {"Transport", 3, 1e-7, true, RunTransport},     {"Deform", 2, 5e-4, false, RunDeform},
-      {"Repair", 2, 1e-5, false, RunRepair},          {"Transfer", 3, 1e-7, false, RunTransfer},
-      {"Average", 3, 1e-4, true, RunAverage},         {"Spline", 3, 1e-5, true, RunSpline}};
+  static const std::vector<Method> kMethods = {{"Interpolate", 3, 1e-5, true, RunInterpolate},
+                                               {"Extrapolate", 2, 1e-7, true, RunExtrapolate},
+                                               {"Transport", 3, 1e-7, true, RunTransport},
+                                               {"Deform", 2, 5e-4, false, RunDeform},
+                                               {"Repair", 2, 1e-5, false, RunRepair},
+                                               {"Transfer", 3, 1e-5, false, RunTransfer},
+                                               {"Average", 3, 1e-4, true, RunAverage},
+                                               {"Spline", 3, 1e-5, true, RunSpline}};
   return kMethods;
 }
 

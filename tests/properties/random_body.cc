@@ -86,7 +86,8 @@ Rest Sheet(Random* random) {
   Rest rest;
   for (int j = 0; j <= ny; ++j) {
     for (int i = 0; i <= nx; ++i) {
-      const double x = i + random->Between(-jitter, jitter), y = j + random->Between(-jitter, jitter);
+      const double x = i + random->Between(-jitter, jitter),
+                   y = j + random->Between(-jitter, jitter);
       rest.Add({2 * x / nx - 1, width * (2 * y / ny - 1), 0});
     }
   }
@@ -308,7 +309,7 @@ Rest Two(Random* random) {
 }
 
 Rest Flexible(Random* random) {
-  static const std::array<const char*, 6> kNames = {"strip", "steffen", "miura",
+  static const std::array<const char*, 6> kNames = {"strip", "steffen",  "miura",
                                                     "bar",   "catenoid", "quadruped"};
   const char* const name = kNames[random->Below(static_cast<int>(kNames.size()))];
   const ShapeFamily family = MakeBody(name, 20 + random->Below(200));
@@ -330,26 +331,38 @@ Rest Graph(Random* random) {
 
 Rest MakeRest(BodyKind kind, Random* random) {
   switch (kind) {
-    case BodyKind::kSheet: return Sheet(random);
-    case BodyKind::kPlate: return Plate(random);
-    case BodyKind::kTube: return Tube(random);
-    case BodyKind::kBall: return Ball(random);
-    case BodyKind::kTorus: return Torus(random);
-    case BodyKind::kDelaunay: return Delaunay(random);
-    case BodyKind::kMoebius: return Moebius(random);
-    case BodyKind::kWhiskered: return Whiskered(random);
-    case BodyKind::kBook: return Book(random);
-    case BodyKind::kTwo: return Two(random);
-    case BodyKind::kFlexible: return Flexible(random);
-    case BodyKind::kGraph: return Graph(random);
+    case BodyKind::kSheet:
+      return Sheet(random);
+    case BodyKind::kPlate:
+      return Plate(random);
+    case BodyKind::kTube:
+      return Tube(random);
+    case BodyKind::kBall:
+      return Ball(random);
+    case BodyKind::kTorus:
+      return Torus(random);
+    case BodyKind::kDelaunay:
+      return Delaunay(random);
+    case BodyKind::kMoebius:
+      return Moebius(random);
+    case BodyKind::kWhiskered:
+      return Whiskered(random);
+    case BodyKind::kBook:
+      return Book(random);
+    case BodyKind::kTwo:
+      return Two(random);
+    case BodyKind::kFlexible:
+      return Flexible(random);
+    case BodyKind::kGraph:
+      return Graph(random);
   }
   return {};
 }
 
 const char* NameOf(BodyKind kind) {
   static const std::array<const char*, kNumBodyKinds> kNames = {
-      "sheet",     "plate", "tube", "ball",     "torus", "Delaunay", "Moebius",
-      "whiskered", "book",  "two",  "flexible", "graph"};
+      "sheet",   "plate",     "tube", "ball", "torus",    "Delaunay",
+      "Moebius", "whiskered", "book", "two",  "flexible", "graph"};
   return kNames[static_cast<int>(kind)];
 }
 

@@ -36,18 +36,18 @@ class Random {
 
 /// Kinds of random bodies.
 enum class BodyKind {
-  kSheet,       ///< flat at rest, with holes; diagonals at random
-  kPlate,       ///< closed, with as many handles as it has holes
-  kTube,        ///< the library's own
-  kBall,        ///< an octahedron, divided twice
-  kTorus,       ///< of rectangles that are not flat
-  kDelaunay,    ///< the Delaunay triangulation of random points of the plane
-  kMoebius,     ///< a band with one side
-  kWhiskered,   ///< a sheet with segments that hang from it
-  kBook,        ///< three sheets at one edge
-  kTwo,         ///< a ball and a sheet
-  kFlexible,    ///< the library's bodies that move isometrically
-  kGraph,       ///< edges without polygons
+  kSheet,      ///< flat at rest, with holes; diagonals at random
+  kPlate,      ///< closed, with as many handles as it has holes
+  kTube,       ///< the library's own
+  kBall,       ///< an octahedron, divided twice
+  kTorus,      ///< of rectangles that are not flat
+  kDelaunay,   ///< the Delaunay triangulation of random points of the plane
+  kMoebius,    ///< a band with one side
+  kWhiskered,  ///< a sheet with segments that hang from it
+  kBook,       ///< three sheets at one edge
+  kTwo,        ///< a ball and a sheet
+  kFlexible,   ///< the library's bodies that move isometrically
+  kGraph,      ///< edges without polygons
 };
 inline constexpr int kNumBodyKinds = 12;
 
