@@ -41,7 +41,7 @@ class AnyMethod : public ::testing::TestWithParam<Method> {
 };
 
 TEST_P(AnyMethod, ScalesAndTurnsWithTheBody) {
-  ForBodies({1, 2, 3}, [&](const RandomBody& body, testing::Random* random, const auto& result) {
+  ForBodies({1, 2}, [&](const RandomBody& body, testing::Random* random, const auto& result) {
     const double scale = std::pow(10, random->Between(-6, 6));
     const Eigen::Matrix3d rotation = random->Rotation();
     const Eigen::Vector3d way = scale * random->Between(0, 10) * random->Direction();
@@ -55,7 +55,7 @@ TEST_P(AnyMethod, ScalesAndTurnsWithTheBody) {
 
 // At a million times its size from the origin, coordinates have ten digits of the body.
 TEST_P(AnyMethod, IsTheSameFarAway) {
-  ForBodies({1, 2}, [&](const RandomBody& body, testing::Random* random, const auto& result) {
+  ForBodies({1}, [&](const RandomBody& body, testing::Random* random, const auto& result) {
     const Eigen::Vector3d way = 1e6 * random->Direction();
     std::vector<Shape> expected;
     for (const Shape& shape : result) expected.push_back(shape.colwise() + way);
@@ -65,7 +65,7 @@ TEST_P(AnyMethod, IsTheSameFarAway) {
 }
 
 TEST_P(AnyMethod, DoesNotCareWhereEachPoseIs) {
-  ForBodies({1, 2, 3}, [&](const RandomBody& body, testing::Random* random, const auto& result) {
+  ForBodies({1, 2}, [&](const RandomBody& body, testing::Random* random, const auto& result) {
     RandomBody moved = body;
     for (Shape& pose : moved.poses) {
       const Eigen::Matrix3d rotation = random->Rotation();
@@ -76,7 +76,7 @@ TEST_P(AnyMethod, DoesNotCareWhereEachPoseIs) {
 }
 
 TEST_P(AnyMethod, DoesNotDependOnTheOrderOfVerticesAndPolygons) {
-  ForBodies({1, 2, 3}, [&](const RandomBody& body, testing::Random* random, const auto& result) {
+  ForBodies({1, 2}, [&](const RandomBody& body, testing::Random* random, const auto& result) {
     const testing::Renumbered renumbered = testing::Renumber(body, random->Below(1000));
     std::vector<Shape> expected;
     for (const Shape& shape : result) expected.push_back(renumbered(shape));
