@@ -45,11 +45,11 @@ TEST_P(AnyMethod, ScalesAndTurnsWithTheBody) {
     const double scale = std::pow(10, random->Between(-6, 6));
     const Eigen::Matrix3d rotation = random->Rotation();
     const Eigen::Vector3d way = scale * random->Between(0, 10) * random->Direction();
-    std::vector<Shape> expected;
-    for (const Shape& shape : result) {
-      expected.push_back((scale * rotation * shape).colwise() + way);
+    std::vector<Shape> back;
+    for (const Shape& shape : Run(Moved(body, scale, rotation, way))) {
+      back.push_back(rotation.transpose() * (shape.colwise() - way) / scale);
     }
-    EXPECT_TRUE(AreNear(Run(Moved(body, scale, rotation, way)), expected, GetParam().accuracy));
+    EXPECT_TRUE(AreNear(body, back, result, GetParam().accuracy));
   });
 }
 
@@ -57,10 +57,12 @@ TEST_P(AnyMethod, ScalesAndTurnsWithTheBody) {
 TEST_P(AnyMethod, IsTheSameFarAway) {
   ForBodies({1}, [&](const RandomBody& body, testing::Random* random, const auto& result) {
     const Eigen::Vector3d way = 1e6 * random->Direction();
-    std::vector<Shape> expected;
-    for (const Shape& shape : result) expected.push_back(shape.colwise() + way);
     const Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-    EXPECT_TRUE(AreNear(Run(Moved(body, 1, rotation, way)), expected, GetParam().accuracy));
+    std::vector<Shape> back;
+    for (const Shape& shape : Run(Moved(body, 1, rotation, way))) {
+      back.push_back(shape.colwise() - way);
+    }
+    EXPECT_TRUE(AreNear(body, back, result, GetParam().accuracy));
   });
 }
 
@@ -71,16 +73,16 @@ TEST_P(AnyMethod, DoesNotCareWhereEachPoseIs) {
       const Eigen::Matrix3d rotation = random->Rotation();
       pose = (rotation * pose).colwise() + random->Between(0, 10) * random->Direction();
     }
-    EXPECT_TRUE(AreCongruent(Run(moved), result, GetParam().accuracy));
+    EXPECT_TRUE(AreCongruent(body, Run(moved), result, GetParam().accuracy));
   });
 }
 
 TEST_P(AnyMethod, DoesNotDependOnTheOrderOfVerticesAndPolygons) {
   ForBodies({1, 2}, [&](const RandomBody& body, testing::Random* random, const auto& result) {
     const testing::Renumbered renumbered = testing::Renumber(body, random->Below(1000));
-    std::vector<Shape> expected;
-    for (const Shape& shape : result) expected.push_back(renumbered(shape));
-    EXPECT_TRUE(AreNear(Run(renumbered.body), expected, GetParam().accuracy));
+    std::vector<Shape> back;
+    for (const Shape& shape : Run(renumbered.body)) back.push_back(renumbered.Back(shape));
+    EXPECT_TRUE(AreNear(body, back, result, GetParam().accuracy));
   });
 }
 

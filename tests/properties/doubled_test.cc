@@ -91,8 +91,8 @@ TEST_P(DoubledBody, MovesAsEachAlone) {
         first.push_back(shape.leftCols(vertices));
         second.push_back(shape.rightCols(vertices));
       }
-      EXPECT_TRUE(AreNear(first, alone, kComponents));
-      EXPECT_TRUE(AreNear(second, alone, kComponents));
+      EXPECT_TRUE(AreNear(body, first, alone, kComponents));
+      EXPECT_TRUE(AreNear(body, second, alone, kComponents));
     }
   }
 }

@@ -7,7 +7,6 @@
 #include <shapespace/exponential/exponential.h>
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/mesh/rigid_motion.h>
-#include <shapespace/spline/spline.h>
 #include <shapespace/statistics/average.h>
 
 #include "properties/compare.h"
@@ -44,20 +43,7 @@ TEST(RandomGeodesic, BackwardsIsTheReverse) {
     const GeodesicOptions options = AccurateGeodesic(body, 3);
     const Path there = Interpolate(body.connectivity, body.poses, options).path;
     const Path back = Interpolate(body.connectivity, Reversed(body.poses), options).path;
-    EXPECT_TRUE(AreNear(back.Placed(), Reversed(there.Placed()), 1e-5));
-  });
-}
-
-// Stretches are relative to the first pose, so that backwards they are relative to another one. The
-// difference is of second order in them, and small beside what makes a spline of the chain.
-TEST(RandomSpline, BackwardsIsNearlyTheReverse) {
-  ForAllKinds({1, 2}, 4, [](const RandomBody& body) {
-    SplineOptions options;
-    options.geodesic = AccurateGeodesic(body, 3);
-    const auto chain = Interpolate(body.connectivity, body.poses, options.geodesic).path.Placed();
-    const auto there = Spline(body.connectivity, body.poses, options).path.Placed();
-    const auto back = Spline(body.connectivity, Reversed(body.poses), options).path.Placed();
-    EXPECT_TRUE(AreNear(back, Reversed(there), 0.2 * Off(there, chain)));
+    EXPECT_TRUE(AreNear(body, back.Placed(), Reversed(there.Placed()), 1e-5));
   });
 }
 
@@ -71,7 +57,7 @@ TEST(RandomGeodesic, FromTheMiddleIsTheSecondHalf) {
     const std::vector<Shape> shapes = whole.path.Placed();
     const GeodesicResult half =
         Interpolate(metric, {shapes[4], shapes[8]}, AccurateGeodesic(body, 3));
-    EXPECT_TRUE(AreCongruent(half.path.Placed(), {shapes.begin() + 4, shapes.end()}, 1e-3));
+    EXPECT_TRUE(AreCongruent(body, half.path.Placed(), {shapes.begin() + 4, shapes.end()}, 1e-4));
     EXPECT_NEAR(LengthOf(half) / LengthOf(whole), 0.5, 1e-4);
   });
 }
@@ -102,11 +88,9 @@ TEST(RandomLogarithm, IsUndoneByTheExponentialMap) {
     const auto metric = FreezeMetric(body.metric, body.connectivity, body.poses);
     LogarithmOptions options;
     options.shapes = 3;
-    options.tolerance = 1e-15;
-    options.max_iterations = 20000;
     const Tangent velocity = Logarithm(metric, body.poses[0], body.poses[1], options);
     const Shape end = Exponential(metric, body.poses[0], velocity, 4);
-    EXPECT_TRUE(AreCongruent({end}, {body.poses[1]}, 1e-4));
+    EXPECT_TRUE(AreCongruent(body, {end}, {body.poses[1]}, 3e-4));
   });
 }
 
@@ -119,7 +103,8 @@ TEST(RandomAverage, DoesNotDependOnTheOrderOfPoses) {
     options.geodesic.metric = body.metric;
     const Shape mean = Average(body.connectivity, body.poses, options).shape;
     const std::vector<Shape> poses = {body.poses[2], body.poses[0], body.poses[3], body.poses[1]};
-    EXPECT_TRUE(AreCongruent({Average(body.connectivity, poses, options).shape}, {mean}, 1e-4));
+    EXPECT_TRUE(
+        AreCongruent(body, {Average(body.connectivity, poses, options).shape}, {mean}, 1e-5));
   });
 }
 

@@ -55,7 +55,8 @@ std::vector<Shape> RunDeform(const RandomBody& body) {
   options.tolerance = kTolerance;
   options.max_iterations = kMaxIterations;
   const auto metric = FreezeMetric(body.metric, body.connectivity, {body.poses[0]});
-  const Shape goal = SecondAtFirst(body, *metric);
+  // A part of the way, because a hinge that handles fold up whole has no derivative.
+  const Shape goal = 0.7 * body.poses[0] + 0.3 * SecondAtFirst(body, *metric);
   std::vector<DeformationHandle> handles(2);
   handles[0].vertices = body.held;
   handles[1].vertices = body.moved;
@@ -115,10 +116,10 @@ const std::vector<Method>& AllMethods() {
   static const std::vector<Method> kMethods = {{"Interpolate", 3, 1e-5, true, RunInterpolate},
                                                {"Extrapolate", 2, 1e-7, true, RunExtrapolate},
                                                {"Transport", 3, 1e-7, true, RunTransport},
-                                               {"Deform", 2, 5e-4, false, RunDeform},
+                                               {"Deform", 2, 1e-4, false, RunDeform},
                                                {"Repair", 2, 1e-5, false, RunRepair},
                                                {"Transfer", 3, 1e-5, false, RunTransfer},
-                                               {"Average", 3, 1e-4, true, RunAverage},
+                                               {"Average", 3, 1e-5, true, RunAverage},
                                                {"Spline", 3, 1e-5, true, RunSpline}};
   return kMethods;
 }

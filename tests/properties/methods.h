@@ -16,10 +16,8 @@ namespace shapespace::testing {
 struct Method {
   const char* name;
   int poses;  ///< that it needs
-  /// By which share of its diameter a shape may be off between two solves that round otherwise.
-  /// Solvers end when an iteration hardly lowers the energy, by a share of 1e-10 to 1e-12. Motions
-  /// that cost least are determined least: the error is the root of that share over the one that
-  /// such a motion has in the metric, which is 1e-4 where only positions have a cost.
+  /// By how much two solves that round otherwise may differ (`Off`). Those that minimise end when
+  /// an iteration hardly lowers the energy, the others when an equation holds to rounding.
   double accuracy;
   /// Whether it determines graphs. Their triangles turn over freely; where handles or other poses
   /// pull at them with far more force than the cost of position, that hardly decides how they do.

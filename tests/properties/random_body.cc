@@ -491,6 +491,8 @@ Shape Renumbered::operator()(const Shape& shape) const {
   return other;
 }
 
+Shape Renumbered::Back(const Shape& shape) const { return shape(Eigen::all, to); }
+
 Renumbered Renumber(const RandomBody& body, int seed) {
   Random random(seed);
   const Connectivity& connectivity = *body.connectivity;

@@ -78,8 +78,9 @@ struct Renumbered {
   RandomBody body;
   std::vector<int> to;  ///< the new number of each vertex
 
-  /// A shape of the first body as one of the second.
+  /// A shape of the first body as one of the second, and the other way round.
   Shape operator()(const Shape& shape) const;
+  Shape Back(const Shape& shape) const;
 };
 Renumbered Renumber(const RandomBody& body, int seed);
 
