@@ -368,7 +368,6 @@ bool NearPairs::FindFronts(int a, int b, const std::vector<Eigen::AlignedBox3d>&
   if (first.triangles == 1 && second.triangles == 1) {
     share = ShareCorner(connectivity_->Triangles().col(first.left),
                         connectivity_->Triangles().col(second.left));
-    if (share) return true;
   } else if (boxes[a].intersects(boxes[b])) {
     if (first.triangles >= second.triangles) {
       share = FindFronts(first.left, b, boxes);
