@@ -22,27 +22,25 @@ std::vector<Shape> RunInterpolate(const RandomBody& body) {
   return Interpolate(body.connectivity, body.poses, AccurateGeodesic(body, 3)).path.Placed();
 }
 
-// The second pose where it is nearest to the first.
-Shape SecondAtFirst(const RandomBody& body, const Metric& metric) {
-  return FitRigidMotion(body.poses[1], body.poses[0], metric.vertex_area)(body.poses[1]);
+// A pose where it is nearest to the first.
+Shape AtFirst(const RandomBody& body, const Metric& metric, int pose) {
+  return FitRigidMotion(body.poses[pose], body.poses[0], metric.vertex_area)(body.poses[pose]);
 }
 
 std::vector<Shape> RunExtrapolate(const RandomBody& body) {
   const auto metric = FreezeMetric(body.metric, body.connectivity, {body.poses[0]});
-  const Tangent velocity = 0.3 * (SecondAtFirst(body, *metric) - body.poses[0]);
+  const Tangent velocity = 0.3 * (AtFirst(body, *metric, 1) - body.poses[0]);
   return Extrapolate(metric, body.poses[0], velocity, 4).path.Placed();
 }
 
 std::vector<Shape> RunTransport(const RandomBody& body) {
   const auto metric = FreezeMetric(body.metric, body.connectivity, body.poses);
-  const Shape last = SecondAtFirst(body, *metric);
+  const Shape last = AtFirst(body, *metric, 1);
   std::vector<Shape> shapes;
   for (const double t : {0., 0.1, 0.2, 0.3}) {
     shapes.push_back((1 - t) * body.poses[0] + t * last);
   }
-  const Tangent tangent =
-      FitRigidMotion(body.poses[2], body.poses[0], metric->vertex_area)(body.poses[2]) -
-      body.poses[0];
+  const Tangent tangent = AtFirst(body, *metric, 2) - body.poses[0];
   const Path path = MakePath(metric, shapes);
   const Tangent result = Transport(path, {tangent}).tangents[0];
   return {shapes.back() + result};
@@ -56,7 +54,7 @@ std::vector<Shape> RunDeform(const RandomBody& body) {
   options.max_iterations = kMaxIterations;
   const auto metric = FreezeMetric(body.metric, body.connectivity, {body.poses[0]});
   // A part of the way, because a hinge that handles fold up whole has no derivative.
-  const Shape goal = 0.7 * body.poses[0] + 0.3 * SecondAtFirst(body, *metric);
+  const Shape goal = 0.7 * body.poses[0] + 0.3 * AtFirst(body, *metric, 1);
   std::vector<DeformationHandle> handles(2);
   handles[0].vertices = body.held;
   handles[1].vertices = body.moved;

@@ -175,11 +175,7 @@ struct RodOverShelf {
     rest *= unit;
     end.motion.translation = unit * Eigen::Vector3d(-0.5, 0, -2);
     handles = {held, end};
-    Eigen::Matrix3Xi triangles(3, 2);
-    triangles << 0, 0, 1, 2, 2, 3;
-    shelf.connectivity = Connectivity::FromTriangles(4, triangles);
-    shelf.shape.resize(3, 4);
-    shelf.shape << 2.5, 3.5, 3.5, 2.5, -1, -1, 1, 1, -0.3, -0.3, -0.3, -0.3;
+    shelf = testing::Rectangle({2.5, -1}, {3.5, 1}, -0.3);
     shelf.shape *= unit;
   }
   DeformationResult Solve(bool past_shelf) const {

@@ -79,11 +79,7 @@ struct LandingRod {
   explicit LandingRod(double unit = 1, const Eigen::Vector3d& of_origin = Eigen::Vector3d::Zero())
       : ring(unit), origin(of_origin) {
     poses = {At(ring.Rod(), 3), At(ring.Rod(), 0.1), At(ring.Bent(0.1), 0.2)};
-    Eigen::Matrix3Xi triangles(3, 2);
-    triangles << 0, 0, 1, 2, 2, 3;
-    floor.connectivity = Connectivity::FromTriangles(4, triangles);
-    floor.shape.resize(3, 4);
-    floor.shape << -20, 20, 20, -20, -20, -20, 20, 20, 0, 0, 0, 0;
+    floor = testing::Rectangle({-20, -20}, {20, 20}, 0);
     floor.shape = (unit * floor.shape).colwise() + origin;
   }
   // With its lowest vertex so high above the floor.

@@ -39,6 +39,15 @@ inline std::int64_t MostIntersections(const Path& path, const Obstacle& obstacle
   return *std::max_element(counts.begin(), counts.end());
 }
 
+/// A horizontal rectangle, of two triangles.
+inline Obstacle Rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double z) {
+  Eigen::Matrix3Xi triangles(3, 2);
+  triangles << 0, 0, 1, 2, 2, 3;
+  Shape shape(3, 4);
+  shape << low.x(), high.x(), high.x(), low.x(), low.y(), low.y(), high.y(), high.y(), z, z, z, z;
+  return {Connectivity::FromTriangles(4, triangles), shape};
+}
+
 /// A ring that is cut open, whose round ends overlap by a tenth of a turn: the one in front of the
 /// other, or behind it. The first is also a little farther outside, so that they slide over each
 /// other.
