@@ -95,6 +95,20 @@ TEST(ParallelFor, RethrowsWhatABodyThrows) {
   }
 }
 
+// The message of an error does not depend on which thread was faster.
+TEST(ParallelFor, RethrowsWhatTheLowestIndexThrows) {
+  for (const std::string& message : testing::OnThreads([] {
+         return testing::MessageOf<std::runtime_error>([] {
+           ParallelFor(100, [](int i) {
+             if (i == 7) testing::Spin(1000);
+             if (i >= 7) throw std::runtime_error(std::to_string(i));
+           });
+         });
+       })) {
+    EXPECT_EQ(message, "7");
+  }
+}
+
 // The processor may be shared with other programs, by taskset for example.
 TEST(SetThreadsDeathTest, CountsTheCoresThatTheProcessMayUse) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");  // a new process, in which TBB counts anew

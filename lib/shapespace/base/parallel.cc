@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <exception>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -87,8 +89,35 @@ class Counted {
   std::atomic<int>& count_;
 };
 
-// Runs body(i) for every i in [0, count) on the threads of a pool. The caller may already be one of
-// them.
+// What was thrown by the bodies of one call.
+class Failures {
+ public:
+  // Calls body(i), unless one with a lower index has failed.
+  void Try(int i, const std::function<void(int)>& body) {
+    if (i > lowest_) return;
+    try {
+      body(i);
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (i > lowest_) return;
+      lowest_ = i;
+      thrown_ = std::current_exception();
+    }
+  }
+
+  // Rethrows what the body with the lowest index threw, as a serial loop would.
+  void Rethrow() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  std::atomic<int> lowest_{std::numeric_limits<int>::max()};
+  std::mutex mutex_;
+  std::exception_ptr thrown_;
+};
+
+// Runs body(i), which must not throw, for every i in [0, count) on the threads of a pool. The
+// caller may already be one of them.
 template <typename Body>
 void RunInPool(ThreadPool* pool, int count, const Body& body) {
   const internal::ForkJoin bodies{};
@@ -97,12 +126,7 @@ void RunInPool(ThreadPool* pool, int count, const Body& body) {
       [&](const tbb::blocked_range<int>& range) {
         const internal::ForkJoin::Piece piece(bodies);
         ThreadPool* const outer = std::exchange(own_pool, pool);
-        try {
-          for (int i = range.begin(); i != range.end(); ++i) body(i);
-        } catch (...) {
-          own_pool = outer;
-          throw;
-        }
+        for (int i = range.begin(); i != range.end(); ++i) body(i);
         own_pool = outer;
       },
       tbb::simple_partitioner());
@@ -128,35 +152,36 @@ void ParallelFor(int count, const std::function<void(int)>& body) {
     for (int i = 0; i < count; ++i) body(i);
     return;
   }
+  Failures failures;
   // A thread that waits for the others must not begin with something else, which could be another
   // solve that waits for this one.
-  call.pool->arena.execute(
-      [&] { tbb::this_task_arena::isolate([&] { RunInPool(call.pool, count, body); }); });
+  call.pool->arena.execute([&] {
+    tbb::this_task_arena::isolate(
+        [&] { RunInPool(call.pool, count, [&](int i) { failures.Try(i, body); }); });
+  });
+  failures.Rethrow();
 }
 
 void ParallelTasks(int count, int at_once, const std::function<void(int)>& body) {
   const PoolForCall call;
   std::atomic<int> next{0};
+  Failures failures;
   const auto take_tasks = [&] {
-    try {
-      for (int i; (i = next++) < count;) body(i);
-    } catch (...) {
-      next = count;
-      throw;
-    }
+    for (int i; (i = next++) < count;) failures.Try(i, body);
   };
   const int workers = call.IsSerial() ? 1 : std::min({count, at_once, call.pool->NumThreads()});
   if (workers <= 1) {
     take_tasks();
-    return;
-  }
-  call.pool->arena.execute([&] {
-    RunInPool(call.pool, workers, [&](int) {
-      const Counted counted(&call.pool->tasks);
-      // A task that waits in a loop, also in one of a library, does not begin with another task.
-      tbb::this_task_arena::isolate(take_tasks);
+  } else {
+    call.pool->arena.execute([&] {
+      RunInPool(call.pool, workers, [&](int) {
+        const Counted counted(&call.pool->tasks);
+        // A task that waits in a loop, also in one of a library, does not begin with another task.
+        tbb::this_task_arena::isolate(take_tasks);
+      });
     });
-  });
+  }
+  failures.Rethrow();
 }
 
 }  // namespace shapespace

@@ -17,15 +17,16 @@ int NumThreads();
 
 /// Calls `body(i)` once for every i in [0, count), in any order and on several threads.
 /// Bodies must write to disjoint memory. There is no reduction, so results do not depend on the
-/// number of threads. The first exception thrown by a body is rethrown.
+/// number of threads. When bodies throw, what the one with the lowest index threw is rethrown, and
+/// those behind it may not have been called.
 void ParallelFor(int count, const std::function<void(int)>& body);
 
 /// Calls `body(i)` once for every i in [0, count), for bodies that take long and use `ParallelFor`
 /// themselves, such as whole solves. They begin in ascending order, and at most `at_once` of them
 /// (and no more than there are threads) run at the same time. While a body runs on every thread,
 /// the loops of all of them are serial; threads that have no body left help with the loops of the
-/// others. When a body throws, no other begins, and the first exception is rethrown when those that
-/// run have ended.
+/// others. When a body throws, no other begins; when those that run have ended, what the one with
+/// the lowest index threw is rethrown.
 ///
 /// Meanwhile, loops and tasks of other threads of the program are serial, so that such a thread may
 /// be waited for in a body.
