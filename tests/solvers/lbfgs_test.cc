@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -196,6 +198,26 @@ TEST(ThreadedLbfgs, KeepsItsLimitsAndCanBeCancelled) {
                   1e-12 * stopped.energy);
     }
   }
+}
+
+// The first step leads away from a barrier: it is very short, and says nothing about the rest.
+TEST(ThreadedLbfgs, GoesOnAfterAStepThatWasCut) {
+  const auto energy = [](const double* x, double* gradient) {
+    gradient[0] = 1 - 1e-12 / (x[0] * x[0]);
+    gradient[1] = x[1] - 1;
+    return x[0] + 1e-12 / x[0] + (x[1] - 1) * (x[1] - 1) / 2;
+  };
+  MinimiseOptions options = Tolerance(1e-6);
+  options.longest_step = [](const double*, const float* direction) {
+    return std::min(1., 1e-6 / std::abs(direction[0]));
+  };
+  const auto as_it_is = [](const double* gradient, double, double* step) {
+    std::copy_n(gradient, 2, step);
+  };
+  std::vector<double> unknowns = {1e-7, 0};
+  const MinimiseResult result = MinimiseThreadedLbfgs(energy, as_it_is, options, &unknowns);
+  EXPECT_EQ(result.termination, Termination::kConverged);
+  EXPECT_NEAR(unknowns[1], 1, 1e-2);
 }
 
 TEST(ThreadedLbfgs, RefusesAStartThatIsNotFinite) {

@@ -139,7 +139,8 @@ class ThreadedLbfgs {
   // Preconditions the gradient and thereby its last change, and computes the products of the latter
   // with all changes. Returns the products of the gradient with each preconditioned change. The
   // preconditioner's scale is adapted to the last step's curvature (Nocedal and Wright, equation
-  // 7.20).
+  // 7.20), unless that was cut to less than a whole one: what cuts it is mostly far stiffer than
+  // all the rest, for which the next steps would be far too short.
   std::vector<double> PreconditionGradient() {
     precondition_(gradient_.get(), unit_, work_.get());
     const int pairs = static_cast<int>(history_.size());
@@ -158,7 +159,8 @@ class ThreadedLbfgs {
     if (fresh_change_) {
       for (int i = 0; i < pairs; ++i) history_[i].change_change.push_back(products[pairs + i]);
       const double product = products.back();
-      if (product > 0) scale_ = history_.back().curvature / product;
+      const bool shortened = cut_ && history_.back().length < 1;
+      if (product > 0 && !shortened) scale_ = history_.back().curvature / product;
     }
     fresh_change_ = false;
     preconditioned_.swap(work_);
