@@ -7,6 +7,7 @@
 
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
+#include <shapespace/contact/internal/parting.h>
 #include <shapespace/contact/internal/path_contact.h>
 
 #include "support/threads.h"
@@ -168,6 +169,70 @@ TEST(PathContactTest, AListOfNearPairsGivesTheSameAsANewOneWhileThereIsRoom) {
   const double value = fresh.Evaluate(from + move, to - move, nullptr);
   EXPECT_GT(value, 0);
   EXPECT_NEAR(contact.Evaluate(from + move, to - move, nullptr), value, 1e-12 * value);
+}
+
+TEST(PartingTest, TheKernelIsTheFunctorAndItsDerivatives) {
+  using Jet = ceres::Jet<double, 6>;
+  std::mt19937 random(5);
+  int near = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Shape points = RandomPoints(&random).leftCols<2>();
+    const PartingPair pair = {1, 0, 0.7, 1.5};
+    Jet x[6];
+    for (int k = 0; k < 6; ++k) x[k] = Jet(points.reshaped()(k), k);
+    const Jet expected = pair(x + 3, x);
+    Tangent gradient = Tangent::Constant(3, 2, 3);
+    const double value = pair.Add(points, &gradient);
+    EXPECT_NEAR(value, expected.a, 1e-14);
+    EXPECT_LE((gradient.reshaped() - expected.v - Eigen::VectorXd::Constant(6, 3)).norm(), 1e-13);
+    near += value > 0 ? 1 : 0;
+  }
+  EXPECT_GT(near, 200);
+}
+
+TEST(PartingTest, DerivativesAreThoseOfTheValueAndTheSameOnAnyThreads) {
+  const ShapeFamily bar = MakeBar(4, 1, 1, 8, 2, 2);
+  const std::vector<Shape> poses = {bar.pose(0), bar.pose(60)};
+  const auto metric = FreezeMetric({}, bar.connectivity, poses, 1);
+  std::vector<Shape> path = {poses[0], 0.7 * poses[0], 0.6 * poses[1], poses[1]};
+  PathEnergy energy(metric, 2);
+  Parting parting(*metric, poses, 2);
+  ASSERT_GT(parting.Pairs().size(), 100u);
+  std::vector<double> unknowns(energy.Size()), none(energy.Size());
+  energy.Load(path, unknowns.data());
+  const auto gradients = testing::OnThreads([&] {
+    std::vector<double> gradient(energy.Size());
+    EXPECT_GT(parting.Evaluate(energy, unknowns.data(), 3, &path, gradient.data()), 0);
+    return gradient;
+  });
+  for (const std::vector<double>& gradient : gradients) EXPECT_EQ(gradient, gradients.front());
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 10; ++i) {
+    std::vector<double> there = unknowns, back = unknowns;
+    double slope = 0;
+    constexpr double kStep = 1e-6;
+    for (size_t k = 0; k < unknowns.size(); ++k) {
+      const double direction = uniform(random);
+      there[k] += kStep * direction;
+      back[k] -= kStep * direction;
+      slope += direction * gradients.front()[k];
+    }
+    const double difference = parting.Evaluate(energy, there.data(), 3, &path, none.data()) -
+                              parting.Evaluate(energy, back.data(), 3, &path, none.data());
+    EXPECT_NEAR(difference / (2 * kStep), slope, 1e-6 * std::abs(slope));
+  }
+}
+
+TEST(PartingTest, PosesHaveNone) {
+  const ShapeFamily bar = MakeBar(4, 1, 1, 8, 2, 2);
+  const std::vector<Shape> poses = {bar.pose(0), bar.pose(60)};
+  const Parting parting(*FreezeMetric({}, bar.connectivity, poses, 1), poses, 2);
+  for (const Shape& pose : poses) {
+    Tangent force = Tangent::Zero(3, pose.cols());
+    for (const PartingPair& pair : parting.Pairs()) EXPECT_EQ(pair.Add(pose, &force), 0);
+    EXPECT_EQ(force.norm(), 0);
+  }
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include <shapespace/files/read.h>
 #include <shapespace/geodesic/geodesic.h>
 
+#include "support/contact_bodies.h"
 #include "support/cut_ring.h"
 #include "support/listener.h"
 #include "support/message_of.h"
@@ -25,8 +26,10 @@
 namespace shapespace {
 namespace {
 
+using testing::BallAndWall;
 using testing::CutRing;
 using testing::MostIntersections;
+using testing::TwoProngs;
 
 GeodesicOptions AvoidingContact(int shapes) {
   GeodesicOptions options;
@@ -126,6 +129,48 @@ TEST(GeodesicContactTest, LeadsNearTheShapesThatAreNamed) {
             Interpolate(ring.connectivity, ring.poses, options).summary.energy);
 }
 
+// What meets at flat faces, which press against each other without sliding.
+void ExpectAWayRound(const std::shared_ptr<const Connectivity>& connectivity,
+                     const std::vector<Shape>& poses, double most_energy,
+                     const std::vector<Shape>& via = {}) {
+  GeodesicOptions options = AvoidingContact(7);
+  options.via = via;
+  const GeodesicResult result = Interpolate(connectivity, poses, options);
+  EXPECT_EQ(result.summary.termination, Termination::kConverged) << result.summary.FullReport();
+  EXPECT_EQ(result.summary.uncertified_segments, 0);
+  EXPECT_EQ(MostIntersections(result.path), 0);
+  EXPECT_LT(result.summary.Ratio(), most_energy);
+}
+
+TEST(GeodesicContactTest, AProngPassesTheOther) {
+  const TwoProngs fork;
+  ExpectAWayRound(fork.connectivity, {fork.Pose({80, -60}, {0, 0}), fork.Pose({80, 60}, {0, 0})},
+                  1.05);
+}
+
+TEST(GeodesicContactTest, ABodyPassesAnother) {
+  const TwoProngs two(false);
+  ExpectAWayRound(two.connectivity, {two.Pose({80, -60}, {0, 0}), two.Pose({70, 60}, {0, 0})},
+                  1.02);
+}
+
+// From crossed one way to crossed the other way: they have to become straight in between.
+TEST(GeodesicContactTest, LegsUncrossAndCrossAgain) {
+  const TwoProngs legs;
+  ExpectAWayRound(legs.connectivity,
+                  {legs.Pose({70, -54}, {70, 126}), legs.Pose({60, 58}, {60, 238})}, 1.2);
+  ExpectAWayRound(legs.connectivity,
+                  {legs.Pose({64, -52}, {64, 128}), legs.Pose({64, 52}, {64, 232})}, 1.2,
+                  {legs.Pose({0, 0}, {0, 0})});
+}
+
+TEST(GeodesicContactTest, EndsOfARingThatMeetSlideRoundEachOther) {
+  const CutRing ring;
+  for (const double front : {0.4, 0.7}) {
+    ExpectAWayRound(ring.connectivity, {ring.Wound(front, 0.02), ring.Wound(-front, -0.03)}, 1.12);
+  }
+}
+
 TEST(GeodesicContactTest, RefusesWhatItCannotDo) {
   const CutRing ring;
   GeodesicOptions options;
@@ -164,13 +209,19 @@ TEST(GeodesicContactTest, PosesThatIntersectThemselvesAreSaidSo) {
 }
 
 TEST(GeodesicContactTest, WhereNoWayIsFoundThePathWithContactIsReturnedWithAWarning) {
-  const CutRing ring;
+  // A cube in a closed box, and beside it.
+  const ShapeFamily cube = MakeBar(1, 1, 1, 6, 6, 6), box = MakeBar(3, 3, 3, 6, 6, 6);
+  const Obstacle around = {box.connectivity, box.pose(0)};
+  const auto connectivity = around.Joined(cube.connectivity);
+  const auto at = [&](double x) {
+    return around.Joined(Shape(cube.pose(0).colwise() + Eigen::Vector3d(x, 0.7, 0.8)));
+  };
+  const std::vector<Shape> poses = {at(1), at(5)};
+  ASSERT_EQ(CountIntersections(*connectivity, poses[0]), 0);
   GeodesicOptions options = AvoidingContact(3);
-  // End to end they press against each other, and slide neither way.
-  const std::vector<Shape> poses = {ring.Wound(0.6, 0), ring.Wound(-0.6, 0)};
-  const GeodesicResult result = Interpolate(ring.connectivity, poses, options);
+  const GeodesicResult result = Interpolate(connectivity, poses, options);
   options.avoid_contact = false;
-  EXPECT_EQ(result.path.shapes, Interpolate(ring.connectivity, poses, options).path.shapes);
+  EXPECT_EQ(result.path.shapes, Interpolate(connectivity, poses, options).path.shapes);
   EXPECT_GT(result.summary.uncertified_segments, 0);
   ASSERT_FALSE(result.summary.warnings.empty());
   EXPECT_NE(result.summary.warnings[0].find("no way was found"), std::string::npos);
@@ -195,54 +246,16 @@ TEST(ContinuedPathTest, EndsBeforeContactIfAskedTo) {
   EXPECT_EQ(Extrapolate(path, 5, stop).summary.ending, ExponentialSummary::Ending::kComplete);
 }
 
-// A ball of radius 1 on either side of a wall at x = 0 with a round hole.
-struct BallAndWall {
-  explicit BallAndWall(double hole, double of_unit = 1,
-                       const Eigen::Vector3d& of_origin = Eigen::Vector3d::Zero())
-      : unit(of_unit), origin(of_origin), cube(MakeBar(2, 2, 2, 5, 5, 5)) {
-    connectivity = cube.connectivity;
-    poses = {At(-2), At(2)};
-    constexpr int kAround = 16, kRings = 3;
-    Shape shape(3, kAround * (kRings + 1));
-    Eigen::Matrix3Xi triangles(3, 2 * kAround * kRings);
-    for (int ring = 0; ring <= kRings; ++ring) {
-      for (int i = 0; i < kAround; ++i) {
-        const double angle = 2 * M_PI * i / kAround, radius = hole + ring * (3 - hole) / kRings;
-        shape.col(ring * kAround + i) << 0, radius * std::cos(angle), radius * std::sin(angle);
-        if (ring == kRings) continue;
-        const int a = ring * kAround + i, b = ring * kAround + (i + 1) % kAround;
-        triangles.col(2 * a) << a, b, a + kAround;
-        triangles.col(2 * a + 1) << b, b + kAround, a + kAround;
-      }
-    }
-    wall = {Connectivity::FromTriangles(kAround * (kRings + 1), triangles), Moved(shape)};
-  }
-  Shape Moved(const Shape& shape) const { return (unit * shape).colwise() + origin; }
-  Shape At(double x) const {
-    Shape shape = cube.pose(0);
-    const Eigen::Vector3d middle = shape.rowwise().mean();
-    shape.colwise() -= middle;
-    shape.colwise().normalize();
-    shape.row(0).array() += x;
-    return Moved(shape);
-  }
-  GeodesicResult Solve(int shapes) const {
-    GeodesicOptions options = AvoidingContact(shapes);
-    options.obstacle = wall;
-    options.metric.lambda = 0.01;  // else it is almost free to fly up to the wall at once
-    return Interpolate(connectivity, poses, options);
-  }
-  double unit;
-  Eigen::Vector3d origin;
-  ShapeFamily cube;
-  std::shared_ptr<const Connectivity> connectivity;
-  std::vector<Shape> poses;
-  Obstacle wall;
-};
+GeodesicResult Solve(const BallAndWall& ball, int shapes) {
+  GeodesicOptions options = AvoidingContact(shapes);
+  options.obstacle = ball.wall;
+  options.metric.lambda = 0.01;  // else it is almost free to fly up to the wall at once
+  return Interpolate(ball.connectivity, ball.poses, options);
+}
 
 TEST(ObstacleTest, ABallSqueezesThroughAHoleNarrowerThanItself) {
   const BallAndWall narrow(0.9);
-  const GeodesicResult result = narrow.Solve(15);
+  const GeodesicResult result = Solve(narrow, 15);
   EXPECT_EQ(result.summary.termination, Termination::kConverged) << result.summary.FullReport();
   EXPECT_EQ(result.summary.uncertified_segments, 0);
   EXPECT_EQ(result.summary.crossings_between, 0);
@@ -262,7 +275,7 @@ TEST(ObstacleTest, ABallSqueezesThroughAHoleNarrowerThanItself) {
 
 TEST(ObstacleTest, PastAnObstacleThatIsNotInTheWayABodyMovesRigidly) {
   const BallAndWall wide(1.2);
-  const GeodesicResult result = wide.Solve(3);
+  const GeodesicResult result = Solve(wide, 3);
   EXPECT_EQ(result.summary.uncertified_segments, 0);
   EXPECT_LT(result.summary.energy, 1e-20);
   for (int i = 0; i <= 4; ++i) {
@@ -272,7 +285,7 @@ TEST(ObstacleTest, PastAnObstacleThatIsNotInTheWayABodyMovesRigidly) {
 
 TEST(ObstacleTest, ThroughAWallWithoutAHoleThereIsNoWay) {
   const BallAndWall shut(0);
-  const GeodesicResult result = shut.Solve(3);
+  const GeodesicResult result = Solve(shut, 3);
   EXPECT_GT(result.summary.uncertified_segments, 0);
   EXPECT_GT(result.summary.crossings_between, 0);
   ASSERT_FALSE(result.summary.warnings.empty());
@@ -282,18 +295,18 @@ TEST(ObstacleTest, ThroughAWallWithoutAHoleThereIsNoWay) {
 
 TEST(ObstacleTest, UnitAndPlaceDoNotMatter) {
   const BallAndWall here(0.95), large(0.95, 1024);
-  const GeodesicResult a = here.Solve(7), b = large.Solve(7);
+  const GeodesicResult a = Solve(here, 7), b = Solve(large, 7);
   EXPECT_EQ(b.path.shapes, a.path.shapes);
   EXPECT_DOUBLE_EQ(b.summary.contact_distance, 1024 * a.summary.contact_distance);
   const BallAndWall far(0.95, 1, {1e6, -2e6, 3e6});
-  const GeodesicResult c = far.Solve(7);
+  const GeodesicResult c = Solve(far, 7);
   EXPECT_EQ(c.summary.uncertified_segments, 0);
   EXPECT_NEAR(c.summary.energy, a.summary.energy, 0.05 * a.summary.energy);
 }
 
 TEST(ObstacleTest, IsTheSameOnAnyThreads) {
   const BallAndWall ball(0.95);
-  const auto results = testing::OnThreads([&] { return ball.Solve(3).path.shapes; });
+  const auto results = testing::OnThreads([&] { return Solve(ball, 3).path.shapes; });
   for (const std::vector<Shape>& shapes : results) EXPECT_EQ(shapes, results.front());
 }
 
@@ -303,7 +316,7 @@ TEST(ObstacleTest, PosesThatIntersectItAreSaidSo) {
   ball.poses[0] = ball.At(-0.2);
   ball.poses[0].row(1).array() += 1;
   ball.poses[1].row(1).array() += 1;
-  const GeodesicResult result = ball.Solve(3);
+  const GeodesicResult result = Solve(ball, 3);
   ASSERT_FALSE(result.summary.warnings.empty());
   EXPECT_NE(result.summary.warnings[0].find("themselves or the obstacle"), std::string::npos);
 }

@@ -12,6 +12,7 @@
 #include <shapespace/base/parallel.h>
 #include <shapespace/contact/internal/follow.h>
 #include <shapespace/contact/internal/increments.h>
+#include <shapespace/contact/internal/parting.h>
 #include <shapespace/contact/internal/path_contact.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/numerics/internal/preconditioner.h>
@@ -145,6 +146,48 @@ FreeWay FollowFromEitherEnd(const ContactModel& model, const Draw& draw, double 
   return way;
 }
 
+// As FollowFromEitherEnd; if that does not arrive, because parts press against each other, of paths
+// on which parts have been pushed out of each other, more and more.
+FreeWay FindWay(const ContactModel& model, const CholeskyFactor<float>& factor, double energy,
+                const std::vector<Shape>& guide, const std::function<bool()>& go_on) {
+  const std::shared_ptr<const Metric>& metric = model.GetMetric();
+  const Draw draw = {metric, factor, 1e-2, 100};
+  const double stiffness = kContactStiffness * energy;
+  FreeWay way = FollowFromEitherEnd(model, draw, stiffness, guide, go_on);
+  if (way.arrives) return way;
+
+  constexpr int kMostSegments = 8;
+  const int rest = static_cast<int>(guide.size()) - 1, segments = std::min(kMostSegments, rest);
+  std::vector<Shape> parted;
+  for (int i = 0; i <= segments; ++i) parted.push_back(guide[i * rest / segments]);
+  // Limbs are about as thick.
+  const double reach = 0.1 * std::sqrt(metric->vertex_area.sum());
+  Parting parting(*metric, {guide.front(), guide.back()}, reach);
+  PathEnergy path_energy(metric, segments - 1);
+  Preconditioner preconditioner(factor, path_energy);
+  std::vector<double> unknowns(path_energy.Size());
+  path_energy.Load(parted, unknowns.data());
+  MinimiseOptions options;
+  options.tolerance = 1e-3;
+  options.max_iterations = 100;
+  options.keep_going = [&](int, double) { return go_on(); };
+  constexpr double kLeast = 64, kMost = 65536;
+  size_t touching = SegmentsWithContact(model, parted).size();
+  for (double strength = kLeast; strength <= kMost && !way.arrives && go_on(); strength *= 4) {
+    MinimiseThreadedLbfgs(
+        [&](const double* x, double* gradient) {
+          return path_energy.Evaluate(x, gradient) +
+                 parting.Evaluate(path_energy, x, 2 * strength * energy / segments, &parted,
+                                  gradient);
+        },
+        PreconditionOf(&preconditioner), options, &unknowns);
+    path_energy.Store(unknowns.data(), &parted);
+    const size_t before = std::exchange(touching, SegmentsWithContact(model, parted).size());
+    if (touching < before) way = FollowFromEitherEnd(model, draw, stiffness, parted, go_on);
+  }
+  return way;
+}
+
 // With the position at a cost that draws a body through an opening in which it has to become
 // narrower, and keeps it from rigid motion in steps of the solver, which contact would cut short.
 std::shared_ptr<const Metric> WithCostOfPosition(const Metric& metric,
@@ -182,8 +225,7 @@ ContactFreePath AvoidContact(const ContactModel& model, const CholeskyFactor<flo
                               kContactStiffness * EnergyAlong(*drawing, guide), guide, go_on);
     energy = EnergyAlong(*metric, way.shapes);
   } else {
-    way = FollowFromEitherEnd(model, {metric, factor, 1e-2, 100}, kContactStiffness * energy, guide,
-                              go_on);
+    way = FindWay(model, factor, energy, guide, go_on);
   }
   if (!way.arrives) return result;
 
