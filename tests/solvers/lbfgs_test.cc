@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -218,6 +219,32 @@ TEST(ThreadedLbfgs, GoesOnAfterAStepThatWasCut) {
   const MinimiseResult result = MinimiseThreadedLbfgs(energy, as_it_is, options, &unknowns);
   EXPECT_EQ(result.termination, Termination::kConverged);
   EXPECT_NEAR(unknowns[1], 1, 1e-2);
+}
+
+// A preconditioner without an effect, and an energy that after the first step is never lower again,
+// as if by rounding: whether the solve has converged is told by the preconditioned gradient.
+TEST(ThreadedLbfgs, WithoutDecreaseHasConvergedWhereTheGradientIsSmallEnough) {
+  constexpr double kCurvature = 7e-4;
+  const auto as_it_is = [](const double* gradient, double, double* step) { *step = *gradient; };
+  for (const auto& [tolerance, expected] :
+       {std::make_pair(7e-5, Termination::kConverged), {1e-5, Termination::kStalled}}) {
+    bool stepped = false;
+    const auto energy = [&](const double* x, double* gradient) {
+      *gradient = kCurvature * *x;
+      const double value = 1 + kCurvature * *x * *x / 2;
+      return stepped ? value + 1 : value;
+    };
+    MinimiseOptions options = Tolerance(tolerance);
+    options.keep_going = [&](int iteration, double) {
+      stepped = iteration > 0;
+      return true;
+    };
+    std::vector<double> unknowns = {1};
+    const MinimiseResult result = MinimiseThreadedLbfgs(energy, as_it_is, options, &unknowns);
+    EXPECT_EQ(result.termination, expected);
+    EXPECT_NEAR(result.remaining, std::pow(kCurvature * unknowns[0], 2) / 2, 1e-11);
+    EXPECT_NEAR(unknowns[0], 0.3, 1e-6);
+  }
 }
 
 TEST(ThreadedLbfgs, RefusesAStartThatIsNotFinite) {

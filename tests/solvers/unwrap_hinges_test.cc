@@ -74,6 +74,15 @@ TEST(UnwrapHinges, AFullTurnIsTakenBack) {
   for (const Shape& shape : shapes) EXPECT_LT((shape - sheet.rest).norm(), 1e-12);
 }
 
+// In two segments, none of which turns by more than 180 degrees.
+TEST(UnwrapHinges, TheLongWayRoundIsTakenBack) {
+  const Sheet sheet;
+  std::vector<Shape> shapes = {sheet.rest, sheet.Turned(5 * M_PI / 6), sheet.Turned(5 * M_PI / 3)};
+  const double before = sheet.Energy(shapes);
+  UnwrapHinges(*sheet.metric, &shapes);
+  EXPECT_LT(sheet.Energy(shapes), 0.3 * before);
+}
+
 TEST(UnwrapHinges, AJumpIsSpreadOverAllSegments) {
   const Sheet sheet;
   std::vector<Shape> shapes(Sheet::kSegments, sheet.rest);
