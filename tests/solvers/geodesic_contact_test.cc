@@ -157,11 +157,10 @@ TEST(GeodesicContactTest, ABodyPassesAnother) {
 // From crossed one way to crossed the other way: they have to become straight in between.
 TEST(GeodesicContactTest, LegsUncrossAndCrossAgain) {
   const TwoProngs legs;
-  ExpectAWayRound(legs.connectivity,
-                  {legs.Pose({70, -54}, {70, 126}), legs.Pose({60, 58}, {60, 238})}, 1.2);
-  ExpectAWayRound(legs.connectivity,
-                  {legs.Pose({64, -52}, {64, 128}), legs.Pose({64, 52}, {64, 232})}, 1.2,
-                  {legs.Pose({0, 0}, {0, 0})});
+  const std::vector<Shape> poses = {legs.Pose({64, -52}, {64, 128}),
+                                    legs.Pose({64, 52}, {64, 232})};
+  ExpectAWayRound(legs.connectivity, poses, 1.2);
+  ExpectAWayRound(legs.connectivity, poses, 1.2, {legs.Pose({0, 0}, {0, 0})});
 }
 
 TEST(GeodesicContactTest, EndsOfARingThatMeetSlideRoundEachOther) {

@@ -168,8 +168,8 @@ FreeWay FindWay(const ContactModel& model, const CholeskyFactor<float>& factor, 
   std::vector<double> unknowns(path_energy.Size());
   path_energy.Load(parted, unknowns.data());
   MinimiseOptions options;
-  options.tolerance = 1e-3;
-  options.max_iterations = 100;
+  options.tolerance = 1e-5;  // parts that overlap entirely are near a saddle
+  options.max_iterations = 200;
   options.keep_going = [&](int, double) { return go_on(); };
   constexpr double kLeast = 64, kMost = 65536;
   size_t touching = SegmentsWithContact(model, parted).size();
