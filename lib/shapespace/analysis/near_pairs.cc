@@ -291,8 +291,7 @@ NearPairs::NearPairs(std::shared_ptr<const Connectivity> connectivity,
                      const std::vector<Shape>& shapes, int num_moving,
                      const std::vector<std::pair<int, int>>& exempt)
     : connectivity_(std::move(connectivity)), num_moving_(num_moving) {
-  const int num_triangles = connectivity_->NumTriangles();
-  if (num_triangles == 0) throw MeshError("contact: the mesh has no triangles");
+  if (connectivity_->NumTriangles() == 0) throw MeshError("contact: the mesh has no triangles");
   for (const Shape& shape : shapes) {
     if (shape.cols() != connectivity_->NumVertices() || !shape.allFinite()) {
       throw MeshError(
@@ -301,14 +300,23 @@ NearPairs::NearPairs(std::shared_ptr<const Connectivity> connectivity,
   }
   const Eigen::VectorXd edges = MeanEdgeLengths(*connectivity_, shapes);
   lengths_ = LengthsAtVertices(*connectivity_, edges);
-  neighbours_ = Neighbours(*connectivity_, edges, lengths_, exempt);
+  ParallelTasks(2, 2, [&](int task) {
+    if (task == 0) {
+      neighbours_ = Neighbours(*connectivity_, edges, lengths_, exempt);
+    } else {
+      BuildTree(shapes.front());
+    }
+  });
+}
+
+void NearPairs::BuildTree(const Shape& shape) {
+  const int num_triangles = connectivity_->NumTriangles();
   vertices_of_triangles_ = OwnedBy(num_triangles, connectivity_->TrianglesOfVertices());
   edges_of_triangles_ = OwnedBy(num_triangles, connectivity_->TrianglesOfEdges());
   Shape centres(3, num_triangles);
   for (int t = 0; t < num_triangles; ++t) {
     const auto corners = connectivity_->Triangles().col(t);
-    centres.col(t) = shapes.front().col(corners(0)) + shapes.front().col(corners(1)) +
-                     shapes.front().col(corners(2));
+    centres.col(t) = shape.col(corners(0)) + shape.col(corners(1)) + shape.col(corners(2));
   }
   std::vector<int> order(num_triangles);
   std::iota(order.begin(), order.end(), 0);
@@ -318,9 +326,7 @@ NearPairs::NearPairs(std::shared_ptr<const Connectivity> connectivity,
   for (int i = static_cast<int>(boxes.size()) - 1; i >= 0; --i) {
     const Node& node = nodes_[i];
     if (node.right < 0) {
-      for (const int v : connectivity_->Triangles().col(node.left)) {
-        boxes[i].extend(shapes.front().col(v));
-      }
+      for (const int v : connectivity_->Triangles().col(node.left)) boxes[i].extend(shape.col(v));
     } else {
       boxes[i] = boxes[node.left].merged(boxes[node.right]);
       FindFronts(node.left, node.right, boxes);

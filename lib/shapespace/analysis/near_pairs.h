@@ -66,6 +66,8 @@ class NearPairs {
   };
   class Search;
 
+  // The nodes and fronts, and what belongs to which triangle.
+  void BuildTree(const Shape& shape);
   int Build(const Shape& centres, int* begin, int* end);
   // Appends the largest pairs of nodes below these two that have no corner in common, or the two
   // themselves; returns whether they have one. `boxes` are those of one shape.
