@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <Eigen/SVD>
 
 #include <shapespace/exponential/exponential.h>
 #include <shapespace/geodesic/geodesic.h>
@@ -77,6 +79,74 @@ TEST(RandomGeodesic, LengthsAreDistances) {
     EXPECT_LT(std::max({ab, bc, ca}), (1 + 1e-3) * (ab + bc + ca) / 2);
     EXPECT_GT(ab, 0);
   });
+}
+
+// A body whose triangles are divided in four, in the same poses.
+struct Divided {
+  Divided(const Connectivity& coarse, const std::vector<Shape>& coarse_poses) {
+    const int vertices = coarse.NumVertices(), edges = coarse.NumEdges();
+    for (const Shape& shape : coarse_poses) {
+      poses.emplace_back(3, vertices + edges);
+      poses.back() << shape,
+          (shape(Eigen::all, coarse.Edges().row(0)) + shape(Eigen::all, coarse.Edges().row(1))) / 2;
+    }
+    const auto middle = [&](int a, int b) {
+      for (const int e : coarse.EdgesOfVertices()[a]) {
+        if (coarse.OtherEnd(e, a) == b) return vertices + e;
+      }
+      return -1;
+    };
+    Eigen::Matrix3Xi triangles(3, 4 * coarse.NumTriangles());
+    for (int t = 0; t < coarse.NumTriangles(); ++t) {
+      const Eigen::Vector3i c = coarse.Triangles().col(t);
+      const int x = middle(c(0), c(1)), y = middle(c(1), c(2)), z = middle(c(2), c(0));
+      triangles.middleCols<4>(4 * t) << c(0), x, z, x,  //
+          x, c(1), y, y,                                //
+          z, y, c(2), z;
+    }
+    connectivity = Connectivity::FromTriangles(vertices + edges, triangles);
+  }
+  std::shared_ptr<const Connectivity> connectivity;
+  std::vector<Shape> poses;
+};
+
+// Of a motion in a plane, lengths of geodesics converge when the triangles are divided, from above:
+// a finer mesh can do whatever a coarser one does, and flat hinges cost nothing.
+TEST(RandomGeodesic, LengthsInAPlaneConvergeWhenTrianglesAreDivided) {
+  for (const BodyKind kind : {BodyKind::kSheet, BodyKind::kDelaunay}) {
+    for (const int seed : {1, 2, 3}) {
+      RandomBody body = testing::MakeRandomBody(kind, seed, 1);
+      SCOPED_TRACE(body.name);
+      body.metric = {};
+      // Polygons with more corners have stiffness of their own.
+      body.connectivity = Connectivity::FromTriangles(body.connectivity->NumVertices(),
+                                                      body.connectivity->Triangles());
+      Shape flat = body.poses[0].colwise() - body.poses[0].rowwise().mean();
+      flat =
+          Eigen::JacobiSVD<Eigen::MatrixXd>(flat, Eigen::ComputeThinU).matrixU().transpose() * flat;
+      flat /= flat.row(0).cwiseAbs().maxCoeff();
+      flat.row(2).setZero();
+      Shape bent = flat;
+      for (int v = 0; v < flat.cols(); ++v) {
+        const double x = flat(0, v), y = flat(1, v);
+        bent(0, v) += 0.15 * std::sin(2 * y + seed) + 0.1 * x * x;
+        bent(1, v) *= 1 + 0.2 * std::sin(1.5 * x - seed);
+      }
+      body.poses = {flat, bent};
+      std::vector<double> lengths;
+      for (int division = 0; division < 3; ++division) {
+        lengths.push_back(
+            LengthOf(Interpolate(body.connectivity, body.poses, AccurateGeodesic(body, 3))));
+        const Divided divided(*body.connectivity, body.poses);
+        body.connectivity = divided.connectivity;
+        body.poses = divided.poses;
+      }
+      EXPECT_LT(lengths[1], lengths[0]);
+      EXPECT_LT(lengths[2], lengths[1]);
+      EXPECT_LT(lengths[1] - lengths[2], 0.7 * (lengths[0] - lengths[1]));
+      EXPECT_LT(lengths[0] - lengths[1], 1e-3 * lengths[1]);
+    }
+  }
 }
 
 // With as many steps as the path has segments, the exponential map repeats the path. It is a
