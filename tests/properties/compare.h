@@ -26,6 +26,18 @@ double Off(const RandomBody& body, const std::vector<Shape>& shapes,
 ::testing::AssertionResult AreCongruent(const RandomBody& body, const std::vector<Shape>& shapes,
                                         const std::vector<Shape>& expected, double tolerance);
 
+/// Calls `test` with a random body of each kind for each of the seeds, in so many poses.
+template <class Test>
+void ForAllKinds(const std::vector<int>& seeds, int poses, const Test& test) {
+  for (int kind = 0; kind < kNumBodyKinds; ++kind) {
+    for (const int seed : seeds) {
+      const RandomBody body = MakeRandomBody(static_cast<BodyKind>(kind), seed, poses);
+      SCOPED_TRACE(body.name);
+      test(body);
+    }
+  }
+}
+
 /// The shapes in the opposite order.
 std::vector<Shape> Reversed(std::vector<Shape> shapes);
 

@@ -22,20 +22,10 @@ using testing::AccurateGeodesic;
 using testing::AreCongruent;
 using testing::AreNear;
 using testing::BodyKind;
+using testing::ForAllKinds;
 using testing::Off;
 using testing::RandomBody;
 using testing::Reversed;
-
-template <class Test>
-void ForAllKinds(const std::vector<int>& seeds, int poses, const Test& test) {
-  for (int kind = 0; kind < testing::kNumBodyKinds; ++kind) {
-    for (const int seed : seeds) {
-      const RandomBody body = testing::MakeRandomBody(static_cast<BodyKind>(kind), seed, poses);
-      SCOPED_TRACE(body.name);
-      test(body);
-    }
-  }
-}
 
 // The root of the scaled energy, which is the length of a path of constant speed.
 double LengthOf(const GeodesicResult& geodesic) { return std::sqrt(geodesic.summary.energy); }

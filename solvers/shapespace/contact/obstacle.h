@@ -29,6 +29,12 @@ namespace internal {
 /// \throw InvalidOptions naming the field, MeshError; for options with `avoid_contact`.
 void CheckObstacle(const std::optional<Obstacle>& obstacle, bool avoid_contact);
 
+/// The same obstacle in another frame: seen from `origin`, in so many times the user's unit.
+inline Obstacle InFrame(Obstacle obstacle, const Eigen::Vector3d& origin, double unit) {
+  obstacle.shape = (obstacle.shape.colwise() - origin) / unit;
+  return obstacle;
+}
+
 }  // namespace internal
 }  // namespace shapespace
 

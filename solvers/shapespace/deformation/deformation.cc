@@ -139,7 +139,7 @@ Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity
   origin_ = Centroid(rest, metric_->vertex_area);
   rest_ = (rest.colwise() - origin_) / metric_->unit;
   obstacle_ = options.obstacle;
-  if (obstacle_) obstacle_->shape = (obstacle_->shape.colwise() - origin_) / metric_->unit;
+  if (obstacle_) obstacle_ = internal::InFrame(*obstacle_, origin_, metric_->unit);
   component_ = ComputeTopology(*connectivity).component;
 }
 

@@ -451,7 +451,7 @@ void GeodesicLevels::AvoidContact(Workspace* workspace, Workload* workload,
   std::optional<Obstacle> obstacle = options_.obstacle;
   const Eigen::Vector3d origin = path.motions.front().translation;
   if (obstacle) {
-    obstacle->shape = (obstacle->shape.colwise() - origin) / metric_->unit;
+    obstacle = internal::InFrame(*obstacle, origin, metric_->unit);
     for (int k = 0; k < path.NumShapes(); ++k) {
       guide[k] = (path.Placed(k).colwise() - origin) / metric_->unit;
     }

@@ -301,7 +301,7 @@ class Scene {
       : unit_(chain.metric->unit), weights_(chain.metric->vertex_area), obstacle_(obstacle) {
     if (!obstacle_) return;
     origin_ = chain.motions.front().translation;
-    obstacle_->shape = (obstacle_->shape.colwise() - origin_) / unit_;
+    obstacle_ = InFrame(*obstacle_, origin_, unit_);
   }
 
   const Obstacle* GetObstacle() const { return obstacle_ ? &*obstacle_ : nullptr; }
