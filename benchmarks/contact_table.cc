@@ -79,7 +79,7 @@ void PrintBodies() {
   Print("fork", prongs.connectivity,
         {prongs.Pose({80, -60}, {0, 0}), prongs.Pose({80, 60}, {0, 0})}, options);
   const std::vector<Shape> crossed = {prongs.Pose({64, -52}, {64, 128}),
-                                      prongs.Pose({64, 52}, {64, 232})};
+                                      prongs.Pose({56, 60}, {56, 240})};
   Print("crossed legs", prongs.connectivity, crossed, options);
   options.via = {prongs.Pose({0, 0}, {0, 0})};
   Print("crossed legs, via straight ones", prongs.connectivity, crossed, options);
