@@ -1,6 +1,7 @@
 #!/bin/bash
 # What a public project needs besides its code: licences as REUSE asks for them, a valid citation,
-# well-formed workflows and templates, a site without broken links, and a software bill of materials.
+# well-formed workflows and templates, a site without broken links, and a software bill of materials; and
+# that figures which are measured again stand on their page.
 # Installs what is missing of debian-packages-home.txt and of the lists that this names; takes about half
 # a minute.
 set -euo pipefail
@@ -19,6 +20,7 @@ cmp LICENSE LICENSES/BSD-3-Clause.txt || fail "the two copies of the project's l
 diff <(tail -n +3 lib/shapespace/output/fonts/LICENSE) LICENSES/LicenseRef-DejaVu.txt ||
   fail "the two copies of the font's licence differ"
 
+benchmarks/all --pages >/dev/null || fail "docs/measurements.md lacks what benchmarks/figures.toml names"
 tests/docs/citation.py || fail "CITATION.cff is not valid"
 yamllint --strict .github mkdocs.yml CITATION.cff || fail "yamllint found the above"
 
