@@ -20,7 +20,7 @@ cmp LICENSE LICENSES/BSD-3-Clause.txt || fail "the two copies of the project's l
 diff <(tail -n +3 lib/shapespace/output/fonts/LICENSE) LICENSES/LicenseRef-DejaVu.txt ||
   fail "the two copies of the font's licence differ"
 
-benchmarks/all --pages >/dev/null || fail "docs/measurements.md lacks what benchmarks/figures.toml names"
+benchmarks/all --page >/dev/null || fail "docs/measurements.md lacks what benchmarks/figures.toml names"
 tests/docs/citation.py || fail "CITATION.cff is not valid"
 yamllint --strict .github mkdocs.yml CITATION.cff || fail "yamllint found the above"
 
