@@ -154,8 +154,9 @@ TEST(GeodesicContactTest, ABodyPassesAnother) {
                   1.02);
 }
 
-// From crossed one way to crossed the other way: they have to become straight in between. Between poses
-// that are mirror images, rounding decides which way the legs go, and with it whether a way is found.
+// From crossed one way to crossed the other way: they have to become straight in between. Between
+// poses that are mirror images, rounding decides which way the legs go, and with it whether a way
+// is found.
 TEST(GeodesicContactTest, LegsUncrossAndCrossAgain) {
   const TwoProngs legs;
   const std::vector<Shape> poses = {legs.Pose({64, -52}, {64, 128}),
