@@ -3,7 +3,7 @@
 # makes, tools are built that link nothing of SuiteSparse, and Ceres' solvers find the same there as in the
 # tools of BUILD (build/release), which link Debian's Ceres:
 #   tests/install/suitesparse_off.sh [BUILD]
-# Takes eight minutes on two cores, or one where ccache knows the objects.
+# Takes six minutes on two cores, or one where ccache knows the objects. Needs network.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 release=$(cd "${1:-build/release}" && pwd)/bin
