@@ -2,7 +2,7 @@
 # All that a release consists of, into build/release-X.Y.Z, which is made anew:
 #   packaging/release.sh
 # X.Y.Z is the version in CMakeLists.txt. Needs a working tree without changes, root for the bare systems
-# in which packages are built, debootstrap, npm and network; takes about two hours on two cores. The
+# in which packages are built, debootstrap, npm and network; takes about an hour on two cores. The
 # same commit gives the same bytes (tests/packages/reproducible.sh). RELEASING.md says what to do before
 # and after.
 set -euo pipefail

@@ -2,9 +2,7 @@
 # Whether two folders have the same files with the same bytes; names those that differ:
 #   tests/packages/reproducible.sh FOLDER FOLDER
 # but for .buildinfo and .changes of Debian packages, which have the time of the build.
-# For two runs of one script of packaging/, or of ./dev release:
-#   ./dev release && mv build/release-0.1.0 first && ./dev release &&
-#     tests/packages/reproducible.sh first build/release-0.1.0
+# For two runs of one script of packaging/, or of ./dev release, as RELEASING.md says.
 set -euo pipefail
 
 fail() {
