@@ -16,7 +16,7 @@ tests/docs/versions.sh . || die "the versions above have to be the one of CMakeL
 grep -qF "## [$version]" CHANGELOG.md || die "CHANGELOG.md has no section [$version]"
 
 out=build/release-$version
-rm -rf "$out"
+rm -rf "$out" build/standalone/*/root/built  # so that wheels and tools are compiled anew
 mkdir -p "$out"
 step() {
   echo "== $* ($((SECONDS / 60)) min)"

@@ -57,12 +57,11 @@ same() {
 }
 
 "$release/shape-body" bar --at 0,60,70 --output "$work/bar%d.obj" >/dev/null
-pose() { echo "$work/bar$1.obj"; }
 for solver in lbfgs trust_region; do
-  same "a geodesic by $solver" out%d.obj shape-interpolate "$(pose 0)" "$(pose 1)" --shapes 1 --solver "$solver" \
+  same "a geodesic by $solver" out%d.obj shape-interpolate "$work/bar0.obj" "$work/bar1.obj" --shapes 1 --solver "$solver" \
     --tolerance 1e-10
 done
-same "steps by Ceres" out%d.obj shape-extrapolate "$(pose 0)" "$(pose 1)" --shapes 3 --tolerance 1e-10 --steps 2 \
+same "steps by Ceres" out%d.obj shape-extrapolate "$work/bar0.obj" "$work/bar1.obj" --shapes 3 --tolerance 1e-10 --steps 2 \
   --step_solver ceres
-same "the paper's transport" out.obj shape-transport "$(pose 0)" "$(pose 1)" "$(pose 2)" --steps 4 \
+same "the paper's transport" out.obj shape-transport "$work/bar0.obj" "$work/bar1.obj" "$work/bar2.obj" --steps 4 \
   --connection constrained_projection

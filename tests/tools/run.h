@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,16 @@ inline void ExpectContains(const std::string& text, const std::string& part) {
 
 inline void ExpectLacks(const std::string& text, const std::string& part) {
   EXPECT_EQ(text.find(part), std::string::npos) << "'" << part << "' in: " << text;
+}
+
+/// The run has succeeded, and nothing is on stderr but lines of progress, which begin with the
+/// tool's name and are there where a run takes seconds.
+inline void ExpectQuiet(const Outcome& outcome) {
+  EXPECT_EQ(outcome.code, 0);
+  std::istringstream lines(outcome.err);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_EQ(line.compare(0, 6, "shape-"), 0) << line;
+  }
 }
 
 }  // namespace shapespace::testing
