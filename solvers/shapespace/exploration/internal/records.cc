@@ -1,7 +1,9 @@
 #include <shapespace/exploration/internal/records.h>
 
+#include <chrono>
 #include <filesystem>
 #include <system_error>
+#include <thread>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/atomic_file.h>
@@ -33,13 +35,16 @@ std::optional<std::string> Records::Find(const std::string& digest) const {
 void Records::Keep(const std::string& digest, const std::string& bytes) const {
   if (folder_.empty()) return;
   // Another run with the same folder, which is done before this one, removes the folder and what is
-  // being written there.
-  constexpr int kAttempts = 100;
+  // being written there. While the system removes a folder, it is still found, but nothing can be
+  // created in it, so that an attempt at once would fail again.
+  constexpr int kAttempts = 1000;
+  constexpr auto kPause = std::chrono::milliseconds(1);
   for (int attempt = 1;; ++attempt) {
     try {
       return WriteFileAtomically(File(digest), [&](std::ostream& out) { out << bytes; });
     } catch (const FileError& error) {
       if (attempt == kAttempts || error.cause() != std::errc::no_such_file_or_directory) throw;
+      std::this_thread::sleep_for(kPause);
     }
   }
 }
