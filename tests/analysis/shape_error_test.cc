@@ -31,5 +31,18 @@ TEST(CompareShapes, CountsHingesThatAreTurnedOver) {
   EXPECT_TRUE(std::isnan(error.volume));
 }
 
+// A flat tetrahedron is closed.
+TEST(CompareShapes, WhatEnclosesNoVolumeHasNoShareOfIt) {
+  const Eigen::Matrix3Xi triangles =
+      (Eigen::Matrix3Xi(3, 4) << 0, 0, 0, 1, 1, 2, 3, 3, 2, 3, 1, 2).finished();
+  const auto tetrahedron = Connectivity::FromTriangles(4, triangles);
+  const Shape flat = (Shape(3, 4) << 0, 1, 1, 0, 0, 0, 1, 1, 0, 1e-9, 0, 0).finished();
+  const auto metric = FreezeMetric({}, tetrahedron, {flat});
+  Shape blown = flat;
+  blown(2, 2) = 0.3;
+  EXPECT_TRUE(std::isnan(CompareShapes(metric, flat, blown).volume));
+  EXPECT_NEAR(CompareShapes(metric, blown, 2 * blown).volume, 7, 1e-6);
+}
+
 }  // namespace
 }  // namespace shapespace

@@ -23,7 +23,7 @@ ShapeError CompareShapes(const std::shared_ptr<const Metric>& metric, const Shap
   error.edge_p99 = quality.first_p99;
   error.edge_max = quality.first_max;
   error.volume = std::numeric_limits<double>::quiet_NaN();
-  if (IsClosed(connectivity.Triangles())) {
+  if (EnclosesVolume(connectivity.Triangles(), reference)) {
     error.volume = EnclosedVolume(connectivity.Triangles(), shape) /
                        EnclosedVolume(connectivity.Triangles(), reference) -
                    1;

@@ -14,7 +14,7 @@ struct ShapeError {
   /// percentile and maximum. Edges shorter than a thousandth of the root mean square length are not
   /// counted.
   double edge_rms = 0, edge_p99 = 0, edge_max = 0;
-  /// V / V_reference - 1; NaN if the mesh is not closed.
+  /// V / V_reference - 1; NaN if the reference encloses no volume (EnclosesVolume).
   double volume = 0;
   /// Hinges whose angle differs by more than 90 degrees.
   int inverted_hinges = 0;

@@ -52,7 +52,7 @@ inline std::string ContactText(int uncertified_segments, double contact_distance
 
 inline std::string VolumeText(const ShapeError& error) {
   return std::isfinite(error.volume) ? Format("volume %+.3g%%", 100 * error.volume)
-                                     : "volume n/a (the mesh is not closed)";
+                                     : "volume n/a (the mesh encloses none)";
 }
 
 }  // namespace shapespace::internal
