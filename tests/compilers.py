@@ -23,7 +23,7 @@ BUILDS = [("g++ -O3", ["g++", "-O3 -DNDEBUG"]), ("g++ -O0", ["g++", "-O0"]),
 
 BODIES = [
     ["tube", "--triangles", "300", "--at", "0,45,90", "--output", "tube%d.obj"],
-    ["tube", "--triangles", "500", "--at", "20", "--output", "other%d.obj"],
+    ["tube", "--triangles", "300", "--at", "20", "--output", "other%d.obj"],
     ["sheet", "--triangles", "400", "--output", "sheet%d.obj"],
     ["bar", "--triangles", "400", "--output", "bar%d.obj"],
     ["miura", "--output", "miura%d.obj"],

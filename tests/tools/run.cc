@@ -19,7 +19,10 @@ int OpenToWrite(const std::string& file) {
 
 }  // namespace
 
-ToolsTest::ToolsTest() { signal(SIGINT, SIG_DFL); }
+ToolsTest::ToolsTest() {
+  // They may be ignored: by nohup, or for background jobs of a script.
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_DFL);
+}
 
 pid_t ToolsTest::Start(const std::string& tool, const std::vector<std::string>& arguments,
                        int error, int out) const {

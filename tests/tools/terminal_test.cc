@@ -2,6 +2,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -46,6 +47,13 @@ class PseudoTerminal {
     return true;
   }
   const std::string& Text() const { return text_; }
+
+  /// Writes until nothing more is taken, for as long as nobody reads.
+  void Fill() const {
+    const int again = open(ptsname(outer_), O_WRONLY | O_NOCTTY | O_NONBLOCK);
+    while (write(again, "x", 1) == 1) continue;
+    close(again);
+  }
 
  private:
   int outer_, inner_ = -1;
@@ -139,6 +147,30 @@ TEST_F(TerminalTest, ASecondCtrlCDoesNotWait) {
   EXPECT_EQ(Interrupt(SIGINT, ": iteration ", "shape-interpolate", arguments, true),
             kOfSignal + SIGINT);
   EXPECT_FALSE(AnyPart());
+}
+
+// As after Ctrl-S. The tool waits until its progress can be written, and has to end nevertheless.
+TEST_F(TerminalTest, ATerminalThatTakesNoTextDoesNotKeepItFromEnding) {
+  for (const std::string output : {"walk.png", "walk.path"}) {
+    const pid_t process = Start("shape-interpolate", LongSolve({"--output", output}),
+                                terminal_.Inner(), terminal_.Inner());
+    ASSERT_TRUE(terminal_.WaitFor(": iteration ")) << terminal_.Text();
+    terminal_.Fill();
+    int status = 0;
+    bool ended = false;
+    for (int tenths = 0; tenths < 300 && !ended; ++tenths) {
+      kill(process, SIGTERM);
+      poll(nullptr, 0, 100);
+      ended = waitpid(process, &status, WNOHANG) == process;
+    }
+    EXPECT_TRUE(ended) << output;
+    if (!ended) {
+      kill(process, SIGKILL);
+      Wait(process);
+    }
+    EXPECT_EQ(WTERMSIG(status), SIGTERM);
+    terminal_.WaitFor("nothing that is ever written", 100);
+  }
 }
 
 TEST_F(TerminalTest, CtrlCWhileWritingLeavesNoHalfFile) {

@@ -1,5 +1,6 @@
 #include "support/console.h"
 
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -80,6 +81,11 @@ std::ostream& Err() {
   static EscapingBuffer buffer(std::cerr);
   static std::ostream stream(&buffer);
   return stream;
+}
+
+bool StderrTakesText() {
+  pollfd error = {STDERR_FILENO, POLLOUT, 0};
+  return poll(&error, 1, 0) == 1 && (error.revents & POLLOUT) != 0;
 }
 
 void Complain(const std::string& message) {

@@ -30,6 +30,7 @@ SolveProgress::SolveProgress(const std::vector<std::string>& outputs, std::strin
   for (const std::string& output : outputs) {
     if (!IsPathFile(output)) continue;
     waits_.emplace([output] {
+      if (!StderrTakesText()) return;
       Err() << "stopping: writing the best path so far to " + output +
                    "; Ctrl-C again ends immediately\n";
     });

@@ -142,7 +142,9 @@ int RunTool(int argc, char** argv, const Program& program,
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond `ulimit -f` is an error as on a full disk
   EndThreadsOfBlas();
   SetProgramName(program.name);
-  HandleInterrupts(ClearProgress);
+  HandleInterrupts([] {
+    if (StderrTakesText()) ClearProgress();
+  });
   google::InitGoogleLogging(argv[0]);
   FLAGS_logtostderr = true;
   FLAGS_minloglevel = google::GLOG_FATAL;
