@@ -243,7 +243,9 @@ TEST_F(ReadVtpTest, WhatIsWrongIsNamed) {
   Refused(
       changed(mesh, "type=\"PolyData\"", "type=\"PolyData\" compressor=\"vtkLZ4DataCompressor\""),
       {"vtkLZ4DataCompressor", "ZLib"});
-  Refused(changed(mesh, "0.125000", "high"), {"m.vtp:", "'Points'", "'high'"});
+  const std::string high = changed(mesh, "0.125000", "high");
+  const auto line = 1 + std::count(high.begin(), high.begin() + high.find("high"), '\n');
+  Refused(high, {"m.vtp:" + std::to_string(line) + ":", "'Points'", "'high'"});
   Refused(changed(mesh, "0.125000", "nan"), {"vertex 3", "coordinate z"});
   Refused(changed(mesh, "NumberOfPoints=\"6\"", "NumberOfPoints=\"7\""), {"'Points'", "18", "7"});
   Refused(changed(mesh, "NumberOfPolys=\"2\"", "NumberOfPolys=\"3\""), {"'offsets'", "3 cells"});
