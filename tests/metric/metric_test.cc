@@ -164,6 +164,24 @@ TEST(FreezeMetric, EdgesWithoutTrianglesWeighAsThoseBesideThem) {
   }
 }
 
+// Cells of the surface are unit squares, 16 for its 25 vertices.
+TEST(FreezeMetric, AChainOfAnyLengthIsAStripAsWideAsTheSurfacesCells) {
+  for (const int length : {3, 60}) {
+    const Soup grid = testing::Grid(4, 4);
+    Shape pose(3, 25 + length);
+    pose.leftCols(25) = grid.vertices;
+    std::vector<std::pair<int, int>> chain;
+    for (int k = 0; k < length; ++k) {
+      pose.col(25 + k) = grid.vertices.col(24) + (k + 1) * Eigen::Vector3d::UnitZ();
+      chain.emplace_back(24 + k, 25 + k);
+    }
+    const auto connectivity = Connectivity::Make(25 + length, grid.polygon_begin, grid.corners,
+                                                 chain, std::vector<std::pair<int, int>>());
+    const auto metric = FreezeMetric({}, connectivity, {pose});
+    EXPECT_NEAR(metric->vertex_area(25) / metric->vertex_area(12), 0.8, 1e-12) << length;
+  }
+}
+
 // A chain between two triangles, and the same mesh with its vertices and elements in reverse.
 TEST(FreezeMetric, AreasOfSegmentsDoNotDependOnTheOrderOfVertices) {
   const int count = 8;
@@ -302,6 +320,8 @@ TEST(MetricOptions, ValidateNamesTheField) {
   options = {};
   options.strain = options.lambda = 0;
   EXPECT_EQ(message(options).rfind("isometric", 0), 0u) << message(options);
+  options.features = {{"one of one's own", 1}};
+  EXPECT_EQ(message(options), "valid");
 }
 
 TEST(AngularVelocity, SolvesTheNormalEquationsAndLeavesOutTheAxisOfALine) {
