@@ -569,6 +569,19 @@ TEST(CarryPath, TakesADeformationOfAClosedTemplateToAnOpenScan) {
   EXPECT_EQ(carried.metric->options.volume, 0);
   EXPECT_EQ(carried.metric->options.bending, path.metric->options.bending);
   EXPECT_LT(testing::Distance(carried, path), 1e-9);
+
+  // The scan has other edges, so that the stiffness of the template's goes by way of vertices.
+  MetricOptions options = path.metric->options;
+  options.bending_stiffness.setConstant(bar.connectivity->NumEdges(), 5);
+  options.stiffness_on = StiffnessOn::kEdges;
+  std::vector<Shape> shapes;
+  for (int k = 0; k < path.NumShapes(); ++k) shapes.push_back(path.Placed(k));
+  const Path stiff =
+      MakePath(FreezeMetric(options, bar.connectivity, shapes), shapes, path.parameters);
+  const MetricOptions of_scan = CarryPath(fit, stiff, scan, rest).metric->options;
+  EXPECT_EQ(of_scan.stiffness_on, StiffnessOn::kVertices);
+  EXPECT_TRUE(of_scan.bending_stiffness.isApproxToConstant(5, 1e-12));
+  EXPECT_EQ(of_scan.bending_stiffness.size(), count);
 }
 
 // Parts of the target without a corresponding part of the template move with their neighbourhood.
