@@ -9,6 +9,8 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/tube.h>
+#include <shapespace/contact/internal/avoid_contact.h>
+#include <shapespace/contact/internal/contact_model.h>
 #include <shapespace/deformation/deformation.h>
 #include <shapespace/mesh/connectivity.h>
 
@@ -78,7 +80,12 @@ TEST(DeformationContactTest, AnEndPushesTheOtherAside) {
   EXPECT_TRUE(past.summary.Converged()) << past.summary.FullReport();
   EXPECT_EQ(past.summary.uncertified_segments, 0) << past.summary.FullReport();
   EXPECT_EQ(MostIntersections(past.path), 0);
-  EXPECT_GT(past.summary.contact_distance, 0);
+  // That of the path, not of the one that it started from.
+  const internal::ContactModel model(past.path.metric, {past.path.shapes[0]},
+                                     internal::ContactModel::Intersections::kExempt, nullptr);
+  const double distance = internal::LeastDistance(model, past.path.shapes);
+  EXPECT_GT(distance, 2 * internal::LeastDistance(model, through.path.shapes));
+  EXPECT_NEAR(past.summary.contact_distance, distance, 0.05 * distance);  // turned differently
   EXPECT_GT(past.summary.energy, through.summary.energy);
   for (const auto& handle : past.summary.handles) EXPECT_LT(handle.residual_max, 1e-12);
   for (int i = 0; i < past.path.NumShapes(); ++i) {
