@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <shapespace/bodies/bar.h>
 #include <shapespace/exploration/explore.h>
 
 #include "solvers/exploration/spaces.h"
@@ -105,6 +106,20 @@ TEST(MeasureBlends, MeasuresInTheMetricOfTheSpace) {
   const BlendErrors other = MeasureBlends(space, 10, options);
   EXPECT_EQ(other.mean, own.mean);
   EXPECT_EQ(other.max, own.max);
+}
+
+// Where only positions count and no pose is turned against another, geodesics are straight lines.
+TEST(MeasureBlends, StraightLinesAreRightWhereTheMetricIsFlat) {
+  const ShapeFamily bar = MakeBar(3, 2, 1, 3, 2, 1);
+  std::vector<Shape> poses(3, bar.pose(0));
+  for (int k = 0; k < 3; ++k) poses[k].row(k) *= 1.5;
+  ExploreOptions options;
+  options.depth = 0;
+  MetricOptions& metric = options.geodesic.metric;
+  metric.isometric = metric.strain = metric.bending = 0;
+  metric.lambda = 1;
+  const PoseSpace space = Explore(bar.connectivity, poses, {}, options).space;
+  EXPECT_LT(MeasureBlends(space, 20, options).max, 1e-3);
 }
 
 TEST(RefinementTest, StopsWhereStraightLinesAreGoodEnough) {
