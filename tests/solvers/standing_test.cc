@@ -206,6 +206,23 @@ TEST(Standing, CommutesWithScaleAndPlace) {
   }
 }
 
+// The shapes of the last interval are as they are to be and converge, those before do not.
+TEST(Standing, AShapeThatDoesNotConvergeIsToldOfWhateverFollows) {
+  const Bridge& bridge = TheBridge();
+  GeodesicOptions motion;
+  motion.shapes = 3;
+  const Path before = Interpolate(bridge.sheet.connectivity,
+                                  {bridge.poses[0], bridge.poses[1], bridge.poses[1]}, motion)
+                          .path;
+  DeformationOptions options = StandingDefaults();
+  Path path = before;
+  const std::vector<StandingPart> parts = {{"left", bridge.left, {{0, 2}}}};
+  EXPECT_TRUE(HoldStandingParts(before, parts, options, &path).Converged());
+  options.max_iterations = 5;
+  path = before;
+  EXPECT_FALSE(HoldStandingParts(before, parts, options, &path).Converged());
+}
+
 TEST(Standing, WhenStoppedThePathIsAsItWas) {
   const Bridge& bridge = TheBridge();
   const Path before = bridge.Motion(true, 3);
