@@ -361,6 +361,7 @@ TEST(Extrapolate, FromTheFirstTwoShapesReturnsTheOthers) {
       EXPECT_TRUE(summary.Converged());
       ASSERT_EQ(again.NumShapes(), path.NumShapes());
       EXPECT_EQ(again.extrapolated, shapes);
+      EXPECT_EQ(Extrapolate(again, 1).path.extrapolated, shapes + 1);
       for (int i = 0; i < path.NumShapes(); ++i) {
         EXPECT_NEAR(again.parameters[i], path.parameters[i], 1e-14);
         EXPECT_LT(Distance(again.shapes[i], path.shapes[i]), 1e-6 * Diameter(path.shapes[i]));

@@ -73,6 +73,9 @@ TEST_F(RecordsTest, OtherInputsAndOptionsFindNone) {
   options_.geodesic.metric.bending *= 1 + 1e-12;
   expect_none("bending");
   options_ = options;
+  options_.geodesic.avoid_contact = true;
+  expect_none("contact");
+  options_ = options;
   poses_[2](1, 17) += 1e-12;
   expect_none("a vertex");
 }
