@@ -570,6 +570,14 @@ TEST(Transport, SaysSoWhereTheSolverRunsOut) {
       << summary.BriefReport();
 }
 
+TEST(Transport, ReportsTheNormThatChangesMost) {
+  TransportSummary summary;
+  summary.first_norm = {4, 2, 0};
+  summary.last_norm = {1, 2.5, 0};
+  EXPECT_NE(summary.BriefReport().find("change by up to 0.75;"), std::string::npos)
+      << summary.BriefReport();
+}
+
 TEST(Transport, ConvergesIfEveryResidualIsWithinTheTolerance) {
   MetricOptions metric;
   metric.volume = 0.3;
