@@ -124,6 +124,17 @@ TEST(MemoryLimit, IsKeptByAllSolvers) {
   }
 }
 
+// Each is held before and after a step.
+TEST(MemoryLimit, OfATransportCountsItsTangents) {
+  const Calls calls;
+  const auto estimate = [&](int tangents) {
+    const std::vector<Tangent> all(tangents, calls.bent - calls.straight);
+    return Transport(calls.path, all).summary.estimated_bytes;
+  };
+  const double of_one = 2 * sizeof(double) * calls.straight.size();
+  EXPECT_GE(estimate(9) - estimate(1), 8 * of_one);
+}
+
 TEST(MemoryLimit, OfATransferIsThatOfItsParts) {
   const Calls calls;
   const double no_limit = std::numeric_limits<double>::infinity();
