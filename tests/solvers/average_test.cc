@@ -125,6 +125,25 @@ TEST(Average, OfASheetThatIsRolledBothWaysIsFlat) {
   EXPECT_EQ(mean.summary.ambiguous_hinges, 0);
 }
 
+// Two triangles, of which one is turned about the common edge.
+TEST(Average, TellsOfHingesWhoseAnglesNoHalfCircleContains) {
+  const auto connectivity =
+      Connectivity::FromTriangles(4, (Eigen::Matrix3Xi(3, 2) << 0, 1, 1, 0, 2, 3).finished());
+  const auto ambiguous = [&](const std::vector<double>& degrees) {
+    std::vector<Shape> poses;
+    for (const double angle : degrees) {
+      const double turn = angle * M_PI / 180;
+      poses.push_back(
+          (Shape(3, 4) << 0, 0, 1, -std::cos(turn), 0, 1, 0.5, 0.5, 0, 0, 0, std::sin(turn))
+              .finished());
+    }
+    return Average(connectivity, poses).summary.ambiguous_hinges;
+  };
+  EXPECT_EQ(ambiguous({160, -160, 170}), 0);
+  EXPECT_EQ(ambiguous({0, 80, -80}), 0);
+  EXPECT_EQ(ambiguous({0, 120, -120}), 1);
+}
+
 TEST(Average, DoesNotDependOnOrderPlaceOrUnit) {
   const SkinnedBody body = MakeQuadruped(1000);
   const std::vector<Shape> poses = {body.pose("stand"), body.pose("sit"), body.pose("stretch")};
