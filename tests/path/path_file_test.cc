@@ -281,7 +281,14 @@ TEST(PathFile, SizesBeyondTheFileAreErrorsInIt) {
   };
   EXPECT_EQ(message("vertices", 2147483647),
             file + ": its array vertex_area has the wrong type or size");
-  EXPECT_EQ(message("vertices", -1), file + ": vertices: must not be negative");
+  for (const char* key : {"vertices", "shapes", "extrapolated"}) {
+    for (const internal::HeaderJson& value :
+         {internal::HeaderJson(-1), internal::HeaderJson(2.5), internal::HeaderJson(1e35),
+          internal::HeaderJson(2147483648), internal::HeaderJson("3")}) {
+      EXPECT_EQ(message(key, value),
+                file + ": " + key + ": must be an integer from 0 to 2147483647");
+    }
+  }
   EXPECT_EQ(message("shapes", 2147483647),
             file + ": its array parameters has the wrong type or size");
   WritePath(file, MakePath());

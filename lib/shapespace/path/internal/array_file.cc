@@ -53,14 +53,10 @@ ArrayReader::ArrayReader(const HeaderJson& table, const std::string& bytes, size
   for (const HeaderJson& entry : table) {
     Array array;
     array.type = entry.at("type").get<std::string>();
-    array.rows = entry.at("rows").get<size_t>();
-    array.columns = entry.at("columns").get<size_t>();
+    array.rows = CountFrom(entry, "rows");
+    array.columns = CountFrom(entry, "columns");
     array.begin = begin;
     const size_t size = array.type == "f8" ? 8 : 4;
-    constexpr size_t kMax = std::numeric_limits<int>::max();
-    if (array.rows > kMax || array.columns > kMax) {
-      throw FileError("its arrays have sizes out of range");
-    }
     if (array.columns != 0 && array.rows > (bytes.size() - begin) / size / array.columns) {
       throw FileError("its arrays are longer than the file");
     }
@@ -107,6 +103,15 @@ void WriteArrayFile(const std::string& file, const ArrayFileKind& kind, HeaderJs
       out.write(part.data(), static_cast<std::streamsize>(part.size()));
     });
   });
+}
+
+int CountFrom(const HeaderJson& header, const char* name) {
+  const HeaderJson& json = header.at(name);
+  constexpr int kMax = std::numeric_limits<int>::max();
+  if (!json.is_number_unsigned() || json.get<std::uint64_t>() > kMax) {
+    throw FileError(std::string(name) + ": must be an integer from 0 to " + std::to_string(kMax));
+  }
+  return json.get<int>();
 }
 
 std::vector<int> IndicesFrom(const ArrayReader& arrays, const std::string& name) {

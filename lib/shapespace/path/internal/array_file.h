@@ -148,6 +148,10 @@ auto ReadArrayFile(const std::string& file, const ArrayFileKind& kind, const Par
   }
 }
 
+/// How many there are of something, by the name of a field of a header.
+/// \throw FileError, without the file's name, if it is no integer from 0 to 2^31 - 1.
+int CountFrom(const HeaderJson& header, const char* name);
+
 /// The entries of an integer array with one column.
 std::vector<int> IndicesFrom(const ArrayReader& arrays, const std::string& name);
 

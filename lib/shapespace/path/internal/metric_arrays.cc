@@ -206,8 +206,7 @@ void AddMetric(const Metric& metric, HeaderJson* header, ArrayWriter* arrays) {
 }
 
 std::shared_ptr<const Metric> ReadMetric(const HeaderJson& header, const ArrayReader& arrays) {
-  const int num_vertices = header.at("vertices").get<int>();
-  if (num_vertices < 0) throw FileError("vertices: must not be negative");
+  const int num_vertices = CountFrom(header, "vertices");
   const auto metric = std::make_shared<Metric>();
   // First, because it shows that the file is large enough for so many vertices.
   metric->vertex_area = arrays.Get<Eigen::VectorXd>("vertex_area", num_vertices, 1);

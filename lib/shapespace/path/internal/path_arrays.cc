@@ -24,11 +24,11 @@ Path ReadPath(const std::string& file, const HeaderJson& header, const ArrayRead
   Path path;
   path.metric = ReadMetric(header, arrays);
   const int num_vertices = path.metric->connectivity->NumVertices();
-  const int num_shapes = header.at("shapes").get<int>();
+  const int num_shapes = CountFrom(header, "shapes");
   const auto parameters = arrays.Get<Eigen::VectorXd>("parameters", num_shapes, 1);
   path.parameters.assign(parameters.begin(), parameters.end());
   path.poses = IndicesFrom(arrays, "poses");
-  path.extrapolated = header.at("extrapolated").get<int>();
+  path.extrapolated = CountFrom(header, "extrapolated");
   path.converged = header.at("converged").get<bool>();
   path.smooth = header.value("smooth", false);
   path.motions = ReadMotions(arrays, num_shapes);

@@ -31,7 +31,7 @@ PoseSpace ReadSpace(const std::string& file, const HeaderJson& header, const Arr
   PoseSpace space;
   space.metric = ReadMetric(header, arrays);
   space.appearance = ReadAppearance(header, file, arrays);
-  const int count = header.at("nodes").get<int>();
+  const int count = CountFrom(header, "nodes");
   for (int i = 0; i < count; ++i) {
     space.nodes.push_back(arrays.Get<Shape>("node" + std::to_string(i), 3,
                                             space.metric->connectivity->NumVertices()));

@@ -39,7 +39,7 @@ PoseModes ReadModes(const std::string& file, const HeaderJson& header, const Arr
   header.at("total_variance").get_to(modes.total_variance);
   header.at("provenance").get_to(modes.provenance);
   const auto count = static_cast<Eigen::Index>(modes.names.size());
-  const int num_modes = header.at("modes").get<int>();
+  const int num_modes = CountFrom(header, "modes");
   modes.weights = arrays.Get<Eigen::VectorXd>("weights", count, 1);
   modes.variances = arrays.Get<Eigen::VectorXd>("variances", num_modes, 1);
   modes.coefficients = arrays.Get<Eigen::MatrixXd>("coefficients", count, num_modes);
