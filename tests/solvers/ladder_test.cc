@@ -57,6 +57,24 @@ TEST(Ladder, HardlyDependsOnHowFinelyTheSourceIsDivided) {
   }
 }
 
+// Where only positions count, transport leaves velocities as they are.
+TEST(Ladder, WithoutScalingALargeTargetMovesAsFarAsTheSource) {
+  const Shape bar = ThickBar().pose(0);
+  Shape wide = bar;
+  wide.row(1) *= 1.5;
+  const Path source = PathOf(ThickBar().connectivity, {bar, wide});
+  TransferOptions options = Ladder();
+  options.ladder.metric = MetricOptions();
+  options.ladder.metric.strain = options.ladder.metric.bending = 0;
+  options.ladder.metric.lambda = 1;
+  for (const bool scale : {true, false}) {
+    options.ladder.scale = scale;
+    const Path path = Transfer(source, 3 * bar, options).path;
+    const Shape expected = 3 * bar + (scale ? 3 : 1) * (wide - bar);
+    EXPECT_LT((path.Placed(1) - expected).norm(), 1e-3 * (wide - bar).norm()) << scale;
+  }
+}
+
 TEST(Ladder, ACopyMovesAsTheSourceDoes) {
   std::vector<Shape> shapes;
   for (int i = 0; i <= 3; ++i) {

@@ -230,6 +230,22 @@ TEST(ShapeModel, WithoutSizeLargePosesAreTheSameShape) {
   EXPECT_LT(model.Coordinates(3 * poses[1]).distance, 1e-3 * Diameter(poses[1]));
 }
 
+TEST(ShapeModel, ADistanceIsInTheUnitOfTheShape) {
+  std::vector<Shape> poses = AnimalPoses(4);
+  for (Shape& pose : poses) pose *= 1000;
+  const Shape other = 1.5 * poses.back();
+  poses.pop_back();
+  for (const PoseSize size : {PoseSize::kKeep, PoseSize::kRemove}) {
+    ShapeModelOptions options;
+    options.size = size;
+    const ShapeModel model(MakeShapeModel(Animal().connectivity, poses, {}, options).modes);
+    const ModelCoordinates found = model.Coordinates(other);
+    const Eigen::VectorXd squared = (found.shape - other).colwise().squaredNorm().transpose();
+    const double distance = std::sqrt(squared.dot(model.Modes().metric->vertex_area));
+    EXPECT_NEAR(found.distance, distance, 1e-6 * distance);
+  }
+}
+
 TEST(ShapeModel, OfCopiesOfOneShapeHasNoModes) {
   const Shape pose = Animal().pose("sit");
   for (const int copies : {1, 3}) {

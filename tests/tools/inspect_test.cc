@@ -33,6 +33,14 @@ TEST_F(InspectTest, TellsWhatIsInAMesh) {
   ExpectContains(outcome.out, "1 normals (vn) not kept");
 }
 
+TEST_F(InspectTest, WhatFollowsTwoDashesIsNoFlag) {
+  MakeTubes();
+  std::filesystem::rename(Path("tube1.obj"), Path("--other.obj"));
+  const Outcome outcome = Run("shape-inspect", {"--", "tube0.obj", "--other.obj"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.out, "--other.obj");
+}
+
 TEST_F(InspectTest, SeesThroughRigidMotion) {
   const Soup torus = testing::Torus(12, 8);
   const Eigen::Matrix3d turn(Eigen::AngleAxisd(M_PI / 6, Eigen::Vector3d(1, 2, 3).normalized()));
