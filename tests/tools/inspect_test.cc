@@ -123,6 +123,10 @@ TEST_F(InspectTest, TellsPartsJointsAndCrossings) {
       "crossings    pairs of triangles: poses up to 0; inner shapes 0, up to 0; 0 beyond");
   ExpectContains(outcome.out, "deviation    of edge lengths from the first pose");
   ExpectContains(outcome.out, "parts        3 move nearly rigidly");
+  std::smatch joint;
+  ASSERT_TRUE(std::regex_search(outcome.out, joint, std::regex("([0-9.]+)% of the surface is")));
+  EXPECT_GT(std::stod(joint[1]), 2);
+  EXPECT_LT(std::stod(joint[1]), 50);
 }
 
 TEST_F(InspectTest, TellsWhereAMeshPassesThroughItself) {

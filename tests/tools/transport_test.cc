@@ -69,6 +69,12 @@ TEST_F(TransportToolTest, APathGivesWhatItsPosesGive) {
   const Shape from_poses = ReadSoup(Path("poses.ply")).vertices;
   const Shape from_path = ReadSoup(Path("path.ply")).vertices;
   EXPECT_LE((from_poses - from_path).norm(), 1e-3 * from_poses.norm());
+
+  Soup flipped = ReadSoup(Path("changed.ply"));
+  flipped.vertices.row(0) *= -1;
+  WriteMesh(Path("flipped.ply"), flipped.vertices, flipped);
+  Succeed("shape-transport", {"w.path", "flipped.ply", "--mirror", "x", "-o", "back.ply"});
+  EXPECT_EQ(ReadSoup(Path("back.ply")).vertices, from_path);
   const auto report = nlohmann::json::parse(Content(Path("r.json")));
   EXPECT_EQ(report["termination"], "converged");
   EXPECT_NEAR(report["transport"]["last_norm"][0].get<double>() /
