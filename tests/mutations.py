@@ -224,8 +224,8 @@ SPECIAL_CASES = [
      "feature.weights(h) = basis.hinge_stiffness(h) * aspect;", WEIGHTS),
 ]
 
-# Fifty wrong lines, as someone could write them by mistake, spread over the folders in proportion
-# to the folders' lines. Any test may notice.
+# Wrong lines, as someone could write them by mistake, spread over the folders in proportion to the
+# folders' lines. Any test may notice.
 LINES = [
     ("lib/analysis/quality.cc", "t * WrapAngle(angle_n - angle_m)", "t * (angle_n - angle_m)"),
     ("lib/analysis/rigid_parts.cc",
@@ -332,7 +332,7 @@ LINES = [
      "(content.size() - kHeader) % kTriangle == 0", "(content.size() - 80) % kTriangle == 0"),
 ]
 
-# Fifty others, written when the tests had noticed those above. Any test may notice.
+# Fifty others, written when tests noticed those above, by someone who had not read the tests.
 MORE_LINES = [
     ("lib/analysis/path_intersections.cc",
      "std::max(around, result.pairs[*(next - 1)])", "result.pairs[*(next - 1)]"),
