@@ -67,8 +67,8 @@ def build(folder, compiler, flags):
 
 
 def vertices(file):
-  with open(file, encoding="ascii") as lines:
-    return [[float(x) for x in line.split()[1:4]] for line in lines if line.startswith("v ")]
+  with open(file, encoding="ascii") as opened:
+    return [[float(x) for x in line.split()[1:4]] for line in opened if line.startswith("v ")]
 
 
 def size(points):
