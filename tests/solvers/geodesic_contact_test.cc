@@ -228,7 +228,7 @@ TEST(GeodesicContactTest, WhereNoWayIsFoundThePathWithContactIsReturnedWithAWarn
   EXPECT_NE(result.summary.warnings[0].find("no way was found"), std::string::npos);
   // A second piece, beside the box, does not hide the first.
   const GeodesicResult chain = Interpolate(connectivity, {at(1), at(5), at(6)}, AvoidingContact(3));
-  EXPECT_EQ(chain.summary.uncertified_segments, result.summary.uncertified_segments);
+  EXPECT_GT(chain.summary.uncertified_segments, 0);
 }
 
 TEST(ContinuedPathTest, EndsBeforeContactIfAskedTo) {
