@@ -96,6 +96,18 @@ TEST(CheckSameMeshTest, RenumberedVerticesAreRecognised) {
              {"looks like the same mesh with its vertices in another order"});
 }
 
+// No polygon uses the first vertex.
+TEST(CheckSameMeshTest, TheFirstVertexOfAnotherNumberIsNamed) {
+  Soup mesh;
+  mesh.vertices = Grid(2, 1).vertices;
+  mesh.corners = {1, 2, 5, 4};
+  mesh.polygon_begin = {0, 4};
+  Soup pose = mesh;
+  pose.corners = {1, 2, 4, 5};
+  ExpectOnly(Named(mesh, "a.obj", 1), Named(pose, "b.obj", 1), "polygons-differ", Severity::kFatal,
+             {"the reference's vertex 5 is number 6 here"});
+}
+
 TEST(CheckSameMeshTest, OrderAndFirstCornerOfPolygonsDoNotMatter) {
   const Soup torus = Torus(9, 7);
   Soup pose = torus;
