@@ -175,8 +175,8 @@ TEST(FreezeMetric, AChainOfAnyLengthIsAStripAsWideAsTheSurfacesCells) {
       pose.col(25 + k) = grid.vertices.col(24) + (k + 1) * Eigen::Vector3d::UnitZ();
       chain.emplace_back(24 + k, 25 + k);
     }
-    const auto connectivity = Connectivity::Make(25 + length, grid.polygon_begin, grid.corners,
-                                                 chain, std::vector<std::pair<int, int>>());
+    const auto connectivity =
+        Connectivity::Make(25 + length, grid.polygon_begin, grid.corners, chain);
     const auto metric = FreezeMetric({}, connectivity, {pose});
     EXPECT_NEAR(metric->vertex_area(25) / metric->vertex_area(12), 0.8, 1e-12) << length;
   }

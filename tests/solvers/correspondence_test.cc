@@ -574,8 +574,7 @@ TEST(CarryPath, TakesADeformationOfAClosedTemplateToAnOpenScan) {
   MetricOptions options = path.metric->options;
   options.bending_stiffness.setConstant(bar.connectivity->NumEdges(), 5);
   options.stiffness_on = StiffnessOn::kEdges;
-  std::vector<Shape> shapes;
-  for (int k = 0; k < path.NumShapes(); ++k) shapes.push_back(path.Placed(k));
+  const std::vector<Shape> shapes = path.Placed();
   const Path stiff =
       MakePath(FreezeMetric(options, bar.connectivity, shapes), shapes, path.parameters);
   const MetricOptions of_scan = CarryPath(fit, stiff, scan, rest).metric->options;

@@ -82,7 +82,7 @@ TEST(DeformationContactTest, AnEndPushesTheOtherAside) {
   EXPECT_EQ(MostIntersections(past.path), 0);
   // That of the path, not of the one that it started from.
   const internal::ContactModel model(past.path.metric, {past.path.shapes[0]},
-                                     internal::ContactModel::Intersections::kExempt, nullptr);
+                                     internal::ContactModel::Intersections::kExempt);
   const double distance = internal::LeastDistance(model, past.path.shapes);
   EXPECT_GT(distance, 2 * internal::LeastDistance(model, through.path.shapes));
   EXPECT_NEAR(past.summary.contact_distance, distance, 0.05 * distance);  // turned differently

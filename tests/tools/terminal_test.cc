@@ -169,7 +169,7 @@ TEST_F(TerminalTest, ATerminalThatTakesNoTextDoesNotKeepItFromEnding) {
       Wait(process);
     }
     EXPECT_EQ(WTERMSIG(status), SIGTERM);
-    terminal_.WaitFor("nothing that is ever written", 100);
+    Screen();  // so that the next one can write
   }
 }
 
