@@ -34,13 +34,25 @@ LIMIT = 1800
 HEADER = """\
 // Written by tests/mutations.py.
 #pragma once
+#include <atomic>
+#include <cstdio>
 #include <cstdlib>
 
+// Whether the mutation with this number is in force. All numbers that a run asks for are appended to
+// the file that SHAPESPACE_REACHED names, if any.
 inline bool MutationIs(int number) {
   static const int chosen = [] {
     const char* text = std::getenv("SHAPESPACE_MUTATION");
     return text ? std::atoi(text) : 0;
   }();
+  static const char* const reached = std::getenv("SHAPESPACE_REACHED");
+  static std::atomic<bool> written[1000];
+  if (reached && !written[number].exchange(true)) {
+    if (std::FILE* file = std::fopen(reached, "a")) {
+      std::fprintf(file, "%d\n", number);
+      std::fclose(file);
+    }
+  }
   return number == chosen;
 }
 """
@@ -518,12 +530,25 @@ def programs_for(file, tests):
   return sorted(PROGRAMS, key=lambda program: os.path.basename(program) != own)
 
 
-def failing_test(number, programs, tests):
+def reached_by(program):
+  """The numbers of the mutations whose lines a test program runs."""
+  with tempfile.TemporaryDirectory() as folder:
+    numbers = os.path.join(folder, "numbers")
+    fails = failing_test(0, [program], None, {"SHAPESPACE_REACHED": numbers})
+    if fails:
+      sys.exit(f"without any change fails {fails}")
+    if not os.path.exists(numbers):
+      return set()
+    with open(numbers) as file:
+      return set(map(int, file))
+
+
+def failing_test(number, programs, tests, variables={}):
   """The first test that fails under a mutation, or None."""
   for program in programs:
     with tempfile.TemporaryDirectory() as folder:
       environment = {**os.environ, "SHAPESPACE_MUTATION": str(number), "TMPDIR": folder,
-                     "TEST_TMPDIR": folder}
+                     "TEST_TMPDIR": folder, **variables}
       try:
         tested = subprocess.run([os.path.join(BUILD, "tests", program), "--gtest_fail_fast",
                                  "--gtest_filter=" + (tests or "*")], cwd=folder, env=environment,
@@ -551,12 +576,16 @@ def main():
   copy_tree()
   build()
   with concurrent.futures.ThreadPoolExecutor(options.j) as pool:
-    needed = sorted({program for m in chosen for program in programs_for(m[1], m[4])})
-    for fails in pool.map(lambda program: failing_test(0, [program], None), needed):
-      if fails:
-        sys.exit(f"without any change fails {fails}")
+    needed = sorted({program for m in chosen for program in programs_for(m[1], m[4])},
+                    key=PROGRAMS.index, reverse=True)
+    reached = dict(zip(needed, pool.map(reached_by, needed)))
+
+    def noticing_test(number, file, tests):
+      programs = [p for p in programs_for(file, tests) if number in reached[p]]
+      return failing_test(number, programs, tests)
+
     survived = 0
-    noticed = pool.map(lambda m: failing_test(m[0], programs_for(m[1], m[4]), m[4]), chosen)
+    noticed = pool.map(lambda m: noticing_test(m[0], m[1], m[4]), chosen)
     for (number, file, text, instead, _), by in zip(chosen, noticed):
       survived += by is None
       print(f"{'SURVIVED' if by is None else 'noticed '}  {number:3}  {file}: {text}  ->  {instead}"
