@@ -49,7 +49,7 @@ inline bool MutationIs(int number) {
   static std::atomic<bool> written[1000];
   if (reached && !written[number].exchange(true)) {
     if (std::FILE* file = std::fopen(reached, "a")) {
-      std::fprintf(file, "%d\n", number);
+      std::fprintf(file, "%d ", number);
       std::fclose(file);
     }
   }
@@ -540,7 +540,7 @@ def reached_by(program):
     if not os.path.exists(numbers):
       return set()
     with open(numbers) as file:
-      return set(map(int, file))
+      return set(map(int, file.read().split()))
 
 
 def failing_test(number, programs, tests, variables={}):
