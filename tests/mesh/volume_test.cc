@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include <shapespace/mesh/surface.h>
 #include <shapespace/mesh/volume.h>
 
 #include "mesh/bodies.h"
@@ -74,6 +76,35 @@ TEST(VolumeTest, MirrorImagesOfClosedBodiesAreTold) {
   Shape flipped_sheet = sheet.vertices;
   flipped_sheet.row(0) *= -1;
   EXPECT_FALSE(IsMirrored(Connected(sheet)->Triangles(), sheet.vertices, flipped_sheet));
+}
+
+TEST(VolumeTest, OnlyClosedBodiesThatAreNotFlatEncloseAVolume) {
+  Soup box = Cube();
+  const Eigen::Matrix3Xi triangles = Connected(box)->Triangles();
+  const auto sized = [&](double x, double y, double z) -> Shape {
+    return Eigen::Vector3d(x, y, z).asDiagonal() * box.vertices;
+  };
+  EXPECT_NEAR(EnclosedVolume(triangles, sized(2, 3, 5)), 30, 1e-12);
+  EXPECT_NEAR(EnclosedVolume(triangles, sized(2, -3, 5)), -30, 1e-12);
+  EXPECT_TRUE(EnclosesVolume(triangles, sized(2, 3, 5)));
+  EXPECT_TRUE(EnclosesVolume(triangles, sized(2, -3, 5)));
+  EXPECT_TRUE(EnclosesVolume(triangles, sized(2, 3, 1e-4)));
+  EXPECT_FALSE(EnclosesVolume(triangles, sized(2, 3, 1e-8)));
+  EXPECT_FALSE(EnclosesVolume(triangles, sized(0, 0, 0)));
+  EXPECT_FALSE(EnclosesVolume(triangles.leftCols(11), sized(2, 3, 5)));
+}
+
+TEST(VolumeTest, NormalsOfVerticesAreMeansByAreaAndZeroWhereNoTriangleIs) {
+  Shape shape(3, 5);
+  shape << 0, 2, 0, 0, 7, 0, 0, 1, 0, 8, 0, 0, 0, 3, 9;
+  Eigen::Matrix3Xi triangles(3, 2);
+  triangles << 0, 0, 1, 2, 2, 3;
+  const Shape normals = VertexNormals(*Connectivity::FromTriangles(5, triangles), shape);
+  Shape expected(3, 5);
+  expected << 3 / std::sqrt(13), 0, 3 / std::sqrt(13), 1, 0,  //
+      0, 0, 0, 0, 0,                                          //
+      2 / std::sqrt(13), 1, 2 / std::sqrt(13), 0, 0;
+  EXPECT_LT((normals - expected).norm(), 1e-13);
 }
 
 }  // namespace
