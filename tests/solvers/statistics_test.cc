@@ -1,0 +1,412 @@
+// Regressions, comparisons of groups, files and tables of modes that were made by hand, for which
+// everything can be worked out.
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+#include <shapespace/base/error.h>
+#include <shapespace/statistics/modes_file.h>
+#include <shapespace/statistics/pose_table.h>
+#include <shapespace/statistics/regression.h>
+
+#include "mesh/files.h"
+#include "support/message_of.h"
+#include "support/motions.h"
+
+namespace shapespace {
+namespace {
+
+using testing::MessageOf;
+
+// Modes of a triangle with these coordinates of its poses, whose weights are as 1, 2, 3, ...
+PoseModes TriangleModes(const Eigen::MatrixXd& coordinates, const Eigen::VectorXd& variances,
+                        double total) {
+  PoseModes modes;
+  Shape triangle(3, 3);
+  triangle << 0, 3, 1, 0, 0, 2, 0, 0, 0;
+  modes.metric =
+      FreezeMetric({}, Connectivity::FromTriangles(3, Eigen::Vector3i(0, 1, 2)), {triangle});
+  const auto count = static_cast<int>(coordinates.rows());
+  modes.weights = Eigen::VectorXd::LinSpaced(count, 1, count);
+  modes.weights /= modes.weights.sum();
+  for (int i = 0; i < count; ++i) {
+    modes.poses.push_back((1 + 0.125 * i) * triangle);
+    modes.motions.push_back({testing::Rotation(20 * i, {1, 2, 3}), Eigen::Vector3d(i, 2 * i, 7)});
+    modes.names.push_back("pose " + std::to_string(i + 1));
+  }
+  modes.mean = 1.0625 * triangle;
+  modes.place = {testing::Rotation(50, {3, 1, 2}), Eigen::Vector3d(4, 5, 6)};
+  modes.variances = variances;
+  modes.total_variance = total;
+  modes.coefficients = modes.weights.asDiagonal() * coordinates;
+  for (int k = 0; k < coordinates.cols(); ++k) {
+    modes.modes.push_back(Tangent::Constant(3, 3, 0.5 + k));
+  }
+  return modes;
+}
+
+Eigen::MatrixXd SixRows() {
+  Eigen::MatrixXd rows(6, 3);
+  rows << 0.3, -1.2, 0.8,  //
+      1.7, 0.4, -0.6,      //
+      -0.9, 0.9, 1.4,      //
+      0.2, -0.7, -1.1,     //
+      -1.4, 1.5, 0.1,      //
+      0.6, -0.3, -0.5;
+  return rows;
+}
+
+PoseModes SixPoses() { return TriangleModes(SixRows(), Eigen::Vector3d(0.5, 0.25, 0.125), 1); }
+
+TEST(PoseModes, SharesAndCoordinatesAreThoseOfTheNumbers) {
+  const PoseModes modes = SixPoses();
+  EXPECT_TRUE(modes.Coordinates().isApprox(SixRows(), 1e-14));
+  EXPECT_EQ(modes.Share(0), 0);
+  EXPECT_EQ(modes.Share(1), 0.5);
+  EXPECT_EQ(modes.Share(3), 0.875);
+  PoseModes none = modes;
+  none.total_variance = 0;
+  EXPECT_EQ(none.Share(0), 1);
+  const PoseModes two = FirstModes(modes, 2);
+  EXPECT_EQ(two.NumModes(), 2);
+  EXPECT_EQ(two.variances, Eigen::Vector2d(0.5, 0.25));
+  EXPECT_EQ(two.coefficients, modes.coefficients.leftCols(2));
+  EXPECT_EQ(two.total_variance, 1);
+  EXPECT_EQ(FirstModes(modes, 0).NumModes(), 0);
+  EXPECT_EQ(MessageOf<InvalidOptions>([&] { FirstModes(modes, -1); }),
+            "modes: must be from 0 to 3");
+  EXPECT_EQ(MessageOf<InvalidOptions>([&] { FirstModes(modes, 4); }), "modes: must be from 0 to 3");
+}
+
+TEST(PoseModes, WhatDoesNotFitTogetherIsSaid) {
+  const auto message = [](void (*change)(PoseModes*)) {
+    PoseModes modes = SixPoses();
+    change(&modes);
+    return MessageOf<MeshError>([&] { modes.Validate(); });
+  };
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(message([](PoseModes*) {}), "nothing was thrown");
+  EXPECT_EQ(message([](PoseModes* m) { m->poses.clear(); }), "the modes: there is no pose");
+  const std::string poses = "the modes: poses, names, weights and coefficients differ in number";
+  EXPECT_EQ(message([](PoseModes* m) { m->names.pop_back(); }), poses);
+  EXPECT_EQ(message([](PoseModes* m) { m->motions.pop_back(); }), poses);
+  EXPECT_EQ(message([](PoseModes* m) { m->weights = Eigen::VectorXd::Constant(5, 0.2); }), poses);
+  EXPECT_EQ(message([](PoseModes* m) { m->coefficients.conservativeResize(5, 3); }), poses);
+  const std::string of_modes = "the modes: modes, variances and coefficients differ in number";
+  EXPECT_EQ(message([](PoseModes* m) { m->variances.conservativeResize(2); }), of_modes);
+  EXPECT_EQ(message([](PoseModes* m) { m->coefficients.conservativeResize(6, 2); }), of_modes);
+  EXPECT_EQ(message([](PoseModes* m) { m->modes.pop_back(); }), of_modes);
+  const std::string broken = " is not finite, or has another number of vertices than the mesh";
+  EXPECT_EQ(message([](PoseModes* m) { m->mean(0, 1) = kNan; }), "the modes: the mean" + broken);
+  EXPECT_EQ(message([](PoseModes* m) { m->mean.conservativeResize(3, 2); }),
+            "the modes: the mean" + broken);
+  EXPECT_EQ(message([](PoseModes* m) { m->poses[5](0, 1) = kNan; }), "the modes: a pose" + broken);
+  EXPECT_EQ(message([](PoseModes* m) { m->modes[2](0, 1) = kNan; }), "the modes: a mode" + broken);
+  const std::string place = "the modes: the place of a pose is not finite";
+  EXPECT_EQ(message([](PoseModes* m) { m->motions[5].rotation(0, 1) = kNan; }), place);
+  EXPECT_EQ(message([](PoseModes* m) { m->motions[5].translation(1) = kNan; }), place);
+  EXPECT_EQ(message([](PoseModes* m) {
+              m->motions[5].rotation.setConstant(1e308);
+              m->poses[5].setConstant(1e10);
+            }),
+            "the modes: a pose is not finite where its motion places it");
+  EXPECT_EQ(message([](PoseModes* m) {
+              m->place.rotation.setConstant(1e308);
+              m->mean.setConstant(1e10);
+            }),
+            "the modes: the mean is not finite where it is placed");
+  EXPECT_EQ(message([](PoseModes* m) { m->coefficients(5, 2) = kNan; }),
+            "the modes: a number is not finite");
+  const std::string weights = "the modes: the weights are not positive, or their sum is not 1";
+  EXPECT_EQ(message([](PoseModes* m) { m->weights(0) *= 1.001; }), weights);
+  EXPECT_EQ(message([](PoseModes* m) {
+              m->weights(5) += m->weights(0);
+              m->weights(0) = 0;
+            }),
+            weights);
+  const std::string variance = "the modes: a variance is not positive, or they exceed the total";
+  EXPECT_EQ(message([](PoseModes* m) { m->variances(2) = 0; }), variance);
+  EXPECT_EQ(message([](PoseModes* m) { m->total_variance = 0.87; }), variance);
+  EXPECT_EQ(
+      message([](PoseModes* m) { m->total_variance = std::numeric_limits<double>::infinity(); }),
+      variance);
+  EXPECT_EQ(message([](PoseModes* m) { m->total_variance = 0.875; }), "nothing was thrown");
+}
+
+// Against the normal equations, with the weights as a matrix.
+TEST(Regress, IsTheWeightedLeastSquaresFit) {
+  const PoseModes modes = SixPoses();
+  Eigen::MatrixXd values(6, 2);
+  values << 10, 3, 12, -1, 17, 4, 11, 5, 19, -2, 14, 6;
+  const Regression regression = Regress(modes, {"age", "weight"}, values);
+  Eigen::MatrixXd design(6, 3);
+  design << Eigen::VectorXd::Ones(6), values;
+  const Eigen::MatrixXd weights = modes.weights.asDiagonal();
+  const Eigen::MatrixXd beta =
+      (design.transpose() * weights * design).inverse() * design.transpose() * weights * SixRows();
+  EXPECT_TRUE(regression.intercept.isApprox(beta.row(0).transpose(), 1e-9));
+  EXPECT_TRUE(regression.slopes.isApprox(beta.bottomRows(2).transpose(), 1e-9));
+  EXPECT_EQ(regression.scalars, (std::vector<std::string>{"age", "weight"}));
+  EXPECT_EQ(regression.least, Eigen::Vector2d(10, -2));
+  EXPECT_EQ(regression.most, Eigen::Vector2d(19, 6));
+  EXPECT_TRUE(regression.mean.isApprox(values.transpose() * modes.weights, 1e-14));
+  double left = 0, all = 0;
+  const Eigen::MatrixXd residuals = SixRows() - design * beta;
+  const Eigen::MatrixXd centred =
+      SixRows().rowwise() - Eigen::RowVectorXd(modes.weights.transpose() * SixRows());
+  for (int k = 0; k < 3; ++k) {
+    left += modes.variances(k) * residuals.col(k).cwiseAbs2().dot(modes.weights);
+    all += modes.variances(k) * centred.col(k).cwiseAbs2().dot(modes.weights);
+  }
+  EXPECT_NEAR(regression.r_squared, 1 - left / all, 1e-9);
+  EXPECT_TRUE(regression.CoordinatesAt(values.row(3).transpose())
+                  .isApprox((design.row(3) * beta).transpose(), 1e-9));
+}
+
+TEST(Regress, OneChanceValueIsTheLeastProbability) {
+  // The first coordinate is the scalar, and of all orders but its own none explains as much.
+  Eigen::MatrixXd coordinates(6, 1);
+  coordinates << 1, 2.3, 3.1, 4.7, 5.2, 9;
+  const PoseModes modes = TriangleModes(coordinates, Eigen::VectorXd::Ones(1), 1);
+  PermutationOptions options;
+  options.permutations = 3;
+  const Regression regression = Regress(modes, {"own"}, 2 * coordinates, options);
+  EXPECT_NEAR(regression.r_squared, 1, 1e-12);
+  EXPECT_EQ(regression.p_value, 0.25);
+  ASSERT_EQ(regression.p_values.size(), 1u);
+  EXPECT_EQ(regression.p_values[0], 0.25);
+  options.permutations = 0;
+  EXPECT_EQ(MessageOf<InvalidOptions>([&] { options.Validate(); }),
+            "permutations: must be 1 or more");
+  options.permutations = 1;
+  EXPECT_NO_THROW(options.Validate());
+}
+
+TEST(Regress, RefusalsNameTheScalarAndTheRemedy) {
+  const PoseModes modes = SixPoses();
+  const auto message = [&](const std::vector<std::string>& names, const Eigen::MatrixXd& values) {
+    return MessageOf<InvalidOptions>([&] { Regress(modes, names, values); });
+  };
+  const std::string number = "scalars: must be one or more, with a value for each of the 6 poses";
+  const Eigen::MatrixXd random = SixRows();
+  EXPECT_EQ(message({"a"}, random.topLeftCorner(5, 1)), number);
+  EXPECT_EQ(message({"a"}, random.leftCols(2)), number);
+  EXPECT_EQ(message({}, random.leftCols(0)), number);
+  Eigen::MatrixXd values = random.leftCols(1);
+  values(5, 0) = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(message({"a"}, values), "scalars: must be finite");
+  Eigen::MatrixXd five(6, 5), four(6, 4);
+  five << random, random.leftCols(2).cwiseAbs2();
+  four << random, random.col(0).cwiseAbs2();
+  EXPECT_EQ(message({"a", "b", "c", "d", "e"}, five),
+            "scalars: are too many for 6 poses; at least two poses more are needed");
+  EXPECT_EQ(message({"a", "b", "c", "d"}, four), "nothing was thrown");
+  values = random.leftCols(2);
+  values.col(1).setConstant(3);
+  EXPECT_EQ(message({"a", "b"}, values), "scalars: b is the same for all poses");
+  const Regression regression = Regress(modes, {"a", "b"}, random.leftCols(2));
+  EXPECT_EQ(MessageOf<InvalidOptions>([&] { regression.CoordinatesAt(Eigen::Vector3d(1, 2, 3)); }),
+            "values: must be 2 finite numbers, one for each scalar");
+  EXPECT_EQ(MessageOf<InvalidOptions>([&] {
+              regression.CoordinatesAt(Eigen::Vector2d(1, std::numeric_limits<double>::infinity()));
+            }),
+            "values: must be 2 finite numbers, one for each scalar");
+}
+
+// Three groups of two, three and four poses; the labels are mixed.
+TEST(CompareGroups, IsHotellingsTSquaredOfEveryPair) {
+  Eigen::MatrixXd rows(9, 3);
+  rows << SixRows(), 2 * SixRows().topRows(3).array() + 0.25;
+  const PoseModes modes = TriangleModes(rows, Eigen::Vector3d(0.5, 0.25, 0.125), 1);
+  const std::vector<std::string> labels = {"c", "a", "b", "c", "b", "c", "a", "b", "c"};
+  GroupOptions options;
+  options.modes = 1;
+  options.permutation.permutations = 99;
+  const std::vector<GroupDifference> one = CompareGroups(modes, labels, options);
+  ASSERT_EQ(one.size(), 3u);
+  options.modes = 2;
+  const std::vector<GroupDifference> two = CompareGroups(modes, labels, options);
+  const std::pair<const char*, const char*> pairs[] = {{"a", "b"}, {"a", "c"}, {"b", "c"}};
+  for (int p = 0; p < 3; ++p) {
+    const auto& [first, second] = pairs[p];
+    const auto of = [&](const std::string& label) {
+      std::vector<int> members;
+      for (int i = 0; i < 9; ++i) {
+        if (labels[i] == label) members.push_back(i);
+      }
+      return Eigen::MatrixXd(rows(members, Eigen::seq(0, 1)));
+    };
+    const Eigen::MatrixXd a = of(first), b = of(second);
+    const auto scatter = [](const Eigen::MatrixXd& x) -> Eigen::Matrix2d {
+      const Eigen::Vector2d mean = x.colwise().mean().transpose();
+      return x.transpose() * x - static_cast<double>(x.rows()) * mean * mean.transpose();
+    };
+    const Eigen::Vector2d way = (b.colwise().mean() - a.colwise().mean()).transpose();
+    const double count = static_cast<double>(a.rows() + b.rows());
+    const Eigen::Matrix2d pooled = (scatter(a) + scatter(b)) / (count - 2);
+    const double factor = static_cast<double>(a.rows() * b.rows()) / count;
+    EXPECT_EQ(one[p].first, first);
+    EXPECT_EQ(one[p].second, second);
+    EXPECT_EQ(one[p].first_count, a.rows());
+    EXPECT_EQ(one[p].second_count, b.rows());
+    EXPECT_EQ(one[p].modes, 1);
+    EXPECT_EQ(two[p].modes, 2);
+    EXPECT_NEAR(one[p].t_squared, factor * way(0) * way(0) / pooled(0, 0), 1e-9);
+    EXPECT_NEAR(two[p].t_squared, factor * way.dot(pooled.inverse() * way),
+                1e-9 * two[p].t_squared);
+    EXPECT_NEAR(one[p].distance, std::sqrt(0.5) * std::abs(way(0)), 1e-12);
+    EXPECT_NEAR(two[p].distance, std::sqrt(0.5 * way(0) * way(0) + 0.25 * way(1) * way(1)), 1e-12);
+    for (const double probability : {two[p].t_squared_p, two[p].distance_p}) {
+      // Of a hundred, counted with the true one.
+      EXPECT_NEAR(100 * probability, std::round(100 * probability), 1e-9);
+      EXPECT_GE(probability, 0.01);
+      EXPECT_LE(probability, 1);
+    }
+  }
+}
+
+TEST(CompareGroups, TakesTheModesWithMostOfTheVarianceButNotTooMany) {
+  Eigen::MatrixXd rows(12, 4);
+  for (int i = 0; i < rows.size(); ++i) rows.data()[i] = std::sin(1 + 1.7 * i * i);
+  const PoseModes modes = TriangleModes(rows, Eigen::Vector4d(0.6, 0.3, 0.07, 0.02), 1);
+  GroupOptions options;
+  options.permutation.permutations = 9;
+  const auto chosen = [&](const PoseModes& of, std::vector<std::string> labels) {
+    labels.resize(12, "c");
+    return CompareGroups(of, labels, options)[0].modes;
+  };
+  const std::vector<std::string> four = {"a", "a", "b", "b"};
+  const std::vector<std::string> six = {"a", "a", "b", "b", "a", "b"};
+  const std::vector<std::string> ten = {"a", "a", "b", "b", "a", "b", "a", "b", "a", "b"};
+  EXPECT_EQ(chosen(modes, four), 1);
+  EXPECT_EQ(chosen(modes, six), 2);
+  EXPECT_EQ(chosen(modes, ten), 3);  // a share of 0.97
+  EXPECT_EQ(chosen(FirstModes(modes, 2), ten), 2);
+}
+
+TEST(CompareGroups, RefusalsNameTheGroup) {
+  const PoseModes modes = SixPoses();
+  const auto message = [&](const std::vector<std::string>& labels, int count = 0) {
+    GroupOptions options;
+    options.modes = count;
+    return MessageOf<InvalidOptions>([&] { CompareGroups(modes, labels, options); });
+  };
+  EXPECT_EQ(message({"a", "b"}), "labels: must be 6, one for each pose");
+  EXPECT_EQ(message({"a", "a", "a", "a", "a", "a"}), "labels: name one group; two are compared");
+  EXPECT_EQ(message({"a", "a", "b", "a", "a", "a"}),
+            "labels: name a group of one pose, b; groups have two or more");
+  const std::vector<std::string> good = {"a", "a", "b", "b", "c", "c"};
+  EXPECT_EQ(message(good, 3), "modes: must be at most 2 for these groups");
+  EXPECT_EQ(message({"a", "a", "b", "b", "b", "b"}, 4),
+            "modes: must be at most 3 for these groups");
+  EXPECT_EQ(message(good, -1), "modes: must be 0 or more");
+  EXPECT_EQ(message(good, 2), "nothing was thrown");
+  EXPECT_EQ(MessageOf<InvalidOptions>([&] { CompareGroups(FirstModes(modes, 0), good); }),
+            "modes: there are none in which groups differ");
+}
+
+class StatisticsFileTest : public testing::FilesTest {};
+
+TEST_F(StatisticsFileTest, ModesAreReadAsTheyWereWritten) {
+  PoseModes modes = SixPoses();
+  modes.appearance.vertex_colours = Eigen::MatrixXd::Constant(3, 3, 0.25);
+  modes.total_variance = 1.5;
+  WriteModes(Path("m.modes"), modes);
+  const PoseModes read = ReadModes(Path("m.modes"));
+  EXPECT_EQ(read.size, PoseSize::kKeep);
+  EXPECT_EQ(read.weights, modes.weights);
+  EXPECT_EQ(read.coefficients, modes.coefficients);
+  EXPECT_EQ(read.variances, modes.variances);
+  EXPECT_EQ(read.total_variance, 1.5);
+  EXPECT_EQ(read.mean, modes.mean);
+  EXPECT_EQ(read.place.rotation, modes.place.rotation);
+  EXPECT_EQ(read.place.translation, modes.place.translation);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(read.poses[i], modes.poses[i]);
+    EXPECT_EQ(read.motions[i].rotation, modes.motions[i].rotation);
+    EXPECT_EQ(read.motions[i].translation, modes.motions[i].translation);
+    EXPECT_EQ(read.names[i], "pose " + std::to_string(i + 1));
+  }
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(read.modes[k], modes.modes[k]);
+  EXPECT_EQ(read.metric->unit, modes.metric->unit);
+  EXPECT_EQ(DescribeMetric(read.metric->options), DescribeMetric(modes.metric->options));
+  EXPECT_EQ(read.appearance.vertex_colours, modes.appearance.vertex_colours);
+  modes.names.pop_back();
+  EXPECT_EQ(
+      MessageOf<MeshError>([&] { WriteModes(Path("m.modes"), modes); }),
+      Path("m.modes") + ": the modes: poses, names, weights and coefficients differ in number");
+}
+
+TEST_F(StatisticsFileTest, TablesAreWrittenWithQuotesWhereTheyAreNeeded) {
+  Eigen::MatrixXd numbers(2, 3);
+  numbers << 0.5, -2, 1e300, 0.1, 7, 0;
+  WritePoseTable(Path("t.csv"), {"a b", "say \"a, b\""}, {"x", "y, z", "line\nend"}, numbers);
+  EXPECT_EQ(testing::Content(Path("t.csv")),
+            "pose,x,\"y, z\",\"line\nend\"\n"
+            "a b,0.5,-2,1.0000000000000001e+300\n"
+            "\"say \"\"a, b\"\"\",0.10000000000000001,7,0\n");
+  const std::string message = "numbers: must have a row for each pose and a column for each name";
+  EXPECT_EQ(MessageOf<InvalidOptions>([&] {
+              WritePoseTable(Path("t.csv"), {"a"}, {"x", "y", "z"}, numbers);
+            }),
+            message);
+  EXPECT_EQ(MessageOf<InvalidOptions>([&] {
+              WritePoseTable(Path("t.csv"), {"a", "b"}, {"x", "y"}, numbers);
+            }),
+            message);
+}
+
+TEST_F(StatisticsFileTest, RowsOfATableBelongToTheirPoses) {
+  const std::string file = File("t.csv",
+                                "\nname,kind,age\n"
+                                "in/cat.obj,feline,3\n"
+                                " \n"
+                                "dog,canine,\n"
+                                "cow,,5\n"
+                                "emu,bird,nan\n");
+  const PoseTable table = ReadPoseTable(file);
+  EXPECT_EQ(table.file, file);
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"kind", "age"}));
+  EXPECT_EQ(table.poses, (std::vector<std::string>{"in/cat.obj", "dog", "cow", "emu"}));
+  EXPECT_EQ(table.lines, (std::vector<int>{3, 5, 6, 7}));
+  EXPECT_EQ(table.RowsOf({"cow", "cat", "dog.ply", "cow"}), (std::vector<int>{2, 0, 1, 2}));
+  EXPECT_EQ(table.LabelsOf({"emu", "dog", "cat"}),
+            (std::vector<std::string>{"bird", "canine", "feline"}));
+  EXPECT_EQ(MessageOf<FileError>([&] {
+              table.LabelsOf({"dog", "cow"});
+            }),
+            file + ":6: kind of the pose 'cow' is empty");
+  EXPECT_EQ(MessageOf<FileError>([&] {
+              table.RowsOf({"cat", "ape"});
+            }),
+            file + ": there is no row for the pose 'ape'; add one, or leave the pose out");
+  const std::string ages = "name,age,size\ncat,3,4\ndog,5,\nemu,nan,1\n";
+  const PoseTable numbers = ReadPoseTable(File("n.csv", ages));
+  EXPECT_EQ(MessageOf<FileError>([&] {
+              numbers.NumbersOf({"cat", "dog"});
+            }),
+            Path("n.csv") + ":3: size of the pose 'dog', '', is not a finite number");
+  EXPECT_EQ(MessageOf<FileError>([&] { numbers.NumbersOf({"emu"}); }),
+            Path("n.csv") + ":4: age of the pose 'emu', 'nan', is not a finite number");
+  EXPECT_EQ(numbers.NumbersOf({"cat"}), Eigen::RowVector2d(3, 4));
+  const auto message = [&](const std::string& text) {
+    return MessageOf<FileError>([&] { ReadPoseTable(File("b.csv", text)); });
+  };
+  EXPECT_EQ(message("f,a\n\nsit.obj,1\nx,2\nin/sit.ply,3\n"),
+            Path("b.csv") + ":5: the pose 'in/sit.ply' has a row already, in line 3");
+  EXPECT_EQ(message("f,a,b\n\nsit,1\n"),
+            Path("b.csv") + ":3: there are 2 cells, and 3 in the first line");
+  EXPECT_EQ(message("\nf\n"),
+            Path("b.csv") +
+                ":2: there is one column; the first has the names of the poses, the others what is "
+                "known of them, separated by commas");
+}
+
+}  // namespace
+}  // namespace shapespace
