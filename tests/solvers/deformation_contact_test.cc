@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <shapespace/analysis/intersections.h>
 #include <shapespace/base/error.h>
+#include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
 #include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/contact/internal/contact_model.h>
@@ -87,6 +89,12 @@ TEST(DeformationContactTest, AnEndPushesTheOtherAside) {
   EXPECT_GT(distance, 2 * internal::LeastDistance(model, through.path.shapes));
   EXPECT_NEAR(past.summary.contact_distance, distance, 0.05 * distance);  // turned differently
   EXPECT_GT(past.summary.energy, through.summary.energy);
+  EXPECT_EQ(past.summary.levels.back().start, "contact");
+  EXPECT_EQ(past.summary.levels.back().vertices, past.summary.vertices);
+  EXPECT_EQ(past.summary.levels.back().shapes, 5);
+  EXPECT_LE(past.summary.levels.back().value, past.summary.levels.back().initial_value);
+  EXPECT_GT(past.summary.contact_seconds, 0);
+  EXPECT_EQ(through.summary.contact_seconds, 0);
   for (const auto& handle : past.summary.handles) EXPECT_LT(handle.residual_max, 1e-12);
   for (int i = 0; i < past.path.NumShapes(); ++i) {
     const Shape places = past.path.Placed(i)(Eigen::all, ring.last);
@@ -214,6 +222,53 @@ TEST(DeformationContactTest, ARodIsBentOverAShelf) {
   for (size_t i = 0; i < placed.size(); ++i) {
     EXPECT_LT((scaled[i] / 1024 - placed[i]).norm(), 1e-9) << i;
   }
+}
+
+// A plate that is pressed through a table, in 25 steps.
+TEST(DeformationContactTest, SaysHowFarTheHandlesGot) {
+  const ShapeFamily plate = MakeSheet(2, 3, 2, 3);
+  const Shape rest = plate.pose(0).colwise() + Eigen::Vector3d(0, 0, 1);
+  DeformationHandle all;
+  for (int v = 0; v < rest.cols(); ++v) all.vertices.push_back(v);
+  all.motion.translation = {0, 0, -2};
+  DeformationOptions options;
+  options.avoid_contact = true;
+  options.obstacle = testing::Rectangle({-3, -3.1}, {3.2, 3.3}, 0);
+  const DeformationSummary summary = Deform(plate.connectivity, rest, {all}, options).summary;
+  EXPECT_EQ(summary.warnings,
+            (std::vector<std::string>{
+                "no deformation was found in which the body does not pass through itself or the "
+                "obstacle: the handles got 48% of their way; it does in the path that is "
+                "returned"}));
+  EXPECT_EQ(summary.uncertified_segments, 1);
+  EXPECT_NEAR(summary.contact_distance, 0, 1e-9);
+  EXPECT_TRUE(summary.Converged());
+  EXPECT_LT(summary.handles[0].residual_max, 1e-12);
+}
+
+// Two plates that cross each other and move as one.
+TEST(DeformationContactTest, SaysThatTheMeshIntersectsItself) {
+  const ShapeFamily plate = MakeSheet(2, 3, 2, 3);
+  Shape other = plate.pose(0);
+  other.row(2) = other.row(0).array() + 0.137;
+  const Obstacle second = {plate.connectivity, other};
+  const Shape rest = second.Joined(plate.pose(0));
+  const auto connectivity = second.Joined(plate.connectivity);
+  DeformationHandle all;
+  for (int v = 0; v < rest.cols(); ++v) all.vertices.push_back(v);
+  all.motion.translation = {0, 0, 0.5};
+  DeformationOptions options;
+  options.avoid_contact = true;
+  const std::string count = std::to_string(CountIntersections(*connectivity, rest));
+  ASSERT_NE(count, "0");
+  const std::string there = " (" + count + " pairs of triangles); contact is not avoided there";
+  DeformationSummary summary = Deform(connectivity, rest, {all}, options).summary;
+  EXPECT_EQ(summary.warnings, (std::vector<std::string>{"the mesh intersects itself" + there}));
+  EXPECT_EQ(summary.uncertified_segments, 0);
+  options.obstacle = testing::Rectangle({-3, -3.1}, {3.2, 3.3}, -9);
+  summary = Deform(connectivity, rest, {all}, options).summary;
+  EXPECT_EQ(summary.warnings,
+            (std::vector<std::string>{"the mesh intersects itself or the obstacle" + there}));
 }
 
 TEST(DeformationContactTest, ObstaclesAreForDeformationsThatAvoidContact) {

@@ -86,6 +86,50 @@ TEST_F(HandleFileTest, APositionIsThatOfTheMean) {
   EXPECT_TRUE(*corner.positions == Shape(Eigen::Vector3d(1, 2, 3)));
 }
 
+TEST_F(HandleFileTest, NumbersAreTakenUpToTheirLimits) {
+  const std::string vertex = R"("select": {"vertices": [2]}, )";
+  const auto angle = [&](const std::string& degrees) {
+    return ReadOne(vertex + R"("rotation": {"axis": [0, 3, -4], "degrees": )" + degrees + "}")
+        .motion;
+  };
+  EXPECT_NEAR(angle("36000").angle, 200 * M_PI, 1e-9);
+  EXPECT_NEAR(angle("-36000").angle, -200 * M_PI, 1e-9);
+  EXPECT_NEAR(angle("-45").angle, -M_PI / 4, 1e-15);
+  EXPECT_TRUE(angle("1").axis.isApprox(Eigen::Vector3d(0, 0.6, -0.8), 1e-15));
+  EXPECT_TRUE(angle("1").translation.isZero(0));
+  EXPECT_EQ(ReadOne(vertex + R"("fixed": true, "weight": 1e60)").weight, 1e60);
+  EXPECT_EQ(ReadOne(vertex + R"("translation": [0, -1e60, 0])").motion.translation(1), -1e60);
+  const std::string limit = ": must be from -1e+60 to 1e+60";
+  const std::string turn = vertex + R"("rotation": {"degrees": 1, "axis": )";
+  const struct {
+    std::string keys, message;
+  } cases[] = {
+      {vertex + R"("rotation": {"axis": [0, 0, 1], "degrees": 36001})",
+       "rotation.degrees: must be from -36000.0 to 36000.0"},
+      {vertex + R"("rotation": {"axis": [0, 0, 1], "degrees": -36001})",
+       "rotation.degrees: must be from -36000.0 to 36000.0"},
+      {turn + "[0, 0, 1e61]}", "rotation.axis" + limit},
+      {turn + R"([0, 0, 1], "point": [-1e61, 0, 0]})", "rotation.point" + limit},
+      {vertex + R"("position": [0, 1e61, 0])", "position" + limit},
+      {vertex + R"("translation": [0, 0, -1e61])", "translation" + limit},
+      {R"("select": {"vertices": [2, 3]}, "positions": [[0, 0, 0], [0, 1e61, 0]])",
+       "positions (position 2)" + limit},
+      {vertex + R"("fixed": true, "weight": 1e61)", "weight: must be positive and at most 1e+60"},
+      {vertex + R"("fixed": true, "rotation": {"axis": [0, 0, 1], "degrees": 1})",
+       "rotation: excludes fixed; leave one of them out"},
+      {vertex + R"("rotation": {"axis": [0, 0, 1], "degrees": 1}, "positions": [[0, 0, 0]])",
+       "positions: excludes rotation; leave one of them out"},
+  };
+  for (const auto& [keys, message] : cases) {
+    SCOPED_TRACE(keys);
+    ExpectError(R"({"handles": [{)" + keys + "}]}", "handle 1: " + message);
+  }
+  ExpectError(R"({"handles": [{"name": "a", )" + vertex + R"("fixed": true}, {"name": 7}]})",
+              "handle 2: name: must be a text in quotation marks");
+  ExpectError(R"({"$schema": "s", "handles": [{"name": "a", )" + vertex + R"("fixed": false}]})",
+              "handle 1 ('a'): fixed: must be true; leave it out if the handle moves");
+}
+
 TEST_F(HandleFileTest, PositionsStandInTheOrderOfTheVertices) {
   const DeformationHandle handle = ReadOne(
       R"("positions": [[1, 2, 3], [4, 5, 6], [7, 8, 9]], "select": {"vertices": [1, [3, 4]]})");
