@@ -360,6 +360,47 @@ TEST(PathContact, IsTheMeanOverItsMotions) {
   EXPECT_NEAR(some.Evaluate(x.data(), 2, gradient.data()), other, 1e-9 * other);
 }
 
+TEST(PathContact, StepsEndBeforeContactAndPathsWithContactAreNotAllowed) {
+  const Plates plates;
+  const ContactModel model = plates.Model();
+  const double unit = plates.metric->unit;
+  PathEnergy energy(plates.metric, 1);
+  std::vector<double> x(energy.Size()), way(energy.Size()), there(energy.Size());
+  Tangent down = Tangent::Zero(3, 2 * plates.flat.cols());
+  const Tangent still = down;
+  down.row(2).tail(plates.flat.cols()).setConstant(-1 / unit);
+  const auto longest = [&](double height, double move, PathContact* contact) {
+    energy.Load({still, move * down, still}, way.data());
+    const std::vector<float> direction(way.begin(), way.end());
+    energy.Load({plates.Above(3), plates.Above(height), plates.Above(2)}, x.data());
+    return contact->LongestStep(x.data(), direction.data());
+  };
+  const auto contact_at = [&](double height) {
+    return PathContact(model, energy, {plates.Above(3), plates.Above(height), plates.Above(2)},
+                       PathContact::Segments(3), 5);
+  };
+  PathContact far = contact_at(1.5);
+  EXPECT_EQ(longest(1.5, 0.02, &far), 1);
+  // A fifth of the distance is kept.
+  PathContact near = contact_at(0.1);
+  const double step = longest(0.1, 0.2, &near);
+  EXPECT_LE(step, 0.4 + 1e-6);
+  EXPECT_GT(step, 0.2);
+  // No step is longer than the room for which pairs are known: at first a twentieth of a length,
+  // and a quarter where most of that has been used.
+  const double length = model.MeanLength() * unit;
+  PathContact room = contact_at(1.5);
+  EXPECT_NEAR(longest(1.5, 1, &room), 0.05 * length, 1e-5);
+  EXPECT_NEAR(longest(1.5 - 0.04 * length, 1, &room), 0.25 * length, 1e-5);
+
+  PathContact contact = contact_at(0.05);
+  longest(0.05, 0.1, &contact);
+  energy.Load({plates.Above(3), plates.Above(-0.05), plates.Above(2)}, there.data());
+  EXPECT_TRUE(contact.Allows(x.data()));
+  EXPECT_FALSE(contact.Allows(there.data()));
+  EXPECT_TRUE(contact.Allows(x.data()));
+}
+
 TEST(Parting, PairsAreWeightedByAreaAndReachNoFartherThanInThePoses) {
   const Plates plates;
   const std::vector<Shape> poses = {plates.Above(1.5), plates.Above(1)};

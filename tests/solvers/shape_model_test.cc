@@ -191,6 +191,34 @@ TEST(ShapeModel, PreviewIsTheMeanAtZeroAndFollowsTheModes) {
   EXPECT_LT((slope - mode).norm(), 0.05 * mode.norm());
 }
 
+// With all modes the triangles of a pose are turned and stretched as they are in it.
+TEST(ShapeModel, PreviewReproducesThePoses) {
+  const ShapeModel& model = AnimalModel();
+  const Eigen::MatrixXd coordinates = model.Modes().Coordinates();
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_LT(Distant(model.Preview(coordinates.row(i).transpose()), model.Modes().PlacedPose(i)),
+              0.012)
+        << i;
+  }
+}
+
+// Where there are no triangles, sides are those of the mean moved along the modes.
+TEST(ShapeModel, PreviewOfAGraphIsLinear) {
+  std::vector<std::pair<int, int>> segments;
+  for (int v = 1; v < 8; ++v) segments.emplace_back(v - 1, v);
+  const auto chain = Connectivity::Make(8, {0}, {}, segments);
+  std::vector<Shape> poses(4, Shape::Zero(3, 8));
+  for (int i = 0; i < 4; ++i) {
+    for (int v = 0; v < 8; ++v) poses[i].col(v) << v, 0.05 * i * v * v, 0.3 * (i % 2) * (v % 3);
+  }
+  const PoseModes modes = MakeShapeModel(chain, poses, {}).modes;
+  ASSERT_GE(modes.NumModes(), 2);
+  const Shape expected =
+      modes.place(modes.metric->unit * (modes.mean + 0.7 * modes.modes[0] - 0.4 * modes.modes[1]));
+  const Shape preview = ShapeModel(modes).Preview(Eigen::Vector2d(0.7, -0.4));
+  EXPECT_LT((preview - expected).norm(), 1e-4 * expected.norm());
+}
+
 TEST(ShapeModel, FitLowersTheDistanceOfAnUnknownPose) {
   const ShapeModel& model = AnimalModel();
   const Shape unknown = Animal().random_pose(40);

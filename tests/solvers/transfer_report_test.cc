@@ -291,6 +291,75 @@ TEST(Transfer, ReportsShareAndShapeOfTheWork) {
             (std::vector<std::string>{"transferring 0/3", "transferring 1/3", "transferring 2/3"}));
 }
 
+// The tenth part of the work for a pose is its geodesic.
+TEST(LadderOfPoses, TellsWhatShareOfTheWorkIsDone) {
+  struct Recorder : Progress {
+    bool Report(const std::string&, int, int) override { return true; }
+    void ReportShare(double share) override { shares.push_back(share); }
+    std::vector<double> shares;
+  } recorder;
+  GeodesicOptions geodesic;
+  geodesic.shapes = 1;
+  TransferOptions options;
+  options.method = TransferMethod::kLadder;
+  const std::vector<Shape> poses = {ThickBar().pose(0), ThickBar().pose(20), ThickBar().pose(30)};
+  TransferPoses(ThickBar().connectivity, poses, ThinBar(), geodesic, options, &recorder);
+  for (const double share : {0.05, 0.2, 0.35, 0.55, 0.7, 0.85}) {
+    EXPECT_TRUE(std::any_of(recorder.shares.begin(), recorder.shares.end(), [&](double one) {
+      return std::abs(one - share) < 1e-12;
+    })) << share;
+  }
+  EXPECT_TRUE(std::is_sorted(recorder.shares.begin(), recorder.shares.end()));
+  geodesic.memory_limit = 1000;
+  const std::string message = MessageOf<SolverError>(
+      [&] { TransferPoses(ThickBar().connectivity, poses, ThinBar(), geodesic, options); });
+  EXPECT_EQ(message.find("pose 2: "), 0u) << message;
+}
+
+TEST(Ladder, ATargetRestsWithItsSource) {
+  const Shape rest = ThickBar().pose(0);
+  TransferOptions options;
+  options.method = TransferMethod::kLadder;
+  options.hybrids = true;
+  Shape middle;
+  for (const int shapes : {1, 5}) {
+    options.ladder.rung_shapes = shapes;
+    const auto [path, hybrids, summary] =
+        Transfer(PathOf(ThickBar().connectivity, {rest, rest, rest}), ThinBar(), options);
+    ASSERT_EQ(summary.steps.size(), 2u);
+    for (const auto& step : summary.steps) {
+      EXPECT_NEAR(step.norm_change, 0, 1e-2);
+      EXPECT_GE(step.ratio, 1);
+      EXPECT_LT(step.ratio, 1.1);
+    }
+    EXPECT_LT(Apart(path.Placed(2), ThinBar()), 1e-6);
+    ASSERT_EQ(hybrids.NumShapes(), 3);
+    // The middle of the rung, of however many shapes.
+    if (shapes > 1) {
+      EXPECT_LT(Apart(hybrids.Placed(1), middle), 0.01);
+    }
+    middle = hybrids.Placed(1);
+  }
+}
+
+// Without alignment a copy that is only moved makes the moved motion, rotation included.
+TEST(Ladder, WithoutAlignmentAMovedCopyMovesAsTheSourceDoes) {
+  std::vector<Shape> shapes;
+  for (int i = 0; i <= 2; ++i) {
+    shapes.push_back((Rotation(40 + 20 * i, {1, 1, 0}) * ThickBar().pose(15 * i)).colwise() +
+                     Vector3d(i, 7, -2 * i));
+  }
+  TransferOptions options;
+  options.method = TransferMethod::kLadder;
+  options.ladder.align = false;
+  const Vector3d shift(3, -4, 5);
+  const auto [path, hybrids, summary] =
+      Transfer(PathOf(ThickBar().connectivity, shapes), shapes[0].colwise() + shift, options);
+  for (int i = 0; i <= 2; ++i) {
+    EXPECT_LT(Apart(path.Placed(i), shapes[i].colwise() + shift), 1e-4) << i;
+  }
+}
+
 }  // namespace
 
 namespace internal {
