@@ -271,6 +271,7 @@ TEST(Deform, EndingsAreSaid) {
             (std::vector<std::string>{"out of iterations; raise max_iterations or the tolerance"}));
   EXPECT_FALSE(path.converged);
   EXPECT_TRUE(recorder.Has(std::to_string(bar.rest.cols()) + " vertices, 1 shape 1/0"));
+  EXPECT_TRUE(recorder.Has("following the handles 10/10"));
   struct StopsLate : Progress {
     bool Report(const std::string& stage, int done, int) override {
       return stage.find("vertices") == std::string::npos || done < 1;

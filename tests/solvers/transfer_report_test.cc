@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
 #include <shapespace/transfer/internal/frames.h>
 #include <shapespace/transfer/internal/ladder.h>
@@ -190,6 +191,12 @@ TEST(Transfer, TheErrorIsThatOfLogarithmicLengths) {
   EXPECT_NEAR(summary.strain_rms, std::sqrt(squares / area), 1e-9);
   EXPECT_NEAR(summary.strain_max, most, 1e-9);
   EXPECT_GT(most, 1.2 * summary.strain_rms);
+  const auto angles = [&](const Shape& shape) { return DihedralAngles(connectivity, shape); };
+  const Eigen::VectorXd turned = angles(last) - angles(first) - angles(to) + angles(from);
+  const Eigen::VectorXd& hinge_area = path.metric->hinge_area;
+  EXPECT_NEAR(summary.angle_rms,
+              180 / M_PI * std::sqrt(hinge_area.dot(turned.cwiseAbs2()) / hinge_area.sum()), 1e-6);
+  EXPECT_GT(summary.angle_rms, 0.1);
   EXPECT_EQ(summary.vertices, connectivity.NumVertices());
   EXPECT_GT(summary.estimated_bytes, 0);
   double seconds = 0;
