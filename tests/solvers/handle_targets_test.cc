@@ -327,6 +327,10 @@ TEST(HeldLevel, PlacesWhatIsHeldInEveryShapeAndTheRestInTheLast) {
   EXPECT_LT((moved.col(3) - positions.col(1)).norm(), 1e-12);
   EXPECT_LT((moved.col(0) - bars.rest.col(0) - Eigen::Vector3d::UnitX()).norm(), 1e-12);
   EXPECT_GT((moved.col(8) - bars.rest.col(8)).norm(), 0.01);
+  Shape elsewhere = places;
+  elsewhere.col(4) *= 2;
+  ASSERT_EQ(bars.targets[0].Held()[4], 6);
+  EXPECT_EQ(level.WithHardHandlesAt(elsewhere, bars.rest), moved);
   // Of several shapes each goes to its own places, and the first stays.
   std::vector<Shape> shapes = {bars.rest, bars.rest, bars.rest};
   const std::vector<Shape> all = {bars.targets[0].At(0), bars.targets[0].At(0.5), places};
