@@ -145,6 +145,15 @@ TEST_F(LandmarkFileTest, LandmarksFarFromTheSurfaceAreNamed) {
           {"same.txt", "landmark 1 and landmark 2", "vertex 4 of sheet"});
 }
 
+// Some editors begin a text with a byte order mark.
+TEST_F(LandmarkFileTest, AByteOrderMarkIsNoPartOfTheFirstLine) {
+  const auto landmarks = ReadLandmarks(File("mark.fcsv",
+                                            "\xEF\xBB\xBF"
+                                            "# CoordinateSystem = RAS\n1,2,3,4\n"));
+  ASSERT_EQ(landmarks.size(), 1u);
+  EXPECT_EQ(landmarks[0].position, Eigen::Vector3d(-2, -3, 4));
+}
+
 TEST_F(LandmarkFileTest, WhatCannotBeReadIsNamed) {
   const auto refused = [&](const std::string& name, const std::string& text, const Strings& parts) {
     ExpectError<FileError>([&] { ReadLandmarks(File(name, text)); }, parts);

@@ -44,9 +44,11 @@ class FcsvReader {
     std::vector<Landmark> landmarks;
     std::string_view line;
     while (lines_.Next(&line)) {
-      if (line.substr(0, 1) == "#") {
-        ReadHeader(line.substr(1));
-      } else if (!internal::WithoutBlanks(line).empty()) {
+      // A byte order mark before the first line is blanked.
+      const std::string_view text = internal::WithoutBlanks(line);
+      if (text.substr(0, 1) == "#") {
+        ReadHeader(text.substr(1));
+      } else if (!text.empty()) {
         landmarks.push_back(ReadLandmark(line, landmarks.size() + 1));
       }
     }
