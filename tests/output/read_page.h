@@ -151,6 +151,7 @@ class DecodedScene {
     const auto at = [&](int shape) { return steps[shape](axis, v); };
     if (s == 0) return 0;
     if (header["kind"] == "path") return s == 1 ? at(0) : 2 * at(s - 1) - at(s - 2);
+    if (header["kind"] == "modes") return at(0);
     const int poses = static_cast<int>(header["names"].size());
     if (s < poses) return at(s - 1);
     const nlohmann::json& parents = header["parents"][s - poses];

@@ -361,8 +361,8 @@ template <typename Matrix>
 OrderedJson Columns(const Matrix& matrix) {
   OrderedJson columns = OrderedJson::array();
   for (Eigen::Index c = 0; c < matrix.cols(); ++c) {
-    columns.push_back(std::vector<typename Matrix::Scalar>(matrix.col(c).data(),
-                                                           matrix.col(c).data() + matrix.rows()));
+    const auto column = matrix.col(c);
+    columns.push_back(std::vector<typename Matrix::Scalar>(column.begin(), column.end()));
   }
   return columns;
 }
