@@ -50,5 +50,24 @@ TEST(ColourTest, ValuesOutsideTheScaleGetItsEnds) {
   EXPECT_EQ(internal::ValueColour(1e6f), internal::ValueColour(1));
 }
 
+// IEC 61966-2-1: linear near black.
+TEST(ColourTest, LinearLightIsThatOfTheStandard) {
+  EXPECT_FLOAT_EQ(internal::ToLinear(0.04f), 0.04f / 12.92f);
+  EXPECT_NEAR(internal::ToLinear(0.5f), 0.21404f, 1e-5);
+  EXPECT_NEAR(internal::ToLinear(1), 1, 1e-6);
+  EXPECT_EQ(internal::ToByte(-1), 0);
+  EXPECT_EQ(internal::ToByte(2), 255);
+  EXPECT_EQ(internal::ToByte(0.003f), 10);
+}
+
+TEST(ColourTest, TheScaleGoesThroughItsColours) {
+  const std::pair<float, unsigned> stops[] = {
+      {0.0f, 0xb9cadc}, {0.25f, 0xdfc18f}, {0.5f, 0xe8923f}, {0.75f, 0xcf3f2b}, {1.0f, 0x861426}};
+  for (const auto& [value, hex] : stops) {
+    const internal::Colour expected = internal::FromHex(hex);
+    EXPECT_LT((internal::ValueColour(value) - expected).cwiseAbs().maxCoeff(), 0.01) << value;
+  }
+}
+
 }  // namespace
 }  // namespace shapespace

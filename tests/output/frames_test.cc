@@ -1,5 +1,6 @@
 #include <shapespace/output/frames.h>
 
+#include <shapespace/base/error.h>
 #include <shapespace/files/read.h>
 #include <shapespace/path/path_file.h>
 
@@ -69,6 +70,55 @@ TEST_F(FramesTest, SegmentsBesidePolygonsAreKeptToo) {
   const Soup plain = FrameSoup(*flag);
   EXPECT_EQ(plain.segments, (std::vector<std::pair<int, int>>{{3, 4}}));
   EXPECT_EQ(plain.corners, (std::vector<int>{0, 1, 2, 3}));
+}
+
+TEST(FrameNameTest, NumbersAreAsWideAsThePatternSays) {
+  for (const auto& [pattern, name] : {std::pair{"a%d.obj", "a7.obj"},
+                                      {"a%3d.obj", "a  7.obj"},
+                                      {"b/%03d", "b/007"},
+                                      {"%09d.x", "000000007.x"},
+                                      {"%0d.x", "7.x"}}) {
+    EXPECT_EQ(FrameName(pattern, 7), name);
+  }
+  EXPECT_EQ(FrameName("%02d.obj", 12), "12.obj");
+  EXPECT_EQ(FrameName("%02d.obj", 123), "123.obj");
+  for (const char* pattern : {"a.obj", "%d%d.obj", "%s.obj", "%12d.obj", "100%%d.obj", "%d%"}) {
+    testing::ExpectError<FileError>(
+        [&] { FrameName(pattern, 0); },
+        {std::string(pattern) + ": a name for frames needs one number, as in frames/%03d.obj"});
+  }
+}
+
+TEST_F(FramesTest, ColoursReplaceTheAppearanceAndAreOnePerShape) {
+  const auto triangle = Connectivity::FromTriangles(3, Eigen::Vector3i(0, 1, 2));
+  const Shape shape = Shape::Identity(3, 3);
+  Appearance appearance;
+  appearance.texture_coordinates.setRandom(2, 3);
+  appearance.corner_texture = {0, 1, 2};
+  appearance.material_libraries = {"a.mtl"};
+  appearance.materials = {{"red"}, {0}};
+  appearance.objects = {{"body"}, {0}};
+  const Soup soup = FrameSoup(*triangle, appearance);
+  EXPECT_EQ(soup.appearance.corner_texture, appearance.corner_texture);
+  EXPECT_EQ(soup.NumVertices(), 3);
+  EXPECT_EQ(soup.triangles, triangle->Triangles());
+  const Eigen::MatrixXd colours = Eigen::MatrixXd::Constant(3, 3, 0.25);
+  const Appearance coloured = Coloured(soup, colours).appearance;
+  EXPECT_EQ(coloured.vertex_colours, colours);
+  EXPECT_EQ(coloured.texture_coordinates.cols(), 0);
+  EXPECT_TRUE(coloured.corner_texture.empty());
+  EXPECT_TRUE(coloured.material_libraries.empty());
+  EXPECT_TRUE(coloured.materials.names.empty());
+  EXPECT_TRUE(coloured.materials.of_polygon.empty());
+  EXPECT_EQ(coloured.objects.names, appearance.objects.names);
+  testing::ExpectError<InvalidOptions>(
+      [&] {
+        WriteFrames(Path("%d.ply"), {shape, shape, shape}, soup, {colours, colours});
+      },
+      {"colours: there must be as many as shapes"});
+  testing::ExpectError<FileError>([&] { WriteFrames(Path("a.ply"), {shape}, soup); },
+                                  {"needs one number"});
+  EXPECT_FALSE(std::filesystem::exists(Path("0.ply")));
 }
 
 }  // namespace

@@ -231,5 +231,73 @@ TEST_F(WriteGltfAppearanceTest, GraphsHaveTheirVertexColours) {
   EXPECT_EQ(Glb(GlbFile("coloured-graph")).Attribute("COLOR_0"), Eigen::MatrixXd::Identity(3, 3));
 }
 
+TEST_F(WriteGltfAppearanceTest, ATextureOfTwoMaterialsIsEmbeddedOnce) {
+  File("maps/photo.jpg", "\xff\xd8\xff\xe0 a picture");
+  File("cube.mtl",
+       "newmtl painted\nmap_Kd maps/photo.jpg\nnewmtl glass\nmap_Kd maps/checks.png\nd 0.25\n"
+       "newmtl unknown\nKd 1 1 1\nmap_Kd maps/photo.jpg\n");
+  EXPECT_TRUE(WriteGltf(GlbFile("twice"), path_).warnings.empty());
+  const Glb glb(GlbFile("twice"));
+  const auto& images = glb.json["images"];
+  ASSERT_EQ(images.size(), 2u);
+  EXPECT_EQ(images[0]["mimeType"], "image/jpeg");
+  EXPECT_EQ(images[0]["name"], "photo.jpg");
+  EXPECT_EQ(images[1]["mimeType"], "image/png");
+  EXPECT_EQ(images[1]["name"], "checks.png");
+  EXPECT_EQ(glb.Bytes(images[0]["bufferView"]), testing::Content(Path("maps/photo.jpg")));
+  EXPECT_EQ(glb.Bytes(images[1]["bufferView"]), testing::Content(Path("maps/checks.png")));
+  ASSERT_EQ(glb.json["textures"].size(), 2u);
+  EXPECT_EQ(glb.json["textures"][1]["source"], 1);
+  const auto& materials = glb.json["materials"];
+  for (const auto& [material, texture] : {std::pair{0, 0}, {1, 1}, {2, 0}}) {
+    EXPECT_EQ(materials[material]["pbrMetallicRoughness"]["baseColorTexture"]["index"], texture);
+  }
+  EXPECT_EQ(materials[1]["pbrMetallicRoughness"]["baseColorFactor"],
+            (std::vector<double>{1, 1, 1, 0.25}));
+}
+
+TEST_F(WriteGltfAppearanceTest, WithoutCoordinatesThereIsNoTexture) {
+  path_.appearance.texture_coordinates.resize(2, 0);
+  path_.appearance.corner_texture.clear();
+  EXPECT_EQ(WriteGltf(GlbFile("no-coordinates"), path_).warnings.size(), 1u);
+  const Glb glb(GlbFile("no-coordinates"));
+  EXPECT_FALSE(glb.json.contains("images"));
+  const auto& painted = glb.json["materials"][0]["pbrMetallicRoughness"];
+  EXPECT_EQ(painted["baseColorFactor"], (std::vector<double>{0, 0, 0, 1}));
+}
+
+TEST_F(WriteGltfAppearanceTest, OpaqueColoursBlendNothing) {
+  path_.appearance.vertex_colours = Eigen::MatrixXd::Constant(4, 8, 0.5);
+  path_.appearance.vertex_colours.row(3).setOnes();
+  path_.appearance.materials = {};
+  WriteGltf(GlbFile("opaque"), path_);
+  EXPECT_FALSE(Glb(GlbFile("opaque")).json["materials"][0].contains("alphaMode"));
+}
+
+TEST_F(WriteGltfAppearanceTest, NodesMeshesAndAnimationsHaveTheirNames) {
+  GltfOptions options;
+  const auto written = [&] {
+    WriteGltf(GlbFile("names"), path_, options);
+    return Glb(GlbFile("names")).json;
+  };
+  const auto json = written();
+  EXPECT_EQ(json["animations"][0]["name"], "there and back");
+  EXPECT_EQ(json["nodes"][0]["name"], "shape");
+  EXPECT_FALSE(json["nodes"][0].contains("scale"));
+  EXPECT_FALSE(json["nodes"][0].contains("rotation"));
+  EXPECT_EQ(json["meshes"][0]["name"], "shape");
+  EXPECT_EQ(json["meshes"][0]["weights"], std::vector<double>{0});
+  EXPECT_EQ(json["scene"], 0);
+  const auto& plain = json["materials"][3]["pbrMetallicRoughness"];
+  EXPECT_EQ(plain["metallicFactor"], 0);
+  EXPECT_EQ(plain["roughnessFactor"], 0.7);
+  EXPECT_FALSE(json["asset"]["extras"].contains("last_colour_deviation"));
+  for (const auto& view : json["bufferViews"]) EXPECT_EQ(view.value("byteOffset", 0) % 4, 0);
+  options.playback = GltfPlayback::kLoop;
+  EXPECT_EQ(written()["animations"][0]["name"], "there");
+  options.playback = GltfPlayback::kOnce;
+  EXPECT_EQ(written()["animations"][0]["name"], "there");
+}
+
 }  // namespace
 }  // namespace shapespace

@@ -65,5 +65,24 @@ TEST_F(ReadMaterialsTest, WarnsOfWhatIsMissing) {
             "no material library describes the materials 'b', 'c': they are shown plain");
 }
 
+TEST_F(ReadMaterialsTest, StatementsBelongToTheLastMaterialNamed) {
+  File("a.mtl",
+       "Kd 1 0 0\nnonsense\nnewmtl a\nd 0.5\nTr x\nnewmtl b\nKd 0 0.5 0\nnewmtl a\nKd 0 0 1\n"
+       "map_Kd\t-clamp on sub\\b.png\n");
+  const auto materials = Read({"a.mtl"}, {"a", "b"});
+  EXPECT_EQ(materials[0]->colour, Eigen::Vector3d(0, 0, 1));
+  EXPECT_EQ(materials[0]->opacity, 0.5);
+  EXPECT_EQ(materials[0]->texture, Path("sub/b.png"));
+  EXPECT_EQ(materials[1]->colour, Eigen::Vector3d(0, 0.5, 0));
+  EXPECT_EQ(materials[1]->opacity, 1);
+  ASSERT_EQ(warnings_.size(), 2u);
+  EXPECT_EQ(warnings_[0], Path("a.mtl") + ":5: 'Tr x' is not understood");
+}
+
+TEST_F(ReadMaterialsTest, WithoutMaterialsNoLibraryIsRead) {
+  EXPECT_TRUE(Read({"none.mtl"}, {}).empty());
+  EXPECT_TRUE(warnings_.empty());
+}
+
 }  // namespace
 }  // namespace shapespace

@@ -1,8 +1,13 @@
 #include <shapespace/output/path_output.h>
 
+#include <shapespace/analysis/quality.h>
+#include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/files/read.h>
+#include <shapespace/output/point_cache.h>
+#include <shapespace/output/vertex_colours.h>
+#include <shapespace/output/vtk.h>
 #include <shapespace/path/path_file.h>
 
 #include "mesh/files.h"
@@ -61,6 +66,131 @@ TEST_F(PathOutputTest, DeviationsAreFromTheReference) {
   options.reference = path_.shapes[0];
   EXPECT_EQ(scale_end(later), whole);
   EXPECT_LT(own, whole);
+}
+
+TEST_F(PathOutputTest, TheKindIsThatOfTheExtension) {
+  using Kind = PathOutput::Kind;
+  const std::pair<const char*, Kind> cases[] = {
+      {"a.path", Kind::kPath},      {"a.PNG", Kind::kFilmStrip},  {"a.glb", Kind::kGltf},
+      {"a.pc2", Kind::kPointCache}, {"a.mdd", Kind::kPointCache}, {"a%d.vtp", Kind::kVtk},
+      {"a.html", Kind::kPage},      {"a.usda", Kind::kUsd},       {"a%d.obj", Kind::kFrames},
+      {"a%03d.ply", Kind::kFrames}, {"a%d.off", Kind::kFrames},   {"a%d.stl", Kind::kFrames}};
+  for (const auto& [name, kind] : cases) {
+    for (const bool last : {false, true}) {
+      EXPECT_EQ(PathOutput::Of(name, last).kind, kind) << name;
+      EXPECT_EQ(PathOutput::Of(name, last).file, name);
+    }
+  }
+  for (const char* name : {"a.obj", "a.stl"}) {
+    EXPECT_EQ(PathOutput::Of(name, true).kind, Kind::kLastShape) << name;
+  }
+  const auto message = [](const std::string& name) {
+    return testing::MessageOf<FileError>([&] { PathOutput::Of(name, true); });
+  };
+  EXPECT_EQ(message("a%d.usda"),
+            "a%d.usda: only meshes and .vtp are numbered; one .usda contains the whole path");
+  EXPECT_EQ(message("a.txt"),
+            "a.txt: must end in .path, .png, .glb, .usda, .html, .pc2, .mdd, .obj, .ply, .off, "
+            ".stl or .vtp");
+  EXPECT_EQ(message("a.vtp"), "a.vtp: a name for frames needs one number, as in frames/%03d.obj");
+}
+
+TEST_F(PathOutputTest, FilmStripsTellRolesNumbersAndTimes) {
+  shapespace::Path path = path_;
+  path.shapes.resize(5, path.shapes[0]);
+  path.motions.resize(5);
+  path.parameters = {0, 0.25, 1, 1.3335, 2};
+  path.poses = {0, 2};
+  path.extrapolated = 2;
+  const FilmStripOptions options = FilmStripOf(path);
+  EXPECT_EQ(options.roles,
+            (std::vector<ShapeRole>{ShapeRole::kPose, ShapeRole::kInserted, ShapeRole::kPose,
+                                    ShapeRole::kExtrapolated, ShapeRole::kExtrapolated}));
+  EXPECT_EQ(options.labels, (std::vector<std::string>{"0: t = 0", "1: t = 0.25", "2: t = 1",
+                                                      "3: t = 1.33", "4: t = 2"}));
+}
+
+TEST_F(PathOutputTest, FilmStripsAreThoseOfTheirOptions) {
+  PathOutputOptions options;
+  options.film_strip.frame_width = 64;
+  options.film_strip.samples = 1;
+  const auto written = [&] {
+    WritePathOutput(PathOutput::Of(Path("a.png")), path_, options);
+    return testing::Content(Path("a.png"));
+  };
+  FilmStripOptions expected = FilmStripOf(path_);
+  expected.frame_width = 64;
+  expected.samples = 1;
+  const auto drawn = [&] {
+    return EncodePng(RenderFilmStrip(*bar_.connectivity, path_.Placed(), expected));
+  };
+  EXPECT_EQ(written(), drawn());
+  options.film_strip.roles =
+      expected.roles = {ShapeRole::kInserted, ShapeRole::kPose, ShapeRole::kPose};
+  EXPECT_EQ(written(), drawn());
+  options.film_strip.labels = expected.labels = {"a", "b", "c"};
+  EXPECT_EQ(written(), drawn());
+  options.colours = PathColours::kDeviation;
+  options.reference = path_.shapes[2];
+  for (int i = 0; i < 3; ++i) {
+    expected.values.push_back(EdgeDeviation(*path_.metric, path_.shapes[2], path_.shapes[i]));
+  }
+  expected.legend = "edge length, deviation from the first pose";
+  EXPECT_EQ(written(), drawn());
+  options.reference.resize(3, 0);
+  for (int i = 0; i < 3; ++i) expected.values[i] = EdgeDeviation(path_, i);
+  EXPECT_EQ(written(), drawn());
+  options.colours = PathColours::kParts;
+  options.parts = Eigen::VectorXi::LinSpaced(path_.shapes[0].cols(), -1, 3);
+  expected.values.clear();
+  expected.groups = options.parts;
+  expected.legend = "near-rigid parts, by size";
+  EXPECT_EQ(written(), drawn());
+  options.parts.resize(0);
+  expected.groups = FindRigidParts(path_).of_vertex;
+  EXPECT_EQ(written(), drawn());
+}
+
+TEST_F(PathOutputTest, MeshesAndAnimationsHaveTheColoursThatAreAskedFor) {
+  PathOutputOptions options;
+  options.colours = PathColours::kDeviation;
+  options.reference = path_.shapes[1];
+  const DeviationColours deviation = ColourByDeviation(path_, path_.shapes[1]);
+  EXPECT_EQ(WritePathOutput(PathOutput::Of(Path("a.glb")), path_, options).colour_end, [&] {
+    GltfOptions own;
+    own.colour_by_deviation = true;
+    own.reference = path_.shapes[1];
+    return WriteGltf(Path("b.glb"), path_, own).colour_end;
+  }());
+  EXPECT_EQ(testing::Content(Path("a.glb")), testing::Content(Path("b.glb")));
+  const PathOutputSummary last =
+      WritePathOutput(PathOutput::Of(Path("last.ply"), true), path_, options);
+  EXPECT_EQ(last.colour_end, deviation.scale_end);
+  EXPECT_EQ(ReadSoup(Path("last.ply")).appearance.vertex_colours, deviation.of_shapes[2]);
+  options.colours = PathColours::kParts;
+  options.parts = Eigen::VectorXi::LinSpaced(path_.shapes[0].cols(), -1, 3);
+  WritePathOutput(PathOutput::Of(Path("f%d.ply")), path_, options);
+  for (int i = 0; i < 3; ++i) {
+    const Soup frame = ReadSoup(Path("f" + std::to_string(i) + ".ply"));
+    EXPECT_EQ(frame.appearance.vertex_colours, ColourByGroup(options.parts)) << i;
+  }
+  WritePathOutput(PathOutput::Of(Path("a.glb")), path_, options);
+  GltfOptions own;
+  own.groups = options.parts;
+  WriteGltf(Path("b.glb"), path_, own);
+  EXPECT_EQ(testing::Content(Path("a.glb")), testing::Content(Path("b.glb")));
+  options.point_cache_fps = 50;
+  WritePathOutput(PathOutput::Of(Path("a.mdd")), path_, options);
+  WritePointCache(Path("b.mdd"), path_.Placed(), 50);
+  EXPECT_EQ(testing::Content(Path("a.mdd")), testing::Content(Path("b.mdd")));
+  options.reference = path_.shapes[2];
+  WritePathOutput(PathOutput::Of(Path("a%d.vtp")), path_, options);
+  WriteVtkSeries(Path("b%d.vtp"), path_, path_.shapes[2]);
+  EXPECT_EQ(testing::Content(Path("a1.vtp")), testing::Content(Path("b1.vtp")));
+  options.page_template = "<p><!-- scenes --></p>";
+  WritePathOutput(PathOutput::Of(Path("some.walk.html")), path_, options);
+  EXPECT_NE(testing::Content(Path("some.walk.html")).find("data-name=\"some.walk\""),
+            std::string::npos);
 }
 
 }  // namespace

@@ -10,12 +10,14 @@
 
 #include "mesh/bodies.h"
 #include "mesh/files.h"
+#include "support/message_of.h"
 #include "support/path_of.h"
 
 namespace shapespace {
 namespace {
 
 using testing::ExpectError;
+using testing::MessageOf;
 
 /// The attributes of a .usda, each of which begins on a line of its own.
 class Usda {
@@ -187,6 +189,104 @@ TEST_F(UsdTest, WhatCannotBeWrittenIsRefused) {
       testing::PathOf(testing::Connected(graph), {graph.vertices, 2 * graph.vertices});
   ExpectError<MeshError>([&] { WriteUsd(Path("a.usda"), of_graph); }, {"no polygons", ".vtp"});
   EXPECT_FALSE(std::filesystem::exists(Path("a.usda")));
+}
+
+TEST_F(UsdTest, ASmallFileIsThisText) {
+  const auto mixed = Connectivity::Make(4, {0, 3, 6}, {0, 1, 2, 2, 1, 3}, {{0, 3}});
+  Shape shape(3, 4);
+  shape << 0, 2, 0, 2, 0, 0, 1, 1, 5, 5, 5, 5;
+  shapespace::Path path = testing::PathOf(mixed, {shape, shape});
+  const auto metric = std::make_shared<Metric>(*path.metric);
+  metric->unit = 1;
+  path.metric = metric;
+  path.motions[0] = path.motions[1] = RigidMotion();
+  path.shapes[0] = path.shapes[1] = shape;
+  path.shapes[1](2, 3) = 6.5;
+  path.appearance.vertex_colours = Eigen::MatrixXd::Constant(4, 4, 1);
+  path.appearance.vertex_colours(0, 1) = 0;
+  path.appearance.vertex_colours(3, 2) = 0.5;
+  path.appearance.texture_coordinates = (Eigen::Matrix2Xd(2, 2) << 0, 0.5, 1, 0.25).finished();
+  path.appearance.corner_texture = {0, 1, -1, -1, 1, 0};
+  path.appearance.materials = {{"red"}, {0, 0}};
+  path.appearance.groups = {{"left"}, {0, -1}};
+  path.appearance.objects = {{"body"}, {0, 0}};
+  UsdOptions options;
+  options.fps = 12.5;
+  options.unit = 0.01;
+  EXPECT_EQ(WriteUsd(Path("a.usda"), path, options),
+            std::vector<std::string>{
+                "materials, groups, objects, segments are dropped; frames in OBJ keep them"});
+  EXPECT_EQ(testing::Content(Path("a.usda")), R"(#usda 1.0
+(
+    defaultPrim = "body"
+    startTimeCode = 0
+    endTimeCode = 1
+    timeCodesPerSecond = 12.5
+    framesPerSecond = 12.5
+    metersPerUnit = 0.01
+    upAxis = "Y"
+)
+
+def Xform "body"
+{
+    double3 xformOp:translate = (1, 0.5, 5)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+
+    def Mesh "mesh"
+    {
+        uniform token subdivisionScheme = "none"
+        uniform token orientation = "rightHanded"
+        int[] faceVertexCounts = [3, 3]
+        int[] faceVertexIndices = [0, 1, 2, 2, 1, 3]
+        float3[] extent.timeSamples = {
+            0: [(-1, -0.5, 0), (1, 0.5, 0)],
+            1: [(-1, -0.5, 0), (1, 0.5, 1.5)],
+        }
+        point3f[] points.timeSamples = {
+            0: [(-1, -0.5, 0), (1, -0.5, 0), (-1, 0.5, 0), (1, 0.5, 0)],
+            1: [(-1, -0.5, 0), (1, -0.5, 0), (-1, 0.5, 0), (1, 0.5, 1.5)],
+        }
+        color3f[] primvars:displayColor = [(1, 1, 1), (0, 1, 1), (1, 1, 1), (1, 1, 1)] (
+            interpolation = "vertex"
+        )
+        float[] primvars:displayOpacity = [1, 1, 0.5, 1] (
+            interpolation = "vertex"
+        )
+        texCoord2f[] primvars:st = [(0, 1), (0.5, 0.25), (0, 0)] (
+            interpolation = "faceVarying"
+        )
+        int[] primvars:st:indices = [0, 1, 2, 2, 1, 0]
+    }
+}
+)");
+  options.colours = {Eigen::MatrixXd::Constant(3, 4, 1)};
+  EXPECT_EQ(
+      WriteUsd(Path("b.usda"), path, options),
+      std::vector<std::string>{"groups, objects, segments are dropped; frames in OBJ keep them"});
+  const std::string text = testing::Content(Path("b.usda"));
+  EXPECT_EQ(text.find("primvars:st"), std::string::npos);
+  EXPECT_EQ(text.find("displayOpacity"), std::string::npos);
+  EXPECT_EQ(text.find("displayColor.timeSamples"), std::string::npos);
+}
+
+TEST_F(UsdTest, MessagesNameTheOption) {
+  const auto message = [&](const std::function<void(UsdOptions*)>& change) {
+    UsdOptions options;
+    change(&options);
+    return MessageOf<InvalidOptions>([&] { WriteUsd(Path("a.usda"), path_, options); });
+  };
+  using O = UsdOptions;
+  EXPECT_EQ(message([](O* o) { o->fps = 1001; }).rfind("fps: must be from 0.01 to 1000", 0), 0u);
+  EXPECT_EQ(message([](O* o) { o->up = 'Z'; }), "up: must be 'y' or 'z'");
+  EXPECT_EQ(message([](O* o) { o->unit = 0; }).rfind("unit: must be from 1e-12 to 1e+12", 0), 0u);
+  const std::string numbers = "colours: must be 3 numbers from 0 to 1 for every vertex";
+  EXPECT_EQ(message([](O* o) { o->colours = {Eigen::MatrixXd::Zero(4, 8)}; }), numbers);
+  EXPECT_EQ(message([](O* o) { o->colours = {Eigen::MatrixXd::Zero(3, 7)}; }), numbers);
+  EXPECT_EQ(message([](O* o) { o->colours = {Eigen::MatrixXd::Constant(3, 8, -0.1)}; }), numbers);
+  EXPECT_EQ(message([](O* o) { o->colours.assign(3, Eigen::MatrixXd::Constant(3, 8, 2)); }),
+            numbers);
+  EXPECT_EQ(message([](O* o) { o->colours.assign(2, Eigen::MatrixXd::Zero(3, 8)); }),
+            "colours: there must be one matrix, or as many as shapes");
 }
 
 }  // namespace

@@ -134,5 +134,29 @@ TEST(ChooseViewTest, SeesAnOpenSheetFromItsFront) {
   EXPECT_LT(View(sheet, Eigen::Vector3d::UnitY())(2, 2), 0);
 }
 
+// Where neither side has more to show, the body is seen from its left, low, and so faces right.
+TEST(ChooseViewTest, FacesRightWhereNothingSpeaksAgainst) {
+  const SimpleBody sphere = Sphere(1, 20, 40);
+  const auto at = [](double azimuth, double elevation) -> Eigen::Vector3d {
+    const double a = azimuth * EIGEN_PI / 180, e = elevation * EIGEN_PI / 180;
+    return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
+  };
+  const Eigen::Vector3d y_up = View(sphere, Eigen::Vector3d::UnitY()).col(2);
+  EXPECT_LT(std::min((y_up - at(-30, 15)).norm(), (y_up - at(-60, 15)).norm()), 1e-12);
+  // With z upwards, the front is at -y.
+  const Eigen::Vector3d z_up = View(sphere, Eigen::Vector3d::UnitZ()).col(2);
+  const Eigen::Vector3d turned(z_up.x(), z_up.z(), -z_up.y());
+  EXPECT_LT(std::min((turned - at(-30, 15)).norm(), (turned - at(-60, 15)).norm()), 1e-12);
+}
+
+TEST(ChooseUpTest, AllShapesAreAskedAndATieIsY) {
+  const SimpleBody gallows = Gallows();
+  const Shape other = WithZAsY(gallows.shape);
+  EXPECT_EQ(internal::ChooseUp(*gallows.connectivity, {gallows.shape, other}),
+            Eigen::Vector3d::UnitY());
+  EXPECT_EQ(internal::ChooseUp(*gallows.connectivity, {gallows.shape, other, gallows.shape}),
+            Eigen::Vector3d::UnitZ());
+}
+
 }  // namespace
 }  // namespace shapespace
