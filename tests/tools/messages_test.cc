@@ -1,0 +1,358 @@
+#include <filesystem>
+
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include <shapespace/files/read.h>
+#include <shapespace/files/write.h>
+#include <shapespace/path/path_file.h>
+
+#include "tools/run.h"
+
+namespace shapespace {
+namespace {
+
+using testing::Content;
+using testing::ExpectContains;
+using testing::Outcome;
+using testing::ToolsTest;
+
+using Strings = std::vector<std::string>;
+
+/// Messages, word for word: what was typed, what is wrong with it, and what to do.
+class MessagesTest : public ToolsTest {
+ protected:
+  // Expects that a run fails with this message alone, and writes nothing.
+  void ExpectMessage(int code, const std::string& tool, const Strings& arguments,
+                     const std::string& message) const {
+    const Strings before = Files();
+    const Outcome outcome = Run(tool, arguments);
+    EXPECT_EQ(outcome.code, code) << message;
+    EXPECT_EQ(outcome.out, "") << message;
+    EXPECT_EQ(outcome.err, tool + ": " + message + "\n" +
+                               (code == 2 ? "Try " + tool + " --help\n" : std::string()));
+    EXPECT_EQ(Files(), before) << message;
+  }
+  void MakeWalk() const {
+    MakeTubes(200);
+    Succeed("shape-interpolate",
+            {"tube0.obj", "tube1.obj", "--shapes", "3", "--output", "walk.path"});
+  }
+  Shape Vertices(const std::string& file) const { return ReadSoup(Path(file)).vertices; }
+};
+
+TEST_F(MessagesTest, OfAverage) {
+  MakeTubes(200);
+  const auto expect = [&](const Strings& arguments, const std::string& message) {
+    ExpectMessage(2, "shape-average", arguments, message);
+  };
+  expect({}, "name poses of one mesh");
+  expect({"tube0.obj", "--output", ", ,"}, "--output: names no file");
+  expect({"tube0.obj", "--output", "a.glb"},
+         "--output a.glb: must end in .obj, .ply, .off, .stl, .png, .pc2 or .mdd, or be -");
+  expect({"tube0.obj", "--output", "tube0.obj"},
+         "--output tube0.obj would overwrite tube0.obj, which is read; choose another name");
+  std::filesystem::create_directory(Path("a.obj"));
+  ExpectMessage(1, "shape-average", {"tube0.obj", "--output", "a.obj"},
+                "a.obj: cannot be written: it is a folder");
+}
+
+TEST_F(MessagesTest, OfBody) {
+  const auto expect = [&](const Strings& arguments, const std::string& message) {
+    ExpectMessage(2, "shape-body", arguments, message);
+  };
+  expect({"bar", "--output", "a.glb"},
+         "--output a.glb: must end in .obj, .ply, .off or .stl, or be -");
+  expect({"bar", "--output", "a.obj"},
+         "--output a.obj: a name for frames needs one number, as in frames/%03d.obj");
+  expect({"quadruped", "--random", "2", "--at", "0"}, "--random excludes --at and --pose");
+  expect({"bar", "--triangles", "99999999"},
+         "--triangles 99999999: 99999999 is outside 0 .. 10000000");
+}
+
+TEST_F(MessagesTest, OfCorrespond) {
+  MakeTubes(200);
+  const auto expect = [&](const Strings& arguments, const std::string& message) {
+    ExpectMessage(2, "shape-correspond", arguments, message);
+  };
+  expect({"tube0.obj"}, "name two meshes: the template and the target");
+  expect({"tube0.obj", "tube1.obj"},
+         "--markers: name a file of corresponding vertices, or two of landmarks");
+  File("m.txt", "1 1\n");
+  const Strings run = {"tube0.obj", "tube1.obj", "--markers", "m.txt", "--output"};
+  const auto with = [&](const std::string& output) {
+    Strings arguments = run;
+    arguments.push_back(output);
+    return arguments;
+  };
+  expect(with("a.glb"),
+         "--output a.glb: must end in .obj, .ply, .off, .stl, .txt or .png, or be -");
+  expect(with(","), "--output: names no file");
+  expect(with("tube1.obj"),
+         "--output tube1.obj would overwrite tube1.obj, which is read; choose another name");
+  expect(with("m.txt"), "--output m.txt would overwrite m.txt, which is read; choose another name");
+  expect({"tube0.obj", "tube1.obj", "--markers", "a,b,c"},
+         "--markers: name one file of pairs of vertices, or two files of landmarks");
+  expect({"tube0.obj", "tube1.obj", "--markers", ",a"},
+         "--markers: name one file of pairs of vertices, or two files of landmarks");
+}
+
+TEST_F(MessagesTest, OfExport) {
+  MakeWalk();
+  const auto expect = [&](int code, const Strings& more, const std::string& message) {
+    Strings arguments = {"walk.path", "--output", "e%d.ply"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ExpectMessage(code, "shape-export", arguments, message);
+  };
+  ExpectMessage(2, "shape-export", {}, "name one .path file");
+  ExpectMessage(2, "shape-export", {"walk.path", "walk.path"}, "name one .path file");
+  ExpectMessage(2, "shape-export", {"walk.path", "-o", "w.glb,x.PATH"},
+                "--output x.PATH: a path at other times is not a geodesic; export meshes or "
+                "pictures");
+  expect(2, {"--ease"}, "--ease goes with --frames, or with a .glb");
+  expect(2, {"--at", ".5", "--frames", "3"}, "--at and --frames: give one");
+  expect(2, {"--frames", "1"}, "--frames 1: must be 2 or more");
+  expect(2, {"--frames=-3"}, "--frames -3: must be 2 or more");
+  expect(2, {"--memory_limit", "0"}, "--memory_limit 0: must be positive");
+  expect(2, {"--at", ".5,x"}, "--at .5,x: 'x' is not a number");
+  expect(2, {"--at", ".5,,1"}, "--at .5,,1: '' is not a number");
+  expect(2, {"--at", "inf"}, "--at inf: 'inf' is not a number");
+  expect(2, {"--ground_line", "1,2"}, "--ground_line 1,2: must be one height");
+  expect(2, {"--up", "x"}, "--up x: must be y or z");
+  expect(2, {"--loop", "--once"}, "--loop and --once exclude each other");
+}
+
+TEST_F(MessagesTest, OfFramesAndTimes) {
+  MakeWalk();
+  const Outcome eased =
+      Run("shape-export", {"walk.path", "--frames", "5", "--ease", "-o", "e%d.ply"});
+  EXPECT_EQ(eased.out, "5 shapes of walk.path\nwrote e0.ply .. e4.ply\n");
+  // A quarter of the time is (1 - cos(pi / 4)) / 2 of the way.
+  Succeed("shape-export", {"walk.path", "--at", "0.14644660940672624,0.5", "-o", "at%d.ply"});
+  EXPECT_LT((Vertices("e1.ply") - Vertices("at0.ply")).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT((Vertices("e2.ply") - Vertices("at1.ply")).cwiseAbs().maxCoeff(), 1e-6);
+  // 65 frames are more than an animation holds.
+  const Outcome many = Run("shape-export", {"walk.path", "--frames", "65", "-o", "m.glb"});
+  EXPECT_EQ(many.out, "65 shapes of walk.path\nwrote m.glb\n");
+  EXPECT_EQ(many.err,
+            "note: m.glb: 32 of the 65 shapes, evenly spaced, because players do not support "
+            "more\n");
+  const Outcome coloured =
+      Run("shape-export", {"walk.path", "--color", "deviation", "-o", "c%d.obj"});
+  EXPECT_EQ(coloured.code, 0);
+  ExpectContains(coloured.err, "note: c%d.obj: the last colour stands for a deviation of ");
+  const double end = std::stod(coloured.err.substr(coloured.err.find(" of ", 50) + 4));
+  const auto extras = [&] {
+    Succeed("shape-export", {"walk.path", "--color", "deviation", "-o", "c.glb"});
+    const std::string glb = Content(Path("c.glb"));
+    return std::stod(glb.substr(glb.find("\"last_colour_deviation\":") + 24));
+  }();
+  EXPECT_GT(extras, 0);
+  EXPECT_LT(extras, 1);
+  EXPECT_GE(100 * extras, end / 3);
+  EXPECT_LE(100 * extras, 3 * end);
+}
+
+TEST_F(MessagesTest, OfExplore) {
+  MakeTubes(200);
+  const auto expect = [&](const Strings& arguments, const std::string& message) {
+    ExpectMessage(2, "shape-explore", arguments, message);
+  };
+  const Strings poses = {"tube0.obj", "tube1.obj"};
+  const auto with = [&](const Strings& more) {
+    Strings arguments = poses;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  expect({}, "name at least two poses of one mesh, or a .space file");
+  expect(with({"--output", "a.obj"}), "--output a.obj: must end in .space or .csv");
+  expect(with({"--threshold", "1,2"}), "--threshold 1,2: must be one number");
+  expect(with({"--threshold", "%"}), "--threshold %: must be one number");
+  expect(with({"--threshold", ""}), "--threshold : must be one number");
+  expect(with({"--measure=-1"}), "--measure -1: must be 0 or more");
+  expect(with({"--frames", "3"}), "--frames: goes with --sample");
+  expect(with({"--sample", "c.json"}), "--sample: goes with one .space file");
+  expect({"a.space"}, "a.space: give --sample or --measure; shape-view shows it");
+  expect({"a.space", "--sample", "c.json"}, "--sample: needs --output, a .glb for example");
+  expect({"a.space", "--sample", "c.json", "-o", "a.glb", "--lambda", "1"},
+         "--lambda: has no effect with --sample");
+  expect({"a.space", "--sample", "c.json", "-o", "a.glb", "--tolerance", "0.1"},
+         "--tolerance: has no effect with --sample");
+  expect({"a.space", "--sample", "c.json", "-o", "a.glb", "--resolution", "9"},
+         "--resolution: has no effect with --sample");
+  expect({"a.space", "--sample", "c.json", "-o", "a.path"},
+         "--output a.path: a curve through a space is not a geodesic; export meshes or pictures");
+  expect({"a.space", "--sample", "c.json", "-o", "a.glb", "--frames", "0"},
+         "--frames 0: must be 1 or more");
+  for (const char* flag : {"depth", "output", "report", "stiffeners"}) {
+    const std::string value = flag == std::string("depth") ? "3" : "x.json";
+    expect({"a.space", "--measure", "5", "--" + std::string(flag), value},
+           "--" + std::string(flag) + ": goes with poses; a.space contains its own metric");
+  }
+  expect(with({"-o", "d.csv", "--threshold", "1%"}),
+         "--threshold: goes with a .space, not with distances alone");
+  expect(with({"-o", "d.csv", "--report", "r.json"}),
+         "--report: goes with a .space, not with distances alone");
+}
+
+TEST_F(MessagesTest, OfStatistics) {
+  MakeTubes(200);
+  const auto expect = [&](const Strings& more, const std::string& message) {
+    Strings arguments = {"tube0.obj", "tube1.obj"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ExpectMessage(2, "shape-statistics", arguments, message);
+  };
+  expect({"--fit"}, "--fit: goes with --coordinates or --assess");
+  expect({"--seed", "3"}, "--seed 3: goes with --sample or --scalars or --groups or --assess");
+  expect({"--seed", "3", "--at", "1", "-o", "a.obj"},
+         "--seed 3: goes with --sample or --scalars or --groups or --assess");
+  expect({"--predict", "1", "--groups", "g.csv"}, "--predict 1: goes with --scalars");
+  expect({"--permutations", "9", "--assess"}, "--permutations 9: goes with --scalars or --groups");
+  expect({"--sample", "0"}, "--sample 0: must be 1 or more");
+  expect({"--sample", "1", "--seed=-1"}, "--seed -1: must be 0 or more");
+  expect({"--groups", "g.csv", "--scalars", "s.csv"},
+         "--scalars and --groups: ask one question at a time");
+  expect({"--at", "1", "-o", "a.csv"}, "--output a.csv: must end in .obj, .ply, .off or .stl");
+  expect({"--scalars", "s.csv", "--predict", "1", "-o", "a.html"},
+         "--output a.html: must end in .obj, .ply, .off or .stl");
+  expect({"--scalars", "s.csv", "-o", "a.obj"},
+         "--output a.obj: must end in .html; with --predict, in .obj, .ply, .off or .stl");
+  expect({"--sample", "2", "-o", "a%d.glb"},
+         "--output a%d.glb: must end in .obj, .ply, .off, .stl or .csv");
+  expect({"--sample", "2", "-o", "a.obj"},
+         "--output a.obj: a name for frames needs one number, as in frames/%03d.obj");
+  expect({"--sample", "2"}, "--output: name a mesh to write, such as shape.obj");
+  expect({"--at", "1", "-o", ","}, "--output: name a mesh to write, such as shape.obj");
+  expect({"--coordinates", "tube0.obj", "-o", "a.obj"}, "--output a.obj: must end in .csv");
+  expect({"--groups", "g.csv", "-o", "a.csv"}, "--output: --groups writes no file but --report");
+  expect({"--assess", "-o", "a.csv"}, "--output: --assess writes no file but --report");
+  expect({"-o", "a.glb"},
+         "--output a.glb: a name for frames needs one number, as in frames/%03d.obj");
+  expect({"-o", "a.obj"},
+         "--output a.obj: must end in .modes, .png, .glb, .html, .csv, .pc2 or .mdd");
+  expect({"--sample", "2", "-o", "tube%d.obj"},
+         "--output tube%d.obj: tube0.obj would overwrite tube0.obj, which is read; choose another "
+         "name");
+}
+
+TEST_F(MessagesTest, OfStatisticsOfModes) {
+  Succeed("shape-body", {"tube", "--triangles", "200", "--at", "0,40,90", "-o", "tube%d.obj"});
+  Succeed("shape-statistics", {"tube0.obj", "tube1.obj", "tube2.obj", "-o", "t.modes"});
+  const auto refuse = [&](const Strings& more, const std::string& flag) {
+    Strings arguments = {"t.modes"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ExpectMessage(2, "shape-statistics", arguments,
+                  "--" + flag + ": goes with poses; t.modes contains its own metric and modes");
+  };
+  refuse({"--size", "remove"}, "size");
+  refuse({"--nocertify"}, "certify");
+  refuse({"--refine"}, "refine");
+  refuse({"--strict"}, "strict");
+  refuse({"--bending", "1"}, "bending");
+  File("s.csv", "pose,age\ntube0,1\ntube1,2\ntube2,4\n");
+  for (const auto& [value, warning] :
+       {std::pair{"1", ""},
+        {"4", ""},
+        {"0.5", "warning: age = 0.5 is outside of the poses' range, 1 to 4\n"},
+        {"4.5", "warning: age = 4.5 is outside of the poses' range, 1 to 4\n"}}) {
+    const Outcome outcome = Run(
+        "shape-statistics", {"t.modes", "--scalars", "s.csv", "--predict", value, "-o", "p.obj"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err, warning) << value;
+    ExpectContains(outcome.out, "wrote p.obj\n");
+  }
+  const Outcome far = Run("shape-statistics", {"t.modes", "--at=0,-3.25", "-o", "far.obj"});
+  EXPECT_EQ(far.err,
+            "warning: a coordinate is 3.25 standard deviations from the mean; the poses say little "
+            "about shapes that far\n");
+  EXPECT_EQ(Run("shape-statistics", {"t.modes", "--at", "3,-3", "-o", "far.obj"}).err, "");
+  // Samples are numbered, and of seeds that follow one another.
+  Succeed("shape-statistics", {"t.modes", "--sample", "3", "--seed", "5", "-o", "a%d.ply,a.csv"});
+  Succeed("shape-statistics", {"t.modes", "--sample", "1", "--seed", "7", "-o", "b%d.ply,b.csv"});
+  EXPECT_EQ(Content(Path("a2.ply")), Content(Path("b0.ply")));
+  const std::string table = Content(Path("a.csv")), row = Content(Path("b.csv"));
+  EXPECT_EQ(table.rfind("pose,mode 1,mode 2\n0,", 0), 0u);
+  EXPECT_EQ(table.substr(table.find("\n2,") + 2), row.substr(row.find("\n0,") + 2));
+  // One mode only, and none.
+  const Outcome one = Run("shape-statistics", {"t.modes", "--modes", "1", "-o", "m%d.glb"});
+  EXPECT_EQ(one.out, "wrote m1.glb\n");
+  const Outcome none = Run("shape-statistics", {"t.modes", "--modes", "0", "-o", "m.png,c.csv"});
+  EXPECT_EQ(none.code, 1);
+  EXPECT_EQ(none.err, "shape-statistics: m.png: there are no modes to show\n");
+  EXPECT_EQ(none.out, "wrote c.csv\n");
+  const Outcome coordinates =
+      Run("shape-statistics", {"t.modes", "--coordinates", "tube1.obj,tube2.obj", "-o", "n.csv"});
+  EXPECT_EQ(coordinates.code, 0) << coordinates.err;
+  EXPECT_EQ(Content(Path("n.csv")).rfind("pose,mode 1,mode 2,distance\ntube1,", 0), 0u);
+  ExpectContains(coordinates.out, "tube1: ");
+  ExpectContains(coordinates.out, "tube2: ");
+  ExpectContains(coordinates.out, " away (rms)\nwrote n.csv\n");
+}
+
+TEST_F(MessagesTest, OfTransport) {
+  MakeTubes(200);
+  ExpectMessage(2, "shape-transport", {"tube0.obj", "tube1.obj"},
+                "name a .path and a changed pose, or the first, the last and the changed pose");
+  ExpectMessage(2, "shape-transport", {"a.path", "b.obj", "--tolerance", "0.1"},
+                "--tolerance: goes with poses; a .path has its metric");
+  ExpectMessage(2, "shape-transport", {"a.path", "b.obj", "--steps", "1"},
+                "--steps must be 2 or more");
+  const Outcome outcome =
+      Run("shape-transport", {"tube0.obj", "tube0.obj", "tube1.obj", "--steps", "2", "-o",
+                              "there.ply,there%d.ply", "--tangents", "t.csv", "--report", "r.txt"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.out,
+                 "wrote there.ply\nwrote there0.ply .. there2.ply\nwrote t.csv\nwrote r.txt\n");
+  EXPECT_EQ(Vertices("there.ply"), Vertices("there2.ply"));
+  const std::string table = Content(Path("t.csv"));
+  EXPECT_EQ(table.rfind("pose,first_x,first_y,first_z,last_x,last_y,last_z\n1,", 0), 0u);
+  ExpectContains(table, "\n" + std::to_string(Vertices("tube0.obj").cols()) + ",");
+}
+
+TEST_F(MessagesTest, OfInterpolateAndTheCommandLine) {
+  MakeTubes(200);
+  const auto expect = [&](const Strings& more, const std::string& message) {
+    Strings arguments = {"tube0.obj", "tube1.obj"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ExpectMessage(2, "shape-interpolate", arguments, message);
+  };
+  expect({"--shapes"}, "--shapes: its value is missing");
+  expect({"--shapes", "a"}, "--shapes a: must be an integer");
+  expect({"--lambda", "a"}, "--lambda a: must be a number");
+  expect({"--strict=a"}, "--strict a: must be true or false");
+  expect({"--noshapes"}, "--noshapes: there is no such flag");
+  expect({"-shapes", "0"}, "--shapes 0: must be 1 or more");
+  expect({"--max-iterations", "0"}, "--max_iterations 0: must be 1 or more");
+  expect({"-o", "a.path,b%d.path"},
+         "--output b%d.path: only meshes and .vtp are numbered; one .path contains the whole path");
+  expect({"--avoid_contact", "--obstacle", "tube0.obj", "--anchor", "{\"vertices\": [1]}"},
+         "--anchor moves the path, which --obstacle needs where the poses are");
+  expect({"--progress", "much"}, "--progress much: must be text or lines");
+  expect({"-o", "w.path", "--report", "w.html"},
+         "--report w.html: must end in .json or .txt, or be -");
+  // The last of several wins, and what is given as the default is not given.
+  const Outcome outcome = Run("shape-interpolate", {"--shapes", "9", "tube0.obj", "--shapes=1",
+                                                    "tube1.obj", "-o", "w.path"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(ReadPath(Path("w.path")).NumShapes(), 3);
+  ExpectMessage(1, "shape-interpolate", {"tube0.obj", "tube1.obj", "-o", "tube0.obj/w.path"},
+                "tube0.obj/w.path: cannot be written: " + Path("tube0.obj") + " is not a folder");
+}
+
+TEST_F(MessagesTest, OfMirroredTargets) {
+  MakeWalk();
+  const Soup tube = ReadSoup(Path("tube0.obj"));
+  Succeed("shape-body", {"tube", "--triangles", "200", "--at", "25", "-o", "bent%d.ply"});
+  Soup bent = ReadSoup(Path("bent0.ply"));
+  bent.vertices.row(1) *= -1;
+  WriteMesh(Path("flipped.ply"), bent.vertices, bent);
+  const Outcome outcome = Run("shape-transport", {"walk.path", "flipped.ply", "--mirror", "y",
+                                                  "--steps", "2", "-o", "a.ply"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.err,
+                 "warning: flipped.ply: is a mirror image of the path's first shape; its y has "
+                 "changed sign\n");
+}
+
+}  // namespace
+}  // namespace shapespace
