@@ -5,6 +5,8 @@
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/files/read.h>
+#include <shapespace/files/write.h>
+#include <shapespace/output/frames.h>
 #include <shapespace/output/point_cache.h>
 #include <shapespace/output/vertex_colours.h>
 #include <shapespace/output/vtk.h>
@@ -191,6 +193,35 @@ TEST_F(PathOutputTest, MeshesAndAnimationsHaveTheColoursThatAreAskedFor) {
   WritePathOutput(PathOutput::Of(Path("some.walk.html")), path_, options);
   EXPECT_NE(testing::Content(Path("some.walk.html")).find("data-name=\"some.walk\""),
             std::string::npos);
+}
+
+TEST_F(PathOutputTest, WhatAFileDoesNotHoldIsTold) {
+  shapespace::Path path = path_;
+  const int polygons = bar_.connectivity->NumPolygons();
+  path.appearance.materials = {{"red"}, std::vector<int>(polygons, 0)};
+  path.appearance.groups = {{"left"}, std::vector<int>(polygons, 0)};
+  PathOutputOptions options;
+  const auto warnings = [&](const std::string& name) {
+    return WritePathOutput(PathOutput::Of(Path(name), true), path, options).warnings;
+  };
+  const auto expected = [&](const std::string& name, const Eigen::MatrixXd& colours) {
+    Soup soup = FrameSoup(*bar_.connectivity, path.appearance);
+    if (colours.size() > 0) soup = Coloured(soup, colours);
+    return NotKept(Path(name), soup);
+  };
+  EXPECT_TRUE(warnings("a%d.obj").empty());
+  EXPECT_EQ(warnings("a%d.ply"), expected("a%d.ply", {}));
+  EXPECT_EQ(warnings("last.stl"), expected("last.stl", {}));
+  ASSERT_EQ(warnings("last.stl").size(), 1u);
+  options.colours = PathColours::kDeviation;
+  EXPECT_EQ(warnings("b.stl"), expected("b.stl", Eigen::MatrixXd::Ones(3, path.shapes[0].cols())));
+  EXPECT_NE(warnings("b.stl"), expected("b.stl", {}));
+  options.colours = PathColours::kPlain;
+  EXPECT_EQ(warnings("a.usda"),
+            std::vector<std::string>{"materials, groups are dropped; frames in OBJ keep them"});
+  // A library that is missing.
+  path.appearance.material_libraries = {"none.mtl"};
+  EXPECT_EQ(warnings("a.glb").size(), 2u);
 }
 
 }  // namespace

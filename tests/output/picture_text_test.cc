@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <shapespace/base/error.h>
 #include <shapespace/output/internal/colour.h>
 #include <shapespace/output/internal/frame.h>
 #include <shapespace/output/internal/legend.h>
@@ -12,6 +14,7 @@
 #include <shapespace/output/picture.h>
 
 #include "output/bodies.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -284,6 +287,94 @@ TEST(VertexNumbersTest, AtTheEdgeOfTheFrameTheyStayInIt) {
     EXPECT_EQ(found[0].Middle() > image.width / 2.0, (v & 1) != 0) << v;
     EXPECT_EQ(found[0].top < image.height / 2, (v & 2) != 0) << v;
   }
+}
+
+TEST(FilmStripMessagesTest, NameShapeVertexAndNumber) {
+  const SimpleBody box = Box(1, 1, 1);
+  const auto message = [&](const std::function<void(FilmStripOptions*)>& change) {
+    FilmStripOptions options;
+    change(&options);
+    return testing::MessageOf<InvalidOptions>([&] {
+      RenderFilmStrip(*box.connectivity, {box.shape, box.shape}, options);
+    });
+  };
+  using O = FilmStripOptions;
+  EXPECT_EQ(message([](O* o) {
+              o->values = {Eigen::VectorXd::Zero(8), Eigen::VectorXd::Zero(7)};
+            }),
+            "values: 7 for shape 1, which has 8 vertices");
+  EXPECT_EQ(message([](O* o) {
+              o->values.assign(2, Eigen::VectorXd::Zero(8));
+              o->values[1](5) = INFINITY;
+            }),
+            "values: not finite for shape 1, vertex 5");
+  EXPECT_EQ(message([](O* o) { o->marks = Eigen::VectorXi::Constant(8, 3); }),
+            "marks: must be 0, 1 or 2");
+  EXPECT_EQ(message([](O* o) { o->roles.assign(3, ShapeRole::kPose); }).rfind("roles: ", 0), 0u);
+  EXPECT_EQ(message([](O* o) { o->labels.assign(1, ""); }).rfind("labels: ", 0), 0u);
+  EXPECT_EQ(message([](O* o) { o->columns = 1001; }).rfind("columns: ", 0), 0u);
+  EXPECT_EQ(message([](O* o) { o->columns = -1; }).rfind("columns: ", 0), 0u);
+  EXPECT_EQ(message([](O* o) { o->samples = 17; }).rfind("samples: ", 0), 0u);
+  EXPECT_EQ(message([](O* o) { o->max_frames = 1001; }).rfind("max_frames: ", 0), 0u);
+  EXPECT_EQ(message([](O* o) { o->frame_width = 2049; }).rfind("frame_width: ", 0), 0u);
+  EXPECT_EQ(message([](O* o) { o->title.assign(121, 'x'); }), "title: longer than 120 characters");
+  EXPECT_EQ(message([](O* o) {
+              o->view = o->up = {0, 2, 0};
+            }),
+            "up: parallel to view; give another, or none");
+  EXPECT_EQ(message([](O* o) { o->ground_line = INFINITY; }), "ground_line: not finite");
+  EXPECT_EQ(message([](O* o) {
+              o->ground_line = 0;
+              o->up = {0, 1, 0};
+              o->view = {0, 1, 1};
+            }),
+            "view: must be horizontal, perpendicular to up, with a ground line");
+  EXPECT_EQ(message([](O* o) { o->ground_line = 1e4; }),
+            "ground_line: the shapes are so far from it, or from each other, that they would be "
+            "too small to be seen");
+}
+
+// A graph of long edges has tubes of a hundredth of its radius; one of short edges has thinner
+// ones.
+TEST(FilmStripGraphTest, TubesAreThinnerWhereEdgesAreShort) {
+  const auto thickness = [](int edges) {
+    std::vector<std::pair<int, int>> segments;
+    Shape line(3, edges + 1);
+    for (int i = 0; i <= edges; ++i) {
+      line.col(i) << 2.0 * i / edges, 0, 0;
+      if (i > 0) segments.emplace_back(i - 1, i);
+    }
+    FilmStripOptions options;
+    options.frame_width = 1000;
+    options.samples = 1;
+    options.view = Eigen::Vector3d::UnitZ();
+    options.up = Eigen::Vector3d::UnitY();
+    const RgbImage image =
+        RenderFilmStrip(*Connectivity::Make(edges + 1, {0}, {}, segments), {line}, options);
+    int rows = 0;
+    for (int y = 0; y < image.height; ++y) {
+      rows += !HasColour(PixelOf(image, image.width / 3, y), internal::Background());
+    }
+    return rows;
+  };
+  // Of a frame of 938 pixels inside its margins, which shows a radius of 1.01.
+  EXPECT_NEAR(thickness(4), 0.02 * 938 / 2.02, 1.1);
+  // An edge is a hundredth of the radius, and 0.15 of it a third of a pixel at either side.
+  EXPECT_LE(thickness(100), 0.3 * 0.02 * 938 / 2 + 1.1);
+}
+
+TEST(ShortenedTest, NoBlankStandsBeforeTheDots) {
+  const std::string text = "ab cdefghijk";
+  const int size = 20;
+  // There is room for "ab ", but not for "ab c".
+  const int width = internal::TextWidth("ab \u2026", size);
+  EXPECT_EQ(internal::Shortened(text, width, size), "ab\u2026");
+  EXPECT_EQ(internal::Shortened(text, internal::TextWidth("ab c\u2026", size) + 1, size),
+            "ab c\u2026");
+  EXPECT_EQ(internal::Shortened(text, 1, size), "\u2026");
+  EXPECT_EQ(internal::LineHeight(20), 19 + 5);
+  EXPECT_EQ(internal::TextSize(320), 20);
+  EXPECT_EQ(internal::TextSize(100), 12);
 }
 
 }  // namespace

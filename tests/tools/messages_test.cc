@@ -354,5 +354,113 @@ TEST_F(MessagesTest, OfMirroredTargets) {
                  "changed sign\n");
 }
 
+TEST_F(MessagesTest, OfPeriodicSplines) {
+  Succeed("shape-body", {"tube", "--triangles", "200", "--at", "0,40,80", "-o", "t%d.obj"});
+  // The way back to the first pose has frames too: 3 times 2, and the last.
+  std::filesystem::rename(Path("t2.obj"), Path("f6.obj"));
+  const Strings run = {"t0.obj", "t1.obj", "f6.obj", "--shapes", "1"};
+  const auto with = [&](const Strings& more) {
+    Strings arguments = run;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  ExpectMessage(2, "shape-interpolate", with({"--spline", "periodic", "-o", "f%d.obj"}),
+                "--output f%d.obj: f6.obj would overwrite f6.obj, which is read; choose another "
+                "name");
+  const std::string part = R"([{"select": {"vertices": [1]}, "poses": [1, 4]}])";
+  Succeed("shape-interpolate", with({"--spline", "periodic", "--anchor", part, "-o", "p.path"}));
+  const shapespace::Path periodic = ReadPath(Path("p.path"));
+  EXPECT_EQ(periodic.NumShapes(), 7);
+  EXPECT_EQ(periodic.poses, (std::vector<int>{0, 2, 4, 6}));
+  ExpectContains(periodic.provenance, "t0.obj t1.obj f6.obj");
+  ExpectContains(periodic.provenance, "; standing parts held");
+  Succeed("shape-interpolate", with({"-o", "f%d.ply"}));
+  EXPECT_FALSE(std::filesystem::exists(Path("f5.ply")));
+}
+
+TEST_F(MessagesTest, OfHybrids) {
+  MakeWalk();
+  const std::string paint = Content(Path("tube0.obj"));
+  File("target.obj",
+       "mtllib paint.mtl\n" + std::string(paint).insert(paint.find("\nf ") + 1, "usemtl red\n"));
+  const Outcome outcome =
+      Run("shape-transfer", {"walk.path", "--target", "target.obj", "--ground", "y=2", "-o",
+                             "t.path,t%d.obj", "--hybrids", "h.path,h%d.obj"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  ExpectContains(outcome.out,
+                 "wrote t.path\nwrote t0.obj .. t4.obj\nwrote h.path\nwrote h0.obj .. h4.obj\n");
+  const shapespace::Path path = ReadPath(Path("t.path")), hybrids = ReadPath(Path("h.path"));
+  ExpectContains(path.provenance, ": walk.path target.obj; on the ground y=2");
+  ExpectContains(hybrids.provenance, ": walk.path target.obj; hybrids; on the ground y=2");
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_NEAR(path.Placed(i).row(1).minCoeff(), 2, 1e-9) << i;
+    EXPECT_NEAR(hybrids.Placed(i).row(1).minCoeff(), 2, 1e-9) << i;
+  }
+  ExpectContains(Content(Path("t3.obj")), "usemtl red");
+  ExpectContains(Content(Path("h3.obj")), "usemtl red");
+}
+
+TEST_F(MessagesTest, OfPValuesAndAssessments) {
+  Succeed("shape-body", {"tube", "--triangles", "200", "--at", "0,30,60,100", "-o", "tube%d.obj"});
+  Succeed("shape-statistics",
+          {"tube0.obj", "tube1.obj", "tube2.obj", "tube3.obj", "--modes", "2", "-o", "t.modes"});
+  File("g.csv", "pose,group\ntube0,a\ntube1,a\ntube2,b\ntube3,b\n");
+  File("s.csv", "pose,age\ntube0,1\ntube1,2\ntube2,3\ntube3,5\n");
+  const auto report = [&](Strings flags) {
+    flags.insert(flags.begin(), "t.modes");
+    flags.insert(flags.end(), {"--report", "r.json"});
+    Succeed("shape-statistics", flags);
+    return Content(Path("r.json"));
+  };
+  // With one permutation a p-value is 1/2 or 1.
+  const auto groups = nlohmann::json::parse(report({"--groups", "g.csv", "--permutations", "1"}));
+  for (const char* name : {"t_squared_p", "distance_p"}) {
+    const double p = groups[0][name];
+    EXPECT_TRUE(p == 0.5 || p == 1) << name << ": " << p;
+  }
+  for (const Strings& question :
+       {Strings{"--groups", "g.csv", "--permutations", "20"},
+        Strings{"--scalars", "s.csv", "--permutations", "20"}, Strings{"--assess"}}) {
+    const std::string first = report(question);
+    EXPECT_EQ(report(question), first) << question[0];
+    bool differs = false;
+    for (const char* seed : {"2", "3", "4", "5"}) {
+      Strings other = question;
+      other.insert(other.end(), {"--seed", seed});
+      differs = differs || report(other) != first;
+    }
+    EXPECT_TRUE(differs) << question[0];
+  }
+  EXPECT_NE(report({"--assess", "--fit"}), report({"--assess"}));
+  // Without a question the report is that of the model, and of modes that are read there is none.
+  const auto model = nlohmann::json::parse([&] {
+    Succeed("shape-statistics", {"tube0.obj", "tube1.obj", "-o", "u.modes", "--report", "u.json"});
+    return Content(Path("u.json"));
+  }());
+  EXPECT_EQ(model["poses"], 2);
+}
+
+TEST_F(MessagesTest, OfAverages) {
+  MakeTubes(200);
+  const Outcome outcome = Run("shape-average", {"tube0.obj", "tube1.obj", "tube1.obj", "-o",
+                                                "m.ply,m.pc2,m.png,m.obj", "--report", "r.txt"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string wrote = "wrote m.ply\nwrote m.pc2\nwrote m.png\nwrote m.obj\nwrote r.txt\n";
+  EXPECT_EQ(outcome.out.substr(outcome.out.find('\n') + 1), wrote);
+  // Weights are as good as repetitions.
+  Succeed("shape-average", {"tube0.obj", "tube1.obj", "--weights", "1,2", "-o", "w.ply"});
+  const Shape average = Vertices("m.ply");
+  Succeed("shape-average", {"tube0.obj", "tube1.obj", "-o", "half.ply"});
+  const double off = (Vertices("w.ply") - average).norm();
+  EXPECT_LT(off, 1e-3 * average.norm());
+  EXPECT_LT(20 * off, (Vertices("half.ply") - average).norm());
+  const std::string cache = Content(Path("m.pc2"));
+  const auto size = static_cast<size_t>(average.size());
+  ASSERT_EQ(cache.size(), 32 + 4 * size);
+  const Eigen::Map<const Eigen::VectorXf> stored(reinterpret_cast<const float*>(cache.data() + 32),
+                                                 average.size());
+  EXPECT_EQ(stored, average.reshaped().cast<float>());
+}
+
 }  // namespace
 }  // namespace shapespace
