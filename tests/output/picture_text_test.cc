@@ -97,7 +97,9 @@ TEST(LegendTextTest, ABarHasItsNumbersAtItsEndsAndItsMiddle) {
   const std::vector<Place> title = FindText(legend, "edge deviation, up to 31.2%", kSize);
   ASSERT_EQ(title.size(), 1u);
   EXPECT_EQ(legend.width, title[0].left + title[0].width + 3 * kSize / 5);
-  // It stands beside the bar, after the last number.
+  // It stands beside the bar, at its height, after the last number.
+  EXPECT_NEAR(title[0].top + internal::LineHeight(kSize) / 2.0, 3 * kSize / 5 + 7 * kSize / 20.0,
+              1);
   EXPECT_GT(title[0].left, left + kBar + internal::TextWidth("5%", kSize) / 2);
   EXPECT_EQ(FindText(internal::DrawLegend(0.05, 0.05, "", kSize), "up to", kSize).size(), 0u);
   EXPECT_EQ(FindText(internal::DrawLegend(0.05, 0.06, "", kSize), "up to 6%", kSize).size(), 1u);
