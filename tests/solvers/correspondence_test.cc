@@ -13,6 +13,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/sheet.h>
 #include <shapespace/correspondence/correspondence_picture.h>
 #include <shapespace/correspondence/internal/closest.h>
 #include <shapespace/correspondence/internal/marker_check.h>
@@ -426,6 +427,23 @@ Shape Beside(const Shape& shape) {
   Shape both(3, 2 * shape.cols());
   both << shape, shape.colwise() + Eigen::Vector3d(3, 0, 0);
   return both;
+}
+
+TEST(Correspond, RefusesMarkersThatLeaveTheTemplateNoArea) {
+  // Every vertex of a square is a marker, and the ends of its diagonal lie at one place of the
+  // target.
+  const auto square =
+      Connectivity::FromTriangles(4, (Eigen::Matrix3Xi(3, 2) << 0, 0, 1, 2, 2, 3).finished());
+  Shape shape(3, 4);
+  shape << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
+  const ShapeFamily sheet = MakeSheet(2, 2, 2, 2);
+  Shape target = sheet.pose(0);
+  target.col(8) = target.col(0);
+  EXPECT_NE(
+      MessageOf<MeshError>([&] {
+        Correspond(square, shape, sheet.connectivity, target, {{0, 0}, {1, 6}, {2, 8}, {3, 2}});
+      }).find("the markers leave no area of the template"),
+      std::string::npos);
 }
 
 TEST(Correspond, SaysWhatItDoesWithFurtherComponents) {

@@ -455,6 +455,11 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
 
   Fit fit(options, target, held, places, progress, &summary);
   Shape fitted = fit(template_connectivity, rest);
+  if (!internal::HasArea(*template_connectivity, fitted)) {
+    throw MeshError(
+        "the markers leave no area of the template: some that are apart on the template lie at one "
+        "place of the target, or on one line");
+  }
 
   const internal::Stopwatch map_stopwatch;
   Level all = {template_connectivity, {}, internal::BorderOf(*template_connectivity)};

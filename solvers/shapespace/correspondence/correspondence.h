@@ -122,9 +122,9 @@ struct CorrespondenceResult {
 ///        or has another number of vertices than its connectivity; fewer than three markers,
 ///        markers on one line, out of range, repeated or on a vertex without triangle; a component
 ///        of the template without a marker; markers that only fit a mirror image; a body that is
-///        inside out), naming the marker, counted from 1; SolverError (memory limit); Cancelled
-///        (stopped before a fit was found; if stopped later, the fit so far is mapped, see
-///        CorrespondenceSummary::cancelled).
+///        inside out; markers that leave the template no area), naming the marker, counted from 1;
+///        SolverError (memory limit); Cancelled (stopped before a fit was found; if stopped later,
+///        the fit so far is mapped, see CorrespondenceSummary::cancelled).
 CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& template_connectivity,
                                 const Shape& template_shape,
                                 const std::shared_ptr<const Connectivity>& target_connectivity,

@@ -10,6 +10,9 @@
 
 namespace shapespace::internal {
 
+/// Whether any triangle has an area.
+bool HasArea(const Connectivity& connectivity, const Shape& shape);
+
 /// `name` is "template" or "target".
 /// \throw MeshError unless the body has triangles, a finite shape with the connectivity's number of
 ///        vertices, and an area.
