@@ -236,8 +236,8 @@ TEST_F(WriteGltfAppearanceTest, ATextureOfTwoMaterialsIsEmbeddedOnce) {
   File("cube.mtl",
        "newmtl painted\nmap_Kd maps/photo.jpg\nnewmtl glass\nmap_Kd maps/checks.png\nd 0.25\n"
        "newmtl unknown\nKd 1 1 1\nmap_Kd maps/photo.jpg\n");
-  EXPECT_TRUE(WriteGltf(GlbFile("twice"), path_).warnings.empty());
-  const Glb glb(GlbFile("twice"));
+  EXPECT_TRUE(WriteGltf(Path("twice.glb"), path_).warnings.empty());
+  const Glb glb(Path("twice.glb"));
   const auto& images = glb.json["images"];
   ASSERT_EQ(images.size(), 2u);
   EXPECT_EQ(images[0]["mimeType"], "image/jpeg");
