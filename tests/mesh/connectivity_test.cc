@@ -8,6 +8,7 @@
 
 #include "mesh/bodies.h"
 #include "mesh/files.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -190,6 +191,42 @@ TEST(ConnectivityTest, ListsWhatLiesAtVerticesAndEdges) {
   book << 0, 1, 0, 1, 1, 0, 1, 3, 2, 3, 4, 1;
   ExpectListsOf(*Connectivity::FromTriangles(6, book));
   ExpectListsOf(*Connectivity::Make(4, {0}, {}, {{0, 1}, {2, 1}}, {{0, 2}}));  // a graph
+}
+
+TEST(ConnectivityTest, BadIndicesAreQuotedWhicheverEndTheyAreOf) {
+  const auto message = [](const std::vector<std::pair<int, int>>& segments,
+                          const std::vector<std::pair<int, int>>& stiffeners) {
+    return testing::MessageOf<MeshError>(
+        [&] { Connectivity::Make(4, {0}, {}, segments, stiffeners); });
+  };
+  const std::string end = ": vertex index outside 0 .. 3";
+  EXPECT_EQ(message({{0, 3}, {4, 1}}, {}), "segment 4 1" + end);
+  EXPECT_EQ(message({{0, 3}, {1, 4}}, {}), "segment 1 4" + end);
+  EXPECT_EQ(message({{-1, 3}}, {}), "segment -1 3" + end);
+  EXPECT_EQ(message({{3, -1}}, {{5, 5}}), "segment 3 -1" + end);
+  EXPECT_EQ(message({{3, 1}}, {{2, 0}, {5, 5}}), "stiffener 5 5" + end);
+  EXPECT_EQ(message({{3, 1}}, {{0, 2}, {3, 3}}), "stiffener joins vertex 3 to itself");
+  EXPECT_EQ(message({{3, 1}}, {{0, 2}}), "nothing was thrown");
+}
+
+TEST(ConnectivityTest, APolygonIsAFanFromItsSmallestVertexWithAllShortDiagonals) {
+  const auto c = Connectivity::Make(9, {0, 3, 8, 12}, {6, 2, 4, 7, 3, 1, 5, 8, 8, 5, 0, 6},
+                                    {{4, 3}, {5, 8}}, {{7, 0}, {3, 4}});
+  Eigen::Matrix3Xi triangles(3, 6);
+  triangles << 2, 1, 1, 1, 0, 0,  //
+      4, 5, 8, 7, 6, 8,           //
+      6, 8, 7, 3, 8, 5;
+  EXPECT_EQ(c->Triangles(), triangles);
+  Eigen::Matrix2Xi sides(2, 14);
+  sides << 0, 0, 0, 1, 1, 1, 1, 2, 2, 3, 4, 5, 6, 7,  //
+      5, 6, 8, 3, 5, 7, 8, 4, 6, 7, 6, 8, 8, 8;
+  ASSERT_EQ(c->NumTriangleEdges(), 14);
+  EXPECT_EQ(c->Edges().leftCols(14), sides);
+  // Then the segments, diagonals and stiffeners that are no sides, in order and each once.
+  Eigen::Matrix2Xi others(2, 6);
+  others << 0, 3, 3, 3, 5, 5,  //
+      7, 4, 5, 8, 6, 7;
+  EXPECT_EQ(c->Edges().rightCols(c->NumEdges() - 14), others);
 }
 
 }  // namespace

@@ -17,5 +17,17 @@ TEST(DisplayNamesTest, NoTwoAreEqual) {
             (Names{"sit", "sit 2", "sit 2 2", "sit 3"}));
 }
 
+TEST(DisplayNamesTest, EveryFormatOfMeshesIsKnownInAnyCase) {
+  EXPECT_EQ(DisplayNames({"f.d/a.obj", "f.d/b.PLY", "f.d/c.off", "f.d/d.stl", "f.d/e.glb",
+                          "f.d/f.gltf", "f.d/g.vtk", "f.d/h.vtp", "f.d/i.txt", "f.d/j"}),
+            (Names{"a", "b", "c", "d", "e", "f", "g", "h", "f.d/i.txt", "f.d/j"}));
+}
+
+TEST(DisplayNamesTest, EqualNamesAreNumberedFromTheSecondOn) {
+  EXPECT_EQ(DisplayNames({"sit", "lie", "a/sit.ply", "sit", "lie.obj", "sit.off"}),
+            (Names{"sit", "lie", "sit 2", "sit 3", "lie 2", "sit 4"}));
+  EXPECT_EQ(DisplayNames({}), Names());
+}
+
 }  // namespace
 }  // namespace shapespace

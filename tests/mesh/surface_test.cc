@@ -141,5 +141,68 @@ TEST(MeshSurface, AsksOnlyTrianglesThatAreAdmitted) {
   EXPECT_EQ(surface.Nearest(shape.col(0), [](int) { return false; }).triangle, -1);
 }
 
+TEST(MeshSurface, PointsOfCornersSidesAndTheInsideAreFoundExactly) {
+  // The first triangle is none and would be nearer; the third one has the side between vertices 1
+  // and 2 in common with the second.
+  Shape shape(3, 5);
+  shape << 0, 4, 0, 4, 9,  //
+      0, 0, 3, 3, 9,       //
+      1, 1, 1, 1, 9;
+  Eigen::Matrix3Xi triangles(3, 3);
+  triangles << 4, 0, 1,  //
+      4, 1, 3,           //
+      3, 2, 2;
+  const auto connectivity = Connectivity::FromTriangles(5, triangles);
+  const MeshSurface surface(connectivity, shape);
+  EXPECT_EQ(&surface.GetConnectivity(), connectivity.get());
+  EXPECT_EQ(surface.GetShape(), shape);
+  Shape normals(3, 3);
+  normals << 0, 0, 0, 0, 0, 0, 0, 1, 1;
+  EXPECT_EQ(surface.GetTriangleNormals(), normals);
+  const auto expect = [&](const Vector3d& point, int triangle, const Vector3d& barycentric,
+                          const Vector3d& foot, double distance) {
+    const ClosestPoint found =
+        surface.Nearest(point, [&](int f) { return triangle == 2 || f < 2; });
+    EXPECT_EQ(found.triangle, triangle) << point.transpose();
+    EXPECT_LT((found.barycentric - barycentric).norm(), 1e-12) << point.transpose();
+    EXPECT_LT((found.point - foot).norm(), 1e-12) << point.transpose();
+    EXPECT_NEAR(found.distance, distance, 1e-12) << point.transpose();
+  };
+  expect({-2, -1, 3}, 1, {1, 0, 0}, {0, 0, 1}, 3);
+  expect({6, -1, 3}, 1, {0, 1, 0}, {4, 0, 1}, 3);
+  expect({-2, 4, -1}, 1, {0, 0, 1}, {0, 3, 1}, 3);
+  expect({1, -3, 5}, 1, {0.75, 0.25, 0}, {1, 0, 1}, 5);
+  expect({-3, 2, 5}, 1, {1 / 3.0, 0, 2 / 3.0}, {0, 2, 1}, 5);
+  // From the point a quarter of the side's way, perpendicular to it by 5, and by 12 upwards.
+  expect({3 + 3, 0.75 + 4, 13}, 1, {0, 0.75, 0.25}, {3, 0.75, 1}, 13);
+  expect({1, 0.75, -6}, 1, {0.5, 0.25, 0.25}, {1, 0.75, 1}, 7);
+  expect({5, 5, 1}, 2, {0, 1, 0}, {4, 3, 1}, std::sqrt(5));
+  // The first of two triangles that are equally far.
+  EXPECT_EQ(surface.Nearest({2, 1.5, 8}).triangle, 1);
+  EXPECT_EQ(surface.Nearest({9, 9, 9}).triangle, 2);
+}
+
+TEST(MeshSurface, NormalsOfVerticesWeighTrianglesByArea) {
+  Shape shape(3, 5);
+  shape << 0, 2, 0, 0, 7,  //
+      0, 0, 4, 0, 7,       //
+      0, 0, 0, 6, 7;
+  Eigen::Matrix3Xi triangles(3, 3);
+  triangles << 0, 0, 0,  //
+      2, 3, 1,           //
+      1, 2, 3;
+  const auto connectivity = Connectivity::FromTriangles(5, triangles);
+  Shape each(3, 3);  // of areas 4, 12 and 6
+  each << 0, -1, 0,  //
+      0, 0, -1,      //
+      -1, 0, 0;
+  EXPECT_LT((TriangleNormals(*connectivity, shape) - each).norm(), 1e-12);
+  Shape vertices(3, 5);
+  vertices << -6 / 7.0, 0, -3 / std::sqrt(10), -2 / std::sqrt(5), 0,  //
+      -3 / 7.0, -3 / std::sqrt(13), 0, -1 / std::sqrt(5), 0,          //
+      -2 / 7.0, -2 / std::sqrt(13), -1 / std::sqrt(10), 0, 0;
+  EXPECT_LT((VertexNormals(*connectivity, shape) - vertices).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace shapespace

@@ -108,5 +108,65 @@ TEST(TopologyTest, AnyOrderOfTrianglesWillDo) {
   EXPECT_EQ(Of(shuffled).genus, 1);
 }
 
+/// Each loop from its smallest vertex on; the loops in order.
+std::vector<std::vector<int>> FromSmallest(std::vector<std::vector<int>> loops) {
+  for (std::vector<int>& loop : loops) {
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+  }
+  std::sort(loops.begin(), loops.end());
+  return loops;
+}
+
+TEST(TopologyTest, LoopsHoldTheirVerticesInOrderAndRunAgainstThePolygons) {
+  // 4 x 3 vertices, numbered row by row, without the middle square of the lower row.
+  const std::vector<std::vector<int>> squares = {
+      {0, 1, 5, 4}, {2, 3, 7, 6}, {4, 5, 9, 8}, {5, 6, 10, 9}, {6, 7, 11, 10}};
+  const Topology open = Of(testing::MakeSoup(Shape::Random(3, 12), squares));
+  EXPECT_TRUE(open.manifold);
+  EXPECT_EQ(FromSmallest(open.boundary_loops),
+            (std::vector<std::vector<int>>{{0, 4, 8, 9, 10, 11, 7, 3, 2, 6, 5, 1}}));
+  // A prism of four sides without its two ends, and a triangle.
+  const Topology tube = Of(testing::MakeSoup(
+      Shape::Random(3, 12), {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {9, 11, 10}}));
+  EXPECT_EQ(FromSmallest(tube.boundary_loops),
+            (std::vector<std::vector<int>>{{0, 3, 2, 1}, {4, 5, 6, 7}, {9, 10, 11}}));
+  EXPECT_EQ(tube.genus, 0);
+  EXPECT_EQ(tube.component, (std::vector<int>{0, 0, 0, 0, 0, 0, 0, 0, -1, 1, 1, 1}));
+}
+
+TEST(TopologyTest, ComponentsAreNumberedByTheirFirstVerticesAndSegmentsHaveNoGenus) {
+  Soup soup = Union(Torus(6, 5), Torus(4, 3));
+  soup.vertices = Shape::Random(3, 47);
+  soup.segments = {{46, 43}, {44, 43}};
+  Topology topology = Of(soup);
+  EXPECT_EQ(topology.components, 3);
+  EXPECT_EQ(topology.genus, 2);
+  EXPECT_EQ(topology.component[42], -1);
+  EXPECT_EQ(topology.component[45], -1);
+  EXPECT_EQ(topology.component[46], 2);
+  // Without a polygon of each torus.
+  soup.corners.erase(soup.corners.begin(), soup.corners.begin() + 4);
+  soup.corners.resize(soup.corners.size() - 4);
+  soup.polygon_begin.resize(soup.polygon_begin.size() - 2);
+  topology = Of(soup);
+  EXPECT_EQ(topology.genus, 2);
+  EXPECT_EQ(topology.boundary_loops.size(), 2u);
+  // The second polygon has the smaller vertices.
+  EXPECT_EQ(Of(testing::MakeSoup(Shape::Random(3, 7), {{4, 5, 6}, {1, 3, 2}})).component,
+            (std::vector<int>{-1, 0, 0, 0, 1, 1, 1}));
+  Soup graph;
+  graph.vertices = Shape::Random(3, 5);
+  graph.segments = {{4, 1}, {2, 3}};
+  topology = Of(graph);
+  EXPECT_FALSE(topology.manifold);
+  EXPECT_EQ(topology.component, (std::vector<int>{-1, 0, 1, 1, 0}));
+}
+
+TEST(TopologyTest, ATriangleWithTwoEqualCornersIsNoManifoldWhicheverTheyAre) {
+  for (const std::vector<int>& polygon : {std::vector<int>{0, 0, 1}, {0, 1, 1}, {1, 0, 1}}) {
+    EXPECT_FALSE(Of(testing::MakeSoup(Shape::Random(3, 2), {polygon})).manifold);
+  }
+}
+
 }  // namespace
 }  // namespace shapespace

@@ -189,5 +189,44 @@ TEST(TriangulateTest, ConnectivityTakesTheTrianglesAndHoldsAllPolygonsAlike) {
   }
 }
 
+TEST(TriangulateTest, TrianglesStandInTheOrderOfTheirPolygonsAndKeepTheirCorners) {
+  // The angle at corner 2 is the one nearest to those of an equilateral triangle.
+  Shape kite(3, 9);
+  kite.setRandom();
+  kite.col(1) << 0, -1, 0.25;
+  kite.col(2) << 1.7, 0, 0.25;
+  kite.col(4) << 0, 1, 0.25;
+  kite.col(3) << -1.2, 0, 0.25;
+  Eigen::Matrix3Xi expected(3, 4);
+  expected << 8, 1, 1, 0,  //
+      5, 2, 4, 7,          //
+      6, 4, 3, 5;
+  EXPECT_EQ(Triangulate({0, 3, 7, 10}, {8, 5, 6, 4, 3, 1, 2, 0, 7, 5}, {kite}), expected);
+  // Without any area, corners are cut off in order.
+  Eigen::Matrix3Xi in_order(3, 3);
+  in_order << 4, 4, 2,  //
+      0, 1, 3,          //
+      1, 2, 4;
+  EXPECT_EQ(Triangulate({0, 5}, {2, 3, 4, 0, 1}, {Shape::Constant(3, 5, 7)}), in_order);
+}
+
+TEST(TriangulateTest, APoseInWhichThePolygonHasNoAreaDoesNotCount) {
+  Shape dented(3, 4), line(3, 4);
+  dented << 0.9, 1, 1, 0, 0.9, 0, 1, 1, 0, 0, 0, 0;
+  line << 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3;
+  const std::set<std::vector<int>> inside = {{0, 1, 2}, {0, 2, 3}};
+  for (const std::vector<Shape>& poses : {std::vector<Shape>{line, dented},
+                                          {dented, line},
+                                          {line, dented, line, dented},
+                                          {Shape::Zero(3, 4), dented, Shape::Zero(3, 4)}}) {
+    EXPECT_EQ(AsSet(Triangulate({0, 4}, {0, 1, 2, 3}, poses)), inside);
+  }
+  testing::ExpectError<MeshError>(
+      [&] {
+        Triangulate({0, 4}, {0, 1, 2, 3}, {dented, dented.leftCols(3)});
+      },
+      {"vertex index 3 outside 0 .. 2"});
+}
+
 }  // namespace
 }  // namespace shapespace

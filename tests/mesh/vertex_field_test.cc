@@ -5,6 +5,7 @@
 #include <shapespace/base/error.h>
 
 #include "mesh/files.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -40,6 +41,38 @@ TEST_F(VertexFieldTest, NamesTheLineOfWhatIsWrong) {
   expect("1\nnan\n", {"field.txt:2", "vertex 2", "finite"});
   expect("1 2\n", {"field.txt:1", "vertex 1", "more than one"});
   ExpectError<FileError>([&] { ReadVertexField(Path("none.txt")); }, {"none.txt"});
+}
+
+TEST_F(VertexFieldTest, MessagesNameVertexLineAndRemedy) {
+  const auto message = [](const std::string& source) {
+    return testing::MessageOf<FileError>([&] { ReadVertexField(source); });
+  };
+  const std::string ply = File("body.ply",
+                               "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                               "property float y\nproperty float z\nproperty double soft\n"
+                               "property double hard\nend_header\n"
+                               "0 0 9 1 nan\n1 0 9 2 5\n0 1 9 inf 6\n1 1 9 nan 7\n");
+  EXPECT_EQ(message(ply + ":soft"), ply + ": property soft of vertex 3 is not a finite number");
+  EXPECT_EQ(message(ply + ":hard"), ply + ": property hard of vertex 1 is not a finite number");
+  EXPECT_EQ(message(ply + ":"), ply + ":: name a property behind the colon");
+  EXPECT_EQ(message(ply), ply + ": name the property of the vertices to read, as " + ply + ":name");
+  const std::string vtk = File("body.VTK",
+                               "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\n"
+                               "POINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n"
+                               "POINT_DATA 3\nSCALARS soft double\nLOOKUP_TABLE default\n"
+                               "1 nan 3\n");
+  EXPECT_EQ(message(vtk + ":soft"), vtk + ": property soft of vertex 2 is not a finite number");
+  EXPECT_NE(message(vtk).find(vtk + ":name"), std::string::npos);
+  const std::string vtp = Path("body.vtp");
+  EXPECT_EQ(message(vtp), vtp + ": name the property of the vertices to read, as " + vtp + ":name");
+  const std::string text = File("field.txt", "# bone\n1\n2 # and 3\n\n4 5\n");
+  EXPECT_EQ(message(text), text + ":5: vertex 3: more than one number");
+}
+
+TEST_F(VertexFieldTest, AColonInTheNameOfATextIsNoProperty) {
+  EXPECT_EQ(ReadVertexField(File("a:b.txt", "4\n5\n")), Eigen::Vector2d(4, 5));
+  EXPECT_EQ(ReadVertexField(File("c.txt:name", "6\n7\n")), Eigen::Vector2d(6, 7));
+  EXPECT_EQ(ReadVertexField(File("none.txt", "# nothing\n\n")).size(), 0);
 }
 
 }  // namespace
