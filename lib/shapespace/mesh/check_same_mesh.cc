@@ -157,7 +157,7 @@ class Comparison {
           to[a] = b;
           from[b] = a;
         }
-        renumbered = to[a] == b && from[b] == a;
+        renumbered = to[a] == b;  // then from[b] == a, as both are set together
       }
       if (renumbered) {
         int v = 0;
