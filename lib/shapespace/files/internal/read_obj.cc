@@ -193,7 +193,8 @@ class ObjReader {
       const std::string_view digits = word.substr(0, slash);
       if (!digits.empty() || part == 0) {
         const std::optional<std::int64_t> number = ParseInteger(digits);
-        if (!number || *number == 0 || std::abs(*number) > std::numeric_limits<int>::max()) {
+        constexpr std::int64_t kMax = std::numeric_limits<int>::max();
+        if (!number || *number == 0 || *number < -kMax || *number > kMax) {
           Fail(element.Text() + ": corner " + Quoted(whole) +
                " is not made of numbers counted from 1" + kReexport);
         }
