@@ -22,6 +22,14 @@ constexpr char kSaveAsSurface[] =
 
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
+/// VTK does not distinguish capitals in keywords and types, and writes both.
+std::string InSmallLetters(std::string_view word) {
+  std::string small(word);
+  std::transform(small.begin(), small.end(), small.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return small;
+}
+
 /// The type of this name. Integers of 64 bits and `vtkIdType` are stored as VTK stores them on
 /// systems where its `long` has 64 bits: all but Windows.
 std::optional<NumberType> VtkType(std::string_view name) {
@@ -43,8 +51,9 @@ std::optional<NumberType> VtkType(std::string_view name) {
                                     {"vtkidtype", NumberType::kInt32},
                                     {"float", NumberType::kFloat},
                                     {"double", NumberType::kDouble}};
+  const std::string small = InSmallLetters(name);
   for (const Name& known : kNames) {
-    if (name == known.name) return known.type;
+    if (small == known.name) return known.type;
   }
   return std::nullopt;
 }
@@ -439,7 +448,7 @@ class LegacyVtkReader {
                keyword != "EDGE_FLAGS") {
       Fail(Quoted(keyword) + " is not a keyword of data" + kReexport);
     }
-    const std::string type(Word());
+    const std::string type = InSmallLetters(Word());
     if (keyword == "SCALARS") {
       const std::string_view components = WordOfLine();
       if (!components.empty()) array.components = Components(components, what);
@@ -493,7 +502,7 @@ class LegacyVtkReader {
       const std::string what = "array " + Quoted(array.name);
       array.components = Components(Word(), what);
       const size_t tuples = Count("tuples");
-      const std::string type(Word());
+      const std::string type = InSmallLetters(Word());
       ReadAttribute(array, type, tuples, what);
     }
   }
