@@ -89,9 +89,10 @@ class FindingPolicy {
       const bool fatal =
           finding.severity == Severity::kFatal ||
           (finding.severity == Severity::kNonManifold && !options_.allow_nonmanifold);
+      // With an option, the call would do what it refuses only if it is that of all of them.
+      if (fatal) option = reported == 0 || option == finding.option ? finding.option : "";
       if (fatal && reported++ < kMaxReported) {
         refusal += (refusal.empty() ? "" : "\n") + finding.message;
-        option = finding.option;
       } else if (!fatal && finding.severity != Severity::kNote) {
         warnings_->push_back(finding.message);
       }
