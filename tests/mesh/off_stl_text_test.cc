@@ -1,0 +1,152 @@
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/internal/bytes.h>
+#include <shapespace/base/internal/text.h>
+#include <shapespace/files/read.h>
+
+#include "support/message_of.h"
+
+// OFF and STL: asymmetric meshes, and the whole text of what is said about them.
+
+namespace shapespace::off_stl_text_test {
+namespace {
+
+using internal::AppendLittleEndian;
+using internal::kReexport;
+using Ints = std::vector<int>;
+using Strings = std::vector<std::string>;
+
+Soup Read(const std::string& content, MeshFormat format) {
+  std::istringstream stream(content);
+  return ReadSoup(stream, "m", format);
+}
+
+Soup ReadOff(const std::string& content) { return Read(content, MeshFormat::kOff); }
+Soup ReadStl(const std::string& content) { return Read(content, MeshFormat::kStl); }
+
+void ExpectRefused(const std::string& content, MeshFormat format, const std::string& words) {
+  EXPECT_EQ(testing::MessageOf<FileError>([&] { Read(content, format); }), "m" + words) << content;
+}
+
+TEST(OffTextTest, CountsWhatItDrops) {
+  const Soup soup = ReadOff(
+      "STCNOFF # all\n4 3 # two numbers\n1 2 3 9 9 # x\n4 5 6\n\n7 8 9 1\n-1 -2 -3\n"
+      "3 2 0 1 255 0 0\n4 0 1 2 3\n# none\n3 3 2 1 0.5");
+  EXPECT_EQ(soup.vertices.col(2), Eigen::Vector3d(7, 8, 9));
+  EXPECT_EQ(soup.vertices.col(3), Eigen::Vector3d(-1, -2, -3));
+  EXPECT_EQ(soup.corners, (Ints{2, 0, 1, 0, 1, 2, 3, 3, 2, 1}));
+  EXPECT_EQ(soup.polygon_begin, (Ints{0, 3, 7, 10}));
+  EXPECT_EQ(soup.vertex_line, (Ints{3, 4, 6, 7}));
+  EXPECT_EQ(soup.polygon_line, (Ints{8, 9, 11}));
+  EXPECT_EQ(soup.dropped, (Strings{"what follows x y z of 2 vertices (normals, colours, texture "
+                                   "coordinates) not kept",
+                                   "2 polygon colours not kept"}));
+}
+
+TEST(OffTextTest, SaysWhatIsWrong) {
+  const std::string r = kReexport;
+  const auto refused = [](const std::string& content, const std::string& words) {
+    ExpectRefused(content, MeshFormat::kOff, words);
+  };
+  const std::string keyword =
+      ", not with OFF, COFF, NOFF or STOFF; export it as OFF with three coordinates a vertex";
+  for (const std::string word : {"NCOFF", "CSTOFF", "OFFN", "off", "nOFF"}) {
+    refused("\n" + word + " 3 1 0\n", ":2: begins with '" + word + "'" + keyword);
+  }
+  refused("OFF BINARY\n3 1 0\n", ":1: binary OFF is not read; export it as text");
+  refused("# nothing\n\n", ":2: the file ends before its header" + r);
+  refused("OFF\n# nothing\n", ":2: the file ends before the numbers of vertices and polygons" + r);
+  refused("OFF\n\n3 x 0\n0 0 0\n", ":3: the header has 'x' for the number of polygons" + r);
+  refused("OFF\n3\n0 0 0\n", ":2: the header has '' for the number of polygons" + r);
+  refused("OFF\n0 1 0\n3 0 0 0\n", ":2: the header says that there are no vertices");
+  // Eight bytes follow.
+  refused("OFF\n9 1 0\n0 0 0\n0\n",
+          ":2: the header promises 9 vertices, more than the file can hold" + r);
+  refused("OFF\n8 1 0\n0 0 0\n0\n", ":4: vertex 2: coordinate y is missing" + r);
+  refused("OFF\n1 9 0\n0 0 0\n0\n",
+          ":2: the header promises 9 polygons, more than the file can hold" + r);
+  refused("OFF\n3 1 0\n0 0 0\n0 1 0\n\n", ":5: the file ends before vertex 3 of 3" + r);
+  refused("OFF\n2 1 0\n0 0 0\n0 1 0\n3 0 1 2\n",
+          ":5: polygon 1: vertex index '2' is not one of 0 to 1" + r);
+  refused("OFF\n1 2 0\n0 0 0\n3 0 0 0\n2 0 0\n",
+          ":5: polygon 2: '2' corners, a polygon needs three" + r);
+  refused("OFF\n1 2 0\n0 0 0\n3 0 0 0\n5 0 0 0\n",
+          ":5: polygon 2: 3 of 5 corners, the others are missing" + r);
+  refused("OFF\n1 1 0\n0 0 0 x\n3 0 0 0\n",
+          ":3: vertex 1: what follows x y z, 'x' is not a number" + r);
+  refused("OFF\n1 1 0\n0 0 0\n3 0 0 0\n\n# end\n3 0 0 0\n",
+          ":7: something follows the last polygon; the counts of the header do not fit" + r);
+  refused("OFF\n1 1 0\n0 0 0\n3 0 0 0.5\n",
+          ":4: polygon 1: vertex index '0.5' is not one of 0 to 0" + r);
+}
+
+const std::string kFacet =
+    "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+    "0\nendloop\nendfacet\n";  // 7 lines
+
+TEST(StlTextTest, SaysWhatIsWrong) {
+  const std::string r = kReexport;
+  const auto refused = [](const std::string& content, const std::string& words) {
+    ExpectRefused("solid of many words\n" + content, MeshFormat::kStl, words);
+  };
+  refused(kFacet, ":8: the file ends before endsolid" + r);
+  refused(kFacet + "endsolid\n" + kFacet, ":16: the file ends before endsolid" + r);
+  refused("endsolid\n\nsolid\n", ":4: the file ends before endsolid" + r);
+  refused("facet\nvertex 0 0 0\nvertex 1 0 x\n",
+          ":4: corner 2: coordinate z 'x' is not a number" + r);
+  refused(kFacet + "vertex 0 nan 0\n",
+          ":9: corner 1: coordinate y 'nan' is not a finite number" + r);
+  refused("vertex 0 0\n", ":2: corner 1: coordinate z is missing" + r);
+  refused("vertex 0 0 1 2 3\n", ":2: '2' follows x y z" + r);
+  refused(kFacet + "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 0\nendfacet\n",
+          ":13: triangle 2 does not have three corners" + r);
+  refused(kFacet + "triangle\n", ":9: 'triangle' is no word of STL" + r);
+  ExpectRefused("polid\nendsolid\n", MeshFormat::kStl,
+                ": is neither text, which begins with 'solid', nor as long as its number of "
+                "triangles asks for" +
+                    r);
+}
+
+TEST(StlTextTest, SeveralSolidsAreOneMesh) {
+  const Soup soup =
+      ReadStl("solid a\r\n" + kFacet + "endsolid a\n\nsolid b\n" + kFacet + "endsolid b\n  \n");
+  EXPECT_EQ(soup.corners, (Ints{0, 1, 2, 0, 1, 2}));
+  EXPECT_EQ(soup.vertex_line, (Ints{4, 5, 6}));
+  EXPECT_EQ(soup.polygon_line, (Ints{4, 14}));
+  const Soup empty = ReadStl("solid a\nendsolid a\n");
+  EXPECT_EQ(empty.NumVertices(), 0);
+  EXPECT_EQ(empty.NumPolygons(), 0);
+  EXPECT_EQ(empty.file, "m");
+}
+
+TEST(StlTextTest, BinaryTriangles) {
+  const std::vector<float> corners[] = {{1, 2, 3, 4, 5, 6, 7, 8, 10},
+                                        {7, 8, 10, 1, 2, 3, -1, -2, .5f}};
+  std::string bytes = "solid";
+  bytes.resize(80, 'x');
+  AppendLittleEndian(std::uint32_t{2}, &bytes);
+  for (const std::vector<float>& triangle : corners) {
+    for (int i = 0; i < 3; ++i) AppendLittleEndian(99.f, &bytes);  // a normal
+    for (const float x : triangle) AppendLittleEndian(x, &bytes);
+    bytes += "ab";
+  }
+  const Soup soup = ReadStl(bytes);
+  Shape expected(3, 4);
+  expected << 1, 4, 7, -1, 2, 5, 8, -2, 3, 6, 10, 0.5;
+  EXPECT_EQ(soup.vertices, expected);
+  EXPECT_EQ(soup.corners, (Ints{0, 1, 2, 2, 0, 3}));
+  EXPECT_EQ(soup.polygon_begin, (Ints{0, 3, 6}));
+  EXPECT_TRUE(soup.vertex_line.empty() && soup.polygon_line.empty() && soup.dropped.empty());
+  const std::string infinity("\0\0\x80\x7f", 4);
+  bytes.replace(84 + 50 + 12 + 32, 4, infinity);  // the last coordinate
+  ExpectRefused(bytes, MeshFormat::kStl,
+                std::string(": triangle 2: a coordinate is not a finite number") + kReexport);
+  // No triangles, in the least bytes.
+  EXPECT_EQ(ReadStl(std::string(84, '\0')).NumPolygons(), 0);
+}
+
+}  // namespace
+}  // namespace shapespace::off_stl_text_test
