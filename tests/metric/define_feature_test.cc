@@ -1,0 +1,230 @@
+#include <shapespace/metric/define_feature.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/base/error.h>
+#include <shapespace/metric/edge_length.h>
+#include <shapespace/metric/metric_basis.h>
+#include <shapespace/metric/triangle_strain.h>
+
+#include "support/message_of.h"
+
+namespace shapespace {
+namespace {
+
+using testing::MessageOf;
+using Numbers = std::vector<double>;
+
+// x0 y1 and c y0^2 + z1, for vertices 0 and 1.
+struct Products : ElementFeature<2, 2> {
+  static constexpr bool kRigidInvariant = false;
+  static constexpr const char* kName = "products";
+  double c = 3;
+
+  template <typename T>
+  void operator()(const T* x, T* value) const {
+    value[0] = x[0] * x[4];
+    value[1] = c * x[1] * x[1] + x[5];
+  }
+  template <typename Self, typename Visit>
+  static void ForConstants(Self* self, const Visit& visit) {
+    visit("c", self->c);
+  }
+};
+
+Products ThreeProducts() {
+  Products products;
+  products.stencils.resize(2, 3);
+  products.stencils << 0, 4, 2, 3, 1, 5;
+  products.weights = Eigen::Vector3d(0.5, 2, 7);
+  return products;
+}
+
+const Numbers kTwoElements = {2, 3, 5, 7, 11, 13, -1, 4, 6, 8, 10, -9};
+
+TEST(FeatureOf, DescribesItsStruct) {
+  const auto feature = MakeFeature(ThreeProducts());
+  EXPECT_EQ(feature->Name(), "products");
+  EXPECT_EQ(feature->VerticesPerElement(), 2);
+  EXPECT_EQ(feature->ValuesPerElement(), 2);
+  EXPECT_EQ(feature->NumElements(), 3);
+  EXPECT_EQ(feature->NumValues(), 6);
+  EXPECT_EQ(feature->NumScalarRows(), 6);
+  EXPECT_FALSE(feature->IsSum());
+  EXPECT_FALSE(feature->IsRigidInvariant());
+  EXPECT_EQ(feature->Element(1)[0], 4);
+  EXPECT_EQ(feature->Element(1)[1], 1);
+  EXPECT_EQ(feature->Weight(2), 7);
+  EXPECT_EQ(feature->Weights(), Eigen::Vector3d(0.5, 2, 7));
+  EXPECT_EQ(feature->Constants(), (std::vector<std::pair<std::string, double>>{{"c", 3}}));
+  EXPECT_EQ(feature->As<Products>()->c, 3);
+  EXPECT_EQ(feature->As<EdgeLength>(), nullptr);
+}
+
+TEST(FeatureOf, GathersTheVerticesOfARangeOfElements) {
+  Shape shape(3, 6);
+  for (int v = 0; v < 6; ++v) shape.col(v) << v, 10 + v, 20 + v;
+  Numbers x(12);
+  MakeFeature(ThreeProducts())->GatherCoordinates(1, 3, shape, x.data());
+  EXPECT_EQ(x, (Numbers{4, 14, 24, 1, 11, 21, 2, 12, 22, 5, 15, 25}));
+}
+
+TEST(FeatureOf, DerivesEveryElementByCornerValueAndAxis) {
+  const auto feature = MakeFeature(ThreeProducts());
+  Numbers values(4), derivatives(24);
+  feature->Evaluate(2, kTwoElements.data(), values.data());
+  EXPECT_EQ(values, (Numbers{22, 40, -10, 39}));
+  values.assign(4, 0);
+  feature->Evaluate(2, kTwoElements.data(), values.data(), derivatives.data());
+  EXPECT_EQ(values, (Numbers{22, 40, -10, 39}));
+  EXPECT_EQ(derivatives, (Numbers{11, 0, 0, 0, 18, 0, 0, 2,  0, 0, 0, 1,  //
+                                  10, 0, 0, 0, 24, 0, 0, -1, 0, 0, 0, 1}));
+}
+
+TEST(FeatureOf, DerivesEveryElementTwiceAlongItsOwnLine) {
+  const Numbers along = {1, 2, 3, 4, 5, 6, -1, -3, 2, 0, 7, 1};
+  Numbers second(4);
+  MakeFeature(ThreeProducts())
+      ->SecondDerivatives(2, kTwoElements.data(), along.data(), second.data());
+  EXPECT_EQ(second, (Numbers{2 * 1 * 5, 2 * 3 * 4, 2 * -1 * 7, 2 * 3 * 9}));
+}
+
+TEST(FeatureOf, TheLeastChangeIsTheWeightedSumOfSquaresOverTheSegments) {
+  const double a[] = {1, 2, 3, 4}, b[] = {3, 1, 3, 7}, weights[] = {0.5, 2};
+  EXPECT_DOUBLE_EQ(MakeFeature(ThreeProducts())->LeastChange(2, a, b, weights, 4),
+                   (0.5 * (4 + 1) + 2 * 9) / 4);
+}
+
+TEST(FeatureOf, ScalarRowsOfAFeatureWithoutOwnOnesAreThoseOfItsDerivatives) {
+  Numbers rows(24);
+  MakeFeature(ThreeProducts())->ScalarRows(2, kTwoElements.data(), rows.data());
+  // For each element, value and axis: the derivative by the first vertex and by the second.
+  const double expected[24] = {11, 0, 0, 2,  0, 0, 0, 0, 18, 0, 0, 1,
+                               10, 0, 0, -1, 0, 0, 0, 0, 24, 0, 0, 1};
+  for (int k = 0; k < 24; ++k) {
+    EXPECT_NEAR(rows[k], std::sqrt(0.6) * expected[k], 1e-12) << k;
+  }
+}
+
+// Of triangles with the sides 3, 4 and 5, in different orders.
+TEST(FeatureOf, ScalarRowsOfTrianglesAreTheStrainsOfTheirSides) {
+  TriangleStrain strain;
+  strain.stencils.resize(3, 2);
+  strain.weights.setOnes(2);
+  const auto feature = MakeFeature(strain);
+  ASSERT_EQ(feature->NumScalarRows(), 3);
+  const Numbers x = {1, 2, 5, 4, 2, 5, 4, 6, 5, -1, 0, 0, -1, 4, 0, -1, 0, 3};
+  const double a = std::sqrt(0.2) / 3, b = std::sqrt(0.2) / 4, c = std::sqrt(0.2) / 5;
+  const double expected[18] = {-a, a, 0, 0, -b, b, c, 0, -c, -b, b, 0, 0, -c, c, a, 0, -a};
+  Numbers rows(18);
+  feature->ScalarRows(2, x.data(), rows.data());
+  for (int k = 0; k < 18; ++k) EXPECT_NEAR(rows[k], expected[k], 1e-14) << k;
+  strain.epsilon_squared = 11;  // with which the squares of the sides are 20, 27 and 36
+  MakeFeature(strain)->ScalarRows(1, x.data(), rows.data());
+  EXPECT_NEAR(rows[1], std::sqrt(0.2 / 20), 1e-14);
+  EXPECT_NEAR(rows[5], std::sqrt(0.2 / 27), 1e-14);
+  EXPECT_NEAR(rows[6], std::sqrt(0.2 / 36), 1e-14);
+}
+
+TEST(FeatureKind, FreezesWithTheCoefficientAndRestoresFromNumbers) {
+  const internal::FeatureKind kind =
+      internal::KindOf<Products>([](const MetricBasis&) { return ThreeProducts(); });
+  EXPECT_EQ(kind.vertices, 2);
+  EXPECT_FALSE(kind.is_sum);
+  const auto frozen = kind.freeze(MetricBasis(), 10);
+  EXPECT_EQ(frozen->Weights(), Eigen::Vector3d(5, 20, 70));
+  Eigen::MatrixXi stencils(2, 2);
+  stencils << 7, 8, 9, 6;
+  std::vector<std::string> asked;
+  const auto restored =
+      kind.restore(stencils, Eigen::Vector2d(3, 4), [&](const std::string& name) -> double {
+        asked.push_back(name);
+        return -2;
+      });
+  EXPECT_EQ(asked, std::vector<std::string>{"c"});
+  EXPECT_EQ(restored->As<Products>()->c, -2);
+  EXPECT_EQ(restored->As<Products>()->stencils, stencils);
+  EXPECT_EQ(restored->Weights(), Eigen::Vector2d(3, 4));
+}
+
+struct SumOfHeights : ElementFeature<1, 1> {
+  static constexpr bool kSum = true;
+  static constexpr const char* kName = "sum of heights";
+  template <typename T>
+  void operator()(const T* x, T* value) const {
+    value[0] = x[2];
+  }
+};
+
+TEST(FeatureOf, ASumHasOneValueAndOneWeight) {
+  SumOfHeights sum;
+  sum.stencils.setLinSpaced(4, 0, 3);
+  sum.weights = Eigen::VectorXd::Constant(1, 2.5);
+  const auto feature = MakeFeature(sum);
+  EXPECT_TRUE(feature->IsSum());
+  EXPECT_TRUE(feature->IsRigidInvariant());
+  EXPECT_EQ(feature->NumElements(), 4);
+  EXPECT_EQ(feature->NumValues(), 1);
+  EXPECT_EQ(feature->Weight(3), 2.5);
+  EXPECT_TRUE(internal::KindOf<SumOfHeights>([&](const MetricBasis&) { return sum; }).is_sum);
+  internal::CheckFeature(*feature, 4);
+  sum.weights.setOnes(4);
+  EXPECT_EQ(MessageOf<InvalidOptions>([&] { internal::CheckFeature(*MakeFeature(sum), 4); }),
+            "feature sum of heights: has 4 weights, its sum needs 1");
+}
+
+TEST(CheckFeature, MessagesNameElementVertexAndWeight) {
+  const auto message = [](const std::function<void(Products*)>& damage) {
+    Products products = ThreeProducts();
+    damage(&products);
+    return MessageOf<InvalidOptions>(
+        [&] { internal::CheckFeature(*MakeFeature(std::move(products)), 6); });
+  };
+  EXPECT_EQ(message([](Products*) {}), "nothing was thrown");
+  EXPECT_EQ(message([](Products* p) { p->weights(1) = 0; }), "nothing was thrown");
+  const std::string not_of_mesh = ", which is not one of the mesh's 6";
+  EXPECT_EQ(message([](Products* p) { p->stencils(1, 2) = 6; }),
+            "feature products: element 2 has vertex 6" + not_of_mesh);
+  EXPECT_EQ(message([](Products* p) { p->stencils(0, 1) = -1; }),
+            "feature products: element 1 has vertex -1" + not_of_mesh);
+  EXPECT_EQ(message([](Products* p) { p->weights.setOnes(2); }),
+            "feature products: has 2 weights, its elements need 3");
+  EXPECT_EQ(message([](Products* p) { p->weights.setOnes(4); }),
+            "feature products: has 4 weights, its elements need 3");
+  for (const double wrong : {-1e-9, double{NAN}, std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(message([&](Products* p) { p->weights(2) = wrong; }),
+              "feature products: weight 2 is not a number of zero or more");
+  }
+}
+
+// Another type with the name of a feature of the library.
+struct OtherStrain : Products {
+  static constexpr const char* kName = TriangleStrain::kName;
+};
+
+TEST(RegisterFeature, SaysWhichNameIsTakenOrUnknownAndWhatToDo) {
+  EXPECT_EQ(MessageOf<InvalidOptions>([] {
+              RegisterFeature<OtherStrain>([](const MetricBasis&) { return OtherStrain(); });
+            }),
+            "feature triangle strain: a feature of another type has that name; choose another "
+            "kName");
+  EXPECT_FALSE(IsRegistered("nothing of the kind"));
+  EXPECT_EQ(MessageOf<InvalidOptions>([] { internal::FindFeature("nothing of the kind"); }),
+            "feature nothing of the kind: is not known to this program; a program that defines it "
+            "calls RegisterFeature (shapespace/metric/define_feature.h), or define_feature in "
+            "Python, first");
+  for (const char* known :
+       {"edge length", "log length", "triangle strain", "position", "dihedral", "volume"}) {
+    EXPECT_TRUE(IsRegistered(known)) << known;
+  }
+}
+
+}  // namespace
+}  // namespace shapespace
