@@ -3,9 +3,14 @@
 #include <fcntl.h>
 #include <sys/resource.h>
 
+#include <cerrno>
 #include <csignal>
+#include <filesystem>
+#include <functional>
 #include <future>
 #include <set>
+#include <string>
+#include <system_error>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -14,6 +19,7 @@
 #include <shapespace/base/internal/file_buffer.h>
 
 #include "mesh/files.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -125,6 +131,65 @@ TEST_F(AtomicFileTest, WhatDoesNotFitIsReportedAndLeavesTheOldFile) {
   EXPECT_EQ(cause, std::errc::file_too_large);
   EXPECT_EQ(testing::Content(file), "before");
   EXPECT_EQ(Count(), 1);
+}
+
+TEST_F(AtomicFileTest, MessagesNameTheFileAndTheCause) {
+  const auto message = [](const std::string& file, const std::function<void(std::ostream&)>& body) {
+    return testing::MessageOf<FileError>([&] { internal::WriteFileAtomically(file, body); });
+  };
+  const auto text = [](std::ostream& out) { out << "x"; };
+  const auto reason = [](int number) { return std::generic_category().message(number); };
+  const std::string file = File("a.txt", "before");
+  EXPECT_EQ(message(file, [](std::ostream& out) { out.setstate(std::ios::failbit); }),
+            file + ": writing failed");
+  EXPECT_EQ(message(file + "/b.txt", text),
+            file + "/b.txt: cannot make its folder: " + reason(ENOTDIR));
+  std::filesystem::create_directories(Path("folder/full"));
+  EXPECT_EQ(message(Path("folder"), text),
+            Path("folder") + ": cannot be replaced: " + reason(EISDIR));
+  const std::string long_name = Path(std::string(250, 'n'));  // too long with what is appended
+  EXPECT_EQ(message(long_name, text), long_name + ": cannot be written: " + reason(ENAMETOOLONG));
+  EXPECT_EQ(Count(), 1);
+}
+
+TEST_F(AtomicFileTest, FoldersAreMadeOnTheWay) {
+  const std::string file = Path("new/inner/a.txt");
+  internal::WriteFileAtomically(file, [](std::ostream& out) { out << "x"; });
+  internal::WriteFileAtomically(file, [](std::ostream& out) { out << "xy"; });
+  EXPECT_EQ(testing::Content(file), "xy");
+}
+
+TEST_F(AtomicFileTest, ABufferKnowsItsPositionAndCannotBeMoved) {
+  const std::string file = Path("b.txt");
+  internal::FileBuffer buffer(open(file.c_str(), O_WRONLY | O_CREAT, 0600));
+  std::ostream stream(&buffer);
+  EXPECT_EQ(stream.tellp(), 0);
+  stream << std::string(70000, 'a') << "bc" << std::flush;
+  EXPECT_EQ(testing::Content(file).size(), 70002u);
+  stream << 'd';
+  EXPECT_EQ(testing::Content(file).size(), 70002u) << "what follows is in the buffer";
+  EXPECT_EQ(stream.tellp(), 70003);
+  EXPECT_EQ(buffer.pubseekoff(1, std::ios::cur), -1);
+  EXPECT_EQ(buffer.pubseekoff(0, std::ios::beg), -1);
+  EXPECT_EQ(buffer.pubseekoff(0, std::ios::end), -1);
+  EXPECT_TRUE(buffer.Close());
+  EXPECT_TRUE(buffer.Close());
+  EXPECT_EQ(buffer.Error(), 0);
+  EXPECT_EQ(testing::Content(file), std::string(70000, 'a') + "bcd");
+}
+
+TEST_F(AtomicFileTest, ABufferTellsTheFirstErrorOfSeveral) {
+  const std::string file = File("c.txt", "before");
+  const int descriptor = open(file.c_str(), O_RDONLY);
+  internal::FileBuffer buffer(descriptor);
+  std::ostream stream(&buffer);
+  stream << 'x';
+  EXPECT_EQ(buffer.Error(), 0);
+  EXPECT_FALSE(stream.flush());
+  EXPECT_EQ(buffer.Error(), EBADF);
+  EXPECT_FALSE(buffer.Close());
+  EXPECT_EQ(buffer.Error(), EBADF);
+  EXPECT_EQ(testing::Content(file), "before");
 }
 
 TEST_F(AtomicFileTest, NothingIsLeftOfFilesThatAreAbandoned) {

@@ -74,6 +74,23 @@ TEST_F(CoreQuotaTest, IsReadFromVersion1Too) {
   EXPECT_EQ(Quota(groups), 3);
 }
 
+// The group of version 2 comes from its own line, wherever that is; lines that say nothing of the
+// sort are skipped. A quota of version 2 goes before one of version 1.
+TEST_F(CoreQuotaTest, TheGroupOfEachVersionComesFromItsLine) {
+  Limit("slice", "70000 20000\n");
+  fs::create_directories(root_ / "cpu" / "old");
+  std::ofstream(root_ / "cpu" / "old" / "cpu.cfs_quota_us") << "30000\n";
+  std::ofstream(root_ / "cpu" / "old" / "cpu.cfs_period_us") << "40000\n";
+  EXPECT_EQ(Quota("\nnothing\n:\n3:cpu:/old\n0::/slice\n"), 3.5);
+  EXPECT_EQ(Quota("0::/slice\n3:cpu:/old\n"), 3.5);
+  EXPECT_EQ(Quota("0::/other\n3:cpu:/old\n"), 0.75);
+  EXPECT_EQ(Quota("0::/other\n3:xcpu:/slice\n4:cpu,cpuacct:/old\n"), 0.75);
+  EXPECT_FALSE(Quota("0::/other\n3:cpus:/old\n"));
+  EXPECT_FALSE(Quota("0::/other\n3:cpu:old\n"));
+  fs::remove(root_ / "cpu" / "old" / "cpu.cfs_period_us");
+  EXPECT_FALSE(Quota("3:cpu:/old\n"));
+}
+
 TEST_F(CoreQuotaTest, IsNotKnownFromOtherFiles) {
   EXPECT_FALSE(CoreQuota("/nowhere/cgroup", "/nowhere"));
   for (const char* text : {"", "many 100000\n", "100000\n", "100000 0\n", "-1 100000\n"}) {
