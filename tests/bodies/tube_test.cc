@@ -1,5 +1,9 @@
 #include <shapespace/bodies/tube.h>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <shapespace/bodies/body.h>
@@ -84,6 +88,60 @@ TEST(TubeTest, BentToTheEndHasNoFolds) {
     EXPECT_LT(angles.abs().maxCoeff(), 60) << "a fold has nearly 180";
   }
   EXPECT_EQ(MakeTube(5000).end, 150);
+}
+
+struct RingOfVertices {
+  double x, radius;
+  int count;
+};
+
+// The rings of a straight tube, from the base to the tip; the poles have one vertex each.
+std::vector<RingOfVertices> RingsOf(const Shape& straight) {
+  std::vector<RingOfVertices> rings;
+  for (const Eigen::Vector3d p : straight.colwise()) {
+    if (rings.empty() || std::abs(p.x() - rings.back().x) > 1e-9) rings.push_back({p.x(), 0, 0});
+    rings.back().radius = std::hypot(p.y(), p.z());
+    ++rings.back().count;
+  }
+  return rings;
+}
+
+// Along the surface, also where that is steep.
+TEST(TubeTest, RingsAreAtDistancesInProportionToTheirRadii) {
+  const TubeForm cone = {2, 0.2, 1, 0};
+  const ShapeFamily tube = MakeTube(6000, cone);
+  double least = 1e9, greatest = 0;
+  const std::vector<RingOfVertices> rings = RingsOf(tube.pose(0));
+  int tested = 0;
+  for (size_t i = 0; i + 1 < rings.size(); ++i) {
+    const RingOfVertices &a = rings[i], &b = rings[i + 1];
+    if (a.x < -1e-9 || b.x > cone.length + 1e-9) continue;
+    ++tested;
+    const double ratio = std::hypot(b.x - a.x, b.radius - a.radius) / (a.radius + b.radius);
+    least = std::min(least, ratio);
+    greatest = std::max(greatest, ratio);
+  }
+  EXPECT_GT(tested, 20);
+  EXPECT_LT(greatest / least, 1.02);
+}
+
+TEST(TubeTest, LatitudesOfCapsAreMeansOfEqualStepsAndAStereographicProjection) {
+  const TubeForm form = {3, 0.5, 0.8, 0};
+  const ShapeFamily tube = MakeTube(3000, form);
+  std::vector<RingOfVertices> rings = RingsOf(tube.pose(0));
+  for (const bool at_tip : {false, true}) {
+    const double radius = at_tip ? form.tip_radius : form.base_radius;
+    int m = 0;  // latitudes from the pole to the equator
+    while (std::abs(rings[m].radius - radius) > 1e-9) ++m;
+    ASSERT_GT(m, 3);
+    for (int j = 1; j <= m; ++j) {
+      const double equal = M_PI / 2 * j / m, stereographic = 2 * std::atan(1.0 * j / m);
+      EXPECT_NEAR(rings[j].radius, radius * std::sin((equal + stereographic) / 2), 1e-9) << j;
+      EXPECT_EQ(rings[j].count, 5 * j);
+    }
+    EXPECT_EQ(rings[0].count, 1);
+    std::reverse(rings.begin(), rings.end());
+  }
 }
 
 TEST(TubeTest, RefusesBadArguments) {
