@@ -1,5 +1,7 @@
+#include <cmath>
 #include <set>
 #include <tuple>
+#include <vector>
 
 #include <shapespace/output/gltf.h>
 #include <shapespace/output/internal/colour.h>
@@ -297,6 +299,37 @@ TEST_F(WriteGltfAppearanceTest, NodesMeshesAndAnimationsHaveTheirNames) {
   EXPECT_EQ(written()["animations"][0]["name"], "there");
   options.playback = GltfPlayback::kOnce;
   EXPECT_EQ(written()["animations"][0]["name"], "there");
+}
+
+// A strip of paper that is folded by so many degrees at each of its creases.
+TEST_F(WriteGltfAppearanceTest, FacetsAreFlatIfMoreThanHalfOfTheBentEdgesAreSharp) {
+  const auto has_normals = [&](const std::vector<double>& degrees) {
+    const int creases = static_cast<int>(degrees.size());
+    std::vector<int> begin = {0}, corners;
+    Shape shape(3, 2 * creases + 4);
+    Eigen::Vector2d at(0, 0);
+    double direction = 0;
+    for (int i = 0; i < creases + 2; ++i) {
+      shape.col(2 * i) << at.x(), 0, at.y();
+      shape.col(2 * i + 1) << at.x(), 1, at.y();
+      if (i > 0 && i <= creases) direction += degrees[i - 1] * EIGEN_PI / 180;
+      at += Eigen::Vector2d(std::cos(direction), std::sin(direction));
+      if (i == creases + 1) break;
+      for (const int k : {0, 2, 3, 1}) corners.push_back(2 * i + k);
+      begin.push_back(4 * (i + 1));
+    }
+    const auto strip = Connectivity::Make(2 * creases + 4, begin, corners);
+    WriteGltf(GlbFile("strip"), testing::PathOf(strip, {shape, shape}));
+    return Glb(GlbFile("strip")).Primitive()["attributes"].contains("NORMAL");
+  };
+  EXPECT_TRUE(has_normals({60, 10}));
+  EXPECT_FALSE(has_normals({60, 10, -60}));
+  EXPECT_TRUE(has_normals({60, 10, -60, -10}));
+  EXPECT_FALSE(has_normals({60, 0.5, 0.5, 0.5}));
+  EXPECT_TRUE(has_normals({60, 1.5, 0.5, 0.5}));
+  EXPECT_FALSE(has_normals({46.5}));
+  EXPECT_TRUE(has_normals({45.5}));
+  EXPECT_TRUE(has_normals({0, 0.5}));
 }
 
 }  // namespace
