@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/bricard.h>
@@ -30,7 +31,6 @@
 namespace shapespace {
 namespace {
 
-using testing::Deforming;
 using testing::Distance;
 using testing::Listener;
 using testing::MessageOf;
@@ -38,19 +38,19 @@ using testing::Motion;
 using testing::Noise;
 using Ending = ExponentialSummary::Ending;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-ExponentialOptions FirstIntegral() {
+ExponentialOptions ThePapersScheme() {
   ExponentialOptions options;
   options.integrator = GeodesicIntegrator::kFirstIntegral;
   return options;
 }
 
-ShapeFamily Bar() { return MakeBar(6, 1, 1, 6, 1, 1); }
+ShapeFamily BarInDetail() { return MakeBar(6, 1, 1, 6, 1, 1); }
 
 // Three shapes of a bar that bends and is moved, at times 0, 0.3 and 1.
 Path UnevenPath() {
-  const ShapeFamily bar = Bar();
+  const ShapeFamily bar = BarInDetail();
   std::vector<Shape> shapes;
   for (const double t : {0.0, 0.3, 1.0}) {
     shapes.emplace_back(bar.pose(10 + 20 * t).colwise() + t * Eigen::Vector3d(3, -1, 2));
@@ -63,17 +63,17 @@ Path UnevenPath() {
 
 // The sums over all vertices of the momenta and of their moments, for the step to shape i + 1, and
 // what a change of these is compared with.
-struct Momenta {
+struct MomentaInDetail {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero(), angular = Eigen::Vector3d::Zero();
   double size = 0, moment = 0;
 };
 
-Momenta MomentaOf(const Path& path, int i) {
+MomentaInDetail MomentaOfStep(const Path& path, int i) {
   const FeatureMap map(path.metric);
   const Shape& at = path.shapes[i];
   const Tangent p =
       map.Derivative(at).TransposeTimes(map.Values(path.shapes[i + 1]) - map.Values(at));
-  Momenta all;
+  MomentaInDetail all;
   for (int v = 0; v < at.cols(); ++v) {
     all.linear += p.col(v);
     all.angular += Eigen::Vector3d(at.col(v)).cross(Eigen::Vector3d(p.col(v)));
@@ -86,7 +86,7 @@ Momenta MomentaOf(const Path& path, int i) {
 void ExpectRowsOf(const Path& path, const ExponentialSummary& summary, double step) {
   const FeatureMap map(path.metric);
   const int begin = path.NumShapes() - 1 - static_cast<int>(summary.steps.size());
-  const Momenta first = MomentaOf(path, begin);
+  const MomentaInDetail first = MomentaOfStep(path, begin);
   for (size_t k = 0; k < summary.steps.size(); ++k) {
     SCOPED_TRACE(k);
     const int i = begin + static_cast<int>(k);
@@ -97,7 +97,7 @@ void ExpectRowsOf(const Path& path, const ExponentialSummary& summary, double st
     const double energy =
         (map.Values(path.shapes[i + 1]) - map.Values(path.shapes[i])).squaredNorm() / step / step;
     EXPECT_NEAR(row.energy, energy, 1e-9 * energy);
-    const Momenta now = MomentaOf(path, i);
+    const MomentaInDetail now = MomentaOfStep(path, i);
     const double drift = std::max((now.linear - first.linear).norm() / first.size,
                                   (now.angular - first.angular).norm() / first.moment);
     EXPECT_NEAR(row.momentum_drift, drift, 1e-9 + 1e-6 * drift);
@@ -147,11 +147,11 @@ TEST(Extrapolate, GoesOnWithTheStepOfTheLastSegment) {
 }
 
 TEST(Extrapolate, FiguresOfThePapersSchemeAreThoseOfItsPath) {
-  const Motion motion = Deforming(MakeBricard(), 0, 25, {});
+  const Motion motion = testing::Deforming(MakeBricard(), 0, 25, {});
   Motion turning = motion;
   turning.velocity += testing::Spin(*motion.metric, motion.shape, 60, {1, 2, 3});
   const auto [path, summary] =
-      Extrapolate(turning.metric, turning.shape, turning.velocity, 4, FirstIntegral());
+      Extrapolate(turning.metric, turning.shape, turning.velocity, 4, ThePapersScheme());
   EXPECT_EQ(path.provenance, "shot from a shape");
   EXPECT_EQ(path.poses, std::vector<int>{0});
   EXPECT_EQ(path.extrapolated, 4);
@@ -174,8 +174,8 @@ TEST(Extrapolate, FiguresOfThePapersSchemeAreThoseOfItsPath) {
 }
 
 TEST(Extrapolate, SaysHowManyStepsDidNotConverge) {
-  const Motion motion = Deforming(MakeBricard(), 0, 25, {});
-  ExponentialOptions options = FirstIntegral();
+  const Motion motion = testing::Deforming(MakeBricard(), 0, 25, {});
+  ExponentialOptions options = ThePapersScheme();
   options.max_iterations = 1;
   const auto [path, summary] =
       Extrapolate(motion.metric, motion.shape, motion.velocity, 3, options);
@@ -192,7 +192,7 @@ TEST(Extrapolate, SaysHowManyStepsDidNotConverge) {
 }
 
 // A sheet of 4 x 4 cells, whose middle moves by `way` cells to the side in one step.
-ExponentialSummary PushMiddle(double way, std::string* edge = nullptr) {
+ExponentialSummary PushTheMiddle(double way, std::string* edge = nullptr) {
   const ShapeFamily sheet = MakeSheet(1, 1, 4, 4);
   const Shape flat = sheet.pose(0);
   int middle = 0, beside = 0;
@@ -207,12 +207,12 @@ ExponentialSummary PushMiddle(double way, std::string* edge = nullptr) {
   Tangent velocity = Tangent::Zero(3, flat.cols());
   velocity(0, middle) = 0.25 * way;
   const auto metric = FreezeMetric({}, sheet.connectivity, {flat});
-  return Extrapolate(metric, flat, velocity, 1, FirstIntegral()).summary;
+  return Extrapolate(metric, flat, velocity, 1, ThePapersScheme()).summary;
 }
 
 // Of 32 triangles, the two beyond the middle turn over.
 TEST(Extrapolate, SaysWhereAndWhyItStops) {
-  const ExponentialSummary over = PushMiddle(1.5);
+  const ExponentialSummary over = PushTheMiddle(1.5);
   EXPECT_EQ(over.stopped,
             "step 1: 6% of the surface turn inside out; the motion cannot be continued");
   ASSERT_EQ(over.warnings.size(), 1u);
@@ -220,13 +220,13 @@ TEST(Extrapolate, SaysWhereAndWhyItStops) {
   EXPECT_EQ(over.ending, Ending::kDegenerate);
   EXPECT_TRUE(over.steps.empty());
   std::string edge;
-  const ExponentialSummary onto = PushMiddle(1, &edge);
+  const ExponentialSummary onto = PushTheMiddle(1, &edge);
   EXPECT_EQ(onto.stopped, "step 1: the edge between vertices " + edge +
                               " vanishes; the motion cannot be continued");
 }
 
 TEST(Extrapolate, RefusalsNameTheFieldAndTheRemedy) {
-  const Motion motion = Deforming(MakeBricard(), 0, 25, {});
+  const Motion motion = testing::Deforming(MakeBricard(), 0, 25, {});
   const auto refusal = [&](const Shape& shape, const Tangent& velocity, int steps,
                            const ExponentialOptions& options) {
     return MessageOf<Error>([&] { Extrapolate(motion.metric, shape, velocity, steps, options); });
@@ -270,7 +270,7 @@ Path Lengthening() {
   return testing::PathOf(bar.connectivity, shapes);
 }
 
-double RmsDistance(const Shape& a, const Shape& b, const Eigen::VectorXd& area) {
+double RmsDistanceOf(const Shape& a, const Shape& b, const Eigen::VectorXd& area) {
   double sum = 0;
   for (int v = 0; v < a.cols(); ++v) sum += area(v) * (a.col(v) - b.col(v)).squaredNorm();
   return std::sqrt(sum / area.sum());
@@ -292,12 +292,12 @@ TEST(CorrectPath, FiguresAreThoseOfBothPaths) {
   EXPECT_GT(summary.total_seconds, 0);
   double squares = 0;
   for (int i = 1; i <= 4; ++i) {
-    squares += std::pow(RmsDistance(path.shapes[i], given.shapes[i], area), 2);
+    squares += std::pow(RmsDistanceOf(path.shapes[i], given.shapes[i], area), 2);
   }
   EXPECT_NEAR(summary.distance, std::sqrt(squares / 4), 1e-9);
   const auto deformation = [&](const Path& of) {
     const RigidMotion fit = FitRigidMotion(of.shapes[4], of.shapes[0], area);
-    return RmsDistance(fit(of.shapes[4]), of.shapes[0], area);
+    return RmsDistanceOf(fit(of.shapes[4]), of.shapes[0], area);
   };
   EXPECT_NEAR(summary.deformation_left, deformation(path) / deformation(given), 1e-9);
   MetricOptions lengths = MetricOptions::Isometric();
@@ -361,7 +361,7 @@ TEST(CorrectPath, SaysWhyItEnded) {
   EXPECT_EQ(stopped.warnings[0], "cancelled: the shapes are the best so far");
   EXPECT_EQ(MessageOf<MeshError>([] { CorrectPath(FirstShapes(Lengthening(), 1)); }),
             "a path needs at least two shapes to be corrected");
-  for (const double mu : {-1.0, kNan, std::numeric_limits<double>::infinity()}) {
+  for (const double mu : {-1.0, kNoNumber, std::numeric_limits<double>::infinity()}) {
     options.mu = mu;
     EXPECT_EQ(MessageOf<InvalidOptions>([&] { CorrectPath(Lengthening(), options); }),
               "mu: must be 0 or more, and finite");
@@ -370,7 +370,7 @@ TEST(CorrectPath, SaysWhyItEnded) {
 
 // The volume couples all vertices, so that the solver iterates.
 TEST(Transport, FiguresAreThoseOfAllTangents) {
-  const ShapeFamily bar = Bar();
+  const ShapeFamily bar = BarInDetail();
   MetricOptions options;
   options.volume = 0.3;
   const std::vector<Shape> shapes = {3 * bar.pose(10), 3 * bar.pose(25), 3 * bar.pose(45)};
@@ -423,7 +423,7 @@ TEST(Transport, RefusalsNameTheFieldAndTheRemedy) {
   const std::string unfit =
       "a tangent is not finite, or has another number of vertices than the path";
   Tangent broken = x;
-  broken(2, 27) = kNan;
+  broken(2, 27) = kNoNumber;
   EXPECT_EQ(MessageOf<MeshError>([&] { Transport(path, {x, broken}); }), unfit);
   EXPECT_EQ(MessageOf<MeshError>([&] { Transport(path, {x, Tangent::Zero(3, 27)}); }), unfit);
   EXPECT_EQ(MessageOf<MeshError>([&] { Transport(FirstShapes(path, 1), {x}); }),

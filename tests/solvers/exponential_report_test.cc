@@ -35,7 +35,7 @@ ExponentialSummary ShotOfNumbers() {
   return summary;
 }
 
-const char kHead[] =
+const char kHeadOfSteps[] =
     "       t  solved on  increments  iterations  Krylov   residual        energy  momentum drift"
     "  edges rms   edges max  inverted  seconds\n";
 
@@ -55,7 +55,7 @@ TEST(ExponentialSummary, FullReportsHaveEveryNumber) {
                         "Contact           3 segments not shown to be free of it; least distance "
                         "0.0625\n"
                         "\n") +
-                kHead +
+                kHeadOfSteps +
                 "    0.25         11           2           3       5    1.0e-03         0.375"
                 "         2.0e-03         1%          2%        3%    0.125\n"
                 "     0.5         11           7           8       9    4.0e-03         0.625"
@@ -170,7 +170,7 @@ TEST(ExponentialSummary, JsonHasEveryNumber) {
   EXPECT_EQ(json::parse(summary.ToJson()), expected);
 }
 
-PathQuality Quality(double first) {
+PathQuality CorrectionQuality(double first) {
   PathQuality quality;
   quality.inner_shapes = static_cast<int>(100 * first);
   quality.edge_rms = first + 1;
@@ -209,8 +209,8 @@ TEST(CorrectionSummary, ReportsHaveEveryNumber) {
   summary.evaluations = 13;
   summary.initial_energy = 0.625;
   summary.energy = 0.375;
-  summary.initial_quality = Quality(0.5);
-  summary.quality = Quality(0.25);
+  summary.initial_quality = CorrectionQuality(0.5);
+  summary.quality = CorrectionQuality(0.25);
   summary.distance = 0.0625;
   summary.deformation_left = 0.125;
   summary.warnings = {"one", "two"};

@@ -27,10 +27,10 @@ namespace {
 using internal::MakeSchedule;
 using testing::Distance;
 using testing::Listener;
-using Steps = std::vector<std::pair<int, int>>;
+using StepsInOrder = std::vector<std::pair<int, int>>;
 
-Steps ScheduleOf(GeodesicSchedule schedule, int levels, int shapes) {
-  Steps steps;
+StepsInOrder StepsOfSchedule(GeodesicSchedule schedule, int levels, int shapes) {
+  StepsInOrder steps;
   for (const internal::ScheduleStep& step : MakeSchedule(schedule, levels, shapes)) {
     steps.emplace_back(step.level, step.shapes);
   }
@@ -38,29 +38,30 @@ Steps ScheduleOf(GeodesicSchedule schedule, int levels, int shapes) {
 }
 
 TEST(Schedule, HasTheStepsThatItsDescriptionNames) {
-  EXPECT_EQ(ScheduleOf(GeodesicSchedule::kAutomatic, 3, 31), (Steps{{0, 1},
-                                                                    {1, 1},
-                                                                    {2, 1},
-                                                                    {0, 3},
-                                                                    {1, 3},
-                                                                    {2, 3},
-                                                                    {0, 7},
-                                                                    {1, 7},
-                                                                    {2, 7},
-                                                                    {2, 15},
-                                                                    {2, 31}}));
-  EXPECT_EQ(ScheduleOf(GeodesicSchedule::kAutomatic, 2, 8),
-            (Steps{{0, 1}, {1, 1}, {0, 3}, {1, 3}, {1, 8}}));
-  EXPECT_EQ(ScheduleOf(GeodesicSchedule::kAutomatic, 2, 2),
-            (Steps{{0, 1}, {1, 1}, {0, 2}, {1, 2}}));
-  EXPECT_EQ(ScheduleOf(GeodesicSchedule::kAutomatic, 1, 1), (Steps{{0, 1}}));
-  EXPECT_EQ(ScheduleOf(GeodesicSchedule::kFlat, 3, 10), (Steps{{2, 1}, {2, 4}, {2, 10}}));
-  EXPECT_EQ(ScheduleOf(GeodesicSchedule::kPaper, 3, 7),
-            (Steps{{0, 1}, {0, 3}, {1, 3}, {1, 7}, {2, 7}}));
-  EXPECT_EQ(ScheduleOf(GeodesicSchedule::kPaper, 4, 3),
-            (Steps{{0, 1}, {0, 3}, {1, 3}, {2, 3}, {3, 3}}));
-  EXPECT_EQ(ScheduleOf(GeodesicSchedule::kPaper, 2, 15),
-            (Steps{{0, 1}, {0, 3}, {1, 3}, {1, 7}, {1, 15}}));
+  EXPECT_EQ(StepsOfSchedule(GeodesicSchedule::kAutomatic, 3, 31), (StepsInOrder{{0, 1},
+                                                                                {1, 1},
+                                                                                {2, 1},
+                                                                                {0, 3},
+                                                                                {1, 3},
+                                                                                {2, 3},
+                                                                                {0, 7},
+                                                                                {1, 7},
+                                                                                {2, 7},
+                                                                                {2, 15},
+                                                                                {2, 31}}));
+  EXPECT_EQ(StepsOfSchedule(GeodesicSchedule::kAutomatic, 2, 8),
+            (StepsInOrder{{0, 1}, {1, 1}, {0, 3}, {1, 3}, {1, 8}}));
+  EXPECT_EQ(StepsOfSchedule(GeodesicSchedule::kAutomatic, 2, 2),
+            (StepsInOrder{{0, 1}, {1, 1}, {0, 2}, {1, 2}}));
+  EXPECT_EQ(StepsOfSchedule(GeodesicSchedule::kAutomatic, 1, 1), (StepsInOrder{{0, 1}}));
+  EXPECT_EQ(StepsOfSchedule(GeodesicSchedule::kFlat, 3, 10),
+            (StepsInOrder{{2, 1}, {2, 4}, {2, 10}}));
+  EXPECT_EQ(StepsOfSchedule(GeodesicSchedule::kPaper, 3, 7),
+            (StepsInOrder{{0, 1}, {0, 3}, {1, 3}, {1, 7}, {2, 7}}));
+  EXPECT_EQ(StepsOfSchedule(GeodesicSchedule::kPaper, 4, 3),
+            (StepsInOrder{{0, 1}, {0, 3}, {1, 3}, {2, 3}, {3, 3}}));
+  EXPECT_EQ(StepsOfSchedule(GeodesicSchedule::kPaper, 2, 15),
+            (StepsInOrder{{0, 1}, {0, 3}, {1, 3}, {1, 7}, {1, 15}}));
 }
 
 // Work is vertices times shapes; a last solve to 1e-6 counts half as much again.
@@ -121,9 +122,9 @@ TEST(ArcLengthTimes, UniformTimesAreThoseOfInnerShapesAndBothEnds) {
   EXPECT_EQ(internal::UniformTimes(0), (std::vector<double>{0, 1}));
 }
 
-ShapeFamily Sheet() { return MakeSheet(2, 1, 4, 3); }
+ShapeFamily SheetInDetail() { return MakeSheet(2, 1, 4, 3); }
 
-GeodesicOptions Options(int shapes, double tolerance = 1e-10) {
+GeodesicOptions OptionsInDetail(int shapes, double tolerance = 1e-10) {
   GeodesicOptions options;
   options.shapes = shapes;
   options.tolerance = tolerance;
@@ -133,10 +134,10 @@ GeodesicOptions Options(int shapes, double tolerance = 1e-10) {
 
 // Stopped before the first iteration, a path is its start.
 TEST(Interpolate, BeginsAtTheShapeThatItsStartNames) {
-  const ShapeFamily sheet = Sheet();
+  const ShapeFamily sheet = SheetInDetail();
   for (const GeodesicStart start :
        {GeodesicStart::kFirst, GeodesicStart::kLast, GeodesicStart::kBlend, GeodesicStart::kBest}) {
-    GeodesicOptions options = Options(1);
+    GeodesicOptions options = OptionsInDetail(1);
     options.start = start;
     options.metric.lambda = 0.1;
     Listener all;
@@ -170,8 +171,8 @@ TEST(Interpolate, BeginsAtTheShapeThatItsStartNames) {
 }
 
 // |Phi(Q) - Phi(P)|^2 over the segments, times their number.
-double ScaledEnergyOf(const std::shared_ptr<const Metric>& metric,
-                      const std::vector<Shape>& shapes) {
+double ScaledEnergyOfChanges(const std::shared_ptr<const Metric>& metric,
+                             const std::vector<Shape>& shapes) {
   const FeatureMap map(metric);
   double sum = 0;
   for (size_t i = 1; i < shapes.size(); ++i) {
@@ -181,7 +182,7 @@ double ScaledEnergyOf(const std::shared_ptr<const Metric>& metric,
 }
 
 TEST(Interpolate, RowsSayWithWhatEachSolverBeganAndEnded) {
-  const ShapeFamily sheet = Sheet();
+  const ShapeFamily sheet = SheetInDetail();
   const std::vector<Shape> poses = {sheet.pose(0), sheet.pose(70)};
   const auto metric = FreezeMetric({}, sheet.connectivity, poses);
   struct Case {
@@ -193,15 +194,15 @@ TEST(Interpolate, RowsSayWithWhatEachSolverBeganAndEnded) {
         Case{GeodesicSolver::kThreadedLbfgs, "own L-BFGS"},
         Case{GeodesicSolver::kTrustRegion, "trust region"}}) {
     SCOPED_TRACE(of.name);
-    GeodesicOptions options = Options(1);
+    GeodesicOptions options = OptionsInDetail(1);
     options.solver = of.solver;
     options.start = GeodesicStart::kBlend;
     const auto [path, summary] = Interpolate(metric, poses, options);
     ASSERT_EQ(summary.levels.size(), 1u);
     const GeodesicSummary::Level& row = summary.levels[0];
     const Shape blend = 0.5 * (path.shapes[0] + path.shapes[2]);
-    const double before = ScaledEnergyOf(metric, {path.shapes[0], blend, path.shapes[2]});
-    const double after = ScaledEnergyOf(metric, path.shapes);
+    const double before = ScaledEnergyOfChanges(metric, {path.shapes[0], blend, path.shapes[2]});
+    const double after = ScaledEnergyOfChanges(metric, path.shapes);
     EXPECT_EQ(row.piece, 0);
     EXPECT_EQ(row.vertices, 20);
     EXPECT_EQ(row.shapes, 1);
@@ -234,8 +235,8 @@ TEST(Interpolate, RowsSayWithWhatEachSolverBeganAndEnded) {
 }
 
 TEST(Interpolate, TheRigidStartHasARowOfItsOwnInEachPiece) {
-  const ShapeFamily sheet = Sheet();
-  GeodesicOptions options = Options(1);
+  const ShapeFamily sheet = SheetInDetail();
+  GeodesicOptions options = OptionsInDetail(1);
   options.start = GeodesicStart::kRigid;
   const GeodesicSummary summary =
       Interpolate(sheet.connectivity, {sheet.pose(0), sheet.pose(70), sheet.pose(10)}, options)
@@ -257,11 +258,11 @@ TEST(Interpolate, TheRigidStartHasARowOfItsOwnInEachPiece) {
 
 // Between the second pose and a copy of it there is nothing to solve.
 TEST(Interpolate, ARigidCopyHasARowThatSaysThatNothingWasSolved) {
-  const ShapeFamily sheet = Sheet();
+  const ShapeFamily sheet = SheetInDetail();
   const Shape bent = sheet.pose(70);
   const Shape copy = (testing::Rotation(40, {1, 2, 3}) * bent).colwise() + Eigen::Vector3d(3, 1, 2);
   const auto [path, summary] =
-      Interpolate(sheet.connectivity, {sheet.pose(0), bent, copy}, Options(5));
+      Interpolate(sheet.connectivity, {sheet.pose(0), bent, copy}, OptionsInDetail(5));
   const GeodesicSummary::Level& row = summary.levels.back();
   EXPECT_EQ(row.piece, 1);
   EXPECT_EQ(row.vertices, 20);
@@ -288,7 +289,7 @@ TEST(Interpolate, ARigidCopyHasARowThatSaysThatNothingWasSolved) {
 TEST(Interpolator, EachPairHasASummaryOfItsOwn) {
   const ShapeFamily bar = MakeBar(6, 1, 1, 12, 2, 2);
   const std::vector<Shape> poses = {bar.pose(0), bar.pose(60), bar.pose(90)};
-  const Interpolator interpolator(bar.connectivity, poses, Options(3, 1e-6));
+  const Interpolator interpolator(bar.connectivity, poses, OptionsInDetail(3, 1e-6));
   const GeodesicSummary first = interpolator.Between(poses[0], poses[1]).summary;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
@@ -302,7 +303,8 @@ TEST(Interpolator, EachPairHasASummaryOfItsOwn) {
     EXPECT_EQ(summary.freeze_seconds, 0);
     EXPECT_EQ(summary.hierarchy_seconds, 0);
     EXPECT_GE(summary.total_seconds, summary.solve_seconds);
-    EXPECT_NEAR(summary.energy, ScaledEnergyOf(path.metric, path.shapes), 1e-9 * summary.energy);
+    EXPECT_NEAR(summary.energy, ScaledEnergyOfChanges(path.metric, path.shapes),
+                1e-9 * summary.energy);
     EXPECT_GE(summary.factor_seconds, 0);
     least = std::min(least, summary.factor_seconds);
   }

@@ -30,9 +30,9 @@ namespace {
 using nlohmann::json;
 using testing::MessageOf;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
-PathQuality QualityOfNumbers() {
+PathQuality GeodesicQualityOfNumbers() {
   PathQuality quality;
   quality.inner_shapes = 14;
   quality.edge_rms = 0.01;
@@ -61,7 +61,7 @@ GeodesicSummary GeodesicOfNumbers() {
   summary.energy = 0.375;
   summary.lower_bound = 0.25;
   summary.parts = {{"strain", 0.25}, {"bending", 0.125}};
-  summary.quality = QualityOfNumbers();
+  summary.quality = GeodesicQualityOfNumbers();
   summary.intersections = 4.5;
   summary.crossings_between = 6;
   summary.uncertified_segments = 5;
@@ -85,13 +85,13 @@ GeodesicSummary GeodesicOfNumbers() {
   return summary;
 }
 
-const char kBriefly[] =
+const char kGeodesicBriefly[] =
     "NOT CONVERGED: out of iterations: 11 vertices, 3 poses, 7 shapes inserted; energy 0.375, "
     "1.5000 of its lower bound; edges off by 1% rms, roughness 7.5 degrees, 8.5 folds; 15.50 s";
 
 TEST(GeodesicSummary, ReportsHaveEveryNumber) {
   const GeodesicSummary summary = GeodesicOfNumbers();
-  EXPECT_EQ(summary.BriefReport(), kBriefly);
+  EXPECT_EQ(summary.BriefReport(), kGeodesicBriefly);
   EXPECT_EQ(summary.FullReport(),
             "Termination       NOT CONVERGED: out of iterations\n"
             "Mesh              11 vertices, 22 triangles, 33 edges, 44 hinges; 3 poses\n"
@@ -194,7 +194,7 @@ TEST(GeodesicSummary, WhatThereIsNoneOfIsNotReported) {
   summary.threads = 1;
   summary.uncertified_segments = -1;
   summary.hierarchy_stopped_early = false;
-  summary.quality.speed_max = summary.lower_bound = kNan;
+  summary.quality.speed_max = summary.lower_bound = kNotANumber;
   EXPECT_EQ(summary.BriefReport().substr(0, 56),
             "converged: 11 vertices, 3 poses, 7 shapes inserted; ener");
   EXPECT_NE(summary.BriefReport().find("energy 0.375, n/a of its lower bound; "),
@@ -229,9 +229,9 @@ TEST(GeodesicSummary, TheRatioIsOneOfCopiesAndInfiniteWhereTheBoundIsZero) {
 }
 
 // A sheet of 5 x 4 vertices: by Euler's formula it has 43 edges, 14 of them at its border.
-ShapeFamily Sheet() { return MakeSheet(2, 1, 4, 3); }
+ShapeFamily ReportedSheet() { return MakeSheet(2, 1, 4, 3); }
 
-GeodesicOptions Options(int shapes, double tolerance = 1e-12) {
+GeodesicOptions ReportedOptions(int shapes, double tolerance = 1e-12) {
   GeodesicOptions options;
   options.shapes = shapes;
   options.tolerance = tolerance;
@@ -241,7 +241,8 @@ GeodesicOptions Options(int shapes, double tolerance = 1e-12) {
 
 // |Phi(Q) - Phi(P)|^2 under one feature of a metric, or under all of them, summed over the segments
 // of shapes first ... last, times their number.
-double ScaledSum(const Metric& metric, int feature, const Path& path, int first, int last) {
+double ScaledSumOfChanges(const Metric& metric, int feature, const Path& path, int first,
+                          int last) {
   auto part = std::make_shared<Metric>(metric);
   if (feature >= 0) part->features = {metric.features[feature]};
   const FeatureMap map(part);
@@ -253,9 +254,9 @@ double ScaledSum(const Metric& metric, int feature, const Path& path, int first,
 }
 
 TEST(Interpolate, TheSummarySaysOfWhatThePathIs) {
-  const ShapeFamily sheet = Sheet();
+  const ShapeFamily sheet = ReportedSheet();
   const std::vector<Shape> poses = {sheet.pose(0), sheet.pose(50), sheet.pose(20)};
-  GeodesicOptions options = Options(3);
+  GeodesicOptions options = ReportedOptions(3);
   const auto [path, summary] = Interpolate(sheet.connectivity, poses, options);
   EXPECT_EQ(summary.termination, Termination::kConverged);
   EXPECT_TRUE(path.converged);
@@ -287,8 +288,8 @@ TEST(Interpolate, TheSummarySaysOfWhatThePathIs) {
   double all = 0;
   for (size_t f = 0; f < summary.parts.size(); ++f) {
     const int feature = static_cast<int>(f);
-    const double expected =
-        ScaledSum(*path.metric, feature, path, 0, 4) + ScaledSum(*path.metric, feature, path, 4, 8);
+    const double expected = ScaledSumOfChanges(*path.metric, feature, path, 0, 4) +
+                            ScaledSumOfChanges(*path.metric, feature, path, 4, 8);
     EXPECT_EQ(summary.parts[f].first, path.metric->features[f]->Name());
     EXPECT_NEAR(summary.parts[f].second, expected, 1e-9 * summary.energy) << f;
     all += expected;
@@ -300,7 +301,7 @@ TEST(Interpolate, TheSummarySaysOfWhatThePathIs) {
     for (const auto& level : summary.levels) {
       if (level.piece == piece && level.kept && level.shapes == 3) last = level.energy;
     }
-    const double expected = ScaledSum(*path.metric, -1, path, 4 * piece, 4 * piece + 4);
+    const double expected = ScaledSumOfChanges(*path.metric, -1, path, 4 * piece, 4 * piece + 4);
     EXPECT_NEAR(last, expected, 1e-9 * all) << piece;
   }
   const PathQuality quality = MeasureQuality(path);
@@ -311,13 +312,13 @@ TEST(Interpolate, TheSummarySaysOfWhatThePathIs) {
 
 // Under one metric, a path through three poses is that of its pieces.
 TEST(Interpolate, EnergiesAndBoundsAddUpOverPieces) {
-  const ShapeFamily sheet = Sheet();
+  const ShapeFamily sheet = ReportedSheet();
   const Shape a = sheet.pose(0), b = sheet.pose(60), c = sheet.pose(150);
   for (const MetricOptions& kind : {MetricOptions(), MetricOptions::Isometric()}) {
     const auto metric = FreezeMetric(kind, sheet.connectivity, {a, b, c});
-    const GeodesicSummary both = Interpolate(metric, {a, b, c}, Options(3)).summary;
-    const GeodesicSummary first = Interpolate(metric, {a, b}, Options(3)).summary;
-    const GeodesicSummary second = Interpolate(metric, {b, c}, Options(3)).summary;
+    const GeodesicSummary both = Interpolate(metric, {a, b, c}, ReportedOptions(3)).summary;
+    const GeodesicSummary first = Interpolate(metric, {a, b}, ReportedOptions(3)).summary;
+    const GeodesicSummary second = Interpolate(metric, {b, c}, ReportedOptions(3)).summary;
     EXPECT_NEAR(both.energy, first.energy + second.energy, 1e-6 * both.energy);
     EXPECT_NEAR(both.lower_bound, first.lower_bound + second.lower_bound, 1e-9 * both.lower_bound);
     EXPECT_GT(first.lower_bound, 0.1 * second.lower_bound);
@@ -326,8 +327,8 @@ TEST(Interpolate, EnergiesAndBoundsAddUpOverPieces) {
 }
 
 TEST(Interpolate, WhatIsNotMeasuredIsNotANumber) {
-  const ShapeFamily sheet = Sheet();
-  GeodesicOptions options = Options(1, 1e-4);
+  const ShapeFamily sheet = ReportedSheet();
+  GeodesicOptions options = ReportedOptions(1, 1e-4);
   options.assess = false;
   const GeodesicSummary summary =
       Interpolate(sheet.connectivity, {sheet.pose(0), sheet.pose(50)}, options).summary;
@@ -344,7 +345,7 @@ TEST(Interpolate, WhatIsNotMeasuredIsNotANumber) {
 TEST(Interpolate, CountsIntersectionsAtTheQuartersOfEachPiece) {
   const testing::CutRing ring;
   const std::vector<Shape> poses = {ring.poses[0], ring.poses[1], ring.poses[0]};
-  const auto [path, summary] = Interpolate(ring.connectivity, poses, Options(3, 1e-6));
+  const auto [path, summary] = Interpolate(ring.connectivity, poses, ReportedOptions(3, 1e-6));
   const std::vector<std::int64_t> pairs = CountIntersections(*ring.connectivity, path.shapes);
   ASSERT_EQ(pairs.size(), 9u);
   double sum = 0;
@@ -372,7 +373,7 @@ TEST(Interpolate, WarnsOfWhatIsProbablyNotWanted) {
        {Case{ring.connectivity, ring.poses}, Case{bar.connectivity, {bar.pose(0), bar.pose(340)}},
         Case{sheet.connectivity, {sheet.pose(0), ruffled}}}) {
     for (const int iterations : {1, 40}) {
-      GeodesicOptions options = Options(7, 1e-9);
+      GeodesicOptions options = ReportedOptions(7, 1e-9);
       options.max_iterations = iterations;
       options.schedule = GeodesicSchedule::kFlat;
       options.start = GeodesicStart::kLast;
@@ -417,11 +418,11 @@ TEST(Interpolate, WarnsOfWhatIsProbablyNotWanted) {
 }
 
 TEST(Interpolate, RefusalsNameTheFieldAndTheRemedy) {
-  const ShapeFamily sheet = Sheet();
+  const ShapeFamily sheet = ReportedSheet();
   const Shape a = sheet.pose(0), b = sheet.pose(50);
   const auto metric = FreezeMetric({}, sheet.connectivity, {a, b});
   const auto refusal = [&](void (*change)(GeodesicOptions*), const std::vector<Shape>& poses) {
-    GeodesicOptions options = Options(3);
+    GeodesicOptions options = ReportedOptions(3);
     change(&options);
     return MessageOf<Error>([&] { Interpolate(metric, poses, options); });
   };
@@ -457,19 +458,19 @@ TEST(Interpolate, RefusalsNameTheFieldAndTheRemedy) {
   EXPECT_EQ(refusal(nothing, {a, Shape::Zero(3, 19)}), unfit);
   for (const size_t i : {0, 1, 2}) {
     std::vector<Shape> poses = {a, b, a};
-    poses[i](2, 19) = kNan;
+    poses[i](2, 19) = kNotANumber;
     EXPECT_EQ(refusal(nothing, poses), unfit) << i;
   }
-  GeodesicOptions via = Options(1);
+  GeodesicOptions via = ReportedOptions(1);
   via.avoid_contact = true;
   via.via = {a};
   EXPECT_EQ(MessageOf<InvalidOptions>([&] {
               Interpolator(sheet.connectivity, {a, b}, via);
             }),
             "via: is for one path between two poses");
-  const Interpolator interpolator(sheet.connectivity, {a, b}, Options(1));
+  const Interpolator interpolator(sheet.connectivity, {a, b}, ReportedOptions(1));
   Shape broken = b;
-  broken(0, 3) = kNan;
+  broken(0, 3) = kNotANumber;
   EXPECT_EQ(MessageOf<MeshError>([&] { interpolator.Between(broken, a); }), unfit);
   EXPECT_EQ(MessageOf<MeshError>([&] { interpolator.Between(a, broken); }), unfit);
 }
