@@ -410,7 +410,7 @@ TEST(Transport, FiguresAreThoseOfAllTangents) {
     }
   }
   for (const int i : {0, 1}) {
-    EXPECT_EQ(summary.steps[i].krylov_iterations, iterations[i]) << i;
+    EXPECT_NEAR(summary.steps[i].krylov_iterations, iterations[i], 1) << i;
     EXPECT_GT(iterations[i], 0);
     EXPECT_GT(summary.steps[i].seconds, 0);
   }

@@ -1,0 +1,93 @@
+// What paths that avoid contact say of themselves, word by word.
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <shapespace/analysis/intersections.h>
+#include <shapespace/bodies/bar.h>
+#include <shapespace/contact/obstacle.h>
+#include <shapespace/exponential/exponential.h>
+#include <shapespace/geodesic/geodesic.h>
+
+#include "support/cut_ring.h"
+
+namespace shapespace {
+namespace {
+
+GeodesicOptions RoundContacts(int shapes) {
+  GeodesicOptions options;
+  options.shapes = shapes;
+  options.avoid_contact = true;
+  return options;
+}
+
+// A cube moves beside a closed box, and then into it.
+TEST(GeodesicContactReport, NamesThePieceInWhichNoWayWasFound) {
+  const ShapeFamily cube = MakeBar(1, 1, 1, 3, 3, 3), box = MakeBar(3, 3, 3, 3, 3, 3);
+  const Obstacle around = {box.connectivity, box.pose(0)};
+  const auto connectivity = around.Joined(cube.connectivity);
+  std::vector<Shape> poses;
+  for (const double x : {6.0, 5.0, 1.0}) {
+    poses.push_back(around.Joined(Shape(cube.pose(0).colwise() + Eigen::Vector3d(x, 0.7, 0.8))));
+  }
+  const auto [path, summary] = Interpolate(connectivity, poses, RoundContacts(3));
+  ASSERT_EQ(path.NumShapes(), 9);
+  ASSERT_GE(summary.warnings.size(), 2u);
+  EXPECT_EQ(summary.warnings[0],
+            "piece 1: no way was found on which the body does not pass through itself; it does in "
+            "the path that is returned. Name a shape near which the way leads (via)");
+  EXPECT_GT(summary.uncertified_segments, 0);
+  EXPECT_LE(summary.uncertified_segments, 4);
+  EXPECT_EQ(summary.warnings[1], std::to_string(summary.uncertified_segments) +
+                                     " segments have not been shown to be free of contact");
+  EXPECT_GT(summary.contact_seconds, 0);
+  EXPECT_GT(summary.solve_seconds, summary.contact_seconds);
+
+  // No pose intersects itself; the greatest number in the middle of a segment counts.
+  std::vector<Shape> middles;
+  for (int i = 0; i < 8; ++i) middles.push_back(0.5 * (path.shapes[i] + path.shapes[i + 1]));
+  const std::vector<std::int64_t> pairs = CountIntersections(*connectivity, middles);
+  const std::int64_t most = *std::max_element(pairs.begin(), pairs.end());
+  EXPECT_GT(most, 0);
+  EXPECT_EQ(summary.crossings_between, static_cast<double>(most));
+}
+
+TEST(GeodesicContactReport, NamesThePieceWhosePosesIntersect) {
+  const testing::CutRing ring;
+  const Shape wound = ring.Wound(0.25, 0.15);
+  const std::string pairs = std::to_string(CountIntersections(*ring.connectivity, wound));
+  ASSERT_NE(pairs, "0");
+  const GeodesicSummary summary =
+      Interpolate(ring.connectivity, {ring.poses[0], ring.poses[0], wound}, RoundContacts(1))
+          .summary;
+  ASSERT_FALSE(summary.warnings.empty());
+  EXPECT_EQ(summary.warnings[0], "piece 1: its poses intersect themselves (" + pairs +
+                                     " pairs of triangles); contact is not avoided there");
+
+  // The same where a path begins.
+  const auto metric = FreezeMetric({}, ring.connectivity, {wound});
+  ExponentialOptions stop;
+  stop.stop_at_contact = true;
+  const Tangent rest = Tangent::Zero(3, wound.cols());
+  const ExponentialSummary shot = Extrapolate(metric, wound, rest, 1, stop).summary;
+  ASSERT_FALSE(shot.warnings.empty());
+  EXPECT_EQ(shot.warnings[0], "the body intersects itself where the path begins (" + pairs +
+                                  " pairs of triangles); contact is not looked for there");
+}
+
+TEST(GeodesicContactReport, SaysAtWhichStepPartsTouch) {
+  const testing::CutRing ring;
+  ExponentialOptions stop;
+  stop.stop_at_contact = true;
+  const ExponentialSummary summary = Extrapolate(testing::ClosingPath(ring), 8, stop).summary;
+  EXPECT_EQ(summary.stopped, "step 6: parts of the body touch");
+  EXPECT_EQ(summary.steps.size(), 5u);
+  EXPECT_EQ(summary.requested_steps, 8);
+  EXPECT_TRUE(summary.warnings.empty());
+}
+
+}  // namespace
+}  // namespace shapespace
