@@ -1,0 +1,343 @@
+// Splines of rigid copies of a tiny body, which move on cubics exactly, and what splines say of
+// themselves, word by word.
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <shapespace/base/error.h>
+#include <shapespace/spline/spline.h>
+
+#include "support/listener.h"
+#include "support/message_of.h"
+#include "support/motions.h"
+
+namespace shapespace {
+namespace {
+
+using nlohmann::json;
+using testing::MessageOf;
+using testing::Rotation;
+
+// A tetrahedron without symmetries, some sixty units large.
+struct Tetrahedron {
+  std::shared_ptr<const Connectivity> connectivity =
+      Connectivity::Make(4, {0, 3, 6, 9, 12}, {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}, {});
+  Shape shape = 20 * (Shape(3, 4) << 0, 3, 1, 0.5, 0, 0.3, 2, 0.4, 0, -0.2, 0.5, 2.5).finished();
+  Eigen::Vector3d way{3, -4, 12};  // 13 units
+
+  // Its centre of area in the origin.
+  Shape Centred() const {
+    const auto metric = FreezeMetric({}, connectivity, {shape});
+    return shape.colwise() - Centroid(shape, metric->vertex_area);
+  }
+  std::vector<Shape> MovedBy(const std::vector<double>& ways) const {
+    std::vector<Shape> poses;
+    for (double by : ways) poses.push_back(shape.colwise() + by * way);
+    return poses;
+  }
+};
+
+SplineOptions Ends(SplineEnds ends, int shapes = 7) {
+  SplineOptions options;
+  options.ends = ends;
+  options.hold_limit = 0;
+  options.geodesic.shapes = shapes;
+  return options;
+}
+
+double Cubic(double t) { return 5 - 2 * t + 0.75 * t * t - 0.0625 * t * t * t; }
+double CubicSlope(double t) { return -2 + 1.5 * t - 0.1875 * t * t; }
+
+TEST(SplineExactTest, CopiesThatAreShiftedFollowTheirCubic) {
+  const Tetrahedron body;
+  for (const std::vector<double>& times : {std::vector<double>{2, 3, 5, 9}, {2, 9}, {0, 1, 2}}) {
+    for (const SplineEnds ends : {SplineEnds::kNotAKnot, SplineEnds::kClamped}) {
+      if (ends == SplineEnds::kNotAKnot && times.size() < 4) continue;
+      SplineOptions options = Ends(ends);
+      if (times.front() > 0) options.times = times;  // else evenly spaced
+      std::vector<double> ways;
+      for (double t : times) ways.push_back(Cubic(t));
+      if (ends == SplineEnds::kClamped) {
+        options.first_velocity = CubicSlope(times.front()) * body.way.replicate(1, 4);
+        options.last_velocity = CubicSlope(times.back()) * body.way.replicate(1, 4);
+      }
+      const auto [path, summary] = Spline(body.connectivity, body.MovedBy(ways), options);
+      EXPECT_TRUE(summary.smooth);
+      EXPECT_EQ(summary.ends, ends);
+      EXPECT_EQ(path.parameters.front(), 0);
+      EXPECT_EQ(path.parameters.back(), 1);
+      for (int k = 0; k < path.NumShapes(); ++k) {
+        const size_t piece = std::min<size_t>(k / 8, times.size() - 2);
+        const double t = times[piece] + (k - 8. * static_cast<double>(piece)) / 8 *
+                                            (times[piece + 1] - times[piece]);
+        EXPECT_NEAR(path.parameters[k], (t - times.front()) / (times.back() - times.front()),
+                    1e-14);
+        const Shape expected = body.shape.colwise() + Cubic(t) * body.way;
+        EXPECT_LT((path.Placed(k) - expected).norm(), 1e-8) << k;
+      }
+    }
+  }
+}
+
+// Both the motion and the shapes in its frame turn, since a given velocity is one of the vertices.
+TEST(SplineExactTest, CopiesThatAreTurnedFollowTheirCubic) {
+  const Tetrahedron body;
+  const Shape centred = body.Centred();
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -2) / 3, place(70, -20, 40);
+  const std::vector<double> times = {2, 3, 5, 6};
+  const auto pose_at = [&](double t) -> Shape {
+    return (Rotation(20 * Cubic(t), axis) * centred).colwise() + place + Cubic(t) * body.way;
+  };
+  const auto velocity_at = [&](double t) {
+    Tangent velocity = pose_at(t).colwise() - (place + Cubic(t) * body.way);
+    for (int v = 0; v < 4; ++v) {
+      velocity.col(v) = CubicSlope(t) *
+                        (20 * M_PI / 180 * axis.cross(Eigen::Vector3d(velocity.col(v))) + body.way);
+    }
+    return velocity;
+  };
+  SplineOptions options = Ends(SplineEnds::kClamped, 15);
+  options.times = times;
+  options.first_velocity = velocity_at(times.front());
+  options.last_velocity = velocity_at(times.back());
+  std::vector<Shape> poses;
+  for (double t : times) poses.push_back(pose_at(t));
+  const Path path = Spline(body.connectivity, poses, options).path;
+  for (int k = 0; k < path.NumShapes(); ++k) {
+    const double t = 2 + 4 * path.parameters[k];
+    EXPECT_LT((path.Placed(k) - pose_at(t)).norm(), 1e-3 * centred.norm()) << k;
+  }
+}
+
+// Where it moves at constant speed between poses, jumps are differences of speeds.
+TEST(SplineExactTest, JumpsAreThoseOfTheSpeedAsAShareOfTheMean) {
+  const Tetrahedron body;
+  const auto jump = [&](const std::vector<double>& ways, SplineEnds ends,
+                        const std::vector<double>& times) {
+    SplineOptions options = Ends(ends);
+    options.times = times;
+    const SplineSummary summary = Spline(body.connectivity, body.MovedBy(ways), options).summary;
+    EXPECT_LT(summary.jump_after, 0.2 * summary.jump_before);
+    return summary.jump_before;
+  };
+  // Of speeds 1 and 2; 2, 3 and -1; 1, 4 and 5 for half the time, whose mean is 5/2.
+  EXPECT_NEAR(jump({0, 1, 3}, SplineEnds::kNatural, {}), 2. / 3, 1e-9);
+  EXPECT_NEAR(jump({0, 2, 5, 4}, SplineEnds::kNatural, {}), 4. / 2, 1e-9);
+  EXPECT_NEAR(jump({0, 1, 5}, SplineEnds::kNatural, {3, 4, 5}), 3. / 2.5, 1e-9);
+  EXPECT_NEAR(jump({0, 1, 5}, SplineEnds::kNatural, {3, 4, 8}), 0, 1e-9);
+  // Speeds 1, 3, and -4 on the way back; and 4, -1 and -3, whose greatest jump is at the first
+  // pose.
+  EXPECT_NEAR(jump({0, 1, 4}, SplineEnds::kPeriodic, {}), 7 / (8. / 3), 1e-9);
+  EXPECT_NEAR(jump({0, 4, 3}, SplineEnds::kPeriodic, {}), 7 / (8. / 3), 1e-9);
+  EXPECT_NEAR(jump({4, 3, 0}, SplineEnds::kPeriodic, {}), 7 / (8. / 3), 1e-9);
+}
+
+TEST(SplineExactTest, WithoutMotionThereIsNoJump) {
+  const Tetrahedron body;
+  const SplineSummary summary =
+      Spline(body.connectivity, body.MovedBy({2, 2, 2}), Ends(SplineEnds::kNatural)).summary;
+  EXPECT_EQ(summary.jump_before, 0);
+  EXPECT_EQ(summary.jump_after, 0);
+}
+
+TEST(SplineExactTest, OfOnePoseThatReturnsIsTheGeodesic) {
+  const Tetrahedron body;
+  const auto [path, summary] =
+      Spline(body.connectivity, body.MovedBy({2}), Ends(SplineEnds::kPeriodic));
+  EXPECT_EQ(path.poses, (std::vector<int>{0, 8}));
+  EXPECT_FALSE(summary.smooth);
+  ASSERT_EQ(summary.warnings.size(), summary.geodesic.warnings.size() + 1);
+  EXPECT_EQ(summary.warnings.back(),
+            "there are only two poses: the motion is the geodesic between them");
+}
+
+TEST(SplineExactTest, TellsWhichShapeItSmooths) {
+  struct Recorder : Progress {
+    bool Report(const std::string& stage, int done, int total) override {
+      if (stage == "smoothing") shapes.emplace_back(done, total);
+      return true;
+    }
+    std::vector<std::pair<int, int>> shapes;
+  } recorder;
+  const Tetrahedron body;
+  Spline(body.connectivity, body.MovedBy({0, 1, 3}), Ends(SplineEnds::kNatural, 2), &recorder);
+  EXPECT_EQ(recorder.shapes, (std::vector<std::pair<int, int>>{{1, 7}, {2, 7}, {4, 7}, {5, 7}}));
+}
+
+TEST(SplineExactTest, AssessesThePathThatItReturns) {
+  const Tetrahedron body;
+  std::vector<Shape> poses = {body.shape, 1.5 * body.shape, 1.2 * body.shape};
+  poses[1].row(1) *= 1.3;
+  SplineOptions options = Ends(SplineEnds::kNatural);
+  const auto [path, summary] = Spline(body.connectivity, poses, options);
+  const PathQuality quality = MeasureQuality(path);
+  EXPECT_EQ(summary.quality.edge_rms, quality.edge_rms);
+  EXPECT_EQ(summary.quality.first_max, quality.first_max);
+  EXPECT_NE(summary.quality.edge_rms, summary.geodesic.quality.edge_rms);
+  EXPECT_GT(summary.energy, summary.geodesic.energy);
+  EXPECT_GT(summary.spline_seconds, 0);
+  EXPECT_GE(summary.total_seconds, summary.spline_seconds + summary.geodesic.total_seconds);
+  options.geodesic.assess = false;
+  EXPECT_NE(Spline(body.connectivity, poses, options).summary.quality.edge_rms, quality.edge_rms);
+}
+
+TEST(SplineExactTest, KeepsTheAppearanceOfItsPoses) {
+  const Tetrahedron body;
+  Poses poses;
+  poses.connectivity = body.connectivity;
+  poses.shapes = body.MovedBy({0, 1, 3});
+  poses.soup.appearance.folder = "of the poses";
+  EXPECT_EQ(Spline(poses, Ends(SplineEnds::kNatural, 2)).path.appearance.folder, "of the poses");
+}
+
+TEST(SplineExactTest, RefusalsNameWhatIsWrong) {
+  const Tetrahedron body;
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto refusal = [&](const SplineOptions& options) {
+    return MessageOf<InvalidOptions>([&] {
+      Spline(body.connectivity, body.MovedBy({0, 1, 3}), options);
+    });
+  };
+  const SplineOptions natural = Ends(SplineEnds::kNatural, 2);
+  SplineOptions options = natural;
+  for (const std::vector<double>& times :
+       {std::vector<double>{0, 0, 1}, {1, 2, 2}, {0, 1, kInfinity}, {kNaN, 1, 2}, {2, 1, 3}}) {
+    options.times = times;
+    EXPECT_EQ(refusal(options), "times: must be finite numbers in ascending order");
+  }
+  options.times = {0, 1, 2, 3};
+  EXPECT_EQ(refusal(options), "times: must be 3, one for each pose, not 4");
+  options.ends = SplineEnds::kPeriodic;  // the first pose again
+  EXPECT_EQ(refusal(options), "nothing was thrown");
+  options = natural;
+  options.by_length = true;
+  EXPECT_EQ(
+      refusal(options),
+      "by_length: poses 1 and 2 are the same up to a rigid motion, so that no time is between "
+      "them; give times");
+  options.times = {0, 1, 2};
+  EXPECT_EQ(refusal(options), "by_length: goes without times");
+  options = natural;
+  for (double limit : {-1., kNaN, kInfinity}) {
+    options.hold_limit = limit;
+    EXPECT_EQ(refusal(options), "hold_limit: must be a number, zero or more");
+  }
+  const Tangent velocity = Tangent::Ones(3, 4);
+  for (const bool first : {true, false}) {
+    options = natural;
+    (first ? options.first_velocity : options.last_velocity) = velocity;
+    EXPECT_EQ(refusal(options), "first_velocity, last_velocity: go with clamped ends only");
+    options.ends = SplineEnds::kClamped;
+    EXPECT_EQ(refusal(options), "first_velocity, last_velocity: are needed for clamped ends");
+    for (const Tangent& wrong :
+         {Tangent(Tangent::Ones(3, 5)), Tangent(Tangent::Constant(3, 4, kNaN))}) {
+      options.first_velocity = first ? wrong : velocity;
+      options.last_velocity = first ? velocity : wrong;
+      EXPECT_EQ(refusal(options),
+                "first_velocity, last_velocity: must be finite, with a column for each vertex");
+    }
+  }
+  options = natural;
+  options.geodesic.shapes = -1;
+  EXPECT_EQ(refusal(options).rfind("shapes:", 0), 0u);
+  options = Ends(SplineEnds::kPeriodic, 2);
+  EXPECT_EQ(MessageOf<MeshError>([&] {
+              Spline(body.connectivity, body.MovedBy({0, 1, 0}), options);
+            }),
+            "the last pose is the first: leave it out, since a periodic spline returns there");
+}
+
+// That the spline needs much more than its chain where there are many poses.
+TEST(SplineExactTest, KeepsTheLimitOfMemoryOfItsOwn) {
+  const Tetrahedron body;
+  SplineOptions options = Ends(SplineEnds::kNatural, 0);
+  options.geodesic.memory_limit = 1;
+  EXPECT_EQ(
+      MessageOf<SolverError>([&] {
+        Spline(body.connectivity, body.MovedBy({0, 1, 3}), options);
+      }),
+      "this spline needs about 0 MB, more than the memory limit; insert fewer shapes or raise "
+      "memory_limit");
+}
+
+SplineSummary SplineOfNumbers() {
+  SplineSummary summary;
+  summary.geodesic.termination = Termination::kStalled;
+  summary.geodesic.vertices = 11;
+  summary.geodesic.poses = 3;
+  summary.geodesic.shapes = 7;
+  summary.geodesic.energy = 0.25;
+  summary.geodesic.warnings = {"of the chain"};
+  summary.ends = SplineEnds::kNotAKnot;
+  summary.smooth = true;
+  summary.jump_before = 1.5;
+  summary.jump_after = 0.0625;
+  summary.uncertified_segments = 2;
+  summary.contact_distance = 0.03125;
+  summary.energy = 0.375;
+  summary.quality.edge_rms = 0.0125;
+  summary.warnings = {"one", "two"};
+  summary.estimated_bytes = 1e5;
+  summary.spline_seconds = 1.25;
+  summary.total_seconds = 3.5;
+  return summary;
+}
+
+TEST(SplineSummary, ReportsHaveEveryNumber) {
+  const SplineSummary summary = SplineOfNumbers();
+  EXPECT_FALSE(summary.Converged());
+  EXPECT_EQ(summary.BriefReport(),
+            "NOT CONVERGED: stalled: 11 vertices, 3 poses, 7 shapes inserted; spline, not_a_knot; "
+            "velocity jumps at poses by 0.0625 times the mean speed (before: 1.5); edges off by "
+            "1.25% rms; 3.50 s");
+  EXPECT_EQ(summary.FullReport(),
+            summary.geodesic.FullReport() +
+                "\nSpline            not_a_knot\n"
+                "Velocity jumps    at most 0.0625 times the mean speed (chain: 1.5)\n"
+                "Contact           2 segments not shown to be free of it; least distance 0.03125\n"
+                "Energy            0.375, that of the chain is 0.25\n"
+                "Seconds           1.250 for the spline, 3.500 in all\n"
+                "Warning: one\n"
+                "Warning: two\n");
+  json written = json::parse(summary.ToJson());
+  EXPECT_EQ(written["geodesic"], json::parse(summary.geodesic.ToJson()));
+  EXPECT_EQ(written["quality"]["edge_rms"], 0.0125);
+  written.erase("geodesic");
+  written.erase("quality");
+  const json expected = {{"termination", "stalled"},  {"converged", false},
+                         {"ends", "not_a_knot"},      {"smooth", true},
+                         {"jump_before", 1.5},        {"jump_after", 0.0625},
+                         {"uncertified_segments", 2}, {"contact_distance", 0.03125},
+                         {"energy", 0.375},           {"estimated_bytes", 1e5},
+                         {"spline_seconds", 1.25},    {"total_seconds", 3.5},
+                         {"warnings", {"one", "two"}}};
+  EXPECT_EQ(written, expected);
+}
+
+TEST(SplineSummary, OfAChainSaysThatItIsNone) {
+  SplineSummary summary = SplineOfNumbers();
+  summary.smooth = false;
+  summary.geodesic.termination = Termination::kConverged;
+  summary.uncertified_segments = -1;
+  EXPECT_TRUE(summary.Converged());
+  EXPECT_NE(summary.BriefReport().find("7 shapes inserted; chain of geodesics; velocity jumps"),
+            std::string::npos);
+  EXPECT_NE(summary.FullReport().find("\nSpline            none: the path is the chain of "
+                                      "geodesics\nVelocity jumps    at most 0.0625 times the mean "
+                                      "speed (chain: 1.5)\nEnergy            0.375,"),
+            std::string::npos);
+  const char* const words[] = {"natural", "clamped", "not_a_knot", "periodic"};
+  for (int k = 0; k < 4; ++k) {
+    summary.ends = static_cast<SplineEnds>(k);
+    EXPECT_EQ(json::parse(summary.ToJson())["ends"], words[k]);
+  }
+}
+
+}  // namespace
+}  // namespace shapespace
