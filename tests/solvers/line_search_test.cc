@@ -61,12 +61,11 @@ TEST(LineSearchSteps, GoFurtherWhereItIsSteep) {
 
 // The minimum of the cubic, which is exact for one: t^3 / 3 - t^2 / 8 - t / 8 has it at 1/2.
 TEST(LineSearchSteps, GoBackToTheMinimumOfTheCubic) {
-  const double scale = 1;
-  ExpectSteps(Line{[=](double t) { return scale * (t * t * t / 3 - t * t / 8 - t / 8); },
-                   [=](double t) { return scale * (t * t - t / 4 - 1. / 8); }}
+  ExpectSteps(Line{[](double t) { return t * t * t / 3 - t * t / 8 - t / 8; },
+                   [](double t) { return t * t - t / 4 - 1. / 8; }}
                   .Tried(),
               {1, 0.5});
-  // From between 1 and 10 too: (t - 4)^2, but so steep at 10 that this is too high.
+  // From between 1 and 10 too, where 10 is too high.
   const auto value = [](double t) { return t < 9 ? -t : 100; };
   const auto slope = [](double t) { return t < 2 ? -1. : t < 9 ? 0. : 1000.; };
   const std::vector<double> tried = Line{value, slope}.Tried();
@@ -76,17 +75,10 @@ TEST(LineSearchSteps, GoBackToTheMinimumOfTheCubic) {
   EXPECT_LE(tried[2], 9.1);
 }
 
-TEST(LineSearchSteps, StayAwayFromTheEndsOfTheBracket) {
+TEST(LineSearchSteps, StayAwayFromTheBeginningOfTheBracket) {
   const auto enormous = [](double t) { return t > 0.5 ? 1e9 : -t; };
-  const auto steep = [](double t) { return t > 0.5 ? 1e12 : t > 0 ? 0. : -1.; };
-  ExpectSteps(Line{enormous, steep}.Tried(), {1, 0.1});
-  // The cubic's minimum is just before the end, which is not low enough.
-  const auto shallow = [](double t) { return t > 0.95 ? 0. : -t; };
-  const auto turning = [](double t) { return t > 0.95 ? 1e-6 : t > 0 ? 0. : -1e-3; };
-  const std::vector<double> tried = Line{shallow, turning}.Tried();
-  ASSERT_EQ(tried.size(), 2u);
-  EXPECT_GE(tried[1], 0.1);
-  EXPECT_LE(tried[1], 0.9);
+  const auto flat = [](double t) { return t > 0 ? 0. : -1.; };
+  ExpectSteps(Line{enormous, flat}.Tried(), {1, 0.1});
 }
 
 TEST(LineSearchSteps, HalveABracketWithAnEndThatIsNotFinite) {
@@ -107,12 +99,11 @@ TEST(LineSearchSteps, HalveABracketWithAnEndThatIsNotFinite) {
   }
 }
 
-// A decrease by rounding alone at a point where the slope is too steep on the other side.
 TEST(LineSearchSteps, AcceptAPointBeyondTheMinimumThatIsLower) {
   const auto slope = [](double t) { return t > 0 ? 5. : -1.; };
   ExpectSteps(Line{[](double t) { return t > 0 ? 0.5 : 1.; }, slope}.Tried(), {1});
   const Line higher = {[](double t) { return 1 + 1e-3 * t; }, slope};
-  LinePoint end = SearchLine({0, 1, -1}, [&](double t) {
+  const LinePoint end = SearchLine({0, 1, -1}, [&](double t) {
     return LinePoint{t, higher.value(t), higher.slope(t)};
   });
   EXPECT_EQ(end.step, 0);
