@@ -70,7 +70,6 @@ void SetTimes(const std::vector<double>& times, Path* chain) {
       chain->parameters[k] = times[piece] + s * (times[piece + 1] - times[piece]);
     }
   }
-  chain->parameters.back() = 1;
 }
 
 // The greatest jump of velocity at a pose, as a share of the mean speed.
@@ -97,7 +96,7 @@ double GreatestJump(const Path& path, bool periodic) {
     greatest = std::max(greatest, norm(internal::OneSidedVelocity(path, 0, 1) -
                                        internal::OneSidedVelocity(path, path.NumShapes() - 1, -1)));
   }
-  return greatest / way * path.parameters.back();
+  return greatest / way;
 }
 
 void WarnOfContact(SplineSummary* summary) {
