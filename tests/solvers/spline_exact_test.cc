@@ -209,6 +209,7 @@ TEST(SplineExactTest, RefusalsNameWhatIsWrong) {
   EXPECT_EQ(refusal(options), "nothing was thrown");
   options = natural;
   options.by_length = true;
+  EXPECT_EQ(refusal(options).rfind("by_length: poses 1 and 2 are the same", 0), 0u);
   for (const int same : {0, 1}) {
     const Shape moved = body.MovedBy({3})[0], larger = 1.5 * body.shape;
     const std::vector<Shape> poses = {same == 0 ? body.shape : larger, moved,

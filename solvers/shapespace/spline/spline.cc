@@ -16,8 +16,9 @@
 namespace shapespace {
 namespace {
 
-// Of geodesics, as a share of the chain's length, up to which their ends are one pose.
-constexpr double kNoLength = 1e-6;
+// Of geodesics, as a share of the chain's length, up to which their ends are one pose; and in the
+// metric's unit, for chains of rigid copies, whose lengths are rounding.
+constexpr double kNoLength = 1e-6, kRounding = 1e-9;
 
 // A path between two neighbouring poses.
 struct PieceMeasures {
@@ -46,7 +47,7 @@ std::vector<double> PoseTimes(const SplineOptions& options, const Path& chain) {
     double length = 0;
     for (const PieceMeasures& piece : pieces) length += piece.length;
     for (size_t i = 0; i < pieces.size(); ++i) {
-      if (!(pieces[i].length > kNoLength * length)) {
+      if (!(pieces[i].length > std::max(kNoLength * length, kRounding))) {
         throw InvalidOptions("by_length", "poses " + std::to_string(i + 1) + " and " +
                                               std::to_string(i + 2) +
                                               " are the same up to a rigid motion, so that no time "
