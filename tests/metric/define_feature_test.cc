@@ -116,7 +116,7 @@ TEST(FeatureOf, ScalarRowsOfAFeatureWithoutOwnOnesAreThoseOfItsDerivatives) {
 // Of triangles with the sides 3, 4 and 5, in different orders.
 TEST(FeatureOf, ScalarRowsOfTrianglesAreTheStrainsOfTheirSides) {
   TriangleStrain strain;
-  strain.stencils.resize(3, 2);
+  strain.stencils.setZero(3, 2);
   strain.weights.setOnes(2);
   const auto feature = MakeFeature(strain);
   ASSERT_EQ(feature->NumScalarRows(), 3);
