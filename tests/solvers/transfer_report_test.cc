@@ -209,7 +209,7 @@ TEST(Transfer, TheErrorIsThatOfLogarithmicLengths) {
   EXPECT_GT(seconds, 0);
 }
 
-TEST(Transfer, TellsOfShapesOnACoarserMeshAndOfThoseThatDidNotConverge) {
+TEST(Transfer, TellsHowManyShapesDidNotConverge) {
   TransferOptions options;
   options.tolerance = 1e-14;
   options.max_iterations = 1;
