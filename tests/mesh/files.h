@@ -12,6 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include <shapespace/files/read.h>
+
 namespace shapespace::testing {
 
 /// A test with a temporary folder.
@@ -39,6 +41,12 @@ class FilesTest : public ::testing::Test {
  private:
   std::filesystem::path folder_;
 };
+
+/// What the text of a mesh file of this name is read as.
+inline Soup SoupOf(const std::string& content, const std::string& name, MeshFormat format) {
+  std::istringstream stream(content);
+  return ReadSoup(stream, name, format);
+}
 
 inline std::string Content(const std::string& file) {
   std::ostringstream content;

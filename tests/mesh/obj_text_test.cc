@@ -1,11 +1,10 @@
-#include <sstream>
-
 #include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/text.h>
 #include <shapespace/files/read.h>
 
+#include "mesh/files.h"
 #include "support/message_of.h"
 
 // The whole text of what is said about OBJ files.
@@ -20,8 +19,7 @@ using Strings = std::vector<std::string>;
 const std::string kThree = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 Soup Read(const std::string& content, const std::string& name = "m.obj") {
-  std::istringstream stream(content);
-  return ReadSoup(stream, name, MeshFormat::kObj);
+  return testing::SoupOf(content, name, MeshFormat::kObj);
 }
 
 void ExpectRefused(const std::string& content, const std::string& words) {

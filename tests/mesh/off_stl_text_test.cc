@@ -1,5 +1,3 @@
-#include <sstream>
-
 #include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
@@ -7,6 +5,7 @@
 #include <shapespace/base/internal/text.h>
 #include <shapespace/files/read.h>
 
+#include "mesh/files.h"
 #include "support/message_of.h"
 
 // OFF and STL: asymmetric meshes, and the whole text of what is said about them.
@@ -20,8 +19,7 @@ using Ints = std::vector<int>;
 using Strings = std::vector<std::string>;
 
 Soup Read(const std::string& content, MeshFormat format) {
-  std::istringstream stream(content);
-  return ReadSoup(stream, "m", format);
+  return testing::SoupOf(content, "m", format);
 }
 
 Soup ReadOff(const std::string& content) { return Read(content, MeshFormat::kOff); }

@@ -1,5 +1,3 @@
-#include <sstream>
-
 #include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
@@ -30,8 +28,7 @@ const std::string kVertices = "0 0 0\n1 0 0\n0 1 0\n";               // to line 
 class PlyTextTest : public testing::FilesTest {
  protected:
   static Soup Read(const std::string& content) {
-    std::istringstream stream(content);
-    return ReadSoup(stream, "m.ply", MeshFormat::kPly);
+    return testing::SoupOf(content, "m.ply", MeshFormat::kPly);
   }
 
   static void Refused(const std::string& content, const std::string& words) {

@@ -1,13 +1,12 @@
-#include <limits>
-#include <sstream>
-
 #include <gtest/gtest.h>
+#include <limits>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/bytes.h>
 #include <shapespace/base/internal/text.h>
 #include <shapespace/files/read.h>
 
+#include "mesh/files.h"
 #include "support/message_of.h"
 
 // Cells and points of VTK's legacy files, and the whole text of what is said about them.
@@ -31,8 +30,7 @@ const std::string kGrid =
     "0 0 0 1 0 0 2 0 0\n0 1 0 1 1 0 2 1 0\n";
 
 Soup Read(const std::string& content) {
-  std::istringstream stream(content);
-  return ReadSoup(stream, "m.vtk", MeshFormat::kVtk);
+  return testing::SoupOf(content, "m.vtk", MeshFormat::kVtk);
 }
 
 std::string Refusal(const std::string& content) {

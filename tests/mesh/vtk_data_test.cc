@@ -1,5 +1,3 @@
-#include <sstream>
-
 #include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
@@ -31,8 +29,7 @@ const std::string kBinary =
 class VtkDataTest : public testing::FilesTest {
  protected:
   static Soup Read(const std::string& content) {
-    std::istringstream stream(content);
-    return ReadSoup(stream, "m.vtk", MeshFormat::kVtk);
+    return testing::SoupOf(content, "m.vtk", MeshFormat::kVtk);
   }
 
   static std::string Refusal(const std::string& content) {

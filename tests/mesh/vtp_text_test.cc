@@ -1,5 +1,3 @@
-#include <sstream>
-
 #include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
@@ -53,8 +51,7 @@ const std::string kCounts = "NumberOfPoints='3' NumberOfPolys='1'";
 class VtpTextTest : public testing::FilesTest {
  protected:
   static Soup Read(const std::string& content) {
-    std::istringstream stream(content);
-    return ReadSoup(stream, "m.vtp", MeshFormat::kVtp);
+    return testing::SoupOf(content, "m.vtp", MeshFormat::kVtp);
   }
 
   static void Refused(const std::string& content, const std::string& words) {

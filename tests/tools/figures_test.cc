@@ -1,6 +1,5 @@
 #include <cinttypes>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 #include <regex>
 
@@ -12,6 +11,7 @@
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/exploration/space_file.h>
 #include <shapespace/files/read.h>
+#include <shapespace/numerics/internal/report.h>
 #include <shapespace/path/path_file.h>
 #include <shapespace/statistics/modes_file.h>
 #include <shapespace/statistics/pose_table.h>
@@ -21,6 +21,7 @@
 namespace shapespace {
 namespace {
 
+using internal::Format;
 using testing::Content;
 using testing::ExpectContains;
 using testing::ExpectLacks;
@@ -28,15 +29,6 @@ using testing::Outcome;
 using testing::ToolsTest;
 
 using Strings = std::vector<std::string>;
-
-std::string Formatted(const char* format, ...) {
-  char text[500];
-  va_list values;
-  va_start(values, format);
-  std::vsnprintf(text, sizeof text, format, values);
-  va_end(values);
-  return text;
-}
 
 /// The figures that tools print and report, compared with those of the library, or of arithmetic.
 class FiguresTest : public ToolsTest {
@@ -61,7 +53,7 @@ TEST_F(FiguresTest, ComparisonsOfPosesAreInTheUsersUnit) {
   const auto rectangle = [&](const std::string& name, double scale) {
     std::string text;
     for (const auto& [x, y] : {std::pair{0, 0}, {6, 0}, {6, 8}, {0, 8}}) {
-      text += Formatted("v %.17g %.17g 0\n", scale * x, scale * y);
+      text += Format("v %.17g %.17g 0\n", scale * x, scale * y);
     }
     return File(name, text + "f 1 2 3\nf 1 3 4\n");
   };
@@ -92,9 +84,9 @@ TEST_F(FiguresTest, ComparisonsOfPosesAreInTheUsersUnit) {
     EXPECT_NEAR(comparison["stretch_max"], 0.1, 1e-9);
     EXPECT_EQ(comparison["metric"], "strain 1, lambda 0.0001, bending 1e-05");
     ExpectContains(outcome.out,
-                   Formatted("  distance             at least %.6g (strain 1, lambda 0.0001, "
-                             "bending 1e-05)\n",
-                             comparison["distance_at_least"].get<double>()));
+                   Format("  distance             at least %.6g (strain 1, lambda 0.0001, "
+                          "bending 1e-05)\n",
+                          comparison["distance_at_least"].get<double>()));
   }
   const auto& mesh = report["files"][1];
   EXPECT_EQ(mesh["file"], "b.obj");
@@ -118,7 +110,7 @@ TEST_F(FiguresTest, PercentilesOfStretchAreBetweenMedianAndMost) {
       }
     }
     for (int i = 1; i <= 40; ++i) {
-      text += Formatted("f %d %d %d %d\n", 2 * i - 1, 2 * i + 1, 2 * i + 2, 2 * i);
+      text += Format("f %d %d %d %d\n", 2 * i - 1, 2 * i + 1, 2 * i + 2, 2 * i);
     }
     File(name, text);
   };
@@ -142,58 +134,57 @@ TEST_F(FiguresTest, PathsAreToldAsTheyAreMeasured) {
   const RigidParts parts = FindRigidParts(path);
   const std::vector<DeviationSite> sites = FindDeviationSites(path, parts);
   ExpectContains(outcome.out,
-                 Formatted("tubes.path\n  9 shapes, 3 of them given, 2 extrapolated; %d vertices, "
-                           "%d triangles\n",
-                           connectivity.NumVertices(), connectivity.NumTriangles()));
+                 Format("tubes.path\n  9 shapes, 3 of them given, 2 extrapolated; %d vertices, "
+                        "%d triangles\n",
+                        connectivity.NumVertices(), connectivity.NumTriangles()));
   ExpectContains(outcome.out, "  made by      " + path.provenance + "\n");
   ExpectContains(outcome.out,
-                 Formatted("  metric       %s; unit of length %.6g\n",
-                           DescribeMetric(path.metric->options).c_str(), path.metric->unit));
+                 Format("  metric       %s; unit of length %.6g\n",
+                        DescribeMetric(path.metric->options).c_str(), path.metric->unit));
   ExpectContains(outcome.out,
-                 Formatted("  edges        rms %.4g%%, 99th percentile %.4g%%, max "
-                           "%.4g%% from the expected lengths\n",
-                           100 * quality.edge_rms, 100 * quality.edge_p99, 100 * quality.edge_max));
-  ExpectContains(outcome.out, Formatted("  roughness    %.4g degrees; folds %.4g per inner shape\n",
-                                        quality.roughness, quality.folds));
-  ExpectContains(outcome.out, Formatted("  edges        rms %.4g%%, 99th percentile %.4g%%, max "
-                                        "%.4g%% from the lengths in the first shape\n",
-                                        100 * quality.first_rms, 100 * quality.first_p99,
-                                        100 * quality.first_max));
-  ExpectContains(outcome.out, Formatted("poses up to %" PRId64 "; other shapes %.4g, up to %" PRId64
-                                        "; %.4g beyond the poses\n",
-                                        crossings.poses_max, crossings.inner_mean,
-                                        crossings.inner_max, crossings.beyond_poses));
+                 Format("  edges        rms %.4g%%, 99th percentile %.4g%%, max "
+                        "%.4g%% from the expected lengths\n",
+                        100 * quality.edge_rms, 100 * quality.edge_p99, 100 * quality.edge_max));
+  ExpectContains(outcome.out, Format("  roughness    %.4g degrees; folds %.4g per inner shape\n",
+                                     quality.roughness, quality.folds));
+  ExpectContains(outcome.out,
+                 Format("  edges        rms %.4g%%, 99th percentile %.4g%%, max "
+                        "%.4g%% from the lengths in the first shape\n",
+                        100 * quality.first_rms, 100 * quality.first_p99, 100 * quality.first_max));
+  ExpectContains(outcome.out, Format("poses up to %" PRId64 "; other shapes %.4g, up to %" PRId64
+                                     "; %.4g beyond the poses\n",
+                                     crossings.poses_max, crossings.inner_mean, crossings.inner_max,
+                                     crossings.beyond_poses));
   ASSERT_FALSE(sites.empty());
   for (size_t i = 0; i < std::min<size_t>(sites.size(), 8); ++i) {
     const DeviationSite& site = sites[i];
     if (site.share < 0.001) {
-      ExpectLacks(outcome.out, Formatted("%8d  %.4g, ", site.vertex + 1, site.position.x()));
+      ExpectLacks(outcome.out, Format("%8d  %.4g, ", site.vertex + 1, site.position.x()));
       continue;
     }
     std::string touched;
     for (size_t k = 0; k < std::min<size_t>(site.parts.size(), 4); ++k) {
       touched += (k == 0 ? "" : ", ") + std::to_string(site.parts[k] + 1);
     }
-    ExpectContains(outcome.out,
-                   Formatted("    %4.1f%%   %5.2f%%  %5.1f%%  %8d  %-30s  %s\n", 100 * site.share,
-                             100 * site.area_share, 100 * site.largest, site.vertex + 1,
-                             Formatted("%.4g, %.4g, %.4g", site.position.x(), site.position.y(),
-                                       site.position.z())
-                                 .c_str(),
-                             touched.empty() ? "-" : touched.c_str()));
+    ExpectContains(
+        outcome.out,
+        Format("    %4.1f%%   %5.2f%%  %5.1f%%  %8d  %-30s  %s\n", 100 * site.share,
+               100 * site.area_share, 100 * site.largest, site.vertex + 1,
+               Format("%.4g, %.4g, %.4g", site.position.x(), site.position.y(), site.position.z())
+                   .c_str(),
+               touched.empty() ? "-" : touched.c_str()));
   }
   ASSERT_FALSE(parts.parts.empty());
-  ExpectContains(
-      outcome.out,
-      Formatted("  parts        %zu move nearly rigidly; %.3g%% of the surface is joint\n",
-                parts.parts.size(), 100 * parts.joint_share));
+  ExpectContains(outcome.out,
+                 Format("  parts        %zu move nearly rigidly; %.3g%% of the surface is joint\n",
+                        parts.parts.size(), 100 * parts.joint_share));
   for (size_t i = 0; i < parts.parts.size(); ++i) {
     const RigidPart& part = parts.parts[i];
     ExpectContains(outcome.out,
-                   Formatted("    %4zu  %8d  %5.3g%%  %-8.3g (%.3g%% of size)  %9.3g%%  %.1f "
-                             "degrees\n",
-                             i + 1, part.num_vertices, 100 * part.area_share, part.residual,
-                             100 * part.relative_residual, 100 * part.edge_deviation, part.turn));
+                   Format("    %4zu  %8d  %5.3g%%  %-8.3g (%.3g%% of size)  %9.3g%%  %.1f "
+                          "degrees\n",
+                          i + 1, part.num_vertices, 100 * part.area_share, part.residual,
+                          100 * part.relative_residual, 100 * part.edge_deviation, part.turn));
     const auto& told = report["parts"][i];
     EXPECT_EQ(told["vertices"], part.num_vertices);
     EXPECT_EQ(told["area_share"], part.area_share);
@@ -252,18 +243,18 @@ TEST_F(FiguresTest, SpacesAreToldAsTheyAre) {
   ASSERT_GT(space.NumNodes(), space.NumPoses());
   const Connectivity& connectivity = *space.metric->connectivity;
   std::string expected = "t.space\n  made by      " + space.provenance + "\n";
-  expected += Formatted("  mesh         %d vertices, %d triangles\n", connectivity.NumVertices(),
-                        connectivity.NumTriangles());
-  expected += Formatted("  metric       %s; unit of length %.6g\n",
-                        DescribeMetric(space.metric->options).c_str(), space.metric->unit);
-  expected += Formatted("  nodes        %d, of which 3 are poses; %d triangles, %d segments\n",
-                        space.NumNodes(), static_cast<int>(space.triangles.cols()),
-                        static_cast<int>(space.segments.cols()));
-  expected += Formatted("  distances    up to %.4g; stress of the plane %.3g\n",
-                        space.distances.maxCoeff(), space.stress);
+  expected += Format("  mesh         %d vertices, %d triangles\n", connectivity.NumVertices(),
+                     connectivity.NumTriangles());
+  expected += Format("  metric       %s; unit of length %.6g\n",
+                     DescribeMetric(space.metric->options).c_str(), space.metric->unit);
+  expected += Format("  nodes        %d, of which 3 are poses; %d triangles, %d segments\n",
+                     space.NumNodes(), static_cast<int>(space.triangles.cols()),
+                     static_cast<int>(space.segments.cols()));
+  expected += Format("  distances    up to %.4g; stress of the plane %.3g\n",
+                     space.distances.maxCoeff(), space.stress);
   for (int i = 0; i < 3; ++i) {
-    expected += Formatted("  pose         at %12.6g %12.6g  tube%d\n", space.points(0, i),
-                          space.points(1, i), i);
+    expected += Format("  pose         at %12.6g %12.6g  tube%d\n", space.points(0, i),
+                       space.points(1, i), i);
   }
   EXPECT_EQ(outcome.out, expected + "wrote r.json\n");
   const auto report = nlohmann::json::parse(Content(Path("r.json")))["files"][0];
@@ -317,16 +308,16 @@ TEST_F(FiguresTest, ModesAreToldAsTheyAre) {
   const PoseModes modes = ReadModes(Path("t.modes"));
   const Connectivity& connectivity = *modes.metric->connectivity;
   std::string expected = "t.modes\n  made by      " + modes.provenance + "\n";
-  expected += Formatted("  mesh         %d vertices, %d triangles\n", connectivity.NumVertices(),
-                        connectivity.NumTriangles());
-  expected += Formatted("  metric       %s; unit of length %.6g\n",
-                        DescribeMetric(modes.metric->options).c_str(), modes.metric->unit);
+  expected += Format("  mesh         %d vertices, %d triangles\n", connectivity.NumVertices(),
+                     connectivity.NumTriangles());
+  expected += Format("  metric       %s; unit of length %.6g\n",
+                     DescribeMetric(modes.metric->options).c_str(), modes.metric->unit);
   expected += "  poses        4, scaled to the same area\n";
-  expected += Formatted("  modes        2, with %.3g%% of the variance\n", 100 * modes.Share(2));
+  expected += Format("  modes        2, with %.3g%% of the variance\n", 100 * modes.Share(2));
   const Eigen::MatrixXd coordinates = modes.Coordinates();
   for (int i = 0; i < 4; ++i) {
-    expected += Formatted("  pose         at %7.3f %7.3f  tube%d\n", coordinates(i, 0),
-                          coordinates(i, 1), i);
+    expected +=
+        Format("  pose         at %7.3f %7.3f  tube%d\n", coordinates(i, 0), coordinates(i, 1), i);
   }
   EXPECT_EQ(outcome.out, expected + "wrote r.json\n");
   const auto report = nlohmann::json::parse(Content(Path("r.json")))["files"][0];
@@ -382,17 +373,16 @@ TEST_F(FiguresTest, BodiesTellTheirSizeAndRange) {
   const Outcome values =
       Run("shape-body", {"sheet", "--triangles", "60", "--at", "90", "-o", "s%d.obj"});
   const Soup sheet = ReadSoup(Path("s0.obj"));
-  EXPECT_EQ(values.out, Formatted("sheet: %d vertices, %d triangles; roll angle, degrees from 0 to "
-                                  "360\nwrote s0.obj\n",
-                                  sheet.NumVertices(), sheet.NumPolygons()));
+  EXPECT_EQ(values.out, Format("sheet: %d vertices, %d triangles; roll angle, degrees from 0 to "
+                               "360\nwrote s0.obj\n",
+                               sheet.NumVertices(), sheet.NumPolygons()));
   const Outcome poses = Run(
       "shape-body", {"quadruped", "--triangles", "500", "--pose", "sit", "--output", "a%d.obj"});
   const Soup animal = ReadSoup(Path("a0.obj"));
-  EXPECT_EQ(
-      poses.out,
-      Formatted("quadruped: %d vertices, %d triangles; poses are stand, stride, sit, stretch, "
-                "rear, pass, other_stride, other_pass\nwrote a0.obj\n",
-                animal.NumVertices(), animal.NumPolygons()));
+  EXPECT_EQ(poses.out,
+            Format("quadruped: %d vertices, %d triangles; poses are stand, stride, sit, stretch, "
+                   "rear, pass, other_stride, other_pass\nwrote a0.obj\n",
+                   animal.NumVertices(), animal.NumPolygons()));
   const Outcome random =
       Run("shape-body", {"quadruped", "--triangles", "500", "--random", "1", "--proportions",
                          "heavy", "--table", "t.csv", "--output", "r%d.obj"});

@@ -2,6 +2,7 @@
 #define SHAPESPACE_BASE_INTERNAL_TEXT_H_
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -28,6 +29,14 @@ inline constexpr char kReexport[] = "; is the file damaged? Export the mesh agai
 /// Replaces the byte order mark with which some editors begin a text in UTF-8 by blanks.
 inline void BlankByteOrderMark(std::string* text) {
   if (text->compare(0, 3, "\xEF\xBB\xBF") == 0) text->replace(0, 3, 3, ' ');
+}
+
+/// The text with a to z in place of A to Z.
+inline std::string InSmallLetters(std::string_view text) {
+  std::string small(text);
+  std::transform(small.begin(), small.end(), small.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return small;
 }
 
 /// Iterates over the lines of a text, terminated by LF, CR LF or CR, and counts them from 1.

@@ -22,16 +22,9 @@ constexpr char kSaveAsSurface[] =
 
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-/// VTK does not distinguish capitals in keywords and types, and writes both.
-std::string InSmallLetters(std::string_view word) {
-  std::string small(word);
-  std::transform(small.begin(), small.end(), small.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return small;
-}
-
-/// The type of this name. Integers of 64 bits and `vtkIdType` are stored as VTK stores them on
-/// systems where its `long` has 64 bits: all but Windows.
+/// The type of this name; VTK does not distinguish capitals in it. Integers of 64 bits and
+/// `vtkIdType` are stored as VTK stores them on systems where its `long` has 64 bits: all but
+/// Windows.
 std::optional<NumberType> VtkType(std::string_view name) {
   struct Name {
     std::string_view name;
