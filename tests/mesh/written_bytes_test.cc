@@ -169,6 +169,8 @@ TEST_F(WrittenBytesTest, EachFormatTellsAllThatItDrops) {
   EXPECT_EQ(NotKept("a.ply", soup_),
             Strings{"texture coordinates of 2 polygons are dropped, since some of their corners "
                     "have none"});
+  soup_.appearance.corner_texture = {-1, 0, -1, -1, -1, -1, -1};  // the first one of all
+  EXPECT_EQ(NotKept("a.ply", soup_).size(), 1u);
   soup_.appearance = {};
   soup_.segments.clear();
   for (const char* file : {"a.off", "a.stl", "a.ply"}) EXPECT_TRUE(NotKept(file, soup_).empty());

@@ -175,8 +175,9 @@ TEST(AlignToMean, EveryPoseIsTurnedOntoTheMeanAndComesBack) {
   const ShapeFamily bar = MakeBar(4, 1, 1, 6, 2, 2);
   std::vector<Shape> poses;
   for (int i = 0; i < 3; ++i) {
-    poses.push_back((Rotation(50 * i, {1, 2, 3}) * bar.pose(40 * i)).colwise() +
-                    Eigen::Vector3d(i, -5, 2));
+    // With noise: bars that are symmetric are turned onto each other at once.
+    const Shape bent = bar.pose(40 * i) + Noise(bar.connectivity->NumVertices(), 0.2, i);
+    poses.push_back((Rotation(50 * i, {1, 2, 3}) * bent).colwise() + Eigen::Vector3d(i, -5, 2));
   }
   const auto metric = FreezeMetric({}, bar.connectivity, poses);
   const Eigen::Vector3d weights(0.2, 0.5, 0.3);

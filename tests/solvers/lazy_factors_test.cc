@@ -41,6 +41,12 @@ TEST(LazyFactors, DoNotDependOnTheOrderInWhichTheyAreAskedFor) {
   EXPECT_EQ(double_first.NumNonzeros(), Cholesky(matrix).NumNonzeros());
 }
 
+TEST(LazyFactors, HaveAsManyNumbersInEitherPrecision) {
+  LazyFactors factors(MatrixOfABar);
+  factors.Get<float>();
+  EXPECT_EQ(factors.NumNonzeros(), Cholesky(MatrixOfABar()).NumNonzeros());
+}
+
 TEST(LazyFactors, AreComputedOnceForAllThreads) {
   const Eigen::SparseMatrix<double> matrix = MatrixOfABar();
   for (const int times : testing::OnThreads([&] {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <shapespace/bodies/bar.h>
 #include <shapespace/spline/spline.h>
 
 #include "support/cut_ring.h"
@@ -124,6 +125,30 @@ TEST(SplineContactTest, PastAnObstacleUnitAndPlaceDoNotMatter) {
     const Shape moved = (1000 * one.path.Placed(k)).colwise() + other.origin;
     EXPECT_LT((moved - two.path.Placed(k)).colwise().norm().maxCoeff(), 10);
   }
+}
+
+TEST(SplineContactTest, SegmentsWithContactOfAllIntervalsCount) {
+  // A cube goes out of a closed box, and in again: there is no way without contact.
+  const ShapeFamily cube = MakeBar(1, 1, 1, 6, 6, 6), box = MakeBar(3, 3, 3, 6, 6, 6);
+  const Obstacle around = {box.connectivity, box.pose(0)};
+  const auto connectivity = around.Joined(cube.connectivity);
+  std::vector<Shape> poses;
+  for (const double x : {1., 5., 1.5}) {
+    poses.push_back(around.Joined(Shape(cube.pose(0).colwise() + Eigen::Vector3d(x, 0.7, 0.8))));
+  }
+  SplineOptions options = Loose();
+  options.geodesic.shapes = 3;
+  options.geodesic.avoid_contact = true;
+  const auto [path, summary] = Spline(connectivity, poses, options);
+  int touching[2] = {0, 0};
+  for (int k = 0; k + 1 < path.NumShapes(); ++k) {
+    if (MostIntersections(SelectShapes(path, {k, k + 1})) > 0)
+      ++touching[k < path.poses[1] ? 0 : 1];
+  }
+  EXPECT_GT(touching[0], 0);
+  EXPECT_GT(touching[1], 0);
+  EXPECT_GE(summary.uncertified_segments, touching[0] + touching[1]);
+  EXPECT_LE(summary.uncertified_segments, path.NumShapes() - 1);
 }
 
 TEST(SplineContactTest, WhenStoppedItIsTheChain) {

@@ -315,6 +315,29 @@ TEST_F(InterpolateTest, PresetsSetDefaultsAndGivenFlagsWin) {
             "isometric 2, strain 1, lambda 0.0001, volume 0.3");
 }
 
+TEST_F(InterpolateTest, StiffnessIsOfStretchingAndOfBending) {
+  MakeTubes();
+  const shapespace::Poses tubes = ReadPoses({Path("tube0.obj"), Path("tube1.obj")});
+  MetricOptions options;
+  std::string lines;
+  options.stretching_stiffness.resize(tubes.connectivity->NumVertices());
+  for (int v = 0; v < options.stretching_stiffness.size(); ++v) {
+    options.stretching_stiffness(v) = 1 + v % 5;
+    lines += std::to_string(1 + v % 5) + "\n";
+  }
+  options.bending_stiffness = options.stretching_stiffness;
+  File("stiff.txt", lines);
+  Succeed("shape-interpolate", {"tube0.obj", "tube1.obj", "--shapes", "1", "--stiffness",
+                                "stiff.txt", "--output", "w.path"});
+  const auto metric = ReadPath(Path("w.path")).metric;
+  const auto expected = FreezeMetric(options, tubes.connectivity, tubes.shapes);
+  ASSERT_EQ(metric->features.size(), expected->features.size());
+  for (size_t i = 0; i < metric->features.size(); ++i) {
+    EXPECT_TRUE(metric->features[i]->Weights().isApprox(expected->features[i]->Weights(), 1e-12))
+        << metric->features[i]->Name();
+  }
+}
+
 TEST_F(InterpolateTest, ThreadsDoNotChangeAByte) {
   MakeTubes(2000);
   const Strings outputs = {"w.path", "w.png", "0.obj", "4.obj", "8.obj"};

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -11,6 +12,7 @@
 namespace shapespace {
 namespace {
 
+using testing::BentAndTwisted;
 using testing::SmallTube;
 using testing::TubePoses;
 
@@ -34,23 +36,18 @@ double AreaOf(const PoseSpace& space) {
   return area;
 }
 
-class RefinementTo : public ::testing::TestWithParam<double> {};
-
-TEST_P(RefinementTo, TilesTheHullWithoutHangingNodes) {
-  const PoseSpace coarse = Explored(0), fine = Explored(3, GetParam());
-  ASSERT_GT(fine.NumNodes(), coarse.NumNodes());
-  EXPECT_NEAR(AreaOf(fine), AreaOf(coarse), 1e-12 * AreaOf(coarse));
-  // Each side belongs to one triangle, on the hull, or to two with opposite directions; and no node
-  // lies inside a side.
+// Each side belongs to one triangle, on the hull, or to two with opposite directions; and no node
+// lies inside a side.
+void ExpectNoHangingNodes(const PoseSpace& space) {
   std::map<std::pair<int, int>, int> sides;
-  for (int t = 0; t < fine.triangles.cols(); ++t) {
+  for (int t = 0; t < space.triangles.cols(); ++t) {
     for (int k = 0; k < 3; ++k) {
-      const int a = fine.triangles(k, t), b = fine.triangles((k + 1) % 3, t);
+      const int a = space.triangles(k, t), b = space.triangles((k + 1) % 3, t);
       EXPECT_EQ(++sides[std::make_pair(a, b)], 1);
-      const Eigen::Vector2d p = fine.points.col(a), side = fine.points.col(b) - p;
-      for (int i = 0; i < fine.NumNodes(); ++i) {
+      const Eigen::Vector2d p = space.points.col(a), side = space.points.col(b) - p;
+      for (int i = 0; i < space.NumNodes(); ++i) {
         if (i == a || i == b) continue;
-        const Eigen::Vector2d q = fine.points.col(i) - p;
+        const Eigen::Vector2d q = space.points.col(i) - p;
         const double along = q.dot(side) / side.squaredNorm();
         if (along <= 0 || along >= 1) continue;
         EXPECT_GT((q - along * side).norm(), 1e-9 * side.norm()) << i << " on " << a << ' ' << b;
@@ -59,7 +56,34 @@ TEST_P(RefinementTo, TilesTheHullWithoutHangingNodes) {
   }
 }
 
+class RefinementTo : public ::testing::TestWithParam<double> {};
+
+TEST_P(RefinementTo, TilesTheHullWithoutHangingNodes) {
+  const PoseSpace coarse = Explored(0), fine = Explored(3, GetParam());
+  ASSERT_GT(fine.NumNodes(), coarse.NumNodes());
+  EXPECT_NEAR(AreaOf(fine), AreaOf(coarse), 1e-12 * AreaOf(coarse));
+  ExpectNoHangingNodes(fine);
+}
+
 INSTANTIATE_TEST_SUITE_P(Thresholds, RefinementTo, ::testing::Values(0.01, 0.02, 0.05, 0.1, 0.2));
+
+// In the middle is a triangle of which no side is marked and its neighbours' far sides are: two of
+// its sides at least are halved, so it has to be split as well.
+TEST(RefinementTest, ATriangleWithTwoHalvedSidesIsSplit) {
+  const ShapeFamily tube = SmallTube();
+  std::vector<Shape> poses;
+  for (int k = 0; k < 3; ++k) {
+    const double turn = 2 * M_PI * k / 3;
+    poses.push_back(BentAndTwisted(tube, 75 + 15 * std::cos(turn), 60 + 25 * std::sin(turn)));
+    poses.push_back(BentAndTwisted(tube, 75 - 70 * std::cos(turn), 60 - 110 * std::sin(turn)));
+  }
+  ExploreOptions options;
+  options.depth = 1;
+  for (const double threshold : {0.06, 0.12, 0.16}) {
+    options.threshold = threshold;
+    ExpectNoHangingNodes(Explore(tube.connectivity, poses, {}, options).space);
+  }
+}
 
 TEST(RefinementTest, EachNodeIsThereOnceHalfWayBetweenItsParents) {
   const PoseSpace space = Explored(3);
