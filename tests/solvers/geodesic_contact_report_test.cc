@@ -7,11 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/analysis/intersections.h>
-#include <shapespace/bodies/bar.h>
-#include <shapespace/contact/obstacle.h>
 #include <shapespace/exponential/exponential.h>
 #include <shapespace/geodesic/geodesic.h>
 
+#include "support/contact_bodies.h"
 #include "support/cut_ring.h"
 
 namespace shapespace {
@@ -26,14 +25,9 @@ GeodesicOptions RoundContacts(int shapes) {
 
 // A cube moves beside a closed box, and then into it.
 TEST(GeodesicContactReport, NamesThePieceInWhichNoWayWasFound) {
-  const ShapeFamily cube = MakeBar(1, 1, 1, 3, 3, 3), box = MakeBar(3, 3, 3, 3, 3, 3);
-  const Obstacle around = {box.connectivity, box.pose(0)};
-  const auto connectivity = around.Joined(cube.connectivity);
-  std::vector<Shape> poses;
-  for (const double x : {6.0, 5.0, 1.0}) {
-    poses.push_back(around.Joined(Shape(cube.pose(0).colwise() + Eigen::Vector3d(x, 0.7, 0.8))));
-  }
-  const auto [path, summary] = Interpolate(connectivity, poses, RoundContacts(3));
+  const testing::CubeAndBox body(3);
+  const auto [path, summary] =
+      Interpolate(body.connectivity, {body.At(6), body.At(5), body.At(1)}, RoundContacts(3));
   ASSERT_EQ(path.NumShapes(), 9);
   ASSERT_GE(summary.warnings.size(), 2u);
   EXPECT_EQ(summary.warnings[0],
@@ -49,7 +43,7 @@ TEST(GeodesicContactReport, NamesThePieceInWhichNoWayWasFound) {
   // No pose intersects itself; the greatest number in the middle of a segment counts.
   std::vector<Shape> middles;
   for (int i = 0; i < 8; ++i) middles.push_back(0.5 * (path.shapes[i] + path.shapes[i + 1]));
-  const std::vector<std::int64_t> pairs = CountIntersections(*connectivity, middles);
+  const std::vector<std::int64_t> pairs = CountIntersections(*body.connectivity, middles);
   const std::int64_t most = *std::max_element(pairs.begin(), pairs.end());
   EXPECT_GT(most, 0);
   EXPECT_EQ(summary.crossings_between, static_cast<double>(most));

@@ -27,6 +27,7 @@ namespace shapespace {
 namespace {
 
 using testing::BallAndWall;
+using testing::CubeAndBox;
 using testing::CutRing;
 using testing::MostIntersections;
 using testing::TwoProngs;
@@ -210,14 +211,9 @@ TEST(GeodesicContactTest, PosesThatIntersectThemselvesAreSaidSo) {
 }
 
 TEST(GeodesicContactTest, WhereNoWayIsFoundThePathWithContactIsReturnedWithAWarning) {
-  // A cube in a closed box, and beside it.
-  const ShapeFamily cube = MakeBar(1, 1, 1, 6, 6, 6), box = MakeBar(3, 3, 3, 6, 6, 6);
-  const Obstacle around = {box.connectivity, box.pose(0)};
-  const auto connectivity = around.Joined(cube.connectivity);
-  const auto at = [&](double x) {
-    return around.Joined(Shape(cube.pose(0).colwise() + Eigen::Vector3d(x, 0.7, 0.8)));
-  };
-  const std::vector<Shape> poses = {at(1), at(5)};
+  const CubeAndBox body(6);
+  const auto& connectivity = body.connectivity;
+  const std::vector<Shape> poses = {body.At(1), body.At(5)};
   ASSERT_EQ(CountIntersections(*connectivity, poses[0]), 0);
   GeodesicOptions options = AvoidingContact(3);
   const GeodesicResult result = Interpolate(connectivity, poses, options);
@@ -227,7 +223,8 @@ TEST(GeodesicContactTest, WhereNoWayIsFoundThePathWithContactIsReturnedWithAWarn
   ASSERT_FALSE(result.summary.warnings.empty());
   EXPECT_NE(result.summary.warnings[0].find("no way was found"), std::string::npos);
   // A second piece, beside the box, does not hide the first.
-  const GeodesicResult chain = Interpolate(connectivity, {at(1), at(5), at(6)}, AvoidingContact(3));
+  const GeodesicResult chain =
+      Interpolate(connectivity, {body.At(1), body.At(5), body.At(6)}, AvoidingContact(3));
   EXPECT_GT(chain.summary.uncertified_segments, 0);
 }
 

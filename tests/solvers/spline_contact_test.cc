@@ -6,14 +6,15 @@
 
 #include <gtest/gtest.h>
 
-#include <shapespace/bodies/bar.h>
 #include <shapespace/spline/spline.h>
 
+#include "support/contact_bodies.h"
 #include "support/cut_ring.h"
 
 namespace shapespace {
 namespace {
 
+using testing::CubeAndBox;
 using testing::CutRing;
 using testing::MostIntersections;
 
@@ -128,18 +129,13 @@ TEST(SplineContactTest, PastAnObstacleUnitAndPlaceDoNotMatter) {
 }
 
 TEST(SplineContactTest, SegmentsWithContactOfAllIntervalsCount) {
-  // A cube goes out of a closed box, and in again: there is no way without contact.
-  const ShapeFamily cube = MakeBar(1, 1, 1, 6, 6, 6), box = MakeBar(3, 3, 3, 6, 6, 6);
-  const Obstacle around = {box.connectivity, box.pose(0)};
-  const auto connectivity = around.Joined(cube.connectivity);
-  std::vector<Shape> poses;
-  for (const double x : {1., 5., 1.5}) {
-    poses.push_back(around.Joined(Shape(cube.pose(0).colwise() + Eigen::Vector3d(x, 0.7, 0.8))));
-  }
+  // A cube goes out of a closed box, and in again.
+  const CubeAndBox body(6);
+  const std::vector<Shape> poses = {body.At(1), body.At(5), body.At(1.5)};
   SplineOptions options = Loose();
   options.geodesic.shapes = 3;
   options.geodesic.avoid_contact = true;
-  const auto [path, summary] = Spline(connectivity, poses, options);
+  const auto [path, summary] = Spline(body.connectivity, poses, options);
   int touching[2] = {0, 0};
   for (int k = 0; k + 1 < path.NumShapes(); ++k) {
     if (MostIntersections(SelectShapes(path, {k, k + 1})) > 0)

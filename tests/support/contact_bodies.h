@@ -143,6 +143,23 @@ struct BallAndWall {
   Obstacle wall;
 };
 
+/// A cube of edge 1 in a closed box of edge 3, or beside it: there is no way between without
+/// contact. Each side has `cells`^2 squares.
+struct CubeAndBox {
+  explicit CubeAndBox(int cells)
+      : cube(MakeBar(1, 1, 1, cells, cells, cells)), box(MakeBar(3, 3, 3, cells, cells, cells)) {
+    around = {box.connectivity, box.pose(0)};
+    connectivity = around.Joined(cube.connectivity);
+  }
+  /// Inside for x from 0 to 2.
+  Shape At(double x) const {
+    return around.Joined(Shape(cube.pose(0).colwise() + Eigen::Vector3d(x, 0.7, 0.8)));
+  }
+  ShapeFamily cube, box;
+  Obstacle around;
+  std::shared_ptr<const Connectivity> connectivity;
+};
+
 }  // namespace shapespace::testing
 
 #endif  // SHAPESPACE_TESTS_SUPPORT_CONTACT_BODIES_H_
