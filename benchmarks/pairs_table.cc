@@ -12,7 +12,6 @@
 #include <functional>
 #include <iostream>
 #include <limits>
-#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -23,6 +22,8 @@
 #include <shapespace/exponential/exponential.h>
 #include <shapespace/files/read.h>
 #include <shapespace/geodesic/geodesic.h>
+
+#include "support/crumpled.h"
 
 DEFINE_string(set, "real", "pairs: real, tuned or kept");
 DEFINE_string(name, "", "only the pairs whose names contain this");
@@ -111,21 +112,6 @@ std::vector<Pair> BeyondPairs() {
   return pairs;
 }
 
-// Moves every vertex at random, so that the surface has folds as in a poor scan.
-Shape Crumple(const Connectivity& connectivity, const Shape& shape, unsigned seed) {
-  double length = 0;
-  for (const auto& edge : connectivity.Edges().colwise()) {
-    length += (shape.col(edge(0)) - shape.col(edge(1))).norm() / connectivity.NumEdges();
-  }
-  std::mt19937_64 random(seed);
-  const double reach = FLAGS_crumple * length;
-  Shape crumpled = shape;
-  for (double& x : crumpled.reshaped()) {
-    x += reach * (2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1);
-  }
-  return crumpled;
-}
-
 // Pairs with even numbers if `half` is 0, else those with odd numbers.
 std::vector<Pair> MadePairs(int half) {
   constexpr int kPairs = 300, kTriangles = 4000;
@@ -136,8 +122,8 @@ std::vector<Pair> MadePairs(int half) {
                        Poses poses;
                        poses.connectivity = body.connectivity;
                        for (int seed : {2 * i, 2 * i + 1}) {
-                         poses.shapes.push_back(
-                             Crumple(*body.connectivity, body.random_pose(seed), seed));
+                         poses.shapes.push_back(testing::Crumpled(
+                             *body.connectivity, body.random_pose(seed), FLAGS_crumple, seed));
                        }
                        return poses;
                      }});

@@ -1,5 +1,6 @@
-#include <gtest/gtest.h>
 #include <limits>
+
+#include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/bytes.h>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <random>
 #include <set>
 #include <vector>
 
@@ -17,6 +16,8 @@
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/geodesic/internal/schedule.h>
 #include <shapespace/hierarchy/hierarchy.h>
+
+#include "support/crumpled.h"
 #include "support/paths.h"
 
 namespace shapespace {
@@ -182,18 +183,8 @@ TEST(Interpolate, CrumpledPosesMoveAtConstantSpeedToo) {
 // guess turns the wrong way are not turned back, these by 15 % and more.
 TEST(Interpolate, NoHingeOfRoughPosesTurnsLate) {
   const SkinnedBody body = MakeQuadruped(4000);
-  const Connectivity& mesh = *body.connectivity;
   const auto rough = [&](int seed) {
-    Shape shape = body.random_pose(seed);
-    double length = 0;
-    for (const auto& edge : mesh.Edges().colwise()) {
-      length += (shape.col(edge(0)) - shape.col(edge(1))).norm() / mesh.NumEdges();
-    }
-    std::mt19937_64 random(seed);
-    for (double& x : shape.reshaped()) {
-      x += 0.8 * length * (2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1);
-    }
-    return shape;
+    return testing::Crumpled(*body.connectivity, body.random_pose(seed), 0.8, seed);
   };
   for (const int pair : {138, 142, 228}) {
     const std::vector<Shape> poses = {rough(2 * pair), rough(2 * pair + 1)};
