@@ -6,6 +6,7 @@
 
 #include <shapespace/base/internal/ranges.h>
 #include <shapespace/mesh/internal/geometry.h>
+#include <shapespace/metric/internal/collapse.h>
 #include <shapespace/metric/metric_basis.h>
 
 namespace shapespace {
@@ -63,7 +64,10 @@ Dihedral Dihedral::Freeze(const MetricBasis& basis) {
     const double area = basis.hinge_area(h);
     const double aspect =
         area * kGreatestHingeAspect > squared_length ? squared_length / area : kGreatestHingeAspect;
-    feature.weights(h) = basis.hinge_stiffness(h) * aspect / (1 + u * u * u * u);
+    const auto v = connectivity.Hinges().col(h);
+    const double kept = std::min(internal::KeptInCollapse(basis, v(0), v(1), v(2)),
+                                 internal::KeptInCollapse(basis, v(1), v(0), v(3)));
+    feature.weights(h) = basis.hinge_stiffness(h) * aspect * kept / (1 + u * u * u * u);
   };
   internal::ForRanges(connectivity.NumHinges(), [&](int begin, int end) {
     std::vector<double> angles(basis.poses.size());

@@ -99,19 +99,16 @@ struct Dihedral : ElementFeature<4, 2> {
   }
 
   /// The derivative of theta along the normal, by vertex, for a nearly flat hinge: 1 / height for
-  /// the two opposite vertices, distributed over the edge's ends with opposite sign. Heights are at
-  /// least a ten-thousandth of the mesh's edges; otherwise collapsed triangles would make the
-  /// matrix numerically indefinite.
+  /// the two opposite vertices, distributed over the edge's ends with opposite sign.
   void ScalarRows(const Eigen::Vector3d* x, double* k) const {
     const Eigen::Vector3d e = x[1] - x[0];
     const double squared_length = e.squaredNorm() + edge_epsilon_squared;
-    const double least = 1e8 * edge_epsilon_squared;  // epsilon is 1e-8 of an edge
     k[0] = k[1] = 0;
     for (int tip = 2; tip < 4; ++tip) {
       const Eigen::Vector3d side = x[tip] - x[0];
       const double along = side.dot(e) / squared_length;
       const double height =
-          std::sqrt(std::max(e.cross(side).squaredNorm() / squared_length, least));
+          std::sqrt(std::max(e.cross(side).squaredNorm() / squared_length, edge_epsilon_squared));
       k[tip] = 1 / height;
       k[0] -= (1 - along) / height;
       k[1] -= along / height;

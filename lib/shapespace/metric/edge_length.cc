@@ -1,6 +1,7 @@
 #include <shapespace/metric/edge_length.h>
 
 #include <shapespace/mesh/internal/geometry.h>
+#include <shapespace/metric/internal/collapse.h>
 #include <shapespace/metric/metric_basis.h>
 
 namespace shapespace {
@@ -29,6 +30,10 @@ LogLength LogLength::Freeze(const MetricBasis& basis) {
     feature.weights.array() *= basis.edge_area.tail(loose_edges).array();
   }
   feature.epsilon_squared = basis.CollapsedSquared();
+  for (int e = 0; e < loose_edges; ++e) {
+    feature.weights(e) *=
+        internal::KeptInCollapse(basis, feature.stencils(0, e), feature.stencils(1, e));
+  }
   return feature;
 }
 

@@ -1,5 +1,7 @@
 #include <shapespace/metric/triangle_strain.h>
 
+#include <shapespace/base/internal/ranges.h>
+#include <shapespace/metric/internal/collapse.h>
 #include <shapespace/metric/metric_basis.h>
 
 namespace shapespace {
@@ -10,6 +12,10 @@ TriangleStrain TriangleStrain::Freeze(const MetricBasis& basis) {
   feature.weights = basis.triangle_stiffness;
   if (basis.weighting == Weighting::kArea) feature.weights.array() *= basis.triangle_area.array();
   feature.epsilon_squared = basis.CollapsedSquared();
+  internal::ForIndices(basis.connectivity->NumTriangles(), [&](int f) {
+    const auto t = basis.connectivity->Triangles().col(f);
+    feature.weights(f) *= internal::KeptInCollapse(basis, t(0), t(1), t(2));
+  });
   return feature;
 }
 

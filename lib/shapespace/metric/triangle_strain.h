@@ -22,7 +22,6 @@ struct MetricBasis;
 /// limit (docs/mathematics.md, section 1).
 struct TriangleStrain : ElementFeature<3, 3> {
   static constexpr bool kHasDerivatives = true;
-  static constexpr int kScalarRows = 3;
   static constexpr const char* kName = "triangle strain";
   /// Below this square of the eigenvalues' ratio the logarithm is replaced by its series.
   static constexpr double kSmallRatio = 1e-4;
@@ -31,6 +30,8 @@ struct TriangleStrain : ElementFeature<3, 3> {
   /// logarithm of a collapsed triangle finite.
   double epsilon_squared = 0;
 
+  /// Weights are areas, less for triangles that nearly collapse, or the reverse, from one pose to
+  /// the next.
   static TriangleStrain Freeze(const MetricBasis& basis);
 
   template <typename Self, typename Visit>
@@ -130,15 +131,6 @@ struct TriangleStrain : ElementFeature<3, 3> {
     const double along = mean - epsilon_squared - 0.5 * slope * d;
     const double across = std::sqrt(0.75) * slope * o;
     return {along - across, along + across, mean - epsilon_squared + slope * d};
-  }
-
-  /// The strains of the three sides.
-  void ScalarRows(const Eigen::Vector3d* x, double* k) const {
-    for (int side = 0; side < 3; ++side) {
-      const int from = side, to = (side + 1) % 3;
-      const double inverse = std::sqrt(0.2 / ((x[to] - x[from]).squaredNorm() + epsilon_squared));
-      for (int v = 0; v < 3; ++v) k[3 * side + v] = v == from ? -inverse : v == to ? inverse : 0;
-    }
   }
 };
 

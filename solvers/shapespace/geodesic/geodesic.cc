@@ -219,18 +219,31 @@ GeodesicSchedule KindOfSchedule(const Metric& metric, const GeodesicOptions& opt
   return GeodesicSchedule::kFlat;
 }
 
+// Whether the way in which a level ended says something about the path. One that has stalled is a
+// start for the next one, and as good as any other start, unless it is the last of its piece.
+bool Counts(const std::vector<GeodesicSummary::Level>& levels, size_t i) {
+  if (!levels[i].kept) return false;
+  if (levels[i].termination != Termination::kStalled) return true;
+  for (size_t k = i + 1; k < levels.size(); ++k) {
+    if (levels[k].kept && levels[k].piece == levels[i].piece) return false;
+  }
+  return true;
+}
+
 // Appends warnings about results that are valid but probably not wanted. Past an obstacle
 // neither the bound, which knows of none, nor an even speed is to be expected.
 void Warn(bool past_obstacle, GeodesicSummary* summary) {
-  for (const GeodesicSummary::Level& level : summary->levels) {
-    if (level.kept && level.termination != Termination::kConverged &&
+  for (size_t i = 0; i < summary->levels.size(); ++i) {
+    const GeodesicSummary::Level& level = summary->levels[i];
+    if (Counts(summary->levels, i) && level.termination != Termination::kConverged &&
         level.termination != Termination::kCancelled) {
       summary->warnings.push_back(
           "the level of " + std::to_string(level.shapes) + " shapes of piece " +
           std::to_string(level.piece) +
           (level.termination == Termination::kMaxIterations
                ? " ran out of iterations; raise max_iterations or the tolerance"
-               : " stalled: its line search found no better point"));
+               : " stalled: no step leads farther down, although the estimate of what is left is "
+                 "above the tolerance; are there triangles far thinner than the others?"));
     }
   }
   if (summary->termination == Termination::kCancelled) {
@@ -378,8 +391,9 @@ GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progre
   summary.factor_seconds -= factored;
   Describe(&summary);
   summary.poses = static_cast<int>(result.path.poses.size());
-  for (const GeodesicSummary::Level& level : summary.levels) {
-    if (level.kept) summary.termination = std::max(summary.termination, level.termination);
+  for (size_t i = 0; i < summary.levels.size(); ++i) {
+    if (!Counts(summary.levels, i)) continue;
+    summary.termination = std::max(summary.termination, summary.levels[i].termination);
   }
   result.path.converged = summary.termination == Termination::kConverged;
   MeasureEnergy(result.path, options_, &workspace.back(), &summary);

@@ -105,6 +105,7 @@ std::vector<Tangent> FreeEndFactors::Extend(const std::vector<Tangent>& ways) co
 void FreeEndFactors::Integrate(const std::vector<std::vector<Eigen::Matrix3d>>& gradients,
                                std::vector<Shape>* shapes) const {
   std::vector<Eigen::MatrixXd> rights(shapes->size(), Eigen::MatrixXd::Zero(rest_.cols(), 3));
+  const double stiffest = StiffestElement(*metric_, {rest_});
   for (const auto& feature : metric_->features) {
     if (!feature->IsRigidInvariant() || feature->IsSum()) continue;
     const int corners = feature->VerticesPerElement(), num_rows = feature->NumScalarRows();
@@ -124,9 +125,11 @@ void FreeEndFactors::Integrate(const std::vector<std::vector<Eigen::Matrix3d>>& 
         feature->GatherCoordinates(e, e + 1, (*shapes)[i], after.data());
         for (int c = 0; c < corners; ++c) gradient += gradients[i][vertices[c]] / corners;
         after = gradient.lazyProduct(before.middleCols(corners * e, corners)) - after;
+        const double stiffness = 4 * feature->Weight(e) * own.squaredNorm();
+        const double weight = 4 * feature->Weight(e) * std::min(1.0, stiffest / stiffness);
         off.noalias() = own.transpose().lazyProduct(after.transpose());
         for (int c = 0; c < corners; ++c) {
-          rights[i].row(vertices[c]) += 4 * feature->Weight(e) * own.row(c).lazyProduct(off);
+          rights[i].row(vertices[c]) += weight * own.row(c).lazyProduct(off);
         }
       }
     });

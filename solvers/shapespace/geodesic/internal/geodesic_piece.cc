@@ -195,6 +195,7 @@ void GeodesicPiece::TakeStep(const ScheduleStep& step, GeodesicStart start, bool
     name = Name(start);
   }
   if (!workload_.Stopped()) {
+    resolution.PlaceThinVertices(index_, options_, &shapes);
     UnwrapHinges(*resolution.GetMetric(), &shapes);
     GeodesicSummary::Level row =
         resolution.Relax(index_, last ? 0 : kEnough, options_, &workload_, &shapes);

@@ -6,6 +6,7 @@
 
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/geodesic/internal/residual_blocks.h>
+#include <shapespace/geodesic/internal/tied_energy.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/numerics/internal/preconditioner.h>
 
@@ -26,12 +27,15 @@ double QuarticWeight(int inner, const GeodesicOptions& options) {
 
 SharedLevel::SharedLevel(std::shared_ptr<const Metric> level_metric, std::vector<Shape> poses)
     : metric(std::move(level_metric)),
-      factors(std::make_shared<LazyFactors>([metric = metric, poses = std::move(poses)] {
-        return ScalarMetric(*metric, poses, 0);
-      })) {}
+      thin_vertices(std::make_shared<const ThinVertices>(*metric->connectivity, poses)) {
+  factors = std::make_shared<LazyFactors>(
+      [metric = metric, poses = std::move(poses)] { return ScalarMetric(*metric, poses, 0); });
+}
 
 Resolution::Resolution(SharedLevel level)
-    : metric_(std::move(level.metric)), factors_(std::move(level.factors)) {}
+    : metric_(std::move(level.metric)),
+      factors_(std::move(level.factors)),
+      thin_vertices_(std::move(level.thin_vertices)) {}
 
 void Resolution::SetPoses(std::vector<Shape> poses) {
   poses_ = std::move(poses);
@@ -61,6 +65,16 @@ GeodesicSummary::Level Resolution::Relax(int piece, double enough, const Geodesi
   PathEnergy& energy = EnergyOf(inner, options);
   std::vector<double> unknowns(energy.Size());
   energy.Load(*shapes, unknowns.data());
+  Objective objective = ObjectiveOf(&energy);
+  std::optional<TiedEnergy> tied;
+  if (thin_vertices_->AnyTied()) {
+    std::vector<std::vector<ThinVertices::Tied>> ties;
+    for (int i = 1; i <= inner; ++i) {
+      ties.push_back(thin_vertices_->TiedAt(poses_[piece], poses_[piece + 1], i / (inner + 1.0)));
+    }
+    tied.emplace(&energy, ties, unknowns);
+    objective = [&](const double* x, double* gradient) { return (*tied)(x, gradient); };
+  }
   const double count = 3.0 * row.vertices * inner;
   minimise.rank = HistoryRank(count);
   GeodesicSolver solver = options.solver;
@@ -71,12 +85,13 @@ GeodesicSummary::Level Resolution::Relax(int piece, double enough, const Geodesi
   if (solver == GeodesicSolver::kLbfgs) {
     row.solver = "L-BFGS";
     ChangeOfVariables variables(Factor<double>(piece, inner), energy);
-    result = MinimiseLbfgs(ObjectiveOf(&energy), &variables, minimise, &unknowns);
+    result = MinimiseLbfgs(objective, &variables, minimise, &unknowns);
   } else {
     Preconditioner preconditioner(Factor<float>(piece, inner), energy);
     if (solver == GeodesicSolver::kThreadedLbfgs) {
       row.solver = "own L-BFGS";
-      result = MinimiseThreadedLbfgs(&energy, &preconditioner, minimise, &unknowns);
+      result =
+          MinimiseThreadedLbfgs(objective, PreconditionOf(&preconditioner), minimise, &unknowns);
     } else {
       row.solver = "trust region";
       result = MinimiseTrustRegion(*metric_, QuarticWeight(inner, options), minimise, shapes);
@@ -84,6 +99,7 @@ GeodesicSummary::Level Resolution::Relax(int piece, double enough, const Geodesi
       result.remaining = RemainingDecrease(&energy, &preconditioner, unknowns);
     }
   }
+  if (tied && solver != GeodesicSolver::kTrustRegion) tied->Follow(unknowns.data());
   energy.Store(unknowns.data(), shapes);
   if (metric_->RigidInvariantButForPosition()) {
     RemoveRigidDrift(shapes, metric_->vertex_area);
@@ -99,6 +115,18 @@ GeodesicSummary::Level Resolution::Relax(int piece, double enough, const Geodesi
   row.seconds = stopwatch.Seconds();
   workload->End();
   return row;
+}
+
+void Resolution::PlaceThinVertices(int piece, const GeodesicOptions& options,
+                                   std::vector<Shape>* shapes) {
+  if (thin_vertices_->Empty()) return;
+  std::vector<Shape> placed = *shapes;
+  const int last = static_cast<int>(placed.size()) - 1;
+  for (int i = 1; i < last; ++i) {
+    thin_vertices_->Place(poses_[piece], poses_[piece + 1], static_cast<double>(i) / last,
+                          &placed[i]);
+  }
+  if (Energy(placed, options) < Energy(*shapes, options)) *shapes = std::move(placed);
 }
 
 double Resolution::Energy(const std::vector<Shape>& shapes, const GeodesicOptions& options) {

@@ -8,6 +8,7 @@
 
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/geodesic/internal/lazy_factors.h>
+#include <shapespace/geodesic/internal/thin_vertices.h>
 #include <shapespace/geodesic/internal/workload.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/numerics/internal/cholesky.h>
@@ -24,6 +25,7 @@ struct SharedLevel {
   std::shared_ptr<const Metric> metric;
   /// Of the scalar metric without the trapezoid's quartic part.
   std::shared_ptr<LazyFactors> factors;
+  std::shared_ptr<const ThinVertices> thin_vertices;
 };
 
 /// A level in one solve: the poses of its path, and arrays that the solve works on. Its results
@@ -42,6 +44,10 @@ class Resolution {
   /// summary's row. `enough` as in MinimiseOptions; 0 if no further solve follows.
   GeodesicSummary::Level Relax(int piece, double enough, const GeodesicOptions& options,
                                Workload* workload, std::vector<Shape>* shapes);
+
+  /// Places the thin vertices of the inner ones of `shapes`, a path from pose `piece` to the next,
+  /// as they lie in these poses, if this lowers the energy.
+  void PlaceThinVertices(int piece, const GeodesicOptions& options, std::vector<Shape>* shapes);
 
   /// The energy of a path of any number of shapes, unscaled.
   double Energy(const std::vector<Shape>& shapes, const GeodesicOptions& options);
@@ -69,6 +75,7 @@ class Resolution {
   std::shared_ptr<LazyFactors> factors_;  // for the trapezoid those of a piece
   std::pair<int, int> factors_key_ = {-1, -1};
   double factor_seconds_ = 0;
+  std::shared_ptr<const ThinVertices> thin_vertices_;
 };
 
 }  // namespace shapespace::internal

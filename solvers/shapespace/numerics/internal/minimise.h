@@ -17,7 +17,9 @@ inline int HistoryRank(double unknowns) { return unknowns <= 3e5 ? 20 : 5; }
 
 struct MinimiseOptions {
   /// Stop when an iteration (of MinimiseThreadedLbfgs: two in a row) lowers the energy by less than
-  /// this share of it.
+  /// this share of it. If kTrustedRemaining says that this is no minimum, the solve goes on with
+  /// smaller steps; if none is left, or `enough` says that it is a start for another one, it has
+  /// stalled.
   double tolerance = 1e-4;
   int max_iterations = 500;
   int rank = 20;  ///< of the L-BFGS approximation
@@ -38,6 +40,14 @@ struct MinimiseOptions {
   /// line search follows with half the step at most. May be empty.
   std::function<bool(const double* unknowns)> allows;
 };
+
+/// A solve whose steps have become small has converged only if RemainingDecrease is at most this
+/// multiple of the tolerance. On healthy meshes it is at most once the tolerance; where the
+/// preconditioner is bad, as between triangles of which some are far thinner than others, it has
+/// been 100 times to 1e10 times that.
+inline constexpr double kTrustedRemaining = 10;
+/// By this factor the tolerance of decreases is lowered for a solve that must go on.
+inline constexpr double kMoreAccurate = 0.1;
 
 struct MinimiseResult {
   Termination termination = Termination::kStalled;

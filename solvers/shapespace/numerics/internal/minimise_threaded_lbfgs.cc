@@ -44,6 +44,7 @@ class ThreadedLbfgs {
         precondition_(precondition),
         options_(options),
         unknowns_(*unknowns),
+        tolerance_(options.tolerance),
         size_(unknowns->size()),
         x_(MakeBuffer(size_)),
         work_(MakeBuffer(size_)),
@@ -60,9 +61,8 @@ class ThreadedLbfgs {
     }
     result_.initial_energy = value_;
     unit_ = std::sqrt(value_);
-    result_.termination = value_ == 0 ? Termination::kConverged : Iterate();
+    result_.termination = value_ == 0 ? Termination::kConverged : IterateUntilTrusted();
     result_.energy = value_;
-    if (value_ > 0) result_.remaining = SteepestDecrease() / value_;
     if (result_.termination == Termination::kStalled &&
         result_.remaining < kNothingLeft * options_.tolerance) {
       result_.termination = Termination::kConverged;
@@ -104,6 +104,26 @@ class ThreadedLbfgs {
            })[0];
   }
 
+  // As long as the remaining decrease contradicts convergence, iterates on with smaller tolerances,
+  // without the history.
+  Termination IterateUntilTrusted() {
+    for (;;) {
+      const double before = value_;
+      const Termination termination = Iterate();
+      // In single precision rounding may make it negative, which is no convergence either.
+      result_.remaining = std::abs(SteepestDecrease()) / value_;
+      if (termination != Termination::kConverged || enough_gained_ ||
+          result_.remaining <= kTrustedRemaining * options_.tolerance) {
+        return termination;
+      }
+      if (options_.enough > 0 || value_ == before) return Termination::kStalled;
+      tolerance_ *= kMoreAccurate;
+      history_.clear();
+      fresh_change_ = false;
+      scale_ = 1;
+    }
+  }
+
   Termination Iterate() {
     // One short step of the line search is no sign of convergence; two small decreases in a row end
     // the solve. It is enough if the second is small in the model, whose promise alone is no sign
@@ -119,11 +139,11 @@ class ThreadedLbfgs {
       double slope = FindDirection();
       const double promise = -0.5 * slope;  // gain predicted by the model
       // If rounding makes the direction lead upwards, the predicted gain has no meaning.
-      const double least = (small >= 1 ? kLittle : kNothingLeft) * options_.tolerance * value_;
-      if (promise >= 0 &&
-          promise <= std::max(least, options_.enough * (result_.initial_energy - value_))) {
-        return Termination::kConverged;
-      }
+      const double least = (small >= 1 ? kLittle : kNothingLeft) * tolerance_ * value_;
+      if (promise >= 0 && promise <= least) return Termination::kConverged;
+      enough_gained_ =
+          promise >= 0 && promise <= options_.enough * (result_.initial_energy - value_);
+      if (enough_gained_) return Termination::kConverged;
       if (!Search(slope)) {
         if (fresh_) return Termination::kStalled;
         history_.clear();
@@ -132,7 +152,7 @@ class ThreadedLbfgs {
       }
       if (refused_) continue;
       // A step that had to be short says nothing about what is left.
-      small = !cut_ && before - value_ < options_.tolerance * value_ ? small + 1 : 0;
+      small = !cut_ && before - value_ < tolerance_ * value_ ? small + 1 : 0;
     }
   }
 
@@ -321,15 +341,17 @@ class ThreadedLbfgs {
   const Precondition& precondition_;
   const MinimiseOptions& options_;
   std::vector<double>& unknowns_;
+  double tolerance_;  // of decreases
   const size_t size_;
   Buffer<double> x_, work_, preconditioned_, change_, gradient_, trial_gradient_;
   double value_ = 0, unit_ = 1, scale_ = 1;
-  bool fresh_ = true;          // no history influences the direction
-  bool fresh_change_ = false;  // the last pair's change has not been preconditioned yet
-  bool refused_ = false;       // the last search's point was not allowed
-  bool cut_ = false;           // the last step was as long as allowed
-  double shortening_ = 1;      // of the longest step, after points were refused
-  std::vector<Pair> history_;  // oldest first
+  bool fresh_ = true;           // no history influences the direction
+  bool fresh_change_ = false;   // the last pair's change has not been preconditioned yet
+  bool refused_ = false;        // the last search's point was not allowed
+  bool enough_gained_ = false;  // MinimiseOptions::enough has ended the solve
+  bool cut_ = false;            // the last step was as long as allowed
+  double shortening_ = 1;       // of the longest step, after points were refused
+  std::vector<Pair> history_;   // oldest first
   MinimiseResult result_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -14,6 +16,14 @@ namespace {
 
 // Without a position term translations have no cost; this share of one keeps the matrix definite.
 constexpr double kMinLambda = 1e-6;
+
+// No element is stiffer than this multiple of typical ones, since the matrix is numerically
+// indefinite where its entries differ by more than numbers can show. Triangles with a height of a
+// ten-thousandth of others', and hinges of them, are below it.
+constexpr double kStiffest = 1e9;
+
+// The typical stiffness of a feature is the geometric mean over so many elements.
+constexpr int kSampled = 1000;
 
 // Elements whose blocks are computed at a time, on all threads, before they are added.
 constexpr int kElementsAtATime = 1 << 14;
@@ -93,26 +103,41 @@ class LowerTriangle {
 };
 
 // What elements [begin, end) add to the matrix: each a number for every two of its vertices, row by
-// row.
+// row: the mean of the poses' blocks, each divided by its trace, times the geometric mean of the
+// traces. An element that collapses in one pose is as stiff as it is there only close to that pose.
 void ElementBlocks(const Feature& feature, int begin, int end, const std::vector<Shape>& poses,
-                   int quartic_segments, double* blocks) {
+                   int quartic_segments, double stiffest, double* blocks) {
   const int corners = feature.VerticesPerElement(), num_rows = feature.NumScalarRows();
+  const int size = corners * corners;
   const size_t count = end - begin;
   std::vector<double> x(3 * corners * count), rows(corners * num_rows * count);
-  std::fill_n(blocks, corners * corners * count, 0.0);
+  std::vector<double> logarithms(count), counts(count), own(size);
+  std::fill_n(blocks, size * count, 0.0);
   for (const Shape& pose : poses) {
     feature.GatherCoordinates(begin, end, pose, x.data());
     feature.ScalarRows(end - begin, x.data(), rows.data());
     const double* k = rows.data();
-    double* block = blocks;
-    for (int e = begin; e < end; ++e, block += corners * corners) {
-      const double factor = 4 * feature.Weight(e) / static_cast<double>(poses.size());
+    for (size_t e = 0; e < count; ++e) {
+      std::fill(own.begin(), own.end(), 0.0);
+      double trace = 0;
       for (int row = 0; row < num_rows; ++row, k += corners) {
         for (int i = 0; i < corners; ++i) {
-          for (int l = 0; l < corners; ++l) block[corners * i + l] += factor * k[i] * k[l];
+          trace += k[i] * k[i];
+          for (int l = 0; l < corners; ++l) own[corners * i + l] += k[i] * k[l];
         }
       }
+      if (!(trace > 0)) continue;
+      logarithms[e] += std::log(trace);
+      ++counts[e];
+      for (int i = 0; i < size; ++i) blocks[size * e + i] += own[i] / trace;
     }
+  }
+  for (size_t e = 0; e < count; ++e) {
+    if (counts[e] == 0) continue;
+    const double stiffness =
+        4 * feature.Weight(begin + static_cast<int>(e)) * std::exp(logarithms[e] / counts[e]);
+    const double factor = std::min(stiffness, stiffest) / counts[e];
+    for (int i = 0; i < size; ++i) blocks[size * e + i] *= factor;
   }
   if (quartic_segments == 0 || feature.As<EdgeLength>() == nullptr) return;
   for (int e = begin; e < end; ++e, blocks += 4) {
@@ -125,13 +150,43 @@ void ElementBlocks(const Feature& feature, int begin, int end, const std::vector
   }
 }
 
+double Trace(const double* block, int corners) {
+  double trace = 0;
+  for (int i = 0; i < corners; ++i) trace += block[(corners + 1) * i];
+  return trace;
+}
+
 }  // namespace
+
+double StiffestElement(const Metric& metric, const std::vector<Shape>& poses) {
+  constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+  double typical = 0;
+  for (const auto& feature : metric.features) {
+    if (feature->IsSum()) continue;
+    const int corners = feature->VerticesPerElement(), count = feature->NumElements();
+    std::vector<double> block(corners * corners);
+    double sum = 0;
+    int stiff = 0;
+    for (int i = 0; i < std::min(count, kSampled); ++i) {
+      const int e =
+          static_cast<int>(static_cast<std::int64_t>(i) * count / std::min(count, kSampled));
+      ElementBlocks(*feature, e, e + 1, poses, 0, kUnlimited, block.data());
+      const double trace = Trace(block.data(), corners);
+      if (!(trace > 0)) continue;
+      sum += std::log(trace);
+      ++stiff;
+    }
+    if (stiff > 0) typical = std::max(typical, std::exp(sum / stiff));
+  }
+  return typical > 0 ? kStiffest * typical : kUnlimited;
+}
 
 Eigen::SparseMatrix<double> ScalarMetric(const Metric& metric, const std::vector<Shape>& poses,
                                          int quartic_segments) {
   const int num_vertices = metric.connectivity->NumVertices();
   LowerTriangle sums(metric);
   std::vector<double> blocks;
+  const double stiffest = StiffestElement(metric, poses);
   for (const auto& feature : metric.features) {
     if (feature->IsSum()) continue;
     const int size = feature->VerticesPerElement() * feature->VerticesPerElement();
@@ -139,7 +194,7 @@ Eigen::SparseMatrix<double> ScalarMetric(const Metric& metric, const std::vector
     for (int first = 0; first < feature->NumElements(); first += kElementsAtATime) {
       const int count = std::min(kElementsAtATime, feature->NumElements() - first);
       ForRanges(count, [&](int begin, int end) {
-        ElementBlocks(*feature, first + begin, first + end, poses, quartic_segments,
+        ElementBlocks(*feature, first + begin, first + end, poses, quartic_segments, stiffest,
                       &blocks[static_cast<size_t>(begin) * size]);
       });
       for (int i = 0; i < count; ++i) {

@@ -11,6 +11,10 @@
 
 namespace shapespace::internal {
 
+/// The greatest sum of 4 weight k^T k over an element's scalar rows k that the matrix below has;
+/// stiffer elements are scaled down to it.
+double StiffestElement(const Metric& metric, const std::vector<Shape>& poses);
+
 /// The scalar m x m matrix that approximates the metric's matrix for each axis: the sum of 4 w k
 /// k^T over the elements, where k are the coefficients of the features' stencils, averaged over
 /// `poses`. If `quartic_segments` > 0, adds the trapezoid's quartic part for that many segments

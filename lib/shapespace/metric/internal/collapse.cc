@@ -1,0 +1,52 @@
+#include <shapespace/metric/internal/collapse.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <shapespace/metric/edge_length.h>
+#include <shapespace/metric/triangle_strain.h>
+
+namespace shapespace::internal {
+namespace {
+
+constexpr double kCollapseStrain = 3;
+
+// Of an element with the corners `vertices` of a feature whose values are strains.
+template <typename Strain, int kVertices>
+double Kept(const MetricBasis& basis, const int (&vertices)[kVertices]) {
+  Strain strain;
+  strain.epsilon_squared = basis.CollapsedSquared();
+  using Values = Eigen::Matrix<double, Strain::kValues, 1>;
+  Values value, before, low, high;
+  double greatest = 0;
+  for (size_t i = 0; i < basis.poses.size(); ++i) {
+    double x[3 * kVertices];
+    for (int k = 0; k < kVertices; ++k) {
+      Eigen::Map<Eigen::Vector3d>(x + 3 * k) = basis.poses[i].col(vertices[k]);
+    }
+    strain(x, value.data());
+    if (i == 0) {
+      low = high = value;
+    } else {
+      greatest = std::max(greatest, (value - before).norm());
+    }
+    low = low.cwiseMin(value);
+    high = high.cwiseMax(value);
+    before = value;
+  }
+  return KeptInCollapse(basis.pairs == PosePairs::kAll ? (high - low).norm() : greatest);
+}
+
+}  // namespace
+
+double KeptInCollapse(double change) { return 1 / (1 + std::pow(change / kCollapseStrain, 8)); }
+
+double KeptInCollapse(const MetricBasis& basis, int a, int b, int c) {
+  return Kept<TriangleStrain>(basis, {a, b, c});
+}
+
+double KeptInCollapse(const MetricBasis& basis, int a, int b) {
+  return Kept<LogLength>(basis, {a, b});
+}
+
+}  // namespace shapespace::internal
