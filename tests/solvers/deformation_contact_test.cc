@@ -117,6 +117,32 @@ TEST(DeformationContactTest, ASoftHandleDrawsAsFarAsNothingTouches) {
   EXPECT_GT(past.summary.handles[2].residual_rms, 2 * through.summary.handles[2].residual_rms);
 }
 
+// The last shape of a path moves as the others do, and keeps off what it touches as they do, by a
+// share of an edge: a plate that is held at one end, while the other is drawn through a table.
+TEST(DeformationContactTest, TheLastShapeKeepsItsDistance) {
+  constexpr double kEdge = 0.5;
+  const ShapeFamily plate = MakeSheet(6 * kEdge, 2 * kEdge, 6, 2);
+  const Shape rest = plate.pose(0).colwise() + Eigen::Vector3d(0, 0, 0.5);
+  DeformationHandle held, drawn;
+  for (int v = 0; v < rest.cols(); ++v) {
+    if (rest(0, v) < -0.9) held.vertices.push_back(v);
+    if (rest(0, v) > 1.4) drawn.vertices.push_back(v);
+  }
+  drawn.hard = false;
+  drawn.motion.translation = {0, 0, -0.7};
+  DeformationOptions options;
+  options.avoid_contact = true;
+  options.balance = 0.05;
+  options.obstacle = testing::Rectangle({-3, -3.1}, {3.2, 3.3}, 0);
+  for (const int shapes : {1, 3}) {
+    options.shapes = shapes;
+    const auto [path, summary] = Deform(plate.connectivity, rest, {held, drawn}, options);
+    EXPECT_EQ(summary.uncertified_segments, 0) << shapes;
+    EXPECT_GT(summary.contact_distance, 0.01 * kEdge) << shapes;
+    EXPECT_NEAR(path.Placed(shapes).row(2).minCoeff(), summary.contact_distance, 1e-9) << shapes;
+  }
+}
+
 TEST(DeformationContactTest, WithoutContactItIsTheSame) {
   const OpenRing ring;
   const std::vector<DeformationHandle> handles = {ring.Held(ring.middle), ring.Moved(-0.3)};

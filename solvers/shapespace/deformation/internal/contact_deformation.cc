@@ -65,16 +65,18 @@ class HandleFollower {
   HeldLevel& level_;
 };
 
-// Motions from each shape to the next where they are free of contact; elsewhere the shapes alone.
+// From each shape the motion to the next, if it is free of contact; else the shape alone. So also
+// for the last, which nothing but its own potential keeps off contact: that of a motion is of the
+// times before its end.
 std::vector<PathContact::Motion> FreeMotions(const ContactModel& model,
                                              const std::vector<Shape>& shapes) {
+  const int last = static_cast<int>(shapes.size()) - 1;
   std::vector<PathContact::Motion> motions;
-  for (int i = 0; i + 1 < static_cast<int>(shapes.size()); ++i) {
-    if (model.IsFree(shapes[i], shapes[i + 1])) {
+  for (int i = 0; i <= last; ++i) {
+    if (i < last && model.IsFree(shapes[i], shapes[i + 1])) {
       motions.push_back({i, i + 1});
-    } else {
-      motions.push_back({i + 1, i + 1});
-      if (i > 0) motions.push_back({i, i});
+    } else if (i > 0) {  // the first does not move
+      motions.push_back({i, i});
     }
   }
   return motions;
