@@ -117,6 +117,22 @@ TEST(DeformationContactTest, ASoftHandleDrawsAsFarAsNothingTouches) {
   EXPECT_GT(past.summary.handles[2].residual_rms, 2 * through.summary.handles[2].residual_rms);
 }
 
+// Few shapes, between which the straight motion of the shapes on the way passes through the body.
+TEST(DeformationContactTest, WhereOnlySoftHandlesMoveAllSegmentsAreFree) {
+  const OpenRing ring;
+  DeformationHandle soft = ring.Moved(0.9);
+  soft.hard = false;
+  DeformationOptions options;
+  options.avoid_contact = true;
+  options.balance = 0.1;
+  options.shapes = 2;
+  const DeformationResult result = Deform(
+      ring.connectivity, ring.rest, {ring.Held(ring.middle), ring.Held(ring.first), soft}, options);
+  EXPECT_EQ(result.summary.uncertified_segments, 0) << result.summary.FullReport();
+  EXPECT_TRUE(result.summary.warnings.empty()) << result.summary.warnings.front();
+  EXPECT_TRUE(result.summary.Converged());
+}
+
 // The last shape of a path moves as the others do, and keeps off what it touches as they do, by a
 // share of an edge: a plate that is held at one end, while the other is drawn through a table.
 TEST(DeformationContactTest, TheLastShapeKeepsItsDistance) {
