@@ -133,6 +133,23 @@ TEST(DeformationContactTest, WhereOnlySoftHandlesMoveAllSegmentsAreFree) {
   EXPECT_TRUE(result.summary.Converged());
 }
 
+// A hard handle is where it is to be at each time, even if few shapes do not suffice then.
+TEST(DeformationContactTest, WhereAHardHandleMovesItKeepsItsTimes) {
+  const OpenRing ring;
+  const std::vector<DeformationHandle> handles = {ring.Held(ring.middle), ring.Moved(1.4)};
+  DeformationOptions options;
+  options.avoid_contact = true;
+  options.balance = 0.1;
+  options.shapes = 2;
+  const auto [path, summary] = Deform(ring.connectivity, ring.rest, handles, options);
+  EXPECT_EQ(summary.warnings.size(), static_cast<size_t>(summary.uncertified_segments > 0));
+  for (int i = 0; i <= 2; ++i) {
+    const Shape places = path.Placed(i)(Eigen::all, ring.last);
+    const Eigen::Vector3d way = handles[1].motion.translation * i / 2.;
+    EXPECT_LT((places.colwise() - way - ring.rest(Eigen::all, ring.last)).norm(), 1e-12) << i;
+  }
+}
+
 // The last shape of a path moves as the others do, and keeps off what it touches as they do, by a
 // share of an edge: a plate that is held at one end, while the other is drawn through a table.
 TEST(DeformationContactTest, TheLastShapeKeepsItsDistance) {
