@@ -15,7 +15,6 @@
 #include <shapespace/correspondence/internal/gradient_fit.h>
 #include <shapespace/correspondence/internal/smooth_stretch.h>
 #include <shapespace/correspondence/internal/unfold.h>
-#include <shapespace/mesh/topology.h>
 
 namespace shapespace::internal {
 namespace {

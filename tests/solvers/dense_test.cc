@@ -1,5 +1,7 @@
 #include <shapespace/numerics/internal/dense.h>
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <Eigen/Core>
 
