@@ -477,7 +477,8 @@ THIRD_LINES = [
     ("solvers/cost/path_energy.cc", "std::sqrt(quartic_weight)", "quartic_weight"),
     ("solvers/deformation/internal/constrained_path.cc",
      "if (potential) potential->Limit(&own);", ";"),
-    ("solvers/deformation/internal/contact_deformation.cc", "GiveWay(places, guide, shape);", ";"),
+    ("solvers/deformation/internal/contact_deformation.cc",
+     "GiveWay(places, guide, &shape);", ";"),
     ("solvers/deformation/internal/held_level.cc",
      "held.prescribed || (held.given && last)", "held.prescribed"),
     ("solvers/exploration/internal/space_arrays.cc",
@@ -515,9 +516,42 @@ THIRD_LINES = [
     ("tools/support/tool.cc", 'if (FLAGS_progress == "lines") ProgressForPrograms();', ";"),
 ]
 
+# Helpers that were tested through their callers alone, which did not notice the first five.
+HELPERS = [
+    ("lib/mesh/triangulate.cc", "std::conj(flat[k]) * first[k]", "std::conj(first[k]) * flat[k]"),
+    ("solvers/correspondence/internal/smooth_stretch.cc",
+     "right.row(triangles(k, f)) += areas_(f) / 3 * raw.col(f).transpose();",
+     "right.row(triangles(k, f)) += areas_(f) * raw.col(f).transpose();"),
+    ("solvers/statistics/assess.cc",
+     "Rms(metric, (lengths - most).cwiseMax(0) + (least - lengths).cwiseMax(0))",
+     "Rms(metric, (lengths - most).cwiseMax(0))"),
+    ("solvers/correspondence/internal/unfold.cc", "lengths + p.dot(q)", "lengths - p.dot(q)"),
+    ("solvers/geodesic/internal/unwrap_hinges.cc", "feature.Weight(e) * sum", "sum"),
+    ("lib/bodies/internal/bend.h", "point.z() * std::cos(turn)", "point.z()"),
+    ("lib/hierarchy/internal/detail.cc", "mean += weights / poses.size();", "mean = weights;"),
+    ("lib/hierarchy/internal/detail.cc", "rotations[b] += product;", ";"),
+    ("lib/hierarchy/internal/detail.cc",
+     "products[v] += after * before.transpose();", "products[a] += after * before.transpose();"),
+    ("lib/mesh/internal/geometry.h",
+     "kShare * kShare * squared_lengths.mean()", "kShare * squared_lengths.mean()"),
+    ("lib/metric/internal/lower_block.h", "place - b", "place"),
+    ("solvers/correspondence/internal/closest.cc",
+     "normal += closest.barycentric(k) * normals_.col(triangle(k));",
+     "normal += normals_.col(triangle(k));"),
+    ("solvers/correspondence/internal/gradient_fit.cc",
+     "right_.row(unknowns[k]) += weight * gradients[k].transpose();",
+     "right_.row(unknowns[k]) += gradients[k].transpose();"),
+    ("solvers/correspondence/internal/unfold.cc",
+     "others.col(closest[triangles(k, f)].triangle)",
+     "others.col(closest[triangles(0, f)].triangle)"),
+    ("solvers/numerics/internal/dense.cc",
+     'dtrsm_("R", "L", "T", "N", &m, &n, &kOne, l, &ldl, b, &ldb);',
+     'dtrsm_("R", "L", "N", "N", &m, &n, &kOne, l, &ldl, b, &ldb);'),
+]
+
 # With their numbers, from 1.
 MUTATIONS = [(number, file, text, instead) for number, (file, text, instead) in
-             enumerate(SPECIAL_CASES + LINES + MORE_LINES + THIRD_LINES, 1)]
+             enumerate(SPECIAL_CASES + LINES + MORE_LINES + THIRD_LINES + HELPERS, 1)]
 
 
 def full_name(file):

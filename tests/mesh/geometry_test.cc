@@ -19,6 +19,11 @@ TEST(GeometryTest, ARightTriangleHasHalfItsRectangle) {
   EXPECT_EQ(UnitNormal(a * 1e-90, b * 1e-90, c * 1e-90), Eigen::Vector3d::UnitZ());
 }
 
+TEST(GeometryTest, TheShortestLengthIsAThousandthOfTheRootMeanSquare) {
+  const Eigen::Vector4d lengths(1, 5, 7, 5);
+  EXPECT_NEAR(std::sqrt(SquaredShortest(lengths.cwiseAbs2())), 5e-3, 1e-17);
+}
+
 TEST(GeometryTest, TheSmoothStepRisesFromZeroToOneWithoutKinks) {
   EXPECT_EQ(SmoothStep(-1), 0);
   EXPECT_EQ(SmoothStep(2), 1);

@@ -97,6 +97,25 @@ TEST(TriangulateTest, ThePlaceOrientationAndSizeOfPosesAndTheFirstCornerDoNotMat
   }
 }
 
+// Two poses that differ, each turned by itself: the mean is that of polygons that lie alike.
+TEST(TriangulateTest, EachOfSeveralPosesMayBeTurned) {
+  constexpr int kCorners = 9;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const Shape first = RandomPolygon(kCorners, seed), second = RandomPolygon(kCorners, seed + 100);
+    const auto wanted = AsSet(Triangulate({0, kCorners}, Counting(kCorners), {first, second}));
+    for (const double angle : {0.5, 1.6, 2.7}) {
+      const Eigen::Matrix3d in_plane(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+      const Eigen::Matrix3d in_space(
+          Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, 3).normalized()));
+      for (const Eigen::Matrix3d& turn : {in_plane, in_space}) {
+        const Shape turned = turn * second;
+        EXPECT_EQ(AsSet(Triangulate({0, kCorners}, Counting(kCorners), {first, turned})), wanted)
+            << seed << ", " << angle;
+      }
+    }
+  }
+}
+
 TEST(TriangulateTest, ThePosesMeanDecides) {
   // A square whose corner 0 is pushed inwards far in one pose and outwards slightly in the other:
   // in the mean, as in the first pose, only the diagonal 0-2 is inside. The opposite case likewise.

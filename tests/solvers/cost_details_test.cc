@@ -1,6 +1,7 @@
 // Residuals and derivatives of the blocks for Ceres, on a tiny body of numbers without symmetries:
 // residuals against the feature map, derivatives against differences.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -17,12 +18,15 @@
 #include <shapespace/cost/internal/refuse_sums.h>
 #include <shapespace/cost/path_energy.h>
 #include <shapespace/cost/path_energy_function.h>
+#include <shapespace/cost/shape_features.h>
 #include <shapespace/cost/tangent_projection.h>
 #include <shapespace/cost/transport_constraint.h>
+#include <shapespace/metric/define_feature.h>
 #include <shapespace/metric/feature_map.h>
 #include <shapespace/path/energy.h>
 
 #include "support/message_of.h"
+#include "support/own_features.h"
 #include "support/paths.h"
 
 namespace shapespace::cost {
@@ -192,6 +196,70 @@ TEST(CostDetails, SegmentsHaveTheDerivativesOfTheirDifferences) {
     SetConstantFrom({shapes[1].col(2).data()}, &problem);
     ExpectDerivatives(&problem);
   }
+}
+
+// Features with derivatives of their own that are wrong, and not even finite.
+template <typename Struct, typename Own>
+struct WronglyDerived : testing::CopyOf<Struct, Own> {
+  static constexpr bool kHasDerivatives = true;
+
+  void Derivatives(const double* x, double* value, double* derivative) const {
+    (*this)(x, value);
+    std::fill_n(derivative, 3 * Struct::kVertices * Struct::kValues, NAN);
+  }
+};
+struct WrongStrain : WronglyDerived<TriangleStrain, WrongStrain> {
+  static constexpr const char* kName = "wrongly derived strain";
+};
+struct WrongDihedral : WronglyDerived<Dihedral, WrongDihedral> {
+  static constexpr const char* kName = "wrongly derived dihedral";
+};
+struct WrongVolume : WronglyDerived<VolumeFeature, WrongVolume> {
+  static constexpr const char* kName = "wrongly derived volume";
+};
+
+// Every block of every cost function evaluates the functor of a term alone, by Jets.
+TEST(CostDetails, DerivativesAreThoseOfTheFunctorWhateverAFeatureSaysThatTheyAre) {
+  RegisterFeature<WrongStrain>();
+  RegisterFeature<WrongDihedral>();
+  RegisterFeature<WrongVolume>();
+  const TinyBody body;
+  MetricOptions options;
+  options.features = {{"wrongly derived strain", 0.7}, {"wrongly derived dihedral", 0.2}};
+  const auto without_sum = body.Freeze(options);
+  options.features.push_back({"wrongly derived volume", 0.3});
+  const auto metric = body.Freeze(options);
+  ASSERT_FALSE(
+      FeatureMap(metric).Derivative(body.Near(*metric, 1)).Times(Noise(4, 1, 2)).allFinite());
+
+  std::vector<Shape> shapes = {body.Near(*metric, 1), body.Near(*metric, 2), body.Near(*metric, 3)};
+  ceres::Problem segments;
+  AddPathEnergy(*metric, &shapes, &segments);
+  ExpectDerivatives(&segments);
+
+  ShapeFeatures features(metric, &shapes);
+  ceres::Problem::Options shared;
+  shared.evaluation_callback = &features;
+  ceres::Problem at_once(shared);
+  AddPathEnergy(*metric, &shapes, &at_once, nullptr, 1, &features);
+  ExpectDerivatives(&at_once);
+
+  const FeatureMap map(metric);
+  const Shape at = shapes[1];
+  const EulerLagrange equation(*metric, at, 2 * map.Values(at) - map.Values(shapes[0]));
+  EXPECT_TRUE(std::isfinite(equation.Rounding()));
+  std::vector<double> sums;
+  ceres::Problem rows;
+  equation.AddTo(&shapes[2], &sums, &rows);
+  EXPECT_TRUE(Residuals(&rows).allFinite());
+  ExpectDerivatives(&rows);
+
+  Tangent y = Noise(4, 1, 9);
+  const Eigen::VectorXd change = FeatureMap(without_sum).Values(shapes[1]) * 0.1;
+  ceres::Problem projection;
+  AddTangentProjection(*without_sum, at, change, &y, &projection);
+  EXPECT_TRUE(Residuals(&projection).allFinite());
+  ExpectDerivatives(&projection);
 }
 
 TEST(CostDetails, TheFunctionOfAPathIsItsEnergyAsAShare) {

@@ -117,6 +117,65 @@ TEST(DeformationContactTest, ASoftHandleDrawsAsFarAsNothingTouches) {
   EXPECT_GT(past.summary.handles[2].residual_rms, 2 * through.summary.handles[2].residual_rms);
 }
 
+// Few shapes, between which the straight motion of the shapes on the way passes through the body.
+TEST(DeformationContactTest, WhereOnlySoftHandlesMoveAllSegmentsAreFree) {
+  const OpenRing ring;
+  DeformationHandle soft = ring.Moved(0.9);
+  soft.hard = false;
+  DeformationOptions options;
+  options.avoid_contact = true;
+  options.balance = 0.1;
+  options.shapes = 2;
+  const DeformationResult result = Deform(
+      ring.connectivity, ring.rest, {ring.Held(ring.middle), ring.Held(ring.first), soft}, options);
+  EXPECT_EQ(result.summary.uncertified_segments, 0) << result.summary.FullReport();
+  EXPECT_TRUE(result.summary.warnings.empty()) << result.summary.warnings.front();
+  EXPECT_TRUE(result.summary.Converged());
+}
+
+// A hard handle is where it is to be at each time, even if few shapes do not suffice then.
+TEST(DeformationContactTest, WhereAHardHandleMovesItKeepsItsTimes) {
+  const OpenRing ring;
+  const std::vector<DeformationHandle> handles = {ring.Held(ring.middle), ring.Moved(1.4)};
+  DeformationOptions options;
+  options.avoid_contact = true;
+  options.balance = 0.1;
+  options.shapes = 2;
+  const auto [path, summary] = Deform(ring.connectivity, ring.rest, handles, options);
+  EXPECT_EQ(summary.warnings.size(), static_cast<size_t>(summary.uncertified_segments > 0));
+  for (int i = 0; i <= 2; ++i) {
+    const Shape places = path.Placed(i)(Eigen::all, ring.last);
+    const Eigen::Vector3d way = handles[1].motion.translation * i / 2.;
+    EXPECT_LT((places.colwise() - way - ring.rest(Eigen::all, ring.last)).norm(), 1e-12) << i;
+  }
+}
+
+// The last shape of a path moves as the others do, and keeps off what it touches as they do, by a
+// share of an edge: a plate that is held at one end, while the other is drawn through a table.
+TEST(DeformationContactTest, TheLastShapeKeepsItsDistance) {
+  constexpr double kEdge = 0.5;
+  const ShapeFamily plate = MakeSheet(6 * kEdge, 2 * kEdge, 6, 2);
+  const Shape rest = plate.pose(0).colwise() + Eigen::Vector3d(0, 0, 0.5);
+  DeformationHandle held, drawn;
+  for (int v = 0; v < rest.cols(); ++v) {
+    if (rest(0, v) < -0.9) held.vertices.push_back(v);
+    if (rest(0, v) > 1.4) drawn.vertices.push_back(v);
+  }
+  drawn.hard = false;
+  drawn.motion.translation = {0, 0, -0.7};
+  DeformationOptions options;
+  options.avoid_contact = true;
+  options.balance = 0.05;
+  options.obstacle = testing::Rectangle({-3, -3.1}, {3.2, 3.3}, 0);
+  for (const int shapes : {1, 3}) {
+    options.shapes = shapes;
+    const auto [path, summary] = Deform(plate.connectivity, rest, {held, drawn}, options);
+    EXPECT_EQ(summary.uncertified_segments, 0) << shapes;
+    EXPECT_GT(summary.contact_distance, 0.01 * kEdge) << shapes;
+    EXPECT_NEAR(path.Placed(shapes).row(2).minCoeff(), summary.contact_distance, 1e-9) << shapes;
+  }
+}
+
 TEST(DeformationContactTest, WithoutContactItIsTheSame) {
   const OpenRing ring;
   const std::vector<DeformationHandle> handles = {ring.Held(ring.middle), ring.Moved(-0.3)};

@@ -355,6 +355,41 @@ TEST(AssessShapeModel, DistancesAreMeansAsSharesOfTheMeanDiagonal) {
             "an assessment leaves one pose out, and needs three or more");
 }
 
+// Some edges of a random shape are longer than in every pose, others are shorter.
+TEST(AssessShapeModel, EdgesBeyondThoseOfThePosesCountOnBothSides) {
+  const std::vector<Shape> poses = BarPoses(4);
+  AssessmentOptions options;
+  options.samples = 1;
+  const ShapeModel model(MakeShapeModel(SmallBar().connectivity, poses, {}).modes);
+  const Metric& metric = *model.Modes().metric;
+  const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
+  const auto length = [&](const Shape& shape, Eigen::Index e) {
+    return (shape.col(edges(0, e)) - shape.col(edges(1, e))).norm();
+  };
+  int longer_alone = 0, shorter_alone = 0;
+  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+    const Assessment assessment = AssessShapeModel(SmallBar().connectivity, poses, options);
+    const Shape sample = model.At(model.Sample(options.seed).head(2)).shape;
+    double longer = 0, shorter = 0;
+    for (Eigen::Index e = 0; e < edges.cols(); ++e) {
+      double least = 1e300, most = 0;
+      for (const Shape& pose : poses) {
+        least = std::min(least, length(pose, e));
+        most = std::max(most, length(pose, e));
+      }
+      const double here = length(sample, e), share = metric.edge_area(e) / metric.edge_area.sum();
+      if (here > most) longer += share * std::pow(std::log(here / most), 2);
+      if (here < least) shorter += share * std::pow(std::log(least / here), 2);
+    }
+    const double beyond = std::sqrt(longer + shorter);
+    EXPECT_NEAR(assessment.rows[1].beyond, beyond, 1e-4 * beyond);
+    longer_alone += longer > 0.01 * shorter;
+    shorter_alone += shorter > 0.01 * longer;
+  }
+  EXPECT_GT(longer_alone, 0);
+  EXPECT_GT(shorter_alone, 0);
+}
+
 TEST(PageOf, HasTheKeysOfAllModesAndPairsAndTheNumbersOfTheModel) {
   PoseModes modes = FirstModes(BarModes(), 3);
   modes.appearance.vertex_colours = Eigen::MatrixXd::Constant(3, modes.mean.cols(), 0.25);

@@ -118,6 +118,24 @@ TEST(UnwrapHinges, NothingMovesThatWouldCostMore) {
   }
 }
 
+// By elements, each with its feature's weight, as the kernels have it of all.
+TEST(UnwrapHinges, EnergiesOfElementsAddUpToThatOfThePath) {
+  MetricOptions options;
+  options.strain = 0.5;
+  const Sheet even(options);
+  options.stretching_stiffness = Eigen::VectorXd::LinSpaced(even.rest.cols(), 1, 50);
+  options.bending_stiffness = Eigen::VectorXd::LinSpaced(even.rest.cols(), 30, 1);
+  const Sheet sheet(options);
+  const std::vector<Shape> shapes = testing::NoisyBlend(sheet.rest, sheet.Turned(1), 3, 0.05);
+  double sum = 0;
+  for (size_t f = 0; f < sheet.metric->features.size(); ++f) {
+    for (int e = 0; e < sheet.metric->features[f]->NumElements(); ++e) {
+      sum += internal::ElementEnergy(*sheet.metric, {static_cast<int>(f), e}, shapes);
+    }
+  }
+  EXPECT_NEAR(2 * sum, sheet.Energy(shapes), 1e-11 * sum);
+}
+
 TEST(UnwrapHinges, MovesWithTheBody) {
   const Sheet sheet;
   const Eigen::Matrix3d turn =

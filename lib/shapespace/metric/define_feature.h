@@ -76,6 +76,15 @@ class FeatureOf final : public Feature {
     }
   }
 
+  void Differentiate(int count, const double* x, double* values,
+                     double* derivatives) const override {
+    if (derivatives == nullptr) return Evaluate(count, x, values, nullptr);
+    for (int e = 0; e < count; ++e, x += kSize, values += kValues) {
+      DeriveAutomatically(feature_, x, values, derivatives);
+      derivatives += kSize * kValues;
+    }
+  }
+
   void SecondDerivatives(int count, const double* x, const double* along,
                          double* values) const override {
     for (int e = 0; e < count; ++e, x += kSize, along += kSize) {

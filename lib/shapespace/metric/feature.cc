@@ -13,6 +13,10 @@ void Feature::GatherCoordinates(int begin, int end, const Shape& shape, double* 
   }
 }
 
+void Feature::Differentiate(int count, const double* x, double* values, double* derivatives) const {
+  Evaluate(count, x, values, derivatives);
+}
+
 void Feature::ScalarRows(int count, const double* x, double* rows) const {
   // A derivative acts along one direction, but the scalar rows along all three. A third would be
   // the mean over directions; with 0.6 the unit step of a quasi-Newton method is acceptable from

@@ -39,7 +39,7 @@ struct ElementFeature {
   /// kValues is 1, and `weights` has one entry.
   static constexpr bool kSum = false;
   /// Whether the struct has, beside the automatic derivatives of its values, faster ones of its
-  /// own:
+  /// own, which the library's kernels use and Ceres' cost functions do not:
   ///
   ///      void Derivatives(const double* x, double* value, double* derivative) const
   ///
@@ -114,6 +114,12 @@ class Feature {
   /// derivatives: by element, by vertex, by value, three numbers each.
   virtual void Evaluate(int count, const double* x, double* values,
                         double* derivatives = nullptr) const = 0;
+  /// The same, but the derivatives are always those of the values by automatic differentiation,
+  /// even if the struct has derivatives of its own (kHasDerivatives). Ceres' cost functions
+  /// evaluate this. Unless overridden, it is `Evaluate`: features of Python's have no values to
+  /// differentiate.
+  virtual void Differentiate(int count, const double* x, double* values,
+                             double* derivatives = nullptr) const;
   /// The second derivative of the values along the line x + s along, at s = 0.
   virtual void SecondDerivatives(int count, const double* x, const double* along,
                                  double* values) const = 0;

@@ -50,7 +50,8 @@ class FeatureMap {
   Eigen::VectorXd Values(const Shape& shape) const;
   /// Index in Phi of the first value of metric.features[feature].
   int FirstValue(size_t feature) const;
-  /// J(P), differentiated automatically.
+  /// J(P), by Feature::Evaluate: the derivatives that features have of their own, or else automatic
+  /// ones.
   FeatureDerivative Derivative(const Shape& shape) const;
   /// The second derivative of Phi at P along X twice.
   Eigen::VectorXd SecondDerivative(const Shape& shape, const Tangent& x) const;

@@ -83,7 +83,7 @@ const double* EulerLagrange::Add(const std::shared_ptr<const Feature>& feature, 
   for (int e = 0; e < feature->NumElements(); ++e) {
     const int* const vertices = feature->Element(e);
     feature->GatherCoordinates(e, e + 1, at, x);
-    feature->Evaluate(1, x, values, derivatives);
+    feature->Differentiate(1, x, values, derivatives);
     const double root = std::sqrt(feature->Weight(e));
     double rounded[Feature::kMaxValues];  // magnitudes of the terms of values
     for (int k = 0; k < num_values; ++k) {

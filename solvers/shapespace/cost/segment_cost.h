@@ -16,10 +16,10 @@
 
 namespace shapespace::cost {
 
-// Ceres cost functions of one segment of a path, automatically differentiated. Their parameter
-// blocks are vertices (3 numbers): first the element's vertices in shape i, then the same in shape
-// i + 1. Residuals are scaled so that Ceres' cost, half the sum of squares, is a quarter of the
-// energy.
+// Ceres cost functions of one segment of a path, automatically differentiated, whether or not a
+// feature has derivatives of its own (Feature::Differentiate). Their parameter blocks are vertices
+// (3 numbers): first the element's vertices in shape i, then the same in shape i + 1. Residuals are
+// scaled so that Ceres' cost, half the sum of squares, is a quarter of the energy.
 
 /// sqrt(w) (Phi_{i+1} - Phi_i) of one element of a feature. Each end is differentiated with Jets of
 /// its own, which are half as long as those of the whole segment would be.
@@ -37,7 +37,7 @@ class FeatureSegment final : public ceres::CostFunction {
     double x[2 * 3 * Feature::kMaxVertices], values[2 * Feature::kMaxValues];
     double derivatives[2 * 3 * Feature::kMaxVertices * Feature::kMaxValues];
     for (int k = 0; k < 2 * num_vertices; ++k) std::copy_n(blocks[k], 3, x + 3 * k);
-    feature_->Evaluate(2, x, values, jacobians != nullptr ? derivatives : nullptr);
+    feature_->Differentiate(2, x, values, jacobians != nullptr ? derivatives : nullptr);
     for (int k = 0; k < num_values; ++k) {
       residual[k] = root_weight_ * (values[num_values + k] - values[k]);
     }

@@ -36,7 +36,7 @@ void ShapeFeatures::PrepareForEvaluation(bool evaluate_jacobians, bool new_evalu
     for (int begin = 0; begin < feature.NumElements(); begin += kElements) {
       const int end = std::min(begin + kElements, feature.NumElements());
       feature.GatherCoordinates(begin, end, shapes_[i % shapes_.size()], x);
-      feature.Evaluate(
+      feature.Differentiate(
           end - begin, x, values_[i].values.data() + static_cast<size_t>(begin) * values,
           evaluate_jacobians
               ? values_[i].derivatives.data() + static_cast<size_t>(begin) * coordinates * values

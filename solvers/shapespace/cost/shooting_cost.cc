@@ -42,7 +42,7 @@ bool EulerLagrangeRows::Evaluate(const double* const* blocks, double* residual,
     double derivatives[3 * Feature::kMaxVertices * Feature::kMaxValues];
     for (const int element : part.elements) {
       for (int k = 0; k < num_vertices; ++k) std::copy_n(blocks[block[k]], 3, x + 3 * k);
-      feature.Evaluate(1, x, values, jacobians != nullptr ? derivatives : nullptr);
+      feature.Differentiate(1, x, values, jacobians != nullptr ? derivatives : nullptr);
       const double root = std::sqrt(feature.Weight(element));
       for (int value = 0; value < num_values; ++value, gradient += 3) {
         const double change = root * values[value] - *target++;

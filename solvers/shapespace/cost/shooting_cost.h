@@ -12,8 +12,8 @@
 
 namespace shapespace::cost {
 
-// Ceres cost functions of shooting and of the paper's transport, automatically differentiated.
-// Their parameter blocks are vertices (3 numbers).
+// Ceres cost functions of shooting and of the paper's transport, automatically differentiated as
+// those of segment_cost.h. Their parameter blocks are vertices (3 numbers).
 
 /// The terms of one feature in the rows of vertex v of J(at)^T [Phi(P) - target] = 0.
 struct VertexElements {

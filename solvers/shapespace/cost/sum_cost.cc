@@ -11,7 +11,7 @@ double AddSum(const Feature& feature, const double* const* blocks, double scale,
     const int* const vertices = feature.Element(e);
     for (int k = 0; k < num_vertices; ++k) std::copy_n(blocks[vertices[k]], 3, x + 3 * k);
     double value;
-    feature.Evaluate(1, x, &value, jacobians != nullptr ? derivatives : nullptr);
+    feature.Differentiate(1, x, &value, jacobians != nullptr ? derivatives : nullptr);
     sum += value;
     for (int k = 0; jacobians != nullptr && k < num_vertices; ++k) {
       double* const jacobian = jacobians[vertices[k]];

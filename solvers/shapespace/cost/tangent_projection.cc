@@ -70,7 +70,7 @@ void AddTangentProjection(const Metric& metric, const Shape& at, const Eigen::Ve
     for (int e = 0; e < feature->NumElements(); ++e, next += values) {
       std::vector<double> derivative(3 * vertices * values);
       feature->GatherCoordinates(e, e + 1, at, x);
-      feature->Evaluate(1, x, ignored, derivative.data());
+      feature->Differentiate(1, x, ignored, derivative.data());
       for (double& entry : derivative) entry *= std::sqrt(feature->Weight(e));
       std::vector<double*> blocks;
       for (int k = 0; k < vertices; ++k) blocks.push_back(y->col(feature->Element(e)[k]).data());

@@ -22,12 +22,16 @@ namespace internal {
 class GeodesicLevels;
 }
 
-/// The optimiser of each level.
+/// The optimiser of each level. Ways round contact (GeodesicOptions::avoid_contact) are relaxed by
+/// this library's L-BFGS whichever is chosen, and so are deformations by handles unless
+/// DeformationOptions::solver says otherwise: docs/architecture.md has all of them in one table.
 enum class GeodesicSolver {
-  kAutomatic,      ///< kLbfgs for small problems, kThreadedLbfgs for large ones
+  kAutomatic,      ///< kLbfgs below 20,000 unknowns (three for each vertex of each inner shape),
+                   ///< kThreadedLbfgs from there on
   kLbfgs,          ///< Ceres' L-BFGS, preconditioned, on hand-written kernels
   kThreadedLbfgs,  ///< this library's L-BFGS on the same kernels, on all threads
-  kTrustRegion,    ///< Ceres' Levenberg-Marquardt on automatically differentiated residual blocks
+  kTrustRegion,    ///< Ceres' Levenberg-Marquardt on residual blocks, each of which is the functor
+                   ///< of a feature, automatically differentiated (cost/path_energy.h)
 };
 
 /// The order in which resolutions in space (levels of a `Hierarchy`, coarsest c to finest f) and in

@@ -19,10 +19,7 @@
 #include <shapespace/path/energy.h>
 
 namespace shapespace::internal {
-namespace {
 
-// Divides the straight ways between `states` into `segments` parts in all, so that the longest is
-// short.
 std::vector<Shape> Divide(const Metric& metric, const std::vector<Shape>& states, int segments) {
   const std::vector<double> lengths = ChordLengths(metric, states);
   std::vector<int> parts(lengths.size(), 1);
@@ -42,6 +39,8 @@ std::vector<Shape> Divide(const Metric& metric, const std::vector<Shape>& states
   }
   return shapes;
 }
+
+namespace {
 
 // Relaxes the energy, or, unless `guide` is null, as KeepIncrements.
 MinimiseResult Relax(const ContactModel& model, const std::shared_ptr<const Metric>& metric,

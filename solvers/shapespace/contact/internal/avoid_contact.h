@@ -26,6 +26,10 @@ struct ContactFreePath {
 /// Half the squared length of a polyline, the energy of a path along it with constant speed.
 double EnergyAlong(const Metric& metric, const std::vector<Shape>& shapes);
 
+/// Divides the straight ways between `states` into `segments` parts in all, as many or more, so
+/// that the longest is short.
+std::vector<Shape> Divide(const Metric& metric, const std::vector<Shape>& states, int segments);
+
 /// The segments during whose straight motion something touches.
 std::vector<int> SegmentsWithContact(const ContactModel& model, const std::vector<Shape>& shapes);
 

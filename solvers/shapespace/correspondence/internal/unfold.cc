@@ -1,7 +1,6 @@
 #include <shapespace/correspondence/internal/unfold.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -17,27 +16,9 @@ constexpr int kRings = 6, kAverages = 8;
 // Number of passes; three passes leave a fifth fewer folds than one.
 constexpr int kPasses = 3;
 
-// Neighbours of each vertex, with M. Floater's mean value weights ("Mean value coordinates", 2003).
-// They are positive, so that no folds arise, and approximately preserve the triangles' shapes.
-class Neighbours {
- public:
-  Neighbours(const Connectivity& connectivity, const Shape& rest);
+}  // namespace
 
-  // Calls use(neighbour, weight) for each.
-  template <typename Use>
-  void ForEach(int v, const Use& use) const {
-    for (const int e : connectivity_.EdgesOfVertices()[v]) {
-      const double weight = weights_[e][v == connectivity_.Edges()(0, e) ? 0 : 1];
-      if (weight > 0) use(connectivity_.OtherEnd(e, v), weight);
-    }
-  }
-
- private:
-  const Connectivity& connectivity_;
-  std::vector<std::array<double, 2>> weights_;  // per edge: for its first vertex and its second
-};
-
-Neighbours::Neighbours(const Connectivity& connectivity, const Shape& rest)
+MeanValueWeights::MeanValueWeights(const Connectivity& connectivity, const Shape& rest)
     : connectivity_(connectivity), weights_(connectivity.NumEdges(), {0, 0}) {
   const auto add = [&](int from, int to, double weight) {
     for (const int e : connectivity.EdgesOfVertices()[from]) {
@@ -60,8 +41,10 @@ Neighbours::Neighbours(const Connectivity& connectivity, const Shape& rest)
   }
 }
 
+namespace {
+
 // Labels the connected patches of `inside` from 0; -1 outside.
-std::vector<int> PatchesOf(const std::vector<bool>& inside, const Neighbours& neighbours,
+std::vector<int> PatchesOf(const std::vector<bool>& inside, const MeanValueWeights& neighbours,
                            int* count) {
   std::vector<int> patch(inside.size(), -1);
   *count = 0;
@@ -103,7 +86,7 @@ std::vector<int> CountTurned(const std::vector<bool>& turned, const Eigen::Matri
 
 // The vertices of turned triangles that are not held, with `rings` of neighbours around them.
 std::vector<bool> Around(const std::vector<bool>& turned, const Eigen::Matrix3Xi& triangles,
-                         const Neighbours& neighbours, const std::vector<bool>& is_held,
+                         const MeanValueWeights& neighbours, const std::vector<bool>& is_held,
                          int rings) {
   std::vector<bool> inside(is_held.size(), false);
   for (int f = 0; f < triangles.cols(); ++f) {
@@ -124,7 +107,7 @@ std::vector<bool> Around(const std::vector<bool>& turned, const Eigen::Matrix3Xi
 
 // Moves each vertex `inside` to the mean of its neighbours, several times. The mean is projected
 // onto the target where its normal agrees with those at the neighbours' closest points.
-Shape Averaged(const Level& level, const Neighbours& neighbours, const Target& target,
+Shape Averaged(const Level& level, const MeanValueWeights& neighbours, const Target& target,
                const std::vector<ClosestPoint>& closest, const std::vector<bool>& inside,
                Shape shape) {
   Shape facing(3, shape.cols());
@@ -164,7 +147,8 @@ ClosestPoint MapVertex(const Level& level, const Shape& shape, const Shape& norm
 // Updates the result `closest` of MapVertices for a shape in which only the vertices `moved` have
 // changed; the normals of their neighbours have changed too.
 std::vector<ClosestPoint> MapAnew(const Level& level, const Shape& shape, const Target& target,
-                                  const std::vector<bool>& moved, const Neighbours& neighbours,
+                                  const std::vector<bool>& moved,
+                                  const MeanValueWeights& neighbours,
                                   std::vector<ClosestPoint> closest) {
   const Shape normals = VertexNormals(*level.connectivity, shape);
   ParallelFor(static_cast<int>(shape.cols()), [&](int v) {
@@ -205,7 +189,7 @@ std::vector<ClosestPoint> MapVertices(const Level& level, const Shape& shape,
 void Unfold(const Level& level, const Shape& rest, const Target& target,
             const std::vector<int>& held, Shape* shape) {
   const Eigen::Matrix3Xi& triangles = level.connectivity->Triangles();
-  const Neighbours neighbours(*level.connectivity, rest);
+  const MeanValueWeights neighbours(*level.connectivity, rest);
   std::vector<bool> is_held(shape->cols(), false);
   for (const int v : held) is_held[v] = true;
   std::vector<ClosestPoint> closest = MapVertices(level, *shape, target);

@@ -1,11 +1,34 @@
 #ifndef SHAPESPACE_CORRESPONDENCE_INTERNAL_UNFOLD_H_
 #define SHAPESPACE_CORRESPONDENCE_INTERNAL_UNFOLD_H_
 
+#include <array>
 #include <vector>
 
 #include <shapespace/correspondence/internal/closest.h>
 
 namespace shapespace::internal {
+
+/// Neighbours of each vertex, with M. Floater's mean value weights ("Mean value coordinates",
+/// 2003). They are positive, so that no folds arise, and approximately preserve the triangles'
+/// shapes: in a plane each vertex is the mean of the neighbours around it.
+class MeanValueWeights {
+ public:
+  /// `connectivity` is kept by reference.
+  MeanValueWeights(const Connectivity& connectivity, const Shape& rest);
+
+  /// Calls use(neighbour, weight) for each.
+  template <typename Use>
+  void ForEach(int v, const Use& use) const {
+    for (const int e : connectivity_.EdgesOfVertices()[v]) {
+      const double weight = weights_[e][v == connectivity_.Edges()(0, e) ? 0 : 1];
+      if (weight > 0) use(connectivity_.OtherEnd(e, v), weight);
+    }
+  }
+
+ private:
+  const Connectivity& connectivity_;
+  std::vector<std::array<double, 2>> weights_;  // per edge: for its first vertex and its second
+};
 
 /// Which triangles have normals opposite to the target's: the comparison is with the sum of the
 /// normals of the target's triangles on which the corners lie.

@@ -24,8 +24,10 @@ struct ContactFreeDeformation {
 /// this mesh. Follows the handles in small steps: moves them as far as nothing touches, and then
 /// lets the rest of the body, which is drawn to the guide's shape, give way. Then relaxes the whole
 /// path, with the potential times 2 `stiffness` / n. Segments whose straight motion is free of
-/// contact stay so; of others, the shapes. `go_on` is asked before each step, and false ends the
-/// way there.
+/// contact stay so; of others, the shapes. If something still touches in one of those, and no
+/// hard handle moves, relaxes again from shapes of the way between which nothing touches, so that
+/// all segments are free of contact. `go_on` is asked before each step, and false ends the way
+/// there.
 ContactFreeDeformation DeformWithoutContact(const ContactModel& model, const HandleTargets& targets,
                                             double stiffness, const std::vector<Shape>& guide,
                                             const MinimiseOptions& options,

@@ -86,10 +86,8 @@ std::vector<int> WoundHinges(const Dihedral& dihedral, const std::vector<Shape>&
   return result;
 }
 
-// Which of the metric's features, and which of its elements.
-using FeatureElement = std::pair<int, int>;
+}  // namespace
 
-// The energy of an element, up to a factor that is common to all.
 double ElementEnergy(const Metric& metric, const FeatureElement& element,
                      const std::vector<Shape>& shapes) {
   const Feature& feature = *metric.features[element.first];
@@ -105,6 +103,8 @@ double ElementEnergy(const Metric& metric, const FeatureElement& element,
   }
   return feature.Weight(e) * sum;
 }
+
+namespace {
 
 template <typename T>
 void SortUnique(std::vector<T>* items) {

@@ -1,12 +1,21 @@
 #ifndef SHAPESPACE_GEODESIC_INTERNAL_UNWRAP_HINGES_H_
 #define SHAPESPACE_GEODESIC_INTERNAL_UNWRAP_HINGES_H_
 
+#include <utility>
 #include <vector>
 
 #include <shapespace/mesh/shape.h>
 #include <shapespace/metric/metric.h>
 
 namespace shapespace::internal {
+
+/// Which of the metric's features, and which of its elements.
+using FeatureElement = std::pair<int, int>;
+
+/// The share of an element, of a feature that is no sum, in half the energy of a path. `shapes` are
+/// in the metric's unit.
+double ElementEnergy(const Metric& metric, const FeatureElement& element,
+                     const std::vector<Shape>& shapes);
 
 /// Corrects single hinges of a path that turn the wrong way. Between two poses in which a hinge has
 /// nearly the same angle it may turn by nearly 360 degrees, or rest and then jump, if the initial
