@@ -106,6 +106,14 @@ TEST(OffTextTest, NumbersOfAnElementMayBeOnLinesOfTheirOwn) {
   EXPECT_EQ(ReadOff("off3\n1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").corners, (Ints{0, 1, 2}));
 }
 
+TEST(OffTextTest, WordsAfterTheLastPolygonAreLeftOut) {
+  for (const std::string end : {"\x1a", "\n# by hand\nEND of file 7\n", "\n-- 3 --"}) {
+    const Soup soup = ReadOff("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n" + end);
+    EXPECT_EQ(soup.corners, (Ints{0, 1, 2}));
+    EXPECT_EQ(soup.dropped, Strings{"1 lines after the last polygon not kept"}) << end;
+  }
+}
+
 TEST(OffTextTest, ALineThatWasCutOffDoesNotTakeTheNext) {
   const std::string r = kReexport;
   ExpectRefused("OFF\n3 2 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n3 2 1 0\n", MeshFormat::kOff,

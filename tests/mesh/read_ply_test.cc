@@ -215,6 +215,8 @@ TEST_F(ReadPlyTest, RefusesBadText) {
   ExpectRefused(header + vertices, {"pose.ply:12: ", "promises 1 of element 'face'"});
   ExpectRefused(header + "0 0 0\n1 0 0\n        \n\n\n", {"the file ends before vertex 3"});
   ExpectRefused(header + vertices + "3 0 1 2\n3 0 1 2\n", {"pose.ply:14: something follows"});
+  EXPECT_EQ(Read(header + vertices + "3 0 1 2\nmade by hand\n").dropped.back(),
+            "1 lines after the last element not kept");
 }
 
 TEST_F(ReadPlyTest, RefusesBadHeaders) {

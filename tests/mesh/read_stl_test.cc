@@ -89,8 +89,9 @@ TEST_F(ReadStlTest, BytesAfterTheLastTriangleAreLeftOut) {
   std::string bytes = Content(Path("a.stl"));
   for (const std::string begin : {"solid", "\n sOLID ", "other"}) {
     bytes.replace(0, begin.size(), begin);
-    for (const std::string end : {std::string("x"), std::string("0123456789"), std::string(50, 'x'),
-                                  std::string(4096, '\0'), std::string("made by a scanner\r\n")}) {
+    for (const std::string& end :
+         {std::string("x"), std::string("0123456789"), std::string(50, 'x'),
+          std::string(4096, '\0'), std::string("made by a scanner\r\n")}) {
       const Soup soup = ReadSoup(File("b.stl", bytes + end));
       EXPECT_EQ(soup.vertices, read.vertices);
       EXPECT_EQ(soup.corners, read.corners);

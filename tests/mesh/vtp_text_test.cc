@@ -116,7 +116,7 @@ TEST_F(VtpTextTest, ColoursAndTextureCoordinatesThatAreDamagedAreDropped) {
                            Array("type='Float32' Name='uv' NumberOfComponents='2'", texture) +
                            "</PointData>"));
   };
-  for (const std::string document :
+  for (const std::string& document :
        {with("1 2 3 4 5 6 7 8 x", "0 0 1 0 1 x"), with("1 2 3", "0 0 1 0"),
         with("1 2 3 4 5 6 7 8 nan", "0 0 1 0 1 1.#INF")}) {
     const Soup soup = Read(document);

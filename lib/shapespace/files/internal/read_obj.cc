@@ -240,7 +240,6 @@ class ObjReader {
   /// Corners keep the texture coordinates that exist and are numbers.
   void FinishTexture() {
     Appearance& appearance = soup_.appearance;
-    Seen without;
     bool any = false;
     for (int p = 0; p < soup_.NumPolygons(); ++p) {
       for (int k = soup_.polygon_begin[p]; k < soup_.polygon_begin[p + 1]; ++k) {
@@ -248,22 +247,15 @@ class ObjReader {
         if (texture == -1) continue;
         if (texture == kNoIndex || texture >= NumTexture() || std::isnan(texture_[2 * texture])) {
           texture = -1;
-          without.Add(soup_.polygon_line[p]);
+          without_texture_.Add(soup_.polygon_line[p]);
         }
         any = any || texture != -1;
       }
     }
-    TellFirst(bad_texture_, "texture coordinates that are not finite numbers");
-    TellFirst(without, "corners' texture coordinates that the file does not have");
-    if (any) {
-      std::replace_if(
-          texture_.begin(), texture_.end(), [](double x) { return std::isnan(x); }, 0.0);
-      appearance.texture_coordinates =
-          Eigen::Map<Eigen::Matrix2Xd>(texture_.data(), 2, NumTexture());
-    } else {
-      appearance.corner_texture.clear();
-      Tell(NumTexture() - bad_texture_.count, "texture coordinates that no polygon has");
-    }
+    if (!any) return appearance.corner_texture.clear();
+    std::replace_if(
+        texture_.begin(), texture_.end(), [](double x) { return std::isnan(x); }, 0.0);
+    appearance.texture_coordinates = Eigen::Map<Eigen::Matrix2Xd>(texture_.data(), 2, NumTexture());
   }
 
   void FinishColours() {
@@ -314,6 +306,11 @@ class ObjReader {
     Tell(weights_, "vertex weights other than 1");
     TellFirst(unknown_further_, "vertices' further numbers, which are no colours,");
     Tell(third_texture_, "third texture coordinates");
+    TellFirst(bad_texture_, "texture coordinates that are not finite numbers");
+    TellFirst(without_texture_, "corners' texture coordinates that the file does not have");
+    if (soup_.appearance.corner_texture.empty()) {
+      Tell(NumTexture() - bad_texture_.count, "texture coordinates that no polygon has");
+    }
     Tell(material_.Finish(), "materials (usemtl) that no polygon has");
     Tell(group_.Finish(), "group names (g) that no polygon has");
     Tell(object_.Finish(), "object names (o) that no polygon has");
@@ -343,7 +340,7 @@ class ObjReader {
   std::vector<double> colours_;                // four per vertex, up to the last one with a colour
   int num_coloured_ = 0, weights_ = 0, third_texture_ = 0;
   bool any_opacity_ = false;
-  Seen bad_texture_, unknown_further_;
+  Seen bad_texture_, without_texture_, unknown_further_;
   CurrentName material_{&soup_.appearance.materials}, group_{&soup_.appearance.groups},
       object_{&soup_.appearance.objects};
   std::map<std::string, Seen> dropped_;  // by keyword

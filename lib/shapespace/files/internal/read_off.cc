@@ -19,11 +19,20 @@ class OffReader {
     ReadHeader();
     ReadVertices();
     ReadPolygons();
+    int further_lines = 0;
     while (lines_.Next(&line_)) {
-      if (!LineWords(WithoutComment(line_)).Done()) {
+      LineWords words(WithoutComment(line_));
+      if (words.Done()) continue;
+      // Further elements begin with a number.
+      if (ParseDouble(words.Next())) {
         Fail("something follows the last polygon; the counts of the header do not fit" +
              std::string(kReexport));
       }
+      ++further_lines;
+    }
+    if (further_lines > 0) {
+      soup_.dropped.push_back(std::to_string(further_lines) +
+                              " lines after the last polygon not kept");
     }
     if (further_vertex_numbers_ > 0) {
       soup_.dropped.push_back("what follows x y z of " + std::to_string(further_vertex_numbers_) +

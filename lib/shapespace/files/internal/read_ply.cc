@@ -518,11 +518,20 @@ class PlyReader {
       return;
     }
     std::string_view line;
+    int further_lines = 0;
     while (lines_.Next(&line)) {
-      if (!LineWords(line).Done()) {
+      LineWords words(line);
+      if (words.Done()) continue;
+      // Further elements begin with a number.
+      if (ParseDouble(words.Next())) {
         Fail("something follows the last element; the counts of the header do not fit" +
              std::string(kReexport));
       }
+      ++further_lines;
+    }
+    if (further_lines > 0) {
+      soup_.dropped.push_back(std::to_string(further_lines) +
+                              " lines after the last element not kept");
     }
   }
 

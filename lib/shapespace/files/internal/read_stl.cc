@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -131,9 +132,26 @@ class TextReader {
   bool ended_ = false;
 };
 
+// Whether every triangle begins with a normal of length 1, or with one of length 0 and ends with
+// two bytes that are 0: hardly where the bytes have moved. Normals that are not finite, of
+// triangles without area, tell nothing.
+bool BytesAreInPlace(const std::string& bytes) {
+  constexpr double kRounding = 0.01;  // of writers that store few digits
+  for (size_t t = 0; t < NumTriangles(bytes); ++t) {
+    const char* const begin = bytes.data() + kHeader + kTriangle * t;
+    Eigen::Vector3d normal;
+    for (int axis = 0; axis < 3; ++axis) {
+      normal[axis] = ReadLittleEndian<float>(begin + 4 * axis);
+    }
+    const bool is_zero = normal.isZero(0) && ReadLittleEndian<std::uint16_t>(begin + 48) == 0;
+    if (!is_zero && std::abs(normal.norm() - 1) > kRounding) return false;
+  }
+  return true;
+}
+
 // A sentence about the bytes that follow the last triangle of a binary file.
-// \throw FileError if they are triangles, or if the last triangle has no edge in common with
-//        another: then it was not read from its place, because bytes were lost or added in front.
+// \throw FileError if they are triangles, or if the last triangle was not read from its place: then
+//        it mostly has no edge in common with another, or normals are none.
 std::string WhatFollows(const std::string& bytes, const Merged& merged, const std::string& file) {
   const size_t triangles = merged.index.size() / 3, end = kHeader + kTriangle * triangles;
   const size_t further = bytes.size() - end;
@@ -141,7 +159,7 @@ std::string WhatFollows(const std::string& bytes, const Merged& merged, const st
     return merged.first[vertex] < static_cast<int>(3 * triangles - 3);
   };
   const bool is_padding = bytes.find_first_not_of(bytes[end], end) == std::string::npos;
-  if ((further % kTriangle == 0 && !is_padding) ||
+  if ((further % kTriangle == 0 && !is_padding) || !BytesAreInPlace(bytes) ||
       std::count_if(merged.index.end() - 3, merged.index.end(), before) < 2) {
     FailAt(file, 0,
            std::to_string(bytes.size() - kHeader) + " bytes follow the header, " +
