@@ -1,7 +1,6 @@
 #include <shapespace/files/pose_order.h>
 
 #include <algorithm>
-#include <functional>
 #include <set>
 #include <string_view>
 #include <utility>
