@@ -85,7 +85,7 @@ void Run(const std::vector<std::string>& files) {
   const AverageOptions options = OptionsFromFlags();
   const std::vector<std::string> outputs = Outputs();
   CheckNothingIsOverwritten(WithStiffeners(files), {{"output", outputs}, ReportFromFlag()});
-  const Poses poses = ReadPosesFromFlags(files, 1);
+  const Poses poses = ReadPosesFromFlags(files, 1, /*any_order=*/true);
   AverageResult result;
   NamingFlags({}, [&] { result = Average(poses, options, SolveProgress({}).get()); });
   const AverageSummary& summary = result.summary;

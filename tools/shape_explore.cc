@@ -96,7 +96,7 @@ void MakeSpace(const std::vector<std::string>& files, ProcessPool* crew) {
   const ExploreOptions options = ExploreFromFlags(FLAGS_output + ".records");
   CheckNothingIsOverwritten(WithStiffeners(files), {{"output", {FLAGS_output}}, ReportFromFlag()});
   CheckCanBeWritten(FLAGS_output);
-  const Poses poses = ReadPosesFromFlags(files);
+  const Poses poses = ReadPosesFromFlags(files, 2, /*any_order=*/true);
   if (is_table) return WriteDistances(poses, options, crew);
   ExploreResult result = Explore(poses.connectivity, poses.shapes, DisplayNames(poses.names),
                                  options, SolveProgress({}).get(), crew);

@@ -164,7 +164,7 @@ PoseModes ModesOf(const std::vector<std::string>& files) {
     return modes;
   }
   const ShapeModelOptions options = OptionsFromFlags();
-  const Poses poses = ReadPosesFromFlags(files, 1);
+  const Poses poses = ReadPosesFromFlags(files, 1, /*any_order=*/true);
   ShapeModelResult result;
   NamingFlags({}, [&] {
     result = MakeShapeModel(poses.connectivity, poses.shapes, DisplayNames(poses.names), options,

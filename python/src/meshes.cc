@@ -8,6 +8,7 @@
 #include <shapespace/bodies/body.h>
 #include <shapespace/bodies/skinned.h>
 #include <shapespace/exploration/space.h>
+#include <shapespace/files/pose_order.h>
 #include <shapespace/files/vertex_field.h>
 #include <shapespace/files/write.h>
 #include <shapespace/mesh/check.h>
@@ -166,6 +167,8 @@ MismatchError
         options.stiffeners = stiffeners;
         options.allow_outside_files = allow_outside_files;
         Poses poses = WithoutLock(py::none(), [=](Progress*) { return ReadPoses(files, options); });
+        const std::string order = OrderWarning(files);
+        if (!order.empty()) poses.warnings.push_back(order);
         Warn(poses.warnings);
         return poses;
       },

@@ -52,6 +52,8 @@ TEST(LineWordsTest, AreSeparatedByAnyBlanksAndTabs) {
   EXPECT_TRUE(internal::LineWords(" \t ").Done());
   EXPECT_EQ(internal::WithoutComment("v 1 # 2 # 3"), "v 1 ");
   EXPECT_EQ(internal::WithoutComment("v 1"), "v 1");
+  EXPECT_EQ(internal::WithoutComment("v 1.# 2"), "v 1.");
+  EXPECT_EQ(internal::WithoutComment("1.#IND -1.#QNAN # 1.#INF"), "1.#IND -1.#QNAN ");
 }
 
 TEST(TextTest, AByteOrderMarkBecomesBlanksAtTheBeginningOnly) {
@@ -60,6 +62,8 @@ TEST(TextTest, AByteOrderMarkBecomesBlanksAtTheBeginningOnly) {
   EXPECT_EQ(text, "   ply \xEF\xBB\xBF");
   internal::BlankByteOrderMark(&text);
   EXPECT_EQ(text, "   ply \xEF\xBB\xBF");
+  EXPECT_EQ(internal::WithoutByteOrderMark("\xEF\xBB\xBFply"), "ply");
+  EXPECT_EQ(internal::WithoutByteOrderMark("ply"), "ply");
 }
 
 TEST(ParseTest, NumbersAreWholeWords) {
@@ -75,6 +79,29 @@ TEST(ParseTest, NumbersAreWholeWords) {
   EXPECT_FALSE(ParseInteger("1.0"));
   EXPECT_EQ(ParseInteger("9223372036854775807"), INT64_MAX);
   EXPECT_FALSE(ParseInteger("9223372036854775808"));
+}
+
+// By programs of Microsoft's compilers, of all ages.
+TEST(ParseTest, WhatPrintfWritesInPlaceOfANumberIsNotFinite) {
+  for (const char* word :
+       {"1.#QNAN", "-1.#IND", "+1.#INF", "1.#SNAN", "1.#QNAN0", "-1.#IND00", "1.#INF000e+000",
+        "1.#J", "-nan(ind)", "nan(snan)", "-inf", "Infinity"}) {
+    const std::optional<double> number = ParseDouble(word);
+    ASSERT_TRUE(number) << word;
+    EXPECT_FALSE(std::isfinite(*number)) << word;
+  }
+  for (const char* wrong : {"2.#QNAN", "1.#", "1.#1", "-1.#"}) EXPECT_FALSE(ParseDouble(wrong));
+}
+
+TEST(ParseTest, DecimalCommasAreToldFromOtherWords) {
+  for (const char* word : {"1,5", "-0,25e-3", "+,5", "12345,0"}) {
+    EXPECT_TRUE(internal::HasDecimalComma(word)) << word;
+    EXPECT_NE(internal::NotANumber(word).find("comma"), std::string::npos) << word;
+  }
+  for (const char* word : {"", "1", "1,", ",", "1,2,3", "1,234.5", "a,5", "1.5"}) {
+    EXPECT_FALSE(internal::HasDecimalComma(word)) << word;
+    EXPECT_EQ(internal::NotANumber(word).find("comma"), std::string::npos) << word;
+  }
 }
 
 TEST(ParseTest, WhatIsTooSmallIsZeroAndWhatIsTooLargeInfinite) {

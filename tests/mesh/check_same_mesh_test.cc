@@ -78,11 +78,73 @@ TEST(CheckSameMeshTest, CountsThatDiffer) {
 TEST(CheckSameMeshTest, TheFirstPolygonThatDiffersIsNamedInBothFiles) {
   const Soup a = Named(Grid(2, 2), "a.obj", 10);
   Soup b = Named(Grid(2, 2), "b.obj", 50);
-  // The first square's diagonal flipped.
-  std::copy_n(std::vector<int>{0, 3, 1, 1, 3, 4}.begin(), 6, b.corners.begin());
+  // The first triangle has moved.
+  std::copy_n(std::vector<int>{4, 7, 8}.begin(), 3, b.corners.begin());
   ExpectOnly(a, b, "polygons-differ", Severity::kFatal,
-             {"b.obj against a.obj", "polygon 1 (line 50) with vertices 1 4 2",
+             {"b.obj against a.obj", "polygon 1 (line 50) with vertices 5 8 9",
               "polygon 1 (line 10) with 1 4 5", "different meshes"});
+}
+
+/// Each polygon cut into triangles from the corner that `first` gives.
+template <typename First>
+Soup CutFrom(const Soup& soup, const First& first) {
+  std::vector<std::vector<int>> triangles;
+  for (int p = 0; p < soup.NumPolygons(); ++p) {
+    const int begin = soup.polygon_begin[p], size = soup.polygon_begin[p + 1] - begin;
+    const auto corner = [&](int k) { return soup.corners[begin + (first(p) + k) % size]; };
+    for (int k = 2; k < size; ++k) triangles.push_back({corner(0), corner(k - 1), corner(k)});
+  }
+  return testing::MakeSoup(soup.vertices, triangles);
+}
+
+TEST(CheckSameMeshTest, PolygonsCutAlongOtherDiagonalsAreToldFromOtherMeshes) {
+  const Soup torus = Torus(9, 7);
+  const Soup cut = CutFrom(torus, [](int) { return 0; });
+  const Soup other = CutFrom(torus, [](int) { return 1; });
+  const Soup some = CutFrom(torus, [](int p) { return p == 5 || p == 20; });
+  const auto recut = [](const Soup& a, const Soup& b, const std::string& kind,
+                        const std::string& count) {
+    ExpectOnly(a, b, kind, Severity::kFatal, {"diagonals", "(" + count + ")", "triangulation"});
+  };
+  recut(cut, other, "polygons-differ", "63");
+  recut(cut, some, "polygons-differ", "2");
+  recut(torus, cut, "polygon-count", "63");
+  recut(some, torus, "polygon-count", "63");
+  // The polygons may be in another order too.
+  Soup shuffled = other;
+  std::reverse(shuffled.corners.begin(), shuffled.corners.end());
+  recut(cut, shuffled, "polygons-differ", "63");
+  // A polygon of seven corners among others, cut into triangles and into other polygons.
+  const Soup flower =
+      testing::MakeSoup(Shape::Random(3, 9), {{0, 1, 2, 3, 4, 5, 6}, {1, 0, 7}, {2, 1, 7, 8}});
+  const Soup triangles = CutFrom(flower, [](int) { return 2; });
+  recut(flower, triangles, "polygon-count", "2");
+  recut(triangles, CutFrom(flower, [](int p) { return 3 * (p == 0); }), "polygons-differ", "1");
+  recut(
+      testing::MakeSoup(flower.vertices, {{0, 1, 2, 6}, {2, 3, 4, 5, 6}, {1, 0, 7}, {2, 1, 7, 8}}),
+      triangles, "polygon-count", "3");
+}
+
+TEST(CheckSameMeshTest, OtherSurfacesAreNotTakenForOtherDiagonals) {
+  const auto lacks = [](const Soup& a, const Soup& b) {
+    for (const Finding& finding : CheckSameMesh(a, b)) {
+      EXPECT_EQ(finding.message.find("diagonals"), std::string::npos) << finding.message;
+    }
+  };
+  const Soup torus = Torus(9, 7);
+  lacks(torus, Renumbered(torus, Shuffled(63, 0, 63)));
+  const Soup cut = CutFrom(torus, [](int) { return 0; });
+  lacks(cut, Renumbered(cut, Shuffled(63, 10, 40)));
+  // Of one quad only one half is there.
+  Soup hole = CutFrom(torus, [](int) { return 1; });
+  hole.corners.resize(hole.corners.size() - 3);
+  hole.polygon_begin.pop_back();
+  lacks(cut, hole);
+  lacks(torus, hole);
+  // All edges differ: the rest, without any border, is no polygon.
+  const Shape vertices = Shape::Random(3, 8);
+  lacks(testing::MakeSoup(vertices, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}),
+        testing::MakeSoup(vertices, {{4, 5, 6}, {4, 6, 7}, {4, 7, 5}, {5, 7, 6}}));
 }
 
 TEST(CheckSameMeshTest, RenumberedVerticesAreRecognised) {

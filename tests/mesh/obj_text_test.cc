@@ -58,17 +58,59 @@ TEST(ObjTextTest, TextureCoordinatesHaveOneToThreeNumbers) {
             (Eigen::MatrixXd(2, 4) << .5, .25, 2, 4, 0, 1, 3, 5).finished());
   EXPECT_EQ(soup.appearance.corner_texture, (Ints{3, 0, 2}));
   EXPECT_EQ(soup.dropped, Strings{"2 third texture coordinates not kept"});
-  ExpectRefused(kThree + "vt 0 0\nvt 0 0 0 0\n",
-                "5: texture coordinate 2: more than three numbers");
-  ExpectRefused(kThree + "vt 0 0\nvt\n", "5: texture coordinate 2: u is missing");
-  ExpectRefused(kThree + "vt 0 y\n", "4: texture coordinate 1: v 'y' is not a number");
-  ExpectRefused(kThree + "vt 0 0 inf\n", "4: texture coordinate 1: w 'inf' is not a finite number");
+  EXPECT_EQ(Read(kThree + "vt 1 2 inf\nvt 3 4 0 0\nf 1/1 2/2 3/2\n").dropped, soup.dropped);
 }
 
-TEST(ObjTextTest, VerticesSayWhatIsTooMuch) {
-  ExpectRefused(kThree + "v 1 2 3 4 5\n", "4: vertex 4: five numbers instead of three");
-  ExpectRefused(kThree + "v 1 2 3 4 5 6 7 8\n", "4: vertex 4: more than seven numbers");
-  ExpectRefused(kThree + "v 1 2 3 x\n", "4: vertex 4: what follows x y z, 'x' is not a number");
+TEST(ObjTextTest, CornersKeepTheTextureCoordinatesThatThereAre) {
+  const Soup soup = Read(kThree +
+                         "vt 1 2\nvt nan 0\nvt\nvt 0 y\nvt 3 4\nvt 1.#QNAN 0\nvt 0,5 0\n"
+                         "f 1/1 2/2 3/3\nf 1/4 2/5 3/6\nf 1/7 2/8 3/-7\nf 1/0 2/x 3/-8/1\n");
+  EXPECT_EQ(soup.corners.size(), 12u);
+  EXPECT_EQ(soup.appearance.corner_texture, (Ints{0, -1, -1, -1, 4, -1, -1, -1, 0, -1, -1, -1}));
+  EXPECT_EQ(soup.appearance.texture_coordinates.col(0), Eigen::Vector2d(1, 2));
+  EXPECT_EQ(soup.appearance.texture_coordinates.col(4), Eigen::Vector2d(3, 4));
+  EXPECT_TRUE(soup.appearance.texture_coordinates.allFinite());
+  EXPECT_EQ(
+      soup.dropped,
+      (Strings{"5 texture coordinates that are not finite numbers (the first on line 5) not "
+               "kept",
+               "9 corners' texture coordinates that the file does not have (the first on line "
+               "11) not kept"}));
+  // Not one is left.
+  for (const std::string rest : {"f 1/1/1 2/1/1 3/1/1\n", "vt nan nan\nf 1/1 2/1 3/1\n"}) {
+    const Soup plain = Read(kThree + rest);
+    EXPECT_EQ(plain.corners, (Ints{0, 1, 2}));
+    EXPECT_TRUE(plain.appearance.corner_texture.empty()) << rest;
+    EXPECT_EQ(plain.appearance.texture_coordinates.size(), 0) << rest;
+    EXPECT_FALSE(plain.dropped.empty()) << rest;
+  }
+}
+
+TEST(ObjTextTest, NormalsNeedNotExist) {
+  const Soup soup = Read(kThree + "vn nan nan nan\nf 1//9 2//0 3//x\n");
+  EXPECT_EQ(soup.corners, (Ints{0, 1, 2}));
+  EXPECT_EQ(soup.dropped, Strings{"1 normals (vn) not kept"});
+}
+
+TEST(ObjTextTest, WhatFollowsAVertexNeedNotBeAColour) {
+  const auto dropped = [](const std::string& further) {
+    const Soup soup = Read("v 0 0 0 1 1 1\nv 1 2 3 " + further + "\nv 0 1 0 0 0 0\nf 1 2 3\n");
+    EXPECT_EQ(soup.vertices.col(1), Eigen::Vector3d(1, 2, 3)) << further;
+    return soup.dropped;
+  };
+  const Strings none = {"3 vertex colours (some number of them is not in 0 .. 1) not kept"};
+  for (const std::string further : {"nan nan nan", "1 1 inf", "0 0 0 -nan(ind)", "None None None",
+                                    "-1.#IND00 0 0", "0,5 0,5 0,5"}) {
+    EXPECT_EQ(dropped(further), none) << further;
+  }
+  for (const std::string further : {"4 5", "4 5 6 7 8"}) {
+    EXPECT_EQ(dropped(further), Strings{"1 vertices' further numbers, which are no colours, (the "
+                                        "first on line 2) not kept"});
+  }
+  EXPECT_EQ(dropped("x"), Strings{"1 vertex weights other than 1 not kept"});
+}
+
+TEST(ObjTextTest, VerticesSayWhatIsMissing) {
   ExpectRefused(kThree + "v 1 2\\\n\n", "4: vertex 4: coordinate z is missing");
   const Soup soup = Read("v 0 0 0 1\nv 1 0 0 1.5\nv 0 1 0 0\nl 1 2\n");
   EXPECT_EQ(soup.dropped, Strings{"2 vertex weights other than 1 not kept"});
@@ -79,15 +121,15 @@ TEST(ObjTextTest, CornersSayWhatIsWrongWithThem) {
     ExpectRefused(kThree + "vt 0 0\nf 1 2 3\nf 1/1 2/1 " + corner + "\n", "6: polygon 2: " + words);
   };
   for (const std::string corner :
-       {"3/x", "3/0", "0", "3//y", "3/1/0", "/1", "3.5", "2147483648", "-2147483648",
-        "-9223372036854775808", "3/9223372036854775807", "3/-9223372036854775808"}) {
+       {"/1", "3.5", "2147483648", "-2147483648", "-9223372036854775808"}) {
     refused(corner, "corner '" + corner + "' is not made of numbers counted from 1");
   }
+  EXPECT_EQ(testing::MessageOf<FileError>([] { Read(kThree + "f 0 1 2/1\n"); }),
+            std::string("m.obj:4: polygon 1: corner '0' is not made of numbers counted from 1") +
+                internal::kCountsFromOne);
   refused("2147483647", "vertex 2147483647 does not exist, the file has 3");
   refused("4", "vertex 4 does not exist, the file has 3");
   refused("-4", "a relative index reaches before the first vertex, the file has 3");
-  refused("3/2", "texture coordinate 2 does not exist, the file has 1");
-  refused("3/-2", "a relative index reaches before the first texture coordinate, the file has 1");
   EXPECT_EQ(testing::MessageOf<FileError>([] { Read(kThree + "f 1 2 3/1/1/1\n"); }),
             "m.obj:4: polygon 1: corner '3/1/1/1' has more than three parts");
   ExpectRefused(kThree + "f 1 2 3\nf 1 2\n", "5: polygon 2: 2 corners, a polygon needs three");

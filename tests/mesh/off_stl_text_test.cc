@@ -51,7 +51,7 @@ TEST(OffTextTest, SaysWhatIsWrong) {
   };
   const std::string keyword =
       ", not with OFF, COFF, NOFF or STOFF; export it as OFF with three coordinates a vertex";
-  for (const std::string word : {"NCOFF", "CSTOFF", "OFFN", "off", "nOFF"}) {
+  for (const std::string word : {"4OFF", "nOFF", "C4nOFF", "OFFN", "COFFEE", "CCOFF", "offset"}) {
     refused("\n" + word + " 3 1 0\n", ":2: begins with '" + word + "'" + keyword);
   }
   refused("OFF BINARY\n3 1 0\n", ":1: binary OFF is not read; export it as text");
@@ -73,12 +73,59 @@ TEST(OffTextTest, SaysWhatIsWrong) {
           ":5: polygon 2: '2' corners, a polygon needs three" + r);
   refused("OFF\n1 2 0\n0 0 0\n3 0 0 0\n5 0 0 0\n",
           ":5: polygon 2: 3 of 5 corners, the others are missing" + r);
-  refused("OFF\n1 1 0\n0 0 0 x\n3 0 0 0\n",
-          ":3: vertex 1: what follows x y z, 'x' is not a number" + r);
   refused("OFF\n1 1 0\n0 0 0\n3 0 0 0\n\n# end\n3 0 0 0\n",
           ":7: something follows the last polygon; the counts of the header do not fit" + r);
   refused("OFF\n1 1 0\n0 0 0\n3 0 0 0.5\n",
           ":4: polygon 1: vertex index '0.5' is not one of 0 to 0" + r);
+}
+
+TEST(OffTextTest, KeywordsAreInAnyLettersAndBeforeTheNumbersWithOrWithoutABlank) {
+  const std::string rest = "4 2 0\n0 0 0 7 7\n1 0 0\n1 1 0\n0 1 .5\n4 0 1 2 3\n3 2 1 0 9\n";
+  const Soup plain = ReadOff("OFF\n" + rest);
+  for (const std::string keyword : {"OFF", "off", "Off", "NCOFF", "NCSTOFF", "stoff", "noff"}) {
+    for (const std::string between : {"", " ", "\t", "\r\n\r\n", "\n# none\n", "\r"}) {
+      const Soup soup = ReadOff(keyword + between + rest);
+      EXPECT_EQ(soup.vertices, plain.vertices) << keyword << between;
+      EXPECT_EQ(soup.corners, (Ints{0, 1, 2, 3, 2, 1, 0})) << keyword << between;
+      EXPECT_EQ(soup.dropped, plain.dropped);
+    }
+  }
+  EXPECT_EQ(ReadOff("\xEF\xBB\xBF# a\noff" + rest).corners, plain.corners);
+}
+
+TEST(OffTextTest, NumbersOfAnElementMayBeOnLinesOfTheirOwn) {
+  const Soup soup = ReadOff(
+      "OFF\n4\n3\n0\n0\n0\n0\n1 0\n0\n1\n\n1 0 # here\n0 1 .5\n"
+      "4 0 1\n2\n3\n3\n0 1\n2\n3 3 2 1 255 0 0\n");
+  EXPECT_EQ(soup.vertices, (Shape(3, 4) << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, .5).finished());
+  EXPECT_EQ(soup.corners, (Ints{0, 1, 2, 3, 0, 1, 2, 3, 2, 1}));
+  EXPECT_EQ(soup.vertex_line, (Ints{5, 8, 10, 13}));
+  EXPECT_EQ(soup.polygon_line, (Ints{14, 17, 20}));
+  EXPECT_EQ(soup.dropped, Strings{"1 polygon colours not kept"});
+  // Without the number of edges, which is followed by three words.
+  EXPECT_EQ(ReadOff("off3\n1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").corners, (Ints{0, 1, 2}));
+}
+
+TEST(OffTextTest, WordsAfterTheLastPolygonAreLeftOut) {
+  for (const std::string end : {"\x1a", "\n# by hand\nEND of file 7\n", "\n-- 3 --"}) {
+    const Soup soup = ReadOff("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n" + end);
+    EXPECT_EQ(soup.corners, (Ints{0, 1, 2}));
+    EXPECT_EQ(soup.dropped, Strings{"1 lines after the last polygon not kept"}) << end;
+  }
+}
+
+TEST(OffTextTest, ALineThatWasCutOffDoesNotTakeTheNext) {
+  const std::string r = kReexport;
+  ExpectRefused("OFF\n3 2 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n3 2 1 0\n", MeshFormat::kOff,
+                ":4: vertex 2: coordinate z is missing" + r);
+  ExpectRefused("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n3 2 1 0\n", MeshFormat::kOff,
+                ":6: polygon 1: 2 of 3 corners, the others are missing" + r);
+}
+
+TEST(OffTextTest, WhatFollowsAVertexNeedNotBeANumber) {
+  const Soup soup = ReadOff("NOFF\n3 1 0\n0 0 0 nan nan nan\n1 0 0 x\n0 1 0 1.#IND\n3 0 1 2\n");
+  EXPECT_EQ(soup.vertices.col(1), Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(soup.dropped.size(), 1u);
 }
 
 const std::string kFacet =
@@ -106,6 +153,27 @@ TEST(StlTextTest, SaysWhatIsWrong) {
                 ": is neither text, which begins with 'solid', nor as long as its number of "
                 "triangles asks for" +
                     r);
+}
+
+TEST(StlTextTest, CapitalsBlanksAndWhatFollowsDoNotMatter) {
+  const std::string facet =
+      "\tFacet Normal nan 0 1\n\tOUTER Loop\nVertex 0 0 0\n\tVERTEX 1 0 0\nvertex 0 1 0E0\n"
+      "ENDLOOP\nEndFacet\n";
+  const Soup soup =
+      ReadStl("\xEF\xBB\xBF \t\r\n\n SOLID facet normal\n" + facet + "EndSolid facet\n");
+  EXPECT_EQ(soup.corners, (Ints{0, 1, 2}));
+  EXPECT_TRUE(soup.dropped.empty());
+  for (const std::string end : {"endsolid\n\x1a", "endsolid a\n# by hand\n\n",
+                                "endsolid\n\n<!-- signature -->", "endsolid\nvalue 1"}) {
+    const Soup followed = ReadStl("solid\n" + facet + end);
+    EXPECT_EQ(followed.corners, (Ints{0, 1, 2})) << end;
+    EXPECT_EQ(followed.dropped, Strings{"1 lines after endsolid not kept"}) << end;
+  }
+  const std::string zeros(300, '\0');
+  EXPECT_EQ(ReadStl("solid\n" + facet + "endsolid" + zeros).corners, (Ints{0, 1, 2}));
+  const Soup two = ReadStl("solid\n" + facet + "endsolid\n# next\nsolid\n" + facet + "endsolid\n");
+  EXPECT_EQ(two.corners, (Ints{0, 1, 2, 0, 1, 2}));
+  EXPECT_EQ(two.dropped.size(), 1u);
 }
 
 TEST(StlTextTest, SeveralSolidsAreOneMesh) {

@@ -56,7 +56,7 @@ TEST_F(PlyTextTest, Elements) {
   Refused(kHeader + kVertices + "nan 0 1 2\n",
           "13: polygon 1: the length of vertex_indices is not a count" + kReexport);
   Refused(
-      kHeader + kVertices + "3 0 1 2\n\nx\n",
+      kHeader + kVertices + "3 0 1 2\n\n7\n",
       "15: something follows the last element; the counts of the header do not fit" + kReexport);
   Refused(kHeader + "0 0 0\n1 0 0\n          \n\n",
           "13: the file ends before vertex 3" + kReexport);

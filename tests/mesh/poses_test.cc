@@ -111,7 +111,8 @@ TEST_F(PosesTest, StiffenersAreReadStrictly) {
   };
   refused("1 2\n3\n", {"stiff.txt:2: stiffener 2", "a line holds two"});
   refused("1 2 3\n", {"stiff.txt:1: stiffener 1: '3' is too much"});
-  refused("0 2\n", {"stiff.txt:1: stiffener 1: '0' is not a vertex number from 1 to 10"});
+  refused("0 2\n", {"stiff.txt:1: stiffener 1: '0' is not a vertex number from 1 to 10",
+                    "the first vertex has the number 1"});
   refused("1 11\n", {"stiff.txt:1: stiffener 1: '11'"});
   refused("1 2.5\n", {"stiff.txt:1: stiffener 1: '2.5'"});
   refused("4 4\n", {"stiff.txt:1: stiffener 1: joins vertex 4 to itself"});

@@ -229,6 +229,88 @@ TEST_F(ReadGltfTest, TextureCoordinatesPointUp) {
             "texture coordinates that are not floating-point numbers not kept");
 }
 
+/// Integers of a type, each vertex in four bytes or eight, as gltfpack writes them.
+template <typename Integer>
+std::vector<Integer> Padded(const std::vector<int>& numbers) {
+  std::vector<Integer> padded;
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    padded.push_back(static_cast<Integer>(numbers[i]));
+    if (i % 3 == 2) padded.push_back(0);
+  }
+  return padded;
+}
+
+TEST_F(ReadGltfTest, QuantizedPositionsAreReadAsTheNodePlacesThem) {
+  const Json good = json_;
+  const std::string good_bytes = bytes_;
+  // A square of `side` with a target that lifts two corners by half of it.
+  const auto read = [&](auto integer, int component, bool normalized, int side) {
+    using Integer = decltype(integer);
+    json_ = good;
+    bytes_ = good_bytes;
+    json_["extensionsUsed"] = json_["extensionsRequired"] = {"KHR_mesh_quantization"};
+    json_["nodes"][0]["scale"] = {2, 2, 2};
+    json_["nodes"][0]["translation"] = {10, 0, 0};
+    const std::vector<int> square = {0, 0, 0, side, 0,    0, side, side, 0,
+                                     0, 0, 0, side, side, 0, 0,    side, 0};
+    std::vector<int> lifted(18, 0);
+    lifted[8] = lifted[14] = side / 2;
+    int accessor = 0;
+    for (const std::vector<int>& numbers : {square, lifted}) {
+      json_["accessors"][accessor]["bufferView"] = View(Padded<Integer>(numbers));
+      json_["accessors"][accessor]["componentType"] = component;
+      json_["accessors"][accessor]["normalized"] = normalized;
+      json_["bufferViews"].back()["byteStride"] = 4 * sizeof(Integer);
+      ++accessor;
+    }
+    return ReadSoups(Glb());
+  };
+  const auto expect = [&](const std::vector<Soup>& soups, double side, double lift) {
+    ASSERT_EQ(soups.size(), 2u);
+    Shape square(3, 4);
+    square << 10, 10 + 2 * side, 10 + 2 * side, 10, 0, 0, 2 * side, 2 * side, 0, 0, 0, 0;
+    EXPECT_LT((soups[0].vertices - square).norm(), 1e-14 * square.norm());
+    square(2, 2) = 2 * lift;
+    EXPECT_LT((soups[1].vertices - square).norm(), 1e-14 * square.norm());
+    EXPECT_EQ(soups[1].corners, (std::vector<int>{0, 1, 2, 0, 2, 3}));
+    EXPECT_EQ(soups[0].dropped.size(), 1u);  // merged vertices
+  };
+  expect(read(std::int8_t{}, 5120, false, -128), -128, -64);
+  expect(read(std::uint8_t{}, 5121, false, 200), 200, 100);
+  expect(read(std::int16_t{}, 5122, false, -32768), -32768, -16384);
+  expect(read(std::uint16_t{}, 5123, false, 65534), 65534, 32767);
+  expect(read(std::int8_t{}, 5120, true, 127), 1, 63 / 127.0);
+  expect(read(std::int8_t{}, 5120, true, -128), -1, -64 / 127.0);  // the least number is -1 too
+  expect(read(std::uint8_t{}, 5121, true, 255), 1, 127 / 255.0);
+  expect(read(std::int16_t{}, 5122, true, 32767), 1, 16383 / 32767.0);
+  expect(read(std::uint16_t{}, 5123, true, 65535), 1, 32767 / 65535.0);
+  // Without a declaration such positions are no glTF.
+  read(std::int16_t{}, 5122, false, 100);
+  json_["extensionsUsed"] = json_["extensionsRequired"] = Json::array();
+  ExpectRefused({"positions are not floating"});
+  json_["extensionsUsed"] = {"KHR_mesh_quantization"};
+  EXPECT_EQ(ReadSoups(Glb()).size(), 2u);
+  json_["accessors"][0]["componentType"] = 5125;
+  ExpectRefused({"positions are not floating"});
+  json_["accessors"][0]["componentType"] = 5122;
+  json_["bufferViews"].back()["byteLength"] = 5;
+  ExpectRefused({"a list of numbers is longer than its bytes"});
+}
+
+TEST_F(ReadGltfTest, TextureCoordinatesThatAreDamagedAreDropped) {
+  std::vector<float> numbers(12, 0.5f);
+  numbers[7] = std::nanf("");
+  const int nan = Add(numbers, "VEC2"), few = Add(std::vector<float>(8, 0.5f), "VEC2");
+  for (const int accessor : {nan, few, 99}) {
+    Primitive()["attributes"]["TEXCOORD_0"] = accessor;
+    const Soup soup = ReadSoups(Glb())[0];
+    EXPECT_EQ(soup.corners, (std::vector<int>{0, 1, 2, 0, 2, 3}));
+    EXPECT_TRUE(soup.appearance.corner_texture.empty());
+    EXPECT_EQ(soup.appearance.texture_coordinates.size(), 0);
+    EXPECT_EQ(soup.dropped.size(), 2u) << accessor;
+  }
+}
+
 TEST_F(ReadGltfTest, LinesAreSegments) {
   Primitive()["mode"] = 1;
   const Soup soup = ReadSoup(Glb());

@@ -143,14 +143,24 @@ TEST_F(ReadPlyTest, SaysWhereColoursOrTextureCoordinatesAreNone) {
             std::vector<std::string>{"properties of element 'vertex' not kept: red, green, blue"});
   EXPECT_EQ(dropped("float", "0 0 0 1 0 1\n1 0 0 1 nan 0\n0 1 0 1 0 1\n", "2 0 0"),
             (std::vector<std::string>{
-                "texture coordinates of 1 polygons, which are not two numbers a corner, not kept",
+                "texture coordinates of 1 polygons, which are not two finite numbers a corner, not "
+                "kept",
                 "3 vertex colours (some number of them is not in 0 .. 1) not kept"}));
-  ExpectRefused(
-      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-      "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-      "property list uchar float texcoord\nend_header\n" +
-          std::string(kVertices) + "3 0 1 2 6 0 0 0 0 0 inf\n",
-      {"pose.ply:14: polygon 1: a texture coordinate is not a finite number"});
+  for (const std::string bad : {"inf", "-1.#IND", "x"}) {
+    const std::vector<std::string> said =
+        dropped("uchar", "0 0 0 1 2 3\n1 0 0 " + bad + " 2 3\n0 1 0 1 2 3\n", "6 0 0 0 0 0 " + bad);
+    ASSERT_EQ(said.size(), 2u);
+    EXPECT_NE(said[0].find("texture coordinates of 1 polygons"), std::string::npos);
+    EXPECT_NE(said[1].find("3 vertex colours"), std::string::npos);
+  }
+}
+
+TEST_F(ReadPlyTest, WhatIsNotKeptNeedNotBeANumber) {
+  const Soup soup = Read(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float nx\n"
+      "property float y\nproperty float z\nend_header\n0 nan 0 0\n1 None 0 0\n0 1.#QNAN 1 0\n");
+  EXPECT_EQ(soup.vertices, (Shape(3, 3) << 0, 1, 0, 0, 0, 1, 0, 0, 0).finished());
+  EXPECT_EQ(soup.dropped, std::vector<std::string>{"properties of element 'vertex' not kept: nx"});
 }
 
 TEST_F(ReadPlyTest, ReadsEveryScalarTypeInBothByteOrders) {
@@ -205,6 +215,8 @@ TEST_F(ReadPlyTest, RefusesBadText) {
   ExpectRefused(header + vertices, {"pose.ply:12: ", "promises 1 of element 'face'"});
   ExpectRefused(header + "0 0 0\n1 0 0\n        \n\n\n", {"the file ends before vertex 3"});
   ExpectRefused(header + vertices + "3 0 1 2\n3 0 1 2\n", {"pose.ply:14: something follows"});
+  EXPECT_EQ(Read(header + vertices + "3 0 1 2\nmade by hand\n").dropped.back(),
+            "1 lines after the last element not kept");
 }
 
 TEST_F(ReadPlyTest, RefusesBadHeaders) {

@@ -73,9 +73,42 @@ TEST_F(ReadStlTest, BinaryIsKnownByItsSize) {
   std::string bytes = Content(Path("a.stl"));
   bytes.replace(0, 10, "solid cube");
   EXPECT_EQ(ReadSoup(File("b.stl", bytes)).corners, ReadSoup(Path("a.stl")).corners);
-  ExpectRefused(bytes.substr(0, bytes.size() - 1), {"bad.stl:1: the file ends before endsolid"});
-  bytes.replace(0, 5, "bytes");
-  ExpectRefused(bytes + "x", {"bad.stl: is neither text, which begins with 'solid', nor as long"});
+  for (const std::string begin : {"solid", "bytes"}) {
+    bytes.replace(0, 5, begin);
+    ExpectRefused(bytes.substr(0, bytes.size() - 1),
+                  {"bad.stl: is neither text, which begins with 'solid', nor as long"});
+  }
+  // An empty list of triangles tells nothing.
+  ExpectRefused(std::string(84 + 20, '\0'), {"bad.stl: is neither text"});
+}
+
+TEST_F(ReadStlTest, BytesAfterTheLastTriangleAreLeftOut) {
+  const Soup torus = testing::Torus(12, 8);
+  WriteMesh(Path("a.stl"), torus.vertices, torus);
+  const Soup read = ReadSoup(Path("a.stl"));
+  std::string bytes = Content(Path("a.stl"));
+  for (const std::string begin : {"solid", "\n sOLID ", "other"}) {
+    bytes.replace(0, begin.size(), begin);
+    for (const std::string& end :
+         {std::string("x"), std::string("0123456789"), std::string(50, 'x'),
+          std::string(4096, '\0'), std::string("made by a scanner\r\n")}) {
+      const Soup soup = ReadSoup(File("b.stl", bytes + end));
+      EXPECT_EQ(soup.vertices, read.vertices);
+      EXPECT_EQ(soup.corners, read.corners);
+      EXPECT_EQ(soup.dropped, std::vector<std::string>{std::to_string(end.size()) +
+                                                       " bytes after the last triangle not kept"});
+    }
+  }
+  // Further triangles: the number of them is wrong.
+  std::string fewer = bytes;
+  fewer[80] = static_cast<char>(fewer[80] - 2);
+  ExpectRefused(fewer, {"bad.stl: ", "190 triangles", "damaged"});
+  // As where line ends were changed in transit: all that follows is not in its place.
+  for (const size_t at : {size_t{84}, size_t{84 + 50 * 90 + 7}, bytes.size() - 40}) {
+    std::string shifted = bytes;
+    shifted.insert(at, "\r");
+    EXPECT_THROW(ReadSoup(File("c.stl", shifted)), FileError) << at;
+  }
 }
 
 TEST_F(ReadStlTest, PosesWhoseCornersFallTogetherDifferentlyAreRefused) {

@@ -1,3 +1,6 @@
+#include <cmath>
+#include <cstdint>
+
 #include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
@@ -69,6 +72,78 @@ TEST_F(ReadVtkTest, BinaryIsBigEndianAndTheVersionSaysHowCellsAreStored) {
     EXPECT_EQ(soup.polygon_begin, (std::vector<int>{0, 3, 6}));
   }
   EXPECT_EQ(old.dropped, std::vector<std::string>{"1 arrays of cell data not kept"});
+}
+
+/// The bytes of numbers as this writes them, in either order.
+template <typename Number>
+std::string Ordered(const std::vector<double>& numbers, bool little_endian) {
+  std::string bytes;
+  for (const double number : numbers) {
+    little_endian ? internal::AppendLittleEndian(static_cast<Number>(number), &bytes)
+                  : AppendBigEndian(static_cast<Number>(number), &bytes);
+  }
+  return bytes;
+}
+
+/// A square of two triangles in a binary file of any of the three kinds, with data.
+std::string BinarySquare(int kind, bool little, double last_index = 3) {
+  const std::string head = "# vtk DataFile Version " + std::string(kind == 1 ? "5.1" : "3.0") +
+                           "\nx\nBINARY\nDATASET " +
+                           (kind == 2 ? "UNSTRUCTURED_GRID" : "POLYDATA") + "\nPOINTS 4 float\n" +
+                           Ordered<float>({0, 0, 0, 1, 0, 0, 1, 1, 0.125, 0, 1, 0}, little) + "\n";
+  const std::string cells = Ordered<std::int32_t>({3, 0, 1, 2, 3, 0, 2, last_index}, little);
+  const std::string data = "\nPOINT_DATA 4\nTEXTURE_COORDINATES t 2 float\n" +
+                           Ordered<float>({0, 0, 1, 0, 1, 1, 0, 0.5}, little) +
+                           "\nSCALARS s double\nLOOKUP_TABLE default\n" +
+                           Ordered<double>({1, 2, 3, 4.5}, little) + "\n";
+  if (kind == 0) return head + "POLYGONS 2 8\n" + cells + data;
+  if (kind == 2) {
+    return head + "CELLS 2 8\n" + cells + "\nCELL_TYPES 2\n" +
+           Ordered<std::int32_t>({5, 5}, little) + data;
+  }
+  return head + "POLYGONS 3 6\nOFFSETS vtktypeint64\n" + Ordered<std::int64_t>({0, 3, 6}, little) +
+         "\nCONNECTIVITY vtktypeint64\n" +
+         Ordered<std::int64_t>({0, 1, 2, 0, 2, last_index}, little) + data;
+}
+
+TEST_F(ReadVtkTest, LittleEndianNumbersAreRecognisedByTheCells) {
+  for (const int kind : {0, 1, 2}) {
+    const Soup defined = Read(BinarySquare(kind, false));
+    EXPECT_TRUE(defined.dropped.size() == 1 && defined.dropped[0] == "point data not kept: s");
+    const Soup soup = Read(BinarySquare(kind, true));
+    EXPECT_EQ(soup.vertices, defined.vertices) << kind;
+    EXPECT_EQ(soup.vertices(2, 2), 0.125);
+    EXPECT_EQ(soup.corners, (std::vector<int>{0, 1, 2, 0, 2, 3})) << kind;
+    EXPECT_EQ(soup.appearance.texture_coordinates, defined.appearance.texture_coordinates);
+    ASSERT_EQ(soup.dropped.size(), 2u);
+    EXPECT_NE(soup.dropped[0].find("little-endian"), std::string::npos);
+    const std::string file = File("field.vtk", BinarySquare(kind, true));
+    EXPECT_EQ(ReadVertexField(file + ":s"), Eigen::Vector4d(1, 2, 3, 4.5)) << kind;
+    // What is wrong is told as that of little-endian numbers.
+    Refused(BinarySquare(kind, true, 4), {"polygon 2", "0 to 3", "little-endian"});
+    const std::string refused = [&] {
+      try {
+        Read(BinarySquare(kind, false, 4));
+      } catch (const FileError& error) {
+        return std::string(error.what());
+      }
+      return std::string();
+    }();
+    EXPECT_NE(refused.find("polygon 2"), std::string::npos) << refused;
+    EXPECT_EQ(refused.find("endian"), std::string::npos) << refused;
+  }
+}
+
+// Where no cell tells the order, it is that of the format.
+TEST_F(ReadVtkTest, PointsAloneDoNotTellTheByteOrder) {
+  const std::string begin = "# vtk DataFile Version 3.0\nx\nBINARY\nDATASET POLYDATA\n";
+  Refused(begin + "POINTS 2 double\n" + BinaryDoubles({0, 0, 0, 1, std::nan(""), 0}) + "\n",
+          {"vertex 2", "finite"});
+  // Offsets of one byte are the same in both orders.
+  Refused("# vtk DataFile Version 5.1\nx\nBINARY\nDATASET POLYDATA\nPOINTS 3 double\n" +
+              BinaryDoubles({0, 0, 0, 1, 0, 0, 0, std::nan(""), 0}) +
+              std::string("\nPOLYGONS 2 3\nOFFSETS char\n\0\3\nCONNECTIVITY char\n\0\1\2\n", 55),
+          {"vertex 3", "finite"});
 }
 
 TEST_F(ReadVtkTest, UnstructuredGridsOfSurfaceCells) {

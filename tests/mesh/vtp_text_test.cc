@@ -108,6 +108,25 @@ TEST_F(VtpTextTest, DataThatNotAllPiecesHave) {
   EXPECT_EQ(field.dropped, Strings{"field data not kept"});
 }
 
+TEST_F(VtpTextTest, ColoursAndTextureCoordinatesThatAreDamagedAreDropped) {
+  const auto with = [](const std::string& colours, const std::string& texture) {
+    return Document(
+        Piece(kCounts, kThree + kPolygon + "<PointData TCoords='uv'>\n" +
+                           Array("type='UInt8' Name='c' NumberOfComponents='3'", colours) +
+                           Array("type='Float32' Name='uv' NumberOfComponents='2'", texture) +
+                           "</PointData>"));
+  };
+  for (const std::string& document :
+       {with("1 2 3 4 5 6 7 8 x", "0 0 1 0 1 x"), with("1 2 3", "0 0 1 0"),
+        with("1 2 3 4 5 6 7 8 nan", "0 0 1 0 1 1.#INF")}) {
+    const Soup soup = Read(document);
+    EXPECT_EQ(soup.corners.size(), 3u);
+    EXPECT_EQ(soup.appearance.vertex_colours.size(), 0);
+    EXPECT_TRUE(soup.appearance.corner_texture.empty());
+    EXPECT_EQ(soup.dropped.size(), 2u);
+  }
+}
+
 TEST_F(VtpTextTest, LinesOfProblems) {
   Refused(Document(Piece(kCounts, kPolygon)), "2: a piece has no points" + kReexport);
   // The points' element is on line 3.

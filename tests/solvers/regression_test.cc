@@ -199,7 +199,11 @@ TEST_F(PoseTableTest, ErrorsNameTheRow) {
             ":3: age of the pose 'stand', 'tall', is not a finite number");
   EXPECT_EQ(Message("f,age\nsit,1\nsit.obj,2\n"),
             ":3: the pose 'sit.obj' has a row already, in line 2");
-  EXPECT_EQ(Message("f,age\nsit,1,2\n"), ":2: there are 3 cells, and 2 in the first line");
+  EXPECT_EQ(Message("f,age\nsit,1,2\n"),
+            ":2: there are 3 cells, and 2 in the first line; commas separate cells, numbers need "
+            "decimal points");
+  EXPECT_NE(Message("f,age\nsit,1\nstand,\"1,5\"\n").find("comma"), std::string::npos);
+  EXPECT_NE(Message("f;age\nstand;1,5\n").find("semicolons"), std::string::npos);
   EXPECT_EQ(Message("f,age\n\"sit,1\n"), ":2: a quote does not end on this line");
   EXPECT_EQ(Message("f,age\n\"sit\"x,1\n"), ":2: there is text between a quote and the next comma");
   EXPECT_EQ(Message("f,age\n"), ": there is no row with a pose");

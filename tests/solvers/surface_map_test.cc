@@ -99,7 +99,11 @@ TEST_F(SurfaceMapTest, DamagedFilesAreRefusedByLine) {
   ExpectRefused("to_template 1\n", "m.txt:1: expected 'to_target'");
   ExpectRefused("to_target 99999999999\n", "m.txt:1: 'to_target' must be followed by");
   ExpectRefused("to_target 1\n3 1 0 0 0.5\n", "m.txt:2: a line begins with a triangle from 1 to 2");
-  ExpectRefused("to_target 1\n1 1 0 x 0.5\n", "m.txt:2: a number is missing or invalid");
+  ExpectRefused("to_target 1\n1 1 0 x 0.5\n", "m.txt:2: 'x' is not a number");
+  ExpectRefused("to_target 1\n1 1 0 0 nan\n", "m.txt:2: 'nan' is not a finite number");
+  ExpectRefused("to_target 1\n1 1 0 0\n", "m.txt:2: a number is missing");
+  ExpectRefused("to_target 1\n1 0,5 0,5 0 0\n", "comma");
+  ExpectRefused("to_target 1\n0 1 0 0 0\n", "the first triangle has the number 1");
   ExpectRefused("to_target 1\n1 1 1 0 0.5\n", "m.txt:2: the three barycentric");
   ExpectRefused("to_target 1\n1 1 0.0001 0 0.5\n", "m.txt:2: the three barycentric");
   ExpectRefused("to_target 1\n1 1.0001 -0.0001 0 0.5\n", "m.txt:2: the three barycentric");
@@ -123,6 +127,12 @@ class MarkerFileTest : public testing::FilesTest {
 
   Poses mesh_;
 };
+
+TEST_F(MarkerFileTest, AZeroTellsThatTheFileCountsFromZero) {
+  for (const std::string text : {"0 0\n1 1\n", "1 1\n2 0\n", "nose 0\n"}) {
+    ExpectRefused(text, "the first vertex has the number 1");
+  }
+}
 
 TEST_F(MarkerFileTest, ReadsNumbersAndNamesOfGroups) {
   const std::vector<CorrespondenceMarker> markers = ReadMarkers(

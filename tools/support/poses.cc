@@ -6,6 +6,7 @@
 #include <gflags/gflags.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/files/pose_order.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/output/frames.h>
 
@@ -50,7 +51,7 @@ Poses CheckedWithWarnings(Poses poses) {
 
 }  // namespace
 
-Poses ReadPosesFromFlags(const std::vector<std::string>& files, size_t least) {
+Poses ReadPosesFromFlags(const std::vector<std::string>& files, size_t least, bool any_order) {
   const bool from_stdin = std::find(files.begin(), files.end(), "-") != files.end();
   std::vector<Soup> soups;
   for (const std::string& file : files) {
@@ -62,6 +63,8 @@ Poses ReadPosesFromFlags(const std::vector<std::string>& files, size_t least) {
   if (poses.shapes.size() < least) {
     throw UsageError(files[0] + " has one pose; name at least two poses of one mesh");
   }
+  const std::string order = any_order ? "" : OrderWarning(files);
+  if (!order.empty()) poses.warnings.push_back(order);
   return CheckedWithWarnings(std::move(poses));
 }
 

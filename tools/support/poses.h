@@ -11,10 +11,12 @@ namespace shapespace::tools {
 
 /// Reads files with two or more poses in all (or with `least`), according to --stiffeners,
 /// --allow_nonmanifold and
-/// --mirror; prints warnings, and notes on content that outputs will not have.
+/// --mirror; prints warnings, and notes on content that outputs will not have. Unless the order of
+/// the poses means nothing (`any_order`), the warning of `OrderWarning` is one of them.
 /// \throw UsageError if there are fewer poses, or if a flag of the metric cannot be applied to the
 ///        mesh.
-Poses ReadPosesFromFlags(const std::vector<std::string>& files, size_t least = 2);
+Poses ReadPosesFromFlags(const std::vector<std::string>& files, size_t least = 2,
+                         bool any_order = false);
 
 /// The same for one mesh of each file: of a file of several poses the first.
 Poses ReadMeshesFromFlags(const std::vector<std::string>& files);

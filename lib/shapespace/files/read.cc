@@ -200,9 +200,11 @@ std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num
       const std::string_view word = words.Next();
       const std::optional<std::int64_t> number = internal::ParseInteger(word);
       if (!number || *number < 1 || *number > num_vertices) {
-        internal::FailAt(file, lines.Number(),
-                         element + internal::Quoted(word) + " is not a vertex number from 1 to " +
-                             std::to_string(num_vertices) + "; a line holds two of them");
+        internal::FailAt(
+            file, lines.Number(),
+            element + internal::Quoted(word) + " is not a vertex number from 1 to " +
+                std::to_string(num_vertices) +
+                (number == 0 ? internal::kCountsFromOne : "; a line holds two of them"));
       }
       end = static_cast<int>(*number) - 1;
     }

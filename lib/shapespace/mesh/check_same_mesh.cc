@@ -10,6 +10,7 @@
 #include <shapespace/mesh/internal/check_structure.h>
 #include <shapespace/mesh/internal/check_words.h>
 #include <shapespace/mesh/internal/polygons.h>
+#include <shapespace/mesh/internal/recut.h>
 #include <shapespace/mesh/internal/sides.h>
 #include <shapespace/mesh/internal/sorted_polygons.h>
 #include <shapespace/mesh/volume.h>
@@ -32,6 +33,10 @@ using Findings = std::vector<Finding>;
 constexpr char kKeepOrder[] =
     "export all poses from one mesh with 'keep vertex order' switched on, and with welding, "
     "triangulation and mesh optimisation switched off";
+
+constexpr char kCutOnce[] =
+    "export the polygons of all poses uncut, with triangulation switched off, or cut the mesh into "
+    "triangles once, before it is posed";
 
 double Median(std::vector<double> values) {
   const auto middle = values.begin() + values.size() / 2;
@@ -62,6 +67,16 @@ class Comparison {
 
   bool CountsAgree() {
     bool agree = true;
+    const int recut = pose_.NumVertices() == reference_.NumVertices() &&
+                              pose_.NumPolygons() != reference_.NumPolygons()
+                          ? internal::CountRecutPolygons(reference_, pose_)
+                          : 0;
+    if (recut > 0) {
+      Tell(Severity::kFatal, "polygon-count",
+           std::to_string(pose_.NumPolygons()) + " polygons instead of " +
+               std::to_string(reference_.NumPolygons()) + "; " + Recut(recut));
+      return false;
+    }
     auto compare = [&](size_t count, size_t wanted, const char* kind, const std::string& what) {
       if (count == wanted) return;
       agree = false;
@@ -117,7 +132,7 @@ class Comparison {
       Tell(Severity::kFatal, "polygons-differ",
            "the first polygon that differs is " + PolygonName(pose_, p) + " with vertices " +
                Corners(pose_, p) + ", where the reference has " + PolygonName(reference_, p) +
-               " with " + Corners(reference_, p) + "; " + WhyPolygonsDiffer() + ": " + kKeepOrder);
+               " with " + Corners(reference_, p) + "; " + WhyPolygonsDiffer());
       return false;
     }
     if (wound.Count() == 0) {
@@ -145,7 +160,18 @@ class Comparison {
     return result + (end - begin > kMaxNamed ? " ..." : "");
   }
 
+  static std::string Recut(int polygons) {
+    return "the vertices and their polygons are the same, but polygons are cut along other "
+           "diagonals, or not cut in one of the two (" +
+           std::to_string(polygons) + "): " + kCutOnce;
+  }
+
   std::string WhyPolygonsDiffer() const {
+    const int recut = internal::CountRecutPolygons(reference_, pose_);
+    return recut > 0 ? Recut(recut) : WhyVerticesDiffer() + ": " + kKeepOrder;
+  }
+
+  std::string WhyVerticesDiffer() const {
     const int n = reference_.NumVertices();
     // Checks whether the lists of polygons are equal up to a renumbering of vertices.
     if (reference_.polygon_begin == pose_.polygon_begin) {

@@ -22,7 +22,9 @@ int VertexFrom(std::string_view word, const Poses& mesh, const std::string& file
                              kWhatALineHolds;
   if (const std::optional<std::int64_t> number = internal::ParseInteger(word)) {
     if (*number < 1 || *number > num_vertices) {
-      internal::FailAt(file, line, internal::Quoted(word) + wanted);
+      internal::FailAt(
+          file, line,
+          internal::Quoted(word) + wanted + (*number == 0 ? internal::kCountsFromOne : ""));
     }
     return static_cast<int>(*number) - 1;
   }

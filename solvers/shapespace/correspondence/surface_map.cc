@@ -75,7 +75,8 @@ class MapReader {
       internal::LineWords words = NextLine(name);
       const std::optional<std::int64_t> triangle = internal::ParseInteger(words.Next());
       if (!triangle || *triangle < 1 || *triangle > num_triangles) {
-        Fail("a line begins with a triangle from 1 to " + std::to_string(num_triangles));
+        Fail("a line begins with a triangle from 1 to " + std::to_string(num_triangles) +
+             (triangle == 0 ? "; the first triangle has the number 1, not 0" : ""));
       }
       points->triangle(v) = static_cast<int>(*triangle) - 1;
       for (int k = 0; k < 3; ++k) points->barycentric(k, v) = Number(&words);
@@ -95,8 +96,11 @@ class MapReader {
   }
 
   double Number(internal::LineWords* words) const {
-    const std::optional<double> number = internal::ParseDouble(words->Next());
-    if (!number || !std::isfinite(*number)) Fail("a number is missing or invalid");
+    const std::string_view word = words->Next();
+    const std::optional<double> number = internal::ParseDouble(word);
+    if (word.empty()) Fail("a number is missing");
+    if (!number) Fail(internal::NotANumber(word));
+    if (!std::isfinite(*number)) Fail(internal::Quoted(word) + " is not a finite number");
     return *number;
   }
 

@@ -47,9 +47,12 @@ PoseTable ReadPoseTable(const std::string& file) {
     std::vector<std::string> cells = CsvCells(line, file, lines.Number());
     if (table.columns.empty()) {
       if (cells.size() < 2) {
-        internal::FailAt(file, lines.Number(),
-                         "there is one column; the first has the names of the poses, the others "
-                         "what is known of them, separated by commas");
+        const bool semicolons = line.find(';') != std::string_view::npos;
+        internal::FailAt(
+            file, lines.Number(),
+            std::string("there is one column; the first has the names of the poses, "
+                        "the others what is known of them, separated by commas") +
+                (semicolons ? ", not by semicolons; numbers need decimal points" : ""));
       }
       table.columns.assign(cells.begin() + 1, cells.end());
       continue;
@@ -57,7 +60,10 @@ PoseTable ReadPoseTable(const std::string& file) {
     if (cells.size() != table.columns.size() + 1) {
       internal::FailAt(file, lines.Number(),
                        "there are " + std::to_string(cells.size()) + " cells, and " +
-                           std::to_string(table.columns.size() + 1) + " in the first line");
+                           std::to_string(table.columns.size() + 1) + " in the first line" +
+                           (cells.size() > table.columns.size() + 1
+                                ? "; commas separate cells, numbers need decimal points"
+                                : ""));
     }
     const auto [first, is_new] = line_of.emplace(PoseNamed(cells[0]), lines.Number());
     if (!is_new) {
@@ -98,7 +104,9 @@ Eigen::MatrixXd PoseTable::NumbersOf(const std::vector<std::string>& names) cons
       if (!number || !std::isfinite(*number)) {
         internal::FailAt(file, lines[rows[i]],
                          columns[j] + " of the pose " + internal::Quoted(poses[rows[i]]) + ", " +
-                             internal::Quoted(cell) + ", is not a finite number");
+                             (internal::HasDecimalComma(cell)
+                                  ? internal::NotANumber(cell)
+                                  : internal::Quoted(cell) + ", is not a finite number"));
       }
       numbers(i, j) = *number;
     }

@@ -21,6 +21,10 @@ namespace shapespace::internal {
 /// The remedy for a damaged file; ends most messages.
 inline constexpr char kReexport[] = "; is the file damaged? Export the mesh again";
 
+/// The remedy where a vertex has the number 0 in a text that counts from 1.
+inline constexpr char kCountsFromOne[] =
+    "; the first vertex has the number 1: if the file counts from 0, add 1 to all of its numbers";
+
 /// Throws a FileError "file:line: what"; without the line if it is 0.
 [[noreturn]] inline void FailAt(const std::string& file, int line, const std::string& what) {
   throw FileError(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what);
@@ -29,6 +33,11 @@ inline constexpr char kReexport[] = "; is the file damaged? Export the mesh agai
 /// Replaces the byte order mark with which some editors begin a text in UTF-8 by blanks.
 inline void BlankByteOrderMark(std::string* text) {
   if (text->compare(0, 3, "\xEF\xBB\xBF") == 0) text->replace(0, 3, 3, ' ');
+}
+
+/// The text without that mark.
+inline std::string_view WithoutByteOrderMark(std::string_view text) {
+  return text.substr(text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0);
 }
 
 /// The text with a to z in place of A to Z.
@@ -90,8 +99,20 @@ class LineWords {
   std::string_view rest_;
 };
 
+/// Whether a text begins with 1.#QNAN, 1.#IND, 1.#INF or the like: what programs made by
+/// Microsoft's compilers before 2015 write in place of a number, shortened as the number would have
+/// been.
+inline bool BeginsWithNotANumber(std::string_view text) {
+  return text.size() > 3 && text.substr(0, 3) == "1.#" && text[3] >= 'A' && text[3] <= 'Z';
+}
+
+/// The line in front of a comment. The # of 1.#QNAN begins none.
 inline std::string_view WithoutComment(std::string_view line) {
-  return line.substr(0, line.find('#'));
+  size_t at = line.find('#');
+  while (at != std::string_view::npos && at >= 2 && BeginsWithNotANumber(line.substr(at - 2))) {
+    at = line.find('#', at + 1);
+  }
+  return line.substr(0, at);
 }
 
 inline std::string_view WithoutPlus(std::string_view word) {
@@ -102,6 +123,9 @@ inline std::string_view WithoutPlus(std::string_view word) {
 /// The whole word as a number, which may be infinite or NaN; empty if it is not a number.
 inline std::optional<double> ParseDouble(std::string_view word) {
   word = WithoutPlus(word);
+  if (BeginsWithNotANumber(word.substr(word.substr(0, 1) == "-"))) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   double value = 0.0;
   const char* end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, value);
@@ -127,6 +151,22 @@ inline std::optional<std::int64_t> ParseInteger(std::string_view word) {
   return value;
 }
 
+/// Whether the word is a number whose decimal point is a comma.
+inline bool HasDecimalComma(std::string_view word) {
+  const size_t comma = word.find(',');
+  if (comma == std::string_view::npos || comma + 1 == word.size()) return false;
+  std::string with_point(word);
+  with_point[comma] = '.';
+  return ParseDouble(with_point).has_value();
+}
+
+/// "'word' is not a number", and the remedy.
+inline std::string NotANumber(std::string_view word) {
+  constexpr char kComma[] =
+      ", since it has a decimal comma; write the file again with decimal points";
+  return Quoted(word) + " is not a number" + (HasDecimalComma(word) ? kComma : kReexport);
+}
+
 /// An element of a file, such as its third vertex; converted to text only for messages.
 struct ElementName {
   const char* kind;
@@ -144,8 +184,7 @@ inline double FiniteNumber(std::string_view word, const char* what, const std::s
   if (word.empty()) FailAt(file, line, element.Text() + ": " + what + " is missing" + kReexport);
   const std::optional<double> value = ParseDouble(word);
   if (!value) {
-    FailAt(file, line,
-           element.Text() + ": " + what + " " + Quoted(word) + " is not a number" + kReexport);
+    FailAt(file, line, element.Text() + ": " + what + " " + NotANumber(word));
   }
   if (!std::isfinite(*value)) {
     FailAt(

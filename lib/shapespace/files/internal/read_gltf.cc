@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
@@ -37,6 +38,11 @@ constexpr int kDeepest = 100;
 // every byte of the file allows. A pose that is written in full has less than one a byte; files of
 // hundreds of poses, each of which moves a small part of the mesh, have up to thirty.
 constexpr double kAlwaysAllowed = 5e7, kAllowedPerByte = 100;
+
+// Allows positions, and displacements of targets, in integers of one or two bytes, which the node
+// scales and moves to their places:
+// https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_mesh_quantization
+constexpr char kQuantization[] = "KHR_mesh_quantization";
 
 constexpr std::int64_t kMaxBytesOfBuffers = std::numeric_limits<int>::max();
 
@@ -114,9 +120,9 @@ class GltfReader {
     const tinygltf::Mesh& mesh = At(model_.meshes, model_.nodes[node].mesh, "mesh");
     for (const Primitive& primitive : mesh.primitives) AddPrimitive(primitive);
     if (shapes_.empty() || shapes_[0].cols() == 0) Fail("the mesh has no vertices");
-    const bool skinned = model_.nodes[node].skin >= 0;
+    skinned_ = model_.nodes[node].skin >= 0;
     // Vertices of a skinned mesh are placed by its skeleton, not by its node.
-    return Soups(skinned ? Eigen::Affine3d::Identity() : Placement(node), Names(mesh));
+    return Soups(skinned_ ? Eigen::Affine3d::Identity() : Placement(node), Names(mesh));
   }
 
  private:
@@ -173,11 +179,15 @@ class GltfReader {
            kReexport);
     }
     for (const std::string& extension : model_.extensionsRequired) {
-      // Those that compress, or round, positions.
-      if (extension.find("mesh") != extension.npos) {
+      // Those that compress positions.
+      if (extension.find("mesh") != extension.npos && extension != kQuantization) {
         Fail("needs the extension " + extension +
              ", which is not read; export the file without compression");
       }
+    }
+    for (const auto* extensions : {&model_.extensionsRequired, &model_.extensionsUsed}) {
+      quantized_ =
+          quantized_ || std::count(extensions->begin(), extensions->end(), kQuantization) > 0;
     }
   }
 
@@ -272,20 +282,57 @@ class GltfReader {
     return {data.data() + view.byteOffset + offset, stride};
   }
 
+  // Whether positions may be of this type of numbers.
+  bool IsPositionType(int component_type) const {
+    switch (component_type) {
+      case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        return true;
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return quantized_;
+      default:
+        return false;
+    }
+  }
+
+  // One of these numbers. If normalised, the greatest integer stands for 1, and the least of those
+  // with a sign, which is one less than minus the greatest, for -1.
+  static double Component(const char* bytes, int component_type, bool normalized) {
+    const auto scaled = [normalized](double number, double greatest) {
+      return normalized ? std::max(number / greatest, -1.0) : number;
+    };
+    switch (component_type) {
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return scaled(ReadLittleEndian<std::int8_t>(bytes), 127);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return scaled(ReadLittleEndian<std::uint8_t>(bytes), 255);
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return scaled(ReadLittleEndian<std::int16_t>(bytes), 32767);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return scaled(ReadLittleEndian<std::uint16_t>(bytes), 65535);
+      default:
+        return ReadLittleEndian<float>(bytes);
+    }
+  }
+
   // The numbers of an accessor of `count` vertices, one column each.
-  Eigen::MatrixXd Floats(const Accessor& accessor, int type, size_t count, const char* what) const {
-    if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT || accessor.type != type) {
+  Eigen::MatrixXd Numbers(const Accessor& accessor, int type, size_t count,
+                          const char* what) const {
+    if (!IsPositionType(accessor.componentType) || accessor.type != type) {
       Fail(std::string(what) + " are not floating-point numbers; export them without compression");
     }
     const int rows = tinygltf::GetNumComponentsInType(type);
-    const size_t size = rows * sizeof(float);
+    const int component_size = tinygltf::GetComponentSizeInBytes(accessor.componentType);
+    const auto size = static_cast<size_t>(rows * component_size);
     if (accessor.count != count) {
       Fail(std::string(what) + " are not as many as the vertices" + kReexport);
     }
-    const auto read = [rows](const unsigned char* bytes, double* numbers) {
+    const auto read = [&, rows](const unsigned char* bytes, double* numbers) {
       for (int row = 0; row < rows; ++row) {
-        numbers[row] =
-            ReadLittleEndian<float>(reinterpret_cast<const char*>(bytes + row * sizeof(float)));
+        numbers[row] = Component(reinterpret_cast<const char*>(bytes + row * component_size),
+                                 accessor.componentType, accessor.normalized);
       }
     };
     // Without a buffer view all numbers are 0, but for the sparse ones.
@@ -381,7 +428,7 @@ class GltfReader {
       // Only targets may leave out the buffer, where all numbers but a few are 0.
       if (k == 0 && accessor.bufferView < 0) Fail(std::string("has no positions") + kReexport);
       const Eigen::MatrixXd numbers =
-          Floats(accessor, TINYGLTF_TYPE_VEC3, k == 0 ? accessor.count : base.cols(), "positions");
+          Numbers(accessor, TINYGLTF_TYPE_VEC3, k == 0 ? accessor.count : base.cols(), "positions");
       if (k == 0) base = numbers;
       Append(k == 0 ? base : Eigen::MatrixXd(base + numbers), &shapes_[k]);
     }
@@ -399,13 +446,19 @@ class GltfReader {
     const int index = TextureAccessor(primitive);
     texture_of_.resize(texture_of_.size() + vertices, -1);
     if (index < 0) return;
-    const Accessor& accessor = At(model_.accessors, index, "list of numbers");
-    if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
-      has_rounded_texture_ = true;
+    Eigen::MatrixXd numbers;
+    try {
+      const Accessor& accessor = At(model_.accessors, index, "list of numbers");
+      if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+        has_rounded_texture_ = true;
+        return;
+      }
+      numbers = Numbers(accessor, TINYGLTF_TYPE_VEC2, vertices, "texture coordinates");
+    } catch (const FileError& error) {
+      // The mesh does not need them.
+      bad_texture_ = error.what();
       return;
     }
-    const Eigen::MatrixXd numbers =
-        Floats(accessor, TINYGLTF_TYPE_VEC2, vertices, "texture coordinates");
     const Eigen::Index known = texture_.cols();
     texture_.conservativeResize(2, known + vertices);
     // glTF's v points down.
@@ -487,7 +540,10 @@ class GltfReader {
     tell(has_materials_, "materials and textures not kept");
     tell(has_colours_, "vertex colours not kept");
     tell(has_rounded_texture_, "texture coordinates that are not floating-point numbers not kept");
+    tell(!bad_texture_.empty(), bad_texture_ + "; not kept");
     tell(!model_.skins.empty(), "the skeleton is not applied: the mesh is in its bind pose");
+    // What would place the integers is part of the skeleton.
+    tell(quantized_ && skinned_, "positions are in the units of the file's quantization");
     std::vector<Soup> soups;
     for (size_t k = 0; k < shapes_.size(); ++k) {
       soups.push_back(soup);
@@ -509,6 +565,8 @@ class GltfReader {
   Eigen::Matrix2Xd texture_{2, 0};
   std::vector<int> texture_of_;  // of each vertex: its texture coordinates, or -1
   bool has_materials_ = false, has_colours_ = false, has_rounded_texture_ = false;
+  std::string bad_texture_;  // what is wrong with texture coordinates, if anything
+  bool quantized_ = false, skinned_ = false;
 };
 
 }  // namespace

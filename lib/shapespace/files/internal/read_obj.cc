@@ -2,7 +2,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +14,16 @@
 
 namespace shapespace::internal {
 namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Elements of a kind, and the line of the first.
+struct Seen {
+  int count = 0, first_line = 0;
+  void Add(int line) {
+    if (count++ == 0) first_line = line;
+  }
+};
 
 /// The current name of `usemtl`, `g` or `o`, for the following polygons.
 class CurrentName {
@@ -61,8 +73,9 @@ class ObjReader {
       throw FileError(soup_.file + ": no vertex in it; is this an OBJ file?");
     }
     soup_.vertices = Eigen::Map<Shape>(coordinates_.data(), 3, NumVertices());
-    FinishAppearance();
     CheckIndices();
+    FinishTexture();
+    FinishColours();
     TellDropped();
     return std::move(soup_);
   }
@@ -114,8 +127,7 @@ class ObjReader {
       if (!words.Done()) soup_.appearance.material_libraries.emplace_back(words.Rest());
       return;
     }
-    auto& [count, first_line] = dropped_[std::string(keyword.substr(0, kLongestKeyword))];
-    if (count++ == 0) first_line = line_;
+    dropped_[std::string(keyword.substr(0, kLongestKeyword))].Add(line_);
   }
 
   double Number(std::string_view word, const char* what, const ElementName& element) const {
@@ -132,12 +144,12 @@ class ObjReader {
     double further[4] = {1, 1, 1, 1};
     int count = 0;
     for (; !words.Done(); ++count) {
-      if (count == 4) Fail(element.Text() + ": more than seven numbers" + kReexport);
-      further[count] = Number(words.Next(), "what follows x y z,", element);
+      const double number = Unneeded(words.Next());
+      if (count < 4) further[count] = number;
     }
-    if (count == 2) Fail(element.Text() + ": five numbers instead of three" + kReexport);
+    if (count == 2 || count > 4) unknown_further_.Add(line_);
     if (count == 1 && further[0] != 1.0) ++weights_;
-    if (count >= 3) {
+    if (count == 3 || count == 4) {
       ++num_coloured_;
       any_opacity_ = any_opacity_ || count == 4;
       // Vertices without a colour are white.
@@ -146,12 +158,25 @@ class ObjReader {
     }
   }
 
+  /// A number that the mesh does not need: NaN if the word is none, or an infinite one.
+  static double Unneeded(std::string_view word) {
+    const double number = ParseDouble(word).value_or(kNan);
+    return std::isfinite(number) ? number : kNan;
+  }
+
   void ReadTexture(LineWords words) {
-    const ElementName element{"texture coordinate", texture_.size() / 2 + 1};
-    texture_.push_back(Number(words.Next(), "u", element));
-    texture_.push_back(words.Done() ? 0.0 : Number(words.Next(), "v", element));
-    if (!words.Done() && Number(words.Next(), "w", element) != 0.0) ++third_texture_;
-    if (!words.Done()) Fail(element.Text() + ": more than three numbers" + kReexport);
+    double numbers[3] = {kNan, 0, 0};
+    int count = 0;
+    for (; !words.Done(); ++count) {
+      const double number = Unneeded(words.Next());
+      if (count < 3) numbers[count] = number;
+    }
+    // Those that are no numbers keep their place in the list, but no corner will have them.
+    const bool good = !std::isnan(numbers[0] + numbers[1]);
+    if (!good) bad_texture_.Add(line_);
+    texture_.push_back(good ? numbers[0] : kNan);
+    texture_.push_back(good ? numbers[1] : kNan);
+    if (numbers[2] != 0.0 || count > 3) ++third_texture_;
   }
 
   void ReadPolygon(LineWords words) {
@@ -162,7 +187,6 @@ class ObjReader {
       const auto [vertex, texture] = Corner(words.Next(), element);
       soup_.corners.push_back(vertex);
       soup_.appearance.corner_texture.push_back(texture);
-      any_texture_ = any_texture_ || texture != -1;
     }
     if (count < 3) {
       Fail(element.Text() + ": " + std::to_string(count) + " corners, a polygon needs three" +
@@ -186,88 +210,107 @@ class ObjReader {
   /// The vertex and the texture coordinate, or -1, of "v", "v/t", "v//n" or "v/t/n", where all but
   /// v may be empty. Counted from 0; whether they exist is checked at the end of the file.
   std::pair<int, int> Corner(std::string_view word, const ElementName& element) const {
-    const std::string_view whole = word;
-    int numbers[3] = {0, 0, 0};
-    for (int part = 0; part < 3; ++part) {
-      const size_t slash = std::min(word.find('/'), word.size());
-      const std::string_view digits = word.substr(0, slash);
-      if (!digits.empty() || part == 0) {
-        const std::optional<std::int64_t> number = ParseInteger(digits);
-        constexpr std::int64_t kMax = std::numeric_limits<int>::max();
-        if (!number || *number == 0 || *number < -kMax || *number > kMax) {
-          Fail(element.Text() + ": corner " + Quoted(whole) +
-               " is not made of numbers counted from 1" + kReexport);
-        }
-        numbers[part] = static_cast<int>(*number);
-      }
-      if (slash == word.size()) {
-        return {FromZero(numbers[0], NumVertices()), FromZero(numbers[1], NumTexture())};
-      }
-      word.remove_prefix(slash + 1);
+    const size_t slash = std::min(word.find('/'), word.size());
+    const std::optional<int> vertex = IndexFrom(word.substr(0, slash), NumVertices());
+    if (!vertex) {
+      Fail(element.Text() + ": corner " + Quoted(word) + " is not made of numbers counted from 1" +
+           (ParseInteger(word.substr(0, slash)) == 0 ? kCountsFromOne : kReexport));
     }
-    Fail(element.Text() + ": corner " + Quoted(whole) + " has more than three parts");
+    if (slash == word.size()) return {*vertex, -1};
+    const std::string_view rest = word.substr(slash + 1);
+    const size_t end = std::min(rest.find('/'), rest.size());
+    if (end < rest.size() && rest.find('/', end + 1) != rest.npos) {
+      Fail(element.Text() + ": corner " + Quoted(word) + " has more than three parts");
+    }
+    if (end == 0) return {*vertex, -1};
+    return {*vertex, IndexFrom(rest.substr(0, end), NumTexture()).value_or(kNoIndex)};
   }
 
-  /// Negative numbers count backwards from the last of `count` elements so far. 0 stands for a
-  /// missing number and becomes -1; an element before the first becomes less.
-  static int FromZero(int number, int count) {
-    if (number >= 0) return number - 1;
-    return count + number >= 0 ? count + number : -2;
+  /// Negative numbers count backwards from the last of `count` elements so far. Empty unless it is
+  /// a number that could be an index; kNoIndex for an element before the first.
+  static std::optional<int> IndexFrom(std::string_view digits, int count) {
+    constexpr std::int64_t kMax = std::numeric_limits<int>::max();
+    const std::optional<std::int64_t> number = ParseInteger(digits);
+    if (!number || *number == 0 || *number < -kMax || *number > kMax) return std::nullopt;
+    const auto index = static_cast<int>(*number);
+    if (index > 0) return index - 1;
+    return count + index >= 0 ? count + index : kNoIndex;
   }
 
-  void FinishAppearance() {
+  /// Corners keep the texture coordinates that exist and are numbers.
+  void FinishTexture() {
     Appearance& appearance = soup_.appearance;
-    if (any_texture_) {
-      appearance.texture_coordinates =
-          Eigen::Map<Eigen::Matrix2Xd>(texture_.data(), 2, NumTexture());
-    } else {
-      appearance.corner_texture.clear();
-    }
-    if (num_coloured_ > 0) {
-      colours_.resize(4 * soup_.vertex_line.size(), 1.0);
-      const auto outside = [](double x) { return x < 0 || x > 1; };
-      if (std::any_of(colours_.begin(), colours_.end(), outside)) {
-        Tell(num_coloured_, "vertex colours (some number of them is not in 0 .. 1)");
-      } else {
-        appearance.vertex_colours = Eigen::Map<Eigen::Matrix4Xd>(colours_.data(), 4, NumVertices())
-                                        .topRows(any_opacity_ ? 4 : 3);
+    bool any = false;
+    for (int p = 0; p < soup_.NumPolygons(); ++p) {
+      for (int k = soup_.polygon_begin[p]; k < soup_.polygon_begin[p + 1]; ++k) {
+        int& texture = appearance.corner_texture[k];
+        if (texture == -1) continue;
+        if (texture == kNoIndex || texture >= NumTexture() || std::isnan(texture_[2 * texture])) {
+          texture = -1;
+          without_texture_.Add(soup_.polygon_line[p]);
+        }
+        any = any || texture != -1;
       }
+    }
+    if (!any) return appearance.corner_texture.clear();
+    std::replace_if(
+        texture_.begin(), texture_.end(), [](double x) { return std::isnan(x); }, 0.0);
+    appearance.texture_coordinates = Eigen::Map<Eigen::Matrix2Xd>(texture_.data(), 2, NumTexture());
+  }
+
+  void FinishColours() {
+    if (num_coloured_ == 0) return;
+    colours_.resize(4 * soup_.vertex_line.size(), 1.0);
+    const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
+    if (std::any_of(colours_.begin(), colours_.end(), outside)) {
+      Tell(num_coloured_, "vertex colours (some number of them is not in 0 .. 1)");
+    } else {
+      soup_.appearance.vertex_colours =
+          Eigen::Map<Eigen::Matrix4Xd>(colours_.data(), 4, NumVertices())
+              .topRows(any_opacity_ ? 4 : 3);
     }
   }
 
-  void CheckIndices() {
+  void CheckIndices() const {
     for (int p = 0; p < soup_.NumPolygons(); ++p) {
-      line_ = soup_.polygon_line[p];
-      const ElementName element{"polygon", static_cast<size_t>(p + 1)};
       for (int k = soup_.polygon_begin[p]; k < soup_.polygon_begin[p + 1]; ++k) {
-        CheckIndex(soup_.corners[k], element, NumVertices(), "vertex");
-        if (!any_texture_ || soup_.appearance.corner_texture[k] == -1) continue;
-        CheckIndex(soup_.appearance.corner_texture[k], element, NumTexture(), "texture coordinate");
+        CheckVertex(soup_.corners[k], soup_.polygon_line[p],
+                    {"polygon", static_cast<size_t>(p + 1)});
       }
     }
     for (size_t s = 0; s < soup_.segments.size(); ++s) {
-      line_ = soup_.segment_line[s];
-      CheckIndex(soup_.segments[s].first, {"segment", s + 1}, NumVertices(), "vertex");
-      CheckIndex(soup_.segments[s].second, {"segment", s + 1}, NumVertices(), "vertex");
+      for (const int v : {soup_.segments[s].first, soup_.segments[s].second}) {
+        CheckVertex(v, soup_.segment_line[s], {"segment", s + 1});
+      }
     }
   }
 
-  void CheckIndex(int index, const ElementName& element, int count, const std::string& what) const {
-    if (index >= 0 && index < count) return;
-    Fail(element.Text() + ": " +
-         (index < 0 ? "a relative index reaches before the first " + what
-                    : what + " " + std::to_string(index + 1) + " does not exist") +
-         ", the file has " + std::to_string(count) + kReexport);
+  void CheckVertex(int index, int line, const ElementName& element) const {
+    if (index >= 0 && index < NumVertices()) return;
+    FailAt(soup_.file, line,
+           element.Text() + ": " +
+               (index < 0 ? "a relative index reaches before the first vertex"
+                          : "vertex " + std::to_string(index + 1) + " does not exist") +
+               ", the file has " + std::to_string(NumVertices()) + kReexport);
   }
 
   void Tell(int count, const std::string& what) {
     if (count > 0) soup_.dropped.push_back(std::to_string(count) + " " + what + " not kept");
   }
 
+  void TellFirst(const Seen& seen, const std::string& what) {
+    Tell(seen.count, what + " (the first on line " + std::to_string(seen.first_line) + ")");
+  }
+
   void TellDropped() {
     Tell(weights_, "vertex weights other than 1");
+    TellFirst(unknown_further_, "vertices' further numbers, which are no colours,");
     Tell(third_texture_, "third texture coordinates");
-    if (!any_texture_) Tell(NumTexture(), "texture coordinates that no polygon has");
+    TellFirst(bad_texture_, "texture coordinates that are not finite numbers");
+    TellFirst(without_texture_, "corners' texture coordinates that the file does not have");
+    if (soup_.appearance.corner_texture.empty()) {
+      Tell(NumTexture() - bad_texture_.count, "texture coordinates that no polygon has");
+    }
     Tell(material_.Finish(), "materials (usemtl) that no polygon has");
     Tell(group_.Finish(), "group names (g) that no polygon has");
     Tell(object_.Finish(), "object names (o) that no polygon has");
@@ -278,16 +321,16 @@ class ObjReader {
     for (const auto& [keyword, seen] : dropped_) {
       const auto known = kKnown.find(keyword);
       if (known != kKnown.end()) {
-        Tell(seen.first, known->second);
+        Tell(seen.count, known->second);
       } else if (++unknown <= kMaxUnknown) {
-        Tell(seen.first, "statements " + Quoted(keyword) + " (the first on line " +
-                             std::to_string(seen.second) + ")");
+        TellFirst(seen, "statements " + Quoted(keyword));
       }
     }
     Tell(unknown - kMaxUnknown, "further kinds of statement");
   }
 
   static constexpr size_t kLongestKeyword = 40;
+  static constexpr int kNoIndex = -2;  // -1 stands for a texture coordinate that is not wanted
 
   std::string text_;
   Soup soup_;
@@ -296,10 +339,11 @@ class ObjReader {
   std::vector<double> coordinates_, texture_;  // three per vertex, two per texture coordinate
   std::vector<double> colours_;                // four per vertex, up to the last one with a colour
   int num_coloured_ = 0, weights_ = 0, third_texture_ = 0;
-  bool any_opacity_ = false, any_texture_ = false;
+  bool any_opacity_ = false;
+  Seen bad_texture_, without_texture_, unknown_further_;
   CurrentName material_{&soup_.appearance.materials}, group_{&soup_.appearance.groups},
       object_{&soup_.appearance.objects};
-  std::map<std::string, std::pair<int, int>> dropped_;  // keyword -> count, first line
+  std::map<std::string, Seen> dropped_;  // by keyword
 };
 
 }  // namespace

@@ -219,12 +219,17 @@ class PlyReader {
     }
   }
 
+  std::string_view Word(const std::string& what) {
+    const std::string_view word = words_.Next();
+    if (word.empty()) Fail(label_ + ": " + what + " is missing" + kReexport);
+    return word;
+  }
+
   double Number(Type type, const std::string& what) {
     if (IsText()) {
-      const std::string_view word = words_.Next();
-      if (word.empty()) Fail(label_ + ": " + what + " is missing" + kReexport);
+      const std::string_view word = Word(what);
       const std::optional<double> value = ParseDouble(word);
-      if (!value) Fail(label_ + ": " + what + " " + Quoted(word) + " is not a number" + kReexport);
+      if (!value) Fail(label_ + ": " + what + " " + NotANumber(word));
       return *value;
     }
     if (BytesLeft() < Size(type)) Fail("the file ends inside " + label_ + kReexport);
@@ -232,6 +237,12 @@ class PlyReader {
     const double value = Decode(text_.data() + position_, type, swap);
     position_ += Size(type);
     return value;
+  }
+
+  /// A number that the mesh does not need: NaN if a text has something else in its place.
+  double Unneeded(Type type, const std::string& what) {
+    if (!IsText()) return Number(type, what);
+    return ParseDouble(Word(what)).value_or(std::numeric_limits<double>::quiet_NaN());
   }
 
   /// Length of the next list.
@@ -249,7 +260,7 @@ class PlyReader {
 
   void Skip(const Property& property) {
     const std::int64_t count = property.count_type ? Length(property) : 1;
-    for (std::int64_t i = 0; i < count; ++i) Number(property.type, property.name);
+    for (std::int64_t i = 0; i < count; ++i) Unneeded(property.type, property.name);
   }
 
   void Skip(const Element& element) {
@@ -349,7 +360,9 @@ class PlyReader {
           Skip(property);
           continue;
         }
-        const double value = Number(property.type, property.name);
+        const bool needed = role[i] < 3 || static_cast<int>(i) == of_field;
+        const double value =
+            needed ? Number(property.type, property.name) : Unneeded(property.type, property.name);
         if (static_cast<int>(i) == of_field) field_(v) = value;
         if (role[i] < 0) continue;
         if (role[i] >= 3) {
@@ -420,10 +433,7 @@ class PlyReader {
     const std::int64_t count = Length(property);
     polygon_texture_.clear();
     for (std::int64_t k = 0; k < count; ++k) {
-      polygon_texture_.push_back(Number(property.type, property.name));
-      if (!std::isfinite(polygon_texture_.back())) {
-        Fail(label_ + ": a texture coordinate is not a finite number" + kReexport);
-      }
+      polygon_texture_.push_back(Unneeded(property.type, property.name));
     }
   }
 
@@ -431,7 +441,9 @@ class PlyReader {
   void AddTexture() {
     std::vector<int>& corner_texture = soup_.appearance.corner_texture;
     const size_t corners = soup_.corners.size() - corner_texture.size();
-    const bool fits = polygon_texture_.size() == 2 * corners;
+    const bool fits = polygon_texture_.size() == 2 * corners &&
+                      std::all_of(polygon_texture_.begin(), polygon_texture_.end(),
+                                  [](double number) { return std::isfinite(number); });
     if (!fits && !polygon_texture_.empty()) ++unfit_texture_;
     for (size_t k = 0; k < corners; ++k) {
       if (!fits) {
@@ -451,7 +463,7 @@ class PlyReader {
     Appearance& appearance = soup_.appearance;
     if (unfit_texture_ > 0) {
       soup_.dropped.push_back("texture coordinates of " + std::to_string(unfit_texture_) +
-                              " polygons, which are not two numbers a corner, not kept");
+                              " polygons, which are not two finite numbers a corner, not kept");
     }
     if (texture_.empty()) appearance.corner_texture.clear();
     appearance.texture_coordinates =
@@ -506,11 +518,20 @@ class PlyReader {
       return;
     }
     std::string_view line;
+    int further_lines = 0;
     while (lines_.Next(&line)) {
-      if (!LineWords(line).Done()) {
+      LineWords words(line);
+      if (words.Done()) continue;
+      // Further elements begin with a number.
+      if (ParseDouble(words.Next())) {
         Fail("something follows the last element; the counts of the header do not fit" +
              std::string(kReexport));
       }
+      ++further_lines;
+    }
+    if (further_lines > 0) {
+      soup_.dropped.push_back(std::to_string(further_lines) +
+                              " lines after the last element not kept");
     }
   }
 

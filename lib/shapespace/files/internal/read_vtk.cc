@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -72,8 +73,9 @@ std::string Unescaped(std::string_view word) {
 
 class LegacyVtkReader {
  public:
-  LegacyVtkReader(const std::string& file, const std::string& text, const std::string& field)
-      : file_(file), text_(text), mesh_(file, field) {}
+  LegacyVtkReader(const std::string& file, const std::string& text, const std::string& field,
+                  bool little_endian)
+      : file_(file), text_(text), mesh_(file, field), little_endian_(little_endian) {}
 
   VtkMesh Read() {
     ReadHeader();
@@ -82,6 +84,12 @@ class LegacyVtkReader {
     if (cell_data_ > 0) mesh_.Drop(std::to_string(cell_data_) + " arrays of cell data not kept");
     return std::move(mesh_);
   }
+
+  bool IsBinary() const { return binary_; }
+
+  /// Whether the file has lists of cells that fit together in this byte order, and so not in the
+  /// other one.
+  bool CellsFit() const { return cells_fit_; }
 
  private:
   using Cells = VtkMesh::Cells;
@@ -172,15 +180,16 @@ class LegacyVtkReader {
     std::vector<double> numbers(count);
     for (double& number : numbers) {
       if (binary_) {
-        number = Decode(text_.data() + position_, type, !MachineIsBigEndian());
+        number = Decode(text_.data() + position_, type, little_endian_ == MachineIsBigEndian());
         position_ += Size(type);
         continue;
       }
       const std::string_view word = Word();
       if (word.empty()) Fail(what + ": the file ends before its last number" + kReexport);
       const std::optional<double> value = ParseDouble(word);
-      if (!value) Fail(what + ": " + Quoted(word) + " is not a number" + kReexport);
-      number = *value;
+      // The mesh does not need its data.
+      if (!value && !in_data_) Fail(what + ": " + NotANumber(word));
+      number = value.value_or(std::numeric_limits<double>::quiet_NaN());
     }
     return numbers;
   }
@@ -328,9 +337,14 @@ class LegacyVtkReader {
     if (has_offsets_) {
       if (count == 0) return;
       ends_ = ReadPart("OFFSETS", count, keyword);
+      const bool in_bytes = part_has_bytes_;
       if (ends_.front() != 0) Fail(keyword + ": the first offset is not 0" + kReexport);
       ends_.erase(ends_.begin());
       connectivity_ = ReadPart("CONNECTIVITY", size, keyword);
+      // Bytes are the same in both orders.
+      cells_fit_ = cells_fit_ ||
+                   (!in_bytes && !ends_.empty() && std::is_sorted(ends_.begin(), ends_.end()) &&
+                    ends_.back() == static_cast<double>(size) && size > 0);
       return;
     }
     const std::vector<double> numbers = Numbers(size, NumberType::kInt32, keyword);
@@ -351,11 +365,13 @@ class LegacyVtkReader {
       Fail(keyword + ": the list of cells is longer than its " + std::to_string(count) + " cells" +
            kReexport);
     }
+    cells_fit_ = cells_fit_ || size > 0;
   }
 
   std::vector<double> ReadPart(const std::string& part, size_t count, const std::string& keyword) {
     if (!Passes(part)) Fail(keyword + " is not followed by " + part + kReexport);
     const NumberType type = TypeOf(Word(), keyword);
+    part_has_bytes_ = Size(type) == 1;
     return Numbers(count, type, keyword + ", " + part);
   }
 
@@ -506,7 +522,9 @@ class LegacyVtkReader {
   size_t position_ = 0;
   int line_ = 1;       // of the position
   int word_line_ = 1;  // of the last word or line that was read
+  const bool little_endian_;
   bool binary_ = false, passed_bytes_ = false;
+  bool cells_fit_ = false, part_has_bytes_ = false;
   bool has_offsets_ = false;                  // version 5
   std::vector<double> connectivity_, ends_;   // of the last cells
   std::vector<double> pending_ends_;          // of CELLS, until their types are known
@@ -515,15 +533,39 @@ class LegacyVtkReader {
   size_t cell_data_ = 0;
 };
 
+/// Binary files are big-endian, but some programs write the numbers as their machine has them.
+VtkMesh ReadEitherOrder(const std::string& file, const std::string& text,
+                        const std::string& field) {
+  constexpr char kLittleEndian[] =
+      "the numbers are little-endian, which VTK's own reader takes for other numbers";
+  LegacyVtkReader as_defined(file, text, field, /*little_endian=*/false);
+  try {
+    return as_defined.Read();
+  } catch (const FileError&) {
+    if (!as_defined.IsBinary() || as_defined.CellsFit()) throw;
+    LegacyVtkReader other(file, text, field, /*little_endian=*/true);
+    std::string error;
+    try {
+      VtkMesh mesh = other.Read();
+      mesh.Drop(kLittleEndian);
+      if (other.CellsFit()) return mesh;
+    } catch (const FileError& exception) {
+      error = exception.what();
+    }
+    if (other.CellsFit()) throw FileError(error + " (" + kLittleEndian + ")");
+    throw;
+  }
+}
+
 }  // namespace
 
 Soup ReadVtk(const std::string& file, const std::string& text) {
-  return LegacyVtkReader(file, text, "").Read().TakeSoup();
+  return ReadEitherOrder(file, text, "").TakeSoup();
 }
 
 Eigen::VectorXd ReadVtkField(const std::string& file, const std::string& text,
                              const std::string& name) {
-  return LegacyVtkReader(file, text, name).Read().TakeField();
+  return ReadEitherOrder(file, text, name).TakeField();
 }
 
 }  // namespace shapespace::internal

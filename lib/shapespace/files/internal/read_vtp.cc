@@ -143,7 +143,14 @@ class VtpReader {
     }
     array.components = static_cast<int>(*count);
     const VtkMesh::Use use = mesh_.UseOf(array);
-    if (use != VtkMesh::Use::kNone) mesh_.AddPointData(array, use, Numbers(data));
+    if (use == VtkMesh::Use::kNone) return;
+    try {
+      mesh_.AddPointData(array, use, Numbers(data));
+    } catch (const FileError& error) {
+      // The mesh does not need its colours and texture coordinates.
+      if (use == VtkMesh::Use::kField) throw;
+      mesh_.Drop(std::string(error.what()) + "; not kept");
+    }
   }
 
   // ---- arrays
@@ -180,8 +187,7 @@ class VtpReader {
         const std::string_view word = words.Next();
         const std::optional<double> value = ParseDouble(word);
         if (!value) {
-          Fail(array.line + lines.Number() - 1,
-               NameOf(array) + Quoted(word) + " is not a number" + kReexport);
+          Fail(array.line + lines.Number() - 1, NameOf(array) + NotANumber(word));
         }
         numbers.push_back(*value);
       }

@@ -147,9 +147,12 @@ VtkMesh::Use VtkMesh::UseOf(const Array& array) {
 void VtkMesh::AddPointData(const Array& array, Use use, const std::vector<double>& numbers) {
   if (use == Use::kNone) return;
   if (numbers.size() != NumPiecePoints() * array.components) {
-    Fail("the point data " + Quoted(array.name) + " has " + std::to_string(numbers.size()) +
-         " numbers; " + std::to_string(NumPiecePoints()) + " points of " +
-         std::to_string(array.components) + " are expected" + kReexport);
+    const std::string what = "the point data " + Quoted(array.name) + " has " +
+                             std::to_string(numbers.size()) + " numbers; " +
+                             std::to_string(NumPiecePoints()) + " points of " +
+                             std::to_string(array.components) + " are expected";
+    if (use == Use::kField) Fail(what + kReexport);
+    return Drop(what + "; not kept");
   }
   if (use == Use::kColours) {
     channels_ = array.components;

@@ -54,7 +54,8 @@ class VtkMesh {
   /// \throw FileError if it is the wanted field and has several components.
   Use UseOf(const Array& array);
 
-  /// Data of the piece's points. \throw FileError if their number does not fit.
+  /// Data of the piece's points. \throw FileError if their number does not fit and they are the
+  /// wanted field; others are dropped then.
   void AddPointData(const Array& array, Use use, const std::vector<double>& numbers);
 
   /// Remembers a sentence about what is not kept.

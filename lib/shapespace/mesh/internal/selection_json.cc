@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <limits>
 
+#include <shapespace/base/internal/text.h>
+
 namespace shapespace {
 namespace internal {
 namespace {
@@ -18,7 +20,8 @@ int VertexFrom(const Json& json, const std::string& field) {
   }
   const auto number = json.is_number_unsigned() ? json.get<std::uint64_t>() : 0;
   if (number < 1 || number > kMax) {
-    FailIn(field, json.dump() + " is not a vertex number; the first vertex has the number 1");
+    FailIn(field, json.dump() + " is not a vertex number" +
+                      (json == 0 ? kCountsFromOne : "; the first vertex has the number 1"));
   }
   return static_cast<int>(number - 1);
 }
