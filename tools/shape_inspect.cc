@@ -42,6 +42,8 @@ const char* Name(Severity severity) {
       return "warning";
     case Severity::kNonManifold:
       return "non-manifold";
+    case Severity::kMirrored:
+      return "mirrored";
     case Severity::kFatal:
       break;
   }
@@ -53,8 +55,10 @@ bool Print(const std::vector<Finding>& findings, Json* list, Telling* told) {
   bool good = true;
   for (const Finding& finding : findings) {
     Severity severity = finding.severity;
-    if (severity == Severity::kNonManifold && FLAGS_allow_nonmanifold)
+    if ((severity == Severity::kNonManifold && FLAGS_allow_nonmanifold) ||
+        (severity == Severity::kMirrored && FLAGS_allow_mirrored)) {
       severity = Severity::kWarning;
+    }
     const bool acceptable = severity <= Severity::kWarning;
     told->Say("  %-12s %-24s %s%s\n", Name(severity), finding.kind.c_str(),
               internal::Printable(finding.message).c_str(),

@@ -153,7 +153,8 @@ ShapeModelOptions OptionsFromFlags() {
 
 PoseModes ModesOf(const std::vector<std::string>& files) {
   if (files.size() == 1 && internal::FileExtension(files[0]) == ".modes") {
-    RefuseFlags({"metric"}, {"size", "certify", "refine", "stiffeners", "strict", "mirror"},
+    RefuseFlags({"metric"},
+                {"size", "certify", "refine", "stiffeners", "strict", "mirror", "allow_mirrored"},
                 "goes with poses; " + files[0] + " contains its own metric and modes");
     PoseModes modes = ReadModes(files[0]);
     if (IsGiven("modes")) {

@@ -49,14 +49,14 @@ def _motion(task: Task, poses: list, programs: dict) -> list:
         flags += ["--anchor", json.dumps(_selection(task.anchor))]
     if task.ground is not None:
         flags += ["--ground", f"z={task.ground!r}"]
-    return [programs[name], *poses, *flags, *_results(0)]
+    return [programs[name], *poses, *_mirror_flags(task), *flags, *_results(0)]
 
 
 def _transfer(task: Task, poses: list, targets: list, programs: dict, metric: list) -> list:
-    found, source = [], poses
+    found, source = [], [*poses, *_mirror_flags(task)]
     if task.shapes:
         flags = ["--shapes", str(task.shapes), *_tolerance_flags(task), *metric]
-        found.append([programs["shape-interpolate"], *poses, *flags, "--output", SOURCE])
+        found.append([programs["shape-interpolate"], *source, *flags, "--output", SOURCE])
         source = [SOURCE]
     for i, target in enumerate(targets):
         found.append([programs["shape-transfer"], *source, "--target", target, *_results(i)])
@@ -66,7 +66,11 @@ def _transfer(task: Task, poses: list, targets: list, programs: dict, metric: li
 def _average(task: Task, poses: list, programs: dict) -> list:
     program = _optional("shape-statistics" if task.modes else "shape-average", programs)
     how = ["--modes", str(task.modes)] if task.modes else ["--nocertify"]
-    return [program, *poses, *how, *_results(0)]
+    return [program, *poses, *_mirror_flags(task), *how, *_results(0)]
+
+
+def _mirror_flags(task: Task) -> list:
+    return ["--allow_mirrored"] if task.allow_mirrored else []
 
 
 def _deform(task: Deformation, poses: list, programs: dict, folder: str) -> list:

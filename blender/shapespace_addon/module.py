@@ -23,13 +23,14 @@ def find():
     return shapespace
 
 
-def poses_of(module, body):
+def poses_of(module, body, allow_mirrored=False):
     """The poses as the module takes them."""
     return module.Poses(
         body.shapes,
         body.topology.polygons(),
         segments=body.topology.segments,
         allow_nonmanifold=True,
+        allow_mirrored=allow_mirrored,
     )
 
 
@@ -205,7 +206,8 @@ class ModuleRun:
         self._motions.append(model.inverse_transform([[0.0], *rows], progress=self._hear))
 
     def _poses(self):
-        poses = poses_of(self._module, self._task.poses)
+        allow_mirrored = getattr(self._task, "allow_mirrored", False)
+        poses = poses_of(self._module, self._task.poses, allow_mirrored)
         self._notes += poses.warnings
         return poses
 

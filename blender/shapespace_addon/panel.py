@@ -44,7 +44,7 @@ class SHAPESPACE_PT_motion(_Part, bpy.types.Panel):
     bl_label = "Motion"
 
     def draw_settings(self, column, context, settings):
-        for name in ("shapes", "metric", "use_basis"):
+        for name in ("shapes", "metric", "use_basis", "allow_mirrored"):
             column.prop(settings, name)
         column.separator()
         column.prop(settings, "result", expand=True)

@@ -83,6 +83,11 @@ class PoseSettings(MetricSettings):
         description="The motion begins with the Basis. Otherwise it begins with the next shape key",
         default=True,
     )
+    allow_mirrored: BoolProperty(
+        name="Allow Mirrored",
+        description="Take poses that look like mirror images of the first as they are: domes that"
+        " are pushed through, bodies that are turned inside out. Otherwise they are refused",
+    )
 
 
 class MotionSettings(PoseSettings, ToleranceSettings):

@@ -40,6 +40,7 @@ class Task:
     modes: int | None = None  # instead of a motion: the average and this number of modes
     targets: list = field(default_factory=list)  # bodies of one pose each
     tolerance: float | None = None
+    allow_mirrored: bool = False  # poses that look like mirror images of the first
     anchor: np.ndarray | None = None  # numbers of vertices
     ground: float | None = None  # the third coordinate of each shape's lowest vertex
 

@@ -172,6 +172,7 @@ class InBetweens(PosesOfSelection):
             ends=self._ends(),
             avoid_contact=getattr(settings, "avoid_contact", False),
             tolerance=tolerance_of(settings),
+            allow_mirrored=settings.allow_mirrored,
             anchor=anchor,
             ground=ground,
         )
@@ -230,7 +231,13 @@ class Average(PosesOfSelection):
         (poses,) = self._bodies
         with self._vertices(context) as vertices:
             metric = metric_of(self._settings, self._settings.metric, self._items()[0], vertices)
-        return Task(body_of(poses), 0, metric, modes=self._settings.modes)
+        return Task(
+            body_of(poses),
+            0,
+            metric,
+            modes=self._settings.modes,
+            allow_mirrored=self._settings.allow_mirrored,
+        )
 
     def _place(self, context, i: int, motion) -> list:
         first = self._items()[0]
@@ -286,6 +293,7 @@ class Transfer(Work):
             metric_of(self._settings, self._settings.metric, source, source.data.vertices),
             targets=[body_of(target) for target in targets],
             tolerance=tolerance_of(self._settings),
+            allow_mirrored=self._settings.allow_mirrored,
         )
 
     def _place(self, context, i: int, motion) -> list:

@@ -185,6 +185,7 @@ class Case(unittest.TestCase):
 
         settings = {
             "shapes": 3, "metric": "strain", "use_basis": True, "result": "KEYS",
+            "allow_mirrored": False,
             "frame_start": 1, "frame_step": 1, "cache_folder": "//", "stiffness_group": "",
             "custom_bending": False, "custom_volume": False, "custom_tolerance": False,
             "anchor_group": "", "ground": False,

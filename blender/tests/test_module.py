@@ -168,6 +168,15 @@ class Module(Case):
         preferences().engine = "MODULE"
         self.refused("'inside out' against 'Basis'.* mirror", bpy.ops.shapespace.inbetweens)
 
+    def test_what_looks_like_a_mirror_image_is_taken_if_allowed(self):
+        cube = add_object("cube", CUBE, CUBE_FACES)
+        add_key(cube, "inside out", np.array(CUBE) * [-1, 1, 1])
+        tools, module = self.both(
+            cube, bpy.ops.shapespace.inbetweens, shapes=1, allow_mirrored=True
+        )
+        self.assertEqual(len(tools), 3)
+        self.assertEqual(len(module), 3)
+
 
 class NoModule(Case):
     @unittest.skipIf(MODULE, "the Python module is there")

@@ -185,7 +185,12 @@ def _one(vertices, name):
 
 
 def read(
-    *files, stiffeners=None, allow_nonmanifold=False, mirror=None, allow_outside_files=False
+    *files,
+    stiffeners=None,
+    allow_nonmanifold=False,
+    mirror=None,
+    allow_mirrored=False,
+    allow_outside_files=False,
 ):
     """Read poses of one mesh.
 
@@ -199,7 +204,11 @@ def read(
     allow_nonmanifold : bool, optional
         Take non-manifold or inconsistently wound meshes, with a warning.
     mirror : {'x', 'y', 'z'}, optional
-        Poses that are mirror images of the first have this coordinate's sign changed.
+        Poses that are mirror images of the first have this coordinate's sign changed. Without it
+        they are refused.
+    allow_mirrored : bool, optional
+        Take poses that look like mirror images of the first as they are, with a warning: domes
+        that are pushed through, bodies that are turned inside out.
     allow_outside_files : bool, optional
         Read buffers of a .gltf file from outside of its folder too: for files that are trusted.
 
@@ -218,7 +227,7 @@ def read(
     """
     names = [os.fspath(file) for file in files]
     rest = "" if stiffeners is None else os.fspath(stiffeners)
-    return _core.read(names, rest, allow_nonmanifold, mirror, allow_outside_files)
+    return _core.read(names, rest, allow_nonmanifold, mirror, allow_mirrored, allow_outside_files)
 
 
 def write(file, vertices, faces):

@@ -228,6 +228,8 @@ void BindBasis(py::module_* module) {
              "Of each edge the factor on the cost of stretching.");
   BindVector(&basis, "hinge_stiffness", &MetricBasis::hinge_stiffness,
              "Of each hinge the factor on the cost of bending.");
+  BindVector(&basis, "edge_bending_stiffness", &MetricBasis::edge_bending_stiffness,
+             "Of each edge the same, for curves made of segments.");
 }
 
 }  // namespace

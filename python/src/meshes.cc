@@ -58,8 +58,9 @@ std::shared_ptr<const Connectivity> ConnectivityIn(py::handle mesh, Appearance* 
   return nullptr;
 }
 
-ReadOptions ReadingOptions(bool allow_nonmanifold, const py::object& mirror) {
+ReadOptions ReadingOptions(bool allow_nonmanifold, const py::object& mirror, bool allow_mirrored) {
   ReadOptions options;
+  options.allow_mirrored = allow_mirrored;
   options.allow_nonmanifold = allow_nonmanifold;
   if (!mirror.is_none()) {
     const auto axis = py::cast<std::string>(mirror);
@@ -103,7 +104,11 @@ stiffeners : array_like, optional
 allow_nonmanifold : bool, optional
     Take non-manifold or inconsistently wound meshes, with a warning.
 mirror : {'x', 'y', 'z'}, optional
-    Poses that are mirror images of the first have this coordinate's sign changed.
+    Poses that are mirror images of the first have this coordinate's sign changed. Without it they
+    are refused.
+allow_mirrored : bool, optional
+    Take poses that look like mirror images of the first as they are, with a warning: domes that are
+    pushed through, bodies that are turned inside out.
 
 Raises
 ------
@@ -113,17 +118,18 @@ MismatchError
     The shapes are no poses of one mesh.
 )")
       .def(py::init([](py::handle shapes, py::handle faces, py::handle segments,
-                       py::handle stiffeners, bool allow_nonmanifold, const py::object& mirror) {
-             Poses poses =
-                 MakePoses(ToShapes(shapes, "shapes"), faces,
-                           ReadingOptions(allow_nonmanifold, mirror), segments, stiffeners);
+                       py::handle stiffeners, bool allow_nonmanifold, const py::object& mirror,
+                       bool allow_mirrored) {
+             Poses poses = MakePoses(ToShapes(shapes, "shapes"), faces,
+                                     ReadingOptions(allow_nonmanifold, mirror, allow_mirrored),
+                                     segments, stiffeners);
              Warn(poses.warnings);
              return poses;
            }),
            py::arg("shapes"), py::arg("faces") = py::none(), py::kw_only(),
            py::arg("segments") = py::none(), py::arg("stiffeners") = py::none(),
            py::arg("allow_nonmanifold") = ReadOptions().allow_nonmanifold,
-           py::arg("mirror") = py::none())
+           py::arg("mirror") = py::none(), py::arg("allow_mirrored") = ReadOptions().allow_mirrored)
       .def(Pickle<Poses>())
       .def("__len__", [](const Poses& poses) { return poses.shapes.size(); })
       .def("__getitem__",
@@ -162,8 +168,9 @@ MismatchError
   module->def(
       "read",
       [](const std::vector<std::string>& files, const std::string& stiffeners,
-         bool allow_nonmanifold, const py::object& mirror, bool allow_outside_files) {
-        ReadOptions options = ReadingOptions(allow_nonmanifold, mirror);
+         bool allow_nonmanifold, const py::object& mirror, bool allow_mirrored,
+         bool allow_outside_files) {
+        ReadOptions options = ReadingOptions(allow_nonmanifold, mirror, allow_mirrored);
         options.stiffeners = stiffeners;
         options.allow_outside_files = allow_outside_files;
         Poses poses = WithoutLock(py::none(), [=](Progress*) { return ReadPoses(files, options); });
@@ -173,7 +180,7 @@ MismatchError
         return poses;
       },
       py::arg("files"), py::arg("stiffeners"), py::arg("allow_nonmanifold"), py::arg("mirror"),
-      py::arg("allow_outside_files"));
+      py::arg("allow_mirrored"), py::arg("allow_outside_files"));
 
   module->def("write", [](const std::string& file, py::handle vertices, py::handle faces) {
     const Shape shape = ToShape(vertices, "vertices");
@@ -204,7 +211,7 @@ MismatchError
     SetPolygons(faces, &soup);
     py::list findings;
     for (const Finding& finding : CheckSoup(soup)) {
-      static const char* const names[] = {"note", "warning", "non-manifold", "fatal"};
+      static const char* const names[] = {"note", "warning", "non-manifold", "mirrored", "fatal"};
       findings.append(
           py::make_tuple(names[static_cast<int>(finding.severity)], finding.kind, finding.message));
     }

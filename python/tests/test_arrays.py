@@ -126,6 +126,21 @@ def test_a_mesh_that_a_file_would_be_refused_for_is_refused():
         assert shapespace.Poses([vertices], fan, allow_nonmanifold=True).warnings
 
 
+def test_mirror_images_are_refused_or_mirrored_or_taken_as_they_are():
+    x, y = np.meshgrid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9))
+    dome = np.stack([x, y, -(x**2 + y**2) / 2], axis=-1).reshape(-1, 3)
+    faces = [[k, k + 1, k + 10, k + 9] for k in range(71) if k % 9 < 8]
+    flipped = dome * [-1, 1, 1]
+    with pytest.raises(shapespace.MismatchError, match="mirror image"):
+        shapespace.Poses([dome, flipped], faces)
+    with pytest.warns(shapespace.MeshWarning, match="mirror image"):
+        taken = shapespace.Poses([dome, flipped], faces, allow_mirrored=True)
+    np.testing.assert_array_equal(taken[1], flipped)
+    with pytest.warns(shapespace.MeshWarning, match="mirror image"):
+        mirrored = shapespace.Poses([dome, flipped], faces, mirror="x")
+    np.testing.assert_array_equal(mirrored[1], dome)
+
+
 def test_anything_that_has_a_mesh_stands_for_its_faces(path, poses, animal):
     for mesh in (animal, path, path.metric, shapespace.Poses(poses, animal.faces)):
         made = shapespace.Poses(poses, mesh)

@@ -151,14 +151,16 @@ TEST(CheckSameMeshMessagesTest, MirrorImagesAndScaledOnesAreTold) {
   pose.vertices.row(1) *= -3;
   pose.vertices.row(0) *= 3;
   pose.vertices.row(2) *= 3;
-  EXPECT_EQ(TextsOf(torus, pose),
-            (Texts{"mirrored: " + kFiles +
-                       "the body is a mirror image of the reference: what is inside there is "
-                       "outside here; export both in the same coordinate system, or have one "
-                       "coordinate flipped",
-                   "other-units: " + kFiles +
-                       "the edges are 3 times as long as the reference's; if the units differ, "
-                       "scale one of the files"}));
+  EXPECT_EQ(
+      TextsOf(torus, pose),
+      (Texts{"mirrored: " + kFiles +
+                 "the body is a mirror image of the reference: what bulges to one side of the "
+                 "surface there bulges to the other here; export both in the same "
+                 "coordinate system, or have one coordinate flipped. If it was turned over "
+                 "on purpose, say so by allow_mirrored",
+             "other-units: " + kFiles +
+                 "the edges are 3 times as long as the reference's; if the units differ, "
+                 "scale one of the files"}));
   pose.vertices(0, 5) = std::numeric_limits<double>::infinity();
   EXPECT_EQ(TextsOf(torus, pose), Texts());
   EXPECT_EQ(TextsOf(pose, torus), Texts());

@@ -58,24 +58,24 @@ TEST(VolumeTest, OpenAndInconsistentlyWoundMeshesAndGraphsAreNotClosed) {
   EXPECT_FALSE(IsClosed(Connected(cube)->Triangles()));
 }
 
-TEST(VolumeTest, MirrorImagesOfClosedBodiesAreTold) {
+TEST(VolumeTest, ClosedBodiesThatAreInsideOutAreTold) {
   const Soup torus = Torus(12, 8), sheet = Grid(4, 4);
   const auto closed = Connected(torus);
   Shape flipped = torus.vertices;
   flipped.row(2) *= -1;
-  EXPECT_TRUE(IsMirrored(closed->Triangles(), torus.vertices, flipped));
-  EXPECT_TRUE(IsMirrored(closed->Triangles(), flipped, torus.vertices));
-  EXPECT_FALSE(IsMirrored(closed->Triangles(), flipped, flipped));  // inside out, but both alike
+  EXPECT_TRUE(IsInsideOut(closed->Triangles(), torus.vertices, flipped));
+  EXPECT_TRUE(IsInsideOut(closed->Triangles(), flipped, torus.vertices));
+  EXPECT_FALSE(IsInsideOut(closed->Triangles(), flipped, flipped));  // inside out, but both alike
   const Eigen::Matrix3d turn(Eigen::AngleAxisd(3, Eigen::Vector3d(1, 2, 3).normalized()));
-  EXPECT_FALSE(IsMirrored(closed->Triangles(), torus.vertices, 100 * (turn * torus.vertices)));
+  EXPECT_FALSE(IsInsideOut(closed->Triangles(), torus.vertices, 100 * (turn * torus.vertices)));
   // So flat that its sides can be exchanged.
   Shape leaf = torus.vertices, turned_leaf = leaf;
   leaf.row(2) *= 0.001;
   turned_leaf.row(2) *= -0.001;
-  EXPECT_FALSE(IsMirrored(closed->Triangles(), leaf, turned_leaf));
+  EXPECT_FALSE(IsInsideOut(closed->Triangles(), leaf, turned_leaf));
   Shape flipped_sheet = sheet.vertices;
   flipped_sheet.row(0) *= -1;
-  EXPECT_FALSE(IsMirrored(Connected(sheet)->Triangles(), sheet.vertices, flipped_sheet));
+  EXPECT_FALSE(IsInsideOut(Connected(sheet)->Triangles(), sheet.vertices, flipped_sheet));
 }
 
 TEST(VolumeTest, OnlyClosedBodiesThatAreNotFlatEncloseAVolume) {

@@ -269,13 +269,15 @@ TEST(FreezeMetric, TheEnclosedVolumeIsThatOfTheBodyFarFromTheOrigin) {
               Get<VolumeFeature>(*FreezeMetric(options, bar.connectivity, {near})).reference, 1e-9);
 }
 
-TEST(FreezeMetric, SaysThatNothingBendsWhereNoTrianglesShareAnEdge) {
+TEST(FreezeMetric, SaysThatNothingBendsWhereNoTrianglesOrSegmentsFollowEachOther) {
   MetricOptions options;
   options.bending = 1e-3;
   Shape points(3, 3);
   points << 0, 1, 1, 0, 0, 1, 0, 0, 0;
-  const auto graph = Connectivity::Make(3, {0}, {}, {{0, 1}, {1, 2}});
-  EXPECT_EQ(FreezeMetric(options, graph, {points})->options.bending, 0);
+  const auto segment = Connectivity::Make(3, {0}, {}, {{0, 1}});
+  EXPECT_EQ(FreezeMetric(options, segment, {points})->options.bending, 0);
+  const auto curve = Connectivity::Make(3, {0}, {}, {{0, 1}, {1, 2}});
+  EXPECT_EQ(FreezeMetric(options, curve, {points})->options.bending, 1e-3);
   const auto triangle = Connectivity::Make(3, {0, 3}, {0, 1, 2});
   EXPECT_EQ(FreezeMetric(options, triangle, {points})->options.bending, 0);
   const ShapeFamily sheet = MakeSheet(1, 1, 3, 3);

@@ -35,6 +35,7 @@ DeformationSummary DeformationOfNumbers() {
   summary.hierarchy = {9, 11};
   summary.uncertified_segments = 2;
   summary.contact_distance = 0.0625;
+  summary.intersections = 12;
   summary.warm = true;
   summary.warnings = {"one", "two"};
   summary.estimated_bytes = 1e5;
@@ -62,6 +63,7 @@ TEST(DeformationSummary, ReportsHaveEveryNumber) {
       "Energy            0.375\n"
       "Edges             rms 1%, 99th percentile 2%, max 3%\n"
       "Turned over       5 hinges; volume -4%\n"
+      "Intersections     12 pairs of triangles more than in the mesh\n"
       "Contact           2 segments not shown to be free of it; least distance 0.0625\n"
       "Hierarchy         9, 11 vertices\n"
       "\n"
@@ -112,6 +114,7 @@ TEST(DeformationSummary, ReportsHaveEveryNumber) {
                          {"hierarchy", {9, 11}},
                          {"uncertified_segments", 2},
                          {"contact_distance", 0.0625},
+                         {"intersections", 12.0},
                          {"warm", true},
                          {"estimated_bytes", 1e5},
                          {"hierarchy_seconds", 1.5},

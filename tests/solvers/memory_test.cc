@@ -12,6 +12,7 @@
 #include <shapespace/deformation/deformation.h>
 #include <shapespace/exponential/transport.h>
 #include <shapespace/geodesic/geodesic.h>
+#include <shapespace/numerics/internal/memory.h>
 #include <shapespace/spline/spline.h>
 #include <shapespace/transfer/transfer.h>
 
@@ -83,8 +84,9 @@ struct Calls {
       SplineOptions options;
       options.geodesic.shapes = 1;
       options.geodesic.memory_limit = limit;
-      return Spline(bar.connectivity, {straight, bent, straight}, options, progress)
-          .summary.estimated_bytes;
+      // So many poses that they take more memory than the geodesics between them.
+      const std::vector<Shape> poses = {straight, bent, straight, bent, straight, bent};
+      return Spline(bar.connectivity, poses, options, progress).summary.estimated_bytes;
     };
   }
   Call InterpolatingBetween() const {
@@ -121,6 +123,20 @@ TEST(MemoryLimit, IsKeptByAllSolvers) {
     EXPECT_NE(message.find("raise memory_limit"), std::string::npos) << message;
     EXPECT_EQ(listener.reports, 0);
     EXPECT_EQ(MessageOf<InvalidOptions>([&] { call(0, nullptr); }).find("memory_limit:"), 0u);
+  }
+}
+
+// A path that jumps is solved again with twice as many shapes. Whether there is memory for them is
+// asked before, so that no result depends on the limit.
+TEST(MemoryLimit, OfAGeodesicCountsTheShapesThatRemoveAJump) {
+  const Calls calls;
+  const int shapes = GeodesicOptions().shapes;
+  const double asked_for = internal::GeodesicBytes(*calls.metric, 2, shapes);
+  const double twice = internal::GeodesicBytes(*calls.metric, 2, 2 * shapes + 1);
+  for (const Call& call : {calls.Interpolating(), calls.InterpolatingBetween()}) {
+    EXPECT_GE(call(std::numeric_limits<double>::infinity(), nullptr), twice);
+    EXPECT_NE(MessageOf<SolverError>([&] { call(1.01 * asked_for, nullptr); }).find("memory limit"),
+              std::string::npos);
   }
 }
 

@@ -77,8 +77,8 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                                         "metric",  "rigid",          "stiffness", "strain",
                                         "volume",  "weighting"};
   std::set<std::string> wanted = metric;
-  wanted.insert({"allow_nonmanifold", "allow_outside_files", "help", "mirror", "progress", "report",
-                 "threads", "version"});
+  wanted.insert({"allow_mirrored", "allow_nonmanifold", "allow_outside_files", "help", "mirror",
+                 "progress", "report", "threads", "version"});
   EXPECT_EQ(Listed("shape-inspect"), wanted);
   wanted.insert({"color", "ease", "fps", "loop", "max_iterations", "memory_limit", "once", "output",
                  "report", "seconds", "shapes", "solver", "stiffeners", "strict", "tolerance"});

@@ -63,6 +63,8 @@ TEST_F(RefusalTest, WrongCommandLines) {
       {{"--strict=perhaps"}, "--strict perhaps: must be true or false"},
       {{"--shapes", "0"}, "--shapes 0: must be 1 or more"},
       {{"--shapes"}, "--shapes: its value is missing"},
+      {{"--spline", "-o", "p.path"}, "--spline: its value is missing before -o"},
+      {{"--metric", "--shapes", "3"}, "--metric: its value is missing before --shapes"},
       {{"--tolerance", "2"}, "--tolerance 2: must be between 0 and 1"},
       {{"--lambda=-1"}, "--lambda -1: must be a number, zero or more"},
       {{"--lambda", "nan"}, "--lambda nan: must be a number, zero or more"},
@@ -282,11 +284,15 @@ TEST_F(RefusalTest, MetricsThatTheMeshCannotHave) {
 }
 
 TEST_F(RefusalTest, BendingOfWhatCannotBend) {
-  File("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nl 1 2\nl 2 3\n");
-  File("b.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2\nl 2 3\n");
+  File("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 2 1 0\nl 1 2\nl 3 4\n");
+  File("b.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 1 2 0\nl 1 2\nl 3 4\n");
   ExpectRefusal(2, {"a.obj", "b.obj", "--bending", "1e-3", "--output", "w.path"},
                 {"--bending 1e-3: no two triangles of this mesh share an edge"});
   Succeed("shape-interpolate", {"a.obj", "b.obj", "--output", "w.path"});
+  // Two segments that follow each other can bend.
+  File("c.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nl 1 2 3\n");
+  File("d.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n");
+  Succeed("shape-interpolate", {"c.obj", "d.obj", "--bending", "1e-3", "--output", "w.path"});
 }
 
 TEST_F(RefusalTest, MirrorImagesAreToldAndTurnedBackIfAsked) {
@@ -322,8 +328,14 @@ TEST_F(RefusalTest, MirrorImagesAreToldAndTurnedBackIfAsked) {
     EXPECT_TRUE(ReadSoup(Path("m" + frame)).vertices == ReadSoup(Path(frame)).vertices) << i;
   }
   // The target of a transfer is checked in the same way.
-  const Strings transfer = {"mended.path", "--target", "flipped.obj", "--output", "t%d.ply"};
+  Strings transfer = {"mended.path", "--target", "flipped.obj", "--output", "t%d.ply"};
   EXPECT_EQ(Run("shape-transfer", transfer).code, 1);
+  // What was turned over on purpose is taken as it is.
+  const Outcome allowed =
+      interpolate({"tube0.obj", "flipped.obj", "--allow_mirrored"}, "allowed.path");
+  EXPECT_EQ(allowed.code, 0) << allowed.err;
+  ExpectContains(allowed.err, "mirror image");
+  EXPECT_EQ(Run("shape-inspect", {"tube0.obj", "flipped.obj", "--allow_mirrored"}).code, 0);
 }
 
 TEST_F(RefusalTest, SolvesBeyondTheMemoryLimit) {

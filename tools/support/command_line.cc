@@ -52,28 +52,43 @@ class Parser {
   }
 
  private:
-  void ParseFlag(const std::string& argument) {
+  struct Flag {
+    std::string name, type;  // the type is empty if there is no such flag
+    bool negated = false;
+  };
+
+  Flag FlagOf(const std::string& argument) const {
     const size_t begin = argument.find_first_not_of('-'), equals = argument.find('=');
-    const bool has_value = equals != argument.npos;
-    std::string name = begin == 1 || begin == 2 ? argument.substr(begin, equals - begin) : "";
-    std::replace(name.begin(), name.end(), '-', '_');
-    if (begin == 1 && name == "o") name = "output";
-    if (begin == 1 && name == "h") name = "help";
-    const bool negated = known_.count(name) == 0 && name.substr(0, 2) == "no" && !has_value;
-    if (negated) name.erase(0, 2);
-    const std::string shown = argument.substr(0, equals);
-    if (known_.count(name) == 0) throw UsageError(shown + ": there is no such flag");
-    const std::string type = gflags::GetCommandLineFlagInfoOrDie(name.c_str()).type;
-    if (negated && type != "bool") throw UsageError(shown + ": there is no such flag");
-    if (has_value) {
+    Flag flag;
+    if (begin == 1 || begin == 2) flag.name = argument.substr(begin, equals - begin);
+    std::replace(flag.name.begin(), flag.name.end(), '-', '_');
+    if (begin == 1 && flag.name == "o") flag.name = "output";
+    if (begin == 1 && flag.name == "h") flag.name = "help";
+    flag.negated =
+        known_.count(flag.name) == 0 && flag.name.substr(0, 2) == "no" && equals == argument.npos;
+    if (flag.negated) flag.name.erase(0, 2);
+    if (known_.count(flag.name) == 0) return flag;
+    const std::string type = gflags::GetCommandLineFlagInfoOrDie(flag.name.c_str()).type;
+    if (!flag.negated || type == "bool") flag.type = type;
+    return flag;
+  }
+
+  void ParseFlag(const std::string& argument) {
+    const size_t equals = argument.find('=');
+    const auto [name, type, negated] = FlagOf(argument);
+    if (type.empty()) throw UsageError(argument.substr(0, equals) + ": there is no such flag");
+    if (equals != argument.npos) {
       Set(name, argument.substr(equals + 1), type);
     } else if (type == "bool") {
       Set(name, negated ? "false" : "true", type);
       Typed().erase(name);
-    } else if (next_ < argv_.size()) {
-      Set(name, argv_[next_++], type);
-    } else {
+    } else if (next_ == argv_.size()) {
       throw UsageError("--" + name + ": its value is missing");
+    } else if (!FlagOf(argv_[next_]).type.empty()) {
+      throw UsageError("--" + name + ": its value is missing before " + argv_[next_] +
+                       "; a value that looks like a flag follows after '='");
+    } else {
+      Set(name, argv_[next_++], type);
     }
   }
 

@@ -9,8 +9,11 @@ DEFINE_bool(allow_nonmanifold, false,
             "accept meshes with non-manifold edges or vertices, or inconsistent winding");
 DEFINE_string(
     mirror, "",
-    "x, y or z: change the sign of this coordinate in poses that are mirror images of the first "
-    "(these are detected for closed meshes only, and refused without this flag)");
+    "x, y or z: change the sign of this coordinate in poses that are mirror images of the first, "
+    "which are refused without this flag");
+DEFINE_bool(allow_mirrored, false,
+            "take poses that look like mirror images of the first as they are: domes that are "
+            "pushed through, bodies that are turned inside out");
 FLAG_GROUP(mesh, "Input");
 
 namespace shapespace::tools {

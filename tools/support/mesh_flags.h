@@ -3,6 +3,7 @@
 
 #include <gflags/gflags.h>
 
+DECLARE_bool(allow_mirrored);
 DECLARE_bool(allow_nonmanifold);
 
 namespace shapespace::tools {

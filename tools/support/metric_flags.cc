@@ -84,11 +84,10 @@ void CheckMetricFlags(const Connectivity& connectivity) {
                     " vertices; give one number a vertex");
   }
   const auto bending = gflags::GetCommandLineFlagInfoOrDie("bending");
-  if (!bending.is_default && std::stod(bending.current_value) > 0 &&
-      connectivity.NumHinges() == 0) {
+  if (!bending.is_default && std::stod(bending.current_value) > 0 && !Bends(connectivity)) {
     throw UsageError(AsTyped("bending") +
-                     ": no two triangles of this mesh share an edge, so there is no bending; leave "
-                     "the flag out");
+                     ": no two triangles of this mesh share an edge, and no two segments form a "
+                     "curve, so there is no bending; leave the flag out");
   }
 }
 

@@ -36,6 +36,7 @@ ReadOptions OptionsFromFlags() {
   options.stiffeners = FLAGS_stiffeners;
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
   options.mirror = MirrorFromFlags();
+  options.allow_mirrored = FLAGS_allow_mirrored;
   options.allow_outside_files = FLAGS_allow_outside_files;
   return options;
 }
@@ -87,9 +88,14 @@ Poses ReadPoseOf(const Path& path, const std::string& path_file, const std::stri
   if (axis != 0 && MirrorBack(reference, axis, &pose)) {
     Warn(file, ": is a mirror image of the path's first shape; its ", axis, " has changed sign");
     read.shapes[0] = pose.vertices;
+  } else if (axis != 0) {
+    Warn(file, ": is no mirror image of the path's first shape: --mirror has no effect");
   }
   for (const Finding& finding : CheckSameMesh(reference, pose)) {
-    if (finding.severity == Severity::kFatal) throw MismatchError(finding.message, finding.option);
+    if (finding.severity == Severity::kFatal ||
+        (finding.severity == Severity::kMirrored && !FLAGS_allow_mirrored)) {
+      throw MismatchError(finding.message, finding.option);
+    }
     Warn(finding.message);
   }
   return read;

@@ -14,8 +14,8 @@
 #include <shapespace/mesh/internal/check_structure.h>
 #include <shapespace/mesh/internal/check_words.h>
 #include <shapespace/mesh/internal/polygons.h>
+#include <shapespace/mesh/mirrored.h>
 #include <shapespace/mesh/triangulate.h>
-#include <shapespace/mesh/volume.h>
 
 namespace shapespace {
 namespace {
@@ -88,6 +88,7 @@ class FindingPolicy {
     for (const Finding& finding : findings) {
       const bool fatal =
           finding.severity == Severity::kFatal ||
+          (finding.severity == Severity::kMirrored && !options_.allow_mirrored) ||
           (finding.severity == Severity::kNonManifold && !options_.allow_nonmanifold);
       // With an option, the call would do what it refuses only if it is that of all of them.
       if (fatal) option = reported == 0 || option == finding.option ? finding.option : "";
@@ -110,6 +111,7 @@ class FindingPolicy {
 template <typename Next>
 Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
   Poses poses;
+  bool mirrored = false;
   FindingPolicy policy(options, &poses.warnings);
   const Soup& first = poses.soup;
   const auto add = [&](Soup pose) {
@@ -121,6 +123,7 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
       return;
     }
     if (options.mirror != 0 && MirrorBack(first, options.mirror, &pose)) {
+      mirrored = true;
       poses.warnings.push_back(internal::FileName(pose) + ": is a mirror image of " +
                                internal::FileName(first) + "; its " + options.mirror +
                                " has changed sign");
@@ -132,6 +135,10 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
   };
   for (size_t i = 0; i < count; ++i) {
     for (Soup& pose : next(i)) add(std::move(pose));
+  }
+  if (options.mirror != 0 && !mirrored && poses.shapes.size() > 1) {
+    poses.warnings.push_back("no pose is a mirror image of " + internal::FileName(first) +
+                             ": mirror has no effect");
   }
   std::vector<std::pair<int, int>> stiffeners;
   if (!options.stiffeners.empty()) {

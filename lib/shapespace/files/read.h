@@ -76,8 +76,11 @@ struct ReadOptions {
   bool allow_outside_files = false;  ///< read buffers of a .gltf from outside of its folder too
 
   /// 'x', 'y' or 'z': change the sign of this coordinate in poses that are mirror images of the
-  /// first (closed meshes only: `IsMirrored`). 0: they are refused.
+  /// first (`IsMirrored`). 0: they are refused, unless `allow_mirrored`.
   char mirror = 0;
+  /// Take poses that look like mirror images of the first as they are, with a warning: a dome that
+  /// is pushed through, a body that is turned inside out.
+  bool allow_mirrored = false;
 };
 
 /// Reads one or more files, with all poses that they have, as poses of the first one's

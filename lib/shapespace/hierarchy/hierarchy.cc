@@ -46,7 +46,12 @@ std::shared_ptr<const Connectivity> Collapsed(const Connectivity& mesh,
     const int a = place[mesh.Edges()(0, e)], b = place[mesh.Edges()(1, e)];
     if (a != b) extra.emplace_back(number[a], number[b]);
   }
-  return Connectivity::Make(num_vertices, std::move(begin), std::move(corners), {}, extra);
+  std::vector<std::pair<int, int>> segments;  // also among the others: they form curves
+  for (const auto& [from, to] : mesh.Segments()) {
+    const int a = place[from], b = place[to];
+    if (a != b) segments.emplace_back(number[a], number[b]);
+  }
+  return Connectivity::Make(num_vertices, std::move(begin), std::move(corners), segments, extra);
 }
 
 }  // namespace

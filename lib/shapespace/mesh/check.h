@@ -12,6 +12,7 @@ enum class Severity {
   kNote,         ///< a fact: components, boundary loops, genus
   kWarning,      ///< usable, but should be checked
   kNonManifold,  ///< refused unless the caller permits it; every metric works on graphs
+  kMirrored,     ///< a pose that is refused unless the caller permits it or has it mirrored back
   kFatal,        ///< not usable
 };
 

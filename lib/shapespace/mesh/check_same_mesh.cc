@@ -13,6 +13,7 @@
 #include <shapespace/mesh/internal/recut.h>
 #include <shapespace/mesh/internal/sides.h>
 #include <shapespace/mesh/internal/sorted_polygons.h>
+#include <shapespace/mesh/mirrored.h>
 #include <shapespace/mesh/volume.h>
 
 namespace shapespace {
@@ -226,11 +227,17 @@ class Comparison {
 
   void CompareOrientations() {
     const Eigen::Matrix3Xi triangles = internal::Fans(reference_.polygon_begin, reference_.corners);
-    if (!IsMirrored(triangles, reference_.vertices, pose_.vertices)) return;
-    Tell(Severity::kFatal, "mirrored",
-         "the body is a mirror image of the reference: what is inside there is outside here; "
-         "export both in the same coordinate system, or have one coordinate flipped",
-         "mirror");
+    if (IsMirrored(triangles, reference_.vertices, pose_.vertices)) {
+      Tell(Severity::kMirrored, "mirrored",
+           "the body is a mirror image of the reference: what bulges to one side of the surface "
+           "there bulges to the other here; export both in the same coordinate system, or have one "
+           "coordinate flipped. If it was turned over on purpose, say so by allow_mirrored",
+           "mirror");
+    } else if (IsInsideOut(triangles, reference_.vertices, pose_.vertices)) {
+      Tell(Severity::kWarning, "inside-out",
+           "the body encloses its volume from the other side, but is no mirror image of the "
+           "reference: a part of it is turned inside out, and will pass through itself");
+    }
   }
 
   /// Root mean square distance from the centroid, over the vertices that have edges.

@@ -54,9 +54,9 @@ bool EnclosesVolume(const Eigen::Matrix3Xi& triangles, const Shape& shape) {
   return IsClosed(triangles) && std::abs(ShareOfBall(triangles, shape)) > kMinShare;
 }
 
-bool IsMirrored(const Eigen::Matrix3Xi& triangles, const Shape& reference, const Shape& pose) {
+bool IsInsideOut(const Eigen::Matrix3Xi& triangles, const Shape& reference, const Shape& pose) {
   // Bodies of people and animals have a fifth to a half of the ball's volume; a body thinner than a
-  // leaf may turn over without being a mirror image.
+  // leaf may turn over.
   constexpr double kMinShare = 0.01;
   const double before = ShareOfBall(triangles, reference);
   const double after = ShareOfBall(triangles, pose);

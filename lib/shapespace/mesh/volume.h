@@ -22,10 +22,10 @@ double EnclosedVolume(const Eigen::Matrix3Xi& triangles, const Shape& shape);
 /// single precision, as that of two sheets that are joined along their border is.
 bool EnclosesVolume(const Eigen::Matrix3Xi& triangles, const Shape& shape);
 
-/// Whether the orientation of `pose` is reversed relative to `reference`, as for the mirror image
-/// of a closed body: both enclose volumes that are clearly not zero, of opposite signs. False if
+/// Whether both shapes enclose volumes that are clearly not zero, of opposite signs: the pose is a
+/// mirror image (`IsMirrored`, mesh/mirrored.h), or has a part that is turned inside out. False if
 /// the mesh is open.
-bool IsMirrored(const Eigen::Matrix3Xi& triangles, const Shape& reference, const Shape& pose);
+bool IsInsideOut(const Eigen::Matrix3Xi& triangles, const Shape& reference, const Shape& pose);
 
 }  // namespace shapespace
 

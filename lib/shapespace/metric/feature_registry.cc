@@ -12,6 +12,7 @@
 #include <shapespace/metric/edge_length.h>
 #include <shapespace/metric/position.h>
 #include <shapespace/metric/triangle_strain.h>
+#include <shapespace/metric/turning_angle.h>
 #include <shapespace/metric/volume.h>
 
 namespace shapespace {
@@ -31,7 +32,8 @@ struct Registry {
   std::mutex mutex;
   std::map<std::string, Entry> entries = {BuiltIn<EdgeLength>(),     BuiltIn<LogLength>(),
                                           BuiltIn<TriangleStrain>(), BuiltIn<PositionFeature>(),
-                                          BuiltIn<Dihedral>(),       BuiltIn<VolumeFeature>()};
+                                          BuiltIn<Dihedral>(),       BuiltIn<TurningAngle>(),
+                                          BuiltIn<VolumeFeature>()};
 };
 
 Registry& TheRegistry() {

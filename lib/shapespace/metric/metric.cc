@@ -8,6 +8,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/mesh/volume.h>
 #include <shapespace/metric/feature_registry.h>
+#include <shapespace/metric/turning_angle.h>
 
 namespace shapespace {
 namespace {
@@ -105,12 +106,13 @@ std::shared_ptr<const Metric> FreezeMetric(const MetricOptions& options,
   MetricBasis basis = MakeMetricBasis(options, connectivity, poses, unit, pairs);
   const auto metric = std::make_shared<Metric>();
   metric->options = options;
-  if (connectivity->NumHinges() == 0) metric->options.bending = 0;
+  if (!Bends(*connectivity)) metric->options.bending = 0;
 
   std::vector<FeatureTerm> terms = {
       {EdgeLength::kName, options.isometric}, {TriangleStrain::kName, options.strain},
       {LogLength::kName, options.strain},     {PositionFeature::kName, options.lambda},
-      {Dihedral::kName, options.bending},     {VolumeFeature::kName, options.volume}};
+      {Dihedral::kName, options.bending},     {TurningAngle::kName, options.bending},
+      {VolumeFeature::kName, options.volume}};
   terms.insert(terms.end(), options.features.begin(), options.features.end());
   for (const FeatureTerm& term : terms) {
     const internal::FeatureKind kind = internal::FindFeature(term.name);
@@ -129,6 +131,10 @@ std::shared_ptr<const Metric> FreezeMetric(const MetricOptions& options,
   metric->edge_area = std::move(basis.edge_area);
   metric->hinge_area = std::move(basis.hinge_area);
   return metric;
+}
+
+bool Bends(const Connectivity& connectivity) {
+  return connectivity.NumHinges() > 0 || Turns(connectivity).cols() > 0;
 }
 
 std::string DescribeMetric(const MetricOptions& options) {

@@ -40,7 +40,8 @@ struct MetricOptions {
                          ///< the lengths of edges that are no sides of triangles
   double rigid = 0;      ///< deviation from rigid motion of the whole, the paper's (3)
   double lambda = 1e-4;  ///< motion of vertices, the paper's (5); harmless up to 1e-3
-  double bending = 1e-5;  ///< change of dihedral angles: t^2 / 12 for a shell of thickness t
+  double bending = 1e-5;  ///< change of dihedral angles, and of the angles by which curves turn:
+                          ///< t^2 / 12 for a shell of thickness t
   double volume = 0;      ///< change of enclosed volume, closed meshes only; start from 0.3
   std::vector<FeatureTerm> features;  ///< user-defined: docs/guide/features.md
   Weighting weights = Weighting::kArea;
@@ -91,7 +92,7 @@ struct MetricOptions {
 /// metrics of their own from `options`: to weight elements differently, use the stiffness in the
 /// options, or define a feature.
 struct Metric {
-  MetricOptions options;  ///< as given, except that bending is 0 if the mesh has no hinge
+  MetricOptions options;  ///< as given, except that bending is 0 if the mesh cannot bend
   std::shared_ptr<const Connectivity> connectivity;
   double unit = 1;  ///< length, in the user's unit, that has length 1 in the metric
   /// A_p, a third of the area of the triangles at the vertex; with sum 1 unless there are vertices
@@ -112,8 +113,8 @@ struct Metric {
 /// Freezes `options` on all `poses` (user's units; each 3 x m): squared edge lengths and areas are
 /// the means over the poses; the `pairs` determine which hinges are down-weighted. Graphs without
 /// faces have total edge length 1 instead of area 1. `unit` > 0 specifies the unit, which coarse
-/// levels of a mesh take from the finest one. If no two triangles share an edge, as in graphs,
-/// there is no bending, and `Metric::options.bending` is 0.
+/// levels of a mesh take from the finest one. If the mesh cannot bend (`Bends`),
+/// `Metric::options.bending` is 0.
 /// \throw InvalidOptions if the options are invalid, name a feature that is not registered, have
 ///        stiffness of another number than the mesh has vertices (or edges, `stiffness_on`), or ask
 ///        for volume and the mesh is not closed; MeshError if a shape has another number of
@@ -122,6 +123,10 @@ std::shared_ptr<const Metric> FreezeMetric(const MetricOptions& options,
                                            const std::shared_ptr<const Connectivity>& connectivity,
                                            const std::vector<Shape>& poses, double unit = 0,
                                            PosePairs pairs = PosePairs::kConsecutive);
+
+/// Whether bending can have a cost: two triangles share an edge, or segments form a curve
+/// (`TurningAngle`).
+bool Bends(const Connectivity& connectivity);
 
 /// The blend by name, for reports: e.g. "strain 1, lambda 0.0001, bending 1e-05".
 std::string DescribeMetric(const MetricOptions& options);

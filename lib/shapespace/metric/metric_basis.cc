@@ -145,7 +145,7 @@ void AssignStiffness(const MetricOptions& options, MetricBasis* basis) {
   const StiffnessOn on = options.stiffness_on;
   basis->edge_stiffness =
       CheckedStiffness(options.stretching_stiffness, on, "stretching_stiffness", connectivity);
-  const Eigen::VectorXd bending =
+  basis->edge_bending_stiffness =
       CheckedStiffness(options.bending_stiffness, on, "bending_stiffness", connectivity);
   basis->triangle_stiffness.setOnes(connectivity.NumTriangles());
   const bool stretches = options.stretching_stiffness.size() > 0;
@@ -162,7 +162,8 @@ void AssignStiffness(const MetricOptions& options, MetricBasis* basis) {
   basis->hinge_stiffness.setOnes(connectivity.NumHinges());
   for (int h = 0; h < connectivity.NumHinges() && bends; ++h) {
     const Eigen::Vector4i hinge = connectivity.Hinges().col(h);
-    basis->hinge_stiffness(h) = bending(FindSide(connectivity, hinge(0), hinge(1)));
+    basis->hinge_stiffness(h) =
+        basis->edge_bending_stiffness(FindSide(connectivity, hinge(0), hinge(1)));
   }
 }
 

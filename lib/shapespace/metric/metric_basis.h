@@ -47,8 +47,8 @@ struct MetricBasis {
   Eigen::VectorXd squared_length;  ///< of edges
 
   /// The user's stiffness (MetricOptions), 1 by default: of edges and triangles for stretching, of
-  /// hinges for bending.
-  Eigen::VectorXd edge_stiffness, triangle_stiffness, hinge_stiffness;
+  /// hinges and edges for bending. That of edges is for curves.
+  Eigen::VectorXd edge_stiffness, triangle_stiffness, hinge_stiffness, edge_bending_stiffness;
 
   /// Relative to the mean edge: shorter edges, and triangles of that size, count as collapsed.
   static constexpr double kCollapsed = 1e-8;

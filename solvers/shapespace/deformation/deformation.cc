@@ -2,17 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include <shapespace/analysis/path_intersections.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/cost/internal/refuse_sums.h>
 #include <shapespace/deformation/internal/contact_deformation.h>
+#include <shapespace/deformation/internal/count_intersections.h>
 #include <shapespace/deformation/internal/handle_targets.h>
 #include <shapespace/deformation/internal/held_level.h>
 #include <shapespace/geodesic/internal/resolution.h>
@@ -46,6 +49,10 @@ constexpr double kEnough = 1e-3;
 // If a handle turns further than this between neighbouring shapes, a warning is given: bars lost
 // turns of 180 degrees between neighbours, but not turns of 120.
 constexpr double kFarthestTurn = 2 * internal::kPi / 3;
+
+// If this share of the edges differs from the rest by more than its length there, a warning is
+// given: one in a hundred edges is then more than twice as long.
+constexpr double kTornEdge = 1;
 
 // A hard handle that misses its target by more than this share of the unit is reported. The margin
 // allows for rounding far from the origin; a handle without conflict is met.
@@ -537,6 +544,13 @@ void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* su
         std::to_string(static_cast<int>(std::ceil(targets.GreatestTurn() / (internal::kPi / 2)))) +
         " shapes or more");
   }
+  if (summary->error.edge_p99 > kTornEdge) {
+    summary->warnings.push_back(
+        "one edge in a hundred has become longer by " +
+        std::to_string(std::lround(100 * summary->error.edge_p99)) +
+        " % or more: the handles ask for more than the body can give without being torn; move them "
+        "less, or hold fewer vertices");
+  }
   const double far = kContradiction * (summary->unit + 1e-3 * origin_.norm());
   for (const DeformationSummary::HandleResult& handle : summary->handles) {
     if (handle.hard && handle.residual_max > far) {
@@ -545,6 +559,27 @@ void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* su
           " shares vertices with another that has different targets for them; they are at the mean "
           "of the targets");
     }
+  }
+}
+
+void internal::CountIntersectionsOf(DeformationResult* result) {
+  DeformationSummary& summary = result->summary;
+  if (summary.termination == Termination::kCancelled) return;
+  const internal::Stopwatch stopwatch;
+  try {
+    const std::vector<std::int64_t> pairs = MeasureIntersections(result->path).pairs;
+    summary.intersections =
+        static_cast<double>(*std::max_element(pairs.begin(), pairs.end()) - pairs.front());
+  } catch (const Error& error) {  // no reason to discard the path
+    summary.warnings.push_back(std::string("not counted: ") + error.what());
+  }
+  summary.total_seconds += stopwatch.Seconds();
+  // Where contact was to be avoided and was not, a warning says so already.
+  if (summary.uncertified_segments < 0 && summary.intersections > kManyIntersections) {
+    summary.warnings.push_back("the body intersects itself: a shape has " +
+                               std::to_string(std::lround(summary.intersections)) +
+                               " more pairs of intersecting triangles than the mesh; avoid_contact "
+                               "prevents this");
   }
 }
 
@@ -569,7 +604,9 @@ DeformationResult Deformer::DeformFrom(const Shape& end,
 DeformationResult Deform(const std::shared_ptr<const Connectivity>& connectivity, const Shape& rest,
                          const std::vector<DeformationHandle>& handles,
                          const DeformationOptions& options, Progress* progress) {
-  return Deformer(connectivity, rest, options).Deform(handles, progress);
+  DeformationResult result = Deformer(connectivity, rest, options).Deform(handles, progress);
+  internal::CountIntersectionsOf(&result);
+  return result;
 }
 
 }  // namespace shapespace

@@ -115,6 +115,9 @@ struct DeformationSummary {
   /// has not been shown to be free of contact, and the least distance of two parts.
   int uncertified_segments = -1;
   double contact_distance = std::numeric_limits<double>::quiet_NaN();
+  /// Pairs of intersecting triangles, in the shape that has most of them, in excess of those of the
+  /// mesh. NaN, which was not counted, of a `Deformer` and of deformations that were cancelled.
+  double intersections = std::numeric_limits<double>::quiet_NaN();
   bool warm = false;                  ///< started from the last solution of the same `Deformer`
   std::vector<std::string> warnings;  ///< to be checked by the user
   double estimated_bytes = 0;         ///< of memory, before the solve
@@ -140,6 +143,9 @@ struct DeformationResult {
 /// (numerical continuation), so that large turns of handles produce large turns of the body. Then
 /// the whole path is relaxed, lifted with the mesh's own detail and relaxed again, level by level.
 ///
+/// The result is examined: the summary counts where it passes through itself, and warns of that and
+/// of edges that have become much longer or shorter.
+///
 /// Handles may contradict each other: vertices in several hard handles go to the mean of their
 /// targets, and the summary reports the distance of each handle from its target. Connected
 /// components without a handle stay where they are and are reported. `rest` may contain collapsed
@@ -154,7 +160,8 @@ DeformationResult Deform(const std::shared_ptr<const Connectivity>& connectivity
 /// Deforms one mesh repeatedly: keeps its hierarchy, factors and the last path. If the next handles
 /// constrain the same vertices in the same way and move them only a little, the solve starts from
 /// that path on the finest level; otherwise it is the same as `Deform`. A path that was cancelled
-/// is no such start: then it is the last one before that was not.
+/// is no such start: then it is the last one before that was not. Intersections are not counted,
+/// which would take longer than a small move of a handle.
 class Deformer {
  public:
   /// \throw as Deform.

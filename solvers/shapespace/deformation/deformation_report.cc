@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include <shapespace/deformation/deformation.h>
@@ -34,6 +35,10 @@ std::string DeformationSummary::FullReport() const {
                 100 * error.edge_rms, 100 * error.edge_p99, 100 * error.edge_max)
       << Format("Turned over       %d hinges; %s\n", error.inverted_hinges,
                 VolumeText(error).c_str())
+      << (std::isnan(intersections)
+              ? std::string()
+              : Format("Intersections     %.3g pairs of triangles more than in the mesh\n",
+                       intersections))
       << internal::ContactText(uncertified_segments, contact_distance) << "Hierarchy        ";
   for (size_t i = 0; i < hierarchy.size(); ++i) out << (i > 0 ? ", " : " ") << hierarchy[i];
   out << " vertices\n\nhandle                   vertices         off, rms         off, max\n";

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
+#include <shapespace/deformation/internal/count_intersections.h>
 #include <shapespace/deformation/internal/summary_fields.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/numerics/internal/json_of.h>
@@ -63,6 +64,7 @@ RepairResult Repair(const std::shared_ptr<const Connectivity>& connectivity, con
 
   DeformationResult deformed =
       Deformer(connectivity, placed, options.deformation).DeformFrom(distorted, {pose}, progress);
+  internal::CountIntersectionsOf(&deformed);
   RepairResult result;
   result.path = std::move(deformed.path);
   RepairSummary& summary = result.summary;

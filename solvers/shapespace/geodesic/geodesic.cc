@@ -33,13 +33,13 @@ void CheckFinest(const Metric& metric, double bytes, const GeodesicOptions& opti
   internal::CheckMemory("this solve", bytes, options.memory_limit, "insert fewer shapes");
 }
 
-// Between two neighbours of so many pieces: twice as many shapes as asked for, to remove a jump, if
-// there is memory for them.
+// Between two neighbours of so many pieces: twice as many shapes as asked for, to remove a jump,
+// unless they need very much memory. The memory limit has no part in this: it refuses solves, and
+// changes no result.
 int MostShapes(const Metric& metric, int pieces, const GeodesicOptions& options) {
+  constexpr double kVeryMuch = 8e9;
   const int twice = 2 * options.shapes + 1;
-  return internal::GeodesicBytes(metric, pieces + 1, twice) <= options.memory_limit
-             ? twice
-             : options.shapes;
+  return internal::GeodesicBytes(metric, pieces + 1, twice) <= kVeryMuch ? twice : options.shapes;
 }
 
 // Restricts all `shapes` to a level.
@@ -252,10 +252,9 @@ void Warn(bool past_obstacle, GeodesicSummary* summary) {
         "refined from others");
     return;  // further warnings would only follow from the cancellation
   }
-  constexpr double kManyIntersections = 5;
   if (summary->uncertified_segments > 0) {
     summary->warnings.push_back(internal::WarningOfUncertified(summary->uncertified_segments));
-  } else if (summary->intersections > kManyIntersections) {
+  } else if (summary->intersections > internal::kManyIntersections) {
     summary->warnings.push_back("the body intersects itself: inner shapes have " +
                                 std::to_string(std::lround(summary->intersections)) +
                                 " more pairs of intersecting triangles than the poses; "
@@ -531,8 +530,9 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
   std::vector<Shape> shapes = poses;
   shapes.insert(shapes.end() - 1, options.via.begin(), options.via.end());
   for (const Shape& shape : shapes) CheckShape(shape, *metric);
+  const int count = static_cast<int>(shapes.size());
   const double bytes =
-      internal::GeodesicBytes(*metric, static_cast<int>(shapes.size()), options.shapes);
+      internal::GeodesicBytes(*metric, count, MostShapes(*metric, count - 1, options));
   CheckFinest(*metric, bytes, options);
   const internal::Stopwatch total;
   ReportProgress(progress, "decimating", 0, 0);
@@ -556,11 +556,10 @@ Interpolator::Interpolator(const std::shared_ptr<const Connectivity>& connectivi
   }
   const auto metric = FreezeMetric(options.metric, connectivity, poses, 0, PosePairs::kAll);
   const double pose_bytes = 2.0 * sizeof(double) * poses.size() * poses.front().size();
-  estimated_bytes_ = internal::GeodesicBytes(*metric, 2, options.shapes) + pose_bytes;
-  CheckFinest(*metric, estimated_bytes_, options);
   const int most_shapes = MostShapes(*metric, 1, options);
-  const double left =
-      options.memory_limit - pose_bytes - internal::GeodesicBytes(*metric, 2, most_shapes);
+  estimated_bytes_ = internal::GeodesicBytes(*metric, 2, most_shapes) + pose_bytes;
+  CheckFinest(*metric, estimated_bytes_, options);
+  const double left = options.memory_limit - estimated_bytes_;
   constexpr double kMostThreads = 1e6;
   most_at_once_ =
       1 + static_cast<int>(std::clamp(left / internal::FurtherGeodesicBytes(*metric, most_shapes),

@@ -108,10 +108,10 @@ TEST(InterpolatorTest, SolvesAsManyAtOnceAsThereIsMemoryFor) {
   const double bytes = one.Between(poses[0], poses[1]).summary.estimated_bytes;
   EXPECT_EQ(most_within(bytes), 1);
   EXPECT_GE(most_within(std::numeric_limits<double>::infinity()), 256);
-  // In each of them shapes may be inserted to remove a jump.
+  // The first one needs more than the others, which share the factor.
   for (const int count : {4, 16, 64}) {
-    EXPECT_LE(most_within(count * bytes), count);
-    EXPECT_GE(most_within(count * bytes), count / 2);
+    EXPECT_LE(most_within(count * bytes), 1.2 * count);
+    EXPECT_GE(most_within(count * bytes), count);
   }
 }
 

@@ -16,6 +16,10 @@ namespace shapespace::internal {
 /// obstacle, which may be in the way of a rigid motion without energy, of that of the free way.
 constexpr double kContactStiffness = 3;
 
+/// Of more pairs of intersecting triangles than in the poses, solves without contact warn. Fewer
+/// hardly show: folded skin between limbs that come near to each other.
+constexpr double kManyIntersections = 5;
+
 /// A path during which nothing touches, if one was found.
 struct ContactFreePath {
   std::vector<Shape> shapes;  ///< empty if there is none

@@ -52,6 +52,7 @@ void ForFields(Of<DeformationSummary>, const Visit& visit) {
   visit("hierarchy", &DeformationSummary::hierarchy);
   visit("uncertified_segments", &DeformationSummary::uncertified_segments);
   visit("contact_distance", &DeformationSummary::contact_distance);
+  visit("intersections", &DeformationSummary::intersections);
   visit("warm", &DeformationSummary::warm);
   visit("estimated_bytes", &DeformationSummary::estimated_bytes);
   visit("hierarchy_seconds", &DeformationSummary::hierarchy_seconds);

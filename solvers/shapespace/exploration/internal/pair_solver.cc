@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <new>
 #include <optional>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include <shapespace/base/error.h>
+#include <shapespace/exploration/internal/digest.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/numerics/internal/task_group.h>
 #include <shapespace/path/energy.h>
@@ -21,50 +18,12 @@ namespace {
 
 constexpr ArrayFileKind kKind = {"SHAPPAIR", 1, ".geodesic"};
 
-// A 128-bit hash of everything that is added.
-class Hasher {
- public:
-  Hasher() { XXH3_128bits_reset(&state_); }
-  template <typename Number>
-  void Add(const Number* data, size_t count) {
-    const uint64_t size = count * sizeof(Number);
-    XXH3_128bits_update(&state_, &size, sizeof size);
-    XXH3_128bits_update(&state_, data, size);
-  }
-  void Add(double number) { Add(&number, 1); }
-  template <typename Matrix>
-  void AddAll(const Matrix& matrix) {
-    Add(matrix.data(), matrix.size());
-  }
-  std::string Digest() const {
-    const XXH128_hash_t hash = XXH3_128bits_digest(&state_);
-    char text[33];
-    std::snprintf(text, sizeof text, "%016llx%016llx",
-                  static_cast<unsigned long long>(hash.high64),  // NOLINT(google-runtime-int)
-                  static_cast<unsigned long long>(hash.low64));  // NOLINT(google-runtime-int)
-    return text;
-  }
-
- private:
-  XXH3_state_t state_;
-};
-
 // Digest of everything that a geodesic depends on except its two shapes.
 std::string DigestOf(const Metric& frozen, const std::vector<Shape>& poses,
                      const GeodesicOptions& options) {
   Hasher hasher;
   hasher.Add(kResultsVersion);
-  const MetricOptions& metric = options.metric;
-  for (double number :
-       {metric.isometric, metric.strain, metric.rigid, metric.lambda, metric.bending, metric.volume,
-        static_cast<double>(metric.weights), static_cast<double>(metric.discretization),
-        static_cast<double>(options.shapes), options.tolerance,
-        static_cast<double>(options.max_iterations), static_cast<double>(options.solver),
-        static_cast<double>(options.schedule), static_cast<double>(options.start),
-        static_cast<double>(options.coarsest)}) {
-    hasher.Add(number);
-  }
-  if (options.avoid_contact) hasher.Add(1.0);  // without it as before there was such an option
+  AddOptions(options, &hasher);
   for (const auto& feature : frozen.features) {
     hasher.Add(feature->Name().data(), feature->Name().size());
     hasher.Add(feature->Element(0), feature->NumElements() * feature->VerticesPerElement());
