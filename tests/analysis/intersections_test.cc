@@ -47,6 +47,26 @@ Mesh RandomTriangles(int count, double size, int seed) {
   return mesh;
 }
 
+// The same with a cone of `count` triangles through the cube; its tip is one vertex, or one for
+// every `most` triangles.
+Mesh WithCone(const Mesh& mesh, int count, int most) {
+  const int first = mesh.connectivity->NumVertices(), tips = (count + most - 1) / most;
+  Mesh with;
+  with.shape.resize(3, first + count + tips);
+  with.shape.leftCols(first) = mesh.shape;
+  Eigen::Matrix3Xi triangles(3, mesh.connectivity->NumTriangles() + count);
+  triangles.leftCols(mesh.connectivity->NumTriangles()) = mesh.connectivity->Triangles();
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * M_PI * i / count;
+    with.shape.col(first + i) << 0.5 * std::cos(angle), 0.4 * std::sin(angle), -0.4;
+    with.shape.col(first + count + i / most) << 0.1, 0, 0.4;
+    triangles.col(mesh.connectivity->NumTriangles() + i) << first + i, first + (i + 1) % count,
+        first + count + i / most;
+  }
+  with.connectivity = Connectivity::FromTriangles(first + count + tips, triangles);
+  return with;
+}
+
 // Whether the segment pq passes through the inside of abc: p + s (q - p) = a + u (b - a) + v (c -
 // a).
 bool Pierces(const Shape& shape, int p, int q, const Eigen::Vector3i& abc) {
@@ -196,6 +216,14 @@ TEST(CountIntersections, RefusesWhatIsNoShapeOfTheMesh) {
   Shape broken = steffen.pose(0);
   broken(1, 4) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(CountIntersections(*steffen.connectivity, broken), MeshError);
+}
+
+// Triangles of a vertex with many are tested in groups.
+TEST(Intersections, OfAFanOfManyTrianglesAreThoseOfManySmallFans) {
+  const Mesh others = RandomTriangles(200, 0.3, 7);
+  const std::int64_t expected = WithCone(others, 500, 20).Count();
+  EXPECT_GT(expected, others.Count() + 100);
+  EXPECT_EQ(WithCone(others, 500, 500).Count(), expected);
 }
 
 }  // namespace

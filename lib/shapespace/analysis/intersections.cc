@@ -73,9 +73,47 @@ bool Cross(const Corners& a, const Corners& b, double touching) {
   return std::min(span_a.end, span_b.end) - std::max(span_a.begin, span_b.begin) > touching;
 }
 
+// Triangles of a vertex with more of them than kLargestFan are handled in groups. Each two of them
+// share the vertex, so that they never count, but the boxes of all contain it: one by one, the
+// poles of a globe would take time quadratic in their number.
+constexpr int kLargestFan = 64, kGroup = 64;
+
+// Triangles order[begin[g]] ... order[begin[g + 1] - 1] are group g; `fan` is the vertex that they
+// have in common, and -1 for a triangle that is alone.
+struct Groups {
+  std::vector<int> order, begin = {0}, fan;
+};
+
+Groups MakeGroups(const Connectivity& connectivity) {
+  Groups groups;
+  std::vector<char> is_grouped(connectivity.NumTriangles(), 0);
+  const auto close = [&](int fan) {
+    groups.begin.push_back(static_cast<int>(groups.order.size()));
+    groups.fan.push_back(fan);
+  };
+  for (int v = 0; v < connectivity.NumVertices(); ++v) {
+    const auto around = connectivity.TrianglesOfVertices()[v];
+    if (around.size() <= kLargestFan) continue;
+    for (const int f : around) {
+      if (is_grouped[f]) continue;
+      is_grouped[f] = 1;
+      groups.order.push_back(f);
+      if (static_cast<int>(groups.order.size()) - groups.begin.back() == kGroup) close(v);
+    }
+    if (static_cast<int>(groups.order.size()) > groups.begin.back()) close(v);
+  }
+  for (int f = 0; f < connectivity.NumTriangles(); ++f) {
+    if (is_grouped[f]) continue;
+    groups.order.push_back(f);
+    close(-1);
+  }
+  return groups;
+}
+
 // One shape, for Embree's callbacks.
 struct Triangles {
   const Eigen::Matrix3Xi* indices;
+  const Groups* groups;
   Shape vertices;  // within the unit cube about the origin, where float boxes are accurate
   std::mutex mutex;
   std::vector<std::pair<int, int>>* pairs;  // guarded by mutex, read after callbacks' destruction
@@ -99,9 +137,15 @@ bool BoxesApart(const Corners& a, const Corners& b) {
 void Bounds(const RTCBoundsFunctionArguments* arguments) {
   const auto* triangles = static_cast<const Triangles*>(arguments->geometryUserPtr);
   const internal::ForkJoin::Piece piece(triangles->callbacks);
-  const Corners corners = triangles->At(arguments->primID);
-  const Eigen::Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
-  const Eigen::Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+  const Groups& groups = *triangles->groups;
+  const int group = static_cast<int>(arguments->primID);
+  Eigen::Vector3d low = triangles->At(groups.order[groups.begin[group]])[0], high = low;
+  for (int i = groups.begin[group]; i < groups.begin[group + 1]; ++i) {
+    for (const Eigen::Vector3d& corner : triangles->At(groups.order[i])) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+  }
   // The boxes are enlarged by more than the rounding to float of coordinates in the unit cube.
   constexpr float kRounding = std::numeric_limits<float>::epsilon();
   RTCBounds* bounds = arguments->bounds_o;
@@ -113,22 +157,37 @@ void Bounds(const RTCBoundsFunctionArguments* arguments) {
   bounds->upper_z = static_cast<float>(high.z()) + kRounding;
 }
 
+// Appends the two triangles if they intersect and have no vertex in common.
+void AddIfCrossing(const Triangles& triangles, int first, int second,
+                   std::vector<std::pair<int, int>>* found) {
+  const auto u = triangles.indices->col(first), v = triangles.indices->col(second);
+  if (u(0) == v(0) || u(0) == v(1) || u(0) == v(2) || u(1) == v(0) || u(1) == v(1) ||
+      u(1) == v(2) || u(2) == v(0) || u(2) == v(1) || u(2) == v(2)) {
+    return;
+  }
+  const Corners a = triangles.At(first), b = triangles.At(second);
+  if (!BoxesApart(a, b) && Cross(a, b, kTouching)) {
+    found->emplace_back(std::min(first, second), std::max(first, second));
+  }
+}
+
 // Called on several threads. For a scene with itself Embree finds every pair twice.
 void OnPairs(void* user, RTCCollision* pairs, unsigned num_pairs) {
   auto* triangles = static_cast<Triangles*>(user);
   const internal::ForkJoin::Piece piece(triangles->callbacks);
+  const Groups& groups = *triangles->groups;
   std::vector<std::pair<int, int>> found;
   for (unsigned i = 0; i < num_pairs; ++i) {
     const unsigned first = pairs[i].primID0, second = pairs[i].primID1;
     if (first >= second) continue;
-    const auto u = triangles->indices->col(first), v = triangles->indices->col(second);
-    if (u(0) == v(0) || u(0) == v(1) || u(0) == v(2) || u(1) == v(0) || u(1) == v(1) ||
-        u(1) == v(2) || u(2) == v(0) || u(2) == v(1) || u(2) == v(2)) {
-      continue;
+    if (groups.fan[first] >= 0 && groups.fan[first] == groups.fan[second]) continue;
+    for (int k = groups.begin[first]; k < groups.begin[first + 1]; ++k) {
+      for (int l = groups.begin[second]; l < groups.begin[second + 1]; ++l) {
+        AddIfCrossing(*triangles, groups.order[k], groups.order[l], &found);
+      }
     }
-    const Corners a = triangles->At(first), b = triangles->At(second);
-    if (!BoxesApart(a, b) && Cross(a, b, kTouching)) found.emplace_back(first, second);
   }
+  if (found.empty()) return;
   const std::lock_guard<std::mutex> lock(triangles->mutex);
   triangles->pairs->insert(triangles->pairs->end(), found.begin(), found.end());
 }
@@ -150,7 +209,8 @@ void Collide(RTCDevice device, Triangles* triangles) {
   const std::unique_ptr<RTCGeometryTy, void (*)(RTCGeometry)> geometry(
       rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER), rtcReleaseGeometry);
   Check(device);
-  rtcSetGeometryUserPrimitiveCount(geometry.get(), triangles->indices->cols());
+  rtcSetGeometryUserPrimitiveCount(geometry.get(),
+                                   static_cast<unsigned>(triangles->groups->fan.size()));
   rtcSetGeometryUserData(geometry.get(), triangles);
   rtcSetGeometryBoundsFunction(geometry.get(), Bounds, nullptr);
   rtcCommitGeometry(geometry.get());
@@ -173,8 +233,13 @@ std::vector<std::pair<int, int>> FindOnDevice(RTCDevice device, const Connectivi
   if (!(extent > 0)) return {};
   std::vector<std::pair<int, int>> pairs;
   {
-    Triangles triangles{
-        &connectivity.Triangles(), (shape.colwise() - (low + high) / 2) / extent, {}, &pairs, {}};
+    const Groups groups = MakeGroups(connectivity);
+    Triangles triangles{&connectivity.Triangles(),
+                        &groups,
+                        (shape.colwise() - (low + high) / 2) / extent,
+                        {},
+                        &pairs,
+                        {}};
     Collide(device, &triangles);
   }
   std::sort(pairs.begin(), pairs.end());
