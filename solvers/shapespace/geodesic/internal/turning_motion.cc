@@ -256,8 +256,9 @@ void WaysRound::TakeShorterWay(int index) {
     const Eigen::Vector3d turn = Log(turns_.whole.conjugate() * rotations_[f]);
     turns_.of_triangles.col(f) =
         i == 0 ? turn : NearestWay(turn, turns_.of_triangles.col(part.found_by[i]));
-    way += Area(f) * turns_.of_triangles.col(f).squaredNorm();
-    other_way += Area(f) * OtherWayRound(turns_.of_triangles.col(f)).squaredNorm();
+    const double angle = turns_.of_triangles.col(f).norm();
+    way += Area(f) * angle * angle;
+    other_way += Area(f) * std::pow(2 * kPi - angle, 2);
   }
   part.decided = std::abs(way - other_way) > kEqualWays * way;
   if (other_way < way) TurnOtherWayRound(index);
@@ -267,10 +268,7 @@ void WaysRound::TakeShorterWay(int index) {
 void WaysRound::Decide(const Joint& fold, int side) {
   const int index = PartOf(fold, side);
   Part& part = parts_[index];
-  for (const int f : part.triangles) {
-    part.axis +=
-        TriangleArea(first_, connectivity_.Triangles().col(f)) * turns_.of_triangles.col(f);
-  }
+  for (const int f : part.triangles) part.axis += Area(f) * turns_.of_triangles.col(f);
   part.axis.normalize();
   if (GoesOtherWayRound(fold, side)) TurnOtherWayRound(index);
   part.decided = true;
@@ -315,8 +313,9 @@ Eigen::Vector2d WaysRound::HalfAngle(const Joint& fold) const {
 }
 
 void WaysRound::TurnOtherWayRound(int part) {
-  for (const int f : parts_[part].triangles)
+  for (const int f : parts_[part].triangles) {
     turns_.of_triangles.col(f) = OtherWayRound(turns_.of_triangles.col(f));
+  }
   parts_[part].axis = -parts_[part].axis;
 }
 
