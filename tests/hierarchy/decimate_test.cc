@@ -182,7 +182,7 @@ TEST(PlanCollapses, KeepsAFoldThatLiesFlat) {
   folded.row(0) = (folded.row(0).array() - 6).abs();
   const auto connectivity = testing::ConnectivityOf(grid);
   for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, -2, 0.5)}) {
-    const Shape turned = Eigen::AngleAxisd(1, axis.normalized()) * folded;
+    const Shape turned = Eigen::AngleAxisd(1, axis.normalized()).toRotationMatrix() * folded;
     const std::vector<Collapse> plan = PlanCollapses(*connectivity, {grid.vertices, turned}, 40);
     EXPECT_LE(plan.back().triangles, 40);
     EXPECT_NEAR(Area(*After(*connectivity, plan), turned), 144, 1e-9);

@@ -296,6 +296,18 @@ INSTANTIATE_TEST_SUITE_P(Folds, FoldedSheets,
                                            NamedFold{"AlongACurve", AlongACurve}),
                          [](const auto& info) { return info.param.name; });
 
+// Of four folds that meet at right angles two opposite ones can turn at a time, as long as nothing
+// is stretched: each pair in half of the time, for twice the bound.
+TEST(Folds, FoldsThatMeetFollowEachOther) {
+  const Folding sheet =
+      SquareSheet(20, [](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p.cwiseAbs(); });
+  GeodesicOptions options;
+  options.shapes = 7;
+  for (const Shape& last : {sheet.last, Shape(Rotation(63, {1, -2, 0.5}) * sheet.last)}) {
+    EXPECT_LT(Interpolate(sheet.mesh, {sheet.first, last}, options).summary.Ratio(), 2);
+  }
+}
+
 // A dome with a brim, whose outer half folds over.
 TEST(Folds, APartOfABodyThatIsNotPlanar) {
   Folding body = SquareSheet(12, Over(0.25));

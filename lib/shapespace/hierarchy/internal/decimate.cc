@@ -204,6 +204,8 @@ class Decimator {
   }
 
   void BuildQuadrics(int v) {
+    Fan fan;
+    const bool may_fold = GetFan(v, &fan);
     for (int p = 0; p < num_poses_; ++p) {
       const Eigen::Vector3d origin = At(v, p);
       Quadric& quadric = quadrics_[Column(v, p)];
@@ -216,7 +218,7 @@ class Decimator {
         quadric.AddPlane(normal, Eigen::Vector3d::Zero(), twice_area / 6);
         for (const auto& [w, side] : {std::pair(a, xa), std::pair(b, xb)}) {
           const bool border = boundary_[v] && boundary_[w] && SharedTriangles(v, w) == 1;
-          if (!border && !IsFolded(v, w, w == a ? b : a, p)) continue;
+          if (!border && !(may_fold && IsFolded(v, fan, w, w == a ? b : a, p))) continue;
           const double length = side.norm();
           if (!(length > 0)) continue;
           quadric.AddPlane(side.cross(normal) / length, Eigen::Vector3d::Zero(),
@@ -226,19 +228,19 @@ class Decimator {
     }
   }
 
-  // Whether the two triangles at an edge, of which one has the third corner `tip`, lie on each
+  // Whether the two triangles at an edge of v, of which one has the third corner `tip`, lie on each
   // other in a pose. The planes of both are then the same, and would not keep the edge in its
   // place.
-  bool IsFolded(int v, int w, int tip, int pose) const {
+  bool IsFolded(int v, const Fan& fan, int w, int tip, int pose) const {
     const Eigen::Vector3d origin = At(v, pose), edge = At(w, pose) - origin;
     const Eigen::Vector3d normal = edge.cross(At(tip, pose) - origin);
-    bool folded = false;
-    ForFan(v, [&](int a, int b) {
-      if ((a != w && b != w) || a == tip || b == tip) return;
+    for (int i = 0; i < fan.size; ++i) {
+      const int a = fan.a[i], b = fan.b[i];
+      if ((a != w && b != w) || a == tip || b == tip) continue;
       const Eigen::Vector3d other = edge.cross(At(a == w ? b : a, pose) - origin);
-      folded = folded || normal.dot(other) > kFoldedCosine * normal.norm() * other.norm();
-    });
-    return folded;
+      if (normal.dot(other) > kFoldedCosine * normal.norm() * other.norm()) return true;
+    }
+    return false;
   }
 
   int SharedTriangles(int a, int b) const {
