@@ -32,7 +32,7 @@ using testing::Rotation;
 constexpr double kDegreesOfRadian = 180 / M_PI;
 
 // A mesh in two poses.
-struct Folding {
+struct FoldedBody {
   std::shared_ptr<const Connectivity> mesh;
   Shape first, last;
 };
@@ -46,7 +46,7 @@ Shape Placed(const Shape& shape, const Place& place) {
 }
 
 // A square of side 1 about the origin, in cells x cells cells, and where `fold` puts it.
-Folding SquareSheet(int cells, const Place& fold) {
+FoldedBody SquareSheet(int cells, const Place& fold) {
   const ShapeFamily sheet = MakeSheet(1, 1, cells, cells);
   const Shape flat = sheet.pose(0);
   return {sheet.connectivity, flat, Placed(flat, fold)};
@@ -90,7 +90,7 @@ std::vector<double> HingeAngles(const Connectivity& mesh, const Shape& shape) {
 }
 
 // The folds, in their order among the hinges.
-std::vector<int> FoldsOf(const Folding& folding) {
+std::vector<int> FoldsOf(const FoldedBody& folding) {
   const std::vector<double> first = HingeAngles(*folding.mesh, folding.first);
   const std::vector<double> last = HingeAngles(*folding.mesh, folding.last);
   std::vector<int> folds;
@@ -119,7 +119,7 @@ std::shared_ptr<const Connectivity> TurnedOver(const Connectivity& mesh) {
 
 // A box of side 1 with a lid, which is closed in the first pose and opened by 180 degrees in the
 // last.
-Folding BoxWithLid() {
+FoldedBody BoxWithLid() {
   Shape closed(3, 10), open;
   for (int v = 0; v < 8; ++v) closed.col(v) << v % 2, v / 2 % 2, v / 4;
   closed.col(8) << 1, 0, 1;
@@ -134,7 +134,7 @@ Folding BoxWithLid() {
 }
 
 TEST(HasFolds, AreHingesThatTurnByHalfATurn) {
-  Folding sheet = SquareSheet(4, Over(0));
+  FoldedBody sheet = SquareSheet(4, Over(0));
   EXPECT_TRUE(HasFolds(*sheet.mesh, sheet.first, sheet.last));
   EXPECT_TRUE(HasFolds(*sheet.mesh, sheet.last, sheet.first));
   EXPECT_FALSE(HasFolds(*sheet.mesh, sheet.first, sheet.first));
@@ -153,7 +153,7 @@ TEST(HasFolds, AreHingesThatTurnByHalfATurn) {
 
 TEST(TurningMotion, FoldsPanelsWithoutStretchingThem) {
   for (const Place& fold : {Over(0), Over(0.25), Panels(4), Place(Letter)}) {
-    const Folding sheet = SquareSheet(8, fold);
+    const FoldedBody sheet = SquareSheet(8, fold);
     const TurningMotion motion(*sheet.mesh, sheet.first, sheet.last);
     EXPECT_LT(Distance(motion.At(0), sheet.first), 1e-9);
     EXPECT_LT(Distance(motion.At(1), sheet.last), 1e-9);
@@ -167,7 +167,7 @@ TEST(TurningMotion, FoldsPanelsWithoutStretchingThem) {
 }
 
 TEST(TurningMotion, AFoldRisesOnTheSideOfTheNormals) {
-  const Folding sheet = SquareSheet(4, Over(0));
+  const FoldedBody sheet = SquareSheet(4, Over(0));
   const auto other = TurnedOver(*sheet.mesh);
   for (const double sign : {1.0, -1.0}) {
     const Connectivity& mesh = sign > 0 ? *sheet.mesh : *other;
@@ -181,7 +181,7 @@ TEST(TurningMotion, AFoldRisesOnTheSideOfTheNormals) {
 }
 
 TEST(TurningMotion, ParallelFoldsOpenLikeStairs) {
-  const Folding sheet = SquareSheet(8, Panels(4));
+  const FoldedBody sheet = SquareSheet(8, Panels(4));
   const std::vector<double> angles =
       HingeAngles(*sheet.mesh, TurningMotion(*sheet.mesh, sheet.first, sheet.last).At(0.5));
   int rising = 0, falling = 0;
@@ -198,7 +198,7 @@ TEST(TurningMotion, ParallelFoldsOpenLikeStairs) {
 
 // The lid's hinge passes through 0 degrees, not through 180.
 TEST(TurningMotion, ALidOpensOutwards) {
-  const Folding box = BoxWithLid();
+  const FoldedBody box = BoxWithLid();
   for (const Shape& half : {TurningMotion(*box.mesh, box.first, box.last).At(0.5),
                             TurningMotion(*box.mesh, box.last, box.first).At(0.5)}) {
     EXPECT_GT(half(2, 8) - half(2, 4), 0.99);
@@ -206,9 +206,22 @@ TEST(TurningMotion, ALidOpensOutwards) {
   }
 }
 
+// Triangles without area in a pose have no rotation of their own, and turn with a neighbour.
+TEST(TurningMotion, TrianglesWithoutAreaTurnWithTheirNeighbours) {
+  FoldedBody sheet = SquareSheet(8, Over(0));
+  const std::vector<int> merged = testing::Where(
+      sheet.first, [](const Eigen::Vector3d& p) { return std::abs(p(1)) < 0.2 && p(0) > 0.2; });
+  for (const int v : merged) sheet.last.col(v) = sheet.last.col(merged[0]);
+  for (const Shape& half : {TurningMotion(*sheet.mesh, sheet.first, sheet.last).At(0.5),
+                            TurningMotion(*sheet.mesh, sheet.last, sheet.first).At(0.5)}) {
+    const std::vector<double> angles = HingeAngles(*sheet.mesh, half);
+    for (const int h : FoldsOf(sheet)) EXPECT_NEAR(angles[h], -90, 15);
+  }
+}
+
 TEST(TurningMotion, DoesNotDependOnTheFrames) {
   for (const Place& fold : {Over(0), Over(0.25), Panels(4), Place(Letter), Place(AlongACurve)}) {
-    const Folding sheet = SquareSheet(8, fold);
+    const FoldedBody sheet = SquareSheet(8, fold);
     const Shape half = TurningMotion(*sheet.mesh, sheet.first, sheet.last).At(0.5);
     const std::vector<double> angles = HingeAngles(*sheet.mesh, half);
     for (const double degrees : {40.0, 133.0, 180.0}) {
@@ -223,7 +236,7 @@ TEST(TurningMotion, DoesNotDependOnTheFrames) {
 // For a sheet that is folded in half, all rotations about the fold are equally near to the flat
 // sheet.
 TEST(AlignFolds, BothHalvesOfASheetTurnByTheSameAngle) {
-  const Folding sheet = SquareSheet(8, Over(0));
+  const FoldedBody sheet = SquareSheet(8, Over(0));
   const auto metric = FreezeMetric({}, sheet.mesh, {sheet.first, sheet.last});
   for (const double degrees : {0.0, 40.0, 133.0}) {
     const std::vector<Shape> poses = {sheet.first, Rotation(degrees, {1, -2, 0.5}) * sheet.last};
@@ -271,7 +284,7 @@ struct NamedFold {
 class FoldedSheets : public ::testing::TestWithParam<NamedFold> {};
 
 TEST_P(FoldedSheets, AreNearTheBoundAndTheSameInEveryFrame) {
-  const Folding sheet = SquareSheet(20, GetParam().fold);
+  const FoldedBody sheet = SquareSheet(20, GetParam().fold);
   GeodesicOptions options;
   options.shapes = 7;
   std::vector<double> expected;
@@ -299,7 +312,7 @@ INSTANTIATE_TEST_SUITE_P(Folds, FoldedSheets,
 // Of four folds that meet at right angles two opposite ones can turn at a time, as long as nothing
 // is stretched: each pair in half of the time, for twice the bound.
 TEST(Folds, FoldsThatMeetFollowEachOther) {
-  const Folding sheet =
+  const FoldedBody sheet =
       SquareSheet(20, [](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p.cwiseAbs(); });
   GeodesicOptions options;
   options.shapes = 7;
@@ -310,7 +323,7 @@ TEST(Folds, FoldsThatMeetFollowEachOther) {
 
 // A dome with a brim, whose outer half folds over.
 TEST(Folds, APartOfABodyThatIsNotPlanar) {
-  Folding body = SquareSheet(12, Over(0.25));
+  FoldedBody body = SquareSheet(12, Over(0.25));
   const auto raise = [&](Shape* shape) {
     for (int v = 0; v < shape->cols(); ++v) {
       const double x = body.first(0, v), y = body.first(1, v);

@@ -39,9 +39,15 @@ bool IsFold(const Eigen::Vector4i& corners, const Shape& first, const Shape& las
   return std::abs(WrapAngle(turn)) > kPi - kEqualWays;
 }
 
-// The triangle that has these corners in its orientation, beginning anywhere.
+// The triangle that has these corners in its orientation, beginning anywhere. It is looked for at
+// the corner with the fewest triangles: others may have thousands.
 int FindTriangle(const Connectivity& connectivity, int a, int b, int c) {
-  for (const int f : connectivity.TrianglesOfVertices()[a]) {
+  const IndexLists& around = connectivity.TrianglesOfVertices();
+  int corner = a;
+  for (const int other : {b, c}) {
+    if (around[other].size() < around[corner].size()) corner = other;
+  }
+  for (const int f : around[corner]) {
     const Eigen::Vector3i t = connectivity.Triangles().col(f);
     for (int k = 0; k < 3; ++k) {
       if (t(k) == a && t((k + 1) % 3) == b && t((k + 2) % 3) == c) return f;
