@@ -16,8 +16,8 @@
 #include <shapespace/base/parallel.h>
 #include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/cost/internal/refuse_sums.h>
-#include <shapespace/geodesic/internal/contact_piece.h>
 #include <shapespace/geodesic/internal/align_folds.h>
+#include <shapespace/geodesic/internal/contact_piece.h>
 #include <shapespace/geodesic/internal/geodesic_piece.h>
 #include <shapespace/hierarchy/freeze_level.h>
 #include <shapespace/numerics/internal/check_options.h>
