@@ -175,6 +175,20 @@ TEST(PlanCollapses, KeepsACreaseThatOnlyOnePoseHas) {
   EXPECT_NEAR(Area(*left, creased), 144 * std::sqrt(2.0), 1e-9);
 }
 
+// There the planes of the triangles on both sides of the fold are the same.
+TEST(PlanCollapses, KeepsAFoldThatLiesFlat) {
+  const Soup grid = testing::Grid(12, 12);
+  Shape folded = grid.vertices;
+  folded.row(0) = (folded.row(0).array() - 6).abs();
+  const auto connectivity = testing::ConnectivityOf(grid);
+  for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, -2, 0.5)}) {
+    const Shape turned = Eigen::AngleAxisd(1, axis.normalized()).toRotationMatrix() * folded;
+    const std::vector<Collapse> plan = PlanCollapses(*connectivity, {grid.vertices, turned}, 40);
+    EXPECT_LE(plan.back().triangles, 40);
+    EXPECT_NEAR(Area(*After(*connectivity, plan), turned), 144, 1e-9);
+  }
+}
+
 TEST(PlanCollapses, KeepsPinnedVertices) {
   const PosedMesh mesh = testing::BentTube(2000);
   std::vector<int> pinned;

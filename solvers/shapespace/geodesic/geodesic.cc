@@ -16,6 +16,7 @@
 #include <shapespace/base/parallel.h>
 #include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/cost/internal/refuse_sums.h>
+#include <shapespace/geodesic/internal/align_folds.h>
 #include <shapespace/geodesic/internal/contact_piece.h>
 #include <shapespace/geodesic/internal/geodesic_piece.h>
 #include <shapespace/hierarchy/freeze_level.h>
@@ -425,7 +426,7 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
   Workload workload(progress, options_.tolerance, options_.max_iterations);
   const bool more_shapes_allowed = MostShapes(*metric_, pieces, options_) > options_.shapes;
   for (int i = 0; i < pieces; ++i) {
-    internal::Plan(schedule, *workspace, options_.start, &workload);
+    internal::Plan(i, schedule, *workspace, options_.start, &workload);
   }
   for (int i = 0; i < pieces; ++i) {
     std::vector<Shape> shapes;
@@ -536,7 +537,7 @@ GeodesicResult Interpolate(const std::shared_ptr<const Metric>& metric,
   CheckFinest(*metric, bytes, options);
   const internal::Stopwatch total;
   ReportProgress(progress, "decimating", 0, 0);
-  const AlignedPoses aligned = AlignPoses(*metric, shapes);
+  const AlignedPoses aligned = internal::AlignFolds(*metric, AlignPoses(*metric, shapes));
   const internal::GeodesicLevels levels(metric, aligned.shapes, PosePairs::kConsecutive, options,
                                         progress);
   const double hierarchy_seconds = total.Seconds();
@@ -582,7 +583,9 @@ GeodesicResult Interpolator::Between(const Shape& from, const Shape& to, Progres
   CheckShape(from, *GetMetric());
   CheckShape(to, *GetMetric());
   const internal::Stopwatch total;
-  GeodesicResult result = levels_->Solve(AlignPoses(*GetMetric(), {from, to}), progress);
+  const AlignedPoses aligned =
+      internal::AlignFolds(*GetMetric(), AlignPoses(*GetMetric(), {from, to}));
+  GeodesicResult result = levels_->Solve(aligned, progress);
   result.summary.estimated_bytes = estimated_bytes_;
   result.summary.total_seconds = total.Seconds();
   return result;

@@ -58,8 +58,8 @@ enum class GeodesicSchedule {
 /// The initial guess for the one inner shape of the first solve.
 enum class GeodesicStart {
   kBest,   ///< kBlend, kFirst and kLast on few vertices; the one that ends with the least energy is
-           ///< used
-           ///< on
+           ///< used. Where hinges turn by 180 degrees, first a shape in which every triangle has
+           ///< made half of its turn ("turn" in Level::start)
   kBlend,  ///< the mean of the two poses
   kFirst,  ///< the first pose
   kLast,   ///< the last pose
@@ -124,7 +124,7 @@ struct GeodesicSummary {
     int piece = 0;       ///< between pose `piece` and the next
     int vertices = 0;    ///< of the level of the hierarchy
     int shapes = 0;      ///< inner shapes
-    std::string start;   ///< initial guess: "blend", "first", "last", "rigid"; or, from earlier
+    std::string start;   ///< initial guess: "blend", "first", "last", "rigid", "turn"; from earlier
                          ///< rows, "refined" in time or "lifted" in space
     std::string solver;  ///< "L-BFGS", "own L-BFGS" or "trust region"
     Termination termination = Termination::kConverged;

@@ -33,6 +33,9 @@ constexpr double kMinQuality = 0.2;
 // collapse nearby, each neighbour would be tested against all triangles again, in time cubic in
 // their number. A flat fan of triangles that are not slivers has up to 54.
 constexpr int kLargestFan = 54;
+// Two triangles on the same side of their edge lie on each other if the cosine of the angle between
+// them is above this: to a thousandth of a radian.
+constexpr double kFoldedCosine = 1 - 5e-7;
 
 // In a round one vertex in so many, the cheapest, are candidates, and those of their collapses that
 // are independent of each other are made together. With fewer candidates the order is closer to
@@ -201,6 +204,8 @@ class Decimator {
   }
 
   void BuildQuadrics(int v) {
+    Fan fan;
+    const bool may_fold = GetFan(v, &fan);
     for (int p = 0; p < num_poses_; ++p) {
       const Eigen::Vector3d origin = At(v, p);
       Quadric& quadric = quadrics_[Column(v, p)];
@@ -212,7 +217,8 @@ class Decimator {
         normal /= twice_area;
         quadric.AddPlane(normal, Eigen::Vector3d::Zero(), twice_area / 6);
         for (const auto& [w, side] : {std::pair(a, xa), std::pair(b, xb)}) {
-          if (!boundary_[v] || !boundary_[w] || SharedTriangles(v, w) != 1) continue;
+          const bool border = boundary_[v] && boundary_[w] && SharedTriangles(v, w) == 1;
+          if (!border && !(may_fold && IsFolded(v, fan, w, w == a ? b : a, p))) continue;
           const double length = side.norm();
           if (!(length > 0)) continue;
           quadric.AddPlane(side.cross(normal) / length, Eigen::Vector3d::Zero(),
@@ -220,6 +226,21 @@ class Decimator {
         }
       });
     }
+  }
+
+  // Whether the two triangles at an edge of v, of which one has the third corner `tip`, lie on each
+  // other in a pose. The planes of both are then the same, and would not keep the edge in its
+  // place.
+  bool IsFolded(int v, const Fan& fan, int w, int tip, int pose) const {
+    const Eigen::Vector3d origin = At(v, pose), edge = At(w, pose) - origin;
+    const Eigen::Vector3d normal = edge.cross(At(tip, pose) - origin);
+    for (int i = 0; i < fan.size; ++i) {
+      const int a = fan.a[i], b = fan.b[i];
+      if ((a != w && b != w) || a == tip || b == tip) continue;
+      const Eigen::Vector3d other = edge.cross(At(a == w ? b : a, pose) - origin);
+      if (normal.dot(other) > kFoldedCosine * normal.norm() * other.norm()) return true;
+    }
+    return false;
   }
 
   int SharedTriangles(int a, int b) const {

@@ -7,6 +7,7 @@
 #include <shapespace/analysis/quality.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/geodesic/internal/arc_length.h>
+#include <shapespace/geodesic/internal/turning_motion.h>
 #include <shapespace/geodesic/internal/unwrap_hinges.h>
 #include <shapespace/path/energy.h>
 
@@ -20,6 +21,10 @@ constexpr int kTrialVertices = 1000;
 // A path whose energy is this multiple of its lower bound, or less, leaves other starts so little
 // to gain that they are not tried.
 constexpr double kGoodStart = 1.03;
+
+// With so many inner shapes, a hinge that turns by 180 degrees in one jump costs more than three
+// times as much as one that turns evenly.
+constexpr int kShapesToTellJumps = 7;
 
 // If another level follows, a solve may stop when a further step is expected to gain less than this
 // share of the gain so far. Refinement in time by cubics has an error of fourth order, and the
@@ -36,8 +41,9 @@ constexpr double kJump = 1.1;
 // more energy than the path through the fewer shapes. From this multiple on another guess is tried.
 constexpr double kPoorGuess = 1.5;
 
-const char* Name(GeodesicStart start) {
-  switch (start) {
+const char* Name(PieceStart start) {
+  if (!start) return "turn";
+  switch (*start) {
     case GeodesicStart::kBlend:
       return "blend";
     case GeodesicStart::kFirst:
@@ -52,7 +58,7 @@ const char* Name(GeodesicStart start) {
   return "best";
 }
 
-std::vector<GeodesicStart> Starts(GeodesicStart start) {
+std::vector<PieceStart> Starts(GeodesicStart start) {
   if (start != GeodesicStart::kBest) return {start};
   return {GeodesicStart::kBlend, GeodesicStart::kFirst, GeodesicStart::kLast};
 }
@@ -61,26 +67,66 @@ int NumVertices(const Resolution& resolution) {
   return resolution.GetMetric()->connectivity->NumVertices();
 }
 
-// The number of first steps that take only milliseconds.
-size_t TrialSteps(const std::vector<ScheduleStep>& schedule,
-                  const std::vector<Resolution>& resolutions) {
+// The steps of a piece, the first of which select the valley from one start after the other.
+struct PieceSteps {
+  std::vector<ScheduleStep> steps;
   size_t trial = 1;
-  while (trial < schedule.size() && schedule[trial].shapes == 1 &&
-         NumVertices(resolutions[schedule[trial].level]) <= kTrialVertices) {
+  std::vector<PieceStart> starts;
+  double least_gain = 1;  // the ratio of energies from which on a later start is preferred
+
+  PieceSteps(int index, const std::vector<ScheduleStep>& schedule,
+             const std::vector<Resolution>& resolutions, GeodesicStart start);
+};
+
+PieceSteps::PieceSteps(int index, const std::vector<ScheduleStep>& schedule,
+                       const std::vector<Resolution>& resolutions, GeodesicStart start)
+    : starts(Starts(start)) {
+  const int coarsest = schedule.front().level;
+  const Resolution& resolution = resolutions[coarsest];
+  const bool small = NumVertices(resolution) <= kTrialVertices;
+  if (start != GeodesicStart::kBest ||
+      !HasFolds(*resolution.GetMetric()->connectivity, resolution.Pose(index),
+                resolution.Pose(index + 1))) {
+    steps = schedule;
+    while (trial < steps.size() && steps[trial].shapes == 1 &&
+           NumVertices(resolutions[steps[trial].level]) <= kTrialVertices) {
+      ++trial;
+    }
+    return;
+  }
+  // With one inner shape all angles of a hinge that turns by 180 degrees cost the same, and with
+  // three a jump costs little more than even motion. So the coarsest level is solved first, with as
+  // many shapes as tell one from the other, and finer levels with no fewer.
+  int enough = 1;
+  for (const ScheduleStep& step : schedule) {
+    if (step.level == coarsest && step.shapes <= kShapesToTellJumps) enough = step.shapes;
+  }
+  for (const ScheduleStep& step : schedule) {
+    if (step.level == coarsest || step.shapes >= enough) steps.push_back(step);
+  }
+  std::stable_sort(steps.begin(), steps.end(), [&](const ScheduleStep& a, const ScheduleStep& b) {
+    return a.shapes <= enough && a.level == coarsest && b.level != coarsest;
+  });
+  while (trial < steps.size() && steps[trial].level == coarsest && steps[trial].shapes <= enough) {
     ++trial;
   }
-  return trial;
+  // Of paths that fold to one side or the other and cost nearly the same, that start's is taken:
+  // its side does not depend on rounding, and it has no crumpled parts that finer levels would
+  // keep.
+  starts.insert(starts.begin(), std::nullopt);
+  least_gain = kPoorGuess;
+  if (!small) starts.resize(1);
 }
 
 }  // namespace
 
-void Plan(const std::vector<ScheduleStep>& schedule, const std::vector<Resolution>& resolutions,
-          GeodesicStart start, Workload* workload) {
-  const size_t trial = TrialSteps(schedule, resolutions), starts = Starts(start).size();
-  for (size_t i = 0; i < schedule.size(); ++i) {
-    for (size_t k = 0; k < (i < trial ? starts : 1); ++k) {
-      workload->Plan(NumVertices(resolutions[schedule[i].level]), schedule[i].shapes,
-                     i + 1 == schedule.size());
+void Plan(int index, const std::vector<ScheduleStep>& schedule,
+          const std::vector<Resolution>& resolutions, GeodesicStart start, Workload* workload) {
+  const PieceSteps piece(index, schedule, resolutions, start);
+  for (size_t i = 0; i < piece.steps.size(); ++i) {
+    for (size_t k = 0; k < (i < piece.trial ? piece.starts.size() : 1); ++k) {
+      workload->Plan(NumVertices(resolutions[piece.steps[i].level]), piece.steps[i].shapes,
+                     i + 1 == piece.steps.size());
     }
   }
 }
@@ -101,15 +147,15 @@ void GeodesicPiece::Run(const std::vector<ScheduleStep>& schedule, bool more_sha
     ends[level].shapes = {resolutions_[level].Pose(index_), resolutions_[level].Pose(index_ + 1)};
     if (level > 0) ends[level].base = ends[level - 1].shapes;
   }
-  const size_t trial = TrialSteps(schedule, resolutions_);
+  const PieceSteps piece(index_, schedule, resolutions_, options_.start);
   Attempt best;
-  for (GeodesicStart start : Starts(options_.start)) {
-    Attempt attempt = TakeSteps(schedule, 0, trial, {start, ends});
-    const bool better =
-        best.known.empty() || (attempt.energy < best.energy && !workload_.Stopped());
+  for (const PieceStart start : piece.starts) {
+    Attempt attempt = TakeSteps(piece.steps, 0, piece.trial, {start, ends});
+    const bool better = best.known.empty() ||
+                        (piece.least_gain * attempt.energy < best.energy && !workload_.Stopped());
     for (size_t row : (better ? best : attempt).rows) summary_.levels[row].kept = false;
     if (better) best = std::move(attempt);
-    const ScheduleStep& last = schedule[trial - 1];
+    const ScheduleStep& last = piece.steps[piece.trial - 1];
     const Resolution& resolution = resolutions_[last.level];
     const double bound =
         ScaledEnergy(EnergyLowerBound(*resolution.GetMetric(), resolution.Pose(index_),
@@ -117,7 +163,7 @@ void GeodesicPiece::Run(const std::vector<ScheduleStep>& schedule, bool more_sha
                      last.shapes + 1);
     if (workload_.Stopped() || best.energy <= kGoodStart * bound) break;
   }
-  known_ = TakeSteps(schedule, trial, schedule.size(), std::move(best)).known;
+  known_ = TakeSteps(piece.steps, piece.trial, piece.steps.size(), std::move(best)).known;
   if (more_shapes_allowed && !workload_.Stopped()) RemoveJump(schedule.back());
 }
 
@@ -152,7 +198,7 @@ GeodesicPiece::Attempt GeodesicPiece::TakeSteps(const std::vector<ScheduleStep>&
   return attempt;
 }
 
-void GeodesicPiece::TakeStep(const ScheduleStep& step, GeodesicStart start, bool last) {
+void GeodesicPiece::TakeStep(const ScheduleStep& step, PieceStart start, bool last) {
   Known& known = known_[step.level];
   const Known* const coarser = step.level > 0 ? &known_[step.level - 1] : nullptr;
   const int segments = static_cast<int>(known.shapes.size()) - 1;
@@ -224,10 +270,14 @@ std::vector<Shape> GeodesicPiece::InsertShapes(int level, const std::vector<Shap
   return shapes;
 }
 
-std::vector<Shape> GeodesicPiece::OneInnerShape(GeodesicStart start, int level) {
+std::vector<Shape> GeodesicPiece::OneInnerShape(PieceStart start, int level) {
   const std::vector<Shape>& ends = known_[level].shapes;
+  if (!start) {
+    const TurningMotion motion(*resolutions_[level].GetMetric()->connectivity, ends[0], ends[1]);
+    return {ends[0], motion.At(0.5), ends[1]};
+  }
   const Shape blend = 0.5 * (ends[0] + ends[1]);
-  switch (start) {
+  switch (*start) {
     case GeodesicStart::kFirst:
       return {ends[0], ends[0], ends[1]};
     case GeodesicStart::kLast:

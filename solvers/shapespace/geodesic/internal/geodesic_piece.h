@@ -1,6 +1,7 @@
 #ifndef SHAPESPACE_GEODESIC_INTERNAL_GEODESIC_PIECE_H_
 #define SHAPESPACE_GEODESIC_INTERNAL_GEODESIC_PIECE_H_
 
+#include <optional>
 #include <vector>
 
 #include <shapespace/geodesic/geodesic.h>
@@ -10,9 +11,13 @@
 
 namespace shapespace::internal {
 
-/// Adds all steps that a `GeodesicPiece` will take to `workload`.
-void Plan(const std::vector<ScheduleStep>& schedule, const std::vector<Resolution>& resolutions,
-          GeodesicStart start, Workload* workload);
+/// Where the first solve of a piece begins; none is the shape half-way of a `TurningMotion`.
+using PieceStart = std::optional<GeodesicStart>;
+
+/// Adds all steps that the `GeodesicPiece` between pose `index` and the next will take to
+/// `workload`.
+void Plan(int index, const std::vector<ScheduleStep>& schedule,
+          const std::vector<Resolution>& resolutions, GeodesicStart start, Workload* workload);
 
 /// The solve between two neighbouring poses, coarse to fine in space and time.
 class GeodesicPiece {
@@ -41,7 +46,7 @@ class GeodesicPiece {
 
   // The results on all levels after some steps of the schedule, from one start.
   struct Attempt {
-    GeodesicStart start = GeodesicStart::kBlend;
+    PieceStart start = GeodesicStart::kBlend;
     std::vector<Known> known = {};
     double energy = 0;              // scaled, of the last step
     std::vector<size_t> rows = {};  // in the summary's table
@@ -56,11 +61,11 @@ class GeodesicPiece {
   // with the number of `last`, the schedule's last step, again; keeps the result if it has less
   // energy.
   void RemoveJump(const ScheduleStep& last);
-  void TakeStep(const ScheduleStep& step, GeodesicStart start, bool last);
+  void TakeStep(const ScheduleStep& step, PieceStart start, bool last);
   // The level's shapes with one more between each two, the best solution between these two from
   // three initial guesses: either neighbour, and the corresponding one of `guess`.
   std::vector<Shape> InsertShapes(int level, const std::vector<Shape>& guess);
-  std::vector<Shape> OneInnerShape(GeodesicStart start, int level);
+  std::vector<Shape> OneInnerShape(PieceStart start, int level);
   // The coarser level's shapes with detail from this level's earlier shapes. The detail at a time
   // is taken from the earlier shapes around it, each relative to the coarse shape of its own time,
   // which is correct also if parts turn far between these times.
