@@ -421,7 +421,7 @@ def average(poses, faces=None, *, progress=None, **options):
     -------
     AverageResult
         The shape, and a summary. `summary.ratio` says how far it can be from the best: 1 is a proof
-        that no shape is a better mean.
+        that no shape is a better mean, and without `certify` it is not a number.
 
     Raises
     ------

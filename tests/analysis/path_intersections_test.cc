@@ -1,5 +1,7 @@
 #include <shapespace/analysis/path_intersections.h>
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <shapespace/analysis/intersections.h>
@@ -42,8 +44,9 @@ TEST(MeasureIntersections, TellsThePathsFromThePoses) {
 
   figures = MeasureIntersections(PathOf(kTwo, {through, apart}));
   EXPECT_EQ(figures.poses_max, 1);
-  EXPECT_EQ(figures.inner_max, 0);
-  EXPECT_EQ(figures.inner_mean, 0);
+  EXPECT_EQ(figures.inner_max, -1);
+  EXPECT_TRUE(std::isnan(figures.inner_mean));
+  EXPECT_TRUE(std::isnan(figures.beyond_poses));
 }
 
 TEST(MeasureIntersections, LooksAtThePosesAroundEachShape) {

@@ -149,9 +149,9 @@ TEST(MeasureQuality, FiguresOfInnerShapesAreOfThoseBetweenPosesOnly) {
   beyond.poses = {1};
   beyond.extrapolated = 3;
   EXPECT_EQ(MeasureQuality(beyond).inner_shapes, 0);
-  EXPECT_EQ(MeasureQuality(beyond).edge_max, 0);
+  EXPECT_TRUE(std::isnan(MeasureQuality(beyond).edge_max));
   beyond.poses.clear();
-  EXPECT_EQ(MeasureQuality(beyond).roughness, 0);
+  EXPECT_TRUE(std::isnan(MeasureQuality(beyond).roughness));
 }
 
 // With a metric of positions alone, the speed of a rigid motion is the body's speed.

@@ -197,8 +197,35 @@ TEST(Average, StopsWhenAskedTo) {
   } later;
   const AverageResult result = Average(Tube().connectivity, poses, {}, &later);
   EXPECT_EQ(result.summary.termination, Termination::kCancelled);
-  EXPECT_EQ(result.summary.lower_bound, 0);
+  EXPECT_TRUE(std::isnan(result.summary.lower_bound));
+  EXPECT_TRUE(std::isnan(result.summary.energy));
+  EXPECT_TRUE(std::isnan(result.summary.Ratio()));
   EXPECT_TRUE(result.shape.allFinite());
+}
+
+// Rounds whose shape is lost, because the refinement was stopped, are not counted.
+TEST(Average, ARefinementThatIsStoppedHasNoRounds) {
+  const std::vector<Shape> poses = PosesAt(Tube(), {0, 140, 150});
+  struct StopInALaterRound : Progress {
+    bool Report(const std::string& stage, int done, int) override {
+      if (stage == "comparing with the lower bound" && done == 0 && last != 0) ++stars;
+      last = stage == "averaging" ? -1 : done;
+      return stars < 3;
+    }
+    int stars = 0, last = -1;
+  } later;
+  AverageOptions options;
+  options.refine = true;
+  options.geodesic.shapes = 3;
+  options.geodesic.tolerance = 1e-7;
+  const AverageResult whole = Average(Tube().connectivity, poses, options);
+  ASSERT_GE(whole.summary.refinements, 2);
+  const AverageResult result = Average(Tube().connectivity, poses, options, &later);
+  EXPECT_EQ(result.summary.termination, Termination::kCancelled);
+  EXPECT_EQ(result.summary.refinements, 0);
+  EXPECT_TRUE(std::isnan(result.summary.refined_by));
+  options.refine = options.certify = false;
+  EXPECT_EQ(result.shape, Average(Tube().connectivity, poses, options).shape);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ using Ending = ExponentialSummary::Ending;
 
 ExponentialSummary ShotOfNumbers() {
   ExponentialSummary summary;
+  summary.ending = Ending::kComplete;
   summary.vertices = 11;
   summary.requested_steps = 4;
   summary.metric = "strain 1";

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <string>
@@ -15,6 +16,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
+#include <shapespace/numerics/internal/dense.h>
 
 #include "support/message_of.h"
 #include "support/paths.h"
@@ -45,6 +47,38 @@ Eigen::SparseMatrix<double> SparseWithDenseFactor(int size, int degree) {
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
+}
+
+TEST(FactorDense, RefusesWhatIsNotFiniteOrNotDefinite) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const int size : {1, 2, 5, 70}) {
+    const Eigen::MatrixXd definite =
+        Eigen::MatrixXd::Constant(size, size, 0.5) + size * Eigen::MatrixXd::Identity(size, size);
+    Eigen::MatrixXd matrix = definite;
+    EXPECT_TRUE(FactorDense(size, matrix.data(), size));
+    for (const double wrong : {kNan, kInfinity, -kInfinity, -10.0 * size}) {
+      for (int column = 0; column < size; column += 1 + size / 4) {
+        for (int row = column; row < size; row += 1 + size / 3) {
+          matrix = definite;
+          matrix(row, column) = wrong;
+          EXPECT_FALSE(FactorDense(size, matrix.data(), size))
+              << wrong << " at " << row << ", " << column << " of " << size;
+        }
+      }
+    }
+  }
+}
+
+TEST(Cholesky, RefusesWhatIsNotANumber) {
+  Eigen::SparseMatrix<double> matrix = Matrix(MakeBar(6, 1, 1, 6, 1, 1));
+  for (const Eigen::Index at : {Eigen::Index{0}, matrix.nonZeros() / 2, matrix.nonZeros() - 1}) {
+    const double before = matrix.valuePtr()[at];
+    matrix.valuePtr()[at] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(Cholesky{matrix}, SolverError) << at;
+    matrix.valuePtr()[at] = before;
+  }
+  EXPECT_NO_THROW(Cholesky{matrix});
 }
 
 // A large matrix and few columns, for which branches are solved in parallel.

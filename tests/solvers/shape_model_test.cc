@@ -16,6 +16,7 @@
 
 #include "support/message_of.h"
 #include "support/motions.h"
+#include "support/own_features.h"
 
 namespace shapespace {
 namespace {
@@ -143,6 +144,60 @@ TEST(ShapeModel, CoordinatesOfThePosesAreStandardisedAndUncorrelated) {
       EXPECT_LT(modes.variances(k), modes.variances(k - 1));
     }
   }
+}
+
+// Whatever the metric adds up: modes are displacements to first order.
+TEST(ShapeModel, ModesAreTheDerivativeOfTheShapeAtCoordinates) {
+  testing::RegisterOwnFeatures();
+  const SkinnedBody body = MakeQuadruped(400);
+  std::vector<Shape> poses;
+  for (int seed = 1; seed <= 3; ++seed) {
+    poses.push_back((1 + 0.05 * seed) * body.random_pose(seed));
+  }
+  // Near to each other, so that there is a shape with the mean features.
+  for (Shape& pose : poses) {
+    pose = FitRigidMotion(pose, poses[0], Eigen::VectorXd::Ones(pose.cols()))(pose);
+    pose = poses[0] + 0.02 * (pose - poses[0]);
+  }
+  poses[0] = 0.999 * poses[0];
+  std::vector<MetricOptions> metrics(6);
+  metrics[1].volume = 1;
+  metrics[2].volume = 100;
+  metrics[3].features = {{"spread", 2}};
+  metrics[4].volume = 3;
+  metrics[4].features = {{"spread", 5}, {"own volume", 1}};
+  metrics[5] = MetricOptions::Isometric();
+  metrics[5].volume = 10;
+  for (const MetricOptions& metric : metrics) {
+    SCOPED_TRACE(DescribeMetric(metric));
+    ShapeModelOptions options;
+    options.average.geodesic.metric = metric;
+    const PoseModes modes = MakeShapeModel(body.connectivity, poses, {}, options).modes;
+    const ShapeModel model(modes);
+    ASSERT_EQ(modes.NumModes(), 2);
+    for (int k = 0; k < 2; ++k) {
+      constexpr double kStep = 0.25;
+      const Eigen::VectorXd ahead = kStep * Eigen::VectorXd::Unit(2, k);
+      const Tangent difference =
+          (model.At(ahead).shape - model.At(-ahead).shape) / (2 * kStep * modes.metric->unit);
+      EXPECT_LT((difference - modes.modes[k]).norm(), 0.02 * modes.modes[k].norm()) << k;
+    }
+  }
+}
+
+// A cost of volume makes no shape harder to find.
+TEST(ShapeModel, ShapesAreFoundInAsManyIterationsWithASumAsWithout) {
+  std::vector<int> iterations;
+  for (const double volume : {0.0, 10.0}) {
+    ShapeModelOptions options;
+    options.average.geodesic.metric.volume = volume;
+    const ShapeModel model(
+        MakeShapeModel(Animal().connectivity, AnimalPoses(4), {}, options).modes);
+    const ModelShape found = model.At(Eigen::Vector3d(1, -1, 0.5));
+    EXPECT_TRUE(found.Converged()) << volume;
+    iterations.push_back(found.iterations);
+  }
+  EXPECT_LE(iterations[1], 2 * iterations[0] + 2);
 }
 
 TEST(ShapeModel, AllModesReproduceThePoses) {
@@ -361,6 +416,33 @@ TEST(AssessShapeModel, MoreModesDescribeMore) {
   }
   EXPECT_GT(assessment.rows[1].compactness, assessment.rows[0].compactness);
   EXPECT_THROW(AssessShapeModel(tube.connectivity, BentTubes(tube, {10, 90})), InvalidOptions);
+}
+
+TEST(AssessShapeModel, SizesThatAreRemovedAndPosesOfNoWeightDoNotMatter) {
+  const SkinnedBody body = MakeQuadruped(400);
+  std::vector<Shape> poses, others;
+  for (int seed = 1; seed <= 4; ++seed) {
+    poses.push_back(body.random_pose(seed));
+    others.push_back((0.4 + 0.6 * seed) * poses.back());
+  }
+  AssessmentOptions options;
+  options.samples = 2;
+  options.model.size = PoseSize::kRemove;
+  const Assessment one = AssessShapeModel(body.connectivity, poses, options);
+  others.insert(others.begin() + 2, 9 * body.random_pose(7));
+  options.model.average.weights = {1, 1, 0, 1, 1};
+  const Assessment other = AssessShapeModel(body.connectivity, others, options);
+  EXPECT_EQ(other.poses, 4);
+  ASSERT_EQ(other.rows.size(), one.rows.size());
+  for (size_t k = 0; k < one.rows.size(); ++k) {
+    const ModelQuality &a = one.rows[k], &b = other.rows[k];
+    EXPECT_NEAR(a.compactness, b.compactness, 1e-5);
+    EXPECT_NEAR(a.generalisation / b.generalisation, 1, 1e-4);
+    EXPECT_NEAR(a.generalisation_edges / b.generalisation_edges, 1, 1e-4);
+    EXPECT_NEAR(a.specificity / b.specificity, 1, 1e-4);
+  }
+  options.model.average.weights = {1, 1, 0, 0, 0};
+  EXPECT_THROW(AssessShapeModel(body.connectivity, others, options), InvalidOptions);
 }
 
 TEST(AssessShapeModel, WeightsBelongToTheirPosesInAnyOrder) {

@@ -1,6 +1,7 @@
 // What averages, shape models, regressions and comparisons of groups say of themselves, word by
 // word, of numbers that all differ.
 
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -87,9 +88,9 @@ TEST(AverageSummary, ReportsHaveEveryNumber) {
 TEST(AverageSummary, WithoutABoundOrRefinementThereIsNoWordOfThem) {
   AverageSummary summary = AverageOfNumbers();
   summary.termination = Termination::kConverged;
-  summary.energy = summary.lower_bound = 0;
+  summary.energy = summary.lower_bound = kNotComputed;
   summary.refinements = 0;
-  EXPECT_EQ(summary.Ratio(), 1);
+  EXPECT_TRUE(std::isnan(summary.Ratio()));
   EXPECT_EQ(summary.BriefReport(),
             "converged: 11 vertices, average of 3 poses; edges off their means by 3.75% rms; "
             "3.50 s");

@@ -9,6 +9,7 @@
 #include <shapespace/geodesic/geodesic.h>
 
 #include "support/motions.h"
+#include "support/own_features.h"
 #include "support/paths.h"
 
 namespace shapespace::internal {
@@ -57,6 +58,42 @@ StepCase LongStep(const MetricOptions& metric, int steps_before) {
   if (steps_before > 0) path = Extrapolate(path, steps_before).path;
   const int last = path.NumShapes() - 1;
   return {path.metric, {path.shapes[last], path.shapes[last - 1], {}, 0}};
+}
+
+// The matrix includes features that are added up over the whole mesh, whose squares are dense.
+TEST(MetricSolver, InvertsTheWholeMetric) {
+  testing::RegisterOwnFeatures();
+  const ShapeFamily bar = MakeBar(6, 1, 1, 6, 2, 2);
+  std::vector<MetricOptions> metrics(4);
+  metrics[1].volume = 1;
+  metrics[2].volume = 1e4;
+  metrics[3].volume = 3;
+  metrics[3].features = {{"spread", 5}, {"own volume", 100}};
+  for (const MetricOptions& options : metrics) {
+    SCOPED_TRACE(DescribeMetric(options));
+    const auto metric = FreezeMetric(options, bar.connectivity, {bar.pose(0), bar.pose(60)});
+    const FeatureMap map(metric);
+    const FeatureDerivative derivative = map.Derivative(bar.pose(30) / metric->unit);
+    const auto times = [&](const Tangent& x) -> Tangent {
+      return derivative.TransposeTimes(derivative.Times(x));
+    };
+    const int vertices = static_cast<int>(bar.pose(0).cols());
+    MetricSolver solver;
+    solver.Factor(derivative);
+    for (const double precision : {1e-2, 1e-8}) {
+      for (unsigned seed : {1u, 2u}) {
+        const Tangent x = testing::Noise(vertices, 1, seed);
+        const Tangent image = times(x);
+        const double length = derivative.Times(x).norm();
+        EXPECT_LT(derivative.Times(solver.Approximate(image) - x).norm(), precision * length);
+        EXPECT_NEAR(solver.DualNorm(image), length, precision * length);
+        // GMRES has hardly anything left to do.
+        Tangent solved;
+        EXPECT_LE(solver.Solve(derivative, derivative, image, 1e-2, 20, &solved).iterations, 2);
+      }
+      solver.UseDoublePrecision();
+    }
+  }
 }
 
 TEST(Step, KeepsTheSpeedOfTheSegmentBefore) {

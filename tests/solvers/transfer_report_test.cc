@@ -33,6 +33,7 @@ TransferSummary TransferOfNumbers() {
   summary.metric = "strain 1";
   summary.scale = 1.25;
   TransferSummary::Step step;
+  step.converged = step.on_mesh = true;
   step.iterations = 7;
   step.ratio = 1.5;
   step.norm_change = -0.25;
@@ -105,8 +106,10 @@ TEST(TransferSummary, ReportsHaveEveryNumber) {
 
 TEST(TransferSummary, HasConvergedWhereEveryShapeHasOnTheMeshItself) {
   TransferSummary summary;
-  EXPECT_TRUE(summary.Converged());
+  EXPECT_FALSE(summary.Converged());
   summary.steps.resize(3);
+  EXPECT_FALSE(summary.Converged());
+  for (auto& step : summary.steps) step.converged = step.on_mesh = true;
   EXPECT_TRUE(summary.Converged());
   summary.cancelled = true;
   EXPECT_FALSE(summary.Converged());
@@ -114,7 +117,7 @@ TEST(TransferSummary, HasConvergedWhereEveryShapeHasOnTheMeshItself) {
   summary.cancelled = false;
   summary.steps[1].on_mesh = false;
   EXPECT_FALSE(summary.Converged());
-  summary.steps[1] = {};
+  summary.steps[1].on_mesh = true;
   summary.steps[2].converged = false;
   EXPECT_FALSE(summary.Converged());
 }
@@ -128,16 +131,18 @@ TEST(PoseTransferSummary, ReportsAreOfAllPoses) {
   first.vertices = 11;
   first.scale = 1.25;
   first.steps.resize(4);
+  for (auto& step : first.steps) step.converged = step.on_mesh = true;
   first.strain_rms = 0.03;
   first.angle_rms = 1.5;
   first.total_seconds = 2;
   TransferSummary second = first;
-  second.steps.resize(5);
+  second.steps.push_back(second.steps.back());
   second.strain_rms = 0.02;
   second.angle_rms = 2.5;
   second.total_seconds = 4;
   second.warnings = {"of the second"};
   GeodesicSummary to_first, to_second;
+  to_first.termination = to_second.termination = Termination::kConverged;
   to_first.total_seconds = 8;
   to_first.warnings = {"of its geodesic"};
   to_second.total_seconds = 16;

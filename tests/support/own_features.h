@@ -57,10 +57,32 @@ struct Height : ElementFeature<1, 1> {
   }
 };
 
+/// The sum of the squared lengths of all edges.
+struct Spread : ElementFeature<2, 1> {
+  static constexpr bool kSum = true;
+  static constexpr const char* kName = "spread";
+
+  static Spread Freeze(const MetricBasis& basis) {
+    Spread feature;
+    feature.stencils = basis.connectivity->Edges();
+    feature.weights = Eigen::VectorXd::Constant(1, 0.1);
+    return feature;
+  }
+  template <typename T>
+  void operator()(const T* x, T* value) const {
+    value[0] = T(0);
+    for (int axis = 0; axis < 3; ++axis) {
+      const T difference = x[3 + axis] - x[axis];
+      value[0] += difference * difference;
+    }
+  }
+};
+
 inline void RegisterOwnFeatures() {
   RegisterFeature<OwnStrain>();
   RegisterFeature<OwnVolume>();
   RegisterFeature<Height>();
+  RegisterFeature<Spread>();
 }
 
 /// Strain and volume, with the library's features.

@@ -79,8 +79,11 @@ Json InspectPath(const std::string& file, Telling* told) {
     told->Say(
         "  edges        rms %.4g%%, 99th percentile %.4g%%, max %.4g%% from the expected lengths\n",
         100 * quality.edge_rms, 100 * quality.edge_p99, 100 * quality.edge_max);
-    told->Say("  roughness    %.4g degrees; folds %.4g per inner shape\n", quality.roughness,
-              quality.folds);
+    told->Say(
+        "  roughness    %s; folds %.4g per inner shape\n",
+        internal::IfComputed(quality.roughness, internal::Format("%.4g degrees", quality.roughness))
+            .c_str(),
+        quality.folds);
   }
   if (path.extrapolated > 0) {
     told->Say(
@@ -89,10 +92,13 @@ Json InspectPath(const std::string& file, Telling* told) {
         100 * quality.first_rms, 100 * quality.first_p99, 100 * quality.first_max);
   }
   const PathIntersections crossings = MeasureIntersections(path);
-  told->Say("  crossings    pairs of triangles: poses up to %" PRId64
-            "; %s shapes %.4g, up to %" PRId64 "; %.4g beyond the poses\n",
-            crossings.poses_max, path.extrapolated > 0 ? "other" : "inner", crossings.inner_mean,
-            crossings.inner_max, crossings.beyond_poses);
+  told->Say("  crossings    pairs of triangles: poses up to %" PRId64, crossings.poses_max);
+  if (crossings.inner_max >= 0) {
+    told->Say("; %s shapes %.4g, up to %" PRId64 "; %.4g beyond the poses",
+              path.extrapolated > 0 ? "other" : "inner", crossings.inner_mean, crossings.inner_max,
+              crossings.beyond_poses);
+  }
+  told->Say("\n");
   const RigidParts parts = FindRigidParts(path);
   const std::vector<DeviationSite> sites = FindDeviationSites(path, parts);
   PrintDeviation(sites, told);

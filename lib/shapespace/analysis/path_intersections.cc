@@ -10,6 +10,7 @@ PathIntersections MeasureIntersections(const Path& path) {
   PathIntersections result;
   result.pairs = CountIntersections(*path.metric->connectivity, path.shapes);
   int inner = 0;
+  double all_inner = 0, beyond_poses = 0;
   for (int i = 0; i < path.NumShapes(); ++i) {
     const std::int64_t pairs = result.pairs[i];
     const auto next = std::lower_bound(path.poses.begin(), path.poses.end(), i);
@@ -19,15 +20,15 @@ PathIntersections MeasureIntersections(const Path& path) {
     }
     ++inner;
     result.inner_max = std::max(result.inner_max, pairs);
-    result.inner_mean += static_cast<double>(pairs);
+    all_inner += static_cast<double>(pairs);
     std::int64_t around = 0;  // before the first and after the last pose there is only one
     if (next != path.poses.end()) around = result.pairs[*next];
     if (next != path.poses.begin()) around = std::max(around, result.pairs[*(next - 1)]);
-    result.beyond_poses += static_cast<double>(std::max<std::int64_t>(0, pairs - around));
+    beyond_poses += static_cast<double>(std::max<std::int64_t>(0, pairs - around));
   }
   if (inner > 0) {
-    result.inner_mean /= inner;
-    result.beyond_poses /= inner;
+    result.inner_mean = all_inner / inner;
+    result.beyond_poses = beyond_poses / inner;
   }
   return result;
 }

@@ -169,15 +169,16 @@ PathQuality MeasureQuality(const Path& path) {
     }
   });
   const double hinge_area = metric.hinge_area.sum();
+  double squares = 0, all_folds = 0;
   for (int i = 0; i < num_shapes; ++i) {
-    quality.roughness += roughness[i];
-    quality.folds += folds[i];
+    squares += roughness[i];
+    all_folds += folds[i];
   }
   const int inner = quality.inner_shapes;
-  if (inner > 0) quality.folds /= inner;
-  quality.roughness = inner > 0 && hinge_area > 0
-                          ? kDegrees * std::sqrt(quality.roughness / (hinge_area * inner))
-                          : 0;
+  if (inner > 0) quality.folds = all_folds / inner;
+  if (inner > 0 && hinge_area > 0) {
+    quality.roughness = kDegrees * std::sqrt(squares / (hinge_area * inner));
+  }
   return quality;
 }
 

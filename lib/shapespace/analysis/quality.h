@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <shapespace/base/not_computed.h>
 #include <shapespace/path/path.h>
 
 namespace shapespace {
@@ -12,7 +13,7 @@ namespace shapespace {
 /// Figures for properties that an energy does not show: the deviation of edges from their expected
 /// lengths, and wrinkles and folds that the poses do not have.
 struct PathQuality {
-  /// Number of shapes between two poses. If 0, the figures of inner shapes are 0.
+  /// Number of shapes between two poses. If 0, the figures of inner shapes are not a number.
   int inner_shapes = 0;
   /// |e| / |e_straight| - 1 over all edges and inner shapes: root mean square weighted by A_e; 99th
   /// percentile and maximum of the magnitude, unweighted. |e_straight| is the length that the edge
@@ -20,19 +21,19 @@ struct PathQuality {
   /// two poses around the shape: squared lengths under a cost of edge lengths, logarithmic strains
   /// under a cost of strain (docs/mathematics.md, section 7). Edges shorter than a thousandth of
   /// the root mean square length are not counted.
-  double edge_rms = 0, edge_p99 = 0, edge_max = 0;
+  double edge_rms = kNotComputed, edge_p99 = kNotComputed, edge_max = kNotComputed;
   /// The same for | |e| / |e_first| - 1 | relative to the first shape, over all shapes, including
   /// extrapolated ones.
-  double first_rms = 0, first_p99 = 0, first_max = 0;
+  double first_rms = kNotComputed, first_p99 = kNotComputed, first_max = kNotComputed;
   /// Area-weighted root mean square, in degrees, of the difference between the dihedral angle and
-  /// the interpolation between the poses' angles, over all inner shapes.
-  double roughness = 0;
+  /// the interpolation between the poses' angles, over all inner shapes. NaN without hinges.
+  double roughness = kNotComputed;
   /// Hinges folded beyond 120 degrees, and 40 degrees beyond both poses: mean per inner shape.
-  double folds = 0;
+  double folds = kNotComputed;
   /// The greatest speed of a segment (square root of its energy over its length in t) relative to
   /// the mean of its piece: 1 on a geodesic, more if a part rests and then jumps. NaN for the rigid
   /// metric.
-  double speed_max = 1;
+  double speed_max = kNotComputed;
 };
 
 PathQuality MeasureQuality(const Path& path);

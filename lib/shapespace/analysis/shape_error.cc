@@ -1,7 +1,6 @@
 #include <shapespace/analysis/shape_error.h>
 
 #include <cmath>
-#include <limits>
 
 #include <shapespace/analysis/quality.h>
 #include <shapespace/mesh/internal/geometry.h>
@@ -22,7 +21,6 @@ ShapeError CompareShapes(const std::shared_ptr<const Metric>& metric, const Shap
   error.edge_rms = quality.first_rms;
   error.edge_p99 = quality.first_p99;
   error.edge_max = quality.first_max;
-  error.volume = std::numeric_limits<double>::quiet_NaN();
   if (EnclosesVolume(connectivity.Triangles(), reference)) {
     error.volume = EnclosedVolume(connectivity.Triangles(), shape) /
                        EnclosedVolume(connectivity.Triangles(), reference) -
@@ -30,6 +28,7 @@ ShapeError CompareShapes(const std::shared_ptr<const Metric>& metric, const Shap
   }
   const Eigen::VectorXd before = DihedralAngles(connectivity, reference);
   const Eigen::VectorXd after = DihedralAngles(connectivity, shape);
+  error.inverted_hinges = 0;
   for (int h = 0; h < before.size(); ++h) {
     if (std::abs(WrapAngle(after(h) - before(h))) > internal::kPi / 2) ++error.inverted_hinges;
   }

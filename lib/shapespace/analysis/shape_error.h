@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include <shapespace/base/not_computed.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/metric/metric.h>
 
@@ -13,11 +14,11 @@ struct ShapeError {
   /// Of | |e| / |e_reference| - 1 | over all edges: root mean square weighted by area, 99th
   /// percentile and maximum. Edges shorter than a thousandth of the root mean square length are not
   /// counted.
-  double edge_rms = 0, edge_p99 = 0, edge_max = 0;
+  double edge_rms = kNotComputed, edge_p99 = kNotComputed, edge_max = kNotComputed;
   /// V / V_reference - 1; NaN if the reference encloses no volume (EnclosesVolume).
-  double volume = 0;
-  /// Hinges whose angle differs by more than 90 degrees.
-  int inverted_hinges = 0;
+  double volume = kNotComputed;
+  /// Hinges whose angle differs by more than 90 degrees; -1 until they are counted.
+  int inverted_hinges = -1;
 };
 
 /// The error of `shape` relative to `reference`, both 3 x m and in the same unit.

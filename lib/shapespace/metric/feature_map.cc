@@ -207,6 +207,16 @@ Tangent FeatureDerivative::TransposeTimes(const Eigen::VectorXd& y) const {
   return result;
 }
 
+std::vector<Tangent> FeatureDerivative::SumRows() const {
+  std::vector<Tangent> rows;
+  for (size_t i = 0; i < blocks_.size(); ++i) {
+    if (!layout_->metric->features[i]->IsSum()) continue;
+    rows.push_back(
+        TransposeTimes(Eigen::VectorXd::Unit(layout_->num_values, layout_->first_value[i])));
+  }
+  return rows;
+}
+
 Eigen::SparseMatrix<double> FeatureDerivative::MetricMatrix() const {
   const int num_vertices = layout_->metric->connectivity->NumVertices();
   std::vector<Eigen::Triplet<double>> triplets;

@@ -27,6 +27,9 @@ class FeatureDerivative {
   Eigen::SparseMatrix<double> MetricMatrix() const;
   /// The same, stored in `matrix`, which already has this map's sparsity pattern.
   void UpdateMetricMatrix(Eigen::SparseMatrix<double>* matrix) const;
+  /// The rows of J that belong to sum features, one each: J^T J is `MetricMatrix` plus the sum of
+  /// their squares r r^T.
+  std::vector<Tangent> SumRows() const;
 
  private:
   friend class FeatureMap;

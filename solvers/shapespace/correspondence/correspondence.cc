@@ -203,6 +203,7 @@ class Fit {
     CorrespondenceSummary::Stage stage;
     stage.vertices = static_cast<int>(shape->cols());
     stage.name = "gradients";
+    stage.weight = 0;
     stage.rounds = 1;
     stage.seconds = stopwatch.Seconds();
     summary_->stages.push_back(stage);
@@ -280,7 +281,7 @@ void MapToTarget(const Level& level, const Shape& fitted, const Target& target, 
   double squares = 0;
   for (int v = 0; v < fitted.cols(); ++v) {
     squares += areas(v) * closest[v].distance * closest[v].distance;
-    summary->distance_max = std::max(summary->distance_max, closest[v].distance);
+    summary->distance_max = std::fmax(summary->distance_max, closest[v].distance);
   }
   summary->distance_rms = std::sqrt(squares);
   const std::vector<bool> turned = internal::TurnedTriangles(level, fitted, target, closest);
@@ -301,6 +302,7 @@ void MapToTemplate(const Level& level, const Shape& fitted, const Target& target
     map->gap(y) = others[y].triangle >= 0 ? std::min(1.0, others[y].distance) : 1;
   });
   std::vector<int> covered;
+  summary->uncovered = 0;
   for (int y = 0; y < num_others; ++y) {
     if (map->gap(y) < kCovered) {
       covered.push_back(y);

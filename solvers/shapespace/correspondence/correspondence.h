@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <shapespace/base/not_computed.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/correspondence/surface_map.h>
 #include <shapespace/mesh/connectivity.h>
@@ -58,23 +59,24 @@ struct CorrespondenceSummary {
   /// Rounds of closest-point fitting on one level.
   struct Stage {
     int vertices = 0;
-    std::string name;   ///< "gradients" (Sumner and Popovic's method) or "shell" (strain and
-                        ///< bending)
-    double weight = 0;  ///< of the closest-point terms
+    std::string name;  ///< "gradients" (Sumner and Popovic's method) or "shell" (strain and
+                       ///< bending)
+    double weight = kNotComputed;  ///< of the closest-point terms
     int rounds = 0;
     /// Root mean square distance from the target before the last round, over the vertices that are
-    /// near it.
-    double distance = 0;
+    /// near it. NaN for "gradients".
+    double distance = kNotComputed;
     /// Root mean square distance of the vertices from the solution of the last round, as a share of
     /// the square root of the template's area. The round may have moved them only part of the way.
-    double motion = 0;
+    double motion = kNotComputed;
     double seconds = 0;
   };
 
   /// A marker that is inconsistent with the others.
   struct Doubt {
-    int marker = 0;     ///< index, from 0
-    double off = 0;     ///< distance of its target vertex from the one that the others predict
+    int marker = -1;  ///< index, from 0
+    double off =
+        kNotComputed;   ///< distance of its target vertex from the one that the others predict
     int expected = -1;  ///< the target vertex that the others predict
     int swapped = -1;   ///< the marker with which it seems to be exchanged; -1: none
   };
@@ -84,14 +86,17 @@ struct CorrespondenceSummary {
   int template_vertices = 0, template_triangles = 0, target_vertices = 0, target_triangles = 0;
   int markers = 0;  ///< that constrain the fit
   std::vector<Doubt> doubtful;
-  double scale = 1;  ///< size of the target, as a multiple of the template's
+  double scale = kNotComputed;  ///< size of the target, as a multiple of the template's
   std::vector<Stage> stages;
   /// Lengths of this summary are shares of the square root of the target's area unless stated
   /// otherwise.
-  double distance_rms = 0, distance_max = 0;       ///< from the fitted template to the target
-  double round_trip_mean = 0, round_trip_p95 = 0;  ///< of SurfaceMap::round_trip of the template
-  double turned = 0;     ///< share of triangles whose normal is opposite to the target's
-  double uncovered = 0;  ///< share of the target's area that no part of the template is near
+  double distance_rms = kNotComputed,
+         distance_max = kNotComputed;  ///< from the fitted template to the target
+  double round_trip_mean = kNotComputed,
+         round_trip_p95 = kNotComputed;  ///< of SurfaceMap::round_trip of the template
+  double turned = kNotComputed;  ///< share of triangles whose normal is opposite to the target's
+  double uncovered =
+      kNotComputed;  ///< share of the target's area that no part of the template is near
   std::vector<std::string> warnings;
   double estimated_bytes = 0;  ///< of memory, before the call
   /// fit_seconds includes unfold_seconds.

@@ -41,9 +41,12 @@ std::string CorrespondenceSummary::FullReport() const {
       << Format("Not covered       %.4g%% of the target's area\n", 100 * uncovered)
       << "\nvertices stage         weight  rounds  distance %  last motion %  seconds\n";
   for (const Stage& stage : stages) {
-    out << Format("%8d %-10s %9.4g %7d %11.4g %14.4g %8.3f\n", stage.vertices, stage.name.c_str(),
-                  stage.weight, stage.rounds, 100 * stage.distance, 100 * stage.motion,
-                  stage.seconds);
+    const auto percent = [](double share) {
+      return internal::IfComputed(share, Format("%.4g", 100 * share));
+    };
+    out << Format("%8d %-10s %9.4g %7d %11s %14s %8.3f\n", stage.vertices, stage.name.c_str(),
+                  stage.weight, stage.rounds, percent(stage.distance).c_str(),
+                  percent(stage.motion).c_str(), stage.seconds);
   }
   for (const Doubt& doubt : doubtful) {
     out << Format(

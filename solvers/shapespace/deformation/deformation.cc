@@ -1,6 +1,5 @@
 #include <shapespace/deformation/deformation.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -488,7 +487,7 @@ void Deformer::Solver::Assess(const std::vector<DeformationHandle>& handles,
       const double distance = (placed.back().col(v) - wanted).norm();
       squares += metric_->vertex_area(v) * distance * distance;
       area += metric_->vertex_area(v);
-      row.residual_max = std::max(row.residual_max, distance);
+      row.residual_max = std::fmax(row.residual_max, distance);
     }
     row.residual_rms = std::sqrt(squares / area);
     summary.handles.push_back(row);

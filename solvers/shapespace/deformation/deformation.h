@@ -1,13 +1,13 @@
 #ifndef SHAPESPACE_DEFORMATION_DEFORMATION_H_
 #define SHAPESPACE_DEFORMATION_DEFORMATION_H_
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <shapespace/analysis/shape_error.h>
+#include <shapespace/base/not_computed.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/contact/obstacle.h>
 #include <shapespace/deformation/handle.h>
@@ -86,7 +86,7 @@ struct DeformationSummary {
     bool hard = true;
     /// Distance of the last shape's vertices from the handle's targets: area-weighted root mean
     /// square, and maximum; in the user's unit.
-    double residual_rms = 0, residual_max = 0;
+    double residual_rms = kNotComputed, residual_max = kNotComputed;
   };
   /// One solve.
   struct Level {
@@ -94,30 +94,31 @@ struct DeformationSummary {
     std::string start;  ///< "handles": by following the handles step by step; "given"; "lifted";
                         ///< "warm": from the last solution; "contact": the path whose shapes do
                         ///< not touch themselves
-    Termination termination = Termination::kConverged;
+    Termination termination = Termination::kCancelled;
     int iterations = 0, evaluations = 0;
-    double initial_value = 0, value = 0;  ///< of the objective divided by the balance
+    double initial_value = kNotComputed,
+           value = kNotComputed;  ///< of the objective divided by the balance
     double seconds = 0;
   };
 
-  Termination termination = Termination::kConverged;  ///< of the finest level
+  Termination termination = Termination::kCancelled;  ///< of the finest level
   int vertices = 0, triangles = 0, shapes = 0;
   std::string metric;
-  double unit = 1;     ///< length in the user's unit that has length 1 in the metric
-  double balance = 0;  ///< as given
-  double energy = 0;   ///< of the path, scaled: E n / 2; a pure number
-  ShapeError error;    ///< of the last shape relative to the first
+  double unit = kNotComputed;     ///< length in the user's unit that has length 1 in the metric
+  double balance = kNotComputed;  ///< as given
+  double energy = kNotComputed;   ///< of the path, scaled: E n / 2; a pure number
+  ShapeError error;               ///< of the last shape relative to the first
   std::vector<HandleResult> handles;
-  int free_components = 0;  ///< connected components without a handle; they stay where they are
+  int free_components = -1;  ///< connected components without a handle; they stay where they are
   std::vector<Level> levels;
   std::vector<int> hierarchy;  ///< vertices of its levels, the coarsest first
   /// With DeformationOptions::avoid_contact, as in GeodesicSummary: segments whose straight motion
   /// has not been shown to be free of contact, and the least distance of two parts.
   int uncertified_segments = -1;
-  double contact_distance = std::numeric_limits<double>::quiet_NaN();
+  double contact_distance = kNotComputed;
   /// Pairs of intersecting triangles, in the shape that has most of them, in excess of those of the
   /// mesh. NaN, which was not counted, of a `Deformer` and of deformations that were cancelled.
-  double intersections = std::numeric_limits<double>::quiet_NaN();
+  double intersections = kNotComputed;
   bool warm = false;                  ///< started from the last solution of the same `Deformer`
   std::vector<std::string> warnings;  ///< to be checked by the user
   double estimated_bytes = 0;         ///< of memory, before the solve

@@ -12,8 +12,8 @@ using internal::Format;
 using internal::VolumeText;
 
 std::string DeformationSummary::BriefReport() const {
-  double greatest = 0;
-  for (const HandleResult& handle : handles) greatest = std::max(greatest, handle.residual_max);
+  double greatest = kNotComputed;
+  for (const HandleResult& handle : handles) greatest = std::fmax(greatest, handle.residual_max);
   return Format(
       "%s: %d vertices, %d shape%s, %zu handle%s; off by at most %.3g; edges off by %.3g%% rms, "
       "%s; "

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <shapespace/analysis/shape_error.h>
+#include <shapespace/base/not_computed.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/deformation/deformation.h>
 #include <shapespace/mesh/connectivity.h>
@@ -38,7 +39,7 @@ struct RepairSummary {
   ShapeError before, after;        ///< of the distorted and the repaired shape
   /// Distance of the vertices of the repaired shape from those of the distorted one: area-weighted
   /// root mean square, in the user's unit.
-  double moved = 0;
+  double moved = kNotComputed;
 
   bool Converged() const { return deformation.Converged(); }
   std::string BriefReport() const;  ///< one line

@@ -114,10 +114,11 @@ class Holder {
     }
     const Shape first = whole.Placed(0);
     diagonal_ = (first.rowwise().maxCoeff() - first.rowwise().minCoeff()).norm();
+    summary_.termination = Termination::kConverged;
     summary_.parts = static_cast<int>(parts.size());
     for (size_t i = 0; i + 1 < whole.poses.size(); ++i) {
       for (const Course& course : courses_) {
-        if (course.Stands(i)) summary_.drift = std::max(summary_.drift, course.Drift(i));
+        if (course.Stands(i)) summary_.drift = std::fmax(summary_.drift, course.Drift(i));
       }
     }
     summary_.drift /= diagonal_;
@@ -158,8 +159,8 @@ class Holder {
       const auto slide = [&](const Shape& x) {
         return (x(Eigen::all, vertices) - place).colwise().norm().maxCoeff() / diagonal_;
       };
-      summary_.slide_before = std::max(summary_.slide_before, slide(own));
-      summary_.slide = std::max(summary_.slide, slide(path->Placed(k)));
+      summary_.slide_before = std::fmax(summary_.slide_before, slide(own));
+      summary_.slide = std::fmax(summary_.slide, slide(path->Placed(k)));
     }
   }
 
@@ -168,7 +169,7 @@ class Holder {
  private:
   void Tell(const DeformationSummary& one) {
     ++summary_.shapes;
-    summary_.edge_rms = std::max(summary_.edge_rms, one.error.edge_rms);
+    summary_.edge_rms = std::fmax(summary_.edge_rms, one.error.edge_rms);
     if (!one.Converged()) summary_.termination = one.termination;
     for (const std::string& warning : one.warnings) {
       auto& all = summary_.warnings;
@@ -283,7 +284,6 @@ StandingSummary HoldStandingParts(const Path& whole, const std::vector<StandingP
     }
   } catch (const Cancelled&) {
     StandingSummary summary;
-    summary.termination = Termination::kCancelled;
     summary.parts = static_cast<int>(parts.size());
     summary.warnings = {"stopped: the parts that should stand are where the path has them"};
     summary.seconds = stopwatch.Seconds();

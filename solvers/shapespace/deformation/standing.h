@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <shapespace/base/not_computed.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/deformation/deformation.h>
 #include <shapespace/mesh/appearance.h>
@@ -26,15 +27,15 @@ DeformationOptions StandingDefaults();
 
 /// Outcome of `HoldStandingParts`.
 struct StandingSummary {
-  Termination termination = Termination::kConverged;  ///< the worst of all shapes
+  Termination termination = Termination::kCancelled;  ///< the worst of all shapes
   int parts = 0, shapes = 0;                          ///< shapes that were deformed
   /// The greatest distance of a standing vertex from its place in any shape, before and after, as a
-  /// share of the first shape's diagonal.
-  double slide_before = 0, slide = 0;
+  /// share of the first shape's diagonal. NaN if no shape was deformed.
+  double slide_before = kNotComputed, slide = kNotComputed;
   /// How far a standing vertex is from its place in the next pose in which it stands, the greatest
   /// such distance, as a share of the diagonal. It goes there on a straight line.
-  double drift = 0;
-  double edge_rms = 0;  ///< ShapeError of the shape that was deformed most
+  double drift = kNotComputed;
+  double edge_rms = kNotComputed;  ///< ShapeError of the shape that was deformed most
   std::vector<std::string> warnings;
   double seconds = 0;
 

@@ -6,11 +6,14 @@
 namespace shapespace {
 
 std::string StandingSummary::BriefReport() const {
-  return internal::Format(
-      "%s: %d standing parts held in %d shapes; they slide by %.2g%% of the diagonal (before: "
-      "%.2g%%), and are %.2g%% apart in the poses; edges off by at most %.2g%% rms; %.2f s",
-      internal::Name(termination), parts, shapes, 100 * slide, 100 * slide_before, 100 * drift,
-      100 * edge_rms, seconds);
+  const auto percent = [](double share) {
+    return internal::IfComputed(share, internal::Format("%.2g%%", 100 * share));
+  };
+  return internal::Format("%s: %d standing parts held in %d shapes; they slide by ",
+                          internal::Name(termination), parts, shapes) +
+         percent(slide) + " of the diagonal (before: " + percent(slide_before) + "), and are " +
+         percent(drift) + " apart in the poses; edges off by at most " + percent(edge_rms) +
+         internal::Format(" rms; %.2f s", seconds);
 }
 
 std::string StandingSummary::ToJson() const { return internal::TextOf(internal::JsonOf(*this)); }

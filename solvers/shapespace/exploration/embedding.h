@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <shapespace/base/not_computed.h>
+
 namespace shapespace {
 
 struct EmbeddingOptions {
@@ -21,10 +23,10 @@ struct Embedding {
   Eigen::Matrix2Xd points;  ///< centred; the first axis is the direction of greatest extent
   /// sqrt(sum (|x_i - x_j| - d_ij)^2 / sum d_ij^2) over all pairs; 0 if the plane reproduces all
   /// distances (Kruskal's stress-1, normalised by the given distances).
-  double stress = 0;
+  double stress = kNotComputed;
   std::vector<double> stresses;  ///< the same for the start and after every iteration; does not
                                  ///< increase
-  bool converged = true;
+  bool converged = false;
 };
 
 /// Metric multidimensional scaling of symmetric `distances`, n x n: starts from classical scaling

@@ -330,6 +330,7 @@ BlendErrors MeasureBlends(const PoseSpace& space, int samples, const ExploreOpti
   errors.vertices = static_cast<int>(nodes.front().cols());
   const double greatest = space.distances.maxCoeff();
   int within = 0;
+  errors.mean = errors.max = 0;
   for (const PairResult& result : off) {
     const double share = result.length / greatest;
     errors.mean += share / samples;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <shapespace/base/not_computed.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/exploration/embedding.h>
 #include <shapespace/exploration/process_pool.h>
@@ -56,7 +57,7 @@ struct ExploreSummary {
     int cells = 0;   ///< triangles or segments before the round
     int edges = 0;   ///< new in this round
     int marked = 0;  ///< of these: longer than their geodesics by more than the threshold
-    double greatest_excess = 0;  ///< of an edge over its geodesic, as a share
+    double greatest_excess = kNotComputed;  ///< of an edge over its geodesic, as a share
     int new_nodes = 0;
     double seconds = 0;
   };
@@ -64,19 +65,19 @@ struct ExploreSummary {
   int distance_vertices = 0;            ///< of the level on which distances were measured
   int poses = 0, nodes = 0, cells = 0;  ///< cells: triangles or segments of the plane
   std::string metric;
-  double unit = 1;  ///< the length in the user's unit that has length 1 in the metric
-  double threshold = 0;
-  int solved = 0;         ///< geodesics solved in this run
-  int found = 0;          ///< read from the records of an earlier run
-  int damaged = 0;        ///< in damaged records; solved again
-  int not_converged = 0;  ///< of all
-  double stress = 0;      ///< Embedding::stress
+  double unit = kNotComputed;  ///< the length in the user's unit that has length 1 in the metric
+  double threshold = kNotComputed;
+  int solved = 0;                ///< geodesics solved in this run
+  int found = 0;                 ///< read from the records of an earlier run
+  int damaged = 0;               ///< in damaged records; solved again
+  int not_converged = 0;         ///< of all
+  double stress = kNotComputed;  ///< Embedding::stress
   int stress_iterations = 0;
-  bool embedded = true;  ///< whether the embedding converged
+  bool embedded = false;  ///< whether the embedding converged
   std::vector<Level> levels;
   /// Edges of the last triangulation that were not measured because the depth was reached; 0: no
   /// edge exceeds the threshold. MeasureBlends measures the quality of the space.
-  int edges_not_measured = 0;
+  int edges_not_measured = -1;
   std::vector<std::string> warnings;  ///< to be checked by the user
   double distance_seconds = 0, embedding_seconds = 0, refinement_seconds = 0, total_seconds = 0;
   int threads = 1, processes = 1;
@@ -121,10 +122,11 @@ void RemoveRecords(const std::string& folder);
 /// Deviation of linear blends from blends along geodesics.
 struct BlendErrors {
   int samples = 0;
-  int vertices = 0;          ///< of the hierarchy's level on which this was measured
-  double mean = 0, max = 0;  ///< length of the geodesic between the two blends, as a share of the
-                             ///< greatest distance between two poses
-  double within = 0;         ///< share of the samples whose deviation is within the threshold
+  int vertices = 0;  ///< of the hierarchy's level on which this was measured
+  double mean = kNotComputed,
+         max = kNotComputed;  ///< length of the geodesic between the two blends, as a share of the
+                              ///< greatest distance between two poses
+  double within = kNotComputed;  ///< share of the samples whose deviation is within the threshold
 };
 
 /// Compares Space::At with blends along geodesics at `samples` points, uniformly distributed over

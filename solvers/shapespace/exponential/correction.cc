@@ -106,7 +106,7 @@ void Assess(const Path& given, const Path& path, CorrectionSummary* summary) {
   const double before = Deformation(given);
   // A path that moves only rigidly has a deformation at the level of rounding.
   constexpr double kNoDeformation = 1e-9;
-  if (before > kNoDeformation) summary->deformation_left = Deformation(path) / before;
+  summary->deformation_left = before > kNoDeformation ? Deformation(path) / before : 1;
 }
 
 void Warn(Termination termination, CorrectionSummary* summary) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <shapespace/analysis/quality.h>
+#include <shapespace/base/not_computed.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/path/path.h>
@@ -44,23 +45,23 @@ struct CorrectionOptions {
 /// What happened, and what the correction cost.
 struct CorrectionSummary {
   CorrectionMode mode = CorrectionMode::kProximal;
-  double mu = 0;  ///< 0 for kPaper
+  double mu = kNotComputed;  ///< 0 for kPaper
   int vertices = 0;
   int shapes = 0;  ///< free to move: all but the first
-  Termination termination = Termination::kConverged;
+  Termination termination = Termination::kCancelled;
   bool converged = false;  ///< the same as kConverged
   int iterations = 0, evaluations = 0;
   /// Energy of the edge lengths (kPaper: with the quartic part of (6)), scaled: E n / 2 for n
   /// segments.
-  double initial_energy = 0, energy = 0;
+  double initial_energy = kNotComputed, energy = kNotComputed;
   /// first_rms, first_p99 and first_max are the errors of length relative to the first shape.
   PathQuality initial_quality, quality;
   /// Area-weighted root mean square distance from the given shapes, in the metric's unit (the
   /// square root of the surface area).
-  double distance = 0;
+  double distance = kNotComputed;
   /// Distance of the last shape from the first modulo rigid motion, as a share of the same distance
   /// on the given path: 0 if the path has collapsed, 1 if the given path had no deformation.
-  double deformation_left = 1;
+  double deformation_left = kNotComputed;
   std::vector<std::string> warnings;  ///< to be checked by the user
   double total_seconds = 0;
 

@@ -96,6 +96,7 @@ void MeasureEdges(const Metric& metric, const Shape& first, const Shape& shape,
                   ExponentialSummary::Step* row) {
   const Eigen::Matrix2Xi& edges = metric.connectivity->Edges();
   double squares = 0, area = 0;
+  row->edge_max = 0;
   for (int e = 0; e < edges.cols(); ++e) {
     const double before = (first.col(edges(1, e)) - first.col(edges(0, e))).norm();
     if (before == 0) continue;
@@ -291,6 +292,7 @@ void Shoot(InitialState initial_state, int steps, double step, const Exponential
   Path& path = result->path;
   ExponentialSummary& summary = result->summary;
   const std::shared_ptr<const Metric> metric = internal::WithCostOfPosition(path.metric);
+  summary.ending = ExponentialSummary::Ending::kComplete;
   summary.integrator = options.integrator;
   summary.vertices = metric->connectivity->NumVertices();
   summary.requested_steps = steps;

@@ -1,11 +1,11 @@
 #ifndef SHAPESPACE_EXPONENTIAL_EXPONENTIAL_H_
 #define SHAPESPACE_EXPONENTIAL_EXPONENTIAL_H_
 
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include <shapespace/base/not_computed.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/mesh/shape.h>
@@ -76,8 +76,8 @@ struct ExponentialSummary {
   };
 
   struct Step {
-    double t = 0;            ///< parameter of the shape that the step reached
-    bool converged = false;  ///< the step reached the tolerance on the finest level
+    double t = kNotComputed;  ///< parameter of the shape that the step reached
+    bool converged = false;   ///< the step reached the tolerance on the finest level
     /// Vertices of the resolution on which a root was found: the mesh itself, or a coarser
     /// resolution whose step was lifted with all detail. 0 if there was a root on none; then the
     /// step is the shape whose features are nearest to those that the coarsest step required.
@@ -87,17 +87,19 @@ struct ExponentialSummary {
     int increments = 0;
     int iterations = 0;  ///< of Newton's method or Ceres, over all increments
     int krylov_iterations = 0;
-    double residual = 0;  ///< at the end, on the mesh itself, as a share of the step
-    double energy = 0;    ///< of the segment, scaled to a whole path: constant along a geodesic
-    double momentum_drift = 0;  ///< change of linear and angular momentum since the first step, as
-                                ///< a share
-    double edge_rms = 0, edge_max = 0;  ///< | |e| / |e_first| - 1 |; rms weighted by A_e
+    double residual = kNotComputed;  ///< at the end, on the mesh itself, as a share of the step
+    double energy =
+        kNotComputed;  ///< of the segment, scaled to a whole path: constant along a geodesic
+    double momentum_drift = kNotComputed;  ///< change of linear and angular momentum since the
+                                           ///< first step, as a share
+    double edge_rms = kNotComputed,
+           edge_max = kNotComputed;  ///< | |e| / |e_first| - 1 |; rms weighted by A_e
     /// Share of the area whose triangles turned over relative to their neighbourhood.
-    double inverted = 0;
+    double inverted = kNotComputed;
     double seconds = 0;
   };
 
-  Ending ending = Ending::kComplete;
+  Ending ending = Ending::kCancelled;
   std::string stopped;  ///< a sentence, if the path ended early
   GeodesicIntegrator integrator = GeodesicIntegrator::kVariational;
   int vertices = 0;
@@ -107,7 +109,7 @@ struct ExponentialSummary {
   /// With ExponentialOptions::slide_at_contact, as in GeodesicSummary: segments whose straight
   /// motion has not been shown to be free of contact, and the least distance of two parts.
   int uncertified_segments = -1;
-  double contact_distance = std::numeric_limits<double>::quiet_NaN();
+  double contact_distance = kNotComputed;
   std::vector<std::string> warnings;
   double total_seconds = 0, factor_seconds = 0;
   int factorisations = 0;

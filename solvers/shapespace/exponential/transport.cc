@@ -180,6 +180,7 @@ TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents
       internal::TransportBytes(map.GetMetric(), static_cast<int>(tangents.size()));
   internal::CheckMemory("this transport", result.summary.estimated_bytes, options.memory_limit,
                         "use a mesh of fewer vertices");
+  result.summary.converged = true;
   result.summary.metric = DescribeMetric(map.GetMetric().options);
   result.summary.first_norm = Norms(map, path.shapes.front(), result.tangents);
   std::optional<MetricTransport> metric_transport;
@@ -194,6 +195,7 @@ TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents
     const internal::Stopwatch stopwatch;
     TransportSummary::Step row;
     if (metric_transport) {
+      row.residual = 0;
       metric_transport->Carry(i, &result.tangents, &row);
       if (row.residual > options.tolerance) result.summary.converged = false;
     } else {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <shapespace/base/not_computed.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/path/path.h>
@@ -44,12 +45,12 @@ struct TransportOptions {
 struct TransportSummary {
   /// One segment of the path.
   struct Step {
-    int krylov_iterations = 0;  ///< maximum over the tangents
-    double residual = 0;        ///< maximum over the tangents
+    int krylov_iterations = 0;       ///< maximum over the tangents
+    double residual = kNotComputed;  ///< maximum over the tangents; NaN for kConstrainedProjection
     double seconds = 0;
   };
 
-  bool converged = true;  ///< every step reached the tolerance
+  bool converged = false;  ///< every step reached the tolerance
   std::string metric;
   std::vector<Step> steps;
   /// Norms of each tangent under the metric, before and after. With kLeviCivita, the loss of norm

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -125,6 +124,7 @@ bool IsSolved(int piece, const std::vector<Shape>& blend, const GeodesicOptions&
   row.shapes = segments - 1;
   row.start = "blend";
   row.solver = "none";
+  row.termination = Termination::kConverged;
   row.initial_energy = row.energy = energy;
   summary->levels.push_back(row);
   return true;
@@ -136,6 +136,7 @@ void MeasureEnergy(const Path& path, const GeodesicOptions& options, internal::R
   const Metric& metric = *path.metric;
   for (const auto& feature : metric.features) summary->parts.emplace_back(feature->Name(), 0.0);
   if (metric.rigid.Active()) summary->parts.emplace_back("rigid", 0.0);
+  summary->energy = summary->lower_bound = 0;
   for (size_t piece = 0; piece + 1 < path.poses.size(); ++piece) {
     const std::vector<Shape> shapes(path.shapes.begin() + path.poses[piece],
                                     path.shapes.begin() + path.poses[piece + 1] + 1);
@@ -148,16 +149,6 @@ void MeasureEnergy(const Path& path, const GeodesicOptions& options, internal::R
         ScaledEnergy(EnergyLowerBound(metric, shapes.front(), shapes.back(), segments), segments);
   }
   for (const auto& part : summary->parts) summary->energy += part.second;
-}
-
-PathQuality NotMeasured() {
-  PathQuality quality;
-  for (double* figure : {&quality.edge_rms, &quality.edge_p99, &quality.edge_max,
-                         &quality.first_rms, &quality.first_p99, &quality.first_max,
-                         &quality.roughness, &quality.folds, &quality.speed_max}) {
-    *figure = std::numeric_limits<double>::quiet_NaN();
-  }
-  return quality;
 }
 
 // Pairs of intersecting triangles in the middle of each segment, in excess of those in the poses
@@ -398,12 +389,7 @@ GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progre
   result.path.converged = summary.termination == Termination::kConverged;
   MeasureEnergy(result.path, options_, &workspace.back(), &summary);
   GiveBack(std::move(workspace));
-  if (options_.assess) {
-    Assess(result.path, options_, &summary);
-  } else {
-    summary.quality = NotMeasured();
-    summary.intersections = std::numeric_limits<double>::quiet_NaN();
-  }
+  if (options_.assess) Assess(result.path, options_, &summary);
   Warn(options_.obstacle.has_value(), &summary);
   return result;
 }
@@ -414,6 +400,7 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
   const std::vector<Shape>& aligned = poses.shapes;
   const std::vector<RigidMotion>& motions = poses.motions;
   GeodesicSummary& summary = result->summary;
+  summary.termination = Termination::kConverged;
   Path& path = result->path;
   const int pieces = static_cast<int>(aligned.size()) - 1;
   const std::vector<ScheduleStep> schedule =

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <shapespace/analysis/quality.h>
+#include <shapespace/base/not_computed.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/contact/obstacle.h>
 #include <shapespace/files/read.h>
@@ -127,35 +128,36 @@ struct GeodesicSummary {
     std::string start;   ///< initial guess: "blend", "first", "last", "rigid", "turn"; from earlier
                          ///< rows, "refined" in time or "lifted" in space
     std::string solver;  ///< "L-BFGS", "own L-BFGS" or "trust region"
-    Termination termination = Termination::kConverged;
+    Termination termination = Termination::kCancelled;
     int iterations = 0, evaluations = 0;
-    double initial_energy = 0, energy = 0;  ///< scaled: E n / 2 for n segments
-    double remaining = 0;  ///< first-order estimate of the energy that another step would gain, as
-                           ///< a share of the energy
-    bool kept = true;      ///< false for a start that ended with more energy than another
+    double initial_energy = kNotComputed,
+           energy = kNotComputed;     ///< scaled: E n / 2 for n segments
+    double remaining = kNotComputed;  ///< first-order estimate of the energy that another step
+                                      ///< would gain, as a share of the energy
+    bool kept = true;  ///< false for a start that ended with more energy than another
     double seconds = 0;
   };
 
-  Termination termination = Termination::kConverged;
+  Termination termination = Termination::kCancelled;
   int vertices = 0, triangles = 0, edges = 0, hinges = 0, poses = 0, shapes = 0;
   std::string metric;
-  double unit = 1;         ///< length in the user's unit that has length 1 in the metric
-  double energy = 0;       ///< scaled and summed over the pieces; a pure number
-  double lower_bound = 0;  ///< of the energy; NaN if none is known (rigid metric)
+  double unit = kNotComputed;         ///< length in the user's unit that has length 1 in the metric
+  double energy = kNotComputed;       ///< scaled and summed over the pieces; a pure number
+  double lower_bound = kNotComputed;  ///< of the energy; NaN if none is known (rigid metric)
   std::vector<std::pair<std::string, double>> parts;  ///< the energy by feature
   PathQuality quality;
   /// Pairs of intersecting triangles (PathIntersections::beyond_poses): the mean over three shapes
   /// between neighbouring poses.
-  double intersections = 0;
+  double intersections = kNotComputed;
   /// With GeodesicOptions::avoid_contact: the same in the middle between every two neighbouring
   /// shapes, the greatest number; NaN without.
-  double crossings_between = std::numeric_limits<double>::quiet_NaN();
+  double crossings_between = kNotComputed;
   /// With GeodesicOptions::avoid_contact: segments whose straight motion has not been shown to be
   /// free of contact at all times; without, -1.
   int uncertified_segments = -1;
   /// With GeodesicOptions::avoid_contact: the least distance of two parts during the path, in the
   /// user's unit; NaN if no way round anything was necessary, or without that option.
-  double contact_distance = std::numeric_limits<double>::quiet_NaN();
+  double contact_distance = kNotComputed;
   std::vector<int> hierarchy;            ///< vertices of its levels, the coarsest first
   bool hierarchy_stopped_early = false;  ///< because no further edge could be collapsed
   std::vector<Level> levels;

@@ -8,17 +8,31 @@
 
 namespace shapespace {
 using internal::Format;
+using internal::IfComputed;
 using internal::Name;
+
+namespace {
+
+std::string EdgesText(double rms, double p99, double max) {
+  return IfComputed(rms, Format("rms %.4g%%, 99th percentile %.4g%%, max %.4g%%", 100 * rms,
+                                100 * p99, 100 * max)) +
+         '\n';
+}
+
+}  // namespace
 
 std::string GeodesicSummary::BriefReport() const {
   // The bound of poses that are nearly rigid copies says nothing of a way past an obstacle.
   constexpr double kLargest = 1e6;
   std::string ratio = Ratio() < kLargest ? Format("%.4f", Ratio()) : "n/a";
   return Format(
-      "%s: %d vertices, %d poses, %d shapes inserted; energy %.6g, %s of its lower bound; "
-      "edges off by %.3g%% rms, roughness %.3g degrees, %.3g folds; %.2f s",
-      Name(termination), vertices, poses, shapes, energy, ratio.c_str(), 100 * quality.edge_rms,
-      quality.roughness, quality.folds, total_seconds);
+             "%s: %d vertices, %d poses, %d shapes inserted; energy %.6g, %s of its lower bound; ",
+             Name(termination), vertices, poses, shapes, energy, ratio.c_str()) +
+         "edges off by " +
+         IfComputed(quality.edge_rms, Format("%.3g%% rms", 100 * quality.edge_rms)) +
+         ", roughness " + IfComputed(quality.roughness, Format("%.3g degrees", quality.roughness)) +
+         ", " + IfComputed(quality.folds, Format("%.3g", quality.folds)) +
+         Format(" folds; %.2f s", total_seconds);
 }
 
 std::string GeodesicSummary::FullReport() const {
@@ -36,17 +50,18 @@ std::string GeodesicSummary::FullReport() const {
   } else {
     out << "Lower bound       n/a (the rigid metric has none)\n";
   }
-  out << Format("Edges, expected   rms %.4g%%, 99th percentile %.4g%%, max %.4g%%\n",
-                100 * quality.edge_rms, 100 * quality.edge_p99, 100 * quality.edge_max)
-      << Format("Edges, first pose rms %.4g%%, 99th percentile %.4g%%, max %.4g%%\n",
-                100 * quality.first_rms, 100 * quality.first_p99, 100 * quality.first_max)
-      << Format("Roughness         %.4g degrees; folds %.4g per inner shape\n", quality.roughness,
-                quality.folds)
-      << "Speed             "
-      << (std::isfinite(quality.speed_max)
-              ? Format("at most %.4g times the mean of the piece\n", quality.speed_max)
-              : "n/a (the rigid metric)\n")
-      << Format("Intersections     %.3g pairs of triangles more than in the poses\n", intersections)
+  out << "Edges, expected   " << EdgesText(quality.edge_rms, quality.edge_p99, quality.edge_max)
+      << "Edges, first pose " << EdgesText(quality.first_rms, quality.first_p99, quality.first_max)
+      << "Roughness         "
+      << IfComputed(quality.roughness, Format("%.4g degrees", quality.roughness)) << "; folds "
+      << IfComputed(quality.folds, Format("%.4g per inner shape", quality.folds))
+      << "\nSpeed             "
+      << IfComputed(quality.speed_max,
+                    Format("at most %.4g times the mean of the piece", quality.speed_max))
+      << "\nIntersections     "
+      << IfComputed(intersections,
+                    Format("%.3g pairs of triangles more than in the poses", intersections))
+      << '\n'
       << (uncertified_segments < 0
               ? std::string()
               : Format("Contact           %d segments not shown to be free of it; %.3g crossings "

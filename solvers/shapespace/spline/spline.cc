@@ -195,6 +195,7 @@ SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
   }
   if (options.geodesic.avoid_contact) WarnOfContact(&summary);
   result.path.converged = result.path.converged && summary.Converged();
+  summary.energy = 0;
   for (const PieceMeasures& piece : MeasurePieces(result.path)) summary.energy += piece.energy;
   if (options.geodesic.assess) summary.quality = MeasureQuality(result.path);
   summary.total_seconds = total.Seconds();

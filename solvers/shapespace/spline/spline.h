@@ -1,11 +1,11 @@
 #ifndef SHAPESPACE_SPLINE_SPLINE_H_
 #define SHAPESPACE_SPLINE_SPLINE_H_
 
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include <shapespace/base/not_computed.h>
 #include <shapespace/geodesic/geodesic.h>
 
 namespace shapespace {
@@ -55,11 +55,12 @@ struct SplineSummary {
   bool smooth = false;
   /// Greatest jump of velocity at a pose, as a share of the mean speed: of the chain, and of the
   /// spline. Measured on the shapes, so that it falls by 4 if their number doubles.
-  double jump_before = 0, jump_after = 0;
+  double jump_before = kNotComputed, jump_after = kNotComputed;
   /// With GeodesicOptions::avoid_contact, as those of GeodesicSummary, of the path returned.
   int uncertified_segments = -1;
-  double contact_distance = std::numeric_limits<double>::quiet_NaN();
-  double energy = 0;    ///< of the path returned, in the sense of `geodesic.energy`, the least
+  double contact_distance = kNotComputed;
+  double energy =
+      kNotComputed;     ///< of the path returned, in the sense of `geodesic.energy`, the least
   PathQuality quality;  ///< of the path returned
   std::vector<std::string> warnings;
   double estimated_bytes = 0;  ///< of memory, before the solve

@@ -10,10 +10,13 @@ namespace shapespace {
 std::string SplineSummary::BriefReport() const {
   return internal::Format(
       "%s: %d vertices, %d poses, %d shapes inserted; %s; velocity jumps at poses by %.3g times "
-      "the mean speed (before: %.3g); edges off by %.3g%% rms; %.2f s",
+      "the mean speed (before: %.3g); edges off by %s; %.2f s",
       internal::Name(geodesic.termination), geodesic.vertices, geodesic.poses, geodesic.shapes,
       smooth ? (std::string("spline, ") + internal::WordOf(ends)).c_str() : "chain of geodesics",
-      jump_after, jump_before, 100 * quality.edge_rms, total_seconds);
+      jump_after, jump_before,
+      internal::IfComputed(quality.edge_rms, internal::Format("%.3g%% rms", 100 * quality.edge_rms))
+          .c_str(),
+      total_seconds);
 }
 
 std::string SplineSummary::FullReport() const {

@@ -9,7 +9,9 @@
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/numerics/internal/json_of.h>
 #include <shapespace/numerics/internal/report.h>
+#include <shapespace/statistics/internal/size.h>
 #include <shapespace/statistics/internal/summary_fields.h>
+#include <shapespace/statistics/internal/weighted_poses.h>
 
 namespace shapespace {
 namespace {
@@ -46,21 +48,29 @@ double Rms(const Metric& metric, const Eigen::VectorXd& of_edges) {
 
 class Assessor {
  public:
-  Assessor(const std::shared_ptr<const Connectivity>& connectivity, const std::vector<Shape>& poses,
+  Assessor(const std::shared_ptr<const Connectivity>& connectivity, internal::WeightedPoses kept,
            const AssessmentOptions& options, Progress* progress)
-      : connectivity_(connectivity), poses_(poses), options_(options), progress_(progress) {
-    for (const Shape& pose : poses) diagonal_ += Diagonal(pose) / poses.size();
+      : connectivity_(connectivity),
+        poses_(std::move(kept.poses)),
+        weights_(std::move(kept.weights)),
+        options_(options),
+        progress_(progress) {
+    // As the models see them, so that the sizes that are no part of their shape do not matter.
+    if (options.model.size == PoseSize::kRemove) internal::ScaleToMeanSize(*connectivity, &poses_);
+    for (const Shape& pose : poses_) diagonal_ += Diagonal(pose) / poses_.size();
   }
 
   Assessment Run() {
     const internal::Stopwatch stopwatch;
-    const ShapeModel model(Make(poses_, options_.model.average.weights));
+    const ShapeModel model(Make(poses_, weights_));
     const int count = std::min(model.Modes().NumModes(), static_cast<int>(poses_.size()) - 2);
     assessment_.poses = static_cast<int>(poses_.size());
     assessment_.rows.resize(count);
     for (int k = 0; k < count; ++k) {
-      assessment_.rows[k].modes = k + 1;
-      assessment_.rows[k].compactness = model.Modes().Share(k + 1);
+      ModelQuality& row = assessment_.rows[k];
+      row.modes = k + 1;
+      row.generalisation = row.generalisation_edges = row.specificity = row.beyond = 0;
+      row.compactness = model.Modes().Share(k + 1);
     }
     for (size_t i = 0; i < poses_.size(); ++i) LeaveOut(i);
     for (int s = 0; s < options_.samples; ++s) DrawSample(model, s);
@@ -85,8 +95,8 @@ class Assessor {
                    static_cast<int>(poses_.size()));
     std::vector<Shape> others = poses_;
     others.erase(others.begin() + pose);
-    std::vector<double> weights = options_.model.average.weights;
-    if (!weights.empty()) weights.erase(weights.begin() + pose);
+    std::vector<double> weights = weights_;
+    weights.erase(weights.begin() + pose);
     const ShapeModel model(Make(others, std::move(weights)));
     const Metric& metric = *model.Modes().metric;
     const Eigen::VectorXd lengths = LogLengths(metric, poses_[pose]);
@@ -126,7 +136,8 @@ class Assessor {
   }
 
   const std::shared_ptr<const Connectivity>& connectivity_;
-  const std::vector<Shape>& poses_;
+  std::vector<Shape> poses_;
+  const std::vector<double> weights_;
   const AssessmentOptions& options_;
   Progress* const progress_;
   double diagonal_ = 0;
@@ -144,10 +155,12 @@ Assessment AssessShapeModel(const std::shared_ptr<const Connectivity>& connectiv
                             const std::vector<Shape>& poses, const AssessmentOptions& options,
                             Progress* progress) {
   options.Validate();
-  if (poses.size() < 3) {
-    throw InvalidOptions("", "an assessment leaves one pose out, and needs three or more");
+  internal::WeightedPoses kept(poses, options.model.average.weights);
+  if (kept.poses.size() < 3) {
+    throw InvalidOptions(
+        "", "an assessment leaves one pose out, and needs three or more of positive weight");
   }
-  return Assessor(connectivity, poses, options, progress).Run();
+  return Assessor(connectivity, std::move(kept), options, progress).Run();
 }
 
 std::string Assessment::FullReport() const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <shapespace/base/not_computed.h>
 #include <shapespace/statistics/shape_model.h>
 
 namespace shapespace {
@@ -26,14 +27,15 @@ struct AssessmentOptions {
 /// of the poses' bounding boxes.
 struct ModelQuality {
   int modes = 0;
-  double compactness = 0;     ///< share of the variance
-  double generalisation = 0;  ///< distance of a pose from the nearest shape of the model that is
-                              ///< made without it, on the mean over the poses
-  double generalisation_edges = 0;  ///< the same for the rms of logarithmic edge lengths
-  double specificity = 0;  ///< distance of a random shape from the nearest pose, on the mean
+  double compactness = kNotComputed;     ///< share of the variance
+  double generalisation = kNotComputed;  ///< distance of a pose from the nearest shape of the model
+                                         ///< that is made without it, on the mean over the poses
+  double generalisation_edges = kNotComputed;  ///< the same for the rms of logarithmic edge lengths
+  double specificity = kNotComputed;  ///< distance of a random shape from the nearest pose, on the
+                                      ///< mean
   /// The rms by which logarithms of the edge lengths of random shapes leave the range that they
   /// have in the poses.
-  double beyond = 0;
+  double beyond = kNotComputed;
 };
 
 struct Assessment {

@@ -14,6 +14,7 @@
 #include <shapespace/statistics/internal/feature_chart.h>
 #include <shapespace/statistics/internal/feature_statistics.h>
 #include <shapespace/statistics/internal/procrustes.h>
+#include <shapespace/statistics/internal/weighted_poses.h>
 
 namespace shapespace {
 namespace {
@@ -24,29 +25,6 @@ constexpr double kFar = 1.1;
 // A refinement that lowers the energy by less than this share is the last.
 constexpr double kLeastRefinement = 1e-5;
 constexpr int kMaxRefinements = 20;
-
-// Those of positive weight; the weights then have sum 1.
-struct WeightedPoses {
-  std::vector<Shape> poses;
-  Eigen::VectorXd weights;
-
-  WeightedPoses(const std::vector<Shape>& all, std::vector<double> given) {
-    if (given.empty()) given.assign(all.size(), 1);
-    if (given.size() != all.size()) {
-      throw InvalidOptions("weights", "must be " + std::to_string(all.size()) +
-                                          ", one for each pose, not " +
-                                          std::to_string(given.size()));
-    }
-    std::vector<double> kept;
-    for (size_t i = 0; i < all.size(); ++i) {
-      if (given[i] == 0) continue;
-      poses.push_back(all[i]);
-      kept.push_back(given[i]);
-    }
-    weights = Eigen::Map<Eigen::VectorXd>(kept.data(), kept.size());
-    weights /= weights.sum();
-  }
-};
 
 // The features of the blend of the poses, or of the pose, that is nearest to the mean features.
 Shape Start(const FeatureMap& map, const std::vector<Shape>& poses, const Eigen::VectorXd& weights,
@@ -80,7 +58,7 @@ double EdgesOff(const Metric& metric, const std::vector<Shape>& poses,
     sum += metric.edge_area(e) * off * off;
     area += metric.edge_area(e);
   }
-  return area > 0 ? std::sqrt(sum / area) : 0;
+  return area > 0 ? std::sqrt(sum / area) : kNotComputed;
 }
 
 // For geodesics of which only the energy and the velocity are used.
@@ -175,7 +153,11 @@ AverageResult Average(const std::shared_ptr<const Connectivity>& connectivity,
   const internal::Stopwatch total;
   options.Validate();
   if (given.empty()) throw MeshError("there is no pose of which to take the average");
-  const auto [poses, weights] = WeightedPoses(given, options.weights);
+  const internal::WeightedPoses kept(given, options.weights);
+  const std::vector<Shape>& poses = kept.poses;
+  Eigen::VectorXd weights =
+      Eigen::Map<const Eigen::VectorXd>(kept.weights.data(), kept.weights.size());
+  weights /= weights.sum();
   const auto metric =
       FreezeMetric(options.geodesic.metric, connectivity, poses, 0, PosePairs::kAll);
   AverageResult result;
@@ -210,7 +192,10 @@ AverageResult Average(const std::shared_ptr<const Connectivity>& connectivity,
   const RigidMotion place = internal::MeanMotion(aligned, weights);
   result.shape = place(metric->unit * nearest.shape);
 
-  if ((options.certify || options.refine) && summary.variance > rounding * rounding) {
+  const bool certify = options.certify || options.refine;
+  if (certify && !(summary.variance > rounding * rounding)) {
+    summary.energy = summary.lower_bound = 0;  // copies of one shape, which is the mean
+  } else if (certify) {
     const internal::Stopwatch stopwatch;
     try {
       Stars stars(map, connectivity, poses, weights, options.geodesic, progress);
@@ -232,11 +217,11 @@ AverageResult Average(const std::shared_ptr<const Connectivity>& connectivity,
       }
       result.shape = star.centre;
       summary.energy = star.energy;
-      summary.refined_by = 1 - star.energy / before;
+      if (options.refine) summary.refined_by = 1 - star.energy / before;
       summary.lower_bound = statistics.LowerBound(options.geodesic.shapes + 1);
     } catch (const Cancelled&) {
       summary.termination = Termination::kCancelled;
-      summary.energy = 0;
+      summary.refinements = 0;  // their shapes are lost
     }
     summary.certificate_seconds = stopwatch.Seconds();
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <shapespace/base/not_computed.h>
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/mesh/shape.h>
 
@@ -44,34 +45,35 @@ struct AverageOptions {
 
 /// Outcome of an average.
 struct AverageSummary {
-  Termination termination = Termination::kConverged;
+  Termination termination = Termination::kCancelled;
   int vertices = 0, triangles = 0, poses = 0;
   std::string metric;
-  double unit = 1;  ///< length in the user's unit that has length 1 in the metric
+  double unit = kNotComputed;  ///< length in the user's unit that has length 1 in the metric
   /// Weighted mean of the squared distances of the poses' features from their mean, in the metric.
-  double variance = 0;
+  double variance = kNotComputed;
   /// Squared distance of the average's features from that mean, as a share of the variance: 0 if
-  /// there is a shape whose lengths and angles are exactly the means.
-  double residual = 0;
+  /// there is a shape whose lengths and angles are exactly the means. NaN if the poses are copies.
+  double residual = kNotComputed;
   /// The weighted mean of the squared lengths of the geodesics from the average to the poses, and a
-  /// lower bound of it for any shape in place of the average. Zero without `certify`.
-  double energy = 0, lower_bound = 0;
+  /// lower bound of it for any shape in place of the average. NaN without `certify`.
+  double energy = kNotComputed, lower_bound = kNotComputed;
   /// Of the logarithms of edge lengths, the rms of their difference from the weighted means over
   /// the poses, weighted by area.
-  double edge_rms = 0;
+  double edge_rms = kNotComputed;
   /// Hinges that are bent in so different ways that their mean angle is not determined: no half
   /// circle contains their angles in all poses.
-  int ambiguous_hinges = 0;
+  int ambiguous_hinges = -1;
   int iterations = 0;
-  int refinements = 0;    ///< rounds of `refine`
-  double refined_by = 0;  ///< by which share these lowered `energy`
+  int refinements = 0;               ///< rounds of `refine`
+  double refined_by = kNotComputed;  ///< by which share these lowered `energy`; NaN without
   std::vector<std::string> warnings;
   double estimated_bytes = 0;  ///< of memory, before the solve
   double certificate_seconds = 0, total_seconds = 0;
 
   bool Converged() const { return termination == Termination::kConverged; }
-  /// energy / lower_bound: 1 is a proof that no shape is a better mean.
-  double Ratio() const { return lower_bound > 0 ? energy / lower_bound : 1; }
+  /// energy / lower_bound: 1 is a proof that no shape is a better mean. Of copies of one shape both
+  /// are zero, and the ratio is defined as 1; NaN without `certify`.
+  double Ratio() const { return energy == 0 && lower_bound == 0 ? 1 : energy / lower_bound; }
   std::string BriefReport() const;  ///< one line
   std::string FullReport() const;   ///< a page
   std::string ToJson() const;

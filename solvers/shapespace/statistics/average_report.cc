@@ -1,3 +1,4 @@
+#include <cmath>
 #include <sstream>
 
 #include <shapespace/numerics/internal/json_of.h>
@@ -9,7 +10,7 @@ namespace shapespace {
 
 std::string AverageSummary::BriefReport() const {
   const std::string bound =
-      lower_bound > 0 ? internal::Format("%.4f of the lower bound, ", Ratio()) : "";
+      std::isfinite(lower_bound) ? internal::Format("%.4f of the lower bound, ", Ratio()) : "";
   return internal::Format("%s: %d vertices, average of %d poses; ", internal::Name(termination),
                           vertices, poses) +
          bound +
@@ -25,9 +26,12 @@ std::string AverageSummary::FullReport() const {
                           triangles, poses)
       << "Metric            " << metric << internal::Format("; unit of length %.6g\n", unit)
       << internal::Format("Variance          %.6g of the poses' features\n", variance)
-      << internal::Format("Residual          %.3g of it: no shape has exactly the mean features\n",
-                          residual);
-  if (lower_bound > 0) {
+      << "Residual          "
+      << internal::IfComputed(
+             residual,
+             internal::Format("%.3g of it: no shape has exactly the mean features", residual))
+      << '\n';
+  if (std::isfinite(lower_bound)) {
     out << internal::Format(
         "Distances         %.6g, the mean of their squares to the poses\n"
         "Lower bound       %.6g for any shape; ratio %.4f\n",

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <utility>
 
 #include <Eigen/Cholesky>
+#include <Eigen/SVD>
 
 #include <shapespace/base/error.h>
 #include <shapespace/numerics/internal/json_of.h>
@@ -16,24 +19,69 @@ namespace {
 
 constexpr double kMostOfTheVariance = 0.95;
 
-// How two groups differ; the first `first` rows are the one, the others the other.
-struct Difference {
-  double t_squared = 0, squared_distance = 0;
+// Directions in which poses vary by less than this share of what they vary most are rounding.
+constexpr double kLeastVariation = 1e-6;
 
-  Difference(const Eigen::MatrixXd& rows, Eigen::Index first, const Eigen::VectorXd& variances) {
-    const Eigen::Index second = rows.rows() - first;
-    const Eigen::RowVectorXd mean_a = rows.topRows(first).colwise().mean();
-    const Eigen::RowVectorXd mean_b = rows.bottomRows(second).colwise().mean();
-    const Eigen::MatrixXd a = rows.topRows(first).rowwise() - mean_a;
-    const Eigen::MatrixXd b = rows.bottomRows(second).rowwise() - mean_b;
-    const Eigen::MatrixXd pooled =
-        (a.transpose() * a + b.transpose() * b) / static_cast<double>(rows.rows() - 2);
-    const Eigen::VectorXd between = (mean_b - mean_a).transpose();
-    t_squared = static_cast<double>(first * second) / static_cast<double>(rows.rows()) *
-                between.dot(pooled.ldlt().solve(between));
-    squared_distance = between.cwiseAbs2().dot(variances);
+// A chance value counts as large as the true one if it is so but for rounding. Groups whose means
+// explain all but this share of the variation have none within.
+constexpr double kTie = 1e-9, kNothingWithin = 1e-12;
+
+// The rows in coordinates in which they are uncorrelated and vary alike, in all directions in which
+// they vary at all. T^2 is the same in these.
+Eigen::MatrixXd Whitened(const Eigen::MatrixXd& rows) {
+  const Eigen::MatrixXd centred = rows.rowwise() - rows.colwise().mean();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(centred, Eigen::ComputeThinU);
+  const Eigen::VectorXd& values = svd.singularValues();
+  const auto rank = (values.array() > kLeastVariation * values(0)).count();
+  return svd.matrixU().leftCols(rank);
+}
+
+// Two groups: the first `first` of all rows are the one, the others the other. Each row has a
+// weight, which it keeps whatever pose it is given.
+class TwoGroups {
+ public:
+  TwoGroups(Eigen::Index first, Eigen::VectorXd weights)
+      : first_(first), weights_(std::move(weights)) {}
+
+  Eigen::VectorXd BetweenMeans(const Eigen::MatrixXd& rows) const {
+    const Eigen::Index second = weights_.size() - first_;
+    return rows.bottomRows(second).transpose() * weights_.tail(second) / Second() -
+           rows.topRows(first_).transpose() * weights_.head(first_) / First();
   }
+
+  // The share of the variation that the means explain, in the direction in which it is greatest, of
+  // rows that are whitened: u^T S^-1 u, where S, the scatter about the mean of all, is u u^T and
+  // the scatter within groups. S is not singular, which that within groups is if they are perfectly
+  // apart.
+  double Explained(const Eigen::MatrixXd& rows) const {
+    const Eigen::MatrixXd centred = rows.rowwise() - (weights_.transpose() * rows) / weights_.sum();
+    const Eigen::MatrixXd scatter = centred.transpose() * weights_.asDiagonal() * centred;
+    const Eigen::VectorXd between = BetweenMeans(rows);
+    return First() * Second() / weights_.sum() * between.dot(scatter.ldlt().solve(between));
+  }
+
+ private:
+  double First() const { return weights_.head(first_).sum(); }
+  double Second() const { return weights_.sum() - First(); }
+
+  const Eigen::Index first_;
+  const Eigen::VectorXd weights_;
 };
+
+// Hotelling's T^2 of so many poses.
+double TSquared(double explained, int poses) {
+  if (explained > 1 - kNothingWithin) return std::numeric_limits<double>::infinity();
+  return (poses - 2) * explained / (1 - explained);
+}
+
+// Of all ways to choose the first group, the one that is given is at least one, and two with its
+// opposite if both groups have the same number. Chance values, of which there is a limited number,
+// may find it more rarely.
+double LeastProbability(int first, int second) {
+  double ways = 1;
+  for (int k = 1; k <= first; ++k) ways *= static_cast<double>(second + k) / k;
+  return (first == second ? 2 : 1) / ways;
+}
 
 GroupDifference Compare(const PoseModes& modes, const std::vector<int>& first,
                         const std::vector<int>& second, const GroupOptions& options) {
@@ -52,31 +100,32 @@ GroupDifference Compare(const PoseModes& modes, const std::vector<int>& first,
                                       std::to_string(std::min(modes.NumModes(), poses - 2)) +
                                       " for these groups");
   }
-  const Eigen::MatrixXd coordinates = modes.Coordinates().leftCols(result.modes);
-  const Eigen::VectorXd variances = modes.variances.head(result.modes);
-  Eigen::MatrixXd rows(poses, result.modes);
-  int row = 0;
-  for (const int pose : first) rows.row(row++) = coordinates.row(pose);
-  for (const int pose : second) rows.row(row++) = coordinates.row(pose);
-  const Difference truth(rows, result.first_count, variances);
-  result.t_squared = truth.t_squared;
-  result.distance = std::sqrt(truth.squared_distance);
-  // A chance value counts as large as the true one if it is so but for rounding.
-  const double t_squared = truth.t_squared * (1 - 1e-9);
-  const double squared_distance = truth.squared_distance * (1 - 1e-9);
+  std::vector<int> members = first;
+  members.insert(members.end(), second.begin(), second.end());
+  const Eigen::MatrixXd coordinates = modes.Coordinates()(members, Eigen::seqN(0, result.modes));
+  const Eigen::MatrixXd whitened = Whitened(coordinates);
+  // In the unit of displacements.
+  const Eigen::MatrixXd displacements =
+      coordinates * modes.variances.head(result.modes).cwiseSqrt().asDiagonal();
+  const TwoGroups groups(result.first_count, modes.weights(members));
+  const double explained = groups.Explained(whitened);
+  result.t_squared = TSquared(explained, poses);
+  result.distance = groups.BetweenMeans(displacements).norm();
   const PermutationOptions& permutation = options.permutation;
   internal::Permutations permutations(poses, permutation.seed);
   int as_far = 1, as_distant = 1;
-  Eigen::MatrixXd permuted = rows;
   for (int i = 0; i < permutation.permutations; ++i) {
     const std::vector<int>& order = permutations.Next();
-    for (int k = 0; k < poses; ++k) permuted.row(k) = rows.row(order[k]);
-    const Difference chance(permuted, result.first_count, variances);
-    if (chance.t_squared >= t_squared) ++as_far;
-    if (chance.squared_distance >= squared_distance) ++as_distant;
+    const double chance = groups.Explained(whitened(order, Eigen::all));
+    const double distance = groups.BetweenMeans(displacements(order, Eigen::all)).norm();
+    if (chance >= explained * (1 - kTie)) ++as_far;
+    if (distance >= result.distance * (1 - kTie)) ++as_distant;
   }
-  result.t_squared_p = static_cast<double>(as_far) / (permutation.permutations + 1);
-  result.distance_p = static_cast<double>(as_distant) / (permutation.permutations + 1);
+  const double least = LeastProbability(result.first_count, result.second_count);
+  result.t_squared_p =
+      std::max(least, static_cast<double>(as_far) / (permutation.permutations + 1));
+  result.distance_p =
+      std::max(least, static_cast<double>(as_distant) / (permutation.permutations + 1));
   return result;
 }
 

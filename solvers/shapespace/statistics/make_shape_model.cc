@@ -11,6 +11,7 @@
 #include <shapespace/statistics/internal/feature_statistics.h>
 #include <shapespace/statistics/internal/logarithms.h>
 #include <shapespace/statistics/internal/size.h>
+#include <shapespace/statistics/internal/weighted_poses.h>
 #include <shapespace/statistics/shape_model.h>
 
 namespace shapespace {
@@ -22,22 +23,6 @@ constexpr double kLeastVariance = 1e-16, kLeastShare = 1e-10;
 
 // Above this share of the variance the mean features belong to no shape.
 constexpr double kFarFeatures = 0.03;
-
-void KeepWeighted(const std::vector<double>& weights, std::vector<Shape>* poses, PoseModes* modes) {
-  std::vector<Shape> kept;
-  std::vector<double> kept_weights;
-  std::vector<std::string> names;
-  for (size_t i = 0; i < poses->size(); ++i) {
-    if (weights[i] == 0) continue;
-    kept.push_back((*poses)[i]);
-    kept_weights.push_back(weights[i]);
-    names.push_back(modes->names[i]);
-  }
-  *poses = std::move(kept);
-  modes->names = std::move(names);
-  modes->weights = Eigen::Map<Eigen::VectorXd>(kept_weights.data(), kept_weights.size());
-  modes->weights /= modes->weights.sum();
-}
 
 // Of displacements, in the area-weighted L2 product, times the roots of the weights.
 Eigen::MatrixXd GramMatrix(const std::vector<Tangent>& logs, const PoseModes& modes) {
@@ -126,21 +111,24 @@ ShapeModelResult MakeShapeModel(const std::shared_ptr<const Connectivity>& conne
   if (given.empty()) throw MeshError("there is no pose of which to find modes");
   ShapeModelResult result;
   auto& [modes, summary] = result;
-  modes.names = names;
-  if (names.empty()) {
-    for (size_t i = 0; i < given.size(); ++i) modes.names.push_back(std::to_string(i + 1));
-  } else if (names.size() != given.size()) {
+  if (!names.empty() && names.size() != given.size()) {
     throw InvalidOptions("names", "must be " + std::to_string(given.size()) +
                                       ", one for each pose, not " + std::to_string(names.size()));
   }
   modes.size = options.size;
-  std::vector<Shape> poses = given;
+  internal::WeightedPoses kept(given, options.average.weights);
+  std::vector<Shape>& poses = kept.poses;
+  for (const size_t i : kept.which) {
+    modes.names.push_back(names.empty() ? std::to_string(i + 1) : names[i]);
+  }
+  modes.weights = Eigen::Map<Eigen::VectorXd>(kept.weights.data(), kept.weights.size());
+  modes.weights /= modes.weights.sum();
   if (options.size == PoseSize::kRemove) internal::ScaleToMeanSize(*connectivity, &poses);
 
-  AverageResult average = Average(connectivity, poses, options.average, progress);
+  AverageOptions of_average = options.average;
+  of_average.weights = kept.weights;
+  AverageResult average = Average(connectivity, poses, of_average, progress);
   summary.average = std::move(average.summary);
-  const std::vector<double> equal(given.size(), 1);
-  KeepWeighted(options.average.weights.empty() ? equal : options.average.weights, &poses, &modes);
   modes.metric =
       FreezeMetric(options.average.geodesic.metric, connectivity, poses, 0, PosePairs::kAll);
   const Metric& metric = *modes.metric;

@@ -16,22 +16,30 @@ namespace {
 // A chance value counts as large as the true one if it is so but for rounding.
 constexpr double kRounding = 1e-9;
 
-// Least squares on fixed scalars.
+// Weighted least squares on fixed scalars, which keep their weights whatever data they are given.
 class LinearFit {
  public:
   // The scalars have mean 0 and variance 1, so that the rank does not depend on their units.
-  explicit LinearFit(const Eigen::MatrixXd& design) : design_(design), solver_(design) {
+  LinearFit(const Eigen::MatrixXd& design, const Eigen::VectorXd& weights)
+      : design_(design), roots_(weights.cwiseSqrt()), solver_(roots_.asDiagonal() * design) {
     solver_.setThreshold(1e-10);
   }
 
-  Eigen::MatrixXd Coefficients(const Eigen::MatrixXd& data) const { return solver_.solve(data); }
+  Eigen::MatrixXd Coefficients(const Eigen::MatrixXd& data) const {
+    return solver_.solve(roots_.asDiagonal() * data);
+  }
   Eigen::MatrixXd Residuals(const Eigen::MatrixXd& data) const {
     return data - design_ * Coefficients(data);
+  }
+  // The weighted sum of squares that the fit leaves.
+  double Left(const Eigen::MatrixXd& data) const {
+    return (roots_.asDiagonal() * Residuals(data)).squaredNorm();
   }
   bool HasFullRank() const { return solver_.rank() == design_.cols(); }
 
  private:
   const Eigen::MatrixXd design_;
+  const Eigen::VectorXd roots_;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver_;
 };
 
@@ -43,12 +51,12 @@ Eigen::MatrixXd Permuted(const Eigen::MatrixXd& rows, const std::vector<int>& or
 }
 
 // How likely is it that scalars explain as much as they do of `data` if the poses' residuals of the
-// fit of `others` are exchanged. Rows of all three are multiplied by the roots of the weights.
+// fit of `others` are exchanged. Weights stay with the scalars: they say how much a pose counts and
+// not how much it varies, so that residuals times their roots would not be exchangeable.
 double PValue(const LinearFit& all, const LinearFit& others, const Eigen::MatrixXd& data,
               const PermutationOptions& options) {
   const auto ratio = [&](const Eigen::MatrixXd& values) {
-    const double left = all.Residuals(values).squaredNorm();
-    return left / others.Residuals(values).squaredNorm();
+    return all.Left(values) / others.Left(values);
   };
   const double truth = ratio(data);
   const Eigen::MatrixXd residuals = others.Residuals(data);
@@ -79,6 +87,9 @@ Regression Regress(const PoseModes& modes, const std::vector<std::string>& scala
                    const Eigen::MatrixXd& values, const PermutationOptions& options) {
   options.Validate();
   modes.Validate();
+  if (modes.NumModes() == 0) {
+    throw InvalidOptions("modes", "there are none that scalars could explain");
+  }
   const auto count = static_cast<Eigen::Index>(scalars.size());
   if (values.rows() != modes.NumPoses() || values.cols() != count || count == 0) {
     throw InvalidOptions("scalars", "must be one or more, with a value for each of the " +
@@ -94,35 +105,35 @@ Regression Regress(const PoseModes& modes, const std::vector<std::string>& scala
   result.least = values.colwise().minCoeff();
   result.most = values.colwise().maxCoeff();
   result.mean = values.transpose() * modes.weights;
-  const Eigen::VectorXd roots = modes.weights.cwiseSqrt();
   // Of mean 0 and variance 1: the first column is the intercept.
   const Eigen::MatrixXd centred = values.rowwise() - result.mean.transpose();
   const Eigen::VectorXd deviations =
       (centred.array().square().matrix().transpose() * modes.weights).cwiseSqrt();
   Eigen::MatrixXd design(values.rows(), count + 1);
-  design.col(0) = roots;
+  design.col(0).setOnes();
   for (Eigen::Index s = 0; s < count; ++s) {
     if (!(result.most(s) - result.least(s) > 1e-12 * values.col(s).cwiseAbs().maxCoeff())) {
       throw InvalidOptions("scalars", scalars[s] + " is the same for all poses");
     }
-    design.col(s + 1) = roots.cwiseProduct(centred.col(s)) / deviations(s);
+    design.col(s + 1) = centred.col(s) / deviations(s);
   }
-  const LinearFit fit(design);
+  const LinearFit fit(design, modes.weights);
   if (!fit.HasFullRank()) {
     throw InvalidOptions("scalars", "follow from each other; leave one out");
   }
   // Coordinates in the unit of displacements, so that all modes' variances can be added.
   const Eigen::VectorXd scales = modes.variances.cwiseSqrt();
-  const Eigen::MatrixXd data = roots.asDiagonal() * modes.Coordinates() * scales.asDiagonal();
+  const Eigen::MatrixXd data = modes.Coordinates() * scales.asDiagonal();
   const Eigen::MatrixXd coefficients = fit.Coefficients(data) * scales.cwiseInverse().asDiagonal();
   result.slopes =
       coefficients.bottomRows(count).transpose() * deviations.cwiseInverse().asDiagonal();
   result.intercept = coefficients.row(0).transpose() - result.slopes * result.mean;
-  const LinearFit constant(design.leftCols(1));
-  result.r_squared = 1 - fit.Residuals(data).squaredNorm() / constant.Residuals(data).squaredNorm();
+  const LinearFit constant(design.leftCols(1), modes.weights);
+  result.r_squared = 1 - fit.Left(data) / constant.Left(data);
   result.p_value = PValue(fit, constant, data, options);
   for (Eigen::Index s = 0; s < count; ++s) {
-    result.p_values.push_back(PValue(fit, LinearFit(WithoutColumn(design, s + 1)), data, options));
+    const LinearFit others(WithoutColumn(design, s + 1), modes.weights);
+    result.p_values.push_back(PValue(fit, others, data, options));
   }
   return result;
 }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <shapespace/base/not_computed.h>
 #include <shapespace/statistics/shape_model.h>
 
 namespace shapespace {
@@ -25,9 +26,10 @@ struct Regression {
   Eigen::VectorXd intercept;  ///< the coordinates where all scalars are 0
   Eigen::MatrixXd slopes;  ///< per unit of a scalar: a row for each mode, a column for each scalar
   Eigen::VectorXd least, most, mean;  ///< of the scalars over the poses
-  double r_squared = 0;  ///< the share of the shapes' variance (in all modes of the model) that the
-                         ///< scalars explain
-  double p_value = 1;    ///< of all scalars together: of finding as large a share by chance
+  double r_squared = kNotComputed;    ///< the share of the shapes' variance (in all modes of the
+                                      ///< model) that the scalars explain
+  double p_value =
+      kNotComputed;  ///< of all scalars together: of finding as large a share by chance
   /// For each scalar, of what it explains in addition to the others, which are so controlled for.
   std::vector<double> p_values;
 
@@ -39,8 +41,11 @@ struct Regression {
 
 /// Fits all coordinates by weighted linear least squares. `values` has a row for each pose and a
 /// column for each scalar. For the p-value of one scalar, the residuals of the fit of all others
-/// are permuted (Freedman and Lane, J. Business & Economic Statistics 1, 1983).
-/// \throw InvalidOptions if numbers differ or are not finite, a scalar is the same for all poses or
+/// are permuted (Freedman and Lane, J. Business & Economic Statistics 1, 1983). The poses' weights
+/// say how much each counts: they stay with the scalars, and every fit to permuted residuals is
+/// weighted too.
+/// \throw InvalidOptions if the model has no modes, numbers differ or are not finite, a scalar is
+/// the same for all poses or
 ///        follows from the others, or there are fewer than two more poses than scalars.
 Regression Regress(const PoseModes& modes, const std::vector<std::string>& scalars,
                    const Eigen::MatrixXd& values, const PermutationOptions& options = {});
@@ -49,11 +54,13 @@ Regression Regress(const PoseModes& modes, const std::vector<std::string>& scala
 struct GroupDifference {
   std::string first, second;  ///< labels of the groups
   int first_count = 0, second_count = 0;
-  int modes = 0;           ///< in which they are compared, the first ones
-  double t_squared = 0;    ///< Hotelling's T^2 in the coordinates
-  double t_squared_p = 1;  ///< of finding as large a value by chance
-  double distance = 0;     ///< of the means, in the root of the variances' unit
-  double distance_p = 1;
+  int modes = 0;  ///< in which they are compared, the first ones
+  /// Hotelling's T^2 in the coordinates; infinite if nothing varies within the groups in a
+  /// direction in which their means differ.
+  double t_squared = kNotComputed;
+  double t_squared_p = kNotComputed;  ///< of finding as large a value by chance
+  double distance = kNotComputed;     ///< of the means, in the root of the variances' unit
+  double distance_p = kNotComputed;
 };
 
 struct GroupOptions {
@@ -64,8 +71,11 @@ struct GroupOptions {
   void Validate() const;
 };
 
-/// Compares all pairs of groups; `labels` has one per pose.
-/// \throw InvalidOptions if there are not as many labels as poses, fewer than two groups, a group
+/// Compares all pairs of groups; `labels` has one per pose. Means and covariances are weighted;
+/// for p-values, coordinates are permuted, while the weights stay with the labels. No p-value is
+/// less than one divided by the number of ways to choose the first group; two if both are of one
+/// number. \throw InvalidOptions if there are not as many labels as poses, fewer than two groups, a
+/// group
 ///        of one pose, or more modes than the model has or than two groups together have poses
 ///        less two.
 std::vector<GroupDifference> CompareGroups(const PoseModes& modes,

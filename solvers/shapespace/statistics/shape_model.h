@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <shapespace/base/not_computed.h>
 #include <shapespace/mesh/appearance.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/mesh/shape.h>
@@ -114,7 +115,7 @@ ShapeModelResult MakeShapeModel(const std::shared_ptr<const Connectivity>& conne
 /// The shape that belongs to coordinates.
 struct ModelShape {
   Shape shape;  ///< in the user's unit and frame
-  Termination termination = Termination::kConverged;
+  Termination termination = Termination::kCancelled;
   int iterations = 0;
   bool Converged() const { return termination == Termination::kConverged; }
 };
@@ -125,7 +126,7 @@ struct ModelCoordinates {
   /// The shape at the coordinates, placed on the given one; and the root of the mean squared
   /// distance of their vertices, area-weighted, in the user's unit.
   Shape shape;
-  double distance = 0;
+  double distance = kNotComputed;
   int rounds = 0;  ///< of the fit that lowered the distance; 0 without fit
 };
 

@@ -88,7 +88,7 @@ void MeasureTransferErrors(const Metric& metric, const Path& source, const Path&
     if (!std::isfinite(off)) continue;  // an edge of length zero
     squares += metric.edge_area(e) * off * off;
     area += metric.edge_area(e);
-    summary->strain_max = std::max(summary->strain_max, off);
+    summary->strain_max = std::fmax(summary->strain_max, off);
   }
   if (area > 0) summary->strain_rms = std::sqrt(squares / area);
 
@@ -250,6 +250,7 @@ class TargetShapes {
         (*features_)(comparison_.Shapes()[i] / metric_->unit, options_.tolerance,
                      options_.max_iterations, [&] { ReportProgress(within, "", i, 0); });
     row->converged = nearest.Converged();
+    row->on_mesh = true;
     row->iterations = nearest.iterations;
     shapes_.push_back(metric_->unit * nearest.shape);
   }

@@ -1,11 +1,11 @@
 #ifndef SHAPESPACE_TRANSFER_TRANSFER_H_
 #define SHAPESPACE_TRANSFER_TRANSFER_H_
 
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include <shapespace/base/not_computed.h>
 #include <shapespace/base/progress.h>
 #include <shapespace/exponential/exponential.h>
 #include <shapespace/exponential/transport.h>
@@ -98,12 +98,14 @@ struct TransferOptions {
 struct TransferSummary {
   /// The computation of one more shape of the target.
   struct Step {
-    bool converged = true;  ///< of the shape; for the ladder: of geodesic, transport and step
+    bool converged = false;  ///< of the shape; for the ladder: of geodesic, transport and step
     int iterations = 0;
-    bool on_mesh = true;     ///< for the ladder: the step was solved on the mesh itself
-                             ///< (ExponentialSummary)
-    double ratio = 1;        ///< for the ladder: energy of the rung's geodesic over its lower bound
-    double norm_change = 0;  ///< for the ladder: |Y| / |X| - 1 of the transported tangent
+    bool on_mesh = false;  ///< for the ladder: the step was solved on the mesh itself
+                           ///< (ExponentialSummary)
+    double ratio =
+        kNotComputed;  ///< for the ladder: energy of the rung's geodesic over its lower bound
+    double norm_change =
+        kNotComputed;  ///< for the ladder: |Y| / |X| - 1 of the transported tangent
     std::vector<std::string> warnings;  ///< of the rung's geodesic
     double seconds = 0;
   };
@@ -111,15 +113,15 @@ struct TransferSummary {
   TransferMethod method = TransferMethod::kFeatures;
   int vertices = 0;
   std::string metric;
-  double scale = 1;  ///< size of the target, as a multiple of the source's
+  double scale = kNotComputed;  ///< size of the target, as a multiple of the source's
   std::vector<Step> steps;
   /// Difference between the changes of target and source, from their first to their last shapes:
   /// log |e| of edges, weighted by A_e, and dihedral angles of hinges in degrees, weighted by A_f.
-  double strain_rms = 0, strain_max = 0, angle_rms = 0;
+  double strain_rms = kNotComputed, strain_max = kNotComputed, angle_rms = kNotComputed;
   /// With TransferOptions::avoid_contact, as in GeodesicSummary: segments whose straight motion has
   /// not been shown to be free of contact, and the least distance of two parts.
   int uncertified_segments = -1;
-  double contact_distance = std::numeric_limits<double>::quiet_NaN();
+  double contact_distance = kNotComputed;
   bool cancelled = false;  ///< `progress` asked to stop: the path has the shapes made before
   std::vector<std::string> warnings;
   double estimated_bytes = 0;  ///< of memory, before the transfer

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include <shapespace/numerics/internal/json_of.h>
@@ -12,22 +13,27 @@ namespace {
 
 using internal::Format;
 
+std::string DegreesText(double angle) {
+  return internal::IfComputed(angle, Format("%.3g degrees", angle));
+}
+
 const char* Ending(bool converged) { return converged ? "converged" : "NOT CONVERGED"; }
 
 }  // namespace
 
 bool TransferSummary::Converged() const {
-  return !cancelled && std::all_of(steps.begin(), steps.end(),
-                                   [](const Step& step) { return step.converged && step.on_mesh; });
+  return !cancelled && !steps.empty() &&
+         std::all_of(steps.begin(), steps.end(),
+                     [](const Step& step) { return step.converged && step.on_mesh; });
 }
 
 std::string TransferSummary::BriefReport() const {
   return Format(
       "%s: %d vertices, %zu shapes; target %.4g times as large; strains off by %.3g%% rms, "
       "dihedral "
-      "angles by %.3g degrees; %.2f s",
-      Ending(Converged()), vertices, steps.size(), scale, 100 * strain_rms, angle_rms,
-      total_seconds);
+      "angles by %s; %.2f s",
+      Ending(Converged()), vertices, steps.size(), scale, 100 * strain_rms,
+      DegreesText(angle_rms).c_str(), total_seconds);
 }
 
 std::string TransferSummary::FullReport() const {
@@ -37,7 +43,8 @@ std::string TransferSummary::FullReport() const {
                 vertices, scale)
       << Format("Strains, last     off by %.4g%% rms, %.4g%% at most\n", 100 * strain_rms,
                 100 * strain_max)
-      << Format("Angles, last      off by %.4g degrees rms\n", angle_rms)
+      << "Angles, last      "
+      << internal::IfComputed(angle_rms, Format("off by %.4g degrees rms", angle_rms)) << '\n'
       << internal::ContactText(uncertified_segments, contact_distance)
       << "\nshape  iterations  seconds"
       << (method == TransferMethod::kLadder ? "  energy / bound  norm changes\n" : "\n");
@@ -58,11 +65,12 @@ std::string TransferSummary::FullReport() const {
 std::string TransferSummary::ToJson() const { return internal::TextOf(internal::JsonOf(*this)); }
 
 bool PoseTransferSummary::Converged() const {
-  return !cancelled && std::all_of(geodesics.begin(), geodesics.end(), [](const auto& path) {
-    return path.termination == Termination::kConverged;
-  }) && std::all_of(transfers.begin(), transfers.end(), [](const auto& transfer) {
-    return transfer.Converged();
-  });
+  return !cancelled && !transfers.empty() &&
+         std::all_of(
+             geodesics.begin(), geodesics.end(),
+             [](const auto& path) { return path.termination == Termination::kConverged; }) &&
+         std::all_of(transfers.begin(), transfers.end(),
+                     [](const auto& transfer) { return transfer.Converged(); });
 }
 
 std::vector<std::string> PoseTransferSummary::Warnings() const {
@@ -83,19 +91,19 @@ std::vector<std::string> PoseTransferSummary::Warnings() const {
 std::string PoseTransferSummary::BriefReport() const {
   if (transfers.empty()) return "no pose was transferred";
   if (geodesics.empty()) return transfers[0].BriefReport();
-  double strain = 0, angle = 0, seconds = 0;
+  double strain = kNotComputed, angle = kNotComputed, seconds = 0;
   size_t steps = 0;
   for (size_t i = 0; i < transfers.size(); ++i) {
-    strain = std::max(strain, transfers[i].strain_rms);
-    angle = std::max(angle, transfers[i].angle_rms);
+    strain = std::fmax(strain, transfers[i].strain_rms);
+    angle = std::fmax(angle, transfers[i].angle_rms);
     steps += transfers[i].steps.size();
     seconds += geodesics[i].total_seconds + transfers[i].total_seconds;
   }
   return Format(
       "%s: %d vertices, %zu poses in %zu steps; target %.4g times as large; strains off by up to "
-      "%.3g%% rms, dihedral angles by %.3g degrees; %.2f s",
+      "%.3g%% rms, dihedral angles by %s; %.2f s",
       Ending(Converged()), transfers[0].vertices, transfers.size(), steps, transfers[0].scale,
-      100 * strain, angle, seconds);
+      100 * strain, DegreesText(angle).c_str(), seconds);
 }
 
 std::string PoseTransferSummary::FullReport() const {

@@ -1,8 +1,10 @@
 #include <shapespace/exploration/embedding.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -70,18 +72,56 @@ TEST(EmbeddingTest, StressNeverRisesAndEndsAtAMinimum) {
   }
 }
 
-// Four points at distance 1 from each other: on a plane, the square is best. (With exactly equal
-// distances the start may be a stationary point that is not a minimum.)
+Eigen::MatrixXd EqualDistances(int count) {
+  return Eigen::MatrixXd::Ones(count, count) - Eigen::MatrixXd::Identity(count, count);
+}
+
+// Four points at distance 1 from each other: on a plane, the square is best.
 TEST(EmbeddingTest, ATetrahedronBecomesASquare) {
-  Eigen::MatrixXd distances = Eigen::MatrixXd::Ones(4, 4);
-  distances.diagonal().setZero();
-  distances(0, 1) = distances(1, 0) = 1 + 1e-6;
+  const Eigen::MatrixXd distances = EqualDistances(4);
   // Sides a and diagonals sqrt(2) a: 4 (a - 1)^2 + 2 (sqrt(2) a - 1)^2 is least at
   // a = (4 + 2 sqrt(2)) / 8.
   const double a = (4 + 2 * std::sqrt(2.0)) / 8;
   const double least =
       std::sqrt((4 * (a - 1) * (a - 1) + 2 * std::pow(std::sqrt(2.0) * a - 1, 2)) / 6);
   EXPECT_NEAR(Embed(distances).stress, least, 1e-6);
+}
+
+// Stress majorisation from classical scaling alone ends in local minima.
+TEST(EmbeddingTest, NoRandomStartEndsWithLessStress) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  // From points in order and in other orders; the least stress of majorisation from 30 starts.
+  std::vector<Eigen::MatrixXd> all;
+  for (const int count : {4, 5, 6, 7, 8, 10}) all.push_back(EqualDistances(count));
+  all.push_back(DistancesOf(RandomPoints(8, 8)));
+  // Corners of a cube in four dimensions.
+  Eigen::MatrixXd corners(4, 16);
+  for (int i = 0; i < 16; ++i) corners.col(i) << i % 2, i / 2 % 2, i / 4 % 2, i / 8;
+  all.push_back(DistancesOf(corners));
+  for (const Eigen::MatrixXd& distances : all) {
+    const auto n = distances.rows();
+    double least = 1;
+    for (int start = 0; start < 30; ++start) {
+      Eigen::MatrixXd points = Eigen::MatrixXd::NullaryExpr(2, n, [&] { return normal(random); });
+      for (int i = 0; i < 200; ++i) {
+        Eigen::MatrixXd next = Eigen::MatrixXd::Zero(2, n);
+        for (int a = 0; a < n; ++a) {
+          for (int b = 0; b < n; ++b) {
+            const Eigen::Vector2d way = points.col(a) - points.col(b);
+            if (a != b) next.col(a) += distances(a, b) / way.norm() * way;
+          }
+        }
+        points = next / static_cast<double>(n);
+      }
+      least = std::min(least, StressOf(points, distances));
+    }
+    const Embedding embedding = Embed(distances);
+    EXPECT_TRUE(embedding.converged);
+    EXPECT_LT(embedding.stress, least * (1 + 1e-5)) << n;
+    const Embedding reversed = Embed(distances.reverse());
+    EXPECT_NEAR(reversed.stress, embedding.stress, 1e-5 * embedding.stress) << n;
+  }
 }
 
 TEST(EmbeddingTest, ScalesWithTheDistancesAndFollowsTheirOrder) {

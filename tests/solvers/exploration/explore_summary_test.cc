@@ -40,6 +40,7 @@ ExploreSummary MadeUpSummary() {
   summary.not_converged = 2;
   summary.stress = 0.0625;
   summary.stress_iterations = 9;
+  summary.embedded = true;
   summary.levels = {{4, 6, 3, 0.375, 2, 1.25}, {7, 8, 0, 0.0625, 1, 0.5}};
   summary.edges_not_measured = 11;
   summary.warnings = {"one", "two"};

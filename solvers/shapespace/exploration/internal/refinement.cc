@@ -1,6 +1,7 @@
 #include <shapespace/exploration/internal/refinement.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -75,7 +76,7 @@ bool Refinement::Measure(Progress* progress, ExploreSummary::Level* level) {
   for (const Edge& edge : edges) {
     PairResult& result = results[i++];
     const double excess = result.length > 0 ? result.blend_length / result.length - 1 : 0;
-    level->greatest_excess = std::max(level->greatest_excess, excess);
+    level->greatest_excess = std::fmax(level->greatest_excess, excess);
     const bool marked = excess > options_.threshold;
     if (marked) ++level->marked;
     sides_[edge] = {marked, -1, std::move(result.shape)};

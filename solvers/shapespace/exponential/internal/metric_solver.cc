@@ -27,6 +27,8 @@ void MetricSolver::Factor(const FeatureDerivative& at) {
     at.UpdateMetricMatrix(&matrix_);
     double_ ? double_->Update(matrix_) : single_->Update(matrix_);
   }
+  sum_rows_ = at.SumRows();
+  FactorSums();
   ++factorisations_;
   factor_seconds_ += stopwatch.Seconds();
 }
@@ -42,9 +44,25 @@ bool MetricSolver::UseDoublePrecision() {
   const Stopwatch stopwatch;
   double_.emplace(*single_, matrix_);
   single_.reset();
+  FactorSums();
   ++factorisations_;
   factor_seconds_ += stopwatch.Seconds();
   return true;
+}
+
+void MetricSolver::FactorSums() {
+  if (sum_rows_.empty()) return;
+  Eigen::MatrixXd columns(matrix_.rows(), sum_rows_.size());
+  for (size_t k = 0; k < sum_rows_.size(); ++k) columns.col(k) = SparseDual(sum_rows_[k]);
+  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(
+      columns, Eigen::ComputeThinU);
+  sum_basis_ = svd.matrixU();
+  sum_shares_ = 1 - (1 + svd.singularValues().array().square()).rsqrt();
+}
+
+void MetricSolver::ApplySums(Eigen::VectorXd* y) const {
+  if (sum_rows_.empty()) return;
+  *y -= sum_basis_ * sum_shares_.cwiseProduct(sum_basis_.transpose() * *y);
 }
 
 void MetricSolver::HalfSolve(bool transposed, Eigen::VectorXd* x) const {
@@ -67,6 +85,12 @@ void MetricSolver::HalfSolve(bool transposed, Eigen::VectorXd* x) const {
 }
 
 Eigen::VectorXd MetricSolver::Dual(const Tangent& b) const {
+  Eigen::VectorXd y = SparseDual(b);
+  ApplySums(&y);
+  return y;
+}
+
+Eigen::VectorXd MetricSolver::SparseDual(const Tangent& b) const {
   const std::vector<int>& permutation = Permutation();
   Eigen::VectorXd y(b.size());
   for (int i = 0; i < y.size(); ++i) y(i) = b.data()[permutation[i]];
@@ -77,6 +101,7 @@ Eigen::VectorXd MetricSolver::Dual(const Tangent& b) const {
 Tangent MetricSolver::FromDual(const Eigen::VectorXd& y) const {
   const std::vector<int>& permutation = Permutation();
   Eigen::VectorXd solved = y;
+  ApplySums(&solved);
   HalfSolve(true, &solved);
   Tangent x(3, y.size() / 3);
   for (int i = 0; i < y.size(); ++i) x.data()[permutation[i]] = solved(i);
@@ -126,11 +151,11 @@ MetricSolver::Result MetricSolver::SolveRoughly(const FeatureDerivative& left,
                                                 const FeatureDerivative& right,
                                                 const Eigen::VectorXd& dual, double tolerance,
                                                 int max_iterations, Tangent* x) const {
-  // Preconditioned from both sides, C^{-1} left^T right C^{-T}, so that norms are those of the
+  // Preconditioned from both sides, F^{-1} left^T right F^{-T}, so that norms are those of the
   // metric.
   const double length = dual.norm();
   std::vector<Eigen::VectorXd> basis = {dual / length};
-  std::vector<Tangent> images;  // C^{-T} of the basis
+  std::vector<Tangent> images;  // F^{-T} of the basis
   Eigen::MatrixXd hessenberg = Eigen::MatrixXd::Zero(max_iterations + 1, max_iterations);
   Eigen::VectorXd coefficients;
   Result result;

@@ -14,12 +14,15 @@ namespace shapespace::internal {
 
 /// Solves linear systems with the metric's matrix J^T J, or with J_a^T J_b for two neighbouring
 /// shapes of a path, which is not symmetric. GMRES (Saad and Schultz, 1986) is preconditioned by a
-/// sparse factor C C^T of the metric at one of the shapes. With a factor at the same shape it takes
+/// factor F F^T of the metric at one of the shapes. With S S^T the metric without sum features, of
+/// which S is a sparse factor, and W = S^{-1} U for the columns U of sum features, which are few,
+///   F = S (1 + W W^T)^(1/2)
+/// (Woodbury's formula, as a product of two halves). With a factor at the same shape it takes
 /// two or three iterations for two digits; with the previous step's factor, on real meshes, a
 /// hundred, because soft motions depend on the surface's orientation. Therefore every step factors
 /// again; the elimination order is computed once.
 ///
-/// The factor is stored and applied in single precision, in half the memory and time. Where shapes
+/// S is stored and applied in single precision, in half the memory and time. Where shapes
 /// are so distorted that this does not suffice, the caller may choose double precision from then
 /// on.
 class MetricSolver {
@@ -54,7 +57,7 @@ class MetricSolver {
   /// G^{-1} b at the factored shape, up to the rounding of the factor.
   Tangent Approximate(const Tangent& b) const { return FromDual(Dual(b)); }
 
-  /// C^{-1} b, in the factor's order. Its norm is that of a tangent whose image under G is `b`:
+  /// F^{-1} b, in the factor's order. Its norm is that of a tangent whose image under G is `b`:
   /// sqrt(<b, G^{-1} b>).
   Eigen::VectorXd Dual(const Tangent& b) const;
   double DualNorm(const Tangent& b) const { return Dual(b).norm(); }
@@ -66,12 +69,23 @@ class MetricSolver {
   const std::vector<int>& Permutation() const {
     return double_ ? double_->Permutation() : single_->Permutation();
   }
-  // x <- C^{-1} x, or C^{-T} x, in the factor's order.
-  void HalfSolve(bool transposed, Eigen::VectorXd* x) const;
-  // C^{-T} y.
+  // S^{-1} b, in the factor's order.
+  Eigen::VectorXd SparseDual(const Tangent& b) const;
+  // y <- S^{-1} y, or S^{-T} y, in the factor's order.
+  void HalfSolve(bool transposed, Eigen::VectorXd* y) const;
+  // y <- (1 + W W^T)^(-1/2) y.
+  void ApplySums(Eigen::VectorXd* y) const;
+  // Of W W^T, from `sum_rows_` and the sparse factor.
+  void FactorSums();
+  // F^{-T} y.
   Tangent FromDual(const Eigen::VectorXd& y) const;
 
   Eigen::SparseMatrix<double> matrix_;
+  std::vector<Tangent> sum_rows_;  // the columns of U
+  // An orthonormal basis of W's columns, of eigenvectors of W W^T, and the shares that
+  // (1 + W W^T)^(-1/2) takes from them.
+  Eigen::MatrixXd sum_basis_;
+  Eigen::VectorXd sum_shares_;
   // One of these at a time.
   std::optional<CholeskyFactor<float>> single_;
   std::optional<Cholesky> double_;

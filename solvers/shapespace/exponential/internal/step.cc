@@ -21,7 +21,7 @@ constexpr double kMinIncrement = 1.0 / 64;
 // digits. Near a root that takes up to eight iterations.
 constexpr double kForcing = 1e-2;
 constexpr int kMaxKrylov = 20;
-// Accuracy limited by rounding; without sum features two iterations reach it.
+// Accuracy limited by rounding; two iterations reach it.
 constexpr double kExact = 1e-13;
 
 // For the nearest shape in feature space, which is an approximation of first order only.
@@ -76,6 +76,7 @@ bool Step::Solve(const ExponentialOptions& options, ExponentialSummary::Step* ro
   if (speed_ <= rounding_) {  // a path that rests, or moves rigidly
     *shape = initial_state_.shape;
     row->converged = true;
+    row->residual = 0;
     return true;
   }
   // P(load) to second order. The velocity is found as a correction of one that is known or near,

@@ -1,5 +1,8 @@
 #include <shapespace/numerics/internal/dense.h>
 
+#include <cmath>
+#include <cstddef>
+
 // The interface of Fortran, which every BLAS has.
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -23,7 +26,10 @@ constexpr double kOne = 1, kMinusOne = -1;
 bool FactorDense(int n, double* a, int lda) {
   int info = 0;
   dpotrf_("L", &n, a, &lda, &info);
-  return info == 0;
+  // Some libraries do not see what is not a number. It is then in the diagonal too, or an infinity.
+  bool finite = info == 0;
+  for (int j = 0; finite && j < n; ++j) finite = std::isfinite(a[j + static_cast<size_t>(j) * lda]);
+  return finite;
 }
 
 void SolveDenseTransposed(int m, int n, const double* l, int ldl, double* b, int ldb) {

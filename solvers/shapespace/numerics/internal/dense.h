@@ -6,7 +6,8 @@
 
 namespace shapespace::internal {
 
-/// Lower triangle of `a` (n x n) <- its Cholesky factor. \return whether it is positive definite.
+/// Lower triangle of `a` (n x n) <- its Cholesky factor. \return whether it is finite
+/// and positive definite.
 bool FactorDense(int n, double* a, int lda);
 
 /// b <- b l^{-T}: `l` (n x n) is lower triangular, `b` is m x n.

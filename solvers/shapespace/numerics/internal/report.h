@@ -23,6 +23,11 @@ std::string Format(const char* format, Arguments... arguments) {
   return text;
 }
 
+/// `text`, which has `value`; "n/a" if that was not computed.
+inline std::string IfComputed(double value, const std::string& text) {
+  return std::isnan(value) ? "n/a" : text;
+}
+
 /// JSON has no NaN: a value that is not finite becomes null.
 inline nlohmann::ordered_json JsonNumber(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);

@@ -77,7 +77,10 @@ Shape Ladder::Climb(const Rung& rung, const Shape& target, TransferSummary::Step
   row->ratio = geodesic.Ratio();
   row->warnings = geodesic.warnings;
   // For a rung of length zero, the target's step equals the source's.
-  if (HasNoLength(rung)) return rung.next + (target - rung.from);
+  if (HasNoLength(rung)) {
+    row->converged = row->on_mesh = true;
+    return rung.next + (target - rung.from);
+  }
   TransportOptions transport;
   transport.connection = options_.connection;
   transport.align = options_.align;
