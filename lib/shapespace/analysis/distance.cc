@@ -14,7 +14,8 @@ using Eigen::Vector3d;
 using internal::NearestOnSegment;
 using internal::NearestOnTriangle;
 
-// C. Ericson, Real-Time Collision Detection (2005), section 5.1.9: the parts of the ways along two segments at which they are nearest.
+// C. Ericson, Real-Time Collision Detection (2005), section 5.1.9: the parts of the ways along two
+// segments at which they are nearest.
 std::pair<double, double> NearestOnSegments(const Vector3d& a, const Vector3d& b, const Vector3d& c,
                                             const Vector3d& d) {
   const Vector3d u = b - a, v = d - c, r = a - c;

@@ -59,7 +59,7 @@ inline Eigen::Vector3d NearestOnTriangle(const Eigen::Vector3d& a, const Eigen::
   // What rounding leaves of the base in `across` would count for as much as the rest does.
   const double by_third = -off_base(base).dot(across) / height;
   const Eigen::Vector3d rest = base + by_third * rise;
-  const double by_second = -rest.dot(along) / most, by_first = 1 - by_second - by_third;
+  const double by_second = -rest.dot(along) / most, by_first = 1 - (by_second + by_third);
   if (!(by_first > 0 && by_second > 0 && by_third > 0)) return nearest;
   if (!((rest + by_second * along).squaredNorm() < least)) return nearest;
   nearest(longest) = by_first;
