@@ -22,7 +22,8 @@ namespace internal {
 class GeodesicLevels;
 }
 
-/// The optimiser of each level.
+/// The optimiser of each level. A way round contacts (GeodesicOptions::avoid_contact) is always
+/// found by kThreadedLbfgs; if another one was asked for, a warning says so.
 enum class GeodesicSolver {
   kAutomatic,      ///< kLbfgs for small problems, kThreadedLbfgs for large ones
   kLbfgs,          ///< Ceres' L-BFGS, preconditioned, on hand-written kernels
@@ -96,8 +97,9 @@ struct GeodesicOptions {
   /// Whether the path must not pass through itself, the limitation that the paper names. If parts
   /// of the body would, the least way round is sought on which they do not (docs/mathematics.md,
   /// section 18), which costs more energy and takes several times as long; otherwise the path is
-  /// the same as without. Needs triangles. Not prevented are contacts of parts that are nearer to
-  /// each other on the surface than two edges.
+  /// the same as without. Needs triangles; segments (lines of OBJ files) do not pass through these
+  /// either. Not prevented are contacts of parts that are nearer to each other on the surface than
+  /// two edges, and of those that intersect in a pose.
   bool avoid_contact = false;
 
   /// With `avoid_contact`, between two poses: shapes near which the way round leads, in this order,
