@@ -130,7 +130,7 @@ TEST(NearPairsTest, FindsAllThatComeNearAtSomeTimeAndWhen) {
   ExpectAllPairs(strip.family.connectivity, strip.flat, strip.folded);
 }
 
-// Two that hang on the strip, and one that is not joined to it, and falls through.
+// One that is not joined to the strip and falls through it, and one that is a side of a triangle.
 TEST(NearPairsTest, FindsSegmentsThatComeNear) {
   const Strip strip;
   const Eigen::Matrix3Xi& triangles = strip.family.connectivity->Triangles();
@@ -138,13 +138,17 @@ TEST(NearPairsTest, FindsSegmentsThatComeNear) {
   for (int t = 0; t < triangles.cols(); ++t) begin.push_back(3 * (t + 1));
   const int count = strip.family.connectivity->NumVertices();
   const auto connectivity =
-      Connectivity::Make(count + 4, begin, {triangles.data(), triangles.data() + triangles.size()},
-                         {{count - 1, count}, {count, count + 1}, {count + 2, count + 3}, {0, 1}});
-  Shape from(3, count + 4), to = from;
-  from << strip.flat, Eigen::Matrix3Xd::Constant(3, 4, 1);
-  to << strip.folded, Eigen::Matrix3Xd::Constant(3, 4, 1);
-  from.rightCols(4) << 2, 1, -1, 0.5, 0.1, 0.2, -0.3, 0.1, 1, 1, 1.5, 0.7;
-  to.rightCols(4) << -2, -1, -1.2, 0.5, 0.1, 0.1, -0.2, 0.2, 0.5, 0.1, -0.5, -0.7;
+      Connectivity::Make(count + 2, begin, {triangles.data(), triangles.data() + triangles.size()},
+                         {{count, count + 1}, {0, 1}});
+  Shape from(3, count + 2), to = from;
+  from << strip.flat, Eigen::Vector3d(-1, 0.1, 1.5), Eigen::Vector3d(0.5, -0.3, 0.7);
+  to << strip.folded, Eigen::Vector3d(-1.2, -0.2, -0.5), Eigen::Vector3d(0.5, 0.2, -0.7);
+  int with_segment = 0;
+  const NearPairs pairs(connectivity, {from}, count + 2);
+  for (const NearPair& pair : pairs.Find(from, to, 0.3, 0.1)) {
+    with_segment += *std::max_element(pair.vertices.begin(), pair.vertices.end()) >= count ? 1 : 0;
+  }
+  EXPECT_GT(with_segment, 10);
   ExpectAllPairs(connectivity, from, to);
 }
 

@@ -74,7 +74,7 @@ std::vector<double> PoseTimes(const SplineOptions& options, const Path& chain) {
   return times;
 }
 
-// The times of shapes of a spline that meets its poses at `times`, in any unit, are of rounding.
+// Refuses times of poses between which velocities would be rounding.
 void CheckTimes(const std::vector<double>& times, int shapes) {
   if (times.empty()) return;
   const double whole = times.back() - times.front();
@@ -83,8 +83,8 @@ void CheckTimes(const std::vector<double>& times, int shapes) {
     if ((times[i + 1] - times[i]) / whole > kShortest * (shapes + 1)) continue;
     throw InvalidOptions(
         "times", "between poses " + std::to_string(i + 1) + " and " + std::to_string(i + 2) +
-                     " is so small a part of the whole time that velocities are rounding; give "
-                     "them more time, or leave one of them out");
+                     " there is so small a part of the whole time that velocities are rounding; "
+                     "give them more time, or leave one of them out");
   }
 }
 

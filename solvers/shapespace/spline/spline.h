@@ -87,11 +87,10 @@ struct SplineResult {
 /// poses give the geodesic. Vertices without triangles follow cubic splines in space. With
 /// GeodesicOptions::avoid_contact, a motion between two poses that would pass through itself, or
 /// the obstacle, is led round. If `progress` asks to stop after the first solve has begun, the
-/// chain is returned, as far as it was found, and the summary says so. \throw as Interpolate;
-/// InvalidOptions (times that do not ascend,
-///        are too near each other, or are not one for each pose; kClamped without velocities;
-///        `by_length`, and two neighbouring poses are the same), MeshError (kPeriodic if the last
-///        pose is the first).
+/// chain is returned, as far as it was found, and the summary says so.
+/// \throw as Interpolate; InvalidOptions (times that do not ascend, are too near each other, or are
+///        not one for each pose; kClamped without velocities; `by_length`, and two neighbouring
+///        poses are the same), MeshError (kPeriodic if the last pose is the first).
 SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
                     const std::vector<Shape>& poses, const SplineOptions& options = {},
                     Progress* progress = nullptr);
