@@ -26,8 +26,8 @@ std::vector<Key> AllPairs(const Connectivity& connectivity) {
       pairs.push_back({PairKind::kVertexTriangle, {v, corners(0), corners(1), corners(2)}});
     }
   }
-  for (int e = 0; e < connectivity.NumTriangleEdges(); ++e) {
-    for (int f = e + 1; f < connectivity.NumTriangleEdges(); ++f) {
+  for (int e = 0; e < connectivity.NumEdges(); ++e) {
+    for (int f = e + 1; f < connectivity.NumEdges(); ++f) {
       const auto first = connectivity.Edges().col(e), second = connectivity.Edges().col(f);
       pairs.push_back({PairKind::kEdgeEdge, {first(0), first(1), second(0), second(1)}});
     }
@@ -91,13 +91,14 @@ struct Strip {
   Shape flat, folded;
 };
 
-TEST(NearPairsTest, FindsAllThatComeNearAtSomeTimeAndWhen) {
-  const Strip strip;
-  const Connectivity& connectivity = *strip.family.connectivity;
-  const NearPairs pairs(strip.family.connectivity, {strip.flat}, connectivity.NumVertices());
+// All pairs during a motion are found, by the definition, and their times.
+void ExpectAllPairs(const std::shared_ptr<const Connectivity>& shared, const Shape& from,
+                    const Shape& to) {
+  const Connectivity& connectivity = *shared;
+  const NearPairs pairs(shared, {from}, connectivity.NumVertices());
   constexpr double kShare = 0.3, kMargin = 0.1;
   std::map<Key, NearPair> found;
-  for (const NearPair& pair : pairs.Find(strip.flat, strip.folded, kShare, kMargin)) {
+  for (const NearPair& pair : pairs.Find(from, to, kShare, kMargin)) {
     EXPECT_TRUE(found.emplace(Sorted(pair), pair).second) << "a pair is found twice";
     EXPECT_FALSE(AreNeighbours(connectivity, Sorted(pair)));
   }
@@ -108,7 +109,7 @@ TEST(NearPairsTest, FindsAllThatComeNearAtSomeTimeAndWhen) {
     const double within = kShare * pairs.Length(pair) + kMargin;
     for (int k = 0; k <= 20; ++k) {
       const double time = k / 20.;
-      const FourPoints points = (1 - time) * pair.At(strip.flat) + time * pair.At(strip.folded);
+      const FourPoints points = (1 - time) * pair.At(from) + time * pair.At(to);
       if (NearestPoints(pair.kind, points).Distance() >= within) continue;
       ++near;
       // Beyond two edges, neighbours by length are not expected either.
@@ -122,6 +123,57 @@ TEST(NearPairsTest, FindsAllThatComeNearAtSomeTimeAndWhen) {
     }
   }
   EXPECT_GT(near, 100);
+}
+
+TEST(NearPairsTest, FindsAllThatComeNearAtSomeTimeAndWhen) {
+  const Strip strip;
+  ExpectAllPairs(strip.family.connectivity, strip.flat, strip.folded);
+}
+
+// One that is not joined to the strip and falls through it, and one that is a side of a triangle.
+TEST(NearPairsTest, FindsSegmentsThatComeNear) {
+  const Strip strip;
+  const Eigen::Matrix3Xi& triangles = strip.family.connectivity->Triangles();
+  std::vector<int> begin = {0};
+  for (int t = 0; t < triangles.cols(); ++t) begin.push_back(3 * (t + 1));
+  const int count = strip.family.connectivity->NumVertices();
+  const auto connectivity =
+      Connectivity::Make(count + 2, begin, {triangles.data(), triangles.data() + triangles.size()},
+                         {{count, count + 1}, {0, 1}});
+  Shape from(3, count + 2), to = from;
+  from << strip.flat, Eigen::Vector3d(-1, 0.1, 1.5), Eigen::Vector3d(0.5, -0.3, 0.7);
+  to << strip.folded, Eigen::Vector3d(-1.2, -0.2, -0.5), Eigen::Vector3d(0.5, 0.2, -0.7);
+  int with_segment = 0;
+  const NearPairs pairs(connectivity, {from}, count + 2);
+  for (const NearPair& pair : pairs.Find(from, to, 0.3, 0.1)) {
+    with_segment += *std::max_element(pair.vertices.begin(), pair.vertices.end()) >= count ? 1 : 0;
+  }
+  EXPECT_GT(with_segment, 10);
+  ExpectAllPairs(connectivity, from, to);
+}
+
+// A triangle, a segment through its inside, one that ends on it, one near it, one far away, and one
+// that is a side of it.
+TEST(NearPairsTest, FindsSegmentsThatTouch) {
+  const auto connectivity =
+      Connectivity::Make(11, {0, 3}, {0, 1, 2}, {{3, 4}, {5, 6}, {7, 8}, {9, 10}, {0, 1}});
+  Shape shape(3, 11);
+  shape << 0, 4, 0, 1, 1.2, 2, 3, 0.5, 0.5, 8, 9,  //
+      0, 0, 4, 1, 1, 1, 4, 1, 2, 8, 9,             //
+      0, 0, 0, 3, -3, 0, 2, 0.1, 3, 0, 1;
+  const NearPairs pairs(connectivity, {shape}, 11);
+  const auto touching = [&](double share) {
+    std::vector<int> segments;
+    for (const auto& [corners, ends] : pairs.FindTouchingSegments(shape, share)) {
+      EXPECT_EQ(corners, Eigen::Vector3i(0, 1, 2));
+      EXPECT_EQ(ends(1), ends(2));
+      segments.push_back(ends(0));
+    }
+    std::sort(segments.begin(), segments.end());
+    return segments;
+  };
+  EXPECT_EQ(touching(1e-3), (std::vector<int>{3, 5}));
+  EXPECT_EQ(touching(0.04), (std::vector<int>{3, 5, 7}));
 }
 
 TEST(NearPairsTest, FixedVerticesAreNotPairedWithEachOther) {

@@ -12,6 +12,7 @@
 #include <shapespace/analysis/intersections.h>
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
+#include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
 #include <shapespace/exponential/exponential.h>
 #include <shapespace/files/read.h>
@@ -61,6 +62,81 @@ TEST(GeodesicContactTest, ACutRingOpensOnItsWay) {
   // The poses are met.
   EXPECT_LT((around.path.Placed(0) - ring.poses[0]).norm(), 1e-12);
   EXPECT_LT((around.path.Placed(8) - ring.poses[1]).norm(), 1e-12);
+}
+
+// A straight line above a sheet, and below it in the last pose: a component of its own, as lines of
+// OBJ files are.
+struct LineAndSheet {
+  LineAndSheet() {
+    const Eigen::Matrix3Xi& triangles = sheet.connectivity->Triangles();
+    std::vector<int> begin = {0};
+    for (int t = 0; t < triangles.cols(); ++t) begin.push_back(3 * (t + 1));
+    connectivity = Connectivity::Make(count + 2, begin,
+                                      {triangles.data(), triangles.data() + triangles.size()},
+                                      {{count, count + 1}});
+  }
+  // Its ends at these heights, over the middle of a triangle and far beside the sheet.
+  Shape Pose(double over, double beside) const {
+    Shape shape(3, count + 2);
+    shape << sheet.pose(0), Eigen::Vector3d(0.02, 0.03, over), Eigen::Vector3d(0.1, 4, beside);
+    return shape;
+  }
+  // Whether the line passes through the sheet, which is flat.
+  bool Pierces(const Shape& shape) const {
+    const Eigen::Vector3d a = shape.col(count), b = shape.col(count + 1);
+    const auto corners = shape.leftCols(count);
+    const Eigen::Vector3d normal =
+        (corners.col(1) - corners.col(0))
+            .cross(Eigen::Vector3d(corners.col(count - 1)) - corners.col(0));
+    const double above = normal.dot(a - corners.col(0)), below = normal.dot(b - corners.col(0));
+    if (above * below >= 0) return false;
+    const Eigen::Vector3d at = a + above / (above - below) * (b - a);
+    return (corners.colwise() - at).colwise().norm().minCoeff() < 0.3;
+  }
+
+  ShapeFamily sheet = MakeSheet(2, 2, 8, 8);
+  int count = sheet.connectivity->NumVertices();
+  std::shared_ptr<const Connectivity> connectivity;
+};
+
+TEST(GeodesicContactTest, SegmentsDoNotPassThroughSurfaces) {
+  const LineAndSheet body;
+  GeodesicOptions options = AvoidingContact(7);
+  const auto pierces = [&](const Path& path) {
+    bool any = false;
+    for (int i = 0; i + 1 < path.NumShapes(); ++i) {
+      for (double t : {0., 0.25, 0.5, 0.75}) {
+        any = any || body.Pierces((1 - t) * path.shapes[i] + t * path.shapes[i + 1]);
+      }
+    }
+    return any;
+  };
+  const std::vector<Shape> poses = {body.Pose(0.1, 0.9), body.Pose(-0.9, -0.1)};
+  const GeodesicResult around = Interpolate(body.connectivity, poses, options);
+  EXPECT_TRUE(around.summary.uncertified_segments > 0 || !pierces(around.path));
+  // Where it stays on its side, nothing touches. Where it ends on the sheet in both poses, it may.
+  const GeodesicSummary above =
+      Interpolate(body.connectivity, {body.Pose(0.5, 0.9), body.Pose(0.3, 0.2)}, options).summary;
+  EXPECT_EQ(above.uncertified_segments, 0);
+  EXPECT_TRUE(above.warnings.empty()) << above.FullReport();
+  const GeodesicSummary rooted =
+      Interpolate(body.connectivity, {body.Pose(0, 0.9), body.Pose(0, 0.2)}, options).summary;
+  EXPECT_EQ(rooted.uncertified_segments, 0) << rooted.FullReport();
+  options.avoid_contact = false;
+  EXPECT_TRUE(pierces(Interpolate(body.connectivity, poses, options).path));
+}
+
+TEST(GeodesicContactTest, SaysThatAnotherSolverFindsTheWayRound) {
+  const CutRing ring;
+  for (const GeodesicSolver solver : {GeodesicSolver::kAutomatic, GeodesicSolver::kThreadedLbfgs,
+                                      GeodesicSolver::kLbfgs, GeodesicSolver::kTrustRegion}) {
+    GeodesicOptions options = AvoidingContact(3);
+    options.solver = solver;
+    const GeodesicSummary summary = Interpolate(ring.connectivity, ring.poses, options).summary;
+    const bool is_other =
+        solver == GeodesicSolver::kLbfgs || solver == GeodesicSolver::kTrustRegion;
+    EXPECT_EQ(summary.warnings.size(), is_other ? 1u : 0u) << summary.FullReport();
+  }
 }
 
 TEST(GeodesicContactTest, EndsWhenItIsStopped) {

@@ -170,8 +170,9 @@ TEST(Cholesky, SaysWhatAnIndefiniteMatrixMayComeFrom) {
   matrix.insert(1, 1) = -1;
   matrix.makeCompressed();
   EXPECT_EQ(MessageOf<SolverError>([&] { const Cholesky factor(matrix); }),
-            "the preconditioner's matrix is not positive definite: is a weight of the metric zero "
-            "or a coordinate enormous?");
+            "the preconditioner's matrix is not positive definite: a weight of the metric is zero, "
+            "a coordinate is enormous, or weights, stiffness or sizes of triangles differ too much "
+            "for its precision");
 }
 
 TEST(CheckOptions, RefusesWhatIsOutOfRange) {

@@ -248,6 +248,100 @@ TEST(Spline, CommutesWithScaleAndPlaceAndReversesWithTime) {
   }
 }
 
+// Poses that are stretched in different ways, so that it would show if one of them was a reference.
+std::vector<Shape> StretchedPoses(const ShapeFamily& sheet) {
+  std::vector<Shape> poses;
+  const Eigen::Vector3d stretches[] = {{1, 1, 1}, {1.6, 0.8, 1.2}, {0.9, 1.5, 1}, {1.2, 1, 1.7}};
+  const double angles[] = {20, 80, 50, 140};
+  for (int i = 0; i < 4; ++i) {
+    poses.push_back(Rotation(30 * i, {1, 2, 3}) *
+                    (stretches[i].asDiagonal() * sheet.pose(angles[i])));
+  }
+  return poses;
+}
+
+TEST(Spline, DoesNotDependOnWhichPoseIsFirst) {
+  const ShapeFamily sheet = MakeSheet(2, 1, 8, 4);
+  const std::vector<Shape> poses = StretchedPoses(sheet);
+  const std::vector<Shape> reversed(poses.rbegin(), poses.rend());
+  SplineOptions options = Fine(SplineEnds::kNatural);
+  options.geodesic.tolerance = 1e-11;
+  options.times = {0, 1, 2.5, 3};
+  const Path path = Spline(sheet.connectivity, poses, options).path;
+  options.times = {0, 0.5, 2, 3};
+  const Path back = Spline(sheet.connectivity, reversed, options).path;
+  const double size = Diameter(poses[0]);
+  for (int i = 0; i < path.NumShapes(); ++i) {
+    EXPECT_LT(Distance(back.Placed(path.NumShapes() - 1 - i), path.Placed(i)), 2e-5 * size) << i;
+  }
+  // A cycle, begun at another pose.
+  options.times.clear();
+  options.ends = SplineEnds::kPeriodic;
+  const Path cycle = Spline(sheet.connectivity, poses, options).path;
+  const Path later =
+      Spline(sheet.connectivity, {poses[1], poses[2], poses[3], poses[0]}, options).path;
+  for (int i = 0; i < 32; ++i) {
+    EXPECT_LT(Distance(cycle.Placed((i + 8) % 32), later.Placed(i)), 1e-4 * size) << i;
+  }
+}
+
+// A triangle without area in one pose has no rotation there, and the geodesics are not smooth.
+TEST(Spline, IsSmoothWhereATriangleCollapsesOrSaysThatItIsNot) {
+  const ShapeFamily sheet = MakeSheet(2, 1, 8, 4);
+  std::vector<Shape> poses = PosesAt(sheet, {0, 60, 150, 100});
+  poses[1].col(3) = poses[1].col(4);
+  SplineOptions options;
+  options.geodesic.shapes = 7;
+  const SplineSummary summary = Spline(sheet.connectivity, poses, options).summary;
+  EXPECT_TRUE(summary.smooth);
+  EXPECT_LT(summary.jump_after, 0.3 * summary.jump_before);
+  EXPECT_TRUE(summary.jump_after < 0.5 ||
+              summary.warnings.size() > summary.geodesic.warnings.size());
+}
+
+TEST(Spline, OfABodyThatDoesNotMoveHasNoJumps) {
+  const Shape pose = Tube().pose(40);
+  for (const Eigen::Vector3d& place : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1e6, -3e6, 2e6)}) {
+    const Shape placed = pose.colwise() + place;
+    for (const SplineEnds ends : {SplineEnds::kNatural, SplineEnds::kNotAKnot}) {
+      const auto [path, summary] =
+          Spline(Tube().connectivity, {placed, placed, placed}, Fine(ends, 3));
+      EXPECT_EQ(summary.jump_before, 0);
+      EXPECT_EQ(summary.jump_after, 0);
+      for (int i = 0; i < path.NumShapes(); ++i) {
+        EXPECT_LT(Distance(path.Placed(i), placed), 1e-8);
+      }
+    }
+  }
+}
+
+// Whichever times are taken, the path is valid and its shapes are finite.
+TEST(Spline, TimesThatNumbersCannotTellApartAreRefused) {
+  const std::vector<Shape> poses = PosesAt(Tube(), {0, 90, 30, 60});
+  SplineOptions options = Fine(SplineEnds::kNatural, 3);
+  const std::vector<std::vector<double>> refused = {
+      {-1e308, 0, 1e308, 1.5e308}, {0, 1, 1 + 4.5e-16, 3}, {0, 1e-17, 1, 3},
+      {0, 5e-324, 1e-323, 1},      {0, 1, 1e17, 2e17},     {-1, 1 - 1e-12, 1, 2}};
+  for (const std::vector<double>& times : refused) {
+    options.times = times;
+    EXPECT_NE(MessageOf<InvalidOptions>([&] {
+                Spline(Tube().connectivity, poses, options);
+              }).find("times"),
+              std::string::npos)
+        << times[1];
+  }
+  const std::vector<std::vector<double>> taken = {{0, 1e-8, 1, 3},
+                                                  {-8e307, 0, 4e307, 8e307},
+                                                  {0, 1e-320, 2e-320, 4e-320},
+                                                  {1e15, 1e15 + 1, 1e15 + 2, 1e15 + 4}};
+  for (const std::vector<double>& times : taken) {
+    options.times = times;
+    const Path path = Spline(Tube().connectivity, poses, options).path;
+    EXPECT_NO_THROW(path.Validate());
+    for (int i = 0; i < path.NumShapes(); ++i) EXPECT_TRUE(path.Placed(i).allFinite());
+  }
+}
+
 TEST(Spline, MovesGraphsOnCubicsInSpace) {
   const auto graph = Connectivity::Make(2, {0}, {}, {{0, 1}});
   std::vector<Shape> poses;

@@ -142,6 +142,46 @@ TEST(Standing, ASmoothCycleStaysSmooth) {
   }
 }
 
+// A sheet far away that belongs to the same mesh and has no part.
+TEST(Standing, ComponentsWithoutAPartMoveAsOnThePath) {
+  const Bridge& bridge = TheBridge();
+  const int count = bridge.sheet.connectivity->NumVertices();
+  const ShapeFamily other = MakeSheet(1, 1, 3, 3);
+  const Eigen::Matrix3Xi &first = bridge.sheet.connectivity->Triangles(),
+                         &second = other.connectivity->Triangles();
+  Eigen::Matrix3Xi triangles(3, first.cols() + second.cols());
+  triangles << first, (second.array() + count).matrix();
+  const int all = count + other.connectivity->NumVertices();
+  const auto both = Connectivity::FromTriangles(all, triangles);
+  std::vector<Shape> poses;
+  for (const Shape& pose : bridge.poses) {
+    Shape joined(3, all);
+    joined << pose,
+        other.pose(10. * static_cast<double>(poses.size())).colwise() + Eigen::Vector3d(10, 0, 0);
+    poses.push_back(joined);
+  }
+  SplineOptions options;
+  options.geodesic.shapes = 3;
+  const Path before = Spline(both, poses, options).path;
+  Path path = before;
+  const StandingSummary summary =
+      HoldStandingParts(before, bridge.Parts(3), StandingDefaults(), &path);
+  EXPECT_TRUE(summary.Converged());
+  EXPECT_GT(summary.slide_before, 1e-3);
+  EXPECT_LT(summary.slide, 1e-12);
+  ASSERT_EQ(summary.warnings.size(), 1u);
+  EXPECT_NE(summary.warnings[0].find(std::to_string(count + 1)), std::string::npos);
+  double moved = 0;
+  for (int k = 0; k < path.NumShapes(); ++k) {
+    EXPECT_LT(
+        Distance(path.Placed(k).rightCols(all - count), before.Placed(k).rightCols(all - count)),
+        1e-12)
+        << k;
+    moved = std::max(moved, Distance(path.Placed(k), before.Placed(k)));
+  }
+  EXPECT_GT(moved, 1e-3);
+}
+
 TEST(Standing, IntervalsWithoutAStandingPartAreAsTheyWere) {
   const Bridge& bridge = TheBridge();
   const Path before = bridge.Motion(false, 3);

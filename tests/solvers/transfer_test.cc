@@ -42,6 +42,18 @@ INSTANTIATE_TEST_SUITE_P(Methods, AnyTransfer,
                            return info.param == TransferMethod::kLadder ? "Ladder" : "Features";
                          });
 
+TEST_P(AnyTransfer, SaysThatTheTargetIsAMirrorImage) {
+  const Path source = Bending(2);
+  TransferOptions options;
+  options.method = GetParam();
+  const size_t before = Transfer(source, ThinBar(), options).summary.warnings.size();
+  Shape mirrored = ThinBar();
+  mirrored.row(1) *= -1;
+  const TransferSummary summary = Transfer(source, mirrored, options).summary;
+  ASSERT_GT(summary.warnings.size(), before);
+  EXPECT_NE(summary.warnings.front().find("mirror"), std::string::npos);
+}
+
 // Compared with an independent implementation of their method.
 TEST(GradientTransfer, IsThatOfSumnerAndPopovic) {
   const SkinnedBody normal = MakeSkinnedBody("quadruped", 1500),

@@ -110,13 +110,23 @@ IndexLists Neighbours(const Connectivity& connectivity, const Eigen::VectorXd& e
   return ToLists(both);
 }
 
-// Row t: the elements whose first triangle is t.
-IndexLists OwnedBy(int num_triangles, const IndexLists& triangles_of_elements) {
-  std::vector<std::vector<int>> rows(num_triangles);
-  for (int i = 0; i < triangles_of_elements.NumRows(); ++i) {
-    if (triangles_of_elements[i].size() > 0) rows[triangles_of_elements[i][0]].push_back(i);
+// Appends to row t the vertices, or edges, whose first triangle is t.
+void GiveToTriangles(const IndexLists& triangles, std::vector<std::vector<int>>* rows) {
+  for (int i = 0; i < triangles.NumRows(); ++i) {
+    if (triangles[i].size() > 0) (*rows)[triangles[i][0]].push_back(i);
   }
-  return ToLists(rows);
+}
+
+// Whether a segment passes through the inside of a triangle.
+bool Pierces(const Vector3d& from, const Vector3d& to, const Eigen::Matrix3d& triangle) {
+  const auto side = [](const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {
+    return (b - a).cross(c - a).dot(p - a);
+  };
+  const Vector3d a = triangle.col(0), b = triangle.col(1), c = triangle.col(2);
+  if (side(a, b, c, from) * side(a, b, c, to) >= 0) return false;
+  const double first = side(from, to, a, b), second = side(from, to, b, c),
+               third = side(from, to, c, a);
+  return (first > 0) == (second > 0) && (second > 0) == (third > 0);
 }
 
 bool ShareCorner(const Eigen::Vector3i& s, const Eigen::Vector3i& t) {
@@ -186,11 +196,10 @@ class NearPairs::Search {
         share_(share),
         margin_(margin),
         boxes_(pairs.nodes_.size()) {
-    const Connectivity& connectivity = *pairs.connectivity_;
     for (int i = static_cast<int>(boxes_.size()) - 1; i >= 0; --i) {
       const Node& node = pairs.nodes_[i];
       if (node.right < 0) {
-        const auto corners = connectivity.Triangles().col(node.left);
+        const auto corners = pairs.elements_.col(node.left);
         boxes_[i] = Around(corners(0));
         Extend(&boxes_[i], Around(corners(1)));
         Extend(&boxes_[i], Around(corners(2)));
@@ -202,17 +211,25 @@ class NearPairs::Search {
   }
 
   std::vector<NearPair> Run() const {
+    return RunWith<NearPair>(
+        [&](int a, int b, std::vector<NearPair>* found) { AddElements(a, b, found); });
+  }
+
+  // Calls add(a, b, found) for all two leaves that come near each other.
+  template <typename Found, typename Add>
+  std::vector<Found> RunWith(const Add& add) const {
     constexpr int kPerTask = 256;
     const int count = static_cast<int>(pairs_.fronts_.size());
-    std::vector<std::vector<NearPair>> found((count + kPerTask - 1) / kPerTask);
+    std::vector<std::vector<Found>> found((count + kPerTask - 1) / kPerTask);
     ParallelFor(static_cast<int>(found.size()), [&](int task) {
       const int end = std::min(count, (task + 1) * kPerTask);
       for (int i = task * kPerTask; i < end; ++i) {
-        Between(pairs_.fronts_[i].first, pairs_.fronts_[i].second, &found[task]);
+        Between(pairs_.fronts_[i].first, pairs_.fronts_[i].second,
+                [&](int a, int b) { add(a, b, &found[task]); });
       }
     });
-    std::vector<NearPair> all;
-    for (const std::vector<NearPair>& part : found) all.insert(all.end(), part.begin(), part.end());
+    std::vector<Found> all;
+    for (const std::vector<Found>& part : found) all.insert(all.end(), part.begin(), part.end());
     return all;
   }
 
@@ -227,8 +244,9 @@ class NearPairs::Search {
     return box;
   }
 
-  // All pairs between two nodes.
-  void Between(int a, int b, std::vector<NearPair>* found) const {
+  // All leaves of two nodes that come near each other.
+  template <typename Add>
+  void Between(int a, int b, const Add& add) const {
     const Node &first = pairs_.nodes_[a], &second = pairs_.nodes_[b];
     if (!first.moves && !second.moves) return;
     Times times;
@@ -236,14 +254,14 @@ class NearPairs::Search {
               &times)) {
       return;
     }
-    if (first.triangles == 1 && second.triangles == 1) {
-      AddElements(a, b, found);
-    } else if (first.triangles >= second.triangles) {
-      Between(first.left, b, found);
-      Between(first.right, b, found);
+    if (first.elements == 1 && second.elements == 1) {
+      add(a, b);
+    } else if (first.elements >= second.elements) {
+      Between(first.left, b, add);
+      Between(first.right, b, add);
     } else {
-      Between(a, second.left, found);
-      Between(a, second.right, found);
+      Between(a, second.left, add);
+      Between(a, second.right, add);
     }
   }
 
@@ -252,14 +270,16 @@ class NearPairs::Search {
     const Connectivity& connectivity = *pairs_.connectivity_;
     for (const auto& [owner, other, box] :
          {std::make_tuple(s, t, &boxes_[b]), {t, s, &boxes_[a]}}) {
+      // To a segment a vertex is as near as its edges are, or farther.
+      if (other >= connectivity.NumTriangles()) continue;
       const auto corners = connectivity.Triangles().col(other);
-      for (const int v : pairs_.vertices_of_triangles_[owner]) {
+      for (const int v : pairs_.vertices_of_elements_[owner]) {
         Add(PairKind::kVertexTriangle, {v, corners(0), corners(1), corners(2)}, Around(v), *box,
             found);
       }
     }
-    for (const int i : pairs_.edges_of_triangles_[s]) {
-      for (const int j : pairs_.edges_of_triangles_[t]) {
+    for (const int i : pairs_.edges_of_elements_[s]) {
+      for (const int j : pairs_.edges_of_elements_[t]) {
         const int e = std::min(i, j), f = std::max(i, j);
         const auto first = connectivity.Edges().col(e), second = connectivity.Edges().col(f);
         Add(PairKind::kEdgeEdge, {first(0), first(1), second(0), second(1)}, AroundEdge(e),
@@ -300,6 +320,7 @@ NearPairs::NearPairs(std::shared_ptr<const Connectivity> connectivity,
   }
   const Eigen::VectorXd edges = MeanEdgeLengths(*connectivity_, shapes);
   lengths_ = LengthsAtVertices(*connectivity_, edges);
+  FindElements();
   ParallelTasks(2, 2, [&](int task) {
     if (task == 0) {
       neighbours_ = Neighbours(*connectivity_, edges, lengths_, exempt);
@@ -309,24 +330,55 @@ NearPairs::NearPairs(std::shared_ptr<const Connectivity> connectivity,
   });
 }
 
-void NearPairs::BuildTree(const Shape& shape) {
+void NearPairs::FindElements() {
   const int num_triangles = connectivity_->NumTriangles();
-  vertices_of_triangles_ = OwnedBy(num_triangles, connectivity_->TrianglesOfVertices());
-  edges_of_triangles_ = OwnedBy(num_triangles, connectivity_->TrianglesOfEdges());
-  Shape centres(3, num_triangles);
-  for (int t = 0; t < num_triangles; ++t) {
-    const auto corners = connectivity_->Triangles().col(t);
+  std::vector<int> segments;  // edges that are no sides of triangles
+  for (const auto& [a, b] : connectivity_->Segments()) {
+    for (const int e : connectivity_->EdgesOfVertices()[a]) {
+      if (e >= connectivity_->NumTriangleEdges() && connectivity_->OtherEnd(e, a) == b) {
+        segments.push_back(e);
+      }
+    }
+  }
+  std::sort(segments.begin(), segments.end());
+  segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+  const size_t count = num_triangles + segments.size();
+  std::vector<std::vector<int>> vertices(count), edges(count);
+  GiveToTriangles(connectivity_->TrianglesOfVertices(), &vertices);
+  GiveToTriangles(connectivity_->TrianglesOfEdges(), &edges);
+  elements_.resize(3, static_cast<Eigen::Index>(count));
+  elements_.leftCols(num_triangles) = connectivity_->Triangles();
+  std::vector<char> has_element(connectivity_->NumVertices(), 0);
+  for (size_t i = 0; i < segments.size(); ++i) {
+    const auto ends = connectivity_->Edges().col(segments[i]);
+    elements_.col(static_cast<Eigen::Index>(num_triangles + i)) << ends(0), ends(1), ends(1);
+    edges[num_triangles + i] = {segments[i]};
+    for (const int v : ends) {
+      if (has_element[v] != 0 || connectivity_->TrianglesOfVertices()[v].size() > 0) continue;
+      has_element[v] = 1;
+      vertices[num_triangles + i].push_back(v);
+    }
+  }
+  vertices_of_elements_ = ToLists(vertices);
+  edges_of_elements_ = ToLists(edges);
+}
+
+void NearPairs::BuildTree(const Shape& shape) {
+  const int num_elements = static_cast<int>(elements_.cols());
+  Shape centres(3, num_elements);
+  for (int t = 0; t < num_elements; ++t) {
+    const auto corners = elements_.col(t);
     centres.col(t) = shape.col(corners(0)) + shape.col(corners(1)) + shape.col(corners(2));
   }
-  std::vector<int> order(num_triangles);
+  std::vector<int> order(num_elements);
   std::iota(order.begin(), order.end(), 0);
-  nodes_.reserve(2 * static_cast<size_t>(num_triangles));
-  Build(centres, order.data(), order.data() + num_triangles);
+  nodes_.reserve(2 * static_cast<size_t>(num_elements));
+  Build(centres, order.data(), order.data() + num_elements);
   std::vector<Eigen::AlignedBox3d> boxes(nodes_.size());
   for (int i = static_cast<int>(boxes.size()) - 1; i >= 0; --i) {
     const Node& node = nodes_[i];
     if (node.right < 0) {
-      for (const int v : connectivity_->Triangles().col(node.left)) boxes[i].extend(shape.col(v));
+      for (const int v : elements_.col(node.left)) boxes[i].extend(shape.col(v));
     } else {
       boxes[i] = boxes[node.left].merged(boxes[node.right]);
       FindFronts(node.left, node.right, boxes);
@@ -334,14 +386,14 @@ void NearPairs::BuildTree(const Shape& shape) {
   }
 }
 
-// Halves the triangles along the longest side of the box of their centres; returns the node.
+// Halves the elements along the longest side of the box of their centres; returns the node.
 int NearPairs::Build(const Shape& centres, int* begin, int* end) {
   const int index = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
   Node node = {*begin, -1, static_cast<int>(end - begin), 0, false};
   if (end - begin == 1) {
     for (int k = 0; k < 3; ++k) {
-      const int v = connectivity_->Triangles()(k, *begin);
+      const int v = elements_(k, *begin);
       node.length = std::max(node.length, lengths_[v]);
       node.moves = node.moves || v < num_moving_;
     }
@@ -371,11 +423,10 @@ bool NearPairs::FindFronts(int a, int b, const std::vector<Eigen::AlignedBox3d>&
   if (!first.moves && !second.moves) return false;
   const size_t begin = fronts_.size();
   bool share = false;
-  if (first.triangles == 1 && second.triangles == 1) {
-    share = ShareCorner(connectivity_->Triangles().col(first.left),
-                        connectivity_->Triangles().col(second.left));
+  if (first.elements == 1 && second.elements == 1) {
+    share = ShareCorner(elements_.col(first.left), elements_.col(second.left));
   } else if (boxes[a].intersects(boxes[b])) {
-    if (first.triangles >= second.triangles) {
+    if (first.elements >= second.elements) {
       share = FindFronts(first.left, b, boxes);
       share = FindFronts(first.right, b, boxes) || share;
     } else {
@@ -414,6 +465,38 @@ bool NearPairs::AreNeighbours(const NearPair& pair) const {
 std::vector<NearPair> NearPairs::Find(const Shape& from, const Shape& to, double share,
                                       double margin) const {
   return Search(*this, from, to, share, margin).Run();
+}
+
+std::vector<std::pair<Eigen::Vector3i, Eigen::Vector3i>> NearPairs::FindTouchingSegments(
+    const Shape& shape, double share) const {
+  using Found = std::pair<Eigen::Vector3i, Eigen::Vector3i>;
+  const Search search(*this, shape, shape, share, 0);
+  return search.RunWith<Found>([&](int a, int b, std::vector<Found>* found) {
+    const int segment = std::max(nodes_[a].left, nodes_[b].left),
+              other = std::min(nodes_[a].left, nodes_[b].left);
+    const int num_triangles = connectivity_->NumTriangles();
+    if (segment < num_triangles) return;
+    const Eigen::Vector3i ends = elements_.col(segment), corners = elements_.col(other);
+    const Vector3d from = shape.col(ends(0)), to = shape.col(ends(1));
+    const auto is_near = [&](const NearPair& pair) {
+      return !AreNeighbours(pair) &&
+             NearestPoints(pair.kind, pair.At(shape)).Distance() <= share * Length(pair);
+    };
+    bool touches = false;
+    for (int k = 0; k < 3 && !touches; ++k) {
+      const int next = corners((k + 1) % 3);
+      if (corners(k) == next) continue;
+      touches = is_near({PairKind::kEdgeEdge, {ends(0), ends(1), corners(k), next}, 0, 1});
+    }
+    for (int k = 0; k < 2 && !touches && other < num_triangles; ++k) {
+      touches =
+          is_near({PairKind::kVertexTriangle, {ends(k), corners(0), corners(1), corners(2)}, 0, 1});
+    }
+    if (!touches && other < num_triangles) {
+      touches = Pierces(from, to, shape(Eigen::all, corners));
+    }
+    if (touches) found->emplace_back(corners, ends);
+  });
 }
 
 }  // namespace shapespace

@@ -31,12 +31,13 @@ struct NearPair {
 /// Finds which parts of a surface come near to others while all vertices move on straight lines.
 /// Elements that are neighbours on the surface do not count: those with vertices that are joined by
 /// at most two edges, or by edges with a sum of at most twice the length at one of the vertices
-/// (the mean of its edges' lengths). Vertices that belong to no triangle do not count either.
+/// (the mean of its edges' lengths). Segments of the mesh are edges like those of triangles, and
+/// their ends are vertices. Vertices that belong to neither do not count.
 ///
-/// The triangles are kept in a tree of boxes, which is made once. For each motion the boxes at both
-/// ends are computed, and boxes in between lie between these. A search begins at pairs of nodes
-/// that have no corner in common, which are found once too: nearly all triangles whose boxes meet
-/// share a corner. Immutable, so several threads may search at once.
+/// Triangles and segments are kept in a tree of boxes, which is made once. For each motion the
+/// boxes at both ends are computed, and boxes in between lie between these. A search begins at
+/// pairs of nodes that have no corner in common, which are found once too: nearly all triangles
+/// whose boxes meet share a corner. Immutable, so several threads may search at once.
 class NearPairs {
  public:
   /// Lengths are the mean of those in `shapes`, at least one. The vertices from `num_moving` on
@@ -46,6 +47,12 @@ class NearPairs {
   ///        vertices.
   NearPairs(std::shared_ptr<const Connectivity> connectivity, const std::vector<Shape>& shapes,
             int num_moving, const std::vector<std::pair<int, int>>& exempt = {});
+
+  /// Pairs of a segment and a triangle, or of two segments, that touch in a shape, or are nearer to
+  /// each other than `share` times their length, unless they are neighbours: the corners of both,
+  /// of a segment its last one twice.
+  std::vector<std::pair<Eigen::Vector3i, Eigen::Vector3i>> FindTouchingSegments(const Shape& shape,
+                                                                                double share) const;
 
   /// The length at a vertex.
   double Length(int vertex) const { return lengths_[vertex]; }
@@ -59,14 +66,15 @@ class NearPairs {
 
  private:
   struct Node {
-    int left, right;  // children; of a leaf: the triangle, and -1
-    int triangles;
+    int left, right;  // children; of a leaf: the element, and -1
+    int elements;
     double length;  // greatest at any vertex
     bool moves;
   };
   class Search;
 
-  // The nodes and fronts, and what belongs to which triangle.
+  // The elements, the nodes and fronts, and what belongs to which element.
+  void FindElements();
   void BuildTree(const Shape& shape);
   int Build(const Shape& centres, int* begin, int* end);
   // Appends the largest pairs of nodes below these two that have no corner in common, or the two
@@ -78,12 +86,13 @@ class NearPairs {
   std::shared_ptr<const Connectivity> connectivity_;
   int num_moving_;
   std::vector<double> lengths_;
-  IndexLists neighbours_;    // by vertex, ascending, itself included
-  std::vector<Node> nodes_;  // children after their parents
-  // Triangles that share no corner, and of which one moves, are in one of these pairs of nodes.
+  IndexLists neighbours_;      // by vertex, ascending, itself included
+  Eigen::Matrix3Xi elements_;  // the triangles, and then segments, with their last vertex twice
+  std::vector<Node> nodes_;    // children after their parents
+  // Elements that share no corner, and of which one moves, are in one of these pairs of nodes.
   std::vector<std::pair<int, int>> fronts_;
-  // Each vertex and each edge belongs to one of its triangles, so that pairs are found once.
-  IndexLists vertices_of_triangles_, edges_of_triangles_;
+  // Each vertex and each edge belongs to one of its elements, so that pairs are found once.
+  IndexLists vertices_of_elements_, edges_of_elements_;
 };
 
 }  // namespace shapespace

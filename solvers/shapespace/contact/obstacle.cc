@@ -1,5 +1,8 @@
 #include <shapespace/contact/obstacle.h>
 
+#include <utility>
+#include <vector>
+
 #include <shapespace/base/error.h>
 
 namespace shapespace {
@@ -18,7 +21,14 @@ std::shared_ptr<const Connectivity> Obstacle::Joined(
   Eigen::Matrix3Xi triangles(3, body->NumTriangles() + connectivity->NumTriangles());
   triangles << body->Triangles(),
       (connectivity->Triangles().array() + body->NumVertices()).matrix();
-  return Connectivity::FromTriangles(body->NumVertices() + connectivity->NumVertices(), triangles);
+  std::vector<int> begin(triangles.cols() + 1);
+  for (size_t t = 0; t < begin.size(); ++t) begin[t] = static_cast<int>(3 * t);
+  std::vector<std::pair<int, int>> segments = body->Segments();
+  for (const auto& [a, b] : connectivity->Segments()) {
+    segments.emplace_back(body->NumVertices() + a, body->NumVertices() + b);
+  }
+  return Connectivity::Make(body->NumVertices() + connectivity->NumVertices(), std::move(begin),
+                            {triangles.data(), triangles.data() + triangles.size()}, segments);
 }
 
 Shape Obstacle::Joined(const Shape& body) const {

@@ -19,7 +19,7 @@ struct Obstacle {
   ///        vertices.
   void Validate() const;
 
-  /// The surface of a body, followed by that of the obstacle: its triangles, and a shape.
+  /// A body, followed by the obstacle: their triangles and segments, and a shape.
   std::shared_ptr<const Connectivity> Joined(const std::shared_ptr<const Connectivity>& body) const;
   Shape Joined(const Shape& body) const;
 };

@@ -515,6 +515,13 @@ void Deformer::Solver::Warn(const HandleTargets& targets, DeformationSummary* su
   } else if (summary->termination == Termination::kCancelled) {
     summary->warnings.push_back("cancelled: the shapes are the best so far");
   }
+  const auto is_contact = [](const auto& level) { return level.start == "contact"; };
+  if (options_.solver == DeformationOptions::Solver::kTrustRegion &&
+      std::any_of(summary->levels.begin(), summary->levels.end(), is_contact)) {
+    summary->warnings.push_back(
+        "the deformation without contact was found by this library's own L-BFGS, not by the trust "
+        "region, which knows no contact");
+  }
   std::map<int, std::pair<int, int>> pieces;  // number of vertices, and the first vertex
   for (size_t v = 0; v < component_.size(); ++v) {
     if (component_[v] < 0) continue;

@@ -8,6 +8,7 @@
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/mesh/internal/selection_json.h>
 #include <shapespace/mesh/rigid_motion.h>
+#include <shapespace/mesh/topology.h>
 #include <shapespace/path/internal/velocity.h>
 
 namespace shapespace {
@@ -98,12 +99,59 @@ void SetShape(const Shape& placed, int k, Path* path) {
   motion.translation += motion.rotation * centre;
 }
 
+// A connected component of the mesh.
+struct Component {
+  std::vector<int> vertices, of_parts;
+};
+
+std::vector<Component> ComponentsOf(const Connectivity& connectivity,
+                                    const std::vector<StandingPart>& parts) {
+  const Topology topology = ComputeTopology(connectivity);
+  std::vector<Component> components(topology.components);
+  for (size_t v = 0; v < topology.component.size(); ++v) {
+    const int c = topology.component[v];
+    if (c >= 0) components[c].vertices.push_back(static_cast<int>(v));
+  }
+  for (const StandingPart& part : parts) {
+    for (const int v : part.vertices) {
+      if (topology.component[v] >= 0) components[topology.component[v]].of_parts.push_back(v);
+    }
+  }
+  return components;
+}
+
+// Says which components have no part.
+std::vector<std::string> WarningsOfFree(const std::vector<Component>& components) {
+  constexpr size_t kNamed = 3;
+  std::vector<std::string> warnings;
+  size_t more = 0;
+  for (const Component& component : components) {
+    if (!component.of_parts.empty()) continue;
+    if (warnings.size() == kNamed) {
+      ++more;
+      continue;
+    }
+    warnings.push_back("the connected component of " + std::to_string(component.vertices.size()) +
+                       " vertices that begins with vertex " +
+                       std::to_string(component.vertices.front() + 1) +
+                       " (counted from 1) has no standing part; it moves as on the path");
+  }
+  if (more > 0) {
+    warnings.push_back(std::to_string(more) +
+                       " further connected components have no standing part and move as on the "
+                       "path too");
+  }
+  return warnings;
+}
+
 // Holds the parts in one shape after the other.
 class Holder {
  public:
   Holder(const Path& whole, const std::vector<StandingPart>& parts,
          const DeformationOptions& options)
-      : whole_(whole), options_(options) {
+      : whole_(whole),
+        options_(options),
+        components_(ComponentsOf(*whole.metric->connectivity, parts)) {
     const bool is_cycle = internal::IsCycle(whole);
     for (const StandingPart& part : parts) {
       courses_.emplace_back(whole, part, is_cycle);
@@ -111,6 +159,13 @@ class Holder {
       handle.name = part.name;
       handle.vertices = part.vertices;
       vertices_.insert(vertices_.end(), part.vertices.begin(), part.vertices.end());
+    }
+    // What has no part is a handle too, which stays, so that the rest is deformed alone.
+    for (const Component& component : components_) {
+      if (component.of_parts.empty()) {
+        free_.vertices.insert(free_.vertices.end(), component.vertices.begin(),
+                              component.vertices.end());
+      }
     }
     const Shape first = whole.Placed(0);
     diagonal_ = (first.rowwise().maxCoeff() - first.rowwise().minCoeff()).norm();
@@ -138,22 +193,21 @@ class Holder {
       wanted.middleCols(begin, part.cols()) = courses_[i].At(interval, s, part);
       begin += part.cols();
     }
-    const Eigen::VectorXd weights = whole_.metric->vertex_area(vertices_);
-    const Shape moved = FitRigidMotion(own(Eigen::all, vertices_), wanted, weights)(own);
-    begin = 0;
-    for (DeformationHandle& handle : handles_) {
-      handle.positions = wanted.middleCols(begin, handle.vertices.size());
-      begin += handle.positions->cols();
-    }
+    Shape goal = own;
+    goal(Eigen::all, vertices_) = wanted;
+    const Shape moved = MoveComponents(own, goal);
+    std::vector<DeformationHandle> handles = handles_;
+    if (!free_.vertices.empty()) handles.push_back(free_);
+    for (DeformationHandle& handle : handles) handle.positions = goal(Eigen::all, handle.vertices);
     const DeformationResult deformed =
-        Deformer(whole_.metric->connectivity, moved, options_).DeformFrom(moved, handles_);
+        Deformer(whole_.metric->connectivity, moved, options_).DeformFrom(moved, handles);
     const Shape shape = deformed.path.Placed(deformed.path.NumShapes() - 1);
     SetShape(shape, k, path);
     Tell(deformed.summary);
     begin = 0;
     for (size_t i = 0; i < courses_.size(); ++i) {
       const auto& vertices = handles_[i].vertices;
-      const auto place = wanted.middleCols(begin, handles_[i].positions->cols());
+      const auto place = wanted.middleCols(begin, static_cast<Eigen::Index>(vertices.size()));
       begin += place.cols();
       if (!courses_[i].Stands(interval)) continue;
       const auto slide = [&](const Shape& x) {
@@ -164,9 +218,29 @@ class Holder {
     }
   }
 
-  StandingSummary Summary() && { return std::move(summary_); }
+  StandingSummary Summary() && {
+    if (summary_.shapes > 0) {
+      for (std::string& warning : WarningsOfFree(components_)) {
+        summary_.warnings.push_back(std::move(warning));
+      }
+    }
+    return std::move(summary_);
+  }
 
  private:
+  // Moves each component that has a part rigidly, such that the vertices of its parts fit `goal`.
+  Shape MoveComponents(const Shape& shape, const Shape& goal) const {
+    Shape moved = shape;
+    for (const Component& component : components_) {
+      if (component.of_parts.empty()) continue;
+      const Eigen::VectorXd weights = whole_.metric->vertex_area(component.of_parts);
+      const RigidMotion motion = FitRigidMotion(shape(Eigen::all, component.of_parts),
+                                                goal(Eigen::all, component.of_parts), weights);
+      moved(Eigen::all, component.vertices) = motion(shape(Eigen::all, component.vertices));
+    }
+    return moved;
+  }
+
   void Tell(const DeformationSummary& one) {
     ++summary_.shapes;
     summary_.edge_rms = std::fmax(summary_.edge_rms, one.error.edge_rms);
@@ -180,7 +254,9 @@ class Holder {
   const Path& whole_;
   const DeformationOptions& options_;
   std::vector<Course> courses_;
+  const std::vector<Component> components_;
   std::vector<DeformationHandle> handles_;
+  DeformationHandle free_;     // what has no part
   std::vector<int> vertices_;  // of all parts, one after the other
   double diagonal_ = 0;
   StandingSummary summary_;

@@ -49,11 +49,12 @@ struct StandingSummary {
 void CheckStandingParts(const std::vector<StandingPart>& parts, int num_vertices, int num_poses);
 
 /// Deforms the shapes of `path` between its poses such that parts of the body stand where the poses
-/// have them, also if several stand at once and a rigid motion (`Anchor`) cannot hold them. Every
-/// shape is moved rigidly and then deformed by hard handles on all parts (`Deform`). While a part
-/// stands, its vertices are in their places; if the path is smooth, it arrives there and leaves
-/// with velocity zero. A part that does not stand stays on its own course, changed by the least
-/// cubic that has this effect. (Kovar, Schreiner and Gleicher, "Footskate Cleanup for Motion
+/// have them, also if several stand at once and a rigid motion (`Anchor`) cannot hold them. In
+/// every shape each connected component that has a part is moved rigidly and then deformed by hard
+/// handles on all parts (`Deform`); the others move as on the path, and a warning says so. While a
+/// part stands, its vertices are in their places; if the path is smooth, it arrives there and
+/// leaves with velocity zero. A part that does not stand stays on its own course, changed by the
+/// least cubic that has this effect. (Kovar, Schreiner and Gleicher, "Footskate Cleanup for Motion
 /// Capture Editing", SCA 2002, treat skeletons.) Poses do not move. Shapes beyond the last pose,
 /// and in intervals at neither end of which a part stands, are unchanged. If `progress` asks to
 /// stop, `path` is unchanged and the summary says so.

@@ -222,6 +222,16 @@ bool Counts(const std::vector<GeodesicSummary::Level>& levels, size_t i) {
   return true;
 }
 
+// Says so if a way round contacts was not found by the solver that was asked for.
+void WarnOfSolver(GeodesicSolver asked, GeodesicSummary* summary) {
+  if (asked != GeodesicSolver::kLbfgs && asked != GeodesicSolver::kTrustRegion) return;
+  const auto is_contact = [](const auto& level) { return level.start == "contact"; };
+  if (std::none_of(summary->levels.begin(), summary->levels.end(), is_contact)) return;
+  summary->warnings.push_back(
+      "the way round contacts was found by this library's own L-BFGS, not by the solver that was "
+      "asked for, which knows none");
+}
+
 // Appends warnings about results that are valid but probably not wanted. Past an obstacle
 // neither the bound, which knows of none, nor an even speed is to be expected.
 void Warn(bool past_obstacle, GeodesicSummary* summary) {
@@ -390,6 +400,7 @@ GeodesicResult GeodesicLevels::Solve(const AlignedPoses& poses, Progress* progre
   MeasureEnergy(result.path, options_, &workspace.back(), &summary);
   GiveBack(std::move(workspace));
   if (options_.assess) Assess(result.path, options_, &summary);
+  WarnOfSolver(options_.solver, &summary);
   Warn(options_.obstacle.has_value(), &summary);
   return result;
 }

@@ -24,7 +24,7 @@ class GeodesicLevels;
 }
 
 /// The optimiser of each level. Ways round contact (GeodesicOptions::avoid_contact) are relaxed by
-/// this library's L-BFGS whichever is chosen, and so are deformations by handles unless
+/// this library's L-BFGS whichever is chosen, with a warning if another one was asked for, and so are deformations by handles unless
 /// DeformationOptions::solver says otherwise: docs/architecture.md has all of them in one table.
 enum class GeodesicSolver {
   kAutomatic,      ///< kLbfgs below 20,000 unknowns (three for each vertex of each inner shape),
@@ -101,8 +101,9 @@ struct GeodesicOptions {
   /// Whether the path must not pass through itself, the limitation that the paper names. If parts
   /// of the body would, the least way round is sought on which they do not (docs/mathematics.md,
   /// section 18), which costs more energy and takes several times as long; otherwise the path is
-  /// the same as without. Needs triangles. Not prevented are contacts of parts that are nearer to
-  /// each other on the surface than two edges.
+  /// the same as without. Needs triangles; segments (lines of OBJ files) do not pass through these
+  /// either. Not prevented are contacts of parts that are nearer to each other on the surface than
+  /// two edges, and of those that intersect in a pose.
   bool avoid_contact = false;
 
   /// With `avoid_contact`, between two poses: shapes near which the way round leads, in this order,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include <shapespace/base/error.h>
@@ -19,6 +20,17 @@ namespace {
 // Of geodesics, as a share of the chain's length, up to which their ends are one pose; and in the
 // metric's unit, for chains of rigid copies, whose lengths are rounding.
 constexpr double kNoLength = 1e-6, kRounding = 1e-9;
+
+// The shortest time from one shape to the next, as a share of the whole: velocities in shorter
+// times are rounding.
+constexpr double kShortest = 1e-12;
+
+// A body that moves by less than this share of its size is still.
+constexpr double kStill = 1e-9;
+
+// Greater jumps of velocity are told of, as a share of the mean speed: with seven shapes in each
+// interval those of healthy meshes are below 0.2.
+constexpr double kJump = 0.5;
 
 // A path between two neighbouring poses.
 struct PieceMeasures {
@@ -62,6 +74,30 @@ std::vector<double> PoseTimes(const SplineOptions& options, const Path& chain) {
   return times;
 }
 
+// Refuses times of poses between which velocities would be rounding.
+void CheckTimes(const std::vector<double>& times, int shapes) {
+  if (times.empty()) return;
+  const double whole = times.back() - times.front();
+  if (!std::isfinite(whole)) throw InvalidOptions("times", "are farther apart than numbers can be");
+  for (size_t i = 0; i + 1 < times.size(); ++i) {
+    if ((times[i + 1] - times[i]) / whole > kShortest * (shapes + 1)) continue;
+    throw InvalidOptions(
+        "times", "between poses " + std::to_string(i + 1) + " and " + std::to_string(i + 2) +
+                     " there is so small a part of the whole time that velocities are rounding; "
+                     "give them more time, or leave one of them out");
+  }
+}
+
+// The metric of a motion that returns to the first of `poses`. All of them count alike, and the way
+// back counts as the others do, so that it is the same wherever the motion begins.
+std::shared_ptr<const Metric> FreezeCycle(const MetricOptions& options,
+                                          const std::shared_ptr<const Connectivity>& connectivity,
+                                          const std::vector<Shape>& poses) {
+  std::vector<Shape> twice = poses;
+  twice.insert(twice.end(), poses.begin(), poses.end());
+  return FreezeMetric(options, connectivity, twice);
+}
+
 // Gives the chain's shapes, which are evenly spaced between its poses, these times.
 void SetTimes(const std::vector<double>& times, Path* chain) {
   for (size_t piece = 0; piece + 1 < chain->poses.size(); ++piece) {
@@ -73,7 +109,14 @@ void SetTimes(const std::vector<double>& times, Path* chain) {
   }
 }
 
-// The greatest jump of velocity at a pose, as a share of the mean speed.
+// The greatest way that counts as none: a share of the size, and rounding far from the origin.
+double LeastWay(const Shape& shape) {
+  constexpr double kRoundingOfPlace = 1e-13;
+  const double extent = (shape.rowwise().maxCoeff() - shape.rowwise().minCoeff()).norm();
+  return kStill * extent + kRoundingOfPlace * shape.cwiseAbs().maxCoeff();
+}
+
+// The greatest jump of velocity at a pose, as a share of the mean speed; 0 if nothing moves.
 double GreatestJump(const Path& path, bool periodic) {
   const Eigen::VectorXd& area = path.metric->vertex_area;
   const auto norm = [&](const Shape& x) {
@@ -86,7 +129,7 @@ double GreatestJump(const Path& path, bool periodic) {
     way += norm(shape - before);
     before = std::move(shape);
   }
-  if (way == 0) return 0;
+  if (!(way > LeastWay(before))) return 0;
   double greatest = 0;
   for (size_t i = 1; i + 1 < path.poses.size(); ++i) {
     const int at = path.poses[i];
@@ -98,6 +141,16 @@ double GreatestJump(const Path& path, bool periodic) {
                                        internal::OneSidedVelocity(path, path.NumShapes() - 1, -1)));
   }
   return greatest / way;
+}
+
+void WarnOfJumps(SplineSummary* summary) {
+  if (!(summary->jump_after > kJump)) return;
+  std::ostringstream jump;
+  jump.precision(2);
+  jump << summary->jump_after;
+  summary->warnings.push_back("at a pose the velocity still jumps by " + jump.str() +
+                              " times the mean speed, as far as it is seen in the shapes: insert "
+                              "more of them, and check triangles that collapse in a pose");
 }
 
 void WarnOfContact(SplineSummary* summary) {
@@ -153,6 +206,7 @@ SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
                                       ", one for each pose, not " +
                                       std::to_string(options.times.size()));
   }
+  CheckTimes(options.times, options.geodesic.shapes);
   for (const Tangent* velocity : {&options.first_velocity, &options.last_velocity}) {
     if (velocity->size() == 0) continue;
     if (velocity->cols() != connectivity->NumVertices() || !velocity->allFinite()) {
@@ -163,7 +217,11 @@ SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
   const double bytes =
       internal::SplineBytes(*connectivity, static_cast<int>(poses.size()), options.geodesic.shapes);
   internal::CheckMemory("this spline", bytes, options.geodesic.memory_limit, "insert fewer shapes");
-  GeodesicResult chain = Interpolate(connectivity, poses, options.geodesic, progress);
+  GeodesicResult chain =
+      periodic && given.size() > 1
+          ? Interpolate(FreezeCycle(options.geodesic.metric, connectivity, given), poses,
+                        options.geodesic, progress)
+          : Interpolate(connectivity, poses, options.geodesic, progress);
   SplineResult result{std::move(chain.path), {}};
   SplineSummary& summary = result.summary;
   summary.geodesic = std::move(chain.summary);
@@ -185,6 +243,7 @@ SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
       summary.contact_distance = contact.contact_distance;
       result.path.smooth = summary.smooth = true;
       summary.jump_after = GreatestJump(result.path, periodic);
+      WarnOfJumps(&summary);
     } catch (const Cancelled&) {
       summary.geodesic.termination = Termination::kCancelled;
     }

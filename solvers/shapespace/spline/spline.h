@@ -23,7 +23,8 @@ struct SplineOptions {
   SplineEnds ends = SplineEnds::kNatural;
 
   /// When the poses are met: ascending, in any unit of time, one for each pose, and for periodic
-  /// splines one more, when the first pose is met again. Empty: evenly spaced, or `by_length`.
+  /// splines one more, when the first pose is met again. Between two shapes there must be more than
+  /// 1e-12 of the whole time. Empty: evenly spaced, or `by_length`.
   std::vector<double> times;
 
   /// Without `times`, the time between two poses is in proportion to the length of the geodesic
@@ -54,7 +55,8 @@ struct SplineSummary {
   /// path is then the chain.
   bool smooth = false;
   /// Greatest jump of velocity at a pose, as a share of the mean speed: of the chain, and of the
-  /// spline. Measured on the shapes, so that it falls by 4 if their number doubles.
+  /// spline; 0 if nothing moves. Measured on the shapes, so that it falls by 4 if their number
+  /// doubles; a great one of the spline is warned of.
   double jump_before = kNotComputed, jump_after = kNotComputed;
   /// With GeodesicOptions::avoid_contact, as those of GeodesicSummary, of the path returned.
   int uncertified_segments = -1;
@@ -79,15 +81,17 @@ struct SplineResult {
 
 /// A smooth motion through poses. The geodesics between neighbouring poses (`Interpolate`), in
 /// which the velocity jumps at every pose, are corrected: in each triangle, the rotation and the
-/// logarithm of the stretch relative to the first pose follow cubic splines through the poses, and
-/// the shape is the one whose triangles are nearest to these (docs/mathematics.md, section 15). The
-/// path meets the poses, and its velocity is continuous. Two poses give the geodesic. Vertices
-/// without triangles follow cubic splines in space. With GeodesicOptions::avoid_contact, a
-/// motion between two poses that would pass through itself, or the obstacle, is led round. If
-/// `progress` asks to stop after the first solve has begun, the chain is returned, as far as it was
-/// found, and the summary says so. \throw as Interpolate; InvalidOptions (times that do not ascend
-///        or are not one for each pose; kClamped without velocities; `by_length`, and two
-///        neighbouring poses are the same), MeshError (kPeriodic if the last pose is the first).
+/// logarithm of the stretch relative to the mean of the poses follow cubic splines through these,
+/// and the shape is the one whose triangles are nearest to these (docs/mathematics.md, section 15).
+/// The path meets the poses, and its velocity is continuous. No pose is distinguished: reversed
+/// poses and times give the reversed motion, and a periodic one may begin at any of its poses. Two
+/// poses give the geodesic. Vertices without triangles follow cubic splines in space. With
+/// GeodesicOptions::avoid_contact, a motion between two poses that would pass through itself, or
+/// the obstacle, is led round. If `progress` asks to stop after the first solve has begun, the
+/// chain is returned, as far as it was found, and the summary says so.
+/// \throw as Interpolate; InvalidOptions (times that do not ascend, are too near each other, or are
+///        not one for each pose; kClamped without velocities; `by_length`, and two neighbouring
+///        poses are the same), MeshError (kPeriodic if the last pose is the first).
 SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
                     const std::vector<Shape>& poses, const SplineOptions& options = {},
                     Progress* progress = nullptr);

@@ -11,6 +11,7 @@
 #include <shapespace/contact/internal/slide.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/rigid_motion.h>
+#include <shapespace/mesh/volume.h>
 #include <shapespace/numerics/internal/check_options.h>
 #include <shapespace/numerics/internal/memory.h>
 #include <shapespace/path/align.h>
@@ -384,6 +385,12 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
   }
   result.path.appearance = result.hybrids.appearance = source.appearance;
   if (options.avoid_contact && !summary.cancelled) AvoidContact(progress, &result.path, &summary);
+  if (IsMirrored(source.metric->connectivity->Triangles(), source.shapes.front(), target)) {
+    summary.warnings.push_back(
+        "the target is a mirror image of the source's first shape: its surface bends to the other "
+        "side everywhere, so that no motion of it has the source's angles; change the sign of one "
+        "coordinate of the target");
+  }
   result.path.converged = result.hybrids.converged = source.converged && summary.Converged();
   MeasureTransferErrors(*metric, made, result.path, &summary);
   Warn(&summary);

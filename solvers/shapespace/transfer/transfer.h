@@ -153,7 +153,8 @@ struct TransferResult {
 /// \throw InvalidOptions, MeshError (the source has one shape only; the target has another number
 ///        of vertices, is not finite, or has no extent), SolverError (memory limit; a shape
 ///        degenerates), Cancelled (stopped before the target's second shape was made; if stopped
-///        later, the path so far is returned, see TransferSummary::cancelled).
+///        later, the path so far is returned, see TransferSummary::cancelled). A target that is a
+///        mirror image of the source (`IsMirrored`) is warned of.
 TransferResult Transfer(const Path& source, const Shape& target,
                         const TransferOptions& options = {}, Progress* progress = nullptr);
 

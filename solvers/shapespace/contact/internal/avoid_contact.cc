@@ -116,8 +116,9 @@ int FirstLevelOfContact(int finest, int intersections,
 }
 
 std::string WarningOfIntersections(const std::string& what, const ContactModel& model) {
-  return what + " (" + std::to_string(model.NumIntersections()) +
-         " pairs of triangles); contact is not avoided there";
+  const bool has_segments = !model.GetMetric()->connectivity->Segments().empty();
+  return what + " (" + std::to_string(model.NumIntersections()) + " pairs of triangles" +
+         (has_segments ? " or segments" : "") + "); contact is not avoided there";
 }
 
 std::string WarningOfUncertified(int segments) {

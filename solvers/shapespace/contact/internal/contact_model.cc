@@ -12,15 +12,17 @@ namespace {
 // In each pose a pair has this many times the reach of its potential, or more.
 constexpr double kShareOfPose = 0.9;
 
+// A segment touches what is nearer to it in a pose than this share of the pair's length.
+constexpr double kTouching = 1e-3;
+
 // Two edges are nearly parallel if they span less than this share of the area that their lengths
 // allow.
 constexpr double kParallel = 1e-3;
 
-// The corners of a triangle and the ends of their edges.
-std::vector<int> Around(const Connectivity& connectivity, int triangle) {
+// The corners of a triangle, or the ends of a segment, and the ends of their edges.
+std::vector<int> Around(const Connectivity& connectivity, const Eigen::Vector3i& corners) {
   std::vector<int> vertices;
-  for (int k = 0; k < 3; ++k) {
-    const int corner = connectivity.Triangles()(k, triangle);
+  for (const int corner : corners) {
     for (const int e : connectivity.EdgesOfVertices()[corner]) {
       vertices.push_back(connectivity.OtherEnd(e, corner));
     }
@@ -29,18 +31,28 @@ std::vector<int> Around(const Connectivity& connectivity, int triangle) {
 }
 
 // Pairs of vertices round the intersections of shapes with themselves; adds the number of these to
-// `count`. Triangles from `num_moving` on are those of an obstacle, which may intersect itself.
-std::vector<std::pair<int, int>> RoundIntersections(const Connectivity& connectivity,
-                                                    const std::vector<Shape>& shapes,
-                                                    int num_moving, int* count) {
+// `count`. Vertices from `num_moving` on are those of an obstacle, which may intersect itself.
+std::vector<std::pair<int, int>> RoundIntersections(
+    const std::shared_ptr<const Connectivity>& connectivity, const std::vector<Shape>& shapes,
+    int num_moving, int* count) {
   std::vector<std::pair<int, int>> round;
+  const auto add = [&](const Eigen::Vector3i& s, const Eigen::Vector3i& t) {
+    if (std::min(s.minCoeff(), t.minCoeff()) >= num_moving) return;
+    ++*count;
+    for (const int v : Around(*connectivity, s)) {
+      for (const int w : Around(*connectivity, t)) round.emplace_back(v, w);
+    }
+  };
+  const Eigen::Matrix3Xi& triangles = connectivity->Triangles();
   for (const Shape& shape : shapes) {
-    for (const auto& [s, t] : FindIntersections(connectivity, shape)) {
-      if (std::min(s, t) >= num_moving) continue;
-      ++*count;
-      for (const int v : Around(connectivity, s)) {
-        for (const int w : Around(connectivity, t)) round.emplace_back(v, w);
-      }
+    for (const auto& [s, t] : FindIntersections(*connectivity, shape)) {
+      add(triangles.col(s), triangles.col(t));
+    }
+  }
+  if (!connectivity->Segments().empty()) {
+    const NearPairs pairs(connectivity, shapes, num_moving);
+    for (const Shape& shape : shapes) {
+      for (const auto& [s, t] : pairs.FindTouchingSegments(shape, kTouching)) add(s, t);
     }
   }
   std::sort(round.begin(), round.end());
@@ -80,7 +92,7 @@ ContactModel::ContactModel(std::shared_ptr<const Metric> metric, std::vector<Sha
         }
         std::vector<std::pair<int, int>> exempt;
         if (intersections == Intersections::kExempt) {
-          exempt = RoundIntersections(*connectivity, shapes, metric_->connectivity->NumTriangles(),
+          exempt = RoundIntersections(connectivity, shapes, metric_->connectivity->NumVertices(),
                                       &num_intersections_);
         }
         return NearPairs(connectivity, shapes, metric_->connectivity->NumVertices(), exempt);

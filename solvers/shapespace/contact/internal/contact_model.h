@@ -25,7 +25,8 @@ class ContactModel {
   ContactModel(std::shared_ptr<const Metric> metric, std::vector<Shape> poses,
                Intersections intersections, const Obstacle* obstacle = nullptr);
 
-  /// The number of pairs of triangles that intersect in one of the poses, if they are exempt.
+  /// The number of pairs of triangles, or segments, that intersect in one of the poses, if they are
+  /// exempt.
   int NumIntersections() const { return num_intersections_; }
 
   const std::shared_ptr<const Metric>& GetMetric() const { return metric_; }

@@ -41,7 +41,7 @@ void ForOptions(Of<GeodesicOptions>, const Visit& visit) {
         "Iterations that a level may take; reaching them is reported as not converged.");
   visit("solver", &GeodesicOptions::solver,
         "The optimiser of each level: lbfgs and trust_region are those of Ceres, threaded_lbfgs is "
-        "of this library.");
+        "of this library. Ways round contacts are found by threaded_lbfgs, whichever is given.");
   visit("schedule", &GeodesicOptions::schedule,
         "In which order resolutions in space and time are solved: paper is space and time in turn, "
         "flat has no hierarchy.");

@@ -325,8 +325,9 @@ void CholeskyFactor<Scalar>::Update(const Eigen::SparseMatrix<double>& matrix) {
   }
   if (!definite) {
     throw SolverError(
-        "the preconditioner's matrix is not positive definite: is a weight of the metric zero or "
-        "a coordinate enormous?");
+        "the preconditioner's matrix is not positive definite: a weight of the metric is zero, a "
+        "coordinate is enormous, or weights, stiffness or sizes of triangles differ too much for "
+        "its precision");
   }
 }
 

@@ -18,8 +18,8 @@
 namespace shapespace::internal {
 namespace {
 
-// Triangles whose area is less than this share of their longest side's square, in any shape, keep
-// the chain's rotation and stretch.
+// Sides of triangles whose area is less than this share of their longest side's square, in any
+// shape, follow their ends instead of a rotation and a stretch.
 constexpr double kThin = 1e-6;
 
 // How far a quantity goes in an interval, and how fast at its ends, from its `segments` steps.
@@ -57,6 +57,7 @@ class Smoother {
         triangles_(path.metric->connectivity->Triangles()),
         num_triangles_(static_cast<int>(triangles_.cols())),
         num_vertices_(path.metric->connectivity->NumVertices()),
+        mean_edges_(MakeMeanEdges(options.ends == SplineEnds::kPeriodic)),
         reference_(num_triangles_, Eigen::Matrix2d::Zero()),
         integrator_(num_vertices_, MakeSides()),
         corrections_(MakeCorrections(options, times)) {}
@@ -68,10 +69,11 @@ class Smoother {
     const Shape places = chain + change.middleCols(FirstPlace(), num_vertices_);
     Eigen::Matrix3Xd wanted(3, integrator_.Sides().size());
     ForIndices(num_triangles_, [&](int f) {
+      const Shape& from = IsThin(f) ? places : chain;
       const Eigen::Matrix3d turn = Turn(chain, f, change);
       for (int side = 0; side < 3; ++side) {
         const int a = triangles_(side, f), b = triangles_((side + 1) % 3, f);
-        wanted.col(3 * f + side) = turn * (chain.col(b) - chain.col(a));
+        wanted.col(3 * f + side) = turn * (from.col(b) - from.col(a));
       }
     });
     for (Eigen::Index i = 3 * num_triangles_; i < wanted.cols(); ++i) {
@@ -99,7 +101,7 @@ class Smoother {
   // Thin triangles have no reference.
   bool IsThin(int f) const { return reference_[f](0, 0) == 0; }
 
-  // What turns and stretches the chain's triangle into the spline's.
+  // What turns and stretches the chain's triangle into the spline's; nothing does if it is thin.
   Eigen::Matrix3d Turn(const Shape& chain, int f, const Eigen::Matrix3Xd& change) const {
     if (IsThin(f)) return Eigen::Matrix3d::Identity();
     const TrianglePose pose = PoseOf(chain, f);
@@ -112,15 +114,34 @@ class Smoother {
     return rotation * Exp(Eigen::Vector3d(change.col(f))) * stretches * rotation.transpose();
   }
 
+  // The edges of each triangle of which the inner products are the mean of those in all poses. A
+  // periodic chain ends in its first pose, which counts once. With one of the poses instead, the
+  // motion would depend on which of them is first.
+  std::vector<Eigen::Matrix2d> MakeMeanEdges(bool is_periodic) const {
+    std::vector<Eigen::Matrix2d> mean(num_triangles_);
+    const size_t poses = path_.poses.size() - (is_periodic ? 1 : 0);
+    ForIndices(num_triangles_, [&](int f) {
+      Eigen::Matrix2d products = Eigen::Matrix2d::Zero();
+      for (size_t i = 0; i < poses; ++i) {
+        const Eigen::Matrix2d edges = FrameOf(path_.shapes[path_.poses[i]], f).edges;
+        products += edges.transpose() * edges / static_cast<double>(poses);
+      }
+      const double first = std::sqrt(products(0, 0));
+      const double along = first > 0 ? products(0, 1) / first : 0;
+      mean[f] << first, along, 0, std::sqrt(std::max(0.0, products(1, 1) - along * along));
+    });
+    return mean;
+  }
+
   std::vector<GradientIntegrator::Side> MakeSides() const {
-    const Shape& first = path_.shapes.front();
     std::vector<GradientIntegrator::Side> sides;
     for (int f = 0; f < num_triangles_; ++f) {
-      const double area = 0.5 * std::abs(FrameOf(first, f).edges.determinant());
+      const Eigen::Matrix2d& edges = mean_edges_[f];
+      const double area = 0.5 * edges.determinant();
+      const Eigen::Vector2d vectors[] = {edges.col(0), edges.col(1) - edges.col(0), edges.col(1)};
       for (int k = 0; k < 3; ++k) {
         const int a = triangles_(k, f), b = triangles_((k + 1) % 3, f);
-        const double squared = (first.col(b) - first.col(a)).squaredNorm();
-        sides.push_back({a, b, area > 0 ? area / squared : 0});
+        sides.push_back({a, b, area > 0 ? area / vectors[k].squaredNorm() : 0});
       }
     }
     for (const auto& side :
@@ -136,7 +157,7 @@ class Smoother {
       const double longest = std::max(edges.col(0).squaredNorm(), edges.col(1).squaredNorm());
       if (!(edges.determinant() > kThin * longest)) return;
     }
-    reference_[f] = FrameOf(path_.shapes.front(), f).edges.inverse();
+    reference_[f] = mean_edges_[f].inverse();
   }
 
   Corrections MakeCorrections(const SplineOptions& options, const std::vector<double>& times) {
@@ -224,7 +245,8 @@ class Smoother {
   const Path& path_;
   const Eigen::Matrix3Xi& triangles_;
   const int num_triangles_, num_vertices_;
-  std::vector<Eigen::Matrix2d> reference_;  // inverses of the edges in the first shape
+  const std::vector<Eigen::Matrix2d> mean_edges_;
+  std::vector<Eigen::Matrix2d> reference_;  // their inverses
   const GradientIntegrator integrator_;
   const Corrections corrections_;
 };
@@ -279,6 +301,28 @@ struct Smoothed {
   std::vector<Shape> shapes;
   std::vector<RigidMotion> motions;
 };
+
+// Turns of the shapes of a chain that ends where it begins. Each shape is aligned with the one
+// before, so that the last one is the first one turned; with these turns they are the same, and the
+// velocity can be continuous there. They have a constant speed, wherever the chain begins.
+std::vector<Eigen::Matrix3d> ClosingTurns(const Path& chain) {
+  const Eigen::AngleAxisd amiss(
+      Eigen::Matrix3d(chain.motions.front().rotation.transpose() * chain.motions.back().rotation));
+  std::vector<Eigen::Matrix3d> turns;
+  for (const double time : chain.parameters) {
+    turns.emplace_back(Eigen::AngleAxisd(time * amiss.angle(), amiss.axis()));
+  }
+  return turns;
+}
+
+// Turns shapes and leaves them in their places.
+void TurnShapes(const std::vector<Eigen::Matrix3d>& turns, std::vector<Shape>* shapes,
+                std::vector<RigidMotion>* motions) {
+  for (size_t k = 0; k < turns.size(); ++k) {
+    (*shapes)[k] = turns[k] * (*shapes)[k];
+    (*motions)[k].rotation *= turns[k].transpose();
+  }
+}
 
 Smoothed Smooth(const Smoother& smoother, const Path& chain, Progress* progress) {
   Smoothed smoothed = {chain.shapes, chain.motions};
@@ -367,8 +411,21 @@ SmoothContact SmoothPastContact(const SplineOptions& options, const Path& chain,
 
 SmoothContact SmoothChain(const SplineOptions& options, const std::vector<double>& times,
                           Progress* progress, Path* path) {
-  const Smoother smoother(options, times, *path);
-  Smoothed smoothed = Smooth(smoother, *path, progress);
+  Smoothed smoothed;
+  if (options.ends == SplineEnds::kPeriodic) {
+    std::vector<Eigen::Matrix3d> turns = ClosingTurns(*path);
+    Path turned = *path;
+    TurnShapes(turns, &turned.shapes, &turned.motions);
+    smoothed = Smooth(Smoother(options, times, turned), turned, progress);
+    for (Eigen::Matrix3d& turn : turns) turn.transposeInPlace();
+    TurnShapes(turns, &smoothed.shapes, &smoothed.motions);
+    for (const int pose : path->poses) {  // without the rounding of both turns
+      smoothed.shapes[pose] = path->shapes[pose];
+      smoothed.motions[pose] = path->motions[pose];
+    }
+  } else {
+    smoothed = Smooth(Smoother(options, times, *path), *path, progress);
+  }
   SmoothContact contact;
   if (options.geodesic.avoid_contact) {
     contact = SmoothPastContact(options, *path, progress, &smoothed);
