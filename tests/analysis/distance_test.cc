@@ -4,6 +4,7 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <shapespace/analysis/distance.h>
 
@@ -138,6 +139,35 @@ TEST(SafeStepTest, ElementsThatSlideAlongEachOtherByRoundingEndToo) {
     const double step = SafeStep(PairKind::kVertexTriangle, points, velocities, 0.05);
     EXPECT_GT(step, 0);
     EXPECT_GE(Distance(PairKind::kVertexTriangle, points + step * velocities), 0.05 * height);
+  }
+}
+
+// Of a sliver of length 1, to its full width, and of one without any.
+TEST(SafeStepTest, NoVertexFallsThroughASliver) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::normal_distribution<double> normal;
+  for (const double height : {1e-3, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 0.}) {
+    for (int i = 0; i < 2000; ++i) {
+      const double tip = uniform(random), x = 0.1 + 0.8 * uniform(random);
+      const double width = height * std::min(x / tip, (1 - x) / (1 - tip));
+      const double above = 0.01 + 0.3 * uniform(random);
+      FourPoints points = Points({Eigen::Vector3d(x, width * uniform(random), above),
+                                  {0, 0, 0},
+                                  {1, 0, 0},
+                                  {tip, height, 0}});
+      FourPoints velocities = FourPoints::Zero();
+      velocities(2, 0) = -2 * above;
+      const double a = normal(random), b = normal(random), c = normal(random);
+      const Eigen::Matrix3d turn =
+          Eigen::Quaterniond(a, b, c, normal(random)).normalized().toRotationMatrix();
+      points = (turn * points).colwise() + Eigen::Vector3d(a, b, c);
+      velocities = turn * velocities;
+      EXPECT_NEAR(Distance(PairKind::kVertexTriangle, points), above, 1e-14);
+      const double step = SafeStep(PairKind::kVertexTriangle, points, velocities, 0.2);
+      EXPECT_LT(step, 0.5) << height;
+      EXPECT_GT(step, 0.38);
+    }
   }
 }
 

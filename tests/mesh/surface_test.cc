@@ -182,6 +182,39 @@ TEST(MeshSurface, PointsOfCornersSidesAndTheInsideAreFoundExactly) {
   EXPECT_EQ(surface.Nearest({9, 9, 9}).triangle, 2);
 }
 
+// Distances to a triangle whose height is rounding are at most those to its corners and to points
+// of its sides.
+TEST(MeshSurface, PointsOfSliversAreInThemAndNoPointOfASideIsNearer) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto point = [&] {
+    const double x = uniform(random), y = uniform(random);
+    return Vector3d(x, y, uniform(random));
+  };
+  const auto connectivity = Connectivity::FromTriangles(3, Eigen::Vector3i(0, 1, 2));
+  for (const double height : {1e-4, 1e-6, 1e-8, 1e-10, 1e-14, 0.}) {
+    for (int i = 0; i < 100; ++i) {
+      Shape shape(3, 3);
+      shape.col(0) = point();
+      shape.col(1) = point();
+      const Vector3d way = shape.col(1) - shape.col(0);
+      shape.col(2) = shape.col(0) + std::abs(uniform(random)) * way + height * point();
+      const MeshSurface surface(connectivity, shape);
+      if (surface.GetTriangleNormals().isZero(0)) continue;
+      for (int k = 0; k < 50; ++k) {
+        const double share = 0.5 + 0.5 * uniform(random);
+        const Vector3d on_side = shape.col(0) + share * way;
+        const Vector3d from = on_side + std::pow(10., 4 * uniform(random) - 4) * point();
+        const ClosestPoint foot = surface.Nearest(from);
+        ASSERT_EQ(foot.triangle, 0);
+        EXPECT_GE(foot.barycentric.minCoeff(), 0);
+        EXPECT_NEAR(foot.barycentric.sum(), 1, 1e-15);
+        EXPECT_LE(foot.distance, (on_side - from).norm() + 1e-14);
+      }
+    }
+  }
+}
+
 TEST(MeshSurface, NormalsOfVerticesWeighTrianglesByArea) {
   Shape shape(3, 5);
   shape << 0, 2, 0, 0, 7,  //

@@ -5,39 +5,16 @@
 
 #include <Eigen/Geometry>
 
+#include <shapespace/mesh/internal/nearest_on_triangle.h>
+
 namespace shapespace {
 namespace {
 
 using Eigen::Vector3d;
+using internal::NearestOnSegment;
+using internal::NearestOnTriangle;
 
-// The part of the way from a to b at which their segment is nearest to the origin.
-double NearestOnSegment(const Vector3d& a, const Vector3d& b) {
-  const Vector3d side = b - a;
-  const double squared = side.squaredNorm();
-  return squared > 0 ? std::clamp(-a.dot(side) / squared, 0.0, 1.0) : 0;
-}
-
-// C. Ericson, Real-Time Collision Detection (2005), section 5.1.5: the point of the triangle that
-// is nearest to the origin, by its barycentric coordinates.
-Vector3d NearestOnTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const Vector3d ab = b - a, ac = c - a;
-  const double d1 = -ab.dot(a), d2 = -ac.dot(a);
-  const double d3 = -ab.dot(b), d4 = -ac.dot(b);
-  const double d5 = -ab.dot(c), d6 = -ac.dot(c);
-  const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
-  if (va > 0 && vb > 0 && vc > 0) return Vector3d(va, vb, vc) / (va + vb + vc);
-  // The nearest point is on a side.
-  const double on_ab = NearestOnSegment(a, b), on_bc = NearestOnSegment(b, c),
-               on_ca = NearestOnSegment(c, a);
-  const double from_ab = (a + on_ab * ab).squaredNorm(),
-               from_bc = (b + on_bc * (c - b)).squaredNorm(),
-               from_ca = (c - on_ca * ac).squaredNorm();
-  if (from_ab <= from_bc && from_ab <= from_ca) return {1 - on_ab, on_ab, 0};
-  if (from_bc <= from_ca) return {0, 1 - on_bc, on_bc};
-  return {on_ca, 0, 1 - on_ca};
-}
-
-// Ericson, section 5.1.9: the parts of the ways along two segments at which they are nearest.
+// C. Ericson, Real-Time Collision Detection (2005), section 5.1.9: the parts of the ways along two segments at which they are nearest.
 std::pair<double, double> NearestOnSegments(const Vector3d& a, const Vector3d& b, const Vector3d& c,
                                             const Vector3d& d) {
   const Vector3d u = b - a, v = d - c, r = a - c;

@@ -10,35 +10,12 @@
 #include <shapespace/base/internal/embree.h>
 #include <shapespace/base/internal/fork_join.h>
 #include <shapespace/mesh/internal/geometry.h>
+#include <shapespace/mesh/internal/nearest_on_triangle.h>
 
 namespace shapespace {
 namespace {
 
 constexpr float kRounding = std::numeric_limits<float>::epsilon();
-
-// C. Ericson, Real-Time Collision Detection (2005), section 5.1.5: the barycentric coordinates of
-// the point of a triangle nearest to p.
-Eigen::Vector3d NearestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
-                                  const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 >= d3 && d5 >= d6) {
-    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0, 1 - w, w};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
-}
 
 }  // namespace
 
@@ -128,7 +105,8 @@ struct MeshSurface::Scene {
     const int number = static_cast<int>(f);
     if (self.normals.col(f).isZero(0)) return false;
     const Eigen::Vector3d a = self.Corner(f, 0), b = self.Corner(f, 1), c = self.Corner(f, 2);
-    const Eigen::Vector3d barycentric = NearestOnTriangle(query->point, a, b, c);
+    const Eigen::Vector3d& from = query->point;
+    const Eigen::Vector3d barycentric = internal::NearestOnTriangle(a - from, b - from, c - from);
     const Eigen::Vector3d point = barycentric(0) * a + barycentric(1) * b + barycentric(2) * c;
     const double distance = (point - query->point).norm();
     ClosestPoint& closest = query->closest;
