@@ -185,7 +185,12 @@ def _one(vertices, name):
 
 
 def read(
-    *files, stiffeners=None, allow_nonmanifold=False, mirror=None, allow_outside_files=False
+    *files,
+    stiffeners=None,
+    allow_nonmanifold=False,
+    mirror=None,
+    loose_components=False,
+    allow_outside_files=False,
 ):
     """Read poses of one mesh.
 
@@ -200,6 +205,9 @@ def read(
         Take non-manifold or inconsistently wound meshes, with a warning.
     mirror : {'x', 'y', 'z'}, optional
         Poses that are mirror images of the first have this coordinate's sign changed.
+    loose_components : bool, optional
+        Leave connected components loose, such as eyes and clothes, that stay near others in all
+        poses. Otherwise they are tied to these by stiffeners, and `Poses.notes` says how many.
     allow_outside_files : bool, optional
         Read buffers of a .gltf file from outside of its folder too: for files that are trusted.
 
@@ -218,7 +226,7 @@ def read(
     """
     names = [os.fspath(file) for file in files]
     rest = "" if stiffeners is None else os.fspath(stiffeners)
-    return _core.read(names, rest, allow_nonmanifold, mirror, allow_outside_files)
+    return _core.read(names, rest, allow_nonmanifold, mirror, loose_components, allow_outside_files)
 
 
 def write(file, vertices, faces):
