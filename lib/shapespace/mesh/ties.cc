@@ -37,6 +37,9 @@ constexpr int kCandidates = 512, kTried = 24, kPoints = 6, kTargets = 3;
 // Points whose second principal extent is less than this share of the first are on a line, about
 // which a component could turn.
 constexpr double kOnLine = 0.1;
+// Least radius of the place to which a point is tied, as a share of its component's extent: where a
+// fine surface is touched, distances to the nearest vertices would say little.
+constexpr double kPlace = 0.1;
 // Vertices of a place at most: a disc of 30 edges across.
 constexpr int kMostAround = 1000;
 // Distances that differ by this share are equal, so that rounding does not choose.
@@ -305,7 +308,7 @@ class TieSearch {
       bool alike = true;
       for (const int corner : nearest.corners) {
         const double distance = Distance(shape, v, corner);
-        alike = alike && IsAlike(v, corner, std::max(distance, side));
+        alike = alike && IsAlike(v, corner, std::max({distance, side, kPlace * child.extent}));
         if (distance < (1 - kEqual) * Distance(shape, v, candidate.target)) {
           candidate.target = corner;
         }
@@ -328,12 +331,13 @@ class TieSearch {
 
   // Vertices connected with `target` that are in a ball round `vertex`, so large that it reaches
   // the neighbours of `target` and that ties to its border hold along the surface too.
-  std::vector<int> Around(int vertex, int target, double* radius) const {
+  std::vector<int> Around(int vertex, int target, double extent, double* radius) const {
     const Shape& shape = shapes_[searched_];
     double edges = 0;
     const IndexLists::Row row = connectivity_.EdgesOfVertices()[target];
     for (const int e : row) edges += Distance(shape, target, connectivity_.OtherEnd(e, target));
-    *radius = 2 * std::max(Distance(shape, vertex, target), edges / row.size());
+    *radius =
+        std::max({kPlace * extent, 2 * Distance(shape, vertex, target), 2 * edges / row.size()});
     std::vector<int> found = {target};
     std::unordered_set<int> seen = {target};
     for (size_t next = 0; next < found.size() && found.size() < kMostAround; ++next) {
@@ -374,7 +378,7 @@ class TieSearch {
       const int v = points.Draw();
       if (v < 0) break;
       double radius;
-      const std::vector<int> around = Around(v, target_of.at(v), &radius);
+      const std::vector<int> around = Around(v, target_of.at(v), child.extent, &radius);
       FarthestPoints targets(shape, around, shape.col(v));
       std::vector<Edge> edges;
       bool alike = true;
