@@ -276,7 +276,7 @@ TEST(Picture, DoesNotShowStiffenersOfGraphs) {
   const auto draw = [&](const Pairs& stiffeners) {
     return RenderFilmStrip(*Connectivity::Make(4, {0}, {}, sides, stiffeners), {square}, options);
   };
-  EXPECT_EQ(draw({{0, 2}}).pixels, draw({}).pixels);
+  EXPECT_TRUE(draw({{0, 2}}).pixels == draw({}).pixels);
 }
 
 }  // namespace

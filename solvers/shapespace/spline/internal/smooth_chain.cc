@@ -76,7 +76,13 @@ class Smoother {
     });
     for (Eigen::Index i = 3 * num_triangles_; i < wanted.cols(); ++i) {
       const auto& side = integrator_.Sides()[i];
-      wanted.col(i) = places.col(side.to) - places.col(side.from);
+      if (i < first_tie_) {
+        wanted.col(i) = places.col(side.to) - places.col(side.from);
+      } else {
+        wanted.col(i) = GradientIntegrator::AlongTie(*path_.metric->connectivity, side,
+                                                     chain.col(side.to) - chain.col(side.from),
+                                                     [&](int f) { return Turn(chain, f, change); });
+      }
     }
     Shape shape = integrator_.Integrate(wanted, places);
     shape.colwise() -= Centroid(shape, path_.metric->vertex_area);
@@ -112,7 +118,7 @@ class Smoother {
     return rotation * Exp(Eigen::Vector3d(change.col(f))) * stretches * rotation.transpose();
   }
 
-  std::vector<GradientIntegrator::Side> MakeSides() const {
+  std::vector<GradientIntegrator::Side> MakeSides() {
     const Shape& first = path_.shapes.front();
     std::vector<GradientIntegrator::Side> sides;
     for (int f = 0; f < num_triangles_; ++f) {
@@ -126,6 +132,10 @@ class Smoother {
     for (const auto& side :
          GradientIntegrator::SidesWithoutTriangles(*path_.metric->connectivity)) {
       sides.push_back(side);
+    }
+    first_tie_ = static_cast<Eigen::Index>(sides.size());
+    for (const auto& tie : GradientIntegrator::Ties(*path_.metric->connectivity)) {
+      sides.push_back(tie);
     }
     return sides;
   }
@@ -225,6 +235,7 @@ class Smoother {
   const Eigen::Matrix3Xi& triangles_;
   const int num_triangles_, num_vertices_;
   std::vector<Eigen::Matrix2d> reference_;  // inverses of the edges in the first shape
+  Eigen::Index first_tie_ = 0;              // among the integrator's sides, set when these are made
   const GradientIntegrator integrator_;
   const Corrections corrections_;
 };
