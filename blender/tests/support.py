@@ -187,7 +187,7 @@ class Case(unittest.TestCase):
             "shapes": 3, "metric": "strain", "use_basis": True, "result": "KEYS",
             "frame_start": 1, "frame_step": 1, "cache_folder": "//", "stiffness_group": "",
             "custom_bending": False, "custom_volume": False, "custom_tolerance": False,
-            "anchor_group": "", "ground": False,
+            "anchor_group": "", "ground": False, "loose_components": False,
         }  # fmt: skip
         given = SimpleNamespace(**{**settings, **changes})
         return getattr(work, kind)(bpy.context, given, preferences())

@@ -126,6 +126,19 @@ def test_a_mesh_that_a_file_would_be_refused_for_is_refused():
         assert shapespace.Poses([vertices], fan, allow_nonmanifold=True).warnings
 
 
+def test_components_that_stay_near_each_other_are_tied():
+    near = np.vstack([TETRAHEDRON, TETRAHEDRON * 0.5 + [1.1, 0, 0]])
+    apart = np.vstack([TETRAHEDRON, TETRAHEDRON * 0.5 + [5, 0, 0]])
+    both = np.vstack([SIDES, np.asarray(SIDES) + 4])
+    tied = shapespace.Poses([near, near], both)
+    loose = shapespace.Poses([near, near], both, loose_components=True)
+    assert len(tied.notes) == 1 and not loose.notes
+    assert len(tied.edges) > len(loose.edges) == 12
+    assert pickle.loads(pickle.dumps(tied)).notes == tied.notes
+    assert len(shapespace.Poses([near, apart], both).edges) == 12
+    assert len(shapespace.Poses([near, near], both, stiffeners=[[1, 5]]).edges) == 13
+
+
 def test_anything_that_has_a_mesh_stands_for_its_faces(path, poses, animal):
     for mesh in (animal, path, path.metric, shapespace.Poses(poses, animal.faces)):
         made = shapespace.Poses(poses, mesh)
