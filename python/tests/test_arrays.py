@@ -1,6 +1,7 @@
 """Arrays in and out: any type, any order of memory, and messages that name the argument."""
 
 import gc
+import pickle
 
 import numpy as np
 import pytest

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
-#include <tuple>
+#include <numeric>
 #include <unordered_set>
 
 #include <Eigen/Eigenvalues>
@@ -109,6 +110,7 @@ class TieSearch {
                                               [&](double s) { return s >= (1 - kEqual) * most; }) -
                                  spread.begin());
     for (Component& component : components_) Measure(&component);
+    RankComponents();
   }
 
   Ties Run() const {
@@ -143,6 +145,7 @@ class TieSearch {
       if (found[i].empty()) return;
       ties.stiffeners.insert(ties.stiffeners.end(), found[i].begin(), found[i].end());
       trees.Join(child, parent);
+      ++ties.tied;
       is_tied[child] = is_tied[parent] = 1;
     };
     for (size_t i = 0; i < pairs.size(); ++i) {
@@ -151,10 +154,7 @@ class TieSearch {
     for (size_t i = 0; i < pairs.size(); ++i) {
       if (!first_choice[i] && !is_tied[pairs[i].child]) take(i);
     }
-    std::vector<int> members(components_.size(), 0);
-    for (size_t c = 0; c < components_.size(); ++c) ++members[trees.Find(static_cast<int>(c))];
     for (size_t c = 0; c < components_.size(); ++c) {
-      if (members[c] > 1) ties.tied += members[c] - 1;
       if (is_near[c] && !is_tied[c]) ++ties.loose;
     }
     std::sort(ties.stiffeners.begin(), ties.stiffeners.end());
@@ -207,10 +207,25 @@ class TieSearch {
     }
   }
 
-  bool IsSmaller(int c, int d) const {
-    const double a = components_[c].extent, b = components_[d].extent;
-    return std::abs(a - b) > kEqual * std::max(a, b) ? a < b : c > d;
+  // By extent; of equally large components the first counts as the largest.
+  void RankComponents() {
+    const auto extent = [&](int c) { return components_[c].extent; };
+    std::vector<int> order(components_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int c, int d) {
+      return extent(c) < extent(d) || (extent(c) == extent(d) && c > d);
+    });
+    for (auto begin = order.begin(); begin != order.end();) {
+      const auto end = std::find_if(
+          begin, order.end(), [&](int c) { return extent(c) > (1 + kEqual) * extent(*begin); });
+      std::sort(begin, end, std::greater<>());
+      begin = end;
+    }
+    rank_.resize(order.size());
+    for (size_t i = 0; i < order.size(); ++i) rank_[order[i]] = static_cast<int>(i);
   }
+
+  bool IsSmaller(int c, int d) const { return rank_[c] < rank_[d]; }
 
   // All pairs of components that are near each other, each once.
   std::vector<Pair> NearPairsOf(const ElementTree& tree) const {
@@ -398,6 +413,7 @@ class TieSearch {
   const Connectivity& connectivity_;
   std::vector<int> component_;  // per vertex; -1: of none
   std::vector<Component> components_;
+  std::vector<int> rank_;  // of each, the smallest first
   std::vector<Shape> shapes_;
   int searched_ = 0;  // the pose in which components are near each other
 };

@@ -1,6 +1,7 @@
 #include <shapespace/mesh/internal/element_tree.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
