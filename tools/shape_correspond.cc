@@ -50,6 +50,7 @@ std::vector<std::string> Outputs() {
 Poses ReadMesh(const std::string& file) {
   ReadOptions options;
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
+  options.loose_components = true;  // nothing moves
   Poses mesh = MakePoses({ReadSoupOrStdin(file)}, options);
   for (const std::string& warning : mesh.warnings) Warn(warning);
   for (const std::string& dropped : mesh.soup.dropped) Note(dropped);

@@ -142,7 +142,7 @@ void Sample(const std::string& file) {
 }
 
 void MeasureSpace(const std::string& file, ProcessPool* crew) {
-  RefuseFlags({"metric"}, {"depth", "output", "report", "strict", "stiffeners"},
+  RefuseFlags({"metric"}, {"depth", "output", "report", "strict", "stiffeners", "loose_components"},
               "goes with poses; " + file + " contains its own metric");
   const ExploreOptions options = ExploreFromFlags(file + ".measure.records");
   const PoseSpace space = ReadSpace(file);

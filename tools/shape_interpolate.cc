@@ -33,7 +33,7 @@ namespace {
 std::vector<Shape> ReadVia(const std::string& pose, const std::vector<std::string>& files) {
   std::vector<std::string> all = {pose};
   all.insert(all.end(), files.begin(), files.end());
-  std::vector<Shape> shapes = ReadMeshesFromFlags(all).shapes;
+  std::vector<Shape> shapes = ReadMeshesFromFlags(all, /*tie=*/false).shapes;
   shapes.erase(shapes.begin());
   return shapes;
 }

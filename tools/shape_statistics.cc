@@ -154,7 +154,8 @@ ShapeModelOptions OptionsFromFlags() {
 PoseModes ModesOf(const std::vector<std::string>& files) {
   if (files.size() == 1 && internal::FileExtension(files[0]) == ".modes") {
     RefuseFlags({"metric"},
-                {"size", "certify", "refine", "stiffeners", "strict", "mirror", "allow_mirrored"},
+                {"size", "certify", "refine", "stiffeners", "loose_components", "strict", "mirror",
+                 "allow_mirrored"},
                 "goes with poses; " + files[0] + " contains its own metric and modes");
     PoseModes modes = ReadModes(files[0]);
     if (IsGiven("modes")) {
@@ -221,7 +222,7 @@ void PrintCoordinates(const ShapeModel& model, const std::vector<std::string>& o
   mean.name = "the model";
   mean.vertices = modes.place(modes.metric->unit * modes.mean);
   soups.insert(soups.begin(), std::move(mean));
-  const Poses poses = MakePosesFromFlags(std::move(soups));
+  const Poses poses = MakePosesFromFlags(std::move(soups), /*tie=*/false);
   const std::vector<std::string> names = DisplayNames({poses.names.begin() + 1, poses.names.end()});
   Eigen::MatrixXd table(names.size(), modes.NumModes() + 1);
   for (size_t i = 0; i < names.size(); ++i) {

@@ -58,6 +58,7 @@ void CheckKinds(const std::vector<std::string>& files) {
 PageMesh ReadPageMesh(const std::string& file, const std::string& name) {
   ReadOptions options;
   options.allow_nonmanifold = true;
+  options.loose_components = true;
   const Poses mesh = MakePoses({ReadSoup(file)}, options);
   for (const std::string& warning : mesh.warnings) Err() << "warning: " << warning << '\n';
   return {mesh.connectivity, mesh.shapes[0], mesh.soup.appearance.vertex_colours, name};

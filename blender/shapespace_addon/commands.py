@@ -53,7 +53,7 @@ def _motion(task: Task, poses: list, programs: dict) -> list:
 
 
 def _transfer(task: Task, poses: list, targets: list, programs: dict, metric: list) -> list:
-    found, source = [], [*poses, *_mirror_flags(task)]
+    found, source = [], [*poses, *_mirror_flags(task), *_tie_flags(task.metric)]
     if task.shapes:
         flags = ["--shapes", str(task.shapes), *_tolerance_flags(task), *metric]
         found.append([programs["shape-interpolate"], *source, *flags, "--output", SOURCE])
@@ -104,6 +104,7 @@ def _optional(name: str, programs: dict) -> str:
 
 def _metric_flags(metric: Metric, folder: str) -> list:
     flags = ["--metric", metric.preset] if metric.preset else []
+    flags += _tie_flags(metric)
     for name in ("bending", "volume"):
         value = getattr(metric, name)
         if value is not None:
@@ -113,6 +114,10 @@ def _metric_flags(metric: Metric, folder: str) -> list:
             out.writelines(f"{factor!r}\n" for factor in metric.stiffness.tolist())
         flags += ["--stiffness", _STIFFNESS]
     return flags
+
+
+def _tie_flags(metric: Metric) -> list:
+    return ["--loose_components"] if metric.loose_components else []
 
 
 def _tolerance_flags(task) -> list:

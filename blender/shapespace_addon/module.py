@@ -23,14 +23,16 @@ def find():
     return shapespace
 
 
-def poses_of(module, body, allow_mirrored=False):
-    """The poses as the module takes them."""
+def poses_of(module, task):
+    """A task's poses as the module takes them."""
+    body = task.poses
     return module.Poses(
         body.shapes,
         body.topology.polygons(),
         segments=body.topology.segments,
         allow_nonmanifold=True,
-        allow_mirrored=allow_mirrored,
+        allow_mirrored=getattr(task, "allow_mirrored", False),
+        loose_components=task.metric.loose_components,
     )
 
 
@@ -206,8 +208,7 @@ class ModuleRun:
         self._motions.append(model.inverse_transform([[0.0], *rows], progress=self._hear))
 
     def _poses(self):
-        allow_mirrored = getattr(self._task, "allow_mirrored", False)
-        poses = poses_of(self._module, self._task.poses, allow_mirrored)
+        poses = poses_of(self._module, self._task)
         self._notes += poses.warnings
         return poses
 

@@ -47,6 +47,11 @@ class MetricSettings:
         min=0,
         soft_max=30,
     )
+    loose_components: BoolProperty(
+        name="Loose Components",
+        description="Leave parts loose that are not connected with the rest but stay near it in all"
+        " poses, such as eyes and clothes. Otherwise they are tied to it",
+    )
 
 
 class ToleranceSettings:

@@ -25,6 +25,7 @@ class Metric:
     bending: float | None = None
     volume: float | None = None
     stiffness: np.ndarray | None = None  # n factors
+    loose_components: bool = False  # that stay near others, and would be tied to these
 
 
 @dataclass

@@ -190,6 +190,7 @@ def read(
     allow_nonmanifold=False,
     mirror=None,
     allow_mirrored=False,
+    loose_components=False,
     allow_outside_files=False,
 ):
     """Read poses of one mesh.
@@ -209,6 +210,9 @@ def read(
     allow_mirrored : bool, optional
         Take poses that look like mirror images of the first as they are, with a warning: domes
         that are pushed through, bodies that are turned inside out.
+    loose_components : bool, optional
+        Leave connected components loose, such as eyes and clothes, that stay near others in all
+        poses. Otherwise they are tied to these by stiffeners, and `Poses.notes` says how many.
     allow_outside_files : bool, optional
         Read buffers of a .gltf file from outside of its folder too: for files that are trusted.
 
@@ -227,7 +231,15 @@ def read(
     """
     names = [os.fspath(file) for file in files]
     rest = "" if stiffeners is None else os.fspath(stiffeners)
-    return _core.read(names, rest, allow_nonmanifold, mirror, allow_mirrored, allow_outside_files)
+    return _core.read(
+        names,
+        rest,
+        allow_nonmanifold,
+        mirror,
+        allow_mirrored,
+        loose_components,
+        allow_outside_files,
+    )
 
 
 def write(file, vertices, faces):

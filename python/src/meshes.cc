@@ -58,9 +58,11 @@ std::shared_ptr<const Connectivity> ConnectivityIn(py::handle mesh, Appearance* 
   return nullptr;
 }
 
-ReadOptions ReadingOptions(bool allow_nonmanifold, const py::object& mirror, bool allow_mirrored) {
+ReadOptions ReadingOptions(bool allow_nonmanifold, const py::object& mirror, bool allow_mirrored,
+                           bool loose_components) {
   ReadOptions options;
   options.allow_mirrored = allow_mirrored;
+  options.loose_components = loose_components;
   options.allow_nonmanifold = allow_nonmanifold;
   if (!mirror.is_none()) {
     const auto axis = py::cast<std::string>(mirror);
@@ -69,6 +71,13 @@ ReadOptions ReadingOptions(bool allow_nonmanifold, const py::object& mirror, boo
     }
     options.mirror = axis[0];
   }
+  return options;
+}
+
+// For meshes of which no solver uses the edges.
+ReadOptions Loose() {
+  ReadOptions options;
+  options.loose_components = true;
   return options;
 }
 
@@ -109,6 +118,9 @@ mirror : {'x', 'y', 'z'}, optional
 allow_mirrored : bool, optional
     Take poses that look like mirror images of the first as they are, with a warning: domes that are
     pushed through, bodies that are turned inside out.
+loose_components : bool, optional
+    Leave connected components loose, such as eyes and clothes, that stay near others in all poses.
+    Otherwise they are tied to these by stiffeners, and `notes` says how many.
 
 Raises
 ------
@@ -119,17 +131,19 @@ MismatchError
 )")
       .def(py::init([](py::handle shapes, py::handle faces, py::handle segments,
                        py::handle stiffeners, bool allow_nonmanifold, const py::object& mirror,
-                       bool allow_mirrored) {
-             Poses poses = MakePoses(ToShapes(shapes, "shapes"), faces,
-                                     ReadingOptions(allow_nonmanifold, mirror, allow_mirrored),
-                                     segments, stiffeners);
+                       bool allow_mirrored, bool loose_components) {
+             Poses poses = MakePoses(
+                 ToShapes(shapes, "shapes"), faces,
+                 ReadingOptions(allow_nonmanifold, mirror, allow_mirrored, loose_components),
+                 segments, stiffeners);
              Warn(poses.warnings);
              return poses;
            }),
            py::arg("shapes"), py::arg("faces") = py::none(), py::kw_only(),
            py::arg("segments") = py::none(), py::arg("stiffeners") = py::none(),
            py::arg("allow_nonmanifold") = ReadOptions().allow_nonmanifold,
-           py::arg("mirror") = py::none(), py::arg("allow_mirrored") = ReadOptions().allow_mirrored)
+           py::arg("mirror") = py::none(), py::arg("allow_mirrored") = ReadOptions().allow_mirrored,
+           py::arg("loose_components") = ReadOptions().loose_components)
       .def(Pickle<Poses>())
       .def("__len__", [](const Poses& poses) { return poses.shapes.size(); })
       .def("__getitem__",
@@ -155,6 +169,7 @@ MismatchError
           "The edges, k x 2, each once.")
       .def_readonly("names", &Poses::names, "The files that the poses were read from.")
       .def_readonly("warnings", &Poses::warnings, "What is worth a look.")
+      .def_readonly("notes", &Poses::notes, "What was done with the mesh that is right as a rule.")
       .def_property_readonly(
           "dropped", [](const Poses& poses) { return poses.soup.dropped; },
           "What the first file holds and is not kept.")
@@ -169,8 +184,9 @@ MismatchError
       "read",
       [](const std::vector<std::string>& files, const std::string& stiffeners,
          bool allow_nonmanifold, const py::object& mirror, bool allow_mirrored,
-         bool allow_outside_files) {
-        ReadOptions options = ReadingOptions(allow_nonmanifold, mirror, allow_mirrored);
+         bool loose_components, bool allow_outside_files) {
+        ReadOptions options =
+            ReadingOptions(allow_nonmanifold, mirror, allow_mirrored, loose_components);
         options.stiffeners = stiffeners;
         options.allow_outside_files = allow_outside_files;
         Poses poses = WithoutLock(py::none(), [=](Progress*) { return ReadPoses(files, options); });
@@ -180,11 +196,11 @@ MismatchError
         return poses;
       },
       py::arg("files"), py::arg("stiffeners"), py::arg("allow_nonmanifold"), py::arg("mirror"),
-      py::arg("allow_mirrored"), py::arg("allow_outside_files"));
+      py::arg("allow_mirrored"), py::arg("loose_components"), py::arg("allow_outside_files"));
 
   module->def("write", [](const std::string& file, py::handle vertices, py::handle faces) {
     const Shape shape = ToShape(vertices, "vertices");
-    const Poses poses = MakePoses({shape}, faces);
+    const Poses poses = MakePoses({shape}, faces, Loose());
     WriteMesh(file, shape, poses.soup);
     return NotKept(file, poses.soup);
   });
@@ -295,14 +311,17 @@ Poses MakePoses(std::vector<Shape> shapes, py::handle faces, const ReadOptions& 
       soups[i].segments = soups[0].segments;
     }
   }
-  Poses poses = shapespace::MakePoses(std::move(soups), options);
-  poses.names.clear();
-  poses.soup.file.clear();
+  ReadOptions first = options;  // before stiffeners connect what need not be tied
+  first.loose_components = options.loose_components || !stiffeners.is_none();
+  Poses poses = shapespace::MakePoses(std::move(soups), first);
   if (!stiffeners.is_none()) {
     const int num_vertices = poses.connectivity->NumVertices();
     poses.connectivity = ConnectivityOf(
         poses.soup, poses.shapes, ToPairs(stiffeners, "stiffeners", num_vertices, num_vertices));
+    if (!options.loose_components) TieComponents(&poses);
   }
+  poses.names.clear();
+  poses.soup.file.clear();
   return poses;
 }
 

@@ -1,6 +1,7 @@
 """Arrays in and out: any type, any order of memory, and messages that name the argument."""
 
 import gc
+import pickle
 
 import numpy as np
 import pytest
@@ -139,6 +140,19 @@ def test_mirror_images_are_refused_or_mirrored_or_taken_as_they_are():
     with pytest.warns(shapespace.MeshWarning, match="mirror image"):
         mirrored = shapespace.Poses([dome, flipped], faces, mirror="x")
     np.testing.assert_array_equal(mirrored[1], dome)
+
+
+def test_components_that_stay_near_each_other_are_tied():
+    near = np.vstack([TETRAHEDRON, TETRAHEDRON * 0.5 + [1.1, 0, 0]])
+    apart = np.vstack([TETRAHEDRON, TETRAHEDRON * 0.5 + [5, 0, 0]])
+    both = np.vstack([SIDES, np.asarray(SIDES) + 4])
+    tied = shapespace.Poses([near, near], both)
+    loose = shapespace.Poses([near, near], both, loose_components=True)
+    assert len(tied.notes) == 1 and not loose.notes
+    assert len(tied.edges) > len(loose.edges) == 12
+    assert pickle.loads(pickle.dumps(tied)).notes == tied.notes
+    assert len(shapespace.Poses([near, apart], both).edges) == 12
+    assert len(shapespace.Poses([near, near], both, stiffeners=[[1, 5]]).edges) == 13
 
 
 def test_anything_that_has_a_mesh_stands_for_its_faces(path, poses, animal):

@@ -44,7 +44,7 @@ bool IsOnePath(const std::vector<std::string>& files, const std::string& own) {
     throw UsageError("name at least two poses of one mesh, or one .path file alone");
   }
   if (!is_path) return false;
-  RefuseFlags({"geodesic", "metric"}, {"stiffeners"},
+  RefuseFlags({"geodesic", "metric"}, {"stiffeners", "loose_components"},
               "goes with poses; " + files[0] + " is solved already and contains its metric", own);
   return true;
 }

@@ -14,7 +14,7 @@ namespace shapespace::tools {
 std::optional<Obstacle> ObstacleFromFlag(bool avoid_contact) {
   if (FLAGS_obstacle.empty()) return {};
   if (!avoid_contact) throw UsageError("--obstacle goes with --avoid_contact");
-  const Poses poses = ReadMeshesFromFlags({FLAGS_obstacle});
+  const Poses poses = ReadMeshesFromFlags({FLAGS_obstacle}, /*tie=*/false);
   return Obstacle{poses.connectivity, poses.shapes[0]};
 }
 

@@ -20,6 +20,9 @@
 
 DEFINE_string(stiffeners, "",
               "text file of additional edges (stiffeners): two vertex numbers per line, from 1");
+DEFINE_bool(loose_components, false,
+            "leave connected components loose, such as eyes and clothes, that stay near others in "
+            "all poses; they are tied to these otherwise, and a note says how many");
 FLAG_GROUP(poses, "Input");
 
 namespace shapespace::tools {
@@ -31,9 +34,10 @@ std::vector<std::string> WithStiffeners(std::vector<std::string> files) {
 
 namespace {
 
-ReadOptions OptionsFromFlags() {
+ReadOptions OptionsFromFlags(bool tie = true) {
   ReadOptions options;
   options.stiffeners = FLAGS_stiffeners;
+  options.loose_components = FLAGS_loose_components || !tie;
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
   options.mirror = MirrorFromFlags();
   options.allow_mirrored = FLAGS_allow_mirrored;
@@ -44,6 +48,7 @@ ReadOptions OptionsFromFlags() {
 Poses CheckedWithWarnings(Poses poses) {
   CheckMetricFlags(*poses.connectivity);
   for (const std::string& warning : poses.warnings) Warn(warning);
+  for (const std::string& note : poses.notes) Note(note);
   for (const std::string& dropped : poses.soup.dropped) {
     Note(dropped);
   }
@@ -69,18 +74,18 @@ Poses ReadPosesFromFlags(const std::vector<std::string>& files, size_t least, bo
   return CheckedWithWarnings(std::move(poses));
 }
 
-Poses ReadMeshesFromFlags(const std::vector<std::string>& files) {
+Poses ReadMeshesFromFlags(const std::vector<std::string>& files, bool tie) {
   std::vector<Soup> soups;
   for (const std::string& file : files) soups.push_back(ReadSoupOrStdin(file));
-  return MakePosesFromFlags(std::move(soups));
+  return MakePosesFromFlags(std::move(soups), tie);
 }
 
-Poses MakePosesFromFlags(std::vector<Soup> soups) {
-  return CheckedWithWarnings(MakePoses(std::move(soups), OptionsFromFlags()));
+Poses MakePosesFromFlags(std::vector<Soup> soups, bool tie) {
+  return CheckedWithWarnings(MakePoses(std::move(soups), OptionsFromFlags(tie)));
 }
 
 Poses ReadPoseOf(const Path& path, const std::string& path_file, const std::string& file) {
-  Poses read = ReadMeshesFromFlags({file});
+  Poses read = ReadMeshesFromFlags({file}, /*tie=*/false);
   Soup reference = FrameSoup(*path.metric->connectivity), pose = read.soup;
   reference.file = path_file;
   reference.vertices = path.Placed(0);

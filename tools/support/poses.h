@@ -10,6 +10,7 @@
 namespace shapespace::tools {
 
 /// Reads files with two or more poses in all (or with `least`), according to --stiffeners,
+/// --loose_components,
 /// --allow_nonmanifold and
 /// --mirror; prints warnings, and notes on content that outputs will not have. Unless the order of
 /// the poses means nothing (`any_order`), the warning of `OrderWarning` is one of them.
@@ -18,11 +19,12 @@ namespace shapespace::tools {
 Poses ReadPosesFromFlags(const std::vector<std::string>& files, size_t least = 2,
                          bool any_order = false);
 
-/// The same for one mesh of each file: of a file of several poses the first.
-Poses ReadMeshesFromFlags(const std::vector<std::string>& files);
+/// The same for one mesh of each file: of a file of several poses the first. Without `tie`, for
+/// meshes of which only shapes or triangles are used, components stay loose.
+Poses ReadMeshesFromFlags(const std::vector<std::string>& files, bool tie = true);
 
 /// The same for soups that were read.
-Poses MakePosesFromFlags(std::vector<Soup> soups);
+Poses MakePosesFromFlags(std::vector<Soup> soups, bool tie = true);
 
 /// A mesh, as a pose of the mesh of a path that was read from `path_file`: the first pose of
 /// `file`. \throw MismatchError if it is another mesh.

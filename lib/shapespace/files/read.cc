@@ -15,6 +15,7 @@
 #include <shapespace/mesh/internal/check_words.h>
 #include <shapespace/mesh/internal/polygons.h>
 #include <shapespace/mesh/mirrored.h>
+#include <shapespace/mesh/ties.h>
 #include <shapespace/mesh/triangulate.h>
 
 namespace shapespace {
@@ -145,6 +146,7 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
     stiffeners = ReadStiffeners(options.stiffeners, first.NumVertices());
   }
   poses.connectivity = ConnectivityOf(first, poses.shapes, stiffeners);
+  if (!options.loose_components) TieComponents(&poses);
   return poses;
 }
 
@@ -241,6 +243,21 @@ Poses MakePoses(std::vector<Soup> soups, const ReadOptions& options) {
   if (soups.empty()) throw MeshError("there is no pose; at least one is needed");
   return Collect(
       soups.size(), [&](size_t i) { return std::vector<Soup>{std::move(soups[i])}; }, options);
+}
+
+void TieComponents(Poses* poses) {
+  const Ties ties = FindTies(*poses->connectivity, poses->shapes);
+  const auto tell = [&](int count, const std::string& what) {
+    if (count == 0) return;
+    poses->notes.push_back(internal::FileName(poses->soup) + ": connected components (" +
+                           std::to_string(count) + ") " + what);
+  };
+  tell(ties.tied, "are tied to others near them, by stiffeners (" +
+                      std::to_string(ties.stiffeners.size()) + ")");
+  tell(ties.loose, "are near others, but do not stay there in all poses, and are not tied");
+  if (ties.tied > 0) {
+    poses->connectivity = WithStiffeners(*poses->connectivity, ties.stiffeners);
+  }
 }
 
 }  // namespace shapespace

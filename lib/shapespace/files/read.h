@@ -67,6 +67,7 @@ struct Poses {
   std::vector<std::string> names;     ///< of each: `Soup::name` or, without, `Soup::file`
   Soup soup;                          ///< the first: polygons, appearance
   std::vector<std::string> warnings;  ///< from `CheckSoup` and `CheckSameMesh`
+  std::vector<std::string> notes;     ///< what was done with the mesh that is right as a rule
 };
 
 /// Options for meshes that are used as poses.
@@ -74,6 +75,10 @@ struct ReadOptions {
   bool allow_nonmanifold = false;    ///< accept non-manifold or inconsistent meshes, with a warning
   std::string stiffeners;            ///< file of additional edges; empty for none
   bool allow_outside_files = false;  ///< read buffers of a .gltf from outside of its folder too
+
+  /// Leave components loose, such as eyes and clothes, although they stay near others in all poses.
+  /// By default they are tied to these (`TieComponents`), and a note says how many.
+  bool loose_components = false;
 
   /// 'x', 'y' or 'z': change the sign of this coordinate in poses that are mirror images of the
   /// first (`IsMirrored`). 0: they are refused, unless `allow_mirrored`.
@@ -94,6 +99,11 @@ Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& option
 /// checked in the same way; messages name them by `Soup::file`.
 /// \throw MeshError also if there is none.
 Poses MakePoses(std::vector<Soup> soups, const ReadOptions& options = {});
+
+/// Adds stiffeners to the connectivity of poses that tie components to others near which they stay
+/// in all poses (`FindTies`), and says how many in the notes. Components that stiffeners connect
+/// already are not tied once more.
+void TieComponents(Poses* poses);
 
 }  // namespace shapespace
 

@@ -164,7 +164,7 @@ Eigen::VectorXi Widened(const Connectivity& connectivity, const Shape& shape,
 }
 
 double TubeRadius(const Connectivity& connectivity, const Shape& shape) {
-  const Eigen::Matrix2Xi& edges = connectivity.Edges();
+  const Eigen::Matrix2Xi edges = internal::SegmentsOfGraph(connectivity);
   if (edges.cols() == 0) return kTubeRadius;
   double sum = 0;
   for (Eigen::Index e = 0; e < edges.cols(); ++e) {

@@ -20,6 +20,7 @@
 #include <shapespace/correspondence/internal/unfold.h>
 #include <shapespace/hierarchy/hierarchy.h>
 #include <shapespace/mesh/internal/geometry.h>
+#include <shapespace/mesh/ties.h>
 #include <shapespace/mesh/topology.h>
 #include <shapespace/mesh/volume.h>
 #include <shapespace/numerics/internal/check_options.h>
@@ -406,15 +407,18 @@ void CorrespondenceOptions::Validate() const {
   internal::CheckMemoryLimit(memory_limit);
 }
 
-CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& template_connectivity,
+CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& template_mesh,
                                 const Shape& template_shape,
-                                const std::shared_ptr<const Connectivity>& target_connectivity,
+                                const std::shared_ptr<const Connectivity>& target_mesh,
                                 const Shape& target_shape,
                                 const std::vector<CorrespondenceMarker>& all_markers,
                                 const CorrespondenceOptions& options, Progress* progress) {
   const internal::Stopwatch total;
   CorrespondenceResult result;
   CorrespondenceSummary& summary = result.summary;
+  // Components that stiffeners connect are components all the same: each needs a marker.
+  const auto template_connectivity = WithoutStiffeners(template_mesh);
+  const auto target_connectivity = WithoutStiffeners(target_mesh);
   CheckInput(*template_connectivity, template_shape, *target_connectivity, target_shape,
              all_markers, options, &summary);
   ReportProgress(progress, "checking markers", 0, 0);

@@ -1,6 +1,8 @@
 #include <shapespace/output/internal/scene.h>
 
+#include <algorithm>
 #include <limits>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -68,10 +70,22 @@ void SetRay(RTCRay* ray, const Eigen::Vector3f& origin, const Eigen::Vector3f& d
 
 }  // namespace
 
+Eigen::Matrix2Xi SegmentsOfGraph(const Connectivity& connectivity) {
+  std::set<std::pair<int, int>> segments;
+  for (const auto& [a, b] : connectivity.Segments()) segments.insert(std::minmax(a, b));
+  std::vector<int> shown;
+  for (int e = 0; e < connectivity.NumEdges(); ++e) {
+    const auto edge = connectivity.Edges().col(e);
+    if (segments.count({edge(0), edge(1)}) > 0) shown.push_back(e);
+  }
+  return connectivity.Edges()(Eigen::all, shown);
+}
+
 // The device uses Embree's default number of threads, which matters only for building scenes: a
 // limit of one would limit all users of TBB in the process.
 RayTracer::RayTracer(const Connectivity& connectivity, float tube_radius)
     : connectivity_(connectivity),
+      tubes_(connectivity.IsGraph() ? SegmentsOfGraph(connectivity) : Eigen::Matrix2Xi()),
       tube_radius_(tube_radius),
       device_(rtcNewDevice(nullptr), [](RTCDevice device) {
         if (device != nullptr) rtcReleaseDevice(device);
@@ -114,7 +128,7 @@ void Scene::AddTriangles(const Shape& shape) {
 
 void Scene::AddTubes(const Shape& shape) {
   RTCDevice device = tracer_.device_.get();
-  const Eigen::Matrix2Xi& edges = tracer_.connectivity_.Edges();
+  const Eigen::Matrix2Xi& edges = tracer_.tubes_;
   const auto point = [&](int v) {
     Eigen::Vector4f result;
     result << shape.col(v).cast<float>(), tracer_.tube_radius_;
@@ -179,7 +193,7 @@ bool Scene::Trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& directio
     weights.maxCoeff(&nearest);
     hit->vertex = corners[nearest];
   } else if (ray.hit.geomID == kTubes) {
-    const auto ends = tracer_.connectivity_.Edges().col(element);
+    const auto ends = tracer_.tubes_.col(element);
     hit->value = (1 - u) * value(ends[0]) + u * value(ends[1]);
     hit->vertex = ends[u < 0.5f ? 0 : 1];
   } else {

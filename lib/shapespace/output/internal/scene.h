@@ -13,6 +13,10 @@ struct RTCSceneTy;
 
 namespace shapespace::internal {
 
+/// The edges of a graph that are drawn: its segments, in the order of its edges. Stiffeners are
+/// edges of the metric alone.
+Eigen::Matrix2Xi SegmentsOfGraph(const Connectivity& connectivity);
+
 /// The data that all scenes of one picture share.
 class RayTracer {
  public:
@@ -23,6 +27,7 @@ class RayTracer {
  private:
   friend class Scene;
   const Connectivity& connectivity_;
+  const Eigen::Matrix2Xi tubes_;  // of a graph: edges
   const float tube_radius_;
   std::shared_ptr<RTCDeviceTy> device_;
 };

@@ -5,6 +5,7 @@
 
 #include <shapespace/analysis/intersections.h>
 #include <shapespace/mesh/internal/geometry.h>
+#include <shapespace/mesh/ties.h>
 
 namespace shapespace::internal {
 namespace {
@@ -84,7 +85,7 @@ ContactModel::ContactModel(std::shared_ptr<const Metric> metric, std::vector<Sha
       at_rest_(Tangent::Zero(3, obstacle_.shape.cols())),
       vertex_area_(JoinAreas(*metric_, obstacle)),
       pairs_([&] {
-        std::shared_ptr<const Connectivity> connectivity = metric_->connectivity;
+        std::shared_ptr<const Connectivity> connectivity = WithoutStiffeners(metric_->connectivity);
         std::vector<Shape> shapes = poses_;
         if (HasObstacle()) {
           connectivity = obstacle_.Joined(connectivity);

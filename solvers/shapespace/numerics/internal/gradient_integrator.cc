@@ -5,12 +5,15 @@
 
 #include <Eigen/SparseCore>
 
+#include <shapespace/mesh/internal/sides.h>
 #include <shapespace/numerics/internal/solve.h>
 
 namespace shapespace::internal {
 namespace {
 
 constexpr double kPlace = 1e-4;
+// Weight of a tie. Sides of triangles have weights near 1, and places, together, kPlace.
+constexpr double kTieWeight = 1e-2;
 
 Eigen::SparseMatrix<double> Matrix(int num_vertices,
                                    const std::vector<GradientIntegrator::Side>& sides,
@@ -43,6 +46,22 @@ std::vector<GradientIntegrator::Side> GradientIntegrator::SidesWithoutTriangles(
     if (is_loose(a) || is_loose(b)) sides.push_back({a, b, 1});
   }
   return sides;
+}
+
+std::vector<GradientIntegrator::Side> GradientIntegrator::Ties(const Connectivity& connectivity) {
+  UnionFind pieces(connectivity.NumVertices());
+  for (int e = 0; e < connectivity.NumTriangleEdges(); ++e) {
+    pieces.Join(connectivity.Edges()(0, e), connectivity.Edges()(1, e));
+  }
+  const auto on_surface = [&](int v) { return connectivity.TrianglesOfVertices()[v].size() > 0; };
+  std::vector<Side> ties;
+  for (int e = connectivity.NumTriangleEdges(); e < connectivity.NumEdges(); ++e) {
+    const int a = connectivity.Edges()(0, e), b = connectivity.Edges()(1, e);
+    if (on_surface(a) && on_surface(b) && pieces.Find(a) != pieces.Find(b)) {
+      ties.push_back({a, b, kTieWeight});
+    }
+  }
+  return ties;
 }
 
 Shape GradientIntegrator::Integrate(const Eigen::Matrix3Xd& wanted, const Shape& places) const {

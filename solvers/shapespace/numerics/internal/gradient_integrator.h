@@ -28,7 +28,24 @@ class GradientIntegrator {
   /// The edges with an end in no triangle, with weight 1.
   static std::vector<Side> SidesWithoutTriangles(const Connectivity& connectivity);
 
+  /// The stiffeners between components of the surface, which say where these are relative to each
+  /// other, with a weight so small that they have no visible effect otherwise.
+  static std::vector<Side> Ties(const Connectivity& connectivity);
+
   const std::vector<Side>& Sides() const { return sides_; }
+
+  /// The vector that is wanted for a tie: `vector`, mapped by the mean of the gradients of the
+  /// triangles at both ends. `gradient(f)` is a 3 x 3 matrix.
+  template <typename Gradient>
+  static Eigen::Vector3d AlongTie(const Connectivity& connectivity, const Side& tie,
+                                  const Eigen::Vector3d& vector, const Gradient& gradient) {
+    Eigen::Vector3d result = Eigen::Vector3d::Zero();
+    for (const int end : {tie.from, tie.to}) {
+      const IndexLists::Row around = connectivity.TrianglesOfVertices()[end];
+      for (const int f : around) result += gradient(f) * vector / (2 * around.size());
+    }
+    return result;
+  }
 
   /// `wanted` has a column for each side, `places` one for each vertex.
   Shape Integrate(const Eigen::Matrix3Xd& wanted, const Shape& places) const;

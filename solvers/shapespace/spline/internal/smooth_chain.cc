@@ -78,7 +78,13 @@ class Smoother {
     });
     for (Eigen::Index i = 3 * num_triangles_; i < wanted.cols(); ++i) {
       const auto& side = integrator_.Sides()[i];
-      wanted.col(i) = places.col(side.to) - places.col(side.from);
+      if (i < first_tie_) {
+        wanted.col(i) = places.col(side.to) - places.col(side.from);
+      } else {
+        wanted.col(i) = GradientIntegrator::AlongTie(*path_.metric->connectivity, side,
+                                                     chain.col(side.to) - chain.col(side.from),
+                                                     [&](int f) { return Turn(chain, f, change); });
+      }
     }
     Shape shape = integrator_.Integrate(wanted, places);
     shape.colwise() -= Centroid(shape, path_.metric->vertex_area);
@@ -133,7 +139,7 @@ class Smoother {
     return mean;
   }
 
-  std::vector<GradientIntegrator::Side> MakeSides() const {
+  std::vector<GradientIntegrator::Side> MakeSides() {
     std::vector<GradientIntegrator::Side> sides;
     for (int f = 0; f < num_triangles_; ++f) {
       const Eigen::Matrix2d& edges = mean_edges_[f];
@@ -147,6 +153,10 @@ class Smoother {
     for (const auto& side :
          GradientIntegrator::SidesWithoutTriangles(*path_.metric->connectivity)) {
       sides.push_back(side);
+    }
+    first_tie_ = static_cast<Eigen::Index>(sides.size());
+    for (const auto& tie : GradientIntegrator::Ties(*path_.metric->connectivity)) {
+      sides.push_back(tie);
     }
     return sides;
   }
@@ -247,6 +257,7 @@ class Smoother {
   const int num_triangles_, num_vertices_;
   const std::vector<Eigen::Matrix2d> mean_edges_;
   std::vector<Eigen::Matrix2d> reference_;  // their inverses
+  Eigen::Index first_tie_ = 0;              // among the integrator's sides, set when these are made
   const GradientIntegrator integrator_;
   const Corrections corrections_;
 };

@@ -52,6 +52,8 @@ GradientTransfer::GradientTransfer(std::shared_ptr<const Connectivity> connectiv
   for (const auto& side : GradientIntegrator::SidesWithoutTriangles(*connectivity_)) {
     sides.push_back(side);
   }
+  first_tie_ = sides.size();
+  for (const auto& tie : GradientIntegrator::Ties(*connectivity_)) sides.push_back(tie);
   integrator_ = std::make_unique<GradientIntegrator>(num_vertices, std::move(sides));
 }
 
@@ -59,12 +61,17 @@ Shape GradientTransfer::operator()(const Shape& deformed) const {
   const Eigen::Matrix3Xi& triangles = connectivity_->Triangles();
   const std::vector<GradientIntegrator::Side>& sides = integrator_->Sides();
   Eigen::Matrix3Xd wanted(3, sides.size());
+  const auto gradient = [&](int f) -> Eigen::Matrix3d {
+    return Frame(deformed, triangles.col(f)) * inverses_[f];
+  };
   for (size_t i = 0; i < sides.size(); ++i) {
     const auto& [a, b, weight] = sides[i];
     const int f = static_cast<int>(i) / 3;
     Eigen::Vector3d side = target_.col(b) - target_.col(a);
     if (f < triangles.cols()) {
       side = Frame(deformed, triangles.col(f)) * (inverses_[f] * side);
+    } else if (i >= first_tie_) {
+      side = GradientIntegrator::AlongTie(*connectivity_, sides[i], side, gradient);
     } else {
       side += (deformed.col(b) - deformed.col(a)) - (source_.col(b) - source_.col(a));
     }

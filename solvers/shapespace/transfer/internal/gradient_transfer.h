@@ -19,8 +19,8 @@ namespace shapespace::internal {
 /// triangle's plane.) One scalar linear system for all shapes.
 ///
 /// Edges to vertices without triangles, as in graphs, change by the same vectors as on the source.
-/// What is not determined by this, such as the positions of a mesh's components, is taken from the
-/// source too.
+/// Components that are tied to others by stiffeners keep their place relative to these. What is not
+/// determined by this, such as the positions of other components, is taken from the source too.
 class GradientTransfer {
  public:
   /// Source and target at rest, 3 x m, in the same orientation and size.
@@ -34,6 +34,7 @@ class GradientTransfer {
   const std::shared_ptr<const Connectivity> connectivity_;
   const Shape source_, target_;
   std::vector<Eigen::Matrix3d> inverses_;  // of the source's frames, per triangle
+  size_t first_tie_ = 0;                   // among the sides
   std::unique_ptr<GradientIntegrator> integrator_;
 };
 
