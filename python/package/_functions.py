@@ -185,7 +185,12 @@ def _one(vertices, name):
 
 
 def read(
-    *files, stiffeners=None, allow_nonmanifold=False, mirror=None, allow_outside_files=False
+    *files,
+    stiffeners=None,
+    allow_nonmanifold=False,
+    open_seams=False,
+    mirror=None,
+    allow_outside_files=False,
 ):
     """Read poses of one mesh.
 
@@ -198,6 +203,9 @@ def read(
         File of further edges that the metric is to hold: two vertex numbers a line, from 1.
     allow_nonmanifold : bool, optional
         Take non-manifold or inconsistently wound meshes, with a warning.
+    open_seams : bool, optional
+        Leave the surface open where borders lie on each other in all poses, as lips do that never
+        part. By default their vertices are one point of the surface, which `Poses.notes` says.
     mirror : {'x', 'y', 'z'}, optional
         Poses that are mirror images of the first have this coordinate's sign changed.
     allow_outside_files : bool, optional
@@ -218,7 +226,7 @@ def read(
     """
     names = [os.fspath(file) for file in files]
     rest = "" if stiffeners is None else os.fspath(stiffeners)
-    return _core.read(names, rest, allow_nonmanifold, mirror, allow_outside_files)
+    return _core.read(names, rest, allow_nonmanifold, open_seams, mirror, allow_outside_files)
 
 
 def write(file, vertices, faces):

@@ -81,6 +81,7 @@ void Add(const Poses& poses, HeaderJson* header, ArrayWriter* arrays) {
   (*header)["shapes"] = poses.shapes.size();
   (*header)["names"] = internal::NamesToJson(poses.names);
   (*header)["warnings"] = internal::NamesToJson(poses.warnings);
+  (*header)["notes"] = internal::NamesToJson(poses.notes);
   (*header)["dropped"] = internal::NamesToJson(poses.soup.dropped);
   (*header)["file"] = internal::NamesToJson({poses.soup.file, poses.soup.name});
 }
@@ -98,6 +99,7 @@ void Read(const HeaderJson& header, const ArrayReader& arrays, Poses* poses) {
   poses->soup.vertices = poses->shapes.at(0);
   poses->names = internal::NamesFromJson(header.at("names"));
   poses->warnings = internal::NamesFromJson(header.at("warnings"));
+  if (header.contains("notes")) poses->notes = internal::NamesFromJson(header.at("notes"));
   poses->soup.dropped = internal::NamesFromJson(header.at("dropped"));
   const std::vector<std::string> file = internal::NamesFromJson(header.at("file"));
   poses->soup.file = file.at(0);

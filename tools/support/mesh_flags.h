@@ -4,6 +4,7 @@
 #include <gflags/gflags.h>
 
 DECLARE_bool(allow_nonmanifold);
+DECLARE_bool(open_seams);
 
 namespace shapespace::tools {
 

@@ -34,6 +34,7 @@ ReadOptions OptionsFromFlags() {
   ReadOptions options;
   options.stiffeners = FLAGS_stiffeners;
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
+  options.open_seams = FLAGS_open_seams;
   options.mirror = MirrorFromFlags();
   options.allow_outside_files = FLAGS_allow_outside_files;
   return options;
@@ -42,6 +43,7 @@ ReadOptions OptionsFromFlags() {
 Poses CheckedWithWarnings(Poses poses) {
   CheckMetricFlags(*poses.connectivity);
   for (const std::string& warning : poses.warnings) Warn(warning);
+  for (const std::string& note : poses.notes) Note(note);
   for (const std::string& dropped : poses.soup.dropped) {
     Note(dropped);
   }

@@ -10,7 +10,7 @@
 namespace shapespace::tools {
 
 /// Reads files with two or more poses in all (or with `least`), according to --stiffeners,
-/// --allow_nonmanifold and
+/// --allow_nonmanifold, --open_seams and
 /// --mirror; prints warnings, and notes on content that outputs will not have.
 /// \throw UsageError if there are fewer poses, or if a flag of the metric cannot be applied to the
 ///        mesh.

@@ -48,11 +48,13 @@ Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format);
 bool MirrorBack(const Soup& reference, char axis, Soup* pose);
 
 /// The connectivity of a mesh, whose polygons are triangulated according to their shape in `poses`
-/// (`Triangulate`), which have the same number of vertices.
+/// (`Triangulate`), which have the same number of vertices. `representatives` are those of vertices
+/// at seams (`FindSeams`).
 /// \throw MeshError as `Connectivity::Make` and `Triangulate`.
 std::shared_ptr<const Connectivity> ConnectivityOf(
     const Soup& soup, const std::vector<Shape>& poses,
-    const std::vector<std::pair<int, int>>& stiffeners = {});
+    const std::vector<std::pair<int, int>>& stiffeners = {},
+    const std::vector<int>& representatives = {});
 
 /// Reads pairs of vertex numbers, counted from 1 as in OBJ, one pair per line; `#` begins a
 /// comment.
@@ -67,6 +69,7 @@ struct Poses {
   std::vector<std::string> names;     ///< of each: `Soup::name` or, without, `Soup::file`
   Soup soup;                          ///< the first: polygons, appearance
   std::vector<std::string> warnings;  ///< from `CheckSoup` and `CheckSameMesh`
+  std::vector<std::string> notes;     ///< what was done with the mesh that is right as a rule
 };
 
 /// Options for meshes that are used as poses.
@@ -74,6 +77,11 @@ struct ReadOptions {
   bool allow_nonmanifold = false;    ///< accept non-manifold or inconsistent meshes, with a warning
   std::string stiffeners;            ///< file of additional edges; empty for none
   bool allow_outside_files = false;  ///< read buffers of a .gltf from outside of its folder too
+
+  /// Leave seams open, where borders of the surface lie on each other in all poses: for lips that
+  /// never part. By default their vertices are one point of the surface (`FindSeams`), and a note
+  /// says how many; shapes have the vertices of the file all the same.
+  bool open_seams = false;
 
   /// 'x', 'y' or 'z': change the sign of this coordinate in poses that are mirror images of the
   /// first (closed meshes only: `IsMirrored`). 0: they are refused.

@@ -165,6 +165,7 @@ class ShapeModel {
 
  private:
   class Solver;
+  Shape Placed(const Shape& shape) const;
   std::unique_ptr<const Solver> solver_;
 };
 
