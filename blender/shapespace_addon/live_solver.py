@@ -65,7 +65,7 @@ class LiveSolver:
     def _run(self) -> None:
         try:
             deformer = self._module.Deformer(
-                poses_of(self._module, self._deformation.poses), None, **options_of(self._deformation)
+                poses_of(self._module, self._deformation), None, **options_of(self._deformation)
             )
             while True:
                 with self._changed:

@@ -15,6 +15,7 @@ def metric_of(settings, preset: str, item, vertices) -> Metric:
         settings.bending if settings.custom_bending else None,
         settings.volume if settings.custom_volume else None,
         stiffness,
+        settings.open_seams,
     )
 
 

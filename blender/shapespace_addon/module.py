@@ -23,13 +23,15 @@ def find():
     return shapespace
 
 
-def poses_of(module, body):
-    """The poses as the module takes them."""
+def poses_of(module, task):
+    """The poses of a task as the module takes them."""
+    body = task.poses
     return module.Poses(
         body.shapes,
         body.topology.polygons(),
         segments=body.topology.segments,
         allow_nonmanifold=True,
+        open_seams=task.metric.open_seams,
     )
 
 
@@ -205,7 +207,7 @@ class ModuleRun:
         self._motions.append(model.inverse_transform([[0.0], *rows], progress=self._hear))
 
     def _poses(self):
-        poses = poses_of(self._module, self._task.poses)
+        poses = poses_of(self._module, self._task)
         self._notes += poses.warnings
         return poses
 

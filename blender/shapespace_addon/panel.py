@@ -129,6 +129,7 @@ class SHAPESPACE_PT_metric(_Part, bpy.types.Panel):
             value = row.row()
             value.enabled = getattr(settings, f"custom_{name}")
             value.prop(settings, name, text="")
+        column.prop(settings, "open_seams")
 
 
 CLASSES = (

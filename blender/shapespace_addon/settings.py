@@ -47,6 +47,11 @@ class MetricSettings:
         min=0,
         soft_max=30,
     )
+    open_seams: BoolProperty(
+        name="Open Seams",
+        description="Leave the surface open where borders lie on each other in all poses, as lips do"
+        " that never part. Otherwise vertices that are doubled at seams stay together",
+    )
 
 
 class ToleranceSettings:

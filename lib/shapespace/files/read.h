@@ -78,14 +78,14 @@ struct ReadOptions {
   std::string stiffeners;            ///< file of additional edges; empty for none
   bool allow_outside_files = false;  ///< read buffers of a .gltf from outside of its folder too
 
+  /// 'x', 'y' or 'z': change the sign of this coordinate in poses that are mirror images of the
+  /// first (closed meshes only: `IsMirrored`). 0: they are refused.
+  char mirror = 0;
+
   /// Leave seams open, where borders of the surface lie on each other in all poses: for lips that
   /// never part. By default their vertices are one point of the surface (`FindSeams`), and a note
   /// says how many; shapes have the vertices of the file all the same.
   bool open_seams = false;
-
-  /// 'x', 'y' or 'z': change the sign of this coordinate in poses that are mirror images of the
-  /// first (closed meshes only: `IsMirrored`). 0: they are refused.
-  char mirror = 0;
 };
 
 /// Reads one or more files, with all poses that they have, as poses of the first one's

@@ -147,11 +147,13 @@ class Connectivity {
   int num_triangle_edges_ = 0;
   std::vector<int> polygon_begin_, corners_;
   std::vector<std::pair<int, int>> segments_;
-  std::vector<int> representatives_, twins_;
-  Eigen::Matrix3Xi triangles_, file_triangles_;  // the latter only if there are twins
+  Eigen::Matrix3Xi triangles_;
   Eigen::Matrix2Xi edges_;
   Eigen::Matrix4Xi hinges_;
   IndexLists triangles_of_vertices_, edges_of_vertices_, triangles_of_edges_;
+  // Only if there are twins:
+  std::vector<int> representatives_, twins_;
+  Eigen::Matrix3Xi file_triangles_;
 };
 
 }  // namespace shapespace
