@@ -14,6 +14,7 @@
 #include <shapespace/exponential/exponential.h>
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/statistics/shape_model.h>
+#include <shapespace/transfer/transfer.h>
 
 #include "support/cut_body.h"
 #include "support/motions.h"
@@ -173,6 +174,16 @@ TEST_P(CutBar, IsContinuedAsAWhole) {
   for (const Shape& shape : Extrapolate(cut, 1, first_integral).path.Placed()) {
     EXPECT_TRUE(cut_.HasNoGap(shape));
   }
+}
+
+TEST_P(CutBar, ATargetThatIsOpenWhereTheSourceIsClosedIsSaid) {
+  const Path source = MakePath(FreezeMetric({}, joined_, Cut(poses_)), Cut({poses_[0], poses_[1]}));
+  Shape target = cut_.Of(poses_[2]);
+  EXPECT_TRUE(Transfer(source, target).summary.warnings.empty());
+  target.rightCols(1).array() += 0.01;
+  const TransferResult result = Transfer(source, target);
+  EXPECT_EQ(result.summary.warnings.size(), 1u);
+  for (const Shape& shape : result.path.Placed()) EXPECT_TRUE(cut_.HasNoGap(shape));
 }
 
 TEST_P(CutBar, HasTheModesOfTheWhole) {

@@ -120,6 +120,7 @@ class SeamFinder {
         vertices_(num_vertices_) {}
 
   Seams Run() {
+    if (borders_.empty()) return {};
     DescribePolygons();
     // By the places of their ends, so that those of one place follow each other.
     const auto ends = [&](const Border& border) {
@@ -329,6 +330,16 @@ class SeamFinder {
 Seams FindSeams(const std::vector<int>& polygon_begin, const std::vector<int>& corners,
                 const std::vector<Shape>& poses) {
   return SeamFinder(polygon_begin, corners, poses).Run();
+}
+
+int CountParted(const Connectivity& connectivity, const Shape& shape) {
+  const double extent = (shape.rowwise().maxCoeff() - shape.rowwise().minCoeff()).maxCoeff();
+  int count = 0;
+  for (const int twin : connectivity.Twins()) {
+    const Eigen::Vector3d way = shape.col(twin) - shape.col(connectivity.Representative(twin));
+    count += way.norm() > kCoincide * extent;
+  }
+  return count;
 }
 
 }  // namespace shapespace

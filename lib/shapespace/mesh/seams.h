@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
 
 namespace shapespace {
@@ -30,6 +31,10 @@ struct Seams {
 /// per pose.
 Seams FindSeams(const std::vector<int>& polygon_begin, const std::vector<int>& corners,
                 const std::vector<Shape>& poses);
+
+/// How many twins are farther from their representatives in `shape` than a millionth of its extent:
+/// in a pose that was not among those for which seams were found, they may be.
+int CountParted(const Connectivity& connectivity, const Shape& shape);
 
 }  // namespace shapespace
 
