@@ -11,7 +11,6 @@
 #include <shapespace/files/read.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/seams.h>
-#include <shapespace/mesh/selection.h>
 #include <shapespace/mesh/surface.h>
 #include <shapespace/mesh/topology.h>
 
@@ -356,17 +355,11 @@ TEST(SeamsOfSoups, MirrorImagesAreFound) {
   EXPECT_EQ(back.vertices, soup.vertices);
 }
 
-TEST(SeamsOfSelections, AllCopiesOfAVertexAreSelected) {
+TEST(SeamsOfSelections, ArePointsOnce) {
   const Soup soup = TwoSquares();
   const Poses poses = MakePoses({soup});
-  Selection selection;
-  selection.vertices = {{7, 7}};
-  const auto select = [&](const Selection& what) {
-    return SelectVertices(what, poses.shapes[0], *poses.connectivity, {});
-  };
-  EXPECT_EQ(select(selection), (std::vector<int>{2, 7}));
-  selection.vertices = {{1, 1}};
-  EXPECT_EQ(select(selection), (std::vector<int>{1, 4}));
+  EXPECT_EQ(RepresentativesOf(*poses.connectivity, {7, 4, 5, 1, 2}), (std::vector<int>{1, 2, 5}));
+  EXPECT_EQ(RepresentativesOf(*Connected(soup), {7, 4, 1}), (std::vector<int>{7, 4, 1}));
 }
 
 }  // namespace

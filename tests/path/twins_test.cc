@@ -3,6 +3,7 @@
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/analysis/vertex_energy.h>
 #include <shapespace/bodies/bar.h>
+#include <shapespace/path/anchor.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/path.h>
 #include <shapespace/path/path_file.h>
@@ -60,6 +61,26 @@ TEST(PathOfTwins, MetricIsThatOfTheWholeBody) {
     for (size_t i = 0; i < lengths.size(); ++i) {
       EXPECT_NEAR(of_twins[i], lengths[i], 1e-10 * lengths[i]);
     }
+  }
+}
+
+TEST(PathOfTwins, AnchorsCountEveryPointOnce) {
+  const CutBar body;
+  std::vector<int> part, of_cut;
+  for (size_t v = 0; v < body.cut.source.size(); ++v) {
+    const int point = body.cut.source[v];
+    if (body.placed[0](0, point) > -1.6) continue;
+    if (point == static_cast<int>(v)) part.push_back(point);
+    // Half of them are named by their last copies only.
+    if (static_cast<int>(v) == (point % 2 == 0 ? body.cut.LastCopy(point) : point)) {
+      of_cut.push_back(static_cast<int>(v));
+    }
+  }
+  Path whole = body.Whole(), cut = body.Cut();
+  Anchor(&whole, part);
+  Anchor(&cut, of_cut);
+  for (int i = 0; i < whole.NumShapes(); ++i) {
+    EXPECT_LT((cut.Placed(i) - body.cut.Of(whole.Placed(i))).cwiseAbs().maxCoeff(), 1e-9);
   }
 }
 

@@ -1,5 +1,6 @@
 // Bodies that are cut as files store them move as the whole body does, without a gap.
 
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/correspondence/correspondence.h>
 #include <shapespace/deformation/deformation.h>
+#include <shapespace/deformation/handle_file.h>
+#include <shapespace/deformation/standing.h>
 #include <shapespace/exploration/explore.h>
 #include <shapespace/exponential/correction.h>
 #include <shapespace/exponential/exponential.h>
@@ -18,6 +21,7 @@
 
 #include "support/cut_body.h"
 #include "support/motions.h"
+#include "support/temporary_file.h"
 
 namespace shapespace {
 namespace {
@@ -103,6 +107,41 @@ TEST_P(CutBar, IsDeformedByHandlesAsAWhole) {
     EXPECT_EQ(cut.summary.free_components, 0);
     EXPECT_LT(cut.summary.handles[1].residual_max, 1e-9);
   }
+}
+
+// Handles of files turn about the centroid of their points, and not of the copies of these.
+TEST_P(CutBar, HandlesOfFilesAreThoseOfTheWhole) {
+  const std::string file = testing::TemporaryFile("handles.json");
+  std::ofstream(file) << R"({"handles": [
+      {"select": {"halfspace": {"point": [0, 0, 0], "normal": [1, 0.2, 0.1]}},
+       "rotation": {"axis": [0, 1, 0], "degrees": 30}},
+      {"select": {"ball": {"centre": [-3, -0.5, -0.5], "radius": 0.01}}, "position": [-3, 0, 0]}]})";
+  const auto whole = ReadHandles(file, poses_[0], *whole_, {});
+  const auto cut = ReadHandles(file, cut_.Of(poses_[0]), *joined_, {});
+  EXPECT_LT((cut[0].motion.point - whole[0].motion.point).norm(), 1e-12);
+  ASSERT_TRUE(cut[1].positions);
+  EXPECT_EQ(cut[1].positions->col(0), whole[1].positions->col(0));
+  EXPECT_EQ(cut[1].positions->cols(), static_cast<int>(cut[1].vertices.size()));
+}
+
+// Feet that stand, likewise.
+TEST_P(CutBar, PartsStandAsThoseOfTheWhole) {
+  GeodesicOptions options;
+  options.shapes = 1;
+  options.tolerance = 1e-9;
+  const std::vector<Shape> pair = {poses_[0], poses_[1]};
+  Path whole = Interpolate(whole_, pair, options).path;
+  Path cut = Interpolate(joined_, Cut(pair), options).path;
+  StandingPart part;
+  part.vertices = Where(poses_[0], [](const auto& p) { return p.x() < -2.7; });
+  part.poses = {{0, 1}};
+  StandingPart of_cut = part;
+  for (int& v : of_cut.vertices) v = cut_.LastCopy(v);
+  DeformationOptions tight = StandingDefaults();
+  tight.tolerance = 1e-9;
+  HoldStandingParts(Path(whole), {part}, tight, &whole);
+  HoldStandingParts(Path(cut), {of_cut}, tight, &cut);
+  ExpectSame(cut, whole, 2e-3);
 }
 
 TEST_P(CutBar, WhatIsHeldByItsCopiesHangsByThem) {

@@ -21,7 +21,7 @@ using internal::UnionFind;
 constexpr double kCoincide = 1e-6;
 // ... or than so many units in the last place of the largest coordinate, by which the same number
 // may differ after it was transformed twice.
-constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double kLastPlaces = 8 * std::numeric_limits<double>::epsilon();
 
 /// A side of one polygon that no other polygon has, in the direction of its polygon.
 struct Border {
@@ -47,7 +47,7 @@ class Places {
   Places(const std::vector<Shape>& poses, std::vector<int> vertices, std::vector<double> slack)
       : poses_(poses), slack_(std::move(slack)), vertices_(std::move(vertices)) {
     for (const Shape& pose : poses) {
-      rounding_.push_back(kRounding * pose.cwiseAbs().maxCoeff());
+      rounding_.push_back(kLastPlaces * pose.cwiseAbs().maxCoeff());
     }
     place_.resize(slack_.size());
     std::iota(place_.begin(), place_.end(), 0);
@@ -330,6 +330,16 @@ class SeamFinder {
 Seams FindSeams(const std::vector<int>& polygon_begin, const std::vector<int>& corners,
                 const std::vector<Shape>& poses) {
   return SeamFinder(polygon_begin, corners, poses).Run();
+}
+
+std::vector<int> RepresentativesOf(const Connectivity& connectivity,
+                                   const std::vector<int>& vertices) {
+  if (connectivity.Twins().empty()) return vertices;
+  std::vector<int> result;
+  for (const int v : vertices) result.push_back(connectivity.Representative(v));
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
 }
 
 int CountParted(const Connectivity& connectivity, const Shape& shape) {

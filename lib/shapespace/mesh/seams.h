@@ -36,6 +36,11 @@ Seams FindSeams(const std::vector<int>& polygon_begin, const std::vector<int>& c
 /// in a pose that was not among those for which seams were found, they may be.
 int CountParted(const Connectivity& connectivity, const Shape& shape);
 
+/// The representatives of some vertices, ascending and each once; if no two vertices of the mesh
+/// are joined, the vertices as they are.
+std::vector<int> RepresentativesOf(const Connectivity& connectivity,
+                                   const std::vector<int>& vertices);
+
 }  // namespace shapespace
 
 #endif  // SHAPESPACE_MESH_SEAMS_H_

@@ -211,11 +211,7 @@ std::vector<int> SelectVertices(const Selection& selection, const Shape& shape,
   }
   appearance.Validate(connectivity.NumVertices(), connectivity.NumPolygons(),
                       static_cast<int>(connectivity.Corners().size()));
-  Flags selected = Selector(shape, connectivity, appearance).Run(selection, "");
-  for (const int twin : connectivity.Twins()) {
-    if (selected[twin]) selected[connectivity.Representative(twin)] = true;
-  }
-  connectivity.CopyToTwins(&selected);
+  const Flags selected = Selector(shape, connectivity, appearance).Run(selection, "");
   std::vector<int> vertices;
   for (size_t v = 0; v < selected.size(); ++v) {
     if (selected[v]) vertices.push_back(static_cast<int>(v));

@@ -55,10 +55,10 @@ Selection ReadSelection(const std::string& text);
 /// The text form, on one line; `ReadSelection` reads it back.
 std::string ToText(const Selection& selection);
 
-/// The vertices selected in `shape`, counted from 0, ascending and without repetitions, of those at
-/// seams all that are one point of the surface. The boundary of a ball, a box or a half-space
-/// belongs to it, within a billionth of the shape's diameter. \throw InvalidOptions as `Validate`;
-/// also if a vertex does not exist, no polygon has the group,
+/// The vertices selected in `shape`, counted from 0, ascending and without repetitions. The
+/// boundary of a ball, a box or a half-space belongs to it, within a billionth of the shape's
+/// diameter.
+/// \throw InvalidOptions as `Validate`; also if a vertex does not exist, no polygon has the group,
 ///        or the selection, or one of those in an `any`, has no vertex. MeshError if the arguments
 ///        do not belong to one mesh.
 std::vector<int> SelectVertices(const Selection& selection, const Shape& shape,

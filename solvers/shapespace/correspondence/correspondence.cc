@@ -68,9 +68,9 @@ struct OwnFrame {
 };
 
 // Markers on vertices that have elements; vertices that do not exist remain for the check.
-std::vector<CorrespondenceMarker> OnRepresentatives(std::vector<CorrespondenceMarker> markers,
-                                                    const Connectivity& template_connectivity,
-                                                    const Connectivity& target_connectivity) {
+std::vector<CorrespondenceMarker> MarkersOnRepresentatives(
+    std::vector<CorrespondenceMarker> markers, const Connectivity& template_connectivity,
+    const Connectivity& target_connectivity) {
   const auto represent = [](const Connectivity& connectivity, int* v) {
     if (*v >= 0 && *v < connectivity.NumVertices()) *v = connectivity.Representative(*v);
   };
@@ -435,7 +435,7 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
                                 const CorrespondenceOptions& options, Progress* progress) {
   const internal::Stopwatch total;
   const std::vector<CorrespondenceMarker> all_markers =
-      OnRepresentatives(given_markers, *template_connectivity, *target_connectivity);
+      MarkersOnRepresentatives(given_markers, *template_connectivity, *target_connectivity);
   CorrespondenceResult result;
   CorrespondenceSummary& summary = result.summary;
   CheckInput(*template_connectivity, template_shape, *target_connectivity, target_shape,

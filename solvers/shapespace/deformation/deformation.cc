@@ -53,8 +53,8 @@ constexpr double kContradiction = 1e-9;
 
 // Handles on the vertices that have elements. Of several that are one point of the surface the
 // first counts; vertices that do not exist, or are listed twice, remain for the check.
-std::vector<DeformationHandle> OnRepresentatives(std::vector<DeformationHandle> handles,
-                                                 const Connectivity& connectivity) {
+std::vector<DeformationHandle> HandlesOnRepresentatives(std::vector<DeformationHandle> handles,
+                                                        const Connectivity& connectivity) {
   if (connectivity.Twins().empty()) return handles;
   for (DeformationHandle& handle : handles) {
     std::map<int, int> first;  // by representative, the vertex that was listed first
@@ -173,7 +173,7 @@ Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity
 DeformationResult Deformer::Solver::Solve(const std::vector<DeformationHandle>& given,
                                           const Shape* end, Progress* progress) {
   const internal::Stopwatch total;
-  const std::vector<DeformationHandle> handles = OnRepresentatives(given, *connectivity_);
+  const std::vector<DeformationHandle> handles = HandlesOnRepresentatives(given, *connectivity_);
   ReportProgress(progress, "deforming", 0, 0);
   DeformationResult result;
   DeformationSummary& summary = result.summary;
