@@ -52,7 +52,7 @@ class CutBar : public ::testing::TestWithParam<bool> {
     }
   }
 
-  const ShapeFamily bar_ = MakeBar(6, 1, 1, 18, 3, 3);
+  const ShapeFamily bar_ = MakeBar(6, 1, 1, 9, 2, 2);
   const std::shared_ptr<const Connectivity> whole_ = bar_.connectivity;
   const std::vector<Shape> poses_ = {bar_.pose(0), bar_.pose(80), Twisted(bar_.pose(20))};
   const CutBody cut_ = GetParam() ? testing::CutIntoPolygons(*whole_) : CutInTheMiddle();
