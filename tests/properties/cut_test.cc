@@ -22,7 +22,7 @@ using testing::Method;
 using testing::RandomBody;
 
 constexpr BodyKind kManifolds[] = {BodyKind::kPlate, BodyKind::kTube, BodyKind::kBall,
-                                   BodyKind::kTorus, BodyKind::kDelaunay};
+                                   BodyKind::kTorus};
 
 // A soup, or a few islands that cross each other at random.
 CutBody Cut(const RandomBody& body, bool into_polygons) {
