@@ -26,6 +26,10 @@ DEFINE_string(
     "fitted template to stdout, as PLY");
 DEFINE_bool(allow_nonmanifold, false,
             "accept meshes with non-manifold edges or vertices, or inconsistent winding");
+DEFINE_bool(open_seams, false,
+            "leave a surface open where its borders lie on each other; by default their vertices "
+            "are joined, because most files store vertices several times where texture "
+            "coordinates, normals or materials change");
 FLAG_GROUP(correspond, "Files");
 
 namespace shapespace::tools {
@@ -51,8 +55,10 @@ Poses ReadMesh(const std::string& file) {
   ReadOptions options;
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
   options.loose_components = true;  // nothing moves
+  options.open_seams = FLAGS_open_seams;
   Poses mesh = MakePoses({ReadSoupOrStdin(file)}, options);
   for (const std::string& warning : mesh.warnings) Warn(warning);
+  for (const std::string& note : mesh.notes) Note(note);
   for (const std::string& dropped : mesh.soup.dropped) Note(dropped);
   return mesh;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <utility>
 
 #include <gflags/gflags.h>
@@ -15,6 +16,7 @@
 #include <shapespace/exploration/space_file.h>
 #include <shapespace/files/read.h>
 #include <shapespace/mesh/check.h>
+#include <shapespace/mesh/seams.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/numerics/internal/json_of.h>
 #include <shapespace/path/align.h>
@@ -98,9 +100,17 @@ Json PrintContent(const Soup& soup, Telling* told) {
   return json;
 }
 
+// The connectivity with the seams that are closed in all poses, unless --open_seams.
+std::shared_ptr<const Connectivity> WholeSurface(const Soup& soup,
+                                                 const std::vector<Shape>& poses) {
+  Seams seams;
+  if (!FLAGS_open_seams) seams = FindSeams(soup.polygon_begin, soup.corners, poses);
+  return ConnectivityOf(soup, poses, {}, seams.representatives);
+}
+
 // Prints self-intersections of a usable mesh, and returns their number.
 std::int64_t PrintIntersections(const Soup& soup, Telling* told) {
-  const auto connectivity = ConnectivityOf(soup, {soup.vertices});
+  const auto connectivity = WholeSurface(soup, {soup.vertices});
   const std::int64_t pairs = CountIntersections(*connectivity, soup.vertices);
   const std::string message = std::to_string(pairs) + " pairs of triangles cross";
   told->Say("  %-12s %-24s %s\n", Name(Severity::kNote), "self-intersections",
@@ -111,7 +121,7 @@ std::int64_t PrintIntersections(const Soup& soup, Telling* told) {
 // Prints the difference of a pose from the first, up to rigid motion.
 Json PrintDistance(const Soup& reference, const Soup& pose, Telling* told) {
   const std::vector<Shape> pair = {reference.vertices, pose.vertices};
-  const auto connectivity = ConnectivityOf(reference, pair);
+  const auto connectivity = WholeSurface(reference, pair);
   CheckMetricFlags(*connectivity);
   const auto metric = FreezeMetric(MetricFromFlags(), connectivity, pair);
   const AlignedPoses aligned = AlignPoses(*metric, pair);
@@ -237,7 +247,7 @@ class Meshes {
     Soup& soup = soups_.back();
     Json json = PrintContent(soup, told);
     json["findings"] = Json::array();
-    const bool usable = Print(CheckSoup(soup), &json["findings"], told);
+    const bool usable = Print(CheckSoup(soup, FLAGS_open_seams), &json["findings"], told);
     if (usable) json["intersections"] = PrintIntersections(soup, told);
     const char axis = MirrorFromFlags();
     if (usable && soups_.size() > 1 && axis != 0 && MirrorBack(soups_.front(), axis, &soup)) {

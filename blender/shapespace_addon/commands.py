@@ -59,7 +59,8 @@ def _transfer(task: Task, poses: list, targets: list, programs: dict, metric: li
         found.append([programs["shape-interpolate"], *source, *flags, "--output", SOURCE])
         source = [SOURCE]
     for i, target in enumerate(targets):
-        found.append([programs["shape-transfer"], *source, "--target", target, *_results(i)])
+        seams = _seam_flags(task.metric)
+        found.append([programs["shape-transfer"], *source, "--target", target, *seams, *_results(i)])
     return found
 
 
@@ -113,7 +114,11 @@ def _metric_flags(metric: Metric, folder: str) -> list:
         with open(os.path.join(folder, _STIFFNESS), "w") as out:
             out.writelines(f"{factor!r}\n" for factor in metric.stiffness.tolist())
         flags += ["--stiffness", _STIFFNESS]
-    return flags
+    return flags + _seam_flags(metric)
+
+
+def _seam_flags(metric: Metric) -> list:
+    return ["--open_seams"] if metric.open_seams else []
 
 
 def _tie_flags(metric: Metric) -> list:

@@ -16,6 +16,7 @@ def metric_of(settings, preset: str, item, vertices) -> Metric:
         settings.volume if settings.custom_volume else None,
         stiffness,
         settings.loose_components,
+        settings.open_seams,
     )
 
 

@@ -33,6 +33,7 @@ def poses_of(module, task):
         allow_nonmanifold=True,
         allow_mirrored=getattr(task, "allow_mirrored", False),
         loose_components=task.metric.loose_components,
+        open_seams=task.metric.open_seams,
     )
 
 

@@ -130,6 +130,7 @@ class SHAPESPACE_PT_metric(_Part, bpy.types.Panel):
             value.enabled = getattr(settings, f"custom_{name}")
             value.prop(settings, name, text="")
         column.prop(settings, "loose_components")
+        column.prop(settings, "open_seams")
 
 
 CLASSES = (

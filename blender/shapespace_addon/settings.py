@@ -52,6 +52,11 @@ class MetricSettings:
         description="Leave parts loose that are not connected with the rest but stay near it in all"
         " poses, such as eyes and clothes. Otherwise they are tied to it",
     )
+    open_seams: BoolProperty(
+        name="Open Seams",
+        description="Leave the surface open where borders lie on each other in all poses, as lips do"
+        " that never part. Otherwise vertices that are doubled at seams stay together",
+    )
 
 
 class ToleranceSettings:

@@ -18,14 +18,15 @@ class Body:
 
 @dataclass
 class Metric:
-    """What motions cost. None stands for the preset's own, or without a preset for what suits the
-    mesh."""
+    """What motions cost, and of what surface. None stands for the preset's own, or without a preset
+    for what suits the mesh."""
 
     preset: str = ""
     bending: float | None = None
     volume: float | None = None
     stiffness: np.ndarray | None = None  # n factors
     loose_components: bool = False  # that stay near others, and would be tied to these
+    open_seams: bool = False  # where borders lie on each other in all poses
 
 
 @dataclass

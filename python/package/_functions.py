@@ -188,6 +188,7 @@ def read(
     *files,
     stiffeners=None,
     allow_nonmanifold=False,
+    open_seams=False,
     mirror=None,
     allow_mirrored=False,
     loose_components=False,
@@ -204,6 +205,9 @@ def read(
         File of further edges that the metric is to hold: two vertex numbers a line, from 1.
     allow_nonmanifold : bool, optional
         Take non-manifold or inconsistently wound meshes, with a warning.
+    open_seams : bool, optional
+        Leave the surface open where borders lie on each other in all poses, as lips do that never
+        part. By default their vertices are one point of the surface, which `Poses.notes` says.
     mirror : {'x', 'y', 'z'}, optional
         Poses that are mirror images of the first have this coordinate's sign changed. Without it
         they are refused.
@@ -235,6 +239,7 @@ def read(
         names,
         rest,
         allow_nonmanifold,
+        open_seams,
         mirror,
         allow_mirrored,
         loose_components,

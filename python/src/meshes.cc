@@ -58,12 +58,13 @@ std::shared_ptr<const Connectivity> ConnectivityIn(py::handle mesh, Appearance* 
   return nullptr;
 }
 
-ReadOptions ReadingOptions(bool allow_nonmanifold, const py::object& mirror, bool allow_mirrored,
-                           bool loose_components) {
+ReadOptions ReadingOptions(bool allow_nonmanifold, bool open_seams, const py::object& mirror,
+                           bool allow_mirrored, bool loose_components) {
   ReadOptions options;
   options.allow_mirrored = allow_mirrored;
   options.loose_components = loose_components;
   options.allow_nonmanifold = allow_nonmanifold;
+  options.open_seams = open_seams;
   if (!mirror.is_none()) {
     const auto axis = py::cast<std::string>(mirror);
     if (axis != "x" && axis != "y" && axis != "z") {
@@ -112,6 +113,10 @@ stiffeners : array_like, optional
     Further edges that the metric is to hold, k x 2.
 allow_nonmanifold : bool, optional
     Take non-manifold or inconsistently wound meshes, with a warning.
+open_seams : bool, optional
+    Leave the surface open where borders lie on each other in all poses, as lips do that never part.
+    By default their vertices are one point of the surface, and have the same position in all
+    results.
 mirror : {'x', 'y', 'z'}, optional
     Poses that are mirror images of the first have this coordinate's sign changed. Without it they
     are refused.
@@ -130,19 +135,20 @@ MismatchError
     The shapes are no poses of one mesh.
 )")
       .def(py::init([](py::handle shapes, py::handle faces, py::handle segments,
-                       py::handle stiffeners, bool allow_nonmanifold, const py::object& mirror,
-                       bool allow_mirrored, bool loose_components) {
-             Poses poses = MakePoses(
-                 ToShapes(shapes, "shapes"), faces,
-                 ReadingOptions(allow_nonmanifold, mirror, allow_mirrored, loose_components),
-                 segments, stiffeners);
+                       py::handle stiffeners, bool allow_nonmanifold, bool open_seams,
+                       const py::object& mirror, bool allow_mirrored, bool loose_components) {
+             Poses poses = MakePoses(ToShapes(shapes, "shapes"), faces,
+                                     ReadingOptions(allow_nonmanifold, open_seams, mirror,
+                                                    allow_mirrored, loose_components),
+                                     segments, stiffeners);
              Warn(poses.warnings);
              return poses;
            }),
            py::arg("shapes"), py::arg("faces") = py::none(), py::kw_only(),
            py::arg("segments") = py::none(), py::arg("stiffeners") = py::none(),
            py::arg("allow_nonmanifold") = ReadOptions().allow_nonmanifold,
-           py::arg("mirror") = py::none(), py::arg("allow_mirrored") = ReadOptions().allow_mirrored,
+           py::arg("open_seams") = ReadOptions().open_seams, py::arg("mirror") = py::none(),
+           py::arg("allow_mirrored") = ReadOptions().allow_mirrored,
            py::arg("loose_components") = ReadOptions().loose_components)
       .def(Pickle<Poses>())
       .def("__len__", [](const Poses& poses) { return poses.shapes.size(); })
@@ -159,7 +165,8 @@ MismatchError
           "vertices", [](const Poses& poses) { return FromShapes(poses.shapes); },
           "The vertices of all poses, k x n x 3: a copy.")
       .def_property_readonly(
-          "faces", [](const Poses& poses) { return FromMatrix(poses.connectivity->Triangles()); },
+          "faces",
+          [](const Poses& poses) { return FromMatrix(poses.connectivity->FileTriangles()); },
           "The triangles, m x 3, into which the polygons are cut.")
       .def_property_readonly(
           "polygons", [](const Poses& poses) { return Polygons(*poses.connectivity); },
@@ -183,10 +190,10 @@ MismatchError
   module->def(
       "read",
       [](const std::vector<std::string>& files, const std::string& stiffeners,
-         bool allow_nonmanifold, const py::object& mirror, bool allow_mirrored,
+         bool allow_nonmanifold, bool open_seams, const py::object& mirror, bool allow_mirrored,
          bool loose_components, bool allow_outside_files) {
-        ReadOptions options =
-            ReadingOptions(allow_nonmanifold, mirror, allow_mirrored, loose_components);
+        ReadOptions options = ReadingOptions(allow_nonmanifold, open_seams, mirror, allow_mirrored,
+                                             loose_components);
         options.stiffeners = stiffeners;
         options.allow_outside_files = allow_outside_files;
         Poses poses = WithoutLock(py::none(), [=](Progress*) { return ReadPoses(files, options); });
@@ -195,8 +202,9 @@ MismatchError
         Warn(poses.warnings);
         return poses;
       },
-      py::arg("files"), py::arg("stiffeners"), py::arg("allow_nonmanifold"), py::arg("mirror"),
-      py::arg("allow_mirrored"), py::arg("loose_components"), py::arg("allow_outside_files"));
+      py::arg("files"), py::arg("stiffeners"), py::arg("allow_nonmanifold"), py::arg("open_seams"),
+      py::arg("mirror"), py::arg("allow_mirrored"), py::arg("loose_components"),
+      py::arg("allow_outside_files"));
 
   module->def("write", [](const std::string& file, py::handle vertices, py::handle faces) {
     const Shape shape = ToShape(vertices, "vertices");
@@ -317,7 +325,8 @@ Poses MakePoses(std::vector<Shape> shapes, py::handle faces, const ReadOptions& 
   if (!stiffeners.is_none()) {
     const int num_vertices = poses.connectivity->NumVertices();
     poses.connectivity = ConnectivityOf(
-        poses.soup, poses.shapes, ToPairs(stiffeners, "stiffeners", num_vertices, num_vertices));
+        poses.soup, poses.shapes, ToPairs(stiffeners, "stiffeners", num_vertices, num_vertices),
+        poses.connectivity->Representatives());
     if (!options.loose_components) TieComponents(&poses);
   }
   poses.names.clear();
@@ -351,6 +360,9 @@ void CheckIsOfMesh(const Metric& metric, const Connectivity& mesh) {
     }
   }
   if (own.Segments() != mesh.Segments()) refuse("segments have other ends");
+  if (own.Representatives() != mesh.Representatives()) {
+    refuse("other vertices are joined at seams");
+  }
 }
 
 void BindMeshes(py::module_* module) {

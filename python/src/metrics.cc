@@ -69,7 +69,7 @@ void BindMetric(py::module_* module) {
       .def_property_readonly(
           "faces",
           [](const FrozenMetric& self) {
-            return FromMatrix(self.metric->connectivity->Triangles());
+            return FromMatrix(self.metric->connectivity->FileTriangles());
           },
           "The triangles, m x 3.")
       .def_property_readonly(

@@ -60,10 +60,11 @@ void BindModels(py::module_* module) {
                         return std::make_shared<ShapeModel>(std::move(modes));
                       }))
       .def_property_readonly("names", [](const ShapeModel& model) { return model.Modes().names; })
-      .def_property_readonly("faces",
-                             [](const ShapeModel& model) {
-                               return FromMatrix(model.Modes().metric->connectivity->Triangles());
-                             })
+      .def_property_readonly(
+          "faces",
+          [](const ShapeModel& model) {
+            return FromMatrix(model.Modes().metric->connectivity->FileTriangles());
+          })
       .def_property_readonly("mean",
                              [](const ShapeModel& model) {
                                const PoseModes& modes = model.Modes();

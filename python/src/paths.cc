@@ -181,7 +181,7 @@ void BindShapes(py::class_<Path>* path) {
           "geodesic equation holds.")
       .def_property_readonly(
           "faces",
-          [](const Path& path) { return FromMatrix(path.metric->connectivity->Triangles()); },
+          [](const Path& path) { return FromMatrix(path.metric->connectivity->FileTriangles()); },
           "The triangles, m x 3.")
       .def_property_readonly(
           "metric", [](const Path& path) { return FrozenMetric{path.metric}; },

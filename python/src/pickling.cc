@@ -99,7 +99,7 @@ void Read(const HeaderJson& header, const ArrayReader& arrays, Poses* poses) {
   poses->soup.vertices = poses->shapes.at(0);
   poses->names = internal::NamesFromJson(header.at("names"));
   poses->warnings = internal::NamesFromJson(header.at("warnings"));
-  poses->notes = internal::NamesFromJson(header.at("notes"));
+  if (header.contains("notes")) poses->notes = internal::NamesFromJson(header.at("notes"));
   poses->soup.dropped = internal::NamesFromJson(header.at("dropped"));
   const std::vector<std::string> file = internal::NamesFromJson(header.at("file"));
   poses->soup.file = file.at(0);

@@ -71,7 +71,7 @@ poses, then the shapes found half way between nodes. `explore` makes it.
       .def_property_readonly(
           "faces",
           [](const PoseSpace& space) {
-            return FromMatrix(space.metric->connectivity->Triangles());
+            return FromMatrix(space.metric->connectivity->FileTriangles());
           },
           "The triangles, m x 3.")
       .def_property_readonly(

@@ -7,6 +7,10 @@
 
 DEFINE_bool(allow_nonmanifold, false,
             "accept meshes with non-manifold edges or vertices, or inconsistent winding");
+DEFINE_bool(open_seams, false,
+            "leave the surface open where borders lie on each other in all poses, as lips do that "
+            "never part; by default their vertices are joined, because most files store vertices "
+            "several times where texture coordinates, normals or materials change");
 DEFINE_string(
     mirror, "",
     "x, y or z: change the sign of this coordinate in poses that are mirror images of the first, "

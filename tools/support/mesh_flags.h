@@ -5,6 +5,7 @@
 
 DECLARE_bool(allow_mirrored);
 DECLARE_bool(allow_nonmanifold);
+DECLARE_bool(open_seams);
 
 namespace shapespace::tools {
 

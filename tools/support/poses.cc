@@ -39,6 +39,7 @@ ReadOptions OptionsFromFlags(bool tie = true) {
   options.stiffeners = FLAGS_stiffeners;
   options.loose_components = FLAGS_loose_components || !tie;
   options.allow_nonmanifold = FLAGS_allow_nonmanifold;
+  options.open_seams = FLAGS_open_seams;
   options.mirror = MirrorFromFlags();
   options.allow_mirrored = FLAGS_allow_mirrored;
   options.allow_outside_files = FLAGS_allow_outside_files;

@@ -24,6 +24,7 @@ std::vector<DeviationSite> FindDeviationSites(const Path& path, const RigidParts
   ParallelFor(path.NumShapes(), [&](int i) { by_shape[i] = EdgeDeviation(path, i); });
   Eigen::VectorXd deviation = Eigen::VectorXd::Zero(num_vertices);
   for (const Eigen::VectorXd& one : by_shape) deviation = deviation.cwiseMax(one);
+  deviation(connectivity.Twins()).setZero();  // their representatives count
   const Eigen::VectorXd weight = metric.vertex_area / metric.vertex_area.sum();
   const double total = deviation.cwiseAbs2().dot(weight);
   const double threshold = std::max(std::sqrt(total), kNoise);

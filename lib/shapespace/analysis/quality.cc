@@ -224,7 +224,9 @@ Eigen::VectorXd EdgeDeviation(const Metric& metric, const Shape& reference, cons
       weight(edges(k, e)) += metric.edge_area(e);
     }
   }
-  return (weight.array() > 0).select(deviation.cwiseQuotient(weight), 0);
+  deviation = (weight.array() > 0).select(deviation.cwiseQuotient(weight), 0);
+  metric.connectivity->CopyToTwins(&deviation);
+  return deviation;
 }
 
 }  // namespace shapespace

@@ -86,6 +86,7 @@ Eigen::VectorXi PartsOfVertices(const Connectivity& connectivity,
       }
     }
   }
+  connectivity.CopyToTwins(&result);
   return result;
 }
 

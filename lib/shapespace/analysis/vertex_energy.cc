@@ -43,6 +43,7 @@ std::vector<Eigen::VectorXd> VertexEnergy(const Path& path) {
     before.swap(values);
   }
   for (size_t i = 1; i + 1 < energies.size(); ++i) energies[i] /= 2;
+  for (Eigen::VectorXd& energy : energies) path.metric->connectivity->CopyToTwins(&energy);
   return energies;
 }
 

@@ -14,7 +14,9 @@
 #include <shapespace/mesh/internal/check_structure.h>
 #include <shapespace/mesh/internal/check_words.h>
 #include <shapespace/mesh/internal/polygons.h>
+#include <shapespace/mesh/internal/surface_triangles.h>
 #include <shapespace/mesh/mirrored.h>
+#include <shapespace/mesh/seams.h>
 #include <shapespace/mesh/ties.h>
 #include <shapespace/mesh/triangulate.h>
 
@@ -107,6 +109,19 @@ class FindingPolicy {
   std::vector<std::string>* warnings_;
 };
 
+// Finds the vertices that are one point of the surface, and puts them exactly there.
+std::vector<int> JoinSeams(Poses* poses) {
+  const Soup& first = poses->soup;
+  Seams seams = FindSeams(first.polygon_begin, first.corners, poses->shapes);
+  if (seams.joined > 0) {
+    poses->notes.push_back(internal::FileName(first) + ": " + internal::WordsOfJoined(seams));
+  }
+  if (seams.unclear > 0) {
+    poses->warnings.push_back(internal::FileName(first) + ": " + internal::WordsOfUnclear(seams));
+  }
+  return std::move(seams.representatives);
+}
+
 // Poses from `count` sources, the i-th of which gives the soups next(i), one or more. They are made
 // one after the other, because of all but the first only the positions are kept.
 template <typename Next>
@@ -145,7 +160,10 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
   if (!options.stiffeners.empty()) {
     stiffeners = ReadStiffeners(options.stiffeners, first.NumVertices());
   }
-  poses.connectivity = ConnectivityOf(first, poses.shapes, stiffeners);
+  std::vector<int> representatives;
+  if (!options.open_seams) representatives = JoinSeams(&poses);
+  poses.connectivity = ConnectivityOf(first, poses.shapes, stiffeners, representatives);
+  for (Shape& shape : poses.shapes) poses.connectivity->CopyToTwins(&shape);
   if (!options.loose_components) TieComponents(&poses);
   return poses;
 }
@@ -182,7 +200,8 @@ bool MirrorBack(const Soup& reference, char axis, Soup* pose) {
   }
   if (pose->NumVertices() != reference.NumVertices()) return false;
   internal::CheckPolygons(reference.NumVertices(), reference.polygon_begin, reference.corners);
-  const Eigen::Matrix3Xi triangles = internal::Fans(reference.polygon_begin, reference.corners);
+  if (!reference.vertices.allFinite() || !pose->vertices.allFinite()) return false;
+  const Eigen::Matrix3Xi triangles = internal::SurfaceTriangles(reference, *pose);
   if (!IsMirrored(triangles, reference.vertices, pose->vertices)) return false;
   pose->vertices.row(axis - 'x') *= -1;
   return true;
@@ -190,9 +209,10 @@ bool MirrorBack(const Soup& reference, char axis, Soup* pose) {
 
 std::shared_ptr<const Connectivity> ConnectivityOf(
     const Soup& soup, const std::vector<Shape>& poses,
-    const std::vector<std::pair<int, int>>& stiffeners) {
+    const std::vector<std::pair<int, int>>& stiffeners, const std::vector<int>& representatives) {
   return Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments,
-                            stiffeners, Triangulate(soup.polygon_begin, soup.corners, poses));
+                            stiffeners, Triangulate(soup.polygon_begin, soup.corners, poses),
+                            representatives);
 }
 
 std::vector<std::pair<int, int>> ReadStiffeners(const std::string& file, int num_vertices) {

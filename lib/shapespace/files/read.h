@@ -48,11 +48,13 @@ Soup ReadSoup(std::istream& stream, const std::string& name, MeshFormat format);
 bool MirrorBack(const Soup& reference, char axis, Soup* pose);
 
 /// The connectivity of a mesh, whose polygons are triangulated according to their shape in `poses`
-/// (`Triangulate`), which have the same number of vertices.
+/// (`Triangulate`), which have the same number of vertices. `representatives` are those of vertices
+/// at seams (`FindSeams`).
 /// \throw MeshError as `Connectivity::Make` and `Triangulate`.
 std::shared_ptr<const Connectivity> ConnectivityOf(
     const Soup& soup, const std::vector<Shape>& poses,
-    const std::vector<std::pair<int, int>>& stiffeners = {});
+    const std::vector<std::pair<int, int>>& stiffeners = {},
+    const std::vector<int>& representatives = {});
 
 /// Reads pairs of vertex numbers, counted from 1 as in OBJ, one pair per line; `#` begins a
 /// comment.
@@ -86,6 +88,11 @@ struct ReadOptions {
   /// Take poses that look like mirror images of the first as they are, with a warning: a dome that
   /// is pushed through, a body that is turned inside out.
   bool allow_mirrored = false;
+
+  /// Leave seams open, where borders of the surface lie on each other in all poses: for lips that
+  /// never part. By default their vertices are one point of the surface (`FindSeams`), and a note
+  /// says how many; shapes have the vertices of the file all the same.
+  bool open_seams = false;
 };
 
 /// Reads one or more files, with all poses that they have, as poses of the first one's

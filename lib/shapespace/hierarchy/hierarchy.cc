@@ -73,11 +73,16 @@ Hierarchy::Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
   const int num_triangles = connectivity->NumTriangles();
   const std::vector<int> targets = Targets(num_triangles, options.coarsest);
   const int fewest = targets.empty() ? num_triangles : targets.back();
+  std::vector<int> pinned = options.pinned;
+  for (int& v : pinned) {
+    if (v >= 0 && v < num_vertices) v = connectivity->Representative(v);
+  }
   const std::vector<internal::Collapse> collapses =
-      internal::PlanCollapses(*connectivity, poses, fewest, options.pinned, progress);
+      internal::PlanCollapses(*connectivity, poses, fewest, pinned, progress);
   stopped_early_ = !targets.empty() && (collapses.empty() || collapses.back().triangles > fewest);
 
   std::vector<int> place = levels_[0].vertices;  // to which every vertex of the mesh has collapsed
+  for (const int twin : connectivity->Twins()) place[twin] = connectivity->Representative(twin);
   size_t next = 0;
   int left = num_triangles;
   for (int target : targets) {
@@ -133,6 +138,7 @@ Eigen::VectorXd Hierarchy::RestrictField(const Eigen::VectorXd& field, int level
   // logarithms.
   Eigen::MatrixX2d sums(field.size(), 2);
   sums << Eigen::VectorXd::Ones(field.size()), field.array().log().matrix();
+  for (const int twin : levels_.back().connectivity->Twins()) sums.row(twin).setZero();
   for (int at = NumLevels() - 2; at >= level; --at) {
     const Level& here = levels_[at];
     Eigen::MatrixX2d coarse = sums(here.kept, Eigen::all);
@@ -144,7 +150,9 @@ Eigen::VectorXd Hierarchy::RestrictField(const Eigen::VectorXd& field, int level
     }
     sums = std::move(coarse);
   }
-  return (sums.col(1).array() / sums.col(0).array()).exp();
+  Eigen::VectorXd result = (sums.col(1).array() / sums.col(0).array()).exp();
+  levels_[level].connectivity->CopyToTwins(&result);
+  return result;
 }
 
 Shape Hierarchy::Lift(const Shape& coarse, int level, const Shape& from_base, const Shape& from,
@@ -167,6 +175,7 @@ Shape Hierarchy::Lift(const Shape& coarse, int level, const Shape& from_base, co
   };
   add(from_base, from, 1 - t);
   add(to_base, to, t);
+  levels_[level + 1].connectivity->CopyToTwins(&result);
   return result;
 }
 

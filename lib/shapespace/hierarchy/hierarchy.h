@@ -28,7 +28,8 @@ struct HierarchyOptions {
 class Hierarchy {
  public:
   /// Built once for all `poses` (3 x m each) that are used. Edges that are not sides of triangles
-  /// follow their end vertices. A graph has one level. O(m log m).
+  /// follow their end vertices. Twins (Connectivity) are on the finest level only. A graph has one
+  /// level. O(m log m).
   /// \throw InvalidOptions, MeshError (no pose, or one with the wrong number of vertices),
   ///        Cancelled.
   Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,

@@ -13,6 +13,7 @@
 #include <shapespace/mesh/internal/check_words.h>
 #include <shapespace/mesh/internal/sides.h>
 #include <shapespace/mesh/internal/sorted_polygons.h>
+#include <shapespace/mesh/seams.h>
 #include <shapespace/mesh/topology.h>
 
 namespace shapespace {
@@ -116,9 +117,10 @@ void CheckUnreferenced(const Soup& soup, Findings* findings) {
 }
 
 /// Notes for a mesh without fatal findings.
-void DescribeTopology(const Soup& soup, Findings* findings) {
-  const Topology topology = ComputeTopology(
-      *Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners, soup.segments));
+void DescribeTopology(const Soup& soup, const Seams& seams, Findings* findings) {
+  const Topology topology =
+      ComputeTopology(*Connectivity::Make(soup.NumVertices(), soup.polygon_begin, soup.corners,
+                                          soup.segments, {}, {}, seams.representatives));
   auto note = [&](const char* kind, const std::string& what) {
     findings->push_back({Severity::kNote, kind, FileName(soup) + ": " + what});
   };
@@ -134,6 +136,7 @@ void DescribeTopology(const Soup& soup, Findings* findings) {
     }
     return result + (parts.size() > kMaxNamed ? ", ..." : "");
   };
+  if (seams.joined > 0) note("seams", internal::WordsOfJoined(seams));
   std::sort(sizes.rbegin(), sizes.rend());
   std::vector<std::string> parts;
   for (int size : sizes) parts.push_back(std::to_string(size));
@@ -274,10 +277,17 @@ Findings CheckMesh(const Soup& soup) {
 
 }  // namespace internal
 
-Findings CheckSoup(const Soup& soup) {
+Findings CheckSoup(const Soup& soup, bool open_seams) {
   Findings findings = internal::CheckMesh(soup);
-  const bool fatal = !findings.empty() && findings.front().severity == Severity::kFatal;
-  if (!fatal) DescribeTopology(soup, &findings);
+  if (!findings.empty() && findings.front().severity == Severity::kFatal) return findings;
+  Seams seams;
+  if (!open_seams) seams = FindSeams(soup.polygon_begin, soup.corners, {soup.vertices});
+  if (seams.unclear > 0) {
+    findings.push_back({Severity::kWarning, "unclear-seam",
+                        FileName(soup) + ": " + internal::WordsOfUnclear(seams)});
+    internal::SortBySeverity(&findings);
+  }
+  DescribeTopology(soup, seams, &findings);
   return findings;
 }
 

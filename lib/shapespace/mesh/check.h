@@ -25,8 +25,9 @@ struct Finding {
   std::string option = {};
 };
 
-/// All findings about one mesh, in order of descending severity.
-std::vector<Finding> CheckSoup(const Soup& soup);
+/// All findings about one mesh, in order of descending severity. Components, borders and genus are
+/// those of the surface whose seams (mesh/seams.h) are joined, unless `open_seams`.
+std::vector<Finding> CheckSoup(const Soup& soup, bool open_seams = false);
 
 /// Whether `pose` is the same mesh as `reference` with other vertex positions. Compares counts,
 /// finds the first polygon that differs (and whether only the order differs), and finds groups of

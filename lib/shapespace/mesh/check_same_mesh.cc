@@ -9,10 +9,10 @@
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/internal/check_structure.h>
 #include <shapespace/mesh/internal/check_words.h>
-#include <shapespace/mesh/internal/polygons.h>
 #include <shapespace/mesh/internal/recut.h>
 #include <shapespace/mesh/internal/sides.h>
 #include <shapespace/mesh/internal/sorted_polygons.h>
+#include <shapespace/mesh/internal/surface_triangles.h>
 #include <shapespace/mesh/mirrored.h>
 #include <shapespace/mesh/volume.h>
 
@@ -226,7 +226,7 @@ class Comparison {
   }
 
   void CompareOrientations() {
-    const Eigen::Matrix3Xi triangles = internal::Fans(reference_.polygon_begin, reference_.corners);
+    const Eigen::Matrix3Xi triangles = internal::SurfaceTriangles(reference_, pose_);
     if (IsMirrored(triangles, reference_.vertices, pose_.vertices)) {
       Tell(Severity::kMirrored, "mirrored",
            "the body is a mirror image of the reference: what bulges to one side of the surface "

@@ -47,6 +47,19 @@ void CheckTriangles(const std::vector<int>& polygon_begin, const std::vector<int
   }
 }
 
+void CheckRepresentatives(const std::vector<int>& representatives, int num_vertices) {
+  if (representatives.empty()) return;
+  bool good = static_cast<int>(representatives.size()) == num_vertices;
+  for (size_t v = 0; v < representatives.size() && good; ++v) {
+    const int r = representatives[v];
+    good = r >= 0 && r < num_vertices && representatives[r] == r;
+  }
+  if (!good) {
+    throw MeshError(
+        "representatives: there must be one for each vertex, which represents itself too");
+  }
+}
+
 // Per vertex the columns of `elements` that contain it, without repetitions.
 template <typename Elements>
 IndexLists ListsByVertex(int num_vertices, const Elements& elements) {
@@ -131,19 +144,22 @@ void AddOtherEdges(std::vector<Edge> others, std::vector<Edge>* edges) {
 
 }  // namespace
 
-std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
-                                                       std::vector<int> polygon_begin,
-                                                       std::vector<int> corners,
-                                                       const std::vector<Edge>& segments,
-                                                       const std::vector<Edge>& stiffeners,
-                                                       const Eigen::Matrix3Xi& triangles) {
+std::shared_ptr<const Connectivity> Connectivity::Make(
+    int num_vertices, std::vector<int> polygon_begin, std::vector<int> corners,
+    const std::vector<Edge>& segments, const std::vector<Edge>& stiffeners,
+    const Eigen::Matrix3Xi& triangles, std::vector<int> representatives) {
   if (num_vertices <= 0) throw MeshError("a mesh needs at least one vertex");
   internal::CheckPolygons(num_vertices, polygon_begin, corners);
   CheckJoins(segments, num_vertices, "segment");
   CheckJoins(stiffeners, num_vertices, "stiffener");
+  CheckRepresentatives(representatives, num_vertices);
 
   std::shared_ptr<Connectivity> result(new Connectivity);
   result->num_vertices_ = num_vertices;
+  for (size_t v = 0; v < representatives.size(); ++v) {
+    if (representatives[v] != static_cast<int>(v)) result->twins_.push_back(static_cast<int>(v));
+  }
+  if (!result->twins_.empty()) result->representatives_ = std::move(representatives);
 
   if (triangles.cols() == 0) {
     result->triangles_ = internal::Fans(polygon_begin, corners);
@@ -151,15 +167,26 @@ std::shared_ptr<const Connectivity> Connectivity::Make(int num_vertices,
     CheckTriangles(polygon_begin, corners, triangles);
     result->triangles_ = triangles;
   }
+  const auto represented = [&](int v) { return result->Representative(v); };
+  std::vector<int> own_corners = corners;
+  if (!result->twins_.empty()) {
+    result->file_triangles_ = result->triangles_;
+    result->triangles_ = result->triangles_.unaryExpr(represented);
+    std::transform(corners.begin(), corners.end(), own_corners.begin(), represented);
+  }
 
   std::vector<std::array<int, 4>> hinges;
   std::vector<int> edge_begin, edge_triangles;
   std::vector<Edge> edges =
       EdgesOfTriangles(num_vertices, result->triangles_, &edge_begin, &edge_triangles, &hinges);
   result->num_triangle_edges_ = static_cast<int>(edges.size());
-  std::vector<Edge> extra = Diagonals(polygon_begin, corners);
-  for (const auto& [a, b] : segments) extra.push_back(Sorted(a, b));
-  for (const auto& [a, b] : stiffeners) extra.push_back(Sorted(a, b));
+  std::vector<Edge> extra = Diagonals(polygon_begin, own_corners);
+  for (const auto* joins : {&segments, &stiffeners}) {
+    for (const auto& [a, b] : *joins) {
+      const int v = represented(a), w = represented(b);
+      if (v != w) extra.push_back(Sorted(v, w));  // joined twins are at one place anyway
+    }
+  }
   AddOtherEdges(std::move(extra), &edges);
   result->edges_.resize(2, edges.size());
   for (size_t e = 0; e < edges.size(); ++e) {

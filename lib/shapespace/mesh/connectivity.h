@@ -42,6 +42,12 @@ class IndexLists {
 /// The elements that all poses of a mesh share. Immutable, and therefore safe to read from several
 /// threads. Plain index arrays, one column per element, so that metrics work on any graph, manifold
 /// or not. Properties of manifolds (boundary loops, genus) are in mesh/topology.h.
+///
+/// Files store a vertex several times where texture coordinates, normals or materials change. Of
+/// such vertices, which are one point of the surface (mesh/seams.h), one is the representative and
+/// the others are its twins. Triangles, edges and hinges have representatives as corners, so that
+/// they are those of the whole surface; a twin belongs to none, and lies where its representative
+/// does (`CopyToTwins`). Numbers of vertices are the file's everywhere.
 class Connectivity {
  public:
   /// Polygons are as in `Soup` (`polygon_begin` of size P + 1, `corners`); `segments` are the edges
@@ -50,14 +56,16 @@ class Connectivity {
   /// triangles less than it has corners. By default they are triangulated as fans from their
   /// smallest vertex, which is correct for convex polygons. All diagonals of a polygon that cut off
   /// one corner become edges, so that its shape is measured independently of its triangulation.
+  /// `representatives` has one entry per vertex, or none if every vertex represents itself; what
+  /// the other arguments say of twins holds of their representatives.
   /// \throw MeshError if there is no vertex, a polygon has fewer than three corners, an index is
-  ///        outside [0, num_vertices), a segment or stiffener joins a vertex to itself, or the
-  ///        triangles are not those of the polygons.
+  ///        outside [0, num_vertices), a segment or stiffener joins a vertex to itself, the
+  ///        triangles are not those of the polygons, or a representative does not represent itself.
   static std::shared_ptr<const Connectivity> Make(
       int num_vertices, std::vector<int> polygon_begin, std::vector<int> corners,
       const std::vector<std::pair<int, int>>& segments = {},
       const std::vector<std::pair<int, int>>& stiffeners = {},
-      const Eigen::Matrix3Xi& triangles = {});
+      const Eigen::Matrix3Xi& triangles = {}, std::vector<int> representatives = {});
 
   /// A triangle mesh without extra edges; `triangles` is 3 x F.
   static std::shared_ptr<const Connectivity> FromTriangles(int num_vertices,
@@ -74,8 +82,37 @@ class Connectivity {
   const std::vector<int>& Corners() const { return corners_; }
   const std::vector<std::pair<int, int>>& Segments() const { return segments_; }
 
-  /// The triangulation of the polygons, 3 x F.
+  /// The triangulation of the polygons, 3 x F, with representatives as corners.
   const Eigen::Matrix3Xi& Triangles() const { return triangles_; }
+  /// The same with the polygons' own corners, twins included, for output.
+  const Eigen::Matrix3Xi& FileTriangles() const {
+    return twins_.empty() ? triangles_ : file_triangles_;
+  }
+
+  /// The vertex that stands for `vertex` in all elements: mostly itself.
+  int Representative(int vertex) const {
+    return representatives_.empty() ? vertex : representatives_[vertex];
+  }
+  /// All of them, one per vertex; empty if every vertex represents itself.
+  const std::vector<int>& Representatives() const { return representatives_; }
+  /// The vertices that another one represents, in ascending order.
+  const std::vector<int>& Twins() const { return twins_; }
+  /// Gives twins the positions (or any columns, or numbers) of their representatives; `values` has
+  /// one column, or one entry, per vertex. Everything that computes these calls it.
+  template <typename Derived>
+  void CopyToTwins(Eigen::PlainObjectBase<Derived>* values) const {
+    for (const int twin : twins_) {
+      if constexpr (Derived::IsVectorAtCompileTime) {
+        values->coeffRef(twin) = values->coeff(representatives_[twin]);
+      } else {
+        values->col(twin) = values->col(representatives_[twin]);
+      }
+    }
+  }
+  template <typename T>
+  void CopyToTwins(std::vector<T>* values) const {
+    for (const int twin : twins_) (*values)[twin] = (*values)[representatives_[twin]];
+  }
 
   /// Unique edges, 2 x E, each with its smaller vertex first. The first `NumTriangleEdges()` are
   /// sides of triangles, in lexicographic order; the others are segments, diagonals of polygons
@@ -114,6 +151,9 @@ class Connectivity {
   Eigen::Matrix2Xi edges_;
   Eigen::Matrix4Xi hinges_;
   IndexLists triangles_of_vertices_, edges_of_vertices_, triangles_of_edges_;
+  // Only if there are twins:
+  std::vector<int> representatives_, twins_;
+  Eigen::Matrix3Xi file_triangles_;
 };
 
 }  // namespace shapespace

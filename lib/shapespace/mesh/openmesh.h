@@ -81,7 +81,7 @@ Mesh ToOpenMesh(const Connectivity& connectivity, const Shape& shape) {
   std::vector<typename Mesh::VertexHandle> corners;
   for (int f = 0; f < num_faces; ++f) {
     const int* const data = triangles
-                                ? connectivity.Triangles().col(f).data()
+                                ? connectivity.FileTriangles().col(f).data()
                                 : connectivity.Corners().data() + connectivity.PolygonBegin()[f];
     const int size =
         triangles ? 3 : connectivity.PolygonBegin()[f + 1] - connectivity.PolygonBegin()[f];

@@ -36,6 +36,7 @@ Shape VertexNormals(const Connectivity& connectivity, const Shape& shape) {
     for (int k = 0; k < 3; ++k) normals.col(triangles(k, f)) += normal;
   }
   for (int v = 0; v < shape.cols(); ++v) normals.col(v).stableNormalize();
+  connectivity.CopyToTwins(&normals);
   return normals;
 }
 

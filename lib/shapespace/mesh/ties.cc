@@ -432,7 +432,7 @@ std::shared_ptr<const Connectivity> WithStiffeners(const Connectivity& connectiv
   }
   return Connectivity::Make(connectivity.NumVertices(), connectivity.PolygonBegin(),
                             connectivity.Corners(), connectivity.Segments(), extra,
-                            connectivity.Triangles());
+                            connectivity.FileTriangles(), connectivity.Representatives());
 }
 
 std::shared_ptr<const Connectivity> WithoutStiffeners(
@@ -440,7 +440,8 @@ std::shared_ptr<const Connectivity> WithoutStiffeners(
   if (connectivity->NumEdges() == connectivity->NumTriangleEdges()) return connectivity;
   auto surface = Connectivity::Make(connectivity->NumVertices(), connectivity->PolygonBegin(),
                                     connectivity->Corners(), connectivity->Segments(), {},
-                                    connectivity->Triangles());
+                                    connectivity->FileTriangles(),
+                                    connectivity->Representatives());
   return surface->NumEdges() == connectivity->NumEdges() ? connectivity : surface;
 }
 

@@ -72,13 +72,14 @@ void FindComponents(const Connectivity& connectivity, Topology* topology) {
   for (int e = 0; e < connectivity.NumEdges(); ++e) {
     join(connectivity.Edges()(0, e), connectivity.Edges()(1, e));
   }
-  for (int v : connectivity.Corners()) used[v] = true;
+  for (int v : connectivity.Corners()) used[connectivity.Representative(v)] = true;
   topology->component.assign(n, -1);
   for (int v = 0; v < n; ++v) {
     if (!used[v]) continue;
     const int root = pieces.Find(v);  // the component's smallest vertex, so it has a number already
     topology->component[v] = root == v ? topology->components++ : topology->component[root];
   }
+  connectivity.CopyToTwins(&topology->component);
 }
 
 /// From the Euler characteristics of the components: the sum of 2 - 2 genus - loops.

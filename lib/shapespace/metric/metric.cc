@@ -124,6 +124,9 @@ std::shared_ptr<const Metric> FreezeMetric(const MetricOptions& options,
   if (options.rigid > 0) {
     metric->rigid.weights = options.rigid * basis.vertex_area;
     if (options.weights == Weighting::kUniform) metric->rigid.weights.setConstant(options.rigid);
+    for (const int twin : connectivity->Twins()) {
+      metric->rigid.weights(twin) = options.rigid * basis.vertex_area(twin);
+    }
   }
   metric->connectivity = connectivity;
   metric->unit = basis.unit;

@@ -15,6 +15,9 @@ namespace {
 
 // A vertex without elements, or with collapsed ones only, has this share of the mean area.
 constexpr double kMinArea = 1e-3;
+// A twin, which has no element either, has this share of that: it changes nothing, and no matrix is
+// singular.
+constexpr double kTwinArea = 1e-9;
 
 struct Measures {
   Eigen::VectorXd triangle_area, squared_length;  // means over the poses
@@ -67,7 +70,11 @@ Eigen::VectorXd VertexAreas(const Connectivity& connectivity, const Measures& me
       if (!on_surface(v)) area(v) = strip(v);
     }
   }
-  return area.cwiseMax(kMinArea * area.sum() / num_vertices);
+  const int num_twins = static_cast<int>(connectivity.Twins().size());
+  const double least = kMinArea * area.sum() / (num_vertices - num_twins);
+  area = area.cwiseMax(least);
+  for (const int twin : connectivity.Twins()) area(twin) = kTwinArea * least;
+  return area;
 }
 
 // Computes A_e, of a graph a length.

@@ -49,7 +49,7 @@ Soup FrameSoup(const Connectivity& connectivity, const Appearance& appearance) {
   soup.vertices.setZero(3, connectivity.NumVertices());
   soup.polygon_begin = connectivity.PolygonBegin();
   soup.corners = connectivity.Corners();
-  soup.triangles = connectivity.Triangles();
+  soup.triangles = connectivity.FileTriangles();
   soup.segments = connectivity.Segments();
   soup.appearance = appearance;
   return soup;

@@ -16,6 +16,7 @@ AlignedPoses AlignPoses(const Metric& metric, const std::vector<Shape>& poses) {
       shape = turn.rotation * shape;
       motion.rotation = turn.rotation.transpose();
     }
+    metric.connectivity->CopyToTwins(&shape);
     aligned.shapes.push_back(std::move(shape));
     aligned.motions.push_back(motion);
   }

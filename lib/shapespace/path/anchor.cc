@@ -11,6 +11,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/mesh/seams.h>
 #include <shapespace/path/internal/velocity.h>
 
 namespace shapespace {
@@ -188,7 +189,8 @@ void Anchor(Path* path, const std::vector<int>& vertices) { Anchor(*path, vertic
 
 void Anchor(const Path& whole, const std::vector<int>& vertices, Path* path) {
   CheckVertices(vertices, whole.metric->connectivity->NumVertices());
-  const Part part = {vertices, whole.metric->vertex_area(vertices)};
+  const std::vector<int> points = RepresentativesOf(*whole.metric->connectivity, vertices);
+  const Part part = {points, whole.metric->vertex_area(points)};
   std::vector<int> indices = whole.poses;
   if (indices.empty()) indices = {0};
   std::vector<PlacedPart> poses;

@@ -210,6 +210,7 @@ void PathEnergy::Store(const double* unknowns, std::vector<Shape>* shapes) const
         shape(axis, vertex_of_row_[r]) = unknowns[(3 * r + axis) * stride_ + t];
       }
     }
+    metric_->connectivity->CopyToTwins(&shape);
   });
 }
 

@@ -80,6 +80,12 @@ void Path::Validate() const {
                       static_cast<int>(connectivity.Corners().size()));
 }
 
+Shape Path::Placed(int i) const {
+  Shape placed = motions[i](metric->unit * shapes[i]);
+  metric->connectivity->CopyToTwins(&placed);
+  return placed;
+}
+
 std::vector<Shape> Path::Placed() const {
   std::vector<Shape> result(NumShapes());
   ParallelFor(NumShapes(), [&](int i) { result[i] = Placed(i); });

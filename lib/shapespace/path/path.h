@@ -38,7 +38,7 @@ struct Path {
   void Validate() const;
 
   /// Shape i in the user's frame and unit.
-  Shape Placed(int i) const { return motions[i](metric->unit * shapes[i]); }
+  Shape Placed(int i) const;
   std::vector<Shape> Placed() const;
 };
 

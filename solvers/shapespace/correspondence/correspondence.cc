@@ -68,6 +68,20 @@ struct OwnFrame {
   Shape Out(const Shape& shape) const { return (unit * shape).colwise() + centre; }
 };
 
+// Markers on vertices that have elements; vertices that do not exist remain for the check.
+std::vector<CorrespondenceMarker> MarkersOnRepresentatives(
+    std::vector<CorrespondenceMarker> markers, const Connectivity& template_connectivity,
+    const Connectivity& target_connectivity) {
+  const auto represent = [](const Connectivity& connectivity, int* v) {
+    if (*v >= 0 && *v < connectivity.NumVertices()) *v = connectivity.Representative(*v);
+  };
+  for (CorrespondenceMarker& marker : markers) {
+    represent(template_connectivity, &marker.template_vertex);
+    represent(target_connectivity, &marker.target_vertex);
+  }
+  return markers;
+}
+
 // Checks the arguments of `Correspond`, and says in the summary how large they are.
 void CheckInput(const Connectivity& template_connectivity, const Shape& template_shape,
                 const Connectivity& target_connectivity, const Shape& target_shape,
@@ -201,6 +215,7 @@ class Fit {
     Stops();
     *shape = internal::GradientFit(*level.connectivity, rest, HeldOn(level),
                                    internal::kIdentity)(places_);
+    level.connectivity->CopyToTwins(shape);
     CorrespondenceSummary::Stage stage;
     stage.vertices = static_cast<int>(shape->cols());
     stage.name = "gradients";
@@ -222,6 +237,7 @@ class Fit {
         Rounds(level, &fit, kLastWeight, options_.max_iterations, shape) && !summary_->cancelled;
     const internal::Stopwatch stopwatch;
     internal::Unfold(level, rest, target_, held_, shape);
+    level.connectivity->CopyToTwins(shape);
     summary_->unfold_seconds = stopwatch.Seconds();
   }
 
@@ -334,6 +350,11 @@ void Snap(const Eigen::Matrix3Xi& triangles, int from, int to, SurfacePoints* po
   }
 }
 
+void CopyToTwins(const Connectivity& connectivity, SurfacePoints* points) {
+  connectivity.CopyToTwins(&points->triangle);
+  connectivity.CopyToTwins(&points->barycentric);
+}
+
 // Computes both directions of the map, and their figures of quality.
 SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, const Target& target,
                    const std::vector<CorrespondenceMarker>& held, CorrespondenceSummary* summary) {
@@ -344,6 +365,8 @@ SurfaceMap MakeMap(const Level& level, const Shape& fitted, const Shape& rest, c
     Snap(target.GetConnectivity().Triangles(), on_template, on_target, &map.to_target);
     Snap(level.connectivity->Triangles(), on_target, on_template, &map.to_template);
   }
+  CopyToTwins(*level.connectivity, &map.to_target);
+  CopyToTwins(target.GetConnectivity(), &map.to_template);
   const Shape back = PullBack(map.to_template, level.connectivity->Triangles(), rest);
   const Shape there_and_back = PullBack(map.to_target, target.GetConnectivity().Triangles(), back);
   map.round_trip = (there_and_back - rest).colwise().norm();
@@ -411,9 +434,11 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
                                 const Shape& template_shape,
                                 const std::shared_ptr<const Connectivity>& target_mesh,
                                 const Shape& target_shape,
-                                const std::vector<CorrespondenceMarker>& all_markers,
+                                const std::vector<CorrespondenceMarker>& given_markers,
                                 const CorrespondenceOptions& options, Progress* progress) {
   const internal::Stopwatch total;
+  const std::vector<CorrespondenceMarker> all_markers =
+      MarkersOnRepresentatives(given_markers, *template_connectivity, *target_connectivity);
   CorrespondenceResult result;
   CorrespondenceSummary& summary = result.summary;
   // Components that stiffeners connect are components all the same: each needs a marker.
@@ -473,6 +498,7 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
   result.map = MakeMap(all, fitted, rest / size, target, markers, &summary);
   result.fitted = target_frame.Out(fitted);
   result.fitted(Eigen::all, held) = target_shape(Eigen::all, images);
+  template_connectivity->CopyToTwins(&result.fitted);
   summary.map_seconds = map_stopwatch.Seconds();
   internal::WarnOfTopology(*template_connectivity, *target_connectivity, markers,
                            &summary.warnings);

@@ -57,6 +57,33 @@ constexpr double kTornEdge = 1;
 // allows for rounding far from the origin; a handle without conflict is met.
 constexpr double kContradiction = 1e-9;
 
+// Handles on the vertices that have elements. Of several that are one point of the surface the
+// first counts; vertices that do not exist, or are listed twice, remain for the check.
+std::vector<DeformationHandle> HandlesOnRepresentatives(std::vector<DeformationHandle> handles,
+                                                        const Connectivity& connectivity) {
+  if (connectivity.Twins().empty()) return handles;
+  for (DeformationHandle& handle : handles) {
+    std::map<int, int> first;  // by representative, the vertex that was listed first
+    std::vector<int> kept;
+    std::vector<int> vertices;
+    for (size_t k = 0; k < handle.vertices.size(); ++k) {
+      int v = handle.vertices[k];
+      if (v >= 0 && v < connectivity.NumVertices()) {
+        const auto [found, is_new] = first.try_emplace(connectivity.Representative(v), v);
+        if (!is_new && found->second != v) continue;
+        v = found->first;
+      }
+      kept.push_back(static_cast<int>(k));
+      vertices.push_back(v);
+    }
+    const bool fits =
+        handle.positions && handle.positions->cols() == static_cast<int>(handle.vertices.size());
+    if (fits) handle.positions = Shape((*handle.positions)(Eigen::all, kept));
+    handle.vertices = std::move(vertices);
+  }
+  return handles;
+}
+
 }  // namespace
 
 void DeformationOptions::Validate() const {
@@ -149,9 +176,10 @@ Deformer::Solver::Solver(const std::shared_ptr<const Connectivity>& connectivity
   component_ = ComputeTopology(*connectivity).component;
 }
 
-DeformationResult Deformer::Solver::Solve(const std::vector<DeformationHandle>& handles,
+DeformationResult Deformer::Solver::Solve(const std::vector<DeformationHandle>& given,
                                           const Shape* end, Progress* progress) {
   const internal::Stopwatch total;
+  const std::vector<DeformationHandle> handles = HandlesOnRepresentatives(given, *connectivity_);
   ReportProgress(progress, "deforming", 0, 0);
   DeformationResult result;
   DeformationSummary& summary = result.summary;

@@ -9,6 +9,7 @@
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/internal/selection_json.h>
+#include <shapespace/mesh/seams.h>
 
 namespace shapespace {
 namespace {
@@ -136,7 +137,8 @@ DeformationHandle HandleFrom(const Json& entry, const Shape& shape,
   } catch (const InvalidOptions& error) {
     FailIn("select", error.what());
   }
-  const Eigen::Vector3d centroid = shape(Eigen::all, handle.vertices).rowwise().mean();
+  const std::vector<int> points = RepresentativesOf(connectivity, handle.vertices);
+  const Eigen::Vector3d centroid = shape(Eigen::all, points).rowwise().mean();
   switch (TargetOf(entry)) {
     case TargetKind::kFixed:
       if (!BoolFrom(entry["fixed"], "fixed")) {
@@ -148,8 +150,8 @@ DeformationHandle HandleFrom(const Json& entry, const Shape& shape,
       break;
     case TargetKind::kPosition: {
       const Eigen::Vector3d position = BoundedVector(entry["position"], "position");
-      if (handle.vertices.size() == 1) {
-        handle.positions = position;
+      if (points.size() == 1) {
+        handle.positions = position.replicate(1, static_cast<int>(handle.vertices.size()));
       } else {
         handle.motion.translation = position - centroid;
       }

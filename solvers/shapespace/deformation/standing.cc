@@ -8,6 +8,7 @@
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/mesh/internal/selection_json.h>
 #include <shapespace/mesh/rigid_motion.h>
+#include <shapespace/mesh/seams.h>
 #include <shapespace/mesh/topology.h>
 #include <shapespace/path/internal/velocity.h>
 
@@ -344,7 +345,11 @@ StandingSummary HoldStandingParts(const Path& whole, const std::vector<StandingP
   options.Validate();
   CheckStandingParts(parts, whole.metric->connectivity->NumVertices(),
                      static_cast<int>(whole.poses.size()));
-  Holder holder(whole, parts, options);
+  std::vector<StandingPart> points = parts;
+  for (StandingPart& part : points) {
+    part.vertices = RepresentativesOf(*whole.metric->connectivity, part.vertices);
+  }
+  Holder holder(whole, points, options);
   Path held = *path;
   try {
     for (int k = 0; k < path->NumShapes(); ++k) {

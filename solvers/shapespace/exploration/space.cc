@@ -81,7 +81,9 @@ PlaneLocation PoseSpace::Locate(const Eigen::Vector2d& point) const {
 }
 
 Shape PoseSpace::Blend(const PlaneLocation& location) const {
-  return BlendNodes(nodes, location, metric->unit).colwise() + translation;
+  Shape blend = BlendNodes(nodes, location, metric->unit).colwise() + translation;
+  metric->connectivity->CopyToTwins(&blend);
+  return blend;
 }
 
 void PoseSpace::Validate() const {

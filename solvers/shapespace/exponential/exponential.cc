@@ -53,6 +53,7 @@ class FirstIntegral {
     row->iterations = result.iterations;
     row->residual = result.residual;
     row->vertices = static_cast<int>(shape_.cols());
+    map_.GetMetric().connectivity->CopyToTwins(&velocity_);
     return shape_;
   }
 
@@ -457,7 +458,9 @@ Tangent InitialVelocity(const Path& path) {
   for (int v = 0; v < way.cols(); ++v) {
     way.col(v) += spin.cross(arms.col(v)) + second.translation - first.translation;
   }
-  return way / (path.parameters[1] - path.parameters[0]);
+  way /= path.parameters[1] - path.parameters[0];
+  metric->connectivity->CopyToTwins(&way);
+  return way;
 }
 
 }  // namespace shapespace

@@ -210,6 +210,7 @@ TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents
   result.summary.last_norm = Norms(map, path.shapes[segments], result.tangents);
   for (Tangent& x : result.tangents) {
     x = metric.unit * (path.motions.back().rotation * x).eval();
+    metric.connectivity->CopyToTwins(&x);
   }
   result.summary.total_seconds = total.Seconds();
   return result;

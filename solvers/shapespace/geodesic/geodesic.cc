@@ -77,7 +77,7 @@ std::vector<Shape> Blend(const Shape& from, const Shape& to, int inner) {
   return shapes;
 }
 
-// The vertices whose motion has no cost: those of no element of any feature.
+// The vertices whose motion has no cost: those of no element of any feature. Twins follow others.
 std::vector<int> VerticesWithoutCost(const Metric& metric) {
   const int num_vertices = metric.connectivity->NumVertices();
   std::vector<char> has_cost(num_vertices, metric.rigid.Active() ? 1 : 0);
@@ -88,7 +88,7 @@ std::vector<int> VerticesWithoutCost(const Metric& metric) {
   }
   std::vector<int> vertices;
   for (int v = 0; v < num_vertices; ++v) {
-    if (!has_cost[v]) vertices.push_back(v);
+    if (!has_cost[v] && metric.connectivity->Representative(v) == v) vertices.push_back(v);
   }
   return vertices;
 }
@@ -444,6 +444,7 @@ void GeodesicLevels::SolvePieces(const AlignedPoses& poses, Progress* progress,
     }
     for (int k = 1; k <= options_.shapes + 1; ++k) {
       const double t = static_cast<double>(k) / (options_.shapes + 1);
+      metric_->connectivity->CopyToTwins(&shapes[k]);
       path.shapes.push_back(std::move(shapes[k]));
       path.parameters.push_back((i + t) / pieces);
       path.motions.push_back(InterpolateMotion(motions[i], motions[i + 1], t));
@@ -482,6 +483,7 @@ void GeodesicLevels::AvoidContact(Workspace* workspace, Workload* workload,
     for (int k = 1; k <= segments; ++k) {
       const double t = static_cast<double>(k) / segments;
       shapes.push_back(piece[k]);
+      metric_->connectivity->CopyToTwins(&shapes.back());
       parameters.push_back((i + t) / pieces);
       motions.push_back(to - from == segments
                             ? path.motions[from + k]

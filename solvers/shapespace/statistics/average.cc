@@ -225,6 +225,7 @@ AverageResult Average(const std::shared_ptr<const Connectivity>& connectivity,
     }
     summary.certificate_seconds = stopwatch.Seconds();
   }
+  connectivity->CopyToTwins(&result.shape);
   summary.edge_rms = EdgesOff(*metric, aligned.shapes, weights, result.shape / metric->unit);
   if (summary.Ratio() > kFar) {
     summary.warnings.push_back(

@@ -138,6 +138,7 @@ ShapeModelResult MakeShapeModel(const std::shared_ptr<const Connectivity>& conne
     const Shape own = pose / metric.unit;
     const RigidMotion motion = FitRigidMotion(own, modes.mean, metric.vertex_area);
     modes.poses.push_back(motion(own));
+    connectivity->CopyToTwins(&modes.poses.back());
     const Eigen::Matrix3d back = motion.rotation.transpose();
     modes.motions.push_back({back, -metric.unit * back * motion.translation});
   }

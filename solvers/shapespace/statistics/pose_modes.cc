@@ -6,6 +6,12 @@
 
 namespace shapespace {
 
+Shape PoseModes::PlacedPose(int i) const {
+  Shape placed = motions[i](metric->unit * poses[i]);
+  metric->connectivity->CopyToTwins(&placed);
+  return placed;
+}
+
 Eigen::MatrixXd PoseModes::Coordinates() const {
   return weights.cwiseInverse().asDiagonal() * coefficients;
 }

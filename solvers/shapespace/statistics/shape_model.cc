@@ -104,6 +104,7 @@ class ShapeModel::Solver {
       derivatives.push_back(internal::SolveMetric(
           derivative, derivative.TransposeTimes(chart_.ChangeAt(values, changes_.col(k))), solver));
       internal::RemoveRigidPart(shape, modes_.metric->vertex_area, &derivatives.back());
+      modes_.metric->connectivity->CopyToTwins(&derivatives.back());
     }
     return derivatives;
   }
@@ -129,12 +130,18 @@ ShapeModel::ShapeModel(ShapeModel&&) noexcept = default;
 
 const PoseModes& ShapeModel::Modes() const { return solver_->Modes(); }
 
+Shape ShapeModel::Placed(const Shape& shape) const {
+  Shape placed = Modes().place(Modes().metric->unit * shape);
+  Modes().metric->connectivity->CopyToTwins(&placed);
+  return placed;
+}
+
 ModelShape ShapeModel::At(const Eigen::VectorXd& coordinates, Progress* progress) const {
   solver_->Check(coordinates);
   internal::MetricSolver solver;
   internal::NearestShape nearest = solver_->At(coordinates, progress, &solver);
   ModelShape result;
-  result.shape = Modes().place(Modes().metric->unit * nearest.shape);
+  result.shape = Placed(nearest.shape);
   result.iterations = nearest.iterations;
   result.termination = nearest.termination;
   return result;
@@ -142,7 +149,7 @@ ModelShape ShapeModel::At(const Eigen::VectorXd& coordinates, Progress* progress
 
 Shape ShapeModel::Preview(const Eigen::VectorXd& coordinates) const {
   solver_->Check(coordinates);
-  return Modes().place(Modes().metric->unit * solver_->Preview(coordinates));
+  return Placed(solver_->Preview(coordinates));
 }
 
 ModelCoordinates ShapeModel::Coordinates(const Shape& shape, bool fit, int modes,
@@ -201,6 +208,7 @@ ModelCoordinates ShapeModel::Coordinates(const Shape& shape, bool fit, int modes
                            : internal::Size(*metric.connectivity, shape) /
                                  internal::Size(*metric.connectivity, Modes().poses[0]);
   result.shape = FitRigidMotion(scale * best, shape, metric.vertex_area)(scale * best);
+  metric.connectivity->CopyToTwins(&result.shape);
   result.distance = scale * std::sqrt(least);
   return result;
 }

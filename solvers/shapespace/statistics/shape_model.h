@@ -47,7 +47,7 @@ struct PoseModes {
   Appearance appearance;   ///< of the connectivity's polygons: for outputs
 
   /// A pose in the user's unit and frame; of the size that all have if size is removed.
-  Shape PlacedPose(int i) const { return motions[i](metric->unit * poses[i]); }
+  Shape PlacedPose(int i) const;
   int NumPoses() const { return static_cast<int>(poses.size()); }
   int NumModes() const { return static_cast<int>(modes.size()); }
   /// The coordinates of the poses, a row for each: of mean 0 and variance 1.
@@ -166,6 +166,7 @@ class ShapeModel {
 
  private:
   class Solver;
+  Shape Placed(const Shape& shape) const;
   std::unique_ptr<const Solver> solver_;
 };
 

@@ -11,7 +11,8 @@
 #include <shapespace/contact/internal/slide.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/rigid_motion.h>
-#include <shapespace/mesh/volume.h>
+#include <shapespace/mesh/mirrored.h>
+#include <shapespace/mesh/seams.h>
 #include <shapespace/numerics/internal/check_options.h>
 #include <shapespace/numerics/internal/memory.h>
 #include <shapespace/path/align.h>
@@ -394,6 +395,13 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
   result.path.converged = result.hybrids.converged = source.converged && summary.Converged();
   MeasureTransferErrors(*metric, made, result.path, &summary);
   Warn(&summary);
+  const int parted = CountParted(*metric->connectivity, target);
+  if (parted > 0) {
+    summary.warnings.push_back(
+        std::to_string(parted) +
+        " vertices of the target are apart from others that are the same point of the source's "
+        "surface, and were moved there; leave the source's seams open if that surface is open");
+  }
   summary.total_seconds = total.Seconds();
   return result;
 }

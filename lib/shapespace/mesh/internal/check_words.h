@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <shapespace/mesh/check.h>
+#include <shapespace/mesh/seams.h>
 
 // Names of files, lines and elements in findings. Elements are counted from 1.
 
@@ -72,6 +73,21 @@ class Named {
   int count_ = 0, named_ = 0;
   std::string names_;
 };
+
+/// What a note says of vertices that were joined.
+inline std::string WordsOfJoined(const Seams& seams) {
+  return std::to_string(seams.joined) + (seams.joined == 1 ? " pair" : " pairs") +
+         " of vertices at the same place are joined, along seams where the surface goes on";
+}
+
+/// What a warning says of borders that were not.
+inline std::string WordsOfUnclear(const Seams& seams) {
+  return "borders lie on each other at " + std::to_string(seams.unclear) +
+         (seams.unclear == 1 ? " edge" : " edges") +
+         " and are left open, because more than two meet there or their polygons are wound alike; "
+         "join the vertices, or recompute the orientation of the polygons, if the surface should "
+         "go on there";
+}
 
 inline void SortBySeverity(std::vector<Finding>* findings) {
   std::stable_sort(findings->begin(), findings->end(),

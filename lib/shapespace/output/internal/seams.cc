@@ -19,7 +19,7 @@ CutMesh CutAtSeams(const Connectivity& connectivity, const Appearance& appearanc
   CutMesh mesh;
   mesh.source.resize(connectivity.NumVertices());
   std::iota(mesh.source.begin(), mesh.source.end(), 0);
-  mesh.triangles = connectivity.Triangles();
+  mesh.triangles = connectivity.FileTriangles();
   if (appearance.corner_texture.empty()) return mesh;
 
   // Per vertex: its texture coordinate if it has one, and the next copy of the same vertex.

@@ -10,6 +10,7 @@ namespace shapespace::internal {
 namespace {
 
 constexpr const char* kStretching = "stretching_stiffness";
+constexpr const char* kRepresentatives = "representatives";
 constexpr const char* kBending = "bending_stiffness";
 constexpr const char* kVertices = "vertices";
 constexpr const char* kEdges = "edges";
@@ -153,7 +154,11 @@ void AddConnectivity(const Connectivity& connectivity, HeaderJson* header, Array
   arrays->Add("polygon_begin", connectivity.PolygonBegin().data(),
               connectivity.PolygonBegin().size(), 1);
   arrays->Add("corners", connectivity.Corners().data(), connectivity.Corners().size(), 1);
-  arrays->Add("triangles", connectivity.Triangles());
+  arrays->Add("triangles", connectivity.FileTriangles());
+  if (!connectivity.Twins().empty()) {
+    const std::vector<int>& representatives = connectivity.Representatives();
+    arrays->Add(kRepresentatives, representatives.data(), representatives.size(), 1);
+  }
   Eigen::Matrix2Xi segments(2, connectivity.Segments().size());
   for (Eigen::Index i = 0; i < segments.cols(); ++i) {
     segments.col(i) << connectivity.Segments()[i].first, connectivity.Segments()[i].second;
@@ -174,10 +179,12 @@ std::shared_ptr<const Connectivity> ReadConnectivity(int num_vertices, const Arr
     for (int i = 0; i < columns.cols(); ++i) result.emplace_back(columns(0, i), columns(1, i));
     return result;
   };
-  return Connectivity::Make(num_vertices, {begin.begin(), begin.end()},
-                            {corners.begin(), corners.end()}, pairs("segments"),
-                            pairs("extra_edges"),
-                            arrays.Get<Eigen::Matrix3Xi>("triangles", 3, Eigen::Dynamic));
+  std::vector<int> representatives;
+  if (arrays.Has(kRepresentatives)) representatives = IndicesFrom(arrays, kRepresentatives);
+  return Connectivity::Make(
+      num_vertices, {begin.begin(), begin.end()}, {corners.begin(), corners.end()},
+      pairs("segments"), pairs("extra_edges"),
+      arrays.Get<Eigen::Matrix3Xi>("triangles", 3, Eigen::Dynamic), std::move(representatives));
 }
 
 void AddMetric(const Metric& metric, HeaderJson* header, ArrayWriter* arrays) {

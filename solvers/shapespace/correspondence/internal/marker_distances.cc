@@ -72,7 +72,9 @@ Eigen::MatrixXf DistancesFrom(const Connectivity& connectivity, const Shape& sha
   Eigen::MatrixXf distances(connectivity.NumVertices(), vertices.size());
   ParallelFor(static_cast<int>(vertices.size()), [&](int k) {
     std::vector<int> nearest;
-    distances.col(k) = graph.Dijkstra({vertices[k]}, &nearest);
+    Eigen::VectorXf distance = graph.Dijkstra({vertices[k]}, &nearest);
+    connectivity.CopyToTwins(&distance);
+    distances.col(k) = distance;
   });
   return distances;
 }
@@ -81,6 +83,7 @@ std::vector<int> NearestOf(const Connectivity& connectivity, const Shape& shape,
                            const std::vector<int>& vertices) {
   std::vector<int> nearest;
   Graph(connectivity, shape).Dijkstra(vertices, &nearest);
+  connectivity.CopyToTwins(&nearest);
   return nearest;
 }
 

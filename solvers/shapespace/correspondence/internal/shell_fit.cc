@@ -133,6 +133,7 @@ double ShellFit::Step(const std::vector<PointToPlaneTerm>& user_terms, Shape* us
       for (int v = 0; v < shape.cols(); ++v) {
         if (is_held_[v]) user_shape->col(v) = unit * shape.col(v);
       }
+      metric_->connectivity->CopyToTwins(user_shape);
       break;
     }
   }

@@ -87,7 +87,9 @@ MinimiseResult ConstrainedPath::RelaxByTrustRegion(const Shape& target,
     for (int v : constraints.prescribed) blocks.Fix((*shapes)[t].col(v).data());
   }
   for (int v : constraints.prescribed_last) blocks.Fix(shapes->back().col(v).data());
-  return blocks.Minimise(options);
+  const MinimiseResult result = blocks.Minimise(options);
+  for (Shape& shape : *shapes) metric_->connectivity->CopyToTwins(&shape);
+  return result;
 }
 
 }  // namespace shapespace::internal

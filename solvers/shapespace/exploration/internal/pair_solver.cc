@@ -169,6 +169,7 @@ PairResult PairSolver::SolveOne(const Pair& pair, Progress* progress) const {
     const Shape shape = Resample(found.path.shapes, found.path.parameters, {pair.t}).front();
     const Shape blend = (1 - pair.t) * *pair.from + pair.t * *pair.to;
     result.shape = FitRigidMotion(shape, blend, metric.vertex_area)(shape);
+    metric.connectivity->CopyToTwins(&result.shape);
   }
   return result;
 }

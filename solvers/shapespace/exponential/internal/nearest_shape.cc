@@ -49,6 +49,7 @@ NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& targ
       break;
     }
   }
+  map.GetMetric().connectivity->CopyToTwins(&result.shape);
   return result;
 }
 

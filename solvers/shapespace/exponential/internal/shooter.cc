@@ -13,7 +13,9 @@ Shooter::Shooter(std::shared_ptr<const Metric> metric, std::vector<Shape> known,
 }
 
 Shape Shooter::Next(const InitialState& initial_state, ExponentialSummary::Step* row) {
-  return NextOn(static_cast<int>(levels_.size()) - 1, initial_state, row);
+  Shape shape = NextOn(static_cast<int>(levels_.size()) - 1, initial_state, row);
+  levels_.back()->metric->connectivity->CopyToTwins(&shape);
+  return shape;
 }
 
 InitialState Shooter::Restart(const Shape& before, const Shape& shape, double speed) {

@@ -41,8 +41,10 @@ Tangent SegmentVelocity(const FeatureMap& map, const Shape& other, const Shape& 
                         MetricSolver* solver) {
   const FeatureDerivative derivative = map.Derivative(at);
   solver->FactorAt(at, derivative);
-  return SolveMetric(
+  Tangent velocity = SolveMetric(
       derivative, derivative.TransposeTimes(sign * (map.Values(at) - map.Values(other))), solver);
+  map.GetMetric().connectivity->CopyToTwins(&velocity);
+  return velocity;
 }
 
 Tangent SolveMetric(const FeatureDerivative& derivative, const Tangent& b, MetricSolver* solver) {

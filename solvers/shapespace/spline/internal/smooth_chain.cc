@@ -87,6 +87,7 @@ class Smoother {
       }
     }
     Shape shape = integrator_.Integrate(wanted, places);
+    path_.metric->connectivity->CopyToTwins(&shape);
     shape.colwise() -= Centroid(shape, path_.metric->vertex_area);
     motion->rotation = path_.motions[k].rotation * Exp(Eigen::Vector3d(change.col(FirstMotion())));
     motion->translation = path_.motions[k].translation + change.col(FirstMotion() + 1);

@@ -26,6 +26,7 @@ Logarithms::Logarithms(const FeatureMap& map, const FeatureChart& chart, const S
       shape_(shape),
       values_(map.Values(shape)),
       vertex_area_(map.GetMetric().vertex_area),
+      connectivity_(map.GetMetric().connectivity),
       derivative_(map.Derivative(shape)) {
   solver_.Factor(derivative_);
   solver_.UseDoublePrecision();
@@ -35,6 +36,7 @@ Tangent Logarithms::Of(const Eigen::VectorXd& relative) const {
   Tangent displacement =
       solver_.Approximate(derivative_.TransposeTimes(chart_.ChangeAt(values_, relative)));
   RemoveRigidPart(shape_, vertex_area_, &displacement);
+  connectivity_->CopyToTwins(&displacement);
   return displacement;
 }
 

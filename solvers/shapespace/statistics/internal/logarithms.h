@@ -1,6 +1,8 @@
 #ifndef SHAPESPACE_STATISTICS_INTERNAL_LOGARITHMS_H_
 #define SHAPESPACE_STATISTICS_INTERNAL_LOGARITHMS_H_
 
+#include <memory>
+
 #include <Eigen/Core>
 
 #include <shapespace/exponential/internal/metric_solver.h>
@@ -28,6 +30,7 @@ class Logarithms {
   const FeatureChart& chart_;
   const Shape shape_;
   const Eigen::VectorXd values_, vertex_area_;
+  const std::shared_ptr<const Connectivity> connectivity_;
   const FeatureDerivative derivative_;
   MetricSolver solver_;
 };

@@ -89,7 +89,9 @@ Shape TrianglePreview::At(const Eigen::VectorXd& coordinates) const {
     wanted.col(i) = places.col(side.to) - places.col(side.from);
   }
   const Shape shape = integrator_.Integrate(wanted, places);
-  return FitRigidMotion(shape, places, modes_.metric->vertex_area)(shape);
+  Shape placed = FitRigidMotion(shape, places, modes_.metric->vertex_area)(shape);
+  modes_.metric->connectivity->CopyToTwins(&placed);
+  return placed;
 }
 
 }  // namespace shapespace::internal

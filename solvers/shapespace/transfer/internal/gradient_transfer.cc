@@ -77,7 +77,9 @@ Shape GradientTransfer::operator()(const Shape& deformed) const {
     }
     wanted.col(static_cast<Eigen::Index>(i)) = side;
   }
-  return integrator_->Integrate(wanted, target_ + deformed - source_);
+  Shape shape = integrator_->Integrate(wanted, target_ + deformed - source_);
+  connectivity_->CopyToTwins(&shape);
+  return shape;
 }
 
 }  // namespace shapespace::internal
