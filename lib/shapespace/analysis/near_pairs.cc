@@ -333,7 +333,8 @@ NearPairs::NearPairs(std::shared_ptr<const Connectivity> connectivity,
 void NearPairs::FindElements() {
   const int num_triangles = connectivity_->NumTriangles();
   std::vector<int> segments;  // edges that are no sides of triangles
-  for (const auto& [a, b] : connectivity_->Segments()) {
+  for (const auto& [from, to] : connectivity_->Segments()) {
+    const int a = connectivity_->Representative(from), b = connectivity_->Representative(to);
     for (const int e : connectivity_->EdgesOfVertices()[a]) {
       if (e >= connectivity_->NumTriangleEdges() && connectivity_->OtherEnd(e, a) == b) {
         segments.push_back(e);

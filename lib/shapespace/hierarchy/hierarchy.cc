@@ -42,8 +42,9 @@ std::shared_ptr<const Connectivity> Collapsed(const Connectivity& mesh,
   std::vector<int> begin(corners.size() / 3 + 1);
   for (size_t f = 0; f < begin.size(); ++f) begin[f] = static_cast<int>(3 * f);
   std::vector<std::pair<int, int>> segments, extra;  // segments form curves, and touch others
-  for (const auto& [a, b] : mesh.Segments()) {
-    if (place[a] != place[b]) segments.emplace_back(number[place[a]], number[place[b]]);
+  for (const auto& [from, to] : mesh.Segments()) {
+    const int a = place[mesh.Representative(from)], b = place[mesh.Representative(to)];
+    if (a != b) segments.emplace_back(number[a], number[b]);
   }
   for (int e = mesh.NumTriangleEdges(); e < mesh.NumEdges(); ++e) {
     const int a = place[mesh.Edges()(0, e)], b = place[mesh.Edges()(1, e)];

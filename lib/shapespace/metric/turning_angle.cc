@@ -14,7 +14,8 @@ namespace shapespace {
 Eigen::Matrix3Xi Turns(const Connectivity& connectivity) {
   if (connectivity.Segments().empty()) return {};
   std::vector<std::set<int>> neighbours(connectivity.NumVertices());
-  for (const auto& [a, b] : connectivity.Segments()) {
+  for (const auto& [from, to] : connectivity.Segments()) {
+    const int a = connectivity.Representative(from), b = connectivity.Representative(to);
     neighbours[a].insert(b);
     neighbours[b].insert(a);
   }

@@ -23,10 +23,14 @@ std::shared_ptr<const Connectivity> Obstacle::Joined(
       (connectivity->Triangles().array() + body->NumVertices()).matrix();
   std::vector<int> begin(triangles.cols() + 1);
   for (size_t t = 0; t < begin.size(); ++t) begin[t] = static_cast<int>(3 * t);
-  std::vector<std::pair<int, int>> segments = body->Segments();
-  for (const auto& [a, b] : connectivity->Segments()) {
-    segments.emplace_back(body->NumVertices() + a, body->NumVertices() + b);
-  }
+  std::vector<std::pair<int, int>> segments;
+  const auto add = [&](const Connectivity& mesh, int first) {
+    for (const auto& [a, b] : mesh.Segments()) {
+      segments.emplace_back(first + mesh.Representative(a), first + mesh.Representative(b));
+    }
+  };
+  add(*body, 0);
+  add(*connectivity, body->NumVertices());
   return Connectivity::Make(body->NumVertices() + connectivity->NumVertices(), std::move(begin),
                             {triangles.data(), triangles.data() + triangles.size()}, segments);
 }
