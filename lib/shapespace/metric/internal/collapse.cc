@@ -17,7 +17,7 @@ double Kept(const MetricBasis& basis, const int (&vertices)[kVertices]) {
   Strain strain;
   strain.epsilon_squared = basis.CollapsedSquared();
   using Values = Eigen::Matrix<double, Strain::kValues, 1>;
-  Values value, before, low, high;
+  Values value, before = Values::Zero(), low = before, high = before;
   double greatest = 0;
   for (size_t i = 0; i < basis.poses.size(); ++i) {
     double x[3 * kVertices];
