@@ -89,7 +89,7 @@ struct Component {
 };
 
 // Two components that are near each other in the pose that is searched.
-struct Pair {
+struct ComponentPair {
   int child, parent;  // the smaller and the larger one
   double distance;    // in extents of the child
 };
@@ -117,7 +117,7 @@ class TieSearch {
     Ties ties;
     if (components_.size() < 2) return ties;
     const ElementTree tree(connectivity_, shapes_[searched_], component_);
-    std::vector<Pair> pairs = NearPairsOf(tree);
+    std::vector<ComponentPair> pairs = PairsNear(tree);
     const std::vector<char> first_choice = TakeFirstChoices(&pairs);
     // Each child's first, on all threads; others are seldom needed.
     std::vector<std::vector<Edge>> found(pairs.size());
@@ -228,8 +228,8 @@ class TieSearch {
   bool IsSmaller(int c, int d) const { return rank_[c] < rank_[d]; }
 
   // All pairs of components that are near each other, each once.
-  std::vector<Pair> NearPairsOf(const ElementTree& tree) const {
-    std::vector<std::vector<Pair>> of_component(components_.size());
+  std::vector<ComponentPair> PairsNear(const ElementTree& tree) const {
+    std::vector<std::vector<ComponentPair>> of_component(components_.size());
     ParallelFor(static_cast<int>(components_.size()), [&](int c) {
       const Component& from = components_[c];
       const Shape& shape = shapes_[searched_];
@@ -253,13 +253,13 @@ class TieSearch {
       }
     });
     std::map<Edge, double> nearest;
-    for (const std::vector<Pair>& list : of_component) {
+    for (const std::vector<ComponentPair>& list : of_component) {
       for (const auto& [child, parent, distance] : list) {
         double& least = nearest.try_emplace({child, parent}, distance).first->second;
         least = std::min(least, distance);
       }
     }
-    std::vector<Pair> pairs;
+    std::vector<ComponentPair> pairs;
     for (const auto& [ends, distance] : nearest) {
       pairs.push_back({ends.first, ends.second, distance});
     }
@@ -268,19 +268,21 @@ class TieSearch {
 
   // Sorts the pairs: those that are about as near as their child's nearest one, for which 1 is
   // returned, by the size of the parent; and the others by distance.
-  std::vector<char> TakeFirstChoices(std::vector<Pair>* pairs) const {
+  std::vector<char> TakeFirstChoices(std::vector<ComponentPair>* pairs) const {
     std::vector<double> least(components_.size(), std::numeric_limits<double>::infinity());
-    for (const Pair& pair : *pairs) {
+    for (const ComponentPair& pair : *pairs) {
       least[pair.child] = std::min(least[pair.child], pair.distance);
     }
-    const auto end = std::stable_partition(pairs->begin(), pairs->end(), [&](const Pair& pair) {
-      return pair.distance <= kAsNear * least[pair.child] + kAsNearShare;
-    });
-    std::stable_sort(pairs->begin(), end, [&](const Pair& a, const Pair& b) {
+    const auto end =
+        std::stable_partition(pairs->begin(), pairs->end(), [&](const ComponentPair& pair) {
+          return pair.distance <= kAsNear * least[pair.child] + kAsNearShare;
+        });
+    std::stable_sort(pairs->begin(), end, [&](const ComponentPair& a, const ComponentPair& b) {
       return a.parent != b.parent ? IsSmaller(b.parent, a.parent) : a.distance < b.distance;
     });
-    std::stable_sort(end, pairs->end(),
-                     [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
+    std::stable_sort(end, pairs->end(), [](const ComponentPair& a, const ComponentPair& b) {
+      return a.distance < b.distance;
+    });
     std::vector<char> is_first(pairs->size(), 0);
     std::fill_n(is_first.begin(), end - pairs->begin(), 1);
     return is_first;
@@ -305,7 +307,7 @@ class TieSearch {
 
   // Those that are not farther than the child's extent, and whose distances to the nearest element
   // stay alike.
-  std::vector<Candidate> CandidatesOf(const Pair& pair, const ElementTree& tree) const {
+  std::vector<Candidate> CandidatesOf(const ComponentPair& pair, const ElementTree& tree) const {
     const Shape& shape = shapes_[searched_];
     const Component& child = components_[pair.child];
     const int count = static_cast<int>(child.vertices.size());
@@ -369,7 +371,7 @@ class TieSearch {
   }
 
   // The stiffeners between two components; none if the one does not stay near the other.
-  std::vector<Edge> TiesOf(const Pair& pair, const ElementTree& tree) const {
+  std::vector<Edge> TiesOf(const ComponentPair& pair, const ElementTree& tree) const {
     const Shape& shape = shapes_[searched_];
     const Component& child = components_[pair.child];
     const std::vector<Candidate> candidates = CandidatesOf(pair, tree);
@@ -440,8 +442,7 @@ std::shared_ptr<const Connectivity> WithoutStiffeners(
   if (connectivity->NumEdges() == connectivity->NumTriangleEdges()) return connectivity;
   auto surface = Connectivity::Make(connectivity->NumVertices(), connectivity->PolygonBegin(),
                                     connectivity->Corners(), connectivity->Segments(), {},
-                                    connectivity->FileTriangles(),
-                                    connectivity->Representatives());
+                                    connectivity->FileTriangles(), connectivity->Representatives());
   return surface->NumEdges() == connectivity->NumEdges() ? connectivity : surface;
 }
 
