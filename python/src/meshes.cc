@@ -192,8 +192,8 @@ MismatchError
       [](const std::vector<std::string>& files, const std::string& stiffeners,
          bool allow_nonmanifold, bool open_seams, const py::object& mirror, bool allow_mirrored,
          bool loose_components, bool allow_outside_files) {
-        ReadOptions options = ReadingOptions(allow_nonmanifold, open_seams, mirror, allow_mirrored,
-                                             loose_components);
+        ReadOptions options =
+            ReadingOptions(allow_nonmanifold, open_seams, mirror, allow_mirrored, loose_components);
         options.stiffeners = stiffeners;
         options.allow_outside_files = allow_outside_files;
         Poses poses = WithoutLock(py::none(), [=](Progress*) { return ReadPoses(files, options); });

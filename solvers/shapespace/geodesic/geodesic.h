@@ -24,8 +24,9 @@ class GeodesicLevels;
 }
 
 /// The optimiser of each level. Ways round contact (GeodesicOptions::avoid_contact) are relaxed by
-/// this library's L-BFGS whichever is chosen, with a warning if another one was asked for, and so are deformations by handles unless
-/// DeformationOptions::solver says otherwise: docs/architecture.md has all of them in one table.
+/// this library's L-BFGS whichever is chosen, with a warning if another one was asked for, and so
+/// are deformations by handles unless DeformationOptions::solver says otherwise:
+/// docs/architecture.md has all of them in one table.
 enum class GeodesicSolver {
   kAutomatic,      ///< kLbfgs below 20,000 unknowns (three for each vertex of each inner shape),
                    ///< kThreadedLbfgs from there on

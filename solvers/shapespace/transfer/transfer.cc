@@ -10,8 +10,8 @@
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/contact/internal/slide.h>
 #include <shapespace/mesh/internal/geometry.h>
-#include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/mesh/mirrored.h>
+#include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/mesh/seams.h>
 #include <shapespace/numerics/internal/check_options.h>
 #include <shapespace/numerics/internal/memory.h>
