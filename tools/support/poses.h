@@ -12,8 +12,8 @@ namespace shapespace::tools {
 /// Reads files with two or more poses in all (or with `least`), according to --stiffeners,
 /// --loose_components, --allow_nonmanifold, --open_seams and --mirror; prints warnings, and notes
 /// on content that outputs will not have. Unless the order of the poses means nothing
-/// (`any_order`), the warning of `OrderWarning` is one of them. \throw UsageError if there are
-/// fewer poses, or if a flag of the metric cannot be applied to the
+/// (`any_order`), the warning of `OrderWarning` is one of them.
+/// \throw UsageError if there are fewer poses, or if a flag of the metric cannot be applied to the
 ///        mesh.
 Poses ReadPosesFromFlags(const std::vector<std::string>& files, size_t least = 2,
                          bool any_order = false);

@@ -437,13 +437,13 @@ CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& templ
                                 const std::vector<CorrespondenceMarker>& given_markers,
                                 const CorrespondenceOptions& options, Progress* progress) {
   const internal::Stopwatch total;
-  const std::vector<CorrespondenceMarker> all_markers =
-      MarkersOnRepresentatives(given_markers, *template_connectivity, *target_connectivity);
   CorrespondenceResult result;
   CorrespondenceSummary& summary = result.summary;
   // Components that stiffeners connect are components all the same: each needs a marker.
   const auto template_connectivity = WithoutStiffeners(template_mesh);
   const auto target_connectivity = WithoutStiffeners(target_mesh);
+  const std::vector<CorrespondenceMarker> all_markers =
+      MarkersOnRepresentatives(given_markers, *template_connectivity, *target_connectivity);
   CheckInput(*template_connectivity, template_shape, *target_connectivity, target_shape,
              all_markers, options, &summary);
   ReportProgress(progress, "checking markers", 0, 0);
