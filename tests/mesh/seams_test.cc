@@ -309,6 +309,7 @@ TEST(SeamsOfPoses, AreJoinedWithANoteUnlessTheyAreToStayOpen) {
 
   ReadOptions options;
   options.open_seams = true;
+  options.loose_components = true;  // the pieces are near each other
   const Poses open = MakePoses({soup, soup}, options);
   EXPECT_TRUE(open.connectivity->Twins().empty());
   EXPECT_EQ(open.shapes[0], soup.vertices);
