@@ -169,7 +169,7 @@ TEST(Minimise, EnoughEndsASolveThatHasGainedMostOfWhatThereIs) {
     EXPECT_EQ(some.termination, Termination::kConverged);
     EXPECT_LT(some.iterations, full.iterations);
     EXPECT_LT(some.initial_energy - full.energy, 1.1 * (some.initial_energy - some.energy));
-    EXPECT_EQ(some.energy, problem.energy.Evaluate(unknowns.data(), nullptr));
+    EXPECT_DOUBLE_EQ(some.energy, problem.energy.Evaluate(unknowns.data(), nullptr));
     EXPECT_NEAR(some.remaining,
                 RemainingDecrease(ObjectiveOf(&problem.energy), &problem.variables, unknowns),
                 1e-4 * some.remaining);

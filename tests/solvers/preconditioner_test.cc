@@ -274,7 +274,9 @@ TEST(ScalarMetric, IsTheSumOverAllElements) {
   for (const auto& feature : metric->features) {
     const int corners = feature->VerticesPerElement();
     for (int e = 0; e < feature->NumElements(); ++e) {
+      double shares = 0, traces = 1;  // products of the poses' traces
       for (const Shape& pose : poses) {
+        double own = 0, trace = 0;
         double x[3 * Feature::kMaxVertices];
         double rows[Feature::kMaxVertices * 3 * Feature::kMaxValues];
         feature->GatherCoordinates(e, e + 1, pose, x);
@@ -283,10 +285,14 @@ TEST(ScalarMetric, IsTheSumOverAllElements) {
           double product = 0;
           for (int k = 0; k < corners; ++k) {
             product += rows[corners * row + k] * y(feature->Element(e)[k]);
+            trace += rows[corners * row + k] * rows[corners * row + k];
           }
-          expected += 4 * feature->Weight(e) / 2 * product * product;
+          own += product * product;
         }
+        shares += own / trace / 2;
+        traces *= trace;
       }
+      expected += 4 * feature->Weight(e) * std::sqrt(traces) * shares;
     }
   }
   EXPECT_NEAR(y.dot(matrix.selfadjointView<Eigen::Lower>() * y), expected, 1e-10 * expected);

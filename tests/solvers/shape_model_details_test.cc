@@ -354,7 +354,7 @@ TEST(AssessShapeModel, DistancesAreMeansAsSharesOfTheMeanDiagonal) {
   EXPECT_EQ(MessageOf<InvalidOptions>([&] {
               AssessShapeModel(SmallBar().connectivity, {poses[0], poses[1]}, options);
             }),
-            "an assessment leaves one pose out, and needs three or more");
+            "an assessment leaves one pose out, and needs three or more of positive weight");
 }
 
 // Some edges of a random shape are longer than in every pose, others are shorter.

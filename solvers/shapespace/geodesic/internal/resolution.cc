@@ -58,6 +58,7 @@ GeodesicSummary::Level Resolution::Relax(int piece, double enough, const Geodesi
   MinimiseOptions minimise;
   minimise.tolerance = options.tolerance;
   minimise.enough = enough;
+  minimise.trusted_remaining = kTrustedRemaining;
   minimise.max_iterations = options.max_iterations;
   minimise.keep_going = [&](int iteration, double energy) {
     return workload->GoOn(iteration, energy);

@@ -2,6 +2,7 @@
 #define SHAPESPACE_NUMERICS_INTERNAL_MINIMISE_H_
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,12 @@ inline int HistoryRank(double unknowns) { return unknowns <= 3e5 ? 20 : 5; }
 
 struct MinimiseOptions {
   /// Stop when an iteration (of MinimiseThreadedLbfgs: two in a row) lowers the energy by less than
-  /// this share of it. If kTrustedRemaining says that this is no minimum, the solve goes on with
-  /// smaller steps; if none is left, or `enough` says that it is a start for another one, it has
-  /// stalled.
+  /// this share of it.
   double tolerance = 1e-4;
+  /// A solve whose steps have become small has converged only if RemainingDecrease is at most this
+  /// multiple of the tolerance. Otherwise it goes on with smaller steps; if none is left, or
+  /// `enough` says that it is a start for another one, it has stalled.
+  double trusted_remaining = std::numeric_limits<double>::infinity();
   int max_iterations = 500;
   int rank = 20;  ///< of the L-BFGS approximation
   /// Stop as soon as the estimated gain of another step is at most this share of the gain so far; 0
@@ -41,10 +44,9 @@ struct MinimiseOptions {
   std::function<bool(const double* unknowns)> allows;
 };
 
-/// A solve whose steps have become small has converged only if RemainingDecrease is at most this
-/// multiple of the tolerance. On healthy meshes it is at most once the tolerance; where the
-/// preconditioner is bad, as between triangles of which some are far thinner than others, it has
-/// been 100 times to 1e10 times that.
+/// What paths between poses set as MinimiseOptions::trusted_remaining. On healthy meshes their
+/// RemainingDecrease is at most once the tolerance; where the preconditioner is bad, as between
+/// triangles of which some are far thinner than others, it has been 100 times to 1e10 times that.
 inline constexpr double kTrustedRemaining = 10;
 /// By this factor the tolerance of decreases is lowered for a solve that must go on.
 inline constexpr double kMoreAccurate = 0.1;

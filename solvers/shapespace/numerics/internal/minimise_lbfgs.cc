@@ -95,7 +95,7 @@ MinimiseResult MinimiseLbfgs(const Objective& energy, ChangeOfVariables* variabl
     } else if (summary.termination_type == ceres::NO_CONVERGENCE) {
       result.termination = Termination::kMaxIterations;
     } else if (summary.termination_type == ceres::CONVERGENCE) {
-      if (result.remaining <= kTrustedRemaining * options.tolerance) {
+      if (result.remaining <= options.trusted_remaining * options.tolerance) {
         result.termination = Termination::kConverged;
       } else if (options.enough == 0 && result.energy < before) {
         continue;

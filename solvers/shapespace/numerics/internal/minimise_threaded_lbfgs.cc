@@ -113,7 +113,7 @@ class ThreadedLbfgs {
       // In single precision rounding may make it negative, which is no convergence either.
       result_.remaining = std::abs(SteepestDecrease()) / value_;
       if (termination != Termination::kConverged || enough_gained_ ||
-          result_.remaining <= kTrustedRemaining * options_.tolerance) {
+          result_.remaining <= options_.trusted_remaining * options_.tolerance) {
         return termination;
       }
       if (options_.enough > 0 || value_ == before) return Termination::kStalled;
