@@ -1030,7 +1030,7 @@ TEST(Extrapolate, KeepsTheEnergyAcrossStepsOfCoarserMeshes) {
     GeodesicOptions options;
     options.metric = MetricOptions::Isometric();
     options.shapes = 7;
-    options.tolerance = 1e-6;
+    options.tolerance = 1e-8;
     const Path path =
         Interpolate(animal.connectivity, {animal.pose("stand"), animal.pose(pose)}, options).path;
     const ExponentialSummary summary = Extrapolate(path, 16).summary;
