@@ -117,8 +117,8 @@ TEST(FeatureOf, ScalarRowsOfAFeatureWithoutOwnOnesAreThoseOfItsDerivatives) {
 // one direction has the values (e / 2, e / (2 sqrt 2), 0), up to their order and signs.
 TEST(FeatureOf, ScalarRowsOfACapKnowItsHeight) {
   TriangleStrain strain;
-  strain.stencils.setZero(3, 1);
-  strain.weights.setOnes(1);
+  strain.stencils.setZero(3, 2);
+  strain.weights.setOnes(2);
   const auto feature = MakeFeature(strain);
   for (const double height : {1e-2, 1e-3, 1e-4}) {
     const Numbers x = {0, 0, 7, 1, 0, 7, 0.5, height, 7};

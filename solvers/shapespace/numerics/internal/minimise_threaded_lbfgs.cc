@@ -110,10 +110,10 @@ class ThreadedLbfgs {
     for (;;) {
       const double before = value_;
       const Termination termination = Iterate();
+      result_.remaining = SteepestDecrease() / value_;
       // In single precision rounding may make it negative, which is no convergence either.
-      result_.remaining = std::abs(SteepestDecrease()) / value_;
       if (termination != Termination::kConverged || enough_gained_ ||
-          result_.remaining <= options_.trusted_remaining * options_.tolerance) {
+          std::abs(result_.remaining) <= options_.trusted_remaining * options_.tolerance) {
         return termination;
       }
       if (options_.enough > 0 || value_ == before) return Termination::kStalled;
