@@ -71,14 +71,14 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
   EXPECT_EQ(
       Listed("shape-correspond"),
       (std::set<std::string>{"allow_nonmanifold", "allow_outside_files", "help", "hold_all_markers",
-                             "markers", "memory_limit", "output", "progress", "proportions",
-                             "report", "strict", "threads", "version"}));
+                             "markers", "memory_limit", "open_seams", "output", "progress",
+                             "proportions", "report", "strict", "threads", "version"}));
   const std::set<std::string> metric = {"bending", "discretization", "isometric", "lambda",
                                         "metric",  "rigid",          "stiffness", "strain",
                                         "volume",  "weighting"};
   std::set<std::string> wanted = metric;
   wanted.insert({"allow_mirrored", "allow_nonmanifold", "allow_outside_files", "help", "mirror",
-                 "progress", "report", "threads", "version"});
+                 "open_seams", "progress", "report", "threads", "version"});
   EXPECT_EQ(Listed("shape-inspect"), wanted);
   wanted.insert({"color", "ease", "fps", "loop", "loose_components", "max_iterations",
                  "memory_limit", "once", "output", "report", "seconds", "shapes", "solver",

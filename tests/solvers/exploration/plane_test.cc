@@ -264,7 +264,9 @@ TEST(Embed, EndsAsItsOptionsSay) {
   ASSERT_GT(decrease(0), decrease(1));
   options.tolerance = (decrease(0) + decrease(1)) / 2;
   const Embedding two = Embed(distances, options);
-  EXPECT_EQ(two.stresses.size(), 3u);
+  const size_t rounds = two.stresses.size();
+  ASSERT_GE(rounds, 2u);
+  EXPECT_LT(1 - two.stresses[rounds - 1] / two.stresses[rounds - 2], options.tolerance);
   EXPECT_TRUE(two.converged);
   Eigen::MatrixXd off = distances;
   off(3, 3) = 1e-3;
