@@ -325,7 +325,7 @@ class GltfReader {
     }
     const int rows = tinygltf::GetNumComponentsInType(type);
     const int component_size = tinygltf::GetComponentSizeInBytes(accessor.componentType);
-    const auto size = static_cast<size_t>(rows * component_size);
+    const auto size = static_cast<size_t>(rows) * component_size;
     if (accessor.count != count) {
       Fail(std::string(what) + " are not as many as the vertices" + kReexport);
     }
