@@ -38,6 +38,7 @@ void CheckFinest(const Metric& metric, double bytes, const GeodesicOptions& opti
 // changes no result.
 int MostShapes(const Metric& metric, int pieces, const GeodesicOptions& options) {
   constexpr double kVeryMuch = 8e9;
+  if (options.shapes >= std::numeric_limits<int>::max() / 2) return options.shapes;
   const int twice = 2 * options.shapes + 1;
   return internal::GeodesicBytes(metric, pieces + 1, twice) <= kVeryMuch ? twice : options.shapes;
 }
