@@ -188,7 +188,7 @@ class Case(unittest.TestCase):
             "allow_mirrored": False,
             "frame_start": 1, "frame_step": 1, "cache_folder": "//", "stiffness_group": "",
             "custom_bending": False, "custom_volume": False, "custom_tolerance": False,
-            "anchor_group": "", "ground": False, "loose_components": False,
+            "anchor_group": "", "ground": False, "loose_components": False, "open_seams": False,
         }  # fmt: skip
         given = SimpleNamespace(**{**settings, **changes})
         return getattr(work, kind)(bpy.context, given, preferences())

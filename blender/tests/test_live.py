@@ -45,7 +45,7 @@ class Live(Case):
 
         settings = SimpleNamespace(
             deform_shapes=5, balance=0.01, stiffness_group="", custom_bending=False,
-            custom_volume=False, custom_tolerance=False, loose_components=False,
+            custom_volume=False, custom_tolerance=False, loose_components=False, open_seams=False,
         )  # fmt: skip
         live = Work(bpy.context, settings, preferences())
         self.addCleanup(live.stop)
