@@ -221,7 +221,7 @@ void Collide(RTCDevice device, Triangles* triangles) {
 }
 
 std::vector<std::pair<int, int>> FindOnDevice(RTCDevice device, const Connectivity& connectivity,
-                                              const Shape& shape) {
+                                              const Groups& groups, const Shape& shape) {
   if (shape.cols() != connectivity.NumVertices()) {
     throw MeshError("intersections: the shape has " + std::to_string(shape.cols()) +
                     " vertices, its connectivity " + std::to_string(connectivity.NumVertices()));
@@ -233,7 +233,6 @@ std::vector<std::pair<int, int>> FindOnDevice(RTCDevice device, const Connectivi
   if (!(extent > 0)) return {};
   std::vector<std::pair<int, int>> pairs;
   {
-    const Groups groups = MakeGroups(connectivity);
     Triangles triangles{&connectivity.Triangles(),
                         &groups,
                         (shape.colwise() - (low + high) / 2) / extent,
@@ -258,7 +257,7 @@ Device StartDevice() {
 
 std::vector<std::pair<int, int>> FindIntersections(const Connectivity& connectivity,
                                                    const Shape& shape) {
-  return FindOnDevice(StartDevice().get(), connectivity, shape);
+  return FindOnDevice(StartDevice().get(), connectivity, MakeGroups(connectivity), shape);
 }
 
 std::int64_t CountIntersections(const Connectivity& connectivity, const Shape& shape) {
@@ -268,10 +267,11 @@ std::int64_t CountIntersections(const Connectivity& connectivity, const Shape& s
 std::vector<std::int64_t> CountIntersections(const Connectivity& connectivity,
                                              const std::vector<Shape>& shapes) {
   const Device device = StartDevice();
+  const Groups groups = MakeGroups(connectivity);
   std::vector<std::int64_t> counts(shapes.size());
   ParallelFor(static_cast<int>(shapes.size()), [&](int i) {
-    counts[i] =
-        static_cast<std::int64_t>(FindOnDevice(device.get(), connectivity, shapes[i]).size());
+    counts[i] = static_cast<std::int64_t>(
+        FindOnDevice(device.get(), connectivity, groups, shapes[i]).size());
   });
   return counts;
 }

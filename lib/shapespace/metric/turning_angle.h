@@ -49,7 +49,7 @@ struct TurningAngle : ElementFeature<3, 1> {
   /// The derivative across a curve that is nearly straight: 1 / length of the two segments for
   /// their far ends, and the opposite for the vertex between them.
   void ScalarRows(const Eigen::Vector3d* x, double* k) const {
-    // As for `Dihedral`: collapsed segments would make the matrix numerically indefinite.
+    // Collapsed segments would make the matrix numerically indefinite.
     const double least = 1e8 * epsilon_squared;
     k[0] = 1 / std::sqrt(std::max((x[1] - x[0]).squaredNorm(), least));
     k[2] = 1 / std::sqrt(std::max((x[2] - x[1]).squaredNorm(), least));

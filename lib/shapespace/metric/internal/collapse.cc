@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Core>
+
 #include <shapespace/metric/edge_length.h>
 #include <shapespace/metric/triangle_strain.h>
 
@@ -34,12 +36,11 @@ double Kept(const MetricBasis& basis, const int (&vertices)[kVertices]) {
     high = high.cwiseMax(value);
     before = value;
   }
-  return KeptInCollapse(basis.pairs == PosePairs::kAll ? (high - low).norm() : greatest);
+  const double change = basis.pairs == PosePairs::kAll ? (high - low).norm() : greatest;
+  return 1 / (1 + std::pow(change / kCollapseStrain, 8));
 }
 
 }  // namespace
-
-double KeptInCollapse(double change) { return 1 / (1 + std::pow(change / kCollapseStrain, 8)); }
 
 double KeptInCollapse(const MetricBasis& basis, int a, int b, int c) {
   return Kept<TriangleStrain>(basis, {a, b, c});
