@@ -119,7 +119,7 @@ class GltfReader {
     const int node = MeshNode();
     const tinygltf::Mesh& mesh = At(model_.meshes, model_.nodes[node].mesh, "mesh");
     for (const Primitive& primitive : mesh.primitives) AddPrimitive(primitive);
-    if (shapes_.empty() || shapes_[0].cols() == 0) Fail("the mesh has no vertices");
+    if (NumVertices() == 0) Fail("the mesh has no vertices");
     skinned_ = model_.nodes[node].skin >= 0;
     // Vertices of a skinned mesh are placed by its skeleton, not by its node.
     return Soups(skinned_ ? Eigen::Affine3d::Identity() : Placement(node), Names(mesh));
@@ -409,18 +409,17 @@ class GltfReader {
   int AddVertices(const Primitive& primitive) {
     const std::vector<int> accessors = PositionAccessors(primitive);
     const auto [found, is_new] =
-        begin_of_.try_emplace({accessors, TextureAccessor(primitive)},
-                              shapes_.empty() ? 0 : static_cast<int>(shapes_[0].cols()));
+        begin_of_.try_emplace({accessors, TextureAccessor(primitive)}, NumVertices());
     const int begin = found->second;
     if (!is_new) return begin;
-    if (!shapes_.empty() && shapes_.size() != accessors.size()) {
+    if (!coordinates_.empty() && coordinates_.size() != accessors.size()) {
       Fail("parts of the mesh have different numbers of morph targets");
     }
-    shapes_.resize(accessors.size());
+    coordinates_.resize(accessors.size());
     Eigen::MatrixXd base;
     for (size_t k = 0; k < accessors.size(); ++k) {
       if (k > 0 && accessors[k] < 0) {
-        Append(base, &shapes_[k]);
+        Append(base, &coordinates_[k]);
         continue;
       }
       const Accessor& accessor = At(model_.accessors, accessors[k], "list of numbers");
@@ -430,16 +429,18 @@ class GltfReader {
       const Eigen::MatrixXd numbers =
           Numbers(accessor, TINYGLTF_TYPE_VEC3, k == 0 ? accessor.count : base.cols(), "positions");
       if (k == 0) base = numbers;
-      Append(k == 0 ? base : Eigen::MatrixXd(base + numbers), &shapes_[k]);
+      Append(k == 0 ? base : Eigen::MatrixXd(base + numbers), &coordinates_[k]);
     }
     AddTexture(primitive, base.cols());
     return begin;
   }
 
-  static void Append(const Eigen::MatrixXd& columns, Shape* shape) {
-    const Eigen::Index old = shape->cols();
-    shape->conservativeResize(3, old + columns.cols());
-    shape->rightCols(columns.cols()) = columns;
+  static void Append(const Eigen::MatrixXd& columns, std::vector<double>* coordinates) {
+    coordinates->insert(coordinates->end(), columns.data(), columns.data() + columns.size());
+  }
+
+  int NumVertices() const {
+    return coordinates_.empty() ? 0 : static_cast<int>(coordinates_[0].size() / 3);
   }
 
   void AddTexture(const Primitive& primitive, Eigen::Index vertices) {
@@ -476,7 +477,7 @@ class GltfReader {
     const size_t corners = primitive.indices < 0
                                ? vertices
                                : At(model_.accessors, primitive.indices, "list of indices").count;
-    Reserve(corners, shapes_.size());
+    Reserve(corners, coordinates_.size());
     std::vector<int> indices(primitive.indices < 0 ? vertices : 0);
     for (size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<int>(i);
     if (primitive.indices >= 0) {
@@ -499,7 +500,7 @@ class GltfReader {
 
   // The names of the poses: those of the morph targets, and none for the mesh itself.
   std::vector<std::string> Names(const tinygltf::Mesh& mesh) const {
-    std::vector<std::string> names(shapes_.size());
+    std::vector<std::string> names(coordinates_.size());
     const bool named = mesh.extras.Has("targetNames") && mesh.extras.Get("targetNames").IsArray();
     for (size_t k = 1; k < names.size(); ++k) {
       names[k] = "target " + std::to_string(k);
@@ -517,7 +518,13 @@ class GltfReader {
         std::swap(corners_[corner + 1], corners_[corner + 2]);
       }
     }
-    const Merged merged = MergeEqual(shapes_);
+    std::vector<Shape> shapes;
+    const int num_vertices = NumVertices();
+    for (std::vector<double>& coordinates : coordinates_) {
+      shapes.emplace_back(Eigen::Map<const Shape>(coordinates.data(), 3, num_vertices));
+      coordinates = {};
+    }
+    const Merged merged = MergeEqual(shapes);
     Soup soup;
     soup.file = file_;
     for (size_t corner = 0; corner < corners_.size(); ++corner) {
@@ -545,10 +552,10 @@ class GltfReader {
     // What would place the integers is part of the skeleton.
     tell(quantized_ && skinned_, "positions are in the units of the file's quantization");
     std::vector<Soup> soups;
-    for (size_t k = 0; k < shapes_.size(); ++k) {
+    for (size_t k = 0; k < shapes.size(); ++k) {
       soups.push_back(soup);
       soups[k].name = names[k];
-      soups[k].vertices = placement * shapes_[k](Eigen::all, merged.first).colwise().homogeneous();
+      soups[k].vertices = placement * shapes[k](Eigen::all, merged.first).colwise().homogeneous();
       if (!soups[k].vertices.allFinite()) Fail(std::string("positions are not finite") + kReexport);
     }
     return soups;
@@ -556,9 +563,11 @@ class GltfReader {
 
   const std::string& file_;
   Model model_;
-  double num_bytes_ = 0;       // of the file and its buffers
-  double elements_ = 0;        // vertices and corners that are read
-  std::vector<Shape> shapes_;  // the mesh and its targets
+  double num_bytes_ = 0;  // of the file and its buffers
+  double elements_ = 0;   // vertices and corners that are read
+  // Of the vertices of the mesh and of its targets, in vectors, which many parts are added to in
+  // the time that their numbers take.
+  std::vector<std::vector<double>> coordinates_;
   // By accessors of positions and of texture coordinates: the index of the first vertex.
   std::map<std::pair<std::vector<int>, int>, int> begin_of_;
   std::vector<int> corners_, ends_;  // of triangles, and of segments
