@@ -164,6 +164,7 @@ internal::FeatureKind KindOf(const std::shared_ptr<const Definition>& definition
     });
   };
   kind.restore = [definition](const Eigen::MatrixXi& stencils, const Eigen::VectorXd& weights,
+                              const Eigen::MatrixXd& /*numbers*/,
                               const std::function<double(const std::string&)>& constant) {
     std::vector<double> constants;
     for (const std::string& name : definition->constants) constants.push_back(constant(name));

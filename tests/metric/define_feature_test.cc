@@ -121,7 +121,7 @@ TEST(FeatureOf, ScalarRowsOfACapKnowItsHeight) {
   strain.weights.setOnes(2);
   const auto feature = MakeFeature(strain);
   for (const double height : {1e-2, 1e-3, 1e-4}) {
-    const Numbers x = {0, 0, 7, 1, 0, 7, 0.5, height, 7};
+    const Numbers x = {0, 0, 7, 1, 0, 7, 0.5, height, 7, 1, 0, 0, 1};
     Numbers rows(3 * feature->NumScalarRows());
     feature->ScalarRows(1, x.data(), rows.data());
     double tip = 0;
@@ -141,15 +141,52 @@ TEST(FeatureKind, FreezesWithTheCoefficientAndRestoresFromNumbers) {
   Eigen::MatrixXi stencils(2, 2);
   stencils << 7, 8, 9, 6;
   std::vector<std::string> asked;
+  const auto constant = [&](const std::string& name) -> double {
+    asked.push_back(name);
+    return -2;
+  };
   const auto restored =
-      kind.restore(stencils, Eigen::Vector2d(3, 4), [&](const std::string& name) -> double {
-        asked.push_back(name);
-        return -2;
-      });
+      kind.restore(stencils, Eigen::Vector2d(3, 4), Eigen::MatrixXd(0, 2), constant);
   EXPECT_EQ(asked, std::vector<std::string>{"c"});
   EXPECT_EQ(restored->As<Products>()->c, -2);
   EXPECT_EQ(restored->As<Products>()->stencils, stencils);
   EXPECT_EQ(restored->Weights(), Eigen::Vector2d(3, 4));
+}
+
+// The difference of two heights as a multiple of the element's first number, plus its second.
+struct Incline : ElementFeature<2, 1, 2> {
+  static constexpr const char* kName = "incline";
+  template <typename T>
+  void operator()(const T* x, T* value) const {
+    value[0] = (x[5] - x[2]) * (x[5] - x[2]) / x[6] + x[7];
+  }
+};
+
+TEST(FeatureOf, ElementsHaveNumbersOfTheirOwn) {
+  Incline incline;
+  incline.stencils.resize(2, 2);
+  incline.stencils << 0, 1, 1, 2;
+  incline.weights.setOnes(2);
+  incline.numbers.resize(2, 2);
+  incline.numbers << 2, 4, 10, 20;
+  Shape shape = Shape::Zero(3, 3);
+  shape.row(2) << 0, 6, 10;
+  const auto feature = MakeFeature(incline);
+  ASSERT_EQ(feature->InputsPerElement(), 8);
+  Numbers x(16), values(2), slopes(12), seconds(2);
+  feature->GatherCoordinates(0, 2, shape, x.data());
+  feature->Evaluate(2, x.data(), values.data(), slopes.data());
+  EXPECT_EQ(values, (Numbers{6.0 * 6 / 2 + 10, 4.0 * 4 / 4 + 20}));
+  EXPECT_EQ(slopes, (Numbers{0, 0, -6, 0, 0, 6, 0, 0, -2, 0, 0, 2}));
+  Numbers along(16, 1);  // numbers do not change along the line
+  along[2] = along[10] = 0;
+  feature->SecondDerivatives(2, x.data(), along.data(), seconds.data());
+  EXPECT_EQ(seconds, (Numbers{1, 0.5}));
+  const internal::FeatureKind kind =
+      internal::KindOf<Incline>([](const MetricBasis&) { return Incline(); });
+  const auto restored = kind.restore(incline.stencils, incline.weights, incline.numbers,
+                                     [](const std::string&) { return 0.0; });
+  EXPECT_EQ(restored->As<Incline>()->numbers, incline.numbers);
 }
 
 struct SumOfHeights : ElementFeature<1, 1> {

@@ -31,7 +31,7 @@ void ExpectThoseOfJets(const Struct& feature, const double* x, double tolerance,
 template <typename Struct>
 Eigen::VectorXd RandomElement(std::mt19937* random) {
   std::normal_distribution<double> normal;
-  return Eigen::VectorXd::NullaryExpr(3 * Struct::kVertices, [&] { return normal(*random); });
+  return Eigen::VectorXd::NullaryExpr(Struct::kInputs, [&] { return normal(*random); });
 }
 
 TEST(TriangleStrainDerivatives, AreThoseOfJets) {
@@ -53,6 +53,7 @@ TEST(TriangleStrainDerivatives, AreThoseOfJetsWhereTrianglesAreNearlyEquilateral
   for (const double size : {0.0, 1e-6, 1e-3, 1e-2, 2e-2, 5e-2}) {
     for (int i = 0; i < 50; ++i) {
       Eigen::VectorXd x = size * RandomElement<TriangleStrain>(&random);
+      x.tail<4>() = TriangleStrain::UsualNumbers();
       x(3) += 1;
       x(6) += 0.5;
       x(7) += std::sqrt(0.75);
@@ -68,7 +69,7 @@ TEST(TriangleStrainDerivatives, AreThoseOfJetsForSlivers) {
   TriangleStrain feature;
   feature.epsilon_squared = 1e-16;
   for (const double height : {1e-2, 1e-4, 1e-6}) {
-    const double x[9] = {0, 0, 0, 1, .2, .1, .4, .08 + height, .04};
+    const double x[] = {0, 0, 0, 1, .2, .1, .4, .08 + height, .04, 1, 0, 0, 1};
     ExpectThoseOfJets(feature, x, 1e-8, 1e-16 / height);
   }
 }

@@ -111,8 +111,11 @@ TEST(FeatureMap, ValuesAreThoseOfTheGeometryTimesTheRootOfTheWeight) {
         Eigen::Matrix<double, 3, 2> edges;
         edges << test.shape.col(t(1)) - test.shape.col(t(0)),
             test.shape.col(t(2)) - test.shape.col(t(0));
+        const Eigen::Vector4d r = testing::Get<TriangleStrain>(*test.metric).numbers.col(f);
+        const Eigen::Matrix2d from_rest{{r(0), r(2)}, {r(1), r(3)}};
         const Eigen::Vector2d stretches =
-            Eigen::JacobiSVD<Eigen::MatrixXd>(edges * equilateral.inverse()).singularValues();
+            Eigen::JacobiSVD<Eigen::MatrixXd>(edges * from_rest * equilateral.inverse())
+                .singularValues();
         const double a = std::log(stretches(0)), b = std::log(stretches(1));
         const double root = std::sqrt(testing::Get<TriangleStrain>(*test.metric).weights(f));
         EXPECT_NEAR(values(3 * f), root * (a + b) / 2, 1e-13);

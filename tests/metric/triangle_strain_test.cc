@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
@@ -18,9 +19,14 @@ namespace {
 
 using Corners = Eigen::Matrix3d;  // of a triangle, one a column
 
-Eigen::Vector3d Values(const Corners& corners) {
+// Relative to the equilateral triangle, unless there are other numbers.
+Eigen::Vector3d Values(const Corners& corners,
+                       const Eigen::Vector4d& numbers = TriangleStrain::UsualNumbers(),
+                       const TriangleStrain& strain = {}) {
+  Eigen::Matrix<double, TriangleStrain::kInputs, 1> x;
+  x << corners.reshaped(), numbers;
   Eigen::Vector3d value;
-  TriangleStrain()(corners.data(), value.data());
+  strain(x.data(), value.data());
   return value;
 }
 
@@ -64,9 +70,10 @@ TEST(TriangleStrain, GivesTheSidesOfTheTriangleThatHasItsValues) {
   for (int i = 0; i < 20; ++i) {
     Corners corners;
     for (double& x : corners.reshaped()) x = normal(random);
-    Eigen::Vector3d value;
-    strain(corners.data(), value.data());
-    const auto squared = strain.SquaredSides(value.data());
+    const Eigen::Vector4d numbers(2 + normal(random), normal(random) / 2, normal(random) / 2,
+                                  2 + normal(random));
+    const Eigen::Vector3d value = Values(corners, numbers, strain);
+    const auto squared = strain.SquaredSides(value.data(), numbers.data());
     for (int k = 0; k < 3; ++k) {
       const double side = (corners.col((k + 1) % 3) - corners.col((k + 2) % 3)).squaredNorm();
       EXPECT_NEAR(squared[k], side, 1e-10 * (1 + side));
@@ -134,6 +141,84 @@ TEST(TriangleStrain, HoldsEdgesWithoutTrianglesByTheirOwnStrain) {
   EXPECT_EQ(testing::Get<LogLength>(*both).stencils, Eigen::Matrix2Xi(flag->Edges().rightCols(1)));
 }
 
+// Strains of a metric's only triangle in its poses.
+std::vector<Eigen::Vector3d> StrainsIn(const std::vector<Corners>& poses) {
+  MetricOptions options;
+  options.lambda = 0;
+  const auto triangle = Connectivity::Make(3, {0, 3}, {0, 1, 2});
+  const auto metric = FreezeMetric(options, triangle, {poses.begin(), poses.end()});
+  std::vector<Eigen::Vector3d> strains;
+  for (const Corners& pose : poses) {
+    strains.push_back(Values(pose / metric->unit, testing::Get<TriangleStrain>(*metric).numbers,
+                             testing::Get<TriangleStrain>(*metric)));
+  }
+  return strains;
+}
+
+Corners RandomCorners(std::mt19937* random, double height) {
+  std::normal_distribution<double> normal;
+  Corners corners = Corners::NullaryExpr([&] { return normal(*random); });
+  corners.row(1) *= height;
+  return corners;
+}
+
+TEST(TriangleStrain, OfOnePoseIsThatOfItsAreaAlone) {
+  std::mt19937 random(6);
+  for (const double height : {1.0, 1e-1, 1e-3, 1e-5}) {
+    for (int trial = 0; trial < 10; ++trial) {
+      Corners corners = RandomCorners(&random, height);
+      corners.row(2) *= height;
+      const Eigen::Vector3d strain = StrainsIn({corners})[0];
+      EXPECT_LT(strain.tail<2>().norm(), 1e-15 / (height * height) + 1e-12) << height;
+    }
+  }
+}
+
+// The metric of symmetric positive matrices g that no linear map changes, tr((g^-1 g')^2), has the
+// distance |log of the eigenvalues of g0^-1 g1|, and knows nothing of a triangle at rest.
+TEST(TriangleStrain, TheDistanceOfTwoPosesIsThatOfTheAffineInvariantMetric) {
+  std::mt19937 random(7);
+  for (const double height : {1.0, 1e-1, 1e-2}) {
+    for (int trial = 0; trial < 20; ++trial) {
+      const std::vector<Corners> poses = {RandomCorners(&random, height),
+                                          RandomCorners(&random, height)};
+      const auto strains = StrainsIn(poses);
+      const auto form = [](const Corners& corners) {
+        const Eigen::Matrix<double, 3, 2> edges = corners.rightCols<2>().colwise() - corners.col(0);
+        return Eigen::Matrix2d(edges.transpose() * edges);
+      };
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> eigen(form(poses[1]),
+                                                                            form(poses[0]));
+      const Eigen::Array2d logarithms = eigen.eigenvalues().array().log() / 2;
+      // The mean square over all directions of a strain with these eigenvalues.
+      const double expected =
+          std::sqrt((logarithms.square().sum() + std::pow(logarithms.sum(), 2) / 2) / 4);
+      EXPECT_NEAR((strains[1] - strains[0]).norm() / expected, 1, 1e-10 / (height * height));
+    }
+  }
+}
+
+// As seen from any corner.
+TEST(TriangleStrain, NoCornerIsTheFirst) {
+  std::mt19937 random(8);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<Corners> poses, turned;
+    for (int i = 0; i < 3; ++i) {
+      poses.push_back(RandomCorners(&random, 0.2));
+      turned.emplace_back();
+      turned[i] << poses[i].col(1), poses[i].col(2), poses[i].col(0);
+    }
+    const auto strains = StrainsIn(poses), others = StrainsIn(turned);
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Vector3d change = strains[i + 1] - strains[i], other = others[i + 1] - others[i];
+      // The strain has turned with the triangle, by 120 degrees.
+      EXPECT_NEAR(change(0), other(0), 1e-12);
+      const Eigen::Rotation2Dd turn(2 * M_PI / 3);
+      EXPECT_LT((turn * change.tail<2>() - other.tail<2>()).norm(), 1e-10);
+    }
+  }
+}
+
 TEST(TriangleStrain, CollapsedTrianglesHaveFiniteValues) {
   TriangleStrain strain;
   strain.epsilon_squared = 1e-16;
@@ -141,9 +226,16 @@ TEST(TriangleStrain, CollapsedTrianglesHaveFiniteValues) {
   line(0, 1) = 1;
   line(0, 2) = 2;
   for (const Corners& corners : {point, line}) {
-    Eigen::Vector3d value;
-    strain(corners.data(), value.data());
+    const Eigen::Vector3d value = Values(corners, TriangleStrain::UsualNumbers(), strain);
     EXPECT_TRUE(value.allFinite()) << value.transpose();
+    // In all poses: there is no triangle at rest then.
+    MetricOptions options;
+    const auto two = Connectivity::Make(6, {0, 3, 6}, {0, 1, 2, 3, 4, 5});
+    Shape pose(3, 6);
+    pose << corners, WithStrain(Eigen::Matrix2d::Zero());
+    const auto metric = FreezeMetric(options, two, {pose});
+    EXPECT_EQ(testing::Get<TriangleStrain>(*metric).numbers.col(0), TriangleStrain::UsualNumbers());
+    EXPECT_TRUE(FeatureMap(metric).Values(pose / metric->unit).allFinite());
   }
 }
 

@@ -36,7 +36,8 @@ Evaluated FromDefinition(const Metric& metric, const std::vector<Shape>& shapes,
   for (const auto& any : metric.features) {
     testing::WithStruct(*any, [&](const auto& feature) {
       using Feature = std::decay_t<decltype(feature)>;
-      constexpr int kSize = 3 * Feature::kVertices, kValues = Feature::kValues;
+      constexpr int kSize = 3 * Feature::kVertices, kValues = Feature::kValues,
+                    kInputs = Feature::kInputs;
       using Jet = ceres::Jet<double, 2 * kSize>;
       for (size_t i = 0; i + 1 < shapes.size(); ++i) {
         const auto spread = [&](int e, const Jet& value) {
@@ -47,19 +48,19 @@ Evaluated FromDefinition(const Metric& metric, const std::vector<Shape>& shapes,
           }
         };
         const auto evaluate = [&](int e, Jet* change, Jet* from, Jet* to) {
-          double x[2 * kSize];
-          GatherCoordinates(feature, e, shapes[i], x);
-          GatherCoordinates(feature, e, shapes[i + 1], x + kSize);
-          for (int k = 0; k < kSize; ++k) {
-            from[k] = Jet(x[k], k);
-            to[k] = Jet(x[kSize + k], kSize + k);
+          double x[2][kInputs];
+          GatherCoordinates(feature, e, shapes[i], x[0]);
+          GatherCoordinates(feature, e, shapes[i + 1], x[1]);
+          for (int k = 0; k < kInputs; ++k) {
+            from[k] = k < kSize ? Jet(x[0][k], k) : Jet(x[0][k]);
+            to[k] = k < kSize ? Jet(x[1][k], kSize + k) : Jet(x[1][k]);
           }
           Jet a[kValues], b[kValues];
           feature(from, a);
           feature(to, b);
           for (int k = 0; k < kValues; ++k) change[k] = b[k] - a[k];
         };
-        Jet change[kValues], from[kSize], to[kSize];
+        Jet change[kValues], from[kInputs], to[kInputs];
         if constexpr (Feature::kSum) {
           double total = 0;
           for (int e = 0; e < feature.stencils.cols(); ++e) {

@@ -97,6 +97,10 @@ TEST(PathFile, KeepsEveryFieldOfTheMetric) {
       for (int k = 0; k < found.VerticesPerElement(); ++k) {
         EXPECT_EQ(found.Element(e)[k], given.Element(e)[k]);
       }
+      ASSERT_EQ(found.NumbersPerElement(), given.NumbersPerElement());
+      for (int k = 0; k < found.NumbersPerElement(); ++k) {
+        EXPECT_EQ(found.Numbers(e)[k], given.Numbers(e)[k]);
+      }
     }
   }
   const Connectivity &a = *read.metric->connectivity, &b = *path.metric->connectivity;

@@ -422,6 +422,54 @@ TEST(Extrapolate, KeepsTheEnergyToSecondOrder) {
   }
 }
 
+// The diagonals of all cells parallel, in turns, and at random.
+enum class Diagonals { kParallel, kInTurns, kRandom };
+
+class SquashedStrip : public ::testing::TestWithParam<Diagonals> {};
+
+// A strip of 5 by 1 that is half as long in the second pose stays a rectangle.
+TEST_P(SquashedStrip, StaysARectangle) {
+  constexpr int kLong = 20, kWide = 4;
+  std::mt19937 random(4);
+  const auto vertex = [](int i, int j) { return (kLong + 1) * j + i; };
+  Shape rest = Shape::Zero(3, (kLong + 1) * (kWide + 1));
+  for (int j = 0; j <= kWide; ++j) {
+    for (int i = 0; i <= kLong; ++i) rest.col(vertex(i, j)) << 5.0 * i / kLong, 1.0 * j / kWide, 0;
+  }
+  std::vector<int> begin = {0}, corners;
+  for (int j = 0; j < kWide; ++j) {
+    for (int i = 0; i < kLong; ++i) {
+      int quad[] = {vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)};
+      const bool other = GetParam() == Diagonals::kInTurns
+                             ? (i + j) % 2 == 1
+                             : GetParam() == Diagonals::kRandom && random() % 2 == 1;
+      if (other) std::rotate(quad, quad + 1, quad + 4);
+      corners.insert(corners.end(), {quad[0], quad[1], quad[2], quad[0], quad[2], quad[3]});
+      begin.insert(begin.end(), {begin.back() + 3, begin.back() + 6});
+    }
+  }
+  const auto strip = Connectivity::Make(static_cast<int>(rest.cols()), begin, corners);
+  const Shape squashed = Eigen::Vector3d(0.5, 1, 1).asDiagonal() * rest;
+  GeodesicOptions geodesic;
+  geodesic.shapes = 3;
+  const Path path = Interpolate(strip, {rest, squashed}, geodesic).path;
+  const Path longer = Extrapolate(path, 8).path;
+  for (int i = 0; i < longer.NumShapes(); ++i) {
+    const Shape& shape = longer.shapes[i];
+    const Eigen::Vector3d along = shape.col(vertex(kLong, 0)) - shape.col(vertex(0, 0));
+    const Eigen::Vector3d across = shape.col(vertex(0, kWide)) - shape.col(vertex(0, 0));
+    const double angle = std::acos(along.normalized().dot(across.normalized()));
+    EXPECT_NEAR(angle * 180 / M_PI, 90, 0.1) << i;
+    EXPECT_NEAR(along.norm() * longer.metric->unit, 5 * std::pow(0.5, longer.parameters[i]), 1e-3)
+        << i;
+    EXPECT_NEAR(across.norm() * longer.metric->unit, 1, 1e-3) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Extrapolate, SquashedStrip,
+                         ::testing::Values(Diagonals::kParallel, Diagonals::kInTurns,
+                                           Diagonals::kRandom));
+
 // For a path that is a rigid motion only, and for one that also deforms.
 TEST(Extrapolate, GoesOnWithTheRigidMotionAsAScrew) {
   const ShapeFamily bar = MakeBar(6, 1, 1, 6, 1, 1);

@@ -21,7 +21,7 @@ Eigen::VectorXd Values(const Metric& metric, const Shape& shape) {
   std::vector<double> all;
   for (const auto& feature : metric.features) {
     const int elements = feature->NumElements(), values = feature->ValuesPerElement();
-    std::vector<double> x(3 * feature->VerticesPerElement() * elements), value(values * elements);
+    std::vector<double> x(feature->InputsPerElement() * elements), value(values * elements);
     feature->GatherCoordinates(0, elements, shape, x.data());
     feature->Evaluate(elements, x.data(), value.data());
     for (size_t k = 0; k < value.size(); ++k) {

@@ -277,7 +277,7 @@ TEST(ScalarMetric, IsTheSumOverAllElements) {
       double shares = 0, traces = 1;  // products of the poses' traces
       for (const Shape& pose : poses) {
         double own = 0, trace = 0;
-        double x[3 * Feature::kMaxVertices];
+        double x[Feature::kMaxInputs];
         double rows[Feature::kMaxVertices * 3 * Feature::kMaxValues];
         feature->GatherCoordinates(e, e + 1, pose, x);
         feature->ScalarRows(1, x, rows);

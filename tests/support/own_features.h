@@ -11,7 +11,7 @@ namespace shapespace::testing {
 
 /// A feature of the library as a user would define it, with only the members that are required.
 template <typename Struct, typename Own>
-struct CopyOf : ElementFeature<Struct::kVertices, Struct::kValues> {
+struct CopyOf : ElementFeature<Struct::kVertices, Struct::kValues, Struct::kNumbers> {
   static constexpr bool kSum = Struct::kSum;
   Struct original;
 
@@ -20,6 +20,7 @@ struct CopyOf : ElementFeature<Struct::kVertices, Struct::kValues> {
     feature.original = Struct::Freeze(basis);
     feature.stencils = feature.original.stencils;
     feature.weights = feature.original.weights;
+    feature.numbers = feature.original.numbers;
     return feature;
   }
   template <typename Self, typename Visit>

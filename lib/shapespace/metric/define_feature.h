@@ -32,8 +32,9 @@ void DeriveAutomatically(const Struct& feature, const double* x, double* values,
                          double* derivatives) {
   constexpr int kSize = 3 * Struct::kVertices, kValues = Struct::kValues;
   using Jet = ceres::Jet<double, kSize>;
-  Jet jet[kSize], value[kValues];
+  Jet jet[Struct::kInputs], value[kValues];
   for (int k = 0; k < kSize; ++k) jet[k] = Jet(x[k], k);
+  for (int k = kSize; k < Struct::kInputs; ++k) jet[k] = Jet(x[k]);
   feature(jet, value);
   for (int k = 0; k < kValues; ++k) values[k] = value[k].a;
   for (int corner = 0; corner < Struct::kVertices; ++corner) {
@@ -47,22 +48,24 @@ template <typename Struct>
 class FeatureOf final : public Feature {
  public:
   explicit FeatureOf(Struct feature) : feature_(std::move(feature)) {
-    static_assert(kVertices <= kMaxVertices && kValues <= kMaxValues,
-                  "Feature::kMaxVertices and kMaxValues limit the size of an element");
+    static_assert(kVertices <= kMaxVertices && kValues <= kMaxValues && kInputs <= kMaxInputs,
+                  "Feature::kMaxVertices, kMaxValues and kMaxInputs limit the size of an element");
     static_assert(!Struct::kSum || kValues == 1, "a sum has one value");
     name_ = Struct::kName;
     vertices_ = kVertices;
     values_ = kValues;
+    numbers_per_element_ = Struct::kNumbers;
     num_elements_ = static_cast<int>(feature_.stencils.cols());
     scalar_rows_ = kHasRows ? Struct::kScalarRows : 3 * kValues;
     is_sum_ = Struct::kSum;
     is_rigid_invariant_ = Struct::kRigidInvariant;
     stencils_ = feature_.stencils.data();
+    numbers_ = feature_.numbers.data();
     weights_ = &feature_.weights;
   }
 
   void Evaluate(int count, const double* x, double* values, double* derivatives) const override {
-    for (int e = 0; e < count; ++e, x += kSize, values += kValues) {
+    for (int e = 0; e < count; ++e, x += kInputs, values += kValues) {
       if (derivatives == nullptr) {
         feature_(x, values);
         continue;
@@ -79,7 +82,7 @@ class FeatureOf final : public Feature {
   void Differentiate(int count, const double* x, double* values,
                      double* derivatives) const override {
     if (derivatives == nullptr) return Evaluate(count, x, values, nullptr);
-    for (int e = 0; e < count; ++e, x += kSize, values += kValues) {
+    for (int e = 0; e < count; ++e, x += kInputs, values += kValues) {
       DeriveAutomatically(feature_, x, values, derivatives);
       derivatives += kSize * kValues;
     }
@@ -87,9 +90,9 @@ class FeatureOf final : public Feature {
 
   void SecondDerivatives(int count, const double* x, const double* along,
                          double* values) const override {
-    for (int e = 0; e < count; ++e, x += kSize, along += kSize) {
-      LineJet jet[kSize], value[kValues];
-      for (int k = 0; k < kSize; ++k) jet[k] = {x[k], along[k], 0};
+    for (int e = 0; e < count; ++e, x += kInputs, along += kInputs) {
+      LineJet jet[kInputs], value[kValues];
+      for (int k = 0; k < kInputs; ++k) jet[k] = {x[k], k < kSize ? along[k] : 0, 0};
       feature_(jet, value);
       for (int k = 0; k < kValues; ++k) *values++ = value[k].second;
     }
@@ -106,7 +109,7 @@ class FeatureOf final : public Feature {
 
   void ScalarRows(int count, const double* x, double* rows) const override {
     if constexpr (kHasRows) {
-      for (int e = 0; e < count; ++e, x += kSize, rows += kVertices * scalar_rows_) {
+      for (int e = 0; e < count; ++e, x += kInputs, rows += kVertices * scalar_rows_) {
         Eigen::Vector3d vertices[kVertices];
         for (int k = 0; k < kVertices; ++k)
           vertices[k] = Eigen::Map<const Eigen::Vector3d>(x + 3 * k);
@@ -127,7 +130,7 @@ class FeatureOf final : public Feature {
 
  private:
   static constexpr int kVertices = Struct::kVertices, kValues = Struct::kValues;
-  static constexpr int kSize = 3 * kVertices;
+  static constexpr int kSize = 3 * kVertices, kInputs = Struct::kInputs;
   static constexpr bool kHasRows = Struct::kScalarRows > 0;
 
   const void* StructIf(const std::type_info& type) const override {
@@ -151,6 +154,7 @@ template <typename Struct>
 FeatureKind KindOf(std::function<Struct(const MetricBasis&)> freeze) {
   FeatureKind kind;
   kind.vertices = Struct::kVertices;
+  kind.usual_numbers = Struct::UsualNumbers();
   kind.is_sum = Struct::kSum;
   kind.freeze = [freeze](const MetricBasis& basis, double coefficient) {
     Struct feature = freeze(basis);
@@ -158,10 +162,12 @@ FeatureKind KindOf(std::function<Struct(const MetricBasis&)> freeze) {
     return MakeFeature(std::move(feature));
   };
   kind.restore = [](const Eigen::MatrixXi& stencils, const Eigen::VectorXd& weights,
+                    const Eigen::MatrixXd& numbers,
                     const std::function<double(const std::string&)>& constant) {
     Struct feature;
     feature.stencils = stencils;
     feature.weights = weights;
+    feature.numbers = numbers;
     Struct::ForConstants(&feature,
                          [&](const char* name, double& number) { number = constant(name); });
     return MakeFeature(std::move(feature));

@@ -1,15 +1,18 @@
 #include <shapespace/metric/feature.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace shapespace {
 
 void Feature::GatherCoordinates(int begin, int end, const Shape& shape, double* x) const {
-  const int* const last = stencils_ + vertices_ * end;
-  for (const int* v = stencils_ + vertices_ * begin; v != last; ++v, x += 3) {
-    Eigen::Map<Eigen::Vector3d> vertex(x);
-    vertex = shape.col(*v);
+  for (int e = begin; e < end; ++e) {
+    for (int k = 0; k < vertices_; ++k, x += 3) {
+      Eigen::Map<Eigen::Vector3d> vertex(x);
+      vertex = shape.col(Element(e)[k]);
+    }
+    x = std::copy_n(Numbers(e), numbers_per_element_, x);
   }
 }
 

@@ -28,9 +28,13 @@ namespace shapespace {
 /// so on. `static Struct Freeze(const MetricBasis& basis)` returns the feature on a mesh and some
 /// poses of it. define_feature.h makes a `Feature` of such a struct, and docs/guide/features.md has
 /// a complete example.
-template <int kElementVertices, int kElementValues>
+///
+/// An element may have numbers of its own, such as its shape at rest; they follow the coordinates
+/// in x, and values are not differentiated by them.
+template <int kElementVertices, int kElementValues, int kElementNumbers = 0>
 struct ElementFeature {
-  static constexpr int kVertices = kElementVertices, kValues = kElementValues;
+  static constexpr int kVertices = kElementVertices, kValues = kElementValues,
+                       kNumbers = kElementNumbers, kInputs = 3 * kVertices + kNumbers;
 
   /// Whether the values are invariant under rigid motion of the whole shape. If so, solvers remove
   /// rigid motion from paths exactly.
@@ -48,8 +52,9 @@ struct ElementFeature {
   /// Number of vectors of `ScalarRows`; 0 means that they are computed from the derivative.
   static constexpr int kScalarRows = 0;
 
-  Eigen::Matrix<int, kVertices, Eigen::Dynamic> stencils;  ///< one column per element
-  Eigen::VectorXd weights;                                 ///< one per element, not negative
+  Eigen::Matrix<int, kVertices, Eigen::Dynamic> stencils;   ///< one column per element
+  Eigen::VectorXd weights;                                  ///< one per element, not negative
+  Eigen::Matrix<double, kNumbers, Eigen::Dynamic> numbers;  ///< one column per element
 
   /// The minimum of sum_i |Phi_{i+1} - Phi_i|^2 over all paths of `segments` segments from value a
   /// to value b: the element's contribution to the lower bound. The straight chord is valid for any
@@ -65,17 +70,26 @@ struct ElementFeature {
   /// assembled from them. x contains the element's vertices.
   void ScalarRows(const Eigen::Vector3d* /*x*/, double* /*k*/) const {}
 
-  /// Calls visit(name, number) for each number of the feature besides stencils and weights; they
-  /// are stored in files. A struct with such numbers redefines this template.
+  /// The numbers of each element in files that have none.
+  static Eigen::Matrix<double, kNumbers, 1> UsualNumbers() {
+    return Eigen::Matrix<double, kNumbers, 1>::Zero();
+  }
+
+  /// Calls visit(name, number) for each number of the feature as a whole; they are stored in files.
+  /// A struct with such numbers redefines this template.
   template <typename Self, typename Visit>
   static void ForConstants(Self* /*self*/, const Visit& /*visit*/) {}
 };
 
-/// Copies the coordinates of `element`'s vertices from a shape, vertex after vertex.
+/// Copies the coordinates of `element`'s vertices from a shape, vertex after vertex, and its
+/// numbers: kInputs in all.
 template <typename Struct>
 void GatherCoordinates(const Struct& feature, int element, const Shape& shape, double* x) {
   for (int k = 0; k < Struct::kVertices; ++k) {
     Eigen::Map<Eigen::Vector3d>(x + 3 * k) = shape.col(feature.stencils(k, element));
+  }
+  for (int k = 0; k < Struct::kNumbers; ++k) {
+    x[3 * Struct::kVertices + k] = feature.numbers(k, element);
   }
 }
 
@@ -84,9 +98,9 @@ void GatherCoordinates(const Struct& feature, int element, const Shape& shape, d
 /// Immutable; made by `MakeFeature`.
 class Feature {
  public:
-  /// Limits on a struct's number of vertices and values, because buffers of this size are on the
-  /// stack.
-  static constexpr int kMaxVertices = 8, kMaxValues = 8;
+  /// Limits on a struct's vertices, values, and coordinates and numbers together, because buffers
+  /// of this size are on the stack.
+  static constexpr int kMaxVertices = 8, kMaxValues = 8, kMaxInputs = 3 * kMaxVertices + 4;
 
   virtual ~Feature() = default;
   Feature(const Feature&) = delete;
@@ -95,23 +109,28 @@ class Feature {
   const std::string& Name() const { return name_; }
   int VerticesPerElement() const { return vertices_; }
   int ValuesPerElement() const { return values_; }
+  int NumbersPerElement() const { return numbers_per_element_; }
+  /// Coordinates and numbers.
+  int InputsPerElement() const { return 3 * vertices_ + numbers_per_element_; }
   int NumElements() const { return num_elements_; }
   bool IsSum() const { return is_sum_; }
   bool IsRigidInvariant() const { return is_rigid_invariant_; }
 
   /// The vertices of an element, VerticesPerElement() numbers.
   const int* Element(int element) const { return stencils_ + vertices_ * element; }
+  /// The numbers of an element, NumbersPerElement() of them.
+  const double* Numbers(int element) const { return numbers_ + numbers_per_element_ * element; }
   /// One number per element; for a sum feature one number.
   const Eigen::VectorXd& Weights() const { return *weights_; }
   double Weight(int element) const { return (*weights_)(is_sum_ ? 0 : element); }
   /// Number of values of the feature in Phi.
   int NumValues() const { return is_sum_ ? 1 : values_ * num_elements_; }
 
-  /// The coordinates of elements [begin, end), 3 VerticesPerElement() numbers each.
+  /// The coordinates and the numbers of elements [begin, end), InputsPerElement() for each.
   void GatherCoordinates(int begin, int end, const Shape& shape, double* x) const;
 
-  /// The values, without weights, of `count` elements at coordinates x, and, unless null, their
-  /// derivatives: by element, by vertex, by value, three numbers each.
+  /// The values, without weights, of `count` elements with coordinates and numbers x, and, unless
+  /// null, their derivatives: by element, by vertex, by value, three numbers each.
   virtual void Evaluate(int count, const double* x, double* values,
                         double* derivatives = nullptr) const = 0;
   /// The same, but the derivatives are always those of the values by automatic differentiation,
@@ -120,7 +139,8 @@ class Feature {
   /// differentiate.
   virtual void Differentiate(int count, const double* x, double* values,
                              double* derivatives = nullptr) const;
-  /// The second derivative of the values along the line x + s along, at s = 0.
+  /// The second derivative of the values along the line x + s along, at s = 0. Both have the layout
+  /// of GatherCoordinates; the numbers do not change along the line.
   virtual void SecondDerivatives(int count, const double* x, const double* along,
                                  double* values) const = 0;
   /// The sum of weight * LeastChange over `count` elements with values a and b at the ends.
@@ -130,7 +150,7 @@ class Feature {
   /// 3 ValuesPerElement() and computed from the derivative.
   virtual void ScalarRows(int count, const double* x, double* rows) const;
   int NumScalarRows() const { return scalar_rows_; }
-  /// The constants besides stencils and weights, by name.
+  /// The constants of the feature as a whole, by name.
   virtual std::vector<std::pair<std::string, double>> Constants() const = 0;
 
   /// The struct from which this feature was made, if it is a `Struct`; else null.
@@ -144,9 +164,10 @@ class Feature {
   virtual const void* StructIf(const std::type_info& type) const = 0;
 
   std::string name_;
-  int vertices_ = 0, values_ = 0, num_elements_ = 0, scalar_rows_ = 0;
+  int vertices_ = 0, values_ = 0, numbers_per_element_ = 0, num_elements_ = 0, scalar_rows_ = 0;
   bool is_sum_ = false, is_rigid_invariant_ = true;
   const int* stencils_ = nullptr;             // of the struct in the derived class
+  const double* numbers_ = nullptr;           // of the struct in the derived class
   const Eigen::VectorXd* weights_ = nullptr;  // of the struct in the derived class
 };
 

@@ -39,9 +39,9 @@ double Sum(int count, const Value& value) {
   return std::accumulate(partial.begin(), partial.end(), 0.0);
 }
 
-// The coordinates of elements [begin, end).
+// The coordinates and the numbers of elements [begin, end).
 std::vector<double> CoordinatesOf(const Feature& feature, int begin, int end, const Shape& shape) {
-  std::vector<double> x(3 * static_cast<size_t>(feature.VerticesPerElement()) * (end - begin));
+  std::vector<double> x(static_cast<size_t>(feature.InputsPerElement()) * (end - begin));
   feature.GatherCoordinates(begin, end, shape, x.data());
   return x;
 }

@@ -87,6 +87,14 @@ void CheckFeature(const Feature& feature, int num_vertices) {
       }
     }
   }
+  for (int e = 0; e < feature.NumElements(); ++e) {
+    for (int k = 0; k < feature.NumbersPerElement(); ++k) {
+      if (!std::isfinite(feature.Numbers(e)[k])) {
+        throw InvalidOptions(name, "number " + std::to_string(k) + " of element " +
+                                       std::to_string(e) + " is not finite");
+      }
+    }
+  }
   const Eigen::VectorXd& weights = feature.Weights();
   const int wanted = feature.IsSum() ? 1 : feature.NumElements();
   if (weights.size() != wanted) {

@@ -25,11 +25,12 @@ namespace internal {
 struct FeatureKind {
   int vertices = 0;
   bool is_sum = false;
+  Eigen::VectorXd usual_numbers;  ///< ElementFeature::UsualNumbers
   std::function<std::shared_ptr<const Feature>(const MetricBasis&, double coefficient)> freeze;
   /// From the content of a file; `constant` returns a number by its name.
   std::function<std::shared_ptr<const Feature>(
       const Eigen::MatrixXi& stencils, const Eigen::VectorXd& weights,
-      const std::function<double(const std::string&)>& constant)>
+      const Eigen::MatrixXd& numbers, const std::function<double(const std::string&)>& constant)>
       restore;
 };
 
@@ -40,7 +41,8 @@ void Register(const std::string& name, const std::type_info& type, FeatureKind k
 FeatureKind FindFeature(const std::string& name);
 
 /// \throw InvalidOptions naming the feature, if its stencils have a vertex that is not in the mesh,
-///        or its weights are not one finite number, zero or more, for each element.
+///        a number of an element is not finite, or its weights are not one finite number, zero or
+///        more, for each element.
 void CheckFeature(const Feature& feature, int num_vertices);
 
 }  // namespace internal

@@ -2,6 +2,7 @@
 
 #include <shapespace/base/internal/ranges.h>
 #include <shapespace/metric/internal/collapse.h>
+#include <shapespace/metric/internal/rest_triangle.h>
 #include <shapespace/metric/metric_basis.h>
 
 namespace shapespace {
@@ -12,8 +13,10 @@ TriangleStrain TriangleStrain::Freeze(const MetricBasis& basis) {
   feature.weights = basis.triangle_stiffness;
   if (basis.weighting == Weighting::kArea) feature.weights.array() *= basis.triangle_area.array();
   feature.epsilon_squared = basis.CollapsedSquared();
+  feature.numbers.resize(4, basis.connectivity->NumTriangles());
   internal::ForIndices(basis.connectivity->NumTriangles(), [&](int f) {
     const auto t = basis.connectivity->Triangles().col(f);
+    feature.numbers.col(f) = internal::RestNumbers(basis, t(0), t(1), t(2));
     feature.weights(f) *= internal::KeptInCollapse(basis, t(0), t(1), t(2));
   });
   return feature;

@@ -150,6 +150,8 @@ PathEnergy::Term PathEnergy::MakeTerm(const std::shared_ptr<const Feature>& feat
       group.stencils.push_back(row_of_vertex_[feature->Element(e)[k]]);
     }
     group.weights.push_back(feature->Weight(e));
+    group.numbers.insert(group.numbers.end(), feature->Numbers(e),
+                         feature->Numbers(e) + feature->NumbersPerElement());
   }
   return term;
 }
@@ -362,7 +364,7 @@ double PathEnergy::EstimateBytes(const Metric& metric, int inner) {
   double elements = 0;
   for (const auto& feature : metric.features) {
     const double integers = feature->VerticesPerElement();
-    const double numbers = 1 + 2.0 * feature->ValuesPerElement();
+    const double numbers = 1 + feature->NumbersPerElement() + 2.0 * feature->ValuesPerElement();
     elements += kCapacity * feature->NumElements() * (4 * integers + 8 * numbers);
   }
   const double num_vertices = metric.connectivity->NumVertices();
@@ -390,7 +392,7 @@ std::vector<double> LeastEnergies(const Metric& metric, const std::vector<const 
       auto sums = partial.col(begin / kElementsPerTask);
       std::vector<double> values[2];  // of a shape, and of the one before it
       for (std::vector<double>& v : values) v.resize(num_values * (end - begin));
-      std::vector<double> x(3 * static_cast<size_t>(feature->VerticesPerElement()) * (end - begin));
+      std::vector<double> x(static_cast<size_t>(feature->InputsPerElement()) * (end - begin));
       for (size_t i = 0; i < num_shapes; ++i) {
         double* const here = values[i % 2].data();
         feature->GatherCoordinates(begin, end, *shapes[i], x.data());

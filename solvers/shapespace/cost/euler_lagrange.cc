@@ -75,7 +75,7 @@ const double* EulerLagrange::Add(const std::shared_ptr<const Feature>& feature, 
   const bool is_sum = feature->IsSum();
   Tangent sum_gradient = Tangent::Zero(3, is_sum ? at.cols() : 0);
   double sum_rounded = 0;
-  double x[3 * Feature::kMaxVertices], values[Feature::kMaxValues];
+  double x[Feature::kMaxInputs], values[Feature::kMaxValues];
   double derivatives[3 * Feature::kMaxVertices * Feature::kMaxValues];
   const auto derivative = [&](int corner, int k) {
     return Eigen::Map<const Eigen::Vector3d>(derivatives + 3 * (num_values * corner + k));

@@ -9,6 +9,7 @@
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/cost_function.h>
 
+#include <shapespace/cost/gather_blocks.h>
 #include <shapespace/cost/shape_features.h>
 #include <shapespace/cost/sum_cost.h>
 #include <shapespace/metric/metric.h>
@@ -26,7 +27,9 @@ namespace shapespace::cost {
 class FeatureSegment final : public ceres::CostFunction {
  public:
   FeatureSegment(std::shared_ptr<const Feature> feature, int element)
-      : feature_(std::move(feature)), root_weight_(std::sqrt(feature_->Weight(element))) {
+      : feature_(std::move(feature)),
+        element_(element),
+        root_weight_(std::sqrt(feature_->Weight(element))) {
     set_num_residuals(feature_->ValuesPerElement());
     mutable_parameter_block_sizes()->assign(2 * feature_->VerticesPerElement(), 3);
   }
@@ -34,9 +37,13 @@ class FeatureSegment final : public ceres::CostFunction {
   bool Evaluate(const double* const* blocks, double* residual, double** jacobians) const override {
     const int num_vertices = feature_->VerticesPerElement();
     const int num_values = feature_->ValuesPerElement();
-    double x[2 * 3 * Feature::kMaxVertices], values[2 * Feature::kMaxValues];
+    double x[2 * Feature::kMaxInputs], values[2 * Feature::kMaxValues];
     double derivatives[2 * 3 * Feature::kMaxVertices * Feature::kMaxValues];
-    for (int k = 0; k < 2 * num_vertices; ++k) std::copy_n(blocks[k], 3, x + 3 * k);
+    for (int end = 0; end < 2; ++end) {
+      GatherBlocks(
+          *feature_, element_, [&](int k) { return blocks[end * num_vertices + k]; },
+          x + end * feature_->InputsPerElement());
+    }
     feature_->Differentiate(2, x, values, jacobians != nullptr ? derivatives : nullptr);
     for (int k = 0; k < num_values; ++k) {
       residual[k] = root_weight_ * (values[num_values + k] - values[k]);
@@ -53,6 +60,7 @@ class FeatureSegment final : public ceres::CostFunction {
 
  private:
   const std::shared_ptr<const Feature> feature_;
+  const int element_;
   const double root_weight_;
 };
 

@@ -32,7 +32,7 @@ void ShapeFeatures::PrepareForEvaluation(bool evaluate_jacobians, bool new_evalu
     const Feature& feature = *metric_->features[i / shapes_.size()];
     if (feature.IsSum()) return;
     const int coordinates = 3 * feature.VerticesPerElement(), values = feature.ValuesPerElement();
-    double x[kElements * 3 * Feature::kMaxVertices];
+    double x[kElements * Feature::kMaxInputs];
     for (int begin = 0; begin < feature.NumElements(); begin += kElements) {
       const int end = std::min(begin + kElements, feature.NumElements());
       feature.GatherCoordinates(begin, end, shapes_[i % shapes_.size()], x);

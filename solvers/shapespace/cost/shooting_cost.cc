@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <shapespace/cost/gather_blocks.h>
+
 namespace shapespace::cost {
 
 EulerLagrangeRows::EulerLagrangeRows(std::vector<VertexElements> parts, int num_sums,
@@ -38,10 +40,11 @@ bool EulerLagrangeRows::Evaluate(const double* const* blocks, double* residual,
       continue;
     }
     const int num_vertices = feature.VerticesPerElement(), num_values = feature.ValuesPerElement();
-    double x[3 * Feature::kMaxVertices], values[Feature::kMaxValues];
+    double x[Feature::kMaxInputs], values[Feature::kMaxValues];
     double derivatives[3 * Feature::kMaxVertices * Feature::kMaxValues];
     for (const int element : part.elements) {
-      for (int k = 0; k < num_vertices; ++k) std::copy_n(blocks[block[k]], 3, x + 3 * k);
+      GatherBlocks(
+          feature, element, [&](int k) { return blocks[block[k]]; }, x);
       feature.Differentiate(1, x, values, jacobians != nullptr ? derivatives : nullptr);
       const double root = std::sqrt(feature.Weight(element));
       for (int value = 0; value < num_values; ++value, gradient += 3) {

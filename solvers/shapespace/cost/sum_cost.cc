@@ -1,15 +1,18 @@
 #include <shapespace/cost/sum_cost.h>
 
+#include <shapespace/cost/gather_blocks.h>
+
 namespace shapespace::cost {
 
 double AddSum(const Feature& feature, const double* const* blocks, double scale,
               double** jacobians) {
   const int num_vertices = feature.VerticesPerElement();
   double sum = 0;
-  double x[3 * Feature::kMaxVertices], derivatives[3 * Feature::kMaxVertices];
+  double x[Feature::kMaxInputs], derivatives[3 * Feature::kMaxVertices];
   for (int e = 0; e < feature.NumElements(); ++e) {
     const int* const vertices = feature.Element(e);
-    for (int k = 0; k < num_vertices; ++k) std::copy_n(blocks[vertices[k]], 3, x + 3 * k);
+    GatherBlocks(
+        feature, e, [&](int k) { return blocks[vertices[k]]; }, x);
     double value;
     feature.Differentiate(1, x, &value, jacobians != nullptr ? derivatives : nullptr);
     sum += value;

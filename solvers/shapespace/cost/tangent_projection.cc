@@ -66,7 +66,7 @@ void AddTangentProjection(const Metric& metric, const Shape& at, const Eigen::Ve
   const double* next = change.data();
   for (const auto& feature : metric.features) {
     const int vertices = feature->VerticesPerElement(), values = feature->ValuesPerElement();
-    double x[3 * Feature::kMaxVertices], ignored[Feature::kMaxValues];
+    double x[Feature::kMaxInputs], ignored[Feature::kMaxValues];
     for (int e = 0; e < feature->NumElements(); ++e, next += values) {
       std::vector<double> derivative(3 * vertices * values);
       feature->GatherCoordinates(e, e + 1, at, x);

@@ -21,7 +21,7 @@ template <typename Struct>
 Eigen::MatrixXd ValuesOf(const Struct& feature, const Shape& shape) {
   Eigen::MatrixXd values(Struct::kValues, feature.stencils.cols());
   for (int i = 0; i < values.cols(); ++i) {
-    double x[3 * Struct::kVertices];
+    double x[Struct::kInputs];
     GatherCoordinates(feature, i, shape, x);
     feature(x, values.col(i).data());
   }
@@ -69,7 +69,7 @@ Eigen::VectorXd StraightLengths::ByStrainAt(double t) const {
   if (const auto* const strain = Find<TriangleStrain>(*metric_)) {
     for (int f = 0; f < triangles.cols(); ++f) {
       const Eigen::Vector3d values = (1 - t) * m_.strains.col(f) + t * n_.strains.col(f);
-      sides[f] = strain->SquaredSides(values.data());
+      sides[f] = strain->SquaredSides(values.data(), strain->numbers.col(f).data());
     }
   }
   Eigen::VectorXd squared = Eigen::VectorXd::Zero(connectivity.NumEdges());

@@ -1,11 +1,13 @@
 #include <shapespace/metric/internal/collapse.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Core>
 
 #include <shapespace/metric/edge_length.h>
+#include <shapespace/metric/internal/rest_triangle.h>
 #include <shapespace/metric/triangle_strain.h>
 
 namespace shapespace::internal {
@@ -13,19 +15,22 @@ namespace {
 
 constexpr double kCollapseStrain = 3;
 
-// Of an element with the corners `vertices` of a feature whose values are strains.
-template <typename Strain, int kVertices>
-double Kept(const MetricBasis& basis, const int (&vertices)[kVertices]) {
+// Of an element with the corners `vertices` and the given numbers of a feature whose values are
+// strains.
+template <typename Strain>
+double Kept(const MetricBasis& basis, const std::array<int, Strain::kVertices>& vertices,
+            const std::array<double, Strain::kNumbers>& numbers) {
   Strain strain;
   strain.epsilon_squared = basis.CollapsedSquared();
   using Values = Eigen::Matrix<double, Strain::kValues, 1>;
   Values value, before = Values::Zero(), low = before, high = before;
   double greatest = 0;
   for (size_t i = 0; i < basis.poses.size(); ++i) {
-    double x[3 * kVertices];
-    for (int k = 0; k < kVertices; ++k) {
+    double x[Strain::kInputs];
+    for (int k = 0; k < Strain::kVertices; ++k) {
       Eigen::Map<Eigen::Vector3d>(x + 3 * k) = basis.poses[i].col(vertices[k]);
     }
+    std::copy(numbers.begin(), numbers.end(), x + 3 * Strain::kVertices);
     strain(x, value.data());
     if (i == 0) {
       low = high = value;
@@ -43,11 +48,12 @@ double Kept(const MetricBasis& basis, const int (&vertices)[kVertices]) {
 }  // namespace
 
 double KeptInCollapse(const MetricBasis& basis, int a, int b, int c) {
-  return Kept<TriangleStrain>(basis, {a, b, c});
+  const Eigen::Vector4d rest = RestNumbers(basis, a, b, c);
+  return Kept<TriangleStrain>(basis, {a, b, c}, {rest(0), rest(1), rest(2), rest(3)});
 }
 
 double KeptInCollapse(const MetricBasis& basis, int a, int b) {
-  return Kept<LogLength>(basis, {a, b});
+  return Kept<LogLength>(basis, {a, b}, {});
 }
 
 }  // namespace shapespace::internal

@@ -488,12 +488,48 @@ SHAPESPACE_INLINE double Dihedrals(const PathRows& path, const int* stencils, co
   return scratch.Sum(sums);
 }
 
-// With a = q - p, b = r - p, the values depend on aa = |a|^2, ab = a . b and bb = |b|^2 only. Names
-// are those of the functor (metric/triangle_strain.h).
+// The kNumbers numbers of each of a tile's elements.
+template <int kInner, int kNumbers>
+class TileNumbers {
+ public:
+  static constexpr int kElements = Scratch<kInner>::kElements;
+
+  /// Uses kNumbers scratch rows from `row` on; for single elements none.
+  SHAPESPACE_INLINE TileNumbers(Scratch<kInner>* scratch, int row)
+      : scratch_(*scratch), row_(row) {}
+
+  /// Loads those of the first elements of `count`.
+  SHAPESPACE_INLINE void Load(const double* numbers, int count) {
+    for (int k = 0; k < kNumbers; ++k) single_[k] = numbers[k];
+    if constexpr (kElements > 1) {
+      for (int i = 0; i < kElements; ++i) {
+        const double* const from = numbers + kNumbers * std::min(i, count - 1);
+        for (int k = 0; k < kNumbers; ++k) {
+          for (int t = 0; t < kInner + 2; ++t) scratch_.Row(row_ + k)[kElements * t + i] = from[k];
+        }
+      }
+    }
+  }
+
+  /// Number k of the element in a slot.
+  SHAPESPACE_INLINE double At(int k, int slot) const {
+    return kElements == 1 ? single_[k] : scratch_.Row(row_ + k)[slot];
+  }
+
+ private:
+  Scratch<kInner>& scratch_;
+  const int row_;
+  double single_[kNumbers];
+};
+
+// With a and b the edges q - p and r - p as they would be if the triangle at rest were equilateral,
+// the values depend on aa = |a|^2, ab = a . b and bb = |b|^2 only. Names are those of the functor
+// (metric/triangle_strain.h).
 template <int kInner>
 SHAPESPACE_INLINE double TriangleStrains(const PathRows& path, const int* stencils,
-                                         const double* weights, const double* ends, int count,
-                                         double epsilon_squared, int begin) {
+                                         const double* weights, const double* numbers,
+                                         const double* ends, int count, double epsilon_squared,
+                                         int begin) {
   constexpr int kElements = Scratch<kInner>::kElements;
   Scratch<kInner> scratch(path, begin);
   const int end = scratch.End(), end_of_segments = scratch.EndOfSegments();
@@ -512,11 +548,17 @@ SHAPESPACE_INLINE double TriangleStrains(const PathRows& path, const int* stenci
   constexpr double kThird = 1.0 / 3, kRoot3 = 0.57735026918962576451;
   std::fill(sums, sums + end_of_segments, 0.0);
   Tile<kInner, 3> tile(path, &scratch, 20);
+  TileNumbers<kInner, 4> rest(&scratch, 39);
   for (int element = 0; element < count; element += kElements) {
     tile.Load(stencils + 3 * element, weights + element, count - element);
+    rest.Load(numbers + 4 * element, count - element);
     SubtractFirstPoint(scratch, tile, row);
     SHAPESPACE_INDEPENDENT
     for (int l = begin_of_inner; l < end_of_inner; ++l) {
+      const double r0 = rest.At(0, l), r1 = rest.At(1, l), r2 = rest.At(2, l), r3 = rest.At(3, l);
+      const double ux = ax[l], uy = ay[l], uz = az[l], vx = bx[l], vy = by[l], vz = bz[l];
+      ax[l] = r0 * ux + r1 * vx, ay[l] = r0 * uy + r1 * vy, az[l] = r0 * uz + r1 * vz;
+      bx[l] = r2 * ux + r3 * vx, by[l] = r2 * uy + r3 * vy, bz[l] = r2 * uz + r3 * vz;
       const double aa = ax[l] * ax[l] + ay[l] * ay[l] + az[l] * az[l];
       const double ab = ax[l] * bx[l] + ay[l] * by[l] + az[l] * bz[l];
       const double bb = bx[l] * bx[l] + by[l] * by[l] + bz[l] * bz[l];
@@ -567,15 +609,19 @@ SHAPESPACE_INLINE double TriangleStrains(const PathRows& path, const int* stenci
       const double by_d = slope[l] * f1 + sum * turn[l] * sd[l] * sm[l];
       const double by_o = kRoot3 * (slope[l] * f2 + sum * turn[l] * so[l] * sm[l]);
       const double by_m = -2 * kThird * sum * (turn[l] * ratio[l] + slope[l]);
-      // ... and to aa, bb and ab.
+      // ... to aa, bb and ab, and so to a, b and the edges.
       const double by_aa =
           by_m + kThird * by_d - by_o + by_determinant * (sbb[l] + epsilon_squared);
       const double by_bb = by_m - 2 * kThird * by_d + by_determinant * (saa[l] + epsilon_squared);
       const double by_ab =
           -by_m + 2 * kThird * by_d + 2 * by_o - by_determinant * (2 * sab[l] + epsilon_squared);
-      const double qx = 2 * by_aa * ax[l] + by_ab * bx[l], rx = 2 * by_bb * bx[l] + by_ab * ax[l];
-      const double qy = 2 * by_aa * ay[l] + by_ab * by[l], ry = 2 * by_bb * by[l] + by_ab * ay[l];
-      const double qz = 2 * by_aa * az[l] + by_ab * bz[l], rz = 2 * by_bb * bz[l] + by_ab * az[l];
+      const double ux = 2 * by_aa * ax[l] + by_ab * bx[l], vx = 2 * by_bb * bx[l] + by_ab * ax[l];
+      const double uy = 2 * by_aa * ay[l] + by_ab * by[l], vy = 2 * by_bb * by[l] + by_ab * ay[l];
+      const double uz = 2 * by_aa * az[l] + by_ab * bz[l], vz = 2 * by_bb * bz[l] + by_ab * az[l];
+      const double r0 = rest.At(0, l), r1 = rest.At(1, l), r2 = rest.At(2, l), r3 = rest.At(3, l);
+      const double qx = r0 * ux + r2 * vx, rx = r1 * ux + r3 * vx;
+      const double qy = r0 * uy + r2 * vy, ry = r1 * uy + r3 * vy;
+      const double qz = r0 * uz + r2 * vz, rz = r1 * uz + r3 * vz;
       g[0][l] -= qx + rx;
       g[0][l + step] -= qy + ry;
       g[0][l + 2 * step] -= qz + rz;
@@ -648,10 +694,12 @@ double DihedralKernel(const PathRows& path, const int* stencils, const double* w
 
 SHAPESPACE_CLONES
 double TriangleStrainKernel(const PathRows& path, const int* stencils, const double* weights,
-                            const double* ends, int count, double epsilon_squared) {
+                            const double* numbers, const double* ends, int count,
+                            double epsilon_squared) {
   return ForWindows(
       path, [&](auto inner, int begin) __attribute__((always_inline)) {
-        return TriangleStrains<inner>(path, stencils, weights, ends, count, epsilon_squared, begin);
+        return TriangleStrains<inner>(path, stencils, weights, numbers, ends, count,
+                                      epsilon_squared, begin);
       });
 }
 

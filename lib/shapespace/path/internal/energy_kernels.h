@@ -37,10 +37,12 @@ double DihedralKernel(const PathRows& rows, const int* stencils, const double* w
                       const double* ends, int count, double normal_epsilon_squared,
                       double edge_epsilon_squared);
 
-/// `ends` contains the functor's three values at the first and at the last shape, 6 numbers per
-/// element. Those at the last are not used if the end is free.
+/// `numbers` contains the functor's four numbers of each element, `ends` its three values at the
+/// first and at the last shape, 6 numbers per element. Those at the last are not used if the end is
+/// free.
 double TriangleStrainKernel(const PathRows& rows, const int* stencils, const double* weights,
-                            const double* ends, int count, double epsilon_squared);
+                            const double* numbers, const double* ends, int count,
+                            double epsilon_squared);
 
 /// Volume: adds the volume of elements [0, count) at each time to `values`, inner + 2 numbers.
 void AddVolumes(const PathRows& rows, const int* stencils, int count, double reference,

@@ -15,6 +15,7 @@ class ElementsAtAllTimes {
       : feature_(feature),
         rows_(rows),
         size_(3 * feature.VerticesPerElement()),
+        inputs_(feature.InputsPerElement()),
         times_(rows.inner + 2),
         most_(std::max(1, kNumbers / (times_ * size_ * feature.ValuesPerElement()))) {}
 
@@ -57,16 +58,20 @@ class ElementsAtAllTimes {
 
   void Evaluate(const ElementGroup& group, int end, bool with_derivatives) {
     const size_t sites = static_cast<size_t>(end - begin_) * times_;
-    x_.resize(sites * size_);
+    x_.resize(sites * inputs_);
     values_.resize(sites * feature_.ValuesPerElement());
     if (with_derivatives) derivatives_.resize(values_.size() * size_);
     for (int e = begin_; e < end; ++e) {
       for (int i = 0; i < size_; ++i) {
         const size_t row = Row(group, e, i);
-        const auto at = [&](int time) -> double& { return x_[Place(e, time) * size_ + i]; };
+        const auto at = [&](int time) -> double& { return x_[Place(e, time) * inputs_ + i]; };
         at(0) = rows_.first[row];
         for (int t = 0; t < rows_.inner; ++t) at(t + 1) = rows_.shapes[row * rows_.stride + t];
         at(times_ - 1) = rows_.last[row];
+      }
+      for (int time = 0; time < times_; ++time) {
+        std::copy_n(&group.numbers[static_cast<size_t>(inputs_ - size_) * e], inputs_ - size_,
+                    &x_[Place(e, time) * inputs_ + size_]);
       }
     }
     feature_.Evaluate(static_cast<int>(sites), x_.data(), values_.data(),
@@ -75,7 +80,7 @@ class ElementsAtAllTimes {
 
   const Feature& feature_;
   const PathRows& rows_;
-  const int size_, times_, most_;
+  const int size_, inputs_, times_, most_;
   int begin_ = 0;  // of the elements that have been evaluated
   std::vector<double> x_, values_, derivatives_;
 };
@@ -126,7 +131,8 @@ TermKernel KernelOf(std::shared_ptr<const Feature> feature) {
     return {[epsilon = strain->epsilon_squared](const PathRows& rows, const ElementGroup& group,
                                                 double) {
               return TriangleStrainKernel(rows, group.stencils.data(), group.weights.data(),
-                                          group.ends.data(), group.Count(), epsilon);
+                                          group.numbers.data(), group.ends.data(), group.Count(),
+                                          epsilon);
             },
             true};
   }
@@ -165,8 +171,11 @@ void EvaluateEnds(const Feature& feature, const std::vector<double>& first,
                   const std::vector<double>& last, ElementGroup* group) {
   const int num_vertices = feature.VerticesPerElement(), num_values = feature.ValuesPerElement();
   group->ends.resize(2 * static_cast<size_t>(num_values) * group->Count());
-  double x[3 * Feature::kMaxVertices];
+  const int num_numbers = feature.NumbersPerElement();
+  double x[Feature::kMaxInputs];
   for (int e = 0; e < group->Count(); ++e) {
+    std::copy_n(&group->numbers[static_cast<size_t>(num_numbers) * e], num_numbers,
+                x + 3 * num_vertices);
     const int* const stencil = &group->stencils[static_cast<size_t>(num_vertices) * e];
     double* values = &group->ends[2 * static_cast<size_t>(num_values) * e];
     for (const std::vector<double>* end : {&first, &last}) {

@@ -17,7 +17,8 @@ namespace shapespace::internal {
 struct ElementGroup {
   std::vector<int> stencils;
   std::vector<double> weights;
-  std::vector<double> ends;  // values at the first and the last shape, if the kernel uses them
+  std::vector<double> numbers;  // of the elements, if the feature has any
+  std::vector<double> ends;     // values at the first and the last shape, if the kernel uses them
 
   int Count() const { return static_cast<int>(weights.size()); }
 };

@@ -14,6 +14,7 @@ constexpr const char* kRepresentatives = "representatives";
 constexpr const char* kBending = "bending_stiffness";
 constexpr const char* kVertices = "vertices";
 constexpr const char* kEdges = "edges";
+constexpr const char* kNumbers = "numbers";
 
 HeaderJson OptionsToJson(const MetricOptions& options) {
   HeaderJson features = HeaderJson::array();
@@ -113,7 +114,11 @@ std::shared_ptr<const Feature> ReadFeature(const std::string& name, const Header
   const auto stencils =
       arrays.Get<Eigen::MatrixXi>(prefix + "stencils", kind.vertices, Eigen::Dynamic);
   const auto weights = arrays.Get<Eigen::VectorXd>(prefix + "weights", Eigen::Dynamic, 1);
-  auto feature = kind.restore(stencils, weights, [&](const std::string& constant) {
+  const std::string own = prefix + kNumbers;
+  const Eigen::MatrixXd numbers =
+      arrays.Has(own) ? arrays.Get<Eigen::MatrixXd>(own, kind.usual_numbers.size(), stencils.cols())
+                      : Eigen::MatrixXd(kind.usual_numbers.replicate(1, stencils.cols()));
+  auto feature = kind.restore(stencils, weights, numbers, [&](const std::string& constant) {
     return constants.at(constant).get<double>();
   });
   CheckFeature(*feature, num_vertices);
@@ -201,6 +206,10 @@ void AddMetric(const Metric& metric, HeaderJson* header, ArrayWriter* arrays) {
     arrays->Add(prefix + "stencils", feature->Element(0), feature->VerticesPerElement(),
                 feature->NumElements());
     arrays->Add(prefix + "weights", feature->Weights());
+    if (feature->NumbersPerElement() > 0) {
+      arrays->Add(prefix + kNumbers, feature->Numbers(0), feature->NumbersPerElement(),
+                  feature->NumElements());
+    }
   }
   for (const auto& [name, field] : {std::pair(kStretching, &metric.options.stretching_stiffness),
                                     std::pair(kBending, &metric.options.bending_stiffness)}) {

@@ -52,8 +52,11 @@ void ShellFit::SetWanted(const Shape& shape) {
     } else if (const auto* strains = metric_->features[i]->As<TriangleStrain>()) {
       const auto triangles = stretch_.StretchedTriangles(shape);
       for (int f = 0; f < triangles.cols(); ++f) {
+        double x[TriangleStrain::kInputs];
+        std::copy_n(triangles.col(f).data(), 9, x);
+        std::copy_n(strains->numbers.col(f).data(), TriangleStrain::kNumbers, x + 9);
         Eigen::Vector3d strain;
-        (*strains)(triangles.col(f).data(), strain.data());
+        (*strains)(x, strain.data());
         wanted_.segment<3>(begin + 3 * f) = std::sqrt(strains->weights(f)) * strain;
       }
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <shapespace/base/internal/ranges.h>
 #include <shapespace/numerics/internal/padded_width.h>
@@ -111,23 +112,24 @@ void FreeEndFactors::Integrate(const std::vector<std::vector<Eigen::Matrix3d>>& 
     const int corners = feature->VerticesPerElement(), num_rows = feature->NumScalarRows();
     const int num_elements = feature->NumElements();
     // Of all elements, one after the other.
-    Eigen::Matrix3Xd before(3, corners * num_elements);
+    std::vector<double> x(static_cast<size_t>(feature->InputsPerElement()) * num_elements);
     Eigen::MatrixXd k(corners, num_rows * num_elements);
-    feature->GatherCoordinates(0, num_elements, rest_, before.data());
-    feature->ScalarRows(num_elements, before.data(), k.data());
+    feature->GatherCoordinates(0, num_elements, rest_, x.data());
+    feature->ScalarRows(num_elements, x.data(), k.data());
     ParallelFor(static_cast<int>(shapes->size()), [&](int i) {
-      Eigen::Matrix3Xd after(3, corners);
+      Eigen::Matrix3Xd off_vertices(3, corners);
       Eigen::MatrixXd off(num_rows, 3);
       for (int e = 0; e < num_elements; ++e) {
         const int* const vertices = feature->Element(e);
         const auto own = k.middleCols(num_rows * e, num_rows);
         Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-        feature->GatherCoordinates(e, e + 1, (*shapes)[i], after.data());
         for (int c = 0; c < corners; ++c) gradient += gradients[i][vertices[c]] / corners;
-        after = gradient.lazyProduct(before.middleCols(corners * e, corners)) - after;
+        for (int c = 0; c < corners; ++c) {
+          off_vertices.col(c) = gradient * rest_.col(vertices[c]) - (*shapes)[i].col(vertices[c]);
+        }
         const double stiffness = 4 * feature->Weight(e) * own.squaredNorm();
         const double weight = 4 * feature->Weight(e) * std::min(1.0, stiffest / stiffness);
-        off.noalias() = own.transpose().lazyProduct(after.transpose());
+        off.noalias() = own.transpose().lazyProduct(off_vertices.transpose());
         for (int c = 0; c < corners; ++c) {
           rights[i].row(vertices[c]) += weight * own.row(c).lazyProduct(off);
         }

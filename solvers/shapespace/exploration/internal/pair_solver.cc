@@ -28,6 +28,7 @@ std::string DigestOf(const Metric& frozen, const std::vector<Shape>& poses,
     hasher.Add(feature->Name().data(), feature->Name().size());
     hasher.Add(feature->Element(0), feature->NumElements() * feature->VerticesPerElement());
     hasher.AddAll(feature->Weights());
+    hasher.Add(feature->Numbers(0), feature->NumElements() * feature->NumbersPerElement());
     for (const auto& constant : feature->Constants()) hasher.Add(constant.second);
   }
   hasher.AddAll(frozen.connectivity->Triangles());

@@ -17,7 +17,7 @@ namespace shapespace::internal {
 /// Version of the results, in the names of records, so that a record is found only by a solver that
 /// would give the same result. To be incremented whenever the same inputs and options give another
 /// result; tests/solvers/exploration/results_version_test.cc notices that.
-inline constexpr int kResultsVersion = 6;
+inline constexpr int kResultsVersion = 7;
 
 /// Two shapes of a space: centred, aligned with the first pose, in the metric's unit.
 struct Pair {

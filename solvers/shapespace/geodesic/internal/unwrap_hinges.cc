@@ -92,7 +92,7 @@ double ElementEnergy(const Metric& metric, const FeatureElement& element,
                      const std::vector<Shape>& shapes) {
   const Feature& feature = *metric.features[element.first];
   const int e = element.second, num_values = feature.ValuesPerElement();
-  double x[3 * Feature::kMaxVertices], values[2][Feature::kMaxValues], sum = 0;
+  double x[Feature::kMaxInputs], values[2][Feature::kMaxValues], sum = 0;
   for (size_t i = 0; i < shapes.size(); ++i) {
     feature.GatherCoordinates(e, e + 1, shapes[i], x);
     double* const value = values[i % 2];

@@ -110,7 +110,7 @@ void ElementBlocks(const Feature& feature, int begin, int end, const std::vector
   const int corners = feature.VerticesPerElement(), num_rows = feature.NumScalarRows();
   const int size = corners * corners;
   const size_t count = end - begin;
-  std::vector<double> x(3 * corners * count), rows(corners * num_rows * count);
+  std::vector<double> x(feature.InputsPerElement() * count), rows(corners * num_rows * count);
   std::vector<double> logarithms(count), counts(count), own(size);
   std::fill_n(blocks, size * count, 0.0);
   for (const Shape& pose : poses) {

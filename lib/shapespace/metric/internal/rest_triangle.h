@@ -1,0 +1,15 @@
+#ifndef SHAPESPACE_METRIC_INTERNAL_REST_TRIANGLE_H_
+#define SHAPESPACE_METRIC_INTERNAL_REST_TRIANGLE_H_
+
+#include <Eigen/Core>
+
+#include <shapespace/metric/metric_basis.h>
+
+namespace shapespace::internal {
+
+/// The numbers of `TriangleStrain` for the triangle (a, b, c) of the basis' mesh.
+Eigen::Vector4d RestNumbers(const MetricBasis& basis, int a, int b, int c);
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_METRIC_INTERNAL_REST_TRIANGLE_H_
