@@ -259,7 +259,7 @@ TEST(Folds, ABookShutsThroughEvenAngles) {
   const auto mesh = Connectivity::FromTriangles(4, triangles);
   GeodesicOptions options;
   options.shapes = 3;
-  options.tolerance = 1e-9;
+  options.tolerance = 1e-11;
   options.metric.lambda = 0;
   for (const bool backwards : {false, true}) {
     for (const double degrees : {0.0, 70.0}) {

@@ -46,25 +46,27 @@ INSTANTIATE_TEST_SUITE_P(
                       RealPair{"leaf/original.obj", "leaf/bend0.obj", 1e-6, 1e-4, 0, 1.001},
                       RealPair{"hand/rest.obj", "hand/curl65.obj", 0.0033, 0.41, 0, 1.01},
                       RealPair{"human/000.obj", "human/007.obj", 0.0115, 2.4, 3, 1.08},
-                      RealPair{"horse/reference.obj", "horse/01.obj", 0.0095, 2.2, 3, 1.06},
+                      RealPair{"horse/reference.obj", "horse/01.obj", 0.0095, 2.7, 3, 1.06},
                       RealPair{"cat/reference.obj", "cat/01.obj", 0.03, 9.6, 12, 1.25}),
     [](const auto& info) {
       return std::filesystem::path(info.param.first).parent_path().string();
     });
 
-// A part of the tail turns over. With 15 shapes alone this takes a single segment on the way back,
-// which is 1.35 times as fast as the mean, at 4 % more energy.
+// Under edge lengths a part turns over, which with 15 shapes alone takes a single segment, at 2 %
+// more energy.
 TEST(RealPosesThatTurnOver, MoveEvenly) {
   const std::filesystem::path folder = SHAPESPACE_DATA_DIR;
-  const std::string first = (folder / "cat/reference.obj").string();
-  const std::string last = (folder / "cat/01.obj").string();
+  const std::string first = (folder / "cat/04.obj").string();
+  const std::string last = (folder / "cat/02.obj").string();
   if (folder.empty() || !std::filesystem::exists(first)) {
     GTEST_SKIP() << "no real meshes: set the CMake cache path SHAPESPACE_DATA_DIR";
   }
+  GeodesicOptions options;
+  options.metric = MetricOptions::Isometric();
   int removed = 0;
   for (const std::vector<std::string>& pair :
        {std::vector<std::string>{first, last}, std::vector<std::string>{last, first}}) {
-    const auto [path, summary] = Interpolate(ReadPoses(pair));
+    const auto [path, summary] = Interpolate(ReadPoses(pair), options);
     EXPECT_EQ(summary.termination, Termination::kConverged) << summary.FullReport();
     EXPECT_LT(summary.quality.speed_max, 1.1) << summary.FullReport();
     // Two solves remove a jump, the last of the table: more shapes, then as many as were asked for.

@@ -265,7 +265,7 @@ TEST(Spline, DoesNotDependOnWhichPoseIsFirst) {
   const std::vector<Shape> poses = StretchedPoses(sheet);
   const std::vector<Shape> reversed(poses.rbegin(), poses.rend());
   SplineOptions options = Fine(SplineEnds::kNatural);
-  options.geodesic.tolerance = 1e-11;
+  options.geodesic.tolerance = 1e-12;
   options.times = {0, 1, 2.5, 3};
   const Path path = Spline(sheet.connectivity, poses, options).path;
   options.times = {0, 0.5, 2, 3};

@@ -57,7 +57,7 @@ TEST_F(RealTransfer, APersonTakesAnothersPose) {
   const auto theirs =
       TransferPoses(poses.connectivity, source, poses.shapes[2], {}, options).summary;
   EXPECT_LT(ours.transfers[0].strain_rms, 0.92 * theirs.transfers[0].strain_rms);
-  EXPECT_LT(ours.transfers[0].angle_rms, 0.6 * theirs.transfers[0].angle_rms);
+  EXPECT_LT(ours.transfers[0].angle_rms, 0.65 * theirs.transfers[0].angle_rms);
 }
 
 }  // namespace
