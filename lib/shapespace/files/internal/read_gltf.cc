@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -118,6 +119,7 @@ class GltfReader {
   std::vector<Soup> Read() {
     const int node = MeshNode();
     const tinygltf::Mesh& mesh = At(model_.meshes, model_.nodes[node].mesh, "mesh");
+    CountVertices(mesh);
     for (const Primitive& primitive : mesh.primitives) AddPrimitive(primitive);
     if (NumVertices() == 0) Fail("the mesh has no vertices");
     skinned_ = model_.nodes[node].skin >= 0;
@@ -404,12 +406,25 @@ class GltfReader {
     return found == primitive.attributes.end() ? -1 : found->second;
   }
 
+  // All that tells the vertices of primitives apart: accessors of positions and of texture
+  // coordinates.
+  using VerticesOf = std::pair<std::vector<int>, int>;
+
+  void CountVertices(const tinygltf::Mesh& mesh) {
+    std::set<VerticesOf> counted;
+    for (const Primitive& primitive : mesh.primitives) {
+      const std::vector<int> accessors = PositionAccessors(primitive);
+      if (!counted.insert({accessors, TextureAccessor(primitive)}).second) continue;
+      Reserve(At(model_.accessors, accessors[0], "list of numbers").count, accessors.size());
+    }
+  }
+
   // Appends the vertices of a primitive to all poses, unless another primitive had the same.
   // Returns the index of the first of them.
   int AddVertices(const Primitive& primitive) {
     const std::vector<int> accessors = PositionAccessors(primitive);
     const auto [found, is_new] =
-        begin_of_.try_emplace({accessors, TextureAccessor(primitive)}, NumVertices());
+        begin_of_.try_emplace(VerticesOf{accessors, TextureAccessor(primitive)}, NumVertices());
     const int begin = found->second;
     if (!is_new) return begin;
     if (!coordinates_.empty() && coordinates_.size() != accessors.size()) {
@@ -423,7 +438,6 @@ class GltfReader {
         continue;
       }
       const Accessor& accessor = At(model_.accessors, accessors[k], "list of numbers");
-      if (k == 0) Reserve(accessor.count, accessors.size());
       // Only targets may leave out the buffer, where all numbers but a few are 0.
       if (k == 0 && accessor.bufferView < 0) Fail(std::string("has no positions") + kReexport);
       const Eigen::MatrixXd numbers =
@@ -568,9 +582,8 @@ class GltfReader {
   // Of the vertices of the mesh and of its targets, in vectors, which many parts are added to in
   // the time that their numbers take.
   std::vector<std::vector<double>> coordinates_;
-  // By accessors of positions and of texture coordinates: the index of the first vertex.
-  std::map<std::pair<std::vector<int>, int>, int> begin_of_;
-  std::vector<int> corners_, ends_;  // of triangles, and of segments
+  std::map<VerticesOf, int> begin_of_;  // the index of the first vertex
+  std::vector<int> corners_, ends_;     // of triangles, and of segments
   Eigen::Matrix2Xd texture_{2, 0};
   std::vector<int> texture_of_;  // of each vertex: its texture coordinates, or -1
   bool has_materials_ = false, has_colours_ = false, has_rounded_texture_ = false;
