@@ -119,7 +119,7 @@ class GltfReader {
   std::vector<Soup> Read() {
     const int node = MeshNode();
     const tinygltf::Mesh& mesh = At(model_.meshes, model_.nodes[node].mesh, "mesh");
-    CountVertices(mesh);
+    CountElements(mesh);
     for (const Primitive& primitive : mesh.primitives) AddPrimitive(primitive);
     if (NumVertices() == 0) Fail("the mesh has no vertices");
     skinned_ = model_.nodes[node].skin >= 0;
@@ -256,16 +256,6 @@ class GltfReader {
       placement = OwnPlacement(model_.nodes[i]) * placement;
     }
     return placement;
-  }
-
-  // Counts further vertices or corners, before there is memory for them in all poses.
-  void Reserve(size_t more, size_t poses) {
-    elements_ += static_cast<double>(more);
-    if (elements_ * poses <= std::max(kAlwaysAllowed, kAllowedPerByte * num_bytes_)) return;
-    Fail("has " + std::to_string(poses - 1) +
-         " morph targets, which together would take far more memory than a file of this size "
-         "accounts for" +
-         kReexport);
   }
 
   // Where an element of an accessor's numbers, of `size` bytes each, is stored.
@@ -410,12 +400,26 @@ class GltfReader {
   // coordinates.
   using VerticesOf = std::pair<std::vector<int>, int>;
 
-  void CountVertices(const tinygltf::Mesh& mesh) {
+  // Refuses what would take far more memory than the file, before any of it is read.
+  void CountElements(const tinygltf::Mesh& mesh) const {
     std::set<VerticesOf> counted;
+    double elements = 0;  // vertices and corners, in all poses
     for (const Primitive& primitive : mesh.primitives) {
       const std::vector<int> accessors = PositionAccessors(primitive);
-      if (!counted.insert({accessors, TextureAccessor(primitive)}).second) continue;
-      Reserve(At(model_.accessors, accessors[0], "list of numbers").count, accessors.size());
+      const auto poses = static_cast<double>(accessors.size());
+      const auto vertices =
+          static_cast<double>(At(model_.accessors, accessors[0], "list of numbers").count);
+      if (counted.insert({accessors, TextureAccessor(primitive)}).second) {
+        elements += poses * vertices;
+      }
+      elements += poses * (primitive.indices < 0
+                               ? vertices
+                               : At(model_.accessors, primitive.indices, "list of indices").count);
+      if (elements <= std::max(kAlwaysAllowed, kAllowedPerByte * num_bytes_)) continue;
+      Fail("has " + std::to_string(accessors.size() - 1) +
+           " morph targets, which together would take far more memory than a file of this size "
+           "accounts for" +
+           kReexport);
     }
   }
 
@@ -488,10 +492,6 @@ class GltfReader {
     const int begin = AddVertices(primitive);
     const auto vertices = static_cast<size_t>(
         At(model_.accessors, primitive.attributes.at("POSITION"), "list of numbers").count);
-    const size_t corners = primitive.indices < 0
-                               ? vertices
-                               : At(model_.accessors, primitive.indices, "list of indices").count;
-    Reserve(corners, coordinates_.size());
     std::vector<int> indices(primitive.indices < 0 ? vertices : 0);
     for (size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<int>(i);
     if (primitive.indices >= 0) {
@@ -578,7 +578,6 @@ class GltfReader {
   const std::string& file_;
   Model model_;
   double num_bytes_ = 0;  // of the file and its buffers
-  double elements_ = 0;   // vertices and corners that are read
   // Of the vertices of the mesh and of its targets, in vectors, which many parts are added to in
   // the time that their numbers take.
   std::vector<std::vector<double>> coordinates_;
