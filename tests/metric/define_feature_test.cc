@@ -182,6 +182,12 @@ TEST(FeatureOf, ElementsHaveNumbersOfTheirOwn) {
   along[2] = along[10] = 0;
   feature->SecondDerivatives(2, x.data(), along.data(), seconds.data());
   EXPECT_EQ(seconds, (Numbers{1, 0.5}));
+  EXPECT_NO_THROW(internal::CheckFeature(*feature, 3));
+  incline.numbers(1, 1) = NAN;
+  EXPECT_THROW(internal::CheckFeature(*MakeFeature(incline), 3), InvalidOptions);
+  incline.numbers.setOnes(2, 1);
+  EXPECT_THROW(internal::CheckFeature(*MakeFeature(incline), 3), InvalidOptions);
+  incline.numbers.setOnes(2, 2);
   const internal::FeatureKind kind =
       internal::KindOf<Incline>([](const MetricBasis&) { return Incline(); });
   const auto restored = kind.restore(incline.stencils, incline.weights, incline.numbers,

@@ -60,7 +60,7 @@ class FeatureOf final : public Feature {
     is_sum_ = Struct::kSum;
     is_rigid_invariant_ = Struct::kRigidInvariant;
     stencils_ = feature_.stencils.data();
-    numbers_ = feature_.numbers.data();
+    if (feature_.numbers.cols() == num_elements_) numbers_ = feature_.numbers.data();
     weights_ = &feature_.weights;
   }
 

@@ -118,6 +118,10 @@ class Feature {
 
   /// The vertices of an element, VerticesPerElement() numbers.
   const int* Element(int element) const { return stencils_ + vertices_ * element; }
+  /// Whether there are NumbersPerElement() numbers for each element; a metric's features have them.
+  bool HasNumbers() const {
+    return numbers_per_element_ * num_elements_ == 0 || numbers_ != nullptr;
+  }
   /// The numbers of an element, NumbersPerElement() of them.
   const double* Numbers(int element) const { return numbers_ + numbers_per_element_ * element; }
   /// One number per element; for a sum feature one number.
@@ -167,7 +171,7 @@ class Feature {
   int vertices_ = 0, values_ = 0, numbers_per_element_ = 0, num_elements_ = 0, scalar_rows_ = 0;
   bool is_sum_ = false, is_rigid_invariant_ = true;
   const int* stencils_ = nullptr;             // of the struct in the derived class
-  const double* numbers_ = nullptr;           // of the struct in the derived class
+  const double* numbers_ = nullptr;           // the same; null if there are too few
   const Eigen::VectorXd* weights_ = nullptr;  // of the struct in the derived class
 };
 

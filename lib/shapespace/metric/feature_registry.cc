@@ -87,6 +87,11 @@ void CheckFeature(const Feature& feature, int num_vertices) {
       }
     }
   }
+  if (!feature.HasNumbers()) {
+    throw InvalidOptions(
+        name, "needs " + std::to_string(feature.NumbersPerElement()) + " numbers for each of its " +
+                  std::to_string(feature.NumElements()) + " elements, one column each");
+  }
   for (int e = 0; e < feature.NumElements(); ++e) {
     for (int k = 0; k < feature.NumbersPerElement(); ++k) {
       if (!std::isfinite(feature.Numbers(e)[k])) {

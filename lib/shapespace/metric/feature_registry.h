@@ -41,8 +41,8 @@ void Register(const std::string& name, const std::type_info& type, FeatureKind k
 FeatureKind FindFeature(const std::string& name);
 
 /// \throw InvalidOptions naming the feature, if its stencils have a vertex that is not in the mesh,
-///        a number of an element is not finite, or its weights are not one finite number, zero or
-///        more, for each element.
+///        its numbers are not finite ones for each element, or its weights are not one finite
+///        number, zero or more, for each element.
 void CheckFeature(const Feature& feature, int num_vertices);
 
 }  // namespace internal
