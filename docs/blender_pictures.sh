@@ -1,7 +1,7 @@
 #!/bin/sh
 # Makes the pictures of guide/blender.md, in Blender, and prints how long an update takes while an
 # empty is dragged. Run it after ./dev blender and ./dev python; needs xvfb and OpenGL drivers
-# (debian-packages-blender.txt).
+# (packaging/packages/blender.txt).
 set -eu
 cd "$(dirname "$0")/.."
 bin=$PWD/build/release/bin

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Builds a Ceres without SuiteSparse, whose parts are under the GPL, from Debian's sources:
 #   packaging/ceres.sh PREFIX
-# for `cmake -DSHAPESPACE_SUITESPARSE=OFF -DCMAKE_PREFIX_PATH=PREFIX`. Needs what debian-packages.txt
+# for `cmake -DSHAPESPACE_SUITESPARSE=OFF -DCMAKE_PREFIX_PATH=PREFIX`. Needs what packaging/packages/build.txt
 # lists, and network.
 set -euo pipefail
 

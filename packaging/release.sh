@@ -3,7 +3,7 @@
 #   packaging/release.sh
 # X.Y.Z is the version in CMakeLists.txt. Needs a working tree without changes, root for the bare systems
 # in which packages are built, debootstrap, npm and network; takes about an hour on two cores. The
-# same commit gives the same bytes (tests/packages/reproducible.sh). RELEASING.md says what to do before
+# same commit gives the same bytes (tests/packages/reproducible.sh). docs/RELEASING.md says what to do before
 # and after.
 set -euo pipefail
 . "$(dirname "$0")/release_common.sh"

@@ -6,7 +6,7 @@
 # hand against automatic differentiation), sparse factors and sums over arrays, and readers and writers
 # of files (a char has no sign there). Tests hold what they compare equal to rounding, for an ARM
 # processor rounds a product and a sum once where an x86-64 processor rounds twice. Needs Debian; what is
-# missing of debian-packages-aarch64.txt is installed.
+# missing of packaging/packages/aarch64.txt is installed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -15,7 +15,7 @@ fail() {
   exit 1
 }
 
-./dev packages <(sed '/:arm64/d' debian-packages-aarch64.txt)
+./dev packages <(sed '/:arm64/d' packaging/packages/aarch64.txt)
 
 build=$PWD/build/aarch64
 tests/aarch64/sysroot.sh "$build/sysroot"

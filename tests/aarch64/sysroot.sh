@@ -1,5 +1,5 @@
 #!/bin/bash
-# Unpacks the packages of debian-packages-aarch64.txt that end in :arm64, and what they depend on, into a
+# Unpacks the packages of packaging/packages/aarch64.txt that end in :arm64, and what they depend on, into a
 # folder:
 #   tests/aarch64/sysroot.sh FOLDER
 # They are of the release that runs here, from the mirror that apt uses here. Nothing is installed, and
@@ -13,7 +13,7 @@ fail() {
 }
 
 [[ $# == 1 ]] || fail "say which folder to make"
-list=$(cd "$(dirname "$0")/../.." && pwd)/debian-packages-aarch64.txt
+list=$(cd "$(dirname "$0")/../.." && pwd)/packaging/packages/aarch64.txt
 mapfile -t packages < <(sed -n 's/^\([^#]*\):arm64.*/\1/p' "$list")
 made_of=$(cat /etc/os-release "$list" "$0" | sha256sum)
 if [[ -f $1/made-of && $(<"$1/made-of") == "$made_of" ]]; then exit; fi

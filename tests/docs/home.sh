@@ -2,7 +2,7 @@
 # What a public project needs besides its code: licences as REUSE asks for them, a valid citation,
 # well-formed workflows and templates, a site without broken links, and a software bill of materials; and
 # that figures which are measured again stand on their page.
-# Installs what is missing of debian-packages-home.txt and of the lists that this names; takes about half
+# Installs what is missing of packaging/packages/home.txt and of the lists that this names; takes about half
 # a minute.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -12,7 +12,7 @@ fail() {
   exit 1
 }
 
-./dev packages debian-packages.txt debian-packages-{docs,python,home}.txt
+./dev packages packaging/packages/build.txt packaging/packages/{docs,python,home}.txt
 
 reuse lint | tail -n 1
 reuse lint --quiet || fail "reuse lint says which files have no licence"
@@ -30,7 +30,7 @@ packaging/site.sh "$work/site" >"$work/site.log" || fail "the site: $(tail -n 20
 tail -n 1 "$work/site.log"
 
 # What comes before the tests in the list of packages is in programs or libraries.
-for package in $(sed -n '/^# The tests/q; s/^\([a-z0-9.-]*-dev\).*/\1/p' debian-packages.txt); do
+for package in $(sed -n '/^# The tests/q; s/^\([a-z0-9.-]*-dev\).*/\1/p' packaging/packages/build.txt); do
   grep -qF "debian = \"$package\"" packaging/components.toml ||
     fail "packaging/components.toml has nothing about $package"
 done

@@ -1,9 +1,9 @@
 #!/bin/bash
 # Whether abi.sh notices what breaks programs, and nothing else: with a small library in several
-# versions. Installs what is missing of debian-packages-home.txt; takes some seconds.
+# versions. Installs what is missing of packaging/packages/home.txt; takes some seconds.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-"$here/../../dev" packages debian-packages-home.txt
+"$here/../../dev" packages packaging/packages/home.txt
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

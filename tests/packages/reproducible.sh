@@ -2,7 +2,7 @@
 # Whether two folders have the same files with the same bytes; names those that differ:
 #   tests/packages/reproducible.sh FOLDER FOLDER
 # but for .buildinfo and .changes of Debian packages, which have the time of the build.
-# For two runs of one script of packaging/, or of ./dev release, as RELEASING.md says.
+# For two runs of one script of packaging/, or of ./dev release, as docs/RELEASING.md says.
 set -euo pipefail
 
 fail() {
