@@ -70,8 +70,8 @@ class ElementsAtAllTimes {
         at(times_ - 1) = rows_.last[row];
       }
       for (int time = 0; time < times_; ++time) {
-        std::copy_n(&group.numbers[static_cast<size_t>(inputs_ - size_) * e], inputs_ - size_,
-                    &x_[Place(e, time) * inputs_ + size_]);
+        std::copy_n(group.numbers.data() + static_cast<size_t>(inputs_ - size_) * e,
+                    inputs_ - size_, x_.data() + Place(e, time) * inputs_ + size_);
       }
     }
     feature_.Evaluate(static_cast<int>(sites), x_.data(), values_.data(),
@@ -174,7 +174,7 @@ void EvaluateEnds(const Feature& feature, const std::vector<double>& first,
   const int num_numbers = feature.NumbersPerElement();
   double x[Feature::kMaxInputs];
   for (int e = 0; e < group->Count(); ++e) {
-    std::copy_n(&group->numbers[static_cast<size_t>(num_numbers) * e], num_numbers,
+    std::copy_n(group->numbers.data() + static_cast<size_t>(num_numbers) * e, num_numbers,
                 x + 3 * num_vertices);
     const int* const stencil = &group->stencils[static_cast<size_t>(num_vertices) * e];
     double* values = &group->ends[2 * static_cast<size_t>(num_values) * e];
