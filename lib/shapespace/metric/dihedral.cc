@@ -7,6 +7,7 @@
 #include <shapespace/base/internal/ranges.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/metric/internal/collapse.h>
+#include <shapespace/metric/internal/rest_triangle.h>
 #include <shapespace/metric/metric_basis.h>
 
 namespace shapespace {
@@ -45,6 +46,11 @@ Dihedral Dihedral::Freeze(const MetricBasis& basis) {
   feature.normal_epsilon_squared =
       std::pow(MetricBasis::kCollapsed * 2 * basis.triangle_area.mean(), 2);
   feature.edge_epsilon_squared = basis.CollapsedSquared();
+  const auto kept_in_collapse = [&, collapsed_squared = feature.edge_epsilon_squared](int a, int b,
+                                                                                      int c) {
+    const Eigen::Vector4d rest = internal::RestNumbers(basis, collapsed_squared, a, b, c);
+    return internal::KeptInCollapse(basis, collapsed_squared, rest, a, b, c);
+  };
   const auto freeze = [&](int h, std::vector<double>* angles) {
     double x[12];
     double squared_length = 0, jump = 0, fold = 0;
@@ -65,8 +71,8 @@ Dihedral Dihedral::Freeze(const MetricBasis& basis) {
     const double aspect =
         area * kGreatestHingeAspect > squared_length ? squared_length / area : kGreatestHingeAspect;
     const auto v = connectivity.Hinges().col(h);
-    const double kept = std::min(internal::KeptInCollapse(basis, v(0), v(1), v(2)),
-                                 internal::KeptInCollapse(basis, v(1), v(0), v(3)));
+    const double kept =
+        std::min(kept_in_collapse(v(0), v(1), v(2)), kept_in_collapse(v(1), v(0), v(3)));
     feature.weights(h) = basis.hinge_stiffness(h) * aspect * kept / (1 + u * u * u * u);
   };
   internal::ForRanges(connectivity.NumHinges(), [&](int begin, int end) {

@@ -31,8 +31,8 @@ LogLength LogLength::Freeze(const MetricBasis& basis) {
   }
   feature.epsilon_squared = basis.CollapsedSquared();
   for (int e = 0; e < loose_edges; ++e) {
-    feature.weights(e) *=
-        internal::KeptInCollapse(basis, feature.stencils(0, e), feature.stencils(1, e));
+    feature.weights(e) *= internal::KeptInCollapse(basis, feature.epsilon_squared,
+                                                   feature.stencils(0, e), feature.stencils(1, e));
   }
   return feature;
 }

@@ -16,8 +16,11 @@ TriangleStrain TriangleStrain::Freeze(const MetricBasis& basis) {
   feature.numbers.resize(4, basis.connectivity->NumTriangles());
   internal::ForIndices(basis.connectivity->NumTriangles(), [&](int f) {
     const auto t = basis.connectivity->Triangles().col(f);
-    feature.numbers.col(f) = internal::RestNumbers(basis, t(0), t(1), t(2));
-    feature.weights(f) *= internal::KeptInCollapse(basis, t(0), t(1), t(2));
+    const double collapsed_squared = feature.epsilon_squared;
+    const Eigen::Vector4d rest = internal::RestNumbers(basis, collapsed_squared, t(0), t(1), t(2));
+    feature.numbers.col(f) = rest;
+    feature.weights(f) *=
+        internal::KeptInCollapse(basis, collapsed_squared, rest, t(0), t(1), t(2));
   });
   return feature;
 }

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include <shapespace/metric/edge_length.h>
-#include <shapespace/metric/internal/rest_triangle.h>
 #include <shapespace/metric/triangle_strain.h>
 
 namespace shapespace::internal {
@@ -18,10 +17,11 @@ constexpr double kCollapseStrain = 3;
 // Of an element with the corners `vertices` and the given numbers of a feature whose values are
 // strains.
 template <typename Strain>
-double Kept(const MetricBasis& basis, const std::array<int, Strain::kVertices>& vertices,
+double Kept(const MetricBasis& basis, double collapsed_squared,
+            const std::array<int, Strain::kVertices>& vertices,
             const std::array<double, Strain::kNumbers>& numbers) {
   Strain strain;
-  strain.epsilon_squared = basis.CollapsedSquared();
+  strain.epsilon_squared = collapsed_squared;
   using Values = Eigen::Matrix<double, Strain::kValues, 1>;
   Values value, before = Values::Zero(), low = before, high = before;
   double greatest = 0;
@@ -47,13 +47,14 @@ double Kept(const MetricBasis& basis, const std::array<int, Strain::kVertices>& 
 
 }  // namespace
 
-double KeptInCollapse(const MetricBasis& basis, int a, int b, int c) {
-  const Eigen::Vector4d rest = RestNumbers(basis, a, b, c);
-  return Kept<TriangleStrain>(basis, {a, b, c}, {rest(0), rest(1), rest(2), rest(3)});
+double KeptInCollapse(const MetricBasis& basis, double collapsed_squared,
+                      const Eigen::Vector4d& rest, int a, int b, int c) {
+  return Kept<TriangleStrain>(basis, collapsed_squared, {a, b, c},
+                              {rest(0), rest(1), rest(2), rest(3)});
 }
 
-double KeptInCollapse(const MetricBasis& basis, int a, int b) {
-  return Kept<LogLength>(basis, {a, b}, {});
+double KeptInCollapse(const MetricBasis& basis, double collapsed_squared, int a, int b) {
+  return Kept<LogLength>(basis, collapsed_squared, {a, b}, {});
 }
 
 }  // namespace shapespace::internal

@@ -1,6 +1,8 @@
 #ifndef SHAPESPACE_METRIC_INTERNAL_COLLAPSE_H_
 #define SHAPESPACE_METRIC_INTERNAL_COLLAPSE_H_
 
+#include <Eigen/Core>
+
 #include <shapespace/metric/metric_basis.h>
 
 namespace shapespace::internal {
@@ -10,11 +12,14 @@ namespace shapespace::internal {
 /// that a triangle that collapses costs less than one that is stretched strongly, although its
 /// logarithm has no limit. Where lids close, or vertices are merged in one pose, everything else
 /// would move otherwise to make the collapse cheaper, and no path could be relaxed. If all pairs of
-/// poses count, the change is the diagonal of the box around all strains.
-double KeptInCollapse(const MetricBasis& basis, int a, int b, int c);
+/// poses count, the change is the diagonal of the box around all strains. `collapsed_squared` is
+/// the basis' CollapsedSquared(), which takes the time of all edges; `rest` is what RestNumbers
+/// returns.
+double KeptInCollapse(const MetricBasis& basis, double collapsed_squared,
+                      const Eigen::Vector4d& rest, int a, int b, int c);
 
 /// The same for an edge that is no side of a triangle, of the logarithm of its length.
-double KeptInCollapse(const MetricBasis& basis, int a, int b);
+double KeptInCollapse(const MetricBasis& basis, double collapsed_squared, int a, int b);
 
 }  // namespace shapespace::internal
 

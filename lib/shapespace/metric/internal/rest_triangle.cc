@@ -6,7 +6,8 @@
 
 namespace shapespace::internal {
 
-Eigen::Vector4d RestNumbers(const MetricBasis& basis, int a, int b, int c) {
+Eigen::Vector4d RestNumbers(const MetricBasis& basis, double collapsed_squared, int a, int b,
+                            int c) {
   // The mean of the first fundamental forms is that of one triangle in a space of 3 coordinates for
   // each pose; its sides' components are found without the loss of digits that its determinant has.
   double along_squared = 0, product = 0;
@@ -16,7 +17,6 @@ Eigen::Vector4d RestNumbers(const MetricBasis& basis, int a, int b, int c) {
     product += u.dot(pose.col(c) - pose.col(a));
   }
   const auto count = static_cast<double>(basis.poses.size());
-  const double collapsed_squared = basis.CollapsedSquared();
   if (!(along_squared > count * collapsed_squared)) return TriangleStrain::UsualNumbers();
   const double share = product / along_squared;
   double across_squared = 0;

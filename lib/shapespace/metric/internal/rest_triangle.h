@@ -8,7 +8,9 @@
 namespace shapespace::internal {
 
 /// The numbers of `TriangleStrain` for the triangle (a, b, c) of the basis' mesh.
-Eigen::Vector4d RestNumbers(const MetricBasis& basis, int a, int b, int c);
+/// `collapsed_squared` is the basis' CollapsedSquared(), which takes the time of all edges.
+Eigen::Vector4d RestNumbers(const MetricBasis& basis, double collapsed_squared, int a, int b,
+                            int c);
 
 }  // namespace shapespace::internal
 
