@@ -10,7 +10,7 @@
 #include <benchmark/benchmark.h>
 
 #include <shapespace/base/parallel.h>
-#include <shapespace/numerics/internal/preconditioner.h>
+#include <shapespace/minimise/internal/preconditioner.h>
 #include <shapespace/path/energy.h>
 
 #include "measure.h"

@@ -16,7 +16,7 @@
 #include <shapespace/bodies/skinned.h>
 #include <shapespace/files/read.h>
 #include <shapespace/path/align.h>
-#include <shapespace/transfer/internal/gradient_transfer.h>
+#include <shapespace/transfer/detail/gradient_transfer.h>
 #include <shapespace/transfer/transfer.h>
 
 namespace shapespace {

@@ -8,10 +8,9 @@ export LC_ALL=C
 cd "$(dirname "$0")/.."
 
 arrows() {
-  find lib/shapespace solvers/shapespace -name '*.h' -o -name '*.cc' | while read -r source; do
-    from=$(cut -d / -f 3 <<<"$source")
-    sed -nE "s|^#include <shapespace/([a-z]+)/.*|$from \1|p" "$source"
-  done | awk '$1 != $2' | sort -u
+  grep -roE --include='*.h' --include='*.cc' '^#include <shapespace/[a-z]+/' {lib,solvers}/shapespace |
+    sed -E 's|^[a-z]+/shapespace/([a-z]+)/.*<shapespace/([a-z]+)/|\1 \2|' |
+    awk '$1 != $2' | sort -u
 }
 
 # An arrow follows from others if a path of two or more arrows leads to the same room.

@@ -18,10 +18,10 @@
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/seams.h>
 #include <shapespace/metric/metric.h>
-#include <shapespace/numerics/internal/json_of.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/statistics/modes_file.h>
+#include <shapespace/summary/internal/json_of.h>
 
 #include "support/inspect_path.h"
 #include "support/mesh_flags.h"

@@ -9,8 +9,8 @@
 #include <shapespace/exponential/internal/summary_fields.h>
 #include <shapespace/exponential/transport.h>
 #include <shapespace/geodesic/geodesic.h>
-#include <shapespace/numerics/internal/json_of.h>
 #include <shapespace/statistics/pose_table.h>
+#include <shapespace/summary/internal/json_of.h>
 
 #include "support/flag_group.h"
 #include "support/geodesic_flags.h"

@@ -9,9 +9,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
+#include <shapespace/analysis/detail/region_merger.h>
+#include <shapespace/analysis/detail/straight_lengths.h>
 #include <shapespace/analysis/deviation_sites.h>
-#include <shapespace/analysis/internal/region_merger.h>
-#include <shapespace/analysis/internal/straight_lengths.h>
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/bodies/sheet.h>
 

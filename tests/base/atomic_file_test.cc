@@ -15,8 +15,8 @@
 
 #include <gtest/gtest.h>
 
+#include <shapespace/base/detail/file_buffer.h>
 #include <shapespace/base/error.h>
-#include <shapespace/base/internal/file_buffer.h>
 
 #include "mesh/files.h"
 #include "support/message_of.h"

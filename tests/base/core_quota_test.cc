@@ -1,4 +1,4 @@
-#include <shapespace/base/internal/core_quota.h>
+#include <shapespace/base/detail/core_quota.h>
 
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include <shapespace/bodies/internal/bend.h>
+#include <shapespace/bodies/detail/bend.h>
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
-#include <shapespace/bodies/internal/implicit.h>
+#include <shapespace/bodies/detail/implicit.h>
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include <shapespace/bodies/internal/polygonise.h>
+#include <shapespace/bodies/detail/polygonise.h>
 
 #include "bodies/measure.h"
 

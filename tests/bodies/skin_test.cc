@@ -1,4 +1,4 @@
-#include <shapespace/bodies/internal/skeleton.h>
+#include <shapespace/bodies/detail/skeleton.h>
 
 #include <cmath>
 

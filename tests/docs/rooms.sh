@@ -1,10 +1,20 @@
 #!/bin/bash
-# The table of rooms in docs/architecture.md, the picture beside it and what sources include agree.
+# The table of rooms in docs/architecture.md, the picture beside it and what sources include agree, and no
+# room includes what is private to another one.
 set -euo pipefail
 export LC_ALL=C
 
 root=${1:?rooms.sh <root of the sources>}
 cd "$root"
+# What is in the folder detail/ of a room is for that room, tests and benchmarks.
+for room in {lib,solvers}/shapespace/*/; do
+  if grep -rn "#include <shapespace/$(basename "$room")/detail/" lib solvers tools python |
+    grep -v "^$room"; then
+    echo "the lines above include what is private to the room $room: it belongs into internal/" >&2
+    exit 1
+  fi
+done
+
 from_sources=$(docs/rooms.sh reduced)
 # Rows such as: | `path/` | what it holds | metric, files |
 from_table=$(sed -nE 's#^\| `([a-z]+)/` \|.*\| ([a-z, ]*) ?\|$#\1 \2#p' docs/architecture.md |

@@ -20,7 +20,7 @@
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/selection.h>
 #include <shapespace/metric/metric.h>
-#include <shapespace/output/internal/materials.h>
+#include <shapespace/output/detail/materials.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/path_file.h>
 #include <shapespace/statistics/modes_file.h>

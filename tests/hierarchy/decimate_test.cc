@@ -1,4 +1,4 @@
-#include <shapespace/hierarchy/internal/decimate.h>
+#include <shapespace/hierarchy/detail/decimate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
-#include <shapespace/hierarchy/internal/quadric.h>
+#include <shapespace/hierarchy/detail/quadric.h>
 
 #include "bodies/measure.h"
 #include "hierarchy/meshes.h"

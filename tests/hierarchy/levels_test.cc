@@ -12,8 +12,8 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
+#include <shapespace/hierarchy/detail/decimate.h>
 #include <shapespace/hierarchy/hierarchy.h>
-#include <shapespace/hierarchy/internal/decimate.h>
 
 #include "hierarchy/meshes.h"
 #include "support/message_of.h"

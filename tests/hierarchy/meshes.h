@@ -15,7 +15,7 @@
 #include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
-#include <shapespace/hierarchy/internal/decimate.h>
+#include <shapespace/hierarchy/detail/decimate.h>
 #include <shapespace/mesh/topology.h>
 
 #include "mesh/bodies.h"

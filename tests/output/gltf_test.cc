@@ -13,8 +13,8 @@
 #include <shapespace/base/error.h>
 #include <shapespace/mesh/soup.h>
 #include <shapespace/mesh/triangulate.h>
+#include <shapespace/output/detail/key_shapes.h>
 #include <shapespace/output/internal/colour.h>
-#include <shapespace/output/internal/key_shapes.h>
 
 #include "output/bodies.h"
 #include "output/read_glb.h"

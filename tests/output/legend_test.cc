@@ -1,4 +1,4 @@
-#include <shapespace/output/internal/legend.h>
+#include <shapespace/output/detail/legend.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <shapespace/output/internal/materials.h>
+#include <shapespace/output/detail/materials.h>
 
 #include "mesh/files.h"
 

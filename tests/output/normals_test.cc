@@ -1,4 +1,4 @@
-#include <shapespace/output/internal/normals.h>
+#include <shapespace/output/detail/normals.h>
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
+#include <shapespace/output/detail/frame.h>
+#include <shapespace/output/detail/legend.h>
+#include <shapespace/output/detail/ruler.h>
 #include <shapespace/output/internal/colour.h>
-#include <shapespace/output/internal/frame.h>
-#include <shapespace/output/internal/legend.h>
-#include <shapespace/output/internal/ruler.h>
 #include <shapespace/output/internal/text.h>
 #include <shapespace/output/picture.h>
 

@@ -1,12 +1,12 @@
-#include <shapespace/output/internal/scene.h>
+#include <shapespace/output/detail/scene.h>
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include <shapespace/output/internal/frame.h>
-#include <shapespace/output/internal/normals.h>
+#include <shapespace/output/detail/frame.h>
+#include <shapespace/output/detail/normals.h>
 #include <shapespace/output/internal/text.h>
 
 #include "output/bodies.h"

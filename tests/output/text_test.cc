@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/base/error.h>
-#include <shapespace/output/internal/utf8.h>
+#include <shapespace/output/detail/utf8.h>
 
 namespace shapespace {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/bodies/bar.h>
+#include <shapespace/output/detail/seams.h>
 #include <shapespace/output/frames.h>
-#include <shapespace/output/internal/seams.h>
 
 #include "support/cut_body.h"
 

@@ -1,5 +1,5 @@
 // The sums over arrays that the optimisers are made of.
-#include <shapespace/numerics/internal/chunks.h>
+#include <shapespace/minimise/detail/chunks.h>
 
 #include <cmath>
 #include <vector>

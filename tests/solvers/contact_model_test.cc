@@ -13,14 +13,14 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/sheet.h>
+#include <shapespace/contact/detail/motion_contact.h>
+#include <shapespace/contact/detail/parting.h>
 #include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/contact/internal/contact_model.h>
 #include <shapespace/contact/internal/follow.h>
-#include <shapespace/contact/internal/motion_contact.h>
-#include <shapespace/contact/internal/parting.h>
 #include <shapespace/contact/internal/path_contact.h>
 #include <shapespace/contact/obstacle.h>
-#include <shapespace/numerics/internal/preconditioner.h>
+#include <shapespace/minimise/internal/preconditioner.h>
 
 #include "support/cut_ring.h"
 #include "support/message_of.h"

@@ -1,4 +1,4 @@
-#include <shapespace/spline/internal/corrections.h>
+#include <shapespace/spline/detail/corrections.h>
 
 #include <cmath>
 #include <utility>

@@ -11,10 +11,10 @@
 
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
-#include <shapespace/correspondence/internal/closest.h>
-#include <shapespace/correspondence/internal/gradient_fit.h>
-#include <shapespace/correspondence/internal/smooth_stretch.h>
-#include <shapespace/correspondence/internal/unfold.h>
+#include <shapespace/correspondence/detail/closest.h>
+#include <shapespace/correspondence/detail/gradient_fit.h>
+#include <shapespace/correspondence/detail/smooth_stretch.h>
+#include <shapespace/correspondence/detail/unfold.h>
 
 namespace shapespace::internal {
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/correspondence/correspondence.h>
-#include <shapespace/correspondence/internal/marker_distances.h>
+#include <shapespace/correspondence/detail/marker_distances.h>
 #include <shapespace/correspondence/marker_file.h>
 #include <shapespace/files/read.h>
 

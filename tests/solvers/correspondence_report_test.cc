@@ -8,10 +8,10 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/correspondence/correspondence.h>
-#include <shapespace/correspondence/internal/check_input.h>
-#include <shapespace/correspondence/internal/closest.h>
-#include <shapespace/correspondence/internal/marker_distances.h>
-#include <shapespace/correspondence/internal/similarity.h>
+#include <shapespace/correspondence/detail/check_input.h>
+#include <shapespace/correspondence/detail/closest.h>
+#include <shapespace/correspondence/detail/marker_distances.h>
+#include <shapespace/correspondence/detail/similarity.h>
 #include <shapespace/correspondence/landmark_file.h>
 #include <shapespace/correspondence/marker_file.h>
 #include <shapespace/correspondence/surface_map.h>

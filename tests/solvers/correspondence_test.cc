@@ -15,8 +15,8 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/correspondence/correspondence_picture.h>
-#include <shapespace/correspondence/internal/closest.h>
-#include <shapespace/correspondence/internal/marker_check.h>
+#include <shapespace/correspondence/detail/closest.h>
+#include <shapespace/correspondence/detail/marker_check.h>
 #include <shapespace/deformation/deformation.h>
 #include <shapespace/transfer/transfer.h>
 

@@ -1,4 +1,4 @@
-#include <shapespace/numerics/internal/dense.h>
+#include <shapespace/sparse/detail/dense.h>
 
 #include <cmath>
 

@@ -18,9 +18,9 @@
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/exponential/correction.h>
 #include <shapespace/exponential/exponential.h>
+#include <shapespace/exponential/internal/memory.h>
 #include <shapespace/exponential/transport.h>
 #include <shapespace/metric/feature_map.h>
-#include <shapespace/numerics/internal/memory.h>
 
 #include "support/listener.h"
 #include "support/message_of.h"

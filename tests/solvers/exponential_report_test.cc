@@ -11,7 +11,7 @@
 #include <shapespace/exponential/exponential.h>
 #include <shapespace/exponential/internal/summary_fields.h>
 #include <shapespace/exponential/transport.h>
-#include <shapespace/numerics/internal/json_of.h>
+#include <shapespace/summary/internal/json_of.h>
 
 namespace shapespace {
 namespace {

@@ -12,12 +12,12 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/metric/dihedral.h>
 #include <shapespace/metric/feature_map.h>
-#include <shapespace/statistics/internal/feature_chart.h>
-#include <shapespace/statistics/internal/feature_statistics.h>
-#include <shapespace/statistics/internal/logarithms.h>
-#include <shapespace/statistics/internal/permutations.h>
-#include <shapespace/statistics/internal/procrustes.h>
-#include <shapespace/statistics/internal/size.h>
+#include <shapespace/statistics/detail/feature_chart.h>
+#include <shapespace/statistics/detail/feature_statistics.h>
+#include <shapespace/statistics/detail/logarithms.h>
+#include <shapespace/statistics/detail/permutations.h>
+#include <shapespace/statistics/detail/procrustes.h>
+#include <shapespace/statistics/detail/size.h>
 
 #include "support/features.h"
 #include "support/motions.h"

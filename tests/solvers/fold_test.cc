@@ -12,9 +12,9 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/bodies/sheet.h>
+#include <shapespace/geodesic/detail/align_folds.h>
+#include <shapespace/geodesic/detail/turning_motion.h>
 #include <shapespace/geodesic/geodesic.h>
-#include <shapespace/geodesic/internal/align_folds.h>
-#include <shapespace/geodesic/internal/turning_motion.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/metric/dihedral.h>
 #include <shapespace/path/align.h>

@@ -1,4 +1,4 @@
-#include <shapespace/deformation/internal/free_end_preconditioner.h>
+#include <shapespace/deformation/detail/free_end_preconditioner.h>
 
 #include <cmath>
 

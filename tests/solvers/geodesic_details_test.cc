@@ -12,9 +12,9 @@
 
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
+#include <shapespace/geodesic/detail/schedule.h>
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/geodesic/internal/arc_length.h>
-#include <shapespace/geodesic/internal/schedule.h>
 #include <shapespace/geodesic/internal/workload.h>
 #include <shapespace/metric/feature_map.h>
 

@@ -17,8 +17,8 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/geodesic/geodesic.h>
+#include <shapespace/geodesic/internal/memory.h>
 #include <shapespace/metric/feature_map.h>
-#include <shapespace/numerics/internal/memory.h>
 
 #include "support/cut_ring.h"
 #include "support/message_of.h"

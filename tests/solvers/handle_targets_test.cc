@@ -11,9 +11,9 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
+#include <shapespace/deformation/detail/handle_targets.h>
+#include <shapespace/deformation/detail/held_level.h>
 #include <shapespace/deformation/handle.h>
-#include <shapespace/deformation/internal/handle_targets.h>
-#include <shapespace/deformation/internal/held_level.h>
 
 #include "support/message_of.h"
 #include "support/motions.h"

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/bodies/tube.h>
-#include <shapespace/contact/internal/increments.h>
+#include <shapespace/contact/detail/increments.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/energy.h>
 

@@ -1,4 +1,4 @@
-#include <shapespace/geodesic/internal/lazy_factors.h>
+#include <shapespace/geodesic/detail/lazy_factors.h>
 
 #include <vector>
 
@@ -6,7 +6,7 @@
 
 #include <shapespace/base/parallel.h>
 #include <shapespace/bodies/bar.h>
-#include <shapespace/numerics/internal/preconditioner.h>
+#include <shapespace/minimise/internal/preconditioner.h>
 
 #include "support/threads.h"
 

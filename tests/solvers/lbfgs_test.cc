@@ -9,8 +9,8 @@
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/geodesic/internal/residual_blocks.h>
-#include <shapespace/numerics/internal/line_search.h>
-#include <shapespace/numerics/internal/minimise.h>
+#include <shapespace/minimise/detail/line_search.h>
+#include <shapespace/minimise/internal/minimise.h>
 
 #include "support/paths.h"
 

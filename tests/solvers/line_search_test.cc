@@ -1,5 +1,5 @@
 // The steps that a line search tries, one by one.
-#include <shapespace/numerics/internal/line_search.h>
+#include <shapespace/minimise/detail/line_search.h>
 
 #include <cmath>
 #include <functional>

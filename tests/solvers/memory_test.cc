@@ -12,7 +12,7 @@
 #include <shapespace/deformation/deformation.h>
 #include <shapespace/exponential/transport.h>
 #include <shapespace/geodesic/geodesic.h>
-#include <shapespace/numerics/internal/memory.h>
+#include <shapespace/geodesic/internal/memory.h>
 #include <shapespace/spline/spline.h>
 #include <shapespace/transfer/transfer.h>
 

@@ -13,8 +13,8 @@
 #include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/bodies/tube.h>
+#include <shapespace/geodesic/detail/schedule.h>
 #include <shapespace/geodesic/geodesic.h>
-#include <shapespace/geodesic/internal/schedule.h>
 #include <shapespace/hierarchy/hierarchy.h>
 
 #include "support/crumpled.h"

@@ -12,18 +12,26 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/task_group.h>
 #include <shapespace/bodies/bar.h>
-#include <shapespace/numerics/internal/check_options.h>
-#include <shapespace/numerics/internal/gradient_integrator.h>
-#include <shapespace/numerics/internal/json_of.h>
-#include <shapespace/numerics/internal/keep_going.h>
-#include <shapespace/numerics/internal/memory.h>
-#include <shapespace/numerics/internal/minimise.h>
-#include <shapespace/numerics/internal/padded_width.h>
-#include <shapespace/numerics/internal/report.h>
-#include <shapespace/numerics/internal/solve.h>
-#include <shapespace/numerics/internal/task_group.h>
-#include <shapespace/numerics/internal/triangle_pose.h>
+#include <shapespace/correspondence/detail/memory.h>
+#include <shapespace/deformation/detail/memory.h>
+#include <shapespace/deformation/detail/volume_text.h>
+#include <shapespace/exponential/internal/memory.h>
+#include <shapespace/geodesic/internal/memory.h>
+#include <shapespace/mesh/internal/triangle_pose.h>
+#include <shapespace/minimise/internal/keep_going.h>
+#include <shapespace/minimise/internal/minimise.h>
+#include <shapespace/sparse/internal/gradient_integrator.h>
+#include <shapespace/sparse/internal/padded_width.h>
+#include <shapespace/sparse/internal/solve.h>
+#include <shapespace/spline/detail/memory.h>
+#include <shapespace/statistics/detail/memory.h>
+#include <shapespace/summary/internal/check_options.h>
+#include <shapespace/summary/internal/json_of.h>
+#include <shapespace/summary/internal/memory.h>
+#include <shapespace/summary/internal/report.h>
+#include <shapespace/transfer/detail/memory.h>
 
 #include "support/listener.h"
 #include "support/message_of.h"

@@ -1,4 +1,4 @@
-#include <shapespace/numerics/internal/one_thread.h>
+#include <shapespace/sparse/internal/one_thread.h>
 
 #include <dlfcn.h>
 

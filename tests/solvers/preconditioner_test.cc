@@ -1,4 +1,4 @@
-#include <shapespace/numerics/internal/preconditioner.h>
+#include <shapespace/minimise/internal/preconditioner.h>
 
 #include <sys/resource.h>
 
@@ -16,7 +16,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
-#include <shapespace/numerics/internal/dense.h>
+#include <shapespace/sparse/detail/dense.h>
 
 #include "support/message_of.h"
 #include "support/paths.h"

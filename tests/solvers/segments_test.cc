@@ -5,7 +5,7 @@
 
 #include <shapespace/deformation/deformation.h>
 #include <shapespace/geodesic/geodesic.h>
-#include <shapespace/transfer/internal/gradient_transfer.h>
+#include <shapespace/transfer/detail/gradient_transfer.h>
 
 #include "support/motions.h"
 #include "support/whiskered.h"

@@ -1,4 +1,4 @@
-#include <shapespace/exponential/internal/shooter.h>
+#include <shapespace/exponential/detail/shooter.h>
 
 #include <memory>
 

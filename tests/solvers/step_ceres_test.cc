@@ -1,4 +1,4 @@
-#include <shapespace/exponential/internal/step_ceres.h>
+#include <shapespace/exponential/detail/step_ceres.h>
 
 #include <cmath>
 #include <string>

@@ -18,9 +18,9 @@
 #include <shapespace/deformation/internal/summary_fields.h>
 #include <shapespace/exploration/internal/summary_fields.h>
 #include <shapespace/exponential/internal/summary_fields.h>
-#include <shapespace/numerics/internal/json_of.h>
 #include <shapespace/spline/internal/summary_fields.h>
 #include <shapespace/statistics/internal/summary_fields.h>
+#include <shapespace/summary/internal/json_of.h>
 #include <shapespace/transfer/internal/summary_fields.h>
 
 namespace shapespace {

@@ -1,4 +1,4 @@
-#include <shapespace/numerics/internal/symbolic.h>
+#include <shapespace/sparse/detail/symbolic.h>
 
 #include <algorithm>
 #include <cmath>

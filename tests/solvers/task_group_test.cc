@@ -1,4 +1,4 @@
-#include <shapespace/numerics/internal/task_group.h>
+#include <shapespace/base/internal/task_group.h>
 
 #include <algorithm>
 #include <atomic>

@@ -11,10 +11,10 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/sheet.h>
+#include <shapespace/geodesic/detail/thin_vertices.h>
 #include <shapespace/geodesic/geodesic.h>
-#include <shapespace/geodesic/internal/thin_vertices.h>
 #include <shapespace/mesh/rigid_motion.h>
-#include <shapespace/numerics/internal/minimise.h>
+#include <shapespace/minimise/internal/minimise.h>
 
 #include "support/thin_triangles.h"
 

@@ -12,8 +12,8 @@
 
 #include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
+#include <shapespace/transfer/detail/ladder.h>
 #include <shapespace/transfer/internal/frames.h>
-#include <shapespace/transfer/internal/ladder.h>
 #include <shapespace/transfer/transfer.h>
 
 #include "support/message_of.h"

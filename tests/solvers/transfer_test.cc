@@ -14,7 +14,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/skinned.h>
-#include <shapespace/transfer/internal/feature_transfer.h>
+#include <shapespace/transfer/detail/feature_transfer.h>
 
 #include "support/listener.h"
 #include "support/message_of.h"

@@ -1,4 +1,4 @@
-#include <shapespace/geodesic/internal/unwrap_hinges.h>
+#include <shapespace/geodesic/detail/unwrap_hinges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -16,7 +16,7 @@
 #include <shapespace/exponential/exponential.h>
 #include <shapespace/exponential/transport.h>
 #include <shapespace/geodesic/geodesic.h>
-#include <shapespace/numerics/internal/minimise.h>
+#include <shapespace/minimise/internal/minimise.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/spline/spline.h>
 #include <shapespace/statistics/average.h>

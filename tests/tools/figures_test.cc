@@ -11,10 +11,10 @@
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/exploration/space_file.h>
 #include <shapespace/files/read.h>
-#include <shapespace/numerics/internal/report.h>
 #include <shapespace/path/path_file.h>
 #include <shapespace/statistics/modes_file.h>
 #include <shapespace/statistics/pose_table.h>
+#include <shapespace/summary/internal/report.h>
 
 #include "tools/run.h"
 

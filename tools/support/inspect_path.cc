@@ -12,9 +12,9 @@
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/base/internal/printable.h>
 #include <shapespace/metric/metric.h>
-#include <shapespace/numerics/internal/json_of.h>
 #include <shapespace/path/path.h>
 #include <shapespace/path/path_file.h>
+#include <shapespace/summary/internal/json_of.h>
 
 namespace shapespace::tools {
 namespace {

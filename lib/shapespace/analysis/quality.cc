@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include <shapespace/analysis/internal/straight_lengths.h>
+#include <shapespace/analysis/detail/straight_lengths.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/path/energy.h>

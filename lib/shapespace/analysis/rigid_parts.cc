@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include <shapespace/analysis/internal/region_merger.h>
+#include <shapespace/analysis/detail/region_merger.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/mesh/internal/geometry.h>

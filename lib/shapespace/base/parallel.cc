@@ -17,8 +17,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <shapespace/base/detail/core_quota.h>
 #include <shapespace/base/error.h>
-#include <shapespace/base/internal/core_quota.h>
 #include <shapespace/base/internal/fork_join.h>
 
 namespace shapespace {

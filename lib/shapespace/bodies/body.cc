@@ -7,9 +7,9 @@
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/bricard.h>
 #include <shapespace/bodies/catenoid.h>
-#include <shapespace/bodies/internal/bend.h>
-#include <shapespace/bodies/internal/checks.h>
-#include <shapespace/bodies/internal/grid.h>
+#include <shapespace/bodies/detail/bend.h>
+#include <shapespace/bodies/detail/checks.h>
+#include <shapespace/bodies/detail/grid.h>
 #include <shapespace/bodies/miura.h>
 #include <shapespace/bodies/quadruped.h>
 #include <shapespace/bodies/sheet.h>

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include <shapespace/bodies/internal/bend.h>
-#include <shapespace/bodies/internal/checks.h>
-#include <shapespace/bodies/internal/grid.h>
+#include <shapespace/bodies/detail/bend.h>
+#include <shapespace/bodies/detail/checks.h>
+#include <shapespace/bodies/detail/grid.h>
 #include <shapespace/mesh/internal/geometry.h>
 
 namespace shapespace {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include <shapespace/bodies/internal/bend.h>
-#include <shapespace/bodies/internal/checks.h>
+#include <shapespace/bodies/detail/bend.h>
+#include <shapespace/bodies/detail/checks.h>
 #include <shapespace/mesh/internal/geometry.h>
 
 namespace shapespace {

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
-#include <shapespace/bodies/internal/bend.h>
-#include <shapespace/bodies/internal/checks.h>
-#include <shapespace/bodies/internal/polygonise.h>
-#include <shapespace/bodies/internal/quadruped_poses.h>
-#include <shapespace/bodies/internal/skeleton.h>
+#include <shapespace/bodies/detail/bend.h>
+#include <shapespace/bodies/detail/checks.h>
+#include <shapespace/bodies/detail/polygonise.h>
+#include <shapespace/bodies/detail/quadruped_poses.h>
+#include <shapespace/bodies/detail/skeleton.h>
 #include <shapespace/mesh/internal/geometry.h>
 
 namespace shapespace {

@@ -8,7 +8,7 @@
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/base/internal/text.h>
-#include <shapespace/files/internal/read_formats.h>
+#include <shapespace/files/detail/read_formats.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/internal/check_positions.h>
 #include <shapespace/mesh/internal/check_structure.h>

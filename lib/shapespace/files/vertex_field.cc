@@ -6,7 +6,7 @@
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/base/internal/text.h>
-#include <shapespace/files/internal/read_formats.h>
+#include <shapespace/files/detail/read_formats.h>
 
 namespace shapespace {
 namespace {

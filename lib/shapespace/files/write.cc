@@ -6,8 +6,8 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/atomic_file.h>
 #include <shapespace/base/internal/extension.h>
+#include <shapespace/files/detail/write_formats.h>
 #include <shapespace/files/internal/storable.h>
-#include <shapespace/files/internal/write_formats.h>
 
 namespace shapespace {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
-#include <shapespace/hierarchy/internal/decimate.h>
+#include <shapespace/hierarchy/detail/decimate.h>
 #include <shapespace/hierarchy/internal/detail.h>
 
 namespace shapespace {

@@ -8,11 +8,11 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/mesh/connectivity.h>
+#include <shapespace/mesh/detail/sorted_polygons.h>
 #include <shapespace/mesh/internal/check_positions.h>
 #include <shapespace/mesh/internal/check_structure.h>
 #include <shapespace/mesh/internal/check_words.h>
 #include <shapespace/mesh/internal/sides.h>
-#include <shapespace/mesh/internal/sorted_polygons.h>
 #include <shapespace/mesh/seams.h>
 #include <shapespace/mesh/topology.h>
 

@@ -7,11 +7,11 @@
 #include <Eigen/Core>
 
 #include <shapespace/mesh/check.h>
+#include <shapespace/mesh/detail/recut.h>
+#include <shapespace/mesh/detail/sorted_polygons.h>
 #include <shapespace/mesh/internal/check_structure.h>
 #include <shapespace/mesh/internal/check_words.h>
-#include <shapespace/mesh/internal/recut.h>
 #include <shapespace/mesh/internal/sides.h>
-#include <shapespace/mesh/internal/sorted_polygons.h>
 #include <shapespace/mesh/internal/surface_triangles.h>
 #include <shapespace/mesh/mirrored.h>
 #include <shapespace/mesh/volume.h>

@@ -11,7 +11,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <shapespace/base/parallel.h>
-#include <shapespace/mesh/internal/element_tree.h>
+#include <shapespace/mesh/detail/element_tree.h>
 #include <shapespace/mesh/internal/sides.h>
 
 namespace shapespace {

@@ -1,7 +1,7 @@
 #include <shapespace/metric/edge_length.h>
 
 #include <shapespace/mesh/internal/geometry.h>
-#include <shapespace/metric/internal/collapse.h>
+#include <shapespace/metric/detail/collapse.h>
 #include <shapespace/metric/metric_basis.h>
 
 namespace shapespace {

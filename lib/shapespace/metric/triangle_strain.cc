@@ -1,8 +1,8 @@
 #include <shapespace/metric/triangle_strain.h>
 
 #include <shapespace/base/internal/ranges.h>
-#include <shapespace/metric/internal/collapse.h>
-#include <shapespace/metric/internal/rest_triangle.h>
+#include <shapespace/metric/detail/collapse.h>
+#include <shapespace/metric/detail/rest_triangle.h>
 #include <shapespace/metric/metric_basis.h>
 
 namespace shapespace {

@@ -24,11 +24,11 @@
 #include <shapespace/files/internal/tinygltf.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/surface.h>
+#include <shapespace/output/detail/key_shapes.h>
+#include <shapespace/output/detail/legend.h>
+#include <shapespace/output/detail/materials.h>
+#include <shapespace/output/detail/seams.h>
 #include <shapespace/output/internal/colour.h>
-#include <shapespace/output/internal/key_shapes.h>
-#include <shapespace/output/internal/legend.h>
-#include <shapespace/output/internal/materials.h>
-#include <shapespace/output/internal/seams.h>
 
 namespace shapespace {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/atomic_file.h>
-#include <shapespace/output/internal/page_scene.h>
+#include <shapespace/output/detail/page_scene.h>
 
 namespace shapespace {
 namespace {

@@ -10,13 +10,13 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/check_range.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/output/internal/frame.h>
-#include <shapespace/output/internal/key_shapes.h>
-#include <shapespace/output/internal/legend.h>
-#include <shapespace/output/internal/ruler.h>
-#include <shapespace/output/internal/scene.h>
+#include <shapespace/output/detail/frame.h>
+#include <shapespace/output/detail/key_shapes.h>
+#include <shapespace/output/detail/legend.h>
+#include <shapespace/output/detail/ruler.h>
+#include <shapespace/output/detail/scene.h>
+#include <shapespace/output/detail/vertex_numbers.h>
 #include <shapespace/output/internal/text.h>
-#include <shapespace/output/internal/vertex_numbers.h>
 #include <shapespace/output/internal/view.h>
 
 namespace shapespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include <shapespace/analysis/quality.h>
+#include <shapespace/output/detail/legend.h>
 #include <shapespace/output/internal/colour.h>
-#include <shapespace/output/internal/legend.h>
 
 namespace shapespace {
 namespace {

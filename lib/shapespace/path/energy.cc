@@ -11,8 +11,8 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/ranges.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/path/internal/energy_kernels.h>
-#include <shapespace/path/internal/energy_term.h>
+#include <shapespace/path/detail/energy_kernels.h>
+#include <shapespace/path/detail/energy_term.h>
 
 namespace shapespace {
 namespace {

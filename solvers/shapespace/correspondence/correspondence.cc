@@ -10,22 +10,23 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/correspondence/internal/check_input.h>
-#include <shapespace/correspondence/internal/closest.h>
-#include <shapespace/correspondence/internal/gradient_fit.h>
-#include <shapespace/correspondence/internal/marker_check.h>
-#include <shapespace/correspondence/internal/marker_distances.h>
-#include <shapespace/correspondence/internal/shell_fit.h>
-#include <shapespace/correspondence/internal/similarity.h>
-#include <shapespace/correspondence/internal/unfold.h>
+#include <shapespace/correspondence/detail/check_input.h>
+#include <shapespace/correspondence/detail/closest.h>
+#include <shapespace/correspondence/detail/gradient_fit.h>
+#include <shapespace/correspondence/detail/marker_check.h>
+#include <shapespace/correspondence/detail/marker_distances.h>
+#include <shapespace/correspondence/detail/memory.h>
+#include <shapespace/correspondence/detail/shell_fit.h>
+#include <shapespace/correspondence/detail/similarity.h>
+#include <shapespace/correspondence/detail/unfold.h>
 #include <shapespace/hierarchy/hierarchy.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/ties.h>
 #include <shapespace/mesh/topology.h>
 #include <shapespace/mesh/volume.h>
-#include <shapespace/numerics/internal/check_options.h>
-#include <shapespace/numerics/internal/memory.h>
 #include <shapespace/path/align.h>
+#include <shapespace/summary/internal/check_options.h>
+#include <shapespace/summary/internal/memory.h>
 
 namespace shapespace {
 namespace {

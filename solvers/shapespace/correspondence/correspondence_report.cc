@@ -2,8 +2,8 @@
 
 #include <shapespace/correspondence/correspondence.h>
 #include <shapespace/correspondence/internal/summary_fields.h>
-#include <shapespace/numerics/internal/json_of.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/json_of.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 

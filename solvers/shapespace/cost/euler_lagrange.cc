@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <shapespace/cost/internal/index_of.h>
+#include <shapespace/cost/detail/index_of.h>
 #include <shapespace/cost/sum_cost.h>
 
 namespace shapespace::cost {

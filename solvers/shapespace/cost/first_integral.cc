@@ -4,7 +4,7 @@
 
 #include <ceres/dynamic_autodiff_cost_function.h>
 
-#include <shapespace/cost/internal/index_of.h>
+#include <shapespace/cost/detail/index_of.h>
 #include <shapespace/cost/shooting_cost.h>
 
 namespace shapespace::cost {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include <shapespace/base/error.h>
-#include <shapespace/numerics/internal/minimise.h>
-#include <shapespace/numerics/internal/preconditioned_energy.h>
-#include <shapespace/numerics/internal/preconditioner.h>
+#include <shapespace/minimise/internal/minimise.h>
+#include <shapespace/minimise/internal/preconditioned_energy.h>
+#include <shapespace/minimise/internal/preconditioner.h>
 #include <shapespace/path/energy.h>
 
 namespace shapespace::cost {

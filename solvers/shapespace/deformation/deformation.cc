@@ -13,19 +13,20 @@
 #include <shapespace/base/parallel.h>
 #include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/cost/internal/refuse_sums.h>
-#include <shapespace/deformation/internal/contact_deformation.h>
-#include <shapespace/deformation/internal/count_intersections.h>
-#include <shapespace/deformation/internal/handle_targets.h>
-#include <shapespace/deformation/internal/held_level.h>
+#include <shapespace/deformation/detail/contact_deformation.h>
+#include <shapespace/deformation/detail/count_intersections.h>
+#include <shapespace/deformation/detail/handle_targets.h>
+#include <shapespace/deformation/detail/held_level.h>
+#include <shapespace/deformation/detail/memory.h>
 #include <shapespace/geodesic/internal/resolution.h>
 #include <shapespace/geodesic/internal/workload.h>
 #include <shapespace/hierarchy/freeze_level.h>
 #include <shapespace/hierarchy/hierarchy.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/topology.h>
-#include <shapespace/numerics/internal/check_options.h>
-#include <shapespace/numerics/internal/memory.h>
 #include <shapespace/path/align.h>
+#include <shapespace/summary/internal/check_options.h>
+#include <shapespace/summary/internal/memory.h>
 
 namespace shapespace {
 namespace {

@@ -3,9 +3,10 @@
 #include <sstream>
 
 #include <shapespace/deformation/deformation.h>
+#include <shapespace/deformation/detail/volume_text.h>
 #include <shapespace/deformation/internal/summary_fields.h>
-#include <shapespace/numerics/internal/json_of.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/json_of.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 using internal::Format;

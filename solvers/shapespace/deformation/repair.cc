@@ -6,11 +6,12 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
-#include <shapespace/deformation/internal/count_intersections.h>
+#include <shapespace/deformation/detail/count_intersections.h>
+#include <shapespace/deformation/detail/volume_text.h>
 #include <shapespace/deformation/internal/summary_fields.h>
 #include <shapespace/mesh/rigid_motion.h>
-#include <shapespace/numerics/internal/json_of.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/json_of.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 namespace {

@@ -1,7 +1,7 @@
 #include <shapespace/deformation/internal/summary_fields.h>
 #include <shapespace/deformation/standing.h>
-#include <shapespace/numerics/internal/json_of.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/json_of.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 

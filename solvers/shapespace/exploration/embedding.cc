@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <shapespace/base/error.h>
-#include <shapespace/numerics/internal/check_options.h>
+#include <shapespace/summary/internal/check_options.h>
 
 namespace shapespace {
 namespace {

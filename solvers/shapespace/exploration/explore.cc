@@ -8,8 +8,8 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
-#include <shapespace/exploration/internal/pair_solver.h>
-#include <shapespace/exploration/internal/refinement.h>
+#include <shapespace/exploration/detail/pair_solver.h>
+#include <shapespace/exploration/detail/refinement.h>
 #include <shapespace/exploration/triangulation.h>
 #include <shapespace/hierarchy/freeze_level.h>
 #include <shapespace/mesh/rigid_motion.h>

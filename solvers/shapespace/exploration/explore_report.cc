@@ -2,8 +2,8 @@
 
 #include <shapespace/exploration/explore.h>
 #include <shapespace/exploration/internal/summary_fields.h>
-#include <shapespace/numerics/internal/json_of.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/json_of.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 using internal::Format;

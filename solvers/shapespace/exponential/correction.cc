@@ -11,12 +11,12 @@
 #include <shapespace/geodesic/internal/resolution.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/rigid_motion.h>
-#include <shapespace/numerics/internal/check_options.h>
-#include <shapespace/numerics/internal/json_of.h>
-#include <shapespace/numerics/internal/minimise.h>
-#include <shapespace/numerics/internal/preconditioner.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/minimise/internal/minimise.h>
+#include <shapespace/minimise/internal/preconditioner.h>
 #include <shapespace/path/energy.h>
+#include <shapespace/summary/internal/check_options.h>
+#include <shapespace/summary/internal/json_of.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 namespace {

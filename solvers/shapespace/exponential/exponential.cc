@@ -12,14 +12,14 @@
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/contact/internal/contact_model.h>
 #include <shapespace/contact/internal/slide.h>
-#include <shapespace/exponential/internal/cost_of_position.h>
-#include <shapespace/exponential/internal/shooter.h>
-#include <shapespace/exponential/internal/step_ceres.h>
+#include <shapespace/exponential/detail/cost_of_position.h>
+#include <shapespace/exponential/detail/shooter.h>
+#include <shapespace/exponential/detail/step_ceres.h>
 #include <shapespace/hierarchy/internal/detail.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/metric/feature_map.h>
-#include <shapespace/numerics/internal/check_options.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/check_options.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 namespace {

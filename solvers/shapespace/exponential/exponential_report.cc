@@ -4,8 +4,8 @@
 
 #include <shapespace/exponential/exponential.h>
 #include <shapespace/exponential/internal/summary_fields.h>
-#include <shapespace/numerics/internal/json_of.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/json_of.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 namespace {

@@ -8,13 +8,14 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
-#include <shapespace/exponential/internal/cost_of_position.h>
+#include <shapespace/exponential/detail/cost_of_position.h>
+#include <shapespace/exponential/detail/step_ceres.h>
+#include <shapespace/exponential/internal/memory.h>
 #include <shapespace/exponential/internal/metric_solver.h>
-#include <shapespace/exponential/internal/step_ceres.h>
 #include <shapespace/metric/feature_map.h>
-#include <shapespace/numerics/internal/check_options.h>
-#include <shapespace/numerics/internal/memory.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/check_options.h>
+#include <shapespace/summary/internal/memory.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 namespace {

@@ -16,14 +16,15 @@
 #include <shapespace/base/parallel.h>
 #include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/cost/internal/refuse_sums.h>
-#include <shapespace/geodesic/internal/align_folds.h>
-#include <shapespace/geodesic/internal/contact_piece.h>
-#include <shapespace/geodesic/internal/geodesic_piece.h>
+#include <shapespace/geodesic/detail/align_folds.h>
+#include <shapespace/geodesic/detail/contact_piece.h>
+#include <shapespace/geodesic/detail/geodesic_piece.h>
+#include <shapespace/geodesic/internal/memory.h>
 #include <shapespace/hierarchy/freeze_level.h>
-#include <shapespace/numerics/internal/check_options.h>
-#include <shapespace/numerics/internal/memory.h>
 #include <shapespace/path/align.h>
 #include <shapespace/path/energy.h>
+#include <shapespace/summary/internal/check_options.h>
+#include <shapespace/summary/internal/memory.h>
 
 namespace shapespace {
 namespace {

@@ -14,8 +14,8 @@
 #include <shapespace/contact/obstacle.h>
 #include <shapespace/files/read.h>
 #include <shapespace/metric/metric.h>
-#include <shapespace/numerics/termination.h>
 #include <shapespace/path/path.h>
+#include <shapespace/summary/termination.h>
 
 namespace shapespace {
 

@@ -3,8 +3,8 @@
 
 #include <shapespace/geodesic/geodesic.h>
 #include <shapespace/geodesic/internal/summary_fields.h>
-#include <shapespace/numerics/internal/json_of.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/json_of.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 using internal::Format;

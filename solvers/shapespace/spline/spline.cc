@@ -9,10 +9,11 @@
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/contact/internal/avoid_contact.h>
-#include <shapespace/numerics/internal/memory.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/internal/velocity.h>
-#include <shapespace/spline/internal/smooth_chain.h>
+#include <shapespace/spline/detail/memory.h>
+#include <shapespace/spline/detail/smooth_chain.h>
+#include <shapespace/summary/internal/memory.h>
 
 namespace shapespace {
 namespace {

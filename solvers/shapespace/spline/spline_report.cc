@@ -1,9 +1,9 @@
 #include <sstream>
 
-#include <shapespace/numerics/internal/json_of.h>
-#include <shapespace/numerics/internal/report.h>
 #include <shapespace/spline/internal/summary_fields.h>
 #include <shapespace/spline/spline.h>
+#include <shapespace/summary/internal/json_of.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 

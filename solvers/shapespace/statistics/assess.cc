@@ -7,11 +7,11 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
-#include <shapespace/numerics/internal/json_of.h>
-#include <shapespace/numerics/internal/report.h>
-#include <shapespace/statistics/internal/size.h>
+#include <shapespace/statistics/detail/size.h>
+#include <shapespace/statistics/detail/weighted_poses.h>
 #include <shapespace/statistics/internal/summary_fields.h>
-#include <shapespace/statistics/internal/weighted_poses.h>
+#include <shapespace/summary/internal/json_of.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 namespace {

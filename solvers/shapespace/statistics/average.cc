@@ -7,14 +7,15 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
+#include <shapespace/base/internal/task_group.h>
 #include <shapespace/exponential/internal/nearest_shape.h>
-#include <shapespace/numerics/internal/check_options.h>
-#include <shapespace/numerics/internal/memory.h>
-#include <shapespace/numerics/internal/task_group.h>
-#include <shapespace/statistics/internal/feature_chart.h>
-#include <shapespace/statistics/internal/feature_statistics.h>
-#include <shapespace/statistics/internal/procrustes.h>
-#include <shapespace/statistics/internal/weighted_poses.h>
+#include <shapespace/statistics/detail/feature_chart.h>
+#include <shapespace/statistics/detail/feature_statistics.h>
+#include <shapespace/statistics/detail/memory.h>
+#include <shapespace/statistics/detail/procrustes.h>
+#include <shapespace/statistics/detail/weighted_poses.h>
+#include <shapespace/summary/internal/check_options.h>
+#include <shapespace/summary/internal/memory.h>
 
 namespace shapespace {
 namespace {

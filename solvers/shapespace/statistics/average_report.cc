@@ -1,10 +1,10 @@
 #include <cmath>
 #include <sstream>
 
-#include <shapespace/numerics/internal/json_of.h>
-#include <shapespace/numerics/internal/report.h>
 #include <shapespace/statistics/average.h>
 #include <shapespace/statistics/internal/summary_fields.h>
+#include <shapespace/summary/internal/json_of.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 

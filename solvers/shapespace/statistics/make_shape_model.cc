@@ -7,12 +7,12 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/mesh/internal/geometry.h>
-#include <shapespace/numerics/internal/memory.h>
-#include <shapespace/statistics/internal/feature_statistics.h>
-#include <shapespace/statistics/internal/logarithms.h>
-#include <shapespace/statistics/internal/size.h>
-#include <shapespace/statistics/internal/weighted_poses.h>
+#include <shapespace/statistics/detail/feature_statistics.h>
+#include <shapespace/statistics/detail/logarithms.h>
+#include <shapespace/statistics/detail/size.h>
+#include <shapespace/statistics/detail/weighted_poses.h>
 #include <shapespace/statistics/shape_model.h>
+#include <shapespace/summary/internal/memory.h>
 
 namespace shapespace {
 namespace {

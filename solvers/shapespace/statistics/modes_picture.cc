@@ -6,10 +6,10 @@
 #include <string>
 
 #include <shapespace/base/error.h>
-#include <shapespace/numerics/internal/report.h>
 #include <shapespace/output/internal/colour.h>
 #include <shapespace/output/internal/text.h>
 #include <shapespace/output/internal/view.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 namespace {

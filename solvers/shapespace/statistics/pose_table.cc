@@ -14,7 +14,7 @@
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/base/internal/text.h>
 #include <shapespace/files/display_names.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 namespace {

@@ -5,10 +5,10 @@
 #include <Eigen/QR>
 
 #include <shapespace/base/error.h>
-#include <shapespace/numerics/internal/json_of.h>
-#include <shapespace/numerics/internal/report.h>
-#include <shapespace/statistics/internal/permutations.h>
+#include <shapespace/statistics/detail/permutations.h>
 #include <shapespace/statistics/internal/summary_fields.h>
+#include <shapespace/summary/internal/json_of.h>
+#include <shapespace/summary/internal/report.h>
 
 namespace shapespace {
 namespace {

@@ -10,10 +10,10 @@
 #include <shapespace/base/error.h>
 #include <shapespace/exponential/internal/nearest_shape.h>
 #include <shapespace/exponential/internal/step.h>
-#include <shapespace/statistics/internal/feature_statistics.h>
-#include <shapespace/statistics/internal/logarithms.h>
-#include <shapespace/statistics/internal/size.h>
-#include <shapespace/statistics/internal/triangle_preview.h>
+#include <shapespace/statistics/detail/feature_statistics.h>
+#include <shapespace/statistics/detail/logarithms.h>
+#include <shapespace/statistics/detail/size.h>
+#include <shapespace/statistics/detail/triangle_preview.h>
 
 namespace shapespace {
 namespace {

@@ -13,11 +13,12 @@
 #include <shapespace/mesh/mirrored.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/mesh/seams.h>
-#include <shapespace/numerics/internal/check_options.h>
-#include <shapespace/numerics/internal/memory.h>
 #include <shapespace/path/align.h>
-#include <shapespace/transfer/internal/feature_transfer.h>
-#include <shapespace/transfer/internal/ladder.h>
+#include <shapespace/summary/internal/check_options.h>
+#include <shapespace/summary/internal/memory.h>
+#include <shapespace/transfer/detail/feature_transfer.h>
+#include <shapespace/transfer/detail/ladder.h>
+#include <shapespace/transfer/detail/memory.h>
 
 namespace shapespace {
 namespace {

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <sstream>
 
-#include <shapespace/numerics/internal/json_of.h>
+#include <shapespace/summary/internal/json_of.h>
 #include <shapespace/transfer/internal/summary_fields.h>
 
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/report.h>
 #include <shapespace/transfer/transfer.h>
 
 namespace shapespace {

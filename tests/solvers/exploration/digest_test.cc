@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <shapespace/bodies/bar.h>
-#include <shapespace/exploration/internal/digest.h>
+#include <shapespace/exploration/detail/digest.h>
 #include <shapespace/geodesic/internal/option_fields.h>
 
 namespace shapespace {

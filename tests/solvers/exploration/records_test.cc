@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <shapespace/exploration/detail/records.h>
 #include <shapespace/exploration/explore.h>
-#include <shapespace/exploration/internal/records.h>
 #include <shapespace/path/internal/array_file.h>
 
 #include "mesh/files.h"

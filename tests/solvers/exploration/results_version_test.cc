@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <shapespace/exploration/detail/pair_solver.h>
 #include <shapespace/exploration/explore.h>
-#include <shapespace/exploration/internal/pair_solver.h>
 
 #include "solvers/exploration/spaces.h"
 

@@ -11,8 +11,8 @@
 #include <set>
 #include <string>
 
+#include <shapespace/base/detail/file_buffer.h>
 #include <shapespace/base/error.h>
-#include <shapespace/base/internal/file_buffer.h>
 
 namespace shapespace::internal {
 namespace {

@@ -4,7 +4,7 @@ string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
 # Lines of sixteen bytes.
 string(REGEX REPLACE "(................................................................................)"
   "\\1\n" bytes "${bytes}")
-file(WRITE "${SOURCE}" "#include <shapespace/output/internal/font.h>
+file(WRITE "${SOURCE}" "#include <shapespace/output/detail/font.h>
 
 namespace shapespace::internal {
 

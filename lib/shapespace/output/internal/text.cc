@@ -7,10 +7,10 @@
 #include <vector>
 
 #include <shapespace/base/error.h>
-#include <shapespace/output/internal/font.h>
-#include <shapespace/output/internal/frame.h>
+#include <shapespace/output/detail/font.h>
+#include <shapespace/output/detail/frame.h>
+#include <shapespace/output/detail/utf8.h>
 #include <shapespace/output/internal/text.h>
-#include <shapespace/output/internal/utf8.h>
 
 namespace shapespace::internal {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
-#include <shapespace/output/internal/scene.h>
+#include <shapespace/output/detail/scene.h>
 
 namespace shapespace::internal {
 

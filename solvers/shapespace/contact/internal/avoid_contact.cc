@@ -10,12 +10,12 @@
 #include <utility>
 
 #include <shapespace/base/parallel.h>
+#include <shapespace/contact/detail/increments.h>
+#include <shapespace/contact/detail/parting.h>
 #include <shapespace/contact/internal/follow.h>
-#include <shapespace/contact/internal/increments.h>
-#include <shapespace/contact/internal/parting.h>
 #include <shapespace/contact/internal/path_contact.h>
 #include <shapespace/mesh/rigid_motion.h>
-#include <shapespace/numerics/internal/preconditioner.h>
+#include <shapespace/minimise/internal/preconditioner.h>
 #include <shapespace/path/energy.h>
 
 namespace shapespace::internal {

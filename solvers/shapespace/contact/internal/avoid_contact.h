@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <shapespace/contact/internal/contact_model.h>
-#include <shapespace/numerics/internal/cholesky.h>
-#include <shapespace/numerics/internal/minimise.h>
+#include <shapespace/minimise/internal/minimise.h>
+#include <shapespace/sparse/internal/cholesky.h>
 
 namespace shapespace::internal {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <shapespace/analysis/near_pairs.h>
-#include <shapespace/contact/internal/pair_potential.h>
+#include <shapespace/contact/detail/pair_potential.h>
 #include <shapespace/contact/obstacle.h>
 #include <shapespace/metric/metric.h>
 

@@ -5,8 +5,8 @@
 
 #include <shapespace/contact/internal/path_contact.h>
 #include <shapespace/mesh/rigid_motion.h>
-#include <shapespace/numerics/internal/minimise.h>
-#include <shapespace/numerics/internal/preconditioner.h>
+#include <shapespace/minimise/internal/minimise.h>
+#include <shapespace/minimise/internal/preconditioner.h>
 #include <shapespace/path/energy.h>
 
 namespace shapespace::internal {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <shapespace/contact/internal/contact_model.h>
-#include <shapespace/numerics/internal/cholesky.h>
+#include <shapespace/sparse/internal/cholesky.h>
 
 namespace shapespace::internal {
 

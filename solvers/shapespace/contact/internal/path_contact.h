@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include <shapespace/contact/internal/motion_contact.h>
-#include <shapespace/numerics/internal/minimise.h>
+#include <shapespace/contact/detail/motion_contact.h>
+#include <shapespace/minimise/internal/minimise.h>
 #include <shapespace/path/energy.h>
 
 namespace shapespace::internal {

@@ -2,7 +2,7 @@
 
 #include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/contact/internal/follow.h>
-#include <shapespace/numerics/internal/preconditioner.h>
+#include <shapespace/minimise/internal/preconditioner.h>
 
 namespace shapespace::internal {
 

@@ -6,7 +6,7 @@
 #include <shapespace/deformation/deformation.h>
 #include <shapespace/deformation/repair.h>
 #include <shapespace/deformation/standing.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/report.h>
 
 // The fields of summaries (base/internal/fields.h).
 

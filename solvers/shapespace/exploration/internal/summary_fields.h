@@ -3,7 +3,7 @@
 
 #include <shapespace/base/internal/fields.h>
 #include <shapespace/exploration/explore.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/report.h>
 
 // The fields of summaries (base/internal/fields.h).
 

@@ -8,7 +8,7 @@
 
 #include <shapespace/mesh/shape.h>
 #include <shapespace/metric/feature_map.h>
-#include <shapespace/numerics/internal/cholesky.h>
+#include <shapespace/sparse/internal/cholesky.h>
 
 namespace shapespace::internal {
 

@@ -8,7 +8,7 @@
 #include <shapespace/exponential/internal/metric_solver.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/metric/feature_map.h>
-#include <shapespace/numerics/termination.h>
+#include <shapespace/summary/termination.h>
 
 namespace shapespace::internal {
 

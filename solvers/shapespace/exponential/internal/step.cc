@@ -5,8 +5,8 @@
 #include <limits>
 
 #include <shapespace/base/error.h>
+#include <shapespace/exponential/detail/step_ceres.h>
 #include <shapespace/exponential/internal/nearest_shape.h>
-#include <shapespace/exponential/internal/step_ceres.h>
 
 namespace shapespace::internal {
 namespace {

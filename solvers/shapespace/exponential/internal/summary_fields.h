@@ -7,7 +7,7 @@
 #include <shapespace/exponential/exponential.h>
 #include <shapespace/exponential/internal/option_fields.h>
 #include <shapespace/exponential/transport.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/report.h>
 
 // The fields of summaries (base/internal/fields.h).
 

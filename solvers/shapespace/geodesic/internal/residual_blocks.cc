@@ -5,8 +5,8 @@
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/solver.h>
 
-#include <shapespace/numerics/internal/keep_going.h>
-#include <shapespace/numerics/internal/one_thread.h>
+#include <shapespace/minimise/internal/keep_going.h>
+#include <shapespace/sparse/internal/one_thread.h>
 
 namespace shapespace::internal {
 namespace {

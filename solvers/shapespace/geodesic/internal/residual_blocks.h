@@ -9,7 +9,7 @@
 
 #include <shapespace/cost/path_energy.h>
 #include <shapespace/metric/metric.h>
-#include <shapespace/numerics/internal/minimise.h>
+#include <shapespace/minimise/internal/minimise.h>
 
 namespace shapespace::internal {
 

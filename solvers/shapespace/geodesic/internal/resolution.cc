@@ -5,10 +5,10 @@
 #include <utility>
 
 #include <shapespace/base/internal/stopwatch.h>
+#include <shapespace/geodesic/detail/tied_energy.h>
 #include <shapespace/geodesic/internal/residual_blocks.h>
-#include <shapespace/geodesic/internal/tied_energy.h>
 #include <shapespace/mesh/rigid_motion.h>
-#include <shapespace/numerics/internal/preconditioner.h>
+#include <shapespace/minimise/internal/preconditioner.h>
 
 namespace shapespace::internal {
 namespace {

@@ -6,14 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include <shapespace/geodesic/detail/lazy_factors.h>
+#include <shapespace/geodesic/detail/thin_vertices.h>
 #include <shapespace/geodesic/geodesic.h>
-#include <shapespace/geodesic/internal/lazy_factors.h>
-#include <shapespace/geodesic/internal/thin_vertices.h>
 #include <shapespace/geodesic/internal/workload.h>
 #include <shapespace/metric/metric.h>
-#include <shapespace/numerics/internal/cholesky.h>
-#include <shapespace/numerics/internal/minimise.h>
+#include <shapespace/minimise/internal/minimise.h>
 #include <shapespace/path/energy.h>
+#include <shapespace/sparse/internal/cholesky.h>
 
 namespace shapespace::internal {
 

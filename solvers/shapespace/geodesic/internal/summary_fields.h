@@ -4,7 +4,7 @@
 #include <shapespace/analysis/internal/summary_fields.h>
 #include <shapespace/base/internal/fields.h>
 #include <shapespace/geodesic/geodesic.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/report.h>
 
 // The fields of summaries (base/internal/fields.h).
 

@@ -2,9 +2,9 @@
 #define SHAPESPACE_STATISTICS_INTERNAL_SUMMARY_FIELDS_H_
 
 #include <shapespace/base/internal/fields.h>
-#include <shapespace/numerics/internal/report.h>
 #include <shapespace/statistics/assess.h>
 #include <shapespace/statistics/regression.h>
+#include <shapespace/summary/internal/report.h>
 
 // The fields of summaries (base/internal/fields.h).
 

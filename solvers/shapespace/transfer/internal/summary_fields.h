@@ -3,7 +3,7 @@
 
 #include <shapespace/base/internal/fields.h>
 #include <shapespace/geodesic/internal/summary_fields.h>
-#include <shapespace/numerics/internal/report.h>
+#include <shapespace/summary/internal/report.h>
 #include <shapespace/transfer/internal/option_fields.h>
 #include <shapespace/transfer/transfer.h>
 
