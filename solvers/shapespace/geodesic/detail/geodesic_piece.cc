@@ -199,59 +199,84 @@ GeodesicPiece::Attempt GeodesicPiece::TakeSteps(const std::vector<ScheduleStep>&
 }
 
 void GeodesicPiece::TakeStep(const ScheduleStep& step, PieceStart start, bool last) {
-  Known& known = known_[step.level];
-  const Known* const coarser = step.level > 0 ? &known_[step.level - 1] : nullptr;
-  const int segments = static_cast<int>(known.shapes.size()) - 1;
-
-  Resolution& resolution = resolutions_[step.level];
-  const auto energy = [&](const std::vector<Shape>& path) {
-    return ScaledEnergy(resolution.Energy(path, options_), static_cast<int>(path.size()) - 1);
-  };
-  std::vector<Shape> shapes;
-  const char* name = nullptr;
-  // Energies of the guesses up to this one are good.
-  const double good = segments > 1 ? kPoorGuess * energy(known.shapes) : 0;
-  double least = std::numeric_limits<double>::infinity();
-  if (coarser != nullptr && static_cast<int>(coarser->shapes.size()) - 2 == step.shapes &&
-      known.base.size() == known.shapes.size()) {
-    shapes = Lift(step);
-    name = "lifted";
-    known.base = coarser->shapes;
-    if (segments > 1) least = energy(shapes);
-  }
-  if (segments > 1) {
-    if (least > good) {
-      const Metric& metric = *resolution.GetMetric();
-      std::vector<Shape> refined =
-          Resample(known.shapes, ArcLengthTimes(metric, known.shapes), UniformTimes(step.shapes));
-      const double reached = energy(refined);
-      if (reached < least) {
-        least = reached;
-        shapes = std::move(refined);
-        name = "refined";
-      }
-    }
-    if (least > good && step.shapes + 1 == 2 * segments &&
-        NumVertices(resolution) <= kTrialVertices) {
-      shapes = InsertShapes(step.level, shapes);
-      name = "inserted";
-    }
-  } else if (name == nullptr) {
-    shapes = OneInnerShape(start, step.level);
-    name = Name(start);
-  }
+  Guess guess = GuessFor(step, start);
   if (!workload_.Stopped()) {
-    resolution.PlaceThinVertices(index_, options_, &shapes);
-    UnwrapHinges(*resolution.GetMetric(), &shapes);
+    Resolution& resolution = resolutions_[step.level];
+    resolution.PlaceThinVertices(index_, options_, &guess.shapes);
+    UnwrapHinges(*resolution.GetMetric(), &guess.shapes);
     GeodesicSummary::Level row =
-        resolution.Relax(index_, last ? 0 : kEnough, options_, &workload_, &shapes);
-    row.start = name;
+        resolution.Relax(index_, last ? 0 : kEnough, options_, &workload_, &guess.shapes);
+    row.start = guess.name;
     summary_.levels.push_back(row);
   }
-  known.shapes = std::move(shapes);
+  known_[step.level].shapes = std::move(guess.shapes);
 }
 
-std::vector<Shape> GeodesicPiece::InsertShapes(int level, const std::vector<Shape>& guess) {
+GeodesicPiece::Guess GeodesicPiece::GuessFor(const ScheduleStep& step, PieceStart start) {
+  const std::vector<Shape>& known = known_[step.level].shapes;
+  const bool lift = CanLift(step);
+  if (known.size() == 2) return lift ? Lift(step) : OneInnerShape(start, step.level);
+
+  const double good = kPoorGuess * Energy(step.level, known);
+  Guess best;
+  double least = std::numeric_limits<double>::infinity();
+  if (lift) {
+    best = Lift(step);
+    least = Energy(step.level, best.shapes);
+  }
+  if (least > good) {
+    Guess refined = Refine(step);
+    const double energy = Energy(step.level, refined.shapes);
+    if (energy < least) {
+      least = energy;
+      best = std::move(refined);
+    }
+  }
+  const bool one_between_each_two = step.shapes + 1 == 2 * (static_cast<int>(known.size()) - 1);
+  if (least > good && one_between_each_two &&
+      NumVertices(resolutions_[step.level]) <= kTrialVertices) {
+    return InsertShapes(step.level, best.shapes);
+  }
+  return best;
+}
+
+double GeodesicPiece::Energy(int level, const std::vector<Shape>& path) {
+  return ScaledEnergy(resolutions_[level].Energy(path, options_),
+                      static_cast<int>(path.size()) - 1);
+}
+
+bool GeodesicPiece::CanLift(const ScheduleStep& step) const {
+  if (step.level == 0) return false;
+  const Known& known = known_[step.level];
+  return static_cast<int>(known_[step.level - 1].shapes.size()) - 2 == step.shapes &&
+         known.base.size() == known.shapes.size();
+}
+
+GeodesicPiece::Guess GeodesicPiece::Lift(const ScheduleStep& step) {
+  const std::vector<Shape>& coarse = known_[step.level - 1].shapes;
+  Known& known = known_[step.level];
+  const int segments = static_cast<int>(known.shapes.size()) - 1;
+  std::vector<Shape> shapes(coarse.size());
+  shapes.front() = known.shapes.front();
+  shapes.back() = known.shapes.back();
+  ParallelFor(step.shapes, [&](int i) {
+    const double at = (i + 1.0) / (step.shapes + 1) * segments;
+    const int from = std::min(static_cast<int>(at), segments - 1);
+    shapes[i + 1] =
+        hierarchy_.Lift(coarse[i + 1], step.level - 1, known.base[from], known.shapes[from],
+                        known.base[from + 1], known.shapes[from + 1], at - from);
+  });
+  known.base = coarse;
+  return {std::move(shapes), "lifted"};
+}
+
+GeodesicPiece::Guess GeodesicPiece::Refine(const ScheduleStep& step) const {
+  const std::vector<Shape>& known = known_[step.level].shapes;
+  const Metric& metric = *resolutions_[step.level].GetMetric();
+  return {Resample(known, ArcLengthTimes(metric, known), UniformTimes(step.shapes)), "refined"};
+}
+
+GeodesicPiece::Guess GeodesicPiece::InsertShapes(int level, const std::vector<Shape>& guess) {
   const std::vector<Shape>& known = known_[level].shapes;
   Resolution& resolution = resolutions_[level];
   std::vector<Shape> shapes = guess;
@@ -267,21 +292,22 @@ std::vector<Shape> GeodesicPiece::InsertShapes(int level, const std::vector<Shap
     }
     shapes[2 * i] = known[i];
   }
-  return shapes;
+  return {std::move(shapes), "inserted"};
 }
 
-std::vector<Shape> GeodesicPiece::OneInnerShape(PieceStart start, int level) {
+GeodesicPiece::Guess GeodesicPiece::OneInnerShape(PieceStart start, int level) {
+  const char* const name = Name(start);
   const std::vector<Shape>& ends = known_[level].shapes;
   if (!start) {
     const TurningMotion motion(*resolutions_[level].GetMetric()->connectivity, ends[0], ends[1]);
-    return {ends[0], motion.At(0.5), ends[1]};
+    return {{ends[0], motion.At(0.5), ends[1]}, name};
   }
   const Shape blend = 0.5 * (ends[0] + ends[1]);
   switch (*start) {
     case GeodesicStart::kFirst:
-      return {ends[0], ends[0], ends[1]};
+      return {{ends[0], ends[0], ends[1]}, name};
     case GeodesicStart::kLast:
-      return {ends[0], ends[1], ends[1]};
+      return {{ends[0], ends[1], ends[1]}, name};
     case GeodesicStart::kRigid: {
       // The paper's advice for degenerate blends: a first solve that is as rigid as possible.
       Resolution rigid({FreezeMetric(MetricOptions::Rigid(),
@@ -295,30 +321,13 @@ std::vector<Shape> GeodesicPiece::OneInnerShape(PieceStart start, int level) {
       row.start = "blend";
       row.solver += ", rigid metric";
       summary_.levels.push_back(row);
-      return shapes;
+      return {std::move(shapes), name};
     }
     case GeodesicStart::kBlend:
     case GeodesicStart::kBest:
       break;
   }
-  return {ends[0], blend, ends[1]};
-}
-
-std::vector<Shape> GeodesicPiece::Lift(const ScheduleStep& step) const {
-  const std::vector<Shape>& coarse = known_[step.level - 1].shapes;
-  const Known& known = known_[step.level];
-  const int segments = static_cast<int>(known.shapes.size()) - 1;
-  std::vector<Shape> shapes(coarse.size());
-  shapes.front() = known.shapes.front();
-  shapes.back() = known.shapes.back();
-  ParallelFor(step.shapes, [&](int i) {
-    const double at = (i + 1.0) / (step.shapes + 1) * segments;
-    const int from = std::min(static_cast<int>(at), segments - 1);
-    shapes[i + 1] =
-        hierarchy_.Lift(coarse[i + 1], step.level - 1, known.base[from], known.shapes[from],
-                        known.base[from + 1], known.shapes[from + 1], at - from);
-  });
-  return shapes;
+  return {{ends[0], blend, ends[1]}, name};
 }
 
 }  // namespace shapespace::internal

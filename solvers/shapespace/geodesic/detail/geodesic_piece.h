@@ -61,15 +61,32 @@ class GeodesicPiece {
   // with the number of `last`, the schedule's last step, again; keeps the result if it has less
   // energy.
   void RemoveJump(const ScheduleStep& last);
+  // Solves a level with a number of shapes, from the guess for it.
   void TakeStep(const ScheduleStep& step, PieceStart start, bool last);
-  // The level's shapes with one more between each two, the best solution between these two from
-  // three initial guesses: either neighbour, and the corresponding one of `guess`.
-  std::vector<Shape> InsertShapes(int level, const std::vector<Shape>& guess);
-  std::vector<Shape> OneInnerShape(PieceStart start, int level);
+
+  // Where a solve begins, and its name in the summary.
+  struct Guess {
+    std::vector<Shape> shapes;
+    const char* name = nullptr;
+  };
+  // From two shapes, the ends, on: lifted, or as `start` says. From more on: lifted; if that has
+  // much more energy than the path so far, refined if it has less; if both have, and few vertices,
+  // with shapes inserted one by one.
+  Guess GuessFor(const ScheduleStep& step, PieceStart start);
+  double Energy(int level, const std::vector<Shape>& path);
+  // Whether the coarser level has as many shapes as the step, and the level's own shapes were
+  // lifted from some.
+  bool CanLift(const ScheduleStep& step) const;
   // The coarser level's shapes with detail from this level's earlier shapes. The detail at a time
   // is taken from the earlier shapes around it, each relative to the coarse shape of its own time,
   // which is correct also if parts turn far between these times.
-  std::vector<Shape> Lift(const ScheduleStep& step) const;
+  Guess Lift(const ScheduleStep& step);
+  // The level's shapes, on cubics in time by arc length.
+  Guess Refine(const ScheduleStep& step) const;
+  // The level's shapes with one more between each two, the best solution between these two from
+  // three initial guesses: either neighbour, and the corresponding one of `guess`.
+  Guess InsertShapes(int level, const std::vector<Shape>& guess);
+  Guess OneInnerShape(PieceStart start, int level);
 
   const int index_;
   const Hierarchy& hierarchy_;
