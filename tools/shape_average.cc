@@ -34,7 +34,7 @@ DEFINE_string(
 static const shapespace::tools::OptionFlags<shapespace::AverageOptions> flags(
     __FILE__, {{"certify", "certify"}, {"refine", "refine"}, {"shapes", "shapes"}});
 DEFINE_string(weights, "", "one number per pose, separated by commas; default: all equal");
-FLAG_GROUP(average, "Average");
+FLAG_GROUP(average, "Average", "output, certify, refine, weights, shapes");
 
 namespace shapespace::tools {
 namespace {

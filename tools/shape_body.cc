@@ -27,7 +27,7 @@ DEFINE_string(table, "", "a .csv file with the proportions of the --random anima
 DEFINE_string(output, "body%d.obj",
               "one file per value, numbered from 0: .obj, .ply, .off or .stl; or -: one shape to "
               "stdout, as PLY");
-FLAG_GROUP(body, "Body");
+FLAG_GROUP(body, "Body", "at, output, pose, proportions, random, seed, triangles");
 
 namespace shapespace::tools {
 namespace {

@@ -30,7 +30,7 @@ DEFINE_bool(open_seams, false,
             "leave a surface open where its borders lie on each other; by default their vertices "
             "are joined, because most files store vertices several times where texture "
             "coordinates, normals or materials change");
-FLAG_GROUP(correspond, "Files");
+FLAG_GROUP(correspond, "Files", "output");
 
 namespace shapespace::tools {
 namespace {

@@ -39,7 +39,7 @@ static const shapespace::tools::OptionFlags<shapespace::DeformationOptions> flag
                {"solver", "solver"},
                {"coarsest", "coarsest"},
                {"avoid_contact", "avoid_contact"}});
-FLAG_GROUP(deform, "Handles");
+FLAG_GROUP(deform, "Handles", "handles, repair, shapes");
 
 namespace shapespace::tools {
 namespace {

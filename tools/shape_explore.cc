@@ -35,7 +35,7 @@ DEFINE_string(
     sample, "",
     "JSON file of a curve on the plane (docs/file-formats.md): writes the shapes along it");
 DEFINE_int32(frames, 32, "with --sample: number of shapes, evenly spaced along the curve");
-FLAG_GROUP(explore, "Space");
+FLAG_GROUP(explore, "Space", "depth, threshold, sample, frames, resolution");
 DECLARE_string(output);
 
 namespace shapespace::tools {

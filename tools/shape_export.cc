@@ -23,7 +23,7 @@ DEFINE_string(at, "",
 DEFINE_int32(
     frames, 0,
     "write this number of shapes at evenly spaced times instead of the path's own; 2 or more");
-FLAG_GROUP(export, "Frames");
+FLAG_GROUP(export, "Frames", "at, frames");
 DECLARE_bool(ease);
 
 namespace shapespace::tools {

@@ -37,7 +37,7 @@ static const shapespace::tools::OptionFlags<shapespace::ExponentialOptions> flag
                {"max_iterations", "step_iterations"},
                {"stop_at_contact", "stop_at_contact"},
                {"slide_at_contact", "slide_at_contact"}});
-FLAG_GROUP(extrapolate, "Extrapolation");
+FLAG_GROUP(extrapolate, "Extrapolation", "steps, stop_at_contact, slide_at_contact, correct");
 
 namespace shapespace::tools {
 namespace {

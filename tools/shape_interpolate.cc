@@ -24,7 +24,7 @@ DEFINE_string(
     via, "",
     "with --avoid_contact, between two poses: files of shapes near which the way round leads, "
     "separated by commas, for bodies that do not find it");
-FLAG_GROUP(contact, "Path");
+FLAG_GROUP(contact, "Path", "");
 
 namespace shapespace::tools {
 namespace {

@@ -48,7 +48,6 @@ DEFINE_string(
     "such as s%02d.obj");
 static const shapespace::tools::OptionFlags<shapespace::ShapeModelOptions> model_flags(
     __FILE__, {{"modes", "modes"}, {"size", "size"}, {"certify", "certify"}, {"refine", "refine"}});
-FLAG_GROUP(model, "Modes");
 DEFINE_string(coordinates, "",
               "poses, separated by commas, whose coordinates are printed and written to a .csv");
 DEFINE_bool(
@@ -63,7 +62,8 @@ DEFINE_string(groups, "", ".csv with a word per pose: how the groups differ");
 DEFINE_int32(permutations, 9999, "with --scalars and --groups: for p-values");
 DEFINE_bool(assess, false,
             "how well models with 1, 2, ... modes describe poses that they do not know");
-FLAG_GROUP(questions, "Questions, one at a time");
+FLAG_GROUP(model, "Modes",
+           "modes, output, coordinates, at, sample, scalars, predict, groups, assess");
 
 namespace shapespace::tools {
 namespace {
@@ -459,7 +459,6 @@ int main(int argc, char** argv) {
        "files in its\nfirst column and the names of the columns in its first line, as R and pandas "
        "write it. With several\nscalars, each is controlled for the others. A .modes file contains "
        "the poses.",
-       {"model", "questions", "report", "summary", "metric", "poses", "mesh", "memory",
-        "outside_files"}},
+       {"model", "report", "summary", "metric", "poses", "mesh", "memory", "outside_files"}},
       Run);
 }

@@ -41,7 +41,7 @@ static const shapespace::tools::OptionFlags<shapespace::LadderOptions> ladder_fl
                {"rung_shapes", "rung_shapes"},
                {"scale", "scale"},
                {"align", "align"}});
-FLAG_GROUP(transfer, "Transfer");
+FLAG_GROUP(transfer, "Transfer", "target, method, scale, align");
 
 namespace shapespace::tools {
 namespace {

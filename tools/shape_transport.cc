@@ -31,7 +31,7 @@ DEFINE_string(tangents, "",
               "first pose and, transported, at the last one");
 static const shapespace::tools::OptionFlags<shapespace::TransportOptions> flags(
     __FILE__, {{"connection", "connection"}, {"align", "align"}});
-FLAG_GROUP(transport, "Transport");
+FLAG_GROUP(transport, "Transport", "steps, tangents");
 
 namespace shapespace::tools {
 namespace {

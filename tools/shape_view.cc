@@ -21,7 +21,7 @@
 #include "viewer/page.h"
 
 DEFINE_string(output, "page.html", "the page to write: .html");
-FLAG_GROUP(view, "Page");
+FLAG_GROUP(view, "Page", "output");
 
 namespace shapespace::tools {
 namespace {

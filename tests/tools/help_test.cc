@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdlib>
 #include <regex>
 #include <set>
@@ -22,13 +23,13 @@ constexpr const char* kTools[] = {"shape-average",     "shape-body",     "shape-
 
 class HelpTest : public ToolsTest {
  protected:
-  /// The flags that --help lists.
-  std::set<std::string> Listed(const std::string& tool) const {
+  /// The flags that --help-all lists, or --help.
+  std::set<std::string> Listed(const std::string& tool, const char* help = "--help-all") const {
     std::set<std::string> flags;
-    std::istringstream text(Run(tool, {"--help"}).out);
+    std::istringstream text(Run(tool, {help}).out);
     for (std::string line; std::getline(text, line);) {
       std::smatch match;
-      static const std::regex flag("^  (?:-[a-z], )?--([a-z_]+).*");
+      static const std::regex flag("^  (?:-[a-z], )?--([a-z_-]+).*");
       if (std::regex_match(line, match, flag)) flags.insert(match[1]);
     }
     return flags;
@@ -37,7 +38,7 @@ class HelpTest : public ToolsTest {
 
 TEST_F(HelpTest, FitsTheTerminalAndSucceeds) {
   for (const char* tool : kTools) {
-    const Outcome outcome = Run(tool, {"--help"});
+    const Outcome outcome = Run(tool, {"--help-all"});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.err, "");
     ExpectContains(outcome.out, std::string(tool) + ": ");
@@ -49,8 +50,21 @@ TEST_F(HelpTest, FitsTheTerminalAndSucceeds) {
   }
 }
 
+// It is read at one sight, and what it has is part of the whole.
+TEST_F(HelpTest, IsAPageOfWhatPeopleUse) {
+  for (const char* tool : kTools) {
+    const std::string page = Run(tool, {"--help"}).out;
+    EXPECT_LE(std::count(page.begin(), page.end(), '\n'), 66) << tool;
+    const std::set<std::string> all = Listed(tool), usual = Listed(tool, "--help");
+    EXPECT_LE(usual.size(), 18u) << tool;
+    EXPECT_TRUE(std::includes(all.begin(), all.end(), usual.begin(), usual.end())) << tool;
+    EXPECT_EQ(usual.count("output"), all.count("output")) << tool;
+    EXPECT_EQ(usual.count("help-all"), 1u) << tool;
+  }
+}
+
 TEST_F(HelpTest, HasHeadings) {
-  const std::string text = Run("shape-transfer", {"--help"}).out;
+  const std::string text = Run("shape-transfer", {"--help-all"}).out;
   size_t last = 0;
   for (const char* heading : {"Transfer:\n", "Correspondence:\n", "Input:\n", "Path:\n",
                               "Metric:\n", "Output:\n", "Run:\n"}) {
@@ -63,22 +77,23 @@ TEST_F(HelpTest, HasHeadings) {
 }
 
 TEST_F(HelpTest, ListsOurFlagsOnly) {
-  EXPECT_EQ(Listed("shape-body"),
-            (std::set<std::string>{"at", "help", "output", "pose", "progress", "proportions",
-                                   "random", "seed", "table", "threads", "triangles", "version"}));
-  EXPECT_EQ(Listed("shape-view"),
-            (std::set<std::string>{"help", "output", "progress", "threads", "version"}));
+  EXPECT_EQ(
+      Listed("shape-body"),
+      (std::set<std::string>{"at", "help", "help-all", "output", "pose", "progress", "proportions",
+                             "random", "seed", "table", "threads", "triangles", "version"}));
+  EXPECT_EQ(Listed("shape-view"), (std::set<std::string>{"help", "help-all", "output", "progress",
+                                                         "threads", "version"}));
   EXPECT_EQ(
       Listed("shape-correspond"),
-      (std::set<std::string>{"allow_nonmanifold", "allow_outside_files", "help", "hold_all_markers",
-                             "markers", "memory_limit", "open_seams", "output", "progress",
-                             "proportions", "report", "strict", "threads", "version"}));
+      (std::set<std::string>{"allow_nonmanifold", "allow_outside_files", "help", "help-all",
+                             "hold_all_markers", "markers", "memory_limit", "open_seams", "output",
+                             "progress", "proportions", "report", "strict", "threads", "version"}));
   const std::set<std::string> metric = {"bending", "discretization", "isometric", "lambda",
                                         "metric",  "rigid",          "stiffness", "strain",
                                         "volume",  "weighting"};
   std::set<std::string> wanted = metric;
-  wanted.insert({"allow_mirrored", "allow_nonmanifold", "allow_outside_files", "help", "mirror",
-                 "open_seams", "progress", "report", "threads", "version"});
+  wanted.insert({"allow_mirrored", "allow_nonmanifold", "allow_outside_files", "help", "help-all",
+                 "mirror", "open_seams", "progress", "report", "threads", "version"});
   EXPECT_EQ(Listed("shape-inspect"), wanted);
   wanted.insert({"color", "ease", "fps", "loop", "loose_components", "max_iterations",
                  "memory_limit", "once", "output", "report", "seconds", "shapes", "solver",
@@ -110,15 +125,15 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
 }
 
 TEST_F(HelpTest, DefaultsReadAsTheyWouldBeTyped) {
-  const std::string help = Run("shape-interpolate", {"--help"}).out;
+  const std::string help = Run("shape-interpolate", {"--help-all"}).out;
   ExpectContains(help, "--bending 1e-05 ");
   ExpectContains(help, "--shapes 15 ");
   ExpectContains(help, "--tolerance 1e-04 ");
-  ExpectContains(Run("shape-extrapolate", {"--help"}).out, "--tolerance 1e-06 ");
-  ExpectContains(Run("shape-transfer", {"--help"}).out, "--shapes 7 ");
-  ExpectContains(Run("shape-transfer", {"--help"}).out, "--ladder_bending 0.02 ");
-  ExpectContains(Run("shape-deform", {"--help"}).out, "--metric deformation ");
-  ExpectContains(Run("shape-deform", {"--help"}).out, "--balance 0.01 ");
+  ExpectContains(Run("shape-extrapolate", {"--help-all"}).out, "--tolerance 1e-06 ");
+  ExpectContains(Run("shape-transfer", {"--help-all"}).out, "--shapes 7 ");
+  ExpectContains(Run("shape-transfer", {"--help-all"}).out, "--ladder_bending 0.02 ");
+  ExpectContains(Run("shape-deform", {"--help-all"}).out, "--metric deformation ");
+  ExpectContains(Run("shape-deform", {"--help-all"}).out, "--balance 0.01 ");
   ExpectLacks(help, "00000");
 }
 

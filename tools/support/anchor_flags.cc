@@ -23,7 +23,7 @@ DEFINE_string(anchor, "",
 DEFINE_string(ground, "",
               "move the shapes such that the lowest vertex of each is at this height: axis and "
               "height, such as y=0");
-FLAG_GROUP(anchor, "Path");
+FLAG_GROUP(anchor, "Path", "ground");
 
 namespace shapespace::tools {
 namespace {

@@ -9,6 +9,8 @@
 #include "support/flag_group.h"
 #include "support/tool.h"
 
+DEFINE_bool(help_all, false, "all flags");
+
 namespace shapespace::tools {
 namespace {
 
@@ -28,7 +30,7 @@ std::string Description(const std::string& type) {
 class Parser {
  public:
   Parser(int argc, char** argv, const std::vector<std::string>& groups)
-      : argv_(argv + 1, argv + argc), known_{"help", "version"} {
+      : argv_(argv + 1, argv + argc), known_{"help", "help_all", "version"} {
     for (const std::string& group : groups) {
       for (const gflags::CommandLineFlagInfo& flag : FlagsOf(group)) known_.insert(flag.name);
     }

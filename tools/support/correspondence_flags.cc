@@ -22,7 +22,7 @@ DEFINE_string(markers, "",
 DEFINE_bool(hold_all_markers, false, "use all markers, including those that contradict the others");
 static const shapespace::tools::OptionFlags<shapespace::CorrespondenceOptions> flags(
     __FILE__, {{"proportions", "proportions"}});
-FLAG_GROUP(correspondence, "Correspondence");
+FLAG_GROUP(correspondence, "Correspondence", "markers");
 
 namespace shapespace::tools {
 

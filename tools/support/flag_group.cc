@@ -6,12 +6,16 @@
 #include <map>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+
+#include "support/lists.h"
 
 namespace shapespace::tools {
 namespace {
 
 struct Group {
   std::string heading, file;
+  std::vector<std::string> usual;
 };
 
 // Groups are registered before main() begins, in any order of the source files.
@@ -51,8 +55,8 @@ void PrintFlag(std::string left, const std::string& description) {
 
 }  // namespace
 
-FlagGroup::FlagGroup(const char* name, const char* heading, const char* file) {
-  Groups().emplace(name, Group{heading, file});
+FlagGroup::FlagGroup(const char* name, const char* heading, const char* usual, const char* file) {
+  Groups().emplace(name, Group{heading, file, Split(usual)});
 }
 
 std::vector<gflags::CommandLineFlagInfo> FlagsOf(const std::string& group) {
@@ -65,7 +69,29 @@ std::vector<gflags::CommandLineFlagInfo> FlagsOf(const std::string& group) {
   return flags;
 }
 
-void PrintFlags(const std::vector<std::string>& groups) {
+namespace {
+
+void PrintFlag(const gflags::CommandLineFlagInfo& flag) {
+  std::string left = (flag.name == "output" ? "  -o, --" : "  --") + flag.name;
+  if (flag.type != "bool") {
+    left += " " + (flag.default_value.empty() ? "..." : DefaultValue(flag));
+  }
+  const bool is_on = flag.type == "bool" && flag.default_value == "true";
+  PrintFlag(left, flag.description + (is_on ? "; --no" + flag.name + " for not" : ""));
+}
+
+std::vector<gflags::CommandLineFlagInfo> Select(const std::string& group, FlagList list) {
+  if (list == FlagList::kAll) return FlagsOf(group);
+  std::vector<gflags::CommandLineFlagInfo> flags;
+  for (const std::string& flag : Find(group).usual) {
+    flags.push_back(gflags::GetCommandLineFlagInfoOrDie(flag.c_str()));
+  }
+  return flags;
+}
+
+}  // namespace
+
+void PrintFlags(const std::vector<std::string>& groups, FlagList list) {
   // What a program does comes first, and how it runs last.
   std::vector<std::string> headings;
   for (const std::string& group : groups) headings.push_back(Find(group).heading);
@@ -75,20 +101,16 @@ void PrintFlags(const std::vector<std::string>& groups) {
     headings.erase(others == headings.end() ? others : others + 1, headings.end());
   }
   for (const std::string& heading : headings) {
-    std::cout << '\n' << heading << ":\n";
+    std::vector<gflags::CommandLineFlagInfo> flags;
     for (const std::string& group : groups) {
       if (Find(group).heading != heading) continue;
-      for (const gflags::CommandLineFlagInfo& flag : FlagsOf(group)) {
-        std::string left = (flag.name == "output" ? "  -o, --" : "  --") + flag.name;
-        if (flag.type != "bool") {
-          left += " " + (flag.default_value.empty() ? "..." : DefaultValue(flag));
-        }
-        const bool is_on = flag.type == "bool" && flag.default_value == "true";
-        PrintFlag(left, flag.description + (is_on ? "; --no" + flag.name + " for not" : ""));
-      }
+      for (auto& flag : Select(group, list)) flags.push_back(std::move(flag));
     }
+    if (!flags.empty()) std::cout << '\n' << heading << ":\n";
+    for (const auto& flag : flags) PrintFlag(flag);
   }
-  PrintFlag("  -h, --help", "this text");
+  PrintFlag("  -h, --help", "what most people use");
+  PrintFlag("  --help-all", "all flags");
   PrintFlag("  --version", "version of shapespace");
 }
 

@@ -22,7 +22,7 @@ static const shapespace::tools::OptionFlags<shapespace::GeodesicOptions> flags(
                {"start", "start"},
                {"coarsest", "coarsest"},
                {"avoid_contact", "avoid_contact"}});
-FLAG_GROUP(geodesic, "Path");
+FLAG_GROUP(geodesic, "Path", "avoid_contact, shapes, tolerance");
 
 namespace shapespace::tools {
 

@@ -4,4 +4,4 @@
 
 DEFINE_double(memory_limit, 8,
               "memory limit in gigabytes; a run whose estimate exceeds it is refused");
-FLAG_GROUP(memory, "Run");
+FLAG_GROUP(memory, "Run", "");

@@ -7,7 +7,7 @@
 DEFINE_string(obstacle, "",
               "with --avoid_contact: the file of a mesh that does not move and that the body must "
               "not touch either; the poses are where they are to be beside it");
-FLAG_GROUP(obstacle, "Path");
+FLAG_GROUP(obstacle, "Path", "");
 
 namespace shapespace::tools {
 

@@ -59,7 +59,7 @@ DEFINE_string(ground_line, "",
               "film strip: draw a line on the ground at this height, seen from the side, and the "
               "shapes where they are, so that feet that slide or sink are seen; without, each "
               "shape is in the middle of its cell. Moves no shape, as --ground would");
-FLAG_GROUP(outputs, "Output");
+FLAG_GROUP(outputs, "Output", "color, output, seconds");
 
 namespace shapespace::tools {
 namespace {

@@ -16,7 +16,7 @@ DEFINE_string(
     report, "",
     "write a report: .json, or .txt for reading; - prints JSON on stdout, and everything else on "
     "stderr");
-FLAG_GROUP(report, "Output");
+FLAG_GROUP(report, "Output", "report");
 
 namespace shapespace::tools {
 

@@ -23,7 +23,7 @@ DEFINE_string(
 static const shapespace::tools::OptionFlags<shapespace::SplineOptions> flags(__FILE__,
                                                                              {{"hold_limit",
                                                                                "hold_limit"}});
-FLAG_GROUP(spline, "Path");
+FLAG_GROUP(spline, "Path", "spline");
 
 namespace shapespace::tools {
 

@@ -7,7 +7,7 @@
 
 DEFINE_bool(strict, false,
             "exit with code 1 if a solve did not converge; outputs are written nevertheless");
-FLAG_GROUP(summary, "Output");
+FLAG_GROUP(summary, "Output", "");
 
 namespace shapespace::tools {
 

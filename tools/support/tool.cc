@@ -21,7 +21,7 @@ DEFINE_int32(threads, 0, "number of threads; 0: all cores (results do not depend
 DEFINE_string(progress, "text",
               "on stderr: text, for people, or lines, for programs that show the progress of this "
               "one: 'progress SHARE TEXT', with a share from 0 to 1, or '-' if it is not known");
-FLAG_GROUP(tool, "Run");
+FLAG_GROUP(tool, "Run", "threads");
 
 namespace shapespace::tools {
 namespace {
@@ -45,9 +45,9 @@ void EndThreadsOfBlas() {
   end();
 }
 
-void PrintHelp(const Program& program) {
+void PrintHelp(const Program& program, FlagList list) {
   std::cout << program.name << ": " << program.summary << "\n\n" << program.usage << '\n';
-  PrintFlags(GroupsOf(program));
+  PrintFlags(GroupsOf(program), list);
   std::cout << "\nExit codes: 0 done, 1 something failed, 2 the command line is wrong.\n";
 }
 
@@ -119,7 +119,8 @@ void FlushStdout() {
 // What the command line asks for.
 void Perform(const Program& program, const std::vector<std::string>& arguments,
              const std::function<void(const std::vector<std::string>& arguments)>& body) {
-  if (IsGiven("help")) return PrintHelp(program);
+  if (IsGiven("help_all")) return PrintHelp(program, FlagList::kAll);
+  if (IsGiven("help")) return PrintHelp(program, FlagList::kUsual);
   if (IsGiven("version")) {
     std::cout << program.name << " of shapespace " << SHAPESPACE_VERSION << '\n';
     return;

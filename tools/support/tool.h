@@ -24,9 +24,10 @@ struct Program {
   std::vector<std::string> flag_groups;  ///< of its flags, by name (`FLAG_GROUP`)
 };
 
-/// Implements main() of every tool: parses the command line, handles --help and --version, and runs
-/// `body` with the arguments that are not flags. Returns the exit code: 0; 1 after an error or a
-/// `Complain`; 2 after a usage error. Ctrl-C ends the process by its signal. Messages go to stderr.
+/// Implements main() of every tool: parses the command line, handles --help, --help-all and
+/// --version, and runs `body` with the arguments that are not flags. Returns the exit code: 0; 1
+/// after an error or a `Complain`; 2 after a usage error. Ctrl-C ends the process by its signal.
+/// Messages go to stderr.
 int RunTool(int argc, char** argv, const Program& program,
             const std::function<void(const std::vector<std::string>& arguments)>& body);
 
