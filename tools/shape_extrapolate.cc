@@ -32,8 +32,6 @@ DEFINE_double(
 static const shapespace::tools::OptionFlags<shapespace::ExponentialOptions> flags(
     __FILE__, {{"integrator", "integrator"},
                {"solver", "step_solver"},
-               {"first_integral_solver", "first_integral_solver"},
-               {"tolerance", "step_tolerance"},
                {"max_iterations", "step_iterations"},
                {"stop_at_contact", "stop_at_contact"},
                {"slide_at_contact", "slide_at_contact"}});

@@ -31,16 +31,11 @@ DEFINE_string(
     "the body to move, in the pose of the first source; with --markers a mesh of any connectivity");
 DEFINE_string(hybrids, "",
               "files for the bodies half way between source and target, named as by --output");
-DEFINE_double(ladder_bending, shapespace::LadderOptions::Strains().bending,
-              "for the ladder and hybrids: weight of dihedral angles relative to strains");
 static const shapespace::tools::OptionFlags<shapespace::TransferOptions> flags(__FILE__,
                                                                                {{"method",
                                                                                  "method"}});
 static const shapespace::tools::OptionFlags<shapespace::LadderOptions> ladder_flags(
-    __FILE__, {{"connection", "connection"},
-               {"rung_shapes", "rung_shapes"},
-               {"scale", "scale"},
-               {"align", "align"}});
+    __FILE__, {{"connection", "connection"}, {"scale", "scale"}, {"align", "align"}});
 FLAG_GROUP(transfer, "Transfer", "target, method, scale, align");
 
 namespace shapespace::tools {
@@ -54,8 +49,7 @@ void CheckFlagsOfTheLadder(bool climbs) {
   if (climbs) return;
   RefuseFlags({"geodesic", "metric"}, {"connection"}, "goes with --method ladder", "avoid_contact");
   if (FLAGS_hybrids.empty()) {
-    RefuseFlags({}, {"ladder_bending", "rung_shapes", "scale", "align"},
-                "goes with --method ladder or --hybrids");
+    RefuseFlags({}, {"scale", "align"}, "goes with --method ladder or --hybrids");
   }
 }
 
@@ -65,8 +59,6 @@ TransferOptions TransferFromFlags() {
   options.memory_limit = 1e9 * FLAGS_memory_limit;
   flags.Set(&options);
   CheckFlagsOfTheLadder(options.method == TransferMethod::kLadder);
-  options.ladder.metric.bending = FLAGS_ladder_bending;
-  NamingFlags({{"bending", "ladder_bending"}}, [&] { options.ladder.metric.Validate(); });
   ladder_flags.Set(&options.ladder);
   return options;
 }

@@ -158,13 +158,10 @@ TEST_F(TransferTest, FlagsOfTheTransferReachIt) {
   EXPECT_EQ(plain["transfers"][0]["steps"].size(), 2u);
   for (const Strings& flags :
        {Strings{"--noscale"}, Strings{"--connection", "constrained_projection"},
-        Strings{"--rung_shapes", "5"}, Strings{"--ladder_bending", "0.1"},
         Strings{"--bending", "1e-3"}}) {
     EXPECT_NE(report(flags)["transfers"][0]["strain_rms"], plain["transfers"][0]["strain_rms"])
         << flags[0];
   }
-  EXPECT_EQ(report({"--ladder_bending", "0.1"})["transfers"][0]["metric"],
-            "strain 1, lambda 0.0001, bending 0.1");
   EXPECT_EQ(report({"--bending", "1e-3"})["geodesics"][0]["metric"],
             "strain 1, lambda 0.0001, bending 0.001");
   Succeed("shape-transfer",
@@ -217,8 +214,6 @@ TEST_F(TransferTest, WrongCommandLines) {
       {{"walk.path", "--shapes", "15"}, "--shapes: goes with poses"},
       {{"walk.path", "--stiffeners", "s.txt"}, "--stiffeners: goes with poses"},
       {{"walk.path", "--method", "magic"}, "--method magic: must be one of features, ladder"},
-      {{"walk.path", "--hybrids", "h.png", "--rung_shapes", "2"}, "--rung_shapes 2: must be odd"},
-      {{"walk.path", "--method", "ladder", "--ladder_bending=-1"}, "--ladder_bending -1: must be"},
       {{"walk.path", "--method", "ladder", "--connection", "affine"},
        "--connection affine: must be one of levi_civita, constrained_projection"},
       {{"walk.path", "--connection", "constrained_projection"},
