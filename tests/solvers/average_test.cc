@@ -51,7 +51,7 @@ TEST(Average, OfOneTriangleHasTheMeanStrains) {
   };
   AverageOptions options;
   options.certify = false;
-  // With so little cost of position, single precision does not suffice.
+  // With so little cost of position, rounding turns the triangle in every step.
   for (double lambda = 1e-7; lambda > 1e-11; lambda *= 0.3) {
     options.geodesic.metric.lambda = lambda;
     const auto [shape, summary] = Average(triangle, {sides(1, 1), sides(1.2, 0.9)}, options);

@@ -141,6 +141,21 @@ TEST(FindNearestShape, ShortensStepsThatLeadTooFar) {
   EXPECT_LT(Apart(found.shape, bent), 1e-6);
 }
 
+// What a turn gains is far below the rounding of the steps, since position costs next to nothing.
+TEST(FindNearestShape, TurnsABodyWhosePositionCostsNextToNothing) {
+  MetricOptions options = MetricOptions::Strain();
+  options.lambda = 1e-10;
+  const auto metric = FreezeMetric(options, ThickBar().connectivity, {ThickBar().pose(0)});
+  const FeatureMap map(metric);
+  const Shape bent = ThickBar().pose(20) / metric->unit;
+  internal::MetricSolver solver;
+  const internal::NearestShape found = internal::FindNearestShape(
+      map, map.Values(bent), Rotation(50, Vector3d(1, 2, 2).normalized()) * bent, {1e-20, 100},
+      [] {}, &solver);
+  EXPECT_TRUE(found.Converged());
+  EXPECT_LT(Apart(found.shape, bent), 1e-4);
+}
+
 // A triangle of the target has collapsed to a point.
 TEST(GradientTransfer, CollapsedTrianglesMakeNoNan) {
   const Connectivity& bar = *ThickBar().connectivity;

@@ -2,12 +2,44 @@
 
 #include <utility>
 
+#include <Eigen/Geometry>
+
+#include <shapespace/metric/rigid.h>
+
 namespace shapespace::internal {
 namespace {
 
 // A step is shortened until it gains this share of its predicted decrease.
 constexpr double kSufficient = 1e-4;
 constexpr int kMaxHalvings = 8;
+
+// A step of which the rotation is carried out as one. It costs position alone, which may cost next
+// to nothing; then rounding makes it large, and along straight lines it would distort the shape.
+class ScrewStep {
+ public:
+  ScrewStep(const Shape& from, const Tangent& step) : from_(from) {
+    const Eigen::Vector3d centre = from.rowwise().mean();
+    const Shape arms = from.colwise() - centre;
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    for (Eigen::Index v = 0; v < arms.cols(); ++v) moment += arms.col(v).cross(step.col(v));
+    spin_ = AngularVelocity(
+        arms.squaredNorm() * Eigen::Matrix3d::Identity() - arms * arms.transpose(), moment);
+    rest_ = step;
+    for (Eigen::Index v = 0; v < arms.cols(); ++v) rest_.col(v) -= spin_.cross(arms.col(v));
+  }
+
+  Shape Take(double factor) const {
+    const Shape moved = from_ + factor * rest_;
+    const Eigen::Vector3d centre = moved.rowwise().mean();
+    const Eigen::AngleAxisd turn(factor * spin_.norm(), spin_.stableNormalized());
+    return (turn.toRotationMatrix() * (moved.colwise() - centre)).colwise() + centre;
+  }
+
+ private:
+  const Shape& from_;
+  Eigen::Vector3d spin_;
+  Tangent rest_;
+};
 
 }  // namespace
 
@@ -31,10 +63,11 @@ NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& targ
       result.termination = Termination::kConverged;
       break;
     }
+    const ScrewStep motion(result.shape, -step);
     bool lowered = false;
     double factor = 1;
     for (int halving = 0; !lowered && halving <= kMaxHalvings; ++halving, factor *= 0.5) {
-      Shape trial = result.shape - factor * step;
+      Shape trial = motion.Take(factor);
       Eigen::VectorXd left = map.Values(trial) - target;
       const double gain = result.squared_distance - left.squaredNorm();
       if (!(gain >= kSufficient * factor * promise)) continue;
@@ -44,7 +77,7 @@ NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& targ
       distance = std::move(left);
       result.squared_distance = distance.squaredNorm();
     }
-    if (!lowered && !solver->UseDoublePrecision()) {
+    if (!lowered) {
       result.termination = Termination::kStalled;
       break;
     }

@@ -29,9 +29,10 @@ struct NearestShape {
 };
 
 /// The shape whose features are nearest to `target`, argmin |Phi(P) - target|^2, by the
-/// Gauss-Newton method from `start`. `solver` factors the metric in each iteration and keeps the
-/// last factor, in double precision from the first step on that gains nothing in single precision.
-/// `check_cancelled` is called before every iteration, and may throw.
+/// Gauss-Newton method from `start`. Steps lead along screws, which turn a body without distorting
+/// it, so that its place is found at any cost of position. `solver` factors the metric in each
+/// iteration and keeps the last factor. `check_cancelled` is called before every iteration, and may
+/// throw.
 /// \throw SolverError if the metric is not definite at a shape on the way.
 NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& target,
                               const Shape& start, const NearestShapeOptions& options,
