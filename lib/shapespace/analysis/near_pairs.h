@@ -42,8 +42,8 @@ class NearPairs {
  public:
   /// Lengths are the mean of those in `shapes`, at least one. The vertices from `num_moving` on
   /// never move, and pairs of elements with no other vertices do not count. The vertices of each of
-  /// `exempt` count as neighbours too. \throw MeshError if there is no triangle, or a shape is not
-  /// finite or has another number of
+  /// `exempt` count as neighbours too.
+  /// \throw MeshError if there is no triangle, or a shape is not finite or has another number of
   ///        vertices.
   NearPairs(std::shared_ptr<const Connectivity> connectivity, const std::vector<Shape>& shapes,
             int num_moving, const std::vector<std::pair<int, int>>& exempt = {});

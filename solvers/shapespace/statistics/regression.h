@@ -45,8 +45,8 @@ struct Regression {
 /// say how much each counts: they stay with the scalars, and every fit to permuted residuals is
 /// weighted too.
 /// \throw InvalidOptions if the model has no modes, numbers differ or are not finite, a scalar is
-/// the same for all poses or
-///        follows from the others, or there are fewer than two more poses than scalars.
+///        the same for all poses or follows from the others, or there are fewer than two more poses
+///        than scalars.
 Regression Regress(const PoseModes& modes, const std::vector<std::string>& scalars,
                    const Eigen::MatrixXd& values, const PermutationOptions& options = {});
 
@@ -74,8 +74,8 @@ struct GroupOptions {
 /// Compares all pairs of groups; `labels` has one per pose. Means and covariances are weighted;
 /// for p-values, coordinates are permuted, while the weights stay with the labels. No p-value is
 /// less than one divided by the number of ways to choose the first group; two if both are of one
-/// number. \throw InvalidOptions if there are not as many labels as poses, fewer than two groups, a
-/// group
+/// number.
+/// \throw InvalidOptions if there are not as many labels as poses, fewer than two groups, a group
 ///        of one pose, or more modes than the model has or than two groups together have poses
 ///        less two.
 std::vector<GroupDifference> CompareGroups(const PoseModes& modes,

@@ -132,8 +132,7 @@ void WriteArrayFile(const std::string& file, const ArrayFileKind& kind, HeaderJs
 
 /// Returns parse(header, arrays) for a file.
 /// \throw FileError naming the file, for any error in it; std::bad_alloc, for which the file is not
-/// to
-///        blame, because no size in it is believed before the file is known to be as large.
+///        to blame, because no size in it is believed before the file is known to be as large.
 template <typename Parse>
 auto ReadArrayFile(const std::string& file, const ArrayFileKind& kind, const Parse& parse) {
   const std::string bytes = ReadFile(file);

@@ -59,8 +59,7 @@ class Step {
   /// The shape whose features are nearest to those that the step requires: argmin |Phi(P) -
   /// Phi(P_i) - change|^2, by Gauss-Newton from the initial state. Of first order only.
   /// \throw SolverError if that is the initial state's own shape, because all further steps would
-  /// then
-  ///        be zero.
+  ///        then be zero.
   Shape Nearest(ExponentialSummary::Step* row) const;
 
  private:
