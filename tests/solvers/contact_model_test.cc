@@ -171,7 +171,7 @@ TEST(Follow, TakesTheGuideWhereNothingTouches) {
   const Plates plates;
   const ContactModel model = plates.Model();
   const CholeskyFactor<float> factor(ScalarMetric(*plates.metric, {plates.Above(5)}, 0));
-  const Draw draw = {plates.metric, factor, 1e-2, 100};
+  const Attraction draw = {plates.metric, factor, kRoughApproach};
   const std::vector<Shape> guide = {plates.Above(3), plates.Above(2), plates.Above(1)};
   int asked = 0;
   const FreeWay way = Follow(model, draw, 1, guide, [&] { return ++asked > 0; });
@@ -401,11 +401,11 @@ TEST(PathContact, StepsEndBeforeContactAndPathsWithContactAreNotAllowed) {
   EXPECT_TRUE(contact.Allows(x.data()));
 }
 
-TEST(Parting, PairsAreWeightedByAreaAndReachNoFartherThanInThePoses) {
+TEST(SeparationPotential, PairsAreWeightedByAreaAndReachNoFartherThanInThePoses) {
   const Plates plates;
   const std::vector<Shape> poses = {plates.Above(1.5), plates.Above(1)};
   const double reach = 1.2 / plates.metric->unit;
-  const Parting parting(*plates.metric, poses, reach);
+  const SeparationPotential parting(*plates.metric, poses, reach);
   const Eigen::VectorXd& area = plates.metric->vertex_area;
   const double all = area.sum();
   size_t count = 0;
@@ -418,7 +418,7 @@ TEST(Parting, PairsAreWeightedByAreaAndReachNoFartherThanInThePoses) {
       ASSERT_GT(std::abs(nearest / reach - 0.2), 0.01);
       if (nearest < 0.2 * reach) continue;
       ASSERT_LT(count, parting.Pairs().size());
-      const PartingPair& pair = parting.Pairs()[count++];
+      const SeparationPair& pair = parting.Pairs()[count++];
       EXPECT_EQ(pair.first, i);
       EXPECT_EQ(pair.second, j);
       EXPECT_NEAR(pair.weight, area(i) * area(j) / (all * all), 1e-15);
@@ -429,10 +429,10 @@ TEST(Parting, PairsAreWeightedByAreaAndReachNoFartherThanInThePoses) {
 }
 
 // The mean over four times of each segment.
-TEST(Parting, IsTheMeanOverTimes) {
+TEST(SeparationPotential, IsTheMeanOverTimes) {
   const Plates plates;
   const std::vector<Shape> poses = {plates.Above(1.5), plates.Above(1)};
-  Parting parting(*plates.metric, poses, 1.2 / plates.metric->unit);
+  SeparationPotential parting(*plates.metric, poses, 1.2 / plates.metric->unit);
   std::vector<Shape> path = {plates.Above(1.5), plates.Above(0.2), plates.Above(-0.3),
                              plates.Above(1)};
   PathEnergy energy(plates.metric, 2);
@@ -443,7 +443,7 @@ TEST(Parting, IsTheMeanOverTimes) {
     for (const double time : {0., 0.25, 0.5, 0.75}) {
       const Shape shape = (1 - time) * path[i] + time * path[i + 1];
       Tangent ignored = Tangent::Zero(3, shape.cols());
-      for (const PartingPair& pair : parting.Pairs()) sum += pair.Add(shape, &ignored);
+      for (const SeparationPair& pair : parting.Pairs()) sum += pair.Add(shape, &ignored);
     }
   }
   EXPECT_GT(sum, 0);
@@ -451,13 +451,13 @@ TEST(Parting, IsTheMeanOverTimes) {
               1e-12 * sum);
 }
 
-TEST(Parting, OfManyVerticesTakesEverySecondOrThird) {
+TEST(SeparationPotential, OfManyVerticesTakesEverySecondOrThird) {
   const ShapeFamily sheet = MakeSheet(20, 21, 20, 21);  // 462 vertices
   const auto metric = FreezeMetric({}, sheet.connectivity, {sheet.pose(0)});
-  const Parting parting(*metric, {sheet.pose(0) / metric->unit}, 0.1);
+  const SeparationPotential parting(*metric, {sheet.pose(0) / metric->unit}, 0.1);
   ASSERT_EQ(sheet.connectivity->NumVertices(), 462);
   double sum = 0;
-  for (const PartingPair& pair : parting.Pairs()) {
+  for (const SeparationPair& pair : parting.Pairs()) {
     EXPECT_EQ(pair.first % 2, 0);
     EXPECT_EQ(pair.second % 2, 0);
     sum += pair.weight;

@@ -177,7 +177,7 @@ TEST(PartingTest, TheKernelIsTheFunctorAndItsDerivatives) {
   int near = 0;
   for (int i = 0; i < 1000; ++i) {
     const Shape points = RandomPoints(&random).leftCols<2>();
-    const PartingPair pair = {1, 0, 0.7, 1.5};
+    const SeparationPair pair = {1, 0, 0.7, 1.5};
     Jet x[6];
     for (int k = 0; k < 6; ++k) x[k] = Jet(points.reshaped()(k), k);
     const Jet expected = pair(x + 3, x);
@@ -196,7 +196,7 @@ TEST(PartingTest, DerivativesAreThoseOfTheValueAndTheSameOnAnyThreads) {
   const auto metric = FreezeMetric({}, bar.connectivity, poses, 1);
   std::vector<Shape> path = {poses[0], 0.7 * poses[0], 0.6 * poses[1], poses[1]};
   PathEnergy energy(metric, 2);
-  Parting parting(*metric, poses, 2);
+  SeparationPotential parting(*metric, poses, 2);
   ASSERT_GT(parting.Pairs().size(), 100u);
   std::vector<double> unknowns(energy.Size()), none(energy.Size());
   energy.Load(path, unknowns.data());
@@ -227,10 +227,10 @@ TEST(PartingTest, DerivativesAreThoseOfTheValueAndTheSameOnAnyThreads) {
 TEST(PartingTest, PosesHaveNone) {
   const ShapeFamily bar = MakeBar(4, 1, 1, 8, 2, 2);
   const std::vector<Shape> poses = {bar.pose(0), bar.pose(60)};
-  const Parting parting(*FreezeMetric({}, bar.connectivity, poses, 1), poses, 2);
+  const SeparationPotential parting(*FreezeMetric({}, bar.connectivity, poses, 1), poses, 2);
   for (const Shape& pose : poses) {
     Tangent force = Tangent::Zero(3, pose.cols());
-    for (const PartingPair& pair : parting.Pairs()) EXPECT_EQ(pair.Add(pose, &force), 0);
+    for (const SeparationPair& pair : parting.Pairs()) EXPECT_EQ(pair.Add(pose, &force), 0);
     EXPECT_EQ(force.norm(), 0);
   }
 }

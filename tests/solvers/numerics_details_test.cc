@@ -19,7 +19,7 @@
 #include <shapespace/deformation/detail/volume_text.h>
 #include <shapespace/exponential/internal/memory.h>
 #include <shapespace/geodesic/internal/memory.h>
-#include <shapespace/mesh/internal/triangle_pose.h>
+#include <shapespace/mesh/internal/triangle_deformation.h>
 #include <shapespace/minimise/internal/keep_going.h>
 #include <shapespace/minimise/internal/minimise.h>
 #include <shapespace/sparse/internal/gradient_integrator.h>
@@ -42,27 +42,28 @@ namespace {
 using testing::MessageOf;
 
 // A function of a symmetric matrix, by its eigenvalues.
-Eigen::Matrix2d Of(const Symmetric& s, double (*function)(double)) {
+Eigen::Matrix2d Of(const SymmetricMatrix2& s, double (*function)(double)) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(s.Matrix());
   Eigen::Vector2d values = eigen.eigenvalues();
   for (double& value : values) value = function(value);
   return eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-TEST(TrianglePose, LogarithmAndExponentialAreThoseOfEigenvalues) {
-  for (const Symmetric& s : {Symmetric{2, 0.5, 1}, {0.3, -0.2, 4}, {1.5, 0, 1.5}, {3, 0, 0.5}}) {
+TEST(TriangleDeformation, LogarithmAndExponentialAreThoseOfEigenvalues) {
+  for (const SymmetricMatrix2& s :
+       {SymmetricMatrix2{2, 0.5, 1}, {0.3, -0.2, 4}, {1.5, 0, 1.5}, {3, 0, 0.5}}) {
     EXPECT_LT((Log(s).Matrix() - Of(s, std::log)).norm(), 1e-13);
     EXPECT_LT((Exp(s).Matrix() - Of(s, std::exp)).norm(), 1e-12);
     const Eigen::Vector3d vector = s.Vector();
     EXPECT_NEAR(vector.norm(), s.Matrix().norm(), 1e-14);
     EXPECT_EQ(vector(0), s.xx);
     EXPECT_EQ(vector(2), s.yy);
-    EXPECT_LT((Symmetric::FromVector(vector).Matrix() - s.Matrix()).norm(), 1e-15);
+    EXPECT_LT((SymmetricMatrix2::FromVector(vector).Matrix() - s.Matrix()).norm(), 1e-15);
     EXPECT_EQ(std::signbit(vector(1)), std::signbit(s.xy));
   }
 }
 
-TEST(TrianglePose, RotationVectorsAreAnglesTimesAxes) {
+TEST(TriangleDeformation, RotationVectorsAreAnglesTimesAxes) {
   const Eigen::Vector3d axis = Eigen::Vector3d(2, -1, 2) / 3;
   for (double angle : {0.001, 0.7, 3., -2.}) {
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, axis));
@@ -77,7 +78,7 @@ TEST(TrianglePose, RotationVectorsAreAnglesTimesAxes) {
   EXPECT_EQ(Exp(Eigen::Vector3d(0, 0, 0)).coeffs(), Eigen::Quaterniond::Identity().coeffs());
 }
 
-TEST(TrianglePose, FrameBeginsAtTheFirstCornerAlongTheFirstSide) {
+TEST(TriangleDeformation, FrameBeginsAtTheFirstCornerAlongTheFirstSide) {
   const Eigen::Vector3d p(1, 2, 3), q(1, 2, 5), r(1, 6, 4);
   const TriangleFrame frame(p, q, r);
   EXPECT_LT((frame.edges - (Eigen::Matrix2d() << 2, 1, 0, 4).finished()).norm(), 1e-14);
@@ -87,20 +88,20 @@ TEST(TrianglePose, FrameBeginsAtTheFirstCornerAlongTheFirstSide) {
 }
 
 // A triangle is stretched in its own plane and turned: both are found again.
-TEST(TrianglePose, IsTheTurnAndTheStretchThatWereMade) {
+TEST(TriangleDeformation, IsTheTurnAndTheStretchThatWereMade) {
   Eigen::Matrix3d corners;
   corners << 0, 2, 0.5, 0, 0, 1.5, 0, 0, 0;
   const auto frame_of = [](const Eigen::Matrix3d& x) {
     return TriangleFrame(x.col(0), x.col(1), x.col(2));
   };
   const Eigen::Matrix2d inverse = frame_of(corners).edges.inverse();
-  const Symmetric stretch = {1.4, 0.3, 0.6};
+  const SymmetricMatrix2 stretch = {1.4, 0.3, 0.6};
   Eigen::Matrix3d stretches = Eigen::Matrix3d::Identity();
   stretches.topLeftCorner<2, 2>() = stretch.Matrix();
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(2.2, Eigen::Vector3d(1, 3, -2).normalized()));
   const Eigen::Matrix3d moved =
       (turn.toRotationMatrix() * stretches * corners).colwise() + Eigen::Vector3d(5, -6, 7);
-  const TrianglePose pose(frame_of(moved), inverse);
+  const TriangleDeformation pose(frame_of(moved), inverse);
   EXPECT_LT((pose.rotation.toRotationMatrix() - turn.toRotationMatrix()).norm(), 1e-13);
   EXPECT_LT((pose.stretch.Matrix() - stretch.Matrix()).norm(), 1e-13);
 }
@@ -265,10 +266,10 @@ TEST(Report, WordsOfHowASolveEnded) {
                                             Termination::kStalled, Termination::kCancelled})
                 .dump(),
             R"(["converged","max_iterations","stalled","cancelled"])");
-  EXPECT_STREQ(Key(true, false), "converged");
-  EXPECT_STREQ(Key(false, false), "not_converged");
-  EXPECT_STREQ(Key(true, true), "cancelled");
-  EXPECT_STREQ(Key(false, true), "cancelled");
+  EXPECT_STREQ(EndingKey(true, false), "converged");
+  EXPECT_STREQ(EndingKey(false, false), "not_converged");
+  EXPECT_STREQ(EndingKey(true, true), "cancelled");
+  EXPECT_STREQ(EndingKey(false, true), "cancelled");
 }
 
 TEST(Report, LinesOfContactAndVolume) {

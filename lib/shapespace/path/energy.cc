@@ -71,7 +71,8 @@ PathEnergy::PathEnergy(std::shared_ptr<const Metric> metric, int inner, End end)
   const int num_vertices = static_cast<int>(vertex_of_row_.size());
   row_of_vertex_.resize(num_vertices);
   for (int r = 0; r < num_vertices; ++r) row_of_vertex_[vertex_of_row_[r]] = r;
-  blocks_ = std::clamp(num_vertices / 256, 1, 64);
+  constexpr int kVerticesInABlock = 256, kMostBlocks = 64;
+  blocks_ = std::clamp(num_vertices / kVerticesInABlock, 1, kMostBlocks);
   first_.resize(3 * num_vertices);
   last_.resize(3 * num_vertices);
   terms_.resize(metric_->features.size());

@@ -44,7 +44,7 @@ constexpr double kLittle = 0.1;
 
 // On all levels but the finest a solve may stop when a step is expected to gain less than this
 // share of the total gain.
-constexpr double kEnough = 1e-3;
+constexpr double kLeastGain = 1e-3;
 
 // If a handle turns further than this between neighbouring shapes, a warning is given: bars lost
 // turns of 180 degrees between neighbours, but not turns of 120.
@@ -135,9 +135,9 @@ class Deformer::Solver {
                                   const std::vector<Shape>& shapes, internal::Workload* workload,
                                   DeformationSummary* summary);
   ContactModel Model(size_t level) const;
-  std::vector<Shape> GiveWay(const ContactModel& model, const HandleTargets& targets,
-                             const std::vector<Shape>& guide, size_t level,
-                             internal::Workload* workload, DeformationSummary* summary);
+  std::vector<Shape> StepAside(const ContactModel& model, const HandleTargets& targets,
+                               const std::vector<Shape>& guide, size_t level,
+                               internal::Workload* workload, DeformationSummary* summary);
   void Assess(const std::vector<DeformationHandle>& handles, const HandleTargets& targets,
               const std::vector<Shape>& shapes, DeformationResult* result);
   void Warn(const HandleTargets& targets, DeformationSummary* summary) const;
@@ -363,7 +363,7 @@ void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char
                       (options_.shapes == 1 ? " shape" : " shapes"),
                   vertices, options_.shapes, finest);
   internal::MinimiseOptions minimise = Minimise();
-  minimise.enough = finest ? 0 : kEnough;
+  minimise.enough = finest ? 0 : kLeastGain;
   minimise.keep_going = [&](int iteration, double value) {
     return workload->GoOn(iteration, value);
   };
@@ -418,13 +418,13 @@ std::vector<Shape> Deformer::Solver::AvoidContact(const HandleTargets& targets,
       guide.push_back(hierarchy_->Restrict(shape, static_cast<int>(level)));
     }
     while (level + 1 < levels_.size()) {
-      path = GiveWay(Model(level), targets, guide, level, workload, summary);
+      path = StepAside(Model(level), targets, guide, level, workload, summary);
       if (path.empty() || workload->Stopped()) break;
       guide = Lift(path, ++level, places);
     }
     path.clear();
     if (level + 1 == levels_.size()) {
-      path = GiveWay(model, targets, guide, level, workload, summary);
+      path = StepAside(model, targets, guide, level, workload, summary);
     }
     if (!path.empty()) {
       summary->termination = summary->levels.back().termination;
@@ -451,11 +451,11 @@ ContactModel Deformer::Solver::Model(size_t level) const {
 
 // The deformation of a level without contact, with a row in the summary; empty, with a warning, if
 // none is found.
-std::vector<Shape> Deformer::Solver::GiveWay(const ContactModel& model,
-                                             const HandleTargets& targets,
-                                             const std::vector<Shape>& guide, size_t level_index,
-                                             internal::Workload* workload,
-                                             DeformationSummary* summary) {
+std::vector<Shape> Deformer::Solver::StepAside(const ContactModel& model,
+                                               const HandleTargets& targets,
+                                               const std::vector<Shape>& guide, size_t level_index,
+                                               internal::Workload* workload,
+                                               DeformationSummary* summary) {
   const internal::Stopwatch stopwatch;
   HeldLevel& level = levels_[level_index];
   const bool finest = level_index + 1 == levels_.size();
@@ -464,7 +464,7 @@ std::vector<Shape> Deformer::Solver::GiveWay(const ContactModel& model,
   workload->Begin(std::to_string(vertices) + " vertices, round contacts", vertices, options_.shapes,
                   finest);
   internal::MinimiseOptions minimise = Minimise();
-  minimise.enough = finest ? 0 : kEnough;
+  minimise.enough = finest ? 0 : kLeastGain;
   minimise.keep_going = [&](int iteration, double value) {
     return workload->GoOn(iteration, value);
   };

@@ -16,9 +16,9 @@ namespace shapespace {
 namespace {
 
 // The poses of a path, and when a part is at them.
-class Course {
+class GroundPath {
  public:
-  Course(const Path& whole, const StandingPart& part, bool is_cycle)
+  GroundPath(const Path& whole, const StandingPart& part, bool is_cycle)
       : whole_(whole), part_(part), is_cycle_(is_cycle), stands_(whole.poses.size() - 1, false) {
     for (const auto& [first, last] : part.poses) {
       std::fill(stands_.begin() + first, stands_.begin() + last, true);
@@ -173,7 +173,7 @@ class Holder {
     summary_.termination = Termination::kConverged;
     summary_.parts = static_cast<int>(parts.size());
     for (size_t i = 0; i + 1 < whole.poses.size(); ++i) {
-      for (const Course& course : courses_) {
+      for (const GroundPath& course : courses_) {
         if (course.Stands(i)) summary_.drift = std::fmax(summary_.drift, course.Drift(i));
       }
     }
@@ -183,7 +183,7 @@ class Holder {
   // Deforms shape k of the path, at s of an interval.
   void Hold(int k, size_t interval, double s, Path* path) {
     if (std::none_of(courses_.begin(), courses_.end(),
-                     [&](const Course& course) { return course.Changes(interval); })) {
+                     [&](const GroundPath& course) { return course.Changes(interval); })) {
       return;
     }
     const Shape own = path->Placed(k);
@@ -254,7 +254,7 @@ class Holder {
 
   const Path& whole_;
   const DeformationOptions& options_;
-  std::vector<Course> courses_;
+  std::vector<GroundPath> courses_;
   const std::vector<Component> components_;
   std::vector<DeformationHandle> handles_;
   DeformationHandle free_;     // what has no part

@@ -69,18 +69,18 @@ GeodesicOptions NotAssessed(GeodesicOptions options) {
 }
 
 // A shape with geodesics to all poses.
-struct Star {
+struct GeodesicFan {
   Shape centre;       // in the user's unit
   double energy = 0;  // the weighted mean of the squared lengths
   // The features of the centre moved by the weighted mean of the geodesics' velocities.
   Eigen::VectorXd mean_of_ends;
 };
 
-class Stars {
+class GeodesicFans {
  public:
-  Stars(const FeatureMap& map, const std::shared_ptr<const Connectivity>& connectivity,
-        const std::vector<Shape>& poses, const Eigen::VectorXd& weights,
-        const GeodesicOptions& options, Progress* progress)
+  GeodesicFans(const FeatureMap& map, const std::shared_ptr<const Connectivity>& connectivity,
+               const std::vector<Shape>& poses, const Eigen::VectorXd& weights,
+               const GeodesicOptions& options, Progress* progress)
       : map_(map),
         poses_(poses),
         weights_(weights),
@@ -88,7 +88,7 @@ class Stars {
         progress_(progress),
         interpolator_(connectivity, poses, NotAssessed(options)) {}
 
-  Star From(const Shape& centre) const {
+  GeodesicFan From(const Shape& centre) const {
     const int count = static_cast<int>(poses_.size());
     std::vector<Arm> arms(count);
     internal::TaskGroup group(progress_, "comparing with the lower bound", count);
@@ -98,15 +98,15 @@ class Stars {
       arms[i] = {result.path.shapes[0], result.path.shapes[1], result.summary.energy};
     });
     const internal::FeatureChart chart(map_, map_.Values(arms[0].centre));
-    Star star;
-    star.centre = centre;
+    GeodesicFan fan;
+    fan.centre = centre;
     Eigen::VectorXd velocity = Eigen::VectorXd::Zero(chart.Centre().size());
     for (int i = 0; i < count; ++i) {
-      star.energy += weights_(i) * arms[i].energy;
+      fan.energy += weights_(i) * arms[i].energy;
       velocity += weights_(i) * segments_ * chart.Log(map_.Values(arms[i].next));
     }
-    star.mean_of_ends = chart.Exp(velocity);
-    return star;
+    fan.mean_of_ends = chart.Exp(velocity);
+    return fan;
   }
 
  private:
@@ -199,26 +199,26 @@ AverageResult Average(const std::shared_ptr<const Connectivity>& connectivity,
   } else if (certify) {
     const internal::Stopwatch stopwatch;
     try {
-      Stars stars(map, connectivity, poses, weights, options.geodesic, progress);
-      Star star = stars.From(result.shape);
-      const double before = star.energy;
+      GeodesicFans fans(map, connectivity, poses, weights, options.geodesic, progress);
+      GeodesicFan fan = fans.From(result.shape);
+      const double before = fan.energy;
       // Karcher's iteration: the centre moves by the mean of the velocities towards the poses.
       while (options.refine && summary.refinements < kMaxRefinements) {
-        const Eigen::Vector3d place = Centroid(star.centre, metric->vertex_area);
+        const Eigen::Vector3d place = Centroid(fan.centre, metric->vertex_area);
         const internal::NearestShape moved = internal::FindNearestShape(
-            map, star.mean_of_ends, (star.centre.colwise() - place) / metric->unit,
+            map, fan.mean_of_ends, (fan.centre.colwise() - place) / metric->unit,
             {least, options.max_iterations}, [&] { ReportProgress(progress, "averaging", 0, 0); },
             &solver);
-        Star next = stars.From((metric->unit * moved.shape).colwise() + place);
+        GeodesicFan next = fans.From((metric->unit * moved.shape).colwise() + place);
         ++summary.refinements;
-        if (!(next.energy < star.energy)) break;
-        const bool last = next.energy > (1 - kLeastRefinement) * star.energy;
-        star = std::move(next);
+        if (!(next.energy < fan.energy)) break;
+        const bool last = next.energy > (1 - kLeastRefinement) * fan.energy;
+        fan = std::move(next);
         if (last) break;
       }
-      result.shape = star.centre;
-      summary.energy = star.energy;
-      if (options.refine) summary.refined_by = 1 - star.energy / before;
+      result.shape = fan.centre;
+      summary.energy = fan.energy;
+      if (options.refine) summary.refined_by = 1 - fan.energy / before;
       summary.lower_bound = statistics.LowerBound(options.geodesic.shapes + 1);
     } catch (const Cancelled&) {
       summary.termination = Termination::kCancelled;

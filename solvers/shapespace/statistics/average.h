@@ -90,11 +90,10 @@ struct AverageResult {
 /// Frechet mean, and `AverageSummary::Ratio` says how near (docs/mathematics.md, section 16).
 /// Angles are averaged on the circle. Poses are aligned to each other first (generalised
 /// Procrustes).
-/// \throw InvalidOptions (options; a metric with a rigid part or in trapezoid form; weights that
-/// are
-///        not one for each pose), MeshError (no pose; see FreezeMetric), SolverError (memory
-///        limit), Cancelled (stopped by `progress` before there was an average; if stopped while it
-///        is certified, the summary has no bound and says kCancelled).
+/// \throw InvalidOptions (options; a metric with a rigid part or in trapezoid form; weights
+///        that are not one for each pose), MeshError (no pose; see FreezeMetric), SolverError
+///        (memory limit), Cancelled (stopped by `progress` before there was an average; if stopped
+///        while it is certified, the summary has no bound and says kCancelled).
 AverageResult Average(const std::shared_ptr<const Connectivity>& connectivity,
                       const std::vector<Shape>& poses, const AverageOptions& options = {},
                       Progress* progress = nullptr);

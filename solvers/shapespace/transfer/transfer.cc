@@ -242,7 +242,8 @@ class TargetShapes {
     const int i = static_cast<int>(shapes_.size());
     if (climbs_) {
       try {
-        shapes_.push_back(ladder_->Climb(RungAt(i - 1, within), shapes_.back(), row, within));
+        shapes_.push_back(
+            ladder_->TransportOnce(RungAt(i - 1, within), shapes_.back(), row, within));
       } catch (const SolverError& error) {
         throw SolverError("transfer of shape " + std::to_string(i + 1) + ": " + error.what() +
                           "; use a source with more shapes, so that steps are smaller");
@@ -280,7 +281,7 @@ class TargetShapes {
     if (rung_at_ != i) {
       const std::vector<Shape>& source = comparison_.Shapes();
       const size_t next = std::min<size_t>(i + 1, source.size() - 1);
-      rung_ = ladder_->Lay(source[i], source[next], shapes_[i], within);
+      rung_ = ladder_->BuildRung(source[i], source[next], shapes_[i], within);
       rung_at_ = i;
     }
     return *rung_;

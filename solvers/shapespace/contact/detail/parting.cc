@@ -19,7 +19,8 @@ constexpr double kOfOnePart = 0.2;
 
 }  // namespace
 
-Parting::Parting(const Metric& metric, const std::vector<Shape>& poses, double reach) {
+SeparationPotential::SeparationPotential(const Metric& metric, const std::vector<Shape>& poses,
+                                         double reach) {
   const int vertices = metric.connectivity->NumVertices();
   const int stride = (vertices + kMostVertices - 1) / kMostVertices;
   double area = 0;
@@ -37,8 +38,8 @@ Parting::Parting(const Metric& metric, const std::vector<Shape>& poses, double r
   }
 }
 
-double Parting::Evaluate(const PathEnergy& energy, const double* unknowns, double factor,
-                         std::vector<Shape>* path, double* gradient) {
+double SeparationPotential::Evaluate(const PathEnergy& energy, const double* unknowns,
+                                     double factor, std::vector<Shape>* path, double* gradient) {
   energy.Store(unknowns, path);
   const std::vector<Shape>& shapes = *path;
   const int inner = energy.Inner(), stride = energy.Stride(), places = (inner + 1) * kTimes;
@@ -50,7 +51,7 @@ double Parting::Evaluate(const PathEnergy& energy, const double* unknowns, doubl
     const Shape& from = shapes[place / kTimes];
     const Shape shape = (1 - time) * from + time * shapes[place / kTimes + 1];
     forces_[place].setZero(3, shape.cols());
-    for (const PartingPair& pair : pairs_) values[place] += pair.Add(shape, &forces_[place]);
+    for (const SeparationPair& pair : pairs_) values[place] += pair.Add(shape, &forces_[place]);
   });
   const double share = factor / places;
   for (int place = 0; place < places; ++place) {

@@ -10,7 +10,7 @@
 namespace shapespace::internal {
 
 /// The potential w (1 - d^2 / r^2)^2 of two points at a distance d below r.
-struct PartingPair {
+struct SeparationPair {
   int first, second;  ///< vertices
   double weight;      ///< w
   double reach2;      ///< r^2, above 0
@@ -41,10 +41,10 @@ struct PartingPair {
 /// contact it is finite there, and reaches about as far as parts are thick. It is the sum of
 /// a_i a_j / A^2 (1 - d^2 / r^2)^2 over pairs of some hundreds of vertices, with their areas a, the
 /// sum of these A, and the reach r, or nine tenths of their distance in a pose if that is less.
-class Parting {
+class SeparationPotential {
  public:
   /// For paths between these poses, to which `reach` is in proportion.
-  Parting(const Metric& metric, const std::vector<Shape>& poses, double reach);
+  SeparationPotential(const Metric& metric, const std::vector<Shape>& poses, double reach);
 
   /// `factor` times the mean over equidistant times of a path, straight between its shapes; the
   /// derivatives are added to `gradient`. Arrays as those of `energy`, to which `path` belongs; its
@@ -53,10 +53,10 @@ class Parting {
                   std::vector<Shape>* path, double* gradient);
 
   /// Without those that are too near in a pose to count.
-  const std::vector<PartingPair>& Pairs() const { return pairs_; }
+  const std::vector<SeparationPair>& Pairs() const { return pairs_; }
 
  private:
-  std::vector<PartingPair> pairs_;
+  std::vector<SeparationPair> pairs_;
   std::vector<Tangent> forces_;  // scratch, for each time
 };
 

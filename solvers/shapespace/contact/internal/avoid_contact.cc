@@ -136,7 +136,7 @@ std::vector<Shape> WithoutDrift(const ContactModel& model, const std::vector<Sha
 }
 
 // A way from the first shape of `guide` to the last, or else from the last to the first.
-FreeWay FollowFromEitherEnd(const ContactModel& model, const Draw& draw, double stiffness,
+FreeWay FollowFromEitherEnd(const ContactModel& model, const Attraction& draw, double stiffness,
                             std::vector<Shape> guide, const std::function<bool()>& go_on) {
   FreeWay way = Follow(model, draw, stiffness, guide, go_on);
   if (way.arrives) return way;
@@ -151,7 +151,7 @@ FreeWay FollowFromEitherEnd(const ContactModel& model, const Draw& draw, double 
 FreeWay FindWay(const ContactModel& model, const CholeskyFactor<float>& factor, double energy,
                 const std::vector<Shape>& guide, const std::function<bool()>& go_on) {
   const std::shared_ptr<const Metric>& metric = model.GetMetric();
-  const Draw draw = {metric, factor, 1e-2, 100};
+  const Attraction draw = {metric, factor, kRoughApproach};
   const double stiffness = kContactStiffness * energy;
   FreeWay way = FollowFromEitherEnd(model, draw, stiffness, guide, go_on);
   if (way.arrives) return way;
@@ -162,7 +162,7 @@ FreeWay FindWay(const ContactModel& model, const CholeskyFactor<float>& factor, 
   for (int i = 0; i <= segments; ++i) parted.push_back(guide[i * rest / segments]);
   // Limbs are about as thick.
   const double reach = 0.1 * std::sqrt(metric->vertex_area.sum());
-  Parting parting(*metric, {guide.front(), guide.back()}, reach);
+  SeparationPotential parting(*metric, {guide.front(), guide.back()}, reach);
   PathEnergy path_energy(metric, segments - 1);
   Preconditioner preconditioner(factor, path_energy);
   std::vector<double> unknowns(path_energy.Size());
@@ -220,8 +220,7 @@ ContactFreePath AvoidContact(const ContactModel& model, const CholeskyFactor<flo
     const auto drawing = WithCostOfPosition(*metric, poses);
     its_factor.emplace(ScalarMetric(*drawing, poses, 0));
     preconditioner = &*its_factor;
-    // The distance is mainly one of position, of which a step gains a small share.
-    way = FollowFromEitherEnd(model, {drawing, *its_factor, 1e-4, 300},
+    way = FollowFromEitherEnd(model, {drawing, *its_factor, kCloseApproach},
                               kContactStiffness * EnergyAlong(*drawing, guide), guide, go_on);
     energy = EnergyAlong(*metric, way.shapes);
   } else {

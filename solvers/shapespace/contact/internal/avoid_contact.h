@@ -53,7 +53,7 @@ std::string WarningOfUncertified(int segments);
 
 /// Finds a way from the first shape of `guide` to its last round whatever is touched in between,
 /// starting at one of the ends (`Follow`), if need be of a path whose parts have been pushed out of
-/// each other (`Parting`), shortens it, and minimises
+/// each other (`SeparationPotential`), shortens it, and minimises
 ///   E(P) + (2 kappa / n^2) sum_i B_i
 /// over all paths of n segments without contact, with the potential B_i of segment i
 /// (motion_contact.h). `factor` is that of the scalar metric, `energy` that of the path with

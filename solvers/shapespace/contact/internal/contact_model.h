@@ -83,8 +83,8 @@ class ContactModel {
 /// to each other than a thousandth of the pair's length count as touching, unless they are not much
 /// farther away at the beginning.
 inline bool IsFree(PairKind kind, const FourPoints& from, const FourPoints& to, double length) {
-  constexpr double kKept = 0.05, kEnough = 1e-3;
-  return SafeStep(kind, from, to - from, kKept, kEnough * length) == 1;
+  constexpr double kKept = 0.05, kTouching = 1e-3;
+  return SafeStep(kind, from, to - from, kKept, kTouching * length) == 1;
 }
 
 }  // namespace shapespace::internal

@@ -15,7 +15,7 @@ namespace {
 // Moves a shape towards another as far as it gets without contact.
 class Approach {
  public:
-  Approach(const ContactModel& model, const Draw& draw, double stiffness)
+  Approach(const ContactModel& model, const Attraction& draw, double stiffness)
       : model_(model),
         draw_(draw),
         stiffness_(stiffness),
@@ -31,9 +31,9 @@ class Approach {
     PathContact contact(model_, energy_, path_, {{1, 1}}, 1);
     std::vector<Shape> way;
     MinimiseOptions options;
-    options.tolerance = draw_.tolerance;
-    options.max_iterations = draw_.max_iterations;
-    options.keep_going = UntilLittleIsGained(draw_.tolerance);
+    options.tolerance = draw_.end.tolerance;
+    options.max_iterations = draw_.end.max_iterations;
+    options.keep_going = UntilLittleIsGained(draw_.end.tolerance);
     options.longest_step = [&](const double* x, const float* direction) {
       energy_.Store(x, &path_);
       way.push_back(path_[1]);
@@ -52,7 +52,7 @@ class Approach {
 
  private:
   const ContactModel& model_;
-  const Draw& draw_;
+  const Attraction& draw_;
   const double stiffness_;
   PathEnergy energy_;
   Preconditioner preconditioner_;
@@ -104,7 +104,7 @@ std::vector<Shape> Shorten(const ContactModel& model, std::vector<Shape> way, in
   return way;
 }
 
-FreeWay Follow(const ContactModel& model, const Draw& draw, double stiffness,
+FreeWay Follow(const ContactModel& model, const Attraction& draw, double stiffness,
                const std::vector<Shape>& guide, const std::function<bool()>& go_on) {
   Approach approach(model, draw, stiffness);
   const Eigen::VectorXd& area = model.GetMetric()->vertex_area;

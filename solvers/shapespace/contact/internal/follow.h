@@ -19,12 +19,22 @@ struct FreeWay {
   std::vector<size_t> reached;
 };
 
+/// When the approach to a shape ends.
+struct ApproachEnd {
+  double tolerance;  ///< as MinimiseOptions::tolerance
+  int max_iterations;
+};
+/// For shapes on a way that is minimised as a whole afterwards.
+constexpr ApproachEnd kRoughApproach = {1e-2, 100};
+/// For shapes that are results, and distances that are mainly of position, of which a step gains a
+/// small share.
+constexpr ApproachEnd kCloseApproach = {1e-4, 300};
+
 /// How a shape is drawn towards another.
-struct Draw {
+struct Attraction {
   std::shared_ptr<const Metric> metric;  ///< of the distance, of the model's mesh and unit
   const CholeskyFactor<float>& factor;   ///< of its scalar metric
-  double tolerance;  ///< as MinimiseOptions::tolerance; a shape on the way need not be accurate
-  int max_iterations;
+  ApproachEnd end;
 };
 
 /// For MinimiseOptions::keep_going of an approach: false after some steps in a row that gain less
@@ -36,7 +46,7 @@ std::function<bool(int iteration, double energy)> UntilLittleIsGained(double tol
 /// times the contact potential, such that nothing passes through anything on the way. So parts
 /// slide round others that are in their way. `go_on` is asked before each minimisation, and false
 /// ends the way there.
-FreeWay Follow(const ContactModel& model, const Draw& draw, double stiffness,
+FreeWay Follow(const ContactModel& model, const Attraction& draw, double stiffness,
                const std::vector<Shape>& guide, const std::function<bool()>& go_on);
 
 /// Leaves out shapes of a free way past which the straight way is free too, those first that change

@@ -16,7 +16,7 @@ SlideResult SlideAtContact(const std::shared_ptr<const Metric>& metric, Progress
     result.warnings.push_back(WarningOfIntersections("the first shape intersects itself", model));
   }
   const CholeskyFactor<float> factor(ScalarMetric(*metric, {shapes.front(), shapes.back()}, 0));
-  const Draw draw = {metric, factor, 1e-4, 300};
+  const Attraction draw = {metric, factor, kCloseApproach};
   const double stiffness = kContactStiffness * EnergyAlong(*metric, shapes);
   const FreeWay way = Follow(model, draw, stiffness, shapes, [&] {
     ReportProgress(progress, "sliding past contacts", 0, 0);

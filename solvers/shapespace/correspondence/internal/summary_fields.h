@@ -31,7 +31,7 @@ void ForFields(Of<CorrespondenceSummary::Doubt>, const Visit& visit) {
 template <typename Visit>
 void ForFields(Of<CorrespondenceSummary>, const Visit& visit) {
   visit("termination",
-        [](const CorrespondenceSummary& s) { return Key(s.converged, s.cancelled); });
+        [](const CorrespondenceSummary& s) { return EndingKey(s.converged, s.cancelled); });
   visit("converged", &CorrespondenceSummary::converged);
   visit("cancelled", &CorrespondenceSummary::cancelled);
   visit("template_vertices", &CorrespondenceSummary::template_vertices);

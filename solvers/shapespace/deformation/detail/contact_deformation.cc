@@ -41,7 +41,7 @@ class HandleFollower {
       }
       way->push_back(Between(from, moved, share));
       Shape shape = way->back();
-      GiveWay(places, guide, &shape);
+      StepAside(places, guide, &shape);
       way->push_back(std::move(shape));
       if (share == 1) return true;
     }
@@ -53,10 +53,10 @@ class HandleFollower {
     return share == 1 ? to : (1 - share) * from + share * to;
   }
 
-  void GiveWay(const Shape& places, const Shape& guide, Shape* shape) {
+  void StepAside(const Shape& places, const Shape& guide, Shape* shape) {
     MinimiseOptions options;
-    options.tolerance = 1e-2;
-    options.max_iterations = 100;
+    options.tolerance = kRoughApproach.tolerance;
+    options.max_iterations = kRoughApproach.max_iterations;
     options.keep_going = UntilLittleIsGained(options.tolerance);
     const ConstrainedPath::Contact contact = {model_, stiffness_, {{1, 1}}, 1};
     std::vector<Shape> pair = {guide, *shape};

@@ -21,7 +21,7 @@ void ForFields(Of<ExploreSummary::Level>, const Visit& visit) {
 
 template <typename Visit>
 void ForFields(Of<ExploreSummary>, const Visit& visit) {
-  visit("termination", [](const ExploreSummary& s) { return Key(s.Converged(), false); });
+  visit("termination", [](const ExploreSummary& s) { return EndingKey(s.Converged(), false); });
   visit("converged", &ExploreSummary::Converged);
   visit("vertices", &ExploreSummary::vertices);
   visit("triangles", &ExploreSummary::triangles);

@@ -58,8 +58,8 @@ NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& targ
     solver->Factor(derivative);
     const Tangent gradient = derivative.TransposeTimes(distance);
     const Tangent step = solver->Approximate(gradient);
-    const double promise = step.cwiseProduct(gradient).sum();
-    if (promise <= options.tolerance) {
+    const double predicted_decrease = step.cwiseProduct(gradient).sum();
+    if (predicted_decrease <= options.tolerance) {
       result.termination = Termination::kConverged;
       break;
     }
@@ -70,7 +70,7 @@ NearestShape FindNearestShape(const FeatureMap& map, const Eigen::VectorXd& targ
       Shape trial = motion.Take(factor);
       Eigen::VectorXd left = map.Values(trial) - target;
       const double gain = result.squared_distance - left.squaredNorm();
-      if (!(gain >= kSufficient * factor * promise)) continue;
+      if (!(gain >= kSufficient * factor * predicted_decrease)) continue;
       lowered = true;
       if (halving == 0 && gain <= options.tolerance) result.termination = Termination::kConverged;
       result.shape = std::move(trial);

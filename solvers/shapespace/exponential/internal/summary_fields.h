@@ -43,7 +43,7 @@ void ForFields(Of<ExponentialSummary>, const Visit& visit) {
     return s.ending == ExponentialSummary::Ending::kDegenerate ? "degenerate"
            : s.ending == ExponentialSummary::Ending::kContact && s.Converged()
                ? "contact"
-               : Key(s.Converged(), s.ending == ExponentialSummary::Ending::kCancelled);
+               : EndingKey(s.Converged(), s.ending == ExponentialSummary::Ending::kCancelled);
   });
   visit("converged", &ExponentialSummary::Converged);
   visit("ending", &ExponentialSummary::ending);

@@ -31,7 +31,7 @@ constexpr int kShapesToTellJumps = 7;
 // excess energy is of its square, so it decreases by a factor of 256 from one level to the next.
 // The next level thus adds at least a 256th of the gain on this one; the limit is an eighth of
 // that.
-constexpr double kEnough = 1.0 / 2048;
+constexpr double kLeastGain = 1.0 / 2048;
 
 // In a path with a segment that is faster than this, relative to the mean, a part rests and then
 // turns over.
@@ -205,7 +205,7 @@ void GeodesicPiece::TakeStep(const ScheduleStep& step, PieceStart start, bool la
     resolution.PlaceThinVertices(index_, options_, &guess.shapes);
     UnwrapHinges(*resolution.GetMetric(), &guess.shapes);
     GeodesicSummary::Level row =
-        resolution.Relax(index_, last ? 0 : kEnough, options_, &workload_, &guess.shapes);
+        resolution.Relax(index_, last ? 0 : kLeastGain, options_, &workload_, &guess.shapes);
     row.start = guess.name;
     summary_.levels.push_back(row);
   }
@@ -285,7 +285,8 @@ GeodesicPiece::Guess GeodesicPiece::InsertShapes(int level, const std::vector<Sh
     for (const Shape& start : {guess[2 * i + 1], known[i], known[i + 1]}) {
       std::vector<Shape> three = {known[i], start, known[i + 1]};
       workload_.Plan(NumVertices(resolution), 1, false);
-      const double energy = resolution.Relax(index_, kEnough, options_, &workload_, &three).energy;
+      const double energy =
+          resolution.Relax(index_, kLeastGain, options_, &workload_, &three).energy;
       if (energy >= least) continue;
       least = energy;
       shapes[2 * i + 1] = three[1];

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <shapespace/mesh/internal/geometry.h>
-#include <shapespace/mesh/internal/triangle_pose.h>
+#include <shapespace/mesh/internal/triangle_deformation.h>
 #include <shapespace/metric/dihedral.h>
 
 namespace shapespace::internal {
@@ -173,7 +173,7 @@ void WaysRound::FindRotations(const Shape& last) {
     const TriangleFrame after = FrameOf(last, triangles.col(f));
     flattened_[f] = IsFlattened(before) || IsFlattened(after);
     if (flattened_[f]) continue;
-    const TrianglePose pose(after, before.edges.inverse());
+    const TriangleDeformation pose(after, before.edges.inverse());
     rotations_[f] = pose.rotation * Eigen::Quaterniond(before.axes).conjugate();
   }
 }

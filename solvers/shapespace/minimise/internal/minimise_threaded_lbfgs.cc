@@ -20,7 +20,7 @@ constexpr double kMinCurvature = 1e-3;
 // search without decrease has converged to rounding.
 constexpr double kNothingLeft = 1e-3;
 
-// After a decrease below the tolerance, a promise of less than this share of it ends the solve.
+// After a decrease below the tolerance, a prediction of less than this share of it ends the solve.
 // With 1, elephants and cats lose up to 2 % of energy.
 constexpr double kLittle = 0.5;
 
@@ -126,8 +126,8 @@ class ThreadedLbfgs {
 
   Termination Iterate() {
     // One short step of the line search is no sign of convergence; two small decreases in a row end
-    // the solve. It is enough if the second is small in the model, whose promise alone is no sign
-    // of convergence either: on some meshes ten iterations gain more than it says.
+    // the solve. It is enough if the second is small in the model, whose prediction alone is no
+    // sign of convergence either: on some meshes ten iterations gain more than it says.
     int small = 0;
     for (;; ++result_.iterations) {
       if (options_.keep_going && !options_.keep_going(result_.iterations, value_)) {
@@ -137,12 +137,12 @@ class ThreadedLbfgs {
       if (result_.iterations >= options_.max_iterations) return Termination::kMaxIterations;
       const double before = value_;
       double slope = FindDirection();
-      const double promise = -0.5 * slope;  // gain predicted by the model
+      const double predicted_decrease = -0.5 * slope;  // gain predicted by the model
       // If rounding makes the direction lead upwards, the predicted gain has no meaning.
       const double least = (small >= 1 ? kLittle : kNothingLeft) * tolerance_ * value_;
-      if (promise >= 0 && promise <= least) return Termination::kConverged;
-      enough_gained_ =
-          promise >= 0 && promise <= options_.enough * (result_.initial_energy - value_);
+      if (predicted_decrease >= 0 && predicted_decrease <= least) return Termination::kConverged;
+      enough_gained_ = predicted_decrease >= 0 &&
+                       predicted_decrease <= options_.enough * (result_.initial_energy - value_);
       if (enough_gained_) return Termination::kConverged;
       if (!Search(slope)) {
         if (fresh_) return Termination::kStalled;
@@ -193,7 +193,7 @@ class ThreadedLbfgs {
   struct Weights {
     std::vector<double> changes, steps;
   };
-  Weights WalkThroughHistory(const std::vector<double>& products) const {
+  Weights TwoLoopRecursion(const std::vector<double>& products) const {
     const int pairs = static_cast<int>(history_.size());
     std::vector<double> back(pairs), forth(pairs);
     for (int i = pairs - 1; i >= 0; --i) {
@@ -224,7 +224,7 @@ class ThreadedLbfgs {
   double FindDirection() {
     const int pairs = static_cast<int>(history_.size());
     fresh_ = pairs == 0;
-    const Weights weights = WalkThroughHistory(PreconditionGradient());
+    const Weights weights = TwoLoopRecursion(PreconditionGradient());
     Pair next;
     const bool full = pairs == options_.rank;
     if (full) {  // the oldest pair's memory is overwritten chunk by chunk

@@ -38,9 +38,9 @@ class Multifrontal {
       : elimination_(elimination),
         matrix_(matrix.valuePtr()),
         values_(values),
-        updates_(elimination.supernodes.size()),
+        update_matrices_(elimination.supernodes.size()),
         children_(elimination.supernodes.size()) {
-    const int num_nodes = static_cast<int>(updates_.size());
+    const int num_nodes = static_cast<int>(update_matrices_.size());
     for (int s = 0; s < num_nodes; ++s) {
       if (elimination.parent[s] >= 0) children_[elimination.parent[s]].push_back(s);
     }
@@ -74,8 +74,8 @@ class Multifrontal {
     }
     double* update = nullptr;
     if (below > 0) {
-      updates_[s].reset(new double[static_cast<size_t>(below) * below]);
-      update = updates_[s].get();
+      update_matrices_[s].reset(new double[static_cast<size_t>(below) * below]);
+      update = update_matrices_[s].get();
       ForTiles(Tiles(below), [&](int tile) {
         const int end = std::min(below, (tile + 1) * kTile);
         for (int j = tile * kTile; j < end; ++j) {
@@ -85,8 +85,8 @@ class Multifrontal {
       });
     }
     for (int child : children_[s]) {
-      Add(child, node, block, update, &scratch->places);
-      updates_[child].reset();
+      ExtendAdd(child, node, block, update, &scratch->places);
+      update_matrices_[child].reset();
     }
     if (!FactorBlock(node, block)) {
       definite_ = false;
@@ -112,8 +112,8 @@ class Multifrontal {
   }
 
   // Adds what `child` leaves to the front of its parent `node`.
-  void Add(int child, const Supernode& node, double* block, double* update,
-           std::vector<int>* places) const {
+  void ExtendAdd(int child, const Supernode& node, double* block, double* update,
+                 std::vector<int>* places) const {
     const Supernode& from = elimination_.supernodes[child];
     const int count = from.height - from.width, below = node.height - node.width;
     const int* const rows = &elimination_.rows[from.rows + from.width];
@@ -124,7 +124,7 @@ class Multifrontal {
       (*places)[i] = at;
     }
     const int* const place = places->data();
-    const double* const source = updates_[child].get();
+    const double* const source = update_matrices_[child].get();
     ForTiles(Tiles(count), [&](int tile) {
       const int end = std::min(count, (tile + 1) * kTile);
       for (int j = tile * kTile; j < end; ++j) {
@@ -168,7 +168,7 @@ class Multifrontal {
   Stored* const values_;
   // Of every supernode whose parent has not been factored yet: what it adds to the parent's front,
   // the lower triangle of a square matrix.
-  std::vector<std::unique_ptr<double[]>> updates_;
+  std::vector<std::unique_ptr<double[]>> update_matrices_;
   std::vector<std::vector<int>> children_;
   std::atomic<bool> definite_ = true;
 };

@@ -10,7 +10,7 @@
 #include <shapespace/base/internal/ranges.h>
 #include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/contact/obstacle.h>
-#include <shapespace/mesh/internal/triangle_pose.h>
+#include <shapespace/mesh/internal/triangle_deformation.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/sparse/internal/gradient_integrator.h>
 #include <shapespace/spline/detail/corrections.h>
@@ -23,9 +23,9 @@ namespace {
 constexpr double kThin = 1e-6;
 
 // How far a quantity goes in an interval, and how fast at its ends, from its `segments` steps.
-class Course {
+class VertexCurve {
  public:
-  explicit Course(int segments) : segments_(segments) {}
+  explicit VertexCurve(int segments) : segments_(segments) {}
 
   void Add(const Eigen::Vector3d& step) {
     way_ += step;
@@ -102,7 +102,7 @@ class Smoother {
   TriangleFrame FrameOf(const Shape& shape, int f) const {
     return {shape.col(triangles_(0, f)), shape.col(triangles_(1, f)), shape.col(triangles_(2, f))};
   }
-  TrianglePose PoseOf(const Shape& shape, int f) const {
+  TriangleDeformation PoseOf(const Shape& shape, int f) const {
     return {FrameOf(shape, f), reference_[f]};
   }
   // Thin triangles have no reference.
@@ -111,10 +111,11 @@ class Smoother {
   // What turns and stretches the chain's triangle into the spline's; nothing does if it is thin.
   Eigen::Matrix3d Turn(const Shape& chain, int f, const Eigen::Matrix3Xd& change) const {
     if (IsThin(f)) return Eigen::Matrix3d::Identity();
-    const TrianglePose pose = PoseOf(chain, f);
-    const Symmetric log = Log(pose.stretch);
-    const Symmetric more = Symmetric::FromVector(change.col(num_triangles_ + f));
-    const Symmetric stretch = Exp(Symmetric{log.xx + more.xx, log.xy + more.xy, log.yy + more.yy});
+    const TriangleDeformation pose = PoseOf(chain, f);
+    const SymmetricMatrix2 log = Log(pose.stretch);
+    const SymmetricMatrix2 more = SymmetricMatrix2::FromVector(change.col(num_triangles_ + f));
+    const SymmetricMatrix2 stretch =
+        Exp(SymmetricMatrix2{log.xx + more.xx, log.xy + more.xy, log.yy + more.yy});
     Eigen::Matrix3d stretches = Eigen::Matrix3d::Identity();
     stretches.topLeftCorner<2, 2>() = stretch.Matrix() * pose.stretch.Matrix().inverse();
     const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
@@ -208,19 +209,19 @@ class Smoother {
   template <typename Step>
   void Follow(Eigen::Index column, std::vector<Interval>* intervals, const Step& step) const {
     for (size_t i = 0; i < intervals->size(); ++i) {
-      Course course(path_.poses[i + 1] - path_.poses[i]);
+      VertexCurve course(path_.poses[i + 1] - path_.poses[i]);
       for (int k = path_.poses[i]; k < path_.poses[i + 1]; ++k) course.Add(step(k));
       course.Write(column, &(*intervals)[i]);
     }
   }
 
   void FollowTriangle(int f, std::vector<Interval>* intervals) const {
-    TrianglePose pose = PoseOf(path_.shapes.front(), f);
+    TriangleDeformation pose = PoseOf(path_.shapes.front(), f);
     for (size_t i = 0; i < intervals->size(); ++i) {
       const int segments = path_.poses[i + 1] - path_.poses[i];
-      Course turn(segments), stretch(segments);
+      VertexCurve turn(segments), stretch(segments);
       for (int k = path_.poses[i]; k < path_.poses[i + 1]; ++k) {
-        const TrianglePose next = PoseOf(path_.shapes[k + 1], f);
+        const TriangleDeformation next = PoseOf(path_.shapes[k + 1], f);
         turn.Add(Log(pose.rotation.conjugate() * next.rotation));
         stretch.Add(Log(next.stretch).Vector() - Log(pose.stretch).Vector());
         pose = next;
@@ -245,7 +246,7 @@ class Smoother {
     const Shape before = path_.shapes[k] - step * own, after = path_.shapes[k] + step * own;
     for (int f = 0; f < num_triangles_; ++f) {
       if (IsThin(f)) continue;
-      const TrianglePose a = PoseOf(before, f), b = PoseOf(after, f);
+      const TriangleDeformation a = PoseOf(before, f), b = PoseOf(after, f);
       columns.col(f) = Log(a.rotation.conjugate() * b.rotation) / (2 * step);
       columns.col(num_triangles_ + f) =
           (Log(b.stretch).Vector() - Log(a.stretch).Vector()) / (2 * step);
@@ -351,9 +352,9 @@ Smoothed Smooth(const Smoother& smoother, const Path& chain, Progress* progress)
 
 // Where shapes and an obstacle are compared: where the shapes are placed, in the metric's unit and
 // from where the first one is; without an obstacle, the frame of the path.
-class Scene {
+class ComparisonFrame {
  public:
-  Scene(const Path& chain, const std::optional<Obstacle>& obstacle)
+  ComparisonFrame(const Path& chain, const std::optional<Obstacle>& obstacle)
       : unit_(chain.metric->unit), weights_(chain.metric->vertex_area), obstacle_(obstacle) {
     if (!obstacle_) return;
     origin_ = chain.motions.front().translation;
@@ -390,7 +391,7 @@ class Scene {
 // Leads a smoothed chain round its contacts, from the chain without contact.
 SmoothContact SmoothPastContact(const SplineOptions& options, const Path& chain, Progress* progress,
                                 Smoothed* smoothed) {
-  const Scene scene(chain, options.geodesic.obstacle);
+  const ComparisonFrame scene(chain, options.geodesic.obstacle);
   const std::vector<Shape> cornered = scene.Place(chain.shapes, chain.motions);
   std::vector<Shape> shapes = scene.Place(smoothed->shapes, smoothed->motions);
   const ChainContact contact(chain, cornered, scene.GetObstacle());

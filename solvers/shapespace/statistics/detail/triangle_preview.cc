@@ -60,7 +60,7 @@ TrianglePreview::TrianglePreview(const PoseModes& modes)
     if (!has_area) return;
     const Eigen::Matrix2d inverse = mean.edges.inverse();
     for (int i = 0; i < modes.NumPoses(); ++i) {
-      const TrianglePose pose(Frame(modes.poses[i], corners), inverse);
+      const TriangleDeformation pose(Frame(modes.poses[i], corners), inverse);
       Eigen::Matrix<double, 6, 1> change;
       change << Log(rotations_[f].conjugate() * pose.rotation), Log(pose.stretch).Vector();
       for (int k = 0; k < modes.NumModes(); ++k) {
@@ -81,8 +81,9 @@ Shape TrianglePreview::At(const Eigen::VectorXd& coordinates) const {
     }
     const Eigen::Matrix3d turn =
         (rotations_[f] * Exp(Eigen::Vector3d(change.head<3>()))).toRotationMatrix();
-    wanted.middleCols<3>(3 * f) =
-        turn.leftCols<2>() * Exp(Symmetric::FromVector(change.tail<3>())).Matrix() * sides_[f];
+    wanted.middleCols<3>(3 * f) = turn.leftCols<2>() *
+                                  Exp(SymmetricMatrix2::FromVector(change.tail<3>())).Matrix() *
+                                  sides_[f];
   });
   for (Eigen::Index i = 3 * triangles_.cols(); i < wanted.cols(); ++i) {
     const auto& side = integrator_.Sides()[i];

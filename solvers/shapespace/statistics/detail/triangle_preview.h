@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include <shapespace/mesh/internal/triangle_pose.h>
+#include <shapespace/mesh/internal/triangle_deformation.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/sparse/internal/gradient_integrator.h>
 #include <shapespace/statistics/shape_model.h>

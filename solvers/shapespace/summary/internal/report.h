@@ -41,7 +41,7 @@ inline Words<Termination> WordsOf(Of<Termination>) {
           {"cancelled", Termination::kCancelled}};
 }
 /// The value for calls that consist of several solves.
-inline const char* Key(bool converged, bool cancelled) {
+inline const char* EndingKey(bool converged, bool cancelled) {
   return cancelled ? "cancelled" : converged ? "converged" : "not_converged";
 }
 

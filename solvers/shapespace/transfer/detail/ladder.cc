@@ -48,8 +48,8 @@ double Radius(const Shape& shape, const Eigen::VectorXd& weights) {
 Ladder::Ladder(std::shared_ptr<const Metric> metric, const LadderOptions& options)
     : metric_(std::move(metric)), options_(options) {}
 
-Ladder::Rung Ladder::Lay(const Shape& source, const Shape& next, const Shape& target,
-                         Progress* progress) const {
+Ladder::Rung Ladder::BuildRung(const Shape& source, const Shape& next, const Shape& target,
+                               Progress* progress) const {
   const Eigen::VectorXd& weights = metric_->vertex_area;
   const double scale = options_.scale ? Radius(target, weights) / Radius(source, weights) : 1;
   RigidMotion onto;
@@ -71,8 +71,8 @@ bool Ladder::HasNoLength(const Rung& rung) const {
   return options_.align && rung.geodesic.summary.energy < GeodesicSummary::kZeroEnergy;
 }
 
-Shape Ladder::Climb(const Rung& rung, const Shape& target, TransferSummary::Step* row,
-                    Progress* progress) const {
+Shape Ladder::TransportOnce(const Rung& rung, const Shape& target, TransferSummary::Step* row,
+                            Progress* progress) const {
   const GeodesicSummary& geodesic = rung.geodesic.summary;
   row->ratio = geodesic.Ratio();
   row->warnings = geodesic.warnings;

@@ -25,7 +25,8 @@ class Ladder {
   };
 
   /// The rung from a shape of the source to the target's; `next` is the source's following shape.
-  Rung Lay(const Shape& source, const Shape& next, const Shape& target, Progress* progress) const;
+  Rung BuildRung(const Shape& source, const Shape& next, const Shape& target,
+                 Progress* progress) const;
 
   /// The midpoint of a rung.
   Shape Hybrid(const Rung& rung) const {
@@ -34,8 +35,8 @@ class Ladder {
 
   /// The target's next shape, which corresponds to the source's next shape.
   /// \throw SolverError.
-  Shape Climb(const Rung& rung, const Shape& target, TransferSummary::Step* row,
-              Progress* progress) const;
+  Shape TransportOnce(const Rung& rung, const Shape& target, TransferSummary::Step* row,
+                      Progress* progress) const;
 
   /// The rotation that gives the target's surface the source's mean orientation. It is necessary
   /// because bodies with other proportions have a different distribution of area, so that aligned

@@ -24,7 +24,8 @@ void ForFields(Of<TransferSummary::Step>, const Visit& visit) {
 
 template <typename Visit>
 void ForFields(Of<TransferSummary>, const Visit& visit) {
-  visit("termination", [](const TransferSummary& s) { return Key(s.Converged(), s.cancelled); });
+  visit("termination",
+        [](const TransferSummary& s) { return EndingKey(s.Converged(), s.cancelled); });
   visit("converged", &TransferSummary::Converged);
   visit("method", &TransferSummary::method);
   visit("vertices", &TransferSummary::vertices);
@@ -45,7 +46,7 @@ void ForFields(Of<TransferSummary>, const Visit& visit) {
 template <typename Visit>
 void ForFields(Of<PoseTransferSummary>, const Visit& visit) {
   visit("termination",
-        [](const PoseTransferSummary& s) { return Key(s.Converged(), s.cancelled); });
+        [](const PoseTransferSummary& s) { return EndingKey(s.Converged(), s.cancelled); });
   visit("converged", &PoseTransferSummary::Converged);
   visit("geodesics", &PoseTransferSummary::geodesics);
   visit("transfers", &PoseTransferSummary::transfers);

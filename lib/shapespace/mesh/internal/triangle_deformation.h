@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_MESH_INTERNAL_TRIANGLE_POSE_H_
-#define SHAPESPACE_MESH_INTERNAL_TRIANGLE_POSE_H_
+#ifndef SHAPESPACE_MESH_INTERNAL_TRIANGLE_DEFORMATION_H_
+#define SHAPESPACE_MESH_INTERNAL_TRIANGLE_DEFORMATION_H_
 
 #include <cmath>
 
@@ -8,24 +8,26 @@
 namespace shapespace::internal {
 
 /// A symmetric 2 x 2 matrix S = [xx xy; xy yy].
-struct Symmetric {
+struct SymmetricMatrix2 {
   double xx = 0, xy = 0, yy = 0;
 
   Eigen::Matrix2d Matrix() const { return (Eigen::Matrix2d() << xx, xy, xy, yy).finished(); }
   /// With the norm of the matrix.
   Eigen::Vector3d Vector() const { return {xx, M_SQRT2 * xy, yy}; }
-  static Symmetric FromVector(const Eigen::Vector3d& v) { return {v(0), M_SQRT1_2 * v(1), v(2)}; }
+  static SymmetricMatrix2 FromVector(const Eigen::Vector3d& v) {
+    return {v(0), M_SQRT1_2 * v(1), v(2)};
+  }
 };
 
 /// The logarithm of a positive definite matrix.
-inline Symmetric Log(const Symmetric& s) {
+inline SymmetricMatrix2 Log(const SymmetricMatrix2& s) {
   const double mean = (s.xx + s.yy) / 2, d = (s.xx - s.yy) / 2, r = std::hypot(d, s.xy);
   const double l = 0.5 * std::log(mean * mean - r * r);
   const double factor = r > 0 ? std::atanh(r / mean) / r : 1 / mean;
   return {l + factor * d, factor * s.xy, l - factor * d};
 }
 
-inline Symmetric Exp(const Symmetric& s) {
+inline SymmetricMatrix2 Exp(const SymmetricMatrix2& s) {
   const double mean = (s.xx + s.yy) / 2, d = (s.xx - s.yy) / 2, r = std::hypot(d, s.xy);
   const double e = std::exp(mean), c = e * std::cosh(r);
   const double factor = r > 0 ? e * std::sinh(r) / r : e;
@@ -48,12 +50,12 @@ struct TriangleFrame {
 };
 
 /// How a triangle lies and is stretched relative to its reference: its gradient is R S.
-struct TrianglePose {
+struct TriangleDeformation {
   Eigen::Quaterniond rotation;  ///< from the frame of the reference
-  Symmetric stretch;            ///< in it
+  SymmetricMatrix2 stretch;     ///< in it
 
   /// `inverse` is that of the reference's edges.
-  TrianglePose(const TriangleFrame& frame, const Eigen::Matrix2d& inverse) {
+  TriangleDeformation(const TriangleFrame& frame, const Eigen::Matrix2d& inverse) {
     const Eigen::Matrix2d gradient = frame.edges * inverse;
     const double angle =
         std::atan2(gradient(1, 0) - gradient(0, 1), gradient(0, 0) + gradient(1, 1));
@@ -82,4 +84,4 @@ inline Eigen::Quaterniond Exp(const Eigen::Vector3d& turn) {
 
 }  // namespace shapespace::internal
 
-#endif  // SHAPESPACE_MESH_INTERNAL_TRIANGLE_POSE_H_
+#endif  // SHAPESPACE_MESH_INTERNAL_TRIANGLE_DEFORMATION_H_
