@@ -32,7 +32,8 @@ TEST_F(PathOutputTest, NamesThatStandForNothingAreRefused) {
                                     {"walk.obj", "needs one number"},
                                     {"walk%d%d.vtp", "needs one number"},
                                     {"walk%03d.png", "one .png contains the whole path"}}) {
-    const std::string message = testing::MessageOf<FileError>([&] { PathOutput::Of(name); });
+    const std::string message =
+        testing::MessageOf<FileError>([&, name = name] { PathOutput::Of(name); });
     EXPECT_NE(message.find(words), std::string::npos) << name << ": " << message;
   }
   EXPECT_EQ(PathOutput::Of("100%.png").kind, PathOutput::Kind::kFilmStrip);

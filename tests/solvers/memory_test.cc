@@ -118,11 +118,14 @@ TEST(MemoryLimit, IsKeptByAllSolvers) {
     EXPECT_LT(needed, 1e8);
     EXPECT_EQ(call(needed, nullptr), needed);
     Listener listener;
-    const std::string message = MessageOf<SolverError>([&] { call(0.99 * needed, &listener); });
+    const std::string message =
+        MessageOf<SolverError>([&, &call = call] { call(0.99 * needed, &listener); });
     EXPECT_NE(message.find(" MB, more than the memory limit; "), std::string::npos) << message;
     EXPECT_NE(message.find("raise memory_limit"), std::string::npos) << message;
     EXPECT_EQ(listener.reports, 0);
-    EXPECT_EQ(MessageOf<InvalidOptions>([&] { call(0, nullptr); }).find("memory_limit:"), 0u);
+    EXPECT_EQ(
+        MessageOf<InvalidOptions>([&, &call = call] { call(0, nullptr); }).find("memory_limit:"),
+        0u);
   }
 }
 

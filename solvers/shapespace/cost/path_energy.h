@@ -10,6 +10,9 @@
 #include <shapespace/mesh/shape.h>
 #include <shapespace/metric/metric.h>
 
+/// The room cost/ is what this project promises: the paper's energies, and its own schemes for
+/// initial values and transport, as cost functions of Ceres that are differentiated automatically.
+/// Kernels and solvers that are faster stand beside them, held equal by tests.
 namespace shapespace::cost {
 
 /// Metrics with a sum feature, whose rows are dense, are refused above this number of vertices.
