@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/base/parallel.h>
 
 namespace shapespace {
@@ -104,8 +105,7 @@ IndexLists Neighbours(const Connectivity& connectivity, const Eigen::VectorXd& e
     both[w].push_back(v);
   }
   for (std::vector<int>& row : both) {
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
+    internal::SortUnique(&row);
   }
   return ToLists(both);
 }
@@ -341,8 +341,7 @@ void NearPairs::FindElements() {
       }
     }
   }
-  std::sort(segments.begin(), segments.end());
-  segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+  internal::SortUnique(&segments);
   const size_t count = num_triangles + segments.size();
   std::vector<std::vector<int>> vertices(count), edges(count);
   GiveToTriangles(connectivity_->TrianglesOfVertices(), &vertices);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/random.h>
 #include <shapespace/bodies/detail/bend.h>
 #include <shapespace/bodies/detail/checks.h>
 #include <shapespace/bodies/detail/polygonise.h>
@@ -209,14 +210,12 @@ internal::Rotations RotationsOf(const internal::Skeleton& skeleton, const NamedP
   return rotations;
 }
 
-/// Uniformly distributed numbers, the same on every machine, which the distributions of the
-/// standard library are not.
 class RandomNumbers {
  public:
   explicit RandomNumbers(unsigned seed) : random_(seed) {}
 
   double Between(double least, double greatest) {
-    return least + (greatest - least) * (static_cast<double>(random_() >> 11) * 0x1p-53);
+    return least + (greatest - least) * internal::Uniform(&random_);
   }
 
  private:

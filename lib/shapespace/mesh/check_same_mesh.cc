@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/mesh/detail/recut.h>
 #include <shapespace/mesh/detail/sorted_polygons.h>
@@ -277,8 +278,7 @@ class Comparison {
 
     std::vector<int> vertices;
     for (const auto& [a, b] : edges) vertices.insert(vertices.end(), {a, b});
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    internal::SortUnique(&vertices);
     const double growth = Radius(pose_, vertices) / Radius(reference_, vertices);
     if (CheckScrambled(stretch, scale, growth)) return;
     CheckScale(scale);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/mesh/internal/polygons.h>
 #include <shapespace/mesh/internal/sides.h>
 
@@ -134,8 +135,7 @@ std::vector<Edge> EdgesOfTriangles(int num_vertices, const Eigen::Matrix3Xi& tri
 
 // Appends those of `others` that are not among the sorted `edges`, in order and each once.
 void AddOtherEdges(std::vector<Edge> others, std::vector<Edge>* edges) {
-  std::sort(others.begin(), others.end());
-  others.erase(std::unique(others.begin(), others.end()), others.end());
+  internal::SortUnique(&others);
   const size_t sorted = edges->size();
   for (const Edge& e : others) {
     if (!std::binary_search(edges->begin(), edges->begin() + sorted, e)) edges->push_back(e);

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/mesh/internal/sides.h>
 
 namespace shapespace {
@@ -337,8 +338,7 @@ std::vector<int> RepresentativesOf(const Connectivity& connectivity,
   if (connectivity.Twins().empty()) return vertices;
   std::vector<int> result;
   for (const int v : vertices) result.push_back(connectivity.Representative(v));
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  internal::SortUnique(&result);
   return result;
 }
 

@@ -20,6 +20,7 @@
 #include <shapespace/base/internal/atomic_file.h>
 #include <shapespace/base/internal/check_range.h>
 #include <shapespace/base/internal/read_file.h>
+#include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/base/internal/within_folder.h>
 #include <shapespace/files/internal/tinygltf.h>
 #include <shapespace/mesh/internal/geometry.h>
@@ -247,8 +248,7 @@ std::vector<std::pair<double, double>> Moments(const std::vector<double>& parame
     for (int i = 1; i < kEasePoints; ++i) {
       points.push_back((1 - std::cos(internal::kPi * i / kEasePoints)) / 2);
     }
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
+    internal::SortUnique(&points);
   }
   const bool back = options.playback == GltfPlayback::kThereAndBack;
   const bool held = options.playback == GltfPlayback::kOnce;

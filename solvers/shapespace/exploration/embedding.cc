@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/random.h>
 #include <shapespace/summary/internal/check_options.h>
 
 namespace shapespace {
@@ -142,7 +143,7 @@ Embedding Embed(const Eigen::MatrixXd& distances, const EmbeddingOptions& option
   std::mt19937_64 random(1);
   Eigen::MatrixXd plane(2, points.rows());
   for (int i = 0; i < kRandomPlanes && points.rows() > 2; ++i) {
-    for (double& x : plane.reshaped()) x = static_cast<double>(random() >> 11) * 0x1p-52 - 1;
+    for (double& x : plane.reshaped()) x = 2 * internal::Uniform(&random) - 1;
     Embedding other = Majorise(plane * points, distances, options);
     if (other.stress < (1 - kLessStress) * result.stress) result = std::move(other);
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/random.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/exploration/detail/pair_solver.h>
@@ -148,9 +149,6 @@ void Warn(ExploreSummary* summary) {
   }
 }
 
-// A random number in [0, 1) that is the same with every standard library.
-double Uniform(std::mt19937_64* random) { return static_cast<double>((*random)() >> 11) * 0x1p-53; }
-
 std::vector<PlaneLocation> RandomLocations(const PoseSpace& space, int samples) {
   const bool is_line = space.triangles.cols() == 0;
   const Eigen::Index cells = is_line ? space.segments.cols() : space.triangles.cols();
@@ -170,9 +168,9 @@ std::vector<PlaneLocation> RandomLocations(const PoseSpace& space, int samples) 
   std::mt19937_64 random(1);
   std::vector<PlaneLocation> locations;
   for (int k = 0; k < samples; ++k) {
-    const double at = Uniform(&random) * up_to.back();
+    const double at = internal::Uniform(&random) * up_to.back();
     const auto i = std::upper_bound(up_to.begin(), up_to.end() - 1, at) - up_to.begin();
-    double u = Uniform(&random), v = Uniform(&random);
+    double u = internal::Uniform(&random), v = internal::Uniform(&random);
     PlaneLocation location;
     if (is_line) {
       location.nodes = {space.segments(0, i), space.segments(1, i), space.segments(0, i)};

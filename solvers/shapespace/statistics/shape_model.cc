@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/random.h>
 #include <shapespace/exponential/internal/nearest_shape.h>
 #include <shapespace/exponential/internal/step.h>
 #include <shapespace/statistics/detail/feature_statistics.h>
@@ -214,10 +215,9 @@ ModelCoordinates ShapeModel::Coordinates(const Shape& shape, bool fit, int modes
 }
 
 Eigen::VectorXd ShapeModel::Sample(unsigned seed) const {
-  // The distributions of the standard library differ from one implementation to the next: these
-  // are Box and Muller's (1958).
+  // Normally distributed numbers of Box and Muller (1958), which need uniform ones above 0.
   std::mt19937_64 random(seed);
-  const auto uniform = [&] { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; };
+  const auto uniform = [&] { return internal::Uniform(&random) + 0x1p-54; };
   Eigen::VectorXd coordinates(Modes().NumModes());
   for (double& coordinate : coordinates) {
     const double radius = std::sqrt(-2 * std::log(uniform()));

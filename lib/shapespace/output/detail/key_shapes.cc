@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <shapespace/base/internal/sort_unique.h>
+
 namespace shapespace::internal {
 namespace {
 
@@ -19,8 +21,7 @@ void AppendParts(int first, int last, int parts, std::vector<int>* numbers) {
 std::vector<int> KeyShapes(int count, const std::vector<int>& poses, int most) {
   std::vector<int> kept = poses;
   kept.insert(kept.end(), {0, count - 1});
-  std::sort(kept.begin(), kept.end());
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  SortUnique(&kept);
   std::vector<int> keys;
   if (static_cast<int>(kept.size()) > most) {
     AppendParts(0, static_cast<int>(kept.size()) - 1, most - 1, &keys);

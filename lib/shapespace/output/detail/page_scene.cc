@@ -13,6 +13,7 @@
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/analysis/vertex_energy.h>
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/output/detail/legend.h>
 #include <shapespace/output/detail/scene.h>
@@ -261,8 +262,7 @@ void AppendIntersections(const Path& path, OrderedJson* header, std::string* byt
         vertices.insert(vertices.end(), corners.begin(), corners.end());
       }
     }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    SortUnique(&vertices);
   });
   std::vector<int> all;
   for (const auto& [pairs, vertices] : shapes) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <shapespace/analysis/intersections.h>
+#include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/ties.h>
 
@@ -56,8 +57,7 @@ std::vector<std::pair<int, int>> RoundIntersections(
       for (const auto& [s, t] : pairs.FindTouchingSegments(shape, kTouching)) add(s, t);
     }
   }
-  std::sort(round.begin(), round.end());
-  round.erase(std::unique(round.begin(), round.end()), round.end());
+  SortUnique(&round);
   return round;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <shapespace/base/internal/ranges.h>
+#include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/mesh/rigid_motion.h>
 
 namespace shapespace::internal {
@@ -105,12 +106,6 @@ double ElementEnergy(const Metric& metric, const FeatureElement& element,
 }
 
 namespace {
-
-template <typename T>
-void SortUnique(std::vector<T>* items) {
-  std::sort(items->begin(), items->end());
-  items->erase(std::unique(items->begin(), items->end()), items->end());
-}
 
 // Moves vertices of a path and measures the change of energy.
 class Mover {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <shapespace/base/internal/sort_unique.h>
+
 namespace shapespace::internal {
 namespace {
 
@@ -128,8 +130,7 @@ void Elimination::GatherOutsideRows(const IsOutside& is_outside, Branch* branch)
   for_rows_below([&](int row) {
     if (is_outside(row)) outside.push_back(row);
   });
-  std::sort(outside.begin(), outside.end());
-  outside.erase(std::unique(outside.begin(), outside.end()), outside.end());
+  SortUnique(&outside);
   branch->gathered = work_rows;
   work_rows += static_cast<int>(outside.size());
   for_rows_below([&](int& row) {
