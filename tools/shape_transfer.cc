@@ -36,7 +36,7 @@ static const shapespace::tools::OptionFlags<shapespace::TransferOptions> flags(_
                                                                                  "method"}});
 static const shapespace::tools::OptionFlags<shapespace::LadderOptions> ladder_flags(
     __FILE__, {{"connection", "connection"}, {"scale", "scale"}, {"align", "align"}});
-FLAG_GROUP(transfer, "Transfer", "target, method, scale, align");
+FLAG_GROUP(transfer, "Transfer", "target, method");
 
 namespace shapespace::tools {
 namespace {

@@ -18,7 +18,7 @@ DEFINE_string(
 DEFINE_bool(allow_mirrored, false,
             "take poses that look like mirror images of the first as they are: domes that are "
             "pushed through, bodies that are turned inside out");
-FLAG_GROUP(mesh, "Input", "mirror");
+FLAG_GROUP(mesh, "Input", "");
 
 namespace shapespace::tools {
 

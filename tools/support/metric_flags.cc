@@ -24,7 +24,7 @@ DEFINE_string(
     "file of factors on the cost of stretching and bending, one positive number per "
     "vertex: a text with one number per line, or a property of a PLY file, as body.ply:name, "
     "or point data of a VTK file, as body.vtp:name");
-FLAG_GROUP(metric, "Metric", "bending");
+FLAG_GROUP(metric, "Metric", "");
 static const shapespace::tools::OptionFlags<shapespace::MetricOptions> costs(
     __FILE__, {{"strain", "strain"},
                {"isometric", "isometric"},

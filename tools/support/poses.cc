@@ -23,7 +23,7 @@ DEFINE_string(stiffeners, "",
 DEFINE_bool(loose_components, false,
             "leave connected components loose, such as eyes and clothes, that stay near others in "
             "all poses; they are tied to these otherwise, and a note says how many");
-FLAG_GROUP(poses, "Input", "loose_components");
+FLAG_GROUP(poses, "Input", "");
 
 namespace shapespace::tools {
 
