@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include <shapespace/metric/rigid.h>
+#include <shapespace/metric/internal/spin.h>
 
 namespace shapespace::internal {
 namespace {
@@ -17,15 +17,10 @@ constexpr int kMaxHalvings = 8;
 // to nothing; then rounding makes it large, and along straight lines it would distort the shape.
 class ScrewStep {
  public:
-  ScrewStep(const Shape& from, const Tangent& step) : from_(from) {
-    const Eigen::Vector3d centre = from.rowwise().mean();
-    const Shape arms = from.colwise() - centre;
-    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-    for (Eigen::Index v = 0; v < arms.cols(); ++v) moment += arms.col(v).cross(step.col(v));
-    spin_ = AngularVelocity(
-        arms.squaredNorm() * Eigen::Matrix3d::Identity() - arms * arms.transpose(), moment);
-    rest_ = step;
-    for (Eigen::Index v = 0; v < arms.cols(); ++v) rest_.col(v) -= spin_.cross(arms.col(v));
+  ScrewStep(const Shape& from, Tangent step) : from_(from), rest_(std::move(step)) {
+    const Shape arms = from.colwise() - Eigen::Vector3d(from.rowwise().mean());
+    spin_ = SpinOf(arms, Eigen::VectorXd::Ones(arms.cols()), rest_);
+    RemoveSpin(arms, spin_, &rest_);
   }
 
   Shape Take(double factor) const {
@@ -37,8 +32,8 @@ class ScrewStep {
 
  private:
   const Shape& from_;
+  Tangent rest_;  // the step without its rotation
   Eigen::Vector3d spin_;
-  Tangent rest_;
 };
 
 }  // namespace

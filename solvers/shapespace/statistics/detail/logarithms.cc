@@ -1,24 +1,14 @@
 #include <shapespace/statistics/detail/logarithms.h>
 
 #include <shapespace/mesh/rigid_motion.h>
-#include <shapespace/metric/rigid.h>
+#include <shapespace/metric/internal/spin.h>
 
 namespace shapespace::internal {
 
 void RemoveRigidPart(const Shape& shape, const Eigen::VectorXd& vertex_area,
                      Tangent* displacement) {
   displacement->colwise() -= Centroid(*displacement, vertex_area);
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (Eigen::Index v = 0; v < shape.cols(); ++v) {
-    const Eigen::Vector3d x = shape.col(v);
-    inertia += vertex_area(v) * (x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose());
-    moment += vertex_area(v) * x.cross(displacement->col(v));
-  }
-  const Eigen::Vector3d turn = AngularVelocity(inertia, moment);
-  for (Eigen::Index v = 0; v < shape.cols(); ++v) {
-    displacement->col(v) -= turn.cross(shape.col(v));
-  }
+  RemoveSpin(shape, SpinOf(shape, vertex_area, *displacement), displacement);
 }
 
 Logarithms::Logarithms(const FeatureMap& map, const FeatureChart& chart, const Shape& shape)
