@@ -174,7 +174,7 @@ TEST(PathFile, MessagesNameTheFieldOfTheMetric) {
   EXPECT_EQ(message([](Metric* m) { m->edge_area.conservativeResize(5); }),
             file + ": its array edge_area has the wrong type or size");
   EXPECT_EQ(message([](Metric* m) { m->options.bending_stiffness.setOnes(5); }),
-            file + ": its array bending_stiffness has the wrong size");
+            file + ": its array bending_stiffness has the wrong type or size");
 }
 
 TEST(ArrayFile, HoldsArraysOfBothTypesInTheirOrder) {

@@ -172,16 +172,6 @@ TEST(PathFile, ErrorsNameTheFileAndTheReason) {
   EXPECT_NE(message(file).find("version 9"), std::string::npos) << message(file);
 }
 
-TEST(PathFile, TheFirstVersionIsRefused) {
-  const std::string file = TemporaryFile("first_version.path");
-  WritePath(file, MakePath());
-  std::string bytes = Slurp(file);
-  bytes[8] = 1;
-  Spill(file, bytes);
-  const std::string message = testing::MessageOf<FileError>([&] { ReadPath(file); });
-  EXPECT_EQ(message.find(file + ": version 1 of the format is not read"), 0u) << message;
-}
-
 TEST(PathFile, AFolderOfSuchANameIsAFolder) {
   const std::string folder = TemporaryFile("folder.path");
   std::filesystem::create_directories(folder);
@@ -247,7 +237,7 @@ void ChangeHeader(const std::string& file,
                   const std::function<void(internal::HeaderJson*)>& change) {
   const std::string bytes = Slurp(file);
   size_t begin;
-  internal::HeaderJson header = internal::UnpackHeader({"SHAPPATH", 2, ".path"}, bytes, &begin);
+  internal::HeaderJson header = internal::UnpackHeader({"SHAPPATH", 1, ".path"}, bytes, &begin);
   change(&header);
   const std::string text = header.dump();
   const uint64_t size = text.size();
@@ -261,7 +251,7 @@ void ChangeHeader(const std::string& file,
 
 TEST(PathFile, MetricsThatAreNotKnownAreNotReadAsOthers) {
   const std::string file = TemporaryFile("later.path");
-  for (const char* key : {"weights", "discretization"}) {
+  for (const char* key : {"weights", "discretization", "stiffness_on"}) {
     for (const internal::HeaderJson& value :
          {internal::HeaderJson("cubic"), internal::HeaderJson(1)}) {
       WritePath(file, MakePath());
@@ -307,7 +297,7 @@ TEST(PathFile, MemoryThatIsShortIsNoDamage) {
   const auto parse = [](const internal::HeaderJson&, const internal::ArrayReader&) -> int {
     throw std::bad_alloc();
   };
-  EXPECT_THROW(internal::ReadArrayFile(file, {"SHAPPATH", 2, ".path"}, parse), std::bad_alloc);
+  EXPECT_THROW(internal::ReadArrayFile(file, {"SHAPPATH", 1, ".path"}, parse), std::bad_alloc);
 }
 
 TEST(PathFile, FilesAtOddsWithThemselvesAreNotRead) {
@@ -341,33 +331,6 @@ TEST(PathFile, SaysWhatItsStiffnessBelongsTo) {
     EXPECT_EQ(read.stretching_stiffness, options.stretching_stiffness);
     EXPECT_EQ(read.stiffness_on, on);
   }
-  ReplaceEntry(file, "\"stiffness_on\":\"edges\"", "\"stiffness_on\":\"faces\"");
-  const std::string message = testing::MessageOf<FileError>([&] { ReadPath(file); });
-  EXPECT_NE(message.find("neither vertices nor edges"), std::string::npos) << message;
-}
-
-// Older files do not say it. There each of the two could be on vertices or on edges.
-TEST(PathFile, ReadsTheStiffnessOfOlderFiles) {
-  const ShapeFamily bar = MakeBar(4, 1, 1, 3, 1, 1);
-  const int vertices = bar.connectivity->NumVertices(), edges = bar.connectivity->NumEdges();
-  auto metric = std::make_shared<Metric>(*FreezeMetric({}, bar.connectivity, {bar.pose(0)}));
-  const auto read = [&](int stretching, int bending) {
-    metric->options.stretching_stiffness.setConstant(stretching, 2);
-    metric->options.bending_stiffness.setConstant(bending, 3);
-    const std::string file = TemporaryFile("old_stiffness.path");
-    WritePath(file, shapespace::MakePath(metric, {bar.pose(0), bar.pose(20)}));
-    ReplaceEntry(file, ",\"stiffness_on\":\"vertices\"", "");
-    return ReadPath(file).metric->options;
-  };
-  EXPECT_EQ(read(vertices, 0).stiffness_on, StiffnessOn::kVertices);
-  EXPECT_EQ(read(vertices, vertices).stiffness_on, StiffnessOn::kVertices);
-  EXPECT_EQ(read(edges, 0).stiffness_on, StiffnessOn::kEdges);
-  EXPECT_EQ(read(edges, edges).stretching_stiffness, Eigen::VectorXd::Constant(edges, 2));
-  const MetricOptions mixed = read(vertices, edges);
-  EXPECT_EQ(mixed.stiffness_on, StiffnessOn::kEdges);
-  EXPECT_EQ(mixed.stretching_stiffness, Eigen::VectorXd::Constant(edges, 2));
-  EXPECT_EQ(mixed.bending_stiffness, Eigen::VectorXd::Constant(edges, 3));
-  EXPECT_THROW(read(edges + 1, 0), FileError);
 }
 
 TEST(PathFile, NothingIsLeftBehindWhereItCannotBeWritten) {

@@ -154,7 +154,7 @@ template <typename Struct>
 FeatureKind KindOf(std::function<Struct(const MetricBasis&)> freeze) {
   FeatureKind kind;
   kind.vertices = Struct::kVertices;
-  kind.usual_numbers = Struct::UsualNumbers();
+  kind.numbers = Struct::kNumbers;
   kind.is_sum = Struct::kSum;
   kind.freeze = [freeze](const MetricBasis& basis, double coefficient) {
     Struct feature = freeze(basis);

@@ -70,11 +70,6 @@ struct ElementFeature {
   /// assembled from them. x contains the element's vertices.
   void ScalarRows(const Eigen::Vector3d* /*x*/, double* /*k*/) const {}
 
-  /// The numbers of each element in files that have none.
-  static Eigen::Matrix<double, kNumbers, 1> UsualNumbers() {
-    return Eigen::Matrix<double, kNumbers, 1>::Zero();
-  }
-
   /// Calls visit(name, number) for each number of the feature as a whole; they are stored in files.
   /// A struct with such numbers redefines this template.
   template <typename Self, typename Visit>

@@ -25,7 +25,7 @@ namespace internal {
 struct FeatureKind {
   int vertices = 0;
   bool is_sum = false;
-  Eigen::VectorXd usual_numbers;  ///< ElementFeature::UsualNumbers
+  int numbers = 0;  ///< of each element
   std::function<std::shared_ptr<const Feature>(const MetricBasis&, double coefficient)> freeze;
   /// From the content of a file; `constant` returns a number by its name.
   std::function<std::shared_ptr<const Feature>(

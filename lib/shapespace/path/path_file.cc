@@ -12,7 +12,7 @@ using internal::ArrayReader;
 using internal::ArrayWriter;
 using internal::HeaderJson;
 
-constexpr internal::ArrayFileKind kKind = {"SHAPPATH", 2, ".path"};
+constexpr internal::ArrayFileKind kKind = {"SHAPPATH", 1, ".path"};
 
 }  // namespace
 

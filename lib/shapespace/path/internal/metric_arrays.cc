@@ -51,54 +51,27 @@ MetricOptions OptionsFromJson(const HeaderJson& json) {
   json.at("lambda").get_to(options.lambda);
   json.at("bending").get_to(options.bending);
   json.at("volume").get_to(options.volume);
-  if (json.contains("features")) {
-    for (const HeaderJson& term : json.at("features")) {
-      options.features.push_back(
-          {term.at("name").get<std::string>(), term.at("coefficient").get<double>()});
-    }
+  for (const HeaderJson& term : json.at("features")) {
+    options.features.push_back(
+        {term.at("name").get<std::string>(), term.at("coefficient").get<double>()});
   }
   options.weights =
       IsSecond(json, "weights", "area", "uniform") ? Weighting::kUniform : Weighting::kArea;
   options.discretization = IsSecond(json, "discretization", "midpoint", "trapezoid")
                                ? Discretization::kTrapezoid
                                : Discretization::kMidpoint;
+  options.stiffness_on = IsSecond(json, "stiffness_on", kVertices, kEdges) ? StiffnessOn::kEdges
+                                                                           : StiffnessOn::kVertices;
   return options;
 }
 
-// Reads the stiffness, which files may have on vertices or on edges.
-void ReadStiffness(const HeaderJson& json, const ArrayReader& arrays,
-                   const Connectivity& connectivity, MetricOptions* options) {
-  const std::pair<const char*, Eigen::VectorXd*> fields[] = {
-      {kStretching, &options->stretching_stiffness}, {kBending, &options->bending_stiffness}};
-  for (const auto& [name, field] : fields) {
-    if (arrays.Has(name)) *field = arrays.Get<Eigen::VectorXd>(name, Eigen::Dynamic, 1);
-  }
-  if (json.contains("stiffness_on")) {
-    const std::string on = json.at("stiffness_on").get<std::string>();
-    if (on != kVertices && on != kEdges) {
-      throw FileError("its stiffness is on \"" + on + "\", which is neither vertices nor edges");
-    }
-    options->stiffness_on = on == kEdges ? StiffnessOn::kEdges : StiffnessOn::kVertices;
-  } else {
-    // In older files the number of each field says it, vertices first, and the two may differ.
-    const auto on_vertices = [&](const Eigen::VectorXd& field) {
-      return field.size() == 0 || field.size() == connectivity.NumVertices();
-    };
-    if (!on_vertices(options->stretching_stiffness) || !on_vertices(options->bending_stiffness)) {
-      options->stiffness_on = StiffnessOn::kEdges;
-      for (const auto& [name, field] : fields) {
-        if (field->size() == connectivity.NumVertices()) {
-          *field = EdgeStiffness(*field, StiffnessOn::kVertices, connectivity);
-        }
-      }
-    }
-  }
+void ReadStiffness(const ArrayReader& arrays, const Connectivity& connectivity,
+                   MetricOptions* options) {
   const int count = options->stiffness_on == StiffnessOn::kEdges ? connectivity.NumEdges()
                                                                  : connectivity.NumVertices();
-  for (const auto& [name, field] : fields) {
-    if (field->size() > 0 && field->size() != count) {
-      throw FileError(std::string("its array ") + name + " has the wrong size");
-    }
+  for (const auto& [name, field] : {std::pair(kStretching, &options->stretching_stiffness),
+                                    std::pair(kBending, &options->bending_stiffness)}) {
+    if (arrays.Has(name)) *field = arrays.Get<Eigen::VectorXd>(name, count, 1);
   }
 }
 
@@ -114,10 +87,10 @@ std::shared_ptr<const Feature> ReadFeature(const std::string& name, const Header
   const auto stencils =
       arrays.Get<Eigen::MatrixXi>(prefix + "stencils", kind.vertices, Eigen::Dynamic);
   const auto weights = arrays.Get<Eigen::VectorXd>(prefix + "weights", Eigen::Dynamic, 1);
-  const std::string own = prefix + kNumbers;
-  const Eigen::MatrixXd numbers =
-      arrays.Has(own) ? arrays.Get<Eigen::MatrixXd>(own, kind.usual_numbers.size(), stencils.cols())
-                      : Eigen::MatrixXd(kind.usual_numbers.replicate(1, stencils.cols()));
+  Eigen::MatrixXd numbers(kind.numbers, stencils.cols());
+  if (kind.numbers > 0) {
+    numbers = arrays.Get<Eigen::MatrixXd>(prefix + kNumbers, kind.numbers, stencils.cols());
+  }
   auto feature = kind.restore(stencils, weights, numbers, [&](const std::string& constant) {
     return constants.at(constant).get<double>();
   });
@@ -229,7 +202,7 @@ std::shared_ptr<const Metric> ReadMetric(const HeaderJson& header, const ArrayRe
   metric->connectivity = ReadConnectivity(num_vertices, arrays);
   const Connectivity& connectivity = *metric->connectivity;
   metric->options = OptionsFromJson(header.at("metric"));
-  ReadStiffness(header.at("metric"), arrays, connectivity, &metric->options);
+  ReadStiffness(arrays, connectivity, &metric->options);
   metric->options.Validate();
   metric->unit = header.at("unit").get<double>();
   if (!(metric->unit > 0)) throw FileError("its unit of length is not positive");
