@@ -113,13 +113,13 @@ int main(int argc, char** argv) {
       argc, argv,
       {"shape-average",
        "the average of poses of a mesh",
-       "  shape-average a.obj b.obj c.obj [...] --output mean.obj,mean.png\n"
-       "  shape-average a.obj b.obj --weights 1,3 --output quarter.obj\n\n"
-       "The average has the mean lengths and angles of the poses, as nearly as a shape can; it "
-       "does "
-       "not\nshrink where parts turn. It is compared with a lower bound (--nocertify saves that "
-       "time): above 1.1\nthere is a warning that the poses are too different for an average to "
-       "say much. --refine lowers the\nsum of squared lengths of the geodesics to the poses.",
+       R"(  shape-average a.obj b.obj c.obj [...] --output mean.obj,mean.png
+  shape-average a.obj b.obj --weights 1,3 --output quarter.obj
+
+The average has the mean lengths and angles of the poses, as nearly as a shape can; it does not
+shrink where parts turn. It is compared with a lower bound (--nocertify saves that time): above 1.1
+there is a warning that the poses are too different for an average to say much. --refine lowers the
+sum of squared lengths of the geodesics to the poses.)",
        {"average", "report", "summary", "metric", "poses", "mesh", "memory", "outside_files"}},
       Run);
 }

@@ -144,14 +144,13 @@ void Run(const std::vector<std::string>& arguments) {
 
 int main(int argc, char** argv) {
   using namespace shapespace::tools;
-  return RunTool(
-      argc, argv,
-      {"shape-body",
-       "poses of generated bodies, for trying the other tools",
-       "  shape-body                                      lists the bodies\n"
-       "  shape-body tube --at 0,90 --output tube%d.obj   writes tube0.obj and tube1.obj\n"
-       "  shape-body quadruped --pose stand,sit --proportions long --output animal%d.obj\n"
-       "  shape-body quadruped --random 20 --output herd%02d.obj --table herd.csv",
-       {"body"}},
-      Run);
+  return RunTool(argc, argv,
+                 {"shape-body",
+                  "poses of generated bodies, for trying the other tools",
+                  R"(  shape-body                                      lists the bodies
+  shape-body tube --at 0,90 --output tube%d.obj   writes tube0.obj and tube1.obj
+  shape-body quadruped --pose stand,sit --proportions long --output animal%d.obj
+  shape-body quadruped --random 20 --output herd%02d.obj --table herd.csv)",
+                  {"body"}},
+                 Run);
 }

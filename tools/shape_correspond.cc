@@ -106,16 +106,17 @@ int main(int argc, char** argv) {
       argc, argv,
       {"shape-correspond",
        "a template fitted onto another body of any connectivity, and the map between them",
-       "  shape-correspond cat.obj lion.obj --markers cat_lion.txt \\\n"
-       "    --output fitted.obj,map.txt,check.png\n\n"
-       "Each line of the markers' file names a vertex of the template and the corresponding one of "
-       "the\ntarget; twenty of them, at the ends of limbs and at joints, are a good start. Two "
-       "files of\nlandmarks, as 3D Slicer saves them, serve as well: --markers cat.fcsv,lion.fcsv. "
-       "The fitted template\nhas the template's faces, so every other tool accepts it together "
-       "with the template's poses. Check\nthe picture before you rely on the map.\n\nA fit that "
-       "does "
-       "not converge is reported; its outputs are written, and the exit code is 0, or 1\nwith "
-       "--strict.",
+       R"(  shape-correspond cat.obj lion.obj --markers cat_lion.txt \
+    --output fitted.obj,map.txt,check.png
+
+Each line of the markers' file names a vertex of the template and the corresponding one of the
+target; twenty of them, at the ends of limbs and at joints, are a good start. Two files of
+landmarks, as 3D Slicer saves them, serve as well: --markers cat.fcsv,lion.fcsv. The fitted template
+has the template's faces, so every other tool accepts it together with the template's poses. Check
+the picture before you rely on the map.
+
+A fit that does not converge is reported; its outputs are written, and the exit code is 0, or 1
+with --strict.)",
        {"correspond", "correspondence", "memory", "report", "summary", "outside_files"}},
       Run);
 }

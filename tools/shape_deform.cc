@@ -148,15 +148,15 @@ int main(int argc, char** argv) {
       {"shape-deform",
        "a mesh deformed by handles, or a distorted one repaired",
        std::string(
-           "  shape-deform mesh.obj --handles handles.json --output bent.obj,steps.png,bend.glb\n"
-           "  shape-deform dented.obj --repair sound.obj --output mended.obj\n\n"
-           "Handles are vertices that stay, move or turn; the motion of the others has the least "
-           "cost. The\noutput is a path: an .obj or .ply without a number in its name contains its "
-           "last shape, the\ndeformed mesh, and - writes that to stdout, as PLY. In a film strip, "
-           "vertices of handles are drawn\ndark if they stay, and red if they move. The default "
-           "metric depends on whether the mesh is closed\n(stiffer, with a cost of volume) or "
-           "open; "
-           "--metric selects another; --volume 30 keeps the volume\nwithin .3 %.") +
+           R"(  shape-deform mesh.obj --handles handles.json --output bent.obj,steps.png,bend.glb
+  shape-deform dented.obj --repair sound.obj --output mended.obj
+
+Handles are vertices that stay, move or turn; the motion of the others has the least cost. The
+output is a path: an .obj or .ply without a number in its name contains its last shape, the
+deformed mesh, and - writes that to stdout, as PLY. In a film strip, vertices of handles are drawn
+dark if they stay, and red if they move. The default metric depends on whether the mesh is closed
+(stiffer, with a cost of volume) or open; --metric selects another; --volume 30 keeps the volume
+within .3 %.)") +
            kHowASolveEnds,
        {"deform", "obstacle", "report", "summary", "outputs", "metric", "poses", "mesh", "memory",
         "outside_files"}},

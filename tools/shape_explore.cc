@@ -187,15 +187,16 @@ int main(int argc, char** argv) {
       argc, argv,
       {"shape-explore",
        "a space of poses on a plane, and the shapes along a curve through it",
-       "  shape-explore a.obj b.obj c.obj [...] --output poses.space --threshold 5% --depth 2\n"
-       "  shape-explore a.obj b.obj c.obj [...] --output distances.csv\n"
-       "  shape-explore --sample curve.json poses.space --output walk.glb --frames 32\n"
-       "  shape-explore --measure 200 poses.space\n\n"
-       "Similar poses are close to each other on the plane. shape-view shows it in a browser. "
-       "A .csv\nhas the lengths of the geodesics between every two poses, and no more. "
-       "An\ninterrupted run can be continued: finished geodesics are stored in poses.space.records "
-       "until the\nspace is complete. With mpirun -n 4 in front, four processes share the "
-       "geodesics (--threads is the\nnumber of threads of each process).",
+       R"(  shape-explore a.obj b.obj c.obj [...] --output poses.space --threshold 5% --depth 2
+  shape-explore a.obj b.obj c.obj [...] --output distances.csv
+  shape-explore --sample curve.json poses.space --output walk.glb --frames 32
+  shape-explore --measure 200 poses.space
+
+Similar poses are close to each other on the plane. shape-view shows it in a browser. A .csv
+has the lengths of the geodesics between every two poses, and no more. An
+interrupted run can be continued: finished geodesics are stored in poses.space.records until the
+space is complete. With mpirun -n 4 in front, four processes share the geodesics (--threads is the
+number of threads of each process).)",
        {"explore", "geodesic", "report", "summary", "outputs", "metric", "poses", "mesh", "memory",
         "outside_files"}},
       Run);

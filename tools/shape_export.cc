@@ -90,8 +90,8 @@ int main(int argc, char** argv) {
   return RunTool(argc, argv,
                  {"shape-export",
                   "meshes and pictures of a path, without solving again",
-                  "  shape-export walk.path --output walk.png,frames/%03d.obj --frames 40 --ease\n"
-                  "  shape-export walk.path --output quarter%d.obj --at .25,.5,.75",
+                  R"(  shape-export walk.path --output walk.png,frames/%03d.obj --frames 40 --ease
+  shape-export walk.path --output quarter%d.obj --at .25,.5,.75)",
                   {"export", "outputs", "anchor", "memory", "outside_files"}},
                  Run);
 }

@@ -153,15 +153,16 @@ int main(int argc, char** argv) {
       {"shape-extrapolate",
        "a path that continues beyond its poses",
        std::string(
-           "  shape-extrapolate a.obj b.obj [c.obj ...] --shapes 15 --steps 8 --output on.glb\n"
-           "  shape-extrapolate walk.path --keep 2 --steps 7 --output on/%03d.obj\n\n"
-           "Poses are interpolated first, as by shape-interpolate but more accurately "
-           "(--tolerance), because\nerrors grow from step to step. A .path may be given instead of "
-           "poses; it contains the metric with\nwhich it was made. Outputs contain the shapes kept "
-           "and the new ones; in a film strip poses are\nblue, shapes between them green, "
-           "extrapolated ones purple.\n\nIf the shape degenerates, the outputs contain the shapes "
-           "before that, and stderr says so: exit code\n0 if there are new shapes, 1 if there are "
-           "none.") +
+           R"(  shape-extrapolate a.obj b.obj [c.obj ...] --shapes 15 --steps 8 --output on.glb
+  shape-extrapolate walk.path --keep 2 --steps 7 --output on/%03d.obj
+
+Poses are interpolated first, as by shape-interpolate but more accurately (--tolerance), because
+errors grow from step to step. A .path may be given instead of poses; it contains the metric with
+which it was made. Outputs contain the shapes kept and the new ones; in a film strip poses are
+blue, shapes between them green, extrapolated ones purple.
+
+If the shape degenerates, the outputs contain the shapes before that, and stderr says so: exit code
+0 if there are new shapes, 1 if there are none.)") +
            kHowASolveEnds,
        {"extrapolate", "geodesic", "report", "summary", "outputs", "metric", "poses", "mesh",
         "memory", "anchor", "outside_files"}},

@@ -324,9 +324,10 @@ int main(int argc, char** argv) {
   return RunTool(argc, argv,
                  {"shape-inspect",
                   "contents of files, correspondence of meshes, differences between poses",
-                  "  shape-inspect a.obj b.obj walk.path poses.space herd.modes\n\n"
-                  "Exit code 1 if a file cannot be read, a mesh cannot be used as it is, or meshes "
-                  "do not\ncorrespond.",
+                  R"(  shape-inspect a.obj b.obj walk.path poses.space herd.modes
+
+Exit code 1 if a file cannot be read, a mesh cannot be used as it is, or meshes do not
+correspond.)",
                   {"metric", "mesh", "report", "outside_files"}},
                  Run);
 }

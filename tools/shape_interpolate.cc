@@ -97,13 +97,14 @@ int main(int argc, char** argv) {
       {"shape-interpolate",
        "a geodesic of shape space, or a smooth motion, through poses of a mesh",
        std::string(
-           "  shape-interpolate a.obj b.obj [c.obj ...] --shapes 15 --output "
-           "walk.png,walk.path,frames/%03d.obj\n\n"
-           "Poses are OBJ, PLY, OFF, STL or glTF files with the same faces in the same order. With "
-           "15 shapes\ninserted between two poses 17 frames are written, numbered from 000, the "
-           "poses included. The morph\ntargets of a glTF file are poses too.\n\n"
-           "Through three or more poses the path is a chain of geodesics, whose velocity jumps at "
-           "each pose.\nWith --spline it is smooth there.") +
+           R"(  shape-interpolate a.obj b.obj [c.obj ...] --shapes 15 --output walk.png,walk.path,frames/%03d.obj
+
+Poses are OBJ, PLY, OFF, STL or glTF files with the same faces in the same order. With 15 shapes
+inserted between two poses 17 frames are written, numbered from 000, the poses included. The morph
+targets of a glTF file are poses too.
+
+Through three or more poses the path is a chain of geodesics, whose velocity jumps at each pose.
+With --spline it is smooth there.)") +
            kHowASolveEnds,
        {"geodesic", "contact", "obstacle", "spline", "report", "summary", "outputs", "anchor",
         "metric", "poses", "mesh", "memory", "outside_files"}},

@@ -41,11 +41,10 @@
 DEFINE_string(
     output, "",
     "files to write, separated by commas. Of the modes: .modes (all, for this program), .png "
-    "(their "
-    "shapes and variances), mode%d.glb (an animation of each), .html (a page with sliders), .csv "
-    "(coordinates of the poses), .pc2 or .mdd (a point cache: the mean, then each mode at 1, for "
-    "shape keys). Of shapes at coordinates: .obj, .ply, .off or .stl, for --sample with a number, "
-    "such as s%02d.obj");
+    "(their shapes and variances), mode%d.glb (an animation of each), .html (a page with sliders), "
+    ".csv (coordinates of the poses), .pc2 or .mdd (a point cache: the mean, then each mode at 1, "
+    "for shape keys). Of shapes at coordinates: .obj, .ply, .off or .stl, for --sample with a "
+    "number, such as s%02d.obj");
 static const shapespace::tools::OptionFlags<shapespace::ShapeModelOptions> model_flags(
     __FILE__, {{"modes", "modes"}, {"size", "size"}, {"certify", "certify"}, {"refine", "refine"}});
 DEFINE_string(coordinates, "",
@@ -448,17 +447,17 @@ int main(int argc, char** argv) {
       argc, argv,
       {"shape-statistics",
        "the mean and the modes of poses, and how shapes depend on scalars and groups",
-       "  shape-statistics *.obj --modes 6 --output herd.modes,modes.png,mode%d.glb,herd.html\n"
-       "  shape-statistics herd.modes --coordinates new.obj --fit --output new.csv\n"
-       "  shape-statistics herd.modes --at 1.5,-.5 --output shape.obj\n"
-       "  shape-statistics herd.modes --sample 20 --seed 1 --output 's%02d.obj'\n"
-       "  shape-statistics herd.modes --scalars ages.csv --predict 40 --output forty.obj\n"
-       "  shape-statistics herd.modes --groups groups.csv\n"
-       "  shape-statistics herd.modes --assess\n\n"
-       "Coordinates are in standard deviations of the modes. A .csv has the names of the poses' "
-       "files in its\nfirst column and the names of the columns in its first line, as R and pandas "
-       "write it. With several\nscalars, each is controlled for the others. A .modes file contains "
-       "the poses.",
+       R"(  shape-statistics *.obj --modes 6 --output herd.modes,modes.png,mode%d.glb,herd.html
+  shape-statistics herd.modes --coordinates new.obj --fit --output new.csv
+  shape-statistics herd.modes --at 1.5,-.5 --output shape.obj
+  shape-statistics herd.modes --sample 20 --seed 1 --output 's%02d.obj'
+  shape-statistics herd.modes --scalars ages.csv --predict 40 --output forty.obj
+  shape-statistics herd.modes --groups groups.csv
+  shape-statistics herd.modes --assess
+
+Coordinates are in standard deviations of the modes. A .csv has the names of the poses' files in its
+first column and the names of the columns in its first line, as R and pandas write it. With several
+scalars, each is controlled for the others. A .modes file contains the poses.)",
        {"model", "report", "summary", "metric", "poses", "mesh", "memory", "outside_files"}},
       Run);
 }

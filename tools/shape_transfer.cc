@@ -200,17 +200,16 @@ int main(int argc, char** argv) {
       {"shape-transfer",
        "deformation transfer: the same motion of another body",
        std::string(
-           "  shape-transfer stand.obj sit.obj leap.obj --target other.obj --output moved%d.obj\n"
-           "  shape-transfer walk.path --target other.obj --output walk.glb --hybrids half.glb\n"
-           "  shape-transfer cat0.obj cat1.obj --target lion.obj --markers cat_lion.txt --output "
-           "lion%d.obj\n\n"
-           "All meshes must have the same faces in the same order; only with --markers may the "
-           "target differ:\nthen the source is fitted onto it, as by shape-correspond, and outputs "
-           "have the target's faces.\nThe target is in the first pose; frame 0 is the target, "
-           "frame 1 the target in the second pose, and\nso on. For a .path there is one frame per "
-           "shape. With --method ladder the geodesic to each pose has\n--shapes + 1 segments, each "
-           "of which is transferred; the flags of the metric are those of these\ngeodesics. In a "
-           "film strip the target is blue, its other shapes are purple, hybrids are green.") +
+           R"(  shape-transfer stand.obj sit.obj leap.obj --target other.obj --output moved%d.obj
+  shape-transfer walk.path --target other.obj --output walk.glb --hybrids half.glb
+  shape-transfer cat0.obj cat1.obj --target lion.obj --markers cat_lion.txt --output lion%d.obj
+
+All meshes must have the same faces in the same order; only with --markers may the target differ:
+then the source is fitted onto it, as by shape-correspond, and outputs have the target's faces.
+The target is in the first pose; frame 0 is the target, frame 1 the target in the second pose, and
+so on. For a .path there is one frame per shape. With --method ladder the geodesic to each pose has
+--shapes + 1 segments, each of which is transferred; the flags of the metric are those of these
+geodesics. In a film strip the target is blue, its other shapes are purple, hybrids are green.)") +
            kHowASolveEnds,
        {"transfer", "geodesic", "report", "summary", "outputs", "metric", "poses", "mesh", "memory",
         "anchor", "correspondence", "outside_files"}},

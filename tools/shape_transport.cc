@@ -140,20 +140,19 @@ void Run(const std::vector<std::string>& files) {
 int main(int argc, char** argv) {
   using namespace shapespace::tools;
   gflags::SetCommandLineOptionWithMode("output", "carried.ply", gflags::SET_FLAGS_DEFAULT);
-  return RunTool(
-      argc, argv,
-      {"shape-transport",
-       "a change of one pose, carried along a path to another pose",
-       std::string(
-           "  shape-transport a.obj b.obj changed_a.obj --output changed_b.obj\n"
-           "  shape-transport walk.path changed.obj --tangents change.csv --output there.glb\n\n"
-           "The change from the first shape of a path to a changed pose is a tangent vector (the "
-           "logarithm).\nIt is transported in parallel along the path to its last shape, which "
-           "then moves along a geodesic\nwith that velocity (the exponential): an .obj or .ply "
-           "without a number in its name is its end, and\n- writes that to stdout, as PLY. "
-           "--tangents writes the tangents themselves, in the poses' unit.") +
-           kHowASolveEnds,
-       {"transport", "geodesic", "report", "summary", "outputs", "metric", "poses", "mesh",
-        "memory", "outside_files"}},
-      Run);
+  return RunTool(argc, argv,
+                 {"shape-transport",
+                  "a change of one pose, carried along a path to another pose",
+                  std::string(
+                      R"(  shape-transport a.obj b.obj changed_a.obj --output changed_b.obj
+  shape-transport walk.path changed.obj --tangents change.csv --output there.glb
+
+The change from the first shape of a path to a changed pose is a tangent vector (the logarithm).
+It is transported in parallel along the path to its last shape, which then moves along a geodesic
+with that velocity (the exponential): an .obj or .ply without a number in its name is its end, and
+- writes that to stdout, as PLY. --tangents writes the tangents themselves, in the poses' unit.)") +
+                      kHowASolveEnds,
+                  {"transport", "geodesic", "report", "summary", "outputs", "metric", "poses",
+                   "mesh", "memory", "outside_files"}},
+                 Run);
 }

@@ -113,12 +113,12 @@ int main(int argc, char** argv) {
       argc, argv,
       {"shape-view",
        "a page that shows paths, spaces and meshes in a browser, in one file, without network",
-       "  shape-view walk.path --output walk.html\n"
-       "  shape-view before.path after.path --output compare.html   side by side\n"
-       "  shape-view walk.glb --output walk.html\n"
-       "  shape-view poses.space --output poses.html                shapes at points of a plane\n"
-       "  shape-view cat.obj --output cat.html                      pick handles and selections\n"
-       "  shape-view cat.obj lion.obj --output markers.html         pick markers on both",
+       R"(  shape-view walk.path --output walk.html
+  shape-view before.path after.path --output compare.html   side by side
+  shape-view walk.glb --output walk.html
+  shape-view poses.space --output poses.html                shapes at points of a plane
+  shape-view cat.obj --output cat.html                      pick handles and selections
+  shape-view cat.obj lion.obj --output markers.html         pick markers on both)",
        {"view"}},
       Run);
 }

@@ -14,14 +14,17 @@ from ._options import takes
 from ._progress import told
 
 
+def _shown(result):
+    return f"{result.path._repr_html_()}<pre>{escape(repr(result.summary))}</pre>"
+
+
 class GeodesicResult(typing.NamedTuple):
     """A path and how it was found."""
 
     path: Path
     summary: _core.GeodesicSummary
 
-    def _repr_html_(self):
-        return _shown(self)
+    _repr_html_ = _shown
 
 
 class SplineResult(typing.NamedTuple):
@@ -30,8 +33,7 @@ class SplineResult(typing.NamedTuple):
     path: Path
     summary: _core.SplineSummary
 
-    def _repr_html_(self):
-        return _shown(self)
+    _repr_html_ = _shown
 
 
 class StandingResult(typing.NamedTuple):
@@ -40,8 +42,7 @@ class StandingResult(typing.NamedTuple):
     path: Path
     summary: _core.StandingSummary
 
-    def _repr_html_(self):
-        return _shown(self)
+    _repr_html_ = _shown
 
 
 class AverageResult(typing.NamedTuple):
@@ -57,8 +58,7 @@ class ExponentialResult(typing.NamedTuple):
     path: Path
     summary: _core.ExponentialSummary
 
-    def _repr_html_(self):
-        return _shown(self)
+    _repr_html_ = _shown
 
 
 class CorrectionResult(typing.NamedTuple):
@@ -67,8 +67,7 @@ class CorrectionResult(typing.NamedTuple):
     path: Path
     summary: _core.CorrectionSummary
 
-    def _repr_html_(self):
-        return _shown(self)
+    _repr_html_ = _shown
 
 
 class DeformationResult(typing.NamedTuple):
@@ -77,8 +76,7 @@ class DeformationResult(typing.NamedTuple):
     path: Path
     summary: _core.DeformationSummary
 
-    def _repr_html_(self):
-        return _shown(self)
+    _repr_html_ = _shown
 
 
 class RepairResult(typing.NamedTuple):
@@ -87,8 +85,7 @@ class RepairResult(typing.NamedTuple):
     path: Path
     summary: _core.RepairSummary
 
-    def _repr_html_(self):
-        return _shown(self)
+    _repr_html_ = _shown
 
 
 class TransferResult(typing.NamedTuple):
@@ -98,8 +95,7 @@ class TransferResult(typing.NamedTuple):
     hybrids: typing.Optional[Path]
     summary: _core.TransferSummary
 
-    def _repr_html_(self):
-        return _shown(self)
+    _repr_html_ = _shown
 
 
 class PoseTransferResult(typing.NamedTuple):
@@ -109,8 +105,7 @@ class PoseTransferResult(typing.NamedTuple):
     hybrids: typing.Optional[Path]
     summary: _core.PoseTransferSummary
 
-    def _repr_html_(self):
-        return _shown(self)
+    _repr_html_ = _shown
 
 
 class TransportResult(typing.NamedTuple):
@@ -133,10 +128,6 @@ class Finding(typing.NamedTuple):
     severity: str
     kind: str
     message: str
-
-
-def _shown(result):
-    return f"{result.path._repr_html_()}<pre>{escape(repr(result.summary))}</pre>"
 
 
 def _as(kind, value, name):

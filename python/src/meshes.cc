@@ -93,8 +93,9 @@ py::list Polygons(const Connectivity& connectivity) {
   return polygons;
 }
 
-void BindPoses(py::module_* module) {
-  py::class_<Poses>(*module, "Poses", R"(Poses of one mesh: what `read` returns and solvers take.
+py::class_<Poses> BindPoses(py::module_* module) {
+  return py::class_<Poses>(*module, "Poses",
+                           R"(Poses of one mesh: what `read` returns and solvers take.
 
 A sequence of the poses' vertices, n x 3 each.
 
@@ -150,8 +151,11 @@ MismatchError
            py::arg("open_seams") = ReadOptions().open_seams, py::arg("mirror") = py::none(),
            py::arg("allow_mirrored") = ReadOptions().allow_mirrored,
            py::arg("loose_components") = ReadOptions().loose_components)
-      .def(Pickle<Poses>())
-      .def("__len__", [](const Poses& poses) { return poses.shapes.size(); })
+      .def(Pickle<Poses>());
+}
+
+void BindContent(py::class_<Poses>* poses_class) {
+  poses_class->def("__len__", [](const Poses& poses) { return poses.shapes.size(); })
       .def("__getitem__",
            [](const Poses& poses, py::ssize_t i) {
              return FromShape(
@@ -186,7 +190,9 @@ MismatchError
                std::to_string(mesh.NumVertices()) + " vertices, " +
                std::to_string(mesh.NumTriangles()) + " triangles>";
       });
+}
 
+void BindMeshFiles(py::module_* module) {
   module->def(
       "read",
       [](const std::vector<std::string>& files, const std::string& stiffeners,
@@ -213,6 +219,11 @@ MismatchError
     return NotKept(file, poses.soup);
   });
 
+  module->def("read_vertex_field",
+              [](const std::string& source) { return FromMatrix(ReadVertexField(source)); });
+}
+
+void BindMeshQueries(py::module_* module) {
   module->def("select", [](const Poses& mesh, const std::string& selection) {
     const std::vector<int> found = SelectVertices(ReadSelection(selection), mesh.shapes[0],
                                                   *mesh.connectivity, mesh.soup.appearance);
@@ -225,9 +236,6 @@ MismatchError
     });
     return py::array_t<std::int64_t>(static_cast<py::ssize_t>(found.size()), found.data());
   });
-
-  module->def("read_vertex_field",
-              [](const std::string& source) { return FromMatrix(ReadVertexField(source)); });
 
   module->def("check", [](py::handle vertices, py::handle faces) {
     Soup soup;
@@ -366,7 +374,10 @@ void CheckIsOfMesh(const Metric& metric, const Connectivity& mesh) {
 }
 
 void BindMeshes(py::module_* module) {
-  BindPoses(module);
+  auto poses = BindPoses(module);
+  BindContent(&poses);
+  BindMeshFiles(module);
+  BindMeshQueries(module);
   BindBodies(module);
   module->def("set_threads", &SetThreads);
   module->def("threads", &NumThreads);

@@ -35,8 +35,8 @@ py::tuple FullMatrix(const FrozenMetric& self, const Shape& shape) {
   return py::make_tuple(FromMatrix(values), FromMatrix(rows), FromMatrix(begin));
 }
 
-void BindMetric(py::module_* module) {
-  py::class_<FrozenMetric>(*module, "Metric")
+py::class_<FrozenMetric> BindMetric(py::module_* module) {
+  return py::class_<FrozenMetric>(*module, "Metric")
       .def(py::init([](py::handle poses, py::handle faces, const py::object& preset,
                        const py::object& pairs, const py::kwargs& given) {
              MetricOptions options;
@@ -90,8 +90,12 @@ void BindMetric(py::module_* module) {
       .def_property_readonly(
           "hinge_area",
           [](const FrozenMetric& self) { return FromMatrix(self.metric->hinge_area); },
-          "Of each hinge: a third of its two triangles.")
-      .def(
+          "Of each hinge: a third of its two triangles.");
+}
+
+void BindMeasures(py::class_<FrozenMetric>* metric) {
+  metric
+      ->def(
           "norm",
           [](const FrozenMetric& self, py::handle shape, py::handle tangent) {
             const int n = self.metric->connectivity->NumVertices();
@@ -181,7 +185,8 @@ float
 }  // namespace
 
 void BindMetrics(py::module_* module) {
-  BindMetric(module);
+  auto metric = BindMetric(module);
+  BindMeasures(&metric);
   module->def("compare_shapes",
               [](const FrozenMetric& metric, py::handle reference, py::handle shape) {
                 const int n = metric.metric->connectivity->NumVertices();

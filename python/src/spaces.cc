@@ -43,8 +43,9 @@ ExploreOptions FromKeywords(const py::dict& given) {
   return options;
 }
 
-void BindSpace(py::module_* module) {
-  py::class_<PoseSpace>(*module, "Space", R"(Poses of a mesh and shapes between them, on a plane.
+py::class_<PoseSpace> BindSpace(py::module_* module) {
+  return py::class_<PoseSpace>(*module, "Space",
+                               R"(Poses of a mesh and shapes between them, on a plane.
 
 Distances on the plane are about the lengths of geodesics. A sequence of nodes, n x 3 each: the
 poses, then the shapes found half way between nodes. `explore` makes it.
@@ -90,8 +91,12 @@ poses, then the shapes found half way between nodes. `explore` makes it.
           "distances", [](const PoseSpace& space) { return FromMatrix(space.distances); },
           "Lengths of the geodesics between every two poses.")
       .def_readonly("stress", &PoseSpace::stress,
-                    "How far the plane is from holding all distances.")
-      .def(
+                    "How far the plane is from holding all distances.");
+}
+
+void BindPlane(py::class_<PoseSpace>* pose_space) {
+  pose_space
+      ->def(
           "at",
           [](const PoseSpace& space, py::handle points) {
             const Eigen::Matrix2Xd all = ToPoints(points);
@@ -170,7 +175,8 @@ poses, then the shapes found half way between nodes. `explore` makes it.
 }  // namespace
 
 void BindSpaces(py::module_* module) {
-  BindSpace(module);
+  auto pose_space = BindSpace(module);
+  BindPlane(&pose_space);
   module->def("embed", [](py::handle distances, const py::dict& given) {
     EmbeddingOptions options;
     Set(given, &options);

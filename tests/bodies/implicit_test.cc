@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <shapespace/bodies/detail/polygonise.h>
+#include <shapespace/bodies/detail/marching_tetrahedra.h>
+#include <shapespace/bodies/detail/remesh.h>
 
 #include "bodies/measure.h"
 

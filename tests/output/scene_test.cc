@@ -1,4 +1,4 @@
-#include <shapespace/output/detail/scene.h>
+#include <shapespace/output/detail/ray_scene.h>
 
 #include <cmath>
 
@@ -14,8 +14,8 @@
 namespace shapespace {
 namespace {
 
+using internal::RayScene;
 using internal::RayTracer;
-using internal::Scene;
 
 const Eigen::Vector3f kDown(0, 0, -1), kUp(0, 0, 1);
 
@@ -25,8 +25,8 @@ TEST(SceneTest, AHitTellsPlaceValueAndVertex) {
   Shape shape(3, 4);
   shape << 0.9, -0.5, 0.5, -0.5, 0.9, -0.5, -0.5, 0.5, 0.9, 0.25, 0.25, 0.25;
   const RayTracer tracer(*connectivity, 0);
-  const Scene scene(tracer, shape, Eigen::Vector4f(100, 1, 10, 4));
-  Scene::Hit hit;
+  const RayScene scene(tracer, shape, Eigen::Vector4f(100, 1, 10, 4));
+  RayScene::Hit hit;
   // A tenth of the way from vertex 1 to 2, and three tenths of that from 1 to 3.
   ASSERT_TRUE(scene.Trace({-0.4f, -0.2f, 1}, kDown, &hit));
   EXPECT_NEAR(hit.distance, 0.75, 1e-5);
@@ -47,7 +47,7 @@ TEST(SceneTest, AHitTellsPlaceValueAndVertex) {
   EXPECT_TRUE(scene.Blocked({-0.4f, -0.2f, 1}, kDown, 0.76f));
   EXPECT_FALSE(scene.Blocked({-0.4f, -0.2f, 1}, kDown, 0.74f));
   EXPECT_FALSE(scene.Blocked({0.4f, 0.4f, 1}, kDown, 10));
-  const Scene plain(tracer, shape, Eigen::VectorXf());
+  const RayScene plain(tracer, shape, Eigen::VectorXf());
   ASSERT_TRUE(plain.Trace({-0.4f, -0.2f, 1}, kDown, &hit));
   EXPECT_EQ(hit.value, 0);
 }
@@ -59,8 +59,8 @@ TEST(SceneTest, TubesAndLooseVerticesOfGraphsAreHit) {
   const RayTracer tracer(*graph, 0.05f);
   Eigen::VectorXf values(5);
   values << 1, 3, 7, 5, 9;
-  const Scene scene(tracer, shape, values);
-  Scene::Hit hit;
+  const RayScene scene(tracer, shape, values);
+  RayScene::Hit hit;
   // A quarter of the way from 0 to 3.
   ASSERT_TRUE(scene.Trace({-0.4f, 0, 1}, kDown, &hit));
   EXPECT_NEAR(hit.distance, 0.95, 1e-3);
@@ -114,7 +114,7 @@ class Drawing {
   Drawing(const SimpleBody& body, const internal::Paint& paint, const Eigen::VectorXf& values = {},
           int samples = 2) {
     const RayTracer tracer(*body.connectivity, 0);
-    const Scene scene(tracer, body.shape, values);
+    const RayScene scene(tracer, body.shape, values);
     internal::Camera camera;
     camera.axes = Eigen::Matrix3d::Identity();
     camera.centre = Eigen::Vector2d(0.1, -0.05);

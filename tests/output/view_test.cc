@@ -40,7 +40,7 @@ Shape WithZAsY(const Shape& shape) {
 internal::Axes View(const SimpleBody& body, const Eigen::Vector3d& up) {
   const internal::RayTracer tracer(*body.connectivity, 0);
   const std::vector<Shape> shapes = {body.shape / body.shape.colwise().norm().maxCoeff()};
-  std::vector<internal::Scene> scenes;
+  std::vector<internal::RayScene> scenes;
   scenes.emplace_back(tracer, shapes[0], Eigen::VectorXf());
   return internal::ChooseView(shapes, scenes, up);
 }

@@ -14,7 +14,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/sheet.h>
 #include <shapespace/contact/detail/motion_contact.h>
-#include <shapespace/contact/detail/parting.h>
+#include <shapespace/contact/detail/separation_potential.h>
 #include <shapespace/contact/internal/avoid_contact.h>
 #include <shapespace/contact/internal/contact_model.h>
 #include <shapespace/contact/internal/follow.h>

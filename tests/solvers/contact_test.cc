@@ -7,7 +7,7 @@
 
 #include <shapespace/bodies/bar.h>
 #include <shapespace/bodies/sheet.h>
-#include <shapespace/contact/detail/parting.h>
+#include <shapespace/contact/detail/separation_potential.h>
 #include <shapespace/contact/internal/path_contact.h>
 
 #include "support/threads.h"

@@ -139,17 +139,29 @@ TEST(GradientIntegrator, WeighsSidesThatDisagree) {
   EXPECT_LT((found.col(1) + found.col(0)).norm(), 1e-9);
 }
 
-// A triangle, an edge of its own corners' to a loose vertex, and one between two loose vertices.
-TEST(GradientIntegrator, LooseEdgesAreThoseWithAnEndInNoTriangle) {
+// Two triangles; an edge from a corner to a vertex without triangles, one between two such, and a
+// stiffener between the triangles.
+TEST(SurfaceIntegrator, PlacesWhatIsInNoTriangle) {
   const auto connectivity =
       Connectivity::Make(9, {0, 3, 6}, {0, 1, 2, 3, 4, 5}, {{6, 2}, {7, 8}, {1, 3}});
-  const auto sides = GradientIntegrator::SidesWithoutTriangles(*connectivity);
-  ASSERT_EQ(sides.size(), 2u);
-  EXPECT_EQ(std::min(sides[0].from, sides[0].to), 2);
-  EXPECT_EQ(std::max(sides[0].from, sides[0].to), 6);
-  EXPECT_EQ(std::min(sides[1].from, sides[1].to), 7);
-  EXPECT_EQ(std::max(sides[1].from, sides[1].to), 8);
-  for (const auto& side : sides) EXPECT_EQ(side.weight, 1);
+  Shape base = Shape::Random(3, 9);
+  const SurfaceIntegrator integrator(*connectivity, Eigen::Matrix3Xd::Ones(3, 2));
+  const auto sides = [&](int f) -> Eigen::Matrix3d {
+    return TriangleSides(base, connectivity->Triangles().col(f));
+  };
+  Shape places = base;
+  places.middleCols(3, 3).colwise() += Eigen::Vector3d(5, 0, 0);  // a triangle away from its place
+  places.col(6) += Eigen::Vector3d(0, 3, 0);
+  places.col(8) += Eigen::Vector3d(0, 0, 2);
+  const Shape found = integrator.Integrate(
+      base, places, sides, [](int) { return Eigen::Matrix3d(2 * Eigen::Matrix3d::Identity()); });
+  const auto side = [](const Shape& shape, int a, int b) -> Eigen::Vector3d {
+    return shape.col(b) - shape.col(a);
+  };
+  EXPECT_LT((side(found, 3, 4) - side(base, 3, 4)).norm(), 1e-2);
+  EXPECT_LT((side(found, 2, 6) - side(places, 2, 6)).norm(), 1e-2);
+  EXPECT_LT((side(found, 7, 8) - side(places, 7, 8)).norm(), 1e-2);
+  EXPECT_LT((side(found, 1, 3) - 2 * side(base, 1, 3)).norm(), 1e-1);
 }
 
 TEST(Solve, TakesAnyNumberOfColumns) {

@@ -12,8 +12,8 @@
 #include <shapespace/base/internal/random.h>
 #include <shapespace/bodies/detail/bend.h>
 #include <shapespace/bodies/detail/checks.h>
-#include <shapespace/bodies/detail/polygonise.h>
 #include <shapespace/bodies/detail/quadruped_poses.h>
+#include <shapespace/bodies/detail/remesh.h>
 #include <shapespace/bodies/detail/skeleton.h>
 #include <shapespace/mesh/internal/geometry.h>
 

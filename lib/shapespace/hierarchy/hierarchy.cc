@@ -30,12 +30,12 @@ std::vector<int> Targets(int triangles, int coarsest) {
 // The mesh after collapses that moved vertex v to `place[v]`; `number` gives the remaining vertices
 // their index.
 std::shared_ptr<const Connectivity> Collapsed(const Connectivity& mesh,
-                                              const std::vector<int>& place,
+                                              const std::vector<int>& representative,
                                               const std::vector<int>& number, int num_vertices) {
   std::vector<int> corners;
   for (int f = 0; f < mesh.NumTriangles(); ++f) {
     const Eigen::Vector3i t = mesh.Triangles().col(f);
-    const int a = place[t(0)], b = place[t(1)], c = place[t(2)];
+    const int a = representative[t(0)], b = representative[t(1)], c = representative[t(2)];
     if (a != b && b != c && c != a)
       corners.insert(corners.end(), {number[a], number[b], number[c]});
   }
@@ -43,11 +43,12 @@ std::shared_ptr<const Connectivity> Collapsed(const Connectivity& mesh,
   for (size_t f = 0; f < begin.size(); ++f) begin[f] = static_cast<int>(3 * f);
   std::vector<std::pair<int, int>> segments, extra;  // segments form curves, and touch others
   for (const auto& [from, to] : mesh.Segments()) {
-    const int a = place[mesh.Representative(from)], b = place[mesh.Representative(to)];
+    const int a = representative[mesh.Representative(from)],
+              b = representative[mesh.Representative(to)];
     if (a != b) segments.emplace_back(number[a], number[b]);
   }
   for (int e = mesh.NumTriangleEdges(); e < mesh.NumEdges(); ++e) {
-    const int a = place[mesh.Edges()(0, e)], b = place[mesh.Edges()(1, e)];
+    const int a = representative[mesh.Edges()(0, e)], b = representative[mesh.Edges()(1, e)];
     if (a != b) extra.emplace_back(number[a], number[b]);
   }
   return Connectivity::Make(num_vertices, std::move(begin), std::move(corners), segments, extra);
@@ -82,14 +83,16 @@ Hierarchy::Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
       internal::PlanCollapses(*connectivity, poses, fewest, pinned, progress);
   stopped_early_ = !targets.empty() && (collapses.empty() || collapses.back().triangles > fewest);
 
-  std::vector<int> place = levels_[0].vertices;  // to which every vertex of the mesh has collapsed
-  for (const int twin : connectivity->Twins()) place[twin] = connectivity->Representative(twin);
+  std::vector<int> representative =
+      levels_[0].vertices;  // to which every vertex of the mesh has collapsed
+  for (const int twin : connectivity->Twins())
+    representative[twin] = connectivity->Representative(twin);
   size_t next = 0;
   int left = num_triangles;
   for (int target : targets) {
     const int before = left;
     for (; next < collapses.size() && left > target; ++next) {
-      place[collapses[next].from] = collapses[next].to;
+      representative[collapses[next].from] = collapses[next].to;
       left = collapses[next].triangles;
     }
     if (left > kLargestShare * before) break;
@@ -97,8 +100,8 @@ Hierarchy::Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
     // so each vertex is followed to the end.
     for (int v = 0; v < num_vertices; ++v) {
       int end = v;
-      while (place[end] != end) end = place[end];
-      for (int at = v; at != end;) at = std::exchange(place[at], end);
+      while (representative[end] != end) end = representative[end];
+      for (int at = v; at != end;) at = std::exchange(representative[at], end);
     }
 
     const Level& finer = levels_.back();
@@ -106,21 +109,21 @@ Hierarchy::Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
     std::vector<int> number(num_vertices, -1);
     for (size_t i = 0; i < finer.vertices.size(); ++i) {
       const int v = finer.vertices[i];
-      if (place[v] != v) continue;
+      if (representative[v] != v) continue;
       number[v] = static_cast<int>(level.vertices.size());
       level.vertices.push_back(v);
       level.kept.push_back(static_cast<int>(i));
     }
     level.connectivity =
-        Collapsed(*connectivity, place, number, static_cast<int>(level.vertices.size()));
+        Collapsed(*connectivity, representative, number, static_cast<int>(level.vertices.size()));
     std::vector<int> near;
-    for (int v : finer.vertices) near.push_back(number[place[v]]);
+    for (int v : finer.vertices) near.push_back(number[representative[v]]);
     std::vector<Shape> finer_poses;
     for (const Shape& pose : poses) finer_poses.push_back(pose(Eigen::all, finer.vertices));
     internal::Carriers carriers =
         internal::FindCarriers(*level.connectivity, level.kept, near, finer_poses);
     level.carrier = std::move(carriers.vertices);
-    level.place = std::move(carriers.weights);
+    level.weights = std::move(carriers.weights);
     levels_.push_back(std::move(level));
   }
   std::reverse(levels_.begin(), levels_.end());
@@ -147,7 +150,8 @@ Eigen::VectorXd Hierarchy::RestrictField(const Eigen::VectorXd& field, int level
     for (const int v : here.kept) is_kept[v] = 1;
     for (int v = 0; v < sums.rows(); ++v) {
       if (is_kept[v]) continue;
-      for (int k = 0; k < 3; ++k) coarse.row(here.carrier(k, v)) += here.place(k, v) * sums.row(v);
+      for (int k = 0; k < 3; ++k)
+        coarse.row(here.carrier(k, v)) += here.weights(k, v) * sums.row(v);
     }
     sums = std::move(coarse);
   }
@@ -166,7 +170,7 @@ Shape Hierarchy::Lift(const Shape& coarse, int level, const Shape& from_base, co
         internal::VertexRotations(*here.connectivity, base, coarse);
     for (int v = 0; v < result.cols(); ++v) {
       for (int k = 0; k < 3; ++k) {
-        const double weight = here.place(k, v);
+        const double weight = here.weights(k, v);
         if (weight == 0) continue;
         const int c = here.carrier(k, v);
         result.col(v) +=
@@ -188,7 +192,7 @@ std::vector<Eigen::Matrix3d> Hierarchy::LiftGradients(const Shape& coarse, int l
   std::vector<Eigen::Matrix3d> result(here.carrier.cols(), Eigen::Matrix3d::Zero());
   for (size_t v = 0; v < result.size(); ++v) {
     for (int k = 0; k < 3; ++k) {
-      result[v] += here.place(k, v) * gradients[here.carrier(k, v)];
+      result[v] += here.weights(k, v) * gradients[here.carrier(k, v)];
     }
   }
   return result;

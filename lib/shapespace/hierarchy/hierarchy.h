@@ -82,7 +82,7 @@ class Hierarchy {
     // Per vertex of the next finer level, the triangle of this one that carries it, and its
     // barycentric coordinates there.
     Eigen::Matrix3Xi carrier;
-    Eigen::Matrix3Xd place;
+    Eigen::Matrix3Xd weights;
   };
   std::vector<Level> levels_;
   bool stopped_early_ = false;

@@ -19,6 +19,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/atomic_file.h>
 #include <shapespace/base/internal/check_range.h>
+#include <shapespace/base/internal/json.h>
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/base/internal/within_folder.h>
@@ -325,8 +326,7 @@ tinygltf::Node PlacedNode(const Eigen::Vector3d& origin, const GltfOptions& opti
 
 // File names in a provenance may contain any bytes; JSON may not.
 std::string AsUtf8(const std::string& text) {
-  using Json = nlohmann::json;
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
+  return nlohmann::json::parse(internal::JsonText(nlohmann::json(text)));
 }
 
 tinygltf::Material PlainMaterial(const internal::Colour& colour) {

@@ -13,8 +13,8 @@
 #include <shapespace/output/detail/frame.h>
 #include <shapespace/output/detail/key_shapes.h>
 #include <shapespace/output/detail/legend.h>
+#include <shapespace/output/detail/ray_scene.h>
 #include <shapespace/output/detail/ruler.h>
-#include <shapespace/output/detail/scene.h>
 #include <shapespace/output/detail/vertex_numbers.h>
 #include <shapespace/output/internal/text.h>
 #include <shapespace/output/internal/view.h>
@@ -188,7 +188,7 @@ internal::Axes CameraAxes(const Connectivity& connectivity, const std::vector<Sh
     return internal::LookFrom(options.view, up);
   }
   const std::vector<Shape> ends = {shapes.front(), shapes.back()};
-  std::vector<internal::Scene> scenes;
+  std::vector<internal::RayScene> scenes;
   for (const Shape& end : ends) scenes.emplace_back(tracer, end, Eigen::VectorXf());
   return internal::ChooseView(ends, scenes, up, has_ground);
 }
@@ -392,7 +392,7 @@ RgbImage RenderFilmStrip(const Connectivity& connectivity, const std::vector<Sha
   internal::DrawText(&image, text_margin, text_margin / 2, options.title, text_size);
   internal::DrawText(&image, text_margin, cells_bottom, note, text_size);
   ParallelFor(frames, [&](int i) {
-    const internal::Scene scene(
+    const internal::RayScene scene(
         tracer, drawn[i],
         values.empty() ? Eigen::VectorXf() : Eigen::VectorXf(values[i].cast<float>()));
     const internal::Camera& camera = view.cameras[i];

@@ -162,15 +162,12 @@ Shape CarryAlong(const SurfacePoints& points, const Connectivity& connectivity, 
 
 void WriteSurfaceMap(const std::string& file, const SurfaceMap& map) {
   internal::WriteFileAtomically(file, [&](std::ostream& out) {
-    out << "# shapespace map. Each line is a vertex of this mesh, and the point of the other mesh "
-           "to\n"
-           "# which it is mapped: a triangle, counted from 1, three barycentric coordinates in it, "
-           "and\n"
-           "# an error as a share of the square root of the area. For vertices of the template "
-           "the\n"
-           "# error is the distance after mapping there and back; for those of the target it is "
-           "the\n"
-           "# distance from the fitted template.\n";
+    out << R"(# shapespace map. Each line is a vertex of this mesh, and the point of the other mesh to
+# which it is mapped: a triangle, counted from 1, three barycentric coordinates in it, and
+# an error as a share of the square root of the area. For vertices of the template the
+# error is the distance after mapping there and back; for those of the target it is the
+# distance from the fitted template.
+)";
     WritePoints(out, kToTarget, map.to_target, map.round_trip);
     WritePoints(out, kToTemplate, map.to_template, map.gap);
   });

@@ -120,18 +120,20 @@ class Deformer::Solver {
  private:
   void CheckEnd(const Shape& end) const;
   void Prepare(const HandleTargets& targets, DeformationSummary* summary);
-  std::vector<Shape> Cascade(const HandleTargets& targets, const std::vector<Shape>& places,
-                             const Shape* end, Progress* progress, internal::Workload* workload,
+  std::vector<Shape> Cascade(const HandleTargets& targets,
+                             const std::vector<Shape>& handle_positions, const Shape* end,
+                             Progress* progress, internal::Workload* workload,
                              DeformationSummary* summary);
   std::vector<Shape> Follow(const HandleTargets& targets, Progress* progress);
-  std::vector<Shape> StartAt(const Shape& end, const Shape& places, Progress* progress);
-  void Relax(const Shape& places, size_t level, const char* start, internal::Workload* workload,
-             std::vector<Shape>* shapes, DeformationSummary* summary);
+  std::vector<Shape> StartAt(const Shape& end, const Shape& handle_positions, Progress* progress);
+  void Relax(const Shape& handle_positions, size_t level, const char* start,
+             internal::Workload* workload, std::vector<Shape>* shapes, DeformationSummary* summary);
   std::vector<Shape> Lift(const std::vector<Shape>& path, size_t level,
-                          const std::vector<Shape>& places);
+                          const std::vector<Shape>& handle_positions);
   void AddRow(const char* start, int vertices, const internal::MinimiseResult& result,
               double seconds, DeformationSummary* summary) const;
-  std::vector<Shape> AvoidContact(const HandleTargets& targets, const std::vector<Shape>& places,
+  std::vector<Shape> AvoidContact(const HandleTargets& targets,
+                                  const std::vector<Shape>& handle_positions,
                                   const std::vector<Shape>& shapes, internal::Workload* workload,
                                   DeformationSummary* summary);
   ContactModel Model(size_t level) const;
@@ -185,9 +187,9 @@ DeformationResult Deformer::Solver::Solve(const std::vector<DeformationHandle>& 
   DeformationResult result;
   DeformationSummary& summary = result.summary;
   HandleTargets targets(handles, given_, origin_, metric_->unit);
-  std::vector<Shape> places;  // targets of held vertices, at the parameters of the shapes
+  std::vector<Shape> handle_positions;  // targets of held vertices, at the parameters of the shapes
   for (int i = 0; i <= options_.shapes; ++i) {
-    places.push_back(targets.At(static_cast<double>(i) / options_.shapes));
+    handle_positions.push_back(targets.At(static_cast<double>(i) / options_.shapes));
   }
   if (end != nullptr) CheckEnd(*end);
   if (!last_targets_ || !targets.HoldAlike(*last_targets_)) Prepare(targets, &summary);
@@ -199,16 +201,16 @@ DeformationResult Deformer::Solver::Solve(const std::vector<DeformationHandle>& 
   if (summary.warm) {
     workload.Plan(connectivity_->NumVertices(), options_.shapes, true);
     shapes = last_shapes_;
-    levels_.back().MoveHandlesTo(places, &shapes);
-    Relax(places.back(), levels_.size() - 1, "warm", &workload, &shapes, &summary);
+    levels_.back().MoveHandlesTo(handle_positions, &shapes);
+    Relax(handle_positions.back(), levels_.size() - 1, "warm", &workload, &shapes, &summary);
   } else {
-    shapes = Cascade(targets, places, end, progress, &workload, &summary);
+    shapes = Cascade(targets, handle_positions, end, progress, &workload, &summary);
   }
   summary.solve_seconds = solving.Seconds();
   summary.termination = summary.levels.back().termination;
   std::vector<Shape> around;
   if (options_.avoid_contact && !workload.Stopped()) {
-    around = AvoidContact(targets, places, shapes, &workload, &summary);
+    around = AvoidContact(targets, handle_positions, shapes, &workload, &summary);
   }
   if (workload.Stopped()) summary.termination = Termination::kCancelled;
   Assess(handles, targets, around.empty() ? shapes : around, &result);
@@ -260,28 +262,29 @@ void Deformer::Solver::Prepare(const HandleTargets& targets, DeformationSummary*
 }
 
 std::vector<Shape> Deformer::Solver::Cascade(const HandleTargets& targets,
-                                             const std::vector<Shape>& places, const Shape* end,
-                                             Progress* progress, internal::Workload* workload,
+                                             const std::vector<Shape>& handle_positions,
+                                             const Shape* end, Progress* progress,
+                                             internal::Workload* workload,
                                              DeformationSummary* summary) {
   for (const HeldLevel& level : levels_) {
     workload->Plan(level.NumVertices(), options_.shapes, &level == &levels_.back());
   }
   std::vector<Shape> shapes =
-      end == nullptr ? Follow(targets, progress) : StartAt(*end, places.back(), progress);
+      end == nullptr ? Follow(targets, progress) : StartAt(*end, handle_positions.back(), progress);
   const char* start = end == nullptr ? "handles" : "given";
   for (size_t i = 0; i < levels_.size(); ++i) {
     if (i > 0) {
-      shapes = Lift(shapes, i, places);
+      shapes = Lift(shapes, i, handle_positions);
       start = "lifted";
     }
-    if (!workload->Stopped()) Relax(places.back(), i, start, workload, &shapes, summary);
+    if (!workload->Stopped()) Relax(handle_positions.back(), i, start, workload, &shapes, summary);
   }
   return shapes;
 }
 
 // A path of the next coarser level on this one, with the detail of the mesh.
 std::vector<Shape> Deformer::Solver::Lift(const std::vector<Shape>& path, size_t level,
-                                          const std::vector<Shape>& places) {
+                                          const std::vector<Shape>& handle_positions) {
   const Shape &rest = levels_[level].Rest(), &coarse_rest = levels_[level - 1].Rest();
   const int below = static_cast<int>(level) - 1;
   std::vector<Shape> lifted(options_.shapes);
@@ -289,7 +292,7 @@ std::vector<Shape> Deformer::Solver::Lift(const std::vector<Shape>& path, size_t
   ParallelFor(options_.shapes, [&](int k) {
     lifted[k] = hierarchy_->Lift(path[k + 1], below, rest, rest, 0);
     gradients[k] = hierarchy_->LiftGradients(path[k + 1], below, coarse_rest);
-    levels_[level].Place(places[k + 1], k + 1 == options_.shapes, &lifted[k]);
+    levels_[level].Place(handle_positions[k + 1], k + 1 == options_.shapes, &lifted[k]);
   });
   levels_[level].Path().Factors().Integrate(gradients, &lifted);
   lifted.insert(lifted.begin(), rest);
@@ -317,12 +320,12 @@ std::vector<Shape> Deformer::Solver::Follow(const HandleTargets& targets, Progre
       ReportProgress(progress, "following the handles", step, steps);
       return true;
     };
-    const Shape places = targets.At(static_cast<double>(step) / steps);
+    const Shape handle_positions = targets.At(static_cast<double>(step) / steps);
     std::vector<Shape> last = {way.back(), way.back()};
-    level.MoveComponents(places, &last.back());
-    level.MoveHandlesTo({{}, places}, &last);
+    level.MoveComponents(handle_positions, &last.back());
+    level.MoveHandlesTo({{}, handle_positions}, &last);
     way.push_back(std::move(last.back()));
-    level.Path().Relax(level.Target(places), minimise, &way);
+    level.Path().Relax(level.Target(handle_positions), minimise, &way);
   }
   for (int i = between; i <= steps; i += between) result.push_back(std::move(way[i]));
   return result;
@@ -330,7 +333,7 @@ std::vector<Shape> Deformer::Solver::Follow(const HandleTargets& targets, Progre
 
 // Starts from a given last shape, which is relaxed by itself. The shapes before it form a geodesic
 // from the first.
-std::vector<Shape> Deformer::Solver::StartAt(const Shape& end, const Shape& places,
+std::vector<Shape> Deformer::Solver::StartAt(const Shape& end, const Shape& handle_positions,
                                              Progress* progress) {
   HeldLevel& level = levels_.front();
   std::vector<Shape> pair = {level.Rest(),
@@ -340,8 +343,8 @@ std::vector<Shape> Deformer::Solver::StartAt(const Shape& end, const Shape& plac
     ReportProgress(progress, "deforming", 0, 0);
     return true;
   };
-  level.MoveHandlesTo({{}, places}, &pair);
-  level.Path().Relax(level.Target(places), minimise, &pair);
+  level.MoveHandlesTo({{}, handle_positions}, &pair);
+  level.Path().Relax(level.Target(handle_positions), minimise, &pair);
   if (options_.shapes == 1) return pair;
   GeodesicOptions geodesic;
   geodesic.shapes = options_.shapes - 1;
@@ -352,7 +355,7 @@ std::vector<Shape> Deformer::Solver::StartAt(const Shape& end, const Shape& plac
   return result.path.Placed();
 }
 
-void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char* start,
+void Deformer::Solver::Relax(const Shape& handle_positions, size_t level_index, const char* start,
                              internal::Workload* workload, std::vector<Shape>* shapes,
                              DeformationSummary* summary) {
   const internal::Stopwatch stopwatch;
@@ -367,7 +370,7 @@ void Deformer::Solver::Relax(const Shape& places, size_t level_index, const char
   minimise.keep_going = [&](int iteration, double value) {
     return workload->GoOn(iteration, value);
   };
-  const Shape target = level.Target(places);
+  const Shape target = level.Target(handle_positions);
   const internal::MinimiseResult result =
       options_.solver == DeformationOptions::Solver::kTrustRegion
           ? level.Path().RelaxByTrustRegion(target, minimise, shapes)
@@ -394,7 +397,7 @@ void Deformer::Solver::AddRow(const char* start, int vertices,
 
 // The path without contact; empty if the given one has none, or, with a warning, if none is found.
 std::vector<Shape> Deformer::Solver::AvoidContact(const HandleTargets& targets,
-                                                  const std::vector<Shape>& places,
+                                                  const std::vector<Shape>& handle_positions,
                                                   const std::vector<Shape>& shapes,
                                                   internal::Workload* workload,
                                                   DeformationSummary* summary) {
@@ -420,7 +423,7 @@ std::vector<Shape> Deformer::Solver::AvoidContact(const HandleTargets& targets,
     while (level + 1 < levels_.size()) {
       path = StepAside(Model(level), targets, guide, level, workload, summary);
       if (path.empty() || workload->Stopped()) break;
-      guide = Lift(path, ++level, places);
+      guide = Lift(path, ++level, handle_positions);
     }
     path.clear();
     if (level + 1 == levels_.size()) {

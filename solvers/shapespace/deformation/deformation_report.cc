@@ -17,8 +17,7 @@ std::string DeformationSummary::BriefReport() const {
   for (const HandleResult& handle : handles) greatest = std::fmax(greatest, handle.residual_max);
   return Format(
       "%s: %d vertices, %d shape%s, %zu handle%s; off by at most %.3g; edges off by %.3g%% rms, "
-      "%s; "
-      "energy %.6g; %.2f s",
+      "%s; energy %.6g; %.2f s",
       internal::Name(termination), vertices, shapes, shapes == 1 ? "" : "s", handles.size(),
       handles.size() == 1 ? "" : "s", greatest, 100 * error.edge_rms, VolumeText(error).c_str(),
       energy, total_seconds);

@@ -155,7 +155,7 @@ class Holder {
         components_(ComponentsOf(*whole.metric->connectivity, parts)) {
     const bool is_cycle = internal::IsCycle(whole);
     for (const StandingPart& part : parts) {
-      courses_.emplace_back(whole, part, is_cycle);
+      paths_.emplace_back(whole, part, is_cycle);
       DeformationHandle& handle = handles_.emplace_back();
       handle.name = part.name;
       handle.vertices = part.vertices;
@@ -173,8 +173,9 @@ class Holder {
     summary_.termination = Termination::kConverged;
     summary_.parts = static_cast<int>(parts.size());
     for (size_t i = 0; i + 1 < whole.poses.size(); ++i) {
-      for (const GroundPath& course : courses_) {
-        if (course.Stands(i)) summary_.drift = std::fmax(summary_.drift, course.Drift(i));
+      for (const GroundPath& path_of_part : paths_) {
+        if (path_of_part.Stands(i))
+          summary_.drift = std::fmax(summary_.drift, path_of_part.Drift(i));
       }
     }
     summary_.drift /= diagonal_;
@@ -182,16 +183,17 @@ class Holder {
 
   // Deforms shape k of the path, at s of an interval.
   void Hold(int k, size_t interval, double s, Path* path) {
-    if (std::none_of(courses_.begin(), courses_.end(),
-                     [&](const GroundPath& course) { return course.Changes(interval); })) {
+    if (std::none_of(paths_.begin(), paths_.end(), [&](const GroundPath& path_of_part) {
+          return path_of_part.Changes(interval);
+        })) {
       return;
     }
     const Shape own = path->Placed(k);
     Shape wanted(3, vertices_.size());
     Eigen::Index begin = 0;
-    for (size_t i = 0; i < courses_.size(); ++i) {
+    for (size_t i = 0; i < paths_.size(); ++i) {
       const Shape part = own(Eigen::all, handles_[i].vertices);
-      wanted.middleCols(begin, part.cols()) = courses_[i].At(interval, s, part);
+      wanted.middleCols(begin, part.cols()) = paths_[i].At(interval, s, part);
       begin += part.cols();
     }
     Shape goal = own;
@@ -206,11 +208,11 @@ class Holder {
     SetShape(shape, k, path);
     Tell(deformed.summary);
     begin = 0;
-    for (size_t i = 0; i < courses_.size(); ++i) {
+    for (size_t i = 0; i < paths_.size(); ++i) {
       const auto& vertices = handles_[i].vertices;
       const auto place = wanted.middleCols(begin, static_cast<Eigen::Index>(vertices.size()));
       begin += place.cols();
-      if (!courses_[i].Stands(interval)) continue;
+      if (!paths_[i].Stands(interval)) continue;
       const auto slide = [&](const Shape& x) {
         return (x(Eigen::all, vertices) - place).colwise().norm().maxCoeff() / diagonal_;
       };
@@ -254,7 +256,7 @@ class Holder {
 
   const Path& whole_;
   const DeformationOptions& options_;
-  std::vector<GroundPath> courses_;
+  std::vector<GroundPath> paths_;
   const std::vector<Component> components_;
   std::vector<DeformationHandle> handles_;
   DeformationHandle free_;     // what has no part

@@ -37,8 +37,7 @@ std::string ExploreSummary::FullReport() const {
   }
   out << Format(
       "\nTime              %.3f s: distances %.3f, embedding %.3f, refinement %.3f; %d process%s "
-      "of "
-      "%d thread%s\n",
+      "of %d thread%s\n",
       total_seconds, distance_seconds, embedding_seconds, refinement_seconds, processes,
       processes == 1 ? "" : "es", threads, threads == 1 ? "" : "s");
   for (const std::string& warning : warnings) out << "Warning: " << warning << '\n';

@@ -12,12 +12,12 @@
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/contact/internal/contact_model.h>
 #include <shapespace/contact/internal/slide.h>
-#include <shapespace/exponential/detail/cost_of_position.h>
 #include <shapespace/exponential/detail/shooter.h>
 #include <shapespace/exponential/detail/step_ceres.h>
 #include <shapespace/hierarchy/internal/detail.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/metric/feature_map.h>
+#include <shapespace/metric/internal/cost_of_position.h>
 #include <shapespace/summary/internal/check_options.h>
 #include <shapespace/summary/internal/report.h>
 
@@ -292,7 +292,8 @@ void Shoot(InitialState initial_state, int steps, double step, const Exponential
   const internal::Stopwatch total;
   Path& path = result->path;
   ExponentialSummary& summary = result->summary;
-  const std::shared_ptr<const Metric> metric = internal::WithCostOfPosition(path.metric);
+  const std::shared_ptr<const Metric> metric =
+      internal::WithCostOfPosition(path.metric, internal::kFreeBodyLambda);
   summary.ending = ExponentialSummary::Ending::kComplete;
   summary.integrator = options.integrator;
   summary.vertices = metric->connectivity->NumVertices();
@@ -301,8 +302,7 @@ void Shoot(InitialState initial_state, int steps, double step, const Exponential
   if (metric->options.discretization == Discretization::kTrapezoid) {
     summary.warnings.push_back(
         "the path was made in trapezoid form, in which geodesics cannot be shot: it is continued "
-        "in "
-        "midpoint form");
+        "in midpoint form");
   }
 
   std::optional<internal::ContactModel> model;
@@ -446,7 +446,8 @@ Tangent Logarithm(const std::shared_ptr<const Metric>& metric, const Shape& from
 
 Tangent InitialVelocity(const Path& path) {
   if (path.NumShapes() < 2) throw MeshError("a path needs at least two shapes to have a direction");
-  const std::shared_ptr<const Metric> metric = internal::WithCostOfPosition(path.metric);
+  const std::shared_ptr<const Metric> metric =
+      internal::WithCostOfPosition(path.metric, internal::kFreeBodyLambda);
   const RigidMotion &first = path.motions[0], &second = path.motions[1];
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(second.rotation * first.rotation.transpose()));
   const Eigen::Vector3d spin = turn.angle() * turn.axis();

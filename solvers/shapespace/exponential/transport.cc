@@ -8,11 +8,11 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
-#include <shapespace/exponential/detail/cost_of_position.h>
 #include <shapespace/exponential/detail/step_ceres.h>
 #include <shapespace/exponential/internal/memory.h>
 #include <shapespace/exponential/internal/metric_solver.h>
 #include <shapespace/metric/feature_map.h>
+#include <shapespace/metric/internal/cost_of_position.h>
 #include <shapespace/summary/internal/check_options.h>
 #include <shapespace/summary/internal/memory.h>
 #include <shapespace/summary/internal/report.h>
@@ -176,7 +176,7 @@ TransportResult Transport(const Path& path, const std::vector<Tangent>& tangents
     }
     result.tangents.push_back(path.motions.front().rotation.transpose() * x / metric.unit);
   }
-  const FeatureMap map(internal::WithCostOfPosition(path.metric));
+  const FeatureMap map(internal::WithCostOfPosition(path.metric, internal::kFreeBodyLambda));
   result.summary.estimated_bytes =
       internal::TransportBytes(map.GetMetric(), static_cast<int>(tangents.size()));
   internal::CheckMemory("this transport", result.summary.estimated_bytes, options.memory_limit,

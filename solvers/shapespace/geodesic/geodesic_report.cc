@@ -65,16 +65,13 @@ std::string GeodesicSummary::FullReport() const {
       << (uncertified_segments < 0
               ? std::string()
               : Format("Contact           %d segments not shown to be free of it; %.3g crossings "
-                       "at most "
-                       "between shapes; least distance %.4g; %.3f s\n",
+                       "at most between shapes; least distance %.4g; %.3f s\n",
                        uncertified_segments, crossings_between, contact_distance, contact_seconds))
       << "Hierarchy        ";
   for (size_t i = 0; i < hierarchy.size(); ++i) out << (i > 0 ? ", " : " ") << hierarchy[i];
   out << " vertices" << (hierarchy_stopped_early ? " (no further edge could be collapsed)\n" : "\n")
       << "\npiece vertices shapes start     solver        iterations  evaluations  energy before  "
-         "energy "
-         "after"
-         "   remaining  seconds\n";
+         "energy after   remaining  seconds\n";
   for (const Level& level : levels) {
     out << Format("%5d %8d %6d %-9s %-13s %10d %12d %14.6g %13.6g %11.2g %8.3f%s%s\n", level.piece,
                   level.vertices, level.shapes, level.start.c_str(), level.solver.c_str(),

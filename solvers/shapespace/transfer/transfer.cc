@@ -8,6 +8,7 @@
 #include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
+#include <shapespace/base/internal/sub_progress.h>
 #include <shapespace/contact/internal/slide.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/mirrored.h>
@@ -42,35 +43,6 @@ Path PathOfTarget(const std::shared_ptr<const Metric>& metric, const std::vector
   path.extrapolated = path.NumShapes() - 1;
   return path;
 }
-
-// Reports progress inside one shape as progress of that shape.
-class WithinShape final : public Progress {
- public:
-  WithinShape(Progress* all, int done, int total) : all_(all), done_(done), total_(total) {}
-  bool Report(const std::string&, int, int) override {
-    return all_ == nullptr || all_->Report("transferring", done_, total_);
-  }
-
- private:
-  Progress* const all_;
-  const int done_, total_;
-};
-
-// Reports the progress of a nested call as a part of the outer call's work.
-class Within final : public Progress {
- public:
-  Within(Progress* all, double begin, double end) : all_(all), begin_(begin), end_(end) {}
-  bool Report(const std::string& stage, int done, int total) override {
-    return all_ == nullptr || all_->Report(stage, done, total);
-  }
-  void ReportShare(double share) override {
-    if (all_ != nullptr) all_->ReportShare(begin_ + share * (end_ - begin_));
-  }
-
- private:
-  Progress* const all_;
-  const double begin_, end_;
-};
 
 // Measures the difference between the changes of target and source since their first shapes.
 void MeasureTransferErrors(const Metric& metric, const Path& source, const Path& target,
@@ -364,7 +336,7 @@ TransferResult Transfer(const Path& source, const Shape& target, const TransferO
   try {
     for (int i = 0; i < count; ++i) {
       if (progress != nullptr) progress->ReportShare(static_cast<double>(i) / count);
-      WithinShape within(progress, i, count);
+      internal::SubProgress within(progress, "transferring", i, count);
       ReportProgress(&within, "", i, count);
       const internal::Stopwatch stopwatch;
       TransferSummary::Step row;
@@ -424,7 +396,7 @@ PoseTransferResult TransferAlongGeodesics(const std::shared_ptr<const Connectivi
     TransferResult transfer;
     const double begin = (i - 1.0) / (count - 1), end = 1.0 * i / (count - 1);
     const double between = begin + kGeodesicShare * (end - begin);
-    Within to_pose(progress, begin, between), from_pose(progress, between, end);
+    internal::SubProgress to_pose(progress, begin, between), from_pose(progress, between, end);
     try {
       source = Interpolate(connectivity, {poses[0], poses[i]}, geodesic, &to_pose);
       if (source.summary.termination == Termination::kCancelled) throw Cancelled();

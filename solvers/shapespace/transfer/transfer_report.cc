@@ -30,8 +30,7 @@ bool TransferSummary::Converged() const {
 std::string TransferSummary::BriefReport() const {
   return Format(
       "%s: %d vertices, %zu shapes; target %.4g times as large; strains off by %.3g%% rms, "
-      "dihedral "
-      "angles by %s; %.2f s",
+      "dihedral angles by %s; %.2f s",
       Ending(Converged()), vertices, steps.size(), scale, 100 * strain_rms,
       DegreesText(angle_rms).c_str(), total_seconds);
 }

@@ -20,6 +20,13 @@ using Json = nlohmann::json;
 ///        the range of double, or has a repeated key in an object.
 Json ParseJson(const std::string& text);
 
+/// The text of a value. Names in it may contain any bytes; those that are not UTF-8, as JSON has to
+/// be, are replaced by U+FFFD. With an `indent` of -1 it is one line.
+template <typename AnyJson>
+std::string JsonText(const AnyJson& json, int indent = -1) {
+  return json.dump(indent, ' ', false, AnyJson::error_handler_t::replace);
+}
+
 /// "field.key", or "key" inside the outermost object.
 std::string Field(const std::string& field, const std::string& key);
 

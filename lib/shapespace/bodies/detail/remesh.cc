@@ -1,3 +1,5 @@
+#include <shapespace/bodies/detail/remesh.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -7,7 +9,6 @@
 #include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 
 #include <shapespace/base/internal/ranges.h>
-#include <shapespace/bodies/detail/polygonise.h>
 #include <shapespace/mesh/internal/geometry.h>
 
 namespace shapespace::internal {

@@ -164,7 +164,7 @@ class LegacyVtkReader {
     const size_t left = text_.size() - position_ + (binary_ ? 0 : 1);
     if (count <= left / (binary_ ? bytes : 2)) return;
     Fail(what + ": " + std::to_string(count) +
-         " numbers are promised, which the file has no room " + "for" + kReexport);
+         " numbers are promised, which the file has no room for" + kReexport);
   }
 
   /// In a binary file, numbers begin on the line after the words.

@@ -78,7 +78,7 @@ class Decimator {
     for (int v : pinned) fixed_[v] = 1;
     ForRanges(
         num_vertices_, [&](int begin, int end) { ExamineFans(begin, end); }, kDecimatedPerTask);
-    quadrics_.resize(place_.cols());
+    quadrics_.resize(positions_.cols());
     ForIndices(
         num_vertices_, [&](int v) { BuildQuadrics(v); }, kDecimatedPerTask);
   }
@@ -121,7 +121,7 @@ class Decimator {
   // The poses' coordinates, scaled to area 1 and interleaved, with the error of the surface there:
   // pose p of vertex v is column v num_poses + p.
   void PlacePoses(const std::vector<Shape>& poses) {
-    place_.resize(4, static_cast<Eigen::Index>(num_vertices_) * num_poses_);
+    positions_.resize(4, static_cast<Eigen::Index>(num_vertices_) * num_poses_);
     ParallelFor(num_poses_, [&](int p) {
       double area = 0;
       for (int f = 0; f < triangles_.cols(); ++f) {
@@ -130,7 +130,7 @@ class Decimator {
       const double scale = area > 0 ? 1 / std::sqrt(area) : 1;
       const Eigen::Vector3d centre = poses[p].rowwise().mean();
       for (int v = 0; v < num_vertices_; ++v) {
-        place_.col(Column(v, p)) << scale * (poses[p].col(v) - centre), 0;
+        positions_.col(Column(v, p)) << scale * (poses[p].col(v) - centre), 0;
       }
     });
   }
@@ -138,7 +138,7 @@ class Decimator {
   Eigen::Index Column(int v, int pose) const {
     return static_cast<Eigen::Index>(v) * num_poses_ + pose;
   }
-  Eigen::Vector3d At(int v, int pose) const { return place_.col(Column(v, pose)).head<3>(); }
+  Eigen::Vector3d At(int v, int pose) const { return positions_.col(Column(v, pose)).head<3>(); }
 
   // Calls body(a, b) for every triangle (v, a, b) of v.
   template <typename Body>
@@ -338,7 +338,7 @@ class Decimator {
       for (int i = 0; i < size; ++i) {
         const Eigen::Vector3d shift = At(ring[i], p) - origin;
         const double squared_length = shift.squaredNorm();
-        costs[i] += std::abs(quadric(shift) + place_(3, Column(ring[i], p))) +
+        costs[i] += std::abs(quadric(shift) + positions_(3, Column(ring[i], p))) +
                     kLengthWeight * squared_length * squared_length;
       }
     }
@@ -450,7 +450,7 @@ class Decimator {
     for (int p = 0; p < num_poses_; ++p) {
       Quadric& quadric = quadrics_[Column(to, p)];
       quadric += quadrics_[Column(from, p)].From(At(to, p) - At(from, p));
-      place_(3, Column(to, p)) = quadric.AtOrigin();
+      positions_(3, Column(to, p)) = quadric.AtOrigin();
     }
     return removed;
   }
@@ -473,7 +473,7 @@ class Decimator {
   int num_alive_;
   const int num_vertices_, num_poses_;
   std::vector<int> head_, next_;  // per vertex, its corners as a linked list
-  Eigen::Matrix4Xd place_;
+  Eigen::Matrix4Xd positions_;
   std::vector<Quadric> quadrics_;  // like place_, with the place as origin
   std::vector<char> fixed_, boundary_;
   // Per vertex its cheapest collapse, which is stale if something has changed since.

@@ -124,9 +124,7 @@ Selection ReadSelection(const std::string& text) {
 }
 
 std::string ToText(const Selection& selection) {
-  using Ordered = nlohmann::ordered_json;
-  // The name of a group may not be valid UTF-8; invalid bytes are replaced.
-  return internal::JsonOf(selection).dump(-1, ' ', false, Ordered::error_handler_t::replace);
+  return internal::JsonText(internal::JsonOf(selection));
 }
 
 }  // namespace shapespace

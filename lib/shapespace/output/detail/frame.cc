@@ -85,7 +85,7 @@ Eigen::Matrix3f FrameAround(const Eigen::Vector3f& normal) {
 
 class FramePainter {
  public:
-  FramePainter(const Scene& scene, const Camera& camera, const Paint& paint)
+  FramePainter(const RayScene& scene, const Camera& camera, const Paint& paint)
       : scene_(scene),
         camera_(camera),
         axes_(camera.axes.cast<float>()),
@@ -107,11 +107,11 @@ class FramePainter {
 
  private:
   void TracePixel(int row, int column);
-  void Shade(const Scene::Hit& hit, Pixel* pixel) const;
-  void TraceLight(const Scene::Hit& hit, const Eigen::Vector3f& point, int cell,
+  void Shade(const RayScene::Hit& hit, Pixel* pixel) const;
+  void TraceLight(const RayScene::Hit& hit, const Eigen::Vector3f& point, int cell,
                   Pixel* pixel) const;
 
-  const Scene& scene_;
+  const RayScene& scene_;
   const Camera& camera_;
   const Eigen::Matrix3f axes_, key_frame_;
   const Colour front_;
@@ -122,7 +122,7 @@ class FramePainter {
 void FramePainter::TracePixel(int row, int column) {
   Pixel& pixel = pixels_[static_cast<size_t>(row) * camera_.width + column];
   const int n = camera_.samples;
-  Scene::Hit hit, first;
+  RayScene::Hit hit, first;
   Eigen::Vector3f first_point = Eigen::Vector3f::Zero();
   int hits = 0;
   for (int s = 0; s < n * n; ++s) {
@@ -153,7 +153,7 @@ void FramePainter::TracePixel(int row, int column) {
   TraceLight(first, first_point, row % kPattern * kPattern + column % kPattern, &pixel);
 }
 
-void FramePainter::Shade(const Scene::Hit& hit, Pixel* pixel) const {
+void FramePainter::Shade(const RayScene::Hit& hit, Pixel* pixel) const {
   static const Colour back = FromHex(kBackHex);
   Colour colour = hit.back ? back : front_;
   if (!hit.back && paint_.marks.size() > 0 && paint_.marks(hit.vertex) > 0) {
@@ -174,7 +174,7 @@ void FramePainter::Shade(const Scene::Hit& hit, Pixel* pixel) const {
   pixel->rest += kFillLight * fill * colour;
 }
 
-void FramePainter::TraceLight(const Scene::Hit& hit, const Eigen::Vector3f& point, int cell,
+void FramePainter::TraceLight(const RayScene::Hit& hit, const Eigen::Vector3f& point, int cell,
                               Pixel* pixel) const {
   const Eigen::Vector3f origin = point + kOffset * hit.face_normal;
   const Eigen::Matrix3f around = FrameAround(hit.normal);
@@ -229,7 +229,7 @@ Colour Background() {
   return background;
 }
 
-void DrawFrame(const Scene& scene, const Camera& camera, const Paint& paint, int left, int top,
+void DrawFrame(const RayScene& scene, const Camera& camera, const Paint& paint, int left, int top,
                RgbImage* image) {
   FramePainter painter(scene, camera, paint);
   ParallelFor(camera.height, [&](int row) { painter.Trace(row); });

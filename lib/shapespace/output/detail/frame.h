@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include <shapespace/output/detail/scene.h>
+#include <shapespace/output/detail/ray_scene.h>
 #include <shapespace/output/internal/colour.h>
 #include <shapespace/output/internal/view.h>
 #include <shapespace/output/picture.h>
@@ -31,7 +31,7 @@ struct Paint {
 };
 
 /// Draws `scene` over the rectangle of `image` whose upper left pixel is (left, top).
-void DrawFrame(const Scene& scene, const Camera& camera, const Paint& paint, int left, int top,
+void DrawFrame(const RayScene& scene, const Camera& camera, const Paint& paint, int left, int top,
                RgbImage* image);
 
 }  // namespace shapespace::internal

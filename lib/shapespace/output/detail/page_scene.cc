@@ -13,10 +13,12 @@
 #include <shapespace/analysis/rigid_parts.h>
 #include <shapespace/analysis/vertex_energy.h>
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/bytes.h>
+#include <shapespace/base/internal/json.h>
 #include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/output/detail/legend.h>
-#include <shapespace/output/detail/scene.h>
+#include <shapespace/output/detail/ray_scene.h>
 #include <shapespace/output/internal/view.h>
 #include <shapespace/output/vertex_colours.h>
 #include <shapespace/path/energy.h>
@@ -164,7 +166,7 @@ void AppendView(const Connectivity& connectivity, const std::vector<Shape>& shap
                     std::sqrt(3.0));
   }
   const RayTracer tracer(connectivity, kTubeRadius);
-  std::vector<Scene> scenes;
+  std::vector<RayScene> scenes;
   for (const Shape& shape : small) scenes.emplace_back(tracer, shape, Eigen::VectorXf());
   const Eigen::Vector3d up = wanted_up.isZero(0) ? ChooseUp(connectivity, small) : wanted_up;
   const Eigen::Vector3d eye = ChooseView(small, scenes, up).col(2);
@@ -284,11 +286,9 @@ std::string Compress(const std::string& bytes) {
 }
 
 std::string Pack(const OrderedJson& header, const std::string& arrays) {
-  // Names may contain any bytes; those that are not valid text are replaced.
-  const std::string text = header.dump(-1, ' ', true, OrderedJson::error_handler_t::replace);
+  const std::string text = JsonText(header);
   std::string all;
-  for (int shift = 0; shift < 32; shift += 8)
-    all.push_back(static_cast<char>(text.size() >> shift));
+  AppendLittleEndian(static_cast<std::uint32_t>(text.size()), &all);
   return Compress(all + text + arrays);
 }
 

@@ -12,6 +12,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/atomic_file.h>
+#include <shapespace/base/internal/bytes.h>
 #include <shapespace/output/picture.h>
 
 // PNG as in https://www.w3.org/TR/png-3: colours of a palette where 256 are enough, else RGB.
@@ -19,14 +20,11 @@
 namespace shapespace {
 namespace {
 
+using internal::AppendBigEndian;
 using PngBytes = std::vector<unsigned char>;
 
 constexpr int kMostColours = 256;
 constexpr unsigned char kTrueColour = 2, kIndexed = 3;  // kinds of pixels, as the format has them
-
-void AppendBigEndian(std::uint32_t value, std::string* out) {
-  for (int shift = 24; shift >= 0; shift -= 8) *out += static_cast<char>(value >> shift & 0xFF);
-}
 
 void AppendChunk(const std::string& name, std::string_view data, std::string* out) {
   AppendBigEndian(static_cast<std::uint32_t>(data.size()), out);

@@ -17,14 +17,14 @@ namespace {
 constexpr double kBeside = 0.01;
 constexpr float kNear = 0.02f;
 
-bool IsVisible(const Scene& scene, const Camera& camera, const Eigen::Vector3d& vertex) {
+bool IsVisible(const RayScene& scene, const Camera& camera, const Eigen::Vector3d& vertex) {
   constexpr float kDistance = 3;  // outside of the ball
   const Eigen::Vector3f eye = camera.axes.col(2).cast<float>();
   const Eigen::Vector3d right = kBeside * camera.axes.col(0), up = kBeside * camera.axes.col(1);
   for (const Eigen::Vector3d& beside :
        {Eigen::Vector3d(0, 0, 0), right, up, Eigen::Vector3d(-right), Eigen::Vector3d(-up)}) {
     const Eigen::Vector3f origin = (vertex + beside).cast<float>() + kDistance * eye;
-    Scene::Hit hit;
+    RayScene::Hit hit;
     if (scene.Trace(origin, -eye, &hit) && std::abs(hit.distance - kDistance) < kNear) return true;
   }
   return false;
@@ -32,7 +32,7 @@ bool IsVisible(const Scene& scene, const Camera& camera, const Eigen::Vector3d& 
 
 }  // namespace
 
-void DrawVertexNumbers(const Scene& scene, const Shape& shape, const Camera& camera,
+void DrawVertexNumbers(const RayScene& scene, const Shape& shape, const Camera& camera,
                        const Eigen::VectorXi& numbers, int text_size, int left, int top,
                        RgbImage* image) {
   const int rim = std::max(1, text_size / 8), height = LineHeight(text_size);

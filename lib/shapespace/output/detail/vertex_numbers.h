@@ -5,7 +5,7 @@
 
 #include <shapespace/mesh/shape.h>
 #include <shapespace/output/detail/frame.h>
-#include <shapespace/output/detail/scene.h>
+#include <shapespace/output/detail/ray_scene.h>
 #include <shapespace/output/picture.h>
 
 namespace shapespace::internal {
@@ -14,7 +14,7 @@ namespace shapespace::internal {
 /// (left, top): above on the right where there is room, else at another side, so that numbers do
 /// not cover each other if possible. `scene` contains `shape`; `numbers` has one number a vertex,
 /// of which 0 is not written, or is empty.
-void DrawVertexNumbers(const Scene& scene, const Shape& shape, const Camera& camera,
+void DrawVertexNumbers(const RayScene& scene, const Shape& shape, const Camera& camera,
                        const Eigen::VectorXi& numbers, int text_size, int left, int top,
                        RgbImage* image);
 

@@ -75,10 +75,10 @@ bool Stands(const Connectivity& connectivity, const Shape& shape, int axis) {
   return support.squaredExteriorDistance(centre) <= slab * slab;
 }
 
-double VisibleArea(const Scene& scene, const Axes& axes) {
+double VisibleArea(const RayScene& scene, const Axes& axes) {
   const Eigen::Matrix3f a = axes.cast<float>();
   double area = 0;
-  Scene::Hit hit;
+  RayScene::Hit hit;
   for (int i = 0; i < kGrid * kGrid; ++i) {
     const int column = i % kGrid, row = i / kGrid;
     const Eigen::Vector3f position((column + 0.5f) * 2 / kGrid - 1, (row + 0.5f) * 2 / kGrid - 1,
@@ -122,7 +122,7 @@ Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up) {
   return axes;
 }
 
-Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<Scene>& scenes,
+Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<RayScene>& scenes,
                 const Eigen::Vector3d& up, bool must_be_horizontal) {
   const Eigen::Vector3d pole = up.stableNormalized();
   const Axes front = LookFrom(Front(pole), pole);

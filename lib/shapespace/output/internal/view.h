@@ -7,7 +7,7 @@
 
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
-#include <shapespace/output/detail/scene.h>
+#include <shapespace/output/detail/ray_scene.h>
 
 namespace shapespace::internal {
 
@@ -26,7 +26,7 @@ Axes LookFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& up);
 /// plate is not seen from its edge, nor a finger in the plane in which it bends. Between equal
 /// views the one from the front and the left is preferred. `scenes[i]` contains `shapes[i]`. A view
 /// that must be horizontal looks from the height of the shapes, so that the ground is a line.
-Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<Scene>& scenes,
+Axes ChooseView(const std::vector<Shape>& shapes, const std::vector<RayScene>& scenes,
                 const Eigen::Vector3d& up, bool must_be_horizontal = false);
 
 }  // namespace shapespace::internal

@@ -8,6 +8,7 @@
 #include <zlib.h>
 
 #include <shapespace/base/internal/atomic_file.h>
+#include <shapespace/base/internal/json.h>
 
 namespace shapespace::internal {
 namespace {
@@ -30,8 +31,7 @@ uint32_t Checksum(uint32_t sum, std::string_view bytes) {
 // All bytes in front of the arrays. The checksum is of what follows it, the arrays included.
 std::string Beginning(const ArrayFileKind& kind, HeaderJson header, const ArrayWriter& arrays) {
   header["arrays"] = arrays.Table();
-  // A header may contain names of files that are not valid UTF-8; invalid bytes are replaced.
-  std::string text = header.dump(-1, ' ', false, HeaderJson::error_handler_t::replace);
+  std::string text = JsonText(header);
   text.resize((text.size() + 7) / 8 * 8, ' ');  // aligns arrays to 8 bytes
   const uint64_t header_size = text.size();
   std::string bytes(kind.magic, kMagicSize);

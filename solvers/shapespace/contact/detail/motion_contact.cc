@@ -14,21 +14,29 @@ FourPoints Between(const FourPoints& from, const FourPoints& to, double time) {
   return (1 - time) * from + time * to;
 }
 
-// The least distance of a pair during a part of a motion, or less; at least `enough` if it may be.
-// Of two times the distance in between is at least half the sum of those at both, less half the way
-// that the elements move relative to each other, which in time `speed` is. Parts of less than
-// `shortest` are not divided.
-double LeastDistance(PairKind kind, const FourPoints& from, const FourPoints& to, double speed,
-                     double begin, double end, double at_begin, double at_end, double enough,
-                     double shortest) {
-  const double least = (at_begin + at_end - speed * (end - begin)) / 2;
-  if (least >= enough || end - begin <= shortest) return least;
-  const double middle = (begin + end) / 2;
-  const double at_middle = NearestPoints(kind, Between(from, to, middle)).Distance();
-  return std::min(
-      LeastDistance(kind, from, to, speed, begin, middle, at_begin, at_middle, enough, shortest),
-      LeastDistance(kind, from, to, speed, middle, end, at_middle, at_end, enough, shortest));
-}
+// A pair whose points move straight on.
+struct MovingPair {
+  PairKind kind;
+  const FourPoints &from, &to;
+  double speed;     // of its elements relative to each other
+  double enough;    // a distance that is not to be known better
+  double shortest;  // parts of the motion of less time than this are not divided
+
+  double DistanceAt(double time) const {
+    return NearestPoints(kind, Between(from, to, time)).Distance();
+  }
+
+  // The least distance during a part of the motion, from the distances at its ends, or less; at
+  // least `enough` if it may be. Of two times the distance in between is at least half the sum of
+  // those at both, less half the way that the elements move relative to each other.
+  double LeastDistance(double begin, double end, double at_begin, double at_end) const {
+    const double least = (at_begin + at_end - speed * (end - begin)) / 2;
+    if (least >= enough || end - begin <= shortest) return least;
+    const double middle = (begin + end) / 2, at_middle = DistanceAt(middle);
+    return std::min(LeastDistance(begin, middle, at_begin, at_middle),
+                    LeastDistance(middle, end, at_middle, at_end));
+  }
+};
 
 }  // namespace
 
@@ -62,11 +70,11 @@ void MotionContact::Prepare(const Shape& from, const Shape& to, double room) {
     const FourPoints first = model_.At(pair, from), last = model_.At(pair, to);
     const double begin = std::max(0.f, pair.begin), end = std::min(1.f, pair.end);
     const double reach = ContactModel::kReach * model_.Length(pair);
+    const MovingPair moving = {
+        pair.kind,        first,      last, RelativeSpeed(pair.kind, last - first),
+        reach + 2 * room, 1. / times_};
     const double least =
-        LeastDistance(pair.kind, first, last, RelativeSpeed(pair.kind, last - first), begin, end,
-                      NearestPoints(pair.kind, Between(first, last, begin)).Distance(),
-                      NearestPoints(pair.kind, Between(first, last, end)).Distance(),
-                      reach + 2 * room, 1. / times_);
+        moving.LeastDistance(begin, end, moving.DistanceAt(begin), moving.DistanceAt(end));
     if (least >= reach + 2 * room) continue;
     const PairPotential potential = model_.PotentialOf(pair);
     const double excess = least - potential.reach;

@@ -11,10 +11,11 @@
 
 #include <shapespace/base/parallel.h>
 #include <shapespace/contact/detail/increments.h>
-#include <shapespace/contact/detail/parting.h>
+#include <shapespace/contact/detail/separation_potential.h>
 #include <shapespace/contact/internal/follow.h>
 #include <shapespace/contact/internal/path_contact.h>
 #include <shapespace/mesh/rigid_motion.h>
+#include <shapespace/metric/internal/cost_of_position.h>
 #include <shapespace/minimise/internal/preconditioner.h>
 #include <shapespace/path/energy.h>
 
@@ -136,12 +137,13 @@ std::vector<Shape> WithoutDrift(const ContactModel& model, const std::vector<Sha
 }
 
 // A way from the first shape of `guide` to the last, or else from the last to the first.
-FreeWay FollowFromEitherEnd(const ContactModel& model, const Attraction& draw, double stiffness,
-                            std::vector<Shape> guide, const std::function<bool()>& go_on) {
-  FreeWay way = Follow(model, draw, stiffness, guide, go_on);
+FreeWay FollowFromEitherEnd(const ContactModel& model, const Attraction& attraction,
+                            double stiffness, std::vector<Shape> guide,
+                            const std::function<bool()>& go_on) {
+  FreeWay way = Follow(model, attraction, stiffness, guide, go_on);
   if (way.arrives) return way;
   std::reverse(guide.begin(), guide.end());
-  way = Follow(model, draw, stiffness, guide, go_on);
+  way = Follow(model, attraction, stiffness, guide, go_on);
   std::reverse(way.shapes.begin(), way.shapes.end());
   return way;
 }
@@ -151,9 +153,9 @@ FreeWay FollowFromEitherEnd(const ContactModel& model, const Attraction& draw, d
 FreeWay FindWay(const ContactModel& model, const CholeskyFactor<float>& factor, double energy,
                 const std::vector<Shape>& guide, const std::function<bool()>& go_on) {
   const std::shared_ptr<const Metric>& metric = model.GetMetric();
-  const Attraction draw = {metric, factor, kRoughApproach};
+  const Attraction attraction = {metric, factor, kRoughApproach};
   const double stiffness = kContactStiffness * energy;
-  FreeWay way = FollowFromEitherEnd(model, draw, stiffness, guide, go_on);
+  FreeWay way = FollowFromEitherEnd(model, attraction, stiffness, guide, go_on);
   if (way.arrives) return way;
 
   constexpr int kMostSegments = 8;
@@ -162,7 +164,7 @@ FreeWay FindWay(const ContactModel& model, const CholeskyFactor<float>& factor, 
   for (int i = 0; i <= segments; ++i) parted.push_back(guide[i * rest / segments]);
   // Limbs are about as thick.
   const double reach = 0.1 * std::sqrt(metric->vertex_area.sum());
-  SeparationPotential parting(*metric, {guide.front(), guide.back()}, reach);
+  SeparationPotential separation(*metric, {guide.front(), guide.back()}, reach);
   PathEnergy path_energy(metric, segments - 1);
   Preconditioner preconditioner(factor, path_energy);
   std::vector<double> unknowns(path_energy.Size());
@@ -177,26 +179,20 @@ FreeWay FindWay(const ContactModel& model, const CholeskyFactor<float>& factor, 
     MinimiseThreadedLbfgs(
         [&](const double* x, double* gradient) {
           return path_energy.Evaluate(x, gradient) +
-                 parting.Evaluate(path_energy, x, 2 * strength * energy / segments, &parted,
-                                  gradient);
+                 separation.Evaluate(path_energy, x, 2 * strength * energy / segments, &parted,
+                                     gradient);
         },
         PreconditionOf(&preconditioner), options, &unknowns);
     path_energy.Store(unknowns.data(), &parted);
     const size_t before = std::exchange(touching, SegmentsWithContact(model, parted).size());
-    if (touching < before) way = FollowFromEitherEnd(model, draw, stiffness, parted, go_on);
+    if (touching < before) way = FollowFromEitherEnd(model, attraction, stiffness, parted, go_on);
   }
   return way;
 }
 
-// With the position at a cost that draws a body through an opening in which it has to become
-// narrower, and keeps it from rigid motion in steps of the solver, which contact would cut short.
-std::shared_ptr<const Metric> WithCostOfPosition(const Metric& metric,
-                                                 const std::vector<Shape>& poses) {
-  constexpr double kCostOfPosition = 1;
-  MetricOptions options = metric.options;
-  options.lambda = std::max(options.lambda, kCostOfPosition);
-  return FreezeMetric(options, metric.connectivity, poses, 1);
-}
+// A cost of position that draws a body through an opening in which it has to become narrower, and
+// keeps it from rigid motion in steps of the solver, which contact would cut short.
+constexpr double kDrawingLambda = 1;
 
 }  // namespace
 
@@ -216,9 +212,8 @@ ContactFreePath AvoidContact(const ContactModel& model, const CholeskyFactor<flo
   const CholeskyFactor<float>* preconditioner = &factor;
   FreeWay way;
   if (model.HasObstacle()) {
-    const std::vector<Shape> poses = {guide.front(), guide.back()};
-    const auto drawing = WithCostOfPosition(*metric, poses);
-    its_factor.emplace(ScalarMetric(*drawing, poses, 0));
+    const auto drawing = WithCostOfPosition(metric, kDrawingLambda);
+    its_factor.emplace(ScalarMetric(*drawing, {guide.front(), guide.back()}, 0));
     preconditioner = &*its_factor;
     way = FollowFromEitherEnd(model, {drawing, *its_factor, kCloseApproach},
                               kContactStiffness * EnergyAlong(*drawing, guide), guide, go_on);
@@ -248,10 +243,10 @@ ContactFreePath AvoidContact(const ContactModel& model, const CholeskyFactor<flo
 
 MinimiseResult KeepIncrements(const ContactModel& model, const std::vector<Shape>& guide,
                               const MinimiseOptions& options, std::vector<Shape>* shapes) {
-  const std::vector<Shape> poses = {guide.front(), guide.back()};
   const std::shared_ptr<const Metric> metric =
-      model.HasObstacle() ? WithCostOfPosition(*model.GetMetric(), poses) : model.GetMetric();
-  const CholeskyFactor<float> factor(ScalarMetric(*metric, poses, 0));
+      model.HasObstacle() ? WithCostOfPosition(model.GetMetric(), kDrawingLambda)
+                          : model.GetMetric();
+  const CholeskyFactor<float> factor(ScalarMetric(*metric, {guide.front(), guide.back()}, 0));
   const double stiffness = kContactStiffness * EnergyAlong(*metric, guide);
   return Relax(model, metric, factor, stiffness, &guide, options, shapes);
 }

@@ -15,12 +15,12 @@ namespace {
 // Moves a shape towards another as far as it gets without contact.
 class Approach {
  public:
-  Approach(const ContactModel& model, const Attraction& draw, double stiffness)
+  Approach(const ContactModel& model, const Attraction& attraction, double stiffness)
       : model_(model),
-        draw_(draw),
+        attraction_(attraction),
         stiffness_(stiffness),
-        energy_(draw.metric, 1),
-        preconditioner_(draw.factor, energy_) {}
+        energy_(attraction.metric, 1),
+        preconditioner_(attraction.factor, energy_) {}
 
   // The shapes on the way there, each of which is reached from the one before on a straight way.
   std::vector<Shape> Run(const Shape& shape, const Shape& target) {
@@ -31,9 +31,9 @@ class Approach {
     PathContact contact(model_, energy_, path_, {{1, 1}}, 1);
     std::vector<Shape> way;
     MinimiseOptions options;
-    options.tolerance = draw_.end.tolerance;
-    options.max_iterations = draw_.end.max_iterations;
-    options.keep_going = UntilLittleIsGained(draw_.end.tolerance);
+    options.tolerance = attraction_.end.tolerance;
+    options.max_iterations = attraction_.end.max_iterations;
+    options.keep_going = UntilLittleIsGained(attraction_.end.tolerance);
     options.longest_step = [&](const double* x, const float* direction) {
       energy_.Store(x, &path_);
       way.push_back(path_[1]);
@@ -52,7 +52,7 @@ class Approach {
 
  private:
   const ContactModel& model_;
-  const Attraction& draw_;
+  const Attraction& attraction_;
   const double stiffness_;
   PathEnergy energy_;
   Preconditioner preconditioner_;
@@ -104,9 +104,9 @@ std::vector<Shape> Shorten(const ContactModel& model, std::vector<Shape> way, in
   return way;
 }
 
-FreeWay Follow(const ContactModel& model, const Attraction& draw, double stiffness,
+FreeWay Follow(const ContactModel& model, const Attraction& attraction, double stiffness,
                const std::vector<Shape>& guide, const std::function<bool()>& go_on) {
-  Approach approach(model, draw, stiffness);
+  Approach approach(model, attraction, stiffness);
   const Eigen::VectorXd& area = model.GetMetric()->vertex_area;
   FreeWay way = {{guide.front()}, false, {0}};
   for (size_t k = 1; k < guide.size(); ++k) {

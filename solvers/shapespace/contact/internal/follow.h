@@ -46,7 +46,7 @@ std::function<bool(int iteration, double energy)> UntilLittleIsGained(double tol
 /// times the contact potential, such that nothing passes through anything on the way. So parts
 /// slide round others that are in their way. `go_on` is asked before each minimisation, and false
 /// ends the way there.
-FreeWay Follow(const ContactModel& model, const Attraction& draw, double stiffness,
+FreeWay Follow(const ContactModel& model, const Attraction& attraction, double stiffness,
                const std::vector<Shape>& guide, const std::function<bool()>& go_on);
 
 /// Leaves out shapes of a free way past which the straight way is free too, those first that change

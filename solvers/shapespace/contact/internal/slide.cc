@@ -16,9 +16,9 @@ SlideResult SlideAtContact(const std::shared_ptr<const Metric>& metric, Progress
     result.warnings.push_back(WarningOfIntersections("the first shape intersects itself", model));
   }
   const CholeskyFactor<float> factor(ScalarMetric(*metric, {shapes.front(), shapes.back()}, 0));
-  const Attraction draw = {metric, factor, kCloseApproach};
+  const Attraction attraction = {metric, factor, kCloseApproach};
   const double stiffness = kContactStiffness * EnergyAlong(*metric, shapes);
-  const FreeWay way = Follow(model, draw, stiffness, shapes, [&] {
+  const FreeWay way = Follow(model, attraction, stiffness, shapes, [&] {
     ReportProgress(progress, "sliding past contacts", 0, 0);
     return true;
   });

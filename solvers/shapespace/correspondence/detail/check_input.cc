@@ -50,7 +50,7 @@ void CheckBody(const std::string& name, const Connectivity& connectivity, const 
   }
   if (shape.cols() != connectivity.NumVertices()) {
     throw MeshError("the " + name + " has " + std::to_string(connectivity.NumVertices()) +
-                    " vertices" + ", its shape " + std::to_string(shape.cols()));
+                    " vertices, its shape " + std::to_string(shape.cols()));
   }
   if (!shape.allFinite() || shape.cwiseAbs().maxCoeff() > kLargestCoordinate) {
     throw MeshError("the " + name + " has a coordinate that is enormous or not finite");

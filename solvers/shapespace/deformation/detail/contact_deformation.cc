@@ -23,8 +23,8 @@ class HandleFollower {
   // Moves the handles of the last shape of `way` to their targets, and the rest of it near to
   // `guide`; appends the shapes on the way there. Returns false if something is in the way of the
   // handles.
-  bool Move(const Shape& places, Shape guide, std::vector<Shape>* way) {
-    level_.Place(places, true, &guide);
+  bool Move(const Shape& handle_positions, Shape guide, std::vector<Shape>* way) {
+    level_.Place(handle_positions, true, &guide);
     if (model_.IsFree(way->back(), guide)) {
       way->push_back(std::move(guide));
       return true;
@@ -33,7 +33,7 @@ class HandleFollower {
     constexpr int kMostMoves = 40;
     constexpr double kLeastShare = 1. / 128;
     for (int move = 0; move < kMostMoves; ++move) {
-      const Shape from = way->back(), moved = level_.WithHardHandlesAt(places, from);
+      const Shape from = way->back(), moved = level_.WithHardHandlesAt(handle_positions, from);
       double share = 1;
       while (!model_.IsFree(from, Between(from, moved, share))) {
         share /= 2;
@@ -41,7 +41,7 @@ class HandleFollower {
       }
       way->push_back(Between(from, moved, share));
       Shape shape = way->back();
-      StepAside(places, guide, &shape);
+      StepAside(handle_positions, guide, &shape);
       way->push_back(std::move(shape));
       if (share == 1) return true;
     }
@@ -53,14 +53,14 @@ class HandleFollower {
     return share == 1 ? to : (1 - share) * from + share * to;
   }
 
-  void StepAside(const Shape& places, const Shape& guide, Shape* shape) {
+  void StepAside(const Shape& handle_positions, const Shape& guide, Shape* shape) {
     MinimiseOptions options;
     options.tolerance = kRoughApproach.tolerance;
     options.max_iterations = kRoughApproach.max_iterations;
     options.keep_going = UntilLittleIsGained(options.tolerance);
     const ConstrainedPath::Contact contact = {model_, stiffness_, {{1, 1}}, 1};
     std::vector<Shape> pair = {guide, *shape};
-    level_.Path().Relax(level_.Target(places), options, &pair, &contact);
+    level_.Path().Relax(level_.Target(handle_positions), options, &pair, &contact);
     *shape = std::move(pair[1]);
   }
 

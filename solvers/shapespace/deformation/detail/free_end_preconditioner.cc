@@ -39,9 +39,9 @@ std::vector<char> Marks(int size, const std::vector<int>& vertices) {
 
 // Per vertex, its row in the factor.
 std::vector<int> Places(const CholeskyFactor<float>& factor) {
-  std::vector<int> places(factor.Size());
-  for (int i = 0; i < factor.Size(); ++i) places[factor.Permutation()[i]] = i;
-  return places;
+  std::vector<int> handle_positions(factor.Size());
+  for (int i = 0; i < factor.Size(); ++i) handle_positions[factor.Permutation()[i]] = i;
+  return handle_positions;
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ void FreeEndFactors::SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights,
                                  std::vector<Tangent>* shapes) const {
   const int size = end_->Size(), count = static_cast<int>(rights.size());
   const int width = PaddedWidth<float>(3 * count);
-  const std::vector<int> places = Places(*end_);
+  const std::vector<int> handle_positions = Places(*end_);
   std::vector<float> work(static_cast<size_t>(end_->WorkRows()) * width, 0.0f);
   // Scale to numbers of the order of 1, which are safe in single precision.
   std::vector<double> units(count);
@@ -74,7 +74,7 @@ void FreeEndFactors::SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights,
   }
   ForIndices(size, [&](int v) {
     if (given_[v]) return;
-    float* const at = &work[static_cast<size_t>(places[v]) * width];
+    float* const at = &work[static_cast<size_t>(handle_positions[v]) * width];
     for (int k = 0; k < 3 * count; ++k) {
       at[k] = static_cast<float>(rights[k / 3](v, k % 3) / units[k / 3]);
     }
@@ -83,7 +83,7 @@ void FreeEndFactors::SolveAndAdd(const std::vector<Eigen::MatrixXd>& rights,
   end_->SolveUpper(work.data(), width);
   ForIndices(size, [&](int v) {
     if (given_[v]) return;
-    const float* const at = &work[static_cast<size_t>(places[v]) * width];
+    const float* const at = &work[static_cast<size_t>(handle_positions[v]) * width];
     for (int k = 0; k < 3 * count; ++k) (*shapes)[k / 3](k % 3, v) += units[k / 3] * at[k];
   });
 }

@@ -140,14 +140,16 @@ double HandleTargets::GreatestTurn() const {
 std::vector<int> HandleTargets::Pins() const {
   std::vector<int> pins;
   for (const DeformationHandle& handle : handles_) {
-    const Shape places = rest_(Eigen::all, handle.vertices);
+    const Shape handle_positions = rest_(Eigen::all, handle.vertices);
     Eigen::VectorXd distance =
-        Eigen::VectorXd::Constant(places.cols(), std::numeric_limits<double>::infinity());
+        Eigen::VectorXd::Constant(handle_positions.cols(), std::numeric_limits<double>::infinity());
     int next = 0;
     for (int k = 0; k < kPins && distance(next) > 0; ++k) {
       pins.push_back(handle.vertices[next]);
-      distance = distance.cwiseMin(
-          (places.colwise() - places.col(next)).colwise().squaredNorm().transpose());
+      distance = distance.cwiseMin((handle_positions.colwise() - handle_positions.col(next))
+                                       .colwise()
+                                       .squaredNorm()
+                                       .transpose());
       distance.maxCoeff(&next);
     }
   }

@@ -47,7 +47,7 @@ HeldLevel::HeldLevel(const std::shared_ptr<const Metric>& metric, Shape rest,
   }
 }
 
-void HeldLevel::MoveComponents(const Shape& places, Shape* shape) const {
+void HeldLevel::MoveComponents(const Shape& handle_positions, Shape* shape) const {
   std::map<int, std::vector<const Held*>> held;
   for (const Held& one : held_) held[component_[one.vertex]].push_back(&one);
   std::map<int, RigidMotion> motions;
@@ -55,7 +55,7 @@ void HeldLevel::MoveComponents(const Shape& places, Shape* shape) const {
     Shape from(3, list.size()), to(3, list.size());
     for (size_t k = 0; k < list.size(); ++k) {
       from.col(k) = shape->col(list[k]->vertex);
-      to.col(k) = places.col(list[k]->column);
+      to.col(k) = handle_positions.col(list[k]->column);
     }
     motions[component] = FitRigidMotion(from, to, Eigen::VectorXd::Ones(from.cols()));
   }
@@ -67,40 +67,44 @@ void HeldLevel::MoveComponents(const Shape& places, Shape* shape) const {
   }
 }
 
-void HeldLevel::MoveHandlesTo(const std::vector<Shape>& places, std::vector<Shape>* shapes) const {
+void HeldLevel::MoveHandlesTo(const std::vector<Shape>& handle_positions,
+                              std::vector<Shape>* shapes) const {
   const size_t last = shapes->size() - 1;
   std::vector<Tangent> ways(last, Tangent::Zero(3, component_.size()));
   for (size_t i = 1; i <= last; ++i) {
     for (const Held& held : held_) {
-      ways[i - 1].col(held.vertex) = places[i].col(held.column) - (*shapes)[i].col(held.vertex);
+      ways[i - 1].col(held.vertex) =
+          handle_positions[i].col(held.column) - (*shapes)[i].col(held.vertex);
     }
   }
   const std::vector<Tangent> steps = path_.Factors().Extend(ways);
   for (size_t i = 1; i <= last; ++i) {
     (*shapes)[i] += steps[i - 1];
-    Place(places[i], i == last, &(*shapes)[i]);
+    Place(handle_positions[i], i == last, &(*shapes)[i]);
   }
 }
 
-Shape HeldLevel::WithHardHandlesAt(const Shape& places, const Shape& shape) const {
+Shape HeldLevel::WithHardHandlesAt(const Shape& handle_positions, const Shape& shape) const {
   Tangent way = Tangent::Zero(3, shape.cols());
   for (const Held& held : held_) {
-    if (held.given) way.col(held.vertex) = places.col(held.column) - shape.col(held.vertex);
+    if (held.given)
+      way.col(held.vertex) = handle_positions.col(held.column) - shape.col(held.vertex);
   }
   Shape moved = shape + path_.Factors().Extend({way}).front();
-  Place(places, true, &moved);
+  Place(handle_positions, true, &moved);
   return moved;
 }
 
-void HeldLevel::Place(const Shape& places, bool last, Shape* shape) const {
+void HeldLevel::Place(const Shape& handle_positions, bool last, Shape* shape) const {
   for (const Held& held : held_) {
-    if (held.prescribed || (held.given && last)) shape->col(held.vertex) = places.col(held.column);
+    if (held.prescribed || (held.given && last))
+      shape->col(held.vertex) = handle_positions.col(held.column);
   }
 }
 
-Shape HeldLevel::Target(const Shape& places) const {
+Shape HeldLevel::Target(const Shape& handle_positions) const {
   Shape target = Shape::Zero(3, component_.size());
-  for (const Held& held : held_) target.col(held.vertex) = places.col(held.column);
+  for (const Held& held : held_) target.col(held.vertex) = handle_positions.col(held.column);
   return target;
 }
 

@@ -26,17 +26,17 @@ class HeldLevel {
   int NumVertices() const { return static_cast<int>(component_.size()); }
 
   /// Moves each connected component rigidly so that its held vertices fit their targets.
-  void MoveComponents(const Shape& places, Shape* shape) const;
+  void MoveComponents(const Shape& handle_positions, Shape* shape) const;
   /// Moves the held vertices of all shapes but the first to their targets `places`, one matrix per
   /// shape, and all other vertices with them.
-  void MoveHandlesTo(const std::vector<Shape>& places, std::vector<Shape>* shapes) const;
+  void MoveHandlesTo(const std::vector<Shape>& handle_positions, std::vector<Shape>* shapes) const;
   /// A shape with the vertices of hard handles at their targets, and all other vertices moved with
   /// them, but for those of soft handles.
-  Shape WithHardHandlesAt(const Shape& places, const Shape& shape) const;
+  Shape WithHardHandlesAt(const Shape& handle_positions, const Shape& shape) const;
   /// Sets the prescribed vertices, of the `last` shape or of any shape, to their targets.
-  void Place(const Shape& places, bool last, Shape* shape) const;
+  void Place(const Shape& handle_positions, bool last, Shape* shape) const;
   /// The targets by vertex; 0 for vertices that are not held.
-  Shape Target(const Shape& places) const;
+  Shape Target(const Shape& handle_positions) const;
 
  private:
   struct Held {

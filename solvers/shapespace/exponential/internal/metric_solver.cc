@@ -120,9 +120,8 @@ MetricSolver::Result MetricSolver::Solve(const FeatureDerivative& left,
   result.residual = 1;
   while (result.residual > tolerance && result.iterations < max_iterations) {
     Tangent correction;
-    const Result rough =
-        SolveRoughly(left, right, dual, std::max(tolerance / result.residual, kRough),
-                     max_iterations - result.iterations, &correction);
+    const Result rough = SolveDual(left, right, dual, std::max(tolerance / result.residual, kRough),
+                                   max_iterations - result.iterations, &correction);
     result.iterations += rough.iterations;
     *x += correction;
     if (result.residual == 1 && tolerance >= kRough) {
@@ -147,10 +146,10 @@ MetricSolver::Result MetricSolver::SolveInEitherPrecision(const FeatureDerivativ
   return Solve(left, right, b, tolerance, max_iterations, x);
 }
 
-MetricSolver::Result MetricSolver::SolveRoughly(const FeatureDerivative& left,
-                                                const FeatureDerivative& right,
-                                                const Eigen::VectorXd& dual, double tolerance,
-                                                int max_iterations, Tangent* x) const {
+MetricSolver::Result MetricSolver::SolveDual(const FeatureDerivative& left,
+                                             const FeatureDerivative& right,
+                                             const Eigen::VectorXd& dual, double tolerance,
+                                             int max_iterations, Tangent* x) const {
   // Preconditioned from both sides, F^{-1} left^T right F^{-T}, so that norms are those of the
   // metric.
   const double length = dual.norm();

@@ -45,14 +45,14 @@ class MetricSolver {
   Result SolveInEitherPrecision(const FeatureDerivative& left, const FeatureDerivative& right,
                                 const Tangent& b, double tolerance, int max_iterations, Tangent* x);
 
+  /// `Solve` for a given Dual(b), in one run of GMRES: to a tolerance that single precision can
+  /// reach, 1e-4 or more.
+  Result SolveDual(const FeatureDerivative& left, const FeatureDerivative& right,
+                   const Eigen::VectorXd& dual, double tolerance, int max_iterations,
+                   Tangent* x) const;
+
   /// Stores the factor in double precision from now on. \return false if it did so before.
   bool UseDoublePrecision();
-
-  /// The same for a given Dual(b), in one run of GMRES: to a tolerance that single precision can
-  /// reach, 1e-4 or more.
-  Result SolveRoughly(const FeatureDerivative& left, const FeatureDerivative& right,
-                      const Eigen::VectorXd& dual, double tolerance, int max_iterations,
-                      Tangent* x) const;
 
   /// G^{-1} b at the factored shape, up to the rounding of the factor.
   Tangent Approximate(const Tangent& b) const { return FromDual(Dual(b)); }

@@ -165,8 +165,8 @@ bool Step::SolveWithNewton(double load, int iterations, double tolerance,
     check_cancelled_();
     ++row->iterations;
     Tangent step;
-    const MetricSolver::Result linear = solver_.SolveRoughly(derivative_, map_.Derivative(*shape),
-                                                             residual, kForcing, kMaxKrylov, &step);
+    const MetricSolver::Result linear = solver_.SolveDual(derivative_, map_.Derivative(*shape),
+                                                          residual, kForcing, kMaxKrylov, &step);
     row->krylov_iterations += linear.iterations;
     if (!(linear.residual <= kForcing)) return false;
     const Shape next = *shape - step;

@@ -325,18 +325,6 @@ void WaysRound::TurnOtherWayRound(int part) {
   parts_[part].axis = -parts_[part].axis;
 }
 
-// All sides of triangles, in their order, then the edges with an end in no triangle.
-std::vector<GradientIntegrator::Side> SidesOfAll(const Connectivity& connectivity) {
-  std::vector<GradientIntegrator::Side> sides;
-  for (const auto& t : connectivity.Triangles().colwise()) {
-    for (int k = 0; k < 3; ++k) sides.push_back({t(k), t((k + 1) % 3), 1});
-  }
-  for (const auto& side : GradientIntegrator::SidesWithoutTriangles(connectivity)) {
-    sides.push_back(side);
-  }
-  return sides;
-}
-
 }  // namespace
 
 bool HasFolds(const Connectivity& connectivity, const Shape& first, const Shape& last) {
@@ -352,26 +340,29 @@ Turns FindTurns(const Connectivity& connectivity, const Shape& first, const Shap
 
 TurningMotion::TurningMotion(const Connectivity& connectivity, const Shape& first,
                              const Shape& last)
-    : turns_(FindTurns(connectivity, first, last)),
+    : connectivity_(connectivity),
+      turns_(FindTurns(connectivity, first, last)),
       first_(first),
       last_(turns_.whole.conjugate().toRotationMatrix() * last),
-      integrator_(std::make_unique<GradientIntegrator>(connectivity.NumVertices(),
-                                                       SidesOfAll(connectivity))) {}
+      integrator_(connectivity, Eigen::Matrix3Xd::Ones(3, connectivity.NumTriangles())) {}
 
 Shape TurningMotion::At(double t) const {
-  const std::vector<GradientIntegrator::Side>& sides = integrator_->Sides();
-  const Eigen::Index num_turns = 3 * turns_.of_triangles.cols();
-  Eigen::Matrix3Xd wanted(3, sides.size());
-  for (Eigen::Index i = 0; i < wanted.cols(); ++i) {
-    const auto& [a, b, weight] = sides[i];
-    const Eigen::Vector3d turn =
-        i < num_turns ? Eigen::Vector3d(turns_.of_triangles.col(i / 3)) : Eigen::Vector3d::Zero();
-    // Between both sides as they would be in the first pose's orientation, turned.
-    const Eigen::Vector3d before = first_.col(b) - first_.col(a);
-    const Eigen::Vector3d after = Exp(Eigen::Vector3d(-turn)) * (last_.col(b) - last_.col(a));
-    wanted.col(i) = Exp(Eigen::Vector3d(t * turn)) * ((1 - t) * before + t * after);
-  }
-  const Shape shape = integrator_->Integrate(wanted, (1 - t) * first_ + t * last_);
+  const auto turn = [&](int f, double share) {
+    return Exp(Eigen::Vector3d(share * turns_.of_triangles.col(f)));
+  };
+  // Between the sides of both poses as they would be in the first pose's orientation, turned.
+  const auto sides = [&](int f) -> Eigen::Matrix3d {
+    const Eigen::Vector3i corners = connectivity_.Triangles().col(f);
+    const Eigen::Matrix3d before = TriangleSides(first_, corners);
+    Eigen::Matrix3d sides = TriangleSides(last_, corners);
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d after = turn(f, -1) * sides.col(k);
+      sides.col(k) = turn(f, t) * ((1 - t) * before.col(k) + t * after);
+    }
+    return sides;
+  };
+  const Shape shape = integrator_.Integrate(first_, (1 - t) * first_ + t * last_, sides,
+                                            [&](int f) { return turn(f, t).toRotationMatrix(); });
   return Exp(Eigen::Vector3d(t * Log(turns_.whole))).toRotationMatrix() * shape;
 }
 

@@ -1,8 +1,6 @@
 #ifndef SHAPESPACE_GEODESIC_DETAIL_TURNING_MOTION_H_
 #define SHAPESPACE_GEODESIC_DETAIL_TURNING_MOTION_H_
 
-#include <memory>
-
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -41,6 +39,7 @@ Turns FindTurns(const Connectivity& connectivity, const Shape& first, const Shap
 /// and is where solves begin.
 class TurningMotion {
  public:
+  /// `connectivity` must outlive the motion.
   TurningMotion(const Connectivity& connectivity, const Shape& first, const Shape& last);
 
   /// The shape at a time in [0, 1]: that of the gradients that all triangles would have, each with
@@ -48,9 +47,10 @@ class TurningMotion {
   Shape At(double t) const;
 
  private:
+  const Connectivity& connectivity_;
   const Turns turns_;
   const Shape first_, last_;  // without the rotation of the whole
-  const std::unique_ptr<const GradientIntegrator> integrator_;
+  const SurfaceIntegrator integrator_;
 };
 
 }  // namespace shapespace::internal

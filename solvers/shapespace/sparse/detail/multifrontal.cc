@@ -58,7 +58,7 @@ class Multifrontal {
 
  private:
   struct Scratch {
-    std::vector<int> places;
+    std::vector<int> entry_index;
     std::vector<double> block;
   };
 
@@ -85,7 +85,7 @@ class Multifrontal {
       });
     }
     for (int child : children_[s]) {
-      ExtendAdd(child, node, block, update, &scratch->places);
+      ExtendAdd(child, node, block, update, &scratch->entry_index);
       update_matrices_[child].reset();
     }
     if (!FactorBlock(node, block)) {
@@ -113,28 +113,28 @@ class Multifrontal {
 
   // Adds what `child` leaves to the front of its parent `node`.
   void ExtendAdd(int child, const Supernode& node, double* block, double* update,
-                 std::vector<int>* places) const {
+                 std::vector<int>* entry_index) const {
     const Supernode& from = elimination_.supernodes[child];
     const int count = from.height - from.width, below = node.height - node.width;
     const int* const rows = &elimination_.rows[from.rows + from.width];
     const int* const front = &elimination_.rows[node.rows];
-    places->resize(count);  // of the child's rows in the front; both are ascending
+    entry_index->resize(count);  // of the child's rows in the front; both are ascending
     for (int i = 0, at = 0; i < count; ++i) {
       while (front[at] != rows[i]) ++at;
-      (*places)[i] = at;
+      (*entry_index)[i] = at;
     }
-    const int* const place = places->data();
+    const int* const index = entry_index->data();
     const double* const source = update_matrices_[child].get();
     ForTiles(Tiles(count), [&](int tile) {
       const int end = std::min(count, (tile + 1) * kTile);
       for (int j = tile * kTile; j < end; ++j) {
-        const int column = place[j];
+        const int column = index[j];
         double* const target =
             column < node.width
                 ? block + static_cast<size_t>(column) * node.height
                 : update + static_cast<size_t>(column - node.width) * below - node.width;
         const double* const source_column = source + static_cast<size_t>(j) * count;
-        for (int i = j; i < count; ++i) target[place[i]] += source_column[i];
+        for (int i = j; i < count; ++i) target[index[i]] += source_column[i];
       }
     });
   }

@@ -104,11 +104,11 @@ Tree EliminationTree(const Graph& graph, const std::vector<int>& order) {
 
   Tree tree;
   const std::vector<int> post = Postorder(parent);
-  std::vector<int> place(size);
-  for (int i = 0; i < size; ++i) place[post[i]] = i;
+  std::vector<int> new_index(size);
+  for (int i = 0; i < size; ++i) new_index[post[i]] = i;
   for (int old : post) {
     tree.order.push_back(order[old]);
-    tree.parent.push_back(parent[old] < 0 ? -1 : place[parent[old]]);
+    tree.parent.push_back(parent[old] < 0 ? -1 : new_index[parent[old]]);
   }
 
   // Row i of the factor is the part of the tree between the row's numbers in the matrix and i.

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <shapespace/base/internal/ranges.h>
 #include <shapespace/mesh/connectivity.h>
 #include <shapespace/mesh/shape.h>
 #include <shapespace/sparse/internal/cholesky.h>
@@ -25,35 +26,67 @@ class GradientIntegrator {
 
   GradientIntegrator(int num_vertices, std::vector<Side> sides);
 
-  /// The edges with an end in no triangle, with weight 1.
-  static std::vector<Side> SidesWithoutTriangles(const Connectivity& connectivity);
-
-  /// The stiffeners between components of the surface, which say where these are relative to each
-  /// other, with a weight so small that they have no visible effect otherwise.
-  static std::vector<Side> Ties(const Connectivity& connectivity);
-
   const std::vector<Side>& Sides() const { return sides_; }
 
-  /// The vector that is wanted for a tie: `vector`, mapped by the mean of the gradients of the
-  /// triangles at both ends. `gradient(f)` is a 3 x 3 matrix.
-  template <typename Gradient>
-  static Eigen::Vector3d AlongTie(const Connectivity& connectivity, const Side& tie,
-                                  const Eigen::Vector3d& vector, const Gradient& gradient) {
-    Eigen::Vector3d result = Eigen::Vector3d::Zero();
-    for (const int end : {tie.from, tie.to}) {
-      const IndexLists::Row around = connectivity.TrianglesOfVertices()[end];
-      for (const int f : around) result += gradient(f) * vector / (2 * around.size());
-    }
-    return result;
-  }
-
-  /// `wanted` has a column for each side, `places` one for each vertex.
-  Shape Integrate(const Eigen::Matrix3Xd& wanted, const Shape& places) const;
+  /// `wanted` has a column for each side, `positions` one for each vertex.
+  Shape Integrate(const Eigen::Matrix3Xd& wanted, const Shape& positions) const;
 
  private:
   const std::vector<Side> sides_;
-  const double place_;
+  const double position_weight_;
   const Cholesky factor_;
+};
+
+/// The sides of a triangle, from each corner to the next.
+inline Eigen::Matrix3d TriangleSides(const Shape& shape, const Eigen::Vector3i& corners) {
+  Eigen::Matrix3d sides;
+  for (int k = 0; k < 3; ++k)
+    sides.col(k) = shape.col(corners((k + 1) % 3)) - shape.col(corners(k));
+  return sides;
+}
+
+/// The shape whose triangles have sides nearest to given ones. An edge with an end in no triangle
+/// is what it is between the wanted positions. A stiffener between components of the surface, which
+/// says where these are relative to each other, is what the mean gradient of the triangles at its
+/// ends makes of it, with a weight so small that it has no visible effect otherwise.
+class SurfaceIntegrator {
+ public:
+  /// `weights`, 3 x triangles, are those of the sides. `connectivity` must outlive the object.
+  SurfaceIntegrator(const Connectivity& connectivity, const Eigen::Matrix3Xd& weights);
+
+  /// `sides(f)` are the wanted ones of triangle f, as `TriangleSides` has them, and `gradient(f)`
+  /// is the 3 x 3 matrix that a stiffener of `base` is multiplied by; `positions` are the wanted
+  /// positions.
+  template <typename Sides, typename Gradient>
+  Shape Integrate(const Shape& base, const Shape& positions, const Sides& sides,
+                  const Gradient& gradient) const {
+    Eigen::Matrix3Xd wanted(3, integrator_.Sides().size());
+    ForIndices(connectivity_.NumTriangles(),
+               [&](int f) { wanted.middleCols<3>(3 * f) = sides(f); });
+    for (Eigen::Index i = 3 * connectivity_.NumTriangles(); i < wanted.cols(); ++i) {
+      const GradientIntegrator::Side& side = integrator_.Sides()[i];
+      if (i < first_tie_) {
+        wanted.col(i) = positions.col(side.to) - positions.col(side.from);
+        continue;
+      }
+      wanted.col(i).setZero();
+      for (const int end : {side.from, side.to}) {
+        const IndexLists::Row around = connectivity_.TrianglesOfVertices()[end];
+        for (const int f : around) {
+          wanted.col(i) +=
+              gradient(f) * (base.col(side.to) - base.col(side.from)) / (2. * around.size());
+        }
+      }
+    }
+    Shape shape = integrator_.Integrate(wanted, positions);
+    connectivity_.CopyToTwins(&shape);
+    return shape;
+  }
+
+ private:
+  const Connectivity& connectivity_;
+  Eigen::Index first_tie_ = 0;  // among the sides
+  const GradientIntegrator integrator_;
 };
 
 }  // namespace shapespace::internal

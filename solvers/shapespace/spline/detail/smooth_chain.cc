@@ -59,7 +59,7 @@ class Smoother {
         num_vertices_(path.metric->connectivity->NumVertices()),
         mean_edges_(MakeMeanEdges(options.ends == SplineEnds::kPeriodic)),
         reference_(num_triangles_, Eigen::Matrix2d::Zero()),
-        integrator_(num_vertices_, MakeSides()),
+        integrator_(*path.metric->connectivity, WeightsOfSides()),
         corrections_(MakeCorrections(options, times)) {}
 
   // Shape `k` of the path, at `s` of an interval, corrected.
@@ -67,27 +67,11 @@ class Smoother {
     const Shape& chain = path_.shapes[k];
     const Eigen::Matrix3Xd change = corrections_.At(interval, s);
     const Shape places = chain + change.middleCols(FirstPlace(), num_vertices_);
-    Eigen::Matrix3Xd wanted(3, integrator_.Sides().size());
-    ForIndices(num_triangles_, [&](int f) {
-      const Shape& from = IsThin(f) ? places : chain;
-      const Eigen::Matrix3d turn = Turn(chain, f, change);
-      for (int side = 0; side < 3; ++side) {
-        const int a = triangles_(side, f), b = triangles_((side + 1) % 3, f);
-        wanted.col(3 * f + side) = turn * (from.col(b) - from.col(a));
-      }
-    });
-    for (Eigen::Index i = 3 * num_triangles_; i < wanted.cols(); ++i) {
-      const auto& side = integrator_.Sides()[i];
-      if (i < first_tie_) {
-        wanted.col(i) = places.col(side.to) - places.col(side.from);
-      } else {
-        wanted.col(i) = GradientIntegrator::AlongTie(*path_.metric->connectivity, side,
-                                                     chain.col(side.to) - chain.col(side.from),
-                                                     [&](int f) { return Turn(chain, f, change); });
-      }
-    }
-    Shape shape = integrator_.Integrate(wanted, places);
-    path_.metric->connectivity->CopyToTwins(&shape);
+    const auto gradient = [&](int f) { return Turn(chain, f, change); };
+    const auto sides = [&](int f) -> Eigen::Matrix3d {
+      return gradient(f) * TriangleSides(IsThin(f) ? places : chain, triangles_.col(f));
+    };
+    Shape shape = integrator_.Integrate(chain, places, sides, gradient);
     shape.colwise() -= Centroid(shape, path_.metric->vertex_area);
     motion->rotation = path_.motions[k].rotation * Exp(Eigen::Vector3d(change.col(FirstMotion())));
     motion->translation = path_.motions[k].translation + change.col(FirstMotion() + 1);
@@ -141,26 +125,15 @@ class Smoother {
     return mean;
   }
 
-  std::vector<GradientIntegrator::Side> MakeSides() {
-    std::vector<GradientIntegrator::Side> sides;
+  Eigen::Matrix3Xd WeightsOfSides() const {
+    Eigen::Matrix3Xd weights(3, num_triangles_);
     for (int f = 0; f < num_triangles_; ++f) {
       const Eigen::Matrix2d& edges = mean_edges_[f];
       const double area = 0.5 * edges.determinant();
-      const Eigen::Vector2d vectors[] = {edges.col(0), edges.col(1) - edges.col(0), edges.col(1)};
-      for (int k = 0; k < 3; ++k) {
-        const int a = triangles_(k, f), b = triangles_((k + 1) % 3, f);
-        sides.push_back({a, b, area > 0 ? area / vectors[k].squaredNorm() : 0});
-      }
+      const Eigen::Vector2d sides[] = {edges.col(0), edges.col(1) - edges.col(0), edges.col(1)};
+      for (int k = 0; k < 3; ++k) weights(k, f) = area > 0 ? area / sides[k].squaredNorm() : 0;
     }
-    for (const auto& side :
-         GradientIntegrator::SidesWithoutTriangles(*path_.metric->connectivity)) {
-      sides.push_back(side);
-    }
-    first_tie_ = static_cast<Eigen::Index>(sides.size());
-    for (const auto& tie : GradientIntegrator::Ties(*path_.metric->connectivity)) {
-      sides.push_back(tie);
-    }
-    return sides;
+    return weights;
   }
 
   void SetReference(int f) {
@@ -209,9 +182,9 @@ class Smoother {
   template <typename Step>
   void Follow(Eigen::Index column, std::vector<Interval>* intervals, const Step& step) const {
     for (size_t i = 0; i < intervals->size(); ++i) {
-      VertexCurve course(path_.poses[i + 1] - path_.poses[i]);
-      for (int k = path_.poses[i]; k < path_.poses[i + 1]; ++k) course.Add(step(k));
-      course.Write(column, &(*intervals)[i]);
+      VertexCurve curve(path_.poses[i + 1] - path_.poses[i]);
+      for (int k = path_.poses[i]; k < path_.poses[i + 1]; ++k) curve.Add(step(k));
+      curve.Write(column, &(*intervals)[i]);
     }
   }
 
@@ -259,8 +232,7 @@ class Smoother {
   const int num_triangles_, num_vertices_;
   const std::vector<Eigen::Matrix2d> mean_edges_;
   std::vector<Eigen::Matrix2d> reference_;  // their inverses
-  Eigen::Index first_tie_ = 0;              // among the integrator's sides, set when these are made
-  const GradientIntegrator integrator_;
+  const SurfaceIntegrator integrator_;
   const Corrections corrections_;
 };
 

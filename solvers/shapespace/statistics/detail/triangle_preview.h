@@ -25,11 +25,10 @@ class TrianglePreview {
  private:
   const PoseModes& modes_;
   const Eigen::Matrix3Xi triangles_;
-  std::vector<Eigen::Matrix<double, 2, 3>> sides_;  // of the mean's triangles, in their planes
-  std::vector<Eigen::Quaterniond> rotations_;       // of these planes
+  std::vector<Eigen::Quaterniond> rotations_;  // of the planes of the mean's triangles
   // Of every mode: six numbers, w and S, for each triangle.
   std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>> changes_;
-  const GradientIntegrator integrator_;
+  const SurfaceIntegrator integrator_;
 };
 
 }  // namespace shapespace::internal

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <shapespace/base/internal/fields.h>
+#include <shapespace/base/internal/json.h>
 #include <shapespace/summary/internal/report.h>
 
 namespace shapespace::internal {
@@ -50,10 +51,8 @@ nlohmann::ordered_json JsonOf(const T& value) {
   }
 }
 
-/// The text of a report. Names of files in it need not be valid UTF-8.
-inline std::string TextOf(const nlohmann::ordered_json& json) {
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
+/// The text of a report.
+inline std::string TextOf(const nlohmann::ordered_json& json) { return JsonText(json, 2) + "\n"; }
 
 }  // namespace shapespace::internal
 

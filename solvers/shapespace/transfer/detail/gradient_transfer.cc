@@ -20,7 +20,6 @@ GradientTransfer::GradientTransfer(std::shared_ptr<const Connectivity> connectiv
                                    const Shape& source, const Shape& target)
     : connectivity_(std::move(connectivity)), source_(source), target_(target) {
   const int num_triangles = connectivity_->NumTriangles();
-  const int num_vertices = connectivity_->NumVertices();
   const Eigen::Matrix3Xi& triangles = connectivity_->Triangles();
   Eigen::VectorXd area(num_triangles), least(num_triangles), quality(num_triangles);
   for (int f = 0; f < num_triangles; ++f) {
@@ -36,8 +35,7 @@ GradientTransfer::GradientTransfer(std::shared_ptr<const Connectivity> connectiv
     quality(f) = source_area < sliver ? source_area / sliver : 1;
     inverses_.push_back(InverseFrame(Frame(source_, triangles.col(f))));
   }
-  // Three per triangle, then the edges without triangles.
-  std::vector<GradientIntegrator::Side> sides;
+  Eigen::Matrix3Xd weights(3, num_triangles);
   const double mean_area = num_triangles > 0 ? area.mean() : 0;
   for (int f = 0; f < num_triangles; ++f) {
     // |F - S|^2 as a sum over the sides, weighted by the scalar product of the other two sides
@@ -46,40 +44,20 @@ GradientTransfer::GradientTransfer(std::shared_ptr<const Connectivity> connectiv
     for (int k = 0; k < 3; ++k) {
       const int a = triangles(k, f), b = triangles((k + 1) % 3, f), c = triangles((k + 2) % 3, f);
       const double product = (target_.col(a) - target_.col(c)).dot(target_.col(b) - target_.col(c));
-      sides.push_back({a, b, mean_area * product / (4 * counted * counted)});
+      weights(k, f) = mean_area * product / (4 * counted * counted);
     }
   }
-  for (const auto& side : GradientIntegrator::SidesWithoutTriangles(*connectivity_)) {
-    sides.push_back(side);
-  }
-  first_tie_ = sides.size();
-  for (const auto& tie : GradientIntegrator::Ties(*connectivity_)) sides.push_back(tie);
-  integrator_ = std::make_unique<GradientIntegrator>(num_vertices, std::move(sides));
+  integrator_ = std::make_unique<SurfaceIntegrator>(*connectivity_, weights);
 }
 
 Shape GradientTransfer::operator()(const Shape& deformed) const {
-  const Eigen::Matrix3Xi& triangles = connectivity_->Triangles();
-  const std::vector<GradientIntegrator::Side>& sides = integrator_->Sides();
-  Eigen::Matrix3Xd wanted(3, sides.size());
   const auto gradient = [&](int f) -> Eigen::Matrix3d {
-    return Frame(deformed, triangles.col(f)) * inverses_[f];
+    return Frame(deformed, connectivity_->Triangles().col(f)) * inverses_[f];
   };
-  for (size_t i = 0; i < sides.size(); ++i) {
-    const auto& [a, b, weight] = sides[i];
-    const int f = static_cast<int>(i) / 3;
-    Eigen::Vector3d side = target_.col(b) - target_.col(a);
-    if (f < triangles.cols()) {
-      side = Frame(deformed, triangles.col(f)) * (inverses_[f] * side);
-    } else if (i >= first_tie_) {
-      side = GradientIntegrator::AlongTie(*connectivity_, sides[i], side, gradient);
-    } else {
-      side += (deformed.col(b) - deformed.col(a)) - (source_.col(b) - source_.col(a));
-    }
-    wanted.col(static_cast<Eigen::Index>(i)) = side;
-  }
-  Shape shape = integrator_->Integrate(wanted, target_ + deformed - source_);
-  connectivity_->CopyToTwins(&shape);
-  return shape;
+  const auto sides = [&](int f) -> Eigen::Matrix3d {
+    return gradient(f) * TriangleSides(target_, connectivity_->Triangles().col(f));
+  };
+  return integrator_->Integrate(target_, target_ + deformed - source_, sides, gradient);
 }
 
 }  // namespace shapespace::internal

@@ -34,8 +34,7 @@ class GradientTransfer {
   const std::shared_ptr<const Connectivity> connectivity_;
   const Shape source_, target_;
   std::vector<Eigen::Matrix3d> inverses_;  // of the source's frames, per triangle
-  size_t first_tie_ = 0;                   // among the sides
-  std::unique_ptr<GradientIntegrator> integrator_;
+  std::unique_ptr<SurfaceIntegrator> integrator_;
 };
 
 }  // namespace shapespace::internal

@@ -1,5 +1,5 @@
-#ifndef SHAPESPACE_OUTPUT_DETAIL_SCENE_H_
-#define SHAPESPACE_OUTPUT_DETAIL_SCENE_H_
+#ifndef SHAPESPACE_OUTPUT_DETAIL_RAY_SCENE_H_
+#define SHAPESPACE_OUTPUT_DETAIL_RAY_SCENE_H_
 
 #include <memory>
 
@@ -25,7 +25,7 @@ class RayTracer {
   RayTracer(const Connectivity& connectivity, float tube_radius);
 
  private:
-  friend class Scene;
+  friend class RayScene;
   const Connectivity& connectivity_;
   const Eigen::Matrix2Xi tubes_;  // of a graph: edges
   const float tube_radius_;
@@ -33,7 +33,7 @@ class RayTracer {
 };
 
 /// One shape, prepared for ray tracing. Safe to use from several threads.
-class Scene {
+class RayScene {
  public:
   struct Hit {
     float distance;
@@ -46,7 +46,7 @@ class Scene {
 
   /// `shape` is finite and lies in the unit ball; `values` has one number a vertex or is empty.
   /// \throw Error if Embree runs out of memory.
-  Scene(const RayTracer& tracer, const Shape& shape, Eigen::VectorXf values);
+  RayScene(const RayTracer& tracer, const Shape& shape, Eigen::VectorXf values);
 
   /// Finds the first hit along the ray; false if there is none.
   bool Trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, Hit* hit) const;
@@ -68,4 +68,4 @@ class Scene {
 
 }  // namespace shapespace::internal
 
-#endif  // SHAPESPACE_OUTPUT_DETAIL_SCENE_H_
+#endif  // SHAPESPACE_OUTPUT_DETAIL_RAY_SCENE_H_

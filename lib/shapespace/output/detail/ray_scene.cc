@@ -1,4 +1,4 @@
-#include <shapespace/output/detail/scene.h>
+#include <shapespace/output/detail/ray_scene.h>
 
 #include <algorithm>
 #include <limits>
@@ -93,7 +93,7 @@ RayTracer::RayTracer(const Connectivity& connectivity, float tube_radius)
   if (!device_) throw Error("picture: the ray tracer (Embree) cannot start on this machine");
 }
 
-Scene::Scene(const RayTracer& tracer, const Shape& shape, Eigen::VectorXf values)
+RayScene::RayScene(const RayTracer& tracer, const Shape& shape, Eigen::VectorXf values)
     : tracer_(tracer), values_(std::move(values)) {
   RTCDevice device = tracer.device_.get();
   scene_.reset(rtcNewScene(device), [](RTCScene scene) {
@@ -112,7 +112,7 @@ Scene::Scene(const RayTracer& tracer, const Shape& shape, Eigen::VectorXf values
   CheckEmbree(device);
 }
 
-void Scene::AddTriangles(const Shape& shape) {
+void RayScene::AddTriangles(const Shape& shape) {
   corner_normals_ = CornerNormals(tracer_.connectivity_, shape);
   RTCDevice device = tracer_.device_.get();
   const Eigen::Matrix3Xi& triangles = tracer_.connectivity_.Triangles();
@@ -126,7 +126,7 @@ void Scene::AddTriangles(const Shape& shape) {
   Attach(scene_.get(), geometry);
 }
 
-void Scene::AddTubes(const Shape& shape) {
+void RayScene::AddTubes(const Shape& shape) {
   RTCDevice device = tracer_.device_.get();
   const Eigen::Matrix2Xi& edges = tracer_.tubes_;
   const auto point = [&](int v) {
@@ -162,7 +162,8 @@ void Scene::AddTubes(const Shape& shape) {
   Attach(scene_.get(), balls);
 }
 
-bool Scene::Trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, Hit* hit) const {
+bool RayScene::Trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+                     Hit* hit) const {
   RTCRayHit ray;
   SetRay(&ray.ray, origin, direction, std::numeric_limits<float>::infinity());
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -203,8 +204,8 @@ bool Scene::Trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& directio
   return true;
 }
 
-bool Scene::Blocked(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
-                    float distance) const {
+bool RayScene::Blocked(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+                       float distance) const {
   RTCRay ray;
   SetRay(&ray, origin, direction, distance);
   EmbreeOccluded(scene_.get(), &ray);

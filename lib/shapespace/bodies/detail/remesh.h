@@ -1,23 +1,12 @@
-#ifndef SHAPESPACE_BODIES_DETAIL_POLYGONISE_H_
-#define SHAPESPACE_BODIES_DETAIL_POLYGONISE_H_
+#ifndef SHAPESPACE_BODIES_DETAIL_REMESH_H_
+#define SHAPESPACE_BODIES_DETAIL_REMESH_H_
 
 #include <vector>
 
-#include <Eigen/Core>
-
-#include <shapespace/bodies/detail/grid.h>
 #include <shapespace/bodies/detail/implicit.h>
+#include <shapespace/bodies/detail/marching_tetrahedra.h>
 
 namespace shapespace::internal {
-
-struct TriangleMesh {
-  std::vector<Eigen::Vector3d> points;
-  TriangleList triangles;
-};
-
-/// The surface of `cones`, sampled on a grid of cells of the given size, by marching tetrahedra: a
-/// closed manifold, oriented outwards; its triangles may be of any quality.
-TriangleMesh March(const std::vector<RoundCone>& cones, double cell);
 
 /// Replaces `mesh` by about `triangles` nearly equilateral triangles with all vertices on the
 /// surface of `cones`; edges are longer where the body is thicker. Repeatedly splits, collapses and
@@ -27,4 +16,4 @@ TriangleMesh Remesh(const TriangleMesh& mesh, const std::vector<RoundCone>& cone
 
 }  // namespace shapespace::internal
 
-#endif  // SHAPESPACE_BODIES_DETAIL_POLYGONISE_H_
+#endif  // SHAPESPACE_BODIES_DETAIL_REMESH_H_

@@ -1,4 +1,4 @@
-#include <shapespace/contact/detail/parting.h>
+#include <shapespace/contact/detail/separation_potential.h>
 
 #include <algorithm>
 #include <numeric>

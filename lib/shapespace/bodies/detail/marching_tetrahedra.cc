@@ -1,3 +1,5 @@
+#include <shapespace/bodies/detail/marching_tetrahedra.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <utility>
 
 #include <shapespace/base/parallel.h>
-#include <shapespace/bodies/detail/polygonise.h>
 #include <shapespace/mesh/internal/geometry.h>
 
 namespace shapespace::internal {
