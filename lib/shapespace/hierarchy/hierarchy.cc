@@ -83,10 +83,9 @@ Hierarchy::Hierarchy(const std::shared_ptr<const Connectivity>& connectivity,
       internal::PlanCollapses(*connectivity, poses, fewest, pinned, progress);
   stopped_early_ = !targets.empty() && (collapses.empty() || collapses.back().triangles > fewest);
 
-  std::vector<int> representative =
-      levels_[0].vertices;  // to which every vertex of the mesh has collapsed
-  for (const int twin : connectivity->Twins())
-    representative[twin] = connectivity->Representative(twin);
+  // To which every vertex of the mesh has collapsed.
+  std::vector<int> representative = levels_[0].vertices;
+  for (const int v : connectivity->Twins()) representative[v] = connectivity->Representative(v);
   size_t next = 0;
   int left = num_triangles;
   for (int target : targets) {
@@ -150,8 +149,9 @@ Eigen::VectorXd Hierarchy::RestrictField(const Eigen::VectorXd& field, int level
     for (const int v : here.kept) is_kept[v] = 1;
     for (int v = 0; v < sums.rows(); ++v) {
       if (is_kept[v]) continue;
-      for (int k = 0; k < 3; ++k)
+      for (int k = 0; k < 3; ++k) {
         coarse.row(here.carrier(k, v)) += here.weights(k, v) * sums.row(v);
+      }
     }
     sums = std::move(coarse);
   }

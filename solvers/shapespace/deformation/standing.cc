@@ -174,8 +174,9 @@ class Holder {
     summary_.parts = static_cast<int>(parts.size());
     for (size_t i = 0; i + 1 < whole.poses.size(); ++i) {
       for (const GroundPath& path_of_part : paths_) {
-        if (path_of_part.Stands(i))
+        if (path_of_part.Stands(i)) {
           summary_.drift = std::fmax(summary_.drift, path_of_part.Drift(i));
+        }
       }
     }
     summary_.drift /= diagonal_;

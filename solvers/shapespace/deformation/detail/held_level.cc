@@ -25,8 +25,9 @@ PositionConstraints ConstraintsOf(const HandleTargets& targets, const std::vecto
   for (size_t v = 0; v < vertices.size(); ++v) {
     const bool is_held =
         std::binary_search(targets.Held().begin(), targets.Held().end(), vertices[v]);
-    if (held.count(component[v]) == 0 && !is_held)
+    if (held.count(component[v]) == 0 && !is_held) {
       constraints.prescribed.push_back(static_cast<int>(v));
+    }
   }
   return constraints;
 }
@@ -87,8 +88,9 @@ void HeldLevel::MoveHandlesTo(const std::vector<Shape>& handle_positions,
 Shape HeldLevel::WithHardHandlesAt(const Shape& handle_positions, const Shape& shape) const {
   Tangent way = Tangent::Zero(3, shape.cols());
   for (const Held& held : held_) {
-    if (held.given)
+    if (held.given) {
       way.col(held.vertex) = handle_positions.col(held.column) - shape.col(held.vertex);
+    }
   }
   Shape moved = shape + path_.Factors().Extend({way}).front();
   Place(handle_positions, true, &moved);
@@ -97,8 +99,9 @@ Shape HeldLevel::WithHardHandlesAt(const Shape& handle_positions, const Shape& s
 
 void HeldLevel::Place(const Shape& handle_positions, bool last, Shape* shape) const {
   for (const Held& held : held_) {
-    if (held.prescribed || (held.given && last))
+    if (held.prescribed || (held.given && last)) {
       shape->col(held.vertex) = handle_positions.col(held.column);
+    }
   }
 }
 

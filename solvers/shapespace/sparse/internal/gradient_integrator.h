@@ -40,8 +40,9 @@ class GradientIntegrator {
 /// The sides of a triangle, from each corner to the next.
 inline Eigen::Matrix3d TriangleSides(const Shape& shape, const Eigen::Vector3i& corners) {
   Eigen::Matrix3d sides;
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 3; ++k) {
     sides.col(k) = shape.col(corners((k + 1) % 3)) - shape.col(corners(k));
+  }
   return sides;
 }
 
