@@ -14,8 +14,8 @@ by hand, from a shell:
     tests/mutations.py -j 1       one test program at a time, instead of two
 
 Lines that only make a solve faster (schedules, tolerances of inner solvers, preconditioners) are
-not in the lists: no test is a stopwatch. Real meshes are not used: tests on bodies made in code
-are to notice. Exit code 1 if more than one in twenty-five survives.
+not in the lists: no test is a stopwatch. Nor are words: tests hold no sentences. Real meshes are
+not used: tests on bodies made in code are to notice. Exit code 1 if more than one in twenty-five survives.
 """
 
 import argparse
@@ -64,7 +64,7 @@ inline bool MutationIs(int number) {
 PROGRAMS = ["base/base_test", "mesh/mesh_test", "metric/metric_test", "path/path_test",
             "hierarchy/hierarchy_test", "analysis/analysis_test", "bodies/bodies_test",
             "output/output_test", "solvers/exploration/exploration_test", "formats/formats_test",
-            "tools/tools_test", "solvers/solvers_test"]
+            "solvers/reports/reports_test", "tools/tools_test", "solvers/solvers_test"]
 
 # A mutation is a file (the folder shapespace/ is left out), a text that must stand there once,
 # whatever its line breaks, and what takes its place. A text that ends in a semicolon is a whole
@@ -635,7 +635,8 @@ def build():
 def programs_for(file):
   """The test programs, the one that is most likely to notice a change of this file first."""
   part, room = file.split("/")[:2]
-  own = ("exploration" if room == "exploration" else part if part != "lib" else
+  own = ("reports" if "report" in os.path.basename(file) else
+         "exploration" if room == "exploration" else part if part != "lib" else
          "mesh" if room == "files" else room) + "_test"
   return sorted(PROGRAMS, key=lambda program: os.path.basename(program) != own)
 

@@ -1,5 +1,4 @@
-// Splines of rigid copies of a tiny body, which move on cubics exactly, and what splines say of
-// themselves, word by word.
+// Splines of rigid copies of a tiny body, which move on cubics exactly.
 
 #include <cmath>
 #include <limits>
@@ -7,7 +6,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
 #include <shapespace/spline/spline.h>
@@ -19,7 +17,6 @@
 namespace shapespace {
 namespace {
 
-using nlohmann::json;
 using testing::MessageOf;
 using testing::Rotation;
 
@@ -262,79 +259,6 @@ TEST(SplineExactTest, KeepsTheLimitOfMemoryOfItsOwn) {
       }),
       "this spline needs about 0 MB, more than the memory limit; insert fewer shapes or raise "
       "memory_limit");
-}
-
-SplineSummary SplineOfNumbers() {
-  SplineSummary summary;
-  summary.geodesic.termination = Termination::kStalled;
-  summary.geodesic.vertices = 11;
-  summary.geodesic.poses = 3;
-  summary.geodesic.shapes = 7;
-  summary.geodesic.energy = 0.25;
-  summary.geodesic.warnings = {"of the chain"};
-  summary.ends = SplineEnds::kNotAKnot;
-  summary.smooth = true;
-  summary.jump_before = 1.5;
-  summary.jump_after = 0.0625;
-  summary.uncertified_segments = 2;
-  summary.contact_distance = 0.03125;
-  summary.energy = 0.375;
-  summary.quality.edge_rms = 0.0125;
-  summary.warnings = {"one", "two"};
-  summary.estimated_bytes = 1e5;
-  summary.spline_seconds = 1.25;
-  summary.total_seconds = 3.5;
-  return summary;
-}
-
-TEST(SplineSummary, ReportsHaveEveryNumber) {
-  const SplineSummary summary = SplineOfNumbers();
-  EXPECT_FALSE(summary.Converged());
-  EXPECT_EQ(summary.BriefReport(),
-            "NOT CONVERGED: stalled: 11 vertices, 3 poses, 7 shapes inserted; spline, not_a_knot; "
-            "velocity jumps at poses by 0.0625 times the mean speed (before: 1.5); edges off by "
-            "1.25% rms; 3.50 s");
-  EXPECT_EQ(summary.FullReport(),
-            summary.geodesic.FullReport() +
-                "\nSpline            not_a_knot\n"
-                "Velocity jumps    at most 0.0625 times the mean speed (chain: 1.5)\n"
-                "Contact           2 segments not shown to be free of it; least distance 0.03125\n"
-                "Energy            0.375, that of the chain is 0.25\n"
-                "Seconds           1.250 for the spline, 3.500 in all\n"
-                "Warning: one\n"
-                "Warning: two\n");
-  json written = json::parse(summary.ToJson());
-  EXPECT_EQ(written["geodesic"], json::parse(summary.geodesic.ToJson()));
-  EXPECT_EQ(written["quality"]["edge_rms"], 0.0125);
-  written.erase("geodesic");
-  written.erase("quality");
-  const json expected = {{"termination", "stalled"},  {"converged", false},
-                         {"ends", "not_a_knot"},      {"smooth", true},
-                         {"jump_before", 1.5},        {"jump_after", 0.0625},
-                         {"uncertified_segments", 2}, {"contact_distance", 0.03125},
-                         {"energy", 0.375},           {"estimated_bytes", 1e5},
-                         {"spline_seconds", 1.25},    {"total_seconds", 3.5},
-                         {"warnings", {"one", "two"}}};
-  EXPECT_EQ(written, expected);
-}
-
-TEST(SplineSummary, OfAChainSaysThatItIsNone) {
-  SplineSummary summary = SplineOfNumbers();
-  summary.smooth = false;
-  summary.geodesic.termination = Termination::kConverged;
-  summary.uncertified_segments = -1;
-  EXPECT_TRUE(summary.Converged());
-  EXPECT_NE(summary.BriefReport().find("7 shapes inserted; chain of geodesics; velocity jumps"),
-            std::string::npos);
-  EXPECT_NE(summary.FullReport().find("\nSpline            none: the path is the chain of "
-                                      "geodesics\nVelocity jumps    at most 0.0625 times the mean "
-                                      "speed (chain: 1.5)\nEnergy            0.375,"),
-            std::string::npos);
-  const char* const words[] = {"natural", "clamped", "not_a_knot", "periodic"};
-  for (int k = 0; k < 4; ++k) {
-    summary.ends = static_cast<SplineEnds>(k);
-    EXPECT_EQ(json::parse(summary.ToJson())["ends"], words[k]);
-  }
 }
 
 }  // namespace

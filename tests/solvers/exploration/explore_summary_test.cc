@@ -2,7 +2,6 @@
 #include <set>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
@@ -22,86 +21,6 @@ using testing::MadeUpSpace;
 using testing::MessageOf;
 using testing::SmallTube;
 using testing::TubePoses;
-
-ExploreSummary MadeUpSummary() {
-  ExploreSummary summary;
-  summary.vertices = 1234;
-  summary.triangles = 2464;
-  summary.distance_vertices = 77;
-  summary.poses = 5;
-  summary.nodes = 17;
-  summary.cells = 23;
-  summary.metric = "lengths";
-  summary.unit = 2.5;
-  summary.threshold = 0.125;
-  summary.solved = 31;
-  summary.found = 12;
-  summary.damaged = 3;
-  summary.not_converged = 2;
-  summary.stress = 0.0625;
-  summary.stress_iterations = 9;
-  summary.embedded = true;
-  summary.levels = {{4, 6, 3, 0.375, 2, 1.25}, {7, 8, 0, 0.0625, 1, 0.5}};
-  summary.edges_not_measured = 11;
-  summary.warnings = {"one", "two"};
-  summary.distance_seconds = 1.5;
-  summary.embedding_seconds = 0.25;
-  summary.refinement_seconds = 3.125;
-  summary.total_seconds = 5;
-  summary.threads = 1;
-  summary.processes = 2;
-  return summary;
-}
-
-TEST(ExploreSummary, TheReportHasEveryFigureInItsPlace) {
-  ExploreSummary summary = MadeUpSummary();
-  EXPECT_EQ(summary.BriefReport(),
-            "not converged: 5 poses, 17 nodes, 23 cells; stress 0.0625; 43 geodesics, 12 of them "
-            "found; 5.0 s");
-  EXPECT_EQ(summary.FullReport(),
-            R"(Termination       not converged
-Mesh              1234 vertices, 2464 triangles
-Metric            lengths; unit of length 2.5
-Space             5 poses, 17 nodes, 23 cells
-Distances         on 77 vertices
-Stress            0.0625 after 9 iterations
-Geodesics         31 solved, 12 left by an earlier run, 3 damaged, 2 not converged
-Threshold         12.5%; edges not measured: 11
-
-  cells  new edges  too long  by at most  new nodes  seconds
-      4          6         3       37.5%          2     1.25
-      7          8         0       6.25%          1     0.50
-
-Time              5.000 s: distances 1.500, embedding 0.250, refinement 3.125; 2 processes of 1 thread
-Warning: one
-Warning: two
-)");
-  summary.not_converged = 0;
-  summary.processes = 1;
-  summary.threads = 4;
-  EXPECT_EQ(summary.FullReport().rfind("Termination       converged\n", 0), 0u);
-  EXPECT_NE(summary.FullReport().find("; 1 process of 4 threads\n"), std::string::npos);
-  EXPECT_EQ(summary.BriefReport().rfind("converged: ", 0), 0u);
-  summary.embedded = false;
-  EXPECT_FALSE(summary.Converged());
-}
-
-TEST(ExploreSummary, JsonHasEveryField) {
-  const auto json = nlohmann::json::parse(MadeUpSummary().ToJson());
-  const auto expected = nlohmann::json::parse(R"({
-    "converged": false, "vertices": 1234, "triangles": 2464, "distance_vertices": 77, "poses": 5,
-    "nodes": 17, "cells": 23, "metric": "lengths", "unit": 2.5, "threshold": 0.125, "solved": 31,
-    "found": 12, "damaged": 3, "not_converged": 2, "stress": 0.0625, "stress_iterations": 9,
-    "embedded": true, "edges_not_measured": 11, "distance_seconds": 1.5, "embedding_seconds": 0.25,
-    "refinement_seconds": 3.125, "total_seconds": 5, "threads": 1, "processes": 2,
-    "levels": [{"cells": 4, "edges": 6, "marked": 3, "greatest_excess": 0.375, "new_nodes": 2,
-                "seconds": 1.25},
-               {"cells": 7, "edges": 8, "marked": 0, "greatest_excess": 0.0625, "new_nodes": 1,
-                "seconds": 0.5}],
-    "warnings": ["one", "two"]})");
-  for (const auto& [key, value] : expected.items()) EXPECT_EQ(json.at(key), value) << key;
-  EXPECT_EQ(json.size(), expected.size() + 1);  // and "termination"
-}
 
 std::set<std::pair<int, int>> EdgesOf(const PoseSpace& space) {
   std::set<std::pair<int, int>> edges;

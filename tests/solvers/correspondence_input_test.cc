@@ -1,13 +1,11 @@
-// Reports of a correspondence, and what is checked and measured before the fit.
+// What is checked and measured before a correspondence is fitted.
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
-#include <shapespace/correspondence/correspondence.h>
 #include <shapespace/correspondence/detail/check_input.h>
 #include <shapespace/correspondence/detail/closest.h>
 #include <shapespace/correspondence/detail/marker_distances.h>
@@ -25,93 +23,6 @@ namespace shapespace {
 namespace {
 
 using testing::MessageOf;
-
-CorrespondenceSummary MadeUpCorrespondence() {
-  CorrespondenceSummary summary;
-  summary.converged = true;
-  summary.template_vertices = 123;
-  summary.template_triangles = 242;
-  summary.target_vertices = 77;
-  summary.target_triangles = 150;
-  summary.markers = 19;
-  summary.doubtful = {{2, 0.25, 40, -1}, {6, 0.5, 8, 9}};
-  summary.scale = 2.5;
-  summary.stages = {{31, "gradients", 0, 1, 0, 0, 0.125}, {123, "shell", 30, 6, 0.015, 0.002, 1.5}};
-  summary.distance_rms = 0.004;
-  summary.distance_max = 0.03;
-  summary.round_trip_mean = 0.0125;
-  summary.round_trip_p95 = 0.0625;
-  summary.turned = 0.0075;
-  summary.uncovered = 0.05;
-  summary.warnings = {"one", "two"};
-  summary.estimated_bytes = 1e6;
-  summary.total_seconds = 9.5;
-  summary.marker_seconds = 0.5;
-  summary.hierarchy_seconds = 1.25;
-  summary.fit_seconds = 4;
-  summary.unfold_seconds = 0.75;
-  summary.map_seconds = 2;
-  return summary;
-}
-
-TEST(CorrespondenceSummary, TheReportHasEveryFigureInItsPlace) {
-  CorrespondenceSummary summary = MadeUpCorrespondence();
-  EXPECT_EQ(summary.BriefReport(),
-            "converged: 123 vertices on 77, 19 markers, 0.4% off the target (rms), 0.75% turned "
-            "over, 9.50 s");
-  EXPECT_EQ(summary.FullReport(),
-            R"(Termination       converged
-Template          123 vertices, 242 triangles
-Target            77 vertices, 150 triangles; 2.5 times as large
-Markers           19 held, 2 doubtful
-
-In per cent of the square root of the target's area:
-From the target   rms 0.4%, max 3%
-Round trip        mean 1.25%, 95th percentile 6.25%
-
-Turned over       0.75% of triangles
-Not covered       5% of the target's area
-
-vertices stage         weight  rounds  distance %  last motion %  seconds
-      31 gradients          0       1           0              0    0.125
-     123 shell             30       6         1.5            0.2    1.500
-
-marker 3 is 25% from the position that the others predict: vertex 41 of the target
-marker 7 is 50% from the position that the others predict: vertex 9 of the target (swapped with marker 10?)
-
-Time              9.500 s: markers 0.500, hierarchy 1.250, fit 4.000 (unfolding 0.750), map 2.000
-Warning: one
-Warning: two
-)");
-  summary.doubtful.clear();
-  EXPECT_NE(summary.FullReport().find("1.500\n\nTime "), std::string::npos);
-  summary.converged = false;
-  EXPECT_EQ(summary.FullReport().rfind("Termination       not converged\n", 0), 0u);
-  EXPECT_EQ(summary.BriefReport().rfind("not converged: ", 0), 0u);
-  summary.cancelled = true;
-  EXPECT_EQ(summary.FullReport().rfind("Termination       cancelled\n", 0), 0u);
-  EXPECT_EQ(summary.BriefReport().rfind("cancelled: ", 0), 0u);
-}
-
-TEST(CorrespondenceSummary, JsonCountsMarkersAndVerticesFromOne) {
-  const auto json = nlohmann::json::parse(MadeUpCorrespondence().ToJson());
-  const auto expected = nlohmann::json::parse(R"({
-    "converged": true, "cancelled": false, "template_vertices": 123, "template_triangles": 242,
-    "target_vertices": 77, "target_triangles": 150, "markers": 19,
-    "doubtful": [{"marker": 3, "off": 0.25, "expected": 41, "swapped": 0},
-                 {"marker": 7, "off": 0.5, "expected": 9, "swapped": 10}],
-    "scale": 2.5,
-    "stages": [{"vertices": 31, "name": "gradients", "weight": 0, "rounds": 1, "distance": 0,
-                "motion": 0, "seconds": 0.125},
-               {"vertices": 123, "name": "shell", "weight": 30, "rounds": 6, "distance": 0.015,
-                "motion": 0.002, "seconds": 1.5}],
-    "distance_rms": 0.004, "distance_max": 0.03, "round_trip_mean": 0.0125,
-    "round_trip_p95": 0.0625, "turned": 0.0075, "uncovered": 0.05, "estimated_bytes": 1e6,
-    "total_seconds": 9.5, "marker_seconds": 0.5, "hierarchy_seconds": 1.25, "fit_seconds": 4,
-    "unfold_seconds": 0.75, "map_seconds": 2, "warnings": ["one", "two"]})");
-  for (const auto& [key, value] : expected.items()) EXPECT_EQ(json.at(key), value) << key;
-  EXPECT_EQ(json.size(), expected.size() + 1);  // and "termination"
-}
 
 // Two squares side by side, of two triangles each, and a vertex that no triangle uses.
 std::shared_ptr<const Connectivity> TwoSquares() {

@@ -1,5 +1,4 @@
-// What transfers say of themselves, word by word, of numbers that all differ, and what their paths
-// and summaries must be to be consistent.
+// What the paths and summaries of transfers must be to be consistent.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +7,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <shapespace/analysis/quality.h>
 #include <shapespace/base/error.h>
@@ -24,85 +22,6 @@ namespace shapespace {
 namespace {
 
 using namespace testing;
-using nlohmann::json;
-
-TransferSummary TransferOfNumbers() {
-  TransferSummary summary;
-  summary.method = TransferMethod::kLadder;
-  summary.vertices = 11;
-  summary.metric = "strain 1";
-  summary.scale = 1.25;
-  TransferSummary::Step step;
-  step.converged = step.on_mesh = true;
-  step.iterations = 7;
-  step.ratio = 1.5;
-  step.norm_change = -0.25;
-  step.seconds = 0.125;
-  summary.steps.push_back(step);
-  step.iterations = 9;
-  step.on_mesh = step.converged = false;
-  step.warnings = {"of a step"};
-  summary.steps.push_back(step);
-  step.on_mesh = true;
-  step.warnings.clear();
-  summary.steps.push_back(step);
-  summary.strain_rms = 0.01;
-  summary.strain_max = 0.02;
-  summary.angle_rms = 3.5;
-  summary.uncertified_segments = 2;
-  summary.contact_distance = 0.0625;
-  summary.warnings = {"one", "two"};
-  summary.estimated_bytes = 1e5;
-  summary.total_seconds = 4.5;
-  return summary;
-}
-
-TEST(TransferSummary, ReportsHaveEveryNumber) {
-  TransferSummary summary = TransferOfNumbers();
-  EXPECT_EQ(summary.BriefReport(),
-            "NOT CONVERGED: 11 vertices, 3 shapes; target 1.25 times as large; strains off by 1% "
-            "rms, dihedral angles by 3.5 degrees; 4.50 s");
-  EXPECT_EQ(summary.FullReport(),
-            "Ending            NOT CONVERGED\n"
-            "Metric            strain 1\n"
-            "Mesh              11 vertices; target 1.25 times as large as the source\n"
-            "Strains, last     off by 1% rms, 2% at most\n"
-            "Angles, last      off by 3.5 degrees rms\n"
-            "Contact           2 segments not shown to be free of it; least distance 0.0625\n"
-            "\n"
-            "shape  iterations  seconds  energy / bound  norm changes\n"
-            "    2           7    0.125         1.50000         -0.25\n"
-            "    3           9    0.125         1.50000         -0.25  (on a coarser mesh)  (not "
-            "converged)\n"
-            "    4           9    0.125         1.50000         -0.25  (not converged)\n"
-            "\n"
-            "Time              4.500 s\n"
-            "Warning: one\n"
-            "Warning: two\n");
-  json written = json::parse(summary.ToJson());
-  ASSERT_EQ(written["steps"].size(), 3u);
-  const json step = {{"converged", false}, {"iterations", 9},      {"on_mesh", false},
-                     {"ratio", 1.5},       {"norm_change", -0.25}, {"warnings", {"of a step"}},
-                     {"seconds", 0.125}};
-  EXPECT_EQ(written["steps"][1], step);
-  written.erase("steps");
-  const json expected = {{"termination", "not_converged"},
-                         {"converged", false},
-                         {"method", "ladder"},
-                         {"vertices", 11},
-                         {"metric", "strain 1"},
-                         {"scale", 1.25},
-                         {"strain_rms", 0.01},
-                         {"strain_max", 0.02},
-                         {"angle_rms", 3.5},
-                         {"uncertified_segments", 2},
-                         {"contact_distance", 0.0625},
-                         {"cancelled", false},
-                         {"estimated_bytes", 1e5},
-                         {"total_seconds", 4.5},
-                         {"warnings", {"one", "two"}}};
-  EXPECT_EQ(written, expected);
-}
 
 TEST(TransferSummary, HasConvergedWhereEveryShapeHasOnTheMeshItself) {
   TransferSummary summary;
@@ -113,7 +32,6 @@ TEST(TransferSummary, HasConvergedWhereEveryShapeHasOnTheMeshItself) {
   EXPECT_TRUE(summary.Converged());
   summary.cancelled = true;
   EXPECT_FALSE(summary.Converged());
-  EXPECT_EQ(json::parse(summary.ToJson())["termination"], "cancelled");
   summary.cancelled = false;
   summary.steps[1].on_mesh = false;
   EXPECT_FALSE(summary.Converged());
@@ -122,54 +40,24 @@ TEST(TransferSummary, HasConvergedWhereEveryShapeHasOnTheMeshItself) {
   EXPECT_FALSE(summary.Converged());
 }
 
-TEST(PoseTransferSummary, ReportsAreOfAllPoses) {
+TEST(PoseTransferSummary, HasConvergedWhereEveryPartHas) {
   PoseTransferSummary summary;
-  EXPECT_EQ(summary.BriefReport(), "no pose was transferred");
-  EXPECT_EQ(summary.FullReport(), "");
-  EXPECT_TRUE(summary.Warnings().empty());
-  TransferSummary first;
-  first.vertices = 11;
-  first.scale = 1.25;
-  first.steps.resize(4);
-  for (auto& step : first.steps) step.converged = step.on_mesh = true;
-  first.strain_rms = 0.03;
-  first.angle_rms = 1.5;
-  first.total_seconds = 2;
-  TransferSummary second = first;
-  second.steps.push_back(second.steps.back());
-  second.strain_rms = 0.02;
-  second.angle_rms = 2.5;
-  second.total_seconds = 4;
-  second.warnings = {"of the second"};
-  GeodesicSummary to_first, to_second;
-  to_first.termination = to_second.termination = Termination::kConverged;
-  to_first.total_seconds = 8;
-  to_first.warnings = {"of its geodesic"};
-  to_second.total_seconds = 16;
-  summary.geodesics = {to_first, to_second};
-  summary.transfers = {first, second};
-  EXPECT_EQ(summary.BriefReport(),
-            "converged: 11 vertices, 2 poses in 9 steps; target 1.25 times as large; strains off "
-            "by up to 3% rms, dihedral angles by 2.5 degrees; 30.00 s");
-  EXPECT_EQ(summary.FullReport(), "Pose 2, the geodesic to it\n" + to_first.FullReport() +
-                                      "\nPose 2, its transfer\n" + first.FullReport() +
-                                      "\nPose 3, the geodesic to it\n" + to_second.FullReport() +
-                                      "\nPose 3, its transfer\n" + second.FullReport());
-  EXPECT_EQ(summary.Warnings(),
-            (std::vector<std::string>{"pose 2: of its geodesic", "pose 3: of the second"}));
-  summary.cancelled = true;
-  EXPECT_EQ(summary.Warnings().front(),
-            "cancelled: only the poses before this point were computed");
   EXPECT_FALSE(summary.Converged());
-  const json written = json::parse(summary.ToJson());
-  EXPECT_EQ(written["termination"], "cancelled");
-  EXPECT_EQ(written["cancelled"], true);
-  EXPECT_EQ(written["warnings"].size(), 3u);
-  summary.cancelled = false;
+  EXPECT_TRUE(summary.Warnings().empty());
+  summary.transfers.resize(2);
+  summary.geodesics.resize(2);
+  for (int i = 0; i < 2; ++i) {
+    summary.geodesics[i].termination = Termination::kConverged;
+    summary.transfers[i].steps.resize(1);
+    summary.transfers[i].steps[0].converged = summary.transfers[i].steps[0].on_mesh = true;
+  }
+  EXPECT_TRUE(summary.Converged());
   summary.geodesics[1].termination = Termination::kStalled;
   EXPECT_FALSE(summary.Converged());
   summary.geodesics[1].termination = Termination::kConverged;
-  EXPECT_TRUE(summary.Converged());
+  summary.cancelled = true;
+  EXPECT_FALSE(summary.Converged());
+  summary.cancelled = false;
   summary.transfers[1].steps[0].converged = false;
   EXPECT_FALSE(summary.Converged());
 }

@@ -1,4 +1,4 @@
-// What paths that avoid contact say of themselves, word by word.
+// What paths that avoid contact say of themselves.
 
 #include <algorithm>
 #include <string>
@@ -24,7 +24,7 @@ GeodesicOptions RoundContacts(int shapes) {
 }
 
 // A cube moves beside a closed box, and then into it.
-TEST(GeodesicContactReport, NamesThePieceInWhichNoWayWasFound) {
+TEST(GeodesicContactFigures, NamesThePieceInWhichNoWayWasFound) {
   const testing::CubeAndBox body(3);
   const auto [path, summary] =
       Interpolate(body.connectivity, {body.At(6), body.At(5), body.At(1)}, RoundContacts(3));
@@ -49,7 +49,7 @@ TEST(GeodesicContactReport, NamesThePieceInWhichNoWayWasFound) {
   EXPECT_EQ(summary.crossings_between, static_cast<double>(most));
 }
 
-TEST(GeodesicContactReport, NamesThePieceWhosePosesIntersect) {
+TEST(GeodesicContactFigures, NamesThePieceWhosePosesIntersect) {
   const testing::CutRing ring;
   const Shape wound = ring.Wound(0.25, 0.15);
   const std::string pairs = std::to_string(CountIntersections(*ring.connectivity, wound));
@@ -72,7 +72,7 @@ TEST(GeodesicContactReport, NamesThePieceWhosePosesIntersect) {
                                   " pairs of triangles); contact is not looked for there");
 }
 
-TEST(GeodesicContactReport, SaysAtWhichStepPartsTouch) {
+TEST(GeodesicContactFigures, SaysAtWhichStepPartsTouch) {
   const testing::CutRing ring;
   ExponentialOptions stop;
   stop.stop_at_contact = true;
