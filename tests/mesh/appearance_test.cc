@@ -47,23 +47,23 @@ TEST(AppearanceTest, WhatDoesNotFitTheMeshIsNamed) {
   EXPECT_EQ(Message([](Appearance* a) { a->corner_texture.clear(); }), neither);
   EXPECT_EQ(Message([](Appearance* a) { a->texture_coordinates.resize(2, 0); }), neither);
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_EQ(Message([&](Appearance* a) { a->texture_coordinates(1, 2) = bad; }),
-              "a texture coordinate is not a finite number");
+    EXPECT_TRUE(testing::Names(Message([&](Appearance* a) { a->texture_coordinates(1, 2) = bad; }),
+                               {"texture coordinate"}));
   }
-  EXPECT_EQ(Message([](Appearance* a) { a->corner_texture.pop_back(); }),
-            "texture coordinates of corners: given 6 times, the mesh has 7");
-  EXPECT_EQ(Message([](Appearance* a) { a->corner_texture[6] = 3; }),
-            "texture coordinates of corners: index 3 is not in -1 .. 2");
-  EXPECT_EQ(Message([](Appearance* a) { a->corner_texture[0] = -2; }),
-            "texture coordinates of corners: index -2 is not in -1 .. 2");
-  EXPECT_EQ(Message([](Appearance* a) { a->materials.of_polygon.push_back(0); }),
-            "materials of polygons: given 3 times, the mesh has 2");
-  EXPECT_EQ(Message([](Appearance* a) { a->materials.of_polygon[1] = 2; }),
-            "materials of polygons: index 2 is not in -1 .. 1");
-  EXPECT_EQ(Message([](Appearance* a) { a->groups.of_polygon[1] = 1; }),
-            "groups of polygons: index 1 is not in -1 .. 0");
-  EXPECT_EQ(Message([](Appearance* a) { a->objects.of_polygon = {0}; }),
-            "objects of polygons: given 1 times, the mesh has 2");
+  EXPECT_TRUE(testing::Names(Message([](Appearance* a) { a->corner_texture.pop_back(); }),
+                             {"texture coordinates of corners:", "6", "7"}));
+  EXPECT_TRUE(testing::Names(Message([](Appearance* a) { a->corner_texture[6] = 3; }),
+                             {"texture coordinates of corners:", "index 3", "-1", "2"}));
+  EXPECT_TRUE(testing::Names(Message([](Appearance* a) { a->corner_texture[0] = -2; }),
+                             {"texture coordinates of corners:", "index -2", "-1", "2"}));
+  EXPECT_TRUE(testing::Names(Message([](Appearance* a) { a->materials.of_polygon.push_back(0); }),
+                             {"materials of polygons:", "3", "2"}));
+  EXPECT_TRUE(testing::Names(Message([](Appearance* a) { a->materials.of_polygon[1] = 2; }),
+                             {"materials of polygons:", "index 2", "-1", "1"}));
+  EXPECT_TRUE(testing::Names(Message([](Appearance* a) { a->groups.of_polygon[1] = 1; }),
+                             {"groups of polygons:", "index 1", "-1", "0"}));
+  EXPECT_TRUE(testing::Names(Message([](Appearance* a) { a->objects.of_polygon = {0}; }),
+                             {"objects of polygons:", "1", "2"}));
 }
 
 TEST(AppearanceTest, NamesAreTheRestOfALine) {
@@ -87,8 +87,8 @@ TEST(AppearanceTest, ColoursAreOfThreeOrFourNumbersFromZeroToOne) {
   EXPECT_EQ(sized(5, 5), "vertex colours: 5 x 5 instead of 3 or 4 x 5");
   EXPECT_EQ(sized(3, 5), "nothing was thrown");
   for (const double bad : {-1e-9, 1 + 1e-9, std::nan("")}) {
-    EXPECT_EQ(Message([&](Appearance* a) { a->vertex_colours(3, 4) = bad; }),
-              "vertex colours: a number is not in 0 .. 1");
+    EXPECT_TRUE(testing::Names(Message([&](Appearance* a) { a->vertex_colours(3, 4) = bad; }),
+                               {"vertex colours:", "0", "1"}));
   }
 }
 

@@ -199,13 +199,12 @@ TEST(ConnectivityTest, BadIndicesAreQuotedWhicheverEndTheyAreOf) {
     return testing::MessageOf<MeshError>(
         [&] { Connectivity::Make(4, {0}, {}, segments, stiffeners); });
   };
-  const std::string end = ": vertex index outside 0 .. 3";
-  EXPECT_EQ(message({{0, 3}, {4, 1}}, {}), "segment 4 1" + end);
-  EXPECT_EQ(message({{0, 3}, {1, 4}}, {}), "segment 1 4" + end);
-  EXPECT_EQ(message({{-1, 3}}, {}), "segment -1 3" + end);
-  EXPECT_EQ(message({{3, -1}}, {{5, 5}}), "segment 3 -1" + end);
-  EXPECT_EQ(message({{3, 1}}, {{2, 0}, {5, 5}}), "stiffener 5 5" + end);
-  EXPECT_EQ(message({{3, 1}}, {{0, 2}, {3, 3}}), "stiffener joins vertex 3 to itself");
+  EXPECT_TRUE(testing::Names(message({{0, 3}, {4, 1}}, {}), {"segment 4", "1", "0 .. 3"}));
+  EXPECT_TRUE(testing::Names(message({{0, 3}, {1, 4}}, {}), {"segment 1", "4", "0 .. 3"}));
+  EXPECT_TRUE(testing::Names(message({{-1, 3}}, {}), {"segment -1", "3", "0 .. 3"}));
+  EXPECT_TRUE(testing::Names(message({{3, -1}}, {{5, 5}}), {"segment 3", "-1", "0 .. 3"}));
+  EXPECT_TRUE(testing::Names(message({{3, 1}}, {{2, 0}, {5, 5}}), {"stiffener 5", "5", "0 .. 3"}));
+  EXPECT_TRUE(testing::Names(message({{3, 1}}, {{0, 2}, {3, 3}}), {"vertex 3"}));
   EXPECT_EQ(message({{3, 1}}, {{0, 2}}), "nothing was thrown");
 }
 

@@ -9,7 +9,7 @@
 #include "mesh/files.h"
 #include "support/message_of.h"
 
-// The whole text of what is said about PLY files.
+// What is said about PLY files.
 
 namespace shapespace::ply_text_test {
 namespace {
@@ -31,93 +31,70 @@ class PlyTextTest : public testing::FilesTest {
     return testing::SoupOf(content, "m.ply", MeshFormat::kPly);
   }
 
-  static void Refused(const std::string& content, const std::string& words) {
-    EXPECT_EQ(testing::MessageOf<FileError>([&] { Read(content); }), "m.ply:" + words) << content;
+  static void Refused(const std::string& content, Strings parts) {
+    parts.front() = "m.ply:" + parts.front();
+    EXPECT_TRUE(testing::Refuses<FileError>([&] { Read(content); }, parts)) << content;
   }
 };
 
 TEST_F(PlyTextTest, Elements) {
-  Refused(kHeader + "0 0 0\n1 0 0\n\n0 y 0\n3 0 1 2\n",
-          "13: vertex 3: y 'y' is not a number" + kReexport);
-  Refused(kHeader + "0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n",
-          "11: vertex 2: coordinate y is not a finite number" + kReexport);
-  Refused(kHeader + "0 0 0\n1 0 0 7 8\n0 1 0\n3 0 1 2\n",
-          "11: vertex 2: '7' at the end of its line is too much" + kReexport);
-  Refused(kHeader + kVertices + "\n3 0 1 3\n",
-          "14: polygon 1: vertex index 3 is not one of 0 to 2" + kReexport);
-  Refused(kHeader + kVertices + "3 0 1 2.5\n",
-          "13: polygon 1: a vertex index is not a number counted from 0" + kReexport);
-  Refused(kHeader + kVertices + "3 0 1 2147483648\n",
-          "13: polygon 1: a vertex index is not a number counted from 0" + kReexport);
-  Refused(kHeader + kVertices + "2 0 1\n",
-          "13: polygon 1: 2 corners, a polygon needs three" + kReexport);
-  Refused(kHeader + kVertices + "3.5 0 1 2\n",
-          "13: polygon 1: the length of vertex_indices is not a count" + kReexport);
-  Refused(kHeader + kVertices + "nan 0 1 2\n",
-          "13: polygon 1: the length of vertex_indices is not a count" + kReexport);
-  Refused(
-      kHeader + kVertices + "3 0 1 2\n\n7\n",
-      "15: something follows the last element; the counts of the header do not fit" + kReexport);
-  Refused(kHeader + "0 0 0\n1 0 0\n          \n\n",
-          "13: the file ends before vertex 3" + kReexport);
+  Refused(kHeader + "0 0 0\n1 0 0\n\n0 y 0\n3 0 1 2\n", {"13:", "vertex 3", "'y'"});
+  Refused(kHeader + "0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n", {"11:", "vertex 2", "coordinate y"});
+  Refused(kHeader + "0 0 0\n1 0 0 7 8\n0 1 0\n3 0 1 2\n", {"11:", "vertex 2", "'7'"});
+  Refused(kHeader + kVertices + "\n3 0 1 3\n", {"14:", "polygon 1", "index 3", "0", "2"});
+  Refused(kHeader + kVertices + "3 0 1 2.5\n", {"13:", "polygon 1", "0"});
+  Refused(kHeader + kVertices + "3 0 1 2147483648\n", {"13:", "polygon 1", "0"});
+  Refused(kHeader + kVertices + "2 0 1\n", {"13:", "polygon 1", "2"});
+  Refused(kHeader + kVertices + "3.5 0 1 2\n", {"13:", "polygon 1", "vertex_indices"});
+  Refused(kHeader + kVertices + "nan 0 1 2\n", {"13:", "polygon 1", "vertex_indices"});
+  Refused(kHeader + kVertices + "3 0 1 2\n\n7\n", {"15:"});
+  Refused(kHeader + "0 0 0\n1 0 0\n          \n\n", {"13:", "vertex 3"});
 }
 
 TEST_F(PlyTextTest, CountsThatTheFileHasNoRoomFor) {
   // Three numbers, of two bytes each at least; the last one need not be followed by a blank.
-  Refused(
-      kText + kXyz + "end_header\n0 0 0\n1 0 0\n0 1\n",
-      "7: the header promises 3 of element 'vertex', the file has room for at most 2" + kReexport);
+  Refused(kText + kXyz + "end_header\n0 0 0\n1 0 0\n0 1\n", {"7:", "3", "'vertex'", "2"});
   EXPECT_EQ(Read(kText + kXyz + "end_header\n0 0 0\n1 0 0\n0 1 5").vertices.col(2),
             Eigen::Vector3d(0, 1, 5));
-  Refused(
-      kHeader + kVertices,
-      "12: the header promises 1 of element 'face', the file has room for at most 0" + kReexport);
-  Refused(kText + kXyz + "element odd 2\nend_header\n" + kVertices,
-          "11: element 'odd' has no properties" + kReexport);
+  Refused(kHeader + kVertices, {"12:", "1", "'face'", "0"});
+  Refused(kText + kXyz + "element odd 2\nend_header\n" + kVertices, {"11:", "'odd'"});
   EXPECT_TRUE(Read(kText + kXyz + "element odd 0\nend_header\n" + kVertices).dropped.empty());
 }
 
 TEST_F(PlyTextTest, Headers) {
-  Refused("plybinary\n", "1: does not begin with 'ply'; is this a PLY file?");
-  Refused(kText + "element vertex 1\n", "3: the file ends inside its header" + kReexport);
-  Refused(kText + "comment\nelements vertex 1\n",
-          "4: the header holds 'elements', which is not a statement of PLY" + kReexport);
-  Refused("ply\n" + kXyz + "end_header\n" + kVertices,
-          "6: the header has no 'format' statement" + kReexport);
+  Refused("plybinary\n", {"1:", "'ply'"});
+  Refused(kText + "element vertex 1\n", {"3:"});
+  Refused(kText + "comment\nelements vertex 1\n", {"4:", "'elements'"});
+  Refused("ply\n" + kXyz + "end_header\n" + kVertices, {"6:", "'format'"});
   Refused("ply\n\nformat ASCII 1.0\n",
-          "3: format 'ASCII' is not one of ascii, binary_little_endian, binary_big_endian");
-  Refused(kText + "element vertex\n", "3: element 'vertex': '' is not a count" + kReexport);
-  Refused(kText + kXyz + "element face 1\nproperty int i\nelement vertex 1\n",
-          "9: element 'vertex' occurs twice");
-  Refused(kText + "property float x\n", "3: a property precedes any element" + kReexport);
-  Refused(kText + kXyz + "property list double int i\n",
-          "7: 'double' is not a type that can count the items of a list");
-  Refused(kText + kXyz + "property list quad int i\n",
-          "7: 'quad' is not a type that can count the items of a list");
-  Refused(kText + kXyz + "property list int quad i\n", "7: 'quad' is not a type of PLY");
-  Refused(kText + kXyz + "property list int int x\n", "7: property 'x' occurs twice");
-  Refused(kText + kXyz + "element tristrips 1\nproperty list int int i\nend_header\n",
-          "9: triangle strips are not read; export polygons (faces) instead");
+          {"3:", "'ASCII'", "binary_little_endian", "binary_big_endian"});
+  Refused(kText + "element vertex\n", {"3:", "'vertex'", "''"});
+  Refused(kText + kXyz + "element face 1\nproperty int i\nelement vertex 1\n", {"9:", "'vertex'"});
+  Refused(kText + "property float x\n", {"3:", "property"});
+  Refused(kText + kXyz + "property list double int i\n", {"7:", "'double'"});
+  Refused(kText + kXyz + "property list quad int i\n", {"7:", "'quad'"});
+  Refused(kText + kXyz + "property list int quad i\n", {"7:", "'quad'"});
+  Refused(kText + kXyz + "property list int int x\n", {"7:", "'x'"});
+  Refused(kText + kXyz + "element tristrips 1\nproperty list int int i\nend_header\n", {"9:"});
   EXPECT_NO_THROW(Read(kText + kXyz + "element tristrips 0\nproperty list int int i\nend_header\n" +
                        kVertices));
-  Refused(kText + "element vertex 0\nproperty float x\nend_header\n",
-          "5: the header says that there are no vertices");
+  Refused(kText + "element vertex 0\nproperty float x\nend_header\n", {"5:"});
   Refused(kText +
               "element vertex 1\nproperty float x\nproperty list int float y\nproperty float "
               "z\nend_header\n0 1 0 0\n",
-          "7: property y of element vertex is a list");
+          {"7:", "property y", "element vertex"});
   Refused(kText + "element vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n",
-          "6: element vertex has no property z" + kReexport);
+          {"6:", "element vertex", "property z"});
   const auto faces = [](const std::string& properties) {
     return kText + kXyz + "element face 1\n" + properties + "end_header\n" + kVertices +
            "3 0 1 2 3 0 1 2\n";
   };
   Refused(faces("property list int float vertex_index\n"),
-          "12: property vertex_index of element face is not a list of integers");
+          {"12:", "property vertex_index", "element face"});
   Refused(faces("property int vertex_indices\n"),
-          "12: property vertex_indices of element face is not a list of integers");
+          {"12:", "property vertex_indices", "element face"});
   Refused(faces("property list int int vertex_index\nproperty list int int vertex_indices\n"),
-          "13: element face needs one list vertex_indices, it has 2" + kReexport);
+          {"13:", "element face", "vertex_indices", "2"});
 }
 
 // Elements in another order: edges and polygons before the vertices that they name.
@@ -131,12 +108,9 @@ TEST_F(PlyTextTest, EdgesAreCheckedWhenTheVerticesAreKnown) {
   EXPECT_EQ(soup.segment_line, (Ints{12, 13}));
   EXPECT_EQ(soup.vertex_line, (Ints{14, 15, 16}));
   EXPECT_EQ(soup.dropped, Strings{"properties of element 'edge' not kept: odd"});
-  Refused(header + "0 7 2\n3 7 0\n" + kVertices,
-          "13: segment 2: vertex index 3 is not one of 0 to 2" + kReexport);
-  Refused(header + "0 7 2\n0 7 4\n" + kVertices,
-          "13: segment 2: vertex index 4 is not one of 0 to 2" + kReexport);
-  Refused(header + "0 7 2\n0 7 -1\n" + kVertices,
-          "13: segment 2: a vertex index is not a number counted from 0" + kReexport);
+  Refused(header + "0 7 2\n3 7 0\n" + kVertices, {"13:", "segment 2", "index 3", "0", "2"});
+  Refused(header + "0 7 2\n0 7 4\n" + kVertices, {"13:", "segment 2", "index 4", "0", "2"});
+  Refused(header + "0 7 2\n0 7 -1\n" + kVertices, {"13:", "segment 2", "0"});
 }
 
 TEST_F(PlyTextTest, ColoursNeedRedGreenAndBlue) {
@@ -174,9 +148,7 @@ TEST_F(PlyTextTest, BytesBehindTheLastElementAreCounted) {
   EXPECT_EQ(soup.dropped,
             (Strings{"2 of element 'odd' not kept", "3 bytes after the last element not kept"}));
   EXPECT_EQ(Read(content).dropped, Strings{"2 of element 'odd' not kept"});
-  Refused(
-      content.substr(0, content.size() - 1),
-      " the header promises 1 of element 'vertex', the file has room for at most 0" + kReexport);
+  Refused(content.substr(0, content.size() - 1), {" ", "1", "'vertex'", "0"});
 }
 
 TEST_F(PlyTextTest, NumbersOfVertices) {
@@ -188,21 +160,23 @@ TEST_F(PlyTextTest, NumbersOfVertices) {
   EXPECT_EQ(ReadVertexField(file + ":age"), Eigen::Vector3d(.5, .25, 2));
   EXPECT_EQ(ReadVertexField(file + ":last"), Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(ReadVertexField(file + ":z"), Eigen::Vector3d(0, 0, -7));
-  const auto refused = [&](const std::string& name, const std::string& words) {
-    EXPECT_EQ(testing::MessageOf<FileError>([&] { ReadVertexField(file + name); }), file + words);
+  const auto refused = [&](const std::string& name, Strings parts) {
+    parts.front() = file + parts.front();
+    EXPECT_TRUE(testing::Refuses<FileError>([&] { ReadVertexField(file + name); }, parts));
   };
-  refused(":many", ":10: property many of element vertex is a list");
-  refused(":Age", ":10: element vertex has no property Age" + kReexport);
-  refused("", ": name the property of the vertices to read, as " + file + ":name");
-  refused(":", ":: name a property behind the colon");
+  refused(":many", {":10:", "property many", "element vertex"});
+  refused(":Age", {":10:", "element vertex", "property Age"});
+  refused("", {":", file + ":name"});
+  refused(":", {"::", "property"});
   const std::string plain = File("numbers.txt", "# of vertices\n1\n\n-2.5 # two\n 3e2\n");
   EXPECT_EQ(ReadVertexField(plain), Eigen::Vector3d(1, -2.5, 300));
-  const auto plain_refused = [&](const std::string& content, const std::string& words) {
+  const auto plain_refused = [&](const std::string& content, Strings parts) {
     const std::string path = File("n.txt", content);
-    EXPECT_EQ(testing::MessageOf<FileError>([&] { ReadVertexField(path); }), path + words);
+    parts.front() = path + parts.front();
+    EXPECT_TRUE(testing::Refuses<FileError>([&] { ReadVertexField(path); }, parts));
   };
-  plain_refused("1\n\n2 3\n", ":3: vertex 2: more than one number");
-  plain_refused("1\n# a\ninf\n", ":3: vertex 2: number 'inf' is not a finite number" + kReexport);
+  plain_refused("1\n\n2 3\n", {":3:", "vertex 2"});
+  plain_refused("1\n# a\ninf\n", {":3:", "vertex 2", "'inf'"});
 }
 
 }  // namespace

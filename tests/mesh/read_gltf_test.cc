@@ -148,7 +148,7 @@ TEST_F(ReadGltfTest, NodesPlaceTheMesh) {
   EXPECT_LT((ReadSoups(Glb())[1].vertices.col(2) - Eigen::Vector3d(5 + 2, 6 + 8, 7 - 3)).norm(),
             1e-12);
   json_["nodes"][0]["children"] = {1};
-  ExpectRefused({"a node is its own parent"});
+  ExpectRefused({"parent"});
 }
 
 // Both sides of a surface stay what they were.
@@ -175,7 +175,7 @@ TEST_F(ReadGltfTest, SparseTargetsMoveTheVerticesThatTheyName) {
                         {"values", {{"bufferView", values}}}};
   EXPECT_EQ(ReadSoups(Glb())[1].vertices, full[1].vertices);
   accessor["sparse"]["count"] = 3;
-  ExpectRefused({"square.glb", "a list of numbers is longer than its bytes"});
+  ExpectRefused({"square.glb", "bytes"});
 }
 
 // One primitive per material: with vertices of its own, or shared with the first.
@@ -201,7 +201,7 @@ TEST_F(ReadGltfTest, PrimitivesFormOneMesh) {
   EXPECT_EQ(soups[1].corners, (std::vector<int>{0, 1, 2, 0, 2, 3, 4, 5, 6}));
 
   json_["meshes"][0]["primitives"][2].erase("targets");
-  ExpectRefused({"parts of the mesh have different numbers of morph targets"});
+  ExpectRefused({"morph targets"});
 }
 
 TEST_F(ReadGltfTest, TextureCoordinatesPointUp) {
@@ -287,14 +287,14 @@ TEST_F(ReadGltfTest, QuantizedPositionsAreReadAsTheNodePlacesThem) {
   // Without a declaration such positions are no glTF.
   read(std::int16_t{}, 5122, false, 100);
   json_["extensionsUsed"] = json_["extensionsRequired"] = Json::array();
-  ExpectRefused({"positions are not floating"});
+  ExpectRefused({"positions", "floating"});
   json_["extensionsUsed"] = {"KHR_mesh_quantization"};
   EXPECT_EQ(ReadSoups(Glb()).size(), 2u);
   json_["accessors"][0]["componentType"] = 5125;
-  ExpectRefused({"positions are not floating"});
+  ExpectRefused({"positions", "floating"});
   json_["accessors"][0]["componentType"] = 5122;
   json_["bufferViews"].back()["byteLength"] = 5;
-  ExpectRefused({"a list of numbers is longer than its bytes"});
+  ExpectRefused({"bytes"});
 }
 
 TEST_F(ReadGltfTest, TextureCoordinatesThatAreDamagedAreDropped) {
@@ -327,7 +327,7 @@ TEST_F(ReadGltfTest, DeepNestingIsRefused) {
   ExpectError<FileError>([&] { ReadSoup(File("deep.gltf", nested(200000))); },
                          {"deep.gltf: ", "nested more than 100 deep"});
   json_["asset"]["extras"] = Json::parse(std::string(101, '[') + std::string(101, ']'));
-  ExpectRefused({"square.glb: ", "nested more than 100 deep"});
+  ExpectRefused({"square.glb: ", "100"});
   json_["asset"]["extras"] = Json::parse(std::string(50, '[') + std::string(50, ']'));
   EXPECT_EQ(ReadSoups(Glb()).size(), 2u);
 }
@@ -339,12 +339,12 @@ TEST_F(ReadGltfTest, AFewBytesCannotTakeAllMemory) {
   for (int k = 0; k < 2000; ++k) Primitive()["targets"].push_back(Json::object());
   EXPECT_EQ(ReadSoups(Glb()).size(), 2001u);
   Primitive()["attributes"]["POSITION"] = Add(std::vector<float>(3 * 30000, 1.0f), "VEC3");
-  ExpectRefused({"square.glb: ", "has 2000 morph targets", "more memory than a file of this size"});
+  ExpectRefused({"square.glb: ", "2000 morph targets", "memory"});
   // As do corners that all poses repeat, and parts of the mesh that share their numbers.
   json_ = good;
   for (int k = 1; k < 2000; ++k) Primitive()["targets"].push_back(Json::object());
   Primitive()["indices"] = Add(std::vector<std::uint8_t>(60000, 0), "SCALAR");
-  ExpectRefused({"more memory than a file of this size"});
+  ExpectRefused({"memory"});
   json_["meshes"][0]["primitives"] = Json::array();
   const int positions = Add(std::vector<float>(3 * 999, 1.0f), "VEC3");
   for (int k = 0; k < 200; ++k) {
@@ -354,7 +354,7 @@ TEST_F(ReadGltfTest, AFewBytesCannotTakeAllMemory) {
         {{"attributes", {{"POSITION", json_["accessors"].size() - 1}}},
          {"targets", std::vector<Json>(300, Json::object())}});
   }
-  ExpectRefused({"has 300 morph targets", "more memory than a file of this size"});
+  ExpectRefused({"300 morph targets", "memory"});
   // And buffers, each of which would be a copy of the binary part.
   json_ = good;
   json_["buffers"] = {{{"byteLength", 4}}, {{"byteLength", 4}}};
@@ -401,34 +401,34 @@ TEST_F(ReadGltfTest, WhatIsNotReadIsNamed) {
       [&] {
         json_["nodes"].push_back({{"mesh", 0}, {"name", "copy"}});
       },
-      "has 2 meshes, 'square', 'copy'; join them");
+      "2 meshes, 'square', 'copy'");
   refuse([&] { json_["nodes"][0].erase("mesh"); }, "has no mesh");
-  refuse([&] { json_["nodes"][0]["mesh"] = 1; }, "a mesh that does not exist");
+  refuse([&] { json_["nodes"][0]["mesh"] = 1; }, "does not exist");
   refuse([&] { json_["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
          "needs the extension KHR_draco_mesh_compression");
-  refuse([&] { Primitive()["mode"] = 5; }, "has strips, fans or points");
+  refuse([&] { Primitive()["mode"] = 5; }, "strips");
   refuse([&] { Primitive()["attributes"].erase("POSITION"); }, "has no positions");
-  refuse([&] { json_["accessors"][0]["componentType"] = 5122; }, "positions are not floating");
-  refuse([&] { json_["accessors"][0]["count"] = 7; }, "a list of numbers is longer than its bytes");
-  refuse([&] { json_["accessors"][1]["count"] = 5; }, "positions are not as many as the vertices");
-  refuse([&] { json_["bufferViews"][0]["byteOffset"] = 100000; }, "a list of numbers is longer");
+  refuse([&] { json_["accessors"][0]["componentType"] = 5122; }, "floating");
+  refuse([&] { json_["accessors"][0]["count"] = 7; }, "bytes");
+  refuse([&] { json_["accessors"][1]["count"] = 5; }, "as many as the vertices");
+  refuse([&] { json_["bufferViews"][0]["byteOffset"] = 100000; }, "bytes");
   refuse(
       [&] {
         Primitive()["indices"] = Add(std::vector<std::uint8_t>{0, 1, 9}, "SCALAR");
       },
-      "has the index 9 where there are 6 vertices");
+      "index 9 where there are 6");
   refuse(
       [&] {
         Primitive()["indices"] = Add(std::vector<std::uint8_t>{0, 1}, "SCALAR");
       },
-      "the last triangle is not complete");
+      "last triangle");
   ExpectError<FileError>([&] { ReadSoup(File("bad.gltf", "{]")); },
                          {"bad.gltf: is not valid glTF"});
   ExpectError<FileError>([&] { ReadSoup(File("bad.glb", "glTF")); },
                          {"bad.glb: is not valid glTF"});
   const float nan = std::nanf("");
   std::memcpy(bytes_.data(), &nan, 4);
-  refuse([] {}, "positions are not all finite");
+  refuse([] {}, "finite");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 
 using Ints = std::vector<int>;
 using Strings = std::vector<std::string>;
-using testing::MessageOf;
+using testing::Refuses;
 
 class ReadStreamsTest : public testing::FilesTest {};
 
@@ -38,8 +38,8 @@ TEST_F(ReadStreamsTest, LongStreamsAreReadToTheirEnd) {
   EXPECT_EQ(soup.segment_line, Ints{kVertices + 1});
   std::istringstream again(content);  // nothing, at its end
   again.seekg(0, std::ios::end);
-  EXPECT_EQ(MessageOf<FileError>([&] { ReadSoup(again, "socket", MeshFormat::kObj); }),
-            "socket: is empty");
+  EXPECT_TRUE(
+      Refuses<FileError>([&] { ReadSoup(again, "socket", MeshFormat::kObj); }, {"socket:"}));
 }
 
 TEST_F(ReadStreamsTest, FormatsAreKnownByTheExtensionInAnyCase) {
@@ -47,9 +47,9 @@ TEST_F(ReadStreamsTest, FormatsAreKnownByTheExtensionInAnyCase) {
   const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   EXPECT_EQ(ReadSoup(File("a.Off", off)).corners, (Ints{0, 1, 2}));
   EXPECT_EQ(ReadSoup(File("a.off.OBJ", obj)).corners, (Ints{0, 1, 2}));
-  EXPECT_EQ(MessageOf<FileError>([] { ReadSoup("a.obj.txt"); }),
-            "a.obj.txt: the extension '.txt' is not one of .obj, .ply, .off, .stl, .glb, .gltf, "
-            ".vtk, .vtp; convert the mesh to one of these");
+  EXPECT_TRUE(Refuses<FileError>(
+      [] { ReadSoup("a.obj.txt"); },
+      {"a.obj.txt:", "'.txt'", ".obj", ".ply", ".off", ".stl", ".glb", ".gltf", ".vtk", ".vtp"}));
 }
 
 TEST_F(ReadStreamsTest, OfSeveralMorphTargetsAllAreCounted) {
@@ -155,29 +155,26 @@ TEST_F(ReadStreamsTest, ThePoseTheReferenceAndTheAxisOfAMirrorImageAreNamed) {
   more.vertices.conservativeResize(3, 9);
   EXPECT_FALSE(MirrorBack(cube, 'x', &more));
   for (const char axis : {'w', '{', 'X'}) {
-    EXPECT_EQ(MessageOf<InvalidOptions>([&] { MirrorBack(cube, axis, &same); }),
-              std::string("mirror: '") + axis + "' is not one of x, y and z");
+    EXPECT_TRUE(Refuses<InvalidOptions>([&] { MirrorBack(cube, axis, &same); },
+                                        {"mirror:", std::string(1, axis)}));
   }
 }
 
 TEST_F(ReadStreamsTest, StiffenersSayWhatIsWrong) {
-  const auto refused = [&](const std::string& content, const std::string& words) {
+  const auto refused = [&](const std::string& content, std::vector<std::string> parts) {
     const std::string file = File("s.txt", content);
-    EXPECT_EQ(MessageOf<FileError>([&] { ReadStiffeners(file, 7); }), file + words);
+    parts.front() = file + parts.front();
+    EXPECT_TRUE(Refuses<FileError>([&] { ReadStiffeners(file, 7); }, parts));
   };
-  refused("# pairs\n1 2\n\n3 4 # good\n5 8\n",
-          ":5: stiffener 3: '8' is not a vertex number from 1 to 7; a line holds two of them");
-  refused("7 1\n2\n",
-          ":2: stiffener 2: '' is not a vertex number from 1 to 7; a line holds two of them");
-  refused("7 1\n2 3 4\n", ":2: stiffener 2: '4' is too much; a line holds two vertex numbers");
-  refused("7 1\n3 3\n", ":2: stiffener 2: joins vertex 3 to itself; name two different vertices");
+  refused("# pairs\n1 2\n\n3 4 # good\n5 8\n", {":5:", "stiffener 3", "'8'", "1", "7"});
+  refused("7 1\n2\n", {":2:", "stiffener 2", "''", "1", "7"});
+  refused("7 1\n2 3 4\n", {":2:", "stiffener 2", "'4'"});
+  refused("7 1\n3 3\n", {":2:", "stiffener 2", "vertex 3"});
 }
 
 TEST_F(ReadStreamsTest, ElementsOfPosesMustBeThere) {
-  EXPECT_EQ(MessageOf<FileError>([] { ReadPoses({}); }),
-            "no mesh file is named; at least one is needed");
-  EXPECT_EQ(MessageOf<MeshError>([] { MakePoses({}); }),
-            "there is no pose; at least one is needed");
+  EXPECT_TRUE(Refuses<FileError>([] { ReadPoses({}); }, {"mesh file"}));
+  EXPECT_TRUE(Refuses<MeshError>([] { MakePoses({}); }, {"pose"}));
 }
 
 }  // namespace

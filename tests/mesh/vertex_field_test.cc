@@ -52,21 +52,21 @@ TEST_F(VertexFieldTest, MessagesNameVertexLineAndRemedy) {
                                "property float y\nproperty float z\nproperty double soft\n"
                                "property double hard\nend_header\n"
                                "0 0 9 1 nan\n1 0 9 2 5\n0 1 9 inf 6\n1 1 9 nan 7\n");
-  EXPECT_EQ(message(ply + ":soft"), ply + ": property soft of vertex 3 is not a finite number");
-  EXPECT_EQ(message(ply + ":hard"), ply + ": property hard of vertex 1 is not a finite number");
-  EXPECT_EQ(message(ply + ":"), ply + ":: name a property behind the colon");
-  EXPECT_EQ(message(ply), ply + ": name the property of the vertices to read, as " + ply + ":name");
+  EXPECT_TRUE(testing::Names(message(ply + ":soft"), {ply, "property soft", "vertex 3"}));
+  EXPECT_TRUE(testing::Names(message(ply + ":hard"), {ply, "property hard", "vertex 1"}));
+  EXPECT_TRUE(testing::Names(message(ply + ":"), {ply + "::", "property behind"}));
+  EXPECT_TRUE(testing::Names(message(ply), {ply, ":name"}));
   const std::string vtk = File("body.VTK",
                                "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\n"
                                "POINTS 3 float\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n"
                                "POINT_DATA 3\nSCALARS soft double\nLOOKUP_TABLE default\n"
                                "1 nan 3\n");
-  EXPECT_EQ(message(vtk + ":soft"), vtk + ": property soft of vertex 2 is not a finite number");
+  EXPECT_TRUE(testing::Names(message(vtk + ":soft"), {vtk, "property soft", "vertex 2"}));
   EXPECT_NE(message(vtk).find(vtk + ":name"), std::string::npos);
   const std::string vtp = Path("body.vtp");
-  EXPECT_EQ(message(vtp), vtp + ": name the property of the vertices to read, as " + vtp + ":name");
+  EXPECT_TRUE(testing::Names(message(vtp), {vtp, ":name"}));
   const std::string text = File("field.txt", "# bone\n1\n2 # and 3\n\n4 5\n");
-  EXPECT_EQ(message(text), text + ":5: vertex 3: more than one number");
+  EXPECT_TRUE(testing::Names(message(text), {text + ":5:", "vertex 3"}));
 }
 
 TEST_F(VertexFieldTest, AColonInTheNameOfATextIsNoProperty) {

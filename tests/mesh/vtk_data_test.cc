@@ -14,7 +14,6 @@
 namespace shapespace::vtk_data_test {
 namespace {
 
-using internal::kReexport;
 using Strings = std::vector<std::string>;
 
 const std::string kTriangle =
@@ -179,8 +178,8 @@ TEST_F(VtkDataTest, DescriptionsInsideFieldsArePassed) {
   EXPECT_EQ(Field(content, "first"), Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(Field(content, "second"), Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(Field(content, "last"), kLast);
-  EXPECT_EQ(Refusal(kTriangle + "POINT_DATA 3\nFIELD f 2\nfirst 1 3 int\n1 2 3\n"),
-            std::string("m.vtk:13: the file ends inside a field") + kReexport);
+  EXPECT_TRUE(testing::Names(Refusal(kTriangle + "POINT_DATA 3\nFIELD f 2\nfirst 1 3 int\n1 2 3\n"),
+                             {"m.vtk:13:"}));
 }
 
 TEST_F(VtkDataTest, CellDataAreCountedAndPointDataNamed) {
@@ -219,30 +218,19 @@ TEST_F(VtkDataTest, ThatAreDamagedAreDropped) {
 }
 
 TEST_F(VtkDataTest, SayWhatIsWrongWithData) {
-  const auto refused = [](const std::string& data, const std::string& words) {
-    EXPECT_EQ(Refusal(kTriangle + "POINT_DATA 3\n" + data), "m.vtk:" + words);
+  const auto refused = [](const std::string& data, const std::vector<std::string>& parts) {
+    EXPECT_TRUE(testing::Names(Refusal(kTriangle + "POINT_DATA 3\n" + data), parts));
   };
-  refused("SCALARS s int 0\n",
-          std::string("10: data 's': '0' is not a number of components") + kReexport);
-  refused("SCALARS s int 1001\n",
-          std::string("10: data 's': '1001' is not a number of components") + kReexport);
-  refused("COLOR_SCALARS s x\n",
-          std::string("10: data 's': 'x' is not a number of components") + kReexport);
-  refused("FIELD f x\n",
-          std::string("10: the number of arrays of the field 'x' is not a count") + kReexport);
-  refused("FIELD f 1\na 1 -3 int\n",
-          std::string("11: the number of tuples '-3' is not a count") + kReexport);
-  refused("FIELD f 1\nthe%20age 1 3 complex\n",
-          "11: array 'the age': arrays of type 'complex' are not read; save the mesh as .vtp, or "
-          "without this array");
-  refused("LOOKUP_TABLE t x\n",
-          std::string("10: the number of colours 'x' is not a count") + kReexport);
-  refused("FIELD f 1\nnames 1 3 string\na\nb\n",
-          std::string("13: array 'names': the file ends before its last text") + kReexport);
-  EXPECT_EQ(Refusal(kTriangle + "CELL_DATA x\n"),
-            std::string("m.vtk:9: the number of cells with data 'x' is not a count") + kReexport);
-  EXPECT_EQ(Refusal(kTriangle + "POINT_DATA x\n"),
-            std::string("m.vtk:9: the number of points with data 'x' is not a count") + kReexport);
+  refused("SCALARS s int 0\n", {"m.vtk:10:", "'s'", "'0'"});
+  refused("SCALARS s int 1001\n", {"m.vtk:10:", "'s'", "'1001'"});
+  refused("COLOR_SCALARS s x\n", {"m.vtk:10:", "'s'", "'x'"});
+  refused("FIELD f x\n", {"m.vtk:10:", "'x'"});
+  refused("FIELD f 1\na 1 -3 int\n", {"m.vtk:11:", "'-3'"});
+  refused("FIELD f 1\nthe%20age 1 3 complex\n", {"m.vtk:11:", "'the age'", "'complex'", ".vtp"});
+  refused("LOOKUP_TABLE t x\n", {"m.vtk:10:", "'x'"});
+  refused("FIELD f 1\nnames 1 3 string\na\nb\n", {"m.vtk:13:", "'names'"});
+  EXPECT_TRUE(testing::Names(Refusal(kTriangle + "CELL_DATA x\n"), {"m.vtk:9:", "'x'"}));
+  EXPECT_TRUE(testing::Names(Refusal(kTriangle + "POINT_DATA x\n"), {"m.vtk:9:", "'x'"}));
 }
 
 TEST_F(VtkDataTest, SayWhatIsWrongWithTheWantedData) {

@@ -183,40 +183,32 @@ TEST_F(WrittenBytesTest, FormatsThatAreWritten) {
   for (const char* file : {"a.glb", "a.gltf", "a.vtk", "a.vtp", "obj", "a.obj/b", ""}) {
     EXPECT_FALSE(IsWritableMesh(file)) << file;
   }
-  EXPECT_EQ(testing::MessageOf<FileError>([&] { WriteMesh("a.glb", soup_.vertices, soup_); }),
-            "a.glb: the extension '.glb' is not one of .obj, .ply, .off, .stl; name the file as "
-            "one of these");
+  EXPECT_TRUE(testing::Refuses<FileError>([&] { WriteMesh("a.glb", soup_.vertices, soup_); },
+                                          {"a.glb:", "'.glb'", ".obj", ".ply", ".off", ".stl"}));
 }
 
 TEST_F(WrittenBytesTest, WritingToAStreamThatFailsIsAnError) {
   std::ostringstream stream;
   stream.setstate(std::ios::badbit);
-  EXPECT_EQ(
-      testing::MessageOf<FileError>([&] { WritePly(stream, "socket", soup_.vertices, soup_); }),
-      "socket: writing failed (is the disk full?)");
+  EXPECT_TRUE(testing::Refuses<FileError>(
+      [&] { WritePly(stream, "socket", soup_.vertices, soup_); }, {"socket:"}));
 }
 
 TEST_F(WrittenBytesTest, RefusalsSayWhatIsWrong) {
   Shape broken = soup_.vertices;
   broken(2, 5) = std::numeric_limits<double>::infinity();
   for (const std::string name : {"a.obj", "a.ply", "a.off", "a.stl"}) {
-    EXPECT_EQ(Refusal(name, broken, soup_),
-              name + ": vertex 6: a coordinate is not a finite number; nothing was written");
-    EXPECT_EQ(Refusal(name, soup_.vertices.leftCols(5), soup_),
-              name + ": 5 vertices for the polygons of a mesh of 6");
+    EXPECT_TRUE(testing::Names(Refusal(name, broken, soup_), {name, "vertex 6"}));
+    EXPECT_TRUE(testing::Names(Refusal(name, soup_.vertices.leftCols(5), soup_), {name, "5", "6"}));
   }
   Soup graph;
   graph.vertices = soup_.vertices;
   graph.segments = soup_.segments;
   for (const std::string name : {"a.off", "a.stl"}) {
-    EXPECT_EQ(Refusal(name, graph.vertices, graph),
-              name +
-                  ": the mesh has no polygons, and the format stores no segments; write .obj or "
-                  ".ply");
+    EXPECT_TRUE(testing::Names(Refusal(name, graph.vertices, graph), {name, ".obj", ".ply"}));
   }
   soup_.appearance.texture_coordinates(1, 2) = -1e39;
-  EXPECT_EQ(Refusal("a.ply", soup_.vertices, soup_),
-            "a.ply: a texture coordinate is too large for PLY's single precision");
+  EXPECT_TRUE(testing::Names(Refusal("a.ply", soup_.vertices, soup_), {"a.ply:"}));
   EXPECT_NO_THROW(Written("a.obj"));
   EXPECT_NO_THROW(Written("a.off"));
 }
@@ -231,10 +223,8 @@ TEST_F(WrittenBytesTest, StlMayRoundByATenThousandthOfTheSize) {
   };
   const Soup soup = testing::MakeSoup(sized(1), {{0, 1, 2}, {1, 3, 2}});
   EXPECT_NO_THROW(WriteMesh(Path("a.stl"), sized(5200), soup));
-  EXPECT_EQ(Refusal("a.stl", sized(4800), soup),
-            "a.stl: the format has single precision, in which coordinates of this mesh, which is "
-            "4800 across, would change by 0.5; move it nearer to the origin, choose another unit "
-            "of length, or write .obj or .ply");
+  EXPECT_TRUE(testing::Names(Refusal("a.stl", sized(4800), soup),
+                             {"a.stl:", "4800", "0.5", ".obj", ".ply"}));
 }
 
 }  // namespace
