@@ -32,8 +32,8 @@
 namespace shapespace {
 namespace {
 
-using testing::MessageOf;
 using testing::PathOf;
+using testing::Refuses;
 using testing::Rotation;
 
 // A path with the shapes as they are.
@@ -347,10 +347,11 @@ TEST(NearPairsTest, LengthsAreMeansOverEdgesAndShapes) {
   EXPECT_NEAR(pairs.Length(2), 9, 1e-12);
   EXPECT_NEAR(pairs.Length(NearPair{PairKind::kVertexTriangle, {2, 1, 0, 1}, 0, 1}), 7, 1e-12);
   EXPECT_NEAR(pairs.Length(NearPair{PairKind::kEdgeEdge, {2, 1, 1, 2}, 0, 1}), 8, 1e-12);
-  EXPECT_EQ(MessageOf<MeshError>([&] {
-              NearPairs(connectivity, {shape, Shape::Zero(3, 4)}, 3);
-            }),
-            "contact: a shape is not finite, or has another number of vertices than the mesh");
+  EXPECT_TRUE(Refuses<MeshError>(
+      [&] {
+        NearPairs(connectivity, {shape, Shape::Zero(3, 4)}, 3);
+      },
+      {"contact:"}));
 }
 
 // A triangle in the middle that passes through two others or one of them or none.
@@ -375,12 +376,11 @@ TEST(FindIntersections, ListsPairsInAscendingOrder) {
   EXPECT_EQ(CountIntersections(*three.connectivity,
                                std::vector<Shape>{three.Pairs(2), three.Pairs(0), three.Pairs(1)}),
             (std::vector<std::int64_t>{2, 0, 1}));
-  EXPECT_EQ(
-      MessageOf<MeshError>([&] { FindIntersections(*three.connectivity, Shape::Zero(3, 8)); }),
-      "intersections: the shape has 8 vertices, its connectivity 9");
+  EXPECT_TRUE(Refuses<MeshError>([&] { FindIntersections(*three.connectivity, Shape::Zero(3, 8)); },
+                                 {"intersections:", "8", "9"}));
   const Shape nowhere = Shape::Constant(3, 9, std::numeric_limits<double>::infinity());
-  EXPECT_EQ(MessageOf<MeshError>([&] { FindIntersections(*three.connectivity, nowhere); }),
-            "intersections: the shape is not finite");
+  EXPECT_TRUE(Refuses<MeshError>([&] { FindIntersections(*three.connectivity, nowhere); },
+                                 {"intersections:"}));
 }
 
 TEST(MeasureIntersections, TheMostAreOfOneShapeAndTheMeansOfInnerShapes) {
@@ -436,15 +436,13 @@ TEST(RigidPartsOptions, SayWhichFieldIsOutOfItsRange) {
   options.tolerance = options.least_share = 1;
   options.Validate();
   options.tolerance = 1.001;
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { options.Validate(); }), "tolerance: must be in (0, 1]");
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { options.Validate(); }, {"tolerance:", "0", "1"}));
   options.tolerance = 0.1;
   options.least_share = 1.001;
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { options.Validate(); }),
-            "least_share: must be in (0, 1]");
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { options.Validate(); }, {"least_share:", "0", "1"}));
   options.least_share = 0.1;
   options.most_deviation = -1;
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { options.Validate(); }),
-            "most_deviation: must be positive");
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { options.Validate(); }, {"most_deviation:"}));
 }
 
 TEST(FindDeviationSites, AllFiguresOfABumpThatGoesBack) {

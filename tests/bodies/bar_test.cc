@@ -5,6 +5,7 @@
 #include <shapespace/bodies/body.h>
 
 #include "bodies/measure.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -79,16 +80,14 @@ TEST(BarTest, RangeEndsBeforeTheInnerFaceVanishes) {
 
 TEST(BarTest, RefusesBadArguments) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(Refusal([] { MakeBar(0, 1, 1, 1, 1, 1); }),
-            "length: 0 is not a length; it must be positive and finite");
-  EXPECT_EQ(Refusal([=] { MakeBar(1, nan, 1, 1, 1, 1); }),
-            "width: nan is not a length; it must be positive and finite");
-  EXPECT_EQ(Refusal([] { MakeBar(1, 1, 1, 1, 0, 1); }), "ny: 0 is too few; at least 1 are needed");
-  EXPECT_EQ(Refusal([] { MakeBar(1, 1, 1, 10000, 10000, 1); }),
-            "triangles: 400080000 is outside 0 .. 20000000");
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeBar(0, 1, 1, 1, 1, 1); }), {"length:", "0"}));
+  EXPECT_TRUE(testing::Names(Refusal([=] { MakeBar(1, nan, 1, 1, 1, 1); }), {"width:"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeBar(1, 1, 1, 1, 0, 1); }), {"ny:", "0", "1"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeBar(1, 1, 1, 10000, 10000, 1); }),
+                             {"triangles:", "400080000", "0", "20000000"}));
   const int huge = std::numeric_limits<int>::max();
-  EXPECT_EQ(Refusal([=] { MakeBar(1, 1, 1, huge, huge, huge); }),
-            "triangles: 2147483647 is outside 0 .. 20000000");
+  EXPECT_TRUE(testing::Names(Refusal([=] { MakeBar(1, 1, 1, huge, huge, huge); }),
+                             {"triangles:", "2147483647", "0", "20000000"}));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bodies/measure.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -81,15 +82,14 @@ TEST(BodyTest, SmallestMeshesStandInForSmallerNumbers) {
 }
 
 TEST(BodyTest, RefusesUnknownNamesNamingTheKnownOnes) {
-  EXPECT_EQ(Refusal([] { MakeBody("cube"); }),
-            "name: no body is called 'cube'; known are tube, bar, sheet, strip, catenoid, bricard, "
-            "steffen, miura, quadruped");
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeBody("cube"); }), {"name:", "'cube'"}));
 }
 
 TEST(BodyTest, RefusesAbsurdSizes) {
-  EXPECT_EQ(Refusal([] { MakeBody("bar", -5); }), "triangles: -5 is outside 0 .. 10000000");
-  EXPECT_EQ(Refusal([] { MakeBody("tube", 2'000'000'000); }),
-            "triangles: 2000000000 is outside 0 .. 10000000");
+  EXPECT_TRUE(
+      testing::Names(Refusal([] { MakeBody("bar", -5); }), {"triangles:", "-5", "0", "10000000"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeBody("tube", 2'000'000'000); }),
+                             {"triangles:", "2000000000", "0", "10000000"}));
 }
 
 TEST(BodyTest, RefusesParametersOutsideTheRange) {
@@ -103,8 +103,8 @@ TEST(BodyTest, RefusesParametersOutsideTheRange) {
           << refusal;
     }
   }
-  EXPECT_EQ(Refusal([] { MakeBody("bar").pose(400); }),
-            "parameter: 400 is outside 0 .. 360, the bend angle, degrees, of body 'bar'");
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeBody("bar").pose(400); }),
+                             {"parameter:", "400", "0", "360", "'bar'"}));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <shapespace/bodies/tube.h>
 
 #include "bodies/measure.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -63,8 +64,8 @@ TEST(BodyTest, ValuesOutsideByRoundingAreTheEnds) {
   EXPECT_EQ(body.pose(body.begin - 5e-11), body.pose(body.begin));
   EXPECT_EQ(body.pose(body.end + 5e-11), body.pose(body.end));
   EXPECT_NE(body.pose(body.end), body.pose(body.begin));
-  EXPECT_EQ(Refusal([&] { body.pose(body.end + 1e-9); }).substr(0, 28),
-            "parameter: 50 is outside -35");
+  EXPECT_TRUE(
+      testing::Names(Refusal([&] { body.pose(body.end + 1e-9); }), {"parameter:", "50", "-35"}));
 }
 
 // What is divided is divided in two different ways, alternately.
@@ -86,9 +87,8 @@ TEST(SheetTest, ItsPlacesAndItsRange) {
   EXPECT_EQ(rest.col(0), Eigen::Vector3d(-1.5, -1, 0));
   EXPECT_EQ(rest.col(5 + 1), Eigen::Vector3d(0, -0.5, 0));
   EXPECT_EQ(rest.col(10 + 4), Eigen::Vector3d(1.5, 1, 0));
-  EXPECT_EQ(Refusal([] { MakeSheet(-2, 1, 2, 2); }),
-            "length: -2 is not a length; it must be positive and finite");
-  EXPECT_EQ(Refusal([] { MakeSheet(1, 1, 2, 0); }), "ny: 0 is too few; at least 1 are needed");
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeSheet(-2, 1, 2, 2); }), {"length:", "-2"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeSheet(1, 1, 2, 0); }), {"ny:", "0", "1"}));
 }
 
 TEST(BarTest, EndsOfItsRange) {
@@ -96,11 +96,9 @@ TEST(BarTest, EndsOfItsRange) {
   // Bent to 1.8 lengths over heights, the inner face keeps a tenth of its length.
   const ShapeFamily bar = MakeBar(2, 5, 3, 30, 1, 1);
   EXPECT_NEAR(bar.end, 0.9 * 2 * 2 / 3 * kDegrees, 1e-12);
-  EXPECT_EQ(Refusal([] { MakeBar(1, 1, -3, 1, 1, 1); }),
-            "height: -3 is not a length; it must be positive and finite");
-  EXPECT_EQ(Refusal([] { MakeBar(1, 1, 1, 0, 1, 1); }), "nx: 0 is too few; at least 1 are needed");
-  EXPECT_EQ(Refusal([] { MakeBar(1, 1, 1, 1, 1, -7); }),
-            "nz: -7 is too few; at least 1 are needed");
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeBar(1, 1, -3, 1, 1, 1); }), {"height:", "-3"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeBar(1, 1, 1, 0, 1, 1); }), {"nx:", "0", "1"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeBar(1, 1, 1, 1, 1, -7); }), {"nz:", "-7", "1"}));
 }
 
 TEST(StripTest, ShortOnesEndAsFourTriangles) {
@@ -108,8 +106,7 @@ TEST(StripTest, ShortOnesEndAsFourTriangles) {
   EXPECT_EQ(MakeStrip(1, 1.5, 2).end, end);
   EXPECT_EQ(MakeStrip(1, 1.5, 3).end, end);
   EXPECT_LT(MakeStrip(1, 1.5, 5).end, end);
-  EXPECT_EQ(Refusal([] { MakeStrip(1, 0, 4); }),
-            "width: 0 is not a length; it must be positive and finite");
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeStrip(1, 0, 4); }), {"width:", "0"}));
 }
 
 TEST(CatenoidTest, AssociatedSurfacesAreMixtures) {
@@ -130,9 +127,9 @@ TEST(CatenoidTest, AssociatedSurfacesAreMixtures) {
   EXPECT_LT((catenoid.col(0) - Eigen::Vector3d(-std::cosh(1.2), 0, -1.2)).norm(), 1e-14);
   EXPECT_LT((helicoid.col(0) - Eigen::Vector3d(0, std::sinh(1.2), M_PI)).norm(), 1e-14);
   EXPECT_NO_THROW(MakeCatenoid(20, 3, 1));
-  EXPECT_EQ(Refusal([] { MakeCatenoid(1, 3, 0); }), "along: 0 is too few; at least 1 are needed");
-  EXPECT_EQ(Refusal([] { MakeCatenoid(1, 10000, 10000); }),
-            "triangles: 200000000 is outside 0 .. 20000000");
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeCatenoid(1, 3, 0); }), {"along:", "0", "1"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeCatenoid(1, 10000, 10000); }),
+                             {"triangles:", "200000000", "0", "20000000"}));
 }
 
 TEST(MiuraTest, ParallelogramsHaveTheGivenSidesAndCorner) {
@@ -152,10 +149,9 @@ TEST(MiuraTest, ParallelogramsHaveTheGivenSidesAndCorner) {
       }
     }
   }
-  EXPECT_EQ(Refusal([] { MakeMiura(1, -1, 60, 2, 2); }),
-            "b: -1 is not a length; it must be positive and finite");
-  EXPECT_EQ(Refusal([] { MakeMiura(1, 1, 9.9, 2, 2); }), "corner: must be in [10, 80] degrees");
-  EXPECT_EQ(Refusal([] { MakeMiura(1, 1, 60, 0, 2); }), "nx: 0 is too few; at least 1 are needed");
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeMiura(1, -1, 60, 2, 2); }), {"b:", "-1"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeMiura(1, 1, 9.9, 2, 2); }), {"corner:", "10", "80"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeMiura(1, 1, 60, 0, 2); }), {"nx:", "0", "1"}));
 }
 
 TEST(BricardTest, OppositeEdgesAreEqualAndHaveTheirLengths) {
@@ -252,18 +248,18 @@ TEST(TubeTest, ThickOnesEndWhereTheInnerSideKeepsATenth) {
   // sides, takes a share of 0.55.
   EXPECT_NEAR(MakeTube(1000, {2, 0.4, 0.8, 0.1}).end,
               0.9 * 2 * 0.175 * 2 / (15.0 / 8 * 0.55 * 0.9) * kDegrees, 1e-9);
-  EXPECT_EQ(Refusal([] {
-              MakeTube(1000, {-6, 0.5, 0.5, 0});
-            }),
-            "length: -6 is not a length; it must be positive and finite");
-  EXPECT_EQ(Refusal([] {
-              MakeTube(1000, {6, 0, 0.5, 0});
-            }),
-            "base_radius: 0 is not a length; it must be positive and finite");
-  EXPECT_EQ(Refusal([] {
-              MakeTube(1000, {0.5, 0.4, 0.6, 0.61});
-            }),
-            "knuckle: must be in [0, the largest of length and radii]");
+  EXPECT_TRUE(testing::Names(Refusal([] {
+                               MakeTube(1000, {-6, 0.5, 0.5, 0});
+                             }),
+                             {"length:", "-6"}));
+  EXPECT_TRUE(testing::Names(Refusal([] {
+                               MakeTube(1000, {6, 0, 0.5, 0});
+                             }),
+                             {"base_radius:", "0"}));
+  EXPECT_TRUE(testing::Names(Refusal([] {
+                               MakeTube(1000, {0.5, 0.4, 0.6, 0.61});
+                             }),
+                             {"knuckle:", "0"}));
   EXPECT_NO_THROW(MakeTube(100, {0.5, 0.4, 0.6, 0.6}));
 }
 
@@ -303,8 +299,8 @@ TEST(QuadrupedTest, EveryMeasureChangesItsOwnPart) {
     EXPECT_LT((size - normal - growth[i]).cwiseAbs().maxCoeff(), 0.02) << (size - normal);
     for (const double factor : {0.29, 3.1}) {
       form.*fields[i] = factor;
-      EXPECT_EQ(Refusal([&] { MakeQuadruped(500, form); }),
-                names[i] + std::string(factor < 1 ? ": 0.29" : ": 3.1") + " is outside 0.3 .. 3");
+      EXPECT_TRUE(testing::Names(Refusal([&] { MakeQuadruped(500, form); }),
+                                 {names[i], factor < 1 ? "0.29" : "3.1", "0.3", "3"}));
     }
   }
 }

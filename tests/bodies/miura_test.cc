@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bodies/measure.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -54,12 +55,11 @@ TEST(MiuraTest, ShrinksBothWaysAsItFolds) {
 }
 
 TEST(MiuraTest, RefusesBadArguments) {
-  EXPECT_EQ(Refusal([] { MakeMiura(0, 1, 60, 2, 2); }),
-            "a: 0 is not a length; it must be positive and finite");
-  EXPECT_EQ(Refusal([] { MakeMiura(1, 1, 90, 2, 2); }), "corner: must be in [10, 80] degrees");
-  EXPECT_EQ(Refusal([] { MakeMiura(1, 1, 60, 2, 0); }), "ny: 0 is too few; at least 1 are needed");
-  EXPECT_EQ(Refusal([] { MakeMiura(1, 1, 60, 1'000'000, 1'000'000); }),
-            "triangles: 2000000000000 is outside 0 .. 20000000");
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeMiura(0, 1, 60, 2, 2); }), {"a:", "0"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeMiura(1, 1, 90, 2, 2); }), {"corner:", "10", "80"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeMiura(1, 1, 60, 2, 0); }), {"ny:", "0", "1"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeMiura(1, 1, 60, 1'000'000, 1'000'000); }),
+                             {"triangles:", "2000000000000", "0", "20000000"}));
 }
 
 }  // namespace

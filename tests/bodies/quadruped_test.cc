@@ -8,6 +8,7 @@
 #include <shapespace/mesh/topology.h>
 
 #include "bodies/measure.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -179,18 +180,19 @@ TEST(QuadrupedTest, HasRandomFormsAroundAForm) {
 
 TEST(QuadrupedTest, RefusesWhatItDoesNotKnow) {
   const SkinnedBody body = MakeQuadruped(500);
-  EXPECT_EQ(Refusal([&] { body.pose("fly"); }),
-            "pose: none is called 'fly'; known are stand, stride, sit, stretch, rear, pass, "
-            "other_stride, other_pass");
-  EXPECT_EQ(Refusal([&] { body.between("stand", "sit", 1.5); }), "part: must be in [0, 1]");
-  EXPECT_EQ(Refusal([] { NamedQuadrupedForm("huge"); }),
-            "proportions: none is called 'huge'; known are normal, long, short, heavy");
-  EXPECT_EQ(Refusal([] { MakeSkinnedBody("tube"); }),
-            "name: no body with bones is called 'tube'; known are quadruped");
+  EXPECT_TRUE(testing::Names(Refusal([&] { body.pose("fly"); }),
+                             {"pose:", "'fly'", "other_stride", "other_pass"}));
+  EXPECT_TRUE(
+      testing::Names(Refusal([&] { body.between("stand", "sit", 1.5); }), {"part:", "0", "1"}));
+  EXPECT_TRUE(
+      testing::Names(Refusal([] { NamedQuadrupedForm("huge"); }), {"proportions:", "'huge'"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeSkinnedBody("tube"); }), {"name:", "'tube'"}));
   QuadrupedForm form;
   form.leg_length = 10;
-  EXPECT_EQ(Refusal([&] { MakeQuadruped(500, form); }), "leg_length: 10 is outside 0.3 .. 3");
-  EXPECT_EQ(Refusal([] { MakeQuadruped(-1); }), "triangles: -1 is outside 0 .. 1000000");
+  EXPECT_TRUE(testing::Names(Refusal([&] { MakeQuadruped(500, form); }),
+                             {"leg_length:", "10", "0.3", "3"}));
+  EXPECT_TRUE(
+      testing::Names(Refusal([] { MakeQuadruped(-1); }), {"triangles:", "-1", "0", "1000000"}));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <shapespace/bodies/body.h>
 
 #include "bodies/measure.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -41,11 +42,10 @@ TEST(SheetTest, EdgesShortenByTheDocumentedPart) {
 }
 
 TEST(SheetTest, RefusesBadArguments) {
-  EXPECT_EQ(Refusal([] { MakeSheet(1, -1, 2, 2); }),
-            "width: -1 is not a length; it must be positive and finite");
-  EXPECT_EQ(Refusal([] { MakeSheet(1, 1, -2, 2); }), "nx: -2 is too few; at least 1 are needed");
-  EXPECT_EQ(Refusal([] { MakeSheet(1, 1, 2'000'000'000, 2'000'000'000); }),
-            "triangles: 8000000000000000000 is outside 0 .. 20000000");
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeSheet(1, -1, 2, 2); }), {"width:", "-1"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeSheet(1, 1, -2, 2); }), {"nx:", "-2", "1"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeSheet(1, 1, 2'000'000'000, 2'000'000'000); }),
+                             {"triangles:", "8000000000000000000", "0", "20000000"}));
 }
 
 TEST(StripTest, RestsFlatFacingUp) {
@@ -87,12 +87,11 @@ TEST(StripTest, ClosesToAnAntiprism) {
 }
 
 TEST(StripTest, RefusesBadArguments) {
-  EXPECT_EQ(Refusal([] { MakeStrip(1, 1, 1); }), "triangles: 1 is too few; at least 2 are needed");
-  EXPECT_EQ(Refusal([] { MakeStrip(1, 1, 20'000'001); }),
-            "triangles: 20000001 is outside 0 .. 20000000");
-  EXPECT_EQ(Refusal([] { MakeStrip(1e300, 1, 4); }),
-            "side: 1e+300 is not a length; it must be positive and finite");
-  EXPECT_EQ(Refusal([] { MakeStrip(1e6, 1, 4); }), "side: must be at most 10000 times the width");
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeStrip(1, 1, 1); }), {"triangles:", "1", "2"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeStrip(1, 1, 20'000'001); }),
+                             {"triangles:", "20000001", "0", "20000000"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeStrip(1e300, 1, 4); }), {"side:", "1e+300"}));
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeStrip(1e6, 1, 4); }), {"side:", "10000"}));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "bodies/measure.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -115,7 +116,7 @@ TEST(SkeletonTest, BonesAreFoundByTheirNames) {
   const Skeleton skeleton = ThreeBones();
   EXPECT_EQ(skeleton.Find("root"), 0);
   EXPECT_EQ(skeleton.Find("arm"), 2);
-  EXPECT_EQ(Refusal([&] { skeleton.Find("leg"); }), "bone: none is called 'leg'");
+  EXPECT_TRUE(testing::Names(Refusal([&] { skeleton.Find("leg"); }), {"bone:", "'leg'"}));
   ASSERT_EQ(skeleton.Cones().size(), 3u);
   EXPECT_EQ(skeleton.Cones()[1].end_radius, 0.3);
 }

@@ -9,6 +9,7 @@
 #include <shapespace/bodies/body.h>
 
 #include "bodies/measure.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -145,19 +146,19 @@ TEST(TubeTest, LatitudesOfCapsAreMeansOfEqualStepsAndAStereographicProjection) {
 }
 
 TEST(TubeTest, RefusesBadArguments) {
-  EXPECT_EQ(Refusal([] { MakeTube(-1); }), "triangles: -1 is outside 0 .. 20000000");
-  EXPECT_EQ(Refusal([] {
-              MakeTube(1000, {6, 0.5, 0, 0});
-            }),
-            "tip_radius: 0 is not a length; it must be positive and finite");
-  EXPECT_EQ(Refusal([] {
-              MakeTube(1000, {6, 0.5, 0.5, -0.1});
-            }),
-            "knuckle: must be in [0, the largest of length and radii]");
-  EXPECT_EQ(Refusal([] {
-              MakeTube(1000, {1, 1e-3, 100, 0});
-            }),
-            "length: the length and the radii may differ by a factor of 10000");
+  EXPECT_TRUE(testing::Names(Refusal([] { MakeTube(-1); }), {"triangles:", "-1", "0", "20000000"}));
+  EXPECT_TRUE(testing::Names(Refusal([] {
+                               MakeTube(1000, {6, 0.5, 0, 0});
+                             }),
+                             {"tip_radius:", "0"}));
+  EXPECT_TRUE(testing::Names(Refusal([] {
+                               MakeTube(1000, {6, 0.5, 0.5, -0.1});
+                             }),
+                             {"knuckle:", "0"}));
+  EXPECT_TRUE(testing::Names(Refusal([] {
+                               MakeTube(1000, {1, 1e-3, 100, 0});
+                             }),
+                             {"length:", "10000"}));
 }
 
 TEST(TubeTest, ExtremeFormsGiveFiniteShapes) {

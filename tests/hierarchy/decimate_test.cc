@@ -357,9 +357,9 @@ TEST(PlanCollapses, RefusesWhatDoesNotFit) {
   const Shape more = Shape::Zero(3, mesh.connectivity->NumVertices() + 1);
   EXPECT_THROW(PlanCollapses(*mesh.connectivity, {mesh.poses[0], more}, 10), MeshError);
   for (int v : {-1, mesh.connectivity->NumVertices()}) {
-    EXPECT_EQ(testing::MessageOf<InvalidOptions>(
-                  [&] { PlanCollapses(*mesh.connectivity, mesh.poses, 10, {v}); }),
-              "pinned: " + std::to_string(v) + " is not a vertex of the mesh");
+    EXPECT_TRUE(testing::Refuses<InvalidOptions>(
+        [&] { PlanCollapses(*mesh.connectivity, mesh.poses, 10, {v}); },
+        {"pinned:", std::to_string(v)}));
   }
 }
 

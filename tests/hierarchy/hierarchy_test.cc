@@ -275,12 +275,10 @@ TEST(Hierarchy, RefusesWhatDoesNotFit) {
     EXPECT_THROW(Hierarchy(tube.connectivity, {tube.poses[0], Shape::Zero(3, 5)}), MeshError);
     HierarchyOptions options;
     options.pinned = {-3};
-    EXPECT_EQ(testing::MessageOf<InvalidOptions>(
-                  [&] { Hierarchy(tube.connectivity, tube.poses, options); }),
-              "pinned: -3 is not a vertex of the mesh");
-    EXPECT_EQ(testing::MessageOf<InvalidOptions>(
-                  [&] { Hierarchy(tube.connectivity, tube.poses, Coarsest(3)); }),
-              "coarsest: must be 4 triangles or more");
+    EXPECT_TRUE(testing::Refuses<InvalidOptions>(
+        [&] { Hierarchy(tube.connectivity, tube.poses, options); }, {"pinned:", "-3"}));
+    EXPECT_TRUE(testing::Refuses<InvalidOptions>(
+        [&] { Hierarchy(tube.connectivity, tube.poses, Coarsest(3)); }, {"coarsest:", "4"}));
   }
 }
 

@@ -22,6 +22,7 @@ namespace shapespace {
 namespace {
 
 using testing::MessageOf;
+using testing::Names;
 using testing::Noise;
 using testing::PosedMesh;
 
@@ -230,8 +231,8 @@ TEST(Hierarchy, MessagesSayWhatIsWrongWithThePoses) {
   const auto message = [&](const std::vector<Shape>& poses) {
     return MessageOf<MeshError>([&] { Hierarchy(tube.connectivity, poses); });
   };
-  EXPECT_EQ(message({}), "a hierarchy needs at least one pose");
-  EXPECT_EQ(message({tube.poses[0], Shape::Zero(3, 5)}), "a pose has the wrong number of vertices");
+  EXPECT_TRUE(Names(message({}), {"one pose"}));
+  EXPECT_TRUE(Names(message({tube.poses[0], Shape::Zero(3, 5)}), {"vertices"}));
   EXPECT_EQ(message(tube.poses), "nothing was thrown");
   EXPECT_NO_THROW(DownTo(4).Validate());
 }

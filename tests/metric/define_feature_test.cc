@@ -20,6 +20,8 @@ namespace shapespace {
 namespace {
 
 using testing::MessageOf;
+using testing::Names;
+using testing::Refuses;
 using Numbers = std::vector<double>;
 
 // x0 y1 and c y0^2 + z1, for vertices 0 and 1.
@@ -217,8 +219,8 @@ TEST(FeatureOf, ASumHasOneValueAndOneWeight) {
   EXPECT_TRUE(internal::KindOf<SumOfHeights>([&](const MetricBasis&) { return sum; }).is_sum);
   internal::CheckFeature(*feature, 4);
   sum.weights.setOnes(4);
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { internal::CheckFeature(*MakeFeature(sum), 4); }),
-            "feature sum of heights: has 4 weights, its sum needs 1");
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { internal::CheckFeature(*MakeFeature(sum), 4); },
+                                      {"feature sum of heights:", "4", "1"}));
 }
 
 TEST(CheckFeature, MessagesNameElementVertexAndWeight) {
@@ -230,18 +232,17 @@ TEST(CheckFeature, MessagesNameElementVertexAndWeight) {
   };
   EXPECT_EQ(message([](Products*) {}), "nothing was thrown");
   EXPECT_EQ(message([](Products* p) { p->weights(1) = 0; }), "nothing was thrown");
-  const std::string not_of_mesh = ", which is not one of the mesh's 6";
-  EXPECT_EQ(message([](Products* p) { p->stencils(1, 2) = 6; }),
-            "feature products: element 2 has vertex 6" + not_of_mesh);
-  EXPECT_EQ(message([](Products* p) { p->stencils(0, 1) = -1; }),
-            "feature products: element 1 has vertex -1" + not_of_mesh);
-  EXPECT_EQ(message([](Products* p) { p->weights.setOnes(2); }),
-            "feature products: has 2 weights, its elements need 3");
-  EXPECT_EQ(message([](Products* p) { p->weights.setOnes(4); }),
-            "feature products: has 4 weights, its elements need 3");
+  EXPECT_TRUE(Names(message([](Products* p) { p->stencils(1, 2) = 6; }),
+                    {"feature products:", "element 2", "vertex 6"}));
+  EXPECT_TRUE(Names(message([](Products* p) { p->stencils(0, 1) = -1; }),
+                    {"feature products:", "element 1", "vertex -1"}));
+  EXPECT_TRUE(
+      Names(message([](Products* p) { p->weights.setOnes(2); }), {"feature products:", "2", "3"}));
+  EXPECT_TRUE(
+      Names(message([](Products* p) { p->weights.setOnes(4); }), {"feature products:", "4", "3"}));
   for (const double wrong : {-1e-9, double{NAN}, std::numeric_limits<double>::infinity()}) {
-    EXPECT_EQ(message([&](Products* p) { p->weights(2) = wrong; }),
-              "feature products: weight 2 is not a number of zero or more");
+    EXPECT_TRUE(Names(message([&](Products* p) { p->weights(2) = wrong; }),
+                      {"feature products:", "weight 2"}));
   }
 }
 
@@ -251,16 +252,13 @@ struct OtherStrain : Products {
 };
 
 TEST(RegisterFeature, SaysWhichNameIsTakenOrUnknownAndWhatToDo) {
-  EXPECT_EQ(MessageOf<InvalidOptions>([] {
-              RegisterFeature<OtherStrain>([](const MetricBasis&) { return OtherStrain(); });
-            }),
-            "feature triangle strain: a feature of another type has that name; choose another "
-            "kName");
+  EXPECT_TRUE(Refuses<InvalidOptions>(
+      [] { RegisterFeature<OtherStrain>([](const MetricBasis&) { return OtherStrain(); }); },
+      {"feature triangle strain:", "kName"}));
   EXPECT_FALSE(IsRegistered("nothing of the kind"));
-  EXPECT_EQ(MessageOf<InvalidOptions>([] { internal::FindFeature("nothing of the kind"); }),
-            "feature nothing of the kind: is not known to this program; a program that defines it "
-            "calls RegisterFeature (shapespace/metric/define_feature.h), or define_feature in "
-            "Python, first");
+  EXPECT_TRUE(Refuses<InvalidOptions>(
+      [] { internal::FindFeature("nothing of the kind"); },
+      {"feature nothing of the kind:", "define_feature.h", "define_feature"}));
   for (const char* known :
        {"edge length", "log length", "triangle strain", "position", "dihedral", "volume"}) {
     EXPECT_TRUE(IsRegistered(known)) << known;

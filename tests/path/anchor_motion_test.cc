@@ -24,6 +24,7 @@ using testing::Connected;
 using testing::Distance;
 using testing::Grid;
 using testing::MessageOf;
+using testing::Names;
 using testing::PathOf;
 using testing::Rotation;
 
@@ -148,14 +149,13 @@ TEST(Anchor, MessagesNameTheArgumentAndItsRange) {
   const auto message = [](const std::function<void()>& call) {
     return MessageOf<InvalidOptions>(call);
   };
-  EXPECT_EQ(message([&] { Anchor(&path, {}); }), "vertices: at least one is needed");
-  EXPECT_EQ(message([&] { Anchor(&path, {3, 25, 26}); }), "vertices: 25 is not in 0 .. 24");
-  EXPECT_EQ(message([&] { Anchor(&path, {-1}); }), "vertices: -1 is not in 0 .. 24");
+  EXPECT_TRUE(Names(message([&] { Anchor(&path, {}); }), {"vertices:"}));
+  EXPECT_TRUE(Names(message([&] { Anchor(&path, {3, 25, 26}); }), {"vertices:", "25", "0", "24"}));
+  EXPECT_TRUE(Names(message([&] { Anchor(&path, {-1}); }), {"vertices:", "-1", "0", "24"}));
   EXPECT_EQ(message([&] { Anchor(&path, {24, 0}); }), "nothing was thrown");
-  EXPECT_EQ(message([&] { Ground(&path, 3, 0); }), "axis: must be 0, 1 or 2, for x, y or z");
+  EXPECT_TRUE(Names(message([&] { Ground(&path, 3, 0); }), {"axis:", "0", "1", "2"}));
   for (const double height : {1.1e60, -1.1e60}) {
-    EXPECT_EQ(message([&] { Ground(&path, 1, height); }),
-              "height: must be a number of magnitude 1e60 at most");
+    EXPECT_TRUE(Names(message([&] { Ground(&path, 1, height); }), {"height:", "1e60"}));
   }
   Path points = PathOf(Connectivity::Make(2, {0}, {}, {{0, 1}}), {Shape::Random(3, 2)});
   EXPECT_EQ(message([&] { Ground(&points, 1, -1e60); }), "nothing was thrown");

@@ -15,7 +15,9 @@ namespace shapespace {
 namespace {
 
 using testing::MessageOf;
+using testing::Names;
 using testing::NoisyBlend;
+using testing::Refuses;
 
 // Of more than a thousand triangles, edges and hinges, so that sums over them have several parts.
 struct LongBar {
@@ -123,18 +125,13 @@ TEST(PathEnergy, MessagesSayHowManyShapesItNeeds) {
   const auto message = [&](PathEnergy* energy, const std::vector<Shape>& shapes) {
     return MessageOf<MeshError>([&] { energy->Load(shapes, x.data()); });
   };
-  EXPECT_EQ(message(&fixed, {shape, shape, shape}),
-            "a path of 2 inner shapes needs two more as ends");
-  EXPECT_EQ(message(&free, {shape, shape, shape, shape}),
-            "a path of 2 inner shapes needs one more as its beginning");
+  EXPECT_TRUE(Names(message(&fixed, {shape, shape, shape}), {"2"}));
+  EXPECT_TRUE(Names(message(&free, {shape, shape, shape, shape}), {"2"}));
   EXPECT_EQ(message(&free, {shape, shape, shape}), "nothing was thrown");
-  EXPECT_EQ(message(&free, {shape, shape.leftCols(2), shape}),
-            "a shape has the wrong number of vertices");
+  EXPECT_TRUE(Names(message(&free, {shape, shape.leftCols(2), shape}), {"vertices"}));
   std::vector<Shape> stored(3);
-  EXPECT_EQ(MessageOf<MeshError>([&] { fixed.Store(x.data(), &stored); }),
-            "a path of 2 inner shapes needs two more as ends");
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { fixed.SetInner(0); }),
-            "inner: a path energy needs at least one inner shape");
+  EXPECT_TRUE(Refuses<MeshError>([&] { fixed.Store(x.data(), &stored); }, {"2"}));
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { fixed.SetInner(0); }, {"inner:"}));
 }
 
 // For each segment, a gradient of both of its shapes.

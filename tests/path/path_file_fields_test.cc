@@ -24,6 +24,8 @@ using internal::ArrayReader;
 using internal::ArrayWriter;
 using internal::HeaderJson;
 using testing::MessageOf;
+using testing::Names;
+using testing::Refuses;
 using testing::TemporaryFile;
 
 constexpr internal::ArrayFileKind kKind = {"SHAPTEST", 0x01020304, ".test"};
@@ -157,8 +159,7 @@ TEST(PathFile, MessagesNameTheFieldOfTheMetric) {
   };
   EXPECT_EQ(message([](Metric*) {}), "nothing was thrown");
   for (const double unit : {0.0, -1.0}) {
-    EXPECT_EQ(message([&](Metric* m) { m->unit = unit; }),
-              file + ": its unit of length is not positive");
+    EXPECT_TRUE(Names(message([&](Metric* m) { m->unit = unit; }), {file, "unit"}));
   }
   const auto negative = [&](const std::string& name) {
     return file + ": its array " + name + " holds a negative number";
@@ -167,14 +168,14 @@ TEST(PathFile, MessagesNameTheFieldOfTheMetric) {
   EXPECT_EQ(message([](Metric* m) { m->edge_area(3) = -1e-9; }), negative("edge_area"));
   EXPECT_EQ(message([](Metric* m) { m->hinge_area(3) = -1e-9; }), negative("hinge_area"));
   EXPECT_EQ(message([](Metric* m) { m->rigid.weights(3) = -1e-9; }), negative("rigid_weights"));
-  EXPECT_EQ(message([](Metric* m) { m->rigid.weights.conservativeResize(5); }),
-            file + ": its array rigid_weights has the wrong size");
-  EXPECT_EQ(message([](Metric* m) { m->hinge_area(0) = std::nan(""); }),
-            file + ": its array hinge_area holds a non-finite number");
-  EXPECT_EQ(message([](Metric* m) { m->edge_area.conservativeResize(5); }),
-            file + ": its array edge_area has the wrong type or size");
-  EXPECT_EQ(message([](Metric* m) { m->options.bending_stiffness.setOnes(5); }),
-            file + ": its array bending_stiffness has the wrong type or size");
+  EXPECT_TRUE(Names(message([](Metric* m) { m->rigid.weights.conservativeResize(5); }),
+                    {file, "rigid_weights"}));
+  EXPECT_TRUE(
+      Names(message([](Metric* m) { m->hinge_area(0) = std::nan(""); }), {file, "hinge_area"}));
+  EXPECT_TRUE(
+      Names(message([](Metric* m) { m->edge_area.conservativeResize(5); }), {file, "edge_area"}));
+  EXPECT_TRUE(Names(message([](Metric* m) { m->options.bending_stiffness.setOnes(5); }),
+                    {file, "bending_stiffness"}));
 }
 
 TEST(ArrayFile, HoldsArraysOfBothTypesInTheirOrder) {
@@ -211,8 +212,7 @@ TEST(ArrayFile, HoldsArraysOfBothTypesInTheirOrder) {
     EXPECT_EQ(MessageOf<FileError>([&] { read.Get<Eigen::MatrixXd>("numbers", 3, 3); }), wrong);
     EXPECT_EQ(MessageOf<FileError>([&] { read.Get<Eigen::MatrixXd>("numbers", 2, 2); }), wrong);
     EXPECT_EQ(MessageOf<FileError>([&] { read.Get<Eigen::MatrixXi>("numbers", 2, 3); }), wrong);
-    EXPECT_EQ(MessageOf<FileError>([&] { read.Get<Eigen::MatrixXd>("less", 2, 3); }),
-              "it lacks the array less");
+    EXPECT_TRUE(Refuses<FileError>([&] { read.Get<Eigen::MatrixXd>("less", 2, 3); }, {"less"}));
     return 0;
   });
 }
@@ -228,11 +228,9 @@ TEST(ArrayFile, MessagesSayWhatIsWrong) {
     return MessageOf<FileError>([&] { internal::UnpackHeader(kind, content, &begin); });
   };
   EXPECT_EQ(message(kKind, bytes), "nothing was thrown");
-  EXPECT_EQ(message(other, bytes), "this is not a .other file");
-  EXPECT_EQ(message(kKind, bytes.substr(0, 23)), "this is not a .test file");
-  EXPECT_EQ(message(later, bytes),
-            "version 16909060 of the format is not read, only 7 is; use the shapespace that wrote "
-            "it, or make it again with this one");
+  EXPECT_TRUE(Names(message(other, bytes), {".other"}));
+  EXPECT_TRUE(Names(message(kKind, bytes.substr(0, 23)), {".test"}));
+  EXPECT_TRUE(Names(message(later, bytes), {"version 16909060", "7"}));
   const std::string damaged =
       "it is damaged or was cut off (its checksum does not fit); make it again";
   EXPECT_EQ(message(kKind, bytes.substr(0, 24)), damaged);
@@ -242,8 +240,8 @@ TEST(ArrayFile, MessagesSayWhatIsWrong) {
     return MessageOf<FileError>([&] { ArrayReader(table, content, begin); });
   };
   EXPECT_EQ(of_reader(bytes), "nothing was thrown");
-  EXPECT_EQ(of_reader(bytes.substr(0, bytes.size() - 1)), "its arrays are longer than the file");
-  EXPECT_EQ(of_reader(bytes + "x"), "it is longer than its arrays");
+  EXPECT_TRUE(Names(of_reader(bytes.substr(0, bytes.size() - 1)), {"arrays"}));
+  EXPECT_TRUE(Names(of_reader(bytes + "x"), {"arrays"}));
 }
 
 }  // namespace

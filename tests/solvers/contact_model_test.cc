@@ -30,7 +30,9 @@ namespace shapespace::internal {
 namespace {
 
 using shapespace::testing::MessageOf;
+using shapespace::testing::Names;
 using shapespace::testing::Noise;
+using shapespace::testing::Refuses;
 
 // Where only positions cost. The edges' lengths are about 1, and so is the potential's reach 0.4.
 struct Plates {
@@ -107,10 +109,9 @@ TEST(ContactWarnings, SayHowManyAndWhere) {
       crossed.row(0).tail(plates.flat.cols()).array() + 0.0371;
   const ContactModel model(plates.metric, {crossed}, ContactModel::Intersections::kExempt);
   ASSERT_GT(model.NumIntersections(), 1);
-  EXPECT_EQ(WarningOfIntersections("the pose is crumpled", model),
-            "the pose is crumpled (" + std::to_string(model.NumIntersections()) +
-                " pairs of triangles); contact is not avoided there");
-  EXPECT_EQ(WarningOfUncertified(3), "3 segments have not been shown to be free of contact");
+  EXPECT_TRUE(Names(WarningOfIntersections("the pose is crumpled", model),
+                    {"the pose is crumpled", std::to_string(model.NumIntersections())}));
+  EXPECT_TRUE(Names(WarningOfUncertified(3), {"3 segments"}));
   const ContactModel not_exempt(plates.metric, {crossed}, ContactModel::Intersections::kNotExempt);
   EXPECT_EQ(not_exempt.NumIntersections(), 0);
 }
@@ -271,15 +272,14 @@ TEST(Obstacle, IsJoinedBehindTheBodyAndRefusedWhereItIsNone) {
     return MessageOf<MeshError>([&] { CheckObstacle(obstacle, true); });
   };
   EXPECT_EQ(message([](Obstacle*) {}), "nothing was thrown");
-  EXPECT_EQ(message([](Obstacle* o) { o->connectivity = nullptr; }),
-            "obstacle: it has no triangles");
-  EXPECT_EQ(message([](Obstacle* o) { o->connectivity = testing::SingleEdge(); }),
-            "obstacle: it has no triangles");
+  EXPECT_TRUE(Names(message([](Obstacle* o) { o->connectivity = nullptr; }), {"obstacle:"}));
+  EXPECT_TRUE(
+      Names(message([](Obstacle* o) { o->connectivity = testing::SingleEdge(); }), {"obstacle:"}));
   const std::string shape = "obstacle: its shape is not finite, or has another number of vertices";
   EXPECT_EQ(message([](Obstacle* o) { o->shape.conservativeResize(3, 3); }), shape);
   EXPECT_EQ(message([](Obstacle* o) { o->shape(2, 3) = NAN; }), shape);
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { CheckObstacle(table, false); }),
-            "obstacle: is for paths that avoid contact: set avoid_contact");
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { CheckObstacle(table, false); },
+                                      {"obstacle:", "avoid_contact"}));
   EXPECT_NO_THROW(CheckObstacle(std::nullopt, false));
 }
 

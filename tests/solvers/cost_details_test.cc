@@ -32,8 +32,8 @@
 namespace shapespace::cost {
 namespace {
 
-using testing::MessageOf;
 using testing::Noise;
+using testing::Refuses;
 
 // A tetrahedron, and metrics that are frozen on it.
 struct TinyBody {
@@ -294,14 +294,16 @@ TEST(CostDetails, TheFunctionOfAPathIsItsEnergyAsAShare) {
     y(k) = at;
     EXPECT_NEAR(gradient(k), (after - earlier) / 2e-5, 1e-6 * (1 + gradient.norm())) << k;
   }
-  EXPECT_EQ(MessageOf<MeshError>([&] {
-              PathEnergyFunction(metric, {shapes[0], shapes[1]});
-            }),
-            "the energy of a path with unknown shapes needs three shapes or more");
-  EXPECT_EQ(MessageOf<SolverError>([&] {
-              PathEnergyFunction(metric, {shapes[0], shapes[1].array() / 0, shapes[2]});
-            }),
-            "the energy of the given path is zero or not finite");
+  EXPECT_TRUE(Refuses<MeshError>(
+      [&] {
+        PathEnergyFunction(metric, {shapes[0], shapes[1]});
+      },
+      {"three shapes"}));
+  EXPECT_TRUE(Refuses<SolverError>(
+      [&] {
+        PathEnergyFunction(metric, {shapes[0], shapes[1].array() / 0, shapes[2]});
+      },
+      {"energy"}));
 }
 
 TEST(CostDetails, RefusalsNameWhatIsWrong) {
@@ -315,25 +317,20 @@ TEST(CostDetails, RefusalsNameWhatIsWrong) {
     return [&, size] { AddTangentProjection(of, at, Eigen::VectorXd::Zero(size), &y, &problem); };
   };
   const int size = static_cast<int>(FeatureMap(metric).Values(at).size());
-  EXPECT_EQ(MessageOf<MeshError>(projecting(*metric, 3)),
-            "the change of the features has 3 values instead of " + std::to_string(size));
-  EXPECT_EQ(MessageOf<InvalidOptions>(projecting(*with_volume, size)),
-            "volume: couples all vertices; use Transport, or volume 0");
-  EXPECT_EQ(MessageOf<InvalidOptions>(projecting(*rigid, size)),
-            "rigid: is no feature; use rigid 0");
+  EXPECT_TRUE(Refuses<MeshError>(projecting(*metric, 3), {"3", std::to_string(size)}));
+  EXPECT_TRUE(Refuses<InvalidOptions>(projecting(*with_volume, size), {"volume:", "0"}));
+  EXPECT_TRUE(Refuses<InvalidOptions>(projecting(*rigid, size), {"rigid:", "0"}));
   const auto adding = [&](const Metric& of, std::vector<Shape> shapes) {
     return [&, shapes]() mutable { AddPathEnergy(of, &shapes, &problem); };
   };
-  EXPECT_EQ(MessageOf<MeshError>(adding(*metric, {at})), "a path needs at least two shapes");
-  EXPECT_EQ(MessageOf<MeshError>(adding(*metric, {at, at, at.leftCols(3)})),
-            "a shape has another number of vertices than the metric");
-  EXPECT_EQ(MessageOf<InvalidOptions>(adding(*rigid, {at, at})),
-            "motions: the rigid metric needs them");
+  EXPECT_TRUE(Refuses<MeshError>(adding(*metric, {at}), {"two shapes"}));
+  EXPECT_TRUE(Refuses<MeshError>(adding(*metric, {at, at, at.leftCols(3)}), {"vertices"}));
+  EXPECT_TRUE(Refuses<InvalidOptions>(adding(*rigid, {at, at}), {"motions:"}));
   EXPECT_EQ(problem.NumParameterBlocks(), 0);
   EXPECT_NO_THROW(RefuseSums(*with_volume, 4, "do not"));
   EXPECT_NO_THROW(RefuseSums(*metric, 3, "do not"));
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { RefuseSums(*with_volume, 3, "do not"); }),
-            "volume: couples all vertices; do not");
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { RefuseSums(*with_volume, 3, "do not"); },
+                                      {"volume:", "do not"}));
 }
 
 }  // namespace

@@ -211,7 +211,7 @@ TEST(DeformationContactTest, SaysThatHandlesMeet) {
   const DeformationResult result = ring.Solve(handles, true);
   EXPECT_GT(result.summary.uncertified_segments, 0);
   ASSERT_FALSE(result.summary.warnings.empty());
-  EXPECT_NE(result.summary.warnings.front().find("of their way"), std::string::npos)
+  EXPECT_TRUE(testing::Names(result.summary.warnings.front(), {"of their way"}))
       << result.summary.warnings.front();
   EXPECT_EQ(result.path.shapes, ring.Solve(handles, false).path.shapes);
 }
@@ -294,11 +294,7 @@ TEST(DeformationContactTest, SaysHowFarTheHandlesGot) {
   options.avoid_contact = true;
   options.obstacle = testing::Rectangle({-3, -3.1}, {3.2, 3.3}, 0);
   const DeformationSummary summary = Deform(plate.connectivity, rest, {all}, options).summary;
-  EXPECT_EQ(summary.warnings,
-            (std::vector<std::string>{
-                "no deformation was found in which the body does not pass through itself or the "
-                "obstacle: the handles got 48% of their way; it does in the path that is "
-                "returned"}));
+  EXPECT_TRUE(testing::EachNames(summary.warnings, {{"obstacle", "48%"}}));
   EXPECT_EQ(summary.uncertified_segments, 1);
   EXPECT_NEAR(summary.contact_distance, 0, 1e-9);
   EXPECT_TRUE(summary.Converged());
@@ -320,14 +316,13 @@ TEST(DeformationContactTest, SaysThatTheMeshIntersectsItself) {
   options.avoid_contact = true;
   const std::string count = std::to_string(CountIntersections(*connectivity, rest));
   ASSERT_NE(count, "0");
-  const std::string there = " (" + count + " pairs of triangles); contact is not avoided there";
+  const std::string there = count + " pairs of triangles";
   DeformationSummary summary = Deform(connectivity, rest, {all}, options).summary;
-  EXPECT_EQ(summary.warnings, (std::vector<std::string>{"the mesh intersects itself" + there}));
+  EXPECT_TRUE(testing::EachNames(summary.warnings, {{"intersects itself", there}}));
   EXPECT_EQ(summary.uncertified_segments, 0);
   options.obstacle = testing::Rectangle({-3, -3.1}, {3.2, 3.3}, -9);
   summary = Deform(connectivity, rest, {all}, options).summary;
-  EXPECT_EQ(summary.warnings,
-            (std::vector<std::string>{"the mesh intersects itself or the obstacle" + there}));
+  EXPECT_TRUE(testing::EachNames(summary.warnings, {{"intersects itself or the obstacle", there}}));
 }
 
 TEST(DeformationContactTest, ObstaclesAreForDeformationsThatAvoidContact) {

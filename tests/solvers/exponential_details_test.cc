@@ -1,5 +1,5 @@
 // The figures of shooting, corrections and transports, each worked out from the path, and their
-// warnings and refusals, word by word.
+// warnings and refusals.
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,9 @@ using testing::Distance;
 using testing::Listener;
 using testing::MessageOf;
 using testing::Motion;
+using testing::Names;
 using testing::Noise;
+using testing::Refuses;
 using Ending = ExponentialSummary::Ending;
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
@@ -187,7 +189,7 @@ TEST(Extrapolate, SaysHowManyStepsDidNotConverge) {
   }
   ASSERT_GT(open, 0);
   ASSERT_FALSE(summary.warnings.empty());
-  EXPECT_EQ(summary.warnings[0], std::to_string(open) + " of 3 steps did not converge");
+  EXPECT_TRUE(Names(summary.warnings[0], {std::to_string(open), "3"}));
   EXPECT_FALSE(path.converged);
 }
 
@@ -213,16 +215,14 @@ ExponentialSummary PushTheMiddle(double way, std::string* edge = nullptr) {
 // Of 32 triangles, the two beyond the middle turn over.
 TEST(Extrapolate, SaysWhereAndWhyItStops) {
   const ExponentialSummary over = PushTheMiddle(1.5);
-  EXPECT_EQ(over.stopped,
-            "step 1: 6% of the surface turn inside out; the motion cannot be continued");
+  EXPECT_TRUE(Names(over.stopped, {"step 1:", "6"}));
   ASSERT_EQ(over.warnings.size(), 1u);
-  EXPECT_EQ(over.warnings[0], "stopped early, at " + over.stopped);
+  EXPECT_TRUE(Names(over.warnings[0], {over.stopped}));
   EXPECT_EQ(over.ending, Ending::kDegenerate);
   EXPECT_TRUE(over.steps.empty());
   std::string edge;
   const ExponentialSummary onto = PushTheMiddle(1, &edge);
-  EXPECT_EQ(onto.stopped, "step 1: the edge between vertices " + edge +
-                              " vanishes; the motion cannot be continued");
+  EXPECT_TRUE(Names(onto.stopped, {"step 1:", edge}));
 }
 
 TEST(Extrapolate, RefusalsNameTheFieldAndTheRemedy) {
@@ -231,20 +231,18 @@ TEST(Extrapolate, RefusalsNameTheFieldAndTheRemedy) {
                            const ExponentialOptions& options) {
     return MessageOf<Error>([&] { Extrapolate(motion.metric, shape, velocity, steps, options); });
   };
-  const std::string unfit = " is not finite, or has another number of vertices than the metric";
-  EXPECT_EQ(refusal(motion.shape, motion.velocity, 0, {}), "steps: must be 1 or more");
-  EXPECT_EQ(refusal(Shape::Zero(3, 5), motion.velocity, 2, {}), "the shape" + unfit);
-  EXPECT_EQ(refusal(motion.shape, Tangent::Zero(3, 7), 2, {}), "the velocity" + unfit);
+  EXPECT_TRUE(Names(refusal(motion.shape, motion.velocity, 0, {}), {"steps:", "1"}));
+  EXPECT_TRUE(Names(refusal(Shape::Zero(3, 5), motion.velocity, 2, {}), {"shape"}));
+  EXPECT_TRUE(Names(refusal(motion.shape, Tangent::Zero(3, 7), 2, {}), {"velocity"}));
   ExponentialOptions options;
   options.stop_at_contact = options.slide_at_contact = true;
-  EXPECT_EQ(refusal(motion.shape, motion.velocity, 2, options),
-            "slide_at_contact: goes without stop_at_contact");
+  EXPECT_TRUE(Names(refusal(motion.shape, motion.velocity, 2, options),
+                    {"slide_at_contact:", "stop_at_contact"}));
   const std::string one = "a path needs at least two shapes to have a direction";
   const Path path = FirstShapes(UnevenPath(), 1);
   EXPECT_EQ(MessageOf<MeshError>([&] { Extrapolate(path, 2); }), one);
   EXPECT_EQ(MessageOf<MeshError>([&] { InitialVelocity(path); }), one);
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { Extrapolate(UnevenPath(), 0); }),
-            "steps: must be 1 or more");
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { Extrapolate(UnevenPath(), 0); }, {"steps:", "1"}));
 }
 
 TEST(InitialVelocity, IsPerUnitOfThePathsTime) {
@@ -337,10 +335,8 @@ TEST(CorrectPath, NamesTheRemedyOfAPathThatCollapses) {
     ASSERT_EQ(summary.warnings.size(), 1u);
     char share[32];
     std::snprintf(share, sizeof share, "%.2g", 100 * summary.deformation_left);
-    EXPECT_EQ(summary.warnings[0],
-              "the path collapses onto its first shape: " + std::string(share) +
-                  "% of the deformation is left; " +
-                  (mode == CorrectionMode::kPaper ? "use the mode kProximal" : "raise mu"));
+    EXPECT_TRUE(Names(summary.warnings[0], {std::string(share) + "%",
+                                            mode == CorrectionMode::kPaper ? "kProximal" : "mu"}));
   }
 }
 
@@ -352,19 +348,19 @@ TEST(CorrectPath, SaysWhyItEnded) {
   EXPECT_EQ(summary.termination, Termination::kMaxIterations);
   EXPECT_FALSE(path.converged);
   ASSERT_FALSE(summary.warnings.empty());
-  EXPECT_EQ(summary.warnings[0], "out of iterations; raise max_iterations or the tolerance");
+  EXPECT_TRUE(Names(summary.warnings[0], {"max_iterations"}));
   Listener later(3);
   options.max_iterations = 100;
   const CorrectionSummary stopped = CorrectPath(Lengthening(), options, &later).summary;
   EXPECT_EQ(stopped.termination, Termination::kCancelled);
   ASSERT_FALSE(stopped.warnings.empty());
-  EXPECT_EQ(stopped.warnings[0], "cancelled: the shapes are the best so far");
-  EXPECT_EQ(MessageOf<MeshError>([] { CorrectPath(FirstShapes(Lengthening(), 1)); }),
-            "a path needs at least two shapes to be corrected");
+  EXPECT_TRUE(Names(stopped.warnings[0], {"cancelled:"}));
+  EXPECT_TRUE(
+      Refuses<MeshError>([] { CorrectPath(FirstShapes(Lengthening(), 1)); }, {"two shapes"}));
   for (const double mu : {-1.0, kNoNumber, std::numeric_limits<double>::infinity()}) {
     options.mu = mu;
-    EXPECT_EQ(MessageOf<InvalidOptions>([&] { CorrectPath(Lengthening(), options); }),
-              "mu: must be 0 or more, and finite");
+    EXPECT_TRUE(
+        Refuses<InvalidOptions>([&] { CorrectPath(Lengthening(), options); }, {"mu:", "0"}));
   }
 }
 
@@ -420,22 +416,17 @@ TEST(Transport, FiguresAreThoseOfAllTangents) {
 TEST(Transport, RefusalsNameTheFieldAndTheRemedy) {
   const Path path = UnevenPath();
   const Tangent x = Tangent::Constant(3, 28, 1);
-  const std::string unfit =
-      "a tangent is not finite, or has another number of vertices than the path";
   Tangent broken = x;
   broken(2, 27) = kNoNumber;
-  EXPECT_EQ(MessageOf<MeshError>([&] { Transport(path, {x, broken}); }), unfit);
-  EXPECT_EQ(MessageOf<MeshError>([&] { Transport(path, {x, Tangent::Zero(3, 27)}); }), unfit);
-  EXPECT_EQ(MessageOf<MeshError>([&] { Transport(FirstShapes(path, 1), {x}); }),
-            "transport needs a path of at least two shapes");
+  EXPECT_TRUE(Refuses<MeshError>([&] { Transport(path, {x, broken}); }, {"tangent"}));
+  EXPECT_TRUE(Refuses<MeshError>([&] { Transport(path, {x, Tangent::Zero(3, 27)}); }, {"tangent"}));
+  EXPECT_TRUE(Refuses<MeshError>([&] { Transport(FirstShapes(path, 1), {x}); }, {"two shapes"}));
   TransportOptions options;
   options.memory_limit = 100;
-  const std::string message = MessageOf<SolverError>([&] { Transport(path, {x}, options); });
-  EXPECT_NE(message.find("this transport"), std::string::npos) << message;
-  EXPECT_NE(message.find("use a mesh of fewer vertices"), std::string::npos) << message;
+  EXPECT_TRUE(Refuses<SolverError>([&] { Transport(path, {x}, options); },
+                                   {"this transport", "fewer vertices"}));
   options.memory_limit = -1;
-  EXPECT_EQ(
-      MessageOf<InvalidOptions>([&] { Transport(path, {x}, options); }).find("memory_limit: "), 0u);
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { Transport(path, {x}, options); }, {"memory_limit:"}));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "support/contact_bodies.h"
 #include "support/cut_ring.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -30,13 +31,11 @@ TEST(GeodesicContactFigures, NamesThePieceInWhichNoWayWasFound) {
       Interpolate(body.connectivity, {body.At(6), body.At(5), body.At(1)}, RoundContacts(3));
   ASSERT_EQ(path.NumShapes(), 9);
   ASSERT_GE(summary.warnings.size(), 2u);
-  EXPECT_EQ(summary.warnings[0],
-            "piece 1: no way was found on which the body does not pass through itself; it does in "
-            "the path that is returned. Name a shape near which the way leads (via)");
+  EXPECT_TRUE(testing::Names(summary.warnings[0], {"piece 1:"}));
   EXPECT_GT(summary.uncertified_segments, 0);
   EXPECT_LE(summary.uncertified_segments, 4);
-  EXPECT_EQ(summary.warnings[1], std::to_string(summary.uncertified_segments) +
-                                     " segments have not been shown to be free of contact");
+  EXPECT_TRUE(testing::Names(summary.warnings[1],
+                             {std::to_string(summary.uncertified_segments), "contact"}));
   EXPECT_GT(summary.contact_seconds, 0);
   EXPECT_GT(summary.solve_seconds, summary.contact_seconds);
 
@@ -58,8 +57,7 @@ TEST(GeodesicContactFigures, NamesThePieceWhosePosesIntersect) {
       Interpolate(ring.connectivity, {ring.poses[0], ring.poses[0], wound}, RoundContacts(1))
           .summary;
   ASSERT_FALSE(summary.warnings.empty());
-  EXPECT_EQ(summary.warnings[0], "piece 1: its poses intersect themselves (" + pairs +
-                                     " pairs of triangles); contact is not avoided there");
+  EXPECT_TRUE(testing::Names(summary.warnings[0], {"piece 1:", pairs}));
 
   // The same where a path begins.
   const auto metric = FreezeMetric({}, ring.connectivity, {wound});
@@ -68,8 +66,7 @@ TEST(GeodesicContactFigures, NamesThePieceWhosePosesIntersect) {
   const Tangent rest = Tangent::Zero(3, wound.cols());
   const ExponentialSummary shot = Extrapolate(metric, wound, rest, 1, stop).summary;
   ASSERT_FALSE(shot.warnings.empty());
-  EXPECT_EQ(shot.warnings[0], "the body intersects itself where the path begins (" + pairs +
-                                  " pairs of triangles); contact is not looked for there");
+  EXPECT_TRUE(testing::Names(shot.warnings[0], {pairs, "intersects itself"}));
 }
 
 TEST(GeodesicContactFigures, SaysAtWhichStepPartsTouch) {
@@ -77,7 +74,7 @@ TEST(GeodesicContactFigures, SaysAtWhichStepPartsTouch) {
   ExponentialOptions stop;
   stop.stop_at_contact = true;
   const ExponentialSummary summary = Extrapolate(testing::ClosingPath(ring), 8, stop).summary;
-  EXPECT_EQ(summary.stopped, "step 6: parts of the body touch");
+  EXPECT_TRUE(testing::Names(summary.stopped, {"step 6:"}));
   EXPECT_EQ(summary.steps.size(), 5u);
   EXPECT_EQ(summary.requested_steps, 8);
   EXPECT_TRUE(summary.warnings.empty());

@@ -297,7 +297,7 @@ TEST(GeodesicContactTest, WhereNoWayIsFoundThePathWithContactIsReturnedWithAWarn
   EXPECT_EQ(result.path.shapes, Interpolate(connectivity, poses, options).path.shapes);
   EXPECT_GT(result.summary.uncertified_segments, 0);
   ASSERT_FALSE(result.summary.warnings.empty());
-  EXPECT_NE(result.summary.warnings[0].find("no way was found"), std::string::npos);
+  EXPECT_TRUE(testing::Names(result.summary.warnings[0], {"no way"}));
   // A second piece, beside the box, does not hide the first.
   const GeodesicResult chain =
       Interpolate(connectivity, {body.At(1), body.At(5), body.At(6)}, AvoidingContact(3));
@@ -395,7 +395,7 @@ TEST(ObstacleTest, PosesThatIntersectItAreSaidSo) {
   ball.poses[1].row(1).array() += 1;
   const GeodesicResult result = Solve(ball, 3);
   ASSERT_FALSE(result.summary.warnings.empty());
-  EXPECT_NE(result.summary.warnings[0].find("themselves or the obstacle"), std::string::npos);
+  EXPECT_TRUE(testing::Names(result.summary.warnings[0], {"obstacle"}));
 }
 
 TEST(ObstacleTest, WhatIsNoObstacleIsRefused) {

@@ -19,6 +19,7 @@
 #include <shapespace/metric/feature_map.h>
 
 #include "support/listener.h"
+#include "support/message_of.h"
 #include "support/motions.h"
 
 namespace shapespace {
@@ -164,9 +165,7 @@ TEST(Interpolate, BeginsAtTheShapeThatItsStartNames) {
     EXPECT_EQ(summary.levels[0].termination, Termination::kCancelled);
     EXPECT_FALSE(path.converged);
     ASSERT_EQ(summary.warnings.size(), 1u);
-    EXPECT_EQ(summary.warnings[0],
-              "cancelled: the path is the best so far; shapes that were not solved yet are lifted "
-              "or refined from others");
+    EXPECT_TRUE(testing::Names(summary.warnings[0], {"cancelled:"}));
   }
 }
 
@@ -228,9 +227,7 @@ TEST(Interpolate, RowsSayWithWhatEachSolverBeganAndEnded) {
     EXPECT_LT(early.energy, before);
     EXPECT_GE(early.energy, after * (1 - 1e-9));
     EXPECT_FALSE(unfinished.converged);
-    EXPECT_EQ(short_one.warnings[0],
-              "the level of 1 shapes of piece 0 ran out of iterations; raise max_iterations or the "
-              "tolerance");
+    EXPECT_TRUE(testing::Names(short_one.warnings[0], {"1", "piece 0", "max_iterations"}));
   }
 }
 

@@ -26,6 +26,8 @@ namespace shapespace {
 namespace {
 
 using testing::MessageOf;
+using testing::Names;
+using testing::Refuses;
 
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
@@ -191,38 +193,29 @@ TEST(Interpolate, WarnsOfWhatIsProbablyNotWanted) {
       options.schedule = GeodesicSchedule::kFlat;
       options.start = GeodesicStart::kLast;
       const GeodesicSummary summary = Interpolate(of.connectivity, of.poses, options).summary;
-      std::vector<std::string> expected;
+      std::vector<std::vector<std::string>> expected;
       for (const auto& level : summary.levels) {
         if (level.kept && level.termination == Termination::kMaxIterations) {
-          expected.push_back("the level of " + std::to_string(level.shapes) + " shapes of piece " +
-                             std::to_string(level.piece) +
-                             " ran out of iterations; raise max_iterations or the tolerance");
+          expected.push_back({std::to_string(level.shapes) + " shapes",
+                              "piece " + std::to_string(level.piece), "max_iterations"});
         }
       }
       if (summary.intersections > 5) {
-        expected.push_back("the body intersects itself: inner shapes have " +
-                           std::to_string(std::lround(summary.intersections)) +
-                           " more pairs of intersecting triangles than the poses; avoid_contact "
-                           "prevents this");
+        expected.push_back({std::to_string(std::lround(summary.intersections)), "avoid_contact"});
         ++crossing;
       }
       if (summary.energy / summary.lower_bound > 1.5) {
-        expected.push_back("the energy is " + std::to_string(summary.energy / summary.lower_bound) +
-                           " times its lower bound: the path may be a poor local minimum");
+        expected.push_back({std::to_string(summary.energy / summary.lower_bound), "lower bound"});
         ++poor;
       }
       if (summary.quality.speed_max > 1.15) {
-        expected.push_back("some segment is " + std::to_string(summary.quality.speed_max) +
-                           " times as fast as the mean: a part may rest and then jump; check the "
-                           "pictures");
+        expected.push_back({std::to_string(summary.quality.speed_max), "fast"});
         ++uneven;
       }
       if (summary.quality.folds > 1e-3 * of.connectivity->NumHinges()) {
-        expected.push_back("inner shapes have " +
-                           std::to_string(std::lround(summary.quality.folds)) +
-                           " folds that the poses do not have: check the pictures");
+        expected.push_back({std::to_string(std::lround(summary.quality.folds)) + " folds"});
       }
-      EXPECT_EQ(summary.warnings, expected) << summary.FullReport();
+      EXPECT_TRUE(testing::EachNames(summary.warnings, expected)) << summary.FullReport();
     }
   }
   EXPECT_GT(crossing, 0);
@@ -240,52 +233,47 @@ TEST(Interpolate, RefusalsNameTheFieldAndTheRemedy) {
     return MessageOf<Error>([&] { Interpolate(metric, poses, options); });
   };
   const auto nothing = [](GeodesicOptions*) {};
-  EXPECT_EQ(refusal([](GeodesicOptions* o) { o->shapes = 0; }, {a, b}),
-            "shapes: must be 1 or more");
-  EXPECT_EQ(refusal([](GeodesicOptions* o) { o->tolerance = 1; }, {a, b}),
-            "tolerance: must be between 0 and 1");
-  EXPECT_EQ(refusal([](GeodesicOptions* o) { o->max_iterations = 0; }, {a, b}),
-            "max_iterations: must be 1 or more");
-  EXPECT_EQ(refusal([](GeodesicOptions* o) { o->memory_limit = 0; }, {a, b}).find("memory_limit: "),
-            0u);
-  EXPECT_EQ(refusal([](GeodesicOptions* o) { o->metric.strain = -1; }, {a, b}).find("strain: "),
-            0u);
-  EXPECT_EQ(refusal([](GeodesicOptions* o) { o->via.emplace_back(3, 20); }, {a, b}),
-            "via: is for paths that avoid contact: set avoid_contact");
-  EXPECT_EQ(refusal(
-                [](GeodesicOptions* o) {
-                  o->avoid_contact = true;
-                  o->via.emplace_back(Shape::Zero(3, 20));
-                },
-                {a, b, a}),
-            "via: is for two poses");
-  EXPECT_NE(refusal([](GeodesicOptions* o) { o->memory_limit = 100; }, {a, b}).find("this solve"),
-            std::string::npos);
-  EXPECT_NE(refusal([](GeodesicOptions* o) { o->memory_limit = 100; }, {a, b})
-                .find("insert fewer shapes"),
-            std::string::npos);
-  EXPECT_EQ(refusal(nothing, {a}), "a geodesic needs at least two poses");
-  EXPECT_EQ(refusal(nothing, {}), "a geodesic needs at least two poses");
-  const std::string unfit =
-      "a pose is not finite, or has another number of vertices than the metric";
-  EXPECT_EQ(refusal(nothing, {a, Shape::Zero(3, 19)}), unfit);
+  EXPECT_TRUE(Names(refusal([](GeodesicOptions* o) { o->shapes = 0; }, {a, b}), {"shapes:", "1"}));
+  EXPECT_TRUE(Names(refusal([](GeodesicOptions* o) { o->tolerance = 1; }, {a, b}),
+                    {"tolerance:", "0", "1"}));
+  EXPECT_TRUE(Names(refusal([](GeodesicOptions* o) { o->max_iterations = 0; }, {a, b}),
+                    {"max_iterations:", "1"}));
+  EXPECT_TRUE(
+      Names(refusal([](GeodesicOptions* o) { o->memory_limit = 0; }, {a, b}), {"memory_limit:"}));
+  EXPECT_TRUE(
+      Names(refusal([](GeodesicOptions* o) { o->metric.strain = -1; }, {a, b}), {"strain:"}));
+  EXPECT_TRUE(Names(refusal([](GeodesicOptions* o) { o->via.emplace_back(3, 20); }, {a, b}),
+                    {"via:", "avoid_contact"}));
+  EXPECT_TRUE(Names(refusal(
+                        [](GeodesicOptions* o) {
+                          o->avoid_contact = true;
+                          o->via.emplace_back(Shape::Zero(3, 20));
+                        },
+                        {a, b, a}),
+                    {"via:"}));
+  EXPECT_TRUE(Names(refusal([](GeodesicOptions* o) { o->memory_limit = 100; }, {a, b}),
+                    {"this solve", "fewer shapes"}));
+  EXPECT_TRUE(Names(refusal(nothing, {a}), {"two poses"}));
+  EXPECT_TRUE(Names(refusal(nothing, {}), {"two poses"}));
+  EXPECT_TRUE(Names(refusal(nothing, {a, Shape::Zero(3, 19)}), {"a pose"}));
   for (const size_t i : {0, 1, 2}) {
     std::vector<Shape> poses = {a, b, a};
     poses[i](2, 19) = kNotANumber;
-    EXPECT_EQ(refusal(nothing, poses), unfit) << i;
+    EXPECT_TRUE(Names(refusal(nothing, poses), {"a pose"})) << i;
   }
   GeodesicOptions via = ReportedOptions(1);
   via.avoid_contact = true;
   via.via = {a};
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] {
-              Interpolator(sheet.connectivity, {a, b}, via);
-            }),
-            "via: is for one path between two poses");
+  EXPECT_TRUE(Refuses<InvalidOptions>(
+      [&] {
+        Interpolator(sheet.connectivity, {a, b}, via);
+      },
+      {"via:"}));
   const Interpolator interpolator(sheet.connectivity, {a, b}, ReportedOptions(1));
   Shape broken = b;
   broken(0, 3) = kNotANumber;
-  EXPECT_EQ(MessageOf<MeshError>([&] { interpolator.Between(broken, a); }), unfit);
-  EXPECT_EQ(MessageOf<MeshError>([&] { interpolator.Between(a, broken); }), unfit);
+  EXPECT_TRUE(Refuses<MeshError>([&] { interpolator.Between(broken, a); }, {"a pose"}));
+  EXPECT_TRUE(Refuses<MeshError>([&] { interpolator.Between(a, broken); }, {"a pose"}));
 }
 
 }  // namespace

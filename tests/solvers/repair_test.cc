@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <shapespace/base/error.h>
 #include <shapespace/bodies/tube.h>
@@ -114,15 +113,6 @@ TEST(Repair, RefusesWhatMakesNoSense) {
               Repair(finger.body.connectivity, finger.rest, finger.distorted, options);
             }).find("vertices: -1"),
             0u);
-}
-
-TEST(RepairSummary, ReportsAreReadable) {
-  const Finger finger;
-  const RepairSummary summary =
-      Repair(finger.body.connectivity, finger.rest, finger.distorted).summary;
-  EXPECT_NE(summary.FullReport().find("Before"), std::string::npos);
-  const auto json = nlohmann::json::parse(summary.ToJson());
-  EXPECT_NEAR(json["before"]["volume"], summary.before.volume, 1e-12);
 }
 
 }  // namespace

@@ -26,7 +26,9 @@ namespace {
 
 using testing::Distance;
 using testing::MessageOf;
+using testing::Names;
 using testing::Noise;
+using testing::Refuses;
 using testing::Rotation;
 
 struct ReportRecorder : Progress {
@@ -140,32 +142,31 @@ TEST(Average, RefusalsNameTheRemedy) {
     return MessageOf<InvalidOptions>(
         [&] { Average(SmallBar().connectivity, BarPoses(3), options); });
   };
-  EXPECT_EQ(message({1, 2}), "weights: must be 3, one for each pose, not 2");
-  EXPECT_EQ(message({1, 2, -1}), "weights: must be finite and not negative");
-  EXPECT_EQ(message({1, 2, INFINITY}), "weights: must be finite and not negative");
-  EXPECT_EQ(message({0, 0, 0}), "weights: must not all be zero");
-  EXPECT_EQ(message({1e308, 1e308, 1e308}), "weights: must not all be zero");
+  EXPECT_TRUE(Names(message({1, 2}), {"weights:", "3", "2"}));
+  EXPECT_TRUE(Names(message({1, 2, -1}), {"weights:"}));
+  EXPECT_TRUE(Names(message({1, 2, INFINITY}), {"weights:"}));
+  EXPECT_TRUE(Names(message({0, 0, 0}), {"weights:"}));
+  EXPECT_TRUE(Names(message({1e308, 1e308, 1e308}), {"weights:"}));
   const auto of_options = [](void (*change)(AverageOptions*)) {
     AverageOptions options;
     change(&options);
     return MessageOf<InvalidOptions>([&] { options.Validate(); });
   };
-  EXPECT_EQ(of_options([](AverageOptions* o) { o->geodesic.metric = MetricOptions::Paper(); }),
-            "discretization: an average takes the midpoint form only");
-  EXPECT_EQ(of_options([](AverageOptions* o) { o->geodesic.metric = MetricOptions::Rigid(); }),
-            "rigid: is no feature, of which a mean could be taken");
+  EXPECT_TRUE(
+      Names(of_options([](AverageOptions* o) { o->geodesic.metric = MetricOptions::Paper(); }),
+            {"discretization:"}));
+  EXPECT_TRUE(
+      Names(of_options([](AverageOptions* o) { o->geodesic.metric = MetricOptions::Rigid(); }),
+            {"rigid:"}));
   EXPECT_EQ(of_options([](AverageOptions* o) { o->tolerance = 0; }).find("tolerance:"), 0u);
   EXPECT_EQ(of_options([](AverageOptions* o) { o->max_iterations = 0; }).find("max_iterations:"),
             0u);
   EXPECT_EQ(of_options([](AverageOptions* o) { o->geodesic.shapes = -1; }).find("shapes:"), 0u);
-  EXPECT_EQ(MessageOf<MeshError>([] { Average(SmallBar().connectivity, {}); }),
-            "there is no pose of which to take the average");
+  EXPECT_TRUE(Refuses<MeshError>([] { Average(SmallBar().connectivity, {}); }, {"average"}));
   AverageOptions options;
   options.geodesic.memory_limit = 1000;
-  const std::string memory =
-      MessageOf<SolverError>([&] { Average(SmallBar().connectivity, BarPoses(3), options); });
-  EXPECT_NE(memory.find("this average"), std::string::npos) << memory;
-  EXPECT_NE(memory.find("name fewer poses"), std::string::npos) << memory;
+  EXPECT_TRUE(Refuses<SolverError>([&] { Average(SmallBar().connectivity, BarPoses(3), options); },
+                                   {"this average", "fewer poses"}));
 }
 
 TEST(MakeShapeModel, PosesOfNoWeightAndTheirNamesAreLeftOut) {
@@ -204,12 +205,13 @@ TEST(MakeShapeModel, PosesOfNoWeightAndTheirNamesAreLeftOut) {
   options.average.weights.clear();
   EXPECT_EQ(MakeShapeModel(SmallBar().connectivity, BarPoses(3), {}, options).modes.names,
             (std::vector<std::string>{"1", "2", "3"}));
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] {
-              MakeShapeModel(SmallBar().connectivity, BarPoses(3), {"a", "b"}, options);
-            }),
-            "names: must be 3, one for each pose, not 2");
-  EXPECT_EQ(MessageOf<MeshError>([&] { MakeShapeModel(SmallBar().connectivity, {}, {}); }),
-            "there is no pose of which to find modes");
+  EXPECT_TRUE(Refuses<InvalidOptions>(
+      [&] {
+        MakeShapeModel(SmallBar().connectivity, BarPoses(3), {"a", "b"}, options);
+      },
+      {"names:", "3", "2"}));
+  EXPECT_TRUE(
+      Refuses<MeshError>([&] { MakeShapeModel(SmallBar().connectivity, {}, {}); }, {"modes"}));
 }
 
 TEST(MakeShapeModel, WarningsSayWhy) {
@@ -217,11 +219,8 @@ TEST(MakeShapeModel, WarningsSayWhy) {
     return MakeShapeModel(SmallBar().connectivity, poses, {}).summary.warnings;
   };
   const Shape pose = SmallBar().pose(30);
-  EXPECT_EQ(warnings({pose}),
-            (std::vector<std::string>{"there is one pose, which is the mean; it has no modes"}));
-  EXPECT_EQ(warnings({pose, pose}),
-            (std::vector<std::string>{
-                "the poses are the same shape, which is the mean; it has no modes"}));
+  EXPECT_TRUE(testing::EachNames(warnings({pose}), {{"one pose", "no modes"}}));
+  EXPECT_TRUE(testing::EachNames(warnings({pose, pose}), {{"same shape", "no modes"}}));
 }
 
 TEST(ShapeModel, DistancesAreWeightedByAreaAndTheFitIsTheNearest) {
@@ -253,15 +252,14 @@ TEST(ShapeModel, DistancesAreWeightedByAreaAndTheFitIsTheNearest) {
       }
     }
   }
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { model.Coordinates(other, false, 3); }),
-            "modes: must be from 0 to 2");
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { model.At(Eigen::Vector3d(1, 2, 3)); }),
-            "coordinates: must be at most 2, one for each mode, not 3");
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { model.Preview(Eigen::Vector2d(1, NAN)); }),
-            "coordinates: must be finite");
+  EXPECT_TRUE(
+      Refuses<InvalidOptions>([&] { model.Coordinates(other, false, 3); }, {"modes:", "0", "2"}));
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { model.At(Eigen::Vector3d(1, 2, 3)); },
+                                      {"coordinates:", "2", "3"}));
+  EXPECT_TRUE(
+      Refuses<InvalidOptions>([&] { model.Preview(Eigen::Vector2d(1, NAN)); }, {"coordinates:"}));
   const std::string count = std::to_string(other.cols());
-  EXPECT_EQ(MessageOf<MeshError>([&] { model.Coordinates(other.leftCols(4)); }),
-            "the shape is not finite, or has 4 vertices and not " + count + " as the model");
+  EXPECT_TRUE(Refuses<MeshError>([&] { model.Coordinates(other.leftCols(4)); }, {"4", count}));
 }
 
 TEST(ShapeModel, RandomCoordinatesAreIndependentAndNormal) {
@@ -349,12 +347,13 @@ TEST(AssessShapeModel, DistancesAreMeansAsSharesOfTheMeanDiagonal) {
   }
   EXPECT_NEAR(assessment.rows[1].specificity, nearest / diagonal, 1e-5 * nearest);
   options.samples = 0;
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { options.Validate(); }), "samples: must be 1 or more");
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { options.Validate(); }, {"samples:", "1"}));
   options.samples = 1;
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] {
-              AssessShapeModel(SmallBar().connectivity, {poses[0], poses[1]}, options);
-            }),
-            "an assessment leaves one pose out, and needs three or more of positive weight");
+  EXPECT_TRUE(Refuses<InvalidOptions>(
+      [&] {
+        AssessShapeModel(SmallBar().connectivity, {poses[0], poses[1]}, options);
+      },
+      {"three"}));
 }
 
 // Some edges of a random shape are longer than in every pose, others are shorter.
@@ -443,9 +442,8 @@ TEST(PageOf, HasTheKeysOfAllModesAndPairsAndTheNumbersOfTheModel) {
   EXPECT_EQ(page.slopes, regression.slopes);
   EXPECT_EQ(PageOf(model, "in/some.modes").name, "some.modes");
   EXPECT_TRUE(PageOf(model, "in/some.modes").scalars.empty());
-  EXPECT_EQ(
-      MessageOf<InvalidOptions>([&] { PageOf(ShapeModel(FirstModes(modes, 0)), "some.modes"); }),
-      "modes: there are none to show");
+  EXPECT_TRUE(Refuses<InvalidOptions>(
+      [&] { PageOf(ShapeModel(FirstModes(modes, 0)), "some.modes"); }, {"modes:"}));
 }
 
 // Of one mode the page interpolates its keys, of which the mean is one.
@@ -506,8 +504,8 @@ TEST(RenderModes, BarsAreTheSharesOfTheVariance) {
     EXPECT_TRUE(is_drawn(margin + k * pitch, foot - 1)) << k;
     EXPECT_FALSE(is_drawn(margin + k * pitch - 1, foot - 1)) << k;
   }
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { RenderModes(ShapeModel(modes), 4, options); }),
-            "modes: must be from 1 to 3, of which there are pictures");
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { RenderModes(ShapeModel(modes), 4, options); },
+                                      {"modes:", "1", "3"}));
 }
 
 }  // namespace

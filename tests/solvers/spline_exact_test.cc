@@ -18,6 +18,8 @@ namespace shapespace {
 namespace {
 
 using testing::MessageOf;
+using testing::Names;
+using testing::Refuses;
 using testing::Rotation;
 
 // A tetrahedron without symmetries, some sixty units large.
@@ -141,8 +143,7 @@ TEST(SplineExactTest, OfOnePoseThatReturnsIsTheGeodesic) {
   EXPECT_EQ(path.poses, (std::vector<int>{0, 8}));
   EXPECT_FALSE(summary.smooth);
   ASSERT_EQ(summary.warnings.size(), summary.geodesic.warnings.size() + 1);
-  EXPECT_EQ(summary.warnings.back(),
-            "there are only two poses: the motion is the geodesic between them");
+  EXPECT_TRUE(Names(summary.warnings.back(), {"two poses"}));
 }
 
 TEST(SplineExactTest, TellsWhichShapeItSmooths) {
@@ -198,54 +199,53 @@ TEST(SplineExactTest, RefusalsNameWhatIsWrong) {
   for (const std::vector<double>& times :
        {std::vector<double>{0, 0, 1}, {1, 2, 2}, {0, 1, kInfinity}, {kNaN, 1, 2}, {2, 1, 3}}) {
     options.times = times;
-    EXPECT_EQ(refusal(options), "times: must be finite numbers in ascending order");
+    EXPECT_TRUE(Names(refusal(options), {"times:"}));
   }
   options.times = {0, 1, 2, 3};
-  EXPECT_EQ(refusal(options), "times: must be 3, one for each pose, not 4");
+  EXPECT_TRUE(Names(refusal(options), {"times:", "3", "4"}));
   options.ends = SplineEnds::kPeriodic;  // the first pose again
   EXPECT_EQ(refusal(options), "nothing was thrown");
   options = natural;
   options.by_length = true;
-  EXPECT_EQ(refusal(options).rfind("by_length: poses 1 and 2 are the same", 0), 0u);
+  EXPECT_TRUE(Names(refusal(options), {"by_length:", "poses 1", "2"}));
   for (const int same : {0, 1}) {
     const Shape moved = body.MovedBy({3})[0], larger = 1.5 * body.shape;
     const std::vector<Shape> poses = {same == 0 ? body.shape : larger, moved,
                                       same == 0 ? larger : body.shape};
-    EXPECT_EQ(
-        MessageOf<InvalidOptions>([&] { Spline(body.connectivity, poses, options); }),
-        "by_length: poses " + std::to_string(same + 1) + " and " + std::to_string(same + 2) +
-            " are the same up to a rigid motion, so that no time is between them; give times");
+    EXPECT_TRUE(Refuses<InvalidOptions>(
+        [&] { Spline(body.connectivity, poses, options); },
+        {"by_length:", std::to_string(same + 1), std::to_string(same + 2)}));
   }
   options.times = {0, 1, 2};
-  EXPECT_EQ(refusal(options), "by_length: goes without times");
+  EXPECT_TRUE(Names(refusal(options), {"by_length:"}));
   options = natural;
   for (double limit : {-1., kNaN, kInfinity}) {
     options.hold_limit = limit;
-    EXPECT_EQ(refusal(options), "hold_limit: must be a number, zero or more");
+    EXPECT_TRUE(Names(refusal(options), {"hold_limit:"}));
   }
   const Tangent velocity = Tangent::Ones(3, 4);
   for (const bool first : {true, false}) {
     options = natural;
     (first ? options.first_velocity : options.last_velocity) = velocity;
-    EXPECT_EQ(refusal(options), "first_velocity, last_velocity: go with clamped ends only");
+    EXPECT_TRUE(Names(refusal(options), {"first_velocity, last_velocity:"}));
     options.ends = SplineEnds::kClamped;
-    EXPECT_EQ(refusal(options), "first_velocity, last_velocity: are needed for clamped ends");
+    EXPECT_TRUE(Names(refusal(options), {"first_velocity, last_velocity:"}));
     for (const Tangent& wrong :
          {Tangent(Tangent::Ones(3, 5)), Tangent(Tangent::Constant(3, 4, kNaN))}) {
       options.first_velocity = first ? wrong : velocity;
       options.last_velocity = first ? velocity : wrong;
-      EXPECT_EQ(refusal(options),
-                "first_velocity, last_velocity: must be finite, with a column for each vertex");
+      EXPECT_TRUE(Names(refusal(options), {"first_velocity, last_velocity:"}));
     }
   }
   options = natural;
   options.geodesic.shapes = -1;
   EXPECT_EQ(refusal(options).rfind("shapes:", 0), 0u);
   options = Ends(SplineEnds::kPeriodic, 2);
-  EXPECT_EQ(MessageOf<MeshError>([&] {
-              Spline(body.connectivity, body.MovedBy({0, 1, 0}), options);
-            }),
-            "the last pose is the first: leave it out, since a periodic spline returns there");
+  EXPECT_TRUE(Refuses<MeshError>(
+      [&] {
+        Spline(body.connectivity, body.MovedBy({0, 1, 0}), options);
+      },
+      {"last pose"}));
 }
 
 // That the spline needs much more than its chain where there are many poses.
@@ -253,12 +253,11 @@ TEST(SplineExactTest, KeepsTheLimitOfMemoryOfItsOwn) {
   const Tetrahedron body;
   SplineOptions options = Ends(SplineEnds::kNatural, 1);
   options.geodesic.memory_limit = 1;
-  EXPECT_EQ(
-      MessageOf<SolverError>([&] {
+  EXPECT_TRUE(Refuses<SolverError>(
+      [&] {
         Spline(body.connectivity, body.MovedBy({0, 1, 3}), options);
-      }),
-      "this spline needs about 0 MB, more than the memory limit; insert fewer shapes or raise "
-      "memory_limit");
+      },
+      {"memory_limit"}));
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ namespace {
 using testing::Diameter;
 using testing::Distance;
 using testing::MessageOf;
+using testing::Names;
 using testing::Rotation;
 
 SplineOptions Fine(SplineEnds ends, int shapes = 7, double hold_limit = 3) {
@@ -126,10 +127,10 @@ TEST(Spline, MeetsPosesAtTimesByLength) {
   options.times = {0, 1, 2, 3};
   EXPECT_THROW(options.Validate(), InvalidOptions);
   options.times.clear();
-  EXPECT_NE(MessageOf<InvalidOptions>([&] {
-              Spline(Tube().connectivity, PosesAt(Tube(), {0, 60, 60, 30}), options);
-            }).find("by_length: poses 2 and 3 are the same"),
-            std::string::npos);
+  EXPECT_TRUE(Names(MessageOf<InvalidOptions>([&] {
+                      Spline(Tube().connectivity, PosesAt(Tube(), {0, 60, 60, 30}), options);
+                    }),
+                    {"by_length:", "poses 2", "3"}));
 }
 
 // The chain has the least energy of all paths through the poses at evenly spaced times.
@@ -362,21 +363,21 @@ TEST(Spline, RefusesWhatItCannotDo) {
   };
   SplineOptions options;
   options.times = {0, 2, 1};
-  EXPECT_NE(message(options).find("times: must be finite numbers in ascending"), std::string::npos);
+  EXPECT_TRUE(Names(message(options), {"times:"}));
   options.times = {0, 1};
-  EXPECT_NE(message(options).find("times: must be 3, one for each pose, not 2"), std::string::npos);
+  EXPECT_TRUE(Names(message(options), {"times:", "3", "2"}));
   options = {};
   options.ends = SplineEnds::kClamped;
-  EXPECT_NE(message(options).find("are needed for clamped ends"), std::string::npos);
+  EXPECT_TRUE(Names(message(options), {"clamped"}));
   options = {};
   options.hold_limit = -1;
   EXPECT_NE(message(options).find("hold_limit"), std::string::npos);
   options = {};
   options.ends = SplineEnds::kPeriodic;
-  EXPECT_NE(MessageOf<MeshError>([&] {
-              Spline(Tube().connectivity, PosesAt(Tube(), {0, 90, 0}), options);
-            }).find("the last pose is the first"),
-            std::string::npos);
+  EXPECT_TRUE(Names(MessageOf<MeshError>([&] {
+                      Spline(Tube().connectivity, PosesAt(Tube(), {0, 90, 0}), options);
+                    }),
+                    {"last pose"}));
 }
 
 TEST(Spline, WhenStoppedIsTheChainAndSaysSo) {

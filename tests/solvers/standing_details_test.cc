@@ -10,6 +10,7 @@
 #include <shapespace/deformation/standing.h>
 #include <shapespace/mesh/rigid_motion.h>
 
+#include "support/message_of.h"
 #include "support/motions.h"
 #include "support/path_of.h"
 
@@ -114,8 +115,7 @@ TEST(Standing, AWarningIsGivenOnceAndThePathSaysThatItHasNotConverged) {
   const StandingSummary summary = HoldStandingParts(stepping.path, parts, options, &held);
   EXPECT_EQ(summary.termination, Termination::kMaxIterations);
   EXPECT_EQ(summary.shapes, 4);
-  EXPECT_EQ(summary.warnings,
-            (std::vector<std::string>{"out of iterations; raise max_iterations or the tolerance"}));
+  EXPECT_TRUE(testing::EachNames(summary.warnings, {{"max_iterations"}}));
   EXPECT_FALSE(held.converged);
   held = stepping.path;
   held.converged = false;
@@ -128,9 +128,7 @@ TEST(Standing, AWarningIsGivenOnceAndThePathSaysThatItHasNotConverged) {
       HoldStandingParts(stepping.path, parts, StandingDefaults(), &held, &stops);
   EXPECT_EQ(stopped.parts, 2);
   EXPECT_EQ(stopped.shapes, 0);
-  EXPECT_EQ(stopped.warnings,
-            (std::vector<std::string>{
-                "stopped: the parts that should stand are where the path has them"}));
+  EXPECT_TRUE(testing::EachNames(stopped.warnings, {{"stopped"}}));
 }
 
 }  // namespace

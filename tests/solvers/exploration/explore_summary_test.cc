@@ -19,6 +19,8 @@ namespace {
 
 using testing::MadeUpSpace;
 using testing::MessageOf;
+using testing::Names;
+using testing::Refuses;
 using testing::SmallTube;
 using testing::TubePoses;
 
@@ -115,10 +117,6 @@ TEST(Explore, OnACoarserMeshTheFinestThatIsSmallEnoughIsTaken) {
             hierarchy.LevelConnectivity(0)->NumVertices());
 }
 
-bool Has(const std::vector<std::string>& warnings, const std::string& warning) {
-  return std::find(warnings.begin(), warnings.end(), warning) != warnings.end();
-}
-
 TEST(Explore, WarnsOfEachThingThatIsToBeChecked) {
   const ShapeFamily tube = SmallTube();
   ExploreOptions options;
@@ -130,19 +128,14 @@ TEST(Explore, WarnsOfEachThingThatIsToBeChecked) {
   EXPECT_EQ(summary.not_converged, 6);
   EXPECT_EQ(summary.stress_iterations, 1);
   EXPECT_FALSE(summary.embedded);
-  EXPECT_EQ(summary.warnings,
-            (std::vector<std::string>{"6 geodesics have not converged; raise max_iterations or "
-                                      "the tolerance",
-                                      "the positions on the plane have not converged"}));
+  EXPECT_TRUE(testing::EachNames(summary.warnings, {{"6 geodesics", "max_iterations"}, {"plane"}}));
   options = ExploreOptions();
   options.depth = 0;
   std::vector<Shape> poses = TubePoses(tube);
   poses.push_back(poses[2]);
   const ExploreSummary copies =
       Explore(tube.connectivity, poses, {"a", "b", "c", "d", "e"}, options).summary;
-  EXPECT_EQ(copies.warnings,
-            std::vector<std::string>{"pose 4 (e) is at the position of an earlier pose, and no "
-                                     "triangle contains it"});
+  EXPECT_TRUE(testing::EachNames(copies.warnings, {{"pose 4 (e)"}}));
 }
 
 // Where only positions count, poses that move one vertex each are at a simplex's corners.
@@ -157,9 +150,9 @@ TEST(Explore, WarnsIfThePlaneDoesNotReproduceTheDistances) {
   metric.lambda = 1;
   const ExploreSummary summary = Explore(bar.connectivity, poses, {}, options).summary;
   ASSERT_GT(summary.stress, 0.2);
-  EXPECT_TRUE(Has(summary.warnings,
-                  "the plane does not reproduce the distances between these poses (stress " +
-                      std::to_string(summary.stress) + "): neighbours on it may differ much"));
+  const std::string stress = "stress " + std::to_string(summary.stress);
+  EXPECT_TRUE(std::any_of(summary.warnings.begin(), summary.warnings.end(),
+                          [&](const auto& one) { return testing::HasWord(one, stress); }));
 }
 
 TEST(Explore, BadPosesAndOptionsAreNamed) {
@@ -168,29 +161,28 @@ TEST(Explore, BadPosesAndOptionsAreNamed) {
   const auto of_poses = [&](const std::vector<Shape>& given) {
     return MessageOf<MeshError>([&] { DistanceMatrix(tube.connectivity, given); });
   };
-  const std::string wrong = " is not finite, or has another number of vertices than the mesh";
-  EXPECT_EQ(of_poses({poses[0]}), "a space needs at least two poses");
-  EXPECT_EQ(of_poses({poses[0], poses[1], poses[2].leftCols(5)}), "pose 2" + wrong);
+  EXPECT_TRUE(Names(of_poses({poses[0]}), {"two poses"}));
+  EXPECT_TRUE(Names(of_poses({poses[0], poses[1], poses[2].leftCols(5)}), {"pose 2"}));
   std::vector<Shape> spoilt = poses;
   spoilt[1](2, 3) = std::nan("");
-  EXPECT_EQ(of_poses(spoilt), "pose 1" + wrong);
+  EXPECT_TRUE(Names(of_poses(spoilt), {"pose 1"}));
   const auto accepts = [](const auto& change) {
     ExploreOptions options;
     change(&options);
     return MessageOf<InvalidOptions>([&] { options.Validate(); });
   };
   EXPECT_EQ(accepts([](auto* o) { o->depth = 10; }), "nothing was thrown");
-  EXPECT_EQ(accepts([](auto* o) { o->depth = 11; }), "depth: must be from 0 to 10");
+  EXPECT_TRUE(Names(accepts([](auto* o) { o->depth = 11; }), {"depth:", "0", "10"}));
   EXPECT_EQ(accepts([](auto* o) { o->resolution = 0; }), "nothing was thrown");
-  EXPECT_EQ(accepts([](auto* o) { o->threshold = HUGE_VAL; }),
-            "threshold: must be a positive share");
-  EXPECT_EQ(accepts([](auto* o) { o->threshold = -0.1; }), "threshold: must be a positive share");
+  EXPECT_TRUE(Names(accepts([](auto* o) { o->threshold = HUGE_VAL; }), {"threshold:"}));
+  EXPECT_TRUE(Names(accepts([](auto* o) { o->threshold = -0.1; }), {"threshold:"}));
   EXPECT_NE(accepts([](auto* o) { o->embedding.max_iterations = 0; }), "nothing was thrown");
   EXPECT_NE(accepts([](auto* o) { o->geodesic.tolerance = 0; }), "nothing was thrown");
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] {
-              Explore(tube.connectivity, poses, {"a", "b", "c"});
-            }),
-            "names: must be one for each pose");
+  EXPECT_TRUE(Refuses<InvalidOptions>(
+      [&] {
+        Explore(tube.connectivity, poses, {"a", "b", "c"});
+      },
+      {"names:"}));
 }
 
 // Of more samples the first are the same, so that each deviation can be told.
@@ -219,8 +211,7 @@ TEST(MeasureBlends, MeanGreatestAndShareAreThoseOfTheSamples) {
   // They are shares of the greatest distance.
   space.distances(1, 3) = space.distances(3, 1) = 5 * space.distances.maxCoeff();
   EXPECT_NEAR(MeasureBlends(space, 4, options).mean, sum / 4 / 5, 1e-12);
-  EXPECT_EQ(MessageOf<InvalidOptions>([&] { MeasureBlends(space, 0); }),
-            "samples: must be 1 or more");
+  EXPECT_TRUE(Refuses<InvalidOptions>([&] { MeasureBlends(space, 0); }, {"samples:", "1"}));
 }
 
 TEST(MeasureBlends, OnALineToo) {

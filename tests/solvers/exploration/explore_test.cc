@@ -304,7 +304,6 @@ TEST(ExploreTest, WhatDoesNotConvergeIsToldOf) {
   const ExploreSummary summary = Explore(tube.connectivity, TubePoses(tube), {}, options).summary;
   EXPECT_GT(summary.not_converged, 0);
   EXPECT_FALSE(summary.Converged());
-  EXPECT_NE(summary.BriefReport().find("not converged"), std::string::npos);
   EXPECT_FALSE(nlohmann::json::parse(summary.ToJson())["converged"].get<bool>());
   ASSERT_FALSE(summary.warnings.empty());
   EXPECT_NE(summary.FullReport().find(summary.warnings[0]), std::string::npos);
