@@ -29,7 +29,9 @@ headers=$(cd "$work/prefix/include" && find shapespace -name '*.h' | sort | past
 
 flags=(-march=native -fsanitize=address)
 if grep -qw avx2 /proc/cpuinfo; then flags+=(-mavx2); fi
-cmake -S "$here" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+# That programs compile and what they print is the question, not how fast they are.
+unoptimised=-DCMAKE_CXX_FLAGS_RELEASE=-O0
+cmake -S "$here" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release "$unoptimised" \
   -DCMAKE_PREFIX_PATH="$work/prefix" -DHEADERS="$headers" \
   -DFLAGS="$(IFS=';' && echo "${flags[*]}")" -DGUIDE="$work" >"$work/configure.log" ||
   fail "the package is not found"
@@ -68,7 +70,7 @@ awk '/^share/ { share = $NF } END { exit !(share > .99 && share < 1.01) }' repor
 core_headers=$(cd "$work/prefix/include" &&
   find shapespace/{base,mesh,files,metric,path,hierarchy,analysis} -name '*.h' |
   grep -vx shapespace/metric/define_feature.h | sort | paste -sd ';')
-cmake -S "$here/core" -B "$work/core" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+cmake -S "$here/core" -B "$work/core" -G Ninja -DCMAKE_BUILD_TYPE=Release "$unoptimised" \
   -DHEADERS="$core_headers" \
   -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_DISABLE_FIND_PACKAGE_Ceres=ON >"$work/configure.log" ||
   fail "the component core is not found where Ceres is not"
@@ -78,7 +80,7 @@ cmake --build "$work/core"
 if ninja -C "$work/core" -t deps | grep /ceres/; then
   fail "a header of the component core includes the headers of Ceres above"
 fi
-cmake -S "$here/features" -B "$work/features" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+cmake -S "$here/features" -B "$work/features" -G Ninja -DCMAKE_BUILD_TYPE=Release "$unoptimised" \
   -DCMAKE_PREFIX_PATH="$work/prefix" >"$work/configure.log" ||
   fail "the component features is not found"
 cmake --build "$work/features"
@@ -98,7 +100,7 @@ cmake -S "$root" -B "$shared" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_
 cmake --build "$shared" && cmake --install "$shared" --prefix "$work/shared" >"$work/install.log"
 mapfile -t libraries < <(find "$work/shared" -name 'libshapespace_*.so')
 ((${#libraries[@]} == 4)) || fail "these are not the four shared libraries: ${libraries[*]}"
-cmake -S "$here/features" -B "$work/features_shared" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+cmake -S "$here/features" -B "$work/features_shared" -G Ninja -DCMAKE_BUILD_TYPE=Release "$unoptimised" \
   -DCMAKE_PREFIX_PATH="$work/shared" >"$work/configure.log" ||
   fail "the package of shared libraries is not found"
 cmake --build "$work/features_shared"
@@ -125,9 +127,8 @@ c++ -std=c++17 -O1 "$here/main.cc" $(pkg-config --cflags --libs shapespace) -o "
 "$work/by_pkg_config" | grep -qx 'Termination  *converged' ||
   fail "built by pkg-config the README's program does not converge"
 
-# That it compiles is the question, so that it is not optimised.
 cmake -S "$here/subproject" -B "$work/parent" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_CXX_FLAGS_RELEASE=-O0 -DCMAKE_UNITY_BUILD=ON \
+  "$unoptimised" -DCMAKE_UNITY_BUILD=ON \
   -DFETCHCONTENT_FULLY_DISCONNECTED=ON -DSHAPESPACE_SOURCE="$root" \
   >"$work/configure.log" ||
   fail "another project cannot take shapespace in by FetchContent"
