@@ -6,6 +6,7 @@
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/correspondence/correspondence.h>
 #include <shapespace/correspondence/correspondence_picture.h>
+#include <shapespace/correspondence/marker_file.h>
 #include <shapespace/files/write.h>
 #include <shapespace/output/frames.h>
 
@@ -24,6 +25,10 @@ DEFINE_string(
     "files to write, separated by commas: .obj, .ply, .off or .stl (the fitted "
     "template), .txt (the map in both directions), .png (a picture for judging it); - writes the "
     "fitted template to stdout, as PLY");
+DEFINE_string(
+    markers_out, "",
+    "a file for the markers that were used, those found included: look at them, mend one, "
+    "and name the file with --markers");
 DEFINE_bool(allow_nonmanifold, false,
             "accept meshes with non-manifold edges or vertices, or inconsistent winding");
 DEFINE_bool(open_seams, false,
@@ -65,19 +70,25 @@ Poses ReadMesh(const std::string& file) {
 
 void Run(const std::vector<std::string>& files) {
   if (files.size() != 2) throw UsageError("name two meshes: the template and the target");
-  if (FLAGS_markers.empty()) {
-    throw UsageError("--markers: name a file of corresponding vertices, or two of landmarks");
-  }
-  std::vector<std::string> inputs = MarkerFilesFromFlag();
+  std::vector<std::string> inputs;
+  if (!FLAGS_markers.empty()) inputs = MarkerFilesFromFlag();
   inputs.insert(inputs.end(), files.begin(), files.end());
   const CorrespondenceOptions options = CorrespondenceFromFlags();
   const std::vector<std::string> outputs = Outputs();
-  CheckNothingIsOverwritten(inputs, {{"output", outputs}, ReportFromFlag()});
+  std::vector<std::string> markers_out;
+  if (!FLAGS_markers_out.empty()) {
+    CheckCanBeWritten(FLAGS_markers_out);
+    markers_out = {FLAGS_markers_out};
+  }
+  CheckNothingIsOverwritten(inputs,
+                            {{"output", outputs}, {"markers_out", markers_out}, ReportFromFlag()});
   const Poses first = ReadMesh(files[0]), second = ReadMesh(files[1]);
-  const std::vector<CorrespondenceMarker> markers = ReadMarkersAndTell(first, second);
+  std::vector<CorrespondenceMarker> markers;
+  if (!FLAGS_markers.empty()) markers = ReadMarkersAndTell(first, second);
   const CorrespondenceResult result =
       Correspond(first.connectivity, first.shapes[0], second.connectivity, second.shapes[0],
                  markers, options, SolveProgress(outputs).get());
+  if (!result.summary.candidates.empty()) markers = result.markers;
   PrintSummary(result.summary.BriefReport(), result.summary.warnings, result.summary.Converged());
   for (const std::string& output : outputs) {
     const std::string extension = internal::FileExtension(output);
@@ -94,6 +105,10 @@ void Run(const std::vector<std::string>& files) {
     }
     Out() << "wrote " << output << '\n';
   }
+  if (!FLAGS_markers_out.empty()) {
+    WriteMarkers(FLAGS_markers_out, result.markers);
+    Out() << "wrote " << FLAGS_markers_out << '\n';
+  }
   WriteReport(result.summary.FullReport(), result.summary.ToJson());
 }
 
@@ -106,14 +121,16 @@ int main(int argc, char** argv) {
       argc, argv,
       {"shape-correspond",
        "a template fitted onto another body of any connectivity, and the map between them",
-       R"(  shape-correspond cat.obj lion.obj --markers cat_lion.txt \
-    --output fitted.obj,map.txt,check.png
+       R"(  shape-correspond cat.obj lion.obj --output fitted.obj,map.txt,check.png
+  shape-correspond cat.obj lion.obj --markers cat_lion.txt --output fitted.obj,check.png
 
-Each line of the markers' file names a vertex of the template and the corresponding one of the
-target; twenty of them, at the ends of limbs and at joints, are a good start. Two files of
-landmarks, as 3D Slicer saves them, serve as well: --markers cat.fcsv,lion.fcsv. The fitted template
-has the template's faces, so every other tool accepts it together with the template's poses. Check
-the picture before you rely on the map.
+Without markers maps are found from both surfaces, and the one that deforms the template least is
+taken; the report says how sure that is. Each line of a file of markers names a vertex of the
+template and the corresponding one of the target: one or two settle what is left and right, twenty,
+at the ends of limbs and at joints, guide the fit alone. Two files of landmarks, as 3D Slicer saves
+them, serve as well: --markers cat.fcsv,lion.fcsv. The fitted template has the template's faces, so
+every other tool accepts it together with the template's poses. Check the picture before you rely on
+the map.
 
 A fit that does not converge is reported; its outputs are written, and the exit code is 0, or 1
 with --strict.)",

@@ -29,6 +29,7 @@ from ._core import (
     HandleResult,
     Image,
     InvalidOptions,
+    MapCandidate,
     MarkerDoubt,
     MeshError,
     MeshWarning,

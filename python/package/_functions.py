@@ -843,14 +843,16 @@ class Correspondence:
     fitted : ndarray
         The template's vertices on the target's surface, n x 3.
     map : SurfaceMap
+    markers : ndarray
+        k x 2, from 0: those that constrained the fit, given and found.
     summary : CorrespondenceSummary
     """
 
-    def __init__(self, result, template, target, markers):
+    def __init__(self, result, template, target, shown):
         self._result = result
         self._template = template
         self._target = target
-        self._markers = markers
+        self._shown = shown
 
     @property
     def fitted(self):
@@ -859,6 +861,10 @@ class Correspondence:
     @property
     def map(self) -> SurfaceMap:
         return self._result.map
+
+    @property
+    def markers(self):
+        return self._result.markers
 
     @property
     def summary(self):
@@ -888,7 +894,7 @@ class Correspondence:
 
     def picture(self):
         """A picture to judge the correspondence by."""
-        return self._result.picture(self._template, self._target, self._markers)
+        return self._result.picture(self._template, self._target, self._shown)
 
     def _repr_html_(self):
         return f"{self.picture()._repr_html_()}<pre>{escape(repr(self.summary))}</pre>"
@@ -906,7 +912,7 @@ def _pull(points, mesh, values):
 
 @takes("CorrespondenceOptions")
 def correspond(
-    template, template_faces, target, target_faces, markers, *, progress=None, **options
+    template, template_faces, target, target_faces, markers=None, *, progress=None, **options
 ):
     """Fit a template onto another body of any connectivity, and map the two onto each other.
 
@@ -916,8 +922,9 @@ def correspond(
         Vertices, n x 3 each.
     template_faces, target_faces : array_like, or objects with a mesh
         As for `Poses`.
-    markers : array_like
-        k x 2: a vertex of the template and one of the target that belong together, from 0.
+    markers : array_like, optional
+        k x 2: a vertex of the template and one of the target that belong together, from 0. With
+        fewer than three, further ones are found from the shapes of both bodies.
     progress : callable or bool, optional
         As for `interpolate`.
     {options}
@@ -930,7 +937,8 @@ def correspond(
     goal = _mesh(target, target_faces, "target")
     with told(progress) as report:
         result = _core.correspond(source, goal, markers, options, report)
-    return Correspondence(result, source, goal, markers)
+    shown = result.markers if result.summary.candidates else markers
+    return Correspondence(result, source, goal, shown)
 
 
 def read_surface_map(file, template, target):

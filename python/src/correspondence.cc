@@ -21,6 +21,7 @@ namespace {
 std::vector<CorrespondenceMarker> ToMarkers(py::handle value, const Poses& source,
                                             const Poses& target) {
   std::vector<CorrespondenceMarker> markers;
+  if (value.is_none()) return markers;
   for (const auto& [first, second] : ToPairs(value, "markers", source.connectivity->NumVertices(),
                                              target.connectivity->NumVertices())) {
     markers.push_back({first, second});
@@ -111,12 +112,22 @@ void BindCorrespondence(py::module_* module) {
           "fitted", [](const CorrespondenceResult& result) { return FromShape(result.fitted); })
       .def(py::pickle(
           [](const CorrespondenceResult& result) {
-            return py::make_tuple(FromShape(result.fitted), result.map, result.summary);
+            return py::make_tuple(FromShape(result.fitted), result.map, result.summary,
+                                  PairsOf(result.markers));
           },
           [](const py::tuple& state) {
-            return CorrespondenceResult{ToShape(state[0], "fitted"), py::cast<SurfaceMap>(state[1]),
-                                        py::cast<CorrespondenceSummary>(state[2])};
+            CorrespondenceResult result{ToShape(state[0], "fitted"),
+                                        py::cast<SurfaceMap>(state[1]),
+                                        py::cast<CorrespondenceSummary>(state[2]),
+                                        {}};
+            for (const py::handle pair : state[3]) {
+              const auto ends = py::cast<std::pair<int, int>>(pair);
+              result.markers.push_back({ends.first, ends.second});
+            }
+            return result;
           }))
+      .def_property_readonly(
+          "markers", [](const CorrespondenceResult& result) { return PairsOf(result.markers); })
       .def_readonly("map", &CorrespondenceResult::map)
       .def_readonly("summary", &CorrespondenceResult::summary)
       .def("carry",

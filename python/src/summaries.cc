@@ -194,6 +194,8 @@ void BindSummaries(py::module_* module) {
                                        "Rounds of closest points on one level.");
   Record<CorrespondenceSummary::Doubt>(module, "MarkerDoubt",
                                        "A marker that the others do not predict.");
+  Record<CorrespondenceSummary::Candidate>(module, "MapCandidate",
+                                           "A map that was found without markers.");
   Record<CorrespondenceSummary>(module, "CorrespondenceSummary",
                                 "How a template was fitted, and how good the fit is.")
       .Reports<true, true>();

@@ -44,8 +44,8 @@ TEST_P(RealPairs, MapIsAsGoodAsMeasured) {
   const Poses target = ReadPoses({(folder / "target.obj").string()});
   const std::vector<CorrespondenceMarker> markers = ReadMarkers(
       (folder / ("markers" + std::to_string(pair.markers) + ".txt")).string(), source, target);
-  const auto [fitted, map, summary] = Correspond(source.connectivity, source.shapes[0],
-                                                 target.connectivity, target.shapes[0], markers);
+  const auto [fitted, map, summary, used] = Correspond(
+      source.connectivity, source.shapes[0], target.connectivity, target.shapes[0], markers);
   EXPECT_TRUE(summary.doubtful.empty());
   EXPECT_LT(summary.turned, pair.turned) << summary.FullReport();
 

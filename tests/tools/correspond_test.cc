@@ -145,7 +145,7 @@ TEST_F(CorrespondTest, SaysWhatIsWrongAndWritesNothing) {
   };
   const std::string tool = "shape-correspond", markers = "--markers=markers.txt";
   refused(tool, {"a0.obj", markers}, 2, "name two meshes");
-  refused(tool, {"a0.obj", "b0.obj"}, 2, "--markers: name a file");
+  refused(tool, {"a0.obj", "b0.obj", "--markers_out", "a0.obj"}, 2, "would overwrite");
   refused(tool, {"a0.obj", "b0.obj", markers, "--output", "x.glb"}, 2, "must end in");
   refused(tool, {"a0.obj", "b0.obj", markers, "--output", "b0.obj"}, 2, "would overwrite");
   refused(tool, {"a0.obj", "b0.obj", markers, "--output", "markers.txt"}, 2, "would overwrite");
@@ -156,6 +156,20 @@ TEST_F(CorrespondTest, SaysWhatIsWrongAndWritesNothing) {
   refused("shape-transfer",
           {"a0.obj", "a1.obj", "--target", "b0.obj", markers, "--hybrids", "h%d.obj"}, 2,
           "--hybrids: does not go with --markers");
+}
+
+// The markers that are found are a file of markers, which can be mended and read again.
+TEST_F(CorrespondTest, WritesTheMarkersThatItFinds) {
+  MakeBodies();
+  Succeed("shape-correspond", {"a0.obj", "b1.obj", "--markers_out", "found.txt", "--output",
+                               "first.obj", "--report", "first.json"});
+  const json report = json::parse(Content(Path("first.json")));
+  EXPECT_FALSE(report["candidates"].empty());
+  Succeed("shape-correspond", {"a0.obj", "b1.obj", "--markers", "found.txt", "--soft_markers",
+                               "--output", "again.obj", "--report", "again.json"});
+  const json again = json::parse(Content(Path("again.json")));
+  EXPECT_EQ(again["markers"], report["markers"]);
+  EXPECT_TRUE(again["candidates"].empty());
 }
 
 TEST_F(CorrespondTest, NamesTheLineOfAMarkerAndWhatIsWrongWithIt) {

@@ -85,9 +85,10 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                                                          "threads", "version"}));
   EXPECT_EQ(
       Listed("shape-correspond"),
-      (std::set<std::string>{"allow_nonmanifold", "allow_outside_files", "help", "help-all",
-                             "hold_all_markers", "markers", "memory_limit", "open_seams", "output",
-                             "progress", "proportions", "report", "strict", "threads", "version"}));
+      (std::set<std::string>{"allow_nonmanifold", "allow_outside_files", "find_markers", "help",
+                             "help-all", "hold_all_markers", "markers", "markers_out",
+                             "memory_limit", "open_seams", "output", "progress", "proportions",
+                             "report", "soft_markers", "strict", "threads", "version"}));
   const std::set<std::string> metric = {"bending", "discretization", "isometric", "lambda",
                                         "metric",  "rigid",          "stiffness", "strain",
                                         "volume",  "weighting"};
@@ -111,8 +112,8 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
                       "step_solver", "steps", "stop_at_contact"});
   EXPECT_EQ(Listed("shape-extrapolate"), extrapolate);
   std::set<std::string> transfer = geodesic;
-  transfer.insert({"align", "connection", "hold_all_markers", "hybrids", "markers", "method",
-                   "proportions", "scale", "target"});
+  transfer.insert({"align", "connection", "find_markers", "hold_all_markers", "hybrids", "markers",
+                   "method", "proportions", "scale", "soft_markers", "target"});
   EXPECT_EQ(Listed("shape-transfer"), transfer);
   std::set<std::string> deform = wanted;
   deform.insert({"avoid_contact", "balance", "coarsest", "fps", "ground_line", "handles", "labels",

@@ -77,7 +77,6 @@ TEST_F(MessagesTest, OfCorrespond) {
     ExpectMessage(2, "shape-correspond", arguments, parts);
   };
   expect({"tube0.obj"}, {"template", "target"});
-  expect({"tube0.obj", "tube1.obj"}, {"--markers: "});
   File("m.txt", "1 1\n");
   const Strings run = {"tube0.obj", "tube1.obj", "--markers", "m.txt", "--output"};
   const auto with = [&](const std::string& output) {

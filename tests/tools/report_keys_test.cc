@@ -145,9 +145,13 @@ TEST_F(ReportKeysTest, TheDocumentationHasThemAllAndNoOthers) {
   std::string markers = "150 2\n";
   for (int v = 3; v < 145; v += 11) markers += std::to_string(v) + ' ' + std::to_string(v) + '\n';
   File("markers.txt", markers);
-  Compare("Of `shape-correspond`,",
-          Report("shape-correspond",
-                 {"tube0.obj", "tube0.obj", "--markers", "markers.txt", "--output", "m.txt"}));
+  nlohmann::json fit = Report("shape-correspond", {"tube0.obj", "tube0.obj", "--markers",
+                                                   "markers.txt", "--output", "m.txt"});
+  // Only a body with limbs needs no markers.
+  Succeed("shape-body", {"quadruped", "--triangles", "1500", "--output", "animal%d.obj"});
+  fit["candidates"] =
+      Report("shape-correspond", {"animal0.obj", "animal0.obj", "--output", "m.txt"})["candidates"];
+  Compare("Of `shape-correspond`,", fit);
 
   File("handles.json", R"({"handles": [{"fixed": true, "select": {"vertices": [1]}}]})");
   const nlohmann::json deformation =

@@ -19,9 +19,11 @@ DEFINE_string(markers, "",
               "source) and one of the target, by number from 1 or by the name of a group. Or two "
               "files of landmarks, the template's and the target's, separated by a comma: .fcsv or "
               ".mrk.json of 3D Slicer, or text with x y z in each line");
+DEFINE_bool(soft_markers, false,
+            "do not meet markers exactly, for landmarks that are some millimetres off");
 DEFINE_bool(hold_all_markers, false, "use all markers, including those that contradict the others");
 static const shapespace::tools::OptionFlags<shapespace::CorrespondenceOptions> flags(
-    __FILE__, {{"proportions", "proportions"}});
+    __FILE__, {{"proportions", "proportions"}, {"find_markers", "find_markers"}});
 FLAG_GROUP(correspondence, "Correspondence", "markers");
 
 namespace shapespace::tools {
@@ -38,10 +40,16 @@ std::vector<std::string> MarkerFilesFromFlag() {
 std::vector<CorrespondenceMarker> ReadMarkersAndTell(const Poses& template_mesh,
                                                      const Poses& target) {
   const std::vector<std::string> files = MarkerFilesFromFlag();
-  if (files.size() == 1) return ReadMarkers(files[0], template_mesh, target);
-  MatchedLandmarks matched = MatchLandmarks(files[0], files[1], template_mesh, target);
-  for (const std::string& warning : matched.warnings) Err() << "warning: " << warning << '\n';
-  return std::move(matched.markers);
+  std::vector<CorrespondenceMarker> markers;
+  if (files.size() == 1) {
+    markers = ReadMarkers(files[0], template_mesh, target);
+  } else {
+    MatchedLandmarks matched = MatchLandmarks(files[0], files[1], template_mesh, target);
+    for (const std::string& warning : matched.warnings) Err() << "warning: " << warning << '\n';
+    markers = std::move(matched.markers);
+  }
+  for (CorrespondenceMarker& marker : markers) marker.soft = FLAGS_soft_markers;
+  return markers;
 }
 
 CorrespondenceOptions CorrespondenceFromFlags() {

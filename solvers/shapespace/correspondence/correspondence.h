@@ -19,6 +19,9 @@ namespace shapespace {
 /// Two corresponding vertices, one of the template and one of the target (a landmark).
 struct CorrespondenceMarker {
   int template_vertex = -1, target_vertex = -1;
+  /// Not met exactly, but by a spring that is gone in the last rounds: for landmarks that are some
+  /// millimetres off.
+  bool soft = false;
 };
 
 /// How a template is fitted onto another body (docs/mathematics.md, section 14).
@@ -26,6 +29,10 @@ struct CorrespondenceOptions {
   /// Ignore markers that contradict the others (CorrespondenceSummary::doubtful). If false, all
   /// markers are met exactly, even where this distorts the fit.
   bool drop_doubtful = true;
+
+  /// Find markers beside those that are given, which decide between the candidates. With fewer
+  /// than three they are found in any case.
+  bool find_markers = false;
 
   /// Length over which the ratio of the two bodies' proportions may change, as a share of the
   /// square root of the area: longer for bodies that are alike, shorter where, say, one has a
@@ -81,11 +88,32 @@ struct CorrespondenceSummary {
     int swapped = -1;   ///< the marker with which it seems to be exchanged; -1: none
   };
 
+  /// A map that was found without markers, or with fewer than the fit needs.
+  struct Candidate {
+    double isometry = kNotComputed;     ///< mean relative change of distances along the surface
+    double curvature = kNotComputed;    ///< correlation of mean curvature with that of the image
+    double orientation = kNotComputed;  ///< 1 if outsides stay outside, -1 if all is turned over
+    int markers = 0;                    ///< for the fit
+    /// Of the template by the fit: the mean of |log S| of its triangles' stretches S, at most 1
+    /// each, and of the square of its part that varies over less than `proportions`, and the shares
+    /// that are uncovered or turned over. NaN if the fit failed.
+    double deformation = kNotComputed;
+    double cost = kNotComputed;  ///< deformation times a figure of the map; the least is chosen
+    bool chosen = false;
+  };
+
   bool converged = false;
   bool cancelled = false;
   int template_vertices = 0, template_triangles = 0, target_vertices = 0, target_triangles = 0;
   int markers = 0;  ///< that constrain the fit
   std::vector<Doubt> doubtful;
+  /// If markers were found: the maps that were fitted, and the ends of limbs and the like that both
+  /// bodies have; -1 if they were not.
+  std::vector<Candidate> candidates;
+  int template_extremities = -1, target_extremities = -1;
+  /// Cost of the best map that is another one, as a multiple of that of the one chosen: below 1.15
+  /// the choice is in doubt. NaN if there is none.
+  double certainty = kNotComputed;
   double scale = kNotComputed;  ///< size of the target, as a multiple of the template's
   std::vector<Stage> stages;
   /// Lengths of this summary are shares of the square root of the target's area unless stated
@@ -99,9 +127,9 @@ struct CorrespondenceSummary {
       kNotComputed;  ///< share of the target's area that no part of the template is near
   std::vector<std::string> warnings;
   double estimated_bytes = 0;  ///< of memory, before the call
-  /// fit_seconds includes unfold_seconds.
-  double total_seconds = 0, marker_seconds = 0, hierarchy_seconds = 0, fit_seconds = 0,
-         unfold_seconds = 0, map_seconds = 0;
+  /// fit_seconds includes unfold_seconds; of several fits, those of the one chosen are said.
+  double total_seconds = 0, matching_seconds = 0, marker_seconds = 0, hierarchy_seconds = 0,
+         fit_seconds = 0, unfold_seconds = 0, map_seconds = 0;
 
   bool Converged() const { return converged; }
   std::string BriefReport() const;  ///< one line
@@ -111,25 +139,28 @@ struct CorrespondenceSummary {
 
 struct CorrespondenceResult {
   /// The template's vertices on the target's surface, 3 x m, in the target's frame and unit.
-  /// Markers that were not dropped coincide with their target vertices exactly.
+  /// Markers that were neither dropped nor soft coincide with their target vertices exactly.
   Shape fitted;
   SurfaceMap map;
   CorrespondenceSummary summary;
+  /// Those that constrained the fit: the given ones that were not dropped, then those found.
+  std::vector<CorrespondenceMarker> markers;
 };
 
-/// Fits a template onto another body of any connectivity, guided by a few pairs of vertices, and
-/// maps the two surfaces onto each other. Position, orientation and size of the two bodies are
-/// arbitrary. Their poses may differ, if there are markers that tell where the limbs are. The
-/// method begins with section 5 of R. Sumner and J. Popovic, "Deformation Transfer for Triangle
-/// Meshes" (SIGGRAPH 2004) and continues with a fit under strain and bending (docs/mathematics.md,
-/// section 14).
+/// Fits a template onto another body of any connectivity and maps the two surfaces onto each
+/// other. It is guided by pairs of vertices. With fewer than three, maps are found from the inner
+/// geometry of both surfaces, the template is fitted with each of the best, and the one that
+/// deforms it least is the answer; a pair or two decide what geometry alone cannot. Position,
+/// orientation, size and pose of the two bodies are arbitrary. The method of the fit begins with
+/// section 5 of R. Sumner and J. Popovic, "Deformation Transfer for Triangle Meshes" (SIGGRAPH
+/// 2004) and continues under strain and bending (docs/mathematics.md, section 14).
 /// \throw InvalidOptions; MeshError (a mesh without triangles or extent, a shape that is not finite
-///        or has another number of vertices than its connectivity; fewer than three markers,
-///        markers on one line, out of range, repeated or on a vertex without triangle; a component
-///        of the template without a marker; markers that only fit a mirror image; a body that is
-///        inside out; markers that leave the template no area), naming the marker, counted from 1;
-///        SolverError (memory limit); Cancelled (stopped before a fit was found; if stopped later,
-///        the fit so far is mapped, see CorrespondenceSummary::cancelled).
+///        or has another number of vertices than its connectivity; no map that could be found
+///        without markers; markers on one line, out of range, repeated or on a vertex without
+///        triangle; a component of the template without a marker; markers that only fit a mirror
+///        image; a body that is inside out; markers that leave the template no area), naming the
+///        marker, counted from 1; SolverError (memory limit); Cancelled (stopped before a fit was
+///        found; if stopped later, the fit so far is mapped, see CorrespondenceSummary::cancelled).
 CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& template_connectivity,
                                 const Shape& template_shape,
                                 const std::shared_ptr<const Connectivity>& target_connectivity,

@@ -48,6 +48,19 @@ std::string CorrespondenceSummary::FullReport() const {
                   stage.weight, stage.rounds, percent(stage.distance).c_str(),
                   percent(stage.motion).c_str(), stage.seconds);
   }
+  if (!candidates.empty()) {
+    out << Format("\nFound without markers: extremities %d and %d; certainty %s\n",
+                  template_extremities, target_extremities,
+                  internal::IfComputed(certainty, Format("%.3g", certainty)).c_str())
+        << "isometry  curvature  orientation  markers  deformation      cost\n";
+  }
+  for (const Candidate& map : candidates) {
+    out << Format("%8.3f %10.3f %12.3f %8d %12s %9s%s\n", map.isometry, map.curvature,
+                  map.orientation, map.markers,
+                  internal::IfComputed(map.deformation, Format("%.3f", map.deformation)).c_str(),
+                  internal::IfComputed(map.cost, Format("%.4f", map.cost)).c_str(),
+                  map.chosen ? "  (chosen)" : "");
+  }
   for (const Doubt& doubt : doubtful) {
     out << Format(
         "\nmarker %d is %.3g%% from the position that the others predict: vertex %d of the target",
@@ -55,10 +68,11 @@ std::string CorrespondenceSummary::FullReport() const {
     if (doubt.swapped >= 0) out << Format(" (swapped with marker %d?)", doubt.swapped + 1);
   }
   out << Format(
-      "%s\nTime              %.3f s: markers %.3f, hierarchy %.3f, fit %.3f (unfolding %.3f), "
+      "%s\nTime              %.3f s: matching %.3f, markers %.3f, hierarchy %.3f, fit %.3f "
+      "(unfolding %.3f), "
       "map %.3f\n",
-      doubtful.empty() ? "" : "\n", total_seconds, marker_seconds, hierarchy_seconds, fit_seconds,
-      unfold_seconds, map_seconds);
+      doubtful.empty() ? "" : "\n", total_seconds, matching_seconds, marker_seconds,
+      hierarchy_seconds, fit_seconds, unfold_seconds, map_seconds);
   for (const std::string& warning : warnings) out << "Warning: " << warning << '\n';
   return out.str();
 }

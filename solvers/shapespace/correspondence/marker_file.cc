@@ -1,9 +1,11 @@
 #include <shapespace/correspondence/marker_file.h>
 
 #include <optional>
+#include <ostream>
 #include <string_view>
 
 #include <shapespace/base/error.h>
+#include <shapespace/base/internal/atomic_file.h>
 #include <shapespace/base/internal/read_file.h>
 #include <shapespace/base/internal/text.h>
 #include <shapespace/correspondence/landmark_file.h>
@@ -81,6 +83,15 @@ std::vector<CorrespondenceMarker> ReadMarkers(const std::string& file, const Pos
     markers.push_back(marker);
   }
   return markers;
+}
+
+void WriteMarkers(const std::string& file, const std::vector<CorrespondenceMarker>& markers) {
+  internal::WriteFileAtomically(file, [&](std::ostream& out) {
+    out << "# Each line: a vertex of the template and the corresponding one of the target.\n";
+    for (const CorrespondenceMarker& marker : markers) {
+      out << marker.template_vertex + 1 << ' ' << marker.target_vertex + 1 << '\n';
+    }
+  });
 }
 
 }  // namespace shapespace

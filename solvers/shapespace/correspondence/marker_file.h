@@ -17,6 +17,10 @@ namespace shapespace {
 std::vector<CorrespondenceMarker> ReadMarkers(const std::string& file, const Poses& template_mesh,
                                               const Poses& target);
 
+/// Writes markers as such a file: to be looked at, mended, and read again.
+/// \throw FileError.
+void WriteMarkers(const std::string& file, const std::vector<CorrespondenceMarker>& markers);
+
 }  // namespace shapespace
 
 #endif  // SHAPESPACE_CORRESPONDENCE_MARKER_FILE_H_

@@ -116,6 +116,7 @@ CorrespondenceSummary CorrespondenceOfNumbers() {
   summary.warnings = {"one", "two"};
   summary.estimated_bytes = 1e6;
   summary.total_seconds = 9.5;
+  summary.matching_seconds = 0.375;
   summary.marker_seconds = 0.5;
   summary.hierarchy_seconds = 1.25;
   summary.fit_seconds = 4;
@@ -132,6 +133,13 @@ TEST(Golden, Correspondences) {
   text.Variant("no doubts, not converged", TextsOf(summary));
   summary.cancelled = true;
   text.Variant("cancelled", TextsOf(summary));
+  summary = CorrespondenceOfNumbers();
+  summary.candidates = {{0.0625, 0.9375, 0.75, 40, 0.25, 0.0203125, true},
+                        {0.09375, 0.875, 0.625, 39, kNotComputed, kNotComputed, false}};
+  summary.template_extremities = 5;
+  summary.target_extremities = 6;
+  summary.certainty = 1.5;
+  text.Variant("found without markers", TextsOf(summary));
   ExpectGolden("correspondence.txt", text.Content());
 }
 

@@ -10,9 +10,6 @@
 namespace shapespace::internal {
 namespace {
 
-// Weight of the distance from a point relative to that from its tangent plane. It is small, so that
-// the body can slide along the target to reduce strain.
-constexpr double kAlong = 0.02;
 // Penalty on the motion of vertices in an iteration; keeps the system definite.
 constexpr double kMotion = 1e-6;
 constexpr int kHalvings = 8;
@@ -68,7 +65,7 @@ double ShellFit::TermEnergy(const std::vector<PointToPlaneTerm>& terms, const Sh
   for (const PointToPlaneTerm& term : terms) {
     const Eigen::Vector3d offset = Offset(term, shape);
     const double across = term.normal.dot(offset);
-    energy += term.weight * (across * across + kAlong * offset.squaredNorm());
+    energy += term.weight * (across * across + term.along * offset.squaredNorm());
   }
   return energy;
 }
@@ -77,7 +74,7 @@ void ShellFit::AddTerms(const std::vector<PointToPlaneTerm>& terms, const Shape&
                         Tangent* gradient) {
   for (const PointToPlaneTerm& term : terms) {
     const Eigen::Matrix3d stiffness = term.weight * (term.normal * term.normal.transpose() +
-                                                     kAlong * Eigen::Matrix3d::Identity());
+                                                     term.along * Eigen::Matrix3d::Identity());
     const Eigen::Vector3d force = stiffness * Offset(term, shape);
     for (int i = 0; i < 3; ++i) {
       if (term.barycentric(i) == 0) continue;

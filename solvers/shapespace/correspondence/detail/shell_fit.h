@@ -18,12 +18,15 @@ namespace shapespace::internal {
 
 /// A closest-point term: the penalty of a point of a body, given by barycentric coordinates in a
 /// triangle, and a point of the target. It is `weight` times the squared distance from the tangent
-/// plane at the target's point, plus a small multiple of the squared distance from that point.
+/// plane at the target's point, plus `along` times the squared distance from that point. By default
+/// this is little, so that the body can slide along the target to reduce strain. With a normal of
+/// zero it is a spring.
 struct PointToPlaneTerm {
   Eigen::Vector3i vertices;
   Eigen::Vector3d barycentric;
-  Eigen::Vector3d point, normal;  ///< unit
+  Eigen::Vector3d point, normal;  ///< of length 1, or 0
   double weight;
+  double along = 0.02;
 };
 
 /// A body under the metric of strain and bending, fitted to a surface: minimises

@@ -70,12 +70,10 @@ SmoothStretch::SmoothStretch(std::shared_ptr<const Connectivity> connectivity, S
   factor_ = std::make_unique<Cholesky>(matrix);
 }
 
-Eigen::Matrix<double, 9, Eigen::Dynamic> SmoothStretch::StretchedTriangles(
-    const Shape& shape) const {
+SmoothStretch::Logarithms SmoothStretch::Raw(const Shape& shape) const {
   const Eigen::Matrix3Xi& triangles = connectivity_->Triangles();
-  const int num_triangles = connectivity_->NumTriangles();
-  Eigen::Matrix<double, 6, Eigen::Dynamic> raw(6, num_triangles);
-  ParallelFor(num_triangles, [&](int f) {
+  Logarithms raw(6, triangles.cols());
+  ParallelFor(static_cast<int>(triangles.cols()), [&](int f) {
     const Eigen::Matrix3d gradient = Frame(shape, triangles.col(f)) * inverses_[f];
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squared(gradient.transpose() * gradient);
     const Eigen::Vector3d logarithm =
@@ -83,13 +81,38 @@ Eigen::Matrix<double, 9, Eigen::Dynamic> SmoothStretch::StretchedTriangles(
     raw.col(f) =
         Pack(squared.eigenvectors() * logarithm.asDiagonal() * squared.eigenvectors().transpose());
   });
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(shape.cols(), 6);
-  for (int f = 0; f < num_triangles; ++f) {
+  return raw;
+}
+
+Eigen::MatrixXd SmoothStretch::Smoothed(const Logarithms& raw) const {
+  const Eigen::Matrix3Xi& triangles = connectivity_->Triangles();
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(rest_.cols(), 6);
+  for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
     for (int k = 0; k < 3; ++k) {
       right.row(triangles(k, f)) += areas_(f) / 3 * raw.col(f).transpose();
     }
   }
-  const Eigen::MatrixXd smooth = Solve(*factor_, right);
+  return Solve(*factor_, right);
+}
+
+double SmoothStretch::Cost(const Shape& shape) const {
+  const Eigen::Matrix3Xi& triangles = connectivity_->Triangles();
+  const Logarithms raw = Raw(shape);
+  const Eigen::MatrixXd smooth = Smoothed(raw);
+  double cost = 0;
+  for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
+    const Sixfold mean = smooth(triangles.col(f), Eigen::all).colwise().mean();
+    cost += areas_(f) *
+            (std::min(1., Unpack(raw.col(f)).norm()) + Unpack(raw.col(f) - mean).squaredNorm());
+  }
+  return cost;
+}
+
+Eigen::Matrix<double, 9, Eigen::Dynamic> SmoothStretch::StretchedTriangles(
+    const Shape& shape) const {
+  const Eigen::Matrix3Xi& triangles = connectivity_->Triangles();
+  const int num_triangles = connectivity_->NumTriangles();
+  const Eigen::MatrixXd smooth = Smoothed(Raw(shape));
   Eigen::Matrix<double, 9, Eigen::Dynamic> stretched(9, num_triangles);
   ParallelFor(num_triangles, [&](int f) {
     Sixfold mean = Sixfold::Zero();

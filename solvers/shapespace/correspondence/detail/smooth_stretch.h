@@ -25,7 +25,20 @@ class SmoothStretch {
   /// its plane at rest: 9 x T.
   Eigen::Matrix<double, 9, Eigen::Dynamic> StretchedTriangles(const Shape& shape) const;
 
+  /// How much `shape` is deformed: the mean over the surface of |log S| of its stretches S, at most
+  /// 1 each, and of the squared distance of log S from the smoothed one. A fit that folds, or
+  /// misses a limb, has stretches that vary, though their mean may be less than that of the right
+  /// one.
+  double Cost(const Shape& shape) const;
+
  private:
+  using Logarithms = Eigen::Matrix<double, 6, Eigen::Dynamic>;  // of stretches, in six entries
+
+  // Of each triangle's stretch.
+  Logarithms Raw(const Shape& shape) const;
+  // Smoothed, at the vertices: m x 6.
+  Eigen::MatrixXd Smoothed(const Logarithms& raw) const;
+
   const std::shared_ptr<const Connectivity> connectivity_;
   const Shape rest_;
   std::vector<Eigen::Matrix3d> inverses_;  // of the rest's frames

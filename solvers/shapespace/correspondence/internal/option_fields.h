@@ -12,6 +12,9 @@ template <typename Visit>
 void ForOptions(Of<CorrespondenceOptions>, const Visit& visit) {
   visit("drop_doubtful", &CorrespondenceOptions::drop_doubtful,
         "Leave out markers that contradict the others.");
+  visit("find_markers", &CorrespondenceOptions::find_markers,
+        "Find markers beside those that are given; with fewer than three they are found in any "
+        "case.");
   visit("proportions", &CorrespondenceOptions::proportions,
         "Length over which the ratio of the two bodies' proportions may change, as a share of the "
         "square root of the area.");

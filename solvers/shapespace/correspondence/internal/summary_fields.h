@@ -29,6 +29,17 @@ void ForFields(Of<CorrespondenceSummary::Doubt>, const Visit& visit) {
 }
 
 template <typename Visit>
+void ForFields(Of<CorrespondenceSummary::Candidate>, const Visit& visit) {
+  visit("isometry", &CorrespondenceSummary::Candidate::isometry);
+  visit("curvature", &CorrespondenceSummary::Candidate::curvature);
+  visit("orientation", &CorrespondenceSummary::Candidate::orientation);
+  visit("markers", &CorrespondenceSummary::Candidate::markers);
+  visit("deformation", &CorrespondenceSummary::Candidate::deformation);
+  visit("cost", &CorrespondenceSummary::Candidate::cost);
+  visit("chosen", &CorrespondenceSummary::Candidate::chosen);
+}
+
+template <typename Visit>
 void ForFields(Of<CorrespondenceSummary>, const Visit& visit) {
   visit("termination",
         [](const CorrespondenceSummary& s) { return EndingKey(s.converged, s.cancelled); });
@@ -40,6 +51,10 @@ void ForFields(Of<CorrespondenceSummary>, const Visit& visit) {
   visit("target_triangles", &CorrespondenceSummary::target_triangles);
   visit("markers", &CorrespondenceSummary::markers);
   visit("doubtful", &CorrespondenceSummary::doubtful);
+  visit("candidates", &CorrespondenceSummary::candidates);
+  visit("template_extremities", &CorrespondenceSummary::template_extremities);
+  visit("target_extremities", &CorrespondenceSummary::target_extremities);
+  visit("certainty", &CorrespondenceSummary::certainty);
   visit("scale", &CorrespondenceSummary::scale);
   visit("stages", &CorrespondenceSummary::stages);
   visit("distance_rms", &CorrespondenceSummary::distance_rms);
@@ -50,6 +65,7 @@ void ForFields(Of<CorrespondenceSummary>, const Visit& visit) {
   visit("uncovered", &CorrespondenceSummary::uncovered);
   visit("estimated_bytes", &CorrespondenceSummary::estimated_bytes);
   visit("total_seconds", &CorrespondenceSummary::total_seconds);
+  visit("matching_seconds", &CorrespondenceSummary::matching_seconds);
   visit("marker_seconds", &CorrespondenceSummary::marker_seconds);
   visit("hierarchy_seconds", &CorrespondenceSummary::hierarchy_seconds);
   visit("fit_seconds", &CorrespondenceSummary::fit_seconds);

@@ -1,0 +1,156 @@
+#include <shapespace/matching/detail/candidate_figures.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <shapespace/base/internal/sort_unique.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/matching/detail/nearest_columns.h>
+#include <shapespace/matching/detail/turns.h>
+#include <shapespace/mesh/surface.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Samples from which distances are compared, and those to which.
+constexpr size_t kFrom = 60, kTo = 300;
+// Keeps the relative change of short distances from deciding.
+constexpr float kAtLeast = 0.1F;
+// Eigenfunctions after the constant one by which orientation is judged.
+constexpr int kOriented = 8;
+
+float Correlation(const Eigen::ArrayXf& x, const Eigen::ArrayXf& y) {
+  const Eigen::ArrayXf a = x - x.mean(), b = y - y.mean();
+  const float squares = a.square().sum() * b.square().sum();
+  return squares > 0 ? (a * b).sum() / std::sqrt(squares) : 0;
+}
+
+// The correlation of the curvature at the first vertices with that at their images.
+float CurvatureAt(const Eigen::VectorXf& from, const Eigen::VectorXf& to,
+                  const std::vector<int>& images) {
+  Eigen::ArrayXf there(images.size());
+  for (size_t i = 0; i < images.size(); ++i) there(i) = to(images[i]);
+  return Correlation(from.head(images.size()).array(), there);
+}
+
+// Some rows of a matrix.
+Eigen::MatrixXf Rows(const Eigen::MatrixXf& matrix, const std::vector<int>& rows) {
+  Eigen::MatrixXf chosen(rows.size(), matrix.cols());
+  for (size_t i = 0; i < rows.size(); ++i) chosen.row(i) = matrix.row(rows[i]);
+  return chosen;
+}
+
+std::vector<int> First(const std::vector<int>& items, size_t count) {
+  return {items.begin(),
+          items.begin() + static_cast<std::ptrdiff_t>(std::min(count, items.size()))};
+}
+
+// The first vertices to which any of the maps sends samples, in ascending order.
+std::vector<int> AllImages(const std::vector<SpectralMap>& maps,
+                           std::vector<int> SpectralMap::*direction) {
+  std::vector<int> images;
+  for (const SpectralMap& map : maps) {
+    const std::vector<int> own = First(map.*direction, kFrom);
+    images.insert(images.end(), own.begin(), own.end());
+  }
+  SortUnique(&images);
+  return images;
+}
+
+// For each map, the mean relative change of the distances `before` when samples are sent to the
+// body `to`.
+std::vector<double> Changes(const Eigen::MatrixXf& before, const MatchingBody& to,
+                            const std::vector<SpectralMap>& maps,
+                            std::vector<int> SpectralMap::*direction) {
+  const std::vector<int> images = AllImages(maps, direction);
+  // A row for each vertex of to.spread, a column for each image.
+  Eigen::MatrixXf after(to.spread.size(), images.size());
+  ParallelFor(static_cast<int>(images.size()), [&](int k) {
+    const Eigen::VectorXf distances = to.graph.From(to.spread[images[k]]);
+    for (size_t i = 0; i < to.spread.size(); ++i) after(i, k) = distances(to.spread[i]);
+  });
+  std::vector<double> changes;
+  for (const SpectralMap& map : maps) {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < before.rows(); ++i) {
+      const auto column =
+          std::lower_bound(images.begin(), images.end(), (map.*direction)[i]) - images.begin();
+      for (Eigen::Index k = 0; k < before.cols(); ++k) {
+        const float d = before(i, k), e = after((map.*direction)[k], column);
+        sum += std::abs(d - e) / (0.5F * (d + e) + kAtLeast);
+      }
+    }
+    changes.push_back(sum / static_cast<double>(before.size()));
+  }
+  return changes;
+}
+
+// Half of the Laplacian of the position, along the normal: the integral of the mean curvature.
+Eigen::VectorXf MeanCurvature(const MatchingBody& body) {
+  const Eigen::MatrixXd laplacian = 0.5 * body.laplacian.stiffness * body.surface.shape.transpose();
+  const Shape normals = VertexNormals(*body.surface.connectivity, body.surface.shape);
+  const Eigen::VectorXd integral = (laplacian.transpose().cwiseProduct(normals)).colwise().sum();
+  return body.laplacian.areas.cwiseInverse().cwiseProduct(integral).cast<float>();
+}
+
+}  // namespace
+
+CandidateFigures::Side::Side(const MatchingBody& own)
+    : body(own),
+      between(
+          Rows(own.graph.FromEach(First(own.spread, kFrom)), First(own.spread, kTo)).transpose()),
+      curvature(own.Smooth(MeanCurvature(own), own.spread)),
+      functions(own.spectrum.functions.cast<float>()),
+      at_spread(Rows(functions, own.spread).transpose()) {
+  const int oriented = std::min(kOriented, own.spectrum.Count() - 1);
+  turns = Rows(Turns(*own.surface.connectivity, own.laplacian.areas,
+                     functions.middleCols(1, oriented), AllPairs(oriented)),
+               own.spread);
+}
+
+double CandidateFigures::Side::Correlate(const Eigen::MatrixXf& coefficients,
+                                         const std::vector<int>& images, const Side& other) const {
+  const Eigen::Index count = coefficients.rows();
+  const int oriented = std::min(kOriented, static_cast<int>(count) - 1);
+  const Eigen::MatrixXf pulled = functions.leftCols(count) * coefficients.middleCols(1, oriented);
+  const Eigen::MatrixXf own =
+      Turns(*body.surface.connectivity, body.laplacian.areas, pulled, AllPairs(oriented));
+  double product = 0, here = 0, there = 0;
+  for (size_t i = 0; i < images.size(); ++i) {
+    const auto turn = own.row(body.spread[i]), image = other.turns.row(images[i]);
+    product += turn.dot(image);
+    here += turn.squaredNorm();
+    there += image.squaredNorm();
+  }
+  return here > 0 && there > 0 ? product / std::sqrt(here * there) : 0;
+}
+
+CandidateFigures::CandidateFigures(const MatchingBody& on_template, const MatchingBody& on_target)
+    : template_(on_template), target_(on_target) {}
+
+SpectralMap CandidateFigures::WithAllImages(const SpectralMap& map) const {
+  const AlignedPoints points = Align(template_.at_spread, target_.at_spread, map);
+  return {NearestColumns(points.on_template, points.on_target),
+          NearestColumns(points.on_target, points.on_template), map.from_target, map.from_template};
+}
+
+double CandidateFigures::Orientation(const SpectralMap& map) const {
+  return 0.5 * (template_.Correlate(map.from_target, map.to_target, target_) +
+                target_.Correlate(map.from_template, map.to_template, template_));
+}
+
+double CandidateFigures::Curvature(const SpectralMap& map) const {
+  return 0.5 * (CurvatureAt(template_.curvature, target_.curvature, map.to_target) +
+                CurvatureAt(target_.curvature, template_.curvature, map.to_template));
+}
+
+std::vector<double> CandidateFigures::Isometry(const std::vector<SpectralMap>& maps) const {
+  std::vector<double> mean =
+      Changes(template_.between, target_.body, maps, &SpectralMap::to_target);
+  const std::vector<double> back =
+      Changes(target_.between, template_.body, maps, &SpectralMap::to_template);
+  for (size_t i = 0; i < maps.size(); ++i) mean[i] = 0.5 * (mean[i] + back[i]);
+  return mean;
+}
+
+}  // namespace shapespace::internal

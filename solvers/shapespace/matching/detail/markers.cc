@@ -1,0 +1,100 @@
+#include <shapespace/matching/detail/markers.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include <shapespace/matching/detail/nearest_columns.h>
+
+namespace shapespace::internal {
+namespace {
+
+constexpr size_t kMostMarkers = 40;
+// How far the way to the target and back may end from where it began, and how far apart markers
+// are; shares of the root of the area.
+constexpr float kRoundTrip = 0.02F;
+constexpr float kSpacing = 0.06F;
+
+// Where vertices of the template are sent to, and where their images are sent back to.
+struct Ways {
+  std::vector<int> there, back;
+
+  Ways(const AlignedPoints& points, const std::vector<int>& vertices)
+      : there(NearestColumns(Columns(points.on_template, vertices), points.on_target)),
+        back(NearestColumns(Columns(points.on_target, there), points.on_template)) {}
+
+  static Eigen::MatrixXf Columns(const Eigen::MatrixXf& points, const std::vector<int>& which) {
+    Eigen::MatrixXf columns(points.rows(), which.size());
+    for (size_t i = 0; i < which.size(); ++i) columns.col(i) = points.col(which[i]);
+    return columns;
+  }
+};
+
+// Markers one after the other, with the distances of the even samples from all of them.
+class Chosen {
+ public:
+  explicit Chosen(const EvenSamples& even)
+      : even_(even),
+        least_(Eigen::VectorXf::Constant(static_cast<Eigen::Index>(even.vertices.size()),
+                                         std::numeric_limits<float>::infinity())) {}
+
+  bool IsFull() const { return pairs_.size() >= kMostMarkers; }
+  bool HasTarget(int to) const { return targets_.count(to) > 0; }
+  const Eigen::VectorXf& Least() const { return least_; }
+  const VertexPairs& Pairs() const { return pairs_; }
+
+  // `distances` are those of all vertices from the marker.
+  void KeepAwayFrom(const Eigen::VectorXf& distances, int to) {
+    targets_.insert(to);
+    for (Eigen::Index i = 0; i < least_.size(); ++i) {
+      least_(i) = std::min(least_(i), distances(even_.vertices[i]));
+    }
+  }
+  void Add(int from, int to, const Eigen::VectorXf& distances) {
+    pairs_.emplace_back(from, to);
+    KeepAwayFrom(distances, to);
+  }
+
+ private:
+  const EvenSamples& even_;
+  Eigen::VectorXf least_;
+  std::set<int> targets_;
+  VertexPairs pairs_;
+};
+
+}  // namespace
+
+VertexPairs ChooseMarkers(const MatchingBody& on_template, const AlignedPoints& points,
+                          const std::vector<int>& first, const VertexPairs& given,
+                          const std::function<bool(int from, int to)>& admits) {
+  const EvenSamples& even = on_template.even;
+  Chosen chosen(even);
+  for (const auto& [from, to] : given) chosen.KeepAwayFrom(on_template.graph.From(from), to);
+  const Ways of_first(points, first);
+  for (size_t i = 0; i < first.size(); ++i) {
+    const Eigen::VectorXf distances = on_template.graph.From(first[i]);
+    const int to = of_first.there[i];
+    const bool good = distances(of_first.back[i]) <= kRoundTrip && admits(first[i], to);
+    if (good && !chosen.HasTarget(to)) chosen.Add(first[i], to, distances);
+  }
+  const Ways ways(points, even.vertices);
+  std::vector<bool> possible(even.vertices.size());
+  for (size_t i = 0; i < possible.size(); ++i) {
+    possible[i] =
+        even.distances(ways.back[i], i) <= kRoundTrip && admits(even.vertices[i], ways.there[i]);
+  }
+  while (!chosen.IsFull()) {
+    int next = -1;
+    for (size_t i = 0; i < possible.size(); ++i) {
+      if (!possible[i] || chosen.Least()(i) < kSpacing) continue;
+      if (next < 0 || chosen.Least()(i) > chosen.Least()(next)) next = static_cast<int>(i);
+    }
+    if (next < 0) break;
+    possible[next] = false;
+    if (chosen.HasTarget(ways.there[next])) continue;
+    chosen.Add(even.vertices[next], ways.there[next], even.distances.col(next));
+  }
+  return chosen.Pairs();
+}
+
+}  // namespace shapespace::internal

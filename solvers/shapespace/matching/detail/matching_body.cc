@@ -1,0 +1,56 @@
+#include <shapespace/matching/detail/matching_body.h>
+
+#include <algorithm>
+
+namespace shapespace::internal {
+namespace {
+
+// As many as the second round of matching uses.
+constexpr int kFunctions = 100;
+constexpr int kEvenSamples = 200;
+constexpr int kSpread = 1500;
+// Functions by which vertices are spread: enough to tell all parts of a body from each other.
+constexpr int kSpreadFunctions = 40;
+// Functions that remain of what is smoothed.
+constexpr int kSmooth = 60;
+
+// The embedding of Rustamov, "Laplace-Beltrami eigenfunctions for deformation invariant shape
+// representation" (SGP 2007), in whose distances vertices are spread about as evenly as along the
+// surface.
+std::vector<int> SpreadVertices(const Spectrum& spectrum, int first) {
+  const int count = std::min(kSpreadFunctions, spectrum.Count()) - 1;
+  const Eigen::VectorXd roots = spectrum.values.segment(1, count).cwiseSqrt();
+  const Eigen::MatrixXf points =
+      (roots.cwiseInverse().asDiagonal() * spectrum.functions.middleCols(1, count).transpose())
+          .cast<float>();
+  return FarthestColumns(points, first, kSpread);
+}
+
+}  // namespace
+
+MatchingBody::MatchingBody(const std::string& name, const Connectivity& connectivity,
+                           const Shape& shape, Progress* progress)
+    : surface(MakeWorkingSurface(name, connectivity, shape, progress)),
+      graph(*surface.connectivity, surface.shape),
+      laplacian(MakeLaplacian(*surface.connectivity, surface.shape)) {
+  ReportProgress(progress, "eigenfunctions of the " + name, 0, 0);
+  spectrum = ComputeSpectrum(laplacian, kFunctions);
+  ReportProgress(progress, "distances on the " + name, 0, 0);
+  even = SampleEvenly(graph, surface.shape, laplacian.areas, kEvenSamples);
+  ReportProgress(progress, "extremities of the " + name, 0, 0);
+  spread = SpreadVertices(spectrum, even.vertices.front());
+  extremities =
+      PrincipalExtremities(FindExtremities(graph, even, laplacian.areas, kLeastPersistence));
+}
+
+Eigen::MatrixXf MatchingBody::Smooth(const Eigen::MatrixXf& field,
+                                     const std::vector<int>& rows) const {
+  const auto functions = spectrum.functions.leftCols(std::min(kSmooth, spectrum.Count()));
+  const Eigen::MatrixXf shares =
+      (functions.transpose() * laplacian.areas.asDiagonal()).cast<float>() * field;
+  Eigen::MatrixXf at_rows(rows.size(), functions.cols());
+  for (size_t i = 0; i < rows.size(); ++i) at_rows.row(i) = functions.row(rows[i]).cast<float>();
+  return at_rows * shares;
+}
+
+}  // namespace shapespace::internal

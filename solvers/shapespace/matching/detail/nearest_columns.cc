@@ -1,0 +1,89 @@
+#include <shapespace/matching/detail/nearest_columns.h>
+
+#include <algorithm>
+#include <limits>
+
+#include <shapespace/base/internal/clones.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Points and queries that are compared together: their products fill the registers.
+constexpr int kPoints = 16, kQueries = 6;
+using FloatVector = float __attribute__((vector_size(kPoints * sizeof(float))));
+// The same in memory, without alignment beyond that of a number.
+using StoredVector =
+    float __attribute__((vector_size(kPoints * sizeof(float)), aligned(4), may_alias));
+using IntVector = int __attribute__((vector_size(kPoints * sizeof(int))));
+
+// For kQueries queries, the point with the greatest product with it less half of its own square.
+// `blocks` has for each kPoints points these halves, and then kPoints numbers per dimension;
+// `queries` has kQueries numbers per dimension. nearest[q] becomes the point's index.
+SHAPESPACE_CLONES
+void NearestOfBlocks(const float* blocks, int num_blocks, int dimensions, const float* queries,
+                     int* nearest) {
+  FloatVector best[kQueries];
+  IntVector at[kQueries], here;
+  for (int q = 0; q < kQueries; ++q) {
+    best[q] = FloatVector{} - std::numeric_limits<float>::max();
+    at[q] = IntVector{};
+  }
+  for (int i = 0; i < kPoints; ++i) here[i] = i;
+  for (int block = 0; block < num_blocks; ++block) {
+    const StoredVector* numbers = reinterpret_cast<const StoredVector*>(blocks) +
+                                  static_cast<size_t>(block) * (dimensions + 1);
+    FloatVector products[kQueries];
+    for (int q = 0; q < kQueries; ++q) products[q] = -numbers[0];
+    const float* query = queries;
+    for (int d = 0; d < dimensions; ++d, query += kQueries) {
+      const FloatVector coordinate = *++numbers;
+      for (int q = 0; q < kQueries; ++q) products[q] += query[q] * coordinate;
+    }
+    for (int q = 0; q < kQueries; ++q) {
+      const auto better = products[q] > best[q];
+      best[q] = better ? products[q] : best[q];
+      at[q] = better ? here : at[q];
+    }
+    here += kPoints;
+  }
+  for (int q = 0; q < kQueries; ++q) {
+    int lane = 0;
+    for (int i = 1; i < kPoints; ++i) {
+      const bool tie = best[q][i] == best[q][lane] && at[q][i] < at[q][lane];
+      if (best[q][i] > best[q][lane] || tie) lane = i;
+    }
+    nearest[q] = at[q][lane];
+  }
+}
+
+}  // namespace
+
+std::vector<int> NearestColumns(const Eigen::Ref<const Eigen::MatrixXf>& queries,
+                                const Eigen::Ref<const Eigen::MatrixXf>& points) {
+  const auto dimensions = static_cast<int>(points.rows());
+  const auto num_points = static_cast<int>(points.cols());
+  const auto num_queries = static_cast<int>(queries.cols());
+  const int num_blocks = (num_points + kPoints - 1) / kPoints;
+  // What fills up the last block is nearest to nothing.
+  Eigen::MatrixXf blocks =
+      Eigen::MatrixXf::Zero(kPoints, static_cast<Eigen::Index>(num_blocks) * (dimensions + 1));
+  for (int b = 0; b < num_blocks; ++b) {
+    const int begin = b * kPoints, count = std::min(kPoints, num_points - begin);
+    auto block = blocks.middleCols(static_cast<Eigen::Index>(b) * (dimensions + 1), dimensions + 1);
+    block.col(0).setConstant(std::numeric_limits<float>::max());
+    const auto own = points.middleCols(begin, count);
+    block.col(0).head(count) = 0.5F * own.colwise().squaredNorm().transpose();
+    block.topRightCorner(count, dimensions) = own.transpose();
+  }
+  std::vector<int> nearest((num_queries + kQueries - 1) / kQueries * kQueries);
+  Eigen::MatrixXf group = Eigen::MatrixXf::Zero(kQueries, dimensions);
+  for (int begin = 0; begin < num_queries; begin += kQueries) {
+    const int count = std::min(kQueries, num_queries - begin);
+    group.topRows(count) = queries.middleCols(begin, count).transpose();
+    NearestOfBlocks(blocks.data(), num_blocks, dimensions, group.data(), &nearest[begin]);
+  }
+  nearest.resize(num_queries);
+  return nearest;
+}
+
+}  // namespace shapespace::internal

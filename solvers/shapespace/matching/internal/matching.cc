@@ -1,0 +1,330 @@
+#include <shapespace/matching/internal/matching.h>
+
+#include <algorithm>
+#include <functional>
+
+#include <shapespace/base/error.h>
+#include <shapespace/base/internal/check_range.h>
+#include <shapespace/base/internal/stopwatch.h>
+#include <shapespace/base/internal/task_group.h>
+#include <shapespace/base/parallel.h>
+#include <shapespace/matching/detail/assignments.h>
+#include <shapespace/matching/detail/candidate_figures.h>
+#include <shapespace/matching/detail/candidate_maps.h>
+#include <shapespace/matching/detail/landmarks.h>
+#include <shapespace/matching/detail/markers.h>
+#include <shapespace/matching/detail/matching_body.h>
+#include <shapespace/matching/detail/nearest_columns.h>
+
+namespace shapespace::internal {
+namespace {
+
+// Weight of the curvature in a candidate's cost.
+constexpr double kCurvatureWeight = 0.3;
+// Fewer vertices have too few eigenfunctions.
+constexpr int kFewestVertices = 20;
+// Three landmarks are the fewest that determine a map.
+constexpr size_t kFewestLandmarks = 3;
+// Given pairs that serve as landmarks; all of them are markers. Landmarks cost time with the square
+// of their number, and more of them tell nothing that these do not.
+constexpr size_t kMostKnown = 8;
+// A map contradicts a given pair if it misses the given vertex of the target by more than this.
+// Maps of bodies that differ much are 0.1 off, and those with a wrong limb more than 0.5.
+constexpr float kContradicts = 0.25F;
+// A refined marker farther than this from the place of its vertex in the fit is left out.
+constexpr double kAgrees = 0.08;
+
+void CheckPairs(const VertexPairs& pairs, const WorkingSurface& on_template,
+                const WorkingSurface& on_target) {
+  const auto check = [](const std::string& name, const WorkingSurface& surface, int v) {
+    if (v >= 0 && v < static_cast<int>(surface.nearest.size())) return;
+    throw MeshError("a marker is given at vertex " + std::to_string(v + 1) + " of the " + name +
+                    ", which has " + std::to_string(surface.nearest.size()) + " vertices");
+  };
+  for (const auto& [from, to] : pairs) {
+    check("template", on_template, from);
+    check("target", on_target, to);
+  }
+}
+
+// The given pairs on the working surfaces, but for those that are not on their components.
+VertexPairs OnWorkingSurfaces(const VertexPairs& pairs, const WorkingSurface& on_template,
+                              const WorkingSurface& on_target) {
+  VertexPairs known;
+  for (const auto& [from, to] : pairs) {
+    const std::pair<int, int> pair(on_template.nearest[from], on_target.nearest[to]);
+    if (pair.first >= 0 && pair.second >= 0) known.push_back(pair);
+  }
+  return known;
+}
+
+// A map of the vertices of one body as one of its working surface's to the other body's.
+std::vector<int> OnSurfaces(const std::string& name, const std::vector<int>& map,
+                            const WorkingSurface& from, const WorkingSurface& to) {
+  if (map.size() != from.nearest.size()) {
+    throw MeshError("a map of the " + name + " has " + std::to_string(map.size()) +
+                    " entries for " + std::to_string(from.nearest.size()) + " vertices");
+  }
+  std::vector<int> result;
+  for (const int v : from.vertices) {
+    const int image = map[v];
+    if (image < 0 || image >= static_cast<int>(to.nearest.size())) {
+      throw MeshError("vertex " + std::to_string(v + 1) + " of the " + name +
+                      " is mapped to vertex " + std::to_string(image + 1) +
+                      ", which the other body does not have");
+    }
+    // What a fit has placed on another component is as good as anywhere.
+    result.push_back(std::max(0, to.nearest[image]));
+  }
+  return result;
+}
+
+std::string TooFewVertices(const std::string& name, const MatchingBody& body) {
+  if (body.surface.NumVertices() >= kFewestVertices) return {};
+  return "the " + name + " has " + std::to_string(body.surface.NumVertices()) +
+         " vertices in its largest component; at least " + std::to_string(kFewestVertices) +
+         " are needed";
+}
+
+std::string TooFewLandmarks(const std::string& name, const MatchingBody& body, size_t known) {
+  if (body.extremities.size() + known >= kFewestLandmarks) return {};
+  const std::string count = std::to_string(body.extremities.size());
+  return "the " + name + " has " + (body.extremities.empty() ? "no" : count) +
+         (body.extremities.size() == 1 ? " extremity" : " extremities") +
+         " such as ends of limbs, head and tail; at least three are needed";
+}
+
+std::vector<int> LandmarkVertices(const MatchingBody& body, const VertexPairs& known,
+                                  int std::pair<int, int>::*side) {
+  std::vector<int> vertices = body.extremities;
+  for (size_t k = 0; k < std::min(known.size(), kMostKnown); ++k) {
+    vertices.push_back(known[k].*side);
+  }
+  return vertices;
+}
+
+AlignedPoints AlignAll(const MatchingBody& on_template, const MatchingBody& on_target,
+                       const SpectralMap& map) {
+  const Eigen::Index count = map.from_target.rows();
+  const auto functions = [count](const MatchingBody& body) -> Eigen::MatrixXf {
+    return body.spectrum.functions.leftCols(count).transpose().cast<float>();
+  };
+  return Align(functions(on_template), functions(on_target), map);
+}
+
+SpectralMap FunctionMap(const MapCandidate& candidate) {
+  return {{}, {}, candidate.from_target, candidate.from_template};
+}
+
+bool Contradicts(const MatchingBody& on_target, const AlignedPoints& points,
+                 const VertexPairs& known) {
+  for (const auto& [from, to] : known) {
+    const int image = NearestColumns(points.on_template.col(from), points.on_target)[0];
+    if (on_target.graph.From(to)(image) > kContradicts) return true;
+  }
+  return false;
+}
+
+VertexPairs InBodies(const VertexPairs& pairs, const WorkingSurface& on_template,
+                     const WorkingSurface& on_target) {
+  VertexPairs result;
+  for (const auto& [from, to] : pairs) {
+    result.emplace_back(on_template.vertices[from], on_target.vertices[to]);
+  }
+  return result;
+}
+
+// The given pairs, and markers of the map beside them.
+VertexPairs AllMarkers(const MatchingBody& on_template, const MatchingBody& on_target,
+                       const SpectralMap& map, const VertexPairs& extremities,
+                       const VertexPairs& given,
+                       const std::function<bool(int from, int to)>& admits) {
+  std::vector<int> first;
+  for (const auto& pair : extremities) first.push_back(pair.first);
+  const VertexPairs found = InBodies(
+      ChooseMarkers(on_template, AlignAll(on_template, on_target, map), first,
+                    OnWorkingSurfaces(given, on_template.surface, on_target.surface), admits),
+      on_template.surface, on_target.surface);
+  VertexPairs all = given;
+  all.insert(all.end(), found.begin(), found.end());
+  return all;
+}
+
+std::string WhyNone(const MatchingBody& on_template, const MatchingBody& on_target, size_t known) {
+  for (const std::string& problem :
+       {TooFewVertices("template", on_template), TooFewVertices("target", on_target),
+        TooFewLandmarks("template", on_template, known),
+        TooFewLandmarks("target", on_target, known)}) {
+    if (!problem.empty()) return problem;
+  }
+  return {};
+}
+
+// Maps of the best assignments of extremities, beside pairs that are known.
+std::vector<CandidateMap> FindMaps(const MatchingBody& first, const MatchingBody& second,
+                                   const VertexPairs& known, int count, Progress* progress,
+                                   Matching* matching) {
+  Stopwatch stopwatch;
+  ReportProgress(progress, "extremities", 0, 0);
+  const Landmarks on_template(first, LandmarkVertices(first, known, &std::pair<int, int>::first));
+  const Landmarks on_target(second, LandmarkVertices(second, known, &std::pair<int, int>::second));
+  const Assignments assignments = AssignExtremities(
+      {on_template.Between(matching->template_extremities),
+       on_target.Between(matching->target_extremities),
+       HeatDifference(first.spectrum, first.extremities, second.spectrum, second.extremities)},
+      count);
+  matching->assignments_tried = assignments.tried;
+  matching->assignment_seconds = stopwatch.Seconds();
+  stopwatch = Stopwatch();
+  std::vector<CandidateMap> maps =
+      MakeMaps(first, second, on_template, on_target, assignments.best, progress);
+  matching->map_seconds = stopwatch.Seconds();
+  return maps;
+}
+
+// The maps that keep orientation and agree with the known pairs, with their figures. Extremities
+// are vertices of the working surfaces.
+std::vector<MapCandidate> Judge(const MatchingBody& first, const MatchingBody& second,
+                                const std::vector<CandidateMap>& maps, const VertexPairs& known,
+                                double least_orientation) {
+  const CandidateFigures figures(first, second);
+  std::vector<SpectralMap> whole(maps.size());
+  std::vector<double> orientations(maps.size());
+  ParallelFor(static_cast<int>(maps.size()), [&](int i) {
+    whole[i] = figures.WithAllImages(maps[i].map);
+    orientations[i] = figures.Orientation(whole[i]);
+  });
+  std::vector<MapCandidate> candidates;
+  std::vector<SpectralMap> admitted;
+  for (size_t i = 0; i < maps.size(); ++i) {
+    SpectralMap& map = whole[i];
+    if (orientations[i] < least_orientation) continue;
+    if (!known.empty() && Contradicts(second, AlignAll(first, second, map), known)) continue;
+    MapCandidate candidate;
+    candidate.orientation = orientations[i];
+    candidate.curvature = figures.Curvature(map);
+    candidate.from_target = map.from_target;
+    candidate.from_template = map.from_template;
+    for (const auto& [a, b] : maps[i].assignment.pairs) {
+      candidate.extremities.emplace_back(first.extremities[a], second.extremities[b]);
+    }
+    candidates.push_back(std::move(candidate));
+    admitted.push_back(std::move(map));
+  }
+  const std::vector<double> isometry = figures.Isometry(admitted);
+  for (size_t i = 0; i < isometry.size(); ++i) candidates[i].isometry = isometry[i];
+  return candidates;
+}
+
+void KeepCheapest(const MatchingOptions& options, std::vector<MapCandidate>* candidates) {
+  std::stable_sort(candidates->begin(), candidates->end(),
+                   [](const auto& a, const auto& b) { return a.Cost() < b.Cost(); });
+  const double most = options.cost_ratio * candidates->front().Cost();
+  while (candidates->back().Cost() > most ||
+         static_cast<int>(candidates->size()) > options.max_candidates) {
+    candidates->pop_back();
+  }
+}
+
+}  // namespace
+
+void MatchingOptions::Validate() const {
+  CheckRange("assignments", assignments, 1, 1000);
+  CheckRange("max_candidates", max_candidates, 1, 1000);
+  CheckRange("least_orientation", least_orientation, -1.0, 1.0);
+  CheckRange("cost_ratio", cost_ratio, 1.0, 1e6);
+}
+
+double MapCandidate::Cost() const { return isometry + kCurvatureWeight * (1 - curvature); }
+
+SurfaceMatcher::SurfaceMatcher(const Connectivity& template_connectivity,
+                               const Shape& template_shape, const Connectivity& target_connectivity,
+                               const Shape& target_shape, const MatchingOptions& options,
+                               Progress* progress)
+    : options_(options) {
+  options_.Validate();
+  const Stopwatch stopwatch;
+  TaskGroup(progress, "eigenfunctions", 2).RunAll(2, [&](int i, Progress* own) {
+    if (i == 0) {
+      template_ =
+          std::make_unique<MatchingBody>("template", template_connectivity, template_shape, own);
+    } else {
+      target_ = std::make_unique<MatchingBody>("target", target_connectivity, target_shape, own);
+    }
+  });
+  seconds_ = stopwatch.Seconds();
+}
+
+SurfaceMatcher::~SurfaceMatcher() = default;
+
+Matching SurfaceMatcher::FindCandidates(const std::vector<std::pair<int, int>>& given,
+                                        Progress* progress) const {
+  const MatchingBody &first = *template_, &second = *target_;
+  CheckPairs(given, first.surface, second.surface);
+  const VertexPairs known = OnWorkingSurfaces(given, first.surface, second.surface);
+  Matching matching;
+  matching.template_extremities = static_cast<int>(first.extremities.size());
+  matching.target_extremities = static_cast<int>(second.extremities.size());
+  matching.problem = WhyNone(first, second, known.size());
+  if (!matching.problem.empty()) return matching;
+  const std::vector<CandidateMap> maps =
+      FindMaps(first, second, known, options_.assignments, progress, &matching);
+  matching.maps = static_cast<int>(maps.size());
+
+  Stopwatch stopwatch;
+  ReportProgress(progress, "figures of maps", 0, matching.maps);
+  matching.candidates = Judge(first, second, maps, known, options_.least_orientation);
+  matching.maps_refused = matching.maps - static_cast<int>(matching.candidates.size());
+  matching.figure_seconds = stopwatch.Seconds();
+  if (matching.candidates.empty()) {
+    matching.problem = "none of the " + std::to_string(matching.maps) +
+                       " maps that assign the bodies' extremities to each other keeps their "
+                       "outsides outside" +
+                       (known.empty() ? "" : " and agrees with the given markers");
+    return matching;
+  }
+  KeepCheapest(options_, &matching.candidates);
+
+  stopwatch = Stopwatch();
+  ReportProgress(progress, "markers", 0, static_cast<int>(matching.candidates.size()));
+  ParallelFor(static_cast<int>(matching.candidates.size()), [&](int i) {
+    MapCandidate& candidate = matching.candidates[i];
+    candidate.markers = AllMarkers(first, second, FunctionMap(candidate), candidate.extremities,
+                                   given, [](int, int) { return true; });
+    candidate.extremities = InBodies(candidate.extremities, first.surface, second.surface);
+  });
+  matching.marker_seconds = stopwatch.Seconds();
+  return matching;
+}
+
+std::vector<int> SurfaceMatcher::MapVertices(const MapCandidate& candidate) const {
+  const MatchingBody &first = *template_, &second = *target_;
+  const AlignedPoints points = AlignAll(first, second, FunctionMap(candidate));
+  const std::vector<int> images = NearestColumns(points.on_template, points.on_target);
+  std::vector<int> map;
+  for (const int v : first.surface.nearest) {
+    map.push_back(v < 0 ? -1 : second.surface.vertices[images[v]]);
+  }
+  return map;
+}
+
+std::vector<std::pair<int, int>> SurfaceMatcher::RefineMarkers(
+    const MapCandidate& candidate, const std::vector<int>& to_target,
+    const std::vector<int>& to_template, const std::vector<std::pair<int, int>>& given,
+    Progress* progress) const {
+  const MatchingBody &first = *template_, &second = *target_;
+  CheckPairs(given, first.surface, second.surface);
+  const std::vector<int> there = OnSurfaces("template", to_target, first.surface, second.surface);
+  const std::vector<int> back = OnSurfaces("target", to_template, second.surface, first.surface);
+  const SpectralMap map = RefineMap(first, second, there, back, progress);
+  VertexPairs extremities;
+  for (const auto& [from, to] : candidate.extremities) {
+    extremities.emplace_back(first.surface.nearest[from], second.surface.nearest[to]);
+  }
+  const Shape& shape = second.surface.shape;
+  return AllMarkers(first, second, map, extremities, given, [&](int from, int to) {
+    return (shape.col(to) - shape.col(there[from])).norm() <= kAgrees;
+  });
+}
+
+}  // namespace shapespace::internal

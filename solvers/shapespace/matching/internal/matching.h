@@ -1,0 +1,118 @@
+#ifndef SHAPESPACE_MATCHING_INTERNAL_MATCHING_H_
+#define SHAPESPACE_MATCHING_INTERNAL_MATCHING_H_
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <shapespace/base/not_computed.h>
+#include <shapespace/base/progress.h>
+#include <shapespace/mesh/connectivity.h>
+#include <shapespace/mesh/shape.h>
+
+namespace shapespace::internal {
+
+struct MatchingBody;
+
+/// How candidates of maps are sought and chosen.
+struct MatchingOptions {
+  /// Assignments of extremities from which maps are made. Exchanges of left and right cost the same
+  /// within 1 %, so that the true assignment was anywhere among the first 4 of people and the first
+  /// 10 of dogs.
+  int assignments = 24;
+  /// Candidates that are returned.
+  int max_candidates = 3;
+  /// Candidates with less are refused: maps that keep the outside outside have 0.4 to 0.98, those
+  /// that do not -0.9.
+  double least_orientation = 0.2;
+  /// Candidates whose cost is greater than this many times the least are left out.
+  double cost_ratio = 1.7;
+
+  /// \throw InvalidOptions naming the field.
+  void Validate() const;
+};
+
+/// A map between template and target that was found from their inner geometry alone. Vertices have
+/// the numbers that they have in the two bodies.
+struct MapCandidate {
+  std::vector<std::pair<int, int>> extremities;  ///< which of the template is which of the target
+  /// Pairs of corresponding vertices, spread over the body: first those that were given, then
+  /// extremities, then others. All but the given ones are 2 to 5 % of the root of the area off, on
+  /// average, those between bodies of very different proportions up to 10 %.
+  std::vector<std::pair<int, int>> markers;
+  double isometry = kNotComputed;     ///< mean relative change of distances along the surface
+  double curvature = kNotComputed;    ///< correlation of mean curvature, at most 1
+  double orientation = kNotComputed;  ///< 1 if the map keeps outsides outside, -1 if it does not
+  /// The map of functions: coefficients in the target's first k eigenfunctions -> those in the
+  /// template's, and the reverse, k x k.
+  Eigen::MatrixXf from_target, from_template;
+
+  /// Less is better. It says whether a candidate is worth a fit, not which is right.
+  double Cost() const;
+};
+
+struct Matching {
+  /// Cheapest first; all of them keep orientation. Empty if `problem` says why.
+  std::vector<MapCandidate> candidates;
+  /// Why there are no candidates, as a sentence for the user that says of which body; empty if
+  /// there are some.
+  std::string problem;
+  int template_extremities = 0, target_extremities = 0;
+  int assignments_tried = 0;  ///< partial ones too
+  int maps = 0;               ///< different ones that were made of assignments
+  int maps_refused = 0;       ///< of these, because they reverse orientation or contradict pairs
+  double assignment_seconds = 0, map_seconds = 0, figure_seconds = 0, marker_seconds = 0;
+};
+
+/// Finds maps between two bodies of any connectivity, in any poses, without markers, from distances
+/// along the surfaces and eigenfunctions of their Laplacians, none of which changes under bending
+/// (docs/mathematics.md, section 14). Extremities of both bodies are assigned to each other in
+/// several ways, each of which becomes a map by ZoomOut; figures of the maps say which of them are
+/// worth a fit. Of bodies with several components the largest one is mapped.
+///
+/// Position, orientation and size of the bodies do not matter. Results are the same for any number
+/// of threads. Time and memory are independent of the number of vertices beyond some ten thousand.
+class SurfaceMatcher {
+ public:
+  /// Prepares both bodies.
+  /// \throw InvalidOptions; MeshError (no triangles, no area, a shape that is not finite or has
+  ///        another number of vertices); SolverError if memory runs out; Cancelled.
+  SurfaceMatcher(const Connectivity& template_connectivity, const Shape& template_shape,
+                 const Connectivity& target_connectivity, const Shape& target_shape,
+                 const MatchingOptions& options = {}, Progress* progress = nullptr);
+  ~SurfaceMatcher();
+
+  /// `given` are pairs of vertices that are known to correspond; a single one may settle what is
+  /// left and right. Candidates that contradict them are refused.
+  /// \throw MeshError if a body has no such vertex; Cancelled.
+  Matching FindCandidates(const std::vector<std::pair<int, int>>& given = {},
+                          Progress* progress = nullptr) const;
+
+  /// Markers of a map that was fitted with those of a candidate: as there, with finer detail, and
+  /// without those on whose place the fit does not agree. `to_target` has for each vertex of the
+  /// template the one of the target nearest to its place in the fit, `to_template` the reverse.
+  /// \throw MeshError if they have other numbers of entries, or entries out of range; Cancelled.
+  std::vector<std::pair<int, int>> RefineMarkers(const MapCandidate& candidate,
+                                                 const std::vector<int>& to_target,
+                                                 const std::vector<int>& to_template,
+                                                 const std::vector<std::pair<int, int>>& given = {},
+                                                 Progress* progress = nullptr) const;
+
+  /// A candidate's map: for each vertex of the template one of the target, -1 for those that are
+  /// not connected to the largest component.
+  std::vector<int> MapVertices(const MapCandidate& candidate) const;
+
+  double Seconds() const { return seconds_; }  ///< that preparing the bodies took
+
+ private:
+  const MatchingOptions options_;
+  std::unique_ptr<const MatchingBody> template_, target_;
+  double seconds_ = 0;
+};
+
+}  // namespace shapespace::internal
+
+#endif  // SHAPESPACE_MATCHING_INTERNAL_MATCHING_H_
