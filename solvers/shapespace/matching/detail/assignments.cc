@@ -8,21 +8,21 @@ namespace shapespace::internal {
 namespace {
 
 // A root of area of 1 is the unit. Keeps short distances, between ears for instance, from deciding.
-constexpr double kNear = 0.1;
+constexpr double kShortDistance = 0.1;
 // Weight of what extremities are like by themselves: the mean rank of the true assignment fell
 // from 1.6 to 0.8.
 constexpr double kDifferenceWeight = 0.4;
 // For each pair of pairs that an extremity without a partner would have formed.
 constexpr double kLeftOut = 0.25;
-constexpr int kFewestLandmarks = 3;
+constexpr int kFewestTogether = 3;
 constexpr int kMostTried = 1000000;
 
-class Search {
+class AssignmentSearch {
  public:
   // `own` has the distances of the body with fewer extremities (rows), `other` those of the other;
   // `difference` is own x other.
-  Search(const Eigen::MatrixXd& own, const Eigen::MatrixXd& other,
-         const Eigen::MatrixXd& difference, int count)
+  AssignmentSearch(const Eigen::MatrixXd& own, const Eigen::MatrixXd& other,
+                   const Eigen::MatrixXd& difference, int count)
       : own_(own),
         other_(other),
         rows_(static_cast<int>(own.rows())),
@@ -55,7 +55,7 @@ class Search {
     for (int r = begin; r < rows_; ++r) {
       for (int c = 0; c < columns_; ++c) {
         const double a = own_(r, row), b = other_(c, column);
-        (*added)(r, c) += std::abs(a - b) / (std::min(a, b) + kNear);
+        (*added)(r, c) += std::abs(a - b) / (std::min(a, b) + kShortDistance);
       }
       (*added)(r, columns_) += kLeftOut;
     }
@@ -85,7 +85,7 @@ class Search {
     for (int c = 0; c < columns_; ++c) {
       if (!used_[c]) choices.emplace_back(added_[row](row, c), c);
     }
-    const bool may_leave_out = rows_ - left_out_ + known_ > kFewestLandmarks;
+    const bool may_leave_out = rows_ - left_out_ + known_ > kFewestTogether;
     if (may_leave_out) choices.emplace_back(added_[row](row, columns_), -1);
     std::stable_sort(choices.begin(), choices.end());
     for (const auto& [more, column] : choices) {
@@ -135,8 +135,8 @@ Assignments AssignExtremities(const LandmarkDistances& distances, int count) {
   const bool swapped = distances.on_template.rows() > distances.on_target.rows();
   const Eigen::MatrixXd& own = swapped ? distances.on_target : distances.on_template;
   const Eigen::MatrixXd& other = swapped ? distances.on_template : distances.on_target;
-  Search search(own, other, swapped ? distances.difference.transpose() : distances.difference,
-                count);
+  AssignmentSearch search(own, other,
+                          swapped ? distances.difference.transpose() : distances.difference, count);
   search.Run();
   const auto rows = static_cast<double>(own.rows());
   const double pairs = std::max(1.0, rows * (rows - 1) / 2);

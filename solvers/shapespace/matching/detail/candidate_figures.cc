@@ -15,7 +15,7 @@ namespace {
 // Samples from which distances are compared, and those to which.
 constexpr size_t kFrom = 60, kTo = 300;
 // Keeps the relative change of short distances from deciding.
-constexpr float kAtLeast = 0.1F;
+constexpr float kShortPath = 0.1F;
 // Eigenfunctions after the constant one by which orientation is judged.
 constexpr int kOriented = 8;
 
@@ -40,7 +40,7 @@ Eigen::MatrixXf Rows(const Eigen::MatrixXf& matrix, const std::vector<int>& rows
   return chosen;
 }
 
-std::vector<int> First(const std::vector<int>& items, size_t count) {
+std::vector<int> FirstOf(const std::vector<int>& items, size_t count) {
   return {items.begin(),
           items.begin() + static_cast<std::ptrdiff_t>(std::min(count, items.size()))};
 }
@@ -50,7 +50,7 @@ std::vector<int> AllImages(const std::vector<SpectralMap>& maps,
                            std::vector<int> SpectralMap::*direction) {
   std::vector<int> images;
   for (const SpectralMap& map : maps) {
-    const std::vector<int> own = First(map.*direction, kFrom);
+    const std::vector<int> own = FirstOf(map.*direction, kFrom);
     images.insert(images.end(), own.begin(), own.end());
   }
   SortUnique(&images);
@@ -77,7 +77,7 @@ std::vector<double> Changes(const Eigen::MatrixXf& before, const MatchingBody& t
           std::lower_bound(images.begin(), images.end(), (map.*direction)[i]) - images.begin();
       for (Eigen::Index k = 0; k < before.cols(); ++k) {
         const float d = before(i, k), e = after((map.*direction)[k], column);
-        sum += std::abs(d - e) / (0.5F * (d + e) + kAtLeast);
+        sum += std::abs(d - e) / (0.5F * (d + e) + kShortPath);
       }
     }
     changes.push_back(sum / static_cast<double>(before.size()));
@@ -97,14 +97,14 @@ Eigen::VectorXf MeanCurvature(const MatchingBody& body) {
 
 CandidateFigures::Side::Side(const MatchingBody& own)
     : body(own),
-      between(
-          Rows(own.graph.FromEach(First(own.spread, kFrom)), First(own.spread, kTo)).transpose()),
+      between(Rows(own.graph.FromEach(FirstOf(own.spread, kFrom)), FirstOf(own.spread, kTo))
+                  .transpose()),
       curvature(own.Smooth(MeanCurvature(own), own.spread)),
       functions(own.spectrum.functions.cast<float>()),
       at_spread(Rows(functions, own.spread).transpose()) {
   const int oriented = std::min(kOriented, own.spectrum.Count() - 1);
-  turns = Rows(Turns(*own.surface.connectivity, own.laplacian.areas,
-                     functions.middleCols(1, oriented), AllPairs(oriented)),
+  turns = Rows(GradientTurns(*own.surface.connectivity, own.laplacian.areas,
+                             functions.middleCols(1, oriented), AllPairs(oriented)),
                own.spread);
 }
 
@@ -114,7 +114,7 @@ double CandidateFigures::Side::Correlate(const Eigen::MatrixXf& coefficients,
   const int oriented = std::min(kOriented, static_cast<int>(count) - 1);
   const Eigen::MatrixXf pulled = functions.leftCols(count) * coefficients.middleCols(1, oriented);
   const Eigen::MatrixXf own =
-      Turns(*body.surface.connectivity, body.laplacian.areas, pulled, AllPairs(oriented));
+      GradientTurns(*body.surface.connectivity, body.laplacian.areas, pulled, AllPairs(oriented));
   double product = 0, here = 0, there = 0;
   for (size_t i = 0; i < images.size(); ++i) {
     const auto turn = own.row(body.spread[i]), image = other.turns.row(images[i]);

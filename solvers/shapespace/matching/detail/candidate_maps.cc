@@ -10,7 +10,7 @@ namespace shapespace::internal {
 namespace {
 
 // Vertices that determine a map, and those that do in its refinement, of MatchingBody::spread.
-constexpr int kSamples = 400, kRefinedSamples = 1000;
+constexpr int kMapSamples = 400, kRefinedSamples = 1000;
 // Numbers of functions. From 10 on instead of 16, ZoomOut loses what is front and back; beyond 60
 // it gains nothing that a fit does not.
 const std::vector<int> kCoarse = {16, 22, 28, 34, 40}, kFine = {45, 50, 55, 60};
@@ -29,15 +29,15 @@ std::vector<int> Possible(const std::vector<int>& counts, const MatchingBody& a,
   return possible;
 }
 
-std::vector<int> Both(std::vector<int> first, const std::vector<int>& second) {
+std::vector<int> AllCounts(std::vector<int> first, const std::vector<int>& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
 }
 
 // The map by descriptors of landmarks.
-SpectralMap Start(const Landmarks& template_landmarks, int template_extremities,
-                  const Landmarks& target_landmarks, int target_extremities,
-                  const Assignment& assignment) {
+SpectralMap StartMap(const Landmarks& template_landmarks, int template_extremities,
+                     const Landmarks& target_landmarks, int target_extremities,
+                     const Assignment& assignment) {
   std::vector<int> first, second;
   for (const auto& [a, b] : assignment.pairs) {
     first.push_back(a);
@@ -51,8 +51,8 @@ SpectralMap Start(const Landmarks& template_landmarks, int template_extremities,
   const Eigen::MatrixXf a = template_landmarks.Describe(first),
                         b = target_landmarks.Describe(second);
   SpectralMap map;
-  map.to_target = NearestColumns(a.leftCols(std::min<Eigen::Index>(kSamples, a.cols())), b);
-  map.to_template = NearestColumns(b.leftCols(std::min<Eigen::Index>(kSamples, b.cols())), a);
+  map.to_target = NearestColumns(a.leftCols(std::min<Eigen::Index>(kMapSamples, a.cols())), b);
+  map.to_template = NearestColumns(b.leftCols(std::min<Eigen::Index>(kMapSamples, b.cols())), a);
   return map;
 }
 
@@ -116,16 +116,17 @@ std::vector<CandidateMap> MakeMaps(const MatchingBody& on_template, const Matchi
                                    const std::vector<Assignment>& assignments, Progress* progress) {
   const std::vector<int> coarse = Possible(kCoarse, on_template, on_target);
   const std::vector<int> fine = Possible(kFine, on_template, on_target);
-  const SpectralPoints first(on_template.spectrum, on_template.spread, kSamples,
-                             Both(coarse, fine));
-  const SpectralPoints second(on_target.spectrum, on_target.spread, kSamples, Both(coarse, fine));
+  const SpectralPoints first(on_template.spectrum, on_template.spread, kMapSamples,
+                             AllCounts(coarse, fine));
+  const SpectralPoints second(on_target.spectrum, on_target.spread, kMapSamples,
+                              AllCounts(coarse, fine));
   std::vector<CandidateMap> maps(assignments.size());
   ReportProgress(progress, "maps of extremities", 0, static_cast<int>(maps.size()));
   ParallelFor(static_cast<int>(maps.size()), [&](int i) {
     maps[i].assignment = assignments[i];
     maps[i].map =
-        Start(template_landmarks, static_cast<int>(on_template.extremities.size()),
-              target_landmarks, static_cast<int>(on_target.extremities.size()), assignments[i]);
+        StartMap(template_landmarks, static_cast<int>(on_template.extremities.size()),
+                 target_landmarks, static_cast<int>(on_target.extremities.size()), assignments[i]);
   });
   ZoomOutAll(first, second, coarse, &maps);
   RemoveRepeated(on_target, &maps);

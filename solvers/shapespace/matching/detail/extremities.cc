@@ -15,7 +15,7 @@ constexpr size_t kMostPrincipal = 9;
 constexpr size_t kFewestPrincipal = 3;
 
 // Per vertex, the mean distance from the surface.
-Eigen::VectorXd MeanDistance(const EvenSamples& samples, const Eigen::VectorXd& areas) {
+Eigen::VectorXd MeanSurfaceDistance(const EvenSamples& samples, const Eigen::VectorXd& areas) {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(samples.distances.cols());
   for (int v = 0; v < areas.size(); ++v) {
     Eigen::Index nearest;
@@ -52,7 +52,7 @@ class Peaks {
 
 std::vector<Extremity> FindExtremities(const SurfaceGraph& graph, const EvenSamples& samples,
                                        const Eigen::VectorXd& areas, double least) {
-  const Eigen::VectorXd height = MeanDistance(samples, areas);
+  const Eigen::VectorXd height = MeanSurfaceDistance(samples, areas);
   std::vector<int> order(height.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int v, int w) { return height(v) > height(w); });

@@ -11,14 +11,14 @@ namespace {
 // Weight of all turns together, relative to the distances; 1 and 2 were no better.
 constexpr float kTurnWeight = 0.5F;
 // Times of heat kernels, in units of the area.
-constexpr int kTimes = 8;
+constexpr int kHeatTimes = 8;
 constexpr double kFirstTime = 0.01, kLastTime = 0.3;
 
 // Logarithms of the heat kernel signature, vertices x times.
 Eigen::MatrixXd LogHeat(const Spectrum& spectrum, const std::vector<int>& vertices) {
-  Eigen::MatrixXd heat(vertices.size(), kTimes);
-  for (int t = 0; t < kTimes; ++t) {
-    const double time = kFirstTime * std::pow(kLastTime / kFirstTime, t / (kTimes - 1.0));
+  Eigen::MatrixXd heat(vertices.size(), kHeatTimes);
+  for (int t = 0; t < kHeatTimes; ++t) {
+    const double time = kFirstTime * std::pow(kLastTime / kFirstTime, t / (kHeatTimes - 1.0));
     const Eigen::VectorXd decay = (-time * spectrum.values.array()).exp();
     for (size_t i = 0; i < vertices.size(); ++i) {
       heat(i, t) = std::log(spectrum.functions.row(vertices[i]).cwiseAbs2().dot(decay));
@@ -38,8 +38,8 @@ Landmarks::Landmarks(const MatchingBody& body, std::vector<int> vertices)
   distances_.resize(body.spread.size(), count);
   for (size_t i = 0; i < body.spread.size(); ++i) distances_.row(i) = all.row(body.spread[i]);
   const std::vector<std::pair<int, int>> pairs = AllPairs(count);
-  turns_ =
-      body.Smooth(Turns(*body.surface.connectivity, body.laplacian.areas, all, pairs), body.spread);
+  turns_ = body.Smooth(GradientTurns(*body.surface.connectivity, body.laplacian.areas, all, pairs),
+                       body.spread);
   pair_.resize(count, count);
   for (size_t p = 0; p < pairs.size(); ++p) {
     pair_(pairs[p].first, pairs[p].second) = static_cast<int>(p);

@@ -1,6 +1,7 @@
 #include <shapespace/matching/detail/markers.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -14,6 +15,12 @@ constexpr size_t kMostMarkers = 40;
 // are; shares of the root of the area.
 constexpr float kRoundTrip = 0.02F;
 constexpr float kSpacing = 0.06F;
+
+// On coarse meshes, where edges are longer than that, the way back may end at a neighbour: the
+// length of the edges of equal triangles of as many vertices.
+float RoundTrip(const MatchingBody& body) {
+  return std::max(kRoundTrip, 1.07F / std::sqrt(static_cast<float>(body.surface.NumVertices())));
+}
 
 // Where vertices of the template are sent to, and where their images are sent back to.
 struct Ways {
@@ -68,20 +75,21 @@ VertexPairs ChooseMarkers(const MatchingBody& on_template, const AlignedPoints& 
                           const std::vector<int>& first, const VertexPairs& given,
                           const std::function<bool(int from, int to)>& admits) {
   const EvenSamples& even = on_template.even;
+  const float round_trip = RoundTrip(on_template);
   Chosen chosen(even);
   for (const auto& [from, to] : given) chosen.KeepAwayFrom(on_template.graph.From(from), to);
   const Ways of_first(points, first);
   for (size_t i = 0; i < first.size(); ++i) {
     const Eigen::VectorXf distances = on_template.graph.From(first[i]);
     const int to = of_first.there[i];
-    const bool good = distances(of_first.back[i]) <= kRoundTrip && admits(first[i], to);
+    const bool good = distances(of_first.back[i]) <= round_trip && admits(first[i], to);
     if (good && !chosen.HasTarget(to)) chosen.Add(first[i], to, distances);
   }
   const Ways ways(points, even.vertices);
   std::vector<bool> possible(even.vertices.size());
   for (size_t i = 0; i < possible.size(); ++i) {
     possible[i] =
-        even.distances(ways.back[i], i) <= kRoundTrip && admits(even.vertices[i], ways.there[i]);
+        even.distances(ways.back[i], i) <= round_trip && admits(even.vertices[i], ways.there[i]);
   }
   while (!chosen.IsFull()) {
     int next = -1;

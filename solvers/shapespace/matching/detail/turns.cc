@@ -2,9 +2,9 @@
 
 namespace shapespace::internal {
 
-Eigen::MatrixXf Turns(const Connectivity& connectivity, const Eigen::VectorXd& areas,
-                      const Eigen::MatrixXf& functions,
-                      const std::vector<std::pair<int, int>>& pairs) {
+Eigen::MatrixXf GradientTurns(const Connectivity& connectivity, const Eigen::VectorXd& areas,
+                              const Eigen::MatrixXf& functions,
+                              const std::vector<std::pair<int, int>>& pairs) {
   Eigen::MatrixXf turns = Eigen::MatrixXf::Zero(functions.rows(), pairs.size());
   for (size_t p = 0; p < pairs.size(); ++p) {
     const auto f = functions.col(pairs[p].first), g = functions.col(pairs[p].second);

@@ -14,9 +14,9 @@ namespace shapespace::internal {
 /// unit normal, for each of `pairs` (f, g) of columns of `functions` (n x count). The result is
 /// n x pairs. It tells to which side grad g is turned from grad f, seen from outside, and therefore
 /// changes its sign under reflection. `areas` are those of vertices (`Laplacian`).
-Eigen::MatrixXf Turns(const Connectivity& connectivity, const Eigen::VectorXd& areas,
-                      const Eigen::MatrixXf& functions,
-                      const std::vector<std::pair<int, int>>& pairs);
+Eigen::MatrixXf GradientTurns(const Connectivity& connectivity, const Eigen::VectorXd& areas,
+                              const Eigen::MatrixXf& functions,
+                              const std::vector<std::pair<int, int>>& pairs);
 
 /// All pairs (i, j) of `count` things, i < j.
 std::vector<std::pair<int, int>> AllPairs(int count);

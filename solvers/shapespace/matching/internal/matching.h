@@ -68,13 +68,14 @@ struct Matching {
 };
 
 /// Finds maps between two bodies of any connectivity, in any poses, without markers, from distances
-/// along the surfaces and eigenfunctions of their Laplacians, none of which changes under bending
-/// (docs/mathematics.md, section 14). Extremities of both bodies are assigned to each other in
-/// several ways, each of which becomes a map by ZoomOut; figures of the maps say which of them are
-/// worth a fit. Of bodies with several components the largest one is mapped.
+/// along the surfaces and eigenfunctions of their Laplacians, none of which changes under bending.
+/// Extremities of both bodies are assigned to each other in several ways, each of which becomes a
+/// map by ZoomOut; figures of the maps say which of them are worth a fit. Of bodies with several
+/// components the one of the largest area is mapped.
 ///
 /// Position, orientation and size of the bodies do not matter. Results are the same for any number
-/// of threads. Time and memory are independent of the number of vertices beyond some ten thousand.
+/// of threads. Meshes of more than some ten thousand vertices are decimated first; all else takes
+/// no more time and memory for them.
 class SurfaceMatcher {
  public:
   /// Prepares both bodies.
