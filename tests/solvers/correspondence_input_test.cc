@@ -13,6 +13,7 @@
 #include <shapespace/correspondence/landmark_file.h>
 #include <shapespace/correspondence/marker_file.h>
 #include <shapespace/correspondence/surface_map.h>
+#include <shapespace/matching/internal/check_body.h>
 
 #include "mesh/bodies.h"
 #include "mesh/files.h"

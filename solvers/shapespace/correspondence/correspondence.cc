@@ -11,6 +11,7 @@
 #include <shapespace/correspondence/detail/marker_fit.h>
 #include <shapespace/correspondence/detail/memory.h>
 #include <shapespace/correspondence/detail/own_frame.h>
+#include <shapespace/matching/internal/check_body.h>
 #include <shapespace/mesh/volume.h>
 #include <shapespace/summary/internal/check_options.h>
 #include <shapespace/summary/internal/memory.h>

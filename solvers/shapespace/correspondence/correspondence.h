@@ -143,7 +143,8 @@ struct CorrespondenceResult {
   Shape fitted;
   SurfaceMap map;
   CorrespondenceSummary summary;
-  /// Those that constrained the fit: the given ones that were not dropped, then those found.
+  /// Those that constrained the fit, given and found, in ascending order of the template's
+  /// vertices.
   std::vector<CorrespondenceMarker> markers;
 };
 

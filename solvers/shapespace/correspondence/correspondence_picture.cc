@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <shapespace/base/error.h>
+#include <shapespace/correspondence/detail/nearest_corners.h>
 #include <shapespace/mesh/rigid_motion.h>
 #include <shapespace/output/internal/view.h>
 
@@ -155,12 +156,8 @@ RgbImage RenderCorrespondence(const Connectivity& template_connectivity,
   with_patches.groups.resize(both.first + both.second);
   with_patches.groups.head(both.first) = patches;
   const SurfacePoints& points = result.map.to_template;
-  for (int y = 0; y < points.NumVertices(); ++y) {
-    Eigen::Index corner = 0;
-    points.barycentric.col(y).maxCoeff(&corner);
-    with_patches.groups(both.first + y) =
-        patches(template_connectivity.Triangles()(corner, points.triangle(y)));
-  }
+  with_patches.groups.tail(both.second) =
+      patches(internal::NearestCorners(points, template_connectivity));
   with_patches.legend = "patches, mapped from the template";
   PasteBelow(RenderFilmStrip(*both.connectivity, shapes, with_patches), &image);
 

@@ -10,14 +10,6 @@
 
 namespace shapespace::internal {
 
-/// Whether any triangle has an area.
-bool HasArea(const Connectivity& connectivity, const Shape& shape);
-
-/// `name` is "template" or "target".
-/// \throw MeshError unless the body has triangles, a finite shape with the connectivity's number of
-///        vertices, and an area.
-void CheckBody(const std::string& name, const Connectivity& connectivity, const Shape& shape);
-
 /// \throw MeshError naming the marker, from 1, and what to do about it.
 void CheckMarkers(const std::vector<CorrespondenceMarker>& markers,
                   const Connectivity& template_connectivity,

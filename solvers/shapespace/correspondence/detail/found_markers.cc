@@ -8,6 +8,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
+#include <shapespace/correspondence/detail/nearest_corners.h>
 #include <shapespace/correspondence/detail/smooth_stretch.h>
 #include <shapespace/matching/internal/matching.h>
 #include <shapespace/summary/internal/report.h>
@@ -35,18 +36,6 @@ struct CandidateFit {
 
   double Cost() const { return deformation * candidate.Cost(); }
 };
-
-// Of each point the corner of its triangle that is nearest.
-std::vector<int> Corners(const SurfacePoints& points, const Connectivity& connectivity) {
-  std::vector<int> corners(points.triangle.size());
-  for (size_t i = 0; i < corners.size(); ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
-    Eigen::Index nearest;
-    points.barycentric.col(column).maxCoeff(&nearest);
-    corners[i] = connectivity.Triangles()(nearest, points.triangle(column));
-  }
-  return corners;
-}
 
 class Finder {
  public:
@@ -119,7 +108,7 @@ class Finder {
     fit.candidate = candidate;
     fit.result = FitWithMarkers(from_, target_, Markers(markers), given_.size(), options_, begun_,
                                 progress_);
-    fit.to_target = Corners(fit.result.map.to_target, *target_.connectivity);
+    fit.to_target = NearestCorners(fit.result.map.to_target, *target_.connectivity);
     const CorrespondenceSummary& summary = fit.result.summary;
     fit.deformation =
         stretch_.Cost(target_.frame.In(fit.result.fitted)) + summary.uncovered + summary.turned;
@@ -175,8 +164,8 @@ class Finder {
   void FitAgain() {
     CandidateFit& best = fits_[0];
     const Pairs markers = matcher_.RefineMarkers(
-        best.candidate, best.to_target, Corners(best.result.map.to_template, *from_.connectivity),
-        given_pairs_, progress_);
+        best.candidate, best.to_target,
+        NearestCorners(best.result.map.to_template, *from_.connectivity), given_pairs_, progress_);
     try {
       CandidateFit again = FitOf(best.candidate, markers);
       if (again.deformation < best.deformation) best = std::move(again);

@@ -13,6 +13,7 @@
 #include <shapespace/correspondence/detail/marker_distances.h>
 #include <shapespace/correspondence/detail/similarity.h>
 #include <shapespace/correspondence/detail/template_fit.h>
+#include <shapespace/matching/internal/check_body.h>
 #include <shapespace/mesh/ties.h>
 
 namespace shapespace::internal {
@@ -112,7 +113,7 @@ CorrespondenceResult FitWithMarkers(const FitBody& from, const FitBody& target,
                                     const std::vector<CorrespondenceMarker>& all_markers,
                                     size_t num_given, const CorrespondenceOptions& options,
                                     const CorrespondenceSummary& begun, Progress* progress) {
-  const Stopwatch total;
+  const Stopwatch stopwatch;
   CorrespondenceResult result;
   CorrespondenceSummary& summary = result.summary;
   summary = begun;
@@ -161,7 +162,7 @@ CorrespondenceResult FitWithMarkers(const FitBody& from, const FitBody& target,
   CheckPlacement(ends, placed.positions);
   const Shape rest = MovedOnto(size * ends, placed.positions, size * from.own);
   const Target goal(target.connectivity, target.own, measured.distances);
-  summary.marker_seconds += total.Seconds();
+  summary.marker_seconds = stopwatch.Seconds();
 
   TemplateFit fit(options, goal, std::move(placed), progress, &summary);
   const Shape fitted = fit(from.connectivity, rest);
@@ -183,7 +184,6 @@ CorrespondenceResult FitWithMarkers(const FitBody& from, const FitBody& target,
   summary.map_seconds = map_stopwatch.Seconds();
   WarnOfTopology(*from.connectivity, *target.connectivity, markers, &summary.warnings);
   Warn(options, all_markers, &summary);
-  summary.total_seconds = total.Seconds();
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/hierarchy/hierarchy.h>
 #include <shapespace/matching/detail/surface_graph.h>
+#include <shapespace/matching/internal/check_body.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/internal/sides.h>
 
@@ -16,19 +17,6 @@ namespace {
 // With 10000 triangles, the functions that are used (at most 100) have some 50 vertices for each
 // of their waves.
 constexpr int kDecimated = 10000;
-
-void CheckSurface(const std::string& name, const Connectivity& connectivity, const Shape& shape) {
-  if (connectivity.NumTriangles() == 0) {
-    throw MeshError("the " + name + " has no triangles; correspondence needs a surface");
-  }
-  if (shape.cols() != connectivity.NumVertices()) {
-    throw MeshError("the " + name + " has " + std::to_string(connectivity.NumVertices()) +
-                    " vertices, its shape " + std::to_string(shape.cols()));
-  }
-  if (!shape.allFinite() || shape.cwiseAbs().maxCoeff() > kLargestCoordinate) {
-    throw MeshError("the " + name + " has a coordinate that is enormous or not finite");
-  }
-}
 
 // The triangles of the component whose area is largest; of equal ones, the one with the vertex of
 // the smallest number.
@@ -62,11 +50,10 @@ void ScaleToAreaOne(const Connectivity& connectivity, Shape* shape) {
 
 WorkingSurface MakeWorkingSurface(const std::string& name, const Connectivity& connectivity,
                                   const Shape& shape, Progress* progress) {
-  CheckSurface(name, connectivity, shape);
+  CheckBody(name, connectivity, shape);
   // Near the origin and of size 1, lest digits be lost and squares overflow.
   const Eigen::Vector3d low = shape.rowwise().minCoeff();
   const double extent = (shape.rowwise().maxCoeff() - low).maxCoeff();
-  if (!(extent > 0)) throw MeshError("the " + name + " has no area");
   const Shape near = (shape.colwise() - low) / extent;
   const Eigen::Matrix3Xi& all = connectivity.Triangles();
   Eigen::VectorXd areas(all.cols());
