@@ -36,6 +36,7 @@ from ._core import (
     Metric,
     MetricBasis,
     NoSuchFile,
+    PartInDoubt,
     Path,
     PathQuality,
     Poses,

@@ -113,13 +113,14 @@ void BindCorrespondence(py::module_* module) {
       .def(py::pickle(
           [](const CorrespondenceResult& result) {
             return py::make_tuple(FromShape(result.fitted), result.map, result.summary,
-                                  PairsOf(result.markers));
+                                  PairsOf(result.markers), result.in_doubt);
           },
           [](const py::tuple& state) {
             CorrespondenceResult result{ToShape(state[0], "fitted"),
                                         py::cast<SurfaceMap>(state[1]),
                                         py::cast<CorrespondenceSummary>(state[2]),
-                                        {}};
+                                        {},
+                                        py::cast<std::vector<int>>(state[4])};
             for (const py::handle pair : state[3]) {
               const auto ends = py::cast<std::pair<int, int>>(pair);
               result.markers.push_back({ends.first, ends.second});

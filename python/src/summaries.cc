@@ -196,6 +196,8 @@ void BindSummaries(py::module_* module) {
                                        "A marker that the others do not predict.");
   Record<CorrespondenceSummary::Candidate>(module, "MapCandidate",
                                            "A map that was found without markers.");
+  Record<CorrespondenceSummary::PartInDoubt>(
+      module, "PartInDoubt", "A part of the template that may belong elsewhere on the target.");
   Record<CorrespondenceSummary>(module, "CorrespondenceSummary",
                                 "How a template was fitted, and how good the fit is.")
       .Reports<true, true>();

@@ -110,6 +110,7 @@ Visitor VisitAll() {
   SHAPESPACE_VISIT(PoseTransferSummary);
   SHAPESPACE_VISIT(CorrespondenceSummary);
   SHAPESPACE_VISIT(CorrespondenceSummary::Candidate);
+  SHAPESPACE_VISIT(CorrespondenceSummary::PartInDoubt);
   SHAPESPACE_VISIT(CorrespondenceSummary::Stage);
   SHAPESPACE_VISIT(CorrespondenceSummary::Doubt);
   SHAPESPACE_VISIT(AverageSummary);

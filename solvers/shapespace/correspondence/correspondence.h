@@ -90,16 +90,28 @@ struct CorrespondenceSummary {
 
   /// A map that was found without markers, or with fewer than the fit needs.
   struct Candidate {
-    double isometry = kNotComputed;     ///< mean relative change of distances along the surface
-    double curvature = kNotComputed;    ///< correlation of mean curvature with that of the image
     double orientation = kNotComputed;  ///< 1 if outsides stay outside, -1 if all is turned over
     int markers = 0;                    ///< for the fit
-    /// Of the template by the fit: the mean of |log S| of its triangles' stretches S, at most 1
-    /// each, and of the square of its part that varies over less than `proportions`, and the shares
-    /// that are uncovered or turned over. NaN if the fit failed.
+    /// Of the template by a fit of its coarsest level: the mean of |log S| of its triangles'
+    /// stretches S, at most 1 each, and of the square of its part that varies over less than
+    /// `proportions`, and the shares that are uncovered or turned over. NaN if the fit failed, as
+    /// are the figures that follow.
     double deformation = kNotComputed;
-    double cost = kNotComputed;  ///< deformation times a figure of the map; the least is chosen
+    double isometry = kNotComputed;   ///< mean relative change of distances along the surface
+    double curvature = kNotComputed;  ///< mean difference of mean curvatures, at most 1 each
+    double heat = kNotComputed;       ///< mean difference of heat kernels: of what is near
+    double cost = kNotComputed;       ///< the product of these four; the least is chosen
     bool chosen = false;
+  };
+
+  /// A part of the template that a map which costs nearly as little as the one chosen sends
+  /// elsewhere.
+  struct PartInDoubt {
+    double share = kNotComputed;  ///< of the template's area
+    double cost = kNotComputed;   ///< of the other map, as a multiple of that of the one chosen
+    int vertex = -1;              ///< of the template: the one that both maps send farthest apart
+    int target_vertex = -1;       ///< to which the chosen map sends it
+    int other_vertex = -1;        ///< to which the other map does
   };
 
   bool converged = false;
@@ -111,10 +123,11 @@ struct CorrespondenceSummary {
   /// bodies have; -1 if they were not.
   std::vector<Candidate> candidates;
   int template_extremities = -1, target_extremities = -1;
-  /// Cost of the best map that is another one, as a multiple of that of the one chosen: below 1.15
-  /// the choice is in doubt. NaN if there is none.
+  /// Cost of the best map that sends a tenth of the template elsewhere, as a multiple of that of
+  /// the one chosen: below 1.25 the choice is in doubt. NaN if there is none.
   double certainty = kNotComputed;
-  double scale = kNotComputed;  ///< size of the target, as a multiple of the template's
+  std::vector<PartInDoubt> parts_in_doubt;  ///< largest first
+  double scale = kNotComputed;              ///< size of the target, as a multiple of the template's
   std::vector<Stage> stages;
   /// Lengths of this summary are shares of the square root of the target's area unless stated
   /// otherwise.
@@ -146,6 +159,9 @@ struct CorrespondenceResult {
   /// Those that constrained the fit, given and found, in ascending order of the template's
   /// vertices.
   std::vector<CorrespondenceMarker> markers;
+  /// For each vertex of the template the part in doubt to which it belongs, as an index into
+  /// CorrespondenceSummary::parts_in_doubt, or -1. Empty if no markers were found.
+  std::vector<int> in_doubt;
 };
 
 /// Fits a template onto another body of any connectivity and maps the two surfaces onto each

@@ -169,6 +169,16 @@ RgbImage RenderCorrespondence(const Connectivity& template_connectivity,
           .transpose();
   with_values.legend = "round-trip error / root of area: low is good";
   PasteBelow(RenderFilmStrip(*both.connectivity, shapes, with_values), &image);
+
+  if (!result.summary.parts_in_doubt.empty()) {
+    options.groups.resize(both.first + both.second);
+    options.groups.head(both.first) =
+        Eigen::Map<const Eigen::VectorXi>(result.in_doubt.data(), both.first);
+    options.groups.tail(both.second) =
+        options.groups(internal::NearestCorners(points, template_connectivity));
+    options.legend = "parts that may belong elsewhere";
+    PasteBelow(RenderFilmStrip(*both.connectivity, shapes, options), &image);
+  }
   return image;
 }
 

@@ -52,14 +52,27 @@ std::string CorrespondenceSummary::FullReport() const {
     out << Format("\nFound without markers: extremities %d and %d; certainty %s\n",
                   template_extremities, target_extremities,
                   internal::IfComputed(certainty, Format("%.3g", certainty)).c_str())
-        << "isometry  curvature  orientation  markers  deformation      cost\n";
+        << "orientation  markers  deformation  isometry  curvature      heat       cost\n";
   }
   for (const Candidate& map : candidates) {
-    out << Format("%8.3f %10.3f %12.3f %8d %12s %9s%s\n", map.isometry, map.curvature,
-                  map.orientation, map.markers,
-                  internal::IfComputed(map.deformation, Format("%.3f", map.deformation)).c_str(),
-                  internal::IfComputed(map.cost, Format("%.4f", map.cost)).c_str(),
+    out << Format("%11.3f %8d", map.orientation, map.markers);
+    const auto figure = [&](int width, double value, int digits) {
+      const std::string text = internal::IfComputed(value, Format("%.*f", digits, value));
+      out << Format(" %*s", width, text.c_str());
+    };
+    figure(12, map.deformation, 3);
+    figure(9, map.isometry, 3);
+    figure(10, map.curvature, 3);
+    figure(9, map.heat, 3);
+    out << Format(" %10s%s\n", internal::IfComputed(map.cost, Format("%.3g", map.cost)).c_str(),
                   map.chosen ? "  (chosen)" : "");
+  }
+  for (const PartInDoubt& part : parts_in_doubt) {
+    out << Format(
+        "in doubt: %.2g%% of the template around vertex %d, at the target's %d, in a map that "
+        "costs %.3g times as much at %d\n",
+        100 * part.share, part.vertex + 1, part.target_vertex + 1, part.cost,
+        part.other_vertex + 1);
   }
   for (const Doubt& doubt : doubtful) {
     out << Format(
@@ -83,6 +96,10 @@ std::string CorrespondenceSummary::ToJson() const {
   for (auto& doubt : json["doubtful"]) {
     for (const char* key : {"marker", "expected", "swapped"})
       doubt[key] = doubt[key].get<int>() + 1;
+  }
+  for (auto& part : json["parts_in_doubt"]) {
+    for (const char* key : {"vertex", "target_vertex", "other_vertex"})
+      part[key] = part[key].get<int>() + 1;
   }
   return internal::TextOf(json);
 }

@@ -134,11 +134,13 @@ TEST(Golden, Correspondences) {
   summary.cancelled = true;
   text.Variant("cancelled", TextsOf(summary));
   summary = CorrespondenceOfNumbers();
-  summary.candidates = {{0.0625, 0.9375, 0.75, 40, 0.25, 0.0203125, true},
-                        {0.09375, 0.875, 0.625, 39, kNotComputed, kNotComputed, false}};
+  summary.candidates = {{0.75, 40, 0.25, 0.0625, 0.125, 0.375, 0.00073242, true}, {}};
+  summary.candidates[1].orientation = 0.625;
+  summary.candidates[1].markers = 39;
   summary.template_extremities = 5;
   summary.target_extremities = 6;
   summary.certainty = 1.5;
+  summary.parts_in_doubt = {{0.125, 1.0625, 11, 22, 33}};
   text.Variant("found without markers", TextsOf(summary));
   ExpectGolden("correspondence.txt", text.Content());
 }

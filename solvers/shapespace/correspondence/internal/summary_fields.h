@@ -30,13 +30,23 @@ void ForFields(Of<CorrespondenceSummary::Doubt>, const Visit& visit) {
 
 template <typename Visit>
 void ForFields(Of<CorrespondenceSummary::Candidate>, const Visit& visit) {
-  visit("isometry", &CorrespondenceSummary::Candidate::isometry);
-  visit("curvature", &CorrespondenceSummary::Candidate::curvature);
   visit("orientation", &CorrespondenceSummary::Candidate::orientation);
   visit("markers", &CorrespondenceSummary::Candidate::markers);
   visit("deformation", &CorrespondenceSummary::Candidate::deformation);
+  visit("isometry", &CorrespondenceSummary::Candidate::isometry);
+  visit("curvature", &CorrespondenceSummary::Candidate::curvature);
+  visit("heat", &CorrespondenceSummary::Candidate::heat);
   visit("cost", &CorrespondenceSummary::Candidate::cost);
   visit("chosen", &CorrespondenceSummary::Candidate::chosen);
+}
+
+template <typename Visit>
+void ForFields(Of<CorrespondenceSummary::PartInDoubt>, const Visit& visit) {
+  visit("share", &CorrespondenceSummary::PartInDoubt::share);
+  visit("cost", &CorrespondenceSummary::PartInDoubt::cost);
+  visit("vertex", &CorrespondenceSummary::PartInDoubt::vertex);
+  visit("target_vertex", &CorrespondenceSummary::PartInDoubt::target_vertex);
+  visit("other_vertex", &CorrespondenceSummary::PartInDoubt::other_vertex);
 }
 
 template <typename Visit>
@@ -55,6 +65,7 @@ void ForFields(Of<CorrespondenceSummary>, const Visit& visit) {
   visit("template_extremities", &CorrespondenceSummary::template_extremities);
   visit("target_extremities", &CorrespondenceSummary::target_extremities);
   visit("certainty", &CorrespondenceSummary::certainty);
+  visit("parts_in_doubt", &CorrespondenceSummary::parts_in_doubt);
   visit("scale", &CorrespondenceSummary::scale);
   visit("stages", &CorrespondenceSummary::stages);
   visit("distance_rms", &CorrespondenceSummary::distance_rms);

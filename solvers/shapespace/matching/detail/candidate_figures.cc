@@ -5,9 +5,9 @@
 
 #include <shapespace/base/internal/sort_unique.h>
 #include <shapespace/base/parallel.h>
+#include <shapespace/matching/detail/compare_bodies.h>
 #include <shapespace/matching/detail/nearest_columns.h>
 #include <shapespace/matching/detail/turns.h>
-#include <shapespace/mesh/surface.h>
 
 namespace shapespace::internal {
 namespace {
@@ -85,12 +85,8 @@ std::vector<double> Changes(const Eigen::MatrixXf& before, const MatchingBody& t
   return changes;
 }
 
-// Half of the Laplacian of the position, along the normal: the integral of the mean curvature.
-Eigen::VectorXf MeanCurvature(const MatchingBody& body) {
-  const Eigen::MatrixXd laplacian = 0.5 * body.laplacian.stiffness * body.surface.shape.transpose();
-  const Shape normals = VertexNormals(*body.surface.connectivity, body.surface.shape);
-  const Eigen::VectorXd integral = (laplacian.transpose().cwiseProduct(normals)).colwise().sum();
-  return body.laplacian.areas.cwiseInverse().cwiseProduct(integral).cast<float>();
+Eigen::VectorXf CurvatureDensity(const MatchingBody& body) {
+  return body.laplacian.areas.cwiseInverse().cwiseProduct(MeanCurvature(body)).cast<float>();
 }
 
 }  // namespace
@@ -99,7 +95,7 @@ CandidateFigures::Side::Side(const MatchingBody& own)
     : body(own),
       between(Rows(own.graph.FromEach(FirstOf(own.spread, kFrom)), FirstOf(own.spread, kTo))
                   .transpose()),
-      curvature(own.Smooth(MeanCurvature(own), own.spread)),
+      curvature(own.Smooth(CurvatureDensity(own), own.spread)),
       functions(own.spectrum.functions.cast<float>()),
       at_spread(Rows(functions, own.spread).transpose()) {
   const int oriented = std::min(kOriented, own.spectrum.Count() - 1);

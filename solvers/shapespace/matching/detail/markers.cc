@@ -72,18 +72,21 @@ class Chosen {
 }  // namespace
 
 VertexPairs ChooseMarkers(const MatchingBody& on_template, const AlignedPoints& points,
-                          const std::vector<int>& first, const VertexPairs& given,
+                          const VertexPairs& extremities, const VertexPairs& given,
                           const std::function<bool(int from, int to)>& admits) {
   const EvenSamples& even = on_template.even;
   const float round_trip = RoundTrip(on_template);
   Chosen chosen(even);
   for (const auto& [from, to] : given) chosen.KeepAwayFrom(on_template.graph.From(from), to);
-  const Ways of_first(points, first);
-  for (size_t i = 0; i < first.size(); ++i) {
-    const Eigen::VectorXf distances = on_template.graph.From(first[i]);
-    const int to = of_first.there[i];
-    const bool good = distances(of_first.back[i]) <= round_trip && admits(first[i], to);
-    if (good && !chosen.HasTarget(to)) chosen.Add(first[i], to, distances);
+  std::vector<int> ends;
+  for (const auto& pair : extremities) ends.push_back(pair.first);
+  const Ways of_ends(points, ends);
+  for (size_t i = 0; i < ends.size(); ++i) {
+    const Eigen::VectorXf distances = on_template.graph.From(ends[i]);
+    // Where the map is vague, the end of a limb is at least on the right limb.
+    const bool vague = distances(of_ends.back[i]) > round_trip;
+    const int to = vague ? extremities[i].second : of_ends.there[i];
+    if (admits(ends[i], to) && !chosen.HasTarget(to)) chosen.Add(ends[i], to, distances);
   }
   const Ways ways(points, even.vertices);
   std::vector<bool> possible(even.vertices.size());

@@ -22,7 +22,7 @@ using VertexPairs = std::vector<std::pair<int, int>>;
 /// `given`, which are not part of the result. `points` has a column for each vertex of each body.
 /// `admits(from, to)` says whether a pair may be a marker.
 VertexPairs ChooseMarkers(const MatchingBody& on_template, const AlignedPoints& points,
-                          const std::vector<int>& first, const VertexPairs& given,
+                          const VertexPairs& extremities, const VertexPairs& given,
                           const std::function<bool(int from, int to)>& admits);
 
 }  // namespace shapespace::internal

@@ -11,6 +11,7 @@
 #include <shapespace/matching/detail/assignments.h>
 #include <shapespace/matching/detail/candidate_figures.h>
 #include <shapespace/matching/detail/candidate_maps.h>
+#include <shapespace/matching/detail/compare_bodies.h>
 #include <shapespace/matching/detail/landmarks.h>
 #include <shapespace/matching/detail/markers.h>
 #include <shapespace/matching/detail/matching_body.h>
@@ -21,6 +22,8 @@ namespace {
 
 // Weight of the curvature in a candidate's cost.
 constexpr double kCurvatureWeight = 0.3;
+// Added to each figure of a map. Less of it is the difference of two meshes of one body.
+constexpr double kAlike = 0.01;
 // Fewer vertices have too few eigenfunctions.
 constexpr int kFewestVertices = 20;
 // Three landmarks are the fewest that determine a map.
@@ -139,10 +142,8 @@ VertexPairs AllMarkers(const MatchingBody& on_template, const MatchingBody& on_t
                        const SpectralMap& map, const VertexPairs& extremities,
                        const VertexPairs& given,
                        const std::function<bool(int from, int to)>& admits) {
-  std::vector<int> first;
-  for (const auto& pair : extremities) first.push_back(pair.first);
   const VertexPairs found = InBodies(
-      ChooseMarkers(on_template, AlignAll(on_template, on_target, map), first,
+      ChooseMarkers(on_template, AlignAll(on_template, on_target, map), extremities,
                     OnWorkingSurfaces(given, on_template.surface, on_target.surface), admits),
       on_template.surface, on_target.surface);
   VertexPairs all = given;
@@ -235,6 +236,10 @@ void MatchingOptions::Validate() const {
   CheckRange("cost_ratio", cost_ratio, 1.0, 1e6);
 }
 
+double MapFigures::Cost() const {
+  return (isometry + kAlike) * (curvature + kAlike) * (heat + kAlike);
+}
+
 double MapCandidate::Cost() const { return isometry + kCurvatureWeight * (1 - curvature); }
 
 SurfaceMatcher::SurfaceMatcher(const Connectivity& template_connectivity,
@@ -295,6 +300,24 @@ Matching SurfaceMatcher::FindCandidates(const std::vector<std::pair<int, int>>& 
   });
   matching.marker_seconds = stopwatch.Seconds();
   return matching;
+}
+
+MapFigures SurfaceMatcher::Compare(const std::vector<int>& vertices,
+                                   const std::vector<int>& images) const {
+  VertexPairs pairs;
+  for (size_t i = 0; i < vertices.size(); ++i) pairs.emplace_back(vertices[i], images[i]);
+  return CompareBodies(*template_, *target_,
+                       OnWorkingSurfaces(pairs, template_->surface, target_->surface));
+}
+
+std::vector<int> SurfaceMatcher::NearestOf(const std::vector<int>& vertices) const {
+  const WorkingSurface& surface = template_->surface;
+  std::vector<int> sources;
+  for (const int v : vertices) sources.push_back(surface.nearest[v]);
+  const std::vector<int> nearest = template_->graph.NearestOf(sources);
+  std::vector<int> result;
+  for (const int v : surface.nearest) result.push_back(v < 0 ? -1 : nearest[v]);
+  return result;
 }
 
 std::vector<int> SurfaceMatcher::MapVertices(const MapCandidate& candidate) const {

@@ -23,16 +23,28 @@ struct MatchingOptions {
   /// within 1 %, so that the true assignment was anywhere among the first 4 of people and the first
   /// 10 of dogs.
   int assignments = 24;
-  /// Candidates that are returned.
-  int max_candidates = 3;
+  /// Candidates that are returned. The right one was the sixth of a man and a woman.
+  int max_candidates = 6;
   /// Candidates with less are refused: maps that keep the outside outside have 0.4 to 0.98, those
   /// that do not -0.9.
   double least_orientation = 0.2;
   /// Candidates whose cost is greater than this many times the least are left out.
-  double cost_ratio = 1.7;
+  double cost_ratio = 1.5;
 
   /// \throw InvalidOptions naming the field.
   void Validate() const;
+};
+
+/// How unlike two bodies are where a map joins them; 0 for a body and another pose of it.
+struct MapFigures {
+  double isometry = kNotComputed;   ///< mean relative change of distances along the surface
+  double curvature = kNotComputed;  ///< mean difference of mean curvatures, each in units of its
+                                    ///< body's own and at most 1
+  double heat = kNotComputed;       ///< mean difference of logarithms of heat kernels, which depend
+                                    ///< on what is within a tenth of the body's size
+
+  /// Their product, each with a hundredth more lest one decides alone.
+  double Cost() const;
 };
 
 /// A map between template and target that was found from their inner geometry alone. Vertices have
@@ -101,6 +113,14 @@ class SurfaceMatcher {
                                                  const std::vector<int>& to_template,
                                                  const std::vector<std::pair<int, int>>& given = {},
                                                  Progress* progress = nullptr) const;
+
+  /// Judges a map that sends vertices of the template to such `images`, a vertex of the target for
+  /// each. Both are on the largest components.
+  MapFigures Compare(const std::vector<int>& vertices, const std::vector<int>& images) const;
+
+  /// For each vertex of the template the one of these `vertices` of it that is nearest along the
+  /// surface, as an index into them; -1 where there is none. They are on the largest component.
+  std::vector<int> NearestOf(const std::vector<int>& vertices) const;
 
   /// A candidate's map: for each vertex of the template one of the target, -1 for those that are
   /// not connected to the largest component.
