@@ -52,7 +52,6 @@ TEST(CheckMarkers, NamesTheMarkerTheVertexAndTheMesh) {
       Names(message({{0, 0}, {5, 7}, {2, 7}}), {"marker 3", "marker 2", "vertex 8 of the target"}));
   EXPECT_TRUE(Names(message({{1, 0}, {5, 1}, {1, 2}}),
                     {"marker 3", "marker 1", "vertex 2 of the template"}));
-  EXPECT_TRUE(Names(message({{0, 0}, {1, 1}, {2, 2}}), {"template", "2 components", "vertex 5"}));
 }
 
 TEST(CheckBody, NamesTheBodyAndItsNumbers) {

@@ -167,16 +167,16 @@ struct CorrespondenceResult {
 /// Fits a template onto another body of any connectivity and maps the two surfaces onto each
 /// other. It is guided by pairs of vertices. With fewer than three, maps are found from the inner
 /// geometry of both surfaces, the template is fitted with each of the best, and the one that
-/// deforms it least is the answer; a pair or two decide what geometry alone cannot. Position,
-/// orientation, size and pose of the two bodies are arbitrary. The method of the fit begins with
-/// section 5 of R. Sumner and J. Popovic, "Deformation Transfer for Triangle Meshes" (SIGGRAPH
-/// 2004) and continues under strain and bending (docs/mathematics.md, section 14).
+/// deforms it least is the answer; a pair or two decide what geometry alone cannot. Components of
+/// the template without a marker follow what is nearest to them; markers are found on the largest
+/// one. Position, orientation, size and pose of the two bodies are arbitrary. The method of the fit
+/// begins with section 5 of R. Sumner and J. Popovic, "Deformation Transfer for Triangle Meshes"
+/// (SIGGRAPH 2004) and continues under strain and bending (docs/mathematics.md, section 14).
 /// \throw InvalidOptions; MeshError (a mesh without triangles or extent, a shape that is not finite
 ///        or has another number of vertices than its connectivity; no map that could be found
 ///        without markers; markers on one line, out of range, repeated or on a vertex without
-///        triangle; a component of the template without a marker; markers that only fit a mirror
-///        image; a body that is inside out; markers that leave the template no area), naming the
-///        marker, counted from 1; SolverError (memory limit); Cancelled (stopped before a fit was
+///        triangle; markers that only fit a mirror image; a body that is inside out; markers that
+///        leave the template no area), naming the marker, counted from 1; SolverError (memory limit); Cancelled (stopped before a fit was
 ///        found; if stopped later, the fit so far is mapped, see CorrespondenceSummary::cancelled).
 CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& template_connectivity,
                                 const Shape& template_shape,

@@ -64,20 +64,6 @@ void CheckMarkers(const std::vector<CorrespondenceMarker>& markers,
   };
   check("template", template_connectivity, &CorrespondenceMarker::template_vertex);
   check("target", target_connectivity, &CorrespondenceMarker::target_vertex);
-
-  const Topology topology = ComputeTopology(template_connectivity);
-  std::vector<bool> has_marker(topology.components, false);
-  for (const CorrespondenceMarker& marker : markers) {
-    has_marker[topology.component[marker.template_vertex]] = true;
-  }
-  for (size_t v = 0; v < topology.component.size(); ++v) {
-    const int component = topology.component[v];
-    if (component < 0 || has_marker[component]) continue;
-    throw MeshError("the template has " + Count(topology.components, "component") +
-                    ", and the one with vertex " + std::to_string(v + 1) +
-                    " has no marker, so its position is not determined; add one, or remove it from "
-                    "the mesh");
-  }
 }
 
 void CheckPlacement(const Shape& on_template, const Shape& on_target) {

@@ -9,6 +9,7 @@
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/correspondence/detail/check_input.h>
 #include <shapespace/correspondence/detail/fit_map.h>
+#include <shapespace/correspondence/detail/marked_part.h>
 #include <shapespace/correspondence/detail/marker_check.h>
 #include <shapespace/correspondence/detail/marker_distances.h>
 #include <shapespace/correspondence/detail/similarity.h>
@@ -101,6 +102,13 @@ void Warn(const CorrespondenceOptions& options, const std::vector<Correspondence
   }
 }
 
+std::string ToldOfOthers(const FitBody& body, const MarkedPart& part) {
+  const double share = VertexAreas(*body.connectivity, body.own)(part.vertices).sum();
+  return std::to_string(part.others) + (part.others == 1 ? " component" : " components") +
+         " of the template without a marker, " + Percent(1 - share) +
+         " of its area, follow what is nearest to them";
+}
+
 }  // namespace
 
 FitBody::FitBody(const std::shared_ptr<const Connectivity>& mesh, const Shape& the_shape)
@@ -157,7 +165,9 @@ CorrespondenceResult FitWithMarkers(const FitBody& from, const FitBody& target,
     images.push_back(marker.target_vertex);
     if (!marker.soft) held.push_back(marker);
   }
+  const MarkedPart part(from.connectivity, markers);
   const Shape ends = from.own(Eigen::all, placed.vertices);
+  for (int& v : placed.vertices) v = part.IndexOf(v);
   placed.positions = target.own(Eigen::all, images);
   CheckPlacement(ends, placed.positions);
   const Shape rest = MovedOnto(size * ends, placed.positions, size * from.own);
@@ -165,14 +175,16 @@ CorrespondenceResult FitWithMarkers(const FitBody& from, const FitBody& target,
   summary.marker_seconds = stopwatch.Seconds();
 
   TemplateFit fit(options, goal, std::move(placed), progress, &summary);
-  const Shape fitted = fit(from.connectivity, rest);
-  if (!HasArea(*from.connectivity, fitted)) {
+  const Shape fitted_part = fit(part.connectivity, rest(Eigen::all, part.vertices));
+  if (!HasArea(*part.connectivity, fitted_part)) {
     throw MeshError(
         "the markers leave no area of the template: some that are apart on the template lie at one "
         "place of the target, or on one line");
   }
 
   const Stopwatch map_stopwatch;
+  const Shape fitted = part.Follow(rest, fitted_part);
+  if (!part.IsAll()) summary.warnings.push_back(ToldOfOthers(from, part));
   Level all = {from.connectivity, {}, BorderOf(*from.connectivity)};
   for (int v = 0; v < from.connectivity->NumVertices(); ++v) all.vertices.push_back(v);
   result.map = MakeMap(all, fitted, rest / size, goal, held, &summary);

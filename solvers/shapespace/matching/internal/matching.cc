@@ -312,11 +312,15 @@ MapFigures SurfaceMatcher::Compare(const std::vector<int>& vertices,
 
 std::vector<int> SurfaceMatcher::NearestOf(const std::vector<int>& vertices) const {
   const WorkingSurface& surface = template_->surface;
-  std::vector<int> sources;
-  for (const int v : vertices) sources.push_back(surface.nearest[v]);
+  std::vector<int> sources, which;
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    if (surface.nearest[vertices[i]] < 0) continue;
+    sources.push_back(surface.nearest[vertices[i]]);
+    which.push_back(static_cast<int>(i));
+  }
   const std::vector<int> nearest = template_->graph.NearestOf(sources);
   std::vector<int> result;
-  for (const int v : surface.nearest) result.push_back(v < 0 ? -1 : nearest[v]);
+  for (const int v : surface.nearest) result.push_back(v < 0 ? -1 : which[nearest[v]]);
   return result;
 }
 

@@ -115,11 +115,11 @@ class SurfaceMatcher {
                                                  Progress* progress = nullptr) const;
 
   /// Judges a map that sends vertices of the template to such `images`, a vertex of the target for
-  /// each. Both are on the largest components.
+  /// each, where both are on the largest components.
   MapFigures Compare(const std::vector<int>& vertices, const std::vector<int>& images) const;
 
   /// For each vertex of the template the one of these `vertices` of it that is nearest along the
-  /// surface, as an index into them; -1 where there is none. They are on the largest component.
+  /// surface, as an index into them; -1 where there is none, as outside of the largest component.
   std::vector<int> NearestOf(const std::vector<int>& vertices) const;
 
   /// A candidate's map: for each vertex of the template one of the target, -1 for those that are
