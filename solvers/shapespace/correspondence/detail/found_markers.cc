@@ -128,10 +128,12 @@ class Finder {
 
   CandidateFit FitOf(const FitBody& body, const SmoothStretch& stretch,
                      const MapCandidate& candidate,
-                     const std::vector<CorrespondenceMarker>& markers, Progress* progress) const {
+                     const std::vector<CorrespondenceMarker>& markers, Folds folds,
+                     Progress* progress) const {
     CandidateFit fit;
     fit.candidate = candidate;
-    fit.result = FitWithMarkers(body, target_, markers, given_.size(), options_, begun_, progress);
+    fit.result =
+        FitWithMarkers(body, target_, markers, given_.size(), options_, begun_, folds, progress);
     fit.to_target = NearestCorners(fit.result.map.to_target, *target_.connectivity);
     const CorrespondenceSummary& summary = fit.result.summary;
     fit.deformation =
@@ -166,7 +168,7 @@ class Finder {
                              coarse.vertices.begin());
       }
       try {
-        fits[i] = FitOf(coarse.body, stretch, candidate, markers, own);
+        fits[i] = FitOf(coarse.body, stretch, candidate, markers, Folds::kKeep, own);
         if (fits[i]->result.summary.cancelled) throw Cancelled();
         fits[i]->figures = matcher_.Compare(coarse.vertices, fits[i]->to_target);
         rows_[i].deformation = fits[i]->deformation;
@@ -258,13 +260,15 @@ class Finder {
   CandidateFit FitWhole(const CandidateFit& coarse) const {
     const SmoothStretch stretch(from_.connectivity, from_.own, options_.proportions);
     const MapCandidate& candidate = coarse.candidate;
-    CandidateFit best = FitOf(from_, stretch, candidate, Markers(candidate.markers), progress_);
+    CandidateFit best =
+        FitOf(from_, stretch, candidate, Markers(candidate.markers), Folds::kUnfold, progress_);
     if (best.result.summary.cancelled) return best;
     const Pairs markers = matcher_.RefineMarkers(
         candidate, best.to_target, NearestCorners(best.result.map.to_template, *from_.connectivity),
         given_pairs_, progress_);
     try {
-      CandidateFit again = FitOf(from_, stretch, candidate, Markers(markers), progress_);
+      CandidateFit again =
+          FitOf(from_, stretch, candidate, Markers(markers), Folds::kUnfold, progress_);
       if (again.deformation < best.deformation) best = std::move(again);
     } catch (const MeshError&) {
       // The first fit remains.

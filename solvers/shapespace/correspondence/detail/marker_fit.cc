@@ -120,7 +120,8 @@ FitBody::FitBody(const std::shared_ptr<const Connectivity>& mesh, const Shape& t
 CorrespondenceResult FitWithMarkers(const FitBody& from, const FitBody& target,
                                     const std::vector<CorrespondenceMarker>& all_markers,
                                     size_t num_given, const CorrespondenceOptions& options,
-                                    const CorrespondenceSummary& begun, Progress* progress) {
+                                    const CorrespondenceSummary& begun, Folds folds,
+                                    Progress* progress) {
   const Stopwatch stopwatch;
   CorrespondenceResult result;
   CorrespondenceSummary& summary = result.summary;
@@ -174,7 +175,7 @@ CorrespondenceResult FitWithMarkers(const FitBody& from, const FitBody& target,
   const Target goal(target.connectivity, target.own, measured.distances);
   summary.marker_seconds = stopwatch.Seconds();
 
-  TemplateFit fit(options, goal, std::move(placed), progress, &summary);
+  TemplateFit fit(options, goal, std::move(placed), folds == Folds::kUnfold, progress, &summary);
   const Shape fitted_part = fit(part.connectivity, rest(Eigen::all, part.vertices));
   if (!HasArea(*part.connectivity, fitted_part)) {
     throw MeshError(

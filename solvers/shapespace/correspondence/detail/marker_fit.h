@@ -22,6 +22,9 @@ struct FitBody {
   const Shape own;  ///< the shape in its own frame
 };
 
+/// Whether folds of a fit are unfolded. Those of a wrong candidate take more time than all else.
+enum class Folds { kKeep, kUnfold };
+
 /// Fits a template onto a target with these markers, which are on vertices that have elements; the
 /// first `num_given` are the user's, who is told which of them are doubtful. `summary` is what is
 /// known of both bodies, and is completed.
@@ -29,7 +32,8 @@ struct FitBody {
 CorrespondenceResult FitWithMarkers(const FitBody& from, const FitBody& target,
                                     const std::vector<CorrespondenceMarker>& markers,
                                     size_t num_given, const CorrespondenceOptions& options,
-                                    const CorrespondenceSummary& summary, Progress* progress);
+                                    const CorrespondenceSummary& summary, Folds folds,
+                                    Progress* progress);
 
 }  // namespace shapespace::internal
 

@@ -27,7 +27,7 @@ class TemplateFit {
  public:
   /// `options`, `target`, `progress` (may be null) and `summary` are kept.
   TemplateFit(const CorrespondenceOptions& options, const Target& target, FitMarkers markers,
-              Progress* progress, CorrespondenceSummary* summary);
+              bool unfolds, Progress* progress, CorrespondenceSummary* summary);
 
   /// `rest`: the template at rest, in the target's frame. \return the fitted template. Stages,
   /// seconds and how it ended are said in the summary.
@@ -48,6 +48,7 @@ class TemplateFit {
   const CorrespondenceOptions& options_;
   const Target& target_;
   const FitMarkers markers_;
+  const bool unfolds_;
   Progress* const progress_;
   CorrespondenceSummary* const summary_;
   int level_ = 0, num_levels_ = 0;

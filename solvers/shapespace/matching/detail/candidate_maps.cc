@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
+
 #include <shapespace/base/parallel.h>
 #include <shapespace/matching/detail/nearest_columns.h>
+#include <shapespace/mesh/surface.h>
 
 namespace shapespace::internal {
 namespace {
@@ -15,6 +18,9 @@ constexpr int kMapSamples = 400, kRefinedSamples = 1000;
 // it gains nothing that a fit does not.
 const std::vector<int> kCoarse = {16, 22, 28, 34, 40}, kFine = {45, 50, 55, 60};
 const std::vector<int> kRefined = {40, 50, 60, 70, 80, 90, 100};
+// Weight of normals beside positions, whose unit is the root of the area: they tell the two sides
+// of a leaf apart.
+constexpr float kNormalWeight = 0.2F;
 // Maps that differ less are the same: mean over samples of the greatest difference between their
 // images' distances from any place.
 constexpr float kSame = 0.05F;
@@ -34,6 +40,14 @@ std::vector<int> AllCounts(std::vector<int> first, const std::vector<int>& secon
   return first;
 }
 
+// The map by nearest descriptors, which are columns.
+SpectralMap NearestStart(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b) {
+  SpectralMap map;
+  map.to_target = NearestColumns(a.leftCols(std::min<Eigen::Index>(kMapSamples, a.cols())), b);
+  map.to_template = NearestColumns(b.leftCols(std::min<Eigen::Index>(kMapSamples, b.cols())), a);
+  return map;
+}
+
 // The map by descriptors of landmarks.
 SpectralMap StartMap(const Landmarks& template_landmarks, int template_extremities,
                      const Landmarks& target_landmarks, int target_extremities,
@@ -50,10 +64,42 @@ SpectralMap StartMap(const Landmarks& template_landmarks, int template_extremiti
   }
   const Eigen::MatrixXf a = template_landmarks.Describe(first),
                         b = target_landmarks.Describe(second);
-  SpectralMap map;
-  map.to_target = NearestColumns(a.leftCols(std::min<Eigen::Index>(kMapSamples, a.cols())), b);
-  map.to_template = NearestColumns(b.leftCols(std::min<Eigen::Index>(kMapSamples, b.cols())), a);
-  return map;
+  return NearestStart(a, b);
+}
+
+// The 24 rotations that make a cube of a cube.
+std::vector<Eigen::Matrix3f> TurnsOfACube() {
+  std::vector<Eigen::Matrix3f> turns;
+  for (int x = 0; x < 6; ++x) {
+    for (int y = 0; y < 6; ++y) {
+      if (x / 2 == y / 2) continue;
+      const auto axis = [](int i) -> Eigen::Vector3f {
+        return (i % 2 == 0 ? 1.0F : -1.0F) * Eigen::Vector3f::Unit(i / 2);
+      };
+      Eigen::Matrix3f turn;
+      turn << axis(x), axis(y), axis(x).cross(axis(y));
+      turns.push_back(turn);
+    }
+  }
+  return turns;
+}
+
+// Positions and normals of the spread vertices relative to the body's principal axes.
+Eigen::MatrixXf AlongAxes(const MatchingBody& body) {
+  const Shape& shape = body.surface.shape;
+  const Eigen::VectorXd& areas = body.laplacian.areas;
+  const Shape centred = shape.colwise() - Eigen::Vector3d(shape * areas / areas.sum());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centred * areas.asDiagonal() *
+                                                            centred.transpose());
+  Eigen::Matrix3d frame = axes.eigenvectors().transpose();
+  frame.row(2) *= frame.determinant();
+  const Shape normals = VertexNormals(*body.surface.connectivity, shape);
+  Eigen::MatrixXf along(6, body.spread.size());
+  for (size_t i = 0; i < body.spread.size(); ++i) {
+    along.col(i).head(3) = (frame * centred.col(body.spread[i])).cast<float>();
+    along.col(i).tail(3) = kNormalWeight * (frame * normals.col(body.spread[i])).cast<float>();
+  }
+  return along;
 }
 
 // Distances of the images of samples from even samples of the target, a column for each image.
@@ -110,24 +156,44 @@ std::vector<int> Reindexed(const std::vector<int>& map, const std::vector<int>& 
 
 }  // namespace
 
-std::vector<CandidateMap> MakeMaps(const MatchingBody& on_template, const MatchingBody& on_target,
-                                   const Landmarks& template_landmarks,
-                                   const Landmarks& target_landmarks,
-                                   const std::vector<Assignment>& assignments, Progress* progress) {
-  const std::vector<int> coarse = Possible(kCoarse, on_template, on_target);
-  const std::vector<int> fine = Possible(kFine, on_template, on_target);
-  const SpectralPoints first(on_template.spectrum, on_template.spread, kMapSamples,
-                             AllCounts(coarse, fine));
-  const SpectralPoints second(on_target.spectrum, on_target.spread, kMapSamples,
-                              AllCounts(coarse, fine));
+std::vector<CandidateMap> StartAtLandmarks(const MatchingBody& on_template,
+                                           const MatchingBody& on_target,
+                                           const Landmarks& template_landmarks,
+                                           const Landmarks& target_landmarks,
+                                           const std::vector<Assignment>& assignments) {
   std::vector<CandidateMap> maps(assignments.size());
-  ReportProgress(progress, "maps of extremities", 0, static_cast<int>(maps.size()));
   ParallelFor(static_cast<int>(maps.size()), [&](int i) {
     maps[i].assignment = assignments[i];
     maps[i].map =
         StartMap(template_landmarks, static_cast<int>(on_template.extremities.size()),
                  target_landmarks, static_cast<int>(on_target.extremities.size()), assignments[i]);
   });
+  return maps;
+}
+
+std::vector<CandidateMap> StartAtAxes(const MatchingBody& on_template,
+                                      const MatchingBody& on_target) {
+  const Eigen::MatrixXf first = AlongAxes(on_template), second = AlongAxes(on_target);
+  const std::vector<Eigen::Matrix3f> turns = TurnsOfACube();
+  std::vector<CandidateMap> maps(turns.size());
+  ParallelFor(static_cast<int>(maps.size()), [&](int i) {
+    Eigen::MatrixXf turned(6, first.cols());
+    turned.topRows(3) = turns[i] * first.topRows(3);
+    turned.bottomRows(3) = turns[i] * first.bottomRows(3);
+    maps[i].map = NearestStart(turned, second);
+  });
+  return maps;
+}
+
+std::vector<CandidateMap> MakeMaps(const MatchingBody& on_template, const MatchingBody& on_target,
+                                   std::vector<CandidateMap> maps, Progress* progress) {
+  const std::vector<int> coarse = Possible(kCoarse, on_template, on_target);
+  const std::vector<int> fine = Possible(kFine, on_template, on_target);
+  const SpectralPoints first(on_template.spectrum, on_template.spread, kMapSamples,
+                             AllCounts(coarse, fine));
+  const SpectralPoints second(on_target.spectrum, on_target.spread, kMapSamples,
+                              AllCounts(coarse, fine));
+  ReportProgress(progress, "maps", 0, static_cast<int>(maps.size()));
   ZoomOutAll(first, second, coarse, &maps);
   RemoveRepeated(on_target, &maps);
   ReportProgress(progress, "finer maps", 0, static_cast<int>(maps.size()));

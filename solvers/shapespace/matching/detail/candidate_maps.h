@@ -11,19 +11,29 @@
 
 namespace shapespace::internal {
 
-/// A map that was made of an assignment of extremities.
+/// A map, and the assignment of extremities of which it was made, if it was.
 struct CandidateMap {
   Assignment assignment;
   SpectralMap map;
 };
 
-/// Makes maps of assignments, at least one, by ZoomOut, from descriptors of the landmarks: the
-/// extremities of each body, and after them as many points of each that are known to correspond.
-/// Of maps that are nearly the same, the one of the cheapest assignment remains.
+/// Starts of maps from descriptors of the landmarks: the extremities of each body, and after them
+/// as many points of each that are known to correspond.
+std::vector<CandidateMap> StartAtLandmarks(const MatchingBody& on_template,
+                                           const MatchingBody& on_target,
+                                           const Landmarks& template_landmarks,
+                                           const Landmarks& target_landmarks,
+                                           const std::vector<Assignment>& assignments);
+
+/// Starts of maps of bodies in similar poses, which need no extremities, such as faces, leaves and
+/// vases: nearest points, after one body's principal axes have become the other's in each of the 24
+/// ways that do not reflect.
+std::vector<CandidateMap> StartAtAxes(const MatchingBody& on_template,
+                                      const MatchingBody& on_target);
+
+/// Refines starts by ZoomOut. Of maps that are nearly the same, the first remains.
 std::vector<CandidateMap> MakeMaps(const MatchingBody& on_template, const MatchingBody& on_target,
-                                   const Landmarks& template_landmarks,
-                                   const Landmarks& target_landmarks,
-                                   const std::vector<Assignment>& assignments, Progress* progress);
+                                   std::vector<CandidateMap> starts, Progress* progress);
 
 /// A finer map of functions from one of vertices, with which each vertex of the template has one of
 /// the target, and the reverse.

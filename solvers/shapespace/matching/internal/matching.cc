@@ -89,14 +89,6 @@ std::string TooFewVertices(const std::string& name, const MatchingBody& body) {
          " are needed";
 }
 
-std::string TooFewLandmarks(const std::string& name, const MatchingBody& body, size_t known) {
-  if (body.extremities.size() + known >= kFewestLandmarks) return {};
-  const std::string count = std::to_string(body.extremities.size());
-  return "the " + name + " has " + (body.extremities.empty() ? "no" : count) +
-         (body.extremities.size() == 1 ? " extremity" : " extremities") +
-         " such as ends of limbs, head and tail; at least three are needed";
-}
-
 std::vector<int> LandmarkVertices(const MatchingBody& body, const VertexPairs& known,
                                   int std::pair<int, int>::*side) {
   std::vector<int> vertices = body.extremities;
@@ -151,22 +143,22 @@ VertexPairs AllMarkers(const MatchingBody& on_template, const MatchingBody& on_t
   return all;
 }
 
-std::string WhyNone(const MatchingBody& on_template, const MatchingBody& on_target, size_t known) {
-  for (const std::string& problem :
-       {TooFewVertices("template", on_template), TooFewVertices("target", on_target),
-        TooFewLandmarks("template", on_template, known),
-        TooFewLandmarks("target", on_target, known)}) {
-    if (!problem.empty()) return problem;
-  }
-  return {};
+bool HasLandmarks(const MatchingBody& body, size_t known) {
+  return body.extremities.size() + known >= kFewestLandmarks;
 }
 
-// Maps of the best assignments of extremities, beside pairs that are known.
+// Maps of the best assignments of extremities, beside pairs that are known. Where there are too
+// few, the bodies are taken to be in similar poses.
 std::vector<CandidateMap> FindMaps(const MatchingBody& first, const MatchingBody& second,
                                    const VertexPairs& known, int count, Progress* progress,
                                    Matching* matching) {
   Stopwatch stopwatch;
   ReportProgress(progress, "extremities", 0, 0);
+  if (!HasLandmarks(first, known.size()) || !HasLandmarks(second, known.size())) {
+    std::vector<CandidateMap> maps = MakeMaps(first, second, StartAtAxes(first, second), progress);
+    matching->map_seconds = stopwatch.Seconds();
+    return maps;
+  }
   const Landmarks on_template(first, LandmarkVertices(first, known, &std::pair<int, int>::first));
   const Landmarks on_target(second, LandmarkVertices(second, known, &std::pair<int, int>::second));
   const Assignments assignments = AssignExtremities(
@@ -178,7 +170,8 @@ std::vector<CandidateMap> FindMaps(const MatchingBody& first, const MatchingBody
   matching->assignment_seconds = stopwatch.Seconds();
   stopwatch = Stopwatch();
   std::vector<CandidateMap> maps =
-      MakeMaps(first, second, on_template, on_target, assignments.best, progress);
+      MakeMaps(first, second,
+               StartAtLandmarks(first, second, on_template, on_target, assignments.best), progress);
   matching->map_seconds = stopwatch.Seconds();
   return maps;
 }
@@ -270,7 +263,8 @@ Matching SurfaceMatcher::FindCandidates(const std::vector<std::pair<int, int>>& 
   Matching matching;
   matching.template_extremities = static_cast<int>(first.extremities.size());
   matching.target_extremities = static_cast<int>(second.extremities.size());
-  matching.problem = WhyNone(first, second, known.size());
+  matching.problem = TooFewVertices("template", first);
+  if (matching.problem.empty()) matching.problem = TooFewVertices("target", second);
   if (!matching.problem.empty()) return matching;
   const std::vector<CandidateMap> maps =
       FindMaps(first, second, known, options_.assignments, progress, &matching);
@@ -283,8 +277,7 @@ Matching SurfaceMatcher::FindCandidates(const std::vector<std::pair<int, int>>& 
   matching.figure_seconds = stopwatch.Seconds();
   if (matching.candidates.empty()) {
     matching.problem = "none of the " + std::to_string(matching.maps) +
-                       " maps that assign the bodies' extremities to each other keeps their "
-                       "outsides outside" +
+                       " maps of the bodies that were tried keeps their outsides outside" +
                        (known.empty() ? "" : " and agrees with the given markers");
     return matching;
   }
