@@ -255,25 +255,26 @@ class Finder {
     }
   }
 
-  // The whole template with the markers of a candidate, and then with those of a map of functions
-  // that this fit makes, if that deforms it less.
+  // The whole template with the markers of a candidate, or with those of a map of functions that
+  // this fit makes, if they deform it less.
   CandidateFit FitWhole(const CandidateFit& coarse) const {
     const SmoothStretch stretch(from_.connectivity, from_.own, options_.proportions);
     const MapCandidate& candidate = coarse.candidate;
-    CandidateFit best =
-        FitOf(from_, stretch, candidate, Markers(candidate.markers), Folds::kUnfold, progress_);
-    if (best.result.summary.cancelled) return best;
+    const auto fit = [&](const Pairs& markers, Folds folds) {
+      return FitOf(from_, stretch, candidate, Markers(markers), folds, progress_);
+    };
+    const CandidateFit first = fit(candidate.markers, Folds::kKeep);
+    if (first.result.summary.cancelled) return first;
     const Pairs markers = matcher_.RefineMarkers(
-        candidate, best.to_target, NearestCorners(best.result.map.to_template, *from_.connectivity),
-        given_pairs_, progress_);
+        candidate, first.to_target,
+        NearestCorners(first.result.map.to_template, *from_.connectivity), given_pairs_, progress_);
     try {
-      CandidateFit again =
-          FitOf(from_, stretch, candidate, Markers(markers), Folds::kUnfold, progress_);
-      if (again.deformation < best.deformation) best = std::move(again);
+      CandidateFit again = fit(markers, Folds::kUnfold);
+      if (again.deformation < first.deformation) return again;
     } catch (const MeshError&) {
-      // The first fit remains.
+      // The better markers contradict each other.
     }
-    return best;
+    return fit(candidate.markers, Folds::kUnfold);
   }
 
   const FitBody &from_, &target_;

@@ -12,6 +12,9 @@ namespace {
 
 // Number of rounds, in each of which patches grow by a ring of vertices, and of averagings per
 // round.
+// What is farther than this from the target, a share of the root of its area, is missing there: over
+// a hole nothing is turned over, and a search for what matches would look at the whole target.
+constexpr double kMissing = 0.15;
 constexpr int kRings = 6, kAverages = 8;
 // Number of passes; three passes leave a fifth fewer folds than one.
 constexpr int kPasses = 3;
@@ -136,11 +139,14 @@ Shape Averaged(const Level& level, const MeanValueWeights& neighbours, const Tar
 ClosestPoint MapVertex(const Level& level, const Shape& shape, const Shape& normals,
                        const Target& target, int v) {
   const int vertex = level.vertices[v];
-  ClosestPoint closest = target.Nearest(shape.col(v), normals.col(v), vertex);
+  ClosestPoint closest = target.Nearest(shape.col(v), normals.col(v), vertex, kMissing);
   if (closest.triangle >= 0) return closest;
-  ClosestPoint other = target.GetSurface().Nearest(shape.col(v), [&](int f) {
-    return target.Distances().MayMatch(vertex, target.GetConnectivity().Triangles()(0, f));
-  });
+  ClosestPoint other = target.GetSurface().Nearest(
+      shape.col(v),
+      [&](int f) {
+        return target.Distances().MayMatch(vertex, target.GetConnectivity().Triangles()(0, f));
+      },
+      kMissing);
   return other.triangle >= 0 ? other : target.GetSurface().Nearest(shape.col(v));
 }
 
@@ -169,10 +175,12 @@ std::vector<bool> TurnedTriangles(const Level& level, const Shape& shape, const 
   std::vector<bool> turned(triangles.cols());
   for (int f = 0; f < triangles.cols(); ++f) {
     Eigen::Vector3d there = Eigen::Vector3d::Zero();
+    bool missing = false;
     for (int k = 0; k < 3; ++k) {
+      missing = missing || closest[triangles(k, f)].distance > kMissing;
       there += AreaNormal(place, others.col(closest[triangles(k, f)].triangle));
     }
-    turned[f] = AreaNormal(shape, triangles.col(f)).dot(there) < 0;
+    turned[f] = !missing && AreaNormal(shape, triangles.col(f)).dot(there) < 0;
   }
   return turned;
 }
