@@ -10,11 +10,11 @@
 namespace shapespace::internal {
 namespace {
 
-// Number of rounds, in each of which patches grow by a ring of vertices, and of averagings per
-// round.
 // What is farther than this from the target, a share of the root of its area, is missing there: over
 // a hole nothing is turned over, and a search for what matches would look at the whole target.
 constexpr double kMissing = 0.15;
+// Number of rounds, in each of which patches grow by a ring of vertices, and of averagings per
+// round.
 constexpr int kRings = 6, kAverages = 8;
 // Number of passes; three passes leave a fifth fewer folds than one.
 constexpr int kPasses = 3;
