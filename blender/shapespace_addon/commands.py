@@ -5,25 +5,31 @@ import math
 import os
 
 from .problem import Problem
-from .task import Deformation, Handle, Metric, Repair, Task
+from .task import Deformation, Fit, Handle, Metric, Repair, Task
 
 NEEDED = ("shape-interpolate", "shape-extrapolate", "shape-transfer")
-OPTIONAL = ("shape-average", "shape-statistics", "shape-deform")  # which older tools do not have
+# Which older tools do not have.
+OPTIONAL = ("shape-average", "shape-correspond", "shape-deform", "shape-statistics")
 REPORT = "report.json"  # of the last command that wrote one
 SOURCE = "source.path"  # the motion that is transferred
 
 _STIFFNESS = "stiffness.txt"
 _HANDLES = "handles.json"
+_FITTED = "fitted.ply"
 
 
 def outputs(task) -> list:
-    """The point caches that the commands write."""
+    """The point caches that the commands write, or the mesh."""
+    if isinstance(task, Fit):
+        return [_FITTED]
     return [f"motion{i}.pc2" for i in range(max(1, len(getattr(task, "targets", []))))]
 
 
 def commands(task, poses: list, targets: list, programs: dict, folder: str) -> list:
     """What is to be run in a folder, in which the poses and targets are in files of these names.
     Raises a Problem if a tool is not there."""
+    if isinstance(task, Fit):
+        return [_fit(task, poses, targets, programs)]
     metric = _metric_flags(task.metric, folder)
     if isinstance(task, Deformation):
         return [_deform(task, poses, programs, folder) + metric]
@@ -59,7 +65,7 @@ def _transfer(task: Task, poses: list, targets: list, programs: dict, metric: li
         found.append([programs["shape-interpolate"], *source, *flags, "--output", SOURCE])
         source = [SOURCE]
     for i, target in enumerate(targets):
-        seams = _seam_flags(task.metric)
+        seams = _seam_flags(task.metric.open_seams)
         found.append([programs["shape-transfer"], *source, "--target", target, *seams, *_results(i)])
     return found
 
@@ -93,6 +99,12 @@ def _repair(task: Repair, poses: list, programs: dict) -> list:
     return [program, distorted, "--repair", sound, *flags, *_tolerance_flags(task), *_results(0)]
 
 
+def _fit(task: Fit, poses: list, targets: list, programs: dict) -> list:
+    program = _optional("shape-correspond", programs)
+    flags = ["--output", _FITTED, "--report", REPORT]
+    return [program, *poses, *targets, *_seam_flags(task.open_seams), *flags]
+
+
 def _results(i: int) -> list:
     return ["--output", f"motion{i}.pc2", "--report", REPORT]
 
@@ -114,11 +126,11 @@ def _metric_flags(metric: Metric, folder: str) -> list:
         with open(os.path.join(folder, _STIFFNESS), "w") as out:
             out.writelines(f"{factor!r}\n" for factor in metric.stiffness.tolist())
         flags += ["--stiffness", _STIFFNESS]
-    return flags + _seam_flags(metric)
+    return flags + _seam_flags(metric.open_seams)
 
 
-def _seam_flags(metric: Metric) -> list:
-    return ["--open_seams"] if metric.open_seams else []
+def _seam_flags(open_seams: bool) -> list:
+    return ["--open_seams"] if open_seams else []
 
 
 def _tie_flags(metric: Metric) -> list:

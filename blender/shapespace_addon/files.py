@@ -1,6 +1,7 @@
-"""The two kinds of file that are exchanged with the tools: PLY out, point caches in and out."""
+"""The two kinds of file that are exchanged with the tools: PLY, and point caches."""
 
 import os
+import re
 import secrets
 import struct
 
@@ -38,6 +39,21 @@ def write_ply(file: str, vertices: np.ndarray, topology) -> None:
         out.write(np.ascontiguousarray(vertices, "<f8").tobytes())
         out.write(faces.tobytes())
         out.write(np.ascontiguousarray(segments, "<i4").tobytes())
+
+
+def read_shapes(file: str) -> np.ndarray:
+    """The shapes in a file that a tool has written, k x n x 3: those of a point cache, or the one of
+    a mesh."""
+    return read_pc2(file) if file.endswith(".pc2") else _read_ply(file)[np.newaxis]
+
+
+def _read_ply(file: str) -> np.ndarray:
+    """The vertices of a mesh that a tool has made of one of `write_ply`: these come first, and have
+    coordinates as doubles."""
+    with open(file, "rb") as source:
+        header, _, data = source.read().partition(b"end_header\n")
+    points = int(re.search(rb"^element vertex (\d+)$", header, re.M)[1])
+    return np.frombuffer(data, "<f8", count=3 * points).reshape(points, 3).astype(np.float64)
 
 
 def read_pc2(file: str) -> np.ndarray:

@@ -8,6 +8,7 @@ _OPERATORS = (
     ("shapespace.inbetweens", "IPO_EASE_IN_OUT"),
     ("shapespace.extrapolate", "TRACKING_FORWARDS_SINGLE"),
     ("shapespace.transfer", "MOD_DATA_TRANSFER"),
+    ("shapespace.fit", "MOD_SHRINKWRAP"),
     ("shapespace.average", "MOD_SMOOTH"),
     ("shapespace.deform", "MOD_SIMPLEDEFORM"),
     ("shapespace.deform_live", "PLAY"),

@@ -5,7 +5,7 @@ import threading
 import numpy as np
 
 from .problem import Problem
-from .task import Deformation, Metric, Repair, Result
+from .task import Deformation, Fit, Metric, Repair, Result
 
 # The default of shape-extrapolate, so that tools and module compute the same motion.
 _EXTRAPOLATION_TOLERANCE = 1e-6
@@ -25,15 +25,23 @@ def find():
 
 def poses_of(module, task):
     """A task's poses as the module takes them."""
-    body = task.poses
-    return module.Poses(
-        body.shapes,
-        body.topology.polygons(),
-        segments=body.topology.segments,
-        allow_nonmanifold=True,
+    return _poses(
+        module,
+        task.poses,
         allow_mirrored=getattr(task, "allow_mirrored", False),
         loose_components=task.metric.loose_components,
         open_seams=task.metric.open_seams,
+    )
+
+
+def _poses(module, body, **options):
+    topology = body.topology
+    return module.Poses(
+        body.shapes,
+        topology.polygons(),
+        segments=topology.segments,
+        allow_nonmanifold=True,
+        **options,
     )
 
 
@@ -84,7 +92,7 @@ class ModuleRun:
         self._notes = []
         self._motions = []
         self._report = {}
-        self._stages = 1 + len(getattr(task, "targets", []))
+        self._stages = 1 if isinstance(task, Fit) else 1 + len(getattr(task, "targets", []))
         self._stage = 0
         self._cancelled = False
         self._error = None
@@ -127,6 +135,8 @@ class ModuleRun:
             self._deform()
         elif isinstance(task, Repair):
             self._repair()
+        elif isinstance(task, Fit):
+            self._fit()
         elif task.modes is not None:
             self._average()
         else:
@@ -156,6 +166,17 @@ class ModuleRun:
             )
         )
         self._motions.append(path.vertices)
+
+    def _fit(self) -> None:
+        module, task = self._module, self._task
+        options = {"loose_components": True, "open_seams": task.open_seams}
+        meshes = [_poses(module, body, **options) for body in (task.poses, *task.targets)]
+        for mesh in meshes:
+            self._notes += mesh.warnings
+        template, target = meshes
+        found = module.correspond(template[0], template, target[0], target, progress=self._hear)
+        self._note_end(found.summary)
+        self._motions.append(found.fitted[np.newaxis])
 
     def _move(self) -> None:
         module, task = self._module, self._task
@@ -218,12 +239,14 @@ class ModuleRun:
         self._notes += getattr(summary, "deformation", summary).warnings
 
     def _take(self, result):
-        summary = result.summary
+        self._note_end(result.summary)
+        return result.path
+
+    def _note_end(self, summary) -> None:
         self._note(summary)
         if not summary.converged:
             brief = repr(summary)  # <GeodesicSummary: NOT CONVERGED ...>
             self._notes.append(brief.partition(": ")[2].rstrip(">"))
-        return result.path
 
     def _hear(self, stage, done, total, share) -> bool:
         self.text = stage

@@ -21,6 +21,7 @@ from .settings import (
     PoseSettings,
     RepairSettings,
     SmoothSettings,
+    SurfaceSettings,
     TransferSettings,
 )
 
@@ -174,6 +175,19 @@ class SHAPESPACE_OT_transfer(_Run, MotionSettings, TransferSettings, bpy.types.O
             poses.require_object_mode(item)
 
 
+class SHAPESPACE_OT_fit(_Run, SurfaceSettings, bpy.types.Operator):
+    """Add an object with the faces of the active mesh and the shape of the other selected one, whose
+    faces may be any others. In-betweens and Transfer then take both"""
+
+    bl_idname = "shapespace.fit"
+    bl_label = "Fit To"
+    work = work.FitOnto
+
+    @staticmethod
+    def require(context) -> None:
+        work.template_and_target_objects(context)
+
+
 class SHAPESPACE_OT_average(_OfPoses, PoseSettings, AverageSettings, bpy.types.Operator):
     """Add an object with the average of poses: the shape keys of the active object, or the selected
     objects. With Modes, its shape keys are the directions in which the poses vary most"""
@@ -282,6 +296,7 @@ CLASSES = (
     SHAPESPACE_OT_inbetweens,
     SHAPESPACE_OT_extrapolate,
     SHAPESPACE_OT_transfer,
+    SHAPESPACE_OT_fit,
     SHAPESPACE_OT_average,
     SHAPESPACE_OT_deform,
     SHAPESPACE_OT_deform_live,

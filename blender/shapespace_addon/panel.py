@@ -73,6 +73,8 @@ class SHAPESPACE_PT_motion(_Part, bpy.types.Panel):
         column.prop(settings, "poses_only")
         buttons.draw(column, context, "shapespace.transfer", "MOD_DATA_TRANSFER")
         column.separator()
+        buttons.draw(column, context, "shapespace.fit", "MOD_SHRINKWRAP")
+        column.separator()
         column.prop(settings, "modes")
         buttons.draw(column, context, "shapespace.average", "MOD_SMOOTH")
 

@@ -138,6 +138,15 @@ def pose_of_target(context, item) -> Poses:
     )
 
 
+def template_and_target(context, template, target) -> list:
+    """Two bodies of any faces, each as `poses_of_objects` has it."""
+    found = [poses_of_objects(context, [item]) for item in (template, target)]
+    _require_same_side(
+        template.name, found[0].frame.matrix, target.name, found[1].frame.matrix
+    )
+    return found
+
+
 def distorted_and_sound(context, item, other) -> Poses:
     """The active shape key of an object and its Basis or, with another object, that one's mesh at
     rest; then the object may have no shape keys."""

@@ -64,12 +64,20 @@ def _number(value) -> str:
     return f"{value:.3g}"
 
 
+def _times(value) -> str:
+    return f"{value:.3g} times"
+
+
 def _seconds(value) -> str:
     return f"{value:.2f} s"
 
 
 _ROWS = (
     ("Ended", "termination", _word),
+    ("Next map's cost", "certainty", _times),
+    ("Round trip, mean", "round_trip_mean", _percent),
+    ("Turned over", "turned", _percent),
+    ("Not covered", "uncovered", _percent),
     ("Beyond", "ending", _word),
     ("Energy", "energy", _number),
     ("Edges off, rms", "quality.edge_rms", _percent),

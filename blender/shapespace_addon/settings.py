@@ -6,8 +6,18 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 
-class MetricSettings:
-    """What the metric costs beside its preset. All operators have these."""
+class SurfaceSettings:
+    """What counts as one surface. All operators have these."""
+
+    open_seams: BoolProperty(
+        name="Open Seams",
+        description="Leave the surface open where borders lie on each other in all poses, as lips do"
+        " that never part. Otherwise vertices that are doubled at seams stay together",
+    )
+
+
+class MetricSettings(SurfaceSettings):
+    """What the metric costs beside its preset."""
 
     stiffness_group: StringProperty(
         name="Stiffness",
@@ -51,11 +61,6 @@ class MetricSettings:
         name="Loose Components",
         description="Leave parts loose that are not connected with the rest but stay near it in all"
         " poses, such as eyes and clothes. Otherwise they are tied to it",
-    )
-    open_seams: BoolProperty(
-        name="Open Seams",
-        description="Leave the surface open where borders lie on each other in all poses, as lips do"
-        " that never part. Otherwise vertices that are doubled at seams stay together",
     )
 
 

@@ -91,6 +91,15 @@ class Repair:
 
 
 @dataclass
+class Fit:
+    """A template to be fitted onto a body of other faces."""
+
+    poses: Body  # the template, one shape
+    targets: list  # the body, of one shape
+    open_seams: bool = False
+
+
+@dataclass
 class Result:
     """Motions, and what is worth saying about them."""
 

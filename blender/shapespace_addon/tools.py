@@ -8,7 +8,7 @@ import tempfile
 import threading
 
 from . import commands
-from .files import read_pc2, write_ply
+from .files import read_shapes, write_ply
 from .problem import Problem
 from .task import Result
 
@@ -86,7 +86,7 @@ class ToolsRun:
             files = [os.path.join(self._folder.name, name) for name in self._outputs]
             with open(os.path.join(self._folder.name, commands.REPORT)) as source:
                 report = json.load(source)
-            motions = [read_pc2(file) for file in files]
+            motions = [read_shapes(file) for file in files]
             return Result(motions, list(dict.fromkeys(self._notes)), report)
         finally:
             self._folder.cleanup()

@@ -40,7 +40,10 @@ def topology_of(mesh) -> Topology:
 
 def require_same(first: Topology, first_name: str, other: Topology, other_name: str) -> None:
     """Raises a Problem unless both meshes have the same faces in the same order."""
-    remedy = "poses must be copies of one mesh, with vertices and faces in the same order"
+    remedy = (
+        "poses must be copies of one mesh, with vertices and faces in the same order. Fit To makes a"
+        f" body with the faces of '{first_name}' and the shape of '{other_name}'"
+    )
     for what in ("vertices", "faces"):
         numbers = getattr(first, what), getattr(other, what)
         if numbers[0] != numbers[1]:

@@ -11,10 +11,18 @@ from mathutils import Matrix
 
 from . import engine, mesh_cache, record, shape_keys, vertex_groups
 from .metric import metric_of, tolerance_of
-from .poses import pose_of_target, poses_of_keys, poses_of_objects, selected_meshes
+from .poses import (
+    active_mesh,
+    pose_of_target,
+    poses_of_keys,
+    poses_of_objects,
+    require_object_mode,
+    selected_meshes,
+    template_and_target,
+)
 from .problem import Problem
 from .settings import Timing
-from .task import Body, Task
+from .task import Body, Fit, Task
 from .topology import require_same
 
 _SECONDS_BETWEEN_POLLS = 0.02
@@ -318,6 +326,51 @@ class Transfer(Work):
 
     def _inserted(self) -> int:
         return 0 if self._settings.poses_only else self._settings.shapes
+
+
+class FitOnto(Work):
+    """A new object with the faces of the active mesh and the shape of the other selected one."""
+
+    def _choose(self, context) -> list:
+        return [item.name for item in template_and_target_objects(context)]
+
+    def _read(self, context) -> list:
+        return template_and_target(context, *self._items())
+
+    def _check_places(self) -> None:
+        pass  # a new object can always be added
+
+    def _task(self, _context) -> Fit:
+        template, target = self._bodies
+        return Fit(body_of(template), [body_of(target)], self._settings.open_seams)
+
+    def _place(self, context, i: int, motion) -> list:
+        """The template is selected too, so that In-betweens can be pressed."""
+        template, target = self._items()
+        body = self._bodies[1]
+        (fitted,) = body.frame.to_object(motion)
+
+        def fill(item):
+            item.data.vertices.foreach_set("co", fitted.astype("f4").reshape(-1))
+            item.data.update()
+            return []
+
+        notes = _add_copy(context, template, body, f"{template.name} as {target.name}", fill)
+        template.select_set(True)
+        return notes
+
+
+def template_and_target_objects(context) -> list:
+    """The active mesh, and the other selected one. Raises a Problem unless there are these two."""
+    template = active_mesh(context)
+    others = [item for item in selected_meshes(context) if item != template]
+    if len(others) != 1:
+        raise Problem(
+            f"Two meshes are needed: select the body onto which '{template.name}' is to be fitted,"
+            f" and '{template.name}' last"
+        )
+    require_object_mode(others[0])
+    return [template, *others]
 
 
 def source_and_targets(context) -> list:
