@@ -6,7 +6,6 @@
 #include <shapespace/base/internal/extension.h>
 #include <shapespace/correspondence/correspondence.h>
 #include <shapespace/correspondence/correspondence_picture.h>
-#include <shapespace/correspondence/marker_file.h>
 #include <shapespace/files/write.h>
 #include <shapespace/output/frames.h>
 
@@ -25,10 +24,6 @@ DEFINE_string(
     "files to write, separated by commas: .obj, .ply, .off or .stl (the fitted "
     "template), .txt (the map in both directions), .png (a picture for judging it); - writes the "
     "fitted template to stdout, as PLY");
-DEFINE_string(
-    markers_out, "",
-    "a file for the markers that were used, those found included: look at them, mend one, "
-    "and name the file with --markers");
 DEFINE_bool(allow_nonmanifold, false,
             "accept meshes with non-manifold edges or vertices, or inconsistent winding");
 DEFINE_bool(open_seams, false,
@@ -75,13 +70,8 @@ void Run(const std::vector<std::string>& files) {
   inputs.insert(inputs.end(), files.begin(), files.end());
   const CorrespondenceOptions options = CorrespondenceFromFlags();
   const std::vector<std::string> outputs = Outputs();
-  std::vector<std::string> markers_out;
-  if (!FLAGS_markers_out.empty()) {
-    CheckCanBeWritten(FLAGS_markers_out);
-    markers_out = {FLAGS_markers_out};
-  }
   CheckNothingIsOverwritten(inputs,
-                            {{"output", outputs}, {"markers_out", markers_out}, ReportFromFlag()});
+                            {{"output", outputs}, MarkersOutFromFlag(), ReportFromFlag()});
   const Poses first = ReadMesh(files[0]), second = ReadMesh(files[1]);
   std::vector<CorrespondenceMarker> markers;
   if (!FLAGS_markers.empty()) markers = ReadMarkersAndTell(first, second);
@@ -105,10 +95,7 @@ void Run(const std::vector<std::string>& files) {
     }
     Out() << "wrote " << output << '\n';
   }
-  if (!FLAGS_markers_out.empty()) {
-    WriteMarkers(FLAGS_markers_out, result.markers);
-    Out() << "wrote " << FLAGS_markers_out << '\n';
-  }
+  WriteMarkersAndTell(result);
   WriteReport(result.summary.FullReport(), result.summary.ToJson());
 }
 

@@ -16,6 +16,7 @@
 #include <shapespace/exploration/space_file.h>
 #include <shapespace/files/read.h>
 #include <shapespace/mesh/check.h>
+#include <shapespace/mesh/different_meshes.h>
 #include <shapespace/mesh/seams.h>
 #include <shapespace/metric/metric.h>
 #include <shapespace/path/align.h>
@@ -23,6 +24,7 @@
 #include <shapespace/statistics/modes_file.h>
 #include <shapespace/summary/internal/json_of.h>
 
+#include "support/error_message.h"
 #include "support/inspect_path.h"
 #include "support/mesh_flags.h"
 #include "support/metric_flags.h"
@@ -254,14 +256,20 @@ class Meshes {
       told->Say("  %-12s %-24s mirrored; its %c has changed sign\n", Name(Severity::kNote),
                 "mirrored", axis);
     }
-    const bool corresponds =
-        soups_.size() == 1 || Print(CheckSameMesh(soups_.front(), soup), &json["findings"], told);
+    const bool corresponds = soups_.size() == 1 || Corresponds(&json["findings"], told);
     json["usable"] = usable && corresponds;
     all_usable_ = all_usable_ && usable && corresponds;
     return json;
   }
 
   bool AllUsable() const { return all_usable_; }
+
+  // \throw MeshError, DifferentMeshes
+  void RequireUsable() const {
+    const std::string problem = "not usable as it is: see the findings";
+    if (!other_.empty()) throw DifferentMeshes(problem, NameOf(soups_.front()), other_);
+    if (!all_usable_) throw MeshError(problem);
+  }
 
   // Prints how far each is from the first.
   Json Compare(Telling* told) const {
@@ -273,8 +281,18 @@ class Meshes {
   }
 
  private:
+  // Whether the last mesh corresponds to the first one.
+  bool Corresponds(Json* json, Telling* told) {
+    const std::vector<Finding> findings = CheckSameMesh(soups_.front(), soups_.back());
+    const bool other = std::any_of(findings.begin(), findings.end(),
+                                   [](const Finding& found) { return found.different_meshes; });
+    if (other && other_.empty()) other_ = NameOf(soups_.back());
+    return Print(findings, json, told);
+  }
+
   std::vector<Soup> soups_;
   bool all_usable_ = true;
+  std::string other_;  // the first mesh that is none of the first one's poses
 };
 
 bool IsMesh(const std::string& file) {
@@ -306,14 +324,14 @@ void Run(const std::vector<std::string>& arguments) {
         contents.push_back(InspectOther(file, &told));
       }
     } catch (const Error& error) {
-      Complain(error.what() + InFlags(error.option()));
+      Complain(MessageOf(error));
       contents.push_back({{"file", file}, {"error", error.what()}});
     }
   }
   Json report = {{"files", contents}};
   report["comparisons"] = meshes.AllUsable() ? meshes.Compare(&told) : Json::array();
   WriteReport(told.Text(), internal::TextOf(report));
-  if (!meshes.AllUsable()) throw MeshError("not usable as it is: see the findings");
+  meshes.RequireUsable();
 }
 
 }  // namespace

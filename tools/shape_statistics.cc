@@ -218,7 +218,7 @@ void PrintCoordinates(const ShapeModel& model, const std::vector<std::string>& o
   // The model's mean comes first, so that a mesh with other faces is refused and named.
   const PoseModes& modes = model.Modes();
   Soup mean = FrameSoup(*modes.metric->connectivity, modes.appearance);
-  mean.name = "the model";
+  mean.file = "the model";
   mean.vertices = modes.place(modes.metric->unit * modes.mean);
   soups.insert(soups.begin(), std::move(mean));
   const Poses poses = MakePosesFromFlags(std::move(soups), /*tie=*/false);

@@ -8,6 +8,7 @@
 #include <shapespace/correspondence/correspondence.h>
 #include <shapespace/mesh/check.h>
 #include <shapespace/output/frames.h>
+#include <shapespace/summary/internal/json_of.h>
 #include <shapespace/transfer/internal/option_fields.h>
 #include <shapespace/transfer/transfer.h>
 
@@ -24,11 +25,13 @@
 #include "support/solve_progress.h"
 #include "support/stdin_mesh.h"
 #include "support/summary.h"
+#include "support/telling.h"
 #include "support/tool.h"
 
 DEFINE_string(
     target, "",
-    "the body to move, in the pose of the first source; with --markers a mesh of any connectivity");
+    "the body to move, in the pose of the first source; the source is fitted onto one with other "
+    "faces, as by shape-correspond");
 DEFINE_string(hybrids, "",
               "files for the bodies half way between source and target, named as by --output");
 static const shapespace::tools::OptionFlags<shapespace::TransferOptions> flags(__FILE__,
@@ -70,19 +73,24 @@ class OtherMesh {
   explicit OtherMesh(const Poses& source)
       : target_(ReadMeshesFromFlags({FLAGS_target})),
         fit_(Correspond(source.connectivity, source.shapes[0], target_.connectivity,
-                        target_.shapes[0], ReadMarkersAndTell(source, target_),
-                        CorrespondenceFromFlags(), SolveProgress({}, "transferring").get())) {
+                        target_.shapes[0], Markers(source, target_), CorrespondenceFromFlags(),
+                        SolveProgress({}, "transferring").get())) {
     PrintSummary(fit_.summary.BriefReport(), fit_.summary.warnings, fit_.summary.Converged());
   }
 
   const Poses& Target() const { return target_; }
-  const Shape& Fitted() const { return fit_.fitted; }
+  const CorrespondenceResult& Fit() const { return fit_; }
   // The motion of the fitted source as a motion of the target's own mesh.
   Path Carry(const Path& path) const {
     return CarryPath(fit_, path, target_.connectivity, target_.shapes[0]);
   }
 
  private:
+  static std::vector<CorrespondenceMarker> Markers(const Poses& source, const Poses& target) {
+    if (FLAGS_markers.empty()) return {};
+    return ReadMarkersAndTell(source, target);
+  }
+
   const Poses target_;
   const CorrespondenceResult fit_;
 };
@@ -94,7 +102,39 @@ Poses FirstShapeOf(const Path& path, const std::string& file) {
   poses.shapes = {path.Placed(0)};
   poses.names = {file};
   poses.soup = FrameSoup(*poses.connectivity, path.appearance);
+  poses.soup.vertices = poses.shapes[0];
   return poses;
+}
+
+// Whether the source, whose first pose or path is `file`, is fitted onto the target: if markers are
+// given or looked for, or the target has other numbers of vertices or faces. If the faces alone
+// differ, it was probably exported in another order, and is refused.
+bool IsFitted(const Soup& source, const std::string& file) {
+  if (!FLAGS_markers.empty() || CorrespondenceFromFlags().find_markers) return true;
+  for (const Finding& finding : CheckSameMesh(source, ReadSoupOrStdin(FLAGS_target))) {
+    if (!finding.different_meshes || finding.kind == "polygons-differ") continue;
+    Note(FLAGS_target, " has other faces than ", file, ", which is fitted onto it");
+    return true;
+  }
+  return false;
+}
+
+// Refuses flags that have no effect, or none that is known, for a source that is fitted or not.
+void CheckFlagsOfTheFit(bool fitted) {
+  if (fitted) {
+    RefuseFlags({}, {"hybrids", "stiffeners"}, "does not go with a target of other faces");
+  } else {
+    RefuseFlags({"correspondence"}, {}, "goes with a target of other faces");
+  }
+}
+
+void WriteReports(const std::string& text, const std::string& json,
+                  const std::optional<OtherMesh>& other) {
+  if (!other) return WriteReport(text, json);
+  const CorrespondenceSummary& fit = other->Fit().summary;
+  Json report = Json::parse(json);
+  report["correspondence"] = Json::parse(fit.ToJson());
+  WriteReport(fit.FullReport() + '\n' + text, internal::TextOf(report));
 }
 
 // The poses of the files, and after them the target.
@@ -120,13 +160,8 @@ void Run(const std::vector<std::string>& files) {
   AnchorFlags anchorage = AnchorFlags::FromFlags();
   std::vector<std::string> hybrid_outputs;
   if (!FLAGS_hybrids.empty()) hybrid_outputs = OutputsFromFlag("hybrids", FLAGS_hybrids);
-  if (FLAGS_markers.empty()) {
-    RefuseFlags({"correspondence"}, {}, "goes with --markers");
-  } else {
-    RefuseFlags({}, {"hybrids", "stiffeners"}, "does not go with --markers");
-    CorrespondenceFromFlags();
-    MarkerFilesFromFlag();
-  }
+  CorrespondenceFromFlags();
+  MarkerFilesFromFlag();
   std::optional<OtherMesh> other;
   std::vector<std::string> all = files;
   all.push_back(FLAGS_target);
@@ -135,9 +170,10 @@ void Run(const std::vector<std::string>& files) {
     if (!FLAGS_markers.empty()) {
       for (const std::string& markers : MarkerFilesFromFlag()) inputs.push_back(markers);
     }
-    CheckNothingIsOverwritten(
-        inputs,
-        {{"output", outputs, frames}, {"hybrids", hybrid_outputs, frames}, ReportFromFlag()});
+    CheckNothingIsOverwritten(inputs, {{"output", outputs, frames},
+                                       {"hybrids", hybrid_outputs, frames},
+                                       MarkersOutFromFlag(),
+                                       ReportFromFlag()});
   };
   std::vector<std::string> all_outputs = outputs;
   all_outputs.insert(all_outputs.end(), hybrid_outputs.begin(), hybrid_outputs.end());
@@ -152,32 +188,38 @@ void Run(const std::vector<std::string>& files) {
     if (!hybrid_outputs.empty()) anchorage.Apply(&result.hybrids);
     WriteOutputs(outputs, result.path, result.path);
     if (!hybrid_outputs.empty()) WriteOutputs(hybrid_outputs, result.hybrids, result.hybrids);
-    WriteReport(result.summary.FullReport(), result.summary.ToJson());
+    if (other) WriteMarkersAndTell(other->Fit());
+    WriteReports(result.summary.FullReport(), result.summary.ToJson(), other);
   };
   if (from_path) {
     const Path source = ReadPathAndTell(files[0]);
     check(source.NumShapes());
-    if (!FLAGS_markers.empty()) other.emplace(FirstShapeOf(source, files[0]));
+    const Poses first = FirstShapeOf(source, files[0]);
+    const bool fitted = IsFitted(first.soup, files[0]);
+    CheckFlagsOfTheFit(fitted);
+    if (fitted) other.emplace(first);
     const Poses target = other ? other->Target() : ReadPoseOf(source, files[0], FLAGS_target);
     anchorage.Select(target.shapes[0], *target.connectivity, target.soup.appearance,
                      source.poses.size());
-    TransferResult result = Transfer(source, other ? other->Fitted() : target.shapes[0], options,
-                                     SolveProgress(all_outputs).get());
+    TransferResult result = Transfer(source, other ? other->Fit().fitted : target.shapes[0],
+                                     options, SolveProgress(all_outputs).get());
     const std::vector<std::string> warnings = result.summary.warnings;
     finish(std::move(result), warnings, target.soup.appearance);
   } else {
-    Poses poses = FLAGS_markers.empty() ? ReadWithTarget(files) : ReadPosesFromFlags(files);
+    const bool fitted = IsFitted(ReadSoupOrStdin(files[0]), files[0]);
+    CheckFlagsOfTheFit(fitted);
+    Poses poses = fitted ? ReadPosesFromFlags(files) : ReadWithTarget(files);
     check(static_cast<std::int64_t>(poses.shapes.size()));
     Shape target;
     Appearance appearance;
-    if (FLAGS_markers.empty()) {
+    if (!fitted) {
       target = poses.shapes.back();
       poses.shapes.pop_back();
       appearance = ReadSoupOrStdin(FLAGS_target).appearance;
       anchorage.Select(target, *poses.connectivity, appearance, poses.shapes.size());
     } else {
       other.emplace(poses);
-      target = other->Fitted();
+      target = other->Fit().fitted;
       appearance = other->Target().soup.appearance;
       anchorage.Select(other->Target().shapes[0], *other->Target().connectivity, appearance,
                        poses.shapes.size());
@@ -202,10 +244,11 @@ int main(int argc, char** argv) {
        std::string(
            R"(  shape-transfer stand.obj sit.obj leap.obj --target other.obj --output moved%d.obj
   shape-transfer walk.path --target other.obj --output walk.glb --hybrids half.glb
-  shape-transfer cat0.obj cat1.obj --target lion.obj --markers cat_lion.txt --output lion%d.obj
+  shape-transfer cat0.obj cat1.obj --target lion.obj --output lion%d.obj
 
-All meshes must have the same faces in the same order; only with --markers may the target differ:
-then the source is fitted onto it, as by shape-correspond, and outputs have the target's faces.
+The sources must have the same faces in the same order. If the target has other numbers of vertices
+or faces, or --markers or --find_markers are given, the source is fitted onto it, as by
+shape-correspond, and outputs have the target's faces; the report says how sure the fit is.
 The target is in the first pose; frame 0 is the target, frame 1 the target in the second pose, and
 so on. For a .path there is one frame per shape. With --method ladder the geodesic to each pose has
 --shapes + 1 segments, each of which is transferred; the flags of the metric are those of these

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <shapespace/base/error.h>
+#include <shapespace/mesh/different_meshes.h>
 
 namespace shapespace::python {
 namespace {
@@ -90,6 +91,14 @@ Shape ToShape(py::handle value, const std::string& name, int num_vertices) {
   return shape;
 }
 
+Shape ToPose(py::handle value, const std::string& name, int num_vertices) {
+  Shape shape = ToShape(value, name);
+  if (shape.cols() != num_vertices) {
+    throw MeshError(internal::OfOtherMesh(name, shape.cols(), num_vertices, kCorrespond));
+  }
+  return shape;
+}
+
 std::vector<Shape> ToShapes(py::handle value, const std::string& name, int num_vertices) {
   std::vector<Shape> shapes;
   if (py::isinstance<py::array>(value)) {
@@ -105,9 +114,9 @@ std::vector<Shape> ToShapes(py::handle value, const std::string& name, int num_v
   }
   for (py::handle one : value) {
     const std::string number = name + "[" + std::to_string(shapes.size()) + "]";
-    const int wanted =
-        shapes.empty() || num_vertices >= 0 ? num_vertices : static_cast<int>(shapes[0].cols());
-    shapes.push_back(ToShape(one, number, wanted));
+    shapes.push_back(shapes.empty() || num_vertices >= 0
+                         ? ToShape(one, number, num_vertices)
+                         : ToPose(one, number, static_cast<int>(shapes[0].cols())));
   }
   if (shapes.empty()) throw py::value_error(name + ": is empty; give at least one n x 3 array");
   return shapes;

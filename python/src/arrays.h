@@ -25,6 +25,13 @@ namespace py = pybind11;
 /// be. \throw py::type_error, py::value_error, MeshError (a number is not finite).
 Shape ToShape(py::handle value, const std::string& name, int num_vertices = -1);
 
+/// The same for a pose of a mesh. \throw MeshError that says what to do with a pose of another
+/// mesh.
+Shape ToPose(py::handle value, const std::string& name, int num_vertices);
+
+/// What messages name for fitting a mesh onto another one.
+constexpr char kCorrespond[] = "correspond";
+
 /// Several shapes of as many vertices: a sequence of n x 3, or one k x n x 3.
 std::vector<Shape> ToShapes(py::handle value, const std::string& name, int num_vertices = -1);
 

@@ -3,7 +3,9 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/printable.h>
+#include <shapespace/mesh/different_meshes.h>
 
+#include "arrays.h"
 #include "bind.h"
 
 namespace shapespace::python {
@@ -63,6 +65,8 @@ void Translate(std::exception_ptr thrown) {
     RaiseFileError(e);
   } catch (const MeshError& e) {
     Raise(mesh_error, e);
+  } catch (const DifferentMeshes& e) {
+    PyErr_SetString(mismatch_error, InPython(e.MessageWith(kCorrespond)).c_str());
   } catch (const MismatchError& e) {
     Raise(mismatch_error, e);
   } catch (const InvalidOptions& e) {

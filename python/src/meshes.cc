@@ -12,6 +12,7 @@
 #include <shapespace/files/vertex_field.h>
 #include <shapespace/files/write.h>
 #include <shapespace/mesh/check.h>
+#include <shapespace/mesh/different_meshes.h>
 #include <shapespace/mesh/selection.h>
 #include <shapespace/output/frames.h>
 
@@ -28,8 +29,8 @@ Poses PosesOf(const std::shared_ptr<const Connectivity>& connectivity, Soup soup
               std::vector<Shape> shapes) {
   for (size_t i = 0; i < shapes.size(); ++i) {
     if (shapes[i].cols() == connectivity->NumVertices()) continue;
-    throw MeshError("shape " + std::to_string(i) + ": has " + std::to_string(shapes[i].cols()) +
-                    " vertices, but the mesh has " + std::to_string(connectivity->NumVertices()));
+    throw MeshError(internal::OfOtherMesh("shape " + std::to_string(i), shapes[i].cols(),
+                                          connectivity->NumVertices(), kCorrespond));
   }
   Poses poses;
   poses.connectivity = connectivity;

@@ -190,8 +190,8 @@ void BindMetrics(py::module_* module) {
   module->def("compare_shapes",
               [](const FrozenMetric& metric, py::handle reference, py::handle shape) {
                 const int n = metric.metric->connectivity->NumVertices();
-                return CompareShapes(metric.metric, ToShape(reference, "reference", n),
-                                     ToShape(shape, "shape", n));
+                return CompareShapes(metric.metric, ToPose(reference, "reference", n),
+                                     ToPose(shape, "shape", n));
               });
 }
 

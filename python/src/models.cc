@@ -103,7 +103,7 @@ void BindModels(py::module_* module) {
       .def("coordinates_of", [](const std::shared_ptr<ShapeModel>& model, py::handle vertices,
                                 bool fit, const py::object& progress) {
         const int count = static_cast<int>(model->Modes().mean.cols());
-        const Shape shape = ToShape(vertices, "shape", count);
+        const Shape shape = ToPose(vertices, "shape", count);
         const ModelCoordinates found = WithoutLock(
             progress, [=](Progress* told) { return model->Coordinates(shape, fit, 0, told); });
         return py::make_tuple(FromMatrix(found.coordinates), FromShape(found.shape),

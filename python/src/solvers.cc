@@ -251,7 +251,7 @@ void BindShooting(py::module_* module) {
   module->def("logarithm", [](const FrozenMetric& metric, py::handle from, py::handle to, int steps,
                               const py::dict& given, const py::object& progress) {
     const int n = metric.metric->connectivity->NumVertices();
-    const Shape first = ToShape(from, "shape", n), last = ToShape(to, "end", n);
+    const Shape first = ToPose(from, "shape", n), last = ToPose(to, "end", n);
     if (steps < 2) throw py::value_error("steps: must be at least 2");
     LogarithmOptions options;
     Set(given, &options);
@@ -293,7 +293,7 @@ py::tuple FinishTransfer(const std::string& function, const Appearance& appearan
 void BindTransfer(py::module_* module) {
   module->def("transfer", [](const Path& source, py::handle target, const py::dict& given,
                              const py::object& progress) {
-    const Shape shape = ToShape(target, "target", source.metric->connectivity->NumVertices());
+    const Shape shape = ToPose(target, "target", source.metric->connectivity->NumVertices());
     const auto options = FromKeywords<TransferOptions>(given);
     return FinishTransfer("transfer", source.appearance, WithoutLock(progress, [=](Progress* told) {
                             return Transfer(source, shape, options, told);
@@ -302,7 +302,7 @@ void BindTransfer(py::module_* module) {
   module->def("transfer_poses", [](const Poses& poses, py::handle target,
                                    const py::object& geodesic, const py::dict& given,
                                    const py::object& progress) {
-    const Shape shape = ToShape(target, "target", poses.connectivity->NumVertices());
+    const Shape shape = ToPose(target, "target", poses.connectivity->NumVertices());
     GeodesicOptions on_the_way;
     Value<GeodesicOptions>::Set(&on_the_way, geodesic, "geodesic");
     on_the_way.Validate();
@@ -339,7 +339,7 @@ void BindSolvers(py::module_* module) {
   module->def("repair", [](const Poses& reference, py::handle distorted, py::handle vertices,
                            const py::dict& given, const py::object& progress) {
     const int n = reference.connectivity->NumVertices();
-    const Shape shape = ToShape(distorted, "distorted", n);
+    const Shape shape = ToPose(distorted, "distorted", n);
     RepairOptions options;
     options.deformation.metric =
         MetricOptions::Deformation(*reference.connectivity, reference.shapes[0]);

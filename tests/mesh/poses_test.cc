@@ -3,8 +3,10 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/files/read.h>
+#include <shapespace/mesh/different_meshes.h>
 
 #include "mesh/files.h"
+#include "support/message_of.h"
 
 namespace shapespace {
 namespace {
@@ -67,7 +69,7 @@ TEST_F(PosesTest, OtherMeshesAreRefused) {
       [&] {
         ReadPoses({File("a.obj", square_), File("b.obj", book_)});
       },
-      {"b.obj", "against", "a.obj", "5 vertices instead of 4"});
+      {"b.obj", "against", "a.obj", "5 vertices instead of 4", "Correspond"});
   std::string other = square_;
   other.replace(other.find("1 2 3 4"), 7, "1 3 2 4");
   ExpectError<MismatchError>(
@@ -75,6 +77,27 @@ TEST_F(PosesTest, OtherMeshesAreRefused) {
         ReadPoses({File("a.obj", square_), File("c.obj", other)});
       },
       {"c.obj", "polygon 1 (line 5) with vertices 1 3 2 4", "polygon 1 (line 5) with 1 2 3 4"});
+}
+
+// These have a remedy of their own, which is not said of poses that only need to be exported again.
+TEST_F(PosesTest, DifferentMeshesAreToldFromMeshesThatAreCutOtherwise) {
+  const std::string a = File("a.obj", square_), b = File("b.obj", book_);
+  std::string cut = square_;
+  cut.replace(cut.find("f 1 2 3 4"), 9, "f 1 2 3\nf 1 3 4");
+  const std::string c = File("c.obj", cut);
+  try {
+    ReadPoses({a, b});
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const DifferentMeshes& error) {
+    EXPECT_EQ(error.first(), a);
+    EXPECT_EQ(error.second(), b);
+    const std::string message = error.MessageWith("another name");
+    EXPECT_TRUE(testing::Names(message, {"5 vertices instead of 4", "another name"}));
+    EXPECT_FALSE(testing::HasWord(message, "Correspond"));
+  }
+  const std::string message = testing::MessageOf<MismatchError>([&] { ReadPoses({a, c}); });
+  EXPECT_TRUE(testing::Names(message, {"diagonals"}));
+  EXPECT_FALSE(testing::HasWord(message, "Correspond"));
 }
 
 TEST_F(PosesTest, MirrorImagesAreTurnedBackIfAsked) {

@@ -151,11 +151,60 @@ TEST_F(CorrespondTest, SaysWhatIsWrongAndWritesNothing) {
   refused(tool, {"a0.obj", "b0.obj", markers, "--output", "markers.txt"}, 2, "would overwrite");
   refused(tool, {"a0.obj", "b0.obj", markers, "--proportions", "0"}, 2, "--proportions 0");
   refused(tool, {"a0.obj", "b0.obj", "--markers", "none.txt"}, 1, "none.txt");
-  refused("shape-transfer", {"a0.obj", "a1.obj", "--target", "b0.obj", "--hold_all_markers"}, 2,
-          "--hold_all_markers: goes with --markers");
-  refused("shape-transfer",
-          {"a0.obj", "a1.obj", "--target", "b0.obj", markers, "--hybrids", "h%d.obj"}, 2,
-          "--hybrids: does not go with --markers");
+  const auto transfer = [&](const std::string& target, const Strings& flags,
+                            const std::string& part) {
+    Strings arguments = {"a0.obj", "a1.obj", "--target", target};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    refused("shape-transfer", arguments, 2, part);
+  };
+  transfer("a1.obj", {"--hold_all_markers"}, "--hold_all_markers");
+  transfer("a1.obj", {"--markers_out", "m.txt"}, "--markers_out");
+  transfer("b0.obj", {markers, "--hybrids", "h%d.obj"}, "--hybrids");
+  transfer("b0.obj", {"--hybrids", "h%d.obj"}, "--hybrids");
+  transfer("b0.obj", {"--markers_out", "a1.obj"}, "a1.obj");
+}
+
+// The target of a transfer needs no markers either, and the report says how good the fit is.
+TEST_F(CorrespondTest, MovesABodyOfAnotherConnectivityWithoutMarkers) {
+  MakeBodies();
+  Succeed("shape-interpolate", {"a0.obj", "a1.obj", "--shapes", "1", "--output", "a.path"});
+  const Shape target = Vertices("b0.obj");
+  for (const Strings& source : {Strings{"a0.obj", "a1.obj"}, Strings{"a.path"}}) {
+    Strings arguments = source;
+    arguments.insert(arguments.end(), {"--target", "b0.obj", "--output", "out%d.obj", "--report",
+                                       "r.json", "--markers_out", "found.txt"});
+    Succeed("shape-transfer", arguments);
+    EXPECT_EQ(ReadSoup(Path("out0.obj")).corners, ReadSoup(Path("b0.obj")).corners);
+    EXPECT_LT((Vertices("out0.obj") - target).cwiseAbs().maxCoeff(), 1e-6);
+    const json report = json::parse(Content(Path("r.json")));
+    EXPECT_FALSE(report["correspondence"]["candidates"].empty());
+    EXPECT_EQ(report["correspondence"]["converged"], true);
+    const std::string found = Content(Path("found.txt"));
+    EXPECT_GE(std::count(found.begin(), found.end(), '\n'), 3);
+  }
+  // It sits, as it would by the vertices that are known to correspond.
+  Succeed("shape-transfer", {"a0.obj", "a1.obj", "--target", "b0.obj", "--output", "found%d.obj"});
+  Succeed("shape-transfer", {"a0.obj", "a1.obj", "--target", "b0.obj", "--markers", "markers.txt",
+                             "--output", "given%d.obj"});
+  const Shape found = Vertices("found1.obj"), given = Vertices("given1.obj");
+  EXPECT_LT((found - given).colwise().norm().mean(),
+            0.2 * (given - target).colwise().norm().mean());
+  // Also a mesh of the same faces, if that is asked for.
+  const Outcome asked =
+      Run("shape-transfer", {"a0.obj", "a1.obj", "--target", "a0.obj", "--find_markers", "--output",
+                             "own%d.obj", "--report", "r.json"});
+  EXPECT_EQ(asked.code, 0) << asked.err;
+  EXPECT_TRUE(json::parse(Content(Path("r.json"))).contains("correspondence"));
+}
+
+// A target onto which nothing can be fitted ends the run, with nothing written.
+TEST_F(CorrespondTest, ATransferEndsWithAFitThatFails) {
+  MakeBodies();
+  File("edge.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n");
+  const Strings before = Files();
+  const Outcome outcome = Run("shape-transfer", {"a0.obj", "a1.obj", "--target", "edge.obj"});
+  EXPECT_EQ(outcome.code, 1) << outcome.out;
+  EXPECT_EQ(Files(), before);
 }
 
 // The markers that are found are a file of markers, which can be mended and read again.

@@ -113,7 +113,7 @@ TEST_F(HelpTest, ListsOurFlagsOnly) {
   EXPECT_EQ(Listed("shape-extrapolate"), extrapolate);
   std::set<std::string> transfer = geodesic;
   transfer.insert({"align", "connection", "find_markers", "hold_all_markers", "hybrids", "markers",
-                   "method", "proportions", "scale", "soft_markers", "target"});
+                   "markers_out", "method", "proportions", "scale", "soft_markers", "target"});
   EXPECT_EQ(Listed("shape-transfer"), transfer);
   std::set<std::string> deform = wanted;
   deform.insert({"avoid_contact", "balance", "coarsest", "fps", "ground_line", "handles", "labels",

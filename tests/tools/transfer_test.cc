@@ -170,11 +170,12 @@ TEST_F(TransferTest, FlagsOfTheTransferReachIt) {
   ExpectContains(Content(Path("r.txt")), "Pose 2, its transfer");
 }
 
-TEST_F(TransferTest, BodiesOfOtherConnectivityAreRefusedByName) {
+// A source is not fitted onto a mesh that has as many faces, but other ones, unless that is asked
+// for: most likely it was exported in another order.
+TEST_F(TransferTest, ATargetInAnotherOrderIsRefusedByName) {
   MakeBodies();
   Succeed("shape-interpolate",
           {"tube0.obj", "tube1.obj", "--shapes", "1", "--output", "walk.path"});
-  Succeed("shape-body", {"bar", "--triangles", "300", "--at", "0", "--output", "bar%d.obj"});
   // All counts are equal, but two vertices are exchanged.
   Soup changed = ReadSoup(Path("thin.obj"));
   for (int& v : changed.corners) v = v == 0 ? 70 : v == 70 ? 0 : v;
@@ -182,16 +183,12 @@ TEST_F(TransferTest, BodiesOfOtherConnectivityAreRefusedByName) {
   WriteMesh(Path("changed.obj"), changed.vertices, changed);
   const Strings before = Files();
   for (const Strings& source : {Strings{"tube0.obj", "tube1.obj"}, Strings{"walk.path"}}) {
-    for (const auto& [target, message] :
-         {std::make_pair("bar0.obj", "vertices instead of 152; these are not poses of one mesh"),
-          {"changed.obj", "the first polygon that differs is "}}) {
-      Strings arguments = source;
-      arguments.insert(arguments.end(), {"--target", target, "--output", "on%d.obj"});
-      const Outcome outcome = Run("shape-transfer", arguments);
-      EXPECT_EQ(outcome.code, 1);
-      ExpectContains(outcome.err, std::string(target) + " against " + source[0] + ": ");
-      ExpectContains(outcome.err, message);
-    }
+    Strings arguments = source;
+    arguments.insert(arguments.end(), {"--target", "changed.obj", "--output", "on%d.obj"});
+    const Outcome outcome = Run("shape-transfer", arguments);
+    EXPECT_EQ(outcome.code, 1);
+    ExpectContains(outcome.err, "changed.obj against " + source[0] + ": ");
+    ExpectContains(outcome.err, "shape-correspond ");
   }
   EXPECT_EQ(Run("shape-transfer", {"tube0.obj", "tube1.obj", "--target", "nowhere.obj"}).code, 1);
   EXPECT_EQ(Files(), before);

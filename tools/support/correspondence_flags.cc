@@ -19,6 +19,10 @@ DEFINE_string(markers, "",
               "source) and one of the target, by number from 1 or by the name of a group. Or two "
               "files of landmarks, the template's and the target's, separated by a comma: .fcsv or "
               ".mrk.json of 3D Slicer, or text with x y z in each line");
+DEFINE_string(
+    markers_out, "",
+    "a file for the markers that were used, those found included: look at them, mend one, "
+    "and name the file with --markers");
 DEFINE_bool(soft_markers, false,
             "do not meet markers exactly, for landmarks that are some millimetres off");
 DEFINE_bool(hold_all_markers, false, "use all markers, including those that contradict the others");
@@ -50,6 +54,18 @@ std::vector<CorrespondenceMarker> ReadMarkersAndTell(const Poses& template_mesh,
   }
   for (CorrespondenceMarker& marker : markers) marker.soft = FLAGS_soft_markers;
   return markers;
+}
+
+FlagOutputs MarkersOutFromFlag() {
+  if (FLAGS_markers_out.empty()) return {"markers_out", {}};
+  CheckCanBeWritten(FLAGS_markers_out);
+  return {"markers_out", {FLAGS_markers_out}};
+}
+
+void WriteMarkersAndTell(const CorrespondenceResult& result) {
+  if (FLAGS_markers_out.empty()) return;
+  WriteMarkers(FLAGS_markers_out, result.markers);
+  Out() << "wrote " << FLAGS_markers_out << '\n';
 }
 
 CorrespondenceOptions CorrespondenceFromFlags() {

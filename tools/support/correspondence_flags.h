@@ -9,6 +9,8 @@
 #include <shapespace/correspondence/correspondence.h>
 #include <shapespace/files/read.h>
 
+#include "support/files.h"
+
 DECLARE_string(markers);
 
 namespace shapespace::tools {
@@ -20,6 +22,12 @@ std::vector<std::string> MarkerFilesFromFlag();
 /// The markers in these files, with warnings. \throw FileError.
 std::vector<CorrespondenceMarker> ReadMarkersAndTell(const Poses& template_mesh,
                                                      const Poses& target);
+
+/// The file of --markers_out, if there is one. \throw FileError if it cannot be written.
+FlagOutputs MarkersOutFromFlag();
+
+/// Writes the markers that were used there, and says so. \throw FileError.
+void WriteMarkersAndTell(const CorrespondenceResult& result);
 
 /// The options of a correspondence according to the flags.
 /// \throw UsageError.

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "support/error_message.h"
 #include "support/tool.h"
 
 #ifdef SHAPESPACE_HAS_MPI
@@ -21,6 +22,7 @@
 #include <thread>
 #include <vector>
 
+#include <shapespace/base/error.h>
 #include <shapespace/base/parallel.h>
 #endif
 
@@ -169,6 +171,11 @@ class Silence {
   const int stderr_;
 };
 
+void Abort(const MpiCrew& crew, const std::string& message) {
+  Complain((crew.Rank() > 0 ? "rank " + std::to_string(crew.Rank()) + ": " : "") + message);
+  MPI_Abort(MPI_COMM_WORLD, 1);
+}
+
 void WithRanks(const std::function<void(ProcessPool*)>& body) {
   MpiCrew crew;
   try {
@@ -177,9 +184,10 @@ void WithRanks(const std::function<void(ProcessPool*)>& body) {
     body(&crew);
   } catch (const UsageError&) {
     if (crew.Rank() == 0) throw;
+  } catch (const Error& error) {
+    Abort(crew, MessageOf(error));
   } catch (const std::exception& error) {
-    Complain((crew.Rank() > 0 ? "rank " + std::to_string(crew.Rank()) + ": " : "") + error.what());
-    MPI_Abort(MPI_COMM_WORLD, 1);
+    Abort(crew, error.what());
   }
 }
 

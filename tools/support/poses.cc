@@ -8,6 +8,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/files/pose_order.h>
 #include <shapespace/mesh/check.h>
+#include <shapespace/mesh/different_meshes.h>
 #include <shapespace/output/frames.h>
 
 #include "support/console.h"
@@ -98,6 +99,7 @@ Poses ReadPoseOf(const Path& path, const std::string& path_file, const std::stri
     Warn(file, ": is no mirror image of the path's first shape: --mirror has no effect");
   }
   for (const Finding& finding : CheckSameMesh(reference, pose)) {
+    if (finding.different_meshes) throw DifferentMeshes(finding.message, path_file, file);
     if (finding.severity == Severity::kFatal ||
         (finding.severity == Severity::kMirrored && !FLAGS_allow_mirrored)) {
       throw MismatchError(finding.message, finding.option);

@@ -14,6 +14,7 @@
 #include <shapespace/base/parallel.h>
 
 #include "support/command_line.h"
+#include "support/error_message.h"
 #include "support/flag_group.h"
 #include "support/interrupt.h"
 
@@ -161,7 +162,7 @@ int RunTool(int argc, char** argv, const Program& program,
   } catch (const std::bad_alloc&) {
     Complain("out of memory");
   } catch (const Error& error) {
-    Complain(error.what() + InFlags(error.option()));
+    Complain(MessageOf(error));
   } catch (const std::exception& error) {
     Complain(error.what());
   }

@@ -10,6 +10,7 @@
 #include <shapespace/base/internal/text.h>
 #include <shapespace/files/detail/read_formats.h>
 #include <shapespace/mesh/check.h>
+#include <shapespace/mesh/different_meshes.h>
 #include <shapespace/mesh/internal/check_positions.h>
 #include <shapespace/mesh/internal/check_structure.h>
 #include <shapespace/mesh/internal/check_words.h>
@@ -82,11 +83,32 @@ class FindingPolicy {
   FindingPolicy(const ReadOptions& options, std::vector<std::string>* warnings)
       : options_(options), warnings_(warnings) {}
 
-  /// \throw E if a finding is fatal.
-  template <typename E>
+  /// \throw MeshError if a finding about a mesh is fatal.
   void Enforce(const std::vector<Finding>& findings) {
+    const Refusal refusal = Judge(findings);
+    if (!refusal.message.empty()) throw MeshError(refusal.message, refusal.option);
+  }
+
+  /// \throw MismatchError if a finding about `pose` against `reference` is fatal.
+  void Enforce(const std::vector<Finding>& findings, const Soup& reference, const Soup& pose) {
+    const Refusal refusal = Judge(findings);
+    if (refusal.different_meshes) {
+      throw DifferentMeshes(refusal.message, internal::FileName(reference),
+                            internal::FileName(pose));
+    }
+    if (!refusal.message.empty()) throw MismatchError(refusal.message, refusal.option);
+  }
+
+ private:
+  struct Refusal {
+    std::string message, option;  // the message is empty if nothing is refused
+    bool different_meshes = false;
+  };
+
+  Refusal Judge(const std::vector<Finding>& findings) {
     constexpr int kMaxReported = 3;
-    std::string refusal, option;
+    Refusal refusal;
+    auto& [message, option, different_meshes] = refusal;
     int reported = 0;
     for (const Finding& finding : findings) {
       const bool fatal =
@@ -95,16 +117,16 @@ class FindingPolicy {
           (finding.severity == Severity::kNonManifold && !options_.allow_nonmanifold);
       // With an option, the call would do what it refuses only if it is that of all of them.
       if (fatal) option = reported == 0 || option == finding.option ? finding.option : "";
+      different_meshes = different_meshes || finding.different_meshes;
       if (fatal && reported++ < kMaxReported) {
-        refusal += (refusal.empty() ? "" : "\n") + finding.message;
+        message += (message.empty() ? "" : "\n") + finding.message;
       } else if (!fatal && finding.severity != Severity::kNote) {
         warnings_->push_back(finding.message);
       }
     }
-    if (!refusal.empty()) throw E(refusal, option);
+    return refusal;
   }
 
- private:
   const ReadOptions& options_;
   std::vector<std::string>* warnings_;
 };
@@ -134,7 +156,7 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
     poses.names.push_back(pose.name.empty() ? pose.file : pose.name);
     if (poses.shapes.empty()) {
       poses.soup = std::move(pose);
-      policy.Enforce<MeshError>(internal::CheckMesh(first));
+      policy.Enforce(internal::CheckMesh(first));
       poses.shapes.push_back(first.vertices);
       return;
     }
@@ -144,9 +166,9 @@ Poses Collect(size_t count, const Next& next, const ReadOptions& options) {
                                internal::FileName(first) + "; its " + options.mirror +
                                " has changed sign");
     }
-    policy.Enforce<MismatchError>(CheckSameMesh(first, pose));
+    policy.Enforce(CheckSameMesh(first, pose), first, pose);
     // From here on only its positions are used, with the polygons of the first one.
-    policy.Enforce<MeshError>(internal::CheckPositions(pose));
+    policy.Enforce(internal::CheckPositions(pose));
     poses.shapes.push_back(std::move(pose.vertices));
   };
   for (size_t i = 0; i < count; ++i) {

@@ -97,8 +97,8 @@ struct ReadOptions {
 
 /// Reads one or more files, with all poses that they have, as poses of the first one's
 /// connectivity.
-/// \throw FileError, MeshError (fatal findings of `CheckSoup`), MismatchError (fatal findings
-///        of `CheckSameMesh`, naming the first difference).
+/// \throw FileError, MeshError (fatal findings of `CheckSoup`), MismatchError (those of
+///        `CheckSameMesh`, naming the first difference; DifferentMeshes if their faces differ).
 Poses ReadPoses(const std::vector<std::string>& files, const ReadOptions& options = {});
 
 /// The same for soups from other sources: `ReadSoup` makes them from streams, `MakeSoup`

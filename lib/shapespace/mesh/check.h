@@ -23,6 +23,9 @@ struct Finding {
   std::string message;  ///< file, line, element, count and remedy
   /// The field of `ReadOptions` that accepts or mends this; empty if there is none.
   std::string option = {};
+  /// The polygons of the two meshes connect other vertices, and not only because they are cut along
+  /// other diagonals: what `DifferentMeshes` is thrown for.
+  bool different_meshes = false;
 };
 
 /// All findings about one mesh, in order of descending severity. Components, borders and genus are

@@ -67,6 +67,13 @@ class Comparison {
                           option});
   }
 
+  // Marks the findings so far, of two surfaces.
+  void MarkAsDifferentMeshes() {
+    for (Finding& finding : *findings_) {
+      finding.different_meshes = reference_.NumPolygons() > 0 && pose_.NumPolygons() > 0;
+    }
+  }
+
   bool CountsAgree() {
     bool agree = true;
     const int recut = pose_.NumVertices() == reference_.NumVertices() &&
@@ -88,6 +95,7 @@ class Comparison {
     };
     compare(pose_.NumVertices(), reference_.NumVertices(), "vertex-count", "vertices");
     compare(pose_.NumPolygons(), reference_.NumPolygons(), "polygon-count", "polygons");
+    if (!agree) MarkAsDifferentMeshes();
     compare(pose_.segments.size(), reference_.segments.size(), "segment-count", "segments");
     return agree;
   }
@@ -131,10 +139,13 @@ class Comparison {
     if (!same) {
       int p = 0;
       while (SameKey(reference, p, pose, p)) ++p;
+      const int recut = internal::CountRecutPolygons(reference_, pose_);
       Tell(Severity::kFatal, "polygons-differ",
            "the first polygon that differs is " + PolygonName(pose_, p) + " with vertices " +
                Corners(pose_, p) + ", where the reference has " + PolygonName(reference_, p) +
-               " with " + Corners(reference_, p) + "; " + WhyPolygonsDiffer());
+               " with " + Corners(reference_, p) + "; " +
+               (recut > 0 ? Recut(recut) : WhyVerticesDiffer() + ": " + kKeepOrder));
+      if (recut == 0) MarkAsDifferentMeshes();
       return false;
     }
     if (wound.Count() == 0) {
@@ -166,11 +177,6 @@ class Comparison {
     return "the vertices and their polygons are the same, but polygons are cut along other "
            "diagonals, or not cut in one of the two (" +
            std::to_string(polygons) + "): " + kCutOnce;
-  }
-
-  std::string WhyPolygonsDiffer() const {
-    const int recut = internal::CountRecutPolygons(reference_, pose_);
-    return recut > 0 ? Recut(recut) : WhyVerticesDiffer() + ": " + kKeepOrder;
   }
 
   std::string WhyVerticesDiffer() const {

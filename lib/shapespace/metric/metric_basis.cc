@@ -7,6 +7,7 @@
 
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/ranges.h>
+#include <shapespace/mesh/different_meshes.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/metric/metric.h>
 
@@ -182,8 +183,7 @@ MetricBasis MakeMetricBasis(const MetricOptions& options,
   if (poses.empty()) throw MeshError("a metric needs at least one pose to be frozen on");
   for (const Shape& pose : poses) {
     if (pose.cols() != connectivity->NumVertices()) {
-      throw MeshError("a pose has " + std::to_string(pose.cols()) + " vertices, the mesh " +
-                      std::to_string(connectivity->NumVertices()));
+      throw MeshError(internal::OfOtherMesh("a pose", pose.cols(), connectivity->NumVertices()));
     }
     if (!pose.allFinite()) throw MeshError("a pose has a coordinate that is not finite");
     CheckMagnitude(pose);

@@ -22,6 +22,7 @@
 #include <shapespace/geodesic/internal/workload.h>
 #include <shapespace/hierarchy/freeze_level.h>
 #include <shapespace/hierarchy/hierarchy.h>
+#include <shapespace/mesh/different_meshes.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/topology.h>
 #include <shapespace/path/align.h>
@@ -224,8 +225,7 @@ DeformationResult Deformer::Solver::Solve(const std::vector<DeformationHandle>& 
 
 void Deformer::Solver::CheckEnd(const Shape& end) const {
   if (end.cols() != given_.cols()) {
-    throw MeshError("the end has " + std::to_string(end.cols()) + " vertices, the mesh " +
-                    std::to_string(given_.cols()));
+    throw MeshError(internal::OfOtherMesh("the end", end.cols(), static_cast<int>(given_.cols())));
   }
   for (int v = 0; v < end.cols(); ++v) {
     if (end.col(v).allFinite()) continue;

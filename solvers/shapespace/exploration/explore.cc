@@ -13,6 +13,7 @@
 #include <shapespace/exploration/detail/refinement.h>
 #include <shapespace/exploration/triangulation.h>
 #include <shapespace/hierarchy/freeze_level.h>
+#include <shapespace/mesh/different_meshes.h>
 #include <shapespace/mesh/rigid_motion.h>
 
 namespace shapespace {
@@ -95,10 +96,11 @@ Eigen::MatrixXd MeasureDistances(Measuring* measuring, Progress* progress) {
 void CheckPoses(const Connectivity& connectivity, const std::vector<Shape>& poses) {
   if (poses.size() < 2) throw MeshError("a space needs at least two poses");
   for (size_t i = 0; i < poses.size(); ++i) {
-    if (poses[i].cols() != connectivity.NumVertices() || !poses[i].allFinite()) {
-      throw MeshError("pose " + std::to_string(i) +
-                      " is not finite, or has another number of vertices than the mesh");
+    const std::string name = "pose " + std::to_string(i);
+    if (poses[i].cols() != connectivity.NumVertices()) {
+      throw MeshError(internal::OfOtherMesh(name, poses[i].cols(), connectivity.NumVertices()));
     }
+    if (!poses[i].allFinite()) throw MeshError(name + " has a coordinate that is not finite");
   }
 }
 

@@ -9,6 +9,7 @@
 #include <shapespace/geodesic/detail/align_folds.h>
 #include <shapespace/geodesic/detail/geodesic_levels.h>
 #include <shapespace/geodesic/internal/memory.h>
+#include <shapespace/mesh/different_meshes.h>
 #include <shapespace/path/align.h>
 #include <shapespace/summary/internal/check_options.h>
 #include <shapespace/summary/internal/memory.h>
@@ -23,9 +24,11 @@ void CheckFinest(const Metric& metric, double bytes, const GeodesicOptions& opti
 }
 
 void CheckShape(const Shape& shape, const Metric& metric) {
-  if (shape.cols() != metric.connectivity->NumVertices() || !shape.allFinite()) {
-    throw MeshError("a pose is not finite, or has another number of vertices than the metric");
+  const int vertices = metric.connectivity->NumVertices();
+  if (shape.cols() != vertices) {
+    throw MeshError(internal::OfOtherMesh("a pose", shape.cols(), vertices));
   }
+  if (!shape.allFinite()) throw MeshError("a pose has a coordinate that is not finite");
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <shapespace/base/internal/random.h>
 #include <shapespace/exponential/internal/nearest_shape.h>
 #include <shapespace/exponential/internal/step.h>
+#include <shapespace/mesh/different_meshes.h>
 #include <shapespace/statistics/detail/feature_statistics.h>
 #include <shapespace/statistics/detail/logarithms.h>
 #include <shapespace/statistics/detail/size.h>
@@ -156,11 +157,11 @@ Shape ShapeModel::Preview(const Eigen::VectorXd& coordinates) const {
 ModelCoordinates ShapeModel::Coordinates(const Shape& shape, bool fit, int modes,
                                          Progress* progress) const {
   const Metric& metric = *Modes().metric;
-  if (shape.cols() != metric.connectivity->NumVertices() || !shape.allFinite()) {
-    throw MeshError("the shape is not finite, or has " + std::to_string(shape.cols()) +
-                    " vertices and not " + std::to_string(metric.connectivity->NumVertices()) +
-                    " as the model");
+  const int vertices = metric.connectivity->NumVertices();
+  if (shape.cols() != vertices) {
+    throw MeshError(internal::OfOtherMesh("the shape", shape.cols(), vertices));
   }
+  if (!shape.allFinite()) throw MeshError("the shape has a coordinate that is not finite");
   if (modes < 0 || modes > Modes().NumModes()) {
     throw InvalidOptions("modes", "must be from 0 to " + std::to_string(Modes().NumModes()));
   }

@@ -10,6 +10,7 @@
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/internal/sub_progress.h>
 #include <shapespace/contact/internal/slide.h>
+#include <shapespace/mesh/different_meshes.h>
 #include <shapespace/mesh/internal/geometry.h>
 #include <shapespace/mesh/mirrored.h>
 #include <shapespace/mesh/rigid_motion.h>
@@ -155,8 +156,7 @@ void CheckTarget(const Path& source, const Shape& target) {
   const int num_vertices = source.metric->connectivity->NumVertices();
   if (source.NumShapes() < 2) throw MeshError("a source of one shape has no motion to transfer");
   if (target.cols() != num_vertices) {
-    throw MeshError("the target has " + std::to_string(target.cols()) +
-                    " vertices, the source has " + std::to_string(num_vertices));
+    throw MeshError(internal::OfOtherMesh("the target", target.cols(), num_vertices));
   }
   if (!target.allFinite()) throw MeshError("a coordinate of the target is not finite");
 }
