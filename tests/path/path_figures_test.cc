@@ -86,6 +86,7 @@ TEST(MakePath, TakesTimesAndPosesFromTheShapes) {
 Path Marked() {
   Path path = MakePath(ChainMetric(), Chains(6), {0, 1, 2, 4, 7, 9});
   path.poses = {0, 2, 4};
+  path.pose_names = {"stand", "sit", "lie"};
   path.extrapolated = 1;
   path.converged = false;
   path.smooth = true;
@@ -98,6 +99,7 @@ TEST(SelectShapes, KeepsWhatIsSaidOfThePath) {
   EXPECT_EQ(some.metric, path.metric);
   EXPECT_EQ(some.parameters, (std::vector<double>{0, 1, 6, 8}));
   EXPECT_EQ(some.poses, (std::vector<int>{1, 2}));
+  EXPECT_EQ(some.pose_names, (std::vector<std::string>{"sit", "lie"}));
   EXPECT_EQ(some.extrapolated, 1);
   EXPECT_FALSE(some.converged);
   EXPECT_TRUE(some.smooth);
@@ -109,6 +111,7 @@ TEST(SelectShapes, KeepsWhatIsSaidOfThePath) {
   const Path back = SelectShapes(path, {5, 4, 1});
   EXPECT_EQ(back.parameters, (std::vector<double>{0, 2, 8}));
   EXPECT_EQ(back.poses, std::vector<int>{1});
+  EXPECT_EQ(back.pose_names, std::vector<std::string>{"lie"});
   EXPECT_EQ(back.extrapolated, 0);
 }
 
@@ -117,6 +120,7 @@ TEST(ResamplePath, KeepsWhatIsSaidOfThePath) {
   EXPECT_EQ(other.metric, path.metric);
   EXPECT_EQ(other.parameters, (std::vector<double>{1, 2, 5, 7, 7.5, 8}));
   EXPECT_EQ(other.poses, (std::vector<int>{1, 3}));
+  EXPECT_EQ(other.pose_names, (std::vector<std::string>{"sit", "lie"}));
   EXPECT_EQ(other.extrapolated, 2);
   EXPECT_FALSE(other.converged);
   EXPECT_TRUE(other.smooth);

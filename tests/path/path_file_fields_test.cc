@@ -47,6 +47,7 @@ Path GenericPath(const MetricOptions& options) {
   path.motions[1].rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   path.parameters = {-0.5, 0.25, 2};
   path.poses = {1, 2};
+  path.pose_names = {"sit", "l\xe9ve"};
   path.converged = true;
   path.smooth = true;
   path.provenance = "generic";
@@ -113,6 +114,7 @@ TEST(PathFile, KeepsEveryFieldOfTheMetric) {
   EXPECT_TRUE(read.smooth);
   EXPECT_TRUE(read.converged);
   EXPECT_EQ(read.poses, (std::vector<int>{1, 2}));
+  EXPECT_EQ(read.pose_names, path.pose_names);
   EXPECT_EQ(read.extrapolated, 0);
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(read.motions[i].rotation, path.motions[i].rotation);

@@ -202,6 +202,7 @@ TEST(PathFile, PathsAtOddsWithThemselvesAreNotWritten) {
   using P = Path;
   EXPECT_TRUE(testing::Names(message([](P* p) { p->shapes.clear(); }), {file, "shape"}));
   EXPECT_TRUE(testing::Names(message([](P* p) { p->motions.pop_back(); }), {file, "5"}));
+  EXPECT_TRUE(testing::Names(message([](P* p) { p->pose_names = {"one"}; }), {file, "names"}));
   EXPECT_TRUE(testing::Names(message([](P* p) { p->shapes[1](2, 5) = std::nan(""); }),
                              {file, "shape 1", "vertex 5"}));
   EXPECT_EQ(message([](P* p) { p->shapes[2] = Shape::Zero(3, 7); }).find(file + ": shape 2 has 7 "),

@@ -17,11 +17,13 @@ bool IsMeshFile(const std::string& name) {
 
 }  // namespace
 
+std::string DisplayName(const std::string& name) {
+  return IsMeshFile(name) ? std::filesystem::path(name).stem().string() : name;
+}
+
 std::vector<std::string> DisplayNames(const std::vector<std::string>& names) {
   std::vector<std::string> shown;
-  for (const std::string& name : names) {
-    shown.push_back(IsMeshFile(name) ? std::filesystem::path(name).stem().string() : name);
-  }
+  for (const std::string& name : names) shown.push_back(DisplayName(name));
   std::set<std::string> taken;
   for (std::string& name : shown) {
     std::string distinct = name;

@@ -6,9 +6,12 @@
 
 namespace shapespace {
 
-/// Short and distinct names of poses, for what is shown or passed on to others. Files' names
-/// (`Poses::names` has both) lose folder and extension, other names remain; a repeated name gets a
-/// number from 2 on: "sit", "sit 2".
+/// A short name of a pose: a file's name loses folder and extension, another remains.
+/// `Poses::names` has both.
+std::string DisplayName(const std::string& name);
+
+/// Short and distinct names of poses, for what is shown or passed on to others: as above,
+/// and a repeated name gets a number from 2 on: "sit", "sit 2".
 std::vector<std::string> DisplayNames(const std::vector<std::string>& names);
 
 }  // namespace shapespace

@@ -35,6 +35,15 @@ void CheckTimes(const std::vector<double>& times, double first, double last) {
   }
 }
 
+/// Adds shape k of `result` to its poses if it is shape i of `path` and that is a pose.
+void KeepPose(const Path& path, int i, int k, Path* result) {
+  const auto pose = std::lower_bound(path.poses.begin(), path.poses.end(), i);
+  if (pose == path.poses.end() || *pose != i) return;
+  result->poses.push_back(k);
+  if (path.pose_names.empty()) return;
+  result->pose_names.push_back(path.pose_names[pose - path.poses.begin()]);
+}
+
 }  // namespace
 
 void Path::Validate() const {
@@ -75,6 +84,10 @@ void Path::Validate() const {
                       text(count - extrapolated) + " shapes that are not extrapolated");
     }
     if (k > 0 && poses[k] <= poses[k - 1]) throw MeshError("the path's poses do not rise");
+  }
+  if (!pose_names.empty() && pose_names.size() != poses.size()) {
+    throw MeshError("the path has " + text(static_cast<int>(pose_names.size())) +
+                    " names for its " + text(static_cast<int>(poses.size())) + " poses");
   }
   appearance.Validate(vertices, connectivity.NumPolygons(),
                       static_cast<int>(connectivity.Corners().size()));
@@ -178,9 +191,7 @@ Path Resample(const Path& path, const std::vector<double>& times) {
     const int i = static_cast<int>(after - path.parameters.begin());
     if (*after == times[k]) {
       result.motions.push_back(path.motions[i]);
-      if (std::binary_search(path.poses.begin(), path.poses.end(), i)) {
-        result.poses.push_back(static_cast<int>(k));
-      }
+      KeepPose(path, i, static_cast<int>(k), &result);
     } else {
       const double t = (times[k] - *(after - 1)) / (*after - *(after - 1));
       result.motions.push_back(InterpolateMotion(path.motions[i - 1], path.motions[i], t));
@@ -210,9 +221,7 @@ Path SelectShapes(const Path& path, const std::vector<int>& indices) {
     result.shapes.push_back(path.shapes[i]);
     result.motions.push_back(path.motions[i]);
     result.parameters.push_back(std::abs(path.parameters[i] - path.parameters[indices.front()]));
-    if (std::binary_search(path.poses.begin(), path.poses.end(), i)) {
-      result.poses.push_back(static_cast<int>(k));
-    }
+    KeepPose(path, i, static_cast<int>(k), &result);
     // At least the first shape counts as given.
     if (ascending && k > 0 && i >= inner) ++result.extrapolated;
   }

@@ -25,8 +25,11 @@ struct Path {
   std::vector<double> parameters;
   std::vector<RigidMotion> motions;  ///< of every shape, to the user's frame, in the user's unit
   std::vector<int> poses;            ///< indices of the given shapes, ascending
-  int extrapolated = 0;              ///< number of shapes at the end that were extrapolated
-  bool converged = true;             ///< false if a solve did not converge
+
+  /// A name for each of `poses`, such as that of its file without folder; or no name at all.
+  std::vector<std::string> pose_names;
+  int extrapolated = 0;    ///< number of shapes at the end that were extrapolated
+  bool converged = true;   ///< false if a solve did not converge
   bool smooth = false;     ///< whether the velocity is continuous at inner poses (`Spline`)
   std::string provenance;  ///< the program and the inputs from which it was made
   Appearance appearance;   ///< of the connectivity's polygons: for outputs

@@ -130,6 +130,7 @@ Path CarryPath(const CorrespondenceResult& result, const Path& path,
   Path own =
       MakePath(FreezeMetric(options, target_connectivity, carried), carried, path.parameters);
   own.poses = path.poses;
+  own.pose_names = path.pose_names;
   own.extrapolated = path.extrapolated;
   own.converged = path.converged && result.summary.Converged();
   own.provenance = path.provenance;

@@ -6,6 +6,7 @@
 #include <shapespace/base/error.h>
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/cost/internal/refuse_sums.h>
+#include <shapespace/files/display_names.h>
 #include <shapespace/geodesic/detail/align_folds.h>
 #include <shapespace/geodesic/detail/geodesic_levels.h>
 #include <shapespace/geodesic/internal/memory.h>
@@ -48,6 +49,7 @@ void GeodesicOptions::Validate() const {
 GeodesicResult Interpolate(const Poses& poses, const GeodesicOptions& options, Progress* progress) {
   GeodesicResult result = Interpolate(poses.connectivity, poses.shapes, options, progress);
   result.path.appearance = poses.soup.appearance;
+  for (const std::string& name : poses.names) result.path.pose_names.push_back(DisplayName(name));
   return result;
 }
 

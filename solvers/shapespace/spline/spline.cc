@@ -9,6 +9,7 @@
 #include <shapespace/base/internal/stopwatch.h>
 #include <shapespace/base/parallel.h>
 #include <shapespace/contact/internal/avoid_contact.h>
+#include <shapespace/files/display_names.h>
 #include <shapespace/path/energy.h>
 #include <shapespace/path/internal/velocity.h>
 #include <shapespace/spline/detail/memory.h>
@@ -265,6 +266,9 @@ SplineResult Spline(const std::shared_ptr<const Connectivity>& connectivity,
 SplineResult Spline(const Poses& poses, const SplineOptions& options, Progress* progress) {
   SplineResult result = Spline(poses.connectivity, poses.shapes, options, progress);
   result.path.appearance = poses.soup.appearance;
+  std::vector<std::string>& names = result.path.pose_names;
+  for (const std::string& name : poses.names) names.push_back(DisplayName(name));
+  if (options.ends == SplineEnds::kPeriodic) names.push_back(names.front());
   return result;
 }
 

@@ -16,6 +16,7 @@ void AddPath(const Path& path, const std::string& file, HeaderJson* header, Arra
   (*header)["shapes"] = path.NumShapes();
   (*header)["extrapolated"] = path.extrapolated;
   (*header)["converged"] = path.converged;
+  if (!path.pose_names.empty()) (*header)["pose_names"] = NamesToJson(path.pose_names);
   if (path.smooth) (*header)["smooth"] = true;
   (*header)["provenance"] = path.provenance;
 }
@@ -28,6 +29,7 @@ Path ReadPath(const std::string& file, const HeaderJson& header, const ArrayRead
   const auto parameters = arrays.Get<Eigen::VectorXd>("parameters", num_shapes, 1);
   path.parameters.assign(parameters.begin(), parameters.end());
   path.poses = IndicesFrom(arrays, "poses");
+  if (header.contains("pose_names")) path.pose_names = NamesFromJson(header.at("pose_names"));
   path.extrapolated = CountFrom(header, "extrapolated");
   path.converged = header.at("converged").get<bool>();
   path.smooth = header.value("smooth", false);
