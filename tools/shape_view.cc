@@ -1,5 +1,6 @@
 // Writes a page that shows paths, animations, spaces of poses and meshes in a browser.
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <list>
@@ -53,6 +54,15 @@ void CheckKinds(const std::vector<std::string>& files) {
   }
 }
 
+// The name of a file on the page: with its folder only where the other file has the same name.
+std::string NameOf(const std::string& file, const std::vector<std::string>& files) {
+  const auto name = [](const std::string& of) { return std::filesystem::path(of).filename(); };
+  const auto same = std::count_if(files.begin(), files.end(), [&](const std::string& other) {
+    return name(other) == name(file);
+  });
+  return same > 1 ? file : name(file).string();
+}
+
 // Its vertices have the numbers that all tools give them. A mesh that a solver would refuse,
 // because it is no manifold, can be shown and picked all the same.
 PageMesh ReadPageMesh(const std::string& file, const std::string& name) {
@@ -61,7 +71,7 @@ PageMesh ReadPageMesh(const std::string& file, const std::string& name) {
   options.loose_components = true;
   const Poses mesh = MakePoses({ReadSoup(file)}, options);
   for (const std::string& warning : mesh.warnings) Err() << "warning: " << warning << '\n';
-  return {mesh.connectivity, mesh.shapes[0], mesh.soup.appearance.vertex_colours, name};
+  return {mesh.connectivity, mesh.shapes[0], mesh.soup.appearance.vertex_colours, name, file};
 }
 
 void CheckIsGlb(const std::string& file, const std::string& bytes) {
@@ -87,10 +97,10 @@ void Run(const std::vector<std::string>& files) {
   std::list<Path> paths;  // scenes contain pointers to them
   std::vector<PageScene> scenes;
   for (const std::string& file : files) {
-    const std::string name = std::filesystem::path(file).filename().string();
+    const std::string name = NameOf(file, files);
     if (internal::FileExtension(file) == ".path") {
       paths.push_back(ReadPathAndTell(file));
-      scenes.push_back(PagePath{&paths.back(), name});
+      scenes.push_back(PagePath{&paths.back(), name, file});
     } else if (internal::FileExtension(file) == ".space") {
       scenes.push_back(PageOf(ReadSpace(file), name));
     } else if (IsMesh(internal::FileExtension(file))) {

@@ -42,7 +42,7 @@ class PageHeaderTest : public testing::FilesTest {
     modes_.scalars = {{"age", 1, 9, 4}, {"mass", -1, 2, 0.5}, {"third", 0, 1, 1}};
     modes_.intercept = Eigen::Vector2d(0.25, -0.5);
     modes_.slopes = (Eigen::MatrixXd(2, 3) << 1, 2, 3, 4, 5, 6).finished();
-    modes_.command = "shape-statistics \"herd.modes\"";
+    modes_.file = "some \"folder\"/herd.modes";
     modes_.name = "herd";
   }
 
@@ -84,7 +84,7 @@ TEST_F(PageHeaderTest, ModesKeepEveryNumber) {
             (nlohmann::json{{"name", "mass"}, {"least", -1.0}, {"most", 2.0}, {"value", 0.5}}));
   EXPECT_EQ(header["intercept"], (std::vector<double>{0.25, -0.5}));
   EXPECT_EQ(header["slopes"], (std::vector<std::vector<double>>{{1, 4}, {2, 5}, {3, 6}}));
-  EXPECT_EQ(header["command"], "shape-statistics \"herd.modes\"");
+  EXPECT_EQ(header["file"], "some \"folder\"/herd.modes");
   EXPECT_EQ(header["up"], (std::vector<double>{0, 0, 1}));
   EXPECT_EQ(static_cast<unsigned char>(scene.colours[0]), 51);
   EXPECT_EQ(static_cast<unsigned char>(scene.colours[23]), 255);

@@ -89,10 +89,13 @@ class PageTest : public testing::FilesTest {
 };
 
 TEST_F(PageTest, KeepsAPathToAStepOfItsBox) {
-  const shapespace::Path path = BendingTube(2000, 7);
-  const DecodedScene scene = Write(PagePath{&path, "tube.path"});
+  shapespace::Path path = BendingTube(2000, 7);
+  path.pose_names.assign(path.poses.size(), "bent");
+  const DecodedScene scene = Write(PagePath{&path, "tube.path", "some/tube.path"});
   const Connectivity& connectivity = *path.metric->connectivity;
   EXPECT_EQ(scene.header["name"], "tube.path");
+  EXPECT_EQ(scene.header["file"], "some/tube.path");
+  EXPECT_EQ(scene.header["poseNames"], path.pose_names);
   ASSERT_EQ(scene.triangles.size(), 3u * connectivity.NumTriangles());
   EXPECT_TRUE(
       std::equal(scene.triangles.begin(), scene.triangles.end(), connectivity.Triangles().data()));
@@ -251,9 +254,10 @@ TEST_F(PageTest, KeepsASpace) {
 
 TEST_F(PageTest, KeepsAMesh) {
   const ShapeFamily tube = MakeBody("tube", 300);
-  const PageMesh mesh{tube.connectivity, tube.pose(70), {}, "tube.obj"};
+  const PageMesh mesh{tube.connectivity, tube.pose(70), {}, "tube.obj", "some/tube.obj"};
   const DecodedScene scene = Write(mesh);
   EXPECT_EQ(scene.header["kind"], "mesh");
+  EXPECT_EQ(scene.header["file"], "some/tube.obj");
   ASSERT_EQ(scene.steps.size(), 1u);
   EXPECT_LE((scene.Shape(0) - mesh.shape).cwiseAbs().maxCoeff(), 0.5001 * scene.Step());
 }

@@ -432,7 +432,7 @@ TEST(PageOf, HasTheKeysOfAllModesAndPairsAndTheNumbersOfTheModel) {
   EXPECT_EQ(page.up, UpOf(modes));
   EXPECT_EQ(page.vertex_colours, modes.appearance.vertex_colours);
   EXPECT_EQ(page.name, "modes");
-  EXPECT_EQ(page.command, "shape-statistics MODES_FILE");
+  EXPECT_EQ(page.file, "MODES_FILE");
   ASSERT_EQ(page.scalars.size(), 2u);
   EXPECT_EQ(page.scalars[1].name, "weight");
   EXPECT_EQ(page.scalars[1].least, 2);

@@ -466,7 +466,8 @@ TEST(PageOf, ShowsTheKeysWhereTheyAreExact) {
   const ShapeModel model(FirstModes(AnimalModel().Modes(), 2));
   const PageModes page = PageOf(model, "some/herd.modes");
   EXPECT_EQ(page.keys.size(), 1 + 2 * page.places.size() + 1);
-  EXPECT_EQ(page.command, "shape-statistics herd.modes");
+  EXPECT_EQ(page.name, "herd.modes");
+  EXPECT_EQ(page.file, "some/herd.modes");
   EXPECT_LT(page.error, 0.02);
   const Eigen::Vector2d at(0, page.places[0]);
   EXPECT_LT((page.keys[1 + page.places.size()] - model.At(at).shape).norm(),

@@ -57,7 +57,7 @@ export function layoutFaults() {
 
 // Controls without a name that can be read aloud.
 export function namelessControls() {
-  const controls = 'button, select, input, canvas, [role=slider], [role=img]';
+  const controls = 'button, select, input, textarea, canvas, [role=slider], [role=img]';
   return [...document.querySelectorAll(controls)]
     .filter((element) => element.checkVisibility())
     .filter((element) => {

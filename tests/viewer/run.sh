@@ -51,6 +51,7 @@ EOF
     "$bin/shape-view" $file --output "${file/./-}.html"
   done
   "$bin/shape-view" walk.path rigid.path --output two.html
+  "$bin/shape-extrapolate" walk.path --steps 3 --output beyond.html
   "$bin/shape-body" quadruped --pose stand,sit,stretch --triangles 1000 --output 'step%d.obj'
   "$bin/shape-interpolate" step?.obj --shapes 7 --output chain.path
   "$bin/shape-interpolate" step?.obj --shapes 7 --spline natural --output spline.path
@@ -63,9 +64,9 @@ EOF
   "$bin/shape-statistics" herd?.obj --modes 3 --output herd.modes
   "$bin/shape-statistics" herd.modes --scalars ages.csv --output herd.html
   "$bin/shape-statistics" herd.modes --output plain.html
-  "$bin/shape-body" quadruped --pose stand --triangles 3000 --output 'template%d.obj'
-  "$bin/shape-body" quadruped --pose stand --triangles 5000 --output 'target%d.obj'
-  "$bin/shape-view" template0.obj target0.obj --output markers.html
+  "$bin/shape-body" quadruped --pose stand --triangles 3000 --output 'small cat/body%d.obj'
+  "$bin/shape-body" quadruped --pose stand --triangles 5000 --output 'lion/body%d.obj'
+  "$bin/shape-view" 'small cat/body0.obj' lion/body0.obj --output markers.html
   "$bin/shape-view" animal0.obj --output mesh.html
   SHAPESPACE_PAGE_DIR=$PWD SHAPESPACE_PAGE_TEMPLATE=$root/tools/viewer/dist/viewer.html \
     "$root/build/release/tests/output/output_test" --gtest_filter='PageTest.WritesSpaces*'
@@ -75,4 +76,4 @@ EOF
   exit 1
 }
 cd "$work"
-SHAPESPACE_PAGE_DIR=$work/pages SHAPESPACE_PAGE_BIN=$bin node --test page.test.mjs
+SHAPESPACE_PAGE_DIR=$work/pages SHAPESPACE_PAGE_BIN=$bin node --test page.test.mjs explained.test.mjs

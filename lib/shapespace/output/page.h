@@ -22,6 +22,7 @@ namespace shapespace {
 struct PagePath {
   const Path* path = nullptr;  ///< must outlive the call
   std::string name;            ///< its name on the page, such as the file's
+  std::string file = {};       ///< with its folder, for command lines on the page; empty: none
 };
 
 /// A binary glTF file, embedded unchanged. The page samples its first animation.
@@ -73,7 +74,7 @@ struct PageModes {
   Eigen::VectorXd intercept;
   Eigen::MatrixXd slopes;
 
-  std::string command;  ///< to which "--at 1,2 --output shape.obj" is added for the exact shape
+  std::string file;                ///< of the model, with its folder, for command lines on the page
   Eigen::MatrixXd vertex_colours;  ///< as in an Appearance; may be empty
   std::string name;
 
@@ -87,7 +88,8 @@ struct PageMesh {
   std::shared_ptr<const Connectivity> connectivity;
   Shape shape;                     ///< in the user's unit
   Eigen::MatrixXd vertex_colours;  ///< as in an Appearance; may be empty
-  std::string name;                ///< the file's, for command lines on the page
+  std::string name;
+  std::string file = {};  ///< with its folder, for command lines on the page
 };
 
 using PageScene = std::variant<PagePath, PageGlb, PageSpace, PageModes, PageMesh>;

@@ -105,7 +105,7 @@ PageModes PageOf(const ShapeModel& model, const std::string& file, const Regress
   }
   const std::string name = std::filesystem::path(file).filename().string();
   page.name = name.empty() ? "modes" : name;
-  page.command = "shape-statistics " + (name.empty() ? "MODES_FILE" : name);
+  page.file = file.empty() ? "MODES_FILE" : file;
   page.vertex_colours = modes.appearance.vertex_colours;
   return page;
 }

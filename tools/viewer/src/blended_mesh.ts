@@ -10,7 +10,9 @@ import {
   LineSegments,
   Mesh,
   MeshBasicMaterial,
+  MeshDepthMaterial,
   MeshStandardMaterial,
+  RGBADepthPacking,
   Sphere,
   SRGBColorSpace,
   Vector3,
@@ -104,6 +106,10 @@ export class BlendedMesh extends Group {
       });
       if (body.skin) this.geometry.setAttribute('uv', new BufferAttribute(body.skin.uv, 2));
       this.surface = new Mesh(this.geometry, materials);
+      this.surface.castShadow = true;
+      this.surface.customDepthMaterial = this.patch(
+        new MeshDepthMaterial({ depthPacking: RGBADepthPacking }),
+      );
       const lines = new MeshBasicMaterial({ color: 0x1b2430, wireframe: true });
       lines.transparent = true;
       lines.opacity = 0.4;

@@ -160,7 +160,11 @@ function checkHeader(header: any) {
   check([header.vertices, header.triangles, header.segments, header.shapes].every(isCount));
   check(header.vertices > 0 && header.shapes > 0 && header.side >= 0);
   check([header.low, header.up, header.eye].every((vector) => vector.length === 3));
+  check(header.kind === 'space' || typeof header.file === 'string');
   if (header.kind === 'path') {
+    check(areNodes([header.poses], header.poses.length, header.shapes));
+    check([0, header.poses.length].includes(header.poseNames.length));
+    check(isCount(header.extrapolated) && header.extrapolated < header.shapes);
     check(header.parameters.length === header.shapes && header.rms.length === header.shapes);
     check(header.max.length === header.shapes && header.scaleEnd > 0);
     check(header.speeds.length === header.shapes - 1);

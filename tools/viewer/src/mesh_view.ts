@@ -1,6 +1,8 @@
 // One mesh, or two side by side, whose vertices are picked.
 import { BlendedMesh } from './blended_mesh';
 import { byId, showNames, themeValue } from './dom';
+import { ofMarkers, ofMesh } from './explanations';
+import { explain } from './help';
 import { startOptions, stem } from './options';
 import { Picking } from './picking';
 import { Player } from './player';
@@ -31,6 +33,9 @@ export function showMeshes(scenes: MeshScene[]): void {
   startOptions(stage, meshes, still, names.map(stem).join('-'));
   // A click finds a triangle, which graphs do not have.
   if (scenes.every(({ triangles }) => triangles.length > 0)) {
-    new Picking(stage, meshes, names, 0);
+    new Picking(stage, meshes, scenes.map(({ file, name }) => file || name), 0);
+    byId('options').prepend(byId('pick-panel'));
   }
+  const all = scenes.map((scene) => `${scene.name}: ${facts(scene)}.`).join(' ');
+  explain(scenes.length > 1 ? ofMarkers : ofMesh, all);
 }

@@ -1,6 +1,9 @@
 // A shape model: sliders of its modes and of scalars, and the poses at their coordinates.
 import { BlendedMesh } from './blended_mesh';
-import { byId, perCent, shortNumber, tell, themeValue } from './dom';
+import { quoted, startCopy } from './command_line';
+import { byId, perCent, shortNumber, themeValue } from './dom';
+import { ofModes } from './explanations';
+import { explain } from './help';
 import { KeyShapes } from './key_shapes';
 import { startOptions, stem } from './options';
 import { Scatter } from './scatter';
@@ -60,7 +63,8 @@ export function showModes(scene: ModesScene): void {
   byId('colour-option').hidden = true;
   byId('film').hidden = true;
   byId('preview').textContent =
-    `A preview: on the mean ${perCent(scene.error)} of the diagonal away from the exact shape.`;
+    `What is shown is a preview, typically ${perCent(scene.error)} of the body's size away from the ` +
+    'exact shape, which this command writes:';
 
   const modes = scene.shares.length;
   const [least, most] = [scene.places[0], scene.places[scene.places.length - 1]];
@@ -72,14 +76,15 @@ export function showModes(scene: ModesScene): void {
   onTheme(() => stage.setBackground(themeValue('--stage')));
 
   let coordinates = scene.shares.map(() => 0);
-  const command = byId<HTMLInputElement>('command');
+  const command = byId<HTMLTextAreaElement>('command');
   const show = () => {
     keys.showAt(coordinates);
     mesh.refresh();
     stage.draw();
     scatter.show(coordinates);
     const words = coordinates.map((value) => shortNumber(Math.round(1000 * value) / 1000));
-    command.value = `${scene.command} --at ${words.join(',')} --output shape.obj`;
+    command.value =
+      `shape-statistics ${quoted(scene.file)} --at ${words.join(',')} --output shape.obj`;
   };
   const go = (to: number[]) => {
     coordinates = to.map((value) => Math.min(most, Math.max(least, value)));
@@ -109,7 +114,7 @@ export function showModes(scene: ModesScene): void {
     return slider;
   });
   const sliders = scene.shares.map((share, k) => {
-    const name = `Mode ${k + 1}, ${perCent(share)} of the variance`;
+    const name = `Mode ${k + 1}, ${perCent(share)} of the differences`;
     return new Slider(byId('modes'), name, least, most, () => {
       player.pause();
       playing = k;
@@ -135,17 +140,8 @@ export function showModes(scene: ModesScene): void {
     player.pause();
     go(scene.shares.map(() => 0));
   });
-  command.addEventListener('focus', () => command.select());
-  byId('copy').addEventListener('click', () => {
-    command.select();
-    const copied = navigator.clipboard
-      ? navigator.clipboard.writeText(command.value)
-      : Promise.reject();
-    copied.then(
-      () => tell('The command is copied.'),
-      () => tell('The command is selected; copy it with the keyboard.'),
-    );
-  });
+  startCopy(command, byId('copy'));
   startOptions(stage, [mesh], player, stem(scene.name));
   go(coordinates);
+  explain(ofModes, `${facts(scene)}.`);
 }

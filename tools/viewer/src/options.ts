@@ -1,15 +1,20 @@
-// Check boxes and buttons that both views have.
+// Check boxes and buttons that all views have.
 import type { BlendedMesh } from './blended_mesh';
 import { byId, tell } from './dom';
+import { startFullScreen } from './full_screen';
+import { onKey } from './keys';
 import type { Player } from './player';
 import { canFilm, saveFilm, savePicture } from './record';
 import type { Stage } from './stage';
 
-function box(id: string, checked: boolean, onChange: (on: boolean) => void): void {
+export function box(id: string, checked: boolean, onChange: (on: boolean) => void): void {
   const input = byId<HTMLInputElement>(id);
   input.checked = checked;
   input.addEventListener('change', () => onChange(input.checked));
 }
+
+/** An even part of a right angle. */
+const rollDegrees = 15;
 
 /** File names begin with `name`. `mayFilm` returns why no film can be made, or null if one can. */
 export function startOptions(
@@ -28,8 +33,19 @@ export function startOptions(
     stage.draw();
   });
   const areGraphs = meshes.every((mesh) => mesh.body.triangles.length === 0);
-  for (const id of ['wireframe-option', 'facets-option']) byId(id).hidden = areGraphs;
+  for (const id of ['wireframe-option', 'facets-option', 'ground-option']) {
+    byId(id).hidden = areGraphs;
+  }
+  box('ground', !areGraphs, (on) => (stage.ground = on));
+  stage.ground = !areGraphs;
+  box('turntable', false, (on) => (stage.turning = on));
   byId('reset').addEventListener('click', () => stage.showAll());
+  const roll = (direction: 1 | -1) => () => stage.roll((direction * rollDegrees * Math.PI) / 180);
+  byId('roll-left').addEventListener('click', roll(-1));
+  byId('roll-right').addEventListener('click', roll(1));
+  onKey('R', roll(-1));
+  onKey('r', roll(1));
+  startFullScreen();
   byId('picture').addEventListener('click', () => {
     savePicture(stage, `${name}.png`).then(
       () => tell('The picture is saved.'),

@@ -1,42 +1,46 @@
 // One path, or two side by side.
-import { BlendedMesh, type Blend } from './blended_mesh';
+import { BlendedMesh } from './blended_mesh';
 import { contactFigures, contactValues } from './contacts';
 import { byId, perCent, shortNumber, showNames, themeValue } from './dom';
-import { prefersStillness, prepareWhenIdle, startOptions, stem } from './options';
+import { ofPaths } from './explanations';
+import { ghostsOf } from './ghosts';
+import { explain } from './help';
+import { box, prefersStillness, prepareWhenIdle, startOptions, stem } from './options';
 import { Picking } from './picking';
+import { blendAt, placeOf, whereabouts } from './place';
 import { Plot, type Series } from './plots';
+import { markPoses } from './pose_marks';
 import { markGradient, rampGradient } from './ramp';
 import type { PathScene } from './scene_data';
 import { Stage } from './stage';
 import { onTheme } from './theme';
 import { setRepeat, startTransport } from './transport';
 
-function timeAt({ parameters }: PathScene, place: number): number {
-  const first = parameters[0];
-  return first + place * (parameters[parameters.length - 1] - first);
-}
-
-function placeOf({ parameters }: PathScene, shape: number): number {
-  const length = parameters[parameters.length - 1] - parameters[0];
-  return length > 0 ? (parameters[shape] - parameters[0]) / length : 0;
-}
-
-function blendAt(scene: PathScene, place: number): Blend {
-  const { parameters } = scene;
-  const time = timeAt(scene, place);
-  const after = parameters.findIndex((parameter) => parameter >= time);
-  if (after <= 0) {
-    const end = after < 0 ? parameters.length - 1 : 0;
-    return { nodes: [end, end, end], weights: [1, 0, 0] };
-  }
-  const t = (time - parameters[after - 1]) / (parameters[after] - parameters[after - 1]);
-  return { nodes: [after - 1, after, after], weights: [1 - t, t, 0] };
-}
-
-function facts({ vertices, triangles, shapes, metric }: PathScene): string {
+function facts({ vertices, triangles, shapes }: PathScene): string {
   const faces = triangles.length > 0 ? `, ${(triangles.length / 3).toLocaleString('en')} triangles` : '';
-  const by = metric ? `, metric ${metric}` : '';
-  return `${shapes.length} shapes, ${vertices.toLocaleString('en')} vertices${faces}${by}`;
+  return `${shapes.length} shapes, ${vertices.toLocaleString('en')} vertices${faces}`;
+}
+
+/** With the metric, which few want to know at first. */
+function allFacts(scene: PathScene): string {
+  const by = scene.metric ? `, found with the metric ${scene.metric}` : '';
+  return `${scene.name}: ${facts(scene)}${by}.`;
+}
+
+/** The poses as ghosts, where there are any and they are not all that is shown. */
+function offerGhosts(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): void {
+  const canHave = ({ poses, shapes, triangles }: PathScene) =>
+    poses.length > 0 && shapes.length > 1 && triangles.length > 0;
+  byId('ghosts-option').hidden = !scenes.every(canHave);
+  let ghosts: ReturnType<typeof ghostsOf>[] = [];
+  box('ghosts', false, (on) => {
+    if (ghosts.length === 0) {
+      ghosts = scenes.map(ghostsOf);
+      meshes.forEach((mesh, i) => mesh.add(ghosts[i]));
+    }
+    for (const group of ghosts) group.visible = on;
+    stage.draw();
+  });
 }
 
 function showLegend(title: string, colours: string, start: string, end: string): void {
@@ -78,21 +82,26 @@ function showColours(scenes: PathScene[], meshes: BlendedMesh[], stage: Stage): 
     if (select.value === 'energy') instead = scenes.map(({ energies }) => energies);
     if (select.value === 'contacts') instead = scenes.map(contactValues);
     exchange(instead);
-    byId('legend').hidden = select.value === 'plain' || select.value === 'parts';
+    byId('legend').hidden = select.value === 'plain';
+    byId('ramp').hidden = byId('ramp-numbers').hidden = select.value === 'parts';
     byId('contacts').hidden = select.value !== 'contacts';
     if (select.value === 'deviation') {
       const ends = scenes.map(({ scaleEnd }) => scaleEnd);
-      showScale('Deviation of edges from the first shape', ends, perCent);
+      showScale('Edges longer or shorter than in the first shape, by', ends, perCent);
     } else if (select.value === 'energy') {
       const ends = scenes.map(({ energyEnd }) => energyEnd ?? 0);
-      showScale('Energy at vertices (squared speed per area)', ends, shortNumber);
+      showScale('Energy of the motion (squared speed per area)', ends, shortNumber);
     } else if (select.value === 'contacts') {
       for (const mesh of meshes) mesh.colourByMark();
       showLegend('Where the surface passes through itself', markGradient(), 'it does not', 'it does');
     } else {
       meshes.forEach((mesh, i) => {
         const { partColours } = scenes[i];
-        if (select.value === 'parts' && partColours) mesh.colourBy(partColours);
+        if (select.value === 'parts' && partColours) {
+          mesh.colourBy(partColours);
+          byId('legend-title').textContent =
+            'Each colour is a part that keeps its shape nearly. What bends is grey.';
+        }
         else mesh.colourAsItIs();
       });
     }
@@ -124,20 +133,20 @@ function showPlots(scenes: PathScene[], onSeek: (place: number) => void): Plot[]
   const energies: Series[] = moving
     .filter(({ scene }) => scene.speeds.every((speed) => speed !== null))
     .map(({ scene, i }) => ({
-      name: `${prefix(i)}energy`,
+      name: prefix(i),
       points: energyPoints(scene),
       colour: colour(i),
       steps: !scene.smooth,
     }));
   if (energies.length > 0) {
-    plots.push(new Plot(parent, 'Energy (squared speed)', energies, poses, shortNumber, onSeek));
+    plots.push(new Plot(parent, 'Energy of the motion', energies, poses, shortNumber, onSeek));
   }
   for (const [figure, title] of [
-    ['rms', 'Edge deviation, root mean square'],
-    ['max', 'Edge deviation, maximum'],
+    ['rms', 'Edges longer or shorter, typically by'],
+    ['max', 'Edges longer or shorter, at most by'],
   ] as const) {
     const deviations: Series[] = moving.map(({ scene, i }) => ({
-      name: `${prefix(i)}${figure}`,
+      name: prefix(i),
       points: scene[figure].map((value, k) => [placeOf(scene, k), value]),
       colour: colour(i),
     }));
@@ -170,18 +179,20 @@ export function showPaths(scenes: PathScene[]): void {
       stage.draw();
     },
     () => stage.draw(),
-    (place) => `t = ${timeAt(scenes[0], place).toFixed(2)}`,
+    (place) => whereabouts(scenes[0], place),
   );
   plots = showPlots(scenes, (place) => {
     player.pause();
     player.seek(place);
   });
+  markPoses(scenes);
   startOptions(stage, meshes, player, names.map(stem).join('-'));
+  offerGhosts(scenes, meshes, stage);
   // A glb has no poses, and its vertices are not those of the mesh it was made of; a click finds a
   // triangle, which graphs do not have.
   const [{ poses, triangles }] = scenes;
   if (scenes.length === 1 && poses.length > 0 && triangles.length > 0) {
-    new Picking(stage, meshes, names, poses.length);
+    new Picking(stage, meshes, [scenes[0].file || names[0]], poses.length);
   }
   onTheme(() => stage.setBackground(themeValue('--stage')));
   if (scenes.every(isClosed)) setRepeat(player, 'loop');
@@ -189,5 +200,6 @@ export function showPaths(scenes: PathScene[]): void {
   prepareWhenIdle(meshes);
   const canMove = scenes.some((scene) => scene.shapes.length > 1);
   byId('transport').hidden = !canMove;
+  explain(ofPaths(scenes.length, canMove), scenes.map(allFacts).join(' '));
   if (canMove && !prefersStillness()) player.play();
 }

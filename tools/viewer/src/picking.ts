@@ -1,6 +1,7 @@
 // Picking vertices: markers on two bodies, or parts of one.
 import { Vector3 } from 'three';
 import type { BlendedMesh } from './blended_mesh';
+import { quoted, startCopy } from './command_line';
 import { byId, svg, tell } from './dom';
 import { vertexOnRay, verticesInside } from './hit';
 import {
@@ -17,7 +18,7 @@ import type { Stage } from './stage';
 type Mode = 'none' | 'markers' | 'selection' | 'handles' | 'standing';
 
 const titles: Record<Mode, string> = {
-  none: 'nothing',
+  none: 'no',
   markers: 'markers',
   selection: 'a selection',
   handles: 'handles',
@@ -35,11 +36,6 @@ interface Picked {
   current: number;
 }
 
-/** An argument for a shell. */
-function quoted(name: string): string {
-  return /^[\w.,/+-]+$/.test(name) ? name : `'${name.replaceAll("'", "'\\''")}'`;
-}
-
 export class Picking {
   private mode: Mode = 'none';
   private picked: Picked;
@@ -51,7 +47,7 @@ export class Picking {
   constructor(
     private readonly stage: Stage,
     private readonly meshes: BlendedMesh[],
-    private readonly names: string[],
+    private readonly files: string[],
     private readonly poses: number,
   ) {
     this.picked = { markers: [], pending: [null, null], parts: [this.newPart(1)], current: 0 };
@@ -79,8 +75,7 @@ export class Picking {
       this.show();
     });
     byId('pick-save').addEventListener('click', () => this.save());
-    const command = byId<HTMLInputElement>('pick-command');
-    command.addEventListener('focus', () => command.select());
+    startCopy(byId<HTMLTextAreaElement>('pick-command'), byId('pick-copy'));
     this.listen();
     stage.onDrawn = () => this.placeLabels();
     this.choose(modes[0]);
@@ -97,17 +92,17 @@ export class Picking {
 
   private choose(mode: Mode): void {
     this.mode = mode;
-    for (const id of ['picked', 'pick-undo', 'pick-save', 'pick-command']) {
-      (id === 'pick-command' ? byId(id).closest('label')! : byId(id)).hidden = mode === 'none';
+    for (const id of ['picked', 'pick-undo', 'pick-save', 'pick-then']) {
+      byId(id).hidden = mode === 'none';
     }
     byId('pick-tool-option').hidden = mode === 'none' || mode === 'markers';
     byId('pick-new').hidden = mode !== 'handles' && mode !== 'standing';
-    byId<HTMLInputElement>('pick-command').value = this.command();
+    byId<HTMLTextAreaElement>('pick-command').value = this.command();
     this.show();
   }
 
   private command(): string {
-    const files = this.names.map(quoted).join(' ');
+    const files = this.files.map(quoted).join(' ');
     if (this.mode === 'markers') {
       return `shape-correspond ${files} --markers markers.txt --output fitted.obj,map.txt,check.png`;
     }
@@ -355,7 +350,7 @@ export class Picking {
     const { markers } = this.picked;
     if (this.mode === 'markers') {
       if (markers.length < 3) return tell('No file: at least three markers are needed.');
-      return this.write('markers.txt', markersText(this.names, markers));
+      return this.write('markers.txt', markersText(this.files, markers));
     }
     const parts = this.partsShown();
     const empty = parts.find(({ vertices }) => vertices.size === 0);

@@ -6,7 +6,7 @@ import type { SpaceScene } from './scene_data';
 export const thumbnailWidth = 132;
 export const thumbnailHeight = 99;
 const shownWidth = 66;
-const border = 84; // room for thumbnails around the poses
+const border = 92; // room for thumbnails around the poses
 const narrow = 500; // planes narrower than that have smaller thumbnails
 /** Poses inside the hull have smaller thumbnails, which cover less of the plane. */
 const innerShare = 0.75;

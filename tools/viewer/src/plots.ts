@@ -2,6 +2,7 @@
 import { svg } from './dom';
 
 export interface Series {
+  /** Of the line, before its value; empty if it is the only one. */
   name: string;
   /** Place (0 .. 1) and value, from left to right. */
   points: [number, number][];
@@ -11,8 +12,8 @@ export interface Series {
   steps?: boolean;
 }
 
-const height = 96;
-const [left, right, top, bottom] = [8, 8, 8, 18];
+const height = 84;
+const [left, right, top, bottom] = [8, 8, 18, 6];
 
 function valueAt({ points, steps }: Series, place: number): number {
   const next = points.findIndex(([x]) => x >= place);
@@ -23,7 +24,7 @@ function valueAt({ points, steps }: Series, place: number): number {
 
 export class Plot {
   private readonly picture = svg('svg', { role: 'img', height, class: 'plot' });
-  private readonly readout = document.createElement('p');
+  private readout: SVGTextElement | null = null;
   private readonly largest: number;
   private cursor: SVGLineElement | null = null;
   private width = 0;
@@ -42,12 +43,11 @@ export class Plot {
     const figure = document.createElement('figure');
     const caption = document.createElement('figcaption');
     caption.textContent = title;
-    this.readout.className = 'readout';
-    figure.append(caption, this.picture, this.readout);
+    figure.append(caption, this.picture);
     parent.append(figure);
     const extremes = series.map(({ name, points }) => {
       const values = points.map(([, y]) => y);
-      return `${name} from ${format(Math.min(...values))} to ${format(Math.max(...values))}`;
+      return `${name}from ${format(Math.min(...values))} to ${format(Math.max(...values))}`;
     });
     this.picture.setAttribute('aria-label', `${title}: ${extremes.join('; ')}`);
     new ResizeObserver(() => this.layOut()).observe(figure);
@@ -65,9 +65,9 @@ export class Plot {
     const x = this.x(place);
     this.cursor?.setAttribute('x1', String(x));
     this.cursor?.setAttribute('x2', String(x));
-    this.readout.textContent = this.series
-      .map((one) => `${one.name} ${this.format(valueAt(one, place))}`)
-      .join(' \u00b7 ');
+    if (!this.readout) return;
+    const values = this.series.map((one) => `${one.name}${this.format(valueAt(one, place))}`);
+    this.readout.textContent = `now ${values.join(' \u00b7 ')}`;
   }
 
   private seek(event: PointerEvent): void {
@@ -96,11 +96,10 @@ export class Plot {
     for (const pose of this.poses) {
       line(this.x(pose), this.y(0) - 4, this.x(pose), this.y(0) + 4, 'pose');
     }
-    const text = (x: number, y: number, words: string, anchor: string) => {
-      svg('text', { x, y, 'text-anchor': anchor }, this.picture).textContent = words;
-    };
-    text(left, height - 4, '0', 'start');
-    text(width - right, height - 4, `top line ${this.format(this.largest)}`, 'end');
+    const label = svg('text', { x: left, y: top - 5 }, this.picture);
+    label.textContent = `up to ${this.format(this.largest)}`;
+    const here = { x: width - right, y: top - 5, 'text-anchor': 'end', class: 'readout' };
+    this.readout = svg('text', here, this.picture);
     for (const { points, colour, steps } of this.series) {
       const corners = points.map(([x, y], i) => {
         const before = steps && i > 0 ? `${this.x(x)},${this.y(points[i - 1][1])} ` : '';

@@ -34,8 +34,14 @@ export interface Body {
 
 export interface PathScene extends Body {
   kind: 'path';
+  /** Its name in command lines; empty if it has none. */
+  file: string;
   parameters: number[];
   poses: number[];
+  /** A name of each pose, or none. */
+  poseNames: string[];
+  /** How many of the last shapes go beyond the last pose. */
+  extrapolated: number;
   /** Whether the velocity does not jump at the poses. */
   smooth: boolean;
   metric: string;
@@ -83,11 +89,14 @@ export interface ModesScene extends Body {
   intercept: number[];
   /** For each scalar, one number for each mode. */
   slopes: number[][];
-  command: string;
+  /** Its name in command lines. */
+  file: string;
 }
 
 export interface MeshScene extends Body {
   kind: 'mesh';
+  /** Its name in command lines. */
+  file: string;
 }
 
 export type SceneData = PathScene | SpaceScene | ModesScene | MeshScene;

@@ -2,7 +2,9 @@
 import { BlendedMesh } from './blended_mesh';
 import { Curve } from './curve';
 import { byId, shortNumber, tell, themeValue } from './dom';
+import { ofSpace } from './explanations';
 import { curveToGlb } from './export_glb';
+import { explain } from './help';
 import { Locator, type Located, type Point } from './locate';
 import { prefersStillness, prepareWhenIdle, startOptions, stem } from './options';
 import { PlaneView, thumbnailHeight, thumbnailWidth } from './plane';
@@ -159,4 +161,5 @@ export function showSpace(scene: SpaceScene): void {
   player.seek(0);
   point = go(point).point;
   prepareWhenIdle([mesh]);
+  explain(ofSpace, `${facts(scene)}.`);
 }

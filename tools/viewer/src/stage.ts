@@ -11,21 +11,27 @@ import {
   Spherical,
   Vector2,
   Vector3,
+  VSMShadowMap,
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { BlendedMesh } from './blended_mesh';
+import { Ground } from './ground';
 
 const fieldOfView = 30;
 const margin = 1.06;
 /** Bodies whose sizes have a larger ratio than this are drawn in the same size. */
 const largestRatio = 3;
+/** Of the turntable. */
+const turnsAMinute = 3;
 /** The number of vertices from which the distance of the camera is computed. */
 const mostSamples = 20000;
 
 interface Cell {
   scene: Scene;
   lights: Group;
+  sky: HemisphereLight;
+  ground: Ground;
   mesh: BlendedMesh;
 }
 
@@ -49,10 +55,11 @@ function sample({ body }: BlendedMesh): { points: Vector3[]; centre: Vector3 } {
 export class Stage {
   private readonly renderer: WebGLRenderer;
   private readonly camera = new PerspectiveCamera(fieldOfView, 1, 0.01, 100);
-  private readonly controls: OrbitControls;
+  private controls: OrbitControls;
   private readonly cells: Cell[] = [];
   private readonly samples: Vector3[] = [];
   private readonly eye: Vector3;
+  private readonly up: Vector3; // at first; that of the camera when the user has rolled it
   private moved = false; // by the user: then resizing leaves the camera alone
   private background = new Color();
   private wanted = false;
@@ -71,7 +78,9 @@ export class Stage {
     this.renderer.setScissorTest(true);
     this.renderer.setClearAlpha(0);
     const [{ body }] = meshes;
-    this.camera.up.fromArray(body.up);
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = VSMShadowMap;
+    this.up = new Vector3().fromArray(body.up);
     this.eye = new Vector3().fromArray(body.eye).normalize();
     const sides = meshes.map((mesh) => mesh.body.side || 1);
     const largest = Math.max(...sides);
@@ -79,14 +88,13 @@ export class Stage {
       const alike = largest <= largestRatio * Math.min(...sides);
       const scale = alike ? (mesh.body.side || 1) / largest : 1;
       const { points, centre } = sample(mesh);
-      for (const point of points) this.samples.push(point.sub(centre).multiplyScalar(scale));
+      for (const point of points) point.sub(centre).multiplyScalar(scale);
+      this.samples.push(...points);
       mesh.scale.setScalar(scale);
       mesh.position.copy(centre).multiplyScalar(-scale);
-      this.cells.push(this.cell(mesh));
+      this.cells.push(this.cell(mesh, points));
     }
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener('change', () => this.draw());
-    this.controls.addEventListener('start', () => (this.moved = true));
+    this.controls = this.newControls();
     canvas.addEventListener('keydown', (event) => this.onKey(event));
     new ResizeObserver(() => {
       this.resize();
@@ -97,6 +105,18 @@ export class Stage {
 
   setBackground(colour: string): void {
     this.background = new Color(colour);
+    this.draw();
+  }
+
+  set ground(on: boolean) {
+    for (const { ground } of this.cells) ground.visible = on;
+    this.draw();
+  }
+
+  /** Whether the view turns by itself. */
+  set turning(on: boolean) {
+    this.moved = true;
+    this.controls.autoRotate = on;
     this.draw();
   }
 
@@ -111,9 +131,10 @@ export class Stage {
   drawNow(): void {
     const size = this.renderer.getSize(new Vector2());
     const areas = this.areas(size.x, size.y);
-    this.cells.forEach(({ scene, lights }, i) => {
+    this.cells.forEach(({ scene, lights, ground }, i) => {
       const { x, y, width, height } = areas[i];
       scene.background = this.background;
+      ground.background = this.background;
       lights.quaternion.copy(this.camera.quaternion);
       this.renderer.setViewport(x, y, width, height);
       this.renderer.setScissor(x, y, width, height);
@@ -163,12 +184,14 @@ export class Stage {
     this.controls.enabled = on;
   }
 
-  /** A small picture of the first body as it is now, without background. */
+  /** A small picture of the first body as it is now, without background and ground. */
   thumbnail(width: number, height: number): string {
     const picture = document.createElement('canvas');
     picture.width = width;
     picture.height = height;
-    const { scene, lights } = this.cells[0];
+    const { scene, lights, ground } = this.cells[0];
+    const hasGround = ground.visible;
+    ground.visible = false;
     const ratio = this.renderer.getPixelRatio();
     this.renderer.setPixelRatio(1);
     this.renderer.setSize(width, height, false);
@@ -180,13 +203,22 @@ export class Stage {
     this.renderer.render(scene, this.camera);
     picture.getContext('2d')!.drawImage(this.renderer.domElement, 0, 0);
     this.renderer.setPixelRatio(ratio);
+    ground.visible = hasGround;
     return picture.toDataURL();
   }
 
   /** Looks from the first direction again, at all of every shape. */
   showAll(): void {
     this.moved = false;
+    this.setUp(this.up);
     this.resize();
+  }
+
+  /** Turns the picture by an angle, clockwise. The body then stands on what is below it. */
+  roll(angle: number): void {
+    const ahead = this.camera.getWorldDirection(new Vector3());
+    this.setUp(this.camera.up.clone().applyAxisAngle(ahead, -angle));
+    this.afterKeys();
   }
 
   resize(): void {
@@ -204,7 +236,29 @@ export class Stage {
     this.draw();
   }
 
-  private cell(mesh: BlendedMesh): Cell {
+  private newControls(): OrbitControls {
+    const controls = new OrbitControls(this.camera, this.canvas);
+    controls.autoRotateSpeed = turnsAMinute;
+    controls.addEventListener('change', () => this.draw());
+    controls.addEventListener('start', () => (this.moved = true));
+    return controls;
+  }
+
+  /** Chooses what is upright. Controls turn about what the camera's up is when they are made. */
+  private setUp(up: Vector3): void {
+    const { target, autoRotate, enabled } = this.controls;
+    this.camera.up.copy(up);
+    this.controls.dispose();
+    this.controls = this.newControls();
+    this.controls.target.copy(target);
+    Object.assign(this.controls, { autoRotate, enabled });
+    for (const { sky, ground } of this.cells) {
+      sky.position.copy(up);
+      ground.place(up);
+    }
+  }
+
+  private cell(mesh: BlendedMesh, points: Vector3[]): Cell {
     const scene = new Scene();
     const lights = new Group();
     const key = new DirectionalLight(0xffffff, 2.0);
@@ -212,10 +266,10 @@ export class Stage {
     const fill = new DirectionalLight(0xdfe8ff, 0.7);
     fill.position.set(1, 0.1, 0.6);
     const sky = new HemisphereLight(0xffffff, 0x8a8f99, 1.1);
-    sky.position.copy(this.camera.up);
+    const ground = new Ground(points);
     lights.add(key, key.target, fill, fill.target);
-    scene.add(mesh, lights, sky);
-    return { scene, lights, mesh };
+    scene.add(mesh, lights, sky, ground);
+    return { scene, lights, sky, ground, mesh };
   }
 
   /** The parts of the canvas: side by side, or one above the other where it is high. */
@@ -274,7 +328,9 @@ export class Stage {
   private frame(now: number): void {
     this.wanted = false;
     const seconds = this.last > 0 ? Math.min(0.25, (now - this.last) / 1000) : 0;
-    const again = this.advance(seconds);
+    const turns = this.controls.autoRotate;
+    if (turns) this.controls.update(seconds);
+    const again = this.advance(seconds) || turns;
     this.drawNow();
     this.last = again ? now : 0;
     if (again) this.draw();

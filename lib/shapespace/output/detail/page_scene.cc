@@ -378,11 +378,14 @@ std::string EncodeScene(const PagePath& scene) {
   }
   const Connectivity& connectivity = *path.metric->connectivity;
   CheckSize(scene.name, path.shapes.size(), connectivity.NumVertices(), 8);
-  OrderedJson header = {{"version", kVersion}, {"kind", "path"}, {"name", scene.name}};
+  OrderedJson header = {
+      {"version", kVersion}, {"kind", "path"}, {"name", scene.name}, {"file", scene.file}};
   std::string arrays;
   AppendConnectivity(connectivity, &header, &arrays);
   header["parameters"] = path.parameters;
   header["poses"] = path.poses;
+  header["poseNames"] = path.pose_names;
+  header["extrapolated"] = path.extrapolated;
   header["smooth"] = path.smooth;
   header["metric"] = DescribeMetric(path.metric->options);
   header["speeds"] = SquaredSpeeds(path);
@@ -421,7 +424,8 @@ std::string EncodeScene(const PageSpace& scene) {
 std::string EncodeScene(const PageModes& scene) {
   CheckModes(scene);
   CheckSize(scene.name, scene.keys.size(), scene.connectivity->NumVertices(), 6);
-  OrderedJson header = {{"version", kVersion}, {"kind", "modes"}, {"name", scene.name}};
+  OrderedJson header = {
+      {"version", kVersion}, {"kind", "modes"}, {"name", scene.name}, {"file", scene.file}};
   std::string arrays;
   AppendConnectivity(*scene.connectivity, &header, &arrays);
   header["places"] = scene.places;
@@ -439,7 +443,6 @@ std::string EncodeScene(const PageModes& scene) {
   }
   header["intercept"] = std::vector<double>(scene.intercept.begin(), scene.intercept.end());
   header["slopes"] = Columns(scene.slopes);
-  header["command"] = scene.command;
   AppendView(*scene.connectivity, {scene.keys[0]}, scene.up, &header);
   const std::vector<Steps> steps = QuantiseAll(scene.keys, &header);
   // Every key is predicted to be the mean.
@@ -455,7 +458,8 @@ std::string EncodeScene(const PageMesh& scene) {
   CheckShapes(scene.name, *scene.connectivity, {scene.shape});
   CheckColours(scene.name, scene.vertex_colours, scene.shape.cols());
   CheckSize(scene.name, 1, scene.connectivity->NumVertices(), 6);
-  OrderedJson header = {{"version", kVersion}, {"kind", "mesh"}, {"name", scene.name}};
+  OrderedJson header = {
+      {"version", kVersion}, {"kind", "mesh"}, {"name", scene.name}, {"file", scene.file}};
   std::string arrays;
   AppendConnectivity(*scene.connectivity, &header, &arrays);
   AppendView(*scene.connectivity, {scene.shape}, Eigen::Vector3d::Zero(), &header);
