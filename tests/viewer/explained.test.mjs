@@ -79,6 +79,7 @@ describe('what can be done', () => {
           assert.equal(await help.isVisible(), false);
           await page.locator('#help-open').click();
           assert.ok(await help.isVisible());
+          await assertInSight(page, ['#help-title', '#help button']);
           assert.ok((await page.locator('#help-deeds li').count()) >= 2);
           assert.ok((await page.locator('#help-facts').textContent()).length > 0);
           assert.deepEqual(await page.evaluate(contrastFaults), []);
