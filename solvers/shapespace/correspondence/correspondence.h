@@ -176,8 +176,9 @@ struct CorrespondenceResult {
 ///        or has another number of vertices than its connectivity; no map that could be found
 ///        without markers; markers on one line, out of range, repeated or on a vertex without
 ///        triangle; markers that only fit a mirror image; a body that is inside out; markers that
-///        leave the template no area), naming the marker, counted from 1; SolverError (memory limit); Cancelled (stopped before a fit was
-///        found; if stopped later, the fit so far is mapped, see CorrespondenceSummary::cancelled).
+///        leave the template no area), naming the marker, counted from 1; SolverError (memory
+///        limit); Cancelled (stopped before a fit was found; if stopped later, the fit so far is
+///        mapped, see CorrespondenceSummary::cancelled).
 CorrespondenceResult Correspond(const std::shared_ptr<const Connectivity>& template_connectivity,
                                 const Shape& template_shape,
                                 const std::shared_ptr<const Connectivity>& target_connectivity,

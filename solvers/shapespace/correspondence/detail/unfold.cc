@@ -10,8 +10,8 @@
 namespace shapespace::internal {
 namespace {
 
-// What is farther than this from the target, a share of the root of its area, is missing there: over
-// a hole nothing is turned over, and a search for what matches would look at the whole target.
+// What is farther than this from the target, a share of the root of its area, is missing there:
+// over a hole nothing is turned over, and a search for what matches would look at the whole target.
 constexpr double kMissing = 0.15;
 // Number of rounds, in each of which patches grow by a ring of vertices, and of averagings per
 // round.

@@ -21,9 +21,9 @@ const std::vector<int> kRefined = {40, 50, 60, 70, 80, 90, 100};
 // Weight of normals beside positions, whose unit is the root of the area: they tell the two sides
 // of a leaf apart.
 constexpr float kNormalWeight = 0.2F;
-// Maps that differ less are the same: mean over samples of the greatest difference between their
-// images' distances from any place.
-constexpr float kSame = 0.05F;
+// Maps are the same if they send fewer than this share of the samples to places farther apart than
+// this. The lower halves of two legs that are exchanged are a twentieth of an animal.
+constexpr float kElsewhere = 0.15F, kSameShare = 0.03F;
 
 // Those of the counts that both bodies have; at least one.
 std::vector<int> Possible(const std::vector<int>& counts, const MatchingBody& a,
@@ -117,7 +117,9 @@ void RemoveRepeated(const MatchingBody& on_target, std::vector<CandidateMap>* ma
   for (CandidateMap& candidate : *maps) {
     Eigen::MatrixXf own = ImageDistances(on_target, candidate.map);
     const bool repeated = std::any_of(images.begin(), images.end(), [&](const auto& earlier) {
-      return (earlier - own).cwiseAbs().colwise().maxCoeff().mean() < kSame;
+      const auto elsewhere =
+          ((earlier - own).cwiseAbs().colwise().maxCoeff().array() > kElsewhere).count();
+      return static_cast<float>(elsewhere) < kSameShare * static_cast<float>(own.cols());
     });
     if (repeated) continue;
     images.push_back(std::move(own));
@@ -198,6 +200,7 @@ std::vector<CandidateMap> MakeMaps(const MatchingBody& on_template, const Matchi
   RemoveRepeated(on_target, &maps);
   ReportProgress(progress, "finer maps", 0, static_cast<int>(maps.size()));
   ZoomOutAll(first, second, fine, &maps);
+  RemoveRepeated(on_target, &maps);
   return maps;
 }
 

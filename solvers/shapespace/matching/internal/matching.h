@@ -23,8 +23,8 @@ struct MatchingOptions {
   /// within 1 %, so that the true assignment was anywhere among the first 4 of people and the first
   /// 10 of dogs.
   int assignments = 24;
-  /// Candidates that are returned. The right one was the sixth of a man and a woman.
-  int max_candidates = 6;
+  /// Candidates that are returned. The right one was the eighth of two animals.
+  int max_candidates = 8;
   /// Candidates with less are refused: maps that keep the outside outside have 0.4 to 0.98, those
   /// that do not -0.9.
   double least_orientation = 0.2;
